@@ -1,0 +1,20 @@
+# walr_target(<target>): the compile options that every target of the project shares.
+function(walr_target target)
+  target_compile_features(${target} PUBLIC cxx_std_20)
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic)
+  if(WALR_WARNINGS_AS_ERRORS)
+    target_compile_options(${target} PRIVATE -Werror)
+  endif()
+endfunction()
+
+# walr_library(<name> SOURCES ...): a library target walr_<name>, known to users as walr::<name>, whose includes are
+# written from the project's root ("framegraph/graph.h").
+function(walr_library name)
+  cmake_parse_arguments(ARG "" "" "SOURCES" ${ARGN})
+  add_library(walr_${name} ${ARG_SOURCES})
+  add_library(walr::${name} ALIAS walr_${name})
+  set_target_properties(walr_${name} PROPERTIES EXPORT_NAME ${name})
+  target_include_directories(walr_${name} PUBLIC
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/walr>)
+  walr_target(walr_${name})
+endfunction()

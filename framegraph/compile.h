@@ -1,0 +1,26 @@
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "framegraph/diagnose.h"
+#include "framegraph/graph.h"
+#include "framegraph/memory_model.h"
+#include "framegraph/plan.h"
+
+namespace fg {
+
+/// A plan with the warnings met on the way, or the errors that prevented it.
+struct CompileResult {
+  Plan plan;                            ///< Empty where there are errors.
+  std::vector<Diagnostic> diagnostics;  ///< Errors and warnings, in a fixed order.
+  [[nodiscard]] bool ok() const;
+  /// All diagnostics, one a line.
+  [[nodiscard]] std::string text() const;
+};
+
+/// Turn a declared graph into a plan: a pure function of its arguments that needs no device.
+CompileResult compile(const GraphDesc& graph, const MemoryModel& memory);
+
+}  // namespace fg
