@@ -1,0 +1,50 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "framegraph/graph.h"
+#include "shaders/constants/frame.h"
+
+namespace walr {
+
+/// How a host's inputs differ from the project's conventions (see architecture: view space, y down, `motion.z`). Stated
+/// once; the first stage converts.
+struct InputConventions {
+  enum class Space { View, World };
+  /// Where motion.z (previous minus current view depth, scene units) comes from.
+  enum class MotionDepth {
+    Given,          ///< The motion texture's third channel.
+    StaticScene,    ///< Computed from position and the two view matrices; right where only the camera moves.
+  };
+  Space position = Space::View;
+  Space normal = Space::View;
+  MotionDepth motionDepth = MotionDepth::Given;
+};
+
+/// The textures that every denoiser takes, all of one extent.
+struct DenoiserInputs {
+  fg::Texture lighting;  ///< RGBA16F: demodulated diffuse indirect radiance, linear, 1 sample per pixel. Alpha unused.
+  fg::Texture position;  ///< RGBA32F: surface position, scene units; see `InputConventions`. Alpha: linear view depth.
+  fg::Texture normal;    ///< RGBA16F: unit shading normal; zero on sky.
+  fg::Texture motion;    ///< RGBA16F: motion to the previous frame; see `FrameConstants::motionScale`.
+  fg::Texture albedo;    ///< RGBA16F: diffuse albedo; below 0.01 in all channels a pixel has no diffuse lobe.
+  fg::Buffer frame;      ///< Upload of `FrameConstants`.
+  InputConventions conventions;
+};
+
+/// Names of all denoisers, as `--method` takes them.
+std::vector<std::string> denoiserNames();
+
+/// Add a whole denoiser to a graph.
+/// @param graph   the host's graph
+/// @param method  one of `denoiserNames()`
+/// @param inputs  the host's textures
+/// @param output  RGBA16F texture of the inputs' extent that the result is written to
+/// @returns the output's new version: denoised demodulated diffuse indirect radiance; sky and pixels without a diffuse
+///          lobe hold the input unchanged.
+/// @throws std::invalid_argument naming the unknown method and the known ones
+fg::Texture addDenoiser(fg::Graph& graph, std::string_view method, const DenoiserInputs& inputs, fg::Texture output);
+
+}  // namespace walr

@@ -1,0 +1,18 @@
+// Scalar, vector and matrix names of GLSL for headers that C++ and shaders share. Members are ordered so that std140,
+// std430 and C++ lay them out alike; a static_assert beside each struct and the reflected block size hold that true.
+#ifndef WALR_SHADERS_CONSTANTS_TYPES_H
+#define WALR_SHADERS_CONSTANTS_TYPES_H
+#ifdef __cplusplus
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
+namespace walr {
+using uint = glm::uint;
+using glm::ivec2;
+using glm::mat4;
+using glm::uvec2;
+using glm::vec2;
+using glm::vec4;
+}  // namespace walr
+#endif
+#endif
