@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "framegraph/graph.h"
-#include "shaders/constants/frame.h"
 
 namespace walr {
 
@@ -16,9 +15,8 @@ struct InputConventions {
   /// Where motion.z (previous minus current view depth, scene units) comes from.
   enum class MotionDepth {
     Given,          ///< The motion texture's third channel.
-    StaticScene,    ///< Computed from position and the two view matrices; right where only the camera moves.
+    StaticScene,    ///< Computed from depth and the two view matrices; right where only the camera moves.
   };
-  Space position = Space::View;
   Space normal = Space::View;
   MotionDepth motionDepth = MotionDepth::Given;
 };
@@ -26,11 +24,11 @@ struct InputConventions {
 /// The textures that every denoiser takes, all of one extent.
 struct DenoiserInputs {
   fg::Texture lighting;  ///< RGBA16F: demodulated diffuse indirect radiance, linear, 1 sample per pixel. Alpha unused.
-  fg::Texture position;  ///< RGBA32F: surface position, scene units; see `InputConventions`. Alpha: linear view depth.
+  fg::Texture depth;     ///< R32F: linear view depth (-z of view space), scene units; sky at or beyond `skyDepth`.
   fg::Texture normal;    ///< RGBA16F: unit shading normal; zero on sky.
-  fg::Texture motion;    ///< RGBA16F: motion to the previous frame; see `FrameConstants::motionScale`.
+  fg::Texture motion;    ///< RGBA16F: motion to the previous frame; see `FrameDescription::motionScale`.
   fg::Texture albedo;    ///< RGBA16F: diffuse albedo; below 0.01 in all channels a pixel has no diffuse lobe.
-  fg::Buffer frame;      ///< Upload of `FrameConstants`.
+  fg::Buffer frame;      ///< Upload of `FrameConstants` (passes/frame.h).
   InputConventions conventions;
 };
 

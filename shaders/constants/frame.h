@@ -1,4 +1,5 @@
 // What changes from frame to frame and is the same for every pass: one uniform block, written by the host.
+// C++ makes it with `walr::frameConstants` (passes/frame.h).
 #ifndef WALR_SHADERS_CONSTANTS_FRAME_H
 #define WALR_SHADERS_CONSTANTS_FRAME_H
 #include "types.h"
@@ -7,18 +8,19 @@ namespace walr {
 #endif
 
 struct FrameConstants {
-  mat4 view;          // World to view space of this frame; the camera looks down -Z.
-  mat4 previousView;  // World to view space of the previous frame.
-  mat4 projection;    // View to clip space without jitter, x right, y up, as in OpenGL; only x, y, w are used.
-  vec2 jitter;          // Pixels, this frame's sample position minus the pixel centre, y down.
-  vec2 previousJitter;  // Pixels, the previous frame's.
-  vec2 motionScale;     // Multiplies motion.xy; the result is pixels, previous = current + motion, y down.
-  uint frameIndex;      // Counts frames; seeds the replacement hashes.
-  float skyDepth;       // Scene units: what is deeper is sky.
+  mat4 viewFromWorld;             // World to view space of this frame.
+  mat4 previousViewFromView;      // View space of this frame to view space of the previous one, for still surfaces.
+  vec4 rayFromPixel;              // Ray (x, y, -1) = (pixel * xy + zw, -1): its product with view depth is the position.
+  vec4 previousRayFromPixel;      // The same for the previous frame.
+  vec4 previousPixelFromRay;      // Inverse of the above: pixel = ray.xy * xy + zw.
+  vec2 motionScale;               // Multiplies motion.xy; the result is pixels, previous = current + motion, y down.
+  vec2 jitterDelta;               // Pixels: this frame's jitter minus the previous frame's, y down.
+  uint frameIndex;                // Counts frames; seeds the replacement hashes.
+  float skyDepth;                 // Scene units: what is deeper is sky.
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(FrameConstants) == 3 * 64 + 32);
+static_assert(sizeof(FrameConstants) == 2 * 64 + 3 * 16 + 2 * 8 + 2 * 4);
 }  // namespace walr
 #endif
 #endif

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdint>
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+
+#include "framegraph/graph.h"
+#include "shaders/constants/frame.h"
+
+namespace walr {
+
+/// One frame's camera and the host's motion convention, as the host knows them.
+struct FrameDescription {
+  glm::mat4 view{1.0F};                ///< World to view space; right-handed, the camera looks down -Z.
+  glm::mat4 previousView{1.0F};        ///< The previous frame's.
+  glm::mat4 projection{1.0F};          ///< View to clip space without jitter, x right, y up (OpenGL); z is not used.
+  glm::mat4 previousProjection{1.0F};  ///< The previous frame's.
+  glm::vec2 jitter{0.0F};              ///< Pixels, y down: sample position minus pixel centre.
+  glm::vec2 previousJitter{0.0F};      ///< The previous frame's.
+  /// Multiplies the motion texture's xy; the result must be pixels, previous = current + motion, x right, y down.
+  glm::vec2 motionScale{1.0F};
+  std::uint32_t frameIndex = 0;  ///< Counts frames; any start.
+  float skyDepth = 1e9F;         ///< Scene units: a linear view depth from here on is sky.
+};
+
+/// The uniform block that the passes read, computed in double precision.
+/// @throws std::invalid_argument when the view matrix is singular or the projection is not a perspective one
+FrameConstants frameConstants(const FrameDescription& frame, fg::Extent extent);
+
+}  // namespace walr
