@@ -14,8 +14,8 @@ struct InputConventions {
   enum class Space { View, World };
   /// Where motion.z (previous minus current view depth, scene units) comes from.
   enum class MotionDepth {
-    Given,          ///< The motion texture's third channel.
-    StaticScene,    ///< Computed from depth and the two view matrices; right where only the camera moves.
+    Given,        ///< The motion texture's third channel.
+    StaticScene,  ///< Computed from depth and the two view matrices; right where only the camera moves.
   };
   Space normal = Space::View;
   MotionDepth motionDepth = MotionDepth::Given;

@@ -12,7 +12,6 @@ struct FrameConstants {
   mat4 previousViewFromView;      // View space of this frame to view space of the previous one, for still surfaces.
   vec4 rayFromPixel;              // Ray (x, y, -1) = (pixel * xy + zw, -1): its product with view depth is the position.
   vec4 previousRayFromPixel;      // The same for the previous frame.
-  vec4 previousPixelFromRay;      // Inverse of the above: pixel = ray.xy * xy + zw.
   vec2 motionScale;               // Multiplies motion.xy; the result is pixels, previous = current + motion, y down.
   vec2 jitterDelta;               // Pixels: this frame's jitter minus the previous frame's, y down.
   uint frameIndex;                // Counts frames; seeds the replacement hashes.
@@ -20,7 +19,7 @@ struct FrameConstants {
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(FrameConstants) == 2 * 64 + 3 * 16 + 2 * 8 + 2 * 4);
+static_assert(sizeof(FrameConstants) == 2 * 64 + 2 * 16 + 2 * 8 + 2 * 4);
 }  // namespace walr
 #endif
 #endif

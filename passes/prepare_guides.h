@@ -1,0 +1,29 @@
+#pragma once
+
+#include "framegraph/graph.h"
+#include "passes/denoiser.h"
+
+namespace walr {
+
+/// Settings of the conversion from the host's G-buffer.
+struct PrepareGuidesSettings {
+  /// Albedo below which, in every channel, a pixel has no diffuse lobe and is treated like sky: its demodulated light
+  /// is 0 and would darken its neighbours. Range 0..1.
+  float albedoThreshold = 0.01F;
+  /// Cosine between the normal computed from depth and the shading normal below which the latter stands in for it.
+  /// Range -1..1.
+  float normalAgreement = 0.3F;
+};
+
+/// The noise-free guides of this frame and the last.
+struct Guides {
+  fg::Texture depth;          ///< R32_UINT: view depth and edge distance packed (surface.glsl); 0: nothing to denoise.
+  fg::Texture normals;        ///< RG32_UINT: octahedral shading normal, octahedral geometric normal.
+  fg::Texture previousDepth;  ///< The same, one frame ago; zero while there is no history.
+  fg::Texture previousNormals;  ///< The same, one frame ago; zero while there is no history.
+};
+
+/// Convert the host's G-buffer once into what all later stages read.
+Guides addPrepareGuides(fg::Graph& graph, const DenoiserInputs& inputs, const PrepareGuidesSettings& settings = {});
+
+}  // namespace walr

@@ -1,0 +1,16 @@
+#include "passes/reprojection.h"
+
+namespace walr {
+
+void readReprojection(fg::PassBuilder& pass, const DenoiserInputs& inputs, const Guides& guides) {
+  const bool motionDepthGiven = inputs.conventions.motionDepth == InputConventions::MotionDepth::Given;
+  pass.uniform("frameConstants", inputs.frame)
+      .sample("motion", inputs.motion)
+      .sample("depth", guides.depth)
+      .sample("normals", guides.normals)
+      .sample("previousDepth", guides.previousDepth)
+      .sample("previousNormals", guides.previousNormals)
+      .specialize("kMotionDepthGiven", motionDepthGiven ? 1U : 0U);
+}
+
+}  // namespace walr

@@ -1,0 +1,26 @@
+#pragma once
+
+#include "framegraph/graph.h"
+#include "passes/denoiser.h"
+#include "passes/prepare_guides.h"
+#include "passes/temporal_accumulation.h"
+#include "passes/temporal_antialiasing.h"
+#include "passes/weighted_regression.h"
+
+namespace walr {
+
+/// Settings of all stages of WALR.
+struct WalrSettings {
+  PrepareGuidesSettings guides;
+  TemporalAccumulationSettings accumulation;
+  WeightedRegressionSettings regression;
+  TemporalAntialiasingSettings antialiasing;
+};
+
+/// Weighted A-Trous Linear Regression (walr.txt, figure 6): preprocessing, spatial filtering, postprocessing.
+/// @param output RGBA16F texture to write the result to
+/// @returns the output's new version
+fg::Texture addWalr(fg::Graph& graph, const DenoiserInputs& inputs, fg::Texture output,
+                    const WalrSettings& settings = {});
+
+}  // namespace walr

@@ -1,0 +1,111 @@
+// One edge-aware a-trous iteration (walr.txt 3.2, 3.3): the moments of 3x3 taps, 3^t pixels apart, are averaged with the
+// weights that edge tracing finds. The first iteration (FIRST) makes the moments of its taps from the inputs as it
+// reads them; the last (LAST) solves the regression in place, so moments exist in memory only between iterations.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_samplerless_texture_functions : require
+#include "constants/atrous.h"
+#include "constants/frame.h"
+#include "include/hash.glsl"
+#include "include/moments_storage.glsl"
+#include "include/regression.glsl"
+#include "include/surface.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(constant_id = 0) const uint kIteration = 0;
+layout(constant_id = 1) const int kSpacing = 1;        // 3^t pixels.
+layout(constant_id = 2) const bool kReplaceTaps = true;
+
+layout(set = 0, binding = 0, std140) uniform frameConstants { FrameConstants frame; };
+layout(set = 0, binding = 1) uniform utexture2D depth;
+layout(set = 0, binding = 2) uniform utexture2D normals;
+#if defined(FIRST) || defined(LAST)
+layout(set = 0, binding = 3) uniform texture2D accumulated;
+#endif
+#ifndef FIRST
+layout(set = 0, binding = 4) uniform utexture2D momentsA;
+layout(set = 0, binding = 5) uniform utexture2D momentsB;
+#endif
+#ifdef LAST
+layout(set = 0, binding = 6, rgba16f) uniform writeonly image2D outFiltered;
+#else
+layout(set = 0, binding = 6, rgba32ui) uniform writeonly uimage2D outMomentsA;
+layout(set = 0, binding = 7, rgba32ui) uniform writeonly uimage2D outMomentsB;
+layout(set = 0, binding = 8, r32ui) uniform writeonly uimage2D outDepth;
+#endif
+layout(push_constant) uniform PushConstants { AtrousConstants settings; };
+
+#include "include/edge_tracing.glsl"
+
+Moments readMoments(ivec2 q, uvec2 guide) {
+#ifdef FIRST
+  return momentsOf(unpackFeatures(guide), texelFetch(accumulated, q, 0).rgb);
+#else
+  return unpackMoments(PackedMoments(texelFetch(momentsA, q, 0), texelFetch(momentsB, q, 0)));
+#endif
+}
+
+void writeWithoutSurface(ivec2 p) {
+#ifdef LAST
+  imageStore(outFiltered, p, vec4(texelFetch(accumulated, p, 0).rgb, 0.0));
+#else
+  imageStore(outMomentsA, p, uvec4(0u));
+  imageStore(outMomentsB, p, uvec4(0u));
+  imageStore(outDepth, p, uvec4(0u));
+#endif
+}
+
+void writeResult(ivec2 p, float z, int nearestEdge, Moments m, vec2 features) {
+#ifdef LAST
+  const vec3 colour = reconstruct(m, features, settings.ridge, settings.noiseRidge);
+  imageStore(outFiltered, p, vec4(min(colour, vec3(kLargestHalf)), 0.0));
+#else
+  const PackedMoments packed = packMoments(m);
+  imageStore(outMomentsA, p, packed.a);
+  imageStore(outMomentsB, p, packed.b);
+  imageStore(outDepth, p, uvec4(packDepthSdf(z, uint(nearestEdge))));
+#endif
+}
+
+void main() {
+  const ivec2 p = ivec2(gl_GlobalInvocationID.xy);
+  if (any(greaterThanEqual(p, textureSize(depth, 0)))) return;
+
+  const uint packedDepth = texelFetch(depth, p, 0).x;
+  const float z = unpackDepth(packedDepth);
+  if (z == 0.0) {
+    writeWithoutSurface(p);
+    return;
+  }
+  const uvec2 guide = texelFetch(normals, p, 0).xy;
+  const vec3 normal = unpackGeometricNormal(guide);
+  const Plane plane = planeAt(p, z, normal);
+  const uint sdf = unpackSdf(packedDepth);
+
+  const Moments centre = readMoments(p, guide);
+  MomentSum sum = startSum(centre);
+  add(sum, 1.0, centre);
+  int nearestEdge = kSpacing + 1;
+  for (int tap = 0; tap < 9; ++tap) {
+    if (tap == 4) continue;
+    const ivec2 direction = ivec2(tap % 3, tap / 3) - 1;
+    int reach = kSpacing;
+    Trace trace = traceEdge(plane, p, direction, reach, sdf);
+    nearestEdge = min(nearestEdge, trace.edge);
+    if (trace.weight <= 0.0) {
+      if (!kReplaceTaps) continue;
+      // A discarded tap gives way to a random one before the edge, so that no seam follows the tap pattern.
+      reach = int(hashBelow(uvec4(p, frame.frameIndex, kIteration * 9u + uint(tap)), uint(trace.edge)));
+      trace = traceEdge(plane, p, direction, reach, sdf);
+      if (trace.weight <= 0.0) {
+        reach = 0;
+        trace.weight = 1.0;
+      }
+    }
+    const ivec2 q = p + reach * direction;
+    const uvec2 tapGuide = texelFetch(normals, q, 0).xy;
+    const float weight = trace.weight * clamp(dot(normal, unpackGeometricNormal(tapGuide)), 0.0, 1.0);
+    if (weight > 0.0) add(sum, weight, readMoments(q, tapGuide));
+  }
+  writeResult(p, z, nearestEdge, finish(sum), unpackFeatures(guide));
+}

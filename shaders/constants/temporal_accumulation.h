@@ -1,0 +1,18 @@
+#ifndef WALR_SHADERS_CONSTANTS_TEMPORAL_ACCUMULATION_H
+#define WALR_SHADERS_CONSTANTS_TEMPORAL_ACCUMULATION_H
+#include "types.h"
+#ifdef __cplusplus
+namespace walr {
+#endif
+
+struct TemporalAccumulationConstants {
+  float maxSamples;        // History length at which the cumulative mean turns exponential.
+  float planeTolerance;    // Largest plane distance of a history tap, in units of its depth.
+  float normalThreshold;   // Smallest cosine between geometric normals.
+};
+
+#ifdef __cplusplus
+static_assert(sizeof(TemporalAccumulationConstants) == 12);
+}  // namespace walr
+#endif
+#endif

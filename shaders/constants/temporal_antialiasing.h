@@ -1,0 +1,19 @@
+#ifndef WALR_SHADERS_CONSTANTS_TEMPORAL_ANTIALIASING_H
+#define WALR_SHADERS_CONSTANTS_TEMPORAL_ANTIALIASING_H
+#include "types.h"
+#ifdef __cplusplus
+namespace walr {
+#endif
+
+struct TemporalAntialiasingConstants {
+  float maxSamples;        // History length at which the cumulative mean turns exponential.
+  float clipGamma;         // Half size of the clipping box in standard deviations of the 3x3 neighbourhood.
+  float planeTolerance;    // Largest plane distance of a history tap, in units of its depth.
+  float normalThreshold;   // Smallest cosine between geometric normals.
+};
+
+#ifdef __cplusplus
+static_assert(sizeof(TemporalAntialiasingConstants) == 16);
+}  // namespace walr
+#endif
+#endif

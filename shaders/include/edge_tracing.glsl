@@ -1,0 +1,53 @@
+// Edge-stopping function and edge tracing (walr.txt 3.3, 4.3, 5.2).
+// Needs: `frame` (FrameConstants), `depth` (utexture2D), `normals` (utexture2D), `settings` (AtrousConstants).
+#ifndef WALR_EDGE_TRACING_GLSL
+#define WALR_EDGE_TRACING_GLSL
+#include "camera.glsl"
+#include "surface.glsl"
+
+// The tangent plane at the filtered pixel; distances from it are taken in units of the pixel's depth.
+struct Plane {
+  vec3 normal;
+  float offset;        // dot(normal, ray of the pixel).
+  float inverseDepth;
+};
+
+Plane planeAt(ivec2 p, float z, vec3 normal) {
+  return Plane(normal, dot(normal, rayThrough(frame.rayFromPixel, pixelCentre(p))), 1.0 / z);
+}
+
+// Edge-stopping function: 1 near the plane, 0 away from it, outside the image and where there is no surface.
+float edgeWeight(Plane plane, ivec2 q, out uint sdf) {
+  sdf = 0u;
+  if (any(lessThan(q, ivec2(0))) || any(greaterThanEqual(q, textureSize(depth, 0)))) return 0.0;
+  const uint packed = texelFetch(depth, q, 0).x;
+  sdf = unpackSdf(packed);
+  const float z = unpackDepth(packed);
+  if (z == 0.0) return 0.0;
+  const vec3 ray = rayThrough(frame.rayFromPixel, pixelCentre(q));
+  const float planeDistance = abs(z * plane.inverseDepth * dot(plane.normal, ray) - plane.offset);
+  return clamp((settings.planeFar - planeDistance) / (settings.planeFar - settings.planeNear), 0.0, 1.0);
+}
+
+struct Trace {
+  float weight;  // Smallest edge weight met on the segment.
+  int edge;      // Step at which it became 0; steps + 1 where it did not.
+};
+
+// Walk from `p` in `direction` up to `steps` pixels. Each pixel's signed distance says how far the next edge lay in the
+// last iteration; the walk steps by a fraction of it.
+Trace traceEdge(Plane plane, ivec2 p, ivec2 direction, int steps, uint sdf) {
+  Trace trace = Trace(1.0, steps + 1);
+  int step = 0;
+  while (step < steps) {
+    step = min(step + max(int(settings.sdfFraction * float(sdf)), 1), steps);
+    trace.weight = min(trace.weight, edgeWeight(plane, p + step * direction, sdf));
+    if (trace.weight <= 0.0) {
+      trace.edge = step;
+      break;
+    }
+  }
+  return trace;
+}
+
+#endif

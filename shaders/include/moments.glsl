@@ -1,0 +1,68 @@
+// The averages that the regression needs, kept centred: means of the features X and the colour Y, covariances XX and XY.
+// Centred moments lose nothing to cancellation in half precision, where raw ones lose everything once features hardly
+// vary.
+#ifndef WALR_MOMENTS_GLSL
+#define WALR_MOMENTS_GLSL
+
+struct Moments {
+  vec2 x;          // Mean of the features u, v.
+  vec3 y;          // Mean of the colour.
+  vec3 xx;         // Covariances uu, uv, vv.
+  vec3 yu, yv;     // Covariances of the colour with u and with v.
+  float luma2;     // Mean of the squared luminance.
+  float samples;   // W: sum of the sample weights.
+};
+
+float luminance(vec3 c) { return dot(c, vec3(0.2126, 0.7152, 0.0722)); }
+
+// One sample: no spread yet.
+Moments momentsOf(vec2 features, vec3 colour) {
+  const float l = luminance(colour);
+  return Moments(features, colour, vec3(0.0), vec3(0.0), vec3(0.0), l * l, 1.0);
+}
+
+// Weighted merge of centred moments, C = sum w (C_i + (m_i - M)(m_i - M)^T) / sum w, in one pass: means are taken
+// relative to the first moments merged, which is the window's centre and so already near M.
+struct MomentSum {
+  vec2 originX;
+  vec3 originY;
+  Moments sum;
+};
+
+MomentSum startSum(Moments centre) {
+  MomentSum s;
+  s.originX = centre.x;
+  s.originY = centre.y;
+  s.sum = Moments(vec2(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), 0.0, 0.0);
+  return s;
+}
+
+void add(inout MomentSum s, float edgeWeight, Moments m) {
+  const float w = edgeWeight * m.samples;
+  const vec2 dx = m.x - s.originX;
+  const vec3 dy = m.y - s.originY;
+  s.sum.x += w * dx;
+  s.sum.y += w * dy;
+  s.sum.xx += w * (m.xx + vec3(dx.x * dx.x, dx.x * dx.y, dx.y * dx.y));
+  s.sum.yu += w * (m.yu + dy * dx.x);
+  s.sum.yv += w * (m.yv + dy * dx.y);
+  s.sum.luma2 += w * m.luma2;
+  s.sum.samples += w;
+}
+
+Moments finish(MomentSum s) {
+  const float scale = 1.0 / s.sum.samples;
+  const vec2 dx = s.sum.x * scale;
+  const vec3 dy = s.sum.y * scale;
+  Moments m;
+  m.x = s.originX + dx;
+  m.y = s.originY + dy;
+  m.xx = s.sum.xx * scale - vec3(dx.x * dx.x, dx.x * dx.y, dx.y * dx.y);
+  m.yu = s.sum.yu * scale - dy * dx.x;
+  m.yv = s.sum.yv * scale - dy * dx.y;
+  m.luma2 = s.sum.luma2 * scale;
+  m.samples = s.sum.samples;
+  return m;
+}
+
+#endif

@@ -1,0 +1,38 @@
+// The guides of one pixel: linear view depth with the distance to the nearest edge, and the two normals.
+#ifndef WALR_SURFACE_GLSL
+#define WALR_SURFACE_GLSL
+
+// Depth and signed distance field share one R32_UINT: the distance takes the five lowest mantissa bits, which leaves
+// depth a relative rounding of 2^-19. Depth 0 marks a pixel without a surface to denoise.
+const uint kSdfMask = 31u;
+
+uint packDepthSdf(float depth, uint sdf) {
+  const uint rounded = (floatBitsToUint(depth) + (kSdfMask + 1u) / 2u) & ~kSdfMask;
+  return rounded | min(sdf, kSdfMask);
+}
+float unpackDepth(uint packed) { return uintBitsToFloat(packed & ~kSdfMask); }
+uint unpackSdf(uint packed) { return packed & kSdfMask; }
+
+// Octahedral map of a unit vector with the pole on +Z, the view axis, so that normals that face the camera do not wrap
+// (Cigolle et al. 2014; walr.txt 5.2). Result in [0, 1].
+vec2 octahedralEncode(vec3 n) {
+  n /= abs(n.x) + abs(n.y) + abs(n.z);
+  const vec2 fold = (1.0 - abs(n.yx)) * vec2(n.x < 0.0 ? -1.0 : 1.0, n.y < 0.0 ? -1.0 : 1.0);
+  return (n.z < 0.0 ? fold : n.xy) * 0.5 + 0.5;
+}
+
+vec3 octahedralDecode(vec2 uv) {
+  const vec2 e = uv * 2.0 - 1.0;
+  const float z = 1.0 - abs(e.x) - abs(e.y);
+  const vec2 fold = (1.0 - abs(e.yx)) * vec2(e.x < 0.0 ? -1.0 : 1.0, e.y < 0.0 ? -1.0 : 1.0);
+  return normalize(vec3(z < 0.0 ? fold : e, z));
+}
+
+// Both normals in one RG32_UINT: the shading normal's two features, then the geometric normal.
+uvec2 packNormals(vec2 features, vec3 geometric) {
+  return uvec2(packUnorm2x16(features), packUnorm2x16(octahedralEncode(geometric)));
+}
+vec2 unpackFeatures(uvec2 packed) { return unpackUnorm2x16(packed.x); }
+vec3 unpackGeometricNormal(uvec2 packed) { return octahedralDecode(unpackUnorm2x16(packed.y)); }
+
+#endif

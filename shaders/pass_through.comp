@@ -1,0 +1,16 @@
+// Hands the lighting on as it is, what is not finite as 0.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_samplerless_texture_functions : require
+#include "include/finite.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(set = 0, binding = 0) uniform texture2D lighting;
+layout(set = 0, binding = 1, rgba16f) uniform writeonly image2D outImage;
+
+void main() {
+  const ivec2 p = ivec2(gl_GlobalInvocationID.xy);
+  if (any(greaterThanEqual(p, textureSize(lighting, 0)))) return;
+  const vec3 radiance = texelFetch(lighting, p, 0).rgb;
+  imageStore(outImage, p, vec4(isFinite(radiance) ? radiance : vec3(0.0), 1.0));
+}

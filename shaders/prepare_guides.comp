@@ -1,0 +1,89 @@
+// Converts the host's G-buffer into the guides that every later pass reads: view depth (0 where there is nothing to
+// denoise), the two octahedral features of the shading normal, and the geometric normal that spans the planes.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_samplerless_texture_functions : require
+#include "constants/frame.h"
+#include "constants/prepare_guides.h"
+#include "include/camera.glsl"
+#include "include/finite.glsl"
+#include "include/surface.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(constant_id = 0) const bool kNormalsInWorldSpace = false;
+
+layout(set = 0, binding = 0, std140) uniform frameConstants { FrameConstants frame; };
+layout(set = 0, binding = 1) uniform texture2D depth;
+layout(set = 0, binding = 2) uniform texture2D normal;
+layout(set = 0, binding = 3) uniform texture2D albedo;
+layout(set = 0, binding = 4, r32ui) uniform writeonly uimage2D outDepth;
+layout(set = 0, binding = 5, rg32ui) uniform writeonly uimage2D outNormals;
+layout(push_constant) uniform PushConstants { PrepareGuidesConstants settings; };
+
+bool isSurfaceDepth(float z) { return isFinite(z) && z > 0.0 && z < frame.skyDepth; }
+
+// Inverse depth, which is linear over the image of a plane; 0 outside the image and on sky.
+float inverseDepthAt(ivec2 p) {
+  if (any(lessThan(p, ivec2(0))) || any(greaterThanEqual(p, textureSize(depth, 0)))) return 0.0;
+  const float z = texelFetch(depth, p, 0).x;
+  return isSurfaceDepth(z) ? 1.0 / z : 0.0;
+}
+
+// One-sided difference of position along `axis`, from the side whose two pixels extrapolate best to this one: across an
+// edge the other side does not, and beside a thin object neither neighbour is taken for the surface.
+vec3 tangent(ivec2 p, ivec2 axis, float inverseDepth, out bool found) {
+  const vec3 centre = rayThrough(frame.rayFromPixel, pixelCentre(p)) / inverseDepth;
+  float bestError = 1e30;
+  vec3 best = vec3(0.0);
+  for (int side = -1; side <= 1; side += 2) {
+    const float near = inverseDepthAt(p + side * axis);
+    if (near == 0.0) continue;
+    const float far = inverseDepthAt(p + 2 * side * axis);
+    const float error = far > 0.0 ? abs(2.0 * near - far - inverseDepth) : abs(near - inverseDepth);
+    if (error < bestError) {
+      bestError = error;
+      const vec3 neighbour = rayThrough(frame.rayFromPixel, pixelCentre(p + side * axis)) / near;
+      best = float(side) * (neighbour - centre);
+    }
+  }
+  found = bestError < 1e30;
+  return best;
+}
+
+// The normal of the visible surface, without normal mapping. Where depth does not tell it the shading normal stands in.
+vec3 geometricNormal(ivec2 p, float inverseDepth, vec3 shadingNormal) {
+  bool foundX, foundY;
+  const vec3 alongX = tangent(p, ivec2(1, 0), inverseDepth, foundX);
+  const vec3 alongY = tangent(p, ivec2(0, 1), inverseDepth, foundY);
+  const vec3 n = cross(alongY, alongX);
+  const float lengthSquared = dot(n, n);
+  if (!foundX || !foundY || !(lengthSquared > 0.0)) return shadingNormal;
+  const vec3 unit = n * inversesqrt(lengthSquared);
+  return dot(unit, shadingNormal) >= settings.normalAgreement ? unit : shadingNormal;
+}
+
+void main() {
+  const ivec2 p = ivec2(gl_GlobalInvocationID.xy);
+  if (any(greaterThanEqual(p, textureSize(depth, 0)))) return;
+
+  const float z = texelFetch(depth, p, 0).x;
+  const vec3 hostNormal = texelFetch(normal, p, 0).xyz;
+  const vec3 diffuseAlbedo = texelFetch(albedo, p, 0).xyz;
+  const float normalLength = length(hostNormal);
+  const bool hasNormal = isFinite(hostNormal) && isFinite(normalLength) && normalLength > 0.0;
+  const bool hasLobe = isFinite(diffuseAlbedo) && any(greaterThanEqual(diffuseAlbedo, vec3(settings.albedoThreshold)));
+  if (!isSurfaceDepth(z) || !hasNormal || !hasLobe) {
+    imageStore(outDepth, p, uvec4(0u));
+    imageStore(outNormals, p, uvec4(0u));
+    return;
+  }
+
+  const vec3 ray = rayThrough(frame.rayFromPixel, pixelCentre(p));
+  vec3 shadingNormal = hostNormal / normalLength;
+  if (kNormalsInWorldSpace) shadingNormal = normalize(mat3(frame.viewFromWorld) * shadingNormal);
+  if (dot(shadingNormal, ray) > 0.0) shadingNormal = -shadingNormal;
+
+  imageStore(outDepth, p, uvec4(packDepthSdf(z, 0u)));
+  const vec3 planeNormal = geometricNormal(p, 1.0 / z, shadingNormal);
+  imageStore(outNormals, p, uvec4(packNormals(octahedralEncode(shadingNormal), planeNormal), 0u, 0u));
+}

@@ -1,0 +1,119 @@
+// WALR postprocessing (walr.txt 4.4): reproject the filtered history with a bicubic filter, pull it into the variance of
+// the current neighbourhood, then a cumulative mean that turns exponential after a fixed number of frames.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_samplerless_texture_functions : require
+#include "constants/frame.h"
+#include "constants/temporal_antialiasing.h"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+
+layout(set = 0, binding = 0, std140) uniform frameConstants { FrameConstants frame; };
+layout(set = 0, binding = 1) uniform texture2D filtered;
+layout(set = 0, binding = 2) uniform texture2D motion;
+layout(set = 0, binding = 3) uniform utexture2D depth;
+layout(set = 0, binding = 4) uniform utexture2D normals;
+layout(set = 0, binding = 5) uniform utexture2D previousDepth;
+layout(set = 0, binding = 6) uniform utexture2D previousNormals;
+layout(set = 0, binding = 7) uniform texture2D previousResolved;  // rgb: mean; a: history length.
+layout(set = 0, binding = 8, rgba16f) uniform writeonly image2D outResolved;
+layout(set = 0, binding = 9, rgba16f) uniform writeonly image2D outImage;
+layout(push_constant) uniform PushConstants { TemporalAntialiasingConstants settings; };
+
+#include "include/reprojection.glsl"
+
+vec3 toYCoCg(vec3 c) {
+  return vec3(0.25 * c.r + 0.5 * c.g + 0.25 * c.b, 0.5 * (c.r - c.b), -0.25 * c.r + 0.5 * c.g - 0.25 * c.b);
+}
+vec3 fromYCoCg(vec3 c) { return vec3(c.x + c.y - c.z, c.x + c.z, c.x - c.y - c.z); }
+
+// Catmull-Rom weights of the four pixels around a position `f` past the second.
+vec4 catmullRom(float f) {
+  return vec4(f * (-0.5 + f * (1.0 - 0.5 * f)), 1.0 + f * f * (1.5 * f - 2.5), f * (0.5 + f * (2.0 - 1.5 * f)),
+              f * f * (0.5 * f - 0.5));
+}
+
+struct HistorySample {
+  vec3 colour;
+  float samples;  // 0 where no history pixel shows this surface.
+};
+
+// Bicubic where all four inner pixels show the surface, else the mean of those that do.
+HistorySample sampleHistory(ivec2 p, float z, vec3 normal) {
+  const Reprojection r = reproject(p, z, normal);
+  if (!r.valid) return HistorySample(vec3(0.0), 0.0);
+  const ivec2 base = ivec2(floor(r.pixel - 0.5));
+  const vec2 f = r.pixel - 0.5 - vec2(base);
+  vec4 sum = vec4(0.0);
+  float weightSum = 0.0;
+  bool all4 = true;
+  for (int i = 0; i < 4; ++i) {
+    const ivec2 offset = ivec2(i & 1, i >> 1);
+    const float weight = (offset.x == 1 ? f.x : 1.0 - f.x) * (offset.y == 1 ? f.y : 1.0 - f.y);
+    if (historyMatches(r, base + offset, settings.planeTolerance, settings.normalThreshold)) {
+      sum += weight * texelFetch(previousResolved, base + offset, 0);
+      weightSum += weight;
+    } else {
+      all4 = false;
+    }
+  }
+  if (weightSum <= 0.01) return HistorySample(vec3(0.0), 0.0);
+  HistorySample history = HistorySample(sum.rgb / weightSum, sum.a / weightSum);
+  if (all4) {
+    const vec4 wx = catmullRom(f.x), wy = catmullRom(f.y);
+    const ivec2 last = textureSize(previousResolved, 0) - 1;
+    vec3 cubic = vec3(0.0);
+    for (int j = 0; j < 4; ++j)
+      for (int i = 0; i < 4; ++i)
+        cubic += wx[i] * wy[j] * texelFetch(previousResolved, clamp(base + ivec2(i, j) - 1, ivec2(0), last), 0).rgb;
+    history.colour = max(cubic, vec3(0.0));
+  }
+  return history;
+}
+
+// Pull `colour` towards the mean until it is inside the box of `gamma` standard deviations (Salvi 2016).
+vec3 varianceClip(vec3 colour, vec3 mean, vec3 deviation) {
+  const vec3 offset = colour - mean;
+  const vec3 ratio = abs(offset) / max(deviation, vec3(1e-12));
+  const float outside = max(max(ratio.x, ratio.y), ratio.z);
+  return outside > 1.0 ? mean + offset / outside : colour;
+}
+
+void main() {
+  const ivec2 p = ivec2(gl_GlobalInvocationID.xy);
+  if (any(greaterThanEqual(p, textureSize(filtered, 0)))) return;
+
+  const vec3 current = texelFetch(filtered, p, 0).rgb;
+  const float z = unpackDepth(texelFetch(depth, p, 0).x);
+  if (z == 0.0) {
+    imageStore(outResolved, p, vec4(current, 0.0));
+    imageStore(outImage, p, vec4(current, 1.0));
+    return;
+  }
+
+  const HistorySample history = sampleHistory(p, z, unpackGeometricNormal(texelFetch(normals, p, 0).xy));
+  vec3 resolved = current;
+  float samples = 1.0;
+  if (history.samples > 0.0) {
+    const vec3 centre = toYCoCg(current);
+    vec3 sum = vec3(0.0), squares = vec3(0.0);
+    float count = 0.0;
+    const ivec2 last = textureSize(filtered, 0) - 1;
+    for (int i = 0; i < 9; ++i) {
+      const ivec2 q = clamp(p + ivec2(i % 3, i / 3) - 1, ivec2(0), last);
+      if (unpackDepth(texelFetch(depth, q, 0).x) == 0.0) continue;
+      // Relative to the centre, so that the variance of a flat neighbourhood does not drown in rounding.
+      const vec3 difference = toYCoCg(texelFetch(filtered, q, 0).rgb) - centre;
+      sum += difference;
+      squares += difference * difference;
+      count += 1.0;
+    }
+    const vec3 mean = sum / count;
+    const vec3 deviation = sqrt(max(squares / count - mean * mean, vec3(0.0)));
+    const vec3 clipped = varianceClip(toYCoCg(history.colour), centre + mean, settings.clipGamma * deviation);
+    samples = min(history.samples + 1.0, settings.maxSamples);
+    resolved = max(mix(fromYCoCg(clipped), current, 1.0 / samples), vec3(0.0));
+  }
+  imageStore(outResolved, p, vec4(resolved, samples));
+  imageStore(outImage, p, vec4(resolved, 1.0));
+}
