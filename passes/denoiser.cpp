@@ -4,53 +4,67 @@
 #include <array>
 #include <stdexcept>
 
+#include "passes/accumulate.h"
 #include "passes/pass_through.h"
 #include "passes/walr.h"
 
 namespace walr {
 namespace {
 
-fg::Texture addAccumulate(fg::Graph& graph, const DenoiserInputs& inputs, fg::Texture output) {
-  const Guides guides = addPrepareGuides(graph, inputs);
-  return addPassThrough(graph, addTemporalAccumulation(graph, inputs, guides), output);
+/// A method made of a settings struct and the function that adds its passes.
+template <typename Settings, auto kAdd>
+class DenoiserOf final : public Denoiser {
+ public:
+  void visitSettings(SettingVisitor& visitor) override { settings_.visit(visitor); }
+  fg::Texture add(fg::Graph& graph, const DenoiserInputs& inputs, fg::Texture output) override {
+    checkSettings();
+    return kAdd(graph, inputs, output, settings_);
+  }
+
+ private:
+  Settings settings_;
+};
+
+template <typename Settings, auto kAdd>
+std::unique_ptr<Denoiser> make() {
+  return std::make_unique<DenoiserOf<Settings, kAdd>>();
 }
 
-fg::Texture addNone(fg::Graph& graph, const DenoiserInputs& inputs, fg::Texture output) {
+struct NoSettings {
+  void visit(SettingVisitor& /*visitor*/) {}
+};
+
+fg::Texture addNone(fg::Graph& graph, const DenoiserInputs& inputs, fg::Texture output, const NoSettings& /*none*/) {
   return addPassThrough(graph, inputs.lighting, output);
 }
 
-fg::Texture addDefaultWalr(fg::Graph& graph, const DenoiserInputs& inputs, fg::Texture output) {
-  return addWalr(graph, inputs, output);
-}
-
-struct Denoiser {
+struct Method {
   std::string_view name;
-  fg::Texture (*add)(fg::Graph&, const DenoiserInputs&, fg::Texture);
+  std::unique_ptr<Denoiser> (*make)();
 };
 
-constexpr std::array kDenoisers{
-    Denoiser{"walr", addDefaultWalr},
-    Denoiser{"accumulate", addAccumulate},
-    Denoiser{"none", addNone},
+constexpr std::array kMethods{
+    Method{"walr", make<WalrSettings, addWalr>},
+    Method{"accumulate", make<AccumulateSettings, addAccumulate>},
+    Method{"none", make<NoSettings, addNone>},
 };
 
 }  // namespace
 
 std::vector<std::string> denoiserNames() {
   std::vector<std::string> names;
-  for (const Denoiser& denoiser : kDenoisers) names.emplace_back(denoiser.name);
+  for (const Method& method : kMethods) names.emplace_back(method.name);
   return names;
 }
 
-fg::Texture addDenoiser(fg::Graph& graph, std::string_view method, const DenoiserInputs& inputs, fg::Texture output) {
-  const auto* found =
-      std::find_if(kDenoisers.begin(), kDenoisers.end(), [&](const Denoiser& d) { return d.name == method; });
-  if (found == kDenoisers.end()) {
+std::unique_ptr<Denoiser> makeDenoiser(std::string_view method) {
+  const auto* found = std::find_if(kMethods.begin(), kMethods.end(), [&](const Method& m) { return m.name == method; });
+  if (found == kMethods.end()) {
     std::string known;
-    for (const Denoiser& denoiser : kDenoisers) known.append(known.empty() ? "" : ", ").append(denoiser.name);
+    for (const Method& m : kMethods) known.append(known.empty() ? "" : ", ").append(m.name);
     throw std::invalid_argument("there is no method \"" + std::string(method) + "\"; known methods: " + known);
   }
-  return found->add(graph, inputs, output);
+  return found->make();
 }
 
 }  // namespace walr

@@ -1,48 +1,35 @@
 #pragma once
 
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "framegraph/graph.h"
+#include "passes/inputs.h"
+#include "passes/settings.h"
 
 namespace walr {
 
-/// How a host's inputs differ from the project's conventions (see architecture: view space, y down, `motion.z`). Stated
-/// once; the first stage converts.
-struct InputConventions {
-  enum class Space { View, World };
-  /// Where motion.z (previous minus current view depth, scene units) comes from.
-  enum class MotionDepth {
-    Given,        ///< The motion texture's third channel.
-    StaticScene,  ///< Computed from depth and the two view matrices; right where only the camera moves.
-  };
-  Space normal = Space::View;
-  MotionDepth motionDepth = MotionDepth::Given;
+/// A whole denoising method with its settings.
+class Denoiser : public Configurable {
+ public:
+  /// Add the method's passes to a graph.
+  /// @param graph   the host's graph
+  /// @param inputs  the host's textures
+  /// @param output  RGBA16F texture of the inputs' extent that the result is written to
+  /// @returns the output's new version: denoised demodulated diffuse indirect radiance; sky and pixels without a
+  /// diffuse
+  ///          lobe hold the input unchanged
+  /// @throws std::invalid_argument naming a setting outside its range
+  virtual fg::Texture add(fg::Graph& graph, const DenoiserInputs& inputs, fg::Texture output) = 0;
 };
 
-/// The textures that every denoiser takes, all of one extent.
-struct DenoiserInputs {
-  fg::Texture lighting;  ///< RGBA16F: demodulated diffuse indirect radiance, linear, 1 sample per pixel. Alpha unused.
-  fg::Texture depth;     ///< R32F: linear view depth (-z of view space), scene units; sky at or beyond `skyDepth`.
-  fg::Texture normal;    ///< RGBA16F: unit shading normal; zero on sky.
-  fg::Texture motion;    ///< RGBA16F: motion to the previous frame; see `FrameDescription::motionScale`.
-  fg::Texture albedo;    ///< RGBA16F: diffuse albedo; below 0.01 in all channels a pixel has no diffuse lobe.
-  fg::Buffer frame;      ///< Upload of `FrameConstants` (passes/frame.h).
-  InputConventions conventions;
-};
-
-/// Names of all denoisers, as `--method` takes them.
+/// Names of all methods, as `--method` takes them.
 std::vector<std::string> denoiserNames();
 
-/// Add a whole denoiser to a graph.
-/// @param graph   the host's graph
-/// @param method  one of `denoiserNames()`
-/// @param inputs  the host's textures
-/// @param output  RGBA16F texture of the inputs' extent that the result is written to
-/// @returns the output's new version: denoised demodulated diffuse indirect radiance; sky and pixels without a diffuse
-///          lobe hold the input unchanged.
+/// Make a method with its default settings.
 /// @throws std::invalid_argument naming the unknown method and the known ones
-fg::Texture addDenoiser(fg::Graph& graph, std::string_view method, const DenoiserInputs& inputs, fg::Texture output);
+std::unique_ptr<Denoiser> makeDenoiser(std::string_view method);
 
 }  // namespace walr

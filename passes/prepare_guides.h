@@ -1,18 +1,26 @@
 #pragma once
 
 #include "framegraph/graph.h"
-#include "passes/denoiser.h"
+#include "passes/inputs.h"
+#include "passes/settings.h"
 
 namespace walr {
 
 /// Settings of the conversion from the host's G-buffer.
 struct PrepareGuidesSettings {
-  /// Albedo below which, in every channel, a pixel has no diffuse lobe and is treated like sky: its demodulated light
-  /// is 0 and would darken its neighbours. Range 0..1.
   float albedoThreshold = 0.01F;
-  /// Cosine between the normal computed from depth and the shading normal below which the latter stands in for it.
-  /// Range -1..1.
   float normalAgreement = 0.3F;
+
+  void visit(SettingVisitor& v) {
+    v.visit({"guides.albedo-threshold",
+             "Albedo below which, in every channel, a pixel has no diffuse lobe and is treated like sky", "", 0.0, 1.0,
+             "measured"},
+            albedoThreshold);
+    v.visit({"guides.normal-agreement",
+             "Cosine between the normal computed from depth and the shading normal below which the latter stands in",
+             "", -1.0, 1.0, "measured"},
+            normalAgreement);
+  }
 };
 
 /// The noise-free guides of this frame and the last.

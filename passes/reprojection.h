@@ -1,7 +1,7 @@
 #pragma once
 
 #include "framegraph/graph.h"
-#include "passes/denoiser.h"
+#include "passes/inputs.h"
 #include "passes/prepare_guides.h"
 
 namespace walr {

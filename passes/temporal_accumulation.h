@@ -1,19 +1,29 @@
 #pragma once
 
 #include "framegraph/graph.h"
-#include "passes/denoiser.h"
+#include "passes/inputs.h"
 #include "passes/prepare_guides.h"
+#include "passes/settings.h"
 
 namespace walr {
 
 /// Settings of the preprocessing accumulation (walr.txt 4.2).
 struct TemporalAccumulationSettings {
-  /// Number of samples after which the cumulative mean turns exponential. Frames, range 1..255.
   float maxSamples = 16.0F;
-  /// Largest distance of a history pixel from the surface's plane, as a fraction of its view depth. Range 0..1.
   float planeTolerance = 0.01F;
-  /// Smallest cosine between the geometric normals of surface and history pixel. Range -1..1.
   float normalThreshold = 0.5F;
+
+  void visit(SettingVisitor& v) {
+    v.visit({"accumulation.max-samples", "Samples after which the cumulative mean turns exponential", "frames", 1.0,
+             255.0, "walr.txt 4.2"},
+            maxSamples);
+    v.visit({"accumulation.plane-tolerance", "Largest distance of a history pixel from the surface's plane",
+             "fraction of depth", 0.0, 1.0, "measured"},
+            planeTolerance);
+    v.visit({"accumulation.normal-threshold", "Smallest cosine between geometric normals of surface and history pixel",
+             "", -1.0, 1.0, "measured"},
+            normalThreshold);
+  }
 };
 
 /// Average the noisy lighting over time along its motion.

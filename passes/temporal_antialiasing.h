@@ -1,21 +1,33 @@
 #pragma once
 
 #include "framegraph/graph.h"
-#include "passes/denoiser.h"
+#include "passes/inputs.h"
 #include "passes/prepare_guides.h"
+#include "passes/settings.h"
 
 namespace walr {
 
 /// Settings of the postprocessing stage (walr.txt 4.4).
 struct TemporalAntialiasingSettings {
-  /// Number of frames after which the cumulative mean turns exponential. Frames, range 1..255.
   float maxSamples = 8.0F;
-  /// Half size of the variance-clipping box in standard deviations of the 3x3 neighbourhood. Range >= 0.
   float clipGamma = 1.0F;
-  /// Largest distance of a history pixel from the surface's plane, as a fraction of its view depth. Range 0..1.
   float planeTolerance = 0.01F;
-  /// Smallest cosine between the geometric normals of surface and history pixel. Range -1..1.
   float normalThreshold = 0.5F;
+
+  void visit(SettingVisitor& v) {
+    v.visit({"antialiasing.max-samples", "Frames after which the cumulative mean turns exponential", "frames", 1.0,
+             255.0, "walr.txt 4.4"},
+            maxSamples);
+    v.visit({"antialiasing.clip-gamma", "Half size of the variance-clipping box", "standard deviations", 0.0, 1e6,
+             "walr.txt 4.4"},
+            clipGamma);
+    v.visit({"antialiasing.plane-tolerance", "Largest distance of a history pixel from the surface's plane",
+             "fraction of depth", 0.0, 1.0, "measured"},
+            planeTolerance);
+    v.visit({"antialiasing.normal-threshold", "Smallest cosine between geometric normals of surface and history pixel",
+             "", -1.0, 1.0, "measured"},
+            normalThreshold);
+  }
 };
 
 /// Remove what flicker and aliasing the spatial filter leaves: bicubic history, variance clipping, moving average.

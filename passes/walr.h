@@ -1,7 +1,7 @@
 #pragma once
 
 #include "framegraph/graph.h"
-#include "passes/denoiser.h"
+#include "passes/inputs.h"
 #include "passes/prepare_guides.h"
 #include "passes/temporal_accumulation.h"
 #include "passes/temporal_antialiasing.h"
@@ -15,6 +15,13 @@ struct WalrSettings {
   TemporalAccumulationSettings accumulation;
   WeightedRegressionSettings regression;
   TemporalAntialiasingSettings antialiasing;
+
+  void visit(SettingVisitor& v) {
+    guides.visit(v);
+    accumulation.visit(v);
+    regression.visit(v);
+    antialiasing.visit(v);
+  }
 };
 
 /// Weighted A-Trous Linear Regression (walr.txt, figure 6): preprocessing, spatial filtering, postprocessing.

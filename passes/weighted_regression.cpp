@@ -21,21 +21,13 @@ const fg::Shader& iterationShader(bool first, bool last) {
   return last ? shaders::atrousLast : shaders::atrous;
 }
 
-void checkSettings(const WeightedRegressionSettings& s) {
-  if (s.iterations < 1 || s.iterations > 5)
-    throw std::invalid_argument("iterations must lie in 1..5, not " + std::to_string(s.iterations));
-  if (!(s.planeNear >= 0.0F && s.planeNear < s.planeFar))
-    throw std::invalid_argument("planeNear must lie in 0..planeFar");
-  if (!(s.sdfFraction >= 0.0F && s.sdfFraction <= 1.0F)) throw std::invalid_argument("sdfFraction must lie in 0..1");
-  if (!(s.ridge > 0.0F && s.noiseRidge >= 0.0F))
-    throw std::invalid_argument("ridge must be above 0 and noiseRidge not below");
-}
-
 }  // namespace
 
 fg::Texture addWeightedRegression(fg::Graph& graph, fg::Buffer frame, fg::Texture accumulated, const Guides& guides,
                                   const WeightedRegressionSettings& settings) {
-  checkSettings(settings);
+  if (!(settings.planeNear < settings.planeFar)) {
+    throw std::invalid_argument("setting regression.plane-near must be below regression.plane-far");
+  }
   const fg::Extent extent = graph.textureDesc(accumulated).extent;
   const AtrousConstants constants{settings.planeNear, settings.planeFar, settings.sdfFraction, settings.ridge,
                                   settings.noiseRidge};

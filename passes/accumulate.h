@@ -1,0 +1,27 @@
+#pragma once
+
+#include "framegraph/graph.h"
+#include "passes/inputs.h"
+#include "passes/prepare_guides.h"
+#include "passes/temporal_accumulation.h"
+
+namespace walr {
+
+/// Settings of temporal accumulation alone.
+struct AccumulateSettings {
+  PrepareGuidesSettings guides;
+  TemporalAccumulationSettings accumulation;
+
+  void visit(SettingVisitor& v) {
+    guides.visit(v);
+    accumulation.visit(v);
+  }
+};
+
+/// Temporal accumulation alone: what every spatial filter is measured against.
+/// @param output RGBA16F texture to write the result to
+/// @returns the output's new version
+fg::Texture addAccumulate(fg::Graph& graph, const DenoiserInputs& inputs, fg::Texture output,
+                          const AccumulateSettings& settings = {});
+
+}  // namespace walr

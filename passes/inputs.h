@@ -1,0 +1,31 @@
+#pragma once
+
+#include "framegraph/graph.h"
+
+namespace walr {
+
+/// How a host's inputs differ from the project's conventions (see architecture: view space, y down, `motion.z`). Stated
+/// once; the first stage converts.
+struct InputConventions {
+  enum class Space { View, World };
+  /// Where motion.z (previous minus current view depth, scene units) comes from.
+  enum class MotionDepth {
+    Given,        ///< The motion texture's third channel.
+    StaticScene,  ///< Computed from depth and the two view matrices; right where only the camera moves.
+  };
+  Space normal = Space::View;
+  MotionDepth motionDepth = MotionDepth::Given;
+};
+
+/// The textures that every denoiser takes, all of one extent.
+struct DenoiserInputs {
+  fg::Texture lighting;  ///< RGBA16F: demodulated diffuse indirect radiance, linear, 1 sample per pixel. Alpha unused.
+  fg::Texture depth;     ///< R32F: linear view depth (-z of view space), scene units; sky at or beyond `skyDepth`.
+  fg::Texture normal;    ///< RGBA16F: unit shading normal; zero on sky.
+  fg::Texture motion;    ///< RGBA16F: motion to the previous frame; see `FrameDescription::motionScale`.
+  fg::Texture albedo;    ///< RGBA16F: diffuse albedo; below 0.01 in all channels a pixel has no diffuse lobe.
+  fg::Buffer frame;      ///< Upload of `FrameConstants` (passes/frame.h).
+  InputConventions conventions;
+};
+
+}  // namespace walr
