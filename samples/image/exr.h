@@ -1,0 +1,82 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+
+#include "samples/image/image.h"
+
+namespace walr {
+
+/// An OpenEXR file (scan lines or tiles, first part) opened for reading. Opening reads the header only.
+class ExrReader {
+ public:
+  /// One channel and the place its values go to.
+  struct Target {
+    std::string channel;
+    Image* image = nullptr;  ///< Of the file's size.
+    int component = 0;
+  };
+
+  /// @throws InputError when the file is missing, truncated or not OpenEXR, or when its size is out of range
+  explicit ExrReader(std::filesystem::path path);
+  ~ExrReader();
+  ExrReader(ExrReader&&) noexcept;
+  ExrReader& operator=(ExrReader&&) noexcept;
+
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+  /// Size of the data window in pixels.
+  [[nodiscard]] int width() const;
+  [[nodiscard]] int height() const;
+  /// Names of all channels, sorted.
+  [[nodiscard]] std::vector<std::string> channels() const;
+  /// Header attribute of type M44f; nothing where it is absent or of another type.
+  [[nodiscard]] std::optional<glm::mat4> matrix(const std::string& name) const;
+  /// Header attribute of type V2f.
+  [[nodiscard]] std::optional<glm::vec2> vector(const std::string& name) const;
+  /// Header attribute of type int.
+  [[nodiscard]] std::optional<int> integer(const std::string& name) const;
+
+  /// Read channels, of whatever type, as floats. One pass over the file.
+  /// @throws InputError when a channel is missing or subsampled, or when the data are truncated or damaged
+  void read(std::span<const Target> targets);
+
+ private:
+  struct File;
+  std::filesystem::path path_;
+  std::unique_ptr<File> file_;
+};
+
+/// How a channel is stored.
+enum class ExrType { Half, Float };
+
+/// One channel to write.
+struct ExrChannel {
+  std::string name;
+  const Image* image = nullptr;
+  int component = 0;
+  ExrType type = ExrType::Half;
+};
+
+/// A header attribute to write. Matrices keep the 16 floats of GLM's column-major, column-vector form in their order,
+/// which is Imath's row-major, row-vector form of the same transformation.
+using ExrAttribute = std::pair<std::string, std::variant<glm::mat4, glm::vec2, int, std::string>>;
+
+/// Write a scan-line file with ZIP compression, whole or not at all. All images have one size.
+/// @throws OutputError
+void writeExr(const std::filesystem::path& path, std::span<const ExrChannel> channels,
+              std::span<const ExrAttribute> attributes = {});
+
+/// Append `name`.R, .G, .B (or .X, .Y, .Z: one letter of `components` each) for the first components of an image.
+void appendChannels(std::vector<ExrChannel>& channels, const std::string& name, const std::string& components,
+                    const Image& image, ExrType type = ExrType::Half);
+
+}  // namespace walr

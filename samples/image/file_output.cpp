@@ -1,0 +1,97 @@
+#include "samples/image/file_output.h"
+
+#include <cerrno>
+#include <string>
+#include <system_error>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include "samples/errors.h"
+
+namespace walr {
+namespace {
+
+std::string reason(int error) {
+  return std::generic_category().message(error);
+}
+
+/// A temporary file beside its final name; removed unless committed.
+class TemporaryFile {
+ public:
+  explicit TemporaryFile(const std::filesystem::path& target)
+      : target_(target),
+        name_(target.string() + "." + std::to_string(getpid()) + ".tmp"),
+        file_(open(name_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666)) {
+    if (file_ < 0) {
+      fail("cannot make", errno);
+    }
+  }
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+  ~TemporaryFile() {
+    if (file_ >= 0) {
+      close(file_);
+    }
+    if (!committed_) {
+      unlink(name_.c_str());
+    }
+  }
+
+  void write(std::span<const std::byte> bytes) {
+    while (!bytes.empty()) {
+      const ssize_t written = ::write(file_, bytes.data(), bytes.size());
+      if (written < 0 && errno == EINTR) {
+        continue;
+      }
+      if (written < 0) {
+        fail("cannot write", errno);
+      }
+      bytes = bytes.subspan(static_cast<std::size_t>(written));
+    }
+  }
+
+  void commit() {
+    const int closed = close(file_);
+    file_ = -1;
+    if (closed != 0) {
+      fail("cannot write", errno);
+    }
+    if (rename(name_.c_str(), target_.c_str()) != 0) {
+      fail("cannot rename to", errno);
+    }
+    committed_ = true;
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& what, int error) const {
+    throw OutputError(what + " " + target_.string() + ": " + reason(error));
+  }
+
+  std::filesystem::path target_;
+  std::string name_;
+  int file_;
+  bool committed_ = false;
+};
+
+}  // namespace
+
+void prepareOutputDirectory(const std::filesystem::path& directory) {
+  std::error_code error;
+  std::filesystem::create_directories(directory, error);
+  if (error) {
+    throw OutputError("cannot make the output directory " + directory.string() + ": " + error.message());
+  }
+  if (!std::filesystem::is_directory(directory, error)) {
+    throw OutputError("cannot write to " + directory.string() + ": it is not a directory");
+  }
+  const TemporaryFile probe(directory / "write-test");
+}
+
+void writeFileAtomically(const std::filesystem::path& path, std::span<const std::byte> bytes) {
+  TemporaryFile file(path);
+  file.write(bytes);
+  file.commit();
+}
+
+}  // namespace walr

@@ -1,0 +1,56 @@
+#include "samples/image/png.h"
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include <png.h>
+
+#include "samples/errors.h"
+#include "samples/image/file_output.h"
+#include "samples/image/tone_map.h"
+
+namespace walr {
+namespace {
+
+using Rgb8 = std::array<std::uint8_t, 3>;
+
+Rgb8 displayColour(std::span<const float> linear) {
+  Rgb8 colour{};
+  for (std::size_t c = 0; c < colour.size(); ++c) {
+    if (!std::isfinite(linear[c])) {
+      return {255, 0, 255};
+    }
+    colour.at(c) = static_cast<std::uint8_t>(std::lround(255.0F * encodeSrgb(toneMap(linear[c]))));
+  }
+  return colour;
+}
+
+}  // namespace
+
+void writePng(const std::filesystem::path& path, std::span<const Image* const> pictures) {
+  const auto width = static_cast<std::size_t>(pictures.front()->width());
+  const auto height = static_cast<std::size_t>(pictures.front()->height());
+  std::vector<Rgb8> pixels(width * pictures.size() * height);
+  for (std::size_t p = 0; p < pictures.size(); ++p) {
+    for (std::size_t i = 0; i < width * height; ++i) {
+      const std::size_t row = i / width;
+      pixels[(row * pictures.size() + p) * width + i % width] = displayColour(pictures[p]->pixel(i));
+    }
+  }
+
+  png_image image{};
+  image.version = PNG_IMAGE_VERSION;
+  image.width = static_cast<png_uint_32>(width * pictures.size());
+  image.height = static_cast<png_uint_32>(height);
+  image.format = PNG_FORMAT_RGB;
+  png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(image);
+  std::vector<std::byte> bytes(size);
+  if (png_image_write_to_memory(&image, bytes.data(), &size, 0, pixels.data(), 0, nullptr) == 0) {
+    throw OutputError("cannot encode " + path.string() + ": " + image.message);
+  }
+  writeFileAtomically(path, std::span(bytes).first(size));
+}
+
+}  // namespace walr

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "samples/metrics/metrics.h"
+
+namespace walr {
+
+/// Mean structural similarity of two planes of values in 0..1 over the pixels of a mask (see `compare`).
+/// @returns nothing where no masked pixel has a whole window
+std::optional<double> structuralSimilarity(std::span<const double> test, std::span<const double> reference,
+                                           const PixelMask& mask, int width, int height);
+
+}  // namespace walr

@@ -1,0 +1,112 @@
+#include "samples/sequence/cameras.h"
+
+#include <cmath>
+#include <fstream>
+#include <string>
+
+#include <glm/gtc/type_ptr.hpp>
+#include <nlohmann/json.hpp>
+
+#include "samples/errors.h"
+
+namespace walr {
+namespace {
+
+using Json = nlohmann::json;
+
+void requireFinite(const glm::mat4& matrix, const std::string& what) {
+  for (int i = 0; i < 16; ++i) {
+    if (!std::isfinite(glm::value_ptr(matrix)[i])) {
+      throw InputError(what + " holds a value that is not finite");
+    }
+  }
+}
+
+/// Copies an array of `count` numbers.
+void readNumbers(const Json& object, const char* key, const std::string& where, float* values, std::size_t count) {
+  const auto entry = object.find(key);
+  if (entry == object.end()) {
+    throw InputError(where + " lacks \"" + key + "\" (" + std::to_string(count) + " numbers)");
+  }
+  if (!entry->is_array() || entry->size() != count) {
+    throw InputError(where + ": \"" + key + "\" must be an array of " + std::to_string(count) + " numbers");
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!(*entry)[i].is_number()) {
+      throw InputError(where + ": \"" + key + "\" must be an array of " + std::to_string(count) + " numbers");
+    }
+    values[i] = (*entry)[i].get<float>();
+  }
+}
+
+glm::mat4 readMatrix(const Json& object, const char* key, const std::string& where) {
+  glm::mat4 matrix(1.0F);
+  readNumbers(object, key, where, glm::value_ptr(matrix), 16);
+  requireFinite(matrix, where + ": \"" + key + "\"");
+  return matrix;
+}
+
+}  // namespace
+
+std::map<int, Camera> readCameraFile(const std::filesystem::path& path) {
+  std::ifstream stream(path);
+  if (!stream) {
+    throw InputError("cannot read " + path.string() +
+                     ": Blender Cycles frames need a cameras.json beside them with view, prev_view and projection of "
+                     "every frame");
+  }
+  Json document;
+  try {
+    document = Json::parse(stream);
+  } catch (const Json::parse_error& error) {
+    throw InputError(path.string() + " is not valid JSON: " + error.what());
+  }
+  if (!document.is_object() || !document.contains("frames") || !document["frames"].is_array()) {
+    throw InputError(path.string() + " lacks the array \"frames\"");
+  }
+  std::map<int, Camera> cameras;
+  for (const Json& entry : document["frames"]) {
+    if (!entry.is_object() || !entry.contains("frame") || !entry["frame"].is_number_integer()) {
+      throw InputError(path.string() + ": an entry of \"frames\" lacks the integer \"frame\"");
+    }
+    const int number = entry["frame"].get<int>();
+    const std::string where = path.string() + ": frame " + std::to_string(number);
+    Camera camera;
+    camera.view = readMatrix(entry, "view", where);
+    camera.previousView = readMatrix(entry, "prev_view", where);
+    camera.projection = readMatrix(entry, "projection", where);
+    if (entry.contains("jitter")) {
+      readNumbers(entry, "jitter", where, glm::value_ptr(camera.jitter), 2);
+    }
+    if (entry.contains("cut")) {
+      if (!entry["cut"].is_boolean()) {
+        throw InputError(where + ": \"cut\" must be true or false");
+      }
+      camera.cut = entry["cut"].get<bool>();
+    }
+    if (!cameras.emplace(number, camera).second) {
+      throw InputError(where + " is there twice");
+    }
+  }
+  return cameras;
+}
+
+Camera readCameraAttributes(const ExrReader& file) {
+  const auto require = [&](const char* name) {
+    const std::optional<glm::mat4> matrix = file.matrix(name);
+    if (!matrix) {
+      throw InputError(file.path().string() + ": no camera, the header attribute " + name + " (M44f) is missing");
+    }
+    requireFinite(*matrix, file.path().string() + ": header attribute " + name);
+    return *matrix;
+  };
+  Camera camera;
+  camera.view = require(kViewAttribute);
+  camera.previousView = require(kPreviousViewAttribute);
+  camera.projection = require(kProjectionAttribute);
+  camera.jitter = file.vector(kJitterAttribute).value_or(glm::vec2(0.0F));
+  camera.cut = file.integer(kCutAttribute).value_or(0) != 0;
+  return camera;
+}
+
+}  // namespace walr

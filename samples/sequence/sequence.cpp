@@ -1,0 +1,202 @@
+#include "samples/sequence/sequence.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <utility>
+
+#include <glm/gtc/type_ptr.hpp>
+
+#include "samples/errors.h"
+#include "samples/sequence/cameras.h"
+
+namespace walr {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The number made by the trailing digits of a file stem; nothing where there are none.
+std::optional<int> frameNumber(const std::string& stem) {
+  const auto lastOther = std::find_if(stem.rbegin(), stem.rend(), [](unsigned char c) { return std::isdigit(c) == 0; });
+  const std::string digits(lastOther.base(), stem.end());
+  constexpr std::size_t kMostDigits = 9;  // Fits an int whatever they are.
+  if (digits.empty() || digits.size() > kMostDigits) {
+    return std::nullopt;
+  }
+  return std::stoi(digits);
+}
+
+using FilesByNumber = std::map<int, fs::path>;
+
+void addFile(FilesByNumber& files, int number, const fs::path& path) {
+  const auto [existing, isNew] = files.emplace(number, path);
+  if (!isNew) {
+    const auto [first, second] = std::minmax(existing->second, path);
+    throw InputError("frame " + std::to_string(number) + " is there twice: " + first.string() + " and " +
+                     second.string() + ". Keep one sequence a folder.");
+  }
+}
+
+/// Whether two matrices differ by more than rounding to float of values computed on two ways.
+bool differs(const glm::mat4& a, const glm::mat4& b) {
+  for (int i = 0; i < 16; ++i) {
+    const float x = glm::value_ptr(a)[i];
+    const float y = glm::value_ptr(b)[i];
+    constexpr float kRoundings = 16.0F;
+    const float scale = std::max({1.0F, std::abs(x), std::abs(y)});
+    if (std::abs(x - y) > kRoundings * std::numeric_limits<float>::epsilon() * scale) {
+      return true;
+    }
+  }
+  return false;
+}
+
+std::string sizeText(int width, int height) {
+  return std::to_string(width) + " x " + std::to_string(height);
+}
+
+void refuseNonFinite(const std::vector<NonFiniteChannel>& channels) {
+  if (channels.empty()) {
+    return;
+  }
+  const NonFiniteChannel& first = channels.front();
+  throw InputError(
+      first.file.string() + ": channel " + first.channel + " has " + std::to_string(first.count) +
+      " value(s) that are not finite (NaN or infinity), the first at pixel (" + std::to_string(first.firstX) + ", " +
+      std::to_string(first.firstY) + ")" +
+      (channels.size() > 1 ? "; " + std::to_string(channels.size() - 1) + " more channel(s) have some, too" : "") +
+      ". Mend the render, or pass --non-finite replace to denoise it all the same.");
+}
+
+}  // namespace
+
+Sequence::Sequence(fs::path folder, SequenceOptions options)
+    : folder_(std::move(folder)), options_(std::move(options)) {
+  scan();
+  checkHeaders();
+  markCuts();
+}
+
+bool Sequence::hasReferences() const {
+  return std::ranges::any_of(entries_, [](const Entry& entry) { return !entry.reference.empty(); });
+}
+
+void Sequence::scan() {
+  std::error_code error;
+  if (!fs::is_directory(folder_, error)) {
+    throw InputError(folder_.string() + " is not a folder. Give the folder that holds the EXR frames.");
+  }
+  FilesByNumber frames;
+  FilesByNumber references;
+  for (const fs::directory_entry& file : fs::directory_iterator(folder_)) {
+    const std::string stem = file.path().stem().string();
+    const std::optional<int> number = frameNumber(stem);
+    if (file.path().extension() == ".exr" && number) {
+      addFile(stem.starts_with("ref") ? references : frames, *number, file.path());
+    }
+  }
+  if (frames.empty()) {
+    throw InputError(folder_.string() + " holds no frames: no .exr file with a frame number at the end of its name");
+  }
+  const FrameRange range = options_.frames.value_or(FrameRange{frames.begin()->first, std::prev(frames.end())->first});
+  for (int number = range.first; number <= range.last; ++number) {
+    const auto frame = frames.find(number);
+    if (frame == frames.end()) {
+      throw InputError("frame " + std::to_string(number) + " is missing in " + folder_.string() +
+                       ", which has frames " + std::to_string(frames.begin()->first) + " to " +
+                       std::to_string(std::prev(frames.end())->first) +
+                       ". Every frame needs the one before it: render it, or choose a range without gaps with "
+                       "--frames A-B.");
+    }
+    Entry entry;
+    entry.number = number;
+    entry.file = frame->second;
+    if (const auto reference = references.find(number); reference != references.end()) {
+      entry.reference = reference->second;
+    }
+    entries_.push_back(std::move(entry));
+  }
+}
+
+void Sequence::checkHeaders() {
+  std::map<int, Camera> cameras;
+  for (Entry& entry : entries_) {
+    const ExrReader file(entry.file);
+    if (layout_.layout == nullptr) {
+      layout_ = recognizeLayout(file, options_.viewLayer);
+      extent_ = {static_cast<std::uint32_t>(file.width()), static_cast<std::uint32_t>(file.height())};
+      if (layout_.layout->cameras == CameraSource::JsonFile) {
+        cameras = readCameraFile(folder_ / "cameras.json");
+      }
+    }
+    requireChannels(file, layout_, options_.composite);
+    checkSize(file);
+    if (!entry.reference.empty()) {
+      const ExrReader reference(entry.reference);
+      requireReferenceChannels(reference, layout_);
+      checkSize(reference);
+    }
+    if (layout_.layout->cameras == CameraSource::HeaderAttributes) {
+      entry.camera = readCameraAttributes(file);
+    } else if (const auto camera = cameras.find(entry.number); camera != cameras.end()) {
+      entry.camera = camera->second;
+    } else {
+      throw InputError((folder_ / "cameras.json").string() + " has no camera for frame " +
+                       std::to_string(entry.number) + " (" + entry.file.filename().string() + ")");
+    }
+  }
+}
+
+void Sequence::checkSize(const ExrReader& file) const {
+  const int width = static_cast<int>(extent_.width);
+  const int height = static_cast<int>(extent_.height);
+  if (file.width() != width || file.height() != height) {
+    throw InputError(file.path().string() + " is " + sizeText(file.width(), file.height()) + " pixels, but " +
+                     entries_.front().file.filename().string() + " is " + sizeText(width, height) +
+                     ". All frames and references need one size.");
+  }
+}
+
+void Sequence::markCuts() {
+  for (const int cut : options_.cuts) {
+    const auto entry = std::ranges::find(entries_, cut, &Entry::number);
+    if (entry == entries_.end()) {
+      throw InputError("--cut " + std::to_string(cut) + ": there is no such frame; they run from " +
+                       std::to_string(entries_.front().number) + " to " + std::to_string(entries_.back().number));
+    }
+    entry->camera.cut = true;
+  }
+  for (std::size_t i = 0; i < entries_.size(); ++i) {
+    Entry& entry = entries_[i];
+    entry.camera.cut = i > 0 && (entry.camera.cut || differs(entry.camera.previousView, entries_[i - 1].camera.view));
+    entry.resetHistory = i == 0 || entry.camera.cut;
+  }
+}
+
+Frame Sequence::read(std::size_t index) const {
+  const Entry& entry = entries_[index];
+  Frame frame;
+  frame.number = entry.number;
+  frame.camera = entry.camera;
+  frame.resetHistory = entry.resetHistory;
+  const Camera& previous = entries_[index > 0 ? index - 1 : 0].camera;
+  frame.previousProjection = previous.projection;
+  frame.previousJitter = previous.jitter;
+
+  ExrReader file(entry.file);
+  checkSize(file);
+  readFrame(file, layout_, options_.composite, frame);
+  if (!entry.reference.empty()) {
+    ExrReader reference(entry.reference);
+    checkSize(reference);
+    frame.reference = readReference(reference, layout_, options_.composite, frame.nonFinite);
+  }
+  if (options_.nonFinite == NonFinitePolicy::Fail) {
+    refuseNonFinite(frame.nonFinite);
+  }
+  return frame;
+}
+
+}  // namespace walr

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "framegraph/graph.h"
+#include "samples/sequence/frame.h"
+#include "samples/sequence/layout.h"
+
+namespace walr {
+
+/// A range of frame numbers, both ends included.
+struct FrameRange {
+  int first = 0;
+  int last = 0;
+};
+
+/// What to do with input values that are not finite.
+enum class NonFinitePolicy {
+  Fail,     ///< Refuse the frame, naming file and channel.
+  Replace,  ///< Take it; the denoiser replaces such values before any average.
+};
+
+struct SequenceOptions {
+  std::optional<FrameRange> frames;  ///< Absent: all.
+  bool composite = false;            ///< Direct light and emission are needed, too.
+  std::string viewLayer;             ///< Empty: the only one.
+  std::vector<int> cuts;             ///< Frames that follow a camera cut, beside those that the cameras tell.
+  NonFinitePolicy nonFinite = NonFinitePolicy::Fail;
+};
+
+/// A folder of frames, checked as a whole before the first pixel is read: names, numbers, channels, sizes, cameras.
+class Sequence {
+ public:
+  /// One frame's files and camera.
+  struct Entry {
+    int number = 0;
+    std::filesystem::path file;
+    std::filesystem::path reference;  ///< Empty where there is none.
+    Camera camera;
+    bool resetHistory = false;  ///< First frame, or a camera cut.
+  };
+
+  /// Scan a folder. Reads the header of every frame in range.
+  /// @throws InputError
+  Sequence(std::filesystem::path folder, SequenceOptions options);
+
+  [[nodiscard]] const std::vector<Entry>& entries() const { return entries_; }
+  [[nodiscard]] const RecognizedLayout& layout() const { return layout_; }
+  [[nodiscard]] fg::Extent extent() const { return extent_; }
+  [[nodiscard]] bool hasReferences() const;
+
+  /// Read one frame with its reference. Reads nothing that is shared, so that frames may be read on several threads.
+  /// @throws InputError
+  [[nodiscard]] Frame read(std::size_t index) const;
+
+ private:
+  void scan();
+  void checkHeaders();
+  void checkSize(const ExrReader& file) const;
+  void markCuts();
+
+  std::filesystem::path folder_;
+  SequenceOptions options_;
+  std::vector<Entry> entries_;
+  RecognizedLayout layout_;
+  fg::Extent extent_;
+};
+
+}  // namespace walr

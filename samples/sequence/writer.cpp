@@ -1,0 +1,50 @@
+#include "samples/sequence/writer.h"
+
+#include <iomanip>
+#include <sstream>
+#include <vector>
+
+#include "samples/image/exr.h"
+#include "samples/sequence/cameras.h"
+
+namespace walr {
+
+std::string frameFileName(const std::string& prefix, int number, const std::string& extension) {
+  std::ostringstream name;
+  name << prefix << '_' << std::setw(4) << std::setfill('0') << number << '.' << extension;
+  return name.str();
+}
+
+void writeFrame(const std::filesystem::path& directory, const Frame& frame) {
+  std::vector<ExrChannel> channels;
+  appendChannels(channels, "Indirect", "RGB", frame.indirect);
+  if (!frame.direct.empty()) {
+    appendChannels(channels, "Direct", "RGB", frame.direct);
+  }
+  appendChannels(channels, "Albedo", "RGB", frame.albedo);
+  appendChannels(channels, "Normal", "XYZ", frame.normal);
+  appendChannels(channels, "Depth", "Z", frame.depth, ExrType::Float);
+  appendChannels(channels, "Motion", "XYZ", frame.motion);
+  if (!frame.emission.empty()) {
+    appendChannels(channels, "Emission", "RGB", frame.emission);
+  }
+  const std::vector<ExrAttribute> attributes = {
+      {kViewAttribute, frame.camera.view},
+      {kPreviousViewAttribute, frame.camera.previousView},
+      {kProjectionAttribute, frame.camera.projection},
+      {kJitterAttribute, frame.camera.jitter},
+      {kCutAttribute, frame.camera.cut ? 1 : 0},
+  };
+  writeExr(directory / frameFileName("noisy", frame.number, "exr"), channels, attributes);
+}
+
+void writeReference(const std::filesystem::path& directory, int number, const Reference& reference) {
+  std::vector<ExrChannel> channels;
+  appendChannels(channels, "Indirect", "RGB", reference.indirect);
+  if (!reference.direct.empty()) {
+    appendChannels(channels, "Direct", "RGB", reference.direct);
+  }
+  writeExr(directory / frameFileName("ref", number, "exr"), channels);
+}
+
+}  // namespace walr

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "samples/sequence/frame.h"
+
+namespace walr {
+
+/// File name of one frame: `prefix`_FFFF.`extension`, with at least four digits.
+std::string frameFileName(const std::string& prefix, int number, const std::string& extension);
+
+/// Write `noisy_FFFF.exr` in the project's own layout (samples/README.md), whole or not at all. The frame must be in
+/// the project's conventions: normals in view space, motion in pixels with y down and its z, depth `kBackgroundDepth`
+/// on sky. Empty direct light and emission are left out; `reference` and `nonFinite` are not written.
+/// @throws OutputError
+void writeFrame(const std::filesystem::path& directory, const Frame& frame);
+
+/// Write `ref_FFFF.exr`. Empty direct light is left out.
+/// @throws OutputError
+void writeReference(const std::filesystem::path& directory, int number, const Reference& reference);
+
+}  // namespace walr

@@ -1,0 +1,165 @@
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+
+#include <gtest/gtest.h>
+#include <png.h>
+
+#include "samples/errors.h"
+#include "samples/image/exr.h"
+#include "samples/image/file_output.h"
+#include "samples/image/png.h"
+#include "samples/image/tone_map.h"
+#include "tests/samples/synthetic_sequence.h"
+#include "tests/samples/temporary_directory.h"
+
+namespace walr {
+namespace {
+
+using test::TemporaryDirectory;
+
+Image ramp(int width, int height, int components) {
+  Image image(width, height, components);
+  float value = 0.0F;
+  for (float& v : image.values()) {
+    v = value;
+    value += 0.25F;
+  }
+  return image;
+}
+
+std::size_t filesIn(const std::filesystem::path& folder) {
+  return static_cast<std::size_t>(
+      std::distance(std::filesystem::directory_iterator(folder), std::filesystem::directory_iterator()));
+}
+
+TEST(Exr, KeepsValuesTypesAndAttributes) {
+  const TemporaryDirectory directory;
+  const auto file = directory.path() / "a.exr";
+  const Image image = ramp(5, 3, 3);
+  std::vector<ExrChannel> channels;
+  appendChannels(channels, "Some", "XYZ", image, ExrType::Float);
+  appendChannels(channels, "Half", "R", image);
+  glm::mat4 matrix(1.0F);
+  matrix[3][1] = 7.0F;
+  writeExr(file, channels,
+           std::vector<ExrAttribute>{{"m", matrix}, {"v", glm::vec2(0.25F, -0.5F)}, {"i", 3}, {"s", "text"}});
+
+  ExrReader reader(file);
+  EXPECT_EQ(reader.width(), 5);
+  EXPECT_EQ(reader.height(), 3);
+  EXPECT_EQ(reader.channels(), (std::vector<std::string>{"Half.R", "Some.X", "Some.Y", "Some.Z"}));
+  EXPECT_EQ(reader.matrix("m"), matrix);
+  EXPECT_EQ(reader.vector("v"), glm::vec2(0.25F, -0.5F));
+  EXPECT_EQ(reader.integer("i"), 3);
+  EXPECT_FALSE(reader.matrix("v").has_value());
+  Image read(5, 3, 2);
+  reader.read(std::vector<ExrReader::Target>{{"Some.Y", &read, 0}, {"Half.R", &read, 1}});
+  for (std::size_t i = 0; i < read.pixelCount(); ++i) {
+    EXPECT_EQ(read.pixel(i)[0], image.pixel(i)[1]);
+    EXPECT_EQ(read.pixel(i)[1], image.pixel(i)[0]);
+  }
+}
+
+TEST(Exr, HalfFloatsOutOfRangeSaturateAndNonFiniteOnesStay) {
+  const TemporaryDirectory directory;
+  Image image(3, 1, 1);
+  image.at(0, 0, 0) = 1e6F;
+  image.at(1, 0, 0) = -1e6F;
+  image.at(2, 0, 0) = std::numeric_limits<float>::quiet_NaN();
+  writeExr(directory.path() / "a.exr", std::vector<ExrChannel>{{"Y", &image, 0, ExrType::Half}});
+  ExrReader reader(directory.path() / "a.exr");
+  reader.read(std::vector<ExrReader::Target>{{"Y", &image, 0}});
+  EXPECT_EQ(image.at(0, 0, 0), 65504.0F);
+  EXPECT_EQ(image.at(1, 0, 0), -65504.0F);
+  EXPECT_TRUE(std::isnan(image.at(2, 0, 0)));
+}
+
+TEST(Exr, TruncatedAtAnyLengthIsAnInputErrorThatNamesTheFile) {
+  const TemporaryDirectory directory;
+  const auto file = directory.path() / "cut.exr";
+  const Image image = ramp(40, 40, 1);
+  writeExr(file, std::vector<ExrChannel>{{"Y", &image, 0, ExrType::Float}});
+  const std::string whole = test::readText(file);
+  for (std::size_t length = 0; length < whole.size(); length += 1 + whole.size() / 40) {
+    std::ofstream(file, std::ios::binary) << whole.substr(0, length);
+    try {
+      ExrReader reader(file);
+      Image read(reader.width(), reader.height(), 1);
+      reader.read(std::vector<ExrReader::Target>{{"Y", &read, 0}});
+      FAIL() << "read " << length << " of " << whole.size() << " bytes";
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("cut.exr"), std::string::npos) << error.what();
+    }
+  }
+}
+
+TEST(FileOutput, AFailedWriteLeavesTheOldFileAndNoOther) {
+  const TemporaryDirectory directory;
+  const auto file = directory.path() / "a";
+  test::writeText(file, "old");
+  std::filesystem::create_directory(directory.path() / "taken");
+  const std::string text = "new";
+  // A directory cannot be replaced by a file, so that the last step fails.
+  EXPECT_THROW(writeFileAtomically(directory.path() / "taken", std::as_bytes(std::span(text))), OutputError);
+  EXPECT_EQ(filesIn(directory.path()), 2U);
+  writeFileAtomically(file, std::as_bytes(std::span(text)));
+  EXPECT_EQ(test::readText(file), "new");
+  EXPECT_EQ(filesIn(directory.path()), 2U);
+}
+
+TEST(FileOutput, AnOutputDirectoryThatCannotBeMadeIsNamed) {
+  const TemporaryDirectory directory;
+  test::writeText(directory.path() / "file", "");
+  for (const auto& path : {directory.path() / "file", directory.path() / "file" / "below"}) {
+    try {
+      prepareOutputDirectory(path);
+      FAIL();
+    } catch (const OutputError& error) {
+      EXPECT_NE(std::string(error.what()).find(path.string()), std::string::npos) << error.what();
+    }
+  }
+}
+
+TEST(FileOutput, PreparingADirectoryLeavesItEmpty) {
+  const TemporaryDirectory directory;
+  prepareOutputDirectory(directory.path() / "a" / "b");
+  EXPECT_EQ(filesIn(directory.path() / "a" / "b"), 0U);
+}
+
+TEST(ToneMap, FollowsReinhardAndSrgb) {
+  EXPECT_EQ(toneMap(0.0F), 0.0F);
+  EXPECT_EQ(toneMap(1.0F), 0.5F);
+  EXPECT_EQ(toneMap(-3.0F), 0.0F);
+  EXPECT_EQ(toneMap(std::numeric_limits<float>::infinity()), 1.0F);
+  EXPECT_EQ(encodeSrgb(0.0F), 0.0F);
+  EXPECT_NEAR(encodeSrgb(1.0F), 1.0F, 1e-6F);
+  // 0.5 is code value 188 of 255 in every table of the sRGB curve.
+  EXPECT_EQ(std::lround(255.0F * encodeSrgb(0.5F)), 188);
+}
+
+TEST(Png, ShowsPicturesSideBySideToneMapped) {
+  const TemporaryDirectory directory;
+  const auto file = directory.path() / "a.png";
+  Image left(2, 1, 3);
+  Image right(2, 1, 3);
+  left.at(0, 0, 0) = 1.0F;
+  right.at(1, 0, 2) = 1e30F;
+  right.at(0, 0, 1) = std::numeric_limits<float>::quiet_NaN();
+  const std::array<const Image*, 2> pictures = {&left, &right};
+  writePng(file, pictures);
+
+  png_image image{};
+  image.version = PNG_IMAGE_VERSION;
+  ASSERT_NE(png_image_begin_read_from_file(&image, file.c_str()), 0);
+  EXPECT_EQ(image.width, 4U);
+  EXPECT_EQ(image.height, 1U);
+  image.format = PNG_FORMAT_RGB;
+  std::vector<std::uint8_t> bytes(PNG_IMAGE_SIZE(image));
+  ASSERT_NE(png_image_finish_read(&image, nullptr, bytes.data(), 0, nullptr), 0);
+  EXPECT_EQ(bytes, (std::vector<std::uint8_t>{188, 0, 0, 0, 0, 0, 255, 0, 255, 0, 0, 255}));
+}
+
+}  // namespace
+}  // namespace walr

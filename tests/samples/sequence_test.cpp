@@ -1,0 +1,308 @@
+#include "samples/sequence/sequence.h"
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "samples/errors.h"
+#include "samples/sequence/writer.h"
+#include "tests/samples/synthetic_sequence.h"
+#include "tests/samples/temporary_directory.h"
+
+namespace walr {
+namespace {
+
+using test::Channels;
+using test::SyntheticSequence;
+
+/// Expects an InputError whose message holds all the given parts.
+template <typename Action>
+void expectInputError(Action action, std::initializer_list<const char*> parts) {
+  try {
+    action();
+    ADD_FAILURE() << "no error";
+  } catch (const InputError& error) {
+    for (const char* part : parts) {
+      EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << "'" << part << "' in: " << error.what();
+    }
+  }
+}
+
+class SequenceTest : public testing::Test {
+ protected:
+  [[nodiscard]] Sequence open(SequenceOptions options = {}) const { return {files.folder(), std::move(options)}; }
+  void expectRefused(std::initializer_list<const char*> parts, const SequenceOptions& options = {}) const {
+    expectInputError([&] { static_cast<void>(open(options)); }, parts);
+  }
+  void editCameras(const std::function<void(nlohmann::json&)>& edit) const {
+    const auto path = files.folder() / "cameras.json";
+    auto document = nlohmann::json::parse(test::readText(path));
+    edit(document["frames"]);
+    test::writeText(path, document.dump());
+  }
+
+  test::TemporaryDirectory directory;
+  SyntheticSequence files{directory.path(), 6, 4};
+};
+
+TEST_F(SequenceTest, ReadsBlenderFramesAsTheyAre) {
+  files.write(3, 5);
+  const Sequence sequence = open();
+  EXPECT_EQ(sequence.layout().layout, &cyclesLayout());
+  EXPECT_EQ(sequence.extent(), (fg::Extent{6, 4}));
+  ASSERT_EQ(sequence.entries().size(), 3U);
+  EXPECT_TRUE(sequence.hasReferences());
+  const Frame frame = sequence.read(1);
+  EXPECT_EQ(frame.number, 4);
+  EXPECT_EQ(frame.normal.at(2, 2, 2), 1.0F);
+  EXPECT_EQ(frame.depth.at(2, 0, 0), kBackgroundDepth);
+  EXPECT_EQ(frame.albedo.at(2, 2, 1), 0.8F);
+  EXPECT_EQ(frame.motion.components(), 3);
+  EXPECT_EQ(frame.reference->indirect.at(2, 2, 0), 0.5F);
+  EXPECT_TRUE(frame.direct.empty());
+  EXPECT_FALSE(frame.resetHistory);
+  EXPECT_TRUE(sequence.read(0).resetHistory);
+}
+
+TEST_F(SequenceTest, TakesAViewLayerPrefix) {
+  files.write(0, 0);
+  const auto prefixed = [](const std::string& prefix) {
+    return [prefix](Channels& channels) {
+      Channels renamed;
+      for (auto& [name, image] : channels) {
+        renamed[prefix + name] = image;
+      }
+      channels = std::move(renamed);
+    };
+  };
+  files.writeFrame(0, prefixed("View Layer.001."));
+  files.writeReference(0, prefixed("View Layer.001."));
+  const Sequence sequence = open();
+  EXPECT_EQ(sequence.layout().viewLayer, "View Layer.001");
+  EXPECT_EQ(sequence.read(0).albedo.at(2, 2, 1), 0.8F);
+}
+
+TEST_F(SequenceTest, SeveralViewLayersNeedAChoice) {
+  files.write(0, 0);
+  files.writeFrame(0, [](Channels& channels) {
+    for (const auto& [name, image] : Channels(channels)) {
+      channels["Second." + name] = image;
+      channels["First." + name] = image;
+      channels.erase(name);
+    }
+  });
+  std::filesystem::remove(directory.path() / "ref_0000.exr");
+  expectRefused({"First, Second", "--view-layer"});
+  SequenceOptions options;
+  options.viewLayer = "Second";
+  EXPECT_EQ(open(options).layout().viewLayer, "Second");
+  options.viewLayer = "Third";
+  expectRefused({"Third", "First, Second"}, options);
+}
+
+TEST_F(SequenceTest, TheProjectsOwnLayoutRoundTrips) {
+  Frame written = test::projectFrame(7, 6, 4);
+  written.camera.view[3][0] = 0.5F;
+  written.camera.previousView[3][0] = 0.25F;
+  written.camera.jitter = {0.125F, -0.375F};
+  written.motion.at(1, 2, 2) = -0.5F;
+  writeFrame(directory.path(), written);
+  Reference reference{Image(6, 4, 3), {}};
+  reference.indirect.at(5, 3, 2) = 2.0F;
+  writeReference(directory.path(), 7, reference);
+
+  SequenceOptions options;
+  options.composite = true;
+  const Sequence sequence = open(options);
+  EXPECT_EQ(sequence.layout().layout, &projectLayout());
+  const Frame read = sequence.read(0);
+  EXPECT_EQ(read.camera.view, written.camera.view);
+  EXPECT_EQ(read.camera.previousView, written.camera.previousView);
+  EXPECT_EQ(read.camera.projection, written.camera.projection);
+  EXPECT_EQ(read.camera.jitter, written.camera.jitter);
+  EXPECT_EQ(read.motion.at(1, 2, 2), -0.5F);
+  EXPECT_EQ(read.emission.at(0, 0, 0), 2.0F);
+  EXPECT_TRUE(std::ranges::equal(read.indirect.values(), written.indirect.values()));
+  EXPECT_TRUE(std::ranges::equal(read.depth.values(), written.depth.values()));
+  EXPECT_EQ(read.reference->indirect.at(5, 3, 2), 2.0F);
+}
+
+TEST_F(SequenceTest, EveryMissingChannelIsNamedWithItsFile) {
+  files.write(0, 1);
+  for (const char* channel : {"DiffInd.G", "DiffCol.B", "Normal.X", "Depth.Z", "Vector.Y"}) {
+    files.writeFrame(1, [&](Channels& channels) { channels.erase(channel); });
+    expectRefused({"noisy_0001.exr", channel});
+  }
+}
+
+TEST_F(SequenceTest, CompositeChannelsAreNeededForACompositeOnly) {
+  files.write(0, 0);
+  files.writeFrame(0, [](Channels& channels) {
+    channels.erase("DiffDir.R");
+    channels.erase("Emit.B");
+  });
+  EXPECT_NO_THROW(open());
+  SequenceOptions options;
+  options.composite = true;
+  expectRefused({"DiffDir.R, Emit.B", "--composite"}, options);
+}
+
+TEST_F(SequenceTest, AReferenceWithoutLightIsNamed) {
+  files.write(0, 0);
+  files.writeReference(0, [](Channels& channels) { channels.erase("DiffInd.R"); });
+  expectRefused({"ref_0000.exr", "DiffInd.R"});
+}
+
+TEST_F(SequenceTest, UnknownChannelsAreListed) {
+  files.writeCameras(0, 0);
+  test::writeChannels(files.frameFile(0), {{"Combined.R", Image(2, 2, 1)}});
+  expectRefused({"noisy_0000.exr", "Combined.R", "DiffInd.R", "Indirect.R"});
+}
+
+TEST_F(SequenceTest, SizesMustAgree) {
+  files.write(0, 2);
+  SyntheticSequence(directory.path(), 5, 4).writeFrame(2);
+  expectRefused({"noisy_0002.exr", "5 x 4", "6 x 4"});
+  files.writeFrame(2);
+  SyntheticSequence(directory.path(), 6, 3).writeReference(1);
+  expectRefused({"ref_0001.exr", "6 x 3", "6 x 4"});
+}
+
+TEST_F(SequenceTest, AGapIsNamedAndARangeAvoidsIt) {
+  files.write(0, 4);
+  std::filesystem::remove(files.frameFile(2));
+  expectRefused({"frame 2 is missing", "--frames"});
+  SequenceOptions options;
+  options.frames = FrameRange{3, 4};
+  EXPECT_EQ(open(options).entries().size(), 2U);
+  options.frames = FrameRange{3, 9};
+  expectRefused({"frame 5 is missing", "0 to 4"}, options);
+}
+
+TEST_F(SequenceTest, TwoFilesOfOneFrameAreRefused) {
+  files.write(0, 0);
+  std::filesystem::copy(files.frameFile(0), directory.path() / "other_00.exr");
+  expectRefused({"frame 0 is there twice", "noisy_0000.exr", "other_00.exr"});
+}
+
+TEST_F(SequenceTest, AnEmptyOrMissingFolderIsRefused) {
+  expectRefused({directory.path().c_str(), "no frames"});
+  expectInputError([&] { Sequence(directory.path() / "nowhere", {}); }, {"nowhere", "not a folder"});
+}
+
+TEST_F(SequenceTest, MissingCamerasAreNamed) {
+  files.write(0, 2);
+  files.writeCameras(0, 1);
+  expectRefused({"cameras.json", "frame 2", "noisy_0002.exr"});
+  std::filesystem::remove(directory.path() / "cameras.json");
+  expectRefused({"cameras.json", "prev_view"});
+}
+
+TEST_F(SequenceTest, BadCameraFilesAreNamed) {
+  files.write(0, 1);
+  const auto expectBad = [&](const std::function<void(nlohmann::json&)>& edit,
+                             std::initializer_list<const char*> parts) {
+    files.writeCameras(0, 1);
+    editCameras(edit);
+    expectRefused(parts);
+  };
+  expectBad([](auto& frames) { frames[1].erase("prev_view"); }, {"cameras.json", "frame 1", "prev_view"});
+  expectBad([](auto& frames) { frames[1]["view"].erase(3); }, {"frame 1", "view", "16"});
+  expectBad([](auto& frames) { frames[1]["view"][3] = "x"; }, {"frame 1", "view", "16"});
+  expectBad([](auto& frames) { frames[1]["projection"][3] = 1e300; }, {"frame 1", "projection", "not finite"});
+  expectBad([](auto& frames) { frames[1]["frame"] = 0; }, {"frame 0", "twice"});
+  expectBad([](auto& frames) { frames[1].erase("frame"); }, {"frame"});
+  expectBad([](auto& frames) { frames = 3; }, {"frames"});
+  test::writeText(directory.path() / "cameras.json", "{\"frames\": [");
+  expectRefused({"cameras.json", "JSON"});
+}
+
+TEST_F(SequenceTest, AMissingCameraAttributeIsNamed) {
+  const Frame frame = test::projectFrame(0, 6, 4);
+  Channels channels;
+  for (const char* name : {"Indirect.R", "Indirect.G", "Indirect.B", "Albedo.R", "Albedo.G", "Albedo.B", "Normal.X",
+                           "Normal.Y", "Normal.Z", "Depth.Z", "Motion.X", "Motion.Y", "Motion.Z"}) {
+    channels[name] = frame.depth;
+  }
+  test::writeChannels(files.frameFile(0), channels);
+  expectRefused({"noisy_0000.exr", "worldToCamera"});
+}
+
+TEST_F(SequenceTest, ACutIsToldByTheCamerasTheirFlagOrTheCaller) {
+  files.write(0, 4);
+  editCameras([](nlohmann::json& frames) {
+    frames[1]["prev_view"][12] = 1e-7;  // Rounding.
+    frames[2]["prev_view"][12] = 0.01;  // Another place than frame 1 was seen from.
+    frames[3]["cut"] = true;
+  });
+  SequenceOptions options;
+  options.cuts = {4};
+  const Sequence sequence = open(options);
+  std::vector<bool> cuts;
+  for (const Sequence::Entry& entry : sequence.entries()) {
+    cuts.push_back(entry.camera.cut);
+  }
+  EXPECT_EQ(cuts, (std::vector<bool>{false, false, true, true, true}));
+  options.cuts = {9};
+  expectRefused({"--cut 9", "0 to 4"}, options);
+}
+
+TEST_F(SequenceTest, JitterAndProjectionOfTheFrameBeforeAreKept) {
+  files.write(0, 1);
+  editCameras([](nlohmann::json& frames) {
+    frames[0]["jitter"] = {0.25, -0.5};
+    frames[0]["projection"][0] = 2.0;
+  });
+  const Frame frame = open().read(1);
+  EXPECT_EQ(frame.previousJitter, glm::vec2(0.25F, -0.5F));
+  EXPECT_EQ(frame.camera.jitter, glm::vec2(0.0F));
+  EXPECT_EQ(frame.previousProjection[0][0], 2.0F);
+}
+
+class NonFiniteTest : public SequenceTest, public testing::WithParamInterface<const char*> {};
+
+TEST_P(NonFiniteTest, IsRefusedWithPlaceAndCountOrTakenWhenAsked) {
+  files.write(0, 0);
+  files.writeFrame(0, [](Channels& channels) {
+    channels.at(GetParam()).at(4, 1, 0) = std::numeric_limits<float>::quiet_NaN();
+    channels.at(GetParam()).at(2, 3, 0) = -std::numeric_limits<float>::infinity();
+  });
+  SequenceOptions options;
+  options.composite = true;
+  expectInputError([&] { static_cast<void>(open(options).read(0)); },
+                   {"noisy_0000.exr", GetParam(), "2 value(s)", "(4, 1)", "--non-finite replace"});
+  options.nonFinite = NonFinitePolicy::Replace;
+  const Frame frame = open(options).read(0);
+  ASSERT_EQ(frame.nonFinite.size(), 1U);
+  EXPECT_EQ(frame.nonFinite[0].channel, GetParam());
+}
+
+INSTANTIATE_TEST_SUITE_P(EveryChannel, NonFiniteTest,
+                         testing::Values("DiffInd.R", "DiffInd.G", "DiffInd.B", "DiffDir.R", "DiffDir.G", "DiffDir.B",
+                                         "DiffCol.R", "DiffCol.G", "DiffCol.B", "Normal.X", "Normal.Y", "Normal.Z",
+                                         "Depth.Z", "Vector.X", "Vector.Y", "Emit.R", "Emit.G", "Emit.B"));
+
+TEST(DevelopmentSequences, AreRecognisedAndRead) {
+  const std::filesystem::path root = WALR_SEQUENCES;
+  if (!std::filesystem::is_directory(root)) {
+    GTEST_SKIP() << root << " is not there";
+  }
+  for (const char* name : {"sponza", "cornell_fence"}) {
+    const Sequence sequence(root / name, {});
+    EXPECT_EQ(sequence.layout().layout, &cyclesLayout());
+    EXPECT_EQ(sequence.extent(), (fg::Extent{384, 216}));
+    EXPECT_TRUE(sequence.hasReferences());
+    for (const Sequence::Entry& entry : sequence.entries()) {
+      EXPECT_FALSE(entry.camera.cut) << entry.number;
+    }
+    EXPECT_TRUE(sequence.read(sequence.entries().size() - 1).nonFinite.empty());
+  }
+}
+
+}  // namespace
+}  // namespace walr
