@@ -23,23 +23,11 @@ layout(push_constant) uniform PushConstants { TemporalAccumulationConstants sett
 
 // Mean and length of the history behind pixel `p`; length 0 where there is none.
 vec4 sampleHistory(ivec2 p, float z, vec3 normal) {
-  const Reprojection r = reproject(p, z, normal);
-  if (!r.valid) return vec4(0.0);
-  const vec2 base = floor(r.pixel - 0.5);
-  const vec2 f = r.pixel - 0.5 - base;
-  vec4 sum = vec4(0.0);
-  float weightSum = 0.0;
-  for (int i = 0; i < 4; ++i) {
-    const ivec2 offset = ivec2(i & 1, i >> 1);
-    const ivec2 q = ivec2(base) + offset;
-    const float weight = (offset.x == 1 ? f.x : 1.0 - f.x) * (offset.y == 1 ? f.y : 1.0 - f.y);
-    if (weight > 0.0 && historyMatches(r, q, settings.planeTolerance, settings.normalThreshold)) {
-      sum += weight * texelFetch(previousAccumulated, q, 0);
-      weightSum += weight;
-    }
-  }
-  // Below a hundredth of a pixel the remaining taps say next to nothing about this position.
-  return weightSum > 0.01 ? sum / weightSum : vec4(0.0);
+  const HistoryTaps taps = historyTaps(reproject(p, z, normal), settings.planeTolerance, settings.normalThreshold);
+  vec4 mean = vec4(0.0);
+  for (int i = 0; i < 4; ++i)
+    if (taps.weights[i] > 0.0) mean += taps.weights[i] * texelFetch(previousAccumulated, historyTap(taps, i), 0);
+  return mean;
 }
 
 void main() {

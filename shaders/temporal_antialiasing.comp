@@ -40,35 +40,20 @@ struct HistorySample {
 
 // Bicubic where all four inner pixels show the surface, else the mean of those that do.
 HistorySample sampleHistory(ivec2 p, float z, vec3 normal) {
-  const Reprojection r = reproject(p, z, normal);
-  if (!r.valid) return HistorySample(vec3(0.0), 0.0);
-  const ivec2 base = ivec2(floor(r.pixel - 0.5));
-  const vec2 f = r.pixel - 0.5 - vec2(base);
-  vec4 sum = vec4(0.0);
-  float weightSum = 0.0;
-  bool all4 = true;
-  for (int i = 0; i < 4; ++i) {
-    const ivec2 offset = ivec2(i & 1, i >> 1);
-    const float weight = (offset.x == 1 ? f.x : 1.0 - f.x) * (offset.y == 1 ? f.y : 1.0 - f.y);
-    if (historyMatches(r, base + offset, settings.planeTolerance, settings.normalThreshold)) {
-      sum += weight * texelFetch(previousResolved, base + offset, 0);
-      weightSum += weight;
-    } else {
-      all4 = false;
-    }
-  }
-  if (weightSum <= 0.01) return HistorySample(vec3(0.0), 0.0);
-  HistorySample history = HistorySample(sum.rgb / weightSum, sum.a / weightSum);
-  if (all4) {
-    const vec4 wx = catmullRom(f.x), wy = catmullRom(f.y);
-    const ivec2 last = textureSize(previousResolved, 0) - 1;
-    vec3 cubic = vec3(0.0);
-    for (int j = 0; j < 4; ++j)
-      for (int i = 0; i < 4; ++i)
-        cubic += wx[i] * wy[j] * texelFetch(previousResolved, clamp(base + ivec2(i, j) - 1, ivec2(0), last), 0).rgb;
-    history.colour = max(cubic, vec3(0.0));
-  }
-  return history;
+  const HistoryTaps taps = historyTaps(reproject(p, z, normal), settings.planeTolerance, settings.normalThreshold);
+  if (!taps.any) return HistorySample(vec3(0.0), 0.0);
+  vec4 linear = vec4(0.0);
+  for (int i = 0; i < 4; ++i)
+    if (taps.weights[i] > 0.0) linear += taps.weights[i] * texelFetch(previousResolved, historyTap(taps, i), 0);
+  if (!taps.all) return HistorySample(linear.rgb, linear.a);
+
+  const vec4 wx = catmullRom(taps.fraction.x), wy = catmullRom(taps.fraction.y);
+  const ivec2 last = textureSize(previousResolved, 0) - 1;
+  vec3 cubic = vec3(0.0);
+  for (int j = 0; j < 4; ++j)
+    for (int i = 0; i < 4; ++i)
+      cubic += wx[i] * wy[j] * texelFetch(previousResolved, clamp(taps.base + ivec2(i, j) - 1, ivec2(0), last), 0).rgb;
+  return HistorySample(max(cubic, vec3(0.0)), linear.a);
 }
 
 // Pull `colour` towards the mean until it is inside the box of `gamma` standard deviations (Salvi 2016).

@@ -2,19 +2,8 @@
 // Needs: `frame` (FrameConstants), `depth` (utexture2D), `normals` (utexture2D), `settings` (AtrousConstants).
 #ifndef WALR_EDGE_TRACING_GLSL
 #define WALR_EDGE_TRACING_GLSL
-#include "camera.glsl"
+#include "plane.glsl"
 #include "surface.glsl"
-
-// The tangent plane at the filtered pixel; distances from it are taken in units of the pixel's depth.
-struct Plane {
-  vec3 normal;
-  float offset;        // dot(normal, ray of the pixel).
-  float inverseDepth;
-};
-
-Plane planeAt(ivec2 p, float z, vec3 normal) {
-  return Plane(normal, dot(normal, rayThrough(frame.rayFromPixel, pixelCentre(p))), 1.0 / z);
-}
 
 // Edge-stopping function: 1 near the plane, 0 away from it, outside the image and where there is no surface.
 float edgeWeight(Plane plane, ivec2 q, out uint sdf) {
@@ -24,9 +13,7 @@ float edgeWeight(Plane plane, ivec2 q, out uint sdf) {
   sdf = unpackSdf(packed);
   const float z = unpackDepth(packed);
   if (z == 0.0) return 0.0;
-  const vec3 ray = rayThrough(frame.rayFromPixel, pixelCentre(q));
-  const float planeDistance = abs(z * plane.inverseDepth * dot(plane.normal, ray) - plane.offset);
-  return clamp((settings.planeFar - planeDistance) / (settings.planeFar - settings.planeNear), 0.0, 1.0);
+  return clamp((settings.planeFar - planeDistance(plane, q, z)) / (settings.planeFar - settings.planeNear), 0.0, 1.0);
 }
 
 struct Trace {

@@ -3,6 +3,7 @@
 // vary.
 #ifndef WALR_MOMENTS_GLSL
 #define WALR_MOMENTS_GLSL
+#include "luminance.glsl"
 
 struct Moments {
   vec2 x;          // Mean of the features u, v.
@@ -12,8 +13,6 @@ struct Moments {
   float luma2;     // Mean of the squared luminance.
   float samples;   // W: sum of the sample weights.
 };
-
-float luminance(vec3 c) { return dot(c, vec3(0.2126, 0.7152, 0.0722)); }
 
 // One sample: no spread yet.
 Moments momentsOf(vec2 features, vec3 colour) {
