@@ -227,9 +227,10 @@ class PassBuilder {
   /// Have the executor write the age of `history` (frames; 0 while `previous` is not valid) at a byte offset of the
   /// push constants.
   PassBuilder& historyAge(const History& history, std::uint32_t offset);
-  /// Set a specialization constant by its name in the shader. Bools are 0 or 1, floats their bit pattern.
+  /// Set a specialization constant by its name in the shader.
   PassBuilder& specialize(std::string_view constant, std::uint32_t value);
   PassBuilder& specialize(std::string_view constant, float value);
+  PassBuilder& specialize(std::string_view constant, bool value);
   /// Work groups enough to cover `threads` with the shader's work group size.
   PassBuilder& dispatch(Extent threads, std::uint32_t layers = 1);
   /// Take the work group counts from a buffer.

@@ -15,7 +15,7 @@ Guides addPrepareGuides(fg::Graph& graph, const DenoiserInputs& inputs, const Pr
       .sample("depth", inputs.depth)
       .sample("normal", inputs.normal)
       .sample("albedo", inputs.albedo)
-      .specialize("kNormalsInWorldSpace", inputs.conventions.normal == InputConventions::Space::World ? 1U : 0U)
+      .specialize("kNormalsInWorldSpace", inputs.conventions.normal == InputConventions::Space::World)
       .constants(PrepareGuidesConstants{settings.albedoThreshold, settings.normalAgreement})
       .dispatch(extent);
   Guides guides;

@@ -10,7 +10,7 @@ void readReprojection(fg::PassBuilder& pass, const DenoiserInputs& inputs, const
       .sample("normals", guides.normals)
       .sample("previousDepth", guides.previousDepth)
       .sample("previousNormals", guides.previousNormals)
-      .specialize("kMotionDepthGiven", motionDepthGiven ? 1U : 0U);
+      .specialize("kMotionDepthGiven", motionDepthGiven);
 }
 
 }  // namespace walr

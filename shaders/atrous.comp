@@ -14,7 +14,15 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 0) const uint kIteration = 0;
 layout(constant_id = 1) const int kSpacing = 1;        // 3^t pixels.
-layout(constant_id = 2) const bool kReplaceTaps = true;
+layout(constant_id = 2) const bool kTraceEdges = true;
+layout(constant_id = 3) const bool kReplaceTaps = true;
+layout(constant_id = 4) const bool kShadingPlane = false;    // The plane's normal is the shading normal.
+layout(constant_id = 5) const bool kNormalFactor = true;     // Weights fall with the cosine between geometric normals.
+#ifdef LAST
+layout(constant_id = 6) const bool kPivotFloor = false;      // Floor the pivots instead of adding a ridge.
+#else
+layout(constant_id = 6) const bool kKeepSampleCount = true;  // W goes from iteration to iteration.
+#endif
 
 layout(set = 0, binding = 0, std140) uniform frameConstants { FrameConstants frame; };
 layout(set = 0, binding = 1) uniform utexture2D depth;
@@ -22,16 +30,10 @@ layout(set = 0, binding = 2) uniform utexture2D normals;
 #if defined(FIRST) || defined(LAST)
 layout(set = 0, binding = 3) uniform texture2D accumulated;
 #endif
-#ifndef FIRST
-layout(set = 0, binding = 4) uniform utexture2D momentsA;
-layout(set = 0, binding = 5) uniform utexture2D momentsB;
-#endif
 #ifdef LAST
-layout(set = 0, binding = 6, rgba16f) uniform writeonly image2D outFiltered;
+layout(set = 0, binding = 12, rgba16f) uniform writeonly image2D outFiltered;
 #else
-layout(set = 0, binding = 6, rgba32ui) uniform writeonly uimage2D outMomentsA;
-layout(set = 0, binding = 7, rgba32ui) uniform writeonly uimage2D outMomentsB;
-layout(set = 0, binding = 8, r32ui) uniform writeonly uimage2D outDepth;
+layout(set = 0, binding = 12, r32ui) uniform writeonly uimage2D outDepth;
 #endif
 layout(push_constant) uniform PushConstants { AtrousConstants settings; };
 
@@ -41,7 +43,7 @@ Moments readMoments(ivec2 q, uvec2 guide) {
 #ifdef FIRST
   return momentsOf(unpackFeatures(guide), texelFetch(accumulated, q, 0).rgb);
 #else
-  return unpackMoments(PackedMoments(texelFetch(momentsA, q, 0), texelFetch(momentsB, q, 0)));
+  return loadMoments(q);
 #endif
 }
 
@@ -49,20 +51,19 @@ void writeWithoutSurface(ivec2 p) {
 #ifdef LAST
   imageStore(outFiltered, p, vec4(texelFetch(accumulated, p, 0).rgb, 0.0));
 #else
-  imageStore(outMomentsA, p, uvec4(0u));
-  imageStore(outMomentsB, p, uvec4(0u));
+  storeNoMoments(p);
   imageStore(outDepth, p, uvec4(0u));
 #endif
 }
 
 void writeResult(ivec2 p, float z, int nearestEdge, Moments m, vec2 features) {
 #ifdef LAST
-  const vec3 colour = reconstruct(m, features, settings.ridge, settings.noiseRidge);
+  const vec3 colour = kPivotFloor ? reconstructWithFloor(m, features, settings.ridge)
+                                  : reconstructWithRidge(m, features, settings.ridge, settings.noiseRidge);
   imageStore(outFiltered, p, vec4(min(colour, vec3(kLargestHalf)), 0.0));
 #else
-  const PackedMoments packed = packMoments(m);
-  imageStore(outMomentsA, p, packed.a);
-  imageStore(outMomentsB, p, packed.b);
+  if (!kKeepSampleCount) m.samples = 1.0;
+  storeMoments(p, m);
   imageStore(outDepth, p, uvec4(packDepthSdf(z, uint(nearestEdge))));
 #endif
 }
@@ -79,7 +80,7 @@ void main() {
   }
   const uvec2 guide = texelFetch(normals, p, 0).xy;
   const vec3 normal = unpackGeometricNormal(guide);
-  const Plane plane = planeAt(p, z, normal);
+  const Plane plane = planeAt(p, z, kShadingPlane ? octahedralDecode(unpackFeatures(guide)) : normal);
   const uint sdf = unpackSdf(packedDepth);
 
   const Moments centre = readMoments(p, guide);
@@ -104,7 +105,8 @@ void main() {
     }
     const ivec2 q = p + reach * direction;
     const uvec2 tapGuide = texelFetch(normals, q, 0).xy;
-    const float weight = trace.weight * clamp(dot(normal, unpackGeometricNormal(tapGuide)), 0.0, 1.0);
+    float weight = trace.weight;
+    if (kNormalFactor) weight *= clamp(dot(normal, unpackGeometricNormal(tapGuide)), 0.0, 1.0);
     if (weight > 0.0) add(sum, weight, readMoments(q, tapGuide));
   }
   writeResult(p, z, nearestEdge, finish(sum), unpackFeatures(guide));

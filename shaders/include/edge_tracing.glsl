@@ -1,5 +1,5 @@
 // Edge-stopping function and edge tracing (walr.txt 3.3, 4.3, 5.2).
-// Needs: `frame` (FrameConstants), `depth` (utexture2D), `normals` (utexture2D), `settings` (AtrousConstants).
+// Needs: `frame` (FrameConstants), `depth` (utexture2D), `settings` (AtrousConstants), `kTraceEdges`.
 #ifndef WALR_EDGE_TRACING_GLSL
 #define WALR_EDGE_TRACING_GLSL
 #include "plane.glsl"
@@ -22,12 +22,12 @@ struct Trace {
 };
 
 // Walk from `p` in `direction` up to `steps` pixels. Each pixel's signed distance says how far the next edge lay in the
-// last iteration; the walk steps by a fraction of it.
+// last iteration; the walk steps by a fraction of it. Without edge tracing only the far end is looked at.
 Trace traceEdge(Plane plane, ivec2 p, ivec2 direction, int steps, uint sdf) {
   Trace trace = Trace(1.0, steps + 1);
   int step = 0;
   while (step < steps) {
-    step = min(step + max(int(settings.sdfFraction * float(sdf)), 1), steps);
+    step = kTraceEdges ? min(step + max(int(settings.sdfFraction * float(sdf)), 1), steps) : steps;
     trace.weight = min(trace.weight, edgeWeight(plane, p + step * direction, sdf));
     if (trace.weight <= 0.0) {
       trace.edge = step;

@@ -1,13 +1,57 @@
-// Sixteen halves in two RGBA32_UINT texels: the fourteen moments, the root of the mean squared luminance (the square
-// itself would overflow a half from 256 on) and the sample count.
+// How moments lie in memory between two iterations. One of the macros CENTRED16, RAW16, RAW11 and RAW32 chooses:
+//   CENTRED16  means and covariances as halves, with the sample count and the root of the mean squared luminance
+//   RAW16      raw moments as halves (walr.txt 5.2, RGBA16_FLOAT)
+//   RAW11      raw moments as unsigned 11- and 10-bit floats (walr.txt 5.2, R11G11B10_FLOAT)
+//   RAW32      raw moments in single precision, to tell storage from arithmetic
+// Raw formats hold the averages of products that the paper stores; they drop the sample count as it does.
 #ifndef WALR_MOMENTS_STORAGE_GLSL
 #define WALR_MOMENTS_STORAGE_GLSL
 #include "finite.glsl"
 #include "moments.glsl"
 
+#if defined(CENTRED16)
+#define MOMENT_TEXTURES 2
+#define MOMENT_FORMAT_B rgba32ui
+#elif defined(RAW16)
+#define MOMENT_TEXTURES 3
+#define MOMENT_FORMAT_B rg32ui
+#define MOMENT_FORMAT_C r32ui
+#elif defined(RAW11)
+#define MOMENT_TEXTURES 2
+#define MOMENT_FORMAT_B r32ui
+#elif defined(RAW32)
+#define MOMENT_TEXTURES 4
+#define MOMENT_FORMAT_B rgba32ui
+#define MOMENT_FORMAT_C rgba32ui
+#define MOMENT_FORMAT_D rg32ui
+#endif
+
+#ifndef FIRST
+layout(set = 0, binding = 4) uniform utexture2D momentsA;
+layout(set = 0, binding = 5) uniform utexture2D momentsB;
+#if MOMENT_TEXTURES > 2
+layout(set = 0, binding = 6) uniform utexture2D momentsC;
+#endif
+#if MOMENT_TEXTURES > 3
+layout(set = 0, binding = 7) uniform utexture2D momentsD;
+#endif
+#endif
+#ifndef LAST
+layout(set = 0, binding = 8, rgba32ui) uniform writeonly uimage2D outMomentsA;
+layout(set = 0, binding = 9, MOMENT_FORMAT_B) uniform writeonly uimage2D outMomentsB;
+#if MOMENT_TEXTURES > 2
+layout(set = 0, binding = 10, MOMENT_FORMAT_C) uniform writeonly uimage2D outMomentsC;
+#endif
+#if MOMENT_TEXTURES > 3
+layout(set = 0, binding = 11, MOMENT_FORMAT_D) uniform writeonly uimage2D outMomentsD;
+#endif
+#endif
+
 struct PackedMoments {
-  uvec4 a, b;
+  uvec4 a, b, c, d;
 };
+
+#ifdef CENTRED16
 
 uint packHalves(float low, float high) {
   return packHalf2x16(clamp(vec2(low, high), vec2(-kLargestHalf), vec2(kLargestHalf)));
@@ -17,6 +61,7 @@ PackedMoments packMoments(Moments m) {
   PackedMoments p;
   p.a = uvec4(packHalves(m.x.x, m.x.y), packHalves(m.y.r, m.y.g), packHalves(m.y.b, m.xx.x),
               packHalves(m.xx.y, m.xx.z));
+  // The mean squared luminance itself would overflow a half from a luminance of 256 on.
   p.b = uvec4(packHalves(m.yu.r, m.yu.g), packHalves(m.yu.b, m.yv.r), packHalves(m.yv.g, m.yv.b),
               packHalves(sqrt(m.luma2), m.samples));
   return p;
@@ -29,5 +74,133 @@ Moments unpackMoments(PackedMoments p) {
              b3 = unpackHalf2x16(p.b.w);
   return Moments(a0, vec3(a1, a2.x), vec3(a2.y, a3), vec3(b0, b1.x), vec3(b1.y, b2), b3.x * b3.x, b3.y);
 }
+
+#else  // Raw moments.
+
+#ifdef RAW11
+// Unsigned floats with a 5-bit exponent and `mantissaBits` of mantissa, rounded to nearest: truncation would darken by
+// 3 % and shift the hue.
+uint packUnsignedFloat(float x, int mantissaBits) {
+  const int drop = 23 - mantissaBits;
+  const uint largest = (30u << mantissaBits) | ((1u << mantissaBits) - 1u);
+  if (!(x > 0.0)) return 0u;
+  if (x < 6.103515625e-5) return uint(roundEven(x * exp2(float(14 + mantissaBits))));  // Denormals.
+  const uint rounded = floatBitsToUint(x) + (1u << (drop - 1)) - 1u + ((floatBitsToUint(x) >> drop) & 1u);
+  return min((rounded >> drop) - (112u << mantissaBits), largest);
+}
+float unpackUnsignedFloat(uint x, int mantissaBits) {
+  const uint exponent = x >> mantissaBits;
+  const uint mantissa = x & ((1u << mantissaBits) - 1u);
+  return exponent == 0u ? float(mantissa) * exp2(float(-14 - mantissaBits))
+                        : uintBitsToFloat(((exponent + 112u) << 23) | (mantissa << (23 - mantissaBits)));
+}
+uint packTriple(vec3 v) {
+  return packUnsignedFloat(v.x, 6) | (packUnsignedFloat(v.y, 6) << 11) | (packUnsignedFloat(v.z, 5) << 22);
+}
+vec3 unpackTriple(uint v) {
+  return vec3(unpackUnsignedFloat(v & 0x7ffu, 6), unpackUnsignedFloat((v >> 11) & 0x7ffu, 6),
+              unpackUnsignedFloat(v >> 22, 5));
+}
+#endif
+
+// The fourteen averages of products: X, XX, Y, YX.
+struct RawMoments {
+  vec2 x;
+  vec3 xx;
+  vec3 y, yu, yv;
+};
+
+PackedMoments packMoments(Moments m) {
+  RawMoments r;
+  r.x = m.x;
+  r.xx = m.xx + vec3(m.x.x * m.x.x, m.x.x * m.x.y, m.x.y * m.x.y);
+  r.y = m.y;
+  r.yu = m.yu + m.y * m.x.x;
+  r.yv = m.yv + m.y * m.x.y;
+  PackedMoments p;
+#if defined(RAW16)
+  const vec3 limit = vec3(kLargestHalf);
+  r.y = min(r.y, limit);
+  r.yu = min(r.yu, limit);
+  r.yv = min(r.yv, limit);
+  p.a = uvec4(packHalf2x16(r.x), packHalf2x16(r.xx.xy), packHalf2x16(vec2(r.xx.z, r.y.r)), packHalf2x16(r.y.gb));
+  p.b = uvec4(packHalf2x16(r.yu.rg), packHalf2x16(vec2(r.yu.b, r.yv.r)), 0u, 0u);
+  p.c = uvec4(packHalf2x16(r.yv.gb), 0u, 0u, 0u);
+#elif defined(RAW11)
+  p.a = uvec4(packTriple(r.y), packTriple(r.yu), packTriple(r.yv), packTriple(r.xx));
+  p.b = uvec4(packTriple(vec3(r.x, 0.0)), 0u, 0u, 0u);
+#else
+  p.a = floatBitsToUint(vec4(r.x, r.xx.xy));
+  p.b = floatBitsToUint(vec4(r.xx.z, r.y));
+  p.c = floatBitsToUint(vec4(r.yu, r.yv.r));
+  p.d = uvec4(floatBitsToUint(r.yv.gb), 0u, 0u);
+#endif
+  return p;
+}
+
+Moments unpackMoments(PackedMoments p) {
+  RawMoments r;
+#if defined(RAW16)
+  const vec2 a1 = unpackHalf2x16(p.a.y), a2 = unpackHalf2x16(p.a.z), b1 = unpackHalf2x16(p.b.y);
+  r.x = unpackHalf2x16(p.a.x);
+  r.xx = vec3(a1, a2.x);
+  r.y = vec3(a2.y, unpackHalf2x16(p.a.w));
+  r.yu = vec3(unpackHalf2x16(p.b.x), b1.x);
+  r.yv = vec3(b1.y, unpackHalf2x16(p.c.x));
+#elif defined(RAW11)
+  r.y = unpackTriple(p.a.x);
+  r.yu = unpackTriple(p.a.y);
+  r.yv = unpackTriple(p.a.z);
+  r.xx = unpackTriple(p.a.w);
+  r.x = unpackTriple(p.b.x).xy;
+#else
+  r.x = uintBitsToFloat(p.a.xy);
+  r.xx = uintBitsToFloat(uvec3(p.a.zw, p.b.x));
+  r.y = uintBitsToFloat(p.b.yzw);
+  r.yu = uintBitsToFloat(p.c.xyz);
+  r.yv = uintBitsToFloat(uvec3(p.c.w, p.d.xy));
+#endif
+  Moments m;
+  m.x = r.x;
+  m.y = r.y;
+  m.xx = r.xx - vec3(r.x.x * r.x.x, r.x.x * r.x.y, r.x.y * r.x.y);
+  m.yu = r.yu - r.y * r.x.x;
+  m.yv = r.yv - r.y * r.x.y;
+  m.luma2 = 0.0;
+  m.samples = 1.0;
+  return m;
+}
+
+#endif
+
+#ifndef FIRST
+Moments loadMoments(ivec2 p) {
+  PackedMoments packed;
+  packed.a = texelFetch(momentsA, p, 0);
+  packed.b = texelFetch(momentsB, p, 0);
+#if MOMENT_TEXTURES > 2
+  packed.c = texelFetch(momentsC, p, 0);
+#endif
+#if MOMENT_TEXTURES > 3
+  packed.d = texelFetch(momentsD, p, 0);
+#endif
+  return unpackMoments(packed);
+}
+#endif
+
+#ifndef LAST
+void storePacked(ivec2 p, PackedMoments packed) {
+  imageStore(outMomentsA, p, packed.a);
+  imageStore(outMomentsB, p, packed.b);
+#if MOMENT_TEXTURES > 2
+  imageStore(outMomentsC, p, packed.c);
+#endif
+#if MOMENT_TEXTURES > 3
+  imageStore(outMomentsD, p, packed.d);
+#endif
+}
+void storeMoments(ivec2 p, Moments m) { storePacked(p, packMoments(m)); }
+void storeNoMoments(ivec2 p) { storePacked(p, PackedMoments(uvec4(0u), uvec4(0u), uvec4(0u), uvec4(0u))); }
+#endif
 
 #endif
