@@ -1,0 +1,40 @@
+#include "samples/denoise/packed_frame.h"
+
+#include <utility>
+
+#include "samples/image/half.h"
+
+namespace walr {
+
+std::vector<Rgba16> packRgba16(const Image& image) {
+  std::vector<Rgba16> texels(image.pixelCount());
+  for (std::size_t i = 0; i < texels.size(); ++i) {
+    const auto pixel = image.pixel(i);
+    for (std::size_t c = 0; c < pixel.size(); ++c) {
+      texels[i].at(c) = toHalf(pixel[c]).bits();
+    }
+  }
+  return texels;
+}
+
+Image unpackRgb(const std::vector<Rgba16>& texels, int width, int height) {
+  Image image(width, height, 3);
+  for (std::size_t i = 0; i < texels.size(); ++i) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      image.pixel(i)[c] = Imath::half(Imath::half::FromBits, texels[i].at(c));
+    }
+  }
+  return image;
+}
+
+PackedFrame packFrame(Frame frame) {
+  PackedFrame packed;
+  packed.lighting = packRgba16(frame.indirect);
+  packed.normal = packRgba16(frame.normal);
+  packed.motion = packRgba16(frame.motion);
+  packed.albedo = packRgba16(frame.albedo);
+  packed.frame = std::move(frame);
+  return packed;
+}
+
+}  // namespace walr

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "samples/sequence/frame.h"
+
+namespace walr {
+
+/// Four half floats by their bits: a texel of RGBA16F.
+using Rgba16 = std::array<std::uint16_t, 4>;
+
+/// A frame with its pictures in the formats of the denoiser's textures (`DenoiserInputs`).
+struct PackedFrame {
+  Frame frame;
+  std::vector<Rgba16> lighting;
+  std::vector<Rgba16> normal;
+  std::vector<Rgba16> motion;
+  std::vector<Rgba16> albedo;
+};
+
+/// Texels of an image of at most four components; the others are 0. Finite values beyond half floats saturate.
+std::vector<Rgba16> packRgba16(const Image& image);
+
+/// The first three components of texels as an image.
+Image unpackRgb(const std::vector<Rgba16>& texels, int width, int height);
+
+PackedFrame packFrame(Frame frame);
+
+}  // namespace walr

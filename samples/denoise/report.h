@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "framegraph/graph.h"
+#include "samples/metrics/metrics.h"
+
+namespace walr {
+
+/// What a run measured on one frame.
+struct FrameReport {
+  int frame = 0;
+  bool resetHistory = false;
+  std::optional<double> gpuMilliseconds;  ///< By timestamps, all passes; absent where the queue has no timestamps.
+  ErrorFigures denoised;                  ///< Absent figures where there is no reference.
+  ErrorFigures noisy;                     ///< The input's own.
+  std::size_t nonFiniteOutput = 0;        ///< Values of the result that are not finite.
+};
+
+/// What a run was and what it measured.
+struct DenoiseReport {
+  std::string method;
+  std::string device;
+  std::string driver;
+  bool softwareDevice = false;
+  std::string layout;
+  fg::Extent extent;
+  std::vector<FrameReport> frames;
+};
+
+/// Frames at the start of a sequence in which history still builds up; a second mean leaves them out.
+inline constexpr std::size_t kWarmUpFrames = 4;
+
+/// Mean over the frames from `first` on, each figure over the frames that have it.
+FrameReport meanReport(const std::vector<FrameReport>& frames, std::size_t first);
+
+/// The report as JSON: `method`, `device`, `driver`, `frames[]` with `frame`, `gpu_ms`, `rmse`, `psnr`, `ssim` and the
+/// same for the input under `noisy`; `mean` and `mean_after_4` with the same. Figures without a value are null.
+std::string reportJson(const DenoiseReport& report);
+
+/// The report as a table for people.
+void printReport(std::ostream& stream, const DenoiseReport& report);
+
+}  // namespace walr

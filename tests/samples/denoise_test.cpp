@@ -1,0 +1,196 @@
+#include <chrono>
+#include <filesystem>
+#include <limits>
+#include <sstream>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "samples/denoise/frame_output.h"
+#include "samples/denoise/packed_frame.h"
+#include "samples/denoise/progress.h"
+#include "samples/denoise/report.h"
+#include "samples/image/exr.h"
+#include "tests/samples/synthetic_sequence.h"
+#include "tests/samples/temporary_directory.h"
+
+namespace walr {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+
+TEST(PackedFrame, HalfFloatTexelsRoundTripSaturateAndKeepNan) {
+  Image image(3, 1, 3);
+  image.at(0, 0, 1) = 0.1F;
+  image.at(1, 0, 0) = 1e9F;
+  image.at(2, 0, 2) = kNan;
+  const Image back = unpackRgb(packRgba16(image), 3, 1);
+  EXPECT_EQ(back.at(0, 0, 0), 0.0F);
+  EXPECT_NEAR(back.at(0, 0, 1), 0.1F, 0.1F * 0x1p-11F);
+  EXPECT_EQ(back.at(1, 0, 0), 65504.0F);
+  EXPECT_TRUE(std::isnan(back.at(2, 0, 2)));
+}
+
+TEST(PackedFrame, ComponentsThatAnImageLacksAreZero) {
+  Image image(1, 1, 2);
+  image.at(0, 0, 0) = 1.0F;
+  image.at(0, 0, 1) = -2.0F;
+  EXPECT_EQ(packRgba16(image), (std::vector<Rgba16>{{0x3C00, 0xC000, 0, 0}}));
+}
+
+TEST(Composite, FollowsTheRenderingEquationOfTheLayout) {
+  Image indirect(1, 1, 3);
+  Image direct(1, 1, 3);
+  Image albedo(1, 1, 3);
+  Image emission(1, 1, 3);
+  for (int c = 0; c < 3; ++c) {
+    indirect.at(0, 0, c) = 2.0F;
+    direct.at(0, 0, c) = 4.0F;
+    albedo.at(0, 0, c) = 0.5F;
+    emission.at(0, 0, c) = 0.25F;
+  }
+  albedo.at(0, 0, 1) = kNan;
+  direct.at(0, 0, 2) = std::numeric_limits<float>::infinity();
+  const Image lit = composite(indirect, direct, albedo, emission);
+  EXPECT_EQ(lit.at(0, 0, 0), 3.25F);
+  EXPECT_EQ(lit.at(0, 0, 1), 0.25F);
+  EXPECT_EQ(lit.at(0, 0, 2), 1.25F);
+}
+
+class FrameOutputTest : public testing::Test {
+ protected:
+  FrameOutputTest() {
+    denoised.frame = test::projectFrame(12, 16, 12);
+    denoised.indirect = denoised.frame.indirect;
+    options.directory = directory.path();
+  }
+  [[nodiscard]] std::vector<std::string> writtenFiles() const {
+    std::vector<std::string> names;
+    for (const auto& file : std::filesystem::directory_iterator(directory.path())) {
+      names.push_back(file.path().filename().string());
+    }
+    std::ranges::sort(names);
+    return names;
+  }
+
+  test::TemporaryDirectory directory;
+  DenoisedFrame denoised;
+  OutputOptions options;
+};
+
+TEST_F(FrameOutputTest, WritesIndirectLightByDefault) {
+  writeDenoisedFrame(denoised, options);
+  EXPECT_EQ(writtenFiles(), (std::vector<std::string>{"denoised_0012.exr"}));
+  EXPECT_EQ(ExrReader(directory.path() / "denoised_0012.exr").channels(),
+            (std::vector<std::string>{"Indirect.B", "Indirect.G", "Indirect.R"}));
+}
+
+TEST_F(FrameOutputTest, WritesACompositeAndPicturesWhenAsked) {
+  options.composite = true;
+  options.png = true;
+  denoised.frame.reference = Reference{denoised.frame.indirect, {}};
+  writeDenoisedFrame(denoised, options);
+  EXPECT_EQ(writtenFiles(),
+            (std::vector<std::string>{"comparison_0012.png", "denoised_0012.exr", "denoised_0012.png"}));
+  ExrReader file(directory.path() / "denoised_0012.exr");
+  EXPECT_EQ(file.channels(), (std::vector<std::string>{"B", "G", "R"}));
+  Image sky(16, 12, 1);
+  file.read(std::vector<ExrReader::Target>{{"R", &sky, 0}});
+  EXPECT_EQ(sky.at(3, 0, 0), 2.0F);
+}
+
+TEST_F(FrameOutputTest, MeasuresResultAndInput) {
+  EXPECT_FALSE(measure(denoised).denoised.rmse.has_value());
+  Image reference = denoised.frame.indirect;
+  for (float& value : reference.values()) {
+    value = 1.0F;
+  }
+  denoised.frame.reference = Reference{reference, {}};
+  denoised.indirect = reference;
+  denoised.gpuMilliseconds = 1.5;
+  const FrameReport report = measure(denoised);
+  EXPECT_EQ(report.denoised.rmse, 0.0);
+  EXPECT_GT(report.noisy.rmse.value(), 0.1);
+  EXPECT_EQ(report.frame, 12);
+  EXPECT_EQ(report.gpuMilliseconds, 1.5);
+  EXPECT_EQ(report.nonFiniteOutput, 0U);
+}
+
+DenoiseReport exampleReport() {
+  DenoiseReport report{"walr", "Some GPU", "some driver 1.2", false, "walr", {16, 9}, {}};
+  for (int i = 0; i < 6; ++i) {
+    FrameReport frame;
+    frame.frame = 10 + i;
+    frame.gpuMilliseconds = i < 4 ? 10.0 : 2.0;
+    frame.denoised = {i < 4 ? 0.5 : 0.25, 6.0, 0.75};
+    frame.noisy = {0.5, std::nullopt, 0.5};
+    report.frames.push_back(frame);
+  }
+  return report;
+}
+
+TEST(Report, JsonHasItsKeys) {
+  const auto json = nlohmann::json::parse(reportJson(exampleReport()));
+  EXPECT_EQ(json["method"], "walr");
+  EXPECT_EQ(json["device"], "Some GPU");
+  EXPECT_EQ(json["driver"], "some driver 1.2");
+  EXPECT_EQ(json["frames"].size(), 6U);
+  EXPECT_EQ(json["frames"][1]["frame"], 11);
+  EXPECT_EQ(json["frames"][1]["gpu_ms"], 10.0);
+  EXPECT_EQ(json["frames"][1]["rmse"], 0.5);
+  EXPECT_EQ(json["frames"][1]["psnr"], 6.0);
+  EXPECT_EQ(json["frames"][1]["ssim"], 0.75);
+  EXPECT_TRUE(json["frames"][1]["noisy"]["psnr"].is_null());
+  EXPECT_DOUBLE_EQ(json["mean"]["gpu_ms"], 44.0 / 6.0);
+  EXPECT_DOUBLE_EQ(json["mean"]["rmse"], 2.5 / 6.0);
+  EXPECT_EQ(json["mean_after_4"]["gpu_ms"], 2.0);
+  EXPECT_EQ(json["mean_after_4"]["rmse"], 0.25);
+}
+
+TEST(Report, TableMarksASoftwareDevice) {
+  DenoiseReport report = exampleReport();
+  std::ostringstream hardware;
+  printReport(hardware, report);
+  EXPECT_NE(hardware.str().find("gpu ms"), std::string::npos);
+  EXPECT_EQ(hardware.str().find("software"), std::string::npos);
+  report.softwareDevice = true;
+  std::ostringstream software;
+  printReport(software, report);
+  EXPECT_EQ(software.str().find("gpu ms"), std::string::npos);
+  EXPECT_NE(software.str().find("Some GPU is a software device"), std::string::npos);
+}
+
+TEST(Progress, FormatsDurations) {
+  EXPECT_EQ(formatDuration(0s), "0:00");
+  EXPECT_EQ(formatDuration(125s), "2:05");
+  EXPECT_EQ(formatDuration(3725s), "1:02:05");
+}
+
+TEST(Progress, WritesPlainLinesWhereThereIsNoTerminal) {
+  std::ostringstream stream;
+  {
+    const auto start = Progress::Clock::now();
+    Progress progress(stream, false, "frame", 3, start);
+    progress.advance(start + 10s);
+    progress.note("a note");
+    progress.advance(start + 20s);
+  }
+  EXPECT_EQ(stream.str(), "frame 1 of 3, 0:20 left\na note\nframe 2 of 3, 0:10 left\n");
+}
+
+TEST(Progress, DrawsABarOnATerminal) {
+  std::ostringstream stream;
+  {
+    const auto start = Progress::Clock::now();
+    Progress progress(stream, true, "frame", 2, start);
+    progress.advance(start + 61s);
+  }
+  EXPECT_NE(stream.str().find("\r[###############...............] frame 1 of 2, 1:01 left"), std::string::npos);
+  EXPECT_EQ(stream.str().back(), '\n');
+}
+
+}  // namespace
+}  // namespace walr

@@ -1,0 +1,89 @@
+#include "samples/denoise/pipeline.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace walr {
+namespace {
+
+constexpr auto kIdentity = [](auto element) { return element; };
+
+TEST(Pipeline, HandsEveryElementThroughInOrder) {
+  std::vector<std::string> written;
+  runPipeline(
+      5, [](std::size_t i) { return static_cast<int>(i); }, [](int i) { return std::to_string(i * i); },
+      [&](std::string text) { written.push_back(std::move(text)); });
+  EXPECT_EQ(written, (std::vector<std::string>{"0", "1", "4", "9", "16"}));
+}
+
+TEST(Pipeline, AnEmptyJobEnds) {
+  runPipeline(0, kIdentity, kIdentity, [](std::size_t) { FAIL(); });
+}
+
+TEST(Pipeline, HoldsFewElementsHoweverLongTheJob) {
+  std::atomic<int> alive = 0;
+  std::atomic<int> most = 0;
+  const auto make = [&](std::size_t) {
+    const int now = ++alive;
+    most = std::max(most.load(), now);
+    return std::shared_ptr<int>(new int(0), [&](const int* element) {
+      delete element;
+      --alive;
+    });
+  };
+  // The slowest stage last, so that everything before it piles up as far as it may.
+  runPipeline(200, make, kIdentity,
+              [](const std::shared_ptr<int>&) { std::this_thread::sleep_for(std::chrono::microseconds(200)); });
+  // Two queues, and one element in the hands of each of the three stages.
+  EXPECT_LE(most, 2 * static_cast<int>(kPipelineDepth) + 3);
+  EXPECT_EQ(alive, 0);
+}
+
+TEST(Pipeline, StagesOverlap) {
+  using namespace std::chrono_literals;
+  const auto slow = [](auto element) {
+    std::this_thread::sleep_for(10ms);
+    return element;
+  };
+  const auto start = std::chrono::steady_clock::now();
+  runPipeline(20, slow, slow, [&](std::size_t element) { slow(element); });
+  // One after the other they would take 600 ms, side by side 220 ms.
+  EXPECT_LT(std::chrono::steady_clock::now() - start, 500ms);
+}
+
+class FailingStage : public testing::TestWithParam<int> {};
+
+TEST_P(FailingStage, StopsTheOthersAndIsReported) {
+  const auto stage = [](int number) {
+    return [number](std::size_t element) {
+      if (GetParam() == number && element == 3) {
+        throw std::runtime_error("stage " + std::to_string(number));
+      }
+      return element;
+    };
+  };
+  std::size_t written = 0;
+  try {
+    runPipeline(1000, stage(0), stage(1), [&, write = stage(2)](std::size_t element) {
+      write(element);
+      ++written;
+    });
+    FAIL() << "no error";
+  } catch (const std::runtime_error& error) {
+    EXPECT_EQ(error.what(), "stage " + std::to_string(GetParam()));
+  }
+  EXPECT_LE(written, 3U);
+}
+
+INSTANTIATE_TEST_SUITE_P(EachStage, FailingStage, testing::Values(0, 1, 2));
+
+}  // namespace
+}  // namespace walr
