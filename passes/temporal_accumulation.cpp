@@ -6,18 +6,45 @@
 
 namespace walr {
 
-fg::Texture addTemporalAccumulation(fg::Graph& graph, const DenoiserInputs& inputs, const Guides& guides,
-                                    const TemporalAccumulationSettings& settings) {
-  const fg::Extent extent = graph.textureDesc(inputs.lighting).extent;
-  const fg::History accumulated = graph.history("accumulated", {VK_FORMAT_R16G16B16A16_SFLOAT, extent});
+namespace {
 
-  fg::PassBuilder pass = graph.compute("temporal accumulation", shaders::temporalAccumulation);
+/// The pass without its outputs; the first of them is the current texture of `accumulated`.
+fg::PassBuilder addAccumulationPass(fg::Graph& graph, const fg::Shader& shader, const DenoiserInputs& inputs,
+                                    const Guides& guides, const fg::History& accumulated,
+                                    const TemporalAccumulationSettings& settings) {
+  fg::PassBuilder pass = graph.compute("temporal accumulation", shader);
   readReprojection(pass, inputs, guides);
   pass.sample("lighting", inputs.lighting)
       .sample("previousAccumulated", accumulated.previous)
       .constants(TemporalAccumulationConstants{settings.maxSamples, settings.planeTolerance, settings.normalThreshold})
-      .dispatch(extent);
-  return pass.store("outAccumulated", accumulated.current);
+      .dispatch(graph.textureDesc(inputs.lighting).extent);
+  return pass;
+}
+
+fg::History accumulatedHistory(fg::Graph& graph, const DenoiserInputs& inputs) {
+  return graph.history("accumulated", {VK_FORMAT_R16G16B16A16_SFLOAT, graph.textureDesc(inputs.lighting).extent});
+}
+
+}  // namespace
+
+fg::Texture addTemporalAccumulation(fg::Graph& graph, const DenoiserInputs& inputs, const Guides& guides,
+                                    const TemporalAccumulationSettings& settings) {
+  const fg::History accumulated = accumulatedHistory(graph, inputs);
+  return addAccumulationPass(graph, shaders::temporalAccumulation, inputs, guides, accumulated, settings)
+      .store("outAccumulated", accumulated.current);
+}
+
+AccumulationWithTaps addTemporalAccumulationWithTaps(fg::Graph& graph, const DenoiserInputs& inputs,
+                                                     const Guides& guides,
+                                                     const TemporalAccumulationSettings& settings) {
+  const fg::History accumulated = accumulatedHistory(graph, inputs);
+  const fg::Extent extent = graph.textureDesc(inputs.lighting).extent;
+  fg::PassBuilder pass =
+      addAccumulationPass(graph, shaders::temporalAccumulationTaps, inputs, guides, accumulated, settings);
+  AccumulationWithTaps result;
+  result.mean = pass.store("outAccumulated", accumulated.current);
+  result.taps = pass.store("outTaps", graph.texture("history taps", {VK_FORMAT_R32G32_UINT, extent}));
+  return result;
 }
 
 }  // namespace walr

@@ -31,4 +31,15 @@ struct TemporalAccumulationSettings {
 fg::Texture addTemporalAccumulation(fg::Graph& graph, const DenoiserInputs& inputs, const Guides& guides,
                                     const TemporalAccumulationSettings& settings = {});
 
+/// What temporal accumulation leaves for a later stage that reads its own history along the same motion.
+struct AccumulationWithTaps {
+  fg::Texture mean;  ///< As `addTemporalAccumulation` returns it.
+  fg::Texture taps;  ///< RG32_UINT: the history pixels read and which of them passed the tests (history_taps.glsl).
+};
+
+/// The same, keeping what the reprojection and its tests found (bmfr.txt 3.5).
+AccumulationWithTaps addTemporalAccumulationWithTaps(fg::Graph& graph, const DenoiserInputs& inputs,
+                                                     const Guides& guides,
+                                                     const TemporalAccumulationSettings& settings = {});
+
 }  // namespace walr

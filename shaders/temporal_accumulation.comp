@@ -1,5 +1,6 @@
 // WALR preprocessing (walr.txt 4.2): reproject, reject, then a cumulative mean that turns exponential after a fixed
-// number of samples. History is read bilinearly, each of the four taps tested on its own.
+// number of samples. History is read bilinearly, each of the four taps tested on its own. KEEP_TAPS also writes which
+// taps passed, so that a later stage can read its history in the same way without testing again (bmfr.txt 3.5).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -17,17 +18,17 @@ layout(set = 0, binding = 5) uniform utexture2D previousDepth;
 layout(set = 0, binding = 6) uniform utexture2D previousNormals;
 layout(set = 0, binding = 7) uniform texture2D previousAccumulated;  // rgb: mean; a: history length.
 layout(set = 0, binding = 8, rgba16f) uniform writeonly image2D outAccumulated;
+#ifdef KEEP_TAPS
+layout(set = 0, binding = 9, rg32ui) uniform writeonly uimage2D outTaps;
+#endif
 layout(push_constant) uniform PushConstants { TemporalAccumulationConstants settings; };
 
 #include "include/reprojection.glsl"
 
-// Mean and length of the history behind pixel `p`; length 0 where there is none.
-vec4 sampleHistory(ivec2 p, float z, vec3 normal) {
-  const HistoryTaps taps = historyTaps(reproject(p, z, normal), settings.planeTolerance, settings.normalThreshold);
-  vec4 mean = vec4(0.0);
-  for (int i = 0; i < 4; ++i)
-    if (taps.weights[i] > 0.0) mean += taps.weights[i] * texelFetch(previousAccumulated, historyTap(taps, i), 0);
-  return mean;
+void keepTaps(ivec2 p, HistoryTaps taps) {
+#ifdef KEEP_TAPS
+  imageStore(outTaps, p, uvec4(packTaps(taps), 0u, 0u));
+#endif
 }
 
 void main() {
@@ -39,10 +40,14 @@ void main() {
   const float z = unpackDepth(texelFetch(depth, p, 0).x);
   if (z == 0.0) {
     imageStore(outAccumulated, p, vec4(sampleIsFinite ? noisy : vec3(0.0), 0.0));
+    keepTaps(p, acceptTaps(ivec2(0), vec2(0.0), 0u));
     return;
   }
 
-  const vec4 history = sampleHistory(p, z, unpackGeometricNormal(texelFetch(normals, p, 0).xy));
+  const Reprojection r = reproject(p, z, unpackGeometricNormal(texelFetch(normals, p, 0).xy));
+  const HistoryTaps taps = historyTaps(r, settings.planeTolerance, settings.normalThreshold);
+  keepTaps(p, taps);
+  const vec4 history = meanOfTaps(previousAccumulated, taps);  // Mean and length; length 0 where there is none.
   // A sample that is not finite is no sample: the mean stays as it was.
   const float samples = min(history.a + (sampleIsFinite ? 1.0 : 0.0), settings.maxSamples);
   const vec3 radiance = clamp(noisy, vec3(0.0), vec3(kLargestHalf));

@@ -42,9 +42,7 @@ struct HistorySample {
 HistorySample sampleHistory(ivec2 p, float z, vec3 normal) {
   const HistoryTaps taps = historyTaps(reproject(p, z, normal), settings.planeTolerance, settings.normalThreshold);
   if (!taps.any) return HistorySample(vec3(0.0), 0.0);
-  vec4 linear = vec4(0.0);
-  for (int i = 0; i < 4; ++i)
-    if (taps.weights[i] > 0.0) linear += taps.weights[i] * texelFetch(previousResolved, historyTap(taps, i), 0);
+  const vec4 linear = meanOfTaps(previousResolved, taps);
   if (!taps.all) return HistorySample(linear.rgb, linear.a);
 
   const vec4 wx = catmullRom(taps.fraction.x), wy = catmullRom(taps.fraction.y);

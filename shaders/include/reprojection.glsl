@@ -4,6 +4,7 @@
 #define WALR_REPROJECTION_GLSL
 #include "camera.glsl"
 #include "finite.glsl"
+#include "history_taps.glsl"
 #include "surface.glsl"
 
 layout(constant_id = 0) const bool kMotionDepthGiven = true;
@@ -45,35 +46,13 @@ bool historyMatches(Reprojection r, ivec2 q, float planeTolerance, float normalT
          dot(r.normal, normal) >= normalThreshold;
 }
 
-// The four history pixels around the reprojected position, each tested on its own.
-struct HistoryTaps {
-  ivec2 base;       // The upper left one.
-  vec2 fraction;    // Position past its centre, in [0, 1).
-  vec4 weights;     // Bilinear weights of those that show the surface, with sum 1; in the order of `historyTap`.
-  bool any, all;    // Whether one, and whether every one, of the four shows it.
-};
-
-ivec2 historyTap(HistoryTaps taps, int i) { return taps.base + ivec2(i & 1, i >> 1); }
-
 HistoryTaps historyTaps(Reprojection r, float planeTolerance, float normalThreshold) {
-  HistoryTaps taps = HistoryTaps(ivec2(0), vec2(0.0), vec4(0.0), false, false);
-  if (!r.valid) return taps;
-  taps.base = ivec2(floor(r.pixel - 0.5));
-  taps.fraction = r.pixel - 0.5 - vec2(taps.base);
-  const vec2 f = taps.fraction, g = 1.0 - taps.fraction;
-  const vec4 bilinear = vec4(g.x * g.y, f.x * g.y, g.x * f.y, f.x * f.y);
-  int matching = 0;
-  for (int i = 0; i < 4; ++i) {
-    if (!historyMatches(r, historyTap(taps, i), planeTolerance, normalThreshold)) continue;
-    taps.weights[i] = bilinear[i];
-    ++matching;
-  }
-  const float sum = dot(taps.weights, vec4(1.0));
-  // Below a hundredth of a pixel the remaining taps say next to nothing about this position.
-  taps.any = sum > 0.01;
-  taps.all = matching == 4;
-  taps.weights = taps.any ? taps.weights / sum : vec4(0.0);
-  return taps;
+  if (!r.valid) return acceptTaps(ivec2(0), vec2(0.0), 0u);
+  const ivec2 base = ivec2(floor(r.pixel - 0.5));
+  uint accepted = 0u;
+  for (int i = 0; i < 4; ++i)
+    if (historyMatches(r, base + tapOffset(i), planeTolerance, normalThreshold)) accepted |= 1u << i;
+  return acceptTaps(base, r.pixel - 0.5 - vec2(base), accepted);
 }
 
 #endif
