@@ -10,7 +10,7 @@ enum class Severity : std::uint8_t { Warning, Error };
 
 /// One thing found wrong in a declared graph.
 struct Diagnostic {
-  std::string code;      ///< Stable, for machines: "FG001".
+  std::string code;  ///< Stable, for machines: "FG001".
   Severity severity = Severity::Error;
   std::string pass;      ///< Name of the pass, where one is at fault.
   std::string resource;  ///< Name of the texture or buffer, where one is at fault.

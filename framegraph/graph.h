@@ -66,22 +66,22 @@ struct SubresourceRange {
 
 /// How a pass touches a resource. Stage, access mask, layout and usage flags all follow from it (see access.h).
 enum class Access : std::uint8_t {
-  SampledRead,       ///< Compute: sampled image, read only.
-  StorageRead,       ///< Compute: storage image or buffer, read only.
-  StorageWrite,      ///< Compute: storage image or buffer, written; earlier contents are not needed.
-  StorageReadWrite,  ///< Compute: in place; the earlier contents are read and a new version is written.
-  UniformRead,       ///< Compute: uniform block.
-  IndirectRead,      ///< Arguments of an indirect dispatch or draw.
-  TransferRead,      ///< Source of a copy or blit.
-  TransferWrite,     ///< Destination of a copy, blit or clear.
-  ColorWrite,        ///< Colour attachment, cleared or fully overwritten.
-  ColorReadWrite,    ///< Colour attachment, loaded and blended.
-  DepthWrite,        ///< Depth attachment, cleared and written.
-  DepthReadWrite,    ///< Depth attachment, loaded, tested and written.
-  DepthRead,         ///< Depth attachment, tested only.
+  SampledRead,          ///< Compute: sampled image, read only.
+  StorageRead,          ///< Compute: storage image or buffer, read only.
+  StorageWrite,         ///< Compute: storage image or buffer, written; earlier contents are not needed.
+  StorageReadWrite,     ///< Compute: in place; the earlier contents are read and a new version is written.
+  UniformRead,          ///< Compute: uniform block.
+  IndirectRead,         ///< Arguments of an indirect dispatch or draw.
+  TransferRead,         ///< Source of a copy or blit.
+  TransferWrite,        ///< Destination of a copy, blit or clear.
+  ColorWrite,           ///< Colour attachment, cleared or fully overwritten.
+  ColorReadWrite,       ///< Colour attachment, loaded and blended.
+  DepthWrite,           ///< Depth attachment, cleared and written.
+  DepthReadWrite,       ///< Depth attachment, loaded, tested and written.
+  DepthRead,            ///< Depth attachment, tested only.
   FragmentSampledRead,  ///< Graphics: sampled in the fragment shader.
-  VertexRead,        ///< Vertex buffer.
-  IndexRead,         ///< Index buffer.
+  VertexRead,           ///< Vertex buffer.
+  IndexRead,            ///< Index buffer.
 };
 
 /// State of a resource at the border between the graph and its host.
@@ -119,10 +119,11 @@ struct HistoryAgeConstant {
 struct ComputeDispatch {
   const Shader* shader = nullptr;
   std::vector<std::uint32_t> specialization;  ///< One word per entry of `shader->constants`, in that order.
+  std::vector<std::string> unknownConstants;  ///< Names set that the shader does not have: an error of `compile`.
   std::vector<std::byte> constants;           ///< Push constants; size must be the shader's.
   std::vector<HistoryAgeConstant> historyAges;
-  std::uint32_t groups[3] = {0, 0, 0};        ///< Work groups; ignored when `indirect` is valid.
-  Buffer indirect;                            ///< Arguments of vkCmdDispatchIndirect, where given.
+  std::uint32_t groups[3] = {0, 0, 0};  ///< Work groups; ignored when `indirect` is valid.
+  Buffer indirect;                      ///< Arguments of vkCmdDispatchIndirect, where given.
   std::uint64_t indirectOffset = 0;
 };
 
@@ -148,7 +149,7 @@ struct AccessDecl {
   std::uint32_t replacesVersion = kNone;
   Access access = Access::SampledRead;
   SubresourceRange range;
-  std::string binding;  ///< Name of the shader variable; empty for callback passes.
+  std::string binding;                  ///< Name of the shader variable; empty for callback passes.
   VkFilter filter = VK_FILTER_NEAREST;  ///< For combined image samplers; addressing clamps to the edge.
   std::source_location where;
 };
@@ -165,9 +166,9 @@ struct ResourceDecl {
   std::string name;
   std::variant<TextureDesc, BufferDesc> desc;
   Lifetime lifetime = Lifetime::Transient;
-  std::optional<ExternalState> acquire;  ///< Imported resources: their state when the graph starts.
-  std::uint32_t history = kNone;         ///< Index into `GraphDesc::histories`.
-  std::uint32_t versions = 0;            ///< Number of writes declared.
+  std::optional<ExternalState> acquire = std::nullopt;  ///< Imported resources: their state when the graph starts.
+  std::uint32_t history = kNone;                        ///< Index into `GraphDesc::histories`.
+  std::uint32_t versions = 0;                           ///< Number of writes declared.
   std::source_location where;
 };
 
@@ -241,6 +242,10 @@ class PassBuilder {
  private:
   friend class Graph;
   PassBuilder(Graph& graph, std::uint32_t pass) : graph_(&graph), pass_(pass) {}
+  PassBuilder& read(ResourceVersion resource, Access access, std::string_view binding, Where where);
+  ResourceVersion write(ResourceVersion resource, Access access, std::string_view binding, Where where);
+  ResourceVersion touch(ResourceVersion resource, Access access, Where where);
+  ComputeDispatch& computeWork();
   Graph* graph_;
   std::uint32_t pass_;
 };
@@ -277,6 +282,7 @@ class Graph {
 
  private:
   friend class PassBuilder;
+  std::uint32_t declare(ResourceDecl resource);
   GraphDesc desc_;
 };
 

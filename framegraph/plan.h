@@ -13,13 +13,13 @@ namespace fg {
 enum class BarrierReason : std::uint8_t {
   ReadAfterWrite,
   WriteAfterWrite,
-  WriteAfterRead,     ///< Execution only, unless the layout changes.
-  LayoutChange,       ///< Between two reads.
-  FirstUse,           ///< Contents are not needed: from UNDEFINED.
-  AliasHandOver,      ///< The memory had another owner before (`aliasOf`), in this frame or the last.
-  HistoryCarry,       ///< From last frame's use of the same history slot.
-  Acquire,            ///< From the state in which the host hands an import over.
-  Release,            ///< Into the state in which the host takes an export back.
+  WriteAfterRead,  ///< Execution only, unless the layout changes.
+  LayoutChange,    ///< Between two reads.
+  FirstUse,        ///< Contents are not needed: from UNDEFINED.
+  AliasHandOver,   ///< The memory had another owner before (`aliasOf`), in this frame or the last.
+  HistoryCarry,    ///< From last frame's use of the same history slot.
+  Acquire,         ///< From the state in which the host hands an import over.
+  Release,         ///< Into the state in which the host takes an export back.
 };
 
 /// One memory dependency at VkImageMemoryBarrier2 / VkBufferMemoryBarrier2 level.
@@ -46,14 +46,14 @@ struct PlannedPass {
 
 /// One resource with everything that is needed to make it. Same index as `GraphDesc::resources`.
 struct PlannedResource {
-  bool used = false;                ///< False when every pass that touches it was culled.
-  VkImageUsageFlags imageUsage = 0; ///< Union over all accesses; textures only.
+  bool used = false;                 ///< False when every pass that touches it was culled.
+  VkImageUsageFlags imageUsage = 0;  ///< Union over all accesses; textures only.
   VkBufferUsageFlags bufferUsage = 0;
-  std::uint32_t firstUse = kNone;   ///< Position in `Plan::passes`.
+  std::uint32_t firstUse = kNone;  ///< Position in `Plan::passes`.
   std::uint32_t lastUse = kNone;
-  std::uint32_t heap = kNone;       ///< Index into `Plan::heaps`; transients only.
-  std::uint64_t offset = 0;         ///< Bytes from the start of the heap.
-  std::uint64_t size = 0;           ///< Bytes that the driver asks for.
+  std::uint32_t heap = kNone;  ///< Index into `Plan::heaps`; transients only.
+  std::uint64_t offset = 0;    ///< Bytes from the start of the heap.
+  std::uint64_t size = 0;      ///< Bytes that the driver asks for.
   std::uint64_t alignment = 1;
   friend bool operator==(const PlannedResource&, const PlannedResource&) = default;
 };
@@ -88,8 +88,8 @@ struct TrafficReport {
 };
 
 struct Plan {
-  std::vector<PlannedPass> passes;          ///< In execution order.
-  std::vector<PlannedBarrier> releases;     ///< After the last pass.
+  std::vector<PlannedPass> passes;       ///< In execution order.
+  std::vector<PlannedBarrier> releases;  ///< After the last pass.
   std::vector<PlannedResource> resources;
   std::vector<PlannedHeap> heaps;
   std::vector<CulledPass> culled;
