@@ -11,18 +11,53 @@
 namespace walr {
 namespace {
 
+std::string join(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text.append(text.empty() ? "" : ", ").append(name);
+  return text;
+}
+
+template <typename Settings>
+struct Preset {
+  std::string_view name;
+  Settings (*make)();
+};
+
+template <typename Settings>
+constexpr std::array<Preset<Settings>, 0> kPresets{};
+template <>
+constexpr std::array kPresets<WalrSettings>{Preset<WalrSettings>{"robust", robustWalr},
+                                            Preset<WalrSettings>{"paper", paperWalr}};
+
 /// A method made of a settings struct and the function that adds its passes.
 template <typename Settings, auto kAdd>
 class DenoiserOf final : public Denoiser {
  public:
   void visitSettings(SettingVisitor& visitor) override { settings_.visit(visitor); }
+
+  [[nodiscard]] std::vector<std::string> presets() const override {
+    std::vector<std::string> names;
+    for (const auto& preset : kPresets<Settings>) names.emplace_back(preset.name);
+    return names;
+  }
+
+  void usePreset(std::string_view name) override {
+    for (const auto& preset : kPresets<Settings>) {
+      if (preset.name != name) continue;
+      settings_ = preset.make();
+      return;
+    }
+    throw std::invalid_argument("there is no preset \"" + std::string(name) + "\" of this method; known presets: " +
+                                (kPresets<Settings>.empty() ? "none" : join(presets())));
+  }
+
   fg::Texture add(fg::Graph& graph, const DenoiserInputs& inputs, fg::Texture output) override {
     checkSettings();
     return kAdd(graph, inputs, output, settings_);
   }
 
  private:
-  Settings settings_;
+  Settings settings_{};
 };
 
 template <typename Settings, auto kAdd>
@@ -60,9 +95,8 @@ std::vector<std::string> denoiserNames() {
 std::unique_ptr<Denoiser> makeDenoiser(std::string_view method) {
   const auto* found = std::find_if(kMethods.begin(), kMethods.end(), [&](const Method& m) { return m.name == method; });
   if (found == kMethods.end()) {
-    std::string known;
-    for (const Method& m : kMethods) known.append(known.empty() ? "" : ", ").append(m.name);
-    throw std::invalid_argument("there is no method \"" + std::string(method) + "\"; known methods: " + known);
+    throw std::invalid_argument("there is no method \"" + std::string(method) +
+                                "\"; known methods: " + join(denoiserNames()));
   }
   return found->make();
 }

@@ -14,6 +14,11 @@ namespace walr {
 /// A whole denoising method with its settings.
 class Denoiser : public Configurable {
  public:
+  /// Names of the presets that `usePreset` takes; the first holds the defaults. Empty where there is but one way.
+  [[nodiscard]] virtual std::vector<std::string> presets() const = 0;
+  /// Replace all settings.
+  /// @throws std::invalid_argument naming the unknown preset and the known ones
+  virtual void usePreset(std::string_view name) = 0;
   /// Add the method's passes to a graph.
   /// @param graph   the host's graph
   /// @param inputs  the host's textures

@@ -7,6 +7,8 @@
 namespace walr {
 
 /// Declare what a pass that includes reprojection.glsl reads.
-void readReprojection(fg::PassBuilder& pass, const DenoiserInputs& inputs, const Guides& guides);
+/// @param dilateMotion follow the nearest surface of the 3x3 neighbourhood (walr.txt 4.2)
+void readReprojection(fg::PassBuilder& pass, const DenoiserInputs& inputs, const Guides& guides,
+                      bool dilateMotion = false);
 
 }  // namespace walr

@@ -13,9 +13,10 @@ fg::PassBuilder addAccumulationPass(fg::Graph& graph, const fg::Shader& shader, 
                                     const Guides& guides, const fg::History& accumulated,
                                     const TemporalAccumulationSettings& settings) {
   fg::PassBuilder pass = graph.compute("temporal accumulation", shader);
-  readReprojection(pass, inputs, guides);
+  readReprojection(pass, inputs, guides, settings.dilateMotion);
   pass.sample("lighting", inputs.lighting)
       .sample("previousAccumulated", accumulated.previous)
+      .specialize("kBicubicHistory", settings.historyFilter == HistoryFilter::Bicubic)
       .constants(TemporalAccumulationConstants{settings.maxSamples, settings.planeTolerance, settings.normalThreshold})
       .dispatch(graph.textureDesc(inputs.lighting).extent);
   return pass;

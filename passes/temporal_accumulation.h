@@ -7,13 +7,19 @@
 
 namespace walr {
 
+/// How a history texture is read between its pixels.
+enum class HistoryFilter : std::uint32_t { Bilinear, Bicubic };
+
 /// Settings of the preprocessing accumulation (walr.txt 4.2).
 struct TemporalAccumulationSettings {
   float maxSamples = 16.0F;
   float planeTolerance = 0.01F;
   float normalThreshold = 0.5F;
+  HistoryFilter historyFilter = HistoryFilter::Bilinear;
+  bool dilateMotion = false;
 
   void visit(SettingVisitor& v) {
+    static constexpr std::string_view kFilters[] = {"bilinear", "bicubic"};
     v.visit({"accumulation.max-samples", "Samples after which the cumulative mean turns exponential", "frames", 1.0,
              255.0, "walr.txt 4.2"},
             maxSamples);
@@ -23,6 +29,11 @@ struct TemporalAccumulationSettings {
     v.visit({"accumulation.normal-threshold", "Smallest cosine between geometric normals of surface and history pixel",
              "", -1.0, 1.0, "measured"},
             normalThreshold);
+    v.visitEnum({"accumulation.history-filter", "How history is read between pixels", "", 0, 1, "walr.txt 4.2"},
+                kFilters, historyFilter);
+    v.visit(
+        {"accumulation.dilate-motion", "Follow the nearest surface of the 3x3 neighbourhood", "", 0, 1, "walr.txt 4.2"},
+        dilateMotion);
   }
 };
 

@@ -13,7 +13,7 @@ fg::Texture addTemporalAntialiasing(fg::Graph& graph, const DenoiserInputs& inpu
   const fg::History resolved = graph.history("resolved", {VK_FORMAT_R16G16B16A16_SFLOAT, extent});
 
   fg::PassBuilder pass = graph.compute("temporal anti-aliasing", shaders::temporalAntialiasing);
-  readReprojection(pass, inputs, guides);
+  readReprojection(pass, inputs, guides, settings.dilateMotion);
   pass.sample("filtered", filtered)
       .sample("previousResolved", resolved.previous)
       .constants(TemporalAntialiasingConstants{settings.maxSamples, settings.clipGamma, settings.planeTolerance,

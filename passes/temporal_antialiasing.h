@@ -13,6 +13,7 @@ struct TemporalAntialiasingSettings {
   float clipGamma = 1.0F;
   float planeTolerance = 0.01F;
   float normalThreshold = 0.5F;
+  bool dilateMotion = false;
 
   void visit(SettingVisitor& v) {
     v.visit({"antialiasing.max-samples", "Frames after which the cumulative mean turns exponential", "frames", 1.0,
@@ -27,6 +28,9 @@ struct TemporalAntialiasingSettings {
     v.visit({"antialiasing.normal-threshold", "Smallest cosine between geometric normals of surface and history pixel",
              "", -1.0, 1.0, "measured"},
             normalThreshold);
+    v.visit(
+        {"antialiasing.dilate-motion", "Follow the nearest surface of the 3x3 neighbourhood", "", 0, 1, "walr.txt 4.2"},
+        dilateMotion);
   }
 };
 

@@ -24,6 +24,13 @@ struct WalrSettings {
   }
 };
 
+/// The defaults: the paper's shape and bandwidth with what measurements condemn mended.
+WalrSettings robustWalr();
+
+/// Faithful to the publication: raw half-precision moments without sample counts, floored pivots, the shading normal's
+/// plane, bicubic history, dilated motion, variance clipping alone after the filter.
+WalrSettings paperWalr();
+
 /// Weighted A-Trous Linear Regression (walr.txt, figure 6): preprocessing, spatial filtering, postprocessing.
 /// @param output RGBA16F texture to write the result to
 /// @returns the output's new version

@@ -1,5 +1,5 @@
 // WALR preprocessing (walr.txt 4.2): reproject, reject, then a cumulative mean that turns exponential after a fixed
-// number of samples. History is read bilinearly, each of the four taps tested on its own. KEEP_TAPS also writes which
+// number of samples. Each of the four history pixels around the position is tested on its own. KEEP_TAPS also writes which
 // taps passed, so that a later stage can read its history in the same way without testing again (bmfr.txt 3.5).
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -8,6 +8,7 @@
 #include "constants/temporal_accumulation.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
+layout(constant_id = 2) const bool kBicubicHistory = false;
 
 layout(set = 0, binding = 0, std140) uniform frameConstants { FrameConstants frame; };
 layout(set = 0, binding = 1) uniform texture2D lighting;
@@ -23,6 +24,7 @@ layout(set = 0, binding = 9, rg32ui) uniform writeonly uimage2D outTaps;
 #endif
 layout(push_constant) uniform PushConstants { TemporalAccumulationConstants settings; };
 
+#include "include/bicubic.glsl"
 #include "include/reprojection.glsl"
 
 void keepTaps(ivec2 p, HistoryTaps taps) {
@@ -47,7 +49,9 @@ void main() {
   const Reprojection r = reproject(p, z, unpackGeometricNormal(texelFetch(normals, p, 0).xy));
   const HistoryTaps taps = historyTaps(r, settings.planeTolerance, settings.normalThreshold);
   keepTaps(p, taps);
-  const vec4 history = meanOfTaps(previousAccumulated, taps);  // Mean and length; length 0 where there is none.
+  // Mean and length; length 0 where there is none.
+  const vec4 history =
+      kBicubicHistory ? bicubicOfTaps(previousAccumulated, taps) : meanOfTaps(previousAccumulated, taps);
   // A sample that is not finite is no sample: the mean stays as it was.
   const float samples = min(history.a + (sampleIsFinite ? 1.0 : 0.0), settings.maxSamples);
   const vec3 radiance = clamp(noisy, vec3(0.0), vec3(kLargestHalf));

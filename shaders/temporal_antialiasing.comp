@@ -20,39 +20,13 @@ layout(set = 0, binding = 8, rgba16f) uniform writeonly image2D outResolved;
 layout(set = 0, binding = 9, rgba16f) uniform writeonly image2D outImage;
 layout(push_constant) uniform PushConstants { TemporalAntialiasingConstants settings; };
 
+#include "include/bicubic.glsl"
 #include "include/reprojection.glsl"
 
 vec3 toYCoCg(vec3 c) {
   return vec3(0.25 * c.r + 0.5 * c.g + 0.25 * c.b, 0.5 * (c.r - c.b), -0.25 * c.r + 0.5 * c.g - 0.25 * c.b);
 }
 vec3 fromYCoCg(vec3 c) { return vec3(c.x + c.y - c.z, c.x + c.z, c.x - c.y - c.z); }
-
-// Catmull-Rom weights of the four pixels around a position `f` past the second.
-vec4 catmullRom(float f) {
-  return vec4(f * (-0.5 + f * (1.0 - 0.5 * f)), 1.0 + f * f * (1.5 * f - 2.5), f * (0.5 + f * (2.0 - 1.5 * f)),
-              f * f * (0.5 * f - 0.5));
-}
-
-struct HistorySample {
-  vec3 colour;
-  float samples;  // 0 where no history pixel shows this surface.
-};
-
-// Bicubic where all four inner pixels show the surface, else the mean of those that do.
-HistorySample sampleHistory(ivec2 p, float z, vec3 normal) {
-  const HistoryTaps taps = historyTaps(reproject(p, z, normal), settings.planeTolerance, settings.normalThreshold);
-  if (!taps.any) return HistorySample(vec3(0.0), 0.0);
-  const vec4 linear = meanOfTaps(previousResolved, taps);
-  if (!taps.all) return HistorySample(linear.rgb, linear.a);
-
-  const vec4 wx = catmullRom(taps.fraction.x), wy = catmullRom(taps.fraction.y);
-  const ivec2 last = textureSize(previousResolved, 0) - 1;
-  vec3 cubic = vec3(0.0);
-  for (int j = 0; j < 4; ++j)
-    for (int i = 0; i < 4; ++i)
-      cubic += wx[i] * wy[j] * texelFetch(previousResolved, clamp(taps.base + ivec2(i, j) - 1, ivec2(0), last), 0).rgb;
-  return HistorySample(max(cubic, vec3(0.0)), linear.a);
-}
 
 // Pull `colour` towards the mean until it is inside the box of `gamma` standard deviations (Salvi 2016).
 vec3 varianceClip(vec3 colour, vec3 mean, vec3 deviation) {
@@ -74,10 +48,12 @@ void main() {
     return;
   }
 
-  const HistorySample history = sampleHistory(p, z, unpackGeometricNormal(texelFetch(normals, p, 0).xy));
+  const Reprojection r = reproject(p, z, unpackGeometricNormal(texelFetch(normals, p, 0).xy));
+  const HistoryTaps taps = historyTaps(r, settings.planeTolerance, settings.normalThreshold);
   vec3 resolved = current;
   float samples = 1.0;
-  if (history.samples > 0.0) {
+  if (taps.any) {
+    const vec4 history = bicubicOfTaps(previousResolved, taps);
     const vec3 centre = toYCoCg(current);
     vec3 sum = vec3(0.0), squares = vec3(0.0);
     float count = 0.0;
@@ -93,8 +69,8 @@ void main() {
     }
     const vec3 mean = sum / count;
     const vec3 deviation = sqrt(max(squares / count - mean * mean, vec3(0.0)));
-    const vec3 clipped = varianceClip(toYCoCg(history.colour), centre + mean, settings.clipGamma * deviation);
-    samples = min(history.samples + 1.0, settings.maxSamples);
+    const vec3 clipped = varianceClip(toYCoCg(history.rgb), centre + mean, settings.clipGamma * deviation);
+    samples = min(history.a + 1.0, settings.maxSamples);
     resolved = max(mix(fromYCoCg(clipped), current, 1.0 / samples), vec3(0.0));
   }
   imageStore(outResolved, p, vec4(resolved, samples));

@@ -1,5 +1,5 @@
 // Where a surface was in the previous frame, and whether a history pixel shows it.
-// Needs: `frame` (FrameConstants), `motion`, `previousDepth`, `previousNormals`.
+// Needs: `frame` (FrameConstants), `motion`, `depth`, `previousDepth`, `previousNormals`. Takes constant_id 0 and 1.
 #ifndef WALR_REPROJECTION_GLSL
 #define WALR_REPROJECTION_GLSL
 #include "camera.glsl"
@@ -8,6 +8,7 @@
 #include "surface.glsl"
 
 layout(constant_id = 0) const bool kMotionDepthGiven = true;
+layout(constant_id = 1) const bool kDilateMotion = false;  // Follow the nearest surface of the 3x3 neighbourhood.
 
 struct Reprojection {
   vec2 pixel;      // Position in the previous frame, pixels.
@@ -16,14 +17,28 @@ struct Reprojection {
   bool valid;
 };
 
-// `p` is the pixel whose motion is followed, `depth` its view depth, `normal` its geometric normal.
-Reprojection reproject(ivec2 p, float depth, vec3 normal) {
+// The pixel of the 3x3 neighbourhood that is nearest to the camera: along silhouettes it carries the occluder's motion.
+ivec2 nearestPixel(ivec2 p, float z) {
+  ivec2 nearest = p;
+  for (int i = 0; i < 9; ++i) {
+    const ivec2 q = clamp(p + ivec2(i % 3, i / 3) - 1, ivec2(0), textureSize(depth, 0) - 1);
+    const float candidate = unpackDepth(texelFetch(depth, q, 0).x);
+    if (candidate > 0.0 && candidate < z) {
+      z = candidate;
+      nearest = q;
+    }
+  }
+  return nearest;
+}
+
+// `z` is the view depth of pixel `p`, `normal` its geometric normal.
+Reprojection reproject(ivec2 p, float z, vec3 normal) {
   Reprojection r;
-  const vec3 motionHere = texelFetch(motion, p, 0).xyz;
-  r.pixel = pixelCentre(p) + motionHere.xy * frame.motionScale - frame.jitterDelta;
-  float previousDepthHere = depth + motionHere.z;
+  const vec2 shift = texelFetch(motion, kDilateMotion ? nearestPixel(p, z) : p, 0).xy * frame.motionScale;
+  r.pixel = pixelCentre(p) + shift - frame.jitterDelta;
+  float previousDepthHere = z + texelFetch(motion, p, 0).z;
   if (!kMotionDepthGiven) {
-    const vec3 position = rayThrough(frame.rayFromPixel, pixelCentre(p)) * depth;
+    const vec3 position = rayThrough(frame.rayFromPixel, pixelCentre(p)) * z;
     previousDepthHere = -(frame.previousViewFromView * vec4(position, 1.0)).z;
   }
   r.position = rayThrough(frame.previousRayFromPixel, r.pixel) * previousDepthHere;

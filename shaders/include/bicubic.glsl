@@ -1,0 +1,26 @@
+// Catmull-Rom reading of a history texture.
+#ifndef WALR_BICUBIC_GLSL
+#define WALR_BICUBIC_GLSL
+#include "history_taps.glsl"
+
+// Weights of the four pixels around a position `f` past the second.
+vec4 catmullRom(float f) {
+  return vec4(f * (-0.5 + f * (1.0 - 0.5 * f)), 1.0 + f * f * (1.5 * f - 2.5), f * (0.5 + f * (2.0 - 1.5 * f)),
+              f * f * (0.5 * f - 0.5));
+}
+
+// Radiance is bicubic where all four inner pixels show the surface, else the mean of those that do. Alpha, the history
+// length, is that mean in either case.
+vec4 bicubicOfTaps(texture2D history, HistoryTaps taps) {
+  const vec4 linear = meanOfTaps(history, taps);
+  if (!taps.all) return linear;
+  const vec4 wx = catmullRom(taps.fraction.x), wy = catmullRom(taps.fraction.y);
+  const ivec2 last = textureSize(history, 0) - 1;
+  vec3 cubic = vec3(0.0);
+  for (int j = 0; j < 4; ++j)
+    for (int i = 0; i < 4; ++i)
+      cubic += wx[i] * wy[j] * texelFetch(history, clamp(taps.base + ivec2(i, j) - 1, ivec2(0), last), 0).rgb;
+  return vec4(max(cubic, vec3(0.0)), linear.a);
+}
+
+#endif
