@@ -1,0 +1,127 @@
+#include "passes/settings.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "passes/denoiser.h"
+
+namespace walr {
+namespace {
+
+/// The message of the std::invalid_argument that `action` throws; empty where it throws none.
+template <typename Action>
+std::string rejection(Action action) {
+  try {
+    action();
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return {};
+}
+
+std::string valueOf(Denoiser& denoiser, const std::string& name) {
+  const std::vector<SettingText> settings = denoiser.settings();
+  const auto found = std::ranges::find(settings, name, &SettingText::name);
+  return found == settings.end() ? "no such setting" : found->value;
+}
+
+TEST(Settings, EveryKindIsSetFromText) {
+  const auto walr = makeDenoiser("walr");
+  walr->set("regression.iterations", "3");
+  walr->set("regression.plane-far", "0.02");
+  walr->set("regression.replace-taps", "off");
+  walr->set("accumulation.history-filter", "bicubic");
+  EXPECT_EQ(valueOf(*walr, "regression.iterations"), "3");
+  EXPECT_EQ(valueOf(*walr, "regression.plane-far"), "0.02");
+  EXPECT_EQ(valueOf(*walr, "regression.replace-taps"), "off");
+  EXPECT_EQ(valueOf(*walr, "accumulation.history-filter"), "bicubic");
+}
+
+TEST(Settings, AnUnknownNameIsRejectedWithTheKnownOnes) {
+  const auto walr = makeDenoiser("walr");
+  const std::string message = rejection([&] { walr->set("regression.iteration", "3"); });
+  EXPECT_NE(message.find("\"regression.iteration\""), std::string::npos) << message;
+  EXPECT_NE(message.find("regression.iterations"), std::string::npos) << message;
+}
+
+TEST(Settings, AValueOutsideTheRangeIsRejectedWithTheRange) {
+  const auto walr = makeDenoiser("walr");
+  for (const char* value : {"0", "6", "-1", "3.5", "many", "", "nan", "3 "}) {
+    const std::string message = rejection([&] { walr->set("regression.iterations", value); });
+    EXPECT_NE(message.find("regression.iterations"), std::string::npos) << value;
+    EXPECT_NE(message.find("1..5"), std::string::npos) << value;
+  }
+  EXPECT_NE(rejection([&] { walr->set("regression.plane-far", "nan"); }), "");
+  EXPECT_EQ(valueOf(*walr, "regression.iterations"), "4");
+}
+
+TEST(Settings, AnUnknownChoiceIsRejectedWithTheChoices) {
+  const auto walr = makeDenoiser("walr");
+  const std::string message = rejection([&] { walr->set("regression.moments", "raw64"); });
+  EXPECT_NE(message.find("centred16, raw16, raw11, raw32"), std::string::npos) << message;
+}
+
+TEST(Settings, EverySettingOfEveryMethodSaysWhatItIs) {
+  for (const std::string& method : denoiserNames()) {
+    const auto denoiser = makeDenoiser(method);
+    std::vector<std::string> names;
+    for (const SettingText& setting : denoiser->settings()) {
+      EXPECT_FALSE(setting.description.empty()) << method << " " << setting.name;
+      EXPECT_FALSE(setting.source.empty()) << method << " " << setting.name;
+      EXPECT_FALSE(setting.range.empty()) << method << " " << setting.name;
+      names.push_back(setting.name);
+    }
+    std::ranges::sort(names);
+    EXPECT_TRUE(std::ranges::adjacent_find(names) == names.end()) << method << " names a setting twice";
+    EXPECT_NO_THROW(denoiser->checkSettings()) << method;
+  }
+}
+
+TEST(Settings, ADefaultCanBeSetFromItsOwnText) {
+  for (const std::string& method : denoiserNames()) {
+    const auto denoiser = makeDenoiser(method);
+    for (const SettingText& setting : denoiser->settings()) {
+      EXPECT_NO_THROW(denoiser->set(setting.name, setting.value)) << method << " " << setting.name;
+    }
+  }
+}
+
+TEST(Settings, AnUnknownMethodIsRejectedWithTheKnownOnes) {
+  const std::string message = rejection([] { (void)makeDenoiser("wlar"); });
+  EXPECT_NE(message.find("\"wlar\""), std::string::npos) << message;
+  for (const std::string& method : denoiserNames()) EXPECT_NE(message.find(method), std::string::npos) << message;
+}
+
+TEST(Presets, ReplaceAllSettings) {
+  const auto walr = makeDenoiser("walr");
+  walr->set("regression.iterations", "2");
+  walr->usePreset("paper");
+  EXPECT_EQ(valueOf(*walr, "regression.iterations"), "4");
+  EXPECT_EQ(valueOf(*walr, "regression.moments"), "raw16");
+  walr->usePreset("robust");
+  EXPECT_EQ(valueOf(*walr, "regression.moments"), "centred16");
+}
+
+TEST(Presets, TheFirstHoldsTheDefaults) {
+  for (const std::string& method : denoiserNames()) {
+    const auto denoiser = makeDenoiser(method);
+    if (denoiser->presets().empty()) continue;
+    const auto preset = makeDenoiser(method);
+    preset->usePreset(preset->presets().front());
+    const std::vector<SettingText> expected = denoiser->settings();
+    const std::vector<SettingText> actual = preset->settings();
+    ASSERT_EQ(expected.size(), actual.size());
+    for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_EQ(expected[i].value, actual[i].value) << expected[i].name;
+  }
+}
+
+TEST(Presets, AnUnknownOneIsRejectedWithTheKnownOnes) {
+  const std::string message = rejection([] { makeDenoiser("walr")->usePreset("best"); });
+  EXPECT_NE(message.find("robust, paper"), std::string::npos) << message;
+}
+
+}  // namespace
+}  // namespace walr
