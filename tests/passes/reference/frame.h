@@ -1,0 +1,36 @@
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include "passes/inputs.h"
+#include "shaders/constants/frame.h"
+#include "tests/passes/reference/image.h"
+
+namespace walr::reference {
+
+/// What a host hands over for one frame, with the values that its textures hold.
+struct HostFrame {
+  Image<glm::dvec3> lighting;  ///< Demodulated radiance; may hold NaN and infinity.
+  Image<double> depth;         ///< Linear view depth.
+  Image<glm::dvec3> normal;
+  Image<glm::dvec3> motion;
+  Image<glm::dvec3> albedo;
+  FrameConstants constants{};
+  InputConventions conventions;
+  [[nodiscard]] glm::ivec2 size() const { return depth.size(); }
+};
+
+/// Position of the pixel's centre, pixels.
+inline glm::dvec2 pixelCentre(glm::ivec2 p) {
+  return glm::dvec2(p) + 0.5;
+}
+
+/// View-space ray through a pixel position; its product with the view depth is the position.
+inline glm::dvec3 rayThrough(const glm::vec4& rayFromPixel, glm::dvec2 pixel) {
+  const glm::dvec4 r(rayFromPixel);
+  return {pixel.x * r.x + r.z, pixel.y * r.y + r.w, -1.0};
+}
+
+}  // namespace walr::reference

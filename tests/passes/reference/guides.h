@@ -1,0 +1,40 @@
+#pragma once
+
+#include <vector>
+
+#include "passes/prepare_guides.h"
+#include "tests/passes/reference/frame.h"
+#include "tests/passes/reference/storage.h"
+
+namespace walr::reference {
+
+/// The noise-free guides of one pixel.
+struct Guide {
+  double depth = 0.0;        ///< View depth; 0 where there is nothing to denoise.
+  glm::dvec2 features{0.0};  ///< Octahedral map of the shading normal.
+  glm::dvec3 normal{0.0};    ///< Geometric normal, which spans the plane of the edge-stopping function.
+};
+
+/// A geometric normal that an implementation may arrive at.
+struct NormalCandidate {
+  glm::dvec3 normal;
+  double error = 0.0;  ///< Largest difference, in radians, that single-precision arithmetic may make.
+};
+
+/// The pixel's surface, without geometric normal; depth 0 for sky, missing normals and pixels without a diffuse lobe.
+struct Surface {
+  double depth = 0.0;
+  glm::dvec3 shadingNormal{0.0};  ///< Unit, in view space, towards the camera.
+};
+Surface surfaceAt(const HostFrame& frame, glm::ivec2 p, const PrepareGuidesSettings& settings);
+
+/// The geometric normal of a surface: from differences of positions, along each axis on the side whose pixels
+/// extrapolate best to this one. The first entry is the exact answer; further ones follow where a decision on the way
+/// (which side, whether the shading normal agrees) is closer than single precision can tell.
+std::vector<NormalCandidate> geometricNormals(const HostFrame& frame, glm::ivec2 p, const Surface& surface,
+                                              const PrepareGuidesSettings& settings);
+
+/// The conversion of the host's G-buffer.
+Image<Guide> prepareGuides(const HostFrame& frame, Storage storage, const PrepareGuidesSettings& settings = {});
+
+}  // namespace walr::reference

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <cstdint>
+
+#include <glm/vec4.hpp>
+
+namespace walr::reference {
+
+/// Integer hash of four words (Jarzynski and Olano, "Hash Functions for GPU Rendering", JCGT 2020, pcg4d).
+glm::uvec4 pcg4d(glm::uvec4 key);
+
+/// Uniform in 0 .. count - 1: the hash's first word as a fraction of 2^32, times `count`.
+std::uint32_t hashBelow(glm::uvec4 key, std::uint32_t count);
+
+}  // namespace walr::reference

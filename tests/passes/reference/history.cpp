@@ -1,0 +1,93 @@
+#include "tests/passes/reference/history.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/common.hpp>
+
+namespace walr::reference {
+namespace {
+
+/// History whose taps sum to less than this hundredth of a pixel is dropped.
+constexpr double kLeastWeight = 0.01;
+
+/// Mean of the taps that match, in proportion to their weights.
+HistorySample sampleBilinear(const Reprojection& r, const std::array<HistoryTap, 4>& taps,
+                             const Image<glm::dvec4>& previous) {
+  glm::dvec4 sum(0.0);
+  glm::dvec4 least(1e300);
+  glm::dvec4 most(-1e300);
+  double weightSum = 0.0;
+  HistorySample history;
+  for (const HistoryTap& tap : taps) {
+    history.undecided |= tap.undecided;
+    if (!tap.matches) continue;
+    const glm::dvec4 value = previous[tap.pixel];
+    sum += tap.weight * value;
+    weightSum += tap.weight;
+    least = glm::min(least, value);
+    most = glm::max(most, value);
+  }
+  history.undecided |= std::abs(weightSum - kLeastWeight) <= 4.0 * pixelError(r);
+  history.found = weightSum > kLeastWeight;
+  if (!history.found) return history;
+  history.value = sum / weightSum;
+  // Each weight may err by twice the position's error, of which the normalised mean sees what the taps differ by.
+  history.error = 8.0 * pixelError(r) / weightSum * (most - least) +
+                  16.0 * kFloatRoundoff * glm::max(glm::abs(most), glm::abs(least));
+  return history;
+}
+
+/// Colour of the 4x4 pixels around the position; the picture goes on with its border pixels.
+HistorySample sampleBicubic(const Reprojection& r, const Image<glm::dvec4>& previous) {
+  const glm::dvec2 base = glm::floor(r.pixel - 0.5);
+  const glm::dvec2 f = r.pixel - 0.5 - base;
+  const std::array<double, 4> wx = catmullRom(f.x);
+  const std::array<double, 4> wy = catmullRom(f.y);
+  glm::dvec4 sum(0.0);
+  glm::dvec4 least(1e300);
+  glm::dvec4 most(0.0);
+  for (int j = 0; j < 4; ++j) {
+    for (int i = 0; i < 4; ++i) {
+      const glm::ivec2 q = glm::clamp(glm::ivec2(base) + glm::ivec2(i - 1, j - 1), glm::ivec2(0), previous.size() - 1);
+      sum += wx[i] * wy[j] * previous[q];
+      least = glm::min(least, previous[q]);
+      most = glm::max(most, previous[q]);
+    }
+  }
+  HistorySample history;
+  history.value = glm::max(sum, 0.0);
+  // A Catmull-Rom weight changes by at most 1.5 per pixel and axis, and the sixteen products sum to 1.6 at most.
+  history.error = 24.0 * pixelError(r) * (most - least) + 48.0 * kFloatRoundoff * most;
+  return history;
+}
+
+}  // namespace
+
+std::array<double, 4> catmullRom(double f) {
+  const double f2 = f * f;
+  const double f3 = f2 * f;
+  return {(-f3 + 2.0 * f2 - f) / 2.0, (3.0 * f3 - 5.0 * f2 + 2.0) / 2.0, (-3.0 * f3 + 4.0 * f2 + f) / 2.0,
+          (f3 - f2) / 2.0};
+}
+
+HistorySample sampleHistory(const Reprojection& r, const std::array<HistoryTap, 4>& taps,
+                            const Image<glm::dvec4>& previous, HistoryFilter filter) {
+  if (!r.valid) return {};
+  HistorySample history = sampleBilinear(r, taps, previous);
+  if (filter == HistoryFilter::Bilinear || !history.found) return history;
+  // Which pixels surround the position decides whether all of them match.
+  const glm::dvec2 fraction = glm::fract(r.pixel - 0.5);
+  for (int axis = 0; axis < 2; ++axis) {
+    const double toPixel = std::min(fraction[axis], 1.0 - fraction[axis]);
+    history.undecided |= toPixel > 0.0 && toPixel <= 2.0 * pixelError(r);
+  }
+  const bool allMatch = std::all_of(taps.begin(), taps.end(), [](const HistoryTap& tap) { return tap.matches; });
+  if (!allMatch) return history;
+  HistorySample bicubic = sampleBicubic(r, previous);
+  history.value = glm::dvec4(glm::dvec3(bicubic.value), history.value.w);
+  history.error = glm::dvec4(glm::dvec3(bicubic.error), history.error.w);
+  return history;
+}
+
+}  // namespace walr::reference

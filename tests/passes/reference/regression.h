@@ -1,0 +1,34 @@
+#pragma once
+
+#include <vector>
+
+#include "tests/passes/reference/moments.h"
+
+namespace walr::reference {
+
+/// Square matrix of a regression with m features, row by row.
+using Matrix = std::vector<std::vector<double>>;
+
+/// Lower triangular C with C C^t = `a` for a symmetric matrix, each pivot no smaller than its floor (walr.txt,
+/// algorithm 1).
+Matrix cholesky(const Matrix& a, const std::vector<double>& pivotFloors);
+/// Solve C C^t x = y (walr.txt, algorithm 2).
+std::vector<double> solve(const Matrix& c, std::vector<double> y);
+
+/// A reconstructed colour, with the error that single-precision arithmetic may have made in it.
+struct Reconstruction {
+  glm::dvec3 colour{0.0};
+  glm::dvec3 error{0.0};
+};
+
+/// Relative variance of one input sample over the window: E[l^2] / E[l]^2 - 1.
+double relativeVariance(const Moments& m);
+
+/// Fit the colour to the constant and the two features, and evaluate the fit at `features`; at least 0, at most the
+/// largest half. Regularisation::Ridge adds `ridge + noiseRidge * relativeVariance / W` to the covariance's diagonal
+/// and takes no pivot smaller than that, Regularisation::Floor floors the pivots at `ridge`.
+/// @param momentsError error of each moment that single precision made before (zeros where they are exact)
+Reconstruction reconstruct(const Moments& m, glm::dvec2 features, const WeightedRegressionSettings& settings,
+                           const MomentValues& momentsError = {});
+
+}  // namespace walr::reference

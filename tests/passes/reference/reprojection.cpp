@@ -1,0 +1,82 @@
+#include "tests/passes/reference/reprojection.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+
+namespace walr::reference {
+namespace {
+
+/// The surface nearest to the camera in the 3x3 neighbourhood; the first in reading order of equally near ones, but the
+/// pixel itself before all.
+glm::ivec2 nearestPixel(const Image<Guide>& guides, glm::ivec2 p) {
+  glm::ivec2 nearest = p;
+  for (int dy = -1; dy <= 1; ++dy) {
+    for (int dx = -1; dx <= 1; ++dx) {
+      const glm::ivec2 q = p + glm::ivec2(dx, dy);
+      if (!guides.contains(q) || guides[q].depth == 0.0) continue;
+      if (guides[q].depth < guides[nearest].depth) nearest = q;
+    }
+  }
+  return nearest;
+}
+
+}  // namespace
+
+Reprojection reproject(const HostFrame& frame, const Image<Guide>& guides, glm::ivec2 p, bool dilateMotion) {
+  const FrameConstants& constants = frame.constants;
+  const Guide& guide = guides[p];
+  const glm::dvec2 motion(frame.motion[dilateMotion ? nearestPixel(guides, p) : p]);
+  const glm::dmat4 previousFromCurrent(constants.previousViewFromView);
+  Reprojection r;
+  r.pixel = pixelCentre(p) + motion * glm::dvec2(constants.motionScale) - glm::dvec2(constants.jitterDelta);
+  double previousDepth = guide.depth + frame.motion[p].z;
+  if (frame.conventions.motionDepth == InputConventions::MotionDepth::StaticScene) {
+    const glm::dvec3 position = rayThrough(constants.rayFromPixel, pixelCentre(p)) * guide.depth;
+    previousDepth = -(previousFromCurrent * glm::dvec4(position, 1.0)).z;
+  }
+  r.position = rayThrough(constants.previousRayFromPixel, r.pixel) * previousDepth;
+  r.normal = glm::dmat3(previousFromCurrent) * guide.normal;
+  const glm::dvec2 size(frame.size());
+  r.valid = r.pixel.x > -1.0 && r.pixel.y > -1.0 && r.pixel.x < size.x + 1.0 && r.pixel.y < size.y + 1.0 &&
+            std::isfinite(previousDepth) && previousDepth > 0.0;
+  return r;
+}
+
+std::array<HistoryTap, 4> historyTaps(const HostFrame& frame, const Reprojection& r, const Image<Guide>& previousGuides,
+                                      double planeTolerance, double normalThreshold) {
+  std::array<HistoryTap, 4> taps;
+  if (!r.valid) return taps;
+  const glm::dvec2 base = glm::floor(r.pixel - 0.5);
+  const glm::dvec2 f = r.pixel - 0.5 - base;
+  for (int i = 0; i < 4; ++i) {
+    const glm::ivec2 offset(i % 2, i / 2);
+    HistoryTap& tap = taps[i];
+    tap.pixel = glm::ivec2(base) + offset;
+    tap.weight = (offset.x == 1 ? f.x : 1.0 - f.x) * (offset.y == 1 ? f.y : 1.0 - f.y);
+    if (!previousGuides.contains(tap.pixel) || previousGuides[tap.pixel].depth == 0.0) continue;
+    const Guide& guide = previousGuides[tap.pixel];
+    const glm::dvec3 position = rayThrough(frame.constants.previousRayFromPixel, pixelCentre(tap.pixel)) * guide.depth;
+    const double distance = std::abs(glm::dot(r.normal, position - r.position));
+    const double tolerance = planeTolerance * -r.position.z;
+    const double cosine = glm::dot(r.normal, guide.normal);
+    tap.matches = distance <= tolerance && cosine >= normalThreshold;
+    // About sixteen roundings of terms no larger than the two positions, and of unit vectors.
+    const double distanceError = 16.0 * kFloatRoundoff * (glm::length(position) + glm::length(r.position)) +
+                                 pixelError(r) * std::abs(r.position.z) *
+                                     std::max(std::abs(double(frame.constants.previousRayFromPixel.x)),
+                                              std::abs(double(frame.constants.previousRayFromPixel.y)));
+    tap.undecided =
+        std::abs(distance - tolerance) <= distanceError || std::abs(cosine - normalThreshold) <= 32.0 * kFloatRoundoff;
+  }
+  return taps;
+}
+
+double pixelError(const Reprojection& r) {
+  // Product, sum and difference, each no larger than the result, the start and the motion, which is at most as far.
+  return 4.0 * kFloatRoundoff * (2.0 * std::max({std::abs(r.pixel.x), std::abs(r.pixel.y), 1.0}) + 1.0);
+}
+
+}  // namespace walr::reference

@@ -1,0 +1,47 @@
+#include "tests/passes/reference/storage.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace walr::reference {
+namespace {
+
+/// Round to a binary floating-point format with `digits` significant bits whose smallest step is 2^`smallestExponent`.
+double roundToFormat(double value, int digits, int smallestExponent) {
+  if (value == 0.0 || !std::isfinite(value)) return value;
+  int exponent = 0;
+  (void)std::frexp(value, &exponent);  // abs(value) in [2^(exponent - 1), 2^exponent)
+  const int step = std::max(exponent - digits, smallestExponent);
+  return std::ldexp(std::nearbyint(std::ldexp(value, -step)), step);
+}
+
+}  // namespace
+
+double roundToHalf(double value) {
+  const double rounded = roundToFormat(value, 11, -24);
+  return std::abs(rounded) > kLargestHalf ? std::copysign(std::numeric_limits<double>::infinity(), value) : rounded;
+}
+
+double roundToFiniteHalf(double value) {
+  return roundToHalf(std::clamp(value, -kLargestHalf, kLargestHalf));
+}
+
+double roundToUnsignedFloat(double value, int mantissaBits) {
+  const double largest = std::ldexp(2.0 - std::ldexp(1.0, -mantissaBits), 15);
+  return value > 0.0 ? std::min(roundToFormat(value, mantissaBits + 1, -14 - mantissaBits), largest) : 0.0;
+}
+
+double roundToFloat(double value) {
+  return double(static_cast<float>(value));
+}
+
+double roundToUnorm16(double value) {
+  return std::nearbyint(std::clamp(value, 0.0, 1.0) * 65535.0) / 65535.0;
+}
+
+double roundDepth(double depth) {
+  return roundToFormat(depth, 19, -144);
+}
+
+}  // namespace walr::reference

@@ -1,0 +1,64 @@
+#include "tests/passes/reference/temporal_accumulation.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/common.hpp>
+
+namespace walr::reference {
+namespace {
+
+bool isFinite(glm::dvec3 v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+}  // namespace
+
+Image<Accumulated> accumulate(const HostFrame& frame, const Image<Guide>& guides, const AccumulationHistory& previous,
+                              Storage storage, const TemporalAccumulationSettings& settings) {
+  Image<Accumulated> result(frame.size());
+  forEachPixel(frame.size(), [&](glm::ivec2 p) {
+    const glm::dvec3 noisy = frame.lighting[p];
+    Accumulated& out = result[p];
+    if (guides[p].depth == 0.0) {
+      out.mean = isFinite(noisy) ? noisy : glm::dvec3(0.0);
+      return;
+    }
+    HistorySample past;
+    if (previous.guides.size() == frame.size()) {
+      const Reprojection r = reproject(frame, guides, p, settings.dilateMotion);
+      past = sampleHistory(
+          r, historyTaps(frame, r, previous.guides, double(settings.planeTolerance), double(settings.normalThreshold)),
+          previous.accumulated, settings.historyFilter);
+    }
+    const glm::dvec3 pastMean(past.value);
+    out.undecided = past.undecided;
+    out.samplesError = past.error.w + 2.0 * kFloatRoundoff * past.value.w;
+    if (isFinite(noisy)) {
+      const glm::dvec3 radiance = glm::clamp(noisy, 0.0, kLargestHalf);
+      out.samples = std::min(past.value.w + 1.0, double(settings.maxSamples));
+      const double newest = 1.0 / std::max(out.samples, 1.0);
+      out.mean = pastMean + (radiance - pastMean) * newest;
+      out.error = glm::dvec3(past.error) + 8.0 * kFloatRoundoff * (glm::abs(pastMean) + glm::abs(radiance)) +
+                  out.samplesError * newest * newest * glm::abs(radiance - pastMean);
+    } else {
+      out.samples = std::min(past.value.w, double(settings.maxSamples));
+      out.mean = pastMean;
+      out.error = glm::dvec3(past.error);
+    }
+    if (storage == Storage::Quantised) {
+      for (int i = 0; i < 3; ++i) out.mean[i] = roundToFiniteHalf(out.mean[i]);
+      out.samples = roundToHalf(out.samples);
+    }
+  });
+  return result;
+}
+
+Image<glm::dvec4> meansAndLengths(const Image<Accumulated>& accumulated) {
+  Image<glm::dvec4> result(accumulated.size());
+  forEachPixel(accumulated.size(),
+               [&](glm::ivec2 p) { result[p] = glm::dvec4(accumulated[p].mean, accumulated[p].samples); });
+  return result;
+}
+
+}  // namespace walr::reference

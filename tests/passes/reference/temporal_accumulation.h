@@ -1,0 +1,29 @@
+#pragma once
+
+#include "tests/passes/reference/history.h"
+
+namespace walr::reference {
+
+/// A running mean.
+struct Accumulated {
+  glm::dvec3 mean{0.0};
+  double samples = 0.0;   ///< Number of samples behind it.
+  glm::dvec3 error{0.0};  ///< Bound of what single-precision arithmetic adds to the mean.
+  double samplesError = 0.0;
+  bool undecided = false;  ///< A decision lay within rounding: single precision may differ by more than `error`.
+};
+
+/// What a picture of running means was one frame ago.
+struct AccumulationHistory {
+  Image<Guide> guides;            ///< Empty while there is no history.
+  Image<glm::dvec4> accumulated;  ///< rgb: mean; a: number of samples.
+};
+
+/// The preprocessing accumulation (walr.txt 4.2): cumulative mean that turns exponential after `maxSamples`.
+Image<Accumulated> accumulate(const HostFrame& frame, const Image<Guide>& guides, const AccumulationHistory& previous,
+                              Storage storage, const TemporalAccumulationSettings& settings = {});
+
+/// The part of a running mean that the next stages and the next frame read.
+Image<glm::dvec4> meansAndLengths(const Image<Accumulated>& accumulated);
+
+}  // namespace walr::reference

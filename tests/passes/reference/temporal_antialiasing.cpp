@@ -1,0 +1,129 @@
+#include "tests/passes/reference/temporal_antialiasing.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/common.hpp>
+
+namespace walr::reference {
+namespace {
+
+/// Mean and spread of the surface pixels of a 3x3 neighbourhood.
+struct Neighbourhood {
+  glm::dvec3 mean{0.0};
+  glm::dvec3 deviation{0.0};
+  glm::dvec3 deviationError{0.0};
+};
+
+/// A pixel outside the picture stands for the nearest one inside.
+Neighbourhood neighbourhoodOf(const Image<Guide>& guides, const Image<glm::dvec3>& filtered, glm::ivec2 p) {
+  std::vector<glm::dvec3> colours;
+  for (int dy = -1; dy <= 1; ++dy) {
+    for (int dx = -1; dx <= 1; ++dx) {
+      const glm::ivec2 q = glm::clamp(p + glm::ivec2(dx, dy), glm::ivec2(0), filtered.size() - 1);
+      if (guides[q].depth > 0.0) colours.push_back(toYCoCg(filtered[q]));
+    }
+  }
+  const auto count = double(colours.size());
+  const glm::dvec3 centre = toYCoCg(filtered[p]);
+  Neighbourhood n;
+  for (const glm::dvec3& c : colours) n.mean += c / count;
+  glm::dvec3 variance(0.0);
+  glm::dvec3 size(0.0);
+  for (const glm::dvec3& c : colours) {
+    variance += (c - n.mean) * (c - n.mean) / count;
+    size += (c - centre) * (c - centre) / count;
+  }
+  n.deviation = glm::sqrt(variance);
+  // The variance is a difference of two averages of at most `size`, each with about a dozen roundings; the colour
+  // transform rounds the differences themselves by a few roundoffs of the colour.
+  const glm::dvec3 transformError(4.0 * kFloatRoundoff *
+                                  (std::abs(centre.x) + std::abs(centre.y) + std::abs(centre.z)));
+  for (int i = 0; i < 3; ++i) {
+    const double error = 24.0 * kFloatRoundoff * size[i] + 4.0 * transformError[i] * std::sqrt(size[i]) +
+                         transformError[i] * transformError[i];
+    n.deviationError[i] = n.deviation[i] > 0.0 ? std::min(error / n.deviation[i], std::sqrt(error)) : std::sqrt(error);
+  }
+  return n;
+}
+
+/// Bound of the error of a clipped colour in YCoCg: the colour's own, and the box's. Shrinking towards the mean scales
+/// all components by the tightest ratio deviation / offset, so each errs by its offset times that ratio's error.
+glm::dvec3 clipError(glm::dvec3 offset, const Neighbourhood& n, double gamma, double colourError) {
+  double ratio = 1.0;
+  double ratioError = 0.0;
+  for (int i = 0; i < 3; ++i) {
+    const double size = std::abs(offset[i]);
+    if (size + colourError <= gamma * (n.deviation[i] - n.deviationError[i])) continue;  // Inside beyond doubt.
+    if (size <= colourError) {
+      ratioError = 1.0;
+      continue;
+    }
+    ratio = std::min(ratio, gamma * n.deviation[i] / size);
+    ratioError = std::max(ratioError, (gamma * n.deviationError[i] + colourError) / (size - colourError));
+  }
+  return glm::abs(offset) * std::min(ratioError, 1.0) + glm::dvec3(ratio * colourError + colourError);
+}
+
+}  // namespace
+
+glm::dvec3 toYCoCg(glm::dvec3 rgb) {
+  return {(rgb.r + 2.0 * rgb.g + rgb.b) / 4.0, (rgb.r - rgb.b) / 2.0, (2.0 * rgb.g - rgb.r - rgb.b) / 4.0};
+}
+
+glm::dvec3 fromYCoCg(glm::dvec3 yCoCg) {
+  const double notGreen = yCoCg.x - yCoCg.z;
+  return {notGreen + yCoCg.y, yCoCg.x + yCoCg.z, notGreen - yCoCg.y};
+}
+
+glm::dvec3 varianceClip(glm::dvec3 colour, glm::dvec3 mean, glm::dvec3 deviation) {
+  const glm::dvec3 offset = colour - mean;
+  double shrink = 1.0;
+  for (int i = 0; i < 3; ++i) {
+    if (std::abs(offset[i]) > deviation[i]) shrink = std::min(shrink, deviation[i] / std::abs(offset[i]));
+  }
+  return mean + shrink * offset;
+}
+
+Image<Accumulated> antialias(const HostFrame& frame, const Image<Guide>& guides, const Image<glm::dvec3>& filtered,
+                             const AntialiasingHistory& previous, Storage storage,
+                             const TemporalAntialiasingSettings& settings) {
+  Image<Accumulated> result(frame.size());
+  forEachPixel(frame.size(), [&](glm::ivec2 p) {
+    const glm::dvec3 current = filtered[p];
+    Accumulated& out = result[p];
+    out.mean = current;
+    if (guides[p].depth == 0.0) return;
+    out.samples = 1.0;
+    if (previous.guides.size() != frame.size()) return;
+    const Reprojection r = reproject(frame, guides, p, settings.dilateMotion);
+    const HistorySample history = sampleHistory(
+        r, historyTaps(frame, r, previous.guides, double(settings.planeTolerance), double(settings.normalThreshold)),
+        previous.resolved, HistoryFilter::Bicubic);
+    out.undecided = history.undecided;
+    if (!history.found) return;
+
+    const Neighbourhood n = neighbourhoodOf(guides, filtered, p);
+    const double gamma = double(settings.clipGamma);
+    const glm::dvec3 pastYCoCg = toYCoCg(glm::dvec3(history.value));
+    const glm::dvec3 clipped = fromYCoCg(varianceClip(pastYCoCg, n.mean, gamma * n.deviation));
+    out.samples = std::min(history.value.w + 1.0, double(settings.maxSamples));
+    out.samplesError = history.error.w + 2.0 * kFloatRoundoff * out.samples;
+    const double newest = 1.0 / out.samples;
+    out.mean = glm::max(clipped + (current - clipped) * newest, 0.0);
+
+    const double colourError = std::max({history.error.r, history.error.g, history.error.b}) +
+                               16.0 * kFloatRoundoff * (std::abs(pastYCoCg.x) + std::abs(n.mean.x));
+    const glm::dvec3 boxError = clipError(pastYCoCg - n.mean, n, gamma, colourError);
+    const double channelError = boxError.x + boxError.y + boxError.z;
+    out.error = glm::dvec3(channelError) + 8.0 * kFloatRoundoff * (glm::abs(clipped) + glm::abs(current)) +
+                out.samplesError * newest * newest * glm::abs(current - clipped);
+    if (storage == Storage::Quantised) {
+      for (int i = 0; i < 3; ++i) out.mean[i] = roundToHalf(out.mean[i]);
+      out.samples = roundToHalf(out.samples);
+    }
+  });
+  return result;
+}
+
+}  // namespace walr::reference

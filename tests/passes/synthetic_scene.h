@@ -1,0 +1,70 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "passes/frame.h"
+#include "tests/passes/reference/frame.h"
+
+/// Small analytic scenes with their G-buffers, for tests of the passes.
+namespace walr::test {
+
+/// What a ray meets.
+struct SceneHit {
+  double distance = 0.0;          ///< In units of the ray's direction.
+  glm::dvec3 shadingNormal{0.0};  ///< World space; need not be unit.
+  bool diffuse = true;            ///< False for black metal, glass, emitters: albedo 0.
+};
+
+/// A world: what a ray from `origin` along `direction` meets first, or nothing: sky.
+using Scene = std::function<std::optional<SceneHit>(glm::dvec3 origin, glm::dvec3 direction)>;
+
+/// A tilted wall.
+Scene flatWall();
+/// The same wall with shading normals that waver by the given amplitude.
+Scene bumpyWall(double amplitude);
+/// A sphere before a wall.
+Scene sphere();
+/// Bars 1.5 pixels wide (in a picture 96 pixels wide) before a wall.
+Scene thinBars();
+/// A wall that ends in the middle of the picture, sky behind, and a patch on it without a diffuse lobe.
+Scene skyBesideSurface();
+/// Stairs, seen from the front.
+Scene stairs();
+/// A floor seen at a grazing angle.
+Scene grazingFloor();
+
+/// All of the above, by name.
+struct NamedScene {
+  const char* name;
+  Scene scene;
+};
+std::vector<NamedScene> allScenes();
+
+/// Radiance that leaves a point.
+using Light = std::function<glm::dvec3(glm::dvec3 point, glm::dvec3 normal)>;
+/// Smooth light that varies with position and normal, between about 0.2 and 2.
+glm::dvec3 smoothLight(glm::dvec3 point, glm::dvec3 normal);
+
+/// How the lighting samples scatter about the true radiance.
+enum class Noise {
+  None,
+  Exponential,  ///< Relative standard deviation 1, as of one path per pixel.
+};
+
+/// A camera that looks down -Z from the origin, moved by `position`; field of view 53 degrees across the height.
+FrameDescription cameraAt(glm::dvec3 position, glm::dvec3 previousPosition, glm::ivec2 size, std::uint32_t frameIndex);
+
+/// Render a frame; every value is rounded to the format of the texture that it is meant for.
+reference::HostFrame renderFrame(const Scene& scene, const FrameDescription& camera, glm::ivec2 size,
+                                 const Light& light = smoothLight, Noise noise = Noise::Exponential);
+
+/// A still camera's frame.
+reference::HostFrame renderStill(const Scene& scene, glm::ivec2 size, std::uint32_t frameIndex = 0,
+                                 Noise noise = Noise::Exponential);
+
+}  // namespace walr::test
