@@ -1,0 +1,74 @@
+#include "framegraph/vulkan/barriers.h"
+
+#include "framegraph/vulkan/image.h"
+
+namespace fg::vk {
+namespace {
+
+/// Stages and accesses, which the three kinds of barrier spell alike.
+template <typename Barrier>
+Barrier scopes(VkStructureType type, const PlannedBarrier& planned) {
+  Barrier barrier{};
+  barrier.sType = type;
+  barrier.srcStageMask = planned.srcStage;
+  barrier.srcAccessMask = planned.srcAccess;
+  barrier.dstStageMask = planned.dstStage;
+  barrier.dstAccessMask = planned.dstAccess;
+  return barrier;
+}
+
+}  // namespace
+
+BarrierBatch::BarrierBatch(const GraphDesc& graph, std::span<const PlannedBarrier> barriers) {
+  for (const PlannedBarrier& barrier : barriers) {
+    const auto* texture = std::get_if<TextureDesc>(&graph.resources[barrier.resource].desc);
+    if (barrier.reason == BarrierReason::AliasHandOver) addMemory(barrier);
+    if (texture != nullptr) {
+      addImage(*texture, barrier);
+    } else if (barrier.reason != BarrierReason::AliasHandOver) {
+      addBuffer(barrier);
+    }
+  }
+}
+
+void BarrierBatch::addMemory(const PlannedBarrier& barrier) {
+  memory_.push_back(scopes<VkMemoryBarrier2>(VK_STRUCTURE_TYPE_MEMORY_BARRIER_2, barrier));
+}
+
+void BarrierBatch::addImage(const TextureDesc& desc, const PlannedBarrier& planned) {
+  auto barrier = scopes<VkImageMemoryBarrier2>(VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2, planned);
+  barrier.oldLayout = planned.oldLayout;
+  barrier.newLayout = planned.newLayout;
+  barrier.srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+  barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+  barrier.subresourceRange = subresourceRange(desc.format, planned.range);
+  images_.push_back(barrier);
+  imageResources_.push_back(planned.resource);
+}
+
+void BarrierBatch::addBuffer(const PlannedBarrier& planned) {
+  auto barrier = scopes<VkBufferMemoryBarrier2>(VK_STRUCTURE_TYPE_BUFFER_MEMORY_BARRIER_2, planned);
+  barrier.srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+  barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+  barrier.size = VK_WHOLE_SIZE;
+  buffers_.push_back(barrier);
+  bufferResources_.push_back(planned.resource);
+}
+
+void BarrierBatch::record(const DeviceContext& device, VkCommandBuffer commandBuffer, const Resources& resources,
+                          FrameIndex frame) {
+  if (memory_.empty() && images_.empty() && buffers_.empty()) return;
+  for (std::size_t i = 0; i < images_.size(); ++i) images_[i].image = resources.image(imageResources_[i], frame);
+  for (std::size_t i = 0; i < buffers_.size(); ++i) buffers_[i].buffer = resources.buffer(bufferResources_[i], frame);
+  VkDependencyInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
+  info.memoryBarrierCount = static_cast<std::uint32_t>(memory_.size());
+  info.pMemoryBarriers = memory_.data();
+  info.bufferMemoryBarrierCount = static_cast<std::uint32_t>(buffers_.size());
+  info.pBufferMemoryBarriers = buffers_.data();
+  info.imageMemoryBarrierCount = static_cast<std::uint32_t>(images_.size());
+  info.pImageMemoryBarriers = images_.data();
+  device.functions.vkCmdPipelineBarrier2(commandBuffer, &info);
+}
+
+}  // namespace fg::vk

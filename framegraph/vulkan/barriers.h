@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "framegraph/plan.h"
+#include "framegraph/vulkan/resources.h"
+
+namespace fg::vk {
+
+/// Planned barriers as one vkCmdPipelineBarrier2, built once; only handles are filled in when a frame is recorded.
+///
+/// A hand-over of memory is recorded as a global memory barrier beside the image's layout transition: a barrier on the
+/// new owner alone makes no promise about writes of the old one, which is another resource.
+class BarrierBatch {
+ public:
+  BarrierBatch() = default;
+  BarrierBatch(const GraphDesc& graph, std::span<const PlannedBarrier> barriers);
+
+  void record(const DeviceContext& device, VkCommandBuffer commandBuffer, const Resources& resources, FrameIndex frame);
+
+ private:
+  void addImage(const TextureDesc& desc, const PlannedBarrier& barrier);
+  void addBuffer(const PlannedBarrier& barrier);
+  void addMemory(const PlannedBarrier& barrier);
+
+  std::vector<VkMemoryBarrier2> memory_;
+  std::vector<VkImageMemoryBarrier2> images_;
+  std::vector<std::uint32_t> imageResources_;
+  std::vector<VkBufferMemoryBarrier2> buffers_;
+  std::vector<std::uint32_t> bufferResources_;
+};
+
+}  // namespace fg::vk

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "framegraph/plan.h"
+#include "framegraph/vulkan/pipelines.h"
+#include "framegraph/vulkan/views.h"
+
+namespace fg::vk {
+
+/// One descriptor set per compute pass, frame slot and history parity, all made before the first frame. Afterwards only
+/// descriptors of imports are rewritten, and only when a frame sees other images than the last frame with its sets.
+class Descriptors {
+ public:
+  /// @param setLayouts by position in `plan.passes`; null for passes that are no compute dispatch
+  Descriptors(const DeviceContext& device, const GraphDesc& graph, const Plan& plan, const Resources& resources,
+              Views& views, const std::vector<VkDescriptorSetLayout>& setLayouts, std::uint32_t slots);
+
+  /// Say that an import changed.
+  void invalidateImports() { ++importEpoch_; }
+  /// Bring the imports of a frame's sets up to date.
+  void update(FrameIndex frame);
+  [[nodiscard]] VkDescriptorSet set(std::size_t plannedPass, FrameIndex frame) const {
+    return sets_[index(frame) * passCount_ + plannedPass];
+  }
+
+ private:
+  struct Write {
+    std::size_t pass = 0;
+    std::uint32_t binding = 0;
+    VkDescriptorType type{};
+    std::uint32_t resource = kNone;
+    std::uint32_t view = kNone;  ///< kNone for buffers.
+    VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
+    VkSampler sampler = VK_NULL_HANDLE;
+    std::uint64_t size = 0;
+  };
+  [[nodiscard]] std::size_t index(FrameIndex frame) const { return frame.slot * kParities + frame.parity; }
+  void makeSamplers();
+  void makePool(const std::vector<VkDescriptorSetLayout>& setLayouts, std::uint32_t slots);
+  void collectWrites(const GraphDesc& graph, std::size_t plannedPass, const PassDecl& pass, Views& views);
+  void write(const std::vector<Write>& writes, FrameIndex frame);
+
+  const DeviceContext* device_;
+  const Resources* resources_;
+  const Views* views_;
+  std::size_t passCount_;
+  Owned<VkSampler> nearest_;
+  Owned<VkSampler> linear_;
+  Owned<VkDescriptorPool> pool_;
+  std::vector<VkDescriptorSet> sets_;
+  std::vector<Write> owned_;
+  std::vector<Write> imports_;
+  std::uint64_t importEpoch_ = 1;
+  std::vector<std::uint64_t> writtenEpoch_;  ///< By frame index.
+  std::vector<VkWriteDescriptorSet> vulkanWrites_;
+  std::vector<VkDescriptorImageInfo> imageInfos_;
+  std::vector<VkDescriptorBufferInfo> bufferInfos_;
+};
+
+}  // namespace fg::vk

@@ -1,0 +1,66 @@
+#include "framegraph/vulkan/device.h"
+
+#include "framegraph/vulkan/error.h"
+
+namespace fg::vk {
+namespace {
+
+VkDevice createDevice(const Instance& instance, const PhysicalDevice& physicalDevice) {
+  require(physicalDevice);
+  const float priority = 1.0f;
+  VkDeviceQueueCreateInfo queue{};
+  queue.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO;
+  queue.queueFamilyIndex = physicalDevice.computeQueueFamily;
+  queue.queueCount = 1;
+  queue.pQueuePriorities = &priority;
+
+  VkPhysicalDeviceMaintenance4Features maintenance4{};
+  maintenance4.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_4_FEATURES;
+  maintenance4.maintenance4 = VK_TRUE;
+  VkPhysicalDeviceSynchronization2Features synchronization2{};
+  synchronization2.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SYNCHRONIZATION_2_FEATURES;
+  synchronization2.pNext = physicalDevice.maintenance4 ? &maintenance4 : nullptr;
+  synchronization2.synchronization2 = VK_TRUE;
+  VkPhysicalDeviceFeatures2 features{};
+  features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
+  features.pNext = &synchronization2;
+  features.features.shaderStorageImageExtendedFormats = VK_TRUE;
+  features.features.shaderStorageImageWriteWithoutFormat = physicalDevice.features.shaderStorageImageWriteWithoutFormat;
+  features.features.shaderInt16 = physicalDevice.features.shaderInt16;
+
+  std::vector<const char*> extensions;
+  if (physicalDevice.apiVersion < VK_API_VERSION_1_3) {
+    extensions.push_back(VK_KHR_SYNCHRONIZATION_2_EXTENSION_NAME);
+    if (physicalDevice.maintenance4) extensions.push_back(VK_KHR_MAINTENANCE_4_EXTENSION_NAME);
+  }
+
+  VkDeviceCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
+  info.pNext = &features;
+  info.queueCreateInfoCount = 1;
+  info.pQueueCreateInfos = &queue;
+  info.enabledExtensionCount = static_cast<std::uint32_t>(extensions.size());
+  info.ppEnabledExtensionNames = extensions.data();
+  VkDevice device = VK_NULL_HANDLE;
+  check(instance.functions().vkCreateDevice(physicalDevice.handle, &info, nullptr, &device),
+        "creating device '" + physicalDevice.name + "'");
+  return device;
+}
+
+}  // namespace
+
+Device::Device(const Instance& instance, const PhysicalDevice& physicalDevice)
+    : context_(DeviceView{.instance = instance.handle(),
+                          .physicalDevice = physicalDevice.handle,
+                          .device = createDevice(instance, physicalDevice),
+                          .getInstanceProcAddr = instance.functions().vkGetInstanceProcAddr,
+                          .queueFamily = physicalDevice.computeQueueFamily,
+                          .allocator = nullptr}) {
+  context_.functions.vkGetDeviceQueue(context_.view.device, context_.view.queueFamily, 0, &queue_);
+}
+
+Device::~Device() {
+  context_.functions.vkDestroyDevice(context_.view.device, nullptr);
+}
+
+}  // namespace fg::vk

@@ -1,0 +1,28 @@
+#pragma once
+
+#include "framegraph/vulkan/device_context.h"
+#include "framegraph/vulkan/physical_device.h"
+
+namespace fg::vk {
+
+/// A logical device with one queue, for programs that bring none of their own.
+///
+/// Enabled are synchronization2 and shaderStorageImageExtendedFormats, which are needed, and where the device has them
+/// maintenance4, shaderStorageImageWriteWithoutFormat and shaderInt16.
+class Device {
+ public:
+  /// @throws Unsupported naming what the device lacks
+  Device(const Instance& instance, const PhysicalDevice& physicalDevice);
+  ~Device();
+  Device(const Device&) = delete;
+  Device& operator=(const Device&) = delete;
+
+  [[nodiscard]] const DeviceContext& context() const { return context_; }
+  [[nodiscard]] VkQueue queue() const { return queue_; }
+
+ private:
+  DeviceContext context_;
+  VkQueue queue_ = VK_NULL_HANDLE;
+};
+
+}  // namespace fg::vk

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <map>
+#include <mutex>
+#include <tuple>
+
+#include "framegraph/memory_model.h"
+#include "framegraph/vulkan/device_context.h"
+
+namespace fg::vk {
+
+/// What the driver says about memory and formats. Answers are cached; may be asked from several threads.
+class DriverMemoryModel final : public MemoryModel {
+ public:
+  /// @param device must outlive the model
+  /// @param poison for a plan that is executed with `ExecutorOptions::poison`: images can then also be cleared
+  explicit DriverMemoryModel(const DeviceContext& device, bool poison = false) : device_(&device), poison_(poison) {}
+
+  [[nodiscard]] MemoryRequirements texture(const TextureDesc& desc, VkImageUsageFlags usage) const override;
+  [[nodiscard]] MemoryRequirements buffer(const BufferDesc& desc, VkBufferUsageFlags usage) const override;
+  [[nodiscard]] bool supports(VkFormat format, VkImageUsageFlags usage) const override;
+  [[nodiscard]] std::uint64_t bufferImageGranularity() const override;
+
+ private:
+  using TextureKey =
+      std::tuple<VkFormat, std::uint32_t, std::uint32_t, std::uint32_t, std::uint32_t, VkImageUsageFlags>;
+  using BufferKey = std::tuple<std::uint64_t, VkBufferUsageFlags>;
+
+  const DeviceContext* device_;
+  bool poison_;
+  mutable std::mutex mutex_;
+  mutable std::map<TextureKey, MemoryRequirements> textures_;
+  mutable std::map<BufferKey, MemoryRequirements> buffers_;
+};
+
+/// Usage flags that poisoning adds to a resource: it is cleared by a transfer command.
+inline constexpr VkImageUsageFlags kPoisonImageUsage = VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+inline constexpr VkBufferUsageFlags kPoisonBufferUsage = VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+
+}  // namespace fg::vk

@@ -1,0 +1,183 @@
+#include "framegraph/vulkan/executor.h"
+
+#include <algorithm>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "framegraph/vulkan/barriers.h"
+#include "framegraph/vulkan/error.h"
+#include "framegraph/vulkan/pass_recorder.h"
+#include "framegraph/vulkan/uploads.h"
+
+namespace fg::vk {
+namespace {
+
+std::uint32_t checkedSlots(const ExecutorOptions& options) {
+  if (options.framesInFlight == 0) throw std::invalid_argument("ExecutorOptions::framesInFlight must be at least 1");
+  return options.framesInFlight;
+}
+
+std::optional<Timestamps> makeTimestamps(const DeviceContext& device, const GraphDesc& graph, const Plan& plan,
+                                         const ExecutorOptions& options) {
+  if (!options.timestamps) return std::nullopt;
+  return Timestamps(device, graph, plan, options.framesInFlight);
+}
+
+/// What the host has bound to an import.
+struct Bound {
+  std::uint64_t handle = 0;
+  std::uint64_t identity = 0;
+  friend bool operator==(const Bound&, const Bound&) = default;
+};
+
+Bound boundImage(const ExternalImage& image) {
+  const auto handle = reinterpret_cast<std::uint64_t>(image.image);
+  return {handle, image.identity != 0 ? image.identity : handle};
+}
+
+}  // namespace
+
+struct Executor::State {
+  State(const DeviceContext& contextOfDevice, GraphDesc&& declared, Plan&& compiled, const ExecutorOptions& options)
+      : device(contextOfDevice),
+        graph(std::move(declared)),
+        plan(std::move(compiled)),
+        slots(checkedSlots(options)),
+        resources(device, graph, plan, slots, options.poison),
+        uploads(graph, plan, slots),
+        views(device, graph, resources),
+        passes(device, graph, plan, resources, views,
+               options.pipelineCache != nullptr ? options.pipelineCache->handle() : VK_NULL_HANDLE, slots,
+               options.poison),
+        histories(graph, plan),
+        releases(graph, plan.releases),
+        timestamps(makeTimestamps(device, graph, plan, options)),
+        bound(graph.resources.size()) {}
+
+  void requireImport(ResourceVersion handle) const {
+    if (handle.resource < graph.resources.size() && graph.resources[handle.resource].lifetime == Lifetime::Imported) {
+      return;
+    }
+    throw std::invalid_argument("bind: the resource was not declared with Graph::import");
+  }
+
+  /// Remember what is bound. Returns whether it is news.
+  bool bind(ResourceVersion handle, const Bound& now) {
+    requireImport(handle);
+    if (now.handle == 0) {
+      throw std::invalid_argument("bind: a null handle for '" + graph.resources[handle.resource].name + "'");
+    }
+    if (bound[handle.resource] == now) return false;
+    bound[handle.resource] = now;
+    passes.invalidateImports();
+    return true;
+  }
+
+  void requireBound() const {
+    for (std::size_t i = 0; i < bound.size(); ++i) {
+      const ResourceDecl& decl = graph.resources[i];
+      if (decl.lifetime != Lifetime::Imported || !plan.resources[i].used || bound[i].handle != 0) continue;
+      throw Error("nothing is bound to import '" + decl.name + "': call Executor::bind before recording");
+    }
+  }
+
+  const DeviceContext& device;
+  const GraphDesc graph;
+  const Plan plan;
+  const std::uint32_t slots;
+  FrameIndex frame;  ///< Recorded last.
+  std::uint32_t nextParity = 0;
+  Resources resources;
+  Uploads uploads;
+  Views views;
+  PassRecorder passes;
+  HistoryStates histories;
+  BarrierBatch releases;
+  std::optional<Timestamps> timestamps;
+  std::vector<Bound> bound;  ///< By resource.
+};
+
+Executor::Executor(const DeviceContext& device, GraphDesc graph, Plan plan, const ExecutorOptions& options)
+    : state_(std::make_unique<State>(device, std::move(graph), std::move(plan), options)) {}
+Executor::~Executor() = default;
+Executor::Executor(Executor&&) noexcept = default;
+Executor& Executor::operator=(Executor&&) noexcept = default;
+
+void Executor::upload(Buffer buffer, std::span<const std::byte> bytes) {
+  state_->uploads.set(buffer.resource, bytes);
+}
+
+void Executor::bind(Texture texture, const ExternalImage& image) {
+  const Bound now = boundImage(image);
+  if (!state_->bind(texture, now)) return;
+  state_->resources.import(texture.resource, image.image);
+  state_->views.import(texture.resource, image.image, now.identity);
+}
+
+void Executor::bind(Buffer buffer, VkBuffer handle) {
+  if (!state_->bind(buffer, {reinterpret_cast<std::uint64_t>(handle), 0})) return;
+  state_->resources.import(buffer.resource, handle);
+}
+
+void Executor::forget(const ExternalImage& image) {
+  const Bound gone = boundImage(image);
+  state_->views.forget(gone.identity);
+  std::ranges::replace(state_->bound, gone, Bound{});
+}
+
+VkImageUsageFlags Executor::usage(Texture texture) const {
+  return state_->plan.resources[texture.resource].imageUsage;
+}
+
+VkBufferUsageFlags Executor::usage(Buffer buffer) const {
+  return state_->plan.resources[buffer.resource].bufferUsage;
+}
+
+void Executor::record(VkCommandBuffer commandBuffer, std::uint32_t slot) {
+  State& state = *state_;
+  if (slot >= state.slots) {
+    throw std::out_of_range("frame slot " + std::to_string(slot) + " of " + std::to_string(state.slots));
+  }
+  state.requireBound();
+  state.frame = {slot, state.nextParity};
+  state.uploads.copyTo(state.resources, slot);
+  if (state.timestamps) state.timestamps->begin(commandBuffer, slot);
+  state.histories.recordClears(state.device, commandBuffer, state.resources, state.frame);
+  state.passes.record(commandBuffer, state.frame, state.histories, state.timestamps ? &*state.timestamps : nullptr);
+  state.releases.record(state.device, commandBuffer, state.resources, state.frame);
+  state.histories.advance();
+  state.nextParity = 1 - state.nextParity;
+}
+
+void Executor::resetHistory(const History& history) {
+  state_->histories.reset(history.index);
+}
+
+void Executor::resetAllHistory() {
+  state_->histories.resetAll();
+}
+
+HistoryStatus Executor::historyStatus(const History& history) const {
+  return state_->histories.status(history.index);
+}
+
+VkImage Executor::image(Texture texture) const {
+  return state_->resources.image(texture.resource, state_->frame);
+}
+
+VkBuffer Executor::buffer(Buffer buffer) const {
+  return state_->resources.buffer(buffer.resource, state_->frame);
+}
+
+std::span<const PassTime> Executor::passTimes(std::uint32_t slot) {
+  if (!state_->timestamps) return {};
+  return state_->timestamps->read(slot);
+}
+
+std::uint64_t Executor::allocatedBytes() const {
+  return state_->resources.allocatedBytes();
+}
+
+}  // namespace fg::vk

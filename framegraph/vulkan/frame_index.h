@@ -1,0 +1,15 @@
+#pragma once
+
+#include <cstdint>
+
+namespace fg::vk {
+
+/// Which copies of the resources a frame uses.
+struct FrameIndex {
+  std::uint32_t slot = 0;    ///< Copy of what the host writes: 0 to frames in flight - 1.
+  std::uint32_t parity = 0;  ///< Copy of each history that is written, 0 or 1; the other one is read.
+};
+
+inline constexpr std::uint32_t kParities = 2;
+
+}  // namespace fg::vk

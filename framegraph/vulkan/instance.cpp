@@ -1,0 +1,136 @@
+#include "framegraph/vulkan/instance.h"
+
+#include <algorithm>
+#include <string_view>
+#include <vector>
+
+#ifdef _WIN32
+#include <windows.h>
+#else
+#include <dlfcn.h>
+#endif
+
+#include "framegraph/vulkan/error.h"
+
+namespace fg::vk {
+namespace {
+
+constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
+constexpr const char* kNoDriver =
+    "no Vulkan driver found: install one (Mesa's software driver is the package mesa-vulkan-drivers), or correct "
+    "VK_DRIVER_FILES and VK_ICD_FILENAMES if they are set";
+
+VKAPI_ATTR VkBool32 VKAPI_CALL forwardMessage(VkDebugUtilsMessageSeverityFlagBitsEXT severity,
+                                              VkDebugUtilsMessageTypeFlagsEXT,
+                                              const VkDebugUtilsMessengerCallbackDataEXT* data, void* sink) {
+  const auto& take = *static_cast<const MessageSink*>(sink);
+  take({severity >= VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT ? Message::Severity::Error
+                                                                  : Message::Severity::Warning,
+        data->pMessageIdName != nullptr ? data->pMessageIdName : "", data->pMessage != nullptr ? data->pMessage : ""});
+  return VK_FALSE;
+}
+
+template <typename Function>
+Function globalFunction(PFN_vkGetInstanceProcAddr entry, const char* name) {
+  const auto function = reinterpret_cast<Function>(entry(VK_NULL_HANDLE, name));
+  if (function == nullptr) throw Unsupported(std::string("the Vulkan loader lacks ") + name + ": update it");
+  return function;
+}
+
+bool hasLayer(PFN_vkGetInstanceProcAddr entry, std::string_view name) {
+  const auto enumerate =
+      globalFunction<PFN_vkEnumerateInstanceLayerProperties>(entry, "vkEnumerateInstanceLayerProperties");
+  std::uint32_t count = 0;
+  check(enumerate(&count, nullptr), "enumerating instance layers");
+  std::vector<VkLayerProperties> layers(count);
+  check(enumerate(&count, layers.data()), "enumerating instance layers");
+  return std::ranges::any_of(layers, [&](const auto& layer) { return name == layer.layerName; });
+}
+
+bool hasExtension(PFN_vkGetInstanceProcAddr entry, const char* layer, std::string_view name) {
+  const auto enumerate =
+      globalFunction<PFN_vkEnumerateInstanceExtensionProperties>(entry, "vkEnumerateInstanceExtensionProperties");
+  std::uint32_t count = 0;
+  if (enumerate(layer, &count, nullptr) != VK_SUCCESS) return false;
+  std::vector<VkExtensionProperties> extensions(count);
+  check(enumerate(layer, &count, extensions.data()), "enumerating instance extensions");
+  return std::ranges::any_of(extensions, [&](const auto& extension) { return name == extension.extensionName; });
+}
+
+}  // namespace
+
+PFN_vkGetInstanceProcAddr openLoader() {
+#ifdef _WIN32
+  static const HMODULE library = LoadLibraryA("vulkan-1.dll");
+  void* const symbol =
+      library != nullptr ? reinterpret_cast<void*>(GetProcAddress(library, "vkGetInstanceProcAddr")) : nullptr;
+#else
+  static void* const library = dlopen("libvulkan.so.1", RTLD_NOW | RTLD_LOCAL);
+  void* const symbol = library != nullptr ? dlsym(library, "vkGetInstanceProcAddr") : nullptr;
+#endif
+  if (symbol == nullptr) {
+    throw Unsupported("no Vulkan loader found: install it (package libvulkan1, or your graphics driver)",
+                      VK_ERROR_INITIALIZATION_FAILED);
+  }
+  return reinterpret_cast<PFN_vkGetInstanceProcAddr>(symbol);
+}
+
+Instance::Instance(const InstanceOptions& options, PFN_vkGetInstanceProcAddr entry) : sink_(options.sink) {
+  std::vector<const char*> layers;
+  std::vector<const char*> extensions;
+  if (options.validation) {
+    if (!hasLayer(entry, kValidationLayer)) {
+      throw Unsupported(std::string(kValidationLayer) +
+                            " is not installed: install the package vulkan-validationlayers, or run without validation",
+                        VK_ERROR_LAYER_NOT_PRESENT);
+    }
+    layers.push_back(kValidationLayer);
+    extensions.push_back(VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME);
+  }
+  if (options.validation || (options.debugLabels && hasExtension(entry, nullptr, VK_EXT_DEBUG_UTILS_EXTENSION_NAME))) {
+    extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
+  }
+
+  constexpr VkValidationFeatureEnableEXT kSynchronization = VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT;
+  VkValidationFeaturesEXT validation{};
+  validation.sType = VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT;
+  validation.enabledValidationFeatureCount = 1;
+  validation.pEnabledValidationFeatures = &kSynchronization;
+
+  VkDebugUtilsMessengerCreateInfoEXT messenger{};
+  messenger.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT;
+  messenger.messageSeverity =
+      VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
+  messenger.messageType =
+      VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_TYPE_PERFORMANCE_BIT_EXT;
+  messenger.pfnUserCallback = forwardMessage;
+  messenger.pUserData = &sink_;
+
+  VkApplicationInfo application{};
+  application.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO;
+  application.pApplicationName = options.applicationName.c_str();
+  application.apiVersion = VK_API_VERSION_1_3;
+  VkInstanceCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO;
+  info.pNext = options.validation ? &validation : nullptr;
+  info.pApplicationInfo = &application;
+  info.enabledLayerCount = static_cast<std::uint32_t>(layers.size());
+  info.ppEnabledLayerNames = layers.data();
+  info.enabledExtensionCount = static_cast<std::uint32_t>(extensions.size());
+  info.ppEnabledExtensionNames = extensions.data();
+  const VkResult result = globalFunction<PFN_vkCreateInstance>(entry, "vkCreateInstance")(&info, nullptr, &handle_);
+  if (result == VK_ERROR_INCOMPATIBLE_DRIVER) throw Unsupported(kNoDriver, result);
+  check(result, "creating a Vulkan instance");
+  functions_ = InstanceFunctions::load(handle_, entry);
+  if (options.validation && sink_) {
+    check(functions_.vkCreateDebugUtilsMessengerEXT(handle_, &messenger, nullptr, &messenger_),
+          "creating a messenger for validation messages");
+  }
+}
+
+Instance::~Instance() {
+  if (messenger_ != VK_NULL_HANDLE) functions_.vkDestroyDebugUtilsMessengerEXT(handle_, messenger_, nullptr);
+  functions_.vkDestroyInstance(handle_, nullptr);
+}
+
+}  // namespace fg::vk

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "framegraph/vulkan/functions.h"
+#include "framegraph/vulkan/messages.h"
+
+namespace fg::vk {
+
+/// Open the system's Vulkan loader and return its entry point. The loader stays open until the program ends.
+/// @throws Unsupported where there is none
+PFN_vkGetInstanceProcAddr openLoader();
+
+struct InstanceOptions {
+  std::string applicationName = "walr";
+  bool debugLabels = false;  ///< Enable VK_EXT_debug_utils where it is there: names and labels in captures.
+  bool validation = false;   ///< The Khronos validation layer with synchronization validation; implies debug labels.
+  MessageSink sink;          ///< Takes validation messages; called only with `validation`.
+};
+
+/// A Vulkan instance for programs that bring none of their own.
+class Instance {
+ public:
+  /// @throws Unsupported where there is no loader or driver, or no validation layer though one is asked for
+  explicit Instance(const InstanceOptions& options = {}, PFN_vkGetInstanceProcAddr entry = openLoader());
+  ~Instance();
+  Instance(const Instance&) = delete;
+  Instance& operator=(const Instance&) = delete;
+
+  [[nodiscard]] VkInstance handle() const { return handle_; }
+  [[nodiscard]] const InstanceFunctions& functions() const { return functions_; }
+
+ private:
+  VkInstance handle_ = VK_NULL_HANDLE;
+  InstanceFunctions functions_;
+  MessageSink sink_;
+  VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
+};
+
+}  // namespace fg::vk

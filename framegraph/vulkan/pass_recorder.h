@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "framegraph/vulkan/descriptors.h"
+#include "framegraph/vulkan/fill.h"
+#include "framegraph/vulkan/history_state.h"
+#include "framegraph/vulkan/timestamps.h"
+
+namespace fg::vk {
+
+/// Records the passes of a plan, each with its barriers.
+class PassRecorder {
+ public:
+  /// @param poison fill transients where they take over their memory
+  PassRecorder(const DeviceContext& device, const GraphDesc& graph, const Plan& plan, const Resources& resources,
+               Views& views, VkPipelineCache cache, std::uint32_t slots, bool poison);
+  PassRecorder(const PassRecorder&) = delete;
+  PassRecorder& operator=(const PassRecorder&) = delete;
+
+  /// Say that an import changed.
+  void invalidateImports() { descriptors_.invalidateImports(); }
+  void record(VkCommandBuffer commandBuffer, FrameIndex frame, const HistoryStates& histories, Timestamps* timestamps);
+
+ private:
+  struct Step {
+    const PassDecl* pass = nullptr;
+    FillingBatch barriers;
+    ComputePipeline pipeline;          ///< Null for callback passes.
+    std::vector<std::byte> constants;  ///< The declared ones; ages are filled in.
+  };
+  static std::vector<Step> makeSteps(const DeviceContext& device, const GraphDesc& graph, const Plan& plan,
+                                     Pipelines& pipelines, bool poison);
+  void requestCallbackViews(const PassDecl& pass);
+  void dispatch(VkCommandBuffer commandBuffer, std::size_t index, const ComputeDispatch& work,
+                const HistoryStates& histories);
+  [[nodiscard]] std::vector<VkDescriptorSetLayout> setLayouts() const;
+
+  const DeviceContext* device_;
+  const GraphDesc* graph_;
+  const Plan* plan_;
+  const Resources* resources_;
+  Views* views_;
+  FrameIndex frame_;
+  Pipelines pipelines_;
+  std::vector<Step> steps_;
+  std::vector<std::uint32_t> callbackViews_;  ///< By resource: view of the whole texture, or kNone.
+  Descriptors descriptors_;
+  RecordContext context_;  ///< What callbacks get.
+};
+
+}  // namespace fg::vk

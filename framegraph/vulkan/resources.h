@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "framegraph/graph.h"
+#include "framegraph/plan.h"
+#include "framegraph/vulkan/frame_index.h"
+#include "framegraph/vulkan/memory.h"
+
+namespace fg::vk {
+
+/// Every image and buffer that a plan uses, made or imported, by resource index and frame.
+class Resources {
+ public:
+  /// @throws OutOfMemory, or Error where the plan was compiled for another device
+  Resources(const DeviceContext& device, const GraphDesc& graph, const Plan& plan, std::uint32_t slots, bool poison);
+
+  [[nodiscard]] VkImage image(std::uint32_t resource, FrameIndex frame) const {
+    return images_[resource * kParities + frame.parity];
+  }
+  [[nodiscard]] VkBuffer buffer(std::uint32_t resource, FrameIndex frame) const {
+    return buffers_[resource * slots_ + frame.slot];
+  }
+  /// First byte of an upload buffer's copy.
+  [[nodiscard]] std::byte* mapped(std::uint32_t resource, std::uint32_t slot) const {
+    return mapped_[resource * slots_ + slot];
+  }
+  void import(std::uint32_t resource, VkImage image);
+  void import(std::uint32_t resource, VkBuffer buffer);
+  /// Bytes allocated, all memory together.
+  [[nodiscard]] std::uint64_t allocatedBytes() const;
+
+ private:
+  void makeTexture(std::uint32_t resource, const TextureDesc& desc, bool poison);
+  void makeBuffer(std::uint32_t resource, const BufferDesc& desc, bool poison);
+  VkImage addImage(std::uint32_t resource, const TextureDesc& desc, VkImageUsageFlags usage);
+  VkBuffer addBuffer(std::uint32_t resource, const BufferDesc& desc, VkBufferUsageFlags usage);
+  void allocateHeaps();
+  /// Check that a resource fits where the plan puts it.
+  void checkPlacement(std::uint32_t resource, const MemoryRequirements& requirements) const;
+
+  const DeviceContext* device_;
+  const GraphDesc* graph_;
+  const Plan* plan_;
+  std::uint32_t slots_;
+  std::vector<Owned<VkDeviceMemory>> heaps_;
+  MemoryArena persistent_;
+  MemoryArena uploads_;
+  std::vector<Owned<VkImage>> ownedImages_;
+  std::vector<Owned<VkBuffer>> ownedBuffers_;
+  std::vector<VkImage> images_;
+  std::vector<VkBuffer> buffers_;
+  std::vector<std::byte*> mapped_;
+};
+
+}  // namespace fg::vk

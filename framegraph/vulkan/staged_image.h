@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "framegraph/vulkan/executor.h"
+#include "framegraph/vulkan/memory.h"
+
+namespace fg::vk {
+
+/// State of a StagedImage after `recordUpload`: how to import it.
+inline constexpr ExternalState kUploaded{VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
+                                         VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL};
+/// State in which `recordReadback` expects a StagedImage: how to export it.
+inline constexpr ExternalState kReadable{VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_READ_BIT,
+                                         VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL};
+/// How to import a StagedImage whose contents the graph overwrites: it waits for the last frame's readback.
+inline constexpr ExternalState kOverwritable{VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_NONE, VK_IMAGE_LAYOUT_UNDEFINED};
+
+/// A host's image of one level and layer with staging memory for every frame slot: texels come in through
+/// `recordUpload` and go out through `recordReadback`, while other frames are in flight.
+class StagedImage {
+ public:
+  enum class Direction { Upload, Readback };
+
+  /// @param usage what the graph does with it (see `Executor::usage`); the transfer is added
+  /// @throws OutOfMemory
+  StagedImage(const DeviceContext& device, const TextureDesc& desc, VkImageUsageFlags usage, Direction direction,
+              std::uint32_t slots, const std::string& name);
+
+  [[nodiscard]] ExternalImage external() const { return {image_.get(), 0}; }
+  /// Rows of texels without padding. To be written before `recordUpload` is submitted, or read once the frame of
+  /// `recordReadback` is finished.
+  [[nodiscard]] std::span<std::byte> staging(std::uint32_t slot) const;
+  void recordUpload(VkCommandBuffer commandBuffer, std::uint32_t slot) const;
+  void recordReadback(VkCommandBuffer commandBuffer, std::uint32_t slot) const;
+
+ private:
+  [[nodiscard]] VkBufferImageCopy copyRegion() const;
+
+  const DeviceContext* device_;
+  TextureDesc desc_;
+  Owned<VkImage> image_;
+  MemoryArena imageMemory_;
+  MemoryArena stagingMemory_;
+  std::vector<Owned<VkBuffer>> buffers_;
+  std::vector<std::byte*> mapped_;
+};
+
+}  // namespace fg::vk

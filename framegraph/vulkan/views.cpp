@@ -1,0 +1,51 @@
+#include "framegraph/vulkan/views.h"
+
+#include <algorithm>
+
+#include "framegraph/vulkan/image.h"
+
+namespace fg::vk {
+namespace {
+
+Owned<VkImageView> makeView(const DeviceContext& device, const ResourceDecl& decl, const SubresourceRange& range,
+                            VkImage image) {
+  return createImageView(device, image, std::get<TextureDesc>(decl.desc), range, decl.name);
+}
+
+}  // namespace
+
+std::uint32_t Views::request(std::uint32_t resource, const SubresourceRange& range) {
+  const auto known = std::ranges::find_if(
+      requests_, [&](const Request& request) { return request.resource == resource && request.range == range; });
+  if (known != requests_.end()) return static_cast<std::uint32_t>(known - requests_.begin());
+
+  Request request{resource, range, {}};
+  for (std::uint32_t parity = 0; parity < kParities; ++parity) {
+    const VkImage image = resources_->image(resource, {.slot = 0, .parity = parity});
+    if (image == VK_NULL_HANDLE) break;  // An import; its views come with its images.
+    const bool sameAsFirst = parity == 1 && image == resources_->image(resource, {.slot = 0, .parity = 0});
+    if (!sameAsFirst) owned_.push_back(makeView(*device_, graph_->resources[resource], range, image));
+    request.handles[parity] = owned_.back().get();
+  }
+  requests_.push_back(request);
+  return static_cast<std::uint32_t>(requests_.size() - 1);
+}
+
+void Views::import(std::uint32_t resource, VkImage image, std::uint64_t identity) {
+  for (std::uint32_t i = 0; i < requests_.size(); ++i) {
+    Request& request = requests_[i];
+    if (request.resource != resource) continue;
+    auto entry = imported_.find({identity, i});
+    if (entry == imported_.end()) {
+      auto view = makeView(*device_, graph_->resources[resource], request.range, image);
+      entry = imported_.emplace(std::pair(identity, i), std::move(view)).first;
+    }
+    std::ranges::fill(request.handles, entry->second.get());
+  }
+}
+
+void Views::forget(std::uint64_t identity) {
+  std::erase_if(imported_, [&](const auto& entry) { return entry.first.first == identity; });
+}
+
+}  // namespace fg::vk

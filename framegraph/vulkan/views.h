@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <vector>
+
+#include "framegraph/vulkan/resources.h"
+
+namespace fg::vk {
+
+/// Views of the textures that passes touch. Those of imports are kept by the host's identity of the image, so that a
+/// host that takes turns among a few images makes no views after the first round.
+class Views {
+ public:
+  Views(const DeviceContext& device, const GraphDesc& graph, const Resources& resources)
+      : device_(&device), graph_(&graph), resources_(&resources) {}
+
+  /// Ask for a view before the first frame. Returns its index; the same for the same texture and range.
+  std::uint32_t request(std::uint32_t resource, const SubresourceRange& range);
+  [[nodiscard]] VkImageView get(std::uint32_t view, FrameIndex frame) const {
+    return requests_[view].handles[frame.parity];
+  }
+  /// Point all views of an import at another image.
+  void import(std::uint32_t resource, VkImage image, std::uint64_t identity);
+  /// Destroy the views of a host's image.
+  void forget(std::uint64_t identity);
+
+ private:
+  struct Request {
+    std::uint32_t resource = kNone;
+    SubresourceRange range;
+    VkImageView handles[kParities] = {};
+  };
+
+  const DeviceContext* device_;
+  const GraphDesc* graph_;
+  const Resources* resources_;
+  std::vector<Request> requests_;
+  std::vector<Owned<VkImageView>> owned_;
+  std::map<std::pair<std::uint64_t, std::uint32_t>, Owned<VkImageView>> imported_;  ///< By identity and request.
+};
+
+}  // namespace fg::vk
