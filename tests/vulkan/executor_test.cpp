@@ -1,0 +1,327 @@
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <numeric>
+#include <stdexcept>
+
+#include "framegraph/vulkan/error.h"
+#include "tests/vulkan/gpu_fixture.h"
+#include "tests/vulkan/graph_run.h"
+#include "tests/vulkan/test_graphs.h"
+
+namespace fg::test {
+namespace {
+
+using ExecutorTest = GpuTest;
+
+TEST_F(ExecutorTest, ChainOfTransientsGivesTheSum) {
+  Graph graph;
+  const Texture out = chain(graph, 5, 6);
+  GraphRun run(device(), graph);
+  for (int i = 0; i < 3; ++i) {
+    run.frame();
+    EXPECT_EQ(run.texels<std::uint32_t>(out), filled(5 + 6));
+  }
+}
+
+TEST_F(ExecutorTest, PingPongBetweenTwoTextures) {
+  Graph graph;
+  const Texture out = importOutput(graph, "out");
+  Texture ping = fill(graph, "fill", graph.texture("ping", kTexture), 0);
+  Texture pong = graph.texture("pong", kTexture);
+  for (std::uint32_t i = 0; i < 5; ++i) {
+    pong = add(graph, "iteration" + std::to_string(i), ping, pong, 1u << i);
+    std::swap(ping, pong);
+  }
+  graph.exported(add(graph, "show", ping, out, 0), vk::kReadable);
+  GraphRun run(device(), graph);
+  run.frame();
+  EXPECT_EQ(run.texels<std::uint32_t>(out), filled(31));
+}
+
+TEST_F(ExecutorTest, StorageReadAndInPlaceUpdate) {
+  Graph graph;
+  const Texture out = importOutput(graph, "out");
+  Texture work = fill(graph, "fill", graph.texture("work", kTexture), 1);
+  {
+    auto pass = graph.compute("double", shaders::doubleInPlace);
+    work = pass.update("image", work);
+    pass.dispatch(kTexture.extent);
+  }
+  auto pass = graph.compute("copy", shaders::addFromStorage).load("source", work).constants(std::uint32_t{0});
+  const Texture result = pass.store("target", out);
+  pass.dispatch(kTexture.extent);
+  graph.exported(result, vk::kReadable);
+  GraphRun run(device(), graph);
+  run.frame();
+  auto expected = filled(1);
+  for (std::uint32_t& texel : expected) texel *= 2;
+  EXPECT_EQ(run.texels<std::uint32_t>(out), expected);
+}
+
+TEST_F(ExecutorTest, ImportsComeInAndExportsGoOut) {
+  Graph graph;
+  const Texture in = graph.import("in", kTexture, vk::kUploaded);
+  const Texture out = importOutput(graph, "out");
+  graph.exported(add(graph, "add", in, out, 1000), vk::kReadable);
+  GraphRun run(device(), graph);
+  std::vector<std::uint32_t> texels(constant(0).size());
+  std::iota(texels.begin(), texels.end(), 7u);
+  run.fill(in, texels);
+  run.frame();
+  for (std::uint32_t& texel : texels) texel += 1000;
+  EXPECT_EQ(run.texels<std::uint32_t>(out), texels);
+}
+
+TEST_F(ExecutorTest, ExportedTransientIsTheExecutors) {
+  Graph graph;
+  const Texture kept = fill(graph, "fill", graph.texture("kept", kTexture), 9);
+  const ExternalState storageRead{VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_READ_BIT,
+                                  VK_IMAGE_LAYOUT_GENERAL};
+  graph.exported(kept, storageRead);
+  GraphRun first(device(), graph);
+  first.frame();
+
+  Graph reader;
+  const Texture in = reader.import("in", kTexture, storageRead);
+  const Texture out = importOutput(reader, "out");
+  auto pass = reader.compute("copy", shaders::addFromStorage).load("source", in).constants(std::uint32_t{0});
+  reader.exported(pass.store("target", out), vk::kReadable);
+  pass.dispatch(kTexture.extent);
+  GraphRun second(device(), reader);
+  second.executor().bind(in, {first.executor().image(kept)});
+  second.frame();
+  EXPECT_EQ(second.texels<std::uint32_t>(out), filled(9));
+}
+
+struct UniformGraph {
+  explicit UniformGraph(std::uint32_t factor) {
+    const Texture target = importOutput(graph, "out");
+    frame = graph.upload("frame", sizeof(Frame));
+    auto pass = graph.compute("write", shaders::writeUniform).uniform("frame", frame).specialize("factor", factor);
+    out = pass.store("target", target);
+    pass.dispatch(kTexture.extent);
+    graph.exported(out, vk::kReadable);
+  }
+  struct Frame {
+    std::uint32_t pad = 0;
+    std::uint32_t value = 0;
+  };
+  Graph graph;
+  Buffer frame;
+  Texture out;
+};
+
+TEST_F(ExecutorTest, EveryFrameInFlightSeesItsOwnUpload) {
+  UniformGraph uniform(3);
+  GraphRun run(device(), uniform.graph);
+  std::vector<std::uint32_t> slots;
+  for (std::uint32_t i = 0; i < 40; ++i) {
+    run.executor().upload(uniform.frame, UniformGraph::Frame{0, i});
+    slots.push_back(run.submitFrame());
+    if (i % kFramesInFlight != kFramesInFlight - 1) continue;
+    run.finish();
+    for (std::uint32_t back = 0; back < kFramesInFlight; ++back) {
+      EXPECT_EQ(run.texels<std::uint32_t>(uniform.out, slots[i - back]), constant(3 * (i - back)));
+    }
+  }
+}
+
+TEST_F(ExecutorTest, UploadedBytesStayUntilTheNextUpload) {
+  UniformGraph uniform(1);
+  GraphRun run(device(), uniform.graph);
+  run.executor().upload(uniform.frame, UniformGraph::Frame{0, 77});
+  for (int i = 0; i < 3; ++i) {
+    run.frame();
+    EXPECT_EQ(run.texels<std::uint32_t>(uniform.out), constant(77));
+  }
+}
+
+TEST_F(ExecutorTest, UploadOfAnotherSizeIsRefusedByName) {
+  UniformGraph uniform(1);
+  GraphRun run(device(), uniform.graph);
+  try {
+    run.executor().upload(uniform.frame, std::uint32_t{1});
+    FAIL() << "an upload of 4 bytes into 8 was taken";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_STREQ(error.what(), "upload of 4 bytes into 'frame', which has 8");
+  }
+}
+
+TEST_F(ExecutorTest, IndirectDispatchTakesItsGroupsFromTheGpu) {
+  Graph graph;
+  const Texture out = importOutput(graph, "out");
+  const Buffer room = graph.buffer("arguments", {3 * sizeof(std::uint32_t)});
+  auto count = graph.compute("count", shaders::groupCount).constants(std::uint32_t{2});
+  const Buffer arguments = count.store("arguments", room);
+  count.dispatch({1, 1});
+  const Texture base = fill(graph, "fill", out, 1);
+  auto twice = graph.compute("double", shaders::doubleInPlace);
+  const Texture result = twice.update("image", base);
+  twice.dispatchIndirect(arguments);
+  graph.exported(result, vk::kReadable);
+  GraphRun run(device(), graph);
+  run.frame();
+  auto expected = filled(1);
+  for (std::uint32_t y = 0; y < 8; ++y) {
+    for (std::uint32_t x = 0; x < 16; ++x) expected[y * kTexture.extent.width + x] *= 2;
+  }
+  EXPECT_EQ(run.texels<std::uint32_t>(out), expected);
+}
+
+TEST_F(ExecutorTest, CallbackPassRecordsIntoTheFrame) {
+  Graph graph;
+  const Texture target = importOutput(graph, "out");
+  const auto& functions = context().functions;
+  Texture cleared;
+  auto pass = graph.callback("clear", [&](const RecordContext& record) {
+    const VkClearColorValue color = {.uint32 = {42, 0, 0, 0}};
+    const VkImageSubresourceRange range = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
+    functions.vkCmdClearColorImage(record.commandBuffer, record.image(cleared), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+                                   &color, 1, &range);
+  });
+  cleared = pass.access(graph.texture("cleared", kTexture), Access::TransferWrite);
+  graph.exported(add(graph, "add", cleared, target, 1), vk::kReadable);
+  GraphRun run(device(), graph);
+  run.frame();
+  EXPECT_EQ(run.texels<std::uint32_t>(target), constant(43));
+}
+
+TEST_F(ExecutorTest, ImportWithoutImageIsRefusedByName) {
+  Graph graph;
+  const Texture out = chain(graph, 0, 2);
+  vk::Executor executor(context(), graph.desc(), compileFor(context(), graph));
+  vk::FrameQueue queue(context(), device().queue());
+  const vk::Frame frame = queue.begin();
+  try {
+    executor.record(frame.commandBuffer, frame.slot);
+    FAIL() << "recorded without an image for 'out'";
+  } catch (const vk::Error& error) {
+    EXPECT_STREQ(error.what(), "nothing is bound to import 'out': call Executor::bind before recording");
+  }
+  EXPECT_THROW(executor.bind(out, {}), std::invalid_argument);
+  EXPECT_THROW(executor.record(frame.commandBuffer, 2), std::out_of_range);
+}
+
+TEST_F(ExecutorTest, HostMayTakeTurnsAmongImages) {
+  Graph graph;
+  const Texture out = chain(graph, 0, 2);
+  GraphRun run(device(), graph);
+  using Direction = vk::StagedImage::Direction;
+  std::vector<vk::StagedImage> images;
+  for (int i = 0; i < 3; ++i) {
+    images.emplace_back(context(), kTexture, run.executor().usage(out), Direction::Readback, kFramesInFlight, "turn");
+  }
+  vk::FrameQueue queue(context(), device().queue(), kFramesInFlight);
+  for (std::size_t i = 0; i < 7; ++i) {
+    const vk::StagedImage& image = images[i % images.size()];
+    run.executor().bind(out, image.external());
+    const vk::Frame frame = queue.begin();
+    run.executor().record(frame.commandBuffer, frame.slot);
+    image.recordReadback(frame.commandBuffer, frame.slot);
+    queue.submit(frame);
+    queue.waitAll();
+    std::vector<std::uint32_t> texels(constant(0).size());
+    std::memcpy(texels.data(), image.staging(frame.slot).data(), texels.size() * sizeof(texels[0]));
+    EXPECT_EQ(texels, filled(2));
+  }
+  for (const vk::StagedImage& image : images) run.executor().forget(image.external());
+}
+
+TEST_F(ExecutorTest, TimestampsNameEveryPass) {
+  Graph graph;
+  chain(graph, 0, 3);
+  GraphRun run(device(), graph, {.timestamps = true});
+  EXPECT_TRUE(run.executor().passTimes(0).empty()) << "nothing was recorded yet";
+  run.frame();
+  const auto times = run.executor().passTimes(0);
+  ASSERT_EQ(times.size(), 4u);
+  EXPECT_EQ(times.front().name, "fill");
+  EXPECT_EQ(times.back().name, "last");
+  double sum = 0.0;
+  for (const vk::PassTime& time : times) {
+    EXPECT_GE(time.milliseconds, 0.0) << time.name;
+    sum += time.milliseconds;
+  }
+  EXPECT_GT(sum, 0.0);
+  EXPECT_LT(sum, 10'000.0) << "four passes over 19 x 13 texels cannot take ten seconds";
+}
+
+TEST_F(ExecutorTest, SameInputGivesTheSameBits) {
+  CountingGraph counting;
+  GraphRun first(device(), counting.graph);
+  GraphRun second(device(), counting.graph);
+  for (int i = 0; i < 4; ++i) {
+    first.frame();
+    second.frame();
+    EXPECT_EQ(first.texels<std::uint32_t>(counting.count), second.texels<std::uint32_t>(counting.count));
+  }
+}
+
+TEST_F(ExecutorTest, PlanOfAnotherDeviceIsRefusedByName) {
+  Graph graph;
+  chain(graph, 0, 3);
+  Plan plan = compileFor(context(), graph);
+  for (PlannedResource& resource : plan.resources) resource.size /= 2;
+  try {
+    const vk::Executor executor(context(), graph.desc(), plan);
+    FAIL() << "a plan with half the bytes was taken";
+  } catch (const vk::Error& error) {
+    EXPECT_NE(std::string(error.what()).find("'link0' does not fit where the plan puts it"), std::string::npos)
+        << error.what();
+  }
+}
+
+class PipelineCacheTest : public GpuTest {
+ protected:
+  void SetUp() override {
+    GpuTest::SetUp();
+    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+    file_ = std::filesystem::temp_directory_path() / (std::string("walr_pipeline_cache_") + test->name());
+    std::filesystem::remove(file_);
+  }
+  void TearDown() override {
+    std::filesystem::remove(file_);
+    GpuTest::TearDown();
+  }
+  void runWith(vk::PipelineCache& cache) const {
+    Graph graph;
+    const Texture out = chain(graph, 0, 2);
+    GraphRun run(device(), graph, {.pipelineCache = &cache});
+    run.frame();
+    EXPECT_EQ(run.texels<std::uint32_t>(out), filled(2));
+  }
+  std::filesystem::path file_;
+};
+
+TEST_F(PipelineCacheTest, IsKeptInAFile) {
+  vk::PipelineCache first(context(), file_);
+  EXPECT_EQ(first.loadedBytes(), 0u);
+  runWith(first);
+  first.save();
+  vk::PipelineCache second(context(), file_);
+  EXPECT_EQ(second.loadedBytes(), std::filesystem::file_size(file_));
+  runWith(second);
+}
+
+TEST_F(PipelineCacheTest, DamagedFileCountsAsEmpty) {
+  std::ofstream(file_) << "this was never a pipeline cache, whatever its name says";
+  vk::PipelineCache cache(context(), file_);
+  EXPECT_EQ(cache.loadedBytes(), 0u);
+  runWith(cache);
+}
+
+TEST_F(PipelineCacheTest, UnwritableFileIsNamed) {
+  const std::filesystem::path nowhere = file_ / "no" / "such" / "folder";
+  vk::PipelineCache cache(context(), nowhere);
+  runWith(cache);
+  try {
+    cache.save();
+    FAIL() << "saved into a folder that is not there";
+  } catch (const std::filesystem::filesystem_error& error) {
+    EXPECT_NE(std::string(error.what()).find(nowhere.string()), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace fg::test

@@ -1,0 +1,92 @@
+#include <optional>
+
+#include "framegraph/vulkan/error.h"
+#include "tests/vulkan/function_hooks.h"
+#include "tests/vulkan/gpu_fixture.h"
+#include "tests/vulkan/graph_run.h"
+#include "tests/vulkan/test_graphs.h"
+
+namespace fg::test {
+namespace {
+
+/// Failures are injected into the function table. What is not released is reported by the validation layer when the
+/// fixture destroys the device.
+class FailureTest : public GpuTest {
+ protected:
+  void SetUp() override {
+    GpuTest::SetUp();
+    hookState = {};
+    tampered_ = context();
+  }
+  vk::DeviceContext tampered_;
+};
+
+TEST_F(FailureTest, EveryStepOfConstructionMayRunOutOfMemory) {
+  CountingGraph counting;
+  const Buffer upload = counting.graph.upload("frame", 8);
+  auto pass = counting.graph.compute("write", shaders::writeUniform).uniform("frame", upload).specialize("factor", 1u);
+  counting.graph.exported(pass.store("target", importOutput(counting.graph, "out")), vk::kReadable);
+  pass.dispatch(kTexture.extent);
+  const Plan plan = compileFor(context(), counting.graph);
+  hookCreation(tampered_);
+
+  std::uint32_t failures = 0;
+  std::optional<vk::Executor> executor;
+  for (; !executor; ++failures) {
+    ASSERT_LT(failures, 1000u) << "construction never succeeds";
+    hookState = {.calls = 0, .failAt = failures, .failure = VK_ERROR_OUT_OF_DEVICE_MEMORY};
+    try {
+      executor.emplace(tampered_, counting.graph.desc(), plan, vk::ExecutorOptions{.timestamps = true});
+      break;
+    } catch (const vk::OutOfMemory& error) {
+      EXPECT_EQ(error.result(), VK_ERROR_OUT_OF_DEVICE_MEMORY);
+      EXPECT_NE(std::string(error.what()).find("VK_ERROR_OUT_OF_DEVICE_MEMORY; try smaller textures"),
+                std::string::npos)
+          << error.what();
+    }
+  }
+  EXPECT_GT(failures, 20u) << "memory, images, views, buffers, pipelines, descriptors, queries";
+
+  hookState = {};
+  GraphRun run(device(), counting.graph);
+  run.executor().upload(upload, std::uint64_t{0});
+  run.frame();
+  EXPECT_EQ(run.texels<std::uint32_t>(counting.count), constant(1));
+}
+
+TEST_F(FailureTest, PipelineFailureNamesTheShader) {
+  Graph graph;
+  const Texture out = chain(graph, 0, 2);
+  const Plan plan = compileFor(context(), graph);
+  hook<&vk::DeviceFunctions::vkCreateComputePipelines>(tampered_);
+  hookState = {.calls = 0, .failAt = 1, .failure = VK_ERROR_INITIALIZATION_FAILED};
+  try {
+    const vk::Executor executor(tampered_, graph.desc(), plan);
+    FAIL() << "the failure of the second pipeline went unnoticed";
+  } catch (const vk::PipelineFailed& error) {
+    EXPECT_STREQ(error.what(),
+                 "creating the pipeline of shader 'add': VK_ERROR_INITIALIZATION_FAILED; update the driver");
+  }
+  hookState = {};
+  GraphRun run({tampered_, device().queue()}, graph, plan);
+  run.frame();
+  EXPECT_EQ(run.texels<std::uint32_t>(out), filled(2));
+}
+
+TEST_F(FailureTest, LostDeviceIsToldApart) {
+  CountingGraph counting;
+  hook<&vk::DeviceFunctions::vkQueueSubmit>(tampered_);
+  GraphRun run({tampered_, device().queue()}, counting.graph);
+  run.frame();
+  hookState = {.calls = 0, .failAt = 0, .failure = VK_ERROR_DEVICE_LOST};
+  EXPECT_THROW(run.frame(), vk::DeviceLost);
+  // As after a new device: nothing of what was recorded counts.
+  run.executor().resetAllHistory();
+  for (std::uint32_t i = 1; i <= 3; ++i) {
+    run.frame();
+    EXPECT_EQ(run.texels<std::uint32_t>(counting.count), constant(i));
+  }
+}
+
+}  // namespace
+}  // namespace fg::test

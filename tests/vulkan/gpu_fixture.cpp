@@ -1,0 +1,20 @@
+#include "tests/vulkan/gpu_fixture.h"
+
+namespace fg::test {
+
+void GpuTest::SetUp() {
+  vk::InstanceOptions options;
+  options.applicationName = "walr tests";
+  options.validation = true;
+  options.sink = log_.sink();
+  instance_ = std::make_unique<vk::Instance>(options);
+  device_ = std::make_unique<vk::Device>(*instance_, vk::physicalDevices(*instance_).front());
+}
+
+void GpuTest::TearDown() {
+  device_.reset();
+  instance_.reset();
+  for (const vk::Message& message : log_.take()) ADD_FAILURE() << "validation: " << message.text;
+}
+
+}  // namespace fg::test

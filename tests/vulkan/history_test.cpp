@@ -1,0 +1,63 @@
+#include "tests/vulkan/gpu_fixture.h"
+#include "tests/vulkan/graph_run.h"
+#include "tests/vulkan/test_graphs.h"
+
+namespace fg::test {
+namespace {
+
+class HistoryTest : public GpuTest {
+ protected:
+  /// Run a frame and check what it found: `previous` as so many frames left it, and that age.
+  static void expectFrame(GraphRun& run, const CountingGraph& counting, std::uint32_t framesBehind) {
+    const vk::HistoryStatus status = run.executor().historyStatus(counting.history);
+    EXPECT_EQ(status.age, framesBehind);
+    EXPECT_EQ(status.valid, framesBehind != 0);
+    run.frame();
+    EXPECT_EQ(run.texels<std::uint32_t>(counting.count), constant(framesBehind + 1));
+    EXPECT_EQ(run.texels<std::uint32_t>(counting.age), constant(framesBehind));
+  }
+};
+
+TEST_F(HistoryTest, StartsFromZerosAndCarriesFromFrameToFrame) {
+  CountingGraph counting;
+  GraphRun run(device(), counting.graph);
+  for (std::uint32_t i = 0; i < 5; ++i) expectFrame(run, counting, i);
+}
+
+TEST_F(HistoryTest, ResetStartsOverAtEitherParity) {
+  for (std::uint32_t framesBefore = 1; framesBefore <= 2; ++framesBefore) {
+    CountingGraph counting;
+    GraphRun run(device(), counting.graph);
+    for (std::uint32_t i = 0; i < framesBefore; ++i) expectFrame(run, counting, i);
+    run.executor().resetHistory(counting.history);
+    for (std::uint32_t i = 0; i < 3; ++i) expectFrame(run, counting, i);
+    run.executor().resetAllHistory();
+    for (std::uint32_t i = 0; i < 2; ++i) expectFrame(run, counting, i);
+  }
+}
+
+TEST_F(HistoryTest, CarriesWhileFramesAreInFlight) {
+  CountingGraph counting;
+  GraphRun run(device(), counting.graph);
+  for (int i = 0; i < 25; ++i) run.submitFrame();
+  run.finish();
+  EXPECT_EQ(run.texels<std::uint32_t>(counting.count), constant(25));
+}
+
+TEST_F(HistoryTest, ResizeStartsOver) {
+  CountingGraph counting;
+  for (int i = 0; i < 2; ++i) {
+    GraphRun run(device(), counting.graph);
+    expectFrame(run, counting, 0);
+    expectFrame(run, counting, 1);
+  }
+}
+
+TEST_F(HistoryTest, IsPoisonProof) {
+  CountingGraph counting;
+  GraphRun run(device(), counting.graph, {.poison = true});
+  for (std::uint32_t i = 0; i < 3; ++i) expectFrame(run, counting, i);
+}
+
+}  // namespace
+}  // namespace fg::test

@@ -1,0 +1,115 @@
+#include <atomic>
+#include <cstdlib>
+#include <memory>
+#include <new>
+
+#include "tests/vulkan/function_hooks.h"
+#include "tests/vulkan/gpu_fixture.h"
+#include "tests/vulkan/graph_run.h"
+#include "tests/vulkan/test_graphs.h"
+
+namespace {
+std::atomic<std::uint64_t> allocations{0};
+}  // namespace
+
+// All other forms of new and delete end here.
+void* operator new(std::size_t size) {
+  ++allocations;
+  if (void* const memory = std::malloc(size)) return memory;
+  throw std::bad_alloc();
+}
+void operator delete(void* memory) noexcept {
+  std::free(memory);
+}
+void operator delete(void* memory, std::size_t /*size*/) noexcept {
+  std::free(memory);
+}
+
+namespace fg::test {
+namespace {
+
+/// Everything that recording can meet: history with an age, an upload, a chain of transients, an indirect dispatch, a
+/// callback, an import whose image changes from frame to frame.
+struct BusyGraph : CountingGraph {
+  BusyGraph() {
+    upload = graph.upload("frame", 8);
+    auto write = graph.compute("write", shaders::writeUniform).uniform("frame", upload).specialize("factor", 2u);
+    Texture link = write.store("target", graph.texture("link", kTexture));
+    write.dispatch(kTexture.extent);
+    auto groups = graph.compute("count", shaders::groupCount).constants(std::uint32_t{2});
+    const Buffer arguments = groups.store("arguments", graph.buffer("arguments", {12}));
+    groups.dispatch({1, 1});
+    auto twice = graph.compute("double", shaders::doubleInPlace);
+    link = twice.update("image", link);
+    twice.dispatchIndirect(arguments);
+    auto callback = graph.callback(
+        "callback", [this](const RecordContext& record) { calls += record.view(watched) != VK_NULL_HANDLE ? 1 : 0; });
+    watched = callback.access(link, Access::SampledRead);
+    callback.sideEffects();
+    out = importOutput(graph, "turning");
+    graph.exported(add(graph, "add", link, out, 1), vk::kReadable);
+  }
+  Buffer upload;
+  Texture watched;
+  Texture out;
+  int calls = 0;
+};
+
+class SteadyStateTest : public GpuTest {
+ protected:
+  void SetUp() override {
+    GpuTest::SetUp();
+    hookState = {};
+    tampered_ = context();
+    hookCreation(tampered_);
+  }
+  [[nodiscard]] GpuQueue gpu() const { return {tampered_, device().queue()}; }
+  vk::DeviceContext tampered_;
+};
+
+constexpr vk::ExecutorOptions kEverything{.timestamps = true, .poison = true};
+
+TEST_F(SteadyStateTest, FramesMakeNoVulkanObjects) {
+  BusyGraph busy;
+  GraphRun run(gpu(), busy.graph, kEverything);
+  const vk::StagedImage other(context(), kTexture, run.executor().usage(busy.out), vk::StagedImage::Direction::Readback,
+                              kFramesInFlight, "other");
+  EXPECT_GT(hookState.calls, 0u) << "the hooks must see what is made";
+  run.frame();
+  run.executor().bind(busy.out, other.external());
+  run.executor().bind(busy.out, run.external(busy.out));
+  hookState.calls = 0;
+  for (std::uint32_t i = 0; i < 10; ++i) {
+    run.executor().upload(busy.upload, std::uint64_t{i});
+    run.executor().bind(busy.out, other.external());
+    run.executor().bind(busy.out, run.external(busy.out));
+    if (i == 5) run.executor().resetAllHistory();
+    run.submitFrame();
+  }
+  run.finish();
+  EXPECT_EQ(hookState.calls, 0u);
+  EXPECT_EQ(busy.calls, 11);
+}
+
+TEST_F(SteadyStateTest, FramesAllocateNothingOnTheHeap) {
+  BusyGraph busy;
+  GraphRun run(gpu(), busy.graph, kEverything);
+  run.frame();
+  // Layers and drivers allocate at will, so they are kept out of what is counted.
+  silenceRecording(tampered_);
+  const std::uint64_t before = allocations;
+  for (std::uint32_t i = 0; i < 10; ++i) {
+    run.executor().upload(busy.upload, std::uint64_t{i});
+    run.executor().bind(busy.out, run.external(busy.out));
+    if (i == 5) run.executor().resetAllHistory();
+    run.executor().record(VK_NULL_HANDLE, i % kFramesInFlight);
+    EXPECT_TRUE(run.executor().historyStatus(busy.history).valid);
+  }
+  EXPECT_EQ(allocations - before, 0u);
+  EXPECT_EQ(busy.calls, 11);
+  const auto counted = std::make_unique<int>(0);
+  EXPECT_GT(allocations - before, 0u) << "the counter must see allocations";
+}
+
+}  // namespace
+}  // namespace fg::test
