@@ -78,12 +78,12 @@ class TemporaryFile {
 
 void prepareOutputDirectory(const std::filesystem::path& directory) {
   std::error_code error;
+  if (std::filesystem::exists(directory, error) && !std::filesystem::is_directory(directory, error)) {
+    throw OutputError("cannot write to " + directory.string() + ": it is not a directory");
+  }
   std::filesystem::create_directories(directory, error);
   if (error) {
     throw OutputError("cannot make the output directory " + directory.string() + ": " + error.message());
-  }
-  if (!std::filesystem::is_directory(directory, error)) {
-    throw OutputError("cannot write to " + directory.string() + ": it is not a directory");
   }
   const TemporaryFile probe(directory / "write-test");
 }

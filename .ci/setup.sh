@@ -1,0 +1,43 @@
+# Sourced by tests/run.sh and samples/run.sh: installs what the project builds with, on Debian 12 and Ubuntu 24.04.
+# Says what it installs, asks nothing, and does nothing where everything is there.
+
+walr_packages=(
+  # Build tools
+  cmake g++ ninja-build pkg-config
+  # Vulkan: loader, shader compiler, SPIR-V reflection, validation layer, and a driver that needs no GPU
+  libvulkan-dev glslang-tools libspirv-cross-c-shared-dev vulkan-validationlayers mesa-vulkan-drivers
+  # Libraries
+  libcli11-dev libembree-dev libglm-dev libimath-dev libopenexr-dev libpng-dev libstb-dev libtinygltf-dev
+  nlohmann-json3-dev
+  # Tests and benchmarks
+  libbenchmark-dev libgtest-dev python3-skimage
+)
+
+walr_setup() {
+  local package missing=() as_root=()
+  for package in "${walr_packages[@]}"; do
+    if ! dpkg-query --show --showformat='${Status}' "$package" 2>/dev/null | grep -q '^install ok installed$'; then
+      missing+=("$package")
+    fi
+  done
+  if [ ${#missing[@]} -eq 0 ]; then
+    echo "All packages are installed."
+    return
+  fi
+  if [ "$(id -u)" -ne 0 ]; then
+    if ! command -v sudo >/dev/null; then
+      echo "These packages are missing, and there is neither root nor sudo to install them: ${missing[*]}" >&2
+      return 1
+    fi
+    as_root=(sudo)
+  fi
+  echo "Installing: ${missing[*]}"
+  "${as_root[@]}" apt-get update --quiet --quiet
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install --quiet --quiet --yes --no-install-recommends "${missing[@]}"
+}
+
+# walr_build [TARGET...]: configures and builds; everything, or the targets given.
+walr_build() {
+  cmake --preset ci
+  cmake --build --preset ci ${1:+--target "$@"}
+}
