@@ -17,7 +17,7 @@ OptionalIndices convertImages(const tinygltf::Model& model, Scene& scene) {
   std::uint64_t budget = kTexelBudget;
   for (std::size_t i = 0; i < model.images.size(); ++i) {
     const tinygltf::Image& source = model.images[i];
-    const std::string name = partName("image", i, source.name.empty() ? source.uri : source.name);
+    const std::string name = partName("image", i, source.uri.empty() ? source.name : source.uri);
     indices.emplace_back();
     if (source.bufferView < 0 && source.image.empty()) {
       scene.warnings.push_back(name + ": not found; done without");

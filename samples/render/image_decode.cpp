@@ -15,7 +15,8 @@ Image decodeImage(std::span<const std::uint8_t> bytes, std::uint64_t& texelBudge
   int height = 0;
   int components = 0;
   if (bytes.empty() || stbi_info_from_memory(bytes.data(), size, &width, &height, &components) == 0) {
-    throw SceneError("not a PNG or JPEG picture");
+    throw SceneError(std::string("not a PNG or JPEG picture that can be read: ") +
+                     (bytes.empty() ? "it is empty" : stbi_failure_reason()));
   }
   const std::string dimensions = std::to_string(width) + " x " + std::to_string(height) + " texels";
   if (width < 1 || height < 1 || width > kLargestSide || height > kLargestSide) {
