@@ -85,6 +85,10 @@ FrameReport meanReport(const std::vector<FrameReport>& frames, std::size_t first
 std::string reportJson(const DenoiseReport& report) {
   Json document;
   document["method"] = report.method;
+  document["settings"] = Json::object();
+  for (const auto& [name, value] : report.settings) {
+    document["settings"][name] = value;
+  }
   document["device"] = report.device;
   document["driver"] = report.driver;
   document["software_device"] = report.softwareDevice;

@@ -4,6 +4,7 @@
 #include <optional>
 #include <ostream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "framegraph/graph.h"
@@ -24,6 +25,7 @@ struct FrameReport {
 /// What a run was and what it measured.
 struct DenoiseReport {
   std::string method;
+  std::vector<std::pair<std::string, std::string>> settings;  ///< Name and value of every setting of the method.
   std::string device;
   std::string driver;
   bool softwareDevice = false;

@@ -120,7 +120,7 @@ TEST_F(FrameOutputTest, MeasuresResultAndInput) {
 }
 
 DenoiseReport exampleReport() {
-  DenoiseReport report{"walr", "Some GPU", "some driver 1.2", false, "walr", {16, 9}, {}};
+  DenoiseReport report{"walr", {{"iterations", "4"}}, "Some GPU", "some driver 1.2", false, "walr", {16, 9}, {}};
   for (int i = 0; i < 6; ++i) {
     FrameReport frame;
     frame.frame = 10 + i;
@@ -135,6 +135,7 @@ DenoiseReport exampleReport() {
 TEST(Report, JsonHasItsKeys) {
   const auto json = nlohmann::json::parse(reportJson(exampleReport()));
   EXPECT_EQ(json["method"], "walr");
+  EXPECT_EQ(json["settings"]["iterations"], "4");
   EXPECT_EQ(json["device"], "Some GPU");
   EXPECT_EQ(json["driver"], "some driver 1.2");
   EXPECT_EQ(json["frames"].size(), 6U);

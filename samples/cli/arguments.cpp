@@ -1,0 +1,47 @@
+#include "samples/cli/arguments.h"
+
+#include <charconv>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+#include "samples/cli/usage_error.h"
+
+namespace walr {
+namespace {
+
+std::optional<int> parseNumber(std::string_view text) {
+  int value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const bool whole = error == std::errc() && end == text.data() + text.size();
+  return whole && value >= 0 ? std::optional(value) : std::nullopt;
+}
+
+/// Two numbers with a separator between them; without the separator the same number twice.
+std::optional<std::pair<int, int>> parsePair(std::string_view text, char separator) {
+  const std::size_t split = text.find(separator);
+  const std::optional<int> first = parseNumber(text.substr(0, split));
+  const std::optional<int> second = split == std::string_view::npos ? first : parseNumber(text.substr(split + 1));
+  return first && second ? std::optional(std::pair(*first, *second)) : std::nullopt;
+}
+
+}  // namespace
+
+FrameRange parseFrameRange(const std::string& text) {
+  const auto pair = parsePair(text, '-');
+  if (!pair || pair->first > pair->second) {
+    throw UsageError("--frames " + text + ": give a first and a last frame number, as in --frames 0-31");
+  }
+  return {pair->first, pair->second};
+}
+
+fg::Extent parseSize(const std::string& text) {
+  constexpr int kLargest = 16384;
+  const auto pair = text.find('x') == std::string::npos ? std::nullopt : parsePair(text, 'x');
+  if (!pair || pair->first < 1 || pair->second < 1 || pair->first > kLargest || pair->second > kLargest) {
+    throw UsageError("--size " + text + ": give width x height in pixels, 1 to 16384 each, as in --size 1920x1080");
+  }
+  return {static_cast<std::uint32_t>(pair->first), static_cast<std::uint32_t>(pair->second)};
+}
+
+}  // namespace walr

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+
+#include "framegraph/graph.h"
+#include "samples/sequence/sequence.h"
+
+namespace walr {
+
+/// "A-B" or "A": frame numbers, both ends included.
+/// @throws UsageError
+FrameRange parseFrameRange(const std::string& text);
+
+/// "WIDTHxHEIGHT" in pixels, 1 to 16384 each.
+/// @throws UsageError
+fg::Extent parseSize(const std::string& text);
+
+}  // namespace walr

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <array>
+
+#include <CLI/App.hpp>
+
+namespace walr {
+
+/// Adds one subcommand to the program: its options, and a callback that runs it. Errors are exceptions; `exitCode`
+/// turns them into exit codes.
+using RegisterCommand = void (*)(CLI::App& program);
+
+void registerDenoise(CLI::App& program);
+
+/// All subcommands of `walr`. A new one is a line here.
+inline constexpr std::array<RegisterCommand, 1> kCommands = {
+    registerDenoise,
+};
+
+}  // namespace walr

@@ -1,0 +1,203 @@
+#include <unistd.h>
+
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <CLI/App.hpp>
+#include <CLI/Validators.hpp>
+
+#include "framegraph/vulkan/instance.h"
+#include "framegraph/vulkan/physical_device.h"
+#include "passes/denoiser.h"
+#include "samples/cli/arguments.h"
+#include "samples/cli/command.h"
+#include "samples/cli/exit_code.h"
+#include "samples/cli/method_options.h"
+#include "samples/cli/usage_error.h"
+#include "samples/denoise/frame_output.h"
+#include "samples/denoise/gpu_denoiser.h"
+#include "samples/denoise/pipeline.h"
+#include "samples/denoise/progress.h"
+#include "samples/denoise/report.h"
+#include "samples/image/file_output.h"
+#include "samples/sequence/sequence.h"
+
+namespace walr {
+namespace {
+
+struct DenoiseOptions {
+  std::filesystem::path input;
+  OutputOptions output;
+  MethodOptions method;
+  std::string frames;
+  GpuDenoiser::Options gpu;
+  bool listDevices = false;
+  std::filesystem::path json;
+  std::string nonFinite = "fail";
+  SequenceOptions sequence;
+};
+
+void describeInput(std::ostream& stream, const std::filesystem::path& input, const Sequence& sequence) {
+  const auto& entries = sequence.entries();
+  const RecognizedLayout& layout = sequence.layout();
+  stream << "input: " << input.string() << ", frames " << entries.front().number << " to " << entries.back().number
+         << ", " << sequence.extent().width << " x " << sequence.extent().height << " pixels\n"
+         << "layout: " << layout.layout->name
+         << (layout.viewLayer.empty() ? "" : " (view layer '" + layout.viewLayer + "')") << ", "
+         << (sequence.hasReferences() ? "with references" : "no references: no errors are measured") << '\n';
+  for (std::size_t i = 1; i < entries.size(); ++i) {
+    if (entries[i].resetHistory) {
+      stream << "camera cut: history is reset at frame " << entries[i].number << '\n';
+    }
+  }
+}
+
+void noteNonFinite(Progress& progress, const Frame& frame) {
+  for (const NonFiniteChannel& channel : frame.nonFinite) {
+    progress.note("frame " + std::to_string(frame.number) + ": replaced " + std::to_string(channel.count) +
+                  " value(s) that are not finite in " + channel.channel + " of " + channel.file.filename().string());
+  }
+}
+
+void refuseMessages(const std::vector<fg::vk::Message>& messages) {
+  if (messages.empty()) {
+    return;
+  }
+  throw std::runtime_error("the validation layer has " + std::to_string(messages.size()) +
+                           " message(s); the first: " + messages.front().text);
+}
+
+void refuseOutputIntoInput(const DenoiseOptions& options) {
+  std::error_code ignored;
+  if (std::filesystem::equivalent(options.input, options.output.directory, ignored)) {
+    throw UsageError(
+        "--output is the input folder; results there would be taken for frames of the sequence. Choose "
+        "another folder.");
+  }
+}
+
+void denoise(DenoiseOptions& options) {
+  options.sequence.composite = options.output.composite;
+  options.sequence.nonFinite = options.nonFinite == "replace" ? NonFinitePolicy::Replace : NonFinitePolicy::Fail;
+  if (!options.frames.empty()) {
+    options.sequence.frames = parseFrameRange(options.frames);
+  }
+  const std::unique_ptr<Denoiser> method = makeMethod(options.method);
+  refuseOutputIntoInput(options);
+  const Sequence sequence(options.input, options.sequence);
+  prepareOutputDirectory(options.output.directory);
+  describeInput(std::cout, options.input, sequence);
+
+  GpuDenoiser denoiser(options.gpu, *method, sequence.extent(), *sequence.layout().layout);
+  DenoiseReport report;
+  report.method = options.method.name;
+  for (const SettingText& setting : method->settings()) {
+    report.settings.emplace_back(setting.name, setting.value);
+  }
+  report.device = denoiser.deviceName();
+  report.driver = denoiser.driver();
+  report.softwareDevice = denoiser.isSoftware();
+  report.layout = sequence.layout().layout->name;
+  report.extent = sequence.extent();
+  std::cout << "method: " << report.method << "\ndevice: " << report.device << ", driver " << report.driver
+            << (report.softwareDevice ? " (software)" : "") << std::endl;
+  {
+    Progress progress(std::cerr, isatty(STDERR_FILENO) != 0, "frame", sequence.entries().size(),
+                      Progress::Clock::now());
+    runPipeline(
+        sequence.entries().size(), [&](std::size_t index) { return packFrame(sequence.read(index)); },
+        [&](PackedFrame frame) { return denoiser.denoise(std::move(frame)); },
+        [&](const DenoisedFrame& frame) {
+          writeDenoisedFrame(frame, options.output);
+          report.frames.push_back(measure(frame));
+          noteNonFinite(progress, frame.frame);
+          if (const std::size_t count = report.frames.back().nonFiniteOutput; count > 0) {
+            progress.note("warning: frame " + std::to_string(frame.frame.number) + ": " + std::to_string(count) +
+                          " value(s) of the result are not finite");
+          }
+          progress.advance(Progress::Clock::now());
+        });
+  }
+  refuseMessages(denoiser.takeMessages());
+  printReport(std::cout, report);
+  if (!options.json.empty()) {
+    const std::string text = reportJson(report);
+    writeFileAtomically(options.json, std::as_bytes(std::span(text)));
+  }
+}
+
+void listDevices() {
+  const fg::vk::Instance instance;
+  std::cout << fg::vk::listing(fg::vk::physicalDevices(instance));
+}
+
+}  // namespace
+
+void registerDenoise(CLI::App& program) {
+  const auto options = std::make_shared<DenoiseOptions>();
+  CLI::App* command =
+      program.add_subcommand("denoise", "Denoise a sequence of multi-layer EXR frames on a Vulkan device");
+  CLI::Option* input = command->add_option(
+      "INPUT", options->input,
+      "Folder of frames, Blender Cycles' multi-layer EXR with cameras.json or walr's own layout (samples/README.md); "
+      "files that start with 'ref' are references");
+  input->type_name("DIR");
+  CLI::Option* output = command->add_option(
+      "-o,--output", options->output.directory,
+      "Folder for denoised_FFFF.exr: half float, Indirect.{R,G,B}, demodulated; made if it is not there");
+  output->type_name("DIR");
+  addMethodOptions(*command, options->method);
+  command->add_option("--frames", options->frames, "Frame numbers to denoise, both included; default: all")
+      ->type_name("A-B");
+  command
+      ->add_option("--device", options->gpu.device,
+                   "Vulkan device by number or part of its name; default: the most capable")
+      ->type_name("N|NAME");
+  command->add_flag("--validate", options->gpu.validation,
+                    "Run under the Khronos validation layer with synchronization validation; any message is an error");
+  command->add_flag("--list-devices", options->listDevices, "List the Vulkan devices and stop");
+  command
+      ->add_option("--json", options->json,
+                   "Write device, driver, times (ms) and errors of every frame and their means to this file")
+      ->type_name("FILE");
+  command->add_flag("--composite", options->output.composite,
+                    "Write the lit picture albedo * (direct + indirect) + emission as R,G,B; needs those channels. "
+                    "Errors are measured on the indirect light all the same");
+  command->add_flag("--png", options->output.png,
+                    "Also write denoised_FFFF.png and comparison_FFFF.png (noisy | denoised | reference), tone-mapped "
+                    "by x/(1+x), then sRGB");
+  command
+      ->add_option("--non-finite", options->nonFinite,
+                   "What to do with NaN and infinity in the input: fail, or replace them before they enter any average")
+      ->check(CLI::IsMember({"fail", "replace"}))
+      ->type_name("")
+      ->capture_default_str();
+  command
+      ->add_option("--cut", options->sequence.cuts,
+                   "Frame number after a camera cut: history is reset there; may be given several times. Cuts that "
+                   "the cameras tell are found without it")
+      ->allow_extra_args(false)
+      ->type_name("N");
+  command->add_option("--view-layer", options->sequence.viewLayer, "View layer to take where the files hold several")
+      ->type_name("NAME");
+  command->footer(kExitCodeHelp);
+  command->callback([=] {
+    if (options->listDevices) {
+      listDevices();
+      return;
+    }
+    for (const CLI::Option* option : {input, output}) {
+      if (option->empty()) {
+        throw CLI::RequiredError(option->get_name());
+      }
+    }
+    denoise(*options);
+  });
+}
+
+}  // namespace walr

@@ -1,0 +1,25 @@
+#include "samples/cli/exit_code.h"
+
+#include "framegraph/vulkan/error.h"
+#include "samples/cli/usage_error.h"
+#include "samples/errors.h"
+
+namespace walr {
+
+ExitCode exitCode(const std::exception& error) {
+  if (dynamic_cast<const UsageError*>(&error) != nullptr) {
+    return ExitCode::Usage;
+  }
+  if (dynamic_cast<const InputError*>(&error) != nullptr) {
+    return ExitCode::Input;
+  }
+  if (dynamic_cast<const OutputError*>(&error) != nullptr) {
+    return ExitCode::Output;
+  }
+  if (dynamic_cast<const fg::vk::Error*>(&error) != nullptr) {
+    return ExitCode::Device;
+  }
+  return ExitCode::Internal;
+}
+
+}  // namespace walr

@@ -1,0 +1,65 @@
+#include "samples/cli/method_options.h"
+
+#include <stdexcept>
+
+#include <CLI/Validators.hpp>
+
+#include "samples/cli/usage_error.h"
+
+namespace walr {
+namespace {
+
+std::string presetHelp() {
+  std::string text = "Named settings of the method; --set changes them further.";
+  for (const std::string& method : denoiserNames()) {
+    const std::vector<std::string> presets = makeDenoiser(method)->presets();
+    for (std::size_t i = 0; i < presets.size(); ++i) {
+      text += (i == 0 ? " " + method + ": " : ", ") + presets[i] + (i == 0 ? " (default)" : "");
+    }
+    text += presets.empty() ? "" : ".";
+  }
+  return text;
+}
+
+/// Calls a function of the method, whose complaints are about the option.
+template <typename Function>
+void applyOption(const std::string& option, Function apply) {
+  try {
+    apply();
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(option + ": " + error.what());
+  }
+}
+
+}  // namespace
+
+void addMethodOptions(CLI::App& command, MethodOptions& options) {
+  command.add_option("--method", options.name, "Denoising method")
+      ->type_name("NAME")
+      ->check(CLI::IsMember(denoiserNames()))
+      ->capture_default_str();
+  command.add_option("--preset", options.preset, presetHelp())->type_name("NAME");
+  command
+      .add_option("--set", options.settings,
+                  "Change one setting of the method; may be given several times. 'walr graph "
+                  "--list-settings' lists them with unit, range and default")
+      ->allow_extra_args(false)
+      ->type_name("NAME=VALUE");
+}
+
+std::unique_ptr<Denoiser> makeMethod(const MethodOptions& options) {
+  std::unique_ptr<Denoiser> method = makeDenoiser(options.name);
+  if (!options.preset.empty()) {
+    applyOption("--preset " + options.preset, [&] { method->usePreset(options.preset); });
+  }
+  for (const std::string& setting : options.settings) {
+    const std::size_t split = setting.find('=');
+    if (split == std::string::npos) {
+      throw UsageError("--set " + setting + ": give NAME=VALUE");
+    }
+    applyOption("--set " + setting, [&] { method->set(setting.substr(0, split), setting.substr(split + 1)); });
+  }
+  return method;
+}
+
+}  // namespace walr

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <CLI/App.hpp>
+
+#include "passes/denoiser.h"
+
+namespace walr {
+
+/// Which method to run, and with which settings.
+struct MethodOptions {
+  std::string name = "walr";
+  std::string preset;                 ///< Empty: the method's first.
+  std::vector<std::string> settings;  ///< "name=value" each.
+};
+
+/// Adds `--method`, `--preset` and `--set` to a subcommand.
+void addMethodOptions(CLI::App& command, MethodOptions& options);
+
+/// Make the method.
+/// @throws UsageError naming the unknown preset, or the setting that is unknown, out of range or not of the form
+/// name=value
+std::unique_ptr<Denoiser> makeMethod(const MethodOptions& options);
+
+}  // namespace walr

@@ -1,0 +1,187 @@
+#include "samples/denoise/gpu_denoiser.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <numeric>
+#include <span>
+#include <stdexcept>
+#include <utility>
+
+#include "framegraph/compile.h"
+#include "framegraph/vulkan/device.h"
+#include "framegraph/vulkan/driver_memory_model.h"
+#include "framegraph/vulkan/executor.h"
+#include "framegraph/vulkan/frame_queue.h"
+#include "framegraph/vulkan/instance.h"
+#include "framegraph/vulkan/physical_device.h"
+#include "framegraph/vulkan/staged_image.h"
+#include "passes/frame.h"
+#include "samples/denoise/frame_graph.h"
+#include "samples/errors.h"
+
+namespace walr {
+namespace {
+
+fg::vk::PhysicalDevice chooseDevice(const fg::vk::Instance& instance, const std::string& choice) {
+  fg::vk::PhysicalDevice device = fg::vk::choose(fg::vk::physicalDevices(instance), choice);
+  fg::vk::require(device);
+  return device;
+}
+
+fg::Plan compilePlan(const fg::Graph& graph, const fg::MemoryModel& memory) {
+  fg::CompileResult result = fg::compile(graph.desc(), memory);
+  if (!result.ok()) {
+    throw std::runtime_error("the method's frame graph does not compile:\n" + result.text());
+  }
+  return std::move(result.plan);
+}
+
+/// Compiles for a device, after a check that names every format use that it lacks.
+fg::Plan compileForDevice(const fg::Graph& graph, const fg::vk::PhysicalDevice& physical,
+                          const fg::vk::DeviceContext& device) {
+  const fg::Plan portable = compilePlan(graph, fg::TableMemoryModel());
+  fg::vk::require(physical, fg::vk::formatUses(graph.desc(), portable));
+  return compilePlan(graph, fg::vk::DriverMemoryModel(device));
+}
+
+// Frames are read, denoised and written side by side already; one on the device at a time keeps their order plain.
+constexpr std::uint32_t kFramesInFlight = 1;
+
+/// A picture on its way to the device: the graph's texture and the image behind it.
+class UploadedTexture {
+ public:
+  UploadedTexture(const fg::vk::DeviceContext& device, const fg::Graph& graph, fg::vk::Executor& executor,
+                  fg::Texture texture)
+      : image_(device, graph.textureDesc(texture), executor.usage(texture), fg::vk::StagedImage::Direction::Upload,
+               kFramesInFlight, graph.desc().resources[texture.resource].name) {
+    executor.bind(texture, image_.external());
+  }
+
+  template <typename Texels>
+  void upload(const fg::vk::Frame& frame, const Texels& texels) const {
+    const auto bytes = std::as_bytes(std::span(texels));
+    std::ranges::copy(bytes, image_.staging(frame.slot).begin());
+    image_.recordUpload(frame.commandBuffer, frame.slot);
+  }
+
+ private:
+  fg::vk::StagedImage image_;
+};
+
+}  // namespace
+
+struct GpuDenoiser::State {
+  State(const Options& options, Denoiser& method, fg::Extent frameExtent, const Layout& frameLayout)
+      : instance({.validation = options.validation, .sink = log.sink()}),
+        physical(chooseDevice(instance, options.device)),
+        device(instance, physical),
+        extent(frameExtent),
+        layout(frameLayout),
+        declared(declareDenoiseGraph(
+            method, extent, layout.conventions,
+            {.inputs = fg::vk::kUploaded, .outputBefore = fg::vk::kOverwritable, .outputAfter = fg::vk::kReadable})),
+        executor(device.context(), declared.graph.desc(), compileForDevice(declared.graph, physical, device.context()),
+                 {.framesInFlight = kFramesInFlight, .timestamps = device.context().timestampBits > 0}),
+        lighting(makeUpload(declared.inputs.lighting)),
+        depth(makeUpload(declared.inputs.depth)),
+        normal(makeUpload(declared.inputs.normal)),
+        motion(makeUpload(declared.inputs.motion)),
+        albedo(makeUpload(declared.inputs.albedo)),
+        output(device.context(), declared.graph.textureDesc(declared.output), executor.usage(declared.output),
+               fg::vk::StagedImage::Direction::Readback, kFramesInFlight, "denoised"),
+        queue(device.context(), device.queue(), kFramesInFlight) {
+    executor.bind(declared.output, output.external());
+  }
+
+  UploadedTexture makeUpload(fg::Texture texture) { return {device.context(), declared.graph, executor, texture}; }
+
+  FrameConstants constants(const Frame& frame) const {
+    try {
+      return frameConstants({.view = frame.camera.view,
+                             .previousView = frame.camera.previousView,
+                             .projection = frame.camera.projection,
+                             .previousProjection = frame.previousProjection,
+                             .jitter = frame.camera.jitter,
+                             .previousJitter = frame.previousJitter,
+                             .motionScale = layout.motionScale,
+                             .frameIndex = static_cast<std::uint32_t>(frame.number),
+                             .skyDepth = kSkyDepth},
+                            extent);
+    } catch (const std::invalid_argument& error) {
+      throw InputError("camera of frame " + std::to_string(frame.number) + ": " + error.what());
+    }
+  }
+
+  /// Time of all passes; the copies to and from the device are not among them.
+  std::optional<double> passMilliseconds(std::uint32_t slot) {
+    const std::span<const fg::vk::PassTime> times = executor.passTimes(slot);
+    if (times.empty()) {
+      return std::nullopt;
+    }
+    return std::accumulate(times.begin(), times.end(), 0.0,
+                           [](double sum, const fg::vk::PassTime& time) { return sum + time.milliseconds; });
+  }
+
+  fg::vk::MessageLog log;
+  fg::vk::Instance instance;
+  fg::vk::PhysicalDevice physical;
+  fg::vk::Device device;
+  fg::Extent extent;
+  const Layout& layout;
+  DenoiseGraph declared;
+  fg::vk::Executor executor;
+  UploadedTexture lighting;
+  UploadedTexture depth;
+  UploadedTexture normal;
+  UploadedTexture motion;
+  UploadedTexture albedo;
+  fg::vk::StagedImage output;
+  fg::vk::FrameQueue queue;
+};
+
+GpuDenoiser::GpuDenoiser(const Options& options, Denoiser& method, fg::Extent extent, const Layout& layout)
+    : state_(std::make_unique<State>(options, method, extent, layout)) {}
+GpuDenoiser::~GpuDenoiser() = default;
+
+const std::string& GpuDenoiser::deviceName() const {
+  return state_->physical.name;
+}
+const std::string& GpuDenoiser::driver() const {
+  return state_->physical.driver;
+}
+bool GpuDenoiser::isSoftware() const {
+  return state_->physical.type == VK_PHYSICAL_DEVICE_TYPE_CPU;
+}
+
+std::vector<fg::vk::Message> GpuDenoiser::takeMessages() {
+  return state_->log.take();
+}
+
+DenoisedFrame GpuDenoiser::denoise(PackedFrame packed) {
+  State& state = *state_;
+  Frame& frame = packed.frame;
+  state.executor.upload(state.declared.inputs.frame, state.constants(frame));
+  if (frame.resetHistory) {
+    state.executor.resetAllHistory();
+  }
+  const fg::vk::Frame recorded = state.queue.begin();
+  state.lighting.upload(recorded, packed.lighting);
+  state.depth.upload(recorded, std::as_const(frame.depth).values());
+  state.normal.upload(recorded, packed.normal);
+  state.motion.upload(recorded, packed.motion);
+  state.albedo.upload(recorded, packed.albedo);
+  state.executor.record(recorded.commandBuffer, recorded.slot);
+  state.output.recordReadback(recorded.commandBuffer, recorded.slot);
+  state.queue.submit(recorded);
+  state.queue.wait(recorded.slot);
+
+  std::vector<Rgba16> texels(frame.depth.pixelCount());
+  std::ranges::copy(state.output.staging(recorded.slot), std::as_writable_bytes(std::span(texels)).begin());
+  DenoisedFrame denoised;
+  denoised.indirect = unpackRgb(texels, frame.depth.width(), frame.depth.height());
+  denoised.gpuMilliseconds = state.passMilliseconds(recorded.slot);
+  denoised.frame = std::move(frame);
+  return denoised;
+}
+
+}  // namespace walr

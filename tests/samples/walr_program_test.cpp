@@ -1,0 +1,295 @@
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "passes/denoiser.h"
+#include "samples/image/exr.h"
+#include "tests/samples/process.h"
+#include "tests/samples/synthetic_sequence.h"
+#include "tests/samples/temporary_directory.h"
+
+/// The program as users call it: exit codes, messages, files.
+namespace walr {
+namespace {
+
+namespace fs = std::filesystem;
+using test::Channels;
+using test::ProcessOptions;
+using test::ProcessResult;
+using test::SyntheticSequence;
+
+constexpr int kUsage = 2;
+constexpr int kInput = 3;
+constexpr int kDevice = 4;
+constexpr int kOutput = 5;
+
+Image readIndirect(const fs::path& file, const std::string& plane = "Indirect") {
+  ExrReader reader(file);
+  Image image(reader.width(), reader.height(), 3);
+  reader.read(
+      std::vector<ExrReader::Target>{{plane + ".R", &image, 0}, {plane + ".G", &image, 1}, {plane + ".B", &image, 2}});
+  return image;
+}
+
+void expectFinite(const Image& image) {
+  EXPECT_TRUE(std::ranges::all_of(image.values(), [](float value) { return std::isfinite(value); }));
+}
+
+class ProgramTest : public testing::Test {
+ protected:
+  ProgramTest() { fs::create_directory(input); }
+
+  static ProcessResult walr(std::vector<std::string> arguments, const ProcessOptions& options = {}) {
+    arguments.insert(arguments.begin(), WALR_PROGRAM);
+    return test::runProcess(arguments, options);
+  }
+  /// `walr denoise` from the input to the output folder, under the validation layer.
+  [[nodiscard]] ProcessResult denoise(std::vector<std::string> more = {}, const ProcessOptions& options = {}) const {
+    std::vector<std::string> arguments = {"denoise", input.string(), "--output", output.string(), "--validate"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return walr(arguments, options);
+  }
+  [[nodiscard]] std::vector<std::string> outputFiles() const {
+    std::vector<std::string> names;
+    for (const auto& file : fs::directory_iterator(output)) {
+      names.push_back(file.path().filename().string());
+    }
+    std::ranges::sort(names);
+    return names;
+  }
+  static void expectFailure(const ProcessResult& result, int code, std::initializer_list<std::string> parts) {
+    EXPECT_EQ(result.exitCode, code) << result.err;
+    for (const std::string& part : parts) {
+      EXPECT_NE(result.err.find(part), std::string::npos) << "'" << part << "' in: " << result.err;
+    }
+  }
+  static void expectSuccess(const ProcessResult& result) { EXPECT_EQ(result.exitCode, 0) << result.out << result.err; }
+
+  test::TemporaryDirectory directory;
+  fs::path input = directory.path() / "in";
+  fs::path output = directory.path() / "out";
+  SyntheticSequence files{input, 24, 18};
+};
+
+TEST_F(ProgramTest, HelpExplainsEveryCommand) {
+  for (const std::vector<std::string>& command : std::vector<std::vector<std::string>>{{}, {"denoise"}}) {
+    std::vector<std::string> arguments = command;
+    arguments.emplace_back("--help");
+    const ProcessResult result = walr(arguments);
+    expectSuccess(result);
+    EXPECT_NE(result.out.find("Exit codes"), std::string::npos) << result.out;
+  }
+  EXPECT_NE(walr({"denoise", "--help"}).out.find("walr,accumulate,none"), std::string::npos);
+}
+
+TEST_F(ProgramTest, AWrongCommandLineIsAUsageError) {
+  files.write(0, 0);
+  expectFailure(walr({}), kUsage, {"subcommand"});
+  expectFailure(walr({"denoise"}), kUsage, {"INPUT"});
+  expectFailure(walr({"denoise", input}), kUsage, {"--output"});
+  expectFailure(denoise({"--method", "magic"}), kUsage, {"magic"});
+  expectFailure(denoise({"--frames", "5-2"}), kUsage, {"--frames 5-2", "first and a last"});
+  expectFailure(denoise({"--non-finite", "maybe"}), kUsage, {"maybe"});
+  expectFailure(denoise({"--set", "nothing=1"}), kUsage, {"nothing"});
+  expectFailure(denoise({"--set", "nothing"}), kUsage, {"NAME=VALUE"});
+  expectFailure(walr({"denoise", input, "--output", input}), kUsage, {"input folder"});
+  expectFailure(denoise({"--preset", "fancy"}), kUsage, {"--preset fancy"});
+}
+
+TEST_F(ProgramTest, DenoisesAndMeasures) {
+  files.write(0, 5);
+  const fs::path json = directory.path() / "report.json";
+  const ProcessResult result = denoise({"--json", json.string(), "--png"});
+  expectSuccess(result);
+  EXPECT_NE(result.out.find("Blender Cycles"), std::string::npos) << result.out;
+  EXPECT_NE(result.err.find("frame 6 of 6"), std::string::npos) << result.err;
+  EXPECT_EQ(outputFiles().size(), 18U);
+
+  const auto report = nlohmann::json::parse(test::readText(json));
+  EXPECT_EQ(report["method"], "walr");
+  EXPECT_FALSE(report["device"].get<std::string>().empty());
+  EXPECT_FALSE(report["driver"].get<std::string>().empty());
+  ASSERT_EQ(report["frames"].size(), 6U);
+  EXPECT_EQ(report["frames"][5]["frame"], 5);
+  EXPECT_GT(report["frames"][5]["gpu_ms"], 0.0);
+  // The reference is a constant, which a denoiser finds far better than one path a pixel does.
+  EXPECT_LT(report["frames"][5]["rmse"].get<double>(), 0.25 * report["frames"][5]["noisy"]["rmse"].get<double>());
+  expectFinite(readIndirect(output / "denoised_0005.exr"));
+}
+
+TEST_F(ProgramTest, MethodNoneGivesTheInputBack) {
+  files.write(0, 1);
+  expectSuccess(denoise({"--method", "none"}));
+  const Image in = readIndirect(files.frameFile(1), "DiffInd");
+  const Image out = readIndirect(output / "denoised_0001.exr");
+  EXPECT_TRUE(std::ranges::equal(in.values(), out.values()));
+}
+
+TEST_F(ProgramTest, TheSkyComesOutAsItWentIn) {
+  files.writeCameras(0, 0);
+  files.writeFrame(0, [](Channels& channels) { channels.at("DiffInd.G").at(7, 0, 0) = 0.75F; });
+  expectSuccess(denoise());
+  const Image out = readIndirect(output / "denoised_0000.exr");
+  for (int x = 0; x < out.width(); ++x) {
+    EXPECT_EQ(out.at(x, 0, 0), 0.0F);
+    EXPECT_EQ(out.at(x, 0, 1), x == 7 ? 0.75F : 0.0F);
+  }
+}
+
+TEST_F(ProgramTest, TwoRunsGiveTheSameBytes) {
+  files.write(0, 2);
+  const auto run = [&] {
+    expectSuccess(denoise());
+    return test::readText(output / "denoised_0002.exr");
+  };
+  EXPECT_EQ(run(), run());
+}
+
+TEST_F(ProgramTest, WritesAComposite) {
+  files.write(0, 0);
+  expectSuccess(denoise({"--composite"}));
+  EXPECT_EQ(ExrReader(output / "denoised_0000.exr").channels(), (std::vector<std::string>{"B", "G", "R"}));
+}
+
+TEST_F(ProgramTest, SaysWhereACutIs) {
+  files.write(0, 3);
+  const ProcessResult result = denoise({"--cut", "2"});
+  expectSuccess(result);
+  EXPECT_NE(result.out.find("history is reset at frame 2"), std::string::npos) << result.out;
+}
+
+class MethodAndSize : public ProgramTest, public testing::WithParamInterface<std::tuple<std::string, int, int>> {};
+
+TEST_P(MethodAndSize, ComesOutFinite) {
+  const auto& [method, width, height] = GetParam();
+  SyntheticSequence(input, width, height).write(0, 1);
+  expectSuccess(denoise({"--method", method}));
+  const Image out = readIndirect(output / "denoised_0001.exr");
+  EXPECT_EQ(out.width(), width);
+  EXPECT_EQ(out.height(), height);
+  expectFinite(out);
+}
+
+INSTANTIATE_TEST_SUITE_P(TinyAndOdd, MethodAndSize,
+                         testing::Combine(testing::ValuesIn(denoiserNames()), testing::Values(1, 7),
+                                          testing::Values(1, 5)));
+
+TEST_F(ProgramTest, BadInputIsNamedBeforeAnythingIsWritten) {
+  const auto expectBad = [&](std::initializer_list<std::string> parts) {
+    expectFailure(denoise(), kInput, parts);
+    EXPECT_FALSE(fs::exists(output));
+  };
+  files.write(0, 3);
+  files.writeFrame(1, [](Channels& channels) { channels.erase("Normal.Y"); });
+  expectBad({"noisy_0001.exr", "Normal.Y"});
+  SyntheticSequence(input, 5, 5).writeFrame(1);
+  expectBad({"noisy_0001.exr", "5 x 5", "24 x 18"});
+  fs::remove(files.frameFile(1));
+  expectBad({"frame 1 is missing"});
+  files.writeFrame(1);
+  files.writeCameras(0, 2);
+  expectBad({"cameras.json", "frame 3"});
+  fs::remove(input / "cameras.json");
+  expectBad({"cameras.json"});
+  files.writeCameras(0, 3);
+  test::writeText(files.frameFile(2), "not an image");
+  expectBad({"noisy_0002.exr"});
+}
+
+TEST_F(ProgramTest, ATruncatedFrameLeavesTheFinishedOnesWhole) {
+  files.write(0, 3);
+  const std::string whole = test::readText(files.frameFile(2));
+  test::writeText(files.frameFile(2), whole.substr(0, whole.size() / 2));
+  expectFailure(denoise(), kInput, {"noisy_0002.exr", "truncated or damaged"});
+  for (const std::string& name : outputFiles()) {
+    EXPECT_TRUE(name == "denoised_0000.exr" || name == "denoised_0001.exr") << name;
+    expectFinite(readIndirect(output / name));
+  }
+}
+
+TEST_F(ProgramTest, ASingularCameraIsNamed) {
+  files.write(0, 0);
+  std::string cameras = test::readText(input / "cameras.json");
+  auto document = nlohmann::json::parse(cameras);
+  document["frames"][0]["view"] = std::vector<double>(16, 0.0);
+  document["frames"][0]["prev_view"] = std::vector<double>(16, 0.0);
+  test::writeText(input / "cameras.json", document.dump());
+  expectFailure(denoise(), kInput, {"camera of frame 0"});
+}
+
+TEST_F(ProgramTest, NoVulkanDeviceIsSaid) {
+  files.write(0, 0);
+  const ProcessOptions options{{{"VK_DRIVER_FILES", "/nonexistent"}, {"VK_ICD_FILENAMES", "/nonexistent"}}, {}};
+  expectFailure(denoise({}, options), kDevice, {"Vulkan"});
+  expectFailure(walr({"denoise", "--list-devices"}, options), kDevice, {"Vulkan"});
+}
+
+TEST_F(ProgramTest, AnUnknownDeviceIsNamed) {
+  files.write(0, 0);
+  expectFailure(denoise({"--device", "abacus"}), kDevice, {"abacus"});
+  expectFailure(denoise({"--device", "99"}), kDevice, {"99"});
+}
+
+TEST_F(ProgramTest, ListsDevices) {
+  const ProcessResult result = walr({"denoise", "--list-devices"});
+  expectSuccess(result);
+  EXPECT_EQ(result.out.rfind("0: ", 0), 0U) << result.out;
+}
+
+TEST_F(ProgramTest, AnOutputThatCannotBeMadeIsNamed) {
+  files.write(0, 0);
+  test::writeText(output, "a file");
+  expectFailure(denoise(), kOutput, {output.string(), "not a directory"});
+}
+
+TEST_F(ProgramTest, AFullOutputLeavesNoPartialFile) {
+  files.write(0, 1);
+  // A limit on file sizes fails in the middle of a write, as a full disk does.
+  expectFailure(denoise({}, {{}, 200}), kOutput, {"denoised_0000.exr", "File too large"});
+  EXPECT_TRUE(outputFiles().empty());
+}
+
+TEST_F(ProgramTest, AReportThatCannotBeWrittenIsNamed) {
+  files.write(0, 0);
+  expectFailure(denoise({"--json", (directory.path() / "nowhere" / "a.json").string()}), kOutput, {"a.json"});
+}
+
+class NonFiniteChannelTest : public ProgramTest, public testing::WithParamInterface<const char*> {};
+
+TEST_P(NonFiniteChannelTest, IsRefusedOrReplaced) {
+  files.write(0, 1);
+  for (const int frame : {0, 1}) {
+    files.writeFrame(frame, [](Channels& channels) {
+      Image& plane = channels.at(GetParam());
+      plane.at(10, 9, 0) = std::numeric_limits<float>::quiet_NaN();
+      plane.at(11, 9, 0) = std::numeric_limits<float>::infinity();
+      plane.at(3, 4, 0) = -std::numeric_limits<float>::infinity();
+    });
+  }
+  expectFailure(denoise({"--composite"}), kInput, {"noisy_0000.exr", GetParam(), "3 value(s)", "--non-finite replace"});
+  EXPECT_TRUE(outputFiles().empty());
+  const ProcessResult result = denoise({"--composite", "--non-finite", "replace"});
+  expectSuccess(result);
+  EXPECT_NE(result.err.find(GetParam()), std::string::npos) << result.err;
+  const Image out = [&] {
+    ExrReader reader(output / "denoised_0001.exr");
+    Image image(reader.width(), reader.height(), 3);
+    reader.read(std::vector<ExrReader::Target>{{"R", &image, 0}, {"G", &image, 1}, {"B", &image, 2}});
+    return image;
+  }();
+  expectFinite(out);
+}
+
+INSTANTIATE_TEST_SUITE_P(EveryChannel, NonFiniteChannelTest,
+                         testing::Values("DiffInd.R", "DiffInd.G", "DiffInd.B", "DiffCol.R", "DiffCol.G", "DiffCol.B",
+                                         "Normal.X", "Normal.Y", "Normal.Z", "Depth.Z", "Vector.X", "Vector.Y",
+                                         "DiffDir.R", "Emit.B"));
+
+}  // namespace
+}  // namespace walr
