@@ -5,7 +5,9 @@
 #include <stdexcept>
 
 #include "passes/accumulate.h"
+#include "passes/joint_bilateral.h"
 #include "passes/pass_through.h"
+#include "passes/svgf.h"
 #include "passes/walr.h"
 
 namespace walr {
@@ -80,6 +82,8 @@ struct Method {
 
 constexpr std::array kMethods{
     Method{"walr", make<WalrSettings, addWalr>},
+    Method{"svgf", make<SvgfSettings, addSvgf>},
+    Method{"joint_bilateral", make<JointBilateralSettings, addJointBilateral>},
     Method{"accumulate", make<AccumulateSettings, addAccumulate>},
     Method{"none", make<NoSettings, addNone>},
 };

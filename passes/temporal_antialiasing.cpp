@@ -16,6 +16,7 @@ fg::Texture addTemporalAntialiasing(fg::Graph& graph, const DenoiserInputs& inpu
   readReprojection(pass, inputs, guides, settings.dilateMotion);
   pass.sample("filtered", filtered)
       .sample("previousResolved", resolved.previous)
+      .specialize("kClipRadius", settings.clipRadius)
       .constants(TemporalAntialiasingConstants{settings.maxSamples, settings.clipGamma, settings.planeTolerance,
                                                settings.normalThreshold})
       .dispatch(extent);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+
 #include "framegraph/graph.h"
 #include "passes/inputs.h"
 #include "passes/prepare_guides.h"
@@ -11,6 +13,7 @@ namespace walr {
 struct TemporalAntialiasingSettings {
   float maxSamples = 8.0F;
   float clipGamma = 1.0F;
+  std::uint32_t clipRadius = 1;
   float planeTolerance = 0.01F;
   float normalThreshold = 0.5F;
   bool dilateMotion = false;
@@ -22,6 +25,9 @@ struct TemporalAntialiasingSettings {
     v.visit({"antialiasing.clip-gamma", "Half size of the variance-clipping box", "standard deviations", 0.0, 1e6,
              "walr.txt 4.4"},
             clipGamma);
+    v.visit({"antialiasing.clip-radius", "Half the neighbourhood of the variance clipping; 1 is 3x3", "pixels", 1, 8,
+             "walr.txt 4.4"},
+            clipRadius);
     v.visit({"antialiasing.plane-tolerance", "Largest distance of a history pixel from the surface's plane",
              "fraction of depth", 0.0, 1.0, "measured"},
             planeTolerance);

@@ -7,6 +7,7 @@
 #include "constants/temporal_antialiasing.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
+layout(constant_id = 2) const int kClipRadius = 1;  // Half the neighbourhood of the variance clipping, pixels.
 
 layout(set = 0, binding = 0, std140) uniform frameConstants { FrameConstants frame; };
 layout(set = 0, binding = 1) uniform texture2D filtered;
@@ -58,8 +59,9 @@ void main() {
     vec3 sum = vec3(0.0), squares = vec3(0.0);
     float count = 0.0;
     const ivec2 last = textureSize(filtered, 0) - 1;
-    for (int i = 0; i < 9; ++i) {
-      const ivec2 q = clamp(p + ivec2(i % 3, i / 3) - 1, ivec2(0), last);
+    const int width = 2 * kClipRadius + 1;
+    for (int i = 0; i < width * width; ++i) {
+      const ivec2 q = clamp(p + ivec2(i % width, i / width) - kClipRadius, ivec2(0), last);
       if (unpackDepth(texelFetch(depth, q, 0).x) == 0.0) continue;
       // Relative to the centre, so that the variance of a flat neighbourhood does not drown in rounding.
       const vec3 difference = toYCoCg(texelFetch(filtered, q, 0).rgb) - centre;

@@ -151,10 +151,7 @@ TEST_F(ExecutorTest, UploadOfAnotherSizeIsRefusedByName) {
 TEST_F(ExecutorTest, IndirectDispatchTakesItsGroupsFromTheGpu) {
   Graph graph;
   const Texture out = importOutput(graph, "out");
-  const Buffer room = graph.buffer("arguments", {3 * sizeof(std::uint32_t)});
-  auto count = graph.compute("count", shaders::groupCount).constants(std::uint32_t{2});
-  const Buffer arguments = count.store("arguments", room);
-  count.dispatch({1, 1});
+  const Buffer arguments = groupCount(graph, "arguments", 2, 1);
   const Texture base = fill(graph, "fill", out, 1);
   auto twice = graph.compute("double", shaders::doubleInPlace);
   const Texture result = twice.update("image", base);

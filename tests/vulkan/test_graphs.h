@@ -32,6 +32,18 @@ inline Texture add(Graph& graph, const std::string& name, Texture source, Textur
   return result;
 }
 
+/// Arguments of an indirect dispatch of x times y work groups.
+inline Buffer groupCount(Graph& graph, const std::string& name, std::uint32_t x, std::uint32_t y) {
+  struct Push {
+    std::uint32_t x;
+    std::uint32_t y;
+  };
+  auto pass = graph.compute(name, shaders::groupCount).constants(Push{x, y});
+  const Buffer arguments = pass.store("arguments", graph.buffer(name, {3 * sizeof(std::uint32_t)}));
+  pass.dispatch({1, 1});
+  return arguments;
+}
+
 /// What `fill` leaves, plus `value`.
 inline std::vector<std::uint32_t> filled(std::uint32_t value, Extent extent = kTexture.extent) {
   std::vector<std::uint32_t> texels;

@@ -1,0 +1,35 @@
+#pragma once
+
+#include "framegraph/graph.h"
+#include "passes/inputs.h"
+#include "passes/joint_bilateral_filter.h"
+#include "passes/prepare_guides.h"
+#include "passes/temporal_antialiasing.h"
+
+namespace walr {
+
+/// Settings of all stages of the joint bilateral denoiser.
+struct JointBilateralSettings {
+  bool spatialOnly = false;
+  PrepareGuidesSettings guides;
+  JointBilateralFilterSettings filter;
+  /// Accumulation of the filtered frames (joint-bilateral.txt, 4): alpha 0.2, clamped to the 7x7 neighbourhood.
+  TemporalAntialiasingSettings accumulation{.maxSamples = 5.0F, .clipRadius = 3};
+
+  void visit(SettingVisitor& v) {
+    v.visit({"spatial-only", "Filter each frame by itself, without temporal stages", "", 0, 1, ""}, spatialOnly);
+    guides.visit(v);
+    filter.visit(v);
+    accumulation.visit(v);
+  }
+};
+
+/// Joint bilateral filter with temporal accumulation (joint-bilateral.txt, 1): denoise one frame, project the last
+/// result into it, accumulate. Where the text tells surfaces apart by object number, this compares depth and normal, as
+/// the other methods do, so that the host need not number its objects.
+/// @param output RGBA16F texture to write the result to
+/// @returns the output's new version
+fg::Texture addJointBilateral(fg::Graph& graph, const DenoiserInputs& inputs, fg::Texture output,
+                              const JointBilateralSettings& settings = {});
+
+}  // namespace walr

@@ -1,0 +1,36 @@
+#pragma once
+
+#include "framegraph/graph.h"
+#include "passes/inputs.h"
+#include "passes/prepare_guides.h"
+#include "passes/svgf_accumulation.h"
+#include "passes/svgf_filter.h"
+#include "passes/temporal_antialiasing.h"
+
+namespace walr {
+
+/// Settings of all stages of SVGF.
+struct SvgfSettings {
+  bool spatialOnly = false;
+  PrepareGuidesSettings guides;
+  SvgfAccumulationSettings accumulation;
+  SvgfFilterSettings filter;
+  TemporalAntialiasingSettings antialiasing;
+
+  void visit(SettingVisitor& v) {
+    v.visit({"spatial-only", "Filter each frame by itself, without temporal stages", "", 0, 1, ""}, spatialOnly);
+    guides.visit(v);
+    accumulation.visit(v);
+    filter.visit(v);
+    antialiasing.visit(v);
+  }
+};
+
+/// Spatiotemporal Variance-Guided Filtering (Schied et al. 2017, figure 1; nagi-svgf.txt): temporal accumulation,
+/// variance estimation, variance-guided a-trous iterations whose first feeds the history, temporal anti-aliasing.
+/// @param output RGBA16F texture to write the result to
+/// @returns the output's new version
+fg::Texture addSvgf(fg::Graph& graph, const DenoiserInputs& inputs, fg::Texture output,
+                    const SvgfSettings& settings = {});
+
+}  // namespace walr

@@ -1,0 +1,46 @@
+#pragma once
+
+#include "framegraph/graph.h"
+#include "passes/inputs.h"
+#include "passes/prepare_guides.h"
+#include "passes/settings.h"
+
+namespace walr {
+
+/// Settings of SVGF's temporal filtering.
+struct SvgfAccumulationSettings {
+  float maxSamples = 16.0F;
+  float maxMomentSamples = 5.0F;
+  float planeTolerance = 0.01F;
+  float normalThreshold = 0.5F;
+
+  void visit(SettingVisitor& v) {
+    v.visit({"accumulation.max-samples", "Samples after which the mean colour turns exponential", "frames", 1.0, 255.0,
+             "measured; the paper's alpha of 0.2 is 5"},
+            maxSamples);
+    v.visit({"accumulation.max-moment-samples", "Samples after which the luminance moments turn exponential", "frames",
+             1.0, 255.0, "Schied et al. 2017, 4.2: alpha 0.2"},
+            maxMomentSamples);
+    v.visit({"accumulation.plane-tolerance", "Largest distance of a history pixel from the surface's plane",
+             "fraction of depth", 0.0, 1.0, "measured"},
+            planeTolerance);
+    v.visit({"accumulation.normal-threshold", "Smallest cosine between geometric normals of surface and history pixel",
+             "", -1.0, 1.0, "measured"},
+            normalThreshold);
+  }
+};
+
+/// What SVGF's temporal filtering knows of every pixel.
+struct SvgfAccumulated {
+  fg::Texture colour;   ///< RGBA16F: mean radiance; sky and pixels without a diffuse lobe as they were.
+  fg::Texture moments;  ///< RGBA16F: mean of the luminance, its standard deviation, history length; 0 where none.
+};
+
+/// Average colour and luminance moments over time along the motion.
+/// @param previousColour RGBA16F: the colour's history
+/// @param colour         RGBA16F texture to write the mean colour to
+SvgfAccumulated addSvgfAccumulation(fg::Graph& graph, const DenoiserInputs& inputs, const Guides& guides,
+                                    fg::Texture previousColour, fg::Texture colour,
+                                    const SvgfAccumulationSettings& settings = {});
+
+}  // namespace walr

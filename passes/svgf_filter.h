@@ -1,0 +1,69 @@
+#pragma once
+
+#include <cstdint>
+
+#include "framegraph/graph.h"
+#include "passes/prepare_guides.h"
+#include "passes/settings.h"
+#include "passes/svgf_accumulation.h"
+
+namespace walr {
+
+/// Settings of SVGF's variance estimation and a-trous iterations.
+struct SvgfFilterSettings {
+  std::uint32_t iterations = 5;
+  std::uint32_t radius = 2;
+  float sigmaDepth = 0.01F;
+  float sigmaNormal = 128.0F;
+  bool luminanceWeight = true;
+  float sigmaLuminance = 4.0F;
+  float minHistory = 4.0F;
+  std::uint32_t feedback = 1;
+
+  void visit(SettingVisitor& v) {
+    v.visit({"svgf.iterations", "A-trous iterations with taps 2^i pixels apart", "", 1, 8,
+             "nagi-svgf.txt: 4; Schied et al. 2017: 5"},
+            iterations);
+    v.visit({"svgf.radius", "Taps on each side of the centre; 1, 2, 3, 4 are kernels of 3x3, 5x5, 7x7, 9x9", "taps", 1,
+             4, "nagi-svgf.txt"},
+            radius);
+    v.visit({"svgf.sigma-depth", "Distance from the tangent plane at which a pixel weighs 1/e", "fraction of depth",
+             1e-6, 1e6, "measured"},
+            sigmaDepth);
+    v.visit({"svgf.sigma-normal", "Exponent of the cosine between normals; 0 weighs all normals alike", "", 0.0, 1e4,
+             "Schied et al. 2017, 4.4: 128; nagi-svgf.txt: 64"},
+            sigmaNormal);
+    v.visit({"svgf.luminance-weight", "Stop at edges of the luminance that its variance does not explain", "", 0, 1,
+             "nagi-svgf.txt"},
+            luminanceWeight);
+    v.visit({"svgf.sigma-luminance", "Luminance difference at which a pixel weighs 1/e", "standard deviations", 1e-6,
+             1e6, "Schied et al. 2017, 4.4; nagi-svgf.txt: 4"},
+            sigmaLuminance);
+    v.visit({"svgf.min-history", "Samples below which the variance is estimated over 7x7 pixels", "frames", 0.0, 256.0,
+             "Schied et al. 2017, 4.2"},
+            minHistory);
+    v.visit({"svgf.feedback", "Iterations whose result is the next frame's colour history; at most all of them", "", 0,
+             8, "Schied et al. 2017, 4.3: 1"},
+            feedback);
+  }
+};
+
+/// Put the standard deviation of the luminance beside the colour.
+/// @returns RGBA16F: radiance; alpha: standard deviation, negative where no sample has been seen
+fg::Texture addSvgfVariance(fg::Graph& graph, fg::Buffer frame, const SvgfAccumulated& accumulated,
+                            const Guides& guides, const SvgfFilterSettings& settings = {});
+
+/// The same from a single frame, by the spatial estimate alone.
+/// @param lighting RGBA16F: noisy radiance
+fg::Texture addSvgfSingleFrameVariance(fg::Graph& graph, fg::Buffer frame, fg::Texture lighting, const Guides& guides,
+                                       const SvgfFilterSettings& settings = {});
+
+/// Edge-avoiding a-trous iterations guided by variance.
+/// @param colour   RGBA16F: radiance and standard deviation, from one of the above
+/// @param feedback RGBA16F texture that the iteration which `settings.feedback` counts writes to
+/// @returns RGBA16F: filtered radiance and its standard deviation; sky and pixels without a diffuse lobe as they were
+/// @throws std::invalid_argument where `settings.feedback` exceeds `settings.iterations`
+fg::Texture addSvgfAtrous(fg::Graph& graph, fg::Buffer frame, fg::Texture colour, const Guides& guides,
+                          fg::Texture feedback, const SvgfFilterSettings& settings = {});
+
+}  // namespace walr

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "samples/render/gbuffer.h"
+#include "samples/render/sampler.h"
+#include "samples/render/view.h"
+#include "samples/render/world.h"
+
+namespace walr::render {
+
+/// How the light of a frame is sampled.
+struct SamplingSettings {
+  std::uint32_t samples = 1;      ///< Paths a pixel, at least 1.
+  std::uint32_t bounces = 4;      ///< See `tracePath`.
+  std::uint32_t seed = 0;         ///< Frames of different seeds are independent.
+  std::uint32_t firstSample = 0;  ///< Number of the first path in each pixel's sequence; goes on from frame to frame.
+  Sampler::Kind sampler = Sampler::Kind::Sobol;
+  unsigned int threads = 0;  ///< 0: one for every core. The result does not depend on it.
+};
+
+/// One rendered frame: rows from the top, no padding.
+struct Film {
+  std::uint32_t width = 0;
+  std::uint32_t height = 0;
+  std::vector<GBufferPixel> gbuffer;
+  std::vector<glm::vec3> direct;    ///< Mean of `PathSample::direct`; 0 where the albedo is 0.
+  std::vector<glm::vec3> indirect;  ///< Mean of `PathSample::indirect`; 0 where the albedo is 0.
+  std::uint64_t rays = 0;           ///< Rays traced.
+};
+
+/// Render a frame: one primary ray a pixel, and from the point it meets as many paths as asked for.
+Film renderFilm(const World& world, const View& view, const SamplingSettings& settings);
+
+}  // namespace walr::render

@@ -1,0 +1,93 @@
+#include <map>
+
+#include <glm/geometric.hpp>
+
+#include "samples/render/gltf_accessor.h"
+#include "samples/render/gltf_convert.h"
+#include "samples/render/scene_error.h"
+
+namespace walr::render::gltf {
+namespace {
+
+const std::map<std::string, AnimationChannel::Path> kPaths = {
+    {"translation", AnimationChannel::Path::Translation},
+    {"rotation", AnimationChannel::Path::Rotation},
+    {"scale", AnimationChannel::Path::Scale},
+};
+
+std::vector<glm::vec4> readKeys(const tinygltf::Model& model, int accessor, AnimationChannel::Path path,
+                                const std::string& name) {
+  if (path == AnimationChannel::Path::Rotation) {
+    std::vector<glm::vec4> keys = readVec4s(model, accessor, name + " output");
+    for (glm::vec4& key : keys) {
+      if (!(glm::length(key) > 0.0F)) {
+        throw SceneError(name + ": a rotation is not a unit quaternion");
+      }
+      key = glm::normalize(key);
+    }
+    return keys;
+  }
+  std::vector<glm::vec4> keys;
+  for (const glm::vec3& key : readVec3s(model, accessor, name + " output")) {
+    keys.emplace_back(key, 0.0F);
+  }
+  return keys;
+}
+
+AnimationChannel readChannel(const tinygltf::Model& model, const tinygltf::AnimationSampler& sampler,
+                             AnimationChannel::Path path, const std::string& name) {
+  AnimationChannel channel;
+  channel.path = path;
+  channel.interpolation =
+      sampler.interpolation == "STEP" ? AnimationChannel::Interpolation::Step : AnimationChannel::Interpolation::Linear;
+  channel.times = readScalars(model, sampler.input, name + " input");
+  for (std::size_t i = 1; i < channel.times.size(); ++i) {
+    if (channel.times[i] <= channel.times[i - 1]) {
+      throw SceneError(name + " input: times must rise");
+    }
+  }
+  channel.values = readKeys(model, sampler.output, path, name);
+  if (channel.values.size() != channel.times.size()) {
+    throw SceneError(name + ": has " + std::to_string(channel.values.size()) + " values for " +
+                     std::to_string(channel.times.size()) + " times");
+  }
+  return channel;
+}
+
+}  // namespace
+
+void convertAnimation(const tinygltf::Model& model, const std::vector<std::optional<std::uint32_t>>& nodes,
+                      Scene& scene) {
+  for (std::size_t a = 0; a < model.animations.size(); ++a) {
+    const tinygltf::Animation& animation = model.animations[a];
+    for (std::size_t c = 0; c < animation.channels.size(); ++c) {
+      const tinygltf::AnimationChannel& source = animation.channels[c];
+      const std::string name = partName("animation", a, animation.name) + " channel " + std::to_string(c);
+      const auto path = kPaths.find(source.target_path);
+      if (path == kPaths.end()) {
+        scene.warnings.push_back(name + ": animation of '" + source.target_path + "' is ignored");
+        continue;
+      }
+      if (source.target_node < 0 || static_cast<std::size_t>(source.target_node) >= nodes.size()) {
+        throw SceneError(name + ": there is no node " + std::to_string(source.target_node));
+      }
+      if (source.sampler < 0 || static_cast<std::size_t>(source.sampler) >= animation.samplers.size()) {
+        throw SceneError(name + ": there is no sampler " + std::to_string(source.sampler));
+      }
+      const tinygltf::AnimationSampler& sampler = animation.samplers[static_cast<std::size_t>(source.sampler)];
+      if (sampler.interpolation != "LINEAR" && sampler.interpolation != "STEP") {
+        scene.warnings.push_back(name + ": interpolation " + sampler.interpolation + " is not supported; ignored");
+        continue;
+      }
+      const std::optional<std::uint32_t> node = nodes[static_cast<std::size_t>(source.target_node)];
+      if (!node) {
+        continue;
+      }
+      AnimationChannel channel = readChannel(model, sampler, path->second, name);
+      channel.node = *node;
+      scene.animation.push_back(std::move(channel));
+    }
+  }
+}
+
+}  // namespace walr::render::gltf

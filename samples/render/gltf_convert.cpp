@@ -1,0 +1,28 @@
+#include "samples/render/gltf_convert.h"
+
+#include <glm/common.hpp>
+
+#include "samples/render/scene_error.h"
+
+namespace walr::render::gltf {
+
+std::string partName(const std::string& kind, std::size_t index, const std::string& name) {
+  return kind + " " + std::to_string(index) + (name.empty() ? "" : " '" + name + "'");
+}
+
+glm::vec3 readColor(const std::vector<double>& numbers, const std::string& what, Scene& scene) {
+  if (numbers.size() < 3) {
+    throw SceneError(what + ": takes three numbers");
+  }
+  const glm::vec3 color(numbers[0], numbers[1], numbers[2]);
+  constexpr float kLargest = 1e9F;
+  if (!(glm::max(color.x, glm::max(color.y, color.z)) <= kLargest)) {
+    throw SceneError(what + ": larger than 1e9");
+  }
+  if (color.x < 0.0F || color.y < 0.0F || color.z < 0.0F) {
+    scene.warnings.push_back(what + ": negative components are taken as 0");
+  }
+  return glm::max(color, glm::vec3(0.0F));
+}
+
+}  // namespace walr::render::gltf

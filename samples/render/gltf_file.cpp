@@ -1,0 +1,153 @@
+#include "samples/render/gltf_file.h"
+
+#include <cstdint>
+#include <cstring>
+#include <fstream>
+#include <string_view>
+#include <vector>
+
+#include "samples/render/scene_error.h"
+
+namespace walr::render::gltf {
+namespace {
+
+namespace fs = std::filesystem;
+
+// tinygltf measures files in 32-bit integers.
+constexpr std::uintmax_t kLargestFile = 0x7fffffff;
+
+// glTF itself nests about ten deep; the parser recurses once a level, so a hostile file must not choose the depth.
+constexpr int kDeepestNesting = 128;
+
+std::vector<unsigned char> readWholeFile(const fs::path& file) {
+  std::error_code error;
+  if (!fs::exists(file, error)) {
+    throw SceneError("no such file");
+  }
+  if (!fs::is_regular_file(file, error)) {
+    throw SceneError("not a regular file");
+  }
+  const std::uintmax_t size = fs::file_size(file, error);
+  if (error || size > kLargestFile) {
+    throw SceneError(error ? error.message() : "larger than 2 GiB");
+  }
+  std::vector<unsigned char> bytes(size);
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()))) {
+    throw SceneError("cannot be read");
+  }
+  return bytes;
+}
+
+void checkNesting(std::string_view json) {
+  int depth = 0;
+  bool inString = false;
+  for (std::size_t i = 0; i < json.size(); ++i) {
+    const char c = json[i];
+    if (inString) {
+      i += c == '\\' ? 1 : 0;
+      inString = c != '"';
+    } else if (c == '"') {
+      inString = true;
+    } else if (c == '{' || c == '[') {
+      if (++depth > kDeepestNesting) {
+        throw SceneError("its JSON is nested more than " + std::to_string(kDeepestNesting) + " levels deep");
+      }
+    } else if (c == '}' || c == ']') {
+      --depth;
+    }
+  }
+}
+
+bool isBinary(const std::vector<unsigned char>& bytes) {
+  return bytes.size() >= 4 && std::memcmp(bytes.data(), "glTF", 4) == 0;
+}
+
+// The JSON text: the whole of a .gltf file, the first chunk of a .glb file.
+std::string_view jsonText(const std::vector<unsigned char>& bytes) {
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  if (!isBinary(bytes)) {
+    return text;
+  }
+  constexpr std::size_t kHeader = 20;
+  if (bytes.size() < kHeader) {
+    throw SceneError("truncated: a GLB file has at least 20 bytes, this one has " + std::to_string(bytes.size()));
+  }
+  std::uint32_t chunk = 0;
+  std::memcpy(&chunk, &bytes[12], sizeof chunk);
+  if (chunk > bytes.size() - kHeader) {
+    throw SceneError("truncated: its JSON chunk has " + std::to_string(chunk) + " bytes, " +
+                     std::to_string(bytes.size() - kHeader) + " are there");
+  }
+  return text.substr(kHeader, chunk);
+}
+
+// Called by tinygltf for every image. Those of a buffer view are left where they are, for tinygltf has not checked
+// that the view lies within its buffer; those of a URI are kept as they came.
+bool keepEncodedImage(tinygltf::Image* image, int /*index*/, std::string* /*errors*/, std::string* /*warnings*/,
+                      int /*width*/, int /*height*/, const unsigned char* bytes, int size, void* /*user*/) {
+  if (image->bufferView < 0 && size > 0) {
+    image->image.assign(bytes, bytes + size);
+  }
+  return true;
+}
+
+bool fileExists(const std::string& file, void* /*user*/) {
+  std::error_code error;
+  return fs::is_regular_file(file, error);
+}
+
+bool readFile(std::vector<unsigned char>* bytes, std::string* errors, const std::string& file, void* /*user*/) {
+  try {
+    *bytes = readWholeFile(file);
+    return true;
+  } catch (const SceneError& error) {
+    *errors += file + ": " + error.what() + "\n";
+    return false;
+  }
+}
+
+std::string samePath(const std::string& path, void* /*user*/) {
+  return path;
+}
+
+std::string withoutTrailingNewlines(std::string text) {
+  text.erase(text.find_last_not_of("\n") + 1);
+  return text;
+}
+
+}  // namespace
+
+tinygltf::Model readModel(const std::filesystem::path& file) {
+  const std::vector<unsigned char> bytes = readWholeFile(file);
+  checkNesting(jsonText(bytes));
+
+  tinygltf::TinyGLTF parser;
+  parser.SetImageLoader(&keepEncodedImage, nullptr);
+  tinygltf::FsCallbacks callbacks{};
+  callbacks.FileExists = &fileExists;
+  callbacks.ExpandFilePath = &samePath;
+  callbacks.ReadWholeFile = &readFile;
+  parser.SetFsCallbacks(callbacks);
+
+  tinygltf::Model model;
+  std::string errors;
+  std::string warnings;
+  const std::string folder = file.has_parent_path() ? file.parent_path().string() : ".";
+  const auto size = static_cast<unsigned int>(bytes.size());
+  bool parsed = false;
+  try {
+    parsed = isBinary(bytes) ? parser.LoadBinaryFromMemory(&model, &errors, &warnings, bytes.data(), size, folder)
+                             : parser.LoadASCIIFromString(&model, &errors, &warnings,
+                                                          reinterpret_cast<const char*>(bytes.data()), size, folder);
+  } catch (const std::exception& error) {
+    errors = error.what();
+  }
+  if (!parsed) {
+    throw SceneError("not a valid glTF 2.0 file: " +
+                     (errors.empty() ? "it cannot be parsed" : withoutTrailingNewlines(errors)));
+  }
+  return model;
+}
+
+}  // namespace walr::render::gltf

@@ -1,0 +1,143 @@
+#include <algorithm>
+#include <cmath>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "samples/render/gltf_accessor.h"
+#include "samples/render/gltf_convert.h"
+#include "samples/render/scene_error.h"
+#include "samples/render/tangents.h"
+
+namespace walr::render::gltf {
+namespace {
+
+// Squares and products of two coordinates stay finite in float.
+constexpr float kLargestCoordinate = 1e12F;
+
+std::optional<int> findAttribute(const tinygltf::Primitive& primitive, const std::string& name) {
+  const auto found = primitive.attributes.find(name);
+  return found == primitive.attributes.end() ? std::nullopt : std::optional(found->second);
+}
+
+template <typename Values>
+void checkCount(const Values& values, const Mesh& mesh, const std::string& what) {
+  if (values.size() != mesh.positions.size()) {
+    throw SceneError(what + ": has " + std::to_string(values.size()) + " elements for " +
+                     std::to_string(mesh.positions.size()) + " positions");
+  }
+}
+
+std::vector<glm::uvec3> readTriangles(const tinygltf::Model& model, const tinygltf::Primitive& primitive,
+                                      std::size_t vertices, const std::string& name) {
+  std::vector<std::uint32_t> indices;
+  if (primitive.indices >= 0) {
+    indices = readIndices(model, primitive.indices, name + " indices");
+  } else {
+    for (std::size_t i = 0; i < vertices; ++i) {
+      indices.push_back(static_cast<std::uint32_t>(i));
+    }
+  }
+  if (indices.size() % 3 != 0) {
+    throw SceneError(name + ": " + std::to_string(indices.size()) + " indices are not a number of triangles");
+  }
+  std::vector<glm::uvec3> triangles(indices.size() / 3);
+  for (std::size_t i = 0; i < indices.size(); ++i) {
+    if (indices[i] >= vertices) {
+      throw SceneError(name + ": index " + std::to_string(indices[i]) + " exceeds its " + std::to_string(vertices) +
+                       " vertices");
+    }
+    triangles[i / 3][static_cast<glm::length_t>(i % 3)] = indices[i];
+  }
+  return triangles;
+}
+
+std::vector<glm::vec3> readNormals(const tinygltf::Model& model, int accessor, const std::string& what) {
+  std::vector<glm::vec3> normals = readVec3s(model, accessor, what);
+  for (std::size_t i = 0; i < normals.size(); ++i) {
+    const float length = glm::length(normals[i]);
+    if (!(length > 0.0F) || !std::isfinite(length)) {
+      throw SceneError(what + ": element " + std::to_string(i) + " has no direction");
+    }
+    normals[i] /= length;
+  }
+  return normals;
+}
+
+Mesh convertPrimitive(const tinygltf::Model& model, const tinygltf::Primitive& primitive, const std::string& name,
+                      Scene& scene) {
+  const std::optional<int> position = findAttribute(primitive, "POSITION");
+  if (!position) {
+    throw SceneError(name + ": has no POSITION attribute");
+  }
+  Mesh mesh;
+  mesh.name = name;
+  mesh.positions = readVec3s(model, *position, name + " POSITION");
+  for (const glm::vec3& p : mesh.positions) {
+    const glm::vec3 size = glm::abs(p);
+    if (std::max({size.x, size.y, size.z}) > kLargestCoordinate) {
+      throw SceneError(name + " POSITION: has a coordinate beyond 1e12");
+    }
+  }
+  mesh.triangles = readTriangles(model, primitive, mesh.positions.size(), name);
+
+  const std::size_t defaultMaterial = scene.materials.size() - 1;
+  if (primitive.material >= 0 && static_cast<std::size_t>(primitive.material) >= defaultMaterial) {
+    throw SceneError(name + ": there is no material " + std::to_string(primitive.material));
+  }
+  mesh.material = primitive.material >= 0 ? static_cast<std::uint32_t>(primitive.material)
+                                          : static_cast<std::uint32_t>(defaultMaterial);
+  const Material& material = scene.materials[mesh.material];
+
+  if (const std::optional<int> normal = findAttribute(primitive, "NORMAL")) {
+    mesh.normals = readNormals(model, *normal, name + " NORMAL");
+    checkCount(mesh.normals, mesh, name + " NORMAL");
+  }
+  const bool textured = material.baseColorTexture || material.metallicRoughnessTexture || material.emissiveTexture ||
+                        material.normalTexture;
+  if (const std::optional<int> uv = findAttribute(primitive, "TEXCOORD_0"); uv && textured) {
+    mesh.uvs = readVec2s(model, *uv, name + " TEXCOORD_0");
+    checkCount(mesh.uvs, mesh, name + " TEXCOORD_0");
+  } else if (textured) {
+    scene.warnings.push_back(name + ": has no TEXCOORD_0 for its textures; they are sampled at the origin");
+  }
+  if (material.normalTexture && !mesh.uvs.empty() && !mesh.normals.empty()) {
+    if (const std::optional<int> tangent = findAttribute(primitive, "TANGENT")) {
+      mesh.tangents = readVec4s(model, *tangent, name + " TANGENT");
+      checkCount(mesh.tangents, mesh, name + " TANGENT");
+    } else {
+      mesh.tangents = deriveTangents(mesh);
+    }
+  } else if (material.normalTexture) {
+    scene.warnings.push_back(name + ": a normal map needs NORMAL and TEXCOORD_0; done without");
+  }
+  if (findAttribute(primitive, "COLOR_0")) {
+    scene.warnings.push_back(name + ": vertex colours are ignored");
+  }
+  if (!primitive.targets.empty()) {
+    scene.warnings.push_back(name + ": morph targets are ignored");
+  }
+  return mesh;
+}
+
+}  // namespace
+
+std::vector<std::vector<std::uint32_t>> convertMeshes(const tinygltf::Model& model, Scene& scene) {
+  std::vector<std::vector<std::uint32_t>> indices(model.meshes.size());
+  for (std::size_t i = 0; i < model.meshes.size(); ++i) {
+    const tinygltf::Mesh& source = model.meshes[i];
+    for (std::size_t p = 0; p < source.primitives.size(); ++p) {
+      const tinygltf::Primitive& primitive = source.primitives[p];
+      const std::string name = partName("mesh", i, source.name) + " primitive " + std::to_string(p);
+      if (primitive.mode != TINYGLTF_MODE_TRIANGLES) {
+        scene.warnings.push_back(name + ": only triangle lists are supported; left out");
+        continue;
+      }
+      indices[i].push_back(static_cast<std::uint32_t>(scene.meshes.size()));
+      scene.meshes.push_back(convertPrimitive(model, primitive, name, scene));
+    }
+  }
+  return indices;
+}
+
+}  // namespace walr::render::gltf

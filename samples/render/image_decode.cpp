@@ -1,0 +1,43 @@
+#include "samples/render/image_decode.h"
+
+#include <memory>
+
+#include <stb_image.h>
+
+#include "samples/render/scene_error.h"
+
+namespace walr::render {
+
+Image decodeImage(std::span<const std::uint8_t> bytes, std::uint64_t& texelBudget) {
+  constexpr int kLargestSide = 16384;
+  const int size = static_cast<int>(bytes.size());
+  int width = 0;
+  int height = 0;
+  int components = 0;
+  if (bytes.empty() || stbi_info_from_memory(bytes.data(), size, &width, &height, &components) == 0) {
+    throw SceneError(std::string("not a PNG or JPEG picture that can be read: ") +
+                     (bytes.empty() ? "it is empty" : stbi_failure_reason()));
+  }
+  const std::string dimensions = std::to_string(width) + " x " + std::to_string(height) + " texels";
+  if (width < 1 || height < 1 || width > kLargestSide || height > kLargestSide) {
+    throw SceneError("has " + dimensions + "; at most " + std::to_string(kLargestSide) + " a side are taken");
+  }
+  const auto texels = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
+  if (texels > texelBudget) {
+    throw SceneError("has " + dimensions + ", more than the memory for textures still holds");
+  }
+  constexpr int kRgba = 4;
+  const std::unique_ptr<stbi_uc, decltype(&stbi_image_free)> decoded(
+      stbi_load_from_memory(bytes.data(), size, &width, &height, &components, kRgba), &stbi_image_free);
+  if (!decoded) {
+    throw SceneError(std::string("cannot be decoded: ") + stbi_failure_reason());
+  }
+  texelBudget -= texels;
+  Image image;
+  image.width = static_cast<std::uint32_t>(width);
+  image.height = static_cast<std::uint32_t>(height);
+  image.rgba.assign(decoded.get(), decoded.get() + texels * kRgba);
+  return image;
+}
+
+}  // namespace walr::render

@@ -1,0 +1,63 @@
+#include "samples/render/load_scene.h"
+
+#include <set>
+
+#include "samples/render/gltf_convert.h"
+#include "samples/render/gltf_file.h"
+#include "samples/render/scene_error.h"
+
+namespace walr::render {
+namespace {
+
+void checkExtensions(const tinygltf::Model& model, Scene& scene) {
+  const std::set<std::string> supported = {"KHR_lights_punctual", "KHR_materials_emissive_strength"};
+  for (const std::string& extension : model.extensionsRequired) {
+    if (!supported.contains(extension)) {
+      throw SceneError("it requires the extension " + extension +
+                       ", which is not supported; export the scene without it");
+    }
+  }
+  for (const std::string& extension : model.extensionsUsed) {
+    if (!supported.contains(extension)) {
+      scene.warnings.push_back("the extension " + extension + " is ignored");
+    }
+  }
+}
+
+void checkContent(Scene& scene) {
+  bool triangles = false;
+  bool emission = scene.skyRadiance != glm::vec3(0.0F);
+  for (const Node& node : scene.nodes) {
+    emission = emission || node.light.has_value();
+    for (const std::uint32_t mesh : node.meshes) {
+      triangles = true;
+      emission = emission || scene.materials[scene.meshes[mesh].material].emits();
+    }
+  }
+  if (!triangles) {
+    throw SceneError("there are no triangles in its default scene");
+  }
+  if (!emission) {
+    scene.warnings.emplace_back(
+        "the scene has no light: add a KHR_lights_punctual light, an emissive material or sky_radiance in the scene's "
+        "extras; everything will be black");
+  }
+}
+
+}  // namespace
+
+Scene loadScene(const std::filesystem::path& file) {
+  try {
+    const tinygltf::Model model = gltf::readModel(file);
+    Scene scene;
+    checkExtensions(model, scene);
+    gltf::convertMaterials(model, gltf::convertTextures(model, scene), scene);
+    gltf::convertNodes(model, gltf::convertMeshes(model, scene), scene);
+    checkContent(scene);
+    return scene;
+  } catch (const SceneError& error) {
+    throw SceneError(file.string() + ": " + error.what());
+  }
+}
+
+}  // namespace walr::render

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <filesystem>
+
+#include "samples/render/scene.h"
+
+namespace walr::render {
+
+/// Read a glTF 2.0 file (.gltf or .glb) with everything it refers to.
+///
+/// Taken: the default scene's nodes, triangle meshes (float attributes; normalised integer texture coordinates),
+/// base colour, metallic, emissive and normal textures of TEXCOORD_0, alpha mode MASK, perspective cameras, LINEAR and
+/// STEP animation of translation, rotation and scale, KHR_lights_punctual, KHR_materials_emissive_strength, and a
+/// constant sky in `scenes[i].extras.sky_radiance`. Light units are radiometric: directional intensity is irradiance
+/// on a plane facing the light, point and spot intensity is radiant intensity, emission is radiance.
+/// What the file holds beyond that is named in `Scene::warnings`.
+/// @throws SceneError naming the file and the part that is wrong: missing, truncated, malformed, or larger than the
+///         limits (2 GiB a file, 16384 texels a side and 1 GiB of texels in all).
+Scene loadScene(const std::filesystem::path& file);
+
+}  // namespace walr::render

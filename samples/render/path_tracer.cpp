@@ -1,0 +1,187 @@
+#include "samples/render/path_tracer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+namespace walr::render {
+namespace {
+
+constexpr float kPi = std::numbers::pi_v<float>;
+
+// Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 6(1), 2017.
+glm::vec3 fromLocal(const glm::vec3& normal, const glm::vec3& local) {
+  const float sign = std::copysign(1.0F, normal.z);
+  const float a = -1.0F / (sign + normal.z);
+  const float b = normal.x * normal.y * a;
+  const glm::vec3 tangent(1.0F + sign * normal.x * normal.x * a, sign * b, -sign * normal.x);
+  const glm::vec3 bitangent(b, sign + normal.y * normal.y * a, -normal.y);
+  return tangent * local.x + bitangent * local.y + normal * local.z;
+}
+
+glm::vec3 cosineDirection(const glm::vec3& normal, const glm::vec2& random) {
+  const float radius = std::sqrt(random.x);
+  const float angle = 2.0F * kPi * random.y;
+  return fromLocal(normal, {radius * std::cos(angle), radius * std::sin(angle), std::sqrt(1.0F - random.x)});
+}
+
+// Cosine at a surface to a direction, 0 for light from behind the shading normal or from under the surface.
+float lightCosine(const Surface& surface, const glm::vec3& direction) {
+  return glm::dot(surface.geometricNormal, direction) > 0.0F
+             ? std::max(0.0F, glm::dot(surface.shadingNormal, direction))
+             : 0.0F;
+}
+
+// The diffuse lobe over that of a Lambert surface of the same albedo.
+float lobe(DiffuseModel model, const Surface& surface, const glm::vec3& towardsLight) {
+  if (model == DiffuseModel::Lambert) {
+    return 1.0F;
+  }
+  const auto fresnel = [&](const glm::vec3& direction) {
+    const float x = 1.0F - glm::clamp(glm::dot(surface.shadingNormal, direction), 0.0F, 1.0F);
+    return x * x * x * x * x;
+  };
+  const float light = fresnel(towardsLight);
+  const float view = fresnel(surface.towardsViewer);
+  const float cosine = glm::dot(towardsLight, glm::normalize(towardsLight + surface.towardsViewer));
+  const float retro = 2.0F * surface.roughness * cosine * cosine;
+  return (1.0F - 0.5F * light) * (1.0F - 0.5F * view) + retro * (light + view + light * view * (retro - 1.0F));
+}
+
+// Light sampling along one path, with the rays it took.
+class LightSampling {
+ public:
+  LightSampling(const World& world, Sampler& sampler) : world_(world), sampler_(sampler) {}
+
+  // Irradiance / pi of all punctual lights.
+  glm::vec3 fromEveryPunctual(const Surface& surface) {
+    glm::vec3 sum(0.0F);
+    for (const PlacedLight& light : world_.lights().punctual()) {
+      sum += fromPunctual(surface, light);
+    }
+    return sum;
+  }
+
+  // An estimate of the same from one of them.
+  glm::vec3 fromOnePunctual(const Surface& surface) {
+    const std::vector<PlacedLight>& lights = world_.lights().punctual();
+    if (lights.empty()) {
+      return glm::vec3(0.0F);
+    }
+    const auto count = static_cast<float>(lights.size());
+    const float choice = lights.size() == 1 ? 0.0F : sampler_.next1D();
+    const auto index = std::min(static_cast<std::size_t>(choice * count), lights.size() - 1);
+    return fromPunctual(surface, lights[index]) * count;
+  }
+
+  // An estimate of irradiance / pi of the emissive triangles, weighted for the use beside cosine sampling.
+  glm::vec3 fromEmitters(const Surface& surface) {
+    if (!world_.lights().hasEmitters()) {
+      return glm::vec3(0.0F);
+    }
+    const float choice = sampler_.next1D();
+    const EmitterSample light =
+        world_.lights().sampleEmitters(world_.scene(), world_.instances(), choice, sampler_.next2D());
+    const glm::vec3 offset = light.position - surface.position;
+    const float distance2 = glm::dot(offset, offset);
+    if (!(distance2 > 0.0F) || !(light.density > 0.0F)) {
+      return glm::vec3(0.0F);
+    }
+    const glm::vec3 direction = offset / std::sqrt(distance2);
+    const float cosine = lightCosine(surface, direction);
+    const float signedCosineAtLight = -glm::dot(light.normal, direction);
+    const float cosineAtLight = light.doubleSided ? std::abs(signedCosineAtLight) : signedCosineAtLight;
+    if (cosine <= 0.0F || cosineAtLight <= 0.0F || light.radiance == glm::vec3(0.0F)) {
+      return glm::vec3(0.0F);
+    }
+    // The ray ends a little before the light, on the side that shines here.
+    const glm::vec3 origin = rayOrigin(surface, direction);
+    constexpr float kBeforeTheEnd = 1.0F - 1e-4F;
+    if (occluded({origin, light.position - origin, kBeforeTheEnd})) {
+      return glm::vec3(0.0F);
+    }
+    const float solidAngleDensity = light.density * distance2 / cosineAtLight;
+    const float cosineDensity = cosine / kPi;
+    return light.radiance * (lobe(world_.scene().diffuseModel, surface, direction) * cosineDensity /
+                             (solidAngleDensity + cosineDensity));
+  }
+
+  [[nodiscard]] std::uint32_t rays() const { return rays_; }
+
+ private:
+  bool occluded(const Ray& ray) {
+    ++rays_;
+    return world_.rays().occluded(ray);
+  }
+
+  glm::vec3 fromPunctual(const Surface& surface, const PlacedLight& light) {
+    const Illumination arriving = illuminate(light, surface.position);
+    const float cosine = lightCosine(surface, arriving.towardsLight);
+    if (cosine <= 0.0F || arriving.irradiance == glm::vec3(0.0F)) {
+      return glm::vec3(0.0F);
+    }
+    if (occluded({rayOrigin(surface, arriving.towardsLight), arriving.towardsLight, arriving.distance})) {
+      return glm::vec3(0.0F);
+    }
+    return arriving.irradiance * (lobe(world_.scene().diffuseModel, surface, arriving.towardsLight) * cosine / kPi);
+  }
+
+  const World& world_;
+  Sampler& sampler_;
+  std::uint32_t rays_ = 0;
+};
+
+// Share of cosine sampling in the light of an emissive triangle that it met (balance heuristic).
+float cosineWeight(const World& world, const Surface& from, const glm::vec3& direction, const Hit& hit,
+                   const Surface& light) {
+  const float density = world.lights().emitterDensity(hit.instance, hit.triangle);
+  const glm::vec3 offset = light.position - from.position;
+  const float cosineAtLight = std::abs(glm::dot(light.geometricNormal, direction));
+  const float cosineDensity = glm::dot(from.shadingNormal, direction) / kPi;
+  const float lightDensity = density * glm::dot(offset, offset);
+  // Both densities times the cosine at the light, which may be 0.
+  const float sum = lightDensity + cosineDensity * cosineAtLight;
+  return sum > 0.0F ? cosineDensity * cosineAtLight / sum : 0.0F;
+}
+
+}  // namespace
+
+PathSample tracePath(const World& world, const Surface& first, std::uint32_t bounces, Sampler& sampler) {
+  LightSampling lights(world, sampler);
+  PathSample result;
+  result.direct = lights.fromEveryPunctual(first) + lights.fromEmitters(first);
+  glm::vec3 throughput(1.0F);
+  Surface surface = first;
+  std::uint32_t pathRays = 0;
+  for (std::uint32_t bounce = 0;; ++bounce) {
+    const glm::vec3 direction = cosineDirection(surface.shadingNormal, sampler.next2D());
+    if (lightCosine(surface, direction) <= 0.0F) {
+      break;
+    }
+    throughput *= lobe(world.scene().diffuseModel, surface, direction);
+    glm::vec3& bin = bounce == 0 ? result.direct : result.indirect;
+    ++pathRays;
+    const std::optional<Hit> hit = world.rays().closest({rayOrigin(surface, direction), direction});
+    if (!hit) {
+      bin += throughput * world.scene().skyRadiance;
+      break;
+    }
+    const Surface next = evaluateSurface(world.scene(), world.instances()[hit->instance], *hit, direction);
+    if (next.emission != glm::vec3(0.0F)) {
+      bin += throughput * next.emission * cosineWeight(world, surface, direction, *hit, next);
+    }
+    throughput *= next.albedo;
+    if (bounce == bounces || throughput == glm::vec3(0.0F)) {
+      break;
+    }
+    surface = next;
+    result.indirect += throughput * (lights.fromOnePunctual(surface) + lights.fromEmitters(surface));
+  }
+  result.rays = pathRays + lights.rays();
+  return result;
+}
+
+}  // namespace walr::render

@@ -1,0 +1,169 @@
+#include "samples/render/render_sequence.h"
+
+#include <algorithm>
+#include <chrono>
+#include <fstream>
+#include <iomanip>
+#include <span>
+#include <sstream>
+
+#include <nlohmann/json.hpp>
+
+#include "samples/errors.h"
+#include "samples/image/file_output.h"
+#include "samples/render/film.h"
+#include "samples/render/load_scene.h"
+#include "samples/sequence/writer.h"
+
+namespace walr::render {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kSettingsFile = "render.json";
+
+// All that the pixels depend on, but the range of frames.
+nlohmann::json describe(const RenderOptions& options) {
+  return {
+      {"scene", options.scene.filename().string()},
+      {"scene_bytes", fs::file_size(options.scene)},
+      {"width", options.width},
+      {"height", options.height},
+      {"spp", options.samples},
+      {"reference_spp", options.referenceSamples},
+      {"bounces", options.bounces},
+      {"seed", options.seed},
+      {"fps", options.framesPerSecond},
+      {"camera", options.camera},
+      {"jitter", options.jitter},
+      {"diffuse", options.diffuseModel == DiffuseModel::Lambert ? "lambert" : "disney"},
+      {"sampler", options.sampler == Sampler::Kind::Sobol ? "sobol" : "independent"},
+  };
+}
+
+// Keeps frames of different settings from standing side by side.
+void matchSettings(const RenderOptions& options) {
+  const fs::path file = options.output / kSettingsFile;
+  const nlohmann::json settings = describe(options);
+  std::error_code error;
+  if (!fs::exists(file, error)) {
+    const std::string text = settings.dump(2) + "\n";
+    writeFileAtomically(file, std::as_bytes(std::span(text)));
+    return;
+  }
+  std::ifstream stream(file);
+  const nlohmann::json before = nlohmann::json::parse(stream, nullptr, false);
+  for (const auto& [key, value] : settings.items()) {
+    const bool same = before.is_object() && before.contains(key) && before[key] == value;
+    if (!same) {
+      throw InputError(file.string() + ": the frames there were rendered with another '" + key +
+                       "'; take another --output or remove that folder");
+    }
+  }
+}
+
+walr::Image toImage(const Film& film, int components, const std::function<float(std::size_t, int)>& value) {
+  walr::Image image(static_cast<int>(film.width), static_cast<int>(film.height), components);
+  for (std::size_t i = 0; i < image.pixelCount(); ++i) {
+    for (int c = 0; c < components; ++c) {
+      image.pixel(i)[static_cast<std::size_t>(c)] = value(i, c);
+    }
+  }
+  return image;
+}
+
+walr::Image toImage(const Film& film, const std::vector<glm::vec3>& values) {
+  return toImage(film, 3, [&](std::size_t i, int c) { return values[i][c]; });
+}
+
+walr::Image toImage(const Film& film, glm::vec3 GBufferPixel::*member) {
+  return toImage(film, 3, [&](std::size_t i, int c) { return (film.gbuffer[i].*member)[c]; });
+}
+
+walr::Frame toFrame(const Film& film, const View& view, int number) {
+  walr::Frame frame;
+  frame.number = number;
+  frame.indirect = toImage(film, film.indirect);
+  frame.direct = toImage(film, film.direct);
+  frame.albedo = toImage(film, &GBufferPixel::albedo);
+  frame.normal = toImage(film, &GBufferPixel::normal);
+  frame.depth = toImage(film, 1, [&](std::size_t i, int /*component*/) {
+    const GBufferPixel& pixel = film.gbuffer[i];
+    return pixel.objectId == GBufferPixel::kSky ? kBackgroundDepth : -pixel.position.z;
+  });
+  frame.motion = toImage(film, &GBufferPixel::motion);
+  frame.emission = toImage(film, &GBufferPixel::emission);
+  frame.camera.view = view.viewFromWorld;
+  frame.camera.previousView = view.previousViewFromWorld;
+  frame.camera.projection = view.projection;
+  frame.camera.jitter = view.jitter;
+  return frame;
+}
+
+std::string describeWork(const std::string& file, double seconds, std::uint64_t rays) {
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(2) << file << ": " << seconds << " s, "
+       << static_cast<double>(rays) / seconds * 1e-6 << " million rays/s";
+  return text.str();
+}
+
+// One file of a frame: skipped where it is there already.
+void renderFile(const fs::path& file, const RenderObserver& observer, const std::function<Film()>& render,
+                const std::function<void(const Film&)>& write) {
+  const std::string name = file.filename().string();
+  if (fs::exists(file)) {
+    observer.fileDone(name + ": is there already");
+    return;
+  }
+  const auto start = std::chrono::steady_clock::now();
+  const Film film = render();
+  write(film);
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+  observer.fileDone(describeWork(name, seconds.count(), film.rays));
+}
+
+}  // namespace
+
+std::size_t RenderOptions::files() const {
+  return static_cast<std::size_t>(lastFrame - firstFrame + 1) * (referenceSamples == 0 ? 1 : 2);
+}
+
+void renderSequence(const RenderOptions& options, const RenderObserver& observer) {
+  Scene scene = loadScene(options.scene);
+  scene.diffuseModel = options.diffuseModel;
+  std::for_each(scene.warnings.begin(), scene.warnings.end(), observer.warning);
+  const std::uint32_t camera = findCamera(scene, options.camera);
+  prepareOutputDirectory(options.output);
+  matchSettings(options);
+
+  World world(scene);
+  for (int number = options.firstFrame; number <= options.lastFrame; ++number) {
+    world.moveTo(number / options.framesPerSecond, (number - 1) / options.framesPerSecond);
+    const auto jitter = [&](int frame) { return options.jitter ? haltonJitter(frame) : glm::vec2(0.0F); };
+    const View view = viewFrom(world, camera, options.width, options.height, jitter(number), jitter(number - 1));
+    // Noisy frames and references never share a random sequence: their seeds differ in the lowest bit.
+    const auto render = [&](std::uint32_t samples, std::uint32_t seedBit) {
+      SamplingSettings sampling;
+      sampling.samples = samples;
+      sampling.bounces = options.bounces;
+      sampling.seed = options.seed * 2 + seedBit;
+      sampling.firstSample = static_cast<std::uint32_t>(number) * samples;
+      sampling.sampler = options.sampler;
+      sampling.threads = options.threads;
+      return renderFilm(world, view, sampling);
+    };
+    renderFile(
+        options.output / frameFileName("noisy", number, "exr"), observer, [&] { return render(options.samples, 0); },
+        [&](const Film& film) { writeFrame(options.output, toFrame(film, view, number)); });
+    if (options.referenceSamples > 0) {
+      renderFile(
+          options.output / frameFileName("ref", number, "exr"), observer,
+          [&] { return render(options.referenceSamples, 1); },
+          [&](const Film& film) {
+            writeReference(options.output, number, {toImage(film, film.indirect), toImage(film, film.direct)});
+          });
+    }
+  }
+}
+
+}  // namespace walr::render

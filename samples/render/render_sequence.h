@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+
+#include "samples/render/sampler.h"
+#include "samples/render/scene.h"
+
+namespace walr::render {
+
+/// What `walr render` is asked for.
+struct RenderOptions {
+  std::filesystem::path scene;
+  std::filesystem::path output;
+  int firstFrame = 0;
+  int lastFrame = 0;  ///< Included.
+  std::uint32_t width = 320;
+  std::uint32_t height = 180;
+  std::uint32_t samples = 1;           ///< Paths a pixel in the noisy frames.
+  std::uint32_t referenceSamples = 0;  ///< Paths a pixel in the references; 0: no references.
+  std::uint32_t bounces = 4;           ///< Surfaces after the first that reflect light.
+  std::uint32_t seed = 0;
+  double framesPerSecond = 24.0;
+  std::string camera;   ///< Name of the camera or of its node; empty: the first.
+  bool jitter = false;  ///< Sample off the pixel centre, by `haltonJitter`.
+  Sampler::Kind sampler = Sampler::Kind::Sobol;
+  unsigned int threads = 0;  ///< 0: one for every core.
+  DiffuseModel diffuseModel = DiffuseModel::Lambert;
+
+  /// Number of files that are rendered.
+  [[nodiscard]] std::size_t files() const;
+};
+
+/// What is told while rendering goes on.
+struct RenderObserver {
+  /// A file of a frame is there, rendered or found; with one line about it. Called `RenderOptions::files` times.
+  std::function<void(const std::string&)> fileDone = [](const std::string&) {};
+  /// What of the scene is not supported or had to be replaced.
+  std::function<void(const std::string&)> warning = [](const std::string&) {};
+};
+
+/// Render frames of a scene's camera animation to `output` in the project's layout (samples/README.md): noisy_FFFF.exr
+/// and, where asked for, ref_FFFF.exr; frame F shows the time F / framesPerSecond. Files that are there already are
+/// skipped, so that an interrupted run goes on where it was; the settings are kept in `render.json` beside them.
+/// @throws SceneError  if the scene cannot be rendered
+/// @throws InputError  if `output` holds frames of other settings
+/// @throws OutputError if a file cannot be written
+void renderSequence(const RenderOptions& options, const RenderObserver& observer);
+
+}  // namespace walr::render

@@ -1,0 +1,120 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <glm/gtc/quaternion.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include "samples/render/texture.h"
+
+/// A scene as the path tracer takes it: what a glTF file says, checked, in plain values. World space is glTF's:
+/// right-handed, +Y up, metres.
+namespace walr::render {
+
+/// How a diffuse lobe reflects.
+enum class DiffuseModel : std::uint8_t {
+  Lambert,  ///< The same into all directions.
+  /// As the diffuse lobe of Disney's principled model (B. Burley, "Extending the Disney BRDF to a BSDF", 2015, section
+  /// 5.3), which Blender's Principled BSDF uses: darker or, for rough surfaces, brighter at grazing angles.
+  Disney,
+};
+
+/// A diffuse surface, or one without a diffuse lobe (metallic 1).
+struct Material {
+  std::string name;
+  glm::vec3 baseColor{1.0F};                              ///< Linear, 0..1.
+  float baseAlpha = 1.0F;                                 ///< 0..1; matters where there is an `alphaCutoff`.
+  float metallic = 0.0F;                                  ///< 0..1; the diffuse albedo is base colour * (1 - metallic).
+  glm::vec3 emission{0.0F};                               ///< Radiance: emissive factor * emissive strength.
+  float roughness = 1.0F;                                 ///< 0..1; matters for `DiffuseModel::Disney`.
+  float normalScale = 1.0F;                               ///< Multiplies x and y of the normal map.
+  bool doubleSided = false;                               ///< Emits from both sides; reflection is always two-sided.
+  std::optional<float> alphaCutoff;                       ///< Cut-out: less alpha is a hole (glTF alpha mode MASK).
+  std::optional<std::uint32_t> baseColorTexture;          ///< Indices into `Scene::textures`.
+  std::optional<std::uint32_t> metallicRoughnessTexture;  ///< Metallic in blue, roughness in green.
+  std::optional<std::uint32_t> emissiveTexture;
+  std::optional<std::uint32_t> normalTexture;
+
+  [[nodiscard]] bool emits() const { return emission.x > 0.0F || emission.y > 0.0F || emission.z > 0.0F; }
+};
+
+/// Triangles of one material, in object space (one glTF mesh primitive).
+struct Mesh {
+  std::string name;
+  std::vector<glm::vec3> positions;   ///< Finite.
+  std::vector<glm::vec3> normals;     ///< Unit, one a position; empty for flat shading.
+  std::vector<glm::vec2> uvs;         ///< One a position; empty where no texture needs them.
+  std::vector<glm::vec4> tangents;    ///< xyz unit, w = handedness; only where the material has a normal map.
+  std::vector<glm::uvec3> triangles;  ///< Indices into `positions`, counter-clockwise seen from the front.
+  std::uint32_t material = 0;
+};
+
+/// A light without extent (KHR_lights_punctual), at the origin of its node, shining along the node's -Z.
+struct PunctualLight {
+  enum class Kind : std::uint8_t { Directional, Point, Spot };
+  Kind kind = Kind::Point;
+  /// Linear RGB. Directional: irradiance on a plane facing the light. Point and spot: radiant intensity.
+  glm::vec3 intensity{1.0F};
+  float cosInnerCone = 1.0F;  ///< Spot: full intensity within this cone.
+  float cosOuterCone = 0.0F;  ///< Spot: no light outside this cone.
+};
+
+/// A pinhole camera at the origin of its node, looking along the node's -Z.
+struct Camera {
+  std::string name;
+  float yfov = 0.8F;   ///< Radians, 0..pi.
+  float znear = 0.1F;  ///< Scene units; the projection matrix only, nothing is clipped.
+  float zfar = 1000.0F;
+};
+
+/// Translation, rotation and scale of a node, applied in the order scale, rotation, translation.
+struct Transform {
+  glm::vec3 translation{0.0F};
+  glm::quat rotation{1.0F, 0.0F, 0.0F, 0.0F};
+  glm::vec3 scale{1.0F};
+};
+
+/// One node of the hierarchy.
+struct Node {
+  std::string name;
+  std::optional<std::uint32_t> parent;  ///< Index into `Scene::nodes`, smaller than the node's own.
+  Transform transform;
+  std::optional<glm::mat4> matrix;  ///< In place of `transform`, where the file gives one.
+  std::vector<std::uint32_t> meshes;
+  std::optional<std::uint32_t> light;
+  std::optional<std::uint32_t> camera;
+};
+
+/// How one property of one node changes over time.
+struct AnimationChannel {
+  enum class Path : std::uint8_t { Translation, Rotation, Scale };
+  enum class Interpolation : std::uint8_t { Linear, Step };
+  std::uint32_t node = 0;
+  Path path = Path::Translation;
+  Interpolation interpolation = Interpolation::Linear;
+  std::vector<float> times;       ///< Seconds, strictly increasing, at least one.
+  std::vector<glm::vec4> values;  ///< One a time: xyz, or a unit quaternion xyzw.
+};
+
+/// Everything a file holds that can be rendered.
+struct Scene {
+  std::vector<Image> images;
+  std::vector<Texture> textures;
+  std::vector<Material> materials;
+  std::vector<Mesh> meshes;
+  std::vector<PunctualLight> lights;
+  std::vector<Camera> cameras;
+  std::vector<Node> nodes;  ///< Parents before children.
+  std::vector<AnimationChannel> animation;
+  DiffuseModel diffuseModel = DiffuseModel::Lambert;
+  glm::vec3 skyRadiance{0.0F};        ///< Constant, linear RGB.
+  std::vector<std::string> warnings;  ///< What the file asks for and is not supported or had to be replaced.
+};
+
+}  // namespace walr::render

@@ -1,0 +1,104 @@
+#include "samples/render/view.h"
+
+#include <cmath>
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/matrix.hpp>
+
+#include "samples/render/scene_error.h"
+
+namespace walr::render {
+namespace {
+
+// The node's matrix without scale and shear.
+glm::mat4 rigid(const glm::mat4& worldFromNode, const std::string& name) {
+  const glm::vec3 back(worldFromNode[2]);
+  const glm::vec3 right = glm::cross(glm::vec3(worldFromNode[1]), back);
+  if (!(glm::length(back) > 0.0F) || !(glm::length(right) > 0.0F)) {
+    throw SceneError("camera node '" + name + "': its scale leaves it no direction");
+  }
+  const glm::vec3 z = glm::normalize(back);
+  const glm::vec3 x = glm::normalize(right);
+  return {glm::vec4(x, 0.0F), glm::vec4(glm::cross(z, x), 0.0F), glm::vec4(z, 0.0F), worldFromNode[3]};
+}
+
+float radicalInverse(int base, int index) {
+  float result = 0.0F;
+  float digit = 1.0F;
+  for (int rest = index; rest > 0; rest /= base) {
+    digit /= static_cast<float>(base);
+    result += digit * static_cast<float>(rest % base);
+  }
+  return result;
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> cameraNodes(const Scene& scene) {
+  std::vector<std::uint32_t> nodes;
+  for (std::uint32_t i = 0; i < scene.nodes.size(); ++i) {
+    if (scene.nodes[i].camera) {
+      nodes.push_back(i);
+    }
+  }
+  return nodes;
+}
+
+std::uint32_t findCamera(const Scene& scene, const std::string& name) {
+  const std::vector<std::uint32_t> nodes = cameraNodes(scene);
+  if (nodes.empty()) {
+    throw SceneError("the scene has no camera; add a perspective camera to a node of its default scene");
+  }
+  std::string known;
+  for (const std::uint32_t node : nodes) {
+    const std::string& camera = scene.cameras[*scene.nodes[node].camera].name;
+    if (name.empty() || name == scene.nodes[node].name || name == camera) {
+      return node;
+    }
+    known += (known.empty() ? "'" : ", '") + scene.nodes[node].name + "'";
+  }
+  throw SceneError("the scene has no camera '" + name + "'; it has " + known);
+}
+
+View viewFrom(const World& world, std::uint32_t cameraNode, std::uint32_t width, std::uint32_t height,
+              const glm::vec2& jitter, const glm::vec2& previousJitter) {
+  const Node& node = world.scene().nodes[cameraNode];
+  const Camera& camera = world.scene().cameras[*node.camera];
+  View view;
+  view.width = width;
+  view.height = height;
+  view.viewFromWorld = glm::inverse(rigid(world.nodes()[cameraNode], node.name));
+  view.previousViewFromWorld = glm::inverse(rigid(world.previousNodes()[cameraNode], node.name));
+  view.projection = glm::perspectiveRH_NO(camera.yfov, static_cast<float>(width) / static_cast<float>(height),
+                                          camera.znear, camera.zfar);
+  view.jitter = jitter;
+  view.previousJitter = previousJitter;
+  return view;
+}
+
+Ray primaryRay(const View& view, std::uint32_t x, std::uint32_t y) {
+  const glm::vec2 size(static_cast<float>(view.width), static_cast<float>(view.height));
+  const glm::vec2 pixel = glm::vec2(static_cast<float>(x), static_cast<float>(y)) + 0.5F + view.jitter;
+  const glm::vec2 ndc = (pixel / size * 2.0F - 1.0F) * glm::vec2(1.0F, -1.0F);
+  const glm::vec3 direction(ndc.x / view.projection[0][0], ndc.y / view.projection[1][1], -1.0F);
+  const glm::mat4 worldFromView = glm::inverse(view.viewFromWorld);
+  Ray ray;
+  ray.origin = glm::vec3(worldFromView[3]);
+  ray.direction = glm::normalize(glm::mat3(worldFromView) * direction);
+  return ray;
+}
+
+glm::vec2 project(const View& view, const glm::vec3& point) {
+  const glm::vec4 clip = view.projection * glm::vec4(point, 1.0F);
+  return {(0.5F + 0.5F * clip.x / clip.w) * static_cast<float>(view.width),
+          (0.5F - 0.5F * clip.y / clip.w) * static_cast<float>(view.height)};
+}
+
+glm::vec2 haltonJitter(int frame) {
+  constexpr int kPeriod = 16;
+  const int index = ((frame % kPeriod) + kPeriod) % kPeriod + 1;
+  return {radicalInverse(2, index) - 0.5F, radicalInverse(3, index) - 0.5F};
+}
+
+}  // namespace walr::render

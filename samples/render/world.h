@@ -1,0 +1,41 @@
+#pragma once
+
+#include <vector>
+
+#include <glm/mat4x4.hpp>
+
+#include "samples/render/animation.h"
+#include "samples/render/instance.h"
+#include "samples/render/lights.h"
+#include "samples/render/ray_caster.h"
+#include "samples/render/scene.h"
+
+namespace walr::render {
+
+/// A scene at one moment of its animation, ready to be traced.
+class World {
+ public:
+  /// At time 0. @param scene must outlive the world
+  explicit World(const Scene& scene);
+
+  /// Go to a moment. @param seconds, previousSeconds  times of this frame and of the frame before it
+  void moveTo(double seconds, double previousSeconds);
+
+  [[nodiscard]] const Scene& scene() const { return scene_; }
+  [[nodiscard]] const std::vector<Instance>& instances() const { return instances_; }
+  [[nodiscard]] const RayCaster& rays() const { return rays_; }
+  [[nodiscard]] const Lights& lights() const { return lights_; }
+  /// World transforms of the scene's nodes in this frame and in the previous one.
+  [[nodiscard]] const std::vector<glm::mat4>& nodes() const { return nodes_; }
+  [[nodiscard]] const std::vector<glm::mat4>& previousNodes() const { return previousNodes_; }
+
+ private:
+  const Scene& scene_;
+  std::vector<glm::mat4> nodes_;
+  std::vector<glm::mat4> previousNodes_;
+  std::vector<Instance> instances_;
+  RayCaster rays_;
+  Lights lights_;
+};
+
+}  // namespace walr::render

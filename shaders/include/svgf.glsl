@@ -1,0 +1,34 @@
+// What the passes of SVGF share: the form in which colour and variance travel, and the edge-stopping functions that need
+// no colour (nagi-svgf.txt, W_Z and W_N).
+// Needs: `frame` (FrameConstants), `depth` (utexture2D), `normals` (utexture2D), `settings` (SvgfFilterConstants).
+#ifndef WALR_SVGF_GLSL
+#define WALR_SVGF_GLSL
+#include "plane.glsl"
+#include "surface.glsl"
+
+// Alpha carries the standard deviation of the luminance, because a variance would overflow a half from 256 on. Below 0
+// no sample has been seen yet: such a pixel lends nothing to its neighbours and takes its value from them.
+const float kNoSample = -1.0;
+
+struct Surface {
+  Plane plane;
+  vec3 normal;  // Shading normal.
+};
+
+Surface surfaceAt(ivec2 p, float z) {
+  const uvec2 packed = texelFetch(normals, p, 0).xy;
+  return Surface(planeAt(p, z, unpackGeometricNormal(packed)), octahedralDecode(unpackFeatures(packed)));
+}
+
+// W_Z W_N of pixel `q`; 0 outside the image and where there is nothing to denoise. The depth term measures the distance
+// from the tangent plane, which is what depth differs by beyond its gradient, so that it is 1 on any plane.
+float surfaceWeight(Surface surface, ivec2 q) {
+  if (any(lessThan(q, ivec2(0))) || any(greaterThanEqual(q, textureSize(depth, 0)))) return 0.0;
+  const float z = unpackDepth(texelFetch(depth, q, 0).x);
+  if (z == 0.0) return 0.0;
+  const vec3 normal = octahedralDecode(unpackFeatures(texelFetch(normals, q, 0).xy));
+  const float cosine = clamp(dot(surface.normal, normal), 1e-6, 1.0);
+  return exp(-planeDistance(surface.plane, q, z) * settings.inverseSigmaDepth) * pow(cosine, settings.sigmaNormal);
+}
+
+#endif

@@ -1,0 +1,107 @@
+// Joint bilateral filter of one noisy frame (joint-bilateral.txt, 2): every pixel of a square window, weighted by a
+// Gaussian of its distance in the image, in colour, in normal and from the tangent plane.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_samplerless_texture_functions : require
+#include "constants/frame.h"
+#include "constants/joint_bilateral.h"
+#include "include/camera.glsl"
+#include "include/finite.glsl"
+#include "include/luminance.glsl"
+#include "include/surface.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(constant_id = 0) const int kRadius = 16;  // Pixels on each side of the centre.
+
+layout(set = 0, binding = 0, std140) uniform frameConstants { FrameConstants frame; };
+layout(set = 0, binding = 1) uniform utexture2D depth;
+layout(set = 0, binding = 2) uniform utexture2D normals;
+layout(set = 0, binding = 3) uniform texture2D lighting;
+layout(set = 0, binding = 4, rgba16f) uniform writeonly image2D outFiltered;
+layout(push_constant) uniform PushConstants { JointBilateralConstants settings; };
+
+struct Surface {
+  vec3 position;         // View space.
+  vec3 normal;           // Shading normal.
+  vec3 geometricNormal;
+  vec3 radiance;
+  bool valid;            // A surface to denoise, with a finite sample of its light.
+};
+
+vec3 positionAt(ivec2 p, float z) { return rayThrough(frame.rayFromPixel, pixelCentre(p)) * z; }
+
+Surface surfaceAt(ivec2 q) {
+  Surface s = Surface(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), false);
+  const float z = unpackDepth(texelFetch(depth, q, 0).x);
+  if (z == 0.0) return s;
+  const uvec2 packed = texelFetch(normals, q, 0).xy;
+  const vec3 radiance = texelFetch(lighting, q, 0).rgb;
+  s.valid = isFinite(radiance);
+  s.position = positionAt(q, z);
+  s.normal = octahedralDecode(unpackFeatures(packed));
+  s.geometricNormal = unpackGeometricNormal(packed);
+  if (s.valid) s.radiance = clamp(radiance, vec3(0.0), vec3(kLargestHalf));
+  return s;
+}
+
+// Angle between unit vectors, by their chord: the arc cosine loses all precision at small angles.
+float angleBetween(vec3 a, vec3 b) { return 2.0 * asin(min(0.5 * length(a - b), 1.0)); }
+
+// Sine of the angle between the plane of `centre` and the way to `position`; 0 for the centre itself.
+float planeSine(Surface centre, vec3 position) {
+  const vec3 way = position - centre.position;
+  const float distance = length(way);
+  return distance > 0.0 ? dot(centre.geometricNormal, way) / distance : 0.0;
+}
+
+// Mean luminance over 9x9 pixels spread over the window: the unit of colour distances, so that their sigma does not
+// depend on exposure.
+float windowLuminance(ivec2 p) {
+  const ivec2 last = textureSize(depth, 0) - 1;
+  float sum = 0.0, count = 0.0;
+  for (int i = 0; i < 81; ++i) {
+    const ivec2 q = p + (ivec2(i % 9, i / 9) - 4) * kRadius / 4;
+    if (any(lessThan(q, ivec2(0))) || any(greaterThan(q, last))) continue;
+    const Surface s = surfaceAt(q);
+    if (!s.valid) continue;
+    sum += luminance(s.radiance);
+    count += 1.0;
+  }
+  return count > 0.0 ? sum / count : 0.0;
+}
+
+void main() {
+  const ivec2 p = ivec2(gl_GlobalInvocationID.xy);
+  const ivec2 last = textureSize(depth, 0) - 1;
+  if (any(greaterThan(p, last))) return;
+
+  if (unpackDepth(texelFetch(depth, p, 0).x) == 0.0) {
+    const vec3 radiance = texelFetch(lighting, p, 0).rgb;
+    imageStore(outFiltered, p, vec4(isFinite(radiance) ? radiance : vec3(0.0), 1.0));
+    return;
+  }
+  const Surface centre = surfaceAt(p);
+  // Colours that nothing sampled, or in the dark, are all alike: the least unit keeps the quotient finite.
+  const float unit = settings.colour > 0.0 ? max(windowLuminance(p), 1e-6) : 1.0;
+  const float colourFalloff = centre.valid ? settings.colour / (unit * unit) : 0.0;
+  const ivec2 begin = max(p - kRadius, ivec2(0)), end = min(p + kRadius, last);
+  vec3 sum = vec3(0.0);
+  float weightSum = 0.0;
+  for (int y = begin.y; y <= end.y; ++y) {
+    for (int x = begin.x; x <= end.x; ++x) {
+      const Surface s = surfaceAt(ivec2(x, y));
+      if (!s.valid) continue;
+      const vec2 offset = vec2(x, y) - vec2(p);
+      const float angle = angleBetween(centre.normal, s.normal);
+      const float sine = planeSine(centre, s.position);
+      const vec3 difference = s.radiance - centre.radiance;
+      const float exponent = dot(offset, offset) * settings.position + dot(difference, difference) * colourFalloff +
+                             angle * angle * settings.normal + sine * sine * settings.plane;
+      const float weight = exp(-exponent);
+      sum += weight * s.radiance;
+      weightSum += weight;
+    }
+  }
+  // Without a sample in the whole window there is no light to hand on.
+  imageStore(outFiltered, p, vec4(weightSum > 0.0 ? sum / weightSum : vec3(0.0), 1.0));
+}

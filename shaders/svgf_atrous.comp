@@ -1,0 +1,90 @@
+// SVGF, one edge-avoiding a-trous iteration (nagi-svgf.txt): a binomial kernel, its taps 2^i pixels apart, weighted by
+// plane distance, normal and luminance; the variance that guides the luminance weight is filtered along.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_samplerless_texture_functions : require
+#include "constants/frame.h"
+#include "constants/svgf_filter.h"
+#include "include/luminance.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(constant_id = 0) const int kRadius = 2;    // Taps on each side of the centre.
+layout(constant_id = 1) const int kSpacing = 1;   // 2^i pixels.
+layout(constant_id = 2) const bool kLuminanceWeight = true;
+
+layout(set = 0, binding = 0, std140) uniform frameConstants { FrameConstants frame; };
+layout(set = 0, binding = 1) uniform utexture2D depth;
+layout(set = 0, binding = 2) uniform utexture2D normals;
+layout(set = 0, binding = 3) uniform texture2D colour;  // rgb: radiance; a: standard deviation of its luminance.
+layout(set = 0, binding = 4, rgba16f) uniform writeonly image2D outColour;
+layout(push_constant) uniform PushConstants { SvgfFilterConstants settings; };
+
+#include "include/svgf.glsl"
+
+// Standard deviation at `p`, its variance smoothed by a 3x3 Gaussian over the pixels that have one.
+float smoothDeviation(ivec2 p) {
+  const ivec2 last = textureSize(colour, 0) - 1;
+  float sum = 0.0, weightSum = 0.0;
+  for (int i = 0; i < 9; ++i) {
+    const ivec2 offset = ivec2(i % 3, i / 3) - 1;
+    const ivec2 q = clamp(p + offset, ivec2(0), last);
+    const float deviation = texelFetch(colour, q, 0).a;
+    if (deviation < 0.0 || unpackDepth(texelFetch(depth, q, 0).x) == 0.0) continue;
+    const float weight = (offset.x == 0 ? 0.5 : 0.25) * (offset.y == 0 ? 0.5 : 0.25);
+    sum += weight * deviation * deviation;
+    weightSum += weight;
+  }
+  return sqrt(sum / weightSum);
+}
+
+// W_L = exp(-|l_p - l_q| * falloff); 0 weighs all luminances alike.
+float luminanceFalloff(ivec2 p, vec4 centre) {
+  if (!kLuminanceWeight || centre.a < 0.0) return 0.0;
+  // Luminances that differ by no more than the rounding of a half do not differ.
+  const float rounding = luminance(centre.rgb) * 1e-3 + 1e-7;
+  return 1.0 / (settings.sigmaLuminance * smoothDeviation(p) + rounding);
+}
+
+// The binomial row of order 2r, walked tap by tap; its sum is 1. Of order 4 it is the B3 spline 1 4 6 4 1.
+float firstTap() { return pow(0.25, float(kRadius)); }
+float nextTap(float tap, int offset) { return tap * float(kRadius - offset) / float(kRadius + offset + 1); }
+
+void main() {
+  const ivec2 p = ivec2(gl_GlobalInvocationID.xy);
+  if (any(greaterThanEqual(p, textureSize(depth, 0)))) return;
+
+  const vec4 centre = texelFetch(colour, p, 0);
+  const float z = unpackDepth(texelFetch(depth, p, 0).x);
+  if (z == 0.0) {
+    imageStore(outColour, p, centre);
+    return;
+  }
+
+  const Surface surface = surfaceAt(p, z);
+  const float centreLuminance = luminance(centre.rgb);
+  const float falloff = luminanceFalloff(p, centre);
+  vec3 sum = vec3(0.0);
+  float varianceSum = 0.0, weightSum = 0.0;
+  float tapY = firstTap();
+  for (int y = -kRadius; y <= kRadius; ++y) {
+    float tap = tapY * firstTap();
+    for (int x = -kRadius; x <= kRadius; ++x) {
+      const ivec2 q = p + kSpacing * ivec2(x, y);
+      float weight = tap * surfaceWeight(surface, q);
+      tap = nextTap(tap, x);
+      if (weight <= 0.0) continue;
+      const vec4 neighbour = texelFetch(colour, q, 0);
+      if (neighbour.a < 0.0) continue;
+      weight *= exp(-abs(luminance(neighbour.rgb) - centreLuminance) * falloff);
+      sum += weight * neighbour.rgb;
+      varianceSum += weight * weight * neighbour.a * neighbour.a;
+      weightSum += weight;
+    }
+    tapY = nextTap(tapY, y);
+  }
+  if (weightSum <= 0.0) {
+    imageStore(outColour, p, centre);
+    return;
+  }
+  imageStore(outColour, p, vec4(sum, sqrt(varianceSum)) / weightSum);
+}

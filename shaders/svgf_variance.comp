@@ -1,0 +1,86 @@
+// SVGF, variance estimation: the temporal variance of a pixel's luminance, or, while its history is too short to tell,
+// the variance over 7x7 pixels of the same surface. A single frame (SINGLE_FRAME) has no temporal variance at all.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_samplerless_texture_functions : require
+#include "constants/frame.h"
+#include "constants/svgf_filter.h"
+#include "include/finite.glsl"
+#include "include/luminance.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+
+layout(set = 0, binding = 0, std140) uniform frameConstants { FrameConstants frame; };
+layout(set = 0, binding = 1) uniform utexture2D depth;
+layout(set = 0, binding = 2) uniform utexture2D normals;
+layout(set = 0, binding = 3) uniform texture2D colour;
+#ifndef SINGLE_FRAME
+layout(set = 0, binding = 4) uniform texture2D moments;  // Mean luminance, its standard deviation, history length.
+#endif
+layout(set = 0, binding = 5, rgba16f) uniform writeonly image2D outColour;
+layout(push_constant) uniform PushConstants { SvgfFilterConstants settings; };
+
+#include "include/svgf.glsl"
+
+struct Estimate {
+  vec3 colour;
+  float mean;       // Of the luminance.
+  float deviation;  // Of the luminance.
+  float samples;    // 0: none.
+};
+
+Estimate estimateAt(ivec2 q) {
+  const vec3 radiance = texelFetch(colour, q, 0).rgb;
+#ifdef SINGLE_FRAME
+  if (!isFinite(radiance)) return Estimate(vec3(0.0), 0.0, 0.0, 0.0);
+  const vec3 bounded = clamp(radiance, vec3(0.0), vec3(kLargestHalf));
+  return Estimate(bounded, luminance(bounded), 0.0, 1.0);
+#else
+  const vec3 m = texelFetch(moments, q, 0).xyz;
+  return Estimate(radiance, m.x, m.y, m.z);
+#endif
+}
+
+// Standard deviation of the luminance over the pixels of one surface, by the variances of each and their spread.
+float deviationAround(ivec2 p, float z, float origin) {
+  const Surface surface = surfaceAt(p, z);
+  float sum = 0.0, squares = 0.0, weightSum = 0.0;
+  for (int y = -3; y <= 3; ++y) {
+    for (int x = -3; x <= 3; ++x) {
+      const ivec2 q = p + ivec2(x, y);
+      const float weight = surfaceWeight(surface, q);
+      if (weight <= 0.0) continue;
+      const Estimate e = estimateAt(q);
+      if (e.samples <= 0.0) continue;
+      const float offset = e.mean - origin;
+      sum += weight * offset;
+      squares += weight * (e.deviation * e.deviation + offset * offset);
+      weightSum += weight;
+    }
+  }
+  if (weightSum <= 0.0) return 0.0;
+  const float mean = sum / weightSum;
+  return sqrt(max(squares / weightSum - mean * mean, 0.0));
+}
+
+void main() {
+  const ivec2 p = ivec2(gl_GlobalInvocationID.xy);
+  if (any(greaterThanEqual(p, textureSize(depth, 0)))) return;
+
+  const float z = unpackDepth(texelFetch(depth, p, 0).x);
+  if (z == 0.0) {
+    const vec3 radiance = texelFetch(colour, p, 0).rgb;
+    imageStore(outColour, p, vec4(isFinite(radiance) ? radiance : vec3(0.0), 0.0));
+    return;
+  }
+
+  Estimate e = estimateAt(p);
+  if (e.samples <= 0.0) {
+    e.deviation = kNoSample;
+  } else if (e.samples < settings.minHistory) {
+    // Few samples tell little of their spread, which is rather taken too large than too small.
+    const float boost = sqrt(settings.minHistory / e.samples);
+    e.deviation = min(boost * deviationAround(p, z, e.mean), kLargestHalf);
+  }
+  imageStore(outColour, p, vec4(e.colour, e.deviation));
+}

@@ -1,0 +1,53 @@
+#include "tests/vulkan/random_graph.h"
+
+#include <cstdlib>
+
+#include "tests/vulkan/gpu_fixture.h"
+#include "tests/vulkan/graph_run.h"
+
+namespace fg::test {
+namespace {
+
+constexpr std::uint32_t kGraphs = 300;
+constexpr std::uint32_t kFrames = 4;
+
+/// Seed of the first graph; the environment may give another to look further, or to repeat one.
+std::uint32_t firstSeed() {
+  const char* const seed = std::getenv("WALR_SEED");
+  return seed != nullptr ? static_cast<std::uint32_t>(std::strtoul(seed, nullptr, 10)) : 1u;
+}
+
+class RandomGraphTest : public GpuTest {
+ protected:
+  /// Frames on both sides with uploads that change and resets in between, two in flight.
+  void compareWithCpu(std::uint32_t seed, bool poison) {
+    SCOPED_TRACE("WALR_SEED=" + std::to_string(seed) + (poison ? ", poisoned" : ""));
+    RandomGraph random(seed, context().functions);
+    GraphRun run(device(), random.graph(), {.poison = poison});
+    for (const Texture input : random.inputs()) run.fill(input, random.texels(input));
+    for (std::uint32_t frame = 0; frame < kFrames; ++frame) {
+      const std::uint32_t value = seed * kFrames + frame;
+      run.executor().upload(random.frame(), value);
+      if (frame == 2 && !random.histories().empty()) {
+        run.executor().resetHistory(random.histories().front());
+        random.resetHistoryOnCpu(random.histories().front());
+      }
+      run.submitFrame();
+      random.runOnCpu(value);
+    }
+    run.finish();
+    for (const Texture output : random.outputs()) {
+      EXPECT_EQ(run.texels<std::uint32_t>(output), random.texels(output));
+    }
+    for (const vk::Message& message : takeMessages()) ADD_FAILURE() << "validation: " << message.text;
+  }
+};
+
+TEST_F(RandomGraphTest, ResultsEqualTheDeclaredOrderOnTheCpu) {
+  for (std::uint32_t seed = firstSeed(); seed < firstSeed() + kGraphs && !HasFailure(); ++seed) {
+    compareWithCpu(seed, seed % 2 == 0);
+  }
+}
+
+}  // namespace
+}  // namespace fg::test
