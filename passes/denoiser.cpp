@@ -5,6 +5,8 @@
 #include <stdexcept>
 
 #include "passes/accumulate.h"
+#include "passes/bmfr.h"
+#include "passes/flr.h"
 #include "passes/joint_bilateral.h"
 #include "passes/pass_through.h"
 #include "passes/svgf.h"
@@ -82,7 +84,9 @@ struct Method {
 
 constexpr std::array kMethods{
     Method{"walr", make<WalrSettings, addWalr>},
+    Method{"bmfr", make<BmfrSettings, addBmfr>},
     Method{"svgf", make<SvgfSettings, addSvgf>},
+    Method{"flr", make<FlrSettings, addFlr>},
     Method{"joint_bilateral", make<JointBilateralSettings, addJointBilateral>},
     Method{"accumulate", make<AccumulateSettings, addAccumulate>},
     Method{"none", make<NoSettings, addNone>},

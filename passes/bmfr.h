@@ -1,0 +1,40 @@
+#pragma once
+
+#include "framegraph/graph.h"
+#include "passes/bmfr_accumulation.h"
+#include "passes/bmfr_fit.h"
+#include "passes/inputs.h"
+#include "passes/prepare_guides.h"
+#include "passes/temporal_accumulation.h"
+#include "passes/temporal_antialiasing.h"
+
+namespace walr {
+
+/// Settings of all stages of BMFR.
+struct BmfrSettings {
+  bool spatialOnly = false;
+  PrepareGuidesSettings guides;
+  TemporalAccumulationSettings accumulation{.maxSamples = 5.0F};
+  BmfrFitSettings fit;
+  BmfrAccumulationSettings fittedAccumulation;
+  TemporalAntialiasingSettings antialiasing{.maxSamples = 5.0F};
+
+  void visit(SettingVisitor& v) {
+    v.visit({"spatial-only", "Fit each frame on its own, without the temporal stages", "", 0, 1, "bmfr.txt 3.3"},
+            spatialOnly);
+    guides.visit(v);
+    accumulation.visit(v);
+    fit.visit(v);
+    fittedAccumulation.visit(v);
+    antialiasing.visit(v);
+  }
+};
+
+/// Blockwise Multi-Order Feature Regression (bmfr.txt, figure 2): accumulation, feature fitting, a second accumulation
+/// and temporal anti-aliasing.
+/// @param output RGBA16F texture to write the result to
+/// @returns the output's new version
+fg::Texture addBmfr(fg::Graph& graph, const DenoiserInputs& inputs, fg::Texture output,
+                    const BmfrSettings& settings = {});
+
+}  // namespace walr

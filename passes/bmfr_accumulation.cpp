@@ -1,0 +1,23 @@
+#include "passes/bmfr_accumulation.h"
+
+#include "shaders/constants/bmfr.h"
+#include "shaders/shaders.h"
+
+namespace walr {
+
+fg::Texture addBmfrAccumulation(fg::Graph& graph, fg::Texture fitted, const Guides& guides, fg::Texture taps,
+                                const BmfrAccumulationSettings& settings) {
+  const fg::Extent extent = graph.textureDesc(fitted).extent;
+  const fg::History accumulated = graph.history("accumulated fit", {VK_FORMAT_R16G16B16A16_SFLOAT, extent});
+
+  fg::PassBuilder pass = graph.compute("bmfr accumulation", shaders::bmfrAccumulation);
+  pass.sample("fitted", fitted)
+      .sample("depth", guides.depth)
+      .sample("taps", taps)
+      .sample("previousAccumulated", accumulated.previous)
+      .constants(BmfrAccumulationConstants{settings.maxSamples})
+      .dispatch(extent);
+  return pass.store("outAccumulated", accumulated.current);
+}
+
+}  // namespace walr

@@ -1,0 +1,28 @@
+#pragma once
+
+#include "framegraph/graph.h"
+#include "passes/prepare_guides.h"
+#include "passes/settings.h"
+#include "passes/temporal_accumulation.h"
+
+namespace walr {
+
+/// Settings of BMFR's second accumulation (bmfr.txt 3.5).
+struct BmfrAccumulationSettings {
+  float maxSamples = 10.0F;
+
+  void visit(SettingVisitor& v) {
+    v.visit({"fitted.max-samples", "Fitted frames after which the cumulative mean turns exponential", "frames", 1.0,
+             255.0, "bmfr.txt 3.5"},
+            maxSamples);
+  }
+};
+
+/// Average the fitted frames over time along the taps that the first accumulation accepted.
+/// @param fitted RGBA16F: the current fit
+/// @param taps   RG32_UINT: `AccumulationWithTaps::taps`
+/// @returns RGBA16F: mean; alpha: number of frames behind it, 0 where there is nothing to denoise
+fg::Texture addBmfrAccumulation(fg::Graph& graph, fg::Texture fitted, const Guides& guides, fg::Texture taps,
+                                const BmfrAccumulationSettings& settings = {});
+
+}  // namespace walr

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+#include "framegraph/graph.h"
+#include "passes/prepare_guides.h"
+#include "passes/settings.h"
+
+namespace walr {
+
+/// What is done about features that depend on each other within a block, such as the positions on a single plane.
+enum class RankHandling : std::uint8_t {
+  Stochastic,     ///< Noise makes the features independent (bmfr.txt 3.4).
+  Deterministic,  ///< No noise: a feature that earlier ones explain is left out of its block's fit.
+};
+
+/// Settings of the blockwise feature fit (bmfr.txt 3.3, 3.4).
+struct BmfrFitSettings {
+  RankHandling rankHandling = RankHandling::Stochastic;
+  float noiseAmplitude = 0.01F;
+  float rankTolerance = 0.01F;
+  float extentFloor = 0.05F;
+
+  void visit(SettingVisitor& v) {
+    static constexpr std::array<std::string_view, 2> kRankHandlings{"stochastic", "deterministic"};
+    v.visitEnum({"fit.rank-handling", "What is done about features that depend on each other within a block", "", 0, 1,
+                 "bmfr.txt 3.4"},
+                kRankHandlings, rankHandling);
+    v.visit({"fit.noise-amplitude", "Half width of the uniform noise on the features, stochastic handling only",
+             "feature range / 2", 1e-3, 1.0, "bmfr.txt 3.4"},
+            noiseAmplitude);
+    v.visit({"fit.rank-tolerance",
+             "Root mean square of the unexplained part of a feature at which it is left out, deterministic handling "
+             "only",
+             "feature range / 2", 1e-4, 1.0, "measured"},
+            rankTolerance);
+    v.visit({"fit.extent-floor", "Smallest extent that a position axis is scaled by", "fraction of the block's largest",
+             1e-3, 1.0, "measured"},
+            extentFloor);
+  }
+};
+
+/// Fit the lighting of every block of 32x32 pixels by ten features of first and second order.
+/// @param frame    upload of `FrameConstants`; its frame index picks one of 16 displacements of the block grid
+/// @param lighting RGBA16F: radiance to fit; a pixel that is not finite has no say in the fit
+/// @param output   RGBA16F texture to write the fit to
+/// @returns the output's new version; sky and pixels without a diffuse lobe as they were
+fg::Texture addBmfrFit(fg::Graph& graph, fg::Buffer frame, fg::Texture lighting, const Guides& guides,
+                       fg::Texture output, const BmfrFitSettings& settings = {});
+
+}  // namespace walr

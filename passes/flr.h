@@ -1,0 +1,42 @@
+#pragma once
+
+#include "framegraph/graph.h"
+#include "passes/flr_regression.h"
+#include "passes/inputs.h"
+#include "passes/prepare_guides.h"
+#include "passes/temporal_accumulation.h"
+#include "passes/temporal_antialiasing.h"
+
+namespace walr {
+
+/// Settings of all stages of FLR.
+struct FlrSettings {
+  bool spatialOnly = false;
+  PrepareGuidesSettings guides;
+  TemporalAccumulationSettings accumulation;
+  FlrRegressionSettings regression;
+  float singleFrameSigma = 10.0F;
+  TemporalAntialiasingSettings antialiasing{.maxSamples = 5.0F};
+
+  void visit(SettingVisitor& v) {
+    v.visit({"spatial-only", "Filter each frame on its own, as published, without the temporal stages", "", 0, 1,
+             "flr-flnr.txt"},
+            spatialOnly);
+    guides.visit(v);
+    accumulation.visit(v);
+    regression.visit(v);
+    v.visit({"regression.single-frame-sigma",
+             "Standard deviation of the Gaussian window where spatial-only takes the place of regression.sigma",
+             "pixels", 0.1, 256.0, "measured"},
+            singleFrameSigma);
+    antialiasing.visit(v);
+  }
+};
+
+/// Fast Local Regression (flr-flnr.txt), between temporal accumulation and temporal anti-aliasing.
+/// @param output RGBA16F texture to write the result to
+/// @returns the output's new version
+fg::Texture addFlr(fg::Graph& graph, const DenoiserInputs& inputs, fg::Texture output,
+                   const FlrSettings& settings = {});
+
+}  // namespace walr

@@ -1,0 +1,164 @@
+// Blockwise multi-order feature regression (bmfr.txt 3.3, 3.4): one work group fits the colours of a block of 32x32
+// pixels as a linear combination of ten features, by Householder QR with three right-hand sides, and writes the fit.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
+#extension GL_EXT_samplerless_texture_functions : require
+#include "constants/bmfr.h"
+#include "constants/frame.h"
+#include "include/camera.glsl"
+#include "include/finite.glsl"
+#include "include/hash.glsl"
+#include "include/surface.glsl"
+
+layout(local_size_x = 16, local_size_y = 16) in;
+
+layout(set = 0, binding = 0, std140) uniform frameConstants { FrameConstants frame; };
+layout(set = 0, binding = 1) uniform texture2D lighting;
+layout(set = 0, binding = 2) uniform utexture2D depth;
+layout(set = 0, binding = 3) uniform utexture2D normals;
+layout(set = 0, binding = 4, rgba16f) uniform writeonly image2D outFitted;
+layout(push_constant) uniform PushConstants { BmfrFitConstants settings; };
+
+const int kBlockSize = 32;
+const uint kThreads = 256u;
+const int kRowsPerThread = 4;
+const int kFeatures = 10;  // 1, normal (3), position (3), position squared (3).
+const int kColumns = 13;   // Features, then red, green, blue.
+
+uint threadIndex = gl_LocalInvocationIndex;
+#include "include/householder.glsl"
+
+// Displacement of the block grid, uniform over the possible ones, one after the other (bmfr.txt 6.1).
+const ivec2 kBlockOffsets[16] = ivec2[16](
+    ivec2(-14, -14), ivec2(4, -6), ivec2(-8, 14), ivec2(8, 0), ivec2(-10, -8), ivec2(2, 12), ivec2(12, -12),
+    ivec2(-10, 0), ivec2(12, 14), ivec2(-8, -16), ivec2(6, 6), ivec2(-2, -2), ivec2(6, -14), ivec2(-16, 12),
+    ivec2(14, -4), ivec2(-6, 4));
+
+// Coordinate mirrored at the borders of the image, any number of times.
+int mirrored(int x, int size) {
+  const int period = 2 * size;
+  const int m = ((x % period) + period) % period;
+  return min(m, period - 1 - m);
+}
+
+// One pixel of the block.
+struct Pixel {
+  ivec2 p;        // Its place, before mirroring.
+  bool surface;   // There is something to denoise.
+  vec3 normal;    // Shading normal.
+  vec3 position;  // From the camera, along world axes: bounded by what is seen, wherever the world's origin lies.
+  vec3 colour;
+};
+
+Pixel readPixel(uint index) {
+  const ivec2 size = textureSize(depth, 0);
+  const ivec2 block = ivec2(gl_WorkGroupID.xy) * kBlockSize - kBlockSize / 2 + kBlockOffsets[frame.frameIndex % 16u];
+  Pixel pixel;
+  pixel.p = block + ivec2(index % uint(kBlockSize), index / uint(kBlockSize));
+  const ivec2 q = ivec2(mirrored(pixel.p.x, size.x), mirrored(pixel.p.y, size.y));
+  const float z = unpackDepth(texelFetch(depth, q, 0).x);
+  const mat3 worldFromView = transpose(mat3(frame.viewFromWorld));
+  pixel.surface = z > 0.0;
+  pixel.normal = worldFromView * octahedralDecode(unpackFeatures(texelFetch(normals, q, 0).xy));
+  pixel.position = worldFromView * (rayThrough(frame.rayFromPixel, pixelCentre(q)) * z);
+  pixel.colour = texelFetch(lighting, q, 0).rgb;
+  return pixel;
+}
+
+// Where the block's positions lie, so that each axis can be scaled to [-1, 1].
+struct Bounds {
+  vec3 centre;
+  vec3 scale;
+};
+
+Bounds blockBounds(Pixel pixels[kRowsPerThread]) {
+  const float kFar = 3.0e38, kNear = 1.0e-30;
+  const int kFirst = kColumns - 6;
+  [[unroll]] for (int axis = 0; axis < 3; ++axis) {
+    float largest = -kFar, largestNegated = -kFar;
+    [[unroll]] for (int s = 0; s < kRowsPerThread; ++s) {
+      if (!pixels[s].surface) continue;
+      largest = max(largest, pixels[s].position[axis]);
+      largestNegated = max(largestNegated, -pixels[s].position[axis]);
+    }
+    partialSums[kFirst + axis][threadIndex] = largest;
+    partialSums[kFirst + 3 + axis][threadIndex] = largestNegated;
+  }
+  reduceColumns(kFirst, true);
+  const vec3 highest = vec3(totals[kFirst], totals[kFirst + 1], totals[kFirst + 2]);
+  const vec3 lowest = -vec3(totals[kFirst + 3], totals[kFirst + 4], totals[kFirst + 5]);
+  const vec3 halfExtent = 0.5 * (highest - lowest);
+  // An axis along which the block hardly extends holds rounding, which must not be blown up to a feature.
+  const float least = max(settings.extentFloor * max(max(halfExtent.x, halfExtent.y), halfExtent.z), kNear);
+  return Bounds(0.5 * (highest + lowest), 1.0 / max(halfExtent, vec3(least)));
+}
+
+// The multi-order features (bmfr.txt equation 8), each within [-1, 1]. Squares of positions scaled about the block's
+// centre span, together with the lower orders, what squares of world positions span, without their cancellation.
+float[kFeatures] featuresOf(Pixel pixel, Bounds bounds) {
+  const vec3 w = (pixel.position - bounds.centre) * bounds.scale;
+  const vec3 n = pixel.normal;
+  return float[kFeatures](1.0, n.x, n.y, n.z, w.x, w.y, w.z, w.x * w.x, w.y * w.y, w.z * w.z);
+}
+
+// Uniform in [-1, 1] for every feature of a pixel.
+float[kFeatures] noiseOf(uint index) {
+  const uvec2 key = uvec2(gl_WorkGroupID.y << 16 | gl_WorkGroupID.x, frame.frameIndex);
+  float noise[kFeatures];
+  noise[0] = 0.0;
+  [[unroll]] for (int i = 0; i < 3; ++i) {
+    const vec4 random = vec4(pcg4d(uvec4(index, key, i))) * (2.0 / 4294967295.0) - 1.0;
+    [[unroll]] for (int c = 0; c < 4; ++c)
+      if (1 + 4 * i + c < kFeatures) noise[1 + 4 * i + c] = random[c];
+  }
+  return noise;
+}
+
+// A pixel without a surface, or with a sample that is not finite, is a row of zeros: it has no say in the fit.
+float[kColumns] rowOf(Pixel pixel, uint index, Bounds bounds) {
+  float row[kColumns];
+  [[unroll]] for (int j = 0; j < kColumns; ++j) row[j] = 0.0;
+  if (!pixel.surface || !isFinite(pixel.colour)) return row;
+  const float features[kFeatures] = featuresOf(pixel, bounds);
+  const float noise[kFeatures] = noiseOf(index);
+  [[unroll]] for (int j = 0; j < kFeatures; ++j) row[j] = features[j] + settings.noiseAmplitude * noise[j];
+  const vec3 colour = clamp(pixel.colour, vec3(0.0), vec3(kLargestHalf));
+  [[unroll]] for (int c = 0; c < 3; ++c) row[kFeatures + c] = colour[c];
+  return row;
+}
+
+float rowsInUse(float rows[kRowsPerThread][kColumns]) {
+  float sum = 0.0;
+  [[unroll]] for (int s = 0; s < kRowsPerThread; ++s) sum += rows[s][0];
+  partialSums[kColumns - 1][threadIndex] = sum;
+  reduceColumns(kColumns - 1, false);
+  return totals[kColumns - 1];
+}
+
+// The synthesis uses the features without noise (bmfr.txt 3.4). Pixels without a surface keep what they had.
+vec3 fittedColour(Pixel pixel, Bounds bounds) {
+  if (!pixel.surface) return isFinite(pixel.colour) ? pixel.colour : vec3(0.0);
+  const float features[kFeatures] = featuresOf(pixel, bounds);
+  vec3 colour = vec3(0.0);
+  for (int j = 0; j < kFeatures; ++j)
+    colour += features[j] * vec3(coefficients[j][0], coefficients[j][1], coefficients[j][2]);
+  return clamp(colour, vec3(0.0), vec3(kLargestHalf));
+}
+
+void main() {
+  Pixel pixels[kRowsPerThread];
+  [[unroll]] for (int s = 0; s < kRowsPerThread; ++s) pixels[s] = readPixel(threadIndex + uint(s) * kThreads);
+  const Bounds bounds = blockBounds(pixels);
+
+  float rows[kRowsPerThread][kColumns];
+  [[unroll]] for (int s = 0; s < kRowsPerThread; ++s)
+    rows[s] = rowOf(pixels[s], threadIndex + uint(s) * kThreads, bounds);
+  solveLeastSquares(rows, rowsInUse(rows), settings.rankTolerance);
+
+  [[unroll]] for (int s = 0; s < kRowsPerThread; ++s) {
+    const ivec2 p = pixels[s].p;
+    if (any(lessThan(p, ivec2(0))) || any(greaterThanEqual(p, textureSize(depth, 0)))) continue;
+    imageStore(outFitted, p, vec4(fittedColour(pixels[s], bounds), 1.0));
+  }
+}

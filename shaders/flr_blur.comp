@@ -1,0 +1,23 @@
+// FLR, second stage (flr-flnr.txt): the horizontal half of the separable Gaussian over the cells' outer products.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "constants/flr.h"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+
+layout(push_constant) uniform PushConstants { FlrConstants settings; };
+#include "include/flr.glsl"
+
+layout(set = 0, binding = 0, std430) readonly buffer moments { OuterProducts cells[]; };
+layout(set = 0, binding = 1, std430) writeonly buffer outBlurred { OuterProducts outCells[]; };
+
+void main() {
+  const ivec2 cell = ivec2(gl_GlobalInvocationID.xy);
+  if (!insideGrid(cell)) return;
+  OuterProducts sum = noSamples();
+  for (int i = -settings.radius; i <= settings.radius; ++i) {
+    const ivec2 tap = cell + ivec2(i, 0);
+    if (insideGrid(tap)) add(sum, gaussian(i), cells[cellIndex(tap)]);
+  }
+  outCells[cellIndex(cell)] = sum;
+}

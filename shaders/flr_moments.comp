@@ -1,0 +1,35 @@
+// FLR, first stage (flr-flnr.txt): outer products of guides and colour, downsampled to one sum per cell.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_samplerless_texture_functions : require
+#include "constants/flr.h"
+#include "include/finite.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+
+layout(push_constant) uniform PushConstants { FlrConstants settings; };
+#include "include/flr.glsl"
+
+layout(set = 0, binding = 0) uniform texture2D lighting;
+layout(set = 0, binding = 1) uniform utexture2D depth;
+layout(set = 0, binding = 2) uniform utexture2D normals;
+layout(set = 0, binding = 3, std430) writeonly buffer outMoments { OuterProducts outCells[]; };
+
+void main() {
+  const ivec2 cell = ivec2(gl_GlobalInvocationID.xy);
+  if (!insideGrid(cell)) return;
+  const ivec2 first = cell * settings.factor;
+  const ivec2 end = min(first + settings.factor, textureSize(depth, 0));
+  OuterProducts sum = noSamples();
+  for (int y = first.y; y < end.y; ++y) {
+    for (int x = first.x; x < end.x; ++x) {
+      const ivec2 p = ivec2(x, y);
+      const float z = unpackDepth(texelFetch(depth, p, 0).x);
+      const vec3 colour = texelFetch(lighting, p, 0).rgb;
+      // Sky, pixels without a diffuse lobe and samples that are not finite have no say.
+      if (z == 0.0 || !isFinite(colour)) continue;
+      add(sum, 1.0, outerProducts(guidesOf(z, texelFetch(normals, p, 0).xy), clamp(colour, 0.0, kLargestHalf)));
+    }
+  }
+  outCells[cellIndex(cell)] = sum;
+}
