@@ -1,8 +1,9 @@
 #pragma once
 
 #include <cstdint>
-#include <source_location>
 #include <string>
+
+#include "framegraph/source_location.h"
 
 namespace fg {
 
@@ -15,7 +16,7 @@ struct Diagnostic {
   std::string pass;      ///< Name of the pass, where one is at fault.
   std::string resource;  ///< Name of the texture or buffer, where one is at fault.
   std::string message;   ///< What is wrong and what to change.
-  std::source_location where;
+  SourceLocation where;
 };
 
 }  // namespace fg

@@ -9,7 +9,7 @@
 namespace fg {
 namespace {
 
-AccessDecl declareRead(ResourceVersion resource, Access access, std::string_view binding, std::source_location where) {
+AccessDecl declareRead(ResourceVersion resource, Access access, std::string_view binding, SourceLocation where) {
   AccessDecl decl;
   decl.resource = resource.resource;
   decl.readVersion = resource.version;
@@ -20,7 +20,7 @@ AccessDecl declareRead(ResourceVersion resource, Access access, std::string_view
 }
 
 AccessDecl declareWrite(ResourceDecl& resource, ResourceVersion version, Access access, std::string_view binding,
-                        std::source_location where) {
+                        SourceLocation where) {
   AccessDecl decl;
   decl.resource = version.resource;
   (accessInfo(access).reads() ? decl.readVersion : decl.replacesVersion) = version.version;

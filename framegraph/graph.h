@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
-#include <source_location>
 #include <span>
 #include <string>
 #include <string_view>
@@ -15,6 +14,7 @@
 #include <vulkan/vulkan_core.h>
 
 #include "framegraph/shader.h"
+#include "framegraph/source_location.h"
 
 /// Declare -> compile -> record. This header is the declaration: a plain value that says what every pass reads and
 /// writes. It needs neither a Vulkan device nor the Vulkan loader.
@@ -151,7 +151,7 @@ struct AccessDecl {
   SubresourceRange range;
   std::string binding;                  ///< Name of the shader variable; empty for callback passes.
   VkFilter filter = VK_FILTER_NEAREST;  ///< For combined image samplers; addressing clamps to the edge.
-  std::source_location where;
+  SourceLocation where;
 };
 
 struct PassDecl {
@@ -159,7 +159,7 @@ struct PassDecl {
   std::variant<ComputeDispatch, HostCallback> work;
   std::vector<AccessDecl> accesses;
   bool sideEffects = false;  ///< Kept even if it reaches no export and no history.
-  std::source_location where;
+  SourceLocation where;
 };
 
 struct ResourceDecl {
@@ -169,20 +169,20 @@ struct ResourceDecl {
   std::optional<ExternalState> acquire = std::nullopt;  ///< Imported resources: their state when the graph starts.
   std::uint32_t history = kNone;                        ///< Index into `GraphDesc::histories`.
   std::uint32_t versions = 0;                           ///< Number of writes declared.
-  std::source_location where;
+  SourceLocation where;
 };
 
 struct HistoryDecl {
   std::string name;
   std::uint32_t previous = kNone;  ///< Resource index.
   std::uint32_t current = kNone;   ///< Resource index.
-  std::source_location where;
+  SourceLocation where;
 };
 
 struct ExportDecl {
   ResourceVersion resource;
   ExternalState release;  ///< State in which the host gets it back.
-  std::source_location where;
+  SourceLocation where;
 };
 
 /// Everything declared, as a plain value.
@@ -198,7 +198,7 @@ class Graph;
 /// Declares one pass. Obtained from `Graph::compute` or `Graph::callback`; a short-lived reference into the graph.
 class PassBuilder {
  public:
-  using Where = std::source_location;
+  using Where = SourceLocation;
 
   /// Read through a sampled image (`texture2D`, `utexture2D`) or combined sampler with the given filter.
   PassBuilder& sample(std::string_view binding, Texture texture, VkFilter filter = VK_FILTER_NEAREST,
@@ -253,7 +253,7 @@ class PassBuilder {
 /// The frame graph under construction. Declaring never fails; every error is found, all at once, by `compile`.
 class Graph {
  public:
-  using Where = std::source_location;
+  using Where = SourceLocation;
 
   /// Declare a transient texture or buffer.
   Texture texture(std::string name, const TextureDesc& desc, Where where = Where::current());

@@ -30,7 +30,6 @@ PassRecorder::PassRecorder(const DeviceContext& device, const GraphDesc& graph, 
                            const Resources& resources, Views& views, VkPipelineCache cache, std::uint32_t slots,
                            bool poison)
     : device_(&device),
-      graph_(&graph),
       plan_(&plan),
       resources_(&resources),
       views_(&views),

@@ -39,7 +39,6 @@ class PassRecorder {
   [[nodiscard]] std::vector<VkDescriptorSetLayout> setLayouts() const;
 
   const DeviceContext* device_;
-  const GraphDesc* graph_;
   const Plan* plan_;
   const Resources* resources_;
   Views* views_;
