@@ -67,6 +67,7 @@ class RayCaster::Impl {
       : scene_(scene), stillId_(static_cast<unsigned int>(instances.size())), device_(rtcNewDevice(nullptr)) {
     check("cannot be started");
     still_ = newScene();
+    rtcSetSceneBuildQuality(still_.get(), RTC_BUILD_QUALITY_HIGH);
     for (const Mesh& mesh : scene.meshes) {
       cutOuts_.push_back({&scene, &mesh});
     }

@@ -1,5 +1,6 @@
 #include "samples/render/texture.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -28,20 +29,40 @@ ByteTable makeLinearTable() {
   return table;
 }
 
-std::uint32_t wrapTexel(std::int64_t texel, std::uint32_t size, Wrap wrap) {
-  const auto n = static_cast<std::int64_t>(size);
-  const auto modulo = [](std::int64_t a, std::int64_t b) { return ((a % b) + b) % b; };
-  switch (wrap) {
-    case Wrap::ClampToEdge:
-      return static_cast<std::uint32_t>(glm::clamp(texel, std::int64_t{0}, n - 1));
-    case Wrap::MirroredRepeat: {
-      const std::int64_t folded = modulo(texel, 2 * n);
-      return static_cast<std::uint32_t>(folded < n ? folded : 2 * n - 1 - folded);
-    }
-    case Wrap::Repeat:
-      break;
+// Two neighbouring texels along one axis, and how far the place is from the first to the second.
+struct Neighbors {
+  std::size_t first = 0;
+  std::size_t second = 0;
+  float fraction = 0.0F;
+};
+
+Neighbors findNeighbors(float coordinate, std::uint32_t size, const Texture& texture, Wrap wrap) {
+  // Beyond this a float holds no fraction of a texel any more.
+  constexpr float kLargestCoordinate = 16777216.0F;
+  float place = std::abs(coordinate) < kLargestCoordinate ? coordinate : 0.0F;
+  if (wrap == Wrap::Repeat) {
+    place -= std::floor(place);
+  } else if (wrap == Wrap::MirroredRepeat) {
+    const float folded = place - 2.0F * std::floor(0.5F * place);
+    place = folded <= 1.0F ? folded : 2.0F - folded;
+  } else {
+    place = glm::clamp(place, 0.0F, 1.0F);
   }
-  return static_cast<std::uint32_t>(modulo(texel, n));
+  const std::size_t last = size - 1;
+  const float texel = place * static_cast<float>(size);
+  if (texture.nearest) {
+    const std::size_t index = std::min(static_cast<std::size_t>(texel), last);
+    return {index, index, 0.0F};
+  }
+  // Half a texel before the first centre the neighbour is the last texel, or the first again.
+  const float corner = std::floor(texel - 0.5F);
+  const bool before = corner < 0.0F;
+  const std::size_t beyond = wrap == Wrap::Repeat ? 0 : last;
+  Neighbors result;
+  result.first = before ? last - beyond : std::min(static_cast<std::size_t>(corner), last);
+  result.second = before ? 0 : (result.first == last ? beyond : result.first + 1);
+  result.fraction = texel - 0.5F - corner;
+  return result;
 }
 
 }  // namespace
@@ -51,27 +72,14 @@ glm::vec4 sampleTexture(const Image& image, const Texture& texture, glm::vec2 uv
   static const ByteTable linear = makeLinearTable();
   const ByteTable& color = space == ColorSpace::Srgb ? srgb : linear;
 
-  const auto fetch = [&](std::int64_t x, std::int64_t y) {
-    const std::size_t column = wrapTexel(x, image.width, texture.wrapU);
-    const std::size_t row = wrapTexel(y, image.height, texture.wrapV);
+  const Neighbors x = findNeighbors(uv.x, image.width, texture, texture.wrapU);
+  const Neighbors y = findNeighbors(uv.y, image.height, texture, texture.wrapV);
+  const auto fetch = [&](std::size_t column, std::size_t row) {
     const std::uint8_t* texel = &image.rgba[(row * image.width + column) * 4];
     return glm::vec4(color[texel[0]], color[texel[1]], color[texel[2]], linear[texel[3]]);
   };
-
-  // Beyond this a float holds no fraction of a texel any more, and an integer conversion could overflow.
-  constexpr float kLargestCoordinate = 16777216.0F;
-  const auto usable = [](float c) { return std::isfinite(c) && std::abs(c) < kLargestCoordinate; };
-  const glm::vec2 texel = glm::vec2(usable(uv.x) ? uv.x : 0.0F, usable(uv.y) ? uv.y : 0.0F) *
-                          glm::vec2(static_cast<float>(image.width), static_cast<float>(image.height));
-  if (texture.nearest) {
-    return fetch(static_cast<std::int64_t>(std::floor(texel.x)), static_cast<std::int64_t>(std::floor(texel.y)));
-  }
-  const glm::vec2 corner = glm::floor(texel - 0.5F);
-  const glm::vec2 fraction = texel - 0.5F - corner;
-  const auto x = static_cast<std::int64_t>(corner.x);
-  const auto y = static_cast<std::int64_t>(corner.y);
-  return glm::mix(glm::mix(fetch(x, y), fetch(x + 1, y), fraction.x),
-                  glm::mix(fetch(x, y + 1), fetch(x + 1, y + 1), fraction.x), fraction.y);
+  return glm::mix(glm::mix(fetch(x.first, y.first), fetch(x.second, y.first), x.fraction),
+                  glm::mix(fetch(x.first, y.second), fetch(x.second, y.second), x.fraction), y.fraction);
 }
 
 }  // namespace walr::render
