@@ -36,9 +36,10 @@ struct BusyGraph : CountingGraph {
     auto write = graph.compute("write", shaders::writeUniform).uniform("frame", upload).specialize("factor", 2u);
     Texture link = write.store("target", graph.texture("link", kTexture));
     write.dispatch(kTexture.extent);
+    const Buffer arguments = groupCount(graph, "arguments", 2, 1);
     auto twice = graph.compute("double", shaders::doubleInPlace);
     link = twice.update("image", link);
-    twice.dispatchIndirect(groupCount(graph, "arguments", 2, 1));
+    twice.dispatchIndirect(arguments);
     auto callback = graph.callback(
         "callback", [this](const RecordContext& record) { calls += record.view(watched) != VK_NULL_HANDLE ? 1 : 0; });
     watched = callback.access(link, Access::SampledRead);
