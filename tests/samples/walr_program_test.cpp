@@ -230,6 +230,20 @@ TEST_F(ProgramTest, NoVulkanDeviceIsSaid) {
   expectFailure(walr({"denoise", "--list-devices"}, options), kDevice, {"Vulkan"});
 }
 
+TEST_F(ProgramTest, ADeviceThatLacksSomethingIsToldWhat) {
+  files.write(0, 0);
+  // The run ends before the first command buffer, so that there is nothing for the validation layer to check.
+  const auto denoiseOnPoorDevice = [&](const char* lacks) {
+    return walr({"denoise", input, "--output", output}, {{{"VK_LAYER_PATH", WALR_LACKING_LAYER},
+                                                          {"VK_INSTANCE_LAYERS", "VK_LAYER_WALR_lacking"},
+                                                          {"WALR_TEST_LACKS", lacks}},
+                                                         {}});
+  };
+  expectSuccess(denoiseOnPoorDevice("nothing"));
+  expectFailure(denoiseOnPoorDevice("synchronization2"), kDevice, {"lacks", "synchronization2", "driver"});
+  expectFailure(denoiseOnPoorDevice("storage images"), kDevice, {"lacks", "storage image", "format"});
+}
+
 TEST_F(ProgramTest, AnUnknownDeviceIsNamed) {
   files.write(0, 0);
   expectFailure(denoise({"--device", "abacus"}), kDevice, {"abacus"});
