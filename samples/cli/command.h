@@ -11,10 +11,12 @@ namespace walr {
 using RegisterCommand = void (*)(CLI::App& program);
 
 void registerDenoise(CLI::App& program);
+void registerRender(CLI::App& program);
 
 /// All subcommands of `walr`. A new one is a line here.
-inline constexpr std::array<RegisterCommand, 1> kCommands = {
+inline constexpr std::array<RegisterCommand, 2> kCommands = {
     registerDenoise,
+    registerRender,
 };
 
 }  // namespace walr

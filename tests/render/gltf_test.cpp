@@ -9,14 +9,13 @@
 #include <random>
 #include <string>
 
-#include <unistd.h>
-
 #include <nlohmann/json.hpp>
 
 #include "samples/render/film.h"
 #include "samples/render/load_scene.h"
 #include "samples/render/scene_error.h"
 #include "samples/render/view.h"
+#include "tests/samples/temporary_directory.h"
 
 namespace walr::render {
 namespace {
@@ -26,16 +25,9 @@ using Json = nlohmann::json;
 
 class Gltf : public testing::Test {
  protected:
-  void SetUp() override {
-    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::temp_directory_path() / (std::string("walr_gltf_") + test->name() + std::to_string(getpid()));
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   fs::path write(const std::string& name, const std::string& bytes) const {
-    std::ofstream(folder_ / name, std::ios::binary) << bytes;
-    return folder_ / name;
+    std::ofstream(directory_.path() / name, std::ios::binary) << bytes;
+    return directory_.path() / name;
   }
 
   /// The box scene, changed.
@@ -63,7 +55,7 @@ class Gltf : public testing::Test {
     })) << testing::PrintToString(scene.warnings);
   }
 
-  fs::path folder_;
+  walr::test::TemporaryDirectory directory_;
 };
 
 // The same scene as a binary file.
@@ -233,8 +225,8 @@ TEST_F(Gltf, SceneWithoutLightIsSaid) {
 }
 
 TEST_F(Gltf, RefusesMalformedFiles) {
-  expectError(folder_ / "none.gltf", "no such file");
-  expectError(folder_, "not a regular file");
+  expectError(directory_.path() / "none.gltf", "no such file");
+  expectError(directory_.path(), "not a regular file");
   expectError(write("empty.gltf", ""), "not a valid glTF");
   expectError(write("text.gltf", "this is no JSON"), "not a valid glTF");
   expectError(write("deep.gltf", std::string(100000, '[')), "nested");

@@ -1,0 +1,95 @@
+#include <unistd.h>
+
+#include <iostream>
+#include <map>
+#include <memory>
+#include <string>
+
+#include <CLI/App.hpp>
+#include <CLI/Validators.hpp>
+
+#include "samples/cli/arguments.h"
+#include "samples/cli/command.h"
+#include "samples/cli/exit_code.h"
+#include "samples/denoise/progress.h"
+#include "samples/render/render_sequence.h"
+
+namespace walr {
+namespace {
+
+struct RenderArguments {
+  render::RenderOptions options;
+  std::string frames = "0-11";
+  std::string size = "320x180";
+};
+
+void renderFrames(RenderArguments& arguments) {
+  render::RenderOptions& options = arguments.options;
+  const FrameRange frames = parseFrameRange(arguments.frames);
+  const fg::Extent extent = parseSize(arguments.size);
+  options.firstFrame = frames.first;
+  options.lastFrame = frames.last;
+  options.width = extent.width;
+  options.height = extent.height;
+
+  Progress progress(std::cerr, isatty(STDERR_FILENO) != 0, "file", options.files(), Progress::Clock::now());
+  render::RenderObserver observer;
+  observer.warning = [&](const std::string& warning) { progress.note("warning: " + warning); };
+  observer.fileDone = [&](const std::string& line) {
+    progress.note(line);
+    progress.advance(Progress::Clock::now());
+  };
+  renderSequence(options, observer);
+}
+
+}  // namespace
+
+void registerRender(CLI::App& program) {
+  const auto arguments = std::make_shared<RenderArguments>();
+  render::RenderOptions& options = arguments->options;
+  CLI::App* command = program.add_subcommand(
+      "render", "Path-trace frames of a glTF scene's camera animation on the CPU, noisy and as references");
+  command->add_option("SCENE", options.scene, "glTF 2.0 file, .gltf or .glb")->required();
+  command
+      ->add_option("-o,--output", options.output,
+                   "Folder for noisy_FFFF.exr and ref_FFFF.exr (samples/README.md); frames that are there already are "
+                   "kept, so that an interrupted run goes on")
+      ->required();
+  command->add_option("--frames", arguments->frames, "A-B: frame numbers to render, both included")
+      ->capture_default_str();
+  command->add_option("--size", arguments->size, "WIDTHxHEIGHT in pixels")->capture_default_str();
+  constexpr std::uint32_t kMostSamples = 1U << 20U;
+  command->add_option("--spp", options.samples, "Paths a pixel in the noisy frames")
+      ->check(CLI::Range(1U, kMostSamples))
+      ->capture_default_str();
+  command->add_option("--reference-spp", options.referenceSamples, "Paths a pixel in the references; 0: none")
+      ->check(CLI::Range(0U, kMostSamples))
+      ->capture_default_str();
+  constexpr std::uint32_t kMostBounces = 1024;
+  command->add_option("--bounces", options.bounces, "Surfaces after the first that reflect light")
+      ->check(CLI::Range(0U, kMostBounces))
+      ->capture_default_str();
+  command->add_option("--seed", options.seed, "Number of the random sequence")->capture_default_str();
+  constexpr double kSlowest = 1e-3;
+  constexpr double kFastest = 1e6;
+  command->add_option("--fps", options.framesPerSecond, "Frames a second of the animation")
+      ->check(CLI::Range(kSlowest, kFastest))
+      ->capture_default_str();
+  command->add_option("--camera", options.camera, "Name of the camera or of its node; default: the first");
+  command->add_flag("--jitter", options.jitter, "Sample off the pixel centre: 16 Halton points, one a frame");
+  command
+      ->add_option("--sampler", options.sampler,
+                   "Random numbers: sobol (Owen-scrambled Sobol points; default) or independent")
+      ->transform(CLI::CheckedTransformer(std::map<std::string, render::Sampler::Kind>{
+          {"sobol", render::Sampler::Kind::Sobol}, {"independent", render::Sampler::Kind::Independent}}));
+  command
+      ->add_option("--diffuse", options.diffuseModel,
+                   "Diffuse lobe of all materials: lambert (default), or disney, that of Blender's Principled BSDF")
+      ->transform(CLI::CheckedTransformer(std::map<std::string, render::DiffuseModel>{
+          {"lambert", render::DiffuseModel::Lambert}, {"disney", render::DiffuseModel::Disney}}));
+  command->add_option("--threads", options.threads, "Threads; 0: one for every core")->capture_default_str();
+  command->footer(kExitCodeHelp);
+  command->callback([=] { renderFrames(*arguments); });
+}
+
+}  // namespace walr

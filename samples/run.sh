@@ -1,0 +1,18 @@
+#!/usr/bin/env bash
+# Installs what is missing, builds, renders a short noisy sequence of the built-in box scene with references on the CPU,
+# denoises it on the Vulkan device found (Mesa's CPU device will do), prints the errors and leaves pictures.
+#
+#     samples/run.sh [FOLDER]    FOLDER: where the results go; default: build/run
+#
+# Takes a few minutes on two cores; run again, it goes on where it was.
+set -euo pipefail
+folder=$(realpath --canonicalize-missing "${1:-$(dirname "${BASH_SOURCE[0]}")/../build/run}")
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+source .ci/setup.sh
+
+walr_setup
+walr_build walr
+# 64 paths a pixel make about a minute on two cores. What noise that leaves in the references is part of the errors.
+build/bin/walr render samples/scenes/box.gltf --output "$folder/box" --frames 0-11 --size 320x180 --reference-spp 64
+build/bin/walr denoise "$folder/box" --output "$folder/denoised" --png
+echo "Pictures, noisy | denoised | reference: $folder/denoised/comparison_FFFF.png"

@@ -1,0 +1,117 @@
+// `walr render` from a scene to files that `walr denoise` reads back.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "samples/errors.h"
+#include "samples/render/render_sequence.h"
+#include "samples/sequence/sequence.h"
+#include "tests/samples/temporary_directory.h"
+
+namespace walr::render {
+namespace {
+
+namespace fs = std::filesystem;
+
+RenderOptions smallBox(const fs::path& output) {
+  RenderOptions options;
+  options.scene = WALR_SCENES "/box.gltf";
+  options.output = output;
+  options.firstFrame = 3;
+  options.lastFrame = 5;
+  options.width = 32;
+  options.height = 18;
+  options.referenceSamples = 4;
+  return options;
+}
+
+std::vector<std::string> render(const RenderOptions& options) {
+  std::vector<std::string> lines;
+  RenderObserver observer;
+  observer.fileDone = [&](const std::string& line) { lines.push_back(line); };
+  renderSequence(options, observer);
+  EXPECT_EQ(lines.size(), options.files());
+  return lines;
+}
+
+TEST(RenderSequence, IsReadBackInTheProjectsConventions) {
+  const walr::test::TemporaryDirectory folder;
+  render(smallBox(folder.path()));
+  SequenceOptions options;
+  options.composite = true;
+  const Sequence sequence(folder.path(), options);
+  ASSERT_EQ(sequence.entries().size(), 3U);
+  EXPECT_TRUE(sequence.hasReferences());
+  EXPECT_EQ(sequence.layout().layout, &projectLayout());
+  // The camera sets off in frame 4: no cut, but motion.
+  EXPECT_FALSE(sequence.entries()[1].resetHistory);
+  EXPECT_EQ(sequence.entries()[0].camera.view, sequence.entries()[0].camera.previousView);
+  EXPECT_NE(sequence.entries()[1].camera.view, sequence.entries()[1].camera.previousView);
+  EXPECT_EQ(sequence.entries()[1].camera.previousView, sequence.entries()[0].camera.view);
+
+  const Frame frame = sequence.read(1);
+  int sky = 0;
+  double light = 0.0;
+  for (std::size_t i = 0; i < frame.depth.pixelCount(); ++i) {
+    const auto normal = frame.normal.pixel(i);
+    const float squared = normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2];
+    if (frame.depth.pixel(i)[0] >= kSkyDepth) {
+      ++sky;
+      EXPECT_EQ(squared, 0.0F);
+      EXPECT_GT(frame.emission.pixel(i)[2], 0.0F);
+    } else {
+      // Three half floats of 11 bits.
+      EXPECT_NEAR(squared, 1.0F, 3e-3F);
+    }
+    light += frame.reference->indirect.pixel(i)[0];
+  }
+  EXPECT_GT(sky, 0);
+  EXPECT_GT(light, 0.0);
+  EXPECT_TRUE(frame.nonFinite.empty());
+}
+
+TEST(RenderSequence, GoesOnWhereItWas) {
+  const walr::test::TemporaryDirectory folder;
+  RenderOptions options = smallBox(folder.path());
+  options.lastFrame = 4;
+  render(options);
+  const fs::path kept = folder.path() / "noisy_0004.exr";
+  const fs::path lost = folder.path() / "ref_0004.exr";
+  const fs::file_time_type before = fs::last_write_time(kept);
+  fs::remove(lost);
+  options.lastFrame = 5;
+  const std::vector<std::string> lines = render(options);
+  int skipped = 0;
+  for (const std::string& line : lines) {
+    skipped += line.find("is there already") != std::string::npos ? 1 : 0;
+  }
+  EXPECT_EQ(skipped, 3);
+  EXPECT_EQ(fs::last_write_time(kept), before);
+  EXPECT_TRUE(fs::exists(lost));
+}
+
+TEST(RenderSequence, RefusesToMixSettings) {
+  const walr::test::TemporaryDirectory folder;
+  RenderOptions options = smallBox(folder.path());
+  options.lastFrame = options.firstFrame;
+  render(options);
+  options.bounces = 2;
+  try {
+    render(options);
+    FAIL() << "frames of other settings were added";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("'bounces'"), std::string::npos) << error.what();
+  }
+}
+
+TEST(RenderSequence, NamesTheSceneThatIsMissing) {
+  const walr::test::TemporaryDirectory folder;
+  RenderOptions options = smallBox(folder.path());
+  options.scene = folder.path() / "none.glb";
+  EXPECT_THROW(render(options), InputError);
+}
+
+}  // namespace
+}  // namespace walr::render
