@@ -67,8 +67,8 @@ TEST(Octahedral, DecodeInvertsEncode) {
   });
 }
 
-// Half a step in [0, 1] is a step s in [-1, 1]: x and y move by s, z by 2 s, together sqrt(6) s on an octahedron that is
-// nowhere nearer to the origin than 1 / sqrt(3).
+// Half a step in [0, 1] is a step s in [-1, 1]: x and y move by s, z by 2 s, together sqrt(6) s on an octahedron that
+// is nowhere nearer to the origin than 1 / sqrt(3).
 TEST(Octahedral, SixteenBitsKeepTheDirection) {
   const double bound = std::sqrt(18.0) * kUnorm16Step;
   forEachDirection([&](glm::dvec3 n) {
