@@ -4,6 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
 #include "constants/bmfr.h"
+#include "include/half.glsl"
 #include "include/history_taps.glsl"
 #include "include/surface.glsl"
 
@@ -27,5 +28,5 @@ void main() {
   }
   const vec4 history = meanOfTaps(previousAccumulated, unpackTaps(texelFetch(taps, p, 0).xy));
   const float samples = min(history.a + 1.0, settings.maxSamples);
-  imageStore(outAccumulated, p, vec4(mix(history.rgb, current, 1.0 / samples), samples));
+  imageStore(outAccumulated, p, nearestHalf(vec4(mix(history.rgb, current, 1.0 / samples), samples)));
 }

@@ -25,6 +25,7 @@ layout(set = 0, binding = 9, rg32ui) uniform writeonly uimage2D outTaps;
 layout(push_constant) uniform PushConstants { TemporalAccumulationConstants settings; };
 
 #include "include/bicubic.glsl"
+#include "include/half.glsl"
 #include "include/reprojection.glsl"
 
 void keepTaps(ivec2 p, HistoryTaps taps) {
@@ -56,5 +57,5 @@ void main() {
   const float samples = min(history.a + (sampleIsFinite ? 1.0 : 0.0), settings.maxSamples);
   const vec3 radiance = clamp(noisy, vec3(0.0), vec3(kLargestHalf));
   const vec3 mean = sampleIsFinite ? mix(history.rgb, radiance, 1.0 / max(samples, 1.0)) : history.rgb;
-  imageStore(outAccumulated, p, vec4(mean, samples));
+  imageStore(outAccumulated, p, nearestHalf(vec4(mean, samples)));
 }

@@ -22,6 +22,7 @@ layout(set = 0, binding = 9, rgba16f) uniform writeonly image2D outImage;
 layout(push_constant) uniform PushConstants { TemporalAntialiasingConstants settings; };
 
 #include "include/bicubic.glsl"
+#include "include/half.glsl"
 #include "include/reprojection.glsl"
 
 vec3 toYCoCg(vec3 c) {
@@ -75,6 +76,7 @@ void main() {
     samples = min(history.a + 1.0, settings.maxSamples);
     resolved = max(mix(fromYCoCg(clipped), current, 1.0 / samples), vec3(0.0));
   }
-  imageStore(outResolved, p, vec4(resolved, samples));
-  imageStore(outImage, p, vec4(resolved, 1.0));
+  const vec4 stored = nearestHalf(vec4(resolved, samples));
+  imageStore(outResolved, p, stored);
+  imageStore(outImage, p, vec4(stored.rgb, 1.0));
 }

@@ -1,0 +1,16 @@
+// Rounding to half precision in the shader's own hands.
+#ifndef WALR_HALF_GLSL
+#define WALR_HALF_GLSL
+#include "finite.glsl"
+
+// The nearest finite half of each value, ties to even. Image stores may round either way (Vulkan, "Floating-Point Format
+// Conversions"); a running mean that is stored anew every frame would darken by half a percent where they truncate.
+vec4 nearestHalf(vec4 v) {
+  v = clamp(v, vec4(-kLargestHalf), vec4(kLargestHalf));
+  const uvec4 bits = floatBitsToUint(v);
+  const vec4 normal = uintBitsToFloat((bits + 0xfffu + ((bits >> 13) & 1u)) & ~0x1fffu);
+  const vec4 subnormal = roundEven(v * 16777216.0) / 16777216.0;  // Multiples of 2^-24 below 2^-14.
+  return mix(normal, subnormal, lessThan(abs(v), vec4(6.103515625e-5)));
+}
+
+#endif
