@@ -41,7 +41,9 @@ double roundToUnorm16(double value) {
 }
 
 double roundDepth(double depth) {
-  return roundToFormat(depth, 19, -144);
+  int exponent = 0;
+  (void)std::frexp(depth, &exponent);
+  return std::ldexp(std::floor(std::ldexp(depth, 19 - exponent) + 0.5), exponent - 19);
 }
 
 }  // namespace walr::reference

@@ -28,7 +28,8 @@ double roundToUnsignedFloat(double value, int mantissaBits);
 double roundToFloat(double value);
 /// Nearest of the 65536 steps of [0, 1].
 double roundToUnorm16(double value);
-/// Nearest float with 19 significant bits: what depth keeps beside the five bits of the edge distance.
+/// Nearest float with 19 significant bits, ties up, of a depth of at least 0: what depth keeps beside the five bits of
+/// the edge distance.
 double roundDepth(double depth);
 
 }  // namespace walr::reference

@@ -8,7 +8,7 @@
 namespace walr::reference {
 namespace {
 
-/// Mean and spread of the surface pixels of a 3x3 neighbourhood.
+/// Mean and spread of the surface pixels around a pixel.
 struct Neighbourhood {
   glm::dvec3 mean{0.0};
   glm::dvec3 deviation{0.0};
@@ -16,10 +16,10 @@ struct Neighbourhood {
 };
 
 /// A pixel outside the picture stands for the nearest one inside.
-Neighbourhood neighbourhoodOf(const Image<Guide>& guides, const Image<glm::dvec3>& filtered, glm::ivec2 p) {
+Neighbourhood neighbourhoodOf(const Image<Guide>& guides, const Image<glm::dvec3>& filtered, glm::ivec2 p, int radius) {
   std::vector<glm::dvec3> colours;
-  for (int dy = -1; dy <= 1; ++dy) {
-    for (int dx = -1; dx <= 1; ++dx) {
+  for (int dy = -radius; dy <= radius; ++dy) {
+    for (int dx = -radius; dx <= radius; ++dx) {
       const glm::ivec2 q = glm::clamp(p + glm::ivec2(dx, dy), glm::ivec2(0), filtered.size() - 1);
       if (guides[q].depth > 0.0) colours.push_back(toYCoCg(filtered[q]));
     }
@@ -35,12 +35,12 @@ Neighbourhood neighbourhoodOf(const Image<Guide>& guides, const Image<glm::dvec3
     size += (c - centre) * (c - centre) / count;
   }
   n.deviation = glm::sqrt(variance);
-  // The variance is a difference of two averages of at most `size`, each with about a dozen roundings; the colour
+  // The variance is a difference of two averages of at most `size`, each with about a rounding a pixel; the colour
   // transform rounds the differences themselves by a few roundoffs of the colour.
   const glm::dvec3 transformError(4.0 * kFloatRoundoff *
                                   (std::abs(centre.x) + std::abs(centre.y) + std::abs(centre.z)));
   for (int i = 0; i < 3; ++i) {
-    const double error = 24.0 * kFloatRoundoff * size[i] + 4.0 * transformError[i] * std::sqrt(size[i]) +
+    const double error = 2.0 * (count + 3.0) * kFloatRoundoff * size[i] + 4.0 * transformError[i] * std::sqrt(size[i]) +
                          transformError[i] * transformError[i];
     n.deviationError[i] = n.deviation[i] > 0.0 ? std::min(error / n.deviation[i], std::sqrt(error)) : std::sqrt(error);
   }
@@ -103,7 +103,7 @@ Image<Accumulated> antialias(const HostFrame& frame, const Image<Guide>& guides,
     out.undecided = history.undecided;
     if (!history.found) return;
 
-    const Neighbourhood n = neighbourhoodOf(guides, filtered, p);
+    const Neighbourhood n = neighbourhoodOf(guides, filtered, p, static_cast<int>(settings.clipRadius));
     const double gamma = double(settings.clipGamma);
     const glm::dvec3 pastYCoCg = toYCoCg(glm::dvec3(history.value));
     const glm::dvec3 clipped = fromYCoCg(varianceClip(pastYCoCg, n.mean, gamma * n.deviation));

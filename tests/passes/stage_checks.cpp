@@ -1,0 +1,179 @@
+#include "tests/passes/stage_checks.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+#include <glm/geometric.hpp>
+
+#include "tests/passes/comparison.h"
+#include "tests/passes/reference/octahedral.h"
+#include "tests/passes/reference/walr.h"
+
+namespace walr::test {
+namespace {
+
+using reference::AtrousState;
+using reference::Guide;
+using reference::HostFrame;
+using reference::Image;
+
+constexpr const char* kChannels[] = {"red", "green", "blue"};
+
+/// Whether two octahedral features are those of one direction to within `error` radians and a step of their format. The
+/// map turns a direction by `error` into at most 1.4 error of [0, 1]: its derivative is at most 1 + sqrt(3), halved.
+/// The seams of the far side, where the map jumps, are met by comparing directions.
+bool sameDirection(glm::dvec3 actual, glm::dvec3 expected, double error) {
+  const glm::dvec2 difference = glm::abs(reference::octahedralEncode(actual) - reference::octahedralEncode(expected));
+  const double tolerance = 1.4 * error + reference::kUnorm16Step;
+  const bool near = std::max(difference.x, difference.y) <= tolerance;
+  return near || glm::length(actual - expected) <= error + std::sqrt(18.0) * reference::kUnorm16Step;
+}
+
+void expectGuides(const DeviceFrame& f, const PrepareGuidesSettings& settings) {
+  Comparison comparison("guides");
+  reference::forEachPixel(f.frame.size(), [&](glm::ivec2 p) {
+    const Guide& actual = f.current.guides[p];
+    const reference::Surface surface = reference::surfaceAt(f.frame, p, settings);
+    comparison.compared();
+    comparison.value(p, "depth", actual.depth, reference::roundDepth(surface.depth), 1e-30);
+    if (surface.depth == 0.0) return;
+    const glm::dvec3 shading = reference::octahedralDecode(actual.features);
+    comparison.value(p, "shading normal",
+                     sameDirection(shading, surface.shadingNormal, 16.0 * reference::kFloatRoundoff) ? 0.0 : 1.0, 0.0,
+                     0.5);
+    bool found = false;
+    for (const auto& candidate : reference::geometricNormals(f.frame, p, surface, settings))
+      found |= sameDirection(actual.normal, candidate.normal, candidate.error);
+    comparison.value(p, "geometric normal", found ? 0.0 : 1.0, 0.0, 0.5);
+  });
+  comparison.expect(0.0);
+}
+
+void expectAccumulation(const DeviceFrame& f, const TemporalAccumulationSettings& settings) {
+  const Image<reference::Accumulated> expected = reference::accumulate(
+      f.frame, f.current.guides, {f.previous.guides, f.previous.accumulated}, reference::Storage::Exact, settings);
+  Comparison comparison("temporal accumulation");
+  reference::forEachPixel(f.frame.size(), [&](glm::ivec2 p) {
+    const reference::Accumulated& e = expected[p];
+    if (e.undecided) {
+      comparison.undecided();
+      return;
+    }
+    comparison.compared();
+    for (int c = 0; c < 3; ++c)
+      comparison.value(p, kChannels[c], f.current.accumulated[p][c], e.mean[c], halfTolerance(e.mean[c], e.error[c]));
+    comparison.value(p, "samples", f.current.accumulated[p].w, e.samples, halfTolerance(e.samples, e.samplesError));
+  });
+  comparison.expect(kUndecidedShare);
+}
+
+/// What iteration `t` starts from on the device.
+AtrousState stateBefore(const test::WalrStages& stages, std::uint32_t t) {
+  return t == 0 ? reference::sampleMoments(stages.guides, stages.accumulated) : stages.iterations[t - 1];
+}
+
+void expectIterations(const DeviceFrame& f, const WeightedRegressionSettings& settings) {
+  for (std::uint32_t t = 0; t + 1 < settings.iterations; ++t) {
+    const AtrousState before = stateBefore(f.current, t);
+    const AtrousState& after = f.current.iterations[t];
+    Comparison comparison("a-trous iteration " + std::to_string(t));
+    reference::forEachPixel(f.frame.size(), [&](glm::ivec2 p) {
+      if (f.current.guides[p].depth == 0.0) return;
+      reference::AtrousPixel expected = reference::atrousPixel(f.frame, f.current.guides, before, p, t, settings);
+      if (expected.undecided) {
+        comparison.undecided();
+        return;
+      }
+      comparison.compared();
+      if (!settings.keepSampleCount) {
+        expected.merged.moments.samples = 1.0;
+        expected.merged.error[15] = 0.0;
+      }
+      const StoredMoments stored = storedMoments(expected.merged, settings.storage);
+      const reference::MomentValues actual = storedValues(after.moments[p], settings.storage);
+      const int count = settings.storage == MomentStorage::Centred16 ? reference::kMomentCount : 14;
+      for (int k = 0; k < count; ++k)
+        comparison.value(p, reference::momentName(k), actual[k], stored.expected[k], stored.tolerance[k]);
+      comparison.value(p, "edge distance", after.distances[p], std::min(expected.nearestEdge, 31), 0.5);
+    });
+    comparison.expect(kUndecidedShare);
+  }
+}
+
+void expectRegression(const DeviceFrame& f, const WeightedRegressionSettings& settings) {
+  const std::uint32_t last = settings.iterations - 1;
+  const AtrousState before = stateBefore(f.current, last);
+  Comparison comparison("last iteration and regression");
+  reference::forEachPixel(f.frame.size(), [&](glm::ivec2 p) {
+    if (f.current.guides[p].depth == 0.0) {
+      EXPECT_EQ(glm::dvec3(f.current.filtered[p]), glm::dvec3(f.current.accumulated[p]));
+      return;
+    }
+    const auto [merged, edge, replaced, undecided] =
+        reference::atrousPixel(f.frame, f.current.guides, before, p, last, settings);
+    if (undecided) {
+      comparison.undecided();
+      return;
+    }
+    comparison.compared();
+    const reference::Reconstruction expected =
+        reference::reconstruct(merged.moments, f.current.guides[p].features, settings, merged.error);
+    for (int c = 0; c < 3; ++c)
+      comparison.value(p, kChannels[c], f.current.filtered[p][c], expected.colour[c],
+                       halfTolerance(expected.colour[c], expected.error[c]));
+  });
+  comparison.expect(kUndecidedShare);
+}
+
+void expectAntialiasing(const DeviceFrame& f, const TemporalAntialiasingSettings& settings) {
+  Image<glm::dvec3> filtered(f.frame.size());
+  reference::forEachPixel(f.frame.size(), [&](glm::ivec2 p) { filtered[p] = glm::dvec3(f.current.filtered[p]); });
+  const Image<reference::Accumulated> expected =
+      reference::antialias(f.frame, f.current.guides, filtered, {f.previous.guides, f.previous.resolved},
+                           reference::Storage::Exact, settings);
+  Comparison comparison("temporal anti-aliasing");
+  reference::forEachPixel(f.frame.size(), [&](glm::ivec2 p) {
+    const reference::Accumulated& e = expected[p];
+    EXPECT_EQ(glm::dvec3(f.current.output[p]), glm::dvec3(f.current.resolved[p]));
+    if (e.undecided) {
+      comparison.undecided();
+      return;
+    }
+    comparison.compared();
+    for (int c = 0; c < 3; ++c)
+      comparison.value(p, kChannels[c], f.current.resolved[p][c], e.mean[c], halfTolerance(e.mean[c], e.error[c]));
+    comparison.value(p, "frames", f.current.resolved[p].w, e.samples, halfTolerance(e.samples, e.samplesError));
+  });
+  comparison.expect(kUndecidedShare);
+}
+
+bool isFinite(const Image<glm::dvec4>& image) {
+  return std::all_of(image.pixels().begin(), image.pixels().end(), [](const glm::dvec4& v) {
+    return std::isfinite(v.r) && std::isfinite(v.g) && std::isfinite(v.b);
+  });
+}
+
+}  // namespace
+
+void expectStages(const DeviceFrame& f, const WalrSettings& settings) {
+  expectGuides(f, settings.guides);
+  expectAccumulation(f, settings.accumulation);
+  expectIterations(f, settings.regression);
+  expectRegression(f, settings.regression);
+  expectAntialiasing(f, settings.antialiasing);
+}
+
+void expectSequence(const fg::vk::Device& device, const std::vector<HostFrame>& frames, const WalrSettings& settings) {
+  WalrRun run(device, frames.front().size(), settings, frames.front().conventions);
+  DeviceFrame f;
+  for (const HostFrame& frame : frames) {
+    f.previous = std::move(f.current);
+    f.frame = frame;
+    f.current = run.frame(frame);
+    EXPECT_TRUE(isFinite(f.current.output));
+  }
+  expectStages(f, settings);
+}
+
+}  // namespace walr::test

@@ -1,0 +1,150 @@
+#include "tests/passes/texel_codec.h"
+
+#include <bit>
+#include <cmath>
+
+#include <glm/gtc/packing.hpp>
+
+#include "tests/passes/reference/octahedral.h"
+
+namespace walr::test {
+namespace {
+
+using reference::MomentValues;
+
+constexpr std::uint32_t kEdgeDistanceMask = 31;
+
+double half(std::uint32_t word, int index) {
+  return double(glm::unpackHalf1x16(static_cast<std::uint16_t>(word >> (16 * index))));
+}
+
+/// Unsigned float with a 5-bit exponent.
+double unsignedFloat(std::uint32_t bits, int mantissaBits) {
+  const int exponent = static_cast<int>(bits >> mantissaBits);
+  const int mantissa = static_cast<int>(bits & ((1U << mantissaBits) - 1U));
+  const int implied = exponent == 0 ? 0 : 1 << mantissaBits;
+  return std::ldexp(double(mantissa + implied), std::max(exponent, 1) - 15 - mantissaBits);
+}
+
+/// R11G11B10.
+glm::dvec3 triple(std::uint32_t word) {
+  return {unsignedFloat(word & 0x7ffU, 6), unsignedFloat((word >> 11U) & 0x7ffU, 6), unsignedFloat(word >> 22U, 5)};
+}
+
+/// The words of one pixel, texture after texture.
+using Words = std::vector<std::uint32_t>;
+
+MomentValues halvesInOrder(const Words& words, int count) {
+  MomentValues values{};
+  for (int k = 0; k < count; ++k) values[k] = half(words[k / 2], k % 2);
+  return values;
+}
+
+reference::Moments decodeCentred16(const Words& words) {
+  MomentValues values = halvesInOrder(words, reference::kMomentCount);
+  values[14] *= values[14];  // Kept as its root.
+  return reference::fromArray(values);
+}
+
+/// Raw halves and floats keep u, v, uu, uv, vv, Y, YX_u, YX_v in this order.
+reference::Moments fromRawOrder(const MomentValues& v) {
+  return reference::toCentred({.x = {v[0], v[1]},
+                               .y = {v[5], v[6], v[7]},
+                               .xx = {v[2], v[3], v[4]},
+                               .yu = {v[8], v[9], v[10]},
+                               .yv = {v[11], v[12], v[13]},
+                               .samples = 1.0});
+}
+
+reference::Moments decodeRaw32(const Words& words) {
+  MomentValues values{};
+  for (int k = 0; k < 14; ++k) values[k] = double(std::bit_cast<float>(words[k]));
+  return fromRawOrder(values);
+}
+
+reference::Moments decodeRaw11(const Words& words) {
+  return reference::toCentred({.x = glm::dvec2(triple(words[4])),
+                               .y = triple(words[0]),
+                               .xx = triple(words[3]),
+                               .yu = triple(words[1]),
+                               .yv = triple(words[2]),
+                               .samples = 1.0});
+}
+
+reference::Moments decodePixel(MomentStorage storage, const Words& words) {
+  switch (storage) {
+    case MomentStorage::Centred16:
+      return decodeCentred16(words);
+    case MomentStorage::Raw16:
+      return fromRawOrder(halvesInOrder(words, 14));
+    case MomentStorage::Raw11:
+      return decodeRaw11(words);
+    case MomentStorage::Raw32:
+      return decodeRaw32(words);
+  }
+  return {};
+}
+
+}  // namespace
+
+std::vector<std::uint16_t> encodeHalves(const reference::Image<glm::dvec3>& image) {
+  std::vector<std::uint16_t> texels;
+  texels.reserve(image.pixels().size() * 4);
+  for (const glm::dvec3& pixel : image.pixels()) {
+    for (int c = 0; c < 3; ++c) texels.push_back(glm::packHalf1x16(static_cast<float>(pixel[c])));
+    texels.push_back(0);
+  }
+  return texels;
+}
+
+reference::Image<glm::dvec4> decodeHalves(const std::vector<std::uint16_t>& texels, glm::ivec2 size) {
+  reference::Image<glm::dvec4> image(size);
+  for (std::size_t i = 0; i < texels.size(); ++i)
+    image.pixels()[i / 4][static_cast<int>(i % 4)] = double(glm::unpackHalf1x16(texels[i]));
+  return image;
+}
+
+std::vector<float> encodeFloats(const reference::Image<double>& image) {
+  return {image.pixels().begin(), image.pixels().end()};
+}
+
+double decodeDepth(std::uint32_t packed) {
+  return double(std::bit_cast<float>(packed & ~kEdgeDistanceMask));
+}
+
+int decodeEdgeDistance(std::uint32_t packed) {
+  return static_cast<int>(packed & kEdgeDistanceMask);
+}
+
+glm::dvec2 decodeUnorms(std::uint32_t packed) {
+  return {(packed & 0xffffU) * reference::kUnorm16Step, (packed >> 16U) * reference::kUnorm16Step};
+}
+
+reference::Image<reference::Guide> decodeGuides(const std::vector<std::uint32_t>& depth,
+                                                const std::vector<std::uint32_t>& normals, glm::ivec2 size) {
+  reference::Image<reference::Guide> guides(size);
+  for (std::size_t i = 0; i < depth.size(); ++i) {
+    if (decodeDepth(depth[i]) == 0.0) continue;
+    guides.pixels()[i] = {decodeDepth(depth[i]), decodeUnorms(normals[2 * i]),
+                          reference::octahedralDecode(decodeUnorms(normals[2 * i + 1]))};
+  }
+  return guides;
+}
+
+reference::Image<reference::Moments> decodeMoments(MomentStorage storage,
+                                                   const std::vector<std::vector<std::uint32_t>>& textures,
+                                                   glm::ivec2 size) {
+  reference::Image<reference::Moments> moments(size);
+  const std::size_t count = moments.pixels().size();
+  for (std::size_t i = 0; i < count; ++i) {
+    Words words;
+    for (const std::vector<std::uint32_t>& texture : textures) {
+      const std::size_t perPixel = texture.size() / count;
+      for (std::size_t w = 0; w < perPixel; ++w) words.push_back(texture[i * perPixel + w]);
+    }
+    moments.pixels()[i] = decodePixel(storage, words);
+  }
+  return moments;
+}
+
+}  // namespace walr::test

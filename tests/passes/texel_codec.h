@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "tests/passes/reference/atrous.h"
+
+/// Texels of the passes' textures as numbers, from what their formats and packings document.
+namespace walr::test {
+
+/// RGBA16F. Values must be representable as halves, or not finite.
+std::vector<std::uint16_t> encodeHalves(const reference::Image<glm::dvec3>& image);
+reference::Image<glm::dvec4> decodeHalves(const std::vector<std::uint16_t>& texels, glm::ivec2 size);
+
+/// R32F.
+std::vector<float> encodeFloats(const reference::Image<double>& image);
+
+/// The bits of a packed view depth without those of the edge distance, and the edge distance.
+double decodeDepth(std::uint32_t packed);
+int decodeEdgeDistance(std::uint32_t packed);
+/// Two 16-bit unorms.
+glm::dvec2 decodeUnorms(std::uint32_t packed);
+
+/// Guides from R32_UINT depth and RG32_UINT normals.
+reference::Image<reference::Guide> decodeGuides(const std::vector<std::uint32_t>& depth,
+                                                const std::vector<std::uint32_t>& normals, glm::ivec2 size);
+
+/// Centred moments from the texels of a storage's textures; raw storage has no second luminance moment, and W is 1.
+reference::Image<reference::Moments> decodeMoments(MomentStorage storage,
+                                                   const std::vector<std::vector<std::uint32_t>>& textures,
+                                                   glm::ivec2 size);
+
+}  // namespace walr::test

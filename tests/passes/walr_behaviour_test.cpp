@@ -1,0 +1,199 @@
+// What WALR promises to a host, on a device: constants, sky, first frames, broken input, repeatability.
+
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include "tests/passes/comparison.h"
+#include "tests/passes/synthetic_scene.h"
+#include "tests/passes/walr_run.h"
+#include "tests/vulkan/gpu_fixture.h"
+
+namespace walr::test {
+namespace {
+
+using reference::HostFrame;
+using reference::Image;
+
+constexpr glm::ivec2 kSize(96, 64);
+constexpr glm::ivec2 kSmall(40, 28);
+const glm::dvec3 kConstant(0.75, 0.5, 1.25);
+
+/// A value passes through six stores as a half (accumulation, three iterations, regression, anti-aliasing), each of
+/// which may move it by a unit in the last place; averages of equal values add nothing. Raw moments keep this promise
+/// only where features do not vary: rounding of the averages of products leaves a slope.
+double constantTolerance(double value) {
+  return 6.0 * 2.0 * reference::kHalfRoundoff * value;
+}
+
+HostFrame constantFrame(const Scene& scene, std::uint32_t index, glm::ivec2 size) {
+  const auto at = [](double i) { return glm::dvec3(0.08 * i, -0.03 * i, 0.0); };
+  return renderFrame(
+      scene, cameraAt(at(index), at(index - 1.0), size, index), size, [](glm::dvec3, glm::dvec3) { return kConstant; },
+      Noise::None);
+}
+
+void expectConstant(const WalrStages& stages, const HostFrame& frame) {
+  Comparison comparison("output");
+  reference::forEachPixel(frame.size(), [&](glm::ivec2 p) {
+    comparison.compared();
+    for (int c = 0; c < 3; ++c) {
+      const double expected = frame.lighting[p][c];
+      comparison.value(p, "radiance", stages.output[p][c], expected, constantTolerance(expected));
+    }
+  });
+  comparison.expect(0.0);
+}
+
+class WalrBehaviourTest : public fg::test::GpuTest {
+ protected:
+  [[nodiscard]] WalrRun makeRun(glm::ivec2 size, const WalrSettings& settings = robustWalr()) const {
+    return {device(), size, settings, {}, false};
+  }
+};
+
+TEST_F(WalrBehaviourTest, ConstantLightComesBackUnchanged) {
+  const auto expectUnchanged = [&](const Scene& scene, const WalrSettings& settings) {
+    WalrRun run = makeRun(kSmall, settings);
+    for (std::uint32_t i = 0; i < 6; ++i) {
+      const HostFrame frame = constantFrame(scene, i, kSmall);
+      expectConstant(run.frame(frame), frame);
+    }
+  };
+  for (const NamedScene& named : allScenes()) {
+    SCOPED_TRACE(named.name);
+    expectUnchanged(named.scene, robustWalr());
+  }
+  // Bicubic history, which the paper's preset reads without clipping, takes in the sky beside a surface: none here.
+  for (const Scene& scene : {flatWall(), thinBars()}) expectUnchanged(scene, paperWalr());
+}
+
+TEST_F(WalrBehaviourTest, SkyAndPixelsWithoutDiffuseLobeKeepEveryBit) {
+  WalrRun run(device(), kSize);
+  for (std::uint32_t i = 0; i < 3; ++i) {
+    HostFrame frame = renderFrame(skyBesideSurface(), cameraAt({}, {}, kSize, i), kSize);
+    int without = 0;
+    for (std::size_t k = 0; k < frame.lighting.pixels().size(); ++k) {
+      // Something that no filter would leave alone.
+      const bool passive = frame.depth.pixels()[k] > 1e9 || frame.albedo.pixels()[k] == glm::dvec3(0.0);
+      if (passive) frame.lighting.pixels()[k] = glm::dvec3(reference::roundToHalf(0.01 * double(k)), 3.0, 0x1p-20);
+    }
+    const WalrStages stages = run.frame(frame);
+    reference::forEachPixel(kSize, [&](glm::ivec2 p) {
+      if (frame.depth[p] < 1e9 && frame.albedo[p] != glm::dvec3(0.0)) return;
+      ++without;
+      EXPECT_EQ(glm::dvec3(stages.output[p]), frame.lighting[p]) << p.x << ", " << p.y;
+    });
+    EXPECT_GT(without, 1000);
+  }
+}
+
+/// Variance of the output relative to its squared mean, over a picture of one radiance.
+double relativeVariance(const WalrStages& stages) {
+  double sum = 0.0;
+  double squares = 0.0;
+  for (const glm::dvec4& v : stages.output.pixels()) {
+    sum += v.g;
+    squares += v.g * v.g;
+  }
+  const double count = double(stages.output.pixels().size());
+  const double mean = sum / count;
+  return squares / count / (mean * mean) - 1.0;
+}
+
+// Four iterations see at least the quarter of their window, 41 x 41 pixels, in a corner of the picture (64 pixels
+// high); replaced taps count samples again, up to four times along a border. So of a sample's relative variance, 1, no
+// more than 4 / 41^2 is left.
+TEST_F(WalrBehaviourTest, FirstFramesAreDenoisedSpatially) {
+  const auto noisy = [](std::uint32_t index) {
+    return renderFrame(
+        flatWall(), cameraAt({}, {}, kSize, index), kSize, [](glm::dvec3, glm::dvec3) { return kConstant; },
+        Noise::Exponential);
+  };
+  WalrRun run = makeRun(kSize);
+  for (std::uint32_t i = 0; i < 3; ++i) EXPECT_LE(relativeVariance(run.frame(noisy(i))), 4.0 / (41.0 * 41.0)) << i;
+  run.resetHistory();
+  const WalrStages afterReset = run.frame(noisy(7));
+  EXPECT_LE(relativeVariance(afterReset), 4.0 / (41.0 * 41.0));
+  // Nothing is left of what was before.
+  WalrRun fresh = makeRun(kSize);
+  EXPECT_EQ(afterReset.outputBits, fresh.frame(noisy(7)).outputBits);
+}
+
+TEST_F(WalrBehaviourTest, TwoRunsGiveTheSameBits) {
+  for (const WalrSettings& settings : {robustWalr(), paperWalr()}) {
+    WalrRun first = makeRun(kSmall, settings);
+    WalrRun second = makeRun(kSmall, settings);
+    for (std::uint32_t i = 0; i < 4; ++i) {
+      const HostFrame frame =
+          renderFrame(thinBars(), cameraAt({0.05 * i, 0.0, 0.0}, {0.05 * (i - 1.0), 0.0, 0.0}, kSmall, i), kSmall);
+      EXPECT_EQ(first.frame(frame).outputBits, second.frame(frame).outputBits);
+    }
+  }
+}
+
+/// One broken value in one input.
+struct Damage {
+  const char* name;
+  std::function<void(HostFrame&, glm::ivec2)> apply;
+};
+
+std::vector<Damage> allDamage() {
+  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  return {{"lighting NaN", [](HostFrame& f, glm::ivec2 p) { f.lighting[p].g = kNaN; }},
+          {"lighting inf", [](HostFrame& f, glm::ivec2 p) { f.lighting[p] = glm::dvec3(kInfinity); }},
+          {"lighting -inf", [](HostFrame& f, glm::ivec2 p) { f.lighting[p].b = -kInfinity; }},
+          {"depth NaN", [](HostFrame& f, glm::ivec2 p) { f.depth[p] = kNaN; }},
+          {"depth inf", [](HostFrame& f, glm::ivec2 p) { f.depth[p] = kInfinity; }},
+          {"depth 0", [](HostFrame& f, glm::ivec2 p) { f.depth[p] = 0.0; }},
+          {"depth negative", [](HostFrame& f, glm::ivec2 p) { f.depth[p] = -3.0; }},
+          {"depth subnormal", [](HostFrame& f, glm::ivec2 p) { f.depth[p] = 0x1p-140; }},
+          {"normal NaN", [](HostFrame& f, glm::ivec2 p) { f.normal[p].x = kNaN; }},
+          {"normal inf", [](HostFrame& f, glm::ivec2 p) { f.normal[p].z = kInfinity; }},
+          {"normal zero", [](HostFrame& f, glm::ivec2 p) { f.normal[p] = glm::dvec3(0.0); }},
+          {"motion NaN", [](HostFrame& f, glm::ivec2 p) { f.motion[p].x = kNaN; }},
+          {"motion inf", [](HostFrame& f, glm::ivec2 p) { f.motion[p].y = kInfinity; }},
+          {"motion depth NaN", [](HostFrame& f, glm::ivec2 p) { f.motion[p].z = kNaN; }},
+          {"motion depth -inf", [](HostFrame& f, glm::ivec2 p) { f.motion[p].z = -kInfinity; }},
+          {"albedo NaN", [](HostFrame& f, glm::ivec2 p) { f.albedo[p].r = kNaN; }},
+          {"albedo inf", [](HostFrame& f, glm::ivec2 p) { f.albedo[p].b = kInfinity; }}};
+}
+
+// Under constant light whatever a broken value does to any other pixel shows: all of them must keep the constant, in
+// the frame itself and in those after it.
+TEST_F(WalrBehaviourTest, BrokenInputStaysFiniteAndDoesNotSpread) {
+  const glm::ivec2 broken(19, 13);
+  for (const bool robust : {true, false}) {
+    const WalrSettings settings = robust ? robustWalr() : paperWalr();
+    const Scene scene = robust ? bumpyWall(0.1) : flatWall();
+    for (const Damage& damage : allDamage()) {
+      SCOPED_TRACE(damage.name);
+      WalrRun run = makeRun(kSmall, settings);
+      for (std::uint32_t i = 0; i < 4; ++i) {
+        HostFrame frame = constantFrame(scene, i, kSmall);
+        if (i == 1) damage.apply(frame, broken);
+        const WalrStages stages = run.frame(frame);
+        for (int c = 0; c < 3; ++c) EXPECT_TRUE(std::isfinite(stages.output[broken][c]));
+        // The pixel itself may be passed through as sky is, where a value that is not finite becomes 0.
+        HostFrame expected = frame;
+        expected.lighting[broken] = i == 1 ? glm::dvec3(stages.output[broken]) : kConstant;
+        expectConstant(stages, expected);
+      }
+    }
+  }
+}
+
+TEST_F(WalrBehaviourTest, FirstFrameMayHoldNothingButBrokenValues) {
+  WalrRun run = makeRun(kSmall);
+  HostFrame frame = constantFrame(bumpyWall(0.1), 0, kSmall);
+  for (glm::dvec3& l : frame.lighting.pixels()) l = glm::dvec3(std::numeric_limits<double>::quiet_NaN());
+  const WalrStages first = run.frame(frame);
+  for (const glm::dvec4& v : first.output.pixels()) EXPECT_EQ(glm::dvec3(v), glm::dvec3(0.0));
+  const HostFrame next = constantFrame(bumpyWall(0.1), 1, kSmall);
+  const WalrStages stages = run.frame(next);
+  for (const glm::dvec4& v : stages.output.pixels()) EXPECT_TRUE(std::isfinite(v.r));
+}
+
+}  // namespace
+}  // namespace walr::test

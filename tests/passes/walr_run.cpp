@@ -1,0 +1,137 @@
+#include "tests/passes/walr_run.h"
+
+#include <stdexcept>
+#include <string>
+
+#include "tests/passes/texel_codec.h"
+
+namespace walr::test {
+namespace {
+
+using fg::vk::kOverwritable;
+using fg::vk::kReadable;
+using fg::vk::kUploaded;
+
+/// The version last written of the resource of this name: textures that a pass keeps to itself.
+fg::Texture textureNamed(const fg::Graph& graph, const std::string& name) {
+  const auto& resources = graph.desc().resources;
+  for (std::uint32_t i = 0; i < resources.size(); ++i) {
+    if (resources[i].name == name) return {{i, resources[i].versions}};
+  }
+  throw std::logic_error("the graph has no texture named \"" + name + "\"");
+}
+
+std::size_t momentTextures(MomentStorage storage) {
+  switch (storage) {
+    case MomentStorage::Centred16:
+    case MomentStorage::Raw11:
+      return 2;
+    case MomentStorage::Raw16:
+      return 3;
+    case MomentStorage::Raw32:
+      return 4;
+  }
+  return 0;
+}
+
+fg::Extent extentOf(glm::ivec2 size) {
+  return {static_cast<std::uint32_t>(size.x), static_cast<std::uint32_t>(size.y)};
+}
+
+}  // namespace
+
+WalrRun::WalrRun(const fg::vk::Device& device, glm::ivec2 size, const WalrSettings& settings,
+                 const InputConventions& conventions, bool inspect)
+    : size_(size),
+      storage_(settings.regression.storage),
+      copyImage_(reinterpret_cast<PFN_vkCmdCopyImage>(
+          device.context().instance.vkGetDeviceProcAddr(device.context().view.device, "vkCmdCopyImage"))),
+      inspect_(inspect) {
+  const fg::Extent extent = extentOf(size);
+  const fg::TextureDesc halves{VK_FORMAT_R16G16B16A16_SFLOAT, extent};
+  fg::Graph graph;
+  inputs_.lighting = graph.import("lighting", halves, kUploaded);
+  inputs_.depth = graph.import("depth", {VK_FORMAT_R32_SFLOAT, extent}, kUploaded);
+  inputs_.normal = graph.import("normal", halves, kUploaded);
+  inputs_.motion = graph.import("motion", halves, kUploaded);
+  inputs_.albedo = graph.import("albedo", halves, kUploaded);
+  inputs_.frame = graph.upload("frame", sizeof(FrameConstants));
+  inputs_.conventions = conventions;
+  const fg::Texture output = graph.import("output", halves, kOverwritable);
+
+  // As addWalr strings them together, with the stages' outputs at hand.
+  const Guides guides = addPrepareGuides(graph, inputs_, settings.guides);
+  const fg::Texture accumulated = addTemporalAccumulation(graph, inputs_, guides, settings.accumulation);
+  const fg::Texture filtered = addWeightedRegression(graph, inputs_.frame, accumulated, guides, settings.regression);
+  output_ = addTemporalAntialiasing(graph, inputs_, guides, filtered, output, settings.antialiasing);
+  graph.exported(output_, kReadable);
+  if (inspect) inspectStages(graph, settings, guides, accumulated, filtered);
+  run_ = std::make_unique<fg::test::GraphRun>(device, graph);
+}
+
+void WalrRun::inspectStages(fg::Graph& graph, const WalrSettings& settings, const Guides& guides,
+                            fg::Texture accumulated, fg::Texture filtered) {
+  constexpr std::array kMomentNames{"moments a ", "moments b ", "moments c ", "moments d "};
+  depth_ = tap(graph, guides.depth);
+  normals_ = tap(graph, guides.normals);
+  accumulated_ = tap(graph, accumulated);
+  for (std::uint32_t t = 0; t + 1 < settings.regression.iterations; ++t) {
+    const std::string number = std::to_string(t);
+    Iteration iteration;
+    for (std::size_t i = 0; i < momentTextures(storage_); ++i)
+      iteration.moments.push_back(tap(graph, textureNamed(graph, kMomentNames.at(i) + number)));
+    iteration.depth = tap(graph, textureNamed(graph, "depth and edges " + number));
+    iterations_.push_back(iteration);
+  }
+  filtered_ = tap(graph, filtered);
+  resolved_ = tap(graph, textureNamed(graph, "resolved.current"));
+}
+
+fg::Texture WalrRun::tap(fg::Graph& graph, fg::Texture texture) {
+  const fg::TextureDesc desc = graph.textureDesc(texture);
+  const std::string name = "copy of " + graph.desc().resources[texture.resource].name;
+  fg::Texture copy = graph.import(name, desc, kOverwritable);
+  fg::PassBuilder pass =
+      graph.callback(name, [copyImage = copyImage_, texture, copy, desc](const fg::RecordContext& c) {
+        const VkImageSubresourceLayers layers{VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+        const VkImageCopy region{layers, {}, layers, {}, {desc.extent.width, desc.extent.height, 1}};
+        copyImage(c.commandBuffer, c.image(texture), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, c.image(copy),
+                  VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
+      });
+  pass.access(texture, fg::Access::TransferRead);
+  copy = pass.access(copy, fg::Access::TransferWrite);
+  graph.exported(copy, kReadable);
+  return copy;
+}
+
+WalrStages WalrRun::frame(const reference::HostFrame& frame) {
+  run_->fill(inputs_.lighting, encodeHalves(frame.lighting));
+  run_->fill(inputs_.depth, encodeFloats(frame.depth));
+  run_->fill(inputs_.normal, encodeHalves(frame.normal));
+  run_->fill(inputs_.motion, encodeHalves(frame.motion));
+  run_->fill(inputs_.albedo, encodeHalves(frame.albedo));
+  run_->executor().upload(inputs_.frame, frame.constants);
+  run_->frame();
+
+  const auto halves = [&](fg::Texture t) { return decodeHalves(run_->texels<std::uint16_t>(t), size_); };
+  const auto words = [&](fg::Texture t) { return run_->texels<std::uint32_t>(t); };
+  WalrStages stages;
+  stages.outputBits = run_->texels<std::uint16_t>(output_);
+  stages.output = decodeHalves(stages.outputBits, size_);
+  if (!inspect_) return stages;
+  stages.guides = decodeGuides(words(depth_), words(normals_), size_);
+  stages.accumulated = halves(accumulated_);
+  for (const Iteration& iteration : iterations_) {
+    std::vector<std::vector<std::uint32_t>> textures;
+    for (const fg::Texture& texture : iteration.moments) textures.push_back(words(texture));
+    reference::AtrousState state{decodeMoments(storage_, textures, size_), reference::Image<int>(size_)};
+    const std::vector<std::uint32_t> depth = words(iteration.depth);
+    for (std::size_t i = 0; i < depth.size(); ++i) state.distances.pixels()[i] = decodeEdgeDistance(depth[i]);
+    stages.iterations.push_back(std::move(state));
+  }
+  stages.filtered = halves(filtered_);
+  stages.resolved = halves(resolved_);
+  return stages;
+}
+
+}  // namespace walr::test

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "framegraph/vulkan/device.h"
+#include "passes/walr.h"
+#include "tests/passes/reference/atrous.h"
+#include "tests/vulkan/graph_run.h"
+
+namespace walr::test {
+
+/// What every stage of WALR left in one frame on the device.
+struct WalrStages {
+  reference::Image<reference::Guide> guides;
+  reference::Image<glm::dvec4> accumulated;        ///< rgb: mean; a: number of samples.
+  std::vector<reference::AtrousState> iterations;  ///< After each iteration but the last.
+  reference::Image<glm::dvec4> filtered;
+  reference::Image<glm::dvec4> resolved;  ///< rgb: mean; a: number of frames.
+  reference::Image<glm::dvec4> output;
+  std::vector<std::uint16_t> outputBits;  ///< RGBA16F texels of the output.
+};
+
+/// WALR on a device, fed with frames in memory.
+class WalrRun {
+ public:
+  /// @param inspect read back every stage, not only the output
+  WalrRun(const fg::vk::Device& device, glm::ivec2 size, const WalrSettings& settings = {},
+          const InputConventions& conventions = {}, bool inspect = true);
+
+  /// Denoise one frame.
+  WalrStages frame(const reference::HostFrame& frame);
+  /// Device memory of the graph, bytes.
+  [[nodiscard]] std::uint64_t allocatedBytes() { return run_->executor().allocatedBytes(); }
+  /// Forget all histories.
+  void resetHistory() { run_->executor().resetAllHistory(); }
+
+ private:
+  struct Iteration {
+    std::vector<fg::Texture> moments;
+    fg::Texture depth;
+  };
+
+  void inspectStages(fg::Graph& graph, const WalrSettings& settings, const Guides& guides, fg::Texture accumulated,
+                     fg::Texture filtered);
+  /// Copy a texture to where the test can read it.
+  fg::Texture tap(fg::Graph& graph, fg::Texture texture);
+
+  glm::ivec2 size_;
+  MomentStorage storage_;
+  PFN_vkCmdCopyImage copyImage_;
+  DenoiserInputs inputs_;
+  bool inspect_;
+  fg::Texture depth_, normals_, accumulated_, filtered_, resolved_, output_;
+  std::vector<Iteration> iterations_;
+  std::unique_ptr<fg::test::GraphRun> run_;
+};
+
+}  // namespace walr::test

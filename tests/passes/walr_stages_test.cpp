@@ -1,0 +1,102 @@
+// Every stage of WALR on a device against the double-precision reference.
+
+#include "tests/passes/hard_cases.h"
+#include "tests/passes/stage_checks.h"
+#include "tests/passes/synthetic_scene.h"
+#include "tests/vulkan/gpu_fixture.h"
+
+namespace walr::test {
+namespace {
+
+using reference::HostFrame;
+
+/// Three frames of a camera that moves by about a pixel and a half.
+std::vector<HostFrame> movingFrames(const Scene& scene, glm::ivec2 size) {
+  const auto at = [](double i) { return glm::dvec3(0.09 * i, 0.04 * i, -0.03 * i); };
+  std::vector<HostFrame> frames;
+  for (std::uint32_t i = 0; i < 3; ++i)
+    frames.push_back(renderFrame(scene, cameraAt(at(i), at(i - 1.0), size, i), size));
+  return frames;
+}
+
+/// The presets, and the paper's with its other storages at the epsilon that suits each.
+struct NamedSettings {
+  const char* name;
+  WalrSettings settings;
+};
+std::vector<NamedSettings> allSettings() {
+  WalrSettings raw11 = paperWalr();
+  raw11.regression.storage = MomentStorage::Raw11;
+  raw11.regression.ridge = 1e-2F;
+  WalrSettings raw32 = paperWalr();
+  raw32.regression.storage = MomentStorage::Raw32;
+  raw32.regression.ridge = 1e-5F;
+  WalrSettings centredWithFloor = robustWalr();
+  centredWithFloor.regression.regularisation = Regularisation::Floor;
+  centredWithFloor.regression.ridge = 1e-4F;
+  return {{"robust", robustWalr()},
+          {"paper", paperWalr()},
+          {"raw11", raw11},
+          {"raw32", raw32},
+          {"centred16 with floor", centredWithFloor}};
+}
+
+class WalrStagesTest : public fg::test::GpuTest {};
+
+TEST_F(WalrStagesTest, HoldOnEveryScene) {
+  for (const WalrSettings& settings : {robustWalr(), paperWalr()}) {
+    SCOPED_TRACE(settings.regression.storage == MomentStorage::Centred16 ? "robust" : "paper");
+    for (const NamedScene& named : allScenes()) {
+      SCOPED_TRACE(named.name);
+      expectSequence(device(), movingFrames(named.scene, {96, 64}), settings);
+    }
+  }
+}
+
+TEST_F(WalrStagesTest, HoldForEveryStorageOnHardCases) {
+  for (const HardCase& hard : hardCases()) {
+    SCOPED_TRACE(hard.name);
+    for (const NamedSettings& named : allSettings()) {
+      SCOPED_TRACE(named.name);
+      expectSequence(device(), hard.frames, named.settings);
+    }
+  }
+}
+
+TEST_F(WalrStagesTest, HoldWithoutTracingReplacementOrSampleCounts) {
+  WalrSettings plain = robustWalr();
+  plain.regression.traceEdges = false;
+  plain.regression.replaceTaps = false;
+  plain.regression.keepSampleCount = false;
+  plain.regression.sdfFraction = 0.0F;
+  plain.regression.iterations = 3;
+  plain.antialiasing.clipRadius = 2;
+  WalrSettings short1 = robustWalr();
+  short1.regression.iterations = 1;
+  short1.accumulation.historyFilter = HistoryFilter::Bicubic;
+  for (const WalrSettings& settings : {plain, short1}) {
+    expectSequence(device(), movingFrames(thinBars(), {96, 64}), settings);
+    expectSequence(device(), movingFrames(stairs(), {96, 64}), settings);
+  }
+}
+
+TEST_F(WalrStagesTest, HoldAtOddSizes) {
+  for (const glm::ivec2 size : {glm::ivec2(1, 1), glm::ivec2(2, 3), glm::ivec2(37, 1), glm::ivec2(35, 29)}) {
+    SCOPED_TRACE(std::to_string(size.x) + " x " + std::to_string(size.y));
+    expectSequence(device(), movingFrames(bumpyWall(0.1), size), robustWalr());
+    expectSequence(device(), movingFrames(bumpyWall(0.1), size), paperWalr());
+  }
+}
+
+TEST_F(WalrStagesTest, HoldForWorldSpaceNormalsAndStaticScenes) {
+  std::vector<HostFrame> frames = movingFrames(sphere(), {96, 64});
+  for (HostFrame& frame : frames) {
+    // The camera only moves, so that world and view space differ by no rotation unless told otherwise.
+    frame.conventions = {InputConventions::Space::World, InputConventions::MotionDepth::StaticScene};
+    for (glm::dvec3& motion : frame.motion.pixels()) motion.z = 0.0;
+  }
+  expectSequence(device(), frames, robustWalr());
+}
+
+}  // namespace
+}  // namespace walr::test
