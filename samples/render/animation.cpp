@@ -18,15 +18,28 @@ void applyChannel(const AnimationChannel& channel, double seconds, Transform& tr
   const std::size_t last = channel.times.size() - 1;
   const std::size_t a = next == 0 ? 0 : next - 1;
   const std::size_t b = std::min(next, last);
-  const bool hold = a == b || next == 0 || channel.interpolation == AnimationChannel::Interpolation::Step;
+  const bool hold = a == b || next == 0 || channel.interpolation == AnimationChannel::Interpolation::Step ||
+                    channel.values[a] == channel.values[b];
   const float fraction = hold ? 0.0F : (time - channel.times[a]) / (channel.times[b] - channel.times[a]);
-  if (channel.path == AnimationChannel::Path::Rotation) {
-    transform.rotation =
-        glm::normalize(glm::slerp(asQuaternion(channel.values[a]), asQuaternion(channel.values[b]), fraction));
-    return;
+  glm::vec4 value = channel.values[a];
+  // At a key and between equal keys the value is the key's: what stands still must not tremble by a blend's roundoff.
+  if (fraction > 0.0F && channel.path == AnimationChannel::Path::Rotation) {
+    const glm::quat blend = glm::slerp(asQuaternion(value), asQuaternion(channel.values[b]), fraction);
+    value = glm::vec4(blend.x, blend.y, blend.z, blend.w);
+  } else if (fraction > 0.0F) {
+    value = glm::mix(value, channel.values[b], fraction);
   }
-  const glm::vec3 value(glm::mix(channel.values[a], channel.values[b], fraction));
-  (channel.path == AnimationChannel::Path::Translation ? transform.translation : transform.scale) = value;
+  switch (channel.path) {
+    case AnimationChannel::Path::Translation:
+      transform.translation = glm::vec3(value);
+      break;
+    case AnimationChannel::Path::Rotation:
+      transform.rotation = glm::normalize(asQuaternion(value));
+      break;
+    case AnimationChannel::Path::Scale:
+      transform.scale = glm::vec3(value);
+      break;
+  }
 }
 
 glm::mat4 localMatrix(const Transform& transform) {
