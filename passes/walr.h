@@ -15,10 +15,15 @@ struct WalrSettings {
   TemporalAccumulationSettings accumulation;
   WeightedRegressionSettings regression;
   TemporalAntialiasingSettings antialiasing;
+  bool fitWindow = true;
 
   void visit(SettingVisitor& v) {
     guides.visit(v);
     accumulation.visit(v);
+    v.visit({"walr.fit-window",
+             "Leave out the last iterations where their window would span far more than a tenth of the image's height",
+             "", 0, 1, "measured"},
+            fitWindow);
     regression.visit(v);
     antialiasing.visit(v);
   }
