@@ -32,6 +32,9 @@ constexpr std::array<Preset<Settings>, 0> kPresets{};
 template <>
 constexpr std::array kPresets<WalrSettings>{Preset<WalrSettings>{"robust", robustWalr},
                                             Preset<WalrSettings>{"paper", paperWalr}};
+template <>
+constexpr std::array kPresets<SvgfSettings>{Preset<SvgfSettings>{"tuned", tunedSvgf},
+                                            Preset<SvgfSettings>{"paper", paperSvgf}};
 
 /// A method made of a settings struct and the function that adds its passes.
 template <typename Settings, auto kAdd>

@@ -14,7 +14,7 @@ struct JointBilateralSettings {
   PrepareGuidesSettings guides;
   JointBilateralFilterSettings filter;
   /// Accumulation of the filtered frames (joint-bilateral.txt, 4): alpha 0.2, clamped to the 7x7 neighbourhood.
-  TemporalAntialiasingSettings accumulation{.maxSamples = 5.0F, .clipRadius = 3};
+  TemporalAntialiasingSettings accumulation{.maxSamples = 5.0F, .clipGamma = 2.0F, .clipRadius = 3};
 
   void visit(SettingVisitor& v) {
     v.visit({"spatial-only", "Filter each frame by itself, without temporal stages", "", 0, 1, ""}, spatialOnly);

@@ -16,8 +16,8 @@ struct JointBilateralFilterSettings {
   std::uint32_t radius = 16;
   float sigmaPosition = 8.0F;
   float sigmaColour = kInfinity;
-  float sigmaNormal = 0.1F;
-  float sigmaPlane = 0.1F;
+  float sigmaNormal = 0.2F;
+  float sigmaPlane = 0.2F;
 
   void visit(SettingVisitor& v) {
     const auto infinity = static_cast<double>(kInfinity);

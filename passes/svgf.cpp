@@ -14,6 +14,19 @@ fg::Texture addSpatialSvgf(fg::Graph& graph, const DenoiserInputs& inputs, const
 
 }  // namespace
 
+SvgfSettings tunedSvgf() {
+  return {};
+}
+
+SvgfSettings paperSvgf() {
+  SvgfSettings settings;
+  settings.accumulation.maxSamples = 5.0F;
+  settings.filter.iterations = 5;
+  settings.filter.sigmaNormal = 128.0F;
+  settings.filter.feedback = 1;
+  return settings;
+}
+
 fg::Texture addSvgf(fg::Graph& graph, const DenoiserInputs& inputs, fg::Texture output, const SvgfSettings& settings) {
   const Guides guides = addPrepareGuides(graph, inputs, settings.guides);
   if (settings.spatialOnly) return addSpatialSvgf(graph, inputs, guides, output, settings);

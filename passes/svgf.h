@@ -26,6 +26,12 @@ struct SvgfSettings {
   }
 };
 
+/// The defaults: what serves best on one noisy path a pixel. The history is the accumulated light itself, for feeding
+/// back filtered light smears what one path a pixel leaves of gradients; the normal's exponent spares normal maps.
+SvgfSettings tunedSvgf();
+/// As published (Schied et al. 2017, 4.2 to 4.4; figure 1).
+SvgfSettings paperSvgf();
+
 /// Spatiotemporal Variance-Guided Filtering (Schied et al. 2017, figure 1; nagi-svgf.txt): temporal accumulation,
 /// variance estimation, variance-guided a-trous iterations whose first feeds the history, temporal anti-aliasing.
 /// @param output RGBA16F texture to write the result to

@@ -11,14 +11,14 @@ namespace walr {
 
 /// Settings of SVGF's variance estimation and a-trous iterations.
 struct SvgfFilterSettings {
-  std::uint32_t iterations = 5;
+  std::uint32_t iterations = 4;
   std::uint32_t radius = 2;
-  float sigmaDepth = 0.01F;
-  float sigmaNormal = 128.0F;
+  float sigmaDepth = 0.02F;
+  float sigmaNormal = 32.0F;
   bool luminanceWeight = true;
   float sigmaLuminance = 4.0F;
   float minHistory = 4.0F;
-  std::uint32_t feedback = 1;
+  std::uint32_t feedback = 0;
 
   void visit(SettingVisitor& v) {
     v.visit({"svgf.iterations", "A-trous iterations with taps 2^i pixels apart", "", 1, 8,
