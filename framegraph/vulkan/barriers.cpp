@@ -37,6 +37,7 @@ void BarrierBatch::addMemory(const PlannedBarrier& barrier) {
 
 void BarrierBatch::addImage(const TextureDesc& desc, const PlannedBarrier& planned) {
   auto barrier = scopes<VkImageMemoryBarrier2>(VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2, planned);
+  if (planned.reason == BarrierReason::AliasHandOver) barrier.srcAccessMask |= VK_ACCESS_2_MEMORY_WRITE_BIT;
   barrier.oldLayout = planned.oldLayout;
   barrier.newLayout = planned.newLayout;
   barrier.srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;

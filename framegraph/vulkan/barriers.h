@@ -12,7 +12,9 @@ namespace fg::vk {
 /// Planned barriers as one vkCmdPipelineBarrier2, built once; only handles are filled in when a frame is recorded.
 ///
 /// A hand-over of memory is recorded as a global memory barrier beside the image's layout transition: a barrier on the
-/// new owner alone makes no promise about writes of the old one, which is another resource.
+/// new owner alone makes no promise about writes of the old one, which is another resource. The layout transition then
+/// covers all writes of its source stages, not only pending ones: synchronization validation (1.3.239) forgets an
+/// owner's writes only when a later owner of the same kind, image or buffer, has written all of its texels.
 class BarrierBatch {
  public:
   BarrierBatch() = default;
