@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string_view>
+
 #include <vulkan/vulkan_core.h>
 
 #include "framegraph/graph.h"
@@ -8,6 +10,7 @@ namespace fg {
 
 /// What Vulkan must know of one way to touch a resource.
 struct AccessInfo {
+  std::string_view name;  ///< As spelled in `Access`.
   VkPipelineStageFlags2 stage = VK_PIPELINE_STAGE_2_NONE;
   VkAccessFlags2 readMask = VK_ACCESS_2_NONE;   ///< Access flags of the reading part.
   VkAccessFlags2 writeMask = VK_ACCESS_2_NONE;  ///< Access flags of the writing part.
@@ -22,5 +25,12 @@ struct AccessInfo {
 
 /// Stage, access masks, layout and usage flags of an access.
 const AccessInfo& accessInfo(Access access);
+
+/// Every access flag that writes.
+inline constexpr VkAccessFlags2 kWriteAccesses = VK_ACCESS_2_SHADER_WRITE_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT |
+                                                 VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT |
+                                                 VK_ACCESS_2_TRANSFER_WRITE_BIT | VK_ACCESS_2_HOST_WRITE_BIT |
+                                                 VK_ACCESS_2_MEMORY_WRITE_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT |
+                                                 VK_ACCESS_2_ACCELERATION_STRUCTURE_WRITE_BIT_KHR;
 
 }  // namespace fg

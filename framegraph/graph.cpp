@@ -19,16 +19,14 @@ AccessDecl declareRead(ResourceVersion resource, Access access, std::string_view
   return decl;
 }
 
-AccessDecl declareWrite(ResourceDecl& resource, ResourceVersion version, Access access, std::string_view binding,
-                        SourceLocation where) {
+AccessDecl declareWrite(ResourceVersion resource, Access access, std::string_view binding, SourceLocation where) {
   AccessDecl decl;
-  decl.resource = version.resource;
-  (accessInfo(access).reads() ? decl.readVersion : decl.replacesVersion) = version.version;
-  decl.writeVersion = version.version + 1;
+  decl.resource = resource.resource;
+  (accessInfo(access).reads() ? decl.readVersion : decl.replacesVersion) = resource.version;
+  decl.writeVersion = resource.version + 1;
   decl.access = access;
   decl.binding = binding;
   decl.where = where;
-  ++resource.versions;
   return decl;
 }
 
@@ -86,8 +84,8 @@ PassBuilder& PassBuilder::read(ResourceVersion resource, Access access, std::str
 
 ResourceVersion PassBuilder::write(ResourceVersion resource, Access access, std::string_view binding, Where where) {
   GraphDesc& desc = graph_->desc_;
-  desc.passes[pass_].accesses.push_back(
-      declareWrite(desc.resources[resource.resource], resource, access, binding, where));
+  desc.passes[pass_].accesses.push_back(declareWrite(resource, access, binding, where));
+  if (resource.resource < desc.resources.size()) ++desc.resources[resource.resource].versions;
   return {resource.resource, resource.version + 1};
 }
 
@@ -97,28 +95,31 @@ ResourceVersion PassBuilder::touch(ResourceVersion resource, Access access, Wher
   return resource;
 }
 
-ComputeDispatch& PassBuilder::computeWork() {
-  return std::get<ComputeDispatch>(graph_->desc_.passes[pass_].work);
+ComputeDispatch* PassBuilder::computeWork() {
+  return std::get_if<ComputeDispatch>(&graph_->desc_.passes[pass_].work);
 }
 
 PassBuilder& PassBuilder::constants(std::span<const std::byte> bytes) {
-  computeWork().constants.assign(bytes.begin(), bytes.end());
+  if (auto* work = computeWork()) work->constants.assign(bytes.begin(), bytes.end());
   return *this;
 }
 
 PassBuilder& PassBuilder::historyAge(const History& history, std::uint32_t offset) {
-  computeWork().historyAges.push_back({history.index, offset});
+  if (auto* work = computeWork()) work->historyAges.push_back({history.index, offset});
   return *this;
 }
 
 PassBuilder& PassBuilder::specialize(std::string_view constant, std::uint32_t value) {
-  ComputeDispatch& work = computeWork();
-  const auto& constants = work.shader->constants;
+  ComputeDispatch* work = computeWork();
+  if (work == nullptr) return *this;
+  const auto& constants = work->shader->constants;
   const auto found = std::ranges::find(constants, constant, &ShaderConstant::name);
   if (found == constants.end()) {
-    work.unknownConstants.emplace_back(constant);
+    work->unknownConstants.emplace_back(constant);
   } else {
-    work.specialization[static_cast<std::size_t>(found - constants.begin())] = value;
+    const auto index = static_cast<std::size_t>(found - constants.begin());
+    work->specialization[index] = value;
+    work->specialized[index] = true;
   }
   return *this;
 }
@@ -132,19 +133,21 @@ PassBuilder& PassBuilder::specialize(std::string_view constant, bool value) {
 }
 
 PassBuilder& PassBuilder::dispatch(Extent threads, std::uint32_t layers) {
-  ComputeDispatch& work = computeWork();
-  const auto groups = [](std::uint32_t count, std::uint32_t size) {
-    return count / size + (count % size != 0 ? 1 : 0);
-  };
-  work.groups[0] = groups(threads.width, work.shader->localSize[0]);
-  work.groups[1] = groups(threads.height, work.shader->localSize[1]);
-  work.groups[2] = groups(layers, work.shader->localSize[2]);
+  ComputeDispatch* work = computeWork();
+  if (work == nullptr) return *this;
+  const std::uint32_t counts[3] = {threads.width, threads.height, layers};
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::uint32_t size = std::max(work->shader->localSize[axis], 1u);
+    work->groups[axis] = counts[axis] / size + (counts[axis] % size != 0 ? 1 : 0);
+  }
   return *this;
 }
 
 PassBuilder& PassBuilder::dispatchIndirect(Buffer arguments, std::uint64_t offset, Where where) {
-  computeWork().indirect = arguments;
-  computeWork().indirectOffset = offset;
+  if (auto* work = computeWork()) {
+    work->indirect = arguments;
+    work->indirectOffset = offset;
+  }
   return read(arguments, Access::IndirectRead, {}, where);
 }
 
@@ -208,6 +211,7 @@ PassBuilder Graph::compute(std::string name, const Shader& shader, Where where) 
   ComputeDispatch work;
   work.shader = &shader;
   work.specialization.resize(shader.constants.size());
+  work.specialized.resize(shader.constants.size());
   desc_.passes.push_back({.name = std::move(name), .work = std::move(work), .accesses = {}, .where = where});
   return {*this, static_cast<std::uint32_t>(desc_.passes.size() - 1)};
 }
@@ -219,7 +223,10 @@ PassBuilder Graph::callback(std::string name, std::function<void(const RecordCon
 }
 
 const TextureDesc& Graph::textureDesc(Texture texture) const {
-  return std::get<TextureDesc>(desc_.resources.at(texture.resource).desc);
+  static const TextureDesc kNoTexture;
+  if (texture.resource >= desc_.resources.size()) return kNoTexture;
+  const auto* desc = std::get_if<TextureDesc>(&desc_.resources[texture.resource].desc);
+  return desc != nullptr ? *desc : kNoTexture;
 }
 
 }  // namespace fg

@@ -119,6 +119,7 @@ struct HistoryAgeConstant {
 struct ComputeDispatch {
   const Shader* shader = nullptr;
   std::vector<std::uint32_t> specialization;  ///< One word per entry of `shader->constants`, in that order.
+  std::vector<bool> specialized;              ///< Which of them were set; leaving one out is an error.
   std::vector<std::string> unknownConstants;  ///< Names set that the shader does not have: an error of `compile`.
   std::vector<std::byte> constants;           ///< Push constants; size must be the shader's.
   std::vector<HistoryAgeConstant> historyAges;
@@ -245,7 +246,7 @@ class PassBuilder {
   PassBuilder& read(ResourceVersion resource, Access access, std::string_view binding, Where where);
   ResourceVersion write(ResourceVersion resource, Access access, std::string_view binding, Where where);
   ResourceVersion touch(ResourceVersion resource, Access access, Where where);
-  ComputeDispatch& computeWork();
+  ComputeDispatch* computeWork();
   Graph* graph_;
   std::uint32_t pass_;
 };
@@ -277,7 +278,7 @@ class Graph {
                        Where where = Where::current());
 
   [[nodiscard]] const GraphDesc& desc() const { return desc_; }
-  /// Description of the texture behind a handle.
+  /// Description of the texture behind a handle; an empty one where the handle names no texture.
   [[nodiscard]] const TextureDesc& textureDesc(Texture texture) const;
 
  private:

@@ -15,6 +15,9 @@ struct MemoryRequirements {
   std::uint32_t memoryTypeBits = ~0u;
 };
 
+/// Bytes of the texels in part of a texture, tightly packed. Parts that the texture lacks count nothing.
+std::uint64_t texelBytes(const TextureDesc& desc, const SubresourceRange& range);
+
 /// The compiler's only view of a device: sizes, alignments, and which format serves which use.
 /// The executor's implementation asks the driver; `TableMemoryModel` computes from a table.
 class MemoryModel {

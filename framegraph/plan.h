@@ -7,6 +7,21 @@
 #include "framegraph/graph.h"
 
 /// The result of compiling a graph: a plain value. Recording a frame is interpreting it.
+///
+/// Every frame is recorded by replaying the same plan on one queue, so that frames are executed in the order in which
+/// they are submitted, and share the heaps even while several are in flight:
+/// - A transient's first use waits for whoever owned its bytes last, be it in the frame before, and starts from
+///   UNDEFINED. An AliasHandOver covers writes that were made through another resource, whose access scope no image or
+///   buffer barrier of this one contains: record a VkMemoryBarrier2 with the same masks next to it.
+/// - A history has two images that swap roles every frame (`PlannedHistory`).
+/// - Upload buffers have one copy per frame in flight and need no barrier: submission makes host writes visible.
+/// - Imports arrive in the state that was declared (stage NONE: the host has waited otherwise, for instance by a
+///   semaphore). Exports are released into theirs. Imports that are not exported are given back in the state in which
+///   they came. Exported resources never share memory.
+///
+/// Indices refer to `GraphDesc`. Everything that has an order of its own is ordered by name, so that the same
+/// description gives the same plan, but for these indices, however its parts are registered: compare plans of differing
+/// registration by `toText` or `toJson` (inspect.h), which write names.
 namespace fg {
 
 /// Why a barrier is in the plan.
@@ -55,6 +70,7 @@ struct PlannedResource {
   std::uint64_t offset = 0;    ///< Bytes from the start of the heap.
   std::uint64_t size = 0;      ///< Bytes that the driver asks for.
   std::uint64_t alignment = 1;
+  std::uint32_t memoryTypeBits = ~0U;  ///< Memory types that the driver allows.
   friend bool operator==(const PlannedResource&, const PlannedResource&) = default;
 };
 
@@ -72,8 +88,20 @@ struct CulledPass {
   friend bool operator==(const CulledPass&, const CulledPass&) = default;
 };
 
+/// What the executor keeps for one history: two images, of which frame by frame one is `current` and the other
+/// `previous`. Same index as `GraphDesc::histories`.
+struct PlannedHistory {
+  bool used = false;  ///< False when nobody reads `previous` or needs `current`; there are no images then.
+  /// State in which a frame leaves `current`: the last stages that touched it, the writes not yet made available
+  /// (often none), the layout. The plan's HistoryCarry barrier for `previous` starts from it. Who clears `previous`
+  /// instead, because no valid frame lies behind, waits for this stage and access, discards the contents, and leaves
+  /// the image in this layout with the clear made available to this stage.
+  ExternalState carry;
+  friend bool operator==(const PlannedHistory&, const PlannedHistory&) = default;
+};
+
 struct MemoryReport {
-  std::uint64_t persistentBytes = 0;           ///< Both slots of every history.
+  std::uint64_t persistentBytes = 0;           ///< Both slots of every history, and exported transients.
   std::uint64_t transientUnaliasedBytes = 0;   ///< Sum over all transients.
   std::uint64_t transientPeakBytes = 0;        ///< Sum of the heaps.
   std::uint64_t transientLowerBoundBytes = 0;  ///< Most bytes alive at any one pass.
@@ -84,6 +112,7 @@ struct MemoryReport {
 struct TrafficReport {
   std::uint64_t bytesRead = 0;
   std::uint64_t bytesWritten = 0;
+  std::uint64_t pixels = 0;  ///< Of the largest exported texture: what traffic is divided by.
   friend bool operator==(const TrafficReport&, const TrafficReport&) = default;
 };
 
@@ -92,7 +121,8 @@ struct Plan {
   std::vector<PlannedBarrier> releases;  ///< After the last pass.
   std::vector<PlannedResource> resources;
   std::vector<PlannedHeap> heaps;
-  std::vector<CulledPass> culled;
+  std::vector<PlannedHistory> histories;
+  std::vector<CulledPass> culled;  ///< By name.
   MemoryReport memory;
   TrafficReport traffic;
   friend bool operator==(const Plan&, const Plan&) = default;

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <vector>
+
+#include "framegraph/cull.h"
+#include "framegraph/memory_model.h"
+#include "framegraph/plan.h"
+
+namespace fg {
+
+/// Every resource's usage flags over all executed passes, and what memory the device asks for it.
+std::vector<PlannedResource> requirements(const GraphDesc& graph, const Culling& culling, const MemoryModel& memory);
+
+/// By index into `GraphDesc::resources`: true for transients that share memory, which exported ones do not.
+std::vector<bool> aliasable(const GraphDesc& graph);
+
+}  // namespace fg

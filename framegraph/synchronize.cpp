@@ -1,0 +1,194 @@
+#include "framegraph/synchronize.h"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "framegraph/access.h"
+#include "framegraph/access_history.h"
+#include "framegraph/hand_over.h"
+#include "framegraph/merge_ranges.h"
+
+namespace fg {
+namespace {
+
+/// How a resource's first use in a frame connects to what was before.
+struct Beginning {
+  std::vector<SubresourceState> states;
+  BarrierReason reason = BarrierReason::FirstUse;
+  std::uint32_t aliasOf = kNone;
+};
+
+/// Position of releases, after all passes.
+constexpr std::uint32_t kAfterLastPass = kNone;
+
+class Synchronizer {
+ public:
+  Synchronizer(const Topology& topology, Plan& plan)
+      : topology_(topology),
+        graph_(topology.graph()),
+        plan_(plan),
+        history_(graph_, plan),
+        owners_(previousOwners(plan)),
+        releases_(graph_.resources.size()) {
+    for (const ExportDecl& exported : graph_.exports) {
+      releases_[exported.resource.resource] = bordering(exported.resource.resource, exported.release);
+    }
+  }
+
+  void run() {
+    plan_.histories.resize(graph_.histories.size());
+    for (std::size_t i = 0; i < graph_.histories.size(); ++i) {
+      if (plan_.resources[graph_.histories[i].current].used) plan_.histories[i] = carried(graph_.histories[i]);
+    }
+    for (const std::uint32_t resource : topology_.resourcesByName()) {
+      if (plan_.resources[resource].used && graph_.resources[resource].lifetime != Lifetime::Upload) emit(resource);
+    }
+  }
+
+ private:
+  /// The host's state of a resource; a buffer has no layout, whatever the host wrote there.
+  [[nodiscard]] ExternalState bordering(std::uint32_t resource, ExternalState state) const {
+    if (std::holds_alternative<BufferDesc>(graph_.resources[resource].desc)) state.layout = VK_IMAGE_LAYOUT_UNDEFINED;
+    return state;
+  }
+
+  /// What a frame leaves of a resource whose first use overwrites it, so that nothing before matters.
+  [[nodiscard]] SubresourceState ending(std::uint32_t resource, std::uint32_t subresource,
+                                        SubresourceState state = {}) const {
+    for (const AccessGroup& group : history_.groups(resource, subresource)) advance(state, group);
+    if (releases_[resource]) release(state, *releases_[resource]);
+    return state;
+  }
+
+  [[nodiscard]] PlannedHistory carried(const HistoryDecl& history) const {
+    const SubresourceState end = ending(history.current, 0);
+    return {true, {end.stage, end.pendingWrite, end.layout}};
+  }
+
+  /// The state in which the executor, or the last frame, leaves `previous`.
+  [[nodiscard]] SubresourceState carriedState(std::uint32_t history) const {
+    const ExternalState& carry = plan_.histories[history].carry;
+    return {.stage = carry.stage, .pendingWrite = carry.access, .layout = carry.layout};
+  }
+
+  /// Hand a resource to the host. Where the host names no stage it waits by a fence or semaphore, which makes all
+  /// writes visible, and the next frame has to wait for this one by itself.
+  static std::optional<PlannedBarrier> release(SubresourceState& state, const ExternalState& to) {
+    AccessGroup group;
+    group.position = kAfterLastPass;
+    group.stage = to.stage;
+    group.readMask = to.access & ~kWriteAccesses;
+    group.writeMask = to.access & kWriteAccesses;
+    group.layout = to.layout;
+    const auto released = [](std::optional<PlannedBarrier> barrier) {
+      if (barrier) barrier->reason = BarrierReason::Release;
+      return barrier;
+    };
+    if (to.stage != VK_PIPELINE_STAGE_2_NONE) return released(advance(state, group));
+    if (state.layout == to.layout) return std::nullopt;
+    const VkPipelineStageFlags2 stage = state.stage;
+    std::optional<PlannedBarrier> barrier = released(advance(state, group));
+    state.stage |= stage;
+    return barrier;
+  }
+
+  [[nodiscard]] Beginning beginning(std::uint32_t resource) const {
+    const ResourceDecl& decl = graph_.resources[resource];
+    const std::uint32_t count = history_.subresourceCount(resource);
+    switch (decl.lifetime) {
+      case Lifetime::Imported:
+        return {std::vector(count, externalState(bordering(resource, *decl.acquire))), BarrierReason::Acquire};
+      case Lifetime::HistoryPrevious:
+        return {{carriedState(decl.history)}, BarrierReason::HistoryCarry};
+      case Lifetime::HistoryCurrent:
+        return {{overwritten(ending(graph_.histories[decl.history].previous, 0, carriedState(decl.history)))},
+                BarrierReason::HistoryCarry};
+      default:
+        return plan_.resources[resource].heap == kNone ? ownBeginning(resource) : handOver(resource);
+    }
+  }
+
+  /// After everything that was done to a resource, its contents being of no interest any more.
+  static SubresourceState overwritten(SubresourceState state) {
+    state.layout = VK_IMAGE_LAYOUT_UNDEFINED;
+    return state;
+  }
+
+  [[nodiscard]] Beginning ownBeginning(std::uint32_t resource) const {
+    Beginning result;
+    for (std::uint32_t i = 0; i < history_.subresourceCount(resource); ++i) {
+      result.states.push_back(overwritten(ending(resource, i)));
+    }
+    return result;
+  }
+
+  [[nodiscard]] Beginning handOver(std::uint32_t resource) const {
+    const std::vector<std::uint32_t>& owners = owners_[resource];
+    if (owners == std::vector{resource}) return ownBeginning(resource);
+    SubresourceState state;
+    for (const std::uint32_t owner : owners) {
+      for (std::uint32_t i = 0; i < history_.subresourceCount(owner); ++i) {
+        const SubresourceState end = ending(owner, i);
+        state.stage |= end.stage;
+        state.pendingWrite |= end.pendingWrite;
+      }
+    }
+    return {std::vector(history_.subresourceCount(resource), state), BarrierReason::AliasHandOver,
+            *std::ranges::find_if(owners, [&](std::uint32_t owner) { return owner != resource; })};
+  }
+
+  void emit(std::uint32_t resource) {
+    const Beginning begin = beginning(resource);
+    std::vector<std::pair<std::uint32_t, PlannedBarrier>> barriers;
+    for (std::uint32_t i = 0; i < history_.subresourceCount(resource); ++i) {
+      SubresourceState state = begin.states[i];
+      const auto add = [&](std::uint32_t position, const std::optional<PlannedBarrier>& barrier) {
+        if (!barrier) return;
+        barriers.emplace_back(position, *barrier);
+        barriers.back().second.resource = resource;
+        barriers.back().second.range = history_.range(resource, i);
+      };
+      const std::span<const AccessGroup> groups = history_.groups(resource, i);
+      for (const AccessGroup& group : groups) {
+        std::optional<PlannedBarrier> barrier = advance(state, group);
+        if (barrier && &group == groups.data()) {
+          barrier->reason = begin.reason;
+          barrier->aliasOf = begin.aliasOf;
+        }
+        add(group.position, barrier);
+      }
+      if (const auto to = finalState(resource, state)) add(kAfterLastPass, release(state, *to));
+    }
+    if (history_.subresourceCount(resource) > 1) mergeRanges(graph_.resources[resource], barriers);
+    for (const auto& [position, barrier] : barriers) {
+      (position == kAfterLastPass ? plan_.releases : plan_.passes[position].barriers).push_back(barrier);
+    }
+  }
+
+  /// The state in which a host gets a resource back. Imports that are not exported go back as they came, so that the
+  /// next frame finds them so.
+  [[nodiscard]] std::optional<ExternalState> finalState(std::uint32_t resource, const SubresourceState& state) const {
+    if (releases_[resource]) return releases_[resource];
+    if (!graph_.resources[resource].acquire) return std::nullopt;
+    const ExternalState acquire = bordering(resource, *graph_.resources[resource].acquire);
+    const bool asItCame = state.layout == acquire.layout && state.pendingWrite == VK_ACCESS_2_NONE;
+    const bool unknown = acquire.layout == VK_IMAGE_LAYOUT_UNDEFINED && state.layout != VK_IMAGE_LAYOUT_UNDEFINED;
+    return asItCame || unknown ? std::nullopt : std::optional(acquire);
+  }
+
+  const Topology& topology_;
+  const GraphDesc& graph_;
+  Plan& plan_;
+  AccessHistory history_;
+  std::vector<std::vector<std::uint32_t>> owners_;
+  std::vector<std::optional<ExternalState>> releases_;
+};
+
+}  // namespace
+
+void synchronize(const Topology& topology, Plan& plan) {
+  Synchronizer(topology, plan).run();
+}
+
+}  // namespace fg
