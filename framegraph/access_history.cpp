@@ -44,6 +44,14 @@ SubresourceRange AccessHistory::range(std::uint32_t resource, std::uint32_t subr
   return {subresource / layers, 1, subresource % layers, 1};
 }
 
+bool AccessHistory::endsUnread(std::uint32_t resource) const {
+  for (std::uint32_t i = 0; i < subresourceCount(resource); ++i) {
+    const std::span<const AccessGroup> all = groups(resource, i);
+    if (!all.empty() && all.back().writeMask != VK_ACCESS_2_NONE) return true;
+  }
+  return false;
+}
+
 void AccessHistory::add(std::uint32_t position, const AccessDecl& access) {
   const AccessInfo& info = accessInfo(access.access);
   const ResourceDecl& resource = graph_->resources[access.resource];

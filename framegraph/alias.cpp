@@ -27,7 +27,8 @@ void separateBuffersFromImages(const GraphDesc& graph, const std::vector<std::ui
 
 }  // namespace
 
-void placeTransients(const Topology& topology, std::uint64_t bufferImageGranularity, Plan& plan) {
+void placeTransients(const Topology& topology, const AccessHistory& accesses, std::uint64_t bufferImageGranularity,
+                     Plan& plan) {
   const GraphDesc& graph = topology.graph();
   const std::vector<bool> shared = aliasable(graph);
   std::map<std::uint32_t, std::vector<std::uint32_t>> classes;
@@ -43,6 +44,11 @@ void placeTransients(const Topology& topology, std::uint64_t bufferImageGranular
       requests.push_back({planned.size, planned.alignment, planned.firstUse, planned.lastUse});
     }
     all.insert(all.end(), requests.begin(), requests.end());
+    for (std::size_t i = 0; i < members.size(); ++i) {
+      if (!accesses.endsUnread(members[i])) continue;
+      requests[i].firstUse = 0;
+      requests[i].lastUse = static_cast<std::uint32_t>(plan.passes.size()) - 1;
+    }
     separateBuffersFromImages(graph, members, bufferImageGranularity, requests);
     const HeapPacking packing = pack(requests);
     for (std::size_t i = 0; i < members.size(); ++i) {

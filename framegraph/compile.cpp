@@ -2,8 +2,10 @@
 
 #include <algorithm>
 
+#include "framegraph/access_history.h"
 #include "framegraph/alias.h"
 #include "framegraph/cull.h"
+#include "framegraph/diagnostic_codes.h"
 #include "framegraph/lifetimes.h"
 #include "framegraph/report.h"
 #include "framegraph/requirements.h"
@@ -13,13 +15,26 @@
 
 namespace fg {
 
+namespace {
+
+Diagnostic withoutEffect(const PassDecl& pass, const CulledPass& culled) {
+  return {std::string(code::kPassWithoutEffect),
+          Severity::Warning,
+          pass.name,
+          {},
+          "pass '" + pass.name + "' is culled: " + culled.reason,
+          pass.where};
+}
+
+}  // namespace
+
 bool CompileResult::ok() const {
   return std::ranges::none_of(diagnostics, [](const Diagnostic& d) { return d.severity == Severity::Error; });
 }
 
 std::string CompileResult::text() const {
   std::string text;
-  for (const Diagnostic& diagnostic : diagnostics) text += diagnostic.code + ": " + diagnostic.message + "\n";
+  for (const Diagnostic& diagnostic : diagnostics) text += toText(diagnostic) + "\n";
   return text;
 }
 
@@ -27,6 +42,8 @@ CompileResult compile(const GraphDesc& graph, const MemoryModel& memory) {
   CompileResult result;
   Plan& plan = result.plan;
   const Topology topology(graph);
+  result.diagnostics = diagnose(topology, memory);
+  if (!result.ok()) return result;
 
   Culling culling = cull(topology);
   plan.resources = requirements(graph, culling, memory);
@@ -34,9 +51,12 @@ CompileResult compile(const GraphDesc& graph, const MemoryModel& memory) {
   for (const std::uint32_t pass : order) plan.passes.push_back({pass, {}});
   plan.culled = std::move(culling.culled);
   findLifetimes(graph, order, plan.resources);
-  placeTransients(topology, memory.bufferImageGranularity(), plan);
-  synchronize(topology, plan);
+  const AccessHistory accesses(graph, plan);
+  placeTransients(topology, accesses, memory.bufferImageGranularity(), plan);
+  synchronize(topology, accesses, plan);
   report(graph, plan);
+  for (const CulledPass& culled : plan.culled)
+    result.diagnostics.push_back(withoutEffect(graph.passes[culled.pass], culled));
   return result;
 }
 

@@ -11,8 +11,8 @@
 /// Every frame is recorded by replaying the same plan on one queue, so that frames are executed in the order in which
 /// they are submitted, and share the heaps even while several are in flight:
 /// - A transient's first use waits for whoever owned its bytes last, be it in the frame before, and starts from
-///   UNDEFINED. An AliasHandOver covers writes that were made through another resource, whose access scope no image or
-///   buffer barrier of this one contains: record a VkMemoryBarrier2 with the same masks next to it.
+///   UNDEFINED. For another owner this is an execution dependency only: a transient that ends with writes that nobody
+///   reads, and that are hence not made available, shares its memory with nobody.
 /// - A history has two images that swap roles every frame (`PlannedHistory`).
 /// - Upload buffers have one copy per frame in flight and need no barrier: submission makes host writes visible.
 /// - Imports arrive in the state that was declared (stage NONE: the host has waited otherwise, for instance by a

@@ -24,11 +24,11 @@ constexpr std::uint32_t kAfterLastPass = kNone;
 
 class Synchronizer {
  public:
-  Synchronizer(const Topology& topology, Plan& plan)
+  Synchronizer(const Topology& topology, const AccessHistory& accesses, Plan& plan)
       : topology_(topology),
         graph_(topology.graph()),
         plan_(plan),
-        history_(graph_, plan),
+        history_(accesses),
         owners_(previousOwners(plan)),
         releases_(graph_.resources.size()) {
     for (const ExportDecl& exported : graph_.exports) {
@@ -128,11 +128,7 @@ class Synchronizer {
     if (owners == std::vector{resource}) return ownBeginning(resource);
     SubresourceState state;
     for (const std::uint32_t owner : owners) {
-      for (std::uint32_t i = 0; i < history_.subresourceCount(owner); ++i) {
-        const SubresourceState end = ending(owner, i);
-        state.stage |= end.stage;
-        state.pendingWrite |= end.pendingWrite;
-      }
+      for (std::uint32_t i = 0; i < history_.subresourceCount(owner); ++i) state.stage |= ending(owner, i).stage;
     }
     return {std::vector(history_.subresourceCount(resource), state), BarrierReason::AliasHandOver,
             *std::ranges::find_if(owners, [&](std::uint32_t owner) { return owner != resource; })};
@@ -180,15 +176,15 @@ class Synchronizer {
   const Topology& topology_;
   const GraphDesc& graph_;
   Plan& plan_;
-  AccessHistory history_;
+  const AccessHistory& history_;
   std::vector<std::vector<std::uint32_t>> owners_;
   std::vector<std::optional<ExternalState>> releases_;
 };
 
 }  // namespace
 
-void synchronize(const Topology& topology, Plan& plan) {
-  Synchronizer(topology, plan).run();
+void synchronize(const Topology& topology, const AccessHistory& accesses, Plan& plan) {
+  Synchronizer(topology, accesses, plan).run();
 }
 
 }  // namespace fg

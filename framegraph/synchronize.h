@@ -1,5 +1,6 @@
 #pragma once
 
+#include "framegraph/access_history.h"
 #include "framegraph/plan.h"
 #include "framegraph/topology.h"
 
@@ -7,6 +8,6 @@ namespace fg {
 
 /// Fill in the barriers of `plan.passes`, `plan.releases` and `plan.histories`. The order, the lifetimes and the heap
 /// offsets must stand.
-void synchronize(const Topology& topology, Plan& plan);
+void synchronize(const Topology& topology, const AccessHistory& accesses, Plan& plan);
 
 }  // namespace fg
