@@ -30,6 +30,11 @@ vec3 toYCoCg(vec3 c) {
 }
 vec3 fromYCoCg(vec3 c) { return vec3(c.x + c.y - c.z, c.x + c.z, c.x - c.y - c.z); }
 
+// Half size of the smallest clipping box, in units of luma: the rounding of the four halves that a history and a
+// neighbourhood are made of. Where chroma hardly varies, a smaller box would let that rounding decide how much history
+// of the luma is kept.
+const float kLeastReach = 4.0 / 2048.0;
+
 // Pull `colour` towards the mean until it is inside the box of `gamma` standard deviations (Salvi 2016).
 vec3 varianceClip(vec3 colour, vec3 mean, vec3 deviation) {
   const vec3 offset = colour - mean;
@@ -72,7 +77,8 @@ void main() {
     }
     const vec3 mean = sum / count;
     const vec3 deviation = sqrt(max(squares / count - mean * mean, vec3(0.0)));
-    const vec3 clipped = varianceClip(toYCoCg(history.rgb), centre + mean, settings.clipGamma * deviation);
+    const vec3 reach = max(settings.clipGamma * deviation, vec3(kLeastReach * (centre + mean).x));
+    const vec3 clipped = varianceClip(toYCoCg(history.rgb), centre + mean, reach);
     samples = min(history.a + 1.0, settings.maxSamples);
     resolved = max(mix(fromYCoCg(clipped), current, 1.0 / samples), vec3(0.0));
   }

@@ -8,15 +8,21 @@
 namespace walr::reference {
 namespace {
 
+/// Half size of the smallest clipping box in units of luma: the rounding of four halves.
+constexpr double kLeastReach = 4.0 * kHalfRoundoff;
+
 /// Mean and spread of the surface pixels around a pixel.
 struct Neighbourhood {
   glm::dvec3 mean{0.0};
-  glm::dvec3 deviation{0.0};
-  glm::dvec3 deviationError{0.0};
+  glm::dvec3 reach{0.0};       ///< Half size of the clipping box.
+  glm::dvec3 reachError{0.0};  ///< Bound of what single precision adds to it.
 };
 
 /// A pixel outside the picture stands for the nearest one inside.
-Neighbourhood neighbourhoodOf(const Image<Guide>& guides, const Image<glm::dvec3>& filtered, glm::ivec2 p, int radius) {
+Neighbourhood neighbourhoodOf(const Image<Guide>& guides, const Image<glm::dvec3>& filtered, glm::ivec2 p,
+                              const TemporalAntialiasingSettings& settings) {
+  const auto radius = static_cast<int>(settings.clipRadius);
+  const auto gamma = double(settings.clipGamma);
   std::vector<glm::dvec3> colours;
   for (int dy = -radius; dy <= radius; ++dy) {
     for (int dx = -radius; dx <= radius; ++dx) {
@@ -34,7 +40,9 @@ Neighbourhood neighbourhoodOf(const Image<Guide>& guides, const Image<glm::dvec3
     variance += (c - n.mean) * (c - n.mean) / count;
     size += (c - centre) * (c - centre) / count;
   }
-  n.deviation = glm::sqrt(variance);
+  const glm::dvec3 deviation = glm::sqrt(variance);
+  const double least = kLeastReach * n.mean.x;
+  n.reach = glm::max(gamma * deviation, least);
   // The variance is a difference of two averages of at most `size`, each with about a rounding a pixel; the colour
   // transform rounds the differences themselves by a few roundoffs of the colour.
   const glm::dvec3 transformError(4.0 * kFloatRoundoff *
@@ -42,25 +50,28 @@ Neighbourhood neighbourhoodOf(const Image<Guide>& guides, const Image<glm::dvec3
   for (int i = 0; i < 3; ++i) {
     const double error = 2.0 * (count + 3.0) * kFloatRoundoff * size[i] + 4.0 * transformError[i] * std::sqrt(size[i]) +
                          transformError[i] * transformError[i];
-    n.deviationError[i] = n.deviation[i] > 0.0 ? std::min(error / n.deviation[i], std::sqrt(error)) : std::sqrt(error);
+    const double deviationError =
+        deviation[i] > 0.0 ? std::min(error / deviation[i], std::sqrt(error)) : std::sqrt(error);
+    const bool atLeast = gamma * (deviation[i] + deviationError) < least;
+    n.reachError[i] = (atLeast ? 0.0 : gamma * deviationError) + 16.0 * kFloatRoundoff * least;
   }
   return n;
 }
 
 /// Bound of the error of a clipped colour in YCoCg: the colour's own, and the box's. Shrinking towards the mean scales
-/// all components by the tightest ratio deviation / offset, so each errs by its offset times that ratio's error.
-glm::dvec3 clipError(glm::dvec3 offset, const Neighbourhood& n, double gamma, double colourError) {
+/// all components by the tightest ratio reach / offset, so each errs by its offset times that ratio's error.
+glm::dvec3 clipError(glm::dvec3 offset, const Neighbourhood& n, double colourError) {
   double ratio = 1.0;
   double ratioError = 0.0;
   for (int i = 0; i < 3; ++i) {
     const double size = std::abs(offset[i]);
-    if (size + colourError <= gamma * (n.deviation[i] - n.deviationError[i])) continue;  // Inside beyond doubt.
+    if (size + colourError <= n.reach[i] - n.reachError[i]) continue;  // Inside beyond doubt.
     if (size <= colourError) {
       ratioError = 1.0;
       continue;
     }
-    ratio = std::min(ratio, gamma * n.deviation[i] / size);
-    ratioError = std::max(ratioError, (gamma * n.deviationError[i] + colourError) / (size - colourError));
+    ratio = std::min(ratio, n.reach[i] / size);
+    ratioError = std::max(ratioError, (n.reachError[i] + colourError) / (size - colourError));
   }
   return glm::abs(offset) * std::min(ratioError, 1.0) + glm::dvec3(ratio * colourError + colourError);
 }
@@ -103,10 +114,9 @@ Image<Accumulated> antialias(const HostFrame& frame, const Image<Guide>& guides,
     out.undecided = history.undecided;
     if (!history.found) return;
 
-    const Neighbourhood n = neighbourhoodOf(guides, filtered, p, static_cast<int>(settings.clipRadius));
-    const double gamma = double(settings.clipGamma);
+    const Neighbourhood n = neighbourhoodOf(guides, filtered, p, settings);
     const glm::dvec3 pastYCoCg = toYCoCg(glm::dvec3(history.value));
-    const glm::dvec3 clipped = fromYCoCg(varianceClip(pastYCoCg, n.mean, gamma * n.deviation));
+    const glm::dvec3 clipped = fromYCoCg(varianceClip(pastYCoCg, n.mean, n.reach));
     out.samples = std::min(history.value.w + 1.0, double(settings.maxSamples));
     out.samplesError = history.error.w + 2.0 * kFloatRoundoff * out.samples;
     const double newest = 1.0 / out.samples;
@@ -114,7 +124,7 @@ Image<Accumulated> antialias(const HostFrame& frame, const Image<Guide>& guides,
 
     const double colourError = std::max({history.error.r, history.error.g, history.error.b}) +
                                16.0 * kFloatRoundoff * (std::abs(pastYCoCg.x) + std::abs(n.mean.x));
-    const glm::dvec3 boxError = clipError(pastYCoCg - n.mean, n, gamma, colourError);
+    const glm::dvec3 boxError = clipError(pastYCoCg - n.mean, n, colourError);
     const double channelError = boxError.x + boxError.y + boxError.z;
     out.error = glm::dvec3(channelError) + 8.0 * kFloatRoundoff * (glm::abs(clipped) + glm::abs(current)) +
                 out.samplesError * newest * newest * glm::abs(current - clipped);
