@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include <CLI/App.hpp>
+#include <CLI/CLI.hpp>
 
 namespace walr {
 
@@ -11,11 +11,13 @@ namespace walr {
 using RegisterCommand = void (*)(CLI::App& program);
 
 void registerDenoise(CLI::App& program);
+void registerGraph(CLI::App& program);
 void registerRender(CLI::App& program);
 
 /// All subcommands of `walr`. A new one is a line here.
-inline constexpr std::array<RegisterCommand, 2> kCommands = {
+inline constexpr std::array<RegisterCommand, 3> kCommands = {
     registerDenoise,
+    registerGraph,
     registerRender,
 };
 

@@ -8,8 +8,7 @@
 #include <string>
 #include <vector>
 
-#include <CLI/App.hpp>
-#include <CLI/Validators.hpp>
+#include <CLI/CLI.hpp>
 
 #include "framegraph/vulkan/instance.h"
 #include "framegraph/vulkan/physical_device.h"

@@ -1,9 +1,7 @@
 #include <csignal>
 #include <iostream>
 
-#include <CLI/App.hpp>
-#include <CLI/Config.hpp>
-#include <CLI/Formatter.hpp>
+#include <CLI/CLI.hpp>
 
 #include "samples/cli/command.h"
 #include "samples/cli/exit_code.h"

@@ -2,7 +2,7 @@
 
 #include <stdexcept>
 
-#include <CLI/Validators.hpp>
+#include <CLI/CLI.hpp>
 
 #include "samples/cli/usage_error.h"
 

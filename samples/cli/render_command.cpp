@@ -5,8 +5,7 @@
 #include <memory>
 #include <string>
 
-#include <CLI/App.hpp>
-#include <CLI/Validators.hpp>
+#include <CLI/CLI.hpp>
 
 #include "samples/cli/arguments.h"
 #include "samples/cli/command.h"

@@ -78,7 +78,7 @@ class ProgramTest : public testing::Test {
 };
 
 TEST_F(ProgramTest, HelpExplainsEveryCommand) {
-  for (const std::vector<std::string>& command : std::vector<std::vector<std::string>>{{}, {"denoise"}}) {
+  for (const std::vector<std::string>& command : std::vector<std::vector<std::string>>{{}, {"denoise"}, {"graph"}}) {
     std::vector<std::string> arguments = command;
     arguments.emplace_back("--help");
     const ProcessResult result = walr(arguments);
@@ -100,6 +100,7 @@ TEST_F(ProgramTest, AWrongCommandLineIsAUsageError) {
   expectFailure(denoise({"--set", "nothing"}), kUsage, {"NAME=VALUE"});
   expectFailure(walr({"denoise", input, "--output", input}), kUsage, {"input folder"});
   expectFailure(denoise({"--preset", "fancy"}), kUsage, {"--preset fancy"});
+  expectFailure(walr({"graph", "--size", "10"}), kUsage, {"--size 10"});
 }
 
 TEST_F(ProgramTest, DenoisesAndMeasures) {
@@ -304,6 +305,24 @@ INSTANTIATE_TEST_SUITE_P(EveryChannel, NonFiniteChannelTest,
                          testing::Values("DiffInd.R", "DiffInd.G", "DiffInd.B", "DiffCol.R", "DiffCol.G", "DiffCol.B",
                                          "Normal.X", "Normal.Y", "Normal.Z", "Depth.Z", "Vector.X", "Vector.Y",
                                          "DiffDir.R", "Emit.B"));
+
+TEST_F(ProgramTest, GraphPrintsThePlanWithoutADevice) {
+  const ProcessOptions options{{{"VK_DRIVER_FILES", "/nonexistent"}, {"VK_ICD_FILENAMES", "/nonexistent"}}, {}};
+  for (const std::string& method : denoiserNames()) {
+    const ProcessResult result = walr({"graph", "--method", method, "--size", "640x360"}, options);
+    expectSuccess(result);
+    EXPECT_NE(result.out.find("640"), std::string::npos) << result.out;
+    EXPECT_NE(result.out.find("denoised"), std::string::npos) << result.out;
+  }
+}
+
+TEST_F(ProgramTest, GraphListsSettings) {
+  const ProcessResult result = walr({"graph", "--list-settings"});
+  expectSuccess(result);
+  for (const SettingText& setting : makeDenoiser("walr")->settings()) {
+    EXPECT_NE(result.out.find(setting.name + " = " + setting.value), std::string::npos) << setting.name;
+  }
+}
 
 }  // namespace
 }  // namespace walr
