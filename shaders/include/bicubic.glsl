@@ -9,17 +9,22 @@ vec4 catmullRom(float f) {
               f * f * (0.5 * f - 0.5));
 }
 
-// Radiance is bicubic where all four inner pixels show the surface, else the mean of those that do. Alpha, the history
-// length, is that mean in either case.
+// Radiance is bicubic where all four inner pixels show the surface and none of the outer ones is sky or otherwise
+// without history (length 0), whose light would ring into the surface; else the mean of the inner ones that show it.
+// Alpha, the history length, is that mean in either case.
 vec4 bicubicOfTaps(texture2D history, HistoryTaps taps) {
   const vec4 linear = meanOfTaps(history, taps);
   if (!taps.all) return linear;
   const vec4 wx = catmullRom(taps.fraction.x), wy = catmullRom(taps.fraction.y);
   const ivec2 last = textureSize(history, 0) - 1;
   vec3 cubic = vec3(0.0);
-  for (int j = 0; j < 4; ++j)
-    for (int i = 0; i < 4; ++i)
-      cubic += wx[i] * wy[j] * texelFetch(history, clamp(taps.base + ivec2(i, j) - 1, ivec2(0), last), 0).rgb;
+  for (int j = 0; j < 4; ++j) {
+    for (int i = 0; i < 4; ++i) {
+      const vec4 texel = texelFetch(history, clamp(taps.base + ivec2(i, j) - 1, ivec2(0), last), 0);
+      if (texel.a == 0.0) return linear;
+      cubic += wx[i] * wy[j] * texel.rgb;
+    }
+  }
   return vec4(max(cubic, vec3(0.0)), linear.a);
 }
 

@@ -38,7 +38,8 @@ HistorySample sampleBilinear(const Reprojection& r, const std::array<HistoryTap,
   return history;
 }
 
-/// Colour of the 4x4 pixels around the position; the picture goes on with its border pixels.
+/// Colour of the 4x4 pixels around the position; the picture goes on with its border pixels. Not found where one of
+/// them has no history.
 HistorySample sampleBicubic(const Reprojection& r, const Image<glm::dvec4>& previous) {
   const glm::dvec2 base = glm::floor(r.pixel - 0.5);
   const glm::dvec2 f = r.pixel - 0.5 - base;
@@ -56,6 +57,7 @@ HistorySample sampleBicubic(const Reprojection& r, const Image<glm::dvec4>& prev
     }
   }
   HistorySample history;
+  history.found = least.w > 0.0;
   history.value = glm::max(sum, 0.0);
   // A Catmull-Rom weight changes by at most 1.5 per pixel and axis, and the sixteen products sum to 1.6 at most.
   history.error = 24.0 * pixelError(r) * (most - least) + 48.0 * kFloatRoundoff * most;
@@ -84,7 +86,8 @@ HistorySample sampleHistory(const Reprojection& r, const std::array<HistoryTap, 
   }
   const bool allMatch = std::all_of(taps.begin(), taps.end(), [](const HistoryTap& tap) { return tap.matches; });
   if (!allMatch) return history;
-  HistorySample bicubic = sampleBicubic(r, previous);
+  const HistorySample bicubic = sampleBicubic(r, previous);
+  if (!bicubic.found) return history;
   history.value = glm::dvec4(glm::dvec3(bicubic.value), history.value.w);
   history.error = glm::dvec4(glm::dvec3(bicubic.error), history.error.w);
   return history;

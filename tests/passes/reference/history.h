@@ -17,7 +17,8 @@ struct HistorySample {
 std::array<double, 4> catmullRom(double f);
 
 /// Read a history texture at a reprojected position from the taps that match. Bicubic reading needs all four taps to
-/// match, else it falls back to bilinear; the number of samples is always read bilinearly.
+/// match and all sixteen pixels to have a history, else it falls back to bilinear; the number of samples is always read
+/// bilinearly.
 HistorySample sampleHistory(const Reprojection& r, const std::array<HistoryTap, 4>& taps,
                             const Image<glm::dvec4>& previous, HistoryFilter filter);
 
