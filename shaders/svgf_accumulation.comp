@@ -6,6 +6,7 @@
 #extension GL_EXT_samplerless_texture_functions : require
 #include "constants/frame.h"
 #include "constants/svgf_accumulation.h"
+#include "include/half.glsl"
 #include "include/luminance.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -86,6 +87,6 @@ void main() {
     const float momentSamples = min(m.samples, settings.maxMomentSamples);
     addSample(m, clamp(noisy, vec3(0.0), vec3(kLargestHalf)), 1.0 / m.samples, 1.0 / momentSamples);
   }
-  imageStore(outColour, p, vec4(m.colour, 1.0));
-  imageStore(outMoments, p, vec4(m.mean, min(sqrt(m.variance), kLargestHalf), m.samples, 0.0));
+  imageStore(outColour, p, nearestHalf(vec4(m.colour, 1.0)));
+  imageStore(outMoments, p, nearestHalf(vec4(m.mean, sqrt(m.variance), m.samples, 0.0)));
 }

@@ -5,6 +5,7 @@
 #extension GL_EXT_samplerless_texture_functions : require
 #include "constants/frame.h"
 #include "constants/svgf_filter.h"
+#include "include/half.glsl"
 #include "include/luminance.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -86,5 +87,5 @@ void main() {
     imageStore(outColour, p, centre);
     return;
   }
-  imageStore(outColour, p, vec4(sum, sqrt(varianceSum)) / weightSum);
+  imageStore(outColour, p, nearestHalf(vec4(sum, sqrt(varianceSum)) / weightSum));
 }

@@ -1,0 +1,129 @@
+// What must hold of a whole denoiser whatever its method: unit gain, invalid pixels and samples left out, finite output
+// for any input, and a result better than temporal accumulation alone.
+#include <cmath>
+#include <string>
+
+#include "tests/passes/denoiser_run.h"
+#include "tests/passes/reference/hash.h"
+#include "tests/passes/synthetic_scene.h"
+#include "tests/vulkan/gpu_fixture.h"
+
+namespace walr::test {
+namespace {
+
+using reference::forEachPixel;
+using reference::HostFrame;
+using reference::Image;
+
+constexpr glm::ivec2 kSize(53, 37);
+
+struct Case {
+  const char* method;
+  bool spatialOnly;
+};
+
+std::string caseName(const testing::TestParamInfo<Case>& info) {
+  return std::string(info.param.method) + (info.param.spatialOnly ? "_spatial" : "");
+}
+
+class BaselineTest : public fg::test::GpuTest, public testing::WithParamInterface<Case> {
+ protected:
+  [[nodiscard]] static std::unique_ptr<Denoiser> makeCase() {
+    std::unique_ptr<Denoiser> denoiser = makeDenoiser(GetParam().method);
+    denoiser->set("spatial-only", GetParam().spatialOnly ? "on" : "off");
+    return denoiser;
+  }
+};
+
+FrameDescription walkingCamera(std::uint32_t frame, glm::ivec2 size) {
+  const glm::dvec3 step(0.06, 0.02, -0.03);
+  return cameraAt(double(frame) * step, (double(frame) - 1.0) * step, size, frame);
+}
+
+bool hits(glm::ivec2 p, std::uint32_t frame, std::uint32_t channel, double share) {
+  return (reference::pcg4d({p, frame, channel}).x + 0.5) * 0x1p-32 < share;
+}
+
+TEST_P(BaselineTest, KeepsConstantLightAndLeavesOutWhatIsNoSample) {
+  constexpr double kLight = 0.75;
+  constexpr double kElsewhere = 7.25;
+  const std::unique_ptr<Denoiser> denoiser = makeCase();
+  DenoiserRun run(device(), *denoiser, kSize);
+  for (const auto& [name, scene] : allScenes()) {
+    SCOPED_TRACE(name);
+    run.reset();
+    for (std::uint32_t i = 0; i < 3; ++i) {
+      HostFrame frame = renderFrame(scene, walkingCamera(i, kSize), kSize);
+      forEachPixel(kSize, [&](glm::ivec2 p) {
+        const bool surface = reference::surfaceAt(frame, p, {}).depth > 0.0;
+        frame.lighting[p] = glm::dvec3(surface ? kLight : kElsewhere);
+        if (surface && hits(p, i, 1, 0.1)) frame.lighting[p].y = hits(p, i, 2, 0.5) ? NAN : INFINITY;
+      });
+      const Image<glm::dvec4> result = run.frame(frame);
+      forEachPixel(kSize, [&](glm::ivec2 p) {
+        const bool surface = reference::surfaceAt(frame, p, {}).depth > 0.0;
+        // Averages of equal halves: each of at most seven stages may round by half a step.
+        const double tolerance = surface ? 7.0 * reference::kHalfRoundoff * kLight : 0.0;
+        const bool lone = surface && result[p] == glm::dvec4(0.0, 0.0, 0.0, 1.0) && !std::isfinite(frame.lighting[p].y);
+        if (lone) return;  // No pixel of its surface was sampled within reach.
+        for (int c = 0; c < 3; ++c)
+          EXPECT_NEAR(result[p][c], surface ? kLight : kElsewhere, tolerance) << "at (" << p.x << ", " << p.y << ")";
+      });
+    }
+  }
+}
+
+TEST_P(BaselineTest, IsFiniteForAnyInputAndSize) {
+  for (const glm::ivec2 size : {glm::ivec2(1, 1), glm::ivec2(2, 3), glm::ivec2(17, 13), kSize}) {
+    const std::unique_ptr<Denoiser> denoiser = makeCase();
+    DenoiserRun run(device(), *denoiser, size);
+    for (std::uint32_t i = 0; i < 3; ++i) {
+      HostFrame frame = renderFrame(stairs(), walkingCamera(i, size), size);
+      constexpr double kHostile[] = {NAN, INFINITY, -INFINITY, 65504.0, -65504.0, 0.0, 0x1p-24};
+      forEachPixel(size, [&](glm::ivec2 p) {
+        const double value = kHostile[reference::pcg4d({p, i, 9U}).x % std::size(kHostile)];
+        if (hits(p, i, 3, 0.1)) frame.lighting[p].x = value;
+        if (hits(p, i, 4, 0.05)) frame.depth[p] = value;
+        if (hits(p, i, 5, 0.05)) frame.normal[p].y = value;
+        if (hits(p, i, 6, 0.05)) frame.motion[p].x = value;
+        if (hits(p, i, 7, 0.05)) frame.motion[p].z = value;
+        if (hits(p, i, 8, 0.05)) frame.albedo[p].z = value;
+      });
+      const Image<glm::dvec4> result = run.frame(frame);
+      for (const glm::dvec4& pixel : result.pixels())
+        for (int c = 0; c < 4; ++c)
+          ASSERT_TRUE(std::isfinite(pixel[c])) << size.x << " x " << size.y << ", frame " << i;
+    }
+  }
+}
+
+TEST_P(BaselineTest, BeatsAccumulationAlone) {
+  const std::unique_ptr<Denoiser> denoiser = makeCase();
+  const std::unique_ptr<Denoiser> accumulation = makeDenoiser("accumulate");
+  DenoiserRun run(device(), *denoiser, kSize);
+  DenoiserRun plainRun(device(), *accumulation, kSize);
+  for (const auto& [name, scene] : allScenes()) {
+    SCOPED_TRACE(name);
+    run.reset();
+    plainRun.reset();
+    const std::uint32_t frames = GetParam().spatialOnly ? 1 : 6;
+    double error = 0.0;
+    double plainError = 0.0;
+    for (std::uint32_t i = 0; i < frames; ++i) {
+      const HostFrame noisy = renderFrame(scene, walkingCamera(i, kSize), kSize);
+      const HostFrame truth = renderFrame(scene, walkingCamera(i, kSize), kSize, smoothLight, Noise::None);
+      error = surfaceError(run.frame(noisy), truth);
+      plainError = surfaceError(plainRun.frame(noisy), truth);
+    }
+    RecordProperty(std::string(name) + "_error", std::to_string(error));
+    EXPECT_LT(error, 0.5 * plainError) << "error " << error << ", of accumulation alone " << plainError;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Methods, BaselineTest,
+                         testing::Values(Case{"svgf", false}, Case{"svgf", true}, Case{"joint_bilateral", false},
+                                         Case{"joint_bilateral", true}),
+                         caseName);
+
+}  // namespace
+}  // namespace walr::test

@@ -1,0 +1,30 @@
+#pragma once
+
+#include "passes/denoiser.h"
+#include "tests/passes/host_textures.h"
+
+namespace walr::test {
+
+/// A whole denoiser on a device, fed with host frames one by one.
+class DenoiserRun {
+ public:
+  DenoiserRun(const fg::vk::Device& device, Denoiser& denoiser, glm::ivec2 size,
+              const InputConventions& conventions = {});
+
+  /// Forget all frames so far.
+  void reset() { run_->executor().resetAllHistory(); }
+  /// Denoise the next frame. rgb: the result.
+  reference::Image<glm::dvec4> frame(const reference::HostFrame& frame);
+
+ private:
+  glm::ivec2 size_;
+  fg::Graph graph_;
+  DenoiserInputs inputs_;
+  fg::Texture output_;
+  std::unique_ptr<fg::test::GraphRun> run_;
+};
+
+/// Root mean square difference of the colours over the pixels of a surface.
+double surfaceError(const reference::Image<glm::dvec4>& result, const reference::HostFrame& truth);
+
+}  // namespace walr::test

@@ -1,0 +1,27 @@
+#include "tests/passes/filter_run.h"
+
+#include <string>
+
+namespace walr::test {
+
+FilterRun::FilterRun(const fg::vk::Device& device, glm::ivec2 size, std::size_t inputCount, const Add& add)
+    : size_(size),
+      frame_(graph_.upload("frame constants", sizeof(FrameConstants))),
+      guides_(importGuides(graph_, size)) {
+  for (std::size_t i = 0; i < inputCount; ++i)
+    inputs_.push_back(importHalves(graph_, "input " + std::to_string(i), size));
+  output_ = copyOut(graph_, "result", add(graph_, frame_, guides_, inputs_));
+  run_ = std::make_unique<fg::test::GraphRun>(device, graph_);
+}
+
+reference::Image<glm::dvec4> FilterRun::run(const reference::HostFrame& frame,
+                                            const reference::Image<reference::Guide>& guides,
+                                            const std::vector<reference::Image<glm::dvec4>>& inputs) {
+  run_->executor().upload(frame_, frame.constants);
+  upload(*run_, guides_, guides);
+  for (std::size_t i = 0; i < inputs.size(); ++i) upload(*run_, inputs_[i], inputs[i]);
+  run_->frame();
+  return readHalves(*run_, output_, size_);
+}
+
+}  // namespace walr::test

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "tests/passes/host_textures.h"
+
+namespace walr::test {
+
+/// Passes that read guides and RGBA16F textures and make one RGBA16F texture, on a device.
+class FilterRun {
+ public:
+  /// Adds the passes to a graph and returns their result. The inputs are in the order in which `run` takes them.
+  using Add = std::function<fg::Texture(fg::Graph& graph, fg::Buffer frame, const Guides& guides,
+                                        const std::vector<fg::Texture>& inputs)>;
+
+  FilterRun(const fg::vk::Device& device, glm::ivec2 size, std::size_t inputCount, const Add& add);
+
+  /// The result for these guides and inputs. Of the frame only the constants are used.
+  reference::Image<glm::dvec4> run(const reference::HostFrame& frame, const reference::Image<reference::Guide>& guides,
+                                   const std::vector<reference::Image<glm::dvec4>>& inputs);
+
+ private:
+  glm::ivec2 size_;
+  fg::Graph graph_;
+  fg::Buffer frame_;
+  Guides guides_;
+  std::vector<fg::Texture> inputs_;
+  fg::Texture output_;
+  std::unique_ptr<fg::test::GraphRun> run_;
+};
+
+}  // namespace walr::test

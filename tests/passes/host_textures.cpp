@@ -1,0 +1,119 @@
+#include "tests/passes/host_textures.h"
+
+#include <bit>
+#include <cstdint>
+
+#include <glm/gtc/packing.hpp>
+#include <glm/packing.hpp>
+
+#include "tests/passes/reference/octahedral.h"
+#include "tests/passes/shaders.h"
+#include "tests/passes/texel_codec.h"
+
+namespace walr::test {
+namespace {
+
+using reference::Image;
+
+fg::Extent extentOf(glm::ivec2 size) {
+  return {static_cast<std::uint32_t>(size.x), static_cast<std::uint32_t>(size.y)};
+}
+
+fg::Texture import(fg::Graph& graph, const std::string& name, VkFormat format, glm::ivec2 size) {
+  return graph.import(name, {format, extentOf(size)}, fg::vk::kUploaded);
+}
+
+std::uint32_t packUnorms(glm::dvec2 unorms) {
+  return glm::packUnorm2x16(glm::vec2(unorms));
+}
+
+/// Upload guides in their packed form.
+void uploadPacked(fg::test::GraphRun& run, fg::Texture depth, fg::Texture normals,
+                  const Image<reference::Guide>& values) {
+  std::vector<std::uint32_t> depths;
+  std::vector<glm::uvec2> packedNormals;
+  for (const reference::Guide& guide : values.pixels()) {
+    const bool surface = guide.depth > 0.0;
+    depths.push_back(std::bit_cast<std::uint32_t>(static_cast<float>(guide.depth)));
+    packedNormals.push_back(
+        surface ? glm::uvec2(packUnorms(guide.features), packUnorms(reference::octahedralEncode(guide.normal)))
+                : glm::uvec2(0U));
+  }
+  run.fill(depth, depths);
+  run.fill(normals, packedNormals);
+}
+
+}  // namespace
+
+DenoiserInputs importInputs(fg::Graph& graph, glm::ivec2 size, const InputConventions& conventions) {
+  DenoiserInputs inputs;
+  inputs.lighting = importHalves(graph, "lighting", size);
+  inputs.depth = import(graph, "depth", VK_FORMAT_R32_SFLOAT, size);
+  inputs.normal = importHalves(graph, "normal", size);
+  inputs.motion = importHalves(graph, "motion", size);
+  inputs.albedo = importHalves(graph, "albedo", size);
+  inputs.frame = graph.upload("frame constants", sizeof(FrameConstants));
+  inputs.conventions = conventions;
+  return inputs;
+}
+
+void upload(fg::test::GraphRun& run, const DenoiserInputs& inputs, const reference::HostFrame& frame) {
+  run.fill(inputs.lighting, encodeHalves(frame.lighting));
+  run.fill(inputs.normal, encodeHalves(frame.normal));
+  run.fill(inputs.motion, encodeHalves(frame.motion));
+  run.fill(inputs.albedo, encodeHalves(frame.albedo));
+  run.fill(inputs.depth, encodeFloats(frame.depth));
+  run.executor().upload(inputs.frame, frame.constants);
+}
+
+Guides importGuides(fg::Graph& graph, glm::ivec2 size) {
+  Guides guides;
+  guides.depth = import(graph, "guides.depth", VK_FORMAT_R32_UINT, size);
+  guides.normals = import(graph, "guides.normals", VK_FORMAT_R32G32_UINT, size);
+  guides.previousDepth = import(graph, "previous guides.depth", VK_FORMAT_R32_UINT, size);
+  guides.previousNormals = import(graph, "previous guides.normals", VK_FORMAT_R32G32_UINT, size);
+  return guides;
+}
+
+void upload(fg::test::GraphRun& run, const Guides& guides, const Image<reference::Guide>& values) {
+  uploadPacked(run, guides.depth, guides.normals, values);
+}
+
+void uploadPrevious(fg::test::GraphRun& run, const Guides& guides, const Image<reference::Guide>& values) {
+  uploadPacked(run, guides.previousDepth, guides.previousNormals, values);
+}
+
+fg::Texture importHalves(fg::Graph& graph, const std::string& name, glm::ivec2 size) {
+  return import(graph, name, VK_FORMAT_R16G16B16A16_SFLOAT, size);
+}
+
+void upload(fg::test::GraphRun& run, fg::Texture texture, const Image<glm::dvec4>& values) {
+  std::vector<std::uint64_t> texels;
+  for (const glm::dvec4& value : values.pixels()) texels.push_back(glm::packHalf4x16(glm::vec4(value)));
+  run.fill(texture, texels);
+}
+
+Image<glm::dvec4> withAlpha(const Image<glm::dvec3>& image) {
+  Image<glm::dvec4> result(image.size());
+  reference::forEachPixel(image.size(), [&](glm::ivec2 p) { result[p] = glm::dvec4(image[p], 0.0); });
+  return result;
+}
+
+fg::Texture importOutput(fg::Graph& graph, glm::ivec2 size) {
+  return graph.import("output", {VK_FORMAT_R16G16B16A16_SFLOAT, extentOf(size)}, fg::vk::kOverwritable);
+}
+
+fg::Texture copyOut(fg::Graph& graph, const std::string& name, fg::Texture texture) {
+  const fg::TextureDesc& desc = graph.textureDesc(texture);
+  const fg::Texture target = graph.import(name, desc, fg::vk::kOverwritable);
+  fg::PassBuilder pass = graph.compute("copy to " + name, shaders::copyHalf);
+  pass.sample("source", texture).dispatch(desc.extent);
+  graph.exported(pass.store("target", target), fg::vk::kReadable);
+  return target;
+}
+
+Image<glm::dvec4> readHalves(const fg::test::GraphRun& run, fg::Texture output, glm::ivec2 size) {
+  return decodeHalves(run.texels<std::uint16_t>(output), size);
+}
+
+}  // namespace walr::test

@@ -1,0 +1,187 @@
+#include "tests/passes/reference/svgf.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "tests/passes/reference/history.h"
+#include "tests/passes/reference/moments.h"
+#include "tests/passes/reference/octahedral.h"
+
+namespace walr::reference {
+namespace {
+
+bool isFinite(glm::dvec3 v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+/// Edge-stopping functions of depth and normal for the pair of pixels (p, q); 0 where q has nothing to lend.
+double surfaceWeight(const HostFrame& frame, const Image<Guide>& guides, glm::ivec2 p, glm::ivec2 q,
+                     const SvgfFilterSettings& settings) {
+  if (!guides.contains(q) || guides[q].depth == 0.0) return 0.0;
+  const auto position = [&](glm::ivec2 pixel) {
+    return rayThrough(frame.constants.rayFromPixel, pixelCentre(pixel)) * guides[pixel].depth;
+  };
+  const double distance = std::abs(glm::dot(guides[p].normal, position(q) - position(p))) / guides[p].depth;
+  const double cosine = glm::dot(octahedralDecode(guides[p].features), octahedralDecode(guides[q].features));
+  return std::exp(-distance / double(settings.sigmaDepth)) *
+         std::pow(std::clamp(cosine, 1e-6, 1.0), double(settings.sigmaNormal));
+}
+
+double binomial(int n, int k) {
+  return std::round(std::exp(std::lgamma(n + 1.0) - std::lgamma(k + 1.0) - std::lgamma(n - k + 1.0)));
+}
+
+/// Variance of the luminance over 7x7 pixels, and its second moment about the pixel's own mean.
+struct SpatialMoments {
+  double variance = 0.0;
+  double secondMoment = 0.0;
+};
+
+SpatialMoments spatialMoments(const HostFrame& frame, const Image<Guide>& guides, const Image<SvgfMoments>& moments,
+                              glm::ivec2 p, const SvgfFilterSettings& settings) {
+  double mean = 0.0;
+  double square = 0.0;
+  double weightSum = 0.0;
+  for (int y = -3; y <= 3; ++y) {
+    for (int x = -3; x <= 3; ++x) {
+      const glm::ivec2 q = p + glm::ivec2(x, y);
+      const double weight = surfaceWeight(frame, guides, p, q, settings);
+      if (weight == 0.0 || moments[q].samples == 0.0) continue;
+      mean += weight * moments[q].mean;
+      square += weight * moments[q].square;
+      weightSum += weight;
+    }
+  }
+  mean /= weightSum;
+  square /= weightSum;
+  const double own = moments[p].mean;
+  return {std::max(square - mean * mean, 0.0), square - 2.0 * mean * own + own * own};
+}
+
+double smoothDeviation(const Image<Guide>& guides, const Image<SvgfPixel>& input, glm::ivec2 p) {
+  double sum = 0.0;
+  double weightSum = 0.0;
+  for (int y = -1; y <= 1; ++y) {
+    for (int x = -1; x <= 1; ++x) {
+      const glm::ivec2 q = glm::clamp(p + glm::ivec2(x, y), glm::ivec2(0), input.size() - 1);
+      if (guides[q].depth == 0.0 || input[q].deviation < 0.0) continue;
+      const double weight = (2.0 - std::abs(x)) * (2.0 - std::abs(y)) / 16.0;
+      sum += weight * input[q].deviation * input[q].deviation;
+      weightSum += weight;
+    }
+  }
+  return std::sqrt(sum / weightSum);
+}
+
+}  // namespace
+
+double SvgfMoments::variance() const {
+  return std::max(square - mean * mean, 0.0);
+}
+
+Image<SvgfMoments> svgfAccumulate(const HostFrame& frame, const Image<Guide>& guides, const SvgfHistory& history,
+                                  const SvgfAccumulationSettings& settings) {
+  Image<SvgfMoments> result(frame.size());
+  forEachPixel(frame.size(), [&](glm::ivec2 p) {
+    SvgfMoments& out = result[p];
+    const glm::dvec3 noisy = frame.lighting[p];
+    if (guides[p].depth == 0.0) {
+      out.colour = isFinite(noisy) ? noisy : glm::dvec3(0.0);
+      return;
+    }
+    if (history.guides.size() == frame.size()) {
+      const Reprojection r = reproject(frame, guides, p, false);
+      std::array<HistoryTap, 4> taps =
+          historyTaps(frame, r, history.guides, double(settings.planeTolerance), double(settings.normalThreshold));
+      for (HistoryTap& tap : taps) tap.matches = tap.matches && history.moments[tap.pixel].w > 0.0;
+      const HistorySample colour = sampleHistory(r, taps, history.colour, HistoryFilter::Bilinear);
+      const HistorySample moments = sampleHistory(r, taps, history.moments, HistoryFilter::Bilinear);
+      out.colour = glm::dvec3(colour.value);
+      out.mean = moments.value.x;
+      out.square = moments.value.y;
+      out.samples = moments.value.w;
+      out.colourError = colour.error;
+      out.momentError = moments.error;
+      out.undecided = moments.undecided;
+    }
+    if (!isFinite(noisy)) return;
+    const glm::dvec3 radiance = glm::clamp(noisy, 0.0, kLargestHalf);
+    const double l = luminance(radiance);
+    out.samples = std::min(out.samples + 1.0, double(settings.maxSamples));
+    const double momentAlpha = 1.0 / std::min(out.samples, double(settings.maxMomentSamples));
+    out.colour += (radiance - out.colour) / out.samples;
+    out.mean += (l - out.mean) * momentAlpha;
+    out.square += (l * l - out.square) * momentAlpha;
+  });
+  return result;
+}
+
+Image<SvgfMoments> svgfSingleFrame(const HostFrame& frame, const Image<Guide>& guides) {
+  return svgfAccumulate(frame, guides, {});
+}
+
+Image<SvgfPixel> svgfVariance(const HostFrame& frame, const Image<Guide>& guides, const Image<SvgfMoments>& moments,
+                              const SvgfFilterSettings& settings) {
+  Image<SvgfPixel> result(frame.size());
+  forEachPixel(frame.size(), [&](glm::ivec2 p) {
+    const SvgfMoments& m = moments[p];
+    result[p].colour = m.colour;
+    if (guides[p].depth == 0.0) return;
+    if (m.samples == 0.0) {
+      result[p].deviation = -1.0;
+    } else if (m.samples < double(settings.minHistory)) {
+      const SpatialMoments spatial = spatialMoments(frame, guides, moments, p, settings);
+      const double boost = double(settings.minHistory) / m.samples;
+      result[p].deviation = std::sqrt(boost * spatial.variance);
+      result[p].secondMoment = boost * spatial.secondMoment;
+    } else {
+      result[p].deviation = std::sqrt(m.variance());
+    }
+  });
+  return result;
+}
+
+Image<SvgfPixel> svgfAtrous(const HostFrame& frame, const Image<Guide>& guides, const Image<SvgfPixel>& input,
+                            int spacing, const SvgfFilterSettings& settings) {
+  const int radius = static_cast<int>(settings.radius);
+  Image<SvgfPixel> result(frame.size());
+  std::vector<std::pair<double, glm::dvec3>> taps;
+  forEachPixel(frame.size(), [&](glm::ivec2 p) {
+    result[p].colour = input[p].colour;
+    result[p].deviation = input[p].deviation;
+    if (guides[p].depth == 0.0) return;
+    const bool luminanceWeight = settings.luminanceWeight && input[p].deviation >= 0.0;
+    const double centre = luminance(input[p].colour);
+    const double unit = luminanceWeight ? double(settings.sigmaLuminance) * smoothDeviation(guides, input, p) : 1.0;
+    double weightSum = 0.0;
+    double variance = 0.0;
+    glm::dvec3 sum(0.0);
+    taps.clear();
+    for (int y = -radius; y <= radius; ++y) {
+      for (int x = -radius; x <= radius; ++x) {
+        const glm::ivec2 q = p + spacing * glm::ivec2(x, y);
+        double weight = surfaceWeight(frame, guides, p, q, settings) * binomial(2 * radius, radius + x) *
+                        binomial(2 * radius, radius + y);
+        if (weight == 0.0 || input[q].deviation < 0.0) continue;
+        if (luminanceWeight) {
+          weight *= std::exp(-std::abs(luminance(input[q].colour) - centre) / (unit + centre * 1e-3 + 1e-7));
+        }
+        weightSum += weight;
+        variance += weight * weight * input[q].deviation * input[q].deviation;
+        sum += weight * input[q].colour;
+        taps.emplace_back(weight, input[q].colour);
+      }
+    }
+    if (weightSum == 0.0) return;
+    result[p].colour = sum / weightSum;
+    result[p].deviation = std::sqrt(variance) / weightSum;
+    for (const auto& [weight, colour] : taps)
+      result[p].spread += weight / weightSum * glm::abs(colour - result[p].colour);
+  });
+  return result;
+}
+
+}  // namespace walr::reference

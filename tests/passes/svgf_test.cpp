@@ -1,0 +1,291 @@
+// SVGF's passes on a device against the double-precision reference, each fed with what the device itself made before,
+// so that no error is carried from pass to pass.
+#include <cmath>
+#include <string>
+
+#include "passes/svgf.h"
+#include "tests/passes/comparison.h"
+#include "tests/passes/filter_run.h"
+#include "tests/passes/reference/hash.h"
+#include "tests/passes/reference/svgf.h"
+#include "tests/passes/synthetic_scene.h"
+#include "tests/vulkan/gpu_fixture.h"
+
+namespace walr::test {
+namespace {
+
+using fg::test::GraphRun;
+using reference::forEachPixel;
+using reference::Guide;
+using reference::HostFrame;
+using reference::Image;
+using reference::kFloatRoundoff;
+using reference::SvgfMoments;
+using reference::SvgfPixel;
+
+constexpr glm::ivec2 kSize(45, 31);
+
+/// Largest relative error of a product of edge-stopping weights in single precision. Vulkan's log2 errs by 2^-21, exp
+/// by 3 + 2 abs(x) units in the last place where weights matter, a cosine of decoded normals by about eight roundings
+/// and a plane distance, whose terms are of order 1, by about sixteen. An exponent's own relative error counts most
+/// where the weight times it is largest, at 1 / e.
+double weightError(const SvgfFilterSettings& settings) {
+  return double(settings.sigmaNormal) * (0x1p-21 + 8.0 * kFloatRoundoff) +
+         16.0 * kFloatRoundoff / double(settings.sigmaDepth) + 32.0 * kFloatRoundoff;
+}
+
+double uniform(glm::ivec2 p, std::uint32_t channel) {
+  return (reference::pcg4d({p, channel, 77U}).x + 0.5) * 0x1p-32;
+}
+
+Image<Guide> guidesOf(const HostFrame& frame) {
+  return reference::prepareGuides(frame, reference::Storage::Quantised);
+}
+
+/// Colours with their deviations, as the variance estimate hands them on: some dark, some bright, some never sampled.
+Image<glm::dvec4> someColours(const Image<Guide>& guides) {
+  Image<glm::dvec4> colours(guides.size());
+  forEachPixel(guides.size(), [&](glm::ivec2 p) {
+    for (int i = 0; i < 4; ++i)
+      colours[p][i] = reference::roundToHalf(std::exp(3.0 * uniform(p, static_cast<std::uint32_t>(i)) - 2.0));
+    if (uniform(p, 5) < 0.05 && guides[p].depth > 0.0) colours[p] = {0.0, 0.0, 0.0, -1.0};
+  });
+  return colours;
+}
+
+Image<SvgfPixel> pixelsOf(const Image<glm::dvec4>& texels) {
+  Image<SvgfPixel> pixels(texels.size());
+  forEachPixel(texels.size(), [&](glm::ivec2 p) {
+    pixels[p].colour = glm::dvec3(texels[p]);
+    pixels[p].deviation = texels[p].w;
+  });
+  return pixels;
+}
+
+void expectNear(double value, double expected, double tolerance, glm::ivec2 p, const std::string& what) {
+  EXPECT_LE(std::abs(value - expected), tolerance)
+      << what << " at (" << p.x << ", " << p.y << "): " << value << " instead of " << expected;
+}
+
+class SvgfTest : public fg::test::GpuTest {
+ protected:
+  /// The a-trous iterations, whose input is a colour with its deviation.
+  FilterRun atrous(const SvgfFilterSettings& settings) {
+    return {device(), kSize, 1,
+            [&](fg::Graph& graph, fg::Buffer frame, const Guides& guides, const std::vector<fg::Texture>& inputs) {
+              return addSvgfAtrous(graph, frame, inputs[0], guides, {}, settings);
+            }};
+  }
+};
+
+void expectDeviations(const Image<glm::dvec4>& result, const Image<SvgfPixel>& expected) {
+  const SvgfFilterSettings settings;
+  forEachPixel(result.size(), [&](glm::ivec2 p) {
+    for (int i = 0; i < 3; ++i) expectNear(result[p][i], expected[p].colour[i], 0.0, p, "colour");
+    if (expected[p].deviation < 0.0) {
+      EXPECT_LT(result[p].w, 0.0) << "a deviation without a sample at (" << p.x << ", " << p.y << ")";
+      return;
+    }
+    // The variance, which is what arithmetic errs in. Its weights err twice: in the mean and in the mean square.
+    const double variance = expected[p].deviation * expected[p].deviation;
+    const double arithmetic = 4.0 * weightError(settings) + 64.0 * kFloatRoundoff;
+    const double stored = 2.0 * expected[p].deviation * halfTolerance(expected[p].deviation, 0.0) +
+                          reference::kSmallestHalf * reference::kSmallestHalf;
+    expectNear(result[p].w * result[p].w, variance, arithmetic * expected[p].secondMoment + stored, p, "variance");
+  });
+}
+
+TEST_F(SvgfTest, AccumulationIsThatOfRawMoments) {
+  for (const Scene& scene : {flatWall(), skyBesideSurface(), thinBars()}) {
+    fg::Graph graph;
+    const DenoiserInputs inputs = importInputs(graph, kSize);
+    const Guides guides = importGuides(graph, kSize);
+    const fg::History colour =
+        graph.history("colour", {VK_FORMAT_R16G16B16A16_SFLOAT, graph.textureDesc(inputs.lighting).extent});
+    const SvgfAccumulated accumulated = addSvgfAccumulation(graph, inputs, guides, colour.previous, colour.current);
+    const fg::Texture colourOut = copyOut(graph, "colour out", accumulated.colour);
+    const fg::Texture momentsOut = copyOut(graph, "moments out", accumulated.moments);
+    GraphRun run(device(), graph);
+
+    reference::SvgfHistory history;
+    int compared = 0;
+    int undecided = 0;
+    for (std::uint32_t i = 0; i < 7; ++i) {
+      const glm::dvec3 position(0.05 * i, 0.02 * i, 0.0);
+      HostFrame frame = renderFrame(scene, cameraAt(position, position - glm::dvec3(0.05, 0.02, 0.0), kSize, i), kSize);
+      frame.lighting[{7, 9}].x = NAN;
+      frame.lighting[{20, 3}].y = INFINITY;
+      const Image<Guide> guideValues = guidesOf(frame);
+      upload(run, inputs, frame);
+      upload(run, guides, guideValues);
+      uploadPrevious(run, guides, history.guides.size() == kSize ? history.guides : Image<Guide>(kSize));
+      run.frame();
+      const Image<glm::dvec4> colours = readHalves(run, colourOut, kSize);
+      Image<glm::dvec4> moments = readHalves(run, momentsOut, kSize);
+      const Image<SvgfMoments> expected = reference::svgfAccumulate(frame, guideValues, history);
+      forEachPixel(kSize, [&](glm::ivec2 p) {
+        const SvgfMoments& m = expected[p];
+        undecided += m.undecided ? 1 : 0;
+        ++compared;
+        if (m.undecided) return;
+        const double arithmetic = 64.0 * kFloatRoundoff;
+        for (int c = 0; c < 3; ++c) {
+          expectNear(colours[p][c], m.colour[c],
+                     m.colourError[c] + arithmetic * std::abs(m.colour[c]) + halfTolerance(m.colour[c], 0.0), p,
+                     "colour");
+        }
+        expectNear(moments[p].x, m.mean, m.momentError.x + arithmetic * m.mean + halfTolerance(m.mean, 0.0), p, "mean");
+        expectNear(moments[p].z, m.samples, m.momentError.w + arithmetic * m.samples + halfTolerance(m.samples, 0.0), p,
+                   "samples");
+        const double stored = 2.0 * std::sqrt(m.variance()) * halfTolerance(std::sqrt(m.variance()), 0.0);
+        const double difference = m.momentError.y + 2.0 * m.mean * m.momentError.x + arithmetic * m.square;
+        expectNear(moments[p].y * moments[p].y, m.variance(), stored + difference, p, "variance");
+      });
+      // What the device keeps, as the raw moments that the reference reads.
+      forEachPixel(kSize, [&](glm::ivec2 p) {
+        const glm::dvec4 m = moments[p];
+        moments[p] = {m.x, m.y * m.y + m.x * m.x, 0.0, m.z};
+      });
+      history = {guideValues, colours, moments};
+    }
+    EXPECT_LT(undecided, compared / 50) << "too few pixels are left to compare";
+  }
+}
+
+TEST_F(SvgfTest, VarianceIsTemporalOrOfTheNeighbourhood) {
+  FilterRun variance(
+      device(), kSize, 2,
+      [](fg::Graph& graph, fg::Buffer frame, const Guides& guides, const std::vector<fg::Texture>& inputs) {
+        return addSvgfVariance(graph, frame, {.colour = inputs[0], .moments = inputs[1]}, guides);
+      });
+  for (const auto& [name, scene] : allScenes()) {
+    SCOPED_TRACE(name);
+    const HostFrame frame = renderStill(scene, kSize);
+    const Image<Guide> guides = guidesOf(frame);
+    const Image<glm::dvec4> colours = someColours(guides);
+    Image<glm::dvec4> texels(kSize);
+    Image<SvgfMoments> moments(kSize);
+    forEachPixel(kSize, [&](glm::ivec2 p) {
+      SvgfMoments& m = moments[p];
+      m.colour = glm::dvec3(colours[p]);
+      if (guides[p].depth == 0.0) return;
+      m.samples = std::floor(8.0 * uniform(p, 8));
+      if (m.samples == 0.0) return;
+      m.mean = reference::roundToHalf(uniform(p, 6));
+      const double deviation = reference::roundToHalf(uniform(p, 7));
+      m.square = deviation * deviation + m.mean * m.mean;
+      texels[p] = {m.mean, deviation, m.samples, 0.0};
+    });
+    expectDeviations(variance.run(frame, guides, {colours, texels}), reference::svgfVariance(frame, guides, moments));
+  }
+}
+
+TEST_F(SvgfTest, VarianceOfASingleFrameIsOfTheNeighbourhood) {
+  HostFrame frame = renderStill(sphere(), kSize);
+  frame.lighting[{20, 15}].x = NAN;
+  frame.lighting[{22, 15}].z = INFINITY;
+  const Image<Guide> guides = guidesOf(frame);
+  FilterRun variance(
+      device(), kSize, 1,
+      [](fg::Graph& graph, fg::Buffer constants, const Guides& textures, const std::vector<fg::Texture>& inputs) {
+        return addSvgfSingleFrameVariance(graph, constants, inputs[0], textures);
+      });
+  expectDeviations(variance.run(frame, guides, {withAlpha(frame.lighting)}),
+                   reference::svgfVariance(frame, guides, reference::svgfSingleFrame(frame, guides)));
+}
+
+void expectIteration(const Image<glm::dvec4>& result, const Image<SvgfPixel>& expected,
+                     const SvgfFilterSettings& settings) {
+  const double error = 2.0 * weightError(settings);
+  forEachPixel(result.size(), [&](glm::ivec2 p) {
+    const SvgfPixel& e = expected[p];
+    for (int c = 0; c < 3; ++c) {
+      const double tolerance =
+          error * e.spread[c] + 100.0 * kFloatRoundoff * e.colour[c] + halfTolerance(e.colour[c], 0.0);
+      expectNear(result[p][c], e.colour[c], tolerance, p, "colour");
+    }
+    expectNear(result[p].w, e.deviation, error * std::abs(e.deviation) + halfTolerance(e.deviation, 0.0), p,
+               "deviation");
+  });
+}
+
+TEST_F(SvgfTest, EveryIterationIsTheReferences) {
+  const std::vector<NamedScene> scenes = allScenes();
+  std::vector<HostFrame> frames;
+  std::vector<Image<glm::dvec4>> inputs;
+  for (const auto& [name, scene] : scenes) {
+    frames.push_back(renderStill(scene, kSize));
+    inputs.push_back(someColours(guidesOf(frames.back())));
+  }
+  std::vector<Image<glm::dvec4>> previous = inputs;
+  for (std::uint32_t i = 0; i < 3; ++i) {
+    SvgfFilterSettings settings;
+    settings.iterations = i + 1;
+    FilterRun filter = atrous(settings);
+    for (std::size_t s = 0; s < scenes.size(); ++s) {
+      SCOPED_TRACE(std::string(scenes[s].name) + ", iteration " + std::to_string(i));
+      const Image<Guide> guides = guidesOf(frames[s]);
+      const Image<glm::dvec4> result = filter.run(frames[s], guides, {inputs[s]});
+      expectIteration(result, reference::svgfAtrous(frames[s], guides, pixelsOf(previous[s]), 1 << i, settings),
+                      settings);
+      previous[s] = result;
+    }
+  }
+}
+
+TEST_F(SvgfTest, EveryKernelSizeIsTheReferences) {
+  const HostFrame frame = renderStill(sphere(), kSize);
+  const Image<Guide> guides = guidesOf(frame);
+  const Image<glm::dvec4> colours = someColours(guides);
+  for (const std::uint32_t radius : {1U, 3U, 4U}) {
+    SCOPED_TRACE("radius " + std::to_string(radius));
+    SvgfFilterSettings settings;
+    settings.radius = radius;
+    settings.iterations = 1;
+    expectIteration(atrous(settings).run(frame, guides, {colours}),
+                    reference::svgfAtrous(frame, guides, pixelsOf(colours), 1, settings), settings);
+  }
+}
+
+TEST_F(SvgfTest, WeightsAreOneOnAPlane) {
+  const HostFrame frame = renderStill(flatWall(), kSize);
+  const Image<Guide> guides = guidesOf(frame);
+  Image<glm::dvec4> colours = someColours(guides);
+  for (glm::dvec4& colour : colours.pixels()) colour.w = std::abs(colour.w);
+  SvgfFilterSettings settings;
+  settings.iterations = 1;
+  settings.luminanceWeight = false;
+  const Image<glm::dvec4> result = atrous(settings).run(frame, guides, {colours});
+
+  // Rounded depths and normals leave the plane a little: a depth by its rounding, a normal tilted by two steps at a
+  // distance of no more than a tenth of the depth by a fifth of a step; the cosine of such a tilt is 1.
+  const double distance = 2.0 * reference::kDepthRoundoff + 0.2 * 2.0 * reference::kUnorm16Step;
+  const double weights = distance / double(settings.sigmaDepth) + weightError(settings);
+  constexpr double kSpline[] = {1.0, 4.0, 6.0, 4.0, 1.0};
+  for (int y = 2; y < kSize.y - 2; ++y) {
+    for (int x = 2; x < kSize.x - 2; ++x) {
+      glm::dvec3 mean(0.0);
+      for (int j = 0; j < 5; ++j)
+        for (int i = 0; i < 5; ++i)
+          mean += kSpline[i] * kSpline[j] / 256.0 * glm::dvec3(colours[{x + i - 2, y + j - 2}]);
+      for (int c = 0; c < 3; ++c) {
+        // No tap is further from the mean than the largest colour, exp(1).
+        expectNear(result[{x, y}][c], mean[c], 2.0 * weights * std::exp(1.0) + halfTolerance(mean[c], 0.0), {x, y},
+                   "colour");
+      }
+    }
+  }
+}
+
+TEST_F(SvgfTest, FeedbackBeyondTheLastIterationIsRefused) {
+  fg::Graph graph;
+  SvgfSettings settings;
+  settings.filter.iterations = 2;
+  settings.filter.feedback = 3;
+  const DenoiserInputs inputs = importInputs(graph, kSize);
+  const fg::Texture output = importOutput(graph, kSize);
+  EXPECT_THROW(addSvgf(graph, inputs, output, settings), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace walr::test
