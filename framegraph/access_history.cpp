@@ -11,8 +11,8 @@ bool isHistory(const ResourceDecl& resource) {
 }
 
 /// True where the access goes on with the group: reads with reads of the same layout, or everything in one pass.
-bool continues(const AccessGroup& group, const AccessInfo& info, std::uint32_t position) {
-  return group.layout == info.layout &&
+bool continues(const AccessGroup& group, const AccessInfo& info, VkImageLayout layout, std::uint32_t position) {
+  return group.layout == layout &&
          (group.position == position || (group.writeMask == VK_ACCESS_2_NONE && !info.writes()));
 }
 
@@ -55,16 +55,18 @@ bool AccessHistory::endsUnread(std::uint32_t resource) const {
 void AccessHistory::add(std::uint32_t position, const AccessDecl& access) {
   const AccessInfo& info = accessInfo(access.access);
   const ResourceDecl& resource = graph_->resources[access.resource];
+  const bool isTexture = std::holds_alternative<TextureDesc>(resource.desc);
+  const VkImageLayout layout = isTexture ? info.layout : VK_IMAGE_LAYOUT_UNDEFINED;
   SubresourceRange part = resolved(resource, access.range);
   if (subresourceCount(access.resource) == 1) part = {0, 1, 0, 1};
   const std::uint32_t layers = resolved(resource, {}).layerCount;
   for (std::uint32_t mip = part.baseMip; mip < part.baseMip + part.mipCount; ++mip) {
     for (std::uint32_t layer = part.baseLayer; layer < part.baseLayer + part.layerCount; ++layer) {
       auto& groups = groups_[first_[access.resource] + mip * layers + layer];
-      if (groups.empty() || !continues(groups.back(), info, position)) {
+      if (groups.empty() || !continues(groups.back(), info, layout, position)) {
         groups.emplace_back();
         groups.back().position = position;
-        groups.back().layout = info.layout;
+        groups.back().layout = layout;
       }
       groups.back().stage |= info.stage;
       groups.back().readMask |= info.readMask;

@@ -105,7 +105,8 @@ class PassCheck {
       findings_.error(code::kReadAndWritten, pass_, second,
                       "pass " + quoted(pass_.name) + " accesses " + quoted(resource.name) +
                           " twice and writes it; declare one access in place (update), or use two textures");
-    } else if (a.layout != b.layout && meets(resource, first, second)) {
+    } else if (std::holds_alternative<TextureDesc>(resource.desc) && a.layout != b.layout &&
+               meets(resource, first, second)) {
       findings_.error(code::kTwoLayouts, pass_, second,
                       "pass " + quoted(pass_.name) + " reads " + quoted(resource.name) + " as " + std::string(a.name) +
                           " and as " + std::string(b.name) +
@@ -142,8 +143,6 @@ class PassCheck {
     } else if (std::ranges::find(dispatch.groups, 0U) != std::end(dispatch.groups)) {
       findings_.error(code::kEmptyDispatch, pass_,
                       "pass " + quoted(pass_.name) + " dispatches no work group; call dispatch with its extent");
-    } else {
-      checkCoverage(dispatch);
     }
   }
 
@@ -160,23 +159,6 @@ class PassCheck {
                       std::to_string(dispatch.indirectOffset) + " of " + std::to_string(buffer->size) +
                       " bytes; the offset must be a multiple of 4 and the arguments inside",
                   pass_.where);
-  }
-
-  void checkCoverage(const ComputeDispatch& dispatch) {
-    const Extent threads = {dispatch.groups[0] * dispatch.shader->localSize[0],
-                            dispatch.groups[1] * dispatch.shader->localSize[1]};
-    for (const AccessDecl& access : pass_.accesses) {
-      if (access.access != Access::StorageWrite || !valid(access)) continue;
-      const auto* texture = std::get_if<TextureDesc>(&graph_.resources[access.resource].desc);
-      if (texture == nullptr) continue;
-      const Extent extent = accessedExtent(*texture, access);
-      if (threads.width >= extent.width && threads.height >= extent.height) continue;
-      findings_.add(code::kDispatchTooSmall, Severity::Warning, pass_.name, findings_.resourceName(access.resource),
-                    "pass " + quoted(pass_.name) + " runs " + size(threads) + " threads to overwrite " +
-                        quoted(findings_.resourceName(access.resource)) + " of " + size(extent) +
-                        "; its readers may see texels that nobody wrote",
-                    access.where);
-    }
   }
 
   const GraphDesc& graph_;

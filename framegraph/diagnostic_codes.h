@@ -12,7 +12,7 @@ inline constexpr std::string_view kStaleVersionRead = "FG004";     ///< A versio
 inline constexpr std::string_view kTwoWriters = "FG005";           ///< One version written twice.
 inline constexpr std::string_view kReadAndWritten = "FG006";       ///< Twice in one pass, not declared in place.
 inline constexpr std::string_view kFormatUnsupported = "FG007";    ///< On this device, for the declared use.
-inline constexpr std::string_view kExtentMismatch = "FG008";       ///< Producer covers less than the consumer reads.
+inline constexpr std::string_view kExtentMismatch = "FG008";       ///< Attachments of one pass that differ.
 inline constexpr std::string_view kImportWithoutState = "FG009";   ///< Read, but its state has no contents.
 inline constexpr std::string_view kExportNeverWritten = "FG010";   ///< Nobody makes what the host is to get.
 inline constexpr std::string_view kExportOverwritten = "FG011";    ///< Not the last version.
@@ -40,6 +40,5 @@ inline constexpr std::string_view kIndirectArguments = "FG032";    ///< Misalign
 inline constexpr std::string_view kTwoLayouts = "FG033";           ///< Two reads in one pass need two layouts.
 inline constexpr std::string_view kBindingTwice = "FG034";         ///< One shader variable, two accesses.
 inline constexpr std::string_view kBufferTooSmall = "FG035";       ///< Smaller than the shader's uniform block.
-inline constexpr std::string_view kDispatchTooSmall = "FG036";     ///< Warning: fewer threads than texels to write.
 
 }  // namespace fg::code

@@ -16,6 +16,7 @@ class TextWriter {
   TextWriter(const GraphDesc& graph, const Plan& plan) : graph_(graph), plan_(plan), topology_(graph) {}
 
   std::string run() {
+    if (plan_.resources.size() != graph_.resources.size()) return "no plan\n";
     writeMemory();
     for (const std::uint32_t resource : topology_.resourcesByName()) writeResource(resource);
     for (std::uint32_t position = 0; position < plan_.passes.size(); ++position) writePass(position);

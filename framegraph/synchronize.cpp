@@ -168,7 +168,10 @@ class Synchronizer {
     if (releases_[resource]) return releases_[resource];
     if (!graph_.resources[resource].acquire) return std::nullopt;
     const ExternalState acquire = bordering(resource, *graph_.resources[resource].acquire);
-    const bool asItCame = state.layout == acquire.layout && state.pendingWrite == VK_ACCESS_2_NONE;
+    // The acquire of the next frame covers unavailable writes that look like the host's own.
+    const bool covered = (state.pendingWrite & ~acquire.access) == 0 &&
+                         (state.pendingWrite == VK_ACCESS_2_NONE || (state.stage & ~acquire.stage) == 0);
+    const bool asItCame = state.layout == acquire.layout && covered;
     const bool unknown = acquire.layout == VK_IMAGE_LAYOUT_UNDEFINED && state.layout != VK_IMAGE_LAYOUT_UNDEFINED;
     return asItCame || unknown ? std::nullopt : std::optional(acquire);
   }

@@ -1,0 +1,253 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <iostream>
+#include <map>
+#include <random>
+
+#include "framegraph/access_history.h"
+#include "framegraph/compile.h"
+#include "framegraph/inspect.h"
+#include "framegraph/verify.h"
+#include "tests/framegraph/random_graph.h"
+
+namespace fg::test {
+namespace {
+
+std::uint64_t fromEnvironment(const char* variable, std::uint64_t otherwise) {
+  const char* const text = std::getenv(variable);
+  return text != nullptr ? std::strtoull(text, nullptr, 10) : otherwise;
+}
+
+/// Seeds of this run: WALR_SEED is the first, WALR_GRAPHS how many.
+struct Seeds {
+  std::uint64_t first = fromEnvironment("WALR_SEED", 1);
+  std::uint64_t count = fromEnvironment("WALR_GRAPHS", 100'000);
+};
+
+std::string joined(const std::vector<std::string>& lines) {
+  std::string text;
+  for (const std::string& line : lines) text += line + "\n";
+  return text;
+}
+
+/// Transients whose last access writes share no memory, which the lower bound does not know.
+bool someTransientEndsUnread(const GraphDesc& graph, const Plan& plan) {
+  const AccessHistory accesses(graph, plan);
+  for (std::uint32_t i = 0; i < plan.resources.size(); ++i) {
+    if (plan.resources[i].heap != kNone && accesses.endsUnread(i)) return true;
+  }
+  return false;
+}
+
+TEST(Fuzz, TheCheckerAcceptsEveryPlanOfRandomGraphs) {
+  const Seeds seeds;
+  std::cout << "seeds " << seeds.first << " to " << seeds.first + seeds.count - 1 << "\n";
+  double ratios = 0;
+  double worst = 1;
+  std::uint64_t counted = 0;
+  for (std::uint64_t seed = seeds.first; seed < seeds.first + seeds.count; ++seed) {
+    const Graph graph = randomGraph(seed);
+    const CompileResult result = compile(graph.desc(), TableMemoryModel());
+    ASSERT_TRUE(result.ok()) << "seed " << seed << "\n" << result.text();
+    const std::vector<std::string> faults = verify(graph.desc(), result.plan);
+    ASSERT_TRUE(faults.empty()) << "seed " << seed << "\n" << joined(faults) << toText(graph.desc(), result.plan);
+    const MemoryReport& memory = result.plan.memory;
+    if (memory.transientLowerBoundBytes == 0 || someTransientEndsUnread(graph.desc(), result.plan)) continue;
+    const double ratio =
+        static_cast<double>(memory.transientPeakBytes) / static_cast<double>(memory.transientLowerBoundBytes);
+    ratios += ratio;
+    worst = std::max(worst, ratio);
+    ++counted;
+  }
+  const double mean = ratios / static_cast<double>(counted);
+  std::cout << "aliased peak over lower bound on " << counted << " graphs: mean " << mean << ", worst " << worst
+            << "\n";
+  // The project's goal for random graphs.
+  EXPECT_LE(mean, 1.10);
+}
+
+TEST(Fuzz, RegistrationOrderDoesNotChangeThePlan) {
+  const Seeds seeds;
+  for (std::uint64_t seed = seeds.first; seed < seeds.first + seeds.count / 100; ++seed) {
+    const Graph graph = randomGraph(seed);
+    const GraphDesc other = shuffled(graph.desc(), seed);
+    const CompileResult a = compile(graph.desc(), TableMemoryModel());
+    const CompileResult b = compile(other, TableMemoryModel());
+    ASSERT_EQ(toText(graph.desc(), a.plan), toText(other, b.plan)) << "seed " << seed;
+    ASSERT_EQ(a.text(), b.text()) << "seed " << seed;
+  }
+}
+
+/// One way to damage a plan.
+class Mutator {
+ public:
+  Mutator(const GraphDesc& graph, Plan& plan, std::uint64_t seed) : graph_(graph), plan_(plan), random_(seed) {}
+
+  /// What was done; empty where the plan offers nothing to do it to. `harmless` says that the plan provably stays
+  /// right.
+  std::string run(bool& harmless) {
+    harmless = false;
+    switch (random_() % 7) {
+      case 0:
+        return dropBarrier(harmless);
+      case 1:
+        return weaken("source stage", &PlannedBarrier::srcStage, harmless);
+      case 2:
+        return weaken("destination stage", &PlannedBarrier::dstStage, harmless);
+      case 3:
+        return weakenAccess(harmless);
+      case 4:
+        return changeLayout();
+      case 5:
+        return random_() % 2 == 0 ? moveOffset() : shortenLifetime();
+      default:
+        return swapPasses();
+    }
+  }
+
+ private:
+  std::vector<PlannedBarrier>* randomBatch() {
+    std::vector<std::vector<PlannedBarrier>*> batches;
+    for (PlannedPass& pass : plan_.passes) {
+      if (!pass.barriers.empty()) batches.push_back(&pass.barriers);
+    }
+    if (!plan_.releases.empty()) batches.push_back(&plan_.releases);
+    return batches.empty() ? nullptr : batches[random_() % batches.size()];
+  }
+
+  /// A dependency that publishes no write and changes no layout is only an order, which other barriers on the same
+  /// stages can give as well.
+  static bool isOrderOnly(const PlannedBarrier& barrier) {
+    return barrier.srcAccess == VK_ACCESS_2_NONE && barrier.oldLayout == barrier.newLayout;
+  }
+
+  /// Imports that are not exported are given back in their layout; nothing is promised about visibility.
+  [[nodiscard]] bool isUnpromised(const PlannedBarrier& barrier) const {
+    return barrier.reason == BarrierReason::Release &&
+           std::ranges::none_of(graph_.exports, [&](const ExportDecl& exported) {
+             return exported.resource.resource == barrier.resource;
+           });
+  }
+
+  std::string dropBarrier(bool& harmless) {
+    auto* batch = randomBatch();
+    if (batch == nullptr) return {};
+    const auto victim = batch->begin() + static_cast<std::ptrdiff_t>(random_() % batch->size());
+    harmless = isOrderOnly(*victim);
+    batch->erase(victim);
+    return "drop barrier";
+  }
+
+  std::string weaken(const char* what, VkPipelineStageFlags2 PlannedBarrier::*stages, bool& harmless) {
+    auto* batch = randomBatch();
+    if (batch == nullptr) return {};
+    PlannedBarrier& barrier = (*batch)[random_() % batch->size()];
+    if (barrier.*stages == VK_PIPELINE_STAGE_2_NONE) return {};
+    // What a barrier waits for without publishing it can be implied by others of its batch.
+    harmless = stages == &PlannedBarrier::srcStage ? barrier.srcAccess == VK_ACCESS_2_NONE
+                                                   : isOrderOnly(barrier) || isUnpromised(barrier);
+    barrier.*stages &= barrier.*stages - 1;
+    return what;
+  }
+
+  std::string weakenAccess(bool& harmless) {
+    auto* batch = randomBatch();
+    if (batch == nullptr) return {};
+    PlannedBarrier& barrier = (*batch)[random_() % batch->size()];
+    VkAccessFlags2& access = random_() % 2 == 0 && barrier.srcAccess != 0 ? barrier.srcAccess : barrier.dstAccess;
+    if (access == VK_ACCESS_2_NONE) return {};
+    harmless = isOrderOnly(barrier) || (&access == &barrier.dstAccess && isUnpromised(barrier));
+    access &= access - 1;
+    return "access";
+  }
+
+  std::string changeLayout() {
+    auto* batch = randomBatch();
+    if (batch == nullptr) return {};
+    PlannedBarrier& barrier = (*batch)[random_() % batch->size()];
+    if (!std::holds_alternative<TextureDesc>(graph_.resources[barrier.resource].desc)) return {};
+    barrier.newLayout = barrier.newLayout == VK_IMAGE_LAYOUT_GENERAL ? VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL
+                                                                     : VK_IMAGE_LAYOUT_GENERAL;
+    return "layout";
+  }
+
+  /// Put one transient on top of another that is alive at the same time.
+  std::string moveOffset() {
+    std::vector<std::pair<PlannedResource*, PlannedResource*>> pairs;
+    for (PlannedResource& a : plan_.resources) {
+      for (PlannedResource& b : plan_.resources) {
+        const bool together = &a != &b && a.heap != kNone && a.heap == b.heap && a.firstUse < b.lastUse &&
+                              b.firstUse < a.lastUse && a.offset != b.offset;
+        if (together && b.offset + a.size <= plan_.heaps[a.heap].size) pairs.emplace_back(&a, &b);
+      }
+    }
+    if (pairs.empty()) return {};
+    const auto& [moved, onto] = pairs[random_() % pairs.size()];
+    moved->offset = onto->offset;
+    return "offset";
+  }
+
+  std::string shortenLifetime() {
+    std::vector<PlannedResource*> candidates;
+    for (PlannedResource& resource : plan_.resources) {
+      if (resource.firstUse != kNone && resource.firstUse < resource.lastUse) candidates.push_back(&resource);
+    }
+    if (candidates.empty()) return {};
+    --candidates[random_() % candidates.size()]->lastUse;
+    return "lifetime";
+  }
+
+  /// Swap two neighbours of which the second reads what the first writes.
+  std::string swapPasses() {
+    std::vector<std::size_t> candidates;
+    for (std::size_t i = 1; i < plan_.passes.size(); ++i) {
+      const auto& before = graph_.passes[plan_.passes[i - 1].pass].accesses;
+      const auto& after = graph_.passes[plan_.passes[i].pass].accesses;
+      const bool dependent = std::ranges::any_of(before, [&](const AccessDecl& write) {
+        return write.writeVersion != kNone && std::ranges::any_of(after, [&](const AccessDecl& read) {
+                 return read.resource == write.resource && read.readVersion == write.writeVersion;
+               });
+      });
+      if (dependent) candidates.push_back(i);
+    }
+    if (candidates.empty()) return {};
+    const std::size_t i = candidates[random_() % candidates.size()];
+    std::swap(plan_.passes[i - 1], plan_.passes[i]);
+    return "order";
+  }
+
+  const GraphDesc& graph_;
+  Plan& plan_;
+  std::mt19937_64 random_;
+};
+
+TEST(Fuzz, TheCheckerRejectsDamagedPlans) {
+  struct Score {
+    std::uint64_t rejected = 0;
+    std::uint64_t harmless = 0;
+  };
+  const Seeds seeds;
+  std::map<std::string, Score> scores;
+  for (std::uint64_t seed = seeds.first; seed < seeds.first + seeds.count / 10; ++seed) {
+    const Graph graph = randomGraph(seed);
+    const CompileResult result = compile(graph.desc(), TableMemoryModel());
+    Plan damaged = result.plan;
+    bool harmless = false;
+    const std::string mutation = Mutator(graph.desc(), damaged, seed).run(harmless);
+    if (mutation.empty() || damaged == result.plan) continue;
+    const bool rejected = !verify(graph.desc(), damaged).empty();
+    ASSERT_TRUE(rejected || harmless) << "seed " << seed << ": " << mutation << "\n"
+                                      << toText(graph.desc(), result.plan) << "\ndamaged:\n"
+                                      << toText(graph.desc(), damaged);
+    ++(rejected ? scores[mutation].rejected : scores[mutation].harmless);
+  }
+  for (const auto& [mutation, score] : scores) {
+    std::cout << mutation << ": " << score.rejected << " rejected, " << score.harmless << " harmless\n";
+    EXPECT_GT(score.rejected, 0U) << mutation;
+  }
+}
+
+}  // namespace
+}  // namespace fg::test
