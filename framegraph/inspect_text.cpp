@@ -78,14 +78,7 @@ class TextWriter {
       out_ << " mips " << barrier.range.baseMip << "+" << barrier.range.mipCount << " layers "
            << barrier.range.baseLayer << "+" << barrier.range.layerCount;
     }
-    out_ << ": " << reasonName(barrier.reason);
-    if (barrier.aliasOf != kNone) out_ << " of " << graph_.resources[barrier.aliasOf].name;
-    out_ << ", " << stageNames(barrier.srcStage) << " " << accessNames(barrier.srcAccess) << " -> "
-         << stageNames(barrier.dstStage) << " " << accessNames(barrier.dstAccess);
-    if (std::holds_alternative<TextureDesc>(graph_.resources[barrier.resource].desc)) {
-      out_ << ", " << layoutName(barrier.oldLayout) << " -> " << layoutName(barrier.newLayout);
-    }
-    out_ << "\n";
+    out_ << ": " << toText(graph_, barrier) << "\n";
   }
 
   const GraphDesc& graph_;
@@ -95,6 +88,17 @@ class TextWriter {
 };
 
 }  // namespace
+
+std::string toText(const GraphDesc& graph, const PlannedBarrier& barrier) {
+  std::string text(reasonName(barrier.reason));
+  if (barrier.aliasOf != kNone) text += " of " + graph.resources[barrier.aliasOf].name;
+  text += ", " + stageNames(barrier.srcStage) + " " + accessNames(barrier.srcAccess) + " -> " +
+          stageNames(barrier.dstStage) + " " + accessNames(barrier.dstAccess);
+  if (std::holds_alternative<TextureDesc>(graph.resources[barrier.resource].desc)) {
+    text += ", " + layoutName(barrier.oldLayout) + " -> " + layoutName(barrier.newLayout);
+  }
+  return text;
+}
 
 std::string toText(const GraphDesc& graph, const Plan& plan) {
   return TextWriter(graph, plan).run();

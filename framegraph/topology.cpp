@@ -53,11 +53,11 @@ Topology::Topology(const GraphDesc& graph)
     for (const AccessDecl& access : graph.passes[pass].accesses) {
       if (!validHandle(graph, access)) continue;
       if (access.readVersion != kNone) {
-        auto& readers = uses(access.resource, access.readVersion).readers;
+        auto& readers = mutableUses(access.resource, access.readVersion).readers;
         if (readers.empty() || readers.back() != pass) readers.push_back(pass);
       }
       if (access.writeVersion == kNone) continue;
-      VersionUses& made = uses(access.resource, access.writeVersion);
+      VersionUses& made = mutableUses(access.resource, access.writeVersion);
       if (made.writer != kNone) continue;
       made.writer = pass;
       made.write = &access;

@@ -41,7 +41,7 @@ class Topology {
   [[nodiscard]] std::uint32_t resourceRank(std::uint32_t resource) const { return resourceRank_[resource]; }
 
  private:
-  VersionUses& uses(std::uint32_t resource, std::uint32_t version) { return uses_[first_[resource] + version]; }
+  VersionUses& mutableUses(std::uint32_t resource, std::uint32_t version) { return uses_[first_[resource] + version]; }
 
   const GraphDesc* graph_;
   std::vector<std::uint32_t> first_;

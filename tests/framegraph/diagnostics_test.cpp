@@ -113,5 +113,275 @@ TEST_F(DiagnosticsTest, StaleVersionRead) {
   expect(code::kStaleVersionRead, "late", "output", line);
 }
 
+TEST_F(DiagnosticsTest, TwoWriters) {
+  const Texture texture = graph.texture("target", kColor);
+  (void)graph.callback("first", recordNothing).store("o", texture);
+  (void)graph.callback("second", recordNothing).store("o", texture);
+  const auto line = __LINE__ - 1;
+  expect(code::kTwoWriters, "second", "target", line);
+}
+
+TEST_F(DiagnosticsTest, ReadAndWrittenWithoutSayingInPlace) {
+  const Texture texture = written();
+  auto pass = graph.callback("both", recordNothing);
+  pass.load("i", texture);
+  (void)pass.store("o", texture);
+  const auto line = __LINE__ - 1;
+  expect(code::kReadAndWritten, "both", "output", line);
+}
+
+TEST_F(DiagnosticsTest, ReadAndWrittenInDisjointLevelsIsFine) {
+  const Texture pyramid = graph.texture("pyramid", {VK_FORMAT_R32_SFLOAT, {64, 64}, 2});
+  Texture level = graph.callback("base", recordNothing).access(pyramid, Access::StorageWrite, {0, 1, 0, 1});
+  auto pass = graph.callback("reduce", recordNothing);
+  pass.access(level, Access::SampledRead, {0, 1, 0, 1});
+  level = pass.access(level, Access::StorageWrite, {1, 1, 0, 1});
+  graph.exported(level, kSampled);
+  const CompileResult result = compile(graph.desc(), TableMemoryModel());
+  EXPECT_TRUE(result.diagnostics.empty()) << result.text();
+}
+
+TEST_F(DiagnosticsTest, FormatUnsupportedNamesTheFallback) {
+  const Texture texture = graph.texture("narrow", {VK_FORMAT_B10G11R11_UFLOAT_PACK32, {8, 8}});
+  const auto line = __LINE__ - 1;
+  (void)graph.callback("writer", recordNothing).store("o", texture);
+  const LimitedModel model(VK_FORMAT_B10G11R11_UFLOAT_PACK32);
+  expect(code::kFormatUnsupported, "", "narrow", line, model);
+  EXPECT_NE(compile(graph.desc(), model).text().find("R16G16B16A16_SFLOAT"), std::string::npos);
+}
+
+TEST_F(DiagnosticsTest, ExtentMismatch) {
+  auto pass = graph.callback("draw", recordNothing);
+  pass.access(graph.texture("color", kColor), Access::ColorWrite);
+  pass.access(graph.texture("depth", {VK_FORMAT_D32_SFLOAT, {8, 8}}), Access::DepthWrite);
+  const auto line = __LINE__ - 1;
+  expect(code::kExtentMismatch, "draw", "depth", line);
+}
+
+TEST_F(DiagnosticsTest, ImportWithoutState) {
+  const Texture texture = graph.import("host", kColor, {});
+  graph.callback("reader", recordNothing).load("i", texture);
+  const auto line = __LINE__ - 1;
+  expect(code::kImportWithoutState, "reader", "host", line);
+}
+
+TEST_F(DiagnosticsTest, ExportNeverWritten) {
+  graph.exported(graph.texture("empty", kColor), kSampled);
+  const auto line = __LINE__ - 1;
+  expect(code::kExportNeverWritten, "", "empty", line);
+}
+
+TEST_F(DiagnosticsTest, ExportOverwritten) {
+  const Texture texture = written();
+  (void)graph.callback("later", recordNothing).store("o", texture);
+  graph.exported(texture, kSampled);
+  const auto line = __LINE__ - 1;
+  expect(code::kExportOverwritten, "", "output", line);
+}
+
+TEST_F(DiagnosticsTest, ExportedTwice) {
+  const Texture texture = written();
+  graph.exported(texture, kSampled);
+  graph.exported(texture, test::kTransferSource);
+  const auto line = __LINE__ - 1;
+  expect(code::kExportedTwice, "", "output", line);
+}
+
+TEST_F(DiagnosticsTest, ExportWithoutLayout) {
+  graph.exported(written(), {});
+  const auto line = __LINE__ - 1;
+  expect(code::kExportWithoutLayout, "", "output", line);
+}
+
+TEST_F(DiagnosticsTest, HistoryNeverWritten) {
+  const History history = graph.history("past", kColor);
+  const auto line = __LINE__ - 1;
+  graph.callback("reader", recordNothing).load("i", history.previous).sideEffects();
+  expect(code::kHistoryNeverWritten, "", "past.previous", line);
+}
+
+TEST_F(DiagnosticsTest, HistoryWrittenTwice) {
+  const History history = graph.history("past", kColor);
+  const auto line = __LINE__ - 1;
+  const Texture once = graph.callback("first", recordNothing).store("o", history.current);
+  (void)graph.callback("second", recordNothing).store("o", once);
+  expect(code::kHistoryWrittenTwice, "", "past.current", line);
+}
+
+TEST_F(DiagnosticsTest, HistoryChangedWithoutAReset) {
+  Graph before;
+  (void)before.history("past", {VK_FORMAT_R32_SFLOAT, {8, 8}});
+  (void)graph.history("past", {VK_FORMAT_R32_SFLOAT, {16, 8}});
+  const auto line = __LINE__ - 1;
+  const auto found = diagnoseReplacement(before.desc(), graph.desc(), {});
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].code, code::kHistoryChanged);
+  EXPECT_EQ(found[0].resource, "past.current");
+  EXPECT_EQ(found[0].where.line(), line);
+  const std::array<std::string, 1> resets = {"past"};
+  EXPECT_TRUE(diagnoseReplacement(before.desc(), graph.desc(), resets).empty());
+}
+
+TEST_F(DiagnosticsTest, BindingNotInShader) {
+  auto pass = filter();
+  pass.sample("noise", written());
+  const auto line = __LINE__ - 1;
+  expect(code::kBindingNotInShader, "filter", "output", line);
+}
+
+TEST_F(DiagnosticsTest, BindingNotDeclared) {
+  PassBuilder pass = graph.compute("filter", kFilter);
+  const auto line = __LINE__ - 1;
+  pass.dispatch(kColor.extent);
+  expect(code::kBindingNotDeclared, "filter", "", line);
+}
+
+TEST_F(DiagnosticsTest, BindingWithAnotherAccess) {
+  auto pass = filter();
+  pass.load("noisy", written());
+  const auto line = __LINE__ - 1;
+  expect(code::kBindingAccess, "filter", "output", line);
+}
+
+TEST_F(DiagnosticsTest, BindingWithAnotherFormat) {
+  auto pass = filter();
+  (void)pass.store("result", graph.texture("thin", {VK_FORMAT_R32_SFLOAT, kColor.extent}));
+  const auto line = __LINE__ - 1;
+  expect(code::kBindingFormat, "filter", "thin", line);
+}
+
+TEST_F(DiagnosticsTest, BindingTwice) {
+  auto pass = filter();
+  pass.sample("noisy", written("one"));
+  pass.sample("noisy", written("two"));
+  const auto line = __LINE__ - 1;
+  expect(code::kBindingTwice, "filter", "two", line);
+}
+
+TEST_F(DiagnosticsTest, BufferTooSmall) {
+  auto pass = filter();
+  pass.uniform("frame", graph.upload("constants", 32));
+  const auto line = __LINE__ - 1;
+  expect(code::kBufferTooSmall, "filter", "constants", line);
+}
+
+TEST_F(DiagnosticsTest, PushConstantSize) {
+  PassBuilder pass = graph.compute("filter", kFilter);
+  const auto line = __LINE__ - 1;
+  pass.constants(std::uint32_t{1});
+  expect(code::kPushConstantSize, "filter", "", line);
+}
+
+TEST_F(DiagnosticsTest, UnknownSpecializationConstant) {
+  PassBuilder pass = graph.compute("filter", kFilter);
+  const auto line = __LINE__ - 1;
+  pass.specialize("kWidth", std::uint32_t{1});
+  expect(code::kUnknownConstant, "filter", "", line);
+}
+
+TEST_F(DiagnosticsTest, SpecializationConstantNotSet) {
+  (void)graph.compute("filter", kFilter);
+  const auto line = __LINE__ - 1;
+  expect(code::kConstantNotSet, "filter", "", line);
+}
+
+TEST_F(DiagnosticsTest, HistoryAgeOutsideThePushConstants) {
+  const History history = graph.history("past", kColor);
+  PassBuilder pass = graph.compute("filter", kFilter);
+  const auto line = __LINE__ - 1;
+  pass.constants(std::uint64_t{0}).historyAge(history, 8);
+  expect(code::kHistoryAge, "filter", "", line);
+}
+
+TEST_F(DiagnosticsTest, DuplicatePassName) {
+  graph.callback("twin", recordNothing).sideEffects();
+  graph.callback("twin", recordNothing).sideEffects();
+  const auto line = __LINE__ - 1;
+  expect(code::kDuplicateName, "twin", "", line);
+}
+
+TEST_F(DiagnosticsTest, DuplicateResourceName) {
+  (void)graph.texture("twin", kColor);
+  (void)graph.texture("twin", kColor);
+  const auto line = __LINE__ - 1;
+  expect(code::kDuplicateName, "", "twin", line);
+}
+
+TEST_F(DiagnosticsTest, EmptyExtent) {
+  (void)graph.texture("flat", {VK_FORMAT_R32_SFLOAT, {64, 0}});
+  const auto line = __LINE__ - 1;
+  expect(code::kEmptyExtent, "", "flat", line);
+}
+
+TEST_F(DiagnosticsTest, EmptyDispatch) {
+  (void)graph.compute("idle", kFilter);
+  const auto line = __LINE__ - 1;
+  expect(code::kEmptyDispatch, "idle", "", line);
+}
+
+TEST_F(DiagnosticsTest, SubresourceOutOfRange) {
+  graph.callback("reader", recordNothing).access(written(), Access::SampledRead, {1, 1, 0, 1});
+  const auto line = __LINE__ - 1;
+  expect(code::kSubresourceRange, "reader", "output", line);
+}
+
+TEST_F(DiagnosticsTest, PassWithoutEffectIsAWarning) {
+  auto pass = graph.callback("vain", recordNothing);
+  const auto line = __LINE__ - 1;
+  (void)pass.store("o", graph.texture("unseen", kColor));
+  expect(code::kPassWithoutEffect, "vain", "", line);
+  EXPECT_TRUE(compile(graph.desc(), TableMemoryModel()).ok());
+}
+
+TEST_F(DiagnosticsTest, AccessOfTheWrongKind) {
+  graph.callback("reader", recordNothing).access(graph.upload("bytes", 64), Access::ColorWrite);
+  const auto line = __LINE__ - 1;
+  expect(code::kAccessKind, "reader", "bytes", line);
+}
+
+TEST_F(DiagnosticsTest, ReadOnlyResourceWritten) {
+  const History history = graph.history("past", kColor);
+  (void)graph.callback("writer", recordNothing).store("o", history.previous);
+  const auto line = __LINE__ - 1;
+  expect(code::kReadOnlyWritten, "writer", "past.previous", line);
+}
+
+TEST_F(DiagnosticsTest, IndirectArgumentsPastTheEnd) {
+  const Buffer arguments = graph.upload("arguments", 16);
+  PassBuilder pass = graph.compute("filter", kFilter);
+  const auto line = __LINE__ - 1;
+  pass.dispatchIndirect(arguments, 8);
+  expect(code::kIndirectArguments, "filter", "arguments", line);
+}
+
+TEST_F(DiagnosticsTest, TwoLayoutsInOnePass) {
+  const Texture texture = written();
+  auto pass = graph.callback("reader", recordNothing);
+  pass.sample("a", texture);
+  pass.load("b", texture);
+  const auto line = __LINE__ - 1;
+  expect(code::kTwoLayouts, "reader", "output", line);
+}
+
+TEST_F(DiagnosticsTest, AllErrorsAreFoundAtOnce) {
+  (void)graph.texture("flat", {VK_FORMAT_R32_SFLOAT, {64, 0}});
+  graph.exported(written(), {});
+  (void)graph.compute("idle", kFilter);
+  const CompileResult result = compile(graph.desc(), TableMemoryModel());
+  for (const std::string_view wanted : {code::kEmptyExtent, code::kExportWithoutLayout, code::kEmptyDispatch,
+                                        code::kBindingNotDeclared, code::kConstantNotSet, code::kPushConstantSize}) {
+    EXPECT_NE(std::ranges::find(result.diagnostics, wanted, &Diagnostic::code), result.diagnostics.end()) << wanted;
+  }
+  EXPECT_TRUE(result.plan.passes.empty());
+}
+
+TEST_F(DiagnosticsTest, ACompleteFilterHasNone) {
+  auto pass = filter();
+  pass.sample("noisy", written("noise")).uniform("frame", graph.upload("constants", 64));
+  graph.exported(pass.store("result", graph.texture("filtered", kColor)), kSampled);
+  const CompileResult result = compile(graph.desc(), TableMemoryModel());
+  EXPECT_TRUE(result.diagnostics.empty()) << result.text();
+}
+
 }  // namespace
 }  // namespace fg
