@@ -12,7 +12,7 @@ source .ci/setup.sh
 
 walr_setup
 walr_build walr
-# 64 paths a pixel make about a minute on two cores. What noise that leaves in the references is part of the errors.
-build/bin/walr render samples/scenes/box.gltf --output "$folder/box" --frames 0-11 --size 320x180 --reference-spp 64
+# 192 paths a pixel take about two minutes on two cores. What noise that leaves in the references is part of the errors.
+build/bin/walr render samples/scenes/box.gltf --output "$folder/box" --frames 0-9 --size 320x180 --reference-spp 192
 build/bin/walr denoise "$folder/box" --output "$folder/denoised" --png
 echo "Pictures, noisy | denoised | reference: $folder/denoised/comparison_FFFF.png"
