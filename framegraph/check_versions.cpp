@@ -148,8 +148,9 @@ class VersionCheck {
       findings_.error(code::kExportOverwritten, exported,
                       start + "is overwritten by pass '" + writer.name + "'; export the last version");
     }
-    const bool twice = std::any_of(graph_.exports.begin(), graph_.exports.begin() + static_cast<std::ptrdiff_t>(index),
-                                   [&](const ExportDecl& other) { return other.resource.resource == resource; });
+    const bool twice =
+        std::any_of(graph_.exports.begin(), graph_.exports.begin() + static_cast<std::ptrdiff_t>(index),
+                    [&](const ExportDecl& other) { return other.resource.resource == exported.resource.resource; });
     if (twice) findings_.error(code::kExportedTwice, exported, start + "is exported twice; export it once");
     if (std::holds_alternative<TextureDesc>(decl.desc) && exported.release.layout == VK_IMAGE_LAYOUT_UNDEFINED) {
       findings_.error(code::kExportWithoutLayout, exported,

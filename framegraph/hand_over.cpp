@@ -67,7 +67,7 @@ std::vector<std::vector<std::uint32_t>> previousOwners(const Plan& plan) {
       return std::tuple(resource.firstUse < plan.resources[i].firstUse, resource.lastUse, resource.offset);
     };
     std::ranges::sort(owners[i], std::greater{}, recent);
-    owners[i].erase(std::ranges::unique(owners[i]).begin(), owners[i].end());
+    owners[i].erase(std::unique(owners[i].begin(), owners[i].end()), owners[i].end());
   }
   return owners;
 }

@@ -62,13 +62,13 @@ Problem makeProblem(const Topology& topology, const Culling& culling, const std:
     }
   }
   std::ranges::sort(touched);
-  touched.erase(std::ranges::unique(touched).begin(), touched.end());
+  touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
   Pairs edges;
   for (const Dependency& dependency : dependencies(topology, culling.live)) {
     edges.emplace_back(number[dependency.before], number[dependency.after]);
   }
   std::ranges::sort(edges);
-  edges.erase(std::ranges::unique(edges).begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
   const auto swapped = [](Pairs pairs) {
     for (auto& [first, second] : pairs) std::swap(first, second);
     return pairs;

@@ -17,7 +17,8 @@ struct JointBilateralSettings {
   TemporalAntialiasingSettings accumulation{.maxSamples = 5.0F, .clipGamma = 2.0F, .clipRadius = 3};
 
   void visit(SettingVisitor& v) {
-    v.visit({"spatial-only", "Filter each frame by itself, without temporal stages", "", 0, 1, ""}, spatialOnly);
+    v.visit({"spatial-only", "Filter each frame by itself, without temporal stages", "", 0, 1, "joint-bilateral.txt"},
+            spatialOnly);
     guides.visit(v);
     filter.visit(v);
     accumulation.visit(v);

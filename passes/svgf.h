@@ -18,7 +18,8 @@ struct SvgfSettings {
   TemporalAntialiasingSettings antialiasing;
 
   void visit(SettingVisitor& v) {
-    v.visit({"spatial-only", "Filter each frame by itself, without temporal stages", "", 0, 1, ""}, spatialOnly);
+    v.visit({"spatial-only", "Filter each frame by itself, without temporal stages", "", 0, 1, "nagi-svgf.txt"},
+            spatialOnly);
     guides.visit(v);
     accumulation.visit(v);
     filter.visit(v);

@@ -146,7 +146,7 @@ TEST_F(SequenceTest, CompositeChannelsAreNeededForACompositeOnly) {
     channels.erase("DiffDir.R");
     channels.erase("Emit.B");
   });
-  EXPECT_NO_THROW(open());
+  EXPECT_NO_THROW((void)open());
   SequenceOptions options;
   options.composite = true;
   expectRefused({"DiffDir.R, Emit.B", "--composite"}, options);
