@@ -14,8 +14,8 @@ constexpr float kRoundingTolerance = 1e-4F;
 
 }  // namespace
 
-fg::Texture addBmfrFit(fg::Graph& graph, fg::Buffer frame, fg::Texture lighting, const Guides& guides,
-                       fg::Texture output, const BmfrFitSettings& settings) {
+fg::Texture addBmfrFit(fg::Graph& graph, fg::Buffer frame, fg::Texture lighting, LightingAlpha alpha,
+                       const Guides& guides, fg::Texture output, const BmfrFitSettings& settings) {
   const bool stochastic = settings.rankHandling == RankHandling::Stochastic;
   const BmfrFitConstants constants{stochastic ? settings.noiseAmplitude : 0.0F,
                                    stochastic ? kRoundingTolerance : settings.rankTolerance, settings.extentFloor};
@@ -29,6 +29,7 @@ fg::Texture addBmfrFit(fg::Graph& graph, fg::Buffer frame, fg::Texture lighting,
       .sample("lighting", lighting)
       .sample("depth", guides.depth)
       .sample("normals", guides.normals)
+      .specialize("kAlphaIsSampleCount", alpha == LightingAlpha::SampleCount ? 1U : 0U)
       .constants(constants)
       .dispatch(threads);
   return pass.store("outFitted", output);

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "framegraph/graph.h"
+#include "passes/lighting_alpha.h"
 #include "passes/prepare_guides.h"
 #include "passes/settings.h"
 
@@ -45,9 +46,10 @@ struct BmfrFitSettings {
 /// Fit the lighting of every block of 32x32 pixels by ten features of first and second order.
 /// @param frame    upload of `FrameConstants`; its frame index picks one of 16 displacements of the block grid
 /// @param lighting RGBA16F: radiance to fit; a pixel that is not finite has no say in the fit
+/// @param alpha    what the alpha channel of `lighting` says; a pixel with no sample has no say in the fit
 /// @param output   RGBA16F texture to write the fit to
 /// @returns the output's new version; sky and pixels without a diffuse lobe as they were
-fg::Texture addBmfrFit(fg::Graph& graph, fg::Buffer frame, fg::Texture lighting, const Guides& guides,
-                       fg::Texture output, const BmfrFitSettings& settings = {});
+fg::Texture addBmfrFit(fg::Graph& graph, fg::Buffer frame, fg::Texture lighting, LightingAlpha alpha,
+                       const Guides& guides, fg::Texture output, const BmfrFitSettings& settings = {});
 
 }  // namespace walr

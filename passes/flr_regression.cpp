@@ -29,8 +29,8 @@ fg::Extent gridOf(fg::Extent pixels, std::uint32_t factor) {
 
 }  // namespace
 
-fg::Texture addFlrRegression(fg::Graph& graph, fg::Texture lighting, const Guides& guides, fg::Texture output,
-                             const FlrRegressionSettings& settings) {
+fg::Texture addFlrRegression(fg::Graph& graph, fg::Texture lighting, LightingAlpha alpha, const Guides& guides,
+                             fg::Texture output, const FlrRegressionSettings& settings) {
   const fg::Extent extent = graph.textureDesc(lighting).extent;
   const fg::Extent cells = gridOf(extent, settings.factor);
   const std::uint64_t cellCount = std::uint64_t{cells.width} * cells.height;
@@ -46,6 +46,7 @@ fg::Texture addFlrRegression(fg::Graph& graph, fg::Texture lighting, const Guide
   downsample.sample("lighting", lighting)
       .sample("depth", guides.depth)
       .sample("normals", guides.normals)
+      .specialize("kAlphaIsSampleCount", alpha == LightingAlpha::SampleCount ? 1U : 0U)
       .constants(constants)
       .dispatch(cells);
   const fg::Buffer moments = downsample.store("outMoments", graph.buffer("outer products", {cellCount * kMomentBytes}));

@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "framegraph/graph.h"
+#include "passes/lighting_alpha.h"
 #include "passes/prepare_guides.h"
 #include "passes/settings.h"
 
@@ -32,10 +33,11 @@ struct FlrRegressionSettings {
 /// Weighted least squares of the lighting on {1, normal, inverse depth} in a Gaussian window around every cell of a
 /// coarse grid; the coefficients, interpolated, are applied to the guides of every pixel (flr-flnr.txt).
 /// @param lighting RGBA16F: radiance to filter; a pixel that is not finite has no say in the fit
+/// @param alpha    what the alpha channel of `lighting` says; a pixel with no sample has no say in the fit
 /// @param output   RGBA16F texture to write the result to
 /// @returns the output's new version; sky and pixels without a diffuse lobe as they were
 /// @throws std::invalid_argument where the moments of so many cells do not fit a storage buffer
-fg::Texture addFlrRegression(fg::Graph& graph, fg::Texture lighting, const Guides& guides, fg::Texture output,
-                             const FlrRegressionSettings& settings = {});
+fg::Texture addFlrRegression(fg::Graph& graph, fg::Texture lighting, LightingAlpha alpha, const Guides& guides,
+                             fg::Texture output, const FlrRegressionSettings& settings = {});
 
 }  // namespace walr

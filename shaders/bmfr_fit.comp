@@ -12,6 +12,7 @@
 #include "include/surface.glsl"
 
 layout(local_size_x = 16, local_size_y = 16) in;
+layout(constant_id = 0) const bool kAlphaIsSampleCount = false;
 
 layout(set = 0, binding = 0, std140) uniform frameConstants { FrameConstants frame; };
 layout(set = 0, binding = 1) uniform texture2D lighting;
@@ -49,6 +50,7 @@ struct Pixel {
   vec3 normal;    // Shading normal.
   vec3 position;  // From the camera, along world axes: bounded by what is seen, wherever the world's origin lies.
   vec3 colour;
+  bool sampled;   // The colour is one.
 };
 
 Pixel readPixel(uint index) {
@@ -62,7 +64,9 @@ Pixel readPixel(uint index) {
   pixel.surface = z > 0.0;
   pixel.normal = worldFromView * octahedralDecode(unpackFeatures(texelFetch(normals, q, 0).xy));
   pixel.position = worldFromView * (rayThrough(frame.rayFromPixel, pixelCentre(q)) * z);
-  pixel.colour = texelFetch(lighting, q, 0).rgb;
+  const vec4 sampleHere = texelFetch(lighting, q, 0);
+  pixel.colour = sampleHere.rgb;
+  pixel.sampled = isFinite(pixel.colour) && (!kAlphaIsSampleCount || sampleHere.a > 0.0);
   return pixel;
 }
 
@@ -115,11 +119,11 @@ float[kFeatures] noiseOf(uint index) {
   return noise;
 }
 
-// A pixel without a surface, or with a sample that is not finite, is a row of zeros: it has no say in the fit.
+// A pixel without a surface or without a finite sample is a row of zeros: it has no say in the fit.
 float[kColumns] rowOf(Pixel pixel, uint index, Bounds bounds) {
   float row[kColumns];
   [[unroll]] for (int j = 0; j < kColumns; ++j) row[j] = 0.0;
-  if (!pixel.surface || !isFinite(pixel.colour)) return row;
+  if (!pixel.surface || !pixel.sampled) return row;
   const float features[kFeatures] = featuresOf(pixel, bounds);
   const float noise[kFeatures] = noiseOf(index);
   [[unroll]] for (int j = 0; j < kFeatures; ++j) row[j] = features[j] + settings.noiseAmplitude * noise[j];

@@ -6,6 +6,7 @@
 #include "include/finite.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
+layout(constant_id = 0) const bool kAlphaIsSampleCount = false;
 
 layout(push_constant) uniform PushConstants { FlrConstants settings; };
 #include "include/flr.glsl"
@@ -25,9 +26,10 @@ void main() {
     for (int x = first.x; x < end.x; ++x) {
       const ivec2 p = ivec2(x, y);
       const float z = unpackDepth(texelFetch(depth, p, 0).x);
-      const vec3 colour = texelFetch(lighting, p, 0).rgb;
-      // Sky, pixels without a diffuse lobe and samples that are not finite have no say.
-      if (z == 0.0 || !isFinite(colour)) continue;
+      const vec4 sampleHere = texelFetch(lighting, p, 0);
+      const vec3 colour = sampleHere.rgb;
+      // Sky, pixels without a diffuse lobe and pixels without a finite sample have no say.
+      if (z == 0.0 || !isFinite(colour) || (kAlphaIsSampleCount && sampleHere.a == 0.0)) continue;
       add(sum, 1.0, outerProducts(guidesOf(z, texelFetch(normals, p, 0).xy), clamp(colour, 0.0, kLargestHalf)));
     }
   }
