@@ -68,11 +68,11 @@ void writeSource(std::ostream& out, const Arguments& arguments, const std::vecto
   const std::string bindings = writeTable(out, "ShaderBinding", "kBindings", reflection.bindings);
   const std::string constants = writeTable(out, "ShaderConstant", "kConstants", reflection.constants);
   const auto& local = reflection.localSize;
-  out << "}  // namespace\n\nnamespace " << arguments.nameSpace << " {\nconstinit const fg::Shader " << arguments.identifier
-      << " = {\n  .name = \"" << arguments.name << "\",\n  .code = kCode,\n  .bindings = " << bindings
-      << ",\n  .constants = " << constants << ",\n  .pushConstantSize = " << reflection.pushConstantSize
-      << ",\n  .localSize = {" << local[0] << ", " << local[1] << ", " << local[2] << "},\n};\n}  // namespace "
-      << arguments.nameSpace << '\n';
+  out << "}  // namespace\n\nnamespace " << arguments.nameSpace << " {\nconstinit const fg::Shader "
+      << arguments.identifier << " = {\n  .name = \"" << arguments.name
+      << "\",\n  .code = kCode,\n  .bindings = " << bindings << ",\n  .constants = " << constants
+      << ",\n  .pushConstantSize = " << reflection.pushConstantSize << ",\n  .localSize = {" << local[0] << ", "
+      << local[1] << ", " << local[2] << "},\n};\n}  // namespace " << arguments.nameSpace << '\n';
 }
 
 void run(const Arguments& arguments) {
