@@ -10,16 +10,11 @@
 #include "passes/joint_bilateral.h"
 #include "passes/pass_through.h"
 #include "passes/svgf.h"
+#include "passes/text.h"
 #include "passes/walr.h"
 
 namespace walr {
 namespace {
-
-std::string join(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text.append(text.empty() ? "" : ", ").append(name);
-  return text;
-}
 
 template <typename Settings>
 struct Preset {

@@ -5,6 +5,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "passes/text.h"
+
 namespace walr {
 namespace {
 
@@ -16,12 +18,6 @@ std::string number(double value) {
 
 std::string rangeText(const SettingInfo& info) {
   return number(info.least) + ".." + number(info.most);
-}
-
-std::string join(std::span<const std::string_view> names) {
-  std::string text;
-  for (const std::string_view name : names) text.append(text.empty() ? "" : ", ").append(name);
-  return text;
 }
 
 [[noreturn]] void reject(const SettingInfo& info, std::string_view value, const std::string& allowed) {

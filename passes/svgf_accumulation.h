@@ -1,6 +1,7 @@
 #pragma once
 
 #include "framegraph/graph.h"
+#include "passes/history_tests.h"
 #include "passes/inputs.h"
 #include "passes/prepare_guides.h"
 #include "passes/settings.h"
@@ -21,12 +22,8 @@ struct SvgfAccumulationSettings {
     v.visit({"accumulation.max-moment-samples", "Samples after which the luminance moments turn exponential", "frames",
              1.0, 255.0, "Schied et al. 2017, 4.2: alpha 0.2"},
             maxMomentSamples);
-    v.visit({"accumulation.plane-tolerance", "Largest distance of a history pixel from the surface's plane",
-             "fraction of depth", 0.0, 1.0, "measured"},
-            planeTolerance);
-    v.visit({"accumulation.normal-threshold", "Smallest cosine between geometric normals of surface and history pixel",
-             "", -1.0, 1.0, "measured"},
-            normalThreshold);
+    visitHistoryTests(v, "accumulation.plane-tolerance", planeTolerance, "accumulation.normal-threshold",
+                      normalThreshold);
   }
 };
 

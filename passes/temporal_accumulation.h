@@ -1,6 +1,7 @@
 #pragma once
 
 #include "framegraph/graph.h"
+#include "passes/history_tests.h"
 #include "passes/inputs.h"
 #include "passes/prepare_guides.h"
 #include "passes/settings.h"
@@ -23,12 +24,8 @@ struct TemporalAccumulationSettings {
     v.visit({"accumulation.max-samples", "Samples after which the cumulative mean turns exponential", "frames", 1.0,
              255.0, "walr.txt 4.2"},
             maxSamples);
-    v.visit({"accumulation.plane-tolerance", "Largest distance of a history pixel from the surface's plane",
-             "fraction of depth", 0.0, 1.0, "measured"},
-            planeTolerance);
-    v.visit({"accumulation.normal-threshold", "Smallest cosine between geometric normals of surface and history pixel",
-             "", -1.0, 1.0, "measured"},
-            normalThreshold);
+    visitHistoryTests(v, "accumulation.plane-tolerance", planeTolerance, "accumulation.normal-threshold",
+                      normalThreshold);
     v.visitEnum({"accumulation.history-filter", "How history is read between pixels", "", 0, 1, "walr.txt 4.2"},
                 kFilters, historyFilter);
     v.visit(

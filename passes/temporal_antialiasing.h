@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "framegraph/graph.h"
+#include "passes/history_tests.h"
 #include "passes/inputs.h"
 #include "passes/prepare_guides.h"
 #include "passes/settings.h"
@@ -28,12 +29,8 @@ struct TemporalAntialiasingSettings {
     v.visit({"antialiasing.clip-radius", "Half the neighbourhood of the variance clipping; 1 is 3x3", "pixels", 1, 8,
              "walr.txt 4.4"},
             clipRadius);
-    v.visit({"antialiasing.plane-tolerance", "Largest distance of a history pixel from the surface's plane",
-             "fraction of depth", 0.0, 1.0, "measured"},
-            planeTolerance);
-    v.visit({"antialiasing.normal-threshold", "Smallest cosine between geometric normals of surface and history pixel",
-             "", -1.0, 1.0, "measured"},
-            normalThreshold);
+    visitHistoryTests(v, "antialiasing.plane-tolerance", planeTolerance, "antialiasing.normal-threshold",
+                      normalThreshold);
     v.visit(
         {"antialiasing.dilate-motion", "Follow the nearest surface of the 3x3 neighbourhood", "", 0, 1, "walr.txt 4.2"},
         dilateMotion);
