@@ -77,18 +77,29 @@ fg::Texture addNone(fg::Graph& graph, const DenoiserInputs& inputs, fg::Texture 
 
 struct Method {
   std::string_view name;
+  std::string_view description;
   std::unique_ptr<Denoiser> (*make)();
 };
 
 constexpr std::array kMethods{
-    Method{"walr", make<WalrSettings, addWalr>},
-    Method{"bmfr", make<BmfrSettings, addBmfr>},
-    Method{"svgf", make<SvgfSettings, addSvgf>},
-    Method{"flr", make<FlrSettings, addFlr>},
-    Method{"joint_bilateral", make<JointBilateralSettings, addJointBilateral>},
-    Method{"accumulate", make<AccumulateSettings, addAccumulate>},
-    Method{"none", make<NoSettings, addNone>},
+    Method{"walr", "Weighted A-Trous Linear Regression", make<WalrSettings, addWalr>},
+    Method{"bmfr", "Blockwise Multi-Order Feature Regression", make<BmfrSettings, addBmfr>},
+    Method{"svgf", "Spatiotemporal Variance-Guided Filtering", make<SvgfSettings, addSvgf>},
+    Method{"flr", "Fast Linear Regression over downsampled moments", make<FlrSettings, addFlr>},
+    Method{"joint_bilateral", "Joint bilateral filter with temporal accumulation",
+           make<JointBilateralSettings, addJointBilateral>},
+    Method{"accumulate", "Temporal accumulation alone", make<AccumulateSettings, addAccumulate>},
+    Method{"none", "The input as it is", make<NoSettings, addNone>},
 };
+
+const Method& findMethod(std::string_view name) {
+  const auto* found = std::find_if(kMethods.begin(), kMethods.end(), [&](const Method& m) { return m.name == name; });
+  if (found == kMethods.end()) {
+    throw std::invalid_argument("there is no method \"" + std::string(name) +
+                                "\"; known methods: " + join(denoiserNames()));
+  }
+  return *found;
+}
 
 }  // namespace
 
@@ -98,13 +109,12 @@ std::vector<std::string> denoiserNames() {
   return names;
 }
 
+std::string_view denoiserDescription(std::string_view method) {
+  return findMethod(method).description;
+}
+
 std::unique_ptr<Denoiser> makeDenoiser(std::string_view method) {
-  const auto* found = std::find_if(kMethods.begin(), kMethods.end(), [&](const Method& m) { return m.name == method; });
-  if (found == kMethods.end()) {
-    throw std::invalid_argument("there is no method \"" + std::string(method) +
-                                "\"; known methods: " + join(denoiserNames()));
-  }
-  return found->make();
+  return findMethod(method).make();
 }
 
 }  // namespace walr

@@ -33,6 +33,10 @@ class Denoiser : public Configurable {
 /// Names of all methods, as `--method` takes them.
 std::vector<std::string> denoiserNames();
 
+/// What a method is, in a line.
+/// @throws std::invalid_argument naming the unknown method and the known ones
+std::string_view denoiserDescription(std::string_view method);
+
 /// Make a method with its default settings.
 /// @throws std::invalid_argument naming the unknown method and the known ones
 std::unique_ptr<Denoiser> makeDenoiser(std::string_view method);

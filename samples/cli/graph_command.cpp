@@ -7,11 +7,12 @@
 
 #include "framegraph/compile.h"
 #include "framegraph/inspect.h"
+#include "integration/denoise_graph.h"
+#include "integration/registry.h"
 #include "samples/cli/arguments.h"
 #include "samples/cli/command.h"
 #include "samples/cli/exit_code.h"
 #include "samples/cli/method_options.h"
-#include "samples/denoise/frame_graph.h"
 
 namespace walr {
 namespace {
@@ -20,6 +21,7 @@ struct GraphOptions {
   MethodOptions method;
   std::string size = "1920x1080";
   bool listSettings = false;
+  bool listPasses = false;
 };
 
 void listSettings(Denoiser& method) {
@@ -31,6 +33,10 @@ void listSettings(Denoiser& method) {
 }
 
 void printGraph(const GraphOptions& options) {
+  if (options.listPasses) {
+    std::cout << passListing();
+    return;
+  }
   const fg::Extent extent = parseSize(options.size);
   const std::unique_ptr<Denoiser> method = makeMethod(options.method);
   if (options.listSettings) {
@@ -62,6 +68,8 @@ void registerGraph(CLI::App& program) {
       ->capture_default_str();
   command->add_flag("--list-settings", options->listSettings,
                     "List the method's settings with value, range, unit and source instead");
+  command->add_flag("--list-passes", options->listPasses,
+                    "List all pass types that a host can create by name, with ports, settings and passes, instead");
   command->footer(kExitCodeHelp);
   command->callback([options] { printGraph(*options); });
 }

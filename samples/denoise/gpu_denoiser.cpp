@@ -15,8 +15,8 @@
 #include "framegraph/vulkan/instance.h"
 #include "framegraph/vulkan/physical_device.h"
 #include "framegraph/vulkan/staged_image.h"
+#include "integration/denoise_graph.h"
 #include "passes/frame.h"
-#include "samples/denoise/frame_graph.h"
 #include "samples/errors.h"
 
 namespace walr {

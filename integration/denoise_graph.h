@@ -1,6 +1,9 @@
 #pragma once
 
+#include <span>
+
 #include "framegraph/graph.h"
+#include "integration/host_inputs.h"
 #include "passes/denoiser.h"
 
 namespace walr {
@@ -22,8 +25,16 @@ struct HostStates {
 /// As a frame graph that computes the inputs and samples the result, all in compute shaders.
 extern const HostStates kComputeHost;
 
-/// @throws std::invalid_argument naming a setting of the method that is out of range
+/// Declare a host's textures as imports of a graph.
+/// @param formats one per entry of `kHostInputs`; empty for the usual ones
+/// @throws std::invalid_argument naming an input of a format that will not do
+DenoiserInputs importInputs(fg::Graph& graph, fg::Extent extent, const InputConventions& conventions,
+                            const fg::ExternalState& state, std::span<const VkFormat> formats = {});
+
+/// @param formats one per entry of `kHostInputs`; empty for the usual ones
+/// @throws std::invalid_argument naming a setting of the method that is out of range, or an input of a format that will
+///         not do
 DenoiseGraph declareDenoiseGraph(Denoiser& method, fg::Extent extent, const InputConventions& conventions,
-                                 const HostStates& states);
+                                 const HostStates& states, std::span<const VkFormat> formats = {});
 
 }  // namespace walr

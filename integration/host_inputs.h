@@ -1,0 +1,32 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+#include "passes/inputs.h"
+
+namespace walr {
+
+/// One texture that a host hands to a denoiser: a member of `DenoiserInputs` by name.
+struct HostInput {
+  std::string_view name;
+  fg::Texture DenoiserInputs::*texture;
+  VkFormat format;         ///< The usual one. Any other that is sampled as floats and has the channels will do.
+  std::uint32_t channels;  ///< Channels read.
+  std::string_view description;
+};
+
+/// The textures of `DenoiserInputs`.
+extern const std::array<HostInput, 5> kHostInputs;
+
+/// Name of the upload buffer `DenoiserInputs::frame`, and of the texture that receives the result.
+inline constexpr std::string_view kFrameName = "frame";
+inline constexpr std::string_view kOutputName = "denoised";
+inline constexpr VkFormat kOutputFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
+
+/// Check that a host's texture may stand for an input.
+/// @throws std::invalid_argument naming the input, its format and what would do
+void requireInputFormat(const HostInput& input, VkFormat format);
+
+}  // namespace walr

@@ -1,0 +1,193 @@
+#include "integration/registry.h"
+
+#include <algorithm>
+#include <sstream>
+#include <stdexcept>
+
+#include "framegraph/access.h"
+#include "framegraph/format.h"
+#include "integration/host_inputs.h"
+#include "integration/stages.h"
+#include "passes/text.h"
+#include "shaders/constants/frame.h"
+
+namespace walr {
+namespace {
+
+/// Extent of what is recorded to be looked at: methods may fit themselves to the picture.
+constexpr fg::Extent kListedExtent{1920, 1080};
+
+KnownPorts hostPorts() {
+  KnownPorts known;
+  for (const HostInput& input : kHostInputs) {
+    known.emplace(input.name, fg::TextureDesc{.format = input.format, .extent = kListedExtent});
+  }
+  known.emplace(kFrameName, fg::BufferDesc{sizeof(FrameConstants)});
+  return known;
+}
+
+struct Recording {
+  std::vector<Port> ports;
+  std::vector<std::string> passes;
+};
+
+/// @param composition every method takes all of the host's textures, whether it reads them or not
+Recording recordStage(Stage& stage, bool composition, const InputConventions& conventions, const KnownPorts& known) {
+  fg::Graph scratch;
+  RecordingPorts ports(scratch, conventions, known);
+  stage.declare(ports);
+  Recording recording{.ports = ports.takePorts(composition), .passes = {}};
+  for (const fg::PassDecl& pass : scratch.desc().passes) recording.passes.push_back(pass.name);
+  return recording;
+}
+
+/// All types, and what their ports are, which is known of a type once all earlier ones are recorded.
+struct Catalogue {
+  Catalogue() : known(hostPorts()) {
+    for (const StageType& type : stageTypes()) {
+      const std::unique_ptr<Stage> stage = type.make(type.name);
+      Recording recording = recordStage(*stage, type.composition, {}, known);
+      for (const Port& port : recording.ports) {
+        if (port.output) known.emplace(port.name, fg::TextureDesc{.format = port.format, .extent = kListedExtent});
+      }
+      types.push_back({.name = type.name,
+                       .description = type.description,
+                       .composition = type.composition,
+                       .ports = std::move(recording.ports),
+                       .settings = describeSettings(*stage),
+                       .presets = stage->presets(),
+                       .passes = std::move(recording.passes)});
+    }
+  }
+  KnownPorts known;
+  std::vector<PassType> types;
+};
+
+const Catalogue& catalogue() {
+  static const Catalogue kCatalogue;
+  return kCatalogue;
+}
+
+std::string formatName(VkFormat format) {
+  return std::string(fg::formatInfo(format).name);
+}
+
+class StageNode final : public PassNode {
+ public:
+  explicit StageNode(const StageType& type)
+      : name_(type.name), composition_(type.composition), stage_(type.make(type.name)) {}
+
+  void visitSettings(SettingVisitor& visitor) override { stage_->visitSettings(visitor); }
+  [[nodiscard]] std::vector<Port> ports() override { return record().ports; }
+  [[nodiscard]] std::vector<std::string> passNames() override { return record().passes; }
+  [[nodiscard]] std::vector<std::string> presets() const override { return stage_->presets(); }
+  void usePreset(std::string_view name) override { stage_->usePreset(name); }
+
+  Connections add(fg::Graph& graph) override {
+    for (const Port& port : ports()) requireConnection(graph, port);
+    StagePorts stagePorts(graph, connections_, conventions_, name_);
+    stage_->declare(stagePorts);
+    return stagePorts.takeOutputs();
+  }
+
+ private:
+  [[nodiscard]] Recording record() { return recordStage(*stage_, composition_, conventions_, catalogue().known); }
+
+  void requireConnection(const fg::Graph& graph, const Port& port) const {
+    if (port.buffer) {
+      if (!port.optional && !connections_.buffers.contains(port.name)) rejectUnconnected(port);
+      return;
+    }
+    const auto connected = connections_.textures.find(port.name);
+    if (connected == connections_.textures.end()) {
+      if (!port.optional) rejectUnconnected(port);
+      return;
+    }
+    const VkFormat format = graph.textureDesc(connected->second).format;
+    const auto* input = std::ranges::find(kHostInputs, std::string_view(port.name), &HostInput::name);
+    if (!port.output && input != kHostInputs.end()) return requireInputFormat(*input, format);
+    if (format == port.format) return;
+    throw std::invalid_argument("port '" + port.name + "' of pass '" + name_ + "' takes " + formatName(port.format) +
+                                ", but " + formatName(format) + " is connected");
+  }
+  [[noreturn]] void rejectUnconnected(const Port& port) const {
+    throw std::invalid_argument("nothing is connected to port '" + port.name + "' of pass '" + name_ + "'");
+  }
+
+  std::string name_;
+  bool composition_;
+  std::unique_ptr<Stage> stage_;
+};
+
+void listPort(std::ostream& out, const Port& port) {
+  out << "    " << (port.output ? "out " : "in  ") << port.name << ": ";
+  if (port.buffer) {
+    out << port.size << " bytes";
+  } else {
+    out << formatName(port.format);
+  }
+  std::vector<std::string_view> accesses;
+  for (const fg::Access access : port.accesses) accesses.push_back(fg::accessInfo(access).name);
+  if (!accesses.empty()) out << ", " << join(accesses);
+  if (port.optional && !port.output) out << ", optional";
+  if (!port.description.empty()) out << "\n        " << port.description;
+  out << '\n';
+}
+
+void listSetting(std::ostream& out, const SettingDescription& setting) {
+  out << "    set " << setting.name << " = " << setting.value << "  (";
+  if (setting.choices.empty()) {
+    out << setting.least << ".." << setting.most;
+  } else {
+    out << join(setting.choices);
+  }
+  out << (setting.unit.empty() ? "" : " " + setting.unit) << ")\n        " << setting.description << '\n';
+}
+
+}  // namespace
+
+const Port& PassNode::requirePort(const std::vector<Port>& all, std::string_view name, bool buffer) const {
+  const auto found = std::ranges::find(all, name, &Port::name);
+  if (found == all.end()) {
+    std::vector<std::string> names;
+    for (const Port& port : all) names.push_back(port.name);
+    throw std::invalid_argument("there is no port \"" + std::string(name) + "\"; known ports: " + join(names));
+  }
+  if (found->buffer == buffer) return *found;
+  throw std::invalid_argument("port '" + found->name + "' takes a " + (found->buffer ? "buffer" : "texture"));
+}
+
+void PassNode::connect(std::string_view port, fg::Texture texture) {
+  connections_.textures.insert_or_assign(requirePort(ports(), port, false).name, texture);
+}
+
+void PassNode::connect(std::string_view port, fg::Buffer buffer) {
+  connections_.buffers.insert_or_assign(requirePort(ports(), port, true).name, buffer);
+}
+
+const std::vector<PassType>& passTypes() {
+  return catalogue().types;
+}
+
+std::unique_ptr<PassNode> makePass(std::string_view type) {
+  const std::vector<StageType>& types = stageTypes();
+  const auto found = std::ranges::find(types, type, &StageType::name);
+  if (found != types.end()) return std::make_unique<StageNode>(*found);
+  std::vector<std::string> names;
+  for (const StageType& known : types) names.push_back(known.name);
+  throw std::invalid_argument("there is no pass type \"" + std::string(type) + "\"; known types: " + join(names));
+}
+
+std::string passListing() {
+  std::ostringstream out;
+  for (const PassType& type : passTypes()) {
+    out << type.name << (type.composition ? " (a whole method)" : "") << ": " << type.description << '\n';
+    for (const Port& port : type.ports) listPort(out, port);
+    for (const SettingDescription& setting : type.settings) listSetting(out, setting);
+    if (!type.presets.empty()) out << "    presets: " << join(type.presets) << '\n';
+    out << "    passes: " << join(type.passes) << "\n\n";
+  }
+  return out.str();
+}
+
+}  // namespace walr

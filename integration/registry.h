@@ -1,0 +1,95 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "framegraph/graph.h"
+#include "integration/setting_info.h"
+#include "passes/inputs.h"
+
+/// Pass types by name: what a host's graph editor or scripting layer needs to list, create, connect and set them.
+/// Ports, formats and accesses are not written down here: they are what a type's own declarations say when they are
+/// recorded on a graph that is thrown away. No device is needed for anything.
+namespace walr {
+
+/// Something that a pass type reads or writes. Ports of one name are meant for each other: an output called
+/// "accumulated" goes into an input called "accumulated". Others may be connected where their formats agree.
+struct Port {
+  std::string name;
+  bool output = false;
+  bool optional = false;  ///< May be left unconnected: an output that is then transient, or an input
+                          ///< that is not read with the present settings.
+  bool buffer = false;
+  VkFormat format = VK_FORMAT_UNDEFINED;  ///< Textures.
+  std::uint64_t size = 0;                 ///< Bytes; buffers.
+  std::vector<fg::Access> accesses;       ///< All that the passes do with it, each once.
+  VkImageUsageFlags imageUsage = 0;       ///< Usage flags that these add up to.
+  VkBufferUsageFlags bufferUsage = 0;
+  std::string description;  ///< Empty where the name says it.
+};
+
+/// Textures and buffers of one graph by port name.
+struct Connections {
+  std::map<std::string, fg::Texture, std::less<>> textures;
+  std::map<std::string, fg::Buffer, std::less<>> buffers;
+};
+
+/// One use of a pass type, with settings of its own.
+class PassNode : public Configurable {
+ public:
+  /// The ports with the present settings.
+  [[nodiscard]] virtual std::vector<Port> ports() = 0;
+  /// Names of the passes that `add` declares with the present settings, in the order of declaration.
+  [[nodiscard]] virtual std::vector<std::string> passNames() = 0;
+  /// Names of the presets that `usePreset` takes. Empty where there are none.
+  [[nodiscard]] virtual std::vector<std::string> presets() const = 0;
+  /// @throws std::invalid_argument naming the unknown preset and the known ones
+  virtual void usePreset(std::string_view name) = 0;
+
+  /// Connect a port.
+  /// @throws std::invalid_argument naming the unknown port and the known ones
+  void connect(std::string_view port, fg::Texture texture);
+  void connect(std::string_view port, fg::Buffer buffer);
+
+  /// How the host's textures differ from the project's conventions.
+  void setConventions(const InputConventions& conventions) { conventions_ = conventions; }
+
+  /// Declare the passes.
+  /// @returns the outputs, at their new versions
+  /// @throws std::invalid_argument naming an input that is not connected or not of the port's format, or a setting that
+  ///         is out of range
+  virtual Connections add(fg::Graph& graph) = 0;
+
+ protected:
+  Connections connections_;
+  InputConventions conventions_;
+
+ private:
+  [[nodiscard]] const Port& requirePort(const std::vector<Port>& all, std::string_view name, bool buffer) const;
+};
+
+/// What can be listed of a pass type.
+struct PassType {
+  std::string name;
+  std::string description;
+  bool composition = false;  ///< A whole denoising method.
+  std::vector<Port> ports;   ///< With default settings.
+  std::vector<SettingDescription> settings;
+  std::vector<std::string> presets;
+  std::vector<std::string> passes;  ///< Passes that it declares with default settings.
+};
+
+/// All pass types, stages first. Made when first asked for; safe from several threads.
+const std::vector<PassType>& passTypes();
+
+/// @throws std::invalid_argument naming the unknown type and the known ones
+std::unique_ptr<PassNode> makePass(std::string_view type);
+
+/// The pass types in words: ports, settings, passes.
+std::string passListing();
+
+}  // namespace walr

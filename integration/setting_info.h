@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "passes/settings.h"
+
+namespace walr {
+
+enum class SettingKind : std::uint32_t {
+  Number,   ///< Any number within the range.
+  Integer,  ///< A whole number within the range.
+  Switch,   ///< "on" or "off".
+  Choice,   ///< One of the names of `choices`.
+};
+
+/// A setting as a host's user interface needs to know it.
+struct SettingDescription {
+  std::string name;
+  SettingKind kind = SettingKind::Number;
+  std::string value;                 ///< Present value, as `Configurable::set` takes it.
+  double least = 0.0;                ///< Numbers and integers.
+  double most = 0.0;                 ///< Numbers and integers.
+  std::vector<std::string> choices;  ///< Switches and choices: every value.
+  std::string unit;                  ///< Empty for a pure number.
+  std::string description;           ///< One line.
+  std::string source;                ///< Paper and section, or "measured".
+};
+
+/// All settings in their order, with their present values.
+std::vector<SettingDescription> describeSettings(Configurable& configurable);
+
+}  // namespace walr

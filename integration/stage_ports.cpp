@@ -1,0 +1,129 @@
+#include "integration/stage_ports.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "framegraph/access.h"
+#include "integration/host_inputs.h"
+
+namespace walr {
+namespace {
+
+/// Where the scratch graph's imports come from does not matter: it is never compiled.
+constexpr fg::ExternalState kAnyState{VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT,
+                                      VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+
+template <typename Handle>
+Handle find(const std::map<std::string, Handle, std::less<>>& connections, std::string_view port) {
+  const auto found = connections.find(port);
+  return found == connections.end() ? Handle{} : found->second;
+}
+
+/// Describe a port by everything that the recorded passes do with its resource.
+Port describe(const fg::GraphDesc& graph, std::string name, std::uint32_t resource) {
+  Port port;
+  port.name = std::move(name);
+  const auto& desc = graph.resources[resource].desc;
+  if (const auto* texture = std::get_if<fg::TextureDesc>(&desc)) port.format = texture->format;
+  if (const auto* buffer = std::get_if<fg::BufferDesc>(&desc)) {
+    port.buffer = true;
+    port.size = buffer->size;
+  }
+  for (const fg::PassDecl& pass : graph.passes) {
+    for (const fg::AccessDecl& access : pass.accesses) {
+      if (access.resource != resource) continue;
+      if (std::ranges::find(port.accesses, access.access) == port.accesses.end()) {
+        port.accesses.push_back(access.access);
+      }
+      port.imageUsage |= fg::accessInfo(access.access).imageUsage;
+      port.bufferUsage |= fg::accessInfo(access.access).bufferUsage;
+    }
+  }
+  const auto* input = std::ranges::find(kHostInputs, std::string_view(port.name), &HostInput::name);
+  if (input != kHostInputs.end()) port.description = input->description;
+  return port;
+}
+
+}  // namespace
+
+fg::Texture StagePorts::texture(std::string_view port) {
+  return find(connections_.textures, port);
+}
+
+fg::Buffer StagePorts::buffer(std::string_view port) {
+  return find(connections_.buffers, port);
+}
+
+fg::Texture StagePorts::target(std::string_view port, VkFormat format, fg::Extent extent) {
+  const fg::Texture connected = find(connections_.textures, port);
+  return connected.valid() ? connected : graph_->texture(instance_ + "." + std::string(port), {format, extent});
+}
+
+DenoiserInputs StagePorts::hostInputs() {
+  DenoiserInputs inputs;
+  for (const HostInput& input : kHostInputs) inputs.*input.texture = texture(input.name);
+  inputs.frame = buffer(kFrameName);
+  inputs.conventions = conventions_;
+  return inputs;
+}
+
+Guides StagePorts::guides() {
+  return {.depth = texture("guides.depth"),
+          .normals = texture("guides.normals"),
+          .previousDepth = texture("guides.previous-depth"),
+          .previousNormals = texture("guides.previous-normals")};
+}
+
+void StagePorts::setOutputs(const Guides& guides) {
+  setOutput("guides.depth", guides.depth);
+  setOutput("guides.normals", guides.normals);
+  setOutput("guides.previous-depth", guides.previousDepth);
+  setOutput("guides.previous-normals", guides.previousNormals);
+}
+
+fg::ResourceVersion RecordingPorts::ask(std::string_view port) {
+  const auto known = known_->find(port);
+  if (known == known_->end()) {
+    throw std::logic_error("no pass type makes what port '" + std::string(port) + "' takes");
+  }
+  const auto asked = std::ranges::find(asked_, port, &Asked::port);
+  if (asked != asked_.end()) return asked->resource;
+  std::string name(port);
+  if (const auto* texture = std::get_if<fg::TextureDesc>(&known->second)) {
+    asked_.push_back({name, graph().import(name, *texture, kAnyState)});
+  } else {
+    asked_.push_back({name, graph().import(name, std::get<fg::BufferDesc>(known->second), kAnyState)});
+  }
+  return asked_.back().resource;
+}
+
+fg::Texture RecordingPorts::texture(std::string_view port) {
+  return {ask(port)};
+}
+
+fg::Buffer RecordingPorts::buffer(std::string_view port) {
+  return {ask(port)};
+}
+
+fg::Texture RecordingPorts::target(std::string_view port, VkFormat format, fg::Extent extent) {
+  return graph().import(std::string(port) + " target", {format, extent}, kAnyState);
+}
+
+std::vector<Port> RecordingPorts::takePorts(bool unread) {
+  std::vector<Port> ports;
+  const fg::GraphDesc& desc = graph().desc();
+  for (const Asked& asked : asked_) {
+    Port port = describe(desc, asked.port, asked.resource.resource);
+    port.optional = port.accesses.empty();
+    if (unread || !port.optional) ports.push_back(std::move(port));
+  }
+  for (const auto& [name, texture] : takeOutputs().textures) {
+    Port port = describe(desc, name, texture.resource);
+    port.output = true;
+    port.optional = true;
+    ports.push_back(std::move(port));
+  }
+  return ports;
+}
+
+}  // namespace walr

@@ -1,0 +1,170 @@
+#include "integration/stages.h"
+
+#include <stdexcept>
+#include <string>
+
+#include "integration/host_inputs.h"
+#include "passes/bmfr_accumulation.h"
+#include "passes/bmfr_fit.h"
+#include "passes/denoiser.h"
+#include "passes/flr_regression.h"
+#include "passes/joint_bilateral_filter.h"
+#include "passes/pass_through.h"
+#include "passes/svgf_filter.h"
+#include "passes/temporal_accumulation.h"
+#include "passes/temporal_antialiasing.h"
+#include "passes/text.h"
+#include "passes/weighted_regression.h"
+
+namespace walr {
+namespace {
+
+constexpr VkFormat kColour = VK_FORMAT_R16G16B16A16_SFLOAT;
+
+/// A stage made of a settings struct and the function that declares it.
+template <typename Settings, auto kDeclare>
+class StageOf final : public Stage {
+ public:
+  void visitSettings(SettingVisitor& visitor) override { settings_.visit(visitor); }
+  void declare(StagePorts& ports) override {
+    checkSettings();
+    kDeclare(ports, settings_);
+  }
+
+ private:
+  Settings settings_{};
+};
+
+template <typename Settings, auto kDeclare>
+std::unique_ptr<Stage> make(std::string_view /*name*/) {
+  return std::make_unique<StageOf<Settings, kDeclare>>();
+}
+
+struct NoSettings {
+  void visit(SettingVisitor& /*visitor*/) {}
+};
+
+/// What is written to the target of an output that is as large as an input.
+fg::Texture targetLike(StagePorts& ports, std::string_view output, fg::Texture input) {
+  return ports.target(output, kColour, ports.graph().textureDesc(input).extent);
+}
+
+void prepareGuides(StagePorts& ports, const PrepareGuidesSettings& settings) {
+  ports.setOutputs(addPrepareGuides(ports.graph(), ports.hostInputs(), settings));
+}
+
+void temporalAccumulation(StagePorts& ports, const TemporalAccumulationSettings& settings) {
+  ports.setOutput("accumulated", addTemporalAccumulation(ports.graph(), ports.hostInputs(), ports.guides(), settings));
+}
+
+void temporalAccumulationWithTaps(StagePorts& ports, const TemporalAccumulationSettings& settings) {
+  const AccumulationWithTaps result =
+      addTemporalAccumulationWithTaps(ports.graph(), ports.hostInputs(), ports.guides(), settings);
+  ports.setOutput("accumulated", result.mean);
+  ports.setOutput("history-taps", result.taps);
+}
+
+void weightedRegression(StagePorts& ports, const WeightedRegressionSettings& settings) {
+  ports.setOutput("filtered", addWeightedRegression(ports.graph(), ports.buffer(kFrameName),
+                                                    ports.texture("accumulated"), ports.guides(), settings));
+}
+
+void bmfrFit(StagePorts& ports, const BmfrFitSettings& settings) {
+  const fg::Texture accumulated = ports.texture("accumulated");
+  const fg::Texture target = targetLike(ports, "filtered", accumulated);
+  ports.setOutput("filtered", addBmfrFit(ports.graph(), ports.buffer(kFrameName), accumulated,
+                                         LightingAlpha::SampleCount, ports.guides(), target, settings));
+}
+
+void bmfrAccumulation(StagePorts& ports, const BmfrAccumulationSettings& settings) {
+  ports.setOutput("steady", addBmfrAccumulation(ports.graph(), ports.texture("filtered"), ports.guides(),
+                                                ports.texture("history-taps"), settings));
+}
+
+void flrRegression(StagePorts& ports, const FlrRegressionSettings& settings) {
+  const fg::Texture accumulated = ports.texture("accumulated");
+  const fg::Texture target = targetLike(ports, "filtered", accumulated);
+  ports.setOutput("filtered", addFlrRegression(ports.graph(), accumulated, LightingAlpha::SampleCount, ports.guides(),
+                                               target, settings));
+}
+
+void jointBilateralFilter(StagePorts& ports, const JointBilateralFilterSettings& settings) {
+  const fg::Texture lighting = ports.texture("lighting");
+  const fg::Texture target = targetLike(ports, "filtered", lighting);
+  ports.setOutput("filtered", addJointBilateralFilter(ports.graph(), ports.buffer(kFrameName), lighting, ports.guides(),
+                                                      target, settings));
+}
+
+void temporalAntialiasing(StagePorts& ports, const TemporalAntialiasingSettings& settings) {
+  const fg::Texture filtered = ports.texture("filtered");
+  const fg::Texture target = targetLike(ports, kOutputName, filtered);
+  ports.setOutput(kOutputName, addTemporalAntialiasing(ports.graph(), ports.hostInputs(), ports.guides(), filtered,
+                                                       target, settings));
+}
+
+void passThrough(StagePorts& ports, const NoSettings& /*settings*/) {
+  const fg::Texture filtered = ports.texture("filtered");
+  ports.setOutput(kOutputName, addPassThrough(ports.graph(), filtered, targetLike(ports, kOutputName, filtered)));
+}
+
+/// A whole method as a stage.
+class MethodStage final : public Stage {
+ public:
+  explicit MethodStage(std::string_view name) : method_(makeDenoiser(name)) {}
+  void visitSettings(SettingVisitor& visitor) override { method_->visitSettings(visitor); }
+  [[nodiscard]] std::vector<std::string> presets() const override { return method_->presets(); }
+  void usePreset(std::string_view name) override { method_->usePreset(name); }
+  void declare(StagePorts& ports) override {
+    const DenoiserInputs inputs = ports.hostInputs();
+    const fg::Texture target = targetLike(ports, kOutputName, inputs.lighting);
+    ports.setOutput(kOutputName, method_->add(ports.graph(), inputs, target));
+  }
+
+ private:
+  std::unique_ptr<Denoiser> method_;
+};
+
+std::unique_ptr<Stage> makeMethod(std::string_view name) {
+  return std::make_unique<MethodStage>(name);
+}
+
+std::vector<StageType> stagesAndMethods() {
+  std::vector<StageType> types{
+      {"prepare_guides", "Convert the host's depth, normals and albedo once into what all other stages read", false,
+       make<PrepareGuidesSettings, prepareGuides>},
+      {"temporal_accumulation", "Average the noisy lighting over time along its motion", false,
+       make<TemporalAccumulationSettings, temporalAccumulation>},
+      {"temporal_accumulation_with_taps", "The same, keeping where in the history it read", false,
+       make<TemporalAccumulationSettings, temporalAccumulationWithTaps>},
+      {"weighted_regression", "WALR's filter: weighted linear regression over edge-aware a-trous averages", false,
+       make<WeightedRegressionSettings, weightedRegression>},
+      {"bmfr_fit", "BMFR's filter: fit blocks of 32x32 pixels by features of first and second order", false,
+       make<BmfrFitSettings, bmfrFit>},
+      {"bmfr_accumulation", "Average fitted frames along the taps of temporal_accumulation_with_taps", false,
+       make<BmfrAccumulationSettings, bmfrAccumulation>},
+      {"flr_regression", "FLR's filter: local regression on a coarse grid", false,
+       make<FlrRegressionSettings, flrRegression>},
+      {"joint_bilateral_filter", "Joint bilateral filter of one noisy frame", false,
+       make<JointBilateralFilterSettings, jointBilateralFilter>},
+      {"temporal_antialiasing", "Steady the filtered frames: history, variance clipping, moving average", false,
+       make<TemporalAntialiasingSettings, temporalAntialiasing>},
+      {"pass_through", "Copy the filtered frame to the output", false, make<NoSettings, passThrough>},
+  };
+  for (const std::string& name : denoiserNames()) {
+    types.push_back({name, std::string(denoiserDescription(name)), true, makeMethod});
+  }
+  return types;
+}
+
+}  // namespace
+
+void Stage::usePreset(std::string_view name) {
+  throw std::invalid_argument("there is no preset \"" + std::string(name) + "\": a stage has none");
+}
+
+const std::vector<StageType>& stageTypes() {
+  static const std::vector<StageType> kTypes = stagesAndMethods();
+  return kTypes;
+}
+
+}  // namespace walr

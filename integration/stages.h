@@ -1,0 +1,32 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "integration/stage_ports.h"
+
+namespace walr {
+
+/// A stage of the methods: its settings, and how it declares its passes between ports.
+class Stage : public Configurable {
+ public:
+  [[nodiscard]] virtual std::vector<std::string> presets() const { return {}; }
+  /// @throws std::invalid_argument naming the unknown preset and the known ones
+  virtual void usePreset(std::string_view name);
+  virtual void declare(StagePorts& ports) = 0;
+};
+
+/// A kind of stage by name.
+struct StageType {
+  std::string name;
+  std::string description;
+  bool composition = false;  ///< A whole method.
+  std::unique_ptr<Stage> (*make)(std::string_view name);
+};
+
+/// All of them, the whole methods last; whatever a stage takes, an earlier one makes.
+const std::vector<StageType>& stageTypes();
+
+}  // namespace walr

@@ -1,0 +1,192 @@
+#include "integration/registry.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "framegraph/access.h"
+#include "framegraph/compile.h"
+#include "framegraph/inspect.h"
+#include "integration/denoise_graph.h"
+
+namespace walr {
+namespace {
+
+constexpr fg::Extent kExtent{640, 360};
+
+template <typename Action>
+std::string rejection(Action action) {
+  try {
+    action();
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return {};
+}
+
+const PassType& typeOf(const std::string& name) {
+  return *std::ranges::find(passTypes(), name, &PassType::name);
+}
+
+void connectHost(PassNode& node, const DenoiserInputs& inputs) {
+  for (const Port& port : node.ports()) {
+    if (port.output) continue;
+    if (port.name == kFrameName) node.connect(port.name, inputs.frame);
+    for (const HostInput& input : kHostInputs) {
+      if (input.name == port.name) node.connect(port.name, inputs.*input.texture);
+    }
+  }
+}
+
+void connect(PassNode& node, const Connections& outputs) {
+  for (const Port& port : node.ports()) {
+    const auto found = outputs.textures.find(port.name);
+    if (!port.output && found != outputs.textures.end()) node.connect(port.name, found->second);
+  }
+}
+
+std::string compiled(const fg::Graph& graph) {
+  const fg::CompileResult result = fg::compile(graph.desc(), fg::TableMemoryModel());
+  return result.ok() ? fg::toText(graph.desc(), result.plan) : "does not compile: " + result.text();
+}
+
+/// A graph with the host's textures, to which a test adds nodes.
+struct HostGraph {
+  HostGraph() {
+    inputs = importInputs(graph, kExtent, {}, kComputeHost.inputs);
+    output = graph.import(std::string(kOutputName), {kOutputFormat, kExtent}, kComputeHost.outputBefore);
+  }
+  fg::Graph graph;
+  DenoiserInputs inputs;
+  fg::Texture output;
+};
+
+TEST(Registry, ListsEveryMethodAndEveryTypeCompilesByItself) {
+  for (const std::string& method : denoiserNames()) EXPECT_TRUE(typeOf(method).composition) << method;
+  for (const PassType& type : passTypes()) {
+    SCOPED_TRACE(type.name);
+    EXPECT_FALSE(type.description.empty());
+    EXPECT_FALSE(type.passes.empty());
+    EXPECT_TRUE(std::ranges::any_of(type.ports, &Port::output));
+    HostGraph host;
+    const auto node = makePass(type.name);
+    connectHost(*node, host.inputs);
+    for (const Port& port : node->ports()) {
+      if (port.output || port.optional || port.buffer) continue;
+      if (std::ranges::find(kHostInputs, std::string_view(port.name), &HostInput::name) != kHostInputs.end()) continue;
+      node->connect(port.name, host.graph.import(port.name, {port.format, kExtent}, kComputeHost.inputs));
+    }
+    for (const auto& [name, texture] : node->add(host.graph).textures) {
+      if (texture.version > 0) host.graph.exported(texture, kComputeHost.outputAfter);
+    }
+    const std::string plan = compiled(host.graph);
+    EXPECT_FALSE(plan.starts_with("does not compile")) << plan;
+  }
+}
+
+TEST(Registry, PortsHaveTheUsageThatThePlanHas) {
+  for (const std::string& method : denoiserNames()) {
+    DenoiseGraph declared = declareDenoiseGraph(*makeDenoiser(method), {1920, 1080}, {}, kComputeHost);
+    const fg::CompileResult result = fg::compile(declared.graph.desc(), fg::TableMemoryModel());
+    ASSERT_TRUE(result.ok()) << result.text();
+    for (const Port& port : typeOf(method).ports) {
+      const auto& resources = declared.graph.desc().resources;
+      const auto found = std::ranges::find(resources, port.name, &fg::ResourceDecl::name);
+      ASSERT_NE(found, resources.end()) << port.name;
+      const fg::PlannedResource& planned = result.plan.resources[static_cast<std::size_t>(found - resources.begin())];
+      EXPECT_EQ(port.imageUsage, planned.imageUsage) << method << ": " << port.name;
+      EXPECT_EQ(port.bufferUsage, planned.bufferUsage) << method << ": " << port.name;
+      EXPECT_EQ(port.optional, port.output || !planned.used) << method << ": " << port.name;
+    }
+  }
+}
+
+TEST(Registry, StagesConnectedByNameArePlannedAsTheWholeMethodIs) {
+  HostGraph whole;
+  const auto method = makePass("walr");
+  connectHost(*method, whole.inputs);
+  method->connect(kOutputName, whole.output);
+  whole.graph.exported(method->add(whole.graph).textures.at(std::string(kOutputName)), kComputeHost.outputAfter);
+
+  HostGraph parts;
+  Connections made;
+  for (const char* type : {"prepare_guides", "temporal_accumulation", "weighted_regression", "temporal_antialiasing"}) {
+    const auto node = makePass(type);
+    // The method fits its window to the picture's height, 3^3 pixels at 360 lines.
+    if (std::string_view(type) == "weighted_regression") node->set("regression.iterations", "3");
+    connectHost(*node, parts.inputs);
+    connect(*node, made);
+    if (std::string_view(type) == "temporal_antialiasing") node->connect(kOutputName, parts.output);
+    made.textures.merge(node->add(parts.graph).textures);
+  }
+  parts.graph.exported(made.textures.at(std::string(kOutputName)), kComputeHost.outputAfter);
+  EXPECT_EQ(compiled(parts.graph), compiled(whole.graph));
+}
+
+TEST(Registry, NamesWhatIsWrong) {
+  EXPECT_NE(rejection([] { (void)makePass("wlr"); }).find("\"wlr\"; known types: prepare_guides"), std::string::npos);
+  HostGraph host;
+  const auto node = makePass("weighted_regression");
+  EXPECT_NE(rejection([&] { node->connect("acumulated", host.inputs.lighting); }).find("known ports: "),
+            std::string::npos);
+  EXPECT_NE(rejection([&] { node->connect("accumulated", host.inputs.frame); }).find("takes a texture"),
+            std::string::npos);
+  EXPECT_NE(rejection([&] { node->add(host.graph); }).find("nothing is connected to port"), std::string::npos);
+  EXPECT_NE(rejection([&] { node->set("regression.iterations", "9"); }).find("1..5"), std::string::npos);
+  EXPECT_NE(rejection([&] { node->usePreset("paper"); }).find("\"paper\""), std::string::npos);
+
+  const auto guides = makePass("prepare_guides");
+  connectHost(*guides, host.inputs);
+  guides->connect("depth", host.graph.import("ids", {VK_FORMAT_R32_UINT, kExtent}, kComputeHost.inputs));
+  EXPECT_NE(rejection([&] { guides->add(host.graph); }).find("input 'depth' cannot be of format R32_UINT"),
+            std::string::npos);
+  guides->connect("depth", host.graph.import("z", {VK_FORMAT_D32_SFLOAT, kExtent}, kComputeHost.inputs));
+  EXPECT_EQ(rejection([&] { guides->add(host.graph); }), "");
+
+  const auto antialiasing = makePass("temporal_antialiasing");
+  connectHost(*antialiasing, host.inputs);
+  for (const Port& port : antialiasing->ports()) {
+    if (!port.output && port.name.starts_with("guides.")) {
+      antialiasing->connect(port.name, host.graph.texture(port.name, {port.format, kExtent}));
+    }
+  }
+  antialiasing->connect("filtered", host.inputs.depth);
+  EXPECT_NE(rejection([&] { antialiasing->add(host.graph); }).find("takes R16G16B16A16_SFLOAT, but R32_SFLOAT"),
+            std::string::npos);
+}
+
+TEST(Registry, SettingsAreDescribedAsTheyAre) {
+  const PassType& walr = typeOf("walr");
+  const auto find = [&](const char* name) {
+    return *std::ranges::find(walr.settings, std::string(name), &SettingDescription::name);
+  };
+  const SettingDescription iterations = find("regression.iterations");
+  EXPECT_EQ(iterations.kind, SettingKind::Integer);
+  EXPECT_EQ(iterations.value, "4");
+  EXPECT_EQ(iterations.least, 1.0);
+  EXPECT_EQ(iterations.most, 5.0);
+  EXPECT_EQ(find("regression.moments").choices.size(), 4U);
+  EXPECT_EQ(find("regression.trace-edges").kind, SettingKind::Switch);
+  EXPECT_EQ(find("accumulation.max-samples").unit, "frames");
+  // A listed value can be set again, and means the same.
+  for (const PassType& type : passTypes()) {
+    const auto node = makePass(type.name);
+    for (const SettingDescription& setting : type.settings) node->set(setting.name, setting.value);
+    const std::vector<SettingDescription> again = describeSettings(*node);
+    for (std::size_t i = 0; i < again.size(); ++i) EXPECT_EQ(again[i].value, type.settings[i].value) << again[i].name;
+  }
+}
+
+TEST(Registry, TheListingNamesEveryTypePortAndSetting) {
+  const std::string listing = "\n" + passListing();
+  for (const PassType& type : passTypes()) {
+    EXPECT_NE(listing.find("\n" + type.name), std::string::npos);
+    for (const Port& port : type.ports) EXPECT_NE(listing.find(" " + port.name + ": "), std::string::npos);
+    for (const auto& setting : type.settings) EXPECT_NE(listing.find("set " + setting.name), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace walr
