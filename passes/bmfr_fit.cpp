@@ -28,7 +28,7 @@ fg::Texture addBmfrFit(fg::Graph& graph, fg::Buffer frame, fg::Texture lighting,
   pass.uniform("frameConstants", frame)
       .sample("lighting", lighting)
       .sample("depth", guides.depth)
-      .sample("normals", guides.normals)
+      .sample("shadingNormal", guides.shadingNormal)
       .specialize("kAlphaIsSampleCount", alpha == LightingAlpha::SampleCount ? 1U : 0U)
       .constants(constants)
       .dispatch(threads);

@@ -45,7 +45,7 @@ fg::Texture addFlrRegression(fg::Graph& graph, fg::Texture lighting, LightingAlp
   fg::PassBuilder downsample = graph.compute("flr outer products", shaders::flrMoments);
   downsample.sample("lighting", lighting)
       .sample("depth", guides.depth)
-      .sample("normals", guides.normals)
+      .sample("shadingNormal", guides.shadingNormal)
       .specialize("kAlphaIsSampleCount", alpha == LightingAlpha::SampleCount ? 1U : 0U)
       .constants(constants)
       .dispatch(cells);
@@ -63,7 +63,7 @@ fg::Texture addFlrRegression(fg::Graph& graph, fg::Texture lighting, LightingAlp
   fg::PassBuilder apply = graph.compute("flr apply", shaders::flrApply);
   apply.sample("lighting", lighting)
       .sample("depth", guides.depth)
-      .sample("normals", guides.normals)
+      .sample("shadingNormal", guides.shadingNormal)
       .load("coefficients", coefficients)
       .constants(constants)
       .dispatch(extent);

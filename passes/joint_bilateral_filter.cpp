@@ -17,7 +17,8 @@ fg::Texture addJointBilateralFilter(fg::Graph& graph, fg::Buffer frame, fg::Text
   fg::PassBuilder pass = graph.compute("joint bilateral filter", shaders::jointBilateral);
   pass.uniform("frameConstants", frame)
       .sample("depth", guides.depth)
-      .sample("normals", guides.normals)
+      .sample("shadingNormal", guides.shadingNormal)
+      .sample("geometricNormal", guides.geometricNormal)
       .sample("lighting", lighting)
       .specialize("kRadius", settings.radius)
       .constants(JointBilateralConstants{falloff(settings.sigmaPosition), falloff(settings.sigmaColour),

@@ -8,7 +8,8 @@ namespace walr {
 Guides addPrepareGuides(fg::Graph& graph, const DenoiserInputs& inputs, const PrepareGuidesSettings& settings) {
   const fg::Extent extent = graph.textureDesc(inputs.depth).extent;
   const fg::History depth = graph.history("guides.depth", {VK_FORMAT_R32_UINT, extent});
-  const fg::History normals = graph.history("guides.normals", {VK_FORMAT_R32G32_UINT, extent});
+  const fg::History geometricNormal = graph.history("guides.geometric normal", {VK_FORMAT_R32_UINT, extent});
+  const fg::Texture shadingNormal = graph.texture("guides.shading normal", {VK_FORMAT_R32_UINT, extent});
 
   fg::PassBuilder pass = graph.compute("prepare guides", shaders::prepareGuides);
   pass.uniform("frameConstants", inputs.frame)
@@ -20,9 +21,10 @@ Guides addPrepareGuides(fg::Graph& graph, const DenoiserInputs& inputs, const Pr
       .dispatch(extent);
   Guides guides;
   guides.depth = pass.store("outDepth", depth.current);
-  guides.normals = pass.store("outNormals", normals.current);
+  guides.shadingNormal = pass.store("outShadingNormal", shadingNormal);
+  guides.geometricNormal = pass.store("outGeometricNormal", geometricNormal.current);
   guides.previousDepth = depth.previous;
-  guides.previousNormals = normals.previous;
+  guides.previousGeometricNormal = geometricNormal.previous;
   return guides;
 }
 

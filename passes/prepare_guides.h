@@ -26,9 +26,10 @@ struct PrepareGuidesSettings {
 /// The noise-free guides of this frame and the last.
 struct Guides {
   fg::Texture depth;          ///< R32_UINT: view depth and edge distance packed (surface.glsl); 0: nothing to denoise.
-  fg::Texture normals;        ///< RG32_UINT: octahedral shading normal, octahedral geometric normal.
-  fg::Texture previousDepth;  ///< The same, one frame ago; zero while there is no history.
-  fg::Texture previousNormals;  ///< The same, one frame ago; zero while there is no history.
+  fg::Texture shadingNormal;  ///< R32_UINT: octahedral map of the shading normal.
+  fg::Texture geometricNormal;          ///< R32_UINT: octahedral map of the geometric normal, which spans planes.
+  fg::Texture previousDepth;            ///< Depth one frame ago; zero while there is no history.
+  fg::Texture previousGeometricNormal;  ///< Geometric normal one frame ago; zero while there is no history.
 };
 
 /// Convert the host's G-buffer once into what all later stages read.

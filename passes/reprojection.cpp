@@ -7,9 +7,9 @@ void readReprojection(fg::PassBuilder& pass, const DenoiserInputs& inputs, const
   pass.uniform("frameConstants", inputs.frame)
       .sample("motion", inputs.motion)
       .sample("depth", guides.depth)
-      .sample("normals", guides.normals)
+      .sample("geometricNormal", guides.geometricNormal)
       .sample("previousDepth", guides.previousDepth)
-      .sample("previousNormals", guides.previousNormals)
+      .sample("previousGeometricNormal", guides.previousGeometricNormal)
       .specialize("kMotionDepthGiven", motionDepthGiven)
       .specialize("kDilateMotion", dilateMotion);
 }

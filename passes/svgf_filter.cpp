@@ -15,7 +15,8 @@ fg::PassBuilder filterPass(fg::Graph& graph, std::string name, const fg::Shader&
   fg::PassBuilder pass = graph.compute(std::move(name), shader);
   pass.uniform("frameConstants", frame)
       .sample("depth", guides.depth)
-      .sample("normals", guides.normals)
+      .sample("shadingNormal", guides.shadingNormal)
+      .sample("geometricNormal", guides.geometricNormal)
       .sample("colour", colour)
       .constants(SvgfFilterConstants{1.0F / settings.sigmaDepth, settings.sigmaNormal, settings.sigmaLuminance,
                                      settings.minHistory})

@@ -55,11 +55,11 @@ void checkSettings(const WeightedRegressionSettings& s) {
 /// The part of an iteration that does not depend on its place.
 void declareIteration(fg::PassBuilder& pass, fg::Buffer frame, const Guides& guides,
                       const WeightedRegressionSettings& settings) {
+  const bool shadingPlane = settings.planeNormal == PlaneNormal::Shading;
   pass.uniform("frameConstants", frame)
-      .sample("normals", guides.normals)
+      .sample("planeNormal", shadingPlane ? guides.shadingNormal : guides.geometricNormal)
       .specialize("kTraceEdges", settings.traceEdges)
       .specialize("kReplaceTaps", settings.replaceTaps)
-      .specialize("kShadingPlane", settings.planeNormal == PlaneNormal::Shading)
       .specialize("kNormalFactor", settings.normalFactor)
       .constants(AtrousConstants{settings.planeNear, settings.planeFar, settings.sdfFraction, settings.ridge,
                                  settings.noiseRidge});
@@ -102,7 +102,7 @@ fg::Texture addWeightedRegression(fg::Graph& graph, fg::Buffer frame, fg::Textur
     fg::PassBuilder pass = graph.compute("a-trous" + suffix, *layout.shaders.at(first ? 1 : 0).at(last ? 1 : 0));
     declareIteration(pass, frame, guides, settings);
     pass.sample("depth", averages.depth).specialize("kIteration", t).specialize("kSpacing", spacing).dispatch(extent);
-    if (first || last) pass.sample("accumulated", accumulated);
+    if (first || last) pass.sample("accumulated", accumulated).sample("shadingNormal", guides.shadingNormal);
     if (!first) readAverages(pass, averages);
     if (last) {
       pass.specialize("kPivotFloor", settings.regularisation == Regularisation::Floor);

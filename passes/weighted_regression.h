@@ -56,7 +56,8 @@ struct WeightedRegressionSettings {
             planeFar);
     v.visitEnum({"regression.plane-normal", "Normal that spans the plane", "", 0, 1, "walr.txt 4.3"}, kPlaneNormals,
                 planeNormal);
-    v.visit({"regression.normal-factor", "Weigh taps by the cosine between geometric normals", "", 0, 1, "measured"},
+    v.visit({"regression.normal-factor", "Weigh taps by the cosine between the normals of the planes", "", 0, 1,
+             "measured"},
             normalFactor);
     v.visit({"regression.trace-edges", "Take the smallest weight along the segment to a tap, not the tap's own", "", 0,
              1, "walr.txt 3.3"},

@@ -16,19 +16,19 @@ layout(constant_id = 0) const uint kIteration = 0;
 layout(constant_id = 1) const int kSpacing = 1;        // 3^t pixels.
 layout(constant_id = 2) const bool kTraceEdges = true;
 layout(constant_id = 3) const bool kReplaceTaps = true;
-layout(constant_id = 4) const bool kShadingPlane = false;    // The plane's normal is the shading normal.
-layout(constant_id = 5) const bool kNormalFactor = true;     // Weights fall with the cosine between geometric normals.
+layout(constant_id = 4) const bool kNormalFactor = true;  // Weights fall with the cosine between the planes' normals.
 #ifdef LAST
-layout(constant_id = 6) const bool kPivotFloor = false;      // Floor the pivots instead of adding a ridge.
+layout(constant_id = 5) const bool kPivotFloor = false;      // Floor the pivots instead of adding a ridge.
 #else
-layout(constant_id = 6) const bool kKeepSampleCount = true;  // W goes from iteration to iteration.
+layout(constant_id = 5) const bool kKeepSampleCount = true;  // W goes from iteration to iteration.
 #endif
 
 layout(set = 0, binding = 0, std140) uniform frameConstants { FrameConstants frame; };
 layout(set = 0, binding = 1) uniform utexture2D depth;
-layout(set = 0, binding = 2) uniform utexture2D normals;
+layout(set = 0, binding = 2) uniform utexture2D planeNormal;
 #if defined(FIRST) || defined(LAST)
 layout(set = 0, binding = 3) uniform texture2D accumulated;
+layout(set = 0, binding = 13) uniform utexture2D shadingNormal;
 #endif
 #ifdef LAST
 layout(set = 0, binding = 12, rgba16f) uniform writeonly image2D outFiltered;
@@ -39,9 +39,13 @@ layout(push_constant) uniform PushConstants { AtrousConstants settings; };
 
 #include "include/edge_tracing.glsl"
 
-Moments readMoments(ivec2 q, uvec2 guide) {
+#if defined(FIRST) || defined(LAST)
+vec2 featuresAt(ivec2 q) { return unpackFeatures(texelFetch(shadingNormal, q, 0).x); }
+#endif
+
+Moments readMoments(ivec2 q) {
 #ifdef FIRST
-  return momentsOf(unpackFeatures(guide), texelFetch(accumulated, q, 0).rgb);
+  return momentsOf(featuresAt(q), texelFetch(accumulated, q, 0).rgb);
 #else
   return loadMoments(q);
 #endif
@@ -56,8 +60,9 @@ void writeWithoutSurface(ivec2 p) {
 #endif
 }
 
-void writeResult(ivec2 p, float z, int nearestEdge, Moments m, vec2 features) {
+void writeResult(ivec2 p, float z, int nearestEdge, Moments m) {
 #ifdef LAST
+  const vec2 features = featuresAt(p);
   const vec3 colour = kPivotFloor ? reconstructWithFloor(m, features, settings.ridge)
                                   : reconstructWithRidge(m, features, settings.ridge, settings.noiseRidge);
   imageStore(outFiltered, p, vec4(min(colour, vec3(kLargestHalf)), 0.0));
@@ -78,12 +83,11 @@ void main() {
     writeWithoutSurface(p);
     return;
   }
-  const uvec2 guide = texelFetch(normals, p, 0).xy;
-  const vec3 normal = unpackGeometricNormal(guide);
-  const Plane plane = planeAt(p, z, kShadingPlane ? octahedralDecode(unpackFeatures(guide)) : normal);
+  const vec3 normal = unpackNormal(texelFetch(planeNormal, p, 0).x);
+  const Plane plane = planeAt(p, z, normal);
   const uint sdf = unpackSdf(packedDepth);
 
-  const Moments centre = readMoments(p, guide);
+  const Moments centre = readMoments(p);
   MomentSum sum = startSum(centre);
   add(sum, 1.0, centre);
   int nearestEdge = kSpacing + 1;
@@ -104,10 +108,9 @@ void main() {
       }
     }
     const ivec2 q = p + reach * direction;
-    const uvec2 tapGuide = texelFetch(normals, q, 0).xy;
     float weight = trace.weight;
-    if (kNormalFactor) weight *= clamp(dot(normal, unpackGeometricNormal(tapGuide)), 0.0, 1.0);
-    if (weight > 0.0) add(sum, weight, readMoments(q, tapGuide));
+    if (kNormalFactor) weight *= clamp(dot(normal, unpackNormal(texelFetch(planeNormal, q, 0).x)), 0.0, 1.0);
+    if (weight > 0.0) add(sum, weight, readMoments(q));
   }
-  writeResult(p, z, nearestEdge, finish(sum), unpackFeatures(guide));
+  writeResult(p, z, nearestEdge, finish(sum));
 }

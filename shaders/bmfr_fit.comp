@@ -17,7 +17,7 @@ layout(constant_id = 0) const bool kAlphaIsSampleCount = false;
 layout(set = 0, binding = 0, std140) uniform frameConstants { FrameConstants frame; };
 layout(set = 0, binding = 1) uniform texture2D lighting;
 layout(set = 0, binding = 2) uniform utexture2D depth;
-layout(set = 0, binding = 3) uniform utexture2D normals;
+layout(set = 0, binding = 3) uniform utexture2D shadingNormal;
 layout(set = 0, binding = 4, rgba16f) uniform writeonly image2D outFitted;
 layout(push_constant) uniform PushConstants { BmfrFitConstants settings; };
 
@@ -62,7 +62,7 @@ Pixel readPixel(uint index) {
   const float z = unpackDepth(texelFetch(depth, q, 0).x);
   const mat3 worldFromView = transpose(mat3(frame.viewFromWorld));
   pixel.surface = z > 0.0;
-  pixel.normal = worldFromView * octahedralDecode(unpackFeatures(texelFetch(normals, q, 0).xy));
+  pixel.normal = worldFromView * unpackNormal(texelFetch(shadingNormal, q, 0).x);
   pixel.position = worldFromView * (rayThrough(frame.rayFromPixel, pixelCentre(q)) * z);
   const vec4 sampleHere = texelFetch(lighting, q, 0);
   pixel.colour = sampleHere.rgb;

@@ -12,7 +12,7 @@ layout(push_constant) uniform PushConstants { FlrConstants settings; };
 
 layout(set = 0, binding = 0) uniform texture2D lighting;
 layout(set = 0, binding = 1) uniform utexture2D depth;
-layout(set = 0, binding = 2) uniform utexture2D normals;
+layout(set = 0, binding = 2) uniform utexture2D shadingNormal;
 layout(set = 0, binding = 3, std430) readonly buffer coefficients { Coefficients cells[]; };
 layout(set = 0, binding = 4, rgba16f) uniform writeonly image2D outFiltered;
 
@@ -44,6 +44,6 @@ void main() {
     imageStore(outFiltered, p, vec4(isFinite(colour) ? colour : vec3(0.0), 1.0));
     return;
   }
-  const vec3 colour = predict(p, guidesOf(z, texelFetch(normals, p, 0).xy));
+  const vec3 colour = predict(p, guidesOf(z, texelFetch(shadingNormal, p, 0).x));
   imageStore(outFiltered, p, vec4(clamp(colour, 0.0, kLargestHalf), 1.0));
 }

@@ -15,9 +15,10 @@ layout(constant_id = 0) const int kRadius = 16;  // Pixels on each side of the c
 
 layout(set = 0, binding = 0, std140) uniform frameConstants { FrameConstants frame; };
 layout(set = 0, binding = 1) uniform utexture2D depth;
-layout(set = 0, binding = 2) uniform utexture2D normals;
-layout(set = 0, binding = 3) uniform texture2D lighting;
-layout(set = 0, binding = 4, rgba16f) uniform writeonly image2D outFiltered;
+layout(set = 0, binding = 2) uniform utexture2D shadingNormal;
+layout(set = 0, binding = 3) uniform utexture2D geometricNormal;
+layout(set = 0, binding = 4) uniform texture2D lighting;
+layout(set = 0, binding = 5, rgba16f) uniform writeonly image2D outFiltered;
 layout(push_constant) uniform PushConstants { JointBilateralConstants settings; };
 
 struct Surface {
@@ -34,12 +35,11 @@ Surface surfaceAt(ivec2 q) {
   Surface s = Surface(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), false);
   const float z = unpackDepth(texelFetch(depth, q, 0).x);
   if (z == 0.0) return s;
-  const uvec2 packed = texelFetch(normals, q, 0).xy;
   const vec3 radiance = texelFetch(lighting, q, 0).rgb;
   s.valid = isFinite(radiance);
   s.position = positionAt(q, z);
-  s.normal = octahedralDecode(unpackFeatures(packed));
-  s.geometricNormal = unpackGeometricNormal(packed);
+  s.normal = unpackNormal(texelFetch(shadingNormal, q, 0).x);
+  s.geometricNormal = unpackNormal(texelFetch(geometricNormal, q, 0).x);
   if (s.valid) s.radiance = clamp(radiance, vec3(0.0), vec3(kLargestHalf));
   return s;
 }

@@ -17,7 +17,8 @@ layout(set = 0, binding = 1) uniform texture2D depth;
 layout(set = 0, binding = 2) uniform texture2D normal;
 layout(set = 0, binding = 3) uniform texture2D albedo;
 layout(set = 0, binding = 4, r32ui) uniform writeonly uimage2D outDepth;
-layout(set = 0, binding = 5, rg32ui) uniform writeonly uimage2D outNormals;
+layout(set = 0, binding = 5, r32ui) uniform writeonly uimage2D outShadingNormal;
+layout(set = 0, binding = 6, r32ui) uniform writeonly uimage2D outGeometricNormal;
 layout(push_constant) uniform PushConstants { PrepareGuidesConstants settings; };
 
 bool isSurfaceDepth(float z) { return isFinite(z) && z > 0.0 && z < frame.skyDepth; }
@@ -74,7 +75,8 @@ void main() {
   const bool hasLobe = isFinite(diffuseAlbedo) && any(greaterThanEqual(diffuseAlbedo, vec3(settings.albedoThreshold)));
   if (!isSurfaceDepth(z) || !hasNormal || !hasLobe) {
     imageStore(outDepth, p, uvec4(0u));
-    imageStore(outNormals, p, uvec4(0u));
+    imageStore(outShadingNormal, p, uvec4(0u));
+    imageStore(outGeometricNormal, p, uvec4(0u));
     return;
   }
 
@@ -84,6 +86,6 @@ void main() {
   if (dot(shadingNormal, ray) > 0.0) shadingNormal = -shadingNormal;
 
   imageStore(outDepth, p, uvec4(packDepthSdf(z, 0u)));
-  const vec3 planeNormal = geometricNormal(p, 1.0 / z, shadingNormal);
-  imageStore(outNormals, p, uvec4(packNormals(octahedralEncode(shadingNormal), planeNormal), 0u, 0u));
+  imageStore(outShadingNormal, p, uvec4(packNormal(shadingNormal)));
+  imageStore(outGeometricNormal, p, uvec4(packNormal(geometricNormal(p, 1.0 / z, shadingNormal))));
 }

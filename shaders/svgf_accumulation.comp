@@ -15,9 +15,9 @@ layout(set = 0, binding = 0, std140) uniform frameConstants { FrameConstants fra
 layout(set = 0, binding = 1) uniform texture2D lighting;
 layout(set = 0, binding = 2) uniform texture2D motion;
 layout(set = 0, binding = 3) uniform utexture2D depth;
-layout(set = 0, binding = 4) uniform utexture2D normals;
+layout(set = 0, binding = 4) uniform utexture2D geometricNormal;
 layout(set = 0, binding = 5) uniform utexture2D previousDepth;
-layout(set = 0, binding = 6) uniform utexture2D previousNormals;
+layout(set = 0, binding = 6) uniform utexture2D previousGeometricNormal;
 layout(set = 0, binding = 7) uniform texture2D previousColour;
 layout(set = 0, binding = 8) uniform texture2D previousMoments;  // Mean luminance, its deviation, history length.
 layout(set = 0, binding = 9, rgba16f) uniform writeonly image2D outColour;
@@ -80,7 +80,7 @@ void main() {
     return;
   }
 
-  TemporalMoments m = sampleHistory(p, z, unpackGeometricNormal(texelFetch(normals, p, 0).xy));
+  TemporalMoments m = sampleHistory(p, z, unpackNormal(texelFetch(geometricNormal, p, 0).x));
   if (sampleIsFinite) {
     // A sample that is not finite is no sample: the moments stay as they were.
     m.samples = min(m.samples + 1.0, settings.maxSamples);

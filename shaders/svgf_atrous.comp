@@ -15,9 +15,10 @@ layout(constant_id = 2) const bool kLuminanceWeight = true;
 
 layout(set = 0, binding = 0, std140) uniform frameConstants { FrameConstants frame; };
 layout(set = 0, binding = 1) uniform utexture2D depth;
-layout(set = 0, binding = 2) uniform utexture2D normals;
-layout(set = 0, binding = 3) uniform texture2D colour;  // rgb: radiance; a: standard deviation of its luminance.
-layout(set = 0, binding = 4, rgba16f) uniform writeonly image2D outColour;
+layout(set = 0, binding = 2) uniform utexture2D shadingNormal;
+layout(set = 0, binding = 3) uniform utexture2D geometricNormal;
+layout(set = 0, binding = 4) uniform texture2D colour;  // rgb: radiance; a: standard deviation of its luminance.
+layout(set = 0, binding = 5, rgba16f) uniform writeonly image2D outColour;
 layout(push_constant) uniform PushConstants { SvgfFilterConstants settings; };
 
 #include "include/svgf.glsl"

@@ -12,12 +12,13 @@ layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(set = 0, binding = 0, std140) uniform frameConstants { FrameConstants frame; };
 layout(set = 0, binding = 1) uniform utexture2D depth;
-layout(set = 0, binding = 2) uniform utexture2D normals;
-layout(set = 0, binding = 3) uniform texture2D colour;
+layout(set = 0, binding = 2) uniform utexture2D shadingNormal;
+layout(set = 0, binding = 3) uniform utexture2D geometricNormal;
+layout(set = 0, binding = 4) uniform texture2D colour;
 #ifndef SINGLE_FRAME
-layout(set = 0, binding = 4) uniform texture2D moments;  // Mean luminance, its standard deviation, history length.
+layout(set = 0, binding = 5) uniform texture2D moments;  // Mean luminance, its standard deviation, history length.
 #endif
-layout(set = 0, binding = 5, rgba16f) uniform writeonly image2D outColour;
+layout(set = 0, binding = 6, rgba16f) uniform writeonly image2D outColour;
 layout(push_constant) uniform PushConstants { SvgfFilterConstants settings; };
 
 #include "include/svgf.glsl"

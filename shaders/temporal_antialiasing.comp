@@ -13,9 +13,9 @@ layout(set = 0, binding = 0, std140) uniform frameConstants { FrameConstants fra
 layout(set = 0, binding = 1) uniform texture2D filtered;
 layout(set = 0, binding = 2) uniform texture2D motion;
 layout(set = 0, binding = 3) uniform utexture2D depth;
-layout(set = 0, binding = 4) uniform utexture2D normals;
+layout(set = 0, binding = 4) uniform utexture2D geometricNormal;
 layout(set = 0, binding = 5) uniform utexture2D previousDepth;
-layout(set = 0, binding = 6) uniform utexture2D previousNormals;
+layout(set = 0, binding = 6) uniform utexture2D previousGeometricNormal;
 layout(set = 0, binding = 7) uniform texture2D previousResolved;  // rgb: mean; a: history length.
 layout(set = 0, binding = 8, rgba16f) uniform writeonly image2D outResolved;
 layout(set = 0, binding = 9, rgba16f) uniform writeonly image2D outImage;
@@ -55,7 +55,7 @@ void main() {
     return;
   }
 
-  const Reprojection r = reproject(p, z, unpackGeometricNormal(texelFetch(normals, p, 0).xy));
+  const Reprojection r = reproject(p, z, unpackNormal(texelFetch(geometricNormal, p, 0).x));
   const HistoryTaps taps = historyTaps(r, settings.planeTolerance, settings.normalThreshold);
   vec3 resolved = current;
   float samples = 1.0;

@@ -5,7 +5,7 @@
 #include "surface.glsl"
 
 // The guides beside the constant: shading normal and inverse depth, which is linear over the image of a plane.
-vec4 guidesOf(float z, uvec2 packedNormals) { return vec4(octahedralDecode(unpackFeatures(packedNormals)), 1.0 / z); }
+vec4 guidesOf(float z, uint shadingNormal) { return vec4(unpackNormal(shadingNormal), 1.0 / z); }
 
 // Sums over samples of the distinct entries of (1, x)(1, x)^T and of (1, x) y^T, x the four guides, y the colour.
 struct OuterProducts {

@@ -1,5 +1,5 @@
 // Where a surface was in the previous frame, and whether a history pixel shows it.
-// Needs: `frame` (FrameConstants), `motion`, `depth`, `previousDepth`, `previousNormals`. Takes constant_id 0 and 1.
+// Needs: `frame` (FrameConstants), `motion`, `depth`, `previousDepth`, `previousGeometricNormal`. Takes constant_id 0 and 1.
 #ifndef WALR_REPROJECTION_GLSL
 #define WALR_REPROJECTION_GLSL
 #include "camera.glsl"
@@ -56,7 +56,7 @@ bool historyMatches(Reprojection r, ivec2 q, float planeTolerance, float normalT
   const float depth = unpackDepth(texelFetch(previousDepth, q, 0).x);
   if (depth == 0.0) return false;
   const vec3 position = rayThrough(frame.previousRayFromPixel, pixelCentre(q)) * depth;
-  const vec3 normal = unpackGeometricNormal(texelFetch(previousNormals, q, 0).xy);
+  const vec3 normal = unpackNormal(texelFetch(previousGeometricNormal, q, 0).x);
   return abs(dot(r.normal, position - r.position)) <= planeTolerance * -r.position.z &&
          dot(r.normal, normal) >= normalThreshold;
 }

@@ -1,4 +1,4 @@
-// The guides of one pixel: linear view depth with the distance to the nearest edge, and the two normals.
+// The guides of one pixel: linear view depth with the distance to the nearest edge, shading and geometric normal.
 #ifndef WALR_SURFACE_GLSL
 #define WALR_SURFACE_GLSL
 
@@ -28,11 +28,9 @@ vec3 octahedralDecode(vec2 uv) {
   return normalize(vec3(z < 0.0 ? fold : e, z));
 }
 
-// Both normals in one RG32_UINT: the shading normal's two features, then the geometric normal.
-uvec2 packNormals(vec2 features, vec3 geometric) {
-  return uvec2(packUnorm2x16(features), packUnorm2x16(octahedralEncode(geometric)));
-}
-vec2 unpackFeatures(uvec2 packed) { return unpackUnorm2x16(packed.x); }
-vec3 unpackGeometricNormal(uvec2 packed) { return octahedralDecode(unpackUnorm2x16(packed.y)); }
+// A normal in one R32_UINT. Of the shading normal the two halves, in [0, 1], are the regression's features.
+uint packNormal(vec3 n) { return packUnorm2x16(octahedralEncode(n)); }
+vec2 unpackFeatures(uint packed) { return unpackUnorm2x16(packed); }
+vec3 unpackNormal(uint packed) { return octahedralDecode(unpackUnorm2x16(packed)); }
 
 #endif

@@ -1,6 +1,7 @@
 // What the passes of SVGF share: the form in which colour and variance travel, and the edge-stopping functions that need
 // no colour (nagi-svgf.txt, W_Z and W_N).
-// Needs: `frame` (FrameConstants), `depth` (utexture2D), `normals` (utexture2D), `settings` (SvgfFilterConstants).
+// Needs: `frame` (FrameConstants), `depth`, `shadingNormal`, `geometricNormal` (utexture2D), `settings`
+// (SvgfFilterConstants).
 #ifndef WALR_SVGF_GLSL
 #define WALR_SVGF_GLSL
 #include "plane.glsl"
@@ -16,8 +17,8 @@ struct Surface {
 };
 
 Surface surfaceAt(ivec2 p, float z) {
-  const uvec2 packed = texelFetch(normals, p, 0).xy;
-  return Surface(planeAt(p, z, unpackGeometricNormal(packed)), octahedralDecode(unpackFeatures(packed)));
+  return Surface(planeAt(p, z, unpackNormal(texelFetch(geometricNormal, p, 0).x)),
+                 unpackNormal(texelFetch(shadingNormal, p, 0).x));
 }
 
 // W_Z W_N of pixel `q`; 0 outside the image and where there is nothing to denoise. The depth term measures the distance
@@ -26,7 +27,7 @@ float surfaceWeight(Surface surface, ivec2 q) {
   if (any(lessThan(q, ivec2(0))) || any(greaterThanEqual(q, textureSize(depth, 0)))) return 0.0;
   const float z = unpackDepth(texelFetch(depth, q, 0).x);
   if (z == 0.0) return 0.0;
-  const vec3 normal = octahedralDecode(unpackFeatures(texelFetch(normals, q, 0).xy));
+  const vec3 normal = unpackNormal(texelFetch(shadingNormal, q, 0).x);
   const float cosine = clamp(dot(surface.normal, normal), 1e-6, 1.0);
   return exp(-planeDistance(surface.plane, q, z) * settings.inverseSigmaDepth) * pow(cosine, settings.sigmaNormal);
 }

@@ -27,20 +27,17 @@ std::uint32_t packUnorms(glm::dvec2 unorms) {
   return glm::packUnorm2x16(glm::vec2(unorms));
 }
 
-/// Upload guides in their packed form.
-void uploadPacked(fg::test::GraphRun& run, fg::Texture depth, fg::Texture normals,
-                  const Image<reference::Guide>& values) {
+/// Upload the guides that are carried from frame to frame, in their packed form.
+void uploadDepthAndGeometry(fg::test::GraphRun& run, fg::Texture depth, fg::Texture geometricNormal,
+                            const Image<reference::Guide>& values) {
   std::vector<std::uint32_t> depths;
-  std::vector<glm::uvec2> packedNormals;
+  std::vector<std::uint32_t> normals;
   for (const reference::Guide& guide : values.pixels()) {
-    const bool surface = guide.depth > 0.0;
     depths.push_back(std::bit_cast<std::uint32_t>(static_cast<float>(guide.depth)));
-    packedNormals.push_back(
-        surface ? glm::uvec2(packUnorms(guide.features), packUnorms(reference::octahedralEncode(guide.normal)))
-                : glm::uvec2(0U));
+    normals.push_back(guide.depth > 0.0 ? packUnorms(reference::octahedralEncode(guide.normal)) : 0U);
   }
   run.fill(depth, depths);
-  run.fill(normals, packedNormals);
+  run.fill(geometricNormal, normals);
 }
 
 }  // namespace
@@ -69,18 +66,22 @@ void upload(fg::test::GraphRun& run, const DenoiserInputs& inputs, const referen
 Guides importGuides(fg::Graph& graph, glm::ivec2 size) {
   Guides guides;
   guides.depth = import(graph, "guides.depth", VK_FORMAT_R32_UINT, size);
-  guides.normals = import(graph, "guides.normals", VK_FORMAT_R32G32_UINT, size);
+  guides.shadingNormal = import(graph, "guides.shading normal", VK_FORMAT_R32_UINT, size);
+  guides.geometricNormal = import(graph, "guides.geometric normal", VK_FORMAT_R32_UINT, size);
   guides.previousDepth = import(graph, "previous guides.depth", VK_FORMAT_R32_UINT, size);
-  guides.previousNormals = import(graph, "previous guides.normals", VK_FORMAT_R32G32_UINT, size);
+  guides.previousGeometricNormal = import(graph, "previous guides.geometric normal", VK_FORMAT_R32_UINT, size);
   return guides;
 }
 
 void upload(fg::test::GraphRun& run, const Guides& guides, const Image<reference::Guide>& values) {
-  uploadPacked(run, guides.depth, guides.normals, values);
+  std::vector<std::uint32_t> features;
+  for (const reference::Guide& guide : values.pixels()) features.push_back(packUnorms(guide.features));
+  run.fill(guides.shadingNormal, features);
+  uploadDepthAndGeometry(run, guides.depth, guides.geometricNormal, values);
 }
 
 void uploadPrevious(fg::test::GraphRun& run, const Guides& guides, const Image<reference::Guide>& values) {
-  uploadPacked(run, guides.previousDepth, guides.previousNormals, values);
+  uploadDepthAndGeometry(run, guides.previousDepth, guides.previousGeometricNormal, values);
 }
 
 fg::Texture importHalves(fg::Graph& graph, const std::string& name, glm::ivec2 size) {

@@ -121,12 +121,13 @@ glm::dvec2 decodeUnorms(std::uint32_t packed) {
 }
 
 reference::Image<reference::Guide> decodeGuides(const std::vector<std::uint32_t>& depth,
-                                                const std::vector<std::uint32_t>& normals, glm::ivec2 size) {
+                                                const std::vector<std::uint32_t>& shadingNormal,
+                                                const std::vector<std::uint32_t>& geometricNormal, glm::ivec2 size) {
   reference::Image<reference::Guide> guides(size);
   for (std::size_t i = 0; i < depth.size(); ++i) {
     if (decodeDepth(depth[i]) == 0.0) continue;
-    guides.pixels()[i] = {decodeDepth(depth[i]), decodeUnorms(normals[2 * i]),
-                          reference::octahedralDecode(decodeUnorms(normals[2 * i + 1]))};
+    guides.pixels()[i] = {decodeDepth(depth[i]), decodeUnorms(shadingNormal[i]),
+                          reference::octahedralDecode(decodeUnorms(geometricNormal[i]))};
   }
   return guides;
 }

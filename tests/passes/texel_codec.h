@@ -21,9 +21,10 @@ int decodeEdgeDistance(std::uint32_t packed);
 /// Two 16-bit unorms.
 glm::dvec2 decodeUnorms(std::uint32_t packed);
 
-/// Guides from R32_UINT depth and RG32_UINT normals.
+/// Guides from the R32_UINT texels of depth, shading normal and geometric normal.
 reference::Image<reference::Guide> decodeGuides(const std::vector<std::uint32_t>& depth,
-                                                const std::vector<std::uint32_t>& normals, glm::ivec2 size);
+                                                const std::vector<std::uint32_t>& shadingNormal,
+                                                const std::vector<std::uint32_t>& geometricNormal, glm::ivec2 size);
 
 /// Centred moments from the texels of a storage's textures; raw storage has no second luminance moment, and W is 1.
 reference::Image<reference::Moments> decodeMoments(MomentStorage storage,

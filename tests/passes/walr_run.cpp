@@ -73,7 +73,8 @@ void WalrRun::inspectStages(fg::Graph& graph, const WalrSettings& settings, cons
                             fg::Texture accumulated, fg::Texture filtered) {
   constexpr std::array kMomentNames{"moments a ", "moments b ", "moments c ", "moments d "};
   depth_ = tap(graph, guides.depth);
-  normals_ = tap(graph, guides.normals);
+  shadingNormal_ = tap(graph, guides.shadingNormal);
+  geometricNormal_ = tap(graph, guides.geometricNormal);
   accumulated_ = tap(graph, accumulated);
   for (std::uint32_t t = 0; t + 1 < settings.regression.iterations; ++t) {
     const std::string number = std::to_string(t);
@@ -119,7 +120,7 @@ WalrStages WalrRun::frame(const reference::HostFrame& frame) {
   stages.outputBits = run_->texels<std::uint16_t>(output_);
   stages.output = decodeHalves(stages.outputBits, size_);
   if (!inspect_) return stages;
-  stages.guides = decodeGuides(words(depth_), words(normals_), size_);
+  stages.guides = decodeGuides(words(depth_), words(shadingNormal_), words(geometricNormal_), size_);
   stages.accumulated = halves(accumulated_);
   for (const Iteration& iteration : iterations_) {
     std::vector<std::vector<std::uint32_t>> textures;

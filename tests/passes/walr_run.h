@@ -51,7 +51,7 @@ class WalrRun {
   PFN_vkCmdCopyImage copyImage_;
   DenoiserInputs inputs_;
   bool inspect_;
-  fg::Texture depth_, normals_, accumulated_, filtered_, resolved_, output_;
+  fg::Texture depth_, shadingNormal_, geometricNormal_, accumulated_, filtered_, resolved_, output_;
   std::vector<Iteration> iterations_;
   std::unique_ptr<fg::test::GraphRun> run_;
 };

@@ -78,6 +78,7 @@ TEST_F(WalrStagesTest, HoldWithoutTracingReplacementOrSampleCounts) {
   WalrSettings short1 = robustWalr();
   short1.regression.iterations = 1;
   short1.accumulation.historyFilter = HistoryFilter::Bicubic;
+  short1.regression.planeNormal = PlaneNormal::Shading;
   for (const WalrSettings& settings : {plain, short1}) {
     expectSequence(device(), movingFrames(thinBars(), {96, 64}), settings);
     expectSequence(device(), movingFrames(stairs(), {96, 64}), settings);

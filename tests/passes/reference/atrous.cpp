@@ -65,10 +65,9 @@ AtrousPixel atrousPixel(const HostFrame& frame, const Image<Guide>& guides, cons
       }
     }
     const glm::ivec2 q = p + reach * direction;
-    const double facing =
-        settings.normalFactor ? std::clamp(glm::dot(guides[p].normal, guides[q].normal), 0.0, 1.0) : 1.0;
+    const double weight = traced.weight.weight * facing(guides[p], guides[q], settings);
     // The factor's own error: decoding and multiplying two unit vectors.
-    parts[count++] = part(q, traced.weight.weight * facing, traced.weight.error + 16.0 * kFloatRoundoff);
+    parts[count++] = part(q, weight, traced.weight.error + 16.0 * kFloatRoundoff);
   }
   result.merged = merge(parts.data(), count);
   return result;

@@ -9,6 +9,15 @@
 
 namespace walr::reference {
 
+glm::dvec3 planeNormal(const Guide& guide, const WeightedRegressionSettings& settings) {
+  return settings.planeNormal == PlaneNormal::Geometric ? guide.normal : octahedralDecode(guide.features);
+}
+
+double facing(const Guide& a, const Guide& b, const WeightedRegressionSettings& settings) {
+  if (!settings.normalFactor) return 1.0;
+  return std::clamp(glm::dot(planeNormal(a, settings), planeNormal(b, settings)), 0.0, 1.0);
+}
+
 EdgeWeight edgeWeight(const HostFrame& frame, const Image<Guide>& guides, glm::ivec2 p, glm::ivec2 q,
                       const WeightedRegressionSettings& settings) {
   if (!guides.contains(q) || guides[q].depth == 0.0) return {};
@@ -17,9 +26,7 @@ EdgeWeight edgeWeight(const HostFrame& frame, const Image<Guide>& guides, glm::i
   const glm::dvec3 ray = rayThrough(frame.constants.rayFromPixel, pixelCentre(q));
   const double ratio = guides[q].depth / centre.depth;
   // dot(n, position - centre) / depth of the centre.
-  const glm::dvec3 normal =
-      settings.planeNormal == PlaneNormal::Geometric ? centre.normal : octahedralDecode(centre.features);
-  const double distance = std::abs(glm::dot(normal, ratio * ray - centreRay));
+  const double distance = std::abs(glm::dot(planeNormal(centre, settings), ratio * ray - centreRay));
   // About twelve roundings, of the normal's decoding, the rays, the ratio and the products, each of terms no larger
   // than the two positions in units of the centre's depth.
   const double distanceError = 12.0 * kFloatRoundoff * (ratio * glm::length(ray) + glm::length(centreRay));

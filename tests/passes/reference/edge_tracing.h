@@ -12,6 +12,12 @@ struct EdgeWeight {
   bool undecided = false;  ///< Rounding may decide whether the weight is 0.
 };
 
+/// The normal that spans a pixel's plane.
+glm::dvec3 planeNormal(const Guide& guide, const WeightedRegressionSettings& settings);
+
+/// How far two pixels' planes face the same way: the cosine between their normals, or 1 where that has no say.
+double facing(const Guide& a, const Guide& b, const WeightedRegressionSettings& settings);
+
 /// Weight between a centre `p` and a pixel `q`: 1 near the plane through the centre, 0 away from it, outside the
 /// picture and where there is no surface (walr.txt 4.3).
 EdgeWeight edgeWeight(const HostFrame& frame, const Image<Guide>& guides, glm::ivec2 p, glm::ivec2 q,

@@ -35,9 +35,7 @@ Image<Moments> fullWindowMoments(const HostFrame& frame, const Image<Guide>& gui
       if (q == p) return;
       const double weight = traceLine(frame, guides, p, q, settings);
       if (weight <= 0.0) return;
-      const double facing =
-          settings.normalFactor ? std::clamp(glm::dot(guides[p].normal, guides[q].normal), 0.0, 1.0) : 1.0;
-      parts.push_back({samples[q], weight * facing, 0.0, {}});
+      parts.push_back({samples[q], weight * facing(guides[p], guides[q], settings), 0.0, {}});
     });
     result[p] = mergeWindow(parts);
   });
