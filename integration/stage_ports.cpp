@@ -69,16 +69,18 @@ DenoiserInputs StagePorts::hostInputs() {
 
 Guides StagePorts::guides() {
   return {.depth = texture("guides.depth"),
-          .normals = texture("guides.normals"),
+          .shadingNormal = texture("guides.shading-normal"),
+          .geometricNormal = texture("guides.geometric-normal"),
           .previousDepth = texture("guides.previous-depth"),
-          .previousNormals = texture("guides.previous-normals")};
+          .previousGeometricNormal = texture("guides.previous-geometric-normal")};
 }
 
 void StagePorts::setOutputs(const Guides& guides) {
   setOutput("guides.depth", guides.depth);
-  setOutput("guides.normals", guides.normals);
+  setOutput("guides.shading-normal", guides.shadingNormal);
+  setOutput("guides.geometric-normal", guides.geometricNormal);
   setOutput("guides.previous-depth", guides.previousDepth);
-  setOutput("guides.previous-normals", guides.previousNormals);
+  setOutput("guides.previous-geometric-normal", guides.previousGeometricNormal);
 }
 
 fg::ResourceVersion RecordingPorts::ask(std::string_view port) {
