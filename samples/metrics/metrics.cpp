@@ -12,11 +12,8 @@ namespace {
 constexpr float kLeastAlbedo = 0.01F;
 constexpr std::size_t kChannels = 3;
 
-double toneMapped(float test, double reference) {
-  if (!std::isfinite(test)) {
-    return reference > 0.5 ? 0.0 : 1.0;
-  }
-  return toneMap(test);
+double countOf(const PixelMask& mask) {
+  return static_cast<double>(std::ranges::count_if(mask, [](auto flag) { return flag != 0; }));
 }
 
 }  // namespace
@@ -35,7 +32,11 @@ PixelMask diffuseMask(const Image& albedo, const Image& normal, const Image& dep
 }
 
 ErrorFigures compare(const Image& test, const Image& reference, const PixelMask& mask) {
-  const auto count = static_cast<double>(std::ranges::count_if(mask, [](auto flag) { return flag != 0; }));
+  return compare(display(test, reference, mask), mask);
+}
+
+ErrorFigures compare(const DisplayedPair& pair, const PixelMask& mask) {
+  const double count = countOf(mask);
   if (count == 0.0) {
     return {};
   }
@@ -46,14 +47,13 @@ ErrorFigures compare(const Image& test, const Image& reference, const PixelMask&
   std::vector<double> referencePlane(mask.size());
   for (std::size_t c = 0; c < kChannels; ++c) {
     for (std::size_t i = 0; i < mask.size(); ++i) {
-      const float value = reference.pixel(i)[c];
-      referencePlane[i] = std::isfinite(value) ? toneMap(value) : 0.0;
-      testPlane[i] = mask[i] != 0 ? toneMapped(test.pixel(i)[c], referencePlane[i]) : referencePlane[i];
+      testPlane[i] = pair.test.pixel(i)[c];
+      referencePlane[i] = pair.reference.pixel(i)[c];
       const double difference = testPlane[i] - referencePlane[i];
       squares += difference * difference;
     }
     const auto similarity =
-        structuralSimilarity(testPlane, referencePlane, mask, reference.width(), reference.height());
+        structuralSimilarity(testPlane, referencePlane, mask, pair.reference.width(), pair.reference.height());
     hasWindows = similarity.has_value();
     similarities += similarity.value_or(0.0);
   }
@@ -66,6 +66,35 @@ ErrorFigures compare(const Image& test, const Image& reference, const PixelMask&
     figures.ssim = similarities / kChannels;
   }
   return figures;
+}
+
+std::optional<double> relativeMse(const Image& test, const Image& reference, const PixelMask& mask) {
+  constexpr double kEpsilon = 0.01;
+  constexpr double kWorst = 65504.0;
+  double sum = 0.0;
+  for (std::size_t i = 0; i < mask.size(); ++i) {
+    for (std::size_t c = 0; mask[i] != 0 && c < kChannels; ++c) {
+      const double expected = reference.pixel(i)[c];
+      const double value = std::isfinite(test.pixel(i)[c]) ? test.pixel(i)[c] : kWorst;
+      sum += (value - expected) * (value - expected) / (expected * expected + kEpsilon);
+    }
+  }
+  const double count = countOf(mask);
+  return count > 0.0 ? std::optional(sum / (count * kChannels)) : std::nullopt;
+}
+
+std::optional<double> referenceNoise(const Image& reference, const Image& half, const PixelMask& mask) {
+  double squares = 0.0;
+  for (std::size_t i = 0; i < mask.size(); ++i) {
+    for (std::size_t c = 0; mask[i] != 0 && c < kChannels; ++c) {
+      const float a = half.pixel(i)[c];
+      const float b = 2.0F * reference.pixel(i)[c] - a;
+      const double difference = static_cast<double>(toneMap(a)) - toneMap(b);
+      squares += difference * difference;
+    }
+  }
+  const double count = countOf(mask);
+  return count > 0.0 ? std::optional(0.5 * std::sqrt(squares / (count * kChannels))) : std::nullopt;
 }
 
 std::size_t countNonFinite(const Image& image) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "samples/image/image.h"
+#include "samples/metrics/display.h"
 
 namespace walr {
 
@@ -18,9 +19,6 @@ struct ErrorFigures {
   std::optional<double> ssim;  ///< Structural similarity, mean over pixels and RGB; at most 1, 1 is equal.
 };
 
-/// One flag a pixel: non-zero where it counts.
-using PixelMask = std::vector<std::uint8_t>;
-
 /// Pixels with a diffuse lobe: albedo of at least 0.01 in some channel, a normal that is not zero, and a depth below
 /// `skyDepth`. Pixels where the reference is not finite are left out.
 PixelMask diffuseMask(const Image& albedo, const Image& normal, const Image& depth, float skyDepth,
@@ -30,10 +28,20 @@ PixelMask diffuseMask(const Image& albedo, const Image& normal, const Image& dep
 ///
 /// SSIM as in Wang, Bovik, Sheikh and Simoncelli 2004 (section III.B and C): 11 x 11 Gaussian window of sigma 1.5,
 /// K1 = 0.01, K2 = 0.03, dynamic range 1, only windows that lie inside the picture. Pixels outside the mask take the
-/// reference's value in both pictures, and do not count in the mean.
-/// A value of `test` that is not finite counts as the worst that the tone map can give: 0 or 1, whichever is farther
-/// from the reference.
+/// reference's value in both pictures, and do not count in the mean. Values that are not finite: see `display`.
 ErrorFigures compare(const Image& test, const Image& reference, const PixelMask& mask);
+/// The same for pictures that were made displayable with that mask already.
+ErrorFigures compare(const DisplayedPair& pair, const PixelMask& mask);
+
+/// Mean over the mask's pixels and RGB of (x - r)^2 / (r^2 + 0.01), in linear radiance without a tone map (Rousselle,
+/// Knaus and Zwicker 2011). A value of `test` that is not finite counts as 65504, the largest half float.
+/// @returns nothing where the mask is empty
+std::optional<double> relativeMse(const Image& test, const Image& reference, const PixelMask& mask);
+
+/// Noise of a reference R from one half A of its samples, B = 2 R - A the other: the root mean square of
+/// (T(A) - T(B)) / 2, with T the tone map, which is the RMSE (`compare`) that a perfect result would have against R.
+/// @returns nothing where the mask is empty
+std::optional<double> referenceNoise(const Image& reference, const Image& half, const PixelMask& mask);
 
 /// Number of values of an image that are not finite.
 std::size_t countNonFinite(const Image& image);

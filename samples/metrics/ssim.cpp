@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace walr {
 namespace {
@@ -55,14 +56,13 @@ double similarity(const Moments& m) {
 
 }  // namespace
 
-std::optional<double> structuralSimilarity(std::span<const double> test, std::span<const double> reference,
-                                           const PixelMask& mask, int width, int height) {
+std::vector<double> similarityMap(std::span<const double> test, std::span<const double> reference,
+                                  const PixelMask& mask, int width, int height) {
   const Window window = gaussianWindow();
   const auto index = [width](int x, int y) {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
   };
-  double sum = 0.0;
-  std::size_t count = 0;
+  std::vector<double> map(mask.size(), std::numeric_limits<double>::quiet_NaN());
   std::vector<Moments> columns(static_cast<std::size_t>(width));
   for (int y = kRadius; y < height - kRadius; ++y) {
     // The window is separable: down the columns once a row, then along the row.
@@ -84,7 +84,19 @@ std::optional<double> structuralSimilarity(std::span<const double> test, std::sp
         moments.addWeighted(window.at(static_cast<std::size_t>(dx + kRadius)),
                             columns[static_cast<std::size_t>(x + dx)]);
       }
-      sum += similarity(moments);
+      map[index(x, y)] = similarity(moments);
+    }
+  }
+  return map;
+}
+
+std::optional<double> structuralSimilarity(std::span<const double> test, std::span<const double> reference,
+                                           const PixelMask& mask, int width, int height) {
+  double sum = 0.0;
+  std::size_t count = 0;
+  for (const double value : similarityMap(test, reference, mask, width, height)) {
+    if (!std::isnan(value)) {
+      sum += value;
       ++count;
     }
   }

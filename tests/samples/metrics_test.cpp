@@ -9,39 +9,13 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "tests/samples/metric_pictures.h"
+
 namespace walr {
 namespace {
 
-/// The hash of make_metric_fixture.py.
-double uniform(std::uint32_t n) {
-  n ^= n >> 16U;
-  n *= 0x7FEB352DU;
-  n ^= n >> 15U;
-  n *= 0x846CA68BU;
-  n ^= n >> 16U;
-  return n / 4294967296.0;
-}
-
-struct Pictures {
-  Image test;
-  Image reference;
-};
-
-/// The pictures of make_metric_fixture.py.
-Pictures makePictures(int width, int height, double amplitude) {
-  Pictures pictures{Image(width, height, 3), Image(width, height, 3)};
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      for (int c = 0; c < 3; ++c) {
-        const double reference = 0.1 + 0.15 * ((3 * x + 5 * y + 7 * c) % 17) + 0.02 * x;
-        const auto index = static_cast<std::uint32_t>((y * width + x) * 3 + c);
-        pictures.reference.at(x, y, c) = static_cast<float>(reference);
-        pictures.test.at(x, y, c) = static_cast<float>(reference * (1.0 + amplitude * (uniform(index) - 0.5)));
-      }
-    }
-  }
-  return pictures;
-}
+using test::makePictures;
+using test::Pictures;
 
 PixelMask fullMask(const Image& image) {
   return PixelMask(image.pixelCount(), 1);
@@ -104,6 +78,42 @@ TEST(Metrics, NonFiniteTestValuesCountAsTheWorst) {
   }
   EXPECT_NEAR(*compare(test, reference, fullMask(reference)).rmse, 0.8, 1e-7);
   EXPECT_EQ(countNonFinite(test), 6U);
+}
+
+TEST(Metrics, RelativeMseFollowsItsDefinition) {
+  Image reference(2, 1, 3);
+  Image test(2, 1, 3);
+  for (int c = 0; c < 3; ++c) {
+    reference.at(0, 0, c) = 2.0F;
+    test.at(0, 0, c) = 2.5F;  // 0.25 / 4.01
+    test.at(1, 0, c) = 0.5F;  // Reference 0: 0.25 / 0.01
+  }
+  EXPECT_NEAR(*relativeMse(test, reference, {1, 1}), 0.5 * (0.25 / 4.01 + 25.0), 1e-12);
+  EXPECT_NEAR(*relativeMse(test, reference, {1, 0}), 0.25 / 4.01, 1e-12);
+  EXPECT_EQ(relativeMse(reference, reference, {1, 1}), 0.0);
+  EXPECT_FALSE(relativeMse(test, reference, {0, 0}).has_value());
+  for (int c = 0; c < 3; ++c) test.at(1, 0, c) = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_NEAR(*relativeMse(test, reference, {0, 1}), 65504.0 * 65504.0 / 0.01, 1.0);
+}
+
+TEST(Metrics, NoiseOfAReferenceIsThatOfTheMeanOfItsHalves) {
+  // Halves that are far below 1, where the tone map is close to the identity, with uniform noise of known deviation.
+  constexpr int kSize = 256;
+  constexpr double kAmplitude = 1e-4;
+  Image reference(kSize, kSize, 3);
+  Image half(kSize, kSize, 3);
+  for (std::uint32_t i = 0; i < kSize * kSize * 3; ++i) {
+    const double a = 0.001 + kAmplitude * (test::uniform(2 * i) - 0.5);
+    const double b = 0.001 + kAmplitude * (test::uniform(2 * i + 1) - 0.5);
+    half.values()[i] = static_cast<float>(a);
+    reference.values()[i] = static_cast<float>(0.5 * (a + b));
+  }
+  // A mean of two has the deviation of one over the square root of two. Its estimate from n values spreads by 1 /
+  // sqrt(n) about it or less; five times that. The slope of the tone map lies within 0.3 % of 1.
+  const double expected = kAmplitude / std::sqrt(12.0) / std::sqrt(2.0);
+  const double spread = 5.0 / std::sqrt(kSize * kSize * 3.0);
+  EXPECT_NEAR(*referenceNoise(reference, half, fullMask(reference)), expected, (spread + 0.003) * expected);
+  EXPECT_FALSE(referenceNoise(reference, half, PixelMask(reference.pixelCount(), 0)).has_value());
 }
 
 TEST(Metrics, MaskedOutPixelsDoNotCount) {

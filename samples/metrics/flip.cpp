@@ -1,0 +1,280 @@
+#include "samples/metrics/flip.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace walr {
+namespace {
+
+using Colour = std::array<double, 3>;
+using Matrix = std::array<Colour, 3>;
+using Plane = std::vector<double>;
+
+// Linear RGB with Rec. 709 primaries to CIE XYZ.
+constexpr Matrix kToXyz = {{{10135552.0 / 24577794.0, 8788810.0 / 24577794.0, 4435075.0 / 24577794.0},
+                            {2613072.0 / 12288897.0, 8788810.0 / 12288897.0, 887015.0 / 12288897.0},
+                            {1425312.0 / 73733382.0, 8788810.0 / 73733382.0, 70074185.0 / 73733382.0}}};
+
+/// By cofactors.
+constexpr Matrix inverse(const Matrix& m) {
+  const auto cofactor = [&m](std::size_t row, std::size_t column) {
+    const std::size_t r1 = (row + 1) % 3;
+    const std::size_t r2 = (row + 2) % 3;
+    const std::size_t c1 = (column + 1) % 3;
+    const std::size_t c2 = (column + 2) % 3;
+    return m[r1][c1] * m[r2][c2] - m[r1][c2] * m[r2][c1];
+  };
+  const double determinant = m[0][0] * cofactor(0, 0) + m[0][1] * cofactor(0, 1) + m[0][2] * cofactor(0, 2);
+  Matrix result{};
+  for (std::size_t row = 0; row < 3; ++row) {
+    for (std::size_t column = 0; column < 3; ++column) result[row][column] = cofactor(column, row) / determinant;
+  }
+  return result;
+}
+
+constexpr Matrix kFromXyz = inverse(kToXyz);
+
+constexpr Colour multiply(const Matrix& matrix, const Colour& colour) {
+  Colour result{};
+  for (std::size_t row = 0; row < 3; ++row) {
+    for (std::size_t column = 0; column < 3; ++column) result[row] += matrix[row][column] * colour[column];
+  }
+  return result;
+}
+
+constexpr Colour kWhite = multiply(kToXyz, {1.0, 1.0, 1.0});
+
+Colour toRelativeXyz(const Colour& rgb) {
+  Colour xyz = multiply(kToXyz, rgb);
+  for (std::size_t i = 0; i < 3; ++i) xyz[i] /= kWhite[i];
+  return xyz;
+}
+
+/// The linear opponent space in which the eye's contrast sensitivity is applied (section 4.1.1).
+Colour toYCxCz(const Colour& rgb) {
+  const Colour xyz = toRelativeXyz(rgb);
+  return {116.0 * xyz[1] - 16.0, 500.0 * (xyz[0] - xyz[1]), 200.0 * (xyz[1] - xyz[2])};
+}
+
+Colour fromYCxCz(const Colour& opponent) {
+  const double y = (opponent[0] + 16.0) / 116.0;
+  const Colour relative = {y + opponent[1] / 500.0, y, y - opponent[2] / 200.0};
+  return multiply(kFromXyz, {relative[0] * kWhite[0], relative[1] * kWhite[1], relative[2] * kWhite[2]});
+}
+
+/// L*a*b* with the Hunt effect: chroma fades with lightness (section 4.1.2).
+Colour toHuntLab(const Colour& rgb) {
+  constexpr double kDelta = 6.0 / 29.0;
+  Colour f = toRelativeXyz(rgb);
+  for (double& value : f) {
+    value = value > kDelta * kDelta * kDelta ? std::cbrt(value) : value / (3.0 * kDelta * kDelta) + 4.0 / 29.0;
+  }
+  const double lightness = 116.0 * f[1] - 16.0;
+  return {lightness, 0.01 * lightness * 500.0 * (f[0] - f[1]), 0.01 * lightness * 200.0 * (f[1] - f[2])};
+}
+
+/// Distance for large colour differences: city block in lightness, Euclidean in chroma (section 4.1.3).
+double hyab(const Colour& a, const Colour& b) {
+  return std::abs(a[0] - b[0]) + std::hypot(a[1] - b[1], a[2] - b[2]);
+}
+
+constexpr double kColourExponent = 0.7;
+constexpr double kFeatureExponent = 0.5;
+
+/// Compresses large colour errors into 0..1 (section 4.1.3): the range below 0.4 of the largest takes 0.95 of it.
+double redistribute(double error) {
+  static const double kLargest =
+      std::pow(hyab(toHuntLab({0.0, 1.0, 0.0}), toHuntLab({0.0, 0.0, 1.0})), kColourExponent);
+  constexpr double kKnee = 0.4;
+  constexpr double kShare = 0.95;
+  const double knee = kKnee * kLargest;
+  const double value = std::pow(error, kColourExponent);
+  return value < knee ? kShare / knee * value : kShare + (value - knee) / (kLargest - knee) * (1.0 - kShare);
+}
+
+/// A filter along one axis, odd in length.
+using Kernel = std::vector<double>;
+
+Kernel gaussian(int radius, double exponentPerSquaredPixel) {
+  Kernel kernel;
+  for (int i = -radius; i <= radius; ++i) kernel.push_back(std::exp(-exponentPerSquaredPixel * i * i));
+  return kernel;
+}
+
+double sum(const Kernel& kernel) {
+  double total = 0.0;
+  for (const double weight : kernel) total += weight;
+  return total;
+}
+
+Kernel scaled(Kernel kernel, double factor) {
+  for (double& weight : kernel) weight *= factor;
+  return kernel;
+}
+
+/// Positive weights add up to 1, negative ones to -1.
+Kernel balanced(Kernel kernel) {
+  double positive = 0.0;
+  double negative = 0.0;
+  for (const double weight : kernel) (weight > 0.0 ? positive : negative) += weight;
+  for (double& weight : kernel) weight /= weight > 0.0 ? positive : -negative;
+  return kernel;
+}
+
+/// One plane of values with its size.
+struct Field {
+  int width;
+  int height;
+
+  /// Filter along x by one kernel and along y by another; the border is continued.
+  [[nodiscard]] Plane filter(const Plane& plane, const Kernel& alongX, const Kernel& alongY) const {
+    const int radiusX = static_cast<int>(alongX.size()) / 2;
+    const int radiusY = static_cast<int>(alongY.size()) / 2;
+    Plane rows(plane.size());
+    for (int y = 0; y < height; ++y) {
+      for (int x = 0; x < width; ++x) {
+        double value = 0.0;
+        for (int d = -radiusX; d <= radiusX; ++d) {
+          value += alongX[static_cast<std::size_t>(d + radiusX)] * plane[index(std::clamp(x + d, 0, width - 1), y)];
+        }
+        rows[index(x, y)] = value;
+      }
+    }
+    Plane result(plane.size());
+    for (int y = 0; y < height; ++y) {
+      for (int d = -radiusY; d <= radiusY; ++d) {
+        const double weight = alongY[static_cast<std::size_t>(d + radiusY)];
+        const std::size_t row = index(0, std::clamp(y + d, 0, height - 1));
+        for (int x = 0; x < width; ++x) result[index(x, y)] += weight * rows[row + static_cast<std::size_t>(x)];
+      }
+    }
+    return result;
+  }
+
+ private:
+  [[nodiscard]] std::size_t index(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
+  }
+};
+
+/// a sqrt(pi / b) exp(-pi^2 r^2 / b), r in degrees: a contrast sensitivity as a filter (table 1, eq. 1).
+struct Sensitivity {
+  double a;
+  double b;
+};
+
+constexpr Sensitivity kAchromatic{1.0, 0.0047};
+constexpr Sensitivity kRedGreen{1.0, 0.0053};
+constexpr std::array kBlueYellow{Sensitivity{34.1, 0.04}, Sensitivity{13.5, 0.025}};
+
+/// Planes of YCxCz.
+using Opponent = std::array<Plane, 3>;
+
+Opponent opponentPlanes(const Image& image) {
+  Opponent planes;
+  for (Plane& plane : planes) plane.resize(image.pixelCount());
+  for (std::size_t i = 0; i < image.pixelCount(); ++i) {
+    const auto pixel = image.pixel(i);
+    const Colour colour = toYCxCz({pixel[0], pixel[1], pixel[2]});
+    for (std::size_t c = 0; c < 3; ++c) planes[c][i] = colour[c];
+  }
+  return planes;
+}
+
+/// What the eye resolves of a picture (section 4.1.1), in the space of `toHuntLab`.
+std::vector<Colour> perceived(const Opponent& planes, const Field& field, double pixelsPerDegree) {
+  constexpr double kSquaredPi = std::numbers::pi * std::numbers::pi;
+  const int radius =
+      static_cast<int>(std::ceil(3.0 * std::sqrt(kBlueYellow[0].b / (2.0 * kSquaredPi)) * pixelsPerDegree));
+  const auto kernel = [&](const Sensitivity& sensitivity) {
+    return gaussian(radius, kSquaredPi / sensitivity.b / (pixelsPerDegree * pixelsPerDegree));
+  };
+  const auto single = [&](const Plane& plane, const Sensitivity& sensitivity) {
+    const Kernel unit = scaled(kernel(sensitivity), 1.0 / sum(kernel(sensitivity)));
+    return field.filter(plane, unit, unit);
+  };
+  Opponent filtered = {single(planes[0], kAchromatic), single(planes[1], kRedGreen), Plane(planes[2].size())};
+  double total = 0.0;
+  for (const Sensitivity& part : kBlueYellow) {
+    const double weight = part.a * std::sqrt(std::numbers::pi / part.b);
+    total += weight * sum(kernel(part)) * sum(kernel(part));
+  }
+  for (const Sensitivity& part : kBlueYellow) {
+    const Kernel weighted = scaled(kernel(part), part.a * std::sqrt(std::numbers::pi / part.b) / total);
+    const Plane plane = field.filter(planes[2], weighted, kernel(part));
+    for (std::size_t i = 0; i < plane.size(); ++i) filtered[2][i] += plane[i];
+  }
+  std::vector<Colour> colours(planes[0].size());
+  for (std::size_t i = 0; i < colours.size(); ++i) {
+    Colour rgb = fromYCxCz({filtered[0][i], filtered[1][i], filtered[2][i]});
+    for (double& value : rgb) value = std::clamp(value, 0.0, 1.0);
+    colours[i] = toHuntLab(rgb);
+  }
+  return colours;
+}
+
+/// Strength of edges and of points at every pixel (section 4.2).
+struct Features {
+  Plane edges;
+  Plane points;
+};
+
+Features features(const Plane& achromatic, const Field& field, double pixelsPerDegree) {
+  constexpr double kWidthInDegrees = 0.082;
+  const double deviation = 0.5 * kWidthInDegrees * pixelsPerDegree;
+  const int radius = static_cast<int>(std::ceil(3.0 * deviation));
+  const Kernel smooth = gaussian(radius, 0.5 / (deviation * deviation));
+  const Kernel unit = scaled(smooth, 1.0 / sum(smooth));
+  Kernel slope = smooth;
+  Kernel curvature = smooth;
+  for (int i = -radius; i <= radius; ++i) {
+    const auto at = static_cast<std::size_t>(i + radius);
+    slope[at] *= -i;
+    curvature[at] *= i * i / (deviation * deviation) - 1.0;
+  }
+  Plane normalised = achromatic;
+  for (double& value : normalised) value = (value + 16.0) / 116.0;
+  const auto strength = [&](const Kernel& derivative) {
+    const Kernel kernel = balanced(derivative);
+    Plane alongX = field.filter(normalised, kernel, unit);
+    const Plane alongY = field.filter(normalised, unit, kernel);
+    for (std::size_t i = 0; i < alongX.size(); ++i) alongX[i] = std::hypot(alongX[i], alongY[i]);
+    return alongX;
+  };
+  return {strength(slope), strength(curvature)};
+}
+
+}  // namespace
+
+std::vector<double> flipMap(const DisplayedPair& pair, double pixelsPerDegree) {
+  const Field field{pair.reference.width(), pair.reference.height()};
+  const Opponent test = opponentPlanes(pair.test);
+  const Opponent reference = opponentPlanes(pair.reference);
+  const std::vector<Colour> testColours = perceived(test, field, pixelsPerDegree);
+  const std::vector<Colour> referenceColours = perceived(reference, field, pixelsPerDegree);
+  const Features testFeatures = features(test[0], field, pixelsPerDegree);
+  const Features referenceFeatures = features(reference[0], field, pixelsPerDegree);
+  std::vector<double> map(testColours.size());
+  for (std::size_t i = 0; i < map.size(); ++i) {
+    const double colour = redistribute(hyab(testColours[i], referenceColours[i]));
+    const double difference = std::max(std::abs(referenceFeatures.edges[i] - testFeatures.edges[i]),
+                                       std::abs(referenceFeatures.points[i] - testFeatures.points[i]));
+    const double feature = std::pow(difference / std::numbers::sqrt2, kFeatureExponent);
+    map[i] = std::pow(colour, 1.0 - feature);
+  }
+  return map;
+}
+
+std::optional<double> maskedMean(std::span<const double> map, const PixelMask& mask) {
+  double total = 0.0;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < mask.size(); ++i) {
+    total += mask[i] != 0 ? map[i] : 0.0;
+    count += mask[i] != 0 ? 1 : 0;
+  }
+  return count > 0 ? std::optional(total / static_cast<double>(count)) : std::nullopt;
+}
+
+}  // namespace walr

@@ -1,0 +1,96 @@
+#include "samples/metrics/flip.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/samples/metric_pictures.h"
+
+namespace walr {
+namespace {
+
+Image constant(int width, int height, float r, float g, float b) {
+  Image image(width, height, 3);
+  for (std::size_t i = 0; i < image.pixelCount(); ++i) std::ranges::copy(std::array{r, g, b}, image.pixel(i).begin());
+  return image;
+}
+
+DisplayedPair displayAll(const test::Pictures& pictures) {
+  return display(pictures.test, pictures.reference, PixelMask(pictures.reference.pixelCount(), 1));
+}
+
+TEST(Flip, AgreesWithItsAuthorsImplementation) {
+  std::ifstream stream(WALR_TEST_DATA "/flip_fixture.json");
+  const auto cases = nlohmann::json::parse(stream);
+  ASSERT_FALSE(cases.empty());
+  // Theirs computes in single precision. An error e of a feature's difference d changes its root by e / (2 sqrt(d)),
+  // and the differences here are above 1e-3; e is some sixty roundings of values below 1.
+  const double tolerance = 60.0 * std::numeric_limits<float>::epsilon() / (2.0 * std::sqrt(1e-3));
+  for (const auto& expected : cases) {
+    SCOPED_TRACE(expected["name"].get<std::string>());
+    const DisplayedPair pair =
+        displayAll(test::makePictures(expected["width"], expected["height"], expected["amplitude"]));
+    const std::vector<double> map = flipMap(pair, expected["pixels_per_degree"]);
+    EXPECT_NEAR(*maskedMean(map, PixelMask(map.size(), 1)), expected["mean"].get<double>(), tolerance);
+    const std::size_t stride = expected["stride"];
+    for (std::size_t i = 0; i < map.size(); i += stride) {
+      EXPECT_NEAR(map[i], expected["values"][i / stride].get<double>(), tolerance) << "pixel " << i;
+    }
+  }
+}
+
+TEST(Flip, EqualPicturesDifferNowhere) {
+  const test::Pictures pictures = test::makePictures(40, 30, 1.0);
+  const std::vector<double> map = flipMap(displayAll({pictures.reference, pictures.reference}));
+  EXPECT_EQ(std::ranges::max(map), 0.0);
+}
+
+/// Section 4.1.3: the largest distance, between green and blue, is 1; what lies below 0.4 of it takes 0.95.
+TEST(Flip, IsOneBetweenGreenAndBlue) {
+  for (const double value : flipMap({constant(30, 30, 0, 1, 0), constant(30, 30, 0, 0, 1)})) {
+    EXPECT_NEAR(value, 1.0, 1e-12);
+  }
+}
+
+/// Black and white differ by 100 in L* and in nothing else, green and blue by the well-known L*a*b* of the primaries
+/// (87.74, -86.18, 83.18) and (32.30, 79.19, -107.86) with the Hunt effect: hence a closed form.
+TEST(Flip, BetweenBlackAndWhiteIsThatOfTheirLightness) {
+  const double greenToBlue = (87.7347 - 32.2970) + std::hypot(0.877347 * -86.1827 - 0.322970 * 79.1875,
+                                                              0.877347 * 83.1793 - 0.322970 * -107.8602);
+  const double ratio = std::pow(100.0 / greenToBlue, 0.7);
+  const double expected = ratio < 0.4 ? 0.95 * ratio / 0.4 : 0.95 + 0.05 * (ratio - 0.4) / 0.6;
+  for (const double value : flipMap({constant(30, 30, 0, 0, 0), constant(30, 30, 1, 1, 1)})) {
+    EXPECT_NEAR(value, expected, 1e-4);  // The primaries' digits.
+  }
+}
+
+TEST(Flip, IsSymmetric) {
+  const DisplayedPair pair = displayAll(test::makePictures(50, 40, 1.0));
+  const std::vector<double> forth = flipMap(pair);
+  const std::vector<double> back = flipMap({pair.reference, pair.test});
+  EXPECT_EQ(forth, back);
+}
+
+TEST(Flip, NonFiniteTestValuesAreSeen) {
+  const Image reference = constant(31, 31, 0.5F, 0.5F, 0.5F);
+  Image test = reference;
+  test.at(15, 15, 0) = std::numeric_limits<float>::quiet_NaN();
+  const std::vector<double> map = flipMap(display(test, reference, PixelMask(31 * 31, 1)));
+  EXPECT_GT(map[15 * 31 + 15], 0.1);
+  EXPECT_TRUE(std::ranges::all_of(map, [](double value) { return value >= 0.0 && value <= 1.0; }));
+}
+
+TEST(Flip, MeanIsOverTheMask) {
+  const std::vector<double> map = {0.25, 1.0, 0.5};
+  EXPECT_EQ(maskedMean(map, {1, 0, 1}), 0.375);
+  EXPECT_FALSE(maskedMean(map, {0, 0, 0}).has_value());
+}
+
+}  // namespace
+}  // namespace walr
