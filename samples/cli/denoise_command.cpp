@@ -34,7 +34,7 @@ struct DenoiseOptions {
   OutputOptions output;
   MethodOptions method;
   std::string frames;
-  GpuDenoiser::Options gpu;
+  GpuDevice::Options gpu;
   bool listDevices = false;
   std::filesystem::path json;
   std::string nonFinite = "fail";
@@ -92,15 +92,16 @@ void denoise(DenoiseOptions& options) {
   prepareOutputDirectory(options.output.directory);
   describeInput(std::cout, options.input, sequence);
 
-  GpuDenoiser denoiser(options.gpu, *method, sequence.extent(), *sequence.layout().layout);
+  GpuDevice device(options.gpu);
+  GpuDenoiser denoiser(device, *method, sequence.extent(), *sequence.layout().layout);
   DenoiseReport report;
   report.method = options.method.name;
   for (const SettingText& setting : method->settings()) {
     report.settings.emplace_back(setting.name, setting.value);
   }
-  report.device = denoiser.deviceName();
-  report.driver = denoiser.driver();
-  report.softwareDevice = denoiser.isSoftware();
+  report.device = device.name();
+  report.driver = device.driver();
+  report.softwareDevice = device.isSoftware();
   report.layout = sequence.layout().layout->name;
   report.extent = sequence.extent();
   std::cout << "method: " << report.method << "\ndevice: " << report.device << ", driver " << report.driver
@@ -122,7 +123,7 @@ void denoise(DenoiseOptions& options) {
           progress.advance(Progress::Clock::now());
         });
   }
-  refuseMessages(denoiser.takeMessages());
+  refuseMessages(device.takeMessages());
   printReport(std::cout, report);
   if (!options.json.empty()) {
     const std::string text = reportJson(report);

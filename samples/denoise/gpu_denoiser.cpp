@@ -12,7 +12,6 @@
 #include "framegraph/vulkan/driver_memory_model.h"
 #include "framegraph/vulkan/executor.h"
 #include "framegraph/vulkan/frame_queue.h"
-#include "framegraph/vulkan/instance.h"
 #include "framegraph/vulkan/physical_device.h"
 #include "framegraph/vulkan/staged_image.h"
 #include "integration/denoise_graph.h"
@@ -21,12 +20,6 @@
 
 namespace walr {
 namespace {
-
-fg::vk::PhysicalDevice chooseDevice(const fg::vk::Instance& instance, const std::string& choice) {
-  fg::vk::PhysicalDevice device = fg::vk::choose(fg::vk::physicalDevices(instance), choice);
-  fg::vk::require(device);
-  return device;
-}
 
 fg::Plan compilePlan(const fg::Graph& graph, const fg::MemoryModel& memory) {
   fg::CompileResult result = fg::compile(graph.desc(), memory);
@@ -71,16 +64,15 @@ class UploadedTexture {
 }  // namespace
 
 struct GpuDenoiser::State {
-  State(const Options& options, Denoiser& method, fg::Extent frameExtent, const Layout& frameLayout)
-      : instance({.validation = options.validation, .sink = log.sink()}),
-        physical(chooseDevice(instance, options.device)),
-        device(instance, physical),
+  State(const GpuDevice& gpu, Denoiser& method, fg::Extent frameExtent, const Layout& frameLayout)
+      : device(gpu.device()),
         extent(frameExtent),
         layout(frameLayout),
         declared(declareDenoiseGraph(
             method, extent, layout.conventions,
             {.inputs = fg::vk::kUploaded, .outputBefore = fg::vk::kOverwritable, .outputAfter = fg::vk::kReadable})),
-        executor(device.context(), declared.graph.desc(), compileForDevice(declared.graph, physical, device.context()),
+        executor(device.context(), declared.graph.desc(),
+                 compileForDevice(declared.graph, gpu.physical(), device.context()),
                  {.framesInFlight = kFramesInFlight, .timestamps = device.context().timestampBits > 0}),
         lighting(makeUpload(declared.inputs.lighting)),
         depth(makeUpload(declared.inputs.depth)),
@@ -112,20 +104,7 @@ struct GpuDenoiser::State {
     }
   }
 
-  /// Time of all passes; the copies to and from the device are not among them.
-  std::optional<double> passMilliseconds(std::uint32_t slot) {
-    const std::span<const fg::vk::PassTime> times = executor.passTimes(slot);
-    if (times.empty()) {
-      return std::nullopt;
-    }
-    return std::accumulate(times.begin(), times.end(), 0.0,
-                           [](double sum, const fg::vk::PassTime& time) { return sum + time.milliseconds; });
-  }
-
-  fg::vk::MessageLog log;
-  fg::vk::Instance instance;
-  fg::vk::PhysicalDevice physical;
-  fg::vk::Device device;
+  const fg::vk::Device& device;
   fg::Extent extent;
   const Layout& layout;
   DenoiseGraph declared;
@@ -139,34 +118,30 @@ struct GpuDenoiser::State {
   fg::vk::FrameQueue queue;
 };
 
-GpuDenoiser::GpuDenoiser(const Options& options, Denoiser& method, fg::Extent extent, const Layout& layout)
-    : state_(std::make_unique<State>(options, method, extent, layout)) {}
+std::optional<double> DenoisedPicture::milliseconds() const {
+  if (passes.empty()) {
+    return std::nullopt;
+  }
+  return std::accumulate(passes.begin(), passes.end(), 0.0,
+                         [](double sum, const fg::vk::PassTime& time) { return sum + time.milliseconds; });
+}
+
+GpuDenoiser::GpuDenoiser(const GpuDevice& device, Denoiser& method, fg::Extent extent, const Layout& layout)
+    : state_(std::make_unique<State>(device, method, extent, layout)) {}
 GpuDenoiser::~GpuDenoiser() = default;
+GpuDenoiser::GpuDenoiser(GpuDenoiser&&) noexcept = default;
+GpuDenoiser& GpuDenoiser::operator=(GpuDenoiser&&) noexcept = default;
 
-const std::string& GpuDenoiser::deviceName() const {
-  return state_->physical.name;
-}
-const std::string& GpuDenoiser::driver() const {
-  return state_->physical.driver;
-}
-bool GpuDenoiser::isSoftware() const {
-  return state_->physical.type == VK_PHYSICAL_DEVICE_TYPE_CPU;
-}
-
-std::vector<fg::vk::Message> GpuDenoiser::takeMessages() {
-  return state_->log.take();
-}
-
-DenoisedFrame GpuDenoiser::denoise(PackedFrame packed) {
+DenoisedPicture GpuDenoiser::run(const PackedFrame& packed) {
   State& state = *state_;
-  Frame& frame = packed.frame;
+  const Frame& frame = packed.frame;
   state.executor.upload(state.declared.inputs.frame, state.constants(frame));
   if (frame.resetHistory) {
     state.executor.resetAllHistory();
   }
   const fg::vk::Frame recorded = state.queue.begin();
   state.lighting.upload(recorded, packed.lighting);
-  state.depth.upload(recorded, std::as_const(frame.depth).values());
+  state.depth.upload(recorded, frame.depth.values());
   state.normal.upload(recorded, packed.normal);
   state.motion.upload(recorded, packed.motion);
   state.albedo.upload(recorded, packed.albedo);
@@ -177,10 +152,16 @@ DenoisedFrame GpuDenoiser::denoise(PackedFrame packed) {
 
   std::vector<Rgba16> texels(frame.depth.pixelCount());
   std::ranges::copy(state.output.staging(recorded.slot), std::as_writable_bytes(std::span(texels)).begin());
+  const std::span<const fg::vk::PassTime> times = state.executor.passTimes(recorded.slot);
+  return {unpackRgb(texels, frame.depth.width(), frame.depth.height()), {times.begin(), times.end()}};
+}
+
+DenoisedFrame GpuDenoiser::denoise(PackedFrame packed) {
+  DenoisedPicture picture = run(packed);
   DenoisedFrame denoised;
-  denoised.indirect = unpackRgb(texels, frame.depth.width(), frame.depth.height());
-  denoised.gpuMilliseconds = state.passMilliseconds(recorded.slot);
-  denoised.frame = std::move(frame);
+  denoised.indirect = std::move(picture.indirect);
+  denoised.gpuMilliseconds = picture.milliseconds();
+  denoised.frame = std::move(packed.frame);
   return denoised;
 }
 

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "framegraph/vulkan/device.h"
+#include "framegraph/vulkan/instance.h"
+#include "framegraph/vulkan/messages.h"
+#include "framegraph/vulkan/physical_device.h"
+
+namespace walr {
+
+/// A Vulkan device chosen by the user, of a Vulkan instance of its own.
+class GpuDevice {
+ public:
+  struct Options {
+    std::string device;       ///< Number or part of a name; empty for the most capable one.
+    bool validation = false;  ///< Run under the Khronos validation layer with synchronization validation.
+  };
+
+  /// @throws fg::vk::Error where there is no device, or none that will do
+  explicit GpuDevice(const Options& options);
+
+  [[nodiscard]] const std::string& name() const { return physical_.name; }
+  /// Driver and its version.
+  [[nodiscard]] const std::string& driver() const { return physical_.driver; }
+  /// Whether the device is a processor that plays a GPU.
+  [[nodiscard]] bool isSoftware() const { return physical_.type == VK_PHYSICAL_DEVICE_TYPE_CPU; }
+
+  [[nodiscard]] const fg::vk::PhysicalDevice& physical() const { return physical_; }
+  [[nodiscard]] const fg::vk::Device& device() const { return device_; }
+
+  /// What the validation layer said since the last call.
+  std::vector<fg::vk::Message> takeMessages() { return log_.take(); }
+
+ private:
+  fg::vk::MessageLog log_;
+  fg::vk::Instance instance_;
+  fg::vk::PhysicalDevice physical_;
+  fg::vk::Device device_;
+};
+
+}  // namespace walr
