@@ -1,5 +1,7 @@
 #include "framegraph/access_history.h"
 
+#include <algorithm>
+
 #include "framegraph/access.h"
 #include "framegraph/topology.h"
 
@@ -44,12 +46,14 @@ SubresourceRange AccessHistory::range(std::uint32_t resource, std::uint32_t subr
   return {subresource / layers, 1, subresource % layers, 1};
 }
 
-bool AccessHistory::endsUnread(std::uint32_t resource) const {
+std::uint32_t AccessHistory::lastUnreadWrite(std::uint32_t resource) const {
+  std::uint32_t last = kNone;
   for (std::uint32_t i = 0; i < subresourceCount(resource); ++i) {
     const std::span<const AccessGroup> all = groups(resource, i);
-    if (!all.empty() && all.back().writeMask != VK_ACCESS_2_NONE) return true;
+    if (all.empty() || all.back().writeMask == VK_ACCESS_2_NONE) continue;
+    last = last == kNone ? all.back().position : std::max(last, all.back().position);
   }
-  return false;
+  return last;
 }
 
 void AccessHistory::add(std::uint32_t position, const AccessDecl& access) {

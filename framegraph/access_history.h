@@ -33,8 +33,8 @@ class AccessHistory {
   [[nodiscard]] std::span<const AccessGroup> groups(std::uint32_t resource, std::uint32_t subresource) const {
     return groups_[first_[resource] + subresource];
   }
-  /// True where the last access to some subresource writes.
-  [[nodiscard]] bool endsUnread(std::uint32_t resource) const;
+  /// Position of the last pass that leaves some subresource written and not read again; kNone where there is none.
+  [[nodiscard]] std::uint32_t lastUnreadWrite(std::uint32_t resource) const;
   /// The part of the resource that a subresource stands for.
   [[nodiscard]] SubresourceRange range(std::uint32_t resource, std::uint32_t subresource) const;
 

@@ -27,6 +27,13 @@ void separateBuffersFromImages(const GraphDesc& graph, const std::vector<std::ui
 
 }  // namespace
 
+std::uint32_t heldUntil(const AccessHistory& accesses, const Plan& plan, std::uint32_t resource) {
+  const std::uint32_t lastUse = plan.resources[resource].lastUse;
+  const std::uint32_t unread = accesses.lastUnreadWrite(resource);
+  const auto lastPass = static_cast<std::uint32_t>(plan.passes.size()) - 1;
+  return unread == kNone ? lastUse : std::max(lastUse, std::min(unread + 1, lastPass));
+}
+
 void placeTransients(const Topology& topology, const AccessHistory& accesses, std::uint64_t bufferImageGranularity,
                      Plan& plan) {
   const GraphDesc& graph = topology.graph();
@@ -44,11 +51,7 @@ void placeTransients(const Topology& topology, const AccessHistory& accesses, st
       requests.push_back({planned.size, planned.alignment, planned.firstUse, planned.lastUse});
     }
     all.insert(all.end(), requests.begin(), requests.end());
-    for (std::size_t i = 0; i < members.size(); ++i) {
-      if (!accesses.endsUnread(members[i])) continue;
-      requests[i].firstUse = 0;
-      requests[i].lastUse = static_cast<std::uint32_t>(plan.passes.size()) - 1;
-    }
+    for (std::size_t i = 0; i < members.size(); ++i) requests[i].lastUse = heldUntil(accesses, plan, members[i]);
     separateBuffersFromImages(graph, members, bufferImageGranularity, requests);
     const HeapPacking packing = pack(requests);
     for (std::size_t i = 0; i < members.size(); ++i) {

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "framegraph/access_history.h"
+#include "framegraph/alias.h"
 #include "framegraph/inspect.h"
 #include "framegraph/names.h"
 
@@ -30,15 +31,30 @@ std::string whyAlone(const GraphDesc& graph, const Plan& plan, std::uint32_t ind
     return start + "is " + std::string(lifetimeName(decl.lifetime)) + ", and only transients share memory";
   }
   if (plan.resources[index].heap == kNone) return start + "is exported, and the host may use it after the frame";
-  if (AccessHistory(graph, plan).endsUnread(index)) {
-    return start + "ends with a write that nobody reads, which no hand-over of its memory would cover";
-  }
   return {};
 }
 
-std::string span(const PlannedResource& resource) {
-  return "passes " + std::to_string(resource.firstUse) + " to " + std::to_string(resource.lastUse);
-}
+/// The passes in which a transient keeps its bytes.
+class Held {
+ public:
+  Held(const GraphDesc& graph, const Plan& plan, std::uint32_t index)
+      : first_(plan.resources[index].firstUse),
+        lastUse_(plan.resources[index].lastUse),
+        last_(heldUntil(AccessHistory(graph, plan), plan, index)) {}
+
+  [[nodiscard]] bool meets(const Held& other) const { return first_ <= other.last_ && other.first_ <= last_; }
+  [[nodiscard]] std::string text() const {
+    return "passes " + std::to_string(first_) + " to " + std::to_string(last_) +
+           (last_ == lastUse_ ? ""
+                              : " (nobody reads the last write, so that a barrier in pass " + std::to_string(last_) +
+                                    " makes it available)");
+  }
+
+ private:
+  std::uint32_t first_;
+  std::uint32_t lastUse_;
+  std::uint32_t last_;
+};
 
 }  // namespace
 
@@ -78,8 +94,10 @@ std::string whyNotAliased(const GraphDesc& graph, const Plan& plan, std::string_
   const PlannedResource& y = plan.resources[b];
   const std::string both = "'" + std::string(first) + "' and '" + std::string(second) + "' ";
   if (x.heap != y.heap) return both + "need different kinds of memory";
-  if (x.firstUse <= y.lastUse && y.firstUse <= x.lastUse) {
-    return both + "are alive at the same time: " + span(x) + " and " + span(y);
+  const Held held(graph, plan, a);
+  const Held otherHeld(graph, plan, b);
+  if (held.meets(otherHeld)) {
+    return both + "are alive at the same time: " + held.text() + " and " + otherHeld.text();
   }
   const bool overlap = x.offset < y.offset + y.size && y.offset < x.offset + x.size;
   return both + (overlap ? "share memory" : "could share memory, but other places were as good");

@@ -115,9 +115,9 @@ std::string layoutName(VkImageLayout layout) {
 }
 
 std::string_view reasonName(BarrierReason reason) {
-  static constexpr std::array<std::string_view, 9> kNames = {"ReadAfterWrite", "WriteAfterWrite", "WriteAfterRead",
-                                                             "LayoutChange",   "FirstUse",        "AliasHandOver",
-                                                             "HistoryCarry",   "Acquire",         "Release"};
+  static constexpr std::array<std::string_view, 10> kNames = {
+      "ReadAfterWrite", "WriteAfterWrite", "WriteAfterRead", "LayoutChange", "FirstUse",
+      "Retire",         "AliasHandOver",   "HistoryCarry",   "Acquire",      "Release"};
   return kNames.at(static_cast<std::size_t>(reason));
 }
 

@@ -11,8 +11,8 @@
 /// Every frame is recorded by replaying the same plan on one queue, so that frames are executed in the order in which
 /// they are submitted, and share the heaps even while several are in flight:
 /// - A transient's first use waits for whoever owned its bytes last, be it in the frame before, and starts from
-///   UNDEFINED. For another owner this is an execution dependency only: a transient that ends with writes that nobody
-///   reads, and that are hence not made available, shares its memory with nobody.
+///   UNDEFINED. For another owner this is an execution dependency only: writes have been made available to readers, or
+///   by a barrier of their own (`BarrierReason::Retire`) in an earlier batch.
 /// - A history has two images that swap roles every frame (`PlannedHistory`).
 /// - Upload buffers have one copy per frame in flight and need no barrier: submission makes host writes visible.
 /// - Imports arrive in the state that was declared (stage NONE: the host has waited otherwise, for instance by a
@@ -31,6 +31,7 @@ enum class BarrierReason : std::uint8_t {
   WriteAfterRead,  ///< Execution only, unless the layout changes.
   LayoutChange,    ///< Between two reads.
   FirstUse,        ///< Contents are not needed: from UNDEFINED.
+  Retire,          ///< Makes a last write that nobody reads available, before the memory has another owner.
   AliasHandOver,   ///< The memory had another owner before (`aliasOf`), in this frame or the last.
   HistoryCarry,    ///< From last frame's use of the same history slot.
   Acquire,         ///< From the state in which the host hands an import over.

@@ -85,7 +85,11 @@ class Synchronizer {
       if (barrier) barrier->reason = BarrierReason::Release;
       return barrier;
     };
-    if (to.stage != VK_PIPELINE_STAGE_2_NONE) return released(advance(state, group));
+    if (to.stage != VK_PIPELINE_STAGE_2_NONE) {
+      // Who goes on from the state waits for its stages and no others.
+      if ((state.stage & ~to.stage) != VK_PIPELINE_STAGE_2_NONE) state.visibleStage = VK_PIPELINE_STAGE_2_NONE;
+      return released(advance(state, group));
+    }
     if (state.layout == to.layout) return std::nullopt;
     const VkPipelineStageFlags2 stage = state.stage;
     std::optional<PlannedBarrier> barrier = released(advance(state, group));
@@ -134,6 +138,27 @@ class Synchronizer {
             *std::ranges::find_if(owners, [&](std::uint32_t owner) { return owner != resource; })};
   }
 
+  /// True where others own some of the bytes before the next frame.
+  [[nodiscard]] bool sharesMemory(std::uint32_t resource) const {
+    return plan_.resources[resource].heap != kNone && owners_[resource] != std::vector{resource};
+  }
+
+  [[nodiscard]] std::uint32_t behind(std::uint32_t position) const {
+    return position + 1 < plan_.passes.size() ? position + 1 : kAfterLastPass;
+  }
+
+  /// Make a write available for which no reader does it. Whoever waits for the writing stage then waits for this too.
+  static PlannedBarrier retire(const SubresourceState& state) {
+    PlannedBarrier barrier;
+    barrier.reason = BarrierReason::Retire;
+    barrier.srcStage = state.stage;
+    barrier.srcAccess = state.pendingWrite;
+    barrier.dstStage = state.stage;
+    barrier.oldLayout = state.layout;
+    barrier.newLayout = state.layout;
+    return barrier;
+  }
+
   void emit(std::uint32_t resource) {
     const Beginning begin = beginning(resource);
     std::vector<std::pair<std::uint32_t, PlannedBarrier>> barriers;
@@ -155,6 +180,9 @@ class Synchronizer {
         add(group.position, barrier);
       }
       if (const auto to = finalState(resource, state)) add(kAfterLastPass, release(state, *to));
+      if (sharesMemory(resource) && state.pendingWrite != VK_ACCESS_2_NONE) {
+        add(behind(groups.back().position), retire(state));
+      }
     }
     if (history_.subresourceCount(resource) > 1) mergeRanges(graph_.resources[resource], barriers);
     for (const auto& [position, barrier] : barriers) {
@@ -168,10 +196,12 @@ class Synchronizer {
     if (releases_[resource]) return releases_[resource];
     if (!graph_.resources[resource].acquire) return std::nullopt;
     const ExternalState acquire = bordering(resource, *graph_.resources[resource].acquire);
-    // The acquire of the next frame covers unavailable writes that look like the host's own.
-    const bool covered = (state.pendingWrite & ~acquire.access) == 0 &&
-                         (state.pendingWrite == VK_ACCESS_2_NONE || (state.stage & ~acquire.stage) == 0);
-    const bool asItCame = state.layout == acquire.layout && covered;
+    // Who goes on from the state waits for its stages and no others, and covers writes that look like the host's own.
+    const bool hostWrites = (acquire.access & kWriteAccesses) != VK_ACCESS_2_NONE;
+    const bool readable =
+        (acquire.stage & ~state.visibleStage) == 0 && (acquire.access & ~state.visibleAccess) == VK_ACCESS_2_NONE;
+    const bool covered = (state.stage & ~acquire.stage) == 0 && (state.pendingWrite & ~acquire.access) == 0;
+    const bool asItCame = state.layout == acquire.layout && covered && (hostWrites || readable);
     const bool unknown = acquire.layout == VK_IMAGE_LAYOUT_UNDEFINED && state.layout != VK_IMAGE_LAYOUT_UNDEFINED;
     return asItCame || unknown ? std::nullopt : std::optional(acquire);
   }

@@ -158,11 +158,13 @@ class Replay {
     cell.writeAccess = writes;
     cell.reads.clear();
     cell.visible.clear();
+    cell.availableTo = VK_PIPELINE_STAGE_2_NONE;
     if (!cell.written) return;
     if (writes != 0) {
       cell.write = {stage, VK_PIPELINE_STAGE_2_NONE};
     } else {
       cell.write = {VK_PIPELINE_STAGE_2_NONE, stage};
+      cell.availableTo = stage;
       cell.visible.push_back({stage, state.access});
       cell.reads.push_back({stage, VK_PIPELINE_STAGE_2_NONE});
     }
@@ -218,14 +220,22 @@ class Replay {
     const ExternalState& state = *decl.acquire;
     const bool isTexture = texture(resource) != nullptr;
     if (isTexture && state.layout == VK_IMAGE_LAYOUT_UNDEFINED) return;
-    for (std::uint32_t i = 0; i < cellCount(resource); ++i) {
-      const Cell& cell = device_.cell(firstCell(resource) + i);
-      const bool covered =
-          !cell.written || cell.available || state.stage == VK_PIPELINE_STAGE_2_NONE ||
-          ((cell.writeAccess & ~state.access) == 0 && (cell.write.stage & ~expanded(state.stage)) == 0);
-      if (!covered || (isTexture && cell.layout != state.layout)) {
-        device_.complain("import '" + cell.name + "' is not given back as it came");
-      }
+    for (std::uint32_t i = 0; i < cellCount(resource); ++i) giveBack(firstCell(resource) + i, state, isTexture);
+  }
+
+  /// Check that an import is in the state in which it came: in its layout; everything done to it in, or before, the
+  /// stages named; writes available but for those that the state names; and readable where the state only reads.
+  void giveBack(std::uint32_t index, const ExternalState& state, bool isTexture) {
+    const Cell cell = device_.cell(index);
+    const VkImageLayout layout = isTexture ? state.layout : VK_IMAGE_LAYOUT_UNDEFINED;
+    const auto wrong = [&] { device_.complain("import '" + cell.name + "' is not given back as it came"); };
+    if (cell.layout != layout) return wrong();
+    if (state.stage == VK_PIPELINE_STAGE_2_NONE) return;
+    device_.checkFinished(index, state.stage);
+    if (writesOf(state.access) == VK_ACCESS_2_NONE) {
+      device_.access(index, {state.stage, state.access, VK_ACCESS_2_NONE, layout, 0}, cell.contents, cell.contents);
+    } else if (cell.written && !cell.available && (cell.writeAccess & ~state.access) != VK_ACCESS_2_NONE) {
+      wrong();
     }
   }
 
@@ -243,6 +253,7 @@ class Replay {
           device_.complain("export '" + cell.name + "' is not in the layout that was declared");
         continue;
       }
+      device_.checkFinished(index, state.stage);
       const VkAccessFlags2 writes = writesOf(state.access);
       device_.access(index, {state.stage, state.access & ~writes, writes, layout, 0}, expected, expected);
     }

@@ -20,6 +20,17 @@ bool isTransition(const Dependency& dependency) {
   return dependency.oldLayout != dependency.newLayout;
 }
 
+/// True where a dependency on these stages comes after the cell's last write was made available.
+bool findsAvailable(VkPipelineStageFlags2 srcStage, const Cell& cell) {
+  return !cell.written || (cell.available && (cell.availableTo & srcStage) != 0);
+}
+
+/// True where the dependency makes the cell's last write available itself.
+bool makesAvailable(const Dependency& dependency, const Cell& cell) {
+  return cell.written && !cell.available && (cell.write.stage & ~dependency.srcStage) == 0 &&
+         (cell.writeAccess & ~dependency.srcAccess) == 0;
+}
+
 }  // namespace
 
 void Device::complain(const std::string& what) {
@@ -28,8 +39,7 @@ void Device::complain(const std::string& what) {
 
 void Device::barrier(const std::vector<Dependency>& batch) {
   // All scopes refer to the state before the batch.
-  std::vector<Operation> writes(cells_.size());
-  std::ranges::transform(cells_, writes.begin(), &Cell::write);
+  const std::vector<Publication> published = publications(batch);
   for (const Dependency& dependency : batch) {
     for (const std::uint32_t index : dependency.cells) {
       if (isTransition(dependency)) checkTransition(dependency, index);
@@ -41,15 +51,15 @@ void Device::barrier(const std::vector<Dependency>& batch) {
       if (waitsFor(dependency.srcStage, old)) operation.ordered |= dependency.dstStage;
     }
   };
-  for (std::size_t i = 0; i < cells_.size(); ++i) {
-    order(cells_[i].write);
-    for (Operation& read : cells_[i].reads) order(read);
-  }
-  for (const Dependency& dependency : batch) {
-    for (const std::uint32_t index : dependency.cells) {
-      publish(dependency, writes[index], cells_[index]);
+  for (Cell& cell : cells_) {
+    order(cell.write);
+    for (Operation& read : cell.reads) order(read);
+    const VkPipelineStageFlags2 availableTo = cell.availableTo;
+    for (const Dependency& dependency : batch) {
+      if ((availableTo & dependency.srcStage) != 0) cell.availableTo |= dependency.dstStage;
     }
   }
+  for (const Publication& publication : published) publish(publication);
   for (const Dependency& dependency : batch) {
     for (const std::uint32_t index : dependency.cells) {
       if (isTransition(dependency)) transition(dependency, index);
@@ -57,12 +67,26 @@ void Device::barrier(const std::vector<Dependency>& batch) {
   }
 }
 
-void Device::publish(const Dependency& dependency, const Operation& write, Cell& cell) {
-  if (!cell.written || !waitsFor(dependency.srcStage, write)) return;
-  const bool inAccessScope =
-      write.stage != 0 && (write.stage & ~dependency.srcStage) == 0 && (cell.writeAccess & ~dependency.srcAccess) == 0;
-  cell.available = cell.available || inAccessScope;
-  if (cell.available) cell.visible.push_back({dependency.dstStage, dependency.dstAccess});
+std::vector<Device::Publication> Device::publications(const std::vector<Dependency>& batch) const {
+  std::vector<Publication> result;
+  for (const Dependency& dependency : batch) {
+    for (const std::uint32_t index : dependency.cells) {
+      const Cell& cell = cells_[index];
+      const bool makes = makesAvailable(dependency, cell);
+      if (makes || findsAvailable(dependency.srcStage, cell)) result.push_back({&dependency, index, makes});
+    }
+  }
+  return result;
+}
+
+void Device::publish(const Publication& publication) {
+  Cell& cell = cells_[publication.cell];
+  const Dependency& dependency = *publication.dependency;
+  if (publication.makesAvailable) {
+    cell.available = true;
+    cell.availableTo |= dependency.dstStage;
+  }
+  cell.visible.push_back({dependency.dstStage, dependency.dstAccess});
 }
 
 void Device::checkTransition(const Dependency& dependency, std::uint32_t index) {
@@ -75,15 +99,13 @@ void Device::checkTransition(const Dependency& dependency, std::uint32_t index) 
     complain("a barrier takes '" + cell.name + "' to be in layout " + std::to_string(dependency.oldLayout) +
              ", but it is in " + std::to_string(cell.layout));
   }
-  const bool available =
-      !cell.written || cell.available ||
-      ((cell.write.stage & ~dependency.srcStage) == 0 && (cell.writeAccess & ~dependency.srcAccess) == 0);
+  const bool available = findsAvailable(dependency.srcStage, cell) || makesAvailable(dependency, cell);
   if (!ordered(cell) || !available) {
     complain("the layout of '" + cell.name + "' changes before earlier accesses have finished");
   }
   for (const std::uint32_t peer : cell.peers) {
     const Cell& other = cells_[peer];
-    if (!ordered(other) || (other.written && !other.available)) {
+    if (!ordered(other) || !findsAvailable(dependency.srcStage, other)) {
       complain("'" + cell.name + "' takes over the memory of '" + other.name + "' before its accesses have finished");
     }
   }
@@ -103,6 +125,7 @@ void Device::transition(const Dependency& dependency, std::uint32_t index) {
   cell.write = {VK_PIPELINE_STAGE_2_NONE, waitedFor ? dependency.dstStage : dependency.srcStage};
   cell.writeAccess = VK_ACCESS_2_NONE;
   cell.available = true;
+  cell.availableTo = cell.write.ordered;
   cell.visible = {{dependency.dstStage, dependency.dstAccess}};
   cell.reads.clear();
 }
@@ -140,7 +163,7 @@ void Device::access(std::uint32_t index, const Use& use, const Contents& expecte
   if (!std::ranges::all_of(cell.reads, finished)) complain("'" + cell.name + "' is overwritten while it is read");
   for (const std::uint32_t peer : cell.peers) {
     Cell& other = cells_[peer];
-    const bool done = (!other.written || (other.available && happensAfter(stage, other.write))) &&
+    const bool done = (!other.written || (other.available && (stage & ~other.availableTo) == 0)) &&
                       std::ranges::all_of(other.reads, finished);
     if (!done) complain("'" + cell.name + "' overwrites the memory of '" + other.name + "', which is still in use");
     other.contents = {};
@@ -150,8 +173,17 @@ void Device::access(std::uint32_t index, const Use& use, const Contents& expecte
   cell.write = {stage, VK_PIPELINE_STAGE_2_NONE};
   cell.writeAccess = use.writes;
   cell.available = false;
+  cell.availableTo = VK_PIPELINE_STAGE_2_NONE;
   cell.visible.clear();
   cell.reads.clear();
+}
+
+void Device::checkFinished(std::uint32_t index, VkPipelineStageFlags2 stage) {
+  const Cell& cell = cells_[index];
+  const VkPipelineStageFlags2 waited = expanded(stage);
+  const bool finished = (!cell.written || waitsFor(waited, cell.write)) &&
+                        std::ranges::all_of(cell.reads, [&](const Operation& read) { return waitsFor(waited, read); });
+  if (!finished) complain("'" + cell.name + "' is handed back while others than the stages named still access it");
 }
 
 }  // namespace fg::check

@@ -37,6 +37,9 @@ struct Cell {
   Operation write;
   VkAccessFlags2 writeAccess = VK_ACCESS_2_NONE;
   bool available = false;
+  /// Stages of later commands that happen after the write was made available, which can be fewer than those that happen
+  /// after the write.
+  VkPipelineStageFlags2 availableTo = VK_PIPELINE_STAGE_2_NONE;
   std::vector<Visibility> visible;
   std::vector<Operation> reads;      ///< Since the write, one for each stage.
   std::vector<std::uint32_t> peers;  ///< Cells of other resources in the same bytes.
@@ -67,6 +70,8 @@ class Device {
   void barrier(const std::vector<Dependency>& batch);
   /// A command's access to a cell, which must hold `expected` if it is read, and holds `result` once written.
   void access(std::uint32_t cell, const Use& use, const Contents& expected, const Contents& result);
+  /// Check that who goes on from a state of a cell, and waits for its stages only, waits for all that was done to it.
+  void checkFinished(std::uint32_t cell, VkPipelineStageFlags2 stage);
 
   /// Said before every complaint: where the replay stands.
   void setPlace(std::string place) { place_ = std::move(place); }
@@ -76,7 +81,15 @@ class Device {
  private:
   void checkTransition(const Dependency& dependency, std::uint32_t index);
   void transition(const Dependency& dependency, std::uint32_t index);
-  static void publish(const Dependency& dependency, const Operation& write, Cell& cell);
+
+  /// What a dependency does for a cell's last write.
+  struct Publication {
+    const Dependency* dependency;
+    std::uint32_t cell;
+    bool makesAvailable;
+  };
+  [[nodiscard]] std::vector<Publication> publications(const std::vector<Dependency>& batch) const;
+  void publish(const Publication& publication);
 
   std::vector<Cell> cells_;
   std::string place_;

@@ -91,6 +91,9 @@ class Structure {
       }
       const bool texture = std::holds_alternative<TextureDesc>(decl.desc);
       if (texture == (barrier.newLayout == VK_IMAGE_LAYOUT_UNDEFINED)) fault(decl, "has a barrier into a wrong layout");
+      if (barrier.reason == BarrierReason::Retire && barrier.oldLayout != barrier.newLayout) {
+        fault(decl, "changes its layout where its contents are given up");
+      }
     }
   }
 
