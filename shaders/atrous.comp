@@ -45,7 +45,7 @@ vec2 featuresAt(ivec2 q) { return unpackFeatures(texelFetch(shadingNormal, q, 0)
 
 Moments readMoments(ivec2 q) {
 #ifdef FIRST
-  return momentsOf(featuresAt(q), texelFetch(accumulated, q, 0).rgb);
+  return momentsOf(featuresAt(q), texelFetch(accumulated, q, 0));
 #else
   return loadMoments(q);
 #endif
@@ -67,8 +67,9 @@ void writeResult(ivec2 p, float z, int nearestEdge, Moments m) {
                                   : reconstructWithRidge(m, features, settings.ridge, settings.noiseRidge);
   imageStore(outFiltered, p, vec4(min(colour, vec3(kLargestHalf)), 0.0));
 #else
-  if (!kKeepSampleCount) m.samples = 1.0;
-  storeMoments(p, m);
+  if (!kKeepSampleCount) m.samples = m.samples > 0.0 ? 1.0 : 0.0;
+  if (m.samples > 0.0) storeMoments(p, m);
+  else storeNoMoments(p);
   imageStore(outDepth, p, uvec4(packDepthSdf(z, uint(nearestEdge))));
 #endif
 }

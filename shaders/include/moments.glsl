@@ -14,10 +14,10 @@ struct Moments {
   float samples;   // W: sum of the sample weights.
 };
 
-// One sample: no spread yet.
-Moments momentsOf(vec2 features, vec3 colour) {
-  const float l = luminance(colour);
-  return Moments(features, colour, vec3(0.0), vec3(0.0), vec3(0.0), l * l, 1.0);
+// One pixel: no spread yet, and no weight where nothing was sampled (history length 0: all samples were NaN or infinite).
+Moments momentsOf(vec2 features, vec4 accumulated) {
+  const float l = luminance(accumulated.rgb);
+  return Moments(features, accumulated.rgb, vec3(0.0), vec3(0.0), vec3(0.0), l * l, accumulated.a > 0.0 ? 1.0 : 0.0);
 }
 
 // Weighted merge of centred moments, C = sum w (C_i + (m_i - M)(m_i - M)^T) / sum w, in one pass: means are taken
@@ -49,8 +49,9 @@ void add(inout MomentSum s, float edgeWeight, Moments m) {
   s.sum.samples += w;
 }
 
+// Without any sample: those of the centre, of weight 0.
 Moments finish(MomentSum s) {
-  const float scale = 1.0 / s.sum.samples;
+  const float scale = s.sum.samples > 0.0 ? 1.0 / s.sum.samples : 0.0;
   const vec2 dx = s.sum.x * scale;
   const vec3 dy = s.sum.y * scale;
   Moments m;

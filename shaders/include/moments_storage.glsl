@@ -3,7 +3,8 @@
 //   RAW16      raw moments as halves (walr.txt 5.2, RGBA16_FLOAT)
 //   RAW11      raw moments as unsigned 11- and 10-bit floats (walr.txt 5.2, R11G11B10_FLOAT)
 //   RAW32      raw moments in single precision, to tell storage from arithmetic
-// Raw formats hold the averages of products that the paper stores; they drop the sample count as it does.
+// Raw formats hold the averages of products that the paper stores; they drop the sample count as it does. Features that
+// are 0 in the mean tell pixels without a sample: no normal that faces the camera lies in that corner of the map.
 #ifndef WALR_MOMENTS_STORAGE_GLSL
 #define WALR_MOMENTS_STORAGE_GLSL
 #include "finite.glsl"
@@ -167,7 +168,7 @@ Moments unpackMoments(PackedMoments p) {
   m.yu = r.yu - r.y * r.x.x;
   m.yv = r.yv - r.y * r.x.y;
   m.luma2 = 0.0;
-  m.samples = 1.0;
+  m.samples = r.x == vec2(0.0) ? 0.0 : 1.0;
   return m;
 }
 

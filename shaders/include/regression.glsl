@@ -30,7 +30,7 @@ vec3 reconstructWithFloor(Moments m, vec2 features, float pivotFloor) {
 // A ridge on the diagonal that grows with the noise of the mean, because a slope that the samples do not support is
 // worse than none.
 vec3 reconstructWithRidge(Moments m, vec2 features, float ridge, float noiseRidge) {
-  const float lambda = ridge + noiseRidge * relativeVariance(m) / m.samples;
+  const float lambda = ridge + (m.samples > 0.0 ? noiseRidge * relativeVariance(m) / m.samples : 0.0);
   const float c11 = sqrt(max(m.xx.x, 0.0) + lambda);
   const float c21 = m.xx.y / c11;
   return substitute(m, features, c11, c21, sqrt(max(m.xx.z + lambda - c21 * c21, lambda)));

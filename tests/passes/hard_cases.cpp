@@ -66,6 +66,15 @@ std::function<void(HostFrame&)> fireflies(double value) {
   };
 }
 
+/// Pixels without a finite sample, in all frames alike.
+std::function<void(HostFrame&)> unsampled(double share) {
+  return [share](HostFrame& frame) {
+    reference::forEachPixel(kSize, [&](glm::ivec2 p) {
+      if (scatter(p) < share) frame.lighting[p].g = kNaN;
+    });
+  };
+}
+
 /// Normals replaced by the given ones, in stripes 3 pixels wide.
 std::function<void(HostFrame&)> stripesOf(const std::vector<glm::dvec3>& normals) {
   return [normals](HostFrame& frame) {
@@ -102,6 +111,12 @@ std::vector<HardCase> hardCases() {
       {"some isolated pixels", framesOf(wall, scaleDepth([](glm::ivec2 p) { return scatter(p) < 0.05 ? 0.5 : 1.0; }))});
   for (const double value : {1e4, 6e4, kInfinity, kNaN})
     cases.push_back({"fireflies of " + std::to_string(value), framesOf(wall, fireflies(value))});
+  for (const double share : {0.1, 0.5})
+    cases.push_back({"no sample in " + std::to_string(share) + " of the pixels", framesOf(wall, unsampled(share))});
+  cases.push_back({"isolated pixels, half of them without a sample", framesOf(wall, [](HostFrame& frame) {
+                     scaleDepth([](glm::ivec2 p) { return 1.0 + scatter(p + 100); })(frame);
+                     unsampled(0.5)(frame);
+                   })});
   cases.push_back({"no light", framesOf(wall, zeroLight)});
   for (const double scale : {1e-6, 1e4, 1e6})
     cases.push_back({"radiance times " + std::to_string(scale), framesOf(wall, scaleLight(scale))});

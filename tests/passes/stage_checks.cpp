@@ -87,9 +87,11 @@ void expectIterations(const DeviceFrame& f, const WeightedRegressionSettings& se
       }
       comparison.compared();
       if (!settings.keepSampleCount) {
-        expected.merged.moments.samples = 1.0;
+        double& samples = expected.merged.moments.samples;
+        samples = samples > 0.0 ? 1.0 : 0.0;
         expected.merged.error[15] = 0.0;
       }
+      if (expected.merged.moments.samples == 0.0) expected.merged = {};
       const StoredMoments stored = storedMoments(expected.merged, settings.storage);
       const reference::MomentValues actual = storedValues(after.moments[p], settings.storage);
       const int count = settings.storage == MomentStorage::Centred16 ? reference::kMomentCount : 14;

@@ -143,7 +143,9 @@ reference::Image<reference::Moments> decodeMoments(MomentStorage storage,
       const std::size_t perPixel = texture.size() / count;
       for (std::size_t w = 0; w < perPixel; ++w) words.push_back(texture[i * perPixel + w]);
     }
-    moments.pixels()[i] = decodePixel(storage, words);
+    reference::Moments& m = moments.pixels()[i];
+    m = decodePixel(storage, words);
+    if (m.x == glm::dvec2(0.0)) m = {};
   }
   return moments;
 }

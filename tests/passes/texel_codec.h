@@ -26,7 +26,8 @@ reference::Image<reference::Guide> decodeGuides(const std::vector<std::uint32_t>
                                                 const std::vector<std::uint32_t>& shadingNormal,
                                                 const std::vector<std::uint32_t>& geometricNormal, glm::ivec2 size);
 
-/// Centred moments from the texels of a storage's textures; raw storage has no second luminance moment, and W is 1.
+/// Centred moments from the texels of a storage's textures; raw storage has no second luminance moment, and W is 1,
+/// or 0 where the features' mean of 0 tells that there is no sample.
 reference::Image<reference::Moments> decodeMoments(MomentStorage storage,
                                                    const std::vector<std::vector<std::uint32_t>>& textures,
                                                    glm::ivec2 size);

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "tests/passes/comparison.h"
+#include "tests/passes/reference/hash.h"
 #include "tests/passes/synthetic_scene.h"
 #include "tests/passes/walr_run.h"
 #include "tests/vulkan/gpu_fixture.h"
@@ -180,6 +181,34 @@ TEST_F(WalrBehaviourTest, BrokenInputStaysFiniteAndDoesNotSpread) {
         expected.lighting[broken] = i == 1 ? glm::dvec3(stages.output[broken]) : kConstant;
         expectConstant(stages, expected);
       }
+    }
+  }
+}
+
+// Whatever share of the first frame is no sample: the others' light is all that is seen. The share is drawn anew in
+// each channel, so that what counted as black in one would also show as a tint.
+TEST_F(WalrBehaviourTest, PixelsWithoutASampleDoNotDarken) {
+  WalrSettings raw11 = paperWalr();
+  raw11.regression.storage = MomentStorage::Raw11;
+  raw11.regression.ridge = 1e-2F;
+  for (const double share : {0.1, 0.5}) {
+    for (const WalrSettings& settings : {robustWalr(), paperWalr(), raw11}) {
+      SCOPED_TRACE(std::to_string(share) + ", storage " + std::to_string(int(settings.regression.storage)));
+      WalrRun run = makeRun(kSmall, settings);
+      HostFrame frame = constantFrame(flatWall(), 0, kSmall);
+      int without = 0;
+      reference::forEachPixel(kSmall, [&](glm::ivec2 p) {
+        const glm::uvec4 dice = reference::pcg4d({p, 17, 3});
+        if (dice.x * 0x1p-32 >= share) return;
+        ++without;
+        frame.lighting[p][int(dice.y % 3)] = std::numeric_limits<double>::quiet_NaN();
+      });
+      EXPECT_GT(without, int(0.8 * share * kSmall.x * kSmall.y));
+      const WalrStages stages = run.frame(frame);
+      const double roundoff = settings.regression.storage == MomentStorage::Raw11 ? reference::kFloat10Roundoff
+                                                                                  : 2.0 * reference::kHalfRoundoff;
+      for (const glm::dvec4& v : stages.output.pixels())
+        for (int c = 0; c < 3; ++c) EXPECT_NEAR(v[c], kConstant[c], 6.0 * roundoff * kConstant[c]);
     }
   }
 }

@@ -24,7 +24,7 @@ AtrousState sampleMoments(const Image<Guide>& guides, const Image<glm::dvec4>& a
   AtrousState state;
   state.moments = Image<Moments>(guides.size());
   forEachPixel(guides.size(), [&](glm::ivec2 p) {
-    if (guides[p].depth > 0.0) state.moments[p] = momentsOf(guides[p].features, glm::dvec3(accumulated[p]));
+    if (guides[p].depth > 0.0) state.moments[p] = momentsOf(guides[p].features, accumulated[p]);
   });
   return state;
 }
@@ -70,6 +70,8 @@ AtrousPixel atrousPixel(const HostFrame& frame, const Image<Guide>& guides, cons
     parts[count++] = part(q, weight, traced.weight.error + 16.0 * kFloatRoundoff);
   }
   result.merged = merge(parts.data(), count);
+  // Bounds of the averages' errors are of first order in those of the weights.
+  result.undecided |= result.merged.error[kMomentCount - 1] > 0.01 * result.merged.moments.samples;
   return result;
 }
 
@@ -80,7 +82,7 @@ AtrousState atrousIteration(const HostFrame& frame, const Image<Guide>& guides, 
     if (guides[p].depth == 0.0) return;
     const AtrousPixel pixel = atrousPixel(frame, guides, state, p, iteration, settings);
     Moments moments = pixel.merged.moments;
-    if (!settings.keepSampleCount) moments.samples = 1.0;
+    if (!settings.keepSampleCount) moments.samples = moments.samples > 0.0 ? 1.0 : 0.0;
     next.moments[p] = storage == Storage::Quantised ? roundMoments(moments, settings.storage) : moments;
     next.distances[p] = std::min(pixel.nearestEdge, kLargestDistance);
   });

@@ -17,7 +17,7 @@ struct AtrousPixel {
   MergedMoments merged;
   int nearestEdge = 0;     ///< Step of the nearest edge on the eight traces; spacing + 1 if there is none.
   int replaced = 0;        ///< Number of taps that gave way to another on their segment.
-  bool undecided = false;  ///< Whether a tap met an edge lay within rounding.
+  bool undecided = false;  ///< Whether a tap met an edge, or any sample at all, lay within rounding.
 };
 
 /// The moments before the first iteration: each pixel's own sample.

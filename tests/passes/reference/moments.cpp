@@ -65,9 +65,10 @@ double luminance(glm::dvec3 colour) {
   return 0.2126 * colour.r + 0.7152 * colour.g + 0.0722 * colour.b;
 }
 
-Moments momentsOf(glm::dvec2 features, glm::dvec3 colour) {
+Moments momentsOf(glm::dvec2 features, glm::dvec4 accumulated) {
+  const glm::dvec3 colour(accumulated);
   const double l = luminance(colour);
-  return {.x = features, .y = colour, .luma2 = l * l, .samples = 1.0};
+  return {.x = features, .y = colour, .luma2 = l * l, .samples = accumulated.w > 0.0 ? 1.0 : 0.0};
 }
 
 MergedMoments merge(const WeightedMoments* parts, int count) {
@@ -79,6 +80,11 @@ MergedMoments merge(const WeightedMoments* parts, int count) {
     weightSum += w;
     meanX += w * parts[i].moments.x;
     meanY += w * parts[i].moments.y;
+  }
+  if (weightSum == 0.0) {
+    MergedMoments none{.moments = {.x = parts[0].moments.x, .y = parts[0].moments.y}};
+    for (int i = 0; i < count; ++i) none.error[kSamples] += parts[i].weightError * parts[i].moments.samples;
+    return none;
   }
   meanX /= weightSum;
   meanY /= weightSum;
@@ -132,6 +138,7 @@ MergedMoments merge(const WeightedMoments* parts, int count) {
 }
 
 Moments roundMoments(const Moments& m, MomentStorage storage) {
+  if (m.samples == 0.0) return {};
   const bool centred = storage == MomentStorage::Centred16;
   MomentValues a = toArray(centred ? m : toRaw(m));
   a[kLuma2] = std::sqrt(a[kLuma2]);

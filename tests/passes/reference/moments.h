@@ -4,6 +4,7 @@
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 
 #include "passes/weighted_regression.h"
 #include "tests/passes/reference/storage.h"
@@ -37,8 +38,9 @@ Moments toCentred(const Moments& raw);
 /// Rec. 709 luminance.
 double luminance(glm::dvec3 colour);
 
-/// Moments of a single sample.
-Moments momentsOf(glm::dvec2 features, glm::dvec3 colour);
+/// Moments of a single pixel.
+/// @param accumulated rgb: mean; a: number of samples behind it; 0: the pixel weighs nothing
+Moments momentsOf(glm::dvec2 features, glm::dvec4 accumulated);
 
 /// One part of a merge.
 struct WeightedMoments {
@@ -54,12 +56,13 @@ struct MergedMoments {
   MomentValues error{};
 };
 
-/// Moments of the union of weighted sets of samples: C = sum w (C_i + (m_i - M)(m_i - M)^T) / sum w.
+/// Moments of the union of weighted sets of samples: C = sum w (C_i + (m_i - M)(m_i - M)^T) / sum w. Without any sample
+/// the means are the centre's, and the rest is 0.
 /// @param parts the first is the window's centre, about which an implementation may take differences
 MergedMoments merge(const WeightedMoments* parts, int count);
 
 /// As a format keeps them between two iterations, rounded to nearest. Sixteen halves keep the mean squared luminance as
-/// its root; raw formats drop it and the sample count.
+/// its root; raw formats drop it and the sample count. Without a sample all values are 0.
 Moments roundMoments(const Moments& m, MomentStorage storage);
 
 /// What single precision adds to moments that an iteration reads: nothing where they are stored centred, else the

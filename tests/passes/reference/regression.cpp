@@ -87,7 +87,7 @@ Reconstruction reconstruct(const Moments& m, glm::dvec2 features, const Weighted
   const auto ridge = double(settings.ridge);
   const double noiseRidge = ridged ? double(settings.noiseRidge) : 0.0;
   Fit fit;
-  fit.lambda = ridged ? ridge + noiseRidge * relativeVariance(m) / m.samples : 0.0;
+  fit.lambda = ridged ? ridge + (m.samples > 0.0 ? noiseRidge * relativeVariance(m) / m.samples : 0.0) : 0.0;
   const double pivotFloor = ridged ? fit.lambda : ridge;
   // The normal equations of the paper, with the raw averages; a ridge leaves the constant alone, so that gain is 1.
   const Moments raw = toRaw(m);
