@@ -63,14 +63,6 @@ void noteNonFinite(Progress& progress, const Frame& frame) {
   }
 }
 
-void refuseMessages(const std::vector<fg::vk::Message>& messages) {
-  if (messages.empty()) {
-    return;
-  }
-  throw std::runtime_error("the validation layer has " + std::to_string(messages.size()) +
-                           " message(s); the first: " + messages.front().text);
-}
-
 void refuseOutputIntoInput(const DenoiseOptions& options) {
   std::error_code ignored;
   if (std::filesystem::equivalent(options.input, options.output.directory, ignored)) {
@@ -123,7 +115,7 @@ void denoise(DenoiseOptions& options) {
           progress.advance(Progress::Clock::now());
         });
   }
-  refuseMessages(device.takeMessages());
+  device.refuseMessages();
   printReport(std::cout, report);
   if (!options.json.empty()) {
     const std::string text = reportJson(report);

@@ -4,38 +4,16 @@
 #include <cstdint>
 #include <numeric>
 #include <span>
-#include <stdexcept>
 #include <utility>
 
-#include "framegraph/compile.h"
 #include "framegraph/vulkan/device.h"
-#include "framegraph/vulkan/driver_memory_model.h"
 #include "framegraph/vulkan/executor.h"
 #include "framegraph/vulkan/frame_queue.h"
-#include "framegraph/vulkan/physical_device.h"
 #include "framegraph/vulkan/staged_image.h"
 #include "integration/denoise_graph.h"
-#include "passes/frame.h"
-#include "samples/errors.h"
 
 namespace walr {
 namespace {
-
-fg::Plan compilePlan(const fg::Graph& graph, const fg::MemoryModel& memory) {
-  fg::CompileResult result = fg::compile(graph.desc(), memory);
-  if (!result.ok()) {
-    throw std::runtime_error("the method's frame graph does not compile:\n" + result.text());
-  }
-  return std::move(result.plan);
-}
-
-/// Compiles for a device, after a check that names every format use that it lacks.
-fg::Plan compileForDevice(const fg::Graph& graph, const fg::vk::PhysicalDevice& physical,
-                          const fg::vk::DeviceContext& device) {
-  const fg::Plan portable = compilePlan(graph, fg::TableMemoryModel());
-  fg::vk::require(physical, fg::vk::formatUses(graph.desc(), portable));
-  return compilePlan(graph, fg::vk::DriverMemoryModel(device));
-}
 
 // Frames are read, denoised and written side by side already; one on the device at a time keeps their order plain.
 constexpr std::uint32_t kFramesInFlight = 1;
@@ -64,15 +42,13 @@ class UploadedTexture {
 }  // namespace
 
 struct GpuDenoiser::State {
-  State(const GpuDevice& gpu, Denoiser& method, fg::Extent frameExtent, const Layout& frameLayout)
+  State(const GpuDevice& gpu, Denoiser& method, fg::Extent extent, const Layout& frameLayout)
       : device(gpu.device()),
-        extent(frameExtent),
         layout(frameLayout),
         declared(declareDenoiseGraph(
             method, extent, layout.conventions,
             {.inputs = fg::vk::kUploaded, .outputBefore = fg::vk::kOverwritable, .outputAfter = fg::vk::kReadable})),
-        executor(device.context(), declared.graph.desc(),
-                 compileForDevice(declared.graph, gpu.physical(), device.context()),
+        executor(device.context(), declared.graph.desc(), compileFor(gpu, declared.graph),
                  {.framesInFlight = kFramesInFlight, .timestamps = device.context().timestampBits > 0}),
         lighting(makeUpload(declared.inputs.lighting)),
         depth(makeUpload(declared.inputs.depth)),
@@ -87,25 +63,7 @@ struct GpuDenoiser::State {
 
   UploadedTexture makeUpload(fg::Texture texture) { return {device.context(), declared.graph, executor, texture}; }
 
-  FrameConstants constants(const Frame& frame) const {
-    try {
-      return frameConstants({.view = frame.camera.view,
-                             .previousView = frame.camera.previousView,
-                             .projection = frame.camera.projection,
-                             .previousProjection = frame.previousProjection,
-                             .jitter = frame.camera.jitter,
-                             .previousJitter = frame.previousJitter,
-                             .motionScale = layout.motionScale,
-                             .frameIndex = static_cast<std::uint32_t>(frame.number),
-                             .skyDepth = kSkyDepth},
-                            extent);
-    } catch (const std::invalid_argument& error) {
-      throw InputError("camera of frame " + std::to_string(frame.number) + ": " + error.what());
-    }
-  }
-
   const fg::vk::Device& device;
-  fg::Extent extent;
   const Layout& layout;
   DenoiseGraph declared;
   fg::vk::Executor executor;
@@ -135,7 +93,7 @@ GpuDenoiser& GpuDenoiser::operator=(GpuDenoiser&&) noexcept = default;
 DenoisedPicture GpuDenoiser::run(const PackedFrame& packed) {
   State& state = *state_;
   const Frame& frame = packed.frame;
-  state.executor.upload(state.declared.inputs.frame, state.constants(frame));
+  state.executor.upload(state.declared.inputs.frame, frameConstantsOf(frame, state.layout.motionScale));
   if (frame.resetHistory) {
     state.executor.resetAllHistory();
   }

@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "framegraph/graph.h"
+#include "framegraph/plan.h"
 #include "framegraph/vulkan/device.h"
 #include "framegraph/vulkan/instance.h"
 #include "framegraph/vulkan/messages.h"
@@ -32,6 +34,8 @@ class GpuDevice {
 
   /// What the validation layer said since the last call.
   std::vector<fg::vk::Message> takeMessages() { return log_.take(); }
+  /// @throws std::runtime_error with the first thing that the validation layer said, if it said anything
+  void refuseMessages();
 
  private:
   fg::vk::MessageLog log_;
@@ -39,5 +43,9 @@ class GpuDevice {
   fg::vk::PhysicalDevice physical_;
   fg::vk::Device device_;
 };
+
+/// Compile a graph for a device, after a check that names every format use that the device lacks.
+/// @throws std::runtime_error with all that is wrong with the graph; fg::vk::Error for what the device lacks
+fg::Plan compileFor(const GpuDevice& device, const fg::Graph& graph);
 
 }  // namespace walr

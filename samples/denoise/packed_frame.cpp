@@ -1,7 +1,10 @@
 #include "samples/denoise/packed_frame.h"
 
+#include <stdexcept>
+#include <string>
 #include <utility>
 
+#include "samples/errors.h"
 #include "samples/image/half.h"
 
 namespace walr {
@@ -35,6 +38,24 @@ PackedFrame packFrame(Frame frame) {
   packed.albedo = packRgba16(frame.albedo);
   packed.frame = std::move(frame);
   return packed;
+}
+
+FrameConstants frameConstantsOf(const Frame& frame, glm::vec2 motionScale) {
+  try {
+    return frameConstants(
+        {.view = frame.camera.view,
+         .previousView = frame.camera.previousView,
+         .projection = frame.camera.projection,
+         .previousProjection = frame.previousProjection,
+         .jitter = frame.camera.jitter,
+         .previousJitter = frame.previousJitter,
+         .motionScale = motionScale,
+         .frameIndex = static_cast<std::uint32_t>(frame.number),
+         .skyDepth = kSkyDepth},
+        {static_cast<std::uint32_t>(frame.depth.width()), static_cast<std::uint32_t>(frame.depth.height())});
+  } catch (const std::invalid_argument& error) {
+    throw InputError("camera of frame " + std::to_string(frame.number) + ": " + error.what());
+  }
 }
 
 }  // namespace walr

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "passes/frame.h"
 #include "samples/sequence/frame.h"
 
 namespace walr {
@@ -27,5 +28,10 @@ std::vector<Rgba16> packRgba16(const Image& image);
 Image unpackRgb(const std::vector<Rgba16>& texels, int width, int height);
 
 PackedFrame packFrame(Frame frame);
+
+/// The uniform block of a frame's camera.
+/// @param motionScale  see `FrameDescription::motionScale`
+/// @throws InputError naming a frame whose camera makes no sense
+FrameConstants frameConstantsOf(const Frame& frame, glm::vec2 motionScale);
 
 }  // namespace walr

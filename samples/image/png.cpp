@@ -27,6 +27,20 @@ Rgb8 displayColour(std::span<const float> linear) {
   return colour;
 }
 
+void write(const std::filesystem::path& path, std::size_t width, std::size_t height, std::span<const Rgb8> pixels) {
+  png_image image{};
+  image.version = PNG_IMAGE_VERSION;
+  image.width = static_cast<png_uint_32>(width);
+  image.height = static_cast<png_uint_32>(height);
+  image.format = PNG_FORMAT_RGB;
+  png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(image);
+  std::vector<std::byte> bytes(size);
+  if (png_image_write_to_memory(&image, bytes.data(), &size, 0, pixels.data(), 0, nullptr) == 0) {
+    throw OutputError("cannot encode " + path.string() + ": " + image.message);
+  }
+  writeFileAtomically(path, std::span(bytes).first(size));
+}
+
 }  // namespace
 
 void writePng(const std::filesystem::path& path, std::span<const Image* const> pictures) {
@@ -39,18 +53,17 @@ void writePng(const std::filesystem::path& path, std::span<const Image* const> p
       pixels[(row * pictures.size() + p) * width + i % width] = displayColour(pictures[p]->pixel(i));
     }
   }
+  write(path, width * pictures.size(), height, pixels);
+}
 
-  png_image image{};
-  image.version = PNG_IMAGE_VERSION;
-  image.width = static_cast<png_uint_32>(width * pictures.size());
-  image.height = static_cast<png_uint_32>(height);
-  image.format = PNG_FORMAT_RGB;
-  png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(image);
-  std::vector<std::byte> bytes(size);
-  if (png_image_write_to_memory(&image, bytes.data(), &size, 0, pixels.data(), 0, nullptr) == 0) {
-    throw OutputError("cannot encode " + path.string() + ": " + image.message);
+void writePng(const std::filesystem::path& path, int width, int height, std::span<const std::uint32_t> texels) {
+  std::vector<Rgb8> pixels;
+  pixels.reserve(texels.size());
+  for (const std::uint32_t texel : texels) {
+    pixels.push_back({static_cast<std::uint8_t>(texel), static_cast<std::uint8_t>(texel >> 8U),
+                      static_cast<std::uint8_t>(texel >> 16U)});
   }
-  writeFileAtomically(path, std::span(bytes).first(size));
+  write(path, static_cast<std::size_t>(width), static_cast<std::size_t>(height), pixels);
 }
 
 }  // namespace walr

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <span>
 
@@ -11,5 +12,9 @@ namespace walr {
 /// that are not finite show as magenta.
 /// @throws OutputError
 void writePng(const std::filesystem::path& path, std::span<const Image* const> pictures);
+
+/// Write a picture of RGBA8 texels (red in the lowest byte, rows from the top) as an 8-bit RGB PNG; alpha is dropped.
+/// @throws OutputError
+void writePng(const std::filesystem::path& path, int width, int height, std::span<const std::uint32_t> texels);
 
 }  // namespace walr

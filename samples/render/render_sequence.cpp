@@ -13,6 +13,7 @@
 #include "samples/image/file_output.h"
 #include "samples/render/film.h"
 #include "samples/render/load_scene.h"
+#include "samples/render/sequence_frame.h"
 #include "samples/sequence/writer.h"
 
 namespace walr::render {
@@ -60,44 +61,6 @@ void matchSettings(const RenderOptions& options) {
                        "'; take another --output or remove that folder");
     }
   }
-}
-
-walr::Image toImage(const Film& film, int components, const std::function<float(std::size_t, int)>& value) {
-  walr::Image image(static_cast<int>(film.width), static_cast<int>(film.height), components);
-  for (std::size_t i = 0; i < image.pixelCount(); ++i) {
-    for (int c = 0; c < components; ++c) {
-      image.pixel(i)[static_cast<std::size_t>(c)] = value(i, c);
-    }
-  }
-  return image;
-}
-
-walr::Image toImage(const Film& film, const std::vector<glm::vec3>& values) {
-  return toImage(film, 3, [&](std::size_t i, int c) { return values[i][c]; });
-}
-
-walr::Image toImage(const Film& film, glm::vec3 GBufferPixel::*member) {
-  return toImage(film, 3, [&](std::size_t i, int c) { return (film.gbuffer[i].*member)[c]; });
-}
-
-walr::Frame toFrame(const Film& film, const View& view, int number) {
-  walr::Frame frame;
-  frame.number = number;
-  frame.indirect = toImage(film, film.indirect);
-  frame.direct = toImage(film, film.direct);
-  frame.albedo = toImage(film, &GBufferPixel::albedo);
-  frame.normal = toImage(film, &GBufferPixel::normal);
-  frame.depth = toImage(film, 1, [&](std::size_t i, int /*component*/) {
-    const GBufferPixel& pixel = film.gbuffer[i];
-    return pixel.objectId == GBufferPixel::kSky ? kBackgroundDepth : -pixel.position.z;
-  });
-  frame.motion = toImage(film, &GBufferPixel::motion);
-  frame.emission = toImage(film, &GBufferPixel::emission);
-  frame.camera.view = view.viewFromWorld;
-  frame.camera.previousView = view.previousViewFromWorld;
-  frame.camera.projection = view.projection;
-  frame.camera.jitter = view.jitter;
-  return frame;
 }
 
 std::string describeWork(const std::string& file, double seconds, std::uint64_t rays) {
@@ -159,9 +122,7 @@ void renderSequence(const RenderOptions& options, const RenderObserver& observer
       renderFile(
           options.output / frameFileName("ref", number, "exr"), observer,
           [&] { return render(options.referenceSamples, 1); },
-          [&](const Film& film) {
-            writeReference(options.output, number, {toImage(film, film.indirect), toImage(film, film.direct)});
-          });
+          [&](const Film& film) { writeReference(options.output, number, toReference(film)); });
     }
   }
 }

@@ -11,18 +11,6 @@
 namespace walr::render {
 namespace {
 
-// The node's matrix without scale and shear.
-glm::mat4 rigid(const glm::mat4& worldFromNode, const std::string& name) {
-  const glm::vec3 back(worldFromNode[2]);
-  const glm::vec3 right = glm::cross(glm::vec3(worldFromNode[1]), back);
-  if (!(glm::length(back) > 0.0F) || !(glm::length(right) > 0.0F)) {
-    throw SceneError("camera node '" + name + "': its scale leaves it no direction");
-  }
-  const glm::vec3 z = glm::normalize(back);
-  const glm::vec3 x = glm::normalize(right);
-  return {glm::vec4(x, 0.0F), glm::vec4(glm::cross(z, x), 0.0F), glm::vec4(z, 0.0F), worldFromNode[3]};
-}
-
 float radicalInverse(int base, int index) {
   float result = 0.0F;
   float digit = 1.0F;
@@ -61,6 +49,18 @@ std::uint32_t findCamera(const Scene& scene, const std::string& name) {
   throw SceneError("the scene has no camera '" + name + "'; it has " + known);
 }
 
+glm::mat4 viewFromNode(const glm::mat4& worldFromNode, const std::string& name) {
+  const glm::vec3 back(worldFromNode[2]);
+  const glm::vec3 right = glm::cross(glm::vec3(worldFromNode[1]), back);
+  if (!(glm::length(back) > 0.0F) || !(glm::length(right) > 0.0F)) {
+    throw SceneError("camera node '" + name + "': its scale leaves it no direction");
+  }
+  const glm::vec3 z = glm::normalize(back);
+  const glm::vec3 x = glm::normalize(right);
+  return glm::inverse(
+      glm::mat4(glm::vec4(x, 0.0F), glm::vec4(glm::cross(z, x), 0.0F), glm::vec4(z, 0.0F), worldFromNode[3]));
+}
+
 View viewFrom(const World& world, std::uint32_t cameraNode, std::uint32_t width, std::uint32_t height,
               const glm::vec2& jitter, const glm::vec2& previousJitter) {
   const Node& node = world.scene().nodes[cameraNode];
@@ -68,8 +68,8 @@ View viewFrom(const World& world, std::uint32_t cameraNode, std::uint32_t width,
   View view;
   view.width = width;
   view.height = height;
-  view.viewFromWorld = glm::inverse(rigid(world.nodes()[cameraNode], node.name));
-  view.previousViewFromWorld = glm::inverse(rigid(world.previousNodes()[cameraNode], node.name));
+  view.viewFromWorld = viewFromNode(world.nodes()[cameraNode], node.name);
+  view.previousViewFromWorld = viewFromNode(world.previousNodes()[cameraNode], node.name);
   view.projection = glm::perspectiveRH_NO(camera.yfov, static_cast<float>(width) / static_cast<float>(height),
                                           camera.znear, camera.zfar);
   view.jitter = jitter;

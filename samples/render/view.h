@@ -33,6 +33,11 @@ std::vector<std::uint32_t> cameraNodes(const Scene& scene);
 /// @throws SceneError naming the cameras that there are
 std::uint32_t findCamera(const Scene& scene, const std::string& name);
 
+/// World to view space of a camera whose node stands so in the world: its scale and shear do not count.
+/// @param name  of the node, for the error's text
+/// @throws SceneError if the node's axes have no extent
+glm::mat4 viewFromNode(const glm::mat4& worldFromNode, const std::string& name);
+
 /// The view from a node with a camera. The picture's aspect is that of `width` x `height`; the camera's vertical field
 /// of view is kept.
 /// @throws SceneError if the node's axes have no extent

@@ -1,0 +1,26 @@
+#include "samples/cli/program.h"
+
+#include <csignal>
+#include <iostream>
+
+#include "samples/cli/exit_code.h"
+
+namespace walr {
+
+int runProgram(CLI::App& program, int argc, char** argv) {
+  // A file size limit shall be an error of the write like a full disk, not the end of the process.
+  std::signal(SIGXFSZ, SIG_IGN);
+  program.footer(kExitCodeHelp);
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return program.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::Usage);
+  } catch (const std::exception& error) {
+    std::cout.flush();
+    std::cerr << program.get_name() << ": " << error.what() << '\n';
+    return static_cast<int>(exitCode(error));
+  }
+  return 0;
+}
+
+}  // namespace walr

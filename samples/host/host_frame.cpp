@@ -1,0 +1,19 @@
+#include "samples/host/host_frame.h"
+
+#include <utility>
+
+namespace walr::host {
+
+HostFrame packHostFrame(Frame frame) {
+  HostFrame packed;
+  packed.direct = packRgba16(frame.direct);
+  packed.emission = packRgba16(frame.emission);
+  if (frame.reference) {
+    packed.referenceDirect = packRgba16(frame.reference->direct);
+    packed.referenceIndirect = packRgba16(frame.reference->indirect);
+  }
+  packed.inputs = packFrame(std::move(frame));
+  return packed;
+}
+
+}  // namespace walr::host

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <vector>
+
+#include "samples/denoise/packed_frame.h"
+
+namespace walr::host {
+
+/// A traced frame with its pictures in the formats of the host's textures.
+struct HostFrame {
+  PackedFrame inputs;  ///< What the denoiser takes; `inputs.frame.number` seeds it.
+  std::vector<Rgba16> direct;
+  std::vector<Rgba16> emission;
+  std::vector<Rgba16> referenceDirect;  ///< For the split view; empty otherwise.
+  std::vector<Rgba16> referenceIndirect;
+};
+
+HostFrame packHostFrame(Frame frame);
+
+}  // namespace walr::host

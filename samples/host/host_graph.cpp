@@ -1,0 +1,147 @@
+#include "samples/host/host_graph.h"
+
+#include <algorithm>
+
+#include "samples/cli/usage_error.h"
+#include "samples/host/shaders/view_constants.h"
+#include "shaders/constants/frame.h"
+
+namespace walr::host {
+namespace {
+
+constexpr VkFormat kColourFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
+constexpr VkFormat kDepthFormat = VK_FORMAT_R32_SFLOAT;
+constexpr VkFormat kDisplayFormat = VK_FORMAT_R8G8B8A8_UNORM;
+
+fg::Texture declareTarget(fg::Graph& graph, const std::string& name, const fg::TextureDesc& desc,
+                          const std::optional<HostTargets::Target>& target) {
+  return target ? graph.import(name, desc, target->before) : graph.texture(name, desc);
+}
+
+void exportTarget(fg::Graph& graph, fg::Texture texture, const std::optional<HostTargets::Target>& target) {
+  if (target) {
+    graph.exported(texture, target->after);
+  }
+}
+
+/// Can be sampled: not the last frame's contents, which have a name of their own, and written or brought by the host.
+bool isViewable(const fg::ResourceDecl& resource) {
+  const auto* texture = std::get_if<fg::TextureDesc>(&resource.desc);
+  const bool filled = resource.versions > 0 || resource.lifetime == fg::Lifetime::Imported;
+  return texture != nullptr && texture->arrayLayers == 1 && filled &&
+         resource.lifetime != fg::Lifetime::HistoryPrevious;
+}
+
+/// The last version of the texture with a name.
+fg::Texture findTexture(const fg::GraphDesc& graph, const std::string& name) {
+  for (std::uint32_t i = 0; i < graph.resources.size(); ++i) {
+    if (graph.resources[i].name == name && isViewable(graph.resources[i])) {
+      return fg::Texture{{i, graph.resources[i].versions}};
+    }
+  }
+  std::string known;
+  for (const std::string& texture : viewableTextures(graph)) {
+    known += (known.empty() ? "'" : ", '") + texture + "'";
+  }
+  throw UsageError("there is no texture '" + name + "' in the frame; there are " + known);
+}
+
+void declareInputs(HostGraph& host, fg::Extent extent, const HostView& view, const fg::vk::DeviceContext& device) {
+  fg::Graph& graph = host.graph;
+  std::vector<UploadedPicture*> uploads;
+  const auto picture = [&](UploadedPicture& target, const char* name, VkFormat format) {
+    target = declarePicture(graph, name, format, extent);
+    uploads.push_back(&target);
+  };
+  picture(host.lighting, "lighting", kColourFormat);
+  picture(host.depth, "depth", kDepthFormat);
+  picture(host.normal, "normal", kColourFormat);
+  picture(host.motion, "motion", kColourFormat);
+  picture(host.albedo, "albedo", kColourFormat);
+  picture(host.direct, "direct light", kColourFormat);
+  picture(host.emission, "emission", kColourFormat);
+  if (view.needsReference()) {
+    picture(host.referenceIndirect.emplace(), "reference", kColourFormat);
+    picture(host.referenceDirect.emplace(), "reference direct light", kColourFormat);
+  }
+  addUploads(graph, device, uploads);
+  host.frameConstants = graph.upload("frame constants", sizeof(FrameConstants));
+}
+
+/// The picture with the light of one of the sources, beside the composite that is there anyway.
+fg::Texture litBy(HostGraph& host, HostView::Kind source) {
+  if (source == HostView::Kind::Denoised) {
+    return host.composite;
+  }
+  const bool noisy = source == HostView::Kind::Noisy;
+  const std::string name = noisy ? "composite noisy" : "composite reference";
+  const fg::Texture output =
+      host.graph.texture(noisy ? "lit noisy" : "lit reference", host.graph.textureDesc(host.composite));
+  const fg::Texture indirect = noisy ? host.lighting.texture : host.referenceIndirect->texture;
+  const fg::Texture direct = noisy ? host.direct.texture : host.referenceDirect->texture;
+  return addComposite(host.graph, name, indirect, {direct, host.albedo.texture, host.emission.texture}, output);
+}
+
+void addView(HostGraph& host, const HostView& view) {
+  fg::Graph& graph = host.graph;
+  const bool takesConstants = view.kind == HostView::Kind::Split || view.kind == HostView::Kind::Texture;
+  if (takesConstants) {
+    host.viewConstants = graph.upload("view constants", sizeof(ViewConstants));
+  }
+  if (view.kind == HostView::Kind::Texture) {
+    host.display = addInspection(graph, findTexture(graph.desc(), view.texture), *host.viewConstants, host.display);
+  } else if (view.kind == HostView::Kind::Split) {
+    const fg::Texture noisy = litBy(host, HostView::Kind::Noisy);
+    const fg::Texture reference = litBy(host, HostView::Kind::Reference);
+    host.display = addSplitToneMap(graph, noisy, host.composite, reference, *host.viewConstants, host.display);
+  } else {
+    host.display = addToneMap(graph, litBy(host, view.kind), host.display);
+  }
+}
+
+}  // namespace
+
+HostGraph declareHostGraph(const fg::vk::DeviceContext& device, Denoiser& method, fg::Extent extent,
+                           const HostView& view, const HostTargets& targets,
+                           const std::function<void(fg::Graph&, fg::Texture display)>& present) {
+  HostGraph host;
+  fg::Graph& graph = host.graph;
+  declareInputs(host, extent, view, device);
+
+  const fg::TextureDesc colour{.format = kColourFormat, .extent = extent};
+  const DenoiserInputs inputs{.lighting = host.lighting.texture,
+                              .depth = host.depth.texture,
+                              .normal = host.normal.texture,
+                              .motion = host.motion.texture,
+                              .albedo = host.albedo.texture,
+                              .frame = host.frameConstants,
+                              .conventions = {}};
+  host.denoised = method.add(graph, inputs, declareTarget(graph, "denoised", colour, targets.denoised));
+  host.composite =
+      addComposite(graph, "composite", host.denoised, {host.direct.texture, host.albedo.texture, host.emission.texture},
+                   declareTarget(graph, "lit", colour, targets.composite));
+  // Declared after all that can be viewed, so that it is not among it.
+  host.display = declareTarget(graph, "display", {.format = kDisplayFormat, .extent = extent}, targets.display);
+  addView(host, view);
+
+  exportTarget(graph, host.denoised, targets.denoised);
+  exportTarget(graph, host.composite, targets.composite);
+  exportTarget(graph, host.display, targets.display);
+  if (present) {
+    present(graph, host.display);
+  }
+  return host;
+}
+
+std::vector<std::string> viewableTextures(const fg::GraphDesc& graph) {
+  std::vector<std::string> names;
+  for (const fg::ResourceDecl& resource : graph.resources) {
+    if (isViewable(resource) && resource.name != "display") {
+      names.push_back(resource.name);
+    }
+  }
+  std::ranges::sort(names);
+  return names;
+}
+
+}  // namespace walr::host

@@ -1,0 +1,75 @@
+#include "samples/host/host_options.h"
+
+namespace walr::host {
+
+void addHostOptions(CLI::App& program, HostOptions& options) {
+  Tracer::Options& tracer = options.tracer;
+  program.add_option("SCENE", tracer.scene, "glTF 2.0 file, .gltf or .glb")->required();
+  program.add_flag("--headless", options.headless, "Open no window; write --frames to --output");
+  program.add_option("-o,--output", options.output, "Without a window: folder for frame_FFFF.png; made if need be")
+      ->type_name("DIR");
+  program.add_flag("--exr", options.exr, "Also write frame_FFFF.exr, the linear lit picture in half floats");
+  program.add_option("--frames", options.frames, "Frames of the scene's animation, both included")
+      ->type_name("A-B")
+      ->capture_default_str();
+  program.add_option("--size", options.size, "Size of the picture in pixels, 1 to 16384 each")
+      ->type_name("WIDTHxHEIGHT")
+      ->capture_default_str();
+  program
+      .add_option(
+          "--view", options.view,
+          "What is shown: denoised, noisy, reference, split (these three beside one another) or the name of a texture "
+          "of the frame")
+      ->type_name("VIEW")
+      ->capture_default_str();
+  addMethodOptions(program, options.method);
+  program
+      .add_option("--device", options.gpu.device,
+                  "Vulkan device by number or part of its name; default: the most capable")
+      ->type_name("N|NAME");
+  program.add_flag("--validate", options.gpu.validation,
+                   "Run under the Khronos validation layer with synchronization validation; any message is an error");
+  constexpr std::uint32_t kMostSamples = 1U << 16U;
+  program.add_option("--spp", tracer.samples, "Paths a pixel")
+      ->check(CLI::Range(1U, kMostSamples))
+      ->capture_default_str();
+  program
+      .add_option("--reference-spp", tracer.referenceSamples,
+                  "Paths a pixel of a reference, for the views that show one; they add up while nothing moves")
+      ->check(CLI::Range(1U, kMostSamples))
+      ->capture_default_str();
+  constexpr std::uint32_t kMostBounces = 1024;
+  program.add_option("--bounces", tracer.bounces, "Surfaces after the first that reflect light")
+      ->check(CLI::Range(0U, kMostBounces))
+      ->capture_default_str();
+  program.add_option("--seed", tracer.seed, "Number of the random sequence")->capture_default_str();
+  constexpr double kSlowest = 1e-3;
+  constexpr double kFastest = 1e6;
+  program.add_option("--fps", tracer.framesPerSecond, "Frames a second of the animation")
+      ->check(CLI::Range(kSlowest, kFastest))
+      ->capture_default_str();
+  program.add_option("--camera", tracer.camera, "Name of the camera or of its node; default: the first");
+  program.add_flag("--jitter", tracer.jitter, "Sample off the pixel centre: 16 Halton points, one a frame");
+  program.add_flag(
+      "--denoise-direct", tracer.denoiseDirect,
+      "Denoise the direct light with the indirect: for lamps and skies that one path a pixel samples badly");
+  program.add_option("--threads", tracer.threads, "Threads that trace; 0: one for every core")->capture_default_str();
+}
+
+HostView parseView(const std::string& text) {
+  if (text == "denoised") {
+    return {HostView::Kind::Denoised, ""};
+  }
+  if (text == "noisy") {
+    return {HostView::Kind::Noisy, ""};
+  }
+  if (text == "reference") {
+    return {HostView::Kind::Reference, ""};
+  }
+  if (text == "split") {
+    return {HostView::Kind::Split, ""};
+  }
+  return {HostView::Kind::Texture, text};
+}
+
+}  // namespace walr::host

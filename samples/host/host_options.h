@@ -1,0 +1,33 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "samples/cli/method_options.h"
+#include "samples/denoise/gpu_device.h"
+#include "samples/host/host_graph.h"
+#include "samples/host/tracer.h"
+
+namespace walr::host {
+
+/// The command line of `walr-host`.
+struct HostOptions {
+  Tracer::Options tracer;
+  MethodOptions method;
+  GpuDevice::Options gpu;
+  std::string frames = "0-11";
+  std::string size = "640x360";
+  std::string view = "denoised";
+  std::filesystem::path output;
+  bool headless = false;
+  bool exr = false;
+};
+
+void addHostOptions(CLI::App& program, HostOptions& options);
+
+/// The view that `--view` names: denoised, noisy, reference, split, or a texture of the frame.
+HostView parseView(const std::string& text);
+
+}  // namespace walr::host

@@ -1,0 +1,25 @@
+// The lit picture without specular light: albedo * (direct + indirect) + emission. Values of albedo, direct light or
+// emission that are not finite count as 0, as in walr::composite.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_samplerless_texture_functions : require
+#include "include/finite.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(set = 0, binding = 0) uniform texture2D indirect;
+layout(set = 0, binding = 1) uniform texture2D direct;
+layout(set = 0, binding = 2) uniform texture2D albedo;
+layout(set = 0, binding = 3) uniform texture2D emission;
+layout(set = 0, binding = 4, rgba16f) uniform writeonly image2D outLit;
+
+vec3 known(vec3 value) {
+  return vec3(isFinite(value.r) ? value.r : 0.0, isFinite(value.g) ? value.g : 0.0, isFinite(value.b) ? value.b : 0.0);
+}
+
+void main() {
+  const ivec2 p = ivec2(gl_GlobalInvocationID.xy);
+  if (any(greaterThanEqual(p, textureSize(indirect, 0)))) return;
+  const vec3 arriving = known(texelFetch(direct, p, 0).rgb) + texelFetch(indirect, p, 0).rgb;
+  const vec3 lit = known(texelFetch(albedo, p, 0).rgb) * arriving + known(texelFetch(emission, p, 0).rgb);
+  imageStore(outLit, p, vec4(min(lit, vec3(kLargestHalf)), 1.0));
+}

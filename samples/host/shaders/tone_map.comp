@@ -1,0 +1,31 @@
+// Makes a lit picture ready for the screen. SPLIT: shows three pictures of the same pixels side by side, with a line
+// between them.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_samplerless_texture_functions : require
+#include "display.glsl"
+#include "view_constants.h"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(set = 0, binding = 0) uniform texture2D lit;
+layout(set = 0, binding = 1, rgba8) uniform writeonly image2D outDisplay;
+#ifdef SPLIT
+layout(set = 0, binding = 2) uniform texture2D left;
+layout(set = 0, binding = 3) uniform texture2D right;
+layout(set = 0, binding = 4, std140) uniform View { ViewConstants view; };
+#endif
+
+void main() {
+  const ivec2 p = ivec2(gl_GlobalInvocationID.xy);
+  if (any(greaterThanEqual(p, textureSize(lit, 0)))) return;
+#ifdef SPLIT
+  vec3 linear = texelFetch(lit, p, 0).rgb;
+  if (p.x < view.leftEdge) linear = texelFetch(left, p, 0).rgb;
+  if (p.x >= view.rightEdge) linear = texelFetch(right, p, 0).rgb;
+  const bool line = p.x == view.leftEdge || p.x == view.rightEdge;
+  const vec3 colour = line ? vec3(1.0) : display(linear);
+#else
+  const vec3 colour = display(texelFetch(lit, p, 0).rgb);
+#endif
+  imageStore(outDisplay, p, vec4(colour, 1.0));
+}

@@ -1,0 +1,126 @@
+#include "samples/host/tracer.h"
+
+#include <algorithm>
+#include <functional>
+#include <limits>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "samples/render/animation.h"
+#include "samples/render/load_scene.h"
+#include "samples/render/sequence_frame.h"
+#include "samples/render/view.h"
+
+namespace walr::host {
+namespace {
+
+bool sameCamera(const render::View& a, const render::View& b) {
+  return a.viewFromWorld == b.viewFromWorld && a.jitter == b.jitter;
+}
+
+/// Adds the direct light to the indirect, and leaves none.
+void moveDirect(Image& direct, Image& indirect) {
+  std::ranges::transform(indirect.values(), direct.values(), indirect.values().begin(), std::plus<>());
+  std::ranges::fill(direct.values(), 0.0F);
+}
+
+}  // namespace
+
+Tracer::Tracer(const Options& options)
+    : options_(options),
+      scene_(render::loadScene(options.scene)),
+      camera_(render::findCamera(scene_, options.camera)),
+      world_(scene_) {}
+
+glm::mat4 Tracer::sceneCamera(double animationFrame) const {
+  const std::vector<glm::mat4> nodes = render::worldTransforms(scene_, animationFrame / options_.framesPerSecond);
+  return render::viewFromNode(nodes[camera_], scene_.nodes[camera_].name);
+}
+
+double Tracer::lastAnimationFrame() const {
+  float last = 0.0F;
+  for (const render::AnimationChannel& channel : scene_.animation) {
+    last = std::max(last, channel.times.back());
+  }
+  return last * options_.framesPerSecond;
+}
+
+glm::vec4 Tracer::bounds() const {
+  glm::vec3 low(std::numeric_limits<float>::max());
+  glm::vec3 high(std::numeric_limits<float>::lowest());
+  for (const render::Instance& instance : world_.instances()) {
+    for (const glm::vec3& position : scene_.meshes[instance.mesh].positions) {
+      const glm::vec3 point(instance.worldFromObject * glm::vec4(position, 1.0F));
+      low = glm::min(low, point);
+      high = glm::max(high, point);
+    }
+  }
+  return {0.5F * (low + high), 0.5F * glm::distance(low, high)};
+}
+
+render::View Tracer::viewOf(const Request& request) const {
+  const auto jitter = [&](int frame) { return options_.jitter ? render::haltonJitter(frame) : glm::vec2(0.0F); };
+  const Request& before = previous_ ? *previous_ : request;
+  render::View view = render::viewFrom(world_, camera_, options_.extent.width, options_.extent.height,
+                                       jitter(request.number), jitter(before.number));
+  if (request.view) {
+    view.viewFromWorld = *request.view;
+  }
+  view.previousViewFromWorld = previous_ ? previousView_ : view.viewFromWorld;
+  return view;
+}
+
+Frame Tracer::trace(const Request& request) {
+  const double before = previous_ ? previous_->animationFrame : request.animationFrame;
+  world_.moveTo(request.animationFrame / options_.framesPerSecond, before / options_.framesPerSecond);
+  const render::View view = viewOf(request);
+  render::SamplingSettings sampling;
+  sampling.samples = options_.samples;
+  sampling.bounces = options_.bounces;
+  sampling.seed = options_.seed * 2;
+  sampling.firstSample = static_cast<std::uint32_t>(request.number) * options_.samples;
+  sampling.threads = options_.threads;
+  Frame frame = render::toFrame(render::renderFilm(world_, view, sampling), view, request.number);
+  frame.camera.cut = request.cut;
+  frame.resetHistory = request.cut || !previous_;
+  if (request.reference) {
+    frame.reference = traceReference(request, view);
+  }
+  if (options_.denoiseDirect) {
+    moveDirect(frame.direct, frame.indirect);
+    if (frame.reference) {
+      moveDirect(frame.reference->direct, frame.reference->indirect);
+    }
+  }
+  previous_ = request;
+  previousView_ = view.viewFromWorld;
+  return frame;
+}
+
+Reference Tracer::traceReference(const Request& request, const render::View& view) {
+  const std::size_t pixels = static_cast<std::size_t>(view.width) * view.height;
+  const bool same =
+      reference_.steps > 0 && reference_.animationFrame == request.animationFrame && sameCamera(reference_.view, view);
+  if (!same) {
+    reference_ = {request.animationFrame, view, std::vector<glm::dvec3>(pixels), std::vector<glm::dvec3>(pixels), 0};
+  }
+  render::SamplingSettings sampling;
+  sampling.samples = options_.referenceSamples;
+  sampling.bounces = options_.bounces;
+  // Never the random numbers of the noisy frames: their seeds differ in the lowest bit.
+  sampling.seed = options_.seed * 2 + 1;
+  sampling.firstSample = reference_.steps * options_.referenceSamples;
+  sampling.threads = options_.threads;
+  render::Film film = render::renderFilm(world_, view, sampling);
+  ++reference_.steps;
+  for (std::size_t i = 0; i < pixels; ++i) {
+    reference_.indirect[i] += glm::dvec3(film.indirect[i]);
+    reference_.direct[i] += glm::dvec3(film.direct[i]);
+    film.indirect[i] = glm::vec3(reference_.indirect[i] / static_cast<double>(reference_.steps));
+    film.direct[i] = glm::vec3(reference_.direct[i] / static_cast<double>(reference_.steps));
+  }
+  return render::toReference(film);
+}
+
+}  // namespace walr::host

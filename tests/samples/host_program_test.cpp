@@ -1,0 +1,82 @@
+// `walr-host` as users call it: exit codes, messages, files.
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "tests/samples/process.h"
+#include "tests/samples/synthetic_sequence.h"
+#include "tests/samples/temporary_directory.h"
+
+namespace walr {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kUsage = 2;
+constexpr int kInput = 3;
+constexpr int kOutput = 5;
+
+class HostProgramTest : public testing::Test {
+ protected:
+  [[nodiscard]] test::ProcessResult host(const std::vector<std::string>& more) const {
+    std::vector<std::string> arguments = {WALR_HOST_PROGRAM, "--headless", "--validate", "--size", "32x18"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return test::runProcess(arguments);
+  }
+  [[nodiscard]] std::vector<std::string> outputFiles() const {
+    std::vector<std::string> names;
+    for (const auto& file : fs::directory_iterator(output)) {
+      names.push_back(file.path().filename().string());
+    }
+    std::ranges::sort(names);
+    return names;
+  }
+
+  test::TemporaryDirectory folder;
+  fs::path output = folder.path() / "out";
+  std::string scene = WALR_SCENES "/turntable.gltf";
+};
+
+TEST_F(HostProgramTest, WritesAPictureAFrame) {
+  const test::ProcessResult result =
+      host({scene, "-o", output.string(), "--frames", "11-13", "--exr", "--set", "regression.iterations=2"});
+  ASSERT_EQ(result.exitCode, 0) << result.err;
+  EXPECT_EQ(outputFiles(), (std::vector<std::string>{"frame_0011.exr", "frame_0011.png", "frame_0012.exr",
+                                                     "frame_0012.png", "frame_0013.exr", "frame_0013.png"}));
+  EXPECT_NE(result.out.find("method: walr"), std::string::npos) << result.out;
+}
+
+TEST_F(HostProgramTest, RefusesCommandLinesWithoutMeaning) {
+  const auto expectUsage = [&](const std::vector<std::string>& arguments, const std::string& named) {
+    const test::ProcessResult result = host(arguments);
+    EXPECT_EQ(result.exitCode, kUsage) << result.err;
+    EXPECT_NE(result.err.find(named), std::string::npos) << result.err;
+  };
+  expectUsage({}, "SCENE");
+  expectUsage({scene}, "--output");
+  expectUsage({scene, "-o", output.string(), "--frames", "3-1"}, "--frames 3-1");
+  expectUsage({scene, "-o", output.string(), "--set", "nothing=1"}, "nothing");
+  expectUsage({scene, "-o", output.string(), "--view", "nothing"}, "'guides.depth.current'");
+  EXPECT_FALSE(fs::exists(output));
+}
+
+TEST_F(HostProgramTest, NamesTheSceneThatCannotBeRead) {
+  const fs::path broken = folder.path() / "broken.glb";
+  test::writeText(broken, "glTF");
+  const test::ProcessResult result = host({broken.string(), "-o", output.string()});
+  EXPECT_EQ(result.exitCode, kInput) << result.err;
+  EXPECT_NE(result.err.find(broken.string()), std::string::npos) << result.err;
+}
+
+TEST_F(HostProgramTest, NamesAFolderThatCannotBeMade) {
+  test::writeText(output, "a file");
+  const test::ProcessResult result = host({scene, "-o", output.string()});
+  EXPECT_EQ(result.exitCode, kOutput) << result.err;
+  EXPECT_NE(result.err.find(output.string()), std::string::npos) << result.err;
+}
+
+}  // namespace
+}  // namespace walr

@@ -1,0 +1,304 @@
+// The sample host without a window: its frame on a device under synchronization validation, against the processor.
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "passes/denoiser.h"
+#include "samples/cli/usage_error.h"
+#include "samples/denoise/frame_output.h"
+#include "samples/denoise/gpu_denoiser.h"
+#include "samples/denoise/gpu_device.h"
+#include "samples/host/headless.h"
+#include "samples/host/renderer.h"
+#include "samples/host/tracer.h"
+#include "samples/image/exr.h"
+#include "samples/image/half.h"
+#include "samples/image/tone_map.h"
+#include "tests/samples/temporary_directory.h"
+
+namespace walr::host {
+namespace {
+
+constexpr fg::Extent kExtent{72, 40};
+// The camera sets off in frame 4; the picture's objects stand still.
+constexpr FrameRange kFrames{2, 7};
+
+Tracer::Options tracing(const std::string& scene = "box.gltf") {
+  Tracer::Options options;
+  options.scene = std::string(WALR_SCENES "/") + scene;
+  options.extent = kExtent;
+  return options;
+}
+
+class HostTest : public testing::Test {
+ protected:
+  void TearDown() override { EXPECT_NO_THROW(gpu.refuseMessages()); }
+
+  std::vector<RenderedFrame> render(const Renderer::Options& options, const std::string& method = "walr",
+                                    const Tracer::Options& tracerOptions = tracing()) {
+    Tracer tracer(tracerOptions);
+    const std::unique_ptr<Denoiser> denoiser = makeDenoiser(method);
+    Renderer renderer(gpu, *denoiser, kExtent, options);
+    Tracer::Request request;
+    request.reference = options.view.needsReference();
+    std::vector<RenderedFrame> frames;
+    renderFrames(tracer, renderer, kFrames, request, [&](const RenderedFrame& frame) { frames.push_back(frame); });
+    return frames;
+  }
+
+  GpuDevice gpu{{.device = "", .validation = true}};
+};
+
+Renderer::Options readAll() {
+  Renderer::Options options;
+  options.readComposite = true;
+  options.readDenoised = true;
+  return options;
+}
+
+// The frames as the tracer makes them, in the precision of the textures.
+std::map<int, Frame> tracedFrames() {
+  Tracer tracer(tracing());
+  std::map<int, Frame> frames;
+  const auto roundToHalf = [](Image& image) {
+    for (float& value : image.values()) {
+      value = toHalf(value);
+    }
+  };
+  for (int number = kFrames.first; number <= kFrames.last; ++number) {
+    Frame frame = tracer.trace({.number = number, .animationFrame = static_cast<double>(number)});
+    for (Image* image : {&frame.indirect, &frame.direct, &frame.albedo, &frame.emission}) {
+      roundToHalf(*image);
+    }
+    frames[number] = std::move(frame);
+  }
+  return frames;
+}
+
+// One unit in the last place of a half float: what storing may round by, in whichever direction the device rounds.
+float halfStep(float value) {
+  constexpr float kSmallest = 0x1p-24F;
+  return std::max(std::abs(value) * 0x1p-10F, kSmallest);
+}
+
+std::uint32_t channel(std::uint32_t texel, int c) {
+  return (texel >> (8U * static_cast<std::uint32_t>(c))) & 0xFFU;
+}
+
+void expectToneMapped(const RenderedFrame& frame, const Image& lit) {
+  for (std::size_t i = 0; i < frame.display.size(); ++i) {
+    for (int c = 0; c < 3; ++c) {
+      const float expected = 255.0F * encodeSrgb(toneMap(lit.pixel(i)[static_cast<std::size_t>(c)]));
+      // Rounding to a byte, and half a step where the device's power function is a little off.
+      ASSERT_NEAR(static_cast<float>(channel(frame.display[i], c)), expected, 1.0F) << "pixel " << i;
+    }
+  }
+}
+
+TEST_F(HostTest, CompositeAndToneMapAreThoseOfTheProcessor) {
+  const std::map<int, Frame> traced = tracedFrames();
+  const std::vector<RenderedFrame> frames = render(readAll());
+  ASSERT_EQ(frames.size(), traced.size());
+  double light = 0.0;
+  for (const RenderedFrame& frame : frames) {
+    const Frame& inputs = traced.at(frame.number);
+    const Image expected = composite(frame.denoised, inputs.direct, inputs.albedo, inputs.emission);
+    for (std::size_t i = 0; i < expected.values().size(); ++i) {
+      ASSERT_NEAR(frame.composite.values()[i], expected.values()[i], halfStep(expected.values()[i]))
+          << "frame " << frame.number << ", value " << i;
+      light += expected.values()[i];
+    }
+    expectToneMapped(frame, frame.composite);
+  }
+  EXPECT_GT(light, 0.0);
+}
+
+TEST_F(HostTest, DenoisesAsTheMethodAloneInItsGraph) {
+  const std::vector<RenderedFrame> frames = render(readAll());
+  const std::unique_ptr<Denoiser> method = makeDenoiser("walr");
+  GpuDenoiser alone(gpu, *method, kExtent, projectLayout());
+  Tracer tracer(tracing());
+  for (const RenderedFrame& frame : frames) {
+    const Tracer::Request request{.number = frame.number, .animationFrame = static_cast<double>(frame.number)};
+    const DenoisedFrame expected = alone.denoise(packFrame(tracer.trace(request)));
+    EXPECT_TRUE(std::ranges::equal(frame.denoised.values(), expected.indirect.values())) << "frame " << frame.number;
+  }
+}
+
+TEST_F(HostTest, FramesInFlightDoNotChangeABit) {
+  for (const char* const method : {"walr", "svgf"}) {
+    Renderer::Options options = readAll();
+    options.framesInFlight = 1;
+    const std::vector<RenderedFrame> one = render(options, method);
+    for (const std::uint32_t inFlight : {2U, 3U}) {
+      options.framesInFlight = inFlight;
+      const std::vector<RenderedFrame> several = render(options, method);
+      ASSERT_EQ(several.size(), one.size());
+      for (std::size_t i = 0; i < one.size(); ++i) {
+        EXPECT_EQ(several[i].number, one[i].number);
+        EXPECT_EQ(several[i].display, one[i].display) << method << ", " << inFlight << " in flight, frame " << i;
+        EXPECT_TRUE(std::ranges::equal(several[i].composite.values(), one[i].composite.values()));
+      }
+    }
+  }
+}
+
+TEST_F(HostTest, RefusesMoreFramesThanMayBeInFlight) {
+  Tracer tracer(tracing());
+  const std::unique_ptr<Denoiser> method = makeDenoiser("none");
+  Renderer renderer(gpu, *method, kExtent, {.framesInFlight = 1});
+  const HostFrame frame = packHostFrame(tracer.trace({}));
+  EXPECT_FALSE(renderer.finish().has_value());
+  renderer.submit(frame);
+  EXPECT_THROW(renderer.submit(frame), std::logic_error);
+  EXPECT_TRUE(renderer.finish().has_value());
+}
+
+TEST_F(HostTest, SplitViewShowsNoisyDenoisedAndReference) {
+  Renderer::Options options;
+  const auto show = [&](HostView::Kind kind) {
+    options.view.kind = kind;
+    return render(options).back().display;
+  };
+  const auto noisy = show(HostView::Kind::Noisy);
+  const auto denoised = show(HostView::Kind::Denoised);
+  const auto reference = show(HostView::Kind::Reference);
+  options.viewConstants = {.leftEdge = 20, .rightEdge = 50, .gain = 1.0F, .bias = 0.0F};
+  const auto split = show(HostView::Kind::Split);
+  EXPECT_NE(noisy, denoised);
+  EXPECT_NE(denoised, reference);
+  for (std::size_t i = 0; i < split.size(); ++i) {
+    const int x = static_cast<int>(i % kExtent.width);
+    const std::uint32_t shown = x < 20 ? noisy[i] : x < 50 ? denoised[i] : reference[i];
+    EXPECT_EQ(split[i], x == 20 || x == 50 ? 0xFFFFFFFFU : shown) << "pixel " << i;
+  }
+}
+
+TEST_F(HostTest, EveryTextureCanBeViewed) {
+  for (const std::string& method : denoiserNames()) {
+    const std::unique_ptr<Denoiser> denoiser = makeDenoiser(method);
+    const HostGraph whole = declareHostGraph(gpu.device().context(), *denoiser, kExtent, {}, {});
+    const std::vector<std::string> textures = viewableTextures(whole.graph.desc());
+    EXPECT_GE(textures.size(), 9U) << method;
+    for (const std::string& texture : textures) {
+      Renderer renderer(gpu, *denoiser, kExtent, {.view = {HostView::Kind::Texture, texture}});
+      const auto pass = std::ranges::find(renderer.graph().desc().passes, std::string("inspect"), &fg::PassDecl::name);
+      EXPECT_NE(pass, renderer.graph().desc().passes.end()) << texture;
+    }
+  }
+}
+
+TEST_F(HostTest, TextureViewShowsValuesScaledAndShifted) {
+  Renderer::Options options;
+  options.view = {HostView::Kind::Texture, "normal"};
+  options.viewConstants = {.leftEdge = 0, .rightEdge = 0, .gain = 0.5F, .bias = 0.5F};
+  const std::vector<RenderedFrame> frames = render(options, "none");
+  Tracer tracer(tracing());
+  for (const RenderedFrame& frame : frames) {
+    const Frame traced = tracer.trace({.number = frame.number, .animationFrame = static_cast<double>(frame.number)});
+    for (std::size_t i = 0; i < frame.display.size(); ++i) {
+      for (int c = 0; c < 3; ++c) {
+        const float expected = 255.0F * (0.5F * traced.normal.pixel(i)[static_cast<std::size_t>(c)] + 0.5F);
+        // Rounding to a byte, and that of the normal to a half float.
+        ASSERT_NEAR(static_cast<float>(channel(frame.display[i], c)), expected, 0.6F);
+      }
+    }
+  }
+}
+
+TEST_F(HostTest, UnknownTextureIsNamedWithThoseThereAre) {
+  try {
+    render({.view = {HostView::Kind::Texture, "nothing"}});
+    FAIL() << "a view of a texture that is not there";
+  } catch (const UsageError& error) {
+    EXPECT_NE(std::string(error.what()).find("'nothing'"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("'albedo'"), std::string::npos) << error.what();
+  }
+}
+
+TEST_F(HostTest, WritesPicturesThatReadBack) {
+  const test::TemporaryDirectory folder;
+  Renderer::Options options;
+  options.readComposite = true;
+  const RenderedFrame frame = render(options).back();
+  writeRenderedFrame(frame, kExtent, folder.path());
+  EXPECT_TRUE(std::filesystem::exists(folder.path() / "frame_0007.png"));
+  ExrReader file(folder.path() / "frame_0007.exr");
+  Image lit(file.width(), file.height(), 3);
+  file.read(std::vector<ExrReader::Target>{{"R", &lit, 0}, {"G", &lit, 1}, {"B", &lit, 2}});
+  EXPECT_TRUE(std::ranges::equal(lit.values(), frame.composite.values()));
+}
+
+double meanSquaredDifference(const Image& a, const Image& b) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < a.values().size(); ++i) {
+    const double difference = static_cast<double>(a.values()[i]) - b.values()[i];
+    sum += difference * difference;
+  }
+  return sum / static_cast<double>(a.values().size());
+}
+
+TEST(Tracer, ReferencesAddUpWhileNothingMoves) {
+  Tracer tracer(tracing());
+  Tracer other([] {
+    Tracer::Options options = tracing();
+    options.seed = 9;
+    options.referenceSamples = 64;
+    return options;
+  }());
+  const Image converged = other.trace({.reference = true}).reference->indirect;
+  Tracer::Request request{.reference = true};
+  const double first = meanSquaredDifference(tracer.trace(request).reference->indirect, converged);
+  Frame frame;
+  for (request.number = 1; request.number < 16; ++request.number) {
+    frame = tracer.trace(request);
+  }
+  // One path against sixteen, each beside the noise of 64: (1 + 1/64) / (1/16 + 1/64) = 13 for independent numbers,
+  // more for Sobol points. The relative spread of two such means is below a third.
+  EXPECT_GT(first / meanSquaredDifference(frame.reference->indirect, converged), 8.0);
+  request.animationFrame = 9.0;
+  const double moved = meanSquaredDifference(tracer.trace(request).reference->indirect, converged);
+  EXPECT_GT(moved, 0.5 * first);
+}
+
+TEST(Tracer, DirectLightJoinsTheIndirectOnDemand) {
+  Tracer::Options options = tracing();
+  Tracer apart(options);
+  options.denoiseDirect = true;
+  Tracer together(options);
+  const Tracer::Request request{.reference = true};
+  const Frame both = apart.trace(request);
+  const Frame sum = together.trace(request);
+  for (std::size_t i = 0; i < both.indirect.values().size(); ++i) {
+    ASSERT_EQ(sum.indirect.values()[i], both.indirect.values()[i] + both.direct.values()[i]);
+    ASSERT_EQ(sum.reference->indirect.values()[i],
+              both.reference->indirect.values()[i] + both.reference->direct.values()[i]);
+    ASSERT_EQ(sum.direct.values()[i] + sum.reference->direct.values()[i], 0.0F);
+  }
+}
+
+TEST(Tracer, FollowsTheFrameBefore) {
+  Tracer tracer(tracing("turntable.gltf"));
+  const Frame first = tracer.trace({.number = 12, .animationFrame = 12.0});
+  EXPECT_TRUE(first.resetHistory);
+  EXPECT_EQ(first.camera.view, first.camera.previousView);
+  EXPECT_EQ(first.camera.view, tracer.sceneCamera(12.0));
+  const Frame second = tracer.trace({.number = 13, .animationFrame = 14.0});
+  EXPECT_FALSE(second.resetHistory);
+  EXPECT_EQ(second.camera.previousView, first.camera.view);
+  EXPECT_EQ(second.camera.view, tracer.sceneCamera(14.0));
+  const Frame cut = tracer.trace({.number = 14, .animationFrame = 14.0, .view = glm::mat4(1.0F), .cut = true});
+  EXPECT_TRUE(cut.resetHistory);
+  EXPECT_EQ(cut.camera.view, glm::mat4(1.0F));
+  EXPECT_NEAR(tracer.lastAnimationFrame(), 47.0, 1e-4);
+  EXPECT_GT(tracer.bounds().w, 2.0F);
+}
+
+}  // namespace
+}  // namespace walr::host
