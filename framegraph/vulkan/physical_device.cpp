@@ -84,22 +84,6 @@ void queryFeatures(const InstanceFunctions& functions, PhysicalDevice& device) {
                             .maintenance4 == VK_TRUE;
 }
 
-PhysicalDevice query(const InstanceFunctions& functions, VkPhysicalDevice handle, std::uint32_t index) {
-  PhysicalDevice device;
-  device.handle = handle;
-  device.index = index;
-  queryDriver(functions, device);
-  device.extensions = deviceExtensions(functions, handle);
-  device.computeQueueFamily = computeQueueFamily(functions, handle);
-  queryFeatures(functions, device);
-  device.formatFeatures = [getProperties = functions.vkGetPhysicalDeviceFormatProperties, handle](VkFormat format) {
-    VkFormatProperties properties{};
-    getProperties(handle, format, &properties);
-    return properties.optimalTilingFeatures;
-  };
-  return device;
-}
-
 std::string_view typeName(VkPhysicalDeviceType type) {
   switch (type) {
     case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
@@ -158,6 +142,22 @@ std::string_view useName(VkFormatFeatureFlags feature) {
 
 }  // namespace
 
+PhysicalDevice physicalDevice(const InstanceFunctions& functions, VkPhysicalDevice handle, std::uint32_t index) {
+  PhysicalDevice device;
+  device.handle = handle;
+  device.index = index;
+  queryDriver(functions, device);
+  device.extensions = deviceExtensions(functions, handle);
+  device.computeQueueFamily = computeQueueFamily(functions, handle);
+  queryFeatures(functions, device);
+  device.formatFeatures = [getProperties = functions.vkGetPhysicalDeviceFormatProperties, handle](VkFormat format) {
+    VkFormatProperties properties{};
+    getProperties(handle, format, &properties);
+    return properties.optimalTilingFeatures;
+  };
+  return device;
+}
+
 std::vector<PhysicalDevice> physicalDevices(const Instance& instance) {
   const InstanceFunctions& functions = instance.functions();
   std::uint32_t count = 0;
@@ -172,7 +172,7 @@ std::vector<PhysicalDevice> physicalDevices(const Instance& instance) {
   }
   std::vector<PhysicalDevice> devices;
   for (const VkPhysicalDevice handle : handles) {
-    devices.push_back(query(functions, handle, static_cast<std::uint32_t>(devices.size())));
+    devices.push_back(physicalDevice(functions, handle, static_cast<std::uint32_t>(devices.size())));
   }
   return devices;
 }

@@ -29,6 +29,10 @@ struct PhysicalDevice {
   std::function<VkFormatFeatureFlags(VkFormat)> formatFeatures;
 };
 
+/// What a host's device is and can do.
+/// @param index as its owner numbers it
+PhysicalDevice physicalDevice(const InstanceFunctions& functions, VkPhysicalDevice handle, std::uint32_t index = 0);
+
 /// All devices of all drivers, in the loader's order.
 /// @throws Unsupported where there is none
 std::vector<PhysicalDevice> physicalDevices(const Instance& instance);

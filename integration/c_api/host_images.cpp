@@ -1,0 +1,157 @@
+#include "integration/c_api/host_images.h"
+
+#include <string>
+
+#include "framegraph/format.h"
+#include "framegraph/vulkan/image.h"
+#include "integration/c_api/structs.h"
+
+namespace walr::api {
+namespace {
+
+constexpr VkImageLayout kInputLayout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
+constexpr VkImageLayout kOutputLayout = VK_IMAGE_LAYOUT_GENERAL;
+
+/// What the denoiser does with an image.
+struct InnerUse {
+  VkAccessFlags2 access;
+  VkImageLayout layout;
+};
+
+InnerUse innerUse(std::size_t index) {
+  if (index == kOutputImage) return {VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT, kOutputLayout};
+  return {VK_ACCESS_2_SHADER_SAMPLED_READ_BIT, kInputLayout};
+}
+
+[[noreturn]] void reject(std::size_t index, const std::string& what) {
+  throw Error(WALR_ERROR_INVALID_ARGUMENT, "image '" + std::string(imageName(index)) + "' " + what);
+}
+
+std::string sizeText(fg::Extent extent) {
+  return std::to_string(extent.width) + " x " + std::to_string(extent.height);
+}
+
+std::string formatText(VkFormat format) {
+  return std::string(fg::formatInfo(format).name) + " (" + std::to_string(format) + ")";
+}
+
+/// Layouts that an image can be left in.
+bool isStateLayout(VkImageLayout layout) {
+  return layout != VK_IMAGE_LAYOUT_UNDEFINED && layout != VK_IMAGE_LAYOUT_PREINITIALIZED;
+}
+
+void fillRelease(std::size_t index, WalrImage& image) {
+  if (image.release.layout != VK_IMAGE_LAYOUT_UNDEFINED) return;
+  image.release = {.stage = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+                   .access = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT,
+                   .layout = index == kOutputImage ? kOutputLayout : image.acquire.layout,
+                   .reserved = 0};
+}
+
+VkImageMemoryBarrier2 barrierOf(const WalrImage& image) {
+  VkImageMemoryBarrier2 barrier{};
+  barrier.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2;
+  barrier.srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+  barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+  barrier.image = image.image;
+  barrier.subresourceRange =
+      fg::vk::subresourceRange(image.format, {.baseMip = 0, .mipCount = 1, .baseLayer = 0, .layerCount = 1});
+  return barrier;
+}
+
+template <typename MakeBarrier>
+void record(const fg::vk::DeviceContext& device, VkCommandBuffer commandBuffer, const FrameImages& images,
+            MakeBarrier makeBarrier) {
+  std::array<VkImageMemoryBarrier2, kImageCount> barriers{};
+  std::uint32_t count = 0;
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    if (images[i].given) barriers[count++] = makeBarrier(images[i].image, innerUse(i));
+  }
+  VkDependencyInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
+  info.imageMemoryBarrierCount = count;
+  info.pImageMemoryBarriers = barriers.data();
+  if (count > 0) device.functions.vkCmdPipelineBarrier2(commandBuffer, &info);
+}
+
+}  // namespace
+
+const HostStates kInnerStates{
+    .inputs = {VK_PIPELINE_STAGE_2_NONE, VK_ACCESS_2_NONE, kInputLayout},
+    .outputBefore = {VK_PIPELINE_STAGE_2_NONE, VK_ACCESS_2_NONE, kOutputLayout},
+    .outputAfter = {VK_PIPELINE_STAGE_2_NONE, VK_ACCESS_2_NONE, kOutputLayout},
+};
+
+std::string_view imageName(std::size_t index) {
+  return index == kOutputImage ? kOutputName : kHostInputs.at(index).name;
+}
+
+std::size_t imageIndex(std::string_view name) {
+  std::string known;
+  for (std::size_t i = 0; i < kImageCount; ++i) {
+    if (imageName(i) == name) return i;
+    known.append(known.empty() ? "" : ", ").append(imageName(i));
+  }
+  throw Error(WALR_ERROR_INVALID_ARGUMENT, "there is no image \"" + std::string(name) + "\"; known images: " + known);
+}
+
+FrameImage checkedImage(std::size_t index, const WalrImage* given, const ImageNeeds& needs, std::uint32_t queueFamily) {
+  if (!needs.used) return {};
+  if (given == nullptr) reject(index, "is null");
+  WalrImage image = readStruct(given, "WalrImage");
+  if (image.image == VK_NULL_HANDLE) reject(index, "has a null VkImage");
+  if (image.format != needs.format) {
+    reject(index, "is of format " + formatText(image.format) + ", but the denoiser was made for " +
+                      formatText(needs.format) + ": see WalrDenoiserInfo");
+  }
+  if (const fg::Extent extent{image.width, image.height}; extent != needs.extent) {
+    reject(index, "is " + sizeText(extent) + " pixels, but the denoiser is for " + sizeText(needs.extent) +
+                      ": call walr_resize");
+  }
+  if ((image.usage & needs.usage) != needs.usage) {
+    reject(index, "lacks usage flags " + std::to_string(needs.usage & ~image.usage) +
+                      ": make it with those of walr_get_image_requirements");
+  }
+  if (image.queue_family != VK_QUEUE_FAMILY_IGNORED && image.queue_family != queueFamily) {
+    reject(index, "is owned by queue family " + std::to_string(image.queue_family) +
+                      ", but commands are recorded for family " + std::to_string(queueFamily) +
+                      ": transfer its ownership first");
+  }
+  if (index != kOutputImage && !isStateLayout(image.acquire.layout)) {
+    reject(index, "comes in layout " + std::to_string(image.acquire.layout) +
+                      ", which has no contents: say in WalrImage::acquire how it was written");
+  }
+  fillRelease(index, image);
+  if (!isStateLayout(image.release.layout)) {
+    reject(index, "cannot go back in layout " + std::to_string(image.release.layout));
+  }
+  return {.given = true, .image = image};
+}
+
+void recordAcquire(const fg::vk::DeviceContext& device, VkCommandBuffer commandBuffer, const FrameImages& images) {
+  record(device, commandBuffer, images, [](const WalrImage& image, const InnerUse& use) {
+    VkImageMemoryBarrier2 barrier = barrierOf(image);
+    barrier.srcStageMask = image.acquire.stage;
+    barrier.srcAccessMask = image.acquire.access;
+    barrier.oldLayout = image.acquire.layout;
+    barrier.dstStageMask = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
+    barrier.dstAccessMask = use.access;
+    barrier.newLayout = use.layout;
+    return barrier;
+  });
+}
+
+void recordRelease(const fg::vk::DeviceContext& device, VkCommandBuffer commandBuffer, const FrameImages& images) {
+  record(device, commandBuffer, images, [](const WalrImage& image, const InnerUse& use) {
+    VkImageMemoryBarrier2 barrier = barrierOf(image);
+    barrier.srcStageMask = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
+    barrier.srcAccessMask = use.access & VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
+    barrier.oldLayout = use.layout;
+    barrier.dstStageMask = image.release.stage;
+    barrier.dstAccessMask = image.release.access;
+    barrier.newLayout = image.release.layout;
+    return barrier;
+  });
+}
+
+}  // namespace walr::api

@@ -1,0 +1,84 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <walr/walr.h>
+
+#include "framegraph/vulkan/executor.h"
+#include "integration/c_api/device.h"
+#include "integration/c_api/host_images.h"
+#include "passes/denoiser.h"
+#include "passes/frame.h"
+
+namespace walr::api {
+
+/// A denoiser that records into a host's command buffers: what is behind a WalrDenoiser.
+class HostedDenoiser {
+ public:
+  /// @throws what is wrong with the description
+  explicit HostedDenoiser(const WalrDenoiserInfo& info);
+
+  void resize(std::uint32_t width, std::uint32_t height);
+  void set(std::string_view name, std::string_view value);
+  void usePreset(std::string_view name);
+  [[nodiscard]] std::string setting(std::string_view name);
+  void prepare();
+  [[nodiscard]] WalrImageRequirements requirements(std::string_view image);
+  void record(VkCommandBuffer commandBuffer, const WalrFrame& frame);
+  void resetHistory() { resetRequested_ = true; }
+  void forget(VkImage image, std::uint64_t identity);
+  [[nodiscard]] WalrImageState releaseState(std::string_view image) const;
+  [[nodiscard]] WalrMemory memory() const;
+  [[nodiscard]] std::span<const fg::vk::PassTime> timings();
+
+ private:
+  /// The graph with the present settings and size, and what is known of it before anything is made.
+  struct Declared {
+    DenoiseGraph graph;
+    fg::Plan plan;
+    std::array<fg::Texture, kImageCount> images;
+    std::array<ImageNeeds, kImageCount> needs;
+  };
+  /// What was made for it.
+  struct Built {
+    std::unique_ptr<fg::vk::Executor> executor;
+    fg::MemoryReport memory;
+    std::optional<std::uint64_t> lastFrame;  ///< Recorded with it.
+  };
+
+  const Declared& declare();
+  void declarationChanged();
+  void build();
+  void retire();
+  void dropFinished();
+  [[nodiscard]] FrameImages checkedImages(const WalrFrame& frame) const;
+  [[nodiscard]] FrameConstants constantsOf(const WalrFrame& frame, const WalrCamera& camera) const;
+  void bind(const FrameImages& images);
+  void log(WalrLogLevel level, const std::string& text) const;
+
+  HostDevice device_;
+  std::unique_ptr<Denoiser> method_;
+  std::string methodName_;
+  fg::Extent extent_;
+  WalrConventions conventions_;
+  std::array<VkFormat, std::tuple_size_v<decltype(kHostInputs)>> formats_;
+  std::uint32_t slots_;
+  bool timestamps_;
+  WalrLog log_;
+  void* logUser_;
+
+  std::optional<Declared> declared_;
+  std::optional<Built> built_;  ///< Of `declared_`.
+  std::vector<Built> retired_;
+  std::uint64_t frames_ = 0;  ///< Recorded.
+  bool resetRequested_ = false;
+  std::optional<WalrCamera> lastCamera_;
+  FrameImages lastImages_{};
+};
+
+}  // namespace walr::api

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <string>
+
+#include "integration/c_api/error.h"
+
+/// Structures that grow from version to version: `struct_size` says how much of one the caller knows.
+namespace walr::api {
+
+/// Size of a structure in the first version that had it: nobody can know less.
+template <typename Struct>
+inline constexpr std::uint32_t kLeastSize = sizeof(Struct);
+
+/// More than any structure will ever have: a larger size was never set.
+inline constexpr std::uint32_t kMostSize = 1U << 16;
+
+template <typename Struct>
+std::uint32_t structSize(const Struct* given, const char* name) {
+  if (given == nullptr) throw Error(WALR_ERROR_INVALID_ARGUMENT, std::string(name) + " is null");
+  const std::uint32_t size = given->struct_size;
+  if (size < kLeastSize<Struct> || size > kMostSize) {
+    throw Error(WALR_ERROR_STRUCT_SIZE,
+                std::string(name) + "::struct_size is " + std::to_string(size) + ": set it to sizeof(" + name + ")");
+  }
+  return size;
+}
+
+/// What the caller gave; what it does not know of is zero.
+/// @throws Error for null, for a size that was not set, and for fields in use that this version does not know
+template <typename Struct>
+Struct readStruct(const Struct* given, const char* name) {
+  const std::uint32_t size = structSize(given, name);
+  const auto* bytes = reinterpret_cast<const std::byte*>(given);
+  if (std::any_of(bytes + std::min<std::size_t>(size, sizeof(Struct)), bytes + size,
+                  [](std::byte b) { return b != std::byte{0}; })) {
+    throw Error(WALR_ERROR_STRUCT_SIZE, std::string(name) +
+                                            " has fields set that this version of the library does not know: use the "
+                                            "header that came with it");
+  }
+  Struct known{};
+  std::memcpy(&known, given, std::min<std::size_t>(size, sizeof(Struct)));
+  return known;
+}
+
+/// The same for an optional structure.
+template <typename Struct>
+Struct readOptional(const Struct* given, const char* name) {
+  return given == nullptr ? Struct{} : readStruct(given, name);
+}
+
+/// Fill in as much as the caller knows of.
+template <typename Struct>
+void writeStruct(Struct* target, Struct value, const char* name) {
+  const std::uint32_t size = structSize(target, name);
+  value.struct_size = size;
+  std::memcpy(target, &value, std::min<std::size_t>(size, sizeof(Struct)));
+}
+
+/// @throws Error where an enumeration holds none of its values
+template <typename Enum>
+Enum checkedEnum(Enum value, Enum last, const char* name) {
+  const auto number = static_cast<std::int64_t>(value);
+  if (number >= 0 && number <= static_cast<std::int64_t>(last)) return value;
+  throw Error(WALR_ERROR_INVALID_ARGUMENT, std::string(name) + " is " + std::to_string(number) + ", not one of 0.." +
+                                               std::to_string(static_cast<std::int64_t>(last)));
+}
+
+/// @throws Error where a string is null
+inline std::string_view requireText(const char* text, const char* name) {
+  if (text == nullptr) throw Error(WALR_ERROR_INVALID_ARGUMENT, std::string(name) + " is null");
+  return text;
+}
+
+}  // namespace walr::api

@@ -1,0 +1,53 @@
+/* The layout of every structure of walr.h on 64-bit targets, as callers of version 0.1 were compiled with it.
+ * Structures with struct_size may grow at their end; nothing that is listed here may ever move. */
+#include <stddef.h>
+
+#include <walr/walr.h>
+
+#define AT(type, member, offset) _Static_assert(offsetof(type, member) == (offset), #type "::" #member " has moved")
+#define SIZE(type, size) _Static_assert(sizeof(type) == (size), #type " has another size")
+
+_Static_assert(sizeof(void*) == 8, "these figures are those of 64-bit targets");
+
+SIZE(WalrResult, 4);
+_Static_assert(WALR_ERROR_INTERNAL == -9 && WALR_ERROR_CONCURRENT_USE == -4, "error codes never change");
+
+SIZE(WalrSetting, 80);
+AT(WalrSetting, name, 8);
+AT(WalrSetting, least, 24);
+AT(WalrSetting, choices, 40);
+AT(WalrSetting, unit, 56);
+AT(WalrSetting, source, 72);
+SIZE(WalrPort, 56);
+AT(WalrPort, name, 8);
+AT(WalrPort, format, 24);
+AT(WalrPort, buffer_size, 40);
+AT(WalrPort, description, 48);
+SIZE(WalrPassType, 72);
+AT(WalrPassType, ports, 24);
+AT(WalrPassType, port_count, 56);
+SIZE(WalrDevice, 48);
+AT(WalrDevice, instance, 8);
+AT(WalrDevice, allocator, 40);
+SIZE(WalrConventions, 24);
+AT(WalrConventions, motion_scale, 16);
+SIZE(WalrDenoiserInfo, 88);
+AT(WalrDenoiserInfo, device, 8);
+AT(WalrDenoiserInfo, width, 32);
+AT(WalrDenoiserInfo, conventions, 40);
+AT(WalrDenoiserInfo, lighting_format, 48);
+AT(WalrDenoiserInfo, log, 72);
+SIZE(WalrImageRequirements, 24);
+SIZE(WalrImageState, 24);
+SIZE(WalrImage, 88);
+AT(WalrImage, image, 8);
+AT(WalrImage, format, 24);
+AT(WalrImage, acquire, 40);
+AT(WalrImage, release, 64);
+SIZE(WalrCamera, 136);
+SIZE(WalrFrame, 80);
+AT(WalrFrame, lighting, 8);
+AT(WalrFrame, camera, 56);
+AT(WalrFrame, sky_depth, 72);
+SIZE(WalrMemory, 56);
+SIZE(WalrPassTime, 16);

@@ -1,0 +1,137 @@
+// What comes out of the C API: the pixels of our own executor, and its history.
+#include <cmath>
+#include <cstring>
+
+#include <glm/packing.hpp>
+
+#include "tests/integration/hosted_run.h"
+#include "tests/passes/denoiser_run.h"
+#include "tests/passes/synthetic_scene.h"
+#include "tests/passes/texel_codec.h"
+#include "tests/vulkan/gpu_fixture.h"
+
+namespace walr::test {
+namespace {
+
+using reference::HostFrame;
+using reference::Image;
+
+constexpr glm::ivec2 kSize(53, 37);
+
+/// A camera that walks past a sphere, so that history is found, moved and lost.
+FrameDescription walkingCamera(std::uint32_t frame, glm::ivec2 size) {
+  const glm::dvec3 step(0.06, 0.02, -0.03);
+  return cameraAt(double(frame) * step, (double(frame) - 1.0) * step, size, frame);
+}
+
+std::vector<std::byte> bytesOf(const auto& texels) {
+  std::vector<std::byte> bytes(texels.size() * sizeof(texels[0]));
+  std::memcpy(bytes.data(), texels.data(), bytes.size());
+  return bytes;
+}
+
+void fill(HostedRun& run, const HostFrame& frame) {
+  run.fill("lighting", bytesOf(encodeHalves(frame.lighting)));
+  run.fill("depth", bytesOf(encodeFloats(frame.depth)));
+  run.fill("normal", bytesOf(encodeHalves(frame.normal)));
+  run.fill("motion", bytesOf(encodeHalves(frame.motion)));
+  run.fill("albedo", bytesOf(encodeHalves(frame.albedo)));
+}
+
+/// Number of pixels whose four channels are not the same numbers.
+int differing(const Image<glm::dvec4>& a, const Image<glm::dvec4>& b) {
+  int count = 0;
+  reference::forEachPixel(a.size(), [&](glm::ivec2 p) { count += a[p] == b[p] ? 0 : 1; });
+  return count;
+}
+
+class CApi : public fg::test::GpuTest {};
+class CApiMethod : public CApi, public testing::WithParamInterface<std::string> {};
+
+TEST_P(CApiMethod, GivesThePixelsOfOurOwnExecutorThroughResetAndResize) {
+  const auto method = makeDenoiser(GetParam());
+  HostedRun hosted(device(), GetParam().c_str(), kSize);
+  glm::ivec2 size = kSize;
+  auto own = std::make_unique<DenoiserRun>(device(), *method, size);
+  for (std::uint32_t i = 0; i < 7; ++i) {
+    SCOPED_TRACE("frame " + std::to_string(i));
+    std::uint32_t flags = 0;
+    if (i == 3) {
+      own->reset();
+      flags = WALR_FRAME_RESET_HISTORY;
+    }
+    if (i == 5) {
+      size = {40, 45};
+      own = std::make_unique<DenoiserRun>(device(), *method, size);
+      hosted.resize(size);
+    }
+    const FrameDescription camera = walkingCamera(i, size);
+    const HostFrame frame = renderFrame(sphere(), camera, size);
+    fill(hosted, frame);
+    const Image<glm::dvec4> result = decodeHalves(hosted.frame(camera, flags), size);
+    EXPECT_EQ(differing(result, own->frame(frame)), 0);
+  }
+}
+INSTANTIATE_TEST_SUITE_P(Methods, CApiMethod, testing::ValuesIn(denoiserNames()));
+
+TEST_F(CApi, ResetAndNewSettingsForgetThePast) {
+  const FrameDescription camera = cameraAt({}, {}, kSize, 0);
+  const HostFrame first = renderFrame(flatWall(), camera, kSize);
+  const HostFrame second = renderFrame(flatWall(), cameraAt({}, {}, kSize, 7), kSize);
+  const auto secondAfterFirst = [&](auto&& between) {
+    HostedRun run(device(), "accumulate", kSize);
+    fill(run, first);
+    run.frame(camera);
+    between(run.denoiser());
+    fill(run, second);
+    return run.frame(camera);
+  };
+  HostedRun fresh(device(), "accumulate", kSize);
+  fill(fresh, second);
+  const std::vector<std::uint16_t> alone = fresh.frame(camera);
+  EXPECT_NE(secondAfterFirst([](WalrDenoiser) {}), alone);
+  EXPECT_EQ(secondAfterFirst([](WalrDenoiser denoiser) { require(walr_reset_history(denoiser)); }), alone);
+  EXPECT_EQ(secondAfterFirst(
+                [](WalrDenoiser denoiser) { require(walr_set_setting(denoiser, "accumulation.max-samples", "16")); }),
+            alone);
+}
+
+TEST_F(CApi, TakesOtherFormatsOfTheSameNumbersAndRemembersTheCamera) {
+  HostedRun usual(device(), "walr", kSize);
+  HostedRun other(device(), "walr", kSize,
+                  {.conventions = {},
+                   .formats = {VK_FORMAT_R32G32B32A32_SFLOAT, VK_FORMAT_R32_SFLOAT, VK_FORMAT_R32G32B32A32_SFLOAT,
+                               VK_FORMAT_R32G32B32A32_SFLOAT, VK_FORMAT_R16G16B16A16_SFLOAT},
+                   .rememberedCamera = true});
+  const auto floats = [](const Image<glm::dvec3>& image) {
+    std::vector<glm::vec4> texels;
+    for (const glm::dvec3& value : image.pixels()) texels.emplace_back(glm::vec3(value), 0.0F);
+    return bytesOf(texels);
+  };
+  for (std::uint32_t i = 0; i < 3; ++i) {
+    const FrameDescription camera = walkingCamera(i, kSize);
+    const HostFrame frame = renderFrame(thinBars(), camera, kSize);
+    fill(usual, frame);
+    fill(other, frame);
+    other.fill("lighting", floats(frame.lighting));
+    other.fill("normal", floats(frame.normal));
+    other.fill("motion", floats(frame.motion));
+    EXPECT_EQ(usual.frame(camera), other.frame(camera)) << i;
+  }
+}
+
+TEST_F(CApi, MemoryIsWhatThePlanSaysAndWhatTheDriverGave) {
+  HostedRun run(device(), "walr", {640, 360});
+  require(walr_prepare(run.denoiser()));
+  WalrMemory memory{};
+  memory.struct_size = sizeof(memory);
+  require(walr_get_memory(run.denoiser(), &memory));
+  EXPECT_LT(memory.transient, memory.transient_unaliased);
+  EXPECT_GE(memory.transient, memory.transient_least);
+  // Histories are laid one after the other, each at its alignment, beside the small upload buffers.
+  EXPECT_GE(memory.allocated, memory.persistent + memory.transient);
+  EXPECT_LT(memory.allocated, memory.persistent + memory.transient + (1U << 16));
+}
+
+}  // namespace
+}  // namespace walr::test

@@ -1,0 +1,67 @@
+/* A small Vulkan host in C: a device under the validation layer with synchronization validation, images, and frames
+ * that are submitted one by one. It knows nothing of walr. */
+#ifndef WALR_TESTS_VULKAN_HOST_H
+#define WALR_TESTS_VULKAN_HOST_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <vulkan/vulkan.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct Host {
+  VkInstance instance;
+  VkDebugUtilsMessengerEXT messenger;
+  VkPhysicalDevice physical_device;
+  VkDevice device;
+  uint32_t queue_family;
+  VkQueue queue;
+  VkCommandPool command_pool;
+  VkFence fence;
+  int messages; /* Warnings and errors of the layer so far; each is printed. */
+} Host;
+
+/* An image with memory of its own, and the state in which it was left. */
+typedef struct HostImage {
+  VkImage image;
+  VkDeviceMemory memory;
+  VkFormat format;
+  uint32_t width;
+  uint32_t height;
+  uint32_t texel_size;
+  VkImageUsageFlags usage;
+  VkPipelineStageFlags2 stage;
+  VkAccessFlags2 access;
+  VkImageLayout layout;
+} HostImage;
+
+/* The functions end the program with a message where Vulkan fails. */
+void host_open(Host* host);
+/* Returns the number of messages, those at destruction included. */
+int host_close(Host* host);
+
+/* A copy of texels into and out of it is always possible. */
+HostImage host_make_image(Host* host, VkFormat format, uint32_t texel_size, uint32_t width, uint32_t height,
+                          VkImageUsageFlags usage);
+void host_destroy_image(Host* host, HostImage* image);
+/* Bytes of device memory that the driver asks for the image. */
+VkDeviceSize host_image_bytes(Host* host, const HostImage* image);
+
+VkCommandBuffer host_begin(Host* host);
+void host_submit_and_wait(Host* host, VkCommandBuffer command_buffer);
+
+/* Move an image into a state. */
+void host_transition(VkCommandBuffer command_buffer, HostImage* image, VkPipelineStageFlags2 stage,
+                     VkAccessFlags2 access, VkImageLayout layout);
+/* Replace all texels, rows without padding. */
+void host_upload(Host* host, HostImage* image, const void* texels);
+void host_download(Host* host, HostImage* image, void* texels);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,157 @@
+#include "tests/integration/hosted_run.h"
+
+#include <algorithm>
+#include <cstring>
+#include <stdexcept>
+
+#include <glm/gtc/type_ptr.hpp>
+
+namespace walr::test {
+namespace {
+
+constexpr std::uint32_t kFramesInFlight = 2;
+constexpr std::array<const char*, 6> kImages{"lighting", "depth", "normal", "motion", "albedo", "denoised"};
+constexpr std::size_t kOutput = 5;
+
+WalrImageState stateOf(const fg::ExternalState& state) {
+  return {.stage = state.stage, .access = state.access, .layout = state.layout, .reserved = 0};
+}
+
+}  // namespace
+
+void require(WalrResult result) {
+  if (result == WALR_SUCCESS) return;
+  throw std::runtime_error(std::string(walr_result_name(result)) + ": " + walr_last_error());
+}
+
+WalrCamera cameraOf(const glm::mat4& view, const glm::mat4& projection, glm::vec2 jitter) {
+  WalrCamera camera{};
+  std::memcpy(camera.view, glm::value_ptr(view), sizeof(camera.view));
+  std::memcpy(camera.projection, glm::value_ptr(projection), sizeof(camera.projection));
+  std::memcpy(camera.jitter, glm::value_ptr(jitter), sizeof(camera.jitter));
+  return camera;
+}
+
+HostedRun::HostedRun(const fg::vk::Device& device, const char* method, glm::ivec2 size, const Options& options)
+    : device_(&device),
+      rememberedCamera_(options.rememberedCamera),
+      queue_(device.context(), device.queue(), kFramesInFlight) {
+  const fg::vk::DeviceView& view = device.context().view;
+  WalrDevice host{};
+  host.struct_size = sizeof(host);
+  host.queue_family = view.queueFamily;
+  host.instance = view.instance;
+  host.physical_device = view.physicalDevice;
+  host.device = view.device;
+  host.get_instance_proc_addr = view.getInstanceProcAddr;
+  WalrConventions conventions = options.conventions;
+  conventions.struct_size = sizeof(conventions);
+  WalrDenoiserInfo info{};
+  info.struct_size = sizeof(info);
+  info.frames_in_flight = kFramesInFlight;
+  info.device = &host;
+  info.method = method;
+  info.width = static_cast<std::uint32_t>(size.x);
+  info.height = static_cast<std::uint32_t>(size.y);
+  info.conventions = &conventions;
+  info.lighting_format = options.formats[0];
+  info.depth_format = options.formats[1];
+  info.normal_format = options.formats[2];
+  info.motion_format = options.formats[3];
+  info.albedo_format = options.formats[4];
+  require(walr_create_denoiser(&info, &denoiser_));
+  makeImages(size);
+}
+
+HostedRun::~HostedRun() {
+  queue_.waitAll();
+  walr_destroy_denoiser(denoiser_);
+}
+
+void HostedRun::makeImages(glm::ivec2 size) {
+  needs_.clear();
+  for (const char* name : kImages) {
+    WalrImageRequirements needs{};
+    needs.struct_size = sizeof(needs);
+    require(walr_get_image_requirements(denoiser_, name, &needs));
+    if (glm::ivec2(needs.width, needs.height) != size) throw std::logic_error("requirements of another size");
+    // An image that the denoiser does not touch may be anything, and is handed over all the same.
+    if (needs.usage == 0) needs.usage = VK_IMAGE_USAGE_SAMPLED_BIT;
+    const bool output = images_.size() == kOutput;
+    images_.push_back(std::make_unique<fg::vk::StagedImage>(
+        device_->context(), fg::TextureDesc{.format = needs.format, .extent = {needs.width, needs.height}}, needs.usage,
+        output ? fg::vk::StagedImage::Direction::Readback : fg::vk::StagedImage::Direction::Upload, kFramesInFlight,
+        name));
+    needs_.push_back(needs);
+  }
+  firstIdentity_ = nextIdentity_;
+  nextIdentity_ += kImages.size();
+}
+
+void HostedRun::resize(glm::ivec2 size) {
+  queue_.waitAll();
+  for (std::size_t i = 0; i < images_.size(); ++i) {
+    require(walr_forget_image(denoiser_, images_[i]->external().image, firstIdentity_ + i));
+  }
+  images_.clear();
+  require(walr_resize(denoiser_, static_cast<std::uint32_t>(size.x), static_cast<std::uint32_t>(size.y)));
+  makeImages(size);
+}
+
+void HostedRun::fill(const std::string& image, std::vector<std::byte> texels) {
+  const auto index = static_cast<std::size_t>(std::ranges::find(kImages, image) - kImages.begin());
+  texels_.at(index) = std::move(texels);
+}
+
+WalrImage HostedRun::describe(std::size_t index) const {
+  const WalrImageRequirements& needs = needs_[index];
+  WalrImage image{};
+  image.struct_size = sizeof(image);
+  image.queue_family = VK_QUEUE_FAMILY_IGNORED;
+  image.image = images_[index]->external().image;
+  image.identity = firstIdentity_ + index;
+  image.format = needs.format;
+  image.usage = needs.usage;
+  image.width = needs.width;
+  image.height = needs.height;
+  image.acquire = stateOf(index == kOutput ? fg::vk::kOverwritable : fg::vk::kUploaded);
+  image.release = index == kOutput ? stateOf(fg::vk::kReadable)
+                                   : WalrImageState{.stage = VK_PIPELINE_STAGE_2_COPY_BIT,
+                                                    .access = VK_ACCESS_2_TRANSFER_WRITE_BIT,
+                                                    .layout = VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+                                                    .reserved = 0};
+  return image;
+}
+
+std::vector<std::uint16_t> HostedRun::frame(const FrameDescription& camera, std::uint32_t flags) {
+  const fg::vk::Frame recorded = queue_.begin();
+  for (std::size_t i = 0; i < texels_.size(); ++i) {
+    std::ranges::copy(texels_[i], images_[i]->staging(recorded.slot).begin());
+    images_[i]->recordUpload(recorded.commandBuffer, recorded.slot);
+  }
+  std::array<WalrImage, kImages.size()> images{};
+  for (std::size_t i = 0; i < images.size(); ++i) images[i] = describe(i);
+  const WalrCamera now = cameraOf(camera.view, camera.projection, camera.jitter);
+  const WalrCamera before = cameraOf(camera.previousView, camera.previousProjection, camera.previousJitter);
+  WalrFrame frame{};
+  frame.struct_size = sizeof(frame);
+  frame.flags = flags;
+  frame.lighting = &images[0];
+  frame.depth = &images[1];
+  frame.normal = &images[2];
+  frame.motion = &images[3];
+  frame.albedo = &images[4];
+  frame.denoised = &images[kOutput];
+  frame.camera = &now;
+  frame.previous_camera = rememberedCamera_ ? nullptr : &before;
+  require(walr_record(denoiser_, recorded.commandBuffer, &frame));
+  images_[kOutput]->recordReadback(recorded.commandBuffer, recorded.slot);
+  queue_.submit(recorded);
+  queue_.wait(recorded.slot);
+  const auto bytes = images_[kOutput]->staging(recorded.slot);
+  std::vector<std::uint16_t> texels(bytes.size() / sizeof(std::uint16_t));
+  std::memcpy(texels.data(), bytes.data(), bytes.size());
+  return texels;
+}
+
+}  // namespace walr::test

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <walr/walr.h>
+
+#include "framegraph/vulkan/device.h"
+#include "framegraph/vulkan/frame_queue.h"
+#include "framegraph/vulkan/staged_image.h"
+#include "passes/frame.h"
+#include "tests/passes/reference/frame.h"
+
+namespace walr::test {
+
+/// A denoiser behind the C API, fed with host frames one by one by a host that keeps two frames in flight.
+class HostedRun {
+ public:
+  struct Options {
+    WalrConventions conventions{};
+    std::array<VkFormat, 5> formats{};  ///< As in WalrDenoiserInfo, in the order of its members.
+    bool rememberedCamera = false;      ///< Leave the previous camera to the library.
+  };
+
+  HostedRun(const fg::vk::Device& device, const char* method, glm::ivec2 size) : HostedRun(device, method, size, {}) {}
+  HostedRun(const fg::vk::Device& device, const char* method, glm::ivec2 size, const Options& options);
+  ~HostedRun();
+  HostedRun(const HostedRun&) = delete;
+  HostedRun& operator=(const HostedRun&) = delete;
+
+  [[nodiscard]] WalrDenoiser denoiser() const { return denoiser_; }
+  /// Change the size: new images, and what the old ones leave behind is forgotten.
+  void resize(glm::ivec2 size);
+  /// Hand over texels of an image ("lighting", ...) in its format.
+  void fill(const std::string& image, std::vector<std::byte> texels);
+  /// Record and submit a frame with what was filled in last, and return the result's texels, four halves each.
+  std::vector<std::uint16_t> frame(const FrameDescription& camera, std::uint32_t flags = 0);
+
+ private:
+  void makeImages(glm::ivec2 size);
+  [[nodiscard]] WalrImage describe(std::size_t index) const;
+
+  const fg::vk::Device* device_;
+  bool rememberedCamera_;
+  WalrDenoiser denoiser_ = nullptr;
+  std::vector<WalrImageRequirements> needs_;
+  std::vector<std::unique_ptr<fg::vk::StagedImage>> images_;
+  std::array<std::vector<std::byte>, 5> texels_;
+  fg::vk::FrameQueue queue_;
+  std::uint64_t nextIdentity_ = 1;
+  std::uint64_t firstIdentity_ = 1;
+};
+
+/// Throws std::runtime_error with the library's text where a call fails.
+void require(WalrResult result);
+
+/// The camera of a frame as the C API takes it.
+WalrCamera cameraOf(const glm::mat4& view, const glm::mat4& projection, glm::vec2 jitter);
+
+}  // namespace walr::test
