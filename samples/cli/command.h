@@ -10,12 +10,14 @@ namespace walr {
 /// turns them into exit codes.
 using RegisterCommand = void (*)(CLI::App& program);
 
+void registerBench(CLI::App& program);
 void registerDenoise(CLI::App& program);
 void registerGraph(CLI::App& program);
 void registerRender(CLI::App& program);
 
 /// All subcommands of `walr`. A new one is a line here.
-inline constexpr std::array<RegisterCommand, 3> kCommands = {
+inline constexpr std::array<RegisterCommand, 4> kCommands = {
+    registerBench,
     registerDenoise,
     registerGraph,
     registerRender,

@@ -1,0 +1,199 @@
+#include "samples/bench/batch.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "samples/bench/bench_frame.h"
+#include "samples/bench/fingerprint.h"
+#include "samples/bench/npy.h"
+#include "samples/denoise/gpu_denoiser.h"
+#include "samples/metrics/flip.h"
+#include "samples/metrics/metrics.h"
+#include "samples/metrics/ssim.h"
+#include "samples/sequence/writer.h"
+
+namespace walr {
+namespace {
+
+/// One variant on its way through the sequence.
+struct Lane {
+  GpuDenoiser denoiser;
+  RunRecord record;
+  DisplayedPair previous;
+  std::vector<std::uint64_t> results;            ///< Fingerprints of the first pass, by frame.
+  std::vector<double> milliseconds;              ///< By timed frame.
+  std::vector<std::vector<double>> passSamples;  ///< By pass, then by timed frame.
+};
+
+std::uint64_t fingerprintOf(const Image& image) {
+  return Fingerprint().add(std::as_bytes(image.values())).value();
+}
+
+/// Per-pixel root mean square error, mean SSIM and FLIP as one three-component image; SSIM is 1 where it has no value.
+Image errorMaps(const DisplayedPair& pair, const PixelMask& mask, const std::vector<double>& flip) {
+  const int width = pair.reference.width();
+  const int height = pair.reference.height();
+  Image maps(width, height, 3);
+  std::vector<double> similarity(mask.size());
+  std::vector<double> test(mask.size());
+  std::vector<double> reference(mask.size());
+  for (std::size_t c = 0; c < 3; ++c) {
+    for (std::size_t i = 0; i < mask.size(); ++i) {
+      test[i] = pair.test.pixel(i)[c];
+      reference[i] = pair.reference.pixel(i)[c];
+      const double difference = test[i] - reference[i];
+      maps.pixel(i)[0] += static_cast<float>(difference * difference / 3.0);
+    }
+    const std::vector<double> channel = similarityMap(test, reference, mask, width, height);
+    for (std::size_t i = 0; i < mask.size(); ++i) similarity[i] += (std::isnan(channel[i]) ? 1.0 : channel[i]) / 3.0;
+  }
+  for (std::size_t i = 0; i < mask.size(); ++i) {
+    maps.pixel(i)[0] = std::sqrt(maps.pixel(i)[0]);
+    maps.pixel(i)[1] = static_cast<float>(similarity[i]);
+    maps.pixel(i)[2] = static_cast<float>(flip[i]);
+  }
+  return maps;
+}
+
+class Batch {
+ public:
+  Batch(const GpuDevice& device, const Sequence& sequence, std::span<const Variant> variants,
+        const BatchOptions& options)
+      : sequence_(sequence), options_(options) {
+    for (const Variant& variant : variants) {
+      RunRecord record;
+      record.variant = variant.name;
+      lanes_.push_back({GpuDenoiser(device, *makeVariant(variant), sequence.extent(), *sequence.layout().layout),
+                        std::move(record),
+                        {},
+                        {},
+                        {},
+                        {}});
+    }
+  }
+
+  std::vector<RunRecord> run() {
+    const std::size_t frames = sequence_.entries().size();
+    VisibleSurfaces previous;
+    for (std::size_t i = 0; i < frames; ++i) {
+      BenchFrame frame = readBenchFrame(sequence_, i);
+      keepGroundTruth(frame);
+      const std::vector<std::uint32_t> before =
+          frame.packed.frame.resetHistory ? std::vector<std::uint32_t>() : previousPixels(frame.surfaces, previous);
+      forEachLane(i, [&](Lane& lane) { measure(lane, frame, before, previous.mask); });
+      previous = std::move(frame.surfaces);
+      options_.frameDone();
+    }
+    for (std::size_t repetition = 0; repetition < options_.repetitions; ++repetition) {
+      for (std::size_t i = 0; i < frames; ++i) {
+        const PackedFrame frame = packFrame(sequence_.read(i));
+        forEachLane(i + repetition, [&](Lane& lane) { time(lane, frame, i); });
+        options_.frameDone();
+      }
+    }
+    std::vector<RunRecord> records;
+    for (Lane& lane : lanes_) {
+      finish(lane);
+      records.push_back(std::move(lane.record));
+    }
+    return records;
+  }
+
+ private:
+  template <typename Function>
+  void forEachLane(std::size_t first, Function function) {
+    for (std::size_t i = 0; i < lanes_.size(); ++i) function(lanes_[(first + i) % lanes_.size()]);
+  }
+
+  void measure(Lane& lane, const BenchFrame& input, const std::vector<std::uint32_t>& before,
+               const PixelMask& previousMask) {
+    const Frame& frame = input.packed.frame;
+    const Image& reference = frame.reference->indirect;
+    const PixelMask& mask = input.surfaces.mask;
+    const Image result = lane.denoiser.run(input.packed).indirect;
+    lane.results.push_back(fingerprintOf(result));
+
+    DisplayedPair pair = display(result, reference, mask);
+    const ErrorFigures figures = compare(pair, mask);
+    const std::vector<double> flip = flipMap(pair);
+    FrameErrors errors{.frame = frame.number,
+                       .resetHistory = frame.resetHistory,
+                       .rmse = figures.rmse,
+                       .psnr = figures.psnr,
+                       .ssim = figures.ssim,
+                       .flip = maskedMean(flip, mask),
+                       .relativeMse = relativeMse(result, reference, mask),
+                       .flicker = {},
+                       .luminanceChange = {},
+                       .referenceLuminanceChange = {},
+                       .nonFinite = countNonFinite(result)};
+    if (!frame.resetHistory) {
+      errors.flicker = flicker(pair, lane.previous, before);
+      if (const auto change = luminanceChange(pair, lane.previous, mask, previousMask)) {
+        errors.luminanceChange = change->test;
+        errors.referenceLuminanceChange = change->reference;
+      }
+    }
+    lane.record.frames.push_back(errors);
+    if (isKept(frame.number)) {
+      writeNpy(picture(lane.record.variant, frame.number), result);
+      writeNpy(picture(lane.record.variant + ".errors", frame.number), errorMaps(pair, mask, flip));
+    }
+    lane.previous = std::move(pair);
+  }
+
+  void time(Lane& lane, const PackedFrame& frame, std::size_t index) {
+    const DenoisedPicture picture = lane.denoiser.run(frame);
+    lane.record.reproducible = lane.record.reproducible && fingerprintOf(picture.indirect) == lane.results[index];
+    if (picture.passes.empty()) return;
+    lane.milliseconds.push_back(*picture.milliseconds());
+    lane.passSamples.resize(picture.passes.size());
+    lane.record.passes.resize(picture.passes.size());
+    for (std::size_t pass = 0; pass < picture.passes.size(); ++pass) {
+      lane.record.passes[pass].name = picture.passes[pass].name;
+      lane.passSamples[pass].push_back(picture.passes[pass].milliseconds);
+    }
+  }
+
+  void finish(Lane& lane) {
+    lane.record.timedFrames = lane.milliseconds.size();
+    if (lane.milliseconds.empty()) return;
+    lane.record.milliseconds = spread(lane.milliseconds);
+    std::vector<double> ratios;
+    for (std::size_t i = 0; i < lane.milliseconds.size(); ++i) {
+      ratios.push_back(lane.milliseconds[i] / lanes_.front().milliseconds[i]);
+    }
+    lane.record.ratio = spread(ratios);
+    for (std::size_t pass = 0; pass < lane.passSamples.size(); ++pass) {
+      lane.record.passes[pass].milliseconds = spread(lane.passSamples[pass]);
+    }
+  }
+
+  void keepGroundTruth(const BenchFrame& input) const {
+    const Frame& frame = input.packed.frame;
+    if (!isKept(frame.number)) return;
+    writeNpy(picture("_reference", frame.number), frame.reference->indirect);
+    writeNpy(picture("_noisy", frame.number), frame.indirect);
+  }
+
+  [[nodiscard]] bool isKept(int frame) const {
+    return std::ranges::find(options_.pictureFrames, frame) != options_.pictureFrames.end();
+  }
+  [[nodiscard]] std::filesystem::path picture(const std::string& name, int frame) const {
+    return options_.pictures / frameFileName(name, frame, "npy");
+  }
+
+  const Sequence& sequence_;
+  const BatchOptions& options_;
+  std::vector<Lane> lanes_;
+};
+
+}  // namespace
+
+std::vector<RunRecord> runBatch(const GpuDevice& device, const Sequence& sequence, std::span<const Variant> variants,
+                                const BatchOptions& options) {
+  return Batch(device, sequence, variants, options).run();
+}
+
+}  // namespace walr

@@ -1,0 +1,163 @@
+#include "samples/bench/bench.h"
+
+#include <algorithm>
+#include <array>
+#include <ostream>
+#include <span>
+
+#include "samples/bench/batch.h"
+#include "samples/bench/fingerprint.h"
+#include "samples/denoise/progress.h"
+#include "samples/errors.h"
+#include "samples/image/file_output.h"
+
+namespace walr {
+namespace {
+
+constexpr std::array kCommonExtents = {fg::Extent{1280, 720}, fg::Extent{1920, 1080}, fg::Extent{2560, 1440},
+                                       fg::Extent{3840, 2160}};
+
+std::vector<SettingValue> settingsOf(const Variant& variant) {
+  std::vector<SettingValue> values;
+  for (const SettingText& setting : makeVariant(variant)->settings()) values.emplace_back(setting.name, setting.value);
+  return values;
+}
+
+/// What all runs on a sequence are made from: program, device, sequence, repetitions.
+std::string sequenceKey(const GpuDevice& device, const NamedSequence& sequence, const BenchOptions& options) {
+  Fingerprint key;
+  key.addFile("/proc/self/exe").add(device.name()).add(device.driver());
+  key.add(std::to_string(options.repetitions));
+  for (const Sequence::Entry& entry : sequence.sequence.entries()) {
+    key.addFile(entry.file).addFile(entry.reference).add(entry.resetHistory ? "reset" : "carried");
+    // Of cameras.json, the part that matters.
+    for (const glm::mat4* matrix : {&entry.camera.view, &entry.camera.previousView, &entry.camera.projection}) {
+      key.add(std::as_bytes(std::span(matrix, 1)));
+    }
+  }
+  return key.text();
+}
+
+std::string runKey(const std::string& sequenceKey, const Variant& variant) {
+  Fingerprint key;
+  key.add(sequenceKey).add(variant.method);
+  for (const auto& [name, value] : settingsOf(variant)) key.add(name).add(value);
+  return key.text();
+}
+
+/// The runs of one sequence that are still to be made.
+struct Work {
+  const NamedSequence* sequence;
+  std::string key;
+  std::vector<std::vector<Variant>> batches;  ///< Each with the baseline first.
+};
+
+std::vector<std::vector<Variant>> batchesOf(const std::vector<Variant>& missing, const Variant& baseline,
+                                            std::size_t size) {
+  std::vector<std::vector<Variant>> batches;
+  for (const Variant& variant : missing) {
+    if (variant == baseline) continue;
+    if (batches.empty() || batches.back().size() >= std::max<std::size_t>(size, 2)) batches.push_back({baseline});
+    batches.back().push_back(variant);
+  }
+  if (batches.empty() && !missing.empty()) batches.push_back({baseline});
+  return batches;
+}
+
+std::map<std::string, std::vector<PlanCosts>> allCosts(const std::vector<NamedSequence>& sequences,
+                                                       const std::vector<Variant>& variants) {
+  std::vector<fg::Extent> extents;
+  for (const NamedSequence& sequence : sequences) {
+    if (std::ranges::find(extents, sequence.sequence.extent()) == extents.end()) {
+      extents.push_back(sequence.sequence.extent());
+    }
+  }
+  extents.insert(extents.end(), kCommonExtents.begin(), kCommonExtents.end());
+  const InputConventions& conventions = sequences.front().sequence.layout().layout->conventions;
+  std::map<std::string, std::vector<PlanCosts>> costs;
+  for (const Variant& variant : variants) {
+    for (const fg::Extent extent : extents) costs[variant.name].push_back(planCosts(variant, extent, conventions));
+  }
+  return costs;
+}
+
+}  // namespace
+
+std::vector<NamedSequence> openSequences(const std::vector<std::filesystem::path>& folders,
+                                         const SequenceOptions& options) {
+  std::vector<NamedSequence> sequences;
+  for (const std::filesystem::path& folder : folders) {
+    const std::filesystem::path whole = std::filesystem::weakly_canonical(folder);
+    NamedSequence named{whole.filename().string(), folder, Sequence(folder, options)};
+    if (std::ranges::any_of(named.sequence.entries(), [](const auto& entry) { return entry.reference.empty(); })) {
+      throw InputError(folder.string() +
+                       ": some frames have no reference (ref_FFFF.exr), and without one there is no "
+                       "error to report. Choose frames that have one with --frames, or render references");
+    }
+    if (std::ranges::find(sequences, named.name, &NamedSequence::name) != sequences.end()) {
+      throw InputError("two sequences are called '" + named.name +
+                       "': the report goes by the folders' names, so rename one");
+    }
+    sequences.push_back(std::move(named));
+  }
+  return sequences;
+}
+
+std::filesystem::path pictureFolder(const std::filesystem::path& output, const std::string& sequence) {
+  return output / "pictures" / sequence;
+}
+
+BenchReport bench(const GpuDevice& device, const std::vector<NamedSequence>& sequences, const BenchOptions& options,
+                  std::ostream& log, bool terminal) {
+  BenchReport report;
+  report.build = buildInfo();
+  report.repetitions = options.repetitions;
+  report.variants = options.variants;
+  for (const Variant& variant : options.variants) report.settings[variant.name] = settingsOf(variant);
+  report.costs = allCosts(sequences, options.variants);
+  report.device = deviceFacts(device);
+
+  const RunStore store(options.output / "runs");
+  std::vector<Work> work;
+  std::size_t frames = 0;
+  for (const NamedSequence& sequence : sequences) {
+    Work todo{&sequence, sequenceKey(device, sequence, options), {}};
+    std::vector<Variant> missing;
+    for (const Variant& variant : options.variants) {
+      if (!store.find(sequence.name, variant.name, runKey(todo.key, variant))) missing.push_back(variant);
+    }
+    log << sequence.name << ": " << options.variants.size() - missing.size() << " of " << options.variants.size()
+        << " variants have been run already" << std::endl;
+    todo.batches = batchesOf(missing, options.variants.front(), options.batch);
+    frames += todo.batches.size() * sequence.sequence.entries().size() * (options.repetitions + 1);
+    work.push_back(std::move(todo));
+  }
+
+  std::optional<Progress> progress;
+  if (frames > 0) progress.emplace(log, terminal, "frame", frames, Progress::Clock::now());
+  for (const Work& todo : work) {
+    const Sequence& sequence = todo.sequence->sequence;
+    SequenceReport& result = report.sequences.emplace_back();
+    result.name = todo.sequence->name;
+    result.layout = sequence.layout().layout->name;
+    result.extent = sequence.extent();
+    result.frames = survey(sequence);
+    result.pictureFrames = pictureFrames(result.frames);
+    BatchOptions batch{.repetitions = options.repetitions,
+                       .pictureFrames = result.pictureFrames,
+                       .pictures = pictureFolder(options.output, result.name),
+                       .frameDone = [&] { progress->advance(Progress::Clock::now()); }};
+    prepareOutputDirectory(batch.pictures);
+    for (const std::vector<Variant>& variants : todo.batches) {
+      const std::vector<RunRecord> records = runBatch(device, sequence, variants, batch);
+      for (std::size_t i = 0; i < records.size(); ++i)
+        store.save(result.name, records[i], runKey(todo.key, variants[i]));
+    }
+    for (const Variant& variant : options.variants) {
+      result.runs.push_back(store.find(result.name, variant.name, runKey(todo.key, variant)).value());
+    }
+  }
+  return report;
+}
+
+}  // namespace walr

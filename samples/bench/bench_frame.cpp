@@ -1,0 +1,107 @@
+#include "samples/bench/bench_frame.h"
+
+#include <algorithm>
+#include <string>
+
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+#include <glm/vec4.hpp>
+
+#include "samples/denoise/report.h"
+#include "samples/metrics/metrics.h"
+
+namespace walr {
+namespace {
+
+/// Depth in the frame before, minus depth, of a surface point that stands still.
+float depthChangeOfStill(const Frame& frame, int x, int y) {
+  const Camera& camera = frame.camera;
+  const float depth = frame.depth.at(x, y, 0);
+  const glm::vec2 position = glm::vec2(x + 0.5F, y + 0.5F) + camera.jitter;
+  const glm::vec2 ndc = {2.0F * position.x / static_cast<float>(frame.depth.width()) - 1.0F,
+                         1.0F - 2.0F * position.y / static_cast<float>(frame.depth.height())};
+  const glm::mat4& projection = camera.projection;
+  const glm::vec4 view = {(ndc.x + projection[2][0]) * depth / projection[0][0],
+                          (ndc.y + projection[2][1]) * depth / projection[1][1], -depth, 1.0F};
+  return -(camera.previousView * (glm::inverse(camera.view) * view)).z - depth;
+}
+
+VisibleSurfaces visibleSurfaces(const Frame& frame, const Layout& layout) {
+  VisibleSurfaces surfaces{frame.depth, frame.normal, frame.motion,
+                           diffuseMask(frame.albedo, frame.normal, frame.depth, kSkyDepth, frame.reference->indirect)};
+  const glm::mat3 toWorld = glm::transpose(glm::mat3(frame.camera.view));
+  const bool inView = layout.conventions.normal == InputConventions::Space::View;
+  const bool still = layout.conventions.motionDepth == InputConventions::MotionDepth::StaticScene;
+  for (int y = 0; y < frame.depth.height(); ++y) {
+    for (int x = 0; x < frame.depth.width(); ++x) {
+      if (inView) {
+        const glm::vec3 normal =
+            toWorld * glm::vec3(frame.normal.at(x, y, 0), frame.normal.at(x, y, 1), frame.normal.at(x, y, 2));
+        for (int c = 0; c < 3; ++c) surfaces.normal.at(x, y, c) = normal[c];
+      }
+      surfaces.motion.at(x, y, 0) *= layout.motionScale.x;
+      surfaces.motion.at(x, y, 1) *= layout.motionScale.y;
+      if (still) surfaces.motion.at(x, y, 2) = depthChangeOfStill(frame, x, y);
+    }
+  }
+  return surfaces;
+}
+
+std::optional<Image> readHalfReference(const Sequence& sequence, const std::filesystem::path& file) {
+  ExrReader reader(file);
+  const RecognizedLayout& layout = sequence.layout();
+  const auto plane = std::ranges::find(layout.layout->planes, Role::Indirect, &Plane::role);
+  const std::vector<std::string> channels = reader.channels();
+  Image half(reader.width(), reader.height(), 3);
+  std::vector<ExrReader::Target> targets;
+  for (std::size_t c = 0; c < plane->components.size(); ++c) {
+    targets.push_back(
+        {layout.channel(std::string(plane->name) + "A", plane->components[c]), &half, static_cast<int>(c)});
+    if (std::ranges::find(channels, targets.back().channel) == channels.end()) return std::nullopt;
+  }
+  reader.read(targets);
+  return half;
+}
+
+}  // namespace
+
+BenchFrame readBenchFrame(const Sequence& sequence, std::size_t index) {
+  BenchFrame result;
+  result.packed = packFrame(sequence.read(index));
+  result.surfaces = visibleSurfaces(result.packed.frame, *sequence.layout().layout);
+  result.halfReference = readHalfReference(sequence, sequence.entries()[index].reference);
+  return result;
+}
+
+std::vector<FrameFacts> survey(const Sequence& sequence) {
+  std::vector<FrameFacts> facts;
+  VisibleSurfaces previous;
+  for (std::size_t i = 0; i < sequence.entries().size(); ++i) {
+    BenchFrame frame = readBenchFrame(sequence, i);
+    const PixelMask& mask = frame.surfaces.mask;
+    FrameFacts fact;
+    fact.number = frame.packed.frame.number;
+    fact.resetHistory = frame.packed.frame.resetHistory;
+    if (!fact.resetHistory) fact.disoccluded = disoccludedShare(previousPixels(frame.surfaces, previous), mask);
+    if (frame.halfReference) {
+      fact.referenceNoise = referenceNoise(frame.packed.frame.reference->indirect, *frame.halfReference, mask);
+    }
+    previous = std::move(frame.surfaces);
+    facts.push_back(fact);
+  }
+  return facts;
+}
+
+std::vector<int> pictureFrames(const std::vector<FrameFacts>& facts) {
+  std::vector<int> frames = {facts.back().number};
+  const FrameFacts* hardest = nullptr;
+  for (std::size_t i = std::min(kWarmUpFrames, facts.size()); i + 1 < facts.size(); ++i) {
+    if (facts[i].disoccluded && (hardest == nullptr || *facts[i].disoccluded > *hardest->disoccluded)) {
+      hardest = &facts[i];
+    }
+  }
+  if (hardest != nullptr && *hardest->disoccluded > 0.0) frames.insert(frames.begin(), hardest->number);
+  return frames;
+}
+
+}  // namespace walr

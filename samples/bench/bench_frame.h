@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "samples/denoise/packed_frame.h"
+#include "samples/metrics/display.h"
+#include "samples/metrics/temporal.h"
+#include "samples/sequence/sequence.h"
+
+namespace walr {
+
+/// A frame with all that its measurement needs.
+struct BenchFrame {
+  PackedFrame packed;
+  VisibleSurfaces surfaces;
+  std::optional<Image> halfReference;  ///< Mean of one half of the reference's samples, where the file holds it.
+};
+
+/// Read a frame that has a reference. The half reference is the reference's plane with an A after its name:
+/// `DiffIndA.{R,G,B}` or `IndirectA.{R,G,B}`.
+/// @throws InputError
+BenchFrame readBenchFrame(const Sequence& sequence, std::size_t index);
+
+/// What is known of a frame before any method has run.
+struct FrameFacts {
+  int number = 0;
+  bool resetHistory = false;
+  std::optional<double> disoccluded;     ///< Share of the pixels that were not visible in the frame before.
+  std::optional<double> referenceNoise;  ///< See `referenceNoise`.
+};
+
+/// Facts of all frames.
+/// @throws InputError
+std::vector<FrameFacts> survey(const Sequence& sequence);
+
+/// The frames whose pictures are kept, chosen by the input alone: the last one, and the one with the largest
+/// disocclusion after history has built up.
+std::vector<int> pictureFrames(const std::vector<FrameFacts>& facts);
+
+}  // namespace walr

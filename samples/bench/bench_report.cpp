@@ -1,0 +1,220 @@
+#include "samples/bench/bench_report.h"
+
+#include <algorithm>
+#include <iomanip>
+#include <ostream>
+#include <sstream>
+
+#include <nlohmann/json.hpp>
+
+#include "samples/denoise/report.h"
+
+namespace walr {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+template <typename T>
+Json orNull(const std::optional<T>& value) {
+  return value ? Json(*value) : Json();
+}
+
+Json figuresJson(const std::vector<FrameErrors>& frames,
+                 std::optional<double> (*figure)(const std::vector<FrameErrors>&, const Metric&)) {
+  Json object = Json::object();
+  for (const Metric& metric : kMetrics) object[std::string(metric.name)] = orNull(figure(frames, metric));
+  return object;
+}
+
+Json costsJson(const std::vector<PlanCosts>& costs) {
+  Json list = Json::array();
+  for (const PlanCosts& cost : costs) {
+    list.push_back({{"width", cost.extent.width},
+                    {"height", cost.extent.height},
+                    {"bytes_read_per_pixel", cost.bytesReadPerPixel},
+                    {"bytes_written_per_pixel", cost.bytesWrittenPerPixel},
+                    {"persistent_bytes", cost.persistentBytes},
+                    {"transient_unaliased_bytes", cost.transientUnaliasedBytes},
+                    {"transient_peak_bytes", cost.transientPeakBytes}});
+  }
+  return list;
+}
+
+Json variantsJson(const BenchReport& report) {
+  Json list = Json::array();
+  for (const Variant& variant : report.variants) {
+    Json settings = Json::object();
+    for (const auto& [name, value] : report.settings.at(variant.name)) settings[name] = value;
+    list.push_back({{"name", variant.name},
+                    {"method", variant.method},
+                    {"preset", variant.preset},
+                    {"sweep", variant.sweep},
+                    {"is_default", report.settings.at(variant.name) == report.settings.at(std::string(kBaseline))},
+                    {"settings", std::move(settings)},
+                    {"costs", costsJson(report.costs.at(variant.name))}});
+  }
+  return list;
+}
+
+Json sequenceJson(const SequenceReport& sequence) {
+  Json frames = Json::array();
+  for (const FrameFacts& frame : sequence.frames) {
+    frames.push_back({{"frame", frame.number},
+                      {"history_reset", frame.resetHistory},
+                      {"disoccluded", orNull(frame.disoccluded)},
+                      {"reference_noise", orNull(frame.referenceNoise)}});
+  }
+  Json runs = Json::array();
+  for (const RunRecord& run : sequence.runs) {
+    Json object = toJson(run);
+    object["mean"] = figuresJson(run.frames, meanOf);
+    object["mean_after_4"] = figuresJson(afterWarmUp(run.frames), meanOf);
+    object["worst_after_4"] = figuresJson(afterWarmUp(run.frames), worstOf);
+    runs.push_back(std::move(object));
+  }
+  return {{"name", sequence.name},          {"layout", sequence.layout},
+          {"width", sequence.extent.width}, {"height", sequence.extent.height},
+          {"frames", std::move(frames)},    {"picture_frames", sequence.pictureFrames},
+          {"runs", std::move(runs)}};
+}
+
+/// Costs at the size of a sequence.
+const PlanCosts& costsAt(const BenchReport& report, const std::string& variant, fg::Extent extent) {
+  return *std::ranges::find(report.costs.at(variant), extent, &PlanCosts::extent);
+}
+
+double bytesPerPixel(const PlanCosts& costs) {
+  return costs.bytesReadPerPixel + costs.bytesWrittenPerPixel;
+}
+
+std::string cell(const std::optional<double>& value, int width, int decimals) {
+  std::ostringstream text;
+  text << std::setw(width);
+  if (value) {
+    text << std::fixed << std::setprecision(decimals) << *value;
+  } else {
+    text << '-';
+  }
+  return text.str();
+}
+
+struct Column {
+  const char* title;
+  const char* metric;
+  int decimals;
+};
+constexpr std::array kColumns = {Column{"RMSE", "rmse", 5},           Column{"PSNR", "psnr", 2},
+                                 Column{"SSIM", "ssim", 4},           Column{"FLIP", "flip", 4},
+                                 Column{"relMSE", "relative_mse", 4}, Column{"flicker", "flicker", 5}};
+constexpr int kCellWidth = 9;
+
+const Metric& metricOf(const char* name) {
+  return *std::ranges::find(kMetrics, name, &Metric::name);
+}
+
+}  // namespace
+
+std::string benchJson(const BenchReport& report, const std::string& command) {
+  Json document;
+  document["schema"] = 1;
+  document["command"] = command;
+  document["commit"] = report.build.commit;
+  document["compiler"] = report.build.compiler;
+  document["build_type"] = report.build.buildType;
+  const DeviceFacts& device = report.device;
+  document["device"] = {{"name", device.name},
+                        {"driver", device.driver},
+                        {"software", device.software},
+                        {"timestamp_ns", device.timestampNanoseconds},
+                        {"empty_pass_ms", device.timerMilliseconds ? toJson(*device.timerMilliseconds) : Json()},
+                        {"copy_bytes_per_second", orNull(device.copyBytesPerSecond)}};
+  document["tone_map"] = "x/(1+x), exposure 1";
+  document["baseline"] = kBaseline;
+  document["repetitions"] = report.repetitions;
+  document["metrics"] = Json::array();
+  for (const Metric& metric : kMetrics) {
+    constexpr std::array kBetter = {"lower", "higher", "as_reference"};
+    document["metrics"].push_back({{"name", metric.name},
+                                   {"better", kBetter.at(static_cast<std::size_t>(metric.better))},
+                                   {"description", metric.description}});
+  }
+  document["variants"] = variantsJson(report);
+  document["sequences"] = Json::array();
+  for (const SequenceReport& sequence : report.sequences) document["sequences"].push_back(sequenceJson(sequence));
+  return document.dump(1) + "\n";
+}
+
+std::string benchCsv(const BenchReport& report) {
+  std::ostringstream csv;
+  csv << "sequence,variant,sweep";
+  for (const Metric& metric : kMetrics) csv << ',' << metric.name << ",worst_" << metric.name;
+  csv << ",non_finite,time_ratio_median,time_ratio_p5,time_ratio_p95,bytes_per_pixel,persistent_bytes,"
+         "transient_unaliased_bytes,transient_peak_bytes\n";
+  const auto number = [&csv](const std::optional<double>& value) {
+    csv << ',';
+    if (value) csv << *value;
+  };
+  for (const SequenceReport& sequence : report.sequences) {
+    for (std::size_t i = 0; i < sequence.runs.size(); ++i) {
+      const RunRecord& run = sequence.runs[i];
+      const std::vector<FrameErrors> frames = afterWarmUp(run.frames);
+      csv << sequence.name << ',' << run.variant << ',' << report.variants[i].sweep;
+      std::size_t nonFinite = 0;
+      for (const FrameErrors& frame : run.frames) nonFinite += frame.nonFinite;
+      for (const Metric& metric : kMetrics) {
+        number(meanOf(frames, metric));
+        number(worstOf(frames, metric));
+      }
+      csv << ',' << nonFinite;
+      number(run.ratio ? std::optional(run.ratio->median) : std::nullopt);
+      number(run.ratio ? std::optional(run.ratio->p5) : std::nullopt);
+      number(run.ratio ? std::optional(run.ratio->p95) : std::nullopt);
+      const PlanCosts& costs = costsAt(report, run.variant, sequence.extent);
+      csv << ',' << bytesPerPixel(costs) << ',' << costs.persistentBytes << ',' << costs.transientUnaliasedBytes << ','
+          << costs.transientPeakBytes << '\n';
+    }
+  }
+  return csv.str();
+}
+
+void printBench(std::ostream& stream, const BenchReport& report) {
+  std::size_t widest = 8;
+  for (const Variant& variant : report.variants) widest = std::max(widest, variant.name.size());
+  const int nameWidth = static_cast<int>(widest) + 1;
+  for (const SequenceReport& sequence : report.sequences) {
+    stream << '\n' << std::left << std::setw(nameWidth) << sequence.name << std::right;
+    for (const Column& column : kColumns) stream << std::setw(kCellWidth) << column.title;
+    stream << std::setw(kCellWidth) << "time x"
+           << "    (5 to 95 %) " << std::setw(kCellWidth) << "B/pixel" << std::setw(kCellWidth) << "MB" << '\n';
+    for (const RunRecord& run : sequence.runs) {
+      const std::vector<FrameErrors> frames = afterWarmUp(run.frames);
+      stream << std::left << std::setw(nameWidth) << run.variant << std::right;
+      for (const Column& column : kColumns) {
+        stream << cell(meanOf(frames, metricOf(column.metric)), kCellWidth, column.decimals);
+      }
+      stream << cell(run.ratio ? std::optional(run.ratio->median) : std::nullopt, kCellWidth, 3);
+      std::ostringstream range;
+      if (run.ratio) {
+        range << std::fixed << std::setprecision(2) << '(' << run.ratio->p5 << " to " << run.ratio->p95 << ')';
+      }
+      stream << std::setw(17) << range.str();
+      const PlanCosts& costs = costsAt(report, run.variant, sequence.extent);
+      constexpr double kMegabyte = 1e6;
+      stream << cell(bytesPerPixel(costs), kCellWidth, 0)
+             << cell(static_cast<double>(costs.persistentBytes + costs.transientPeakBytes) / kMegabyte, kCellWidth, 1);
+      const bool finite =
+          std::ranges::all_of(run.frames, [](const FrameErrors& frame) { return frame.nonFinite == 0; });
+      stream << (finite ? "" : "  NOT FINITE") << (run.reproducible ? "" : "  NOT REPRODUCIBLE") << '\n';
+    }
+  }
+  stream << "\nMeans over the frames after the first " << kWarmUpFrames
+         << ". Errors after the tone map x/(1+x), but relMSE; "
+         << "time: ratio to " << kBaseline
+         << " on the same frame in the same run; bytes per pixel and memory (persistent "
+            "and shared transient): from the plan.\n";
+  if (report.device.software) {
+    stream << report.device.name << " is a software device: ratios of its times are a processor's, not a GPU's.\n";
+  }
+}
+
+}  // namespace walr

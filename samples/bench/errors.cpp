@@ -1,0 +1,35 @@
+#include "samples/bench/errors.h"
+
+#include <algorithm>
+
+#include "samples/denoise/report.h"
+
+namespace walr {
+
+std::optional<double> meanOf(const std::vector<FrameErrors>& frames, const Metric& metric) {
+  double sum = 0.0;
+  std::size_t count = 0;
+  for (const FrameErrors& frame : frames) {
+    sum += (frame.*metric.figure).value_or(0.0);
+    count += (frame.*metric.figure).has_value() ? 1 : 0;
+  }
+  return count > 0 ? std::optional(sum / static_cast<double>(count)) : std::nullopt;
+}
+
+std::optional<double> worstOf(const std::vector<FrameErrors>& frames, const Metric& metric) {
+  std::optional<double> worst;
+  for (const FrameErrors& frame : frames) {
+    const std::optional<double>& figure = frame.*metric.figure;
+    if (!figure || metric.better == Metric::Better::AsReference) continue;
+    const bool lower = metric.better == Metric::Better::Lower;
+    worst = !worst ? *figure : (lower ? std::max(*worst, *figure) : std::min(*worst, *figure));
+  }
+  return worst;
+}
+
+std::vector<FrameErrors> afterWarmUp(const std::vector<FrameErrors>& frames) {
+  const std::size_t skipped = frames.size() > kWarmUpFrames ? kWarmUpFrames : 0;
+  return {frames.begin() + static_cast<std::ptrdiff_t>(skipped), frames.end()};
+}
+
+}  // namespace walr

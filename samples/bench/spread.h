@@ -1,0 +1,18 @@
+#pragma once
+
+#include <vector>
+
+namespace walr {
+
+/// How measured values lie.
+struct Spread {
+  double median = 0.0;
+  double p5 = 0.0;   ///< 5 % lie below.
+  double p95 = 0.0;  ///< 5 % lie above.
+};
+
+/// Quantiles with linear interpolation between order statistics (Hyndman and Fan 1996, type 7).
+/// @param values  at least one
+Spread spread(std::vector<double> values);
+
+}  // namespace walr

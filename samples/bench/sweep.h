@@ -1,0 +1,32 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "samples/bench/variant.h"
+
+namespace walr {
+
+/// One value on a sweep.
+struct SweepPoint {
+  std::string_view label;
+  std::vector<SettingValue> settings;
+};
+
+/// A question about WALR's settings, and the settings that answer it. Its variants are named "SWEEP=LABEL".
+struct Sweep {
+  std::string_view name;
+  std::string_view question;
+  std::vector<SweepPoint> points;
+};
+
+/// All sweeps. A new one is a line here.
+std::span<const Sweep> sweeps();
+
+/// The variants of a sweep.
+/// @throws std::invalid_argument naming the unknown sweep and the known ones
+std::vector<Variant> sweepVariants(std::string_view name);
+
+}  // namespace walr

@@ -1,0 +1,168 @@
+#include <unistd.h>
+
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "samples/bench/bench.h"
+#include "samples/bench/bench_report.h"
+#include "samples/bench/html_report.h"
+#include "samples/bench/sweep.h"
+#include "samples/bench/variant.h"
+#include "samples/cli/arguments.h"
+#include "samples/cli/command.h"
+#include "samples/cli/exit_code.h"
+#include "samples/cli/usage_error.h"
+#include "samples/image/file_output.h"
+
+namespace walr {
+namespace {
+
+struct BenchArguments {
+  std::vector<std::filesystem::path> sequences;
+  std::string methods = "all";
+  std::vector<std::string> variants;
+  std::vector<std::string> sweeps;
+  std::string frames;
+  GpuDevice::Options gpu;
+  BenchOptions bench;
+  bool noHtml = false;
+  std::string python = "/usr/bin/python3";
+};
+
+/// Variants in the order of the command line, the baseline first.
+std::vector<Variant> chosenVariants(const BenchArguments& arguments) {
+  try {
+    std::vector<Variant> variants = parseMethods(arguments.methods);
+    for (const std::string& text : arguments.variants) variants.push_back(parseVariant(text));
+    for (const std::string& sweep : arguments.sweeps) {
+      for (Variant& variant : sweepVariants(sweep)) variants.push_back(std::move(variant));
+    }
+    return withBaseline(std::move(variants));
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(error.what());
+  }
+}
+
+void refuseOutputIntoInput(const BenchArguments& arguments) {
+  for (const std::filesystem::path& sequence : arguments.sequences) {
+    std::error_code ignored;
+    if (std::filesystem::equivalent(sequence, arguments.bench.output, ignored)) {
+      throw UsageError("--output is the folder of a sequence; choose another one.");
+    }
+  }
+}
+
+void writeText(const std::filesystem::path& path, const std::string& text) {
+  writeFileAtomically(path, std::as_bytes(std::span(text)));
+}
+
+void runBench(BenchArguments& arguments, const std::string& command) {
+  arguments.bench.variants = chosenVariants(arguments);
+  refuseOutputIntoInput(arguments);
+  SequenceOptions options;
+  options.nonFinite = NonFinitePolicy::Replace;
+  if (!arguments.frames.empty()) options.frames = parseFrameRange(arguments.frames);
+  const std::vector<NamedSequence> sequences = openSequences(arguments.sequences, options);
+  const std::filesystem::path& output = arguments.bench.output;
+  prepareOutputDirectory(output);
+
+  GpuDevice device(arguments.gpu);
+  std::cout << "device: " << device.name() << ", driver " << device.driver()
+            << (device.isSoftware() ? " (software)" : "") << std::endl;
+  const BenchReport report = bench(device, sequences, arguments.bench, std::cerr, isatty(STDERR_FILENO) != 0);
+  if (const std::vector<fg::vk::Message> messages = device.takeMessages(); !messages.empty()) {
+    throw std::runtime_error("the validation layer has " + std::to_string(messages.size()) +
+                             " message(s); the first: " + messages.front().text);
+  }
+  printBench(std::cout, report);
+  writeText(output / "bench.json", benchJson(report, command));
+  writeText(output / "bench.csv", benchCsv(report));
+  if (arguments.noHtml) return;
+  const std::string trouble = writeHtmlReport(output, arguments.python);
+  std::cout << (trouble.empty() ? "report: " + (output / "report.html").string() : trouble) << std::endl;
+}
+
+std::string sweepHelp() {
+  std::string text = "Also run this sweep over settings of walr; may be given several times, or 'all'. Sweeps:";
+  for (const Sweep& sweep : sweeps()) text += "\n  " + std::string(sweep.name) + ": " + std::string(sweep.question);
+  return text;
+}
+
+/// As it could be typed again.
+std::string commandLine(const CLI::App& program, const CLI::App& command) {
+  std::string text = program.get_name() + " " + command.get_name();
+  for (const CLI::Option* option : command.get_options()) {
+    for (const std::string& value : option->results()) {
+      text += " --" + option->get_single_name() + (option->get_expected_max() > 0 ? " " + value : "");
+    }
+  }
+  return text;
+}
+
+}  // namespace
+
+void registerBench(CLI::App& program) {
+  const auto arguments = std::make_shared<BenchArguments>();
+  CLI::App* command = program.add_subcommand(
+      "bench", "Measure speed against error: every method and setting on the same frames, beside each other");
+  command
+      ->add_option("--sequences", arguments->sequences,
+                   "Folders of frames with references (samples/README.md), one report section each")
+      ->required()
+      ->type_name("DIR...");
+  command
+      ->add_option("-o,--output", arguments->bench.output,
+                   "Folder for bench.json, bench.csv, report.html and all that they are made from; run again, it goes "
+                   "on where it was, and runs anew only what has changed")
+      ->required()
+      ->type_name("DIR");
+  command
+      ->add_option("--methods", arguments->methods,
+                   "METHOD or METHOD:PRESET, parted by commas, or all of them. walr is always among them: times are "
+                   "ratios to it")
+      ->type_name("LIST|all")
+      ->capture_default_str();
+  command
+      ->add_option("--variant", arguments->variants, "A method with settings under a name; may be given several times")
+      ->allow_extra_args(false)
+      ->type_name("NAME=METHOD[:PRESET][,SETTING=VALUE]...");
+  command->add_option("--sweep", arguments->sweeps, sweepHelp())->type_name("NAME");
+  command->add_option("--frames", arguments->frames, "Frame numbers, both included; default: all")->type_name("A-B");
+  command
+      ->add_option("--repeat", arguments->bench.repetitions,
+                   "Timed passes over each sequence, after one that warms up and measures errors")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  command
+      ->add_option("--batch", arguments->bench.batch,
+                   "Variants that run beside each other; fewer need less device memory at once")
+      ->check(CLI::Range(2, 1000))
+      ->capture_default_str();
+  command
+      ->add_option("--device", arguments->gpu.device,
+                   "Vulkan device by number or part of its name; default: the most capable")
+      ->type_name("N|NAME");
+  command->add_flag("--validate", arguments->gpu.validation,
+                    "Run under the Khronos validation layer; any message is an error. Times are then worthless");
+  command->add_flag("--no-html", arguments->noHtml, "Do not draw report.html");
+  command->add_option("--python", arguments->python, "Python 3 with matplotlib, which draws report.html")
+      ->type_name("FILE")
+      ->capture_default_str();
+  command->footer(kExitCodeHelp);
+  command->callback([arguments, command, &program] {
+    if (arguments->sweeps == std::vector<std::string>{"all"}) {
+      arguments->sweeps.clear();
+      for (const Sweep& sweep : sweeps()) arguments->sweeps.emplace_back(sweep.name);
+    }
+    runBench(*arguments, commandLine(program, *command));
+  });
+}
+
+}  // namespace walr

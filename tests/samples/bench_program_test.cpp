@@ -1,0 +1,149 @@
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/samples/process.h"
+#include "tests/samples/synthetic_sequence.h"
+#include "tests/samples/temporary_directory.h"
+
+/// `walr bench` as users call it.
+namespace walr {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using test::ProcessResult;
+
+class BenchProgramTest : public testing::Test {
+ protected:
+  BenchProgramTest() {
+    fs::create_directory(input);
+    test::SyntheticSequence(input, 40, 32).write(0, 5);
+  }
+
+  /// `walr bench` under the validation layer, with one repetition where the arguments do not ask for more, and without
+  /// a page where they do not ask for one.
+  [[nodiscard]] ProcessResult bench(const fs::path& output, std::vector<std::string> more, bool page = false) const {
+    std::vector<std::string> arguments = {WALR_PROGRAM, "bench",         "--sequences", input.string(),
+                                          "--output",   output.string(), "--validate"};
+    if (!page) more.emplace_back("--no-html");
+    if (std::ranges::find(more, "--repeat") == more.end()) more.insert(more.end(), {"--repeat", "1"});
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return test::runProcess(arguments);
+  }
+  static json report(const fs::path& output) { return json::parse(test::readText(output / "bench.json")); }
+  static json run(const json& report, const std::string& variant) {
+    for (const json& run : report["sequences"][0]["runs"]) {
+      if (run["variant"] == variant) return run;
+    }
+    return {};
+  }
+  static void expectSuccess(const ProcessResult& result) { EXPECT_EQ(result.exitCode, 0) << result.out << result.err; }
+  static void expectFailure(const ProcessResult& result, int code, const std::string& part) {
+    EXPECT_EQ(result.exitCode, code) << result.err;
+    EXPECT_NE(result.err.find(part), std::string::npos) << "'" << part << "' in: " << result.err;
+  }
+
+  test::TemporaryDirectory directory;
+  fs::path input = directory.path() / "wall";
+  fs::path first = directory.path() / "first";
+  fs::path second = directory.path() / "second";
+};
+
+TEST_F(BenchProgramTest, MeasuresMethodsBesideEachOther) {
+  const ProcessResult result = bench(first, {"--methods", "accumulate,none", "--sweep", "replacement"}, true);
+  expectSuccess(result);
+  EXPECT_NE(result.out.find("replacement=off"), std::string::npos) << result.out;
+  EXPECT_NE(result.err.find("frame 12 of 12"), std::string::npos) << result.err;
+
+  const json data = report(first);
+  EXPECT_FALSE(data["commit"].get<std::string>().empty());
+  EXPECT_FALSE(data["device"]["driver"].get<std::string>().empty());
+  EXPECT_GT(data["device"]["copy_bytes_per_second"], 0.0);
+  ASSERT_EQ(data["variants"].size(), 5U);
+  EXPECT_EQ(data["variants"][0]["name"], "walr");
+  const json walr = run(data, "walr");
+  EXPECT_TRUE(walr["reproducible"]);
+  EXPECT_EQ(walr["timed_frames"], 6);
+  EXPECT_EQ(walr["ratio"]["median"], 1.0);
+  ASSERT_EQ(walr["frames"].size(), 6U);
+  EXPECT_TRUE(walr["frames"][0]["flicker"].is_null()) << "the first frame has none before it";
+  // The reference is a constant, which a denoiser finds far better than one path a pixel does.
+  EXPECT_LT(walr["mean_after_4"]["rmse"].get<double>(), 0.25 * run(data, "none")["mean_after_4"]["rmse"].get<double>());
+  EXPECT_LT(walr["mean_after_4"]["flicker"].get<double>(), run(data, "none")["mean_after_4"]["flicker"].get<double>());
+  EXPECT_GT(walr["passes"].size(), 3U);
+  for (const char* file : {"bench.csv", "report.html", "report.py", "pareto.svg"}) {
+    EXPECT_TRUE(fs::exists(first / file)) << file << ": " << result.out;
+  }
+  const std::string page = test::readText(first / "report.html");
+  EXPECT_NE(page.find("<svg"), std::string::npos);
+  EXPECT_EQ(page.find("src=\"http"), std::string::npos) << "the page must hold all that it shows";
+}
+
+TEST_F(BenchProgramTest, RunsGiveTheSameErrorsAndPictures) {
+  expectSuccess(bench(first, {"--methods", "bmfr"}));
+  expectSuccess(bench(second, {"--methods", "bmfr"}));
+  const json a = report(first);
+  const json b = report(second);
+  for (const char* variant : {"walr", "bmfr"}) {
+    EXPECT_EQ(run(a, variant)["frames"], run(b, variant)["frames"]);
+    const fs::path picture = fs::path("pictures") / "wall" / (std::string(variant) + "_0005.npy");
+    EXPECT_EQ(test::readText(first / picture), test::readText(second / picture));
+  }
+}
+
+TEST_F(BenchProgramTest, RunsOnlyWhatIsMissingOrHasChanged) {
+  expectSuccess(bench(first, {"--methods", "accumulate"}));
+  const json before = report(first);
+  const ProcessResult again = bench(first, {"--methods", "accumulate"});
+  expectSuccess(again);
+  EXPECT_NE(again.err.find("2 of 2 variants have been run already"), std::string::npos) << again.err;
+  EXPECT_EQ(report(first)["sequences"], before["sequences"]);
+
+  const ProcessResult more = bench(first, {"--methods", "accumulate,none"});
+  EXPECT_NE(more.err.find("2 of 3 variants"), std::string::npos) << more.err;
+  EXPECT_EQ(run(report(first), "accumulate"), run(before, "accumulate"));
+
+  test::SyntheticSequence(input, 40, 32).writeReference(3, [](test::Channels& channels) {
+    channels.at("DiffInd.R").at(20, 20, 0) += 0.5F;
+  });
+  const ProcessResult changed = bench(first, {"--methods", "accumulate"});
+  EXPECT_NE(changed.err.find("0 of 2 variants"), std::string::npos) << changed.err;
+}
+
+/// The same method under two names differs from itself by less than the spread that is reported.
+TEST_F(BenchProgramTest, AMethodIsAsFastAsItself) {
+  expectSuccess(bench(first, {"--methods", "walr", "--variant", "again=walr", "--repeat", "5"}));
+  const json data = report(first);
+  const json again = run(data, "again");
+  EXPECT_EQ(again["frames"], run(data, "walr")["frames"]);
+  const json& ratio = again["ratio"];
+  EXPECT_LE(std::abs(ratio["median"].get<double>() - 1.0), ratio["p95"].get<double>() - ratio["p5"].get<double>());
+}
+
+TEST_F(BenchProgramTest, WhatIsWrongIsNamedBeforeAnythingIsWritten) {
+  constexpr int kUsage = 2;
+  constexpr int kInput = 3;
+  expectFailure(bench(first, {"--methods", "magic"}), kUsage, "magic");
+  expectFailure(bench(first, {"--sweep", "magic"}), kUsage, "known sweeps");
+  expectFailure(bench(first, {"--variant", "x=walr,magic=1"}), kUsage, "magic");
+  expectFailure(bench(first, {"--sequences", (directory.path() / "nowhere").string()}), kInput, "nowhere");
+  fs::remove(input / "ref_0003.exr");
+  expectFailure(bench(first, {}), kInput, "no reference");
+  EXPECT_FALSE(fs::exists(first));
+}
+
+TEST_F(BenchProgramTest, SaysWhyThereIsNoPage) {
+  const ProcessResult result = bench(first, {"--methods", "none", "--python", "/does/not/exist"}, true);
+  expectSuccess(result);
+  EXPECT_NE(result.out.find("python3-matplotlib"), std::string::npos) << result.out;
+  EXPECT_TRUE(fs::exists(first / "bench.json"));
+}
+
+}  // namespace
+}  // namespace walr
