@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cstring>
 
 #include <walr/walr.h>
 
@@ -20,12 +19,6 @@ HandleTable<WalrDenoiser, HostedDenoiser>& denoisers() {
 template <typename Action>
 WalrResult withDenoiser(WalrDenoiser denoiser, Action action) noexcept {
   return guarded([&] { denoisers().use(denoiser, action); });
-}
-
-template <typename T>
-T& required(T* pointer, const char* name) {
-  if (pointer == nullptr) throw Error(WALR_ERROR_INVALID_ARGUMENT, std::string(name) + " is null");
-  return *pointer;
 }
 
 }  // namespace
@@ -75,16 +68,7 @@ WalrResult walr_use_preset(WalrDenoiser denoiser, const char* name) {
 WalrResult walr_get_setting(WalrDenoiser denoiser, const char* name, char* value, size_t* size) {
   return withDenoiser(denoiser, [&](HostedDenoiser& object) {
     const std::string text = object.setting(requireText(name, "the setting's name"));
-    size_t& room = required(size, "the size's address");
-    const size_t needed = text.size() + 1;
-    const size_t given = room;
-    room = needed;
-    if (value == nullptr) return;
-    if (given < needed) {
-      throw Error(WALR_ERROR_INVALID_ARGUMENT,
-                  "the value needs " + std::to_string(needed) + " bytes, there are " + std::to_string(given));
-    }
-    std::memcpy(value, text.c_str(), needed);
+    copyOut(text.c_str(), text.size() + 1, value, size);
   });
 }
 

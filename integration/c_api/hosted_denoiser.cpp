@@ -1,100 +1,21 @@
 #include "integration/c_api/hosted_denoiser.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
-#include <glm/gtc/type_ptr.hpp>
-
-#include "framegraph/compile.h"
 #include "framegraph/vulkan/driver_memory_model.h"
 #include "framegraph/vulkan/physical_device.h"
 #include "integration/c_api/structs.h"
 #include "integration/setting_info.h"
 
 namespace walr::api {
-namespace {
-
-constexpr std::uint32_t kLargestPicture = 16384;
-constexpr std::uint32_t kMostFramesInFlight = 16;
-constexpr std::uint32_t kUsualFramesInFlight = 2;
-
-WalrConventions checkedConventions(const WalrConventions* given) {
-  WalrConventions conventions = readOptional(given, "WalrConventions");
-  checkedEnum(conventions.normal_space, WALR_SPACE_WORLD, "WalrConventions::normal_space");
-  checkedEnum(conventions.motion_unit, WALR_MOTION_PICTURES, "WalrConventions::motion_unit");
-  checkedEnum(conventions.motion_depth, WALR_MOTION_DEPTH_STATIC_SCENE, "WalrConventions::motion_depth");
-  for (float& scale : conventions.motion_scale) {
-    if (!std::isfinite(scale)) {
-      throw Error(WALR_ERROR_INVALID_ARGUMENT, "WalrConventions::motion_scale is not finite");
-    }
-    if (scale == 0.0F) scale = 1.0F;
-  }
-  return conventions;
-}
-
-InputConventions inputConventions(const WalrConventions& conventions) {
-  return {.normal = conventions.normal_space == WALR_SPACE_WORLD ? InputConventions::Space::World
-                                                                 : InputConventions::Space::View,
-          .motionDepth = conventions.motion_depth == WALR_MOTION_DEPTH_STATIC_SCENE
-                             ? InputConventions::MotionDepth::StaticScene
-                             : InputConventions::MotionDepth::Given};
-}
-
-fg::Extent checkedExtent(std::uint32_t width, std::uint32_t height) {
-  if (width == 0 || height == 0 || width > kLargestPicture || height > kLargestPicture) {
-    throw Error(WALR_ERROR_INVALID_ARGUMENT, "a picture of " + std::to_string(width) + " x " + std::to_string(height) +
-                                                 " pixels: both must be 1 to " + std::to_string(kLargestPicture));
-  }
-  return {width, height};
-}
-
-std::uint32_t checkedSlots(std::uint32_t framesInFlight) {
-  if (framesInFlight <= kMostFramesInFlight) return framesInFlight == 0 ? kUsualFramesInFlight : framesInFlight;
-  throw Error(WALR_ERROR_INVALID_ARGUMENT, "WalrDenoiserInfo::frames_in_flight is " + std::to_string(framesInFlight) +
-                                               ": it must be at most " + std::to_string(kMostFramesInFlight));
-}
-
-VkFormat formatOr(VkFormat format, std::size_t input) {
-  const HostInput& host = kHostInputs.at(input);
-  if (format == VK_FORMAT_UNDEFINED) return host.format;
-  requireInputFormat(host, format);
-  return format;
-}
-
-fg::Plan compilePlan(const fg::Graph& graph, const fg::MemoryModel& memory) {
-  fg::CompileResult result = fg::compile(graph.desc(), memory);
-  if (!result.ok()) throw Error(WALR_ERROR_INTERNAL, "the method's frame graph does not compile:\n" + result.text());
-  return std::move(result.plan);
-}
-
-void requireFinite(std::span<const float> values, const char* what) {
-  if (std::ranges::all_of(values, [](float value) { return std::isfinite(value); })) return;
-  throw Error(WALR_ERROR_INVALID_ARGUMENT, std::string(what) + " is not finite");
-}
-
-const WalrCamera& checkedCamera(const WalrCamera& camera) {
-  requireFinite(camera.view, "WalrCamera::view");
-  requireFinite(camera.projection, "WalrCamera::projection");
-  requireFinite(camera.jitter, "WalrCamera::jitter");
-  return camera;
-}
-
-}  // namespace
 
 HostedDenoiser::HostedDenoiser(const WalrDenoiserInfo& info)
     : device_(info.device),
-      method_(makeDenoiser(info.method == nullptr ? "walr" : info.method)),
-      methodName_(info.method == nullptr ? "walr" : info.method),
-      extent_(checkedExtent(info.width, info.height)),
-      conventions_(checkedConventions(info.conventions)),
-      formats_{formatOr(info.lighting_format, 0), formatOr(info.depth_format, 1), formatOr(info.normal_format, 2),
-               formatOr(info.motion_format, 3), formatOr(info.albedo_format, 4)},
-      slots_(checkedSlots(info.frames_in_flight)),
+      description_(info),
       timestamps_(info.timestamps == VK_TRUE && device_.context().timestampBits > 0),
       log_(info.log),
       logUser_(info.log_user) {
-  if (info.preset != nullptr) method_->usePreset(info.preset);
   if (info.timestamps == VK_TRUE && !timestamps_) log(WALR_LOG_WARNING, "the queue family has no timestamps");
 }
 
@@ -107,33 +28,33 @@ void HostedDenoiser::declarationChanged() {
 }
 
 void HostedDenoiser::resize(std::uint32_t width, std::uint32_t height) {
-  const fg::Extent extent = checkedExtent(width, height);
-  if (extent == extent_) return;
-  extent_ = extent;
-  declarationChanged();
+  const fg::Extent before = description_.extent();
+  description_.resize(width, height);
+  if (description_.extent() != before) declarationChanged();
 }
 
 void HostedDenoiser::set(std::string_view name, std::string_view value) {
-  method_->set(name, value);
+  description_.method().set(name, value);
   declarationChanged();
 }
 
 void HostedDenoiser::usePreset(std::string_view name) {
-  method_->usePreset(name);
+  description_.method().usePreset(name);
   declarationChanged();
 }
 
 std::string HostedDenoiser::setting(std::string_view name) {
-  for (SettingDescription& setting : describeSettings(*method_)) {
+  for (SettingDescription& setting : describeSettings(description_.method())) {
     if (setting.name == name) return std::move(setting.value);
   }
-  throw Error(WALR_ERROR_INVALID_ARGUMENT, "method '" + methodName_ + "' has no setting \"" + std::string(name) + "\"");
+  throw Error(WALR_ERROR_INVALID_ARGUMENT,
+              "method '" + description_.methodName() + "' has no setting \"" + std::string(name) + "\"");
 }
 
 const HostedDenoiser::Declared& HostedDenoiser::declare() {
   if (declared_) return *declared_;
   Declared declared;
-  declared.graph = declareDenoiseGraph(*method_, extent_, inputConventions(conventions_), kInnerStates, formats_);
+  declared.graph = description_.declare();
   // What the device lacks is said for every format at once, before the driver is asked for memory.
   const fg::Plan portable = compilePlan(declared.graph.graph, fg::TableMemoryModel());
   fg::vk::require(device_.physical(), fg::vk::formatUses(declared.graph.graph.desc(), portable));
@@ -148,7 +69,7 @@ const HostedDenoiser::Declared& HostedDenoiser::declare() {
     declared.needs[i] = {.used = planned.used,
                          .format = declared.graph.graph.textureDesc(declared.images[i]).format,
                          .usage = planned.imageUsage,
-                         .extent = extent_};
+                         .extent = description_.extent()};
   }
   retire();
   declared_ = std::move(declared);
@@ -160,12 +81,13 @@ void HostedDenoiser::build() {
   if (built_) return;
   built_ = Built{.executor = std::make_unique<fg::vk::Executor>(
                      device_.context(), declared.graph.graph.desc(), declared.plan,
-                     fg::vk::ExecutorOptions{.framesInFlight = slots_, .timestamps = timestamps_}),
+                     fg::vk::ExecutorOptions{.framesInFlight = description_.slots(), .timestamps = timestamps_}),
                  .memory = declared.plan.memory,
                  .lastFrame = std::nullopt};
-  log(WALR_LOG_INFO, methodName_ + " at " + std::to_string(extent_.width) + " x " + std::to_string(extent_.height) +
-                         ": " + std::to_string(declared.plan.passes.size()) + " passes, " +
-                         std::to_string(built_->executor->allocatedBytes()) + " bytes of device memory");
+  const fg::Extent extent = description_.extent();
+  log(WALR_LOG_INFO, description_.methodName() + " at " + std::to_string(extent.width) + " x " +
+                         std::to_string(extent.height) + ": " + std::to_string(declared.plan.passes.size()) +
+                         " passes, " + std::to_string(built_->executor->allocatedBytes()) + " bytes of device memory");
 }
 
 void HostedDenoiser::prepare() {
@@ -178,9 +100,10 @@ void HostedDenoiser::retire() {
   built_.reset();
 }
 
-/// The host has waited for the frame that was recorded `slots_` frames before the one it is about to record.
+/// The host has waited for the frame that was recorded `frames_in_flight` frames before the one it is about to record.
 void HostedDenoiser::dropFinished() {
-  std::erase_if(retired_, [&](const Built& built) { return *built.lastFrame + slots_ <= frames_; });
+  std::erase_if(retired_,
+                [&](const Built& built) { return *built.lastFrame + description_.slots() <= description_.frames(); });
 }
 
 WalrImageRequirements HostedDenoiser::requirements(std::string_view image) {
@@ -209,25 +132,6 @@ FrameImages HostedDenoiser::checkedImages(const WalrFrame& frame) const {
   return images;
 }
 
-FrameConstants HostedDenoiser::constantsOf(const WalrFrame& frame, const WalrCamera& camera) const {
-  const WalrCamera& previous = frame.previous_camera != nullptr ? checkedCamera(*frame.previous_camera)
-                               : lastCamera_                    ? *lastCamera_
-                                                                : camera;
-  glm::vec2 scale(conventions_.motion_scale[0], conventions_.motion_scale[1]);
-  if (conventions_.motion_unit == WALR_MOTION_PICTURES) scale *= glm::vec2(extent_.width, extent_.height);
-  FrameDescription description{.view = glm::make_mat4(camera.view),
-                               .previousView = glm::make_mat4(previous.view),
-                               .projection = glm::make_mat4(camera.projection),
-                               .previousProjection = glm::make_mat4(previous.projection),
-                               .jitter = glm::make_vec2(camera.jitter),
-                               .previousJitter = glm::make_vec2(previous.jitter),
-                               .motionScale = scale,
-                               .frameIndex = static_cast<std::uint32_t>(frames_)};
-  if (!(frame.sky_depth >= 0.0F)) throw Error(WALR_ERROR_INVALID_ARGUMENT, "WalrFrame::sky_depth is negative or NaN");
-  if (frame.sky_depth > 0.0F) description.skyDepth = frame.sky_depth;
-  return frameConstants(description, extent_);
-}
-
 void HostedDenoiser::bind(const FrameImages& images) {
   for (std::size_t i = 0; i < kImageCount; ++i) {
     if (!images[i].given) continue;
@@ -240,11 +144,9 @@ void HostedDenoiser::record(VkCommandBuffer commandBuffer, const WalrFrame& fram
   if ((frame.flags & ~static_cast<std::uint32_t>(WALR_FRAME_RESET_HISTORY)) != 0) {
     throw Error(WALR_ERROR_INVALID_ARGUMENT, "WalrFrame::flags has unknown bits: " + std::to_string(frame.flags));
   }
-  if (frame.camera == nullptr) throw Error(WALR_ERROR_INVALID_ARGUMENT, "WalrFrame::camera is null");
-  const WalrCamera camera = checkedCamera(*frame.camera);
+  const FrameConstants constants = description_.constants(frame.camera, frame.previous_camera, frame.sky_depth);
   declare();
   const FrameImages images = checkedImages(frame);
-  const FrameConstants constants = constantsOf(frame, camera);
   dropFinished();
   build();
   bind(images);
@@ -254,13 +156,13 @@ void HostedDenoiser::record(VkCommandBuffer commandBuffer, const WalrFrame& fram
   }
   if (resetRequested_ || (frame.flags & WALR_FRAME_RESET_HISTORY) != 0) built_->executor->resetAllHistory();
   recordAcquire(device_.context(), commandBuffer, images);
-  built_->executor->record(commandBuffer, static_cast<std::uint32_t>(frames_ % slots_));
+  built_->executor->record(commandBuffer, description_.slot());
   recordRelease(device_.context(), commandBuffer, images);
 
   resetRequested_ = false;
-  lastCamera_ = camera;
   lastImages_ = images;
-  built_->lastFrame = frames_++;
+  built_->lastFrame = description_.frames();
+  description_.advance(*frame.camera);
 }
 
 void HostedDenoiser::forget(VkImage image, std::uint64_t identity) {
@@ -289,9 +191,10 @@ WalrMemory HostedDenoiser::memory() const {
 
 std::span<const fg::vk::PassTime> HostedDenoiser::timings() {
   if (!timestamps_ || !built_ || !built_->lastFrame) return {};
-  const std::uint64_t recorded = std::min<std::uint64_t>(*built_->lastFrame + 1, slots_);
+  const std::uint64_t recorded = std::min<std::uint64_t>(*built_->lastFrame + 1, description_.slots());
   for (std::uint64_t back = 0; back < recorded; ++back) {
-    const auto times = built_->executor->passTimes(static_cast<std::uint32_t>((*built_->lastFrame - back) % slots_));
+    const std::uint64_t slot = (*built_->lastFrame - back) % description_.slots();
+    const auto times = built_->executor->passTimes(static_cast<std::uint32_t>(slot));
     if (!times.empty()) return times;
   }
   return {};

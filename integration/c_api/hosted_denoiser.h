@@ -10,10 +10,9 @@
 #include <walr/walr.h>
 
 #include "framegraph/vulkan/executor.h"
+#include "integration/c_api/description.h"
 #include "integration/c_api/device.h"
 #include "integration/c_api/host_images.h"
-#include "passes/denoiser.h"
-#include "passes/frame.h"
 
 namespace walr::api {
 
@@ -57,17 +56,11 @@ class HostedDenoiser {
   void retire();
   void dropFinished();
   [[nodiscard]] FrameImages checkedImages(const WalrFrame& frame) const;
-  [[nodiscard]] FrameConstants constantsOf(const WalrFrame& frame, const WalrCamera& camera) const;
   void bind(const FrameImages& images);
   void log(WalrLogLevel level, const std::string& text) const;
 
   HostDevice device_;
-  std::unique_ptr<Denoiser> method_;
-  std::string methodName_;
-  fg::Extent extent_;
-  WalrConventions conventions_;
-  std::array<VkFormat, std::tuple_size_v<decltype(kHostInputs)>> formats_;
-  std::uint32_t slots_;
+  Description description_;
   bool timestamps_;
   WalrLog log_;
   void* logUser_;
@@ -75,9 +68,7 @@ class HostedDenoiser {
   std::optional<Declared> declared_;
   std::optional<Built> built_;  ///< Of `declared_`.
   std::vector<Built> retired_;
-  std::uint64_t frames_ = 0;  ///< Recorded.
   bool resetRequested_ = false;
-  std::optional<WalrCamera> lastCamera_;
   FrameImages lastImages_{};
 };
 

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <cstring>
 #include <string>
+#include <string_view>
 
 #include "integration/c_api/error.h"
 
@@ -73,6 +74,27 @@ Enum checkedEnum(Enum value, Enum last, const char* name) {
 inline std::string_view requireText(const char* text, const char* name) {
   if (text == nullptr) throw Error(WALR_ERROR_INVALID_ARGUMENT, std::string(name) + " is null");
   return text;
+}
+
+/// @throws Error where an address is null
+template <typename T>
+T& required(T* pointer, const char* name) {
+  if (pointer == nullptr) throw Error(WALR_ERROR_INVALID_ARGUMENT, std::string(name) + " is null");
+  return *pointer;
+}
+
+/// Give bytes to a caller who says how many it has room for and is told how many there are.
+/// @throws Error where the room is too small
+inline void copyOut(const void* bytes, std::size_t count, void* target, std::size_t* size) {
+  std::size_t& room = required(size, "the size's address");
+  const std::size_t given = room;
+  room = count;
+  if (target == nullptr) return;
+  if (given < count) {
+    throw Error(WALR_ERROR_INVALID_ARGUMENT,
+                "it needs " + std::to_string(count) + " bytes, there are " + std::to_string(given));
+  }
+  std::memcpy(target, bytes, count);
 }
 
 }  // namespace walr::api

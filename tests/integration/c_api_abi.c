@@ -1,8 +1,8 @@
-/* The layout of every structure of walr.h on 64-bit targets, as callers of version 0.1 were compiled with it.
+/* The layout of every structure of the API on 64-bit targets, as callers of version 0.1 were compiled with it.
  * Structures with struct_size may grow at their end; nothing that is listed here may ever move. */
 #include <stddef.h>
 
-#include <walr/walr.h>
+#include <walr/walr_plugin.h>
 
 #define AT(type, member, offset) _Static_assert(offsetof(type, member) == (offset), #type "::" #member " has moved")
 #define SIZE(type, size) _Static_assert(sizeof(type) == (size), #type " has another size")
@@ -51,3 +51,40 @@ AT(WalrFrame, camera, 56);
 AT(WalrFrame, sky_depth, 72);
 SIZE(WalrMemory, 56);
 SIZE(WalrPassTime, 16);
+SIZE(WalrResource, 80);
+AT(WalrResource, name, 8);
+AT(WalrResource, format, 24);
+AT(WalrResource, buffer_size, 48);
+AT(WalrResource, heap_offset, 72);
+SIZE(WalrBinding, 48);
+AT(WalrBinding, resource, 20);
+AT(WalrBinding, access, 32);
+AT(WalrBinding, filter, 44);
+SIZE(WalrBarrier, 48);
+AT(WalrBarrier, src_stage, 8);
+AT(WalrBarrier, new_layout, 44);
+SIZE(WalrSpecialization, 8);
+SIZE(WalrHistoryAge, 8);
+SIZE(WalrDispatch, 120);
+AT(WalrDispatch, spirv, 24);
+AT(WalrDispatch, barriers, 72);
+AT(WalrDispatch, group_count, 96);
+AT(WalrDispatch, indirect_offset, 112);
+SIZE(WalrHeap, 16);
+SIZE(WalrPassList, 56);
+AT(WalrPassList, passes, 16);
+AT(WalrPassList, pass_count, 40);
+SIZE(WalrSettingValue, 16);
+SIZE(WalrPassesInfo, 24);
+AT(WalrPassesInfo, settings, 16);
+SIZE(WalrPassFrame, 24);
+SIZE(WalrPassResource, 32);
+AT(WalrPassResource, layout, 24);
+SIZE(WalrApi, 224);
+AT(WalrApi, version, 8);
+AT(WalrApi, create_denoiser, 56);
+AT(WalrApi, record, 136);
+AT(WalrApi, create_passes, 168);
+AT(WalrApi, forget_pass_image, 216);
+SIZE(WalrRegistryHost, 32);
+AT(WalrRegistryHost, register_pass_type, 24);

@@ -99,7 +99,7 @@ int host_close(Host* host) {
   return host->messages;
 }
 
-static VkDeviceMemory allocate(Host* host, VkMemoryRequirements needs, VkMemoryPropertyFlags properties) {
+VkDeviceMemory host_allocate(Host* host, VkMemoryRequirements needs, VkMemoryPropertyFlags properties) {
   VkPhysicalDeviceMemoryProperties memory;
   vkGetPhysicalDeviceMemoryProperties(host->physical_device, &memory);
   for (uint32_t type = 0; type < memory.memoryTypeCount; ++type) {
@@ -134,7 +134,7 @@ HostImage host_make_image(Host* host, VkFormat format, uint32_t texel_size, uint
   check(vkCreateImage(host->device, &info, NULL, &image.image), "creating an image");
   VkMemoryRequirements needs;
   vkGetImageMemoryRequirements(host->device, image.image, &needs);
-  image.memory = allocate(host, needs, 0);
+  image.memory = host_allocate(host, needs, 0);
   check(vkBindImageMemory(host->device, image.image, image.memory, 0), "binding an image's memory");
   return image;
 }
@@ -207,7 +207,7 @@ static void copy(Host* host, HostImage* image, void* texels, bool to_image) {
   VkMemoryRequirements needs;
   vkGetBufferMemoryRequirements(host->device, buffer, &needs);
   const VkDeviceMemory memory =
-      allocate(host, needs, VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT);
+      host_allocate(host, needs, VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT);
   check(vkBindBufferMemory(host->device, buffer, memory, 0), "binding a buffer's memory");
   void* mapped = NULL;
   check(vkMapMemory(host->device, memory, 0, VK_WHOLE_SIZE, 0, &mapped), "mapping");

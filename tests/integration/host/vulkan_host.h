@@ -44,6 +44,9 @@ void host_open(Host* host);
 /* Returns the number of messages, those at destruction included. */
 int host_close(Host* host);
 
+/* Memory of the first type that is allowed and has the properties. */
+VkDeviceMemory host_allocate(Host* host, VkMemoryRequirements needs, VkMemoryPropertyFlags properties);
+
 /* A copy of texels into and out of it is always possible. */
 HostImage host_make_image(Host* host, VkFormat format, uint32_t texel_size, uint32_t width, uint32_t height,
                           VkImageUsageFlags usage);

@@ -1,0 +1,36 @@
+# What `cmake --install` puts where. Install components: runtime (shared library, plug-in), dev (headers, static library,
+# CMake and pkg-config files), and cpp (the C++ libraries with their headers).
+include(CMakePackageConfigHelpers)
+
+set(package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/walr")
+
+install(TARGETS walr_shared EXPORT walr-shared
+  LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT runtime NAMELINK_COMPONENT dev)
+install(TARGETS walr_static EXPORT walr-static ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT dev)
+install(TARGETS walr_plugin LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}/walr" COMPONENT runtime)
+install(DIRECTORY integration/include/walr DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" COMPONENT dev)
+
+install(TARGETS walr_framegraph walr_framegraph_vulkan walr_shaders walr_passes walr_integration
+  EXPORT walr-cpp ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT cpp)
+foreach(folder IN ITEMS framegraph framegraph/vulkan passes shaders/constants integration)
+  install(DIRECTORY "${folder}/" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/walr/${folder}" COMPONENT cpp
+    FILES_MATCHING PATTERN "*.h" REGEX "/${folder}/[^/]+/" EXCLUDE)
+endforeach()
+
+foreach(part IN ITEMS shared static cpp)
+  set(component dev)
+  if(part STREQUAL "cpp")
+    set(component cpp)
+  endif()
+  install(EXPORT walr-${part} NAMESPACE walr:: DESTINATION "${package_dir}" COMPONENT ${component})
+endforeach()
+configure_package_config_file(cmake/walrConfig.cmake.in "${CMAKE_CURRENT_BINARY_DIR}/walrConfig.cmake"
+  INSTALL_DESTINATION "${package_dir}")
+write_basic_package_version_file("${CMAKE_CURRENT_BINARY_DIR}/walrConfigVersion.cmake"
+  COMPATIBILITY SameMinorVersion)
+file(RELATIVE_PATH WALR_PC_PREFIX "/${CMAKE_INSTALL_LIBDIR}/pkgconfig" "/")
+configure_file(cmake/walr.pc.in "${CMAKE_CURRENT_BINARY_DIR}/walr.pc" @ONLY)
+install(FILES "${CMAKE_CURRENT_BINARY_DIR}/walrConfig.cmake" "${CMAKE_CURRENT_BINARY_DIR}/walrConfigVersion.cmake"
+  DESTINATION "${package_dir}" COMPONENT dev)
+install(FILES "${CMAKE_CURRENT_BINARY_DIR}/walr.pc" DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig" COMPONENT dev)
+install(FILES LICENSE DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT runtime)

@@ -1,0 +1,129 @@
+#include "integration/c_api/description.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <utility>
+
+#include <glm/gtc/type_ptr.hpp>
+
+#include "framegraph/compile.h"
+#include "integration/c_api/structs.h"
+
+namespace walr::api {
+namespace {
+
+constexpr std::uint32_t kLargestPicture = 16384;
+constexpr std::uint32_t kMostFramesInFlight = 16;
+constexpr std::uint32_t kUsualFramesInFlight = 2;
+
+WalrConventions checkedConventions(const WalrConventions* given) {
+  WalrConventions conventions = readOptional(given, "WalrConventions");
+  checkedEnum(conventions.normal_space, WALR_SPACE_WORLD, "WalrConventions::normal_space");
+  checkedEnum(conventions.motion_unit, WALR_MOTION_PICTURES, "WalrConventions::motion_unit");
+  checkedEnum(conventions.motion_depth, WALR_MOTION_DEPTH_STATIC_SCENE, "WalrConventions::motion_depth");
+  for (float& scale : conventions.motion_scale) {
+    if (!std::isfinite(scale)) {
+      throw Error(WALR_ERROR_INVALID_ARGUMENT, "WalrConventions::motion_scale is not finite");
+    }
+    if (scale == 0.0F) scale = 1.0F;
+  }
+  return conventions;
+}
+
+InputConventions inputConventions(const WalrConventions& conventions) {
+  return {.normal = conventions.normal_space == WALR_SPACE_WORLD ? InputConventions::Space::World
+                                                                 : InputConventions::Space::View,
+          .motionDepth = conventions.motion_depth == WALR_MOTION_DEPTH_STATIC_SCENE
+                             ? InputConventions::MotionDepth::StaticScene
+                             : InputConventions::MotionDepth::Given};
+}
+
+fg::Extent checkedExtent(std::uint32_t width, std::uint32_t height) {
+  if (width == 0 || height == 0 || width > kLargestPicture || height > kLargestPicture) {
+    throw Error(WALR_ERROR_INVALID_ARGUMENT, "a picture of " + std::to_string(width) + " x " + std::to_string(height) +
+                                                 " pixels: both must be 1 to " + std::to_string(kLargestPicture));
+  }
+  return {width, height};
+}
+
+std::uint32_t checkedSlots(std::uint32_t framesInFlight) {
+  if (framesInFlight <= kMostFramesInFlight) return framesInFlight == 0 ? kUsualFramesInFlight : framesInFlight;
+  throw Error(WALR_ERROR_INVALID_ARGUMENT, "WalrDenoiserInfo::frames_in_flight is " + std::to_string(framesInFlight) +
+                                               ": it must be at most " + std::to_string(kMostFramesInFlight));
+}
+
+VkFormat formatOr(VkFormat format, std::size_t input) {
+  const HostInput& host = kHostInputs.at(input);
+  if (format == VK_FORMAT_UNDEFINED) return host.format;
+  requireInputFormat(host, format);
+  return format;
+}
+
+void requireFinite(std::span<const float> values, const char* what) {
+  if (std::ranges::all_of(values, [](float value) { return std::isfinite(value); })) return;
+  throw Error(WALR_ERROR_INVALID_ARGUMENT, std::string(what) + " is not finite");
+}
+
+const WalrCamera& checkedCamera(const WalrCamera& camera) {
+  requireFinite(camera.view, "WalrCamera::view");
+  requireFinite(camera.projection, "WalrCamera::projection");
+  requireFinite(camera.jitter, "WalrCamera::jitter");
+  return camera;
+}
+
+}  // namespace
+
+Description::Description(const WalrDenoiserInfo& info)
+    : methodName_(info.method == nullptr ? "walr" : info.method),
+      method_(makeDenoiser(methodName_)),
+      extent_(checkedExtent(info.width, info.height)),
+      conventions_(checkedConventions(info.conventions)),
+      formats_{formatOr(info.lighting_format, 0), formatOr(info.depth_format, 1), formatOr(info.normal_format, 2),
+               formatOr(info.motion_format, 3), formatOr(info.albedo_format, 4)},
+      slots_(checkedSlots(info.frames_in_flight)) {
+  if (info.preset != nullptr) method_->usePreset(info.preset);
+}
+
+void Description::resize(std::uint32_t width, std::uint32_t height) {
+  extent_ = checkedExtent(width, height);
+}
+
+DenoiseGraph Description::declare() const {
+  return declareDenoiseGraph(*method_, extent_, inputConventions(conventions_), kInnerStates, formats_);
+}
+
+FrameConstants Description::constants(const WalrCamera* camera, const WalrCamera* previousCamera,
+                                      float skyDepth) const {
+  if (camera == nullptr) throw Error(WALR_ERROR_INVALID_ARGUMENT, "the camera is null");
+  const WalrCamera& now = checkedCamera(*camera);
+  const WalrCamera& previous = previousCamera != nullptr ? checkedCamera(*previousCamera)
+                               : lastCamera_             ? *lastCamera_
+                                                         : now;
+  glm::vec2 scale(conventions_.motion_scale[0], conventions_.motion_scale[1]);
+  if (conventions_.motion_unit == WALR_MOTION_PICTURES) scale *= glm::vec2(extent_.width, extent_.height);
+  FrameDescription description{.view = glm::make_mat4(now.view),
+                               .previousView = glm::make_mat4(previous.view),
+                               .projection = glm::make_mat4(now.projection),
+                               .previousProjection = glm::make_mat4(previous.projection),
+                               .jitter = glm::make_vec2(now.jitter),
+                               .previousJitter = glm::make_vec2(previous.jitter),
+                               .motionScale = scale,
+                               .frameIndex = static_cast<std::uint32_t>(frames_)};
+  if (!(skyDepth >= 0.0F)) throw Error(WALR_ERROR_INVALID_ARGUMENT, "sky_depth is negative or NaN");
+  if (skyDepth > 0.0F) description.skyDepth = skyDepth;
+  return frameConstants(description, extent_);
+}
+
+void Description::advance(const WalrCamera& camera) {
+  lastCamera_ = camera;
+  ++frames_;
+}
+
+fg::Plan compilePlan(const fg::Graph& graph, const fg::MemoryModel& memory) {
+  fg::CompileResult result = fg::compile(graph.desc(), memory);
+  if (!result.ok()) throw Error(WALR_ERROR_INTERNAL, "the method's frame graph does not compile:\n" + result.text());
+  return std::move(result.plan);
+}
+
+}  // namespace walr::api

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include <walr/walr.h>
+
+#include "framegraph/memory_model.h"
+#include "framegraph/plan.h"
+#include "integration/c_api/host_images.h"
+#include "passes/denoiser.h"
+#include "passes/frame.h"
+
+namespace walr::api {
+
+/// What a host says of a method and its pictures: a WalrDenoiserInfo, checked.
+class Description {
+ public:
+  /// @throws Error, or std::invalid_argument, naming what is wrong
+  explicit Description(const WalrDenoiserInfo& info);
+
+  void resize(std::uint32_t width, std::uint32_t height);
+
+  /// The method between the host's images, which come and go in `kInnerStates`.
+  /// @throws std::invalid_argument naming settings that contradict each other
+  [[nodiscard]] DenoiseGraph declare() const;
+
+  /// Constants of the next frame.
+  /// @param camera, previous null stands for an error, and for the camera of the frame before
+  /// @throws Error, or std::invalid_argument, naming what makes no sense
+  [[nodiscard]] FrameConstants constants(const WalrCamera* camera, const WalrCamera* previous, float skyDepth) const;
+  /// Say that a frame with this camera was recorded.
+  void advance(const WalrCamera& camera);
+
+  [[nodiscard]] Denoiser& method() const { return *method_; }
+  [[nodiscard]] const std::string& methodName() const { return methodName_; }
+  [[nodiscard]] fg::Extent extent() const { return extent_; }
+  [[nodiscard]] std::uint32_t slots() const { return slots_; }
+  /// Frames recorded so far.
+  [[nodiscard]] std::uint64_t frames() const { return frames_; }
+  /// Slot of the next frame.
+  [[nodiscard]] std::uint32_t slot() const { return static_cast<std::uint32_t>(frames_ % slots_); }
+
+ private:
+  std::string methodName_;
+  std::unique_ptr<Denoiser> method_;
+  fg::Extent extent_;
+  WalrConventions conventions_;
+  std::array<VkFormat, std::tuple_size_v<decltype(kHostInputs)>> formats_;
+  std::uint32_t slots_;
+  std::uint64_t frames_ = 0;
+  std::optional<WalrCamera> lastCamera_;
+};
+
+/// @throws Error with the diagnostics where a graph does not compile
+fg::Plan compilePlan(const fg::Graph& graph, const fg::MemoryModel& memory);
+
+}  // namespace walr::api

@@ -1,0 +1,59 @@
+#include "integration/c_api/hosted_passes.h"
+
+#include <string>
+
+#include "framegraph/vulkan/driver_memory_model.h"
+#include "integration/c_api/structs.h"
+
+namespace walr::api {
+
+HostedPasses::HostedPasses(const WalrDenoiserInfo& info, std::span<const WalrSettingValue> settings)
+    : description_(info) {
+  for (const WalrSettingValue& setting : settings) {
+    description_.method().set(requireText(setting.name, "WalrSettingValue::name"),
+                              requireText(setting.value, "WalrSettingValue::value"));
+  }
+  if (info.device != nullptr) device_ = std::make_unique<HostDevice>(info.device);
+  graph_ = description_.declare();
+  plan_ = compilePlan(graph_.graph, fg::TableMemoryModel());
+  if (device_) {
+    fg::vk::require(device_->physical(), fg::vk::formatUses(graph_.graph.desc(), plan_));
+    plan_ = compilePlan(graph_.graph, fg::vk::DriverMemoryModel(device_->context()));
+  }
+  list_.emplace(graph_.graph.desc(), plan_);
+  if (device_) {
+    recording_.emplace(device_->context(), graph_.graph.desc(), plan_, list_->list(), description_.slots());
+  }
+}
+
+void HostedPasses::beginFrame(const WalrPassFrame& frame) {
+  constants_ = description_.constants(frame.camera, frame.previous_camera, frame.sky_depth);
+  if (recording_) recording_->begin(description_.frames(), std::as_bytes(std::span(&*constants_, 1)));
+  description_.advance(*frame.camera);
+}
+
+std::span<const std::byte> HostedPasses::frameConstants() const {
+  if (!constants_) throw Error(WALR_ERROR_WRONG_ORDER, "there is no frame yet: call walr_begin_frame before");
+  return std::as_bytes(std::span(&*constants_, 1));
+}
+
+void HostedPasses::record(std::uint32_t pass, VkCommandBuffer commandBuffer,
+                          std::span<const WalrPassResource> resources) {
+  if (!recording_) {
+    throw Error(WALR_ERROR_WRONG_ORDER, "these passes were made without a device: they can be listed only");
+  }
+  if (!constants_) throw Error(WALR_ERROR_WRONG_ORDER, "there is no frame yet: call walr_begin_frame before");
+  if (commandBuffer == VK_NULL_HANDLE) throw Error(WALR_ERROR_INVALID_ARGUMENT, "the command buffer is null");
+  if (pass >= list().pass_count) {
+    throw Error(WALR_ERROR_INVALID_ARGUMENT,
+                "there is no pass " + std::to_string(pass) + ", there are " + std::to_string(list().pass_count));
+  }
+  recording_->record(pass, commandBuffer, resources);
+}
+
+void HostedPasses::forget(VkImage image, std::uint64_t identity) {
+  if (image == VK_NULL_HANDLE) throw Error(WALR_ERROR_INVALID_ARGUMENT, "the image is null");
+  if (recording_) recording_->forget(identity != 0 ? identity : reinterpret_cast<std::uint64_t>(image));
+}
+
+}  // namespace walr::api

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <walr/walr_passes.h>
+
+#include "integration/c_api/description.h"
+#include "integration/c_api/device.h"
+#include "integration/c_api/pass_list.h"
+#include "integration/c_api/pass_recording.h"
+
+namespace walr::api {
+
+/// A method spelled out for a host that schedules by itself: what is behind a WalrPasses.
+class HostedPasses {
+ public:
+  /// @throws what is wrong with the description
+  HostedPasses(const WalrDenoiserInfo& info, std::span<const WalrSettingValue> settings);
+
+  [[nodiscard]] const WalrPassList& list() const { return list_->list(); }
+  void beginFrame(const WalrPassFrame& frame);
+  /// @throws Error before the first frame
+  [[nodiscard]] std::span<const std::byte> frameConstants() const;
+  void record(std::uint32_t pass, VkCommandBuffer commandBuffer, std::span<const WalrPassResource> resources);
+  void forget(VkImage image, std::uint64_t identity);
+
+ private:
+  Description description_;
+  std::unique_ptr<HostDevice> device_;  ///< Null where passes are only listed.
+  DenoiseGraph graph_;
+  fg::Plan plan_;
+  std::optional<PassList> list_;
+  std::optional<PassRecording> recording_;
+  std::optional<FrameConstants> constants_;
+};
+
+}  // namespace walr::api

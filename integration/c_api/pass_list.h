@@ -1,0 +1,44 @@
+#pragma once
+
+#include <deque>
+#include <string>
+#include <vector>
+
+#include <walr/walr_passes.h>
+
+#include "framegraph/plan.h"
+
+namespace walr::api {
+
+/// A compiled graph as the plain data of walr_passes.h. Points into the graph, which must outlive it unchanged.
+class PassList {
+ public:
+  /// @throws Error where the graph has a pass that is not a compute dispatch
+  PassList(const fg::GraphDesc& graph, const fg::Plan& plan);
+  PassList(const PassList&) = delete;
+  PassList& operator=(const PassList&) = delete;
+
+  [[nodiscard]] const WalrPassList& list() const { return list_; }
+
+ private:
+  void addResource(const fg::GraphDesc& graph, const fg::Plan& plan, std::uint32_t index);
+  void addPass(const fg::GraphDesc& graph, const fg::PlannedPass& planned);
+  const WalrBarrier* addBarriers(const std::vector<fg::PlannedBarrier>& planned);
+  const WalrBinding* const* addBindings(const fg::PassDecl& pass, const fg::Shader& shader);
+
+  // Deques, so that what is pointed to stays where it is.
+  std::deque<std::string> texts_;
+  std::deque<WalrResource> resources_;
+  std::deque<WalrBinding> bindings_;
+  std::deque<std::vector<const WalrBinding*>> bindingLists_;
+  std::deque<std::vector<WalrSpecialization>> specializations_;
+  std::deque<std::vector<WalrHistoryAge>> historyAges_;
+  std::deque<std::vector<WalrBarrier>> barriers_;
+  std::deque<WalrDispatch> dispatches_;
+  std::vector<const WalrResource*> resourceList_;
+  std::vector<const WalrDispatch*> dispatchList_;
+  std::vector<WalrHeap> heaps_;
+  WalrPassList list_{};
+};
+
+}  // namespace walr::api

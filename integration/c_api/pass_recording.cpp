@@ -1,0 +1,272 @@
+#include "integration/c_api/pass_recording.h"
+
+#include <algorithm>
+#include <cstring>
+#include <string>
+
+#include "framegraph/vulkan/image.h"
+#include "framegraph/vulkan/label.h"
+#include "integration/c_api/error.h"
+
+namespace walr::api {
+namespace {
+
+fg::vk::Owned<VkSampler> makeSampler(const fg::vk::DeviceContext& device, VkFilter filter) {
+  VkSamplerCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO;
+  info.magFilter = filter;
+  info.minFilter = filter;
+  info.addressModeU = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+  info.addressModeV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+  info.addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+  return fg::vk::create<VkSampler>(device, device.functions.vkCreateSampler, info, "creating a sampler");
+}
+
+bool isPrevious(const WalrResource& resource) {
+  return resource.kind == WALR_RESOURCE_HISTORY_PREVIOUS;
+}
+
+[[noreturn]] void reject(const WalrDispatch& pass, const WalrResource& resource, const std::string& what) {
+  throw Error(WALR_ERROR_INVALID_ARGUMENT,
+              "pass '" + std::string(pass.name) + "': resource '" + resource.name + "' " + what);
+}
+
+}  // namespace
+
+PassRecording::PassRecording(const fg::vk::DeviceContext& device, const fg::GraphDesc& graph, const fg::Plan& plan,
+                             const WalrPassList& list, std::uint32_t slots)
+    : device_(&device),
+      graph_(&graph),
+      list_(&list),
+      slots_(slots),
+      pipelines_(device, VK_NULL_HANDLE),
+      nearest_(makeSampler(device, VK_FILTER_NEAREST)),
+      linear_(makeSampler(device, VK_FILTER_LINEAR)),
+      recordedFrame_(list.pass_count),
+      uploadMemory_(device, VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT,
+                    "frame constants"),
+      mapped_(slots) {
+  for (const fg::PlannedPass& planned : plan.passes) {
+    const fg::PassDecl& pass = graph.passes[planned.pass];
+    const auto& work = std::get<fg::ComputeDispatch>(pass.work);
+    if (work.indirect.valid()) {
+      throw Error(WALR_ERROR_UNSUPPORTED, "pass '" + pass.name + "' is dispatched indirectly: record the whole method");
+    }
+    passPipelines_.push_back(pipelines_.get(*work.shader, work.specialization));
+  }
+  makeUploads(list);
+  makeSets();
+}
+
+void PassRecording::makeUploads(const WalrPassList& list) {
+  for (std::uint32_t i = 0; i < list.resource_count; ++i) {
+    const WalrResource& resource = *list.resources[i];
+    if (resource.kind != WALR_RESOURCE_UPLOAD || resource.used == VK_FALSE) continue;
+    uploadResource_ = i;
+    for (std::uint32_t slot = 0; slot < slots_; ++slot) {
+      uploads_.push_back(fg::vk::createBuffer(*device_, {resource.buffer_size}, resource.buffer_usage, resource.name));
+      uploadMemory_.add(uploads_.back().get(), &mapped_[slot]);
+    }
+  }
+  uploadMemory_.allocate();
+}
+
+void PassRecording::makeSets() {
+  std::vector<VkDescriptorPoolSize> sizes;
+  for (std::uint32_t i = 0; i < list_->pass_count; ++i) {
+    const WalrDispatch& pass = *list_->passes[i];
+    for (std::uint32_t b = 0; b < pass.binding_count; ++b) sizes.push_back({pass.bindings[b]->type, slots_});
+  }
+  VkDescriptorPoolCreateInfo poolInfo{};
+  poolInfo.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
+  poolInfo.maxSets = slots_ * list_->pass_count;
+  poolInfo.poolSizeCount = static_cast<std::uint32_t>(sizes.size());
+  poolInfo.pPoolSizes = sizes.data();
+  pool_ = fg::vk::create<VkDescriptorPool>(*device_, device_->functions.vkCreateDescriptorPool, poolInfo,
+                                           "creating the descriptor pool");
+  for (std::uint32_t slot = 0; slot < slots_; ++slot) {
+    for (const fg::vk::ComputePipeline& pipeline : passPipelines_) {
+      VkDescriptorSetAllocateInfo info{};
+      info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO;
+      info.descriptorPool = pool_.get();
+      info.descriptorSetCount = 1;
+      info.pSetLayouts = &pipeline.setLayout;
+      fg::vk::check(device_->functions.vkAllocateDescriptorSets(device_->view.device, &info, &sets_.emplace_back()),
+                    "allocating descriptor sets");
+    }
+  }
+}
+
+void PassRecording::begin(std::uint64_t frame, std::span<const std::byte> constants) {
+  frame_ = frame;
+  std::erase_if(zeros_, [&](const auto& entry) { return entry.second.lastFrame + slots_ <= frame_; });
+  if (uploadResource_) std::ranges::copy(constants, mapped_[slot()]);
+}
+
+void PassRecording::requireResources(const WalrDispatch& pass, std::span<const WalrPassResource> resources) const {
+  if (resources.size() != pass.binding_count) {
+    throw Error(WALR_ERROR_INVALID_ARGUMENT, "pass '" + std::string(pass.name) + "' has " +
+                                                 std::to_string(pass.binding_count) + " bindings, but " +
+                                                 std::to_string(resources.size()) + " resources are given");
+  }
+  for (std::size_t i = 0; i < resources.size(); ++i) {
+    const WalrResource& resource = *list_->resources[pass.bindings[i]->resource];
+    const WalrPassResource& given = resources[i];
+    if (resource.kind == WALR_RESOURCE_UPLOAD) continue;
+    if (resource.buffer == VK_TRUE) {
+      if (given.buffer == VK_NULL_HANDLE) reject(pass, resource, "is a buffer, and the VkBuffer is null");
+      continue;
+    }
+    if (given.image == VK_NULL_HANDLE) {
+      if (!isPrevious(resource)) reject(pass, resource, "has a null VkImage: only a previous history may");
+      continue;
+    }
+    const WalrBinding& binding = *pass.bindings[i];
+    if (given.layout != VK_IMAGE_LAYOUT_GENERAL && given.layout != binding.layout) {
+      reject(pass, resource,
+             "is bound in layout " + std::to_string(given.layout) + ": it must be GENERAL or " +
+                 std::to_string(binding.layout));
+    }
+  }
+}
+
+VkImageView PassRecording::view(std::uint32_t resource, const WalrPassResource& given) {
+  const std::uint64_t identity = given.identity != 0 ? given.identity : reinterpret_cast<std::uint64_t>(given.image);
+  auto& known = views_[{identity, resource}];
+  if (known.get() == VK_NULL_HANDLE) {
+    const fg::ResourceDecl& decl = graph_->resources[resource];
+    known = fg::vk::createImageView(*device_, given.image, std::get<fg::TextureDesc>(decl.desc),
+                                    {.baseMip = 0, .mipCount = 1, .baseLayer = 0, .layerCount = 1}, decl.name);
+  }
+  return known.get();
+}
+
+void PassRecording::forget(std::uint64_t identity) {
+  std::erase_if(views_, [&](const auto& entry) { return entry.first.first == identity; });
+}
+
+void PassRecording::clear(VkCommandBuffer commandBuffer, const Zeros& zeros) const {
+  VkImageMemoryBarrier2 barrier{};
+  barrier.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2;
+  barrier.dstStageMask = VK_PIPELINE_STAGE_2_CLEAR_BIT;
+  barrier.dstAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT;
+  barrier.newLayout = VK_IMAGE_LAYOUT_GENERAL;
+  barrier.srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+  barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+  barrier.image = zeros.image.get();
+  barrier.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
+  VkDependencyInfo dependency{};
+  dependency.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
+  dependency.imageMemoryBarrierCount = 1;
+  dependency.pImageMemoryBarriers = &barrier;
+  device_->functions.vkCmdPipelineBarrier2(commandBuffer, &dependency);
+  const VkClearColorValue zero{};
+  device_->functions.vkCmdClearColorImage(commandBuffer, barrier.image, VK_IMAGE_LAYOUT_GENERAL, &zero, 1,
+                                          &barrier.subresourceRange);
+  barrier.srcStageMask = VK_PIPELINE_STAGE_2_CLEAR_BIT;
+  barrier.srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT;
+  barrier.dstStageMask = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
+  barrier.dstAccessMask = VK_ACCESS_2_SHADER_SAMPLED_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_READ_BIT;
+  barrier.oldLayout = VK_IMAGE_LAYOUT_GENERAL;
+  device_->functions.vkCmdPipelineBarrier2(commandBuffer, &dependency);
+}
+
+/// Made when first needed and let go once no frame in flight reads it: histories are seldom null.
+VkImageView PassRecording::zeros(std::uint32_t resource, VkCommandBuffer commandBuffer) {
+  auto known = zeros_.find(resource);
+  if (known == zeros_.end()) {
+    const fg::ResourceDecl& decl = graph_->resources[resource];
+    const auto& desc = std::get<fg::TextureDesc>(decl.desc);
+    const VkImageUsageFlags usage = list_->resources[resource]->image_usage | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+    Zeros made{.image = fg::vk::createImage(*device_, desc, usage, decl.name + " (none)"),
+               .memory = {*device_, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, "zeros for a history"},
+               .view = {}};
+    made.memory.add(made.image.get());
+    made.memory.allocate();
+    made.view = fg::vk::createImageView(*device_, made.image.get(), desc, {}, decl.name + " (none)");
+    clear(commandBuffer, made);
+    known = zeros_.emplace(resource, std::move(made)).first;
+  }
+  known->second.lastFrame = frame_;
+  return known->second.view.get();
+}
+
+PassRecording::Descriptor PassRecording::describe(const WalrBinding& binding, const WalrPassResource& given,
+                                                  VkCommandBuffer commandBuffer) {
+  Descriptor descriptor;
+  const WalrResource& resource = *list_->resources[binding.resource];
+  if (resource.buffer == VK_TRUE) {
+    const bool upload = resource.kind == WALR_RESOURCE_UPLOAD;
+    descriptor.buffer = {upload ? uploads_[slot()].get() : given.buffer, 0, resource.buffer_size};
+    return descriptor;
+  }
+  const bool none = given.image == VK_NULL_HANDLE;
+  descriptor.image = {(binding.filter == VK_FILTER_LINEAR ? linear_ : nearest_).get(),
+                      none ? zeros(binding.resource, commandBuffer) : view(binding.resource, given),
+                      none ? VK_IMAGE_LAYOUT_GENERAL : given.layout};
+  return descriptor;
+}
+
+void PassRecording::writeSet(VkDescriptorSet set, const WalrDispatch& pass, std::span<const WalrPassResource> resources,
+                             VkCommandBuffer commandBuffer) {
+  std::vector<Descriptor> descriptors(resources.size());
+  std::vector<VkWriteDescriptorSet> writes(resources.size());
+  for (std::size_t i = 0; i < resources.size(); ++i) {
+    const WalrBinding& binding = *pass.bindings[i];
+    descriptors[i] = describe(binding, resources[i], commandBuffer);
+    noteAge(binding, resources[i]);
+    writes[i].sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
+    writes[i].dstSet = set;
+    writes[i].dstBinding = binding.binding;
+    writes[i].descriptorCount = 1;
+    writes[i].descriptorType = binding.type;
+    writes[i].pImageInfo = &descriptors[i].image;
+    writes[i].pBufferInfo = &descriptors[i].buffer;
+  }
+  device_->functions.vkUpdateDescriptorSets(device_->view.device, static_cast<std::uint32_t>(writes.size()),
+                                            writes.data(), 0, nullptr);
+}
+
+/// A history is a frame older in every frame that has it, and new where the host has none.
+void PassRecording::noteAge(const WalrBinding& binding, const WalrPassResource& given) {
+  if (!isPrevious(*list_->resources[binding.resource])) return;
+  auto& [age, frame] = ages_[binding.resource];
+  if (given.image == VK_NULL_HANDLE) {
+    age = 0;
+  } else if (frame != frame_) {
+    ++age;
+  }
+  frame = frame_;
+}
+
+void PassRecording::record(std::uint32_t index, VkCommandBuffer commandBuffer,
+                           std::span<const WalrPassResource> resources) {
+  const WalrDispatch& pass = *list_->passes[index];
+  requireResources(pass, resources);
+  if (recordedFrame_[index] == frame_ + 1) {
+    throw Error(WALR_ERROR_WRONG_ORDER,
+                "pass '" + std::string(pass.name) + "' is recorded twice in a frame: call walr_begin_frame between");
+  }
+  const fg::vk::Label label(*device_, commandBuffer, pass.name);
+  const fg::vk::DeviceFunctions& functions = device_->functions;
+  const fg::vk::ComputePipeline& pipeline = passPipelines_[index];
+  const VkDescriptorSet set = sets_[slot() * list_->pass_count + index];
+  writeSet(set, pass, resources, commandBuffer);
+  functions.vkCmdBindPipeline(commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.pipeline);
+  functions.vkCmdBindDescriptorSets(commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.layout, 0, 1, &set, 0,
+                                    nullptr);
+  if (pass.push_constant_size > 0) {
+    std::vector<std::byte> constants(pass.push_constant_size);
+    std::memcpy(constants.data(), pass.push_constants, constants.size());
+    for (std::uint32_t i = 0; i < pass.history_age_count; ++i) {
+      const std::uint32_t age = ages_[pass.history_ages[i].resource].first;
+      std::memcpy(constants.data() + pass.history_ages[i].offset, &age, sizeof(age));
+    }
+    functions.vkCmdPushConstants(commandBuffer, pipeline.layout, VK_SHADER_STAGE_COMPUTE_BIT, 0,
+                                 pass.push_constant_size, constants.data());
+  }
+  functions.vkCmdDispatch(commandBuffer, pass.group_count[0], pass.group_count[1], pass.group_count[2]);
+  recordedFrame_[index] = frame_ + 1;
+}
+
+}  // namespace walr::api

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <walr/walr_passes.h>
+
+#include "framegraph/plan.h"
+#include "framegraph/vulkan/memory.h"
+#include "framegraph/vulkan/pipelines.h"
+
+namespace walr::api {
+
+/// What it takes to bind and dispatch the passes of a list one at a time, with resources that are all the host's.
+class PassRecording {
+ public:
+  PassRecording(const fg::vk::DeviceContext& device, const fg::GraphDesc& graph, const fg::Plan& plan,
+                const WalrPassList& list, std::uint32_t slots);
+  PassRecording(const PassRecording&) = delete;
+  PassRecording& operator=(const PassRecording&) = delete;
+
+  /// Begin a frame in a slot whose last frame the GPU has finished.
+  /// @param constants contents of the upload buffer
+  void begin(std::uint64_t frame, std::span<const std::byte> constants);
+  /// @throws Error naming the pass and what is wrong with its resources
+  void record(std::uint32_t pass, VkCommandBuffer commandBuffer, std::span<const WalrPassResource> resources);
+  void forget(std::uint64_t identity);
+
+ private:
+  /// Zeros in place of a history that the host does not have.
+  struct Zeros {
+    fg::vk::Owned<VkImage> image;
+    fg::vk::MemoryArena memory;
+    fg::vk::Owned<VkImageView> view;
+    std::uint64_t lastFrame = 0;
+  };
+  struct Descriptor {
+    VkDescriptorImageInfo image{};
+    VkDescriptorBufferInfo buffer{};
+  };
+
+  [[nodiscard]] std::uint32_t slot() const { return static_cast<std::uint32_t>(frame_ % slots_); }
+  void makeUploads(const WalrPassList& list);
+  void makeSets();
+  /// @throws Error naming what the host left out; nothing is recorded then
+  void requireResources(const WalrDispatch& pass, std::span<const WalrPassResource> resources) const;
+  VkImageView view(std::uint32_t resource, const WalrPassResource& given);
+  VkImageView zeros(std::uint32_t resource, VkCommandBuffer commandBuffer);
+  void clear(VkCommandBuffer commandBuffer, const Zeros& zeros) const;
+  Descriptor describe(const WalrBinding& binding, const WalrPassResource& given, VkCommandBuffer commandBuffer);
+  void writeSet(VkDescriptorSet set, const WalrDispatch& pass, std::span<const WalrPassResource> resources,
+                VkCommandBuffer commandBuffer);
+  void noteAge(const WalrBinding& binding, const WalrPassResource& given);
+
+  const fg::vk::DeviceContext* device_;
+  const fg::GraphDesc* graph_;
+  const WalrPassList* list_;
+  std::uint32_t slots_;
+  std::uint64_t frame_ = 0;
+  fg::vk::Pipelines pipelines_;
+  std::vector<fg::vk::ComputePipeline> passPipelines_;  ///< By pass.
+  fg::vk::Owned<VkSampler> nearest_;
+  fg::vk::Owned<VkSampler> linear_;
+  fg::vk::Owned<VkDescriptorPool> pool_;
+  std::vector<VkDescriptorSet> sets_;         ///< By slot and pass.
+  std::vector<std::uint64_t> recordedFrame_;  ///< By pass: the frame it was recorded in last, plus 1.
+  std::map<std::pair<std::uint64_t, std::uint32_t>, fg::vk::Owned<VkImageView>> views_;  ///< By identity, resource.
+  std::map<std::uint32_t, Zeros> zeros_;                                                 ///< By resource.
+  std::map<std::uint32_t, std::pair<std::uint32_t, std::uint64_t>> ages_;  ///< By resource: age, and frame it is of.
+  std::optional<std::uint32_t> uploadResource_;
+  fg::vk::MemoryArena uploadMemory_;
+  std::vector<fg::vk::Owned<VkBuffer>> uploads_;  ///< By slot.
+  std::vector<std::byte*> mapped_;
+};
+
+}  // namespace walr::api

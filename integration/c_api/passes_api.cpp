@@ -1,0 +1,64 @@
+#include <cstring>
+
+#include <walr/walr_passes.h>
+
+#include "integration/c_api/handles.h"
+#include "integration/c_api/hosted_passes.h"
+#include "integration/c_api/structs.h"
+
+using namespace walr::api;
+
+namespace {
+
+HandleTable<WalrPasses, HostedPasses>& allPasses() {
+  static HandleTable<WalrPasses, HostedPasses> table("WalrPasses");
+  return table;
+}
+
+template <typename Action>
+WalrResult withPasses(WalrPasses passes, Action action) noexcept {
+  return guarded([&] { allPasses().use(passes, action); });
+}
+
+}  // namespace
+
+WalrResult walr_create_passes(const WalrPassesInfo* info, WalrPasses* passes) {
+  return guarded([&] {
+    required(passes, "the result's address") = nullptr;
+    const WalrPassesInfo given = readStruct(info, "WalrPassesInfo");
+    if (given.setting_count > 0) required(given.settings, "WalrPassesInfo::settings");
+    *passes = allPasses().add(std::make_unique<HostedPasses>(readStruct(given.denoiser, "WalrDenoiserInfo"),
+                                                             std::span(given.settings, given.setting_count)));
+  });
+}
+
+WalrResult walr_destroy_passes(WalrPasses passes) {
+  return guarded([&] { allPasses().remove(passes); });
+}
+
+WalrResult walr_get_pass_list(WalrPasses passes, const WalrPassList** list) {
+  return withPasses(passes, [&](HostedPasses& object) { required(list, "the list's address") = &object.list(); });
+}
+
+WalrResult walr_begin_frame(WalrPasses passes, const WalrPassFrame* frame) {
+  return withPasses(passes, [&](HostedPasses& object) { object.beginFrame(readStruct(frame, "WalrPassFrame")); });
+}
+
+WalrResult walr_get_frame_constants(WalrPasses passes, void* bytes, size_t* size) {
+  return withPasses(passes, [&](HostedPasses& object) {
+    const auto constants = object.frameConstants();
+    copyOut(constants.data(), constants.size(), bytes, size);
+  });
+}
+
+WalrResult walr_record_pass(WalrPasses passes, uint32_t pass, VkCommandBuffer command_buffer,
+                            const WalrPassResource* resources, uint32_t resource_count) {
+  return withPasses(passes, [&](HostedPasses& object) {
+    if (resource_count > 0) required(resources, "the array of resources");
+    object.record(pass, command_buffer, std::span(resources, resource_count));
+  });
+}
+
+WalrResult walr_forget_pass_image(WalrPasses passes, VkImage image, uint64_t identity) {
+  return withPasses(passes, [&](HostedPasses& object) { object.forget(image, identity); });
+}

@@ -1,0 +1,66 @@
+/*
+ * The library as a plug-in that is loaded while a host runs: one function is exported, walr_register_plugin, which
+ * hands the host the pass types for its own registry and a table with every function of walr.h and walr_passes.h. The
+ * host needs these headers and nothing else of walr.
+ */
+#ifndef WALR_WALR_PLUGIN_H
+#define WALR_WALR_PLUGIN_H
+
+#include <walr/walr_passes.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Grows at its end only. */
+typedef struct WalrApi {
+  uint32_t struct_size; /* Of what the plug-in has: check it before the use of a later function. */
+  uint32_t reserved;
+  const char* (*version)(void);
+  const char* (*result_name)(WalrResult result);
+  const char* (*last_error)(void);
+  uint32_t (*pass_type_count)(void);
+  const WalrPassType* (*pass_type)(uint32_t index);
+  WalrResult (*check_device)(const WalrDevice* device);
+  WalrResult (*create_denoiser)(const WalrDenoiserInfo* info, WalrDenoiser* denoiser);
+  WalrResult (*destroy_denoiser)(WalrDenoiser denoiser);
+  WalrResult (*resize)(WalrDenoiser denoiser, uint32_t width, uint32_t height);
+  WalrResult (*set_setting)(WalrDenoiser denoiser, const char* name, const char* value);
+  WalrResult (*use_preset)(WalrDenoiser denoiser, const char* name);
+  WalrResult (*get_setting)(WalrDenoiser denoiser, const char* name, char* value, size_t* size);
+  WalrResult (*prepare)(WalrDenoiser denoiser);
+  WalrResult (*get_image_requirements)(WalrDenoiser denoiser, const char* port, WalrImageRequirements* requirements);
+  WalrResult (*get_release_state)(WalrDenoiser denoiser, const char* port, WalrImageState* state);
+  WalrResult (*forget_image)(WalrDenoiser denoiser, VkImage image, uint64_t identity);
+  WalrResult (*record)(WalrDenoiser denoiser, VkCommandBuffer command_buffer, const WalrFrame* frame);
+  WalrResult (*reset_history)(WalrDenoiser denoiser);
+  WalrResult (*get_memory)(WalrDenoiser denoiser, WalrMemory* memory);
+  WalrResult (*get_timings)(WalrDenoiser denoiser, uint32_t* count, WalrPassTime* times);
+  WalrResult (*create_passes)(const WalrPassesInfo* info, WalrPasses* passes);
+  WalrResult (*destroy_passes)(WalrPasses passes);
+  WalrResult (*get_pass_list)(WalrPasses passes, const WalrPassList** list);
+  WalrResult (*begin_frame)(WalrPasses passes, const WalrPassFrame* frame);
+  WalrResult (*get_frame_constants)(WalrPasses passes, void* bytes, size_t* size);
+  WalrResult (*record_pass)(WalrPasses passes, uint32_t pass, VkCommandBuffer command_buffer,
+                            const WalrPassResource* resources, uint32_t resource_count);
+  WalrResult (*forget_pass_image)(WalrPasses passes, VkImage image, uint64_t identity);
+} WalrApi;
+
+/* What a host offers to a plug-in. A function that returns false ends the registration. */
+typedef struct WalrRegistryHost {
+  uint32_t struct_size;
+  uint32_t reserved;
+  void* user;
+  /* Called first. The table is valid for as long as the plug-in is loaded. */
+  VkBool32 (*register_api)(void* user, const WalrApi* api);
+  /* Called for each pass type; may be null. */
+  VkBool32 (*register_pass_type)(void* user, const WalrPassType* type);
+} WalrRegistryHost;
+
+WALR_API WalrResult walr_register_plugin(const WalrRegistryHost* host);
+typedef WalrResult (*WalrRegisterPlugin)(const WalrRegistryHost* host);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

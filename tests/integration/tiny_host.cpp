@@ -1,0 +1,162 @@
+#include "tiny_host.h"
+
+#include <stdexcept>
+
+namespace tiny_host {
+namespace {
+
+std::uint32_t texelSize(VkFormat format) {
+  switch (format) {
+    case VK_FORMAT_R32_SFLOAT:
+    case VK_FORMAT_R32_UINT:
+      return 4;
+    case VK_FORMAT_R16G16B16A16_SFLOAT:
+    case VK_FORMAT_R32G32_UINT:
+      return 8;
+    default:
+      return 16;
+  }
+}
+
+bool writes(VkAccessFlags2 access) {
+  return (access & (VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT | VK_ACCESS_2_TRANSFER_WRITE_BIT)) != 0;
+}
+
+bool isHistory(const WalrResource& resource) {
+  return resource.kind == WALR_RESOURCE_HISTORY_CURRENT || resource.kind == WALR_RESOURCE_HISTORY_PREVIOUS;
+}
+
+}  // namespace
+
+Graph::Graph(Host& host, const WalrApi& api, WalrPasses passes) : host_(&host), api_(&api), passes_(passes) {
+  if (api.get_pass_list(passes, &list_) != WALR_SUCCESS) throw std::runtime_error(api.last_error());
+  for (std::uint32_t i = 0; i < list_->resource_count; ++i) {
+    const WalrResource& resource = *list_->resources[i];
+    if (resource.used == VK_TRUE || resource.kind == WALR_RESOURCE_HOST) makeResource(resource);
+  }
+}
+
+Graph::~Graph() {
+  for (auto& [name, named] : images_) {
+    for (HostImage& image : named.slots) {
+      api_->forget_pass_image(passes_, image.image, 0);
+      host_destroy_image(host_, &image);
+    }
+  }
+  for (auto& [name, named] : buffers_) {
+    vkDestroyBuffer(host_->device, named.buffer, nullptr);
+    vkFreeMemory(host_->device, named.memory, nullptr);
+  }
+}
+
+void Graph::makeResource(const WalrResource& resource) {
+  if (resource.kind == WALR_RESOURCE_UPLOAD || resource.kind == WALR_RESOURCE_HISTORY_PREVIOUS) return;
+  if (resource.buffer == VK_TRUE) return makeBuffer(resource);
+  Named& named = images_[resource.name];
+  for (int slot = 0; slot < (isHistory(resource) ? 2 : 1); ++slot) {
+    HostImage image = host_make_image(host_, resource.format, texelSize(resource.format), resource.width,
+                                      resource.height, resource.image_usage);
+    if (resource.kind != WALR_RESOURCE_HOST) {
+      bytes_ += host_image_bytes(host_, &image);
+      listedBytes_ += resource.memory_size;
+    }
+    named.slots.push_back(image);
+  }
+}
+
+void Graph::makeBuffer(const WalrResource& resource) {
+  VkBufferCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
+  info.size = resource.buffer_size;
+  info.usage = resource.buffer_usage;
+  NamedBuffer& named = buffers_[resource.name];
+  if (vkCreateBuffer(host_->device, &info, nullptr, &named.buffer) != VK_SUCCESS) {
+    throw std::runtime_error("creating a buffer");
+  }
+  VkMemoryRequirements needs{};
+  vkGetBufferMemoryRequirements(host_->device, named.buffer, &needs);
+  named.memory = host_allocate(host_, needs, 0);
+  if (vkBindBufferMemory(host_->device, named.buffer, named.memory, 0) != VK_SUCCESS) {
+    throw std::runtime_error("binding a buffer's memory");
+  }
+  bytes_ += needs.size;
+  listedBytes_ += resource.memory_size;
+}
+
+HostImage* Graph::behind(std::uint32_t index) {
+  const WalrResource& resource = *list_->resources[index];
+  if (resource.kind == WALR_RESOURCE_HISTORY_PREVIOUS) {
+    return hasHistory_ ? &images_.at(list_->resources[resource.partner]->name).slots[1 - parity_] : nullptr;
+  }
+  Named& named = images_.at(resource.name);
+  return &named.slots[named.slots.size() == 2 ? parity_ : 0];
+}
+
+void Graph::transition(VkCommandBuffer commands, const WalrBinding& binding) {
+  const WalrResource& resource = *list_->resources[binding.resource];
+  if (resource.kind == WALR_RESOURCE_UPLOAD) return;
+  if (resource.buffer == VK_TRUE) {
+    NamedBuffer& buffer = buffers_.at(resource.name);
+    VkBufferMemoryBarrier2 barrier{};
+    barrier.sType = VK_STRUCTURE_TYPE_BUFFER_MEMORY_BARRIER_2;
+    barrier.srcStageMask = buffer.stage;
+    barrier.srcAccessMask = buffer.access;
+    barrier.dstStageMask = binding.stage;
+    barrier.dstAccessMask = binding.access;
+    barrier.srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+    barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+    barrier.buffer = buffer.buffer;
+    barrier.size = VK_WHOLE_SIZE;
+    VkDependencyInfo dependency{};
+    dependency.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
+    dependency.bufferMemoryBarrierCount = 1;
+    dependency.pBufferMemoryBarriers = &barrier;
+    vkCmdPipelineBarrier2(commands, &dependency);
+    buffer.stage = binding.stage;
+    buffer.access = binding.access;
+    return;
+  }
+  HostImage* image = behind(binding.resource);
+  if (image == nullptr) return;
+  const bool readAgain = image->layout == VK_IMAGE_LAYOUT_GENERAL && image->stage == binding.stage &&
+                         !writes(image->access) && !writes(binding.access);
+  const bool leftOut = !readBarriers_ && image->layout == VK_IMAGE_LAYOUT_GENERAL && !writes(binding.access);
+  if (readAgain || leftOut) return;
+  if (!writes(binding.access)) {
+    host_transition(commands, image, binding.stage, binding.access, VK_IMAGE_LAYOUT_GENERAL);
+    return;
+  }
+  // Overwritten: what was there before is of no use.
+  if (binding.access == VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT) image->layout = VK_IMAGE_LAYOUT_UNDEFINED;
+  host_transition(commands, image, binding.stage, binding.access, VK_IMAGE_LAYOUT_GENERAL);
+}
+
+void Graph::frame(const WalrPassFrame& frame) {
+  if (api_->begin_frame(passes_, &frame) != WALR_SUCCESS) throw std::runtime_error(api_->last_error());
+  const VkCommandBuffer commands = host_begin(host_);
+  for (std::uint32_t i = 0; i < list_->pass_count; ++i) {
+    const WalrDispatch& pass = *list_->passes[i];
+    std::vector<WalrPassResource> resources(pass.binding_count);
+    for (std::uint32_t b = 0; b < pass.binding_count; ++b) {
+      const WalrBinding& binding = *pass.bindings[b];
+      const WalrResource& resource = *list_->resources[binding.resource];
+      transition(commands, binding);
+      if (resource.kind == WALR_RESOURCE_UPLOAD) continue;
+      if (resource.buffer == VK_TRUE) {
+        resources[b].buffer = buffers_.at(resource.name).buffer;
+        continue;
+      }
+      const HostImage* image = behind(binding.resource);
+      resources[b].image = image == nullptr ? VK_NULL_HANDLE : image->image;
+      resources[b].layout = VK_IMAGE_LAYOUT_GENERAL;
+    }
+    if (api_->record_pass(passes_, i, commands, resources.data(), pass.binding_count) != WALR_SUCCESS) {
+      throw std::runtime_error(api_->last_error());
+    }
+  }
+  host_submit_and_wait(host_, commands);
+  parity_ = 1 - parity_;
+  hasHistory_ = true;
+}
+
+}  // namespace tiny_host
