@@ -12,6 +12,7 @@
 
 #include <gtest/gtest.h>
 
+#include "list_host.h"
 #include "tiny_host.h"
 
 namespace {
@@ -243,6 +244,21 @@ TEST_F(PluginTest, RefusesAHostThatItCannotServe) {
   EXPECT_NE(std::string(api().last_error()).find("prepare_guides"), std::string::npos);
 }
 
+/// Every input of a frame, by name.
+template <typename ImageOf>
+void uploadFrame(Host& host, Size size, std::uint32_t frame, ImageOf imageOf) {
+  for (std::size_t i = 0; i < std::size(kInputs); ++i) {
+    host_upload(&host, imageOf(i), texels(kInputs[i], size, frame).data());
+  }
+}
+
+WalrPassFrame passFrame(const WalrCamera& camera) {
+  WalrPassFrame frame{};
+  frame.struct_size = sizeof(frame);
+  frame.camera = &camera;
+  return frame;
+}
+
 TEST_F(PluginTest, EveryMethodGivesTheSamePixelsPassByPass) {
   for (const WalrPassType* type : registered.types) {
     if (type->method == VK_FALSE) continue;
@@ -254,19 +270,13 @@ TEST_F(PluginTest, EveryMethodGivesTheSamePixelsPassByPass) {
         tiny_host::Graph graph(host, api(), passes);
         for (std::uint32_t frame = 0; frame < 5; ++frame) {
           SCOPED_TRACE(std::string(type->name) + ", frame " + std::to_string(frame));
-          for (std::size_t i = 0; i < std::size(kInputs); ++i) {
-            const std::vector<float> values = texels(kInputs[i], size, frame);
-            host_upload(&host, &opaque.image(i), values.data());
-            host_upload(&host, &graph.image(kInputs[i]), values.data());
-          }
+          uploadFrame(host, size, frame, [&](std::size_t i) { return &opaque.image(i); });
+          uploadFrame(host, size, frame, [&](std::size_t i) { return &graph.image(kInputs[i]); });
           const bool reset = frame == 3;
           const WalrCamera camera = cameraAt(float(frame) * kStep);
           opaque.frame(camera, reset ? WALR_FRAME_RESET_HISTORY : 0);
           if (reset) graph.resetHistory();
-          WalrPassFrame passFrame{};
-          passFrame.struct_size = sizeof(passFrame);
-          passFrame.camera = &camera;
-          graph.frame(passFrame);
+          graph.frame(passFrame(camera));
           const std::vector<std::uint16_t> result = download(host, graph.image("denoised"));
           EXPECT_EQ(result, download(host, opaque.output()));
           EXPECT_GT(std::ranges::count_if(result, [](std::uint16_t half) { return half != 0; }), result.size() / 2);
@@ -277,16 +287,36 @@ TEST_F(PluginTest, EveryMethodGivesTheSamePixelsPassByPass) {
   }
 }
 
+TEST_F(PluginTest, EveryMethodGivesTheSamePixelsAsADispatchListWithItsHeapsAndBarriers) {
+  constexpr Size kSize{61, 43};
+  for (const WalrPassType* type : registered.types) {
+    if (type->method == VK_FALSE) continue;
+    Opaque opaque(host, api(), info(type->name, kSize));
+    const WalrPasses passes = makePasses(type->name, kSize);
+    {
+      list_host::Player player(host, api(), passes);
+      for (std::uint32_t frame = 0; frame < 4; ++frame) {
+        SCOPED_TRACE(std::string(type->name) + ", frame " + std::to_string(frame));
+        uploadFrame(host, kSize, frame, [&](std::size_t i) { return &opaque.image(i); });
+        uploadFrame(host, kSize, frame, [&](std::size_t i) { return &player.image(kInputs[i]); });
+        const WalrCamera camera = cameraAt(float(frame) * kStep);
+        opaque.frame(camera, 0);
+        player.frame(passFrame(camera));
+        EXPECT_EQ(download(host, player.image("denoised")), download(host, opaque.output()));
+      }
+    }
+    EXPECT_EQ(api().destroy_passes(passes), WALR_SUCCESS);
+  }
+}
+
 // Pixels say nothing about barriers here, so that validation must; and it must be on.
 TEST_F(PluginTest, AHostWithoutBarriersIsFoundOut) {
   const WalrPasses passes = makePasses("walr", {64, 48});
   {
     tiny_host::Graph graph(host, api(), passes);
-    for (const char* input : kInputs) host_upload(&host, &graph.image(input), texels(input, {64, 48}, 0).data());
+    uploadFrame(host, {64, 48}, 0, [&](std::size_t i) { return &graph.image(kInputs[i]); });
     const WalrCamera camera = cameraAt(0);
-    WalrPassFrame frame{};
-    frame.struct_size = sizeof(frame);
-    frame.camera = &camera;
+    const WalrPassFrame frame = passFrame(camera);
     graph.frame(frame);
     EXPECT_EQ(host.messages, 0);
     graph.leaveOutReadBarriers();

@@ -1,0 +1,328 @@
+#include "list_host.h"
+
+#include <stdexcept>
+
+namespace list_host {
+namespace {
+
+void check(VkResult result) {
+  if (result != VK_SUCCESS) throw std::runtime_error("VkResult " + std::to_string(result));
+}
+
+std::uint32_t texelSize(VkFormat format) {
+  if (format == VK_FORMAT_R32_SFLOAT) return 4;
+  return format == VK_FORMAT_R16G16B16A16_SFLOAT ? 8 : 16;
+}
+
+}  // namespace
+
+Player::Player(Host& host, const WalrApi& api, WalrPasses passes) : host_(&host), api_(&api), passes_(passes) {
+  if (api.get_pass_list(passes, &list_) != WALR_SUCCESS) throw std::runtime_error(api.last_error());
+  VkSamplerCreateInfo sampler{};
+  sampler.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO;
+  check(vkCreateSampler(host.device, &sampler, nullptr, &sampler_));
+  makeHeaps();
+  behind_.resize(list_->resource_count);
+  for (std::uint32_t i = 0; i < list_->resource_count; ++i) makeResource(i);
+  clearHistories();
+  std::vector<VkDescriptorPoolSize> sizes;
+  for (std::uint32_t i = 0; i < list_->pass_count; ++i) {
+    for (std::uint32_t b = 0; b < list_->passes[i]->binding_count; ++b) {
+      sizes.push_back({list_->passes[i]->bindings[b]->type, 2});
+    }
+  }
+  VkDescriptorPoolCreateInfo pool{};
+  pool.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
+  pool.maxSets = 2 * list_->pass_count;
+  pool.poolSizeCount = static_cast<std::uint32_t>(sizes.size());
+  pool.pPoolSizes = sizes.data();
+  check(vkCreateDescriptorPool(host.device, &pool, nullptr, &pool_));
+  pipelines_.resize(list_->pass_count);
+  for (std::uint32_t i = 0; i < list_->pass_count; ++i) {
+    makePass(i);
+    makeSets(i);
+  }
+}
+
+Player::~Player() {
+  const VkDevice device = host_->device;
+  for (const Pass& pass : pipelines_) {
+    vkDestroyPipeline(device, pass.pipeline, nullptr);
+    vkDestroyPipelineLayout(device, pass.layout, nullptr);
+    vkDestroyDescriptorSetLayout(device, pass.setLayout, nullptr);
+  }
+  vkDestroyDescriptorPool(device, pool_, nullptr);
+  vkDestroySampler(device, sampler_, nullptr);
+  for (const VkImageView view : views_) vkDestroyImageView(device, view, nullptr);
+  for (const VkImage image : images_) vkDestroyImage(device, image, nullptr);
+  for (const VkBuffer buffer : buffers_) vkDestroyBuffer(device, buffer, nullptr);
+  for (const VkDeviceMemory memory : memory_) vkFreeMemory(device, memory, nullptr);
+  for (auto& [name, image] : hostImages_) host_destroy_image(host_, &image);
+}
+
+VkDeviceMemory Player::allocate(VkDeviceSize size, std::uint32_t typeBits, VkMemoryPropertyFlags properties) {
+  memory_.push_back(host_allocate(host_, {size, 1, typeBits}, properties));
+  return memory_.back();
+}
+
+void Player::makeHeaps() {
+  for (std::uint32_t i = 0; i < list_->heap_count; ++i) {
+    heaps_.push_back(allocate(list_->heaps[i].size, list_->heaps[i].memory_type_bits, 0));
+  }
+}
+
+VkImage Player::makeImage(const WalrResource& resource) {
+  VkImageCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO;
+  info.imageType = VK_IMAGE_TYPE_2D;
+  info.format = resource.format;
+  info.extent = {resource.width, resource.height, 1};
+  info.mipLevels = info.arrayLayers = 1;
+  info.samples = VK_SAMPLE_COUNT_1_BIT;
+  info.usage = resource.image_usage;
+  VkImage image = VK_NULL_HANDLE;
+  check(vkCreateImage(host_->device, &info, nullptr, &image));
+  images_.push_back(image);
+  VkMemoryRequirements needs{};
+  vkGetImageMemoryRequirements(host_->device, image, &needs);
+  if (needs.size != resource.memory_size) throw std::runtime_error("the list has another size");
+  const bool shared = resource.heap != WALR_NONE;
+  check(vkBindImageMemory(host_->device, image,
+                          shared ? heaps_.at(resource.heap) : allocate(needs.size, needs.memoryTypeBits, 0),
+                          shared ? resource.heap_offset : 0));
+  return image;
+}
+
+VkImageView Player::makeView(VkImage image, VkFormat format) {
+  VkImageViewCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO;
+  info.image = image;
+  info.viewType = VK_IMAGE_VIEW_TYPE_2D;
+  info.format = format;
+  info.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
+  VkImageView view = VK_NULL_HANDLE;
+  check(vkCreateImageView(host_->device, &info, nullptr, &view));
+  views_.push_back(view);
+  return view;
+}
+
+VkBuffer Player::makeBuffer(const WalrResource& resource) {
+  VkBufferCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
+  info.size = resource.buffer_size;
+  info.usage = resource.buffer_usage;
+  VkBuffer buffer = VK_NULL_HANDLE;
+  check(vkCreateBuffer(host_->device, &info, nullptr, &buffer));
+  buffers_.push_back(buffer);
+  VkMemoryRequirements needs{};
+  vkGetBufferMemoryRequirements(host_->device, buffer, &needs);
+  if (resource.heap != WALR_NONE) {
+    check(vkBindBufferMemory(host_->device, buffer, heaps_.at(resource.heap), resource.heap_offset));
+    return buffer;
+  }
+  const bool upload = resource.kind == WALR_RESOURCE_UPLOAD;
+  const VkDeviceMemory memory = allocate(
+      needs.size, needs.memoryTypeBits,
+      upload ? VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT : VkMemoryPropertyFlags{0});
+  check(vkBindBufferMemory(host_->device, buffer, memory, 0));
+  if (upload) check(vkMapMemory(host_->device, memory, 0, VK_WHOLE_SIZE, 0, &constants_));
+  return buffer;
+}
+
+void Player::makeResource(std::uint32_t index) {
+  const WalrResource& resource = *list_->resources[index];
+  Behind& behind = behind_[index];
+  if (resource.kind == WALR_RESOURCE_HOST) {
+    HostImage& image = hostImages_[resource.name];
+    image = host_make_image(host_, resource.format, texelSize(resource.format), resource.width, resource.height,
+                            resource.image_usage);
+    behind.images[0] = behind.images[1] = image.image;
+    // An image that nobody touches has no use that a view could be made for.
+    if (resource.used == VK_TRUE) behind.views[0] = behind.views[1] = makeView(image.image, resource.format);
+    return;
+  }
+  if (resource.used == VK_FALSE || resource.kind == WALR_RESOURCE_HISTORY_PREVIOUS) return;
+  if (resource.buffer == VK_TRUE) {
+    behind.buffer = makeBuffer(resource);
+    return;
+  }
+  for (int parity = 0; parity < 2; ++parity) {
+    const bool second = parity == 1 && resource.kind != WALR_RESOURCE_HISTORY_CURRENT;
+    behind.images[parity] = second ? behind.images[0] : makeImage(resource);
+    behind.views[parity] = second ? behind.views[0] : makeView(behind.images[parity], resource.format);
+  }
+  if (resource.partner == WALR_NONE) return;
+  for (int parity = 0; parity < 2; ++parity) {
+    behind_[resource.partner].images[parity] = behind.images[1 - parity];
+    behind_[resource.partner].views[parity] = behind.views[1 - parity];
+  }
+}
+
+/// Zeros in every history, left in the layout from which the list's barriers start.
+void Player::clearHistories() {
+  const VkCommandBuffer commands = host_begin(host_);
+  for (std::uint32_t i = 0; i < list_->resource_count; ++i) {
+    const WalrResource& resource = *list_->resources[i];
+    if (resource.kind != WALR_RESOURCE_HISTORY_PREVIOUS || behind_[i].images[0] == VK_NULL_HANDLE) continue;
+    VkImageLayout layout = VK_IMAGE_LAYOUT_GENERAL;
+    for (std::uint32_t p = list_->pass_count; p-- > 0;) {
+      for (std::uint32_t b = 0; b < list_->passes[p]->barrier_count; ++b) {
+        if (list_->passes[p]->barriers[b].resource == i) layout = list_->passes[p]->barriers[b].old_layout;
+      }
+    }
+    HostImage image{};
+    image.image = behind_[i].images[0];
+    host_transition(commands, &image, VK_PIPELINE_STAGE_2_CLEAR_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
+                    VK_IMAGE_LAYOUT_GENERAL);
+    const VkClearColorValue zero{};
+    const VkImageSubresourceRange range{VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
+    vkCmdClearColorImage(commands, image.image, VK_IMAGE_LAYOUT_GENERAL, &zero, 1, &range);
+    host_transition(commands, &image, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_READ_BIT, layout);
+  }
+  host_submit_and_wait(host_, commands);
+}
+
+void Player::makePass(std::uint32_t index) {
+  const WalrDispatch& dispatch = *list_->passes[index];
+  Pass& pass = pipelines_[index];
+  std::vector<VkDescriptorSetLayoutBinding> bindings;
+  for (std::uint32_t b = 0; b < dispatch.binding_count; ++b) {
+    bindings.push_back(
+        {dispatch.bindings[b]->binding, dispatch.bindings[b]->type, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr});
+  }
+  VkDescriptorSetLayoutCreateInfo setInfo{};
+  setInfo.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;
+  setInfo.bindingCount = dispatch.binding_count;
+  setInfo.pBindings = bindings.data();
+  check(vkCreateDescriptorSetLayout(host_->device, &setInfo, nullptr, &pass.setLayout));
+  const VkPushConstantRange constants{VK_SHADER_STAGE_COMPUTE_BIT, 0, dispatch.push_constant_size};
+  VkPipelineLayoutCreateInfo layoutInfo{};
+  layoutInfo.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
+  layoutInfo.setLayoutCount = 1;
+  layoutInfo.pSetLayouts = &pass.setLayout;
+  layoutInfo.pushConstantRangeCount = dispatch.push_constant_size > 0 ? 1 : 0;
+  layoutInfo.pPushConstantRanges = &constants;
+  check(vkCreatePipelineLayout(host_->device, &layoutInfo, nullptr, &pass.layout));
+
+  VkShaderModuleCreateInfo moduleInfo{};
+  moduleInfo.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
+  moduleInfo.codeSize = dispatch.spirv_size;
+  moduleInfo.pCode = dispatch.spirv;
+  VkShaderModule module = VK_NULL_HANDLE;
+  check(vkCreateShaderModule(host_->device, &moduleInfo, nullptr, &module));
+  std::vector<VkSpecializationMapEntry> entries;
+  std::vector<std::uint32_t> values;
+  for (std::uint32_t i = 0; i < dispatch.specialization_count; ++i) {
+    entries.push_back({dispatch.specializations[i].constant_id, i * 4, 4});
+    values.push_back(dispatch.specializations[i].value);
+  }
+  const VkSpecializationInfo specialization{dispatch.specialization_count, entries.data(), values.size() * 4,
+                                            values.data()};
+  VkComputePipelineCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
+  info.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
+  info.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
+  info.stage.module = module;
+  info.stage.pName = "main";
+  info.stage.pSpecializationInfo = &specialization;
+  info.layout = pass.layout;
+  check(vkCreateComputePipelines(host_->device, VK_NULL_HANDLE, 1, &info, nullptr, &pass.pipeline));
+  vkDestroyShaderModule(host_->device, module, nullptr);
+}
+
+void Player::makeSets(std::uint32_t index) {
+  const WalrDispatch& dispatch = *list_->passes[index];
+  Pass& pass = pipelines_[index];
+  for (int parity = 0; parity < 2; ++parity) {
+    VkDescriptorSetAllocateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO;
+    info.descriptorPool = pool_;
+    info.descriptorSetCount = 1;
+    info.pSetLayouts = &pass.setLayout;
+    check(vkAllocateDescriptorSets(host_->device, &info, &pass.sets[parity]));
+    for (std::uint32_t b = 0; b < dispatch.binding_count; ++b) {
+      const WalrBinding& binding = *dispatch.bindings[b];
+      const Behind& behind = behind_[binding.resource];
+      const VkDescriptorImageInfo image{sampler_, behind.views[parity], binding.layout};
+      const VkDescriptorBufferInfo buffer{behind.buffer, 0, VK_WHOLE_SIZE};
+      VkWriteDescriptorSet write{};
+      write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
+      write.dstSet = pass.sets[parity];
+      write.dstBinding = binding.binding;
+      write.descriptorCount = 1;
+      write.descriptorType = binding.type;
+      write.pImageInfo = &image;
+      write.pBufferInfo = &buffer;
+      vkUpdateDescriptorSets(host_->device, 1, &write, 0, nullptr);
+    }
+  }
+}
+
+void Player::barriers(VkCommandBuffer commands, const WalrBarrier* first, std::uint32_t count) {
+  std::vector<VkMemoryBarrier2> memory;
+  std::vector<VkImageMemoryBarrier2> images;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const WalrBarrier& barrier = first[i];
+    const bool handOver = barrier.alias_of != WALR_NONE;
+    const VkImage image = behind_[barrier.resource].images[parity_];
+    // A buffer needs no more than a memory barrier, and nor does memory that changes hands.
+    if (handOver || image == VK_NULL_HANDLE) {
+      memory.push_back({VK_STRUCTURE_TYPE_MEMORY_BARRIER_2, nullptr, barrier.src_stage, barrier.src_access,
+                        barrier.dst_stage, barrier.dst_access});
+    }
+    if (image == VK_NULL_HANDLE) continue;
+    VkImageMemoryBarrier2& made = images.emplace_back();
+    made.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2;
+    made.srcStageMask = barrier.src_stage;
+    made.srcAccessMask = barrier.src_access | (handOver ? VK_ACCESS_2_MEMORY_WRITE_BIT : VkAccessFlags2{0});
+    made.dstStageMask = barrier.dst_stage;
+    made.dstAccessMask = barrier.dst_access;
+    made.oldLayout = barrier.old_layout;
+    made.newLayout = barrier.new_layout;
+    made.srcQueueFamilyIndex = made.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+    made.image = image;
+    made.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
+  }
+  VkDependencyInfo dependency{};
+  dependency.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
+  dependency.memoryBarrierCount = static_cast<std::uint32_t>(memory.size());
+  dependency.pMemoryBarriers = memory.data();
+  dependency.imageMemoryBarrierCount = static_cast<std::uint32_t>(images.size());
+  dependency.pImageMemoryBarriers = images.data();
+  if (count > 0) vkCmdPipelineBarrier2(commands, &dependency);
+}
+
+void Player::frame(const WalrPassFrame& frame) {
+  std::size_t size = 0;
+  if (api_->begin_frame(passes_, &frame) != WALR_SUCCESS) throw std::runtime_error(api_->last_error());
+  if (api_->get_frame_constants(passes_, nullptr, &size) != WALR_SUCCESS) throw std::runtime_error(api_->last_error());
+  if (constants_ != nullptr && api_->get_frame_constants(passes_, constants_, &size) != WALR_SUCCESS) {
+    throw std::runtime_error(api_->last_error());
+  }
+  const VkCommandBuffer commands = host_begin(host_);
+  for (auto& [name, image] : hostImages_) {
+    if ((image.usage & (VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT)) == 0) continue;  // Not touched.
+    const bool output = name == "denoised";
+    host_transition(commands, &image, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+                    output ? VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT : VK_ACCESS_2_SHADER_SAMPLED_READ_BIT,
+                    output ? VK_IMAGE_LAYOUT_GENERAL : VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+  }
+  for (std::uint32_t i = 0; i < list_->pass_count; ++i) {
+    const WalrDispatch& dispatch = *list_->passes[i];
+    const Pass& pass = pipelines_[i];
+    barriers(commands, dispatch.barriers, dispatch.barrier_count);
+    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pass.pipeline);
+    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pass.layout, 0, 1, &pass.sets[parity_], 0,
+                            nullptr);
+    if (dispatch.push_constant_size > 0) {
+      vkCmdPushConstants(commands, pass.layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, dispatch.push_constant_size,
+                         dispatch.push_constants);
+    }
+    vkCmdDispatch(commands, dispatch.group_count[0], dispatch.group_count[1], dispatch.group_count[2]);
+  }
+  barriers(commands, list_->releases, list_->release_count);
+  host_submit_and_wait(host_, commands);
+  parity_ = 1 - parity_;
+}
+
+}  // namespace list_host
