@@ -73,7 +73,8 @@ std::map<std::string, std::vector<PlanCosts>> allCosts(const std::vector<NamedSe
     }
   }
   extents.insert(extents.end(), kCommonExtents.begin(), kCommonExtents.end());
-  const InputConventions& conventions = sequences.front().sequence.layout().layout->conventions;
+  const InputConventions conventions =
+      sequences.empty() ? InputConventions{} : sequences.front().sequence.layout().layout->conventions;
   std::map<std::string, std::vector<PlanCosts>> costs;
   for (const Variant& variant : variants) {
     for (const fg::Extent extent : extents) costs[variant.name].push_back(planCosts(variant, extent, conventions));
@@ -157,6 +158,9 @@ BenchReport bench(const GpuDevice& device, const std::vector<NamedSequence>& seq
       result.runs.push_back(store.find(result.name, variant.name, runKey(todo.key, variant)).value());
     }
   }
+  progress.reset();
+  if (options.response) report.responses = responses(device, options.variants);
+  if (options.hardCases) report.numerics = numerics(device, numericsSettings());
   return report;
 }
 

@@ -10,7 +10,9 @@
 #include "samples/bench/bench_frame.h"
 #include "samples/bench/build_info.h"
 #include "samples/bench/device_facts.h"
+#include "samples/bench/numerics.h"
 #include "samples/bench/plan_costs.h"
+#include "samples/bench/response.h"
 #include "samples/bench/run_record.h"
 #include "samples/bench/variant.h"
 #include "samples/denoise/gpu_device.h"
@@ -37,6 +39,8 @@ struct BenchOptions {
   /// Variants that run beside each other. More need more device memory at once, and lose more when interrupted. The
   /// baseline runs in every batch.
   std::size_t batch = 10;
+  bool hardCases = false;  ///< Also run the hard cases of the arithmetic (`numerics`).
+  bool response = false;   ///< Also run all variants on the synthetic scenes (`responses`).
 };
 
 /// What came of one sequence.
@@ -58,6 +62,8 @@ struct BenchReport {
   std::map<std::string, std::vector<SettingValue>> settings;  ///< All settings of every variant, by its name.
   std::map<std::string, std::vector<PlanCosts>> costs;        ///< At the sequences' sizes and 720p to 4K, by variant.
   std::vector<SequenceReport> sequences;
+  std::vector<Response> responses;  ///< Of all variants, or empty.
+  std::vector<NumericsResult> numerics;
 };
 
 /// Run what has not been run yet, and report on all.

@@ -78,6 +78,29 @@ Json sequenceJson(const SequenceReport& sequence) {
           {"runs", std::move(runs)}};
 }
 
+Json responseJson(const Response& response) {
+  return {{"variant", response.variant},
+          {"first_frame_rmse", response.firstFrame},
+          {"settled_rmse", response.settled},
+          {"settled_flicker", response.settledFlicker},
+          {"light_left", response.lightLeft},
+          {"light_frames", orNull(response.lightFrames)},
+          {"error_by_age", response.errorByAge},
+          {"trail_by_age", response.trailByAge},
+          {"recovery_frames", orNull(response.recoveryFrames)}};
+}
+
+Json numericsJson(const NumericsResult& result) {
+  return {{"case", result.hardCase},
+          {"storage", result.setting.storage},
+          {"regularisation", result.setting.regularisation},
+          {"epsilon", result.setting.epsilon},
+          {"error", result.error},
+          {"non_finite_in", result.nonFiniteIn},
+          {"non_finite_out", result.nonFiniteOut},
+          {"negative_out", result.negativeOut}};
+}
+
 /// Costs at the size of a sequence.
 const PlanCosts& costsAt(const BenchReport& report, const std::string& variant, fg::Extent extent) {
   return *std::ranges::find(report.costs.at(variant), extent, &PlanCosts::extent);
@@ -112,6 +135,48 @@ const Metric& metricOf(const char* name) {
   return *std::ranges::find(kMetrics, name, &Metric::name);
 }
 
+int widestName(const BenchReport& report) {
+  std::size_t widest = 8;
+  for (const Variant& variant : report.variants) widest = std::max(widest, variant.name.size());
+  return static_cast<int>(widest);
+}
+
+std::string frames(const std::optional<int>& count) {
+  return count ? std::to_string(*count) : "never";
+}
+
+void printResponses(std::ostream& stream, const BenchReport& report) {
+  const int nameWidth = widestName(report) + 1;
+  const auto columns = [&stream](std::initializer_list<std::string> cells) {
+    for (const std::string& text : cells) stream << std::setw(14) << text;
+    stream << '\n';
+  };
+  stream << '\n' << std::left << std::setw(nameWidth) << "response" << std::right;
+  columns({"first RMSE", "settled RMSE", "flicker", "light, frames", "recovery", "trail at 0"});
+  for (const Response& response : report.responses) {
+    stream << std::left << std::setw(nameWidth) << response.variant << std::right;
+    columns({cell(response.firstFrame, 1, 4), cell(response.settled, 1, 4), cell(response.settledFlicker, 1, 5),
+             frames(response.lightFrames), frames(response.recoveryFrames), cell(response.trailByAge.front(), 1, 3)});
+  }
+  stream
+      << "Synthetic scenes with a known answer: frames until a tenth of a light that went down is left, and until the "
+         "error behind a moving slab is within a quarter of what it is elsewhere; share of the slab's light that is "
+         "left on the first frame.\n";
+}
+
+/// Worst cases only: the report has the whole table.
+void printNumerics(std::ostream& stream, const BenchReport& report) {
+  std::size_t nonFinite = 0;
+  const NumericsResult* worst = &report.numerics.front();
+  for (const NumericsResult& result : report.numerics) {
+    nonFinite += result.nonFiniteOut;
+    if (!(result.error <= worst->error)) worst = &result;
+  }
+  stream << "\nhard cases: " << report.numerics.size() << " runs, " << nonFinite
+         << " values that are not finite; largest relative error " << worst->error << ": " << worst->hardCase << ", "
+         << worst->setting.storage << ", " << worst->setting.regularisation << ' ' << worst->setting.epsilon << ".\n";
+}
+
 }  // namespace
 
 std::string benchJson(const BenchReport& report, const std::string& command) {
@@ -141,6 +206,10 @@ std::string benchJson(const BenchReport& report, const std::string& command) {
   document["variants"] = variantsJson(report);
   document["sequences"] = Json::array();
   for (const SequenceReport& sequence : report.sequences) document["sequences"].push_back(sequenceJson(sequence));
+  document["responses"] = Json::array();
+  for (const Response& response : report.responses) document["responses"].push_back(responseJson(response));
+  document["hard_cases"] = Json::array();
+  for (const NumericsResult& result : report.numerics) document["hard_cases"].push_back(numericsJson(result));
   return document.dump(1) + "\n";
 }
 
@@ -178,9 +247,7 @@ std::string benchCsv(const BenchReport& report) {
 }
 
 void printBench(std::ostream& stream, const BenchReport& report) {
-  std::size_t widest = 8;
-  for (const Variant& variant : report.variants) widest = std::max(widest, variant.name.size());
-  const int nameWidth = static_cast<int>(widest) + 1;
+  const int nameWidth = widestName(report) + 1;
   for (const SequenceReport& sequence : report.sequences) {
     stream << '\n' << std::left << std::setw(nameWidth) << sequence.name << std::right;
     for (const Column& column : kColumns) stream << std::setw(kCellWidth) << column.title;
@@ -207,11 +274,14 @@ void printBench(std::ostream& stream, const BenchReport& report) {
       stream << (finite ? "" : "  NOT FINITE") << (run.reproducible ? "" : "  NOT REPRODUCIBLE") << '\n';
     }
   }
-  stream << "\nMeans over the frames after the first " << kWarmUpFrames
-         << ". Errors after the tone map x/(1+x), but relMSE; "
-         << "time: ratio to " << kBaseline
-         << " on the same frame in the same run; bytes per pixel and memory (persistent "
-            "and shared transient): from the plan.\n";
+  if (!report.sequences.empty())
+    stream << "\nMeans over the frames after the first " << kWarmUpFrames
+           << ". Errors after the tone map x/(1+x), but relMSE; "
+           << "time: ratio to " << kBaseline
+           << " on the same frame in the same run; bytes per pixel and memory (persistent "
+              "and shared transient): from the plan.\n";
+  if (!report.responses.empty()) printResponses(stream, report);
+  if (!report.numerics.empty()) printNumerics(stream, report);
   if (report.device.software) {
     stream << report.device.name << " is a software device: ratios of its times are a processor's, not a GPU's.\n";
   }

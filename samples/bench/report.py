@@ -486,6 +486,71 @@ def sweep_section(bench, sweep):
                                                                          "circled: the default")
 
 
+def response_section(bench):
+    """How methods answer to change, on synthetic scenes."""
+    responses = [r for r in bench.json["responses"] if r["variant"] in bench.filters]
+    figure, axes = plt.subplots(1, 3, figsize=(13, 3.6))
+    figure.subplots_adjust(wspace=0.25)
+    for axis, (key, title, label) in zip(axes, (
+            ("light_left", "a light goes down", "share of it left"),
+            ("error_by_age", "disocclusion", "relative RMSE"),
+            ("trail_by_age", "trail behind a bright slab", "share of its light left"))):
+        for r in responses:
+            axis.plot(range(len(r[key])), r[key], color=bench.colour(r["variant"]), ls=bench.dash(r["variant"]),
+                      lw=2 if r["variant"] == bench.baseline else 1.1, label=r["variant"])
+        axis.set_title(title, loc="left", fontsize=9, fontweight="bold")
+        axis.set_xlabel("frames since")
+        axis.set_ylabel(label)
+    axes[0].axhline(0.1, color="#999999", ls=":", lw=1)
+    axes[0].legend(fontsize=7.5)
+    never = "never"
+    rows = [[html.escape(r["variant"]), number(r["first_frame_rmse"], 4), number(r["settled_rmse"], 4),
+             number(r["settled_flicker"], 5), never if r["light_frames"] is None else r["light_frames"],
+             never if r["recovery_frames"] is None else r["recovery_frames"], number(r["trail_by_age"][0], 3)]
+            for r in bench.json["responses"]]
+    return svg(figure, "response") + table(
+        ["method", "first frame RMSE", "settled RMSE", "settled flicker", "light gone, frames", "recovered, frames",
+         "trail on the first frame"], rows,
+        "a still wall, whose light goes down to a tenth; a slab that moves before it. Gone: no more than a tenth of the "
+        "light is left. Recovered: the error is within a quarter of the wall's that nothing hid")
+
+
+def hard_cases_section(bench):
+    """Error by epsilon where features vary by little, and every case at every storage's usual settings."""
+    results = {(r["case"], r["storage"], r["regularisation"], r["epsilon"]): r for r in bench.json["hard_cases"]}
+    cases, storages, solvers, epsilons = (list(dict.fromkeys(k[i] for k in results)) for i in range(4))
+    shown = [c for c in cases if c.startswith(("normals vary", "normals of a sphere"))]
+    figure, axes = plt.subplots(len(solvers), len(shown), figsize=(14, 4.6), sharex=True, sharey=True, squeeze=False)
+    figure.subplots_adjust(wspace=0.08, hspace=0.12)
+    for row, solver in enumerate(solvers):
+        for axis, case in zip(axes[row], shown):
+            for index, storage in enumerate(storages):
+                errors = [results[case, storage, solver, e]["error"] for e in epsilons]
+                axis.loglog([float(e) for e in epsilons], [math.nan if e is None else e for e in errors], "o-", ms=3, lw=1.2,
+                            color=SPARE_COLOURS[index], label=storage)
+            if row == 0:
+                axis.set_title(case, fontsize=8)
+            else:
+                axis.set_xlabel("epsilon")
+        axes[row][0].set_ylabel(f"{solver}: relative error")
+    axes[0][-1].legend(fontsize=7)
+    usual = {"centred16": ("ridge", "1e-3"), "raw16": ("floor", "1e-3"), "raw11": ("floor", "1e-2"), "raw32": ("floor", "1e-5")}
+    rows = []
+    for case in cases:
+        row = [html.escape(case)]
+        for storage in storages:
+            r = results[(case, storage) + usual[storage]]
+            text = "-" if r["error"] is None else f"{r['error']:.3g}"
+            text += f' <b class="bad">{r["non_finite_out"]} not finite</b>' if r["non_finite_out"] else ""
+            row.append(text + (f" <small>{r['negative_out']} below 0</small>" if r["negative_out"] else ""))
+        row.append(results[(case, storages[0]) + usual[storages[0]]]["non_finite_in"])
+        rows.append(row)
+    return ("<p>Signals that are linear in the normal, so that an exact regression has no bias; exponential noise; one frame "
+            "without history; 27 x 27 pixels.</p>" + svg(figure, "hard cases")
+            + table(["case"] + [f"{s}, {usual[s][0]} {usual[s][1]}" for s in storages] + ["not finite in"], rows,
+                    "relative root mean square error, linear; absolute where there is no light"))
+
+
 def costs_section(bench):
     sizes = [(c["width"], c["height"]) for c in next(iter(bench.variants.values()))["costs"]]
     rows = []
@@ -514,6 +579,27 @@ small { color: #777 } .warning { background: #fff3cd; padding: .6em 1em; border-
 """
 
 
+def sequences_sections(bench, names):
+    """What was measured on the sequences: errors, costs, plots over frames and by pass."""
+    out = ["<h2>Errors and costs</h2>"]
+    for sequence in ([None] if len(names) > 1 else []) + names:
+        out.append(methods_table(bench, sequence))
+    out.append(f"<h2>{html.escape(bench.baseline)} against the others</h2>" + against_baseline(bench))
+    out.append("<h2>Error against cost</h2><p>Filled: on the Pareto front, beaten by none in both. Bars: 5 to 95 % of the "
+               "time ratios.</p>")
+    for sequence in ([None] if len(names) > 1 else []) + names:
+        out.append(svg(pareto_figure(bench, sequence), f"pareto {sequence}"))
+    out.append("<h2>Over the frames</h2><p>All on a logarithmic scale. The change of luminance is best where it is the "
+               "reference's own: below it lags, above it flickers.</p>")
+    for sequence in names:
+        out.append(f"<h3>{html.escape(sequence)}</h3>" + svg(frames_figure(bench, sequence), f"frames {sequence}"))
+    out.append("<h2>Time by pass</h2>")
+    for sequence in names:
+        figure = phases_figure(bench, sequence)
+        out.append(f"<h3>{html.escape(sequence)}</h3>" + (svg(figure, f"phases {sequence}") if figure else "no timer"))
+    return out
+
+
 def page(bench):
     data, device = bench.json, bench.json["device"]
     out = [f"<!doctype html><html lang=en><meta charset=utf-8><title>walr bench</title><style>{STYLE}</style>",
@@ -534,29 +620,20 @@ def page(bench):
     odd = [f"{v} on {s}" for (s, v), r in bench.runs.items() if not r["reproducible"]]
     if odd:
         out.append(f"<p class=warning>Not the same bits in every repetition: {html.escape(', '.join(odd))}.</p>")
-    out.append("<h2>Errors and costs</h2>")
     names = list(bench.sequences)
-    for sequence in ([None] if len(names) > 1 else []) + names:
-        out.append(methods_table(bench, sequence))
-    out.append(f"<h2>{html.escape(bench.baseline)} against the others</h2>" + against_baseline(bench))
-    out.append("<h2>Error against cost</h2><p>Filled: on the Pareto front, beaten by none in both. Bars: 5 to 95 % of the "
-               "time ratios.</p>")
-    for sequence in ([None] if len(names) > 1 else []) + names:
-        out.append(svg(pareto_figure(bench, sequence), f"pareto {sequence}"))
-    out.append("<h2>Over the frames</h2><p>All on a logarithmic scale. The change of luminance is best where it is the "
-               "reference's own: below it lags, above it flickers.</p>")
-    for sequence in names:
-        out.append(f"<h3>{html.escape(sequence)}</h3>" + svg(frames_figure(bench, sequence), f"frames {sequence}"))
-    out.append("<h2>Time by pass</h2>")
-    for sequence in names:
-        figure = phases_figure(bench, sequence)
-        out.append(f"<h3>{html.escape(sequence)}</h3>" + (svg(figure, f"phases {sequence}") if figure else "no timer"))
+    if names:
+        out += sequences_sections(bench, names)
     out.append("<h2>Traffic and memory</h2>" + costs_section(bench))
+    if data["responses"]:
+        out.append("<h2>Response to change</h2>" + response_section(bench))
+    if data["hard_cases"]:
+        out.append("<h2>Hard cases of the arithmetic</h2>" + hard_cases_section(bench))
     sweeps = list(dict.fromkeys(v["sweep"] for v in data["variants"] if v["sweep"]))
     if sweeps:
         out.append("<h2>Sweeps</h2>" + "".join(sweep_section(bench, sweep) for sweep in sweeps))
-    out.append("<h2>Pictures</h2><p>Indirect light, chosen by the input alone: the frame with the largest disocclusion, and "
-               "the last one.</p>")
+    if names:
+        out.append("<h2>Pictures</h2><p>Indirect light, chosen by the input alone: the frame with the largest disocclusion, "
+                   "and the last one.</p>")
     for sequence in names:
         for frame in bench.sequences[sequence]["picture_frames"]:
             out.append(pictures_section(bench, sequence, frame))
@@ -572,6 +649,8 @@ def main():
         sys.exit(__doc__)
     bench = Bench(sys.argv[1])
     (bench.folder / "report.html").write_text(page(bench), encoding="utf-8")
+    if not bench.sequences:
+        return
     everything = None if len(bench.sequences) > 1 else next(iter(bench.sequences))
     (bench.folder / "pareto.svg").write_text(svg(pareto_figure(bench, everything, ("rmse",)), "pareto"), encoding="utf-8")
 

@@ -64,6 +64,9 @@ void writeText(const std::filesystem::path& path, const std::string& text) {
 }
 
 void runBench(BenchArguments& arguments, const std::string& command) {
+  if (arguments.sequences.empty() && !arguments.bench.response && !arguments.bench.hardCases) {
+    throw UsageError("nothing to measure: give --sequences DIR..., --response or --hard-cases");
+  }
   arguments.bench.variants = chosenVariants(arguments);
   refuseOutputIntoInput(arguments);
   SequenceOptions options;
@@ -114,8 +117,8 @@ void registerBench(CLI::App& program) {
       "bench", "Measure speed against error: every method and setting on the same frames, beside each other");
   command
       ->add_option("--sequences", arguments->sequences,
-                   "Folders of frames with references (samples/README.md), one report section each")
-      ->required()
+                   "Folders of frames with references (samples/README.md), one report section each; may be left out "
+                   "with --response or --hard-cases")
       ->type_name("DIR...");
   command
       ->add_option("-o,--output", arguments->bench.output,
@@ -135,6 +138,12 @@ void registerBench(CLI::App& program) {
       ->type_name("NAME=METHOD[:PRESET][,SETTING=VALUE]...");
   command->add_option("--sweep", arguments->sweeps, sweepHelp())->type_name("NAME");
   command->add_option("--frames", arguments->frames, "Frame numbers, both included; default: all")->type_name("A-B");
+  command->add_flag("--hard-cases", arguments->bench.hardCases,
+                    "Also run walr on frames that strain the arithmetic, with every storage of the moments and way of "
+                    "solving: error against the known answer, values that are not finite");
+  command->add_flag("--response", arguments->bench.response,
+                    "Also measure how each variant answers to change, on synthetic scenes with a known answer: first "
+                    "frame, settled error and flicker, a light that goes down, disocclusion");
   command
       ->add_option("--repeat", arguments->bench.repetitions,
                    "Timed passes over each sequence, after one that warms up and measures errors")

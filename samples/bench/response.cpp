@@ -1,0 +1,123 @@
+#include "samples/bench/response.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "samples/bench/response_scene.h"
+#include "samples/denoise/gpu_denoiser.h"
+#include "samples/metrics/luminance.h"
+#include "samples/metrics/metrics.h"
+#include "samples/metrics/temporal.h"
+
+namespace walr {
+namespace {
+
+constexpr fg::Extent kExtent{192, 108};
+constexpr int kSettledFrom = 16;
+constexpr double kLightGone = 0.1;
+constexpr double kRecovered = 1.25;
+
+/// A mean under way.
+struct Mean {
+  double sum = 0.0;
+  double count = 0.0;
+  void add(double value) {
+    sum += value;
+    count += 1.0;
+  }
+  [[nodiscard]] double value() const { return count > 0.0 ? sum / count : 0.0; }
+};
+
+double meanLuminance(const Image& image) {
+  Mean mean;
+  for (std::size_t i = 0; i < image.pixelCount(); ++i) mean.add(luminance(image.pixel(i)));
+  return mean.value();
+}
+
+template <typename Values, typename Predicate>
+std::optional<int> firstIndex(const Values& values, Predicate predicate) {
+  const auto found = std::ranges::find_if(values, predicate);
+  return found == values.end() ? std::nullopt : std::optional(static_cast<int>(found - values.begin()));
+}
+
+void answerToLight(const GpuDevice& device, const Variant& variant, Response& response) {
+  GpuDenoiser denoiser(device, *makeVariant(variant), kExtent, projectLayout());
+  const PixelMask all(static_cast<std::size_t>(kExtent.width) * kExtent.height, 1);
+  std::vector<std::uint32_t> itself(all.size());
+  for (std::size_t i = 0; i < itself.size(); ++i) itself[i] = static_cast<std::uint32_t>(i);
+  const double before = meanLuminance(lightFrame(kExtent, 0).truth);
+  Mean settled;
+  Mean flickers;
+  DisplayedPair previous;
+  for (int i = 0; i < kLightFrames; ++i) {
+    const KnownFrame frame = lightFrame(kExtent, i);
+    const Image result = denoiser.run(frame.packed).indirect;
+    DisplayedPair pair = display(result, frame.truth, all);
+    const double rmse = compare(pair, all).rmse.value();
+    if (i == 0) response.firstFrame = rmse;
+    if (i >= kSettledFrom && i < kLightChange) {
+      settled.add(rmse);
+      flickers.add(flicker(pair, previous, itself).value());
+    }
+    if (i >= kLightChange) {
+      const double after = meanLuminance(frame.truth);
+      response.lightLeft.push_back((meanLuminance(result) - after) / (before - after));
+    }
+    previous = std::move(pair);
+  }
+  response.settled = settled.value();
+  response.settledFlicker = flickers.value();
+  response.lightFrames = firstIndex(response.lightLeft, [](double left) { return left <= kLightGone; });
+}
+
+void answerToDisocclusion(const GpuDevice& device, const Variant& variant, Response& response) {
+  constexpr int kFirstMeasured = 8;
+  GpuDenoiser denoiser(device, *makeVariant(variant), kExtent, projectLayout());
+  std::array<Mean, kResponseAges> squares;
+  std::array<Mean, kResponseAges> bias;
+  Mean undisturbed;
+  Mean slabOverWall;
+  for (int i = 0; i < kSlabFrames; ++i) {
+    const KnownFrame frame = slabFrame(kExtent, i);
+    const Image result = denoiser.run(frame.packed).indirect;
+    if (i < kFirstMeasured) continue;
+    const DisplayedPair pair = display(result, frame.truth, PixelMask(frame.age.size(), 1));
+    Mean slab;
+    Mean wall;
+    for (std::size_t pixel = 0; pixel < frame.age.size(); ++pixel) {
+      const int age = frame.age[pixel];
+      const double truth = luminance(pair.reference.pixel(pixel));
+      const double error = luminance(pair.test.pixel(pixel)) - truth;
+      (age < 0 ? slab : wall).add(truth);
+      // Noise goes with the light, so that only relative errors compare between places.
+      const double relative = error / truth;
+      if (age == kAlwaysInView) undisturbed.add(relative * relative);
+      if (age < 0 || age >= kResponseAges) continue;
+      squares.at(static_cast<std::size_t>(age)).add(relative * relative);
+      bias.at(static_cast<std::size_t>(age)).add(error);
+    }
+    slabOverWall.add(slab.value() - wall.value());
+  }
+  for (std::size_t age = 0; age < kResponseAges; ++age) {
+    response.errorByAge.push_back(std::sqrt(squares.at(age).value()));
+    response.trailByAge.push_back(bias.at(age).value() / slabOverWall.value());
+  }
+  const double settled = std::sqrt(undisturbed.value());
+  response.recoveryFrames =
+      firstIndex(response.errorByAge, [&](double error) { return error <= kRecovered * settled; });
+}
+
+}  // namespace
+
+std::vector<Response> responses(const GpuDevice& device, std::span<const Variant> variants) {
+  std::vector<Response> all;
+  for (const Variant& variant : variants) {
+    Response& response = all.emplace_back();
+    response.variant = variant.name;
+    answerToLight(device, variant, response);
+    answerToDisocclusion(device, variant, response);
+  }
+  return all;
+}
+
+}  // namespace walr

@@ -1,0 +1,75 @@
+#include "samples/bench/response.h"
+
+#include <cmath>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "samples/bench/response_scene.h"
+
+namespace walr {
+namespace {
+
+constexpr fg::Extent kExtent{96, 54};
+
+TEST(ResponseScene, NoiseHasTheTruthAsItsMean) {
+  const KnownFrame frame = lightFrame(kExtent, 3);
+  double noisy = 0.0;
+  double truth = 0.0;
+  double truthSquared = 0.0;
+  for (std::size_t i = 0; i < frame.truth.pixelCount(); ++i) {
+    noisy += frame.packed.frame.indirect.pixel(i)[0];
+    truth += frame.truth.pixel(i)[0];
+    truthSquared += std::pow(frame.truth.pixel(i)[0], 2);
+  }
+  // A sample of mean 1 is 4 (1/2 + u) with a probability of 1/4: its variance is 4 (1 + 1/12) - 1. Five deviations.
+  EXPECT_NEAR(noisy, truth, 5.0 * std::sqrt(truthSquared * (4.0 * 13.0 / 12.0 - 1.0)));
+}
+
+TEST(ResponseScene, TheSlabCarriesItsMotionAndUncoversTheWall) {
+  const KnownFrame before = slabFrame(kExtent, 10);
+  const KnownFrame now = slabFrame(kExtent, 11);
+  const std::size_t row = 27 * kExtent.width;
+  std::size_t moving = 0;
+  for (std::size_t x = 0; x < kExtent.width; ++x) {
+    const std::size_t i = row + x;
+    if (now.age[i] >= 0) {
+      EXPECT_EQ(now.packed.frame.motion.pixel(i)[0], 0.0F);
+      EXPECT_EQ(now.age[i] == 0, before.age[i] < 0) << "pixel " << x;
+      continue;
+    }
+    ++moving;
+    const auto source = i + static_cast<std::size_t>(static_cast<int>(now.packed.frame.motion.pixel(i)[0]));
+    EXPECT_EQ(before.age[source], -1) << "pixel " << x;
+  }
+  EXPECT_EQ(moving, kExtent.width / 4);
+}
+
+/// What is measured of methods whose answer is known.
+TEST(ResponseTest, OfMethodsWithAKnownAnswer) {
+  GpuDevice device({.device = {}, .validation = true});
+  const std::vector<Variant> variants = {parseVariant("none=none"),
+                                         parseVariant("mean=accumulate,accumulation.max-samples=8")};
+  const std::vector<Response> found = responses(device, variants);
+  ASSERT_EQ(found.size(), 2U);
+  // Without a memory nothing is left of the light, and every age has the same error; five deviations of the mean noise.
+  const Response& none = found[0];
+  EXPECT_NEAR(none.lightLeft.front(), 0.0, 0.05);
+  EXPECT_EQ(none.lightFrames, 0);
+  EXPECT_EQ(none.recoveryFrames, 0);
+  EXPECT_GT(none.settledFlicker, 0.1);
+  // An exponential mean over n frames keeps (1 - 1/n)^k of the light k frames after the change, the first one included:
+  // less than a tenth from k = 18 on.
+  const Response& mean = found[1];
+  for (const int k : {1, 4, 12}) {
+    EXPECT_NEAR(mean.lightLeft[static_cast<std::size_t>(k - 1)], std::pow(7.0 / 8.0, k), 0.02) << k;
+  }
+  EXPECT_NEAR(mean.lightFrames.value(), 17, 1);
+  EXPECT_LT(mean.settled, 0.6 * none.settled);
+  EXPECT_LT(mean.trailByAge.front(), 0.2) << "the slab is another surface";
+  EXPECT_GT(mean.recoveryFrames.value(), 1);
+  EXPECT_TRUE(device.takeMessages().empty());
+}
+
+}  // namespace
+}  // namespace walr
