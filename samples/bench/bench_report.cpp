@@ -33,6 +33,7 @@ Json costsJson(const std::vector<PlanCosts>& costs) {
                     {"height", cost.extent.height},
                     {"bytes_read_per_pixel", cost.bytesReadPerPixel},
                     {"bytes_written_per_pixel", cost.bytesWrittenPerPixel},
+                    {"taps_per_pixel", orNull(cost.tapsPerPixel)},
                     {"persistent_bytes", cost.persistentBytes},
                     {"transient_unaliased_bytes", cost.transientUnaliasedBytes},
                     {"transient_peak_bytes", cost.transientPeakBytes}});
@@ -217,7 +218,7 @@ std::string benchCsv(const BenchReport& report) {
   std::ostringstream csv;
   csv << "sequence,variant,sweep";
   for (const Metric& metric : kMetrics) csv << ',' << metric.name << ",worst_" << metric.name;
-  csv << ",non_finite,time_ratio_median,time_ratio_p5,time_ratio_p95,bytes_per_pixel,persistent_bytes,"
+  csv << ",non_finite,time_ratio_median,time_ratio_p5,time_ratio_p95,bytes_per_pixel,taps_per_pixel,persistent_bytes,"
          "transient_unaliased_bytes,transient_peak_bytes\n";
   const auto number = [&csv](const std::optional<double>& value) {
     csv << ',';
@@ -239,8 +240,10 @@ std::string benchCsv(const BenchReport& report) {
       number(run.ratio ? std::optional(run.ratio->p5) : std::nullopt);
       number(run.ratio ? std::optional(run.ratio->p95) : std::nullopt);
       const PlanCosts& costs = costsAt(report, run.variant, sequence.extent);
-      csv << ',' << bytesPerPixel(costs) << ',' << costs.persistentBytes << ',' << costs.transientUnaliasedBytes << ','
-          << costs.transientPeakBytes << '\n';
+      csv << ',' << bytesPerPixel(costs);
+      number(costs.tapsPerPixel);
+      csv << ',' << costs.persistentBytes << ',' << costs.transientUnaliasedBytes << ',' << costs.transientPeakBytes
+          << '\n';
     }
   }
   return csv.str();
@@ -252,7 +255,8 @@ void printBench(std::ostream& stream, const BenchReport& report) {
     stream << '\n' << std::left << std::setw(nameWidth) << sequence.name << std::right;
     for (const Column& column : kColumns) stream << std::setw(kCellWidth) << column.title;
     stream << std::setw(kCellWidth) << "time x"
-           << "    (5 to 95 %) " << std::setw(kCellWidth) << "B/pixel" << std::setw(kCellWidth) << "MB" << '\n';
+           << "    (5 to 95 %) " << std::setw(kCellWidth) << "B/pixel" << std::setw(kCellWidth) << "taps"
+           << std::setw(kCellWidth) << "MB" << '\n';
     for (const RunRecord& run : sequence.runs) {
       const std::vector<FrameErrors> frames = afterWarmUp(run.frames);
       stream << std::left << std::setw(nameWidth) << run.variant << std::right;
@@ -267,7 +271,7 @@ void printBench(std::ostream& stream, const BenchReport& report) {
       stream << std::setw(17) << range.str();
       const PlanCosts& costs = costsAt(report, run.variant, sequence.extent);
       constexpr double kMegabyte = 1e6;
-      stream << cell(bytesPerPixel(costs), kCellWidth, 0)
+      stream << cell(bytesPerPixel(costs), kCellWidth, 0) << cell(costs.tapsPerPixel, kCellWidth, 0)
              << cell(static_cast<double>(costs.persistentBytes + costs.transientPeakBytes) / kMegabyte, kCellWidth, 1);
       const bool finite =
           std::ranges::all_of(run.frames, [](const FrameErrors& frame) { return frame.nonFinite == 0; });
@@ -278,7 +282,7 @@ void printBench(std::ostream& stream, const BenchReport& report) {
     stream << "\nMeans over the frames after the first " << kWarmUpFrames
            << ". Errors after the tone map x/(1+x), but relMSE; "
            << "time: ratio to " << kBaseline
-           << " on the same frame in the same run; bytes per pixel and memory (persistent "
+           << " on the same frame in the same run; bytes and taps per pixel and memory (persistent "
               "and shared transient): from the plan.\n";
   if (!report.responses.empty()) printResponses(stream, report);
   if (!report.numerics.empty()) printNumerics(stream, report);

@@ -32,8 +32,8 @@ struct NumericsResult {
   std::size_t negativeOut = 0;   ///< Values of the result below 0.
 };
 
-/// Every hard case (`hardCases`) through WALR's regression, 27 x 27 pixels, with every setting. The temporal stages keep
-/// no history.
+/// Every hard case (`hardCases`) through WALR's regression, 27 x 27 pixels, with every setting. The temporal stages
+/// keep no history.
 /// @throws fg::vk::Error when the device fails
 std::vector<NumericsResult> numerics(const GpuDevice& device, std::span<const NumericsSetting> settings);
 

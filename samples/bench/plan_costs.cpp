@@ -4,6 +4,7 @@
 
 #include "framegraph/compile.h"
 #include "integration/denoise_graph.h"
+#include "samples/bench/taps.h"
 
 namespace walr {
 
@@ -18,6 +19,7 @@ PlanCosts planCosts(const Variant& variant, fg::Extent extent, const InputConven
   return {.extent = extent,
           .bytesReadPerPixel = static_cast<double>(result.plan.traffic.bytesRead) / pixels,
           .bytesWrittenPerPixel = static_cast<double>(result.plan.traffic.bytesWritten) / pixels,
+          .tapsPerPixel = tapsPerPixel(declared.graph.desc(), result.plan, extent),
           .persistentBytes = memory.persistentBytes,
           .transientUnaliasedBytes = memory.transientUnaliasedBytes,
           .transientPeakBytes = memory.transientPeakBytes};

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "framegraph/graph.h"
 #include "passes/inputs.h"
@@ -15,6 +16,7 @@ struct PlanCosts {
   /// caches.
   double bytesReadPerPixel = 0.0;
   double bytesWrittenPerPixel = 0.0;
+  std::optional<double> tapsPerPixel;         ///< See `tapsPerPixel`.
   std::uint64_t persistentBytes = 0;          ///< Histories, both slots.
   std::uint64_t transientUnaliasedBytes = 0;  ///< Textures within a frame, were none to share memory.
   std::uint64_t transientPeakBytes = 0;       ///< The same as the plan shares it.

@@ -344,10 +344,10 @@ def methods_table(bench, sequence):
             row.append(f'<b class="bad">{bad}</b>' if bad else "0")
         ratio = bench.ratio(sequence, name)
         row.append(f"{ratio[0]:.2f} <small>({ratio[1]:.2f} to {ratio[2]:.2f})</small>" if ratio else "-")
-        row.append(f"{bench.bytes_per_pixel(sequence, name):.0f}")
+        row += [f"{bench.bytes_per_pixel(sequence, name):.0f}", number(bench.cost(sequence, name)["taps_per_pixel"], 0)]
         rows.append(row)
     header = ["method"] + [label for _, label, _ in TABLE] + (["worst RMSE", "not finite"] if sequence else [])
-    return table(header + ["time ratio (5 to 95 %)", "bytes/pixel"], rows,
+    return table(header + ["time ratio (5 to 95 %)", "bytes/pixel", "taps/pixel"], rows,
                  f"{html.escape(sequence or 'Mean over the sequences')}: means over frames after the fourth; "
                  "best filter in bold")
 

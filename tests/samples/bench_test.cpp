@@ -156,6 +156,24 @@ TEST(PlanCostsTest, OfACopyAreItsTexels) {
   EXPECT_EQ(costs.persistentBytes + costs.transientPeakBytes, 0U);
 }
 
+TEST(PlanCostsTest, TapsAreTheWindowsOfTheStages) {
+  const auto taps = [](const char* method) {
+    return planCosts(parseMethods(method).front(), {320, 180}, {}).tapsPerPixel;
+  };
+  constexpr double kAntialiasing = 16 + 1 + 3 * 3;  // Bicubic history, the pixel itself, the clipping's neighbourhood.
+  EXPECT_EQ(taps("none"), 1.0);
+  EXPECT_EQ(taps("accumulate"), 1.0 + 4.0 + 1.0);  // Sample, bilinear history, copy.
+  // 33 x 33 of its default radius; 7 x 7 of its clipping.
+  EXPECT_EQ(taps("joint_bilateral"), 33.0 * 33.0 + 16 + 1 + 7 * 7);
+  EXPECT_EQ(taps("bmfr"), 5.0 + 1.0 + 5.0 + kAntialiasing);
+  // An iteration of WALR is 3 x 3 taps (walr.txt 3.2).
+  const auto walr = [](const char* iterations) {
+    const std::string text = std::string("w=walr,walr.fit-window=off,regression.iterations=") + iterations;
+    return *planCosts(parseVariant(text), {320, 180}, {}).tapsPerPixel;
+  };
+  EXPECT_EQ(walr("4") - walr("2"), 18.0);
+}
+
 TEST(PlanCostsTest, SharedMemoryIsNoLargerThanUnshared) {
   for (const Variant& variant : allMethods()) {
     const PlanCosts costs = planCosts(variant, {320, 180}, {});
