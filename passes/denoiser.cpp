@@ -26,7 +26,8 @@ template <typename Settings>
 constexpr std::array<Preset<Settings>, 0> kPresets{};
 template <>
 constexpr std::array kPresets<WalrSettings>{Preset<WalrSettings>{"robust", robustWalr},
-                                            Preset<WalrSettings>{"paper", paperWalr}};
+                                            Preset<WalrSettings>{"paper", paperWalr},
+                                            Preset<WalrSettings>{"fast", fastWalr}};
 template <>
 constexpr std::array kPresets<SvgfSettings>{Preset<SvgfSettings>{"tuned", tunedSvgf},
                                             Preset<SvgfSettings>{"paper", paperSvgf}};

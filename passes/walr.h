@@ -1,6 +1,8 @@
 #pragma once
 
 #include "framegraph/graph.h"
+#include "passes/ambient_occlusion.h"
+#include "passes/block_regression.h"
 #include "passes/inputs.h"
 #include "passes/prepare_guides.h"
 #include "passes/temporal_accumulation.h"
@@ -9,22 +11,39 @@
 
 namespace walr {
 
+/// What the spatial filter regresses over.
+enum class SpatialFilter : std::uint32_t {
+  Pixels,  ///< Moments of every pixel, as published.
+  Blocks,  ///< Moments of blocks of pixels, more features, a coarse fit where samples are few.
+};
+
 /// Settings of all stages of WALR.
 struct WalrSettings {
   PrepareGuidesSettings guides;
   TemporalAccumulationSettings accumulation;
   WeightedRegressionSettings regression;
   TemporalAntialiasingSettings antialiasing;
+  SpatialFilter filter = SpatialFilter::Pixels;
+  AmbientOcclusionSettings occlusion;
+  BlockRegressionSettings blocks;
   bool fitWindow = true;
 
   void visit(SettingVisitor& v) {
     guides.visit(v);
     accumulation.visit(v);
+    static constexpr std::string_view kFilters[] = {"pixels", "blocks"};
+    v.visitEnum({"walr.filter",
+                 "Regress over pixels with the settings regression.*, or over blocks with occlusion.* and blocks.*", "",
+                 0, 1, "measured"},
+                kFilters, filter);
     v.visit({"walr.fit-window",
-             "Leave out the last iterations where their window would span far more than a tenth of the image's height",
+             "Leave out the last iterations where their window would span far more than a tenth of the image's height, "
+             "and halve blocks of 4 below 720 lines",
              "", 0, 1, "measured"},
             fitWindow);
     regression.visit(v);
+    occlusion.visit(v);
+    blocks.visit(v);
     antialiasing.visit(v);
   }
 };
@@ -35,6 +54,9 @@ WalrSettings robustWalr();
 /// Faithful to the publication: raw half-precision moments without sample counts, floored pivots, the shading normal's
 /// plane, bicubic history, dilated motion, variance clipping alone after the filter.
 WalrSettings paperWalr();
+
+/// Moments of blocks instead of pixels: less to move, and room for features that know depth and occlusion.
+WalrSettings fastWalr();
 
 /// Weighted A-Trous Linear Regression (walr.txt, figure 6): preprocessing, spatial filtering, postprocessing.
 /// @param output RGBA16F texture to write the result to

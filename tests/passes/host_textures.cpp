@@ -105,10 +105,10 @@ fg::Texture importOutput(fg::Graph& graph, glm::ivec2 size) {
 }
 
 fg::Texture copyOut(fg::Graph& graph, const std::string& name, fg::Texture texture) {
-  const fg::TextureDesc& desc = graph.textureDesc(texture);
-  const fg::Texture target = graph.import(name, desc, fg::vk::kOverwritable);
+  const fg::Extent extent = graph.textureDesc(texture).extent;
+  const fg::Texture target = graph.import(name, {VK_FORMAT_R16G16B16A16_SFLOAT, extent}, fg::vk::kOverwritable);
   fg::PassBuilder pass = graph.compute("copy to " + name, shaders::copyHalf);
-  pass.sample("source", texture).dispatch(desc.extent);
+  pass.sample("source", texture).dispatch(extent);
   graph.exported(pass.store("target", target), fg::vk::kReadable);
   return target;
 }

@@ -32,7 +32,7 @@ reference::Image<glm::dvec4> withAlpha(const reference::Image<glm::dvec3>& image
 
 /// An RGBA16F texture of the host for a denoiser's result.
 fg::Texture importOutput(fg::Graph& graph, glm::ivec2 size);
-/// Copy any RGBA16F texture to one that `readHalves` can read.
+/// Copy a texture of halves, of one to four channels, to one that `readHalves` can read.
 fg::Texture copyOut(fg::Graph& graph, const std::string& name, fg::Texture texture);
 /// An output as the last frame left it.
 reference::Image<glm::dvec4> readHalves(const fg::test::GraphRun& run, fg::Texture output, glm::ivec2 size);

@@ -1,4 +1,4 @@
-// Copies an RGBA16F texture as it is, so that a test can read a transient one back.
+// Copies a texture of halves as it is, so that a test can read a transient one back.
 #version 460
 #extension GL_EXT_samplerless_texture_functions : require
 

@@ -1,0 +1,26 @@
+#pragma once
+
+#include "framegraph/graph.h"
+#include "passes/prepare_guides.h"
+#include "passes/settings.h"
+
+namespace walr {
+
+/// Settings of the ambient occlusion that serves as a feature.
+struct AmbientOcclusionSettings {
+  float radius = 0.075F;
+
+  void visit(SettingVisitor& v) {
+    v.visit({"occlusion.radius", "Distance that the search for occluders reaches", "fraction of the image's height",
+             0.002, 0.5, "measured"},
+            radius);
+  }
+};
+
+/// Ambient occlusion of every pixel, from depth alone and without noise.
+/// @param frame upload of `FrameConstants`
+/// @returns R16_SFLOAT: mean sine of the horizon above the tangent plane, 0 (open) to 1; 0 where there is no surface
+fg::Texture addAmbientOcclusion(fg::Graph& graph, fg::Buffer frame, const Guides& guides,
+                                const AmbientOcclusionSettings& settings = {});
+
+}  // namespace walr

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstdint>
+
+#include "framegraph/graph.h"
+#include "passes/prepare_guides.h"
+#include "passes/settings.h"
+
+namespace walr {
+
+/// Settings of the regression over blocks of pixels.
+struct BlockRegressionSettings {
+  std::uint32_t size = 4;
+  std::uint32_t iterations = 4;
+  float planeNear = 0.0015F;
+  float planeFar = 0.015F;
+  float sdfFraction = 0.75F;
+  float ridge = 1e-4F;
+  float coarseSigma = 0.028F;
+  float coarseReach = 3.0F;
+  float coarseSamples = 300.0F;
+
+  void visit(SettingVisitor& v) {
+    v.visit({"blocks.size", "Side of the blocks whose moments are averaged", "pixels", 2, 4, "measured"}, size);
+    v.visit({"blocks.iterations", "A-trous iterations with taps 3^t blocks apart; n of them span 3^n blocks", "", 1, 4,
+             "walr.txt 3.2"},
+            iterations);
+    v.visit({"blocks.plane-near", "Distance from the plane up to which a block counts in full; below plane-far",
+             "fraction of depth", 0.0, 1.0, "walr.txt 4.3"},
+            planeNear);
+    v.visit({"blocks.plane-far", "Distance from the plane from which a block is an edge", "fraction of depth", 1e-6,
+             1.0, "walr.txt 4.3"},
+            planeFar);
+    v.visit({"blocks.sdf-fraction", "Share of the distance to the nearest edge that edge tracing steps at once", "",
+             0.0, 1.0, "walr.txt 5.2"},
+            sdfFraction);
+    v.visit(
+        {"blocks.ridge", "Ridge on the diagonal of the covariance of the features, which are of the order of 1 or less",
+         "", 1e-9, 1.0, "measured"},
+        ridge);
+    v.visit({"blocks.coarse-sigma", "Standard deviation of the Gaussian window of the coarse fit, which no edge stops",
+             "fraction of the image's height", 0.001, 0.2, "measured"},
+            coarseSigma);
+    v.visit({"blocks.coarse-reach", "Distance at which that window ends", "sigma", 1.0, 6.0, "measured"}, coarseReach);
+    v.visit({"blocks.coarse-samples", "Samples that the coarse fit counts for beside a block's own", "samples", 0.0,
+             1e6, "measured"},
+            coarseSamples);
+  }
+};
+
+/// Weighted linear regression of the lighting on {1, normal, inverse depth, ambient occlusion} over blocks of pixels:
+/// edge-aware a-trous averages a coarse fit where they hold few samples, and the
+/// reconstruction of every pixel from the fits around it.
+/// @param frame       upload of `FrameConstants`
+/// @param accumulated RGBA16F: radiance to filter; alpha: number of samples behind it
+/// @param occlusion   R16_SFLOAT: ambient occlusion
+/// @returns RGBA16F: filtered radiance; sky and pixels without a diffuse lobe as they were
+/// @throws std::invalid_argument for settings outside their range
+fg::Texture addBlockRegression(fg::Graph& graph, fg::Buffer frame, fg::Texture accumulated, const Guides& guides,
+                               fg::Texture occlusion, const BlockRegressionSettings& settings = {});
+
+}  // namespace walr

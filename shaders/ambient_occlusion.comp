@@ -1,0 +1,54 @@
+// Ambient occlusion by what the depth buffer shows around a pixel: the mean over eight directions of the sine at which
+// the horizon stands above the tangent plane (after Bavoil, Sainz and Dimitrov, "Image-space horizon-based ambient
+// occlusion", 2008), each occluder fading out at the search radius. Same pattern at every pixel and no randomness: it
+// serves as a feature of the regression, and a noisy feature would print its noise.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_samplerless_texture_functions : require
+#include "constants/ambient_occlusion.h"
+#include "constants/frame.h"
+#include "include/camera.glsl"
+#include "include/surface.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+
+layout(set = 0, binding = 0, std140) uniform frameConstants { FrameConstants frame; };
+layout(set = 0, binding = 1) uniform utexture2D depth;
+layout(set = 0, binding = 2) uniform utexture2D shadingNormal;
+layout(set = 0, binding = 3, r16f) uniform writeonly image2D outOcclusion;
+layout(push_constant) uniform PushConstants { AmbientOcclusionConstants settings; };
+
+const int kSteps = 8;  // Their distances grow with the square, from one pixel on.
+
+void main() {
+  const ivec2 p = ivec2(gl_GlobalInvocationID.xy);
+  const ivec2 size = textureSize(depth, 0);
+  if (any(greaterThanEqual(p, size))) return;
+  const float z = unpackDepth(texelFetch(depth, p, 0).x);
+  if (z == 0.0) {
+    imageStore(outOcclusion, p, vec4(0.0));
+    return;
+  }
+  const vec3 normal = unpackNormal(texelFetch(shadingNormal, p, 0).x);
+  const vec3 ray = rayThrough(frame.rayFromPixel, pixelCentre(p));
+  // Lengths in units of the pixel's depth, so that no scale over- or underflows.
+  const float reach = settings.radius * abs(frame.rayFromPixel.x);
+  float sum = 0.0;
+  for (int i = 0; i < 9; ++i) {
+    if (i == 4) continue;
+    const ivec2 direction = ivec2(i % 3, i / 3) - 1;
+    float horizon = 0.0;
+    for (int step = 1; step <= kSteps; ++step) {
+      const float share = float(step) / float(kSteps);
+      const ivec2 q = p + max(int(settings.radius * share * share), step) * direction;
+      if (any(lessThan(q, ivec2(0))) || any(greaterThanEqual(q, size))) break;
+      const float zq = unpackDepth(texelFetch(depth, q, 0).x);
+      if (zq == 0.0) continue;
+      const vec3 v = zq / z * rayThrough(frame.rayFromPixel, pixelCentre(q)) - ray;
+      const float squared = max(dot(v, v), 1e-12);
+      horizon = max(horizon, max(1.0 - squared / (reach * reach), 0.0) * dot(normal, v) * inversesqrt(squared));
+    }
+    sum += horizon;
+  }
+  imageStore(outOcclusion, p, vec4(sum / 8.0));
+}

@@ -1,0 +1,97 @@
+// One edge-aware a-trous iteration over blocks (walr.txt 3.2, 3.3). The last iteration (LAST) solves the regression
+// in place.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_samplerless_texture_functions : require
+#include "constants/block_regression.h"
+#include "constants/frame.h"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(constant_id = 0) const int kBlockSize = 4;  // Pixels per axis.
+layout(constant_id = 1) const int kSpacing = 1;    // 3^t blocks.
+
+layout(set = 0, binding = 0, std140) uniform frameConstants { FrameConstants frame; };
+layout(set = 0, binding = 1) uniform utexture2D normal;
+layout(push_constant) uniform PushConstants { BlockRegressionConstants settings; };
+#include "include/block_fit.glsl"
+#define BLOCK_MOMENTS_IN
+#ifdef LAST
+#define BLOCK_FIT_OUT
+#else
+#define BLOCK_MOMENTS_OUT
+#endif
+#include "include/block_textures.glsl"
+#include "include/plane.glsl"
+#include "include/block_plane.glsl"
+
+// Weight of a block, 0 outside the image and where it shows no surface.
+float edgeWeight(Plane plane, ivec2 block, out uint packedDepth) {
+  packedDepth = 0u;
+  if (!insideGrid(block)) return 0.0;
+  packedDepth = texelFetch(depth, block, 0).x;
+  const float z = unpackDepth(packedDepth);
+  if (z == 0.0) return 0.0;
+  return onPlane(planeDistance(plane, representativePixel(block, kBlockSize, texelFetch(normal, block, 0).x), z));
+}
+
+struct Trace {
+  float weight;  // Smallest edge weight met on the segment.
+  int edge;      // Step at which it became 0; steps + 1 where it did not.
+  float depth;   // Depth at its far end.
+};
+
+// As in edge_tracing.glsl, a step being one block.
+Trace traceEdge(Plane plane, ivec2 block, ivec2 direction, uint edge) {
+  Trace trace = Trace(1.0, kSpacing + 1, 0.0);
+  int step = 0;
+  while (step < kSpacing) {
+    step = min(step + max(int(settings.sdfFraction * float(edge)), 1), kSpacing);
+    uint packedDepth;
+    trace.weight = min(trace.weight, edgeWeight(plane, block + step * direction, packedDepth));
+    if (trace.weight <= 0.0) {
+      trace.edge = step;
+      break;
+    }
+    edge = unpackSdf(packedDepth);
+    trace.depth = unpackDepth(packedDepth);
+  }
+  return trace;
+}
+
+void writeResult(ivec2 block, uint packedDepth, BlockMoments m) {
+#ifdef LAST
+  storeFit(block, fitOf(m));
+#else
+  storeMoments(block, m);
+#endif
+  imageStore(outDepth, block, uvec4(packedDepth));
+}
+
+void main() {
+  const ivec2 block = ivec2(gl_GlobalInvocationID.xy);
+  if (!insideGrid(block)) return;
+  const uint packedDepth = texelFetch(depth, block, 0).x;
+  const float z = unpackDepth(packedDepth);
+  if (z == 0.0) {
+    writeResult(block, 0u, noSamples());
+    return;
+  }
+  const uint packedNormal = texelFetch(normal, block, 0).x;
+  const vec3 n = blockNormal(packedNormal);
+  const Plane plane = planeAt(representativePixel(block, kBlockSize, packedNormal), z, n);
+
+  BlockMomentSum sum = emptySum();
+  add(sum, 1.0, loadMoments(block));
+  int nearestEdge = kSpacing + 1;
+  for (int tap = 0; tap < 9; ++tap) {
+    if (tap == 4) continue;
+    const ivec2 direction = ivec2(tap % 3, tap / 3) - 1;
+    const Trace trace = traceEdge(plane, block, direction, unpackSdf(packedDepth));
+    nearestEdge = min(nearestEdge, trace.edge);
+    if (trace.weight <= 0.0) continue;
+    const ivec2 q = block + kSpacing * direction;
+    const float weight = trace.weight * facing(n, blockNormal(texelFetch(normal, q, 0).x));
+    if (weight > 0.0) add(sum, weight, rescaleDepth(loadMoments(q), z / trace.depth));
+  }
+  writeResult(block, packDepthSdf(z, uint(nearestEdge)), finish(sum));
+}

@@ -1,0 +1,80 @@
+// Weighted linear regression from a block's moments, and its fit in memory: twenty-four halves.
+// Needs: `settings` (BlockRegressionConstants).
+#ifndef WALR_BLOCK_FIT_GLSL
+#define WALR_BLOCK_FIT_GLSL
+#include "block_storage.glsl"
+
+// Colour = colour at the origin + sum of slope times feature less its origin.
+struct BlockFit {
+  vec3 colour;
+  float origin[kFeatures];
+  vec3 slope[kFeatures];
+  float samples;  // 0: no fit.
+};
+
+// Cholesky decomposition of the covariance of the features with a ridge on its diagonal. Centred moments leave the
+// constant out of it, so that the ridge holds the slopes and not the mean.
+BlockFit fitOf(BlockMoments m) {
+  BlockFit fit;
+  fit.samples = m.samples;
+  float l[kFeatures][kFeatures];
+  int k = 0;
+  for (int j = 0; j < kFeatures; ++j) {
+    for (int i = j; i < kFeatures; ++i, ++k) {
+      float value = i == j ? max(m.xx[k], 0.0) + settings.ridge : m.xx[k];
+      for (int c = 0; c < j; ++c) value -= l[i][c] * l[j][c];
+      l[i][j] = i == j ? sqrt(max(value, settings.ridge)) : value / l[j][j];
+    }
+  }
+  for (int i = 0; i < kFeatures; ++i) {
+    vec3 value = m.yx[i];
+    for (int c = 0; c < i; ++c) value -= l[i][c] * fit.slope[c];
+    fit.slope[i] = value / l[i][i];
+  }
+  for (int i = kFeatures - 1; i >= 0; --i) {
+    vec3 value = fit.slope[i];
+    for (int c = i + 1; c < kFeatures; ++c) value -= l[c][i] * fit.slope[c];
+    fit.slope[i] = value / l[i][i];
+  }
+  // About the means, as halves hold them, so that rounding in memory is small against the colour, not the slopes.
+  fit.colour = m.y;
+  for (int i = 0; i < kFeatures; ++i) {
+    fit.origin[i] = unpackHalf2x16(packHalves(m.x[i], 0.0)).x;
+    fit.colour += fit.slope[i] * (fit.origin[i] - m.x[i]);
+  }
+  return fit;
+}
+
+vec3 evaluate(BlockFit fit, float x[kFeatures]) {
+  vec3 colour = fit.colour;
+  for (int i = 0; i < kFeatures; ++i) colour += fit.slope[i] * (x[i] - fit.origin[i]);
+  return max(colour, vec3(0.0));
+}
+
+struct PackedFit {
+  uvec4 a, b, c;
+};
+
+PackedFit packFit(BlockFit f) {
+  return PackedFit(uvec4(packHalves(f.colour.r, f.colour.g), packHalves(f.colour.b, f.samples),
+                         packHalves(f.slope[0].r, f.slope[0].g), packHalves(f.slope[0].b, f.slope[1].r)),
+                   uvec4(packHalves(f.slope[1].g, f.slope[1].b), packHalves(f.slope[2].r, f.slope[2].g),
+                         packHalves(f.slope[2].b, f.slope[3].r), packHalves(f.slope[3].g, f.slope[3].b)),
+                   uvec4(packHalves(f.slope[4].r, f.slope[4].g), packHalves(f.slope[4].b, f.origin[0]),
+                         packHalves(f.origin[1], f.origin[2]), packHalves(f.origin[3], f.origin[4])));
+}
+
+BlockFit unpackFit(PackedFit p) {
+  const vec2 a1 = unpackHalf2x16(p.a.y), a3 = unpackHalf2x16(p.a.w), b0 = unpackHalf2x16(p.b.x),
+             b2 = unpackHalf2x16(p.b.z), c1 = unpackHalf2x16(p.c.y), c2 = unpackHalf2x16(p.c.z),
+             c3 = unpackHalf2x16(p.c.w);
+  BlockFit f;
+  f.colour = vec3(unpackHalf2x16(p.a.x), a1.x);
+  f.samples = a1.y;
+  f.slope = vec3[](vec3(unpackHalf2x16(p.a.z), a3.x), vec3(a3.y, b0), vec3(unpackHalf2x16(p.b.y), b2.x),
+                   vec3(b2.y, unpackHalf2x16(p.b.w)), vec3(unpackHalf2x16(p.c.x), c1.x));
+  f.origin = float[](c1.y, c2.x, c2.y, c3.x, c3.y);
+  return f;
+}
+
+#endif

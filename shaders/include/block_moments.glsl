@@ -1,0 +1,108 @@
+// Moments of square blocks of pixels with five features: the shading normal, the block's depth over the sample's less
+// 1, and ambient occlusion. Inverse depth is linear over the image of a plane; relative to the block's own depth it
+// keeps halves precise at any scale, and merging another block's moments rescales it.
+#ifndef WALR_BLOCK_MOMENTS_GLSL
+#define WALR_BLOCK_MOMENTS_GLSL
+#include "finite.glsl"
+
+const int kFeatures = 5;
+const int kDepthFeature = 3;
+const int kCovariances = 15;
+
+struct BlockMoments {
+  float x[kFeatures];       // Means of the features.
+  vec3 y;                   // Mean of the colour.
+  float xx[kCovariances];   // Covariances of the features: the upper triangle, row by row.
+  vec3 yx[kFeatures];       // Covariances of the colour with each feature.
+  float samples;            // W: sum of the sample weights.
+};
+
+float[kFeatures] featuresOf(vec3 n, float relativeDepth, float occlusion) {
+  return float[](n.x, n.y, n.z, relativeDepth, occlusion);
+}
+
+BlockMoments noSamples() {
+  BlockMoments m;
+  for (int i = 0; i < kFeatures; ++i) {
+    m.x[i] = 0.0;
+    m.yx[i] = vec3(0.0);
+  }
+  for (int k = 0; k < kCovariances; ++k) m.xx[k] = 0.0;
+  m.y = vec3(0.0);
+  m.samples = 0.0;
+  return m;
+}
+
+BlockMoments oneSample(float x[kFeatures], vec3 colour) {
+  BlockMoments m = noSamples();
+  m.x = x;
+  m.y = colour;
+  m.samples = 1.0;
+  return m;
+}
+
+// The same moments with the depth feature relative to `scale` times the depth that it was relative to.
+BlockMoments rescaleDepth(BlockMoments m, float scale) {
+  m.x[kDepthFeature] = scale * (m.x[kDepthFeature] + 1.0) - 1.0;
+  m.yx[kDepthFeature] *= scale;
+  int k = 0;
+  for (int i = 0; i < kFeatures; ++i) {
+    for (int j = i; j < kFeatures; ++j, ++k) {
+      if (i == kDepthFeature) m.xx[k] *= scale;
+      if (j == kDepthFeature) m.xx[k] *= scale;
+    }
+  }
+  return m;
+}
+
+// Weighted merge of centred moments about the first ones merged; see moments.glsl.
+struct BlockMomentSum {
+  float originX[kFeatures];
+  vec3 originY;
+  BlockMoments sum;
+};
+
+void add(inout BlockMomentSum s, float weight, BlockMoments m) {
+  if (s.sum.samples == 0.0) {
+    s.originX = m.x;
+    s.originY = m.y;
+  }
+  const float w = weight * m.samples;
+  const vec3 dy = m.y - s.originY;
+  int k = 0;
+  for (int i = 0; i < kFeatures; ++i) {
+    const float dx = m.x[i] - s.originX[i];
+    s.sum.x[i] += w * dx;
+    s.sum.yx[i] += w * (m.yx[i] + dx * dy);
+    for (int j = i; j < kFeatures; ++j, ++k) s.sum.xx[k] += w * (m.xx[k] + dx * (m.x[j] - s.originX[j]));
+  }
+  s.sum.y += w * dy;
+  s.sum.samples += w;
+}
+
+BlockMomentSum emptySum() {
+  BlockMomentSum s;
+  s.sum = noSamples();
+  s.originX = s.sum.x;
+  s.originY = s.sum.y;
+  return s;
+}
+
+BlockMoments finish(BlockMomentSum s) {
+  if (s.sum.samples <= 0.0) return noSamples();
+  const float scale = 1.0 / s.sum.samples;
+  const vec3 dy = s.sum.y * scale;
+  BlockMoments m;
+  int k = 0;
+  for (int i = 0; i < kFeatures; ++i) {
+    const float dx = s.sum.x[i] * scale;
+    m.x[i] = s.originX[i] + dx;
+    m.yx[i] = s.sum.yx[i] * scale - dx * dy;
+    for (int j = i; j < kFeatures; ++j, ++k) m.xx[k] = s.sum.xx[k] * scale - dx * (s.sum.x[j] * scale);
+  }
+  m.y = s.originY + dy;
+  m.samples = s.sum.samples;
+  return m;
+}
+
+#endif

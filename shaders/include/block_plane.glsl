@@ -1,0 +1,12 @@
+// Edge-stopping function between blocks and pixels (walr.txt 4.3). Needs: `settings` (BlockRegressionConstants).
+#ifndef WALR_BLOCK_PLANE_GLSL
+#define WALR_BLOCK_PLANE_GLSL
+
+// 1 near the plane, 0 away from it.
+float onPlane(float distance) {
+  return clamp((settings.planeFar - distance) / (settings.planeFar - settings.planeNear), 0.0, 1.0);
+}
+
+float facing(vec3 a, vec3 b) { return clamp(dot(a, b), 0.0, 1.0); }
+
+#endif

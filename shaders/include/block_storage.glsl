@@ -1,0 +1,64 @@
+// How blocks lie in memory: thirty-nine halves of moments in five RGBA32_UINT textures, and the pixel that stands for
+// the block.
+#ifndef WALR_BLOCK_STORAGE_GLSL
+#define WALR_BLOCK_STORAGE_GLSL
+#include "block_moments.glsl"
+#include "surface.glsl"
+
+uint packHalves(float low, float high) {
+  return packHalf2x16(clamp(vec2(low, high), vec2(-kLargestHalf), vec2(kLargestHalf)));
+}
+
+struct PackedBlock {
+  uvec4 word[5];
+};
+
+// Means of the features and the colour, covariances, sample count, covariances with the colour; one to spare.
+const int kHalves = 40;
+
+PackedBlock packBlock(BlockMoments m) {
+  float h[kHalves];
+  for (int i = 0; i < kFeatures; ++i) {
+    h[i] = m.x[i];
+    for (int c = 0; c < 3; ++c) h[24 + 3 * i + c] = m.yx[i][c];
+  }
+  for (int c = 0; c < 3; ++c) h[5 + c] = m.y[c];
+  for (int k = 0; k < kCovariances; ++k) h[8 + k] = m.xx[k];
+  h[23] = m.samples;
+  h[39] = 0.0;
+  PackedBlock p;
+  for (int i = 0; i < kHalves / 2; ++i) p.word[i / 4][i % 4] = packHalves(h[2 * i], h[2 * i + 1]);
+  return p;
+}
+
+BlockMoments unpackBlock(PackedBlock p) {
+  float h[kHalves];
+  for (int i = 0; i < kHalves / 2; ++i) {
+    const vec2 pair = unpackHalf2x16(p.word[i / 4][i % 4]);
+    h[2 * i] = pair.x;
+    h[2 * i + 1] = pair.y;
+  }
+  BlockMoments m;
+  for (int i = 0; i < kFeatures; ++i) {
+    m.x[i] = h[i];
+    m.yx[i] = vec3(h[24 + 3 * i], h[25 + 3 * i], h[26 + 3 * i]);
+  }
+  m.y = vec3(h[5], h[6], h[7]);
+  for (int k = 0; k < kCovariances; ++k) m.xx[k] = h[8 + k];
+  m.samples = h[23];
+  return m;
+}
+
+// One of a block's pixels stands for it. Its depth lies in memory as a pixel's does (surface.glsl), its geometric
+// normal with the pixel's number in the block.
+uint packBlockNormal(vec3 normal, uint pixel) {
+  const uvec2 bits = uvec2(round(clamp(octahedralEncode(normal), 0.0, 1.0) * 16383.0));
+  return bits.x | (bits.y << 14) | (pixel << 28);
+}
+vec3 blockNormal(uint packed) { return octahedralDecode(vec2(packed & 0x3fffu, (packed >> 14) & 0x3fffu) / 16383.0); }
+ivec2 representativePixel(ivec2 block, int blockSize, uint packedNormal) {
+  const int pixel = int(packedNormal >> 28);
+  return blockSize * block + ivec2(pixel % blockSize, pixel / blockSize);
+}
+
+#endif

@@ -1,0 +1,219 @@
+#include "passes/block_regression.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include <glm/geometric.hpp>
+
+#include "passes/ambient_occlusion.h"
+#include "tests/passes/comparison.h"
+#include "tests/passes/filter_run.h"
+#include "tests/passes/reference/block_regression.h"
+#include "tests/passes/reference/octahedral.h"
+#include "tests/passes/synthetic_scene.h"
+#include "tests/vulkan/gpu_fixture.h"
+
+namespace walr::test {
+namespace {
+
+using reference::Guide;
+using reference::HostFrame;
+using reference::Image;
+using reference::Storage;
+
+constexpr glm::ivec2 kSize(45, 34);  // No multiple of a block.
+
+/// A frame as the regression takes it.
+struct Inputs {
+  HostFrame frame;
+  Image<Guide> guides;
+  Image<glm::dvec4> accumulated;
+  Image<double> occlusion;
+};
+
+Inputs inputsOf(const Scene& scene) {
+  Inputs inputs;
+  inputs.frame = renderStill(scene, kSize);
+  inputs.guides = reference::prepareGuides(inputs.frame, Storage::Quantised);
+  inputs.accumulated = withAlpha(inputs.frame.lighting);
+  for (glm::dvec4& sample : inputs.accumulated.pixels()) sample.a = 1.0;
+  inputs.occlusion = reference::ambientOcclusion(inputs.frame, inputs.guides, 8.0);
+  for (double& o : inputs.occlusion.pixels()) o = reference::roundToHalf(o);
+  return inputs;
+}
+
+/// The regression alone.
+class RegressionRun {
+ public:
+  RegressionRun(const fg::vk::Device& device, const BlockRegressionSettings& settings)
+      : run_(device, kSize, 2, [&](fg::Graph& graph, fg::Buffer frame, const walr::Guides& guides, const auto& inputs) {
+          return addBlockRegression(graph, frame, inputs[0], guides, inputs[1], settings);
+        }) {}
+
+  Image<glm::dvec4> filter(const Inputs& inputs) {
+    Image<glm::dvec4> occlusion(kSize);
+    reference::forEachPixel(kSize, [&](glm::ivec2 p) { occlusion[p].x = inputs.occlusion[p]; });
+    return run_.run(inputs.frame, inputs.guides, {inputs.accumulated, occlusion});
+  }
+
+ private:
+  FilterRun run_;
+};
+
+double toneMapped(double x) {
+  return x / (1.0 + x);
+}
+
+/// Root mean square difference after the tone map x / (1 + x), over surfaces.
+double distance(const Image<Guide>& guides, const Image<glm::dvec4>& a, const Image<glm::dvec3>& b) {
+  double squares = 0.0;
+  int count = 0;
+  reference::forEachPixel(kSize, [&](glm::ivec2 p) {
+    if (guides[p].depth == 0.0) return;
+    for (int c = 0; c < 3; ++c, ++count) squares += std::pow(toneMapped(a[p][c]) - toneMapped(b[p][c]), 2.0);
+  });
+  return count > 0 ? std::sqrt(squares / count) : 0.0;
+}
+
+class BlockRegression : public fg::test::GpuTest {
+ protected:
+  void expectAgreement(const BlockRegressionSettings& settings) {
+    // Centred moments in halves stay this close to double precision where the input itself has the noise of one path a
+    // pixel (design figure of the regression per pixel, which stores as often).
+    constexpr double kBound = 2e-4;
+    RegressionRun run(device(), settings);
+    for (const NamedScene& scene : allScenes()) {
+      const Inputs inputs = inputsOf(scene.scene);
+      const Image<glm::dvec4> actual = run.filter(inputs);
+      const auto expected =
+          reference::blockRegression(inputs.frame, inputs.guides, inputs.accumulated, inputs.occlusion, settings);
+      const double rms = distance(inputs.guides, actual, expected);
+      EXPECT_LE(rms, kBound) << scene.name;
+      RecordProperty(std::string("distance, ") + scene.name, std::to_string(rms));
+      reference::forEachPixel(kSize, [&](glm::ivec2 p) {
+        if (inputs.guides[p].depth != 0.0) return;
+        for (int c = 0; c < 3; ++c) EXPECT_EQ(actual[p][c], inputs.accumulated[p][c]) << scene.name;
+      });
+    }
+  }
+};
+
+TEST_F(BlockRegression, BlocksOfTwoAgreeWithBruteForce) {
+  expectAgreement({.size = 2, .iterations = 2, .sdfFraction = 0.0F});
+}
+
+TEST_F(BlockRegression, BlocksOfFourAgreeWithBruteForce) {
+  expectAgreement({.size = 4, .iterations = 1, .sdfFraction = 0.0F});
+}
+
+TEST_F(BlockRegression, SteppingByTheEdgeDistanceAgreesWithBruteForce) {
+  expectAgreement({.size = 2, .iterations = 3});
+}
+
+TEST_F(BlockRegression, AConstantStaysWhatItIs) {
+  const glm::dvec3 light(0.25, 3.0, 1000.0);
+  RegressionRun run(device(), {.size = 2, .iterations = 2});
+  for (const NamedScene& scene : allScenes()) {
+    Inputs inputs = inputsOf(scene.scene);
+    for (glm::dvec4& sample : inputs.accumulated.pixels()) sample = glm::dvec4(light, 1.0);
+    const Image<glm::dvec4> actual = run.filter(inputs);
+    // Means of equal halves are merged about the first of them, so that nothing but single precision rounds: the
+    // constant of a fit and the mixing of eight of them.
+    reference::forEachPixel(kSize, [&](glm::ivec2 p) {
+      for (int c = 0; c < 3; ++c)
+        ASSERT_NEAR(actual[p][c], light[c], halfTolerance(light[c], 64.0 * reference::kFloatRoundoff * light[c]))
+            << scene.name << " " << p.x << " " << p.y;
+    });
+  }
+}
+
+/// The ridge r takes the slope s of a linear signal to (M + r)^-1 M s with the covariance M of a window, which misses
+/// the signal, averaged over the window, by no more than sqrt(r) |s| / 2.
+TEST_F(BlockRegression, ASignalLinearInTheFeaturesIsReproduced) {
+  constexpr double kRidge = 1e-6;
+  RegressionRun run(device(), {.size = 2, .iterations = 2, .ridge = static_cast<float>(kRidge)});
+  Inputs inputs = inputsOf(bumpyWall(0.1));
+  const glm::dvec3 slope(0.5, -1.0, 0.7);
+  const double occlusionSlope = -0.8;
+  Image<glm::dvec3> signal(kSize);
+  double largest = 0.0;
+  reference::forEachPixel(kSize, [&](glm::ivec2 p) {
+    const glm::dvec3 n = reference::octahedralDecode(inputs.guides[p].features);
+    signal[p] = glm::dvec3(4.0 + glm::dot(n, slope) + occlusionSlope * inputs.occlusion[p]);
+    inputs.accumulated[p] = glm::dvec4(signal[p], 1.0);
+    largest = std::max(largest, signal[p].x);
+  });
+  const Image<glm::dvec4> actual = run.filter(inputs);
+  double squares = 0.0;
+  reference::forEachPixel(kSize, [&](glm::ivec2 p) { squares += std::pow(actual[p].x - signal[p].x, 2.0); });
+  const double slopeLength = glm::length(glm::dvec4(slope, occlusionSlope));
+  const double rounding = 4.0 * reference::kHalfRoundoff * largest;  // Of the signal, the constant and the result.
+  EXPECT_LE(std::sqrt(squares / double(signal.pixels().size())), 0.5 * std::sqrt(kRidge) * slopeLength + rounding);
+}
+
+TEST_F(BlockRegression, APowerOfTwoScalesTheOutput) {
+  RegressionRun run(device(), {.size = 2, .iterations = 2});
+  const auto scaled = [&](double factor) {
+    Inputs inputs = inputsOf(sphere());
+    for (glm::dvec4& sample : inputs.accumulated.pixels()) sample = glm::dvec4(factor * glm::dvec3(sample), sample.a);
+    return run.filter(inputs);
+  };
+  // Radiance so high that covariances stay in the normal range of halves, and so low that no slope leaves it.
+  const Image<glm::dvec4> before = scaled(16.0);
+  const Image<glm::dvec4> after = scaled(128.0);
+  reference::forEachPixel(kSize, [&](glm::ivec2 p) {
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(after[p][c], 8.0 * before[p][c], halfTolerance(after[p][c], 0.0));
+  });
+}
+
+TEST_F(BlockRegression, PixelsWithoutASampleHaveNoSay) {
+  RegressionRun run(device(), {.size = 2, .iterations = 2});
+  Inputs inputs = inputsOf(sphere());
+  reference::forEachPixel(kSize, [&](glm::ivec2 p) {
+    const bool sampled = (p.x * 7 + p.y * 3) % 10 != 0;
+    inputs.accumulated[p] = sampled ? glm::dvec4(0.75, 0.75, 0.75, 1.0) : glm::dvec4(0.0);
+  });
+  const Image<glm::dvec4> actual = run.filter(inputs);
+  reference::forEachPixel(kSize, [&](glm::ivec2 p) {
+    if (inputs.guides[p].depth > 0.0) {
+      EXPECT_NEAR(actual[p].x, 0.75, halfTolerance(0.75, 64.0 * reference::kFloatRoundoff)) << p.x << " " << p.y;
+    }
+  });
+}
+
+TEST_F(BlockRegression, AmbientOcclusionIsTheReferences) {
+  const AmbientOcclusionSettings settings{.radius = 0.25F};
+  FilterRun run(device(), kSize, 0, [&](fg::Graph& graph, fg::Buffer frame, const walr::Guides& guides, const auto&) {
+    return addAmbientOcclusion(graph, frame, guides, settings);
+  });
+  for (const NamedScene& scene : allScenes()) {
+    const HostFrame frame = renderStill(scene.scene, kSize);
+    const Image<Guide> guides = reference::prepareGuides(frame, Storage::Quantised);
+    const Image<double> expected = reference::ambientOcclusion(frame, guides, double(settings.radius) * kSize.y);
+    const Image<glm::dvec4> actual = run.run(frame, guides, {});
+    Comparison comparison(scene.name);
+    reference::forEachPixel(kSize, [&](glm::ivec2 p) {
+      comparison.compared();
+      // A difference of two positions, each rounded a few times, over their distance, which is a pixel at least.
+      const double pixel = std::abs(double(frame.constants.rayFromPixel.x));
+      comparison.value(p, "occlusion", actual[p].x, expected[p],
+                       halfTolerance(expected[p], 16.0 * reference::kFloatRoundoff / pixel));
+    });
+    comparison.expect(0.0);
+  }
+}
+
+TEST(BlockRegressionSettings, ThePlaneRampMustHaveALength) {
+  fg::Graph graph;
+  const fg::Texture lighting = graph.texture("lighting", {VK_FORMAT_R16G16B16A16_SFLOAT, {64, 64}});
+  try {
+    (void)addBlockRegression(graph, {}, lighting, {}, lighting, {.planeNear = 0.1F, .planeFar = 0.1F});
+    FAIL() << "accepted";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("blocks.plane-near"), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace walr::test

@@ -1,0 +1,329 @@
+#include "tests/passes/reference/block_regression.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include <glm/geometric.hpp>
+
+#include "tests/passes/reference/hash.h"
+#include "tests/passes/reference/octahedral.h"
+
+namespace walr::reference {
+namespace {
+
+constexpr int kFeatures = 5;
+using Features = std::array<double, kFeatures>;
+using Matrix = std::array<Features, kFeatures>;
+
+/// What stands for a block, and the weight of every pixel of the picture in its window.
+struct Block {
+  bool surface = false;
+  glm::ivec2 pixel{0};
+  double depth = 0.0;
+  glm::dvec3 normal{0.0};
+  std::vector<double> window;
+};
+
+/// Colour = constant + slope^T features.
+struct Fit {
+  double samples = 0.0;
+  double depth = 0.0;
+  glm::dvec3 constant{0.0};
+  std::array<glm::dvec3, kFeatures> slope{};
+};
+
+struct Picture {
+  const HostFrame& frame;
+  const Image<Guide>& guides;
+  const Image<glm::dvec4>& accumulated;
+  const Image<double>& occlusion;
+  const BlockRegressionSettings& settings;
+
+  [[nodiscard]] glm::dvec3 ray(glm::ivec2 p) const { return rayThrough(frame.constants.rayFromPixel, pixelCentre(p)); }
+
+  /// 1 on the plane through pixel `centre`, 0 away from it.
+  [[nodiscard]] double onPlane(glm::ivec2 centre, double depth, glm::dvec3 normal, glm::ivec2 p, double pDepth) const {
+    const double distance = std::abs(glm::dot(normal, pDepth * ray(p) - depth * ray(centre))) / depth;
+    const double near = settings.planeNear;
+    const double far = settings.planeFar;
+    return std::clamp((far - distance) / (far - near), 0.0, 1.0);
+  }
+};
+
+double facing(glm::dvec3 a, glm::dvec3 b) {
+  return std::clamp(glm::dot(a, b), 0.0, 1.0);
+}
+
+/// A normal in two words of 14 bits.
+glm::dvec3 quantised(glm::dvec3 normal) {
+  return octahedralDecode(glm::round(octahedralEncode(normal) * 16383.0) / 16383.0);
+}
+
+Features featuresAt(const Picture& picture, glm::ivec2 p, double relativeTo) {
+  const Guide& guide = picture.guides[p];
+  const glm::dvec3 n = octahedralDecode(guide.features);
+  return {n.x, n.y, n.z, relativeTo / guide.depth - 1.0, picture.occlusion[p]};
+}
+
+Image<Block> makeBlocks(const Picture& picture) {
+  const int size = static_cast<int>(picture.settings.size);
+  const glm::ivec2 pixels = picture.guides.size();
+  Image<Block> blocks((pixels + size - 1) / size);
+  forEachPixel(blocks.size(), [&](glm::ivec2 b) {
+    Block& block = blocks[b];
+    block.window.assign(picture.guides.pixels().size(), 0.0);
+    std::uint32_t surfaces = 0;
+    for (int i = 0; i < size * size; ++i) {
+      const glm::ivec2 p = size * b + glm::ivec2(i % size, i / size);
+      if (!picture.guides.contains(p) || picture.guides[p].depth == 0.0) continue;
+      ++surfaces;
+      const glm::uvec4 key(b, picture.frame.constants.frameIndex, i);
+      if (hashBelow(key, surfaces) == 0) block.pixel = p;
+    }
+    if (surfaces == 0) return;
+    const Guide& chosen = picture.guides[block.pixel];
+    block.surface = true;
+    block.depth = chosen.depth;
+    block.normal = quantised(chosen.normal);
+    for (int i = 0; i < size * size; ++i) {
+      const glm::ivec2 p = size * b + glm::ivec2(i % size, i / size);
+      if (!picture.guides.contains(p)) continue;
+      const Guide& guide = picture.guides[p];
+      if (guide.depth == 0.0 || picture.accumulated[p].a == 0.0) continue;
+      block.window[static_cast<std::size_t>(p.y) * pixels.x + p.x] =
+          picture.onPlane(block.pixel, block.depth, chosen.normal, p, guide.depth) *
+          facing(chosen.normal, guide.normal);
+    }
+  });
+  return blocks;
+}
+
+void addWindow(std::vector<double>& sum, double weight, const std::vector<double>& window) {
+  for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += weight * window[i];
+}
+
+/// Smallest weight on the way to a block; steps as the last iteration's edge distances allow.
+double traceEdge(const Picture& picture, const Image<Block>& blocks, const Image<int>& distances, glm::ivec2 from,
+                 glm::ivec2 direction, int steps, int& edge) {
+  const Block& centre = blocks[from];
+  double weight = 1.0;
+  edge = steps + 1;
+  for (int step = 0; step < steps;) {
+    const int stride = static_cast<int>(picture.settings.sdfFraction * double(distances[from + step * direction]));
+    step = std::min(step + std::max(stride, 1), steps);
+    const glm::ivec2 q = from + step * direction;
+    const bool surface = blocks.contains(q) && blocks[q].surface;
+    weight = surface ? std::min(weight, picture.onPlane(centre.pixel, centre.depth, centre.normal, blocks[q].pixel,
+                                                        blocks[q].depth))
+                     : 0.0;
+    if (weight <= 0.0) {
+      edge = step;
+      return 0.0;
+    }
+  }
+  return weight;
+}
+
+Image<Block> growWindows(const Picture& picture, Image<Block> blocks) {
+  Image<int> distances(blocks.size(), 0);
+  int spacing = 1;
+  for (std::uint32_t t = 0; t < picture.settings.iterations; ++t, spacing *= 3) {
+    Image<Block> next = blocks;
+    Image<int> nextDistances(blocks.size(), 0);
+    forEachPixel(blocks.size(), [&](glm::ivec2 b) {
+      if (!blocks[b].surface) return;
+      int nearest = spacing + 1;
+      for (int tap = 0; tap < 9; ++tap) {
+        const glm::ivec2 direction(tap % 3 - 1, tap / 3 - 1);
+        if (direction == glm::ivec2(0)) continue;
+        int edge = 0;
+        const double traced = traceEdge(picture, blocks, distances, b, direction, spacing, edge);
+        nearest = std::min(nearest, edge);
+        if (traced <= 0.0) continue;
+        const Block& q = blocks[b + spacing * direction];
+        addWindow(next[b].window, traced * facing(blocks[b].normal, q.normal), q.window);
+      }
+      nextDistances[b] = std::min(nearest, 31);
+    });
+    blocks = std::move(next);
+    distances = std::move(nextDistances);
+  }
+  return blocks;
+}
+
+/// Gaussian windows over the blocks' own pixels. Their depths are harmonic means, first of rows, then of columns.
+Image<Block> coarseWindows(const Picture& picture, const Image<Block>& blocks) {
+  const double sigma =
+      std::max(double(picture.settings.coarseSigma) * picture.guides.size().y / picture.settings.size, 0.5);
+  const int radius = static_cast<int>(std::ceil(double(picture.settings.coarseReach) * sigma));
+  const auto blur = [&](const Image<Block>& from, glm::ivec2 axis) {
+    Image<Block> to(from.size());
+    forEachPixel(from.size(), [&](glm::ivec2 b) {
+      Block& block = to[b];
+      block.window.assign(picture.guides.pixels().size(), 0.0);
+      double weights = 0.0;
+      double inverse = 0.0;
+      for (int i = -radius; i <= radius; ++i) {
+        const glm::ivec2 q = b + i * axis;
+        if (!from.contains(q) || !from[q].surface) continue;
+        const double weight = std::exp(-0.5 * i * i / (sigma * sigma));
+        weights += weight;
+        inverse += weight / from[q].depth;
+        addWindow(block.window, weight, from[q].window);
+      }
+      block.surface = weights > 0.0;
+      if (block.surface) block.depth = weights / inverse;
+    });
+    return to;
+  };
+  return blur(blur(blocks, {1, 0}), {0, 1});
+}
+
+/// Gaussian elimination with the three colours as right-hand sides.
+std::array<glm::dvec3, kFeatures> solve(Matrix a, std::array<glm::dvec3, kFeatures> b) {
+  for (int k = 0; k < kFeatures; ++k) {
+    for (int i = k + 1; i < kFeatures; ++i) {
+      const double factor = a[i][k] / a[k][k];
+      for (int j = k; j < kFeatures; ++j) a[i][j] -= factor * a[k][j];
+      b[i] -= factor * b[k];
+    }
+  }
+  for (int i = kFeatures - 1; i >= 0; --i) {
+    for (int j = i + 1; j < kFeatures; ++j) b[i] -= a[i][j] * b[j];
+    b[i] /= a[i][i];
+  }
+  return b;
+}
+
+/// Weighted least squares over a block's window; the ridge holds the slopes.
+Fit fitOf(const Picture& picture, const Block& block) {
+  Fit fit;
+  if (!block.surface) return fit;
+  fit.depth = block.depth;
+  Features meanX{};
+  glm::dvec3 meanY(0.0);
+  const auto visit = [&](auto use) {
+    forEachPixel(picture.guides.size(), [&](glm::ivec2 p) {
+      const double w = block.window[static_cast<std::size_t>(p.y) * picture.guides.size().x + p.x];
+      if (w > 0.0) use(w, featuresAt(picture, p, block.depth), glm::dvec3(picture.accumulated[p]));
+    });
+  };
+  visit([&](double w, const Features& x, glm::dvec3 y) {
+    fit.samples += w;
+    for (int i = 0; i < kFeatures; ++i) meanX[i] += w * x[i];
+    meanY += w * y;
+  });
+  if (fit.samples == 0.0) return fit;
+  for (double& x : meanX) x /= fit.samples;
+  meanY /= fit.samples;
+  Matrix covariance{};
+  std::array<glm::dvec3, kFeatures> right{};
+  visit([&](double w, const Features& x, glm::dvec3 y) {
+    for (int i = 0; i < kFeatures; ++i) {
+      const double dx = w / fit.samples * (x[i] - meanX[i]);
+      right[i] += dx * (y - meanY);
+      for (int j = 0; j < kFeatures; ++j) covariance[i][j] += dx * (x[j] - meanX[j]);
+    }
+  });
+  for (int i = 0; i < kFeatures; ++i) covariance[i][i] += double(picture.settings.ridge);
+  fit.slope = solve(covariance, right);
+  fit.constant = meanY;
+  for (int i = 0; i < kFeatures; ++i) fit.constant -= fit.slope[i] * meanX[i];
+  return fit;
+}
+
+glm::dvec3 evaluate(const Picture& picture, const Fit& fit, glm::ivec2 p) {
+  const Features x = featuresAt(picture, p, fit.depth);
+  glm::dvec3 colour = fit.constant;
+  for (int i = 0; i < kFeatures; ++i) colour += fit.slope[i] * x[i];
+  return glm::max(colour, glm::dvec3(0.0));
+}
+
+}  // namespace
+
+Image<glm::dvec3> blockRegression(const HostFrame& frame, const Image<Guide>& guides,
+                                  const Image<glm::dvec4>& accumulated, const Image<double>& occlusion,
+                                  const BlockRegressionSettings& settings) {
+  const Picture picture{frame, guides, accumulated, occlusion, settings};
+  const Image<Block> blocks = makeBlocks(picture);
+  const auto fitAll = [&](const Image<Block>& windows) {
+    Image<Fit> fits(windows.size());
+    forEachPixel(windows.size(), [&](glm::ivec2 b) { fits[b] = fitOf(picture, windows[b]); });
+    return fits;
+  };
+  const Image<Fit> fine = fitAll(growWindows(picture, blocks));
+  const Image<Fit> coarse = fitAll(coarseWindows(picture, blocks));
+
+  Image<glm::dvec3> result(guides.size());
+  forEachPixel(guides.size(), [&](glm::ivec2 p) {
+    result[p] = glm::dvec3(accumulated[p]);
+    const Guide& guide = guides[p];
+    if (guide.depth == 0.0) return;
+    glm::dvec3 fineSum(0.0);
+    glm::dvec3 coarseSum(0.0);
+    double fineWeight = 0.0;
+    double coarseWeight = 0.0;
+    double samples = 0.0;
+    const glm::dvec2 position = (glm::dvec2(p) + 0.5) / double(settings.size) - 0.5;
+    const glm::ivec2 base = glm::ivec2(glm::floor(position));
+    const glm::dvec2 f = position - glm::dvec2(base);
+    for (int i = 0; i < 4; ++i) {
+      const glm::ivec2 offset(i % 2, i / 2);
+      const glm::ivec2 b = base + offset;
+      if (!blocks.contains(b)) continue;
+      const double bilinear = (offset.x == 1 ? f.x : 1.0 - f.x) * (offset.y == 1 ? f.y : 1.0 - f.y);
+      if (coarse[b].samples > 0.0) {
+        coarseSum += bilinear * evaluate(picture, coarse[b], p);
+        coarseWeight += bilinear;
+      }
+      if (fine[b].samples > 0.0) {
+        const double weight = bilinear * facing(guide.normal, blocks[b].normal) *
+                              picture.onPlane(p, guide.depth, guide.normal, blocks[b].pixel, blocks[b].depth);
+        fineSum += weight * evaluate(picture, fine[b], p);
+        samples += weight * fine[b].samples;
+        fineWeight += weight;
+      }
+    }
+    if (coarseWeight > 0.0) result[p] = coarseSum / coarseWeight;
+    if (fineWeight == 0.0) return;
+    const double own = samples / fineWeight;
+    const double other = coarseWeight > 0.0 ? double(settings.coarseSamples) : 0.0;
+    result[p] = glm::mix(result[p], fineSum / fineWeight, own / (own + other));
+  });
+  return result;
+}
+
+Image<double> ambientOcclusion(const HostFrame& frame, const Image<Guide>& guides, double radius) {
+  constexpr int kSteps = 8;
+  const double reach = radius * std::abs(double(frame.constants.rayFromPixel.x));
+  Image<double> result(guides.size(), 0.0);
+  const auto positionAt = [&](glm::ivec2 p) {
+    return guides[p].depth * rayThrough(frame.constants.rayFromPixel, pixelCentre(p));
+  };
+  forEachPixel(guides.size(), [&](glm::ivec2 p) {
+    if (guides[p].depth == 0.0) return;
+    const glm::dvec3 normal = octahedralDecode(guides[p].features);
+    for (int y = -1; y <= 1; ++y) {
+      for (int x = -1; x <= 1; ++x) {
+        if (x == 0 && y == 0) continue;
+        double horizon = 0.0;
+        for (int step = 1; step <= kSteps; ++step) {
+          const int distance = std::max(static_cast<int>(radius * step * step / double(kSteps * kSteps)), step);
+          const glm::ivec2 q = p + distance * glm::ivec2(x, y);
+          if (!guides.contains(q)) break;
+          if (guides[q].depth == 0.0) continue;
+          const glm::dvec3 v = (positionAt(q) - positionAt(p)) / guides[p].depth;
+          const double length = glm::length(v);
+          const double fade = std::max(1.0 - length * length / (reach * reach), 0.0);
+          horizon = std::max(horizon, fade * glm::dot(normal, v) / length);
+        }
+        result[p] += horizon / 8.0;
+      }
+    }
+  });
+  return result;
+}
+
+}  // namespace walr::reference
