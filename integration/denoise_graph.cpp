@@ -13,13 +13,26 @@ const HostStates kComputeHost{
                     VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL},
 };
 
+namespace {
+
+/// Channels of an input that are read.
+std::uint32_t channelsRead(const HostInput& input, const InputConventions& conventions, const HostConventions& host) {
+  const bool flatMotion = conventions.motionDepth == InputConventions::MotionDepth::StaticScene;
+  const bool twoChannels = (input.texture == &DenoiserInputs::motion && flatMotion) ||
+                           (input.texture == &DenoiserInputs::normal && host.octahedral());
+  return twoChannels ? 2 : input.channels;
+}
+
+}  // namespace
+
 DenoiserInputs importInputs(fg::Graph& graph, fg::Extent extent, const InputConventions& conventions,
-                            const fg::ExternalState& state, std::span<const VkFormat> formats) {
+                            const fg::ExternalState& state, std::span<const VkFormat> formats,
+                            const HostConventions& host) {
   DenoiserInputs inputs;
   for (std::size_t i = 0; i < kHostInputs.size(); ++i) {
     const HostInput& input = kHostInputs[i];
     const VkFormat format = formats.empty() ? input.format : formats[i];
-    requireInputFormat(input, format);
+    requireInputFormat(input, format, channelsRead(input, conventions, host));
     inputs.*input.texture = graph.import(std::string(input.name), {.format = format, .extent = extent}, state);
   }
   inputs.frame = graph.upload(std::string(kFrameName), sizeof(FrameConstants));
@@ -28,13 +41,20 @@ DenoiserInputs importInputs(fg::Graph& graph, fg::Extent extent, const InputConv
 }
 
 DenoiseGraph declareDenoiseGraph(Denoiser& method, fg::Extent extent, const InputConventions& conventions,
-                                 const HostStates& states, std::span<const VkFormat> formats) {
+                                 const HostStates& states, std::span<const VkFormat> formats,
+                                 const HostConventions& host) {
   DenoiseGraph declared;
   fg::Graph& graph = declared.graph;
-  declared.inputs = importInputs(graph, extent, conventions, states.inputs, formats);
-  declared.output =
-      graph.import(std::string(kOutputName), {.format = kOutputFormat, .extent = extent}, states.outputBefore);
-  graph.exported(method.add(graph, declared.inputs, declared.output), states.outputAfter);
+  const fg::TextureDesc result{.format = kOutputFormat, .extent = extent};
+  declared.inputs = importInputs(graph, extent, conventions, states.inputs, formats, host);
+  if (host.needsConstants()) declared.host = graph.upload(std::string(kHostName), sizeof(HostConstants));
+  declared.output = graph.import(std::string(kOutputName), result, states.outputBefore);
+
+  const DenoiserInputs inputs = addConvertInputs(graph, declared.inputs, host, declared.host);
+  const fg::Texture target = host.preExposed ? graph.texture("result without exposure", result) : declared.output;
+  fg::Texture denoised = method.add(graph, inputs, target);
+  if (host.preExposed) denoised = addExposure(graph, denoised, declared.output, declared.host);
+  graph.exported(denoised, states.outputAfter);
   return declared;
 }
 

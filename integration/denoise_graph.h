@@ -4,6 +4,7 @@
 
 #include "framegraph/graph.h"
 #include "integration/host_inputs.h"
+#include "passes/convert_inputs.h"
 #include "passes/denoiser.h"
 
 namespace walr {
@@ -11,7 +12,8 @@ namespace walr {
 /// A method alone in a graph, with its textures owned by the host.
 struct DenoiseGraph {
   fg::Graph graph;
-  DenoiserInputs inputs;  ///< Imports; `frame` is an upload.
+  DenoiserInputs inputs;  ///< Imports, as the host writes them; `frame` is an upload.
+  fg::Buffer host;        ///< Upload of `HostConstants`; invalid where the conventions need none.
   fg::Texture output;     ///< Import that receives the result.
 };
 
@@ -27,14 +29,18 @@ extern const HostStates kComputeHost;
 
 /// Declare a host's textures as imports of a graph.
 /// @param formats one per entry of `kHostInputs`; empty for the usual ones
+/// @param host    says how many channels are read
 /// @throws std::invalid_argument naming an input of a format that will not do
 DenoiserInputs importInputs(fg::Graph& graph, fg::Extent extent, const InputConventions& conventions,
-                            const fg::ExternalState& state, std::span<const VkFormat> formats = {});
+                            const fg::ExternalState& state, std::span<const VkFormat> formats = {},
+                            const HostConventions& host = {});
 
 /// @param formats one per entry of `kHostInputs`; empty for the usual ones
+/// @param host    how the textures are written; what differs from `DenoiserInputs` is converted first
 /// @throws std::invalid_argument naming a setting of the method that is out of range, or an input of a format that will
 ///         not do
 DenoiseGraph declareDenoiseGraph(Denoiser& method, fg::Extent extent, const InputConventions& conventions,
-                                 const HostStates& states, std::span<const VkFormat> formats = {});
+                                 const HostStates& states, std::span<const VkFormat> formats = {},
+                                 const HostConventions& host = {});
 
 }  // namespace walr

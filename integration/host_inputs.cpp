@@ -38,12 +38,12 @@ const std::array<HostInput, 5> kHostInputs{{
      "Diffuse albedo of the first hit; what has none is passed through as it is"},
 }};
 
-void requireInputFormat(const HostInput& input, VkFormat format) {
+void requireInputFormat(const HostInput& input, VkFormat format, std::uint32_t channels) {
   const fg::FormatInfo& info = fg::formatInfo(format);
-  if (sampledChannels(info) >= input.channels) return;
+  if (sampledChannels(info) >= channels) return;
   throw std::invalid_argument("input '" + std::string(input.name) + "' cannot be of format " + std::string(info.name) +
                               " (" + std::to_string(format) + "): it takes a format that is sampled as floats with " +
-                              std::to_string(input.channels) + " channels or more, such as " +
+                              std::to_string(channels) + " channels or more, such as " +
                               std::string(fg::formatInfo(input.format).name));
 }
 

@@ -20,13 +20,19 @@ struct HostInput {
 /// The textures of `DenoiserInputs`.
 extern const std::array<HostInput, 5> kHostInputs;
 
-/// Name of the upload buffer `DenoiserInputs::frame`, and of the texture that receives the result.
+/// Name of the upload buffer `DenoiserInputs::frame`, of the one with `HostConstants`, and of the texture that receives
+/// the result.
 inline constexpr std::string_view kFrameName = "frame";
+inline constexpr std::string_view kHostName = "host";
 inline constexpr std::string_view kOutputName = "denoised";
 inline constexpr VkFormat kOutputFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
 
 /// Check that a host's texture may stand for an input.
+/// @param channels that are read, where they are not `input.channels`
 /// @throws std::invalid_argument naming the input, its format and what would do
-void requireInputFormat(const HostInput& input, VkFormat format);
+void requireInputFormat(const HostInput& input, VkFormat format, std::uint32_t channels);
+inline void requireInputFormat(const HostInput& input, VkFormat format) {
+  requireInputFormat(input, format, input.channels);
+}
 
 }  // namespace walr

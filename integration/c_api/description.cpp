@@ -21,7 +21,9 @@ WalrConventions checkedConventions(const WalrConventions* given) {
   WalrConventions conventions = readOptional(given, "WalrConventions");
   checkedEnum(conventions.normal_space, WALR_SPACE_WORLD, "WalrConventions::normal_space");
   checkedEnum(conventions.motion_unit, WALR_MOTION_PICTURES, "WalrConventions::motion_unit");
-  checkedEnum(conventions.motion_depth, WALR_MOTION_DEPTH_STATIC_SCENE, "WalrConventions::motion_depth");
+  checkedEnum(conventions.motion_depth, WALR_MOTION_DEPTH_REVERSED, "WalrConventions::motion_depth");
+  checkedEnum(conventions.depth, WALR_DEPTH_DEVICE, "WalrConventions::depth");
+  checkedEnum(conventions.normals, WALR_NORMALS_OCTAHEDRAL_UNSIGNED, "WalrConventions::normals");
   for (float& scale : conventions.motion_scale) {
     if (!std::isfinite(scale)) {
       throw Error(WALR_ERROR_INVALID_ARGUMENT, "WalrConventions::motion_scale is not finite");
@@ -39,6 +41,13 @@ InputConventions inputConventions(const WalrConventions& conventions) {
                              : InputConventions::MotionDepth::Given};
 }
 
+HostConventions hostConventions(const WalrConventions& conventions) {
+  return {.depth = static_cast<HostConventions::Depth>(conventions.depth),
+          .normal = static_cast<HostConventions::Normal>(conventions.normals),
+          .motionDepthReversed = conventions.motion_depth == WALR_MOTION_DEPTH_REVERSED,
+          .preExposed = conventions.pre_exposed == VK_TRUE};
+}
+
 fg::Extent checkedExtent(std::uint32_t width, std::uint32_t height) {
   if (width == 0 || height == 0 || width > kLargestPicture || height > kLargestPicture) {
     throw Error(WALR_ERROR_INVALID_ARGUMENT, "a picture of " + std::to_string(width) + " x " + std::to_string(height) +
@@ -54,10 +63,7 @@ std::uint32_t checkedSlots(std::uint32_t framesInFlight) {
 }
 
 VkFormat formatOr(VkFormat format, std::size_t input) {
-  const HostInput& host = kHostInputs.at(input);
-  if (format == VK_FORMAT_UNDEFINED) return host.format;
-  requireInputFormat(host, format);
-  return format;
+  return format == VK_FORMAT_UNDEFINED ? kHostInputs.at(input).format : format;
 }
 
 void requireFinite(std::span<const float> values, const char* what) {
@@ -83,6 +89,10 @@ Description::Description(const WalrDenoiserInfo& info)
                formatOr(info.motion_format, 3), formatOr(info.albedo_format, 4)},
       slots_(checkedSlots(info.frames_in_flight)) {
   if (info.preset != nullptr) method_->usePreset(info.preset);
+  // Formats are refused here, and not when the first frame is recorded.
+  fg::Graph scratch;
+  (void)importInputs(scratch, extent_, inputConventions(conventions_), kInnerStates.inputs, formats_,
+                     hostConventions(conventions_));
 }
 
 void Description::resize(std::uint32_t width, std::uint32_t height) {
@@ -90,11 +100,12 @@ void Description::resize(std::uint32_t width, std::uint32_t height) {
 }
 
 DenoiseGraph Description::declare() const {
-  return declareDenoiseGraph(*method_, extent_, inputConventions(conventions_), kInnerStates, formats_);
+  return declareDenoiseGraph(*method_, extent_, inputConventions(conventions_), kInnerStates, formats_,
+                             hostConventions(conventions_));
 }
 
-FrameConstants Description::constants(const WalrCamera* camera, const WalrCamera* previousCamera,
-                                      float skyDepth) const {
+Constants Description::constants(const WalrCamera* camera, const WalrCamera* previousCamera, float skyDepth,
+                                 float preExposure) const {
   if (camera == nullptr) throw Error(WALR_ERROR_INVALID_ARGUMENT, "the camera is null");
   const WalrCamera& now = checkedCamera(*camera);
   const WalrCamera& previous = previousCamera != nullptr ? checkedCamera(*previousCamera)
@@ -112,7 +123,8 @@ FrameConstants Description::constants(const WalrCamera* camera, const WalrCamera
                                .frameIndex = static_cast<std::uint32_t>(frames_)};
   if (!(skyDepth >= 0.0F)) throw Error(WALR_ERROR_INVALID_ARGUMENT, "sky_depth is negative or NaN");
   if (skyDepth > 0.0F) description.skyDepth = skyDepth;
-  return frameConstants(description, extent_);
+  return {.frame = frameConstants(description, extent_),
+          .host = hostConstants(glm::make_mat4(now.projection), preExposure == 0.0F ? 1.0F : preExposure)};
 }
 
 void Description::advance(const WalrCamera& camera) {

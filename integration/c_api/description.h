@@ -16,6 +16,12 @@
 
 namespace walr::api {
 
+/// What the upload buffers of one frame hold.
+struct Constants {
+  FrameConstants frame;
+  HostConstants host;
+};
+
 /// What a host says of a method and its pictures: a WalrDenoiserInfo, checked.
 class Description {
  public:
@@ -31,7 +37,8 @@ class Description {
   /// Constants of the next frame.
   /// @param camera, previous null stands for an error, and for the camera of the frame before
   /// @throws Error, or std::invalid_argument, naming what makes no sense
-  [[nodiscard]] FrameConstants constants(const WalrCamera* camera, const WalrCamera* previous, float skyDepth) const;
+  [[nodiscard]] Constants constants(const WalrCamera* camera, const WalrCamera* previous, float skyDepth,
+                                    float preExposure) const;
   /// Say that a frame with this camera was recorded.
   void advance(const WalrCamera& camera);
 

@@ -139,21 +139,25 @@ void HostedDenoiser::bind(const FrameImages& images) {
   }
 }
 
+void HostedDenoiser::uploadIfUsed(fg::Buffer buffer, std::span<const std::byte> bytes) {
+  if (buffer.valid() && declared_->plan.resources[buffer.resource].used) built_->executor->upload(buffer, bytes);
+}
+
 void HostedDenoiser::record(VkCommandBuffer commandBuffer, const WalrFrame& frame) {
   if (commandBuffer == VK_NULL_HANDLE) throw Error(WALR_ERROR_INVALID_ARGUMENT, "the command buffer is null");
   if ((frame.flags & ~static_cast<std::uint32_t>(WALR_FRAME_RESET_HISTORY)) != 0) {
     throw Error(WALR_ERROR_INVALID_ARGUMENT, "WalrFrame::flags has unknown bits: " + std::to_string(frame.flags));
   }
-  const FrameConstants constants = description_.constants(frame.camera, frame.previous_camera, frame.sky_depth);
+  const Constants constants =
+      description_.constants(frame.camera, frame.previous_camera, frame.sky_depth, frame.pre_exposure);
   declare();
   const FrameImages images = checkedImages(frame);
   dropFinished();
   build();
   bind(images);
 
-  if (declared_->plan.resources[declared_->graph.inputs.frame.resource].used) {
-    built_->executor->upload(declared_->graph.inputs.frame, constants);
-  }
+  uploadIfUsed(declared_->graph.inputs.frame, std::as_bytes(std::span(&constants.frame, 1)));
+  uploadIfUsed(declared_->graph.host, std::as_bytes(std::span(&constants.host, 1)));
   if (resetRequested_ || (frame.flags & WALR_FRAME_RESET_HISTORY) != 0) built_->executor->resetAllHistory();
   recordAcquire(device_.context(), commandBuffer, images);
   built_->executor->record(commandBuffer, description_.slot());

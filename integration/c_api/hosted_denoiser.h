@@ -57,6 +57,7 @@ class HostedDenoiser {
   void dropFinished();
   [[nodiscard]] FrameImages checkedImages(const WalrFrame& frame) const;
   void bind(const FrameImages& images);
+  void uploadIfUsed(fg::Buffer buffer, std::span<const std::byte> bytes);
   void log(WalrLogLevel level, const std::string& text) const;
 
   HostDevice device_;

@@ -27,14 +27,19 @@ HostedPasses::HostedPasses(const WalrDenoiserInfo& info, std::span<const WalrSet
 }
 
 void HostedPasses::beginFrame(const WalrPassFrame& frame) {
-  constants_ = description_.constants(frame.camera, frame.previous_camera, frame.sky_depth);
-  if (recording_) recording_->begin(description_.frames(), std::as_bytes(std::span(&*constants_, 1)));
+  constants_ = description_.constants(frame.camera, frame.previous_camera, frame.sky_depth, frame.pre_exposure);
+  if (recording_) {
+    recording_->begin(description_.frames());
+    for (const std::uint32_t resource : recording_->uploads()) recording_->upload(resource, frameConstants(resource));
+  }
   description_.advance(*frame.camera);
 }
 
-std::span<const std::byte> HostedPasses::frameConstants() const {
+std::span<const std::byte> HostedPasses::frameConstants(std::uint32_t resource) const {
   if (!constants_) throw Error(WALR_ERROR_WRONG_ORDER, "there is no frame yet: call walr_begin_frame before");
-  return std::as_bytes(std::span(&*constants_, 1));
+  if (resource == graph_.inputs.frame.resource) return std::as_bytes(std::span(&constants_->frame, 1));
+  if (graph_.host.valid() && resource == graph_.host.resource) return std::as_bytes(std::span(&constants_->host, 1));
+  throw Error(WALR_ERROR_INVALID_ARGUMENT, "resource " + std::to_string(resource) + " is not an upload");
 }
 
 void HostedPasses::record(std::uint32_t pass, VkCommandBuffer commandBuffer,

@@ -22,8 +22,9 @@ class HostedPasses {
 
   [[nodiscard]] const WalrPassList& list() const { return list_->list(); }
   void beginFrame(const WalrPassFrame& frame);
-  /// @throws Error before the first frame
-  [[nodiscard]] std::span<const std::byte> frameConstants() const;
+  /// Contents of an upload buffer.
+  /// @throws Error before the first frame, and for another resource
+  [[nodiscard]] std::span<const std::byte> frameConstants(std::uint32_t resource) const;
   void record(std::uint32_t pass, VkCommandBuffer commandBuffer, std::span<const WalrPassResource> resources);
   void forget(VkImage image, std::uint64_t identity);
 
@@ -34,7 +35,7 @@ class HostedPasses {
   fg::Plan plan_;
   std::optional<PassList> list_;
   std::optional<PassRecording> recording_;
-  std::optional<FrameConstants> constants_;
+  std::optional<Constants> constants_;
 };
 
 }  // namespace walr::api

@@ -44,8 +44,7 @@ PassRecording::PassRecording(const fg::vk::DeviceContext& device, const fg::Grap
       linear_(makeSampler(device, VK_FILTER_LINEAR)),
       recordedFrame_(list.pass_count),
       uploadMemory_(device, VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT,
-                    "frame constants"),
-      mapped_(slots) {
+                    "frame constants") {
   for (const fg::PlannedPass& planned : plan.passes) {
     const fg::PassDecl& pass = graph.passes[planned.pass];
     const auto& work = std::get<fg::ComputeDispatch>(pass.work);
@@ -62,10 +61,11 @@ void PassRecording::makeUploads(const WalrPassList& list) {
   for (std::uint32_t i = 0; i < list.resource_count; ++i) {
     const WalrResource& resource = *list.resources[i];
     if (resource.kind != WALR_RESOURCE_UPLOAD || resource.used == VK_FALSE) continue;
-    uploadResource_ = i;
-    for (std::uint32_t slot = 0; slot < slots_; ++slot) {
-      uploads_.push_back(fg::vk::createBuffer(*device_, {resource.buffer_size}, resource.buffer_usage, resource.name));
-      uploadMemory_.add(uploads_.back().get(), &mapped_[slot]);
+    std::vector<Upload>& copies = uploads_[i];
+    copies.resize(slots_);
+    for (Upload& copy : copies) {
+      copy.buffer = fg::vk::createBuffer(*device_, {resource.buffer_size}, resource.buffer_usage, resource.name);
+      uploadMemory_.add(copy.buffer.get(), &copy.mapped);
     }
   }
   uploadMemory_.allocate();
@@ -97,10 +97,19 @@ void PassRecording::makeSets() {
   }
 }
 
-void PassRecording::begin(std::uint64_t frame, std::span<const std::byte> constants) {
+void PassRecording::begin(std::uint64_t frame) {
   frame_ = frame;
   std::erase_if(zeros_, [&](const auto& entry) { return entry.second.lastFrame + slots_ <= frame_; });
-  if (uploadResource_) std::ranges::copy(constants, mapped_[slot()]);
+}
+
+std::vector<std::uint32_t> PassRecording::uploads() const {
+  std::vector<std::uint32_t> resources;
+  for (const auto& [resource, copies] : uploads_) resources.push_back(resource);
+  return resources;
+}
+
+void PassRecording::upload(std::uint32_t resource, std::span<const std::byte> bytes) {
+  std::ranges::copy(bytes, uploads_.at(resource)[slot()].mapped);
 }
 
 void PassRecording::requireResources(const WalrDispatch& pass, std::span<const WalrPassResource> resources) const {
@@ -197,7 +206,8 @@ PassRecording::Descriptor PassRecording::describe(const WalrBinding& binding, co
   const WalrResource& resource = *list_->resources[binding.resource];
   if (resource.buffer == VK_TRUE) {
     const bool upload = resource.kind == WALR_RESOURCE_UPLOAD;
-    descriptor.buffer = {upload ? uploads_[slot()].get() : given.buffer, 0, resource.buffer_size};
+    descriptor.buffer = {upload ? uploads_.at(binding.resource)[slot()].buffer.get() : given.buffer, 0,
+                         resource.buffer_size};
     return descriptor;
   }
   const bool none = given.image == VK_NULL_HANDLE;

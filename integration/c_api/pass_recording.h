@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <map>
-#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -24,8 +23,11 @@ class PassRecording {
   PassRecording& operator=(const PassRecording&) = delete;
 
   /// Begin a frame in a slot whose last frame the GPU has finished.
-  /// @param constants contents of the upload buffer
-  void begin(std::uint64_t frame, std::span<const std::byte> constants);
+  void begin(std::uint64_t frame);
+  /// Indices of the upload buffers that passes read.
+  [[nodiscard]] std::vector<std::uint32_t> uploads() const;
+  /// Set an upload buffer's contents for the frame.
+  void upload(std::uint32_t resource, std::span<const std::byte> bytes);
   /// @throws Error naming the pass and what is wrong with its resources
   void record(std::uint32_t pass, VkCommandBuffer commandBuffer, std::span<const WalrPassResource> resources);
   void forget(std::uint64_t identity);
@@ -37,6 +39,10 @@ class PassRecording {
     fg::vk::MemoryArena memory;
     fg::vk::Owned<VkImageView> view;
     std::uint64_t lastFrame = 0;
+  };
+  struct Upload {
+    fg::vk::Owned<VkBuffer> buffer;
+    std::byte* mapped = nullptr;
   };
   struct Descriptor {
     VkDescriptorImageInfo image{};
@@ -71,10 +77,8 @@ class PassRecording {
   std::map<std::pair<std::uint64_t, std::uint32_t>, fg::vk::Owned<VkImageView>> views_;  ///< By identity, resource.
   std::map<std::uint32_t, Zeros> zeros_;                                                 ///< By resource.
   std::map<std::uint32_t, std::pair<std::uint32_t, std::uint64_t>> ages_;  ///< By resource: age, and frame it is of.
-  std::optional<std::uint32_t> uploadResource_;
   fg::vk::MemoryArena uploadMemory_;
-  std::vector<fg::vk::Owned<VkBuffer>> uploads_;  ///< By slot.
-  std::vector<std::byte*> mapped_;
+  std::map<std::uint32_t, std::vector<Upload>> uploads_;  ///< By resource and slot.
 };
 
 }  // namespace walr::api

@@ -44,9 +44,9 @@ WalrResult walr_begin_frame(WalrPasses passes, const WalrPassFrame* frame) {
   return withPasses(passes, [&](HostedPasses& object) { object.beginFrame(readStruct(frame, "WalrPassFrame")); });
 }
 
-WalrResult walr_get_frame_constants(WalrPasses passes, void* bytes, size_t* size) {
+WalrResult walr_get_frame_constants(WalrPasses passes, uint32_t resource, void* bytes, size_t* size) {
   return withPasses(passes, [&](HostedPasses& object) {
-    const auto constants = object.frameConstants();
+    const auto constants = object.frameConstants(resource);
     copyOut(constants.data(), constants.size(), bytes, size);
   });
 }

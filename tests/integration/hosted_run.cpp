@@ -123,7 +123,7 @@ WalrImage HostedRun::describe(std::size_t index) const {
   return image;
 }
 
-std::vector<std::uint16_t> HostedRun::frame(const FrameDescription& camera, std::uint32_t flags) {
+std::vector<std::uint16_t> HostedRun::frame(const FrameDescription& camera, std::uint32_t flags, float preExposure) {
   const fg::vk::Frame recorded = queue_.begin();
   for (std::size_t i = 0; i < texels_.size(); ++i) {
     std::ranges::copy(texels_[i], images_[i]->staging(recorded.slot).begin());
@@ -136,6 +136,7 @@ std::vector<std::uint16_t> HostedRun::frame(const FrameDescription& camera, std:
   WalrFrame frame{};
   frame.struct_size = sizeof(frame);
   frame.flags = flags;
+  frame.pre_exposure = preExposure;
   frame.lighting = &images[0];
   frame.depth = &images[1];
   frame.normal = &images[2];

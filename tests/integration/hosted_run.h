@@ -37,7 +37,7 @@ class HostedRun {
   /// Hand over texels of an image ("lighting", ...) in its format.
   void fill(const std::string& image, std::vector<std::byte> texels);
   /// Record and submit a frame with what was filled in last, and return the result's texels, four halves each.
-  std::vector<std::uint16_t> frame(const FrameDescription& camera, std::uint32_t flags = 0);
+  std::vector<std::uint16_t> frame(const FrameDescription& camera, std::uint32_t flags = 0, float preExposure = 0.0F);
 
  private:
   void makeImages(glm::ivec2 size);

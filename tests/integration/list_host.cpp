@@ -106,7 +106,8 @@ VkImageView Player::makeView(VkImage image, VkFormat format) {
   return view;
 }
 
-VkBuffer Player::makeBuffer(const WalrResource& resource) {
+VkBuffer Player::makeBuffer(std::uint32_t index) {
+  const WalrResource& resource = *list_->resources[index];
   VkBufferCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
   info.size = resource.buffer_size;
@@ -125,7 +126,7 @@ VkBuffer Player::makeBuffer(const WalrResource& resource) {
       needs.size, needs.memoryTypeBits,
       upload ? VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT : VkMemoryPropertyFlags{0});
   check(vkBindBufferMemory(host_->device, buffer, memory, 0));
-  if (upload) check(vkMapMemory(host_->device, memory, 0, VK_WHOLE_SIZE, 0, &constants_));
+  if (upload) check(vkMapMemory(host_->device, memory, 0, VK_WHOLE_SIZE, 0, &constants_[index]));
   return buffer;
 }
 
@@ -143,7 +144,7 @@ void Player::makeResource(std::uint32_t index) {
   }
   if (resource.used == VK_FALSE || resource.kind == WALR_RESOURCE_HISTORY_PREVIOUS) return;
   if (resource.buffer == VK_TRUE) {
-    behind.buffer = makeBuffer(resource);
+    behind.buffer = makeBuffer(index);
     return;
   }
   for (int parity = 0; parity < 2; ++parity) {
@@ -293,11 +294,12 @@ void Player::barriers(VkCommandBuffer commands, const WalrBarrier* first, std::u
 }
 
 void Player::frame(const WalrPassFrame& frame) {
-  std::size_t size = 0;
   if (api_->begin_frame(passes_, &frame) != WALR_SUCCESS) throw std::runtime_error(api_->last_error());
-  if (api_->get_frame_constants(passes_, nullptr, &size) != WALR_SUCCESS) throw std::runtime_error(api_->last_error());
-  if (constants_ != nullptr && api_->get_frame_constants(passes_, constants_, &size) != WALR_SUCCESS) {
-    throw std::runtime_error(api_->last_error());
+  for (const auto& [resource, mapped] : constants_) {
+    std::size_t size = list_->resources[resource]->buffer_size;
+    if (api_->get_frame_constants(passes_, resource, mapped, &size) != WALR_SUCCESS) {
+      throw std::runtime_error(api_->last_error());
+    }
   }
   const VkCommandBuffer commands = host_begin(host_);
   for (auto& [name, image] : hostImages_) {

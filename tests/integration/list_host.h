@@ -42,7 +42,7 @@ class Player {
   void makeResource(std::uint32_t index);
   VkImage makeImage(const WalrResource& resource);
   VkImageView makeView(VkImage image, VkFormat format);
-  VkBuffer makeBuffer(const WalrResource& resource);
+  VkBuffer makeBuffer(std::uint32_t index);
   VkDeviceMemory allocate(VkDeviceSize size, std::uint32_t typeBits, VkMemoryPropertyFlags properties);
   void makePass(std::uint32_t index);
   void makeSets(std::uint32_t index);
@@ -63,7 +63,7 @@ class Player {
   std::map<std::string, HostImage> hostImages_;
   VkDescriptorPool pool_ = VK_NULL_HANDLE;
   VkSampler sampler_ = VK_NULL_HANDLE;
-  void* constants_ = nullptr;
+  std::map<std::uint32_t, void*> constants_;  ///< Mapped, by resource.
   std::uint32_t parity_ = 0;
 };
 

@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
+#include <fstream>
+#include <iterator>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -330,6 +333,8 @@ TEST_F(PluginTest, AHostWithoutBarriersIsFoundOut) {
 // The figures are in the integration guide: what a host pays that shares no memory between our passes.
 TEST_F(PluginTest, MemoryOfBothWaysIsWhatTheDriverSays) {
   constexpr double kMebibyte = 1024.0 * 1024.0;
+  std::ifstream file(WALR_GUIDE);
+  const std::string guide{std::istreambuf_iterator<char>(file), {}};
   for (const Size size : {Size{1920, 1080}, Size{2560, 1440}, Size{3840, 2160}}) {
     const WalrDenoiserInfo whole = info("walr", size);
     WalrDenoiser denoiser = nullptr;
@@ -345,8 +350,10 @@ TEST_F(PluginTest, MemoryOfBothWaysIsWhatTheDriverSays) {
       EXPECT_EQ(graph.bytes(), graph.listedBytes());
       EXPECT_EQ(graph.listedBytes(), memory.persistent + memory.transient_unaliased);
       EXPECT_LT(memory.allocated, graph.bytes());
-      std::printf("%u x %u: opaque %.1f MiB, pass by pass %.1f MiB\n", size.width, size.height,
-                  double(memory.allocated) / kMebibyte, double(graph.bytes()) / kMebibyte);
+      char row[128];
+      std::snprintf(row, sizeof(row), "| %u x %u | %.1f | %.1f |\n", size.width, size.height,
+                    double(memory.allocated) / kMebibyte, double(graph.bytes()) / kMebibyte);
+      EXPECT_NE(guide.find(row), std::string::npos) << "integration/README.md should say " << row;
     }
     EXPECT_EQ(api().destroy_passes(passes), WALR_SUCCESS);
   }
@@ -391,11 +398,15 @@ TEST_F(PluginTest, WrongUseOfPassesIsAnError) {
   EXPECT_NE(text().find("1..5"), std::string::npos);
   passesInfo.setting_count = 0;
   ASSERT_EQ(api().create_passes(&passesInfo, &plain), WALR_SUCCESS);
+  ASSERT_EQ(api().get_pass_list(plain, &list), WALR_SUCCESS);
+  std::uint32_t upload = 0;
+  while (list->resources[upload]->kind != WALR_RESOURCE_UPLOAD) ++upload;
   std::size_t size = 0;
-  EXPECT_EQ(api().get_frame_constants(plain, nullptr, &size), WALR_ERROR_WRONG_ORDER);
+  EXPECT_EQ(api().get_frame_constants(plain, upload, nullptr, &size), WALR_ERROR_WRONG_ORDER);
   EXPECT_EQ(api().begin_frame(plain, &frame), WALR_SUCCESS);
-  EXPECT_EQ(api().get_frame_constants(plain, nullptr, &size), WALR_SUCCESS);
-  EXPECT_GT(size, 100U);
+  EXPECT_EQ(api().get_frame_constants(plain, upload + 1, nullptr, &size), WALR_ERROR_INVALID_ARGUMENT);
+  EXPECT_EQ(api().get_frame_constants(plain, upload, nullptr, &size), WALR_SUCCESS);
+  EXPECT_EQ(size, list->resources[upload]->buffer_size);
   EXPECT_EQ(api().record_pass(plain, 0, commands, none.data(), count), WALR_ERROR_WRONG_ORDER);
   EXPECT_NE(text().find("without a device"), std::string::npos);
   EXPECT_EQ(api().destroy_passes(plain), WALR_SUCCESS);

@@ -154,10 +154,28 @@ typedef enum WalrMotionUnit {
 typedef enum WalrMotionDepth {
   WALR_MOTION_DEPTH_GIVEN = 0,        /* The motion image's third channel: previous minus current view depth. */
   WALR_MOTION_DEPTH_STATIC_SCENE = 1, /* Computed from the cameras; right where only the camera moves. */
+  WALR_MOTION_DEPTH_REVERSED = 2,     /* The third channel, as current minus previous view depth. */
   WALR_MOTION_DEPTH_MAX = 0x7fffffff
 } WalrMotionDepth;
 
-/* How the host's images are to be read. Stated once, when the denoiser is made. */
+typedef enum WalrDepth {
+  WALR_DEPTH_LINEAR = 0,          /* Distance along the view axis, above 0. */
+  WALR_DEPTH_NEGATIVE_LINEAR = 1, /* z of view space. */
+  /* z over w of Vulkan's clip space, as row z of WalrCamera::projection makes it: 0 near or far, finite or infinite. */
+  WALR_DEPTH_DEVICE = 2,
+  WALR_DEPTH_MAX = 0x7fffffff
+} WalrDepth;
+
+typedef enum WalrNormals {
+  WALR_NORMALS_SIGNED = 0,              /* Three channels in -1..1; all zero is sky. */
+  WALR_NORMALS_UNSIGNED = 1,            /* Three channels in 0..1 that stand for -1..1; all zero is sky. */
+  WALR_NORMALS_OCTAHEDRAL_SIGNED = 2,   /* Octahedral map, pole on +z, two channels in -1..1; depth alone tells sky. */
+  WALR_NORMALS_OCTAHEDRAL_UNSIGNED = 3, /* The same in 0..1. */
+  WALR_NORMALS_MAX = 0x7fffffff
+} WalrNormals;
+
+/* How the host's images are to be read. Stated once, when the denoiser is made. What differs from the usual, which is
+ * zero, costs one small pass an image. */
 typedef struct WalrConventions {
   uint32_t struct_size;
   WalrSpace normal_space;
@@ -166,6 +184,10 @@ typedef struct WalrConventions {
   /* Multiplies motion.xy, after which previous = current + motion, y down. Zero stands for 1. Use -1 where the host's
    * motion is current - previous, and -1 for y where its y is up. */
   float motion_scale[2];
+  WalrDepth depth;
+  WalrNormals normals;
+  VkBool32 pre_exposed; /* Lighting is multiplied by WalrFrame::pre_exposure, and the result is to be, too. */
+  uint32_t reserved;
 } WalrConventions;
 
 typedef enum WalrLogLevel {
@@ -270,7 +292,8 @@ WALR_API WalrResult walr_forget_image(WalrDenoiser denoiser, VkImage image, uint
 
 typedef struct WalrCamera {
   float view[16];       /* World to view space. */
-  float projection[16]; /* View to clip space, perspective, without jitter, x right, y up. Row z is not used. */
+  float projection[16]; /* View to clip space, perspective, without jitter, x right, y up. Row z is used with
+                         * WALR_DEPTH_DEVICE only. */
   float jitter[2];      /* Pixels, y down: sample position minus pixel centre. */
 } WalrCamera;
 
@@ -291,7 +314,7 @@ typedef struct WalrFrame {
   const WalrCamera* camera;
   const WalrCamera* previous_camera; /* Null stands for the camera of the frame recorded last. */
   float sky_depth;                   /* Scene units: a view depth from here on is sky. 0 stands for 1e9. */
-  uint32_t reserved;
+  float pre_exposure;                /* With WalrConventions::pre_exposed; 0 stands for 1. */
 } WalrFrame;
 
 /*

@@ -150,15 +150,18 @@ typedef struct WalrPassFrame {
   float sky_depth; /* As in WalrFrame. */
   const WalrCamera* camera;
   const WalrCamera* previous_camera; /* Null stands for the camera of the frame before. */
+  float pre_exposure;                /* As in WalrFrame. */
+  uint32_t reserved;
 } WalrPassFrame;
 
 /* Begin a frame: to be called once before its passes are recorded. The GPU must have finished the frame that was begun
  * `frames_in_flight` frames earlier. */
 WALR_API WalrResult walr_begin_frame(WalrPasses passes, const WalrPassFrame* frame);
 
-/* Contents of the upload buffer for the frame begun last, for hosts that bind it themselves.
+/* Contents of an upload buffer for the frame begun last, for hosts that bind it themselves.
+ * resource: index of a WALR_RESOURCE_UPLOAD
  * size: in: bytes at `bytes`; out: bytes needed. `bytes` may be null. */
-WALR_API WalrResult walr_get_frame_constants(WalrPasses passes, void* bytes, size_t* size);
+WALR_API WalrResult walr_get_frame_constants(WalrPasses passes, uint32_t resource, void* bytes, size_t* size);
 
 /* What the host binds. */
 typedef struct WalrPassResource {

@@ -40,7 +40,7 @@ typedef struct WalrApi {
   WalrResult (*destroy_passes)(WalrPasses passes);
   WalrResult (*get_pass_list)(WalrPasses passes, const WalrPassList** list);
   WalrResult (*begin_frame)(WalrPasses passes, const WalrPassFrame* frame);
-  WalrResult (*get_frame_constants)(WalrPasses passes, void* bytes, size_t* size);
+  WalrResult (*get_frame_constants)(WalrPasses passes, uint32_t resource, void* bytes, size_t* size);
   WalrResult (*record_pass)(WalrPasses passes, uint32_t pass, VkCommandBuffer command_buffer,
                             const WalrPassResource* resources, uint32_t resource_count);
   WalrResult (*forget_pass_image)(WalrPasses passes, VkImage image, uint64_t identity);

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cstdint>
+
+#include <glm/mat4x4.hpp>
+
+#include "framegraph/graph.h"
+#include "passes/inputs.h"
+#include "shaders/constants/host.h"
+
+namespace walr {
+
+/// How a host writes its textures, where that is not what `DenoiserInputs` says. What differs costs one pass a texture,
+/// what does not costs nothing.
+struct HostConventions {
+  enum class Depth : std::uint8_t {
+    Linear,          ///< Linear view depth, positive.
+    NegativeLinear,  ///< z of view space.
+    /// z of Vulkan's clip space over w, as the projection matrix makes it: 0 near or far, finite or infinite.
+    Device,
+  };
+  enum class Normal : std::uint8_t {
+    Signed,              ///< Three channels in -1..1.
+    Unsigned,            ///< Three channels in 0..1 that stand for -1..1; all zero is sky.
+    OctahedralSigned,    ///< Octahedral map with its pole on +z, two channels in -1..1 (Cigolle et al. 2014).
+                         ///< Sky is told by depth alone.
+    OctahedralUnsigned,  ///< The same in 0..1.
+  };
+  Depth depth = Depth::Linear;
+  Normal normal = Normal::Signed;
+  bool motionDepthReversed = false;  ///< motion.z is current minus previous view depth.
+  bool preExposed = false;  ///< Lighting is multiplied by an exposure that changes, and the result is to be, too.
+
+  [[nodiscard]] bool octahedral() const {
+    return normal == Normal::OctahedralSigned || normal == Normal::OctahedralUnsigned;
+  }
+  [[nodiscard]] bool needsConstants() const { return depth != Depth::Linear || preExposed; }
+};
+
+/// The uniform block of the conversion.
+/// @param projection view to clip space with the z row of the host's device depth
+/// @param exposure   more than 0
+/// @throws std::invalid_argument for another exposure
+HostConstants hostConstants(const glm::mat4& projection, float exposure);
+
+/// Convert what differs.
+/// @param inputs as the host writes them
+/// @param host   upload of `HostConstants`; not used where `needsConstants` says so
+/// @returns inputs as the project takes them
+DenoiserInputs addConvertInputs(fg::Graph& graph, DenoiserInputs inputs, const HostConventions& conventions,
+                                fg::Buffer host);
+
+/// Multiply the result by the exposure of the frame.
+/// @param denoised RGBA16F
+/// @param output   RGBA16F texture to write to
+/// @returns the output's new version
+fg::Texture addExposure(fg::Graph& graph, fg::Texture denoised, fg::Texture output, fg::Buffer host);
+
+}  // namespace walr

@@ -1,0 +1,66 @@
+// Converts one texture from a host's conventions to the project's. Compiled once for each texture.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_samplerless_texture_functions : require
+#include "constants/host.h"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+
+layout(set = 0, binding = 0) uniform texture2D source;
+#ifdef DEPTH
+layout(set = 0, binding = 1, r32f) uniform writeonly image2D target;
+layout(constant_id = 0) const bool kDevice = false;  // Device depth; else the view's z, which is negative.
+#elif defined(MOTION)
+// In pictures, motion is too small for halves.
+layout(set = 0, binding = 1, rgba32f) uniform writeonly image2D target;
+#else
+layout(set = 0, binding = 1, rgba16f) uniform writeonly image2D target;
+#endif
+#if defined(DEPTH) || defined(EXPOSURE)
+layout(set = 0, binding = 2, std140) uniform hostConstants { HostConstants host; };
+#endif
+
+#ifdef DEPTH
+// What is infinitely far is sky, as is what no perspective can have made.
+vec4 convert(vec4 value) {
+  if (!kDevice) return vec4(-value.x);
+  const float divisor = value.x + host.depthFromDevice.y;
+  const float depth = host.depthFromDevice.x / divisor;
+  const float infinity = uintBitsToFloat(0x7f800000u);
+  return vec4(divisor != 0.0 && depth > 0.0 ? depth : infinity);
+}
+#endif
+
+#ifdef NORMAL
+layout(constant_id = 0) const bool kUnsigned = false;    // 0..1 stands for -1..1.
+layout(constant_id = 1) const bool kOctahedral = false;  // Two channels, pole on +z (Cigolle et al. 2014).
+
+vec4 convert(vec4 value) {
+  // Sky. In an octahedral map zero is a direction; there depth alone tells sky.
+  if (!kOctahedral && all(equal(value.xyz, vec3(0.0)))) return vec4(0.0);
+  vec3 n = kUnsigned ? 2.0 * value.xyz - 1.0 : value.xyz;
+  if (kOctahedral) {
+    n.z = 1.0 - abs(n.x) - abs(n.y);
+    if (n.z < 0.0) n.xy = (1.0 - abs(n.yx)) * vec2(n.x < 0.0 ? -1.0 : 1.0, n.y < 0.0 ? -1.0 : 1.0);
+    n = normalize(n);
+  }
+  return vec4(n, 0.0);
+}
+#endif
+
+#ifdef MOTION
+// The host's third channel is current - previous view depth.
+vec4 convert(vec4 value) { return vec4(value.xy, -value.z, 0.0); }
+#endif
+
+#ifdef EXPOSURE
+layout(constant_id = 0) const bool kApply = false;  // Else take it away.
+
+vec4 convert(vec4 value) { return vec4(value.rgb * (kApply ? host.exposure : host.inverseExposure), value.a); }
+#endif
+
+void main() {
+  const ivec2 p = ivec2(gl_GlobalInvocationID.xy);
+  if (any(greaterThanEqual(p, imageSize(target)))) return;
+  imageStore(target, p, convert(texelFetch(source, p, 0)));
+}

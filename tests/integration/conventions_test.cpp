@@ -1,0 +1,230 @@
+// One scene, written as hosts of different conventions would write it: the same result.
+#include <cmath>
+#include <cstring>
+#include <random>
+
+#include <glm/packing.hpp>
+
+#include "tests/integration/hosted_run.h"
+#include "tests/passes/synthetic_scene.h"
+#include "tests/passes/texel_codec.h"
+#include "tests/vulkan/gpu_fixture.h"
+
+namespace walr::test {
+namespace {
+
+using reference::forEachPixel;
+using reference::HostFrame;
+using reference::Image;
+
+constexpr glm::ivec2 kSize(48, 36);
+constexpr std::uint32_t kFrames = 4;
+
+/// A turned camera that walks: view and world space differ, and motion has every sign.
+FrameDescription walkingCamera(std::uint32_t frame) {
+  const glm::dvec3 step(0.05, 0.03, -0.04);
+  return cameraAt(double(frame) * step, (double(frame) - 1.0) * step, kSize, frame);
+}
+
+/// How a host writes.
+struct Host {
+  WalrDepth depth = WALR_DEPTH_LINEAR;
+  bool reversedInfinite = false;  ///< Device depth: 1 near, 0 infinitely far; else 0 near, 1 at a far plane.
+  WalrNormals normals = WALR_NORMALS_SIGNED;
+  bool world = false;
+  bool pictures = false;       ///< Motion in pictures.
+  bool motionForward = false;  ///< Motion is current - previous.
+  bool motionUp = false;       ///< Motion has y up.
+  bool motionDepthReversed = false;
+  bool preExposed = false;
+};
+
+std::string nameOf(const Host& h) {
+  return "depth " + std::to_string(h.depth) + (h.reversedInfinite ? " reversed" : "") + ", normals " +
+         std::to_string(h.normals) + (h.world ? " world" : "") + (h.pictures ? ", pictures" : "") +
+         (h.motionForward ? ", forward" : "") + (h.motionUp ? ", up" : "") +
+         (h.motionDepthReversed ? ", z reversed" : "") + (h.preExposed ? ", exposed" : "");
+}
+
+float exposureOf(const Host& host, std::uint32_t frame) {
+  return host.preExposed ? std::exp2(float(frame) - 1.0F) : 1.0F;
+}
+
+/// The scene's rotation from view to world, so that the two spaces differ: an eighth of a turn about two axes.
+glm::dmat3 worldFromView() {
+  const double c = std::sqrt(0.5);
+  return glm::dmat3(c, 0, -c, 0, 1, 0, c, 0, c) * glm::dmat3(1, 0, 0, 0, c, c, 0, -c, c);
+}
+
+constexpr float kNear = 0.5F;
+constexpr float kFar = 200.0F;
+
+FrameDescription cameraOf(const Host& host, std::uint32_t frame) {
+  FrameDescription camera = walkingCamera(frame);
+  // The scene is made in a world whose axes are the view's; this turns that world.
+  const glm::mat4 turn(glm::mat3(glm::transpose(worldFromView())));
+  camera.view = camera.view * turn;
+  camera.previousView = camera.previousView * turn;
+  for (glm::mat4* projection : {&camera.projection, &camera.previousProjection}) {
+    (*projection)[2][2] = host.reversedInfinite ? 0.0F : kFar / (kNear - kFar);
+    (*projection)[3][2] = host.reversedInfinite ? kNear : kNear * kFar / (kNear - kFar);
+  }
+  return camera;
+}
+
+float writtenDepth(const Host& host, double depth, const glm::mat4& projection) {
+  if (host.depth == WALR_DEPTH_NEGATIVE_LINEAR) return static_cast<float>(-depth);
+  if (host.depth == WALR_DEPTH_LINEAR) return static_cast<float>(depth);
+  if (!std::isfinite(depth) || depth >= kFar) return host.reversedInfinite ? 0.0F : 1.0F;
+  return static_cast<float>(double(projection[3][2]) / depth - double(projection[2][2]));
+}
+
+glm::vec4 writtenNormal(const Host& host, glm::dvec3 n) {
+  if (n == glm::dvec3(0.0)) return glm::vec4(0.0F);
+  if (host.world) n = worldFromView() * n;
+  if (host.normals == WALR_NORMALS_OCTAHEDRAL_SIGNED || host.normals == WALR_NORMALS_OCTAHEDRAL_UNSIGNED) {
+    n /= std::abs(n.x) + std::abs(n.y) + std::abs(n.z);
+    const glm::dvec2 folded((1.0 - std::abs(n.y)) * (n.x < 0.0 ? -1.0 : 1.0),
+                            (1.0 - std::abs(n.x)) * (n.y < 0.0 ? -1.0 : 1.0));
+    n = glm::dvec3(n.z < 0.0 ? folded : glm::dvec2(n), 0.0);
+  }
+  const bool isUnsigned = host.normals == WALR_NORMALS_UNSIGNED || host.normals == WALR_NORMALS_OCTAHEDRAL_UNSIGNED;
+  return {glm::vec3(isUnsigned ? n * 0.5 + 0.5 : n), 0.0F};
+}
+
+glm::vec4 writtenMotion(const Host& host, glm::dvec3 motion) {
+  if (host.pictures) motion /= glm::dvec3(kSize, 1.0);
+  if (host.motionForward) motion *= glm::dvec3(-1.0, -1.0, 1.0);
+  if (host.motionUp) motion.y = -motion.y;
+  if (host.motionDepthReversed) motion.z = -motion.z;
+  return {glm::vec3(motion), 0.0F};
+}
+
+HostedRun::Options optionsOf(const Host& host) {
+  HostedRun::Options options;
+  WalrConventions& c = options.conventions;
+  c.depth = host.depth;
+  c.normals = host.normals;
+  c.normal_space = host.world ? WALR_SPACE_WORLD : WALR_SPACE_VIEW;
+  c.motion_unit = host.pictures ? WALR_MOTION_PICTURES : WALR_MOTION_PIXELS;
+  c.motion_depth = host.motionDepthReversed ? WALR_MOTION_DEPTH_REVERSED : WALR_MOTION_DEPTH_GIVEN;
+  c.motion_scale[0] = host.motionForward ? -1.0F : 1.0F;
+  c.motion_scale[1] = c.motion_scale[0] * (host.motionUp ? -1.0F : 1.0F);
+  c.pre_exposed = host.preExposed ? VK_TRUE : VK_FALSE;
+  // Floats, so that what is compared is the conversion and not the host's rounding.
+  constexpr VkFormat kFloats = VK_FORMAT_R32G32B32A32_SFLOAT;
+  options.formats = {kFloats, VK_FORMAT_R32_SFLOAT, kFloats, kFloats, kFloats};
+  return options;
+}
+
+template <typename Texel>
+std::vector<std::byte> bytesOf(const std::vector<Texel>& texels) {
+  std::vector<std::byte> bytes(texels.size() * sizeof(Texel));
+  std::memcpy(bytes.data(), texels.data(), bytes.size());
+  return bytes;
+}
+
+void fill(HostedRun& run, const HostFrame& frame, const Host& host, const FrameDescription& camera, float exposure,
+          double depthError) {
+  std::vector<glm::vec4> lighting;
+  std::vector<float> depth;
+  std::vector<glm::vec4> normal;
+  std::vector<glm::vec4> motion;
+  std::vector<glm::vec4> albedo;
+  forEachPixel(kSize, [&](glm::ivec2 p) {
+    lighting.emplace_back(glm::vec3(frame.lighting[p]) * exposure, 0.0F);
+    depth.push_back(writtenDepth(host, frame.depth[p] * (1.0 + depthError), camera.projection));
+    normal.push_back(writtenNormal(host, frame.normal[p]));
+    motion.push_back(writtenMotion(host, frame.motion[p]));
+    albedo.emplace_back(glm::vec3(frame.albedo[p]), 0.0F);
+  });
+  run.fill("lighting", bytesOf(lighting));
+  run.fill("depth", bytesOf(depth));
+  run.fill("normal", bytesOf(normal));
+  run.fill("motion", bytesOf(motion));
+  run.fill("albedo", bytesOf(albedo));
+}
+
+class Conventions : public fg::test::GpuTest {
+ protected:
+  /// The last frame's result without exposure.
+  Image<glm::dvec4> denoise(const Host& host, double depthError = 0.0) const {
+    HostedRun run(device(), "walr", kSize, optionsOf(host));
+    Image<glm::dvec4> result;
+    for (std::uint32_t i = 0; i < kFrames; ++i) {
+      const FrameDescription camera = cameraOf(host, i);
+      const float exposure = exposureOf(host, i);
+      const HostFrame frame = renderFrame(skyBesideSurface(), walkingCamera(i), kSize);
+      fill(run, frame, host, camera, exposure, depthError);
+      result = decodeHalves(run.frame(camera, 0, host.preExposed ? exposure : 0.0F), kSize);
+      forEachPixel(kSize, [&](glm::ivec2 p) { result[p] /= double(exposure); });
+    }
+    return result;
+  }
+};
+
+/// Root mean square difference of colours.
+double difference(const Image<glm::dvec4>& a, const Image<glm::dvec4>& b) {
+  double sum = 0.0;
+  forEachPixel(kSize, [&](glm::ivec2 p) {
+    const glm::dvec3 d = glm::dvec3(a[p]) - glm::dvec3(b[p]);
+    sum += glm::dot(d, d);
+  });
+  return std::sqrt(sum / (3.0 * kSize.x * kSize.y));
+}
+
+std::vector<Host> hosts() {
+  std::vector<Host> all{
+      {.depth = WALR_DEPTH_NEGATIVE_LINEAR},
+      {.depth = WALR_DEPTH_DEVICE},
+      {.depth = WALR_DEPTH_DEVICE, .reversedInfinite = true},
+      {.normals = WALR_NORMALS_UNSIGNED},
+      {.normals = WALR_NORMALS_OCTAHEDRAL_SIGNED},
+      {.normals = WALR_NORMALS_OCTAHEDRAL_UNSIGNED},
+      {.world = true},
+      {.pictures = true},
+      {.motionForward = true},
+      {.motionUp = true},
+      {.motionDepthReversed = true},
+      {.preExposed = true},
+  };
+  std::mt19937 random(7);
+  const auto coin = [&] { return random() % 2 == 0; };
+  for (int i = 0; i < 16; ++i) {
+    all.push_back({.depth = static_cast<WalrDepth>(random() % 3),
+                   .reversedInfinite = coin(),
+                   .normals = static_cast<WalrNormals>(random() % 4),
+                   .world = coin(),
+                   .pictures = coin(),
+                   .motionForward = coin(),
+                   .motionUp = coin(),
+                   .motionDepthReversed = coin(),
+                   .preExposed = coin()});
+  }
+  return all;
+}
+
+TEST_F(Conventions, OneSceneGivesOneResult) {
+  const Image<glm::dvec4> usual = denoise({});
+  // What a change of depth by one rounding step of its packed form does (surface.glsl keeps 19 bits) is what no host
+  // can do better than; conversions round in single precision, which is finer. A wrong convention is far above it.
+  const double roundoff = std::max(difference(usual, denoise({}, 0x1p-18)), difference(usual, denoise({}, -0x1p-18)));
+  EXPECT_GT(roundoff, 0.0);
+  for (const Host& host : hosts()) EXPECT_LE(difference(usual, denoise(host)), 2.0 * roundoff) << nameOf(host);
+
+  // And the test would see it.
+  Host wrong{.motionForward = true};
+  HostedRun::Options options = optionsOf(wrong);
+  options.conventions.motion_scale[0] = options.conventions.motion_scale[1] = 1.0F;
+  HostedRun run(device(), "walr", kSize, options);
+  Image<glm::dvec4> result;
+  for (std::uint32_t i = 0; i < kFrames; ++i) {
+    const FrameDescription camera = cameraOf(wrong, i);
+    fill(run, renderFrame(skyBesideSurface(), walkingCamera(i), kSize), wrong, camera, 1.0F, 0.0);
+    result = decodeHalves(run.frame(camera), kSize);
+  }
+  EXPECT_GT(difference(usual, result), 10.0 * roundoff);
+}
+
+}  // namespace
+}  // namespace walr::test
