@@ -10,7 +10,7 @@ walr_packages=(
   libcli11-dev libembree-dev libglm-dev libimath-dev libopenexr-dev libpng-dev libstb-dev libtinygltf-dev
   nlohmann-json3-dev
   # Tests and benchmarks
-  clang libbenchmark-dev libgtest-dev python3 python3-matplotlib python3-skimage
+  clang libbenchmark-dev libgtest-dev libplacebo-dev python3 python3-matplotlib python3-skimage
 )
 
 walr_setup() {

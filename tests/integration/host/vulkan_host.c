@@ -65,14 +65,20 @@ static void open_device(Host* host) {
                                          .queueFamilyIndex = host->queue_family,
                                          .queueCount = 1,
                                          .pQueuePriorities = &priority};
-  VkPhysicalDeviceVulkan13Features vulkan13 = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES,
-                                               .synchronization2 = VK_TRUE};
-  const VkPhysicalDeviceFeatures features = {.shaderStorageImageExtendedFormats = VK_TRUE};
+  host->vulkan13 = (VkPhysicalDeviceVulkan13Features){.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES,
+                                                      .synchronization2 = VK_TRUE};
+  /* Timelines and query resets are for the sake of libplacebo. */
+  host->vulkan12 = (VkPhysicalDeviceVulkan12Features){.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES,
+                                                      .pNext = &host->vulkan13,
+                                                      .hostQueryReset = VK_TRUE,
+                                                      .timelineSemaphore = VK_TRUE};
+  host->features = (VkPhysicalDeviceFeatures2){.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2,
+                                               .pNext = &host->vulkan12,
+                                               .features = {.shaderStorageImageExtendedFormats = VK_TRUE}};
   const VkDeviceCreateInfo info = {.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
-                                   .pNext = &vulkan13,
+                                   .pNext = &host->features,
                                    .queueCreateInfoCount = 1,
-                                   .pQueueCreateInfos = &queue,
-                                   .pEnabledFeatures = &features};
+                                   .pQueueCreateInfos = &queue};
   check(vkCreateDevice(host->physical_device, &info, NULL, &host->device), "creating a device");
   vkGetDeviceQueue(host->device, host->queue_family, 0, &host->queue);
 }
@@ -165,14 +171,36 @@ VkCommandBuffer host_begin(Host* host) {
   return command_buffer;
 }
 
-void host_submit_and_wait(Host* host, VkCommandBuffer command_buffer) {
+static void submit(Host* host, VkCommandBuffer command_buffer, VkSubmitInfo info) {
   check(vkEndCommandBuffer(command_buffer), "ending a command buffer");
-  const VkSubmitInfo submit = {
-      .sType = VK_STRUCTURE_TYPE_SUBMIT_INFO, .commandBufferCount = 1, .pCommandBuffers = &command_buffer};
-  check(vkQueueSubmit(host->queue, 1, &submit, host->fence), "submitting");
+  info.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO;
+  info.commandBufferCount = 1;
+  info.pCommandBuffers = &command_buffer;
+  check(vkQueueSubmit(host->queue, 1, &info, host->fence), "submitting");
   check(vkWaitForFences(host->device, 1, &host->fence, VK_TRUE, UINT64_MAX), "waiting");
   check(vkResetFences(host->device, 1, &host->fence), "resetting a fence");
   vkFreeCommandBuffers(host->device, host->command_pool, 1, &command_buffer);
+}
+
+void host_submit_and_wait(Host* host, VkCommandBuffer command_buffer) {
+  submit(host, command_buffer, (VkSubmitInfo){0});
+}
+
+void host_submit_between(Host* host, VkCommandBuffer command_buffer, VkSemaphore timeline, uint64_t before,
+                         uint64_t after) {
+  const VkPipelineStageFlags stage = VK_PIPELINE_STAGE_ALL_COMMANDS_BIT;
+  const VkTimelineSemaphoreSubmitInfo values = {.sType = VK_STRUCTURE_TYPE_TIMELINE_SEMAPHORE_SUBMIT_INFO,
+                                                .waitSemaphoreValueCount = 1,
+                                                .pWaitSemaphoreValues = &before,
+                                                .signalSemaphoreValueCount = 1,
+                                                .pSignalSemaphoreValues = &after};
+  submit(host, command_buffer,
+         (VkSubmitInfo){.pNext = &values,
+                        .waitSemaphoreCount = 1,
+                        .pWaitSemaphores = &timeline,
+                        .pWaitDstStageMask = &stage,
+                        .signalSemaphoreCount = 1,
+                        .pSignalSemaphores = &timeline});
 }
 
 void host_transition(VkCommandBuffer command_buffer, HostImage* image, VkPipelineStageFlags2 stage,

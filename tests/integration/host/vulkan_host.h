@@ -20,6 +20,9 @@ typedef struct Host {
   VkDevice device;
   uint32_t queue_family;
   VkQueue queue;
+  VkPhysicalDeviceFeatures2 features; /* That the device was made with. */
+  VkPhysicalDeviceVulkan12Features vulkan12;
+  VkPhysicalDeviceVulkan13Features vulkan13;
   VkCommandPool command_pool;
   VkFence fence;
   int messages; /* Warnings and errors of the layer so far; each is printed. */
@@ -39,7 +42,7 @@ typedef struct HostImage {
   VkImageLayout layout;
 } HostImage;
 
-/* The functions end the program with a message where Vulkan fails. */
+/* A host stays where it was opened. The functions end the program with a message where Vulkan fails. */
 void host_open(Host* host);
 /* Returns the number of messages, those at destruction included. */
 int host_close(Host* host);
@@ -56,6 +59,9 @@ VkDeviceSize host_image_bytes(Host* host, const HostImage* image);
 
 VkCommandBuffer host_begin(Host* host);
 void host_submit_and_wait(Host* host, VkCommandBuffer command_buffer);
+/* The same once a timeline semaphore has a value, which then gets another. */
+void host_submit_between(Host* host, VkCommandBuffer command_buffer, VkSemaphore timeline, uint64_t before,
+                         uint64_t after);
 
 /* Move an image into a state. */
 void host_transition(VkCommandBuffer command_buffer, HostImage* image, VkPipelineStageFlags2 stage,
