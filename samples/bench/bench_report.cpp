@@ -143,7 +143,7 @@ int widestName(const BenchReport& report) {
 }
 
 std::string frames(const std::optional<int>& count) {
-  return count ? std::to_string(*count) : "never";
+  return count ? std::to_string(*count) : "not by end";
 }
 
 void printResponses(std::ostream& stream, const BenchReport& report) {
@@ -176,6 +176,37 @@ void printNumerics(std::ostream& stream, const BenchReport& report) {
   stream << "\nhard cases: " << report.numerics.size() << " runs, " << nonFinite
          << " values that are not finite; largest relative error " << worst->error << ": " << worst->hardCase << ", "
          << worst->setting.storage << ", " << worst->setting.regularisation << ' ' << worst->setting.epsilon << ".\n";
+}
+
+void printSequence(std::ostream& stream, const BenchReport& report, const SequenceReport& sequence) {
+  const int nameWidth = widestName(report) + 1;
+  stream << '\n' << std::left << std::setw(nameWidth) << sequence.name << std::right;
+  for (const Column& column : kColumns) stream << std::setw(kCellWidth) << column.title;
+  stream << std::setw(kCellWidth) << "time x"
+         << "    (5 to 95 %) " << (report.device.software ? "" : "       ms") << std::setw(kCellWidth) << "B/pixel"
+         << std::setw(kCellWidth) << "taps" << std::setw(kCellWidth) << "MB" << '\n';
+  for (const RunRecord& run : sequence.runs) {
+    const std::vector<FrameErrors> frames = afterWarmUp(run.frames);
+    stream << std::left << std::setw(nameWidth) << run.variant << std::right;
+    for (const Column& column : kColumns) {
+      stream << cell(meanOf(frames, metricOf(column.metric)), kCellWidth, column.decimals);
+    }
+    stream << cell(run.ratio ? std::optional(run.ratio->median) : std::nullopt, kCellWidth, 3);
+    std::ostringstream range;
+    if (run.ratio) {
+      range << std::fixed << std::setprecision(2) << '(' << run.ratio->p5 << " to " << run.ratio->p95 << ')';
+    }
+    stream << std::setw(17) << range.str();
+    if (!report.device.software) {
+      stream << cell(run.milliseconds ? std::optional(run.milliseconds->median) : std::nullopt, kCellWidth, 3);
+    }
+    const PlanCosts& costs = costsAt(report, run.variant, sequence.extent);
+    constexpr double kMegabyte = 1e6;
+    stream << cell(bytesPerPixel(costs), kCellWidth, 0) << cell(costs.tapsPerPixel, kCellWidth, 0)
+           << cell(static_cast<double>(costs.persistentBytes + costs.transientPeakBytes) / kMegabyte, kCellWidth, 1);
+    const bool finite = std::ranges::all_of(run.frames, [](const FrameErrors& frame) { return frame.nonFinite == 0; });
+    stream << (finite ? "" : "  NOT FINITE") << (run.reproducible ? "" : "  NOT REPRODUCIBLE") << '\n';
+  }
 }
 
 }  // namespace
@@ -250,40 +281,14 @@ std::string benchCsv(const BenchReport& report) {
 }
 
 void printBench(std::ostream& stream, const BenchReport& report) {
-  const int nameWidth = widestName(report) + 1;
-  for (const SequenceReport& sequence : report.sequences) {
-    stream << '\n' << std::left << std::setw(nameWidth) << sequence.name << std::right;
-    for (const Column& column : kColumns) stream << std::setw(kCellWidth) << column.title;
-    stream << std::setw(kCellWidth) << "time x"
-           << "    (5 to 95 %) " << std::setw(kCellWidth) << "B/pixel" << std::setw(kCellWidth) << "taps"
-           << std::setw(kCellWidth) << "MB" << '\n';
-    for (const RunRecord& run : sequence.runs) {
-      const std::vector<FrameErrors> frames = afterWarmUp(run.frames);
-      stream << std::left << std::setw(nameWidth) << run.variant << std::right;
-      for (const Column& column : kColumns) {
-        stream << cell(meanOf(frames, metricOf(column.metric)), kCellWidth, column.decimals);
-      }
-      stream << cell(run.ratio ? std::optional(run.ratio->median) : std::nullopt, kCellWidth, 3);
-      std::ostringstream range;
-      if (run.ratio) {
-        range << std::fixed << std::setprecision(2) << '(' << run.ratio->p5 << " to " << run.ratio->p95 << ')';
-      }
-      stream << std::setw(17) << range.str();
-      const PlanCosts& costs = costsAt(report, run.variant, sequence.extent);
-      constexpr double kMegabyte = 1e6;
-      stream << cell(bytesPerPixel(costs), kCellWidth, 0) << cell(costs.tapsPerPixel, kCellWidth, 0)
-             << cell(static_cast<double>(costs.persistentBytes + costs.transientPeakBytes) / kMegabyte, kCellWidth, 1);
-      const bool finite =
-          std::ranges::all_of(run.frames, [](const FrameErrors& frame) { return frame.nonFinite == 0; });
-      stream << (finite ? "" : "  NOT FINITE") << (run.reproducible ? "" : "  NOT REPRODUCIBLE") << '\n';
-    }
-  }
-  if (!report.sequences.empty())
+  for (const SequenceReport& sequence : report.sequences) printSequence(stream, report, sequence);
+  if (!report.sequences.empty()) {
     stream << "\nMeans over the frames after the first " << kWarmUpFrames
            << ". Errors after the tone map x/(1+x), but relMSE; "
            << "time: ratio to " << kBaseline
            << " on the same frame in the same run; bytes and taps per pixel and memory (persistent "
               "and shared transient): from the plan.\n";
+  }
   if (!report.responses.empty()) printResponses(stream, report);
   if (!report.numerics.empty()) printNumerics(stream, report);
   if (report.device.software) {

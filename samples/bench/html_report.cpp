@@ -5,9 +5,8 @@
 
 #include <cstring>
 #include <span>
-#include <string_view>
 
-#include "samples/bench/report_script.h"
+#include "samples/bench/report_scripts.h"
 #include "samples/image/file_output.h"
 
 namespace walr {
@@ -26,9 +25,10 @@ int run(std::string program, std::string script, std::string argument) {
 }  // namespace
 
 std::string writeHtmlReport(const std::filesystem::path& output, const std::string& python) {
+  for (const ReportScript& script : kReportScripts) {
+    writeFileAtomically(output / script.file, std::as_bytes(std::span(script.text)));
+  }
   const std::filesystem::path script = output / "report.py";
-  const std::string_view text = kReportScript;
-  writeFileAtomically(script, std::as_bytes(std::span(text)));
   const int code = run(python, script.string(), output.string());
   if (code == 0) return {};
   return "no report.html: '" + python + " " + script.string() + " " + output.string() + "' " +

@@ -9,114 +9,13 @@ python3-matplotlib). The page is self-contained: plots are inlined as SVG, pictu
 import base64
 import html
 import io
-import json
 import math
-import pathlib
 import sys
 
-import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402
-import numpy as np  # noqa: E402
-
-# Okabe and Ito's colours, which the colour-blind tell apart; the baseline is black.
-COLOURS = {"walr": "#000000", "bmfr": "#0072B2", "svgf": "#D55E00", "flr": "#009E73", "joint_bilateral": "#CC79A7",
-           "accumulate": "#E69F00", "none": "#999999"}
-SPARE_COLOURS = ["#56B4E9", "#8C6D31", "#7F3C8D", "#B2182B", "#4D9221"]
-MARKERS = "osD^vP*X"
-ERRORS = [("rmse", "RMSE"), ("flip", "FLIP"), ("ssim", "1 - SSIM"), ("flicker", "flicker")]
-TABLE = [("rmse", "RMSE", 4), ("psnr", "PSNR", 2), ("ssim", "SSIM", 4), ("flip", "FLIP", 4),
-         ("relative_mse", "relMSE", 4), ("flicker", "flicker", 5)]
-plt.rcParams.update({"font.size": 9, "axes.spines.top": False, "axes.spines.right": False, "axes.grid": True,
-                     "grid.color": "#e6e6e6", "grid.linewidth": 0.6, "axes.axisbelow": True, "svg.fonttype": "none",
-                     "legend.frameon": False})
-
-
-class Bench:
-    """A benchmark's figures by name."""
-
-    def __init__(self, folder):
-        self.folder = pathlib.Path(folder)
-        self.json = json.loads((self.folder / "bench.json").read_text())
-        self.variants = {v["name"]: v for v in self.json["variants"]}
-        self.sequences = {s["name"]: s for s in self.json["sequences"]}
-        self.runs = {(s["name"], r["variant"]): r for s in self.json["sequences"] for r in s["runs"]}
-        self.methods = [v["name"] for v in self.json["variants"] if not v["sweep"]]
-        # Without a spatial filter, methods would stretch every scale.
-        self.filters = [n for n in self.methods if self.variants[n]["method"] not in ("none", "accumulate")]
-        self.baseline = self.json["baseline"]
-        self.better = {m["name"]: m["better"] for m in self.json["metrics"]}
-
-    def mean(self, sequence, variant, metric):
-        """Mean after the warm-up; over all sequences where `sequence` is None."""
-        if sequence is None:
-            values = [self.mean(s, variant, metric) for s in self.sequences]
-            return None if None in values else sum(values) / len(values)
-        return self.runs[sequence, variant]["mean_after_4"][metric]
-
-    def error(self, sequence, variant, metric):
-        value = self.mean(sequence, variant, metric)
-        return 1 - value if metric == "ssim" and value is not None else value
-
-    def ratio(self, sequence, variant):
-        """Median, 5 % and 95 % of the time over the baseline's; geometric means where `sequence` is None."""
-        if sequence is None:
-            all_ratios = [self.ratio(s, variant) for s in self.sequences]
-            if None in all_ratios:
-                return None
-            return tuple(math.exp(sum(math.log(r[i]) for r in all_ratios) / len(all_ratios)) for i in range(3))
-        ratio = self.runs[sequence, variant]["ratio"]
-        return ratio and (ratio["median"], ratio["p5"], ratio["p95"])
-
-    def cost(self, sequence, variant):
-        """The plan's costs at the sequence's size, or at the first one's."""
-        s = self.sequences[sequence] if sequence else next(iter(self.sequences.values()))
-        return next(c for c in self.variants[variant]["costs"] if (c["width"], c["height"]) == (s["width"], s["height"]))
-
-    def bytes_per_pixel(self, sequence, variant):
-        cost = self.cost(sequence, variant)
-        return cost["bytes_read_per_pixel"] + cost["bytes_written_per_pixel"]
-
-    def floor(self, sequence):
-        """Noise of the reference as an RMSE, mean over frames; None where it is not known."""
-        if sequence is None:
-            floors = [self.floor(s) for s in self.sequences]
-            return None if None in floors else sum(floors) / len(floors)
-        values = [f["reference_noise"] for f in self.sequences[sequence]["frames"]]
-        return None if None in values else sum(values) / len(values)
-
-    def picture(self, sequence, name, frame):
-        path = self.folder / "pictures" / sequence / f"{name}_{frame:04d}.npy"
-        return np.load(path).astype(np.float32)
-
-    def colour(self, variant):
-        v = self.variants[variant]
-        if v["name"] != v["method"] and not v["preset"]:
-            own = [n for n in self.methods if self.variants[n]["name"] != self.variants[n]["method"]
-                   and not self.variants[n]["preset"]]
-            if variant in own:
-                return SPARE_COLOURS[own.index(variant) % len(SPARE_COLOURS)]
-        return COLOURS.get(v["method"], SPARE_COLOURS[hash(v["method"]) % len(SPARE_COLOURS)])
-
-    def dash(self, variant):
-        return "--" if self.variants[variant]["preset"] else "-"
-
-
-def pareto(points):
-    """Names of the points that none beats in both coordinates; smaller is better."""
-    return [name for name, (x, y) in points.items()
-            if not any(a <= x and b <= y and (a, b) != (x, y) for a, b in points.values())]
-
-
-def svg(figure, salt):
-    """The figure as an inline SVG element. The salt keeps ids of several figures on a page apart."""
-    buffer = io.StringIO()
-    with plt.rc_context({"svg.hashsalt": salt}):
-        figure.savefig(buffer, format="svg", bbox_inches="tight", metadata={"Date": None})
-    plt.close(figure)
-    text = buffer.getvalue()
-    return text[text.index("<svg"):]
+import numpy as np
+from report_data import TABLE, Bench, number
+from report_plots import (frames_figure, hard_cases_figure, pareto_figure, phases_figure, plt, response_figure, svg,
+                          sweep_figure)
 
 
 def png(pixels, scale=1):
@@ -152,177 +51,10 @@ def shrunk(pixels, widest=640):
     return pixels[:h, :w].reshape(h // factor, factor, w // factor, factor, -1).mean(axis=(1, 3))
 
 
-def plain(value, _=None):
-    """A number on an axis without an exponent."""
-    return f"{value:.4g}"
-
-
-def number(value, decimals):
-    return "-" if value is None else f"{value:.{decimals}f}"
-
-
 def table(header, rows, caption=""):
     cells = "".join(f"<th>{h}</th>" for h in header)
     body = "".join("<tr>" + "".join(f"<td>{c}</td>" for c in row) + "</tr>" for row in rows)
     return f"<table><caption>{caption}</caption><tr>{cells}</tr>{body}</table>"
-
-
-def place_labels(axes, points, bench):
-    """Names beside their points, moved up or down where two would lie on each other."""
-    taken = []
-    for name, (x, y) in sorted(points.items(), key=lambda item: item[1][1]):
-        px, py = axes.transData.transform((x, y))
-        offset = 0
-        while any(abs(px - qx) < 62 and abs(py + offset - qy) < 10 for qx, qy in taken):
-            offset += 10
-        taken.append((px, py + offset))
-        axes.annotate(name, (x, y), xytext=(5, offset * 72 / axes.figure.dpi + 4), textcoords="offset points",
-                      color=bench.colour(name), fontsize=8, arrowprops=dict(arrowstyle="-", lw=0.4, color="#999999")
-                      if offset else None)
-
-
-def pareto_axes(axes, bench, sequence, metric, title, against):
-    """One plot of error against cost."""
-    if against == "time":
-        points = {n: (bench.ratio(sequence, n)[0], bench.error(sequence, n, metric)) for n in bench.filters
-                  if bench.ratio(sequence, n)}
-    else:
-        points = {n: (bench.bytes_per_pixel(sequence, n), bench.error(sequence, n, metric)) for n in bench.filters}
-    points = {n: p for n, p in points.items() if p[1] is not None}
-    if not points:
-        axes.set_visible(False)
-        return
-    front = sorted(pareto(points), key=lambda n: points[n])
-    axes.set_xscale("log")
-    axes.xaxis.set_major_locator(matplotlib.ticker.LogLocator(subs=(1, 2, 5)))
-    axes.xaxis.set_major_formatter(matplotlib.ticker.FuncFormatter(plain))
-    axes.xaxis.set_minor_locator(matplotlib.ticker.NullLocator())
-    xs = [p[0] for p in points.values()]
-    ys = [p[1] for p in points.values()]
-    low, high = min(xs) / 1.5, max(xs) * (2.6 if against == "time" else 1.7)
-    steps_x, steps_y = [], []
-    for i, name in enumerate(front):
-        x, y = points[name]
-        steps_x += [x, points[front[i + 1]][0] if i + 1 < len(front) else high]
-        steps_y += [y, y]
-    axes.step(steps_x, steps_y, where="post", color="#bbbbbb", lw=1, zorder=1)
-    for name, (x, y) in points.items():
-        if against == "time":
-            _, p5, p95 = bench.ratio(sequence, name)
-            axes.plot([p5, p95], [y, y], color=bench.colour(name), lw=0.8, alpha=0.5)
-        axes.plot(x, y, MARKERS[list(COLOURS).index(bench.variants[name]["method"]) % len(MARKERS)]
-                  if bench.variants[name]["method"] in COLOURS else "o", color=bench.colour(name), ms=6,
-                  mfc=bench.colour(name) if name in front else "white")
-    axes.set_xlim(low, high)
-    margin = 0.12 * (max(ys) - min(ys) or max(ys))
-    axes.set_ylim(min(ys) - 1.5 * margin, max(ys) + 2 * margin)
-    floor = bench.floor(sequence) if metric == "rmse" else None
-    if floor and axes.get_ylim()[0] < floor < axes.get_ylim()[1]:
-        axes.axhline(floor, color="#999999", ls=":", lw=1)
-        axes.text(low * 1.05, floor, "noise of the reference", fontsize=7, color="#777777", va="bottom")
-    axes.set_title(title, loc="left", fontsize=9, fontweight="bold")
-    axes.set_xlabel(f"time over {bench.baseline}'s" + (" (processor)" if bench.json["device"]["software"] else "")
-                    if against == "time" else "bytes moved per pixel, from the plan")
-    axes.set_ylabel(dict(ERRORS)[metric])
-    axes.figure.canvas.draw()
-    place_labels(axes, points, bench)
-
-
-def pareto_figure(bench, sequence, metrics=("rmse", "flip")):
-    title = sequence or "mean over the sequences"
-    figure, axes = plt.subplots(len(metrics), 2, figsize=(11, 3.6 * len(metrics)), squeeze=False)
-    figure.subplots_adjust(hspace=0.38, wspace=0.22)
-    for row, metric in enumerate(metrics):
-        for column, against in enumerate(("time", "bytes")):
-            pareto_axes(axes[row][column], bench, sequence, metric, f"{title}: {dict(ERRORS)[metric]} against {against}",
-                        against)
-    return figure
-
-
-def frames_figure(bench, sequence):
-    """Errors over frames, and the change of luminance beside the reference's own."""
-    figure, axes = plt.subplots(3, 2, figsize=(11, 8.4))
-    figure.subplots_adjust(hspace=0.42, wspace=0.2)
-    panels = ERRORS + [("luminance_change", "luminance change")]
-    for axis, (metric, label) in zip(axes.flat, panels):
-        for name in bench.filters:
-            frames = bench.runs[sequence, name]["frames"]
-            points = [(f["frame"], f[metric]) for f in frames if f[metric] is not None]
-            if not points:
-                continue
-            x, y = zip(*points)
-            y = [1 - v for v in y] if metric == "ssim" else y
-            axis.plot(x, y, color=bench.colour(name), ls=bench.dash(name), lw=2 if name == bench.baseline else 1.1,
-                      label=name)
-        if metric == "rmse" and bench.floor(sequence):
-            facts = bench.sequences[sequence]["frames"]
-            axis.plot([f["frame"] for f in facts], [f["reference_noise"] for f in facts], color="#999999", ls=":",
-                      label="noise of the reference")
-        if metric == "luminance_change":
-            frames = bench.runs[sequence, bench.baseline]["frames"]
-            points = [(f["frame"], f["reference_luminance_change"]) for f in frames
-                      if f["reference_luminance_change"] is not None]
-            if points:
-                axis.plot(*zip(*points), color="#999999", ls=":", lw=2, label="the reference's own")
-        for fact in bench.sequences[sequence]["frames"][1:]:
-            if fact["history_reset"]:
-                axis.axvline(fact["frame"], color="#dddddd", lw=3, zorder=0)
-        axis.set_yscale("log")
-        for formatter in (axis.yaxis.set_major_formatter, axis.yaxis.set_minor_formatter):
-            formatter(matplotlib.ticker.FuncFormatter(plain))
-        axis.yaxis.set_minor_locator(matplotlib.ticker.LogLocator(subs=(2, 5)))
-        axis.tick_params(axis="y", which="both", labelsize=8)
-        axis.set_title(label, loc="left", fontsize=9, fontweight="bold")
-        axis.set_xlabel("frame")
-        axis.xaxis.set_major_locator(matplotlib.ticker.MaxNLocator(integer=True))
-    last = axes.flat[-1]
-    last.axis("off")
-    handles, labels = axes.flat[0].get_legend_handles_labels()
-    more, names = axes.flat[4].get_legend_handles_labels()
-    extra = [(h, n) for h, n in zip(more, names) if n not in labels]
-    last.legend(handles + [h for h, _ in extra], labels + [n for _, n in extra], loc="center", ncol=2)
-    return figure
-
-
-def kind(pass_name):
-    """What passes of several iterations have in common."""
-    return pass_name.rstrip("0123456789 ")
-
-
-def phases_figure(bench, sequence):
-    """Stacked bars of the median time of every pass."""
-    names = [n for n in bench.methods if bench.runs[sequence, n]["passes"]]
-    if not names:
-        return None
-    software = bench.json["device"]["software"]
-    unit = bench.runs[sequence, bench.baseline]["milliseconds"]["median"] if software else 1.0
-    totals = {n: sum(p["median"] for p in bench.runs[sequence, n]["passes"]) / unit for n in names}
-    figure, axes = plt.subplots(figsize=(11, 0.45 * len(names) + 1.2))
-    kinds = list(dict.fromkeys(kind(p["name"]) for n in names for p in bench.runs[sequence, n]["passes"]))
-    shades = plt.get_cmap("tab20").colors
-    shades = shades[1::2] + shades[::2]  # The light ones first: they carry labels.
-    limit = 1.25 * max(t for n, t in totals.items() if t <= 3 * totals[bench.baseline])
-    for row, name in enumerate(names):
-        left = 0.0
-        for item in bench.runs[sequence, name]["passes"]:
-            width = item["median"] / unit
-            axes.barh(row, width, left=left, color=shades[kinds.index(kind(item["name"])) % 20], height=0.7,
-                      edgecolor="white", linewidth=0.6,
-                      label=kind(item["name"]) if kind(item["name"]) not in axes.get_legend_handles_labels()[1] else None)
-            if width > 0.06 * limit and left + width / 2 < limit:
-                axes.text(left + min(width, limit - left) / 2, row, item["name"], ha="center", va="center", fontsize=6.5,
-                          clip_on=True)
-            left += width
-        cut = left > limit
-        axes.text(limit * 0.99 if cut else left + 0.005 * limit, row, f"{left:.2f}" + (", cut off here" if cut else ""),
-                  va="center", ha="right" if cut else "left", fontsize=8)
-    axes.set_yticks(range(len(names)), names)
-    axes.invert_yaxis()
-    axes.set_xlim(0, limit)
-    axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1), fontsize=7.5)
-    axes.grid(axis="y", visible=False)
-    axes.set_xlabel(f"median time in units of {bench.baseline}'s (processor)" if software else "median time in ms")
-    return figure
 
 
 def methods_table(bench, sequence):
@@ -344,10 +76,13 @@ def methods_table(bench, sequence):
             row.append(f'<b class="bad">{bad}</b>' if bad else "0")
         ratio = bench.ratio(sequence, name)
         row.append(f"{ratio[0]:.2f} <small>({ratio[1]:.2f} to {ratio[2]:.2f})</small>" if ratio else "-")
+        if bench.absolute and sequence:
+            row += [number(bench.milliseconds(sequence, name), 3), number(bench.bandwidth_share(sequence, name), 2)]
         row += [f"{bench.bytes_per_pixel(sequence, name):.0f}", number(bench.cost(sequence, name)["taps_per_pixel"], 0)]
         rows.append(row)
     header = ["method"] + [label for _, label, _ in TABLE] + (["worst RMSE", "not finite"] if sequence else [])
-    return table(header + ["time ratio (5 to 95 %)", "bytes/pixel", "taps/pixel"], rows,
+    times = ["time ratio (5 to 95 %)"] + (["ms", "of bandwidth"] if bench.absolute and sequence else [])
+    return table(header + times + ["bytes/pixel", "taps/pixel"], rows,
                  f"{html.escape(sequence or 'Mean over the sequences')}: means over frames after the fourth; "
                  "best filter in bold")
 
@@ -448,28 +183,6 @@ def pictures_section(bench, sequence, frame):
 def sweep_section(bench, sweep):
     names = [v["name"] for v in bench.json["variants"] if v["sweep"] == sweep]
     labels = [n.split("=", 1)[1] for n in names]
-    panels = [("rmse", "RMSE"), ("ssim", "1 - SSIM"), ("flip", "FLIP"), ("flicker", "flicker"), ("time", "time ratio"),
-              ("bytes", "bytes/pixel")]
-    figure, axes = plt.subplots(1, len(panels), figsize=(13, 2.3))
-    figure.subplots_adjust(wspace=0.42)
-    for axis, (metric, label) in zip(axes, panels):
-        for index, sequence in enumerate(bench.sequences):
-            if metric == "time":
-                values = [bench.ratio(sequence, n) and bench.ratio(sequence, n)[0] for n in names]
-            elif metric == "bytes":
-                values = [bench.bytes_per_pixel(sequence, n) for n in names]
-            else:
-                values = [bench.error(sequence, n, metric) for n in names]
-            values = [math.nan if v is None else v for v in values]
-            axis.plot(labels, values, "o-", ms=4, lw=1.2, color=SPARE_COLOURS[index % 5], label=sequence)
-            for i, name in enumerate(names):
-                if bench.variants[name]["is_default"]:
-                    axis.plot(labels[i], values[i], "o", ms=9, mfc="none", color="black")
-        axis.set_title(label, loc="left", fontsize=9, fontweight="bold")
-        axis.tick_params(axis="x", rotation=45, labelsize=7)
-        axis.tick_params(axis="y", labelsize=7)
-        axis.set_ylim(bottom=0)
-    axes[0].legend(fontsize=6.5, loc="lower left")
     rows = []
     for name, label in zip(names, labels):
         row = [html.escape(label) + (" <small>(default)</small>" if bench.variants[name]["is_default"] else "")]
@@ -482,33 +195,18 @@ def sweep_section(bench, sweep):
     header = ["value"]
     for sequence in bench.sequences:
         header += [f"{html.escape(sequence)} RMSE", "SSIM", "FLIP", "flicker", "time ratio"]
-    return f"<h3>{html.escape(sweep)}</h3>" + svg(figure, sweep) + table(header + ["bytes/pixel"], rows,
+    return f"<h3>{html.escape(sweep)}</h3>" + svg(sweep_figure(bench, names, labels), sweep) + table(header + ["bytes/pixel"], rows,
                                                                          "circled: the default")
 
 
 def response_section(bench):
     """How methods answer to change, on synthetic scenes."""
-    responses = [r for r in bench.json["responses"] if r["variant"] in bench.filters]
-    figure, axes = plt.subplots(1, 3, figsize=(13, 3.6))
-    figure.subplots_adjust(wspace=0.25)
-    for axis, (key, title, label) in zip(axes, (
-            ("light_left", "a light goes down", "share of it left"),
-            ("error_by_age", "disocclusion", "relative RMSE"),
-            ("trail_by_age", "trail behind a bright slab", "share of its light left"))):
-        for r in responses:
-            axis.plot(range(len(r[key])), r[key], color=bench.colour(r["variant"]), ls=bench.dash(r["variant"]),
-                      lw=2 if r["variant"] == bench.baseline else 1.1, label=r["variant"])
-        axis.set_title(title, loc="left", fontsize=9, fontweight="bold")
-        axis.set_xlabel("frames since")
-        axis.set_ylabel(label)
-    axes[0].axhline(0.1, color="#999999", ls=":", lw=1)
-    axes[0].legend(fontsize=7.5)
-    never = "never"
+    never = "not by the end"
     rows = [[html.escape(r["variant"]), number(r["first_frame_rmse"], 4), number(r["settled_rmse"], 4),
              number(r["settled_flicker"], 5), never if r["light_frames"] is None else r["light_frames"],
              never if r["recovery_frames"] is None else r["recovery_frames"], number(r["trail_by_age"][0], 3)]
             for r in bench.json["responses"]]
-    return svg(figure, "response") + table(
+    return svg(response_figure(bench), "response") + table(
         ["method", "first frame RMSE", "settled RMSE", "settled flicker", "light gone, frames", "recovered, frames",
          "trail on the first frame"], rows,
         "a still wall, whose light goes down to a tenth; a slab that moves before it. Gone: no more than a tenth of the "
@@ -519,21 +217,6 @@ def hard_cases_section(bench):
     """Error by epsilon where features vary by little, and every case at every storage's usual settings."""
     results = {(r["case"], r["storage"], r["regularisation"], r["epsilon"]): r for r in bench.json["hard_cases"]}
     cases, storages, solvers, epsilons = (list(dict.fromkeys(k[i] for k in results)) for i in range(4))
-    shown = [c for c in cases if c.startswith(("normals vary", "normals of a sphere"))]
-    figure, axes = plt.subplots(len(solvers), len(shown), figsize=(14, 4.6), sharex=True, sharey=True, squeeze=False)
-    figure.subplots_adjust(wspace=0.08, hspace=0.12)
-    for row, solver in enumerate(solvers):
-        for axis, case in zip(axes[row], shown):
-            for index, storage in enumerate(storages):
-                errors = [results[case, storage, solver, e]["error"] for e in epsilons]
-                axis.loglog([float(e) for e in epsilons], [math.nan if e is None else e for e in errors], "o-", ms=3, lw=1.2,
-                            color=SPARE_COLOURS[index], label=storage)
-            if row == 0:
-                axis.set_title(case, fontsize=8)
-            else:
-                axis.set_xlabel("epsilon")
-        axes[row][0].set_ylabel(f"{solver}: relative error")
-    axes[0][-1].legend(fontsize=7)
     usual = {"centred16": ("ridge", "1e-3"), "raw16": ("floor", "1e-3"), "raw11": ("floor", "1e-2"), "raw32": ("floor", "1e-5")}
     rows = []
     for case in cases:
@@ -546,7 +229,8 @@ def hard_cases_section(bench):
         row.append(results[(case, storages[0]) + usual[storages[0]]]["non_finite_in"])
         rows.append(row)
     return ("<p>Signals that are linear in the normal, so that an exact regression has no bias; exponential noise; one frame "
-            "without history; 27 x 27 pixels.</p>" + svg(figure, "hard cases")
+            "without history; 27 x 27 pixels.</p>" + svg(hard_cases_figure(results, cases, storages, solvers, epsilons),
+                                                              "hard cases")
             + table(["case"] + [f"{s}, {usual[s][0]} {usual[s][1]}" for s in storages] + ["not finite in"], rows,
                     "relative root mean square error, linear; absolute where there is no light"))
 

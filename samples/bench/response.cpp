@@ -88,13 +88,15 @@ void answerToDisocclusion(const GpuDevice& device, const Variant& variant, Respo
       const int age = frame.age[pixel];
       const double truth = luminance(pair.reference.pixel(pixel));
       const double error = luminance(pair.test.pixel(pixel)) - truth;
-      (age < 0 ? slab : wall).add(truth);
+      const double light = luminance(frame.truth.pixel(pixel));
+      (age < 0 ? slab : wall).add(light);
       // Noise goes with the light, so that only relative errors compare between places.
       const double relative = error / truth;
       if (age == kAlwaysInView) undisturbed.add(relative * relative);
       if (age < 0 || age >= kResponseAges) continue;
       squares.at(static_cast<std::size_t>(age)).add(relative * relative);
-      bias.at(static_cast<std::size_t>(age)).add(error);
+      // Linear: the mean of what a tone map bends is not that of the light.
+      bias.at(static_cast<std::size_t>(age)).add(luminance(result.pixel(pixel)) - light);
     }
     slabOverWall.add(slab.value() - wall.value());
   }

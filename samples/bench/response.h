@@ -24,7 +24,7 @@ struct Response {
   /// RMSE, relative to the truth's luminance, of the wall behind the slab, by frames since the slab uncovered it, after
   /// the first eight frames.
   std::vector<double> errorByAge;
-  /// Share of the slab's light that is left on the wall, by the same: a ghost's trail.
+  /// Share of the slab's light, in linear luminance, that is left on the wall, by the same: a ghost's trail.
   std::vector<double> trailByAge;
   /// Frames since disocclusion until the error is within a quarter of the wall's that nothing ever hid; absent where
   /// that is never.

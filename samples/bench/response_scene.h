@@ -19,7 +19,7 @@ inline constexpr int kAlwaysInView = 1000;
 
 /// Frame of `lightFrame` from which on the light is down to a tenth.
 inline constexpr int kLightChange = 24;
-inline constexpr int kLightFrames = 48;
+inline constexpr int kLightFrames = 80;
 inline constexpr int kSlabFrames = 40;
 
 /// A still, normal-mapped wall in smooth light, which goes down to a tenth at `kLightChange`. Every pixel gets light

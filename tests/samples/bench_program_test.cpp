@@ -77,7 +77,8 @@ TEST_F(BenchProgramTest, MeasuresMethodsBesideEachOther) {
   EXPECT_LT(walr["mean_after_4"]["rmse"].get<double>(), 0.25 * run(data, "none")["mean_after_4"]["rmse"].get<double>());
   EXPECT_LT(walr["mean_after_4"]["flicker"].get<double>(), run(data, "none")["mean_after_4"]["flicker"].get<double>());
   EXPECT_GT(walr["passes"].size(), 3U);
-  for (const char* file : {"bench.csv", "report.html", "report.py", "pareto.svg"}) {
+  for (const char* file :
+       {"bench.csv", "report.html", "report.py", "report_data.py", "report_plots.py", "pareto.svg"}) {
     EXPECT_TRUE(fs::exists(first / file)) << file << ": " << result.out;
   }
   const std::string page = test::readText(first / "report.html");

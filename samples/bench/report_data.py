@@ -1,0 +1,107 @@
+"""What a benchmark found, by name: bench.json and the pictures beside it, for report.py."""
+import json
+import math
+import pathlib
+
+import numpy as np
+
+# Okabe and Ito's colours, which the colour-blind tell apart; the baseline is black.
+COLOURS = {"walr": "#000000", "bmfr": "#0072B2", "svgf": "#D55E00", "flr": "#009E73", "joint_bilateral": "#CC79A7",
+           "accumulate": "#E69F00", "none": "#999999"}
+SPARE_COLOURS = ["#56B4E9", "#8C6D31", "#7F3C8D", "#B2182B", "#4D9221"]
+ERRORS = [("rmse", "RMSE"), ("flip", "FLIP"), ("ssim", "1 - SSIM"), ("flicker", "flicker")]
+TABLE = [("rmse", "RMSE", 4), ("psnr", "PSNR", 2), ("ssim", "SSIM", 4), ("flip", "FLIP", 4),
+         ("relative_mse", "relMSE", 4), ("flicker", "flicker", 5)]
+
+
+class Bench:
+    """A benchmark's figures by name."""
+
+    def __init__(self, folder):
+        self.folder = pathlib.Path(folder)
+        self.json = json.loads((self.folder / "bench.json").read_text())
+        self.variants = {v["name"]: v for v in self.json["variants"]}
+        self.sequences = {s["name"]: s for s in self.json["sequences"]}
+        self.runs = {(s["name"], r["variant"]): r for s in self.json["sequences"] for r in s["runs"]}
+        self.methods = [v["name"] for v in self.json["variants"] if not v["sweep"]]
+        # Without a spatial filter, methods would stretch every scale.
+        self.filters = [n for n in self.methods if self.variants[n]["method"] not in ("none", "accumulate")]
+        self.baseline = self.json["baseline"]
+        # A processor's times are shown as ratios only.
+        self.absolute = not self.json["device"]["software"]
+        self.better = {m["name"]: m["better"] for m in self.json["metrics"]}
+
+    def mean(self, sequence, variant, metric):
+        """Mean after the warm-up; over all sequences where `sequence` is None."""
+        if sequence is None:
+            values = [self.mean(s, variant, metric) for s in self.sequences]
+            return None if None in values else sum(values) / len(values)
+        return self.runs[sequence, variant]["mean_after_4"][metric]
+
+    def error(self, sequence, variant, metric):
+        value = self.mean(sequence, variant, metric)
+        return 1 - value if metric == "ssim" and value is not None else value
+
+    def ratio(self, sequence, variant):
+        """Median, 5 % and 95 % of the time over the baseline's; geometric means where `sequence` is None."""
+        if sequence is None:
+            all_ratios = [self.ratio(s, variant) for s in self.sequences]
+            if None in all_ratios:
+                return None
+            return tuple(math.exp(sum(math.log(r[i]) for r in all_ratios) / len(all_ratios)) for i in range(3))
+        ratio = self.runs[sequence, variant]["ratio"]
+        return ratio and (ratio["median"], ratio["p5"], ratio["p95"])
+
+    def milliseconds(self, sequence, variant):
+        time = self.runs[sequence, variant]["milliseconds"]
+        return time and time["median"]
+
+    def bandwidth_share(self, sequence, variant):
+        """Bytes that the plan moves, over those that copies would move in the same time."""
+        s, time = self.sequences[sequence], self.milliseconds(sequence, variant)
+        copied = self.json["device"]["copy_bytes_per_second"]
+        moved = self.bytes_per_pixel(sequence, variant) * s["width"] * s["height"]
+        return moved / (time * 1e-3) / copied if time and copied else None
+
+    def cost(self, sequence, variant):
+        """The plan's costs at the sequence's size, or at the first one's."""
+        s = self.sequences[sequence] if sequence else next(iter(self.sequences.values()))
+        return next(c for c in self.variants[variant]["costs"] if (c["width"], c["height"]) == (s["width"], s["height"]))
+
+    def bytes_per_pixel(self, sequence, variant):
+        cost = self.cost(sequence, variant)
+        return cost["bytes_read_per_pixel"] + cost["bytes_written_per_pixel"]
+
+    def floor(self, sequence):
+        """Noise of the reference as an RMSE, mean over frames; None where it is not known."""
+        if sequence is None:
+            floors = [self.floor(s) for s in self.sequences]
+            return None if None in floors else sum(floors) / len(floors)
+        values = [f["reference_noise"] for f in self.sequences[sequence]["frames"]]
+        return None if None in values else sum(values) / len(values)
+
+    def picture(self, sequence, name, frame):
+        path = self.folder / "pictures" / sequence / f"{name}_{frame:04d}.npy"
+        return np.load(path).astype(np.float32)
+
+    def colour(self, variant):
+        v = self.variants[variant]
+        if v["name"] != v["method"] and not v["preset"]:
+            own = [n for n in self.methods if self.variants[n]["name"] != self.variants[n]["method"]
+                   and not self.variants[n]["preset"]]
+            if variant in own:
+                return SPARE_COLOURS[own.index(variant) % len(SPARE_COLOURS)]
+        return COLOURS.get(v["method"], SPARE_COLOURS[sum(v["method"].encode()) % len(SPARE_COLOURS)])
+
+    def dash(self, variant):
+        return "--" if self.variants[variant]["preset"] else "-"
+
+
+def pareto(points):
+    """Names of the points that none beats in both coordinates; smaller is better."""
+    return [name for name, (x, y) in points.items()
+            if not any(a <= x and b <= y and (a, b) != (x, y) for a, b in points.values())]
+
+
+def number(value, decimals):
+    return "-" if value is None else f"{value:.{decimals}f}"
