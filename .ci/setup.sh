@@ -3,7 +3,7 @@
 
 walr_packages=(
   # Build tools
-  cmake g++ ninja-build pkg-config
+  cmake dpkg-dev g++ ninja-build pkg-config
   # Vulkan: loader, shader compiler, SPIR-V reflection, validation layer, and a driver that needs no GPU
   libvulkan-dev glslang-tools libspirv-cross-c-shared-dev vulkan-validationlayers mesa-vulkan-drivers
   # Libraries

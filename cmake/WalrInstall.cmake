@@ -1,5 +1,6 @@
 # What `cmake --install` puts where. Install components: runtime (shared library, plug-in), dev (headers, static library,
-# CMake and pkg-config files), and cpp (the C++ libraries with their headers).
+# CMake and pkg-config files), cpp (the C++ libraries with their headers), and tools (the program walr). `cpack` makes Debian
+# packages of them.
 include(CMakePackageConfigHelpers)
 
 set(package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/walr")
@@ -34,3 +35,29 @@ install(FILES "${CMAKE_CURRENT_BINARY_DIR}/walrConfig.cmake" "${CMAKE_CURRENT_BI
   DESTINATION "${package_dir}" COMPONENT dev)
 install(FILES "${CMAKE_CURRENT_BINARY_DIR}/walr.pc" DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig" COMPONENT dev)
 install(FILES LICENSE DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT runtime)
+if(TARGET walr)
+  install(TARGETS walr RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT tools)
+endif()
+
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_CONTACT "walr")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_COMPONENTS_ALL runtime dev cpp)
+if(TARGET walr)
+  list(APPEND CPACK_COMPONENTS_ALL tools)
+endif()
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_NAME "libwalr${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}")
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_SECTION libs)
+set(CPACK_DEBIAN_DEV_PACKAGE_NAME libwalr-dev)
+set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
+set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS
+  "${CPACK_DEBIAN_RUNTIME_PACKAGE_NAME} (= ${PROJECT_VERSION}), libvulkan-dev")
+set(CPACK_DEBIAN_CPP_PACKAGE_NAME libwalr-cpp-dev)
+set(CPACK_DEBIAN_CPP_PACKAGE_SECTION libdevel)
+set(CPACK_DEBIAN_CPP_PACKAGE_DEPENDS "libwalr-dev (= ${PROJECT_VERSION}), libglm-dev, nlohmann-json3-dev")
+set(CPACK_DEBIAN_TOOLS_PACKAGE_NAME walr-tools)
+include(CPack)
