@@ -45,6 +45,7 @@ std::vector<Sweep> makeSweeps() {
        {{"traced", {{"regression.trace-edges", "on"}}},
         {"traced-without-sdf", {{"regression.trace-edges", "on"}, {"regression.sdf-fraction", "0"}}},
         {"untraced", {{"regression.trace-edges", "off"}}}}},
+      over("filter", "Regress on every pixel, or on blocks of pixels?", "walr.filter", {"pixels", "blocks"}),
       over("replacement", "Replace taps behind edges?", "regression.replace-taps", {"on", "off"}),
       over("sample-count", "Carry the sample count W through the iterations?", "regression.keep-sample-count",
            {"on", "off"}),

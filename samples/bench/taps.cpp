@@ -5,6 +5,7 @@
 #include <cstring>
 #include <string_view>
 
+#include "shaders/constants/block_regression.h"
 #include "shaders/constants/flr.h"
 
 namespace walr {
@@ -13,63 +14,87 @@ namespace {
 constexpr double kBilinear = 4.0;
 constexpr double kBicubic = 16.0;
 
-std::uint32_t constantOf(const fg::ComputeDispatch& work, std::string_view name) {
-  const auto constants = work.shader->constants;
+/// A compute pass of a plan.
+struct Stage {
+  const fg::ComputeDispatch& work;
+  fg::Extent extent;   ///< The image's.
+  double share = 1.0;  ///< Texels of what it writes over the image's pixels.
+};
+
+std::uint32_t specializationOf(const Stage& stage, std::string_view name) {
+  const auto constants = stage.work.shader->constants;
   const auto found = std::ranges::find(constants, name, &fg::ShaderConstant::name);
-  return work.specialization.at(static_cast<std::size_t>(found - constants.begin()));
+  return stage.work.specialization.at(static_cast<std::size_t>(found - constants.begin()));
+}
+
+template <typename Constants>
+Constants constantsOf(const Stage& stage) {
+  Constants constants{};
+  std::memcpy(&constants, stage.work.constants.data(), sizeof(constants));
+  return constants;
+}
+
+/// 1 where it writes buffers.
+double shareOf(const fg::GraphDesc& graph, const fg::PassDecl& pass, fg::Extent extent) {
+  for (const fg::AccessDecl& access : pass.accesses) {
+    const auto* texture = std::get_if<fg::TextureDesc>(&graph.resources[access.resource].desc);
+    if (access.writeVersion == fg::kNone || texture == nullptr) continue;
+    return static_cast<double>(texture->extent.width) * texture->extent.height / extent.width / extent.height;
+  }
+  return 1.0;
 }
 
 double window(std::uint32_t radius) {
   return (2.0 * radius + 1.0) * (2.0 * radius + 1.0);
 }
 
-/// The FLR stages' push constants, and the number of cells in the image as a share of its pixels.
-FlrConstants flrConstants(const fg::ComputeDispatch& work) {
-  FlrConstants constants{};
-  std::memcpy(&constants, work.constants.data(), sizeof(constants));
-  return constants;
+/// Cells of FLR's grid as a share of the image's pixels.
+double flrCells(const Stage& stage) {
+  const FlrConstants constants = constantsOf<FlrConstants>(stage);
+  return static_cast<double>(constants.cells.x) * constants.cells.y / stage.extent.width / stage.extent.height;
 }
 
-double flrCells(const fg::ComputeDispatch& work, fg::Extent extent) {
-  const FlrConstants constants = flrConstants(work);
-  return static_cast<double>(constants.cells.x) * constants.cells.y / extent.width / extent.height;
+double flrLine(const Stage& stage) {
+  return (2.0 * constantsOf<FlrConstants>(stage).radius + 1.0) * flrCells(stage);
 }
 
-double flrLine(const fg::ComputeDispatch& work, fg::Extent extent) {
-  return (2.0 * flrConstants(work).radius + 1.0) * flrCells(work, extent);
+double coarseLine(const Stage& stage) {
+  return (2.0 * constantsOf<BlockRegressionConstants>(stage).coarseRadius + 1.0) * stage.share;
 }
 
 /// Taps a pixel of a shader by the stem of its name.
 struct ShaderTaps {
   std::string_view shader;
-  double (*taps)(const fg::ComputeDispatch& work, fg::Extent extent);
+  double (*taps)(const Stage& stage);
 };
 
 constexpr std::array kShaders = {
-    ShaderTaps{"pass_through", [](const fg::ComputeDispatch&, fg::Extent) { return 1.0; }},
-    ShaderTaps{"prepare_guides", [](const fg::ComputeDispatch&, fg::Extent) { return 0.0; }},
+    ShaderTaps{"pass_through", [](const Stage&) { return 1.0; }},
+    ShaderTaps{"prepare_guides", [](const Stage&) { return 0.0; }},
     ShaderTaps{"temporal_accumulation",
-               [](const fg::ComputeDispatch& work, fg::Extent) {
-                 return 1.0 + (constantOf(work, "kBicubicHistory") != 0 ? kBicubic : kBilinear);
+               [](const Stage& stage) {
+                 return 1.0 + (specializationOf(stage, "kBicubicHistory") != 0 ? kBicubic : kBilinear);
                }},
     ShaderTaps{"temporal_antialiasing",
-               [](const fg::ComputeDispatch& work, fg::Extent) {
-                 return kBicubic + 1.0 + window(constantOf(work, "kClipRadius"));
-               }},
-    ShaderTaps{"atrous", [](const fg::ComputeDispatch&, fg::Extent) { return 9.0; }},
-    ShaderTaps{"svgf_accumulation", [](const fg::ComputeDispatch&, fg::Extent) { return 1.0 + 2.0 * kBilinear; }},
-    ShaderTaps{"svgf_variance", [](const fg::ComputeDispatch&, fg::Extent) { return window(3); }},
+               [](const Stage& stage) { return kBicubic + 1.0 + window(specializationOf(stage, "kClipRadius")); }},
+    ShaderTaps{"atrous", [](const Stage&) { return 9.0; }},
+    ShaderTaps{"svgf_accumulation", [](const Stage&) { return 1.0 + 2.0 * kBilinear; }},
+    ShaderTaps{"svgf_variance", [](const Stage&) { return window(3); }},
     // A 3 x 3 blur of the variance beside the window.
-    ShaderTaps{"svgf_atrous",
-               [](const fg::ComputeDispatch& work, fg::Extent) { return 9.0 + window(constantOf(work, "kRadius")); }},
-    ShaderTaps{"bmfr_fit", [](const fg::ComputeDispatch&, fg::Extent) { return 1.0; }},
-    ShaderTaps{"bmfr_accumulation", [](const fg::ComputeDispatch&, fg::Extent) { return 1.0 + kBilinear; }},
-    ShaderTaps{"flr_moments", [](const fg::ComputeDispatch&, fg::Extent) { return 1.0; }},
+    ShaderTaps{"svgf_atrous", [](const Stage& stage) { return 9.0 + window(specializationOf(stage, "kRadius")); }},
+    ShaderTaps{"bmfr_fit", [](const Stage&) { return 1.0; }},
+    ShaderTaps{"bmfr_accumulation", [](const Stage&) { return 1.0 + kBilinear; }},
+    ShaderTaps{"flr_moments", [](const Stage&) { return 1.0; }},
     ShaderTaps{"flr_blur", flrLine},
     ShaderTaps{"flr_solve", flrLine},
-    ShaderTaps{"flr_apply", [](const fg::ComputeDispatch&, fg::Extent) { return kBilinear; }},
-    ShaderTaps{"joint_bilateral",
-               [](const fg::ComputeDispatch& work, fg::Extent) { return window(constantOf(work, "kRadius")); }},
+    ShaderTaps{"flr_apply", [](const Stage&) { return kBilinear; }},
+    ShaderTaps{"ambient_occlusion", [](const Stage&) { return 0.0; }},
+    ShaderTaps{"block_moments", [](const Stage&) { return 1.0; }},
+    ShaderTaps{"block_coarse", coarseLine},
+    ShaderTaps{"block_atrous", [](const Stage& stage) { return 9.0 * stage.share; }},
+    // The pixel itself, and the four blocks about it in the fine and the coarse fit.
+    ShaderTaps{"block_apply", [](const Stage&) { return 1.0 + 2.0 * kBilinear; }},
+    ShaderTaps{"joint_bilateral", [](const Stage& stage) { return window(specializationOf(stage, "kRadius")); }},
 };
 
 }  // namespace
@@ -77,12 +102,13 @@ constexpr std::array kShaders = {
 std::optional<double> tapsPerPixel(const fg::GraphDesc& graph, const fg::Plan& plan, fg::Extent extent) {
   double taps = 0.0;
   for (const fg::PlannedPass& planned : plan.passes) {
-    const auto* work = std::get_if<fg::ComputeDispatch>(&graph.passes[planned.pass].work);
+    const fg::PassDecl& pass = graph.passes[planned.pass];
+    const auto* work = std::get_if<fg::ComputeDispatch>(&pass.work);
     if (work == nullptr || work->shader == nullptr) return std::nullopt;
     const std::string_view name = work->shader->name.substr(0, work->shader->name.find('.'));
     const auto found = std::ranges::find(kShaders, name, &ShaderTaps::shader);
     if (found == kShaders.end()) return std::nullopt;
-    taps += found->taps(*work, extent);
+    taps += found->taps({*work, extent, shareOf(graph, pass, extent)});
   }
   return taps;
 }

@@ -172,6 +172,13 @@ TEST(PlanCostsTest, TapsAreTheWindowsOfTheStages) {
     return *planCosts(parseVariant(text), {320, 180}, {}).tapsPerPixel;
   };
   EXPECT_EQ(walr("4") - walr("2"), 18.0);
+  // Over blocks of 4 x 4 pixels an iteration is a sixteenth of that.
+  const auto fast = [](const char* iterations) {
+    const std::string text =
+        std::string("w=walr:fast,blocks.size=4,walr.fit-window=off,blocks.iterations=") + iterations;
+    return *planCosts(parseVariant(text), {320, 180}, {}).tapsPerPixel;
+  };
+  EXPECT_EQ(fast("4") - fast("2"), 18.0 / 16.0);
 }
 
 TEST(PlanCostsTest, SharedMemoryIsNoLargerThanUnshared) {
