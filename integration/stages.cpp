@@ -8,6 +8,7 @@
 #include "passes/bmfr_fit.h"
 #include "passes/denoiser.h"
 #include "passes/flr_regression.h"
+#include "passes/full_window_regression.h"
 #include "passes/joint_bilateral_filter.h"
 #include "passes/pass_through.h"
 #include "passes/svgf_filter.h"
@@ -67,6 +68,11 @@ void temporalAccumulationWithTaps(StagePorts& ports, const TemporalAccumulationS
 void weightedRegression(StagePorts& ports, const WeightedRegressionSettings& settings) {
   ports.setOutput("filtered", addWeightedRegression(ports.graph(), ports.buffer(kFrameName),
                                                     ports.texture("accumulated"), ports.guides(), settings));
+}
+
+void fullWindowRegression(StagePorts& ports, const FullWindowSettings& settings) {
+  ports.setOutput("filtered", addFullWindowRegression(ports.graph(), ports.buffer(kFrameName),
+                                                      ports.texture("accumulated"), ports.guides(), settings));
 }
 
 void bmfrFit(StagePorts& ports, const BmfrFitSettings& settings) {
@@ -138,6 +144,8 @@ std::vector<StageType> stagesAndMethods() {
        make<TemporalAccumulationSettings, temporalAccumulationWithTaps>},
       {"weighted_regression", "WALR's filter: weighted linear regression over edge-aware a-trous averages", false,
        make<WeightedRegressionSettings, weightedRegression>},
+      {"full_window_regression", "REFWLR's filter: weighted linear regression over the full window", false,
+       make<FullWindowSettings, fullWindowRegression>},
       {"bmfr_fit", "BMFR's filter: fit blocks of 32x32 pixels by features of first and second order", false,
        make<BmfrFitSettings, bmfrFit>},
       {"bmfr_accumulation", "Average fitted frames along the taps of temporal_accumulation_with_taps", false,

@@ -9,6 +9,7 @@
 #include "passes/flr.h"
 #include "passes/joint_bilateral.h"
 #include "passes/pass_through.h"
+#include "passes/refwlr.h"
 #include "passes/svgf.h"
 #include "passes/text.h"
 #include "passes/walr.h"
@@ -28,6 +29,9 @@ template <>
 constexpr std::array kPresets<WalrSettings>{Preset<WalrSettings>{"robust", robustWalr},
                                             Preset<WalrSettings>{"paper", paperWalr},
                                             Preset<WalrSettings>{"fast", fastWalr}};
+template <>
+constexpr std::array kPresets<RefwlrSettings>{Preset<RefwlrSettings>{"robust", robustRefwlr},
+                                              Preset<RefwlrSettings>{"paper", paperRefwlr}};
 template <>
 constexpr std::array kPresets<SvgfSettings>{Preset<SvgfSettings>{"tuned", tunedSvgf},
                                             Preset<SvgfSettings>{"paper", paperSvgf}};
@@ -84,6 +88,8 @@ struct Method {
 
 constexpr std::array kMethods{
     Method{"walr", "Weighted A-Trous Linear Regression", make<WalrSettings, addWalr>},
+    Method{"refwlr", "WALR's reference: regression over the full window, seconds a frame",
+           make<RefwlrSettings, addRefwlr>},
     Method{"bmfr", "Blockwise Multi-Order Feature Regression", make<BmfrSettings, addBmfr>},
     Method{"svgf", "Spatiotemporal Variance-Guided Filtering", make<SvgfSettings, addSvgf>},
     Method{"flr", "Fast Linear Regression over downsampled moments", make<FlrSettings, addFlr>},

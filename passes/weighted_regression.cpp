@@ -43,9 +43,7 @@ struct Averages {
 };
 
 void checkSettings(const WeightedRegressionSettings& s) {
-  if (!(s.planeNear < s.planeFar)) {
-    throw std::invalid_argument("setting regression.plane-near must be below regression.plane-far");
-  }
+  s.edgeStopping.check();
   if (s.keepSampleCount && s.storage != MomentStorage::Centred16) {
     throw std::invalid_argument(
         "setting regression.keep-sample-count needs regression.moments=centred16: raw moments are stored without W");
@@ -55,14 +53,13 @@ void checkSettings(const WeightedRegressionSettings& s) {
 /// The part of an iteration that does not depend on its place.
 void declareIteration(fg::PassBuilder& pass, fg::Buffer frame, const Guides& guides,
                       const WeightedRegressionSettings& settings) {
-  const bool shadingPlane = settings.planeNormal == PlaneNormal::Shading;
   pass.uniform("frameConstants", frame)
-      .sample("planeNormal", shadingPlane ? guides.shadingNormal : guides.geometricNormal)
+      .sample("planeNormal", settings.edgeStopping.normalOf(guides))
       .specialize("kTraceEdges", settings.traceEdges)
       .specialize("kReplaceTaps", settings.replaceTaps)
-      .specialize("kNormalFactor", settings.normalFactor)
-      .constants(AtrousConstants{settings.planeNear, settings.planeFar, settings.sdfFraction, settings.ridge,
-                                 settings.noiseRidge});
+      .specialize("kNormalFactor", settings.edgeStopping.normalFactor)
+      .constants(AtrousConstants{settings.edgeStopping.planeNear, settings.edgeStopping.planeFar, settings.sdfFraction,
+                                 settings.regularisation.ridge, settings.regularisation.noiseRidge});
 }
 
 /// Read the averages of the iteration before.
@@ -105,7 +102,7 @@ fg::Texture addWeightedRegression(fg::Graph& graph, fg::Buffer frame, fg::Textur
     if (first || last) pass.sample("accumulated", accumulated).sample("shadingNormal", guides.shadingNormal);
     if (!first) readAverages(pass, averages);
     if (last) {
-      pass.specialize("kPivotFloor", settings.regularisation == Regularisation::Floor);
+      pass.specialize("kPivotFloor", settings.regularisation.method == Regularisation::Floor);
       return pass.store("outFiltered", graph.texture("filtered", {VK_FORMAT_R16G16B16A16_SFLOAT, extent}));
     }
     pass.specialize("kKeepSampleCount", settings.keepSampleCount);

@@ -62,10 +62,8 @@ void writeWithoutSurface(ivec2 p) {
 
 void writeResult(ivec2 p, float z, int nearestEdge, Moments m) {
 #ifdef LAST
-  const vec2 features = featuresAt(p);
-  const vec3 colour = kPivotFloor ? reconstructWithFloor(m, features, settings.ridge)
-                                  : reconstructWithRidge(m, features, settings.ridge, settings.noiseRidge);
-  imageStore(outFiltered, p, vec4(min(colour, vec3(kLargestHalf)), 0.0));
+  const vec3 colour = reconstruct(m, featuresAt(p), kPivotFloor, settings.ridge, settings.noiseRidge);
+  imageStore(outFiltered, p, vec4(colour, 0.0));
 #else
   if (!kKeepSampleCount) m.samples = m.samples > 0.0 ? 1.0 : 0.0;
   if (m.samples > 0.0) storeMoments(p, m);

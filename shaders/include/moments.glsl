@@ -49,6 +49,17 @@ void add(inout MomentSum s, float edgeWeight, Moments m) {
   s.sum.samples += w;
 }
 
+// Add a sum about the same origin.
+void join(inout MomentSum s, MomentSum part) {
+  s.sum.x += part.sum.x;
+  s.sum.y += part.sum.y;
+  s.sum.xx += part.sum.xx;
+  s.sum.yu += part.sum.yu;
+  s.sum.yv += part.sum.yv;
+  s.sum.luma2 += part.sum.luma2;
+  s.sum.samples += part.sum.samples;
+}
+
 // Without any sample: those of the centre, of weight 0.
 Moments finish(MomentSum s) {
   const float scale = s.sum.samples > 0.0 ? 1.0 / s.sum.samples : 0.0;

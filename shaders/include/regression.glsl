@@ -1,6 +1,7 @@
 // Weighted linear regression from its moments (walr.txt 3.1): solve for the coefficients, then reconstruct.
 #ifndef WALR_REGRESSION_GLSL
 #define WALR_REGRESSION_GLSL
+#include "finite.glsl"
 #include "moments.glsl"
 
 // Relative variance of one input sample over the window.
@@ -34,6 +35,13 @@ vec3 reconstructWithRidge(Moments m, vec2 features, float ridge, float noiseRidg
   const float c11 = sqrt(max(m.xx.x, 0.0) + lambda);
   const float c21 = m.xx.y / c11;
   return substitute(m, features, c11, c21, sqrt(max(m.xx.z + lambda - c21 * c21, lambda)));
+}
+
+// The fitted colour, no larger than a half can be.
+vec3 reconstruct(Moments m, vec2 features, bool pivotFloor, float ridge, float noiseRidge) {
+  const vec3 colour = pivotFloor ? reconstructWithFloor(m, features, ridge)
+                                 : reconstructWithRidge(m, features, ridge, noiseRidge);
+  return min(colour, vec3(kLargestHalf));
 }
 
 #endif

@@ -58,8 +58,8 @@ LinearSignal linearSignal(double normalVariation) {
 double relativeRmse(const LinearSignal& signal, MomentStorage storage, Regularisation regularisation, double epsilon) {
   WeightedRegressionSettings settings;
   settings.storage = storage;
-  settings.regularisation = regularisation;
-  settings.ridge = static_cast<float>(epsilon);
+  settings.regularisation.method = regularisation;
+  settings.regularisation.ridge = static_cast<float>(epsilon);
   settings.keepSampleCount = storage == MomentStorage::Centred16;
   const Image<glm::dvec3> out =
       reference::weightedRegression(signal.frame, signal.guides, signal.noisy, Storage::Quantised, settings);
@@ -103,7 +103,7 @@ Image<glm::dvec3> filterWith(const LinearSignal& signal, Storage storage, const 
   }
   Image<glm::dvec3> out(kSize);
   reference::forEachPixel(kSize, [&](glm::ivec2 p) {
-    out[p] = reference::reconstruct(state.moments[p], signal.guides[p].features, settings).colour;
+    out[p] = reference::reconstruct(state.moments[p], signal.guides[p].features, settings.regularisation).colour;
   });
   return out;
 }
@@ -117,7 +117,7 @@ TEST(Precision, StorageRoundingStaysBelowItsBudget) {
       settings.storage = storage;
       settings.keepSampleCount = storage == MomentStorage::Centred16;
       // Raw storage drops the second moment of the luminance, and with it the ridge's measure of noise.
-      if (storage != MomentStorage::Centred16) settings.regularisation = Regularisation::Floor;
+      if (storage != MomentStorage::Centred16) settings.regularisation.method = Regularisation::Floor;
       return toneMappedRmse(filterWith(signal, Storage::Exact, settings),
                             filterWith(signal, Storage::Quantised, settings));
     };

@@ -89,8 +89,8 @@ TEST(Theory, SignalsLinearInTheFeaturesComeBack) {
     signal[p] = glm::dvec3(2.0, 1.5, 1.0) + x.x * glm::dvec3(1.0, -0.5, 0.0) + x.y * glm::dvec3(-1.0, 0.25, 2.0);
   });
   WeightedRegressionSettings settings;
-  settings.regularisation = Regularisation::Floor;
-  settings.ridge = 1e-9F;
+  settings.regularisation.method = Regularisation::Floor;
+  settings.regularisation.ridge = 1e-9F;
   const Image<glm::dvec3> out =
       reference::weightedRegression(frame, guides, withLength(signal), Storage::Exact, settings);
   EXPECT_LE(largestDifference(out, signal), roundingOf(4.0) / 1e-4);
@@ -112,9 +112,7 @@ TEST(Theory, RidgeOnlyShrinksTheSlope) {
   const double smallest = 0.5 * (0.05 - std::sqrt(0.01 * 0.01 + 4.0 * 0.005 * 0.005));
   double last = 0.0;
   for (const float ridge : {1e-6F, 1e-4F, 1e-2F}) {
-    WeightedRegressionSettings settings;
-    settings.ridge = ridge;
-    settings.noiseRidge = 0.0F;
+    const RegularisationSettings settings{.ridge = ridge, .noiseRidge = 0.0F};
     const double error = std::abs(reconstruct(m, m.x + offset, settings).colour.g - exact);
     EXPECT_LE(error, ridge / (ridge + smallest) * glm::length(slope) * glm::length(offset));
     EXPECT_GT(error, last);
@@ -173,7 +171,7 @@ TEST(Theory, SampleCountsDoNotMatterWhereTheyAreEqual) {
   const Parallel wall = parallelWall(kWallSize);
   const Image<glm::dvec4> accumulated = withLength(renderStill(flatWall(), kWallSize).lighting);
   WeightedRegressionSettings kept = withoutReplacement();
-  kept.noiseRidge = 0.0F;
+  kept.regularisation.noiseRidge = 0.0F;
   WeightedRegressionSettings dropped = kept;
   dropped.keepSampleCount = false;
   const glm::ivec2 centre(41, 41);
@@ -190,11 +188,13 @@ TEST(Theory, FullWindowEqualsIterationsWhereNoEdgeIsInReach) {
   WeightedRegressionSettings settings = withoutReplacement();
   settings.iterations = 3;
   // Geometric normals come from depths that are floats, so the factor between two of them is 1 to that rounding.
-  settings.normalFactor = false;
+  settings.edgeStopping.normalFactor = false;
   const Image<glm::dvec3> atrous = reference::weightedRegression(frame, guides, accumulated, Storage::Exact, settings);
-  const Image<glm::dvec3> full = reference::fullWindowRegression(frame, guides, accumulated, 27, settings);
+  const Image<reference::WindowPixel> full = reference::fullWindowRegression(
+      frame, guides, accumulated, {.window = 27, .edgeStopping = settings.edgeStopping});
   for (int y = 13; y < kWallSize.y - 13; ++y)
-    for (int x = 13; x < kWallSize.x - 13; ++x) EXPECT_LE(glm::length(atrous[{x, y}] - full[{x, y}]), roundingOf(10.0));
+    for (int x = 13; x < kWallSize.x - 13; ++x)
+      EXPECT_LE(glm::length(atrous[{x, y}] - full[{x, y}].fitted.colour), roundingOf(10.0));
 }
 
 TEST(Theory, OutputFollowsFlipsAndTransposition) {

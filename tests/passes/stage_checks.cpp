@@ -120,7 +120,7 @@ void expectRegression(const DeviceFrame& f, const WeightedRegressionSettings& se
     }
     comparison.compared();
     const reference::Reconstruction expected =
-        reference::reconstruct(merged.moments, f.current.guides[p].features, settings, merged.error);
+        reference::reconstruct(merged.moments, f.current.guides[p].features, settings.regularisation, merged.error);
     for (int c = 0; c < 3; ++c)
       comparison.value(p, kChannels[c], f.current.filtered[p][c], expected.colour[c],
                        halfTolerance(expected.colour[c], expected.error[c]));

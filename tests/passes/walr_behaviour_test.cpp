@@ -198,7 +198,7 @@ TEST_F(WalrBehaviourTest, BrokenInputStaysFiniteAndDoesNotSpread) {
 TEST_F(WalrBehaviourTest, PixelsWithoutASampleDoNotDarken) {
   WalrSettings raw11 = paperWalr();
   raw11.regression.storage = MomentStorage::Raw11;
-  raw11.regression.ridge = 1e-2F;
+  raw11.regression.regularisation.ridge = 1e-2F;
   for (const double share : {0.1, 0.5}) {
     for (const WalrSettings& settings : {robustWalr(), paperWalr(), raw11, fastWalr()}) {
       SCOPED_TRACE(std::to_string(share) + ", storage " + std::to_string(int(settings.regression.storage)));

@@ -31,13 +31,13 @@ struct NamedSettings {
 std::vector<NamedSettings> allSettings() {
   WalrSettings raw11 = paperWalr();
   raw11.regression.storage = MomentStorage::Raw11;
-  raw11.regression.ridge = 1e-2F;
+  raw11.regression.regularisation.ridge = 1e-2F;
   WalrSettings raw32 = paperWalr();
   raw32.regression.storage = MomentStorage::Raw32;
-  raw32.regression.ridge = 1e-5F;
+  raw32.regression.regularisation.ridge = 1e-5F;
   WalrSettings centredWithFloor = robustWalr();
-  centredWithFloor.regression.regularisation = Regularisation::Floor;
-  centredWithFloor.regression.ridge = 1e-4F;
+  centredWithFloor.regression.regularisation.method = Regularisation::Floor;
+  centredWithFloor.regression.regularisation.ridge = 1e-4F;
   return {{"robust", robustWalr()},
           {"paper", paperWalr()},
           {"raw11", raw11},
@@ -78,7 +78,7 @@ TEST_F(WalrStagesTest, HoldWithoutTracingReplacementOrSampleCounts) {
   WalrSettings short1 = robustWalr();
   short1.regression.iterations = 1;
   short1.accumulation.historyFilter = HistoryFilter::Bicubic;
-  short1.regression.planeNormal = PlaneNormal::Shading;
+  short1.regression.edgeStopping.planeNormal = PlaneNormal::Shading;
   for (const WalrSettings& settings : {plain, short1}) {
     expectSequence(device(), movingFrames(thinBars(), {96, 64}), settings);
     expectSequence(device(), movingFrames(stairs(), {96, 64}), settings);

@@ -65,13 +65,13 @@ AtrousPixel atrousPixel(const HostFrame& frame, const Image<Guide>& guides, cons
       }
     }
     const glm::ivec2 q = p + reach * direction;
-    const double weight = traced.weight.weight * facing(guides[p], guides[q], settings);
+    const double weight = traced.weight.weight * facing(guides[p], guides[q], settings.edgeStopping);
     // The factor's own error: decoding and multiplying two unit vectors.
     parts[count++] = part(q, weight, traced.weight.error + 16.0 * kFloatRoundoff);
   }
   result.merged = merge(parts.data(), count);
-  // Bounds of the averages' errors are of first order in those of the weights.
-  result.undecided |= result.merged.error[kMomentCount - 1] > 0.01 * result.merged.moments.samples;
+  // Beyond that the averages' error bounds do not hold, and where there is no sample at all there may be one.
+  result.undecided |= result.merged.error[kMomentCount - 1] > 0.5 * result.merged.moments.samples;
   return result;
 }
 
@@ -106,7 +106,7 @@ Image<glm::dvec3> weightedRegression(const HostFrame& frame, const Image<Guide>&
       out = glm::dvec3(accumulated[p]);
       return;
     }
-    out = reconstruct(state.moments[p], guides[p].features, settings).colour;
+    out = reconstruct(state.moments[p], guides[p].features, settings.regularisation).colour;
     if (storage == Storage::Quantised) {
       for (int i = 0; i < 3; ++i) out[i] = roundToHalf(out[i]);
     }

@@ -9,17 +9,17 @@
 
 namespace walr::reference {
 
-glm::dvec3 planeNormal(const Guide& guide, const WeightedRegressionSettings& settings) {
+glm::dvec3 planeNormal(const Guide& guide, const EdgeStoppingSettings& settings) {
   return settings.planeNormal == PlaneNormal::Geometric ? guide.normal : octahedralDecode(guide.features);
 }
 
-double facing(const Guide& a, const Guide& b, const WeightedRegressionSettings& settings) {
+double facing(const Guide& a, const Guide& b, const EdgeStoppingSettings& settings) {
   if (!settings.normalFactor) return 1.0;
   return std::clamp(glm::dot(planeNormal(a, settings), planeNormal(b, settings)), 0.0, 1.0);
 }
 
 EdgeWeight edgeWeight(const HostFrame& frame, const Image<Guide>& guides, glm::ivec2 p, glm::ivec2 q,
-                      const WeightedRegressionSettings& settings) {
+                      const EdgeStoppingSettings& settings) {
   if (!guides.contains(q) || guides[q].depth == 0.0) return {};
   const Guide& centre = guides[p];
   const glm::dvec3 centreRay = rayThrough(frame.constants.rayFromPixel, pixelCentre(p));
@@ -50,7 +50,7 @@ Trace traceEdge(const HostFrame& frame, const Image<Guide>& guides, const Image<
   while (step < steps) {
     const int stride = static_cast<int>(std::floor(double(settings.sdfFraction) * distanceAt(p + step * direction)));
     step = settings.traceEdges ? std::min(step + std::max(stride, 1), steps) : steps;
-    const EdgeWeight here = edgeWeight(frame, guides, p, p + step * direction, settings);
+    const EdgeWeight here = edgeWeight(frame, guides, p, p + step * direction, settings.edgeStopping);
     trace.weight.weight = std::min(trace.weight.weight, here.weight);
     trace.weight.error = std::max(trace.weight.error, here.error);
     trace.weight.undecided |= here.undecided;
@@ -62,16 +62,20 @@ Trace traceEdge(const HostFrame& frame, const Image<Guide>& guides, const Image<
   return trace;
 }
 
-double traceLine(const HostFrame& frame, const Image<Guide>& guides, glm::ivec2 p, glm::ivec2 q,
-                 const WeightedRegressionSettings& settings) {
+EdgeWeight traceLine(const HostFrame& frame, const Image<Guide>& guides, glm::ivec2 p, glm::ivec2 q,
+                     const EdgeStoppingSettings& settings) {
   const glm::ivec2 offset = q - p;
   const int steps = std::max(std::abs(offset.x), std::abs(offset.y));
-  double weight = 1.0;
-  for (int step = 1; step <= steps && weight > 0.0; ++step) {
+  EdgeWeight result{1.0, 0.0, false};
+  for (int step = 1; step <= steps; ++step) {
     const glm::ivec2 at(std::lround(double(offset.x) * step / steps), std::lround(double(offset.y) * step / steps));
-    weight = std::min(weight, edgeWeight(frame, guides, p, p + at, settings).weight);
+    const EdgeWeight here = edgeWeight(frame, guides, p, p + at, settings);
+    if (here.weight == 0.0 && here.error == 0.0) return {};
+    result.weight = std::min(result.weight, here.weight);
+    result.error = std::max(result.error, here.error);
+    result.undecided |= here.undecided;
   }
-  return weight;
+  return result;
 }
 
 }  // namespace walr::reference

@@ -13,15 +13,15 @@ struct EdgeWeight {
 };
 
 /// The normal that spans a pixel's plane.
-glm::dvec3 planeNormal(const Guide& guide, const WeightedRegressionSettings& settings);
+glm::dvec3 planeNormal(const Guide& guide, const EdgeStoppingSettings& settings);
 
 /// How far two pixels' planes face the same way: the cosine between their normals, or 1 where that has no say.
-double facing(const Guide& a, const Guide& b, const WeightedRegressionSettings& settings);
+double facing(const Guide& a, const Guide& b, const EdgeStoppingSettings& settings);
 
 /// Weight between a centre `p` and a pixel `q`: 1 near the plane through the centre, 0 away from it, outside the
 /// picture and where there is no surface (walr.txt 4.3).
 EdgeWeight edgeWeight(const HostFrame& frame, const Image<Guide>& guides, glm::ivec2 p, glm::ivec2 q,
-                      const WeightedRegressionSettings& settings);
+                      const EdgeStoppingSettings& settings);
 
 /// Result of walking along a segment.
 struct Trace {
@@ -35,8 +35,9 @@ struct Trace {
 Trace traceEdge(const HostFrame& frame, const Image<Guide>& guides, const Image<int>& distances, glm::ivec2 p,
                 glm::ivec2 direction, int steps, const WeightedRegressionSettings& settings);
 
-/// Walk every pixel of the straight line between two pixels (digital differential analyser).
-double traceLine(const HostFrame& frame, const Image<Guide>& guides, glm::ivec2 p, glm::ivec2 q,
-                 const WeightedRegressionSettings& settings);
+/// The smallest weight on the straight line from `p` to another pixel, `p` left out (digital differential analyser). A
+/// line that is an edge beyond doubt somewhere has weight and error 0.
+EdgeWeight traceLine(const HostFrame& frame, const Image<Guide>& guides, glm::ivec2 p, glm::ivec2 q,
+                     const EdgeStoppingSettings& settings);
 
 }  // namespace walr::reference

@@ -16,42 +16,34 @@ void forEachWindowPixel(glm::ivec2 size, glm::ivec2 centre, int window, Visit vi
     for (int x = first.x; x <= last.x; ++x) visit(glm::ivec2(x, y));
 }
 
-/// The centre goes first: `merge` takes differences about it.
-Moments mergeWindow(std::vector<WeightedMoments>& parts) {
-  return merge(parts.data(), static_cast<int>(parts.size())).moments;
-}
-
 }  // namespace
 
-Image<Moments> fullWindowMoments(const HostFrame& frame, const Image<Guide>& guides,
-                                 const Image<glm::dvec4>& accumulated, int window,
-                                 const WeightedRegressionSettings& settings) {
+Image<WindowPixel> fullWindowRegression(const HostFrame& frame, const Image<Guide>& guides,
+                                        const Image<glm::dvec4>& accumulated, const FullWindowSettings& settings) {
   const Image<Moments> samples = sampleMoments(guides, accumulated).moments;
-  Image<Moments> result(guides.size());
+  const auto window = static_cast<int>(settings.window);
+  Image<WindowPixel> result(guides.size());
   forEachPixel(guides.size(), [&](glm::ivec2 p) {
-    if (guides[p].depth == 0.0) return;
-    std::vector<WeightedMoments> parts{{samples[p], 1.0, 0.0, {}}};
+    WindowPixel& pixel = result[p];
+    if (guides[p].depth == 0.0) {
+      pixel.fitted.colour = glm::dvec3(accumulated[p]);
+      return;
+    }
+    std::vector<WeightedMoments> parts{{samples[p], 1.0, 0.0, sampleError(samples[p])}};
     forEachWindowPixel(guides.size(), p, window, [&](glm::ivec2 q) {
       if (q == p) return;
-      const double weight = traceLine(frame, guides, p, q, settings);
-      if (weight <= 0.0) return;
-      parts.push_back({samples[q], weight * facing(guides[p], guides[q], settings), 0.0, {}});
+      const EdgeWeight traced = traceLine(frame, guides, p, q, settings.edgeStopping);
+      if (traced.weight == 0.0 && traced.error == 0.0) return;
+      // The factor's own error: decoding and multiplying two unit vectors.
+      parts.push_back({samples[q], traced.weight * facing(guides[p], guides[q], settings.edgeStopping),
+                       traced.error + 16.0 * kFloatRoundoff, sampleError(samples[q])});
     });
-    result[p] = mergeWindow(parts);
+    // Rows are summed first, then their sums.
+    pixel.merged = merge(parts.data(), static_cast<int>(parts.size()), 2 * window);
+    pixel.undecided = pixel.merged.error[kMomentCount - 1] > 0.5 * pixel.merged.moments.samples;
+    pixel.fitted = reconstruct(pixel.merged.moments, guides[p].features, settings.regularisation, pixel.merged.error);
   });
   return result;
-}
-
-Image<glm::dvec3> fullWindowRegression(const HostFrame& frame, const Image<Guide>& guides,
-                                       const Image<glm::dvec4>& accumulated, int window,
-                                       const WeightedRegressionSettings& settings) {
-  const Image<Moments> moments = fullWindowMoments(frame, guides, accumulated, window, settings);
-  Image<glm::dvec3> filtered(guides.size());
-  forEachPixel(guides.size(), [&](glm::ivec2 p) {
-    filtered[p] = guides[p].depth == 0.0 ? glm::dvec3(accumulated[p])
-                                         : reconstruct(moments[p], guides[p].features, settings).colour;
-  });
-  return filtered;
 }
 
 Moments boxMoments(const Image<Guide>& guides, const Image<glm::dvec4>& accumulated, glm::ivec2 centre, int window) {
@@ -60,7 +52,7 @@ Moments boxMoments(const Image<Guide>& guides, const Image<glm::dvec4>& accumula
   forEachWindowPixel(guides.size(), centre, window, [&](glm::ivec2 q) {
     if (q != centre) parts.push_back({samples[q], 1.0, 0.0, {}});
   });
-  return mergeWindow(parts);
+  return merge(parts.data(), static_cast<int>(parts.size())).moments;
 }
 
 }  // namespace walr::reference

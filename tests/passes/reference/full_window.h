@@ -1,21 +1,22 @@
 #pragma once
 
-#include "passes/weighted_regression.h"
+#include "passes/full_window_regression.h"
 #include "tests/passes/reference/atrous.h"
 
 namespace walr::reference {
 
-/// Moments of every pixel's full window with the weights of the edge-stopping function along straight lines, and no
-/// a-trous iterations: what REFWLR solves (walr.txt 6).
-/// @param window side of the window in pixels, odd
-Image<Moments> fullWindowMoments(const HostFrame& frame, const Image<Guide>& guides,
-                                 const Image<glm::dvec4>& accumulated, int window,
-                                 const WeightedRegressionSettings& settings = {});
+/// What the full window leaves at one pixel.
+struct WindowPixel {
+  MergedMoments merged;
+  Reconstruction fitted;
+  bool undecided = false;  ///< Whether there is any sample at all lies within rounding.
+};
 
-/// The spatial filter that WALR approximates: full window, same weights, no replacement.
-Image<glm::dvec3> fullWindowRegression(const HostFrame& frame, const Image<Guide>& guides,
-                                       const Image<glm::dvec4>& accumulated, int window,
-                                       const WeightedRegressionSettings& settings = {});
+/// The spatial filter that WALR approximates (REFWLR, walr.txt 6): every pixel of the window with the smallest weight
+/// of the edge-stopping function on the straight line to it; no a-trous iterations and no replacement. Pixels without a
+/// surface stay as they were.
+Image<WindowPixel> fullWindowRegression(const HostFrame& frame, const Image<Guide>& guides,
+                                        const Image<glm::dvec4>& accumulated, const FullWindowSettings& settings);
 
 /// Moments of one window with all weights 1: plain averages over the pixels inside the picture.
 Moments boxMoments(const Image<Guide>& guides, const Image<glm::dvec4>& accumulated, glm::ivec2 centre, int window);

@@ -1,5 +1,6 @@
 #include "tests/passes/reference/moments.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <glm/common.hpp>
@@ -71,7 +72,7 @@ Moments momentsOf(glm::dvec2 features, glm::dvec4 accumulated) {
   return {.x = features, .y = colour, .luma2 = l * l, .samples = accumulated.w > 0.0 ? 1.0 : 0.0};
 }
 
-MergedMoments merge(const WeightedMoments* parts, int count) {
+MergedMoments merge(const WeightedMoments* parts, int count, int additions) {
   double weightSum = 0.0;
   glm::dvec2 meanX(0.0);
   glm::dvec3 meanY(0.0);
@@ -103,9 +104,13 @@ MergedMoments merge(const WeightedMoments* parts, int count) {
   mean[kSamples] = weightSum;
   merged.moments = fromArray(mean);
 
-  // Error bounds. A sum of nine products makes about nine roundings of terms whose mean size is `size`; a further few
-  // come from the differences, the division and the final correction. Differences are taken about the centre at worst.
-  constexpr double kRoundings = 16.0 * kFloatRoundoff;
+  // Error bounds. Each addition rounds once; seven further roundings come from the differences, the products, the
+  // division and the final correction. Differences are taken about the centre at worst.
+  double weightErrorSum = 0.0;
+  for (int i = 0; i < count; ++i) weightErrorSum += parts[i].weightError * parts[i].moments.samples;
+  // Shares of the sum err by this much more, because the sum errs too.
+  const double shareOfRest = 1.0 / std::max(1.0 - weightErrorSum / weightSum, 0.5);
+  const double roundings = (additions + 7.0) * kFloatRoundoff;
   const Moments& centre = parts[0].moments;
   const MomentValues result = toArray(merged.moments);
   for (int i = 0; i < count; ++i) {
@@ -127,13 +132,13 @@ MergedMoments merge(const WeightedMoments* parts, int count) {
     for (int k = 0; k < kMomentCount; ++k) {
       // A wrong weight pulls each average towards or from the part by how much the two differ.
       const double pull = k < 5 ? aboutMean[k] : aboutMean[k] - result[k];
-      merged.error[k] += kRoundings * w * (std::abs(aboutCentre[k]) + products[k]) + weightError * std::abs(pull) +
-                         w * (part.error[k] + productErrors[k]);
+      merged.error[k] += roundings * w * (std::abs(aboutCentre[k]) + products[k]) +
+                         shareOfRest * weightError * std::abs(pull) + w * (part.error[k] + productErrors[k]);
     }
-    merged.error[kSamples] += part.weightError * part.moments.samples;
   }
+  merged.error[kSamples] += weightErrorSum;
   for (int k = 0; k < 5; ++k) merged.error[k] += 2.0 * kFloatRoundoff * std::abs(result[k]);
-  merged.error[kSamples] += kRoundings * weightSum;
+  merged.error[kSamples] += roundings * weightSum;
   return merged;
 }
 

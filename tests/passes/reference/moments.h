@@ -58,8 +58,9 @@ struct MergedMoments {
 
 /// Moments of the union of weighted sets of samples: C = sum w (C_i + (m_i - M)(m_i - M)^T) / sum w. Without any sample
 /// the means are the centre's, and the rest is 0.
-/// @param parts the first is the window's centre, about which an implementation may take differences
-MergedMoments merge(const WeightedMoments* parts, int count);
+/// @param parts     the first is the window's centre, about which an implementation may take differences
+/// @param additions the most that a term goes through on its way into a sum; the nine of an iteration unless told
+MergedMoments merge(const WeightedMoments* parts, int count, int additions = 9);
 
 /// As a format keeps them between two iterations, rounded to nearest. Sixteen halves keep the mean squared luminance as
 /// its root; raw formats drop it and the sample count. Without a sample all values are 0.

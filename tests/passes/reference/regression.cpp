@@ -81,9 +81,9 @@ double relativeVariance(const Moments& m) {
   return mean > 0.0 ? std::max(m.luma2 / (mean * mean) - 1.0, 0.0) : 0.0;
 }
 
-Reconstruction reconstruct(const Moments& m, glm::dvec2 features, const WeightedRegressionSettings& settings,
+Reconstruction reconstruct(const Moments& m, glm::dvec2 features, const RegularisationSettings& settings,
                            const MomentValues& momentsError) {
-  const bool ridged = settings.regularisation == Regularisation::Ridge;
+  const bool ridged = settings.method == Regularisation::Ridge;
   const auto ridge = double(settings.ridge);
   const double noiseRidge = ridged ? double(settings.noiseRidge) : 0.0;
   Fit fit;

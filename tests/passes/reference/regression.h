@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "passes/regularisation.h"
 #include "tests/passes/reference/moments.h"
 
 namespace walr::reference {
@@ -28,7 +29,7 @@ double relativeVariance(const Moments& m);
 /// largest half. Regularisation::Ridge adds `ridge + noiseRidge * relativeVariance / W` to the covariance's diagonal
 /// and takes no pivot smaller than that, Regularisation::Floor floors the pivots at `ridge`.
 /// @param momentsError error of each moment that single precision made before (zeros where they are exact)
-Reconstruction reconstruct(const Moments& m, glm::dvec2 features, const WeightedRegressionSettings& settings,
+Reconstruction reconstruct(const Moments& m, glm::dvec2 features, const RegularisationSettings& settings,
                            const MomentValues& momentsError = {});
 
 }  // namespace walr::reference

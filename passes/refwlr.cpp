@@ -1,0 +1,45 @@
+#include "passes/refwlr.h"
+
+#include <algorithm>
+
+#include "passes/walr.h"
+#include "passes/window_fit.h"
+
+namespace walr {
+namespace {
+
+/// With all that the two methods share.
+RefwlrSettings likeWalr(const WalrSettings& walr) {
+  RefwlrSettings settings;
+  settings.guides = walr.guides;
+  settings.accumulation = walr.accumulation;
+  settings.regression.edgeStopping = walr.regression.edgeStopping;
+  settings.regression.regularisation = walr.regression.regularisation;
+  settings.antialiasing = walr.antialiasing;
+  settings.fitWindow = walr.fitWindow;
+  return settings;
+}
+
+}  // namespace
+
+RefwlrSettings robustRefwlr() {
+  return likeWalr(robustWalr());
+}
+
+RefwlrSettings paperRefwlr() {
+  return likeWalr(paperWalr());
+}
+
+fg::Texture addRefwlr(fg::Graph& graph, const DenoiserInputs& inputs, fg::Texture output,
+                      const RefwlrSettings& settings) {
+  FullWindowSettings regression = settings.regression;
+  const std::uint32_t height = graph.textureDesc(inputs.lighting).extent.height;
+  if (settings.fitWindow) regression.window = std::min(regression.window, fittingWindow(height));
+
+  const Guides guides = addPrepareGuides(graph, inputs, settings.guides);
+  const fg::Texture accumulated = addTemporalAccumulation(graph, inputs, guides, settings.accumulation);
+  const fg::Texture filtered = addFullWindowRegression(graph, inputs.frame, accumulated, guides, regression);
+  return addTemporalAntialiasing(graph, inputs, guides, filtered, output, settings.antialiasing);
+}
+
+}  // namespace walr

@@ -1,0 +1,44 @@
+#pragma once
+
+#include "framegraph/graph.h"
+#include "passes/full_window_regression.h"
+#include "passes/inputs.h"
+#include "passes/prepare_guides.h"
+#include "passes/temporal_accumulation.h"
+#include "passes/temporal_antialiasing.h"
+
+namespace walr {
+
+/// Settings of all stages of REFWLR.
+struct RefwlrSettings {
+  PrepareGuidesSettings guides;
+  TemporalAccumulationSettings accumulation;
+  FullWindowSettings regression;
+  TemporalAntialiasingSettings antialiasing;
+  bool fitWindow = true;
+
+  void visit(SettingVisitor& v) {
+    guides.visit(v);
+    accumulation.visit(v);
+    v.visit(
+        {"refwlr.fit-window", "Take no larger a window than WALR would at the image's height", "", 0, 1, "measured"},
+        fitWindow);
+    regression.visit(v);
+    antialiasing.visit(v);
+  }
+};
+
+/// What WALR's preset "robust" approximates: the same stages and weights.
+RefwlrSettings robustRefwlr();
+
+/// The same of WALR's preset "paper".
+RefwlrSettings paperRefwlr();
+
+/// Reference Weighted Linear Regression (walr.txt 6): WALR with a full window in place of a-trous averages, to tell
+/// what those cost in quality. Takes seconds a frame.
+/// @param output RGBA16F texture to write the result to
+/// @returns the output's new version
+fg::Texture addRefwlr(fg::Graph& graph, const DenoiserInputs& inputs, fg::Texture output,
+                      const RefwlrSettings& settings = {});
+
+}  // namespace walr

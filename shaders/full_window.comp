@@ -1,0 +1,82 @@
+// Weighted linear regression over a full window (REFWLR, walr.txt 6): every pixel of the window with the smallest
+// edge-stopping weight on the straight line to it. What WALR's a-trous averages approximate, at many times their cost;
+// one dispatch does one tile of the image.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_samplerless_texture_functions : require
+#extension GL_EXT_control_flow_attributes : require
+#include "constants/frame.h"
+#include "constants/full_window.h"
+#include "include/regression.glsl"
+#include "include/surface.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(constant_id = 0) const int kRadius = 40;           // Half the window.
+layout(constant_id = 1) const bool kNormalFactor = true;  // Weights fall with the cosine between the planes' normals.
+layout(constant_id = 2) const bool kPivotFloor = false;   // Floor the pivots instead of adding a ridge.
+
+layout(set = 0, binding = 0, std140) uniform frameConstants { FrameConstants frame; };
+layout(set = 0, binding = 1) uniform utexture2D depth;
+layout(set = 0, binding = 2) uniform utexture2D planeNormal;
+layout(set = 0, binding = 3) uniform utexture2D shadingNormal;
+layout(set = 0, binding = 4) uniform texture2D accumulated;
+layout(set = 0, binding = 5, rgba16f) uniform image2D outFiltered;  // Pixels without a surface stay as they are.
+layout(push_constant) uniform PushConstants { FullWindowConstants settings; };
+
+#include "include/edge_weight.glsl"
+
+vec2 featuresAt(ivec2 q) { return unpackFeatures(texelFetch(shadingNormal, q, 0).x); }
+Moments sampleAt(ivec2 q) { return momentsOf(featuresAt(q), texelFetch(accumulated, q, 0)); }
+float weightAt(Plane plane, ivec2 q) { return edgeWeight(plane, q, texelFetch(depth, q, 0).x); }
+
+// Smallest edge weight on the line from `p` to a pixel inside the image, `p` itself left out. The far end comes first,
+// since most discarded pixels are discarded there. Between, Bresenham's algorithm visits one pixel per step of the longer
+// axis, the nearest to the line, and of two the farther from `p`: alike in all mirror images. Steps go by eight, of which
+// the last may stand still: their reads overlap, and Mesa's llvmpipe, which ends all loops of an invocation after 65535
+// rounds in total, gets through the largest window.
+float traceLine(Plane plane, ivec2 p, ivec2 offset) {
+  float weight = weightAt(plane, p + offset);
+  const ivec2 way = abs(offset);
+  const int steps = max(way.x, way.y);
+  ivec2 at = p;
+  ivec2 remainder = ivec2(steps);
+  for (int step = 1; step < steps && weight > 0.0; step += 8) {
+    [[unroll]] for (int i = 0; i < 8; ++i) {
+      remainder += step + i < steps ? 2 * way : ivec2(0);
+      const ivec2 moved = ivec2(greaterThanEqual(remainder, ivec2(2 * steps)));
+      remainder -= moved * 2 * steps;
+      at += moved * sign(offset);
+      weight = min(weight, weightAt(plane, at));
+    }
+  }
+  return weight;
+}
+
+void main() {
+  const ivec2 p = settings.begin + ivec2(gl_GlobalInvocationID.xy);
+  if (any(greaterThanEqual(p, settings.end))) return;
+  const float z = unpackDepth(texelFetch(depth, p, 0).x);
+  if (z == 0.0) return;
+
+  const vec3 normal = unpackNormal(texelFetch(planeNormal, p, 0).x);
+  const Plane plane = planeAt(p, z, normal);
+  const Moments centre = sampleAt(p);
+  const ivec2 first = max(p - kRadius, ivec2(0));
+  const ivec2 last = min(p + kRadius, textureSize(depth, 0) - 1);
+  // Row by row, so that rounding grows with the side of the window instead of with its area.
+  MomentSum sum = startSum(centre);
+  for (int y = first.y; y <= last.y; ++y) {
+    MomentSum row = startSum(centre);
+    for (int x = first.x; x <= last.x; ++x) {
+      const ivec2 q = ivec2(x, y);
+      float weight = traceLine(plane, p, q - p);
+      if (weight <= 0.0) continue;
+      if (kNormalFactor) weight *= clamp(dot(normal, unpackNormal(texelFetch(planeNormal, q, 0).x)), 0.0, 1.0);
+      add(row, weight, sampleAt(q));
+    }
+    join(sum, row);
+  }
+  const vec3 colour =
+      reconstruct(finish(sum), featuresAt(p), kPivotFloor, settings.ridge, settings.noiseRidge);
+  imageStore(outFiltered, p, vec4(colour, 0.0));
+}
