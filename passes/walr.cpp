@@ -40,6 +40,8 @@ WalrSettings paperWalr() {
   settings.fitWindow = false;
   settings.regression.edgeStopping.planeNormal = PlaneNormal::Shading;
   settings.regression.edgeStopping.normalFactor = false;
+  settings.regression.repeatCentre = true;
+  settings.regression.edgeLeak = 0.0F;
   settings.regression.storage = MomentStorage::Raw16;
   settings.regression.keepSampleCount = false;
   settings.regression.regularisation.method = Regularisation::Floor;

@@ -56,7 +56,9 @@ void declareIteration(fg::PassBuilder& pass, fg::Buffer frame, const Guides& gui
   pass.uniform("frameConstants", frame)
       .sample("planeNormal", settings.edgeStopping.normalOf(guides))
       .specialize("kTraceEdges", settings.traceEdges)
-      .specialize("kReplaceTaps", settings.replaceTaps)
+      .specialize("kReplacement", static_cast<std::uint32_t>(settings.replaceTaps))
+      .specialize("kRepeatCentre", settings.repeatCentre)
+      .specialize("kEdgeLeak", settings.edgeLeak)
       .specialize("kNormalFactor", settings.edgeStopping.normalFactor)
       .constants(AtrousConstants{settings.edgeStopping.planeNear, settings.edgeStopping.planeFar, settings.sdfFraction,
                                  settings.regularisation.ridge, settings.regularisation.noiseRidge});

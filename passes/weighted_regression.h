@@ -18,18 +18,28 @@ enum class MomentStorage : std::uint32_t {
   Raw32,      ///< Raw averages in single precision, 56 bytes; for study.
 };
 
+/// What takes the place of a tap behind an edge (walr.txt 3.3).
+enum class TapReplacement : std::uint32_t {
+  Off,      ///< Nothing.
+  Uniform,  ///< Any pixel before the edge, picked at random.
+  Near,     ///< One of the last third before the edge, picked at random.
+};
+
 /// Settings of the spatial filter (walr.txt 3, 4.3, 5).
 struct WeightedRegressionSettings {
   std::uint32_t iterations = 4;
   EdgeStoppingSettings edgeStopping{};
   bool traceEdges = true;
   float sdfFraction = 0.75F;
-  bool replaceTaps = true;
+  TapReplacement replaceTaps = TapReplacement::Uniform;
+  bool repeatCentre = false;
+  float edgeLeak = 0.01F;
   MomentStorage storage = MomentStorage::Centred16;
   bool keepSampleCount = true;
   RegularisationSettings regularisation{};
 
   void visit(SettingVisitor& v) {
+    static constexpr std::string_view kReplacements[] = {"off", "uniform", "near"};
     static constexpr std::string_view kStorages[] = {"centred16", "raw16", "raw11", "raw32"};
     v.visit({"regression.iterations", "A-trous iterations with taps 3^t pixels apart; n of them span 3^n x 3^n pixels",
              "", 1, 5, "walr.txt 3.2"},
@@ -42,9 +52,18 @@ struct WeightedRegressionSettings {
              "Share of the distance to the nearest edge that edge tracing steps at once; 0 walks pixel by pixel", "",
              0.0, 1.0, "walr.txt 5.2"},
             sdfFraction);
-    v.visit({"regression.replace-taps", "Replace a tap behind an edge by a random pixel before it", "", 0, 1,
+    v.visitEnum({"regression.replace-taps",
+                 "Which pixel before an edge takes the place of a tap behind it: none, any, or one near the edge", "",
+                 0, 1, "walr.txt 3.3"},
+                kReplacements, replaceTaps);
+    v.visit({"regression.repeat-centre",
+             "With replace-taps: count the centre again for each tap whose edge is the very next pixel", "", 0, 1,
              "walr.txt 3.3"},
-            replaceTaps);
+            repeatCentre);
+    v.visit({"regression.edge-leak",
+             "Weight of the very next pixel where it is an edge, for pixels with few of their surface around them", "",
+             0.0, 1.0, "measured"},
+            edgeLeak);
     v.visitEnum({"regression.moments", "Storage of the averages between two iterations", "", 0, 1, "walr.txt 5.2"},
                 kStorages, storage);
     v.visit({"regression.keep-sample-count", "Carry W, so that every sample weighs the same; centred16 only", "", 0, 1,

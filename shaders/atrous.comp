@@ -15,13 +15,15 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 0) const uint kIteration = 0;
 layout(constant_id = 1) const int kSpacing = 1;        // 3^t pixels.
 layout(constant_id = 2) const bool kTraceEdges = true;
-layout(constant_id = 3) const bool kReplaceTaps = true;
+layout(constant_id = 3) const uint kReplacement = 1;   // What takes the place of a discarded tap; see below.
 layout(constant_id = 4) const bool kNormalFactor = true;  // Weights fall with the cosine between the planes' normals.
 #ifdef LAST
 layout(constant_id = 5) const bool kPivotFloor = false;      // Floor the pivots instead of adding a ridge.
 #else
 layout(constant_id = 5) const bool kKeepSampleCount = true;  // W goes from iteration to iteration.
 #endif
+layout(constant_id = 6) const bool kRepeatCentre = false;  // Where the next pixel is an edge, the centre takes its place.
+layout(constant_id = 7) const float kEdgeLeak = 0.01;      // Weight of the next pixel where it is an edge.
 
 layout(set = 0, binding = 0, std140) uniform frameConstants { FrameConstants frame; };
 layout(set = 0, binding = 1) uniform utexture2D depth;
@@ -72,6 +74,24 @@ void writeResult(ivec2 p, float z, int nearestEdge, Moments m) {
 #endif
 }
 
+// Values of kReplacement (TapReplacement).
+const uint kNoReplacement = 0;
+const uint kUniformReplacement = 1;  // Any pixel before the edge, the centre among them.
+const uint kNearReplacement = 2;     // One of the last third before the edge.
+
+// Step of the pixel that stands in for a tap which met its edge at step `edge`.
+int replacementStep(ivec2 p, int tap, int edge) {
+  const uvec4 key = uvec4(p, frame.frameIndex, kIteration * 9u + uint(tap));
+  return kReplacement == kNearReplacement ? edge - 1 - int(hashBelow(key, uint(edge + 2) / 3u))
+                                          : int(hashBelow(key, uint(edge)));
+}
+
+// A pixel that shares its surface with few around it takes a little from beyond its edges.
+void addLeak(inout MomentSum sum, ivec2 q) {
+  if (any(lessThan(q, ivec2(0))) || any(greaterThanEqual(q, textureSize(depth, 0)))) return;
+  add(sum, kEdgeLeak, readMoments(q));
+}
+
 void main() {
   const ivec2 p = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(p, textureSize(depth, 0)))) return;
@@ -97,9 +117,11 @@ void main() {
     Trace trace = traceEdge(plane, p, direction, reach, sdf);
     nearestEdge = min(nearestEdge, trace.edge);
     if (trace.weight <= 0.0) {
-      if (!kReplaceTaps) continue;
+      const bool isolated = trace.edge == 1;
+      if (kEdgeLeak > 0.0 && isolated) addLeak(sum, p + direction);
+      if (kReplacement == kNoReplacement || (isolated && !kRepeatCentre)) continue;
       // A discarded tap gives way to a random one before the edge, so that no seam follows the tap pattern.
-      reach = int(hashBelow(uvec4(p, frame.frameIndex, kIteration * 9u + uint(tap)), uint(trace.edge)));
+      reach = replacementStep(p, tap, trace.edge);
       trace = traceEdge(plane, p, direction, reach, sdf);
       if (trace.weight <= 0.0) {
         reach = 0;

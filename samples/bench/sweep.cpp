@@ -46,7 +46,7 @@ std::vector<Sweep> makeSweeps() {
         {"traced-without-sdf", {{"regression.trace-edges", "on"}, {"regression.sdf-fraction", "0"}}},
         {"untraced", {{"regression.trace-edges", "off"}}}}},
       over("filter", "Regress on every pixel, or on blocks of pixels?", "walr.filter", {"pixels", "blocks"}),
-      over("replacement", "Replace taps behind edges?", "regression.replace-taps", {"on", "off"}),
+      over("replacement", "Replace taps behind edges?", "regression.replace-taps", {"uniform", "near", "off"}),
       over("sample-count", "Carry the sample count W through the iterations?", "regression.keep-sample-count",
            {"on", "off"}),
       over("regularisation", "A ridge, or floored pivots?", "regression.regularisation", {"ridge", "floor"}),

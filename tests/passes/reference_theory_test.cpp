@@ -59,7 +59,7 @@ Image<glm::dvec4> withLength(const Image<glm::dvec3>& colours) {
 
 WeightedRegressionSettings withoutReplacement() {
   WeightedRegressionSettings settings;
-  settings.replaceTaps = false;
+  settings.replaceTaps = TapReplacement::Off;
   return settings;
 }
 
@@ -199,7 +199,7 @@ TEST(Theory, FullWindowEqualsIterationsWhereNoEdgeIsInReach) {
 
 TEST(Theory, OutputFollowsFlipsAndTransposition) {
   WalrSettings settings;
-  settings.regression.replaceTaps = false;  // The hashes do not follow.
+  settings.regression.replaceTaps = TapReplacement::Off;  // The hashes do not follow.
   for (const Symmetry& symmetry : {Symmetry{"flip x", true, false, false}, Symmetry{"flip y", false, true, false},
                                    Symmetry{"transpose", false, false, true}}) {
     for (const NamedScene& named : allScenes()) {

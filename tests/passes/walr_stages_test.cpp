@@ -70,7 +70,7 @@ TEST_F(WalrStagesTest, HoldForEveryStorageOnHardCases) {
 TEST_F(WalrStagesTest, HoldWithoutTracingReplacementOrSampleCounts) {
   WalrSettings plain = robustWalr();
   plain.regression.traceEdges = false;
-  plain.regression.replaceTaps = false;
+  plain.regression.replaceTaps = TapReplacement::Off;
   plain.regression.keepSampleCount = false;
   plain.regression.sdfFraction = 0.0F;
   plain.regression.iterations = 3;
@@ -82,6 +82,34 @@ TEST_F(WalrStagesTest, HoldWithoutTracingReplacementOrSampleCounts) {
   for (const WalrSettings& settings : {plain, short1}) {
     expectSequence(device(), movingFrames(thinBars(), {96, 64}), settings);
     expectSequence(device(), movingFrames(stairs(), {96, 64}), settings);
+  }
+}
+
+TEST_F(WalrStagesTest, HoldForEveryReplacementWithAndWithoutDistances) {
+  for (const TapReplacement replacement : {TapReplacement::Off, TapReplacement::Uniform, TapReplacement::Near}) {
+    for (const bool repeatCentre : {false, true}) {
+      for (const float sdfFraction : {0.0F, 1.0F}) {
+        SCOPED_TRACE("replacement " + std::to_string(int(replacement)) +
+                     (repeatCentre ? ", repeating the centre" : "") + ", distances times " +
+                     std::to_string(sdfFraction));
+        WalrSettings settings = robustWalr();
+        settings.regression.replaceTaps = replacement;
+        settings.regression.repeatCentre = repeatCentre;
+        settings.regression.edgeLeak = repeatCentre ? 0.0F : 0.3F;
+        settings.regression.sdfFraction = sdfFraction;
+        expectSequence(device(), movingFrames(thinBars(), {64, 48}), settings);
+      }
+    }
+  }
+}
+
+TEST_F(WalrStagesTest, HoldForEveryNumberOfIterations) {
+  for (const std::uint32_t iterations : {1U, 2U, 3U, 4U, 5U}) {
+    SCOPED_TRACE(std::to_string(iterations) + " iterations");
+    for (WalrSettings settings : {robustWalr(), paperWalr()}) {
+      settings.regression.iterations = iterations;
+      expectSequence(device(), movingFrames(stairs(), {64, 48}), settings);
+    }
   }
 }
 

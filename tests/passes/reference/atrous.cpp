@@ -18,6 +18,18 @@ int spacingOf(std::uint32_t iteration) {
   return spacing;
 }
 
+/// Step of the pixel that stands in for tap `tap`, which met its edge at step `edge`: any before it, or the last third.
+int replacementStep(const HostFrame& frame, glm::ivec2 p, std::uint32_t iteration, int tap, int edge,
+                    TapReplacement replacement) {
+  const glm::uvec4 key(p, frame.constants.frameIndex, iteration * 9U + static_cast<std::uint32_t>(tap));
+  const int choices = replacement == TapReplacement::Near ? (edge + 2) / 3 : edge;
+  const auto pick = static_cast<int>(hashBelow(key, static_cast<std::uint32_t>(choices)));
+  return replacement == TapReplacement::Near ? edge - 1 - pick : pick;
+}
+
+/// The centre, eight taps and up to eight leaks.
+constexpr int kMostParts = 17;
+
 }  // namespace
 
 AtrousState sampleMoments(const Image<Guide>& guides, const Image<glm::dvec4>& accumulated) {
@@ -42,7 +54,7 @@ AtrousPixel atrousPixel(const HostFrame& frame, const Image<Guide>& guides, cons
 
   AtrousPixel result;
   result.nearestEdge = spacing + 1;
-  std::array<WeightedMoments, 9> parts;
+  std::array<WeightedMoments, kMostParts> parts;
   parts[0] = part(p, 1.0, 0.0);
   int count = 1;
   for (int tap = 0; tap < 9; ++tap) {
@@ -53,10 +65,13 @@ AtrousPixel atrousPixel(const HostFrame& frame, const Image<Guide>& guides, cons
     result.nearestEdge = std::min(result.nearestEdge, traced.edge);
     result.undecided |= traced.weight.undecided;
     if (traced.weight.weight <= 0.0) {
-      if (!settings.replaceTaps) continue;
+      const bool isolated = traced.edge == 1;
+      if (settings.edgeLeak > 0.0F && isolated && guides.contains(p + direction)) {
+        parts[count++] = part(p + direction, double(settings.edgeLeak), 0.0);
+      }
+      if (settings.replaceTaps == TapReplacement::Off || (isolated && !settings.repeatCentre)) continue;
       ++result.replaced;
-      const glm::uvec4 key(p, frame.constants.frameIndex, iteration * 9U + static_cast<std::uint32_t>(tap));
-      reach = static_cast<int>(hashBelow(key, static_cast<std::uint32_t>(traced.edge)));
+      reach = replacementStep(frame, p, iteration, tap, traced.edge, settings.replaceTaps);
       traced = trace(direction, reach);
       result.undecided |= traced.weight.undecided;
       if (traced.weight.weight <= 0.0) {
@@ -69,7 +84,7 @@ AtrousPixel atrousPixel(const HostFrame& frame, const Image<Guide>& guides, cons
     // The factor's own error: decoding and multiplying two unit vectors.
     parts[count++] = part(q, weight, traced.weight.error + 16.0 * kFloatRoundoff);
   }
-  result.merged = merge(parts.data(), count);
+  result.merged = merge(parts.data(), count, kMostParts);
   // Beyond that the averages' error bounds do not hold, and where there is no sample at all there may be one.
   result.undecided |= result.merged.error[kMomentCount - 1] > 0.5 * result.merged.moments.samples;
   return result;
