@@ -172,7 +172,7 @@ def phases_figure(bench, sequence):
             axes.barh(row, width, left=left, color=shades[kinds.index(kind(item["name"])) % 20], height=0.7,
                       edgecolor="white", linewidth=0.6,
                       label=kind(item["name"]) if kind(item["name"]) not in axes.get_legend_handles_labels()[1] else None)
-            if width > 0.06 * limit and left + width / 2 < limit:
+            if width > 0.009 * limit * len(item["name"]) and left + width < limit:
                 axes.text(left + min(width, limit - left) / 2, row, item["name"], ha="center", va="center", fontsize=6.5,
                           clip_on=True)
             left += width

@@ -31,8 +31,7 @@ def taps(cost):
     return "-" if cost["taps_per_pixel"] is None else f"{cost['taps_per_pixel']:.0f}"
 
 
-def megabytes_at_1080p(variant):
-    cost = cost_at(variant, 1920, 1080)
+def megabytes(cost):
     return (cost["persistent_bytes"] + cost["transient_peak_bytes"]) / 1e6
 
 
@@ -66,12 +65,11 @@ def section(data):
     means = {(s["name"], r["variant"]): r["mean_after_4"] for s in data["sequences"] for r in s["runs"]}
     ratios = {(s["name"], r["variant"]): r["ratio"] for s in data["sequences"] for r in s["runs"]}
     variants = [v for v in data["variants"] if not v["sweep"]]
-    first = data["sequences"][0]
     software = data["device"]["software"]
     header = ["method"]
     for sequence in data["sequences"]:
         header += [("`" + sequence["name"] + "` " if i == 0 else "") + c[1] for i, c in enumerate(COLUMNS)]
-    header += ["time", "B/pixel", "taps", "MB at 1080p"]
+    header += ["time", "at 1080p: B/pixel", "taps", "MB"]
     rows = ["| " + " | ".join(header) + " |", "| " + " | ".join(["---"] * len(header)) + " |"]
     for variant in variants:
         name = variant["name"]
@@ -80,8 +78,8 @@ def section(data):
             row += [figure(means[sequence["name"], name][m], d) for m, _, d in COLUMNS]
         shown = [ratios[s["name"], name] for s in data["sequences"]]
         row.append("-" if None in shown else time_range(shown))
-        cost = cost_at(variant, first["width"], first["height"])
-        row += [f"{cost['bytes_read_per_pixel'] + cost['bytes_written_per_pixel']:.0f}", taps(cost), f"{megabytes_at_1080p(variant):.0f}"]
+        cost = cost_at(variant, 1920, 1080)
+        row += [f"{cost['bytes_read_per_pixel'] + cost['bytes_written_per_pixel']:.0f}", taps(cost), f"{megabytes(cost):.0f}"]
         rows.append("| " + " | ".join(row) + " |")
     device = data["device"]
     noise = []
