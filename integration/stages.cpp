@@ -4,6 +4,8 @@
 #include <string>
 
 #include "integration/host_inputs.h"
+#include "passes/ambient_occlusion.h"
+#include "passes/block_regression.h"
 #include "passes/bmfr_accumulation.h"
 #include "passes/bmfr_fit.h"
 #include "passes/denoiser.h"
@@ -73,6 +75,15 @@ void weightedRegression(StagePorts& ports, const WeightedRegressionSettings& set
 void fullWindowRegression(StagePorts& ports, const FullWindowSettings& settings) {
   ports.setOutput("filtered", addFullWindowRegression(ports.graph(), ports.buffer(kFrameName),
                                                       ports.texture("accumulated"), ports.guides(), settings));
+}
+
+void ambientOcclusion(StagePorts& ports, const AmbientOcclusionSettings& settings) {
+  ports.setOutput("occlusion", addAmbientOcclusion(ports.graph(), ports.buffer(kFrameName), ports.guides(), settings));
+}
+
+void blockRegression(StagePorts& ports, const BlockRegressionSettings& settings) {
+  ports.setOutput("filtered", addBlockRegression(ports.graph(), ports.buffer(kFrameName), ports.texture("accumulated"),
+                                                 ports.guides(), ports.texture("occlusion"), settings));
 }
 
 void bmfrFit(StagePorts& ports, const BmfrFitSettings& settings) {
@@ -146,6 +157,10 @@ std::vector<StageType> stagesAndMethods() {
        make<WeightedRegressionSettings, weightedRegression>},
       {"full_window_regression", "REFWLR's filter: weighted linear regression over the full window", false,
        make<FullWindowSettings, fullWindowRegression>},
+      {"ambient_occlusion", "Ambient occlusion from depth alone, a feature for block_regression", false,
+       make<AmbientOcclusionSettings, ambientOcclusion>},
+      {"block_regression", "WALR's filter over blocks of pixels, with depth and occlusion among its features", false,
+       make<BlockRegressionSettings, blockRegression>},
       {"bmfr_fit", "BMFR's filter: fit blocks of 32x32 pixels by features of first and second order", false,
        make<BmfrFitSettings, bmfrFit>},
       {"bmfr_accumulation", "Average fitted frames along the taps of temporal_accumulation_with_taps", false,

@@ -26,9 +26,9 @@ struct Preset {
 template <typename Settings>
 constexpr std::array<Preset<Settings>, 0> kPresets{};
 template <>
-constexpr std::array kPresets<WalrSettings>{Preset<WalrSettings>{"robust", robustWalr},
-                                            Preset<WalrSettings>{"paper", paperWalr},
-                                            Preset<WalrSettings>{"fast", fastWalr}};
+constexpr std::array kPresets<WalrSettings>{Preset<WalrSettings>{"blocks", blocksWalr},
+                                            Preset<WalrSettings>{"robust", robustWalr},
+                                            Preset<WalrSettings>{"paper", paperWalr}};
 template <>
 constexpr std::array kPresets<RefwlrSettings>{Preset<RefwlrSettings>{"robust", robustRefwlr},
                                               Preset<RefwlrSettings>{"paper", paperRefwlr}};

@@ -29,12 +29,18 @@ fg::Texture addBlockFilter(fg::Graph& graph, fg::Buffer frame, fg::Texture accum
 
 }  // namespace
 
-WalrSettings robustWalr() {
+WalrSettings blocksWalr() {
   return {};
 }
 
-WalrSettings paperWalr() {
+WalrSettings robustWalr() {
   WalrSettings settings;
+  settings.filter = SpatialFilter::Pixels;
+  return settings;
+}
+
+WalrSettings paperWalr() {
+  WalrSettings settings = robustWalr();
   settings.accumulation.historyFilter = HistoryFilter::Bicubic;
   settings.accumulation.dilateMotion = true;
   settings.fitWindow = false;
@@ -49,12 +55,6 @@ WalrSettings paperWalr() {
   settings.antialiasing.dilateMotion = true;
   settings.antialiasing.planeTolerance = 1.0F;
   settings.antialiasing.normalThreshold = -1.0F;
-  return settings;
-}
-
-WalrSettings fastWalr() {
-  WalrSettings settings;
-  settings.filter = SpatialFilter::Blocks;
   return settings;
 }
 

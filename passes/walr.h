@@ -23,7 +23,7 @@ struct WalrSettings {
   TemporalAccumulationSettings accumulation;
   WeightedRegressionSettings regression;
   TemporalAntialiasingSettings antialiasing;
-  SpatialFilter filter = SpatialFilter::Pixels;
+  SpatialFilter filter = SpatialFilter::Blocks;
   AmbientOcclusionSettings occlusion;
   BlockRegressionSettings blocks;
   bool fitWindow = true;
@@ -48,15 +48,15 @@ struct WalrSettings {
   }
 };
 
-/// The defaults: the paper's shape and bandwidth with what measurements condemn mended.
+/// The defaults: moments of blocks instead of pixels, which leave room for features that know depth and occlusion.
+WalrSettings blocksWalr();
+
+/// The paper's shape and bandwidth with what measurements condemn mended.
 WalrSettings robustWalr();
 
 /// Faithful to the publication: raw half-precision moments without sample counts, floored pivots, the shading normal's
 /// plane, bicubic history, dilated motion, variance clipping alone after the filter.
 WalrSettings paperWalr();
-
-/// Moments of blocks instead of pixels: less to move, and room for features that know depth and occlusion.
-WalrSettings fastWalr();
 
 /// Weighted A-Trous Linear Regression (walr.txt, figure 6): preprocessing, spatial filtering, postprocessing.
 /// @param output RGBA16F texture to write the result to

@@ -8,10 +8,14 @@
 namespace walr {
 namespace {
 
+/// The preset that regresses at every pixel, with the settings regression.*.
+constexpr std::string_view kPerPixel = "robust";
+
 /// A sweep over one setting's values.
 Sweep over(std::string_view name, std::string_view question, std::string_view setting,
            std::initializer_list<std::string_view> values) {
-  Sweep sweep{name, question, {}};
+  const bool perPixel = setting.starts_with("regression.");
+  Sweep sweep{name, question, perPixel ? kPerPixel : std::string_view{}, {}};
   for (const std::string_view value : values) {
     sweep.points.push_back({value, {{std::string(setting), std::string(value)}}});
   }
@@ -19,12 +23,12 @@ Sweep over(std::string_view name, std::string_view question, std::string_view se
 }
 
 std::vector<Sweep> makeSweeps() {
-  Sweep iterations{"iterations", "How many a-trous iterations, at 3^n pixels of window?", {}};
+  Sweep iterations{"iterations", "How many a-trous iterations, at 3^n pixels of window?", kPerPixel, {}};
   for (const std::string_view n : {"1", "2", "3", "4", "5"}) {
     iterations.points.push_back({n, {{"walr.fit-window", "off"}, {"regression.iterations", std::string(n)}}});
   }
   const SettingValue kDropped = {"regression.keep-sample-count", "off"};
-  Sweep remap{"edge-range", "How far from the plane does an edge begin and end?", {}};
+  Sweep remap{"edge-range", "How far from the plane does an edge begin and end?", kPerPixel, {}};
   for (const auto& [label, near, far] : {std::tuple{"quarter", "0.000375", "0.00375"},
                                          {"half", "0.00075", "0.0075"},
                                          {"default", "0.0015", "0.015"},
@@ -36,12 +40,14 @@ std::vector<Sweep> makeSweeps() {
       iterations,
       {"storage",
        "How must the moments be stored between iterations?",
+       kPerPixel,
        {{"centred16", {{"regression.moments", "centred16"}}},
         {"raw16", {{"regression.moments", "raw16"}, kDropped}},
         {"raw11", {{"regression.moments", "raw11"}, kDropped}},
         {"raw32", {{"regression.moments", "raw32"}, kDropped}}}},
       {"edges",
        "What does edge tracing buy, and its distance field save?",
+       kPerPixel,
        {{"traced", {{"regression.trace-edges", "on"}}},
         {"traced-without-sdf", {{"regression.trace-edges", "on"}, {"regression.sdf-fraction", "0"}}},
         {"untraced", {{"regression.trace-edges", "off"}}}}},
@@ -62,6 +68,12 @@ std::vector<Sweep> makeSweeps() {
       remap,
       over("plane-normal", "Which normal spans the plane of an edge?", "regression.plane-normal",
            {"geometric", "shading"}),
+      over("coarse-samples", "How much does the coarse fit count beside a block's own?", "blocks.coarse-samples",
+           {"0", "30", "100", "300", "1000", "1000000"}),
+      over("coarse-sigma", "How wide a window for the coarse fit?", "blocks.coarse-sigma",
+           {"0.014", "0.02", "0.028", "0.04", "0.056"}),
+      over("occlusion", "How far does ambient occlusion look?", "occlusion.radius",
+           {"0.02", "0.04", "0.075", "0.15", "0.3"}),
   };
 }
 
@@ -83,7 +95,7 @@ std::vector<Variant> sweepVariants(std::string_view name) {
   for (const SweepPoint& point : found->points) {
     variants.push_back({.name = std::string(name) + "=" + std::string(point.label),
                         .method = std::string(kBaseline),
-                        .preset = {},
+                        .preset = std::string(found->preset),
                         .settings = point.settings,
                         .sweep = std::string(name)});
   }

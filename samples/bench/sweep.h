@@ -19,6 +19,7 @@ struct SweepPoint {
 struct Sweep {
   std::string_view name;
   std::string_view question;
+  std::string_view preset;  ///< That the settings are changes to; empty: the default.
   std::vector<SweepPoint> points;
 };
 

@@ -149,7 +149,7 @@ static void test_create(const WalrDevice* device) {
   EXPECT(walr_create_denoiser(&info, &denoiser), WALR_ERROR_INVALID_ARGUMENT, "known methods: walr");
   info = info_of(device);
   info.preset = "magic";
-  EXPECT(walr_create_denoiser(&info, &denoiser), WALR_ERROR_INVALID_ARGUMENT, "known presets: robust");
+  EXPECT(walr_create_denoiser(&info, &denoiser), WALR_ERROR_INVALID_ARGUMENT, "known presets: blocks");
   info = info_of(device);
   info.width = 0;
   EXPECT(walr_create_denoiser(&info, &denoiser), WALR_ERROR_INVALID_ARGUMENT, "0 x 48");
@@ -230,9 +230,9 @@ static void test_settings(WalrDenoiser denoiser) {
   EXPECT(walr_get_setting(denoiser, "magic", value, &size), WALR_ERROR_INVALID_ARGUMENT, "\"magic\"");
   EXPECT(walr_resize(denoiser, 0, 1), WALR_ERROR_INVALID_ARGUMENT, "0 x 1");
   /* Settings that contradict each other are found when they are put to use, and can be mended. */
-  EXPECT_OK(walr_set_setting(denoiser, "regression.moments", "raw16"));
-  EXPECT(walr_prepare(denoiser), WALR_ERROR_INVALID_ARGUMENT, "keep-sample-count needs regression.moments=centred16");
-  EXPECT_OK(walr_set_setting(denoiser, "regression.moments", "centred16"));
+  EXPECT_OK(walr_set_setting(denoiser, "blocks.plane-near", "0.5"));
+  EXPECT(walr_prepare(denoiser), WALR_ERROR_INVALID_ARGUMENT, "blocks.plane-near must be below blocks.plane-far");
+  EXPECT_OK(walr_set_setting(denoiser, "blocks.plane-near", "0.0015"));
 }
 
 static void test_frames(Host* host, WalrDenoiser denoiser) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <stdexcept>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -103,26 +105,44 @@ TEST(Registry, PortsHaveTheUsageThatThePlanHas) {
   }
 }
 
-TEST(Registry, StagesConnectedByNameArePlannedAsTheWholeMethodIs) {
+/// A stage of a chain, with settings that the whole method fits to a picture of 360 lines.
+struct Link {
+  const char* type;
+  std::vector<std::pair<const char*, const char*>> settings;
+};
+
+void expectPlannedAs(const char* preset, const std::vector<Link>& chain) {
   HostGraph whole;
   const auto method = makePass("walr");
+  method->usePreset(preset);
   connectHost(*method, whole.inputs);
   method->connect(kOutputName, whole.output);
   whole.graph.exported(method->add(whole.graph).textures.at(std::string(kOutputName)), kComputeHost.outputAfter);
 
   HostGraph parts;
   Connections made;
-  for (const char* type : {"prepare_guides", "temporal_accumulation", "weighted_regression", "temporal_antialiasing"}) {
-    const auto node = makePass(type);
-    // The method fits its window to the picture's height, 3^3 pixels at 360 lines.
-    if (std::string_view(type) == "weighted_regression") node->set("regression.iterations", "3");
+  for (const Link& link : chain) {
+    const auto node = makePass(link.type);
+    for (const auto& [name, value] : link.settings) node->set(name, value);
     connectHost(*node, parts.inputs);
     connect(*node, made);
-    if (std::string_view(type) == "temporal_antialiasing") node->connect(kOutputName, parts.output);
+    if (std::string_view(link.type) == "temporal_antialiasing") node->connect(kOutputName, parts.output);
     made.textures.merge(node->add(parts.graph).textures);
   }
   parts.graph.exported(made.textures.at(std::string(kOutputName)), kComputeHost.outputAfter);
-  EXPECT_EQ(compiled(parts.graph), compiled(whole.graph));
+  EXPECT_TRUE(compiled(parts.graph) == compiled(whole.graph)) << preset;
+}
+
+TEST(Registry, StagesConnectedByNameArePlannedAsTheWholeMethodIs) {
+  expectPlannedAs("blocks", {{"prepare_guides", {}},
+                             {"temporal_accumulation", {}},
+                             {"ambient_occlusion", {}},
+                             {"block_regression", {{"blocks.size", "2"}, {"blocks.iterations", "3"}}},
+                             {"temporal_antialiasing", {}}});
+  expectPlannedAs("robust", {{"prepare_guides", {}},
+                             {"temporal_accumulation", {}},
+                             {"weighted_regression", {{"regression.iterations", "3"}}},
+                             {"temporal_antialiasing", {}}});
 }
 
 TEST(Registry, NamesWhatIsWrong) {

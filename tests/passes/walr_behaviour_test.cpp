@@ -67,7 +67,7 @@ TEST_F(WalrBehaviourTest, ConstantLightComesBackUnchanged) {
   for (const NamedScene& named : allScenes()) {
     SCOPED_TRACE(named.name);
     expectUnchanged(named.scene, robustWalr());
-    expectUnchanged(named.scene, fastWalr());
+    expectUnchanged(named.scene, blocksWalr());
   }
   // Bicubic history, which the paper's preset reads without clipping, takes in the sky beside a surface: none here.
   for (const Scene& scene : {flatWall(), thinBars()}) expectUnchanged(scene, paperWalr());
@@ -75,7 +75,7 @@ TEST_F(WalrBehaviourTest, ConstantLightComesBackUnchanged) {
 
 TEST_F(WalrBehaviourTest, SkyAndPixelsWithoutDiffuseLobeKeepEveryBit) {
   WalrRun run = makeRun(kSize);
-  WalrRun fast = makeRun(kSize, fastWalr());
+  WalrRun blocks = makeRun(kSize, blocksWalr());
   for (std::uint32_t i = 0; i < 3; ++i) {
     HostFrame frame = renderFrame(skyBesideSurface(), cameraAt({}, {}, kSize, i), kSize);
     int without = 0;
@@ -85,12 +85,12 @@ TEST_F(WalrBehaviourTest, SkyAndPixelsWithoutDiffuseLobeKeepEveryBit) {
       if (passive) frame.lighting.pixels()[k] = glm::dvec3(reference::roundToHalf(0.01 * double(k)), 3.0, 0x1p-20);
     }
     const WalrStages stages = run.frame(frame);
-    const WalrStages fastStages = fast.frame(frame);
+    const WalrStages blocksStages = blocks.frame(frame);
     reference::forEachPixel(kSize, [&](glm::ivec2 p) {
       if (frame.depth[p] < 1e9 && frame.albedo[p] != glm::dvec3(0.0)) return;
       ++without;
       EXPECT_EQ(glm::dvec3(stages.output[p]), frame.lighting[p]) << p.x << ", " << p.y;
-      EXPECT_EQ(glm::dvec3(fastStages.output[p]), frame.lighting[p]) << p.x << ", " << p.y;
+      EXPECT_EQ(glm::dvec3(blocksStages.output[p]), frame.lighting[p]) << p.x << ", " << p.y;
     });
     EXPECT_GT(without, 1000);
   }
@@ -129,7 +129,7 @@ TEST_F(WalrBehaviourTest, FirstFramesAreDenoisedSpatially) {
 }
 
 TEST_F(WalrBehaviourTest, TwoRunsGiveTheSameBits) {
-  for (const WalrSettings& settings : {robustWalr(), paperWalr(), fastWalr()}) {
+  for (const WalrSettings& settings : {robustWalr(), paperWalr(), blocksWalr()}) {
     WalrRun first = makeRun(kSmall, settings);
     WalrRun second = makeRun(kSmall, settings);
     for (std::uint32_t i = 0; i < 4; ++i) {
@@ -174,7 +174,7 @@ TEST_F(WalrBehaviourTest, BrokenInputStaysFiniteAndDoesNotSpread) {
   const glm::ivec2 broken(19, 13);
   // The paper's raw moments keep a constant on a flat wall only.
   const std::pair<WalrSettings, Scene> cases[] = {
-      {robustWalr(), bumpyWall(0.1)}, {fastWalr(), bumpyWall(0.1)}, {paperWalr(), flatWall()}};
+      {robustWalr(), bumpyWall(0.1)}, {blocksWalr(), bumpyWall(0.1)}, {paperWalr(), flatWall()}};
   for (const auto& [settings, scene] : cases) {
     for (const Damage& damage : allDamage()) {
       SCOPED_TRACE(damage.name);
@@ -200,7 +200,7 @@ TEST_F(WalrBehaviourTest, PixelsWithoutASampleDoNotDarken) {
   raw11.regression.storage = MomentStorage::Raw11;
   raw11.regression.regularisation.ridge = 1e-2F;
   for (const double share : {0.1, 0.5}) {
-    for (const WalrSettings& settings : {robustWalr(), paperWalr(), raw11, fastWalr()}) {
+    for (const WalrSettings& settings : {robustWalr(), paperWalr(), raw11, blocksWalr()}) {
       SCOPED_TRACE(std::to_string(share) + ", storage " + std::to_string(int(settings.regression.storage)));
       WalrRun run = makeRun(kSmall, settings);
       HostFrame frame = constantFrame(flatWall(), 0, kSmall);
@@ -222,7 +222,7 @@ TEST_F(WalrBehaviourTest, PixelsWithoutASampleDoNotDarken) {
 }
 
 TEST_F(WalrBehaviourTest, FirstFrameMayHoldNothingButBrokenValues) {
-  for (const WalrSettings& settings : {robustWalr(), fastWalr()}) {
+  for (const WalrSettings& settings : {robustWalr(), blocksWalr()}) {
     WalrRun run = makeRun(kSmall, settings);
     HostFrame frame = constantFrame(bumpyWall(0.1), 0, kSmall);
     for (glm::dvec3& l : frame.lighting.pixels()) l = glm::dvec3(std::numeric_limits<double>::quiet_NaN());
@@ -238,7 +238,7 @@ TEST_F(WalrBehaviourTest, FirstFrameMayHoldNothingButBrokenValues) {
 TEST_F(WalrBehaviourTest, BlocksSurviveTheHardCases) {
   for (const HardCase& hard : hardCases()) {
     SCOPED_TRACE(hard.name);
-    WalrRun run = makeRun(hard.frames.front().size(), fastWalr());
+    WalrRun run = makeRun(hard.frames.front().size(), blocksWalr());
     for (const HostFrame& frame : hard.frames) {
       const WalrStages stages = run.frame(frame);
       for (const glm::dvec4& v : stages.output.pixels()) {
