@@ -168,17 +168,17 @@ TEST(PlanCostsTest, TapsAreTheWindowsOfTheStages) {
   EXPECT_EQ(taps("bmfr"), 5.0 + 1.0 + 5.0 + kAntialiasing);
   // An iteration of WALR is 3 x 3 taps (walr.txt 3.2).
   const auto walr = [](const char* iterations) {
-    const std::string text = std::string("w=walr,walr.fit-window=off,regression.iterations=") + iterations;
+    const std::string text = std::string("w=walr:robust,walr.fit-window=off,regression.iterations=") + iterations;
     return *planCosts(parseVariant(text), {320, 180}, {}).tapsPerPixel;
   };
   EXPECT_EQ(walr("4") - walr("2"), 18.0);
   // Over blocks of 4 x 4 pixels an iteration is a sixteenth of that.
-  const auto fast = [](const char* iterations) {
+  const auto blocks = [](const char* iterations) {
     const std::string text =
-        std::string("w=walr:fast,blocks.size=4,walr.fit-window=off,blocks.iterations=") + iterations;
+        std::string("w=walr:blocks,blocks.size=4,walr.fit-window=off,blocks.iterations=") + iterations;
     return *planCosts(parseVariant(text), {320, 180}, {}).tapsPerPixel;
   };
-  EXPECT_EQ(fast("4") - fast("2"), 18.0 / 16.0);
+  EXPECT_EQ(blocks("4") - blocks("2"), 18.0 / 16.0);
 }
 
 TEST(PlanCostsTest, SharedMemoryIsNoLargerThanUnshared) {
