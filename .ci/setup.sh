@@ -9,8 +9,10 @@ walr_packages=(
   # Libraries
   libcli11-dev libembree-dev libglm-dev libimath-dev libopenexr-dev libpng-dev libstb-dev libtinygltf-dev
   nlohmann-json3-dev
+  # The sample host's window, which is optional
+  libglfw3-dev libimgui-dev
   # Tests and benchmarks
-  clang libbenchmark-dev libgtest-dev libplacebo-dev python3 python3-matplotlib python3-skimage
+  clang libbenchmark-dev libgtest-dev libplacebo-dev libxtst6 python3 python3-matplotlib python3-skimage xvfb
 )
 
 walr_setup() {

@@ -1,12 +1,23 @@
 #include "framegraph/vulkan/device.h"
 
+#include <algorithm>
+#include <vector>
+
 #include "framegraph/vulkan/error.h"
 
 namespace fg::vk {
 namespace {
 
-VkDevice createDevice(const Instance& instance, const PhysicalDevice& physicalDevice) {
+VkDevice createDevice(const Instance& instance, const PhysicalDevice& physicalDevice,
+                      std::span<const char* const> wanted) {
   require(physicalDevice);
+  for (const char* const extension : wanted) {
+    if (std::ranges::find(physicalDevice.extensions, extension) == physicalDevice.extensions.end()) {
+      throw Unsupported("device '" + physicalDevice.name + "' lacks the extension " + extension +
+                            ": choose another device, or do without what needs it",
+                        VK_ERROR_EXTENSION_NOT_PRESENT);
+    }
+  }
   const float priority = 1.0f;
   VkDeviceQueueCreateInfo queue{};
   queue.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO;
@@ -28,7 +39,7 @@ VkDevice createDevice(const Instance& instance, const PhysicalDevice& physicalDe
   features.features.shaderStorageImageWriteWithoutFormat = physicalDevice.features.shaderStorageImageWriteWithoutFormat;
   features.features.shaderInt16 = physicalDevice.features.shaderInt16;
 
-  std::vector<const char*> extensions;
+  std::vector<const char*> extensions(wanted.begin(), wanted.end());
   if (physicalDevice.apiVersion < VK_API_VERSION_1_3) {
     extensions.push_back(VK_KHR_SYNCHRONIZATION_2_EXTENSION_NAME);
     if (physicalDevice.maintenance4) extensions.push_back(VK_KHR_MAINTENANCE_4_EXTENSION_NAME);
@@ -49,10 +60,10 @@ VkDevice createDevice(const Instance& instance, const PhysicalDevice& physicalDe
 
 }  // namespace
 
-Device::Device(const Instance& instance, const PhysicalDevice& physicalDevice)
+Device::Device(const Instance& instance, const PhysicalDevice& physicalDevice, std::span<const char* const> extensions)
     : context_(DeviceView{.instance = instance.handle(),
                           .physicalDevice = physicalDevice.handle,
-                          .device = createDevice(instance, physicalDevice),
+                          .device = createDevice(instance, physicalDevice, extensions),
                           .getInstanceProcAddr = instance.functions().vkGetInstanceProcAddr,
                           .queueFamily = physicalDevice.computeQueueFamily,
                           .allocator = nullptr}) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <span>
+
 #include "framegraph/vulkan/device_context.h"
 #include "framegraph/vulkan/physical_device.h"
 
@@ -11,8 +13,9 @@ namespace fg::vk {
 /// maintenance4, shaderStorageImageWriteWithoutFormat and shaderInt16.
 class Device {
  public:
+  /// @param extensions enabled besides, for instance VK_KHR_swapchain
   /// @throws Unsupported naming what the device lacks
-  Device(const Instance& instance, const PhysicalDevice& physicalDevice);
+  Device(const Instance& instance, const PhysicalDevice& physicalDevice, std::span<const char* const> extensions = {});
   ~Device();
   Device(const Device&) = delete;
   Device& operator=(const Device&) = delete;

@@ -42,13 +42,18 @@ Frame FrameQueue::begin() {
   return {slot.commandBuffer, next_};
 }
 
-void FrameQueue::submit(const Frame& frame) {
+void FrameQueue::submit(const Frame& frame, const FrameSemaphores& semaphores) {
   Slot& slot = slots_[frame.slot];
   check(device_->functions.vkEndCommandBuffer(frame.commandBuffer), "ending a command buffer");
   VkSubmitInfo info{};
   info.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO;
   info.commandBufferCount = 1;
   info.pCommandBuffers = &frame.commandBuffer;
+  info.waitSemaphoreCount = semaphores.wait != VK_NULL_HANDLE ? 1 : 0;
+  info.pWaitSemaphores = &semaphores.wait;
+  info.pWaitDstStageMask = &semaphores.waitStage;
+  info.signalSemaphoreCount = semaphores.signal != VK_NULL_HANDLE ? 1 : 0;
+  info.pSignalSemaphores = &semaphores.signal;
   check(device_->functions.vkQueueSubmit(queue_, 1, &info, slot.fence.get()), "submitting a frame");
   slot.pending = true;
   next_ = (frame.slot + 1) % static_cast<std::uint32_t>(slots_.size());

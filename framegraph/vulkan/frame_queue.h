@@ -13,6 +13,13 @@ struct Frame {
   std::uint32_t slot = 0;  ///< As `Executor::record` takes it.
 };
 
+/// What a frame waits for and tells beside its fence, for instance to and from a swapchain.
+struct FrameSemaphores {
+  VkSemaphore wait = VK_NULL_HANDLE;
+  VkPipelineStageFlags waitStage = 0;  ///< Of the frame: the first that waits.
+  VkSemaphore signal = VK_NULL_HANDLE;
+};
+
 /// Command buffers and fences of a program that submits one command buffer a frame to one queue and lets a few frames
 /// be in flight.
 class FrameQueue {
@@ -29,7 +36,7 @@ class FrameQueue {
   /// @throws DeviceLost, OutOfMemory
   Frame begin();
   /// @throws DeviceLost, OutOfMemory
-  void submit(const Frame& frame);
+  void submit(const Frame& frame, const FrameSemaphores& semaphores = {});
   /// Wait for the frame last submitted with a slot; at once where there is none.
   /// @throws DeviceLost
   void wait(std::uint32_t slot);

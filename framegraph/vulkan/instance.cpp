@@ -77,7 +77,7 @@ PFN_vkGetInstanceProcAddr openLoader() {
 
 Instance::Instance(const InstanceOptions& options, PFN_vkGetInstanceProcAddr entry) : sink_(options.sink) {
   std::vector<const char*> layers;
-  std::vector<const char*> extensions;
+  std::vector<const char*> extensions = options.extensions;
   if (options.validation) {
     if (!hasLayer(entry, kValidationLayer)) {
       throw Unsupported(std::string(kValidationLayer) +

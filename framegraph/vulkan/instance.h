@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "framegraph/vulkan/functions.h"
 #include "framegraph/vulkan/messages.h"
@@ -17,6 +18,7 @@ struct InstanceOptions {
   bool debugLabels = false;  ///< Enable VK_EXT_debug_utils where it is there: names and labels in captures.
   bool validation = false;   ///< The Khronos validation layer with synchronization validation; implies debug labels.
   MessageSink sink;          ///< Takes validation messages; called only with `validation`.
+  std::vector<const char*> extensions;  ///< Enabled besides, for instance those of a window system.
 };
 
 /// A Vulkan instance for programs that bring none of their own.

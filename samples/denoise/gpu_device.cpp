@@ -26,9 +26,9 @@ fg::Plan compilePlan(const fg::Graph& graph, const fg::MemoryModel& memory) {
 }  // namespace
 
 GpuDevice::GpuDevice(const Options& options)
-    : instance_({.validation = options.validation, .sink = log_.sink()}),
+    : instance_({.validation = options.validation, .sink = log_.sink(), .extensions = options.instanceExtensions}),
       physical_(chooseDevice(instance_, options.device)),
-      device_(instance_, physical_) {}
+      device_(instance_, physical_, options.deviceExtensions) {}
 
 void GpuDevice::refuseMessages() {
   const std::vector<fg::vk::Message> messages = takeMessages();

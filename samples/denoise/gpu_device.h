@@ -18,6 +18,8 @@ class GpuDevice {
   struct Options {
     std::string device;       ///< Number or part of a name; empty for the most capable one.
     bool validation = false;  ///< Run under the Khronos validation layer with synchronization validation.
+    std::vector<const char*> instanceExtensions = {};  ///< Enabled besides, for instance for windows.
+    std::vector<const char*> deviceExtensions = {};
   };
 
   /// @throws fg::vk::Error where there is no device, or none that will do
@@ -31,6 +33,7 @@ class GpuDevice {
 
   [[nodiscard]] const fg::vk::PhysicalDevice& physical() const { return physical_; }
   [[nodiscard]] const fg::vk::Device& device() const { return device_; }
+  [[nodiscard]] VkInstance instance() const { return instance_.handle(); }
 
   /// What the validation layer said since the last call.
   std::vector<fg::vk::Message> takeMessages() { return log_.take(); }

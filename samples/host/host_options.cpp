@@ -5,13 +5,15 @@ namespace walr::host {
 void addHostOptions(CLI::App& program, HostOptions& options) {
   Tracer::Options& tracer = options.tracer;
   program.add_option("SCENE", tracer.scene, "glTF 2.0 file, .gltf or .glb")->required();
-  program.add_flag("--headless", options.headless, "Open no window; write --frames to --output");
+  program.add_flag("--headless", options.headless,
+                   "Open no window; write --frames to --output. So it is, too, where there is no display");
   program.add_option("-o,--output", options.output, "Without a window: folder for frame_FFFF.png; made if need be")
       ->type_name("DIR");
   program.add_flag("--exr", options.exr, "Also write frame_FFFF.exr, the linear lit picture in half floats");
   program.add_option("--frames", options.frames, "Frames of the scene's animation, both included")
       ->type_name("A-B")
       ->capture_default_str();
+  program.add_flag("--once", options.once, "In a window: stop after the last frame instead of starting again");
   program.add_option("--size", options.size, "Size of the picture in pixels, 1 to 16384 each")
       ->type_name("WIDTHxHEIGHT")
       ->capture_default_str();

@@ -23,6 +23,7 @@ struct HostOptions {
   std::filesystem::path output;
   bool headless = false;
   bool exr = false;
+  bool once = false;
 };
 
 void addHostOptions(CLI::App& program, HostOptions& options);

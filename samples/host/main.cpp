@@ -2,6 +2,7 @@
 
 #include <iostream>
 #include <memory>
+#include <utility>
 
 #include <CLI/CLI.hpp>
 
@@ -12,6 +13,9 @@
 #include "samples/host/headless.h"
 #include "samples/host/host_options.h"
 #include "samples/image/file_output.h"
+#ifdef WALR_HOST_WINDOW
+#include "samples/host/window/interactive.h"
+#endif
 
 namespace walr::host {
 namespace {
@@ -43,17 +47,48 @@ void runHeadless(const HostOptions& options, Tracer& tracer, GpuDevice& gpu, Den
   });
 }
 
+/// Whether a window can be and shall be opened.
+bool opensWindow(const HostOptions& options) {
+#ifdef WALR_HOST_WINDOW
+  if (!options.headless && !Window::available()) {
+    std::cerr << "no display: running as with --headless\n";
+    return false;
+  }
+  return !options.headless;
+#else
+  if (!options.headless) {
+    std::cerr << "built without windows (GLFW and Dear ImGui were not found): running as with --headless\n";
+  }
+  return false;
+#endif
+}
+
 void run(HostOptions& options) {
   options.tracer.extent = parseSize(options.size);
-  const std::unique_ptr<Denoiser> method = makeMethod(options.method);
+  std::unique_ptr<Denoiser> method = makeMethod(options.method);
+  const bool window = opensWindow(options);
   Tracer tracer(options.tracer);
   for (const std::string& warning : tracer.warnings()) {
     std::cerr << "warning: " << warning << '\n';
   }
+#ifdef WALR_HOST_WINDOW
+  if (window) {
+    options.gpu = withWindows(options.gpu);
+  }
+#endif
   GpuDevice gpu(options.gpu);
   std::cout << "method: " << options.method.name << "\ndevice: " << gpu.name() << ", driver " << gpu.driver()
             << std::endl;
-  runHeadless(options, tracer, gpu, *method);
+  if (!window) {
+    runHeadless(options, tracer, gpu, *method);
+  }
+#ifdef WALR_HOST_WINDOW
+  if (window) {
+    Session session(tracer, options.method.name, std::move(method), parseView(options.view),
+                    viewConstantsOf(options.tracer.extent), parseFrameRange(options.frames), options.once);
+    runWindow(tracer, gpu, session, options.tracer.extent);
+  }
+#endif
   gpu.refuseMessages();
 }
 

@@ -83,7 +83,7 @@ Frame Tracer::trace(const Request& request) {
   sampling.threads = options_.threads;
   Frame frame = render::toFrame(render::renderFilm(world_, view, sampling), view, request.number);
   frame.camera.cut = request.cut;
-  frame.resetHistory = request.cut || !previous_;
+  frame.resetHistory = request.cut || request.resetHistory || !previous_;
   if (request.reference) {
     frame.reference = traceReference(request, view);
   }

@@ -40,8 +40,9 @@ class Tracer {
     double animationFrame = 0.0;  ///< Where the animation stands, in frames.
     /// The camera, world to view space; nothing: the scene's.
     std::optional<glm::mat4> view = std::nullopt;
-    bool cut = false;        ///< Nothing is carried over from the frame before.
-    bool reference = false;  ///< With a reference: the mean of all since the picture last changed.
+    bool cut = false;           ///< The camera jumps: nothing is carried over from the frame before.
+    bool resetHistory = false;  ///< Nothing is carried over, though the camera does not jump.
+    bool reference = false;     ///< With a reference: the mean of all since the picture last changed.
   };
 
   /// @throws render::SceneError for a scene that cannot be rendered

@@ -1,0 +1,208 @@
+"""Renders frames of a Blender scene with Cycles as `walr denoise` takes them.
+
+    blender -b scene.blend --python samples/blender/export_frames.py -- \\
+        --output DIR --frames A-B [--size WIDTHxHEIGHT] [--spp N] [--reference-spp M] [--camera NAME]
+
+writes to DIR, in the layout of samples/README.md ("Blender Cycles"):
+
+    noisy_FFFF.exr   one path a pixel, with the passes that the denoiser needs
+    ref_FFFF.exr     the same frame with M paths a pixel, for --reference-spp
+    cameras.json     the camera of every frame
+
+Every value belongs to the centre of its pixel: the pixel filter is 0.01 pixel wide. Each frame has random numbers of its
+own, and references never share those of the noisy frames. Nothing is clamped, denoised or sampled adaptively. Files that
+are there already are kept, so that an interrupted run goes on. The scene file itself is not changed.
+
+Motion comes from Blender for all that moves, but `walr denoise` takes the depth change of the camera's motion alone: the
+script names objects that move.
+"""
+
+import argparse
+import json
+import pathlib
+import sys
+
+import bpy
+
+# Cycles ignores the width of its box filter, so that it must be another.
+FILTER = "GAUSSIAN"
+FILTER_WIDTH = 0.01
+REFERENCE_SEED = 1000003
+MOST_SAMPLES = 1 << 24
+
+
+def fail(message):
+    # Blender ends with 0 after an exception in a script; only this is seen by whoever called.
+    print(f"export_frames.py: {message}", file=sys.stderr)
+    sys.exit(1)
+
+
+def pair(text, separator, option, example):
+    parts = text.split(separator)
+    if len(parts) != 2 or not all(part.isdigit() for part in parts):
+        fail(f"{option} {text}: give two numbers, as in {option} {example}")
+    return int(parts[0]), int(parts[1])
+
+
+def samples(text):
+    value = int(text)
+    if not 0 <= value <= MOST_SAMPLES:
+        raise argparse.ArgumentTypeError(f"give 0 to {MOST_SAMPLES}")
+    return value
+
+
+def parse_arguments():
+    own = sys.argv[sys.argv.index("--") + 1:] if "--" in sys.argv else []
+    parser = argparse.ArgumentParser(prog="export_frames.py", description="Renders frames for walr denoise")
+    parser.add_argument("--output", required=True, type=pathlib.Path, help="folder, made if need be")
+    parser.add_argument("--frames", required=True, help="A-B: frame numbers, both included")
+    parser.add_argument("--size", help="WIDTHxHEIGHT in pixels; default: the scene's")
+    parser.add_argument("--spp", type=samples, default=1, help="paths a pixel of the noisy frames; default 1")
+    parser.add_argument("--reference-spp", type=samples, default=0, help="paths a pixel of the references; 0: none")
+    parser.add_argument("--camera", help="name of the camera object; default: the scene's")
+    arguments = parser.parse_args(own)
+    first, last = pair(arguments.frames, "-", "--frames", "1-24") if "-" in arguments.frames else (
+        pair(f"{arguments.frames}-{arguments.frames}", "-", "--frames", "1-24"))
+    if first > last:
+        fail(f"--frames {arguments.frames}: the first is after the last")
+    arguments.frames = range(first, last + 1)
+    if arguments.size:
+        arguments.size = pair(arguments.size, "x", "--size", "640x360")
+    if arguments.spp < 1:
+        fail("--spp 0: give at least one path a pixel")
+    return arguments
+
+
+def choose_camera(scene, name):
+    if name is not None:
+        camera = scene.objects.get(name)
+        if camera is None or camera.type != "CAMERA":
+            known = ", ".join(o.name for o in scene.objects if o.type == "CAMERA") or "none"
+            fail(f"--camera {name}: there is no such camera; cameras: {known}")
+        scene.camera = camera
+    if scene.camera is None:
+        fail("the scene has no camera; add one or choose one with --camera")
+    if scene.camera.data.type != "PERSP":
+        fail(f"camera '{scene.camera.name}' is not a perspective one")
+    if scene.camera.data.dof.use_dof:
+        print(f"warning: depth of field of '{scene.camera.name}' is turned off: every pixel must show one point")
+        scene.camera.data.dof.use_dof = False
+
+
+def set_up(scene, size):
+    render = scene.render
+    render.engine = "CYCLES"
+    if size:
+        render.resolution_x, render.resolution_y = size
+    render.resolution_percentage = 100
+    render.use_border = False
+    render.use_multiview = False
+    render.use_stamp = False
+    render.use_compositing = False
+    render.use_sequencer = False
+    # With motion blur Cycles writes no vectors.
+    render.use_motion_blur = False
+    render.film_transparent = False
+    render.image_settings.file_format = "OPEN_EXR_MULTILAYER"
+    render.image_settings.color_depth = "32"
+    render.image_settings.exr_codec = "ZIP"
+
+    cycles = scene.cycles
+    cycles.pixel_filter_type = FILTER
+    cycles.filter_width = FILTER_WIDTH
+    cycles.use_animated_seed = False
+    cycles.use_adaptive_sampling = False
+    cycles.use_denoising = False
+    cycles.sample_clamp_direct = 0.0
+    cycles.sample_clamp_indirect = 0.0
+    cycles.light_sampling_threshold = 0.0
+    cycles.time_limit = 0.0
+
+    layers = [layer for layer in scene.view_layers if layer.use]
+    if len(layers) > 1:
+        names = ", ".join(layer.name for layer in layers)
+        print(f"warning: several view layers ({names}): give walr denoise --view-layer NAME")
+    for layer in layers:
+        layer.use_pass_z = True
+        layer.use_pass_normal = True
+        layer.use_pass_vector = True
+        layer.use_pass_diffuse_direct = True
+        layer.use_pass_diffuse_indirect = True
+        layer.use_pass_diffuse_color = True
+        layer.use_pass_emit = True
+        layer.cycles.denoising_store_passes = False
+
+
+def numbers(matrix):
+    """Column-major, as the project has it; Blender's rows are rows."""
+    return [matrix[row][column] for column in range(4) for row in range(4)]
+
+
+def view_matrix(scene, frame):
+    scene.frame_set(frame)
+    camera = scene.camera.evaluated_get(bpy.context.evaluated_depsgraph_get())
+    return camera.matrix_world.normalized().inverted()
+
+
+def describe_camera(scene, frame):
+    previous = view_matrix(scene, frame - 1)
+    view = view_matrix(scene, frame)
+    camera = scene.camera.evaluated_get(bpy.context.evaluated_depsgraph_get())
+    projection = camera.calc_matrix_camera(
+        bpy.context.evaluated_depsgraph_get(), x=scene.render.resolution_x, y=scene.render.resolution_y,
+        scale_x=scene.render.pixel_aspect_x, scale_y=scene.render.pixel_aspect_y)
+    return {"frame": frame, "view": numbers(view), "prev_view": numbers(previous), "projection": numbers(projection)}
+
+
+def name_moving_objects(scene, frames):
+    def places(frame):
+        scene.frame_set(frame)
+        graph = bpy.context.evaluated_depsgraph_get()
+        return {o.name: o.evaluated_get(graph).matrix_world.copy()
+                for o in scene.objects if o.type in {"MESH", "CURVE", "SURFACE", "META", "FONT"}}
+
+    first, last = places(frames.start - 1), places(frames.stop - 1)
+    moving = sorted(name for name in first if name in last and first[name] != last[name])
+    if moving:
+        print(f"warning: objects move ({', '.join(moving[:8])}{', ...' if len(moving) > 8 else ''}): walr denoise takes "
+              "their motion in the picture, but not their change of depth")
+
+
+def render(scene, file, sample_count, seed):
+    if file.exists():
+        print(f"{file.name}: is there already")
+        return
+    scene.cycles.samples = sample_count
+    scene.cycles.seed = seed
+    # Under another name until it is whole; Blender appends the extension where it lacks it.
+    unfinished = file.with_name("unfinished.exr")
+    scene.render.filepath = str(unfinished)
+    bpy.ops.render.render(write_still=True)
+    if not unfinished.exists():
+        fail(f"Blender wrote no {unfinished}")
+    unfinished.replace(file)
+    print(f"{file.name}: rendered")
+
+
+def main():
+    arguments = parse_arguments()
+    scene = bpy.context.scene
+    choose_camera(scene, arguments.camera)
+    set_up(scene, arguments.size)
+    output = arguments.output.resolve()
+    output.mkdir(parents=True, exist_ok=True)
+    name_moving_objects(scene, arguments.frames)
+    cameras = {
+        "convention": "column-major; view = world to camera, camera looks down -Z, +Y up; OpenGL clip space (z in -1..1); "
+                      "world = Blender's; prev_view = view of the frame before",
+        "frames": [describe_camera(scene, frame) for frame in arguments.frames],
+    }
+    (output / "cameras.json").write_text(json.dumps(cameras, indent=1) + "\n", encoding="utf-8")
+    for frame in arguments.frames:
+        scene.frame_set(frame)
+        render(scene, output / f"noisy_{frame:04d}.exr", arguments.spp, frame + 1)
+        if arguments.reference_spp:
+            render(scene, output / f"ref_{frame:04d}.exr", arguments.reference_spp, REFERENCE_SEED + frame)
+
+
+main()

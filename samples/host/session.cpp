@@ -1,0 +1,109 @@
+#include "samples/host/session.h"
+
+#include <utility>
+
+#include <glm/geometric.hpp>
+
+namespace walr::host {
+
+Session::Session(const Tracer& tracer, std::string methodName, std::unique_ptr<Denoiser> method, const HostView& view,
+                 const ViewConstants& constants, const FrameRange& frames, bool once)
+    : viewConstants(constants),
+      tracer_(tracer),
+      methodName_(std::move(methodName)),
+      method_(std::move(method)),
+      view_(view),
+      frames_(frames),
+      once_(once),
+      animationFrame_(frames.first),
+      number_(frames.first) {}
+
+std::optional<Tracer::Request> Session::nextRequest(bool evenFrozen) {
+  const bool ended = once_ && started_ && animationFrame_ == frames_.last;
+  if (ended && !paused) {
+    frozen = true;
+    once_ = false;  // Whoever goes on sees the animation again.
+  }
+  if (frozen && !evenFrozen) {
+    return std::nullopt;
+  }
+  if (started_ && !paused && !frozen) {
+    if (animationFrame_ < frames_.last) {
+      ++animationFrame_;
+    } else if (frames_.first < frames_.last) {
+      animationFrame_ = frames_.first;
+      cut_ = true;
+    }
+  }
+  Tracer::Request request;
+  request.number = started_ ? ++number_ : number_;
+  request.animationFrame = animationFrame_;
+  request.cut = std::exchange(cut_, false);
+  request.resetHistory = std::exchange(reset_, false);
+  request.reference = view_.needsReference();
+  if (camera_) {
+    request.view = camera_->view();
+  }
+  started_ = true;
+  return request;
+}
+
+void Session::chooseMethod(const std::string& name) {
+  method_ = makeDenoiser(name);
+  methodName_ = name;
+  graphChanged_ = true;
+}
+
+void Session::choosePreset(const std::string& name) {
+  method_->usePreset(name);
+  graphChanged_ = true;
+}
+
+void Session::chooseView(const HostView& view) {
+  graphChanged_ = graphChanged_ || !(view == view_);
+  view_ = view;
+}
+
+void Session::chooseCamera(CameraMode mode) {
+  cameraMode_ = mode;
+  if (mode == CameraMode::Scene) {
+    camera_.reset();
+  } else if (!camera_) {
+    const glm::mat4 view = tracer_.sceneCamera(animationFrame_);
+    const glm::vec4 bounds = tracer_.bounds();
+    // Turn around what lies ahead as deep as the scene's middle, or near by where that is behind.
+    const float ahead = -(view * glm::vec4(glm::vec3(bounds), 1.0F)).z;
+    camera_.emplace(view, glm::max(ahead, 0.1F * bounds.w));
+  }
+}
+
+void Session::moveCamera(const CameraInput& input) {
+  if (cameraMode_ == CameraMode::Orbit) {
+    camera_->orbit(input);
+  } else if (cameraMode_ == CameraMode::Fly) {
+    camera_->fly(input);
+  }
+}
+
+float Session::flySpeed() const {
+  constexpr float kRadiiASecond = 0.3F;
+  return kRadiiASecond * tracer_.bounds().w;
+}
+
+void Session::cutCamera() {
+  cut_ = true;
+  if (cameraMode_ != CameraMode::Scene) {
+    const CameraMode mode = cameraMode_;
+    camera_.reset();
+    chooseCamera(mode);
+    return;
+  }
+  const int count = frames_.last - frames_.first + 1;
+  animationFrame_ = frames_.first + (animationFrame_ - frames_.first + count / 2) % count;
+}
+
+bool Session::takeGraphChange() {
+  return std::exchange(graphChanged_, false);
+}
+
+}  // namespace walr::host

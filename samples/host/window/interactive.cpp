@@ -1,0 +1,206 @@
+#include "samples/host/window/interactive.h"
+
+#include <chrono>
+#include <csignal>
+#include <future>
+#include <optional>
+#include <thread>
+#include <utility>
+
+#define GLFW_INCLUDE_VULKAN
+#include <GLFW/glfw3.h>
+
+#include "framegraph/vulkan/frame_queue.h"
+#include "samples/host/window/interface.h"
+#include "samples/host/window/live_frame.h"
+#include "samples/host/window/presenter.h"
+
+namespace walr::host {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::uint32_t kFramesInFlight = 2;
+// How often the window is drawn while nothing new is traced.
+constexpr std::chrono::milliseconds kRefresh(16);
+
+volatile std::sig_atomic_t interrupted = 0;
+
+void interrupt(int /*signal*/) {
+  interrupted = 1;
+}
+
+struct Traced {
+  HostFrame frame;
+  double seconds = 0.0;
+};
+
+/// A window with everything that draws in it.
+class Show {
+ public:
+  Show(Tracer& tracer, const GpuDevice& device, Session& session, const Window& window, const Surface& surface,
+       fg::Extent extent)
+      : tracer_(tracer),
+        device_(device),
+        session_(session),
+        window_(window),
+        surface_(surface),
+        picture_(device, extent),
+        queue_(device.device().context(), device.device().queue(), kFramesInFlight),
+        interface_(device, window, kFramesInFlight) {}
+
+  ~Show() {
+    if (next_.valid()) {
+      next_.wait();
+    }
+    queue_.waitAll();
+  }
+  Show(const Show&) = delete;
+  Show& operator=(const Show&) = delete;
+
+  void run() {
+    startTracing();
+    take(next_.get());
+    makePresenter();
+    interface_.prepare(presenter_->renderPass(), queue_);
+    while (!window_.closed() && interrupted == 0) {
+      glfwPollEvents();
+      if (window_.size() == fg::Extent{}) {
+        glfwWaitEventsTimeout(std::chrono::duration<double>(kRefresh).count());
+        continue;
+      }
+      step();
+    }
+  }
+
+ private:
+  void startTracing() {
+    if (const std::optional<Tracer::Request> request = session_.nextRequest(wanted_ && !frameFits())) {
+      next_ = std::async(std::launch::async, [this, request] {
+        const Clock::time_point start = Clock::now();
+        Traced traced{packHostFrame(tracer_.trace(*request)), 0.0};
+        traced.seconds = std::chrono::duration<double>(Clock::now() - start).count();
+        return traced;
+      });
+    }
+  }
+
+  void take(Traced traced) {
+    frame_ = std::move(traced.frame);
+    facts_.tracingSeconds = traced.seconds;
+    fresh_ = true;
+    startTracing();
+  }
+
+  void makePresenter() {
+    queue_.waitAll();
+    presenter_.reset();
+    presenter_.emplace(device_, surface_.handle(), window_.size(), picture_, kFramesInFlight, Interface::draw);
+  }
+
+  /// The graph for what the session has chosen; the frame at hand is its first.
+  void makeLiveFrame() {
+    queue_.waitAll();
+    live_.reset();
+    live_.emplace(device_, session_.method(), session_.view(), picture_, kFramesInFlight);
+    lastSlot_.reset();
+    frame_.inputs.frame.resetHistory = true;
+    fresh_ = true;
+  }
+
+  /// A view with a reference can only show frames that have one.
+  [[nodiscard]] bool frameFits() const {
+    return !session_.view().needsReference() || !frame_.referenceIndirect.empty();
+  }
+
+  void waitForFrame() {
+    if (!next_.valid()) {
+      startTracing();
+    }
+    if (!next_.valid()) {
+      std::this_thread::sleep_for(kRefresh);
+    } else if (next_.wait_for(kRefresh) == std::future_status::ready) {
+      take(next_.get());
+    }
+  }
+
+  void step() {
+    // Every frame is denoised: one that waits for its turn is not replaced.
+    if (!fresh_) {
+      waitForFrame();
+    }
+    const bool changed = session_.takeGraphChange() || !live_;
+    wanted_ = wanted_ || changed;
+    if (wanted_ && frameFits()) {
+      makeLiveFrame();
+      wanted_ = false;
+    }
+    interface_.update(session_, live_->graph(), live_->plan(), facts_);
+    const fg::vk::Frame recorded = queue_.begin();
+    const std::optional<std::uint32_t> image = presenter_->swapchain().acquire(recorded.slot);
+    if (!image) {
+      makePresenter();
+      return;
+    }
+    // The device has finished what was last recorded with this slot. While nothing new comes, that of the last frame
+    // stays.
+    if (lastSlot_ && (fresh_ || recorded.slot == *lastSlot_)) {
+      const auto times = live_->passTimes(recorded.slot);
+      facts_.passTimes.assign(times.begin(), times.end());
+    }
+    if (std::exchange(fresh_, false)) {
+      lastSlot_ = recorded.slot;
+      live_->record(recorded, frame_, session_.viewConstants);
+    }
+    presenter_->record(recorded, *image, place());
+    queue_.submit(recorded, {.wait = presenter_->swapchain().acquired(recorded.slot),
+                             .waitStage = VK_PIPELINE_STAGE_TRANSFER_BIT,
+                             .signal = presenter_->swapchain().rendered(*image)});
+    if (!presenter_->swapchain().present(*image)) {
+      makePresenter();
+    }
+  }
+
+  [[nodiscard]] Rectangle place() {
+    const fg::Extent size = presenter_->swapchain().desc().extent;
+    return fitPicture(picture_.desc().extent, {0, 0, std::max(1, static_cast<int>(size.width) - Interface::kPanelWidth),
+                                               static_cast<int>(size.height)});
+  }
+
+  Tracer& tracer_;
+  const GpuDevice& device_;
+  Session& session_;
+  const Window& window_;
+  const Surface& surface_;
+  ShownPicture picture_;
+  fg::vk::FrameQueue queue_;
+  Interface interface_;
+  std::optional<Presenter> presenter_;
+  std::optional<LiveFrame> live_;
+  std::optional<std::uint32_t> lastSlot_;  // Of the last frame that `live_` recorded.
+  std::future<Traced> next_;
+  HostFrame frame_;
+  FrameFacts facts_;
+  bool fresh_ = false;   // The frame at hand is not in the picture yet.
+  bool wanted_ = false;  // The graph must be declared anew.
+};
+
+}  // namespace
+
+GpuDevice::Options withWindows(GpuDevice::Options options) {
+  options.instanceExtensions = Window::instanceExtensions();
+  options.deviceExtensions = {VK_KHR_SWAPCHAIN_EXTENSION_NAME};
+  return options;
+}
+
+void runWindow(Tracer& tracer, GpuDevice& device, Session& session, fg::Extent extent) {
+  std::signal(SIGINT, interrupt);
+  std::signal(SIGTERM, interrupt);
+  constexpr std::uint32_t kLeastHeight = 720;
+  const Window window("walr-host", {extent.width + static_cast<std::uint32_t>(Interface::kPanelWidth),
+                                    std::max(extent.height, kLeastHeight)});
+  const Surface surface(window, device.instance());
+  Show(tracer, device, session, window, surface, extent).run();
+}
+
+}  // namespace walr::host

@@ -1,0 +1,137 @@
+#include "samples/host/window/interface.h"
+
+#include <algorithm>
+#include <array>
+
+#define GLFW_INCLUDE_VULKAN
+#include <GLFW/glfw3.h>
+#include <backends/imgui_impl_glfw.h>
+#include <backends/imgui_impl_vulkan.h>
+#include <imgui.h>
+
+#include "framegraph/vulkan/error.h"
+#include "samples/host/window/panels.h"
+
+namespace walr::host {
+namespace {
+
+void checkInterface(VkResult result) {
+  fg::vk::check(result, "drawing the interface");
+}
+
+}  // namespace
+
+Interface::Interface(const GpuDevice& device, const Window& window, std::uint32_t framesInFlight)
+    : device_(device), window_(window), framesInFlight_(framesInFlight) {
+  IMGUI_CHECKVERSION();
+  ImGui::CreateContext();
+  ImGui::GetIO().IniFilename = nullptr;  // Leaves no file behind.
+  ImGui::StyleColorsDark();
+  ImGui_ImplGlfw_InitForVulkan(window.handle(), true);
+
+  constexpr VkDescriptorPoolSize kSize{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 4};
+  VkDescriptorPoolCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
+  info.flags = VK_DESCRIPTOR_POOL_CREATE_FREE_DESCRIPTOR_SET_BIT;
+  info.maxSets = kSize.descriptorCount;
+  info.poolSizeCount = 1;
+  info.pPoolSizes = &kSize;
+  fg::vk::check(vkCreateDescriptorPool(device.device().context().view.device, &info, nullptr, &descriptors_),
+                "creating a descriptor pool");
+}
+
+Interface::~Interface() {
+  if (prepared_) {
+    ImGui_ImplVulkan_Shutdown();
+  }
+  ImGui_ImplGlfw_Shutdown();
+  ImGui::DestroyContext();
+  vkDestroyDescriptorPool(device_.device().context().view.device, descriptors_, nullptr);
+}
+
+void Interface::prepare(VkRenderPass renderPass, fg::vk::FrameQueue& queue) {
+  const fg::vk::DeviceContext& context = device_.device().context();
+  ImGui_ImplVulkan_InitInfo info{};
+  info.Instance = context.view.instance;
+  info.PhysicalDevice = context.view.physicalDevice;
+  info.Device = context.view.device;
+  info.QueueFamily = context.view.queueFamily;
+  info.Queue = device_.device().queue();
+  info.DescriptorPool = descriptors_;
+  info.MinImageCount = std::max(2U, framesInFlight_);
+  info.ImageCount = info.MinImageCount;
+  info.MSAASamples = VK_SAMPLE_COUNT_1_BIT;
+  info.CheckVkResultFn = checkInterface;
+  ImGui_ImplVulkan_Init(&info, renderPass);
+  prepared_ = true;
+#if IMGUI_VERSION_NUM < 19000
+  const fg::vk::Frame upload = queue.begin();
+  ImGui_ImplVulkan_CreateFontsTexture(upload.commandBuffer);
+  queue.submit(upload);
+  queue.waitAll();
+  ImGui_ImplVulkan_DestroyFontUploadObjects();
+#else
+  (void)queue;  // Fonts are uploaded with the first frame.
+#endif
+}
+
+void Interface::update(Session& session, const fg::Graph& graph, const fg::Plan& plan, const FrameFacts& facts) {
+  ImGui_ImplVulkan_NewFrame();
+  ImGui_ImplGlfw_NewFrame();
+  ImGui::NewFrame();
+  const ImVec2 size = ImGui::GetIO().DisplaySize;
+  constexpr auto kWidth = static_cast<float>(kPanelWidth);
+  ImGui::SetNextWindowPos({std::max(0.0F, size.x - kWidth), 0.0F});
+  ImGui::SetNextWindowSize({std::min(kWidth, size.x), size.y});
+  constexpr ImGuiWindowFlags kFixed =
+      ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoTitleBar;
+  ImGui::Begin("walr", nullptr, kFixed);
+  playPanel(session);
+  viewPanel(session, viewableTextures(graph.desc()));
+  methodPanel(session);
+  if (ImGui::CollapsingHeader("Times", ImGuiTreeNodeFlags_DefaultOpen)) {
+    timesPanel(facts, device_.isSoftware());
+  }
+  if (ImGui::CollapsingHeader("Memory", ImGuiTreeNodeFlags_DefaultOpen)) {
+    memoryPanel(graph.desc(), plan);
+  }
+  if (ImGui::CollapsingHeader("Settings", ImGuiTreeNodeFlags_DefaultOpen)) {
+    settingsPanel(session);
+  }
+  ImGui::End();
+  takeCameraInput(session);
+  ImGui::Render();
+}
+
+void Interface::takeCameraInput(Session& session) const {
+  const ImGuiIO& io = ImGui::GetIO();
+  if (session.cameraMode() == CameraMode::Scene || io.DisplaySize.y <= 0.0F) {
+    return;
+  }
+  CameraInput input;
+  if (!io.WantCaptureMouse) {
+    constexpr float kRadiansPerHeight = 3.0F;
+    const glm::vec2 dragged = glm::vec2(io.MouseDelta.x, io.MouseDelta.y) / io.DisplaySize.y;
+    if (ImGui::IsMouseDown(ImGuiMouseButton_Left)) {
+      input.turn = dragged * kRadiansPerHeight;
+    }
+    if (ImGui::IsMouseDown(ImGuiMouseButton_Right)) {
+      input.pan = dragged;
+    }
+    input.zoom = io.MouseWheel;
+  }
+  if (!io.WantCaptureKeyboard) {
+    const auto axis = [&](int positive, int negative) {
+      return (window_.keyDown(positive) ? 1.0F : 0.0F) - (window_.keyDown(negative) ? 1.0F : 0.0F);
+    };
+    const glm::vec3 direction(axis(GLFW_KEY_D, GLFW_KEY_A), axis(GLFW_KEY_E, GLFW_KEY_Q), axis(GLFW_KEY_W, GLFW_KEY_S));
+    input.move = direction * (session.flySpeed() * io.DeltaTime);
+  }
+  session.moveCamera(input);
+}
+
+void Interface::draw(VkCommandBuffer commandBuffer) {
+  ImGui_ImplVulkan_RenderDrawData(ImGui::GetDrawData(), commandBuffer);
+}
+
+}  // namespace walr::host

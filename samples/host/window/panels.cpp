@@ -1,0 +1,227 @@
+#include "samples/host/window/panels.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+
+#include <imgui.h>
+
+#include "passes/settings.h"
+
+namespace walr::host {
+namespace {
+
+constexpr double kMegabyte = 1024.0 * 1024.0;
+
+/// A chooser among names. Nothing while none is chosen anew.
+std::optional<std::size_t> choose(const char* label, std::span<const std::string> names, const std::string& current) {
+  std::optional<std::size_t> chosen;
+  if (ImGui::BeginCombo(label, current.c_str())) {
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      if (ImGui::Selectable(names[i].c_str(), names[i] == current) && names[i] != current) {
+        chosen = i;
+      }
+    }
+    ImGui::EndCombo();
+  }
+  return chosen;
+}
+
+/// Makes a widget for each setting; notes whether one has a new value.
+class SettingWidgets : public SettingVisitor {
+ public:
+  void visit(const SettingInfo& info, float& value) override {
+    const auto least = static_cast<float>(info.least);
+    const auto most = static_cast<float>(info.most);
+    constexpr double kDecades = 1000.0;
+    const bool wide = info.least > 0.0 && info.most / info.least >= kDecades;
+    ImGui::SliderFloat(label(info).c_str(), &value, least, most, "%.4g",
+                       ImGuiSliderFlags_AlwaysClamp | (wide ? ImGuiSliderFlags_Logarithmic : 0));
+    finish(info, ImGui::IsItemDeactivatedAfterEdit());
+  }
+
+  void visit(const SettingInfo& info, std::uint32_t& value) override {
+    const auto least = static_cast<std::uint32_t>(info.least);
+    const auto most = static_cast<std::uint32_t>(info.most);
+    ImGui::SliderScalar(label(info).c_str(), ImGuiDataType_U32, &value, &least, &most, "%u",
+                        ImGuiSliderFlags_AlwaysClamp);
+    finish(info, ImGui::IsItemDeactivatedAfterEdit());
+  }
+
+  void visit(const SettingInfo& info, bool& value) override {
+    finish(info, ImGui::Checkbox(label(info).c_str(), &value));
+  }
+
+  void choice(const SettingInfo& info, std::span<const std::string_view> names, std::uint32_t& value) override {
+    const std::vector<std::string> texts(names.begin(), names.end());
+    const std::optional<std::size_t> chosen = choose(label(info).c_str(), texts, texts.at(value));
+    value = static_cast<std::uint32_t>(chosen.value_or(value));
+    finish(info, chosen.has_value());
+  }
+
+  [[nodiscard]] bool changed() const { return changed_; }
+
+ private:
+  static std::string label(const SettingInfo& info) { return std::string(info.name); }
+
+  void finish(const SettingInfo& info, bool changed) {
+    changed_ = changed_ || changed;
+    if (ImGui::IsItemHovered()) {
+      const std::string text = std::string(info.description) +
+                               (info.unit.empty() ? "" : "\nUnit: " + std::string(info.unit)) +
+                               "\nSource: " + std::string(info.source);
+      ImGui::SetTooltip("%s", text.c_str());
+    }
+  }
+
+  bool changed_ = false;
+};
+
+ImU32 colourOf(std::size_t index) {
+  // Hues a golden angle apart differ well, however many there are.
+  constexpr float kGoldenAngle = 0.381966F;
+  const float hue = std::fmod(static_cast<float>(index) * kGoldenAngle, 1.0F);
+  return ImGui::GetColorU32(static_cast<ImVec4>(ImColor::HSV(hue, 0.55F, 0.8F)));
+}
+
+}  // namespace
+
+void playPanel(Session& session) {
+  ImGui::Checkbox("Pause", &session.paused);
+  ImGui::SameLine();
+  ImGui::Checkbox("Freeze", &session.frozen);
+  ImGui::SameLine();
+  if (ImGui::Button("Camera cut")) {
+    session.cutCamera();
+  }
+  ImGui::SameLine();
+  if (ImGui::Button("Reset history")) {
+    session.resetHistory();
+  }
+  ImGui::Text("Frame %d of %d to %d", session.animationFrame(), session.frames().first, session.frames().last);
+  constexpr std::array kCameras = {std::pair(CameraMode::Scene, "Scene camera"), std::pair(CameraMode::Orbit, "Orbit"),
+                                   std::pair(CameraMode::Fly, "Fly (WASD, QE)")};
+  for (const auto& [mode, name] : kCameras) {
+    if (ImGui::RadioButton(name, session.cameraMode() == mode)) {
+      session.chooseCamera(mode);
+    }
+    ImGui::SameLine();
+  }
+  ImGui::NewLine();
+}
+
+void viewPanel(Session& session, const std::vector<std::string>& textures) {
+  ImGui::Separator();
+  const HostView& view = session.view();
+  const std::array<std::string, 5> names = {"denoised", "noisy", "reference", "split", "texture"};
+  if (const auto chosen = choose("View", names, names.at(static_cast<std::size_t>(view.kind)))) {
+    HostView next{static_cast<HostView::Kind>(*chosen), ""};
+    if (next.kind == HostView::Kind::Texture) {
+      next.texture = textures.front();
+    }
+    session.chooseView(next);
+  }
+  ViewConstants& constants = session.viewConstants;
+  if (view.kind == HostView::Kind::Texture) {
+    if (const auto chosen = choose("Texture", textures, view.texture)) {
+      session.chooseView({HostView::Kind::Texture, textures[*chosen]});
+    }
+    ImGui::DragFloat("Gain", &constants.gain, 0.01F, 0.0F, 1000.0F, "%.3f");
+    ImGui::DragFloat("Bias", &constants.bias, 0.01F, -10.0F, 10.0F, "%.3f");
+  } else if (view.kind == HostView::Kind::Split) {
+    ImGui::DragIntRange2("Edges", &constants.leftEdge, &constants.rightEdge, 1.0F, 0, 16384);
+  }
+}
+
+void methodPanel(Session& session) {
+  ImGui::Separator();
+  const std::vector<std::string> methods = denoiserNames();
+  if (const auto chosen = choose("Method", methods, session.methodName())) {
+    session.chooseMethod(methods[*chosen]);
+  }
+  const std::vector<std::string> presets = session.method().presets();
+  for (const std::string& preset : presets) {
+    if (ImGui::Button(preset.c_str())) {
+      session.choosePreset(preset);
+    }
+    ImGui::SameLine();
+  }
+  if (!presets.empty()) {
+    ImGui::TextUnformatted("Presets");
+  }
+}
+
+void settingsPanel(Session& session) {
+  constexpr float kLabelWidth = 0.5F;
+  ImGui::PushItemWidth(ImGui::GetContentRegionAvail().x * kLabelWidth);
+  SettingWidgets widgets;
+  session.method().visitSettings(widgets);
+  ImGui::PopItemWidth();
+  if (widgets.changed()) {
+    session.settingsChanged();
+  }
+}
+
+void timesPanel(const FrameFacts& facts, bool softwareDevice) {
+  constexpr double kMilliseconds = 1000.0;
+  ImGui::Text("Tracing %.0f ms", facts.tracingSeconds * kMilliseconds);
+  double sum = 0.0;
+  for (const fg::vk::PassTime& pass : facts.passTimes) {
+    sum += pass.milliseconds;
+  }
+  ImGui::Text("Device %.2f ms%s", sum, softwareDevice ? " (software device)" : "");
+  for (const fg::vk::PassTime& pass : facts.passTimes) {
+    const auto share = static_cast<float>(sum > 0.0 ? pass.milliseconds / sum : 0.0);
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), "%.2f ms", pass.milliseconds);
+    ImGui::ProgressBar(share, {120.0F, 0.0F}, text.data());
+    ImGui::SameLine();
+    ImGui::TextUnformatted(pass.name.c_str());
+  }
+}
+
+void memoryPanel(const fg::GraphDesc& graph, const fg::Plan& plan) {
+  const fg::MemoryReport& memory = plan.memory;
+  ImGui::Text("Transient %.1f MiB (%.1f unshared), persistent %.1f MiB",
+              static_cast<double>(memory.transientPeakBytes) / kMegabyte,
+              static_cast<double>(memory.transientUnaliasedBytes) / kMegabyte,
+              static_cast<double>(memory.persistentBytes) / kMegabyte);
+  const float width = ImGui::GetContentRegionAvail().x;
+  constexpr float kHeight = 120.0F;
+  const ImVec2 corner = ImGui::GetCursorScreenPos();
+  ImGui::InvisibleButton("memory", {width, kHeight});
+  ImDrawList* const draw = ImGui::GetWindowDrawList();
+  draw->AddRectFilled(corner, {corner.x + width, corner.y + kHeight}, ImGui::GetColorU32(ImGuiCol_FrameBg));
+  const double bytes = std::max<double>(1.0, static_cast<double>(memory.transientPeakBytes));
+  const auto column = [&](std::uint32_t pass) {
+    return corner.x +
+           width * static_cast<float>(pass) / static_cast<float>(std::max<std::size_t>(1, plan.passes.size()));
+  };
+  const auto row = [&](double offset) { return corner.y + kHeight * static_cast<float>(1.0 - offset / bytes); };
+  std::vector<double> heapStarts;
+  double start = 0.0;
+  for (const fg::PlannedHeap& heap : plan.heaps) {
+    heapStarts.push_back(start);
+    start += static_cast<double>(heap.size);
+  }
+  for (std::size_t i = 0; i < plan.resources.size(); ++i) {
+    const fg::PlannedResource& resource = plan.resources[i];
+    if (resource.heap == fg::kNone || !resource.used) {
+      continue;
+    }
+    const double from = heapStarts[resource.heap] + static_cast<double>(resource.offset);
+    const ImVec2 low(column(resource.firstUse), row(from + static_cast<double>(resource.size)));
+    const ImVec2 high(column(resource.lastUse + 1), row(from));
+    draw->AddRectFilled(low, high, colourOf(i));
+    draw->AddRect(low, high, ImGui::GetColorU32(ImGuiCol_WindowBg));
+    if (ImGui::IsMouseHoveringRect(low, high)) {
+      ImGui::SetTooltip("%s: %.2f MiB, from '%s' to '%s'", graph.resources[i].name.c_str(),
+                        static_cast<double>(resource.size) / kMegabyte,
+                        graph.passes[plan.passes[resource.firstUse].pass].name.c_str(),
+                        graph.passes[plan.passes[resource.lastUse].pass].name.c_str());
+    }
+  }
+}
+
+}  // namespace walr::host

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <vulkan/vulkan.h>
+
+#include "framegraph/graph.h"
+
+struct GLFWwindow;
+
+namespace walr::host {
+
+/// A window on the screen, through GLFW.
+class Window {
+ public:
+  /// Whether there is a screen to open a window on.
+  static bool available();
+  /// Instance extensions that a window's surface needs.
+  static std::vector<const char*> instanceExtensions();
+
+  /// @throws std::runtime_error with GLFW's complaint
+  Window(const std::string& title, fg::Extent size);
+  ~Window();
+  Window(const Window&) = delete;
+  Window& operator=(const Window&) = delete;
+
+  [[nodiscard]] GLFWwindow* handle() const { return handle_; }
+  /// Whether the user has closed it.
+  [[nodiscard]] bool closed() const;
+  /// Size in pixels; 0 x 0 while it is minimised.
+  [[nodiscard]] fg::Extent size() const;
+  /// Whether a key is down.
+  /// @param key  GLFW_KEY_...
+  [[nodiscard]] bool keyDown(int key) const;
+
+ private:
+  GLFWwindow* handle_ = nullptr;
+};
+
+/// What a window shows pictures through.
+class Surface {
+ public:
+  /// @param instance  made with `Window::instanceExtensions`; must outlive the surface
+  /// @throws std::runtime_error with GLFW's complaint
+  Surface(const Window& window, VkInstance instance);
+  ~Surface();
+  Surface(const Surface&) = delete;
+  Surface& operator=(const Surface&) = delete;
+
+  [[nodiscard]] VkSurfaceKHR handle() const { return handle_; }
+
+ private:
+  VkInstance instance_;
+  VkSurfaceKHR handle_ = VK_NULL_HANDLE;
+};
+
+}  // namespace walr::host
