@@ -75,6 +75,8 @@ void registerRender(CLI::App& program) {
       ->check(CLI::Range(kSlowest, kFastest))
       ->capture_default_str();
   command->add_option("--camera", options.camera, "Name of the camera or of its node; default: the first");
+  command->add_option("--sky", options.sky,
+                      "Equirectangular sky in place of the scene's: an EXR file, R,G,B, its middle along -Z");
   command->add_flag("--jitter", options.jitter, "Sample off the pixel centre: 16 Halton points, one a frame");
   command
       ->add_option("--sampler", options.sampler,

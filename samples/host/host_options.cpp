@@ -51,6 +51,8 @@ void addHostOptions(CLI::App& program, HostOptions& options) {
       ->check(CLI::Range(kSlowest, kFastest))
       ->capture_default_str();
   program.add_option("--camera", tracer.camera, "Name of the camera or of its node; default: the first");
+  program.add_option("--sky", tracer.sky,
+                     "Equirectangular sky in place of the scene's: an EXR file, R,G,B, its middle along -Z");
   program.add_flag("--jitter", tracer.jitter, "Sample off the pixel centre: 16 Halton points, one a frame");
   program.add_flag(
       "--denoise-direct", tracer.denoiseDirect,

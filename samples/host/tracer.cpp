@@ -29,7 +29,7 @@ void moveDirect(Image& direct, Image& indirect) {
 
 Tracer::Tracer(const Options& options)
     : options_(options),
-      scene_(render::loadScene(options.scene)),
+      scene_(render::loadScene(options.scene, options.sky)),
       camera_(render::findCamera(scene_, options.camera)),
       world_(scene_) {}
 

@@ -22,6 +22,7 @@ class Tracer {
  public:
   struct Options {
     std::filesystem::path scene;
+    std::filesystem::path sky;  ///< Equirectangular sky in place of the scene's; may be empty.
     fg::Extent extent;
     std::uint32_t samples = 1;           ///< Paths a pixel.
     std::uint32_t referenceSamples = 1;  ///< Paths a pixel of one step of a reference.

@@ -25,7 +25,7 @@ PrimaryHit tracePrimary(const World& world, const View& view, std::uint32_t x, s
   const std::optional<Hit> hit = world.rays().closest(ray);
   PrimaryHit result;
   if (!hit) {
-    result.pixel.emission = world.scene().skyRadiance;
+    result.pixel.emission = world.sky().radiance(ray.direction);
     const glm::vec3 previousDirection = glm::mat3(view.previousViewFromWorld) * ray.direction;
     result.pixel.motion = glm::vec3(imageMotion(view, x, y, previousDirection), 0.0F);
     return result;

@@ -35,8 +35,7 @@ struct EmitterSample {
   float density = 0.0F;  ///< Probability density per area.
 };
 
-/// Punctual lights and emissive triangles of a scene at one moment. The sky is no part of it: a constant sky is sampled
-/// best by cosine-distributed directions.
+/// Punctual lights and emissive triangles of a scene at one moment. The sky is no part of it (see `Sky`).
 class Lights {
  public:
   /// @param worldFromNode  see `worldTransforms`

@@ -1,9 +1,12 @@
 #include "samples/render/load_scene.h"
 
+#include <optional>
 #include <set>
+#include <utility>
 
 #include "samples/render/gltf_convert.h"
 #include "samples/render/gltf_file.h"
+#include "samples/render/load_sky.h"
 #include "samples/render/scene_error.h"
 
 namespace walr::render {
@@ -26,7 +29,7 @@ void checkExtensions(const tinygltf::Model& model, Scene& scene) {
 
 void checkContent(Scene& scene) {
   bool triangles = false;
-  bool emission = scene.skyRadiance != glm::vec3(0.0F);
+  bool emission = scene.skyMap || scene.skyRadiance != glm::vec3(0.0F);
   for (const Node& node : scene.nodes) {
     emission = emission || node.light.has_value();
     for (const std::uint32_t mesh : node.meshes) {
@@ -39,17 +42,22 @@ void checkContent(Scene& scene) {
   }
   if (!emission) {
     scene.warnings.emplace_back(
-        "the scene has no light: add a KHR_lights_punctual light, an emissive material or sky_radiance in the scene's "
-        "extras; everything will be black");
+        "the scene has no light: add a KHR_lights_punctual light, an emissive material, sky_radiance in the scene's "
+        "extras or --sky; everything will be black");
   }
 }
 
 }  // namespace
 
-Scene loadScene(const std::filesystem::path& file) {
+Scene loadScene(const std::filesystem::path& file, const std::filesystem::path& sky) {
+  std::optional<SkyMap> skyMap;
+  if (!sky.empty()) {
+    skyMap = loadSky(sky);
+  }
   try {
     const tinygltf::Model model = gltf::readModel(file);
     Scene scene;
+    scene.skyMap = std::move(skyMap);
     checkExtensions(model, scene);
     gltf::convertMaterials(model, gltf::convertTextures(model, scene), scene);
     gltf::convertNodes(model, gltf::convertMeshes(model, scene), scene);

@@ -7,6 +7,7 @@
 namespace walr::render {
 
 /// Read a glTF 2.0 file (.gltf or .glb) with everything it refers to.
+/// @param sky  file of an equirectangular sky (see `loadSky`) in place of the scene's own; may be empty
 ///
 /// Taken: the default scene's nodes, triangle meshes (float attributes; normalised integer texture coordinates),
 /// base colour, metallic, emissive and normal textures of TEXCOORD_0, alpha mode MASK, perspective cameras, LINEAR and
@@ -16,6 +17,6 @@ namespace walr::render {
 /// What the file holds beyond that is named in `Scene::warnings`.
 /// @throws SceneError naming the file and the part that is wrong: missing, truncated, malformed, or larger than the
 ///         limits (2 GiB a file, 16384 texels a side and 1 GiB of texels in all).
-Scene loadScene(const std::filesystem::path& file);
+Scene loadScene(const std::filesystem::path& file, const std::filesystem::path& sky = {});
 
 }  // namespace walr::render

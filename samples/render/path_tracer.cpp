@@ -109,6 +109,22 @@ class LightSampling {
                              (solidAngleDensity + cosineDensity));
   }
 
+  // The same of a sky from a map.
+  glm::vec3 fromSky(const Surface& surface) {
+    const Sky& sky = world_.sky();
+    if (!sky.isSampled()) {
+      return glm::vec3(0.0F);
+    }
+    const SkySample light = sky.sample(sampler_.next2D());
+    const float cosine = lightCosine(surface, light.direction);
+    if (cosine <= 0.0F || !(light.density > 0.0F) || occluded({rayOrigin(surface, light.direction), light.direction})) {
+      return glm::vec3(0.0F);
+    }
+    const float cosineDensity = cosine / kPi;
+    return light.radiance * (lobe(world_.scene().diffuseModel, surface, light.direction) * cosineDensity /
+                             (light.density + cosineDensity));
+  }
+
   [[nodiscard]] std::uint32_t rays() const { return rays_; }
 
  private:
@@ -147,12 +163,22 @@ float cosineWeight(const World& world, const Surface& from, const glm::vec3& dir
   return sum > 0.0F ? cosineDensity * cosineAtLight / sum : 0.0F;
 }
 
+// Sky that cosine sampling met, with its share in it (balance heuristic).
+glm::vec3 metSky(const Sky& sky, const Surface& from, const glm::vec3& direction) {
+  const glm::vec3 radiance = sky.radiance(direction);
+  if (!sky.isSampled()) {
+    return radiance;
+  }
+  const float cosineDensity = glm::dot(from.shadingNormal, direction) / kPi;
+  return radiance * (cosineDensity / (cosineDensity + sky.density(direction)));
+}
+
 }  // namespace
 
 PathSample tracePath(const World& world, const Surface& first, std::uint32_t bounces, Sampler& sampler) {
   LightSampling lights(world, sampler);
   PathSample result;
-  result.direct = lights.fromEveryPunctual(first) + lights.fromEmitters(first);
+  result.direct = lights.fromEveryPunctual(first) + lights.fromEmitters(first) + lights.fromSky(first);
   glm::vec3 throughput(1.0F);
   Surface surface = first;
   std::uint32_t pathRays = 0;
@@ -166,7 +192,7 @@ PathSample tracePath(const World& world, const Surface& first, std::uint32_t bou
     ++pathRays;
     const std::optional<Hit> hit = world.rays().closest({rayOrigin(surface, direction), direction});
     if (!hit) {
-      bin += throughput * world.scene().skyRadiance;
+      bin += throughput * metSky(world.sky(), surface, direction);
       break;
     }
     const Surface next = evaluateSurface(world.scene(), world.instances()[hit->instance], *hit, direction);
@@ -178,7 +204,8 @@ PathSample tracePath(const World& world, const Surface& first, std::uint32_t bou
       break;
     }
     surface = next;
-    result.indirect += throughput * (lights.fromOnePunctual(surface) + lights.fromEmitters(surface));
+    result.indirect +=
+        throughput * (lights.fromOnePunctual(surface) + lights.fromEmitters(surface) + lights.fromSky(surface));
   }
   result.rays = pathRays + lights.rays();
   return result;

@@ -25,8 +25,8 @@ struct PathSample {
 /// At every vertex light is sampled in two ways: next-event estimation (every punctual light at the first vertex, so
 /// that hard-edged light is free of noise, one of them at later ones; one point of the emissive triangles) and the
 /// cosine-distributed direction in which the path goes on. Emissive triangles are found by both; the balance heuristic
-/// (Veach and Guibas 1995) weights them. The sky is found by the latter alone. What the first direction meets of
-/// emission or sky is direct light.
+/// (Veach and Guibas 1995) weights them. So it is with a sky from a map; a constant one is found by the latter
+/// alone. What the first direction meets of emission or sky is direct light.
 /// @param bounces  surfaces after the first that reflect light: 0 gives no indirect light
 PathSample tracePath(const World& world, const Surface& first, std::uint32_t bounces, Sampler& sampler);
 

@@ -28,6 +28,7 @@ nlohmann::json describe(const RenderOptions& options) {
   return {
       {"scene", options.scene.filename().string()},
       {"scene_bytes", fs::file_size(options.scene)},
+      {"sky", options.sky.filename().string()},
       {"width", options.width},
       {"height", options.height},
       {"spp", options.samples},
@@ -92,7 +93,7 @@ std::size_t RenderOptions::files() const {
 }
 
 void renderSequence(const RenderOptions& options, const RenderObserver& observer) {
-  Scene scene = loadScene(options.scene);
+  Scene scene = loadScene(options.scene, options.sky);
   scene.diffuseModel = options.diffuseModel;
   std::for_each(scene.warnings.begin(), scene.warnings.end(), observer.warning);
   const std::uint32_t camera = findCamera(scene, options.camera);

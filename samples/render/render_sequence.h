@@ -14,6 +14,7 @@ namespace walr::render {
 /// What `walr render` is asked for.
 struct RenderOptions {
   std::filesystem::path scene;
+  std::filesystem::path sky;  ///< Equirectangular sky (`loadSky`) in place of the scene's; may be empty.
   std::filesystem::path output;
   int firstFrame = 0;
   int lastFrame = 0;  ///< Included.

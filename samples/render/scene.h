@@ -55,6 +55,13 @@ struct Mesh {
   std::uint32_t material = 0;
 };
 
+/// An equirectangular picture of the sky; its middle lies along -Z, its top along +Y, its right half along +X.
+struct SkyMap {
+  std::uint32_t width = 0;
+  std::uint32_t height = 0;
+  std::vector<glm::vec3> radiance;  ///< Linear RGB, rows from the top; finite, not negative.
+};
+
 /// A light without extent (KHR_lights_punctual), at the origin of its node, shining along the node's -Z.
 struct PunctualLight {
   enum class Kind : std::uint8_t { Directional, Point, Spot };
@@ -113,7 +120,8 @@ struct Scene {
   std::vector<Node> nodes;  ///< Parents before children.
   std::vector<AnimationChannel> animation;
   DiffuseModel diffuseModel = DiffuseModel::Lambert;
-  glm::vec3 skyRadiance{0.0F};        ///< Constant, linear RGB.
+  glm::vec3 skyRadiance{0.0F};  ///< Constant, linear RGB; where there is no map.
+  std::optional<SkyMap> skyMap;
   std::vector<std::string> warnings;  ///< What the file asks for and is not supported or had to be replaced.
 };
 

@@ -38,6 +38,10 @@ walr::Frame toFrame(const Film& film, const View& view, int number) {
   });
   frame.motion = toImage(film, &GBufferPixel::motion);
   frame.emission = toImage(film, &GBufferPixel::emission);
+  frame.objectId = toImage(film, 1, [&](std::size_t i, int /*component*/) {
+    const std::uint32_t id = film.gbuffer[i].objectId;
+    return id == GBufferPixel::kSky ? -1.0F : static_cast<float>(id);
+  });
   frame.camera.view = view.viewFromWorld;
   frame.camera.previousView = view.previousViewFromWorld;
   frame.camera.projection = view.projection;

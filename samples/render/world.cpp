@@ -8,7 +8,8 @@ World::World(const Scene& scene)
       previousNodes_(nodes_),
       instances_(makeInstances(scene)),
       rays_(scene, instances_),
-      lights_(scene, instances_, nodes_) {}
+      lights_(scene, instances_, nodes_),
+      sky_(scene) {}
 
 void World::moveTo(double seconds, double previousSeconds) {
   nodes_ = worldTransforms(scene_, seconds);

@@ -9,6 +9,7 @@
 #include "samples/render/lights.h"
 #include "samples/render/ray_caster.h"
 #include "samples/render/scene.h"
+#include "samples/render/sky.h"
 
 namespace walr::render {
 
@@ -25,6 +26,7 @@ class World {
   [[nodiscard]] const std::vector<Instance>& instances() const { return instances_; }
   [[nodiscard]] const RayCaster& rays() const { return rays_; }
   [[nodiscard]] const Lights& lights() const { return lights_; }
+  [[nodiscard]] const Sky& sky() const { return sky_; }
   /// World transforms of the scene's nodes in this frame and in the previous one.
   [[nodiscard]] const std::vector<glm::mat4>& nodes() const { return nodes_; }
   [[nodiscard]] const std::vector<glm::mat4>& previousNodes() const { return previousNodes_; }
@@ -36,6 +38,7 @@ class World {
   std::vector<Instance> instances_;
   RayCaster rays_;
   Lights lights_;
+  Sky sky_;
 };
 
 }  // namespace walr::render

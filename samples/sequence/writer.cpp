@@ -28,6 +28,9 @@ void writeFrame(const std::filesystem::path& directory, const Frame& frame) {
   if (!frame.emission.empty()) {
     appendChannels(channels, "Emission", "RGB", frame.emission);
   }
+  if (!frame.objectId.empty()) {
+    appendChannels(channels, "ObjectId", "Y", frame.objectId, ExrType::Float);
+  }
   const std::vector<ExrAttribute> attributes = {
       {kViewAttribute, frame.camera.view},
       {kPreviousViewAttribute, frame.camera.previousView},

@@ -2,10 +2,14 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "samples/errors.h"
+#include "samples/image/exr.h"
+#include "samples/render/instance.h"
+#include "samples/render/load_scene.h"
 #include "samples/render/render_sequence.h"
 #include "samples/sequence/sequence.h"
 #include "tests/samples/temporary_directory.h"
@@ -70,6 +74,27 @@ TEST(RenderSequence, IsReadBackInTheProjectsConventions) {
   EXPECT_GT(sky, 0);
   EXPECT_GT(light, 0.0);
   EXPECT_TRUE(frame.nonFinite.empty());
+}
+
+TEST(RenderSequence, TellsTheObjectOfEveryPixel) {
+  const walr::test::TemporaryDirectory folder;
+  render(smallBox(folder.path()));
+  ExrReader file(folder.path() / "noisy_0003.exr");
+  walr::Image ids(file.width(), file.height(), 1);
+  walr::Image depth(file.width(), file.height(), 1);
+  file.read(std::vector<ExrReader::Target>{{"ObjectId.Y", &ids, 0}, {"Depth.Z", &depth, 0}});
+  const Scene scene = loadScene(WALR_SCENES "/box.gltf");
+  const std::vector<Instance> instances = makeInstances(scene);
+  std::set<std::string> seen;
+  for (std::size_t i = 0; i < ids.pixelCount(); ++i) {
+    const float id = ids.pixel(i)[0];
+    ASSERT_EQ(id < 0.0F, depth.pixel(i)[0] >= kSkyDepth);
+    if (id >= 0.0F) {
+      seen.insert(scene.nodes[instances.at(static_cast<std::size_t>(id)).node].name);
+    }
+  }
+  EXPECT_TRUE(seen.contains("red wall"));
+  EXPECT_TRUE(seen.contains("blue block"));
 }
 
 TEST(RenderSequence, GoesOnWhereItWas) {
