@@ -12,7 +12,8 @@ walr_packages=(
   # The sample host's window, which is optional
   libglfw3-dev libimgui-dev
   # Tests and benchmarks
-  clang libbenchmark-dev libgtest-dev libplacebo-dev libxtst6 python3 python3-matplotlib python3-skimage xvfb
+  clang graphviz libbenchmark-dev libgtest-dev libplacebo-dev libxml2-utils libxtst6 python3 python3-matplotlib
+  python3-skimage xvfb
 )
 
 walr_setup() {

@@ -49,11 +49,10 @@ class JsonWriter {
                       {"transient_peak_bytes", memory.transientPeakBytes},
                       {"transient_lower_bound_bytes", memory.transientLowerBoundBytes}};
     const TrafficReport& traffic = plan_.traffic;
-    const auto bytes = static_cast<double>(traffic.bytesRead + traffic.bytesWritten);
     json["traffic"] = {{"bytes_read", traffic.bytesRead},
                        {"bytes_written", traffic.bytesWritten},
                        {"pixels", traffic.pixels},
-                       {"bytes_per_pixel", traffic.pixels == 0 ? 0.0 : bytes / static_cast<double>(traffic.pixels)}};
+                       {"bytes_per_pixel", traffic.bytesPerPixel()}};
     return json.dump(2);
   }
 

@@ -34,7 +34,9 @@ class TextWriter {
     out_ << "memory: persistent " << memory.persistentBytes << ", transient " << memory.transientUnaliasedBytes
          << " unaliased, " << memory.transientPeakBytes << " aliased, at least " << memory.transientLowerBoundBytes
          << "\n";
-    out_ << "traffic: read " << plan_.traffic.bytesRead << ", written " << plan_.traffic.bytesWritten << "\n";
+    const TrafficReport& traffic = plan_.traffic;
+    out_ << "traffic: read " << traffic.bytesRead << ", written " << traffic.bytesWritten << ", "
+         << traffic.bytesPerPixel() << " bytes a pixel\n";
   }
 
   void writeResource(std::uint32_t index) {

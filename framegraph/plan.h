@@ -114,6 +114,10 @@ struct TrafficReport {
   std::uint64_t bytesRead = 0;
   std::uint64_t bytesWritten = 0;
   std::uint64_t pixels = 0;  ///< Of the largest exported texture: what traffic is divided by.
+  /// 0 where no texture is exported.
+  [[nodiscard]] double bytesPerPixel() const {
+    return pixels == 0 ? 0.0 : static_cast<double>(bytesRead + bytesWritten) / static_cast<double>(pixels);
+  }
   friend bool operator==(const TrafficReport&, const TrafficReport&) = default;
 };
 

@@ -1,7 +1,10 @@
+#include <algorithm>
 #include <iostream>
 #include <memory>
+#include <span>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -13,6 +16,8 @@
 #include "samples/cli/command.h"
 #include "samples/cli/exit_code.h"
 #include "samples/cli/method_options.h"
+#include "samples/cli/usage_error.h"
+#include "samples/image/file_output.h"
 
 namespace walr {
 namespace {
@@ -20,9 +25,49 @@ namespace {
 struct GraphOptions {
   MethodOptions method;
   std::string size = "1920x1080";
+  bool json = false;
+  bool dot = false;
+  bool svg = false;
+  std::vector<std::string> why;
+  std::string output;
   bool listSettings = false;
   bool listPasses = false;
 };
+
+/// Answer `--why`.
+/// @throws UsageError naming what the method does not have
+std::string explain(const std::vector<std::string>& names, const fg::GraphDesc& graph, const fg::Plan& plan) {
+  const auto require = [](const auto& declared, const std::string& name, const char* kind) {
+    const auto sameName = [&](const auto& decl) { return decl.name == name; };
+    if (std::ranges::none_of(declared, sameName)) {
+      throw UsageError("--why " + name + ": the method has no " + kind + " '" + name + "'; 'walr graph' lists them");
+    }
+  };
+  if (names.size() == 1) {
+    require(graph.passes, names[0], "pass");
+    return fg::whyCulled(graph, plan, names[0]) + "\n" + fg::whyBarriers(graph, plan, names[0]);
+  }
+  for (const std::string& name : names) require(graph.resources, name, "texture or buffer");
+  return fg::whyNotAliased(graph, plan, names[0], names[1]) + "\n";
+}
+
+/// What the options ask of a compiled graph.
+std::string describe(const GraphOptions& options, const fg::GraphDesc& graph, const fg::Plan& plan, fg::Extent extent) {
+  if (options.json) return fg::toJson(graph, plan) + "\n";
+  if (options.dot) return fg::toDot(graph, plan);
+  if (options.svg) return fg::toSvg(graph, plan);
+  if (!options.why.empty()) return explain(options.why, graph, plan);
+  return options.method.name + " at " + std::to_string(extent.width) + " x " + std::to_string(extent.height) +
+         " pixels\n" + fg::toText(graph, plan);
+}
+
+void write(const std::string& text, const std::string& file) {
+  if (file.empty()) {
+    std::cout << text;
+  } else {
+    writeFileAtomically(file, std::as_bytes(std::span(text)));
+  }
+}
 
 void listSettings(Denoiser& method) {
   for (const SettingText& setting : method.settings()) {
@@ -48,8 +93,7 @@ void printGraph(const GraphOptions& options) {
   if (!result.ok()) {
     throw std::runtime_error("the method's frame graph does not compile:\n" + result.text());
   }
-  std::cout << options.method.name << " at " << extent.width << " x " << extent.height << " pixels\n"
-            << fg::toText(declared.graph.desc(), result.plan);
+  write(describe(options, declared.graph.desc(), result.plan, extent), options.output);
 }
 
 }  // namespace
@@ -66,6 +110,20 @@ void registerGraph(CLI::App& program) {
           "no device is needed")
       ->type_name("WIDTHxHEIGHT")
       ->capture_default_str();
+  CLI::Option_group* format = command->add_option_group("Format", "In place of text");
+  format->add_flag("--json", options->json,
+                   "The whole plan as JSON: passes, textures, buffers, barriers, heaps, memory and traffic");
+  format->add_flag("--dot", options->dot, "Passes and versions of textures in the language of Graphviz");
+  format->add_flag("--svg", options->svg, "A picture of transient memory over passes");
+  format
+      ->add_option("--why", options->why,
+                   "With a pass: why it is culled, or why each of its barriers is there. With two textures or buffers: "
+                   "why they do or do not share memory")
+      ->expected(1, 2)
+      ->type_name("NAME");
+  format->require_option(0, 1);
+  command->add_option("--output", options->output, "Write to a file, in place of the standard output")
+      ->type_name("FILE");
   command->add_flag("--list-settings", options->listSettings,
                     "List the method's settings with value, range, unit and source instead");
   command->add_flag("--list-passes", options->listPasses,

@@ -1,0 +1,125 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "framegraph/compile.h"
+#include "framegraph/inspect.h"
+#include "framegraph/verify.h"
+#include "integration/denoise_graph.h"
+#include "tests/framegraph/line_diff.h"
+
+/// The plans of all denoisers' graphs beside those on record, one text file a method and preset, at a fixed size and
+/// with the built-in memory table, so that every change of a plan is seen in review. After a change that is meant:
+///
+///     cmake --build build --target update_plans
+namespace walr {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr fg::Extent kExtent = {1920, 1080};
+
+/// One way to denoise.
+struct Variant {
+  std::string method;
+  std::string preset;  ///< Empty where the method has none.
+
+  [[nodiscard]] std::string name() const { return preset.empty() ? method : method + "-" + preset; }
+};
+
+std::vector<Variant> variants() {
+  std::vector<Variant> list;
+  for (const std::string& method : denoiserNames()) {
+    std::vector<std::string> presets = makeDenoiser(method)->presets();
+    if (presets.empty()) presets.emplace_back();
+    for (const std::string& preset : presets) list.push_back({method, preset});
+  }
+  return list;
+}
+
+void PrintTo(const Variant& variant, std::ostream* out) {
+  *out << variant.name();
+}
+
+fs::path folder() {
+  return WALR_PLANS;
+}
+
+fs::path fileOf(const Variant& variant) {
+  return folder() / (variant.name() + ".txt");
+}
+
+std::string readText(const fs::path& file) {
+  std::ostringstream text;
+  text << std::ifstream(file).rdbuf();
+  return text.str();
+}
+
+class DenoiserPlansTest : public testing::TestWithParam<Variant> {
+ protected:
+  void SetUp() override {
+    const std::unique_ptr<Denoiser> method = makeDenoiser(GetParam().method);
+    if (!GetParam().preset.empty()) method->usePreset(GetParam().preset);
+    declared_ = declareDenoiseGraph(*method, kExtent, InputConventions{}, kComputeHost);
+    result_ = fg::compile(desc(), fg::TableMemoryModel());
+    ASSERT_TRUE(result_.diagnostics.empty()) << result_.text();
+  }
+  [[nodiscard]] const fg::GraphDesc& desc() const { return declared_.graph.desc(); }
+  [[nodiscard]] const fg::Plan& plan() const { return result_.plan; }
+
+ private:
+  DenoiseGraph declared_;
+  fg::CompileResult result_;
+};
+
+TEST_P(DenoiserPlansTest, IsTheOneOnRecord) {
+  const std::string text = fg::toText(desc(), plan());
+  const fs::path file = fileOf(GetParam());
+  if (std::getenv("WALR_UPDATE_PLANS") != nullptr) {
+    std::ofstream(file) << text;
+    GTEST_SKIP() << "wrote " << file.string();
+  }
+  ASSERT_TRUE(fs::exists(file)) << "there is no " << file.string()
+                                << "; write it: cmake --build build --target update_plans";
+  const std::string diff = fg::test::lineDiff(readText(file), text);
+  if (diff.empty()) return;
+  ADD_FAILURE() << "the plan differs from " << file.filename().string() << " (-: on record, +: now):\n"
+                << diff << "if that is meant: cmake --build build --target update_plans";
+}
+
+TEST_P(DenoiserPlansTest, IsAcceptedByTheChecker) {
+  const std::vector<std::string> faults = fg::verify(desc(), plan());
+  EXPECT_TRUE(faults.empty()) << faults.front();
+}
+
+TEST_P(DenoiserPlansTest, NeedsHardlyMoreMemoryThanItsLargestPass) {
+  const fg::MemoryReport& memory = plan().memory;
+  // The project's goal: 2 %.
+  EXPECT_LE(static_cast<double>(memory.transientPeakBytes), 1.02 * static_cast<double>(memory.transientLowerBoundBytes))
+      << memory.transientPeakBytes << " bytes, at least " << memory.transientLowerBoundBytes;
+}
+
+INSTANTIATE_TEST_SUITE_P(Denoisers, DenoiserPlansTest, testing::ValuesIn(variants()), [](const auto& instance) {
+  std::string name = instance.param.name();
+  std::ranges::replace(name, '-', '_');
+  return name;
+});
+
+TEST(DenoiserPlans, AreOfMethodsAndPresetsThatExist) {
+  std::set<fs::path> files;
+  for (const Variant& variant : variants()) files.insert(fileOf(variant));
+  for (const auto& file : fs::directory_iterator(folder())) {
+    EXPECT_TRUE(files.contains(file.path())) << file.path().string() << " belongs to no method and preset: remove it";
+  }
+}
+
+}  // namespace
+}  // namespace walr

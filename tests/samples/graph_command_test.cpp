@@ -1,0 +1,202 @@
+#include <algorithm>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "framegraph/compile.h"
+#include "framegraph/inspect.h"
+#include "framegraph/verify.h"
+#include "integration/denoise_graph.h"
+#include "tests/samples/process.h"
+#include "tests/samples/temporary_directory.h"
+
+/// `walr graph`: what it prints is read back, by programs that are not ours where there are any.
+namespace walr {
+namespace {
+
+using nlohmann::json;
+
+constexpr fg::Extent kExtent = {640, 360};
+
+test::ProcessResult graph(std::vector<std::string> more) {
+  std::vector<std::string> arguments = {WALR_PROGRAM, "graph", "--size", "640x360"};
+  std::ranges::move(more, std::back_inserter(arguments));
+  return test::runProcess(arguments, {{{"VK_DRIVER_FILES", "/nonexistent"}, {"VK_ICD_FILENAMES", "/nonexistent"}}, {}});
+}
+
+std::string printed(const std::vector<std::string>& arguments) {
+  const test::ProcessResult result = graph(arguments);
+  EXPECT_EQ(result.exitCode, 0) << result.err;
+  EXPECT_TRUE(result.err.empty()) << result.err;
+  return result.out;
+}
+
+DenoiseGraph declared(const std::string& method, const std::string& preset = {}) {
+  const std::unique_ptr<Denoiser> denoiser = makeDenoiser(method);
+  if (!preset.empty()) denoiser->usePreset(preset);
+  return declareDenoiseGraph(*denoiser, kExtent, InputConventions{}, kComputeHost);
+}
+
+std::size_t count(const std::string& text, const std::string& part) {
+  std::size_t found = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;
+  return found;
+}
+
+TEST(GraphCommand, JsonIsReadBackAsThePlan) {
+  for (const std::string& method : denoiserNames()) {
+    std::vector<std::string> presets = makeDenoiser(method)->presets();
+    presets.emplace_back();
+    for (const std::string& preset : presets) {
+      std::vector<std::string> arguments = {"--json", "--method", method};
+      if (!preset.empty()) arguments.insert(arguments.end(), {"--preset", preset});
+      const DenoiseGraph expected = declared(method, preset);
+      const fg::GraphDesc& desc = expected.graph.desc();
+      const fg::Plan plan = fg::planFromJson(desc, printed(arguments));
+      EXPECT_EQ(plan, fg::compile(desc, fg::TableMemoryModel()).plan) << method << " " << preset;
+      EXPECT_TRUE(fg::verify(desc, plan).empty()) << method << " " << preset;
+    }
+  }
+}
+
+/// Memory figures computed once more from the listed textures and buffers, by their definitions.
+TEST(GraphCommand, JsonReportsItsMemoryRightly) {
+  for (const std::string& method : denoiserNames()) {
+    const json plan = json::parse(printed({"--json", "--method", method}));
+    std::vector<std::uint64_t> alive(plan["passes"].size());
+    std::uint64_t unaliased = 0;
+    std::uint64_t persistent = 0;
+    for (const char* kind : {"textures", "buffers"}) {
+      for (const json& resource : plan[kind]) {
+        const auto bytes = resource["bytes"].get<std::uint64_t>();
+        if (resource["lifetime"] == "HistoryCurrent") persistent += 2 * bytes;
+        if (resource["heap"].is_null()) continue;
+        unaliased += bytes;
+        const auto first = resource["first_use"].get<std::size_t>();
+        const auto last = resource["last_use"].get<std::size_t>();
+        for (std::size_t pass = first; pass <= last; ++pass) alive[pass] += bytes;
+        const auto heap = resource["heap"].get<std::size_t>();
+        EXPECT_LE(resource["offset"].get<std::uint64_t>() + bytes, plan["heaps"][heap]["bytes"].get<std::uint64_t>());
+      }
+    }
+    std::uint64_t peak = 0;
+    for (const json& heap : plan["heaps"]) peak += heap["bytes"].get<std::uint64_t>();
+    const json& memory = plan["memory"];
+    EXPECT_EQ(memory["persistent_bytes"], persistent) << method;
+    EXPECT_EQ(memory["transient_unaliased_bytes"], unaliased) << method;
+    EXPECT_EQ(memory["transient_peak_bytes"], peak) << method;
+    EXPECT_EQ(memory["transient_lower_bound_bytes"], std::ranges::max(alive)) << method;
+  }
+}
+
+TEST(GraphCommand, JsonReportsItsTrafficRightly) {
+  // Input and output of eight bytes a pixel each.
+  EXPECT_EQ(json::parse(printed({"--json", "--method", "none"}))["traffic"]["bytes_per_pixel"], 16.0);
+  const json plan = json::parse(printed({"--json"}));
+  const json& traffic = plan["traffic"];
+  const double bytes = traffic["bytes_read"].get<double>() + traffic["bytes_written"].get<double>();
+  EXPECT_DOUBLE_EQ(traffic["bytes_per_pixel"].get<double>(), bytes / (kExtent.width * kExtent.height));
+}
+
+TEST(GraphCommand, JsonListsBarriersWithWordsAndPlace) {
+  const json plan = json::parse(printed({"--json"}));
+  ASSERT_FALSE(plan["barriers"].empty());
+  std::vector<std::string> names;
+  for (const json& pass : plan["passes"]) names.push_back(pass["name"]);
+  for (const json& barrier : plan["barriers"]) {
+    EXPECT_FALSE(barrier["description"].get<std::string>().empty());
+    if (barrier["before"].is_null()) continue;
+    EXPECT_NE(std::ranges::find(names, barrier["before"].get<std::string>()), names.end()) << barrier;
+  }
+}
+
+TEST(GraphCommand, DotIsDrawnByGraphviz) {
+  const test::TemporaryDirectory directory;
+  const std::string file = (directory.path() / "graph.dot").string();
+  for (const std::string& method : denoiserNames()) {
+    EXPECT_EQ(printed({"--dot", "--method", method, "--output", file}), "");
+    const test::ProcessResult drawn = test::runProcess({"/usr/bin/dot", "-Tplain", file});
+    ASSERT_EQ(drawn.exitCode, 0) << drawn.err;
+    const DenoiseGraph expected = declared(method);
+    for (const fg::PassDecl& pass : expected.graph.desc().passes) {
+      EXPECT_EQ(count(drawn.out, "\nnode \"pass " + pass.name + "\" "), 1U) << drawn.out;
+    }
+  }
+}
+
+TEST(GraphCommand, SvgIsWellFormedWithARectangleForEveryTransient) {
+  const test::TemporaryDirectory directory;
+  const std::string file = (directory.path() / "memory.svg").string();
+  for (const std::string& method : denoiserNames()) {
+    printed({"--svg", "--method", method, "--output", file});
+    const test::ProcessResult shapes = test::runProcess(
+        {"/usr/bin/xmllint", "--xpath", "count(/*[local-name()='svg']//*[local-name()='rect'])", file});
+    ASSERT_EQ(shapes.exitCode, 0) << shapes.err;
+    const json plan = json::parse(printed({"--json", "--method", method}));
+    std::size_t transients = 0;
+    for (const char* kind : {"textures", "buffers"}) {
+      for (const json& resource : plan[kind]) transients += resource["heap"].is_null() ? 0 : 1;
+    }
+    EXPECT_EQ(std::stoul(shapes.out), transients) << method;
+  }
+}
+
+TEST(GraphCommand, SaysWhy) {
+  const json plan = json::parse(printed({"--json"}));
+  for (const json& barrier : plan["barriers"]) {
+    if (barrier["before"].is_null()) continue;
+    const std::string line = "'" + barrier["resource"].get<std::string>() +
+                             "': " + barrier["description"].get<std::string>() + "; declared at ";
+    const std::string why = printed({"--why", barrier["before"]});
+    EXPECT_NE(why.find(line), std::string::npos) << why;
+  }
+}
+
+TEST(GraphCommand, SaysWhyMemoryIsShared) {
+  const json plan = json::parse(printed({"--json"}));
+  std::vector<json> transients;
+  for (const json& texture : plan["textures"]) {
+    if (!texture["heap"].is_null()) transients.push_back(texture);
+  }
+  ASSERT_GE(transients.size(), 2U);
+  const auto number = [](const json& transient, const char* field) { return transient[field].get<std::uint64_t>(); };
+  const auto alive = [&](const json& a, const json& b) {
+    return number(a, "first_use") <= number(b, "last_use") && number(b, "first_use") <= number(a, "last_use");
+  };
+  const auto overlap = [&](const json& a, const json& b) {
+    return number(a, "offset") < number(b, "offset") + number(b, "bytes") &&
+           number(b, "offset") < number(a, "offset") + number(a, "bytes");
+  };
+  for (std::size_t i = 1; i < transients.size(); ++i) {
+    const json& a = transients[i - 1];
+    const json& b = transients[i];
+    const std::string why = printed({"--why", a["name"], b["name"]});
+    EXPECT_EQ(why.find("alive at the same time") != std::string::npos, alive(a, b)) << why;
+    EXPECT_EQ(why.ends_with("' share memory\n"), overlap(a, b)) << why;
+  }
+}
+
+TEST(GraphCommand, RefusesTwoFormatsAndUnknownNames) {
+  const test::ProcessResult two = graph({"--json", "--dot"});
+  EXPECT_EQ(two.exitCode, 2);
+  EXPECT_NE(two.err.find("--json"), std::string::npos) << two.err;
+  const test::ProcessResult unknown = graph({"--why", "magic"});
+  EXPECT_EQ(unknown.exitCode, 2);
+  EXPECT_NE(unknown.err.find("no pass 'magic'"), std::string::npos) << unknown.err;
+}
+
+TEST(GraphCommand, NamesAFileThatCannotBeWritten) {
+  const test::ProcessResult result = graph({"--json", "--output", "/nonexistent/plan.json"});
+  EXPECT_EQ(result.exitCode, 5);
+  EXPECT_NE(result.err.find("/nonexistent/plan.json"), std::string::npos) << result.err;
+}
+
+}  // namespace
+}  // namespace walr
