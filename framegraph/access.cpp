@@ -48,7 +48,29 @@ constexpr std::array<AccessInfo, 16> kAccesses{{
      VK_BUFFER_USAGE_INDEX_BUFFER_BIT},
 }};
 
+/// True where some part of a state is what an access needs.
+bool servesState(const AccessInfo& info, const ExternalState& state) {
+  const bool ownLayout = info.layout != VK_IMAGE_LAYOUT_UNDEFINED && info.layout != VK_IMAGE_LAYOUT_GENERAL;
+  return (info.mask() & state.access) != VK_ACCESS_2_NONE || (ownLayout && info.layout == state.layout);
+}
+
 }  // namespace
+
+VkImageUsageFlags imageUsageIn(const ExternalState& state) {
+  VkImageUsageFlags usage = 0;
+  for (const AccessInfo& info : kAccesses) {
+    if (servesState(info, state)) usage |= info.imageUsage;
+  }
+  return usage;
+}
+
+VkBufferUsageFlags bufferUsageIn(const ExternalState& state) {
+  VkBufferUsageFlags usage = 0;
+  for (const AccessInfo& info : kAccesses) {
+    if ((info.mask() & state.access) != VK_ACCESS_2_NONE) usage |= info.bufferUsage;
+  }
+  return usage;
+}
 
 const AccessInfo& accessInfo(Access access) {
   return kAccesses.at(static_cast<std::size_t>(access));

@@ -26,6 +26,11 @@ struct AccessInfo {
 /// Stage, access masks, layout and usage flags of an access.
 const AccessInfo& accessInfo(Access access);
 
+/// Usage flags that a resource needs for what its host does with it in a state: for the layout that it is brought into,
+/// and for the accesses named.
+VkImageUsageFlags imageUsageIn(const ExternalState& state);
+VkBufferUsageFlags bufferUsageIn(const ExternalState& state);
+
 /// Every access flag that writes.
 inline constexpr VkAccessFlags2 kWriteAccesses = VK_ACCESS_2_SHADER_WRITE_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT |
                                                  VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT |

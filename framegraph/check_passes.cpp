@@ -63,7 +63,10 @@ class PassCheck {
                       "pass " + quoted(pass_.name) + ": " + (texture != nullptr ? "texture " : "buffer ") +
                           quoted(resource.name) + " cannot be accessed as " + std::string(info.name));
     }
-    if (texture != nullptr) checkRange(access, *texture);
+    if (texture != nullptr) {
+      checkRange(access, *texture);
+      checkExtent(access, *texture);
+    }
     const bool readOnly = resource.lifetime == Lifetime::Upload || resource.lifetime == Lifetime::HistoryPrevious;
     if (info.writes() && readOnly) {
       findings_.error(
@@ -90,6 +93,28 @@ class PassCheck {
                         quoted(findings_.resourceName(access.resource)) + ", which has " +
                         std::to_string(texture.mipLevels) + " mip levels and " + std::to_string(texture.arrayLayers) +
                         " layers");
+  }
+
+  void checkExtent(const AccessDecl& access, const TextureDesc& texture) {
+    const Extent extent = accessedExtent(texture, access);
+    if (!pass_.extent || extent == *pass_.extent) return;
+    findings_.error(code::kExtentMismatch, pass_, access,
+                    "pass " + quoted(pass_.name) + " works on " + size(*pass_.extent) + " texels, but " +
+                        quoted(findings_.resourceName(access.resource)) + producers(access) + " has " + size(extent) +
+                        "; give it that extent, or access the mip level that has it");
+  }
+
+  /// Who wrote what an access reads: ", written by 'x'"; empty where nobody did.
+  [[nodiscard]] std::string producers(const AccessDecl& access) const {
+    if (access.readVersion == kNone) return {};
+    std::string text;
+    for (const PassDecl& pass : graph_.passes) {
+      for (const AccessDecl& other : pass.accesses) {
+        if (other.resource != access.resource || other.writeVersion != access.readVersion) continue;
+        text += (text.empty() ? ", written by " : " and ") + quoted(pass.name) + ",";
+      }
+    }
+    return text;
   }
 
   void checkPair(const AccessDecl& first, const AccessDecl& second) {

@@ -8,13 +8,17 @@
 namespace fg {
 namespace {
 
-/// Image usage that the declared accesses of a texture add up to.
+/// Image usage that the declared accesses of a texture, and its host's after an export, add up to.
 std::vector<VkImageUsageFlags> declaredUsage(const GraphDesc& graph) {
   std::vector<VkImageUsageFlags> usage(graph.resources.size());
   for (const PassDecl& pass : graph.passes) {
     for (const AccessDecl& access : pass.accesses) {
       if (validHandle(graph, access)) usage[access.resource] |= accessInfo(access.access).imageUsage;
     }
+  }
+  for (const ExportDecl& exported : graph.exports) {
+    const std::uint32_t resource = exported.resource.resource;
+    if (resource < usage.size()) usage[resource] |= imageUsageIn(exported.release);
   }
   return usage;
 }

@@ -5,14 +5,14 @@
 /// The codes of all diagnostics. Stable: a code never changes its meaning.
 namespace fg::code {
 
-inline constexpr std::string_view kInvalidHandle = "FG001";        ///< Empty, or of another graph.
-inline constexpr std::string_view kReadNeverWritten = "FG002";     ///< Contents that nobody makes.
-inline constexpr std::string_view kCycle = "FG003";                ///< Passes that wait for each other.
-inline constexpr std::string_view kStaleVersionRead = "FG004";     ///< A version read after it was overwritten.
-inline constexpr std::string_view kTwoWriters = "FG005";           ///< One version written twice.
-inline constexpr std::string_view kReadAndWritten = "FG006";       ///< Twice in one pass, not declared in place.
-inline constexpr std::string_view kFormatUnsupported = "FG007";    ///< On this device, for the declared use.
-inline constexpr std::string_view kExtentMismatch = "FG008";       ///< Attachments of one pass that differ.
+inline constexpr std::string_view kInvalidHandle = "FG001";      ///< Empty, or of another graph.
+inline constexpr std::string_view kReadNeverWritten = "FG002";   ///< Contents that nobody makes.
+inline constexpr std::string_view kCycle = "FG003";              ///< Passes that wait for each other.
+inline constexpr std::string_view kStaleVersionRead = "FG004";   ///< A version read after it was overwritten.
+inline constexpr std::string_view kTwoWriters = "FG005";         ///< One version written twice.
+inline constexpr std::string_view kReadAndWritten = "FG006";     ///< Twice in one pass, not declared in place.
+inline constexpr std::string_view kFormatUnsupported = "FG007";  ///< On this device, for the declared use.
+inline constexpr std::string_view kExtentMismatch = "FG008";  ///< Between producer and consumer, or among attachments.
 inline constexpr std::string_view kImportWithoutState = "FG009";   ///< Read, but its state has no contents.
 inline constexpr std::string_view kExportNeverWritten = "FG010";   ///< Nobody makes what the host is to get.
 inline constexpr std::string_view kExportOverwritten = "FG011";    ///< Not the last version.

@@ -132,6 +132,11 @@ PassBuilder& PassBuilder::specialize(std::string_view constant, bool value) {
   return specialize(constant, std::uint32_t{value});
 }
 
+PassBuilder& PassBuilder::texels(Extent extent) {
+  graph_->desc_.passes[pass_].extent = extent;
+  return *this;
+}
+
 PassBuilder& PassBuilder::dispatch(Extent threads, std::uint32_t layers) {
   ComputeDispatch* work = computeWork();
   if (work == nullptr) return *this;

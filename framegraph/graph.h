@@ -159,7 +159,8 @@ struct PassDecl {
   std::string name;
   std::variant<ComputeDispatch, HostCallback> work;
   std::vector<AccessDecl> accesses;
-  bool sideEffects = false;  ///< Kept even if it reaches no export and no history.
+  std::optional<Extent> extent = std::nullopt;  ///< That all its textures must have, where it says so.
+  bool sideEffects = false;                     ///< Kept even if it reaches no export and no history.
   SourceLocation where;
 };
 
@@ -233,6 +234,9 @@ class PassBuilder {
   PassBuilder& specialize(std::string_view constant, std::uint32_t value);
   PassBuilder& specialize(std::string_view constant, float value);
   PassBuilder& specialize(std::string_view constant, bool value);
+  /// Say that the pass takes all its textures texel by texel, so that the levels that it accesses must have this
+  /// extent: `compile` then names those of another size, and the passes that made them.
+  PassBuilder& texels(Extent extent);
   /// Work groups enough to cover `threads` with the shader's work group size.
   PassBuilder& dispatch(Extent threads, std::uint32_t layers = 1);
   /// Take the work group counts from a buffer.

@@ -1,6 +1,7 @@
 #include "framegraph/names.h"
 
 #include <array>
+#include <charconv>
 #include <utility>
 
 namespace fg {
@@ -18,11 +19,15 @@ std::string join(const std::array<FlagName<Flags>, Count>& names, Flags flags) {
     add(name);
     flags &= ~flag;
   }
-  if (flags != 0) add("0x" + std::to_string(flags));
+  if (flags != 0) {
+    std::array<char, 16> digits{};
+    char* const end = std::to_chars(digits.data(), digits.data() + digits.size(), flags, 16).ptr;
+    add("0x" + std::string(digits.data(), end));
+  }
   return text.empty() ? "NONE" : text;
 }
 
-constexpr std::array<FlagName<VkPipelineStageFlags2>, 17> kStages = {{
+constexpr std::array<FlagName<VkPipelineStageFlags2>, 19> kStages = {{
     {VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, "ALL_COMMANDS"},
     {VK_PIPELINE_STAGE_2_ALL_GRAPHICS_BIT, "ALL_GRAPHICS"},
     {VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, "ALL_TRANSFER"},
@@ -37,6 +42,8 @@ constexpr std::array<FlagName<VkPipelineStageFlags2>, 17> kStages = {{
     {VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT, "COLOR_ATTACHMENT_OUTPUT"},
     {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, "COMPUTE_SHADER"},
     {VK_PIPELINE_STAGE_2_COPY_BIT, "COPY"},
+    {VK_PIPELINE_STAGE_2_BLIT_BIT, "BLIT"},
+    {VK_PIPELINE_STAGE_2_RESOLVE_BIT, "RESOLVE"},
     {VK_PIPELINE_STAGE_2_CLEAR_BIT, "CLEAR"},
     {VK_PIPELINE_STAGE_2_HOST_BIT, "HOST"},
     {VK_PIPELINE_STAGE_2_RAY_TRACING_SHADER_BIT_KHR, "RAY_TRACING_SHADER"},

@@ -14,6 +14,12 @@ void addUses(const PassDecl& pass, std::vector<PlannedResource>& resources) {
   }
 }
 
+/// What the host does with a resource needs usage flags as well.
+void addBorder(const ExternalState& state, PlannedResource& resource) {
+  resource.imageUsage |= imageUsageIn(state);
+  resource.bufferUsage |= bufferUsageIn(state);
+}
+
 }  // namespace
 
 std::vector<PlannedResource> requirements(const GraphDesc& graph, const Culling& culling, const MemoryModel& memory) {
@@ -21,7 +27,13 @@ std::vector<PlannedResource> requirements(const GraphDesc& graph, const Culling&
   for (std::size_t i = 0; i < graph.passes.size(); ++i) {
     if (culling.live[i]) addUses(graph.passes[i], resources);
   }
-  for (const ExportDecl& exported : graph.exports) resources[exported.resource.resource].used = true;
+  for (std::size_t i = 0; i < resources.size(); ++i) {
+    if (graph.resources[i].acquire) addBorder(*graph.resources[i].acquire, resources[i]);
+  }
+  for (const ExportDecl& exported : graph.exports) {
+    resources[exported.resource.resource].used = true;
+    addBorder(exported.release, resources[exported.resource.resource]);
+  }
   for (const HistoryDecl& history : graph.histories) {
     PlannedResource& previous = resources[history.previous];
     PlannedResource& current = resources[history.current];

@@ -91,9 +91,11 @@ class Synchronizer {
       return released(advance(state, group));
     }
     if (state.layout == to.layout) return std::nullopt;
+    // Who waits for the last stages in the next frame then waits for the layout transition too.
     const VkPipelineStageFlags2 stage = state.stage;
     std::optional<PlannedBarrier> barrier = released(advance(state, group));
-    state.stage |= stage;
+    barrier->dstStage = stage;
+    state.stage = stage;
     return barrier;
   }
 

@@ -91,21 +91,24 @@ void Device::publish(const Publication& publication) {
 
 void Device::checkTransition(const Dependency& dependency, std::uint32_t index) {
   const Cell& cell = cells_[index];
-  const auto ordered = [&](const Cell& other) {
-    return (!other.written || waitsFor(dependency.srcStage, other.write)) &&
-           std::ranges::all_of(other.reads, [&](const Operation& read) { return waitsFor(dependency.srcStage, read); });
+  const auto readsFinished = [&](const Cell& other) {
+    return std::ranges::all_of(other.reads, [&](const Operation& read) { return waitsFor(dependency.srcStage, read); });
+  };
+  const auto writeFinished = [&](const Cell& other) {
+    return findsAvailable(dependency.srcStage, other) && (!other.written || waitsFor(dependency.srcStage, other.write));
   };
   if (dependency.oldLayout != VK_IMAGE_LAYOUT_UNDEFINED && dependency.oldLayout != cell.layout) {
     complain("a barrier takes '" + cell.name + "' to be in layout " + std::to_string(dependency.oldLayout) +
              ", but it is in " + std::to_string(cell.layout));
   }
-  const bool available = findsAvailable(dependency.srcStage, cell) || makesAvailable(dependency, cell);
-  if (!ordered(cell) || !available) {
+  // Layout transitions of one image come in submission order by themselves.
+  const bool afterTransition = cell.write.stage == VK_PIPELINE_STAGE_2_NONE;
+  if (!readsFinished(cell) || !(afterTransition || writeFinished(cell) || makesAvailable(dependency, cell))) {
     complain("the layout of '" + cell.name + "' changes before earlier accesses have finished");
   }
   for (const std::uint32_t peer : cell.peers) {
     const Cell& other = cells_[peer];
-    if (!ordered(other) || !findsAvailable(dependency.srcStage, other)) {
+    if (!readsFinished(other) || !writeFinished(other)) {
       complain("'" + cell.name + "' takes over the memory of '" + other.name + "' before its accesses have finished");
     }
   }
@@ -119,10 +122,7 @@ void Device::transition(const Dependency& dependency, std::uint32_t index) {
     for (const std::uint32_t peer : cell.peers) cells_[peer].contents = {};
   }
   cell.written = true;
-  // Layout transitions of one image are executed in submission order: where nothing waits for this one, a later one
-  // that waits for the same work still comes after it.
-  const bool waitedFor = dependency.dstStage != VK_PIPELINE_STAGE_2_NONE;
-  cell.write = {VK_PIPELINE_STAGE_2_NONE, waitedFor ? dependency.dstStage : dependency.srcStage};
+  cell.write = {VK_PIPELINE_STAGE_2_NONE, dependency.dstStage};
   cell.writeAccess = VK_ACCESS_2_NONE;
   cell.available = true;
   cell.availableTo = cell.write.ordered;

@@ -19,6 +19,9 @@ struct Use {
 /// What an access of a texture or of a buffer needs.
 Use useOf(Access access, bool texture);
 
+/// Usage without which an image cannot be brought into a layout; none for layouts that ask for nothing.
+VkImageUsageFlags usageInLayout(VkImageLayout layout);
+
 /// The stages with those written out that a collective name stands for.
 VkPipelineStageFlags2 expanded(VkPipelineStageFlags2 stages);
 

@@ -63,8 +63,14 @@ class Structure {
     if (planned.firstUse != first || planned.lastUse != last)
       fault(decl, "is given another lifetime than its uses have");
     if (((texture ? planned.imageUsage : planned.bufferUsage) & usage) != usage) fault(decl, "lacks usage flags");
-    const bool exported =
-        std::ranges::any_of(graph_.exports, [&](const ExportDecl& other) { return other.resource.resource == index; });
+    bool exported = false;
+    for (const ExportDecl& other : graph_.exports) {
+      if (other.resource.resource != index) continue;
+      exported = true;
+      const VkFlags needed = texture ? usageInLayout(other.release.layout) : 0;
+      if ((planned.imageUsage & needed) != needed)
+        fault(decl, "lacks usage flags of the layout that it is released in");
+    }
     const bool shares = decl.lifetime == Lifetime::Transient && !exported;
     if (first != kNone && !planned.used) fault(decl, "is used, but marked unused");
     if (!shares && planned.heap != kNone) fault(decl, "must not lie in the transient heap");

@@ -18,6 +18,7 @@ Guides addPrepareGuides(fg::Graph& graph, const DenoiserInputs& inputs, const Pr
       .sample("albedo", inputs.albedo)
       .specialize("kNormalsInWorldSpace", inputs.conventions.normal == InputConventions::Space::World)
       .constants(PrepareGuidesConstants{settings.albedoThreshold, settings.normalAgreement})
+      .texels(extent)
       .dispatch(extent);
   Guides guides;
   guides.depth = pass.store("outDepth", depth.current);

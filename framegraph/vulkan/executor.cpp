@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "framegraph/compiler.h"
 #include "framegraph/vulkan/barriers.h"
 #include "framegraph/vulkan/error.h"
 #include "framegraph/vulkan/pass_recorder.h"
@@ -84,7 +85,7 @@ struct Executor::State {
   }
 
   const DeviceContext& device;
-  const GraphDesc graph;
+  GraphDesc graph;
   const Plan plan;
   const std::uint32_t slots;
   FrameIndex frame;  ///< Recorded last.
@@ -133,6 +134,16 @@ VkImageUsageFlags Executor::usage(Texture texture) const {
 
 VkBufferUsageFlags Executor::usage(Buffer buffer) const {
   return state_->plan.resources[buffer.resource].bufferUsage;
+}
+
+void Executor::update(const GraphDesc& graph) {
+  if (!sameTopology(state_->graph, graph)) {
+    throw std::invalid_argument(
+        "update: the graph has other passes, resources or accesses than the executor was made for; compile it and make "
+        "an executor for it");
+  }
+  state_->passes.update(graph);
+  for (std::size_t i = 0; i < graph.passes.size(); ++i) state_->graph.passes[i].work = graph.passes[i].work;
 }
 
 void Executor::record(VkCommandBuffer commandBuffer, std::uint32_t slot) {

@@ -72,6 +72,13 @@ class Executor {
   [[nodiscard]] VkImageUsageFlags usage(Texture texture) const;
   [[nodiscard]] VkBufferUsageFlags usage(Buffer buffer) const;
 
+  /// Take over what a graph of the same topology (see `sameTopology`) says of push constants, specialization constants,
+  /// work group counts and callbacks, for the frames recorded from now on. Memory, histories and their ages stay as
+  /// they are; a pipeline is made where specialization constants have values not seen before.
+  /// @throws std::invalid_argument where the topology is another: compile the graph and make an executor for it;
+  ///         PipelineFailed, OutOfMemory or Unsupported, and the executor goes on as it was
+  void update(const GraphDesc& graph);
+
   /// Record one frame.
   /// @param commandBuffer in the recording state, outside of a render pass
   /// @param slot 0 to framesInFlight - 1; the GPU must have finished the frame last recorded with it

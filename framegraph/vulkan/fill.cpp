@@ -20,16 +20,6 @@ VkClearColorValue clearColor(FillPattern pattern) {
   return color;
 }
 
-bool overlap(std::uint32_t firstA, std::uint32_t countA, std::uint32_t firstB, std::uint32_t countB) {
-  // The counts for "all that remain" are so large that only 64 bits hold the sums.
-  return firstA < std::uint64_t{firstB} + countB && firstB < std::uint64_t{firstA} + countA;
-}
-
-bool overlap(const SubresourceRange& a, const SubresourceRange& b) {
-  return overlap(a.baseMip, a.mipCount, b.baseMip, b.mipCount) &&
-         overlap(a.baseLayer, a.layerCount, b.baseLayer, b.layerCount);
-}
-
 }  // namespace
 
 FillingBatch::FillingBatch(const GraphDesc& graph, const std::vector<PlannedBarrier>& barriers,
@@ -88,23 +78,18 @@ void FillingBatch::fill(const DeviceContext& device, VkCommandBuffer commandBuff
 
 FillingBatch historyClear(const GraphDesc& graph, const Plan& plan, std::uint32_t history) {
   const std::uint32_t previous = graph.histories[history].previous;
-  std::vector<PlannedBarrier> clears;
-  for (const PlannedPass& pass : plan.passes) {
-    for (const PlannedBarrier& carry : pass.barriers) {
-      const bool isFirst = carry.resource == previous && std::ranges::none_of(clears, [&](const PlannedBarrier& clear) {
-                             return overlap(clear.range, carry.range);
-                           });
-      if (!isFirst) continue;
-      // From the state that the plan takes for given, with contents dropped, and back into that state.
-      PlannedBarrier& clear = clears.emplace_back(carry);
-      clear.oldLayout = VK_IMAGE_LAYOUT_UNDEFINED;
-      clear.dstStage = carry.srcStage;
-      clear.dstAccess = carry.srcAccess;
-      clear.newLayout = carry.oldLayout;
-    }
-  }
-  const std::vector<bool> filled(clears.size(), true);
-  return {graph, clears, filled, FillPattern::Zero};
+  if (!plan.resources[previous].used) return {};
+  // From the state in which a frame leaves the history, with contents dropped, and back into that state.
+  const ExternalState& carry = plan.histories[history].carry;
+  PlannedBarrier clear;
+  clear.resource = previous;
+  clear.reason = BarrierReason::HistoryCarry;
+  clear.srcStage = carry.stage;
+  clear.srcAccess = carry.access;
+  clear.dstStage = carry.stage;
+  clear.dstAccess = carry.access;
+  clear.newLayout = carry.layout;
+  return {graph, {clear}, {true}, FillPattern::Zero};
 }
 
 FillingBatch plainBarriers(const GraphDesc& graph, const std::vector<PlannedBarrier>& barriers) {

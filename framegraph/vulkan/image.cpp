@@ -1,6 +1,18 @@
 #include "framegraph/vulkan/image.h"
 
 namespace fg::vk {
+namespace {
+
+/// @param what what is made, for the error's text
+template <typename Handle, typename Info, typename Function>
+Owned<Handle> createNamed(const DeviceContext& device, VkObjectType type, Function function, const Info& info,
+                          const std::string& what, const std::string& name) {
+  auto made = create<Handle>(device, function, info, "creating " + what + " '" + name + "'");
+  device.setName(type, made.get(), name);
+  return made;
+}
+
+}  // namespace
 
 VkImageCreateInfo imageCreateInfo(const TextureDesc& desc, VkImageUsageFlags usage) {
   VkImageCreateInfo info{};
@@ -70,10 +82,8 @@ VkFormatFeatureFlags requiredFeatures(VkImageUsageFlags usage) {
 
 Owned<VkImage> createImage(const DeviceContext& device, const TextureDesc& desc, VkImageUsageFlags usage,
                            const std::string& name) {
-  auto image = create<VkImage>(device, device.functions.vkCreateImage, imageCreateInfo(desc, usage),
-                               "creating image '" + name + "'");
-  device.setName(VK_OBJECT_TYPE_IMAGE, image.get(), name);
-  return image;
+  return createNamed<VkImage>(device, VK_OBJECT_TYPE_IMAGE, device.functions.vkCreateImage,
+                              imageCreateInfo(desc, usage), "image", name);
 }
 
 Owned<VkImageView> createImageView(const DeviceContext& device, VkImage image, const TextureDesc& desc,
@@ -87,18 +97,14 @@ Owned<VkImageView> createImageView(const DeviceContext& device, VkImage image, c
   if ((info.subresourceRange.aspectMask & VK_IMAGE_ASPECT_DEPTH_BIT) != 0) {
     info.subresourceRange.aspectMask = VK_IMAGE_ASPECT_DEPTH_BIT;
   }
-  auto view =
-      create<VkImageView>(device, device.functions.vkCreateImageView, info, "creating a view of image '" + name + "'");
-  device.setName(VK_OBJECT_TYPE_IMAGE_VIEW, view.get(), name);
-  return view;
+  return createNamed<VkImageView>(device, VK_OBJECT_TYPE_IMAGE_VIEW, device.functions.vkCreateImageView, info,
+                                  "a view of image", name);
 }
 
 Owned<VkBuffer> createBuffer(const DeviceContext& device, const BufferDesc& desc, VkBufferUsageFlags usage,
                              const std::string& name) {
-  auto buffer = create<VkBuffer>(device, device.functions.vkCreateBuffer, bufferCreateInfo(desc, usage),
-                                 "creating buffer '" + name + "'");
-  device.setName(VK_OBJECT_TYPE_BUFFER, buffer.get(), name);
-  return buffer;
+  return createNamed<VkBuffer>(device, VK_OBJECT_TYPE_BUFFER, device.functions.vkCreateBuffer,
+                               bufferCreateInfo(desc, usage), "buffer", name);
 }
 
 }  // namespace fg::vk

@@ -56,12 +56,32 @@ std::vector<PassRecorder::Step> PassRecorder::makeSteps(const DeviceContext& dev
     step.pass = &graph.passes[planned.pass];
     step.barriers = poison ? poisonedBarriers(graph, planned) : plainBarriers(graph, planned.barriers);
     if (const auto* work = std::get_if<ComputeDispatch>(&step.pass->work)) {
-      requireGroups(device, *step.pass, *work);
-      step.pipeline = pipelines.get(*work->shader, work->specialization);
+      step.pipeline = makePipeline(device, *step.pass, *work, pipelines);
       step.constants = work->constants;
     }
   }
   return steps;
+}
+
+ComputePipeline PassRecorder::makePipeline(const DeviceContext& device, const PassDecl& pass,
+                                           const ComputeDispatch& work, Pipelines& pipelines) {
+  requireGroups(device, pass, work);
+  return pipelines.get(*work.shader, work.specialization);
+}
+
+void PassRecorder::update(const GraphDesc& graph) {
+  std::vector<ComputePipeline> pipelines(steps_.size());
+  for (std::size_t i = 0; i < steps_.size(); ++i) {
+    const PassDecl& pass = graph.passes[plan_->passes[i].pass];
+    const auto* work = std::get_if<ComputeDispatch>(&pass.work);
+    if (work != nullptr) pipelines[i] = makePipeline(*device_, pass, *work, pipelines_);
+  }
+  for (std::size_t i = 0; i < steps_.size(); ++i) {
+    const auto* work = std::get_if<ComputeDispatch>(&graph.passes[plan_->passes[i].pass].work);
+    if (work == nullptr) continue;
+    steps_[i].pipeline = pipelines[i];
+    steps_[i].constants = work->constants;
+  }
 }
 
 void PassRecorder::requestCallbackViews(const PassDecl& pass) {

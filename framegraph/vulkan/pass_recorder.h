@@ -20,6 +20,8 @@ class PassRecorder {
   PassRecorder(const PassRecorder&) = delete;
   PassRecorder& operator=(const PassRecorder&) = delete;
 
+  /// Take constants and pipelines from a graph of the same topology. Nothing changes where this throws.
+  void update(const GraphDesc& graph);
   /// Say that an import changed.
   void invalidateImports() { descriptors_.invalidateImports(); }
   void record(VkCommandBuffer commandBuffer, FrameIndex frame, const HistoryStates& histories, Timestamps* timestamps);
@@ -33,6 +35,8 @@ class PassRecorder {
   };
   static std::vector<Step> makeSteps(const DeviceContext& device, const GraphDesc& graph, const Plan& plan,
                                      Pipelines& pipelines, bool poison);
+  static ComputePipeline makePipeline(const DeviceContext& device, const PassDecl& pass, const ComputeDispatch& work,
+                                      Pipelines& pipelines);
   void requestCallbackViews(const PassDecl& pass);
   void dispatch(VkCommandBuffer commandBuffer, std::size_t index, const ComputeDispatch& work,
                 const HistoryStates& histories);

@@ -57,6 +57,11 @@ fs::path fileOf(const Variant& variant) {
   return folder() / (variant.name() + ".txt");
 }
 
+/// Whether to write the plans, in place of comparing them.
+bool updating() {
+  return std::getenv("WALR_UPDATE_PLANS") != nullptr;
+}
+
 std::string readText(const fs::path& file) {
   std::ostringstream text;
   text << std::ifstream(file).rdbuf();
@@ -83,7 +88,7 @@ class DenoiserPlansTest : public testing::TestWithParam<Variant> {
 TEST_P(DenoiserPlansTest, IsTheOneOnRecord) {
   const std::string text = fg::toText(desc(), plan());
   const fs::path file = fileOf(GetParam());
-  if (std::getenv("WALR_UPDATE_PLANS") != nullptr) {
+  if (updating()) {
     std::ofstream(file) << text;
     GTEST_SKIP() << "wrote " << file.string();
   }
@@ -117,7 +122,12 @@ TEST(DenoiserPlans, AreOfMethodsAndPresetsThatExist) {
   std::set<fs::path> files;
   for (const Variant& variant : variants()) files.insert(fileOf(variant));
   for (const auto& file : fs::directory_iterator(folder())) {
-    EXPECT_TRUE(files.contains(file.path())) << file.path().string() << " belongs to no method and preset: remove it";
+    if (files.contains(file.path())) continue;
+    if (updating()) {
+      fs::remove(file);
+    } else {
+      ADD_FAILURE() << file.path().string() << " belongs to no method and preset: remove it";
+    }
   }
 }
 

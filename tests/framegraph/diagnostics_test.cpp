@@ -150,6 +150,25 @@ TEST_F(DiagnosticsTest, FormatUnsupportedNamesTheFallback) {
   EXPECT_NE(compile(graph.desc(), model).text().find("R16G16B16A16_SFLOAT"), std::string::npos);
 }
 
+TEST_F(DiagnosticsTest, ExtentMismatchNamesTheProducer) {
+  const Texture half = graph.texture("half", {kColor.format, {kColor.extent.width / 2, kColor.extent.height / 2}});
+  const Texture written = graph.callback("downsample", recordNothing).store("o", half);
+  auto pass = graph.callback("filter", recordNothing);
+  pass.texels(kColor.extent).load("i", written);
+  const auto line = __LINE__ - 1;
+  expect(code::kExtentMismatch, "filter", "half", line);
+  EXPECT_NE(compile(graph.desc(), TableMemoryModel()).text().find("written by 'downsample'"), std::string::npos);
+}
+
+TEST_F(DiagnosticsTest, AMipLevelOfTheRightExtentIsFine) {
+  const Texture pyramid =
+      graph.texture("pyramid", {kColor.format, {2 * kColor.extent.width, 2 * kColor.extent.height}, 2});
+  auto pass = graph.callback("filter", recordNothing);
+  pass.texels(kColor.extent).sideEffects();
+  pass.access(pyramid, Access::StorageWrite, {1, 1, 0, 1});
+  EXPECT_TRUE(compile(graph.desc(), TableMemoryModel()).ok());
+}
+
 TEST_F(DiagnosticsTest, ExtentMismatch) {
   auto pass = graph.callback("draw", recordNothing);
   pass.access(graph.texture("color", kColor), Access::ColorWrite);

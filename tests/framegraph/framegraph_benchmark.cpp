@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "framegraph/compile.h"
+#include "framegraph/compiler.h"
 
 namespace fg {
 namespace {
@@ -42,6 +42,18 @@ void compileChain(benchmark::State& state) {
       static_cast<double>(state.range(0)), benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
   state.SetComplexityN(state.range(0));
 }
+/// A host that declares the same graph again and again, with other settings perhaps.
+void compileUnchanged(benchmark::State& state) {
+  const Graph graph = chain(state.range(0));
+  const TableMemoryModel memory;
+  Compiler compiler(memory);
+  (void)compiler.compile(graph.desc());
+  for ([[maybe_unused]] auto _ : state) benchmark::DoNotOptimize(compiler.compile(graph.desc()));
+  if (compiler.recompiled()) return state.SkipWithError("the graph was compiled again");
+  state.SetComplexityN(state.range(0));
+}
+
+BENCHMARK(compileUnchanged)->RangeMultiplier(10)->Range(10, 10'000)->Unit(benchmark::kMicrosecond)->Complexity();
 BENCHMARK(compileChain)->RangeMultiplier(10)->Range(10, 10'000)->Unit(benchmark::kMicrosecond)->Complexity();
 
 }  // namespace

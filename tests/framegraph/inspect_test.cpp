@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "framegraph/compile.h"
+#include "framegraph/names.h"
 #include "tests/framegraph/random_graph.h"
 #include "tests/framegraph/test_shaders.h"
 
@@ -37,6 +38,12 @@ TEST(Inspect, JsonThatIsNoPlanIsRejectedByName) {
   } catch (const std::invalid_argument& error) {
     EXPECT_NE(std::string(error.what()).find("ghost"), std::string::npos);
   }
+}
+
+TEST(Inspect, FlagsWithoutANameAreHexadecimal) {
+  EXPECT_EQ(stageNames(VK_PIPELINE_STAGE_2_BLIT_BIT | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT), "COMPUTE_SHADER|BLIT");
+  EXPECT_EQ(stageNames(VkPipelineStageFlags2{1} << 60U), "0x1000000000000000");
+  EXPECT_EQ(accessNames(VK_ACCESS_2_NONE), "NONE");
 }
 
 class InspectChainTest : public ::testing::Test {

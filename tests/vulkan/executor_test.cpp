@@ -244,6 +244,28 @@ TEST_F(ExecutorTest, TimestampsNameEveryPass) {
   EXPECT_LT(sum, 10'000.0) << "four passes over 19 x 13 texels cannot take ten seconds";
 }
 
+/// Labels begun, and how many have ended.
+struct LabelLog {
+  std::vector<std::string> begun;
+  std::size_t ended = 0;
+};
+LabelLog labelLog;
+
+TEST_F(ExecutorTest, EveryPassIsALabelledRegion) {
+  vk::DeviceContext tampered = context();
+  tampered.instance.vkCmdBeginDebugUtilsLabelEXT = [](VkCommandBuffer /*buffer*/, const VkDebugUtilsLabelEXT* label) {
+    labelLog.begun.emplace_back(label->pLabelName);
+  };
+  tampered.instance.vkCmdEndDebugUtilsLabelEXT = [](VkCommandBuffer /*buffer*/) { ++labelLog.ended; };
+  labelLog = {};
+  Graph graph;
+  chain(graph, 0, 3);
+  GraphRun run({tampered, device().queue()}, graph);
+  run.frame();
+  EXPECT_EQ(labelLog.begun, (std::vector<std::string>{"fill", "add1", "add2", "last"}));
+  EXPECT_EQ(labelLog.ended, labelLog.begun.size());
+}
+
 TEST_F(ExecutorTest, SameInputGivesTheSameBits) {
   CountingGraph counting;
   GraphRun first(device(), counting.graph);

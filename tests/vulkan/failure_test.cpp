@@ -88,5 +88,39 @@ TEST_F(FailureTest, LostDeviceIsToldApart) {
   }
 }
 
+/// Whatever call fails while a frame is recorded, submitted or waited for: the error says which, and after a reset the
+/// graph counts from one again.
+TEST_F(FailureTest, EveryStepOfAFrameMayFailAndTheGraphGoesOnAfterAReset) {
+  CountingGraph counting;
+  using F = vk::DeviceFunctions;
+  hook<&F::vkResetCommandPool, &F::vkBeginCommandBuffer, &F::vkEndCommandBuffer, &F::vkQueueSubmit, &F::vkWaitForFences,
+       &F::vkResetFences>(tampered_);
+  GraphRun run({tampered_, device().queue()}, counting.graph);
+  for (const VkResult failure : {VK_ERROR_DEVICE_LOST, VK_ERROR_OUT_OF_DEVICE_MEMORY, VK_ERROR_OUT_OF_HOST_MEMORY}) {
+    std::uint32_t steps = 0;
+    for (bool failed = true; failed; ++steps) {
+      ASSERT_LT(steps, 100U) << "a frame never succeeds";
+      failed = false;
+      hookState = {.calls = 0, .failAt = steps, .failure = failure};
+      try {
+        run.frame();
+      } catch (const vk::DeviceLost& error) {
+        failed = true;
+        EXPECT_EQ(failure, VK_ERROR_DEVICE_LOST) << error.what();
+      } catch (const vk::OutOfMemory& error) {
+        failed = true;
+        EXPECT_EQ(error.result(), failure) << error.what();
+      }
+      hookState = {};
+      run.executor().resetAllHistory();
+      for (std::uint32_t i = 1; i <= 2; ++i) {
+        run.frame();
+        EXPECT_EQ(run.texels<std::uint32_t>(counting.count), constant(i)) << "after a failure of step " << steps;
+      }
+    }
+    EXPECT_GE(steps, 7U) << "six steps that fail, and the frame that succeeds";
+  }
+}
+
 }  // namespace
 }  // namespace fg::test

@@ -1,0 +1,384 @@
+#include "tests/framegraph/dependency_chains.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <set>
+
+#include "framegraph/verify_rules.h"
+
+namespace fg::test {
+namespace {
+
+using Stages = VkPipelineStageFlags2;
+using Accesses = VkAccessFlags2;
+
+/// Histories swap roles every frame, and are cleared where no valid frame lies behind.
+constexpr std::uint32_t kFrames = 4;
+constexpr std::array kCleared = {true, false, false, true};
+
+/// Dependencies that do not order each other; one moment of time.
+struct Dependency {
+  Stages srcStage = 0;
+  Accesses srcAccess = 0;
+  Stages dstStage = 0;
+  Accesses dstAccess = 0;
+  bool transition = false;
+  std::vector<std::uint32_t> cells;
+};
+
+/// Something done to one cell at one moment: one mip level and layer of one physical image, or one buffer.
+struct Operation {
+  std::size_t time = 0;
+  std::uint32_t cell = 0;
+  Stages stage = 0;  ///< None for a layout transition, which belongs to no stage.
+  Accesses reads = 0;
+  Accesses writes = 0;
+  std::optional<Dependency> transition;  ///< What it is made by, or, for what a host hands over, looks like.
+  std::string name;
+
+  [[nodiscard]] bool changes() const { return writes != 0 || transition.has_value(); }
+};
+
+bool overlap(const PlannedResource& a, const PlannedResource& b) {
+  return a.heap != kNone && a.heap == b.heap && a.offset < b.offset + b.size && b.offset < a.offset + a.size;
+}
+
+/// All operations and dependencies of a few frames, in submission order.
+class Timeline {
+ public:
+  Timeline(const GraphDesc& graph, const Plan& plan) : graph_(graph), plan_(plan) {
+    for (std::uint32_t i = 0; i < graph.resources.size(); ++i) {
+      const bool doubled = graph.resources[i].lifetime == Lifetime::HistoryCurrent;
+      first_[0].push_back(cells_);
+      cells_ += cellCount(i);
+      first_[1].push_back(doubled ? cells_ : first_[0].back());
+      if (doubled) cells_ += cellCount(i);
+    }
+    for (const HistoryDecl& history : graph.histories) {
+      first_[1][history.previous] = first_[0][history.current];
+      first_[0][history.previous] = first_[1][history.current];
+    }
+    peers_.resize(cells_);
+    for (std::uint32_t i = 0; i < graph.resources.size(); ++i) {
+      for (std::uint32_t j = 0; j < graph.resources.size(); ++j) {
+        if (i == j || !overlap(plan.resources[i], plan.resources[j])) continue;
+        for (std::uint32_t a = 0; a < cellCount(i); ++a) {
+          for (std::uint32_t b = 0; b < cellCount(j); ++b) peers_[first_[0][i] + a].push_back(first_[0][j] + b);
+        }
+      }
+    }
+    since_.resize(cells_);
+    operationsOf_.resize(cells_);
+    for (frame_ = 0; frame_ < kFrames; ++frame_) runFrame();
+  }
+
+  std::vector<std::string> takeFaults() { return std::move(faults_); }
+
+ private:
+  [[nodiscard]] const TextureDesc* texture(std::uint32_t resource) const {
+    return std::get_if<TextureDesc>(&graph_.resources[resource].desc);
+  }
+  [[nodiscard]] std::uint32_t cellCount(std::uint32_t resource) const {
+    return texture(resource) == nullptr ? 1 : texture(resource)->mipLevels * texture(resource)->arrayLayers;
+  }
+  [[nodiscard]] std::vector<std::uint32_t> cellsOf(std::uint32_t resource, const SubresourceRange& range) const {
+    const std::uint32_t first = first_[frame_ % 2][resource];
+    if (texture(resource) == nullptr) return {first};
+    std::vector<std::uint32_t> cells;
+    for (std::uint32_t i = 0; i < cellCount(resource); ++i) {
+      const std::uint32_t mip = i / texture(resource)->arrayLayers;
+      const std::uint32_t layer = i % texture(resource)->arrayLayers;
+      if (mip >= range.baseMip && mip - range.baseMip < range.mipCount && layer >= range.baseLayer &&
+          layer - range.baseLayer < range.layerCount) {
+        cells.push_back(first + i);
+      }
+    }
+    return cells;
+  }
+
+  void runFrame() {
+    for (std::uint32_t i = 0; i < graph_.resources.size(); ++i) begin(i);
+    for (const PlannedPass& planned : plan_.passes) {
+      batch(planned.barriers);
+      for (const AccessDecl& access : graph_.passes[planned.pass].accesses) {
+        if (graph_.resources[access.resource].lifetime == Lifetime::Upload) continue;
+        const check::Use use = check::useOf(access.access, texture(access.resource) != nullptr);
+        operate(cellsOf(access.resource, access.range), {check::expanded(use.stage), use.reads, use.writes},
+                graph_.passes[planned.pass].name + " on " + graph_.resources[access.resource].name);
+      }
+      ++time_;
+    }
+    batch(plan_.releases);
+    for (std::uint32_t i = 0; i < graph_.resources.size(); ++i) end(i);
+    ++time_;
+  }
+
+  struct Touch {
+    Stages stage;
+    Accesses reads;
+    Accesses writes;
+  };
+
+  void operate(const std::vector<std::uint32_t>& cells, const Touch& touch, const std::string& name) {
+    for (const std::uint32_t cell : cells) {
+      add({time_, cell, touch.stage, touch.reads, touch.writes, std::nullopt,
+           "frame " + std::to_string(frame_) + " " + name});
+    }
+  }
+
+  void batch(const std::vector<PlannedBarrier>& barriers) {
+    std::vector<Dependency> dependencies;
+    for (const PlannedBarrier& barrier : barriers) {
+      dependencies.push_back({check::expanded(barrier.srcStage), barrier.srcAccess, check::expanded(barrier.dstStage),
+                              barrier.dstAccess, barrier.oldLayout != barrier.newLayout,
+                              cellsOf(barrier.resource, barrier.range)});
+    }
+    batch(std::move(dependencies));
+  }
+
+  void batch(std::vector<Dependency> dependencies) {
+    batches_.resize(time_ + 1);
+    batches_[time_] = std::move(dependencies);
+    const std::vector<Dependency> now = batches_[time_];
+    for (const Dependency& dependency : now) {
+      if (!dependency.transition) continue;
+      for (const std::uint32_t cell : dependency.cells) {
+        add({time_, cell, 0, 0, 0, dependency, "frame " + std::to_string(frame_) + " transition"});
+      }
+    }
+    ++time_;
+  }
+
+  void begin(std::uint32_t resource) {
+    const ResourceDecl& decl = graph_.resources[resource];
+    if (decl.lifetime == Lifetime::HistoryPrevious && kCleared[frame_] && plan_.histories[decl.history].used) {
+      return clear(resource, plan_.histories[decl.history].carry);
+    }
+    if (decl.lifetime != Lifetime::Imported) return;
+    const ExternalState& state = *decl.acquire;
+    const Stages stage = check::expanded(state.stage);
+    const Accesses writes = check::writesOf(state.access);
+    for (const std::uint32_t cell : cellsOf(resource, {})) {
+      since_[cell] = time_;  // What was before is the host's business.
+      if (stage == VK_PIPELINE_STAGE_2_NONE) continue;
+      Operation operation{time_, cell, stage, state.access & ~writes, writes, std::nullopt, "host on " + decl.name};
+      if (writes == 0) {
+        Operation readable = operation;
+        readable.stage = 0;
+        readable.reads = 0;
+        readable.transition = Dependency{0, 0, stage, state.access, true, {cell}};
+        operations_.push_back(readable);
+        operationsOf_[cell].push_back(operations_.size() - 1);
+      }
+      operations_.push_back(operation);
+      operationsOf_[cell].push_back(operations_.size() - 1);
+    }
+    ++time_;
+  }
+
+  void clear(std::uint32_t previous, const ExternalState& carry) {
+    const std::vector<std::uint32_t> cells = cellsOf(previous, {});
+    const Stages stage = check::expanded(carry.stage);
+    constexpr Stages kClear = VK_PIPELINE_STAGE_2_CLEAR_BIT;
+    constexpr Accesses kWrite = VK_ACCESS_2_TRANSFER_WRITE_BIT;
+    batch(std::vector<Dependency>{{stage, carry.access, kClear, kWrite, true, cells}});
+    operate(cells, {kClear, 0, kWrite}, "clear");
+    ++time_;
+    batch(std::vector<Dependency>{{kClear, kWrite, stage, carry.access, true, cells}});
+  }
+
+  void end(std::uint32_t resource) {
+    const ResourceDecl& decl = graph_.resources[resource];
+    const auto exported =
+        std::ranges::find(graph_.exports, resource, [](const ExportDecl& e) { return e.resource.resource; });
+    const bool isExport = exported != graph_.exports.end();
+    if (!isExport && decl.lifetime != Lifetime::Imported) return;
+    const ExternalState& state = isExport ? exported->release : *decl.acquire;
+    if (state.stage == VK_PIPELINE_STAGE_2_NONE) return;
+    if (!isExport && texture(resource) != nullptr && state.layout == VK_IMAGE_LAYOUT_UNDEFINED) return;
+    const Stages stage = check::expanded(state.stage);
+    const Accesses writes = check::writesOf(state.access);
+    for (const std::uint32_t cell : cellsOf(resource, {})) {
+      for (const std::size_t before : operationsOf_[cell]) {
+        if (operations_[before].time >= since_[cell] && !precedes(operations_[before], stage, time_)) {
+          fault(operations_[before], "the host that takes " + decl.name);
+        }
+      }
+      if (isExport || writes == 0) {
+        add({time_, cell, stage, state.access & ~writes, writes, std::nullopt, "host on " + decl.name});
+      } else {
+        checkPending(cell, state, decl.name);
+      }
+    }
+  }
+
+  /// An import that goes back as it came may leave such writes unavailable as the host's own state names.
+  void checkPending(std::uint32_t cell, const ExternalState& state, const std::string& name) {
+    const Operation* write = lastChange(cell);
+    if (write == nullptr || write->writes == 0 || (write->writes & ~state.access) == 0) return;
+    if (afterAvailable(*write, time_).stages == 0) fault(*write, "the host that gets back " + name);
+  }
+
+  [[nodiscard]] const Operation* lastChange(std::uint32_t cell) const {
+    for (auto index = operationsOf_[cell].rbegin(); index != operationsOf_[cell].rend(); ++index) {
+      const Operation& operation = operations_[*index];
+      if (operation.time < since_[cell]) return nullptr;
+      if (operation.changes()) return &operation;
+    }
+    return nullptr;
+  }
+
+  static bool covers(const Dependency& dependency, std::uint32_t cell) {
+    return std::ranges::find(dependency.cells, cell) != dependency.cells.end();
+  }
+
+  /// What of the work that is submitted before a moment comes after something.
+  struct Reached {
+    Stages stages = 0;         ///< Later commands' work in these stages.
+    bool transitions = false;  ///< Later layout transitions of the image in question, which come in submission order.
+  };
+
+  /// Follow the dependencies between two moments.
+  /// @param direct which dependencies wait for the beginning itself
+  template <typename Direct>
+  [[nodiscard]] Reached follow(std::size_t begin, std::size_t end, std::uint32_t image, Reached reached,
+                               Direct direct) const {
+    for (std::size_t time = begin; time < end && time < batches_.size(); ++time) {
+      Reached next = reached;
+      for (const Dependency& dependency : batches_[time]) {
+        const bool ofImage = dependency.transition && covers(dependency, image);
+        const bool waits = (reached.stages & dependency.srcStage) != 0 || direct(dependency);
+        if (!waits && !(ofImage && reached.transitions)) continue;
+        next.stages |= dependency.dstStage;
+        next.transitions = next.transitions || ofImage;
+      }
+      reached = next;
+    }
+    return reached;
+  }
+
+  /// What comes after one stage of an operation, as far as another operation's image is concerned.
+  [[nodiscard]] Reached after(const Operation& operation, Stages bit, std::size_t until, std::uint32_t image) const {
+    const std::size_t begin = operation.time + 1;
+    if (operation.transition) {
+      const Reached start{operation.transition->dstStage, operation.cell == image};
+      return follow(begin, until, image, start, [](const Dependency&) { return false; });
+    }
+    return follow(begin, until, image, {}, [&](const Dependency& d) { return (d.srcStage & bit) != 0; });
+  }
+
+  /// What comes after a write was made available; nothing where it was not.
+  [[nodiscard]] Reached afterAvailable(const Operation& write, std::size_t until) const {
+    if (write.transition) return after(write, 0, until, write.cell);
+    return follow(write.time + 1, until, write.cell, {}, [&](const Dependency& d) { return makesAvailable(d, write); });
+  }
+
+  template <typename Check>
+  static bool forEachBit(Stages stages, Check check) {
+    if (stages == 0) return check(Stages{0});
+    for (; stages != 0; stages &= stages - 1) {
+      if (!check(stages & ~(stages - 1))) return false;
+    }
+    return true;
+  }
+
+  /// True where work that waits for any of these stages, at a moment, comes after the operation.
+  [[nodiscard]] bool precedes(const Operation& operation, Stages stages, std::size_t time) const {
+    return forEachBit(operation.stage, [&](Stages bit) {
+      return (bit & stages) != 0 || (after(operation, bit, time, operation.cell).stages & stages) != 0;
+    });
+  }
+
+  /// True where a chain leads from one operation to another.
+  [[nodiscard]] bool ordered(const Operation& first, const Operation& second) const {
+    return forEachBit(first.stage, [&](Stages bit) {
+      const Reached reached = after(first, bit, second.time, second.cell);
+      if (!second.transition) return (second.stage & ~reached.stages) == 0;
+      return reached.transitions || ((reached.stages | bit) & second.transition->srcStage) != 0;
+    });
+  }
+
+  static bool makesAvailable(const Dependency& dependency, const Operation& write) {
+    return covers(dependency, write.cell) && (write.stage & ~dependency.srcStage) == 0 &&
+           (write.writes & ~dependency.srcAccess) == 0;
+  }
+
+  /// True where a write is visible to the reading, or to the writing, part of an access.
+  [[nodiscard]] bool visible(const Operation& write, const Operation& access, Accesses wanted) const {
+    if (wanted == 0) return true;
+    return forEachBit(access.stage, [&](Stages bit) {
+      const auto publishes = [&](const Dependency& d) {
+        return (d.dstStage & bit) != 0 && (wanted & ~d.dstAccess) == 0;
+      };
+      if (write.transition && publishes(*write.transition)) return true;
+      for (std::size_t time = write.time + 1; time < access.time && time < batches_.size(); ++time) {
+        const Stages available = afterAvailable(write, time).stages;
+        for (const Dependency& dependency : batches_[time]) {
+          if (!covers(dependency, write.cell) || !publishes(dependency)) continue;
+          if ((available & dependency.srcStage) != 0) return true;
+          if (!write.transition && makesAvailable(dependency, write)) return true;
+        }
+      }
+      return false;
+    });
+  }
+
+  void add(Operation operation) {
+    const std::uint32_t cell = operation.cell;
+    checkAgainst(cell, operation);
+    if (operation.changes()) {
+      for (const std::uint32_t peer : peers_[cell]) checkAgainst(peer, operation);
+    }
+    operations_.push_back(std::move(operation));
+    operationsOf_[cell].push_back(operations_.size() - 1);
+  }
+
+  void checkAgainst(std::uint32_t cell, const Operation& operation) {
+    for (const std::size_t index : operationsOf_[cell]) {
+      const Operation& before = operations_[index];
+      if (before.time < since_[cell] || before.time == operation.time) continue;
+      if ((before.changes() || operation.changes()) && !ordered(before, operation)) fault(before, operation.name);
+    }
+    const Operation* write = lastChange(cell);
+    if (write == nullptr || write->time == operation.time) return;
+    const bool sameImage = cell == operation.cell;
+    bool safe = true;
+    if (operation.transition) {
+      const Reached available = afterAvailable(*write, operation.time);
+      safe = (available.stages & operation.transition->srcStage) != 0 ||
+             (sameImage && (available.transitions || makesAvailable(*operation.transition, *write)));
+    } else if (sameImage) {
+      safe = visible(*write, operation, operation.reads) && visible(*write, operation, operation.writes);
+    } else {
+      safe = (operation.stage & ~afterAvailable(*write, operation.time).stages) == 0;
+    }
+    if (!safe) fault(*write, operation.name);
+  }
+
+  void fault(const Operation& before, const std::string& after) {
+    faults_.push_back("nothing orders " + before.name + " before " + after);
+  }
+
+  const GraphDesc& graph_;
+  const Plan& plan_;
+  std::array<std::vector<std::uint32_t>, 2> first_;  ///< By frame parity, the first cell of every resource.
+  std::uint32_t cells_ = 0;
+  std::vector<std::vector<std::uint32_t>> peers_;
+  std::vector<std::size_t> since_;                ///< By cell: the moment from which on this graph has it.
+  std::vector<std::vector<Dependency>> batches_;  ///< By moment.
+  std::vector<Operation> operations_;
+  std::vector<std::vector<std::size_t>> operationsOf_;  ///< By cell.
+  std::uint32_t frame_ = 0;
+  std::size_t time_ = 0;
+  std::vector<std::string> faults_;
+};
+
+}  // namespace
+
+std::vector<std::string> unorderedAccesses(const GraphDesc& graph, const Plan& plan) {
+  return Timeline(graph, plan).takeFaults();
+}
+
+}  // namespace fg::test
