@@ -36,10 +36,15 @@ std::uint64_t persistentBytes(const GraphDesc& graph, const Plan& plan) {
 void report(const GraphDesc& graph, Plan& plan) {
   plan.memory.persistentBytes = persistentBytes(graph, plan);
   for (const PlannedPass& planned : plan.passes) {
-    for (const AccessDecl& access : graph.passes[planned.pass].accesses) {
-      const std::uint64_t bytes = accessedBytes(graph.resources[access.resource], access);
-      if (accessInfo(access.access).reads()) plan.traffic.bytesRead += bytes;
-      if (accessInfo(access.access).writes()) plan.traffic.bytesWritten += bytes;
+    const std::vector<AccessDecl>& accesses = graph.passes[planned.pass].accesses;
+    for (auto access = accesses.begin(); access != accesses.end(); ++access) {
+      const auto sameBytes = [&](const AccessDecl& other) {
+        return other.resource == access->resource && other.access == access->access && other.range == access->range;
+      };
+      if (std::any_of(accesses.begin(), access, sameBytes)) continue;  // Bound twice, read once.
+      const std::uint64_t bytes = accessedBytes(graph.resources[access->resource], *access);
+      if (accessInfo(access->access).reads()) plan.traffic.bytesRead += bytes;
+      if (accessInfo(access->access).writes()) plan.traffic.bytesWritten += bytes;
     }
   }
   for (const ExportDecl& exported : graph.exports) {

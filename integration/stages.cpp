@@ -68,8 +68,10 @@ void temporalAccumulationWithTaps(StagePorts& ports, const TemporalAccumulationS
 }
 
 void weightedRegression(StagePorts& ports, const WeightedRegressionSettings& settings) {
-  ports.setOutput("filtered", addWeightedRegression(ports.graph(), ports.buffer(kFrameName),
-                                                    ports.texture("accumulated"), ports.guides(), settings));
+  const fg::Texture accumulated = ports.texture("accumulated");
+  const fg::Texture target = targetLike(ports, "filtered", accumulated);
+  ports.setOutput("filtered", addWeightedRegression(ports.graph(), ports.buffer(kFrameName), accumulated,
+                                                    ports.guides(), target, settings));
 }
 
 void fullWindowRegression(StagePorts& ports, const FullWindowSettings& settings) {
@@ -94,8 +96,8 @@ void bmfrFit(StagePorts& ports, const BmfrFitSettings& settings) {
 }
 
 void bmfrAccumulation(StagePorts& ports, const BmfrAccumulationSettings& settings) {
-  ports.setOutput("steady", addBmfrAccumulation(ports.graph(), ports.texture("filtered"), ports.guides(),
-                                                ports.texture("history-taps"), settings));
+  ports.setOutput(
+      "steady", addBmfrAccumulation(ports.graph(), ports.texture("filtered"), ports.texture("history-taps"), settings));
 }
 
 void flrRegression(StagePorts& ports, const FlrRegressionSettings& settings) {

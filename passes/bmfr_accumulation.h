@@ -1,7 +1,6 @@
 #pragma once
 
 #include "framegraph/graph.h"
-#include "passes/prepare_guides.h"
 #include "passes/settings.h"
 #include "passes/temporal_accumulation.h"
 
@@ -20,9 +19,9 @@ struct BmfrAccumulationSettings {
 
 /// Average the fitted frames over time along the taps that the first accumulation accepted.
 /// @param fitted RGBA16F: the current fit
-/// @param taps   RG32_UINT: `AccumulationWithTaps::taps`
+/// @param taps   R32_UINT: `AccumulationWithTaps::taps`
 /// @returns RGBA16F: mean; alpha: number of frames behind it, 0 where there is nothing to denoise
-fg::Texture addBmfrAccumulation(fg::Graph& graph, fg::Texture fitted, const Guides& guides, fg::Texture taps,
+fg::Texture addBmfrAccumulation(fg::Graph& graph, fg::Texture fitted, fg::Texture taps,
                                 const BmfrAccumulationSettings& settings = {});
 
 }  // namespace walr

@@ -1,20 +1,19 @@
 #include "passes/flr.h"
 
+#include "passes/temporal_stages.h"
+
 namespace walr {
 
 fg::Texture addFlr(fg::Graph& graph, const DenoiserInputs& inputs, fg::Texture output, const FlrSettings& settings) {
-  const Guides guides = addPrepareGuides(graph, inputs, settings.guides);
-  if (settings.spatialOnly) {
-    FlrRegressionSettings regression = settings.regression;
-    regression.sigma = settings.singleFrameSigma;
-    return addFlrRegression(graph, inputs.lighting, LightingAlpha::Unused, guides, output, regression);
-  }
-
-  const fg::Texture accumulated = addTemporalAccumulation(graph, inputs, guides, settings.accumulation);
-  const fg::Texture filtered = graph.texture("filtered", graph.textureDesc(output));
-  const fg::Texture regressed =
-      addFlrRegression(graph, accumulated, LightingAlpha::SampleCount, guides, filtered, settings.regression);
-  return addTemporalAntialiasing(graph, inputs, guides, regressed, output, settings.antialiasing);
+  const TemporalStages stages{.accumulation = settings.accumulation,
+                              .antialiasing = settings.antialiasing,
+                              .spatialOnly = settings.spatialOnly};
+  const Guides guides = addPrepareGuides(graph, inputs, settings.guides, guideNeeds(stages, false));
+  FlrRegressionSettings regression = settings.regression;
+  if (settings.spatialOnly) regression.sigma = settings.singleFrameSigma;
+  return addTemporalStages(graph, inputs, guides, output, stages, [&](const FilterInput& input) {
+    return addFlrRegression(graph, input.lighting, input.alpha, guides, input.target(graph, "filtered"), regression);
+  });
 }
 
 }  // namespace walr

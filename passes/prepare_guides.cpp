@@ -1,30 +1,59 @@
 #include "passes/prepare_guides.h"
 
+#include <array>
+#include <string>
+
 #include "shaders/constants/prepare_guides.h"
 #include "shaders/shaders.h"
 
 namespace walr {
+namespace {
 
-Guides addPrepareGuides(fg::Graph& graph, const DenoiserInputs& inputs, const PrepareGuidesSettings& settings) {
+const fg::Shader& shaderFor(bool masked, bool geometricNormal) {
+  using namespace shaders;
+  static constexpr std::array<std::array<const fg::Shader*, 2>, 2> kShaders{
+      {{&prepareGuides, &prepareGuidesGeometry}, {&prepareGuidesMasked, &prepareGuidesMaskedGeometry}}};
+  return *kShaders.at(masked ? 1 : 0).at(geometricNormal ? 1 : 0);
+}
+
+/// A guide to be written, and last frame's where it is kept.
+struct GuideTexture {
+  fg::Texture current;
+  fg::Texture previous;
+};
+
+GuideTexture guideTexture(fg::Graph& graph, const std::string& name, fg::Extent extent, bool keep) {
+  const fg::TextureDesc desc{VK_FORMAT_R32_UINT, extent};
+  if (!keep) return {graph.texture(name, desc), {}};
+  const fg::History history = graph.history(name, desc);
+  return {history.current, history.previous};
+}
+
+}  // namespace
+
+Guides addPrepareGuides(fg::Graph& graph, const DenoiserInputs& inputs, const PrepareGuidesSettings& settings,
+                        const GuideNeeds& needs) {
   const fg::Extent extent = graph.textureDesc(inputs.depth).extent;
-  const fg::History depth = graph.history("guides.depth", {VK_FORMAT_R32_UINT, extent});
-  const fg::History geometricNormal = graph.history("guides.geometric normal", {VK_FORMAT_R32_UINT, extent});
-  const fg::Texture shadingNormal = graph.texture("guides.shading normal", {VK_FORMAT_R32_UINT, extent});
-
-  fg::PassBuilder pass = graph.compute("prepare guides", shaders::prepareGuides);
+  const bool masked = settings.albedoThreshold > 0.0F;
+  fg::PassBuilder pass = graph.compute("prepare guides", shaderFor(masked, needs.geometricNormal));
   pass.uniform("frameConstants", inputs.frame)
       .sample("depth", inputs.depth)
       .sample("normal", inputs.normal)
-      .sample("albedo", inputs.albedo)
       .specialize("kNormalsInWorldSpace", inputs.conventions.normal == InputConventions::Space::World)
-      .constants(PrepareGuidesConstants{settings.albedoThreshold, settings.normalAgreement})
+      .constants(PrepareGuidesConstants{settings.albedoThreshold, settings.tangentTolerance, settings.normalAgreement})
       .texels(extent)
       .dispatch(extent);
+  if (masked) pass.sample("albedo", inputs.albedo);
+
   Guides guides;
+  const GuideTexture depth = guideTexture(graph, "guides.depth", extent, needs.history);
   guides.depth = pass.store("outDepth", depth.current);
-  guides.shadingNormal = pass.store("outShadingNormal", shadingNormal);
-  guides.geometricNormal = pass.store("outGeometricNormal", geometricNormal.current);
   guides.previousDepth = depth.previous;
+  const GuideTexture shadingNormal = guideTexture(graph, "guides.shading normal", extent, false);
+  guides.shadingNormal = pass.store("outShadingNormal", shadingNormal.current);
+  if (!needs.geometricNormal) return guides;
+  const GuideTexture geometricNormal = guideTexture(graph, "guides.geometric normal", extent, needs.history);
+  guides.geometricNormal = pass.store("outGeometricNormal", geometricNormal.current);
   guides.previousGeometricNormal = geometricNormal.previous;
   return guides;
 }

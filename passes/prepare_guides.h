@@ -9,13 +9,19 @@ namespace walr {
 /// Settings of the conversion from the host's G-buffer.
 struct PrepareGuidesSettings {
   float albedoThreshold = 0.01F;
+  float tangentTolerance = 0.25F;
   float normalAgreement = 0.3F;
 
   void visit(SettingVisitor& v) {
     v.visit({"guides.albedo-threshold",
-             "Albedo below which, in every channel, a pixel has no diffuse lobe and is treated like sky", "", 0.0, 1.0,
-             "measured"},
+             "Albedo below which, in every channel, a pixel has no diffuse lobe and is treated like sky; 0 leaves the "
+             "albedo unread",
+             "", 0.0, 1.0, "measured"},
             albedoThreshold);
+    v.visit({"guides.tangent-tolerance",
+             "How far the two pixels beside one may miss its inverse depth, extrapolated, and still show its surface",
+             "fraction of inverse depth", 0.0, 1e3, "measured"},
+            tangentTolerance);
     v.visit({"guides.normal-agreement",
              "Cosine between the normal computed from depth and the shading normal below which the latter stands in",
              "", -1.0, 1.0, "measured"},
@@ -23,7 +29,7 @@ struct PrepareGuidesSettings {
   }
 };
 
-/// The noise-free guides of this frame and the last.
+/// The noise-free guides of this frame and the last. What is not needed is not there.
 struct Guides {
   fg::Texture depth;          ///< R32_UINT: view depth and edge distance packed (surface.glsl); 0: nothing to denoise.
   fg::Texture shadingNormal;  ///< R32_UINT: octahedral map of the shading normal.
@@ -32,7 +38,14 @@ struct Guides {
   fg::Texture previousGeometricNormal;  ///< Geometric normal one frame ago; zero while there is no history.
 };
 
+/// Which guides later stages read; the others are not made.
+struct GuideNeeds {
+  bool geometricNormal = true;
+  bool history = true;  ///< Last frame's depth, and geometric normal where there is one.
+};
+
 /// Convert the host's G-buffer once into what all later stages read.
-Guides addPrepareGuides(fg::Graph& graph, const DenoiserInputs& inputs, const PrepareGuidesSettings& settings = {});
+Guides addPrepareGuides(fg::Graph& graph, const DenoiserInputs& inputs, const PrepareGuidesSettings& settings = {},
+                        const GuideNeeds& needs = {});
 
 }  // namespace walr

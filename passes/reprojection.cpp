@@ -2,16 +2,19 @@
 
 namespace walr {
 
-void readReprojection(fg::PassBuilder& pass, const DenoiserInputs& inputs, const Guides& guides, bool dilateMotion) {
+void readReprojection(fg::PassBuilder& pass, const DenoiserInputs& inputs, const Guides& guides,
+                      HistoryRejection rejection, bool dilateMotion) {
   const bool motionDepthGiven = inputs.conventions.motionDepth == InputConventions::MotionDepth::Given;
   pass.uniform("frameConstants", inputs.frame)
       .sample("motion", inputs.motion)
       .sample("depth", guides.depth)
-      .sample("geometricNormal", guides.geometricNormal)
-      .sample("previousDepth", guides.previousDepth)
-      .sample("previousGeometricNormal", guides.previousGeometricNormal)
       .specialize("kMotionDepthGiven", motionDepthGiven)
       .specialize("kDilateMotion", dilateMotion);
+  if (rejection != HistoryRejection::None) pass.sample("previousDepth", guides.previousDepth);
+  if (rejection == HistoryRejection::Plane) {
+    pass.sample("geometricNormal", guides.geometricNormal)
+        .sample("previousGeometricNormal", guides.previousGeometricNormal);
+  }
 }
 
 }  // namespace walr

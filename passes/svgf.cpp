@@ -28,7 +28,7 @@ SvgfSettings paperSvgf() {
 }
 
 fg::Texture addSvgf(fg::Graph& graph, const DenoiserInputs& inputs, fg::Texture output, const SvgfSettings& settings) {
-  const Guides guides = addPrepareGuides(graph, inputs, settings.guides);
+  const Guides guides = addPrepareGuides(graph, inputs, settings.guides, {.history = !settings.spatialOnly});
   if (settings.spatialOnly) return addSpatialSvgf(graph, inputs, guides, output, settings);
 
   const fg::TextureDesc colourDesc{VK_FORMAT_R16G16B16A16_SFLOAT, graph.textureDesc(inputs.lighting).extent};
@@ -39,6 +39,7 @@ fg::Texture addSvgf(fg::Graph& graph, const DenoiserInputs& inputs, fg::Texture 
       addSvgfAccumulation(graph, inputs, guides, colour.previous, mean, settings.accumulation);
   const fg::Texture guided = addSvgfVariance(graph, inputs.frame, accumulated, guides, settings.filter);
   const fg::Texture filtered = addSvgfAtrous(graph, inputs.frame, guided, guides, colour.current, settings.filter);
+  if (!settings.antialiasing.enabled) return addPassThrough(graph, filtered, output);
   return addTemporalAntialiasing(graph, inputs, guides, filtered, output, settings.antialiasing);
 }
 

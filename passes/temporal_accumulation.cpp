@@ -1,5 +1,7 @@
 #include "passes/temporal_accumulation.h"
 
+#include <array>
+
 #include "passes/reprojection.h"
 #include "shaders/constants/temporal_accumulation.h"
 #include "shaders/shaders.h"
@@ -8,12 +10,20 @@ namespace walr {
 
 namespace {
 
+const fg::Shader& shaderFor(HistoryRejection rejection, bool keepTaps) {
+  using namespace shaders;
+  static constexpr std::array<std::array<const fg::Shader*, 2>, 3> kShaders{
+      {{&temporalAccumulationPlane, &temporalAccumulationPlaneTaps},
+       {&temporalAccumulationDepth, &temporalAccumulationDepthTaps},
+       {&temporalAccumulation, &temporalAccumulationTaps}}};
+  return *kShaders.at(static_cast<std::size_t>(rejection)).at(keepTaps ? 1 : 0);
+}
+
 /// The pass without its outputs; the first of them is the current texture of `accumulated`.
-fg::PassBuilder addAccumulationPass(fg::Graph& graph, const fg::Shader& shader, const DenoiserInputs& inputs,
-                                    const Guides& guides, const fg::History& accumulated,
-                                    const TemporalAccumulationSettings& settings) {
-  fg::PassBuilder pass = graph.compute("temporal accumulation", shader);
-  readReprojection(pass, inputs, guides, settings.dilateMotion);
+fg::PassBuilder addAccumulationPass(fg::Graph& graph, bool keepTaps, const DenoiserInputs& inputs, const Guides& guides,
+                                    const fg::History& accumulated, const TemporalAccumulationSettings& settings) {
+  fg::PassBuilder pass = graph.compute("temporal accumulation", shaderFor(settings.rejection, keepTaps));
+  readReprojection(pass, inputs, guides, settings.rejection, settings.dilateMotion);
   pass.sample("lighting", inputs.lighting)
       .sample("previousAccumulated", accumulated.previous)
       .specialize("kBicubicHistory", settings.historyFilter == HistoryFilter::Bicubic)
@@ -31,7 +41,7 @@ fg::History accumulatedHistory(fg::Graph& graph, const DenoiserInputs& inputs) {
 fg::Texture addTemporalAccumulation(fg::Graph& graph, const DenoiserInputs& inputs, const Guides& guides,
                                     const TemporalAccumulationSettings& settings) {
   const fg::History accumulated = accumulatedHistory(graph, inputs);
-  return addAccumulationPass(graph, shaders::temporalAccumulation, inputs, guides, accumulated, settings)
+  return addAccumulationPass(graph, false, inputs, guides, accumulated, settings)
       .store("outAccumulated", accumulated.current);
 }
 
@@ -40,11 +50,10 @@ AccumulationWithTaps addTemporalAccumulationWithTaps(fg::Graph& graph, const Den
                                                      const TemporalAccumulationSettings& settings) {
   const fg::History accumulated = accumulatedHistory(graph, inputs);
   const fg::Extent extent = graph.textureDesc(inputs.lighting).extent;
-  fg::PassBuilder pass =
-      addAccumulationPass(graph, shaders::temporalAccumulationTaps, inputs, guides, accumulated, settings);
+  fg::PassBuilder pass = addAccumulationPass(graph, true, inputs, guides, accumulated, settings);
   AccumulationWithTaps result;
   result.mean = pass.store("outAccumulated", accumulated.current);
-  result.taps = pass.store("outTaps", graph.texture("history taps", {VK_FORMAT_R32G32_UINT, extent}));
+  result.taps = pass.store("outTaps", graph.texture("history taps", {VK_FORMAT_R32_UINT, extent}));
   return result;
 }
 

@@ -14,6 +14,7 @@ enum class HistoryFilter : std::uint32_t { Bilinear, Bicubic };
 /// Settings of the preprocessing accumulation (walr.txt 4.2).
 struct TemporalAccumulationSettings {
   float maxSamples = 16.0F;
+  HistoryRejection rejection = HistoryRejection::Plane;
   float planeTolerance = 0.01F;
   float normalThreshold = 0.5F;
   HistoryFilter historyFilter = HistoryFilter::Bilinear;
@@ -24,6 +25,7 @@ struct TemporalAccumulationSettings {
     v.visit({"accumulation.max-samples", "Samples after which the cumulative mean turns exponential", "frames", 1.0,
              255.0, "walr.txt 4.2"},
             maxSamples);
+    visitRejection(v, "accumulation.rejection", rejection);
     visitHistoryTests(v, "accumulation.plane-tolerance", planeTolerance, "accumulation.normal-threshold",
                       normalThreshold);
     v.visitEnum({"accumulation.history-filter", "How history is read between pixels", "", 0, 1, "walr.txt 4.2"},
@@ -42,10 +44,10 @@ fg::Texture addTemporalAccumulation(fg::Graph& graph, const DenoiserInputs& inpu
 /// What temporal accumulation leaves for a later stage that reads its own history along the same motion.
 struct AccumulationWithTaps {
   fg::Texture mean;  ///< As `addTemporalAccumulation` returns it.
-  fg::Texture taps;  ///< RG32_UINT: the history pixels read and which of them passed the tests (history_taps.glsl).
+  fg::Texture taps;  ///< R32_UINT: where the surface was and which history pixels show it (history_taps.glsl).
 };
 
-/// The same, keeping what the reprojection and its tests found (bmfr.txt 3.5).
+/// The same, keeping what the reprojection and its tests found (walr.txt 4.4, bmfr.txt 3.5).
 AccumulationWithTaps addTemporalAccumulationWithTaps(fg::Graph& graph, const DenoiserInputs& inputs,
                                                      const Guides& guides,
                                                      const TemporalAccumulationSettings& settings = {});

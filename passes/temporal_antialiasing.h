@@ -7,19 +7,24 @@
 #include "passes/inputs.h"
 #include "passes/prepare_guides.h"
 #include "passes/settings.h"
+#include "passes/temporal_accumulation.h"
 
 namespace walr {
 
 /// Settings of the postprocessing stage (walr.txt 4.4).
 struct TemporalAntialiasingSettings {
+  bool enabled = true;
   float maxSamples = 8.0F;
   float clipGamma = 1.0F;
   std::uint32_t clipRadius = 1;
+  HistoryRejection rejection = HistoryRejection::Plane;
   float planeTolerance = 0.01F;
   float normalThreshold = 0.5F;
   bool dilateMotion = false;
 
   void visit(SettingVisitor& v) {
+    v.visit({"antialiasing.enabled", "Off leaves temporal anti-aliasing to the host", "", 0, 1, "walr.txt 4.4"},
+            enabled);
     v.visit({"antialiasing.max-samples", "Frames after which the cumulative mean turns exponential", "frames", 1.0,
              255.0, "walr.txt 4.4"},
             maxSamples);
@@ -29,6 +34,7 @@ struct TemporalAntialiasingSettings {
     v.visit({"antialiasing.clip-radius", "Half the neighbourhood of the variance clipping; 1 is 3x3", "pixels", 1, 8,
              "walr.txt 4.4"},
             clipRadius);
+    visitRejection(v, "antialiasing.rejection", rejection);
     visitHistoryTests(v, "antialiasing.plane-tolerance", planeTolerance, "antialiasing.normal-threshold",
                       normalThreshold);
     v.visit(
@@ -38,11 +44,20 @@ struct TemporalAntialiasingSettings {
 };
 
 /// Remove what flicker and aliasing the spatial filter leaves: bicubic history, variance clipping, moving average.
-/// @param filtered RGBA16F: the current frame
+/// @param filtered RGBA16F: the current frame; alpha: below 0 where no light is known
 /// @param output   RGBA16F: texture to write the result to
 /// @returns the output's new version
 fg::Texture addTemporalAntialiasing(fg::Graph& graph, const DenoiserInputs& inputs, const Guides& guides,
                                     fg::Texture filtered, fg::Texture output,
                                     const TemporalAntialiasingSettings& settings = {});
+
+/// Whether anti-aliasing with these settings looks for its history just where accumulation has looked for its own.
+bool sharesReprojection(const TemporalAntialiasingSettings& antialiasing,
+                        const TemporalAccumulationSettings& accumulation);
+
+/// The same with the reprojection that accumulation has kept; `sharesReprojection` must hold.
+/// @param taps R32_UINT: `AccumulationWithTaps::taps`
+fg::Texture addTemporalAntialiasingWithTaps(fg::Graph& graph, fg::Texture taps, fg::Texture filtered,
+                                            fg::Texture output, const TemporalAntialiasingSettings& settings = {});
 
 }  // namespace walr

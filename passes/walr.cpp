@@ -2,29 +2,30 @@
 
 #include <algorithm>
 
+#include "passes/temporal_stages.h"
 #include "passes/window_fit.h"
 
 namespace walr {
 namespace {
 
-fg::Texture addPixelFilter(fg::Graph& graph, fg::Buffer frame, fg::Texture accumulated, const Guides& guides,
+fg::Texture addPixelFilter(fg::Graph& graph, fg::Buffer frame, const FilterInput& input, const Guides& guides,
                            const WalrSettings& settings) {
   WeightedRegressionSettings regression = settings.regression;
-  const std::uint32_t height = graph.textureDesc(accumulated).extent.height;
+  const std::uint32_t height = graph.textureDesc(input.lighting).extent.height;
   if (settings.fitWindow) regression.iterations = std::min(regression.iterations, fittingIterations(height));
-  return addWeightedRegression(graph, frame, accumulated, guides, regression);
+  return addWeightedRegression(graph, frame, input.lighting, guides, input.target(graph, "filtered"), regression);
 }
 
-fg::Texture addBlockFilter(fg::Graph& graph, fg::Buffer frame, fg::Texture accumulated, const Guides& guides,
+fg::Texture addBlockFilter(fg::Graph& graph, fg::Buffer frame, const FilterInput& input, const Guides& guides,
                            const WalrSettings& settings) {
   BlockRegressionSettings blocks = settings.blocks;
-  const std::uint32_t height = graph.textureDesc(accumulated).extent.height;
+  const std::uint32_t height = graph.textureDesc(input.lighting).extent.height;
   if (settings.fitWindow) {
     if (height < 720) blocks.size = std::min(blocks.size, 2U);
     blocks.iterations = std::min(blocks.iterations, fittingIterations(height, blocks.size));
   }
   const fg::Texture occlusion = addAmbientOcclusion(graph, frame, guides, settings.occlusion);
-  return addBlockRegression(graph, frame, accumulated, guides, occlusion, blocks);
+  return addBlockRegression(graph, frame, input.lighting, guides, occlusion, blocks);
 }
 
 }  // namespace
@@ -43,6 +44,8 @@ WalrSettings paperWalr() {
   WalrSettings settings = robustWalr();
   settings.accumulation.historyFilter = HistoryFilter::Bicubic;
   settings.accumulation.dilateMotion = true;
+  settings.accumulation.rejection = HistoryRejection::Depth;
+  settings.guides.albedoThreshold = 0.0F;
   settings.fitWindow = false;
   settings.regression.edgeStopping.planeNormal = PlaneNormal::Shading;
   settings.regression.edgeStopping.normalFactor = false;
@@ -53,18 +56,19 @@ WalrSettings paperWalr() {
   settings.regression.regularisation.method = Regularisation::Floor;
   settings.regression.regularisation.ridge = 2e-3F;
   settings.antialiasing.dilateMotion = true;
-  settings.antialiasing.planeTolerance = 1.0F;
-  settings.antialiasing.normalThreshold = -1.0F;
+  settings.antialiasing.rejection = HistoryRejection::None;
   return settings;
 }
 
 fg::Texture addWalr(fg::Graph& graph, const DenoiserInputs& inputs, fg::Texture output, const WalrSettings& settings) {
-  const Guides guides = addPrepareGuides(graph, inputs, settings.guides);
-  const fg::Texture accumulated = addTemporalAccumulation(graph, inputs, guides, settings.accumulation);
-  const fg::Texture filtered = settings.filter == SpatialFilter::Pixels
-                                   ? addPixelFilter(graph, inputs.frame, accumulated, guides, settings)
-                                   : addBlockFilter(graph, inputs.frame, accumulated, guides, settings);
-  return addTemporalAntialiasing(graph, inputs, guides, filtered, output, settings.antialiasing);
+  const TemporalStages stages{.accumulation = settings.accumulation, .antialiasing = settings.antialiasing};
+  const bool pixels = settings.filter == SpatialFilter::Pixels;
+  const bool geometricPlane = !pixels || settings.regression.edgeStopping.planeNormal == PlaneNormal::Geometric;
+  const Guides guides = addPrepareGuides(graph, inputs, settings.guides, guideNeeds(stages, geometricPlane));
+  return addTemporalStages(graph, inputs, guides, output, stages, [&](const FilterInput& input) {
+    return pixels ? addPixelFilter(graph, inputs.frame, input, guides, settings)
+                  : addBlockFilter(graph, inputs.frame, input, guides, settings);
+  });
 }
 
 }  // namespace walr

@@ -55,7 +55,8 @@ WalrSettings blocksWalr();
 WalrSettings robustWalr();
 
 /// Faithful to the publication: raw half-precision moments without sample counts, floored pivots, the shading normal's
-/// plane, bicubic history, dilated motion, variance clipping alone after the filter.
+/// plane, bicubic history, dilated motion, depth rejection, variance clipping alone after the filter, every
+/// surface taken for a diffuse one.
 WalrSettings paperWalr();
 
 /// Weighted A-Trous Linear Regression (walr.txt, figure 6): preprocessing, spatial filtering, postprocessing.

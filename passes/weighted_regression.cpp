@@ -87,7 +87,7 @@ Averages writeAverages(fg::Graph& graph, fg::PassBuilder& pass, const StorageLay
 }  // namespace
 
 fg::Texture addWeightedRegression(fg::Graph& graph, fg::Buffer frame, fg::Texture accumulated, const Guides& guides,
-                                  const WeightedRegressionSettings& settings) {
+                                  fg::Texture output, const WeightedRegressionSettings& settings) {
   checkSettings(settings);
   const fg::Extent extent = graph.textureDesc(accumulated).extent;
   const StorageLayout& layout = layoutOf(settings.storage);
@@ -101,11 +101,12 @@ fg::Texture addWeightedRegression(fg::Graph& graph, fg::Buffer frame, fg::Textur
     fg::PassBuilder pass = graph.compute("a-trous" + suffix, *layout.shaders.at(first ? 1 : 0).at(last ? 1 : 0));
     declareIteration(pass, frame, guides, settings);
     pass.sample("depth", averages.depth).specialize("kIteration", t).specialize("kSpacing", spacing).dispatch(extent);
-    if (first || last) pass.sample("accumulated", accumulated).sample("shadingNormal", guides.shadingNormal);
+    if (first) pass.sample("accumulated", accumulated);
+    if (first || last) pass.sample("shadingNormal", guides.shadingNormal);
     if (!first) readAverages(pass, averages);
     if (last) {
       pass.specialize("kPivotFloor", settings.regularisation.method == Regularisation::Floor);
-      return pass.store("outFiltered", graph.texture("filtered", {VK_FORMAT_R16G16B16A16_SFLOAT, extent}));
+      return pass.store("outFiltered", output);
     }
     pass.specialize("kKeepSampleCount", settings.keepSampleCount);
     averages = writeAverages(graph, pass, layout, extent, suffix);

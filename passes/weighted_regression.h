@@ -76,9 +76,10 @@ struct WeightedRegressionSettings {
 /// Weighted linear regression of the lighting on the normal over edge-aware a-trous averages.
 /// @param frame       upload of `FrameConstants`
 /// @param accumulated RGBA16F: radiance to filter
-/// @returns RGBA16F: filtered radiance; sky and pixels without a diffuse lobe as they were
+/// @param output      RGBA16F texture to write the result to
+/// @returns the output's new version: filtered radiance; sky and pixels without a diffuse lobe as they were
 /// @throws std::invalid_argument for settings outside their range
 fg::Texture addWeightedRegression(fg::Graph& graph, fg::Buffer frame, fg::Texture accumulated, const Guides& guides,
-                                  const WeightedRegressionSettings& settings = {});
+                                  fg::Texture output, const WeightedRegressionSettings& settings = {});
 
 }  // namespace walr

@@ -7,7 +7,7 @@
 #include "constants/atrous.h"
 #include "constants/frame.h"
 #include "include/hash.glsl"
-#include "include/moments_storage.glsl"
+#include "include/moments.glsl"
 #include "include/regression.glsl"
 #include "include/surface.glsl"
 
@@ -28,8 +28,10 @@ layout(constant_id = 7) const float kEdgeLeak = 0.01;      // Weight of the next
 layout(set = 0, binding = 0, std140) uniform frameConstants { FrameConstants frame; };
 layout(set = 0, binding = 1) uniform utexture2D depth;
 layout(set = 0, binding = 2) uniform utexture2D planeNormal;
-#if defined(FIRST) || defined(LAST)
+#ifdef FIRST
 layout(set = 0, binding = 3) uniform texture2D accumulated;
+#endif
+#if defined(FIRST) || defined(LAST)
 layout(set = 0, binding = 13) uniform utexture2D shadingNormal;
 #endif
 #ifdef LAST
@@ -40,6 +42,7 @@ layout(set = 0, binding = 12, r32ui) uniform writeonly uimage2D outDepth;
 layout(push_constant) uniform PushConstants { AtrousConstants settings; };
 
 #include "include/edge_tracing.glsl"
+#include "include/moments_storage.glsl"
 
 #if defined(FIRST) || defined(LAST)
 vec2 featuresAt(ivec2 q) { return unpackFeatures(texelFetch(shadingNormal, q, 0).x); }
@@ -55,9 +58,10 @@ Moments readMoments(ivec2 q) {
 
 void writeWithoutSurface(ivec2 p) {
 #ifdef LAST
-  imageStore(outFiltered, p, vec4(texelFetch(accumulated, p, 0).rgb, 0.0));
+  const uvec2 light = lightWithoutSurface(p);
+  imageStore(outFiltered, p, vec4(unpackHalf2x16(light.x), unpackHalf2x16(light.y).x, 1.0));
 #else
-  storeNoMoments(p);
+  storeLightWithoutSurface(p);
   imageStore(outDepth, p, uvec4(0u));
 #endif
 }
@@ -65,7 +69,7 @@ void writeWithoutSurface(ivec2 p) {
 void writeResult(ivec2 p, float z, int nearestEdge, Moments m) {
 #ifdef LAST
   const vec3 colour = reconstruct(m, featuresAt(p), kPivotFloor, settings.ridge, settings.noiseRidge);
-  imageStore(outFiltered, p, vec4(colour, 0.0));
+  imageStore(outFiltered, p, vec4(colour, 1.0));
 #else
   if (!kKeepSampleCount) m.samples = m.samples > 0.0 ? 1.0 : 0.0;
   if (m.samples > 0.0) storeMoments(p, m);

@@ -6,15 +6,13 @@
 #include "constants/bmfr.h"
 #include "include/half.glsl"
 #include "include/history_taps.glsl"
-#include "include/surface.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(set = 0, binding = 0) uniform texture2D fitted;
-layout(set = 0, binding = 1) uniform utexture2D depth;
-layout(set = 0, binding = 2) uniform utexture2D taps;
-layout(set = 0, binding = 3) uniform texture2D previousAccumulated;  // rgb: mean; a: history length.
-layout(set = 0, binding = 4, rgba16f) uniform writeonly image2D outAccumulated;
+layout(set = 0, binding = 1) uniform utexture2D taps;
+layout(set = 0, binding = 2) uniform texture2D previousAccumulated;  // rgb: mean; a: history length.
+layout(set = 0, binding = 3, rgba16f) uniform writeonly image2D outAccumulated;
 layout(push_constant) uniform PushConstants { BmfrAccumulationConstants settings; };
 
 void main() {
@@ -22,11 +20,12 @@ void main() {
   if (any(greaterThanEqual(p, textureSize(fitted, 0)))) return;
 
   const vec3 current = texelFetch(fitted, p, 0).rgb;
-  if (unpackDepth(texelFetch(depth, p, 0).x) == 0.0) {
+  const uint kept = texelFetch(taps, p, 0).x;
+  if (kept == kNoSurfaceTaps) {
     imageStore(outAccumulated, p, vec4(current, 0.0));
     return;
   }
-  const vec4 history = meanOfTaps(previousAccumulated, unpackTaps(texelFetch(taps, p, 0).xy));
+  const vec4 history = meanOfTaps(previousAccumulated, unpackTaps(p, kept));
   const float samples = min(history.a + 1.0, settings.maxSamples);
   imageStore(outAccumulated, p, nearestHalf(vec4(mix(history.rgb, current, 1.0 / samples), samples)));
 }

@@ -17,7 +17,8 @@ layout(set = 0, binding = 3, std430) readonly buffer coefficients { Coefficients
 layout(set = 0, binding = 4, rgba16f) uniform writeonly image2D outFiltered;
 
 // Interpolated prediction of the four cells around pixel `p` that have a fit.
-vec3 predict(ivec2 p, vec4 x) {
+// Alpha: below 0 where no cell has any.
+vec4 predict(ivec2 p, vec4 x) {
   const vec2 position = (vec2(p) + 0.5) / float(settings.factor) - 0.5;
   const ivec2 base = ivec2(floor(position));
   const vec2 f = position - vec2(base);
@@ -32,7 +33,7 @@ vec3 predict(ivec2 p, vec4 x) {
     sum += weight * (k.constant.rgb + vec3(dot(k.slope[0], x), dot(k.slope[1], x), dot(k.slope[2], x)));
     weightSum += weight;
   }
-  return weightSum > 0.0 ? sum / weightSum : vec3(0.0);
+  return weightSum > 0.0 ? vec4(clamp(sum / weightSum, 0.0, kLargestHalf), 1.0) : vec4(vec3(0.0), -1.0);
 }
 
 void main() {
@@ -44,6 +45,5 @@ void main() {
     imageStore(outFiltered, p, vec4(isFinite(colour) ? colour : vec3(0.0), 1.0));
     return;
   }
-  const vec3 colour = predict(p, guidesOf(z, texelFetch(shadingNormal, p, 0).x));
-  imageStore(outFiltered, p, vec4(clamp(colour, 0.0, kLargestHalf), 1.0));
+  imageStore(outFiltered, p, predict(p, guidesOf(z, texelFetch(shadingNormal, p, 0).x)));
 }

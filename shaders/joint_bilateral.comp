@@ -103,5 +103,5 @@ void main() {
     }
   }
   // Without a sample in the whole window there is no light to hand on.
-  imageStore(outFiltered, p, vec4(weightSum > 0.0 ? sum / weightSum : vec3(0.0), 1.0));
+  imageStore(outFiltered, p, weightSum > 0.0 ? vec4(sum / weightSum, 1.0) : vec4(vec3(0.0), -1.0));
 }

@@ -1,5 +1,6 @@
 // Converts the host's G-buffer into the guides that every later pass reads: view depth (0 where there is nothing to
-// denoise), the two octahedral features of the shading normal, and the geometric normal that spans the planes.
+// denoise), the two octahedral features of the shading normal, and, with GEOMETRIC_NORMAL, the geometric normal that
+// spans the planes. DIFFUSE_MASK treats pixels without a diffuse lobe like sky.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -15,14 +16,19 @@ layout(constant_id = 0) const bool kNormalsInWorldSpace = false;
 layout(set = 0, binding = 0, std140) uniform frameConstants { FrameConstants frame; };
 layout(set = 0, binding = 1) uniform texture2D depth;
 layout(set = 0, binding = 2) uniform texture2D normal;
+#ifdef DIFFUSE_MASK
 layout(set = 0, binding = 3) uniform texture2D albedo;
+#endif
 layout(set = 0, binding = 4, r32ui) uniform writeonly uimage2D outDepth;
 layout(set = 0, binding = 5, r32ui) uniform writeonly uimage2D outShadingNormal;
+#ifdef GEOMETRIC_NORMAL
 layout(set = 0, binding = 6, r32ui) uniform writeonly uimage2D outGeometricNormal;
+#endif
 layout(push_constant) uniform PushConstants { PrepareGuidesConstants settings; };
 
 bool isSurfaceDepth(float z) { return isFinite(z) && z > 0.0 && z < frame.skyDepth; }
 
+#ifdef GEOMETRIC_NORMAL
 // Inverse depth, which is linear over the image of a plane; 0 outside the image and on sky.
 float inverseDepthAt(ivec2 p) {
   if (any(lessThan(p, ivec2(0))) || any(greaterThanEqual(p, textureSize(depth, 0)))) return 0.0;
@@ -31,36 +37,61 @@ float inverseDepthAt(ivec2 p) {
 }
 
 // One-sided difference of position along `axis`, from the side whose two pixels extrapolate best to this one: across an
-// edge the other side does not, and beside a thin object neither neighbour is taken for the surface.
+// edge the other side does not. On an object one pixel wide neither does, and both may miss alike.
 vec3 tangent(ivec2 p, ivec2 axis, float inverseDepth, out bool found) {
   const vec3 centre = rayThrough(frame.rayFromPixel, pixelCentre(p)) / inverseDepth;
-  float bestError = 1e30;
+  float bestError = settings.tangentTolerance * inverseDepth;
+  found = false;
   vec3 best = vec3(0.0);
   for (int side = -1; side <= 1; side += 2) {
     const float near = inverseDepthAt(p + side * axis);
     if (near == 0.0) continue;
     const float far = inverseDepthAt(p + 2 * side * axis);
     const float error = far > 0.0 ? abs(2.0 * near - far - inverseDepth) : abs(near - inverseDepth);
-    if (error < bestError) {
+    if (error <= bestError) {
       bestError = error;
+      found = true;
       const vec3 neighbour = rayThrough(frame.rayFromPixel, pixelCentre(p + side * axis)) / near;
       best = float(side) * (neighbour - centre);
     }
   }
-  found = bestError < 1e30;
   return best;
 }
 
-// The normal of the visible surface, without normal mapping. Where depth does not tell it the shading normal stands in.
+// The normal of the visible surface, without normal mapping. What depth does not tell of it comes from the shading normal:
+// on an object one pixel wide, all but that it is perpendicular to the one tangent.
 vec3 geometricNormal(ivec2 p, float inverseDepth, vec3 shadingNormal) {
   bool foundX, foundY;
   const vec3 alongX = tangent(p, ivec2(1, 0), inverseDepth, foundX);
   const vec3 alongY = tangent(p, ivec2(0, 1), inverseDepth, foundY);
-  const vec3 n = cross(alongY, alongX);
+  vec3 n = cross(alongY, alongX);
+  if (foundX != foundY) {
+    const vec3 along = foundX ? alongX : alongY;
+    n = shadingNormal * dot(along, along) - along * dot(along, shadingNormal);
+  }
   const float lengthSquared = dot(n, n);
-  if (!foundX || !foundY || !(lengthSquared > 0.0)) return shadingNormal;
+  if (!(lengthSquared > 0.0)) return shadingNormal;
   const vec3 unit = n * inversesqrt(lengthSquared);
   return dot(unit, shadingNormal) >= settings.normalAgreement ? unit : shadingNormal;
+}
+#endif
+
+// Whether the pixel shows something that diffuse light leaves.
+bool hasDiffuseLobe(ivec2 p) {
+#ifdef DIFFUSE_MASK
+  const vec3 diffuse = texelFetch(albedo, p, 0).xyz;
+  return isFinite(diffuse) && any(greaterThanEqual(diffuse, vec3(settings.albedoThreshold)));
+#else
+  return true;
+#endif
+}
+
+void storeGuides(ivec2 p, uint packedDepth, uint shadingNormal, uint geometricNormal) {
+  imageStore(outDepth, p, uvec4(packedDepth));
+  imageStore(outShadingNormal, p, uvec4(shadingNormal));
+#ifdef GEOMETRIC_NORMAL
+  imageStore(outGeometricNormal, p, uvec4(geometricNormal));
+#endif
 }
 
 void main() {
@@ -69,14 +100,10 @@ void main() {
 
   const float z = texelFetch(depth, p, 0).x;
   const vec3 hostNormal = texelFetch(normal, p, 0).xyz;
-  const vec3 diffuseAlbedo = texelFetch(albedo, p, 0).xyz;
   const float normalLength = length(hostNormal);
   const bool hasNormal = isFinite(hostNormal) && isFinite(normalLength) && normalLength > 0.0;
-  const bool hasLobe = isFinite(diffuseAlbedo) && any(greaterThanEqual(diffuseAlbedo, vec3(settings.albedoThreshold)));
-  if (!isSurfaceDepth(z) || !hasNormal || !hasLobe) {
-    imageStore(outDepth, p, uvec4(0u));
-    imageStore(outShadingNormal, p, uvec4(0u));
-    imageStore(outGeometricNormal, p, uvec4(0u));
+  if (!isSurfaceDepth(z) || !hasNormal || !hasDiffuseLobe(p)) {
+    storeGuides(p, 0u, 0u, 0u);
     return;
   }
 
@@ -85,7 +112,10 @@ void main() {
   if (kNormalsInWorldSpace) shadingNormal = normalize(mat3(frame.viewFromWorld) * shadingNormal);
   if (dot(shadingNormal, ray) > 0.0) shadingNormal = -shadingNormal;
 
-  imageStore(outDepth, p, uvec4(packDepthSdf(z, 0u)));
-  imageStore(outShadingNormal, p, uvec4(packNormal(shadingNormal)));
-  imageStore(outGeometricNormal, p, uvec4(packNormal(geometricNormal(p, 1.0 / z, shadingNormal))));
+#ifdef GEOMETRIC_NORMAL
+  const uint packedGeometry = packNormal(geometricNormal(p, 1.0 / z, shadingNormal));
+#else
+  const uint packedGeometry = 0u;
+#endif
+  storeGuides(p, packDepthSdf(z, 0u), packNormal(shadingNormal), packedGeometry);
 }

@@ -24,6 +24,7 @@ layout(set = 0, binding = 9, rgba16f) uniform writeonly image2D outColour;
 layout(set = 0, binding = 10, rgba16f) uniform writeonly image2D outMoments;
 layout(push_constant) uniform PushConstants { SvgfAccumulationConstants settings; };
 
+#define REJECT_BY_PLANE
 #include "include/reprojection.glsl"
 
 struct TemporalMoments {
@@ -34,27 +35,29 @@ struct TemporalMoments {
 };
 
 TemporalMoments sampleHistory(ivec2 p, float z, vec3 normal) {
-  const HistoryTaps taps = historyTaps(reproject(p, z, normal), settings.planeTolerance, settings.normalThreshold);
+  const HistoryTaps taps =
+      historyTaps(p, reproject(p, z), normal, settings.planeTolerance, settings.normalThreshold);
+  const vec4 weights = tapWeights(taps);
   TemporalMoments history = TemporalMoments(vec3(0.0), 0.0, 0.0, 0.0);
   vec3 moments[4];
   float weightSum = 0.0;
   for (int i = 0; i < 4; ++i) {
-    if (taps.weights[i] <= 0.0) continue;
+    if (weights[i] <= 0.0) continue;
     moments[i] = texelFetch(previousMoments, historyTap(taps, i), 0).xyz;
     if (moments[i].z <= 0.0) continue;
-    history.colour += taps.weights[i] * texelFetch(previousColour, historyTap(taps, i), 0).rgb;
-    history.mean += taps.weights[i] * moments[i].x;
-    history.samples += taps.weights[i] * moments[i].z;
-    weightSum += taps.weights[i];
+    history.colour += weights[i] * texelFetch(previousColour, historyTap(taps, i), 0).rgb;
+    history.mean += weights[i] * moments[i].x;
+    history.samples += weights[i] * moments[i].z;
+    weightSum += weights[i];
   }
-  if (weightSum <= 0.0) return history;
+  if (weightSum <= kLeastTapWeight) return TemporalMoments(vec3(0.0), 0.0, 0.0, 0.0);
   history.colour /= weightSum;
   history.mean /= weightSum;
   history.samples /= weightSum;
   for (int i = 0; i < 4; ++i) {
-    if (taps.weights[i] <= 0.0 || moments[i].z <= 0.0) continue;
+    if (weights[i] <= 0.0 || moments[i].z <= 0.0) continue;
     const float offset = moments[i].x - history.mean;
-    history.variance += taps.weights[i] / weightSum * (moments[i].y * moments[i].y + offset * offset);
+    history.variance += weights[i] / weightSum * (moments[i].y * moments[i].y + offset * offset);
   }
   return history;
 }

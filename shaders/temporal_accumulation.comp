@@ -1,6 +1,7 @@
 // WALR preprocessing (walr.txt 4.2): reproject, reject, then a cumulative mean that turns exponential after a fixed
-// number of samples. Each of the four history pixels around the position is tested on its own. KEEP_TAPS also writes which
-// taps passed, so that a later stage can read its history in the same way without testing again (bmfr.txt 3.5).
+// number of samples. Each of the four history pixels around the position is tested on its own (REJECT_BY_PLANE,
+// REJECT_BY_DEPTH). KEEP_TAPS also writes which of them passed, so that later stages can read their histories in the same
+// way without testing again (walr.txt 4.4, bmfr.txt 3.5).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -14,13 +15,17 @@ layout(set = 0, binding = 0, std140) uniform frameConstants { FrameConstants fra
 layout(set = 0, binding = 1) uniform texture2D lighting;
 layout(set = 0, binding = 2) uniform texture2D motion;
 layout(set = 0, binding = 3) uniform utexture2D depth;
-layout(set = 0, binding = 4) uniform utexture2D geometricNormal;
-layout(set = 0, binding = 5) uniform utexture2D previousDepth;
+#if defined(REJECT_BY_PLANE) || defined(REJECT_BY_DEPTH)
+layout(set = 0, binding = 4) uniform utexture2D previousDepth;
+#endif
+#ifdef REJECT_BY_PLANE
+layout(set = 0, binding = 5) uniform utexture2D geometricNormal;
 layout(set = 0, binding = 6) uniform utexture2D previousGeometricNormal;
+#endif
 layout(set = 0, binding = 7) uniform texture2D previousAccumulated;  // rgb: mean; a: history length.
 layout(set = 0, binding = 8, rgba16f) uniform writeonly image2D outAccumulated;
 #ifdef KEEP_TAPS
-layout(set = 0, binding = 9, rg32ui) uniform writeonly uimage2D outTaps;
+layout(set = 0, binding = 9, r32ui) uniform writeonly uimage2D outTaps;
 #endif
 layout(push_constant) uniform PushConstants { TemporalAccumulationConstants settings; };
 
@@ -28,10 +33,24 @@ layout(push_constant) uniform PushConstants { TemporalAccumulationConstants sett
 #include "include/half.glsl"
 #include "include/reprojection.glsl"
 
-void keepTaps(ivec2 p, HistoryTaps taps) {
+void keepTaps(ivec2 p, uint kept) {
 #ifdef KEEP_TAPS
-  imageStore(outTaps, p, uvec4(packTaps(taps), 0u, 0u));
+  imageStore(outTaps, p, uvec4(kept));
 #endif
+}
+
+HistoryTaps tapsOf(ivec2 p, float z) {
+#ifdef REJECT_BY_PLANE
+  const vec3 normal = unpackNormal(texelFetch(geometricNormal, p, 0).x);
+#else
+  const vec3 normal = vec3(0.0);
+#endif
+  const Reprojection r = reproject(p, z);
+  const HistoryTaps taps = historyTaps(p, r, normal, settings.planeTolerance, settings.normalThreshold);
+#ifdef KEEP_TAPS
+  keepTaps(p, packTaps(r.motion, taps.accepted));
+#endif
+  return taps;
 }
 
 void main() {
@@ -43,13 +62,11 @@ void main() {
   const float z = unpackDepth(texelFetch(depth, p, 0).x);
   if (z == 0.0) {
     imageStore(outAccumulated, p, vec4(sampleIsFinite ? noisy : vec3(0.0), 0.0));
-    keepTaps(p, acceptTaps(ivec2(0), vec2(0.0), 0u));
+    keepTaps(p, kNoSurfaceTaps);
     return;
   }
 
-  const Reprojection r = reproject(p, z, unpackNormal(texelFetch(geometricNormal, p, 0).x));
-  const HistoryTaps taps = historyTaps(r, settings.planeTolerance, settings.normalThreshold);
-  keepTaps(p, taps);
+  const HistoryTaps taps = tapsOf(p, z);
   // Mean and length; length 0 where there is none.
   const vec4 history =
       kBicubicHistory ? bicubicOfTaps(previousAccumulated, taps) : meanOfTaps(previousAccumulated, taps);

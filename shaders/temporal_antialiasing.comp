@@ -1,5 +1,7 @@
 // WALR postprocessing (walr.txt 4.4): reproject the filtered history with a bicubic filter, pull it into the variance of
-// the current neighbourhood, then a cumulative mean that turns exponential after a fixed number of frames.
+// the current neighbourhood, then a cumulative mean that turns exponential after a fixed number of frames. With KEPT_TAPS
+// the reprojection is what the accumulation kept of its own; else REJECT_BY_PLANE and REJECT_BY_DEPTH say how history
+// pixels are tested.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -8,22 +10,56 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 2) const int kClipRadius = 1;  // Half the neighbourhood of the variance clipping, pixels.
+#ifdef KEPT_TAPS
+layout(constant_id = 3) const bool kRejectHistory = true;  // Leave out taps that the accumulation did not accept.
+#endif
 
-layout(set = 0, binding = 0, std140) uniform frameConstants { FrameConstants frame; };
-layout(set = 0, binding = 1) uniform texture2D filtered;
-layout(set = 0, binding = 2) uniform texture2D motion;
-layout(set = 0, binding = 3) uniform utexture2D depth;
-layout(set = 0, binding = 4) uniform utexture2D geometricNormal;
-layout(set = 0, binding = 5) uniform utexture2D previousDepth;
-layout(set = 0, binding = 6) uniform utexture2D previousGeometricNormal;
-layout(set = 0, binding = 7) uniform texture2D previousResolved;  // rgb: mean; a: history length.
-layout(set = 0, binding = 8, rgba16f) uniform writeonly image2D outResolved;
-layout(set = 0, binding = 9, rgba16f) uniform writeonly image2D outImage;
+layout(set = 0, binding = 0) uniform texture2D filtered;  // a: below 0 where no light is known.
+layout(set = 0, binding = 1) uniform texture2D previousResolved;  // rgb: mean; a: history length.
+layout(set = 0, binding = 2, rgba16f) uniform writeonly image2D outResolved;
+layout(set = 0, binding = 3, rgba16f) uniform writeonly image2D outImage;
+#ifdef KEPT_TAPS
+layout(set = 0, binding = 4) uniform utexture2D keptTaps;
+#else
+layout(set = 0, binding = 4, std140) uniform frameConstants { FrameConstants frame; };
+layout(set = 0, binding = 5) uniform texture2D motion;
+layout(set = 0, binding = 6) uniform utexture2D depth;
+#if defined(REJECT_BY_PLANE) || defined(REJECT_BY_DEPTH)
+layout(set = 0, binding = 7) uniform utexture2D previousDepth;
+#endif
+#ifdef REJECT_BY_PLANE
+layout(set = 0, binding = 8) uniform utexture2D geometricNormal;
+layout(set = 0, binding = 9) uniform utexture2D previousGeometricNormal;
+#endif
+#endif
 layout(push_constant) uniform PushConstants { TemporalAntialiasingConstants settings; };
 
 #include "include/bicubic.glsl"
 #include "include/half.glsl"
+
+#ifdef KEPT_TAPS
+bool hasSurface(ivec2 q) { return texelFetch(keptTaps, q, 0).x != kNoSurfaceTaps; }
+
+HistoryTaps tapsOf(ivec2 p) {
+  HistoryTaps taps = unpackTaps(p, texelFetch(keptTaps, p, 0).x);
+  if (!kRejectHistory) taps.accepted = tapsInside(taps, textureSize(previousResolved, 0));
+  return taps;
+}
+#else
 #include "include/reprojection.glsl"
+
+bool hasSurface(ivec2 q) { return unpackDepth(texelFetch(depth, q, 0).x) > 0.0; }
+
+HistoryTaps tapsOf(ivec2 p) {
+#ifdef REJECT_BY_PLANE
+  const vec3 normal = unpackNormal(texelFetch(geometricNormal, p, 0).x);
+#else
+  const vec3 normal = vec3(0.0);
+#endif
+  const Reprojection r = reproject(p, unpackDepth(texelFetch(depth, p, 0).x));
+  return historyTaps(p, r, normal, settings.planeTolerance, settings.normalThreshold);
+}
+#endif
 
 vec3 toYCoCg(vec3 c) {
   return vec3(0.25 * c.r + 0.5 * c.g + 0.25 * c.b, 0.5 * (c.r - c.b), -0.25 * c.r + 0.5 * c.g - 0.25 * c.b);
@@ -43,46 +79,55 @@ vec3 varianceClip(vec3 colour, vec3 mean, vec3 deviation) {
   return outside > 1.0 ? mean + offset / outside : colour;
 }
 
+// Mean and deviation of the surfaces around a pixel, in YCoCg and relative to the pixel itself, so that the variance of a
+// flat neighbourhood does not drown in rounding.
+struct Neighbourhood {
+  vec3 mean;
+  vec3 deviation;
+};
+
+Neighbourhood neighbourhoodOf(ivec2 p, vec3 centre) {
+  vec3 sum = vec3(0.0), squares = vec3(0.0);
+  float count = 0.0;
+  const ivec2 last = textureSize(filtered, 0) - 1;
+  const int width = 2 * kClipRadius + 1;
+  for (int i = 0; i < width * width; ++i) {
+    const ivec2 q = clamp(p + ivec2(i % width, i / width) - kClipRadius, ivec2(0), last);
+    const vec4 colour = texelFetch(filtered, q, 0);
+    if (colour.a < 0.0 || !hasSurface(q)) continue;
+    const vec3 difference = toYCoCg(colour.rgb) - centre;
+    sum += difference;
+    squares += difference * difference;
+    count += 1.0;
+  }
+  const vec3 mean = sum / count;
+  return Neighbourhood(mean, sqrt(max(squares / count - mean * mean, vec3(0.0))));
+}
+
+// The running mean with its length.
+vec4 resolve(ivec2 p, vec4 current, vec4 history) {
+  // Where no light is known what was known before stands.
+  if (current.a < 0.0) return history;
+  if (history.a == 0.0) return vec4(current.rgb, 1.0);
+  const vec3 centre = toYCoCg(current.rgb);
+  const Neighbourhood n = neighbourhoodOf(p, centre);
+  const vec3 reach = max(settings.clipGamma * n.deviation, vec3(kLeastReach * (centre + n.mean).x));
+  const vec3 clipped = varianceClip(toYCoCg(history.rgb), centre + n.mean, reach);
+  const float samples = min(history.a + 1.0, settings.maxSamples);
+  return vec4(max(mix(fromYCoCg(clipped), current.rgb, 1.0 / samples), vec3(0.0)), samples);
+}
+
 void main() {
   const ivec2 p = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(p, textureSize(filtered, 0)))) return;
 
-  const vec3 current = texelFetch(filtered, p, 0).rgb;
-  const float z = unpackDepth(texelFetch(depth, p, 0).x);
-  if (z == 0.0) {
-    imageStore(outResolved, p, vec4(current, 0.0));
-    imageStore(outImage, p, vec4(current, 1.0));
+  const vec4 current = texelFetch(filtered, p, 0);
+  if (!hasSurface(p)) {
+    imageStore(outResolved, p, vec4(current.rgb, 0.0));
+    imageStore(outImage, p, vec4(current.rgb, 1.0));
     return;
   }
-
-  const Reprojection r = reproject(p, z, unpackNormal(texelFetch(geometricNormal, p, 0).x));
-  const HistoryTaps taps = historyTaps(r, settings.planeTolerance, settings.normalThreshold);
-  vec3 resolved = current;
-  float samples = 1.0;
-  if (taps.any) {
-    const vec4 history = bicubicOfTaps(previousResolved, taps);
-    const vec3 centre = toYCoCg(current);
-    vec3 sum = vec3(0.0), squares = vec3(0.0);
-    float count = 0.0;
-    const ivec2 last = textureSize(filtered, 0) - 1;
-    const int width = 2 * kClipRadius + 1;
-    for (int i = 0; i < width * width; ++i) {
-      const ivec2 q = clamp(p + ivec2(i % width, i / width) - kClipRadius, ivec2(0), last);
-      if (unpackDepth(texelFetch(depth, q, 0).x) == 0.0) continue;
-      // Relative to the centre, so that the variance of a flat neighbourhood does not drown in rounding.
-      const vec3 difference = toYCoCg(texelFetch(filtered, q, 0).rgb) - centre;
-      sum += difference;
-      squares += difference * difference;
-      count += 1.0;
-    }
-    const vec3 mean = sum / count;
-    const vec3 deviation = sqrt(max(squares / count - mean * mean, vec3(0.0)));
-    const vec3 reach = max(settings.clipGamma * deviation, vec3(kLeastReach * (centre + mean).x));
-    const vec3 clipped = varianceClip(toYCoCg(history.rgb), centre + mean, reach);
-    samples = min(history.a + 1.0, settings.maxSamples);
-    resolved = max(mix(fromYCoCg(clipped), current, 1.0 / samples), vec3(0.0));
-  }
-  const vec4 stored = nearestHalf(vec4(resolved, samples));
+  const vec4 stored = nearestHalf(resolve(p, current, bicubicOfTaps(previousResolved, tapsOf(p))));
   imageStore(outResolved, p, stored);
   imageStore(outImage, p, vec4(stored.rgb, 1.0));
 }

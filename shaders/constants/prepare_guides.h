@@ -7,11 +7,12 @@ namespace walr {
 
 struct PrepareGuidesConstants {
   float albedoThreshold;       // Below it in every channel a pixel has no diffuse lobe.
+  float tangentTolerance;      // Largest misfit of extrapolated inverse depth, in units of inverse depth.
   float normalAgreement;       // Cosine to the shading normal below which a geometric normal is not believed.
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(PrepareGuidesConstants) == 8);
+static_assert(sizeof(PrepareGuidesConstants) == 12);
 }  // namespace walr
 #endif
 #endif

@@ -14,7 +14,7 @@ vec4 catmullRom(float f) {
 // Alpha, the history length, is that mean in either case.
 vec4 bicubicOfTaps(texture2D history, HistoryTaps taps) {
   const vec4 linear = meanOfTaps(history, taps);
-  if (!taps.all) return linear;
+  if (taps.accepted != kAllTaps || linear.a == 0.0) return linear;
   const vec4 wx = catmullRom(taps.fraction.x), wy = catmullRom(taps.fraction.y);
   const ivec2 last = textureSize(history, 0) - 1;
   vec3 cubic = vec3(0.0);

@@ -3,47 +3,83 @@
 #define WALR_HISTORY_TAPS_GLSL
 
 struct HistoryTaps {
-  ivec2 base;       // The upper left one.
-  vec2 fraction;    // Position past its centre, in [0, 1).
-  vec4 weights;     // Bilinear weights of those that show the surface, with sum 1; in the order of `historyTap`.
-  bool any, all;    // Whether one, and whether every one, of the four shows it.
+  ivec2 base;      // The upper left one.
+  vec2 fraction;   // Position past its centre, in [0, 1).
+  uint accepted;   // Bit i says that tap i, in the order of `historyTap`, shows the surface.
 };
+const uint kAllTaps = 15u;
 
 ivec2 tapOffset(int i) { return ivec2(i & 1, i >> 1); }
 ivec2 historyTap(HistoryTaps taps, int i) { return taps.base + tapOffset(i); }
 
-// `accepted`: bit i says that tap i shows the surface.
-HistoryTaps acceptTaps(ivec2 base, vec2 fraction, uint accepted) {
-  const vec2 f = fraction, g = 1.0 - fraction;
+// Bilinear weights of the taps that show the surface, 0 of the others.
+vec4 tapWeights(HistoryTaps taps) {
+  const vec2 f = taps.fraction, g = 1.0 - taps.fraction;
   const vec4 bilinear = vec4(g.x * g.y, f.x * g.y, g.x * f.y, f.x * f.y);
-  const vec4 weights = bilinear * vec4(uvec4(accepted, accepted >> 1, accepted >> 2, accepted >> 3) & 1u);
-  const float sum = dot(weights, vec4(1.0));
-  // Below a hundredth of a pixel the remaining taps say next to nothing about this position.
-  const bool any = sum > 0.01;
-  return HistoryTaps(base, fraction, any ? weights / sum : vec4(0.0), any, accepted == 15u);
+  return bilinear * vec4((uvec4(taps.accepted) >> uvec4(0u, 1u, 2u, 3u)) & 1u);
 }
 
+// Taps that sum to less say next to nothing about the position between them.
+const float kLeastTapWeight = 0.01;
+
+// Mean over the taps that show the surface and hold a sample: alpha is the number of samples behind a history pixel,
+// and one without any holds no light rather than black. 0 where there is no history at all.
 vec4 meanOfTaps(texture2D history, HistoryTaps taps) {
-  vec4 mean = vec4(0.0);
-  for (int i = 0; i < 4; ++i)
-    if (taps.weights[i] > 0.0) mean += taps.weights[i] * texelFetch(history, historyTap(taps, i), 0);
-  return mean;
+  const vec4 weights = tapWeights(taps);
+  vec4 sum = vec4(0.0);
+  float weightSum = 0.0;
+  for (int i = 0; i < 4; ++i) {
+    if (weights[i] <= 0.0) continue;
+    const vec4 texel = texelFetch(history, historyTap(taps, i), 0);
+    if (texel.a == 0.0) continue;
+    sum += weights[i] * texel;
+    weightSum += weights[i];
+  }
+  return weightSum > kLeastTapWeight ? sum / weightSum : vec4(0.0);
 }
 
-// In one RG32_UINT: the base as two 16-bit integers, the fractions in 14 bits each, the four accept bits.
-const float kFractionSteps = 16384.0;
+// Kept taps: one R32_UINT that says where a surface was and which taps show it, for later stages that read histories of
+// their own at the same place. The motion is two halves whose two lowest mantissa bits make room for the accept bits,
+// which leaves it a relative rounding of 2^-9: 1/64 of a pixel where a surface moves by 8 to 16.
+const uint kNoSurfaceTaps = 0xffffffffu;
+const uint kMotionBits = 0xfffcfffcu;
 
-uvec2 packTaps(HistoryTaps taps) {
-  const uvec2 base = uvec2(taps.base) & 0xffffu;
-  const uvec2 fraction = uvec2(min(taps.fraction * kFractionSteps, vec2(kFractionSteps - 1.0)));
-  const uvec4 bits = uvec4(greaterThan(taps.weights, vec4(0.0))) << uvec4(28u, 29u, 30u, 31u);
-  return uvec2(base.x | base.y << 16, fraction.x | fraction.y << 14 | bits.x | bits.y | bits.z | bits.w);
+// The nearest motion that can be kept, ties to even. What the taps are tested at must be this very motion, lest rounding
+// shift the taps under their accept bits.
+vec2 keepableMotion(vec2 motion) {
+  motion = clamp(motion, vec2(-32768.0), vec2(32768.0));
+  const uvec2 bits = floatBitsToUint(motion);
+  const vec2 rounded = uintBitsToFloat((bits + 0x3fffu + ((bits >> 15) & 1u)) & ~0x7fffu);
+  return mix(rounded, vec2(0.0), lessThan(abs(motion), vec2(6.103515625e-5)));
 }
 
-HistoryTaps unpackTaps(uvec2 packed) {
-  const ivec2 base = ivec2(int(packed.x << 16) >> 16, int(packed.x) >> 16);
-  const uvec2 fraction = uvec2(packed.y, packed.y >> 14) & 0x3fffu;
-  return acceptTaps(base, vec2(fraction) / kFractionSteps, packed.y >> 28);
+HistoryTaps tapsAround(ivec2 p, vec2 motion) {
+  const vec2 position = vec2(p) + motion;
+  const vec2 base = floor(position);
+  return HistoryTaps(ivec2(base), position - base, 0u);
+}
+
+// Those of the four that lie in a picture of the given size.
+uint tapsInside(HistoryTaps taps, ivec2 size) {
+  uint inside = 0u;
+  for (int i = 0; i < 4; ++i) {
+    const ivec2 q = historyTap(taps, i);
+    if (all(greaterThanEqual(q, ivec2(0))) && all(lessThan(q, size))) inside |= 1u << i;
+  }
+  return inside;
+}
+
+// `motion` must be keepable.
+uint packTaps(vec2 motion, uint accepted) {
+  const uint bits = (accepted & 3u) | (accepted & 12u) << 14;
+  return (packHalf2x16(motion) & kMotionBits) | bits;
+}
+
+// Of a pixel with a surface.
+HistoryTaps unpackTaps(ivec2 p, uint kept) {
+  HistoryTaps taps = tapsAround(p, unpackHalf2x16(kept & kMotionBits));
+  taps.accepted = (kept & 3u) | (kept >> 14 & 12u);
+  return taps;
 }
 
 #endif

@@ -174,7 +174,16 @@ Moments unpackMoments(PackedMoments p) {
 
 #endif
 
-#ifndef FIRST
+// A pixel without a surface has no moments. Their place keeps the light that such a pixel came with, bit by bit, so that
+// the last iteration need not read it from where the first did.
+#ifdef FIRST
+uvec2 lightWithoutSurface(ivec2 p) {
+  const vec3 light = texelFetch(accumulated, p, 0).rgb;
+  return uvec2(packHalf2x16(light.rg), packHalf2x16(vec2(light.b, 0.0)));
+}
+#else
+uvec2 lightWithoutSurface(ivec2 p) { return texelFetch(momentsA, p, 0).xy; }
+
 Moments loadMoments(ivec2 p) {
   PackedMoments packed;
   packed.a = texelFetch(momentsA, p, 0);
@@ -201,7 +210,9 @@ void storePacked(ivec2 p, PackedMoments packed) {
 #endif
 }
 void storeMoments(ivec2 p, Moments m) { storePacked(p, packMoments(m)); }
-void storeNoMoments(ivec2 p) { storePacked(p, PackedMoments(uvec4(0u), uvec4(0u), uvec4(0u), uvec4(0u))); }
+void storeLightWithoutSurface(ivec2 p) {
+  storePacked(p, PackedMoments(uvec4(lightWithoutSurface(p), 0u, 0u), uvec4(0u), uvec4(0u), uvec4(0u)));
+}
 #endif
 
 #endif

@@ -1,5 +1,7 @@
 // Where a surface was in the previous frame, and whether a history pixel shows it.
-// Needs: `frame` (FrameConstants), `motion`, `depth`, `previousDepth`, `previousGeometricNormal`. Takes constant_id 0 and 1.
+// Needs: `frame` (FrameConstants), `motion`, `depth`. REJECT_BY_PLANE needs `previousDepth` and
+// `previousGeometricNormal`, REJECT_BY_DEPTH `previousDepth`; without either every pixel of the picture is accepted.
+// KEEP_TAPS: the motion is rounded to what kept taps hold. Takes constant_id 0 and 1.
 #ifndef WALR_REPROJECTION_GLSL
 #define WALR_REPROJECTION_GLSL
 #include "camera.glsl"
@@ -11,9 +13,8 @@ layout(constant_id = 0) const bool kMotionDepthGiven = true;
 layout(constant_id = 1) const bool kDilateMotion = false;  // Follow the nearest surface of the 3x3 neighbourhood.
 
 struct Reprojection {
-  vec2 pixel;      // Position in the previous frame, pixels.
+  vec2 motion;     // To the previous frame, pixels.
   vec3 position;   // The surface in the previous frame's view space.
-  vec3 normal;     // Its geometric normal there.
   bool valid;
 };
 
@@ -31,43 +32,60 @@ ivec2 nearestPixel(ivec2 p, float z) {
   return nearest;
 }
 
-// `z` is the view depth of pixel `p`, `normal` its geometric normal.
-Reprojection reproject(ivec2 p, float z, vec3 normal) {
+// View depth in the previous frame of the surface that pixel `p` shows at depth `z`.
+float depthBefore(ivec2 p, float z) {
+  if (kMotionDepthGiven) return z + texelFetch(motion, p, 0).z;
+  const vec3 position = rayThrough(frame.rayFromPixel, pixelCentre(p)) * z;
+  return -(frame.previousViewFromView * vec4(position, 1.0)).z;
+}
+
+Reprojection reproject(ivec2 p, float z) {
   Reprojection r;
   const vec2 shift = texelFetch(motion, kDilateMotion ? nearestPixel(p, z) : p, 0).xy * frame.motionScale;
-  r.pixel = pixelCentre(p) + shift - frame.jitterDelta;
-  float previousDepthHere = z + texelFetch(motion, p, 0).z;
-  if (!kMotionDepthGiven) {
-    const vec3 position = rayThrough(frame.rayFromPixel, pixelCentre(p)) * z;
-    previousDepthHere = -(frame.previousViewFromView * vec4(position, 1.0)).z;
-  }
-  r.position = rayThrough(frame.previousRayFromPixel, r.pixel) * previousDepthHere;
-  r.normal = mat3(frame.previousViewFromView) * normal;
-  const vec2 size = vec2(textureSize(previousDepth, 0));
-  r.valid = isFinite(r.pixel) && all(greaterThan(r.pixel, vec2(-1.0))) && all(lessThan(r.pixel, size + 1.0)) &&
-            isFinite(previousDepthHere) && previousDepthHere > 0.0;
+  const vec2 exact = shift - frame.jitterDelta;
+  // What is not finite leads out of any picture.
+#ifdef KEEP_TAPS
+  r.motion = keepableMotion(isFinite(exact) ? exact : vec2(kLargestHalf));
+#else
+  r.motion = isFinite(exact) ? exact : vec2(kLargestHalf);
+#endif
+  const vec2 pixel = pixelCentre(p) + r.motion;
+  const float previousDepthHere = depthBefore(p, z);
+  r.position = rayThrough(frame.previousRayFromPixel, pixel) * previousDepthHere;
+  const vec2 size = vec2(textureSize(depth, 0));
+  r.valid = all(greaterThan(pixel, vec2(-1.0))) && all(lessThan(pixel, size + 1.0)) && isFinite(previousDepthHere) &&
+            previousDepthHere > 0.0;
   return r;
 }
 
-// True where the history pixel `q` lies on the reprojected surface: within a plane distance relative to depth, with a
-// geometric normal that agrees.
-bool historyMatches(Reprojection r, ivec2 q, float planeTolerance, float normalThreshold) {
-  if (any(lessThan(q, ivec2(0))) || any(greaterThanEqual(q, textureSize(previousDepth, 0)))) return false;
-  const float depth = unpackDepth(texelFetch(previousDepth, q, 0).x);
-  if (depth == 0.0) return false;
-  const vec3 position = rayThrough(frame.previousRayFromPixel, pixelCentre(q)) * depth;
-  const vec3 normal = unpackNormal(texelFetch(previousGeometricNormal, q, 0).x);
-  return abs(dot(r.normal, position - r.position)) <= planeTolerance * -r.position.z &&
-         dot(r.normal, normal) >= normalThreshold;
+// True where the history pixel `q` shows the reprojected surface, by REJECT_BY_PLANE within a plane distance relative to
+// depth and with a geometric normal that agrees, by REJECT_BY_DEPTH within a distance relative to depth.
+bool historyMatches(Reprojection r, vec3 normal, ivec2 q, float tolerance, float normalThreshold) {
+  if (any(lessThan(q, ivec2(0))) || any(greaterThanEqual(q, textureSize(depth, 0)))) return false;
+#if defined(REJECT_BY_PLANE) || defined(REJECT_BY_DEPTH)
+  const float depthThere = unpackDepth(texelFetch(previousDepth, q, 0).x);
+  if (depthThere == 0.0) return false;
+#endif
+#if defined(REJECT_BY_PLANE)
+  const vec3 position = rayThrough(frame.previousRayFromPixel, pixelCentre(q)) * depthThere;
+  const vec3 normalThere = unpackNormal(texelFetch(previousGeometricNormal, q, 0).x);
+  return abs(dot(normal, position - r.position)) <= tolerance * -r.position.z &&
+         dot(normal, normalThere) >= normalThreshold;
+#elif defined(REJECT_BY_DEPTH)
+  return abs(depthThere + r.position.z) <= tolerance * -r.position.z;
+#else
+  return true;
+#endif
 }
 
-HistoryTaps historyTaps(Reprojection r, float planeTolerance, float normalThreshold) {
-  if (!r.valid) return acceptTaps(ivec2(0), vec2(0.0), 0u);
-  const ivec2 base = ivec2(floor(r.pixel - 0.5));
-  uint accepted = 0u;
+// `normal` is the geometric normal of pixel `p`, which only REJECT_BY_PLANE looks at.
+HistoryTaps historyTaps(ivec2 p, Reprojection r, vec3 normal, float tolerance, float normalThreshold) {
+  HistoryTaps taps = tapsAround(p, r.motion);
+  if (!r.valid) return taps;
+  const vec3 normalBefore = mat3(frame.previousViewFromView) * normal;
   for (int i = 0; i < 4; ++i)
-    if (historyMatches(r, base + tapOffset(i), planeTolerance, normalThreshold)) accepted |= 1u << i;
-  return acceptTaps(base, r.pixel - 0.5 - vec2(base), accepted);
+    if (historyMatches(r, normalBefore, historyTap(taps, i), tolerance, normalThreshold)) taps.accepted |= 1u << i;
+  return taps;
 }
 
 #endif

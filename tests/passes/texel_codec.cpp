@@ -126,8 +126,9 @@ reference::Image<reference::Guide> decodeGuides(const std::vector<std::uint32_t>
   reference::Image<reference::Guide> guides(size);
   for (std::size_t i = 0; i < depth.size(); ++i) {
     if (decodeDepth(depth[i]) == 0.0) continue;
-    guides.pixels()[i] = {decodeDepth(depth[i]), decodeUnorms(shadingNormal[i]),
-                          reference::octahedralDecode(decodeUnorms(geometricNormal[i]))};
+    guides.pixels()[i] = {
+        decodeDepth(depth[i]), decodeUnorms(shadingNormal[i]),
+        geometricNormal.empty() ? glm::dvec3(0.0) : reference::octahedralDecode(decodeUnorms(geometricNormal[i]))};
   }
   return guides;
 }

@@ -21,7 +21,7 @@ int decodeEdgeDistance(std::uint32_t packed);
 /// Two 16-bit unorms.
 glm::dvec2 decodeUnorms(std::uint32_t packed);
 
-/// Guides from the R32_UINT texels of depth, shading normal and geometric normal.
+/// Guides from the R32_UINT texels of depth, shading normal and, unless it is empty, geometric normal.
 reference::Image<reference::Guide> decodeGuides(const std::vector<std::uint32_t>& depth,
                                                 const std::vector<std::uint32_t>& shadingNormal,
                                                 const std::vector<std::uint32_t>& geometricNormal, glm::ivec2 size);

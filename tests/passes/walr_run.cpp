@@ -12,13 +12,19 @@ using fg::vk::kOverwritable;
 using fg::vk::kReadable;
 using fg::vk::kUploaded;
 
-/// The version last written of the resource of this name: textures that a pass keeps to itself.
-fg::Texture textureNamed(const fg::Graph& graph, const std::string& name) {
+/// The version last written of the resource of this name; invalid where there is none.
+fg::Texture findTexture(const fg::Graph& graph, const std::string& name) {
   const auto& resources = graph.desc().resources;
   for (std::uint32_t i = 0; i < resources.size(); ++i) {
     if (resources[i].name == name) return {{i, resources[i].versions}};
   }
-  throw std::logic_error("the graph has no texture named \"" + name + "\"");
+  return {};
+}
+
+fg::Texture textureNamed(const fg::Graph& graph, const std::string& name) {
+  const fg::Texture texture = findTexture(graph, name);
+  if (!texture.valid()) throw std::logic_error("the graph has no texture named \"" + name + "\"");
+  return texture;
 }
 
 std::size_t momentTextures(MomentStorage storage) {
@@ -40,13 +46,14 @@ fg::Extent extentOf(glm::ivec2 size) {
 
 }  // namespace
 
-WalrRun::WalrRun(const fg::vk::Device& device, glm::ivec2 size, const WalrSettings& settings,
+WalrRun::WalrRun(const fg::vk::Device& device, glm::ivec2 size, WalrSettings settings,
                  const InputConventions& conventions, bool inspect)
     : size_(size),
       storage_(settings.regression.storage),
       copyImage_(reinterpret_cast<PFN_vkCmdCopyImage>(
           device.context().instance.vkGetDeviceProcAddr(device.context().view.device, "vkCmdCopyImage"))),
       inspect_(inspect) {
+  settings.fitWindow = false;
   const fg::Extent extent = extentOf(size);
   const fg::TextureDesc halves{VK_FORMAT_R16G16B16A16_SFLOAT, extent};
   fg::Graph graph;
@@ -59,23 +66,19 @@ WalrRun::WalrRun(const fg::vk::Device& device, glm::ivec2 size, const WalrSettin
   inputs_.conventions = conventions;
   const fg::Texture output = graph.import("output", halves, kOverwritable);
 
-  // As addWalr strings them together, with the stages' outputs at hand.
-  const Guides guides = addPrepareGuides(graph, inputs_, settings.guides);
-  const fg::Texture accumulated = addTemporalAccumulation(graph, inputs_, guides, settings.accumulation);
-  const fg::Texture filtered = addWeightedRegression(graph, inputs_.frame, accumulated, guides, settings.regression);
-  output_ = addTemporalAntialiasing(graph, inputs_, guides, filtered, output, settings.antialiasing);
+  output_ = addWalr(graph, inputs_, output, settings);
   graph.exported(output_, kReadable);
-  if (inspect) inspectStages(graph, settings, guides, accumulated, filtered);
+  if (inspect) inspectStages(graph, settings);
   run_ = std::make_unique<fg::test::GraphRun>(device, graph);
 }
 
-void WalrRun::inspectStages(fg::Graph& graph, const WalrSettings& settings, const Guides& guides,
-                            fg::Texture accumulated, fg::Texture filtered) {
+void WalrRun::inspectStages(fg::Graph& graph, const WalrSettings& settings) {
   constexpr std::array kMomentNames{"moments a ", "moments b ", "moments c ", "moments d "};
-  depth_ = tap(graph, guides.depth);
-  shadingNormal_ = tap(graph, guides.shadingNormal);
-  geometricNormal_ = tap(graph, guides.geometricNormal);
-  accumulated_ = tap(graph, accumulated);
+  depth_ = tap(graph, textureNamed(graph, "guides.depth.current"));
+  shadingNormal_ = tap(graph, textureNamed(graph, "guides.shading normal"));
+  const fg::Texture geometricNormal = findTexture(graph, "guides.geometric normal.current");
+  if (geometricNormal.valid()) geometricNormal_ = tap(graph, geometricNormal);
+  accumulated_ = tap(graph, textureNamed(graph, "accumulated.current"));
   for (std::uint32_t t = 0; t + 1 < settings.regression.iterations; ++t) {
     const std::string number = std::to_string(t);
     Iteration iteration;
@@ -84,7 +87,7 @@ void WalrRun::inspectStages(fg::Graph& graph, const WalrSettings& settings, cons
     iteration.depth = tap(graph, textureNamed(graph, "depth and edges " + number));
     iterations_.push_back(iteration);
   }
-  filtered_ = tap(graph, filtered);
+  filtered_ = tap(graph, textureNamed(graph, "filtered"));
   resolved_ = tap(graph, textureNamed(graph, "resolved.current"));
 }
 
@@ -120,7 +123,9 @@ WalrStages WalrRun::frame(const reference::HostFrame& frame) {
   stages.outputBits = run_->texels<std::uint16_t>(output_);
   stages.output = decodeHalves(stages.outputBits, size_);
   if (!inspect_) return stages;
-  stages.guides = decodeGuides(words(depth_), words(shadingNormal_), words(geometricNormal_), size_);
+  stages.guides =
+      decodeGuides(words(depth_), words(shadingNormal_),
+                   geometricNormal_.valid() ? words(geometricNormal_) : std::vector<std::uint32_t>(), size_);
   stages.accumulated = halves(accumulated_);
   for (const Iteration& iteration : iterations_) {
     std::vector<std::vector<std::uint32_t>> textures;

@@ -24,8 +24,9 @@ struct WalrStages {
 /// WALR on a device, fed with frames in memory.
 class WalrRun {
  public:
+  /// @param settings as they are, however small the picture: `fitWindow` is taken for off
   /// @param inspect read back every stage, not only the output
-  WalrRun(const fg::vk::Device& device, glm::ivec2 size, const WalrSettings& settings = {},
+  WalrRun(const fg::vk::Device& device, glm::ivec2 size, WalrSettings settings = {},
           const InputConventions& conventions = {}, bool inspect = true);
 
   /// Denoise one frame.
@@ -41,8 +42,7 @@ class WalrRun {
     fg::Texture depth;
   };
 
-  void inspectStages(fg::Graph& graph, const WalrSettings& settings, const Guides& guides, fg::Texture accumulated,
-                     fg::Texture filtered);
+  void inspectStages(fg::Graph& graph, const WalrSettings& settings);
   /// Copy a texture to where the test can read it.
   fg::Texture tap(fg::Graph& graph, fg::Texture texture);
 

@@ -144,8 +144,8 @@ double toneMappedRmse(const reference::Image<glm::dvec4>& actual, const referenc
 
 // The whole pipeline, each on its own from the first frame on, the reference with nothing rounded at all. The budget is
 // the project's for centred half-precision moments, 2e-4, and what the store of the filtered frame may add where the
-// driver truncates: a unit in the last place, 2^-10 relative. The thin bars are left to the stages' own test: a bar one
-// pixel wide before a smooth wall is seen alike from both sides, so that rounding chooses its geometric normal.
+// driver truncates: a unit in the last place, 2^-10 relative. The thin bars are left to the stages' own test,
+// which leaves out the pixels where rounding decides between a bar and the wall behind.
 TEST_F(WalrStagesTest, WholePipelineStaysNearDoublePrecision) {
   constexpr double kBudget = 2e-4 + 0.25 * 2.0 * reference::kHalfRoundoff;
   for (const NamedScene& named : allScenes()) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
@@ -35,10 +36,19 @@ struct Tangent {
   double error;        ///< Absolute error of `value` in single precision.
 };
 
-/// Both one-sided differences of position along an axis that exist, best first.
-std::vector<Tangent> tangents(const HostFrame& frame, glm::ivec2 p, glm::ivec2 axis) {
+/// Drop the second of two tangents where the first is better beyond doubt.
+void keepUndecided(std::vector<Tangent>& candidates) {
+  if (candidates.size() < 2) return;
+  const double gap = candidates[1].misfit - candidates[0].misfit;
+  if (gap > candidates[0].misfitError + candidates[1].misfitError) candidates.pop_back();
+}
+
+/// The one-sided difference of position along an axis that shows the surface best, or nothing where neither does: first
+/// the exact answer, then those that rounding may take for it.
+std::vector<std::optional<Tangent>> tangents(const HostFrame& frame, glm::ivec2 p, glm::ivec2 axis, double tolerance) {
   const double centreInverse = inverseDepthAt(frame, p);
   const glm::dvec3 centre = rayThrough(frame.constants.rayFromPixel, pixelCentre(p)) / centreInverse;
+  const double largestMisfit = tolerance * centreInverse;
   std::vector<Tangent> found;
   for (const int side : {-1, 1}) {
     const glm::ivec2 q = p + side * axis;
@@ -51,17 +61,37 @@ std::vector<Tangent> tangents(const HostFrame& frame, glm::ivec2 p, glm::ivec2 a
     t.misfit = far > 0.0 ? std::abs(2.0 * near - far - centreInverse) : std::abs(near - centreInverse);
     t.misfitError = (kInverseError + 2.0 * kFloatRoundoff) * (2.0 * near + far + centreInverse);
     t.error = kPositionError * (glm::length(position) + glm::length(centre));
-    found.push_back(t);
+    if (t.misfit <= largestMisfit + t.misfitError) found.push_back(t);
   }
   std::stable_sort(found.begin(), found.end(), [](const Tangent& a, const Tangent& b) { return a.misfit < b.misfit; });
-  return found;
+  keepUndecided(found);
+  std::vector<std::optional<Tangent>> options(found.begin(), found.end());
+  if (found.empty() || found.front().misfit > largestMisfit) {
+    options.insert(options.begin(), std::nullopt);
+  } else if (found.front().misfit > largestMisfit - found.front().misfitError) {
+    options.emplace_back(std::nullopt);
+  }
+  return options;
 }
 
-/// Drop the second of two tangents where the first is better beyond doubt.
-void keepUndecided(std::vector<Tangent>& candidates) {
-  if (candidates.size() < 2) return;
-  const double gap = candidates[1].misfit - candidates[0].misfit;
-  if (gap > candidates[0].misfitError + candidates[1].misfitError) candidates.pop_back();
+/// The normal that two tangents span, or, with one alone, the shading normal made perpendicular to it. Not normalised.
+struct SpannedNormal {
+  glm::dvec3 value{0.0};
+  double error = 0.0;  ///< Absolute error in single precision.
+};
+
+SpannedNormal spannedNormal(const std::optional<Tangent>& x, const std::optional<Tangent>& y,
+                            glm::dvec3 shadingNormal) {
+  if (x && y) {
+    const double sides = glm::length(x->value) + glm::length(y->value);
+    return {glm::cross(y->value, x->value),
+            std::max(x->error, y->error) * sides + 8.0 * kFloatRoundoff * sides * sides};
+  }
+  if (!x && !y) return {};
+  const Tangent& only = x ? *x : *y;
+  const double length = glm::length(only.value);
+  return {shadingNormal * (length * length) - only.value * glm::dot(only.value, shadingNormal),
+          4.0 * length * only.error + 16.0 * kFloatRoundoff * length * length};
 }
 
 }  // namespace
@@ -70,7 +100,8 @@ Surface surfaceAt(const HostFrame& frame, glm::ivec2 p, const PrepareGuidesSetti
   const glm::dvec3 hostNormal = frame.normal[p];
   const glm::dvec3 albedo = frame.albedo[p];
   const bool hasNormal = isFinite(hostNormal) && glm::length(hostNormal) > 0.0;
-  const bool hasLobe = isFinite(albedo) && std::max({albedo.x, albedo.y, albedo.z}) >= double(settings.albedoThreshold);
+  const auto least = double(settings.albedoThreshold);
+  const bool hasLobe = least == 0.0 || (isFinite(albedo) && std::max({albedo.x, albedo.y, albedo.z}) >= least);
   if (inverseDepthAt(frame, p) == 0.0 || !hasNormal || !hasLobe) return {};
 
   glm::dvec3 normal = glm::normalize(hostNormal);
@@ -83,19 +114,19 @@ Surface surfaceAt(const HostFrame& frame, glm::ivec2 p, const PrepareGuidesSetti
 
 std::vector<NormalCandidate> geometricNormals(const HostFrame& frame, glm::ivec2 p, const Surface& surface,
                                               const PrepareGuidesSettings& settings) {
-  std::vector<Tangent> alongX = tangents(frame, p, {1, 0});
-  std::vector<Tangent> alongY = tangents(frame, p, {0, 1});
-  keepUndecided(alongX);
-  keepUndecided(alongY);
+  const auto alongX = tangents(frame, p, {1, 0}, double(settings.tangentTolerance));
+  const auto alongY = tangents(frame, p, {0, 1}, double(settings.tangentTolerance));
   const NormalCandidate shading{surface.shadingNormal, 8.0 * kFloatRoundoff};
   std::vector<NormalCandidate> candidates;
-  for (const Tangent& x : alongX) {
-    for (const Tangent& y : alongY) {
-      const glm::dvec3 n = glm::cross(y.value, x.value);
+  for (const auto& x : alongX) {
+    for (const auto& y : alongY) {
+      const auto [n, absoluteError] = spannedNormal(x, y, surface.shadingNormal);
       const double area = glm::length(n);
-      if (!(area > 0.0)) continue;
-      const double sides = glm::length(x.value) + glm::length(y.value);
-      const double error = (std::max(x.error, y.error) * sides + 8.0 * kFloatRoundoff * sides * sides) / area;
+      if (!(area > 0.0)) {
+        candidates.push_back(shading);
+        continue;
+      }
+      const double error = absoluteError / area;
       const double agreement = glm::dot(n / area, surface.shadingNormal) - double(settings.normalAgreement);
       const bool shadingWins = agreement < 0.0;
       const NormalCandidate geometric{n / area, error};
@@ -103,7 +134,6 @@ std::vector<NormalCandidate> geometricNormals(const HostFrame& frame, glm::ivec2
       if (std::abs(agreement) <= error + 16.0 * kFloatRoundoff) candidates.push_back(shadingWins ? geometric : shading);
     }
   }
-  if (candidates.empty()) candidates.push_back(shading);
   return candidates;
 }
 

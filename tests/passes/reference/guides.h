@@ -29,8 +29,9 @@ struct Surface {
 Surface surfaceAt(const HostFrame& frame, glm::ivec2 p, const PrepareGuidesSettings& settings);
 
 /// The geometric normal of a surface: from differences of positions, along each axis on the side whose pixels
-/// extrapolate best to this one. The first entry is the exact answer; further ones follow where a decision on the way
-/// (which side, whether the shading normal agrees) is closer than single precision can tell.
+/// extrapolate best to this one. Where they miss it on both, the shading normal made perpendicular to the other
+/// tangent. The first entry is the exact answer; further ones follow where a decision on the way (which side, whether
+/// the shading normal agrees) is closer than single precision can tell.
 std::vector<NormalCandidate> geometricNormals(const HostFrame& frame, glm::ivec2 p, const Surface& surface,
                                               const PrepareGuidesSettings& settings);
 

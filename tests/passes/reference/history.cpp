@@ -11,7 +11,7 @@ namespace {
 /// History whose taps sum to less than this hundredth of a pixel is dropped.
 constexpr double kLeastWeight = 0.01;
 
-/// Mean of the taps that match, in proportion to their weights.
+/// Mean of the taps that match and hold a sample, in proportion to their weights.
 HistorySample sampleBilinear(const Reprojection& r, const std::array<HistoryTap, 4>& taps,
                              const Image<glm::dvec4>& previous) {
   glm::dvec4 sum(0.0);
@@ -21,7 +21,7 @@ HistorySample sampleBilinear(const Reprojection& r, const std::array<HistoryTap,
   HistorySample history;
   for (const HistoryTap& tap : taps) {
     history.undecided |= tap.undecided;
-    if (!tap.matches) continue;
+    if (!tap.matches || previous[tap.pixel].w == 0.0) continue;
     const glm::dvec4 value = previous[tap.pixel];
     sum += tap.weight * value;
     weightSum += tap.weight;

@@ -6,6 +6,8 @@
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 
+#include "tests/passes/reference/storage.h"
+
 namespace walr::reference {
 namespace {
 
@@ -23,15 +25,36 @@ glm::ivec2 nearestPixel(const Image<Guide>& guides, glm::ivec2 p) {
   return nearest;
 }
 
+/// A motion as later stages are told of it: a half with the two lowest bits of its mantissa cleared, to nearest, ties
+/// to even; 0 below the normal halves.
+double keptMotion(double motion) {
+  if (std::abs(motion) < 0x1p-14) return 0.0;
+  int exponent = 0;
+  (void)std::frexp(motion, &exponent);
+  return std::clamp(std::ldexp(std::nearbyint(std::ldexp(motion, 9 - exponent)), exponent - 9), -32768.0, 32768.0);
+}
+
 }  // namespace
 
-Reprojection reproject(const HostFrame& frame, const Image<Guide>& guides, glm::ivec2 p, bool dilateMotion) {
+Reprojection reproject(const HostFrame& frame, const Image<Guide>& guides, glm::ivec2 p,
+                       const ReprojectionOptions& options) {
   const FrameConstants& constants = frame.constants;
   const Guide& guide = guides[p];
-  const glm::dvec2 motion(frame.motion[dilateMotion ? nearestPixel(guides, p) : p]);
+  glm::dvec2 motion(frame.motion[options.dilateMotion ? nearestPixel(guides, p) : p]);
   const glm::dmat4 previousFromCurrent(constants.previousViewFromView);
   Reprojection r;
-  r.pixel = pixelCentre(p) + motion * glm::dvec2(constants.motionScale) - glm::dvec2(constants.jitterDelta);
+  for (int axis = 0; axis < 2; ++axis) {
+    const double product = motion[axis] * double(constants.motionScale[axis]);
+    const auto jitter = double(constants.jitterDelta[axis]);
+    motion[axis] = product - jitter;
+    if (!options.keepTaps) continue;
+    // Single precision rounds both operations, or, where they are contracted, their result.
+    const double apart = keptMotion(roundToFloat(roundToFloat(product) - jitter));
+    const double contracted = keptMotion(roundToFloat(product - jitter));
+    r.undecided |= apart != contracted;
+    motion[axis] = apart;
+  }
+  r.pixel = pixelCentre(p) + motion;
   double previousDepth = guide.depth + frame.motion[p].z;
   if (frame.conventions.motionDepth == InputConventions::MotionDepth::StaticScene) {
     const glm::dvec3 position = rayThrough(constants.rayFromPixel, pixelCentre(p)) * guide.depth;
@@ -46,7 +69,7 @@ Reprojection reproject(const HostFrame& frame, const Image<Guide>& guides, glm::
 }
 
 std::array<HistoryTap, 4> historyTaps(const HostFrame& frame, const Reprojection& r, const Image<Guide>& previousGuides,
-                                      double planeTolerance, double normalThreshold) {
+                                      const HistoryTests& tests) {
   std::array<HistoryTap, 4> taps;
   if (!r.valid) return taps;
   const glm::dvec2 base = glm::floor(r.pixel - 0.5);
@@ -56,20 +79,27 @@ std::array<HistoryTap, 4> historyTaps(const HostFrame& frame, const Reprojection
     HistoryTap& tap = taps[i];
     tap.pixel = glm::ivec2(base) + offset;
     tap.weight = (offset.x == 1 ? f.x : 1.0 - f.x) * (offset.y == 1 ? f.y : 1.0 - f.y);
+    tap.undecided = r.undecided;
     if (!previousGuides.contains(tap.pixel) || previousGuides[tap.pixel].depth == 0.0) continue;
+    tap.matches = true;
+    if (tests.rejection == HistoryRejection::None) continue;
     const Guide& guide = previousGuides[tap.pixel];
     const glm::dvec3 position = rayThrough(frame.constants.previousRayFromPixel, pixelCentre(tap.pixel)) * guide.depth;
-    const double distance = std::abs(glm::dot(r.normal, position - r.position));
-    const double tolerance = planeTolerance * -r.position.z;
-    const double cosine = glm::dot(r.normal, guide.normal);
-    tap.matches = distance <= tolerance && cosine >= normalThreshold;
+    const bool byPlane = tests.rejection == HistoryRejection::Plane;
+    const double distance =
+        byPlane ? std::abs(glm::dot(r.normal, position - r.position)) : std::abs(position.z - r.position.z);
+    const double tolerance = tests.planeTolerance * -r.position.z;
     // About sixteen roundings of terms no larger than the two positions, and of unit vectors.
     const double distanceError = 16.0 * kFloatRoundoff * (glm::length(position) + glm::length(r.position)) +
                                  pixelError(r) * std::abs(r.position.z) *
                                      std::max(std::abs(double(frame.constants.previousRayFromPixel.x)),
                                               std::abs(double(frame.constants.previousRayFromPixel.y)));
-    tap.undecided =
-        std::abs(distance - tolerance) <= distanceError || std::abs(cosine - normalThreshold) <= 32.0 * kFloatRoundoff;
+    tap.matches = distance <= tolerance;
+    tap.undecided |= std::abs(distance - tolerance) <= distanceError;
+    if (!byPlane) continue;
+    const double cosine = glm::dot(r.normal, guide.normal);
+    tap.matches = tap.matches && cosine >= tests.normalThreshold;
+    tap.undecided |= std::abs(cosine - tests.normalThreshold) <= 32.0 * kFloatRoundoff;
   }
   return taps;
 }

@@ -93,9 +93,10 @@ Image<SvgfMoments> svgfAccumulate(const HostFrame& frame, const Image<Guide>& gu
       return;
     }
     if (history.guides.size() == frame.size()) {
-      const Reprojection r = reproject(frame, guides, p, false);
+      const Reprojection r = reproject(frame, guides, p);
       std::array<HistoryTap, 4> taps =
-          historyTaps(frame, r, history.guides, double(settings.planeTolerance), double(settings.normalThreshold));
+          historyTaps(frame, r, history.guides,
+                      {HistoryRejection::Plane, double(settings.planeTolerance), double(settings.normalThreshold)});
       for (HistoryTap& tap : taps) tap.matches = tap.matches && history.moments[tap.pixel].w > 0.0;
       const HistorySample colour = sampleHistory(r, taps, history.colour, HistoryFilter::Bilinear);
       const HistorySample moments = sampleHistory(r, taps, history.moments, HistoryFilter::Bilinear);

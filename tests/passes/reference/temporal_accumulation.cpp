@@ -15,7 +15,7 @@ bool isFinite(glm::dvec3 v) {
 }  // namespace
 
 Image<Accumulated> accumulate(const HostFrame& frame, const Image<Guide>& guides, const AccumulationHistory& previous,
-                              Storage storage, const TemporalAccumulationSettings& settings) {
+                              Storage storage, const TemporalAccumulationSettings& settings, bool keepTaps) {
   Image<Accumulated> result(frame.size());
   forEachPixel(frame.size(), [&](glm::ivec2 p) {
     const glm::dvec3 noisy = frame.lighting[p];
@@ -26,10 +26,9 @@ Image<Accumulated> accumulate(const HostFrame& frame, const Image<Guide>& guides
     }
     HistorySample past;
     if (previous.guides.size() == frame.size()) {
-      const Reprojection r = reproject(frame, guides, p, settings.dilateMotion);
-      past = sampleHistory(
-          r, historyTaps(frame, r, previous.guides, double(settings.planeTolerance), double(settings.normalThreshold)),
-          previous.accumulated, settings.historyFilter);
+      const Reprojection r = reproject(frame, guides, p, {settings.dilateMotion, keepTaps});
+      past = sampleHistory(r, historyTaps(frame, r, previous.guides, historyTestsOf(settings)), previous.accumulated,
+                           settings.historyFilter);
     }
     const glm::dvec3 pastMean(past.value);
     out.undecided = past.undecided;

@@ -20,8 +20,10 @@ struct AccumulationHistory {
 };
 
 /// The preprocessing accumulation (walr.txt 4.2): cumulative mean that turns exponential after `maxSamples`.
+/// @param keepTaps whether later stages are told where the history was, which rounds it
 Image<Accumulated> accumulate(const HostFrame& frame, const Image<Guide>& guides, const AccumulationHistory& previous,
-                              Storage storage, const TemporalAccumulationSettings& settings = {});
+                              Storage storage, const TemporalAccumulationSettings& settings = {},
+                              bool keepTaps = false);
 
 /// The part of a running mean that the next stages and the next frame read.
 Image<glm::dvec4> meansAndLengths(const Image<Accumulated>& accumulated);

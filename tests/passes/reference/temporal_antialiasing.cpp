@@ -19,7 +19,7 @@ struct Neighbourhood {
 };
 
 /// A pixel outside the picture stands for the nearest one inside.
-Neighbourhood neighbourhoodOf(const Image<Guide>& guides, const Image<glm::dvec3>& filtered, glm::ivec2 p,
+Neighbourhood neighbourhoodOf(const Image<Guide>& guides, const Image<glm::dvec4>& filtered, glm::ivec2 p,
                               const TemporalAntialiasingSettings& settings) {
   const auto radius = static_cast<int>(settings.clipRadius);
   const auto gamma = double(settings.clipGamma);
@@ -27,11 +27,11 @@ Neighbourhood neighbourhoodOf(const Image<Guide>& guides, const Image<glm::dvec3
   for (int dy = -radius; dy <= radius; ++dy) {
     for (int dx = -radius; dx <= radius; ++dx) {
       const glm::ivec2 q = glm::clamp(p + glm::ivec2(dx, dy), glm::ivec2(0), filtered.size() - 1);
-      if (guides[q].depth > 0.0) colours.push_back(toYCoCg(filtered[q]));
+      if (guides[q].depth > 0.0 && filtered[q].w >= 0.0) colours.push_back(toYCoCg(glm::dvec3(filtered[q])));
     }
   }
   const auto count = double(colours.size());
-  const glm::dvec3 centre = toYCoCg(filtered[p]);
+  const glm::dvec3 centre = toYCoCg(glm::dvec3(filtered[p]));
   Neighbourhood n;
   for (const glm::dvec3& c : colours) n.mean += c / count;
   glm::dvec3 variance(0.0);
@@ -96,23 +96,33 @@ glm::dvec3 varianceClip(glm::dvec3 colour, glm::dvec3 mean, glm::dvec3 deviation
   return mean + shrink * offset;
 }
 
-Image<Accumulated> antialias(const HostFrame& frame, const Image<Guide>& guides, const Image<glm::dvec3>& filtered,
+Image<Accumulated> antialias(const HostFrame& frame, const Image<Guide>& guides, const Image<glm::dvec4>& filtered,
                              const AntialiasingHistory& previous, Storage storage,
-                             const TemporalAntialiasingSettings& settings) {
+                             const TemporalAntialiasingSettings& settings, bool keptTaps) {
   Image<Accumulated> result(frame.size());
   forEachPixel(frame.size(), [&](glm::ivec2 p) {
-    const glm::dvec3 current = filtered[p];
+    const glm::dvec3 current(filtered[p]);
+    const bool known = filtered[p].w >= 0.0;
     Accumulated& out = result[p];
     out.mean = current;
     if (guides[p].depth == 0.0) return;
-    out.samples = 1.0;
+    if (known)
+      out.samples = 1.0;
+    else
+      out.mean = glm::dvec3(0.0);
     if (previous.guides.size() != frame.size()) return;
-    const Reprojection r = reproject(frame, guides, p, settings.dilateMotion);
-    const HistorySample history = sampleHistory(
-        r, historyTaps(frame, r, previous.guides, double(settings.planeTolerance), double(settings.normalThreshold)),
-        previous.resolved, HistoryFilter::Bicubic);
+    const Reprojection r = reproject(frame, guides, p, {settings.dilateMotion, keptTaps});
+    const HistorySample history = sampleHistory(r, historyTaps(frame, r, previous.guides, historyTestsOf(settings)),
+                                                previous.resolved, HistoryFilter::Bicubic);
     out.undecided = history.undecided;
     if (!history.found) return;
+    if (!known) {
+      out.mean = glm::dvec3(history.value);
+      out.samples = history.value.w;
+      out.error = glm::dvec3(history.error);
+      out.samplesError = history.error.w;
+      return;
+    }
 
     const Neighbourhood n = neighbourhoodOf(guides, filtered, p, settings);
     const glm::dvec3 pastYCoCg = toYCoCg(glm::dvec3(history.value));

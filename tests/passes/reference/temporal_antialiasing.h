@@ -20,8 +20,10 @@ glm::dvec3 varianceClip(glm::dvec3 colour, glm::dvec3 mean, glm::dvec3 deviation
 
 /// The postprocessing (walr.txt 4.4): bicubic history, variance clipping, moving average. `Accumulated::error` bounds
 /// what single precision adds.
-Image<Accumulated> antialias(const HostFrame& frame, const Image<Guide>& guides, const Image<glm::dvec3>& filtered,
+/// @param filtered rgb: the current frame; a: below 0 where no light is known
+/// @param keptTaps whether the reprojection is the one that accumulation kept, which is rounded
+Image<Accumulated> antialias(const HostFrame& frame, const Image<Guide>& guides, const Image<glm::dvec4>& filtered,
                              const AntialiasingHistory& previous, Storage storage,
-                             const TemporalAntialiasingSettings& settings = {});
+                             const TemporalAntialiasingSettings& settings = {}, bool keptTaps = false);
 
 }  // namespace walr::reference

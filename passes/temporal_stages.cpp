@@ -1,0 +1,50 @@
+#include "passes/temporal_stages.h"
+
+#include <utility>
+
+#include "passes/pass_through.h"
+
+namespace walr {
+
+GuideNeeds guideNeeds(const TemporalStages& stages, bool filterNeedsGeometricNormal) {
+  if (stages.spatialOnly) return {.geometricNormal = filterNeedsGeometricNormal, .history = false};
+  const bool antialias = stages.antialiasing.enabled;
+  const auto uses = [&](HistoryRejection rejection) {
+    return stages.accumulation.rejection == rejection || (antialias && stages.antialiasing.rejection == rejection);
+  };
+  const bool byPlane = uses(HistoryRejection::Plane);
+  return {.geometricNormal = filterNeedsGeometricNormal || byPlane,
+          .history = byPlane || uses(HistoryRejection::Depth)};
+}
+
+fg::Texture FilterInput::target(fg::Graph& graph, std::string name) const {
+  if (output.valid()) return output;
+  return graph.texture(std::move(name), {VK_FORMAT_R16G16B16A16_SFLOAT, graph.textureDesc(lighting).extent});
+}
+
+fg::Texture addTemporalStages(fg::Graph& graph, const DenoiserInputs& inputs, const Guides& guides, fg::Texture output,
+                              const TemporalStages& stages, const AddFilter& filter) {
+  const auto filterToOutput = [&](FilterInput input) {
+    input.output = output;
+    const fg::Texture result = filter(input);
+    return result.resource == output.resource ? result : addPassThrough(graph, result, output);
+  };
+  if (stages.spatialOnly) return filterToOutput({.lighting = inputs.lighting});
+
+  const bool antialias = stages.antialiasing.enabled;
+  const bool share = antialias && sharesReprojection(stages.antialiasing, stages.accumulation);
+  FilterInput input{.alpha = LightingAlpha::SampleCount};
+  if (share || stages.keepTaps) {
+    const auto [mean, taps] = addTemporalAccumulationWithTaps(graph, inputs, guides, stages.accumulation);
+    input.lighting = mean;
+    input.taps = taps;
+  } else {
+    input.lighting = addTemporalAccumulation(graph, inputs, guides, stages.accumulation);
+  }
+  if (!antialias) return filterToOutput(input);
+  const fg::Texture filtered = filter(input);
+  return share ? addTemporalAntialiasingWithTaps(graph, input.taps, filtered, output, stages.antialiasing)
+               : addTemporalAntialiasing(graph, inputs, guides, filtered, output, stages.antialiasing);
+}
+
+}  // namespace walr

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "framegraph/graph.h"
+#include "passes/inputs.h"
+#include "passes/lighting_alpha.h"
+#include "passes/prepare_guides.h"
+#include "passes/temporal_accumulation.h"
+#include "passes/temporal_antialiasing.h"
+
+namespace walr {
+
+/// What a spatial filter works on.
+struct FilterInput {
+  fg::Texture lighting = {};  ///< RGBA16F: the frame's lighting, or its temporal mean.
+  LightingAlpha alpha = LightingAlpha::Unused;
+  fg::Texture taps = {};    ///< `AccumulationWithTaps::taps`, where `TemporalStages::keepTaps` asks for them.
+  fg::Texture output = {};  ///< Where the result had best go; invalid where another stage reads it.
+
+  /// The output, or a new RGBA16F texture where there is none.
+  [[nodiscard]] fg::Texture target(fg::Graph& graph, std::string name) const;
+};
+
+/// Adds the spatial filter's passes and returns their result.
+using AddFilter = std::function<fg::Texture(const FilterInput& input)>;
+
+/// The temporal stages around a spatial filter (walr.txt, figure 6).
+struct TemporalStages {
+  TemporalAccumulationSettings accumulation;
+  TemporalAntialiasingSettings antialiasing;
+  bool spatialOnly = false;  ///< Filter each frame by itself, without the temporal stages.
+  bool keepTaps = false;     ///< The filter has a history of its own.
+};
+
+/// The guides that these stages read, beside those of the filter.
+/// @param filterNeedsGeometricNormal whether the filter reads the geometric normal
+GuideNeeds guideNeeds(const TemporalStages& stages, bool filterNeedsGeometricNormal);
+
+/// Add accumulation, filter and anti-aliasing, as far as the settings ask for them. Anti-aliasing reads the
+/// reprojection that accumulation has kept, where both look for their histories in the same way.
+/// @param output RGBA16F texture to write the result to
+/// @returns the output's new version
+fg::Texture addTemporalStages(fg::Graph& graph, const DenoiserInputs& inputs, const Guides& guides, fg::Texture output,
+                              const TemporalStages& stages, const AddFilter& filter);
+
+}  // namespace walr

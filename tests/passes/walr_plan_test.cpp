@@ -1,0 +1,83 @@
+// What WALR's plan promises, on any device: how many bytes it moves, and that nothing is there which nobody reads.
+#include <cstdint>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "framegraph/compile.h"
+#include "passes/walr.h"
+#include "shaders/constants/frame.h"
+
+namespace walr {
+namespace {
+
+constexpr fg::Extent kFullHd{1920, 1080};
+
+struct Planned {
+  fg::Graph graph;
+  fg::Plan plan;
+
+  /// Declared traffic in whole bytes a pixel: the frame constants add less than a thousandth.
+  [[nodiscard]] std::uint64_t bytesPerPixel() const {
+    return (plan.traffic.bytesRead + plan.traffic.bytesWritten) / plan.traffic.pixels;
+  }
+  [[nodiscard]] bool uses(const std::string& resource) const {
+    for (std::size_t i = 0; i < graph.desc().resources.size(); ++i)
+      if (graph.desc().resources[i].name == resource) return plan.resources[i].used;
+    return false;
+  }
+};
+
+Planned planWalr(const WalrSettings& settings) {
+  const fg::ExternalState state{VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT,
+                                VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+  const fg::TextureDesc colour{VK_FORMAT_R16G16B16A16_SFLOAT, kFullHd};
+  Planned planned;
+  fg::Graph& graph = planned.graph;
+  DenoiserInputs inputs;
+  inputs.lighting = graph.import("lighting", colour, state);
+  inputs.depth = graph.import("depth", {VK_FORMAT_R32_SFLOAT, kFullHd}, state);
+  inputs.normal = graph.import("normal", colour, state);
+  inputs.motion = graph.import("motion", colour, state);
+  inputs.albedo = graph.import("albedo", colour, state);
+  inputs.frame = graph.upload("frame constants", sizeof(FrameConstants));
+  const fg::Texture output = graph.import("output", colour, state);
+  graph.exported(addWalr(graph, inputs, output, settings), state);
+  fg::CompileResult result = fg::compile(graph.desc(), fg::TableMemoryModel());
+  EXPECT_TRUE(result.ok()) << result.text();
+  planned.plan = std::move(result.plan);
+  return planned;
+}
+
+// The project's budgets for the paper's pipeline at 1080p, every texel of every access counted once a pass.
+TEST(WalrPlan, ThePaperMovesNoMoreThanItsBudget) {
+  WalrSettings settings = paperWalr();
+  EXPECT_LE(planWalr(settings).bytesPerPixel(), 350U);
+  settings.regression.storage = MomentStorage::Raw11;
+  EXPECT_LE(planWalr(settings).bytesPerPixel(), 280U);
+}
+
+TEST(WalrPlan, TransientMemoryIsTheLeastThatItsScheduleAllows) {
+  for (const WalrSettings& settings : {robustWalr(), paperWalr()}) {
+    const fg::Plan plan = planWalr(settings).plan;
+    EXPECT_EQ(plan.memory.transientPeakBytes, plan.memory.transientLowerBoundBytes);
+  }
+}
+
+TEST(WalrPlan, HoldsOnlyWhatItsSettingsRead) {
+  const Planned robust = planWalr(robustWalr());
+  EXPECT_TRUE(robust.uses("albedo"));
+  EXPECT_TRUE(robust.uses("guides.geometric normal.current"));
+  const Planned paper = planWalr(paperWalr());
+  EXPECT_FALSE(paper.uses("albedo"));
+  EXPECT_FALSE(paper.uses("guides.geometric normal.current"));
+  WalrSettings host = robustWalr();
+  host.antialiasing.enabled = false;
+  const Planned withoutAntialiasing = planWalr(host);
+  EXPECT_FALSE(withoutAntialiasing.uses("resolved.current"));
+  EXPECT_FALSE(withoutAntialiasing.uses("filtered"));
+  EXPECT_FALSE(withoutAntialiasing.uses("history taps"));
+}
+
+}  // namespace
+}  // namespace walr
