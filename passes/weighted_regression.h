@@ -77,7 +77,8 @@ struct WeightedRegressionSettings {
 /// @param frame       upload of `FrameConstants`
 /// @param accumulated RGBA16F: radiance to filter
 /// @param output      RGBA16F texture to write the result to
-/// @returns the output's new version: filtered radiance; sky and pixels without a diffuse lobe as they were
+/// @returns the output's new version: filtered radiance, alpha below 0 where no sample was in reach; sky and pixels
+/// without a diffuse lobe as they were
 /// @throws std::invalid_argument for settings outside their range
 fg::Texture addWeightedRegression(fg::Graph& graph, fg::Buffer frame, fg::Texture accumulated, const Guides& guides,
                                   fg::Texture output, const WeightedRegressionSettings& settings = {});

@@ -69,7 +69,7 @@ void writeWithoutSurface(ivec2 p) {
 void writeResult(ivec2 p, float z, int nearestEdge, Moments m) {
 #ifdef LAST
   const vec3 colour = reconstruct(m, featuresAt(p), kPivotFloor, settings.ridge, settings.noiseRidge);
-  imageStore(outFiltered, p, vec4(colour, 1.0));
+  imageStore(outFiltered, p, vec4(colour, m.samples > 0.0 ? 1.0 : -1.0));
 #else
   if (!kKeepSampleCount) m.samples = m.samples > 0.0 ? 1.0 : 0.0;
   if (m.samples > 0.0) storeMoments(p, m);

@@ -210,6 +210,7 @@ void storePacked(ivec2 p, PackedMoments packed) {
 #endif
 }
 void storeMoments(ivec2 p, Moments m) { storePacked(p, packMoments(m)); }
+void storeNoMoments(ivec2 p) { storePacked(p, PackedMoments(uvec4(0u), uvec4(0u), uvec4(0u), uvec4(0u))); }
 void storeLightWithoutSurface(ivec2 p) {
   storePacked(p, PackedMoments(uvec4(lightWithoutSurface(p), 0u, 0u), uvec4(0u), uvec4(0u), uvec4(0u)));
 }

@@ -121,6 +121,8 @@ void expectRegression(const DeviceFrame& f, const WeightedRegressionSettings& se
       return;
     }
     comparison.compared();
+    const double known = merged.moments.samples > 0.0 ? 1.0 : -1.0;
+    comparison.value(p, "whether light is known", f.current.filtered[p].w, known, 0.0);
     const reference::Reconstruction expected =
         reference::reconstruct(merged.moments, f.current.guides[p].features, settings.regularisation, merged.error);
     for (int c = 0; c < 3; ++c)
