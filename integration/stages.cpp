@@ -69,7 +69,8 @@ void temporalAccumulationWithTaps(StagePorts& ports, const TemporalAccumulationS
 
 void weightedRegression(StagePorts& ports, const WeightedRegressionSettings& settings) {
   const fg::Texture accumulated = ports.texture("accumulated");
-  const fg::Texture target = targetLike(ports, "filtered", accumulated);
+  const fg::Texture target =
+      ports.graph().texture("filtered", {kColour, ports.graph().textureDesc(accumulated).extent});
   ports.setOutput("filtered", addWeightedRegression(ports.graph(), ports.buffer(kFrameName), accumulated,
                                                     ports.guides(), target, settings));
 }
@@ -119,6 +120,13 @@ void temporalAntialiasing(StagePorts& ports, const TemporalAntialiasingSettings&
   const fg::Texture target = targetLike(ports, kOutputName, filtered);
   ports.setOutput(kOutputName, addTemporalAntialiasing(ports.graph(), ports.hostInputs(), ports.guides(), filtered,
                                                        target, settings));
+}
+
+void temporalAntialiasingWithTaps(StagePorts& ports, const TemporalAntialiasingSettings& settings) {
+  const fg::Texture filtered = ports.texture("filtered");
+  const fg::Texture target = targetLike(ports, kOutputName, filtered);
+  ports.setOutput(kOutputName, addTemporalAntialiasingWithTaps(ports.graph(), ports.texture("history-taps"), filtered,
+                                                               target, settings));
 }
 
 void passThrough(StagePorts& ports, const NoSettings& /*settings*/) {
@@ -173,6 +181,9 @@ std::vector<StageType> stagesAndMethods() {
        make<JointBilateralFilterSettings, jointBilateralFilter>},
       {"temporal_antialiasing", "Steady the filtered frames: history, variance clipping, moving average", false,
        make<TemporalAntialiasingSettings, temporalAntialiasing>},
+      {"temporal_antialiasing_with_taps",
+       "The same along the taps of temporal_accumulation_with_taps, whose tests it shares", false,
+       make<TemporalAntialiasingSettings, temporalAntialiasingWithTaps>},
       {"pass_through", "Copy the filtered frame to the output", false, make<NoSettings, passThrough>},
   };
   for (const std::string& name : denoiserNames()) {

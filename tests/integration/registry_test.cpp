@@ -126,7 +126,7 @@ void expectPlannedAs(const char* preset, const std::vector<Link>& chain) {
     for (const auto& [name, value] : link.settings) node->set(name, value);
     connectHost(*node, parts.inputs);
     connect(*node, made);
-    if (std::string_view(link.type) == "temporal_antialiasing") node->connect(kOutputName, parts.output);
+    if (std::string_view(link.type) == "temporal_antialiasing_with_taps") node->connect(kOutputName, parts.output);
     made.textures.merge(node->add(parts.graph).textures);
   }
   parts.graph.exported(made.textures.at(std::string(kOutputName)), kComputeHost.outputAfter);
@@ -135,14 +135,14 @@ void expectPlannedAs(const char* preset, const std::vector<Link>& chain) {
 
 TEST(Registry, StagesConnectedByNameArePlannedAsTheWholeMethodIs) {
   expectPlannedAs("blocks", {{"prepare_guides", {}},
-                             {"temporal_accumulation", {}},
+                             {"temporal_accumulation_with_taps", {}},
                              {"ambient_occlusion", {}},
                              {"block_regression", {{"blocks.size", "2"}, {"blocks.iterations", "3"}}},
-                             {"temporal_antialiasing", {}}});
+                             {"temporal_antialiasing_with_taps", {}}});
   expectPlannedAs("robust", {{"prepare_guides", {}},
-                             {"temporal_accumulation", {}},
+                             {"temporal_accumulation_with_taps", {}},
                              {"weighted_regression", {{"regression.iterations", "3"}}},
-                             {"temporal_antialiasing", {}}});
+                             {"temporal_antialiasing_with_taps", {}}});
 }
 
 TEST(Registry, NamesWhatIsWrong) {

@@ -26,7 +26,7 @@ class WalrRun {
  public:
   /// @param settings as they are, however small the picture: `fitWindow` is taken for off
   /// @param inspect read back every stage, not only the output
-  WalrRun(const fg::vk::Device& device, glm::ivec2 size, WalrSettings settings = {},
+  WalrRun(const fg::vk::Device& device, glm::ivec2 size, WalrSettings settings = robustWalr(),
           const InputConventions& conventions = {}, bool inspect = true);
 
   /// Denoise one frame.
