@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 
 #include "framegraph/graph.h"
 #include "integration/host_inputs.h"
@@ -15,6 +16,7 @@ struct DenoiseGraph {
   DenoiserInputs inputs;  ///< Imports, as the host writes them; `frame` is an upload.
   fg::Buffer host;        ///< Upload of `HostConstants`; invalid where the conventions need none.
   fg::Texture output;     ///< Import that receives the result.
+  DebugViews views;       ///< Imports that receive the views asked for.
 };
 
 /// States in which the host hands its textures over and takes the result back.
@@ -37,10 +39,12 @@ DenoiserInputs importInputs(fg::Graph& graph, fg::Extent extent, const InputConv
 
 /// @param formats one per entry of `kHostInputs`; empty for the usual ones
 /// @param host    how the textures are written; what differs from `DenoiserInputs` is converted first
-/// @throws std::invalid_argument naming a setting of the method that is out of range, or an input of a format that will
-///         not do
+/// @param views   names of the method's views to write as well, into textures that go the output's way
+/// @throws std::invalid_argument naming a setting of the method that is out of range, an input of a format that will
+/// not
+///         do, or a view that there is not
 DenoiseGraph declareDenoiseGraph(Denoiser& method, fg::Extent extent, const InputConventions& conventions,
                                  const HostStates& states, std::span<const VkFormat> formats = {},
-                                 const HostConventions& host = {});
+                                 const HostConventions& host = {}, std::span<const std::string> views = {});
 
 }  // namespace walr

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <stdexcept>
+#include <type_traits>
 
 #include "passes/accumulate.h"
 #include "passes/bmfr.h"
@@ -13,6 +14,7 @@
 #include "passes/svgf.h"
 #include "passes/text.h"
 #include "passes/walr.h"
+#include "passes/weighted_regression_views.h"
 
 namespace walr {
 namespace {
@@ -58,12 +60,26 @@ class DenoiserOf final : public Denoiser {
                                 (kPresets<Settings>.empty() ? "none" : join(presets())));
   }
 
-  fg::Texture add(fg::Graph& graph, const DenoiserInputs& inputs, fg::Texture output) override {
+  fg::Texture add(fg::Graph& graph, const DenoiserInputs& inputs, fg::Texture output, DebugViews* views) override {
     checkSettings();
-    return kAdd(graph, inputs, output, settings_);
+    if constexpr (kHasViews) {
+      return kAdd(graph, inputs, output, settings_, views);
+    } else {
+      if (views != nullptr && !views->empty()) {
+        throw std::invalid_argument("there is no view \"" + views->front().name + "\": this method has none");
+      }
+      return kAdd(graph, inputs, output, settings_);
+    }
+  }
+
+  [[nodiscard]] std::vector<ViewInfo> views() const override {
+    if constexpr (kHasViews) return weightedRegressionViews();
+    return {};
   }
 
  private:
+  static constexpr bool kHasViews =
+      std::is_invocable_v<decltype(kAdd), fg::Graph&, const DenoiserInputs&, fg::Texture, const Settings&, DebugViews*>;
   Settings settings_{};
 };
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "framegraph/graph.h"
+#include "passes/debug_views.h"
 #include "passes/inputs.h"
 #include "passes/settings.h"
 
@@ -26,8 +27,12 @@ class Denoiser : public Configurable {
   /// @returns the output's new version: denoised demodulated diffuse indirect radiance; sky and pixels without a
   /// diffuse
   ///          lobe hold the input unchanged
-  /// @throws std::invalid_argument naming a setting outside its range
-  virtual fg::Texture add(fg::Graph& graph, const DenoiserInputs& inputs, fg::Texture output) = 0;
+  /// @throws std::invalid_argument naming a setting outside its range, or a view that there is not
+  /// @param views   views to write of the method's inner workings, for the method to replace by their new versions
+  virtual fg::Texture add(fg::Graph& graph, const DenoiserInputs& inputs, fg::Texture output,
+                          DebugViews* views = nullptr) = 0;
+  /// The views that `add` takes.
+  [[nodiscard]] virtual std::vector<ViewInfo> views() const = 0;
 };
 
 /// Names of all methods, as `--method` takes them.

@@ -16,7 +16,7 @@ enum class Regularisation : std::uint32_t {
 struct RegularisationSettings {
   Regularisation method = Regularisation::Ridge;
   float ridge = 1e-3F;
-  float noiseRidge = 3.0F;
+  float noiseRidge = 0.3F;
 
   void visit(SettingVisitor& v) {
     static constexpr std::string_view kMethods[] = {"ridge", "floor"};

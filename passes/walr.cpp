@@ -1,6 +1,7 @@
 #include "passes/walr.h"
 
 #include <algorithm>
+#include <stdexcept>
 
 #include "passes/temporal_stages.h"
 #include "passes/window_fit.h"
@@ -9,11 +10,12 @@ namespace walr {
 namespace {
 
 fg::Texture addPixelFilter(fg::Graph& graph, fg::Buffer frame, const FilterInput& input, const Guides& guides,
-                           const WalrSettings& settings) {
+                           const WalrSettings& settings, DebugViews* views) {
   WeightedRegressionSettings regression = settings.regression;
   const std::uint32_t height = graph.textureDesc(input.lighting).extent.height;
   if (settings.fitWindow) regression.iterations = std::min(regression.iterations, fittingIterations(height));
-  return addWeightedRegression(graph, frame, input.lighting, guides, input.target(graph, "filtered"), regression);
+  return addWeightedRegression(graph, frame, input.lighting, guides, input.target(graph, "filtered"), regression,
+                               views);
 }
 
 fg::Texture addBlockFilter(fg::Graph& graph, fg::Buffer frame, const FilterInput& input, const Guides& guides,
@@ -60,13 +62,17 @@ WalrSettings paperWalr() {
   return settings;
 }
 
-fg::Texture addWalr(fg::Graph& graph, const DenoiserInputs& inputs, fg::Texture output, const WalrSettings& settings) {
+fg::Texture addWalr(fg::Graph& graph, const DenoiserInputs& inputs, fg::Texture output, const WalrSettings& settings,
+                    DebugViews* views) {
   const TemporalStages stages{.accumulation = settings.accumulation, .antialiasing = settings.antialiasing};
   const bool pixels = settings.filter == SpatialFilter::Pixels;
+  if (views != nullptr && !views->empty() && !pixels) {
+    throw std::invalid_argument("view \"" + views->front().name + "\" needs setting walr.filter=pixels");
+  }
   const bool geometricPlane = !pixels || settings.regression.edgeStopping.planeNormal == PlaneNormal::Geometric;
   const Guides guides = addPrepareGuides(graph, inputs, settings.guides, guideNeeds(stages, geometricPlane));
   return addTemporalStages(graph, inputs, guides, output, stages, [&](const FilterInput& input) {
-    return pixels ? addPixelFilter(graph, inputs.frame, input, guides, settings)
+    return pixels ? addPixelFilter(graph, inputs.frame, input, guides, settings, views)
                   : addBlockFilter(graph, inputs.frame, input, guides, settings);
   });
 }

@@ -5,14 +5,18 @@
 #include <string>
 #include <vector>
 
+#include "passes/weighted_regression_views.h"
 #include "shaders/constants/atrous.h"
 #include "shaders/shaders.h"
 
 namespace walr {
 namespace {
 
-/// Shaders of one storage: [first][last].
-using IterationShaders = std::array<std::array<const fg::Shader*, 2>, 2>;
+/// What an iteration is there for.
+enum class Role : std::size_t { Averages, Filter, View };
+
+/// Shaders of one storage: [first][role].
+using IterationShaders = std::array<std::array<const fg::Shader*, 3>, 2>;
 
 /// The textures of one storage and the shaders that read and write them.
 struct StorageLayout {
@@ -24,14 +28,18 @@ const StorageLayout& layoutOf(MomentStorage storage) {
   using namespace shaders;
   static const std::array kLayouts{
       StorageLayout{{VK_FORMAT_R32G32B32A32_UINT, VK_FORMAT_R32G32B32A32_UINT},
-                    {{{&atrousCentred16, &atrousCentred16Last}, {&atrousCentred16First, &atrousFirstLast}}}},
+                    {{{&atrousCentred16, &atrousCentred16Last, &atrousCentred16View},
+                      {&atrousCentred16First, &atrousFirstLast, &atrousFirstView}}}},
       StorageLayout{{VK_FORMAT_R32G32B32A32_UINT, VK_FORMAT_R32G32_UINT, VK_FORMAT_R32_UINT},
-                    {{{&atrousRaw16, &atrousRaw16Last}, {&atrousRaw16First, &atrousFirstLast}}}},
+                    {{{&atrousRaw16, &atrousRaw16Last, &atrousRaw16View},
+                      {&atrousRaw16First, &atrousFirstLast, &atrousFirstView}}}},
       StorageLayout{{VK_FORMAT_R32G32B32A32_UINT, VK_FORMAT_R32_UINT},
-                    {{{&atrousRaw11, &atrousRaw11Last}, {&atrousRaw11First, &atrousFirstLast}}}},
+                    {{{&atrousRaw11, &atrousRaw11Last, &atrousRaw11View},
+                      {&atrousRaw11First, &atrousFirstLast, &atrousFirstView}}}},
       StorageLayout{{VK_FORMAT_R32G32B32A32_UINT, VK_FORMAT_R32G32B32A32_UINT, VK_FORMAT_R32G32B32A32_UINT,
                      VK_FORMAT_R32G32_UINT},
-                    {{{&atrousRaw32, &atrousRaw32Last}, {&atrousRaw32First, &atrousFirstLast}}}},
+                    {{{&atrousRaw32, &atrousRaw32Last, &atrousRaw32View},
+                      {&atrousRaw32First, &atrousFirstLast, &atrousFirstView}}}},
   };
   return kLayouts.at(static_cast<std::size_t>(storage));
 }
@@ -50,24 +58,45 @@ void checkSettings(const WeightedRegressionSettings& s) {
   }
 }
 
-/// The part of an iteration that does not depend on its place.
-void declareIteration(fg::PassBuilder& pass, fg::Buffer frame, const Guides& guides,
-                      const WeightedRegressionSettings& settings) {
+/// What the passes of an iteration read.
+struct Iteration {
+  std::uint32_t index = 0;
+  std::uint32_t spacing = 1;  ///< 3^index pixels.
+  Averages averages;          ///< Of the iteration before.
+};
+
+/// A pass that does an iteration, but for what it writes.
+fg::PassBuilder declareIteration(fg::Graph& graph, const std::string& name, Role role, const Iteration& iteration,
+                                 fg::Buffer frame, fg::Texture accumulated, const Guides& guides,
+                                 const WeightedRegressionSettings& settings) {
+  static constexpr std::array kBindings{"momentsA", "momentsB", "momentsC", "momentsD"};
+  const bool first = iteration.index == 0;
+  const IterationShaders& shaders = layoutOf(settings.storage).shaders;
+  fg::PassBuilder pass = graph.compute(name, *shaders.at(first ? 1 : 0).at(static_cast<std::size_t>(role)));
   pass.uniform("frameConstants", frame)
+      .sample("depth", iteration.averages.depth)
       .sample("planeNormal", settings.edgeStopping.normalOf(guides))
+      .specialize("kIteration", iteration.index)
+      .specialize("kSpacing", iteration.spacing)
       .specialize("kTraceEdges", settings.traceEdges)
       .specialize("kReplacement", static_cast<std::uint32_t>(settings.replaceTaps))
       .specialize("kRepeatCentre", settings.repeatCentre)
       .specialize("kEdgeLeak", settings.edgeLeak)
       .specialize("kNormalFactor", settings.edgeStopping.normalFactor)
       .constants(AtrousConstants{settings.edgeStopping.planeNear, settings.edgeStopping.planeFar, settings.sdfFraction,
-                                 settings.regularisation.ridge, settings.regularisation.noiseRidge});
-}
-
-/// Read the averages of the iteration before.
-void readAverages(fg::PassBuilder& pass, const Averages& averages) {
-  static constexpr std::array kBindings{"momentsA", "momentsB", "momentsC", "momentsD"};
-  for (std::size_t i = 0; i < averages.moments.size(); ++i) pass.sample(kBindings.at(i), averages.moments[i]);
+                                 settings.regularisation.ridge, settings.regularisation.noiseRidge})
+      .dispatch(graph.textureDesc(accumulated).extent);
+  if (first || role == Role::View) pass.sample("accumulated", accumulated);
+  if (first || role != Role::Averages) pass.sample("shadingNormal", guides.shadingNormal);
+  for (std::size_t i = 0; i < iteration.averages.moments.size(); ++i) {
+    pass.sample(kBindings.at(i), iteration.averages.moments[i]);
+  }
+  if (role == Role::Averages) {
+    pass.specialize("kKeepSampleCount", settings.keepSampleCount);
+  } else {
+    pass.specialize("kPivotFloor", settings.regularisation.method == Regularisation::Floor);
+  }
+  return pass;
 }
 
 /// Write the averages of this iteration into textures of their own.
@@ -87,29 +116,29 @@ Averages writeAverages(fg::Graph& graph, fg::PassBuilder& pass, const StorageLay
 }  // namespace
 
 fg::Texture addWeightedRegression(fg::Graph& graph, fg::Buffer frame, fg::Texture accumulated, const Guides& guides,
-                                  fg::Texture output, const WeightedRegressionSettings& settings) {
+                                  fg::Texture output, const WeightedRegressionSettings& settings, DebugViews* views) {
   checkSettings(settings);
   const fg::Extent extent = graph.textureDesc(accumulated).extent;
-  const StorageLayout& layout = layoutOf(settings.storage);
-  Averages averages{.moments = {}, .depth = guides.depth};
-  std::uint32_t spacing = 1;
-  for (std::uint32_t t = 0;; ++t, spacing *= 3) {
-    const bool first = t == 0;
-    const bool last = t + 1 == settings.iterations;
-    const std::string suffix = " " + std::to_string(t);
-
-    fg::PassBuilder pass = graph.compute("a-trous" + suffix, *layout.shaders.at(first ? 1 : 0).at(last ? 1 : 0));
-    declareIteration(pass, frame, guides, settings);
-    pass.sample("depth", averages.depth).specialize("kIteration", t).specialize("kSpacing", spacing).dispatch(extent);
-    if (first) pass.sample("accumulated", accumulated);
-    if (first || last) pass.sample("shadingNormal", guides.shadingNormal);
-    if (!first) readAverages(pass, averages);
-    if (last) {
-      pass.specialize("kPivotFloor", settings.regularisation.method == Regularisation::Floor);
-      return pass.store("outFiltered", output);
+  Iteration iteration{.averages = {.moments = {}, .depth = guides.depth}};
+  const auto declare = [&](const std::string& name, Role role) {
+    return declareIteration(graph, name, role, iteration, frame, accumulated, guides, settings);
+  };
+  for (;; ++iteration.index, iteration.spacing *= 3) {
+    if (views != nullptr) {
+      for (DebugView& view : *views) {
+        const RegressionView wanted = parseRegressionView(view.name, settings.iterations);
+        if (wanted.iteration != iteration.index) continue;
+        fg::PassBuilder pass = declare("view " + view.name, Role::View);
+        pass.specialize("kView", wanted.quantity);
+        view.texture = pass.store("outView", view.texture);
+      }
     }
-    pass.specialize("kKeepSampleCount", settings.keepSampleCount);
-    averages = writeAverages(graph, pass, layout, extent, suffix);
+    const std::string suffix = " " + std::to_string(iteration.index);
+    if (iteration.index + 1 == settings.iterations) {
+      return declare("a-trous" + suffix, Role::Filter).store("outFiltered", output);
+    }
+    fg::PassBuilder pass = declare("a-trous" + suffix, Role::Averages);
+    iteration.averages = writeAverages(graph, pass, layoutOf(settings.storage), extent, suffix);
   }
 }
 

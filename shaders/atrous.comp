@@ -1,6 +1,7 @@
 // One edge-aware a-trous iteration (walr.txt 3.2, 3.3): the moments of 3x3 taps, 3^t pixels apart, are averaged with the
 // weights that edge tracing finds. The first iteration (FIRST) makes the moments of its taps from the inputs as it
-// reads them; the last (LAST) solves the regression in place, so moments exist in memory only between iterations.
+// reads them; the last (LAST) solves the regression in place, so moments exist in memory only between iterations. A view
+// (VIEW) does what the last one does, and writes something found on the way.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -17,6 +18,9 @@ layout(constant_id = 1) const int kSpacing = 1;        // 3^t pixels.
 layout(constant_id = 2) const bool kTraceEdges = true;
 layout(constant_id = 3) const uint kReplacement = 1;   // What takes the place of a discarded tap; see below.
 layout(constant_id = 4) const bool kNormalFactor = true;  // Weights fall with the cosine between the planes' normals.
+#ifdef VIEW
+layout(constant_id = 8) const uint kView = 0;  // Which quantity; numbered in writeResult.
+#endif
 #ifdef LAST
 layout(constant_id = 5) const bool kPivotFloor = false;      // Floor the pivots instead of adding a ridge.
 #else
@@ -28,13 +32,15 @@ layout(constant_id = 7) const float kEdgeLeak = 0.01;      // Weight of the next
 layout(set = 0, binding = 0, std140) uniform frameConstants { FrameConstants frame; };
 layout(set = 0, binding = 1) uniform utexture2D depth;
 layout(set = 0, binding = 2) uniform utexture2D planeNormal;
-#ifdef FIRST
+#if defined(FIRST) || defined(VIEW)
 layout(set = 0, binding = 3) uniform texture2D accumulated;
 #endif
 #if defined(FIRST) || defined(LAST)
 layout(set = 0, binding = 13) uniform utexture2D shadingNormal;
 #endif
-#ifdef LAST
+#if defined(VIEW)
+layout(set = 0, binding = 12, rgba32f) uniform writeonly image2D outView;
+#elif defined(LAST)
 layout(set = 0, binding = 12, rgba16f) uniform writeonly image2D outFiltered;
 #else
 layout(set = 0, binding = 12, r32ui) uniform writeonly uimage2D outDepth;
@@ -57,7 +63,9 @@ Moments readMoments(ivec2 q) {
 }
 
 void writeWithoutSurface(ivec2 p) {
-#ifdef LAST
+#if defined(VIEW)
+  imageStore(outView, p, vec4(0.0));
+#elif defined(LAST)
   const uvec2 light = lightWithoutSurface(p);
   imageStore(outFiltered, p, vec4(unpackHalf2x16(light.x), unpackHalf2x16(light.y).x, 1.0));
 #else
@@ -66,15 +74,46 @@ void writeWithoutSurface(ivec2 p) {
 #endif
 }
 
-void writeResult(ivec2 p, float z, int nearestEdge, Moments m) {
-#ifdef LAST
+// What became of the taps.
+struct Taps {
+  int nearestEdge;
+  int replaced;
+  int lost;
+};
+
+#ifdef VIEW
+vec3 viewOf(ivec2 p, Taps taps, Moments m) {
+  const Factor factor = factorOf(m, kPivotFloor, settings.ridge, settings.noiseRidge);
+  const Slopes slopes = slopesOf(m, factor);
+  const vec3 colour = fitted(m, slopes, featuresAt(p));
+  switch (kView) {
+    case 0u: return vec3(taps.nearestEdge, taps.replaced, taps.lost);
+    case 1u: return vec3(m.samples, relativeVariance(m), texelFetch(accumulated, p, 0).a > 0.0 ? 0.0 : 1.0);
+    case 2u: return vec3(factor.smallestPivot, factor.regularisation, factor.smallestPivot < factor.regularisation);
+    case 3u: return vec3(m.x, 0.0);
+    case 4u: return m.xx;
+    case 5u: return m.y;
+    case 6u: return m.yu;
+    case 7u: return m.yv;
+    case 8u: return slopes.u;
+    case 9u: return slopes.v;
+    case 10u: return vec3(notEqual(colour, clamp(colour, vec3(0.0), vec3(kLargestHalf))));
+  }
+  return vec3(0.0);
+}
+#endif
+
+void writeResult(ivec2 p, float z, Taps taps, Moments m) {
+#if defined(VIEW)
+  imageStore(outView, p, vec4(viewOf(p, taps, m), 1.0));
+#elif defined(LAST)
   const vec3 colour = reconstruct(m, featuresAt(p), kPivotFloor, settings.ridge, settings.noiseRidge);
   imageStore(outFiltered, p, vec4(colour, m.samples > 0.0 ? 1.0 : -1.0));
 #else
   if (!kKeepSampleCount) m.samples = m.samples > 0.0 ? 1.0 : 0.0;
   if (m.samples > 0.0) storeMoments(p, m);
   else storeNoMoments(p);
-  imageStore(outDepth, p, uvec4(packDepthSdf(z, uint(nearestEdge))));
+  imageStore(outDepth, p, uvec4(packDepthSdf(z, uint(taps.nearestEdge))));
 #endif
 }
 
@@ -113,17 +152,21 @@ void main() {
   const Moments centre = readMoments(p);
   MomentSum sum = startSum(centre);
   add(sum, 1.0, centre);
-  int nearestEdge = kSpacing + 1;
+  Taps taps = Taps(kSpacing + 1, 0, 0);
   for (int tap = 0; tap < 9; ++tap) {
     if (tap == 4) continue;
     const ivec2 direction = ivec2(tap % 3, tap / 3) - 1;
     int reach = kSpacing;
     Trace trace = traceEdge(plane, p, direction, reach, sdf);
-    nearestEdge = min(nearestEdge, trace.edge);
+    taps.nearestEdge = min(taps.nearestEdge, trace.edge);
     if (trace.weight <= 0.0) {
       const bool isolated = trace.edge == 1;
       if (kEdgeLeak > 0.0 && isolated) addLeak(sum, p + direction);
-      if (kReplacement == kNoReplacement || (isolated && !kRepeatCentre)) continue;
+      if (kReplacement == kNoReplacement || (isolated && !kRepeatCentre)) {
+        ++taps.lost;
+        continue;
+      }
+      ++taps.replaced;
       // A discarded tap gives way to a random one before the edge, so that no seam follows the tap pattern.
       reach = replacementStep(p, tap, trace.edge);
       trace = traceEdge(plane, p, direction, reach, sdf);
@@ -137,5 +180,5 @@ void main() {
     if (kNormalFactor) weight *= clamp(dot(normal, unpackNormal(texelFetch(planeNormal, q, 0).x)), 0.0, 1.0);
     if (weight > 0.0) add(sum, weight, readMoments(q));
   }
-  writeResult(p, z, nearestEdge, finish(sum));
+  writeResult(p, z, taps, finish(sum));
 }

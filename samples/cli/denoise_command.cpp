@@ -1,5 +1,6 @@
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -38,6 +39,7 @@ struct DenoiseOptions {
   bool listDevices = false;
   std::filesystem::path json;
   std::string nonFinite = "fail";
+  std::vector<std::string> views;
   SequenceOptions sequence;
 };
 
@@ -72,6 +74,22 @@ void refuseOutputIntoInput(const DenoiseOptions& options) {
   }
 }
 
+void refuseUnknownViews(const DenoiseOptions& options, const Denoiser& method) {
+  std::string known;
+  for (const ViewInfo& view : method.views()) {
+    known += "\n  " + view.name + ": " + view.description;
+  }
+  for (const std::string& wanted : options.views) {
+    const auto isWanted = [name = wanted.substr(0, wanted.find('.'))](const ViewInfo& view) {
+      return view.name == name;
+    };
+    if (std::ranges::none_of(method.views(), isWanted)) {
+      throw UsageError("--view " + wanted + ": method " + options.method.name +
+                       (known.empty() ? " has no views" : " has no such view; it has" + known));
+    }
+  }
+}
+
 void denoise(DenoiseOptions& options) {
   options.sequence.composite = options.output.composite;
   options.sequence.nonFinite = options.nonFinite == "replace" ? NonFinitePolicy::Replace : NonFinitePolicy::Fail;
@@ -79,13 +97,14 @@ void denoise(DenoiseOptions& options) {
     options.sequence.frames = parseFrameRange(options.frames);
   }
   const std::unique_ptr<Denoiser> method = makeMethod(options.method);
+  refuseUnknownViews(options, *method);
   refuseOutputIntoInput(options);
   const Sequence sequence(options.input, options.sequence);
   prepareOutputDirectory(options.output.directory);
   describeInput(std::cout, options.input, sequence);
 
   GpuDevice device(options.gpu);
-  GpuDenoiser denoiser(device, *method, sequence.extent(), *sequence.layout().layout);
+  GpuDenoiser denoiser(device, *method, sequence.extent(), *sequence.layout().layout, options.views);
   DenoiseReport report;
   report.method = options.method.name;
   for (const SettingText& setting : method->settings()) {
@@ -157,6 +176,14 @@ void registerDenoise(CLI::App& program) {
       ->add_option("--json", options->json,
                    "Write device, driver, times (ms) and errors of every frame and their means to this file")
       ->type_name("FILE");
+  command
+      ->add_option(
+          "--view", options->views,
+          "Also write a view of the method's inner workings, view_NAME_FFFF.exr, channels X, Y, Z; may be given "
+          "several times. NAME.T looks into iteration T (0 is the first) instead of the last. A name that "
+          "there is not lists them")
+      ->allow_extra_args(false)
+      ->type_name("NAME");
   command->add_flag("--composite", options->output.composite,
                     "Write the lit picture albedo * (direct + indirect) + emission as R,G,B; needs those channels. "
                     "Errors are measured on the indirect light all the same");

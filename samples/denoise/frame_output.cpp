@@ -33,6 +33,11 @@ void writeDenoisedFrame(const DenoisedFrame& denoised, const OutputOptions& opti
   std::vector<ExrChannel> channels;
   appendChannels(channels, options.composite ? "" : "Indirect", "RGB", result);
   writeExr(path("denoised", "exr"), channels);
+  for (const ViewPicture& view : denoised.views) {
+    std::vector<ExrChannel> components;
+    appendChannels(components, "", "XYZ", view.image, ExrType::Float);
+    writeExr(path(("view_" + view.name).c_str(), "exr"), components);
+  }
   if (!options.png) {
     return;
   }

@@ -2,6 +2,8 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "samples/denoise/report.h"
 #include "samples/image/image.h"
@@ -9,11 +11,18 @@
 
 namespace walr {
 
+/// A view of the method's inner workings.
+struct ViewPicture {
+  std::string name;
+  Image image;  ///< 3 components.
+};
+
 /// A frame with its result.
 struct DenoisedFrame {
   Frame frame;
   Image indirect;  ///< 3 components: denoised demodulated diffuse indirect radiance.
   std::optional<double> gpuMilliseconds;
+  std::vector<ViewPicture> views;
 };
 
 struct OutputOptions {
@@ -27,7 +36,7 @@ struct OutputOptions {
 Image composite(const Image& indirect, const Image& direct, const Image& albedo, const Image& emission);
 
 /// Write `denoised_FFFF.exr`, and with PNGs `denoised_FFFF.png` and `comparison_FFFF.png` (noisy | denoised |
-/// reference).
+/// reference). Views go to `view_NAME_FFFF.exr`, in single precision.
 /// @throws OutputError; every file is whole or absent
 void writeDenoisedFrame(const DenoisedFrame& denoised, const OutputOptions& options);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <cstring>
 #include <numeric>
 #include <span>
 #include <utility>
@@ -39,15 +40,26 @@ class UploadedTexture {
   fg::vk::StagedImage image_;
 };
 
+/// The first three components of RGBA32F texels.
+Image viewImage(std::span<const std::byte> texels, int width, int height) {
+  Image image(width, height, 3);
+  for (std::size_t i = 0; i < image.pixelCount(); ++i) {
+    std::memcpy(image.pixel(i).data(), texels.data() + i * 4 * sizeof(float), 3 * sizeof(float));
+  }
+  return image;
+}
+
 }  // namespace
 
 struct GpuDenoiser::State {
-  State(const GpuDevice& gpu, Denoiser& method, fg::Extent extent, const Layout& frameLayout)
+  State(const GpuDevice& gpu, Denoiser& method, fg::Extent extent, const Layout& frameLayout,
+        std::span<const std::string> viewNames)
       : device(gpu.device()),
         layout(frameLayout),
         declared(declareDenoiseGraph(
             method, extent, layout.conventions,
-            {.inputs = fg::vk::kUploaded, .outputBefore = fg::vk::kOverwritable, .outputAfter = fg::vk::kReadable})),
+            {.inputs = fg::vk::kUploaded, .outputBefore = fg::vk::kOverwritable, .outputAfter = fg::vk::kReadable}, {},
+            {}, viewNames)),
         executor(device.context(), declared.graph.desc(), compileFor(gpu, declared.graph),
                  {.framesInFlight = kFramesInFlight, .timestamps = device.context().timestampBits > 0}),
         lighting(makeUpload(declared.inputs.lighting)),
@@ -59,6 +71,11 @@ struct GpuDenoiser::State {
                fg::vk::StagedImage::Direction::Readback, kFramesInFlight, "denoised"),
         queue(device.context(), device.queue(), kFramesInFlight) {
     executor.bind(declared.output, output.external());
+    for (const DebugView& view : declared.views) {
+      views.emplace_back(device.context(), declared.graph.textureDesc(view.texture), executor.usage(view.texture),
+                         fg::vk::StagedImage::Direction::Readback, kFramesInFlight, "view of " + view.name);
+      executor.bind(view.texture, views.back().external());
+    }
   }
 
   UploadedTexture makeUpload(fg::Texture texture) { return {device.context(), declared.graph, executor, texture}; }
@@ -73,6 +90,7 @@ struct GpuDenoiser::State {
   UploadedTexture motion;
   UploadedTexture albedo;
   fg::vk::StagedImage output;
+  std::vector<fg::vk::StagedImage> views;
   fg::vk::FrameQueue queue;
 };
 
@@ -84,8 +102,9 @@ std::optional<double> DenoisedPicture::milliseconds() const {
                          [](double sum, const fg::vk::PassTime& time) { return sum + time.milliseconds; });
 }
 
-GpuDenoiser::GpuDenoiser(const GpuDevice& device, Denoiser& method, fg::Extent extent, const Layout& layout)
-    : state_(std::make_unique<State>(device, method, extent, layout)) {}
+GpuDenoiser::GpuDenoiser(const GpuDevice& device, Denoiser& method, fg::Extent extent, const Layout& layout,
+                         std::span<const std::string> views)
+    : state_(std::make_unique<State>(device, method, extent, layout, views)) {}
 GpuDenoiser::~GpuDenoiser() = default;
 GpuDenoiser::GpuDenoiser(GpuDenoiser&&) noexcept = default;
 GpuDenoiser& GpuDenoiser::operator=(GpuDenoiser&&) noexcept = default;
@@ -105,13 +124,20 @@ DenoisedPicture GpuDenoiser::run(const PackedFrame& packed) {
   state.albedo.upload(recorded, packed.albedo);
   state.executor.record(recorded.commandBuffer, recorded.slot);
   state.output.recordReadback(recorded.commandBuffer, recorded.slot);
+  for (const fg::vk::StagedImage& view : state.views) view.recordReadback(recorded.commandBuffer, recorded.slot);
   state.queue.submit(recorded);
   state.queue.wait(recorded.slot);
 
   std::vector<Rgba16> texels(frame.depth.pixelCount());
   std::ranges::copy(state.output.staging(recorded.slot), std::as_writable_bytes(std::span(texels)).begin());
   const std::span<const fg::vk::PassTime> times = state.executor.passTimes(recorded.slot);
-  return {unpackRgb(texels, frame.depth.width(), frame.depth.height()), {times.begin(), times.end()}};
+  DenoisedPicture picture{
+      unpackRgb(texels, frame.depth.width(), frame.depth.height()), {times.begin(), times.end()}, {}};
+  for (std::size_t i = 0; i < state.views.size(); ++i) {
+    picture.views.push_back({state.declared.views[i].name, viewImage(state.views[i].staging(recorded.slot),
+                                                                     frame.depth.width(), frame.depth.height())});
+  }
+  return picture;
 }
 
 DenoisedFrame GpuDenoiser::denoise(PackedFrame packed) {
@@ -119,6 +145,7 @@ DenoisedFrame GpuDenoiser::denoise(PackedFrame packed) {
   DenoisedFrame denoised;
   denoised.indirect = std::move(picture.indirect);
   denoised.gpuMilliseconds = picture.milliseconds();
+  denoised.views = std::move(picture.views);
   denoised.frame = std::move(packed.frame);
   return denoised;
 }

@@ -2,6 +2,8 @@
 
 #include <memory>
 #include <optional>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "framegraph/graph.h"
@@ -19,6 +21,7 @@ struct DenoisedPicture {
   Image indirect;  ///< 3 components: denoised demodulated diffuse indirect radiance.
   /// Times by GPU timestamps, in the order of execution; empty where the queue has none.
   std::vector<fg::vk::PassTime> passes;
+  std::vector<ViewPicture> views;
 
   /// Time of all passes; the copies to and from the device are not among them.
   [[nodiscard]] std::optional<double> milliseconds() const;
@@ -31,9 +34,11 @@ class GpuDenoiser {
   /// @param device  must outlive this
   /// @param method  declares its passes here; not needed afterwards
   /// @param layout  how the frames differ from the project's conventions; must outlive this
+  /// @param views   names of the method's views to read back with every frame
   /// @throws fg::vk::Error where the device will not do
-  /// @throws std::invalid_argument naming a setting of the method that is out of range
-  GpuDenoiser(const GpuDevice& device, Denoiser& method, fg::Extent extent, const Layout& layout);
+  /// @throws std::invalid_argument naming a setting of the method that is out of range, or a view that there is not
+  GpuDenoiser(const GpuDevice& device, Denoiser& method, fg::Extent extent, const Layout& layout,
+              std::span<const std::string> views = {});
   ~GpuDenoiser();
   GpuDenoiser(GpuDenoiser&&) noexcept;
   GpuDenoiser& operator=(GpuDenoiser&&) noexcept;

@@ -114,7 +114,7 @@ void expectRegression(const DeviceFrame& f, const WeightedRegressionSettings& se
       EXPECT_EQ(glm::dvec3(f.current.filtered[p]), glm::dvec3(f.current.accumulated[p]));
       return;
     }
-    const auto [merged, edge, replaced, undecided] =
+    const auto [merged, edge, replaced, lost, undecided] =
         reference::atrousPixel(f.frame, f.current.guides, before, p, last, settings);
     if (undecided) {
       comparison.undecided();

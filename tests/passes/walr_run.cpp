@@ -47,7 +47,7 @@ fg::Extent extentOf(glm::ivec2 size) {
 }  // namespace
 
 WalrRun::WalrRun(const fg::vk::Device& device, glm::ivec2 size, WalrSettings settings,
-                 const InputConventions& conventions, bool inspect)
+                 const InputConventions& conventions, bool inspect, const std::vector<std::string>& views)
     : size_(size),
       storage_(settings.regression.storage),
       copyImage_(reinterpret_cast<PFN_vkCmdCopyImage>(
@@ -66,7 +66,10 @@ WalrRun::WalrRun(const fg::vk::Device& device, glm::ivec2 size, WalrSettings set
   inputs_.conventions = conventions;
   const fg::Texture output = graph.import("output", halves, kOverwritable);
 
-  output_ = addWalr(graph, inputs_, output, settings);
+  for (const std::string& view : views)
+    views_.push_back({view, graph.import("view of " + view, {kViewFormat, extent}, kOverwritable)});
+  output_ = addWalr(graph, inputs_, output, settings, &views_);
+  for (const DebugView& view : views_) graph.exported(view.texture, kReadable);
   graph.exported(output_, kReadable);
   if (inspect) inspectStages(graph, settings);
   run_ = std::make_unique<fg::test::GraphRun>(device, graph);
@@ -122,6 +125,12 @@ WalrStages WalrRun::frame(const reference::HostFrame& frame) {
   WalrStages stages;
   stages.outputBits = run_->texels<std::uint16_t>(output_);
   stages.output = decodeHalves(stages.outputBits, size_);
+  for (const DebugView& view : views_) {
+    const std::vector<float> texels = run_->texels<float>(view.texture);
+    reference::Image<glm::dvec3>& image = stages.views[view.name] = reference::Image<glm::dvec3>(size_);
+    for (std::size_t i = 0; i < image.pixels().size(); ++i)
+      image.pixels()[i] = {texels[4 * i], texels[4 * i + 1], texels[4 * i + 2]};
+  }
   if (!inspect_) return stages;
   stages.guides =
       decodeGuides(words(depth_), words(shadingNormal_),

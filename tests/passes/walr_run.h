@@ -1,6 +1,8 @@
 #pragma once
 
+#include <map>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "framegraph/vulkan/device.h"
@@ -19,6 +21,7 @@ struct WalrStages {
   reference::Image<glm::dvec4> resolved;  ///< rgb: mean; a: number of frames.
   reference::Image<glm::dvec4> output;
   std::vector<std::uint16_t> outputBits;  ///< RGBA16F texels of the output.
+  std::map<std::string, reference::Image<glm::dvec3>> views;
 };
 
 /// WALR on a device, fed with frames in memory.
@@ -26,8 +29,9 @@ class WalrRun {
  public:
   /// @param settings as they are, however small the picture: `fitWindow` is taken for off
   /// @param inspect read back every stage, not only the output
+  /// @param views   views of the filter to read back
   WalrRun(const fg::vk::Device& device, glm::ivec2 size, WalrSettings settings = robustWalr(),
-          const InputConventions& conventions = {}, bool inspect = true);
+          const InputConventions& conventions = {}, bool inspect = true, const std::vector<std::string>& views = {});
 
   /// Denoise one frame.
   WalrStages frame(const reference::HostFrame& frame);
@@ -53,6 +57,7 @@ class WalrRun {
   bool inspect_;
   fg::Texture depth_, shadingNormal_, geometricNormal_, accumulated_, filtered_, resolved_, output_;
   std::vector<Iteration> iterations_;
+  DebugViews views_;
   std::unique_ptr<fg::test::GraphRun> run_;
 };
 

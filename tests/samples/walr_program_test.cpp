@@ -103,6 +103,8 @@ TEST_F(ProgramTest, AWrongCommandLineIsAUsageError) {
   expectFailure(denoise({"--set", "nothing"}), kUsage, {"NAME=VALUE"});
   expectFailure(walr({"denoise", input, "--output", input}), kUsage, {"input folder"});
   expectFailure(denoise({"--preset", "fancy"}), kUsage, {"--preset fancy"});
+  expectFailure(denoise({"--view", "hedges"}), kUsage, {"--view hedges", "edges: ", "slope-u: "});
+  expectFailure(denoise({"--view", "edges", "--method", "flr"}), kUsage, {"--view edges", "flr has no views"});
   expectFailure(walr({"graph", "--size", "10"}), kUsage, {"--size 10"});
 }
 
@@ -125,6 +127,20 @@ TEST_F(ProgramTest, DenoisesAndMeasures) {
   // The reference is a constant, which a denoiser finds far better than one path a pixel does.
   EXPECT_LT(report["frames"][5]["rmse"].get<double>(), 0.25 * report["frames"][5]["noisy"]["rmse"].get<double>());
   expectFinite(readIndirect(output / "denoised_0005.exr"));
+}
+
+// At this height the window is that of one iteration, 3x3 samples at most.
+TEST_F(ProgramTest, WritesViewsBesideTheResult) {
+  files.write(0, 1);
+  expectSuccess(denoise({"--preset", "robust", "--view", "samples", "--view", "edges.0"}));
+  const std::vector<std::string> expected = {"denoised_0000.exr",     "denoised_0001.exr",     "view_edges.0_0000.exr",
+                                             "view_edges.0_0001.exr", "view_samples_0000.exr", "view_samples_0001.exr"};
+  EXPECT_EQ(outputFiles(), expected);
+  ExrReader reader(output / "view_samples_0001.exr");
+  Image count(reader.width(), reader.height(), 1);
+  reader.read(std::vector<ExrReader::Target>{{"X", &count, 0}});
+  EXPECT_TRUE(std::ranges::all_of(count.values(), [](float w) { return w >= 0.0F && w <= 9.0F; }));
+  EXPECT_GT(*std::ranges::max_element(count.values()), 8.0F);
 }
 
 TEST_F(ProgramTest, MethodNoneGivesTheInputBack) {

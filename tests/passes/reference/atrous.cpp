@@ -69,7 +69,10 @@ AtrousPixel atrousPixel(const HostFrame& frame, const Image<Guide>& guides, cons
       if (settings.edgeLeak > 0.0F && isolated && guides.contains(p + direction)) {
         parts[count++] = part(p + direction, double(settings.edgeLeak), 0.0);
       }
-      if (settings.replaceTaps == TapReplacement::Off || (isolated && !settings.repeatCentre)) continue;
+      if (settings.replaceTaps == TapReplacement::Off || (isolated && !settings.repeatCentre)) {
+        ++result.lost;
+        continue;
+      }
       ++result.replaced;
       reach = replacementStep(frame, p, iteration, tap, traced.edge, settings.replaceTaps);
       traced = trace(direction, reach);

@@ -17,6 +17,7 @@ struct AtrousPixel {
   MergedMoments merged;
   int nearestEdge = 0;     ///< Step of the nearest edge on the eight traces; spacing + 1 if there is none.
   int replaced = 0;        ///< Number of taps that gave way to another on their segment.
+  int lost = 0;            ///< Number of taps that gave way to none.
   bool undecided = false;  ///< Whether a tap met an edge, or any sample at all, lay within rounding.
 };
 
