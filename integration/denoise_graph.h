@@ -41,8 +41,7 @@ DenoiserInputs importInputs(fg::Graph& graph, fg::Extent extent, const InputConv
 /// @param host    how the textures are written; what differs from `DenoiserInputs` is converted first
 /// @param views   names of the method's views to write as well, into textures that go the output's way
 /// @throws std::invalid_argument naming a setting of the method that is out of range, an input of a format that will
-/// not
-///         do, or a view that there is not
+///         not do, or a view that there is not
 DenoiseGraph declareDenoiseGraph(Denoiser& method, fg::Extent extent, const InputConventions& conventions,
                                  const HostStates& states, std::span<const VkFormat> formats = {},
                                  const HostConventions& host = {}, std::span<const std::string> views = {});
