@@ -72,7 +72,7 @@ void weightedRegression(StagePorts& ports, const WeightedRegressionSettings& set
   const fg::Texture target =
       ports.graph().texture("filtered", {kColour, ports.graph().textureDesc(accumulated).extent});
   ports.setOutput("filtered", addWeightedRegression(ports.graph(), ports.buffer(kFrameName), accumulated,
-                                                    ports.guides(), target, settings));
+                                                    LightingAlpha::SampleCount, ports.guides(), target, settings));
 }
 
 void fullWindowRegression(StagePorts& ports, const FullWindowSettings& settings) {
@@ -85,8 +85,9 @@ void ambientOcclusion(StagePorts& ports, const AmbientOcclusionSettings& setting
 }
 
 void blockRegression(StagePorts& ports, const BlockRegressionSettings& settings) {
-  ports.setOutput("filtered", addBlockRegression(ports.graph(), ports.buffer(kFrameName), ports.texture("accumulated"),
-                                                 ports.guides(), ports.texture("occlusion"), settings));
+  ports.setOutput("filtered",
+                  addBlockRegression(ports.graph(), ports.buffer(kFrameName), ports.texture("accumulated"),
+                                     LightingAlpha::SampleCount, ports.guides(), ports.texture("occlusion"), settings));
 }
 
 void bmfrFit(StagePorts& ports, const BmfrFitSettings& settings) {

@@ -7,9 +7,8 @@ namespace walr {
 
 fg::Texture addAccumulate(fg::Graph& graph, const DenoiserInputs& inputs, fg::Texture output,
                           const AccumulateSettings& settings) {
-  const Guides guides =
-      addPrepareGuides(graph, inputs, settings.guides,
-                       guideNeeds({.accumulation = settings.accumulation, .antialiasing = {.enabled = false}}, false));
+  const TemporalStages stages{.accumulation = settings.accumulation, .antialiasing = {.enabled = false}};
+  const Guides guides = addPrepareGuides(graph, inputs, settings.guides, guideNeeds(stages, inputs.scene, false));
   return addPassThrough(graph, addTemporalAccumulation(graph, inputs, guides, settings.accumulation), output);
 }
 

@@ -110,8 +110,8 @@ BlockFits addFineFit(const BlockGrid& grid, BlockAverages averages, fg::Texture 
 
 }  // namespace
 
-fg::Texture addBlockRegression(fg::Graph& graph, fg::Buffer frame, fg::Texture accumulated, const Guides& guides,
-                               fg::Texture occlusion, const BlockRegressionSettings& settings) {
+fg::Texture addBlockRegression(fg::Graph& graph, fg::Buffer frame, fg::Texture accumulated, LightingAlpha alpha,
+                               const Guides& guides, fg::Texture occlusion, const BlockRegressionSettings& settings) {
   if (!(settings.planeNear < settings.planeFar)) {
     throw std::invalid_argument("setting blocks.plane-near must be below blocks.plane-far");
   }
@@ -124,6 +124,7 @@ fg::Texture addBlockRegression(fg::Graph& graph, fg::Buffer frame, fg::Texture a
       .sample("geometricNormal", guides.geometricNormal)
       .sample("occlusion", occlusion)
       .sample("accumulated", accumulated)
+      .specialize("kAlphaIsSampleCount", alpha == LightingAlpha::SampleCount)
       .specialize("kBlockSize", grid.size)
       .constants(grid.constants)
       .dispatch(grid.blocks);
@@ -141,6 +142,7 @@ fg::Texture addBlockRegression(fg::Graph& graph, fg::Buffer frame, fg::Texture a
       .sample("geometricNormal", guides.geometricNormal)
       .sample("occlusion", occlusion)
       .sample("accumulated", accumulated)
+      .specialize("kAlphaIsSampleCount", alpha == LightingAlpha::SampleCount)
       .sample("fitA", fine.a)
       .sample("fitB", fine.b)
       .sample("fitC", fine.c)

@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "framegraph/graph.h"
+#include "passes/lighting_alpha.h"
 #include "passes/prepare_guides.h"
 #include "passes/settings.h"
 
@@ -52,11 +53,13 @@ struct BlockRegressionSettings {
 /// edge-aware a-trous averages a coarse fit where they hold few samples, and the
 /// reconstruction of every pixel from the fits around it.
 /// @param frame       upload of `FrameConstants`
-/// @param accumulated RGBA16F: radiance to filter; alpha: number of samples behind it
+/// @param accumulated RGBA16F: radiance to filter; a value that is not finite is no sample
+/// @param alpha       what the alpha channel of `accumulated` says; a pixel with no sample has no say
 /// @param occlusion   R16_SFLOAT: ambient occlusion
 /// @returns RGBA16F: filtered radiance; sky and pixels without a diffuse lobe as they were
 /// @throws std::invalid_argument for settings outside their range
-fg::Texture addBlockRegression(fg::Graph& graph, fg::Buffer frame, fg::Texture accumulated, const Guides& guides,
-                               fg::Texture occlusion, const BlockRegressionSettings& settings = {});
+fg::Texture addBlockRegression(fg::Graph& graph, fg::Buffer frame, fg::Texture accumulated, LightingAlpha alpha,
+                               const Guides& guides, fg::Texture occlusion,
+                               const BlockRegressionSettings& settings = {});
 
 }  // namespace walr

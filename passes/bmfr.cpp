@@ -9,7 +9,7 @@ fg::Texture addBmfr(fg::Graph& graph, const DenoiserInputs& inputs, fg::Texture 
                               .antialiasing = settings.antialiasing,
                               .spatialOnly = settings.spatialOnly,
                               .keepTaps = true};
-  const Guides guides = addPrepareGuides(graph, inputs, settings.guides, guideNeeds(stages, false));
+  const Guides guides = addPrepareGuides(graph, inputs, settings.guides, guideNeeds(stages, inputs.scene, false));
   const auto filter = [&](const FilterInput& input) {
     const fg::Texture target = settings.spatialOnly ? input.output : graph.texture("fit", graph.textureDesc(output));
     const fg::Texture fitted =

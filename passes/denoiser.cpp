@@ -38,11 +38,23 @@ template <>
 constexpr std::array kPresets<SvgfSettings>{Preset<SvgfSettings>{"tuned", tunedSvgf},
                                             Preset<SvgfSettings>{"paper", paperSvgf}};
 
+/// What two descriptions of one scene leave of it.
+SceneDescription common(const SceneDescription& a, const SceneDescription& b) {
+  return {.cameraMotion = a.cameraMotion && b.cameraMotion,
+          .objectMotion = a.objectMotion && b.objectMotion,
+          .jitter = a.jitter && b.jitter,
+          .sky = a.sky && b.sky,
+          .hostAntialiasing = a.hostAntialiasing || b.hostAntialiasing};
+}
+
 /// A method made of a settings struct and the function that adds its passes.
 template <typename Settings, auto kAdd>
 class DenoiserOf final : public Denoiser {
  public:
-  void visitSettings(SettingVisitor& visitor) override { settings_.visit(visitor); }
+  void visitSettings(SettingVisitor& visitor) override {
+    settings_.visit(visitor);
+    scene_.visit(visitor);
+  }
 
   [[nodiscard]] std::vector<std::string> presets() const override {
     std::vector<std::string> names;
@@ -54,6 +66,7 @@ class DenoiserOf final : public Denoiser {
     for (const auto& preset : kPresets<Settings>) {
       if (preset.name != name) continue;
       settings_ = preset.make();
+      scene_ = {};
       return;
     }
     throw std::invalid_argument("there is no preset \"" + std::string(name) + "\" of this method; known presets: " +
@@ -62,13 +75,15 @@ class DenoiserOf final : public Denoiser {
 
   fg::Texture add(fg::Graph& graph, const DenoiserInputs& inputs, fg::Texture output, DebugViews* views) override {
     checkSettings();
+    DenoiserInputs described = inputs;
+    described.scene = common(inputs.scene, scene_);
     if constexpr (kHasViews) {
-      return kAdd(graph, inputs, output, settings_, views);
+      return kAdd(graph, described, output, settings_, views);
     } else {
       if (views != nullptr && !views->empty()) {
         throw std::invalid_argument("there is no view \"" + views->front().name + "\": this method has none");
       }
-      return kAdd(graph, inputs, output, settings_);
+      return kAdd(graph, described, output, settings_);
     }
   }
 
@@ -81,6 +96,7 @@ class DenoiserOf final : public Denoiser {
   static constexpr bool kHasViews =
       std::is_invocable_v<decltype(kAdd), fg::Graph&, const DenoiserInputs&, fg::Texture, const Settings&, DebugViews*>;
   Settings settings_{};
+  SceneDescription scene_;
 };
 
 template <typename Settings, auto kAdd>

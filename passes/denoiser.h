@@ -22,7 +22,7 @@ class Denoiser : public Configurable {
   virtual void usePreset(std::string_view name) = 0;
   /// Add the method's passes to a graph.
   /// @param graph   the host's graph
-  /// @param inputs  the host's textures
+  /// @param inputs  the host's textures, and what scene and host bring along; settings may leave out more of it
   /// @param output  RGBA16F texture of the inputs' extent that the result is written to
   /// @returns the output's new version: denoised demodulated diffuse indirect radiance; sky and pixels without a
   /// diffuse

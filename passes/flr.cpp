@@ -8,7 +8,7 @@ fg::Texture addFlr(fg::Graph& graph, const DenoiserInputs& inputs, fg::Texture o
   const TemporalStages stages{.accumulation = settings.accumulation,
                               .antialiasing = settings.antialiasing,
                               .spatialOnly = settings.spatialOnly};
-  const Guides guides = addPrepareGuides(graph, inputs, settings.guides, guideNeeds(stages, false));
+  const Guides guides = addPrepareGuides(graph, inputs, settings.guides, guideNeeds(stages, inputs.scene, false));
   FlrRegressionSettings regression = settings.regression;
   if (settings.spatialOnly) regression.sigma = settings.singleFrameSigma;
   return addTemporalStages(graph, inputs, guides, output, stages, [&](const FilterInput& input) {

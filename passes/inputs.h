@@ -1,6 +1,7 @@
 #pragma once
 
 #include "framegraph/graph.h"
+#include "passes/scene_description.h"
 
 namespace walr {
 
@@ -26,6 +27,7 @@ struct DenoiserInputs {
   fg::Texture albedo;    ///< RGBA16F: diffuse albedo; below 0.01 in all channels a pixel has no diffuse lobe.
   fg::Buffer frame;      ///< Upload of `FrameConstants` (passes/frame.h).
   InputConventions conventions;
+  SceneDescription scene = {};
 };
 
 }  // namespace walr

@@ -4,8 +4,9 @@ namespace walr {
 
 fg::Texture addJointBilateral(fg::Graph& graph, const DenoiserInputs& inputs, fg::Texture output,
                               const JointBilateralSettings& settings) {
-  const bool antialias = settings.accumulation.enabled && !settings.spatialOnly;
-  const Guides guides = addPrepareGuides(graph, inputs, settings.guides, {.history = antialias});
+  const bool antialias = settings.accumulation.enabled && !inputs.scene.hostAntialiasing && !settings.spatialOnly;
+  const Guides guides =
+      addPrepareGuides(graph, inputs, settings.guides, {.history = antialias && !inputs.scene.still()});
   const fg::TextureDesc colourDesc{VK_FORMAT_R16G16B16A16_SFLOAT, graph.textureDesc(inputs.lighting).extent};
   const fg::Texture target = !antialias ? output : graph.texture("bilateral.filtered", colourDesc);
   const fg::Texture filtered =

@@ -40,6 +40,7 @@ Guides addPrepareGuides(fg::Graph& graph, const DenoiserInputs& inputs, const Pr
       .sample("depth", inputs.depth)
       .sample("normal", inputs.normal)
       .specialize("kNormalsInWorldSpace", inputs.conventions.normal == InputConventions::Space::World)
+      .specialize("kSky", inputs.scene.sky)
       .constants(PrepareGuidesConstants{settings.albedoThreshold, settings.tangentTolerance, settings.normalAgreement})
       .texels(extent)
       .dispatch(extent);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "passes/temporal_stages.h"
 #include "passes/walr.h"
 #include "passes/window_fit.h"
 
@@ -36,10 +37,11 @@ fg::Texture addRefwlr(fg::Graph& graph, const DenoiserInputs& inputs, fg::Textur
   const std::uint32_t height = graph.textureDesc(inputs.lighting).extent.height;
   if (settings.fitWindow) regression.window = std::min(regression.window, fittingWindow(height));
 
+  const TemporalStages stages{.accumulation = settings.accumulation, .antialiasing = settings.antialiasing};
   const Guides guides = addPrepareGuides(graph, inputs, settings.guides);
-  const fg::Texture accumulated = addTemporalAccumulation(graph, inputs, guides, settings.accumulation);
-  const fg::Texture filtered = addFullWindowRegression(graph, inputs.frame, accumulated, guides, regression);
-  return addTemporalAntialiasing(graph, inputs, guides, filtered, output, settings.antialiasing);
+  return addTemporalStages(graph, inputs, guides, output, stages, [&](const FilterInput& input) {
+    return addFullWindowRegression(graph, inputs.frame, input.lighting, guides, regression);
+  });
 }
 
 }  // namespace walr

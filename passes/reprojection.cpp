@@ -2,14 +2,20 @@
 
 namespace walr {
 
+MotionSource motionSource(const SceneDescription& scene) {
+  return scene.objectMotion ? MotionSource::Texture : MotionSource::Camera;
+}
+
 void readReprojection(fg::PassBuilder& pass, const DenoiserInputs& inputs, const Guides& guides,
-                      HistoryRejection rejection, bool dilateMotion) {
-  const bool motionDepthGiven = inputs.conventions.motionDepth == InputConventions::MotionDepth::Given;
+                      HistoryRejection rejection, MotionSource motion, bool dilateMotion) {
   pass.uniform("frameConstants", inputs.frame)
-      .sample("motion", inputs.motion)
       .sample("depth", guides.depth)
-      .specialize("kMotionDepthGiven", motionDepthGiven)
+      .specialize("kJitter", inputs.scene.jitter)
       .specialize("kDilateMotion", dilateMotion);
+  if (motion == MotionSource::Texture) {
+    const bool motionDepthGiven = inputs.conventions.motionDepth == InputConventions::MotionDepth::Given;
+    pass.sample("motion", inputs.motion).specialize("kMotionDepthGiven", motionDepthGiven);
+  }
   if (rejection != HistoryRejection::None) pass.sample("previousDepth", guides.previousDepth);
   if (rejection == HistoryRejection::Plane) {
     pass.sample("geometricNormal", guides.geometricNormal)

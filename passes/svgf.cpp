@@ -39,7 +39,7 @@ fg::Texture addSvgf(fg::Graph& graph, const DenoiserInputs& inputs, fg::Texture 
       addSvgfAccumulation(graph, inputs, guides, colour.previous, mean, settings.accumulation);
   const fg::Texture guided = addSvgfVariance(graph, inputs.frame, accumulated, guides, settings.filter);
   const fg::Texture filtered = addSvgfAtrous(graph, inputs.frame, guided, guides, colour.current, settings.filter);
-  if (!settings.antialiasing.enabled) return addPassThrough(graph, filtered, output);
+  if (!settings.antialiasing.enabled || inputs.scene.hostAntialiasing) return addPassThrough(graph, filtered, output);
   return addTemporalAntialiasing(graph, inputs, guides, filtered, output, settings.antialiasing);
 }
 

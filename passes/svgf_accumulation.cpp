@@ -13,7 +13,7 @@ SvgfAccumulated addSvgfAccumulation(fg::Graph& graph, const DenoiserInputs& inpu
   const fg::History moments = graph.history("svgf.moments", {VK_FORMAT_R16G16B16A16_SFLOAT, extent});
 
   fg::PassBuilder pass = graph.compute("svgf accumulation", shaders::svgfAccumulation);
-  readReprojection(pass, inputs, guides, HistoryRejection::Plane);
+  readReprojection(pass, inputs, guides, HistoryRejection::Plane, MotionSource::Texture);
   pass.sample("lighting", inputs.lighting)
       .sample("previousColour", previousColour)
       .sample("previousMoments", moments.previous)

@@ -10,23 +10,35 @@ namespace walr {
 
 namespace {
 
-const fg::Shader& shaderFor(HistoryRejection rejection, bool keepTaps) {
+const fg::Shader& shaderFor(MotionSource motion, HistoryRejection rejection, bool keepTaps) {
   using namespace shaders;
-  static constexpr std::array<std::array<const fg::Shader*, 2>, 3> kShaders{
-      {{&temporalAccumulationPlane, &temporalAccumulationPlaneTaps},
-       {&temporalAccumulationDepth, &temporalAccumulationDepthTaps},
-       {&temporalAccumulation, &temporalAccumulationTaps}}};
-  return *kShaders.at(static_cast<std::size_t>(rejection)).at(keepTaps ? 1 : 0);
+  using ByRejection = std::array<std::array<const fg::Shader*, 2>, 3>;
+  static constexpr std::array<ByRejection, 2> kShaders{
+      {{{{&temporalAccumulationPlane, &temporalAccumulationPlaneTaps},
+         {&temporalAccumulationDepth, &temporalAccumulationDepthTaps},
+         {&temporalAccumulation, &temporalAccumulationTaps}}},
+       {{{&temporalAccumulationCameraPlane, &temporalAccumulationCameraPlaneTaps},
+         {&temporalAccumulationCameraDepth, &temporalAccumulationCameraDepthTaps},
+         {&temporalAccumulationCamera, &temporalAccumulationCameraTaps}}}}};
+  return *kShaders.at(static_cast<std::size_t>(motion)).at(static_cast<std::size_t>(rejection)).at(keepTaps ? 1 : 0);
 }
 
 /// The pass without its outputs; the first of them is the current texture of `accumulated`.
 fg::PassBuilder addAccumulationPass(fg::Graph& graph, bool keepTaps, const DenoiserInputs& inputs, const Guides& guides,
                                     const fg::History& accumulated, const TemporalAccumulationSettings& settings) {
-  fg::PassBuilder pass = graph.compute("temporal accumulation", shaderFor(settings.rejection, keepTaps));
-  readReprojection(pass, inputs, guides, settings.rejection, settings.dilateMotion);
+  const bool still = inputs.scene.still() && !keepTaps;
+  const MotionSource motion = motionSource(inputs.scene);
+  fg::PassBuilder pass =
+      graph.compute("temporal accumulation",
+                    still ? shaders::temporalAccumulationStill : shaderFor(motion, settings.rejection, keepTaps));
+  if (still) {
+    pass.sample("depth", guides.depth);
+  } else {
+    readReprojection(pass, inputs, guides, settings.rejection, motion, settings.dilateMotion);
+    pass.specialize("kBicubicHistory", settings.historyFilter == HistoryFilter::Bicubic);
+  }
   pass.sample("lighting", inputs.lighting)
       .sample("previousAccumulated", accumulated.previous)
-      .specialize("kBicubicHistory", settings.historyFilter == HistoryFilter::Bicubic)
       .constants(TemporalAccumulationConstants{settings.maxSamples, settings.planeTolerance, settings.normalThreshold})
       .dispatch(graph.textureDesc(inputs.lighting).extent);
   return pass;

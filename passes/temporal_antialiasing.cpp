@@ -9,10 +9,12 @@
 namespace walr {
 namespace {
 
-const fg::Shader& shaderFor(HistoryRejection rejection) {
+const fg::Shader& shaderFor(MotionSource motion, HistoryRejection rejection) {
   using namespace shaders;
-  static constexpr std::array kShaders{&temporalAntialiasingPlane, &temporalAntialiasingDepth, &temporalAntialiasing};
-  return *kShaders.at(static_cast<std::size_t>(rejection));
+  static constexpr std::array<std::array<const fg::Shader*, 3>, 2> kShaders{
+      {{&temporalAntialiasingPlane, &temporalAntialiasingDepth, &temporalAntialiasing},
+       {&temporalAntialiasingCameraPlane, &temporalAntialiasingCameraDepth, &temporalAntialiasingCamera}}};
+  return *kShaders.at(static_cast<std::size_t>(motion)).at(static_cast<std::size_t>(rejection));
 }
 
 /// What does not depend on where the reprojection comes from.
@@ -37,8 +39,14 @@ constexpr const char* kPassName = "temporal anti-aliasing";
 fg::Texture addTemporalAntialiasing(fg::Graph& graph, const DenoiserInputs& inputs, const Guides& guides,
                                     fg::Texture filtered, fg::Texture output,
                                     const TemporalAntialiasingSettings& settings) {
-  fg::PassBuilder pass = graph.compute(kPassName, shaderFor(settings.rejection));
-  readReprojection(pass, inputs, guides, settings.rejection, settings.dilateMotion);
+  if (inputs.scene.still()) {
+    fg::PassBuilder pass = graph.compute(kPassName, shaders::temporalAntialiasingStill);
+    pass.sample("depth", guides.depth);
+    return finishPass(graph, pass, filtered, output, settings);
+  }
+  const MotionSource motion = motionSource(inputs.scene);
+  fg::PassBuilder pass = graph.compute(kPassName, shaderFor(motion, settings.rejection));
+  readReprojection(pass, inputs, guides, settings.rejection, motion, settings.dilateMotion);
   return finishPass(graph, pass, filtered, output, settings);
 }
 

@@ -6,9 +6,10 @@
 
 namespace walr {
 
-GuideNeeds guideNeeds(const TemporalStages& stages, bool filterNeedsGeometricNormal) {
-  if (stages.spatialOnly) return {.geometricNormal = filterNeedsGeometricNormal, .history = false};
-  const bool antialias = stages.antialiasing.enabled;
+GuideNeeds guideNeeds(const TemporalStages& stages, const SceneDescription& scene, bool filterNeedsGeometricNormal) {
+  const bool reprojects = !stages.spatialOnly && (!scene.still() || stages.keepTaps);
+  if (!reprojects) return {.geometricNormal = filterNeedsGeometricNormal, .history = false};
+  const bool antialias = stages.antialiasing.enabled && !scene.hostAntialiasing;
   const auto uses = [&](HistoryRejection rejection) {
     return stages.accumulation.rejection == rejection || (antialias && stages.antialiasing.rejection == rejection);
   };
@@ -31,8 +32,9 @@ fg::Texture addTemporalStages(fg::Graph& graph, const DenoiserInputs& inputs, co
   };
   if (stages.spatialOnly) return filterToOutput({.lighting = inputs.lighting});
 
-  const bool antialias = stages.antialiasing.enabled;
-  const bool share = antialias && sharesReprojection(stages.antialiasing, stages.accumulation);
+  const bool antialias = stages.antialiasing.enabled && !inputs.scene.hostAntialiasing;
+  const bool reprojects = !inputs.scene.still() || stages.keepTaps;
+  const bool share = antialias && reprojects && sharesReprojection(stages.antialiasing, stages.accumulation);
   FilterInput input{.alpha = LightingAlpha::SampleCount};
   if (share || stages.keepTaps) {
     const auto [mean, taps] = addTemporalAccumulationWithTaps(graph, inputs, guides, stages.accumulation);

@@ -36,9 +36,9 @@ struct TemporalStages {
 
 /// The guides that these stages read, beside those of the filter.
 /// @param filterNeedsGeometricNormal whether the filter reads the geometric normal
-GuideNeeds guideNeeds(const TemporalStages& stages, bool filterNeedsGeometricNormal);
+GuideNeeds guideNeeds(const TemporalStages& stages, const SceneDescription& scene, bool filterNeedsGeometricNormal);
 
-/// Add accumulation, filter and anti-aliasing, as far as the settings ask for them. Anti-aliasing reads the
+/// Add accumulation, filter and anti-aliasing, as far as settings and scene ask for them. Anti-aliasing reads the
 /// reprojection that accumulation has kept, where both look for their histories in the same way.
 /// @param output RGBA16F texture to write the result to
 /// @returns the output's new version

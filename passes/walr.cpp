@@ -14,8 +14,8 @@ fg::Texture addPixelFilter(fg::Graph& graph, fg::Buffer frame, const FilterInput
   WeightedRegressionSettings regression = settings.regression;
   const std::uint32_t height = graph.textureDesc(input.lighting).extent.height;
   if (settings.fitWindow) regression.iterations = std::min(regression.iterations, fittingIterations(height));
-  return addWeightedRegression(graph, frame, input.lighting, guides, input.target(graph, "filtered"), regression,
-                               views);
+  return addWeightedRegression(graph, frame, input.lighting, input.alpha, guides, input.target(graph, "filtered"),
+                               regression, views);
 }
 
 fg::Texture addBlockFilter(fg::Graph& graph, fg::Buffer frame, const FilterInput& input, const Guides& guides,
@@ -27,7 +27,7 @@ fg::Texture addBlockFilter(fg::Graph& graph, fg::Buffer frame, const FilterInput
     blocks.iterations = std::min(blocks.iterations, fittingIterations(height, blocks.size));
   }
   const fg::Texture occlusion = addAmbientOcclusion(graph, frame, guides, settings.occlusion);
-  return addBlockRegression(graph, frame, input.lighting, guides, occlusion, blocks);
+  return addBlockRegression(graph, frame, input.lighting, input.alpha, guides, occlusion, blocks);
 }
 
 }  // namespace
@@ -64,13 +64,16 @@ WalrSettings paperWalr() {
 
 fg::Texture addWalr(fg::Graph& graph, const DenoiserInputs& inputs, fg::Texture output, const WalrSettings& settings,
                     DebugViews* views) {
-  const TemporalStages stages{.accumulation = settings.accumulation, .antialiasing = settings.antialiasing};
+  const TemporalStages stages{.accumulation = settings.accumulation,
+                              .antialiasing = settings.antialiasing,
+                              .spatialOnly = settings.spatialOnly};
   const bool pixels = settings.filter == SpatialFilter::Pixels;
   if (views != nullptr && !views->empty() && !pixels) {
     throw std::invalid_argument("view \"" + views->front().name + "\" needs setting walr.filter=pixels");
   }
   const bool geometricPlane = !pixels || settings.regression.edgeStopping.planeNormal == PlaneNormal::Geometric;
-  const Guides guides = addPrepareGuides(graph, inputs, settings.guides, guideNeeds(stages, geometricPlane));
+  const Guides guides =
+      addPrepareGuides(graph, inputs, settings.guides, guideNeeds(stages, inputs.scene, geometricPlane));
   return addTemporalStages(graph, inputs, guides, output, stages, [&](const FilterInput& input) {
     return pixels ? addPixelFilter(graph, inputs.frame, input, guides, settings, views)
                   : addBlockFilter(graph, inputs.frame, input, guides, settings);

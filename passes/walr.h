@@ -19,6 +19,7 @@ enum class SpatialFilter : std::uint32_t {
 
 /// Settings of all stages of WALR.
 struct WalrSettings {
+  bool spatialOnly = false;
   PrepareGuidesSettings guides;
   TemporalAccumulationSettings accumulation;
   WeightedRegressionSettings regression;
@@ -29,6 +30,8 @@ struct WalrSettings {
   bool fitWindow = true;
 
   void visit(SettingVisitor& v) {
+    v.visit({"spatial-only", "Filter each frame by itself, without the temporal stages", "", 0, 1, "walr.txt 4.3"},
+            spatialOnly);
     guides.visit(v);
     accumulation.visit(v);
     static constexpr std::string_view kFilters[] = {"pixels", "blocks"};

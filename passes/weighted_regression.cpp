@@ -67,7 +67,7 @@ struct Iteration {
 
 /// A pass that does an iteration, but for what it writes.
 fg::PassBuilder declareIteration(fg::Graph& graph, const std::string& name, Role role, const Iteration& iteration,
-                                 fg::Buffer frame, fg::Texture accumulated, const Guides& guides,
+                                 fg::Buffer frame, fg::Texture accumulated, LightingAlpha alpha, const Guides& guides,
                                  const WeightedRegressionSettings& settings) {
   static constexpr std::array kBindings{"momentsA", "momentsB", "momentsC", "momentsD"};
   const bool first = iteration.index == 0;
@@ -87,6 +87,7 @@ fg::PassBuilder declareIteration(fg::Graph& graph, const std::string& name, Role
                                  settings.regularisation.ridge, settings.regularisation.noiseRidge})
       .dispatch(graph.textureDesc(accumulated).extent);
   if (first || role == Role::View) pass.sample("accumulated", accumulated);
+  if (first) pass.specialize("kAlphaIsSampleCount", alpha == LightingAlpha::SampleCount);
   if (first || role != Role::Averages) pass.sample("shadingNormal", guides.shadingNormal);
   for (std::size_t i = 0; i < iteration.averages.moments.size(); ++i) {
     pass.sample(kBindings.at(i), iteration.averages.moments[i]);
@@ -115,13 +116,14 @@ Averages writeAverages(fg::Graph& graph, fg::PassBuilder& pass, const StorageLay
 
 }  // namespace
 
-fg::Texture addWeightedRegression(fg::Graph& graph, fg::Buffer frame, fg::Texture accumulated, const Guides& guides,
-                                  fg::Texture output, const WeightedRegressionSettings& settings, DebugViews* views) {
+fg::Texture addWeightedRegression(fg::Graph& graph, fg::Buffer frame, fg::Texture accumulated, LightingAlpha alpha,
+                                  const Guides& guides, fg::Texture output, const WeightedRegressionSettings& settings,
+                                  DebugViews* views) {
   checkSettings(settings);
   const fg::Extent extent = graph.textureDesc(accumulated).extent;
   Iteration iteration{.averages = {.moments = {}, .depth = guides.depth}};
   const auto declare = [&](const std::string& name, Role role) {
-    return declareIteration(graph, name, role, iteration, frame, accumulated, guides, settings);
+    return declareIteration(graph, name, role, iteration, frame, accumulated, alpha, guides, settings);
   };
   for (;; ++iteration.index, iteration.spacing *= 3) {
     if (views != nullptr) {

@@ -48,6 +48,9 @@ layout(set = 0, binding = 12, r32ui) uniform writeonly uimage2D outDepth;
 layout(push_constant) uniform PushConstants { AtrousConstants settings; };
 
 #include "include/edge_tracing.glsl"
+#ifdef FIRST
+#include "include/light.glsl"
+#endif
 #include "include/moments_storage.glsl"
 
 #if defined(FIRST) || defined(LAST)
@@ -56,7 +59,7 @@ vec2 featuresAt(ivec2 q) { return unpackFeatures(texelFetch(shadingNormal, q, 0)
 
 Moments readMoments(ivec2 q) {
 #ifdef FIRST
-  return momentsOf(featuresAt(q), texelFetch(accumulated, q, 0));
+  return momentsOf(featuresAt(q), lightAt(q));
 #else
   return loadMoments(q);
 #endif

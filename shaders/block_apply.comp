@@ -29,6 +29,7 @@ layout(push_constant) uniform PushConstants { BlockRegressionConstants settings;
 #include "include/block_fit.glsl"
 #include "include/block_plane.glsl"
 #include "include/half.glsl"
+#include "include/light.glsl"
 #include "include/plane.glsl"
 
 struct Prediction {
@@ -64,10 +65,9 @@ vec3 mixFits(Prediction fine, Prediction coarse, vec3 mean) {
 void main() {
   const ivec2 p = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(p, textureSize(depth, 0)))) return;
-  const vec3 mean = texelFetch(accumulated, p, 0).rgb;
   const float z = unpackDepth(texelFetch(depth, p, 0).x);
   if (z == 0.0) {
-    imageStore(outFiltered, p, vec4(mean, 0.0));
+    imageStore(outFiltered, p, vec4(passedLight(p), 1.0));
     return;
   }
   const vec3 shading = unpackNormal(texelFetch(shadingNormal, p, 0).x);
@@ -95,5 +95,5 @@ void main() {
       add(fine, weight, loadFine(block), featuresOf(shading, fineZ / z - 1.0, occluded));
     }
   }
-  imageStore(outFiltered, p, nearestHalf(vec4(mixFits(fine, coarse, mean), 0.0)));
+  imageStore(outFiltered, p, nearestHalf(vec4(mixFits(fine, coarse, lightAt(p).rgb), 1.0)));
 }

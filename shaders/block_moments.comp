@@ -23,6 +23,7 @@ layout(set = 0, binding = 18, r32ui) uniform writeonly uimage2D outNormal;
 layout(push_constant) uniform PushConstants { BlockRegressionConstants settings; };
 #include "include/plane.glsl"
 #include "include/block_plane.glsl"
+#include "include/light.glsl"
 
 // A random pixel of the block with a surface; false where it shows none.
 bool chooseRepresentative(ivec2 block, out int pixel) {
@@ -57,7 +58,7 @@ void main() {
     const ivec2 p = kBlockSize * block + ivec2(i % kBlockSize, i / kBlockSize);
     if (any(greaterThanEqual(p, size))) continue;
     const float zp = unpackDepth(texelFetch(depth, p, 0).x);
-    const vec4 mean = texelFetch(accumulated, p, 0);
+    const vec4 mean = lightAt(p);
     if (zp == 0.0 || mean.a == 0.0) continue;
     const float weight =
         onPlane(planeDistance(plane, p, zp)) * facing(normal, unpackNormal(texelFetch(geometricNormal, p, 0).x));

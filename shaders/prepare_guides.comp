@@ -12,6 +12,7 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 0) const bool kNormalsInWorldSpace = false;
+layout(constant_id = 1) const bool kSky = true;  // Some pixels show none but the sky.
 
 layout(set = 0, binding = 0, std140) uniform frameConstants { FrameConstants frame; };
 layout(set = 0, binding = 1) uniform texture2D depth;
@@ -26,7 +27,7 @@ layout(set = 0, binding = 6, r32ui) uniform writeonly uimage2D outGeometricNorma
 #endif
 layout(push_constant) uniform PushConstants { PrepareGuidesConstants settings; };
 
-bool isSurfaceDepth(float z) { return isFinite(z) && z > 0.0 && z < frame.skyDepth; }
+bool isSurfaceDepth(float z) { return isFinite(z) && z > 0.0 && (!kSky || z < frame.skyDepth); }
 
 #ifdef GEOMETRIC_NORMAL
 // Inverse depth, which is linear over the image of a plane; 0 outside the image and on sky.

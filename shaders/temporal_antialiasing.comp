@@ -1,7 +1,7 @@
 // WALR postprocessing (walr.txt 4.4): reproject the filtered history with a bicubic filter, pull it into the variance of
 // the current neighbourhood, then a cumulative mean that turns exponential after a fixed number of frames. With KEPT_TAPS
 // the reprojection is what the accumulation kept of its own; else REJECT_BY_PLANE and REJECT_BY_DEPTH say how history
-// pixels are tested.
+// pixels are tested. STILL: every pixel shows what it showed before.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -21,9 +21,13 @@ layout(set = 0, binding = 3, rgba16f) uniform writeonly image2D outImage;
 #ifdef KEPT_TAPS
 layout(set = 0, binding = 4) uniform utexture2D keptTaps;
 #else
-layout(set = 0, binding = 4, std140) uniform frameConstants { FrameConstants frame; };
-layout(set = 0, binding = 5) uniform texture2D motion;
 layout(set = 0, binding = 6) uniform utexture2D depth;
+#ifndef STILL
+layout(set = 0, binding = 4, std140) uniform frameConstants { FrameConstants frame; };
+#ifndef MOTION_FROM_CAMERA
+layout(set = 0, binding = 5) uniform texture2D motion;
+#endif
+#endif
 #if defined(REJECT_BY_PLANE) || defined(REJECT_BY_DEPTH)
 layout(set = 0, binding = 7) uniform utexture2D previousDepth;
 #endif
@@ -37,6 +41,13 @@ layout(push_constant) uniform PushConstants { TemporalAntialiasingConstants sett
 #include "include/bicubic.glsl"
 #include "include/half.glsl"
 
+#ifdef STILL
+#include "include/surface.glsl"
+
+bool hasSurface(ivec2 q) { return unpackDepth(texelFetch(depth, q, 0).x) > 0.0; }
+
+vec4 historyOf(ivec2 p) { return texelFetch(previousResolved, p, 0); }
+#else
 #ifdef KEPT_TAPS
 bool hasSurface(ivec2 q) { return texelFetch(keptTaps, q, 0).x != kNoSurfaceTaps; }
 
@@ -59,6 +70,9 @@ HistoryTaps tapsOf(ivec2 p) {
   const Reprojection r = reproject(p, unpackDepth(texelFetch(depth, p, 0).x));
   return historyTaps(p, r, normal, settings.planeTolerance, settings.normalThreshold);
 }
+#endif
+
+vec4 historyOf(ivec2 p) { return bicubicOfTaps(previousResolved, tapsOf(p)); }
 #endif
 
 vec3 toYCoCg(vec3 c) {
@@ -127,7 +141,7 @@ void main() {
     imageStore(outImage, p, vec4(current.rgb, 1.0));
     return;
   }
-  const vec4 stored = nearestHalf(resolve(p, current, bicubicOfTaps(previousResolved, tapsOf(p))));
+  const vec4 stored = nearestHalf(resolve(p, current, historyOf(p)));
   imageStore(outResolved, p, stored);
   imageStore(outImage, p, vec4(stored.rgb, 1.0));
 }

@@ -4,6 +4,7 @@
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -51,14 +52,26 @@ std::string explain(const std::vector<std::string>& names, const fg::GraphDesc& 
   return fg::whyNotAliased(graph, plan, names[0], names[1]) + "\n";
 }
 
+/// What of scene and host the plan is made for.
+std::string sceneText(Denoiser& method) {
+  constexpr std::string_view kPrefix = "scene.";
+  std::string text;
+  for (const SettingText& setting : method.settings()) {
+    if (!setting.name.starts_with(kPrefix)) continue;
+    text += (text.empty() ? "scene: " : ", ") + setting.name.substr(kPrefix.size()) + " " + setting.value;
+  }
+  return text + "\n";
+}
+
 /// What the options ask of a compiled graph.
-std::string describe(const GraphOptions& options, const fg::GraphDesc& graph, const fg::Plan& plan, fg::Extent extent) {
+std::string describe(const GraphOptions& options, Denoiser& method, const fg::GraphDesc& graph, const fg::Plan& plan,
+                     fg::Extent extent) {
   if (options.json) return fg::toJson(graph, plan) + "\n";
   if (options.dot) return fg::toDot(graph, plan);
   if (options.svg) return fg::toSvg(graph, plan);
   if (!options.why.empty()) return explain(options.why, graph, plan);
   return options.method.name + " at " + std::to_string(extent.width) + " x " + std::to_string(extent.height) +
-         " pixels\n" + fg::toText(graph, plan);
+         " pixels\n" + sceneText(method) + fg::toText(graph, plan);
 }
 
 void write(const std::string& text, const std::string& file) {
@@ -93,7 +106,7 @@ void printGraph(const GraphOptions& options) {
   if (!result.ok()) {
     throw std::runtime_error("the method's frame graph does not compile:\n" + result.text());
   }
-  write(describe(options, declared.graph.desc(), result.plan, extent), options.output);
+  write(describe(options, *method, declared.graph.desc(), result.plan, extent), options.output);
 }
 
 }  // namespace

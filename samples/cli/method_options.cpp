@@ -39,6 +39,8 @@ void addMethodOptions(CLI::App& command, MethodOptions& options) {
       ->check(CLI::IsMember(denoiserNames()))
       ->capture_default_str();
   command.add_option("--preset", options.preset, presetHelp())->type_name("NAME");
+  command.add_flag("--spatial-only", options.spatialOnly,
+                   "Filter each frame by itself, without temporal stages: short for --set spatial-only=on");
   command
       .add_option("--set", options.settings,
                   "Change one setting of the method; may be given several times. 'walr graph "
@@ -52,6 +54,7 @@ std::unique_ptr<Denoiser> makeMethod(const MethodOptions& options) {
   if (!options.preset.empty()) {
     applyOption("--preset " + options.preset, [&] { method->usePreset(options.preset); });
   }
+  if (options.spatialOnly) applyOption("--spatial-only", [&] { method->set("spatial-only", "on"); });
   for (const std::string& setting : options.settings) {
     const std::size_t split = setting.find('=');
     if (split == std::string::npos) {

@@ -14,10 +14,11 @@ namespace walr {
 struct MethodOptions {
   std::string name = "walr";
   std::string preset;                 ///< Empty: the method's first.
+  bool spatialOnly = false;           ///< Each frame by itself.
   std::vector<std::string> settings;  ///< "name=value" each.
 };
 
-/// Adds `--method`, `--preset` and `--set` to a subcommand.
+/// Adds `--method`, `--preset`, `--spatial-only` and `--set` to a subcommand.
 void addMethodOptions(CLI::App& command, MethodOptions& options);
 
 /// Make the method.

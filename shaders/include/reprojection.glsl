@@ -1,7 +1,7 @@
 // Where a surface was in the previous frame, and whether a history pixel shows it.
-// Needs: `frame` (FrameConstants), `motion`, `depth`. REJECT_BY_PLANE needs `previousDepth` and
+// Needs: `frame` (FrameConstants), `depth`, and, unless MOTION_FROM_CAMERA says that nothing else moves, `motion`. REJECT_BY_PLANE needs `previousDepth` and
 // `previousGeometricNormal`, REJECT_BY_DEPTH `previousDepth`; without either every pixel of the picture is accepted.
-// KEEP_TAPS: the motion is rounded to what kept taps hold. Takes constant_id 0 and 1.
+// KEEP_TAPS: the motion is rounded to what kept taps hold. Takes constant_id 0, 1 and 10.
 #ifndef WALR_REPROJECTION_GLSL
 #define WALR_REPROJECTION_GLSL
 #include "camera.glsl"
@@ -9,7 +9,10 @@
 #include "history_taps.glsl"
 #include "surface.glsl"
 
+#ifndef MOTION_FROM_CAMERA
 layout(constant_id = 0) const bool kMotionDepthGiven = true;
+#endif
+layout(constant_id = 10) const bool kJitter = true;
 layout(constant_id = 1) const bool kDilateMotion = false;  // Follow the nearest surface of the 3x3 neighbourhood.
 
 struct Reprojection {
@@ -32,17 +35,29 @@ ivec2 nearestPixel(ivec2 p, float z) {
   return nearest;
 }
 
-// View depth in the previous frame of the surface that pixel `p` shows at depth `z`.
-float depthBefore(ivec2 p, float z) {
-  if (kMotionDepthGiven) return z + texelFetch(motion, p, 0).z;
-  const vec3 position = rayThrough(frame.rayFromPixel, pixelCentre(p)) * z;
-  return -(frame.previousViewFromView * vec4(position, 1.0)).z;
+// Where the previous camera has the still surface that pixel `p` shows at depth `z`, in its view space.
+vec3 positionBefore(ivec2 p, float z) {
+  return (frame.previousViewFromView * vec4(rayThrough(frame.rayFromPixel, pixelCentre(p)) * z, 1.0)).xyz;
 }
+
+#ifdef MOTION_FROM_CAMERA
+vec2 motionAt(ivec2 p) {
+  const vec3 before = positionBefore(p, unpackDepth(texelFetch(depth, p, 0).x));
+  const vec4 ray = frame.previousRayFromPixel;
+  return (before.xy / -before.z - ray.zw) / ray.xy - pixelCentre(p);
+}
+float depthBefore(ivec2 p, float z) { return -positionBefore(p, z).z; }
+#else
+vec2 motionAt(ivec2 p) { return texelFetch(motion, p, 0).xy * frame.motionScale; }
+float depthBefore(ivec2 p, float z) {
+  return kMotionDepthGiven ? z + texelFetch(motion, p, 0).z : -positionBefore(p, z).z;
+}
+#endif
 
 Reprojection reproject(ivec2 p, float z) {
   Reprojection r;
-  const vec2 shift = texelFetch(motion, kDilateMotion ? nearestPixel(p, z) : p, 0).xy * frame.motionScale;
-  const vec2 exact = shift - frame.jitterDelta;
+  vec2 exact = motionAt(kDilateMotion ? nearestPixel(p, z) : p);
+  if (kJitter) exact -= frame.jitterDelta;
   // What is not finite leads out of any picture.
 #ifdef KEEP_TAPS
   r.motion = keepableMotion(isFinite(exact) ? exact : vec2(kLargestHalf));

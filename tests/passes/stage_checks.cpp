@@ -170,7 +170,7 @@ void expectStages(const DeviceFrame& f, const WalrSettings& settings) {
 }
 
 void expectSequence(const fg::vk::Device& device, const std::vector<HostFrame>& frames, const WalrSettings& settings) {
-  WalrRun run(device, frames.front().size(), settings, frames.front().conventions);
+  WalrRun run(device, frames.front().size(), settings, frames.front().conventions, true, frames.front().scene);
   DeviceFrame f;
   for (const HostFrame& frame : frames) {
     f.previous = std::move(f.current);

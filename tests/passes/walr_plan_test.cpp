@@ -28,7 +28,7 @@ struct Planned {
   }
 };
 
-Planned planWalr(const WalrSettings& settings) {
+Planned planWalr(const WalrSettings& settings, const SceneDescription& scene = {}) {
   const fg::ExternalState state{VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT,
                                 VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
   const fg::TextureDesc colour{VK_FORMAT_R16G16B16A16_SFLOAT, kFullHd};
@@ -40,6 +40,7 @@ Planned planWalr(const WalrSettings& settings) {
   inputs.normal = graph.import("normal", colour, state);
   inputs.motion = graph.import("motion", colour, state);
   inputs.albedo = graph.import("albedo", colour, state);
+  inputs.scene = scene;
   inputs.frame = graph.upload("frame constants", sizeof(FrameConstants));
   const fg::Texture output = graph.import("output", colour, state);
   graph.exported(addWalr(graph, inputs, output, settings), state);
@@ -77,6 +78,28 @@ TEST(WalrPlan, HoldsOnlyWhatItsSettingsRead) {
   EXPECT_FALSE(withoutAntialiasing.uses("resolved.current"));
   EXPECT_FALSE(withoutAntialiasing.uses("filtered"));
   EXPECT_FALSE(withoutAntialiasing.uses("history taps"));
+}
+
+TEST(WalrPlan, HoldsOnlyWhatTheSceneNeeds) {
+  const Planned all = planWalr(robustWalr());
+  for (const char* resource : {"motion", "history taps", "resolved.current", "guides.depth.previous"})
+    EXPECT_TRUE(all.uses(resource)) << resource;
+
+  EXPECT_FALSE(planWalr(robustWalr(), {.objectMotion = false}).uses("motion"));
+  EXPECT_FALSE(planWalr(robustWalr(), {.hostAntialiasing = true}).uses("resolved.current"));
+  const Planned still = planWalr(robustWalr(), {.cameraMotion = false, .objectMotion = false, .jitter = false});
+  for (const char* resource : {"motion", "history taps", "guides.depth.previous", "guides.geometric normal.previous"})
+    EXPECT_FALSE(still.uses(resource)) << resource;
+  EXPECT_LT(still.plan.memory.persistentBytes, all.plan.memory.persistentBytes);
+  EXPECT_LT(still.bytesPerPixel(), all.bytesPerPixel());
+}
+
+TEST(WalrPlan, IsOneFilterAloneWithoutTemporalStages) {
+  WalrSettings settings = robustWalr();
+  settings.spatialOnly = true;
+  const Planned spatial = planWalr(settings);
+  EXPECT_EQ(spatial.plan.memory.persistentBytes, 0U);
+  EXPECT_EQ(spatial.plan.passes.size(), 1U + settings.regression.iterations);
 }
 
 }  // namespace

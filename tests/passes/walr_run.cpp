@@ -21,6 +21,12 @@ fg::Texture findTexture(const fg::Graph& graph, const std::string& name) {
   return {};
 }
 
+/// A guide, whether it is kept for the next frame or not.
+fg::Texture findGuide(const fg::Graph& graph, const std::string& name) {
+  const fg::Texture kept = findTexture(graph, name + ".current");
+  return kept.valid() ? kept : findTexture(graph, name);
+}
+
 fg::Texture textureNamed(const fg::Graph& graph, const std::string& name) {
   const fg::Texture texture = findTexture(graph, name);
   if (!texture.valid()) throw std::logic_error("the graph has no texture named \"" + name + "\"");
@@ -47,7 +53,8 @@ fg::Extent extentOf(glm::ivec2 size) {
 }  // namespace
 
 WalrRun::WalrRun(const fg::vk::Device& device, glm::ivec2 size, WalrSettings settings,
-                 const InputConventions& conventions, bool inspect, const std::vector<std::string>& views)
+                 const InputConventions& conventions, bool inspect, const SceneDescription& scene,
+                 const std::vector<std::string>& views)
     : size_(size),
       storage_(settings.regression.storage),
       copyImage_(reinterpret_cast<PFN_vkCmdCopyImage>(
@@ -64,6 +71,7 @@ WalrRun::WalrRun(const fg::vk::Device& device, glm::ivec2 size, WalrSettings set
   inputs_.albedo = graph.import("albedo", halves, kUploaded);
   inputs_.frame = graph.upload("frame", sizeof(FrameConstants));
   inputs_.conventions = conventions;
+  inputs_.scene = scene;
   const fg::Texture output = graph.import("output", halves, kOverwritable);
 
   for (const std::string& view : views)
@@ -77,9 +85,9 @@ WalrRun::WalrRun(const fg::vk::Device& device, glm::ivec2 size, WalrSettings set
 
 void WalrRun::inspectStages(fg::Graph& graph, const WalrSettings& settings) {
   constexpr std::array kMomentNames{"moments a ", "moments b ", "moments c ", "moments d "};
-  depth_ = tap(graph, textureNamed(graph, "guides.depth.current"));
+  depth_ = tap(graph, findGuide(graph, "guides.depth"));
   shadingNormal_ = tap(graph, textureNamed(graph, "guides.shading normal"));
-  const fg::Texture geometricNormal = findTexture(graph, "guides.geometric normal.current");
+  const fg::Texture geometricNormal = findGuide(graph, "guides.geometric normal");
   if (geometricNormal.valid()) geometricNormal_ = tap(graph, geometricNormal);
   accumulated_ = tap(graph, textureNamed(graph, "accumulated.current"));
   for (std::uint32_t t = 0; t + 1 < settings.regression.iterations; ++t) {

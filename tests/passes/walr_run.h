@@ -31,7 +31,8 @@ class WalrRun {
   /// @param inspect read back every stage, not only the output
   /// @param views   views of the filter to read back
   WalrRun(const fg::vk::Device& device, glm::ivec2 size, WalrSettings settings = robustWalr(),
-          const InputConventions& conventions = {}, bool inspect = true, const std::vector<std::string>& views = {});
+          const InputConventions& conventions = {}, bool inspect = true, const SceneDescription& scene = {},
+          const std::vector<std::string>& views = {});
 
   /// Denoise one frame.
   WalrStages frame(const reference::HostFrame& frame);

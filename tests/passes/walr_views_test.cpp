@@ -115,7 +115,7 @@ TEST_F(WalrViewsTest, ShowWhatHappensInEveryIteration) {
     const WalrSettings settings = withIterations(preset);
     SCOPED_TRACE(settings.regression.storage == MomentStorage::Centred16 ? "robust" : "paper");
     const HostFrame frame = someFrame();
-    WalrRun run(device(), kSize, settings, {}, true, allViews());
+    WalrRun run(device(), kSize, settings, {}, true, {}, allViews());
     const WalrStages stages = run.frame(frame);
     for (std::uint32_t t = 0; t < kIterations; ++t) {
       const reference::AtrousState before =
@@ -148,7 +148,7 @@ TEST_F(WalrViewsTest, ChangeNothing) {
   const HostFrame frame = someFrame();
   for (const WalrSettings& settings : {robustWalr(), paperWalr()}) {
     WalrRun plain(device(), kSize, settings, {}, false);
-    WalrRun viewed(device(), kSize, settings, {}, false, {"edges", "slope-u.1"});
+    WalrRun viewed(device(), kSize, settings, {}, false, {}, {"edges", "slope-u.1"});
     EXPECT_EQ(plain.frame(frame).outputBits, viewed.frame(frame).outputBits);
   }
 }

@@ -19,6 +19,7 @@ struct HostFrame {
   Image<glm::dvec3> albedo;
   FrameConstants constants{};
   InputConventions conventions;
+  SceneDescription scene;
   [[nodiscard]] glm::ivec2 size() const { return depth.size(); }
 };
 

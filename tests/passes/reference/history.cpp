@@ -28,13 +28,13 @@ HistorySample sampleBilinear(const Reprojection& r, const std::array<HistoryTap,
     least = glm::min(least, value);
     most = glm::max(most, value);
   }
-  history.undecided |= std::abs(weightSum - kLeastWeight) <= 4.0 * pixelError(r);
+  history.undecided |= std::abs(weightSum - kLeastWeight) <= 4.0 * r.error;
   history.found = weightSum > kLeastWeight;
   if (!history.found) return history;
   history.value = sum / weightSum;
   // Each weight may err by twice the position's error, of which the normalised mean sees what the taps differ by.
-  history.error = 8.0 * pixelError(r) / weightSum * (most - least) +
-                  16.0 * kFloatRoundoff * glm::max(glm::abs(most), glm::abs(least));
+  history.error =
+      8.0 * r.error / weightSum * (most - least) + 16.0 * kFloatRoundoff * glm::max(glm::abs(most), glm::abs(least));
   return history;
 }
 
@@ -60,7 +60,7 @@ HistorySample sampleBicubic(const Reprojection& r, const Image<glm::dvec4>& prev
   history.found = least.w > 0.0;
   history.value = glm::max(sum, 0.0);
   // A Catmull-Rom weight changes by at most 1.5 per pixel and axis, and the sixteen products sum to 1.6 at most.
-  history.error = 24.0 * pixelError(r) * (most - least) + 48.0 * kFloatRoundoff * most;
+  history.error = 24.0 * r.error * (most - least) + 48.0 * kFloatRoundoff * most;
   return history;
 }
 
@@ -82,7 +82,7 @@ HistorySample sampleHistory(const Reprojection& r, const std::array<HistoryTap, 
   const glm::dvec2 fraction = glm::fract(r.pixel - 0.5);
   for (int axis = 0; axis < 2; ++axis) {
     const double toPixel = std::min(fraction[axis], 1.0 - fraction[axis]);
-    history.undecided |= toPixel > 0.0 && toPixel <= 2.0 * pixelError(r);
+    history.undecided |= toPixel > 0.0 && toPixel <= 2.0 * r.error;
   }
   const bool allMatch = std::all_of(taps.begin(), taps.end(), [](const HistoryTap& tap) { return tap.matches; });
   if (!allMatch) return history;

@@ -39,13 +39,23 @@ double keptMotion(double motion) {
 Reprojection reproject(const HostFrame& frame, const Image<Guide>& guides, glm::ivec2 p,
                        const ReprojectionOptions& options) {
   const FrameConstants& constants = frame.constants;
-  const Guide& guide = guides[p];
-  glm::dvec2 motion(frame.motion[options.dilateMotion ? nearestPixel(guides, p) : p]);
+  const glm::ivec2 source = options.dilateMotion ? nearestPixel(guides, p) : p;
   const glm::dmat4 previousFromCurrent(constants.previousViewFromView);
+  const auto positionBefore = [&](glm::ivec2 q) {
+    const glm::dvec3 position = rayThrough(constants.rayFromPixel, pixelCentre(q)) * guides[q].depth;
+    return glm::dvec3(previousFromCurrent * glm::dvec4(position, 1.0));
+  };
+  const bool fromCamera = !frame.scene.objectMotion;
+  glm::dvec2 motion = glm::dvec2(frame.motion[source]) * glm::dvec2(constants.motionScale);
+  if (fromCamera) {
+    const glm::dvec3 before = positionBefore(source);
+    const glm::dvec4 ray(constants.previousRayFromPixel);
+    motion = (glm::dvec2(before) / -before.z - glm::dvec2(ray.z, ray.w)) / glm::dvec2(ray) - pixelCentre(source);
+  }
   Reprojection r;
   for (int axis = 0; axis < 2; ++axis) {
-    const double product = motion[axis] * double(constants.motionScale[axis]);
-    const auto jitter = double(constants.jitterDelta[axis]);
+    const double product = motion[axis];
+    const auto jitter = frame.scene.jitter ? double(constants.jitterDelta[axis]) : 0.0;
     motion[axis] = product - jitter;
     if (!options.keepTaps) continue;
     // Single precision rounds both operations, or, where they are contracted, their result.
@@ -55,13 +65,18 @@ Reprojection reproject(const HostFrame& frame, const Image<Guide>& guides, glm::
     motion[axis] = apart;
   }
   r.pixel = pixelCentre(p) + motion;
-  double previousDepth = guide.depth + frame.motion[p].z;
-  if (frame.conventions.motionDepth == InputConventions::MotionDepth::StaticScene) {
-    const glm::dvec3 position = rayThrough(constants.rayFromPixel, pixelCentre(p)) * guide.depth;
-    previousDepth = -(previousFromCurrent * glm::dvec4(position, 1.0)).z;
+  // Product, sum and difference, each no larger than the result, the start and the motion, which is at most as far.
+  // From the camera, about twelve roundings of a position and its projection, in terms of the previous picture's
+  // pixels.
+  const double reach = 2.0 * std::max({std::abs(r.pixel.x), std::abs(r.pixel.y), 1.0}) + 1.0;
+  const double across = double(std::max(frame.size().x, frame.size().y));
+  r.error = fromCamera ? 24.0 * kFloatRoundoff * std::max(reach, across) : 4.0 * kFloatRoundoff * reach;
+  double previousDepth = guides[p].depth + frame.motion[p].z;
+  if (fromCamera || frame.conventions.motionDepth == InputConventions::MotionDepth::StaticScene) {
+    previousDepth = -positionBefore(p).z;
   }
   r.position = rayThrough(constants.previousRayFromPixel, r.pixel) * previousDepth;
-  r.normal = glm::dmat3(previousFromCurrent) * guide.normal;
+  r.normal = glm::dmat3(previousFromCurrent) * guides[p].normal;
   const glm::dvec2 size(frame.size());
   r.valid = r.pixel.x > -1.0 && r.pixel.y > -1.0 && r.pixel.x < size.x + 1.0 && r.pixel.y < size.y + 1.0 &&
             std::isfinite(previousDepth) && previousDepth > 0.0;
@@ -91,7 +106,7 @@ std::array<HistoryTap, 4> historyTaps(const HostFrame& frame, const Reprojection
     const double tolerance = tests.planeTolerance * -r.position.z;
     // About sixteen roundings of terms no larger than the two positions, and of unit vectors.
     const double distanceError = 16.0 * kFloatRoundoff * (glm::length(position) + glm::length(r.position)) +
-                                 pixelError(r) * std::abs(r.position.z) *
+                                 r.error * std::abs(r.position.z) *
                                      std::max(std::abs(double(frame.constants.previousRayFromPixel.x)),
                                               std::abs(double(frame.constants.previousRayFromPixel.y)));
     tap.matches = distance <= tolerance;
@@ -102,11 +117,6 @@ std::array<HistoryTap, 4> historyTaps(const HostFrame& frame, const Reprojection
     tap.undecided |= std::abs(cosine - tests.normalThreshold) <= 32.0 * kFloatRoundoff;
   }
   return taps;
-}
-
-double pixelError(const Reprojection& r) {
-  // Product, sum and difference, each no larger than the result, the start and the motion, which is at most as far.
-  return 4.0 * kFloatRoundoff * (2.0 * std::max({std::abs(r.pixel.x), std::abs(r.pixel.y), 1.0}) + 1.0);
 }
 
 }  // namespace walr::reference

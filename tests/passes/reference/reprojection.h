@@ -14,6 +14,7 @@ struct Reprojection {
   glm::dvec3 normal{0.0};    ///< Its geometric normal there.
   bool valid = false;        ///< False where motion leaves the picture or is not finite.
   bool undecided = false;    ///< Rounding may decide which of two motions is kept.
+  double error = 0.0;        ///< What single precision may add to `pixel`, pixels.
 };
 
 /// How the way to the previous frame is found.
@@ -45,8 +46,5 @@ struct HistoryTap {
 /// The four pixels around a reprojected position, each tested on its own.
 std::array<HistoryTap, 4> historyTaps(const HostFrame& frame, const Reprojection& r, const Image<Guide>& previousGuides,
                                       const HistoryTests& tests);
-
-/// Largest error that single precision makes in `Reprojection::pixel`, pixels.
-double pixelError(const Reprojection& r);
 
 }  // namespace walr::reference

@@ -1,0 +1,206 @@
+// What becomes of WALR's histories when the camera jumps, a frame is lost, pixels are jittered, exposure changes or the
+// scene holds still.
+
+#include <cmath>
+#include <limits>
+
+#include "tests/passes/comparison.h"
+#include "tests/passes/reference/walr.h"
+#include "tests/passes/stage_checks.h"
+#include "tests/passes/synthetic_scene.h"
+#include "tests/vulkan/gpu_fixture.h"
+
+namespace walr::test {
+namespace {
+
+using reference::HostFrame;
+
+constexpr glm::ivec2 kSize(64, 48);
+const glm::dvec3 kConstant(0.75, 0.5, 1.25);
+
+glm::dvec3 constantLight(glm::dvec3 /*point*/, glm::dvec3 /*normal*/) {
+  return kConstant;
+}
+
+/// Where the camera is at a time; it moves by about a pixel and a half a frame.
+glm::dvec3 cameraPosition(double time) {
+  return {0.09 * time, 0.04 * time, -0.03 * time};
+}
+
+/// Samples of a pixel in steps of 1/2 and 1/3 about its centre (Halton 1960).
+glm::vec2 jitterAt(std::uint32_t index) {
+  constexpr std::array kHalton{glm::vec2(0.0F, -0.16666667F), glm::vec2(-0.25F, 0.16666667F),
+                               glm::vec2(0.25F, -0.38888889F), glm::vec2(-0.375F, -0.05555556F)};
+  return kHalton.at(index % kHalton.size());
+}
+
+FrameDescription jittered(FrameDescription camera, std::uint32_t index) {
+  camera.jitter = jitterAt(index);
+  camera.previousJitter = jitterAt(index - 1);
+  return camera;
+}
+
+HostFrame movingFrame(const Scene& scene, double time, double previousTime, std::uint32_t index) {
+  return renderFrame(scene, cameraAt(cameraPosition(time), cameraPosition(previousTime), kSize, index), kSize);
+}
+
+void scaleLight(HostFrame& frame, double scale) {
+  for (glm::dvec3& l : frame.lighting.pixels())
+    for (int c = 0; c < 3; ++c) l[c] = reference::roundToHalf(l[c] * scale);
+}
+
+class WalrHistoryTest : public fg::test::GpuTest {
+ protected:
+  /// Both presets, against double precision.
+  void expectFrames(const std::vector<HostFrame>& frames) const {
+    for (const WalrSettings& settings : {robustWalr(), paperWalr()}) {
+      SCOPED_TRACE(settings.regression.storage == MomentStorage::Centred16 ? "robust" : "paper");
+      expectSequence(device(), frames, settings);
+    }
+  }
+};
+
+TEST_F(WalrHistoryTest, StagesHoldAcrossACameraCut) {
+  for (const Scene& scene : {sphere(), stairs()}) {
+    std::vector<HostFrame> frames{movingFrame(scene, 0, -1, 0), movingFrame(scene, 1, 0, 1)};
+    frames.push_back(movingFrame(scene, 12, 1, 2));
+    expectFrames(frames);
+  }
+}
+
+TEST_F(WalrHistoryTest, StagesHoldWhenAFrameIsSkipped) {
+  for (const Scene& scene : {sphere(), thinBars()})
+    expectFrames({movingFrame(scene, 0, -1, 0), movingFrame(scene, 1, 0, 1), movingFrame(scene, 3, 1, 3)});
+}
+
+TEST_F(WalrHistoryTest, StagesHoldUnderJitter) {
+  for (const Scene& scene : {sphere(), thinBars()}) {
+    std::vector<HostFrame> frames;
+    for (std::uint32_t i = 1; i < 4; ++i) {
+      const FrameDescription camera = cameraAt(cameraPosition(i), cameraPosition(i - 1.0), kSize, i);
+      frames.push_back(renderFrame(scene, jittered(camera, i), kSize));
+    }
+    expectFrames(frames);
+  }
+}
+
+TEST_F(WalrHistoryTest, StagesHoldWhenExposureChangesBy256) {
+  for (const double scale : {0x1p8, 0x1p-8}) {
+    std::vector<HostFrame> frames;
+    for (std::uint32_t i = 0; i < 3; ++i) frames.push_back(movingFrame(bumpyWall(0.1), i, i - 1.0, i));
+    scaleLight(frames.back(), scale);
+    expectFrames(frames);
+  }
+}
+
+TEST_F(WalrHistoryTest, StagesHoldWithMotionFromTheCameraAlone) {
+  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  WalrSettings settings = robustWalr();
+  settings.antialiasing.normalThreshold = 0.4F;  // Its own reprojection, which no rounding of the motion precedes.
+  for (const Scene& scene : {sphere(), stairs()}) {
+    std::vector<HostFrame> frames;
+    for (std::uint32_t i = 1; i < 4; ++i) {
+      const FrameDescription camera = cameraAt(cameraPosition(i), cameraPosition(i - 1.0), kSize, i);
+      frames.push_back(renderFrame(scene, jittered(camera, i), kSize));
+      frames.back().scene.objectMotion = false;
+      for (glm::dvec3& motion : frames.back().motion.pixels()) motion = glm::dvec3(kNaN);  // Not to be read.
+    }
+    expectSequence(device(), frames, settings);
+  }
+}
+
+TEST_F(WalrHistoryTest, StagesHoldInAStillPicture) {
+  for (const Scene& scene : {skyBesideSurface(), thinBars()}) {
+    std::vector<HostFrame> frames;
+    for (std::uint32_t i = 0; i < 3; ++i) {
+      frames.push_back(renderStill(scene, kSize, i));
+      frames.back().scene = {.cameraMotion = false, .objectMotion = false, .jitter = false};
+    }
+    expectFrames(frames);
+  }
+}
+
+// Nobody says that everything is twice as far away now: all history is rejected, and what comes out is what a first
+// frame would have been. The paper's anti-aliasing rejects nothing but what variance clipping takes away.
+TEST_F(WalrHistoryTest, AnUnannouncedCutLeavesNothingOfTheHistory) {
+  for (const bool robust : {true, false}) {
+    const WalrSettings settings = robust ? robustWalr() : paperWalr();
+    WalrRun run(device(), kSize, settings);
+    for (std::uint32_t i = 0; i < 3; ++i) (void)run.frame(renderStill(flatWall(), kSize, i));
+    HostFrame after = renderStill(bumpyWall(0.1), kSize, 3);
+    for (double& depth : after.depth.pixels()) depth *= 2.0;
+    const WalrStages cut = run.frame(after);
+    WalrRun fresh(device(), kSize, settings);
+    const WalrStages first = fresh.frame(after);
+    EXPECT_EQ(cut.accumulated.pixels(), first.accumulated.pixels());
+    if (robust) {
+      EXPECT_EQ(cut.outputBits, first.outputBits);
+    }
+  }
+}
+
+// On a plane the picture shifts by the same number of pixels everywhere, so that only what comes in at the border has
+// no history: of n pixels along an axis, the shift and one more.
+TEST_F(WalrHistoryTest, ASkippedFrameCostsHistoryOnlyAtTheBorder) {
+  WalrRun run(device(), kSize);
+  for (std::uint32_t i = 0; i < 4; ++i) (void)run.frame(movingFrame(flatWall(), i, i - 1.0, i));
+  const HostFrame skipped = movingFrame(flatWall(), 5, 3, 5);
+  const WalrStages stages = run.frame(skipped);
+  glm::dvec2 shift(0.0);
+  for (const glm::dvec3& motion : skipped.motion.pixels()) shift = glm::max(shift, glm::abs(glm::dvec2(motion)));
+  int first = 0;
+  for (const glm::dvec4& v : stages.accumulated.pixels()) first += v.w == 1.0 ? 1 : 0;
+  const glm::dvec2 lost = (shift + 1.0) / glm::dvec2(kSize);
+  EXPECT_LE(first, (lost.x + lost.y) * kSize.x * kSize.y);
+  EXPECT_GT(first, 0);
+}
+
+// A still camera whose pixels are jittered sees the same plane at the same place once the jitter is taken off the
+// motion: no pixel ever loses its history, and constant light stays what it is.
+TEST_F(WalrHistoryTest, JitterCostsNoHistory) {
+  const WalrSettings settings = robustWalr();
+  WalrRun run(device(), kSize, settings);
+  for (std::uint32_t i = 1; i <= 20; ++i) {
+    const HostFrame frame =
+        renderFrame(flatWall(), jittered(cameraAt({}, {}, kSize, i), i), kSize, constantLight, Noise::None);
+    const WalrStages stages = run.frame(frame);
+    const double expected = std::min(double(i), double(settings.accumulation.maxSamples));
+    for (const glm::dvec4& v : stages.accumulated.pixels()) {
+      EXPECT_NEAR(v.w, expected, 2.0 * reference::kHalfRoundoff * expected);
+      // Each frame's store may round anew, and the mean carries that on for as many frames as it spans.
+      for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(v[c], kConstant[c], 2.0 * reference::kHalfRoundoff * expected * kConstant[c]);
+    }
+  }
+}
+
+// After a step of the light by 2^8, k frames leave (1 - 1/n)^k of the difference in a mean of n samples. Variance
+// clipping, in a neighbourhood of one colour, leaves anti-aliasing no history further away than its least box: 4 / 2048
+// of the luma, and each colour is at most 4 times the smallest of its channels here.
+TEST_F(WalrHistoryTest, AStepOfExposureDecaysAsTheMeanDoes) {
+  WalrSettings settings = robustWalr();
+  settings.accumulation.maxSamples = 4.0F;
+  const double n = double(settings.accumulation.maxSamples);
+  WalrRun run(device(), kSize, settings);
+  for (std::uint32_t i = 0; i < 16; ++i) {
+    HostFrame frame = renderFrame(flatWall(), cameraAt({}, {}, kSize, i), kSize, constantLight, Noise::None);
+    const double scale = i < 6 ? 1.0 : 0x1p8;
+    scaleLight(frame, scale);
+    const WalrStages stages = run.frame(frame);
+    const double left = i < 6 ? 0.0 : std::pow(1.0 - 1.0 / n, i - 5.0) * (1.0 - 0x1p-8);
+    const double roundings = 2.0 * reference::kHalfRoundoff * n;
+    for (std::size_t k = 0; k < stages.output.pixels().size(); ++k) {
+      for (int c = 0; c < 3; ++c) {
+        const double expected = kConstant[c] * scale * (1.0 - left);
+        EXPECT_NEAR(stages.accumulated.pixels()[k][c], expected, roundings * expected) << "frame " << i;
+        const double filtered = stages.filtered.pixels()[k][c];
+        const double box = 4.0 * 4.0 / 2048.0;
+        EXPECT_NEAR(stages.output.pixels()[k][c], filtered, (box + 4.0 * reference::kHalfRoundoff) * filtered)
+            << "frame " << i;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace walr::test
