@@ -117,17 +117,23 @@ fg::Texture addBlockRegression(fg::Graph& graph, fg::Buffer frame, fg::Texture a
   }
   const BlockGrid grid = gridOf(graph, frame, graph.textureDesc(accumulated).extent, settings);
 
-  fg::PassBuilder gather = graph.compute("block moments", shaders::blockMoments);
-  gather.uniform("frameConstants", frame)
-      .sample("depth", guides.depth)
-      .sample("shadingNormal", guides.shadingNormal)
-      .sample("geometricNormal", guides.geometricNormal)
-      .sample("occlusion", occlusion)
-      .sample("accumulated", accumulated)
-      .specialize("kAlphaIsSampleCount", alpha == LightingAlpha::SampleCount)
-      .specialize("kBlockSize", grid.size)
-      .constants(grid.constants)
-      .dispatch(grid.blocks);
+  // What gathers the blocks' samples and what fits them to the pixels again read the same pixels.
+  const auto readPixels = [&](const char* name, const fg::Shader& shader) {
+    fg::PassBuilder pass = graph.compute(name, shader);
+    pass.uniform("frameConstants", frame)
+        .sample("depth", guides.depth)
+        .sample("shadingNormal", guides.shadingNormal)
+        .sample("geometricNormal", guides.geometricNormal)
+        .sample("occlusion", occlusion)
+        .sample("accumulated", accumulated)
+        .specialize("kAlphaIsSampleCount", alpha == LightingAlpha::SampleCount)
+        .specialize("kBlockSize", grid.size)
+        .constants(grid.constants);
+    return pass;
+  };
+
+  fg::PassBuilder gather = readPixels("block moments", shaders::blockMoments);
+  gather.dispatch(grid.blocks);
   const BlockAverages averages = writeAverages(grid, gather, "");
   const fg::Texture normal =
       gather.store("outNormal", graph.texture("block normal", {VK_FORMAT_R32_UINT, grid.blocks}));
@@ -135,15 +141,8 @@ fg::Texture addBlockRegression(fg::Graph& graph, fg::Buffer frame, fg::Texture a
   const BlockFits coarse = addCoarseFit(grid, averages);
   const BlockFits fine = addFineFit(grid, averages, normal, settings.iterations);
 
-  fg::PassBuilder apply = graph.compute("block apply", shaders::blockApply);
-  apply.uniform("frameConstants", frame)
-      .sample("depth", guides.depth)
-      .sample("shadingNormal", guides.shadingNormal)
-      .sample("geometricNormal", guides.geometricNormal)
-      .sample("occlusion", occlusion)
-      .sample("accumulated", accumulated)
-      .specialize("kAlphaIsSampleCount", alpha == LightingAlpha::SampleCount)
-      .sample("fitA", fine.a)
+  fg::PassBuilder apply = readPixels("block apply", shaders::blockApply);
+  apply.sample("fitA", fine.a)
       .sample("fitB", fine.b)
       .sample("fitC", fine.c)
       .sample("fitDepth", fine.depth)
@@ -152,8 +151,6 @@ fg::Texture addBlockRegression(fg::Graph& graph, fg::Buffer frame, fg::Texture a
       .sample("coarseB", coarse.b)
       .sample("coarseC", coarse.c)
       .sample("coarseDepth", coarse.depth)
-      .specialize("kBlockSize", grid.size)
-      .constants(grid.constants)
       .dispatch(grid.pixels);
   return apply.store("outFiltered", graph.texture("filtered", {VK_FORMAT_R16G16B16A16_SFLOAT, grid.pixels}));
 }
