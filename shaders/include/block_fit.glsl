@@ -3,6 +3,7 @@
 #ifndef WALR_BLOCK_FIT_GLSL
 #define WALR_BLOCK_FIT_GLSL
 #include "block_storage.glsl"
+#include "cholesky.glsl"
 
 // Colour = colour at the origin + sum of slope times feature less its origin.
 struct BlockFit {
@@ -12,30 +13,13 @@ struct BlockFit {
   float samples;  // 0: no fit.
 };
 
-// Cholesky decomposition of the covariance of the features with a ridge on its diagonal. Centred moments leave the
-// constant out of it, so that the ridge holds the slopes and not the mean.
+// Centred moments leave the constant out of the system, so that the ridge holds the slopes and not the mean.
 BlockFit fitOf(BlockMoments m) {
   BlockFit fit;
   fit.samples = m.samples;
-  float l[kFeatures][kFeatures];
-  int k = 0;
-  for (int j = 0; j < kFeatures; ++j) {
-    for (int i = j; i < kFeatures; ++i, ++k) {
-      float value = i == j ? max(m.xx[k], 0.0) + settings.ridge : m.xx[k];
-      for (int c = 0; c < j; ++c) value -= l[i][c] * l[j][c];
-      l[i][j] = i == j ? sqrt(max(value, settings.ridge)) : value / l[j][j];
-    }
-  }
-  for (int i = 0; i < kFeatures; ++i) {
-    vec3 value = m.yx[i];
-    for (int c = 0; c < i; ++c) value -= l[i][c] * fit.slope[c];
-    fit.slope[i] = value / l[i][i];
-  }
-  for (int i = kFeatures - 1; i >= 0; --i) {
-    vec3 value = fit.slope[i];
-    for (int c = i + 1; c < kFeatures; ++c) value -= l[c][i] * fit.slope[c];
-    fit.slope[i] = value / l[i][i];
-  }
+  float ridge[kFeatures];
+  for (int i = 0; i < kFeatures; ++i) ridge[i] = settings.ridge;
+  fit.slope = choleskySolve(choleskyFactor(m.xx, ridge, ridge), m.yx);
   // About the means, as halves hold them, so that rounding in memory is small against the colour, not the slopes.
   fit.colour = m.y;
   for (int i = 0; i < kFeatures; ++i) {

@@ -7,7 +7,7 @@
 
 const int kFeatures = 5;
 const int kDepthFeature = 3;
-const int kCovariances = 15;
+const int kCovariances = kFeatures * (kFeatures + 1) / 2;
 
 struct BlockMoments {
   float x[kFeatures];       // Means of the features.

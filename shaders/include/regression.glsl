@@ -4,6 +4,10 @@
 #include "finite.glsl"
 #include "moments.glsl"
 
+const int kFeatures = 2;
+const int kCovariances = 3;
+#include "cholesky.glsl"
+
 // Relative variance of one input sample over the window.
 float relativeVariance(Moments m) {
   const float mean = luminance(m.y);
@@ -13,44 +17,32 @@ float relativeVariance(Moments m) {
 // Cholesky factor of the covariance of the features. With the constant as first feature the decomposition is that of the
 // centred system, so only its 2x2 block is left to do.
 struct Factor {
-  float c11, c21, c22;
+  float l[kCovariances];
   float smallestPivot;   // Before regularisation.
   float regularisation;  // The ridge or the floor.
 };
 
-// Pivots no smaller than `pivotFloor` (algorithm 1's epsilon).
-Factor factorWithFloor(Moments m, float pivotFloor) {
-  const float c11 = sqrt(max(m.xx.x, pivotFloor));
-  const float c21 = m.xx.y / c11;
-  const float rest = m.xx.z - c21 * c21;
-  return Factor(c11, c21, sqrt(max(rest, pivotFloor)), min(m.xx.x, rest), pivotFloor);
-}
-
-// A ridge on the diagonal that grows with the noise of the mean, because a slope that the samples do not support is
-// worse than none.
-Factor factorWithRidge(Moments m, float ridge, float noiseRidge) {
-  const float lambda = ridge + (m.samples > 0.0 ? noiseRidge * relativeVariance(m) / m.samples : 0.0);
-  const float c11 = sqrt(max(m.xx.x, 0.0) + lambda);
-  const float c21 = m.xx.y / c11;
-  return Factor(c11, c21, sqrt(max(m.xx.z + lambda - c21 * c21, lambda)), min(m.xx.x, m.xx.z - c21 * c21), lambda);
-}
-
+// Either pivots no smaller than the floor `ridge` (algorithm 1's epsilon), or a ridge on the diagonal that grows with the
+// noise of the mean, because a slope that the samples do not support is worse than none.
 Factor factorOf(Moments m, bool pivotFloor, float ridge, float noiseRidge) {
-  return pivotFloor ? factorWithFloor(m, ridge) : factorWithRidge(m, ridge, noiseRidge);
+  const bool noisy = !pivotFloor && m.samples > 0.0;
+  const float lambda = ridge + (noisy ? noiseRidge * relativeVariance(m) / m.samples : 0.0);
+  const float added = pivotFloor ? 0.0 : lambda;
+  Factor c;
+  c.l = choleskyFactor(float[](m.xx.x, m.xx.y, m.xx.z), float[](added, added), float[](lambda, lambda));
+  c.smallestPivot = min(m.xx.x, m.xx.z - c.l[1] * c.l[1]);
+  c.regularisation = lambda;
+  return c;
 }
 
-// Coefficients of the two features, by forward and back substitution (algorithm 2).
+// Coefficients of the two features (algorithm 2).
 struct Slopes {
   vec3 u, v;
 };
 
 Slopes slopesOf(Moments m, Factor c) {
-  const vec3 forwardU = m.yu / c.c11;
-  const vec3 forwardV = (m.yv - c.c21 * forwardU) / c.c22;
-  Slopes slopes;
-  slopes.v = forwardV / c.c22;
-  slopes.u = (forwardU - c.c21 * slopes.v) / c.c11;
-  return slopes;
+  const vec3 slopes[kFeatures] = choleskySolve(c.l, vec3[](m.yu, m.yv));
+  return Slopes(slopes[0], slopes[1]);
 }
 
 vec3 fitted(Moments m, Slopes slopes, vec2 features) {

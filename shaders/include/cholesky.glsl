@@ -1,0 +1,40 @@
+// Cholesky decomposition of a regression's covariances, and its slopes.
+// Needs: `kFeatures` and `kCovariances`, the entries of one triangle of their matrix.
+#ifndef WALR_CHOLESKY_GLSL
+#define WALR_CHOLESKY_GLSL
+
+// Where entry (i, j), i >= j, of the lower triangle lies, column by column: the upper one's order row by row.
+int triangleEntry(int i, int j) { return j * (2 * kFeatures - j - 1) / 2 + i; }
+
+// Lower factor of the covariances with `ridge` added to the diagonal. Rounding may leave a variance or a pivot below
+// what it can be: the one is raised to 0, the other to `least`.
+float[kCovariances] choleskyFactor(float covariances[kCovariances], float ridge[kFeatures], float least[kFeatures]) {
+  float l[kCovariances];
+  for (int j = 0; j < kFeatures; ++j) {
+    for (int i = j; i < kFeatures; ++i) {
+      float value = covariances[triangleEntry(i, j)];
+      if (i == j) value = max(value, 0.0) + ridge[i];
+      for (int c = 0; c < j; ++c) value -= l[triangleEntry(i, c)] * l[triangleEntry(j, c)];
+      l[triangleEntry(i, j)] = i == j ? sqrt(max(value, least[i])) : value / l[triangleEntry(j, j)];
+    }
+  }
+  return l;
+}
+
+// Slopes of a colour over the features from its covariances with them: forward, then back substitution.
+vec3[kFeatures] choleskySolve(float l[kCovariances], vec3 yx[kFeatures]) {
+  vec3 x[kFeatures];
+  for (int i = 0; i < kFeatures; ++i) {
+    vec3 value = yx[i];
+    for (int c = 0; c < i; ++c) value -= l[triangleEntry(i, c)] * x[c];
+    x[i] = value / l[triangleEntry(i, i)];
+  }
+  for (int i = kFeatures - 1; i >= 0; --i) {
+    vec3 value = x[i];
+    for (int c = i + 1; c < kFeatures; ++c) value -= l[triangleEntry(c, i)] * x[c];
+    x[i] = value / l[triangleEntry(i, i)];
+  }
+  return x;
+}
+
+#endif
