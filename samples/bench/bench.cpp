@@ -66,18 +66,24 @@ std::vector<std::vector<Variant>> batchesOf(const std::vector<Variant>& missing,
 
 std::map<std::string, std::vector<PlanCosts>> allCosts(const std::vector<NamedSequence>& sequences,
                                                        const std::vector<Variant>& variants) {
-  std::vector<fg::Extent> extents;
+  std::vector<fg::Extent> measured;
   for (const NamedSequence& sequence : sequences) {
-    if (std::ranges::find(extents, sequence.sequence.extent()) == extents.end()) {
-      extents.push_back(sequence.sequence.extent());
+    if (std::ranges::find(measured, sequence.sequence.extent()) == measured.end()) {
+      measured.push_back(sequence.sequence.extent());
     }
   }
-  extents.insert(extents.end(), kCommonExtents.begin(), kCommonExtents.end());
   const InputConventions conventions =
       sequences.empty() ? InputConventions{} : sequences.front().sequence.layout().layout->conventions;
   std::map<std::string, std::vector<PlanCosts>> costs;
   for (const Variant& variant : variants) {
-    for (const fg::Extent extent : extents) costs[variant.name].push_back(planCosts(variant, extent, conventions));
+    for (const fg::Extent extent : measured) costs[variant.name].push_back(planCosts(variant, extent, conventions));
+    for (const fg::Extent extent : kCommonExtents) {
+      if (std::ranges::find(measured, extent) != measured.end()) continue;
+      try {
+        costs[variant.name].push_back(planCosts(variant, extent, conventions));
+      } catch (const std::invalid_argument&) {  // Settings may be too fine for the largest pictures.
+      }
+    }
   }
   return costs;
 }

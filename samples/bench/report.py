@@ -240,8 +240,11 @@ def costs_section(bench):
     rows = []
     for name in bench.methods:
         row = [html.escape(name)]
-        for cost in bench.variants[name]["costs"]:
-            row.append(f"{cost['bytes_read_per_pixel'] + cost['bytes_written_per_pixel']:.0f} <small>B/px</small> "
+        costs = {(c["width"], c["height"]): c for c in bench.variants[name]["costs"]}
+        for size in sizes:
+            cost = costs.get(size)
+            row.append("-" if cost is None else
+                       f"{cost['bytes_read_per_pixel'] + cost['bytes_written_per_pixel']:.0f} <small>B/px</small> "
                        f"{cost['persistent_bytes'] / 1e6:.0f} + {cost['transient_peak_bytes'] / 1e6:.0f} "
                        f"<small>(of {cost['transient_unaliased_bytes'] / 1e6:.0f}) MB</small>")
         rows.append(row)
