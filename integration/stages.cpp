@@ -106,7 +106,7 @@ void flrRegression(StagePorts& ports, const FlrRegressionSettings& settings) {
   const fg::Texture accumulated = ports.texture("accumulated");
   const fg::Texture target = targetLike(ports, "filtered", accumulated);
   ports.setOutput("filtered", addFlrRegression(ports.graph(), accumulated, LightingAlpha::SampleCount, ports.guides(),
-                                               target, settings));
+                                               ports.texture("occlusion"), target, settings));
 }
 
 void jointBilateralFilter(StagePorts& ports, const JointBilateralFilterSettings& settings) {
@@ -168,8 +168,8 @@ std::vector<StageType> stagesAndMethods() {
        make<WeightedRegressionSettings, weightedRegression>},
       {"full_window_regression", "REFWLR's filter: weighted linear regression over the full window", false,
        make<FullWindowSettings, fullWindowRegression>},
-      {"ambient_occlusion", "Ambient occlusion from depth alone, a feature for block_regression", false,
-       make<AmbientOcclusionSettings, ambientOcclusion>},
+      {"ambient_occlusion", "Ambient occlusion from depth alone, a feature for block_regression and flr_regression",
+       false, make<AmbientOcclusionSettings, ambientOcclusion>},
       {"block_regression", "WALR's filter over blocks of pixels, with depth and occlusion among its features", false,
        make<BlockRegressionSettings, blockRegression>},
       {"bmfr_fit", "BMFR's filter: fit blocks of 32x32 pixels by features of first and second order", false,

@@ -124,7 +124,7 @@ constexpr std::array kMethods{
            make<RefwlrSettings, addRefwlr>},
     Method{"bmfr", "Blockwise Multi-Order Feature Regression", make<BmfrSettings, addBmfr>},
     Method{"svgf", "Spatiotemporal Variance-Guided Filtering", make<SvgfSettings, addSvgf>},
-    Method{"flr", "Fast Linear Regression over downsampled moments", make<FlrSettings, addFlr>},
+    Method{"flr", "Fast Local Regression over downsampled moments", make<FlrSettings, addFlr>},
     Method{"joint_bilateral", "Joint bilateral filter with temporal accumulation",
            make<JointBilateralSettings, addJointBilateral>},
     Method{"accumulate", "Temporal accumulation alone", make<AccumulateSettings, addAccumulate>},

@@ -12,7 +12,11 @@ fg::Texture addFlr(fg::Graph& graph, const DenoiserInputs& inputs, fg::Texture o
   FlrRegressionSettings regression = settings.regression;
   if (settings.spatialOnly) regression.sigma = settings.singleFrameSigma;
   return addTemporalStages(graph, inputs, guides, output, stages, [&](const FilterInput& input) {
-    return addFlrRegression(graph, input.lighting, input.alpha, guides, input.target(graph, "filtered"), regression);
+    const fg::Texture occlusion = regression.occlusionGuide
+                                      ? addAmbientOcclusion(graph, inputs.frame, guides, settings.occlusion)
+                                      : fg::Texture{};
+    return addFlrRegression(graph, input.lighting, input.alpha, guides, occlusion, input.target(graph, "filtered"),
+                            regression);
   });
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "framegraph/graph.h"
+#include "passes/ambient_occlusion.h"
 #include "passes/flr_regression.h"
 #include "passes/inputs.h"
 #include "passes/prepare_guides.h"
@@ -14,6 +15,7 @@ struct FlrSettings {
   bool spatialOnly = false;
   PrepareGuidesSettings guides;
   TemporalAccumulationSettings accumulation;
+  AmbientOcclusionSettings occlusion;
   FlrRegressionSettings regression;
   float singleFrameSigma = 10.0F;
   TemporalAntialiasingSettings antialiasing{.maxSamples = 5.0F};
@@ -24,6 +26,7 @@ struct FlrSettings {
             spatialOnly);
     guides.visit(v);
     accumulation.visit(v);
+    occlusion.visit(v);
     regression.visit(v);
     v.visit({"regression.single-frame-sigma",
              "Standard deviation of the Gaussian window where spatial-only takes the place of regression.sigma",

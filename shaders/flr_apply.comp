@@ -1,4 +1,4 @@
-// FLR, last stage (flr-flnr.txt): coefficients, upsampled bilinearly, applied to the guides at full resolution.
+// FLR, last stage (flr-flnr.txt): coefficients, upsampled, applied to the guides at full resolution.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -6,6 +6,7 @@
 #include "include/finite.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
+layout(constant_id = 0) const uint kUpsampling = 1u;  // FlrUpsampling.
 
 layout(push_constant) uniform PushConstants { FlrConstants settings; };
 #include "include/flr.glsl"
@@ -15,23 +16,44 @@ layout(set = 0, binding = 1) uniform utexture2D depth;
 layout(set = 0, binding = 2) uniform utexture2D shadingNormal;
 layout(set = 0, binding = 3, std430) readonly buffer coefficients { Coefficients cells[]; };
 layout(set = 0, binding = 4, rgba16f) uniform writeonly image2D outFiltered;
+#ifdef OCCLUSION
+layout(set = 0, binding = 5) uniform texture2D occlusion;
+#endif
+#include "include/flr_guides.glsl"
 
-// Interpolated prediction of the four cells around pixel `p` that have a fit.
+// Share of a cell in a pixel `t` cells away along one axis.
+float cellWeight(float t) {
+  const float d = abs(t);
+  if (kUpsampling == 0u) return d < 0.5 ? 1.0 : 0.0;
+  if (kUpsampling == 1u) return max(1.0 - d, 0.0);
+  const float rest = max(2.0 - d, 0.0);  // The cubic B-spline, which has no negative lobes.
+  return d < 1.0 ? (4.0 + d * d * (3.0 * d - 6.0)) / 6.0 : rest * rest * rest / 6.0;
+}
+
+vec3 evaluate(Coefficients k, float x[kFeatures]) {
+  vec3 colour = k.constant.rgb;
+  for (int i = 0; i < kFeatures; ++i)
+    for (int c = 0; c < 3; ++c) colour[c] += k.slope[(3 * i + c) / 4][(3 * i + c) % 4] * x[i];
+  return colour;
+}
+
+// Interpolated prediction of the cells around pixel `p` that have a fit.
 // Alpha: below 0 where no cell has any.
-vec4 predict(ivec2 p, vec4 x) {
+vec4 predict(ivec2 p, float x[kFeatures]) {
   const vec2 position = (vec2(p) + 0.5) / float(settings.factor) - 0.5;
-  const ivec2 base = ivec2(floor(position));
-  const vec2 f = position - vec2(base);
+  const int reach = kUpsampling == 2u ? 2 : 1;
+  const ivec2 base = ivec2(floor(position)) + 1 - reach;
   vec3 sum = vec3(0.0);
   float weightSum = 0.0;
-  for (int i = 0; i < 4; ++i) {
-    const ivec2 offset = ivec2(i & 1, i >> 1);
-    if (!insideGrid(base + offset)) continue;
-    const Coefficients k = cells[cellIndex(base + offset)];
-    const vec2 axisWeight = mix(1.0 - f, f, vec2(offset));
-    const float weight = axisWeight.x * axisWeight.y * k.constant.a;
-    sum += weight * (k.constant.rgb + vec3(dot(k.slope[0], x), dot(k.slope[1], x), dot(k.slope[2], x)));
-    weightSum += weight;
+  for (int i = 0; i < 4 * reach * reach; ++i) {
+    const ivec2 cell = base + ivec2(i % (2 * reach), i / (2 * reach));
+    if (!insideGrid(cell)) continue;
+    const vec2 away = position - vec2(cell);
+    const float axes = cellWeight(away.x) * cellWeight(away.y);
+    if (axes == 0.0) continue;
+    const Coefficients k = cells[cellIndex(cell)];
+    sum += axes * k.constant.a * evaluate(k, x);
+    weightSum += axes * k.constant.a;
   }
   return weightSum > 0.0 ? vec4(clamp(sum / weightSum, 0.0, kLargestHalf), 1.0) : vec4(vec3(0.0), -1.0);
 }
@@ -45,5 +67,5 @@ void main() {
     imageStore(outFiltered, p, vec4(isFinite(colour) ? colour : vec3(0.0), 1.0));
     return;
   }
-  imageStore(outFiltered, p, predict(p, guidesOf(z, texelFetch(shadingNormal, p, 0).x)));
+  imageStore(outFiltered, p, predict(p, guidesAt(p, z)));
 }

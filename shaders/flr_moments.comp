@@ -15,6 +15,10 @@ layout(set = 0, binding = 0) uniform texture2D lighting;
 layout(set = 0, binding = 1) uniform utexture2D depth;
 layout(set = 0, binding = 2) uniform utexture2D shadingNormal;
 layout(set = 0, binding = 3, std430) writeonly buffer outMoments { OuterProducts outCells[]; };
+#ifdef OCCLUSION
+layout(set = 0, binding = 4) uniform texture2D occlusion;
+#endif
+#include "include/flr_guides.glsl"
 
 void main() {
   const ivec2 cell = ivec2(gl_GlobalInvocationID.xy);
@@ -30,7 +34,7 @@ void main() {
       const vec3 colour = sampleHere.rgb;
       // Sky, pixels without a diffuse lobe and pixels without a finite sample have no say.
       if (z == 0.0 || !isFinite(colour) || (kAlphaIsSampleCount && sampleHere.a == 0.0)) continue;
-      add(sum, 1.0, outerProducts(guidesOf(z, texelFetch(shadingNormal, p, 0).x), clamp(colour, 0.0, kLargestHalf)));
+      add(sum, 1.0, outerProducts(guidesAt(p, z), clamp(colour, 0.0, kLargestHalf)));
     }
   }
   outCells[cellIndex(cell)] = sum;

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <string_view>
 
+#include "passes/flr_regression.h"
 #include "shaders/constants/block_regression.h"
 #include "shaders/constants/flr.h"
 
@@ -58,6 +59,18 @@ double flrLine(const Stage& stage) {
   return (2.0 * constantsOf<FlrConstants>(stage).radius + 1.0) * flrCells(stage);
 }
 
+double flrUpsampling(const Stage& stage) {
+  switch (static_cast<FlrUpsampling>(specializationOf(stage, "kUpsampling"))) {
+    case FlrUpsampling::Nearest:
+      return 1.0;
+    case FlrUpsampling::Bilinear:
+      return kBilinear;
+    case FlrUpsampling::Bspline:
+      break;
+  }
+  return kBicubic;
+}
+
 double coarseLine(const Stage& stage) {
   return (2.0 * constantsOf<BlockRegressionConstants>(stage).coarseRadius + 1.0) * stage.share;
 }
@@ -87,7 +100,7 @@ constexpr std::array kShaders = {
     ShaderTaps{"flr_moments", [](const Stage&) { return 1.0; }},
     ShaderTaps{"flr_blur", flrLine},
     ShaderTaps{"flr_solve", flrLine},
-    ShaderTaps{"flr_apply", [](const Stage&) { return kBilinear; }},
+    ShaderTaps{"flr_apply", flrUpsampling},
     ShaderTaps{"ambient_occlusion", [](const Stage&) { return 0.0; }},
     ShaderTaps{"block_moments", [](const Stage&) { return 1.0; }},
     ShaderTaps{"block_coarse", coarseLine},

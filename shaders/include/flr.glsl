@@ -1,38 +1,57 @@
 // The guides of Fast Local Regression (flr-flnr.txt), their outer products and the grid these live on.
-// Needs: `settings` (FlrConstants).
+// Needs: `settings` (FlrConstants). OCCLUSION: ambient occlusion is a guide too.
 #ifndef WALR_FLR_GLSL
 #define WALR_FLR_GLSL
-#include "surface.glsl"
 
-// The guides beside the constant: shading normal and inverse depth, which is linear over the image of a plane.
-vec4 guidesOf(float z, uint shadingNormal) { return vec4(unpackNormal(shadingNormal), 1.0 / z); }
+// Shading normal, inverse depth, which is linear over the image of a plane, and ambient occlusion; the constant apart.
+const int kInverseDepth = 3;
+#ifdef OCCLUSION
+const int kFeatures = 5;
+#else
+const int kFeatures = 4;
+#endif
+const int kCovariances = kFeatures * (kFeatures + 1) / 2;
 
-// Sums over samples of the distinct entries of (1, x)(1, x)^T and of (1, x) y^T, x the four guides, y the colour.
+// Sums over samples of the distinct entries of (1, x)(1, x)^T, row by row, then of (1, x) y^T, x the guides, y the
+// colour. The first is the number of samples.
+const int kMeanX = 1;
+const int kSquares = kMeanX + kFeatures;
+const int kMeanY = kSquares + kCovariances;
+const int kProducts = kMeanY + 3 * (kFeatures + 1);
+const int kProductVectors = (kProducts + 3) / 4;
+
 struct OuterProducts {
-  vec4 x;
-  vec4 xx0;  // x[0] * x
-  vec4 xx1;  // x[1] * x[1..3], then the number of samples.
-  vec4 xx2;  // x[2] * x[2], x[2] * x[3], x[3] * x[3]; unused.
-  vec4 y;    // rgb; unused.
-  vec4 yx[3];  // red * x, green * x, blue * x.
+  vec4 v[kProductVectors];
 };
 
-OuterProducts noSamples() {
-  return OuterProducts(vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0), vec4[3](vec4(0.0), vec4(0.0), vec4(0.0)));
+float productAt(OuterProducts p, int k) { return p.v[k / 4][k % 4]; }
+// Colour, or colour times guide `i`, where `i` counts from 1.
+vec3 colourProductAt(OuterProducts p, int i) {
+  const int k = kMeanY + 3 * i;
+  return vec3(productAt(p, k), productAt(p, k + 1), productAt(p, k + 2));
 }
 
-OuterProducts outerProducts(vec4 x, vec3 y) {
-  return OuterProducts(x, x.x * x, vec4(x.y * x.yzw, 1.0), vec4(x.z * x.zw, x.w * x.w, 0.0), vec4(y, 0.0),
-                       vec4[3](y.r * x, y.g * x, y.b * x));
+OuterProducts noSamples() {
+  OuterProducts p;
+  for (int k = 0; k < kProductVectors; ++k) p.v[k] = vec4(0.0);
+  return p;
+}
+
+OuterProducts outerProducts(float x[kFeatures], vec3 y) {
+  float row[kFeatures + 1];
+  row[0] = 1.0;
+  for (int i = 0; i < kFeatures; ++i) row[i + 1] = x[i];
+  OuterProducts p = noSamples();
+  int k = 0;
+  for (int i = 0; i <= kFeatures; ++i)
+    for (int j = i; j <= kFeatures; ++j, ++k) p.v[k / 4][k % 4] = row[i] * row[j];
+  for (int i = 0; i <= kFeatures; ++i)
+    for (int c = 0; c < 3; ++c, ++k) p.v[k / 4][k % 4] = row[i] * y[c];
+  return p;
 }
 
 void add(inout OuterProducts sum, float weight, OuterProducts p) {
-  sum.x += weight * p.x;
-  sum.xx0 += weight * p.xx0;
-  sum.xx1 += weight * p.xx1;
-  sum.xx2 += weight * p.xx2;
-  sum.y += weight * p.y;
-  for (int c = 0; c < 3; ++c) sum.yx[c] += weight * p.yx[c];
+  for (int k = 0; k < kProductVectors; ++k) sum.v[k] += weight * p.v[k];
 }
 
 float gaussian(int distance) {
@@ -41,9 +60,10 @@ float gaussian(int distance) {
 }
 
 // Colour = constant + slope^T x.
+const int kSlopeVectors = (3 * kFeatures + 3) / 4;
 struct Coefficients {
-  vec4 constant;  // rgb; 1 where there is a fit, else 0.
-  vec4 slope[3];  // Of red, green and blue over the guides.
+  vec4 constant;              // rgb; 1 where there is a fit, else 0.
+  vec4 slope[kSlopeVectors];  // rgb of every guide in turn.
 };
 
 bool insideGrid(ivec2 cell) { return all(greaterThanEqual(cell, ivec2(0))) && all(lessThan(cell, settings.cells)); }

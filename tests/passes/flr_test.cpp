@@ -10,6 +10,7 @@
 
 #include "tests/passes/comparison.h"
 #include "tests/passes/filter_run.h"
+#include "tests/passes/reference/block_regression.h"
 #include "tests/passes/reference/flr.h"
 #include "tests/passes/reference/octahedral.h"
 #include "tests/passes/synthetic_scene.h"
@@ -25,17 +26,31 @@ using reference::Storage;
 
 constexpr glm::ivec2 kSize(45, 34);  // No multiple of a cell.
 
+/// A frame as the regression takes it.
+struct Inputs {
+  explicit Inputs(const Scene& scene) : frame(renderStill(scene, kSize)) {
+    guides = reference::prepareGuides(frame, Storage::Quantised);
+    occlusion = reference::ambientOcclusion(frame, guides, 8.0);
+    for (double& o : occlusion.pixels()) o = reference::roundToHalf(o);
+  }
+  HostFrame frame;
+  Image<Guide> guides;
+  Image<double> occlusion;
+};
+
 /// The regression alone, fed with guides.
 class RegressionRun {
  public:
   RegressionRun(const fg::vk::Device& device, const FlrRegressionSettings& settings)
-      : run_(device, kSize, 1, [&](fg::Graph& graph, fg::Buffer, const Guides& guides, const auto& inputs) {
+      : run_(device, kSize, 2, [&](fg::Graph& graph, fg::Buffer, const Guides& guides, const auto& inputs) {
           const fg::Texture filtered = graph.texture("filtered", graph.textureDesc(inputs[0]));
-          return addFlrRegression(graph, inputs[0], LightingAlpha::Unused, guides, filtered, settings);
+          return addFlrRegression(graph, inputs[0], LightingAlpha::Unused, guides, inputs[1], filtered, settings);
         }) {}
 
-  Image<glm::dvec4> filter(const Image<Guide>& guides, const Image<glm::dvec3>& lighting) {
-    return run_.run({}, guides, {withAlpha(lighting)});
+  Image<glm::dvec4> filter(const Inputs& inputs, const Image<glm::dvec3>& lighting) {
+    Image<glm::dvec4> occlusion(kSize);
+    reference::forEachPixel(kSize, [&](glm::ivec2 p) { occlusion[p].x = inputs.occlusion[p]; });
+    return run_.run({}, inputs.guides, {withAlpha(lighting), occlusion});
   }
 
  private:
@@ -47,10 +62,10 @@ class Flr : public fg::test::GpuTest {
   void expectAgreement(const FlrRegressionSettings& settings) {
     RegressionRun run(device(), settings);
     for (const NamedScene& scene : allScenes()) {
-      const HostFrame frame = renderStill(scene.scene, kSize);
-      const Image<Guide> guides = reference::prepareGuides(frame, Storage::Quantised);
-      const auto expected = reference::flrRegression(guides, frame.lighting, settings);
-      const Image<glm::dvec4> actual = run.filter(guides, frame.lighting);
+      const Inputs inputs(scene.scene);
+      const Image<glm::dvec3>& lighting = inputs.frame.lighting;
+      const auto expected = reference::flrRegression(inputs.guides, lighting, inputs.occlusion, settings);
+      const Image<glm::dvec4> actual = run.filter(inputs, lighting);
       Comparison comparison(scene.name);
       reference::forEachPixel(kSize, [&](glm::ivec2 p) {
         comparison.compared();
@@ -66,21 +81,27 @@ class Flr : public fg::test::GpuTest {
 
 /// The reference sums every window pixel by pixel: at one pixel a cell this is brute-force weighted least squares.
 TEST_F(Flr, OnePixelACellIsBruteForceLeastSquares) {
-  expectAgreement({.factor = 1, .sigma = 2.0F, .reach = 2.0F});
+  for (const bool occlusion : {false, true})
+    expectAgreement({.factor = 1, .sigma = 2.0F, .reach = 2.0F, .occlusionGuide = occlusion});
 }
 
 TEST_F(Flr, DownsampledCellsAgreeWithTheReference) {
-  expectAgreement({});
+  for (const bool occlusion : {false, true}) expectAgreement({.occlusionGuide = occlusion});
+}
+
+TEST_F(Flr, EveryUpsamplingAgreesWithTheReference) {
+  for (const FlrUpsampling upsampling : {FlrUpsampling::Nearest, FlrUpsampling::Bspline})
+    expectAgreement({.upsampling = upsampling});
 }
 
 TEST_F(Flr, AConstantStaysWhatItIs) {
   const glm::dvec3 light(0.25, 3.0, 1000.0);
   const FlrRegressionSettings settings;
   RegressionRun run(device(), settings);
-  const Image<Guide> guides = reference::prepareGuides(renderStill(sphere(), kSize), Storage::Quantised);
+  const Inputs inputs(sphere());
   const Image<glm::dvec3> lighting(kSize, light);
-  const auto bound = reference::flrRegression(guides, lighting, settings);
-  const Image<glm::dvec4> actual = run.filter(guides, lighting);
+  const auto bound = reference::flrRegression(inputs.guides, lighting, inputs.occlusion, settings);
+  const Image<glm::dvec4> actual = run.filter(inputs, lighting);
   reference::forEachPixel(kSize, [&](glm::ivec2 p) {
     for (int c = 0; c < 3; ++c)
       ASSERT_NEAR(actual[p][c], light[c], halfTolerance(light[c], bound[p].error[c])) << p.x << " " << p.y;
@@ -93,17 +114,20 @@ TEST_F(Flr, AConstantStaysWhatItIs) {
 TEST_F(Flr, ASignalLinearInTheGuidesIsReproduced) {
   constexpr double kRidge = 1e-6;
   RegressionRun run(device(), {.ridge = static_cast<float>(kRidge)});
-  const Image<Guide> guides = reference::prepareGuides(renderStill(bumpyWall(0.1), kSize), Storage::Quantised);
+  Inputs inputs(bumpyWall(0.1));
   const glm::dvec3 slope(0.5, -1.0, 0.7);
   const double depthSlope = 3.0;
+  const double occlusionSlope = -2.0;
   Image<glm::dvec3> signal(kSize);
   double inverseDepth = 0.0;
   reference::forEachPixel(kSize, [&](glm::ivec2 p) {
-    const glm::dvec3 n = reference::octahedralDecode(guides[p].features);
-    inverseDepth = std::max(inverseDepth, 1.0 / guides[p].depth);
-    signal[p] = glm::dvec3(4.0 + glm::dot(n, slope) + depthSlope / guides[p].depth);
+    const Guide& guide = inputs.guides[p];
+    inverseDepth = std::max(inverseDepth, 1.0 / guide.depth);
+    inputs.occlusion[p] = reference::roundToHalf(0.5 + 0.3 * std::sin(0.9 * p.x) * std::cos(0.7 * p.y));
+    signal[p] = glm::dvec3(4.0 + glm::dot(reference::octahedralDecode(guide.features), slope) +
+                           depthSlope / guide.depth + occlusionSlope * inputs.occlusion[p]);
   });
-  const Image<glm::dvec4> actual = run.filter(guides, signal);
+  const Image<glm::dvec4> actual = run.filter(inputs, signal);
   double squares = 0.0;
   double largest = 0.0;
   reference::forEachPixel(kSize, [&](glm::ivec2 p) {
@@ -111,16 +135,17 @@ TEST_F(Flr, ASignalLinearInTheGuidesIsReproduced) {
     largest = std::max(largest, signal[p].x);
   });
   // The ridge of the inverse depth is relative, which is as if the guide were measured in units of its mean.
-  const double slopeLength = glm::length(glm::dvec4(slope, depthSlope * inverseDepth));
+  const double slopeLength = std::hypot(glm::length(glm::dvec4(slope, depthSlope * inverseDepth)), occlusionSlope);
   const double rounding = 4.0 * reference::kHalfRoundoff * largest;  // Of the signal and of the result.
-  EXPECT_LE(std::sqrt(squares / double(guides.pixels().size())), 0.5 * std::sqrt(kRidge) * slopeLength + rounding);
+  EXPECT_LE(std::sqrt(squares / double(inputs.guides.pixels().size())),
+            0.5 * std::sqrt(kRidge) * slopeLength + rounding);
 }
 
 TEST(FlrSettings, TooManyCellsAreRejectedWithTheSetting) {
   fg::Graph graph;
   const fg::Texture lighting = graph.texture("lighting", {VK_FORMAT_R16G16B16A16_SFLOAT, {3840, 2160}});
   try {
-    (void)addFlrRegression(graph, lighting, LightingAlpha::Unused, {}, lighting, {.factor = 1});
+    (void)addFlrRegression(graph, lighting, LightingAlpha::Unused, {}, {}, lighting, {.factor = 1});
     FAIL() << "accepted";
   } catch (const std::invalid_argument& error) {
     EXPECT_NE(std::string(error.what()).find("regression.factor"), std::string::npos) << error.what();

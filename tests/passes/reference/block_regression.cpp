@@ -8,14 +8,14 @@
 #include <glm/geometric.hpp>
 
 #include "tests/passes/reference/hash.h"
+#include "tests/passes/reference/linear_system.h"
 #include "tests/passes/reference/octahedral.h"
 
 namespace walr::reference {
 namespace {
 
 constexpr int kFeatures = 5;
-using Features = std::array<double, kFeatures>;
-using Matrix = std::array<Features, kFeatures>;
+using Features = Vector<kFeatures>;
 
 /// What stands for a block, and the weight of every pixel of the picture in its window.
 struct Block {
@@ -181,22 +181,6 @@ Image<Block> coarseWindows(const Picture& picture, const Image<Block>& blocks) {
   return blur(blur(blocks, {1, 0}), {0, 1});
 }
 
-/// Gaussian elimination with the three colours as right-hand sides.
-std::array<glm::dvec3, kFeatures> solve(Matrix a, std::array<glm::dvec3, kFeatures> b) {
-  for (int k = 0; k < kFeatures; ++k) {
-    for (int i = k + 1; i < kFeatures; ++i) {
-      const double factor = a[i][k] / a[k][k];
-      for (int j = k; j < kFeatures; ++j) a[i][j] -= factor * a[k][j];
-      b[i] -= factor * b[k];
-    }
-  }
-  for (int i = kFeatures - 1; i >= 0; --i) {
-    for (int j = i + 1; j < kFeatures; ++j) b[i] -= a[i][j] * b[j];
-    b[i] /= a[i][i];
-  }
-  return b;
-}
-
 /// Weighted least squares over a block's window; the ridge holds the slopes.
 Fit fitOf(const Picture& picture, const Block& block) {
   Fit fit;
@@ -218,7 +202,7 @@ Fit fitOf(const Picture& picture, const Block& block) {
   if (fit.samples == 0.0) return fit;
   for (double& x : meanX) x /= fit.samples;
   meanY /= fit.samples;
-  Matrix covariance{};
+  Matrix<kFeatures> covariance{};
   std::array<glm::dvec3, kFeatures> right{};
   visit([&](double w, const Features& x, glm::dvec3 y) {
     for (int i = 0; i < kFeatures; ++i) {
@@ -228,8 +212,10 @@ Fit fitOf(const Picture& picture, const Block& block) {
     }
   });
   for (int i = 0; i < kFeatures; ++i) covariance[i][i] += double(picture.settings.ridge);
-  fit.slope = solve(covariance, right);
+  const Matrix<kFeatures> inverted = inverse(covariance);
   fit.constant = meanY;
+  for (int i = 0; i < kFeatures; ++i)
+    for (int j = 0; j < kFeatures; ++j) fit.slope[i] += inverted[i][j] * right[j];
   for (int i = 0; i < kFeatures; ++i) fit.constant -= fit.slope[i] * meanX[i];
   return fit;
 }

@@ -4,18 +4,18 @@
 #include <array>
 #include <cmath>
 
-#include <glm/geometric.hpp>
-#include <glm/mat4x4.hpp>
-#include <glm/matrix.hpp>
+#include <glm/common.hpp>
 
+#include "tests/passes/reference/linear_system.h"
 #include "tests/passes/reference/octahedral.h"
 
 namespace walr::reference {
 namespace {
 
-glm::dvec4 guideVector(const Guide& guide) {
-  return {octahedralDecode(guide.features), 1.0 / guide.depth};
-}
+/// Normal, inverse depth, ambient occlusion.
+constexpr std::size_t kGuides = 5;
+constexpr std::size_t kInverseDepth = 3;
+using GuideVector = Vector<kGuides>;
 
 bool isFinite(glm::dvec3 v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
@@ -23,36 +23,50 @@ bool isFinite(glm::dvec3 v) {
 
 struct Sample {
   double weight;
-  glm::dvec4 x;
+  GuideVector x;
   glm::dvec3 y;
 };
 
 /// The fit of one cell: colour = mean + slope (x - meanX).
 struct Fit {
   bool found = false;
-  glm::dvec4 meanX{0.0};
+  GuideVector meanX{};
   glm::dvec3 meanY{0.0};
-  std::array<glm::dvec4, 3> slope{};
+  std::array<GuideVector, 3> slope{};
   // What rounding the sums of products may change: the inverse of the matrix, and the largest error of its entries and
   // of each right-hand side.
-  glm::dmat4 inverse{1.0};
-  glm::dmat4 matrixError{0.0};
-  std::array<glm::dvec4, 3> rightError{};
+  Matrix<kGuides> inverseMagnitude{};
+  Matrix<kGuides> matrixError{};
+  std::array<GuideVector, 3> rightError{};
+};
+
+/// What the regression reads.
+struct Inputs {
+  const Image<Guide>& guides;
+  const Image<glm::dvec3>& lighting;
+  const Image<double>& occlusion;
+  const FlrRegressionSettings& settings;
+
+  /// A guide that is 0 everywhere has a slope of 0.
+  [[nodiscard]] GuideVector guidesAt(glm::ivec2 p) const {
+    const glm::dvec3 n = octahedralDecode(guides[p].features);
+    return {n.x, n.y, n.z, 1.0 / guides[p].depth, settings.occlusionGuide ? occlusion[p] : 0.0};
+  }
 };
 
 /// The samples of all cells in the window of a cell, each with its cell's Gaussian weight.
-std::vector<Sample> windowOf(const Image<Guide>& guides, const Image<glm::dvec3>& lighting, glm::ivec2 cell,
-                             const FlrRegressionSettings& settings) {
+std::vector<Sample> windowOf(const Inputs& in, glm::ivec2 cell) {
+  const FlrRegressionSettings& settings = in.settings;
   const int factor = int(settings.factor);
   const double sigma = double(settings.sigma) / factor;
   const int radius = int(std::ceil(double(settings.reach) * sigma));
   std::vector<Sample> samples;
-  forEachPixel(guides.size(), [&](glm::ivec2 p) {
+  forEachPixel(in.guides.size(), [&](glm::ivec2 p) {
     const glm::ivec2 d = p / factor - cell;
     if (std::max(std::abs(d.x), std::abs(d.y)) > radius) return;
-    if (guides[p].depth == 0.0 || !isFinite(lighting[p])) return;
+    if (in.guides[p].depth == 0.0 || !isFinite(in.lighting[p])) return;
     const double weight = std::exp(-0.5 * (d.x * d.x + d.y * d.y) / (sigma * sigma));
-    samples.push_back({weight, guideVector(guides[p]), glm::clamp(lighting[p], 0.0, kLargestHalf)});
+    samples.push_back({weight, in.guidesAt(p), glm::clamp(in.lighting[p], 0.0, kLargestHalf)});
   });
   return samples;
 }
@@ -60,37 +74,38 @@ std::vector<Sample> windowOf(const Image<Guide>& guides, const Image<glm::dvec3>
 Fit fitCell(const std::vector<Sample>& samples, const FlrRegressionSettings& settings) {
   Fit fit;
   double total = 0.0;
-  glm::dvec4 absoluteX{0.0};
   for (const Sample& s : samples) {
     total += s.weight;
-    fit.meanX += s.weight * s.x;
+    for (std::size_t i = 0; i < kGuides; ++i) fit.meanX[i] += s.weight * s.x[i];
     fit.meanY += s.weight * s.y;
-    absoluteX += s.weight * glm::abs(s.x);
   }
   if (total == 0.0) return fit;
   fit.found = true;
-  fit.meanX /= total;
+  for (double& x : fit.meanX) x /= total;
   fit.meanY /= total;
 
-  glm::dmat4 covariance{0.0};
-  glm::dmat4 magnitude{0.0};
-  std::array<glm::dvec4, 3> right{};
-  std::array<glm::dvec4, 3> rightMagnitude{};
+  Matrix<kGuides> covariance{};
+  std::array<GuideVector, 3> right{};
   for (const Sample& s : samples) {
     const double w = s.weight / total;
-    const glm::dvec4 dx = s.x - fit.meanX;
-    covariance += w * glm::outerProduct(dx, dx);
-    magnitude += w * glm::outerProduct(glm::abs(s.x), glm::abs(s.x));
-    for (int c = 0; c < 3; ++c) {
-      right[c] += w * (s.y[c] - fit.meanY[c]) * dx;
-      rightMagnitude[c] += w * s.y[c] * glm::abs(s.x);
+    for (std::size_t i = 0; i < kGuides; ++i) {
+      const double dx = s.x[i] - fit.meanX[i];
+      for (std::size_t j = 0; j < kGuides; ++j) {
+        covariance[i][j] += w * dx * (s.x[j] - fit.meanX[j]);
+        fit.matrixError[i][j] += w * std::abs(s.x[i] * s.x[j]);
+      }
+      for (int c = 0; c < 3; ++c) {
+        right[c][i] += w * (s.y[c] - fit.meanY[c]) * dx;
+        fit.rightError[c][i] += w * s.y[c] * std::abs(s.x[i]);
+      }
     }
   }
-  const double ridge = settings.ridge;
-  const glm::dvec4 ridges(ridge, ridge, ridge, ridge * fit.meanX.w * fit.meanX.w);
-  for (int i = 0; i < 4; ++i) covariance[i][i] += ridges[i];
-  fit.inverse = glm::inverse(covariance);
-  for (int c = 0; c < 3; ++c) fit.slope[c] = fit.inverse * right[c];
+  const double meanDepth = fit.meanX[kInverseDepth];
+  for (std::size_t i = 0; i < kGuides; ++i)
+    covariance[i][i] += double(settings.ridge) * (i == kInverseDepth ? meanDepth * meanDepth : 1.0);
+  const Matrix<kGuides> inverted = inverse(covariance);
+  for (int c = 0; c < 3; ++c) fit.slope[c] = inverted * right[c];
+  for (std::size_t i = 0; i < kGuides; ++i) fit.inverseMagnitude[i] = absolute(inverted[i]);
 
   // A sum of products goes through one addition per pixel of a cell and per tap of each blur, every one rounding what
   // is summed so far; the exponential of a weight errs by a few roundoffs more (Vulkan: 3 + 2 |x| units); then comes
@@ -99,25 +114,52 @@ Fit fitCell(const std::vector<Sample>& samples, const FlrRegressionSettings& set
   const double exponent = 0.5 * double(settings.reach) * double(settings.reach) + 1.0;
   const double roundings = double(settings.factor * settings.factor) + 2.0 * (reach + 6.0 + 4.0 * exponent) + 8.0;
   const double relative = 2.0 * roundings * kFloatRoundoff;
-  fit.matrixError = relative * magnitude;
-  for (int c = 0; c < 3; ++c) fit.rightError[c] = relative * rightMagnitude[c];
+  for (GuideVector& row : fit.matrixError)
+    for (double& entry : row) entry *= relative;
+  for (GuideVector& column : fit.rightError)
+    for (double& entry : column) entry *= relative;
   return fit;
 }
 
-glm::dvec4 absolute(const glm::dmat4& m, glm::dvec4 v) {
-  glm::dvec4 result(0.0);
-  for (int i = 0; i < 4; ++i) result += glm::abs(m[i]) * v[i];
+/// A fit at a pixel's guides, with what rounding may change of it.
+FlrResult predict(const Fit& fit, const GuideVector& x) {
+  FlrResult result;
+  GuideVector d = x;
+  GuideVector size = absolute(x);
+  for (std::size_t i = 0; i < kGuides; ++i) {
+    d[i] -= fit.meanX[i];
+    size[i] += std::abs(fit.meanX[i]);
+  }
+  for (int c = 0; c < 3; ++c) {
+    const GuideVector slope = absolute(fit.slope[c]);
+    GuideVector rightError = fit.matrixError * slope;
+    for (std::size_t i = 0; i < kGuides; ++i) rightError[i] += fit.rightError[c][i];
+    // The constant is the mean minus the slope's part of it, which evaluation adds again.
+    result.colour[c] = fit.meanY[c] + dot(fit.slope[c], d);
+    result.error[c] =
+        dot(fit.inverseMagnitude * rightError, absolute(d)) + 16.0 * kFloatRoundoff * (fit.meanY[c] + dot(slope, size));
+  }
   return result;
+}
+
+/// Share of a cell `t` cells away along one axis.
+double cellWeight(double t, FlrUpsampling upsampling) {
+  const double d = std::abs(t);
+  if (upsampling == FlrUpsampling::Nearest) return d < 0.5 ? 1.0 : 0.0;
+  if (upsampling == FlrUpsampling::Bilinear) return std::max(1.0 - d, 0.0);
+  // The cubic B-spline as the fourfold convolution of a box: its truncated powers.
+  const auto cube = [](double x) { return x > 0.0 ? x * x * x : 0.0; };
+  return (cube(2.0 - d) - 4.0 * cube(1.0 - d)) / 6.0;
 }
 
 }  // namespace
 
 Image<FlrResult> flrRegression(const Image<Guide>& guides, const Image<glm::dvec3>& lighting,
-                               const FlrRegressionSettings& settings) {
+                               const Image<double>& occlusion, const FlrRegressionSettings& settings) {
+  const Inputs in{guides, lighting, occlusion, settings};
   const int factor = int(settings.factor);
   Image<Fit> fits((guides.size() + factor - 1) / factor);
-  forEachPixel(fits.size(),
-               [&](glm::ivec2 cell) { fits[cell] = fitCell(windowOf(guides, lighting, cell, settings), settings); });
+  forEachPixel(fits.size(), [&](glm::ivec2 cell) { fits[cell] = fitCell(windowOf(in, cell), settings); });
 
   Image<FlrResult> results(guides.size());
   forEachPixel(guides.size(), [&](glm::ivec2 p) {
@@ -126,28 +168,18 @@ Image<FlrResult> flrRegression(const Image<Guide>& guides, const Image<glm::dvec
       result.colour = isFinite(lighting[p]) ? lighting[p] : glm::dvec3(0.0);
       return;
     }
-    const glm::dvec4 x = guideVector(guides[p]);
+    const GuideVector x = in.guidesAt(p);
     const glm::dvec2 position = (glm::dvec2(p) + 0.5) / double(factor) - 0.5;
-    const glm::ivec2 base = glm::ivec2(glm::floor(position));
-    const glm::dvec2 f = position - glm::dvec2(base);
     double weightSum = 0.0;
-    for (int i = 0; i < 4; ++i) {
-      const glm::ivec2 offset(i % 2, i / 2);
-      const glm::ivec2 cell = base + offset;
-      if (!fits.contains(cell) || !fits[cell].found) continue;
-      const Fit& fit = fits[cell];
-      const double weight = (offset.x == 1 ? f.x : 1.0 - f.x) * (offset.y == 1 ? f.y : 1.0 - f.y);
+    for (int i = 0; i < 25; ++i) {
+      const glm::ivec2 cell = glm::ivec2(glm::floor(position)) + glm::ivec2(i % 5, i / 5) - 2;
+      const double weight =
+          cellWeight(position.x - cell.x, settings.upsampling) * cellWeight(position.y - cell.y, settings.upsampling);
+      if (weight == 0.0 || !fits.contains(cell) || !fits[cell].found) continue;
+      const FlrResult prediction = predict(fits[cell], x);
       weightSum += weight;
-      const glm::dvec4 d = x - fit.meanX;
-      for (int c = 0; c < 3; ++c) {
-        const glm::dvec4 slopeError =
-            absolute(fit.inverse, fit.rightError[c] + absolute(fit.matrixError, glm::abs(fit.slope[c])));
-        // The constant is the mean minus the slope's part of it, which evaluation adds again.
-        const double evaluation =
-            16.0 * kFloatRoundoff * glm::dot(glm::abs(fit.slope[c]), glm::abs(x) + glm::abs(fit.meanX));
-        result.colour[c] += weight * (fit.meanY[c] + glm::dot(fit.slope[c], d));
-        result.error[c] += weight * (glm::dot(slopeError, glm::abs(d)) + evaluation);
-      }
+      result.colour += weight * prediction.colour;
+      result.error += weight * prediction.error;
     }
     if (weightSum > 0.0) {
       result.colour = glm::clamp(result.colour / weightSum, 0.0, kLargestHalf);
