@@ -79,10 +79,14 @@ void registerRender(CLI::App& program) {
                       "Equirectangular sky in place of the scene's: an EXR file, R,G,B, its middle along -Z");
   command->add_flag("--jitter", options.jitter, "Sample off the pixel centre: 16 Halton points, one a frame");
   command
-      ->add_option("--sampler", options.sampler,
-                   "Random numbers: sobol (Owen-scrambled Sobol points; default) or independent")
-      ->transform(CLI::CheckedTransformer(std::map<std::string, render::Sampler::Kind>{
-          {"sobol", render::Sampler::Kind::Sobol}, {"independent", render::Sampler::Kind::Independent}}));
+      ->add_option(
+          "--sampler", options.sampler,
+          "Random numbers: blue-noise (spread over the pixels of a frame; default; several paths a pixel take sobol), "
+          "sobol (Owen-scrambled Sobol points over the samples of a pixel) or independent")
+      ->transform(CLI::CheckedTransformer(
+          std::map<std::string, render::Sampler::Kind>{{"blue-noise", render::Sampler::Kind::BlueNoise},
+                                                       {"sobol", render::Sampler::Kind::Sobol},
+                                                       {"independent", render::Sampler::Kind::Independent}}));
   command
       ->add_option("--diffuse", options.diffuseModel,
                    "Diffuse lobe of all materials: lambert (default), or disney, that of Blender's Principled BSDF")

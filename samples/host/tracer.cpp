@@ -78,6 +78,7 @@ Frame Tracer::trace(const Request& request) {
   render::SamplingSettings sampling;
   sampling.samples = options_.samples;
   sampling.bounces = options_.bounces;
+  sampling.sampler = options_.samples == 1 ? render::Sampler::Kind::BlueNoise : render::Sampler::Kind::Sobol;
   sampling.seed = options_.seed * 2;
   sampling.firstSample = static_cast<std::uint32_t>(request.number) * options_.samples;
   sampling.threads = options_.threads;

@@ -32,7 +32,7 @@ Film renderFilm(const World& world, const View& view, const SamplingSettings& se
         glm::dvec3 direct(0.0);
         glm::dvec3 indirect(0.0);
         for (std::uint32_t s = 0; s < settings.samples; ++s) {
-          Sampler sampler(settings.sampler, settings.seed, index, settings.firstSample + s);
+          Sampler sampler(settings.sampler, settings.seed, (y << 16U) | x, settings.firstSample + s);
           const PathSample path = tracePath(world, *hit.surface, settings.bounces, sampler);
           direct += path.direct;
           indirect += path.indirect;

@@ -23,6 +23,18 @@ namespace fs = std::filesystem;
 
 constexpr const char* kSettingsFile = "render.json";
 
+const char* nameOf(Sampler::Kind kind) {
+  switch (kind) {
+    case Sampler::Kind::Sobol:
+      return "sobol";
+    case Sampler::Kind::BlueNoise:
+      return "blue-noise";
+    case Sampler::Kind::Independent:
+      break;
+  }
+  return "independent";
+}
+
 // All that the pixels depend on, but the range of frames.
 nlohmann::json describe(const RenderOptions& options) {
   return {
@@ -39,7 +51,7 @@ nlohmann::json describe(const RenderOptions& options) {
       {"camera", options.camera},
       {"jitter", options.jitter},
       {"diffuse", options.diffuseModel == DiffuseModel::Lambert ? "lambert" : "disney"},
-      {"sampler", options.sampler == Sampler::Kind::Sobol ? "sobol" : "independent"},
+      {"sampler", nameOf(options.sampler)},
   };
 }
 
@@ -112,7 +124,10 @@ void renderSequence(const RenderOptions& options, const RenderObserver& observer
       sampling.bounces = options.bounces;
       sampling.seed = options.seed * 2 + seedBit;
       sampling.firstSample = static_cast<std::uint32_t>(number) * samples;
-      sampling.sampler = options.sampler;
+      // Over many samples of a pixel those of blue noise would be as good as independent.
+      const bool spread = options.sampler == Sampler::Kind::BlueNoise && samples == 1;
+      sampling.sampler =
+          options.sampler == Sampler::Kind::BlueNoise && !spread ? Sampler::Kind::Sobol : options.sampler;
       sampling.threads = options.threads;
       return renderFilm(world, view, sampling);
     };

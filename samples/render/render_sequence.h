@@ -25,10 +25,10 @@ struct RenderOptions {
   std::uint32_t bounces = 4;           ///< Surfaces after the first that reflect light.
   std::uint32_t seed = 0;
   double framesPerSecond = 24.0;
-  std::string camera;   ///< Name of the camera or of its node; empty: the first.
-  bool jitter = false;  ///< Sample off the pixel centre, by `haltonJitter`.
-  Sampler::Kind sampler = Sampler::Kind::Sobol;
-  unsigned int threads = 0;  ///< 0: one for every core.
+  std::string camera;                                ///< Name of the camera or of its node; empty: the first.
+  bool jitter = false;                               ///< Sample off the pixel centre, by `haltonJitter`.
+  Sampler::Kind sampler = Sampler::Kind::BlueNoise;  ///< Of the noisy frames; references take Sobol points for it.
+  unsigned int threads = 0;                          ///< 0: one for every core.
   DiffuseModel diffuseModel = DiffuseModel::Lambert;
 
   /// Number of files that are rendered.

@@ -1,5 +1,8 @@
 #include "samples/render/sampler.h"
 
+#include <algorithm>
+#include <array>
+
 namespace walr::render {
 namespace {
 
@@ -46,25 +49,74 @@ std::uint32_t sobolSecond(std::uint32_t index) {
   return result;
 }
 
+// Puts a zero before each of the lower 16 bits.
+std::uint32_t spreadBits(std::uint32_t x) {
+  x &= 0x0000ffffU;
+  x = (x | (x << 8U)) & 0x00ff00ffU;
+  x = (x | (x << 4U)) & 0x0f0f0f0fU;
+  x = (x | (x << 2U)) & 0x33333333U;
+  return (x | (x << 1U)) & 0x55555555U;
+}
+
+// The 24 orders of four things, each as four numbers of two bits, the lowest first.
+constexpr auto kOrders = [] {
+  std::array<std::uint8_t, 24> orders{};
+  std::array<unsigned int, 4> order = {0, 1, 2, 3};
+  for (std::uint8_t& packed : orders) {
+    packed = static_cast<std::uint8_t>(order[0] | order[1] << 2U | order[2] << 4U | order[3] << 6U);
+    std::next_permutation(order.begin(), order.end());
+  }
+  return orders;
+}();
+
+// Place on a Z-order curve whose quadrants are shuffled, at every level and in every quadrant on its own.
+std::uint32_t shuffledZOrder(std::uint32_t place, std::uint32_t seed) {
+  constexpr std::uint32_t kLevels = 14;  // Pictures of up to 16384 pixels a side.
+  std::uint32_t shuffled = 0;
+  for (std::uint32_t level = 0; level < kLevels; ++level) {
+    const std::uint32_t shift = 2 * level;
+    // A leading one tells the quadrants of one level from those of another.
+    const std::uint32_t quadrant = (place | 1U << 2 * kLevels) >> (shift + 2);
+    const std::uint32_t order = kOrders.at(combine(seed, quadrant) % kOrders.size());
+    shuffled |= (order >> 2 * (place >> shift & 3U) & 3U) << shift;
+  }
+  return shuffled;
+}
+
 // The upper 24 bits: every value is exact in float and below 1.
 float toUnit(std::uint32_t x) {
   return static_cast<float>(x >> 8U) * 0x1p-24F;
 }
 
+// A point of the Owen-scrambled Sobol sequence, its two dimensions scrambled on their own.
+glm::vec2 sobolPoint(std::uint32_t index, std::uint32_t seed) {
+  return {toUnit(owenScramble(reverseBits(index), combine(seed, 1U))),
+          toUnit(owenScramble(sobolSecond(index), combine(seed, 2U)))};
+}
+
 }  // namespace
 
 Sampler::Sampler(Kind kind, std::uint32_t seed, std::uint32_t pixel, std::uint32_t index)
-    : kind_(kind), sequence_(combine(mixBits(seed), pixel)), index_(index) {}
+    : kind_(kind),
+      seed_(mixBits(seed)),
+      place_(spreadBits(pixel) | spreadBits(pixel >> 16U) << 1U),
+      sequence_(combine(seed_, pixel)),
+      index_(index) {}
+
+glm::vec2 Sampler::sharedPoint(std::uint32_t seed) const {
+  return sobolPoint(shuffledZOrder(place_, combine(seed, 3U)), seed);
+}
 
 glm::vec2 Sampler::next2D() {
+  if (kind_ == Kind::BlueNoise) {
+    return sharedPoint(combine(combine(seed_, index_), dimension_++));
+  }
   const std::uint32_t seed = combine(sequence_, dimension_++);
   if (kind_ == Kind::Independent) {
     const std::uint32_t x = combine(seed, index_);
     return {toUnit(x), toUnit(combine(x, 1U))};
   }
-  const std::uint32_t shuffled = owenScramble(index_, seed);
-  return {toUnit(owenScramble(reverseBits(shuffled), combine(seed, 1U))),
-          toUnit(owenScramble(sobolSecond(shuffled), combine(seed, 2U)))};
+  return sobolPoint(owenScramble(index_, seed), seed);
 }
 
 }  // namespace walr::render
