@@ -1,5 +1,6 @@
 #include "samples/cli/method_options.h"
 
+#include <algorithm>
 #include <stdexcept>
 
 #include <CLI/CLI.hpp>
@@ -63,6 +64,18 @@ std::unique_ptr<Denoiser> makeMethod(const MethodOptions& options) {
     applyOption("--set " + setting, [&] { method->set(setting.substr(0, split), setting.substr(split + 1)); });
   }
   return method;
+}
+
+std::optional<std::string> presetInUse(std::string_view methodName, Denoiser& method) {
+  const std::vector<SettingText> settings = method.settings();
+  const std::unique_ptr<Denoiser> other = makeDenoiser(methodName);
+  for (const std::string& preset : other->presets()) {
+    other->usePreset(preset);
+    if (std::ranges::equal(other->settings(), settings, {}, &SettingText::value, &SettingText::value)) {
+      return preset;
+    }
+  }
+  return std::nullopt;
 }
 
 }  // namespace walr

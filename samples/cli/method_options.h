@@ -1,7 +1,9 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -25,5 +27,8 @@ void addMethodOptions(CLI::App& command, MethodOptions& options);
 /// @throws UsageError naming the unknown preset, or the setting that is unknown, out of range or not of the form
 /// name=value
 std::unique_ptr<Denoiser> makeMethod(const MethodOptions& options);
+
+/// The preset whose settings a method has now, all of them. Nothing where there is none.
+std::optional<std::string> presetInUse(std::string_view methodName, Denoiser& method);
 
 }  // namespace walr

@@ -2,6 +2,8 @@
 
 #include <iostream>
 #include <memory>
+#include <optional>
+#include <string>
 #include <utility>
 
 #include <CLI/CLI.hpp>
@@ -77,7 +79,11 @@ void run(HostOptions& options) {
   }
 #endif
   GpuDevice gpu(options.gpu);
-  std::cout << "method: " << options.method.name << "\ndevice: " << gpu.name() << ", driver " << gpu.driver()
+  std::cout << "method: " << options.method.name;
+  if (const std::optional<std::string> preset = presetInUse(options.method.name, *method)) {
+    std::cout << ", preset " << *preset;
+  }
+  std::cout << "\ndevice: " << gpu.name() << ", driver " << gpu.driver()
             << std::endl;
   if (!window) {
     runHeadless(options, tracer, gpu, *method);

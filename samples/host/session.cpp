@@ -4,6 +4,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "samples/cli/method_options.h"
+
 namespace walr::host {
 
 Session::Session(const Tracer& tracer, std::string methodName, std::unique_ptr<Denoiser> method, const HostView& view,
@@ -12,6 +14,7 @@ Session::Session(const Tracer& tracer, std::string methodName, std::unique_ptr<D
       tracer_(tracer),
       methodName_(std::move(methodName)),
       method_(std::move(method)),
+      preset_(presetInUse(methodName_, *method_)),
       view_(view),
       frames_(frames),
       once_(once),
@@ -51,11 +54,16 @@ std::optional<Tracer::Request> Session::nextRequest(bool evenFrozen) {
 void Session::chooseMethod(const std::string& name) {
   method_ = makeDenoiser(name);
   methodName_ = name;
-  graphChanged_ = true;
+  settingsChanged();
 }
 
 void Session::choosePreset(const std::string& name) {
   method_->usePreset(name);
+  settingsChanged();
+}
+
+void Session::settingsChanged() {
+  preset_ = presetInUse(methodName_, *method_);
   graphChanged_ = true;
 }
 

@@ -34,7 +34,7 @@ class Session {
   /// Move the free camera.
   void moveCamera(const CameraInput& input);
   /// A setting of the method has changed.
-  void settingsChanged() { graphChanged_ = true; }
+  void settingsChanged();
   /// Jump half the animation ahead, or, with a free camera, to where the scene's camera stands.
   void cutCamera();
   void resetHistory() { reset_ = true; }
@@ -44,6 +44,8 @@ class Session {
 
   [[nodiscard]] const std::string& methodName() const { return methodName_; }
   [[nodiscard]] Denoiser& method() { return *method_; }
+  /// See `presetInUse`.
+  [[nodiscard]] const std::optional<std::string>& preset() const { return preset_; }
   [[nodiscard]] const HostView& view() const { return view_; }
   /// Of the flying camera, scene units a second.
   [[nodiscard]] float flySpeed() const;
@@ -59,6 +61,7 @@ class Session {
   const Tracer& tracer_;
   std::string methodName_;
   std::unique_ptr<Denoiser> method_;
+  std::optional<std::string> preset_;
   HostView view_;
   FrameRange frames_;
   bool once_;

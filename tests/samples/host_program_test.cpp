@@ -46,7 +46,16 @@ TEST_F(HostProgramTest, WritesAPictureAFrame) {
   ASSERT_EQ(result.exitCode, 0) << result.err;
   EXPECT_EQ(outputFiles(), (std::vector<std::string>{"frame_0011.exr", "frame_0011.png", "frame_0012.exr",
                                                      "frame_0012.png", "frame_0013.exr", "frame_0013.png"}));
-  EXPECT_NE(result.out.find("method: walr"), std::string::npos) << result.out;
+  // Its settings are no preset's.
+  EXPECT_NE(result.out.find("method: walr\n"), std::string::npos) << result.out;
+}
+
+TEST_F(HostProgramTest, NamesThePresetInUse) {
+  const std::vector<std::string> once = {scene, "-o", output.string(), "--frames", "0-0"};
+  EXPECT_NE(host(once).out.find("method: walr, preset blocks\n"), std::string::npos);
+  std::vector<std::string> chosen = once;
+  chosen.insert(chosen.end(), {"--method", "svgf", "--preset", "paper"});
+  EXPECT_NE(host(chosen).out.find("method: svgf, preset paper\n"), std::string::npos);
 }
 
 TEST_F(HostProgramTest, RefusesCommandLinesWithoutMeaning) {

@@ -404,6 +404,20 @@ TEST_F(SessionTest, OnlyWhatChangesTheGraphAsksForAnother) {
   EXPECT_TRUE(session.takeGraphChange());
 }
 
+TEST_F(SessionTest, TellsThePresetInUse) {
+  Session session = make({0, 9}, false);
+  EXPECT_EQ(session.preset(), "blocks");
+  session.choosePreset("paper");
+  EXPECT_EQ(session.preset(), "paper");
+  session.method().set("accumulation.max-samples", "5");
+  session.settingsChanged();
+  EXPECT_EQ(session.preset(), std::nullopt);
+  session.chooseMethod("svgf");
+  EXPECT_EQ(session.preset(), "tuned");
+  session.chooseMethod("none");
+  EXPECT_EQ(session.preset(), std::nullopt);
+}
+
 TEST_F(SessionTest, FreeCameraStartsFromTheScenes) {
   Session session = make({0, 9}, false);
   EXPECT_FALSE(session.nextRequest()->view.has_value());

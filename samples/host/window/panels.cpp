@@ -17,7 +17,7 @@ constexpr double kMegabyte = 1024.0 * 1024.0;
 /// A chooser among names. Nothing while none is chosen anew.
 std::optional<std::size_t> choose(const char* label, std::span<const std::string> names, const std::string& current) {
   std::optional<std::size_t> chosen;
-  if (ImGui::BeginCombo(label, current.c_str())) {
+  if (ImGui::BeginCombo(label, current.c_str(), ImGuiComboFlags_HeightLargest)) {
     for (std::size_t i = 0; i < names.size(); ++i) {
       if (ImGui::Selectable(names[i].c_str(), names[i] == current) && names[i] != current) {
         chosen = i;
@@ -141,14 +141,11 @@ void methodPanel(Session& session) {
     session.chooseMethod(methods[*chosen]);
   }
   const std::vector<std::string> presets = session.method().presets();
-  for (const std::string& preset : presets) {
-    if (ImGui::Button(preset.c_str())) {
-      session.choosePreset(preset);
-    }
-    ImGui::SameLine();
+  if (presets.empty()) {
+    return;
   }
-  if (!presets.empty()) {
-    ImGui::TextUnformatted("Presets");
+  if (const auto chosen = choose("Preset", presets, session.preset().value_or("(settings changed)"))) {
+    session.choosePreset(presets[*chosen]);
   }
 }
 
