@@ -83,8 +83,7 @@ void run(HostOptions& options) {
   if (const std::optional<std::string> preset = presetInUse(options.method.name, *method)) {
     std::cout << ", preset " << *preset;
   }
-  std::cout << "\ndevice: " << gpu.name() << ", driver " << gpu.driver()
-            << std::endl;
+  std::cout << "\ndevice: " << gpu.name() << ", driver " << gpu.driver() << std::endl;
   if (!window) {
     runHeadless(options, tracer, gpu, *method);
   }

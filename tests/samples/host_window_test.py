@@ -1,79 +1,26 @@
 #!/usr/bin/env python3
-"""Opens walr-host's window on a virtual screen and looks at what the screen shows.
+"""Opens walr-host's window on a virtual screen, works it with mouse and keys, and looks at what the screen shows.
 
-    host_window_test.py WALR_HOST SCENE SCREENSHOT.png [OPTION...]
+    host_window_test.py SCENARIO WALR_HOST SCENES SCREENSHOT.png
 
-The picture in the window must be, bit for bit, the one that a run without a window writes, the panel beside it must hold
-text and widgets, a mouse must be able to work them, and the program must end without a word from the validation layer
-when it is asked to.
+What the window shows must be, bit for bit, what runs without a window write, the panel beside it must hold text, times
+and the memory chart, and the program must end without a word from the validation layer when it is asked to.
 """
 
-import ctypes
+import contextlib
 import os
 import pathlib
+import re
 import signal
-import struct
 import subprocess
 import sys
 import tempfile
 import time
-import zlib
+
+from virtual_screen import PATIENCE, Hands, read_png, virtual_screen, wait_for, write_png
 
 WIDTH, HEIGHT = 160, 90
-LAST_FRAME = 3
-PATIENCE = 120.0  # Seconds; a software device beside other tests is slow.
-
-
-def read_png(path):
-    """An 8-bit RGB PNG as rows of bytes."""
-    data = path.read_bytes()
-    assert data[:8] == b"\x89PNG\r\n\x1a\n", path
-    position, packed = 8, b""
-    while position < len(data):
-        length, kind = struct.unpack(">I4s", data[position:position + 8])
-        body = data[position + 8:position + 8 + length]
-        if kind == b"IHDR":
-            width, height, depth, colour = struct.unpack(">IIBB", body[:10])
-            assert (depth, colour) == (8, 2), (depth, colour)
-        elif kind == b"IDAT":
-            packed += body
-        position += 12 + length
-    raw, rows, stride = zlib.decompress(packed), [], 3 * width
-    above = bytearray(stride)
-    for y in range(height):
-        kind, line = raw[y * (stride + 1)], bytearray(raw[y * (stride + 1) + 1:(y + 1) * (stride + 1)])
-        for i in range(stride):
-            left, up, corner = (line[i - 3] if i >= 3 else 0), above[i], (above[i - 3] if i >= 3 else 0)
-            nearest = min((abs(up - corner), 0, left), (abs(left - corner), 1, up), (abs(left + up - 2 * corner), 2, corner))
-            line[i] = (line[i] + (0, left, up, (left + up) // 2, nearest[2])[kind]) & 0xFF
-        rows.append(bytes(line))
-        above = line
-    return rows
-
-
-def write_png(path, rows):
-    def chunk(kind, data):
-        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
-
-    header = struct.pack(">IIBBBBB", len(rows[0]) // 3, len(rows), 8, 2, 0, 0, 0)
-    packed = zlib.compress(b"".join(b"\0" + row for row in rows))
-    path.write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", packed) + chunk(b"IEND", b""))
-
-
-def read_screen(path):
-    """The frame buffer of Xvfb, an XWD file of 32-bit pixels, as rows of RGB bytes."""
-    data = path.read_bytes()
-    header = struct.unpack(">25I", data[:100])
-    size, width, height, bits, stride, colours = header[0], header[4], header[5], header[11], header[12], header[19]
-    assert bits == 32, header
-    start = size + 12 * colours
-    rows = []
-    for y in range(height):
-        line = data[start + y * stride:start + y * stride + 4 * width]
-        row = bytearray(3 * width)
-        row[0::3], row[1::3], row[2::3] = line[2::4], line[1::4], line[0::4]
-        rows.append(bytes(row))
-    return rows
+PANEL_WIDTH = 420
 
 
 def find_picture(screen, picture):
@@ -88,134 +35,330 @@ def find_picture(screen, picture):
     return None
 
 
-def wait_for(condition, what):
-    end = time.monotonic() + PATIENCE
-    while time.monotonic() < end:
-        result = condition()
-        if result:
-            return result
-        time.sleep(0.2)
-    return sys.exit(f"gave up waiting for {what}")
+def distance(a, b):
+    """Mean difference of two pictures, levels of 255."""
+    return sum(abs(x - y) for row, other in zip(a, b) for x, y in zip(row, other)) / (3 * WIDTH * HEIGHT)
 
 
-def check_panel(screen, left):
-    """The panel: light text and blue widgets on a dark ground, over its whole height."""
-    panel = [row[3 * left:3 * (left + 400)] for row in screen[:700]]
-    pixels = [tuple(row[i:i + 3]) for row in panel for i in range(0, len(row), 3)]
-    text = sum(min(p) > 200 for p in pixels)
-    widgets = sum(p[2] > 100 and p[2] > p[0] + 40 for p in pixels)
-    written = sum(any(min(row[i:i + 3]) > 200 for i in range(0, len(row), 3)) for row in panel)
-    print(f"panel: {text} pixels of text on {written} rows, {widgets} of widgets")
-    # A label is some hundred pixels of text; the panel has more than twenty of them.
-    if text < 2000 or widgets < 2000 or written < 200:
-        sys.exit("the panel is not there")
+class Host:
+    """The program: without a window for what is expected, with one for what is shown."""
+
+    def __init__(self, program, scene, folder, screenshot):
+        self.program, self.scene, self.folder, self.screenshot = program, scene, folder, screenshot
+
+    def command(self, frames, options):
+        return [self.program, self.scene, "--frames", frames, "--size", f"{WIDTH}x{HEIGHT}", *options]
+
+    def pictures(self, frames, *options):
+        """The frames' pictures, by number."""
+        with tempfile.TemporaryDirectory(dir=self.folder) as folder:
+            subprocess.run([*self.command(frames, options), "--headless", "--output", folder], check=True,
+                           stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            return {int(file.stem[-4:]): read_png(file) for file in pathlib.Path(folder).glob("*.png")}
+
+    def known(self, option, *more):
+        """The names that an option takes, as the program itself tells those who give another."""
+        run = subprocess.run([*self.command("0-0", [option, "?", *more]), "--headless", "--output", self.folder / "none"],
+                             capture_output=True, text=True, check=False)
+        listed = re.search(r"\{(.*)\}|known presets: (.*)", run.stderr)
+        if listed:
+            return [name.strip() for name in (listed[1] or listed[2]).split(",")]
+        return re.findall(r"'([^']*)'", run.stderr)[1:]
+
+    @contextlib.contextmanager
+    def window(self, screen, frames, *options):
+        """The window, once it shows the last of the frames and stands still there."""
+        last = int(frames.split("-")[1])
+        expected = self.pictures(frames, *options)[last]
+        if len({bytes(row) for row in expected}) < HEIGHT // 2:
+            sys.exit("the picture to look for has too little in it")
+        process = subprocess.Popen([*self.command(frames, options), "--once", "--validate"],
+                                   env={**os.environ, "DISPLAY": screen.display}, stdout=subprocess.DEVNULL,
+                                   stderr=subprocess.PIPE, text=True)
+        try:
+            def shown():
+                if process.poll() is not None:
+                    sys.exit(f"the program ended: {process.stderr.read()}")
+                return find_picture(screen.rows(), expected)
+
+            place = wait_for(shown, "the picture in the window")
+            print(f"the picture stands at {place}")
+            # What the panel tells of the frame follows with the next drawing.
+            time.sleep(1.0)
+            yield Window(screen, place)
+            process.send_signal(signal.SIGTERM)
+            code = process.wait(timeout=PATIENCE)
+            complaint = process.stderr.read()
+            if code != 0 or complaint:
+                sys.exit(f"the program ended with {code}: {complaint}")
+        except SystemExit:
+            write_png(self.screenshot.with_suffix(".failed.png"), screen.rows())
+            if process.poll() is not None:
+                print(f"the program ended with {process.returncode}: {process.stderr.read()}")
+            raise
+        finally:
+            if process.poll() is None:
+                process.kill()
+                process.wait()
 
 
-class Mouse:
-    """A mouse on a virtual screen, by the XTEST extension."""
+class Window:
+    """The window on the screen. Places are those of Dear ImGui's default font and style."""
 
-    def __init__(self, display):
-        self.x11, self.test = ctypes.CDLL("libX11.so.6"), ctypes.CDLL("libXtst.so.6")
-        self.x11.XOpenDisplay.restype = ctypes.c_void_p
-        self.display = ctypes.c_void_p(self.x11.XOpenDisplay(f":{display}".encode()))
+    LINE = 23  # From one widget to that below it.
+    ITEM = 17  # From one item of a list to that below it.
 
-    def settle(self):
-        """Until the program has drawn with what was done: a press and its release in one drawing are none."""
-        self.x11.XFlush(self.display)
-        time.sleep(0.3)
+    def __init__(self, screen, place):
+        self.screen, self.place, self.hands = screen, place, Hands(screen)
+        self.panel = place[0] + WIDTH
+        self.view_extras = 0
 
-    def move(self, x, y):
-        self.test.XTestFakeMotionEvent(self.display, -1, x, y, 0)
-        self.settle()
+    def picture(self):
+        return self.screen.rows(*self.place, WIDTH, HEIGHT)
 
-    def press(self, down):
-        self.test.XTestFakeButtonEvent(self.display, 1, int(down), 0)
-        self.settle()
+    def at(self, x, y):
+        return self.panel + x, y
 
-    def click(self, x, y):
-        self.move(x, y)
-        self.press(True)
-        self.press(False)
+    def pause(self):
+        self.hands.click(*self.at(17, 18))
+
+    def freeze(self):
+        self.hands.click(*self.at(83, 18))
+
+    def cut(self):
+        self.hands.click(*self.at(186, 18))
+
+    def reset_history(self):
+        """The picture may be looked at as soon as this returns."""
+        self.hands.move(*self.at(280, 18))
+        self.hands.press(True)
+        self.hands.release_now()
+
+    def scene_camera(self):
+        self.hands.click(*self.at(18, 58))
+
+    def orbit(self):
+        self.hands.click(*self.at(133, 58))
+
+    def fly(self):
+        self.hands.click(*self.at(199, 58))
+
+    def choose_view(self, name):
+        views = ["denoised", "noisy", "reference", "split", "texture"]
+        self.choose(85, views.index(name), len(views))
+        # Below it come a texture's name, gain and bias, or the edges of the split.
+        self.view_extras = {"texture": 3, "split": 1}.get(name, 0)
+
+    def choose_texture(self, index, count):
+        self.choose(85 + self.LINE, index, count)
+
+    def choose_method(self, index, count):
+        self.choose(112 + self.LINE * self.view_extras, index, count)
+
+    def choose_preset(self, index, count):
+        self.choose(135 + self.LINE * self.view_extras, index, count)
+
+    def choose(self, y, index, count):
+        """Open the chooser whose middle is at a height, and take an item from its list; frozen, or times change too."""
+        self.hands.move(*self.at(100, y))
+        before = self.settled_rows()
+        self.hands.click(*self.at(100, y))
+
+        def list_top():
+            after = self.rows()
+            changed = [i for i, (a, b) in enumerate(zip(before, after)) if a != b and abs(i - y) > 10]
+            # Items lie 4 pixels apart, with 8 around all of them; an edge may lie under the mouse's own light.
+            high = changed and changed[-1] + 1 - changed[0]
+            return changed and abs(high - (16 - 4 + count * self.ITEM)) <= 3 and changed[0]
+
+        top = wait_for(list_top, f"a list of {count} items to open at {y}")
+        border = self.rows()[top]
+        self.hands.click(*self.at(100, top + 8 + 6 + index * self.ITEM))
+        wait_for(lambda: self.rows()[top] != border, f"the list at {y} to close")
+
+    def rows(self):
+        """The panel."""
+        return self.screen.rows(self.panel, 0, PANEL_WIDTH, 720)
+
+    def settled_rows(self):
+        """The panel, once nothing in it changes."""
+        rows = [self.rows()]
+
+        def same():
+            time.sleep(0.5)
+            rows.append(self.rows())
+            return rows[-1] == rows[-2] and rows[-1]
+
+        return wait_for(same, "the panel to come to rest")
+
+    def must_show(self, picture, what):
+        wait_for(lambda: self.picture() == picture, f"the window to show {what}")
+        print(f"the window shows {what}")
+
+    def check_panel(self):
+        """The panel: text and widgets on a dark ground, bars of times, and rectangles of memory."""
+        panel = self.screen.rows(self.panel, 0, PANEL_WIDTH, 700)
+        pixels = [tuple(row[i:i + 3]) for row in panel for i in range(0, len(row), 3)]
+        text = sum(min(p) > 200 for p in pixels)
+        widgets = sum(p[2] > 100 and p[2] > p[0] + 40 for p in pixels)
+        written = sum(any(min(row[i:i + 3]) > 200 for i in range(0, len(row), 3)) for row in panel)
+        bars = sum(p[0] > 200 and p[1] > 150 and p[2] < 40 for p in pixels)
+        counts = {p: 0 for p in pixels}
+        for p in pixels:
+            counts[p] += 1
+        memory = [p for p, count in counts.items() if count > 200 and max(p) > 180 and 60 < min(p) < 120]
+        print(f"panel: {text} pixels of text on {written} rows, {widgets} of widgets, {bars} of bars of times, "
+              f"{len(memory)} colours of memory")
+        # A label is some hundred pixels of text; the panel has more than twenty of them.
+        if text < 2000 or widgets < 2000 or written < 200:
+            sys.exit("the panel is not there")
+        # All bars together are one of 120 x 17 pixels, and every texture has a colour of its own.
+        if bars < 500 or len(memory) < 5:
+            sys.exit("times or the memory chart are not there")
 
 
-def work_panel(mouse, place, picture_now):
-    """Work the panel. Places are those of Dear ImGui's default font and style."""
-    left = place[0] + WIDTH
-    freeze, cut, reset = (left + 83, 18), (left + 186, 18), (left + 280, 18)
-    orbit, paper = (left + 133, 58), (left + 87, 135)
+def start(host, screen, *options):
+    """What is shown at the start is what was asked for, and the panel is there."""
+    with host.window(screen, "0-3", *options) as window:
+        window.check_panel()
+        write_png(host.screenshot, screen.rows())
 
-    def must_change(what, act):
-        before = picture_now()
-        act()
-        wait_for(lambda: picture_now() != before, f"the picture to change after: {what}")
-        print(f"the picture has changed after: {what}")
 
-    must_change("preset 'paper'", lambda: mouse.click(*paper))
-    must_change("no longer frozen", lambda: mouse.click(*freeze))
-    # The animation plays now: what these change cannot be told from it, but it must go on, without a complaint.
-    for place_to_click in (cut, reset, orbit):
-        mouse.click(*place_to_click)
-    mouse.move(place[0] + 40, place[1] + 45)
-    mouse.press(True)
-    mouse.move(place[0] + 120, place[1] + 30)
-    mouse.press(False)
-    must_change("a drag around the scene", lambda: None)
+def denoised(host, screen):
+    start(host, screen, "--denoise-direct")
+
+
+def split(host, screen):
+    start(host, screen, "--method", "svgf", "--view", "split")
+
+
+def texture(host, screen):
+    start(host, screen, "--view", "normal")
+
+
+def methods(host, screen):
+    """Every method and every preset of one can be chosen, and gives what it gives without a window."""
+    with host.window(screen, "0-3", "--denoise-direct") as window:
+        # What is chosen anew starts with the frame at hand; in the box, nothing moves in frames 0 to 3.
+        def expect(what, *options):
+            window.must_show(host.pictures("3-3", "--denoise-direct", *options)[3], what)
+
+        names = host.known("--method")
+        for index, name in [*enumerate(names)][1:] + [(0, names[0])]:
+            window.choose_method(index, len(names))
+            expect(f"method {name}", "--method", name)
+        presets = host.known("--preset")
+        for index, name in [*enumerate(presets)][1:]:
+            window.choose_preset(index, len(presets))
+            expect(f"preset {name}", "--preset", name)
+        write_png(host.screenshot, screen.rows())
+
+
+def views(host, screen):
+    """Every view can be chosen, and of the textures the first, the last and some between."""
+    with host.window(screen, "0-3") as window:
+        window.choose_view("texture")
+        textures = host.known("--view")
+        for index in sorted({0, textures.index("normal"), len(textures) - 1, *range(3, len(textures), 7)}):
+            window.choose_texture(index, len(textures))
+            expected = host.pictures("3-3", "--view", textures[index])[3]
+            window.must_show(expected, f"texture '{textures[index]}'")
+        write_png(host.screenshot, screen.rows())
+        # A split view needs a reference: another frame is traced, with it, and stays for the views after it.
+        before = window.picture()
+        window.choose_view("split")
+        wait_for(lambda: window.picture() != before, "the split view")
+        time.sleep(1.0)
+        together = window.picture()
+        write_png(host.screenshot.with_suffix(".split.png"), screen.rows())
+        apart = {}
+        for name in ("noisy", "denoised", "reference"):
+            before = window.picture()
+            window.choose_view(name)
+            wait_for(lambda: window.picture() != before, f"the {name} view")
+            time.sleep(0.5)
+            apart[name] = window.picture()
+        left, right = WIDTH // 3, WIDTH - WIDTH // 3
+        for y in range(HEIGHT):
+            for name, first, end in (("noisy", 0, left), ("denoised", left + 1, right), ("reference", right + 1, WIDTH)):
+                if together[y][3 * first:3 * end] != apart[name][y][3 * first:3 * end]:
+                    sys.exit(f"row {y} of the split view does not show the {name} picture from {first} to {end}")
+        print("the split view shows the three others side by side")
+
+
+def play(host, screen):
+    """Pause, camera cut, history reset, and a camera moved by hand."""
+    albedo = host.pictures("0-11", "--view", "albedo")
+    with host.window(screen, "0-11", "--view", "albedo") as window:
+        window.pause()
+        window.freeze()
+        for _ in range(20):
+            time.sleep(0.1)
+            if window.picture() != albedo[11]:
+                sys.exit("the animation goes on though it is paused")
+        print("the window shows the last frame as long as it is paused")
+        window.cut()
+        window.must_show(albedo[5], "frame 5, half the animation ahead, after a camera cut")
+
+        window.orbit()
+        x, y = window.place
+        window.hands.drag((x + 40, y + 45), (x + 120, y + 30))
+        if window.picture() in albedo.values():
+            sys.exit("a drag does not turn the camera around the scene")
+        write_png(host.screenshot, screen.rows())
+        window.scene_camera()
+        window.must_show(albedo[5], "frame 5 again, after an orbit")
+        window.fly()
+        window.hands.move(x + 40, y + 45)
+        window.hands.hold_key("w")
+        if window.picture() in albedo.values():
+            sys.exit("key W does not fly ahead")
+        window.scene_camera()
+        window.must_show(albedo[5], "frame 5 again, after a flight")
+
+        # Tracing goes on while it is paused: samples add up, until the history is dropped.
+        names = host.known("--method")
+        window.freeze()
+        window.choose_view("denoised")
+        window.choose_method(names.index("accumulate"), len(names))
+        window.freeze()
+        time.sleep(4.0)
+        settled = [window.picture()]
+        while len(settled) < 8:
+            settled.append(wait_for(lambda: (now := window.picture()) != settled[-1] and now, "the next frame"))
+        mean = [bytes(sum(column) // len(settled) for column in zip(*rows)) for rows in zip(*settled)]
+        usual = max(distance(picture, mean) for picture in settled)
+        window.reset_history()
+        # One sample is four times as noisy as the mean of sixteen.
+        wait_for(lambda: distance(window.picture(), mean) > 2.0 * usual, "noise after a reset of the history")
+        print(f"history resets: more than {2.0 * usual:.2f} levels from the settled picture, {usual:.2f} at most before")
+
+        window.freeze()
+        window.choose_view("texture")
+        textures = host.known("--view", "--method", "accumulate")
+        window.choose_texture(textures.index("albedo"), len(textures))
+        window.freeze()
+        window.must_show(albedo[5], "frame 5 as long as it is paused")
+        window.pause()
+        seen = set()
+
+        def half_seen():
+            now = window.picture()
+            seen.update(number for number, picture in albedo.items() if picture == now)
+            return len(seen) >= len(albedo) // 2
+
+        wait_for(half_seen, "half of the animation's frames")
+        print(f"the animation goes on: frames {sorted(seen)} were seen")
 
 
 def main():
-    program, scene, screenshot = sys.argv[1:4]
-    common = [program, scene, "--frames", f"0-{LAST_FRAME}", "--size", f"{WIDTH}x{HEIGHT}", "--validate", *sys.argv[4:]]
-    with tempfile.TemporaryDirectory() as folder:
-        folder = pathlib.Path(folder)
-        subprocess.run([*common, "--headless", "--output", folder], check=True, stdout=subprocess.DEVNULL)
-        expected = read_png(folder / f"frame_{LAST_FRAME:04d}.png")
-        if len({bytes(row) for row in expected}) < HEIGHT // 2:
-            sys.exit("the picture to look for has too little in it")
-
-        read_end, write_end = os.pipe()
-        screen_server = subprocess.Popen(
-            ["Xvfb", "-displayfd", str(write_end), "-screen", "0", "1280x800x24", "-fbdir", str(folder), "-nolisten", "tcp"],
-            pass_fds=[write_end], stderr=subprocess.DEVNULL)
-        try:
-            os.close(write_end)
-            display = os.read(read_end, 32).decode().strip()
-            window = subprocess.Popen([*common, "--once"], env={**os.environ, "DISPLAY": f":{display}"},
-                                      stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
-            try:
-                def shown():
-                    if window.poll() is not None:
-                        sys.exit(f"the program ended: {window.stderr.read()}")
-                    screen = read_screen(folder / "Xvfb_screen0")
-                    place = find_picture(screen, expected)
-                    return (screen, place) if place else None
-
-                screen, place = wait_for(shown, "the picture in the window")
-                # What the panel tells of the frame follows with the next drawing.
-                time.sleep(1.0)
-                screen = read_screen(folder / "Xvfb_screen0")
-                write_png(pathlib.Path(screenshot), screen)
-                print(f"the picture stands at {place}")
-                check_panel(screen, place[0] + WIDTH)
-
-                def picture_now():
-                    rows = read_screen(folder / "Xvfb_screen0")[place[1]:place[1] + HEIGHT]
-                    return b"".join(row[3 * place[0]:3 * (place[0] + WIDTH)] for row in rows)
-
-                if "--method" not in sys.argv:
-                    work_panel(Mouse(display), place, picture_now)
-                    write_png(pathlib.Path(screenshot).with_suffix(".worked.png"), read_screen(folder / "Xvfb_screen0"))
-                window.send_signal(signal.SIGTERM)
-                code = window.wait(timeout=PATIENCE)
-                complaint = window.stderr.read()
-                if code != 0 or complaint:
-                    sys.exit(f"the program ended with {code}: {complaint}")
-            finally:
-                if window.poll() is None:
-                    window.kill()
-                    window.wait()
-        finally:
-            screen_server.terminate()
-            screen_server.wait()
+    scenario, program, scenes, screenshot = sys.argv[1:]
+    scene = "turntable.gltf" if scenario == "play" else "box.gltf"
+    with tempfile.TemporaryDirectory() as folder, virtual_screen(folder) as screen:
+        host = Host(program, pathlib.Path(scenes) / scene, pathlib.Path(folder), pathlib.Path(screenshot))
+        scenarios = {"denoised": denoised, "split": split, "texture": texture, "methods": methods, "views": views,
+                     "play": play}
+        scenarios[scenario](host, screen)
 
 
 if __name__ == "__main__":

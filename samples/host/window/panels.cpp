@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <span>
 
 #include <imgui.h>
@@ -34,6 +35,10 @@ class SettingWidgets : public SettingVisitor {
   void visit(const SettingInfo& info, float& value) override {
     const auto least = static_cast<float>(info.least);
     const auto most = static_cast<float>(info.most);
+    if (std::isinf(most)) {
+      visitUnbounded(info, value);
+      return;
+    }
     constexpr double kDecades = 1000.0;
     const bool wide = info.least > 0.0 && info.most / info.least >= kDecades;
     ImGui::SliderFloat(label(info).c_str(), &value, least, most, "%.4g",
@@ -63,6 +68,26 @@ class SettingWidgets : public SettingVisitor {
   [[nodiscard]] bool changed() const { return changed_; }
 
  private:
+  // A number to type, since a slider needs an end, beside a button for infinity, which cannot be typed.
+  void visitUnbounded(const SettingInfo& info, float& value) {
+    const float spacing = ImGui::GetStyle().ItemInnerSpacing.x;
+    const float button = ImGui::CalcTextSize("inf").x + 2.0F * ImGui::GetStyle().FramePadding.x;
+    ImGui::PushID(label(info).c_str());
+    ImGui::SetNextItemWidth(ImGui::CalcItemWidth() - button - spacing);
+    ImGui::InputFloat("##number", &value, 0.0F, 0.0F, "%.4g");
+    value = std::max(value, static_cast<float>(info.least));
+    finish(info, ImGui::IsItemDeactivatedAfterEdit());
+    ImGui::SameLine(0.0F, spacing);
+    const bool unlimited = ImGui::Button("inf");
+    if (unlimited) {
+      value = std::numeric_limits<float>::infinity();
+    }
+    finish(info, unlimited);
+    ImGui::PopID();
+    ImGui::SameLine(0.0F, spacing);
+    ImGui::TextUnformatted(label(info).c_str());
+  }
+
   static std::string label(const SettingInfo& info) { return std::string(info.name); }
 
   void finish(const SettingInfo& info, bool changed) {

@@ -1,0 +1,147 @@
+"""A virtual screen (Xvfb) to run programs with windows on: what it shows, and a mouse and keys to work them."""
+
+import contextlib
+import ctypes
+import os
+import pathlib
+import struct
+import subprocess
+import sys
+import time
+import zlib
+
+PATIENCE = 120.0  # Seconds; a software device beside other tests is slow.
+
+
+def wait_for(condition, what):
+    """The first result of `condition` that is true."""
+    end = time.monotonic() + PATIENCE
+    while time.monotonic() < end:
+        result = condition()
+        if result:
+            return result
+        time.sleep(0.02)
+    return sys.exit(f"gave up waiting for {what}")
+
+
+def read_png(path):
+    """An 8-bit RGB PNG as rows of bytes."""
+    data = path.read_bytes()
+    assert data[:8] == b"\x89PNG\r\n\x1a\n", path
+    position, packed = 8, b""
+    while position < len(data):
+        length, kind = struct.unpack(">I4s", data[position:position + 8])
+        body = data[position + 8:position + 8 + length]
+        if kind == b"IHDR":
+            width, height, depth, colour = struct.unpack(">IIBB", body[:10])
+            assert (depth, colour) == (8, 2), (depth, colour)
+        elif kind == b"IDAT":
+            packed += body
+        position += 12 + length
+    raw, rows, stride = zlib.decompress(packed), [], 3 * width
+    above = bytearray(stride)
+    for y in range(height):
+        kind, line = raw[y * (stride + 1)], bytearray(raw[y * (stride + 1) + 1:(y + 1) * (stride + 1)])
+        for i in range(stride):
+            left, up, corner = (line[i - 3] if i >= 3 else 0), above[i], (above[i - 3] if i >= 3 else 0)
+            nearest = min((abs(up - corner), 0, left), (abs(left - corner), 1, up), (abs(left + up - 2 * corner), 2, corner))
+            line[i] = (line[i] + (0, left, up, (left + up) // 2, nearest[2])[kind]) & 0xFF
+        rows.append(bytes(line))
+        above = line
+    return rows
+
+
+def write_png(path, rows):
+    def chunk(kind, data):
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
+    header = struct.pack(">IIBBBBB", len(rows[0]) // 3, len(rows), 8, 2, 0, 0, 0)
+    packed = zlib.compress(b"".join(b"\0" + row for row in rows))
+    path.write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", packed) + chunk(b"IEND", b""))
+
+
+class Screen:
+    """A screen of 1280 x 800 pixels. Rows are bytes, three a pixel: red, green, blue."""
+
+    def __init__(self, display, buffer):
+        self.display, self.buffer = display, buffer
+        # The frame buffer is an XWD file.
+        with open(buffer, "rb") as file:
+            header = struct.unpack(">25I", file.read(100))
+        size, self.width, self.height, bits, self.stride, colours = (header[i] for i in (0, 4, 5, 11, 12, 19))
+        assert bits == 32, header
+        self.start = size + 12 * colours
+
+    def rows(self, x=0, y=0, width=None, height=None):
+        """What a rectangle shows; all, where none is given."""
+        width, height = width or self.width, height or self.height
+        rows = []
+        with open(self.buffer, "rb") as file:
+            for line in range(y, y + height):
+                file.seek(self.start + line * self.stride + 4 * x)
+                data = file.read(4 * width)
+                row = bytearray(3 * width)
+                row[0::3], row[1::3], row[2::3] = data[2::4], data[1::4], data[0::4]
+                rows.append(bytes(row))
+        return rows
+
+
+@contextlib.contextmanager
+def virtual_screen(folder):
+    """Xvfb, with its frame buffer as a file in a folder."""
+    read_end, write_end = os.pipe()
+    server = subprocess.Popen(
+        ["Xvfb", "-displayfd", str(write_end), "-screen", "0", "1280x800x24", "-fbdir", str(folder), "-nolisten", "tcp"],
+        pass_fds=[write_end], stderr=subprocess.DEVNULL)
+    try:
+        os.close(write_end)
+        display = os.read(read_end, 32).decode().strip()
+        yield Screen(f":{display}", pathlib.Path(folder) / "Xvfb_screen0")
+    finally:
+        server.terminate()
+        server.wait()
+
+
+class Hands:
+    """A mouse and keys on a virtual screen, by the XTEST extension."""
+
+    def __init__(self, screen):
+        self.x11, self.test = ctypes.CDLL("libX11.so.6"), ctypes.CDLL("libXtst.so.6")
+        self.x11.XOpenDisplay.restype = ctypes.c_void_p
+        self.display = ctypes.c_void_p(self.x11.XOpenDisplay(screen.display.encode()))
+
+    def settle(self):
+        """Until the program has drawn with what was done: a press and its release in one drawing are none."""
+        self.x11.XFlush(self.display)
+        time.sleep(0.3)
+
+    def move(self, x, y):
+        self.test.XTestFakeMotionEvent(self.display, -1, x, y, 0)
+        self.settle()
+
+    def press(self, down):
+        self.test.XTestFakeButtonEvent(self.display, 1, int(down), 0)
+        self.settle()
+
+    def click(self, x, y):
+        self.move(x, y)
+        self.press(True)
+        self.press(False)
+
+    def release_now(self):
+        """Let the button go, and do not wait for what comes of it."""
+        self.test.XTestFakeButtonEvent(self.display, 1, 0, 0)
+        self.x11.XFlush(self.display)
+
+    def drag(self, start, end):
+        self.move(*start)
+        self.press(True)
+        self.move(*end)
+        self.press(False)
+
+    def hold_key(self, character):
+        code = self.x11.XKeysymToKeycode(self.display, ctypes.c_ulong(ord(character)))
+        self.test.XTestFakeKeyEvent(self.display, code, 1, 0)
+        self.settle()
+        self.test.XTestFakeKeyEvent(self.display, code, 0, 0)
+        self.settle()
