@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "shaders/constants/svgf_filter.h"
 #include "shaders/shaders.h"
@@ -28,6 +29,38 @@ fg::Texture colourTexture(fg::Graph& graph, fg::Texture like, std::string name) 
   return graph.texture(std::move(name), {VK_FORMAT_R16G16B16A16_SFLOAT, graph.textureDesc(like).extent});
 }
 
+/// Largest distance of a tap that a full window takes.
+constexpr std::uint32_t kFullestRadius = 64;
+
+/// One pass of the filter.
+struct Kernel {
+  std::uint32_t radius;   ///< Taps on each side of the centre.
+  std::uint32_t spacing;  ///< Pixels between taps.
+  float gaussianFalloff;  ///< exp(-falloff d^2) at a distance of d pixels; 0: binomial.
+};
+
+std::vector<Kernel> kernelsOf(const SvgfFilterSettings& settings) {
+  std::vector<Kernel> kernels;
+  std::uint32_t reach = 0;
+  float variance = 0.0F;
+  for (std::uint32_t i = 0; i < settings.iterations; ++i) {
+    const std::uint32_t spacing = 1U << i;
+    kernels.push_back({settings.radius, spacing, 0.0F});
+    reach += settings.radius * spacing;
+    // That of a binomial row of order 2r is r / 2.
+    variance += 0.5F * static_cast<float>(settings.radius * spacing * spacing);
+  }
+  if (settings.window == SvgfWindow::Atrous) return kernels;
+  if (reach > kFullestRadius) {
+    throw std::invalid_argument("svgf.window=full over " + std::to_string(2 * reach + 1) +
+                                " pixels, to which svgf.radius=" + std::to_string(settings.radius) +
+                                " and svgf.iterations=" + std::to_string(settings.iterations) +
+                                " reach, is too large; at most " + std::to_string(2 * kFullestRadius + 1) +
+                                ": take fewer iterations");
+  }
+  return {{reach, 1, 0.5F / variance}};
+}
+
 }  // namespace
 
 fg::Texture addSvgfVariance(fg::Graph& graph, fg::Buffer frame, const SvgfAccumulated& accumulated,
@@ -47,17 +80,19 @@ fg::Texture addSvgfSingleFrameVariance(fg::Graph& graph, fg::Buffer frame, fg::T
 
 fg::Texture addSvgfAtrous(fg::Graph& graph, fg::Buffer frame, fg::Texture colour, const Guides& guides,
                           fg::Texture feedback, const SvgfFilterSettings& settings) {
-  if (settings.feedback > settings.iterations) {
+  const std::vector<Kernel> kernels = kernelsOf(settings);
+  if (settings.feedback > kernels.size()) {
     throw std::invalid_argument("svgf.feedback (" + std::to_string(settings.feedback) +
-                                ") must not exceed svgf.iterations (" + std::to_string(settings.iterations) + ")");
+                                ") must not exceed the number of iterations (" + std::to_string(kernels.size()) + ")");
   }
-  for (std::uint32_t i = 0; i < settings.iterations; ++i) {
+  for (std::size_t i = 0; i < kernels.size(); ++i) {
     const std::string number = std::to_string(i);
     fg::PassBuilder pass =
         filterPass(graph, "svgf a-trous " + number, shaders::svgfAtrous, frame, colour, guides, settings);
-    pass.specialize("kRadius", settings.radius)
-        .specialize("kSpacing", 1U << i)
-        .specialize("kLuminanceWeight", settings.luminanceWeight);
+    pass.specialize("kRadius", kernels[i].radius)
+        .specialize("kSpacing", kernels[i].spacing)
+        .specialize("kLuminanceWeight", settings.luminanceWeight)
+        .specialize("kGaussianFalloff", kernels[i].gaussianFalloff);
     const bool feedsBack = i + 1 == settings.feedback && feedback.valid();
     colour = pass.store("outColour", feedsBack ? feedback : colourTexture(graph, colour, "svgf.filtered " + number));
   }

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <string_view>
 
 #include "framegraph/graph.h"
 #include "passes/prepare_guides.h"
@@ -9,8 +11,15 @@
 
 namespace walr {
 
+/// What filters the colour.
+enum class SvgfWindow : std::uint32_t {
+  Atrous,  ///< Iterations with ever wider holes.
+  Full,    ///< One bilateral filter over every pixel that the iterations reach, its Gaussian as wide as they are.
+};
+
 /// Settings of SVGF's variance estimation and a-trous iterations.
 struct SvgfFilterSettings {
+  SvgfWindow window = SvgfWindow::Atrous;
   std::uint32_t iterations = 4;
   std::uint32_t radius = 2;
   float sigmaDepth = 0.02F;
@@ -21,6 +30,11 @@ struct SvgfFilterSettings {
   std::uint32_t feedback = 0;
 
   void visit(SettingVisitor& v) {
+    static constexpr std::array<std::string_view, 2> kWindows{"atrous", "full"};
+    v.visitEnum({"svgf.window",
+                 "A-trous iterations, or one bilateral filter over all pixels that they reach: what they approximate",
+                 "", 0, 1, "nagi-svgf.txt"},
+                kWindows, window);
     v.visit({"svgf.iterations", "A-trous iterations with taps 2^i pixels apart", "", 1, 8,
              "nagi-svgf.txt: 4; Schied et al. 2017: 5"},
             iterations);
@@ -58,11 +72,12 @@ fg::Texture addSvgfVariance(fg::Graph& graph, fg::Buffer frame, const SvgfAccumu
 fg::Texture addSvgfSingleFrameVariance(fg::Graph& graph, fg::Buffer frame, fg::Texture lighting, const Guides& guides,
                                        const SvgfFilterSettings& settings = {});
 
-/// Edge-avoiding a-trous iterations guided by variance.
+/// Edge-avoiding a-trous iterations guided by variance, or the one filter that they approximate.
 /// @param colour   RGBA16F: radiance and standard deviation, from one of the above
 /// @param feedback RGBA16F texture that the iteration which `settings.feedback` counts writes to
 /// @returns RGBA16F: filtered radiance and its standard deviation; sky and pixels without a diffuse lobe as they were
-/// @throws std::invalid_argument where `settings.feedback` exceeds `settings.iterations`
+/// @throws std::invalid_argument where `settings.feedback` exceeds the number of iterations, or where the iterations
+///         reach too far for a full window
 fg::Texture addSvgfAtrous(fg::Graph& graph, fg::Buffer frame, fg::Texture colour, const Guides& guides,
                           fg::Texture feedback, const SvgfFilterSettings& settings = {});
 

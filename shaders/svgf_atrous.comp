@@ -1,5 +1,6 @@
 // SVGF, one edge-avoiding a-trous iteration (nagi-svgf.txt): a binomial kernel, its taps 2^i pixels apart, weighted by
-// plane distance, normal and luminance; the variance that guides the luminance weight is filtered along.
+// plane distance, normal and luminance; the variance that guides the luminance weight is filtered along. With a Gaussian
+// instead of the binomial kernel it is the bilateral filter that the iterations approximate.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -12,6 +13,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 0) const int kRadius = 2;    // Taps on each side of the centre.
 layout(constant_id = 1) const int kSpacing = 1;   // 2^i pixels.
 layout(constant_id = 2) const bool kLuminanceWeight = true;
+layout(constant_id = 3) const float kGaussianFalloff = 0.0;  // exp(-falloff d^2), d in pixels; 0: binomial.
 
 layout(set = 0, binding = 0, std140) uniform frameConstants { FrameConstants frame; };
 layout(set = 0, binding = 1) uniform utexture2D depth;
@@ -72,7 +74,8 @@ void main() {
     float tap = tapY * firstTap();
     for (int x = -kRadius; x <= kRadius; ++x) {
       const ivec2 q = p + kSpacing * ivec2(x, y);
-      float weight = tap * surfaceWeight(surface, q);
+      const float kernel = kGaussianFalloff > 0.0 ? exp(-float(x * x + y * y) * kGaussianFalloff) : tap;
+      float weight = kernel * surfaceWeight(surface, q);
       tap = nextTap(tap, x);
       if (weight <= 0.0) continue;
       const vec4 neighbour = texelFetch(colour, q, 0);

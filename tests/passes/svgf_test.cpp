@@ -247,6 +247,78 @@ TEST_F(SvgfTest, EveryKernelSizeIsTheReferences) {
   }
 }
 
+TEST_F(SvgfTest, WithoutTheLuminanceWeightItIsTheReferences) {
+  const HostFrame frame = renderStill(sphere(), kSize);
+  const Image<Guide> guides = guidesOf(frame);
+  const Image<glm::dvec4> colours = someColours(guides);
+  for (const std::uint32_t radius : {1U, 2U, 3U, 4U}) {
+    SCOPED_TRACE("radius " + std::to_string(radius));
+    const SvgfFilterSettings settings{.iterations = 1, .radius = radius, .luminanceWeight = false};
+    expectIteration(atrous(settings).run(frame, guides, {colours}),
+                    reference::svgfAtrous(frame, guides, pixelsOf(colours), 1, settings), settings);
+  }
+}
+
+TEST_F(SvgfTest, TheFullWindowIsTheReferences) {
+  const HostFrame frame = renderStill(stairs(), kSize);
+  const Image<Guide> guides = guidesOf(frame);
+  const Image<glm::dvec4> colours = someColours(guides);
+  for (const bool luminanceWeight : {true, false}) {
+    const SvgfFilterSettings settings{.window = SvgfWindow::Full, .iterations = 3, .luminanceWeight = luminanceWeight};
+    expectIteration(atrous(settings).run(frame, guides, {colours}),
+                    reference::svgfAtrous(frame, guides, pixelsOf(colours), 1, settings), settings);
+  }
+}
+
+/// Mean squared distance along x of what the filter makes of one bright pixel on a wall.
+double spreadOf(const Image<glm::dvec4>& response, glm::ivec2 centre) {
+  double sum = 0.0;
+  double squares = 0.0;
+  forEachPixel(response.size(), [&](glm::ivec2 p) {
+    sum += response[p].x;
+    squares += response[p].x * std::pow(p.x - centre.x, 2.0);
+  });
+  return squares / sum;
+}
+
+TEST_F(SvgfTest, TheFullWindowIsAsWideAsTheIterations) {
+  const HostFrame frame = renderStill(flatWall(), kSize);
+  const Image<Guide> guides = guidesOf(frame);
+  const glm::ivec2 centre(22, 15);
+  Image<glm::dvec4> impulse(kSize);
+  impulse[centre].x = 4096.0;
+  SvgfFilterSettings settings{.iterations = 3, .luminanceWeight = false};
+  const double iterated = spreadOf(atrous(settings).run(frame, guides, {impulse}), centre);
+  settings.window = SvgfWindow::Full;
+  const double full = spreadOf(atrous(settings).run(frame, guides, {impulse}), centre);
+  double sum = 0.0;
+  double squares = 0.0;
+  for (int x = -14; x <= 14; ++x) {  // Where the iterations end.
+    const double gaussian = std::exp(-0.5 * x * x / 21.0);
+    sum += gaussian;
+    squares += gaussian * x * x;
+  }
+  // Binomial rows of variance 1 with spacings of 1, 2 and 4 add up to 21. Weights are one to a few parts in a thousand on
+  // the wall (`WeightsAreOneOnAPlane`).
+  EXPECT_NEAR(iterated, 21.0, 0.01 * 21.0);
+  EXPECT_NEAR(full, squares / sum, 0.01 * 21.0);
+}
+
+TEST_F(SvgfTest, AFullWindowThatReachesTooFarIsRefused) {
+  fg::Graph graph;
+  SvgfSettings settings;
+  settings.filter.window = SvgfWindow::Full;
+  settings.filter.iterations = 6;
+  const DenoiserInputs inputs = importInputs(graph, kSize);
+  const fg::Texture output = importOutput(graph, kSize);
+  try {
+    addSvgf(graph, inputs, output, settings);
+    FAIL() << "accepted";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("253 pixels"), std::string::npos) << error.what();
+  }
+}
+
 TEST_F(SvgfTest, WeightsAreOneOnAPlane) {
   const HostFrame frame = renderStill(flatWall(), kSize);
   const Image<Guide> guides = guidesOf(frame);

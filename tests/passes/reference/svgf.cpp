@@ -76,6 +76,11 @@ double smoothDeviation(const Image<Guide>& guides, const Image<SvgfPixel>& input
   return std::sqrt(sum / weightSum);
 }
 
+/// Variance along an axis of the kernel that all iterations make up where nothing stops them.
+double kernelVariance(const SvgfFilterSettings& settings) {
+  return double(settings.radius) / 2.0 * (std::pow(4.0, settings.iterations) - 1.0) / 3.0;
+}
+
 }  // namespace
 
 double SvgfMoments::variance() const {
@@ -147,7 +152,9 @@ Image<SvgfPixel> svgfVariance(const HostFrame& frame, const Image<Guide>& guides
 
 Image<SvgfPixel> svgfAtrous(const HostFrame& frame, const Image<Guide>& guides, const Image<SvgfPixel>& input,
                             int spacing, const SvgfFilterSettings& settings) {
-  const int radius = static_cast<int>(settings.radius);
+  const bool full = settings.window == SvgfWindow::Full;
+  int radius = static_cast<int>(settings.radius);
+  if (full) radius *= (1 << settings.iterations) - 1;
   Image<SvgfPixel> result(frame.size());
   std::vector<std::pair<double, glm::dvec3>> taps;
   forEachPixel(frame.size(), [&](glm::ivec2 p) {
@@ -164,8 +171,9 @@ Image<SvgfPixel> svgfAtrous(const HostFrame& frame, const Image<Guide>& guides, 
     for (int y = -radius; y <= radius; ++y) {
       for (int x = -radius; x <= radius; ++x) {
         const glm::ivec2 q = p + spacing * glm::ivec2(x, y);
-        double weight = surfaceWeight(frame, guides, p, q, settings) * binomial(2 * radius, radius + x) *
-                        binomial(2 * radius, radius + y);
+        double weight = surfaceWeight(frame, guides, p, q, settings);
+        weight *= full ? std::exp(-0.5 * (x * x + y * y) / kernelVariance(settings))
+                       : binomial(2 * radius, radius + x) * binomial(2 * radius, radius + y);
         if (weight == 0.0 || input[q].deviation < 0.0) continue;
         if (luminanceWeight) {
           weight *= std::exp(-std::abs(luminance(input[q].colour) - centre) / (unit + centre * 1e-3 + 1e-7));

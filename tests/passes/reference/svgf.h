@@ -49,7 +49,7 @@ Image<SvgfPixel> svgfVariance(const HostFrame& frame, const Image<Guide>& guides
 /// Moments of one frame by itself: what the spatial variance estimate starts from.
 Image<SvgfMoments> svgfSingleFrame(const HostFrame& frame, const Image<Guide>& guides);
 
-/// One a-trous iteration (4.4), its taps `spacing` pixels apart.
+/// One a-trous iteration (4.4), its taps `spacing` pixels apart; or, with a spacing of 1, the full window.
 Image<SvgfPixel> svgfAtrous(const HostFrame& frame, const Image<Guide>& guides, const Image<SvgfPixel>& input,
                             int spacing, const SvgfFilterSettings& settings = {});
 
