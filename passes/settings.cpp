@@ -25,8 +25,15 @@ std::string rangeText(const SettingInfo& info) {
                               "\"; it takes " + allowed);
 }
 
-void checkRange(const SettingInfo& info, double value) {
-  if (!(value >= info.least && value <= info.most)) reject(info, number(value), rangeText(info));
+/// The ends of a range are values of the setting's own type.
+template <typename Number>
+bool inRange(const SettingInfo& info, Number value) {
+  return value >= static_cast<Number>(info.least) && value <= static_cast<Number>(info.most);
+}
+
+template <typename Number>
+void checkRange(const SettingInfo& info, Number value) {
+  if (!inRange(info, value)) reject(info, number(value), rangeText(info));
 }
 
 /// Parses one value into the setting of the given name.
@@ -69,7 +76,7 @@ class Setter final : public SettingVisitor {
     Number parsed{};
     const auto [end, error] = std::from_chars(text_.data(), text_.data() + text_.size(), parsed);
     const bool whole = error == std::errc() && end == text_.data() + text_.size();
-    if (!whole || !(parsed >= info.least && parsed <= info.most)) reject(info, text_, rangeText(info));
+    if (!whole || !inRange(info, parsed)) reject(info, text_, rangeText(info));
     value = parsed;
   }
 

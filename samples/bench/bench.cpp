@@ -17,12 +17,6 @@ namespace {
 constexpr std::array kCommonExtents = {fg::Extent{1280, 720}, fg::Extent{1920, 1080}, fg::Extent{2560, 1440},
                                        fg::Extent{3840, 2160}};
 
-std::vector<SettingValue> settingsOf(const Variant& variant) {
-  std::vector<SettingValue> values;
-  for (const SettingText& setting : makeVariant(variant)->settings()) values.emplace_back(setting.name, setting.value);
-  return values;
-}
-
 /// What all runs on a sequence are made from: program, device, sequence, repetitions.
 std::string sequenceKey(const GpuDevice& device, const NamedSequence& sequence, const BenchOptions& options) {
   Fingerprint key;

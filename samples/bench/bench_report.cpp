@@ -46,13 +46,14 @@ Json variantsJson(const BenchReport& report) {
   for (const Variant& variant : report.variants) {
     Json settings = Json::object();
     for (const auto& [name, value] : report.settings.at(variant.name)) settings[name] = value;
-    list.push_back({{"name", variant.name},
-                    {"method", variant.method},
-                    {"preset", variant.preset},
-                    {"sweep", variant.sweep},
-                    {"is_default", report.settings.at(variant.name) == report.settings.at(std::string(kBaseline))},
-                    {"settings", std::move(settings)},
-                    {"costs", costsJson(report.costs.at(variant.name))}});
+    list.push_back(
+        {{"name", variant.name},
+         {"method", variant.method},
+         {"preset", variant.preset},
+         {"sweep", variant.sweep},
+         {"is_default", report.settings.at(variant.name) == settingsOf(parseMethods(variant.method).front())},
+         {"settings", std::move(settings)},
+         {"costs", costsJson(report.costs.at(variant.name))}});
   }
   return list;
 }

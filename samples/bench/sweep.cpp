@@ -8,27 +8,39 @@
 namespace walr {
 namespace {
 
-/// The preset that regresses at every pixel, with the settings regression.*.
-constexpr std::string_view kPerPixel = "robust";
+/// What a sweep's settings are changes to.
+struct Base {
+  std::string_view method;
+  std::string_view preset;
+};
 
-/// A sweep over one setting's values.
-Sweep over(std::string_view name, std::string_view question, std::string_view setting,
-           std::initializer_list<std::string_view> values) {
-  const bool perPixel = setting.starts_with("regression.");
-  Sweep sweep{name, question, perPixel ? kPerPixel : std::string_view{}, {}};
-  for (const std::string_view value : values) {
-    sweep.points.push_back({value, {{std::string(setting), std::string(value)}}});
-  }
-  return sweep;
+constexpr Base kDefault{kBaseline, {}};
+/// The preset that regresses at every pixel, with the settings regression.*.
+constexpr Base kPerPixel{kBaseline, "robust"};
+constexpr Base kFlr{"flr", {}};
+constexpr Base kSvgf{"svgf", {}};
+constexpr Base kBmfr{"bmfr", {}};
+constexpr Base kBilateral{"joint_bilateral", {}};
+
+Sweep of(Base base, std::string_view name, std::string_view question, std::vector<SweepPoint> points) {
+  return {name, question, base.method, base.preset, std::move(points)};
 }
 
-std::vector<Sweep> makeSweeps() {
-  Sweep iterations{"iterations", "How many a-trous iterations, at 3^n pixels of window?", kPerPixel, {}};
+/// A sweep over one setting's values.
+Sweep over(Base base, std::string_view name, std::string_view question, std::string_view setting,
+           std::initializer_list<std::string_view> values) {
+  std::vector<SweepPoint> points;
+  for (const std::string_view value : values) points.push_back({value, {{std::string(setting), std::string(value)}}});
+  return of(base, name, question, std::move(points));
+}
+
+std::vector<Sweep> walrSweeps() {
+  Sweep iterations = of(kPerPixel, "iterations", "How many a-trous iterations, at 3^n pixels of window?", {});
   for (const std::string_view n : {"1", "2", "3", "4", "5"}) {
     iterations.points.push_back({n, {{"walr.fit-window", "off"}, {"regression.iterations", std::string(n)}}});
   }
   const SettingValue kDropped = {"regression.keep-sample-count", "off"};
-  Sweep remap{"edge-range", "How far from the plane does an edge begin and end?", kPerPixel, {}};
+  Sweep remap = of(kPerPixel, "edge-range", "How far from the plane does an edge begin and end?", {});
   for (const auto& [label, near, far] : {std::tuple{"quarter", "0.000375", "0.00375"},
                                          {"half", "0.00075", "0.0075"},
                                          {"default", "0.0015", "0.015"},
@@ -38,43 +50,113 @@ std::vector<Sweep> makeSweeps() {
   }
   return {
       iterations,
-      {"storage",
-       "How must the moments be stored between iterations?",
-       kPerPixel,
-       {{"centred16", {{"regression.moments", "centred16"}}},
-        {"raw16", {{"regression.moments", "raw16"}, kDropped}},
-        {"raw11", {{"regression.moments", "raw11"}, kDropped}},
-        {"raw32", {{"regression.moments", "raw32"}, kDropped}}}},
-      {"edges",
-       "What does edge tracing buy, and its distance field save?",
-       kPerPixel,
-       {{"traced", {{"regression.trace-edges", "on"}}},
-        {"traced-without-sdf", {{"regression.trace-edges", "on"}, {"regression.sdf-fraction", "0"}}},
-        {"untraced", {{"regression.trace-edges", "off"}}}}},
-      over("filter", "Regress on every pixel, or on blocks of pixels?", "walr.filter", {"pixels", "blocks"}),
-      over("replacement", "Replace taps behind edges?", "regression.replace-taps", {"uniform", "near", "off"}),
-      over("sample-count", "Carry the sample count W through the iterations?", "regression.keep-sample-count",
-           {"on", "off"}),
-      over("regularisation", "A ridge, or floored pivots?", "regression.regularisation", {"ridge", "floor"}),
-      over("epsilon", "How large a ridge?", "regression.ridge", {"1e-6", "1e-5", "1e-4", "1e-3", "1e-2", "1e-1"}),
-      over("noise-ridge", "How much further ridge for noise?", "regression.noise-ridge", {"0", "1", "3", "10", "30"}),
-      over("history", "How many samples before the filter?", "accumulation.max-samples",
+      of(kPerPixel, "storage", "How must the moments be stored between iterations?",
+         {{"centred16", {{"regression.moments", "centred16"}}},
+          {"raw16", {{"regression.moments", "raw16"}, kDropped}},
+          {"raw11", {{"regression.moments", "raw11"}, kDropped}},
+          {"raw32", {{"regression.moments", "raw32"}, kDropped}}}),
+      of(kPerPixel, "edges", "What does edge tracing buy, and its distance field save?",
+         {{"traced", {{"regression.trace-edges", "on"}}},
+          {"traced-without-sdf", {{"regression.trace-edges", "on"}, {"regression.sdf-fraction", "0"}}},
+          {"untraced", {{"regression.trace-edges", "off"}}}}),
+      over(kDefault, "filter", "Regress on every pixel, or on blocks of pixels?", "walr.filter", {"pixels", "blocks"}),
+      over(kPerPixel, "replacement", "Replace taps behind edges?", "regression.replace-taps",
+           {"uniform", "near", "off"}),
+      over(kPerPixel, "sample-count", "Carry the sample count W through the iterations?",
+           "regression.keep-sample-count", {"on", "off"}),
+      over(kPerPixel, "regularisation", "A ridge, or floored pivots?", "regression.regularisation", {"ridge", "floor"}),
+      over(kPerPixel, "epsilon", "How large a ridge?", "regression.ridge",
+           {"1e-6", "1e-5", "1e-4", "1e-3", "1e-2", "1e-1"}),
+      over(kPerPixel, "noise-ridge", "How much further ridge for noise?", "regression.noise-ridge",
+           {"0", "1", "3", "10", "30"}),
+      over(kDefault, "history", "How many samples before the filter?", "accumulation.max-samples",
            {"1", "4", "8", "16", "32", "64"}),
-      over("late-history", "How many frames after the filter?", "antialiasing.max-samples",
+      over(kDefault, "late-history", "How many frames after the filter?", "antialiasing.max-samples",
            {"1", "4", "8", "16", "32"}),
-      over("clipping", "How tight a box of variance clipping?", "antialiasing.clip-gamma", {"0.5", "1", "2", "4"}),
-      over("history-filter", "How is history read between pixels?", "accumulation.history-filter",
+      over(kDefault, "clipping", "How tight a box of variance clipping?", "antialiasing.clip-gamma",
+           {"0.5", "1", "2", "4"}),
+      over(kDefault, "history-filter", "How is history read between pixels?", "accumulation.history-filter",
            {"bilinear", "bicubic"}),
       remap,
-      over("plane-normal", "Which normal spans the plane of an edge?", "regression.plane-normal",
+      over(kPerPixel, "plane-normal", "Which normal spans the plane of an edge?", "regression.plane-normal",
            {"geometric", "shading"}),
-      over("coarse-samples", "How much does the coarse fit count beside a block's own?", "blocks.coarse-samples",
-           {"0", "30", "100", "300", "1000", "1000000"}),
-      over("coarse-sigma", "How wide a window for the coarse fit?", "blocks.coarse-sigma",
+      over(kDefault, "coarse-samples", "How much does the coarse fit count beside a block's own?",
+           "blocks.coarse-samples", {"0", "30", "100", "300", "1000", "1000000"}),
+      over(kDefault, "coarse-sigma", "How wide a window for the coarse fit?", "blocks.coarse-sigma",
            {"0.014", "0.02", "0.028", "0.04", "0.056"}),
-      over("occlusion", "How far does ambient occlusion look?", "occlusion.radius",
+      over(kDefault, "occlusion", "How far does ambient occlusion look?", "occlusion.radius",
            {"0.02", "0.04", "0.075", "0.15", "0.3"}),
   };
+}
+
+/// The parameters that the baselines' papers leave open, and the comparisons of nagi-svgf.txt.
+std::vector<Sweep> baselineSweeps() {
+  return {
+      over(kFlr, "flr-factor", "How coarse a grid for FLR's outer products?", "regression.factor",
+           {"1", "2", "4", "8", "16"}),
+      over(kFlr, "flr-sigma", "How wide a Gaussian window for FLR, in pixels?", "regression.sigma",
+           {"3", "4", "5", "6", "7", "8", "12"}),
+      over(kFlr, "flr-window", "Where does FLR's window end, in sigmas?", "regression.reach", {"1", "2", "3", "4"}),
+      over(kFlr, "flr-ridge", "How large a ridge for FLR?", "regression.ridge",
+           {"1e-6", "1e-5", "1e-4", "1e-3", "1e-2"}),
+      over(kFlr, "flr-upsampling", "How are FLR's coefficients upsampled?", "regression.upsampling",
+           {"nearest", "bilinear", "bspline"}),
+      of(kFlr, "flr-occlusion", "What does ambient occlusion buy FLR, and how far must it look?",
+         {{"off", {{"regression.occlusion-guide", "off"}}},
+          {"0.02", {{"occlusion.radius", "0.02"}}},
+          {"0.04", {{"occlusion.radius", "0.04"}}},
+          {"0.075", {{"occlusion.radius", "0.075"}}},
+          {"0.15", {{"occlusion.radius", "0.15"}}}}),
+      over(kFlr, "flr-history", "How many samples before FLR?", "accumulation.max-samples", {"4", "8", "16", "32"}),
+      of(kSvgf, "svgf-kernel", "How large a kernel for SVGF's iterations? 3, 5, 7 or 9 taps an axis.",
+         {{"3x3", {{"svgf.radius", "1"}}},
+          {"5x5", {{"svgf.radius", "2"}}},
+          {"7x7", {{"svgf.radius", "3"}}},
+          {"9x9", {{"svgf.radius", "4"}}}}),
+      of(kSvgf, "svgf-window", "A-trous iterations, the full filter that they approximate, or a small one at once?",
+         {{"atrous-5x5-4", {}},
+          {"full-61x61", {{"svgf.window", "full"}}},
+          {"plain-9x9", {{"svgf.radius", "4"}, {"svgf.iterations", "1"}}}}),
+      of(kSvgf, "svgf-luminance", "How sharp a luminance weight for SVGF?",
+         {{"off", {{"svgf.luminance-weight", "off"}}},
+          {"1", {{"svgf.sigma-luminance", "1"}}},
+          {"2", {{"svgf.sigma-luminance", "2"}}},
+          {"4", {{"svgf.sigma-luminance", "4"}}},
+          {"8", {{"svgf.sigma-luminance", "8"}}}}),
+      over(kSvgf, "svgf-iterations", "How many iterations for SVGF?", "svgf.iterations", {"2", "3", "4", "5"}),
+      over(kSvgf, "svgf-normal", "How sharp a normal weight for SVGF?", "svgf.sigma-normal",
+           {"8", "16", "32", "64", "128"}),
+      over(kSvgf, "svgf-depth", "How far from the plane does SVGF reach?", "svgf.sigma-depth",
+           {"0.005", "0.01", "0.02", "0.04", "0.08"}),
+      over(kSvgf, "svgf-history", "How many samples before SVGF's filter?", "accumulation.max-samples",
+           {"5", "8", "16", "32"}),
+      over(kBmfr, "bmfr-rank", "Noise, or features left out, where features depend on each other?", "fit.rank-handling",
+           {"stochastic", "deterministic"}),
+      over(kBmfr, "bmfr-noise", "How much noise on BMFR's features?", "fit.noise-amplitude",
+           {"0.001", "0.003", "0.01", "0.03", "0.1"}),
+      over(kBmfr, "bmfr-history", "How many samples before BMFR's fit?", "accumulation.max-samples",
+           {"3", "5", "8", "16"}),
+      over(kBmfr, "bmfr-late-history", "How many fitted frames does BMFR average?", "fitted.max-samples",
+           {"5", "10", "20"}),
+      over(kBilateral, "bilateral-radius", "How large a window for the joint bilateral filter?", "bilateral.radius",
+           {"8", "12", "16", "24"}),
+      over(kBilateral, "bilateral-position", "How wide a Gaussian in the image for it?", "bilateral.sigma-position",
+           {"4", "6", "8", "10", "14"}),
+      over(kBilateral, "bilateral-normal", "How sharp a normal term for it?", "bilateral.sigma-normal",
+           {"0.1", "0.2", "0.4", "0.8"}),
+      over(kBilateral, "bilateral-plane", "How sharp a plane term for it?", "bilateral.sigma-plane",
+           {"0.05", "0.1", "0.2", "0.4"}),
+      over(kBilateral, "bilateral-colour", "How sharp a colour term for it?", "bilateral.sigma-colour",
+           {"4", "10", "30", "inf"}),
+      over(kBilateral, "bilateral-clipping", "How tight a clamp of its history?", "antialiasing.clip-gamma",
+           {"1", "2", "3", "4"}),
+  };
+}
+
+std::vector<Sweep> makeSweeps() {
+  std::vector<Sweep> all = walrSweeps();
+  for (Sweep& sweep : baselineSweeps()) all.push_back(std::move(sweep));
+  return all;
 }
 
 }  // namespace
@@ -94,7 +176,7 @@ std::vector<Variant> sweepVariants(std::string_view name) {
   std::vector<Variant> variants;
   for (const SweepPoint& point : found->points) {
     variants.push_back({.name = std::string(name) + "=" + std::string(point.label),
-                        .method = std::string(kBaseline),
+                        .method = std::string(found->method),
                         .preset = std::string(found->preset),
                         .settings = point.settings,
                         .sweep = std::string(name)});

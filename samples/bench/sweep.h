@@ -15,10 +15,11 @@ struct SweepPoint {
   std::vector<SettingValue> settings;
 };
 
-/// A question about WALR's settings, and the settings that answer it. Its variants are named "SWEEP=LABEL".
+/// A question about a method's settings, and the settings that answer it. Its variants are named "SWEEP=LABEL".
 struct Sweep {
   std::string_view name;
   std::string_view question;
+  std::string_view method;
   std::string_view preset;  ///< That the settings are changes to; empty: the default.
   std::vector<SweepPoint> points;
 };

@@ -74,6 +74,12 @@ std::unique_ptr<Denoiser> makeVariant(const Variant& variant) {
   return method;
 }
 
+std::vector<SettingValue> settingsOf(const Variant& variant) {
+  std::vector<SettingValue> values;
+  for (const SettingText& setting : makeVariant(variant)->settings()) values.emplace_back(setting.name, setting.value);
+  return values;
+}
+
 std::vector<Variant> withBaseline(std::vector<Variant> variants) {
   const Variant baseline = methodVariant(std::string(kBaseline));
   const auto found = std::ranges::find(variants, baseline);

@@ -42,6 +42,10 @@ Variant parseVariant(const std::string& text);
 /// @throws std::invalid_argument naming the unknown method, preset or setting
 std::unique_ptr<Denoiser> makeVariant(const Variant& variant);
 
+/// All settings of a variant with their values.
+/// @throws std::invalid_argument as `makeVariant`
+std::vector<SettingValue> settingsOf(const Variant& variant);
+
 /// Put the baseline first, adding it where it is missing.
 /// @throws std::invalid_argument naming a name that stands for two things
 std::vector<Variant> withBaseline(std::vector<Variant> variants);

@@ -93,7 +93,7 @@ void runBench(BenchArguments& arguments, const std::string& command) {
 }
 
 std::string sweepHelp() {
-  std::string text = "Also run this sweep over settings of walr; may be given several times, or 'all'. Sweeps:";
+  std::string text = "Also run this sweep over settings of a method; may be given several times, or 'all'. Sweeps:";
   for (const Sweep& sweep : sweeps()) text += "\n  " + std::string(sweep.name) + ": " + std::string(sweep.question);
   return text;
 }

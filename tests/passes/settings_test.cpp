@@ -89,6 +89,19 @@ TEST(Settings, ADefaultCanBeSetFromItsOwnText) {
   }
 }
 
+TEST(Settings, BothEndsOfARangeCanBeSet) {
+  for (const std::string& method : denoiserNames()) {
+    const auto denoiser = makeDenoiser(method);
+    for (const SettingText& setting : denoiser->settings()) {
+      const std::size_t dots = setting.range.find("..");
+      if (dots == std::string::npos) continue;
+      EXPECT_NO_THROW(denoiser->set(setting.name, setting.range.substr(0, dots))) << method;
+      EXPECT_NO_THROW(denoiser->set(setting.name, setting.range.substr(dots + 2))) << method;
+    }
+    EXPECT_NO_THROW(denoiser->checkSettings()) << method;
+  }
+}
+
 TEST(Settings, AnUnknownMethodIsRejectedWithTheKnownOnes) {
   const std::string message = rejection([] { (void)makeDenoiser("wlar"); });
   EXPECT_NE(message.find("\"wlar\""), std::string::npos) << message;
