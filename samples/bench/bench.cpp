@@ -160,7 +160,10 @@ BenchReport bench(const GpuDevice& device, const std::vector<NamedSequence>& seq
   }
   progress.reset();
   if (options.response) report.responses = responses(device, options.variants);
-  if (options.hardCases) report.numerics = numerics(device, numericsSettings());
+  if (options.hardCases) {
+    report.numerics = numerics(device, numericsSettings());
+    report.methodHardCases = methodHardCases(device, options.variants);
+  }
   return report;
 }
 

@@ -39,7 +39,7 @@ struct BenchOptions {
   /// Variants that run beside each other. More need more device memory at once, and lose more when interrupted. The
   /// baseline runs in every batch.
   std::size_t batch = 10;
-  bool hardCases = false;  ///< Also run the hard cases of the arithmetic (`numerics`).
+  bool hardCases = false;  ///< Also run the hard cases of the arithmetic (`numerics`, `methodHardCases`).
   bool response = false;   ///< Also run all variants on the synthetic scenes (`responses`).
 };
 
@@ -64,6 +64,7 @@ struct BenchReport {
   std::vector<SequenceReport> sequences;
   std::vector<Response> responses;  ///< Of all variants, or empty.
   std::vector<NumericsResult> numerics;
+  std::vector<MethodHardCase> methodHardCases;
 };
 
 /// Run what has not been run yet, and report on all.

@@ -92,15 +92,26 @@ Json responseJson(const Response& response) {
           {"recovery_frames", orNull(response.recoveryFrames)}};
 }
 
+Json hardCaseJson(const HardCaseErrors& errors) {
+  return {{"case", errors.hardCase},
+          {"error", errors.error},
+          {"non_finite_in", errors.nonFiniteIn},
+          {"non_finite_out", errors.nonFiniteOut},
+          {"negative_out", errors.negativeOut}};
+}
+
 Json numericsJson(const NumericsResult& result) {
-  return {{"case", result.hardCase},
-          {"storage", result.setting.storage},
-          {"regularisation", result.setting.regularisation},
-          {"epsilon", result.setting.epsilon},
-          {"error", result.error},
-          {"non_finite_in", result.nonFiniteIn},
-          {"non_finite_out", result.nonFiniteOut},
-          {"negative_out", result.negativeOut}};
+  Json json = hardCaseJson(result);
+  json["storage"] = result.setting.storage;
+  json["regularisation"] = result.setting.regularisation;
+  json["epsilon"] = result.setting.epsilon;
+  return json;
+}
+
+Json methodHardCaseJson(const MethodHardCase& result) {
+  Json json = hardCaseJson(result);
+  json["variant"] = result.variant;
+  return json;
 }
 
 /// Costs at the size of a sequence.
@@ -166,17 +177,21 @@ void printResponses(std::ostream& stream, const BenchReport& report) {
          "left on the first frame.\n";
 }
 
-/// Worst cases only: the report has the whole table.
-void printNumerics(std::ostream& stream, const BenchReport& report) {
+/// Worst case only of some results: the report has the whole table.
+template <typename Result, typename Describe>
+void printHardCases(std::ostream& stream, const std::string& what, const std::vector<Result>& results,
+                    Describe describe) {
   std::size_t nonFinite = 0;
-  const NumericsResult* worst = &report.numerics.front();
-  for (const NumericsResult& result : report.numerics) {
+  std::size_t negative = 0;
+  const Result* worst = &results.front();
+  for (const Result& result : results) {
     nonFinite += result.nonFiniteOut;
+    negative += result.negativeOut;
     if (!(result.error <= worst->error)) worst = &result;
   }
-  stream << "\nhard cases: " << report.numerics.size() << " runs, " << nonFinite
-         << " values that are not finite; largest relative error " << worst->error << ": " << worst->hardCase << ", "
-         << worst->setting.storage << ", " << worst->setting.regularisation << ' ' << worst->setting.epsilon << ".\n";
+  stream << "\nhard cases, " << what << ": " << results.size() << " runs, " << nonFinite
+         << " values that are not finite, " << negative << " below 0; largest relative error " << worst->error << ": "
+         << worst->hardCase << ", " << describe(*worst) << ".\n";
 }
 
 void printSequence(std::ostream& stream, const BenchReport& report, const SequenceReport& sequence) {
@@ -243,6 +258,10 @@ std::string benchJson(const BenchReport& report, const std::string& command) {
   for (const Response& response : report.responses) document["responses"].push_back(responseJson(response));
   document["hard_cases"] = Json::array();
   for (const NumericsResult& result : report.numerics) document["hard_cases"].push_back(numericsJson(result));
+  document["method_hard_cases"] = Json::array();
+  for (const MethodHardCase& result : report.methodHardCases) {
+    document["method_hard_cases"].push_back(methodHardCaseJson(result));
+  }
   return document.dump(1) + "\n";
 }
 
@@ -291,7 +310,14 @@ void printBench(std::ostream& stream, const BenchReport& report) {
               "and shared transient): from the plan.\n";
   }
   if (!report.responses.empty()) printResponses(stream, report);
-  if (!report.numerics.empty()) printNumerics(stream, report);
+  if (!report.numerics.empty()) {
+    printHardCases(stream, "ways of storing and solving", report.numerics, [](const NumericsResult& result) {
+      const NumericsSetting& setting = result.setting;
+      return setting.storage + ", " + setting.regularisation + ' ' + setting.epsilon;
+    });
+    printHardCases(stream, "methods", report.methodHardCases,
+                   [](const MethodHardCase& result) { return result.variant; });
+  }
   if (report.device.software) {
     stream << report.device.name << " is a software device: ratios of its times are a processor's, not a GPU's.\n";
   }

@@ -29,7 +29,8 @@ Variant spatialOnly(const NumericsSetting& setting) {
   return variant;
 }
 
-void judge(const Image& result, const HardCase& hardCase, NumericsResult& judged) {
+HardCaseErrors judge(const Image& result, const HardCase& hardCase) {
+  HardCaseErrors judged{.hardCase = hardCase.name};
   double squares = 0.0;
   double truthSquares = 0.0;
   double count = 0.0;
@@ -47,6 +48,7 @@ void judge(const Image& result, const HardCase& hardCase, NumericsResult& judged
   judged.nonFiniteIn = countNonFinite(hardCase.packed.frame.indirect);
   judged.nonFiniteOut = countNonFinite(result);
   judged.error = std::sqrt(squares / (truthSquares > 0.0 ? truthSquares : count));
+  return judged;
 }
 
 }  // namespace
@@ -67,10 +69,19 @@ std::vector<NumericsResult> numerics(const GpuDevice& device, std::span<const Nu
   for (const NumericsSetting& setting : settings) {
     GpuDenoiser denoiser(device, *makeVariant(spatialOnly(setting)), kHardCaseExtent, projectLayout());
     for (const HardCase& hardCase : cases) {
-      NumericsResult& result = results.emplace_back();
-      result.hardCase = hardCase.name;
-      result.setting = setting;
-      judge(denoiser.run(hardCase.packed).indirect, hardCase, result);
+      results.push_back({judge(denoiser.run(hardCase.packed).indirect, hardCase), setting});
+    }
+  }
+  return results;
+}
+
+std::vector<MethodHardCase> methodHardCases(const GpuDevice& device, std::span<const Variant> variants) {
+  const std::vector<HardCase> cases = hardCases();
+  std::vector<MethodHardCase> results;
+  for (const Variant& variant : variants) {
+    GpuDenoiser denoiser(device, *makeVariant(variant), kHardCaseExtent, projectLayout());
+    for (const HardCase& hardCase : cases) {
+      results.push_back({judge(denoiser.run(hardCase.packed).indirect, hardCase), variant.name});
     }
   }
   return results;

@@ -20,10 +20,9 @@ struct NumericsSetting {
 /// Every storage, both ways of solving, a range of epsilons.
 std::vector<NumericsSetting> numericsSettings();
 
-/// What WALR made of a hard case.
-struct NumericsResult {
+/// What was made of a hard case.
+struct HardCaseErrors {
   std::string hardCase;
-  NumericsSetting setting;
   /// Root mean square error over the root mean square of the truth, linear, one frame without history; the error itself
   /// where the truth is 0. Values that are not finite are left out and counted.
   double error = 0.0;
@@ -32,9 +31,23 @@ struct NumericsResult {
   std::size_t negativeOut = 0;   ///< Values of the result below 0.
 };
 
+/// By one way of storing and solving.
+struct NumericsResult : HardCaseErrors {
+  NumericsSetting setting;
+};
+
+/// By a method.
+struct MethodHardCase : HardCaseErrors {
+  std::string variant;
+};
+
 /// Every hard case (`hardCases`) through WALR's regression, 27 x 27 pixels, with every setting. The temporal stages
 /// keep no history.
 /// @throws fg::vk::Error when the device fails
 std::vector<NumericsResult> numerics(const GpuDevice& device, std::span<const NumericsSetting> settings);
+
+/// Every hard case through every method as it is, first frame of a history.
+/// @throws fg::vk::Error when the device fails
+std::vector<MethodHardCase> methodHardCases(const GpuDevice& device, std::span<const Variant> variants);
 
 }  // namespace walr

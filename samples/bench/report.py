@@ -213,6 +213,23 @@ def response_section(bench):
         "light is left. Recovered: the error is within a quarter of the wall's that nothing hid")
 
 
+def hard_case_cell(r):
+    """An error with the values that should not be."""
+    text = "-" if r["error"] is None else f"{r['error']:.3g}"
+    text += f' <b class="bad">{r["non_finite_out"]} not finite</b>' if r["non_finite_out"] else ""
+    return text + (f" <small>{r['negative_out']} below 0</small>" if r["negative_out"] else "")
+
+
+def method_hard_cases_table(bench):
+    """Every case through every method."""
+    results = {(r["case"], r["variant"]): r for r in bench.json["method_hard_cases"]}
+    cases, variants = (list(dict.fromkeys(k[i] for k in results)) for i in range(2))
+    rows = [[html.escape(case)] + [hard_case_cell(results[case, v]) for v in variants] for case in cases]
+    return table(["case"] + [html.escape(v) for v in variants], rows,
+                 "every method as it is, first frame of a history: relative root mean square error, linear; absolute "
+                 "where there is no light")
+
+
 def hard_cases_section(bench):
     """Error by epsilon where features vary by little, and every case at every storage's usual settings."""
     results = {(r["case"], r["storage"], r["regularisation"], r["epsilon"]): r for r in bench.json["hard_cases"]}
@@ -222,17 +239,15 @@ def hard_cases_section(bench):
     for case in cases:
         row = [html.escape(case)]
         for storage in storages:
-            r = results[(case, storage) + usual[storage]]
-            text = "-" if r["error"] is None else f"{r['error']:.3g}"
-            text += f' <b class="bad">{r["non_finite_out"]} not finite</b>' if r["non_finite_out"] else ""
-            row.append(text + (f" <small>{r['negative_out']} below 0</small>" if r["negative_out"] else ""))
+            row.append(hard_case_cell(results[(case, storage) + usual[storage]]))
         row.append(results[(case, storages[0]) + usual[storages[0]]]["non_finite_in"])
         rows.append(row)
     return ("<p>Signals that are linear in the normal, so that an exact regression has no bias; exponential noise; one frame "
             "without history; 27 x 27 pixels.</p>" + svg(hard_cases_figure(results, cases, storages, solvers, epsilons),
                                                               "hard cases")
             + table(["case"] + [f"{s}, {usual[s][0]} {usual[s][1]}" for s in storages] + ["not finite in"], rows,
-                    "relative root mean square error, linear; absolute where there is no light"))
+                    "relative root mean square error, linear; absolute where there is no light")
+            + method_hard_cases_table(bench))
 
 
 def costs_section(bench):

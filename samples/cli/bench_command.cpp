@@ -138,9 +138,10 @@ void registerBench(CLI::App& program) {
       ->type_name("NAME=METHOD[:PRESET][,SETTING=VALUE]...");
   command->add_option("--sweep", arguments->sweeps, sweepHelp())->type_name("NAME");
   command->add_option("--frames", arguments->frames, "Frame numbers, both included; default: all")->type_name("A-B");
-  command->add_flag("--hard-cases", arguments->bench.hardCases,
-                    "Also run walr on frames that strain the arithmetic, with every storage of the moments and way of "
-                    "solving: error against the known answer, values that are not finite");
+  command->add_flag(
+      "--hard-cases", arguments->bench.hardCases,
+      "Also run every method, and walr with every storage of the moments and way of solving, on frames that "
+      "strain the arithmetic: error against the known answer, values that are not finite");
   command->add_flag("--response", arguments->bench.response,
                     "Also measure how each variant answers to change, on synthetic scenes with a known answer: first "
                     "frame, settled error and flicker, a light that goes down, disocclusion");

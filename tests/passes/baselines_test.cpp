@@ -138,7 +138,8 @@ INSTANTIATE_TEST_SUITE_P(Methods, DenoiserTest,
                          caseName);
 INSTANTIATE_TEST_SUITE_P(Methods, BaselineTest,
                          testing::Values(Case{"svgf"}, Case{"svgf", true}, Case{"joint_bilateral"},
-                                         Case{"joint_bilateral", true}),
+                                         Case{"joint_bilateral", true}, Case{"bmfr"}, Case{"bmfr", true}, Case{"flr"},
+                                         Case{"flr", true}, Case{"walr"}, Case{"walr", true}),
                          caseName);
 
 }  // namespace

@@ -298,8 +298,8 @@ TEST_F(SvgfTest, TheFullWindowIsAsWideAsTheIterations) {
     sum += gaussian;
     squares += gaussian * x * x;
   }
-  // Binomial rows of variance 1 with spacings of 1, 2 and 4 add up to 21. Weights are one to a few parts in a thousand on
-  // the wall (`WeightsAreOneOnAPlane`).
+  // Binomial rows of variance 1 with spacings of 1, 2 and 4 add up to 21. Weights are one to a few parts in a thousand
+  // on the wall (`WeightsAreOneOnAPlane`).
   EXPECT_NEAR(iterated, 21.0, 0.01 * 21.0);
   EXPECT_NEAR(full, squares / sum, 0.01 * 21.0);
 }

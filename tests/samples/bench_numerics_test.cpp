@@ -58,5 +58,25 @@ TEST(Numerics, TellStableFromUnstableArithmetic) {
   EXPECT_TRUE(device.takeMessages().empty());
 }
 
+/// A denoiser may leave noise, but must not make errors that were not there, nor values that are no light.
+TEST(MethodHardCases, NothingComesOutWorseThanItWentIn) {
+  GpuDevice device({.device = {}, .validation = true});
+  const std::vector<Variant> variants = parseMethods("none,walr,walr:robust,bmfr,svgf,svgf:paper,flr,joint_bilateral");
+  const std::vector<MethodHardCase> results = methodHardCases(device, variants);
+  ASSERT_EQ(results.size(), variants.size() * hardCases().size());
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    const MethodHardCase& result = results[i];
+    const MethodHardCase& noisy = results[i % hardCases().size()];
+    SCOPED_TRACE(result.variant + ", " + result.hardCase);
+    RecordProperty(result.variant + ", " + result.hardCase, std::to_string(result.error));
+    ASSERT_EQ(result.hardCase, noisy.hardCase);
+    if (result.variant == "none") continue;
+    EXPECT_EQ(result.nonFiniteOut, 0U);
+    EXPECT_EQ(result.negativeOut, 0U);
+    EXPECT_LE(result.error, noisy.error);
+  }
+  EXPECT_TRUE(device.takeMessages().empty());
+}
+
 }  // namespace
 }  // namespace walr
