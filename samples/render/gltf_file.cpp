@@ -15,11 +15,12 @@ namespace fs = std::filesystem;
 
 // tinygltf measures files in 32-bit integers.
 constexpr std::uintmax_t kLargestFile = 0x7fffffff;
+constexpr std::uintmax_t kAllFiles = std::uintmax_t{1} << 32U;
 
 // glTF itself nests about ten deep; the parser recurses once a level, so a hostile file must not choose the depth.
 constexpr int kDeepestNesting = 128;
 
-std::vector<unsigned char> readWholeFile(const fs::path& file) {
+std::vector<unsigned char> readWholeFile(const fs::path& file, std::uintmax_t budget) {
   std::error_code error;
   if (!fs::exists(file, error)) {
     throw SceneError("no such file");
@@ -30,6 +31,9 @@ std::vector<unsigned char> readWholeFile(const fs::path& file) {
   const std::uintmax_t size = fs::file_size(file, error);
   if (error || size > kLargestFile) {
     throw SceneError(error ? error.message() : "larger than 2 GiB");
+  }
+  if (size > budget) {
+    throw SceneError("the scene's files have more than 4 GiB in all, each counted as often as it is named");
   }
   std::vector<unsigned char> bytes(size);
   std::ifstream stream(file, std::ios::binary);
@@ -97,9 +101,12 @@ bool fileExists(const std::string& file, void* /*user*/) {
   return fs::is_regular_file(file, error);
 }
 
-bool readFile(std::vector<unsigned char>* bytes, std::string* errors, const std::string& file, void* /*user*/) {
+/// @param user  bytes that all files together may still have, a std::uintmax_t
+bool readFile(std::vector<unsigned char>* bytes, std::string* errors, const std::string& file, void* user) {
+  auto& budget = *static_cast<std::uintmax_t*>(user);
   try {
-    *bytes = readWholeFile(file);
+    *bytes = readWholeFile(file, budget);
+    budget -= bytes->size();
     return true;
   } catch (const SceneError& error) {
     *errors += file + ": " + error.what() + "\n";
@@ -119,7 +126,8 @@ std::string withoutTrailingNewlines(std::string text) {
 }  // namespace
 
 tinygltf::Model readModel(const std::filesystem::path& file) {
-  const std::vector<unsigned char> bytes = readWholeFile(file);
+  std::uintmax_t budget = kAllFiles;
+  const std::vector<unsigned char> bytes = readWholeFile(file, budget);
   checkNesting(jsonText(bytes));
 
   tinygltf::TinyGLTF parser;
@@ -128,6 +136,7 @@ tinygltf::Model readModel(const std::filesystem::path& file) {
   callbacks.FileExists = &fileExists;
   callbacks.ExpandFilePath = &samePath;
   callbacks.ReadWholeFile = &readFile;
+  callbacks.user_data = &budget;
   parser.SetFsCallbacks(callbacks);
 
   tinygltf::Model model;

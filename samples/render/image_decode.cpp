@@ -1,12 +1,28 @@
 #include "samples/render/image_decode.h"
 
+#include <algorithm>
+#include <array>
 #include <memory>
+#include <string>
 
 #include <stb_image.h>
 
 #include "samples/render/scene_error.h"
 
 namespace walr::render {
+namespace {
+
+// The library knows more formats than glTF, and most of them are little used, and so little tested.
+bool isPngOrJpeg(std::span<const std::uint8_t> bytes) {
+  constexpr std::array<std::uint8_t, 4> kPng = {0x89, 'P', 'N', 'G'};
+  constexpr std::array<std::uint8_t, 3> kJpeg = {0xff, 0xd8, 0xff};
+  const auto startsWith = [&](const auto& signature) {
+    return bytes.size() >= signature.size() && std::ranges::equal(bytes.first(signature.size()), signature);
+  };
+  return startsWith(kPng) || startsWith(kJpeg);
+}
+
+}  // namespace
 
 Image decodeImage(std::span<const std::uint8_t> bytes, std::uint64_t& texelBudget) {
   constexpr int kLargestSide = 16384;
@@ -14,9 +30,11 @@ Image decodeImage(std::span<const std::uint8_t> bytes, std::uint64_t& texelBudge
   int width = 0;
   int height = 0;
   int components = 0;
-  if (bytes.empty() || stbi_info_from_memory(bytes.data(), size, &width, &height, &components) == 0) {
-    throw SceneError(std::string("not a PNG or JPEG picture that can be read: ") +
-                     (bytes.empty() ? "it is empty" : stbi_failure_reason()));
+  if (!isPngOrJpeg(bytes)) {
+    throw SceneError("not a PNG or JPEG picture");
+  }
+  if (stbi_info_from_memory(bytes.data(), size, &width, &height, &components) == 0) {
+    throw SceneError(std::string("cannot be read: ") + stbi_failure_reason());
   }
   const std::string dimensions = std::to_string(width) + " x " + std::to_string(height) + " texels";
   if (width < 1 || height < 1 || width > kLargestSide || height > kLargestSide) {

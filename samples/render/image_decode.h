@@ -7,7 +7,7 @@
 
 namespace walr::render {
 
-/// Decode a PNG, JPEG or another picture that stb_image knows to 8-bit RGBA.
+/// Decode a PNG or JPEG picture, which is what glTF 2.0 knows, to 8-bit RGBA.
 /// @param bytes        the encoded file
 /// @param texelBudget  texels that may still be decoded; what is used is taken off
 /// @throws SceneError if the bytes are no such picture, or one of more than 16384 texels a side or than the budget

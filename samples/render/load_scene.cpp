@@ -6,6 +6,7 @@
 
 #include "samples/render/gltf_convert.h"
 #include "samples/render/gltf_file.h"
+#include "samples/render/gltf_limits.h"
 #include "samples/render/load_sky.h"
 #include "samples/render/scene_error.h"
 
@@ -59,8 +60,10 @@ Scene loadScene(const std::filesystem::path& file, const std::filesystem::path& 
     Scene scene;
     scene.skyMap = std::move(skyMap);
     checkExtensions(model, scene);
+    gltf::checkUses(model);
     gltf::convertMaterials(model, gltf::convertTextures(model, scene), scene);
     gltf::convertNodes(model, gltf::convertMeshes(model, scene), scene);
+    gltf::checkPlacedTriangles(scene);
     checkContent(scene);
     return scene;
   } catch (const SceneError& error) {

@@ -16,7 +16,8 @@ namespace walr::render {
 /// on a plane facing the light, point and spot intensity is radiant intensity, emission is radiance.
 /// What the file holds beyond that is named in `Scene::warnings`.
 /// @throws SceneError naming the file and the part that is wrong: missing, truncated, malformed, or larger than the
-///         limits (2 GiB a file, 16384 texels a side and 1 GiB of texels in all).
+///         limits (2 GiB a file and 4 GiB in all, 16384 texels a side and 1 GiB of texels in all, 2^27 vertices,
+///         indices and keys, 2^26 triangles).
 Scene loadScene(const std::filesystem::path& file, const std::filesystem::path& sky = {});
 
 }  // namespace walr::render

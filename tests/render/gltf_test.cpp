@@ -6,15 +6,19 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <numeric>
 #include <random>
+#include <span>
 #include <string>
 
 #include <nlohmann/json.hpp>
 
 #include "samples/render/film.h"
+#include "samples/render/image_decode.h"
 #include "samples/render/load_scene.h"
 #include "samples/render/scene_error.h"
 #include "samples/render/view.h"
+#include "tests/render/small_jpeg.h"
 #include "tests/samples/temporary_directory.h"
 
 namespace walr::render {
@@ -258,6 +262,34 @@ TEST_F(Gltf, RefusesRangesBeyondTheBuffer) {
   }
 }
 
+// A mesh of one vertex and 21845 triangles in a file of 90 KB, used many times.
+TEST_F(Gltf, RefusesDataUsedTooOften) {
+  constexpr std::size_t kBytes = 65535;
+  const auto file = [&](std::size_t primitives, std::size_t nodes) {
+    Json json = {
+        {"asset", {{"version", "2.0"}}},
+        {"buffers",
+         {{{"byteLength", kBytes},
+           {"uri", "data:application/octet-stream;base64," + std::string(kBytes / 3 * 4, 'A')}}}},
+        {"bufferViews", {{{"buffer", 0}, {"byteLength", kBytes}}}},
+        {"accessors",
+         {{{"bufferView", 0}, {"componentType", 5126}, {"count", 1}, {"type", "VEC3"}},
+          {{"bufferView", 0}, {"componentType", 5121}, {"count", kBytes}, {"type", "SCALAR"}}}},
+        {"scene", 0},
+    };
+    const Json primitive = {{"attributes", {{"POSITION", 0}}}, {"indices", 1}};
+    json["meshes"] = {{{"primitives", std::vector<Json>(primitives, primitive)}}};
+    json["nodes"] = std::vector<Json>(nodes, {{"mesh", 0}});
+    std::vector<std::size_t> numbers(nodes);
+    std::iota(numbers.begin(), numbers.end(), 0);
+    json["scenes"] = {{{"nodes", numbers}}};
+    return write("often.gltf", json.dump());
+  };
+  EXPECT_NO_THROW(loadScene(file(1, 1)));
+  expectError(file((std::size_t{1} << 27U) / kBytes + 1, 1), "counted as often as they are used");
+  expectError(file(1, (std::size_t{1} << 26U) / (kBytes / 3) + 1), "triangles; at most");
+}
+
 TEST_F(Gltf, RefusesHierarchiesThatAreNoTree) {
   expectError(boxWith([](Json& json) { json["nodes"][0]["children"] = {1}; }), "in the hierarchy twice");
   expectError(boxWith([](Json& json) { json["nodes"][0]["children"] = {0}; }), "in the hierarchy twice");
@@ -326,6 +358,47 @@ TEST_F(Gltf, FuzzedFilesNeverCrash) {
     }
     loadAndTrace(write("fuzzed.glb", bytes));
   }
+}
+
+std::span<const std::uint8_t> bytesOf(const std::string& text) {
+  return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
+}
+
+// The pictures within a file, damaged: 64 x 64 texels of PNG as the scenes' script makes it, and one of JPEG.
+TEST_F(Gltf, DamagedPicturesNeverCrash) {
+  const std::string glb = asGlb(WALR_SCENES "/box.gltf");
+  const Json json = Json::parse(std::ifstream(WALR_SCENES "/box.gltf"));
+  const Json& view = json["bufferViews"][json["images"][0]["bufferView"].get<std::size_t>()];
+  std::uint32_t jsonBytes = 0;
+  std::memcpy(&jsonBytes, &glb[12], sizeof jsonBytes);
+  const std::string png = glb.substr(20 + jsonBytes + 8 + view.value("byteOffset", std::size_t{0}), view["byteLength"]);
+  std::mt19937 random(3);
+  const auto below = [&](std::size_t bound) {
+    return std::uniform_int_distribution<std::size_t>(0, bound - 1)(random);
+  };
+  int read = 0;
+  for (const std::string& picture : {png, test::smallJpeg()}) {
+    std::uint64_t whole = 1U << 20U;
+    const Image original = decodeImage(bytesOf(picture), whole);
+    EXPECT_EQ((std::uint64_t{1} << 20U) - whole, std::uint64_t{original.width} * original.height);
+    for (int i = 0; i < 2000; ++i) {
+      std::string bytes = picture.substr(0, below(3) == 0 ? below(picture.size()) : picture.size());
+      for (std::size_t changes = below(4); changes > 0 && !bytes.empty(); --changes) {
+        // Mostly the header, where sizes and types are.
+        bytes[below(below(2) == 0 ? std::min<std::size_t>(bytes.size(), 64) : bytes.size())] =
+            static_cast<char>(below(256));
+      }
+      std::uint64_t budget = 1U << 20U;
+      try {
+        const Image image = decodeImage(bytesOf(bytes), budget);
+        EXPECT_EQ(image.rgba.size(), std::size_t{4} * image.width * image.height);
+        ++read;
+      } catch (const SceneError& error) {
+        EXPECT_GT(std::strlen(error.what()), 10U);
+      }
+    }
+  }
+  EXPECT_GT(read, 100);
 }
 
 // Values of every number and reference in the file replaced one by one.

@@ -2,8 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
+#include <iterator>
 #include <limits>
 #include <numbers>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -197,6 +200,37 @@ TEST_F(SkyFile, RefusesWhatIsNoSky) {
   expectError(write(image), "(2, 1)");
   image.at(2, 1, 0) = std::numeric_limits<float>::quiet_NaN();
   expectError(write(image), "(2, 1)");
+}
+
+TEST_F(SkyFile, DamagedFilesNeverCrash) {
+  walr::Image image(16, 8, 3);
+  std::mt19937 random(5);
+  const auto below = [&](std::size_t bound) {
+    return std::uniform_int_distribution<std::size_t>(0, bound - 1)(random);
+  };
+  for (float& value : image.values()) {
+    value = static_cast<float>(below(100));
+  }
+  std::ifstream stream(write(image), std::ios::binary);
+  const std::string original{std::istreambuf_iterator<char>(stream), {}};
+  const std::filesystem::path damaged = folder.path() / "damaged.exr";
+  int read = 0;
+  for (int i = 0; i < 500; ++i) {
+    std::string bytes = original.substr(0, below(4) == 0 ? below(original.size()) : original.size());
+    for (std::size_t changes = 1 + below(3); changes > 0 && !bytes.empty(); --changes) {
+      bytes[below(bytes.size())] = static_cast<char>(below(256));
+    }
+    std::ofstream(damaged, std::ios::binary) << bytes;
+    try {
+      const SkyMap map = loadSky(damaged);
+      EXPECT_EQ(map.radiance.size(), std::size_t{map.width} * map.height);
+      ++read;
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find(damaged.string()), std::string::npos) << error.what();
+    }
+  }
+  // Not every byte matters: some files are read all the same.
+  EXPECT_GT(read, 0);
 }
 
 }  // namespace
