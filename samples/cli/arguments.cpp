@@ -27,10 +27,10 @@ std::optional<std::pair<int, int>> parsePair(std::string_view text, char separat
 
 }  // namespace
 
-FrameRange parseFrameRange(const std::string& text) {
+FrameRange parseFrameRange(const std::string& text, const std::string& option) {
   const auto pair = parsePair(text, '-');
   if (!pair || pair->first > pair->second) {
-    throw UsageError("--frames " + text + ": give a first and a last frame number, as in --frames 0-31");
+    throw UsageError(option + " " + text + ": give a first and a last frame number, as in " + option + " 0-31");
   }
   return {pair->first, pair->second};
 }

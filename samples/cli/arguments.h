@@ -9,7 +9,7 @@ namespace walr {
 
 /// "A-B" or "A": frame numbers, both ends included.
 /// @throws UsageError
-FrameRange parseFrameRange(const std::string& text);
+FrameRange parseFrameRange(const std::string& text, const std::string& option = "--frames");
 
 /// "WIDTHxHEIGHT" in pixels, 1 to 16384 each.
 /// @throws UsageError

@@ -19,6 +19,7 @@ namespace {
 struct RenderArguments {
   render::RenderOptions options;
   std::string frames = "0-11";
+  std::string referenceFrames;
   std::string size = "320x180";
 };
 
@@ -28,6 +29,9 @@ void renderFrames(RenderArguments& arguments) {
   const fg::Extent extent = parseSize(arguments.size);
   options.firstFrame = frames.first;
   options.lastFrame = frames.last;
+  if (!arguments.referenceFrames.empty()) {
+    options.referenceFrames = parseFrameRange(arguments.referenceFrames, "--reference-frames");
+  }
   options.width = extent.width;
   options.height = extent.height;
 
@@ -64,6 +68,8 @@ void registerRender(CLI::App& program) {
   command->add_option("--reference-spp", options.referenceSamples, "Paths a pixel in the references; 0: none")
       ->check(CLI::Range(0U, kMostSamples))
       ->capture_default_str();
+  command->add_option("--reference-frames", arguments->referenceFrames,
+                      "A-B: the frames of them that get a reference, both included; default: all");
   constexpr std::uint32_t kMostBounces = 1024;
   command->add_option("--bounces", options.bounces, "Surfaces after the first that reflect light")
       ->check(CLI::Range(0U, kMostBounces))

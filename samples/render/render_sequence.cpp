@@ -100,8 +100,17 @@ void renderFile(const fs::path& file, const RenderObserver& observer, const std:
 
 }  // namespace
 
+bool RenderOptions::hasReference(int frame) const {
+  const bool named = !referenceFrames || (referenceFrames->first <= frame && frame <= referenceFrames->last);
+  return referenceSamples > 0 && named;
+}
+
 std::size_t RenderOptions::files() const {
-  return static_cast<std::size_t>(lastFrame - firstFrame + 1) * (referenceSamples == 0 ? 1 : 2);
+  std::size_t count = 0;
+  for (int frame = firstFrame; frame <= lastFrame; ++frame) {
+    count += hasReference(frame) ? 2 : 1;
+  }
+  return count;
 }
 
 void renderSequence(const RenderOptions& options, const RenderObserver& observer) {
@@ -134,7 +143,7 @@ void renderSequence(const RenderOptions& options, const RenderObserver& observer
     renderFile(
         options.output / frameFileName("noisy", number, "exr"), observer, [&] { return render(options.samples, 0); },
         [&](const Film& film) { writeFrame(options.output, toFrame(film, view, number)); });
-    if (options.referenceSamples > 0) {
+    if (options.hasReference(number)) {
       renderFile(
           options.output / frameFileName("ref", number, "exr"), observer,
           [&] { return render(options.referenceSamples, 1); },

@@ -4,10 +4,12 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "samples/render/sampler.h"
 #include "samples/render/scene.h"
+#include "samples/sequence/sequence.h"
 
 namespace walr::render {
 
@@ -22,7 +24,9 @@ struct RenderOptions {
   std::uint32_t height = 180;
   std::uint32_t samples = 1;           ///< Paths a pixel in the noisy frames.
   std::uint32_t referenceSamples = 0;  ///< Paths a pixel in the references; 0: no references.
-  std::uint32_t bounces = 4;           ///< Surfaces after the first that reflect light.
+  /// Frames that get a reference; nothing: all. The rest of them is left out.
+  std::optional<FrameRange> referenceFrames = {};
+  std::uint32_t bounces = 4;  ///< Surfaces after the first that reflect light.
   std::uint32_t seed = 0;
   double framesPerSecond = 24.0;
   std::string camera;                                ///< Name of the camera or of its node; empty: the first.
@@ -31,6 +35,8 @@ struct RenderOptions {
   unsigned int threads = 0;                          ///< 0: one for every core.
   DiffuseModel diffuseModel = DiffuseModel::Lambert;
 
+  /// Whether a frame gets a reference.
+  [[nodiscard]] bool hasReference(int frame) const;
   /// Number of files that are rendered.
   [[nodiscard]] std::size_t files() const;
 };

@@ -12,6 +12,7 @@
 #include "samples/render/load_scene.h"
 #include "samples/render/render_sequence.h"
 #include "samples/sequence/sequence.h"
+#include "samples/sequence/writer.h"
 #include "tests/samples/temporary_directory.h"
 
 namespace walr::render {
@@ -115,6 +116,17 @@ TEST(RenderSequence, GoesOnWhereItWas) {
   EXPECT_EQ(skipped, 3);
   EXPECT_EQ(fs::last_write_time(kept), before);
   EXPECT_TRUE(fs::exists(lost));
+}
+
+TEST(RenderSequence, RendersReferencesOfTheFramesAskedFor) {
+  const walr::test::TemporaryDirectory folder;
+  RenderOptions options = smallBox(folder.path());
+  options.referenceFrames = {4, 9};
+  render(options);
+  for (const int frame : {3, 4, 5}) {
+    EXPECT_TRUE(fs::exists(folder.path() / frameFileName("noisy", frame, "exr")));
+    EXPECT_EQ(fs::exists(folder.path() / frameFileName("ref", frame, "exr")), frame >= 4);
+  }
 }
 
 TEST(RenderSequence, RefusesToMixSettings) {
