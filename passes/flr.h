@@ -17,7 +17,7 @@ struct FlrSettings {
   TemporalAccumulationSettings accumulation;
   AmbientOcclusionSettings occlusion;
   FlrRegressionSettings regression;
-  float singleFrameSigma = 10.0F;
+  float singleFrameSigma = 12.0F;
   TemporalAntialiasingSettings antialiasing{.maxSamples = 5.0F};
 
   void visit(SettingVisitor& v) {

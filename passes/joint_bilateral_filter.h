@@ -17,7 +17,7 @@ struct JointBilateralFilterSettings {
   float sigmaPosition = 8.0F;
   float sigmaColour = kInfinity;
   float sigmaNormal = 0.2F;
-  float sigmaPlane = 0.2F;
+  float sigmaPlane = 0.4F;
 
   void visit(SettingVisitor& v) {
     const auto infinity = static_cast<double>(kInfinity);

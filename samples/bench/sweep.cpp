@@ -107,6 +107,11 @@ std::vector<Sweep> baselineSweeps() {
           {"0.04", {{"occlusion.radius", "0.04"}}},
           {"0.075", {{"occlusion.radius", "0.075"}}},
           {"0.15", {{"occlusion.radius", "0.15"}}}}),
+      of(kFlr, "flr-single-frame", "How wide a window for FLR where it filters single frames?",
+         {{"8", {{"spatial-only", "on"}, {"regression.single-frame-sigma", "8"}}},
+          {"10", {{"spatial-only", "on"}, {"regression.single-frame-sigma", "10"}}},
+          {"12", {{"spatial-only", "on"}, {"regression.single-frame-sigma", "12"}}},
+          {"15", {{"spatial-only", "on"}, {"regression.single-frame-sigma", "15"}}}}),
       over(kFlr, "flr-history", "How many samples before FLR?", "accumulation.max-samples", {"4", "8", "16", "32"}),
       of(kSvgf, "svgf-kernel", "How large a kernel for SVGF's iterations? 3, 5, 7 or 9 taps an axis.",
          {{"3x3", {{"svgf.radius", "1"}}},
@@ -122,6 +127,7 @@ std::vector<Sweep> baselineSweeps() {
           {"1", {{"svgf.sigma-luminance", "1"}}},
           {"2", {{"svgf.sigma-luminance", "2"}}},
           {"4", {{"svgf.sigma-luminance", "4"}}},
+          {"6", {{"svgf.sigma-luminance", "6"}}},
           {"8", {{"svgf.sigma-luminance", "8"}}}}),
       over(kSvgf, "svgf-iterations", "How many iterations for SVGF?", "svgf.iterations", {"2", "3", "4", "5"}),
       over(kSvgf, "svgf-normal", "How sharp a normal weight for SVGF?", "svgf.sigma-normal",
@@ -149,7 +155,7 @@ std::vector<Sweep> baselineSweeps() {
       over(kBilateral, "bilateral-colour", "How sharp a colour term for it?", "bilateral.sigma-colour",
            {"4", "10", "30", "inf"}),
       over(kBilateral, "bilateral-clipping", "How tight a clamp of its history?", "antialiasing.clip-gamma",
-           {"1", "2", "3", "4"}),
+           {"1", "2", "4", "8", "16"}),
   };
 }
 
