@@ -42,7 +42,7 @@ DenoiserInputs importInputs(fg::Graph& graph, fg::Extent extent, const InputConv
 
 DenoiseGraph declareDenoiseGraph(Denoiser& method, fg::Extent extent, const InputConventions& conventions,
                                  const HostStates& states, std::span<const VkFormat> formats,
-                                 const HostConventions& host, std::span<const std::string> views) {
+                                 const HostConventions& host, const InspectionWish& wanted) {
   DenoiseGraph declared;
   fg::Graph& graph = declared.graph;
   const fg::TextureDesc result{.format = kOutputFormat, .extent = extent};
@@ -52,12 +52,17 @@ DenoiseGraph declareDenoiseGraph(Denoiser& method, fg::Extent extent, const Inpu
 
   const DenoiserInputs inputs = addConvertInputs(graph, declared.inputs, host, declared.host);
   const fg::Texture target = host.preExposed ? graph.texture("result without exposure", result) : declared.output;
-  for (const std::string& view : views) {
-    declared.views.push_back(
-        {view, graph.import("view of " + view, {.format = kViewFormat, .extent = extent}, states.outputBefore)});
+  Inspection& inspection = declared.inspection;
+  for (const std::string& view : wanted.views) {
+    inspection.want(view,
+                    graph.import("view of " + view, {.format = kViewFormat, .extent = extent}, states.outputBefore));
   }
-  fg::Texture denoised = method.add(graph, inputs, target, &declared.views);
-  for (const DebugView& view : declared.views) graph.exported(view.texture, states.outputAfter);
+  if (wanted.counters) {
+    inspection.wantCounters(graph.import("counters", fg::BufferDesc{kCounterBytes}, states.outputBefore));
+  }
+  fg::Texture denoised = method.add(graph, inputs, target, &inspection);
+  for (const DebugView& view : inspection.views()) graph.exported(view.texture, states.outputAfter);
+  if (!inspection.counters().empty()) graph.exported(inspection.counterBuffer(), states.outputAfter);
   if (host.preExposed) denoised = addExposure(graph, denoised, declared.output, declared.host);
   graph.exported(denoised, states.outputAfter);
   return declared;

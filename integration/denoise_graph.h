@@ -7,6 +7,7 @@
 #include "integration/host_inputs.h"
 #include "passes/convert_inputs.h"
 #include "passes/denoiser.h"
+#include "passes/inspection.h"
 
 namespace walr {
 
@@ -16,7 +17,13 @@ struct DenoiseGraph {
   DenoiserInputs inputs;  ///< Imports, as the host writes them; `frame` is an upload.
   fg::Buffer host;        ///< Upload of `HostConstants`; invalid where the conventions need none.
   fg::Texture output;     ///< Import that receives the result.
-  DebugViews views;       ///< Imports that receive the views asked for.
+  Inspection inspection;  ///< Views and counters asked for, in imports that receive them.
+};
+
+/// What a host wants to see of a method's inner workings.
+struct InspectionWish {
+  std::span<const std::string> views = {};  ///< Names.
+  bool counters = false;
 };
 
 /// States in which the host hands its textures over and takes the result back.
@@ -39,11 +46,11 @@ DenoiserInputs importInputs(fg::Graph& graph, fg::Extent extent, const InputConv
 
 /// @param formats one per entry of `kHostInputs`; empty for the usual ones
 /// @param host    how the textures are written; what differs from `DenoiserInputs` is converted first
-/// @param views   names of the method's views to write as well, into textures that go the output's way
+/// @param wanted  what to write of the method's inner workings as well, into imports that go the output's way
 /// @throws std::invalid_argument naming a setting of the method that is out of range, an input of a format that will
 ///         not do, or a view that there is not
 DenoiseGraph declareDenoiseGraph(Denoiser& method, fg::Extent extent, const InputConventions& conventions,
                                  const HostStates& states, std::span<const VkFormat> formats = {},
-                                 const HostConventions& host = {}, std::span<const std::string> views = {});
+                                 const HostConventions& host = {}, const InspectionWish& wanted = {});
 
 }  // namespace walr

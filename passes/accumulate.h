@@ -20,8 +20,9 @@ struct AccumulateSettings {
 
 /// Temporal accumulation alone: what every spatial filter is measured against.
 /// @param output RGBA16F texture to write the result to
+/// @param inspection is offered the views of the stages that have some
 /// @returns the output's new version
 fg::Texture addAccumulate(fg::Graph& graph, const DenoiserInputs& inputs, fg::Texture output,
-                          const AccumulateSettings& settings = {});
+                          const AccumulateSettings& settings = {}, Inspection* inspection = nullptr);
 
 }  // namespace walr

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "shaders/constants/block_regression.h"
 #include "shaders/shaders.h"
@@ -88,21 +89,89 @@ BlockFits addCoarseFit(const BlockGrid& grid, const BlockAverages& averages) {
   return writeFits(grid, down, "coarse fit");
 }
 
+/// In the order of `kView` of block_atrous.comp. Names of what the regression over pixels has, too, are the same.
+const std::vector<ViewInfo>& iterationViews() {
+  static const std::vector<ViewInfo> kViews{
+      {"edges",
+       "Of the pixel's block: step of the nearest edge on the eight traces (one past the last: none), taps lost, W"},
+      {"pivots",
+       "Of the pixel's block: smallest pivot of the solve without the ridge, ridge, 1 where that outweighs it",
+       {{"regularised-fits", "Z"}}},
+      {"colour-mean", "Of the pixel's block: mean of the colour"},
+      {"feature-mean", "Of the pixel's block: mean of the shading normal"},
+      {"feature-mean-2", "Of the pixel's block: mean of the depth feature, of ambient occlusion, and 0"},
+      {"covariance-normal", "Of the pixel's block: variances of the normal's components"},
+      {"covariance-normal-2", "Of the pixel's block: covariances xy, xz, yz of the normal's components"},
+      {"covariance-depth", "Of the pixel's block: covariances of the depth feature with the normal"},
+      {"covariance-occlusion", "Of the pixel's block: covariances of ambient occlusion with the normal"},
+      {"covariance-scalars",
+       "Of the pixel's block: variance of the depth feature, its covariance with, and variance of, "
+       "ambient occlusion"},
+      {"covariance-x", "Of the pixel's block: covariances of the colour with the normal's x"},
+      {"covariance-y", "Of the pixel's block: covariances of the colour with the normal's y"},
+      {"covariance-z", "Of the pixel's block: covariances of the colour with the normal's z"},
+      {"covariance-d", "Of the pixel's block: covariances of the colour with the depth feature"},
+      {"covariance-o", "Of the pixel's block: covariances of the colour with ambient occlusion"},
+  };
+  return kViews;
+}
+
+/// In the order of `kView` of block_apply.comp.
+const std::vector<ViewInfo>& reconstructionViews() {
+  static const std::vector<ViewInfo> kViews{
+      {"samples",
+       "Sample count W of the blocks around, share of the coarse fit in the mixture, 1 where there is no fit at all",
+       {{"unfitted-pixels", "Z"}}},
+      {"occlusion",
+       "Ambient occlusion, weight of the blocks around that lie on the pixel's plane, 1 where only the coarse fit is "
+       "left",
+       {{"coarse-fit-alone", "Z"}}},
+      {"fine-fit", "The fine fits' colour before the mixture"},
+      {"coarse-fit", "The coarse fits' colour before the mixture"},
+      {"clamped", "1 in each channel where a fine fit is below 0", {{"clamped-channels", "XYZ"}}},
+      {"coarse-clamped", "1 in each channel where a coarse fit is below 0", {{"clamped-coarse-channels", "XYZ"}}},
+      {"slope-x", "Coefficients of the normal's x in the fine fits"},
+      {"slope-y", "Coefficients of the normal's y in the fine fits"},
+      {"slope-z", "Coefficients of the normal's z in the fine fits"},
+      {"slope-depth", "Coefficients of the depth feature in the fine fits"},
+      {"slope-occlusion", "Coefficients of ambient occlusion in the fine fits"},
+      {"coarse-slope-x", "Coefficients of the normal's x in the coarse fits"},
+      {"coarse-slope-y", "Coefficients of the normal's y in the coarse fits"},
+      {"coarse-slope-z", "Coefficients of the normal's z in the coarse fits"},
+      {"coarse-slope-depth", "Coefficients of the depth feature in the coarse fits"},
+      {"coarse-slope-occlusion", "Coefficients of ambient occlusion in the coarse fits"},
+      {"few-samples",
+       "1 where W is below 6, the number of coefficients; 1 where the coarse fit has the larger share; 1 where "
+       "the pixel has no finite sample",
+       {{"few-samples", "X"}, {"mostly-coarse-fit", "Y"}, {"unsampled-pixels", "Z"}}},
+  };
+  return kViews;
+}
+
 /// The fit of an edge-aware window around every block (walr.txt 3.2).
-BlockFits addFineFit(const BlockGrid& grid, BlockAverages averages, fg::Texture normal, std::uint32_t iterations) {
+BlockFits addFineFit(const BlockGrid& grid, BlockAverages averages, fg::Texture normal, std::uint32_t iterations,
+                     Inspection* inspection) {
   std::uint32_t spacing = 1;
   for (std::uint32_t t = 0;; ++t, spacing *= 3) {
+    const auto declare = [&](const std::string& name, const fg::Shader& shader) {
+      fg::PassBuilder pass = grid.graph.compute(name, shader);
+      readAverages(pass, averages);
+      pass.uniform("frameConstants", grid.frame)
+          .sample("normal", normal)
+          .specialize("kBlockSize", grid.size)
+          .specialize("kSpacing", spacing)
+          .constants(grid.constants)
+          .dispatch(grid.blocks);
+      return pass;
+    };
+    if (inspection != nullptr) {
+      inspection->offer(grid.graph, iterationViews(), grid.pixels,
+                        [&](const std::string& name) { return declare(name, shaders::blockAtrousView); },
+                        {.index = t, .count = iterations});
+    }
     const bool last = t + 1 == iterations;
     const std::string suffix = " " + std::to_string(t);
-    fg::PassBuilder pass =
-        grid.graph.compute("block a-trous" + suffix, last ? shaders::blockAtrousLast : shaders::blockAtrous);
-    readAverages(pass, averages);
-    pass.uniform("frameConstants", grid.frame)
-        .sample("normal", normal)
-        .specialize("kBlockSize", grid.size)
-        .specialize("kSpacing", spacing)
-        .constants(grid.constants)
-        .dispatch(grid.blocks);
+    fg::PassBuilder pass = declare("block a-trous" + suffix, last ? shaders::blockAtrousLast : shaders::blockAtrous);
     if (last) return writeFits(grid, pass, "block fit");
     averages = writeAverages(grid, pass, suffix);
   }
@@ -111,14 +180,15 @@ BlockFits addFineFit(const BlockGrid& grid, BlockAverages averages, fg::Texture 
 }  // namespace
 
 fg::Texture addBlockRegression(fg::Graph& graph, fg::Buffer frame, fg::Texture accumulated, LightingAlpha alpha,
-                               const Guides& guides, fg::Texture occlusion, const BlockRegressionSettings& settings) {
+                               const Guides& guides, fg::Texture occlusion, const BlockRegressionSettings& settings,
+                               Inspection* inspection) {
   if (!(settings.planeNear < settings.planeFar)) {
     throw std::invalid_argument("setting blocks.plane-near must be below blocks.plane-far");
   }
   const BlockGrid grid = gridOf(graph, frame, graph.textureDesc(accumulated).extent, settings);
 
   // What gathers the blocks' samples and what fits them to the pixels again read the same pixels.
-  const auto readPixels = [&](const char* name, const fg::Shader& shader) {
+  const auto readPixels = [&](const std::string& name, const fg::Shader& shader) {
     fg::PassBuilder pass = graph.compute(name, shader);
     pass.uniform("frameConstants", frame)
         .sample("depth", guides.depth)
@@ -139,20 +209,28 @@ fg::Texture addBlockRegression(fg::Graph& graph, fg::Buffer frame, fg::Texture a
       gather.store("outNormal", graph.texture("block normal", {VK_FORMAT_R32_UINT, grid.blocks}));
 
   const BlockFits coarse = addCoarseFit(grid, averages);
-  const BlockFits fine = addFineFit(grid, averages, normal, settings.iterations);
+  const BlockFits fine = addFineFit(grid, averages, normal, settings.iterations, inspection);
 
-  fg::PassBuilder apply = readPixels("block apply", shaders::blockApply);
-  apply.sample("fitA", fine.a)
-      .sample("fitB", fine.b)
-      .sample("fitC", fine.c)
-      .sample("fitDepth", fine.depth)
-      .sample("fitNormal", normal)
-      .sample("coarseA", coarse.a)
-      .sample("coarseB", coarse.b)
-      .sample("coarseC", coarse.c)
-      .sample("coarseDepth", coarse.depth)
-      .dispatch(grid.pixels);
-  return apply.store("outFiltered", graph.texture("filtered", {VK_FORMAT_R16G16B16A16_SFLOAT, grid.pixels}));
+  const auto reconstruct = [&](const std::string& name, const fg::Shader& shader) {
+    fg::PassBuilder pass = readPixels(name, shader);
+    pass.sample("fitA", fine.a)
+        .sample("fitB", fine.b)
+        .sample("fitC", fine.c)
+        .sample("fitDepth", fine.depth)
+        .sample("fitNormal", normal)
+        .sample("coarseA", coarse.a)
+        .sample("coarseB", coarse.b)
+        .sample("coarseC", coarse.c)
+        .sample("coarseDepth", coarse.depth)
+        .dispatch(grid.pixels);
+    return pass;
+  };
+  if (inspection != nullptr) {
+    inspection->offer(graph, reconstructionViews(), grid.pixels,
+                      [&](const std::string& name) { return reconstruct(name, shaders::blockApplyView); });
+  }
+  return reconstruct("block apply", shaders::blockApply)
+      .store("outFiltered", graph.texture("filtered", {VK_FORMAT_R16G16B16A16_SFLOAT, grid.pixels}));
 }
 
 }  // namespace walr

@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "framegraph/graph.h"
+#include "passes/inspection.h"
 #include "passes/lighting_alpha.h"
 #include "passes/prepare_guides.h"
 #include "passes/settings.h"
@@ -56,10 +57,11 @@ struct BlockRegressionSettings {
 /// @param accumulated RGBA16F: radiance to filter; a value that is not finite is no sample
 /// @param alpha       what the alpha channel of `accumulated` says; a pixel with no sample has no say
 /// @param occlusion   R16_SFLOAT: ambient occlusion
+/// @param inspection  is offered the views of every iteration and of the reconstruction
 /// @returns RGBA16F: filtered radiance; sky and pixels without a diffuse lobe as they were
 /// @throws std::invalid_argument for settings outside their range
 fg::Texture addBlockRegression(fg::Graph& graph, fg::Buffer frame, fg::Texture accumulated, LightingAlpha alpha,
                                const Guides& guides, fg::Texture occlusion,
-                               const BlockRegressionSettings& settings = {});
+                               const BlockRegressionSettings& settings = {}, Inspection* inspection = nullptr);
 
 }  // namespace walr

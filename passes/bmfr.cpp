@@ -4,19 +4,21 @@
 
 namespace walr {
 
-fg::Texture addBmfr(fg::Graph& graph, const DenoiserInputs& inputs, fg::Texture output, const BmfrSettings& settings) {
+fg::Texture addBmfr(fg::Graph& graph, const DenoiserInputs& inputs, fg::Texture output, const BmfrSettings& settings,
+                    Inspection* inspection) {
   const TemporalStages stages{.accumulation = settings.accumulation,
                               .antialiasing = settings.antialiasing,
                               .spatialOnly = settings.spatialOnly,
                               .keepTaps = true};
-  const Guides guides = addPrepareGuides(graph, inputs, settings.guides, guideNeeds(stages, inputs.scene, false));
+  const Guides guides =
+      addPrepareGuides(graph, inputs, settings.guides, guideNeeds(stages, inputs.scene, false), inspection);
   const auto filter = [&](const FilterInput& input) {
     const fg::Texture target = settings.spatialOnly ? input.output : graph.texture("fit", graph.textureDesc(output));
     const fg::Texture fitted =
         addBmfrFit(graph, inputs.frame, input.lighting, input.alpha, guides, target, settings.fit);
     return settings.spatialOnly ? fitted : addBmfrAccumulation(graph, fitted, input.taps, settings.fittedAccumulation);
   };
-  return addTemporalStages(graph, inputs, guides, output, stages, filter);
+  return addTemporalStages(graph, inputs, guides, output, stages, filter, inspection);
 }
 
 }  // namespace walr

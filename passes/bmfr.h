@@ -33,8 +33,9 @@ struct BmfrSettings {
 /// Blockwise Multi-Order Feature Regression (bmfr.txt, figure 2): accumulation, feature fitting, a second accumulation
 /// and temporal anti-aliasing.
 /// @param output RGBA16F texture to write the result to
+/// @param inspection is offered the views of the stages that have some
 /// @returns the output's new version
 fg::Texture addBmfr(fg::Graph& graph, const DenoiserInputs& inputs, fg::Texture output,
-                    const BmfrSettings& settings = {});
+                    const BmfrSettings& settings = {}, Inspection* inspection = nullptr);
 
 }  // namespace walr

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <stdexcept>
-#include <type_traits>
 
 #include "passes/accumulate.h"
 #include "passes/bmfr.h"
@@ -14,7 +13,7 @@
 #include "passes/svgf.h"
 #include "passes/text.h"
 #include "passes/walr.h"
-#include "passes/weighted_regression_views.h"
+#include "shaders/constants/frame.h"
 
 namespace walr {
 namespace {
@@ -73,28 +72,16 @@ class DenoiserOf final : public Denoiser {
                                 (kPresets<Settings>.empty() ? "none" : join(presets())));
   }
 
-  fg::Texture add(fg::Graph& graph, const DenoiserInputs& inputs, fg::Texture output, DebugViews* views) override {
+  fg::Texture add(fg::Graph& graph, const DenoiserInputs& inputs, fg::Texture output, Inspection* inspection) override {
     checkSettings();
     DenoiserInputs described = inputs;
     described.scene = common(inputs.scene, scene_);
-    if constexpr (kHasViews) {
-      return kAdd(graph, described, output, settings_, views);
-    } else {
-      if (views != nullptr && !views->empty()) {
-        throw std::invalid_argument("there is no view \"" + views->front().name + "\": this method has none");
-      }
-      return kAdd(graph, described, output, settings_);
-    }
-  }
-
-  [[nodiscard]] std::vector<ViewInfo> views() const override {
-    if constexpr (kHasViews) return weightedRegressionViews();
-    return {};
+    const fg::Texture denoised = kAdd(graph, described, output, settings_, inspection);
+    if (inspection != nullptr) inspection->requireViews();
+    return denoised;
   }
 
  private:
-  static constexpr bool kHasViews =
-      std::is_invocable_v<decltype(kAdd), fg::Graph&, const DenoiserInputs&, fg::Texture, const Settings&, DebugViews*>;
   Settings settings_{};
   SceneDescription scene_;
 };
@@ -108,7 +95,8 @@ struct NoSettings {
   void visit(SettingVisitor& /*visitor*/) {}
 };
 
-fg::Texture addNone(fg::Graph& graph, const DenoiserInputs& inputs, fg::Texture output, const NoSettings& /*none*/) {
+fg::Texture addNone(fg::Graph& graph, const DenoiserInputs& inputs, fg::Texture output, const NoSettings& /*none*/,
+                    Inspection* /*inspection*/) {
   return addPassThrough(graph, inputs.lighting, output);
 }
 
@@ -141,6 +129,23 @@ const Method& findMethod(std::string_view name) {
 }
 
 }  // namespace
+
+std::vector<ViewInfo> Denoiser::views() {
+  // What the stages offer when they are recorded on a graph that is thrown away.
+  constexpr fg::Extent kExtent{1920, 1080};
+  const fg::TextureDesc colour{VK_FORMAT_R16G16B16A16_SFLOAT, kExtent};
+  fg::Graph graph;
+  DenoiserInputs inputs;
+  inputs.lighting = graph.texture("lighting", colour);
+  inputs.depth = graph.texture("depth", {VK_FORMAT_R32_SFLOAT, kExtent});
+  inputs.normal = graph.texture("normal", colour);
+  inputs.motion = graph.texture("motion", colour);
+  inputs.albedo = graph.texture("albedo", colour);
+  inputs.frame = graph.upload("frame constants", sizeof(FrameConstants));
+  Inspection inspection;
+  (void)add(graph, inputs, graph.texture("output", colour), &inspection);
+  return inspection.known();
+}
 
 std::vector<std::string> denoiserNames() {
   std::vector<std::string> names;

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "framegraph/graph.h"
-#include "passes/debug_views.h"
 #include "passes/inputs.h"
+#include "passes/inspection.h"
 #include "passes/settings.h"
 
 namespace walr {
@@ -28,11 +28,12 @@ class Denoiser : public Configurable {
   /// diffuse
   ///          lobe hold the input unchanged
   /// @throws std::invalid_argument naming a setting outside its range, or a view that there is not
-  /// @param views   views to write of the method's inner workings, for the method to replace by their new versions
+  /// @param inspection views and counters to write of the method's inner workings
   virtual fg::Texture add(fg::Graph& graph, const DenoiserInputs& inputs, fg::Texture output,
-                          DebugViews* views = nullptr) = 0;
-  /// The views that `add` takes.
-  [[nodiscard]] virtual std::vector<ViewInfo> views() const = 0;
+                          Inspection* inspection = nullptr) = 0;
+  /// The views that `add` takes with the present settings.
+  /// @throws std::invalid_argument naming a setting outside its range
+  [[nodiscard]] std::vector<ViewInfo> views();
 };
 
 /// Names of all methods, as `--method` takes them.

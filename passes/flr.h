@@ -38,8 +38,9 @@ struct FlrSettings {
 
 /// Fast Local Regression (flr-flnr.txt), between temporal accumulation and temporal anti-aliasing.
 /// @param output RGBA16F texture to write the result to
+/// @param inspection is offered the views of the stages that have some
 /// @returns the output's new version
-fg::Texture addFlr(fg::Graph& graph, const DenoiserInputs& inputs, fg::Texture output,
-                   const FlrSettings& settings = {});
+fg::Texture addFlr(fg::Graph& graph, const DenoiserInputs& inputs, fg::Texture output, const FlrSettings& settings = {},
+                   Inspection* inspection = nullptr);
 
 }  // namespace walr

@@ -3,16 +3,16 @@
 namespace walr {
 
 fg::Texture addJointBilateral(fg::Graph& graph, const DenoiserInputs& inputs, fg::Texture output,
-                              const JointBilateralSettings& settings) {
+                              const JointBilateralSettings& settings, Inspection* inspection) {
   const bool antialias = settings.accumulation.enabled && !inputs.scene.hostAntialiasing && !settings.spatialOnly;
   const Guides guides =
-      addPrepareGuides(graph, inputs, settings.guides, {.history = antialias && !inputs.scene.still()});
+      addPrepareGuides(graph, inputs, settings.guides, {.history = antialias && !inputs.scene.still()}, inspection);
   const fg::TextureDesc colourDesc{VK_FORMAT_R16G16B16A16_SFLOAT, graph.textureDesc(inputs.lighting).extent};
   const fg::Texture target = !antialias ? output : graph.texture("bilateral.filtered", colourDesc);
   const fg::Texture filtered =
       addJointBilateralFilter(graph, inputs.frame, inputs.lighting, guides, target, settings.filter);
   if (!antialias) return filtered;
-  return addTemporalAntialiasing(graph, inputs, guides, filtered, output, settings.accumulation);
+  return addTemporalAntialiasing(graph, inputs, guides, filtered, output, settings.accumulation, inspection);
 }
 
 }  // namespace walr

@@ -31,8 +31,9 @@ struct JointBilateralSettings {
 /// result into it, accumulate. Where the text tells surfaces apart by object number, this compares depth and normal, as
 /// the other methods do, so that the host need not number its objects.
 /// @param output RGBA16F texture to write the result to
+/// @param inspection is offered the views of the stages that have some
 /// @returns the output's new version
 fg::Texture addJointBilateral(fg::Graph& graph, const DenoiserInputs& inputs, fg::Texture output,
-                              const JointBilateralSettings& settings = {});
+                              const JointBilateralSettings& settings = {}, Inspection* inspection = nullptr);
 
 }  // namespace walr

@@ -2,12 +2,18 @@
 
 #include <array>
 #include <string>
+#include <vector>
 
 #include "shaders/constants/prepare_guides.h"
 #include "shaders/shaders.h"
 
 namespace walr {
 namespace {
+
+/// Whether pixels without a diffuse lobe are told apart.
+bool isMasked(const PrepareGuidesSettings& settings) {
+  return settings.albedoThreshold > 0.0F;
+}
 
 const fg::Shader& shaderFor(bool masked, bool geometricNormal) {
   using namespace shaders;
@@ -29,13 +35,24 @@ GuideTexture guideTexture(fg::Graph& graph, const std::string& name, fg::Extent 
   return {history.current, history.previous};
 }
 
-}  // namespace
+/// In the order of `kView` of prepare_guides.comp.
+const std::vector<ViewInfo>& guideViews() {
+  static const std::vector<ViewInfo> kViews{
+      {"no-surface",
+       "1 where nothing is denoised: for its depth (sky), else for its normal, else for want of a diffuse lobe",
+       {{"sky", "X"}, {"unusable-normals", "Y"}, {"no-diffuse-lobe", "Z"}}},
+      {"broken-guides",
+       "1 where depth, normal, albedo are not finite",
+       {{"non-finite-depth", "X"}, {"non-finite-normals", "Y"}, {"non-finite-albedo", "Z"}}},
+  };
+  return kViews;
+}
 
-Guides addPrepareGuides(fg::Graph& graph, const DenoiserInputs& inputs, const PrepareGuidesSettings& settings,
-                        const GuideNeeds& needs) {
+/// A pass without its outputs.
+fg::PassBuilder declarePass(fg::Graph& graph, const std::string& name, const fg::Shader& shader,
+                            const DenoiserInputs& inputs, const PrepareGuidesSettings& settings) {
   const fg::Extent extent = graph.textureDesc(inputs.depth).extent;
-  const bool masked = settings.albedoThreshold > 0.0F;
-  fg::PassBuilder pass = graph.compute("prepare guides", shaderFor(masked, needs.geometricNormal));
+  fg::PassBuilder pass = graph.compute(name, shader);
   pass.uniform("frameConstants", inputs.frame)
       .sample("depth", inputs.depth)
       .sample("normal", inputs.normal)
@@ -44,8 +61,23 @@ Guides addPrepareGuides(fg::Graph& graph, const DenoiserInputs& inputs, const Pr
       .constants(PrepareGuidesConstants{settings.albedoThreshold, settings.tangentTolerance, settings.normalAgreement})
       .texels(extent)
       .dispatch(extent);
-  if (masked) pass.sample("albedo", inputs.albedo);
+  if (isMasked(settings)) pass.sample("albedo", inputs.albedo);
+  return pass;
+}
 
+}  // namespace
+
+Guides addPrepareGuides(fg::Graph& graph, const DenoiserInputs& inputs, const PrepareGuidesSettings& settings,
+                        const GuideNeeds& needs, Inspection* inspection) {
+  const fg::Extent extent = graph.textureDesc(inputs.depth).extent;
+  if (inspection != nullptr) {
+    inspection->offer(graph, guideViews(), extent, [&](const std::string& name) {
+      const fg::Shader& shader = isMasked(settings) ? shaders::prepareGuidesMaskedView : shaders::prepareGuidesView;
+      return declarePass(graph, name, shader, inputs, settings);
+    });
+  }
+  fg::PassBuilder pass =
+      declarePass(graph, "prepare guides", shaderFor(isMasked(settings), needs.geometricNormal), inputs, settings);
   Guides guides;
   const GuideTexture depth = guideTexture(graph, "guides.depth", extent, needs.history);
   guides.depth = pass.store("outDepth", depth.current);

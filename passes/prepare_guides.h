@@ -2,6 +2,7 @@
 
 #include "framegraph/graph.h"
 #include "passes/inputs.h"
+#include "passes/inspection.h"
 #include "passes/settings.h"
 
 namespace walr {
@@ -45,7 +46,8 @@ struct GuideNeeds {
 };
 
 /// Convert the host's G-buffer once into what all later stages read.
+/// @param inspection is offered the stage's views
 Guides addPrepareGuides(fg::Graph& graph, const DenoiserInputs& inputs, const PrepareGuidesSettings& settings = {},
-                        const GuideNeeds& needs = {});
+                        const GuideNeeds& needs = {}, Inspection* inspection = nullptr);
 
 }  // namespace walr

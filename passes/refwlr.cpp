@@ -32,16 +32,17 @@ RefwlrSettings paperRefwlr() {
 }
 
 fg::Texture addRefwlr(fg::Graph& graph, const DenoiserInputs& inputs, fg::Texture output,
-                      const RefwlrSettings& settings) {
+                      const RefwlrSettings& settings, Inspection* inspection) {
   FullWindowSettings regression = settings.regression;
   const std::uint32_t height = graph.textureDesc(inputs.lighting).extent.height;
   if (settings.fitWindow) regression.window = std::min(regression.window, fittingWindow(height));
 
   const TemporalStages stages{.accumulation = settings.accumulation, .antialiasing = settings.antialiasing};
-  const Guides guides = addPrepareGuides(graph, inputs, settings.guides);
-  return addTemporalStages(graph, inputs, guides, output, stages, [&](const FilterInput& input) {
+  const Guides guides = addPrepareGuides(graph, inputs, settings.guides, {}, inspection);
+  const auto filter = [&](const FilterInput& input) {
     return addFullWindowRegression(graph, inputs.frame, input.lighting, guides, regression);
-  });
+  };
+  return addTemporalStages(graph, inputs, guides, output, stages, filter, inspection);
 }
 
 }  // namespace walr

@@ -28,8 +28,10 @@ SvgfSettings paperSvgf() {
   return settings;
 }
 
-fg::Texture addSvgf(fg::Graph& graph, const DenoiserInputs& inputs, fg::Texture output, const SvgfSettings& settings) {
-  const Guides guides = addPrepareGuides(graph, inputs, settings.guides, {.history = !settings.spatialOnly});
+fg::Texture addSvgf(fg::Graph& graph, const DenoiserInputs& inputs, fg::Texture output, const SvgfSettings& settings,
+                    Inspection* inspection) {
+  const Guides guides =
+      addPrepareGuides(graph, inputs, settings.guides, {.history = !settings.spatialOnly}, inspection);
   if (settings.spatialOnly) return addSpatialSvgf(graph, inputs, guides, output, settings);
 
   const fg::TextureDesc colourDesc{VK_FORMAT_R16G16B16A16_SFLOAT, graph.textureDesc(inputs.lighting).extent};
@@ -41,7 +43,7 @@ fg::Texture addSvgf(fg::Graph& graph, const DenoiserInputs& inputs, fg::Texture 
   const fg::Texture guided = addSvgfVariance(graph, inputs.frame, accumulated, guides, settings.filter);
   const fg::Texture filtered = addSvgfAtrous(graph, inputs.frame, guided, guides, colour.current, settings.filter);
   if (!settings.antialiasing.enabled || inputs.scene.hostAntialiasing) return addPassThrough(graph, filtered, output);
-  return addTemporalAntialiasing(graph, inputs, guides, filtered, output, settings.antialiasing);
+  return addTemporalAntialiasing(graph, inputs, guides, filtered, output, settings.antialiasing, inspection);
 }
 
 }  // namespace walr

@@ -3,6 +3,7 @@
 #include "framegraph/graph.h"
 #include "passes/history_tests.h"
 #include "passes/inputs.h"
+#include "passes/inspection.h"
 #include "passes/prepare_guides.h"
 #include "passes/settings.h"
 
@@ -37,9 +38,11 @@ struct TemporalAccumulationSettings {
 };
 
 /// Average the noisy lighting over time along its motion.
+/// @param inspection is offered the stage's views
 /// @returns RGBA16F: mean radiance; alpha: number of samples behind it, 0 where there is nothing to denoise.
 fg::Texture addTemporalAccumulation(fg::Graph& graph, const DenoiserInputs& inputs, const Guides& guides,
-                                    const TemporalAccumulationSettings& settings = {});
+                                    const TemporalAccumulationSettings& settings = {},
+                                    Inspection* inspection = nullptr);
 
 /// What temporal accumulation leaves for a later stage that reads its own history along the same motion.
 struct AccumulationWithTaps {
@@ -50,6 +53,7 @@ struct AccumulationWithTaps {
 /// The same, keeping what the reprojection and its tests found (walr.txt 4.4, bmfr.txt 3.5).
 AccumulationWithTaps addTemporalAccumulationWithTaps(fg::Graph& graph, const DenoiserInputs& inputs,
                                                      const Guides& guides,
-                                                     const TemporalAccumulationSettings& settings = {});
+                                                     const TemporalAccumulationSettings& settings = {},
+                                                     Inspection* inspection = nullptr);
 
 }  // namespace walr

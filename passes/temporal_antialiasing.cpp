@@ -1,6 +1,9 @@
 #include "passes/temporal_antialiasing.h"
 
 #include <array>
+#include <functional>
+#include <string>
+#include <vector>
 
 #include "passes/reprojection.h"
 #include "shaders/constants/temporal_antialiasing.h"
@@ -9,45 +12,81 @@
 namespace walr {
 namespace {
 
-const fg::Shader& shaderFor(MotionSource motion, HistoryRejection rejection) {
+/// A shader and the one of its views.
+struct StageShaders {
+  const fg::Shader* stage;
+  const fg::Shader* view;
+};
+
+StageShaders shadersFor(MotionSource motion, HistoryRejection rejection) {
   using namespace shaders;
-  static constexpr std::array<std::array<const fg::Shader*, 3>, 2> kShaders{
-      {{&temporalAntialiasingPlane, &temporalAntialiasingDepth, &temporalAntialiasing},
-       {&temporalAntialiasingCameraPlane, &temporalAntialiasingCameraDepth, &temporalAntialiasingCamera}}};
-  return *kShaders.at(static_cast<std::size_t>(motion)).at(static_cast<std::size_t>(rejection));
+  static constexpr std::array<std::array<StageShaders, 3>, 2> kShaders{
+      {{{{&temporalAntialiasingPlane, &temporalAntialiasingPlaneView},
+         {&temporalAntialiasingDepth, &temporalAntialiasingDepthView},
+         {&temporalAntialiasing, &temporalAntialiasingView}}},
+       {{{&temporalAntialiasingCameraPlane, &temporalAntialiasingCameraPlaneView},
+         {&temporalAntialiasingCameraDepth, &temporalAntialiasingCameraDepthView},
+         {&temporalAntialiasingCamera, &temporalAntialiasingCameraView}}}}};
+  return kShaders.at(static_cast<std::size_t>(motion)).at(static_cast<std::size_t>(rejection));
 }
 
-/// What does not depend on where the reprojection comes from.
-fg::Texture finishPass(fg::Graph& graph, fg::PassBuilder& pass, fg::Texture filtered, fg::Texture output,
-                       const TemporalAntialiasingSettings& settings) {
+/// In the order of `kView` of temporal_antialiasing.comp.
+const std::vector<ViewInfo>& antialiasingViews() {
+  static const std::vector<ViewInfo> kViews{
+      {"clip",
+       "How far variance clipping moves the history in YCoCg, share of its way to the mean that this is, 1 where it "
+       "does",
+       {{"clipped-history", "Z"}}},
+      {"resolved-history",
+       "History length of anti-aliasing with this frame, history pixels rejected (of four), 1 where none is left",
+       {{"no-resolved-history", "Z"}}},
+  };
+  return kViews;
+}
+
+/// Reads what a pass looks for its history with.
+using ReadHistory = std::function<void(fg::PassBuilder& pass, bool view)>;
+
+/// The stage, whose reprojection comes from wherever `read` says.
+fg::Texture addStage(fg::Graph& graph, StageShaders shaders, const ReadHistory& read, fg::Texture filtered,
+                     fg::Texture output, const TemporalAntialiasingSettings& settings, Inspection* inspection) {
   const fg::Extent extent = graph.textureDesc(filtered).extent;
   const fg::History resolved = graph.history("resolved", {VK_FORMAT_R16G16B16A16_SFLOAT, extent});
-  pass.sample("filtered", filtered)
-      .sample("previousResolved", resolved.previous)
-      .specialize("kClipRadius", settings.clipRadius)
-      .constants(TemporalAntialiasingConstants{settings.maxSamples, settings.clipGamma, settings.planeTolerance,
-                                               settings.normalThreshold})
-      .dispatch(extent);
+  const auto declare = [&](const std::string& name, bool view) {
+    fg::PassBuilder pass = graph.compute(name, view ? *shaders.view : *shaders.stage);
+    read(pass, view);
+    pass.sample("filtered", filtered)
+        .sample("previousResolved", resolved.previous)
+        .specialize("kClipRadius", settings.clipRadius)
+        .constants(TemporalAntialiasingConstants{settings.maxSamples, settings.clipGamma, settings.planeTolerance,
+                                                 settings.normalThreshold})
+        .dispatch(extent);
+    return pass;
+  };
+  if (inspection != nullptr) {
+    inspection->offer(graph, antialiasingViews(), extent, [&](const std::string& name) { return declare(name, true); });
+  }
+  fg::PassBuilder pass = declare("temporal anti-aliasing", false);
   (void)pass.store("outResolved", resolved.current);
   return pass.store("outImage", output);
 }
-
-constexpr const char* kPassName = "temporal anti-aliasing";
 
 }  // namespace
 
 fg::Texture addTemporalAntialiasing(fg::Graph& graph, const DenoiserInputs& inputs, const Guides& guides,
                                     fg::Texture filtered, fg::Texture output,
-                                    const TemporalAntialiasingSettings& settings) {
+                                    const TemporalAntialiasingSettings& settings, Inspection* inspection) {
   if (inputs.scene.still()) {
-    fg::PassBuilder pass = graph.compute(kPassName, shaders::temporalAntialiasingStill);
-    pass.sample("depth", guides.depth);
-    return finishPass(graph, pass, filtered, output, settings);
+    const auto read = [&](fg::PassBuilder& pass, bool /*view*/) { pass.sample("depth", guides.depth); };
+    return addStage(graph, {&shaders::temporalAntialiasingStill, &shaders::temporalAntialiasingStillView}, read,
+                    filtered, output, settings, inspection);
   }
   const MotionSource motion = motionSource(inputs.scene);
-  fg::PassBuilder pass = graph.compute(kPassName, shaderFor(motion, settings.rejection));
-  readReprojection(pass, inputs, guides, settings.rejection, motion, settings.dilateMotion);
-  return finishPass(graph, pass, filtered, output, settings);
+  const auto read = [&](fg::PassBuilder& pass, bool view) {
+    readReprojection(pass, inputs, guides, settings.rejection, motion, settings.dilateMotion);
+    if (view) pass.specialize("kKeepableMotion", false);
+  };
+  return addStage(graph, shadersFor(motion, settings.rejection), read, filtered, output, settings, inspection);
 }
 
 bool sharesReprojection(const TemporalAntialiasingSettings& antialiasing,
@@ -60,10 +99,13 @@ bool sharesReprojection(const TemporalAntialiasingSettings& antialiasing,
 }
 
 fg::Texture addTemporalAntialiasingWithTaps(fg::Graph& graph, fg::Texture taps, fg::Texture filtered,
-                                            fg::Texture output, const TemporalAntialiasingSettings& settings) {
-  fg::PassBuilder pass = graph.compute(kPassName, shaders::temporalAntialiasingKept);
-  pass.sample("keptTaps", taps).specialize("kRejectHistory", settings.rejection != HistoryRejection::None);
-  return finishPass(graph, pass, filtered, output, settings);
+                                            fg::Texture output, const TemporalAntialiasingSettings& settings,
+                                            Inspection* inspection) {
+  const auto read = [&](fg::PassBuilder& pass, bool /*view*/) {
+    pass.sample("keptTaps", taps).specialize("kRejectHistory", settings.rejection != HistoryRejection::None);
+  };
+  return addStage(graph, {&shaders::temporalAntialiasingKept, &shaders::temporalAntialiasingKeptView}, read, filtered,
+                  output, settings, inspection);
 }
 
 }  // namespace walr

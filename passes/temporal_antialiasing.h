@@ -5,6 +5,7 @@
 #include "framegraph/graph.h"
 #include "passes/history_tests.h"
 #include "passes/inputs.h"
+#include "passes/inspection.h"
 #include "passes/prepare_guides.h"
 #include "passes/settings.h"
 #include "passes/temporal_accumulation.h"
@@ -46,10 +47,12 @@ struct TemporalAntialiasingSettings {
 /// Remove what flicker and aliasing the spatial filter leaves: bicubic history, variance clipping, moving average.
 /// @param filtered RGBA16F: the current frame; alpha: below 0 where no light is known
 /// @param output   RGBA16F: texture to write the result to
+/// @param inspection is offered the stage's views
 /// @returns the output's new version
 fg::Texture addTemporalAntialiasing(fg::Graph& graph, const DenoiserInputs& inputs, const Guides& guides,
                                     fg::Texture filtered, fg::Texture output,
-                                    const TemporalAntialiasingSettings& settings = {});
+                                    const TemporalAntialiasingSettings& settings = {},
+                                    Inspection* inspection = nullptr);
 
 /// Whether anti-aliasing with these settings looks for its history just where accumulation has looked for its own.
 bool sharesReprojection(const TemporalAntialiasingSettings& antialiasing,
@@ -58,6 +61,7 @@ bool sharesReprojection(const TemporalAntialiasingSettings& antialiasing,
 /// The same with the reprojection that accumulation has kept; `sharesReprojection` must hold.
 /// @param taps R32_UINT: `AccumulationWithTaps::taps`
 fg::Texture addTemporalAntialiasingWithTaps(fg::Graph& graph, fg::Texture taps, fg::Texture filtered,
-                                            fg::Texture output, const TemporalAntialiasingSettings& settings = {});
+                                            fg::Texture output, const TemporalAntialiasingSettings& settings = {},
+                                            Inspection* inspection = nullptr);
 
 }  // namespace walr

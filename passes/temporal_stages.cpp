@@ -24,7 +24,7 @@ fg::Texture FilterInput::target(fg::Graph& graph, std::string name) const {
 }
 
 fg::Texture addTemporalStages(fg::Graph& graph, const DenoiserInputs& inputs, const Guides& guides, fg::Texture output,
-                              const TemporalStages& stages, const AddFilter& filter) {
+                              const TemporalStages& stages, const AddFilter& filter, Inspection* inspection) {
   const auto filterToOutput = [&](FilterInput input) {
     input.output = output;
     const fg::Texture result = filter(input);
@@ -37,16 +37,16 @@ fg::Texture addTemporalStages(fg::Graph& graph, const DenoiserInputs& inputs, co
   const bool share = antialias && reprojects && sharesReprojection(stages.antialiasing, stages.accumulation);
   FilterInput input{.alpha = LightingAlpha::SampleCount};
   if (share || stages.keepTaps) {
-    const auto [mean, taps] = addTemporalAccumulationWithTaps(graph, inputs, guides, stages.accumulation);
+    const auto [mean, taps] = addTemporalAccumulationWithTaps(graph, inputs, guides, stages.accumulation, inspection);
     input.lighting = mean;
     input.taps = taps;
   } else {
-    input.lighting = addTemporalAccumulation(graph, inputs, guides, stages.accumulation);
+    input.lighting = addTemporalAccumulation(graph, inputs, guides, stages.accumulation, inspection);
   }
   if (!antialias) return filterToOutput(input);
   const fg::Texture filtered = filter(input);
-  return share ? addTemporalAntialiasingWithTaps(graph, input.taps, filtered, output, stages.antialiasing)
-               : addTemporalAntialiasing(graph, inputs, guides, filtered, output, stages.antialiasing);
+  return share ? addTemporalAntialiasingWithTaps(graph, input.taps, filtered, output, stages.antialiasing, inspection)
+               : addTemporalAntialiasing(graph, inputs, guides, filtered, output, stages.antialiasing, inspection);
 }
 
 }  // namespace walr

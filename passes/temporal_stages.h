@@ -40,9 +40,10 @@ GuideNeeds guideNeeds(const TemporalStages& stages, const SceneDescription& scen
 
 /// Add accumulation, filter and anti-aliasing, as far as settings and scene ask for them. Anti-aliasing reads the
 /// reprojection that accumulation has kept, where both look for their histories in the same way.
-/// @param output RGBA16F texture to write the result to
+/// @param output     RGBA16F texture to write the result to
+/// @param inspection is offered the views of the temporal stages
 /// @returns the output's new version
 fg::Texture addTemporalStages(fg::Graph& graph, const DenoiserInputs& inputs, const Guides& guides, fg::Texture output,
-                              const TemporalStages& stages, const AddFilter& filter);
+                              const TemporalStages& stages, const AddFilter& filter, Inspection* inspection = nullptr);
 
 }  // namespace walr

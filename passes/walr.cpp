@@ -1,7 +1,6 @@
 #include "passes/walr.h"
 
 #include <algorithm>
-#include <stdexcept>
 
 #include "passes/temporal_stages.h"
 #include "passes/window_fit.h"
@@ -10,16 +9,16 @@ namespace walr {
 namespace {
 
 fg::Texture addPixelFilter(fg::Graph& graph, fg::Buffer frame, const FilterInput& input, const Guides& guides,
-                           const WalrSettings& settings, DebugViews* views) {
+                           const WalrSettings& settings, Inspection* inspection) {
   WeightedRegressionSettings regression = settings.regression;
   const std::uint32_t height = graph.textureDesc(input.lighting).extent.height;
   if (settings.fitWindow) regression.iterations = std::min(regression.iterations, fittingIterations(height));
   return addWeightedRegression(graph, frame, input.lighting, input.alpha, guides, input.target(graph, "filtered"),
-                               regression, views);
+                               regression, inspection);
 }
 
 fg::Texture addBlockFilter(fg::Graph& graph, fg::Buffer frame, const FilterInput& input, const Guides& guides,
-                           const WalrSettings& settings) {
+                           const WalrSettings& settings, Inspection* inspection) {
   BlockRegressionSettings blocks = settings.blocks;
   const std::uint32_t height = graph.textureDesc(input.lighting).extent.height;
   if (settings.fitWindow) {
@@ -27,7 +26,7 @@ fg::Texture addBlockFilter(fg::Graph& graph, fg::Buffer frame, const FilterInput
     blocks.iterations = std::min(blocks.iterations, fittingIterations(height, blocks.size));
   }
   const fg::Texture occlusion = addAmbientOcclusion(graph, frame, guides, settings.occlusion);
-  return addBlockRegression(graph, frame, input.lighting, input.alpha, guides, occlusion, blocks);
+  return addBlockRegression(graph, frame, input.lighting, input.alpha, guides, occlusion, blocks, inspection);
 }
 
 }  // namespace
@@ -63,21 +62,19 @@ WalrSettings paperWalr() {
 }
 
 fg::Texture addWalr(fg::Graph& graph, const DenoiserInputs& inputs, fg::Texture output, const WalrSettings& settings,
-                    DebugViews* views) {
+                    Inspection* inspection) {
   const TemporalStages stages{.accumulation = settings.accumulation,
                               .antialiasing = settings.antialiasing,
                               .spatialOnly = settings.spatialOnly};
   const bool pixels = settings.filter == SpatialFilter::Pixels;
-  if (views != nullptr && !views->empty() && !pixels) {
-    throw std::invalid_argument("view \"" + views->front().name + "\" needs setting walr.filter=pixels");
-  }
   const bool geometricPlane = !pixels || settings.regression.edgeStopping.planeNormal == PlaneNormal::Geometric;
   const Guides guides =
-      addPrepareGuides(graph, inputs, settings.guides, guideNeeds(stages, inputs.scene, geometricPlane));
-  return addTemporalStages(graph, inputs, guides, output, stages, [&](const FilterInput& input) {
-    return pixels ? addPixelFilter(graph, inputs.frame, input, guides, settings, views)
-                  : addBlockFilter(graph, inputs.frame, input, guides, settings);
-  });
+      addPrepareGuides(graph, inputs, settings.guides, guideNeeds(stages, inputs.scene, geometricPlane), inspection);
+  const auto filter = [&](const FilterInput& input) {
+    return pixels ? addPixelFilter(graph, inputs.frame, input, guides, settings, inspection)
+                  : addBlockFilter(graph, inputs.frame, input, guides, settings, inspection);
+  };
+  return addTemporalStages(graph, inputs, guides, output, stages, filter, inspection);
 }
 
 }  // namespace walr

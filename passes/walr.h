@@ -64,10 +64,10 @@ WalrSettings paperWalr();
 
 /// Weighted A-Trous Linear Regression (walr.txt, figure 6): preprocessing, spatial filtering, postprocessing.
 /// @param output RGBA16F texture to write the result to
-/// @param views  views of the filter to write (`walrViews`)
+/// @param inspection is offered the views of all stages
 /// @returns the output's new version
-/// @throws std::invalid_argument for settings outside their range and for views that there are not
+/// @throws std::invalid_argument for settings outside their range
 fg::Texture addWalr(fg::Graph& graph, const DenoiserInputs& inputs, fg::Texture output,
-                    const WalrSettings& settings = {}, DebugViews* views = nullptr);
+                    const WalrSettings& settings = {}, Inspection* inspection = nullptr);
 
 }  // namespace walr

@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "passes/weighted_regression_views.h"
 #include "shaders/constants/atrous.h"
 #include "shaders/shaders.h"
 
@@ -42,6 +41,36 @@ const StorageLayout& layoutOf(MomentStorage storage) {
                       {&atrousRaw32First, &atrousFirstLast, &atrousFirstView}}}},
   };
   return kLayouts.at(static_cast<std::size_t>(storage));
+}
+
+/// In the order of `kView` of atrous.comp.
+const std::vector<ViewInfo>& iterationViews() {
+  static const std::vector<ViewInfo> kViews{
+      {"edges",
+       "Step of the nearest edge on the eight traces (one past the last: none), taps replaced, taps lost",
+       {{"replaced-taps", "Y"}, {"lost-taps", "Z"}},
+       true},
+      {"samples",
+       "Sample count W, relative variance of a sample, 1 where a pixel has no finite sample",
+       {{"unsampled-pixels", "Z"}}},
+      {"pivots",
+       "Smaller pivot of the solve before regularisation, ridge or floor, 1 where that outweighs it",
+       {{"regularised-fits", "Z"}}},
+      {"feature-mean", "Mean of the two features, and 0"},
+      {"feature-covariance", "Covariances uu, uv, vv of the features"},
+      {"colour-mean", "Mean of the colour"},
+      {"covariance-u", "Covariances of the colour with the first feature"},
+      {"covariance-v", "Covariances of the colour with the second feature"},
+      {"slope-u", "Coefficients of the first feature in the fit"},
+      {"slope-v", "Coefficients of the second feature in the fit"},
+      {"clamped",
+       "1 in each channel where the fit is below 0 or beyond the largest half",
+       {{"clamped-channels", "XYZ"}}},
+      {"few-samples",
+       "1 where W is below 3, the number of coefficients; 1 where it is 0; 0",
+       {{"few-samples", "X"}, {"no-samples", "Y"}}},
+  };
+  return kViews;
 }
 
 /// The averages between two iterations. Depth carries the edge distances that the next iteration steps by.
@@ -118,7 +147,7 @@ Averages writeAverages(fg::Graph& graph, fg::PassBuilder& pass, const StorageLay
 
 fg::Texture addWeightedRegression(fg::Graph& graph, fg::Buffer frame, fg::Texture accumulated, LightingAlpha alpha,
                                   const Guides& guides, fg::Texture output, const WeightedRegressionSettings& settings,
-                                  DebugViews* views) {
+                                  Inspection* inspection) {
   checkSettings(settings);
   const fg::Extent extent = graph.textureDesc(accumulated).extent;
   Iteration iteration{.averages = {.moments = {}, .depth = guides.depth}};
@@ -126,14 +155,10 @@ fg::Texture addWeightedRegression(fg::Graph& graph, fg::Buffer frame, fg::Textur
     return declareIteration(graph, name, role, iteration, frame, accumulated, alpha, guides, settings);
   };
   for (;; ++iteration.index, iteration.spacing *= 3) {
-    if (views != nullptr) {
-      for (DebugView& view : *views) {
-        const RegressionView wanted = parseRegressionView(view.name, settings.iterations);
-        if (wanted.iteration != iteration.index) continue;
-        fg::PassBuilder pass = declare("view " + view.name, Role::View);
-        pass.specialize("kView", wanted.quantity);
-        view.texture = pass.store("outView", view.texture);
-      }
+    if (inspection != nullptr) {
+      inspection->offer(graph, iterationViews(), extent,
+                        [&](const std::string& name) { return declare(name, Role::View); },
+                        {.index = iteration.index, .count = settings.iterations});
     }
     const std::string suffix = " " + std::to_string(iteration.index);
     if (iteration.index + 1 == settings.iterations) {

@@ -3,8 +3,8 @@
 #include <cstdint>
 
 #include "framegraph/graph.h"
-#include "passes/debug_views.h"
 #include "passes/edge_stopping.h"
+#include "passes/inspection.h"
 #include "passes/lighting_alpha.h"
 #include "passes/prepare_guides.h"
 #include "passes/regularisation.h"
@@ -80,13 +80,12 @@ struct WeightedRegressionSettings {
 /// @param accumulated RGBA16F: radiance to filter; a value that is not finite is no sample
 /// @param alpha       what the alpha channel of `accumulated` says; a pixel with no sample has no say
 /// @param output      RGBA16F texture to write the result to
-/// @param views       views of the iterations to write (weighted_regression_views.h); each has a pass of its own that
-///                    does an iteration again, so that the others stay as they are
+/// @param inspection  is offered the views of every iteration, as if it were the last
 /// @returns the output's new version: filtered radiance, alpha below 0 where no sample was in reach; sky and pixels
 /// without a diffuse lobe as they were
-/// @throws std::invalid_argument for settings outside their range and for views that there are not
+/// @throws std::invalid_argument for settings outside their range
 fg::Texture addWeightedRegression(fg::Graph& graph, fg::Buffer frame, fg::Texture accumulated, LightingAlpha alpha,
                                   const Guides& guides, fg::Texture output,
-                                  const WeightedRegressionSettings& settings = {}, DebugViews* views = nullptr);
+                                  const WeightedRegressionSettings& settings = {}, Inspection* inspection = nullptr);
 
 }  // namespace walr

@@ -85,6 +85,8 @@ struct Taps {
 };
 
 #ifdef VIEW
+const float kCoefficients = 3.0;  // Of the fit of one channel.
+
 vec3 viewOf(ivec2 p, Taps taps, Moments m) {
   const Factor factor = factorOf(m, kPivotFloor, settings.ridge, settings.noiseRidge);
   const Slopes slopes = slopesOf(m, factor);
@@ -101,6 +103,7 @@ vec3 viewOf(ivec2 p, Taps taps, Moments m) {
     case 8u: return slopes.u;
     case 9u: return slopes.v;
     case 10u: return vec3(notEqual(colour, clamp(colour, vec3(0.0), vec3(kLargestHalf))));
+    case 11u: return vec3(m.samples < kCoefficients, m.samples == 0.0, 0.0);
   }
   return vec3(0.0);
 }

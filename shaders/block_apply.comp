@@ -1,5 +1,6 @@
 // The blocks' fits applied to every pixel's features: those of the four blocks around it, weighed by plane and
-// distance, mixed with the coarse fits as their samples count against `coarseSamples`.
+// distance, mixed with the coarse fits as their samples count against `coarseSamples`. A view (VIEW) does the same and
+// writes something found on the way.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -24,7 +25,12 @@ layout(set = 0, binding = 11) uniform utexture2D coarseA;
 layout(set = 0, binding = 12) uniform utexture2D coarseB;
 layout(set = 0, binding = 13) uniform utexture2D coarseC;
 layout(set = 0, binding = 14) uniform utexture2D coarseDepth;
+#ifdef VIEW
+layout(constant_id = 8) const uint kView = 0;  // Which quantity; numbered in viewOf.
+layout(set = 0, binding = 15, rgba32f) uniform writeonly image2D outView;
+#else
 layout(set = 0, binding = 15, rgba16f) uniform writeonly image2D outFiltered;
+#endif
 layout(push_constant) uniform PushConstants { BlockRegressionConstants settings; };
 #include "include/block_fit.glsl"
 #include "include/block_plane.glsl"
@@ -36,13 +42,34 @@ struct Prediction {
   vec3 colour;    // Weighted sum.
   float samples;  // Weighted sum.
   float weight;
+#ifdef VIEW
+  vec3 slope[kFeatures];  // Weighted sums.
+  bvec3 negative;         // Where a fit gave less than 0.
+#endif
 };
+
+Prediction noPrediction() {
+  Prediction sum;
+  sum.colour = vec3(0.0);
+  sum.samples = 0.0;
+  sum.weight = 0.0;
+#ifdef VIEW
+  for (int i = 0; i < kFeatures; ++i) sum.slope[i] = vec3(0.0);
+  sum.negative = bvec3(false);
+#endif
+  return sum;
+}
 
 void add(inout Prediction sum, float weight, BlockFit fit, float x[kFeatures]) {
   if (weight <= 0.0 || fit.samples <= 0.0) return;
-  sum.colour += weight * evaluate(fit, x);
+  sum.colour += weight * max(evaluate(fit, x), vec3(0.0));
   sum.samples += weight * fit.samples;
   sum.weight += weight;
+#ifdef VIEW
+  for (int i = 0; i < kFeatures; ++i) sum.slope[i] += weight * fit.slope[i];
+  const bvec3 below = lessThan(evaluate(fit, x), vec3(0.0));
+  sum.negative = bvec3(sum.negative.r || below.r, sum.negative.g || below.g, sum.negative.b || below.b);
+#endif
 }
 
 BlockFit loadFine(ivec2 block) {
@@ -53,21 +80,56 @@ BlockFit loadCoarse(ivec2 block) {
       PackedFit(texelFetch(coarseA, block, 0), texelFetch(coarseB, block, 0), texelFetch(coarseC, block, 0)));
 }
 
+// Weighted mean of the fine fits' samples.
+float fineSamples(Prediction fine) { return fine.weight > 0.0 ? fine.samples / fine.weight : 0.0; }
+
+// Share of the fine fits in the mixture.
+float fineShare(Prediction fine, Prediction coarse) {
+  if (fine.weight <= 0.0) return 0.0;
+  if (coarse.weight <= 0.0) return 1.0;
+  const float samples = fineSamples(fine);
+  return samples / (samples + settings.coarseSamples);
+}
+
+vec3 colourOf(Prediction sum) { return sum.weight > 0.0 ? sum.colour / sum.weight : vec3(0.0); }
+
 // Where neither knows anything the pixel has only itself.
 vec3 mixFits(Prediction fine, Prediction coarse, vec3 mean) {
-  if (coarse.weight <= 0.0) return fine.weight > 0.0 ? fine.colour / fine.weight : mean;
-  const vec3 wide = coarse.colour / coarse.weight;
-  if (fine.weight <= 0.0) return wide;
-  const float samples = fine.samples / fine.weight;
-  return mix(wide, fine.colour / fine.weight, samples / (samples + settings.coarseSamples));
+  if (fine.weight <= 0.0 && coarse.weight <= 0.0) return mean;
+  return mix(colourOf(coarse), colourOf(fine), fineShare(fine, coarse));
 }
+
+#ifdef VIEW
+const float kCoefficients = float(kFeatures + 1);  // Of the fit of one channel.
+
+vec3 slopeOf(Prediction sum, uint feature) {
+  return sum.weight > 0.0 ? sum.slope[feature] / sum.weight : vec3(0.0);
+}
+vec3 viewOf(ivec2 p, Prediction fine, Prediction coarse, float occluded) {
+  const bool known = fine.weight > 0.0 || coarse.weight > 0.0;
+  switch (kView) {
+    case 0u: return vec3(fineSamples(fine), known ? 1.0 - fineShare(fine, coarse) : 0.0, !known);
+    case 1u: return vec3(occluded, fine.weight, fine.weight <= 0.0 && coarse.weight > 0.0);
+    case 2u: return colourOf(fine);
+    case 3u: return colourOf(coarse);
+    case 4u: return vec3(fine.negative);
+    case 5u: return vec3(coarse.negative);
+    case 16u: return vec3(fineSamples(fine) < kCoefficients, known && fineShare(fine, coarse) < 0.5, lightAt(p).a == 0.0);
+  }
+  return kView < 11u ? slopeOf(fine, kView - 6u) : slopeOf(coarse, kView - 11u);
+}
+#endif
 
 void main() {
   const ivec2 p = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(p, textureSize(depth, 0)))) return;
   const float z = unpackDepth(texelFetch(depth, p, 0).x);
   if (z == 0.0) {
+#ifdef VIEW
+    imageStore(outView, p, vec4(vec3(0.0), 1.0));
+#else
     imageStore(outFiltered, p, vec4(passedLight(p), 1.0));
+#endif
     return;
   }
   const vec3 shading = unpackNormal(texelFetch(shadingNormal, p, 0).x);
@@ -77,8 +139,8 @@ void main() {
   const vec2 position = (vec2(p) + 0.5) / float(kBlockSize) - 0.5;
   const ivec2 base = ivec2(floor(position));
   const vec2 f = position - vec2(base);
-  Prediction fine = Prediction(vec3(0.0), 0.0, 0.0);
-  Prediction coarse = fine;
+  Prediction fine = noPrediction();
+  Prediction coarse = noPrediction();
   for (int i = 0; i < 4; ++i) {
     const ivec2 offset = ivec2(i & 1, i >> 1);
     const ivec2 block = base + offset;
@@ -95,5 +157,9 @@ void main() {
       add(fine, weight, loadFine(block), featuresOf(shading, fineZ / z - 1.0, occluded));
     }
   }
+#ifdef VIEW
+  imageStore(outView, p, vec4(viewOf(p, fine, coarse, occluded), 1.0));
+#else
   imageStore(outFiltered, p, nearestHalf(vec4(mixFits(fine, coarse, lightAt(p).rgb), 1.0)));
+#endif
 }

@@ -1,5 +1,5 @@
 // One edge-aware a-trous iteration over blocks (walr.txt 3.2, 3.3). The last iteration (LAST) solves the regression
-// in place.
+// in place. A view (VIEW) writes what the iteration finds of each block to all pixels of the block.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -12,12 +12,16 @@ layout(constant_id = 1) const int kSpacing = 1;    // 3^t blocks.
 
 layout(set = 0, binding = 0, std140) uniform frameConstants { FrameConstants frame; };
 layout(set = 0, binding = 1) uniform utexture2D normal;
+#ifdef VIEW
+layout(constant_id = 8) const uint kView = 0;  // Which quantity; numbered in viewOf.
+layout(set = 0, binding = 2, rgba32f) uniform writeonly image2D outView;
+#endif
 layout(push_constant) uniform PushConstants { BlockRegressionConstants settings; };
 #include "include/block_fit.glsl"
 #define BLOCK_MOMENTS_IN
-#ifdef LAST
+#if defined(LAST)
 #define BLOCK_FIT_OUT
-#else
+#elif !defined(VIEW)
 #define BLOCK_MOMENTS_OUT
 #endif
 #include "include/block_textures.glsl"
@@ -58,13 +62,54 @@ Trace traceEdge(Plane plane, ivec2 block, ivec2 direction, uint edge) {
   return trace;
 }
 
-void writeResult(ivec2 block, uint packedDepth, BlockMoments m) {
+// What became of the taps.
+struct Taps {
+  int nearestEdge;
+  int lost;
+};
+
+#ifdef VIEW
+vec3 pivotsOf(BlockMoments m) {
+  const float l[kCovariances] = factorOf(m);
+  float smallest = l[0];
+  for (int i = 1; i < kFeatures; ++i) smallest = min(smallest, l[triangleEntry(i, i)]);
+  // Without the ridge that is in it.
+  const float pivot = smallest * smallest - settings.ridge;
+  return vec3(pivot, settings.ridge, pivot < settings.ridge);
+}
+
+vec3 viewOf(Taps taps, BlockMoments m) {
+  switch (kView) {
+    case 0u: return vec3(taps.nearestEdge, taps.lost, m.samples);
+    case 1u: return pivotsOf(m);
+    case 2u: return m.y;
+    case 3u: return vec3(m.x[0], m.x[1], m.x[2]);
+    case 4u: return vec3(m.x[3], m.x[4], 0.0);
+    case 5u: return vec3(m.xx[triangleEntry(0, 0)], m.xx[triangleEntry(1, 1)], m.xx[triangleEntry(2, 2)]);
+    case 6u: return vec3(m.xx[triangleEntry(1, 0)], m.xx[triangleEntry(2, 0)], m.xx[triangleEntry(2, 1)]);
+    case 7u: return vec3(m.xx[triangleEntry(3, 0)], m.xx[triangleEntry(3, 1)], m.xx[triangleEntry(3, 2)]);
+    case 8u: return vec3(m.xx[triangleEntry(4, 0)], m.xx[triangleEntry(4, 1)], m.xx[triangleEntry(4, 2)]);
+    case 9u: return vec3(m.xx[triangleEntry(3, 3)], m.xx[triangleEntry(4, 3)], m.xx[triangleEntry(4, 4)]);
+  }
+  return m.yx[kView - 10u];
+}
+#endif
+
+void writeResult(ivec2 block, float z, Taps taps, BlockMoments m) {
+#ifdef VIEW
+  const vec3 value = z > 0.0 ? viewOf(taps, m) : vec3(0.0);
+  for (int i = 0; i < kBlockSize * kBlockSize; ++i) {
+    const ivec2 p = kBlockSize * block + ivec2(i % kBlockSize, i / kBlockSize);
+    if (all(lessThan(p, imageSize(outView)))) imageStore(outView, p, vec4(value, 1.0));
+  }
+#else
 #ifdef LAST
   storeFit(block, fitOf(m));
 #else
   storeMoments(block, m);
 #endif
-  imageStore(outDepth, block, uvec4(packedDepth));
+  imageStore(outDepth, block, uvec4(z > 0.0 ? packDepthSdf(z, uint(taps.nearestEdge)) : 0u));
+#endif
 }
 
 void main() {
@@ -73,7 +118,7 @@ void main() {
   const uint packedDepth = texelFetch(depth, block, 0).x;
   const float z = unpackDepth(packedDepth);
   if (z == 0.0) {
-    writeResult(block, 0u, noSamples());
+    writeResult(block, 0.0, Taps(0, 0), noSamples());
     return;
   }
   const uint packedNormal = texelFetch(normal, block, 0).x;
@@ -82,16 +127,19 @@ void main() {
 
   BlockMomentSum sum = emptySum();
   add(sum, 1.0, loadMoments(block));
-  int nearestEdge = kSpacing + 1;
+  Taps taps = Taps(kSpacing + 1, 0);
   for (int tap = 0; tap < 9; ++tap) {
     if (tap == 4) continue;
     const ivec2 direction = ivec2(tap % 3, tap / 3) - 1;
     const Trace trace = traceEdge(plane, block, direction, unpackSdf(packedDepth));
-    nearestEdge = min(nearestEdge, trace.edge);
-    if (trace.weight <= 0.0) continue;
+    taps.nearestEdge = min(taps.nearestEdge, trace.edge);
+    if (trace.weight <= 0.0) {
+      ++taps.lost;
+      continue;
+    }
     const ivec2 q = block + kSpacing * direction;
     const float weight = trace.weight * facing(n, blockNormal(texelFetch(normal, q, 0).x));
     if (weight > 0.0) add(sum, weight, rescaleDepth(loadMoments(q), z / trace.depth));
   }
-  writeResult(block, packDepthSdf(z, uint(nearestEdge)), finish(sum));
+  writeResult(block, z, taps, finish(sum));
 }

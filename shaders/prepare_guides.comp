@@ -20,8 +20,13 @@ layout(set = 0, binding = 2) uniform texture2D normal;
 #ifdef DIFFUSE_MASK
 layout(set = 0, binding = 3) uniform texture2D albedo;
 #endif
+#ifdef VIEW
+layout(constant_id = 8) const uint kView = 0;  // Which quantity; numbered in viewOf.
+layout(set = 0, binding = 4, rgba32f) uniform writeonly image2D outView;
+#else
 layout(set = 0, binding = 4, r32ui) uniform writeonly uimage2D outDepth;
 layout(set = 0, binding = 5, r32ui) uniform writeonly uimage2D outShadingNormal;
+#endif
 #ifdef GEOMETRIC_NORMAL
 layout(set = 0, binding = 6, r32ui) uniform writeonly uimage2D outGeometricNormal;
 #endif
@@ -77,16 +82,46 @@ vec3 geometricNormal(ivec2 p, float inverseDepth, vec3 shadingNormal) {
 }
 #endif
 
-// Whether the pixel shows something that diffuse light leaves.
-bool hasDiffuseLobe(ivec2 p) {
+// The surface's albedo; 1 where it is left unread.
+vec3 albedoAt(ivec2 p) {
 #ifdef DIFFUSE_MASK
-  const vec3 diffuse = texelFetch(albedo, p, 0).xyz;
-  return isFinite(diffuse) && any(greaterThanEqual(diffuse, vec3(settings.albedoThreshold)));
+  return texelFetch(albedo, p, 0).xyz;
 #else
-  return true;
+  return vec3(1.0);
 #endif
 }
 
+// Whether something shows that diffuse light leaves.
+bool hasDiffuseLobe(vec3 diffuse) {
+  return isFinite(diffuse) && any(greaterThanEqual(diffuse, vec3(settings.albedoThreshold)));
+}
+
+bool isUsable(vec3 normal) {
+  const float normalLength = length(normal);
+  return isFinite(normal) && isFinite(normalLength) && normalLength > 0.0;
+}
+
+#ifdef VIEW
+vec3 viewOf(ivec2 p) {
+  const float z = texelFetch(depth, p, 0).x;
+  const vec3 n = texelFetch(normal, p, 0).xyz;
+  const vec3 diffuse = albedoAt(p);
+  switch (kView) {
+    case 0u:
+      if (!isSurfaceDepth(z)) return vec3(1.0, 0.0, 0.0);
+      if (!isUsable(n)) return vec3(0.0, 1.0, 0.0);
+      return vec3(0.0, 0.0, !hasDiffuseLobe(diffuse));
+    case 1u: return vec3(!isFinite(z), !isFinite(n), !isFinite(diffuse));
+  }
+  return vec3(0.0);
+}
+
+void main() {
+  const ivec2 p = ivec2(gl_GlobalInvocationID.xy);
+  if (any(greaterThanEqual(p, textureSize(depth, 0)))) return;
+  imageStore(outView, p, vec4(viewOf(p), 1.0));
+}
+#else
 void storeGuides(ivec2 p, uint packedDepth, uint shadingNormal, uint geometricNormal) {
   imageStore(outDepth, p, uvec4(packedDepth));
   imageStore(outShadingNormal, p, uvec4(shadingNormal));
@@ -101,15 +136,13 @@ void main() {
 
   const float z = texelFetch(depth, p, 0).x;
   const vec3 hostNormal = texelFetch(normal, p, 0).xyz;
-  const float normalLength = length(hostNormal);
-  const bool hasNormal = isFinite(hostNormal) && isFinite(normalLength) && normalLength > 0.0;
-  if (!isSurfaceDepth(z) || !hasNormal || !hasDiffuseLobe(p)) {
+  if (!isSurfaceDepth(z) || !isUsable(hostNormal) || !hasDiffuseLobe(albedoAt(p))) {
     storeGuides(p, 0u, 0u, 0u);
     return;
   }
 
   const vec3 ray = rayThrough(frame.rayFromPixel, pixelCentre(p));
-  vec3 shadingNormal = hostNormal / normalLength;
+  vec3 shadingNormal = hostNormal / length(hostNormal);
   if (kNormalsInWorldSpace) shadingNormal = normalize(mat3(frame.viewFromWorld) * shadingNormal);
   if (dot(shadingNormal, ray) > 0.0) shadingNormal = -shadingNormal;
 
@@ -120,3 +153,4 @@ void main() {
 #endif
   storeGuides(p, packDepthSdf(z, 0u), packNormal(shadingNormal), packedGeometry);
 }
+#endif

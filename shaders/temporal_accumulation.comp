@@ -1,7 +1,8 @@
 // WALR preprocessing (walr.txt 4.2): reproject, reject, then a cumulative mean that turns exponential after a fixed
 // number of samples. Each of the four history pixels around the position is tested on its own (REJECT_BY_PLANE,
 // REJECT_BY_DEPTH). KEEP_TAPS also writes which of them passed, so that later stages can read their histories in the same
-// way without testing again (walr.txt 4.4, bmfr.txt 3.5). STILL: every pixel shows what it showed before.
+// way without testing again (walr.txt 4.4, bmfr.txt 3.5). STILL: every pixel shows what it showed before. A view (VIEW)
+// does the same and writes something found on the way.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -27,7 +28,12 @@ layout(set = 0, binding = 5) uniform utexture2D geometricNormal;
 layout(set = 0, binding = 6) uniform utexture2D previousGeometricNormal;
 #endif
 layout(set = 0, binding = 7) uniform texture2D previousAccumulated;  // rgb: mean; a: history length.
+#ifdef VIEW
+layout(constant_id = 8) const uint kView = 0;  // Which quantity; numbered in viewOf.
+layout(set = 0, binding = 8, rgba32f) uniform writeonly image2D outView;
+#else
 layout(set = 0, binding = 8, rgba16f) uniform writeonly image2D outAccumulated;
+#endif
 #ifdef KEEP_TAPS
 layout(set = 0, binding = 9, r32ui) uniform writeonly uimage2D outTaps;
 #endif
@@ -41,9 +47,15 @@ layout(push_constant) uniform PushConstants { TemporalAccumulationConstants sett
 #include "include/reprojection.glsl"
 #endif
 
-// Mean and length; length 0 where there is none.
+// Mean and length, length 0 where there is none; how many history pixels were rejected.
+struct Past {
+  vec4 mean;
+  int rejected;
+};
+
 #ifdef STILL
-vec4 historyOf(ivec2 p, float z) { return texelFetch(previousAccumulated, p, 0); }
+Past pastOf(ivec2 p, float z) { return Past(texelFetch(previousAccumulated, p, 0), 0); }
+bool motionIsFinite(ivec2 p) { return true; }
 #else
 HistoryTaps tapsOf(ivec2 p, float z) {
 #ifdef REJECT_BY_PLANE
@@ -59,9 +71,35 @@ HistoryTaps tapsOf(ivec2 p, float z) {
   return taps;
 }
 
-vec4 historyOf(ivec2 p, float z) {
+Past pastOf(ivec2 p, float z) {
   const HistoryTaps taps = tapsOf(p, z);
-  return kBicubicHistory ? bicubicOfTaps(previousAccumulated, taps) : meanOfTaps(previousAccumulated, taps);
+  const vec4 mean = kBicubicHistory ? bicubicOfTaps(previousAccumulated, taps) : meanOfTaps(previousAccumulated, taps);
+  return Past(mean, tapsRejected(taps));
+}
+bool motionIsFinite(ivec2 p) { return isFinite(motionAt(p)); }
+#endif
+
+// A sample that is not finite is no sample: the mean stays as it was.
+float samplesWith(vec4 history, bool sampleIsFinite) {
+  return min(history.a + (sampleIsFinite ? 1.0 : 0.0), settings.maxSamples);
+}
+vec3 clampedRadiance(vec3 noisy) { return clamp(noisy, vec3(0.0), vec3(kLargestHalf)); }
+
+#ifdef VIEW
+vec3 viewOf(ivec2 p, float z, vec3 noisy) {
+  const bool surface = z > 0.0;
+  const bool sampleIsFinite = isFinite(noisy);
+  switch (kView) {
+    case 0u: {
+      if (!surface) return vec3(0.0);
+      const Past past = pastOf(p, z);
+      return vec3(samplesWith(past.mean, sampleIsFinite), past.rejected, past.mean.a == 0.0);
+    }
+    case 1u:
+      return vec3(!sampleIsFinite, surface && sampleIsFinite && clampedRadiance(noisy) != noisy,
+                  surface && !motionIsFinite(p));
+  }
+  return vec3(0.0);
 }
 #endif
 
@@ -70,8 +108,11 @@ void main() {
   if (any(greaterThanEqual(p, textureSize(lighting, 0)))) return;
 
   const vec3 noisy = texelFetch(lighting, p, 0).rgb;
-  const bool sampleIsFinite = isFinite(noisy);
   const float z = unpackDepth(texelFetch(depth, p, 0).x);
+#ifdef VIEW
+  imageStore(outView, p, vec4(viewOf(p, z, noisy), 1.0));
+#else
+  const bool sampleIsFinite = isFinite(noisy);
   if (z == 0.0) {
     imageStore(outAccumulated, p, vec4(sampleIsFinite ? noisy : vec3(0.0), 0.0));
 #ifdef KEEP_TAPS
@@ -80,10 +121,10 @@ void main() {
     return;
   }
 
-  const vec4 history = historyOf(p, z);
-  // A sample that is not finite is no sample: the mean stays as it was.
-  const float samples = min(history.a + (sampleIsFinite ? 1.0 : 0.0), settings.maxSamples);
-  const vec3 radiance = clamp(noisy, vec3(0.0), vec3(kLargestHalf));
-  const vec3 mean = sampleIsFinite ? mix(history.rgb, radiance, 1.0 / max(samples, 1.0)) : history.rgb;
+  const vec4 history = pastOf(p, z).mean;
+  const float samples = samplesWith(history, sampleIsFinite);
+  const vec3 mean =
+      sampleIsFinite ? mix(history.rgb, clampedRadiance(noisy), 1.0 / max(samples, 1.0)) : history.rgb;
   imageStore(outAccumulated, p, nearestHalf(vec4(mean, samples)));
+#endif
 }

@@ -1,7 +1,8 @@
 // WALR postprocessing (walr.txt 4.4): reproject the filtered history with a bicubic filter, pull it into the variance of
 // the current neighbourhood, then a cumulative mean that turns exponential after a fixed number of frames. With KEPT_TAPS
 // the reprojection is what the accumulation kept of its own; else REJECT_BY_PLANE and REJECT_BY_DEPTH say how history
-// pixels are tested. STILL: every pixel shows what it showed before.
+// pixels are tested. STILL: every pixel shows what it showed before. A view (VIEW) does the same and writes something
+// found on the way.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -16,8 +17,13 @@ layout(constant_id = 3) const bool kRejectHistory = true;  // Leave out taps tha
 
 layout(set = 0, binding = 0) uniform texture2D filtered;  // a: below 0 where no light is known.
 layout(set = 0, binding = 1) uniform texture2D previousResolved;  // rgb: mean; a: history length.
+#ifdef VIEW
+layout(constant_id = 8) const uint kView = 0;  // Which quantity; numbered in viewOf.
+layout(set = 0, binding = 2, rgba32f) uniform writeonly image2D outView;
+#else
 layout(set = 0, binding = 2, rgba16f) uniform writeonly image2D outResolved;
 layout(set = 0, binding = 3, rgba16f) uniform writeonly image2D outImage;
+#endif
 #ifdef KEPT_TAPS
 layout(set = 0, binding = 4) uniform utexture2D keptTaps;
 #else
@@ -46,7 +52,10 @@ layout(push_constant) uniform PushConstants { TemporalAntialiasingConstants sett
 
 bool hasSurface(ivec2 q) { return unpackDepth(texelFetch(depth, q, 0).x) > 0.0; }
 
-vec4 historyOf(ivec2 p) { return texelFetch(previousResolved, p, 0); }
+vec4 historyOf(ivec2 p, out int rejected) {
+  rejected = 0;
+  return texelFetch(previousResolved, p, 0);
+}
 #else
 #ifdef KEPT_TAPS
 bool hasSurface(ivec2 q) { return texelFetch(keptTaps, q, 0).x != kNoSurfaceTaps; }
@@ -72,7 +81,11 @@ HistoryTaps tapsOf(ivec2 p) {
 }
 #endif
 
-vec4 historyOf(ivec2 p) { return bicubicOfTaps(previousResolved, tapsOf(p)); }
+vec4 historyOf(ivec2 p, out int rejected) {
+  const HistoryTaps taps = tapsOf(p);
+  rejected = tapsRejected(taps);
+  return bicubicOfTaps(previousResolved, taps);
+}
 #endif
 
 vec3 toYCoCg(vec3 c) {
@@ -85,12 +98,17 @@ vec3 fromYCoCg(vec3 c) { return vec3(c.x + c.y - c.z, c.x + c.z, c.x - c.y - c.z
 // of the luma is kept.
 const float kLeastReach = 4.0 / 2048.0;
 
-// Pull `colour` towards the mean until it is inside the box of `gamma` standard deviations (Salvi 2016).
-vec3 varianceClip(vec3 colour, vec3 mean, vec3 deviation) {
+// A colour pulled towards the mean until it is inside the box of `gamma` standard deviations (Salvi 2016).
+struct Clipped {
+  vec3 colour;
+  float outside;  // Distance from the mean, before, in units of the box's half size along the way; above 1: clipped.
+};
+
+Clipped varianceClip(vec3 colour, vec3 mean, vec3 deviation) {
   const vec3 offset = colour - mean;
   const vec3 ratio = abs(offset) / max(deviation, vec3(1e-12));
   const float outside = max(max(ratio.x, ratio.y), ratio.z);
-  return outside > 1.0 ? mean + offset / outside : colour;
+  return Clipped(outside > 1.0 ? mean + offset / outside : colour, outside);
 }
 
 // Mean and deviation of the surfaces around a pixel, in YCoCg and relative to the pixel itself, so that the variance of a
@@ -118,30 +136,57 @@ Neighbourhood neighbourhoodOf(ivec2 p, vec3 centre) {
   return Neighbourhood(mean, sqrt(max(squares / count - mean * mean, vec3(0.0))));
 }
 
+// History, in YCoCg, inside the variance of what is around the pixel now.
+Clipped clippedHistory(ivec2 p, vec3 current, vec3 history) {
+  const vec3 centre = toYCoCg(current);
+  const Neighbourhood n = neighbourhoodOf(p, centre);
+  const vec3 reach = max(settings.clipGamma * n.deviation, vec3(kLeastReach * (centre + n.mean).x));
+  return varianceClip(toYCoCg(history), centre + n.mean, reach);
+}
+
 // The running mean with its length.
 vec4 resolve(ivec2 p, vec4 current, vec4 history) {
   // Where no light is known what was known before stands.
   if (current.a < 0.0) return history;
   if (history.a == 0.0) return vec4(current.rgb, 1.0);
-  const vec3 centre = toYCoCg(current.rgb);
-  const Neighbourhood n = neighbourhoodOf(p, centre);
-  const vec3 reach = max(settings.clipGamma * n.deviation, vec3(kLeastReach * (centre + n.mean).x));
-  const vec3 clipped = varianceClip(toYCoCg(history.rgb), centre + n.mean, reach);
+  const vec3 clipped = clippedHistory(p, current.rgb, history.rgb).colour;
   const float samples = min(history.a + 1.0, settings.maxSamples);
   return vec4(max(mix(fromYCoCg(clipped), current.rgb, 1.0 / samples), vec3(0.0)), samples);
 }
+
+#ifdef VIEW
+vec3 viewOf(ivec2 p, vec4 current) {
+  int rejected;
+  const vec4 history = historyOf(p, rejected);
+  switch (kView) {
+    case 0u: {
+      if (current.a < 0.0 || history.a == 0.0) return vec3(0.0);
+      const Clipped clipped = clippedHistory(p, current.rgb, history.rgb);
+      const float outside = max(clipped.outside, 1.0);
+      return vec3(distance(clipped.colour, toYCoCg(history.rgb)), 1.0 - 1.0 / outside, outside > 1.0);
+    }
+    case 1u: return vec3(resolve(p, current, history).a, rejected, history.a == 0.0);
+  }
+  return vec3(0.0);
+}
+#endif
 
 void main() {
   const ivec2 p = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(p, textureSize(filtered, 0)))) return;
 
   const vec4 current = texelFetch(filtered, p, 0);
+#ifdef VIEW
+  imageStore(outView, p, vec4(hasSurface(p) ? viewOf(p, current) : vec3(0.0), 1.0));
+#else
   if (!hasSurface(p)) {
     imageStore(outResolved, p, vec4(current.rgb, 0.0));
     imageStore(outImage, p, vec4(current.rgb, 1.0));
     return;
   }
-  const vec4 stored = nearestHalf(resolve(p, current, historyOf(p)));
+  int rejected;
+  const vec4 stored = nearestHalf(resolve(p, current, historyOf(p, rejected)));
   imageStore(outResolved, p, stored);
   imageStore(outImage, p, vec4(stored.rgb, 1.0));
+#endif
 }

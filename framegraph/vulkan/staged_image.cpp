@@ -2,6 +2,7 @@
 
 #include "framegraph/format.h"
 #include "framegraph/vulkan/image.h"
+#include "framegraph/vulkan/readback.h"
 
 namespace fg::vk {
 namespace {
@@ -73,17 +74,7 @@ void StagedImage::recordReadback(VkCommandBuffer commandBuffer, std::uint32_t sl
   const VkBufferImageCopy region = copyRegion();
   device_->functions.vkCmdCopyImageToBuffer(commandBuffer, image_.get(), kReadable.layout, buffers_[slot].get(), 1,
                                             &region);
-  VkMemoryBarrier2 barrier{};
-  barrier.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2;
-  barrier.srcStageMask = VK_PIPELINE_STAGE_2_COPY_BIT;
-  barrier.srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT;
-  barrier.dstStageMask = VK_PIPELINE_STAGE_2_HOST_BIT;
-  barrier.dstAccessMask = VK_ACCESS_2_HOST_READ_BIT;
-  VkDependencyInfo dependency{};
-  dependency.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
-  dependency.memoryBarrierCount = 1;
-  dependency.pMemoryBarriers = &barrier;
-  device_->functions.vkCmdPipelineBarrier2(commandBuffer, &dependency);
+  recordHostVisibility(*device_, commandBuffer);
 }
 
 }  // namespace fg::vk

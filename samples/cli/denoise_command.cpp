@@ -40,6 +40,7 @@ struct DenoiseOptions {
   std::filesystem::path json;
   std::string nonFinite = "fail";
   std::vector<std::string> views;
+  bool counters = false;
   SequenceOptions sequence;
 };
 
@@ -74,19 +75,34 @@ void refuseOutputIntoInput(const DenoiseOptions& options) {
   }
 }
 
-void refuseUnknownViews(const DenoiseOptions& options, const Denoiser& method) {
+void refuseUnknownViews(const DenoiseOptions& options, Denoiser& method) {
+  const std::vector<ViewInfo> views = method.views();
   std::string known;
-  for (const ViewInfo& view : method.views()) {
-    known += "\n  " + view.name + ": " + view.description;
+  for (const ViewInfo& view : views) {
+    known.append("\n  ").append(view.name).append(": ").append(view.description);
   }
   for (const std::string& wanted : options.views) {
     const auto isWanted = [name = wanted.substr(0, wanted.find('.'))](const ViewInfo& view) {
       return view.name == name;
     };
-    if (std::ranges::none_of(method.views(), isWanted)) {
+    if (std::ranges::none_of(views, isWanted)) {
       throw UsageError("--view " + wanted + ": method " + options.method.name +
-                       (known.empty() ? " has no views" : " has no such view; it has" + known));
+                       (known.empty() ? " has no views" : " has no such view with these settings; it has" + known));
     }
+  }
+}
+
+/// @throws UsageError naming a view of an iteration that there is not at the pictures' size, or settings at odds
+GpuDenoiser makeDenoiser(const DenoiseOptions& options, const GpuDevice& device, Denoiser& method,
+                         const Sequence& sequence) {
+  try {
+    return {device,
+            method,
+            sequence.extent(),
+            *sequence.layout().layout,
+            {.views = options.views, .counters = options.counters}};
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(error.what());
   }
 }
 
@@ -104,7 +120,7 @@ void denoise(DenoiseOptions& options) {
   describeInput(std::cout, options.input, sequence);
 
   GpuDevice device(options.gpu);
-  GpuDenoiser denoiser(device, *method, sequence.extent(), *sequence.layout().layout, options.views);
+  GpuDenoiser denoiser = makeDenoiser(options, device, *method, sequence);
   DenoiseReport report;
   report.method = options.method.name;
   for (const SettingText& setting : method->settings()) {
@@ -181,9 +197,14 @@ void registerDenoise(CLI::App& program) {
           "--view", options->views,
           "Also write a view of the method's inner workings, view_NAME_FFFF.exr, channels X, Y, Z; may be given "
           "several times. NAME.T looks into iteration T (0 is the first) instead of the last. A name that "
-          "there is not lists them")
+          "there is not lists those of the method with its settings")
       ->allow_extra_args(false)
       ->type_name("NAME");
+  command->add_flag(
+      "--counters", options->counters,
+      "Count what happens inside the method in every frame - values that are not finite, history rejected, "
+      "taps replaced, fits regularised and clamped, and more - and print it; with --json, write it. Times "
+      "then include the counting");
   command->add_flag("--composite", options->output.composite,
                     "Write the lit picture albedo * (direct + indirect) + emission as R,G,B; needs those channels. "
                     "Errors are measured on the indirect light all the same");

@@ -60,6 +60,7 @@ FrameReport measure(const DenoisedFrame& denoised) {
   report.resetHistory = frame.resetHistory;
   report.gpuMilliseconds = denoised.gpuMilliseconds;
   report.nonFiniteOutput = countNonFinite(denoised.indirect);
+  report.counters = denoised.counters;
   if (frame.reference) {
     const Image& reference = frame.reference->indirect;
     const PixelMask mask = diffuseMask(frame.albedo, frame.normal, frame.depth, kSkyDepth, reference);

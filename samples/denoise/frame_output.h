@@ -23,6 +23,7 @@ struct DenoisedFrame {
   Image indirect;  ///< 3 components: denoised demodulated diffuse indirect radiance.
   std::optional<double> gpuMilliseconds;
   std::vector<ViewPicture> views;
+  std::vector<CounterValue> counters;
 };
 
 struct OutputOptions {

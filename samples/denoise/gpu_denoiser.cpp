@@ -1,6 +1,7 @@
 #include "samples/denoise/gpu_denoiser.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <cstring>
 #include <numeric>
@@ -10,8 +11,8 @@
 #include "framegraph/vulkan/device.h"
 #include "framegraph/vulkan/executor.h"
 #include "framegraph/vulkan/frame_queue.h"
+#include "framegraph/vulkan/staged_buffer.h"
 #include "framegraph/vulkan/staged_image.h"
-#include "integration/denoise_graph.h"
 
 namespace walr {
 namespace {
@@ -53,13 +54,13 @@ Image viewImage(std::span<const std::byte> texels, int width, int height) {
 
 struct GpuDenoiser::State {
   State(const GpuDevice& gpu, Denoiser& method, fg::Extent extent, const Layout& frameLayout,
-        std::span<const std::string> viewNames)
+        const InspectionWish& wanted)
       : device(gpu.device()),
         layout(frameLayout),
         declared(declareDenoiseGraph(
             method, extent, layout.conventions,
             {.inputs = fg::vk::kUploaded, .outputBefore = fg::vk::kOverwritable, .outputAfter = fg::vk::kReadable}, {},
-            {}, viewNames)),
+            {}, wanted)),
         executor(device.context(), declared.graph.desc(), compileFor(gpu, declared.graph),
                  {.framesInFlight = kFramesInFlight, .timestamps = device.context().timestampBits > 0}),
         lighting(makeUpload(declared.inputs.lighting)),
@@ -71,10 +72,16 @@ struct GpuDenoiser::State {
                fg::vk::StagedImage::Direction::Readback, kFramesInFlight, "denoised"),
         queue(device.context(), device.queue(), kFramesInFlight) {
     executor.bind(declared.output, output.external());
-    for (const DebugView& view : declared.views) {
+    for (const DebugView& view : declared.inspection.views()) {
       views.emplace_back(device.context(), declared.graph.textureDesc(view.texture), executor.usage(view.texture),
                          fg::vk::StagedImage::Direction::Readback, kFramesInFlight, "view of " + view.name);
       executor.bind(view.texture, views.back().external());
+    }
+    if (!declared.inspection.counters().empty()) {
+      const fg::Buffer buffer = declared.inspection.counterBuffer();
+      counters.emplace(device.context(), fg::BufferDesc{kCounterBytes}, executor.usage(buffer), kFramesInFlight,
+                       "counters");
+      executor.bind(buffer, counters->handle());
     }
   }
 
@@ -91,6 +98,7 @@ struct GpuDenoiser::State {
   UploadedTexture albedo;
   fg::vk::StagedImage output;
   std::vector<fg::vk::StagedImage> views;
+  std::optional<fg::vk::StagedBuffer> counters;
   fg::vk::FrameQueue queue;
 };
 
@@ -103,8 +111,8 @@ std::optional<double> DenoisedPicture::milliseconds() const {
 }
 
 GpuDenoiser::GpuDenoiser(const GpuDevice& device, Denoiser& method, fg::Extent extent, const Layout& layout,
-                         std::span<const std::string> views)
-    : state_(std::make_unique<State>(device, method, extent, layout, views)) {}
+                         const InspectionWish& wanted)
+    : state_(std::make_unique<State>(device, method, extent, layout, wanted)) {}
 GpuDenoiser::~GpuDenoiser() = default;
 GpuDenoiser::GpuDenoiser(GpuDenoiser&&) noexcept = default;
 GpuDenoiser& GpuDenoiser::operator=(GpuDenoiser&&) noexcept = default;
@@ -125,6 +133,7 @@ DenoisedPicture GpuDenoiser::run(const PackedFrame& packed) {
   state.executor.record(recorded.commandBuffer, recorded.slot);
   state.output.recordReadback(recorded.commandBuffer, recorded.slot);
   for (const fg::vk::StagedImage& view : state.views) view.recordReadback(recorded.commandBuffer, recorded.slot);
+  if (state.counters) state.counters->recordReadback(recorded.commandBuffer, recorded.slot);
   state.queue.submit(recorded);
   state.queue.wait(recorded.slot);
 
@@ -132,10 +141,17 @@ DenoisedPicture GpuDenoiser::run(const PackedFrame& packed) {
   std::ranges::copy(state.output.staging(recorded.slot), std::as_writable_bytes(std::span(texels)).begin());
   const std::span<const fg::vk::PassTime> times = state.executor.passTimes(recorded.slot);
   DenoisedPicture picture{
-      unpackRgb(texels, frame.depth.width(), frame.depth.height()), {times.begin(), times.end()}, {}};
+      unpackRgb(texels, frame.depth.width(), frame.depth.height()), {times.begin(), times.end()}, {}, {}};
   for (std::size_t i = 0; i < state.views.size(); ++i) {
-    picture.views.push_back({state.declared.views[i].name, viewImage(state.views[i].staging(recorded.slot),
-                                                                     frame.depth.width(), frame.depth.height())});
+    picture.views.push_back(
+        {state.declared.inspection.views()[i].name,
+         viewImage(state.views[i].staging(recorded.slot), frame.depth.width(), frame.depth.height())});
+  }
+  if (state.counters) {
+    std::array<std::uint32_t, kCounterWords> words{};
+    std::ranges::copy(state.counters->staging(recorded.slot), std::as_writable_bytes(std::span(words)).begin());
+    for (const Counter& counter : state.declared.inspection.counters())
+      picture.counters.push_back({counter.name, counter.value(words)});
   }
   return picture;
 }
@@ -146,6 +162,7 @@ DenoisedFrame GpuDenoiser::denoise(PackedFrame packed) {
   denoised.indirect = std::move(picture.indirect);
   denoised.gpuMilliseconds = picture.milliseconds();
   denoised.views = std::move(picture.views);
+  denoised.counters = std::move(picture.counters);
   denoised.frame = std::move(packed.frame);
   return denoised;
 }

@@ -2,12 +2,11 @@
 
 #include <memory>
 #include <optional>
-#include <span>
-#include <string>
 #include <vector>
 
 #include "framegraph/graph.h"
 #include "framegraph/vulkan/timestamps.h"
+#include "integration/denoise_graph.h"
 #include "passes/denoiser.h"
 #include "samples/denoise/frame_output.h"
 #include "samples/denoise/gpu_device.h"
@@ -22,6 +21,7 @@ struct DenoisedPicture {
   /// Times by GPU timestamps, in the order of execution; empty where the queue has none.
   std::vector<fg::vk::PassTime> passes;
   std::vector<ViewPicture> views;
+  std::vector<CounterValue> counters;
 
   /// Time of all passes; the copies to and from the device are not among them.
   [[nodiscard]] std::optional<double> milliseconds() const;
@@ -34,11 +34,11 @@ class GpuDenoiser {
   /// @param device  must outlive this
   /// @param method  declares its passes here; not needed afterwards
   /// @param layout  how the frames differ from the project's conventions; must outlive this
-  /// @param views   names of the method's views to read back with every frame
+  /// @param wanted  views of the method, and whether its counters, to read back with every frame
   /// @throws fg::vk::Error where the device will not do
   /// @throws std::invalid_argument naming a setting of the method that is out of range, or a view that there is not
   GpuDenoiser(const GpuDevice& device, Denoiser& method, fg::Extent extent, const Layout& layout,
-              std::span<const std::string> views = {});
+              const InspectionWish& wanted = {});
   ~GpuDenoiser();
   GpuDenoiser(GpuDenoiser&&) noexcept;
   GpuDenoiser& operator=(GpuDenoiser&&) noexcept;

@@ -59,6 +59,25 @@ void printRow(std::ostream& stream, const std::string& name, const FrameReport& 
   stream << (frame.resetHistory ? "  history reset" : "") << '\n';
 }
 
+/// One line a counter: its mean, and its largest value with the frame that has it.
+void printCounters(std::ostream& stream, const std::vector<FrameReport>& frames) {
+  if (frames.empty() || frames.front().counters.empty()) return;
+  constexpr int kNameWidth = 28;
+  constexpr int kWidth = 14;
+  stream << std::left << std::setw(kNameWidth) << "counter" << std::right << std::setw(kWidth) << "mean a frame"
+         << std::setw(kWidth) << "most"
+         << "  in frame\n";
+  for (std::size_t i = 0; i < frames.front().counters.size(); ++i) {
+    const auto value = [i](const FrameReport& frame) { return frame.counters[i].value; };
+    const auto most = std::ranges::max_element(frames, {}, value);
+    double sum = 0.0;
+    for (const FrameReport& frame : frames) sum += static_cast<double>(value(frame));
+    stream << std::left << std::setw(kNameWidth) << frames.front().counters[i].name << std::right
+           << cell(sum / static_cast<double>(frames.size()), 1, kWidth) << std::setw(kWidth) << value(*most) << "  "
+           << most->frame << '\n';
+  }
+}
+
 }  // namespace
 
 FrameReport meanReport(const std::vector<FrameReport>& frames, std::size_t first) {
@@ -103,6 +122,7 @@ std::string reportJson(const DenoiseReport& report) {
     addMeasurements(object, frame);
     object["history_reset"] = frame.resetHistory;
     object["non_finite_output"] = frame.nonFiniteOutput;
+    for (const CounterValue& counter : frame.counters) object["counters"][counter.name] = counter.value;
     document["frames"].push_back(std::move(object));
   }
   document["mean"] = meanJson(meanReport(report.frames, 0));
@@ -135,6 +155,7 @@ void printReport(std::ostream& stream, const DenoiseReport& report) {
     stream << "Errors after the tone map x/(1+x), over pixels with diffuse albedo of at least 0.01 that are not sky; "
               "PSNR in dB against a peak of 1; SSIM with an 11x11 Gaussian window.\n";
   }
+  printCounters(stream, report.frames);
   if (report.softwareDevice) {
     stream << report.device << " is a software device: its times are a processor's and say nothing about a GPU.\n";
   }

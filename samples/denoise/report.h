@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <ostream>
 #include <string>
@@ -12,6 +13,12 @@
 
 namespace walr {
 
+/// How often something happened inside a method in a frame (`Inspection`).
+struct CounterValue {
+  std::string name;
+  std::uint64_t value = 0;
+};
+
 /// What a run measured on one frame.
 struct FrameReport {
   int frame = 0;
@@ -20,6 +27,7 @@ struct FrameReport {
   ErrorFigures denoised;                  ///< Absent figures where there is no reference.
   ErrorFigures noisy;                     ///< The input's own.
   std::size_t nonFiniteOutput = 0;        ///< Values of the result that are not finite.
+  std::vector<CounterValue> counters;     ///< The same names in every frame; empty where nobody asked for any.
 };
 
 /// What a run was and what it measured.
@@ -40,8 +48,9 @@ inline constexpr std::size_t kWarmUpFrames = 4;
 /// Mean over the frames from `first` on, each figure over the frames that have it.
 FrameReport meanReport(const std::vector<FrameReport>& frames, std::size_t first);
 
-/// The report as JSON: `method`, `device`, `driver`, `frames[]` with `frame`, `gpu_ms`, `rmse`, `psnr`, `ssim` and the
-/// same for the input under `noisy`; `mean` and `mean_after_4` with the same. Figures without a value are null.
+/// The report as JSON: `method`, `device`, `driver`, `frames[]` with `frame`, `gpu_ms`, `rmse`, `psnr`, `ssim`, the
+/// same for the input under `noisy`, and `counters` by name where there are any; `mean` and `mean_after_4` with the
+/// same. Figures without a value are null.
 std::string reportJson(const DenoiseReport& report);
 
 /// The report as a table for people.

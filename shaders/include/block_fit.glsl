@@ -13,13 +13,18 @@ struct BlockFit {
   float samples;  // 0: no fit.
 };
 
-// Centred moments leave the constant out of the system, so that the ridge holds the slopes and not the mean.
+// Factor of the covariance of the features with a ridge on its diagonal. Centred moments leave the constant out of it, so
+// that the ridge holds the slopes and not the mean.
+float[kCovariances] factorOf(BlockMoments m) {
+  float ridge[kFeatures];
+  for (int i = 0; i < kFeatures; ++i) ridge[i] = settings.ridge;
+  return choleskyFactor(m.xx, ridge, ridge);
+}
+
 BlockFit fitOf(BlockMoments m) {
   BlockFit fit;
   fit.samples = m.samples;
-  float ridge[kFeatures];
-  for (int i = 0; i < kFeatures; ++i) ridge[i] = settings.ridge;
-  fit.slope = choleskySolve(choleskyFactor(m.xx, ridge, ridge), m.yx);
+  fit.slope = choleskySolve(factorOf(m), m.yx);
   // About the means, as halves hold them, so that rounding in memory is small against the colour, not the slopes.
   fit.colour = m.y;
   for (int i = 0; i < kFeatures; ++i) {
@@ -32,7 +37,7 @@ BlockFit fitOf(BlockMoments m) {
 vec3 evaluate(BlockFit fit, float x[kFeatures]) {
   vec3 colour = fit.colour;
   for (int i = 0; i < kFeatures; ++i) colour += fit.slope[i] * (x[i] - fit.origin[i]);
-  return max(colour, vec3(0.0));
+  return colour;
 }
 
 struct PackedFit {

@@ -9,6 +9,8 @@ struct HistoryTaps {
 };
 const uint kAllTaps = 15u;
 
+int tapsRejected(HistoryTaps taps) { return 4 - bitCount(taps.accepted); }
+
 ivec2 tapOffset(int i) { return ivec2(i & 1, i >> 1); }
 ivec2 historyTap(HistoryTaps taps, int i) { return taps.base + tapOffset(i); }
 

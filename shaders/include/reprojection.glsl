@@ -1,7 +1,8 @@
 // Where a surface was in the previous frame, and whether a history pixel shows it.
 // Needs: `frame` (FrameConstants), `depth`, and, unless MOTION_FROM_CAMERA says that nothing else moves, `motion`. REJECT_BY_PLANE needs `previousDepth` and
 // `previousGeometricNormal`, REJECT_BY_DEPTH `previousDepth`; without either every pixel of the picture is accepted.
-// KEEP_TAPS: the motion is rounded to what kept taps hold. Takes constant_id 0, 1 and 10.
+// KEEP_TAPS: the motion is rounded to what kept taps hold; a view (VIEW) is told whether it is. Takes constant_id 0, 1, 10
+// and 11.
 #ifndef WALR_REPROJECTION_GLSL
 #define WALR_REPROJECTION_GLSL
 #include "camera.glsl"
@@ -13,6 +14,13 @@
 layout(constant_id = 0) const bool kMotionDepthGiven = true;
 #endif
 layout(constant_id = 10) const bool kJitter = true;
+#if defined(KEEP_TAPS)
+const bool kKeepableMotion = true;
+#elif defined(VIEW)
+layout(constant_id = 11) const bool kKeepableMotion = false;
+#else
+const bool kKeepableMotion = false;
+#endif
 layout(constant_id = 1) const bool kDilateMotion = false;  // Follow the nearest surface of the 3x3 neighbourhood.
 
 struct Reprojection {
@@ -59,11 +67,8 @@ Reprojection reproject(ivec2 p, float z) {
   vec2 exact = motionAt(kDilateMotion ? nearestPixel(p, z) : p);
   if (kJitter) exact -= frame.jitterDelta;
   // What is not finite leads out of any picture.
-#ifdef KEEP_TAPS
-  r.motion = keepableMotion(isFinite(exact) ? exact : vec2(kLargestHalf));
-#else
   r.motion = isFinite(exact) ? exact : vec2(kLargestHalf);
-#endif
+  if (kKeepableMotion) r.motion = keepableMotion(r.motion);
   const vec2 pixel = pixelCentre(p) + r.motion;
   const float previousDepthHere = depthBefore(p, z);
   r.position = rayThrough(frame.previousRayFromPixel, pixel) * previousDepthHere;

@@ -75,9 +75,10 @@ WalrRun::WalrRun(const fg::vk::Device& device, glm::ivec2 size, WalrSettings set
   const fg::Texture output = graph.import("output", halves, kOverwritable);
 
   for (const std::string& view : views)
-    views_.push_back({view, graph.import("view of " + view, {kViewFormat, extent}, kOverwritable)});
-  output_ = addWalr(graph, inputs_, output, settings, &views_);
-  for (const DebugView& view : views_) graph.exported(view.texture, kReadable);
+    inspection_.want(view, graph.import("view of " + view, {kViewFormat, extent}, kOverwritable));
+  output_ = addWalr(graph, inputs_, output, settings, &inspection_);
+  inspection_.requireViews();
+  for (const DebugView& view : inspection_.views()) graph.exported(view.texture, kReadable);
   graph.exported(output_, kReadable);
   if (inspect) inspectStages(graph, settings);
   run_ = std::make_unique<fg::test::GraphRun>(device, graph);
@@ -133,7 +134,7 @@ WalrStages WalrRun::frame(const reference::HostFrame& frame) {
   WalrStages stages;
   stages.outputBits = run_->texels<std::uint16_t>(output_);
   stages.output = decodeHalves(stages.outputBits, size_);
-  for (const DebugView& view : views_) {
+  for (const DebugView& view : inspection_.views()) {
     const std::vector<float> texels = run_->texels<float>(view.texture);
     reference::Image<glm::dvec3>& image = stages.views[view.name] = reference::Image<glm::dvec3>(size_);
     for (std::size_t i = 0; i < image.pixels().size(); ++i)

@@ -58,7 +58,7 @@ class WalrRun {
   bool inspect_;
   fg::Texture depth_, shadingNormal_, geometricNormal_, accumulated_, filtered_, resolved_, output_;
   std::vector<Iteration> iterations_;
-  DebugViews views_;
+  Inspection inspection_;
   std::unique_ptr<fg::test::GraphRun> run_;
 };
 

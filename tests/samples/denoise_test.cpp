@@ -151,6 +151,31 @@ TEST(Report, JsonHasItsKeys) {
   EXPECT_EQ(json["mean_after_4"]["rmse"], 0.25);
 }
 
+TEST(Report, CountersHaveAMeanAndAMaximum) {
+  DenoiseReport report = exampleReport();
+  EXPECT_FALSE(nlohmann::json::parse(reportJson(report))["frames"][0].contains("counters"));
+  for (FrameReport& frame : report.frames) {
+    frame.counters = {{"sky", 100}, {"no-history", frame.frame == 12 ? 60U : 0U}};
+  }
+  EXPECT_EQ(nlohmann::json::parse(reportJson(report))["frames"][2]["counters"]["no-history"], 60);
+  std::ostringstream table;
+  printReport(table, report);
+  std::istringstream lines(table.str());
+  std::string name;
+  for (std::string line; name != "no-history" && std::getline(lines, line);) {
+    std::istringstream words(line);
+    double mean = 0.0;
+    int most = 0;
+    int frame = 0;
+    if (!(words >> name) || name != "no-history") continue;
+    ASSERT_TRUE(words >> mean >> most >> frame) << line;
+    EXPECT_EQ(mean, 10.0);
+    EXPECT_EQ(most, 60);
+    EXPECT_EQ(frame, 12);
+  }
+  EXPECT_EQ(name, "no-history") << table.str();
+}
+
 TEST(Report, TableMarksASoftwareDevice) {
   DenoiseReport report = exampleReport();
   std::ostringstream hardware;

@@ -103,8 +103,10 @@ TEST_F(ProgramTest, AWrongCommandLineIsAUsageError) {
   expectFailure(denoise({"--set", "nothing"}), kUsage, {"NAME=VALUE"});
   expectFailure(walr({"denoise", input, "--output", input}), kUsage, {"input folder"});
   expectFailure(denoise({"--preset", "fancy"}), kUsage, {"--preset fancy"});
-  expectFailure(denoise({"--view", "hedges"}), kUsage, {"--view hedges", "edges: ", "slope-u: "});
-  expectFailure(denoise({"--view", "edges", "--method", "flr"}), kUsage, {"--view edges", "flr has no views"});
+  expectFailure(denoise({"--view", "hedges", "--preset", "robust"}), kUsage, {"--view hedges", "edges: ", "slope-u: "});
+  expectFailure(denoise({"--view", "slope-u"}), kUsage, {"--view slope-u", "with these settings", "slope-occlusion: "});
+  expectFailure(denoise({"--view", "edges", "--method", "flr"}), kUsage, {"--view edges", "flr has no", "history: "});
+  expectFailure(denoise({"--view", "history", "--method", "none"}), kUsage, {"--view history", "none has no views"});
   expectFailure(walr({"graph", "--size", "10"}), kUsage, {"--size 10"});
 }
 
@@ -141,6 +143,19 @@ TEST_F(ProgramTest, WritesViewsBesideTheResult) {
   reader.read(std::vector<ExrReader::Target>{{"X", &count, 0}});
   EXPECT_TRUE(std::ranges::all_of(count.values(), [](float w) { return w >= 0.0F && w <= 9.0F; }));
   EXPECT_GT(*std::ranges::max_element(count.values()), 8.0F);
+}
+
+TEST_F(ProgramTest, CountsWhatHappensInside) {
+  files.write(0, 1);
+  const fs::path json = directory.path() / "report.json";
+  const ProcessResult result = denoise({"--counters", "--json", json.string()});
+  expectSuccess(result);
+  EXPECT_NE(result.out.find("rejected-history-taps"), std::string::npos) << result.out;
+  const auto report = nlohmann::json::parse(test::readText(json));
+  EXPECT_EQ(report["frames"][1]["counters"]["non-finite-lighting"], 0);
+  EXPECT_GT(report["frames"][0]["counters"]["no-history"], 0);
+  expectFailure(denoise({"--preset", "robust", "--view", "edges.3"}), kUsage, {"view \"edges.3\"", "0 to 0"});
+  expectSuccess(denoise({"--method", "none", "--counters"}));
 }
 
 TEST_F(ProgramTest, MethodNoneGivesTheInputBack) {

@@ -22,11 +22,17 @@ GraphRun::GraphRun(const GpuQueue& gpu, const Graph& graph, Plan plan, const vk:
   const auto& resources = graph.desc().resources;
   for (std::uint32_t i = 0; i < resources.size(); ++i) {
     const ResourceDecl& decl = resources[i];
-    const auto* desc = std::get_if<TextureDesc>(&decl.desc);
-    if (desc == nullptr || decl.lifetime != Lifetime::Imported) continue;
-    const Texture texture{{i, 0}};
     const bool fromTest = decl.acquire == vk::kUploaded || decl.acquire == vk::kOverwritable;
-    if (!fromTest) continue;
+    if (decl.lifetime != Lifetime::Imported || !fromTest) continue;
+    if (const auto* bytes = std::get_if<BufferDesc>(&decl.desc)) {
+      const Buffer buffer{{i, 0}};
+      bufferReadbacks_[i] =
+          std::make_unique<vk::StagedBuffer>(gpu.context, *bytes, executor_.usage(buffer), kFramesInFlight, decl.name);
+      executor_.bind(buffer, bufferReadbacks_[i]->handle());
+      continue;
+    }
+    const auto* desc = std::get_if<TextureDesc>(&decl.desc);
+    const Texture texture{{i, 0}};
     const Direction direction = decl.acquire == vk::kUploaded ? Direction::Upload : Direction::Readback;
     auto image = std::make_unique<vk::StagedImage>(gpu.context, *desc, executor_.usage(texture), direction,
                                                    kFramesInFlight, decl.name);
@@ -47,6 +53,7 @@ std::uint32_t GraphRun::submitFrame() {
   }
   executor_.record(frame.commandBuffer, frame.slot);
   for (const auto& [resource, image] : readbacks_) image->recordReadback(frame.commandBuffer, frame.slot);
+  for (const auto& [resource, buffer] : bufferReadbacks_) buffer->recordReadback(frame.commandBuffer, frame.slot);
   queue_.submit(frame);
   lastSlot_ = frame.slot;
   return frame.slot;

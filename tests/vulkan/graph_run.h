@@ -10,6 +10,7 @@
 #include "framegraph/vulkan/device.h"
 #include "framegraph/vulkan/executor.h"
 #include "framegraph/vulkan/frame_queue.h"
+#include "framegraph/vulkan/staged_buffer.h"
 #include "framegraph/vulkan/staged_image.h"
 
 namespace fg::test {
@@ -29,8 +30,8 @@ struct GpuQueue {
 Plan compileFor(const vk::DeviceContext& device, const Graph& graph, bool poison = false);
 
 /// A graph on a device, frame by frame, with two frames in flight. Imported textures get an image each: those that
-/// arrive as `vk::kUploaded` are filled by the test, those that arrive as `vk::kOverwritable` are read back. What
-/// arrives otherwise the test binds itself.
+/// arrive as `vk::kUploaded` are filled by the test, those that arrive as `vk::kOverwritable` are read back, as are
+/// imported buffers that do. What arrives otherwise the test binds itself.
 class GraphRun {
  public:
   GraphRun(const GpuQueue& gpu, const Graph& graph, const vk::ExecutorOptions& options = {});
@@ -70,6 +71,15 @@ class GraphRun {
     return texels<T>(texture, lastSlot_);
   }
 
+  /// Contents of a buffer as the frame last submitted with the slot left them. That frame must be finished.
+  template <typename T>
+  [[nodiscard]] std::vector<T> elements(Buffer buffer, std::uint32_t slot) const {
+    const auto bytes = bufferReadbacks_.at(buffer.resource)->staging(slot);
+    std::vector<T> result(bytes.size() / sizeof(T));
+    std::memcpy(result.data(), bytes.data(), result.size() * sizeof(T));
+    return result;
+  }
+
  private:
   struct Upload {
     std::unique_ptr<vk::StagedImage> image;
@@ -78,6 +88,7 @@ class GraphRun {
   vk::Executor executor_;
   std::map<std::uint32_t, Upload> uploads_;
   std::map<std::uint32_t, std::unique_ptr<vk::StagedImage>> readbacks_;
+  std::map<std::uint32_t, std::unique_ptr<vk::StagedBuffer>> bufferReadbacks_;
   vk::FrameQueue queue_;
   std::uint32_t lastSlot_ = 0;
 };

@@ -1,0 +1,101 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "framegraph/graph.h"
+#include "shaders/constants/count.h"
+
+/// Looking into a method while it runs: views, which are pictures of what happens inside a stage, and counters, which
+/// say how often something happened in a frame. Each view has a pass of its own that does its stage's work again and
+/// writes what it finds on the way; what nobody asks for has no pass, no texture and no branch in any shader.
+namespace walr {
+
+/// How often something happens in a frame: components of a view that hold a count at each pixel, summed over all
+/// pixels.
+struct CounterInfo {
+  std::string_view name;
+  std::string_view components;  ///< Which of "XYZ" are summed.
+};
+
+/// A picture of what happens inside a stage.
+struct ViewInfo {
+  std::string_view name;
+  std::string_view description;  ///< One line: what X, Y and Z hold.
+  std::vector<CounterInfo> counters = {};
+  bool countEveryIteration = false;  ///< Of a stage with iterations; else only the last is counted.
+};
+
+/// A view that a caller wants of a method.
+struct DebugView {
+  std::string name;     ///< "NAME", or "NAME.T" of iteration T of a stage with iterations; "NAME" is that of the last.
+  fg::Texture texture;  ///< Of format `kViewFormat` and the inputs' extent. The method leaves its new version here.
+  bool written = false;
+};
+
+/// Format of the textures of views.
+inline constexpr VkFormat kViewFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
+
+/// Bytes of the buffer that receives counters.
+inline constexpr std::uint64_t kCounterBytes = kCounterWords * sizeof(std::uint32_t);
+
+/// A counter of the graph at hand.
+struct Counter {
+  std::string name;  ///< With ".T" of iteration T behind it, where every iteration is counted.
+  std::vector<std::uint32_t> words;
+
+  /// Its value in a frame.
+  /// @param buffer the words of the buffer that received the counters
+  [[nodiscard]] std::uint64_t value(std::span<const std::uint32_t> buffer) const;
+};
+
+/// Which iteration of a stage.
+struct StageIteration {
+  std::uint32_t index = 0;
+  std::uint32_t count = 0;  ///< 0: the stage does not iterate.
+  [[nodiscard]] bool last() const { return index + 1 >= count; }
+};
+
+/// What a caller wants to see of a method, for `Denoiser::add`, and what it gets.
+class Inspection {
+ public:
+  /// Have a view written.
+  void want(std::string name, fg::Texture texture) { views_.push_back({std::move(name), texture}); }
+  /// Have all counters of the method written.
+  /// @param buffer of `kCounterBytes`
+  void wantCounters(fg::Buffer buffer) { buffer_ = buffer; }
+
+  [[nodiscard]] const std::vector<DebugView>& views() const { return views_; }
+  /// The counters' buffer as the last pass leaves it.
+  [[nodiscard]] fg::Buffer counterBuffer() const { return buffer_; }
+  [[nodiscard]] const std::vector<Counter>& counters() const { return counters_; }
+  /// Views of the stages that the method has with its present settings.
+  [[nodiscard]] const std::vector<ViewInfo>& known() const { return known_; }
+
+  /// Declares the pass of a view: all but the view's number and texture.
+  using DeclareView = std::function<fg::PassBuilder(const std::string& passName)>;
+  /// Called by a stage: add a pass for each of its views that is wanted.
+  /// @param views   in the order of `kView` of the stage's shader, which writes `outView`
+  /// @param extent  of the inputs
+  void offer(fg::Graph& graph, std::span<const ViewInfo> views, fg::Extent extent, const DeclareView& declare,
+             StageIteration iteration = {});
+
+  /// @throws std::invalid_argument naming a view that no stage has written, and those that there are
+  void requireViews() const;
+
+ private:
+  void count(fg::Graph& graph, const ViewInfo& view, const std::string& suffix, fg::Texture texture);
+
+  std::vector<DebugView> views_;
+  fg::Buffer buffer_;
+  std::vector<Counter> counters_;
+  std::vector<ViewInfo> known_;
+  std::vector<std::uint32_t> iterations_;  ///< By known view: how many its stage has, as above.
+  std::uint32_t words_ = 0;                ///< Of the buffer in use.
+};
+
+}  // namespace walr

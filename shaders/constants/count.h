@@ -1,0 +1,18 @@
+#ifndef WALR_SHADERS_CONSTANTS_COUNT_H
+#define WALR_SHADERS_CONSTANTS_COUNT_H
+#include "types.h"
+#ifdef __cplusplus
+namespace walr {
+#endif
+
+const uint kCounterWords = 256;  // Of the buffer that receives all counters of a frame.
+
+struct CountConstants {
+  uint word;  // First of the three that receive the sums of the view's components.
+};
+
+#ifdef __cplusplus
+static_assert(sizeof(CountConstants) == 4);
+}  // namespace walr
+#endif
+#endif

@@ -1,0 +1,275 @@
+// Counters of what happens inside a method: right to one, in every method, while other frames are in flight.
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <memory>
+#include <string>
+
+#include "passes/denoiser.h"
+#include "tests/passes/hard_cases.h"
+#include "tests/passes/host_textures.h"
+#include "tests/passes/synthetic_scene.h"
+#include "tests/vulkan/gpu_fixture.h"
+
+namespace walr::test {
+namespace {
+
+using reference::HostFrame;
+using reference::Image;
+
+constexpr glm::ivec2 kSize(48, 36);
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// A method on a device with all of its counters, and views beside them.
+class CountedRun {
+ public:
+  CountedRun(const fg::vk::Device& device, Denoiser& method, glm::ivec2 size,
+             const std::vector<std::string>& views = {})
+      : size_(size), inputs_(importInputs(graph_, size)), output_(importOutput(graph_, size)) {
+    const fg::Extent extent{static_cast<std::uint32_t>(size.x), static_cast<std::uint32_t>(size.y)};
+    inspection_.wantCounters(graph_.import("counters", fg::BufferDesc{kCounterBytes}, fg::vk::kOverwritable));
+    for (const std::string& view : views)
+      inspection_.want(view, graph_.import("view of " + view, {kViewFormat, extent}, fg::vk::kOverwritable));
+    graph_.exported(method.add(graph_, inputs_, output_, &inspection_), fg::vk::kReadable);
+    for (const DebugView& view : inspection_.views()) graph_.exported(view.texture, fg::vk::kReadable);
+    graph_.exported(inspection_.counterBuffer(), fg::vk::kReadable);
+    run_ = std::make_unique<fg::test::GraphRun>(device, graph_);
+  }
+
+  /// Submit a frame without waiting for it.
+  std::uint32_t submit(const HostFrame& frame) {
+    upload(*run_, inputs_, frame);
+    return run_->submitFrame();
+  }
+  void finish() { run_->finish(); }
+  /// Denoise a frame.
+  std::map<std::string, std::uint64_t> count(const HostFrame& frame) {
+    const std::uint32_t slot = submit(frame);
+    finish();
+    return counters(slot);
+  }
+  /// Of the frame last submitted with a slot.
+  [[nodiscard]] std::map<std::string, std::uint64_t> counters(std::uint32_t slot) const {
+    const std::vector<std::uint32_t> words = run_->elements<std::uint32_t>(inspection_.counterBuffer(), slot);
+    std::map<std::string, std::uint64_t> values;
+    for (const Counter& counter : inspection_.counters()) values[counter.name] = counter.value(words);
+    return values;
+  }
+  void reset() { run_->executor().resetAllHistory(); }
+  [[nodiscard]] Image<glm::dvec4> output() const { return readHalves(*run_, output_, size_); }
+  /// Sum of a component of a view over the picture.
+  [[nodiscard]] double viewSum(std::size_t view, int component) const {
+    const std::vector<float> texels = run_->texels<float>(inspection_.views()[view].texture);
+    double sum = 0.0;
+    for (std::size_t i = component; i < texels.size(); i += 4) sum += texels[i];
+    return sum;
+  }
+  [[nodiscard]] const Inspection& inspection() const { return inspection_; }
+
+ private:
+  glm::ivec2 size_;
+  fg::Graph graph_;
+  DenoiserInputs inputs_;
+  fg::Texture output_;
+  Inspection inspection_;
+  std::unique_ptr<fg::test::GraphRun> run_;
+};
+
+/// A first-hand count of what the input holds.
+struct InputCounts {
+  std::uint64_t nonFiniteLighting = 0;
+  std::uint64_t nonFiniteDepth = 0;
+  std::uint64_t nonFiniteNormals = 0;
+  std::uint64_t surfaces = 0;
+};
+bool isFinite(glm::dvec3 v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+InputCounts countInput(const HostFrame& frame) {
+  InputCounts counts;
+  reference::forEachPixel(frame.size(), [&](glm::ivec2 p) {
+    counts.nonFiniteLighting += isFinite(frame.lighting[p]) ? 0 : 1;
+    counts.nonFiniteDepth += std::isfinite(frame.depth[p]) ? 0 : 1;
+    counts.nonFiniteNormals += isFinite(frame.normal[p]) ? 0 : 1;
+    counts.surfaces += reference::surfaceAt(frame, p, {}).depth > 0.0 ? 1 : 0;
+  });
+  return counts;
+}
+
+/// Visit `count` pixels of a scattering that meets none twice, from the `start`-th on.
+template <typename Apply>
+void scatter(int start, int count, Apply apply) {
+  for (int i = start; i < start + count; ++i) {
+    const int index = i * 29 % (kSize.x * kSize.y);  // 29 has no divisor in common with the number of pixels.
+    apply(glm::ivec2(index % kSize.x, index / kSize.x));
+  }
+}
+
+class CountersTest : public fg::test::GpuTest {};
+
+TEST_F(CountersTest, ExactlyWhatIsInjectedIsCountedInEveryMethod) {
+  HostFrame frame = renderStill(bumpyWall(0.1), kSize);
+  scatter(0, 17, [&](glm::ivec2 p) { frame.lighting[p].g = kNaN; });
+  scatter(17, 5, [&](glm::ivec2 p) { frame.lighting[p].r = kInfinity; });
+  scatter(30, 11, [&](glm::ivec2 p) { frame.lighting[p].b = -1.0; });
+  scatter(50, 7, [&](glm::ivec2 p) { frame.motion[p].x = kNaN; });
+  scatter(60, 3, [&](glm::ivec2 p) { frame.depth[p] = kNaN; });
+  scatter(70, 4, [&](glm::ivec2 p) { frame.depth[p] = 1e10; });
+  scatter(80, 6, [&](glm::ivec2 p) { frame.normal[p].z = kInfinity; });
+  scatter(90, 8, [&](glm::ivec2 p) { frame.normal[p] = glm::dvec3(0.0); });
+  scatter(100, 9, [&](glm::ivec2 p) { frame.albedo[p].g = kNaN; });
+  scatter(110, 2, [&](glm::ivec2 p) { frame.albedo[p] = glm::dvec3(0.0); });
+  const std::map<std::string, std::uint64_t> expected{
+      {"non-finite-lighting", 22}, {"clamped-lighting", 11}, {"non-finite-motion", 7}, {"non-finite-depth", 3},
+      {"non-finite-normals", 6},   {"non-finite-albedo", 9}, {"sky", 3 + 4},           {"unusable-normals", 14},
+      {"no-diffuse-lobe", 9 + 2}};
+  const std::uint64_t surfaces = kSize.x * kSize.y - 7 - 14 - 11;
+  for (const std::string& name : denoiserNames()) {
+    if (name == "none") continue;
+    SCOPED_TRACE(name);
+    const auto method = makeDenoiser(name);
+    CountedRun run(device(), *method, kSize);
+    const auto counted = run.count(frame);
+    for (const auto& [counter, value] : expected) {
+      const bool always = counter == "sky" || counter == "unusable-normals" || counter == "non-finite-depth";
+      if (counted.contains(counter)) {
+        EXPECT_EQ(counted.at(counter), value) << counter;
+      } else {
+        EXPECT_FALSE(always) << counter;
+      }
+    }
+    // Nothing lies behind a first frame.
+    if (counted.contains("no-history")) {
+      EXPECT_EQ(counted.at("no-history"), surfaces);
+      EXPECT_EQ(counted.at("rejected-history-taps"), 4 * surfaces);
+    }
+  }
+}
+
+TEST_F(CountersTest, AreReadWhileOtherFramesAreInFlight) {
+  const auto method = makeDenoiser("walr");
+  CountedRun run(device(), *method, kSize);
+  const auto broken = [](int count) {
+    HostFrame frame = renderStill(bumpyWall(0.1), kSize);
+    scatter(0, count, [&](glm::ivec2 p) { frame.lighting[p].g = kNaN; });
+    return frame;
+  };
+  // Each pair is recorded before the first of it is waited for; what is read of it is its own.
+  for (int i = 1; i < 8; i += 2) {
+    const std::uint32_t first = run.submit(broken(3 * i));
+    const std::uint32_t second = run.submit(broken(3 * i + 1));
+    ASSERT_NE(first, second);
+    run.finish();
+    EXPECT_EQ(run.counters(first).at("non-finite-lighting"), 3 * i);
+    EXPECT_EQ(run.counters(second).at("non-finite-lighting"), 3 * i + 1);
+  }
+}
+
+TEST_F(CountersTest, ChangeNothing) {
+  const HostFrame frames[] = {renderStill(stairs(), kSize, 0), renderStill(stairs(), kSize, 1)};
+  for (const char* preset : {"blocks", "robust", "paper"}) {
+    const auto method = makeDenoiser("walr");
+    method->usePreset(preset);
+    fg::Graph graph;
+    const DenoiserInputs inputs = importInputs(graph, kSize);
+    const fg::Texture output = importOutput(graph, kSize);
+    graph.exported(method->add(graph, inputs, output), fg::vk::kReadable);
+    fg::test::GraphRun plain(device(), graph);
+    CountedRun counted(device(), *method, kSize);
+    for (const HostFrame& frame : frames) {
+      upload(plain, inputs, frame);
+      plain.frame();
+      (void)counted.count(frame);
+      EXPECT_EQ(readHalves(plain, output, kSize).pixels(), counted.output().pixels()) << preset;
+    }
+  }
+}
+
+/// A preset with a storage and a way of solving.
+struct Variant {
+  const char* preset;
+  std::vector<std::pair<const char*, const char*>> settings;
+};
+const std::vector<Variant> kVariants{
+    {"blocks", {}},
+    {"robust", {}},
+    {"robust", {{"regression.regularisation", "floor"}, {"regression.ridge", "1e-4"}}},
+    {"paper", {}},
+    {"paper", {{"regression.moments", "raw11"}, {"regression.ridge", "1e-2"}}},
+    {"paper", {{"regression.moments", "raw11"}, {"regression.ridge", "1e-2"}, {"regression.regularisation", "ridge"}}},
+    {"paper", {{"regression.moments", "raw16"}, {"regression.regularisation", "ridge"}}},
+    {"paper", {{"regression.moments", "raw32"}, {"regression.ridge", "1e-5"}}},
+    {"paper", {{"regression.moments", "raw32"}, {"regression.ridge", "1e-5"}, {"regression.regularisation", "ridge"}}}};
+
+// Whatever comes in: the output is finite and not negative, the input's counters are those of the input, and every
+// counter is the sum of the view that it belongs to.
+TEST_F(CountersTest, AreRightOnHardCasesInEveryStorageAndSolver) {
+  for (const Variant& variant : kVariants) {
+    const auto method = makeDenoiser("walr");
+    method->usePreset(variant.preset);
+    std::string name = variant.preset;
+    for (const auto& [setting, value] : variant.settings) {
+      method->set(setting, value);
+      name += std::string(", ") + setting + "=" + value;
+    }
+    SCOPED_TRACE(name);
+    const bool masked = std::string(variant.preset) != "paper";
+    const std::vector<std::string> views{"no-surface", "history", "clamped", "pivots", "few-samples", "clip"};
+    method->set("walr.fit-window", "off");
+    CountedRun run(device(), *method, kSize, views);
+    for (const HardCase& hard : hardCases()) {
+      SCOPED_TRACE(hard.name);
+      run.reset();
+      for (const HostFrame& frame : hard.frames) {
+        const auto counted = run.count(frame);
+        const InputCounts input = countInput(frame);
+        EXPECT_EQ(counted.at("non-finite-lighting"), input.nonFiniteLighting);
+        EXPECT_EQ(counted.at("non-finite-depth"), input.nonFiniteDepth);
+        EXPECT_EQ(counted.at("non-finite-normals"), input.nonFiniteNormals);
+        const std::uint64_t passed = counted.at("sky") + counted.at("unusable-normals") + counted.at("no-diffuse-lobe");
+        if (masked) {
+          EXPECT_EQ(passed, kSize.x * kSize.y - input.surfaces);
+        }
+        for (std::size_t v = 0; v < views.size(); ++v) {
+          const auto& known = run.inspection().known();
+          const auto info = std::ranges::find(known, views[v], &ViewInfo::name);
+          ASSERT_NE(info, known.end());
+          for (const CounterInfo& counter : info->counters) {
+            double sum = 0.0;
+            for (const char component : counter.components) sum += run.viewSum(v, component - 'X');
+            EXPECT_EQ(double(counted.at(std::string(counter.name))), sum) << counter.name;
+          }
+        }
+        const Image<glm::dvec4> output = run.output();
+        for (const glm::dvec4& v : output.pixels()) {
+          for (int c = 0; c < 3; ++c) {
+            ASSERT_TRUE(std::isfinite(v[c]));
+            ASSERT_GE(v[c], 0.0);
+          }
+        }
+      }
+    }
+  }
+}
+
+// Where the features do not vary at all, regularisation alone holds every fit; where they vary as widely as the scene's
+// normals do, with variances of 0.01 and more, a ridge of 1e-5 holds none.
+TEST_F(CountersTest, RegularisedFitsFollowTheFeatures) {
+  const auto method = makeDenoiser("walr");
+  method->usePreset("robust");
+  method->set("regression.noise-ridge", "0");
+  method->set("regression.ridge", "1e-5");
+  method->set("walr.fit-window", "off");
+  CountedRun run(device(), *method, kSize);
+  const auto flat = run.count(renderStill(flatWall(), kSize));
+  EXPECT_EQ(flat.at("regularised-fits"), std::uint64_t(kSize.x) * kSize.y);
+  EXPECT_EQ(flat.at("clamped-channels"), 0U);
+  run.reset();
+  EXPECT_EQ(run.count(renderStill(bumpyWall(0.3), kSize)).at("regularised-fits"), 0U);
+}
+
+}  // namespace
+}  // namespace walr::test

@@ -1,0 +1,208 @@
+// Views of WALR's guides and temporal stages: that they show what happens, against the double-precision reference.
+
+#include <cmath>
+#include <limits>
+
+#include "tests/passes/comparison.h"
+#include "tests/passes/reference/history.h"
+#include "tests/passes/reference/temporal_antialiasing.h"
+#include "tests/passes/stage_checks.h"
+#include "tests/passes/synthetic_scene.h"
+#include "tests/passes/walr_run.h"
+#include "tests/vulkan/gpu_fixture.h"
+
+namespace walr::test {
+namespace {
+
+using reference::HostFrame;
+using reference::Image;
+
+constexpr glm::ivec2 kSize(64, 48);
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+HostFrame movingFrame(const Scene& scene, std::uint32_t i) {
+  const auto at = [](double time) { return glm::dvec3(0.09 * time, 0.04 * time, -0.03 * time); };
+  return renderFrame(scene, cameraAt(at(i), at(i - 1.0), kSize, i), kSize);
+}
+
+/// The settings that choose a shader of their own.
+struct NamedSettings {
+  const char* name;
+  WalrSettings settings;
+  SceneDescription scene;
+};
+std::vector<NamedSettings> allSettings() {
+  WalrSettings apart = robustWalr();
+  apart.antialiasing.normalThreshold = 0.4F;  // Its own reprojection.
+  WalrSettings byDepth = apart;
+  byDepth.accumulation.rejection = HistoryRejection::Depth;
+  byDepth.antialiasing.rejection = HistoryRejection::Depth;
+  const SceneDescription camera{.objectMotion = false};
+  return {{"robust", robustWalr(), {}},    {"paper", paperWalr(), {}}, {"two reprojections", apart, {}},
+          {"camera alone", apart, camera}, {"by depth", byDepth, {}},  {"by depth, camera alone", byDepth, camera}};
+}
+
+/// What a stage sees of its history at a pixel.
+struct Past {
+  reference::HistorySample history;
+  int rejected = 0;
+  bool undecided = false;
+};
+template <typename Settings>
+Past pastOf(const DeviceFrame& f, const Image<glm::dvec4>& before, glm::ivec2 p, const Settings& settings,
+            HistoryFilter filter, bool keepTaps) {
+  const reference::Reprojection r =
+      reference::reproject(f.frame, f.current.guides, p, {settings.dilateMotion, keepTaps});
+  const auto taps = reference::historyTaps(f.frame, r, f.previous.guides, reference::historyTestsOf(settings));
+  Past past{reference::sampleHistory(r, taps, before, filter), 0, r.undecided};
+  for (const reference::HistoryTap& tap : taps) {
+    // Without a test only the picture's border rejects; the sky is passed over for its want of samples.
+    const bool accepted =
+        settings.rejection == HistoryRejection::None ? f.previous.guides.contains(tap.pixel) : tap.matches;
+    past.rejected += r.valid && accepted ? 0 : 1;
+    past.undecided = past.undecided || tap.undecided;
+  }
+  past.undecided = past.undecided || past.history.undecided;
+  return past;
+}
+
+void expectHistory(Comparison& comparison, const DeviceFrame& f, glm::ivec2 p, const WalrSettings& settings,
+                   bool keepTaps) {
+  const glm::dvec3 view = f.current.views.at("history")[p];
+  const Past past =
+      pastOf(f, f.previous.accumulated, p, settings.accumulation, settings.accumulation.historyFilter, keepTaps);
+  if (past.undecided) {
+    comparison.undecided();
+    return;
+  }
+  comparison.compared();
+  const double samples = f.current.accumulated[p].w;
+  comparison.value(p, "history length", samples, view.x, halfTolerance(view.x, 0.0));
+  comparison.value(p, "rejected", view.y, past.rejected, 0.0);
+  comparison.value(p, "no history", view.z, past.history.found ? 0.0 : 1.0, 0.0);
+}
+
+/// Of the mean of n frames, n - 1 are the clipped history: what the output says of it is what the view says.
+void expectClipping(Comparison& comparison, const DeviceFrame& f, glm::ivec2 p, const WalrSettings& settings,
+                    bool keepTaps) {
+  const glm::dvec3 clip = f.current.views.at("clip")[p];
+  const glm::dvec3 resolved = f.current.views.at("resolved-history")[p];
+  const Past past = pastOf(f, f.previous.resolved, p, settings.antialiasing, HistoryFilter::Bicubic, keepTaps);
+  if (past.undecided || past.history.found != (resolved.z == 0.0)) {
+    comparison.undecided();
+    return;
+  }
+  comparison.compared();
+  const double n = f.current.resolved[p].w;
+  comparison.value(p, "frames", n, resolved.x, halfTolerance(resolved.x, 0.0));
+  comparison.value(p, "rejected after the filter", resolved.y, past.rejected, 0.0);
+  const bool clipped = clip.z == 1.0;
+  comparison.value(p, "clipped or not", clip.x > 0.0 ? 1.0 : 0.0, clip.z, 0.0);
+  comparison.value(p, "share or none", clip.y > 0.0 ? 1.0 : 0.0, clip.z, 0.0);
+  if (!past.history.found) {
+    comparison.value(p, "clipping of nothing", clip.x, 0.0, 0.0);
+    return;
+  }
+  const glm::dvec3 output(f.current.resolved[p]);
+  const glm::dvec3 filtered(f.current.filtered[p]);
+  if (output.x == 0.0 || output.y == 0.0 || output.z == 0.0) return;  // What is below 0 is cut off.
+  const glm::dvec3 kept = filtered + (output - filtered) * n / (n - 1.0);
+  const glm::dvec3 before(past.history.value);
+  const glm::dvec3 size = glm::abs(output) + glm::abs(filtered) + glm::abs(before);
+  const double reach = size.x + size.y + size.z;
+  // The output is stored as a half, and what it says of the history is n / (n - 1) as uncertain; the history's own
+  // error comes on top. A length in YCoCg is at most that in RGB.
+  const glm::dvec3 pastError(past.history.error);
+  const double tolerance =
+      n / (n - 1.0) * 2.0 * reference::kHalfRoundoff * reach + pastError.x + pastError.y + pastError.z;
+  const double distance = glm::length(reference::toYCoCg(kept) - reference::toYCoCg(before));
+  comparison.value(p, "distance", clipped ? clip.x : 0.0, distance, tolerance);
+}
+
+class WalrTemporalViewsTest : public fg::test::GpuTest {};
+
+TEST_F(WalrTemporalViewsTest, ShowHistoryAndClipping) {
+  for (const NamedSettings& named : allSettings()) {
+    for (const Scene& scene : {thinBars(), skyBesideSurface()}) {
+      SCOPED_TRACE(named.name);
+      WalrRun run(device(), kSize, named.settings, {}, true, named.scene, {"history", "clip", "resolved-history"});
+      const bool keepTaps = sharesReprojection(named.settings.antialiasing, named.settings.accumulation);
+      DeviceFrame f;
+      for (std::uint32_t i = 0; i < 3; ++i) {
+        f.previous = std::move(f.current);
+        f.frame = movingFrame(scene, i);
+        f.frame.scene = named.scene;
+        f.current = run.frame(f.frame);
+      }
+      Comparison history("history");
+      Comparison clipping("clipping");
+      int clipped = 0;
+      reference::forEachPixel(kSize, [&](glm::ivec2 p) {
+        if (f.current.guides[p].depth == 0.0) {
+          for (const auto& [name, image] : f.current.views) EXPECT_EQ(image[p], glm::dvec3(0.0)) << name;
+          return;
+        }
+        expectHistory(history, f, p, named.settings, keepTaps);
+        expectClipping(clipping, f, p, named.settings, keepTaps);
+        clipped += f.current.views.at("clip")[p].z == 1.0 ? 1 : 0;
+      });
+      history.expect(kUndecidedShare);
+      clipping.expect(kUndecidedShare);
+      EXPECT_GT(clipped, 0);
+    }
+  }
+}
+
+TEST_F(WalrTemporalViewsTest, AStillPictureLosesNoHistory) {
+  const SceneDescription still{.cameraMotion = false, .objectMotion = false, .jitter = false};
+  WalrRun run(device(), kSize, robustWalr(), {}, true, still, {"history", "resolved-history", "broken-lighting"});
+  for (std::uint32_t i = 0; i < 3; ++i) {
+    const WalrStages stages = run.frame(renderStill(flatWall(), kSize, i));
+    const glm::dvec3 expected(i + 1.0, 0.0, i == 0 ? 1.0 : 0.0);
+    for (const char* view : {"history", "resolved-history"})
+      for (const glm::dvec3& v : stages.views.at(view).pixels()) EXPECT_EQ(v, expected) << view << ", frame " << i;
+    for (const glm::dvec3& v : stages.views.at("broken-lighting").pixels()) EXPECT_EQ(v, glm::dvec3(0.0));
+  }
+}
+
+// Each damaged pixel, and no other, is seen by the view that is there for it.
+TEST_F(WalrTemporalViewsTest, MasksShowExactlyWhatIsBroken) {
+  struct Damage {
+    const char* view;
+    int component;
+    void (*apply)(HostFrame&, glm::ivec2);
+  };
+  const Damage damages[] = {
+      {"broken-lighting", 0, [](HostFrame& f, glm::ivec2 p) { f.lighting[p].g = kNaN; }},
+      {"broken-lighting", 0, [](HostFrame& f, glm::ivec2 p) { f.lighting[p].b = -kInfinity; }},
+      {"broken-lighting", 1, [](HostFrame& f, glm::ivec2 p) { f.lighting[p].r = -0.25; }},
+      {"broken-lighting", 2, [](HostFrame& f, glm::ivec2 p) { f.motion[p].y = kInfinity; }},
+      {"broken-guides", 0, [](HostFrame& f, glm::ivec2 p) { f.depth[p] = kNaN; }},
+      {"broken-guides", 1, [](HostFrame& f, glm::ivec2 p) { f.normal[p].x = kNaN; }},
+      {"broken-guides", 2, [](HostFrame& f, glm::ivec2 p) { f.albedo[p].b = kInfinity; }},
+      {"no-surface", 0, [](HostFrame& f, glm::ivec2 p) { f.depth[p] = 1e10; }},
+      {"no-surface", 1, [](HostFrame& f, glm::ivec2 p) { f.normal[p] = glm::dvec3(0.0); }},
+      {"no-surface", 2, [](HostFrame& f, glm::ivec2 p) { f.albedo[p] = glm::dvec3(0.0); }},
+  };
+  WalrRun run(device(), kSize, robustWalr(), {}, false, {}, {"broken-lighting", "broken-guides", "no-surface"});
+  HostFrame frame = renderStill(bumpyWall(0.1), kSize);
+  Image<glm::dvec3> expected[] = {Image<glm::dvec3>(kSize), Image<glm::dvec3>(kSize), Image<glm::dvec3>(kSize)};
+  const std::string views[] = {"broken-lighting", "broken-guides", "no-surface"};
+  int x = 3;
+  for (const Damage& damage : damages) {
+    x += 5;
+    for (int y = 2; y < kSize.y; y += 3) {
+      damage.apply(frame, {x, y});
+      for (int v = 0; v < 3; ++v)
+        if (views[v] == damage.view) expected[v][{x, y}][damage.component] = 1.0;
+      // A surface is not there, too, where depth, normal or albedo are no numbers.
+      if (std::string(damage.view) == "broken-guides") expected[2][{x, y}][damage.component] = 1.0;
+    }
+  }
+  const WalrStages stages = run.frame(frame);
+  for (int v = 0; v < 3; ++v) EXPECT_EQ(stages.views.at(views[v]).pixels(), expected[v].pixels()) << views[v];
+}
+
+}  // namespace
+}  // namespace walr::test
