@@ -135,10 +135,9 @@ int replacementStep(ivec2 p, int tap, int edge) {
                                           : int(hashBelow(key, uint(edge)));
 }
 
-// A pixel that shares its surface with few around it takes a little from beyond its edges.
+// A pixel that shares its surface with few around it takes a little from beyond its edges, where there is a surface.
 void addLeak(inout MomentSum sum, ivec2 q) {
-  if (any(lessThan(q, ivec2(0))) || any(greaterThanEqual(q, textureSize(depth, 0)))) return;
-  add(sum, kEdgeLeak, readMoments(q));
+  if (unpackDepth(packedDepthAt(q)) > 0.0) add(sum, kEdgeLeak, readMoments(q));
 }
 
 void main() {

@@ -70,9 +70,14 @@ void expectAccumulation(const DeviceFrame& f, const TemporalAccumulationSettings
   comparison.expect(kUndecidedShare);
 }
 
-/// What iteration `t` starts from on the device.
+/// What iteration `t` starts from on the device. Pixels without a surface have no moments, whatever lies in their
+/// place.
 AtrousState stateBefore(const test::WalrStages& stages, std::uint32_t t) {
-  return t == 0 ? reference::sampleMoments(stages.guides, stages.accumulated) : stages.iterations[t - 1];
+  if (t == 0) return reference::sampleMoments(stages.guides, stages.accumulated);
+  AtrousState state = stages.iterations[t - 1];
+  for (std::size_t i = 0; i < state.moments.pixels().size(); ++i)
+    if (stages.guides.pixels()[i].depth == 0.0) state.moments.pixels()[i] = {};
+  return state;
 }
 
 void expectIterations(const DeviceFrame& f, const WeightedRegressionSettings& settings) {

@@ -96,6 +96,20 @@ TEST_F(WalrBehaviourTest, SkyAndPixelsWithoutDiffuseLobeKeepEveryBit) {
   }
 }
 
+TEST_F(WalrBehaviourTest, TheSkysLightStaysInTheSky) {
+  for (WalrSettings settings : {robustWalr(), blocksWalr()}) {
+    for (const bool spatialOnly : {false, true}) {
+      SCOPED_TRACE(spatialOnly ? "single frame" : "with history");
+      settings.spatialOnly = spatialOnly;
+      WalrRun run = makeRun(kSmall, settings);
+      HostFrame frame = constantFrame(skyBesideSurface(), 0, kSmall);
+      for (std::size_t i = 0; i < frame.depth.pixels().size(); ++i)
+        if (frame.depth.pixels()[i] > 1e9) frame.lighting.pixels()[i] = glm::dvec3(1000.0);
+      expectConstant(run.frame(frame), frame);
+    }
+  }
+}
+
 /// Variance of the output relative to its squared mean, over a picture of one radiance.
 double relativeVariance(const WalrStages& stages) {
   double sum = 0.0;

@@ -103,6 +103,19 @@ TEST_F(WalrStagesTest, HoldForEveryReplacementWithAndWithoutDistances) {
   }
 }
 
+// Raw storage tells no sample from one by its features, and the light of the sky that lies there looks like some.
+TEST_F(WalrStagesTest, HoldForEveryStorageBesideALitSky) {
+  std::vector<HostFrame> frames = movingFrames(skyBesideSurface(), {64, 48});
+  for (HostFrame& frame : frames)
+    for (std::size_t i = 0; i < frame.depth.pixels().size(); ++i)
+      if (frame.depth.pixels()[i] > 1e9) frame.lighting.pixels()[i] = glm::dvec3(3.0, 2.0, 5.0);
+  for (NamedSettings named : allSettings()) {
+    SCOPED_TRACE(named.name);
+    named.settings.regression.edgeLeak = 0.3F;
+    expectSequence(device(), frames, named.settings);
+  }
+}
+
 TEST_F(WalrStagesTest, HoldForEveryNumberOfIterations) {
   for (const std::uint32_t iterations : {1U, 2U, 3U, 4U, 5U}) {
     SCOPED_TRACE(std::to_string(iterations) + " iterations");
