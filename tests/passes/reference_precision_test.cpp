@@ -5,14 +5,12 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/passes/linear_signal.h"
 #include "tests/passes/reference/walr.h"
-#include "tests/passes/synthetic_scene.h"
 
 namespace walr::test {
 namespace {
 
-using reference::Guide;
-using reference::HostFrame;
 using reference::Image;
 using reference::Storage;
 
@@ -32,26 +30,10 @@ double toneMappedRmse(const Image<glm::dvec3>& a, const Image<glm::dvec3>& b) {
   return std::sqrt(sum / (3.0 * double(a.pixels().size())));
 }
 
-/// A wall whose light is exactly linear in the features, with exponential noise.
-struct LinearSignal {
-  HostFrame frame;
-  Image<Guide> guides;
-  Image<glm::dvec4> noisy;
-  Image<glm::dvec3> truth;
-};
-LinearSignal linearSignal(double normalVariation) {
-  LinearSignal s{
-      renderStill(bumpyWall(normalVariation), kSize, 3), {}, Image<glm::dvec4>(kSize), Image<glm::dvec3>(kSize)};
-  s.guides = reference::prepareGuides(s.frame, Storage::Quantised);
-  const HostFrame clean = renderStill(bumpyWall(normalVariation), kSize, 3, Noise::None);
-  reference::forEachPixel(kSize, [&](glm::ivec2 p) {
-    const glm::dvec2 x = s.guides[p].features;
-    s.truth[p] = glm::dvec3(1.0 + x.x - 0.7 * x.y);
-    // The same exponential variate that the scene's samples have.
-    const double sample = s.truth[p].g * s.frame.lighting[p].g / clean.lighting[p].g;
-    s.noisy[p] = glm::dvec4(glm::dvec3(reference::roundToHalf(sample)), 1.0);
-  });
-  return s;
+Image<glm::dvec4> withLength(const Image<glm::dvec3>& colours) {
+  Image<glm::dvec4> result(colours.size());
+  reference::forEachPixel(colours.size(), [&](glm::ivec2 p) { result[p] = glm::dvec4(colours[p], 1.0); });
+  return result;
 }
 
 /// Relative root mean square distance of the filtered signal to the truth.
@@ -61,15 +43,9 @@ double relativeRmse(const LinearSignal& signal, MomentStorage storage, Regularis
   settings.regularisation.method = regularisation;
   settings.regularisation.ridge = static_cast<float>(epsilon);
   settings.keepSampleCount = storage == MomentStorage::Centred16;
-  const Image<glm::dvec3> out =
-      reference::weightedRegression(signal.frame, signal.guides, signal.noisy, Storage::Quantised, settings);
-  double error = 0.0;
-  double size = 0.0;
-  reference::forEachPixel(kSize, [&](glm::ivec2 p) {
-    error += std::pow(out[p].g - signal.truth[p].g, 2);
-    size += std::pow(signal.truth[p].g, 2);
-  });
-  return std::sqrt(error / size);
+  return relativeRmse(signal,
+                      reference::weightedRegression(signal.frame, signal.guides, withLength(signal.frame.lighting),
+                                                    Storage::Quantised, settings));
 }
 
 // What a storage costs is its distance to single-precision raw moments, regularised in the same way. A storage fails
@@ -78,7 +54,7 @@ TEST(Precision, EachStorageHoldsAtItsOwnEpsilonAndFailsBelowIt) {
   constexpr auto kFloor = Regularisation::Floor;
   for (const double variation : {1e-4, 1e-2, 0.1, 0.3}) {
     SCOPED_TRACE(variation);
-    const LinearSignal signal = linearSignal(variation);
+    const LinearSignal signal = linearSignal(kSize, variation);
     const auto error = [&](MomentStorage storage, double epsilon) {
       return relativeRmse(signal, storage, kFloor, epsilon);
     };
@@ -87,7 +63,7 @@ TEST(Precision, EachStorageHoldsAtItsOwnEpsilonAndFailsBelowIt) {
     EXPECT_LE(error(MomentStorage::Centred16, 1e-4), 1.1 * error(MomentStorage::Raw32, 1e-4));
     EXPECT_GT(error(MomentStorage::Raw11, 1e-4), 1.0);
   }
-  const LinearSignal bumpy = linearSignal(1e-2);
+  const LinearSignal bumpy = linearSignal(kSize, 1e-2);
   EXPECT_GT(relativeRmse(bumpy, MomentStorage::Raw16, kFloor, 1e-5), 1.0);
   EXPECT_LE(relativeRmse(bumpy, MomentStorage::Centred16, kFloor, 1e-6),
             1.1 * relativeRmse(bumpy, MomentStorage::Raw32, kFloor, 1e-6));
@@ -95,7 +71,7 @@ TEST(Precision, EachStorageHoldsAtItsOwnEpsilonAndFailsBelowIt) {
 
 /// The spatial filter up to the solve with moments rounded between iterations, or not; the result is not rounded.
 Image<glm::dvec3> filterWith(const LinearSignal& signal, Storage storage, const WeightedRegressionSettings& settings) {
-  reference::AtrousState state = reference::sampleMoments(signal.guides, signal.noisy);
+  reference::AtrousState state = reference::sampleMoments(signal.guides, withLength(signal.frame.lighting));
   for (std::uint32_t t = 0; t < settings.iterations; ++t) {
     const bool last = t + 1 == settings.iterations;
     state =
@@ -111,7 +87,7 @@ Image<glm::dvec3> filterWith(const LinearSignal& signal, Storage storage, const 
 // The project's requirement: what rounding the moments does to the tone-mapped picture.
 TEST(Precision, StorageRoundingStaysBelowItsBudget) {
   for (const double variation : {1e-3, 0.1}) {
-    const LinearSignal signal = linearSignal(variation);
+    const LinearSignal signal = linearSignal(kSize, variation);
     const auto distance = [&](MomentStorage storage) {
       WeightedRegressionSettings settings;
       settings.storage = storage;
