@@ -33,7 +33,7 @@ class TextWriter {
     const MemoryReport& memory = plan_.memory;
     out_ << "memory: persistent " << memory.persistentBytes << ", transient " << memory.transientUnaliasedBytes
          << " unaliased, " << memory.transientPeakBytes << " aliased, at least " << memory.transientLowerBoundBytes
-         << "\n";
+         << ", together " << memory.persistentBytes + memory.transientPeakBytes << "\n";
     const TrafficReport& traffic = plan_.traffic;
     out_ << "traffic: read " << traffic.bytesRead << ", written " << traffic.bytesWritten << ", "
          << traffic.bytesPerPixel() << " bytes a pixel\n";
