@@ -23,7 +23,6 @@ SvgfSettings paperSvgf() {
   settings.accumulation.maxSamples = 5.0F;
   settings.filter.iterations = 5;
   settings.filter.sigmaNormal = 128.0F;
-  settings.filter.sigmaLuminance = 4.0F;
   settings.filter.feedback = 1;
   return settings;
 }

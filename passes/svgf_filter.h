@@ -23,9 +23,9 @@ struct SvgfFilterSettings {
   std::uint32_t iterations = 4;
   std::uint32_t radius = 2;
   float sigmaDepth = 0.02F;
-  float sigmaNormal = 16.0F;
+  float sigmaNormal = 24.0F;
   bool luminanceWeight = true;
-  float sigmaLuminance = 6.0F;
+  float sigmaLuminance = 4.0F;
   float minHistory = 4.0F;
   std::uint32_t feedback = 0;
 
