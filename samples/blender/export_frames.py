@@ -130,6 +130,8 @@ def set_up(scene, size):
         layer.use_pass_diffuse_indirect = True
         layer.use_pass_diffuse_color = True
         layer.use_pass_emit = True
+        # The emission pass lacks the sky.
+        layer.use_pass_environment = True
         layer.cycles.denoising_store_passes = False
 
 

@@ -107,6 +107,14 @@ std::set<std::string> viewLayersWith(std::span<const std::string> channels, cons
   return layers;
 }
 
+/// Whether a file has a plane, or a part of it.
+bool hasPlane(const ExrReader& file, const RecognizedLayout& layout, const Plane& plane) {
+  const std::vector<std::string> present = file.channels();
+  return std::ranges::any_of(plane.components, [&](char component) {
+    return std::ranges::find(present, layout.channel(plane.name, component)) != present.end();
+  });
+}
+
 void requirePlanes(const ExrReader& file, const RecognizedLayout& layout, std::span<const Plane* const> planes,
                    const std::string& wayOut) {
   const std::vector<std::string> present = file.channels();
@@ -128,11 +136,15 @@ void requirePlanes(const ExrReader& file, const RecognizedLayout& layout, std::s
 }  // namespace
 
 const Layout& cyclesLayout() {
-  // Blender's vectors point to the previous position with y up; its normals are in world space.
-  static const Layout layout{"Blender Cycles multi-layer", kCyclesPlanes, CameraSource::JsonFile,
+  // Blender's vectors point to the previous position with y up; its normals are in world space. Its emission is that of
+  // surfaces.
+  static const Layout layout{"Blender Cycles multi-layer",
+                             kCyclesPlanes,
+                             CameraSource::JsonFile,
                              InputConventions{.normal = InputConventions::Space::World,
                                               .motionDepth = InputConventions::MotionDepth::StaticScene},
-                             glm::vec2(1.0F, -1.0F)};
+                             glm::vec2(1.0F, -1.0F),
+                             "Env"};
   return layout;
 }
 
@@ -199,8 +211,16 @@ void readFrame(ExrReader& file, const RecognizedLayout& layout, bool composite, 
       addTargets(targets, layout, plane, imageOf(frame, plane.role), file);
     }
   }
+  Image sky;
+  const Plane skyPlane{Role::Emission, layout.layout->sky, "RGB", true};
+  if (composite && hasPlane(file, layout, skyPlane)) {
+    addTargets(targets, layout, skyPlane, sky, file);
+  }
   file.read(targets);
   findNonFinite(file.path(), targets, frame.nonFinite);
+  for (std::size_t i = 0; i < sky.values().size(); ++i) {
+    frame.emission.values()[i] += sky.values()[i];
+  }
 }
 
 Reference readReference(ExrReader& file, const RecognizedLayout& layout, bool composite,
@@ -209,8 +229,7 @@ Reference readReference(ExrReader& file, const RecognizedLayout& layout, bool co
   std::vector<ExrReader::Target> targets;
   addTargets(targets, layout, planeOf(*layout.layout, Role::Indirect), reference.indirect, file);
   const Plane& direct = planeOf(*layout.layout, Role::Direct);
-  const std::vector<std::string> channels = file.channels();
-  if (composite && std::ranges::find(channels, layout.channel(direct.name, 'R')) != channels.end()) {
+  if (composite && hasPlane(file, layout, direct)) {
     addTargets(targets, layout, direct, reference.direct, file);
   }
   file.read(targets);

@@ -34,6 +34,8 @@ struct Layout {
   CameraSource cameras;
   InputConventions conventions;
   glm::vec2 motionScale;  ///< See `FrameDescription::motionScale`.
+  /// Plane with the radiance of the sky, which is added to the emission where a file has it; empty: none.
+  std::string_view sky = {};
 };
 
 const Layout& cyclesLayout();

@@ -152,6 +152,22 @@ TEST_F(SequenceTest, CompositeChannelsAreNeededForACompositeOnly) {
   expectRefused({"DiffDir.R, Emit.B", "--composite"}, options);
 }
 
+TEST_F(SequenceTest, AddsTheSkyOfBlenderToItsEmission) {
+  files.write(0, 0);
+  files.writeFrame(0, [](Channels& channels) {
+    for (const char* const component : {"R", "G", "B"}) {
+      Image sky(channels.at("Emit.R").width(), channels.at("Emit.R").height(), 1);
+      sky.at(1, 0, 0) = 3.0F;
+      channels.emplace(std::string("Env.") + component, sky);
+    }
+  });
+  SequenceOptions options;
+  options.composite = true;
+  const Frame frame = open(options).read(0);
+  EXPECT_TRUE(open().read(0).emission.empty());
+  EXPECT_EQ(frame.emission.at(1, 0, 2), frame.emission.at(0, 0, 2) + 3.0F);
+}
+
 TEST_F(SequenceTest, AReferenceWithoutLightIsNamed) {
   files.write(0, 0);
   files.writeReference(0, [](Channels& channels) { channels.erase("DiffInd.R"); });
