@@ -185,12 +185,12 @@ class Gltf:
         animation["samplers"].append({"input": times, "output": output, "interpolation": "LINEAR"})
         animation["channels"].append({"sampler": len(animation["samplers"]) - 1, "target": {"node": node, "path": path}})
 
-    def camera(self, positions, targets):
+    def camera(self, positions, targets, name="camera"):
         """A camera with one position and target a frame."""
-        camera = self.add("cameras", {"name": "camera", "type": "perspective",
+        camera = self.add("cameras", {"name": name, "type": "perspective",
                                       "perspective": {"yfov": 0.8, "aspectRatio": 16 / 9, "znear": 0.05, "zfar": 50.0}})
         rotations = [look_at(p, t) for p, t in zip(positions, targets)]
-        node = self.node({"name": "camera", "camera": camera, "translation": positions[0], "rotation": rotations[0]})
+        node = self.node({"name": name, "camera": camera, "translation": positions[0], "rotation": rotations[0]})
         self.animate(node, "translation", positions)
         self.animate(node, "rotation", rotations)
 
@@ -269,6 +269,14 @@ def make_box():
     steps = [max(0, i - 3) for i in range(48)]
     scene.camera([(round(-0.9 + 0.04 * s, 6), 1.45, round(2.3 - 0.012 * s, 6)) for s in steps],
                  [(round(-0.15 + 0.012 * s, 6), 1.05, -1.2) for s in steps])
+    # Others look at one thing each and move from the start.
+    frames = range(48)
+    scene.camera([(round(-1.5 + 0.02 * i, 6), 0.75, 1.25) for i in frames],
+                 [(round(-1.1 + 0.015 * i, 6), 0.45, 0.25) for i in frames], "fence")
+    scene.camera([(round(0.7 - 0.02 * i, 6), 1.5, -1.3) for i in frames],
+                 [(round(0.1 - 0.02 * i, 6), 1.6, -2.5) for i in frames], "tiled wall")
+    scene.camera([(1.0, 1.6, round(-2.0 + 0.012 * i, 6)) for i in frames],
+                 [(2.0, 1.5, round(-1.0 + 0.006 * i, 6)) for i in frames], "window")
     return scene
 
 
