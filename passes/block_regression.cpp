@@ -19,34 +19,41 @@ struct BlockGrid {
   fg::Buffer frame;
   fg::Extent pixels;
   fg::Extent blocks;
-  std::uint32_t size;
+  fg::Extent cells;        // Of the coarse fit.
+  std::uint32_t size;      // Pixels per axis of a block.
+  std::uint32_t cellSize;  // Pixels per axis of a cell.
   BlockRegressionConstants constants;
 };
 
-/// Moments of every block and the depth of the pixel that stands for it.
+/// Moments of every block or cell and the depth that their depth feature is relative to.
 struct BlockAverages {
   std::array<fg::Texture, 5> moments;
   fg::Texture depth;
 };
 
-/// The fit of every block and the depth that its depth feature is relative to.
+/// The fit of every block or cell and the depth that its depth feature is relative to.
 struct BlockFits {
   fg::Texture a, b, c;
   fg::Texture depth;
 };
 
+fg::Extent divided(fg::Extent extent, std::uint32_t size) {
+  return {(extent.width + size - 1) / size, (extent.height + size - 1) / size};
+}
+
 BlockGrid gridOf(fg::Graph& graph, fg::Buffer frame, fg::Extent pixels, const BlockRegressionSettings& s) {
-  const fg::Extent blocks{(pixels.width + s.size - 1) / s.size, (pixels.height + s.size - 1) / s.size};
-  const float sigma = s.coarseSigma * static_cast<float>(pixels.height) / static_cast<float>(s.size);
+  const fg::Extent blocks = divided(pixels, s.size);
+  const float sigma = s.coarseSigma * static_cast<float>(pixels.height);
+  const auto cellSize = static_cast<std::uint32_t>(std::clamp(sigma / s.coarseResolution, 1.0F, 8.0F));
   BlockRegressionConstants constants{};
   constants.planeNear = s.planeNear;
   constants.planeFar = s.planeFar;
   constants.sdfFraction = s.sdfFraction;
   constants.ridge = s.ridge;
-  constants.coarseSigma = std::max(sigma, 0.5F);
+  constants.coarseSigma = std::max(sigma / static_cast<float>(cellSize), 0.5F);
   constants.coarseRadius = static_cast<std::int32_t>(std::ceil(s.coarseReach * constants.coarseSigma));
   constants.coarseSamples = s.coarseSamples;
-  return {graph, frame, pixels, blocks, s.size, constants};
+  return {graph, frame, pixels, blocks, divided(pixels, cellSize), s.size, cellSize, constants};
 }
 
 void readAverages(fg::PassBuilder& pass, const BlockAverages& averages) {
@@ -55,38 +62,38 @@ void readAverages(fg::PassBuilder& pass, const BlockAverages& averages) {
   pass.sample("depth", averages.depth);
 }
 
-BlockAverages writeAverages(const BlockGrid& grid, fg::PassBuilder& pass, const std::string& suffix) {
+BlockAverages writeAverages(const BlockGrid& grid, fg::PassBuilder& pass, fg::Extent extent,
+                            const std::string& suffix) {
   static constexpr std::array kBindings{"outMoments0", "outMoments1", "outMoments2", "outMoments3", "outMoments4"};
   BlockAverages averages;
   for (std::size_t i = 0; i < kBindings.size(); ++i) {
     const fg::Texture texture =
-        grid.graph.texture("block moments " + std::to_string(i) + suffix, {VK_FORMAT_R32G32B32A32_UINT, grid.blocks});
+        grid.graph.texture("block moments " + std::to_string(i) + suffix, {VK_FORMAT_R32G32B32A32_UINT, extent});
     averages.moments.at(i) = pass.store(kBindings.at(i), texture);
   }
-  averages.depth =
-      pass.store("outDepth", grid.graph.texture("block depth" + suffix, {VK_FORMAT_R32_UINT, grid.blocks}));
+  averages.depth = pass.store("outDepth", grid.graph.texture("block depth" + suffix, {VK_FORMAT_R32_UINT, extent}));
   return averages;
 }
 
-BlockFits writeFits(const BlockGrid& grid, fg::PassBuilder& pass, const std::string& name) {
+BlockFits writeFits(const BlockGrid& grid, fg::PassBuilder& pass, fg::Extent extent, const std::string& name) {
   const auto store = [&](const char* binding, const char* part, VkFormat format) {
-    return pass.store(binding, grid.graph.texture(name + part, {format, grid.blocks}));
+    return pass.store(binding, grid.graph.texture(name + part, {format, extent}));
   };
   return {store("outFitA", " a", VK_FORMAT_R32G32B32A32_UINT), store("outFitB", " b", VK_FORMAT_R32G32B32A32_UINT),
           store("outFitC", " c", VK_FORMAT_R32G32B32A32_UINT), store("outDepth", " depth", VK_FORMAT_R32_UINT)};
 }
 
-/// The fit of a Gaussian window around every block, regardless of edges.
+/// The fit of a Gaussian window around every cell, regardless of edges.
 BlockFits addCoarseFit(const BlockGrid& grid, const BlockAverages& averages) {
   fg::PassBuilder across = grid.graph.compute("coarse fit, across", shaders::blockCoarse);
   readAverages(across, averages);
-  across.constants(grid.constants).dispatch(grid.blocks);
-  const BlockAverages blurred = writeAverages(grid, across, " blurred");
+  across.constants(grid.constants).dispatch(grid.cells);
+  const BlockAverages blurred = writeAverages(grid, across, grid.cells, " blurred");
 
   fg::PassBuilder down = grid.graph.compute("coarse fit, down", shaders::blockCoarseLast);
   readAverages(down, blurred);
-  down.constants(grid.constants).dispatch(grid.blocks);
-  return writeFits(grid, down, "coarse fit");
+  down.constants(grid.constants).dispatch(grid.cells);
+  return writeFits(grid, down, grid.cells, "coarse fit");
 }
 
 /// In the order of `kView` of block_atrous.comp. Names of what the regression over pixels has, too, are the same.
@@ -172,8 +179,8 @@ BlockFits addFineFit(const BlockGrid& grid, BlockAverages averages, fg::Texture 
     const bool last = t + 1 == iterations;
     const std::string suffix = " " + std::to_string(t);
     fg::PassBuilder pass = declare("block a-trous" + suffix, last ? shaders::blockAtrousLast : shaders::blockAtrous);
-    if (last) return writeFits(grid, pass, "block fit");
-    averages = writeAverages(grid, pass, suffix);
+    if (last) return writeFits(grid, pass, grid.blocks, "block fit");
+    averages = writeAverages(grid, pass, grid.blocks, suffix);
   }
 }
 
@@ -204,11 +211,19 @@ fg::Texture addBlockRegression(fg::Graph& graph, fg::Buffer frame, fg::Texture a
 
   fg::PassBuilder gather = readPixels("block moments", shaders::blockMoments);
   gather.dispatch(grid.blocks);
-  const BlockAverages averages = writeAverages(grid, gather, "");
+  const BlockAverages averages = writeAverages(grid, gather, grid.blocks, "");
   const fg::Texture normal =
       gather.store("outNormal", graph.texture("block normal", {VK_FORMAT_R32_UINT, grid.blocks}));
 
-  const BlockFits coarse = addCoarseFit(grid, averages);
+  fg::PassBuilder cells = graph.compute("coarse fit, cells", shaders::blockCells);
+  cells.sample("depth", guides.depth)
+      .sample("shadingNormal", guides.shadingNormal)
+      .sample("occlusion", occlusion)
+      .sample("accumulated", accumulated)
+      .specialize("kAlphaIsSampleCount", alpha == LightingAlpha::SampleCount)
+      .specialize("kCellSize", grid.cellSize)
+      .dispatch(grid.cells);
+  const BlockFits coarse = addCoarseFit(grid, writeAverages(grid, cells, grid.cells, " of cells"));
   const BlockFits fine = addFineFit(grid, averages, normal, settings.iterations, inspection);
 
   const auto reconstruct = [&](const std::string& name, const fg::Shader& shader) {
@@ -222,6 +237,7 @@ fg::Texture addBlockRegression(fg::Graph& graph, fg::Buffer frame, fg::Texture a
         .sample("coarseB", coarse.b)
         .sample("coarseC", coarse.c)
         .sample("coarseDepth", coarse.depth)
+        .specialize("kCellSize", grid.cellSize)
         .dispatch(grid.pixels);
     return pass;
   };

@@ -18,8 +18,9 @@ struct BlockRegressionSettings {
   float planeFar = 0.015F;
   float sdfFraction = 0.75F;
   float ridge = 1e-4F;
-  float coarseSigma = 0.028F;
+  float coarseSigma = 0.03F;
   float coarseReach = 3.0F;
+  float coarseResolution = 1.5F;
   float coarseSamples = 300.0F;
 
   void visit(SettingVisitor& v) {
@@ -44,6 +45,10 @@ struct BlockRegressionSettings {
              "fraction of the image's height", 0.001, 0.2, "measured"},
             coarseSigma);
     v.visit({"blocks.coarse-reach", "Distance at which that window ends", "sigma", 1.0, 6.0, "measured"}, coarseReach);
+    v.visit({"blocks.coarse-resolution",
+             "Cells of the coarse fit's grid that this standard deviation spans at least, if of 8 x 8 pixels at most",
+             "cells", 0.5, 100.0, "measured"},
+            coarseResolution);
     v.visit({"blocks.coarse-samples", "Samples that the coarse fit counts for beside a block's own", "samples", 0.0,
              1e6, "measured"},
             coarseSamples);
@@ -51,8 +56,8 @@ struct BlockRegressionSettings {
 };
 
 /// Weighted linear regression of the lighting on {1, normal, inverse depth, ambient occlusion} over blocks of pixels:
-/// edge-aware a-trous averages a coarse fit where they hold few samples, and the
-/// reconstruction of every pixel from the fits around it.
+/// edge-aware a-trous averages, a coarse fit where they hold few samples, and the reconstruction of every pixel from
+/// the fits around it.
 /// @param frame       upload of `FrameConstants`
 /// @param accumulated RGBA16F: radiance to filter; a value that is not finite is no sample
 /// @param alpha       what the alpha channel of `accumulated` says; a pixel with no sample has no say

@@ -17,7 +17,7 @@ struct BmfrSettings {
   TemporalAccumulationSettings accumulation{.maxSamples = 5.0F};
   BmfrFitSettings fit;
   BmfrAccumulationSettings fittedAccumulation;
-  TemporalAntialiasingSettings antialiasing{.maxSamples = 5.0F};
+  TemporalAntialiasingSettings antialiasing;
 
   void visit(SettingVisitor& v) {
     v.visit({"spatial-only", "Fit each frame on its own, without the temporal stages", "", 0, 1, "bmfr.txt 3.3"},

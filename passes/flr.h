@@ -18,7 +18,7 @@ struct FlrSettings {
   AmbientOcclusionSettings occlusion;
   FlrRegressionSettings regression;
   float singleFrameSigma = 12.0F;
-  TemporalAntialiasingSettings antialiasing{.maxSamples = 5.0F};
+  TemporalAntialiasingSettings antialiasing;
 
   void visit(SettingVisitor& v) {
     v.visit({"spatial-only", "Filter each frame on its own, as published, without the temporal stages", "", 0, 1,

@@ -21,10 +21,7 @@ fg::Texture addBlockFilter(fg::Graph& graph, fg::Buffer frame, const FilterInput
                            const WalrSettings& settings, Inspection* inspection) {
   BlockRegressionSettings blocks = settings.blocks;
   const std::uint32_t height = graph.textureDesc(input.lighting).extent.height;
-  if (settings.fitWindow) {
-    if (height < 720) blocks.size = std::min(blocks.size, 2U);
-    blocks.iterations = std::min(blocks.iterations, fittingIterations(height, blocks.size));
-  }
+  if (settings.fitWindow) blocks.iterations = std::min(blocks.iterations, fittingIterations(height, blocks.size));
   const fg::Texture occlusion = addAmbientOcclusion(graph, frame, guides, settings.occlusion);
   return addBlockRegression(graph, frame, input.lighting, input.alpha, guides, occlusion, blocks, inspection);
 }
@@ -56,6 +53,7 @@ WalrSettings paperWalr() {
   settings.regression.keepSampleCount = false;
   settings.regression.regularisation.method = Regularisation::Floor;
   settings.regression.regularisation.ridge = 2e-3F;
+  settings.antialiasing.maxSamples = 8.0F;
   settings.antialiasing.dilateMotion = true;
   settings.antialiasing.rejection = HistoryRejection::None;
   return settings;

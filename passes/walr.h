@@ -40,8 +40,7 @@ struct WalrSettings {
                  0, 1, "measured"},
                 kFilters, filter);
     v.visit({"walr.fit-window",
-             "Leave out the last iterations where their window would span far more than a tenth of the image's height, "
-             "and halve blocks of 4 below 720 lines",
+             "Leave out the last iterations where their window would span far more than a tenth of the image's height",
              "", 0, 1, "measured"},
             fitWindow);
     regression.visit(v);

@@ -1,6 +1,6 @@
 // The blocks' fits applied to every pixel's features: those of the four blocks around it, weighed by plane and
-// distance, mixed with the coarse fits as their samples count against `coarseSamples`. A view (VIEW) does the same and
-// writes something found on the way.
+// distance, mixed with the coarse fits of the four cells around it as their samples count against `coarseSamples`. A
+// view (VIEW) does the same and writes something found on the way.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -9,6 +9,7 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 0) const int kBlockSize = 4;  // Pixels per axis.
+layout(constant_id = 2) const int kCellSize = 8;   // Pixels per axis.
 
 layout(set = 0, binding = 0, std140) uniform frameConstants { FrameConstants frame; };
 layout(set = 0, binding = 1) uniform utexture2D depth;
@@ -93,6 +94,58 @@ float fineShare(Prediction fine, Prediction coarse) {
 
 vec3 colourOf(Prediction sum) { return sum.weight > 0.0 ? sum.colour / sum.weight : vec3(0.0); }
 
+// The four texels around a pixel on a grid that is `size` times as coarse.
+struct Around {
+  ivec2 base;
+  vec2 f;
+};
+
+Around around(ivec2 p, int size) {
+  const vec2 position = (vec2(p) + 0.5) / float(size) - 0.5;
+  return Around(ivec2(floor(position)), fract(position));
+}
+
+// 0 outside the grid.
+float bilinearWeight(Around a, int i, ivec2 grid, out ivec2 texel) {
+  const ivec2 offset = ivec2(i & 1, i >> 1);
+  texel = a.base + offset;
+  if (any(lessThan(texel, ivec2(0))) || any(greaterThanEqual(texel, grid))) return 0.0;
+  const vec2 axisWeight = mix(1.0 - a.f, a.f, vec2(offset));
+  return axisWeight.x * axisWeight.y;
+}
+
+Prediction predictCoarse(ivec2 p, float z, vec3 shading, float occluded) {
+  Prediction sum = noPrediction();
+  const Around cells = around(p, kCellSize);
+  for (int i = 0; i < 4; ++i) {
+    ivec2 cell;
+    const float weight = bilinearWeight(cells, i, textureSize(coarseDepth, 0), cell);
+    if (weight <= 0.0) continue;
+    const float cellZ = unpackDepth(texelFetch(coarseDepth, cell, 0).x);
+    if (cellZ > 0.0) add(sum, weight, loadCoarse(cell), featuresOf(shading, cellZ / z - 1.0, occluded));
+  }
+  return sum;
+}
+
+Prediction predictFine(ivec2 p, float z, vec3 shading, float occluded) {
+  Prediction sum = noPrediction();
+  const vec3 normal = unpackNormal(texelFetch(geometricNormal, p, 0).x);
+  const Plane plane = planeAt(p, z, normal);
+  const Around blocks = around(p, kBlockSize);
+  for (int i = 0; i < 4; ++i) {
+    ivec2 block;
+    const float bilinear = bilinearWeight(blocks, i, textureSize(fitDepth, 0), block);
+    if (bilinear <= 0.0) continue;
+    const float blockZ = unpackDepth(texelFetch(fitDepth, block, 0).x);
+    if (blockZ == 0.0) continue;
+    const uint packedNormal = texelFetch(fitNormal, block, 0).x;
+    const float weight = bilinear * facing(normal, blockNormal(packedNormal)) *
+                         onPlane(planeDistance(plane, representativePixel(block, kBlockSize, packedNormal), blockZ));
+    add(sum, weight, loadFine(block), featuresOf(shading, blockZ / z - 1.0, occluded));
+  }
+  return sum;
+}
+
 // Where neither knows anything the pixel has only itself.
 vec3 mixFits(Prediction fine, Prediction coarse, vec3 mean) {
   if (fine.weight <= 0.0 && coarse.weight <= 0.0) return mean;
@@ -133,30 +186,9 @@ void main() {
     return;
   }
   const vec3 shading = unpackNormal(texelFetch(shadingNormal, p, 0).x);
-  const vec3 normal = unpackNormal(texelFetch(geometricNormal, p, 0).x);
-  const Plane plane = planeAt(p, z, normal);
   const float occluded = texelFetch(occlusion, p, 0).x;
-  const vec2 position = (vec2(p) + 0.5) / float(kBlockSize) - 0.5;
-  const ivec2 base = ivec2(floor(position));
-  const vec2 f = position - vec2(base);
-  Prediction fine = noPrediction();
-  Prediction coarse = noPrediction();
-  for (int i = 0; i < 4; ++i) {
-    const ivec2 offset = ivec2(i & 1, i >> 1);
-    const ivec2 block = base + offset;
-    if (any(lessThan(block, ivec2(0))) || any(greaterThanEqual(block, textureSize(fitDepth, 0)))) continue;
-    const vec2 axisWeight = mix(1.0 - f, f, vec2(offset));
-    const float bilinear = axisWeight.x * axisWeight.y;
-    const float coarseZ = unpackDepth(texelFetch(coarseDepth, block, 0).x);
-    if (coarseZ > 0.0) add(coarse, bilinear, loadCoarse(block), featuresOf(shading, coarseZ / z - 1.0, occluded));
-    const float fineZ = unpackDepth(texelFetch(fitDepth, block, 0).x);
-    if (fineZ > 0.0) {
-      const uint packedNormal = texelFetch(fitNormal, block, 0).x;
-      const float weight = bilinear * facing(normal, blockNormal(packedNormal)) *
-                           onPlane(planeDistance(plane, representativePixel(block, kBlockSize, packedNormal), fineZ));
-      add(fine, weight, loadFine(block), featuresOf(shading, fineZ / z - 1.0, occluded));
-    }
-  }
+  const Prediction coarse = predictCoarse(p, z, shading, occluded);
+  const Prediction fine = predictFine(p, z, shading, occluded);
 #ifdef VIEW
   imageStore(outView, p, vec4(viewOf(p, fine, coarse, occluded), 1.0));
 #else

@@ -18,42 +18,35 @@ const ivec2 kAxis = ivec2(0, 1);
 const ivec2 kAxis = ivec2(1, 0);
 #endif
 #include "include/block_textures.glsl"
+#include "include/window_depth.glsl"
 
-float depthAt(ivec2 block) { return insideGrid(block) ? unpackDepth(texelFetch(depth, block, 0).x) : 0.0; }
+float depthAt(ivec2 cell) { return insideGrid(cell) ? unpackDepth(texelFetch(depth, cell, 0).x) : 0.0; }
 
 float gaussian(int distance) {
   const float d = float(distance) / settings.coarseSigma;
   return exp(-0.5 * d * d);
 }
 
-// The depth to which the window's features are relative: the harmonic mean bounds them, because their mean is then 0.
-float windowDepth(ivec2 block) {
-  float weights = 0.0, inverse = 0.0;
-  for (int i = -settings.coarseRadius; i <= settings.coarseRadius; ++i) {
-    const float z = depthAt(block + i * kAxis);
-    if (z == 0.0) continue;
-    weights += gaussian(i);
-    inverse += gaussian(i) / z;
-  }
-  return weights > 0.0 ? weights / inverse : 0.0;
-}
-
 void main() {
-  const ivec2 block = ivec2(gl_GlobalInvocationID.xy);
-  if (!insideGrid(block)) return;
-  const uint packedDepth = packDepthSdf(windowDepth(block), 0u);
+  const ivec2 cell = ivec2(gl_GlobalInvocationID.xy);
+  if (!insideGrid(cell)) return;
+  WindowDepth window = WindowDepth(0.0, 0.0);
+  for (int i = -settings.coarseRadius; i <= settings.coarseRadius; ++i) {
+    add(window, gaussian(i), depthAt(cell + i * kAxis));
+  }
+  const uint packedDepth = packDepthSdf(harmonicMean(window), 0u);
   const float z = unpackDepth(packedDepth);
   BlockMomentSum sum = emptySum();
   for (int i = -settings.coarseRadius; i <= settings.coarseRadius; ++i) {
-    const float tapZ = depthAt(block + i * kAxis);
+    const float tapZ = depthAt(cell + i * kAxis);
     if (tapZ == 0.0) continue;
-    const BlockMoments tap = loadMoments(block + i * kAxis);
+    const BlockMoments tap = loadMoments(cell + i * kAxis);
     if (tap.samples > 0.0) add(sum, gaussian(i), rescaleDepth(tap, z / tapZ));
   }
 #ifdef LAST
-  storeFit(block, fitOf(finish(sum)));
+  storeFit(cell, fitOf(finish(sum)));
 #else
-  storeMoments(block, finish(sum));
+  storeMoments(cell, finish(sum));
 #endif
-  imageStore(outDepth, block, uvec4(packedDepth));
+  imageStore(outDepth, cell, uvec4(packedDepth));
 }

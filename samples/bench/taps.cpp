@@ -103,9 +103,10 @@ constexpr std::array kShaders = {
     ShaderTaps{"flr_apply", flrUpsampling},
     ShaderTaps{"ambient_occlusion", [](const Stage&) { return 0.0; }},
     ShaderTaps{"block_moments", [](const Stage&) { return 1.0; }},
+    ShaderTaps{"block_cells", [](const Stage&) { return 1.0; }},
     ShaderTaps{"block_coarse", coarseLine},
     ShaderTaps{"block_atrous", [](const Stage& stage) { return 9.0 * stage.share; }},
-    // The pixel itself, and the four blocks about it in the fine and the coarse fit.
+    // The pixel itself, and the four blocks and four cells about it.
     ShaderTaps{"block_apply", [](const Stage&) { return 1.0 + 2.0 * kBilinear; }},
     ShaderTaps{"joint_bilateral", [](const Stage& stage) { return window(specializationOf(stage, "kRadius")); }},
 };

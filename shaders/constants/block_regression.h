@@ -10,8 +10,8 @@ struct BlockRegressionConstants {
   float planeFar;       // Plane distance over depth from which the weight is 0 (d1).
   float sdfFraction;    // Share of the stored edge distance that edge tracing dares to step.
   float ridge;          // Added to the diagonal of the feature covariance.
-  float coarseSigma;    // Standard deviation of the coarse fit's Gaussian window, blocks.
-  int coarseRadius;     // Reach of that window, blocks.
+  float coarseSigma;    // Standard deviation of the coarse fit's Gaussian window, cells.
+  int coarseRadius;     // Reach of that window, cells.
   float coarseSamples;  // Samples that the coarse fit counts for.
 };
 

@@ -8,6 +8,7 @@
 const int kFeatures = 5;
 const int kDepthFeature = 3;
 const int kCovariances = kFeatures * (kFeatures + 1) / 2;
+#include "triangle.glsl"
 
 struct BlockMoments {
   float x[kFeatures];       // Means of the features.
@@ -45,13 +46,8 @@ BlockMoments oneSample(float x[kFeatures], vec3 colour) {
 BlockMoments rescaleDepth(BlockMoments m, float scale) {
   m.x[kDepthFeature] = scale * (m.x[kDepthFeature] + 1.0) - 1.0;
   m.yx[kDepthFeature] *= scale;
-  int k = 0;
-  for (int i = 0; i < kFeatures; ++i) {
-    for (int j = i; j < kFeatures; ++j, ++k) {
-      if (i == kDepthFeature) m.xx[k] *= scale;
-      if (j == kDepthFeature) m.xx[k] *= scale;
-    }
-  }
+  for (int i = 0; i <= kDepthFeature; ++i) m.xx[triangleEntry(kDepthFeature, i)] *= scale;
+  for (int i = kDepthFeature; i < kFeatures; ++i) m.xx[triangleEntry(i, kDepthFeature)] *= scale;
   return m;
 }
 
@@ -69,12 +65,15 @@ void add(inout BlockMomentSum s, float weight, BlockMoments m) {
   }
   const float w = weight * m.samples;
   const vec3 dy = m.y - s.originY;
-  int k = 0;
   for (int i = 0; i < kFeatures; ++i) {
     const float dx = m.x[i] - s.originX[i];
     s.sum.x[i] += w * dx;
     s.sum.yx[i] += w * (m.yx[i] + dx * dy);
-    for (int j = i; j < kFeatures; ++j, ++k) s.sum.xx[k] += w * (m.xx[k] + dx * (m.x[j] - s.originX[j]));
+    for (int j = 0; j < kFeatures; ++j) {
+      if (j < i) continue;
+      const int k = triangleEntry(j, i);
+      s.sum.xx[k] += w * (m.xx[k] + dx * (m.x[j] - s.originX[j]));
+    }
   }
   s.sum.y += w * dy;
   s.sum.samples += w;
@@ -93,12 +92,15 @@ BlockMoments finish(BlockMomentSum s) {
   const float scale = 1.0 / s.sum.samples;
   const vec3 dy = s.sum.y * scale;
   BlockMoments m;
-  int k = 0;
   for (int i = 0; i < kFeatures; ++i) {
     const float dx = s.sum.x[i] * scale;
     m.x[i] = s.originX[i] + dx;
     m.yx[i] = s.sum.yx[i] * scale - dx * dy;
-    for (int j = i; j < kFeatures; ++j, ++k) m.xx[k] = s.sum.xx[k] * scale - dx * (s.sum.x[j] * scale);
+    for (int j = 0; j < kFeatures; ++j) {
+      if (j < i) continue;
+      const int k = triangleEntry(j, i);
+      m.xx[k] = s.sum.xx[k] * scale - dx * (s.sum.x[j] * scale);
+    }
   }
   m.y = s.originY + dy;
   m.samples = s.sum.samples;

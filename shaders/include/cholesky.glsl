@@ -2,19 +2,20 @@
 // Needs: `kFeatures` and `kCovariances`, the entries of one triangle of their matrix.
 #ifndef WALR_CHOLESKY_GLSL
 #define WALR_CHOLESKY_GLSL
-
-// Where entry (i, j), i >= j, of the lower triangle lies, column by column: the upper one's order row by row.
-int triangleEntry(int i, int j) { return j * (2 * kFeatures - j - 1) / 2 + i; }
+#include "triangle.glsl"
 
 // Lower factor of the covariances with `ridge` added to the diagonal. Rounding may leave a variance or a pivot below
 // what it can be: the one is raised to 0, the other to `least`.
 float[kCovariances] choleskyFactor(float covariances[kCovariances], float ridge[kFeatures], float least[kFeatures]) {
   float l[kCovariances];
   for (int j = 0; j < kFeatures; ++j) {
-    for (int i = j; i < kFeatures; ++i) {
+    for (int i = 0; i < kFeatures; ++i) {
+      if (i < j) continue;
       float value = covariances[triangleEntry(i, j)];
       if (i == j) value = max(value, 0.0) + ridge[i];
-      for (int c = 0; c < j; ++c) value -= l[triangleEntry(i, c)] * l[triangleEntry(j, c)];
+      for (int c = 0; c < kFeatures; ++c) {
+        if (c < j) value -= l[triangleEntry(i, c)] * l[triangleEntry(j, c)];
+      }
       l[triangleEntry(i, j)] = i == j ? sqrt(max(value, least[i])) : value / l[triangleEntry(j, j)];
     }
   }
@@ -26,12 +27,16 @@ vec3[kFeatures] choleskySolve(float l[kCovariances], vec3 yx[kFeatures]) {
   vec3 x[kFeatures];
   for (int i = 0; i < kFeatures; ++i) {
     vec3 value = yx[i];
-    for (int c = 0; c < i; ++c) value -= l[triangleEntry(i, c)] * x[c];
+    for (int c = 0; c < kFeatures; ++c) {
+      if (c < i) value -= l[triangleEntry(i, c)] * x[c];
+    }
     x[i] = value / l[triangleEntry(i, i)];
   }
   for (int i = kFeatures - 1; i >= 0; --i) {
     vec3 value = x[i];
-    for (int c = i + 1; c < kFeatures; ++c) value -= l[triangleEntry(c, i)] * x[c];
+    for (int c = 0; c < kFeatures; ++c) {
+      if (c > i) value -= l[triangleEntry(c, i)] * x[c];
+    }
     x[i] = value / l[triangleEntry(i, i)];
   }
   return x;

@@ -24,6 +24,9 @@ using reference::Storage;
 
 constexpr glm::ivec2 kSize(45, 34);  // No multiple of a block.
 
+// About the pixels that it is at 216 lines. At 34 the default's window would hold hardly more samples than features.
+constexpr float kCoarseSigma = 0.15F;
+
 /// A frame as the regression takes it.
 struct Inputs {
   HostFrame frame;
@@ -100,15 +103,25 @@ class BlockRegression : public fg::test::GpuTest {
 };
 
 TEST_F(BlockRegression, BlocksOfTwoAgreeWithBruteForce) {
-  expectAgreement({.size = 2, .iterations = 2, .sdfFraction = 0.0F});
+  expectAgreement({.size = 2, .iterations = 2, .sdfFraction = 0.0F, .coarseSigma = kCoarseSigma});
 }
 
 TEST_F(BlockRegression, BlocksOfFourAgreeWithBruteForce) {
-  expectAgreement({.size = 4, .iterations = 1, .sdfFraction = 0.0F});
+  expectAgreement({.size = 4, .iterations = 1, .sdfFraction = 0.0F, .coarseSigma = kCoarseSigma});
 }
 
 TEST_F(BlockRegression, SteppingByTheEdgeDistanceAgreesWithBruteForce) {
-  expectAgreement({.size = 2, .iterations = 3});
+  expectAgreement({.size = 2, .iterations = 3, .coarseSigma = kCoarseSigma});
+}
+
+TEST_F(BlockRegression, CoarseFitsAgreeWithBruteForce) {
+  // A window of 5 pixels' standard deviation, on cells of 1, 2, 3 and 5 pixels, beside which the blocks' own fits
+  // hardly count.
+  BlockRegressionSettings settings{.size = 4, .iterations = 1, .coarseSigma = kCoarseSigma, .coarseSamples = 1000.0F};
+  for (const float resolution : {5.0F, 2.5F, 1.5F, 1.0F}) {
+    settings.coarseResolution = resolution;
+    expectAgreement(settings);
+  }
 }
 
 TEST_F(BlockRegression, AConstantStaysWhatItIs) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -42,6 +43,9 @@ struct Picture {
   const BlockRegressionSettings& settings;
 
   [[nodiscard]] glm::dvec3 ray(glm::ivec2 p) const { return rayThrough(frame.constants.rayFromPixel, pixelCentre(p)); }
+
+  /// Standard deviation of the coarse window, pixels.
+  [[nodiscard]] double coarseSigma() const { return double(settings.coarseSigma) * guides.size().y; }
 
   /// 1 on the plane through pixel `centre`, 0 away from it.
   [[nodiscard]] double onPlane(glm::ivec2 centre, double depth, glm::dvec3 normal, glm::ivec2 p, double pDepth) const {
@@ -153,32 +157,68 @@ Image<Block> growWindows(const Picture& picture, Image<Block> blocks) {
   return blocks;
 }
 
-/// Gaussian windows over the blocks' own pixels. Their depths are harmonic means, first of rows, then of columns.
-Image<Block> coarseWindows(const Picture& picture, const Image<Block>& blocks) {
-  const double sigma =
-      std::max(double(picture.settings.coarseSigma) * picture.guides.size().y / picture.settings.size, 0.5);
+/// The union of weighted windows; its depth is their harmonic mean.
+class Union {
+ public:
+  explicit Union(std::size_t pixels) { block_.window.assign(pixels, 0.0); }
+
+  void add(double weight, const Block& other) {
+    if (!other.surface) return;
+    addDepth(weight, other.depth);
+    addWindow(block_.window, weight, other.window);
+  }
+  void addPixel(std::size_t pixel, double depth, bool sampled) {
+    addDepth(1.0, depth);
+    block_.window[pixel] = sampled ? 1.0 : 0.0;
+  }
+  [[nodiscard]] Block block() && {
+    block_.surface = weights_ > 0.0;
+    if (block_.surface) block_.depth = weights_ / inverse_;
+    return std::move(block_);
+  }
+
+ private:
+  void addDepth(double weight, double depth) {
+    weights_ += weight;
+    inverse_ += weight / depth;
+  }
+
+  Block block_;
+  double weights_ = 0.0;
+  double inverse_ = 0.0;
+};
+
+/// Gaussian windows on a grid of cells of pixels, whichever surfaces these show. Their depths are harmonic means, first
+/// of cells, then of rows, then of columns.
+Image<Block> coarseWindows(const Picture& picture, int cellSize) {
+  const glm::ivec2 size = picture.guides.size();
+  const std::size_t pixels = picture.guides.pixels().size();
+  Image<Block> cells((size + cellSize - 1) / cellSize);
+  forEachPixel(cells.size(), [&](glm::ivec2 cell) {
+    Union pixelsOfCell(pixels);
+    for (int i = 0; i < cellSize * cellSize; ++i) {
+      const glm::ivec2 p = cellSize * cell + glm::ivec2(i % cellSize, i / cellSize);
+      if (!picture.guides.contains(p) || picture.guides[p].depth == 0.0) continue;
+      pixelsOfCell.addPixel(static_cast<std::size_t>(p.y) * size.x + p.x, picture.guides[p].depth,
+                            picture.accumulated[p].a > 0.0);
+    }
+    cells[cell] = std::move(pixelsOfCell).block();
+  });
+  const double sigma = std::max(picture.coarseSigma() / cellSize, 0.5);
   const int radius = static_cast<int>(std::ceil(double(picture.settings.coarseReach) * sigma));
   const auto blur = [&](const Image<Block>& from, glm::ivec2 axis) {
     Image<Block> to(from.size());
-    forEachPixel(from.size(), [&](glm::ivec2 b) {
-      Block& block = to[b];
-      block.window.assign(picture.guides.pixels().size(), 0.0);
-      double weights = 0.0;
-      double inverse = 0.0;
+    forEachPixel(from.size(), [&](glm::ivec2 cell) {
+      Union window(pixels);
       for (int i = -radius; i <= radius; ++i) {
-        const glm::ivec2 q = b + i * axis;
-        if (!from.contains(q) || !from[q].surface) continue;
-        const double weight = std::exp(-0.5 * i * i / (sigma * sigma));
-        weights += weight;
-        inverse += weight / from[q].depth;
-        addWindow(block.window, weight, from[q].window);
+        const glm::ivec2 q = cell + i * axis;
+        if (from.contains(q)) window.add(std::exp(-0.5 * i * i / (sigma * sigma)), from[q]);
       }
-      block.surface = weights > 0.0;
-      if (block.surface) block.depth = weights / inverse;
+      to[cell] = std::move(window).block();
     });
     return to;
   };
-  return blur(blur(blocks, {1, 0}), {0, 1});
+  return blur(blur(cells, {1, 0}), {0, 1});
 }
 
 /// Weighted least squares over a block's window; the ridge holds the slopes.
@@ -227,6 +267,18 @@ glm::dvec3 evaluate(const Picture& picture, const Fit& fit, glm::ivec2 p) {
   return glm::max(colour, glm::dvec3(0.0));
 }
 
+/// The fits around a pixel on a grid of `size` pixels, with their bilinear weights.
+template <typename Use>
+void forTheFourAround(glm::ivec2 p, int size, const Image<Fit>& grid, Use use) {
+  const glm::dvec2 position = (glm::dvec2(p) + 0.5) / double(size) - 0.5;
+  const glm::ivec2 base = glm::ivec2(glm::floor(position));
+  const glm::dvec2 f = position - glm::dvec2(base);
+  for (const glm::ivec2 offset : {glm::ivec2(0, 0), glm::ivec2(1, 0), glm::ivec2(0, 1), glm::ivec2(1, 1)}) {
+    if (!grid.contains(base + offset)) continue;
+    use(base + offset, (offset.x == 1 ? f.x : 1.0 - f.x) * (offset.y == 1 ? f.y : 1.0 - f.y));
+  }
+}
+
 }  // namespace
 
 Image<glm::dvec3> blockRegression(const HostFrame& frame, const Image<Guide>& guides,
@@ -239,8 +291,9 @@ Image<glm::dvec3> blockRegression(const HostFrame& frame, const Image<Guide>& gu
     forEachPixel(windows.size(), [&](glm::ivec2 b) { fits[b] = fitOf(picture, windows[b]); });
     return fits;
   };
+  const int cellSize = std::clamp(static_cast<int>(picture.coarseSigma() / double(settings.coarseResolution)), 1, 8);
   const Image<Fit> fine = fitAll(growWindows(picture, blocks));
-  const Image<Fit> coarse = fitAll(coarseWindows(picture, blocks));
+  const Image<Fit> coarse = fitAll(coarseWindows(picture, cellSize));
 
   Image<glm::dvec3> result(guides.size());
   forEachPixel(guides.size(), [&](glm::ivec2 p) {
@@ -252,26 +305,19 @@ Image<glm::dvec3> blockRegression(const HostFrame& frame, const Image<Guide>& gu
     double fineWeight = 0.0;
     double coarseWeight = 0.0;
     double samples = 0.0;
-    const glm::dvec2 position = (glm::dvec2(p) + 0.5) / double(settings.size) - 0.5;
-    const glm::ivec2 base = glm::ivec2(glm::floor(position));
-    const glm::dvec2 f = position - glm::dvec2(base);
-    for (int i = 0; i < 4; ++i) {
-      const glm::ivec2 offset(i % 2, i / 2);
-      const glm::ivec2 b = base + offset;
-      if (!blocks.contains(b)) continue;
-      const double bilinear = (offset.x == 1 ? f.x : 1.0 - f.x) * (offset.y == 1 ? f.y : 1.0 - f.y);
-      if (coarse[b].samples > 0.0) {
-        coarseSum += bilinear * evaluate(picture, coarse[b], p);
-        coarseWeight += bilinear;
-      }
-      if (fine[b].samples > 0.0) {
-        const double weight = bilinear * facing(guide.normal, blocks[b].normal) *
-                              picture.onPlane(p, guide.depth, guide.normal, blocks[b].pixel, blocks[b].depth);
-        fineSum += weight * evaluate(picture, fine[b], p);
-        samples += weight * fine[b].samples;
-        fineWeight += weight;
-      }
-    }
+    forTheFourAround(p, cellSize, coarse, [&](glm::ivec2 cell, double bilinear) {
+      if (coarse[cell].samples == 0.0) return;
+      coarseSum += bilinear * evaluate(picture, coarse[cell], p);
+      coarseWeight += bilinear;
+    });
+    forTheFourAround(p, int(settings.size), fine, [&](glm::ivec2 b, double bilinear) {
+      if (fine[b].samples == 0.0) return;
+      const double weight = bilinear * facing(guide.normal, blocks[b].normal) *
+                            picture.onPlane(p, guide.depth, guide.normal, blocks[b].pixel, blocks[b].depth);
+      fineSum += weight * evaluate(picture, fine[b], p);
+      samples += weight * fine[b].samples;
+      fineWeight += weight;
+    });
     if (coarseWeight > 0.0) result[p] = coarseSum / coarseWeight;
     if (fineWeight == 0.0) return;
     const double own = samples / fineWeight;

@@ -1,0 +1,19 @@
+// The depth to which the features of a window that no edge stops are relative: the harmonic mean bounds them, because
+// their mean is then 0.
+#ifndef WALR_WINDOW_DEPTH_GLSL
+#define WALR_WINDOW_DEPTH_GLSL
+
+struct WindowDepth {
+  float weights;
+  float inverse;
+};
+
+void add(inout WindowDepth window, float weight, float z) {
+  if (z == 0.0) return;
+  window.weights += weight;
+  window.inverse += weight / z;
+}
+
+float harmonicMean(WindowDepth window) { return window.weights > 0.0 ? window.weights / window.inverse : 0.0; }
+
+#endif
