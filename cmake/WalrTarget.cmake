@@ -5,6 +5,10 @@ function(walr_target target)
   if(WALR_WARNINGS_AS_ERRORS)
     target_compile_options(${target} PRIVATE -Werror)
   endif()
+  get_target_property(type ${target} TYPE)
+  if(WALR_SANITIZE AND type STREQUAL "EXECUTABLE")
+    target_link_libraries(${target} PRIVATE walr_sanitizer_policy)
+  endif()
 endfunction()
 
 # walr_library(<name> SOURCES ...): a library target walr_<name>, known to users as walr::<name>, whose includes are

@@ -12,11 +12,15 @@ namespace {
 std::atomic<std::uint64_t> allocations{0};
 }  // namespace
 
-// All other forms of new and delete end here.
+// All other forms of new and delete end here, but under AddressSanitizer, which has a nothrow form of its own.
 [[gnu::noinline]] void* operator new(std::size_t size) {
   ++allocations;
   if (void* const memory = std::malloc(size)) return memory;
   throw std::bad_alloc();
+}
+[[gnu::noinline]] void* operator new(std::size_t size, const std::nothrow_t& /*tag*/) noexcept {
+  ++allocations;
+  return std::malloc(size);
 }
 [[gnu::noinline]] void operator delete(void* memory) noexcept {
   std::free(memory);
