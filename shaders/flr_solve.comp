@@ -30,7 +30,8 @@ Coefficients solve(OuterProducts p) {
   for (int i = 0; i < kFeatures; ++i) {
     ridge[i] = settings.ridge * (i == kInverseDepth ? x[i] * x[i] : 1.0);
     yx[i] = scale * colourProductAt(p, i + 1) - y * x[i];
-    for (int j = i; j < kFeatures; ++j) {
+    for (int j = 0; j < kFeatures; ++j) {
+      if (j < i) continue;
       const int k = triangleEntry(j, i);
       covariances[k] = scale * productAt(p, kSquares + k) - x[i] * x[j];
     }

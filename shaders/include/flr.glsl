@@ -11,6 +11,7 @@ const int kFeatures = 5;
 const int kFeatures = 4;
 #endif
 const int kCovariances = kFeatures * (kFeatures + 1) / 2;
+#include "triangle.glsl"
 
 // Sums over samples of the distinct entries of (1, x)(1, x)^T, row by row, then of (1, x) y^T, x the guides, y the
 // colour. The first is the number of samples.
@@ -42,11 +43,18 @@ OuterProducts outerProducts(float x[kFeatures], vec3 y) {
   row[0] = 1.0;
   for (int i = 0; i < kFeatures; ++i) row[i + 1] = x[i];
   OuterProducts p = noSamples();
-  int k = 0;
-  for (int i = 0; i <= kFeatures; ++i)
-    for (int j = i; j <= kFeatures; ++j, ++k) p.v[k / 4][k % 4] = row[i] * row[j];
-  for (int i = 0; i <= kFeatures; ++i)
-    for (int c = 0; c < 3; ++c, ++k) p.v[k / 4][k % 4] = row[i] * y[c];
+  for (int i = 0; i <= kFeatures; ++i) {
+    for (int j = 0; j <= kFeatures; ++j) {
+      const int k = i * (2 * kFeatures - i + 1) / 2 + j;
+      if (j >= i) p.v[k / 4][k % 4] = row[i] * row[j];
+    }
+  }
+  for (int i = 0; i <= kFeatures; ++i) {
+    for (int c = 0; c < 3; ++c) {
+      const int k = kMeanY + 3 * i + c;
+      p.v[k / 4][k % 4] = row[i] * y[c];
+    }
+  }
   return p;
 }
 
