@@ -1,10 +1,14 @@
 // What regression and averaging promise, on a device and in every storage; reference_theory_test.cpp holds the
 // double-precision reference to the same.
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
+#include <glm/geometric.hpp>
+
 #include "tests/passes/frame_symmetry.h"
+#include "tests/passes/reference/guides.h"
 #include "tests/passes/reference/storage.h"
 #include "tests/passes/synthetic_scene.h"
 #include "tests/passes/walr_run.h"
@@ -80,6 +84,40 @@ TEST_F(WalrTheoryTest, FourIterationsTouchEachSampleOfTheWindowOnce) {
     });
     EXPECT_EQ(wrong, 0);
     EXPECT_NEAR(sum, impulse.r, tolerance * impulse.r);  // The mean of the picture is preserved.
+  }
+}
+
+/// The ridge r takes the slope s of a linear signal to (M + r)^-1 M s with the covariance M of a window, which misses
+/// the signal, averaged over the window, by no more than sqrt(r) |s| / 2. Each store rounds the mean and, through the
+/// covariances, the slope. The raw packings lose the variance in the squares and promise nothing.
+TEST_F(WalrTheoryTest, ASignalLinearInTheFeaturesComesBack) {
+  constexpr glm::ivec2 kSize(48, 36);
+  constexpr double kRidge = 1e-6;
+  constexpr int kStores = 4;  // The input, two between iterations, and the result.
+  HostFrame frame = renderStill(bumpyWall(0.3), kSize);
+  const Image<reference::Guide> guides = reference::prepareGuides(frame, reference::Storage::Quantised);
+  const glm::dvec2 slope(1.0, -0.5);
+  double largest = 0.0;
+  reference::forEachPixel(kSize, [&](glm::ivec2 p) {
+    frame.lighting[p] = glm::dvec3(2.0 + glm::dot(slope, guides[p].features));
+    largest = std::max(largest, frame.lighting[p].x);
+  });
+  for (const Storage& storage : kStorages) {
+    if (storage.storage != MomentStorage::Centred16 && storage.storage != MomentStorage::Raw32) continue;
+    SCOPED_TRACE(storage.name);
+    WalrSettings settings = settingsOf(storage);
+    settings.spatialOnly = true;
+    settings.regression.iterations = 3;
+    settings.regression.regularisation.ridge = static_cast<float>(kRidge);
+    settings.regression.regularisation.noiseRidge = 0.0F;
+    WalrRun run(device(), kSize, settings, {}, false);
+    const Image<glm::dvec4> output = run.frame(frame).output;
+    double squares = 0.0;
+    reference::forEachPixel(kSize, [&](glm::ivec2 p) { squares += std::pow(output[p].x - frame.lighting[p].x, 2.0); });
+    const double roundoff = std::max(storage.roundoff, 2.0 * reference::kHalfRoundoff);
+    const double rms = std::sqrt(squares / double(output.pixels().size()));
+    RecordProperty(storage.name, std::to_string(rms));
+    EXPECT_LE(rms, 0.5 * std::sqrt(kRidge) * glm::length(slope) + kStores * roundoff * (largest + glm::length(slope)));
   }
 }
 
