@@ -56,6 +56,8 @@ Swapchain::Swapchain(const GpuDevice& device, VkSurfaceKHR surface, fg::Extent w
 }
 
 Swapchain::~Swapchain() {
+  // A frame's fence tells of its work, not of its presentation, which waits for a semaphore.
+  vkQueueWaitIdle(queue_);
   for (VkImageView view : views_) {
     vkDestroyImageView(device_, view, nullptr);
   }
