@@ -1,7 +1,7 @@
 #include "framegraph/vulkan/staged_buffer.h"
 
 #include "framegraph/vulkan/image.h"
-#include "framegraph/vulkan/readback.h"
+#include "framegraph/vulkan/memory_barrier.h"
 
 namespace fg::vk {
 

@@ -2,7 +2,7 @@
 
 #include "framegraph/format.h"
 #include "framegraph/vulkan/image.h"
-#include "framegraph/vulkan/readback.h"
+#include "framegraph/vulkan/memory_barrier.h"
 
 namespace fg::vk {
 namespace {

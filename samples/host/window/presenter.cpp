@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "framegraph/vulkan/error.h"
+#include "framegraph/vulkan/memory_barrier.h"
 
 namespace walr::host {
 namespace {
@@ -121,17 +122,8 @@ void Presenter::showPicture(const fg::RecordContext& context, fg::Texture pictur
   const VkImage window = swapchain_.images()[image_];
   vkCmdClearColorImage(context.commandBuffer, window, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, &kBackground, 1,
                        &kWholeImage);
-  VkMemoryBarrier2 barrier{};
-  barrier.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2;
-  barrier.srcStageMask = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;
-  barrier.srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT;
-  barrier.dstStageMask = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;
-  barrier.dstAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT;
-  VkDependencyInfo dependency{};
-  dependency.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
-  dependency.memoryBarrierCount = 1;
-  dependency.pMemoryBarriers = &barrier;
-  device_.device().context().functions.vkCmdPipelineBarrier2(context.commandBuffer, &dependency);
+  constexpr fg::ExternalState kTransferWrite{VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT};
+  fg::vk::recordMemoryBarrier(device_.device().context(), context.commandBuffer, kTransferWrite, kTransferWrite);
 
   const fg::Extent extent = swapchain_.desc().extent;
   const bool inside = place_.x >= 0 && place_.y >= 0 && place_.x + place_.width <= static_cast<int>(extent.width) &&
