@@ -4,7 +4,8 @@
     report.py FOLDER    reads FOLDER/bench.json and FOLDER/pictures, writes FOLDER/report.html and FOLDER/pareto.svg
 
 `walr bench` leaves a copy of this script beside what it measured and runs it. Needs matplotlib (Debian:
-python3-matplotlib). The page is self-contained: plots are inlined as SVG, pictures as PNG.
+python3-matplotlib, and with it Pillow). The page is self-contained: plots are inlined as SVG, pictures as
+WebP, those of results without loss.
 """
 import base64
 import html
@@ -13,19 +14,19 @@ import math
 import sys
 
 import numpy as np
+from PIL import Image
 from report_data import TABLE, Bench, number
 from report_plots import (frames_figure, hard_cases_figure, pareto_figure, phases_figure, plt, response_figure, svg,
                           sweep_figure)
 
 
-def png(pixels, scale=1):
-    """An image element of RGB values in 0..1, each pixel enlarged by a whole factor."""
+def image(pixels, **options):
+    """An image element of RGB values in 0..1. Lossless unless the options of WebP say otherwise."""
     data = (np.clip(pixels, 0, 1) * 255 + 0.5).astype(np.uint8)
-    data = np.repeat(np.repeat(data, scale, axis=0), scale, axis=1)
     buffer = io.BytesIO()
-    plt.imsave(buffer, data, format="png")
+    Image.fromarray(data).save(buffer, format="WEBP", **(options or {"lossless": True}))
     source = base64.b64encode(buffer.getvalue()).decode()
-    return f'<img src="data:image/png;base64,{source}" alt="">'
+    return f'<img src="data:image/webp;base64,{source}" alt="">'
 
 
 def exposure(reference):
@@ -128,17 +129,16 @@ def hardest_places(bench, sequence, frame, count=3):
     return places, size
 
 
-def figure_element(pixels, caption):
-    return f"<figure>{png(shrunk(pixels))}<figcaption>{html.escape(caption)}</figcaption></figure>"
+def figure_element(pixels, caption, **options):
+    return f"<figure>{image(shrunk(pixels), **options)}<figcaption>{html.escape(caption)}</figcaption></figure>"
 
 
 def crops_table(pictures, places, size, exposed):
     """The places side by side, a row each, in every picture."""
-    scale = max(1, round(112 / size))
     rows = ["<tr><th></th>" + "".join(f"<th>{html.escape(n)}</th>" for n, _ in pictures) + "</tr>"]
     for index, (x, y) in enumerate(places):
         rows.append(f"<tr><td>{index + 1}</td>" + "".join(
-            f"<td>{png(displayed(p[y:y + size, x:x + size], exposed), scale)}</td>" for _, p in pictures) + "</tr>")
+            f"<td>{image(displayed(p[y:y + size, x:x + size], exposed))}</td>" for _, p in pictures) + "</tr>")
     return "<div class=crops><table>" + "".join(rows) + "</table></div>"
 
 
@@ -175,7 +175,7 @@ def pictures_section(bench, sequence, frame):
                   figure_element(displayed(result, exposed), "result")]
         for label, values in maps:
             coloured = plt.get_cmap("magma")(np.clip(values[name] / tops[label], 0, 1))[:, :, :3]
-            parts.append(figure_element(coloured, f"{label}, 0 to {tops[label]:.2g}"))
+            parts.append(figure_element(coloured, f"{label}, 0 to {tops[label]:.2g}", quality=80))
         parts.append("</div>")
     return "".join(parts)
 
@@ -302,6 +302,11 @@ def sequences_sections(bench, names):
     return out
 
 
+def vmaf_note(vmaf):
+    """Who computed VMAF, or why nobody did."""
+    return html.escape(f"VMAF by {vmaf['by']}." if vmaf["by"] else f"No VMAF: {vmaf['missing_because']}.")
+
+
 def page(bench):
     data, device = bench.json, bench.json["device"]
     out = [f"<!doctype html><html lang=en><meta charset=utf-8><title>walr bench</title><style>{STYLE}</style>",
@@ -342,7 +347,7 @@ def page(bench):
     out.append("<h2>What the figures are</h2><dl>" + "".join(
         f"<dt>{html.escape(m['name'])}</dt><dd>{html.escape(m['description'])}</dd>" for m in data["metrics"]) + "</dl>"
         "<p>Errors are those of the demodulated diffuse indirect light, over pixels with a diffuse lobe. Values that are not "
-        "finite count as the worst and show as magenta. Not measured: VMAF.</p></html>")
+        "finite count as the worst and show as magenta. " + vmaf_note(data["vmaf"]) + "</p></html>")
     return "\n".join(out)
 
 
