@@ -2,12 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <optional>
+#include <string>
 #include <utility>
 
 #include "samples/bench/bench_frame.h"
 #include "samples/bench/fingerprint.h"
 #include "samples/bench/npy.h"
 #include "samples/denoise/gpu_denoiser.h"
+#include "samples/errors.h"
 #include "samples/metrics/flip.h"
 #include "samples/metrics/metrics.h"
 #include "samples/metrics/ssim.h"
@@ -20,10 +24,11 @@ namespace {
 struct Lane {
   GpuDenoiser denoiser;
   RunRecord record;
-  DisplayedPair previous;
+  std::optional<DisplayedPair> previous;
   std::vector<std::uint64_t> results;            ///< Fingerprints of the first pass, by frame.
   std::vector<double> milliseconds;              ///< By timed frame.
   std::vector<std::vector<double>> passSamples;  ///< By pass, then by timed frame.
+  std::unique_ptr<Clip> clip;                    ///< Of the first pass, for VMAF.
 };
 
 std::uint64_t fingerprintOf(const Image& image) {
@@ -69,8 +74,10 @@ class Batch {
                         {},
                         {},
                         {},
-                        {}});
+                        {},
+                        makeClip(variant.name)});
     }
+    reference_ = makeClip("_reference");
   }
 
   std::vector<RunRecord> run() {
@@ -85,6 +92,7 @@ class Batch {
       previous = std::move(frame.surfaces);
       options_.frameDone();
     }
+    scoreClips();
     for (std::size_t repetition = 0; repetition < options_.repetitions; ++repetition) {
       for (std::size_t i = 0; i < frames; ++i) {
         const PackedFrame frame = packFrame(sequence_.read(i));
@@ -109,38 +117,75 @@ class Batch {
   void measure(Lane& lane, const BenchFrame& input, const std::vector<std::uint32_t>& before,
                const PixelMask& previousMask) {
     const Frame& frame = input.packed.frame;
-    const Image& reference = frame.reference->indirect;
-    const PixelMask& mask = input.surfaces.mask;
     const Image result = lane.denoiser.run(input.packed).indirect;
     lane.results.push_back(fingerprintOf(result));
+    FrameErrors& errors = lane.record.frames.emplace_back();
+    errors.frame = frame.number;
+    errors.resetHistory = frame.resetHistory;
+    errors.nonFinite = countNonFinite(result);
+    if (frame.reference) {
+      DisplayedPair pair = display(result, frame.reference->indirect, input.surfaces.mask);
+      judge(lane, input, result, pair);
+      if (!frame.resetHistory && lane.previous) {
+        judgeChange(lane, pair, input.surfaces.mask, before, previousMask);
+      }
+      lane.previous = std::move(pair);
+    } else {
+      lane.previous.reset();
+    }
+  }
 
-    DisplayedPair pair = display(result, reference, mask);
+  void judge(Lane& lane, const BenchFrame& input, const Image& result, const DisplayedPair& pair) {
+    const PixelMask& mask = input.surfaces.mask;
+    FrameErrors& errors = lane.record.frames.back();
     const ErrorFigures figures = compare(pair, mask);
     const std::vector<double> flip = flipMap(pair);
-    FrameErrors errors{.frame = frame.number,
-                       .resetHistory = frame.resetHistory,
-                       .rmse = figures.rmse,
-                       .psnr = figures.psnr,
-                       .ssim = figures.ssim,
-                       .flip = maskedMean(flip, mask),
-                       .relativeMse = relativeMse(result, reference, mask),
-                       .flicker = {},
-                       .luminanceChange = {},
-                       .referenceLuminanceChange = {},
-                       .nonFinite = countNonFinite(result)};
-    if (!frame.resetHistory) {
-      errors.flicker = flicker(pair, lane.previous, before);
-      if (const auto change = luminanceChange(pair, lane.previous, mask, previousMask)) {
-        errors.luminanceChange = change->test;
-        errors.referenceLuminanceChange = change->reference;
+    errors.rmse = figures.rmse;
+    errors.psnr = figures.psnr;
+    errors.ssim = figures.ssim;
+    errors.flip = maskedMean(flip, mask);
+    errors.relativeMse = relativeMse(result, input.packed.frame.reference->indirect, mask);
+    if (isKept(errors.frame)) {
+      writeNpy(picture(lane.record.variant, errors.frame), result);
+      writeNpy(picture(lane.record.variant + ".errors", errors.frame), errorMaps(pair, mask, flip));
+    }
+    if (lane.clip) {
+      lane.clip->append(pair.test);
+      if (&lane == &lanes_.front()) {
+        reference_->append(pair.reference);
+        scored_.push_back(lane.record.frames.size() - 1);
       }
     }
-    lane.record.frames.push_back(errors);
-    if (isKept(frame.number)) {
-      writeNpy(picture(lane.record.variant, frame.number), result);
-      writeNpy(picture(lane.record.variant + ".errors", frame.number), errorMaps(pair, mask, flip));
+  }
+
+  static void judgeChange(Lane& lane, const DisplayedPair& pair, const PixelMask& mask,
+                          const std::vector<std::uint32_t>& before, const PixelMask& previousMask) {
+    FrameErrors& errors = lane.record.frames.back();
+    errors.flicker = flicker(pair, *lane.previous, before);
+    if (const auto change = luminanceChange(pair, *lane.previous, mask, previousMask)) {
+      errors.luminanceChange = change->test;
+      errors.referenceLuminanceChange = change->reference;
     }
-    lane.previous = std::move(pair);
+  }
+
+  [[nodiscard]] std::unique_ptr<Clip> makeClip(const std::string& name) const {
+    if (options_.vmaf == nullptr) return nullptr;
+    return std::make_unique<Clip>(options_.pictures / (name + ".rgb"));
+  }
+
+  void scoreClips() {
+    for (Lane& lane : lanes_) {
+      if (!lane.clip) continue;
+      const std::vector<double> scores =
+          options_.vmaf->scores(lane.clip->finished(), reference_->finished(), sequence_.extent());
+      if (scores.size() != scored_.size()) {
+        throw OutputError("VMAF of " + lane.record.variant + " has " + std::to_string(scores.size()) + " scores for " +
+                          std::to_string(scored_.size()) + " frames. Choose another program with --ffmpeg");
+      }
+      for (std::size_t i = 0; i < scored_.size(); ++i) lane.record.frames[scored_[i]].vmaf = scores[i];
+      lane.clip.reset();
+    }
+    reference_.reset();
   }
 
   void time(Lane& lane, const PackedFrame& frame, std::size_t index) {
@@ -187,6 +232,8 @@ class Batch {
   const Sequence& sequence_;
   const BatchOptions& options_;
   std::vector<Lane> lanes_;
+  std::unique_ptr<Clip> reference_;
+  std::vector<std::size_t> scored_;  ///< Indices of the frames that are in the clips: those with a reference.
 };
 
 }  // namespace

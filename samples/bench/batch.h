@@ -8,6 +8,7 @@
 
 #include "samples/bench/run_record.h"
 #include "samples/bench/variant.h"
+#include "samples/bench/vmaf.h"
 #include "samples/denoise/gpu_device.h"
 #include "samples/sequence/sequence.h"
 
@@ -17,6 +18,7 @@ struct BatchOptions {
   std::size_t repetitions = 3;              ///< Timed passes over the sequence; at least 1.
   std::vector<int> pictureFrames;           ///< Frames whose pictures and error maps are kept.
   std::filesystem::path pictures;           ///< Folder for them; exists.
+  const VmafTool* vmaf = nullptr;           ///< Computes VMAF, by way of clips in the same folder.
   std::function<void()> frameDone = [] {};  ///< Called after each frame of each pass over the sequence.
 };
 

@@ -17,13 +17,15 @@ namespace {
 constexpr std::array kCommonExtents = {fg::Extent{1280, 720}, fg::Extent{1920, 1080}, fg::Extent{2560, 1440},
                                        fg::Extent{3840, 2160}};
 
-/// What all runs on a sequence are made from: program, device, sequence, repetitions.
+/// What all runs on a sequence are made from: programs, device, sequence, repetitions.
 std::string sequenceKey(const GpuDevice& device, const NamedSequence& sequence, const BenchOptions& options) {
   Fingerprint key;
   key.addFile("/proc/self/exe").add(device.name()).add(device.driver());
-  key.add(std::to_string(options.repetitions));
+  key.add(std::to_string(options.repetitions)).add(options.vmaf ? options.vmaf->description() : std::string());
   for (const Sequence::Entry& entry : sequence.sequence.entries()) {
-    key.addFile(entry.file).addFile(entry.reference).add(entry.resetHistory ? "reset" : "carried");
+    key.addFile(entry.file);
+    if (!entry.reference.empty()) key.addFile(entry.reference);
+    key.add(entry.resetHistory ? "reset" : "carried");
     // Of cameras.json, the part that matters.
     for (const glm::mat4* matrix : {&entry.camera.view, &entry.camera.previousView, &entry.camera.projection}) {
       key.add(std::as_bytes(std::span(matrix, 1)));
@@ -90,10 +92,10 @@ std::vector<NamedSequence> openSequences(const std::vector<std::filesystem::path
   for (const std::filesystem::path& folder : folders) {
     const std::filesystem::path whole = std::filesystem::weakly_canonical(folder);
     NamedSequence named{whole.filename().string(), folder, Sequence(folder, options)};
-    if (std::ranges::any_of(named.sequence.entries(), [](const auto& entry) { return entry.reference.empty(); })) {
+    if (std::ranges::all_of(named.sequence.entries(), [](const auto& entry) { return entry.reference.empty(); })) {
       throw InputError(folder.string() +
-                       ": some frames have no reference (ref_FFFF.exr), and without one there is no "
-                       "error to report. Choose frames that have one with --frames, or render references");
+                       ": no frame has a reference (ref_FFFF.exr), and without one there is no error to report. "
+                       "Render one for some of the frames; 'walr denoise --json' tells times without");
     }
     if (std::ranges::find(sequences, named.name, &NamedSequence::name) != sequences.end()) {
       throw InputError("two sequences are called '" + named.name +
@@ -113,6 +115,8 @@ BenchReport bench(const GpuDevice& device, const std::vector<NamedSequence>& seq
   BenchReport report;
   report.build = buildInfo();
   report.repetitions = options.repetitions;
+  if (options.vmaf) report.vmaf = options.vmaf->description();
+  report.whyNoVmaf = options.whyNoVmaf;
   report.variants = options.variants;
   for (const Variant& variant : options.variants) report.settings[variant.name] = settingsOf(variant);
   report.costs = allCosts(sequences, options.variants);
@@ -147,6 +151,7 @@ BenchReport bench(const GpuDevice& device, const std::vector<NamedSequence>& seq
     BatchOptions batch{.repetitions = options.repetitions,
                        .pictureFrames = result.pictureFrames,
                        .pictures = pictureFolder(options.output, result.name),
+                       .vmaf = options.vmaf ? &*options.vmaf : nullptr,
                        .frameDone = [&] { progress->advance(Progress::Clock::now()); }};
     prepareOutputDirectory(batch.pictures);
     for (const std::vector<Variant>& variants : todo.batches) {

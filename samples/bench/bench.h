@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <iosfwd>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,7 @@
 #include "samples/bench/response.h"
 #include "samples/bench/run_record.h"
 #include "samples/bench/variant.h"
+#include "samples/bench/vmaf.h"
 #include "samples/denoise/gpu_device.h"
 #include "samples/sequence/sequence.h"
 
@@ -28,7 +30,7 @@ struct NamedSequence {
 };
 
 /// Open sequences.
-/// @throws InputError naming a folder that cannot be read, has no references, or shares its name with another
+/// @throws InputError naming a folder that cannot be read, has no reference, or shares its name with another
 std::vector<NamedSequence> openSequences(const std::vector<std::filesystem::path>& folders,
                                          const SequenceOptions& options);
 
@@ -39,8 +41,10 @@ struct BenchOptions {
   /// Variants that run beside each other. More need more device memory at once, and lose more when interrupted. The
   /// baseline runs in every batch.
   std::size_t batch = 10;
-  bool hardCases = false;  ///< Also run the hard cases of the arithmetic (`numerics`, `methodHardCases`).
-  bool response = false;   ///< Also run all variants on the synthetic scenes (`responses`).
+  std::optional<VmafTool> vmaf;  ///< Computes VMAF where there is one.
+  std::string whyNoVmaf;         ///< In words, where there is none.
+  bool hardCases = false;        ///< Also run the hard cases of the arithmetic (`numerics`, `methodHardCases`).
+  bool response = false;         ///< Also run all variants on the synthetic scenes (`responses`).
 };
 
 /// What came of one sequence.
@@ -58,6 +62,8 @@ struct BenchReport {
   BuildInfo build;
   DeviceFacts device;
   std::size_t repetitions = 0;
+  std::string vmaf;       ///< What computed VMAF; empty where nothing did.
+  std::string whyNoVmaf;  ///< In words, where nothing did.
   std::vector<Variant> variants;
   std::map<std::string, std::vector<SettingValue>> settings;  ///< All settings of every variant, by its name.
   std::map<std::string, std::vector<PlanCosts>> costs;        ///< At the sequences' sizes and 720p to 4K, by variant.

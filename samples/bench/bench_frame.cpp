@@ -27,8 +27,10 @@ float depthChangeOfStill(const Frame& frame, int x, int y) {
 }
 
 VisibleSurfaces visibleSurfaces(const Frame& frame, const Layout& layout) {
+  // Where there is no reference, nothing of it is left out.
+  const Image& reference = frame.reference ? frame.reference->indirect : frame.albedo;
   VisibleSurfaces surfaces{frame.depth, frame.normal, frame.motion,
-                           diffuseMask(frame.albedo, frame.normal, frame.depth, kSkyDepth, frame.reference->indirect)};
+                           diffuseMask(frame.albedo, frame.normal, frame.depth, kSkyDepth, reference)};
   const glm::mat3 toWorld = glm::transpose(glm::mat3(frame.camera.view));
   const bool inView = layout.conventions.normal == InputConventions::Space::View;
   const bool still = layout.conventions.motionDepth == InputConventions::MotionDepth::StaticScene;
@@ -69,7 +71,8 @@ BenchFrame readBenchFrame(const Sequence& sequence, std::size_t index) {
   BenchFrame result;
   result.packed = packFrame(sequence.read(index));
   result.surfaces = visibleSurfaces(result.packed.frame, *sequence.layout().layout);
-  result.halfReference = readHalfReference(sequence, sequence.entries()[index].reference);
+  const std::filesystem::path& reference = sequence.entries()[index].reference;
+  if (!reference.empty()) result.halfReference = readHalfReference(sequence, reference);
   return result;
 }
 
@@ -82,6 +85,7 @@ std::vector<FrameFacts> survey(const Sequence& sequence) {
     FrameFacts fact;
     fact.number = frame.packed.frame.number;
     fact.resetHistory = frame.packed.frame.resetHistory;
+    fact.hasReference = frame.packed.frame.reference.has_value();
     if (!fact.resetHistory) fact.disoccluded = disoccludedShare(previousPixels(frame.surfaces, previous), mask);
     if (frame.halfReference) {
       fact.referenceNoise = referenceNoise(frame.packed.frame.reference->indirect, *frame.halfReference, mask);
@@ -93,15 +97,17 @@ std::vector<FrameFacts> survey(const Sequence& sequence) {
 }
 
 std::vector<int> pictureFrames(const std::vector<FrameFacts>& facts) {
-  std::vector<int> frames = {facts.back().number};
-  const FrameFacts* hardest = nullptr;
-  for (std::size_t i = std::min(kWarmUpFrames, facts.size()); i + 1 < facts.size(); ++i) {
-    if (facts[i].disoccluded && (hardest == nullptr || *facts[i].disoccluded > *hardest->disoccluded)) {
-      hardest = &facts[i];
-    }
+  std::vector<FrameFacts> candidates;
+  for (std::size_t i = 0; i < facts.size(); ++i) {
+    if (facts[i].hasReference) candidates.push_back(facts[i]);
+    if (i < kWarmUpFrames && !candidates.empty()) candidates.back().disoccluded.reset();
   }
-  if (hardest != nullptr && *hardest->disoccluded > 0.0) frames.insert(frames.begin(), hardest->number);
-  return frames;
+  const int last = candidates.back().number;
+  candidates.pop_back();
+  const auto hardest =
+      std::ranges::max_element(candidates, {}, [](const FrameFacts& fact) { return fact.disoccluded.value_or(0.0); });
+  if (hardest == candidates.end() || hardest->disoccluded.value_or(0.0) == 0.0) return {last};
+  return {hardest->number, last};
 }
 
 }  // namespace walr

@@ -18,7 +18,7 @@ struct BenchFrame {
   std::optional<Image> halfReference;  ///< Mean of one half of the reference's samples, where the file holds it.
 };
 
-/// Read a frame that has a reference. The half reference is the reference's plane with an A after its name:
+/// Read a frame. The half reference is the reference's plane with an A after its name:
 /// `DiffIndA.{R,G,B}` or `IndirectA.{R,G,B}`.
 /// @throws InputError
 BenchFrame readBenchFrame(const Sequence& sequence, std::size_t index);
@@ -27,6 +27,7 @@ BenchFrame readBenchFrame(const Sequence& sequence, std::size_t index);
 struct FrameFacts {
   int number = 0;
   bool resetHistory = false;
+  bool hasReference = true;
   std::optional<double> disoccluded;     ///< Share of the pixels that were not visible in the frame before.
   std::optional<double> referenceNoise;  ///< See `referenceNoise`.
 };
@@ -35,8 +36,9 @@ struct FrameFacts {
 /// @throws InputError
 std::vector<FrameFacts> survey(const Sequence& sequence);
 
-/// The frames whose pictures are kept, chosen by the input alone: the last one, and the one with the largest
-/// disocclusion after history has built up.
+/// The frames whose pictures are kept, chosen by the input alone among those that have a reference: the last one, and
+/// the one with the largest disocclusion after history has built up.
+/// @param facts  at least one of a frame with a reference
 std::vector<int> pictureFrames(const std::vector<FrameFacts>& facts);
 
 }  // namespace walr

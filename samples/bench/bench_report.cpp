@@ -139,9 +139,10 @@ struct Column {
   const char* metric;
   int decimals;
 };
-constexpr std::array kColumns = {Column{"RMSE", "rmse", 5},           Column{"PSNR", "psnr", 2},
-                                 Column{"SSIM", "ssim", 4},           Column{"FLIP", "flip", 4},
-                                 Column{"relMSE", "relative_mse", 4}, Column{"flicker", "flicker", 5}};
+constexpr std::array kColumns = {
+    Column{"RMSE", "rmse", 5}, Column{"PSNR", "psnr", 2},           Column{"SSIM", "ssim", 4},
+    Column{"FLIP", "flip", 4}, Column{"relMSE", "relative_mse", 4}, Column{"flicker", "flicker", 5},
+    Column{"VMAF", "vmaf", 1}};
 constexpr int kCellWidth = 9;
 
 const Metric& metricOf(const char* name) {
@@ -242,6 +243,8 @@ std::string benchJson(const BenchReport& report, const std::string& command) {
                         {"empty_pass_ms", device.timerMilliseconds ? toJson(*device.timerMilliseconds) : Json()},
                         {"copy_bytes_per_second", orNull(device.copyBytesPerSecond)}};
   document["tone_map"] = "x/(1+x), exposure 1";
+  document["vmaf"] = {{"by", report.vmaf.empty() ? Json() : Json(report.vmaf)},
+                      {"missing_because", report.vmaf.empty() ? Json(report.whyNoVmaf) : Json()}};
   document["baseline"] = kBaseline;
   document["repetitions"] = report.repetitions;
   document["metrics"] = Json::array();
@@ -308,6 +311,7 @@ void printBench(std::ostream& stream, const BenchReport& report) {
            << "time: ratio to " << kBaseline
            << " on the same frame in the same run; bytes and taps per pixel and memory (persistent "
               "and shared transient): from the plan.\n";
+    if (report.vmaf.empty()) stream << "No VMAF: " << report.whyNoVmaf << ".\n";
   }
   if (!report.responses.empty()) printResponses(stream, report);
   if (!report.numerics.empty()) {

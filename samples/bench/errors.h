@@ -20,6 +20,7 @@ struct FrameErrors {
   std::optional<double> flicker;
   std::optional<double> luminanceChange;
   std::optional<double> referenceLuminanceChange;
+  std::optional<double> vmaf;
   std::size_t nonFinite = 0;  ///< Values of the result that are not finite.
 };
 
@@ -47,6 +48,8 @@ inline constexpr std::array kMetrics = {
            "mean change of luminance from frame to frame at fixed pixels"},
     Metric{"reference_luminance_change", &FrameErrors::referenceLuminanceChange, Metric::Better::AsReference,
            "the reference's own"},
+    Metric{"vmaf", &FrameErrors::vmaf, Metric::Better::Higher,
+           "VMAF (Li et al. 2016) by libvmaf, 0 to 100, after the tone map, 8 bits; hardly sees fine noise"},
 };
 
 /// Mean of a figure over the frames that have it.

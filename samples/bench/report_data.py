@@ -11,7 +11,7 @@ COLOURS = {"walr": "#000000", "bmfr": "#0072B2", "svgf": "#D55E00", "flr": "#009
 SPARE_COLOURS = ["#56B4E9", "#8C6D31", "#7F3C8D", "#B2182B", "#4D9221"]
 ERRORS = [("rmse", "RMSE"), ("flip", "FLIP"), ("ssim", "1 - SSIM"), ("flicker", "flicker")]
 TABLE = [("rmse", "RMSE", 4), ("psnr", "PSNR", 2), ("ssim", "SSIM", 4), ("flip", "FLIP", 4),
-         ("relative_mse", "relMSE", 4), ("flicker", "flicker", 5)]
+         ("relative_mse", "relMSE", 4), ("flicker", "flicker", 5), ("vmaf", "VMAF", 1)]
 
 
 class Bench:

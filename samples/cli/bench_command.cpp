@@ -34,6 +34,8 @@ struct BenchArguments {
   BenchOptions bench;
   bool noHtml = false;
   std::string python = "/usr/bin/python3";
+  std::string ffmpeg = "ffmpeg";
+  std::filesystem::path vmafModel;
 };
 
 /// Variants in the order of the command line, the baseline first.
@@ -73,6 +75,7 @@ void runBench(BenchArguments& arguments, const std::string& command) {
   options.nonFinite = NonFinitePolicy::Replace;
   if (!arguments.frames.empty()) options.frames = parseFrameRange(arguments.frames);
   const std::vector<NamedSequence> sequences = openSequences(arguments.sequences, options);
+  arguments.bench.vmaf = VmafTool::find(arguments.ffmpeg, arguments.vmafModel, arguments.bench.whyNoVmaf);
   const std::filesystem::path& output = arguments.bench.output;
   prepareOutputDirectory(output);
 
@@ -165,6 +168,15 @@ void registerBench(CLI::App& program) {
   command->add_option("--python", arguments->python, "Python 3 with matplotlib, which draws report.html")
       ->type_name("FILE")
       ->capture_default_str();
+  command
+      ->add_option("--ffmpeg", arguments->ffmpeg,
+                   "An ffmpeg with the filter libvmaf, for VMAF; without one the report says that it is missing")
+      ->type_name("FILE")
+      ->capture_default_str();
+  command
+      ->add_option("--vmaf-model", arguments->vmafModel, "A model's file for libvmaf; default: the one that it brings")
+      ->check(CLI::ExistingFile)
+      ->type_name("FILE");
   command->footer(kExitCodeHelp);
   command->callback([arguments, command, &program] {
     if (arguments->sweeps == std::vector<std::string>{"all"}) {

@@ -65,6 +65,7 @@ TEST_F(BenchProgramTest, MeasuresMethodsBesideEachOther) {
   EXPECT_FALSE(data["commit"].get<std::string>().empty());
   EXPECT_FALSE(data["device"]["driver"].get<std::string>().empty());
   EXPECT_GT(data["device"]["copy_bytes_per_second"], 0.0);
+  EXPECT_EQ(data["vmaf"]["missing_because"].is_null(), data["vmaf"]["by"].is_string());
   ASSERT_EQ(data["variants"].size(), 6U);  // walr, two methods, three ways of replacement.
   EXPECT_EQ(data["variants"][0]["name"], "walr");
   const json walr = run(data, "walr");
@@ -117,6 +118,25 @@ TEST_F(BenchProgramTest, RunsOnlyWhatIsMissingOrHasChanged) {
   EXPECT_NE(changed.err.find("0 of 2 variants"), std::string::npos) << changed.err;
 }
 
+/// References are dear: frames without one are run all the same, and have no errors.
+TEST_F(BenchProgramTest, MeasuresTheFramesThatHaveAReference) {
+  expectSuccess(bench(first, {"--methods", "accumulate"}));
+  const json whole = run(report(first), "accumulate");
+  fs::remove(input / "ref_0003.exr");
+  fs::remove(input / "ref_0005.exr");
+  expectSuccess(bench(second, {"--methods", "accumulate"}, true));
+  const json data = report(second);
+  const json part = run(data, "accumulate");
+  ASSERT_EQ(part["frames"].size(), 6U);
+  for (const int frame : {0, 1, 2}) EXPECT_EQ(part["frames"][frame], whole["frames"][frame]);
+  for (const char* metric : {"rmse", "ssim", "flip", "flicker"}) EXPECT_TRUE(part["frames"][3][metric].is_null());
+  EXPECT_EQ(part["frames"][4]["rmse"], whole["frames"][4]["rmse"]);
+  EXPECT_TRUE(part["frames"][4]["flicker"].is_null()) << "there is no error before it to change";
+  EXPECT_EQ(part["mean_after_4"]["rmse"], whole["frames"][4]["rmse"]);
+  EXPECT_EQ(data["sequences"][0]["picture_frames"], json({4}));
+  EXPECT_TRUE(fs::exists(second / "report.html"));
+}
+
 /// The same method under two names differs from itself by less than the spread that is reported.
 TEST_F(BenchProgramTest, AMethodIsAsFastAsItself) {
   expectSuccess(bench(first, {"--methods", "walr", "--variant", "again=walr", "--repeat", "5"}));
@@ -127,6 +147,29 @@ TEST_F(BenchProgramTest, AMethodIsAsFastAsItself) {
   EXPECT_LE(std::abs(ratio["median"].get<double>() - 1.0), ratio["p95"].get<double>() - ratio["p5"].get<double>());
 }
 
+/// Two runs do not contradict each other: no pair of methods whose spreads lie apart changes places, and those that
+/// differ by their nature lie apart.
+TEST_F(BenchProgramTest, TwoRunsAgreeInRanking) {
+  const std::vector<std::string> methods = {"none", "accumulate", "walr", "joint_bilateral", "svgf", "flr"};
+  std::string list;
+  for (const std::string& method : methods) list += (list.empty() ? "" : ",") + method;
+  std::vector<json> runs;
+  for (const fs::path& output : {first, second}) {
+    expectSuccess(bench(output, {"--methods", list, "--repeat", "4"}));
+    runs.push_back(report(output));
+  }
+  const auto faster = [](const json& data, const std::string& a, const std::string& b) {
+    return run(data, a)["ratio"]["p95"].get<double>() < run(data, b)["ratio"]["p5"].get<double>();
+  };
+  for (const std::string& a : methods) {
+    for (const std::string& b : methods) EXPECT_FALSE(faster(runs[0], a, b) && faster(runs[1], b, a)) << a << ", " << b;
+  }
+  for (const json& data : runs) {
+    EXPECT_TRUE(faster(data, "none", "accumulate"));
+    EXPECT_TRUE(faster(data, "accumulate", "walr"));
+  }
+}
+
 TEST_F(BenchProgramTest, WhatIsWrongIsNamedBeforeAnythingIsWritten) {
   constexpr int kUsage = 2;
   constexpr int kInput = 3;
@@ -134,8 +177,8 @@ TEST_F(BenchProgramTest, WhatIsWrongIsNamedBeforeAnythingIsWritten) {
   expectFailure(bench(first, {"--sweep", "magic"}), kUsage, "known sweeps");
   expectFailure(bench(first, {"--variant", "x=walr,magic=1"}), kUsage, "magic");
   expectFailure(bench(first, {"--sequences", (directory.path() / "nowhere").string()}), kInput, "nowhere");
-  fs::remove(input / "ref_0003.exr");
-  expectFailure(bench(first, {}), kInput, "no reference");
+  for (int frame = 0; frame < 6; ++frame) fs::remove(input / ("ref_000" + std::to_string(frame) + ".exr"));
+  expectFailure(bench(first, {}), kInput, "no frame has a reference");
   EXPECT_FALSE(fs::exists(first));
 }
 

@@ -267,6 +267,8 @@ TEST(PictureFrames, AreTheLastAndTheHardestAfterHistoryHasBuiltUp) {
   EXPECT_EQ(pictureFrames(facts), (std::vector<int>{105, 107}));
   for (FrameFacts& fact : facts) fact.disoccluded = 0.0;
   EXPECT_EQ(pictureFrames(facts), std::vector<int>{107});
+  facts[7].hasReference = false;
+  EXPECT_EQ(pictureFrames(facts), std::vector<int>{106}) << "a picture needs a reference beside it";
 }
 
 }  // namespace
