@@ -80,6 +80,10 @@ Json sequenceJson(const SequenceReport& sequence) {
           {"runs", std::move(runs)}};
 }
 
+Json cutJson(const CutResponse& cut) {
+  return {{"rmse", cut.rmse}, {"left", cut.left}};
+}
+
 Json responseJson(const Response& response) {
   return {{"variant", response.variant},
           {"first_frame_rmse", response.firstFrame},
@@ -89,7 +93,10 @@ Json responseJson(const Response& response) {
           {"light_frames", orNull(response.lightFrames)},
           {"error_by_age", response.errorByAge},
           {"trail_by_age", response.trailByAge},
-          {"recovery_frames", orNull(response.recoveryFrames)}};
+          {"recovery_frames", orNull(response.recoveryFrames)},
+          {"light_lag", response.lightLag},
+          {"cut", cutJson(response.cut)},
+          {"untold_cut", cutJson(response.untoldCut)}};
 }
 
 Json hardCaseJson(const HardCaseErrors& errors) {
@@ -166,16 +173,20 @@ void printResponses(std::ostream& stream, const BenchReport& report) {
     stream << '\n';
   };
   stream << '\n' << std::left << std::setw(nameWidth) << "response" << std::right;
-  columns({"first RMSE", "settled RMSE", "flicker", "light, frames", "recovery", "trail at 0"});
+  columns({"first RMSE", "settled RMSE", "flicker", "light, frames", "light lag", "recovery", "trail at 0",
+           "left by cut", "untold cut"});
   for (const Response& response : report.responses) {
     stream << std::left << std::setw(nameWidth) << response.variant << std::right;
     columns({cell(response.firstFrame, 1, 4), cell(response.settled, 1, 4), cell(response.settledFlicker, 1, 5),
-             frames(response.lightFrames), frames(response.recoveryFrames), cell(response.trailByAge.front(), 1, 3)});
+             frames(response.lightFrames), cell(response.lightLag, 1, 1), frames(response.recoveryFrames),
+             cell(response.trailByAge.front(), 1, 3), cell(response.cut.left, 1, 3),
+             cell(response.untoldCut.left, 1, 3)});
   }
   stream
-      << "Synthetic scenes with a known answer: frames until a tenth of a light that went down is left, and until the "
-         "error behind a moving slab is within a quarter of what it is elsewhere; share of the slab's light that is "
-         "left on the first frame.\n";
+      << "Synthetic scenes with a known answer: frames until a tenth of a light that went down is left, by how many "
+         "frames a moving light lags, and frames until the error behind a moving slab is within a quarter of what it "
+         "is elsewhere; share of the slab's light, and of the picture before a camera cut, told and not, that is left "
+         "on the first frame.\n";
 }
 
 /// Worst case only of some results: the report has the whole table.

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <map>
+#include <numeric>
 
 #include "samples/bench/response_scene.h"
 #include "samples/denoise/gpu_denoiser.h"
@@ -109,6 +112,59 @@ void answerToDisocclusion(const GpuDevice& device, const Variant& variant, Respo
       firstIndex(response.errorByAge, [&](double error) { return error <= kRecovered * settled; });
 }
 
+std::vector<double> luminances(const Image& image) {
+  std::vector<double> values;
+  for (std::size_t i = 0; i < image.pixelCount(); ++i) values.push_back(luminance(image.pixel(i)));
+  return values;
+}
+
+double squaredDistance(const std::vector<double>& a, const std::vector<double>& b) {
+  return std::transform_reduce(a.begin(), a.end(), b.begin(), 0.0, std::plus<>(),
+                               [](double x, double y) { return (x - y) * (x - y); });
+}
+
+/// Where a parabola through three neighbours is least, from the middle one.
+double vertex(double before, double middle, double after) {
+  const double curvature = before - 2.0 * middle + after;
+  return curvature > 0.0 ? 0.5 * (before - after) / curvature : 0.0;
+}
+
+void answerToMovingLight(const GpuDevice& device, const Variant& variant, Response& response) {
+  constexpr int kFirstMeasured = 24;
+  constexpr int kOldest = 40;
+  constexpr int kNewest = -2;  // Ahead of its time only by noise.
+  std::map<int, std::vector<double>> truths;
+  for (int frame = kFirstMeasured - kOldest; frame < kMovingLightFrames - kNewest; ++frame) {
+    truths[frame] = luminances(movingLightFrame(kExtent, frame).truth);
+  }
+  GpuDenoiser denoiser(device, *makeVariant(variant), kExtent, projectLayout());
+  std::vector<double> distanceByAge(kOldest - kNewest + 1);
+  for (int frame = 0; frame < kMovingLightFrames; ++frame) {
+    const std::vector<double> result = luminances(denoiser.run(movingLightFrame(kExtent, frame).packed).indirect);
+    for (int age = kNewest; frame >= kFirstMeasured && age <= kOldest; ++age) {
+      distanceByAge.at(static_cast<std::size_t>(age - kNewest)) += squaredDistance(result, truths.at(frame - age));
+    }
+  }
+  const auto nearest =
+      std::clamp(std::ranges::min_element(distanceByAge), distanceByAge.begin() + 1, distanceByAge.end() - 2);
+  response.lightLag =
+      static_cast<double>(nearest - distanceByAge.begin()) + kNewest + vertex(*(nearest - 1), *nearest, *(nearest + 1));
+}
+
+CutResponse answerToCut(const GpuDevice& device, const Variant& variant, bool told) {
+  GpuDenoiser denoiser(device, *makeVariant(variant), kExtent, projectLayout());
+  for (int frame = 0; frame < kCut; ++frame) denoiser.run(cutFrame(kExtent, frame, told).packed);
+  const KnownFrame frame = cutFrame(kExtent, kCut, told);
+  const Image result = denoiser.run(frame.packed).indirect;
+  const std::vector<double> shown = luminances(result);
+  const std::vector<double> now = luminances(frame.truth);
+  const std::vector<double> old = luminances(cutFrame(kExtent, kCut - 1, told).truth);
+  double common = 0.0;
+  for (std::size_t i = 0; i < now.size(); ++i) common += (shown[i] - now[i]) * (old[i] - now[i]);
+  const PixelMask all(now.size(), 1);
+  return {compare(result, frame.truth, all).rmse.value(), common / squaredDistance(old, now)};
+}
+
 }  // namespace
 
 std::vector<Response> responses(const GpuDevice& device, std::span<const Variant> variants) {
@@ -118,6 +174,9 @@ std::vector<Response> responses(const GpuDevice& device, std::span<const Variant
     response.variant = variant.name;
     answerToLight(device, variant, response);
     answerToDisocclusion(device, variant, response);
+    answerToMovingLight(device, variant, response);
+    response.cut = answerToCut(device, variant, true);
+    response.untoldCut = answerToCut(device, variant, false);
   }
   return all;
 }

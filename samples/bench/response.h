@@ -11,6 +11,12 @@
 
 namespace walr {
 
+/// What the first frame after a camera cut is like.
+struct CutResponse {
+  double rmse = 0.0;
+  double left = 0.0;  ///< Share of the old picture that is still there, in linear luminance: 1 is all of it.
+};
+
 /// How a method answers to change, on synthetic scenes with a known answer (response_scene.h). Errors are after the
 /// tone map x / (1 + x).
 struct Response {
@@ -29,6 +35,11 @@ struct Response {
   /// Frames since disocclusion until the error is within a quarter of the wall's that nothing ever hid; absent where
   /// that is never.
   std::optional<int> recoveryFrames;
+  /// How many frames ago light that moves over a still wall lay as the result shows it: the age whose truth is nearest
+  /// to the result, mean over 24 frames.
+  double lightLag = 0.0;
+  CutResponse cut;        ///< Of the camera, told to the method.
+  CutResponse untoldCut;  ///< The same, and nobody said so: what rejection by surface saves.
 };
 
 /// Ages up to which `Response::errorByAge` and `trailByAge` reach.

@@ -5,12 +5,14 @@
 #include <cstdint>
 
 #include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 namespace walr {
 namespace {
 
 constexpr float kWallDepth = 6.0F;
+constexpr float kSecondWallDepth = 9.0F;
 constexpr float kSlabDepth = 3.0F;
 constexpr int kSlabSpeed = 4;
 constexpr float kDimmed = 0.1F;
@@ -38,6 +40,14 @@ Surface wall(int x, int y) {
   const glm::vec3 normal = glm::normalize(glm::vec3(0.3F * std::sin(u / 6.0F), 0.3F * std::cos(v / 8.0F), 1.0F));
   const float light = 0.35F + 0.15F * std::sin(u / 40.0F + v / 55.0F) + 0.3F * normal.x;
   return {kWallDepth, normal, light * glm::vec3(1.0F, 0.9F, 0.8F), 0.0F};
+}
+
+/// Another wall, of other bumps and other light.
+Surface secondWall(int x, int y) {
+  Surface surface = wall(2 * y + 7, x + 11);
+  surface.depth = kSecondWallDepth;
+  surface.radiance *= glm::vec3(0.2F, 0.3F, 0.4F);
+  return surface;
 }
 
 /// Left edge of the slab, which enters from the left border.
@@ -104,6 +114,23 @@ KnownFrame lightFrame(fg::Extent extent, int frame) {
     if (frame >= kLightChange) surface.radiance *= kDimmed;
     return surface;
   });
+}
+
+KnownFrame movingLightFrame(fg::Extent extent, int frame) {
+  const glm::vec2 start = {0.25F * static_cast<float>(extent.width), 0.5F * static_cast<float>(extent.height)};
+  const glm::vec2 centre = start + glm::vec2(kLightSpeed * static_cast<float>(frame), 0.0F);
+  return render(extent, frame, [&](int x, int y) {
+    Surface surface = wall(x, y);
+    const glm::vec2 offset = (glm::vec2(x, y) - centre) / kLightSigma;
+    surface.radiance *= 0.3F + 2.0F * std::exp(-0.5F * glm::dot(offset, offset));
+    return surface;
+  });
+}
+
+KnownFrame cutFrame(fg::Extent extent, int frame, bool told) {
+  KnownFrame known = render(extent, frame, [&](int x, int y) { return frame < kCut ? wall(x, y) : secondWall(x, y); });
+  known.packed.frame.resetHistory = frame == 0 || (told && frame == kCut);
+  return known;
 }
 
 KnownFrame slabFrame(fg::Extent extent, int frame) {

@@ -147,7 +147,7 @@ void registerBench(CLI::App& program) {
       "strain the arithmetic: error against the known answer, values that are not finite");
   command->add_flag("--response", arguments->bench.response,
                     "Also measure how each variant answers to change, on synthetic scenes with a known answer: first "
-                    "frame, settled error and flicker, a light that goes down, disocclusion");
+                    "frame, settled error and flicker, a light that goes down or moves, disocclusion, a camera cut");
   command
       ->add_option("--repeat", arguments->bench.repetitions,
                    "Timed passes over each sequence, after one that warms up and measures errors")

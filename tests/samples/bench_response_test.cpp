@@ -45,6 +45,37 @@ TEST(ResponseScene, TheSlabCarriesItsMotionAndUncoversTheWall) {
   EXPECT_EQ(moving, kExtent.width / 4);
 }
 
+/// Age of a moving Gaussian that is nearest to an exponential mean over it. The squared distance is least where the
+/// product is largest, which is that of two Gaussians, by ages.
+double lagOfExponentialMean(double frames) {
+  double best = 0.0;
+  double largest = 0.0;
+  for (double lag = 0.0; lag < 2.0 * frames; lag += 0.01) {
+    double product = 0.0;
+    for (int age = 0; age < 200; ++age) {
+      const double distance = kLightSpeed * (lag - age) / kLightSigma;
+      product += std::pow(1.0 - 1.0 / frames, age) * std::exp(-0.25 * distance * distance);
+    }
+    if (product > largest) {
+      largest = product;
+      best = lag;
+    }
+  }
+  return best;
+}
+
+TEST(ResponseScene, ACutShowsAnotherPlaceAndSaysSoIfAsked) {
+  EXPECT_TRUE(cutFrame(kExtent, kCut, true).packed.frame.resetHistory);
+  EXPECT_FALSE(cutFrame(kExtent, kCut, false).packed.frame.resetHistory);
+  EXPECT_FALSE(cutFrame(kExtent, kCut + 1, true).packed.frame.resetHistory);
+  const KnownFrame before = cutFrame(kExtent, kCut - 1, false);
+  const KnownFrame after = cutFrame(kExtent, kCut, false);
+  for (std::size_t i = 0; i < after.truth.pixelCount(); ++i) {
+    EXPECT_LT(after.truth.pixel(i)[0], 0.5F * before.truth.pixel(i)[0]);
+    EXPECT_GT(after.packed.frame.depth.pixel(i)[0], 1.2F * before.packed.frame.depth.pixel(i)[0]);
+  }
+}
+
 /// What is measured of methods whose answer is known.
 TEST(ResponseTest, OfMethodsWithAKnownAnswer) {
   GpuDevice device({.device = {}, .validation = true});
@@ -68,6 +99,14 @@ TEST(ResponseTest, OfMethodsWithAKnownAnswer) {
   EXPECT_LT(mean.settled, 0.6 * none.settled);
   EXPECT_LT(mean.trailByAge.front(), 0.2) << "the slab is another surface";
   EXPECT_GT(mean.recoveryFrames.value(), 1);
+  EXPECT_NEAR(none.lightLag, 0.0, 0.3);
+  EXPECT_NEAR(mean.lightLag, lagOfExponentialMean(8.0), 0.3);
+  // Nothing of the old picture is left: it is void, or another surface. Without a memory, none can be; noise remains.
+  for (const Response* response : {&none, &mean}) {
+    EXPECT_NEAR(response->cut.left, 0.0, 0.05);
+    EXPECT_NEAR(response->untoldCut.left, 0.0, 0.05);
+  }
+  EXPECT_DOUBLE_EQ(mean.cut.rmse, none.cut.rmse) << "one sample is its own mean";
   EXPECT_TRUE(device.takeMessages().empty());
 }
 
