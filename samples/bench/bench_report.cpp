@@ -100,11 +100,14 @@ Json responseJson(const Response& response) {
 }
 
 Json hardCaseJson(const HardCaseErrors& errors) {
+  Json counters = Json::object();
+  for (const CounterValue& counter : errors.counters) counters[counter.name] = counter.value;
   return {{"case", errors.hardCase},
           {"error", errors.error},
           {"non_finite_in", errors.nonFiniteIn},
           {"non_finite_out", errors.nonFiniteOut},
-          {"negative_out", errors.negativeOut}};
+          {"negative_out", errors.negativeOut},
+          {"counters", std::move(counters)}};
 }
 
 Json numericsJson(const NumericsResult& result) {

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "samples/bench/hard_case_scenes.h"
 #include "samples/denoise/gpu_denoiser.h"
@@ -29,8 +30,11 @@ Variant spatialOnly(const NumericsSetting& setting) {
   return variant;
 }
 
-HardCaseErrors judge(const Image& result, const HardCase& hardCase) {
-  HardCaseErrors judged{.hardCase = hardCase.name};
+HardCaseErrors judge(DenoisedPicture picture, const HardCase& hardCase) {
+  HardCaseErrors judged;
+  judged.hardCase = hardCase.name;
+  judged.counters = std::move(picture.counters);
+  const Image& result = picture.indirect;
   double squares = 0.0;
   double truthSquares = 0.0;
   double count = 0.0;
@@ -51,6 +55,11 @@ HardCaseErrors judge(const Image& result, const HardCase& hardCase) {
   return judged;
 }
 
+/// A denoiser of hard cases that counts.
+GpuDenoiser makeDenoiser(const GpuDevice& device, const Variant& variant) {
+  return {device, *makeVariant(variant), kHardCaseExtent, projectLayout(), {.views = {}, .counters = true}};
+}
+
 }  // namespace
 
 std::vector<NumericsSetting> numericsSettings() {
@@ -67,9 +76,9 @@ std::vector<NumericsResult> numerics(const GpuDevice& device, std::span<const Nu
   const std::vector<HardCase> cases = hardCases();
   std::vector<NumericsResult> results;
   for (const NumericsSetting& setting : settings) {
-    GpuDenoiser denoiser(device, *makeVariant(spatialOnly(setting)), kHardCaseExtent, projectLayout());
+    GpuDenoiser denoiser = makeDenoiser(device, spatialOnly(setting));
     for (const HardCase& hardCase : cases) {
-      results.push_back({judge(denoiser.run(hardCase.packed).indirect, hardCase), setting});
+      results.push_back({judge(denoiser.run(hardCase.packed), hardCase), setting});
     }
   }
   return results;
@@ -79,9 +88,9 @@ std::vector<MethodHardCase> methodHardCases(const GpuDevice& device, std::span<c
   const std::vector<HardCase> cases = hardCases();
   std::vector<MethodHardCase> results;
   for (const Variant& variant : variants) {
-    GpuDenoiser denoiser(device, *makeVariant(variant), kHardCaseExtent, projectLayout());
+    GpuDenoiser denoiser = makeDenoiser(device, variant);
     for (const HardCase& hardCase : cases) {
-      results.push_back({judge(denoiser.run(hardCase.packed).indirect, hardCase), variant.name});
+      results.push_back({judge(denoiser.run(hardCase.packed), hardCase), variant.name});
     }
   }
   return results;

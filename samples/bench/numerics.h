@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "samples/bench/variant.h"
+#include "samples/denoise/frame_output.h"
 #include "samples/denoise/gpu_device.h"
 
 namespace walr {
@@ -29,6 +30,9 @@ struct HardCaseErrors {
   std::size_t nonFiniteIn = 0;   ///< Values of the noisy light that are not finite.
   std::size_t nonFiniteOut = 0;  ///< The result's.
   std::size_t negativeOut = 0;   ///< Values of the result below 0.
+  /// What the method counted: values that are not finite and how they were met, samples and fits that were missing,
+  /// regularised or clamped. By the names that `walr denoise --counters` prints.
+  std::vector<CounterValue> counters;
 };
 
 /// By one way of storing and solving.

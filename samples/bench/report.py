@@ -16,8 +16,8 @@ import sys
 import numpy as np
 from PIL import Image
 from report_data import TABLE, Bench, number
-from report_plots import (frames_figure, hard_cases_figure, pareto_figure, phases_figure, plt, response_figure, svg,
-                          sweep_figure)
+from report_plots import (conditioning_figure, frames_figure, hard_cases_figure, pareto_figure, phases_figure, plt,
+                          response_figure, svg, sweep_figure)
 
 
 def image(pixels, **options):
@@ -215,11 +215,21 @@ def response_section(bench):
         "Recovered: the error is within a quarter of the wall's that nothing hid. Left: share of the picture before")
 
 
+# Of the counters of hard cases, those that stand in the tables.
+SHOWN_COUNTERS = {"regularised-fits": "helped", "clamped-channels": "clamped"}
+
+
 def hard_case_cell(r):
-    """An error with the values that should not be."""
+    """An error with the values that should not be, and how many fits needed help; what else was counted, on hovering."""
     text = "-" if r["error"] is None else f"{r['error']:.3g}"
     text += f' <b class="bad">{r["non_finite_out"]} not finite</b>' if r["non_finite_out"] else ""
-    return text + (f" <small>{r['negative_out']} below 0</small>" if r["negative_out"] else "")
+    text += f" <small>{r['negative_out']} below 0</small>" if r["negative_out"] else ""
+    counted = {name: value for name, value in r["counters"].items() if value}
+    # Iterations count apart.
+    total = {kind: sum(v for n, v in counted.items() if n.startswith(kind)) for kind in SHOWN_COUNTERS}
+    text += "".join(f" <small>{total[kind]} {label}</small>" for kind, label in SHOWN_COUNTERS.items() if total[kind])
+    listed = html.escape(", ".join(f"{name} {value}" for name, value in counted.items()) or "nothing counted")
+    return f'<span title="{listed}">{text}</span>'
 
 
 def method_hard_cases_table(bench):
@@ -229,7 +239,8 @@ def method_hard_cases_table(bench):
     rows = [[html.escape(case)] + [hard_case_cell(results[case, v]) for v in variants] for case in cases]
     return table(["case"] + [html.escape(v) for v in variants], rows,
                  "every method as it is, first frame of a history: relative root mean square error, linear; absolute "
-                 "where there is no light")
+                 "where there is no light; fits of 4096 that were regularised, channels that were clamped at 0. All "
+                 "that was counted shows on hovering")
 
 
 def hard_cases_section(bench):
@@ -245,10 +256,11 @@ def hard_cases_section(bench):
         row.append(results[(case, storages[0]) + usual[storages[0]]]["non_finite_in"])
         rows.append(row)
     return ("<p>Signals that are linear in the normal, so that an exact regression has no bias; exponential noise; one frame "
-            "without history; 27 x 27 pixels.</p>" + svg(hard_cases_figure(results, cases, storages, solvers, epsilons),
-                                                              "hard cases")
+            "without history; 27 x 27 pixels.</p>" + svg(conditioning_figure(results, cases, storages, usual), "conditioning")
+            + svg(hard_cases_figure(results, cases, storages, solvers, epsilons), "hard cases")
             + table(["case"] + [f"{s}, {usual[s][0]} {usual[s][1]}" for s in storages] + ["not finite in"], rows,
-                    "relative root mean square error, linear; absolute where there is no light")
+                    "relative root mean square error, linear; absolute where there is no light; fits of 4096 whose pivots "
+                    "were raised, channels that were clamped at 0. All that was counted shows on hovering")
             + method_hard_cases_table(bench))
 
 

@@ -235,6 +235,25 @@ def response_figure(bench):
     return figure
 
 
+def conditioning_figure(results, cases, storages, usual):
+    """Error by how much the features vary: the smaller, the worse conditioned the fit."""
+    prefix = "normals vary by "
+    amplitudes = sorted((float(c.removeprefix(prefix)), c) for c in cases if c.startswith(prefix))
+    figure, axes = plt.subplots(1, 2, figsize=(11, 3.4), sharey=True)
+    figure.subplots_adjust(wspace=0.08)
+    # One way of solving for all shows which storages need more.
+    for axis, setting, title in ((axes[0], usual.__getitem__, "each storage's usual epsilon"),
+                                 (axes[1], lambda storage: (usual[storage][0], "1e-5"), "epsilon of 1e-5 for all")):
+        for index, storage in enumerate(storages):
+            axis.loglog([a for a, _ in amplitudes], [results[(c, storage) + setting(storage)]["error"] for _, c in amplitudes],
+                        "o-", ms=3, lw=1.2, color=SPARE_COLOURS[index], label=storage)
+        axis.set_title(title, loc="left", fontsize=9, fontweight="bold")
+        axis.set_xlabel("normals vary by")
+    axes[0].set_ylabel("relative error")
+    axes[0].legend(fontsize=7)
+    return figure
+
+
 def hard_cases_figure(results, cases, storages, solvers, epsilons):
     """Error by epsilon for features that vary by little: a row a way of solving, a line a storage."""
     shown = [c for c in cases if c.startswith(("normals vary", "normals of a sphere"))]

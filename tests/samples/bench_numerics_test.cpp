@@ -53,6 +53,17 @@ TEST(Numerics, TellStableFromUnstableArithmetic) {
     }
   }
   EXPECT_EQ(find("centred16", "infinite sample").nonFiniteIn, 3U);
+  const auto counted = [&](const std::string& storage, const std::string& hardCase, const std::string& counter) {
+    const NumericsResult result = find(storage, hardCase);
+    const auto found = std::ranges::find(result.counters, counter, &CounterValue::name);
+    EXPECT_NE(found, result.counters.end()) << counter;
+    return found == result.counters.end() ? 0 : found->value;
+  };
+  EXPECT_EQ(counted("centred16", "infinite sample", "non-finite-lighting"), 1U) << "the pixel counts once";
+  EXPECT_EQ(counted("centred16", "flat wall", "non-finite-lighting"), 0U);
+  constexpr std::uint64_t kPixels = std::uint64_t{kHardCaseExtent.width} * kHardCaseExtent.height;
+  EXPECT_EQ(counted("centred16", "flat wall", "regularised-fits"), kPixels) << "features that do not vary";
+  EXPECT_EQ(counted("centred16", "normals vary by 0.3", "regularised-fits"), 0U);
   // Eleven bits hold E[xx] - E[x]^2 of such normals no better than to a few of its own size.
   EXPECT_GT(find("raw11", "normals vary by 0.1").error, 100.0);
   EXPECT_TRUE(device.takeMessages().empty());
