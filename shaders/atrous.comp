@@ -5,9 +5,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
+#extension GL_EXT_control_flow_attributes : require
 #include "constants/atrous.h"
 #include "constants/frame.h"
-#include "include/hash.glsl"
 #include "include/moments.glsl"
 #include "include/regression.glsl"
 #include "include/surface.glsl"
@@ -16,7 +16,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 0) const uint kIteration = 0;
 layout(constant_id = 1) const int kSpacing = 1;        // 3^t pixels.
 layout(constant_id = 2) const bool kTraceEdges = true;
-layout(constant_id = 3) const uint kReplacement = 1;   // What takes the place of a discarded tap; see below.
+layout(constant_id = 3) const uint kReplacement = 1;   // What takes the place of a tap behind an edge.
 layout(constant_id = 4) const bool kNormalFactor = true;  // Weights fall with the cosine between the planes' normals.
 #ifdef VIEW
 layout(constant_id = 8) const uint kView = 0;  // Which quantity; numbered in writeResult.
@@ -77,13 +77,6 @@ void writeWithoutSurface(ivec2 p) {
 #endif
 }
 
-// What became of the taps.
-struct Taps {
-  int nearestEdge;
-  int replaced;
-  int lost;
-};
-
 #ifdef VIEW
 const float kCoefficients = 3.0;  // Of the fit of one channel.
 
@@ -123,26 +116,10 @@ void writeResult(ivec2 p, float z, Taps taps, Moments m) {
 #endif
 }
 
-// Values of kReplacement (TapReplacement).
-const uint kNoReplacement = 0;
-const uint kUniformReplacement = 1;  // Any pixel before the edge, the centre among them.
-const uint kNearReplacement = 2;     // One of the last third before the edge.
-
-// Step of the pixel that stands in for a tap which met its edge at step `edge`.
-int replacementStep(ivec2 p, int tap, int edge) {
-  const uvec4 key = uvec4(p, frame.frameIndex, kIteration * 9u + uint(tap));
-  return kReplacement == kNearReplacement ? edge - 1 - int(hashBelow(key, uint(edge + 2) / 3u))
-                                          : int(hashBelow(key, uint(edge)));
-}
-
-// A pixel that shares its surface with few around it takes a little from beyond its edges, where there is a surface.
-void addLeak(inout MomentSum sum, ivec2 q) {
-  if (unpackDepth(packedDepthAt(q)) > 0.0) add(sum, kEdgeLeak, readMoments(q));
-}
-
 void main() {
   const ivec2 p = ivec2(gl_GlobalInvocationID.xy);
-  if (any(greaterThanEqual(p, textureSize(depth, 0)))) return;
+  const ivec2 size = textureSize(depth, 0);
+  if (any(greaterThanEqual(p, size))) return;
 
   const uint packedDepth = texelFetch(depth, p, 0).x;
   const float z = unpackDepth(packedDepth);
@@ -150,40 +127,23 @@ void main() {
     writeWithoutSurface(p);
     return;
   }
-  const vec3 normal = unpackNormal(texelFetch(planeNormal, p, 0).x);
-  const Plane plane = planeAt(p, z, normal);
-  const uint sdf = unpackSdf(packedDepth);
+  const Plane plane = planeAt(p, z, unpackNormal(texelFetch(planeNormal, p, 0).x));
+  const Centre centre = Centre(p, size, plane, 1.0 / (settings.planeFar - settings.planeNear), unpackSdf(packedDepth));
 
-  const Moments centre = readMoments(p);
-  MomentSum sum = startSum(centre);
-  add(sum, 1.0, centre);
-  Taps taps = Taps(kSpacing + 1, 0, 0);
-  for (int tap = 0; tap < 9; ++tap) {
-    if (tap == 4) continue;
-    const ivec2 direction = ivec2(tap % 3, tap / 3) - 1;
-    int reach = kSpacing;
-    Trace trace = traceEdge(plane, p, direction, reach, sdf);
-    taps.nearestEdge = min(taps.nearestEdge, trace.edge);
-    if (trace.weight <= 0.0) {
-      const bool isolated = trace.edge == 1;
-      if (kEdgeLeak > 0.0 && isolated) addLeak(sum, p + direction);
-      if (kReplacement == kNoReplacement || (isolated && !kRepeatCentre)) {
-        ++taps.lost;
-        continue;
-      }
-      ++taps.replaced;
-      // A discarded tap gives way to a random one before the edge, so that no seam follows the tap pattern.
-      reach = replacementStep(p, tap, trace.edge);
-      trace = traceEdge(plane, p, direction, reach, sdf);
-      if (trace.weight <= 0.0) {
-        reach = 0;
-        trace.weight = 1.0;
-      }
-    }
-    const ivec2 q = p + reach * direction;
-    float weight = trace.weight;
-    if (kNormalFactor) weight *= clamp(dot(normal, unpackNormal(texelFetch(planeNormal, q, 0).x)), 0.0, 1.0);
-    if (weight > 0.0) add(sum, weight, readMoments(q));
+  // Call by call: drivers unroll no loop that holds another one, and half of a tap's arithmetic is gone where its
+  // direction is a constant. The averages, most of the registers, are read once all walks have ended.
+  Taps taps = Taps(kSpacing + 1, 0, 0, 0);
+  const Tap found[] = Tap[](
+      findTap(centre, 0, ivec2(-1, -1), taps), findTap(centre, 1, ivec2(0, -1), taps),
+      findTap(centre, 2, ivec2(1, -1), taps), findTap(centre, 3, ivec2(-1, 0), taps),
+      findTap(centre, 5, ivec2(1, 0), taps), findTap(centre, 6, ivec2(-1, 1), taps),
+      findTap(centre, 7, ivec2(0, 1), taps), findTap(centre, 8, ivec2(1, 1), taps));
+
+  const Moments here = readMoments(p);
+  MomentSum sum = startSum(here);
+  add(sum, float(1 + taps.centred), here);
+  [[unroll]] for (int i = 0; i < 8; ++i) {
+    if (found[i].weight > 0.0) add(sum, found[i].weight, readMoments(found[i].pixel));
   }
   writeResult(p, z, taps, finish(sum));
 }
