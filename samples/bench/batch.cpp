@@ -25,10 +25,9 @@ struct Lane {
   GpuDenoiser denoiser;
   RunRecord record;
   std::optional<DisplayedPair> previous;
-  std::vector<std::uint64_t> results;            ///< Fingerprints of the first pass, by frame.
-  std::vector<double> milliseconds;              ///< By timed frame.
-  std::vector<std::vector<double>> passSamples;  ///< By pass, then by timed frame.
-  std::unique_ptr<Clip> clip;                    ///< Of the first pass, for VMAF.
+  std::vector<std::uint64_t> results;  ///< Fingerprints of the first pass, by frame.
+  FrameTimes times;
+  std::unique_ptr<Clip> clip;  ///< Of the first pass, for VMAF.
 };
 
 std::uint64_t fingerprintOf(const Image& image) {
@@ -74,7 +73,6 @@ class Batch {
                         {},
                         {},
                         {},
-                        {},
                         makeClip(variant.name)});
     }
     reference_ = makeClip("_reference");
@@ -102,7 +100,7 @@ class Batch {
     }
     std::vector<RunRecord> records;
     for (Lane& lane : lanes_) {
-      finish(lane);
+      lane.record.timing = lane.times.timing(lanes_.front().times);
       records.push_back(std::move(lane.record));
     }
     return records;
@@ -191,28 +189,7 @@ class Batch {
   void time(Lane& lane, const PackedFrame& frame, std::size_t index) {
     const DenoisedPicture picture = lane.denoiser.run(frame);
     lane.record.reproducible = lane.record.reproducible && fingerprintOf(picture.indirect) == lane.results[index];
-    if (picture.passes.empty()) return;
-    lane.milliseconds.push_back(*picture.milliseconds());
-    lane.passSamples.resize(picture.passes.size());
-    lane.record.passes.resize(picture.passes.size());
-    for (std::size_t pass = 0; pass < picture.passes.size(); ++pass) {
-      lane.record.passes[pass].name = picture.passes[pass].name;
-      lane.passSamples[pass].push_back(picture.passes[pass].milliseconds);
-    }
-  }
-
-  void finish(Lane& lane) {
-    lane.record.timedFrames = lane.milliseconds.size();
-    if (lane.milliseconds.empty()) return;
-    lane.record.milliseconds = spread(lane.milliseconds);
-    std::vector<double> ratios;
-    for (std::size_t i = 0; i < lane.milliseconds.size(); ++i) {
-      ratios.push_back(lane.milliseconds[i] / lanes_.front().milliseconds[i]);
-    }
-    lane.record.ratio = spread(ratios);
-    for (std::size_t pass = 0; pass < lane.passSamples.size(); ++pass) {
-      lane.record.passes[pass].milliseconds = spread(lane.passSamples[pass]);
-    }
+    lane.times.add(picture);
   }
 
   void keepGroundTruth(const BenchFrame& input) const {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
+#include <map>
 #include <ostream>
 #include <span>
 
@@ -61,27 +63,80 @@ std::vector<std::vector<Variant>> batchesOf(const std::vector<Variant>& missing,
 }
 
 std::map<std::string, std::vector<PlanCosts>> allCosts(const std::vector<NamedSequence>& sequences,
+                                                       const std::vector<fg::Extent>& sizes,
                                                        const std::vector<Variant>& variants) {
-  std::vector<fg::Extent> measured;
-  for (const NamedSequence& sequence : sequences) {
-    if (std::ranges::find(measured, sequence.sequence.extent()) == measured.end()) {
-      measured.push_back(sequence.sequence.extent());
-    }
-  }
+  std::vector<fg::Extent> extents;
+  const auto addOnce = [&](fg::Extent extent) {
+    if (std::ranges::find(extents, extent) == extents.end()) extents.push_back(extent);
+  };
+  for (const NamedSequence& sequence : sequences) addOnce(sequence.sequence.extent());
+  const std::size_t required = extents.size();
+  std::ranges::for_each(sizes, addOnce);
+  std::ranges::for_each(kCommonExtents, addOnce);
   const InputConventions conventions =
       sequences.empty() ? InputConventions{} : sequences.front().sequence.layout().layout->conventions;
   std::map<std::string, std::vector<PlanCosts>> costs;
   for (const Variant& variant : variants) {
-    for (const fg::Extent extent : measured) costs[variant.name].push_back(planCosts(variant, extent, conventions));
-    for (const fg::Extent extent : kCommonExtents) {
-      if (std::ranges::find(measured, extent) != measured.end()) continue;
+    for (std::size_t i = 0; i < extents.size(); ++i) {
       try {
-        costs[variant.name].push_back(planCosts(variant, extent, conventions));
+        costs[variant.name].push_back(planCosts(variant, extents[i], conventions));
       } catch (const std::invalid_argument&) {  // Settings may be too fine for the largest pictures.
+        if (i < required) throw;
       }
     }
   }
   return costs;
+}
+
+/// The sizes of which some variants are still to be timed.
+struct SizeWork {
+  fg::Extent extent;
+  std::string name;  ///< In the store; no sequence's has a slash.
+  std::vector<std::vector<Variant>> batches;
+};
+
+std::string sizeKey(const GpuDevice& device, const Variant& variant, const BenchOptions& options) {
+  Fingerprint key;
+  key.addFile("/proc/self/exe").add(device.name()).add(device.driver()).add(std::to_string(options.repetitions));
+  return runKey(key.text(), variant);
+}
+
+std::vector<SizeWork> sizeWork(const GpuDevice& device, const RunStore& store, const BenchOptions& options) {
+  std::vector<SizeWork> work;
+  for (const fg::Extent extent : options.sizes) {
+    SizeWork todo{extent, "sizes/" + std::to_string(extent.width) + "x" + std::to_string(extent.height), {}};
+    std::vector<Variant> missing;
+    for (const Variant& variant : options.variants) {
+      if (!store.find(todo.name, variant.name, sizeKey(device, variant, options))) missing.push_back(variant);
+    }
+    todo.batches = batchesOf(missing, options.variants.front(), options.batch);
+    work.push_back(std::move(todo));
+  }
+  return work;
+}
+
+/// Time what is missing at a size, and tell all.
+SizeTimes timeSize(const GpuDevice& device, const RunStore& store, const SizeWork& todo, const BenchOptions& options,
+                   const std::function<void()>& frameDone) {
+  std::map<std::string, std::string> whyNot;
+  for (const std::vector<Variant>& variants : todo.batches) {
+    const SizeTimes found = sizeTimes(device, variants, todo.extent, options.repetitions, frameDone);
+    for (std::size_t i = 0; i < variants.size(); ++i) {
+      const SizeTiming& timing = found.timings[i];
+      whyNot[timing.variant] = timing.whyNot;
+      if (!timing.whyNot.empty()) continue;
+      RunRecord record;
+      record.variant = timing.variant;
+      record.timing = timing.timing;
+      store.save(todo.name, record, sizeKey(device, variants[i], options));
+    }
+  }
+  SizeTimes all{todo.extent, {}};
+  for (const Variant& variant : options.variants) {
+    const auto record = store.find(todo.name, variant.name, sizeKey(device, variant, options));
+    all.timings.push_back({variant.name, record ? record->timing : Timing(), record ? "" : whyNot.at(variant.name)});
+  }
+  return all;
 }
 
 }  // namespace
@@ -119,7 +174,7 @@ BenchReport bench(const GpuDevice& device, const std::vector<NamedSequence>& seq
   report.whyNoVmaf = options.whyNoVmaf;
   report.variants = options.variants;
   for (const Variant& variant : options.variants) report.settings[variant.name] = settingsOf(variant);
-  report.costs = allCosts(sequences, options.variants);
+  report.costs = allCosts(sequences, options.sizes, options.variants);
   report.device = deviceFacts(device);
 
   const RunStore store(options.output / "runs");
@@ -137,6 +192,9 @@ BenchReport bench(const GpuDevice& device, const std::vector<NamedSequence>& seq
     frames += todo.batches.size() * sequence.sequence.entries().size() * (options.repetitions + 1);
     work.push_back(std::move(todo));
   }
+
+  const std::vector<SizeWork> sizes = sizeWork(device, store, options);
+  for (const SizeWork& todo : sizes) frames += todo.batches.size() * kFramesPerSize * (options.repetitions + 1);
 
   std::optional<Progress> progress;
   if (frames > 0) progress.emplace(log, terminal, "frame", frames, Progress::Clock::now());
@@ -162,6 +220,9 @@ BenchReport bench(const GpuDevice& device, const std::vector<NamedSequence>& seq
     for (const Variant& variant : options.variants) {
       result.runs.push_back(store.find(result.name, variant.name, runKey(todo.key, variant)).value());
     }
+  }
+  for (const SizeWork& todo : sizes) {
+    report.sizes.push_back(timeSize(device, store, todo, options, [&] { progress->advance(Progress::Clock::now()); }));
   }
   progress.reset();
   if (options.response) report.responses = responses(device, options.variants);

@@ -15,6 +15,7 @@
 #include "samples/bench/plan_costs.h"
 #include "samples/bench/response.h"
 #include "samples/bench/run_record.h"
+#include "samples/bench/size_times.h"
 #include "samples/bench/variant.h"
 #include "samples/bench/vmaf.h"
 #include "samples/denoise/gpu_device.h"
@@ -38,6 +39,7 @@ struct BenchOptions {
   std::vector<Variant> variants;  ///< The baseline first (`withBaseline`).
   std::filesystem::path output;   ///< Finished runs are kept and found again in it.
   std::size_t repetitions = 3;    ///< Timed passes over each sequence.
+  std::vector<fg::Extent> sizes;  ///< Also time all variants on synthetic frames of these sizes (`sizeTimes`).
   /// Variants that run beside each other. More need more device memory at once, and lose more when interrupted. The
   /// baseline runs in every batch.
   std::size_t batch = 10;
@@ -68,6 +70,7 @@ struct BenchReport {
   std::map<std::string, std::vector<SettingValue>> settings;  ///< All settings of every variant, by its name.
   std::map<std::string, std::vector<PlanCosts>> costs;        ///< At the sequences' sizes and 720p to 4K, by variant.
   std::vector<SequenceReport> sequences;
+  std::vector<SizeTimes> sizes;
   std::vector<Response> responses;  ///< Of all variants, or empty.
   std::vector<NumericsResult> numerics;
   std::vector<MethodHardCase> methodHardCases;

@@ -80,6 +80,17 @@ Json sequenceJson(const SequenceReport& sequence) {
           {"runs", std::move(runs)}};
 }
 
+Json sizeJson(const SizeTimes& size) {
+  Json timings = Json::array();
+  for (const SizeTiming& timing : size.timings) {
+    Json object = {{"variant", timing.variant}};
+    addTiming(object, timing.timing);
+    object["why_not"] = timing.whyNot.empty() ? Json() : Json(timing.whyNot);
+    timings.push_back(std::move(object));
+  }
+  return {{"width", size.extent.width}, {"height", size.extent.height}, {"timings", std::move(timings)}};
+}
+
 Json cutJson(const CutResponse& cut) {
   return {{"rmse", cut.rmse}, {"left", cut.left}};
 }
@@ -209,6 +220,34 @@ void printHardCases(std::ostream& stream, const std::string& what, const std::ve
          << worst->hardCase << ", " << describe(*worst) << ".\n";
 }
 
+/// Median of the ratio, and where 5 and 95 % of it lie.
+void printRatio(std::ostream& stream, const std::optional<Spread>& ratio) {
+  stream << cell(ratio ? std::optional(ratio->median) : std::nullopt, kCellWidth, 3);
+  std::ostringstream range;
+  if (ratio) range << std::fixed << std::setprecision(2) << '(' << ratio->p5 << " to " << ratio->p95 << ')';
+  stream << std::setw(17) << range.str();
+}
+
+void printSize(std::ostream& stream, const BenchReport& report, const SizeTimes& size) {
+  const int nameWidth = widestName(report) + 1;
+  stream << '\n'
+         << std::left << std::setw(nameWidth)
+         << std::to_string(size.extent.width) + " x " + std::to_string(size.extent.height) << std::right
+         << std::setw(kCellWidth) << "time x"
+         << "    (5 to 95 %) " << (report.device.software ? "" : "       ms") << '\n';
+  for (const SizeTiming& timing : size.timings) {
+    stream << std::left << std::setw(nameWidth) << timing.variant << std::right;
+    if (timing.whyNot.empty()) {
+      printRatio(stream, timing.timing.ratio);
+      const std::optional<Spread>& time = timing.timing.milliseconds;
+      if (!report.device.software) stream << cell(time ? std::optional(time->median) : std::nullopt, kCellWidth, 3);
+    } else {
+      stream << "  " << timing.whyNot;
+    }
+    stream << '\n';
+  }
+}
+
 void printSequence(std::ostream& stream, const BenchReport& report, const SequenceReport& sequence) {
   const int nameWidth = widestName(report) + 1;
   stream << '\n' << std::left << std::setw(nameWidth) << sequence.name << std::right;
@@ -222,14 +261,10 @@ void printSequence(std::ostream& stream, const BenchReport& report, const Sequen
     for (const Column& column : kColumns) {
       stream << cell(meanOf(frames, metricOf(column.metric)), kCellWidth, column.decimals);
     }
-    stream << cell(run.ratio ? std::optional(run.ratio->median) : std::nullopt, kCellWidth, 3);
-    std::ostringstream range;
-    if (run.ratio) {
-      range << std::fixed << std::setprecision(2) << '(' << run.ratio->p5 << " to " << run.ratio->p95 << ')';
-    }
-    stream << std::setw(17) << range.str();
+    printRatio(stream, run.timing.ratio);
     if (!report.device.software) {
-      stream << cell(run.milliseconds ? std::optional(run.milliseconds->median) : std::nullopt, kCellWidth, 3);
+      stream << cell(run.timing.milliseconds ? std::optional(run.timing.milliseconds->median) : std::nullopt,
+                     kCellWidth, 3);
     }
     const PlanCosts& costs = costsAt(report, run.variant, sequence.extent);
     constexpr double kMegabyte = 1e6;
@@ -271,6 +306,8 @@ std::string benchJson(const BenchReport& report, const std::string& command) {
   document["variants"] = variantsJson(report);
   document["sequences"] = Json::array();
   for (const SequenceReport& sequence : report.sequences) document["sequences"].push_back(sequenceJson(sequence));
+  document["sizes"] = Json::array();
+  for (const SizeTimes& size : report.sizes) document["sizes"].push_back(sizeJson(size));
   document["responses"] = Json::array();
   for (const Response& response : report.responses) document["responses"].push_back(responseJson(response));
   document["hard_cases"] = Json::array();
@@ -304,9 +341,9 @@ std::string benchCsv(const BenchReport& report) {
         number(worstOf(frames, metric));
       }
       csv << ',' << nonFinite;
-      number(run.ratio ? std::optional(run.ratio->median) : std::nullopt);
-      number(run.ratio ? std::optional(run.ratio->p5) : std::nullopt);
-      number(run.ratio ? std::optional(run.ratio->p95) : std::nullopt);
+      number(run.timing.ratio ? std::optional(run.timing.ratio->median) : std::nullopt);
+      number(run.timing.ratio ? std::optional(run.timing.ratio->p5) : std::nullopt);
+      number(run.timing.ratio ? std::optional(run.timing.ratio->p95) : std::nullopt);
       const PlanCosts& costs = costsAt(report, run.variant, sequence.extent);
       csv << ',' << bytesPerPixel(costs);
       number(costs.tapsPerPixel);
@@ -327,6 +364,7 @@ void printBench(std::ostream& stream, const BenchReport& report) {
               "and shared transient): from the plan.\n";
     if (report.vmaf.empty()) stream << "No VMAF: " << report.whyNoVmaf << ".\n";
   }
+  for (const SizeTimes& size : report.sizes) printSize(stream, report, size);
   if (!report.responses.empty()) printResponses(stream, report);
   if (!report.numerics.empty()) {
     printHardCases(stream, "ways of storing and solving", report.numerics, [](const NumericsResult& result) {

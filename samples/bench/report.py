@@ -265,7 +265,7 @@ def hard_cases_section(bench):
 
 
 def costs_section(bench):
-    sizes = [(c["width"], c["height"]) for c in next(iter(bench.variants.values()))["costs"]]
+    sizes = [(c["width"], c["height"]) for c in bench.variants[bench.baseline]["costs"]]
     rows = []
     for name in bench.methods:
         row = [html.escape(name)]
@@ -311,9 +311,32 @@ def sequences_sections(bench, names):
         out.append(f"<h3>{html.escape(sequence)}</h3>" + svg(frames_figure(bench, sequence), f"frames {sequence}"))
     out.append("<h2>Time by pass</h2>")
     for sequence in names:
-        figure = phases_figure(bench, sequence)
+        figure = phases_figure(bench, {n: bench.runs[sequence, n] for n in bench.methods})
         out.append(f"<h3>{html.escape(sequence)}</h3>" + (svg(figure, f"phases {sequence}") if figure else "no timer"))
     return out
+
+
+def size_section(bench, size):
+    """Times at one size of picture."""
+    timings = {t["variant"]: t for t in size["timings"]}
+    pixels = size["width"] * size["height"]
+    rows = []
+    for name in bench.methods:
+        timing, cost = timings[name], bench.cost_at(name, size["width"], size["height"])
+        ratio, time = timing["ratio"], timing["milliseconds"]
+        row = [html.escape(name)]
+        row.append(f"{ratio['median']:.2f} <small>({ratio['p5']:.2f} to {ratio['p95']:.2f})</small>" if ratio
+                   else html.escape(timing["why_not"] or "no timer"))
+        if bench.absolute:
+            row.append(f"{time['median']:.3f} <small>({time['p5']:.3f} to {time['p95']:.3f})</small>" if time else "-")
+            row.append(number(bench.share_of_bandwidth(cost, pixels, time and time["median"]), 2))
+        row.append("-" if cost is None else f"{cost['bytes_read_per_pixel'] + cost['bytes_written_per_pixel']:.0f}")
+        rows.append(row)
+    header = ["method", "time ratio (5 to 95 %)"] + (["ms", "of bandwidth"] if bench.absolute else []) + ["bytes/pixel"]
+    title = f"{size['width']} x {size['height']}"
+    figure = phases_figure(bench, timings)
+    return (f"<h3>{title}</h3>" + table(header, rows, "two frames of a wall and a slab before it, in turn")
+            + (svg(figure, f"phases {title}") if figure else ""))
 
 
 def vmaf_note(vmaf):
@@ -345,6 +368,8 @@ def page(bench):
     if names:
         out += sequences_sections(bench, names)
     out.append("<h2>Traffic and memory</h2>" + costs_section(bench))
+    if data["sizes"]:
+        out.append("<h2>Time by size</h2>" + "".join(size_section(bench, size) for size in data["sizes"]))
     if data["responses"]:
         out.append("<h2>Response to change</h2>" + response_section(bench))
     if data["hard_cases"]:

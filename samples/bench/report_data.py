@@ -56,17 +56,27 @@ class Bench:
         time = self.runs[sequence, variant]["milliseconds"]
         return time and time["median"]
 
-    def bandwidth_share(self, sequence, variant):
+    def share_of_bandwidth(self, cost, pixels, milliseconds):
         """Bytes that the plan moves, over those that copies would move in the same time."""
-        s, time = self.sequences[sequence], self.milliseconds(sequence, variant)
         copied = self.json["device"]["copy_bytes_per_second"]
-        moved = self.bytes_per_pixel(sequence, variant) * s["width"] * s["height"]
-        return moved / (time * 1e-3) / copied if time and copied else None
+        if not (cost and milliseconds and copied):
+            return None
+        moved = (cost["bytes_read_per_pixel"] + cost["bytes_written_per_pixel"]) * pixels
+        return moved / (milliseconds * 1e-3) / copied
+
+    def bandwidth_share(self, sequence, variant):
+        s = self.sequences[sequence]
+        return self.share_of_bandwidth(self.cost(sequence, variant), s["width"] * s["height"],
+                                       self.milliseconds(sequence, variant))
+
+    def cost_at(self, variant, width, height):
+        """The plan's costs at a size; None where they are not known."""
+        return next((c for c in self.variants[variant]["costs"] if (c["width"], c["height"]) == (width, height)), None)
 
     def cost(self, sequence, variant):
         """The plan's costs at the sequence's size, or at the first one's."""
         s = self.sequences[sequence] if sequence else next(iter(self.sequences.values()))
-        return next(c for c in self.variants[variant]["costs"] if (c["width"], c["height"]) == (s["width"], s["height"]))
+        return self.cost_at(variant, s["width"], s["height"])
 
     def bytes_per_pixel(self, sequence, variant):
         cost = self.cost(sequence, variant)

@@ -152,22 +152,22 @@ def kind(pass_name):
     return pass_name.rstrip("0123456789 ")
 
 
-def phases_figure(bench, sequence):
-    """Stacked bars of the median time of every pass."""
-    names = [n for n in bench.methods if bench.runs[sequence, n]["passes"]]
-    if not names:
+def phases_figure(bench, timings):
+    """Stacked bars of the median time of every pass, by variant; of what has been timed."""
+    names = [n for n in bench.methods if n in timings and timings[n]["passes"]]
+    if bench.baseline not in names:
         return None
     software = bench.json["device"]["software"]
-    unit = bench.runs[sequence, bench.baseline]["milliseconds"]["median"] if software else 1.0
-    totals = {n: sum(p["median"] for p in bench.runs[sequence, n]["passes"]) / unit for n in names}
+    unit = timings[bench.baseline]["milliseconds"]["median"] if software else 1.0
+    totals = {n: sum(p["median"] for p in timings[n]["passes"]) / unit for n in names}
     figure, axes = plt.subplots(figsize=(11, 0.45 * len(names) + 1.2))
-    kinds = list(dict.fromkeys(kind(p["name"]) for n in names for p in bench.runs[sequence, n]["passes"]))
+    kinds = list(dict.fromkeys(kind(p["name"]) for n in names for p in timings[n]["passes"]))
     shades = plt.get_cmap("tab20").colors
     shades = shades[1::2] + shades[::2]  # The light ones first: they carry labels.
     limit = 1.25 * max(t for n, t in totals.items() if t <= 3 * totals[bench.baseline])
     for row, name in enumerate(names):
         left = 0.0
-        for item in bench.runs[sequence, name]["passes"]:
+        for item in timings[name]["passes"]:
             width = item["median"] / unit
             axes.barh(row, width, left=left, color=shades[kinds.index(kind(item["name"])) % 20], height=0.7,
                       edgecolor="white", linewidth=0.6,

@@ -17,20 +17,7 @@ Json orNull(const std::optional<T>& value) {
   return value ? Json(*value) : Json();
 }
 
-Json spreadOrNull(const std::optional<Spread>& value) {
-  return value ? toJson(*value) : Json();
-}
-
-std::optional<Spread> readSpread(const Json& json) {
-  if (json.is_null()) return std::nullopt;
-  return Spread{json.at("median"), json.at("p5"), json.at("p95")};
-}
-
 }  // namespace
-
-Json toJson(const Spread& spread) {
-  return {{"median", spread.median}, {"p5", spread.p5}, {"p95", spread.p95}};
-}
 
 Json toJson(const RunRecord& record) {
   Json frames = Json::array();
@@ -40,29 +27,16 @@ Json toJson(const RunRecord& record) {
     object["non_finite"] = frame.nonFinite;
     frames.push_back(std::move(object));
   }
-  Json passes = Json::array();
-  for (const PassSpread& pass : record.passes) {
-    Json object = {{"name", pass.name}};
-    object.update(toJson(pass.milliseconds));
-    passes.push_back(std::move(object));
-  }
-  return {{"variant", record.variant},
-          {"frames", std::move(frames)},
-          {"reproducible", record.reproducible},
-          {"timed_frames", record.timedFrames},
-          {"milliseconds", spreadOrNull(record.milliseconds)},
-          {"ratio", spreadOrNull(record.ratio)},
-          {"passes", std::move(passes)}};
+  Json json = {{"variant", record.variant}, {"frames", std::move(frames)}, {"reproducible", record.reproducible}};
+  addTiming(json, record.timing);
+  return json;
 }
 
 RunRecord recordFromJson(const Json& json) {
   RunRecord record{.variant = json.at("variant"),
                    .frames = {},
                    .reproducible = json.at("reproducible"),
-                   .timedFrames = json.at("timed_frames"),
-                   .milliseconds = readSpread(json.at("milliseconds")),
-                   .ratio = readSpread(json.at("ratio")),
-                   .passes = {}};
+                   .timing = timingFromJson(json)};
   for (const Json& object : json.at("frames")) {
     FrameErrors frame;
     frame.frame = object.at("frame");
@@ -74,7 +48,6 @@ RunRecord recordFromJson(const Json& json) {
     frame.nonFinite = object.at("non_finite");
     record.frames.push_back(frame);
   }
-  for (const Json& pass : json.at("passes")) record.passes.push_back({pass.at("name"), *readSpread(pass)});
   return record;
 }
 

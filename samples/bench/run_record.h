@@ -9,32 +9,21 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "samples/bench/errors.h"
-#include "samples/bench/spread.h"
+#include "samples/bench/timing.h"
 
 namespace walr {
-
-/// Time of one pass over all timed frames.
-struct PassSpread {
-  std::string name;
-  Spread milliseconds;
-};
 
 /// What came of one variant on one sequence.
 struct RunRecord {
   std::string variant;
   std::vector<FrameErrors> frames;
-  bool reproducible = true;            ///< Every repetition gave the same bits.
-  std::size_t timedFrames = 0;         ///< Frames behind the times, over all repetitions.
-  std::optional<Spread> milliseconds;  ///< All passes of a frame; absent without a timer.
-  /// Time over the baseline's on the same frame of the same repetition; absent without a timer.
-  std::optional<Spread> ratio;
-  std::vector<PassSpread> passes;  ///< In the order of execution.
+  bool reproducible = true;  ///< Every repetition gave the same bits.
+  Timing timing;
 };
 
 /// @throws nlohmann::json::exception from `recordFromJson` where something is missing
 nlohmann::ordered_json toJson(const RunRecord& record);
 RunRecord recordFromJson(const nlohmann::ordered_json& json);
-nlohmann::ordered_json toJson(const Spread& spread);
 
 /// Finished runs on disk, each with a key that says what it was made from: an interrupted benchmark goes on where it
 /// was, and a run whose key has changed is made again.

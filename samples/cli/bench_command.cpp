@@ -30,6 +30,7 @@ struct BenchArguments {
   std::vector<std::string> variants;
   std::vector<std::string> sweeps;
   std::string frames;
+  std::vector<std::string> sizes;
   GpuDevice::Options gpu;
   BenchOptions bench;
   bool noHtml = false;
@@ -66,9 +67,11 @@ void writeText(const std::filesystem::path& path, const std::string& text) {
 }
 
 void runBench(BenchArguments& arguments, const std::string& command) {
-  if (arguments.sequences.empty() && !arguments.bench.response && !arguments.bench.hardCases) {
-    throw UsageError("nothing to measure: give --sequences DIR..., --response or --hard-cases");
+  if (arguments.sequences.empty() && arguments.sizes.empty() && !arguments.bench.response &&
+      !arguments.bench.hardCases) {
+    throw UsageError("nothing to measure: give --sequences DIR..., --sizes, --response or --hard-cases");
   }
+  for (const std::string& size : arguments.sizes) arguments.bench.sizes.push_back(parseSize(size));
   arguments.bench.variants = chosenVariants(arguments);
   refuseOutputIntoInput(arguments);
   SequenceOptions options;
@@ -121,7 +124,7 @@ void registerBench(CLI::App& program) {
   command
       ->add_option("--sequences", arguments->sequences,
                    "Folders of frames with references (samples/README.md), one report section each; may be left out "
-                   "with --response or --hard-cases")
+                   "with --sizes, --response or --hard-cases")
       ->type_name("DIR...");
   command
       ->add_option("-o,--output", arguments->bench.output,
@@ -141,6 +144,13 @@ void registerBench(CLI::App& program) {
       ->type_name("NAME=METHOD[:PRESET][,SETTING=VALUE]...");
   command->add_option("--sweep", arguments->sweeps, sweepHelp())->type_name("NAME");
   command->add_option("--frames", arguments->frames, "Frame numbers, both included; default: all")->type_name("A-B");
+  command
+      ->add_option("--sizes", arguments->sizes,
+                   "Also time every variant on synthetic frames of these sizes, pass by pass, parted by commas; what "
+                   "the device's memory does not hold is said to be missing")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->type_name("WIDTHxHEIGHT,...");
   command->add_flag(
       "--hard-cases", arguments->bench.hardCases,
       "Also run every method, and walr with every storage of the moments and way of solving, on frames that "

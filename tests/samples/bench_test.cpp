@@ -14,6 +14,7 @@
 #include "samples/bench/npy.h"
 #include "samples/bench/plan_costs.h"
 #include "samples/bench/run_record.h"
+#include "samples/bench/size_times.h"
 #include "samples/bench/spread.h"
 #include "samples/bench/sweep.h"
 #include "samples/bench/variant.h"
@@ -195,9 +196,9 @@ RunRecord someRecord() {
   record.frames[1].frame = 7;
   record.frames[1].flip = 0.125;
   record.frames[1].nonFinite = 3;
-  record.milliseconds = Spread{2.0, 1.0, 3.0};
-  record.passes = {{"a-trous 0", {0.5, 0.25, 0.75}}};
-  record.timedFrames = 6;
+  record.timing.milliseconds = Spread{2.0, 1.0, 3.0};
+  record.timing.passes = {{"a-trous 0", {0.5, 0.25, 0.75}}};
+  record.timing.frames = 6;
   return record;
 }
 
@@ -209,7 +210,7 @@ TEST(RunStoreTest, GivesBackWhatWasSaved) {
   const auto found = store.find("fence", "walr:paper", "key");
   ASSERT_TRUE(found.has_value());
   EXPECT_EQ(toJson(*found), toJson(someRecord()));
-  EXPECT_FALSE(found->ratio.has_value());
+  EXPECT_FALSE(found->timing.ratio.has_value());
 }
 
 TEST(RunStoreTest, TakesNothingThatWasMadeFromSomethingElseOrIsDamaged) {
@@ -254,6 +255,21 @@ TEST_F(BenchFrameTest, HalvesOfTheReferenceTellItsNoise) {
   const std::optional<double> noise = survey(open()).front().referenceNoise;
   ASSERT_TRUE(noise.has_value());
   EXPECT_GT(*noise, 0.0);
+}
+
+TEST(SizeTimesTest, SaysWhatDoesNotRun) {
+  const GpuDevice device({.device = {}, .validation = true});
+  const std::vector<Variant> variants = {parseVariant("none=none"), parseVariant("fine=flr,regression.factor=1")};
+  int frames = 0;
+  // A cell a pixel takes 128 bytes in a buffer, of which Vulkan guarantees 2^27.
+  const SizeTimes times = sizeTimes(device, variants, {1025, 1024}, 1, [&] { ++frames; });
+  EXPECT_EQ(frames, 2 * static_cast<int>(kFramesPerSize));
+  ASSERT_EQ(times.timings.size(), 2U);
+  EXPECT_EQ(times.timings[0].timing.frames, kFramesPerSize);
+  EXPECT_EQ(times.timings[0].timing.ratio.value().median, 1.0);
+  EXPECT_TRUE(times.timings[0].whyNot.empty());
+  EXPECT_EQ(times.timings[1].timing.frames, 0U);
+  EXPECT_NE(times.timings[1].whyNot.find("regression.factor"), std::string::npos) << times.timings[1].whyNot;
 }
 
 TEST(PictureFrames, AreTheLastAndTheHardestAfterHistoryHasBuiltUp) {

@@ -1,0 +1,70 @@
+#include "samples/bench/timing.h"
+
+#include <nlohmann/json.hpp>
+
+namespace walr {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json spreadOrNull(const std::optional<Spread>& value) {
+  return value ? toJson(*value) : Json();
+}
+
+std::optional<Spread> readSpread(const Json& json) {
+  if (json.is_null()) return std::nullopt;
+  return Spread{json.at("median"), json.at("p5"), json.at("p95")};
+}
+
+}  // namespace
+
+void FrameTimes::add(const DenoisedPicture& picture) {
+  if (picture.passes.empty()) return;
+  milliseconds_.push_back(*picture.milliseconds());
+  names_.resize(picture.passes.size());
+  passes_.resize(picture.passes.size());
+  for (std::size_t pass = 0; pass < picture.passes.size(); ++pass) {
+    names_[pass] = picture.passes[pass].name;
+    passes_[pass].push_back(picture.passes[pass].milliseconds);
+  }
+}
+
+Timing FrameTimes::timing(const FrameTimes& baseline) const {
+  Timing timing;
+  timing.frames = milliseconds_.size();
+  if (milliseconds_.empty()) return timing;
+  timing.milliseconds = spread(milliseconds_);
+  std::vector<double> ratios;
+  for (std::size_t i = 0; i < milliseconds_.size(); ++i) {
+    ratios.push_back(milliseconds_[i] / baseline.milliseconds_[i]);
+  }
+  timing.ratio = spread(ratios);
+  for (std::size_t pass = 0; pass < passes_.size(); ++pass) {
+    timing.passes.push_back({names_[pass], spread(passes_[pass])});
+  }
+  return timing;
+}
+
+Json toJson(const Spread& spread) {
+  return {{"median", spread.median}, {"p5", spread.p5}, {"p95", spread.p95}};
+}
+
+void addTiming(Json& object, const Timing& timing) {
+  object["timed_frames"] = timing.frames;
+  object["milliseconds"] = spreadOrNull(timing.milliseconds);
+  object["ratio"] = spreadOrNull(timing.ratio);
+  object["passes"] = Json::array();
+  for (const PassSpread& pass : timing.passes) {
+    Json json = {{"name", pass.name}};
+    json.update(toJson(pass.milliseconds));
+    object["passes"].push_back(std::move(json));
+  }
+}
+
+Timing timingFromJson(const Json& object) {
+  Timing timing{object.at("timed_frames"), readSpread(object.at("milliseconds")), readSpread(object.at("ratio")), {}};
+  for (const Json& pass : object.at("passes")) timing.passes.push_back({pass.at("name"), *readSpread(pass)});
+  return timing;
+}
+
+}  // namespace walr
