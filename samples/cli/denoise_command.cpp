@@ -30,6 +30,9 @@
 namespace walr {
 namespace {
 
+/// One for the device to work on while the next is recorded and the last one taken over.
+constexpr std::uint32_t kFramesInFlight = 2;
+
 struct DenoiseOptions {
   std::filesystem::path input;
   OutputOptions output;
@@ -100,7 +103,8 @@ GpuDenoiser makeDenoiser(const DenoiseOptions& options, const GpuDevice& device,
             method,
             sequence.extent(),
             *sequence.layout().layout,
-            {.views = options.views, .counters = options.counters}};
+            {.views = options.views, .counters = options.counters},
+            kFramesInFlight};
   } catch (const std::invalid_argument& error) {
     throw UsageError(error.what());
   }
@@ -138,7 +142,12 @@ void denoise(DenoiseOptions& options) {
                       Progress::Clock::now());
     runPipeline(
         sequence.entries().size(), [&](std::size_t index) { return packFrame(sequence.read(index)); },
-        [&](PackedFrame frame) { return denoiser.denoise(std::move(frame)); },
+        [&](PackedFrame frame) {
+          std::optional<DenoisedFrame> done = denoiser.full() ? denoiser.finish() : std::nullopt;
+          denoiser.submit(std::move(frame));
+          return done;
+        },
+        [&] { return denoiser.finish(); },
         [&](const DenoisedFrame& frame) {
           writeDenoisedFrame(frame, options.output);
           report.frames.push_back(measure(frame));

@@ -4,8 +4,10 @@
 #include <array>
 #include <cstdint>
 #include <cstring>
+#include <deque>
 #include <numeric>
 #include <span>
+#include <stdexcept>
 #include <utility>
 
 #include "framegraph/vulkan/device.h"
@@ -17,16 +19,13 @@
 namespace walr {
 namespace {
 
-// Frames are read, denoised and written side by side already; one on the device at a time keeps their order plain.
-constexpr std::uint32_t kFramesInFlight = 1;
-
 /// A picture on its way to the device: the graph's texture and the image behind it.
 class UploadedTexture {
  public:
   UploadedTexture(const fg::vk::DeviceContext& device, const fg::Graph& graph, fg::vk::Executor& executor,
-                  fg::Texture texture)
+                  fg::Texture texture, std::uint32_t slots)
       : image_(device, graph.textureDesc(texture), executor.usage(texture), fg::vk::StagedImage::Direction::Upload,
-               kFramesInFlight, graph.desc().resources[texture.resource].name) {
+               slots, graph.desc().resources[texture.resource].name) {
     executor.bind(texture, image_.external());
   }
 
@@ -54,39 +53,53 @@ Image viewImage(std::span<const std::byte> texels, int width, int height) {
 
 struct GpuDenoiser::State {
   State(const GpuDevice& gpu, Denoiser& method, fg::Extent extent, const Layout& frameLayout,
-        const InspectionWish& wanted)
-      : device(gpu.device()),
+        const InspectionWish& wanted, std::uint32_t slots)
+      : framesInFlight(slots),
+        device(gpu.device()),
         layout(frameLayout),
         declared(declareDenoiseGraph(
             method, extent, layout.conventions,
             {.inputs = fg::vk::kUploaded, .outputBefore = fg::vk::kOverwritable, .outputAfter = fg::vk::kReadable}, {},
             {}, wanted)),
         executor(device.context(), declared.graph.desc(), compileFor(gpu, declared.graph),
-                 {.framesInFlight = kFramesInFlight, .timestamps = device.context().timestampBits > 0}),
+                 {.framesInFlight = slots, .timestamps = device.context().timestampBits > 0}),
         lighting(makeUpload(declared.inputs.lighting)),
         depth(makeUpload(declared.inputs.depth)),
         normal(makeUpload(declared.inputs.normal)),
         motion(makeUpload(declared.inputs.motion)),
         albedo(makeUpload(declared.inputs.albedo)),
         output(device.context(), declared.graph.textureDesc(declared.output), executor.usage(declared.output),
-               fg::vk::StagedImage::Direction::Readback, kFramesInFlight, "denoised"),
-        queue(device.context(), device.queue(), kFramesInFlight) {
+               fg::vk::StagedImage::Direction::Readback, slots, "denoised"),
+        queue(device.context(), device.queue(), slots) {
     executor.bind(declared.output, output.external());
     for (const DebugView& view : declared.inspection.views()) {
       views.emplace_back(device.context(), declared.graph.textureDesc(view.texture), executor.usage(view.texture),
-                         fg::vk::StagedImage::Direction::Readback, kFramesInFlight, "view of " + view.name);
+                         fg::vk::StagedImage::Direction::Readback, slots, "view of " + view.name);
       executor.bind(view.texture, views.back().external());
     }
     if (!declared.inspection.counters().empty()) {
       const fg::Buffer buffer = declared.inspection.counterBuffer();
-      counters.emplace(device.context(), fg::BufferDesc{kCounterBytes}, executor.usage(buffer), kFramesInFlight,
-                       "counters");
+      counters.emplace(device.context(), fg::BufferDesc{kCounterBytes}, executor.usage(buffer), slots, "counters");
       executor.bind(buffer, counters->handle());
     }
   }
 
-  UploadedTexture makeUpload(fg::Texture texture) { return {device.context(), declared.graph, executor, texture}; }
+  UploadedTexture makeUpload(fg::Texture texture) {
+    return {device.context(), declared.graph, executor, texture, framesInFlight};
+  }
 
+  /// Record and submit a frame. @returns its slot
+  std::uint32_t submit(const PackedFrame& packed);
+  /// Wait for the frame of a slot and read it back.
+  DenoisedPicture finish(std::uint32_t slot);
+
+  /// A frame that the device has not been waited for.
+  struct InFlight {
+    Frame frame;
+    std::uint32_t slot;
+  };
+
+  std::uint32_t framesInFlight;
   const fg::vk::Device& device;
   const Layout& layout;
   DenoiseGraph declared;
@@ -100,6 +113,7 @@ struct GpuDenoiser::State {
   std::vector<fg::vk::StagedImage> views;
   std::optional<fg::vk::StagedBuffer> counters;
   fg::vk::FrameQueue queue;
+  std::deque<InFlight> inFlight;
 };
 
 std::optional<double> DenoisedPicture::milliseconds() const {
@@ -110,61 +124,86 @@ std::optional<double> DenoisedPicture::milliseconds() const {
                          [](double sum, const fg::vk::PassTime& time) { return sum + time.milliseconds; });
 }
 
-GpuDenoiser::GpuDenoiser(const GpuDevice& device, Denoiser& method, fg::Extent extent, const Layout& layout,
-                         const InspectionWish& wanted)
-    : state_(std::make_unique<State>(device, method, extent, layout, wanted)) {}
-GpuDenoiser::~GpuDenoiser() = default;
-GpuDenoiser::GpuDenoiser(GpuDenoiser&&) noexcept = default;
-GpuDenoiser& GpuDenoiser::operator=(GpuDenoiser&&) noexcept = default;
-
-DenoisedPicture GpuDenoiser::run(const PackedFrame& packed) {
-  State& state = *state_;
+std::uint32_t GpuDenoiser::State::submit(const PackedFrame& packed) {
+  if (inFlight.size() == framesInFlight) throw std::logic_error("GpuDenoiser::submit: finish a frame first");
   const Frame& frame = packed.frame;
-  state.executor.upload(state.declared.inputs.frame, frameConstantsOf(frame, state.layout.motionScale));
+  executor.upload(declared.inputs.frame, frameConstantsOf(frame, layout.motionScale));
   if (frame.resetHistory) {
-    state.executor.resetAllHistory();
+    executor.resetAllHistory();
   }
-  const fg::vk::Frame recorded = state.queue.begin();
-  state.lighting.upload(recorded, packed.lighting);
-  state.depth.upload(recorded, frame.depth.values());
-  state.normal.upload(recorded, packed.normal);
-  state.motion.upload(recorded, packed.motion);
-  state.albedo.upload(recorded, packed.albedo);
-  state.executor.record(recorded.commandBuffer, recorded.slot);
-  state.output.recordReadback(recorded.commandBuffer, recorded.slot);
-  for (const fg::vk::StagedImage& view : state.views) view.recordReadback(recorded.commandBuffer, recorded.slot);
-  if (state.counters) state.counters->recordReadback(recorded.commandBuffer, recorded.slot);
-  state.queue.submit(recorded);
-  state.queue.wait(recorded.slot);
+  const fg::vk::Frame recorded = queue.begin();
+  lighting.upload(recorded, packed.lighting);
+  depth.upload(recorded, frame.depth.values());
+  normal.upload(recorded, packed.normal);
+  motion.upload(recorded, packed.motion);
+  albedo.upload(recorded, packed.albedo);
+  executor.record(recorded.commandBuffer, recorded.slot);
+  output.recordReadback(recorded.commandBuffer, recorded.slot);
+  for (const fg::vk::StagedImage& view : views) view.recordReadback(recorded.commandBuffer, recorded.slot);
+  if (counters) counters->recordReadback(recorded.commandBuffer, recorded.slot);
+  queue.submit(recorded);
+  return recorded.slot;
+}
 
-  std::vector<Rgba16> texels(frame.depth.pixelCount());
-  std::ranges::copy(state.output.staging(recorded.slot), std::as_writable_bytes(std::span(texels)).begin());
-  const std::span<const fg::vk::PassTime> times = state.executor.passTimes(recorded.slot);
-  DenoisedPicture picture{
-      unpackRgb(texels, frame.depth.width(), frame.depth.height()), {times.begin(), times.end()}, {}, {}};
-  for (std::size_t i = 0; i < state.views.size(); ++i) {
-    picture.views.push_back(
-        {state.declared.inspection.views()[i].name,
-         viewImage(state.views[i].staging(recorded.slot), frame.depth.width(), frame.depth.height())});
-  }
-  if (state.counters) {
+DenoisedPicture GpuDenoiser::State::finish(std::uint32_t slot) {
+  queue.wait(slot);
+  const fg::Extent extent = declared.graph.textureDesc(declared.output).extent;
+  const auto width = static_cast<int>(extent.width);
+  const auto height = static_cast<int>(extent.height);
+  std::vector<Rgba16> texels(std::size_t{extent.width} * extent.height);
+  std::ranges::copy(output.staging(slot), std::as_writable_bytes(std::span(texels)).begin());
+  const std::span<const fg::vk::PassTime> times = executor.passTimes(slot);
+  DenoisedPicture picture{unpackRgb(texels, width, height), {times.begin(), times.end()}, {}, {}};
+  for (std::size_t i = 0; i < views.size(); ++i)
+    picture.views.push_back({declared.inspection.views()[i].name, viewImage(views[i].staging(slot), width, height)});
+  if (counters) {
     std::array<std::uint32_t, kCounterWords> words{};
-    std::ranges::copy(state.counters->staging(recorded.slot), std::as_writable_bytes(std::span(words)).begin());
-    for (const Counter& counter : state.declared.inspection.counters())
+    std::ranges::copy(counters->staging(slot), std::as_writable_bytes(std::span(words)).begin());
+    for (const Counter& counter : declared.inspection.counters())
       picture.counters.push_back({counter.name, counter.value(words)});
   }
   return picture;
 }
 
-DenoisedFrame GpuDenoiser::denoise(PackedFrame packed) {
-  DenoisedPicture picture = run(packed);
+GpuDenoiser::GpuDenoiser(const GpuDevice& device, Denoiser& method, fg::Extent extent, const Layout& layout,
+                         const InspectionWish& wanted, std::uint32_t framesInFlight)
+    : state_(std::make_unique<State>(device, method, extent, layout, wanted, framesInFlight)) {}
+GpuDenoiser::~GpuDenoiser() = default;
+GpuDenoiser::GpuDenoiser(GpuDenoiser&&) noexcept = default;
+GpuDenoiser& GpuDenoiser::operator=(GpuDenoiser&&) noexcept = default;
+
+bool GpuDenoiser::full() const {
+  return state_->inFlight.size() == state_->framesInFlight;
+}
+
+void GpuDenoiser::submit(PackedFrame packed) {
+  const std::uint32_t slot = state_->submit(packed);
+  state_->inFlight.push_back({std::move(packed.frame), slot});
+}
+
+std::optional<DenoisedFrame> GpuDenoiser::finish() {
+  if (state_->inFlight.empty()) return std::nullopt;
+  State::InFlight oldest = std::move(state_->inFlight.front());
+  state_->inFlight.pop_front();
+  DenoisedPicture picture = state_->finish(oldest.slot);
   DenoisedFrame denoised;
-  denoised.indirect = std::move(picture.indirect);
   denoised.gpuMilliseconds = picture.milliseconds();
+  denoised.indirect = std::move(picture.indirect);
   denoised.views = std::move(picture.views);
   denoised.counters = std::move(picture.counters);
-  denoised.frame = std::move(packed.frame);
+  denoised.frame = std::move(oldest.frame);
   return denoised;
+}
+
+DenoisedPicture GpuDenoiser::run(const PackedFrame& packed) {
+  if (!state_->inFlight.empty()) throw std::logic_error("GpuDenoiser::run: finish the frames in flight first");
+  return state_->finish(state_->submit(packed));
+}
+
+DenoisedFrame GpuDenoiser::denoise(PackedFrame packed) {
+  if (!state_->inFlight.empty()) throw std::logic_error("GpuDenoiser::denoise: finish the frames in flight first");
+  submit(std::move(packed));
+  return *finish();
 }
 
 }  // namespace walr

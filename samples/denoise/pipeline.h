@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <exception>
 #include <mutex>
+#include <optional>
 #include <thread>
 #include <type_traits>
 #include <utility>
@@ -15,16 +16,17 @@ namespace walr {
 /// small whatever the length of the job.
 inline constexpr std::size_t kPipelineDepth = 2;
 
-/// Run three stages side by side on three threads, in order, for the elements 0 to `count` - 1. `process` runs on the
-/// calling thread.
+/// Run three stages side by side on three threads, in order, for the elements 0 to `count` - 1. `process` and `drain`
+/// run on the calling thread.
 /// @param read     std::size_t -> Input
-/// @param process  Input -> Output
+/// @param process  Input -> std::optional<Output>: takes an element, and gives one that is done where there is one
+/// @param drain    () -> std::optional<Output>: after the last element, what `process` still holds, until there is none
 /// @param write    Output -> void
 /// @throws whatever a stage threw first; the others stop after the element they are at
-template <typename Read, typename Process, typename Write>
-void runPipeline(std::size_t count, Read read, Process process, Write write) {
+template <typename Read, typename Process, typename Drain, typename Write>
+void runPipeline(std::size_t count, Read read, Process process, Drain drain, Write write) {
   using Input = std::invoke_result_t<Read, std::size_t>;
-  using Output = std::invoke_result_t<Process, Input>;
+  using Output = typename std::invoke_result_t<Process, Input>::value_type;
   BoundedQueue<Input> inputs(kPipelineDepth);
   BoundedQueue<Output> outputs(kPipelineDepth);
   std::mutex mutex;
@@ -61,10 +63,17 @@ void runPipeline(std::size_t count, Read read, Process process, Write write) {
       });
     });
     guarded([&] {
-      while (std::optional<Input> input = inputs.pop()) {
-        if (!outputs.push(process(std::move(*input)))) {
-          break;
-        }
+      bool wanted = true;
+      const auto hand = [&](std::optional<Output> output) {
+        if (output) wanted = outputs.push(std::move(*output));
+        return output.has_value();
+      };
+      while (wanted) {
+        std::optional<Input> input = inputs.pop();
+        if (!input) break;
+        hand(process(std::move(*input)));
+      }
+      while (wanted && hand(drain())) {
       }
       outputs.close();
     });

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <deque>
 #include <memory>
+#include <numeric>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -15,17 +18,45 @@ namespace walr {
 namespace {
 
 constexpr auto kIdentity = [](auto element) { return element; };
+constexpr auto kAtOnce = [](auto element) { return std::optional(element); };
+/// Nothing is held back.
+template <typename Output>
+std::optional<Output> noMore() {
+  return std::nullopt;
+}
 
 TEST(Pipeline, HandsEveryElementThroughInOrder) {
   std::vector<std::string> written;
   runPipeline(
-      5, [](std::size_t i) { return static_cast<int>(i); }, [](int i) { return std::to_string(i * i); },
-      [&](std::string text) { written.push_back(std::move(text)); });
+      5, [](std::size_t i) { return static_cast<int>(i); }, [](int i) { return std::optional(std::to_string(i * i)); },
+      noMore<std::string>, [&](std::string text) { written.push_back(std::move(text)); });
   EXPECT_EQ(written, (std::vector<std::string>{"0", "1", "4", "9", "16"}));
 }
 
+TEST(Pipeline, HandsOnWhatAStageHoldsBack) {
+  std::deque<std::size_t> held;
+  const auto oldest = [&]() -> std::optional<std::size_t> {
+    if (held.empty()) return std::nullopt;
+    const std::size_t element = held.front();
+    held.pop_front();
+    return element;
+  };
+  for (const std::size_t count : {1U, 3U, 9U}) {
+    std::vector<std::size_t> written;
+    const auto process = [&](std::size_t element) {
+      const std::optional<std::size_t> done = held.size() == 3 ? oldest() : std::nullopt;
+      held.push_back(element);
+      return done;
+    };
+    runPipeline(count, kIdentity, process, oldest, [&](std::size_t element) { written.push_back(element); });
+    std::vector<std::size_t> all(count);
+    std::iota(all.begin(), all.end(), 0);
+    EXPECT_EQ(written, all);
+  }
+}
+
 TEST(Pipeline, AnEmptyJobEnds) {
-  runPipeline(0, kIdentity, kIdentity, [](std::size_t) { FAIL(); });
+  runPipeline(0, kIdentity, kAtOnce, noMore<std::size_t>, [](std::size_t) { FAIL(); });
 }
 
 TEST(Pipeline, HoldsFewElementsHoweverLongTheJob) {
@@ -40,7 +71,7 @@ TEST(Pipeline, HoldsFewElementsHoweverLongTheJob) {
     });
   };
   // The slowest stage last, so that everything before it piles up as far as it may.
-  runPipeline(200, make, kIdentity,
+  runPipeline(200, make, kAtOnce, noMore<std::shared_ptr<int>>,
               [](const std::shared_ptr<int>&) { std::this_thread::sleep_for(std::chrono::microseconds(200)); });
   // Two queues, and one element in the hands of each of the three stages.
   EXPECT_LE(most, 2 * static_cast<int>(kPipelineDepth) + 3);
@@ -54,7 +85,9 @@ TEST(Pipeline, StagesOverlap) {
     return element;
   };
   const auto start = std::chrono::steady_clock::now();
-  runPipeline(20, slow, slow, [&](std::size_t element) { slow(element); });
+  runPipeline(
+      20, slow, [&](std::size_t element) { return std::optional(slow(element)); }, noMore<std::size_t>,
+      [&](std::size_t element) { slow(element); });
   // One after the other they would take 600 ms, side by side 220 ms.
   EXPECT_LT(std::chrono::steady_clock::now() - start, 500ms);
 }
@@ -72,7 +105,8 @@ TEST_P(FailingStage, StopsTheOthersAndIsReported) {
   };
   std::size_t written = 0;
   try {
-    runPipeline(1000, stage(0), stage(1), [&, write = stage(2)](std::size_t element) {
+    const auto process = [middle = stage(1)](std::size_t element) { return std::optional(middle(element)); };
+    runPipeline(1000, stage(0), process, noMore<std::size_t>, [&, write = stage(2)](std::size_t element) {
       write(element);
       ++written;
     });

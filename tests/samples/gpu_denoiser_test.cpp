@@ -1,0 +1,99 @@
+// Frames on a device, one at a time and several at once.
+#include <algorithm>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "passes/denoiser.h"
+#include "samples/denoise/gpu_denoiser.h"
+#include "samples/image/half.h"
+#include "tests/samples/synthetic_sequence.h"
+
+namespace walr {
+namespace {
+
+constexpr int kWidth = 40;
+constexpr int kHeight = 24;
+constexpr fg::Extent kExtent{kWidth, kHeight};
+
+class GpuDenoiserTest : public testing::Test {
+ protected:
+  void TearDown() override { EXPECT_NO_THROW(gpu.refuseMessages()); }
+
+  GpuDevice gpu{{.device = {}, .validation = true}};
+};
+
+/// The wall under light that is another in each frame, with a camera cut among them.
+std::vector<PackedFrame> frames() {
+  std::vector<PackedFrame> frames;
+  for (int number = 0; number < 7; ++number) {
+    Frame frame = test::projectFrame(number, kWidth, kHeight);
+    for (std::size_t i = 0; i < frame.indirect.values().size(); ++i) {
+      const auto mixed = static_cast<std::uint32_t>(i * 2654435761U + static_cast<std::uint32_t>(number) * 40503U);
+      frame.indirect.values()[i] = toHalf(static_cast<float>(mixed >> 24U) / 64.0F);
+    }
+    frame.camera.projection = glm::perspective(1.0F, static_cast<float>(kWidth) / kHeight, 0.1F, 100.0F);
+    frame.previousProjection = frame.camera.projection;
+    frame.resetHistory = number == 0 || number == 4;
+    frames.push_back(packFrame(std::move(frame)));
+  }
+  return frames;
+}
+
+std::vector<DenoisedFrame> denoiseAll(const GpuDevice& gpu, std::string_view method, const InspectionWish& wanted,
+                                      std::uint32_t framesInFlight) {
+  GpuDenoiser denoiser(gpu, *makeDenoiser(method), kExtent, projectLayout(), wanted, framesInFlight);
+  std::vector<DenoisedFrame> results;
+  for (PackedFrame& frame : frames()) {
+    if (denoiser.full()) results.push_back(*denoiser.finish());
+    denoiser.submit(std::move(frame));
+  }
+  while (std::optional<DenoisedFrame> last = denoiser.finish()) results.push_back(std::move(*last));
+  return results;
+}
+
+TEST_F(GpuDenoiserTest, FramesInFlightDoNotChangeABit) {
+  const std::vector<std::string> views{"history", "samples"};
+  const InspectionWish wanted{.views = views, .counters = true};
+  const std::vector<DenoisedFrame> one = denoiseAll(gpu, "walr", wanted, 1);
+  ASSERT_EQ(one.size(), frames().size());
+  EXPECT_FALSE(std::ranges::equal(one[1].indirect.values(), one[4].indirect.values()));
+  for (const std::uint32_t inFlight : {2U, 3U}) {
+    const std::vector<DenoisedFrame> several = denoiseAll(gpu, "walr", wanted, inFlight);
+    ASSERT_EQ(several.size(), one.size());
+    for (std::size_t i = 0; i < one.size(); ++i) {
+      SCOPED_TRACE("frame " + std::to_string(i) + ", " + std::to_string(inFlight) + " in flight");
+      EXPECT_EQ(several[i].frame.number, one[i].frame.number);
+      EXPECT_TRUE(std::ranges::equal(several[i].indirect.values(), one[i].indirect.values()));
+      ASSERT_EQ(several[i].views.size(), views.size());
+      for (std::size_t v = 0; v < views.size(); ++v)
+        EXPECT_TRUE(std::ranges::equal(several[i].views[v].image.values(), one[i].views[v].image.values()));
+      ASSERT_FALSE(one[i].counters.empty());
+      ASSERT_EQ(several[i].counters.size(), one[i].counters.size());
+      for (std::size_t c = 0; c < one[i].counters.size(); ++c)
+        EXPECT_EQ(several[i].counters[c].value, one[i].counters[c].value) << one[i].counters[c].name;
+    }
+  }
+}
+
+TEST_F(GpuDenoiserTest, RefusesMoreFramesThanMayBeInFlight) {
+  GpuDenoiser denoiser(gpu, *makeDenoiser("none"), kExtent, projectLayout(), {}, 2);
+  const std::vector<PackedFrame> all = frames();
+  EXPECT_FALSE(denoiser.finish().has_value());
+  denoiser.submit(all[0]);
+  EXPECT_FALSE(denoiser.full());
+  EXPECT_THROW(denoiser.run(all[1]), std::logic_error);
+  denoiser.submit(all[1]);
+  EXPECT_TRUE(denoiser.full());
+  EXPECT_THROW(denoiser.submit(all[2]), std::logic_error);
+  EXPECT_EQ(denoiser.finish()->frame.number, 0);
+  EXPECT_EQ(denoiser.finish()->frame.number, 1);
+  EXPECT_EQ(denoiser.denoise(all[2]).frame.number, 2);
+}
+
+}  // namespace
+}  // namespace walr
