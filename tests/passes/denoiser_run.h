@@ -13,6 +13,8 @@ class DenoiserRun {
 
   /// Forget all frames so far.
   void reset() { run_->executor().resetAllHistory(); }
+  /// Device memory of the graph, bytes.
+  [[nodiscard]] std::uint64_t allocatedBytes() { return run_->executor().allocatedBytes(); }
   /// Denoise the next frame. rgb: the result.
   reference::Image<glm::dvec4> frame(const reference::HostFrame& frame);
 

@@ -1,0 +1,85 @@
+// Ten thousand frames through the whole pipeline: whether what comes out in the end stays where it was.
+
+#include <array>
+#include <cmath>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "tests/passes/denoiser_run.h"
+#include "tests/passes/synthetic_scene.h"
+#include "tests/vulkan/gpu_fixture.h"
+
+namespace walr::test {
+namespace {
+
+using reference::HostFrame;
+
+constexpr glm::ivec2 kSize(24, 16);
+constexpr std::uint32_t kCycle = 61;  ///< Different noisy frames, shown again and again.
+constexpr std::uint32_t kCycles = 166;
+constexpr std::uint32_t kUnsettled = 2;  ///< Cycles in which histories fill.
+static_assert((kCycles - kUnsettled) * kCycle > 10000);
+
+/// Mean of some values and the variance of that mean.
+struct MeanOf {
+  explicit MeanOf(std::span<const double> values) {
+    const auto n = static_cast<double>(values.size());
+    for (const double v : values) mean += v / n;
+    for (const double v : values) variance += (v - mean) * (v - mean) / ((n - 1.0) * n);
+  }
+  double mean = 0.0;
+  double variance = 0.0;
+};
+
+class WalrDriftTest : public fg::test::GpuTest, public testing::WithParamInterface<const char*> {};
+
+// The same frames come again and again, and only the random picks of samples and taps are others each time: the means
+// of the cycles are alike and hardly depend on each other, histories being much shorter than a cycle. If nothing drifts
+// the two halves of the run have the same mean, within four standard deviations of their difference. Both halves know
+// their mean so well that a drift of a thousandth would show.
+TEST_P(WalrDriftTest, TheOutputStaysWhereItIsAndMemoryDoesNotGrow) {
+  std::vector<HostFrame> cycle;
+  for (std::uint32_t i = 0; i < kCycle; ++i) cycle.push_back(renderStill(stairs(), kSize, i));
+  const std::unique_ptr<Denoiser> method = makeDenoiser("walr");
+  method->usePreset(GetParam());
+  // As in a picture large enough for windows of several iterations, whose taps meet edges.
+  method->set("walr.fit-window", "off");
+  method->set("regression.iterations", "3");
+  method->set("blocks.iterations", "2");
+  DenoiserRun run(device(), *method, kSize);
+
+  std::array<std::vector<double>, 3> means;
+  std::uint64_t bytes = 0;
+  for (std::uint32_t k = 0; k < kCycles; ++k) {
+    glm::dvec3 mean(0.0);
+    for (std::uint32_t i = 0; i < kCycle; ++i) {
+      HostFrame& frame = cycle[i];
+      frame.constants.frameIndex = k * kCycle + i;
+      const reference::Image<glm::dvec4> output = run.frame(frame);
+      for (const glm::dvec4& v : output.pixels()) mean += glm::dvec3(v);
+    }
+    ASSERT_TRUE(std::isfinite(mean.r + mean.g + mean.b)) << "cycle " << k;
+    if (k == 0) bytes = run.allocatedBytes();
+    if (k < kUnsettled) continue;
+    for (int c = 0; c < 3; ++c) means[c].push_back(mean[c] / (double(kCycle) * kSize.x * kSize.y));
+  }
+  EXPECT_EQ(run.allocatedBytes(), bytes);
+  for (int c = 0; c < 3; ++c) {
+    const std::span<const double> all(means[c]);
+    const MeanOf early(all.first(all.size() / 2));
+    const MeanOf late(all.last(all.size() / 2));
+    const double deviation = std::sqrt(early.variance + late.variance);
+    RecordProperty("relative_drift_" + std::to_string(c), std::to_string((late.mean - early.mean) / early.mean));
+    RecordProperty("relative_deviation_" + std::to_string(c), std::to_string(deviation / early.mean));
+    EXPECT_NEAR(late.mean, early.mean, 4.0 * deviation) << "channel " << c;
+    EXPECT_LT(4.0 * deviation, 1e-3 * early.mean) << "channel " << c;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Presets, WalrDriftTest, testing::Values("blocks", "robust"),
+                         [](const auto& info) { return std::string(info.param); });
+
+}  // namespace
+}  // namespace walr::test
