@@ -94,6 +94,13 @@ struct Iteration {
   Averages averages;          ///< Of the iteration before.
 };
 
+/// The ridge falls with the number of samples. Where their count is dropped, each tap stands for those of the pixels
+/// between taps.
+float noiseRidge(const WeightedRegressionSettings& settings, std::uint32_t spacing) {
+  const float samplesPerTap = settings.keepSampleCount ? 1.0F : static_cast<float>(spacing * spacing);
+  return settings.regularisation.noiseRidge / samplesPerTap;
+}
+
 /// A pass that does an iteration, but for what it writes.
 fg::PassBuilder declareIteration(fg::Graph& graph, const std::string& name, Role role, const Iteration& iteration,
                                  fg::Buffer frame, fg::Texture accumulated, LightingAlpha alpha, const Guides& guides,
@@ -113,7 +120,7 @@ fg::PassBuilder declareIteration(fg::Graph& graph, const std::string& name, Role
       .specialize("kEdgeLeak", settings.edgeLeak)
       .specialize("kNormalFactor", settings.edgeStopping.normalFactor)
       .constants(AtrousConstants{settings.edgeStopping.planeNear, settings.edgeStopping.planeFar, settings.sdfFraction,
-                                 settings.regularisation.ridge, settings.regularisation.noiseRidge})
+                                 settings.regularisation.ridge, noiseRidge(settings, iteration.spacing)})
       .dispatch(graph.textureDesc(accumulated).extent);
   if (first || role == Role::View) pass.sample("accumulated", accumulated);
   if (first) pass.specialize("kAlphaIsSampleCount", alpha == LightingAlpha::SampleCount);

@@ -113,6 +113,7 @@ void expectIterations(const DeviceFrame& f, const WeightedRegressionSettings& se
 void expectRegression(const DeviceFrame& f, const WeightedRegressionSettings& settings) {
   const std::uint32_t last = settings.iterations - 1;
   const AtrousState before = stateBefore(f.current, last);
+  const RegularisationSettings regularisation = reference::regularisationOf(settings, last);
   Comparison comparison("last iteration and regression");
   reference::forEachPixel(f.frame.size(), [&](glm::ivec2 p) {
     if (f.current.guides[p].depth == 0.0) {
@@ -129,7 +130,7 @@ void expectRegression(const DeviceFrame& f, const WeightedRegressionSettings& se
     const double known = merged.moments.samples > 0.0 ? 1.0 : -1.0;
     comparison.value(p, "whether light is known", f.current.filtered[p].w, known, 0.0);
     const reference::Reconstruction expected =
-        reference::reconstruct(merged.moments, f.current.guides[p].features, settings.regularisation, merged.error);
+        reference::reconstruct(merged.moments, f.current.guides[p].features, regularisation, merged.error);
     for (int c = 0; c < 3; ++c)
       comparison.value(p, kChannels[c], f.current.filtered[p][c], expected.colour[c],
                        halfTolerance(expected.colour[c], expected.error[c]));

@@ -107,6 +107,12 @@ AtrousState atrousIteration(const HostFrame& frame, const Image<Guide>& guides, 
   return next;
 }
 
+RegularisationSettings regularisationOf(const WeightedRegressionSettings& settings, std::uint32_t iteration) {
+  RegularisationSettings result = settings.regularisation;
+  if (!settings.keepSampleCount) result.noiseRidge /= static_cast<float>(std::pow(9.0, iteration));
+  return result;
+}
+
 Image<glm::dvec3> weightedRegression(const HostFrame& frame, const Image<Guide>& guides,
                                      const Image<glm::dvec4>& accumulated, Storage storage,
                                      const WeightedRegressionSettings& settings) {
@@ -124,7 +130,7 @@ Image<glm::dvec3> weightedRegression(const HostFrame& frame, const Image<Guide>&
       out = glm::dvec3(accumulated[p]);
       return;
     }
-    out = reconstruct(state.moments[p], guides[p].features, settings.regularisation).colour;
+    out = reconstruct(state.moments[p], guides[p].features, regularisationOf(settings, settings.iterations - 1)).colour;
     if (storage == Storage::Quantised) {
       for (int i = 0; i < 3; ++i) out[i] = roundToHalf(out[i]);
     }

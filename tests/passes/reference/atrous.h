@@ -32,6 +32,10 @@ AtrousPixel atrousPixel(const HostFrame& frame, const Image<Guide>& guides, cons
 AtrousState atrousIteration(const HostFrame& frame, const Image<Guide>& guides, const AtrousState& state,
                             std::uint32_t iteration, Storage storage, const WeightedRegressionSettings& settings);
 
+/// How the averages of an iteration are solved. The ridge goes by their sample count; where that was dropped on the
+/// way, each tap of 3^t x 3^t pixels stands for one.
+RegularisationSettings regularisationOf(const WeightedRegressionSettings& settings, std::uint32_t iteration);
+
 /// The spatial filter: all iterations and the solve. Pixels without a surface stay as they were.
 /// @param storage Quantised: moments are rounded between iterations, not before the solve, and so is the result.
 Image<glm::dvec3> weightedRegression(const HostFrame& frame, const Image<Guide>& guides,
