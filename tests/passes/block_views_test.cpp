@@ -3,15 +3,20 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "passes/ambient_occlusion.h"
 #include "passes/block_regression.h"
 #include "tests/passes/comparison.h"
 #include "tests/passes/host_textures.h"
 #include "tests/passes/reference/block_regression.h"
+#include "tests/passes/reference/hash.h"
+#include "tests/passes/reference/linear_system.h"
 #include "tests/passes/reference/octahedral.h"
 #include "tests/passes/synthetic_scene.h"
 #include "tests/vulkan/gpu_fixture.h"
@@ -99,20 +104,70 @@ Inputs inputsOf(const Scene& scene) {
 /// Largest relative error of a block's moments, which are stored as halves once before the iteration.
 constexpr double kStored = 2.0 * reference::kHalfRoundoff;
 
-// Values of a sample, by number: the normal, ambient occlusion, the colour.
-constexpr int kOcclusion = 3;
-constexpr int kColour = 4;
-constexpr int kValues = 7;
+constexpr int kFeatures = 5;  ///< The normal, depth, ambient occlusion.
+constexpr int kDepth = 3;
+constexpr int kOcclusion = 4;
+constexpr int kValues = 8;  ///< Of a sample: its features and its colour.
+
+/// The moments of a pixel's block, read from the views that show them.
+struct ViewedMoments {
+  std::array<double, kValues> mean{};
+  reference::Matrix<kValues> covariance{};  ///< Those among colours are not kept.
+};
+
+const std::vector<std::string>& momentViews() {
+  static const std::vector<std::string> kViews{
+      "feature-mean",     "feature-mean-2",       "colour-mean",        "covariance-normal", "covariance-normal-2",
+      "covariance-depth", "covariance-occlusion", "covariance-scalars", "covariance-x",      "covariance-y",
+      "covariance-z",     "covariance-d",         "covariance-o"};
+  return kViews;
+}
+
+class MomentViews {
+ public:
+  explicit MomentViews(const ViewedRegression& run) {
+    for (const std::string& name : momentViews()) images_[name] = run.view(name);
+  }
+  [[nodiscard]] ViewedMoments at(glm::ivec2 p) const {
+    const auto view = [&](const char* name) { return images_.at(name)[p]; };
+    ViewedMoments m;
+    const auto covariance = [&](int i, int j, double value) { m.covariance[i][j] = m.covariance[j][i] = value; };
+    const glm::dvec3 scalarMeans = view("feature-mean-2");
+    m.mean[kDepth] = scalarMeans.x;
+    m.mean[kOcclusion] = scalarMeans.y;
+    EXPECT_EQ(scalarMeans.z, 0.0);
+    constexpr std::array<std::array<int, 2>, 3> kMixed{{{0, 1}, {0, 2}, {1, 2}}};
+    constexpr std::array kWithColour{"covariance-x", "covariance-y", "covariance-z", "covariance-d", "covariance-o"};
+    for (int c = 0; c < 3; ++c) {
+      m.mean[c] = view("feature-mean")[c];
+      m.mean[kFeatures + c] = view("colour-mean")[c];
+      covariance(c, c, view("covariance-normal")[c]);
+      covariance(kMixed[c][0], kMixed[c][1], view("covariance-normal-2")[c]);
+      covariance(kDepth, c, view("covariance-depth")[c]);
+      covariance(kOcclusion, c, view("covariance-occlusion")[c]);
+      for (int i = 0; i < kFeatures; ++i) covariance(i, kFeatures + c, view(kWithColour[i])[c]);
+    }
+    const glm::dvec3 scalars = view("covariance-scalars");
+    covariance(kDepth, kDepth, scalars.x);
+    covariance(kOcclusion, kDepth, scalars.y);
+    covariance(kOcclusion, kOcclusion, scalars.z);
+    return m;
+  }
+
+ private:
+  std::map<std::string, Image<glm::dvec3>> images_;
+};
 
 /// Moments of 6x6 pixels, and what storing those of their blocks may add to them.
 class Window {
  public:
-  Window(const Inputs& in, glm::ivec2 first) {
+  /// @param depth what the depth feature is relative to
+  Window(const Inputs& in, glm::ivec2 first, double depth) {
     for (int k = 0; k < kCount; ++k) {
       const glm::ivec2 q = first + glm::ivec2(k % 6, k / 6);
       const glm::dvec3 n = reference::octahedralDecode(in.guides[q].features);
       const glm::dvec4 y = in.accumulated[q];
-      samples_[k] = {n.x, n.y, n.z, in.occlusion[q], y.r, y.g, y.b};
+      samples_[k] = {n.x, n.y, n.z, depth / in.guides[q].depth - 1.0, in.occlusion[q], y.r, y.g, y.b};
     }
     for (int i = 0; i < kValues; ++i) {
       for (const auto& sample : samples_) {
@@ -123,7 +178,7 @@ class Window {
     }
   }
   [[nodiscard]] double mean(int i) const { return mean_[i]; }
-  [[nodiscard]] double meanTolerance(int i) const { return (kStored + kArithmetic) * size_[i]; }
+  [[nodiscard]] double meanTolerance(int i) const { return kStored * size_[i] + kArithmetic * terms(i); }
   [[nodiscard]] double covariance(int i, int j) const {
     double sum = 0.0;
     for (const auto& sample : samples_) sum += (sample[i] - mean_[i]) * (sample[j] - mean_[j]) / kCount;
@@ -133,17 +188,64 @@ class Window {
   /// about the window's mean comes on top.
   [[nodiscard]] double covarianceTolerance(int i, int j) const {
     const double stored = spread_[i] * spread_[j] + size_[i] * spread_[j] + spread_[i] * size_[j];
-    return kStored * stored + kArithmetic * size_[i] * size_[j];
+    return kStored * stored + kArithmetic * terms(i) * terms(j);
   }
 
  private:
   static constexpr int kCount = 36;
   static constexpr double kArithmetic = 64.0 * reference::kFloatRoundoff;  // Some sums of some tens of terms.
+  /// What a value is a difference of: the depth feature of a quotient and 1.
+  [[nodiscard]] double terms(int i) const { return i == kDepth ? 1.0 : size_[i]; }
+
   std::array<std::array<double, kValues>, kCount> samples_{};
   std::array<double, kValues> mean_{};
   std::array<double, kValues> size_{};
   std::array<double, kValues> spread_{};
 };
+
+/// Depth of the pixel that stands for a block of 2x2 pixels with a surface: one of them, picked at random.
+double blockDepth(const Inputs& in, glm::ivec2 block) {
+  double depth = 0.0;
+  for (std::uint32_t i = 0; i < 4; ++i) {
+    const glm::uvec4 key(block, in.frame.constants.frameIndex, i);
+    if (reference::hashBelow(key, i + 1) == 0) depth = in.guides[2 * block + glm::ivec2(i % 2, i / 2)].depth;
+  }
+  return depth;
+}
+
+/// The flat wall with features that vary in all their components, though its plane does not.
+Inputs wallOfManyFeatures() {
+  Inputs in = inputsOf(flatWall());
+  reference::forEachPixel(kSize, [&](glm::ivec2 p) {
+    const double tilt = 0.6 + 0.5 * std::sin(1.3 * p.x + 2.1 * p.y);
+    const double turn = 2.9 * p.x + 1.7 * p.y;
+    const glm::dvec3 n(std::sin(tilt) * std::cos(turn), std::sin(tilt) * std::sin(turn), std::cos(tilt));
+    const glm::dvec2 uv = reference::octahedralEncode(n);
+    in.guides[p].features = {reference::roundToUnorm16(uv.x), reference::roundToUnorm16(uv.y)};
+    in.occlusion[p] = reference::roundToHalf(0.5 + 0.25 * std::sin(0.5 * p.x + 0.3 * p.y));
+  });
+  return in;
+}
+
+/// The features' covariances with a ridge, from the views.
+reference::Matrix<kFeatures> normalMatrix(const ViewedMoments& m, double ridge) {
+  reference::Matrix<kFeatures> a{};
+  for (int i = 0; i < kFeatures; ++i) {
+    for (int j = 0; j < kFeatures; ++j) a[i][j] = m.covariance[i][j];
+    a[i][i] = std::max(a[i][i], 0.0) + ridge;
+  }
+  return a;
+}
+
+double trace(const reference::Matrix<kFeatures>& a) {
+  double sum = 0.0;
+  for (int i = 0; i < kFeatures; ++i) sum += a[i][i];
+  return sum;
+}
+
+/// Roundings of a Cholesky decomposition of five rows, relative to the matrix: its backward error is below
+/// (n + 1) u / (1 - (n + 1) u) of |L| |L^T| (Higham, Accuracy and Stability of Numerical Algorithms, theorem 10.3).
+constexpr double kDecomposed = 7.0 * reference::kFloatRoundoff;
 
 class BlockViewsTest : public fg::test::GpuTest {};
 
@@ -191,59 +293,211 @@ TEST_F(BlockViewsTest, TheMixtureIsTheOutput) {
 // On a flat wall without sky, away from the border, one iteration over blocks of 2x2 has 6x6 samples of weight 1 to the
 // rounding of unit vectors, and their moments are those of the pixels in the window.
 TEST_F(BlockViewsTest, MomentsAreThoseOfTheWindow) {
-  ViewedRegression run(
-      device(), {.size = 2, .iterations = 1},
-      {"edges", "feature-mean", "feature-mean-2", "colour-mean", "covariance-normal", "covariance-normal-2",
-       "covariance-occlusion", "covariance-scalars", "covariance-x", "covariance-o"});
-  Inputs in = inputsOf(flatWall());
-  // Features that vary on a plane that does not.
-  reference::forEachPixel(kSize, [&](glm::ivec2 p) {
-    const glm::dvec3 n = glm::normalize(glm::dvec3(0.2 * std::sin(0.9 * p.x), 0.2 * std::cos(0.7 * p.y), 1.0));
-    const glm::dvec2 uv = reference::octahedralEncode(n);
-    in.guides[p].features = {reference::roundToUnorm16(uv.x), reference::roundToUnorm16(uv.y)};
-    in.occlusion[p] = reference::roundToHalf(0.5 + 0.25 * std::sin(0.5 * p.x + 0.3 * p.y));
-  });
+  std::vector<std::string> wanted = momentViews();
+  wanted.push_back("edges");
+  ViewedRegression run(device(), {.size = 2, .iterations = 1}, wanted);
+  const Inputs in = wallOfManyFeatures();
   run.filter(in.frame, in.guides, in.accumulated, in.occlusion);
   const Image<glm::dvec3> edges = run.view("edges");
-  const Image<glm::dvec3> means = run.view("feature-mean");
-  const Image<glm::dvec3> scalars = run.view("feature-mean-2");
-  const Image<glm::dvec3> colours = run.view("colour-mean");
-  const Image<glm::dvec3> variances = run.view("covariance-normal");
-  const Image<glm::dvec3> mixed = run.view("covariance-normal-2");
-  const Image<glm::dvec3> withOcclusion = run.view("covariance-occlusion");
-  const Image<glm::dvec3> scalarCovariances = run.view("covariance-scalars");
-  const Image<glm::dvec3> colourX = run.view("covariance-x");
-  const Image<glm::dvec3> colourO = run.view("covariance-o");
+  const MomentViews views(run);
   Comparison comparison("moments of a block's window");
   for (int by = 2; by < kSize.y / 2 - 2; ++by) {
     for (int bx = 2; bx < kSize.x / 2 - 2; ++bx) {
       const glm::ivec2 p(2 * bx, 2 * by);
-      const Window window(in, p - 2);
-      const auto mean = [&](const char* name, double actual, int i) {
-        comparison.value(p, name, actual, window.mean(i), window.meanTolerance(i));
-      };
-      const auto covariance = [&](const char* name, double actual, int i, int j) {
-        comparison.value(p, name, actual, window.covariance(i, j), window.covarianceTolerance(i, j));
-      };
+      const Window window(in, p - 2, blockDepth(in, {bx, by}));
+      const ViewedMoments m = views.at(p);
       comparison.compared();
       comparison.value(p, "W", edges[p].z, 36.0, 36.0 * kStored);
       comparison.value(p, "lost", edges[p].y, 0.0, 0.0);
       comparison.value(p, "nearest edge", edges[p].x, 2.0, 0.0);
-      mean("occlusion", scalars[p].y, kOcclusion);
-      covariance("variance of occlusion", scalarCovariances[p].z, kOcclusion, kOcclusion);
-      constexpr std::array<std::array<int, 2>, 3> kMixed{{{0, 1}, {0, 2}, {1, 2}}};
-      for (int c = 0; c < 3; ++c) {
-        mean("normal", means[p][c], c);
-        mean("colour", colours[p][c], kColour + c);
-        covariance("variance", variances[p][c], c, c);
-        covariance("covariance", mixed[p][c], kMixed[c][0], kMixed[c][1]);
-        covariance("covariance with occlusion", withOcclusion[p][c], c, kOcclusion);
-        covariance("covariance of colour", colourX[p][c], kColour + c, 0);
-        covariance("covariance of colour and occlusion", colourO[p][c], kColour + c, kOcclusion);
+      for (int i = 0; i < kValues; ++i) {
+        comparison.value(p, "mean", m.mean[i], window.mean(i), window.meanTolerance(i));
+        for (int j = 0; j <= i && j < kFeatures; ++j)
+          comparison.value(p, "covariance", m.covariance[i][j], window.covariance(i, j),
+                           window.covarianceTolerance(i, j));
       }
     }
   }
   comparison.expect(0.0);
+}
+
+// The smallest pivot is that of the block's matrix: each pivot is 1 over the last diagonal entry of the inverse of a
+// leading part. A pivot is a Schur complement, in which the decomposition's error counts (1 + |w|)^2 times, w being
+// what eliminates the rows before.
+TEST_F(BlockViewsTest, PivotsAreThoseOfTheMoments) {
+  std::vector<std::string> wanted = momentViews();
+  wanted.push_back("pivots");
+  for (const float ridge : {1e-4F, 3e-2F}) {
+    ViewedRegression run(device(), {.size = 2, .iterations = 2, .ridge = ridge}, wanted);
+    for (const Inputs& in : {wallOfManyFeatures(), inputsOf(sphere()), inputsOf(stairs())}) {
+      run.filter(in.frame, in.guides, in.accumulated, in.occlusion);
+      const Image<glm::dvec3> pivots = run.view("pivots");
+      const MomentViews views(run);
+      Comparison comparison("pivots");
+      reference::forEachPixel(kSize, [&](glm::ivec2 p) {
+        if (pivots[p].y == 0.0) return;  // A block without a surface.
+        const reference::Matrix<kFeatures> a = normalMatrix(views.at(p), double(ridge));
+        double smallest = std::numeric_limits<double>::infinity();
+        double error = 0.0;
+        for (int k = 0; k < kFeatures; ++k) {
+          // The leading k+1 rows, and nothing but 1 beside them.
+          reference::Matrix<kFeatures> leading{};
+          for (int i = 0; i < kFeatures; ++i)
+            for (int j = 0; j < kFeatures; ++j) leading[i][j] = i <= k && j <= k ? a[i][j] : i == j ? 1.0 : 0.0;
+          const reference::Matrix<kFeatures> inverted = reference::inverse(leading);
+          const double pivot = 1.0 / inverted[k][k];
+          double eliminated = 1.0;
+          for (int i = 0; i < k; ++i) eliminated += std::abs(inverted[k][i]) * pivot;
+          smallest = std::min(smallest, pivot);
+          error = std::max(error, kDecomposed * trace(a) * eliminated * eliminated);
+        }
+        // No pivot is smaller than the ridge, but for the rounding of covariances in memory.
+        smallest = std::max(smallest, double(ridge) * double(ridge));
+        comparison.compared();
+        comparison.value(p, "smallest pivot", pivots[p].x, smallest - double(ridge), error);
+        comparison.value(p, "ridge", pivots[p].y, double(ridge), 0.0);
+        if (std::abs(smallest - 2.0 * double(ridge)) > error)
+          comparison.value(p, "outweighed", pivots[p].z, smallest < 2.0 * double(ridge) ? 1.0 : 0.0, 0.0);
+      });
+      comparison.expect(0.0);
+    }
+  }
+}
+
+// On the wall, away from the border, a pixel's slopes are those of the four blocks around it, mixed bilinearly: solved
+// here from the moments that the views show, stored as halves there.
+TEST_F(BlockViewsTest, SlopesAreThoseOfTheBlocksAround) {
+  constexpr std::array kSlopes{"slope-x", "slope-y", "slope-z", "slope-depth", "slope-occlusion"};
+  std::vector<std::string> wanted = momentViews();
+  wanted.insert(wanted.end(), kSlopes.begin(), kSlopes.end());
+  const BlockRegressionSettings settings{.size = 2, .iterations = 1, .ridge = 1e-3F};
+  ViewedRegression run(device(), settings, wanted);
+  const Inputs in = wallOfManyFeatures();
+  run.filter(in.frame, in.guides, in.accumulated, in.occlusion);
+  const MomentViews views(run);
+  Comparison comparison("slopes");
+  for (std::size_t feature = 0; feature < kSlopes.size(); ++feature) {
+    const Image<glm::dvec3> slopes = run.view(kSlopes[feature]);
+    for (int y = 6; y < kSize.y - 6; ++y) {
+      for (int x = 6; x < kSize.x - 6; ++x) {
+        const glm::ivec2 p(x, y);
+        const glm::dvec2 position = (glm::dvec2(p) + 0.5) / 2.0 - 0.5;
+        const glm::ivec2 base(glm::floor(position));
+        const glm::dvec2 f = position - glm::dvec2(base);
+        glm::dvec3 expected(0.0);
+        glm::dvec3 tolerance(0.0);
+        for (int i = 0; i < 4; ++i) {
+          const glm::ivec2 offset(i % 2, i / 2);
+          const double weight = (offset.x == 1 ? f.x : 1.0 - f.x) * (offset.y == 1 ? f.y : 1.0 - f.y);
+          const ViewedMoments m = views.at(2 * (base + offset));
+          const reference::Matrix<kFeatures> a = normalMatrix(m, double(settings.ridge));
+          const reference::Matrix<kFeatures> inverted = reference::inverse(a);
+          for (int c = 0; c < 3; ++c) {
+            reference::Vector<kFeatures> right{};
+            for (int k = 0; k < kFeatures; ++k) right[k] = m.covariance[k][kFeatures + c];
+            reference::Vector<kFeatures> solved{};
+            for (int k = 0; k < kFeatures; ++k) solved[k] = reference::dot(inverted[k], right);
+            double size = 0.0;
+            for (const double slope : solved) size += std::abs(slope);
+            expected[c] += weight * solved[feature];
+            // Decomposition and both substitutions, each with the decomposition's bound; the store; the four weights.
+            tolerance[c] += weight * (3.0 * kDecomposed * trace(inverted) * trace(a) * size +
+                                      (kStored + 16.0 * reference::kFloatRoundoff) * std::abs(solved[feature]));
+          }
+        }
+        comparison.compared();
+        for (int c = 0; c < 3; ++c) comparison.value(p, kSlopes[feature], slopes[p][c], expected[c], tolerance[c]);
+      }
+    }
+  }
+  comparison.expect(0.0);
+}
+
+// In the corners of the picture a single cell's fit holds, whose slopes are what tells its colours at two pixels apart.
+// The depth that its depth feature is relative to is not shown; one pixel gives it away, the others must agree.
+TEST_F(BlockViewsTest, CoarseSlopesAreThoseOfTheCoarseFit) {
+  constexpr std::array kSlopes{"coarse-slope-x", "coarse-slope-y", "coarse-slope-z", "coarse-slope-depth",
+                               "coarse-slope-occlusion"};
+  std::vector<std::string> wanted{"coarse-fit", "coarse-clamped"};
+  wanted.insert(wanted.end(), kSlopes.begin(), kSlopes.end());
+  // Cells of 8x8 pixels: 0.2 of 34 pixels over half a cell, and no larger.
+  const BlockRegressionSettings settings{
+      .size = 2, .iterations = 1, .coarseSigma = 0.2F, .coarseReach = 3.0F, .coarseResolution = 0.5F};
+  constexpr int kCell = 8;
+  ViewedRegression run(device(), settings, wanted);
+  const Inputs in = wallOfManyFeatures();
+  run.filter(in.frame, in.guides, in.accumulated, in.occlusion);
+  const Image<glm::dvec3> fit = run.view("coarse-fit");
+  std::array<Image<glm::dvec3>, kFeatures> slopes;
+  for (int k = 0; k < kFeatures; ++k) slopes[k] = run.view(kSlopes[k]);
+  const Image<glm::dvec3> clamped = run.view("coarse-clamped");
+  const auto featuresAt = [&](glm::ivec2 p) {
+    const glm::dvec3 n = reference::octahedralDecode(in.guides[p].features);
+    return std::array{n.x, n.y, n.z, 1.0 / in.guides[p].depth, in.occlusion[p]};
+  };
+  Comparison comparison("coarse slopes");
+  const glm::ivec2 origin(0);
+  for (int c = 0; c < 3; ++c) {
+    // What is left for the depth feature, over its slope, at each pixel of the corner.
+    const auto rest = [&](glm::ivec2 p) {
+      double value = fit[p][c] - fit[origin][c];
+      for (int k = 0; k < kFeatures; ++k)
+        if (k != kDepth) value -= slopes[k][origin][c] * (featuresAt(p)[k] - featuresAt(origin)[k]);
+      return value;
+    };
+    const auto step = [&](glm::ivec2 p) {
+      return slopes[kDepth][origin][c] * (featuresAt(p)[kDepth] - featuresAt(origin)[kDepth]);
+    };
+    double terms = std::abs(fit[origin][c]) + 2.0 * std::abs(slopes[kDepth][origin][c]);
+    for (int k = 0; k < kFeatures; ++k) terms += std::abs(slopes[k][origin][c]);
+    const double rounding = 32.0 * reference::kFloatRoundoff * terms;
+    glm::ivec2 farthest = origin;
+    for (int i = 0; i < kCell * kCell / 4; ++i) {
+      const glm::ivec2 p(i % (kCell / 2), i / (kCell / 2));
+      if (std::abs(step(p)) > std::abs(step(farthest))) farthest = p;
+    }
+    ASSERT_NE(farthest, origin);
+    const double depth = rest(farthest) / step(farthest);
+    EXPECT_NEAR(depth, in.guides[origin].depth, 0.5 * in.guides[origin].depth);
+    for (int i = 0; i < kCell * kCell / 4; ++i) {
+      const glm::ivec2 p(i % (kCell / 2), i / (kCell / 2));
+      comparison.compared();
+      EXPECT_EQ(clamped[p], glm::dvec3(0.0));
+      for (int k = 0; k < kFeatures; ++k) comparison.value(p, kSlopes[k], slopes[k][p][c], slopes[k][origin][c], 0.0);
+      comparison.value(p, "fit", rest(p), depth * step(p), 2.0 * rounding);
+    }
+  }
+  comparison.expect(0.0);
+}
+
+// Light that grows with the normal's x falls below 0 at the one pixel that turns farther than all others and has no
+// sample of its own.
+TEST_F(BlockViewsTest, ClampedFitsAreThoseBelowZero) {
+  ViewedRegression run(device(), {.size = 2, .iterations = 2, .ridge = 1e-6F},
+                       {"clamped", "coarse-clamped", "fine-fit", "coarse-fit"});
+  Inputs in = inputsOf(flatWall());
+  constexpr glm::ivec2 kTurned(21, 16);
+  reference::forEachPixel(kSize, [&](glm::ivec2 p) {
+    const glm::dvec3 n = p == kTurned
+                             ? glm::normalize(glm::dvec3(-3.0, 0.0, 1.0))
+                             : glm::normalize(glm::dvec3(0.4 * std::sin(0.9 * p.x), 0.4 * std::cos(0.7 * p.y), 1.0));
+    const glm::dvec2 uv = reference::octahedralEncode(n);
+    in.guides[p].features = {reference::roundToUnorm16(uv.x), reference::roundToUnorm16(uv.y)};
+    in.accumulated[p] = glm::dvec4(glm::dvec3(reference::roundToHalf(0.6 + n.x)), p == kTurned ? 0.0 : 1.0);
+  });
+  run.filter(in.frame, in.guides, in.accumulated, in.occlusion);
+  for (const auto& [flag, fit] : {std::pair{"clamped", "fine-fit"}, {"coarse-clamped", "coarse-fit"}}) {
+    const Image<glm::dvec3> flags = run.view(flag);
+    const Image<glm::dvec3> colours = run.view(fit);
+    reference::forEachPixel(kSize, [&](glm::ivec2 p) {
+      EXPECT_EQ(flags[p], glm::dvec3(p == kTurned ? 1.0 : 0.0)) << flag << " at " << p.x << ", " << p.y;
+      if (p == kTurned) {
+        EXPECT_EQ(colours[p], glm::dvec3(0.0)) << fit;
+      } else {
+        EXPECT_GT(colours[p].r, 0.0) << fit << " at " << p.x << ", " << p.y;
+      }
+    });
+  }
 }
 
 }  // namespace
