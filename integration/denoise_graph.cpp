@@ -31,7 +31,9 @@ DenoiserInputs importInputs(fg::Graph& graph, fg::Extent extent, const InputConv
   DenoiserInputs inputs;
   for (std::size_t i = 0; i < kHostInputs.size(); ++i) {
     const HostInput& input = kHostInputs[i];
-    const VkFormat format = formats.empty() ? input.format : formats[i];
+    const VkFormat usual = input.optional ? VK_FORMAT_UNDEFINED : input.format;
+    const VkFormat format = formats.empty() ? usual : formats[i];
+    if (input.optional && format == VK_FORMAT_UNDEFINED) continue;
     requireInputFormat(input, format, channelsRead(input, conventions, host));
     inputs.*input.texture = graph.import(std::string(input.name), {.format = format, .extent = extent}, state);
   }

@@ -37,14 +37,15 @@ struct HostStates {
 extern const HostStates kComputeHost;
 
 /// Declare a host's textures as imports of a graph.
-/// @param formats one per entry of `kHostInputs`; empty for the usual ones
+/// @param formats one per entry of `kHostInputs`, VK_FORMAT_UNDEFINED for an optional one that the host does not have;
+///                empty for the usual ones of all that are not optional
 /// @param host    says how many channels are read
 /// @throws std::invalid_argument naming an input of a format that will not do
 DenoiserInputs importInputs(fg::Graph& graph, fg::Extent extent, const InputConventions& conventions,
                             const fg::ExternalState& state, std::span<const VkFormat> formats = {},
                             const HostConventions& host = {});
 
-/// @param formats one per entry of `kHostInputs`; empty for the usual ones
+/// @param formats as `importInputs` takes them
 /// @param host    how the textures are written; what differs from `DenoiserInputs` is converted first
 /// @param wanted  what to write of the method's inner workings as well, into imports that go the output's way
 /// @throws std::invalid_argument naming a setting of the method that is out of range, an input of a format that will

@@ -24,9 +24,17 @@ std::uint32_t sampledChannels(const fg::FormatInfo& format) {
   return 0;
 }
 
+/// Channels of a colour format of unsigned integers, 0 of any other.
+std::uint32_t integerChannels(const fg::FormatInfo& format) {
+  const std::string_view channels = format.name.substr(0, format.name.find('_'));
+  if (!format.name.substr(channels.size()).starts_with("_UINT")) return 0;
+  return static_cast<std::uint32_t>(std::ranges::count_if(
+      channels, [](char c) { return std::string_view("RGBA").find(c) != std::string_view::npos; }));
+}
+
 }  // namespace
 
-const std::array<HostInput, 5> kHostInputs{{
+const std::array<HostInput, 6> kHostInputs{{
     {"lighting", &DenoiserInputs::lighting, kColour, 3,
      "Noisy diffuse indirect radiance without the first hit's albedo, linear, 1 sample per pixel"},
     {"depth", &DenoiserInputs::depth, VK_FORMAT_R32_SFLOAT, 1,
@@ -36,15 +44,25 @@ const std::array<HostInput, 5> kHostInputs{{
      "xy: where the surface was in the previous frame, minus where it is; z: previous minus current view depth"},
     {"albedo", &DenoiserInputs::albedo, kColour, 3,
      "Diffuse albedo of the first hit; what has none is passed through as it is"},
+    {"object_id", &DenoiserInputs::objectId, VK_FORMAT_R32_UINT, 1,
+     "Number of the object that the pixel shows, the same from frame to frame; 0xffffffff: none", true},
 }};
+
+const HostInput* hostInputNamed(std::string_view name) {
+  const auto* found = std::ranges::find(kHostInputs, name, &HostInput::name);
+  return found == kHostInputs.end() ? nullptr : found;
+}
 
 void requireInputFormat(const HostInput& input, VkFormat format, std::uint32_t channels) {
   const fg::FormatInfo& info = fg::formatInfo(format);
-  if (sampledChannels(info) >= channels) return;
+  const fg::FormatInfo& usual = fg::formatInfo(input.format);
+  const bool integers = integerChannels(usual) > 0;
+  if ((integers ? integerChannels(info) : sampledChannels(info)) >= channels) return;
   throw std::invalid_argument("input '" + std::string(input.name) + "' cannot be of format " + std::string(info.name) +
-                              " (" + std::to_string(format) + "): it takes a format that is sampled as floats with " +
-                              std::to_string(channels) + " channels or more, such as " +
-                              std::string(fg::formatInfo(input.format).name));
+                              " (" + std::to_string(format) + "): it takes a format that is sampled as " +
+                              (integers ? "unsigned integers" : "floats") + " with " + std::to_string(channels) +
+                              (channels == 1 ? " channel" : " channels") + " or more, such as " +
+                              std::string(usual.name));
 }
 
 }  // namespace walr

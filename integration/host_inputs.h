@@ -12,13 +12,18 @@ namespace walr {
 struct HostInput {
   std::string_view name;
   fg::Texture DenoiserInputs::*texture;
-  VkFormat format;         ///< The usual one. Any other that is sampled as floats and has the channels will do.
+  VkFormat format;  ///< The usual one. Any other that is sampled as floats, or as unsigned integers where this one is,
+                    ///< and has the channels will do.
   std::uint32_t channels;  ///< Channels read.
   std::string_view description;
+  bool optional = false;  ///< A host need not have it.
 };
 
 /// The textures of `DenoiserInputs`.
-extern const std::array<HostInput, 5> kHostInputs;
+extern const std::array<HostInput, 6> kHostInputs;
+
+/// The input of a name; null where there is none.
+const HostInput* hostInputNamed(std::string_view name);
 
 /// Name of the upload buffer `DenoiserInputs::frame`, of the one with `HostConstants`, and of the texture that receives
 /// the result.

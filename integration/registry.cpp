@@ -26,19 +26,26 @@ KnownPorts hostPorts() {
   return known;
 }
 
-struct Recording {
-  std::vector<Port> ports;
-  std::vector<std::string> passes;
-};
-
+/// The ports that a stage has where the host has all that it may.
 /// @param composition every method takes all of the host's textures, whether it reads them or not
-Recording recordStage(Stage& stage, bool composition, const InputConventions& conventions, const KnownPorts& known) {
+std::vector<Port> portsOf(Stage& stage, bool composition, const InputConventions& conventions,
+                          const KnownPorts& known) {
   fg::Graph scratch;
-  RecordingPorts ports(scratch, conventions, known);
+  RecordingPorts ports(scratch, conventions, known, [](std::string_view /*port*/) { return true; });
   stage.declare(ports);
-  Recording recording{.ports = ports.takePorts(composition), .passes = {}};
-  for (const fg::PassDecl& pass : scratch.desc().passes) recording.passes.push_back(pass.name);
-  return recording;
+  return ports.takePorts(composition);
+}
+
+/// The passes that a stage declares where the host has what `connections` hold of what it need not have.
+std::vector<std::string> passesOf(Stage& stage, const InputConventions& conventions, const KnownPorts& known,
+                                  const Connections& connections) {
+  fg::Graph scratch;
+  RecordingPorts ports(scratch, conventions, known,
+                       [&](std::string_view port) { return connections.textures.contains(port); });
+  stage.declare(ports);
+  std::vector<std::string> names;
+  for (const fg::PassDecl& pass : scratch.desc().passes) names.push_back(pass.name);
+  return names;
 }
 
 /// All types, and what their ports are, which is known of a type once all earlier ones are recorded.
@@ -46,17 +53,17 @@ struct Catalogue {
   Catalogue() : known(hostPorts()) {
     for (const StageType& type : stageTypes()) {
       const std::unique_ptr<Stage> stage = type.make(type.name);
-      Recording recording = recordStage(*stage, type.composition, {}, known);
-      for (const Port& port : recording.ports) {
+      std::vector<Port> ports = portsOf(*stage, type.composition, {}, known);
+      for (const Port& port : ports) {
         if (port.output) known.emplace(port.name, fg::TextureDesc{.format = port.format, .extent = kListedExtent});
       }
       types.push_back({.name = type.name,
                        .description = type.description,
                        .composition = type.composition,
-                       .ports = std::move(recording.ports),
+                       .ports = std::move(ports),
                        .settings = describeSettings(*stage),
                        .presets = stage->presets(),
-                       .passes = std::move(recording.passes)});
+                       .passes = passesOf(*stage, {}, known, {})});
     }
   }
   KnownPorts known;
@@ -78,8 +85,12 @@ class StageNode final : public PassNode {
       : name_(type.name), composition_(type.composition), stage_(type.make(type.name)) {}
 
   void visitSettings(SettingVisitor& visitor) override { stage_->visitSettings(visitor); }
-  [[nodiscard]] std::vector<Port> ports() override { return record().ports; }
-  [[nodiscard]] std::vector<std::string> passNames() override { return record().passes; }
+  [[nodiscard]] std::vector<Port> ports() override {
+    return portsOf(*stage_, composition_, conventions_, catalogue().known);
+  }
+  [[nodiscard]] std::vector<std::string> passNames() override {
+    return passesOf(*stage_, conventions_, catalogue().known, connections_);
+  }
   [[nodiscard]] std::vector<std::string> presets() const override { return stage_->presets(); }
   void usePreset(std::string_view name) override { stage_->usePreset(name); }
 
@@ -91,8 +102,6 @@ class StageNode final : public PassNode {
   }
 
  private:
-  [[nodiscard]] Recording record() { return recordStage(*stage_, composition_, conventions_, catalogue().known); }
-
   void requireConnection(const fg::Graph& graph, const Port& port) const {
     if (port.buffer) {
       if (!port.optional && !connections_.buffers.contains(port.name)) rejectUnconnected(port);
@@ -104,8 +113,8 @@ class StageNode final : public PassNode {
       return;
     }
     const VkFormat format = graph.textureDesc(connected->second).format;
-    const auto* input = std::ranges::find(kHostInputs, std::string_view(port.name), &HostInput::name);
-    if (!port.output && input != kHostInputs.end()) return requireInputFormat(*input, format);
+    const HostInput* input = hostInputNamed(port.name);
+    if (!port.output && input != nullptr) return requireInputFormat(*input, format);
     if (format == port.format) return;
     throw std::invalid_argument("port '" + port.name + "' of pass '" + name_ + "' takes " + formatName(port.format) +
                                 ", but " + formatName(format) + " is connected");

@@ -22,7 +22,7 @@ struct Port {
   std::string name;
   bool output = false;
   bool optional = false;  ///< May be left unconnected: an output that is then transient, or an input
-                          ///< that is not read with the present settings.
+                          ///< that is not read with the present settings or that the host need not have.
   bool buffer = false;
   VkFormat format = VK_FORMAT_UNDEFINED;  ///< Textures.
   std::uint64_t size = 0;                 ///< Bytes; buffers.
@@ -43,7 +43,7 @@ class PassNode : public Configurable {
  public:
   /// The ports with the present settings.
   [[nodiscard]] virtual std::vector<Port> ports() = 0;
-  /// Names of the passes that `add` declares with the present settings, in the order of declaration.
+  /// Names of the passes that `add` declares with the present settings and connections, in the order of declaration.
   [[nodiscard]] virtual std::vector<std::string> passNames() = 0;
   /// Names of the presets that `usePreset` takes. Empty where there are none.
   [[nodiscard]] virtual std::vector<std::string> presets() const = 0;
@@ -80,7 +80,7 @@ struct PassType {
   std::vector<Port> ports;   ///< With default settings.
   std::vector<SettingDescription> settings;
   std::vector<std::string> presets;
-  std::vector<std::string> passes;  ///< Passes that it declares with default settings.
+  std::vector<std::string> passes;  ///< Passes that it declares with default settings and no optional input.
 };
 
 /// All pass types, stages first. Made when first asked for; safe from several threads.

@@ -39,8 +39,7 @@ Port describe(const fg::GraphDesc& graph, std::string name, std::uint32_t resour
       port.bufferUsage |= fg::accessInfo(access.access).bufferUsage;
     }
   }
-  const auto* input = std::ranges::find(kHostInputs, std::string_view(port.name), &HostInput::name);
-  if (input != kHostInputs.end()) port.description = input->description;
+  if (const HostInput* input = hostInputNamed(port.name)) port.description = input->description;
   return port;
 }
 
@@ -100,6 +99,8 @@ fg::ResourceVersion RecordingPorts::ask(std::string_view port) {
 }
 
 fg::Texture RecordingPorts::texture(std::string_view port) {
+  const HostInput* input = hostInputNamed(port);
+  if (input != nullptr && input->optional && !present_(port)) return {};
   return {ask(port)};
 }
 
@@ -116,8 +117,10 @@ std::vector<Port> RecordingPorts::takePorts(bool unread) {
   const fg::GraphDesc& desc = graph().desc();
   for (const Asked& asked : asked_) {
     Port port = describe(desc, asked.port, asked.resource.resource);
-    port.optional = port.accesses.empty();
-    if (unread || !port.optional) ports.push_back(std::move(port));
+    const HostInput* input = hostInputNamed(port.name);
+    const bool isRead = !port.accesses.empty();
+    port.optional = !isRead || (input != nullptr && input->optional);
+    if (unread || isRead) ports.push_back(std::move(port));
   }
   for (const auto& [name, texture] : takeOutputs().textures) {
     Port port = describe(desc, name, texture.resource);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <map>
 #include <string>
 #include <string_view>
@@ -54,8 +55,10 @@ class StagePorts {
 /// Ports that are recorded instead of connected: every input is an import of its own.
 class RecordingPorts final : public StagePorts {
  public:
-  RecordingPorts(fg::Graph& scratch, const InputConventions& conventions, const KnownPorts& known)
-      : StagePorts(scratch, {}, conventions, {}), known_(&known) {}
+  /// @param present whether the host has what `HostInput::optional` says that it need not have
+  RecordingPorts(fg::Graph& scratch, const InputConventions& conventions, const KnownPorts& known,
+                 std::function<bool(std::string_view port)> present)
+      : StagePorts(scratch, {}, conventions, {}), known_(&known), present_(std::move(present)) {}
 
   fg::Texture texture(std::string_view port) override;
   fg::Buffer buffer(std::string_view port) override;
@@ -73,6 +76,7 @@ class RecordingPorts final : public StagePorts {
   fg::ResourceVersion ask(std::string_view port);
 
   const KnownPorts* known_;
+  std::function<bool(std::string_view port)> present_;
   std::vector<Asked> asked_;
 };
 

@@ -15,7 +15,7 @@ fg::Texture addBmfr(fg::Graph& graph, const DenoiserInputs& inputs, fg::Texture 
   const auto filter = [&](const FilterInput& input) {
     const fg::Texture target = settings.spatialOnly ? input.output : graph.texture("fit", graph.textureDesc(output));
     const fg::Texture fitted =
-        addBmfrFit(graph, inputs.frame, input.lighting, input.alpha, guides, target, settings.fit);
+        addBmfrFit(graph, inputs.frame, input.lighting, input.alpha, guides, target, settings.fit, inspection);
     return settings.spatialOnly ? fitted : addBmfrAccumulation(graph, fitted, input.taps, settings.fittedAccumulation);
   };
   return addTemporalStages(graph, inputs, guides, output, stages, filter, inspection);

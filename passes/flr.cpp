@@ -18,7 +18,7 @@ fg::Texture addFlr(fg::Graph& graph, const DenoiserInputs& inputs, fg::Texture o
                                       ? addAmbientOcclusion(graph, inputs.frame, guides, settings.occlusion)
                                       : fg::Texture{};
     return addFlrRegression(graph, input.lighting, input.alpha, guides, occlusion, input.target(graph, "filtered"),
-                            regression);
+                            regression, inspection);
   };
   return addTemporalStages(graph, inputs, guides, output, stages, filter, inspection);
 }

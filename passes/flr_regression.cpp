@@ -16,6 +16,8 @@ struct Variant {
   const fg::Shader& blur;
   const fg::Shader& solve;
   const fg::Shader& apply;
+  const fg::Shader& solveView;
+  const fg::Shader& applyView;
   std::uint64_t productBytes;      ///< `OuterProducts` of flr.glsl, std430.
   std::uint64_t coefficientBytes;  ///< `Coefficients` of flr.glsl, std430.
 };
@@ -26,10 +28,46 @@ Variant variantOf(bool occlusion) {
             shaders::flrBlurOcclusion,
             shaders::flrSolveOcclusion,
             shaders::flrApplyOcclusion,
+            shaders::flrSolveOcclusionView,
+            shaders::flrApplyOcclusionView,
             160,
             80};
   }
-  return {shaders::flrMoments, shaders::flrBlur, shaders::flrSolve, shaders::flrApply, 128, 64};
+  return {shaders::flrMoments,
+          shaders::flrBlur,
+          shaders::flrSolve,
+          shaders::flrApply,
+          shaders::flrSolveView,
+          shaders::flrApplyView,
+          128,
+          64};
+}
+
+/// In the order of `kView` of flr_solve.comp. Names of what WALR's regression has, too, are the same.
+const std::vector<ViewInfo>& solveViews() {
+  static const std::vector<ViewInfo> kViews{
+      {"pivots",
+       "Of the pixel's cell: smallest pivot of the solve without its ridge, in units of that, pivots that the ridge "
+       "outweighs, 1 where there is one",
+       {{"regularised-fits", "Z"}}},
+      {"samples",
+       "Of the pixel's cell: weighted samples, 1 where they are fewer than the coefficients, 1 where there are none",
+       {{"few-samples", "Y"}, {"no-samples", "Z"}}},
+  };
+  return kViews;
+}
+
+/// In the order of `kView` of flr_apply.comp.
+const std::vector<ViewInfo>& applyViews() {
+  static const std::vector<ViewInfo> kViews{
+      {"clamped",
+       "1 in each channel where the fit is below 0 or beyond the largest half",
+       {{"clamped-channels", "XYZ"}}},
+      {"unfitted",
+       "1 where no cell around has a fit, where the pixel has no sample, where the fit is not finite",
+       {{"unfitted-pixels", "X"}, {"unsampled-pixels", "Y"}, {"non-finite-fits", "Z"}}},
+  };
+  return kViews;
 }
 
 /// The least `maxStorageBufferRange` that Vulkan guarantees.
@@ -49,7 +87,8 @@ fg::Extent gridOf(fg::Extent pixels, std::uint32_t factor, std::uint64_t cellByt
 }  // namespace
 
 fg::Texture addFlrRegression(fg::Graph& graph, fg::Texture lighting, LightingAlpha alpha, const Guides& guides,
-                             fg::Texture occlusion, fg::Texture output, const FlrRegressionSettings& settings) {
+                             fg::Texture occlusion, fg::Texture output, const FlrRegressionSettings& settings,
+                             Inspection* inspection) {
   const Variant variant = variantOf(settings.occlusionGuide);
   const fg::Extent extent = graph.textureDesc(lighting).extent;
   const fg::Extent cells = gridOf(extent, settings.factor, variant.productBytes);
@@ -63,7 +102,7 @@ fg::Texture addFlrRegression(fg::Graph& graph, fg::Texture lighting, LightingAlp
   constants.ridge = settings.ridge;
 
   // What sums the products and what applies the fit read the same pixels.
-  const auto readPixels = [&](const char* name, const fg::Shader& shader) {
+  const auto readPixels = [&](const std::string& name, const fg::Shader& shader) {
     fg::PassBuilder pass = graph.compute(name, shader);
     pass.sample("lighting", lighting).sample("depth", guides.depth).sample("shadingNormal", guides.shadingNormal);
     if (settings.occlusionGuide) pass.sample("occlusion", occlusion);
@@ -80,15 +119,32 @@ fg::Texture addFlrRegression(fg::Graph& graph, fg::Texture lighting, LightingAlp
   blur.load("moments", moments).constants(constants).dispatch(cells);
   const fg::Buffer blurred = blur.store("outBlurred", productBuffer("blurred products"));
 
-  fg::PassBuilder solve = graph.compute("flr solve", variant.solve);
-  solve.load("blurred", blurred).constants(constants).dispatch(cells);
+  const auto declareSolve = [&](const std::string& name, const fg::Shader& shader) {
+    fg::PassBuilder pass = graph.compute(name, shader);
+    pass.load("blurred", blurred).constants(constants).dispatch(cells);
+    return pass;
+  };
+  fg::PassBuilder solve = declareSolve("flr solve", variant.solve);
   const fg::Buffer coefficients =
       solve.store("outCoefficients", graph.buffer("coefficients", {cellCount * variant.coefficientBytes}));
 
-  fg::PassBuilder apply = readPixels("flr apply", variant.apply);
-  apply.load("coefficients", coefficients)
-      .specialize("kUpsampling", static_cast<std::uint32_t>(settings.upsampling))
-      .dispatch(extent);
+  const auto declareApply = [&](const std::string& name, const fg::Shader& shader) {
+    fg::PassBuilder pass = readPixels(name, shader);
+    pass.load("coefficients", coefficients)
+        .specialize("kUpsampling", static_cast<std::uint32_t>(settings.upsampling))
+        .dispatch(extent);
+    return pass;
+  };
+  if (inspection != nullptr) {
+    inspection->offer(graph, solveViews(), extent,
+                      [&](const std::string& name) { return declareSolve(name, variant.solveView); });
+    inspection->offer(graph, applyViews(), extent, [&](const std::string& name) {
+      fg::PassBuilder pass = declareApply(name, variant.applyView);
+      pass.specialize("kAlphaIsSampleCount", alpha == LightingAlpha::SampleCount);
+      return pass;
+    });
+  }
+  fg::PassBuilder apply = declareApply("flr apply", variant.apply);
   return apply.store("outFiltered", output);
 }
 

@@ -18,14 +18,17 @@ struct InputConventions {
   MotionDepth motionDepth = MotionDepth::Given;
 };
 
-/// The textures that every denoiser takes, all of one extent.
+/// The textures that every denoiser takes, all of one extent; `objectId` may be left out.
 struct DenoiserInputs {
   fg::Texture lighting;  ///< RGBA16F: demodulated diffuse indirect radiance, linear, 1 sample per pixel. Alpha unused.
   fg::Texture depth;     ///< R32F: linear view depth (-z of view space), scene units; sky at or beyond `skyDepth`.
   fg::Texture normal;    ///< RGBA16F: unit shading normal; zero on sky.
   fg::Texture motion;    ///< RGBA16F: motion to the previous frame; see `FrameDescription::motionScale`.
   fg::Texture albedo;    ///< RGBA16F: diffuse albedo; below 0.01 in all channels a pixel has no diffuse lobe.
-  fg::Buffer frame;      ///< Upload of `FrameConstants` (passes/frame.h).
+  /// R32_UINT, or another format of unsigned integers: number of the object that the pixel shows, the same from frame
+  /// to frame; 0xffffffff: none. Where it is there, histories of two objects are told apart by it.
+  fg::Texture objectId = {};
+  fg::Buffer frame;  ///< Upload of `FrameConstants` (passes/frame.h).
   InputConventions conventions;
   SceneDescription scene = {};
 };

@@ -10,7 +10,7 @@ fg::Texture addJointBilateral(fg::Graph& graph, const DenoiserInputs& inputs, fg
   const fg::TextureDesc colourDesc{VK_FORMAT_R16G16B16A16_SFLOAT, graph.textureDesc(inputs.lighting).extent};
   const fg::Texture target = !antialias ? output : graph.texture("bilateral.filtered", colourDesc);
   const fg::Texture filtered =
-      addJointBilateralFilter(graph, inputs.frame, inputs.lighting, guides, target, settings.filter);
+      addJointBilateralFilter(graph, inputs.frame, inputs.lighting, guides, target, settings.filter, inspection);
   if (!antialias) return filtered;
   return addTemporalAntialiasing(graph, inputs, guides, filtered, output, settings.accumulation, inspection);
 }

@@ -16,7 +16,7 @@ struct JointBilateralSettings {
   /// Accumulation of the filtered frames (joint-bilateral.txt, 4): alpha 0.2, clamped to the 7x7 neighbourhood, within
   /// a number of deviations that the text leaves open. Filtered pixels are much alike: a tight clamp takes the frame
   /// before for an outlier where it differs by its noise alone.
-  TemporalAntialiasingSettings accumulation{.clipGamma = 8.0F, .clipRadius = 3};
+  TemporalAntialiasingSettings accumulation{.clipGamma = 8.0F, .clipRadius = 3, .objectIds = true};
 
   void visit(SettingVisitor& v) {
     v.visit({"spatial-only", "Filter each frame by itself, without temporal stages", "", 0, 1, "joint-bilateral.txt"},
@@ -28,8 +28,8 @@ struct JointBilateralSettings {
 };
 
 /// Joint bilateral filter with temporal accumulation (joint-bilateral.txt, 1): denoise one frame, project the last
-/// result into it, accumulate. Where the text tells surfaces apart by object number, this compares depth and normal, as
-/// the other methods do, so that the host need not number its objects.
+/// result into it, accumulate. Surfaces are told apart by the object's number, as in the text, where the host gives it,
+/// and by plane and geometric normal, as in the other methods.
 /// @param output RGBA16F texture to write the result to
 /// @param inspection is offered the views of the stages that have some
 /// @returns the output's new version

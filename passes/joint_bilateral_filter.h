@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "framegraph/graph.h"
+#include "passes/inspection.h"
 #include "passes/prepare_guides.h"
 #include "passes/settings.h"
 
@@ -43,8 +44,10 @@ struct JointBilateralFilterSettings {
 /// @param frame    upload of `FrameConstants`
 /// @param lighting RGBA16F: noisy radiance; a pixel that is not finite is no sample
 /// @param output   RGBA16F texture to write the result to
+/// @param inspection is offered the stage's views
 /// @returns the output's new version; sky and pixels without a diffuse lobe as they were
 fg::Texture addJointBilateralFilter(fg::Graph& graph, fg::Buffer frame, fg::Texture lighting, const Guides& guides,
-                                    fg::Texture output, const JointBilateralFilterSettings& settings = {});
+                                    fg::Texture output, const JointBilateralFilterSettings& settings = {},
+                                    Inspection* inspection = nullptr);
 
 }  // namespace walr

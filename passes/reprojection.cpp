@@ -23,4 +23,8 @@ void readReprojection(fg::PassBuilder& pass, const DenoiserInputs& inputs, const
   }
 }
 
+void readObjectIds(fg::PassBuilder& pass, const ObjectIds& objects) {
+  pass.sample("objects", objects.current).sample("previousObjects", objects.previous);
+}
+
 }  // namespace walr

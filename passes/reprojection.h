@@ -5,6 +5,7 @@
 #include "framegraph/graph.h"
 #include "passes/history_tests.h"
 #include "passes/inputs.h"
+#include "passes/object_ids.h"
 #include "passes/prepare_guides.h"
 
 namespace walr {
@@ -22,5 +23,8 @@ MotionSource motionSource(const SceneDescription& scene);
 /// @param dilateMotion follow the nearest surface of the 3x3 neighbourhood (walr.txt 4.2)
 void readReprojection(fg::PassBuilder& pass, const DenoiserInputs& inputs, const Guides& guides,
                       HistoryRejection rejection, MotionSource motion, bool dilateMotion = false);
+
+/// Declare what REJECT_BY_OBJECT reads besides.
+void readObjectIds(fg::PassBuilder& pass, const ObjectIds& objects);
 
 }  // namespace walr

@@ -1,6 +1,9 @@
 #include "passes/svgf_accumulation.h"
 
+#include <string>
+
 #include "passes/reprojection.h"
+#include "passes/temporal_accumulation.h"
 #include "shaders/constants/svgf_accumulation.h"
 #include "shaders/shaders.h"
 
@@ -8,18 +11,29 @@ namespace walr {
 
 SvgfAccumulated addSvgfAccumulation(fg::Graph& graph, const DenoiserInputs& inputs, const Guides& guides,
                                     fg::Texture previousColour, fg::Texture colour,
-                                    const SvgfAccumulationSettings& settings) {
+                                    const SvgfAccumulationSettings& settings, Inspection* inspection) {
   const fg::Extent extent = graph.textureDesc(inputs.lighting).extent;
   const fg::History moments = graph.history("svgf.moments", {VK_FORMAT_R16G16B16A16_SFLOAT, extent});
 
-  fg::PassBuilder pass = graph.compute("svgf accumulation", shaders::svgfAccumulation);
-  readReprojection(pass, inputs, guides, HistoryRejection::Plane, MotionSource::Texture);
-  pass.sample("lighting", inputs.lighting)
-      .sample("previousColour", previousColour)
-      .sample("previousMoments", moments.previous)
-      .constants(SvgfAccumulationConstants{settings.maxSamples, settings.maxMomentSamples, settings.planeTolerance,
-                                           settings.normalThreshold})
-      .dispatch(extent);
+  const auto declare = [&](const std::string& name, const fg::Shader& shader) {
+    fg::PassBuilder pass = graph.compute(name, shader);
+    readReprojection(pass, inputs, guides, HistoryRejection::Plane, MotionSource::Texture);
+    pass.sample("lighting", inputs.lighting)
+        .sample("previousColour", previousColour)
+        .sample("previousMoments", moments.previous)
+        .constants(SvgfAccumulationConstants{settings.maxSamples, settings.maxMomentSamples, settings.planeTolerance,
+                                             settings.normalThreshold})
+        .dispatch(extent);
+    return pass;
+  };
+  if (inspection != nullptr) {
+    inspection->offer(graph, accumulationViews(), extent, [&](const std::string& name) {
+      fg::PassBuilder pass = declare(name, shaders::svgfAccumulationView);
+      pass.specialize("kKeepableMotion", false);
+      return pass;
+    });
+  }
+  fg::PassBuilder pass = declare("svgf accumulation", shaders::svgfAccumulation);
   SvgfAccumulated accumulated;
   accumulated.colour = pass.store("outColour", colour);
   accumulated.moments = pass.store("outMoments", moments.current);

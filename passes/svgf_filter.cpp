@@ -29,6 +29,19 @@ fg::Texture colourTexture(fg::Graph& graph, fg::Texture like, std::string name) 
   return graph.texture(std::move(name), {VK_FORMAT_R16G16B16A16_SFLOAT, graph.textureDesc(like).extent});
 }
 
+constexpr const char* kVariancePass = "svgf variance";
+
+/// In the order of `kView` of svgf_variance.comp.
+const std::vector<ViewInfo>& varianceViews() {
+  static const std::vector<ViewInfo> kViews{
+      {"deviation",
+       "Standard deviation of the luminance, 1 where its spread over the surface stands in for that over time, 1 where "
+       "there is no sample",
+       {{"deviations-from-surroundings", "Y"}, {"unsampled-pixels", "Z"}}},
+  };
+  return kViews;
+}
+
 /// Largest distance of a tap that a full window takes.
 constexpr std::uint32_t kFullestRadius = 64;
 
@@ -64,17 +77,30 @@ std::vector<Kernel> kernelsOf(const SvgfFilterSettings& settings) {
 }  // namespace
 
 fg::Texture addSvgfVariance(fg::Graph& graph, fg::Buffer frame, const SvgfAccumulated& accumulated,
-                            const Guides& guides, const SvgfFilterSettings& settings) {
-  fg::PassBuilder pass =
-      filterPass(graph, "svgf variance", shaders::svgfVariance, frame, accumulated.colour, guides, settings);
-  pass.sample("moments", accumulated.moments);
+                            const Guides& guides, const SvgfFilterSettings& settings, Inspection* inspection) {
+  const auto declare = [&](const std::string& name, const fg::Shader& shader) {
+    fg::PassBuilder pass = filterPass(graph, name, shader, frame, accumulated.colour, guides, settings);
+    pass.sample("moments", accumulated.moments);
+    return pass;
+  };
+  if (inspection != nullptr) {
+    inspection->offer(graph, varianceViews(), graph.textureDesc(accumulated.colour).extent,
+                      [&](const std::string& name) { return declare(name, shaders::svgfVarianceView); });
+  }
+  fg::PassBuilder pass = declare(kVariancePass, shaders::svgfVariance);
   return pass.store("outColour", colourTexture(graph, accumulated.colour, "svgf.variance"));
 }
 
 fg::Texture addSvgfSingleFrameVariance(fg::Graph& graph, fg::Buffer frame, fg::Texture lighting, const Guides& guides,
-                                       const SvgfFilterSettings& settings) {
-  fg::PassBuilder pass =
-      filterPass(graph, "svgf variance", shaders::svgfVarianceSingleFrame, frame, lighting, guides, settings);
+                                       const SvgfFilterSettings& settings, Inspection* inspection) {
+  const auto declare = [&](const std::string& name, const fg::Shader& shader) {
+    return filterPass(graph, name, shader, frame, lighting, guides, settings);
+  };
+  if (inspection != nullptr) {
+    inspection->offer(graph, varianceViews(), graph.textureDesc(lighting).extent,
+                      [&](const std::string& name) { return declare(name, shaders::svgfVarianceSingleFrameView); });
+  }
+  fg::PassBuilder pass = declare(kVariancePass, shaders::svgfVarianceSingleFrame);
   return pass.store("outColour", colourTexture(graph, lighting, "svgf.variance"));
 }
 

@@ -30,19 +30,6 @@ const fg::Shader& shaderFor(MotionSource motion, HistoryRejection rejection, Rol
               .at(static_cast<std::size_t>(role));
 }
 
-/// In the order of `kView` of temporal_accumulation.comp.
-const std::vector<ViewInfo>& accumulationViews() {
-  static const std::vector<ViewInfo> kViews{
-      {"history",
-       "History length with this frame's sample, history pixels rejected (of four), 1 where none is left",
-       {{"rejected-history-taps", "Y"}, {"no-history", "Z"}}},
-      {"broken-lighting",
-       "1 where the lighting is not finite, where it is clamped, where the motion is not finite",
-       {{"non-finite-lighting", "X"}, {"clamped-lighting", "Y"}, {"non-finite-motion", "Z"}}},
-  };
-  return kViews;
-}
-
 /// The stage in a graph.
 struct Stage {
   fg::Graph& graph;
@@ -92,6 +79,18 @@ void offerViews(const Stage& stage, Inspection* inspection) {
 constexpr const char* kPassName = "temporal accumulation";
 
 }  // namespace
+
+const std::vector<ViewInfo>& accumulationViews() {
+  static const std::vector<ViewInfo> kViews{
+      {"history",
+       "History length with this frame's sample, history pixels rejected (of four), 1 where none is left",
+       {{"rejected-history-taps", "Y"}, {"no-history", "Z"}}},
+      {"broken-lighting",
+       "1 where the lighting is not finite, where it is clamped, where the motion is not finite",
+       {{"non-finite-lighting", "X"}, {"clamped-lighting", "Y"}, {"non-finite-motion", "Z"}}},
+  };
+  return kViews;
+}
 
 fg::Texture addTemporalAccumulation(fg::Graph& graph, const DenoiserInputs& inputs, const Guides& guides,
                                     const TemporalAccumulationSettings& settings, Inspection* inspection) {

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <string_view>
+#include <vector>
+
 #include "framegraph/graph.h"
 #include "passes/history_tests.h"
 #include "passes/inputs.h"
@@ -36,6 +39,9 @@ struct TemporalAccumulationSettings {
         dilateMotion);
   }
 };
+
+/// Views of every stage that accumulates lighting, in the order of `kView` of its shader.
+const std::vector<ViewInfo>& accumulationViews();
 
 /// Average the noisy lighting over time along its motion.
 /// @param inspection is offered the stage's views

@@ -18,16 +18,24 @@ struct StageShaders {
   const fg::Shader* view;
 };
 
-StageShaders shadersFor(MotionSource motion, HistoryRejection rejection) {
+/// @param objects whether objects are told apart, too
+StageShaders shadersFor(MotionSource motion, HistoryRejection rejection, bool objects) {
   using namespace shaders;
-  static constexpr std::array<std::array<StageShaders, 3>, 2> kShaders{
-      {{{{&temporalAntialiasingPlane, &temporalAntialiasingPlaneView},
-         {&temporalAntialiasingDepth, &temporalAntialiasingDepthView},
-         {&temporalAntialiasing, &temporalAntialiasingView}}},
-       {{{&temporalAntialiasingCameraPlane, &temporalAntialiasingCameraPlaneView},
-         {&temporalAntialiasingCameraDepth, &temporalAntialiasingCameraDepthView},
-         {&temporalAntialiasingCamera, &temporalAntialiasingCameraView}}}}};
-  return kShaders.at(static_cast<std::size_t>(motion)).at(static_cast<std::size_t>(rejection));
+  using ByRejection = std::array<StageShaders, 3>;
+  static constexpr std::array<std::array<ByRejection, 2>, 2> kShaders{
+      {{{{{{&temporalAntialiasingPlane, &temporalAntialiasingPlaneView},
+           {&temporalAntialiasingDepth, &temporalAntialiasingDepthView},
+           {&temporalAntialiasing, &temporalAntialiasingView}}},
+         {{{&temporalAntialiasingCameraPlane, &temporalAntialiasingCameraPlaneView},
+           {&temporalAntialiasingCameraDepth, &temporalAntialiasingCameraDepthView},
+           {&temporalAntialiasingCamera, &temporalAntialiasingCameraView}}}}},
+       {{{{{&temporalAntialiasingPlaneObject, &temporalAntialiasingPlaneObjectView},
+           {&temporalAntialiasingDepthObject, &temporalAntialiasingDepthObjectView},
+           {&temporalAntialiasingObject, &temporalAntialiasingObjectView}}},
+         {{{&temporalAntialiasingCameraPlaneObject, &temporalAntialiasingCameraPlaneObjectView},
+           {&temporalAntialiasingCameraDepthObject, &temporalAntialiasingCameraDepthObjectView},
+           {&temporalAntialiasingCameraObject, &temporalAntialiasingCameraObjectView}}}}}}};
+  return kShaders.at(objects ? 1 : 0).at(static_cast<std::size_t>(motion)).at(static_cast<std::size_t>(rejection));
 }
 
 /// In the order of `kView` of temporal_antialiasing.comp.
@@ -82,16 +90,19 @@ fg::Texture addTemporalAntialiasing(fg::Graph& graph, const DenoiserInputs& inpu
                     filtered, output, settings, inspection);
   }
   const MotionSource motion = motionSource(inputs.scene);
+  const bool objects = settings.objectIds && inputs.objectId.valid();
+  const ObjectIds ids = objects ? addObjectIds(graph, inputs, guides) : ObjectIds{};
   const auto read = [&](fg::PassBuilder& pass, bool view) {
     readReprojection(pass, inputs, guides, settings.rejection, motion, settings.dilateMotion);
+    if (objects) readObjectIds(pass, ids);
     if (view) pass.specialize("kKeepableMotion", false);
   };
-  return addStage(graph, shadersFor(motion, settings.rejection), read, filtered, output, settings, inspection);
+  return addStage(graph, shadersFor(motion, settings.rejection, objects), read, filtered, output, settings, inspection);
 }
 
 bool sharesReprojection(const TemporalAntialiasingSettings& antialiasing,
                         const TemporalAccumulationSettings& accumulation) {
-  if (antialiasing.dilateMotion != accumulation.dilateMotion) return false;
+  if (antialiasing.objectIds || antialiasing.dilateMotion != accumulation.dilateMotion) return false;
   if (antialiasing.rejection == HistoryRejection::None) return true;
   return antialiasing.rejection == accumulation.rejection &&
          antialiasing.planeTolerance == accumulation.planeTolerance &&

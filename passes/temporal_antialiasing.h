@@ -21,6 +21,7 @@ struct TemporalAntialiasingSettings {
   HistoryRejection rejection = HistoryRejection::Plane;
   float planeTolerance = 0.01F;
   float normalThreshold = 0.5F;
+  bool objectIds = false;
   bool dilateMotion = false;
 
   void visit(SettingVisitor& v) {
@@ -38,6 +39,9 @@ struct TemporalAntialiasingSettings {
     visitRejection(v, "antialiasing.rejection", rejection);
     visitHistoryTests(v, "antialiasing.plane-tolerance", planeTolerance, "antialiasing.normal-threshold",
                       normalThreshold);
+    v.visit({"antialiasing.object-ids", "Tell surfaces apart by the host's object numbers, too, where it gives them",
+             "", 0, 1, "joint-bilateral.txt, 3"},
+            objectIds);
     v.visit(
         {"antialiasing.dilate-motion", "Follow the nearest surface of the 3x3 neighbourhood", "", 0, 1, "walr.txt 4.2"},
         dilateMotion);

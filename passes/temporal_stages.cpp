@@ -34,7 +34,9 @@ fg::Texture addTemporalStages(fg::Graph& graph, const DenoiserInputs& inputs, co
 
   const bool antialias = stages.antialiasing.enabled && !inputs.scene.hostAntialiasing;
   const bool reprojects = !inputs.scene.still() || stages.keepTaps;
-  const bool share = antialias && reprojects && sharesReprojection(stages.antialiasing, stages.accumulation);
+  TemporalAntialiasingSettings antialiasing = stages.antialiasing;
+  antialiasing.objectIds = antialiasing.objectIds && inputs.objectId.valid();
+  const bool share = antialias && reprojects && sharesReprojection(antialiasing, stages.accumulation);
   FilterInput input{.alpha = LightingAlpha::SampleCount};
   if (share || stages.keepTaps) {
     const auto [mean, taps] = addTemporalAccumulationWithTaps(graph, inputs, guides, stages.accumulation, inspection);
@@ -45,8 +47,8 @@ fg::Texture addTemporalStages(fg::Graph& graph, const DenoiserInputs& inputs, co
   }
   if (!antialias) return filterToOutput(input);
   const fg::Texture filtered = filter(input);
-  return share ? addTemporalAntialiasingWithTaps(graph, input.taps, filtered, output, stages.antialiasing, inspection)
-               : addTemporalAntialiasing(graph, inputs, guides, filtered, output, stages.antialiasing, inspection);
+  return share ? addTemporalAntialiasingWithTaps(graph, input.taps, filtered, output, antialiasing, inspection)
+               : addTemporalAntialiasing(graph, inputs, guides, filtered, output, antialiasing, inspection);
 }
 
 }  // namespace walr

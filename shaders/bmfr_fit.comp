@@ -1,5 +1,6 @@
 // Blockwise multi-order feature regression (bmfr.txt 3.3, 3.4): one work group fits the colours of a block of 32x32
-// pixels as a linear combination of ten features, by Householder QR with three right-hand sides, and writes the fit.
+// pixels as a linear combination of ten features, by Householder QR with three right-hand sides, and writes the fit. A
+// view (VIEW) does the same and writes something found on the way.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -18,7 +19,12 @@ layout(set = 0, binding = 0, std140) uniform frameConstants { FrameConstants fra
 layout(set = 0, binding = 1) uniform texture2D lighting;
 layout(set = 0, binding = 2) uniform utexture2D depth;
 layout(set = 0, binding = 3) uniform utexture2D shadingNormal;
+#ifdef VIEW
+layout(constant_id = 8) const uint kView = 0;  // Which quantity; numbered in viewOf.
+layout(set = 0, binding = 4, rgba32f) uniform writeonly image2D outView;
+#else
 layout(set = 0, binding = 4, rgba16f) uniform writeonly image2D outFitted;
+#endif
 layout(push_constant) uniform PushConstants { BmfrFitConstants settings; };
 
 const int kBlockSize = 32;
@@ -140,15 +146,42 @@ float rowsInUse(float rows[kRowsPerThread][kColumns]) {
   return totals[kColumns - 1];
 }
 
-// The synthesis uses the features without noise (bmfr.txt 3.4). Pixels without a surface keep what they had.
-vec3 fittedColour(Pixel pixel, Bounds bounds) {
-  if (!pixel.surface) return isFinite(pixel.colour) ? pixel.colour : vec3(0.0);
+// The synthesis uses the features without noise (bmfr.txt 3.4).
+vec3 synthesis(Pixel pixel, Bounds bounds) {
   const float features[kFeatures] = featuresOf(pixel, bounds);
   vec3 colour = vec3(0.0);
   for (int j = 0; j < kFeatures; ++j)
     colour += features[j] * vec3(coefficients[j][0], coefficients[j][1], coefficients[j][2]);
-  return clamp(colour, vec3(0.0), vec3(kLargestHalf));
+  return colour;
 }
+
+vec3 clampedColour(vec3 colour) { return clamp(colour, vec3(0.0), vec3(kLargestHalf)); }
+
+// Pixels without a surface keep what they had.
+vec3 fittedColour(Pixel pixel, Bounds bounds) {
+  if (!pixel.surface) return isFinite(pixel.colour) ? pixel.colour : vec3(0.0);
+  return clampedColour(synthesis(pixel, bounds));
+}
+
+#ifdef VIEW
+// Features that the block's fit leaves out because earlier ones explain them.
+float featuresLeftOut() {
+  float count = 0.0;
+  for (int k = 0; k < kFeatures; ++k) count += triangle[k][k] == 0.0 ? 1.0 : 0.0;
+  return count;
+}
+
+vec3 viewOf(Pixel pixel, Bounds bounds, float samples) {
+  if (!pixel.surface) return vec3(0.0);
+  const vec3 colour = synthesis(pixel, bounds);
+  switch (kView) {
+    case 0u: return vec3(featuresLeftOut(), samples, featuresLeftOut() > 0.0);
+    case 1u: return vec3(notEqual(clampedColour(colour), colour));
+    case 2u: return vec3(samples == 0.0, !pixel.sampled, !isFinite(colour));
+  }
+  return vec3(0.0);
+}
+#endif
 
 void main() {
   Pixel pixels[kRowsPerThread];
@@ -158,11 +191,16 @@ void main() {
   float rows[kRowsPerThread][kColumns];
   [[unroll]] for (int s = 0; s < kRowsPerThread; ++s)
     rows[s] = rowOf(pixels[s], threadIndex + uint(s) * kThreads, bounds);
-  solveLeastSquares(rows, rowsInUse(rows), settings.rankTolerance);
+  const float samples = rowsInUse(rows);
+  solveLeastSquares(rows, samples, settings.rankTolerance);
 
   [[unroll]] for (int s = 0; s < kRowsPerThread; ++s) {
     const ivec2 p = pixels[s].p;
     if (any(lessThan(p, ivec2(0))) || any(greaterThanEqual(p, textureSize(depth, 0)))) continue;
+#ifdef VIEW
+    imageStore(outView, p, vec4(viewOf(pixels[s], bounds, samples), 1.0));
+#else
     imageStore(outFitted, p, vec4(fittedColour(pixels[s], bounds), 1.0));
+#endif
   }
 }

@@ -1,4 +1,5 @@
-// FLR, last stage (flr-flnr.txt): coefficients, upsampled, applied to the guides at full resolution.
+// FLR, last stage (flr-flnr.txt): coefficients, upsampled, applied to the guides at full resolution. A view (VIEW) does
+// the same and writes something found on the way.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -15,7 +16,13 @@ layout(set = 0, binding = 0) uniform texture2D lighting;
 layout(set = 0, binding = 1) uniform utexture2D depth;
 layout(set = 0, binding = 2) uniform utexture2D shadingNormal;
 layout(set = 0, binding = 3, std430) readonly buffer coefficients { Coefficients cells[]; };
+#ifdef VIEW
+layout(constant_id = 8) const uint kView = 0;  // Which quantity; numbered in viewOf.
+layout(constant_id = 1) const bool kAlphaIsSampleCount = false;
+layout(set = 0, binding = 4, rgba32f) uniform writeonly image2D outView;
+#else
 layout(set = 0, binding = 4, rgba16f) uniform writeonly image2D outFiltered;
+#endif
 #ifdef OCCLUSION
 layout(set = 0, binding = 5) uniform texture2D occlusion;
 #endif
@@ -38,7 +45,7 @@ vec3 evaluate(Coefficients k, float x[kFeatures]) {
 }
 
 // Interpolated prediction of the cells around pixel `p` that have a fit.
-// Alpha: below 0 where no cell has any.
+// Alpha: 0 where no cell has any.
 vec4 predict(ivec2 p, float x[kFeatures]) {
   const vec2 position = (vec2(p) + 0.5) / float(settings.factor) - 0.5;
   const int reach = kUpsampling == 2u ? 2 : 1;
@@ -55,17 +62,36 @@ vec4 predict(ivec2 p, float x[kFeatures]) {
     sum += axes * k.constant.a * evaluate(k, x);
     weightSum += axes * k.constant.a;
   }
-  return weightSum > 0.0 ? vec4(clamp(sum / weightSum, 0.0, kLargestHalf), 1.0) : vec4(vec3(0.0), -1.0);
+  return weightSum > 0.0 ? vec4(sum / weightSum, 1.0) : vec4(0.0);
 }
+
+vec3 clampedColour(vec3 colour) { return clamp(colour, vec3(0.0), vec3(kLargestHalf)); }
+
+#ifdef VIEW
+vec3 viewOf(ivec2 p, float z) {
+  if (z == 0.0) return vec3(0.0);
+  const vec4 predicted = predict(p, guidesAt(p, z));
+  if (kView == 0u) return vec3(notEqual(clampedColour(predicted.rgb), predicted.rgb));
+  const vec4 light = texelFetch(lighting, p, 0);
+  const bool sampled = isFinite(light.rgb) && (!kAlphaIsSampleCount || light.a > 0.0);
+  return vec3(predicted.a == 0.0, !sampled, !isFinite(predicted.rgb));
+}
+#endif
 
 void main() {
   const ivec2 p = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(p, textureSize(depth, 0)))) return;
   const float z = unpackDepth(texelFetch(depth, p, 0).x);
+#ifdef VIEW
+  imageStore(outView, p, vec4(viewOf(p, z), 1.0));
+#else
   if (z == 0.0) {
     const vec3 colour = texelFetch(lighting, p, 0).rgb;
     imageStore(outFiltered, p, vec4(isFinite(colour) ? colour : vec3(0.0), 1.0));
     return;
   }
-  imageStore(outFiltered, p, predict(p, guidesAt(p, z)));
+  const vec4 predicted = predict(p, guidesAt(p, z));
+  // Below 0: no light is known.
+  imageStore(outFiltered, p, vec4(clampedColour(predicted.rgb), predicted.a > 0.0 ? 1.0 : -1.0));
+#endif
 }

@@ -1,4 +1,5 @@
-// FLR, third stage (flr-flnr.txt): the vertical half of the Gaussian, then the weighted least squares of every cell.
+// FLR, third stage (flr-flnr.txt): the vertical half of the Gaussian, then the weighted least squares of every cell. A
+// view (VIEW) does the same and writes something found on the way to the cell's pixels.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "constants/flr.h"
@@ -10,41 +11,91 @@ layout(push_constant) uniform PushConstants { FlrConstants settings; };
 #include "include/cholesky.glsl"
 
 layout(set = 0, binding = 0, std430) readonly buffer blurred { OuterProducts cells[]; };
+#ifdef VIEW
+layout(constant_id = 8) const uint kView = 0;  // Which quantity; numbered in viewOf.
+layout(set = 0, binding = 1, rgba32f) uniform writeonly image2D outView;
+#else
 layout(set = 0, binding = 1, std430) writeonly buffer outCoefficients { Coefficients outCells[]; };
+#endif
 
 // Solving the constant first leaves the system of the covariances, so that the ridge holds the slopes and not the mean:
 // on the constant it would darken the fit. Inverse depth is not of order 1 as the other guides are; its ridge is
 // relative.
+struct NormalEquations {
+  vec3 y;  // Mean colour.
+  float x[kFeatures];
+  float ridge[kFeatures];
+  float factor[kCovariances];  // Of the covariances with their ridge.
+  vec3 yx[kFeatures];
+};
+
+// Of at least one sample.
+NormalEquations normalEquations(OuterProducts p) {
+  const float scale = 1.0 / productAt(p, 0);
+  NormalEquations e;
+  e.y = scale * colourProductAt(p, 0);
+  float covariances[kCovariances];
+  for (int i = 0; i < kFeatures; ++i) e.x[i] = scale * productAt(p, kMeanX + i);
+  for (int i = 0; i < kFeatures; ++i) {
+    e.ridge[i] = settings.ridge * (i == kInverseDepth ? e.x[i] * e.x[i] : 1.0);
+    e.yx[i] = scale * colourProductAt(p, i + 1) - e.y * e.x[i];
+    for (int j = 0; j < kFeatures; ++j) {
+      if (j < i) continue;
+      const int k = triangleEntry(j, i);
+      covariances[k] = scale * productAt(p, kSquares + k) - e.x[i] * e.x[j];
+    }
+  }
+  e.factor = choleskyFactor(covariances, e.ridge, e.ridge);
+  return e;
+}
+
+#ifdef VIEW
+// The smallest pivot without its ridge, in units of the ridge; how many of them the ridge outweighs.
+vec2 pivotsOf(NormalEquations e) {
+  float smallest = 3.0e38, outweighed = 0.0;
+  for (int i = 0; i < kFeatures; ++i) {
+    const float root = e.factor[triangleEntry(i, i)];
+    const float pivot = root * root / e.ridge[i] - 1.0;
+    smallest = min(smallest, pivot);
+    outweighed += pivot < 1.0 ? 1.0 : 0.0;
+  }
+  return vec2(smallest, outweighed);
+}
+
+vec3 viewOf(OuterProducts p) {
+  const float samples = productAt(p, 0);
+  if (kView == 1u) return vec3(samples, samples < float(kFeatures + 1), samples <= 0.0);
+  if (samples <= 0.0) return vec3(0.0);
+  const vec2 pivots = pivotsOf(normalEquations(p));
+  return vec3(pivots, pivots.y > 0.0);
+}
+
+void write(ivec2 cell, OuterProducts p) {
+  const vec3 value = viewOf(p);
+  for (int i = 0; i < settings.factor * settings.factor; ++i) {
+    const ivec2 pixel = settings.factor * cell + ivec2(i % settings.factor, i / settings.factor);
+    if (all(lessThan(pixel, imageSize(outView)))) imageStore(outView, pixel, vec4(value, 1.0));
+  }
+}
+#else
 Coefficients solve(OuterProducts p) {
   Coefficients result;
   result.constant = vec4(0.0);
   for (int k = 0; k < kSlopeVectors; ++k) result.slope[k] = vec4(0.0);
-  const float samples = productAt(p, 0);
-  if (samples <= 0.0) return result;
+  if (productAt(p, 0) <= 0.0) return result;
 
-  const float scale = 1.0 / samples;
-  const vec3 y = scale * colourProductAt(p, 0);
-  float x[kFeatures], ridge[kFeatures], covariances[kCovariances];
-  vec3 yx[kFeatures];
-  for (int i = 0; i < kFeatures; ++i) x[i] = scale * productAt(p, kMeanX + i);
+  const NormalEquations e = normalEquations(p);
+  const vec3 slope[kFeatures] = choleskySolve(e.factor, e.yx);
+  result.constant = vec4(e.y, 1.0);
   for (int i = 0; i < kFeatures; ++i) {
-    ridge[i] = settings.ridge * (i == kInverseDepth ? x[i] * x[i] : 1.0);
-    yx[i] = scale * colourProductAt(p, i + 1) - y * x[i];
-    for (int j = 0; j < kFeatures; ++j) {
-      if (j < i) continue;
-      const int k = triangleEntry(j, i);
-      covariances[k] = scale * productAt(p, kSquares + k) - x[i] * x[j];
-    }
-  }
-  const vec3 slope[kFeatures] = choleskySolve(choleskyFactor(covariances, ridge, ridge), yx);
-
-  result.constant = vec4(y, 1.0);
-  for (int i = 0; i < kFeatures; ++i) {
-    result.constant.rgb -= slope[i] * x[i];
+    result.constant.rgb -= slope[i] * e.x[i];
     for (int c = 0; c < 3; ++c) result.slope[(3 * i + c) / 4][(3 * i + c) % 4] = slope[i][c];
   }
   return result;
 }
+
+void write(ivec2 cell, OuterProducts p) { outCells[cellIndex(cell)] = solve(p); }
+#endif
 
 void main() {
   const ivec2 cell = ivec2(gl_GlobalInvocationID.xy);
@@ -54,5 +105,5 @@ void main() {
     const ivec2 tap = cell + ivec2(0, i);
     if (insideGrid(tap)) add(sum, gaussian(i), cells[cellIndex(tap)]);
   }
-  outCells[cellIndex(cell)] = solve(sum);
+  write(cell, sum);
 }

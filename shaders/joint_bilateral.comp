@@ -18,7 +18,12 @@ layout(set = 0, binding = 1) uniform utexture2D depth;
 layout(set = 0, binding = 2) uniform utexture2D shadingNormal;
 layout(set = 0, binding = 3) uniform utexture2D geometricNormal;
 layout(set = 0, binding = 4) uniform texture2D lighting;
+#ifdef VIEW
+layout(constant_id = 8) const uint kView = 0;  // Which quantity; numbered in viewOf.
+layout(set = 0, binding = 5, rgba32f) uniform writeonly image2D outView;
+#else
 layout(set = 0, binding = 5, rgba16f) uniform writeonly image2D outFiltered;
+#endif
 layout(push_constant) uniform PushConstants { JointBilateralConstants settings; };
 
 struct Surface {
@@ -70,23 +75,17 @@ float windowLuminance(ivec2 p) {
   return count > 0.0 ? sum / count : 0.0;
 }
 
-void main() {
-  const ivec2 p = ivec2(gl_GlobalInvocationID.xy);
-  const ivec2 last = textureSize(depth, 0) - 1;
-  if (any(greaterThan(p, last))) return;
+struct Filtered {
+  vec3 sum;         // Of weighted colours.
+  float weightSum;
+};
 
-  if (unpackDepth(texelFetch(depth, p, 0).x) == 0.0) {
-    const vec3 radiance = texelFetch(lighting, p, 0).rgb;
-    imageStore(outFiltered, p, vec4(isFinite(radiance) ? radiance : vec3(0.0), 1.0));
-    return;
-  }
-  const Surface centre = surfaceAt(p);
+Filtered filterAround(ivec2 p, Surface centre) {
   // Colours that nothing sampled, or in the dark, are all alike: the least unit keeps the quotient finite.
   const float unit = settings.colour > 0.0 ? max(windowLuminance(p), 1e-6) : 1.0;
   const float colourFalloff = centre.valid ? settings.colour / (unit * unit) : 0.0;
-  const ivec2 begin = max(p - kRadius, ivec2(0)), end = min(p + kRadius, last);
-  vec3 sum = vec3(0.0);
-  float weightSum = 0.0;
+  const ivec2 begin = max(p - kRadius, ivec2(0)), end = min(p + kRadius, textureSize(depth, 0) - 1);
+  Filtered result = Filtered(vec3(0.0), 0.0);
   for (int y = begin.y; y <= end.y; ++y) {
     for (int x = begin.x; x <= end.x; ++x) {
       const Surface s = surfaceAt(ivec2(x, y));
@@ -98,10 +97,36 @@ void main() {
       const float exponent = dot(offset, offset) * settings.position + dot(difference, difference) * colourFalloff +
                              angle * angle * settings.normal + sine * sine * settings.plane;
       const float weight = exp(-exponent);
-      sum += weight * s.radiance;
-      weightSum += weight;
+      result.sum += weight * s.radiance;
+      result.weightSum += weight;
     }
   }
+  return result;
+}
+
+#ifdef VIEW
+vec3 viewOf(ivec2 p) {
+  if (unpackDepth(texelFetch(depth, p, 0).x) == 0.0) return vec3(0.0);
+  const Surface centre = surfaceAt(p);
+  const float weightSum = filterAround(p, centre).weightSum;
+  return vec3(weightSum, !centre.valid, weightSum <= 0.0);
+}
+#endif
+
+void main() {
+  const ivec2 p = ivec2(gl_GlobalInvocationID.xy);
+  if (any(greaterThanEqual(p, textureSize(depth, 0)))) return;
+#ifdef VIEW
+  imageStore(outView, p, vec4(kView == 0u ? viewOf(p) : vec3(0.0), 1.0));
+#else
+  if (unpackDepth(texelFetch(depth, p, 0).x) == 0.0) {
+    const vec3 radiance = texelFetch(lighting, p, 0).rgb;
+    imageStore(outFiltered, p, vec4(isFinite(radiance) ? radiance : vec3(0.0), 1.0));
+    return;
+  }
+  const Filtered filtered = filterAround(p, surfaceAt(p));
   // Without a sample in the whole window there is no light to hand on.
-  imageStore(outFiltered, p, weightSum > 0.0 ? vec4(sum / weightSum, 1.0) : vec4(vec3(0.0), -1.0));
+  const bool known = filtered.weightSum > 0.0;
+  imageStore(outFiltered, p, known ? vec4(filtered.sum / filtered.weightSum, 1.0) : vec4(vec3(0.0), -1.0));
+#endif
 }

@@ -1,6 +1,7 @@
 // SVGF, temporal filtering: colour and luminance moments are averaged along the motion. The colour's history is the
 // last frame's result of an early a-trous iteration. Moments are kept centred, as mean and standard deviation, because
-// the difference of raw moments drowns in the rounding of half precision.
+// the difference of raw moments drowns in the rounding of half precision. A view (VIEW) does the same and writes something
+// found on the way.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -20,8 +21,13 @@ layout(set = 0, binding = 5) uniform utexture2D previousDepth;
 layout(set = 0, binding = 6) uniform utexture2D previousGeometricNormal;
 layout(set = 0, binding = 7) uniform texture2D previousColour;
 layout(set = 0, binding = 8) uniform texture2D previousMoments;  // Mean luminance, its deviation, history length.
+#ifdef VIEW
+layout(constant_id = 8) const uint kView = 0;  // Which quantity; numbered in viewOf.
+layout(set = 0, binding = 9, rgba32f) uniform writeonly image2D outView;
+#else
 layout(set = 0, binding = 9, rgba16f) uniform writeonly image2D outColour;
 layout(set = 0, binding = 10, rgba16f) uniform writeonly image2D outMoments;
+#endif
 layout(push_constant) uniform PushConstants { SvgfAccumulationConstants settings; };
 
 #define REJECT_BY_PLANE
@@ -34,9 +40,12 @@ struct TemporalMoments {
   float samples;   // History length.
 };
 
-TemporalMoments sampleHistory(ivec2 p, float z, vec3 normal) {
-  const HistoryTaps taps =
-      historyTaps(p, reproject(p, z), normal, settings.planeTolerance, settings.normalThreshold);
+HistoryTaps tapsOf(ivec2 p, float z) {
+  const vec3 normal = unpackNormal(texelFetch(geometricNormal, p, 0).x);
+  return historyTaps(p, reproject(p, z), normal, settings.planeTolerance, settings.normalThreshold);
+}
+
+TemporalMoments sampleHistory(HistoryTaps taps) {
   const vec4 weights = tapWeights(taps);
   TemporalMoments history = TemporalMoments(vec3(0.0), 0.0, 0.0, 0.0);
   vec3 moments[4];
@@ -70,26 +79,48 @@ void addSample(inout TemporalMoments m, vec3 radiance, float alpha, float moment
   m.variance = (1.0 - momentAlpha) * (m.variance + momentAlpha * offset * offset);
 }
 
+vec3 clampedRadiance(vec3 noisy) { return clamp(noisy, vec3(0.0), vec3(kLargestHalf)); }
+
+// The history with this frame's sample. A sample that is not finite is no sample: the moments stay as they were.
+TemporalMoments momentsWith(TemporalMoments m, vec3 noisy) {
+  if (!isFinite(noisy)) return m;
+  m.samples = min(m.samples + 1.0, settings.maxSamples);
+  const float momentSamples = min(m.samples, settings.maxMomentSamples);
+  addSample(m, clampedRadiance(noisy), 1.0 / m.samples, 1.0 / momentSamples);
+  return m;
+}
+
+#ifdef VIEW
+// Numbered as in temporal_accumulation.comp.
+vec3 viewOf(ivec2 p, float z, vec3 noisy) {
+  const bool surface = z > 0.0;
+  if (kView == 1u) {
+    const bool clamped = isFinite(noisy) && clampedRadiance(noisy) != noisy;
+    return vec3(!isFinite(noisy), surface && clamped, surface && !isFinite(motionAt(p)));
+  }
+  if (!surface) return vec3(0.0);
+  const HistoryTaps taps = tapsOf(p, z);
+  const TemporalMoments history = sampleHistory(taps);
+  return vec3(momentsWith(history, noisy).samples, tapsRejected(taps), history.samples == 0.0);
+}
+#endif
+
 void main() {
   const ivec2 p = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(p, textureSize(lighting, 0)))) return;
 
   const vec3 noisy = texelFetch(lighting, p, 0).rgb;
-  const bool sampleIsFinite = isFinite(noisy);
   const float z = unpackDepth(texelFetch(depth, p, 0).x);
+#ifdef VIEW
+  imageStore(outView, p, vec4(viewOf(p, z, noisy), 1.0));
+#else
   if (z == 0.0) {
-    imageStore(outColour, p, vec4(sampleIsFinite ? noisy : vec3(0.0), 0.0));
+    imageStore(outColour, p, vec4(isFinite(noisy) ? noisy : vec3(0.0), 0.0));
     imageStore(outMoments, p, vec4(0.0));
     return;
   }
-
-  TemporalMoments m = sampleHistory(p, z, unpackNormal(texelFetch(geometricNormal, p, 0).x));
-  if (sampleIsFinite) {
-    // A sample that is not finite is no sample: the moments stay as they were.
-    m.samples = min(m.samples + 1.0, settings.maxSamples);
-    const float momentSamples = min(m.samples, settings.maxMomentSamples);
-    addSample(m, clamp(noisy, vec3(0.0), vec3(kLargestHalf)), 1.0 / m.samples, 1.0 / momentSamples);
-  }
+  const TemporalMoments m = momentsWith(sampleHistory(tapsOf(p, z)), noisy);
   imageStore(outColour, p, nearestHalf(vec4(m.colour, 1.0)));
   imageStore(outMoments, p, nearestHalf(vec4(m.mean, sqrt(m.variance), m.samples, 0.0)));
+#endif
 }

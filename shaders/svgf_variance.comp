@@ -1,5 +1,6 @@
 // SVGF, variance estimation: the temporal variance of a pixel's luminance, or, while its history is too short to tell,
-// the variance over 7x7 pixels of the same surface. A single frame (SINGLE_FRAME) has no temporal variance at all.
+// the variance over 7x7 pixels of the same surface. A single frame (SINGLE_FRAME) has no temporal variance at all. A
+// view (VIEW) does the same and writes something found on the way.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -18,7 +19,12 @@ layout(set = 0, binding = 4) uniform texture2D colour;
 #ifndef SINGLE_FRAME
 layout(set = 0, binding = 5) uniform texture2D moments;  // Mean luminance, its standard deviation, history length.
 #endif
+#ifdef VIEW
+layout(constant_id = 8) const uint kView = 0;  // Which quantity; numbered in viewOf.
+layout(set = 0, binding = 6, rgba32f) uniform writeonly image2D outView;
+#else
 layout(set = 0, binding = 6, rgba16f) uniform writeonly image2D outColour;
+#endif
 layout(push_constant) uniform PushConstants { SvgfFilterConstants settings; };
 
 #include "include/svgf.glsl"
@@ -64,24 +70,39 @@ float deviationAround(ivec2 p, float z, float origin) {
   return sqrt(max(squares / weightSum - mean * mean, 0.0));
 }
 
+// Whether the spread over the surface stands in for that over time.
+bool isEstimatedAround(Estimate e) { return e.samples > 0.0 && e.samples < settings.minHistory; }
+
+float deviationOf(ivec2 p, float z, Estimate e) {
+  if (e.samples <= 0.0) return kNoSample;
+  if (!isEstimatedAround(e)) return e.deviation;
+  // Few samples tell little of their spread, which is rather taken too large than too small.
+  const float boost = sqrt(settings.minHistory / e.samples);
+  return min(boost * deviationAround(p, z, e.mean), kLargestHalf);
+}
+
+#ifdef VIEW
+vec3 viewOf(ivec2 p, float z) {
+  if (z == 0.0 || kView != 0u) return vec3(0.0);
+  const Estimate e = estimateAt(p);
+  return vec3(max(deviationOf(p, z, e), 0.0), isEstimatedAround(e), e.samples <= 0.0);
+}
+#endif
+
 void main() {
   const ivec2 p = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(p, textureSize(depth, 0)))) return;
 
   const float z = unpackDepth(texelFetch(depth, p, 0).x);
+#ifdef VIEW
+  imageStore(outView, p, vec4(viewOf(p, z), 1.0));
+#else
   if (z == 0.0) {
     const vec3 radiance = texelFetch(colour, p, 0).rgb;
     imageStore(outColour, p, vec4(isFinite(radiance) ? radiance : vec3(0.0), 0.0));
     return;
   }
-
-  Estimate e = estimateAt(p);
-  if (e.samples <= 0.0) {
-    e.deviation = kNoSample;
-  } else if (e.samples < settings.minHistory) {
-    // Few samples tell little of their spread, which is rather taken too large than too small.
-    const float boost = sqrt(settings.minHistory / e.samples);
-    e.deviation = min(boost * deviationAround(p, z, e.mean), kLargestHalf);
-  }
-  imageStore(outColour, p, vec4(e.colour, e.deviation));
+  const Estimate e = estimateAt(p);
+  imageStore(outColour, p, vec4(e.colour, deviationOf(p, z, e)));
+#endif
 }

@@ -1,7 +1,7 @@
 // WALR postprocessing (walr.txt 4.4): reproject the filtered history with a bicubic filter, pull it into the variance of
 // the current neighbourhood, then a cumulative mean that turns exponential after a fixed number of frames. With KEPT_TAPS
-// the reprojection is what the accumulation kept of its own; else REJECT_BY_PLANE and REJECT_BY_DEPTH say how history
-// pixels are tested. STILL: every pixel shows what it showed before. A view (VIEW) does the same and writes something
+// the reprojection is what the accumulation kept of its own; else REJECT_BY_PLANE, REJECT_BY_DEPTH and REJECT_BY_OBJECT say
+// how history pixels are tested. STILL: every pixel shows what it showed before. A view (VIEW) does the same and writes something
 // found on the way.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -40,6 +40,10 @@ layout(set = 0, binding = 7) uniform utexture2D previousDepth;
 #ifdef REJECT_BY_PLANE
 layout(set = 0, binding = 8) uniform utexture2D geometricNormal;
 layout(set = 0, binding = 9) uniform utexture2D previousGeometricNormal;
+#endif
+#ifdef REJECT_BY_OBJECT
+layout(set = 0, binding = 10) uniform utexture2D objects;
+layout(set = 0, binding = 11) uniform utexture2D previousObjects;
 #endif
 #endif
 layout(push_constant) uniform PushConstants { TemporalAntialiasingConstants settings; };

@@ -63,7 +63,8 @@ std::uint32_t checkedSlots(std::uint32_t framesInFlight) {
 }
 
 VkFormat formatOr(VkFormat format, std::size_t input) {
-  return format == VK_FORMAT_UNDEFINED ? kHostInputs.at(input).format : format;
+  const bool usual = format == VK_FORMAT_UNDEFINED && !kHostInputs.at(input).optional;
+  return usual ? kHostInputs.at(input).format : format;
 }
 
 void requireFinite(std::span<const float> values, const char* what) {
@@ -85,8 +86,8 @@ Description::Description(const WalrDenoiserInfo& info)
       method_(makeDenoiser(methodName_)),
       extent_(checkedExtent(info.width, info.height)),
       conventions_(checkedConventions(info.conventions)),
-      formats_{formatOr(info.lighting_format, 0), formatOr(info.depth_format, 1), formatOr(info.normal_format, 2),
-               formatOr(info.motion_format, 3), formatOr(info.albedo_format, 4)},
+      formats_{formatOr(info.lighting_format, 0), formatOr(info.depth_format, 1),  formatOr(info.normal_format, 2),
+               formatOr(info.motion_format, 3),   formatOr(info.albedo_format, 4), formatOr(info.object_id_format, 5)},
       slots_(checkedSlots(info.frames_in_flight)) {
   if (info.preset != nullptr) method_->usePreset(info.preset);
   // Formats are refused here, and not when the first frame is recorded.

@@ -65,6 +65,7 @@ const HostedDenoiser::Declared& HostedDenoiser::declare() {
   }
   declared.images[kOutputImage] = declared.graph.output;
   for (std::size_t i = 0; i < kImageCount; ++i) {
+    if (!declared.images[i].valid()) continue;  // The host has none.
     const fg::PlannedResource& planned = declared.plan.resources[declared.images[i].resource];
     declared.needs[i] = {.used = planned.used,
                          .format = declared.graph.graph.textureDesc(declared.images[i]).format,
@@ -117,8 +118,8 @@ WalrImageRequirements HostedDenoiser::requirements(std::string_view image) {
 }
 
 FrameImages HostedDenoiser::checkedImages(const WalrFrame& frame) const {
-  const std::array<const WalrImage*, kImageCount> given{frame.lighting, frame.depth,  frame.normal,
-                                                        frame.motion,   frame.albedo, frame.denoised};
+  const std::array<const WalrImage*, kImageCount> given{frame.lighting, frame.depth,     frame.normal,  frame.motion,
+                                                        frame.albedo,   frame.object_id, frame.denoised};
   FrameImages images{};
   for (std::size_t i = 0; i < kImageCount; ++i) {
     images[i] = checkedImage(i, given[i], declared_->needs[i], device_.context().view.queueFamily);

@@ -15,6 +15,10 @@ namespace walr::api {
 /// Size of a structure in the first version that had it: nobody can know less.
 template <typename Struct>
 inline constexpr std::uint32_t kLeastSize = sizeof(Struct);
+template <>
+inline constexpr std::uint32_t kLeastSize<WalrDenoiserInfo> = offsetof(WalrDenoiserInfo, object_id_format);
+template <>
+inline constexpr std::uint32_t kLeastSize<WalrFrame> = offsetof(WalrFrame, object_id);
 
 /// More than any structure will ever have: a larger size was never set.
 inline constexpr std::uint32_t kMostSize = 1U << 16;

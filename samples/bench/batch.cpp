@@ -68,7 +68,8 @@ class Batch {
     for (const Variant& variant : variants) {
       RunRecord record;
       record.variant = variant.name;
-      lanes_.push_back({GpuDenoiser(device, *makeVariant(variant), sequence.extent(), *sequence.layout().layout),
+      lanes_.push_back({GpuDenoiser(device, *makeVariant(variant), sequence.extent(), *sequence.layout().layout, {}, 1,
+                                    sequence.layout().objectIds),
                         std::move(record),
                         {},
                         {},

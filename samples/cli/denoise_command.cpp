@@ -104,7 +104,8 @@ GpuDenoiser makeDenoiser(const DenoiseOptions& options, const GpuDevice& device,
             sequence.extent(),
             *sequence.layout().layout,
             {.views = options.views, .counters = options.counters},
-            kFramesInFlight};
+            kFramesInFlight,
+            sequence.layout().objectIds};
   } catch (const std::invalid_argument& error) {
     throw UsageError(error.what());
   }

@@ -40,6 +40,15 @@ class UploadedTexture {
   fg::vk::StagedImage image_;
 };
 
+/// The usual formats, and that of the object numbers where there are some.
+std::array<VkFormat, kHostInputs.size()> formatsOf(bool objectIds) {
+  std::array<VkFormat, kHostInputs.size()> formats{};
+  std::ranges::transform(kHostInputs, formats.begin(), [&](const HostInput& input) {
+    return input.optional && !objectIds ? VK_FORMAT_UNDEFINED : input.format;
+  });
+  return formats;
+}
+
 /// The first three components of RGBA32F texels.
 Image viewImage(std::span<const std::byte> texels, int width, int height) {
   Image image(width, height, 3);
@@ -53,14 +62,14 @@ Image viewImage(std::span<const std::byte> texels, int width, int height) {
 
 struct GpuDenoiser::State {
   State(const GpuDevice& gpu, Denoiser& method, fg::Extent extent, const Layout& frameLayout,
-        const InspectionWish& wanted, std::uint32_t slots)
+        const InspectionWish& wanted, std::uint32_t slots, bool objectIds)
       : framesInFlight(slots),
         device(gpu.device()),
         layout(frameLayout),
         declared(declareDenoiseGraph(
             method, extent, layout.conventions,
-            {.inputs = fg::vk::kUploaded, .outputBefore = fg::vk::kOverwritable, .outputAfter = fg::vk::kReadable}, {},
-            {}, wanted)),
+            {.inputs = fg::vk::kUploaded, .outputBefore = fg::vk::kOverwritable, .outputAfter = fg::vk::kReadable},
+            formatsOf(objectIds), {}, wanted)),
         executor(device.context(), declared.graph.desc(), compileFor(gpu, declared.graph),
                  {.framesInFlight = slots, .timestamps = device.context().timestampBits > 0}),
         lighting(makeUpload(declared.inputs.lighting)),
@@ -72,6 +81,7 @@ struct GpuDenoiser::State {
                fg::vk::StagedImage::Direction::Readback, slots, "denoised"),
         queue(device.context(), device.queue(), slots) {
     executor.bind(declared.output, output.external());
+    if (objectIds) objectId.emplace(device.context(), declared.graph, executor, declared.inputs.objectId, slots);
     for (const DebugView& view : declared.inspection.views()) {
       views.emplace_back(device.context(), declared.graph.textureDesc(view.texture), executor.usage(view.texture),
                          fg::vk::StagedImage::Direction::Readback, slots, "view of " + view.name);
@@ -109,6 +119,7 @@ struct GpuDenoiser::State {
   UploadedTexture normal;
   UploadedTexture motion;
   UploadedTexture albedo;
+  std::optional<UploadedTexture> objectId;
   fg::vk::StagedImage output;
   std::vector<fg::vk::StagedImage> views;
   std::optional<fg::vk::StagedBuffer> counters;
@@ -137,6 +148,7 @@ std::uint32_t GpuDenoiser::State::submit(const PackedFrame& packed) {
   normal.upload(recorded, packed.normal);
   motion.upload(recorded, packed.motion);
   albedo.upload(recorded, packed.albedo);
+  if (objectId) objectId->upload(recorded, packed.objectId);
   executor.record(recorded.commandBuffer, recorded.slot);
   output.recordReadback(recorded.commandBuffer, recorded.slot);
   for (const fg::vk::StagedImage& view : views) view.recordReadback(recorded.commandBuffer, recorded.slot);
@@ -166,8 +178,8 @@ DenoisedPicture GpuDenoiser::State::finish(std::uint32_t slot) {
 }
 
 GpuDenoiser::GpuDenoiser(const GpuDevice& device, Denoiser& method, fg::Extent extent, const Layout& layout,
-                         const InspectionWish& wanted, std::uint32_t framesInFlight)
-    : state_(std::make_unique<State>(device, method, extent, layout, wanted, framesInFlight)) {}
+                         const InspectionWish& wanted, std::uint32_t framesInFlight, bool objectIds)
+    : state_(std::make_unique<State>(device, method, extent, layout, wanted, framesInFlight, objectIds)) {}
 GpuDenoiser::~GpuDenoiser() = default;
 GpuDenoiser::GpuDenoiser(GpuDenoiser&&) noexcept = default;
 GpuDenoiser& GpuDenoiser::operator=(GpuDenoiser&&) noexcept = default;

@@ -44,10 +44,11 @@ class GpuDenoiser {
   /// @param layout  how the frames differ from the project's conventions; must outlive this
   /// @param wanted  views of the method, and whether its counters, to read back with every frame
   /// @param framesInFlight  frames that may be on the device at once, at least 1
+  /// @param objectIds  whether all frames have object numbers
   /// @throws fg::vk::Error where the device will not do
   /// @throws std::invalid_argument naming a setting of the method that is out of range, or a view that there is not
   GpuDenoiser(const GpuDevice& device, Denoiser& method, fg::Extent extent, const Layout& layout,
-              const InspectionWish& wanted = {}, std::uint32_t framesInFlight = 1);
+              const InspectionWish& wanted = {}, std::uint32_t framesInFlight = 1, bool objectIds = false);
   ~GpuDenoiser();
   GpuDenoiser(GpuDenoiser&&) noexcept;
   GpuDenoiser& operator=(GpuDenoiser&&) noexcept;

@@ -30,12 +30,29 @@ Image unpackRgb(const std::vector<Rgba16>& texels, int width, int height) {
   return image;
 }
 
+namespace {
+
+/// Object numbers as textures hold them.
+std::vector<std::uint32_t> packNumbers(const Image& image) {
+  constexpr std::uint32_t kNone = 0xffffffff;
+  std::vector<std::uint32_t> numbers;
+  numbers.reserve(image.pixelCount());
+  for (const float value : image.values()) {
+    const bool isNumber = value >= 0.0F && value < static_cast<float>(kNone);
+    numbers.push_back(isNumber ? static_cast<std::uint32_t>(value) : kNone);
+  }
+  return numbers;
+}
+
+}  // namespace
+
 PackedFrame packFrame(Frame frame) {
   PackedFrame packed;
   packed.lighting = packRgba16(frame.indirect);
   packed.normal = packRgba16(frame.normal);
   packed.motion = packRgba16(frame.motion);
   packed.albedo = packRgba16(frame.albedo);
+  packed.objectId = packNumbers(frame.objectId);
   packed.frame = std::move(frame);
   return packed;
 }

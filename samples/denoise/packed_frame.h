@@ -19,6 +19,7 @@ struct PackedFrame {
   std::vector<Rgba16> normal;
   std::vector<Rgba16> motion;
   std::vector<Rgba16> albedo;
+  std::vector<std::uint32_t> objectId;  ///< 0xffffffff: none; empty where the frame has no object numbers.
 };
 
 /// Texels of an image of at most four components; the others are 0. Finite values beyond half floats saturate.

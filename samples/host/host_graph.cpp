@@ -58,6 +58,7 @@ void declareInputs(HostGraph& host, fg::Extent extent, const HostView& view, con
   picture(host.normal, "normal", kColourFormat);
   picture(host.motion, "motion", kColourFormat);
   picture(host.albedo, "albedo", kColourFormat);
+  picture(host.objectId, "object id", VK_FORMAT_R32_UINT);
   picture(host.direct, "direct light", kColourFormat);
   picture(host.emission, "emission", kColourFormat);
   if (view.needsReference()) {
@@ -114,6 +115,7 @@ HostGraph declareHostGraph(const fg::vk::DeviceContext& device, Denoiser& method
                               .normal = host.normal.texture,
                               .motion = host.motion.texture,
                               .albedo = host.albedo.texture,
+                              .objectId = host.objectId.texture,
                               .frame = host.frameConstants,
                               .conventions = {}};
   host.denoised = method.add(graph, inputs, declareTarget(graph, "denoised", colour, targets.denoised));

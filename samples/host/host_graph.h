@@ -37,6 +37,7 @@ struct HostGraph {
   UploadedPicture normal;
   UploadedPicture motion;
   UploadedPicture albedo;
+  UploadedPicture objectId;
   UploadedPicture direct;
   UploadedPicture emission;
   std::optional<UploadedPicture> referenceIndirect;

@@ -103,6 +103,7 @@ void uploadFrame(fg::vk::Executor& executor, const HostGraph& graph, const HostF
   upload(graph.normal, std::span(inputs.normal));
   upload(graph.motion, std::span(inputs.motion));
   upload(graph.albedo, std::span(inputs.albedo));
+  upload(graph.objectId, std::span(inputs.objectId));
   upload(graph.direct, std::span(frame.direct));
   upload(graph.emission, std::span(frame.emission));
   if (graph.referenceIndirect) {

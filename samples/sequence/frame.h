@@ -52,9 +52,7 @@ struct Frame {
   Image depth;     ///< 1 component: linear view depth, scene units; `kBackgroundDepth` on sky.
   Image motion;    ///< 3 components: motion to the previous frame; z = previous minus current view depth, if given.
   Image emission;  ///< 3 components: radiance of visible lamps and sky; empty unless asked for.
-  /// 1 component: number of the object in the pixel, -1 on sky; empty unless the renderer tells it. Not read from
-  /// files.
-  Image objectId;
+  Image objectId;  ///< 1 component: number of the object in the pixel, below 0 where there is none; may be empty.
   Camera camera;
   /// Camera of the frame before; the own one where there is none.
   glm::mat4 previousProjection{1.0F};

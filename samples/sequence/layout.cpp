@@ -45,9 +45,11 @@ Image& imageOf(Frame& frame, Role role) {
     case Role::Motion:
       return frame.motion;
     case Role::Emission:
+      return frame.emission;
+    case Role::ObjectId:
       break;
   }
-  return frame.emission;
+  return frame.objectId;
 }
 
 std::string join(const std::vector<std::string>& names) {
@@ -144,13 +146,18 @@ const Layout& cyclesLayout() {
                              InputConventions{.normal = InputConventions::Space::World,
                                               .motionDepth = InputConventions::MotionDepth::StaticScene},
                              glm::vec2(1.0F, -1.0F),
+                             {Role::ObjectId, "IndexOB", "X"},
                              "Env"};
   return layout;
 }
 
 const Layout& projectLayout() {
-  static const Layout layout{"walr", kProjectPlanes, CameraSource::HeaderAttributes, InputConventions{},
-                             glm::vec2(1.0F, 1.0F)};
+  static const Layout layout{"walr",
+                             kProjectPlanes,
+                             CameraSource::HeaderAttributes,
+                             InputConventions{},
+                             glm::vec2(1.0F, 1.0F),
+                             {Role::ObjectId, "ObjectId", "Y"}};
   return layout;
 }
 
@@ -177,7 +184,9 @@ RecognizedLayout recognizeLayout(const ExrReader& file, std::string_view viewLay
       throw InputError(file.path().string() + ": several view layers (" + join({layers.begin(), layers.end()}) +
                        "); choose one with --view-layer NAME");
     }
-    return {layout, viewLayer.empty() ? *layers.begin() : std::string(viewLayer)};
+    RecognizedLayout recognized{layout, viewLayer.empty() ? *layers.begin() : std::string(viewLayer)};
+    recognized.objectIds = hasPlane(file, recognized, layout->objectId);
+    return recognized;
   }
   throw InputError(file.path().string() +
                    ": neither a Blender Cycles frame (channels DiffInd.R, ...) nor one of walr's own layout "
@@ -191,6 +200,9 @@ void requireChannels(const ExrReader& file, const RecognizedLayout& layout, bool
     if (composite || !plane.compositeOnly) {
       planes.push_back(&plane);
     }
+  }
+  if (layout.objectIds) {
+    planes.push_back(&layout.layout->objectId);
   }
   requirePlanes(file, layout, planes,
                 composite ? "Render with these passes, or leave out --composite if only direct light or emission is "
@@ -210,6 +222,9 @@ void readFrame(ExrReader& file, const RecognizedLayout& layout, bool composite, 
     if (composite || !plane.compositeOnly) {
       addTargets(targets, layout, plane, imageOf(frame, plane.role), file);
     }
+  }
+  if (layout.objectIds) {
+    addTargets(targets, layout, layout.layout->objectId, frame.objectId, file);
   }
   Image sky;
   const Plane skyPlane{Role::Emission, layout.layout->sky, "RGB", true};

@@ -14,7 +14,7 @@
 namespace walr {
 
 /// What a picture in a file holds.
-enum class Role { Indirect, Direct, Albedo, Normal, Depth, Motion, Emission };
+enum class Role { Indirect, Direct, Albedo, Normal, Depth, Motion, Emission, ObjectId };
 
 /// One picture of a layout: its name without view layer, and one letter a component.
 struct Plane {
@@ -34,6 +34,7 @@ struct Layout {
   CameraSource cameras;
   InputConventions conventions;
   glm::vec2 motionScale;  ///< See `FrameDescription::motionScale`.
+  Plane objectId;         ///< Read where the first frame has it.
   /// Plane with the radiance of the sky, which is added to the emission where a file has it; empty: none.
   std::string_view sky = {};
 };
@@ -44,7 +45,8 @@ const Layout& projectLayout();
 /// A layout recognised in a file.
 struct RecognizedLayout {
   const Layout* layout = nullptr;
-  std::string viewLayer;  ///< Empty where the channels carry no view-layer prefix.
+  std::string viewLayer;   ///< Empty where the channels carry no view-layer prefix.
+  bool objectIds = false;  ///< The file has `Layout::objectId`.
 
   /// Full name of a channel.
   [[nodiscard]] std::string channel(std::string_view plane, char component) const;

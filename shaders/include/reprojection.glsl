@@ -1,6 +1,7 @@
 // Where a surface was in the previous frame, and whether a history pixel shows it.
 // Needs: `frame` (FrameConstants), `depth`, and, unless MOTION_FROM_CAMERA says that nothing else moves, `motion`. REJECT_BY_PLANE needs `previousDepth` and
 // `previousGeometricNormal`, REJECT_BY_DEPTH `previousDepth`; without either every pixel of the picture is accepted.
+// REJECT_BY_OBJECT, beside any of these, needs `objects` and `previousObjects`.
 // KEEP_TAPS: the motion is rounded to what kept taps hold; a view (VIEW) is told whether it is. Takes constant_id 0, 1, 10
 // and 11.
 #ifndef WALR_REPROJECTION_GLSL
@@ -26,6 +27,9 @@ layout(constant_id = 1) const bool kDilateMotion = false;  // Follow the nearest
 struct Reprojection {
   vec2 motion;     // To the previous frame, pixels.
   vec3 position;   // The surface in the previous frame's view space.
+#ifdef REJECT_BY_OBJECT
+  uint object;     // Whose surface it is; 0: nobody's.
+#endif
   bool valid;
 };
 
@@ -72,6 +76,9 @@ Reprojection reproject(ivec2 p, float z) {
   const vec2 pixel = pixelCentre(p) + r.motion;
   const float previousDepthHere = depthBefore(p, z);
   r.position = rayThrough(frame.previousRayFromPixel, pixel) * previousDepthHere;
+#ifdef REJECT_BY_OBJECT
+  r.object = texelFetch(objects, p, 0).x;
+#endif
   const vec2 size = vec2(textureSize(depth, 0));
   r.valid = all(greaterThan(pixel, vec2(-1.0))) && all(lessThan(pixel, size + 1.0)) && isFinite(previousDepthHere) &&
             previousDepthHere > 0.0;
@@ -79,9 +86,13 @@ Reprojection reproject(ivec2 p, float z) {
 }
 
 // True where the history pixel `q` shows the reprojected surface, by REJECT_BY_PLANE within a plane distance relative to
-// depth and with a geometric normal that agrees, by REJECT_BY_DEPTH within a distance relative to depth.
+// depth and with a geometric normal that agrees, by REJECT_BY_DEPTH within a distance relative to depth, by
+// REJECT_BY_OBJECT of the same object.
 bool historyMatches(Reprojection r, vec3 normal, ivec2 q, float tolerance, float normalThreshold) {
   if (any(lessThan(q, ivec2(0))) || any(greaterThanEqual(q, textureSize(depth, 0)))) return false;
+#ifdef REJECT_BY_OBJECT
+  if (r.object == 0u || texelFetch(previousObjects, q, 0).x != r.object) return false;
+#endif
 #if defined(REJECT_BY_PLANE) || defined(REJECT_BY_DEPTH)
   const float depthThere = unpackDepth(texelFetch(previousDepth, q, 0).x);
   if (depthThere == 0.0) return false;

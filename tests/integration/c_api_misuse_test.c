@@ -1,5 +1,6 @@
 /* Wrong use of the C API: always a code and a text, never a crash, and nothing is recorded. */
 #include <math.h>
+#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -183,6 +184,64 @@ static void test_create(const WalrDevice* device) {
   larger.later = 0;
   EXPECT_OK(walr_create_denoiser(&larger.info, &denoiser));
   EXPECT_OK(walr_destroy_denoiser(denoiser));
+}
+
+/* Object numbers are there where their format is given, and needed where the method asks for them. A caller who was
+ * compiled before they were has none. */
+static void test_object_ids(const WalrDevice* device) {
+  for (int given = 0; given < 2; ++given) {
+    for (int reads = 0; reads < 2; ++reads) {
+      WalrDenoiser denoiser;
+      WalrDenoiserInfo info = info_of(device);
+      info.method = reads ? "joint_bilateral" : "walr";
+      info.object_id_format = given ? VK_FORMAT_R16_UINT : VK_FORMAT_R32_SFLOAT;
+      if (!given) info.struct_size = offsetof(WalrDenoiserInfo, object_id_format);
+      EXPECT_OK(walr_create_denoiser(&info, &denoiser));
+      WalrImageRequirements needs = {.struct_size = sizeof(needs)};
+      EXPECT_OK(walr_get_image_requirements(denoiser, "object_id", &needs));
+      EXPECT_TRUE(needs.required == (given && reads));
+      EXPECT_TRUE(needs.format == (given ? VK_FORMAT_R16_UINT : VK_FORMAT_UNDEFINED));
+      EXPECT_OK(walr_destroy_denoiser(denoiser));
+    }
+  }
+  WalrDenoiser denoiser;
+  WalrDenoiserInfo info = info_of(device);
+  info.object_id_format = VK_FORMAT_R32_SFLOAT;
+  EXPECT(walr_create_denoiser(&info, &denoiser), WALR_ERROR_INVALID_ARGUMENT, "'object_id' cannot be of format");
+}
+
+/* A frame with object numbers, and one of a caller who knows of none where the denoiser needs them. */
+static void test_object_id_frames(Host* host, const WalrDevice* device) {
+  WalrDenoiser denoiser;
+  WalrDenoiserInfo info = info_of(device);
+  info.method = "joint_bilateral";
+  info.object_id_format = VK_FORMAT_R32_UINT;
+  EXPECT_OK(walr_create_denoiser(&info, &denoiser));
+  Images images = make_images(host, denoiser);
+  WalrImageRequirements needs = {.struct_size = sizeof(needs)};
+  EXPECT_OK(walr_get_image_requirements(denoiser, "object_id", &needs));
+  static uint32_t numbers[kWidth * kHeight];
+  HostImage ids = host_make_image(host, needs.format, 4, kWidth, kHeight, needs.usage);
+  host_upload(host, &ids, numbers);
+  const WalrImage object_id = {.struct_size = sizeof(WalrImage),
+                               .queue_family = VK_QUEUE_FAMILY_IGNORED,
+                               .image = ids.image,
+                               .format = ids.format,
+                               .usage = ids.usage,
+                               .width = kWidth,
+                               .height = kHeight,
+                               .acquire = {.stage = ids.stage, .access = ids.access, .layout = ids.layout}};
+  WalrFrame frame = frame_of(&images);
+  frame.object_id = &object_id;
+  VkCommandBuffer commands = host_begin(host);
+  frame.struct_size = offsetof(WalrFrame, object_id);
+  EXPECT(walr_record(denoiser, commands, &frame), WALR_ERROR_INVALID_ARGUMENT, "image 'object_id' is null");
+  frame.struct_size = sizeof(frame);
+  EXPECT_OK(walr_record(denoiser, commands, &frame));
+  host_submit_and_wait(host, commands);
+  EXPECT_OK(walr_destroy_denoiser(denoiser));
+  host_destroy_image(host, &ids);
+  for (int i = 0; i < 6; ++i) host_destroy_image(host, &images.host[i]);
 }
 
 static void test_handles(const WalrDevice* device) {
@@ -388,6 +447,8 @@ int main(void) {
   test_listing();
   test_device(&host);
   test_create(&device);
+  test_object_ids(&device);
+  test_object_id_frames(&host, &device);
   test_handles(&device);
   WalrDenoiser denoiser = NULL;
   WalrDenoiserInfo info = info_of(&device);

@@ -37,7 +37,9 @@ void connectHost(PassNode& node, const DenoiserInputs& inputs) {
     if (port.output) continue;
     if (port.name == kFrameName) node.connect(port.name, inputs.frame);
     for (const HostInput& input : kHostInputs) {
-      if (input.name == port.name) node.connect(port.name, inputs.*input.texture);
+      if (input.name == port.name && (inputs.*input.texture).valid()) {
+        node.connect(port.name, inputs.*input.texture);
+      }
     }
   }
 }
@@ -94,6 +96,7 @@ TEST(Registry, PortsHaveTheUsageThatThePlanHas) {
     const fg::CompileResult result = fg::compile(declared.graph.desc(), fg::TableMemoryModel());
     ASSERT_TRUE(result.ok()) << result.text();
     for (const Port& port : typeOf(method).ports) {
+      if (port.name == "object_id") continue;  // This host has none.
       const auto& resources = declared.graph.desc().resources;
       const auto found = std::ranges::find(resources, port.name, &fg::ResourceDecl::name);
       ASSERT_NE(found, resources.end()) << port.name;
@@ -184,6 +187,38 @@ TEST(Registry, NamesWhatIsWrong) {
   antialiasing->connect("filtered", host.inputs.depth);
   EXPECT_NE(rejection([&] { antialiasing->add(host.graph); }).find("takes R16G16B16A16_SFLOAT, but R32_SFLOAT"),
             std::string::npos);
+}
+
+// What a host need not have is a port that may be left open, and makes passes only where it is connected.
+TEST(Registry, ObjectNumbersAreAPortOfTheirOwn) {
+  const auto portOf = [](PassNode& node) {
+    const std::vector<Port> ports = node.ports();
+    return *std::ranges::find(ports, std::string("object_id"), &Port::name);
+  };
+  const auto keeps = [](PassNode& node) {
+    const std::vector<std::string> passes = node.passNames();
+    return std::ranges::find(passes, "keep object ids") != passes.end();
+  };
+  for (const std::string& method : denoiserNames()) {
+    const auto node = makePass(method);
+    EXPECT_TRUE(portOf(*node).optional) << method;
+    EXPECT_EQ(portOf(*node).format, VK_FORMAT_R32_UINT) << method;
+    EXPECT_EQ(portOf(*node).accesses.empty(), method != "joint_bilateral") << method;
+    EXPECT_FALSE(keeps(*node)) << method;
+  }
+  HostGraph host;
+  const auto node = makePass("joint_bilateral");
+  connectHost(*node, host.inputs);
+  node->connect("object_id", host.graph.import("floats", {VK_FORMAT_R32_SFLOAT, kExtent}, kComputeHost.inputs));
+  EXPECT_NE(rejection([&] { node->add(host.graph); }).find("sampled as unsigned integers with 1 channel or more"),
+            std::string::npos);
+  node->connect("object_id", host.graph.import("stencil", {VK_FORMAT_D24_UNORM_S8_UINT, kExtent}, kComputeHost.inputs));
+  EXPECT_NE(rejection([&] { node->add(host.graph); }).find("cannot be of format D24_UNORM_S8_UINT"), std::string::npos);
+  node->connect("object_id", host.graph.import("ids", {VK_FORMAT_R16_UINT, kExtent}, kComputeHost.inputs));
+  EXPECT_TRUE(keeps(*node));
+  host.graph.exported(node->add(host.graph).textures.at(std::string(kOutputName)), kComputeHost.outputAfter);
+  const std::string plan = compiled(host.graph);
+  EXPECT_NE(plan.find("keep object ids"), std::string::npos) << plan;
 }
 
 TEST(Registry, SettingsAreDescribedAsTheyAre) {

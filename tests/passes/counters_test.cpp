@@ -4,12 +4,10 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <memory>
 #include <string>
 
-#include "passes/denoiser.h"
+#include "tests/passes/counted_run.h"
 #include "tests/passes/hard_cases.h"
-#include "tests/passes/host_textures.h"
 #include "tests/passes/synthetic_scene.h"
 #include "tests/vulkan/gpu_fixture.h"
 
@@ -22,61 +20,6 @@ using reference::Image;
 constexpr glm::ivec2 kSize(48, 36);
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-/// A method on a device with all of its counters, and views beside them.
-class CountedRun {
- public:
-  CountedRun(const fg::vk::Device& device, Denoiser& method, glm::ivec2 size,
-             const std::vector<std::string>& views = {})
-      : size_(size), inputs_(importInputs(graph_, size)), output_(importOutput(graph_, size)) {
-    const fg::Extent extent{static_cast<std::uint32_t>(size.x), static_cast<std::uint32_t>(size.y)};
-    inspection_.wantCounters(graph_.import("counters", fg::BufferDesc{kCounterBytes}, fg::vk::kOverwritable));
-    for (const std::string& view : views)
-      inspection_.want(view, graph_.import("view of " + view, {kViewFormat, extent}, fg::vk::kOverwritable));
-    graph_.exported(method.add(graph_, inputs_, output_, &inspection_), fg::vk::kReadable);
-    for (const DebugView& view : inspection_.views()) graph_.exported(view.texture, fg::vk::kReadable);
-    graph_.exported(inspection_.counterBuffer(), fg::vk::kReadable);
-    run_ = std::make_unique<fg::test::GraphRun>(device, graph_);
-  }
-
-  /// Submit a frame without waiting for it.
-  std::uint32_t submit(const HostFrame& frame) {
-    upload(*run_, inputs_, frame);
-    return run_->submitFrame();
-  }
-  void finish() { run_->finish(); }
-  /// Denoise a frame.
-  std::map<std::string, std::uint64_t> count(const HostFrame& frame) {
-    const std::uint32_t slot = submit(frame);
-    finish();
-    return counters(slot);
-  }
-  /// Of the frame last submitted with a slot.
-  [[nodiscard]] std::map<std::string, std::uint64_t> counters(std::uint32_t slot) const {
-    const std::vector<std::uint32_t> words = run_->elements<std::uint32_t>(inspection_.counterBuffer(), slot);
-    std::map<std::string, std::uint64_t> values;
-    for (const Counter& counter : inspection_.counters()) values[counter.name] = counter.value(words);
-    return values;
-  }
-  void reset() { run_->executor().resetAllHistory(); }
-  [[nodiscard]] Image<glm::dvec4> output() const { return readHalves(*run_, output_, size_); }
-  /// Sum of a component of a view over the picture.
-  [[nodiscard]] double viewSum(std::size_t view, int component) const {
-    const std::vector<float> texels = run_->texels<float>(inspection_.views()[view].texture);
-    double sum = 0.0;
-    for (std::size_t i = component; i < texels.size(); i += 4) sum += texels[i];
-    return sum;
-  }
-  [[nodiscard]] const Inspection& inspection() const { return inspection_; }
-
- private:
-  glm::ivec2 size_;
-  fg::Graph graph_;
-  DenoiserInputs inputs_;
-  fg::Texture output_;
-  Inspection inspection_;
-  std::unique_ptr<fg::test::GraphRun> run_;
-};
 
 /// A first-hand count of what the input holds.
 struct InputCounts {
@@ -233,16 +176,7 @@ TEST_F(CountersTest, AreRightOnHardCasesInEveryStorageAndSolver) {
         if (masked) {
           EXPECT_EQ(passed, kSize.x * kSize.y - input.surfaces);
         }
-        for (std::size_t v = 0; v < views.size(); ++v) {
-          const auto& known = run.inspection().known();
-          const auto info = std::ranges::find(known, views[v], &ViewInfo::name);
-          ASSERT_NE(info, known.end());
-          for (const CounterInfo& counter : info->counters) {
-            double sum = 0.0;
-            for (const char component : counter.components) sum += run.viewSum(v, component - 'X');
-            EXPECT_EQ(double(counted.at(std::string(counter.name))), sum) << counter.name;
-          }
-        }
+        run.expectSumsOfViews(counted);
         const Image<glm::dvec4> output = run.output();
         for (const glm::dvec4& v : output.pixels()) {
           for (int c = 0; c < 3; ++c) {

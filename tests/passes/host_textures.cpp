@@ -54,12 +54,17 @@ DenoiserInputs importInputs(fg::Graph& graph, glm::ivec2 size, const InputConven
   return inputs;
 }
 
+fg::Texture importObjectIds(fg::Graph& graph, glm::ivec2 size) {
+  return import(graph, "object_id", VK_FORMAT_R32_UINT, size);
+}
+
 void upload(fg::test::GraphRun& run, const DenoiserInputs& inputs, const reference::HostFrame& frame) {
   run.fill(inputs.lighting, encodeHalves(frame.lighting));
   run.fill(inputs.normal, encodeHalves(frame.normal));
   run.fill(inputs.motion, encodeHalves(frame.motion));
   run.fill(inputs.albedo, encodeHalves(frame.albedo));
   run.fill(inputs.depth, encodeFloats(frame.depth));
+  if (inputs.objectId.valid()) run.fill(inputs.objectId, frame.objectId.pixels());
   run.executor().upload(inputs.frame, frame.constants);
 }
 

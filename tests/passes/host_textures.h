@@ -10,8 +10,10 @@
 /// The textures of a host between the pictures of the tests, in double precision, and the GPU.
 namespace walr::test {
 
-/// Import all that a denoiser takes.
+/// Import all that every host has.
 DenoiserInputs importInputs(fg::Graph& graph, glm::ivec2 size, const InputConventions& conventions = {});
+/// Import object numbers, which a host may have, too.
+fg::Texture importObjectIds(fg::Graph& graph, glm::ivec2 size);
 /// Have the next frame upload a host's frame.
 void upload(fg::test::GraphRun& run, const DenoiserInputs& inputs, const reference::HostFrame& frame);
 

@@ -129,6 +129,20 @@ Scene grazingFloor() {
   };
 }
 
+Scene slidingPanel(std::uint32_t frame) {
+  return [frame](glm::dvec3 origin, glm::dvec3 direction) -> std::optional<SceneHit> {
+    const auto t = hitPlane(origin, direction, {0.0, 0.0, -5.0}, kBackNormal);
+    if (!t) return std::nullopt;
+    const glm::dvec3 p = origin + *t * direction;
+    const double x = p.x + 1.3 - kPanelStep * frame;
+    const bool onPanel = std::abs(x) < 0.8 && std::abs(p.y) < 1.1;
+    SceneHit hit{*t, kBackNormal};
+    hit.object = onPanel ? 1 : 0;
+    hit.moved.x = onPanel ? kPanelStep : 0.0;
+    return hit;
+  };
+}
+
 std::vector<NamedScene> allScenes() {
   return {{"flat wall", flatWall()},  {"bumpy wall", bumpyWall(0.1)}, {"sphere", sphere()},
           {"thin bars", thinBars()},  {"sky", skyBesideSurface()},    {"stairs", stairs()},
@@ -162,6 +176,7 @@ HostFrame renderFrame(const Scene& scene, const FrameDescription& camera, glm::i
   frame.constants = frameConstants(camera, {static_cast<std::uint32_t>(size.x), static_cast<std::uint32_t>(size.y)});
   frame.lighting = frame.normal = frame.motion = frame.albedo = reference::Image<glm::dvec3>(size);
   frame.depth = reference::Image<double>(size, kBackgroundDepth);
+  frame.objectId = reference::Image<std::uint32_t>(size, 0xffffffffU);
 
   const glm::dmat4 view(camera.view);
   const glm::dmat4 world = glm::inverse(view);
@@ -179,7 +194,9 @@ HostFrame renderFrame(const Scene& scene, const FrameDescription& camera, glm::i
     frame.normal[p] = roundToHalf(glm::dmat3(view) * hit->shadingNormal);
     frame.albedo[p] = roundToHalf(hit->diffuse ? glm::dvec3(0.6, 0.5, 0.4) : glm::dvec3(0.0));
 
-    const glm::dvec3 before(glm::dmat4(camera.previousView) * glm::dvec4(point, 1.0));
+    frame.objectId[p] = hit->object;
+
+    const glm::dvec3 before(glm::dmat4(camera.previousView) * glm::dvec4(point - hit->moved, 1.0));
     const glm::dvec2 previousPixel =
         (glm::dvec2(before) / -before.z - glm::dvec2(previousRay.z, previousRay.w)) / glm::dvec2(previousRay);
     frame.motion[p] = roundToHalf(glm::dvec3(previousPixel - reference::pixelCentre(p), -before.z - hit->distance));

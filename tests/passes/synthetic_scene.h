@@ -18,6 +18,8 @@ struct SceneHit {
   double distance = 0.0;          ///< In units of the ray's direction.
   glm::dvec3 shadingNormal{0.0};  ///< World space; need not be unit.
   bool diffuse = true;            ///< False for black metal, glass, emitters: albedo 0.
+  std::uint32_t object = 0;       ///< Number of the object.
+  glm::dvec3 moved{0.0};          ///< By how much it has moved since the frame before, world space.
 };
 
 /// A world: what a ray from `origin` along `direction` meets first, or nothing: sky.
@@ -38,7 +40,11 @@ Scene stairs();
 /// A floor seen at a grazing angle.
 Scene grazingFloor();
 
-/// All of the above, by name.
+/// A wall and, in its plane, a panel that slides to the right by `kPanelStep` a frame.
+Scene slidingPanel(std::uint32_t frame);
+inline constexpr double kPanelStep = 0.5;
+
+/// All of the above that stand still, by name.
 struct NamedScene {
   const char* name;
   Scene scene;

@@ -1,4 +1,7 @@
+#include <algorithm>
+#include <array>
 #include <chrono>
+#include <cstdint>
 #include <filesystem>
 #include <limits>
 #include <sstream>
@@ -39,6 +42,17 @@ TEST(PackedFrame, ComponentsThatAnImageLacksAreZero) {
   image.at(0, 0, 0) = 1.0F;
   image.at(0, 0, 1) = -2.0F;
   EXPECT_EQ(packRgba16(image), (std::vector<Rgba16>{{0x3C00, 0xC000, 0, 0}}));
+}
+
+TEST(PackedFrame, ObjectNumbersAreNoneBelowZeroAndWhereTheyAreNoNumbers) {
+  Frame frame;
+  EXPECT_TRUE(packFrame(frame).objectId.empty());
+  constexpr float kMost = 16777216.0F;  // The largest whole number that a float tells from those around.
+  constexpr std::uint32_t kNone = 0xffffffff;
+  frame.objectId = Image(5, 1, 1);
+  std::ranges::copy(std::array{0.0F, kMost, -1.0F, kNan, std::numeric_limits<float>::infinity()},
+                    frame.objectId.values().begin());
+  EXPECT_EQ(packFrame(frame).objectId, (std::vector<std::uint32_t>{0, 1U << 24U, kNone, kNone, kNone}));
 }
 
 TEST(Composite, FollowsTheRenderingEquationOfTheLayout) {

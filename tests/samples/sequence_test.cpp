@@ -111,6 +111,9 @@ TEST_F(SequenceTest, TheProjectsOwnLayoutRoundTrips) {
   written.camera.previousView[3][0] = 0.25F;
   written.camera.jitter = {0.125F, -0.375F};
   written.motion.at(1, 2, 2) = -0.5F;
+  written.objectId = Image(6, 4, 1);
+  written.objectId.at(1, 2, 0) = 7.0F;
+  written.objectId.at(0, 0, 0) = -1.0F;
   writeFrame(directory.path(), written);
   Reference reference{Image(6, 4, 3), {}};
   reference.indirect.at(5, 3, 2) = 2.0F;
@@ -126,10 +129,23 @@ TEST_F(SequenceTest, TheProjectsOwnLayoutRoundTrips) {
   EXPECT_EQ(read.camera.projection, written.camera.projection);
   EXPECT_EQ(read.camera.jitter, written.camera.jitter);
   EXPECT_EQ(read.motion.at(1, 2, 2), -0.5F);
+  EXPECT_TRUE(std::ranges::equal(read.objectId.values(), written.objectId.values()));
   EXPECT_EQ(read.emission.at(0, 0, 0), 2.0F);
   EXPECT_TRUE(std::ranges::equal(read.indirect.values(), written.indirect.values()));
   EXPECT_TRUE(std::ranges::equal(read.depth.values(), written.depth.values()));
   EXPECT_EQ(read.reference->indirect.at(5, 3, 2), 2.0F);
+}
+
+TEST_F(SequenceTest, ObjectNumbersAreInAllFramesOrInNone) {
+  const auto numbered = [](Channels& channels) { channels["IndexOB.X"] = Image(6, 4, 1); };
+  files.write(0, 1);
+  EXPECT_FALSE(open().layout().objectIds);
+  EXPECT_TRUE(open().read(0).objectId.empty());
+  files.writeFrame(0, numbered);
+  expectRefused({"noisy_0001.exr", "IndexOB.X"});
+  files.writeFrame(1, numbered);
+  EXPECT_TRUE(open().layout().objectIds);
+  EXPECT_EQ(open().read(1).objectId.pixelCount(), 24U);
 }
 
 TEST_F(SequenceTest, EveryMissingChannelIsNamedWithItsFile) {

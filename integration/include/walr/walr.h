@@ -219,6 +219,8 @@ typedef struct WalrDenoiserInfo {
   VkBool32 timestamps; /* Measure the GPU time of every pass, where the queue family can. */
   WalrLog log;         /* Optional. */
   void* log_user;
+  VkFormat object_id_format; /* Of WalrFrame::object_id, unsigned integers; VK_FORMAT_UNDEFINED: there is none. */
+  uint32_t reserved;
 } WalrDenoiserInfo;
 
 /* No Vulkan object is made yet; see walr_prepare. */
@@ -252,7 +254,8 @@ typedef struct WalrImageRequirements {
   uint32_t height;
 } WalrImageRequirements;
 
-/* port: "lighting", "depth", "normal", "motion", "albedo" or "denoised". Needs no image and no walr_prepare. */
+/* port: "lighting", "depth", "normal", "motion", "albedo", "object_id" or "denoised". Needs no image and no
+ * walr_prepare. */
 WALR_API WalrResult walr_get_image_requirements(WalrDenoiser denoiser, const char* port,
                                                 WalrImageRequirements* requirements);
 
@@ -315,6 +318,7 @@ typedef struct WalrFrame {
   const WalrCamera* previous_camera; /* Null stands for the camera of the frame recorded last. */
   float sky_depth;                   /* Scene units: a view depth from here on is sky. 0 stands for 1e9. */
   float pre_exposure;                /* With WalrConventions::pre_exposed; 0 stands for 1. */
+  const WalrImage* object_id;        /* Optional, see WalrDenoiserInfo::object_id_format. */
 } WalrFrame;
 
 /*

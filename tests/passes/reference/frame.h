@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
@@ -17,6 +19,7 @@ struct HostFrame {
   Image<glm::dvec3> normal;
   Image<glm::dvec3> motion;
   Image<glm::dvec3> albedo;
+  Image<std::uint32_t> objectId;  ///< May be empty; 0xffffffff: none.
   FrameConstants constants{};
   InputConventions conventions;
   SceneDescription scene;

@@ -144,6 +144,7 @@ Image<Guide> prepareGuides(const HostFrame& frame, Storage storage, const Prepar
     if (surface.depth == 0.0) return;
     Guide guide{surface.depth, octahedralEncode(surface.shadingNormal),
                 geometricNormals(frame, p, surface, settings).front().normal};
+    if (frame.objectId.contains(p)) guide.object = frame.objectId[p] + 1U;
     if (storage == Storage::Quantised) {
       const glm::dvec2 packed = octahedralEncode(guide.normal);
       guide.depth = roundDepth(guide.depth);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "passes/prepare_guides.h"
@@ -13,6 +14,7 @@ struct Guide {
   double depth = 0.0;        ///< View depth; 0 where there is nothing to denoise.
   glm::dvec2 features{0.0};  ///< Octahedral map of the shading normal.
   glm::dvec3 normal{0.0};    ///< Geometric normal, which spans the plane of the edge-stopping function.
+  std::uint32_t object = 0;  ///< The host's number + 1; 0: none.
 };
 
 /// A geometric normal that an implementation may arrive at.

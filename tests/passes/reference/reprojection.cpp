@@ -77,6 +77,7 @@ Reprojection reproject(const HostFrame& frame, const Image<Guide>& guides, glm::
   }
   r.position = rayThrough(constants.previousRayFromPixel, r.pixel) * previousDepth;
   r.normal = glm::dmat3(previousFromCurrent) * guides[p].normal;
+  r.object = guides[p].object;
   const glm::dvec2 size(frame.size());
   r.valid = r.pixel.x > -1.0 && r.pixel.y > -1.0 && r.pixel.x < size.x + 1.0 && r.pixel.y < size.y + 1.0 &&
             std::isfinite(previousDepth) && previousDepth > 0.0;
@@ -96,6 +97,7 @@ std::array<HistoryTap, 4> historyTaps(const HostFrame& frame, const Reprojection
     tap.weight = (offset.x == 1 ? f.x : 1.0 - f.x) * (offset.y == 1 ? f.y : 1.0 - f.y);
     tap.undecided = r.undecided;
     if (!previousGuides.contains(tap.pixel) || previousGuides[tap.pixel].depth == 0.0) continue;
+    if (tests.objects && (r.object == 0 || previousGuides[tap.pixel].object != r.object)) continue;
     tap.matches = true;
     if (tests.rejection == HistoryRejection::None) continue;
     const Guide& guide = previousGuides[tap.pixel];

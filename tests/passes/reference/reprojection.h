@@ -12,6 +12,7 @@ struct Reprojection {
   glm::dvec2 pixel{0.0};     ///< Position in the previous picture, pixels.
   glm::dvec3 position{0.0};  ///< In the previous frame's view space.
   glm::dvec3 normal{0.0};    ///< Its geometric normal there.
+  std::uint32_t object = 0;  ///< Whose it is, as in `Guide`.
   bool valid = false;        ///< False where motion leaves the picture or is not finite.
   bool undecided = false;    ///< Rounding may decide which of two motions is kept.
   double error = 0.0;        ///< What single precision may add to `pixel`, pixels.
@@ -30,6 +31,7 @@ struct HistoryTests {
   HistoryRejection rejection = HistoryRejection::Plane;
   double planeTolerance = 0.0;   ///< Largest distance from the plane, or of the depth, in units of depth.
   double normalThreshold = 0.0;  ///< Smallest cosine between geometric normals.
+  bool objects = false;          ///< Of another object is not of the surface.
 };
 template <typename Settings>
 HistoryTests historyTestsOf(const Settings& settings) {

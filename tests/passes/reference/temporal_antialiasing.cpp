@@ -100,6 +100,8 @@ Image<Accumulated> antialias(const HostFrame& frame, const Image<Guide>& guides,
                              const AntialiasingHistory& previous, Storage storage,
                              const TemporalAntialiasingSettings& settings, bool keptTaps) {
   Image<Accumulated> result(frame.size());
+  HistoryTests tests = historyTestsOf(settings);
+  tests.objects = settings.objectIds && frame.objectId.size() == frame.size();
   forEachPixel(frame.size(), [&](glm::ivec2 p) {
     const glm::dvec3 current(filtered[p]);
     const bool known = filtered[p].w >= 0.0;
@@ -112,8 +114,8 @@ Image<Accumulated> antialias(const HostFrame& frame, const Image<Guide>& guides,
       out.mean = glm::dvec3(0.0);
     if (previous.guides.size() != frame.size()) return;
     const Reprojection r = reproject(frame, guides, p, {settings.dilateMotion, keptTaps});
-    const HistorySample history = sampleHistory(r, historyTaps(frame, r, previous.guides, historyTestsOf(settings)),
-                                                previous.resolved, HistoryFilter::Bicubic);
+    const HistorySample history =
+        sampleHistory(r, historyTaps(frame, r, previous.guides, tests), previous.resolved, HistoryFilter::Bicubic);
     out.undecided = history.undecided;
     if (!history.found) return;
     if (!known) {

@@ -1,0 +1,19 @@
+// Keeps the host's object numbers for the next frame: number + 1 where there is a surface to denoise, else 0. So a
+// history that holds nothing yet shows no object, and a host's 0xffffffff stands for none.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_samplerless_texture_functions : require
+#include "include/surface.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+
+layout(set = 0, binding = 0) uniform utexture2D depth;
+layout(set = 0, binding = 1) uniform utexture2D objectId;
+layout(set = 0, binding = 2, r32ui) uniform writeonly uimage2D outObjects;
+
+void main() {
+  const ivec2 p = ivec2(gl_GlobalInvocationID.xy);
+  if (any(greaterThanEqual(p, textureSize(depth, 0)))) return;
+  const bool surface = unpackDepth(texelFetch(depth, p, 0).x) > 0.0;
+  imageStore(outObjects, p, uvec4(surface ? texelFetch(objectId, p, 0).x + 1u : 0u));
+}

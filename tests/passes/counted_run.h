@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "passes/denoiser.h"
+#include "tests/passes/host_textures.h"
+
+namespace walr::test {
+
+/// A method on a device with all of its counters, and views beside them.
+class CountedRun {
+ public:
+  using Counts = std::map<std::string, std::uint64_t>;
+
+  CountedRun(const fg::vk::Device& device, Denoiser& method, glm::ivec2 size,
+             const std::vector<std::string>& views = {});
+
+  /// Submit a frame without waiting for it.
+  std::uint32_t submit(const reference::HostFrame& frame);
+  void finish() { run_->finish(); }
+  /// Denoise a frame.
+  Counts count(const reference::HostFrame& frame);
+  /// Of the frame last submitted with a slot.
+  [[nodiscard]] Counts counters(std::uint32_t slot) const;
+  void reset() { run_->executor().resetAllHistory(); }
+  [[nodiscard]] reference::Image<glm::dvec4> output() const { return readHalves(*run_, output_, size_); }
+  /// Sum of a component of a view over the picture.
+  [[nodiscard]] double viewSum(std::size_t view, int component) const;
+  /// Hold every counter of the views that were asked for against the sum of its components.
+  void expectSumsOfViews(const Counts& counted) const;
+  [[nodiscard]] const Inspection& inspection() const { return inspection_; }
+
+ private:
+  glm::ivec2 size_;
+  fg::Graph graph_;
+  DenoiserInputs inputs_;
+  fg::Texture output_;
+  Inspection inspection_;
+  std::unique_ptr<fg::test::GraphRun> run_;
+};
+
+}  // namespace walr::test

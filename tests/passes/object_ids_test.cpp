@@ -1,0 +1,170 @@
+// Histories of two objects told apart by the host's numbers: on a device against the double-precision reference, and
+// where nothing else tells them apart.
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <string>
+
+#include "passes/denoiser.h"
+#include "passes/temporal_antialiasing.h"
+#include "tests/passes/comparison.h"
+#include "tests/passes/host_textures.h"
+#include "tests/passes/reference/temporal_antialiasing.h"
+#include "tests/passes/stage_checks.h"
+#include "tests/passes/synthetic_scene.h"
+#include "tests/vulkan/gpu_fixture.h"
+
+namespace walr::test {
+namespace {
+
+using reference::Guide;
+using reference::HostFrame;
+using reference::Image;
+
+constexpr glm::ivec2 kSize(60, 40);  // The wall has 8 pixels a unit, so that a step of the panel is 4.
+constexpr std::uint32_t kNobody = 0xffffffffU;
+
+/// Temporal anti-aliasing alone, of frames that are its input.
+class AntialiasingRun {
+ public:
+  AntialiasingRun(const fg::vk::Device& device, const TemporalAntialiasingSettings& settings,
+                  const SceneDescription& scene, bool objectIds = true)
+      : inputs_(importInputs(graph_, kSize)), guides_(importGuides(graph_, kSize)) {
+    inputs_.scene = scene;
+    if (objectIds) inputs_.objectId = importObjectIds(graph_, kSize);
+    output_ = importOutput(graph_, kSize);
+    graph_.exported(addTemporalAntialiasing(graph_, inputs_, guides_, inputs_.lighting, output_, settings),
+                    fg::vk::kReadable);
+    run_ = std::make_unique<fg::test::GraphRun>(device, graph_);
+  }
+
+  Image<glm::dvec4> frame(const HostFrame& frame, const Image<Guide>& guides, const Image<Guide>& previous) {
+    upload(*run_, inputs_, frame);
+    upload(*run_, guides_, guides);
+    uploadPrevious(*run_, guides_, previous);
+    run_->frame();
+    return readHalves(*run_, output_, kSize);
+  }
+
+ private:
+  fg::Graph graph_;
+  DenoiserInputs inputs_;
+  Guides guides_;
+  fg::Texture output_;
+  std::unique_ptr<fg::test::GraphRun> run_;
+};
+
+/// A frame of the panel; the camera moves by less than a pixel.
+HostFrame panelFrame(std::uint32_t index, const Light& light, Noise noise, double cameraStep) {
+  const glm::dvec3 step(cameraStep, 0.3 * cameraStep, 0.0);
+  HostFrame frame = renderFrame(slidingPanel(index), cameraAt(double(index) * step, (index - 1.0) * step, kSize, index),
+                                kSize, light, noise);
+  // Nobody's pixels have no history, not even of nobody.
+  for (int x = 40; x < 50; ++x) frame.objectId[{x, 35}] = kNobody;
+  return frame;
+}
+
+class ObjectIdsTest : public fg::test::GpuTest {};
+
+TEST_F(ObjectIdsTest, HistoryIsTheReferences) {
+  for (const HistoryRejection rejection : {HistoryRejection::Plane, HistoryRejection::Depth, HistoryRejection::None}) {
+    for (const bool objectMotion : {true, false}) {
+      SCOPED_TRACE("rejection " + std::to_string(int(rejection)) + ", object motion " + std::to_string(objectMotion));
+      TemporalAntialiasingSettings settings;
+      settings.rejection = rejection;
+      settings.objectIds = true;
+      settings.clipGamma = 4.0F;
+      HostFrame first = panelFrame(0, smoothLight, Noise::Exponential, 0.06);
+      HostFrame second = panelFrame(1, smoothLight, Noise::Exponential, 0.06);
+      second.scene.objectMotion = objectMotion;
+      const Image<Guide> guides = reference::prepareGuides(first, reference::Storage::Quantised);
+      const Image<Guide> guidesNow = reference::prepareGuides(second, reference::Storage::Quantised);
+      AntialiasingRun run(device(), settings, second.scene);
+      (void)run.frame(first, guides, Image<Guide>(kSize));
+      const Image<glm::dvec4> result = run.frame(second, guidesNow, guides);
+
+      // What the first frame leaves is itself, once.
+      Image<glm::dvec4> resolved = withAlpha(first.lighting);
+      for (glm::dvec4& pixel : resolved.pixels()) pixel.w = 1.0;
+      const Image<reference::Accumulated> expected = reference::antialias(
+          second, guidesNow, withAlpha(second.lighting), {guides, resolved}, reference::Storage::Exact, settings);
+      Comparison comparison("anti-aliasing by object");
+      reference::forEachPixel(kSize, [&](glm::ivec2 p) {
+        const reference::Accumulated& e = expected[p];
+        if (e.undecided) return comparison.undecided();
+        comparison.compared();
+        for (int c = 0; c < 3; ++c)
+          comparison.value(p, "channel", result[p][c], e.mean[c], halfTolerance(e.mean[c], e.error[c]));
+      });
+      comparison.expect(kUndecidedShare);
+    }
+  }
+}
+
+/// Where the picture is not that of the light.
+int pixelsOff(const Image<glm::dvec4>& result, const HostFrame& truth) {
+  int count = 0;
+  reference::forEachPixel(kSize, [&](glm::ivec2 p) {
+    const double expected = truth.lighting[p].x;
+    count += std::abs(result[p].x - expected) > halfTolerance(expected, 0.0) ? 1 : 0;
+  });
+  return count;
+}
+
+// The panel uncovers a wall of its own depth and normal. With numbers that has no history; without, it has the panel's,
+// for as long as the clipping lets it.
+TEST_F(ObjectIdsTest, ASurfaceUncoveredInTheSamePlaneHasNoHistory) {
+  TemporalAntialiasingSettings settings;
+  settings.clipGamma = 1e6F;
+  settings.clipRadius = 8;  // So that the panel's edge is in sight of both strips that it uncovers.
+  for (const bool objectIds : {true, false}) {
+    for (const HistoryRejection rejection : {HistoryRejection::Plane, HistoryRejection::None}) {
+      settings.objectIds = objectIds;
+      settings.rejection = rejection;
+      AntialiasingRun run(device(), settings, {});
+      Image<Guide> before(kSize);
+      for (std::uint32_t i = 0; i < 3; ++i) {
+        const Scene scene = slidingPanel(i);
+        const auto light = [&](glm::dvec3 point, glm::dvec3 /*normal*/) {
+          return glm::dvec3(scene({0.0, 0.0, 0.0}, point)->object == 1 ? 4.0 : 1.0);
+        };
+        const HostFrame frame = panelFrame(i, light, Noise::None, 0.0);
+        const Image<Guide> guides = reference::prepareGuides(frame, reference::Storage::Quantised);
+        const Image<glm::dvec4> result = run.frame(frame, guides, before);
+        before = guides;
+        // The panel is 18 pixels high and moves by four; each strip that it leaves keeps some of it.
+        const int uncovered = 4 * 18 * int(i);
+        EXPECT_EQ(pixelsOff(result, frame), objectIds ? 0 : uncovered) << "frame " << i;
+      }
+    }
+  }
+}
+
+bool hasPass(const fg::Graph& graph, const std::string& name) {
+  return std::ranges::any_of(graph.desc().passes, [&](const fg::PassDecl& pass) { return pass.name == name; });
+}
+
+// Numbers cost something only where a host has them, and a method asks for them.
+TEST_F(ObjectIdsTest, AreKeptOnlyWhereThereAreAnyAndTheyAreAskedFor) {
+  for (const std::string& name : denoiserNames()) {
+    for (const bool given : {false, true}) {
+      const auto method = makeDenoiser(name);
+      fg::Graph graph;
+      DenoiserInputs inputs = importInputs(graph, kSize);
+      if (given) inputs.objectId = importObjectIds(graph, kSize);
+      (void)method->add(graph, inputs, importOutput(graph, kSize));
+      EXPECT_EQ(hasPass(graph, "keep object ids"), given && name == "joint_bilateral") << name;
+    }
+  }
+  const auto walr = makeDenoiser("walr");
+  walr->set("antialiasing.object-ids", "on");
+  fg::Graph graph;
+  DenoiserInputs inputs = importInputs(graph, kSize);
+  inputs.objectId = importObjectIds(graph, kSize);
+  (void)walr->add(graph, inputs, importOutput(graph, kSize));
+  EXPECT_TRUE(hasPass(graph, "keep object ids"));
+}
+
+}  // namespace
+}  // namespace walr::test
