@@ -52,6 +52,11 @@ fg::Texture targetLike(StagePorts& ports, std::string_view output, fg::Texture i
   return ports.target(output, kColour, ports.graph().textureDesc(input).extent);
 }
 
+/// The texture between a filter and anti-aliasing, under the name that it has in the whole method.
+fg::Texture filteredLike(StagePorts& ports, fg::Texture input) {
+  return ports.graph().texture("filtered", {kColour, ports.graph().textureDesc(input).extent});
+}
+
 void prepareGuides(StagePorts& ports, const PrepareGuidesSettings& settings) {
   ports.setOutputs(addPrepareGuides(ports.graph(), ports.hostInputs(), settings));
 }
@@ -69,15 +74,16 @@ void temporalAccumulationWithTaps(StagePorts& ports, const TemporalAccumulationS
 
 void weightedRegression(StagePorts& ports, const WeightedRegressionSettings& settings) {
   const fg::Texture accumulated = ports.texture("accumulated");
-  const fg::Texture target =
-      ports.graph().texture("filtered", {kColour, ports.graph().textureDesc(accumulated).extent});
+  const fg::Texture target = filteredLike(ports, accumulated);
   ports.setOutput("filtered", addWeightedRegression(ports.graph(), ports.buffer(kFrameName), accumulated,
                                                     LightingAlpha::SampleCount, ports.guides(), target, settings));
 }
 
 void fullWindowRegression(StagePorts& ports, const FullWindowSettings& settings) {
-  ports.setOutput("filtered", addFullWindowRegression(ports.graph(), ports.buffer(kFrameName),
-                                                      ports.texture("accumulated"), ports.guides(), settings));
+  const fg::Texture accumulated = ports.texture("accumulated");
+  const fg::Texture target = filteredLike(ports, accumulated);
+  ports.setOutput("filtered", addFullWindowRegression(ports.graph(), ports.buffer(kFrameName), accumulated,
+                                                      ports.guides(), target, settings));
 }
 
 void ambientOcclusion(StagePorts& ports, const AmbientOcclusionSettings& settings) {

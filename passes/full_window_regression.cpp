@@ -21,7 +21,7 @@ std::uint32_t fullWindowTile(std::uint32_t window) {
 }
 
 fg::Texture addFullWindowRegression(fg::Graph& graph, fg::Buffer frame, fg::Texture accumulated, const Guides& guides,
-                                    const FullWindowSettings& settings) {
+                                    fg::Texture output, const FullWindowSettings& settings) {
   settings.edgeStopping.check();
   if (settings.window % 2 == 0) {
     throw std::invalid_argument("setting regression.window must be odd, so that the window has a centre; it is " +
@@ -30,8 +30,7 @@ fg::Texture addFullWindowRegression(fg::Graph& graph, fg::Buffer frame, fg::Text
   const fg::Extent extent = graph.textureDesc(accumulated).extent;
   const std::uint32_t tile = fullWindowTile(settings.window);
   // Tiles write in place, over what stays of the input: pixels without a surface.
-  fg::Texture filtered =
-      addPassThrough(graph, accumulated, graph.texture("filtered", {VK_FORMAT_R16G16B16A16_SFLOAT, extent}));
+  fg::Texture filtered = addPassThrough(graph, accumulated, output);
   for (std::uint32_t y = 0; y < extent.height; y += tile) {
     for (std::uint32_t x = 0; x < extent.width; x += tile) {
       const fg::Extent size{std::min(tile, extent.width - x), std::min(tile, extent.height - y)};

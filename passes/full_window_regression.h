@@ -36,11 +36,12 @@ std::uint32_t fullWindowTile(std::uint32_t window);
 /// tile.
 /// @param frame       upload of `FrameConstants`
 /// @param accumulated RGBA16F: radiance to filter; alpha: samples behind it, 0: the pixel weighs nothing
-/// @returns RGBA16F: filtered radiance; sky and pixels without a diffuse lobe as they were; black where the window
-/// holds
-///          no sample at all
+/// @param output      RGBA16F texture to write the result to
+/// @returns the output's new version: filtered radiance; sky and pixels without a diffuse lobe as they were; black
+/// where
+///          the window holds no sample at all
 /// @throws std::invalid_argument for settings outside their range
 fg::Texture addFullWindowRegression(fg::Graph& graph, fg::Buffer frame, fg::Texture accumulated, const Guides& guides,
-                                    const FullWindowSettings& settings = {});
+                                    fg::Texture output, const FullWindowSettings& settings = {});
 
 }  // namespace walr

@@ -40,7 +40,8 @@ fg::Texture addRefwlr(fg::Graph& graph, const DenoiserInputs& inputs, fg::Textur
   const TemporalStages stages{.accumulation = settings.accumulation, .antialiasing = settings.antialiasing};
   const Guides guides = addPrepareGuides(graph, inputs, settings.guides, {}, inspection);
   const auto filter = [&](const FilterInput& input) {
-    return addFullWindowRegression(graph, inputs.frame, input.lighting, guides, regression);
+    return addFullWindowRegression(graph, inputs.frame, input.lighting, guides, input.target(graph, "filtered"),
+                                   regression);
   };
   return addTemporalStages(graph, inputs, guides, output, stages, filter, inspection);
 }

@@ -8,6 +8,7 @@
 #include <set>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "framegraph/compile.h"
@@ -110,6 +111,29 @@ TEST_P(DenoiserPlansTest, NeedsHardlyMoreMemoryThanItsLargestPass) {
   // The project's goal: 2 %.
   EXPECT_LE(static_cast<double>(memory.transientPeakBytes), 1.02 * static_cast<double>(memory.transientLowerBoundBytes))
       << memory.transientPeakBytes << " bytes, at least " << memory.transientLowerBoundBytes;
+}
+
+// What scene and host need or bring along takes passes out of the graph; what is left must be a graph.
+TEST_P(DenoiserPlansTest, CompilesForEverySceneAndHost) {
+  const std::vector<std::vector<std::pair<std::string, std::string>>> choices{
+      {{"scene.host-antialiasing", "on"}},
+      {{"antialiasing.enabled", "off"}},
+      {{"spatial-only", "on"}},
+      {{"scene.object-motion", "off"}},
+      {{"scene.camera-motion", "off"}, {"scene.object-motion", "off"}, {"scene.jitter", "off"}},
+      {{"scene.sky", "off"}}};
+  for (const auto& choice : choices) {
+    const std::unique_ptr<Denoiser> method = makeDenoiser(GetParam().method);
+    if (!GetParam().preset.empty()) method->usePreset(GetParam().preset);
+    const std::vector<SettingText> known = method->settings();
+    for (const auto& [name, value] : choice) {
+      if (std::ranges::none_of(known, [&](const SettingText& s) { return s.name == name; })) continue;
+      method->set(name, value);
+    }
+    const DenoiseGraph declared = declareDenoiseGraph(*method, kExtent, InputConventions{}, kComputeHost);
+    const fg::CompileResult result = fg::compile(declared.graph.desc(), fg::TableMemoryModel());
+    EXPECT_TRUE(result.diagnostics.empty()) << choice.front().first << ": " << result.text();
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Denoisers, DenoiserPlansTest, testing::ValuesIn(variants()), [](const auto& instance) {

@@ -38,7 +38,8 @@ class FullWindowTest : public fg::test::GpuTest {
   FilterRun makeRun(const FullWindowSettings& settings, glm::ivec2 size = kSize) {
     return {device(), size, 1,
             [&](fg::Graph& graph, fg::Buffer frame, const Guides& guides, const std::vector<fg::Texture>& inputs) {
-              return addFullWindowRegression(graph, frame, inputs[0], guides, settings);
+              const fg::Texture output = graph.texture("filtered", graph.textureDesc(inputs[0]));
+              return addFullWindowRegression(graph, frame, inputs[0], guides, output, settings);
             }};
   }
 
