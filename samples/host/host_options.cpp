@@ -1,5 +1,8 @@
 #include "samples/host/host_options.h"
 
+#include <map>
+#include <string>
+
 namespace walr::host {
 
 void addHostOptions(CLI::App& program, HostOptions& options) {
@@ -57,6 +60,15 @@ void addHostOptions(CLI::App& program, HostOptions& options) {
   program.add_flag(
       "--denoise-direct", tracer.denoiseDirect,
       "Denoise the direct light with the indirect: for lamps and skies that one path a pixel samples badly");
+  program
+      .add_option(
+          "--gbuffer", tracer.gbuffer,
+          "first-hit: depth, normal and albedo of the first surface; metals show no light. material: in mirrors "
+          "those of what they show, on glossy metals albedos mixed (nagi-svgf.txt)")
+      ->transform(CLI::CheckedTransformer(std::map<std::string, render::GBufferMode>{
+          {"first-hit", render::GBufferMode::FirstHit}, {"material", render::GBufferMode::Material}}))
+      ->type_name("")
+      ->default_str("first-hit");
   program.add_option("--threads", tracer.threads, "Threads that trace; 0: one for every core")->capture_default_str();
 }
 

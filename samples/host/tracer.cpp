@@ -78,6 +78,7 @@ Frame Tracer::trace(const Request& request) {
   render::SamplingSettings sampling;
   sampling.samples = options_.samples;
   sampling.bounces = options_.bounces;
+  sampling.gbuffer = options_.gbuffer;
   sampling.sampler = options_.samples == 1 ? render::Sampler::Kind::BlueNoise : render::Sampler::Kind::Sobol;
   sampling.seed = options_.seed * 2;
   sampling.firstSample = static_cast<std::uint32_t>(request.number) * options_.samples;
@@ -109,6 +110,7 @@ Reference Tracer::traceReference(const Request& request, const render::View& vie
   render::SamplingSettings sampling;
   sampling.samples = options_.referenceSamples;
   sampling.bounces = options_.bounces;
+  sampling.gbuffer = options_.gbuffer;
   // Never the random numbers of the noisy frames: their seeds differ in the lowest bit.
   sampling.seed = options_.seed * 2 + 1;
   sampling.firstSample = reference_.steps * options_.referenceSamples;

@@ -11,6 +11,7 @@
 
 #include "framegraph/graph.h"
 #include "samples/render/film.h"
+#include "samples/render/gbuffer.h"
 #include "samples/render/scene.h"
 #include "samples/render/world.h"
 #include "samples/sequence/frame.h"
@@ -29,8 +30,9 @@ class Tracer {
     std::uint32_t bounces = 4;
     std::uint32_t seed = 0;
     double framesPerSecond = 24.0;
-    std::string camera;          ///< Name of the camera or of its node; empty: the first.
-    bool jitter = false;         ///< Sample off the pixel centre, by `render::haltonJitter`.
+    std::string camera;   ///< Name of the camera or of its node; empty: the first.
+    bool jitter = false;  ///< Sample off the pixel centre, by `render::haltonJitter`.
+    render::GBufferMode gbuffer = render::GBufferMode::FirstHit;
     bool denoiseDirect = false;  ///< Count the direct light among what is denoised, and leave none beside it.
     unsigned int threads = 0;
   };

@@ -5,9 +5,80 @@
 #include <glm/geometric.hpp>
 
 #include "samples/render/path_tracer.h"
+#include "samples/render/reflection.h"
 #include "samples/render/tiles.h"
 
 namespace walr::render {
+
+namespace {
+
+// Light of one pixel, and the rays it took.
+struct PixelLight {
+  glm::dvec3 direct{0.0};
+  glm::dvec3 indirect{0.0};
+  std::uint64_t rays = 0;
+};
+
+class PixelTracer {
+ public:
+  PixelTracer(const World& world, const SamplingSettings& settings, std::uint32_t pixel)
+      : world_(world), settings_(settings), pixel_(pixel) {}
+
+  PixelLight diffuse(const Surface& surface) const {
+    PixelLight light;
+    for (std::uint32_t s = 0; s < settings_.samples; ++s) {
+      Sampler sampler = samplerOf(s);
+      const PathSample path = tracePath(world_, surface, settings_.bounces, sampler);
+      light.direct += path.direct;
+      light.indirect += path.indirect;
+      light.rays += path.rays;
+    }
+    return mean(light);
+  }
+
+  // Of a glossy metal: all of it as indirect light, over a mean of the albedos that it shows, which is the same in
+  // every frame and in its reference.
+  PixelLight glossy(const PrimaryHit& hit, glm::vec3& albedo) const {
+    PixelLight light;
+    glm::vec3 sum(0.0F);
+    for (std::uint32_t s = 0; s < kAlbedoSamples; ++s) {
+      Sampler sampler(Sampler::Kind::Sobol, kAlbedoSeed, pixel_, s);
+      const GlossySample sample = traceGlossy(world_, *hit.surface, 0, sampler, false);
+      sum += sample.albedo;
+      light.rays += sample.rays;
+    }
+    const glm::vec3 shown = sum / static_cast<float>(kAlbedoSamples);
+    albedo = hit.tint * shown;
+    for (std::uint32_t s = 0; s < settings_.samples; ++s) {
+      Sampler sampler = samplerOf(s);
+      const GlossySample sample = traceGlossy(world_, *hit.surface, settings_.bounces, sampler, true);
+      for (int c = 0; c < 3; ++c) {
+        light.indirect[c] += shown[c] > 0.0F ? sample.radiance[c] / shown[c] : 0.0;
+      }
+      light.rays += sample.rays;
+    }
+    return mean(light);
+  }
+
+ private:
+  static constexpr std::uint32_t kAlbedoSamples = 16;
+  static constexpr std::uint32_t kAlbedoSeed = 0xa1bed0U;
+
+  [[nodiscard]] Sampler samplerOf(std::uint32_t sample) const {
+    return {settings_.sampler, settings_.seed, pixel_, settings_.firstSample + sample};
+  }
+  [[nodiscard]] PixelLight mean(PixelLight sum) const {
+    sum.direct /= static_cast<double>(settings_.samples);
+    sum.indirect /= static_cast<double>(settings_.samples);
+    return sum;
+  }
+
+  const World& world_;
+  const SamplingSettings& settings_;
+  std::uint32_t pixel_;
+};
+
+}  // namespace
 
 Film renderFilm(const World& world, const View& view, const SamplingSettings& settings) {
   Film film;
@@ -23,23 +94,19 @@ Film renderFilm(const World& world, const View& view, const SamplingSettings& se
     for (std::uint32_t y = tile.y0; y < tile.y1; ++y) {
       for (std::uint32_t x = tile.x0; x < tile.x1; ++x) {
         const std::uint32_t index = y * view.width + x;
-        const PrimaryHit hit = tracePrimary(world, view, x, y);
+        const PrimaryHit hit = tracePrimary(world, view, x, y, settings.gbuffer);
         film.gbuffer[index] = hit.pixel;
         ++tileRays;
-        if (!hit.surface || hit.pixel.albedo == glm::vec3(0.0F)) {
+        const bool byMaterial = settings.gbuffer == GBufferMode::Material;
+        const bool glossy = byMaterial && hit.surface && glossOf(*hit.surface) == Gloss::Glossy;
+        if (!hit.surface || (!glossy && hit.pixel.albedo == glm::vec3(0.0F))) {
           continue;
         }
-        glm::dvec3 direct(0.0);
-        glm::dvec3 indirect(0.0);
-        for (std::uint32_t s = 0; s < settings.samples; ++s) {
-          Sampler sampler(settings.sampler, settings.seed, (y << 16U) | x, settings.firstSample + s);
-          const PathSample path = tracePath(world, *hit.surface, settings.bounces, sampler);
-          direct += path.direct;
-          indirect += path.indirect;
-          tileRays += path.rays;
-        }
-        film.direct[index] = glm::vec3(direct / static_cast<double>(settings.samples));
-        film.indirect[index] = glm::vec3(indirect / static_cast<double>(settings.samples));
+        const PixelTracer tracer(world, settings, (y << 16U) | x);
+        const PixelLight light = glossy ? tracer.glossy(hit, film.gbuffer[index].albedo) : tracer.diffuse(*hit.surface);
+        film.direct[index] = glm::vec3(light.direct);
+        film.indirect[index] = glm::vec3(light.indirect);
+        tileRays += light.rays;
       }
     }
     rays += tileRays;

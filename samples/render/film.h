@@ -19,6 +19,7 @@ struct SamplingSettings {
   std::uint32_t seed = 0;         ///< Frames of different seeds are independent.
   std::uint32_t firstSample = 0;  ///< Number of the first path in each pixel's sequence; goes on from frame to frame.
   Sampler::Kind sampler = Sampler::Kind::Sobol;
+  GBufferMode gbuffer = GBufferMode::FirstHit;
   unsigned int threads = 0;  ///< 0: one for every core. The result does not depend on it.
 };
 

@@ -1,7 +1,12 @@
 #include "samples/render/gbuffer.h"
 
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/matrix.hpp>
+
+#include "samples/render/reflection.h"
 
 namespace walr::render {
 namespace {
@@ -18,29 +23,53 @@ glm::vec2 imageMotion(const View& view, std::uint32_t x, std::uint32_t y, const 
   return glm::clamp(project(view, previous) - view.previousJitter - center, -outside, outside);
 }
 
+// Mirrors that a pixel is followed through.
+constexpr int kMostMirrors = 8;
+
+// The map from what is there to its image in a surface's mirror.
+glm::mat4 reflectionAt(const Surface& mirror) {
+  const glm::vec3& n = mirror.shadingNormal;
+  glm::mat4 map(glm::mat3(1.0F) - 2.0F * glm::outerProduct(n, n));
+  map[3] = glm::vec4(2.0F * glm::dot(n, mirror.position) * n, 1.0F);
+  return map;
+}
+
 }  // namespace
 
-PrimaryHit tracePrimary(const World& world, const View& view, std::uint32_t x, std::uint32_t y) {
-  const Ray ray = primaryRay(view, x, y);
-  const std::optional<Hit> hit = world.rays().closest(ray);
+PrimaryHit tracePrimary(const World& world, const View& view, std::uint32_t x, std::uint32_t y, GBufferMode mode) {
+  const Ray primary = primaryRay(view, x, y);
   PrimaryHit result;
-  if (!hit) {
-    result.pixel.emission = world.sky().radiance(ray.direction);
-    const glm::vec3 previousDirection = glm::mat3(view.previousViewFromWorld) * ray.direction;
-    result.pixel.motion = glm::vec3(imageMotion(view, x, y, previousDirection), 0.0F);
+  Ray ray = primary;
+  glm::mat4 imageFromWorld(1.0F);  // Where mirrors show what is there.
+  for (int mirrors = 0;; ++mirrors) {
+    const std::optional<Hit> hit = world.rays().closest(ray);
+    if (!hit) {
+      result.pixel.emission = result.tint * world.sky().radiance(ray.direction);
+      const glm::vec3 previousDirection = glm::mat3(view.previousViewFromWorld) * primary.direction;
+      result.pixel.motion = glm::vec3(imageMotion(view, x, y, previousDirection), 0.0F);
+      return result;
+    }
+    const Surface surface = evaluateSurface(world.scene(), world.instances()[hit->instance], *hit, ray.direction);
+    const bool isMirror = mode == GBufferMode::Material && glossOf(surface) == Gloss::Specular;
+    if (isMirror && mirrors < kMostMirrors) {
+      const Reflection reflection = mirrored(surface);
+      result.tint *= reflection.weight;
+      imageFromWorld = imageFromWorld * reflectionAt(surface);
+      ray = {rayOrigin(surface, reflection.direction), reflection.direction};
+      continue;
+    }
+    const glm::mat4 viewFromWorld = view.viewFromWorld * imageFromWorld;
+    const glm::vec3 position(viewFromWorld * glm::vec4(surface.position, 1.0F));
+    const glm::vec3 previous(view.previousViewFromWorld * imageFromWorld * glm::vec4(surface.previousPosition, 1.0F));
+    result.pixel.position = position;
+    result.pixel.normal = glm::mat3(viewFromWorld) * surface.shadingNormal;
+    result.pixel.albedo = result.tint * surface.albedo;
+    result.pixel.emission = result.tint * surface.emission;
+    result.pixel.motion = glm::vec3(imageMotion(view, x, y, previous), position.z - previous.z);
+    result.pixel.objectId = hit->instance;
+    result.surface = surface;
     return result;
   }
-  const Surface surface = evaluateSurface(world.scene(), world.instances()[hit->instance], *hit, ray.direction);
-  const glm::vec3 position(view.viewFromWorld * glm::vec4(surface.position, 1.0F));
-  const glm::vec3 previous(view.previousViewFromWorld * glm::vec4(surface.previousPosition, 1.0F));
-  result.pixel.position = position;
-  result.pixel.normal = glm::mat3(view.viewFromWorld) * surface.shadingNormal;
-  result.pixel.albedo = surface.albedo;
-  result.pixel.emission = surface.emission;
-  result.pixel.motion = glm::vec3(imageMotion(view, x, y, previous), position.z - previous.z);
-  result.pixel.objectId = hit->instance;
-  result.surface = surface;
-  return result;
 }
 
 }  // namespace walr::render

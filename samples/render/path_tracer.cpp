@@ -7,20 +7,12 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "samples/render/basis.h"
+
 namespace walr::render {
 namespace {
 
 constexpr float kPi = std::numbers::pi_v<float>;
-
-// Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 6(1), 2017.
-glm::vec3 fromLocal(const glm::vec3& normal, const glm::vec3& local) {
-  const float sign = std::copysign(1.0F, normal.z);
-  const float a = -1.0F / (sign + normal.z);
-  const float b = normal.x * normal.y * a;
-  const glm::vec3 tangent(1.0F + sign * normal.x * normal.x * a, sign * b, -sign * normal.x);
-  const glm::vec3 bitangent(b, sign + normal.y * normal.y * a, -normal.y);
-  return tangent * local.x + bitangent * local.y + normal * local.z;
-}
 
 glm::vec3 cosineDirection(const glm::vec3& normal, const glm::vec2& random) {
   const float radius = std::sqrt(random.x);

@@ -29,14 +29,15 @@ void evaluateMaterial(const Scene& scene, const Material& material, const glm::v
   if (material.baseColorTexture) {
     color *= glm::vec3(sample(scene, *material.baseColorTexture, uv, ColorSpace::Srgb));
   }
-  float metallic = material.metallic;
+  surface.metallic = material.metallic;
   surface.roughness = material.roughness;
   if (material.metallicRoughnessTexture) {
     const glm::vec4 texel = sample(scene, *material.metallicRoughnessTexture, uv, ColorSpace::Linear);
     surface.roughness *= texel.y;
-    metallic *= texel.z;
+    surface.metallic *= texel.z;
   }
-  surface.albedo = color * (1.0F - metallic);
+  surface.albedo = color * (1.0F - surface.metallic);
+  surface.reflectance = color;
 }
 
 glm::vec3 unitOr(const glm::vec3& v, const glm::vec3& fallback) {

@@ -21,6 +21,8 @@ struct Surface {
   glm::vec3 shadingNormal{0.0F};
   glm::vec3 albedo{0.0F};  ///< Of the diffuse lobe: 0..1; 0 on metals.
   float roughness = 1.0F;
+  float metallic = 0.0F;          ///< 0..1
+  glm::vec3 reflectance{0.0F};    ///< Of the metal, seen along its normal.
   glm::vec3 towardsViewer{0.0F};  ///< Unit.
   glm::vec3 emission{0.0F};       ///< Radiance towards the viewer.
   float rayOffset = 0.0F;         ///< Distance along the geometric normal that clears the roundoff of `position`.

@@ -2,12 +2,14 @@
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
+#include <fstream>
 #include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -301,6 +303,103 @@ TEST(Tracer, FollowsTheFrameBefore) {
   EXPECT_EQ(cut.camera.view, glm::mat4(1.0F));
   EXPECT_NEAR(tracer.lastAnimationFrame(), 47.0, 1e-4);
   EXPECT_GT(tracer.bounds().w, 2.0F);
+}
+
+/// The box with one of its materials turned into a metal.
+std::filesystem::path boxWithMetal(const test::TemporaryDirectory& folder, const std::string& name, double roughness) {
+  nlohmann::json scene = nlohmann::json::parse(std::ifstream(WALR_SCENES "/box.gltf"));
+  for (nlohmann::json& material : scene["materials"]) {
+    if (material["name"] == name) {
+      material["pbrMetallicRoughness"] = {
+          {"baseColorFactor", {0.9, 0.9, 0.9, 1.0}}, {"metallicFactor", 1.0}, {"roughnessFactor", roughness}};
+    }
+  }
+  const std::filesystem::path file = folder.path() / "metal.gltf";
+  std::ofstream(file) << scene;
+  return file;
+}
+
+/// Root mean square error, tone-mapped, of the light that the masked pixels show.
+double shownError(const Image& indirect, const Frame& frame, const std::vector<bool>& mask) {
+  double sum = 0.0;
+  int count = 0;
+  for (std::size_t i = 0; i < mask.size(); ++i) {
+    if (!mask[i]) {
+      continue;
+    }
+    for (std::size_t c = 0; c < 3; ++c) {
+      const float albedo = frame.albedo.pixel(i)[c];
+      const double difference =
+          toneMap(albedo * indirect.pixel(i)[c]) - toneMap(albedo * frame.reference->indirect.pixel(i)[c]);
+      sum += difference * difference;
+      ++count;
+    }
+  }
+  return std::sqrt(sum / count);
+}
+
+/// Pixels of a metal that show something else.
+std::vector<bool> metalMask(const Frame& own, const Frame& shown) {
+  std::vector<bool> metal(shown.albedo.pixelCount());
+  for (std::size_t i = 0; i < metal.size(); ++i) {
+    metal[i] = own.albedo.pixel(i)[1] == 0.0F && shown.albedo.pixel(i)[1] > 0.0F;
+  }
+  return metal;
+}
+
+/// What SVGF makes of some frames by material, and the last of these.
+struct DenoisedMetal {
+  Frame own;
+  Frame shown;
+  Image indirect;
+};
+DenoisedMetal denoiseMetal(const GpuDevice& gpu, Tracer::Options options) {
+  options.referenceSamples = 128;
+  Tracer firstHit(options);
+  options.gbuffer = render::GBufferMode::Material;
+  Tracer byMaterial(options);
+  const std::unique_ptr<Denoiser> svgf = makeDenoiser("svgf");
+  GpuDenoiser denoiser(gpu, *svgf, kExtent, projectLayout());
+  DenoisedMetal result;
+  for (int number = kFrames.first; number <= kFrames.last; ++number) {
+    const bool last = number == kFrames.last;
+    result.own = firstHit.trace({.number = number, .animationFrame = double(number)});
+    result.shown = byMaterial.trace({.number = number, .animationFrame = double(number), .reference = last});
+    result.indirect = denoiser.run(packFrame(result.shown)).indirect;
+  }
+  return result;
+}
+
+// Behind a mirror the denoiser gets depth and albedo of what it shows, which lies farther than the mirror, and takes
+// the noise away there, too: half of it is what four paths a pixel would leave.
+TEST_F(HostTest, WhatAMirrorShowsIsDenoised) {
+  const test::TemporaryDirectory folder;
+  Tracer::Options options = tracing();
+  options.scene = boxWithMetal(folder, "tiles", 0.0);
+  const DenoisedMetal result = denoiseMetal(gpu, options);
+  const std::vector<bool> mirror = metalMask(result.own, result.shown);
+  ASSERT_GT(std::ranges::count(mirror, true), 200);
+  for (std::size_t i = 0; i < mirror.size(); ++i) {
+    const float shown = result.shown.depth.values()[i];
+    const float own = result.own.depth.values()[i];
+    ASSERT_TRUE(mirror[i] ? shown > own : shown >= own) << "pixel " << i;
+  }
+  EXPECT_LT(shownError(result.indirect, result.shown, mirror),
+            0.5 * shownError(result.shown.indirect, result.shown, mirror));
+}
+
+// A glossy metal keeps its own guides; its light is that of what it shows, over the albedos of that.
+TEST_F(HostTest, AGlossyMetalIsDenoisedOverTheAlbedosThatItShows) {
+  const test::TemporaryDirectory folder;
+  Tracer::Options options = tracing();
+  options.scene = boxWithMetal(folder, "tiles", 0.4);
+  const DenoisedMetal result = denoiseMetal(gpu, options);
+  EXPECT_TRUE(std::ranges::equal(result.own.depth.values(), result.shown.depth.values()));
+  EXPECT_TRUE(std::ranges::equal(result.own.normal.values(), result.shown.normal.values()));
+  const std::vector<bool> metal = metalMask(result.own, result.shown);
+  ASSERT_GT(std::ranges::count(metal, true), 200);
+  EXPECT_LT(shownError(result.indirect, result.shown, metal),
+            0.5 * shownError(result.shown.indirect, result.shown, metal));
 }
 
 float aheadOf(const glm::mat4& view, const glm::vec3& point) {

@@ -1,0 +1,195 @@
+// The G-buffer blended by material: mirrors against a scene in which the image stands behind them, glossy metals
+// against a quadrature of their reflection.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include <glm/geometric.hpp>
+
+#include "samples/render/film.h"
+#include "samples/render/gbuffer.h"
+#include "samples/render/reflection.h"
+#include "samples/render/view.h"
+#include "samples/render/world.h"
+#include "tests/render/scene_builder.h"
+#include "tests/render/statistics.h"
+
+namespace walr::render {
+namespace {
+
+using test::kConfidence;
+using test::SceneBuilder;
+using test::Statistics;
+
+constexpr std::uint32_t kWidth = 48;
+constexpr std::uint32_t kHeight = 32;
+
+std::uint32_t metal(SceneBuilder& builder, const glm::vec3& color, float roughness) {
+  const std::uint32_t index = builder.material(color);
+  builder.scene().materials[index].metallic = 1.0F;
+  builder.scene().materials[index].roughness = roughness;
+  return index;
+}
+
+/// A point or direction as a mirror in the plane x = 2 shows it.
+glm::vec3 imageOf(const glm::vec3& point) {
+  return {4.0F - point.x, point.y, point.z};
+}
+glm::vec3 imageOfDirection(const glm::vec3& direction) {
+  return {-direction.x, direction.y, direction.z};
+}
+
+/// A camera that moves and, to its side, a slanted board that moves, too: before a mirror, or with its image where the
+/// mirror would be.
+struct MirrorScene {
+  explicit MirrorScene(bool withMirror) {
+    const std::uint32_t paint = builder.material({0.6F, 0.3F, 0.2F});
+    const glm::vec3 corner(-1.5F, -1.2F, -1.0F);
+    const glm::vec3 u(0.4F, 0.0F, 2.5F);
+    const glm::vec3 v(0.2F, 2.4F, 0.3F);
+    const glm::vec3 way(0.3F, -0.1F, 0.2F);
+    if (withMirror) {
+      builder.move(builder.quad(paint, corner, u, v), glm::vec3(0.0F), way);
+      // A mirror that reflects all: what it shows keeps its albedo.
+      builder.quad(metal(builder, glm::vec3(1.0F), 0.0F), {2.0F, -2.0F, -3.0F}, {0.0F, 0.0F, 6.0F}, {0.0F, 4.0F, 0.0F});
+    } else {
+      builder.move(builder.quad(paint, imageOf(corner), imageOfDirection(v), imageOfDirection(u)), glm::vec3(0.0F),
+                   imageOfDirection(way));
+    }
+    camera = builder.camera({-0.2F, 0.0F, 3.0F}, {2.6F, 0.1F, 0.4F});
+    builder.move(camera, {-0.2F, 0.0F, 3.0F}, {-0.1F, 0.2F, 2.9F});
+  }
+
+  SceneBuilder builder;
+  std::uint32_t camera = 0;
+};
+
+TEST(MaterialGBuffer, AMirrorShowsWhatStandsBehindIt) {
+  MirrorScene before(true);
+  MirrorScene behind(false);
+  World mirror(before.builder.scene());
+  World image(behind.builder.scene());
+  mirror.moveTo(0.5, 0.4);
+  image.moveTo(0.5, 0.4);
+  const View view = viewFrom(mirror, before.camera, kWidth, kHeight, glm::vec2(0.0F), glm::vec2(0.0F));
+  int compared = 0;
+  int edges = 0;
+  for (std::uint32_t y = 0; y < kHeight; ++y) {
+    for (std::uint32_t x = 0; x < kWidth; ++x) {
+      const PrimaryHit first = tracePrimary(mirror, view, x, y, GBufferMode::FirstHit);
+      if (!first.surface || first.surface->metallic < 1.0F) {
+        continue;  // Past the mirror.
+      }
+      EXPECT_EQ(first.pixel.albedo, glm::vec3(0.0F));
+      const PrimaryHit shown = tracePrimary(mirror, view, x, y, GBufferMode::Material);
+      const PrimaryHit expected = tracePrimary(image, view, x, y, GBufferMode::Material);
+      if (shown.surface.has_value() != expected.surface.has_value()) {
+        ++edges;
+        continue;
+      }
+      if (!shown.surface) {
+        continue;
+      }
+      ++compared;
+      // Some tens of roundings of coordinates of up to 8, and of pixels of up to 48.
+      EXPECT_LT(glm::distance(shown.pixel.position, expected.pixel.position), 1e-4F);
+      EXPECT_LT(glm::distance(shown.pixel.normal, expected.pixel.normal), 1e-5F);
+      EXPECT_LT(glm::distance(shown.pixel.motion, expected.pixel.motion), 1e-3F);
+      EXPECT_LT(glm::distance(shown.pixel.albedo, expected.pixel.albedo), 1e-6F);
+      EXPECT_GT(glm::length(glm::vec2(shown.pixel.motion)), 0.1F);
+    }
+  }
+  EXPECT_GT(compared, 200);
+  EXPECT_LE(edges, 2);
+}
+
+// The light that a metal passes on of a sky of 1: the integral of its reflection over the hemisphere, by midpoints.
+double directionalAlbedo(double cosine, double roughness, double reflectance) {
+  const double alpha2 = std::pow(roughness, 4.0);
+  const glm::dvec3 viewer(std::sqrt(1.0 - cosine * cosine), 0.0, cosine);
+  const auto smith = [&](double c) { return (std::sqrt(1.0 + alpha2 * (1.0 - c * c) / (c * c)) - 1.0) / 2.0; };
+  constexpr int kSteps = 1000;
+  double sum = 0.0;
+  for (int i = 0; i < kSteps; ++i) {
+    const double z = (i + 0.5) / kSteps;
+    for (int j = 0; j < kSteps; ++j) {
+      const double angle = 2.0 * std::numbers::pi * (j + 0.5) / kSteps;
+      const double radius = std::sqrt(1.0 - z * z);
+      const glm::dvec3 light(radius * std::cos(angle), radius * std::sin(angle), z);
+      const glm::dvec3 half = glm::normalize(viewer + light);
+      const double d = half.z * half.z * (alpha2 - 1.0) + 1.0;
+      const double distribution = alpha2 / (std::numbers::pi * d * d);
+      const double masking = 1.0 / (1.0 + smith(cosine) + smith(z));
+      const double fresnel = reflectance + (1.0 - reflectance) * std::pow(1.0 - glm::dot(viewer, half), 5.0);
+      sum += distribution * masking * fresnel / (4.0 * cosine);
+    }
+  }
+  return sum * 2.0 * std::numbers::pi / (kSteps * kSteps);
+}
+
+// Both the radiance and, of a sky, the albedo that it shows.
+TEST(MaterialGBuffer, AGlossyMetalPassesOnWhatItsReflectionIntegratesTo) {
+  for (const float roughness : {0.3F, 0.6F, 1.0F}) {
+    SCOPED_TRACE(roughness);
+    SceneBuilder builder;
+    builder.sky(glm::vec3(1.0F));
+    builder.quad(metal(builder, glm::vec3(0.4F), roughness), {-9.0F, -1.0F, 9.0F}, {18.0F, 0.0F, 0.0F},
+                 {0.0F, 0.0F, -18.0F});
+    const std::uint32_t camera = builder.camera({0.0F, 1.0F, 2.0F}, {0.0F, -1.0F, 0.0F});
+    const World world(builder.scene());
+    const View view = viewFrom(world, camera, 1, 1, glm::vec2(0.0F), glm::vec2(0.0F));
+    const PrimaryHit hit = tracePrimary(world, view, 0, 0, GBufferMode::Material);
+    ASSERT_EQ(glossOf(*hit.surface), Gloss::Glossy);
+    const double cosine = glm::dot(hit.surface->shadingNormal, hit.surface->towardsViewer);
+    Statistics radiance;
+    for (std::uint32_t i = 0; i < 40000; ++i) {
+      Sampler sampler(Sampler::Kind::Independent, 1, 0, i);
+      const GlossySample sample = traceGlossy(world, *hit.surface, 0, sampler, true);
+      EXPECT_EQ(sample.albedo, sample.radiance);
+      radiance.add(sample.radiance.x);
+    }
+    EXPECT_NEAR(radiance.mean(), directionalAlbedo(cosine, roughness, 0.4), kConfidence * radiance.standardError());
+  }
+}
+
+// What the film holds of a glossy metal, albedo times light, is its radiance; depth and normal are its own.
+TEST(MaterialGBuffer, AGlossyMetalsAlbedoTimesItsLightIsWhatItShows) {
+  SceneBuilder builder;
+  builder.sky(glm::vec3(1.0F));
+  builder.quad(metal(builder, glm::vec3(0.9F, 0.5F, 0.2F), 0.4F), {-9.0F, -1.0F, 9.0F}, {18.0F, 0.0F, 0.0F},
+               {0.0F, 0.0F, -18.0F});
+  // Half of what it reflects is a wall of another albedo.
+  builder.quad(builder.material({0.2F, 0.6F, 0.8F}), {0.0F, -1.0F, 9.0F}, {0.0F, 9.0F, 0.0F}, {0.0F, 0.0F, -18.0F});
+  const std::uint32_t camera = builder.camera({-2.0F, 1.0F, 0.0F}, {-0.5F, -1.0F, 0.0F});
+  const World world(builder.scene());
+  const View view = viewFrom(world, camera, 1, 1, glm::vec2(0.0F), glm::vec2(0.0F));
+  const PrimaryHit first = tracePrimary(world, view, 0, 0);
+  const PrimaryHit hit = tracePrimary(world, view, 0, 0, GBufferMode::Material);
+  ASSERT_EQ(glossOf(*hit.surface), Gloss::Glossy);
+  EXPECT_EQ(hit.pixel.position, first.pixel.position);
+  EXPECT_EQ(hit.pixel.normal, first.pixel.normal);
+
+  Statistics radiance[3];
+  for (std::uint32_t i = 0; i < 20000; ++i) {
+    Sampler sampler(Sampler::Kind::Independent, 5, 0, i);
+    const GlossySample sample = traceGlossy(world, *hit.surface, 3, sampler, true);
+    for (int c = 0; c < 3; ++c) radiance[c].add(sample.radiance[c]);
+  }
+  SamplingSettings settings;
+  settings.samples = 20000;
+  settings.bounces = 3;
+  settings.sampler = Sampler::Kind::Independent;
+  settings.gbuffer = GBufferMode::Material;
+  const Film film = renderFilm(world, view, settings);
+  for (int c = 0; c < 3; ++c) {
+    const double shown = double(film.gbuffer[0].albedo[c]) * double(film.indirect[0][c]);
+    // Both are means of as many paths.
+    EXPECT_NEAR(shown, radiance[c].mean(), kConfidence * std::sqrt(2.0) * radiance[c].standardError())
+        << "channel " << c;
+    EXPECT_GT(film.gbuffer[0].albedo[c], 0.0F);
+  }
+}
+
+}  // namespace
+}  // namespace walr::render
