@@ -15,7 +15,7 @@ struct JointBilateralFilterSettings {
   static constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
   std::uint32_t radius = 16;
-  float sigmaPosition = 8.0F;
+  float sigmaPosition = 5.0F;
   float sigmaColour = kInfinity;
   float sigmaNormal = 0.2F;
   float sigmaPlane = 0.4F;

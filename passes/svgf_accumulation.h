@@ -11,7 +11,7 @@ namespace walr {
 
 /// Settings of SVGF's temporal filtering.
 struct SvgfAccumulationSettings {
-  float maxSamples = 16.0F;
+  float maxSamples = 8.0F;
   float maxMomentSamples = 5.0F;
   float planeTolerance = 0.01F;
   float normalThreshold = 0.5F;

@@ -163,7 +163,7 @@ std::vector<Sweep> baselineSweeps() {
       over(kBilateral, "bilateral-radius", "How large a window for the joint bilateral filter?", "bilateral.radius",
            {"8", "12", "16", "24"}),
       over(kBilateral, "bilateral-position", "How wide a Gaussian in the image for it?", "bilateral.sigma-position",
-           {"4", "6", "8", "10", "14"}),
+           {"3", "4", "5", "6", "8"}),
       over(kBilateral, "bilateral-normal", "How sharp a normal term for it?", "bilateral.sigma-normal",
            {"0.1", "0.2", "0.4", "0.8"}),
       over(kBilateral, "bilateral-plane", "How sharp a plane term for it?", "bilateral.sigma-plane",
