@@ -5,6 +5,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
+#extension GL_EXT_control_flow_attributes : require
 #include "constants/ambient_occlusion.h"
 #include "constants/frame.h"
 #include "include/camera.glsl"
@@ -32,23 +33,29 @@ void main() {
   const vec3 normal = unpackNormal(texelFetch(shadingNormal, p, 0).x);
   const vec3 ray = rayThrough(frame.rayFromPixel, pixelCentre(p));
   // Lengths in units of the pixel's depth, so that no scale over- or underflows.
+  const float inverseDepth = 1.0 / z;
   const float reach = settings.radius * abs(frame.rayFromPixel.x);
-  float sum = 0.0;
-  for (int i = 0; i < 9; ++i) {
-    if (i == 4) continue;
-    const ivec2 direction = ivec2(i % 3, i / 3) - 1;
-    float horizon = 0.0;
-    for (int step = 1; step <= kSteps; ++step) {
-      const float share = float(step) / float(kSteps);
-      const ivec2 q = p + max(int(settings.radius * share * share), step) * direction;
-      if (any(lessThan(q, ivec2(0))) || any(greaterThanEqual(q, size))) break;
-      const float zq = unpackDepth(texelFetch(depth, q, 0).x);
-      if (zq == 0.0) continue;
-      const vec3 v = zq / z * rayThrough(frame.rayFromPixel, pixelCentre(q)) - ray;
-      const float squared = max(dot(v, v), 1e-12);
-      horizon = max(horizon, max(1.0 - squared / (reach * reach), 0.0) * dot(normal, v) * inversesqrt(squared));
+  const float falloff = 1.0 / (reach * reach);
+  // All directions side by side: their fetches do not wait for each other, and distances are the same for all pixels.
+  float horizon[9] = float[](0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
+  for (int step = 1; step <= kSteps; ++step) {
+    const float share = float(step) / float(kSteps);
+    const int distance = max(int(settings.radius * share * share), step);
+    [[unroll]] for (int i = 0; i < 9; ++i) {
+      if (i != 4) {
+        const ivec2 direction = ivec2(i % 3, i / 3) - 1;
+        const ivec2 q = p + distance * direction;
+        const ivec2 inside = clamp(q, ivec2(0), size - 1);
+        const float zq = unpackDepth(texelFetch(depth, inside, 0).x);
+        const vec2 turn = float(distance) * vec2(direction) * frame.rayFromPixel.xy;  // Of the ray.
+        const vec3 v = zq * inverseDepth * (ray + vec3(turn, 0.0)) - ray;
+        const float squared = max(dot(v, v), 1e-12);
+        const float sine = max(1.0 - squared * falloff, 0.0) * dot(normal, v) * inversesqrt(squared);
+        horizon[i] = max(horizon[i], inside == q && zq > 0.0 ? sine : 0.0);
+      }
     }
-    sum += horizon;
   }
+  float sum = 0.0;
+  [[unroll]] for (int i = 0; i < 9; ++i) sum += horizon[i];
   imageStore(outOcclusion, p, vec4(sum / 8.0));
 }
