@@ -27,7 +27,7 @@ SvgfAccumulated addSvgfAccumulation(fg::Graph& graph, const DenoiserInputs& inpu
     return pass;
   };
   if (inspection != nullptr) {
-    inspection->offer(graph, accumulationViews(), extent, [&](const std::string& name) {
+    inspection->offer(graph, accumulationViews(false), extent, [&](const std::string& name) {
       fg::PassBuilder pass = declare(name, shaders::svgfAccumulationView);
       pass.specialize("kKeepableMotion", false);
       return pass;

@@ -1,6 +1,8 @@
 #include "passes/temporal_accumulation.h"
 
 #include <array>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -15,20 +17,42 @@ namespace {
 /// What a pass is there for.
 enum class Role : std::size_t { Mean, MeanAndTaps, View };
 
-const fg::Shader& shaderFor(MotionSource motion, HistoryRejection rejection, Role role) {
+// WALR_BY_ROLE(x): shaders x..., xTaps..., xView... with and without response to light that changes.
+#define WALR_BY_CHANGE(shader)       \
+  {                                  \
+    { &shader, &shader##Responsive } \
+  }
+#define WALR_BY_ROLE(shader)                                                               \
+  {                                                                                        \
+    { WALR_BY_CHANGE(shader), WALR_BY_CHANGE(shader##Taps), WALR_BY_CHANGE(shader##View) } \
+  }
+#define WALR_BY_REJECTION(shader)                                                      \
+  {                                                                                    \
+    { WALR_BY_ROLE(shader##Plane), WALR_BY_ROLE(shader##Depth), WALR_BY_ROLE(shader) } \
+  }
+
+const fg::Shader& shaderFor(MotionSource motion, HistoryRejection rejection, Role role, bool responsive) {
   using namespace shaders;
-  using ByRejection = std::array<std::array<const fg::Shader*, 3>, 3>;
+  using ByChange = std::array<const fg::Shader*, 2>;
+  using ByRole = std::array<ByChange, 3>;
+  using ByRejection = std::array<ByRole, 3>;
   static constexpr std::array<ByRejection, 2> kShaders{
-      {{{{&temporalAccumulationPlane, &temporalAccumulationPlaneTaps, &temporalAccumulationPlaneView},
-         {&temporalAccumulationDepth, &temporalAccumulationDepthTaps, &temporalAccumulationDepthView},
-         {&temporalAccumulation, &temporalAccumulationTaps, &temporalAccumulationView}}},
-       {{{&temporalAccumulationCameraPlane, &temporalAccumulationCameraPlaneTaps, &temporalAccumulationCameraPlaneView},
-         {&temporalAccumulationCameraDepth, &temporalAccumulationCameraDepthTaps, &temporalAccumulationCameraDepthView},
-         {&temporalAccumulationCamera, &temporalAccumulationCameraTaps, &temporalAccumulationCameraView}}}}};
+      {WALR_BY_REJECTION(temporalAccumulation), WALR_BY_REJECTION(temporalAccumulationCamera)}};
   return *kShaders.at(static_cast<std::size_t>(motion))
               .at(static_cast<std::size_t>(rejection))
-              .at(static_cast<std::size_t>(role));
+              .at(static_cast<std::size_t>(role))
+              .at(responsive ? 1 : 0);
 }
+
+const fg::Shader& stillShaderFor(Role role, bool responsive) {
+  using namespace shaders;
+  if (role == Role::View) return responsive ? temporalAccumulationStillViewResponsive : temporalAccumulationStillView;
+  return responsive ? temporalAccumulationStillResponsive : temporalAccumulationStill;
+}
+
+#undef WALR_BY_REJECTION
+#undef WALR_BY_ROLE
+#undef WALR_BY_CHANGE
 
 /// The stage in a graph.
 struct Stage {
@@ -38,12 +62,17 @@ struct Stage {
   const TemporalAccumulationSettings& settings;
   bool keepTaps;
   fg::History accumulated;
+  std::optional<LightChange> change;  ///< Where the stage responds to it.
 };
 
 Stage stageOf(fg::Graph& graph, const DenoiserInputs& inputs, const Guides& guides,
               const TemporalAccumulationSettings& settings, bool keepTaps) {
-  const fg::TextureDesc desc{VK_FORMAT_R16G16B16A16_SFLOAT, graph.textureDesc(inputs.lighting).extent};
-  return {graph, inputs, guides, settings, keepTaps, graph.history("accumulated", desc)};
+  const fg::Extent extent = graph.textureDesc(inputs.lighting).extent;
+  Stage stage{graph,       inputs,   guides,
+              settings,    keepTaps, graph.history("accumulated", {VK_FORMAT_R16G16B16A16_SFLOAT, extent}),
+              std::nullopt};
+  if (settings.change.respond) stage.change = declareLightChange(graph, extent);
+  return stage;
 }
 
 /// A pass without its outputs; the first of them is the current texture of `accumulated`.
@@ -51,10 +80,9 @@ fg::PassBuilder declarePass(const Stage& stage, const std::string& name, Role ro
   const SceneDescription& scene = stage.inputs.scene;
   const bool still = scene.still() && !stage.keepTaps;
   const MotionSource motion = motionSource(scene);
-  const fg::Shader& stillShader =
-      role == Role::View ? shaders::temporalAccumulationStillView : shaders::temporalAccumulationStill;
-  fg::PassBuilder pass =
-      stage.graph.compute(name, still ? stillShader : shaderFor(motion, stage.settings.rejection, role));
+  const bool responsive = stage.change.has_value();
+  fg::PassBuilder pass = stage.graph.compute(
+      name, still ? stillShaderFor(role, responsive) : shaderFor(motion, stage.settings.rejection, role, responsive));
   if (still) {
     pass.sample("depth", stage.guides.depth);
   } else {
@@ -62,6 +90,7 @@ fg::PassBuilder declarePass(const Stage& stage, const std::string& name, Role ro
     pass.specialize("kBicubicHistory", stage.settings.historyFilter == HistoryFilter::Bicubic);
     if (role == Role::View) pass.specialize("kKeepableMotion", stage.keepTaps);
   }
+  if (responsive) pass.sample("previousDoubt", stage.change->doubt.previous);
   pass.sample("lighting", stage.inputs.lighting)
       .sample("previousAccumulated", stage.accumulated.previous)
       .constants(TemporalAccumulationConstants{stage.settings.maxSamples, stage.settings.planeTolerance,
@@ -72,15 +101,26 @@ fg::PassBuilder declarePass(const Stage& stage, const std::string& name, Role ro
 
 void offerViews(const Stage& stage, Inspection* inspection) {
   if (inspection == nullptr) return;
-  inspection->offer(stage.graph, accumulationViews(), stage.graph.textureDesc(stage.inputs.lighting).extent,
+  inspection->offer(stage.graph, accumulationViews(stage.change.has_value()),
+                    stage.graph.textureDesc(stage.inputs.lighting).extent,
                     [&](const std::string& name) { return declarePass(stage, name, Role::View); });
 }
 
-constexpr const char* kPassName = "temporal accumulation";
+/// The pass with its mean; the detection of change goes by what it leaves.
+fg::PassBuilder accumulate(const Stage& stage, Role role, fg::Texture& mean) {
+  fg::PassBuilder pass = declarePass(stage, "temporal accumulation", role);
+  mean = pass.store("outAccumulated", stage.accumulated.current);
+  if (stage.change) {
+    LightChange change = *stage.change;
+    change.tiles = pass.store("outChange", change.tiles);
+    addLightChange(stage.graph, change, stage.settings.change);
+  }
+  return pass;
+}
 
 }  // namespace
 
-const std::vector<ViewInfo>& accumulationViews() {
+std::span<const ViewInfo> accumulationViews(bool respondsToChange) {
   static const std::vector<ViewInfo> kViews{
       {"history",
        "History length with this frame's sample, history pixels rejected (of four), 1 where none is left",
@@ -88,15 +128,20 @@ const std::vector<ViewInfo>& accumulationViews() {
       {"broken-lighting",
        "1 where the lighting is not finite, where it is clamped, where the motion is not finite",
        {{"non-finite-lighting", "X"}, {"clamped-lighting", "Y"}, {"non-finite-motion", "Z"}}},
+      {"light-change",
+       "Doubt that the light is still that of history, longest history that counts, 1 where that cuts it short",
+       {{"shortened-history", "Z"}}},
   };
-  return kViews;
+  return std::span(kViews).first(respondsToChange ? kViews.size() : kViews.size() - 1);
 }
 
 fg::Texture addTemporalAccumulation(fg::Graph& graph, const DenoiserInputs& inputs, const Guides& guides,
                                     const TemporalAccumulationSettings& settings, Inspection* inspection) {
   const Stage stage = stageOf(graph, inputs, guides, settings, false);
   offerViews(stage, inspection);
-  return declarePass(stage, kPassName, Role::Mean).store("outAccumulated", stage.accumulated.current);
+  fg::Texture mean;
+  accumulate(stage, Role::Mean, mean);
+  return mean;
 }
 
 AccumulationWithTaps addTemporalAccumulationWithTaps(fg::Graph& graph, const DenoiserInputs& inputs,
@@ -104,10 +149,9 @@ AccumulationWithTaps addTemporalAccumulationWithTaps(fg::Graph& graph, const Den
                                                      Inspection* inspection) {
   const Stage stage = stageOf(graph, inputs, guides, settings, true);
   offerViews(stage, inspection);
-  fg::PassBuilder pass = declarePass(stage, kPassName, Role::MeanAndTaps);
-  const fg::Extent extent = graph.textureDesc(inputs.lighting).extent;
   AccumulationWithTaps result;
-  result.mean = pass.store("outAccumulated", stage.accumulated.current);
+  fg::PassBuilder pass = accumulate(stage, Role::MeanAndTaps, result.mean);
+  const fg::Extent extent = graph.textureDesc(inputs.lighting).extent;
   result.taps = pass.store("outTaps", graph.texture("history taps", {VK_FORMAT_R32_UINT, extent}));
   return result;
 }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <span>
+
 #include <string_view>
 #include <vector>
 
@@ -7,6 +9,7 @@
 #include "passes/history_tests.h"
 #include "passes/inputs.h"
 #include "passes/inspection.h"
+#include "passes/light_change.h"
 #include "passes/prepare_guides.h"
 #include "passes/settings.h"
 
@@ -23,6 +26,7 @@ struct TemporalAccumulationSettings {
   float normalThreshold = 0.5F;
   HistoryFilter historyFilter = HistoryFilter::Bilinear;
   bool dilateMotion = false;
+  LightChangeSettings change = {};
 
   void visit(SettingVisitor& v) {
     static constexpr std::string_view kFilters[] = {"bilinear", "bicubic"};
@@ -37,11 +41,13 @@ struct TemporalAccumulationSettings {
     v.visit(
         {"accumulation.dilate-motion", "Follow the nearest surface of the 3x3 neighbourhood", "", 0, 1, "walr.txt 4.2"},
         dilateMotion);
+    change.visit(v);
   }
 };
 
 /// Views of every stage that accumulates lighting, in the order of `kView` of its shader.
-const std::vector<ViewInfo>& accumulationViews();
+/// @param respondsToChange whether the stage responds to light that changes, which has a view of its own
+std::span<const ViewInfo> accumulationViews(bool respondsToChange);
 
 /// Average the noisy lighting over time along its motion.
 /// @param inspection is offered the stage's views

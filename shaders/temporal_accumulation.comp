@@ -1,8 +1,9 @@
 // WALR preprocessing (walr.txt 4.2): reproject, reject, then a cumulative mean that turns exponential after a fixed
 // number of samples. Each of the four history pixels around the position is tested on its own (REJECT_BY_PLANE,
 // REJECT_BY_DEPTH). KEEP_TAPS also writes which of them passed, so that later stages can read their histories in the same
-// way without testing again (walr.txt 4.4, bmfr.txt 3.5). STILL: every pixel shows what it showed before. A view (VIEW)
-// does the same and writes something found on the way.
+// way without testing again (walr.txt 4.4, bmfr.txt 3.5). STILL: every pixel shows what it showed before. RESPONSIVE
+// shortens history where light_change.comp doubts it, and writes what that goes by. A view (VIEW) does the same and writes
+// something found on the way.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -37,9 +38,19 @@ layout(set = 0, binding = 8, rgba16f) uniform writeonly image2D outAccumulated;
 #ifdef KEEP_TAPS
 layout(set = 0, binding = 9, r32ui) uniform writeonly uimage2D outTaps;
 #endif
+#ifdef RESPONSIVE
+layout(set = 0, binding = 10) uniform texture2D previousDoubt;
+#ifndef VIEW
+layout(set = 0, binding = 11, rg32f) uniform writeonly image2D outChange;
+#endif
+#endif
 layout(push_constant) uniform PushConstants { TemporalAccumulationConstants settings; };
 
 #include "include/half.glsl"
+#ifdef RESPONSIVE
+#include "include/light_change.glsl"
+#include "include/luminance.glsl"
+#endif
 #ifdef STILL
 #include "include/surface.glsl"
 #else
@@ -47,17 +58,18 @@ layout(push_constant) uniform PushConstants { TemporalAccumulationConstants sett
 #include "include/reprojection.glsl"
 #endif
 
-// Mean and length, length 0 where there is none; how many history pixels were rejected.
+// Mean and length, length 0 where there is none; where it was in the frame before; how many history pixels were rejected.
 struct Past {
   vec4 mean;
+  vec2 pixel;
   int rejected;
 };
 
 #ifdef STILL
-Past pastOf(ivec2 p, float z) { return Past(texelFetch(previousAccumulated, p, 0), 0); }
+Past foundAt(ivec2 p, float z) { return Past(texelFetch(previousAccumulated, p, 0), vec2(p) + 0.5, 0); }
 bool motionIsFinite(ivec2 p) { return true; }
 #else
-HistoryTaps tapsOf(ivec2 p, float z) {
+Past foundAt(ivec2 p, float z) {
 #ifdef REJECT_BY_PLANE
   const vec3 normal = unpackNormal(texelFetch(geometricNormal, p, 0).x);
 #else
@@ -68,15 +80,20 @@ HistoryTaps tapsOf(ivec2 p, float z) {
 #ifdef KEEP_TAPS
   imageStore(outTaps, p, uvec4(packTaps(r.motion, taps.accepted)));
 #endif
-  return taps;
-}
-
-Past pastOf(ivec2 p, float z) {
-  const HistoryTaps taps = tapsOf(p, z);
   const vec4 mean = kBicubicHistory ? bicubicOfTaps(previousAccumulated, taps) : meanOfTaps(previousAccumulated, taps);
-  return Past(mean, tapsRejected(taps));
+  return Past(mean, pixelCentre(p) + r.motion, tapsRejected(taps));
 }
 bool motionIsFinite(ivec2 p) { return isFinite(motionAt(p)); }
+#endif
+
+#ifdef RESPONSIVE
+Past pastOf(ivec2 p, float z) {
+  Past past = foundAt(p, z);
+  past.mean.a = min(past.mean.a, longestHistory(past.pixel, settings.maxSamples));
+  return past;
+}
+#else
+Past pastOf(ivec2 p, float z) { return foundAt(p, z); }
 #endif
 
 // A sample that is not finite is no sample: the mean stays as it was.
@@ -98,33 +115,56 @@ vec3 viewOf(ivec2 p, float z, vec3 noisy) {
     case 1u:
       return vec3(!sampleIsFinite, surface && sampleIsFinite && clampedRadiance(noisy) != noisy,
                   surface && !motionIsFinite(p));
+#ifdef RESPONSIVE
+    case 2u: {
+      if (!surface) return vec3(0.0);
+      const Past past = foundAt(p, z);
+      const float longest = longestHistory(past.pixel, settings.maxSamples);
+      return vec3(doubtAt(past.pixel), longest, past.mean.a > longest);
+    }
+#endif
   }
   return vec3(0.0);
 }
-#endif
 
 void main() {
   const ivec2 p = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(p, textureSize(lighting, 0)))) return;
-
-  const vec3 noisy = texelFetch(lighting, p, 0).rgb;
   const float z = unpackDepth(texelFetch(depth, p, 0).x);
-#ifdef VIEW
-  imageStore(outView, p, vec4(viewOf(p, z, noisy), 1.0));
+  imageStore(outView, p, vec4(viewOf(p, z, texelFetch(lighting, p, 0).rgb), 1.0));
+}
 #else
+// By how much the luminance of this frame's light differs from that of history; 0 where one of them is missing.
+float accumulate(ivec2 p) {
+  const vec3 noisy = texelFetch(lighting, p, 0).rgb;
   const bool sampleIsFinite = isFinite(noisy);
+  const float z = unpackDepth(texelFetch(depth, p, 0).x);
   if (z == 0.0) {
     imageStore(outAccumulated, p, vec4(sampleIsFinite ? noisy : vec3(0.0), 0.0));
 #ifdef KEEP_TAPS
     imageStore(outTaps, p, uvec4(kNoSurfaceTaps));
 #endif
-    return;
+    return 0.0;
   }
 
   const vec4 history = pastOf(p, z).mean;
   const float samples = samplesWith(history, sampleIsFinite);
-  const vec3 mean =
-      sampleIsFinite ? mix(history.rgb, clampedRadiance(noisy), 1.0 / max(samples, 1.0)) : history.rgb;
+  const vec3 radiance = clampedRadiance(noisy);
+  const vec3 mean = sampleIsFinite ? mix(history.rgb, radiance, 1.0 / max(samples, 1.0)) : history.rgb;
   imageStore(outAccumulated, p, nearestHalf(vec4(mean, samples)));
+#ifdef RESPONSIVE
+  return sampleIsFinite && history.a > 0.0 ? luminance(radiance - history.rgb) : 0.0;
+#else
+  return 0.0;
 #endif
 }
+
+void main() {
+  const ivec2 p = ivec2(gl_GlobalInvocationID.xy);
+  const bool inside = all(lessThan(p, textureSize(lighting, 0)));
+  const float difference = inside ? accumulate(p) : 0.0;
+#ifdef RESPONSIVE
+  sumOverTile(difference);
+#endif
+}
+#endif

@@ -8,6 +8,7 @@
 #include "passes/flr_regression.h"
 #include "shaders/constants/block_regression.h"
 #include "shaders/constants/flr.h"
+#include "shaders/constants/light_change.h"
 
 namespace walr {
 namespace {
@@ -87,6 +88,11 @@ constexpr std::array kShaders = {
     ShaderTaps{"temporal_accumulation",
                [](const Stage& stage) {
                  return 1.0 + (specializationOf(stage, "kBicubicHistory") != 0 ? kBicubic : kBilinear);
+               }},
+    ShaderTaps{"light_change",
+               [](const Stage& stage) {
+                 return window(static_cast<std::uint32_t>(constantsOf<LightChangeConstants>(stage).radius)) *
+                        stage.share;
                }},
     ShaderTaps{"temporal_antialiasing",
                [](const Stage& stage) { return kBicubic + 1.0 + window(specializationOf(stage, "kClipRadius")); }},

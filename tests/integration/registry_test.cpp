@@ -117,7 +117,7 @@ TEST(Registry, PortsHaveTheUsageThatThePlanHas) {
   }
 }
 
-/// A stage of a chain, with settings that the whole method fits to a picture of 360 lines.
+/// A stage of a chain, with settings that the whole method fits to a picture of 360 lines, or that are its own.
 struct Link {
   const char* type;
   std::vector<std::pair<const char*, const char*>> settings;
@@ -147,7 +147,7 @@ void expectPlannedAs(const char* preset, const std::vector<Link>& chain) {
 
 TEST(Registry, StagesConnectedByNameArePlannedAsTheWholeMethodIs) {
   expectPlannedAs("blocks", {{"prepare_guides", {}},
-                             {"temporal_accumulation_with_taps", {}},
+                             {"temporal_accumulation_with_taps", {{"accumulation.respond-to-change", "on"}}},
                              {"ambient_occlusion", {}},
                              {"block_regression", {{"blocks.iterations", "2"}}},
                              {"temporal_antialiasing_with_taps", {}}});

@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "tests/passes/comparison.h"
+#include "tests/passes/reference/light_change.h"
 #include "tests/passes/reference/octahedral.h"
 #include "tests/passes/reference/walr.h"
 
@@ -51,9 +52,30 @@ void expectGuides(const DeviceFrame& f, const PrepareGuidesSettings& settings) {
   comparison.expect(0.0);
 }
 
+void expectLightChange(const DeviceFrame& f, const Image<reference::Accumulated>& accumulated,
+                       const LightChangeSettings& settings) {
+  const Image<reference::TileChange> tiles = reference::changeByTiles(accumulated);
+  const Image<reference::Bounded> doubt = reference::doubtOf(f.current.changeTiles, settings);
+  ASSERT_EQ(f.current.changeTiles.size(), tiles.size());
+  Comparison comparison("change of light");
+  reference::forEachPixel(tiles.size(), [&](glm::ivec2 t) {
+    comparison.value(t, "doubt", f.current.doubt[t], doubt[t].value, doubt[t].error);
+    if (tiles[t].undecided) {
+      comparison.undecided();
+      return;
+    }
+    comparison.compared();
+    const reference::TileChange& e = tiles[t];
+    comparison.value(t, "sum", f.current.changeTiles[t].x, e.sum.value, e.sum.error);
+    comparison.value(t, "sum of squares", f.current.changeTiles[t].y, e.squares.value, e.squares.error);
+  });
+  // A tile is undecided where any of its 64 pixels is.
+  comparison.expect(0.5);
+}
+
 void expectAccumulation(const DeviceFrame& f, const TemporalAccumulationSettings& settings, bool keepTaps) {
   const Image<reference::Accumulated> expected =
-      reference::accumulate(f.frame, f.current.guides, {f.previous.guides, f.previous.accumulated},
+      reference::accumulate(f.frame, f.current.guides, {f.previous.guides, f.previous.accumulated, f.previous.doubt},
                             reference::Storage::Exact, settings, keepTaps);
   Comparison comparison("temporal accumulation");
   reference::forEachPixel(f.frame.size(), [&](glm::ivec2 p) {
@@ -68,6 +90,7 @@ void expectAccumulation(const DeviceFrame& f, const TemporalAccumulationSettings
     comparison.value(p, "samples", f.current.accumulated[p].w, e.samples, halfTolerance(e.samples, e.samplesError));
   });
   comparison.expect(kUndecidedShare);
+  if (settings.change.respond) expectLightChange(f, expected, settings.change);
 }
 
 /// What iteration `t` starts from on the device. Pixels without a surface have no moments, whatever lies in their

@@ -1,6 +1,7 @@
 // What becomes of WALR's histories when the camera jumps, a frame is lost, pixels are jittered, exposure changes or the
 // scene holds still.
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -91,6 +92,64 @@ TEST_F(WalrHistoryTest, StagesHoldWhenExposureChangesBy256) {
     scaleLight(frames.back(), scale);
     expectFrames(frames);
   }
+}
+
+/// The settings that choose a shader of their own for the accumulation.
+std::vector<WalrSettings> responsiveSettings() {
+  WalrSettings plane = robustWalr();
+  plane.accumulation.change.respond = true;
+  WalrSettings depth = plane;
+  depth.accumulation.rejection = depth.antialiasing.rejection = HistoryRejection::Depth;
+  depth.accumulation.historyFilter = HistoryFilter::Bicubic;
+  WalrSettings none = plane;
+  none.accumulation.rejection = none.antialiasing.rejection = HistoryRejection::None;
+  WalrSettings apart = plane;
+  apart.antialiasing.normalThreshold = 0.4F;  // Its own reprojection.
+  apart.accumulation.change.radius = 0;
+  return {plane, depth, none, apart};
+}
+
+/// Largest doubt in the history of the last frame but one, after the light has changed in it.
+double doubtAfterChange(const fg::vk::Device& device, const WalrSettings& settings, const SceneDescription& scene,
+                        double change) {
+  WalrRun run(device, kSize, settings, {}, true, scene);
+  double largest = 0.0;
+  for (std::uint32_t i = 0; i < 4; ++i) {
+    HostFrame frame = renderStill(bumpyWall(0.1), kSize, i);
+    if (i == 3) scaleLight(frame, change);
+    const WalrStages stages = run.frame(frame);
+    if (i == 3) largest = *std::ranges::max_element(stages.doubt.pixels());
+  }
+  return largest;
+}
+
+TEST_F(WalrHistoryTest, StagesHoldWhereLightChanges) {
+  for (const WalrSettings& settings : responsiveSettings()) {
+    SCOPED_TRACE("rejection " + std::to_string(int(settings.accumulation.rejection)) + ", radius " +
+                 std::to_string(settings.accumulation.change.radius));
+    for (const bool cameraAlone : {false, true}) {
+      // The light changes in the last frame but one, so that the last one finds doubt.
+      std::vector<HostFrame> frames;
+      for (std::uint32_t i = 0; i < 5; ++i) frames.push_back(movingFrame(bumpyWall(0.1), i, i - 1.0, i));
+      for (std::size_t i = 3; i < 5; ++i) scaleLight(frames[i], 0.25);
+      for (HostFrame& frame : frames) frame.scene.objectMotion = !cameraAlone;
+      expectSequence(device(), frames, settings);
+    }
+    std::vector<HostFrame> still;
+    for (std::uint32_t i = 0; i < 4; ++i) {
+      still.push_back(renderStill(thinBars(), kSize, i));
+      still.back().scene = {.cameraMotion = false, .objectMotion = false, .jitter = false};
+      if (i >= 2) scaleLight(still.back(), 4.0);
+    }
+    expectSequence(device(), still, settings);
+  }
+}
+
+TEST_F(WalrHistoryTest, DoubtFollowsTheLight) {
+  const WalrSettings settings = responsiveSettings().front();
+  // A fall to a quarter is many standard errors of a window; the same light is less than a few.
+  EXPECT_EQ(doubtAfterChange(device(), settings, {}, 0.25), 1.0);
+  EXPECT_LT(doubtAfterChange(device(), settings, {}, 1.0), 0.5);
 }
 
 TEST_F(WalrHistoryTest, StagesHoldWithMotionFromTheCameraAlone) {

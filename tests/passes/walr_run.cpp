@@ -3,6 +3,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "shaders/constants/light_change.h"
 #include "tests/passes/texel_codec.h"
 
 namespace walr::test {
@@ -91,6 +92,10 @@ void WalrRun::inspectStages(fg::Graph& graph, const WalrSettings& settings) {
   const fg::Texture geometricNormal = findGuide(graph, "guides.geometric normal");
   if (geometricNormal.valid()) geometricNormal_ = tap(graph, geometricNormal);
   accumulated_ = tap(graph, textureNamed(graph, "accumulated.current"));
+  if (settings.accumulation.change.respond) {
+    changeTiles_ = tap(graph, textureNamed(graph, "light change.tiles"));
+    doubt_ = tap(graph, textureNamed(graph, "light change.doubt.current"));
+  }
   for (std::uint32_t t = 0; t + 1 < settings.regression.iterations; ++t) {
     const std::string number = std::to_string(t);
     Iteration iteration;
@@ -145,6 +150,17 @@ WalrStages WalrRun::frame(const reference::HostFrame& frame) {
       decodeGuides(words(depth_), words(shadingNormal_),
                    geometricNormal_.valid() ? words(geometricNormal_) : std::vector<std::uint32_t>(), size_);
   stages.accumulated = halves(accumulated_);
+  if (doubt_.valid()) {
+    const glm::ivec2 tiles = (size_ + kLightChangeTile - 1) / kLightChangeTile;
+    const std::vector<float> sums = run_->texels<float>(changeTiles_);
+    const std::vector<float> doubt = run_->texels<float>(doubt_);
+    stages.changeTiles = reference::Image<glm::dvec2>(tiles);
+    stages.doubt = reference::Image<double>(tiles);
+    for (std::size_t i = 0; i < doubt.size(); ++i) {
+      stages.changeTiles.pixels()[i] = {sums[2 * i], sums[2 * i + 1]};
+      stages.doubt.pixels()[i] = doubt[i];
+    }
+  }
   for (const Iteration& iteration : iterations_) {
     std::vector<std::vector<std::uint32_t>> textures;
     for (const fg::Texture& texture : iteration.moments) textures.push_back(words(texture));

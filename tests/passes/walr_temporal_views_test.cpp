@@ -1,5 +1,6 @@
 // Views of WALR's guides and temporal stages: that they show what happens, against the double-precision reference.
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -164,6 +165,34 @@ TEST_F(WalrTemporalViewsTest, AStillPictureLosesNoHistory) {
       for (const glm::dvec3& v : stages.views.at(view).pixels()) EXPECT_EQ(v, expected) << view << ", frame " << i;
     for (const glm::dvec3& v : stages.views.at("broken-lighting").pixels()) EXPECT_EQ(v, glm::dvec3(0.0));
   }
+}
+
+TEST_F(WalrTemporalViewsTest, ShowWhereHistoryIsDoubted) {
+  constexpr std::uint32_t kChange = 4;
+  WalrSettings settings = robustWalr();
+  settings.accumulation.change.respond = true;
+  WalrRun run(device(), kSize, settings, {}, true, {}, {"light-change", "history"});
+  WalrStages stages;
+  Image<glm::dvec4> before;
+  for (std::uint32_t i = 0; i <= kChange + 1; ++i) {
+    HostFrame frame = renderStill(bumpyWall(0.1), kSize, i);
+    if (i >= kChange)
+      for (glm::dvec3& l : frame.lighting.pixels()) l *= 0.25;  // Halves stay halves.
+    before = stages.accumulated;
+    stages = run.frame(frame);
+  }
+  const double most = settings.accumulation.maxSamples;
+  int shortened = 0;
+  reference::forEachPixel(kSize, [&](glm::ivec2 p) {
+    const glm::dvec3 view = stages.views.at("light-change")[p];
+    EXPECT_NEAR(view.y, most + (1.0 - most) * view.x, 4.0 * reference::kFloatRoundoff * most);
+    EXPECT_EQ(view.z, before[p].w > view.y ? 1.0 : 0.0);
+    const double samples = std::min(before[p].w, view.y) + 1.0;
+    EXPECT_NEAR(stages.accumulated[p].w, samples, halfTolerance(samples, 0.0));
+    EXPECT_EQ(stages.views.at("history")[p].x, samples);
+    shortened += view.z == 1.0 ? 1 : 0;
+  });
+  EXPECT_GT(shortened, kSize.x * kSize.y / 2);
 }
 
 // Each damaged pixel, and no other, is seen by the view that is there for it.

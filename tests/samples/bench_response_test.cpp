@@ -80,9 +80,11 @@ TEST(ResponseScene, ACutShowsAnotherPlaceAndSaysSoIfAsked) {
 TEST(ResponseTest, OfMethodsWithAKnownAnswer) {
   GpuDevice device({.device = {}, .validation = true});
   const std::vector<Variant> variants = {parseVariant("none=none"),
-                                         parseVariant("mean=accumulate,accumulation.max-samples=8")};
+                                         parseVariant("mean=accumulate,accumulation.max-samples=8"),
+                                         parseVariant("alert=accumulate,accumulation.max-samples=8,"
+                                                      "accumulation.respond-to-change=on")};
   const std::vector<Response> found = responses(device, variants);
-  ASSERT_EQ(found.size(), 2U);
+  ASSERT_EQ(found.size(), 3U);
   // Without a memory nothing is left of the light, and every age has the same error; five deviations of the mean noise.
   const Response& none = found[0];
   EXPECT_NEAR(none.lightLeft.front(), 0.0, 0.05);
@@ -107,6 +109,14 @@ TEST(ResponseTest, OfMethodsWithAKnownAnswer) {
     EXPECT_NEAR(response->untoldCut.left, 0.0, 0.05);
   }
   EXPECT_DOUBLE_EQ(mean.cut.rmse, none.cut.rmse) << "one sample is its own mean";
+  // A fall to a tenth is beyond doubt: from the second frame on, history counts as one sample, and half of what is left
+  // goes with each frame.
+  const Response& alert = found[2];
+  EXPECT_NEAR(alert.lightLeft[0], 7.0 / 8.0, 0.02);
+  EXPECT_NEAR(alert.lightLeft[1], 7.0 / 16.0, 0.05);
+  EXPECT_LE(alert.lightFrames.value(), 5);
+  EXPECT_LT(alert.lightLag, 0.6 * mean.lightLag);
+  EXPECT_NEAR(alert.settled, mean.settled, 0.05 * mean.settled) << "steady light is not doubted";
   EXPECT_TRUE(device.takeMessages().empty());
 }
 

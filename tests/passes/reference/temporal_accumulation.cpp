@@ -5,11 +5,22 @@
 
 #include <glm/common.hpp>
 
+#include "tests/passes/reference/light_change.h"
+#include "tests/passes/reference/moments.h"
+
 namespace walr::reference {
 namespace {
 
 bool isFinite(glm::dvec3 v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+/// History in doubt counts for fewer samples.
+void shorten(HistorySample& past, const Image<double>& doubt, const Reprojection& r, double maxSamples) {
+  const Bounded longest = longestHistory(doubt, r.pixel, r.error, maxSamples);
+  if (past.value.w <= longest.value - longest.error) return;
+  past.error.w = std::max(past.error.w, longest.error);
+  past.value.w = std::min(past.value.w, longest.value);
 }
 
 }  // namespace
@@ -29,6 +40,7 @@ Image<Accumulated> accumulate(const HostFrame& frame, const Image<Guide>& guides
       const Reprojection r = reproject(frame, guides, p, {settings.dilateMotion, keepTaps});
       past = sampleHistory(r, historyTaps(frame, r, previous.guides, historyTestsOf(settings)), previous.accumulated,
                            settings.historyFilter);
+      if (past.found && !previous.doubt.pixels().empty()) shorten(past, previous.doubt, r, settings.maxSamples);
     }
     const glm::dvec3 pastMean(past.value);
     out.undecided = past.undecided;
@@ -40,6 +52,11 @@ Image<Accumulated> accumulate(const HostFrame& frame, const Image<Guide>& guides
       out.mean = pastMean + (radiance - pastMean) * newest;
       out.error = glm::dvec3(past.error) + 8.0 * kFloatRoundoff * (glm::abs(pastMean) + glm::abs(radiance)) +
                   out.samplesError * newest * newest * glm::abs(radiance - pastMean);
+      if (past.value.w > 0.0) {
+        out.difference = luminance(radiance) - luminance(pastMean);
+        out.differenceError = luminance(glm::dvec3(past.error)) +
+                              8.0 * kFloatRoundoff * (luminance(radiance) + luminance(glm::abs(pastMean)));
+      }
     } else {
       out.samples = std::min(past.value.w, double(settings.maxSamples));
       out.mean = pastMean;

@@ -10,6 +10,9 @@ struct Accumulated {
   double samples = 0.0;   ///< Number of samples behind it.
   glm::dvec3 error{0.0};  ///< Bound of what single-precision arithmetic adds to the mean.
   double samplesError = 0.0;
+  /// Luminance of the frame's light less that of history; 0 where one of them is missing.
+  double difference = 0.0;
+  double differenceError = 0.0;
   bool undecided = false;  ///< A decision lay within rounding: single precision may differ by more than `error`.
 };
 
@@ -17,6 +20,7 @@ struct Accumulated {
 struct AccumulationHistory {
   Image<Guide> guides;            ///< Empty while there is no history.
   Image<glm::dvec4> accumulated;  ///< rgb: mean; a: number of samples.
+  Image<double> doubt = {};       ///< In history, by tiles; empty where nobody detects light that changes.
 };
 
 /// The preprocessing accumulation (walr.txt 4.2): cumulative mean that turns exponential after `maxSamples`.

@@ -1,18 +1,21 @@
 #include "tests/passes/reference/walr.h"
 
+#include "tests/passes/reference/light_change.h"
+
 namespace walr::reference {
 
 Image<glm::dvec3> Walr::denoise(const HostFrame& frame) {
   const bool keepTaps = sharesReprojection(settings_.antialiasing, settings_.accumulation);
   const Image<Guide> guides = prepareGuides(frame, storage_, settings_.guides);
-  const Image<glm::dvec4> accumulated =
-      meansAndLengths(accumulate(frame, guides, accumulation_, storage_, settings_.accumulation, keepTaps));
+  const Image<Accumulated> mean = accumulate(frame, guides, accumulation_, storage_, settings_.accumulation, keepTaps);
+  const Image<glm::dvec4> accumulated = meansAndLengths(mean);
   filtered_ = weightedRegression(frame, guides, accumulated, storage_, settings_.regression);
   Image<glm::dvec4> filtered(frame.size());
   forEachPixel(frame.size(), [&](glm::ivec2 p) { filtered[p] = glm::dvec4(filtered_[p], 1.0); });
   const Image<glm::dvec4> resolved =
       meansAndLengths(antialias(frame, guides, filtered, antialiasing_, storage_, settings_.antialiasing, keepTaps));
   accumulation_ = {guides, accumulated};
+  if (settings_.accumulation.change.respond) accumulation_.doubt = doubtOf(mean, settings_.accumulation.change);
   antialiasing_ = {guides, resolved};
   Image<glm::dvec3> output(frame.size());
   forEachPixel(frame.size(), [&](glm::ivec2 p) { output[p] = glm::dvec3(resolved[p]); });

@@ -9,7 +9,8 @@ namespace walr::reference {
 /// All stages of WALR in double precision, with the histories that they carry from frame to frame.
 class Walr {
  public:
-  explicit Walr(Storage storage, const WalrSettings& settings = {}) : storage_(storage), settings_(settings) {}
+  explicit Walr(Storage storage, const WalrSettings& settings = robustWalr())
+      : storage_(storage), settings_(settings) {}
 
   /// The denoised frame.
   Image<glm::dvec3> denoise(const HostFrame& frame);

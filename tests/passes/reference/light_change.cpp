@@ -1,0 +1,83 @@
+#include "tests/passes/reference/light_change.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/common.hpp>
+
+namespace walr::reference {
+
+Image<TileChange> changeByTiles(const Image<Accumulated>& accumulated) {
+  Image<TileChange> tiles((accumulated.size() + kChangeTile - 1) / kChangeTile);
+  forEachPixel(accumulated.size(), [&](glm::ivec2 p) {
+    const Accumulated& pixel = accumulated[p];
+    TileChange& tile = tiles[p / kChangeTile];
+    const double d = pixel.difference;
+    tile.sum.value += d;
+    tile.squares.value += d * d;
+    // A sum of 64 by halves adds six times.
+    tile.sum.error += pixel.differenceError + 6.0 * kFloatRoundoff * std::abs(d);
+    tile.squares.error +=
+        pixel.differenceError * (2.0 * std::abs(d) + pixel.differenceError) + 8.0 * kFloatRoundoff * d * d;
+    tile.undecided |= pixel.undecided;
+  });
+  return tiles;
+}
+
+Image<Bounded> doubtOf(const Image<glm::dvec2>& tiles, const LightChangeSettings& settings) {
+  Image<Bounded> doubt(tiles.size());
+  const int radius = static_cast<int>(settings.radius);
+  const double range = double(settings.scoreHigh) - double(settings.scoreLow);
+  forEachPixel(tiles.size(), [&](glm::ivec2 t) {
+    glm::dvec2 sum(0.0);
+    double magnitudes = 0.0;
+    int count = 0;
+    for (int y = t.y - radius; y <= t.y + radius; ++y) {
+      for (int x = t.x - radius; x <= t.x + radius; ++x) {
+        if (!tiles.contains({x, y})) continue;
+        sum += tiles[{x, y}];
+        magnitudes += std::abs(tiles[{x, y}].x);
+        ++count;
+      }
+    }
+    if (sum.y <= 0.0) return;
+    const double score = std::abs(sum.x) / std::sqrt(sum.y);
+    doubt[t].value = std::clamp((score - settings.scoreLow) / range, 0.0, 1.0);
+    // Vulkan allows an inverse square root two units in the last place; a sum errs by a roundoff of each partial one.
+    const double scoreError =
+        count * kFloatRoundoff * magnitudes / std::sqrt(sum.y) + (count + 8.0) * kFloatRoundoff * score;
+    doubt[t].error = (scoreError + 4.0 * kFloatRoundoff * (score + settings.scoreHigh)) / range;
+  });
+  return doubt;
+}
+
+Image<double> doubtOf(const Image<Accumulated>& accumulated, const LightChangeSettings& settings) {
+  const Image<TileChange> tiles = changeByTiles(accumulated);
+  Image<glm::dvec2> sums(tiles.size());
+  Image<double> doubt(tiles.size());
+  forEachPixel(tiles.size(), [&](glm::ivec2 t) { sums[t] = {tiles[t].sum.value, tiles[t].squares.value}; });
+  const Image<Bounded> bounded = doubtOf(sums, settings);
+  forEachPixel(tiles.size(), [&](glm::ivec2 t) { doubt[t] = bounded[t].value; });
+  return doubt;
+}
+
+Bounded longestHistory(const Image<double>& doubt, glm::dvec2 pixel, double pixelError, double maxSamples) {
+  const glm::dvec2 position = pixel / double(kChangeTile) - 0.5;
+  const glm::dvec2 base = glm::floor(position);
+  const glm::dvec2 f = position - base;
+  double value = 0.0;
+  double least = 1.0;
+  double most = 0.0;
+  for (int i = 0; i < 4; ++i) {
+    const glm::ivec2 offset(i % 2, i / 2);
+    const glm::ivec2 tile = glm::clamp(glm::ivec2(base) + offset, glm::ivec2(0), doubt.size() - 1);
+    value += (offset.x == 1 ? f.x : 1.0 - f.x) * (offset.y == 1 ? f.y : 1.0 - f.y) * doubt[tile];
+    least = std::min(least, doubt[tile]);
+    most = std::max(most, doubt[tile]);
+  }
+  // Both weights of an axis move with the position, by an eighth of it.
+  const double error = 4.0 * pixelError / kChangeTile * (most - least) + 8.0 * kFloatRoundoff;
+  return {maxSamples + (1.0 - maxSamples) * value, (maxSamples - 1.0) * error + 4.0 * kFloatRoundoff * maxSamples};
+}
+
+}  // namespace walr::reference
