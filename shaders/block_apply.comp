@@ -4,6 +4,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
+#extension GL_EXT_control_flow_attributes : require
 #include "constants/block_regression.h"
 #include "constants/frame.h"
 
@@ -117,7 +118,7 @@ float bilinearWeight(Around a, int i, ivec2 grid, out ivec2 texel) {
 Prediction predictCoarse(ivec2 p, float z, vec3 shading, float occluded) {
   Prediction sum = noPrediction();
   const Around cells = around(p, kCellSize);
-  for (int i = 0; i < 4; ++i) {
+  [[unroll]] for (int i = 0; i < 4; ++i) {
     ivec2 cell;
     const float weight = bilinearWeight(cells, i, textureSize(coarseDepth, 0), cell);
     if (weight <= 0.0) continue;
@@ -132,7 +133,7 @@ Prediction predictFine(ivec2 p, float z, vec3 shading, float occluded) {
   const vec3 normal = unpackNormal(texelFetch(geometricNormal, p, 0).x);
   const Plane plane = planeAt(p, z, normal);
   const Around blocks = around(p, kBlockSize);
-  for (int i = 0; i < 4; ++i) {
+  [[unroll]] for (int i = 0; i < 4; ++i) {
     ivec2 block;
     const float bilinear = bilinearWeight(blocks, i, textureSize(fitDepth, 0), block);
     if (bilinear <= 0.0) continue;

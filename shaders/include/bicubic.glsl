@@ -18,14 +18,15 @@ vec4 bicubicOfTaps(texture2D history, HistoryTaps taps) {
   const vec4 wx = catmullRom(taps.fraction.x), wy = catmullRom(taps.fraction.y);
   const ivec2 last = textureSize(history, 0) - 1;
   vec3 cubic = vec3(0.0);
-  for (int j = 0; j < 4; ++j) {
-    for (int i = 0; i < 4; ++i) {
+  float shortest = linear.a;
+  [[unroll]] for (int j = 0; j < 4; ++j) {
+    [[unroll]] for (int i = 0; i < 4; ++i) {
       const vec4 texel = texelFetch(history, clamp(taps.base + ivec2(i, j) - 1, ivec2(0), last), 0);
-      if (texel.a == 0.0) return linear;
       cubic += wx[i] * wy[j] * texel.rgb;
+      shortest = min(shortest, texel.a);
     }
   }
-  return vec4(max(cubic, vec3(0.0)), linear.a);
+  return shortest == 0.0 ? linear : vec4(max(cubic, vec3(0.0)), linear.a);
 }
 
 #endif
