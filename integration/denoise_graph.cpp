@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "passes/lint_inputs.h"
 #include "shaders/constants/frame.h"
 
 namespace walr {
@@ -61,6 +62,11 @@ DenoiseGraph declareDenoiseGraph(Denoiser& method, fg::Extent extent, const Inpu
   }
   if (wanted.counters) {
     inspection.wantCounters(graph.import("counters", fg::BufferDesc{kCounterBytes}, states.outputBefore));
+  }
+  if (wanted.lint) {
+    const fg::Buffer counts = graph.import("lint counters", fg::BufferDesc{kCounterBytes}, states.outputBefore);
+    declared.lint = addLintInputs(graph, inputs, counts);
+    graph.exported(declared.lint, states.outputAfter);
   }
   fg::Texture denoised = method.add(graph, inputs, target, &inspection);
   for (const DebugView& view : inspection.views()) graph.exported(view.texture, states.outputAfter);

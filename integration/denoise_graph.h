@@ -18,12 +18,14 @@ struct DenoiseGraph {
   fg::Buffer host;        ///< Upload of `HostConstants`; invalid where the conventions need none.
   fg::Texture output;     ///< Import that receives the result.
   Inspection inspection;  ///< Views and counters asked for, in imports that receive them.
+  fg::Buffer lint;        ///< Import that receives the counts of `addLintInputs`, where they were asked for.
 };
 
-/// What a host wants to see of a method's inner workings.
+/// What a host wants to see of a method's inner workings, and of its own inputs.
 struct InspectionWish {
   std::span<const std::string> views = {};  ///< Names.
   bool counters = false;
+  bool lint = false;  ///< Count what looks wrong in the inputs: see `InputLinter`.
 };
 
 /// States in which the host hands its textures over and takes the result back.

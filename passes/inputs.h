@@ -16,6 +16,9 @@ struct InputConventions {
   };
   Space normal = Space::View;
   MotionDepth motionDepth = MotionDepth::Given;
+  /// Whether motion.xy is between the jittered images, as measured from pixel centre to pixel centre. Else it is what
+  /// cameras without jitter would show.
+  bool motionJittered = true;
 };
 
 /// The textures that every denoiser takes, all of one extent; `objectId` may be left out.

@@ -10,7 +10,8 @@ void readReprojection(fg::PassBuilder& pass, const DenoiserInputs& inputs, const
                       HistoryRejection rejection, MotionSource motion, bool dilateMotion) {
   pass.uniform("frameConstants", inputs.frame)
       .sample("depth", guides.depth)
-      .specialize("kJitter", inputs.scene.jitter)
+      .specialize("kJitter",
+                  inputs.scene.jitter && (motion == MotionSource::Camera || inputs.conventions.motionJittered))
       .specialize("kDilateMotion", dilateMotion);
   if (motion == MotionSource::Texture) {
     const bool motionDepthGiven = inputs.conventions.motionDepth == InputConventions::MotionDepth::Given;

@@ -114,3 +114,15 @@ WalrResult walr_get_timings(WalrDenoiser denoiser, uint32_t* count, WalrPassTime
     for (std::size_t i = 0; i < written; ++i) times[i] = {measured[i].name.c_str(), measured[i].milliseconds};
   });
 }
+
+WalrResult walr_get_findings(WalrDenoiser denoiser, uint32_t* count, WalrFinding* findings) {
+  return withDenoiser(denoiser, [&](HostedDenoiser& object) {
+    const auto found = object.findings();
+    uint32_t& room = required(count, "the count's address");
+    const std::size_t written = findings == nullptr ? 0 : std::min<std::size_t>(room, found.size());
+    room = static_cast<uint32_t>(found.size());
+    for (std::size_t i = 0; i < written; ++i) {
+      findings[i] = {found[i].name.data(), found[i].what.c_str(), found[i].cause.data(), found[i].wayOut.data()};
+    }
+  });
+}

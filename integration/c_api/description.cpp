@@ -33,14 +33,6 @@ WalrConventions checkedConventions(const WalrConventions* given) {
   return conventions;
 }
 
-InputConventions inputConventions(const WalrConventions& conventions) {
-  return {.normal = conventions.normal_space == WALR_SPACE_WORLD ? InputConventions::Space::World
-                                                                 : InputConventions::Space::View,
-          .motionDepth = conventions.motion_depth == WALR_MOTION_DEPTH_STATIC_SCENE
-                             ? InputConventions::MotionDepth::StaticScene
-                             : InputConventions::MotionDepth::Given};
-}
-
 HostConventions hostConventions(const WalrConventions& conventions) {
   return {.depth = static_cast<HostConventions::Depth>(conventions.depth),
           .normal = static_cast<HostConventions::Normal>(conventions.normals),
@@ -92,7 +84,7 @@ Description::Description(const WalrDenoiserInfo& info)
   if (info.preset != nullptr) method_->usePreset(info.preset);
   // Formats are refused here, and not when the first frame is recorded.
   fg::Graph scratch;
-  (void)importInputs(scratch, extent_, inputConventions(conventions_), kInnerStates.inputs, formats_,
+  (void)importInputs(scratch, extent_, inputConventions(), kInnerStates.inputs, formats_,
                      hostConventions(conventions_));
 }
 
@@ -100,9 +92,18 @@ void Description::resize(std::uint32_t width, std::uint32_t height) {
   extent_ = checkedExtent(width, height);
 }
 
-DenoiseGraph Description::declare() const {
-  return declareDenoiseGraph(*method_, extent_, inputConventions(conventions_), kInnerStates, formats_,
-                             hostConventions(conventions_));
+DenoiseGraph Description::declare(bool lint) const {
+  return declareDenoiseGraph(*method_, extent_, inputConventions(), kInnerStates, formats_,
+                             hostConventions(conventions_), {.lint = lint});
+}
+
+InputConventions Description::inputConventions() const {
+  return {.normal = conventions_.normal_space == WALR_SPACE_WORLD ? InputConventions::Space::World
+                                                                  : InputConventions::Space::View,
+          .motionDepth = conventions_.motion_depth == WALR_MOTION_DEPTH_STATIC_SCENE
+                             ? InputConventions::MotionDepth::StaticScene
+                             : InputConventions::MotionDepth::Given,
+          .motionJittered = conventions_.motion_jittered == VK_TRUE};
 }
 
 Constants Description::constants(const WalrCamera* camera, const WalrCamera* previousCamera, float skyDepth,
@@ -124,7 +125,8 @@ Constants Description::constants(const WalrCamera* camera, const WalrCamera* pre
                                .frameIndex = static_cast<std::uint32_t>(frames_)};
   if (!(skyDepth >= 0.0F)) throw Error(WALR_ERROR_INVALID_ARGUMENT, "sky_depth is negative or NaN");
   if (skyDepth > 0.0F) description.skyDepth = skyDepth;
-  return {.frame = frameConstants(description, extent_),
+  return {.camera = description,
+          .frame = frameConstants(description, extent_),
           .host = hostConstants(glm::make_mat4(now.projection), preExposure == 0.0F ? 1.0F : preExposure)};
 }
 

@@ -18,6 +18,7 @@ namespace walr::api {
 
 /// What the upload buffers of one frame hold.
 struct Constants {
+  FrameDescription camera;  ///< What `frame` was made of.
   FrameConstants frame;
   HostConstants host;
 };
@@ -32,7 +33,9 @@ class Description {
 
   /// The method between the host's images, which come and go in `kInnerStates`.
   /// @throws std::invalid_argument naming settings that contradict each other
-  [[nodiscard]] DenoiseGraph declare() const;
+  /// @param lint count what looks wrong in the images as well
+  [[nodiscard]] DenoiseGraph declare(bool lint = false) const;
+  [[nodiscard]] InputConventions inputConventions() const;
 
   /// Constants of the next frame.
   /// @param camera, previous null stands for an error, and for the camera of the frame before

@@ -14,6 +14,7 @@ HostedDenoiser::HostedDenoiser(const WalrDenoiserInfo& info)
     : device_(info.device),
       description_(info),
       timestamps_(info.timestamps == VK_TRUE && device_.context().timestampBits > 0),
+      lint_(info.lint == VK_TRUE),
       log_(info.log),
       logUser_(info.log_user) {
   if (info.timestamps == VK_TRUE && !timestamps_) log(WALR_LOG_WARNING, "the queue family has no timestamps");
@@ -54,7 +55,7 @@ std::string HostedDenoiser::setting(std::string_view name) {
 const HostedDenoiser::Declared& HostedDenoiser::declare() {
   if (declared_) return *declared_;
   Declared declared;
-  declared.graph = description_.declare();
+  declared.graph = description_.declare(lint_);
   // What the device lacks is said for every format at once, before the driver is asked for memory.
   const fg::Plan portable = compilePlan(declared.graph.graph, fg::TableMemoryModel());
   fg::vk::require(device_.physical(), fg::vk::formatUses(declared.graph.graph.desc(), portable));
@@ -83,8 +84,13 @@ void HostedDenoiser::build() {
   built_ = Built{.executor = std::make_unique<fg::vk::Executor>(
                      device_.context(), declared.graph.graph.desc(), declared.plan,
                      fg::vk::ExecutorOptions{.framesInFlight = description_.slots(), .timestamps = timestamps_}),
+                 .lint = nullptr,
                  .memory = declared.plan.memory,
                  .lastFrame = std::nullopt};
+  if (lint_) {
+    built_->lint = std::make_unique<HostedLint>(device_.context(), *built_->executor, declared.graph.lint,
+                                                description_.inputConventions(), description_.slots());
+  }
   const fg::Extent extent = description_.extent();
   log(WALR_LOG_INFO, description_.methodName() + " at " + std::to_string(extent.width) + " x " +
                          std::to_string(extent.height) + ": " + std::to_string(declared.plan.passes.size()) +
@@ -159,15 +165,38 @@ void HostedDenoiser::record(VkCommandBuffer commandBuffer, const WalrFrame& fram
 
   uploadIfUsed(declared_->graph.inputs.frame, std::as_bytes(std::span(&constants.frame, 1)));
   uploadIfUsed(declared_->graph.host, std::as_bytes(std::span(&constants.host, 1)));
-  if (resetRequested_ || (frame.flags & WALR_FRAME_RESET_HISTORY) != 0) built_->executor->resetAllHistory();
+  const bool reset = resetRequested_ || (frame.flags & WALR_FRAME_RESET_HISTORY) != 0;
+  if (reset) built_->executor->resetAllHistory();
+  collectFindings();
   recordAcquire(device_.context(), commandBuffer, images);
+  if (lint_) built_->lint->recordBefore(commandBuffer);
   built_->executor->record(commandBuffer, description_.slot());
+  if (lint_) {
+    const bool first = reset || !built_->lastFrame;
+    built_->lint->recordAfter(commandBuffer, description_.slot(),
+                              first ? std::nullopt : std::optional(constants.camera), description_.extent());
+  }
   recordRelease(device_.context(), commandBuffer, images);
 
   resetRequested_ = false;
   lastImages_ = images;
   built_->lastFrame = description_.frames();
   description_.advance(*frame.camera);
+}
+
+/// The host has waited for the frame that was recorded with the slot of the next one.
+void HostedDenoiser::collectFindings() {
+  if (!lint_) return;
+  for (const LintFinding& finding : built_->lint->collect(description_.slot())) {
+    log(WALR_LOG_WARNING, finding.text());
+  }
+}
+
+std::span<const LintFinding> HostedDenoiser::findings() const {
+  if (!lint_) {
+    throw Error(WALR_ERROR_WRONG_ORDER, "inputs are not looked at: make the denoiser with WalrDenoiserInfo::lint");
+  }
+  return built_ ? std::span(built_->lint->findings()) : std::span<const LintFinding>();
 }
 
 void HostedDenoiser::forget(VkImage image, std::uint64_t identity) {

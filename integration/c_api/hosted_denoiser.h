@@ -13,6 +13,7 @@
 #include "integration/c_api/description.h"
 #include "integration/c_api/device.h"
 #include "integration/c_api/host_images.h"
+#include "integration/c_api/hosted_lint.h"
 
 namespace walr::api {
 
@@ -34,6 +35,7 @@ class HostedDenoiser {
   [[nodiscard]] WalrImageState releaseState(std::string_view image) const;
   [[nodiscard]] WalrMemory memory() const;
   [[nodiscard]] std::span<const fg::vk::PassTime> timings();
+  [[nodiscard]] std::span<const LintFinding> findings() const;
 
  private:
   /// The graph with the present settings and size, and what is known of it before anything is made.
@@ -46,6 +48,7 @@ class HostedDenoiser {
   /// What was made for it.
   struct Built {
     std::unique_ptr<fg::vk::Executor> executor;
+    std::unique_ptr<HostedLint> lint;  ///< Null unless asked for.
     fg::MemoryReport memory;
     std::optional<std::uint64_t> lastFrame;  ///< Recorded with it.
   };
@@ -57,12 +60,14 @@ class HostedDenoiser {
   void dropFinished();
   [[nodiscard]] FrameImages checkedImages(const WalrFrame& frame) const;
   void bind(const FrameImages& images);
+  void collectFindings();
   void uploadIfUsed(fg::Buffer buffer, std::span<const std::byte> bytes);
   void log(WalrLogLevel level, const std::string& text) const;
 
   HostDevice device_;
   Description description_;
   bool timestamps_;
+  bool lint_;
   WalrLog log_;
   void* logUser_;
 

@@ -34,6 +34,7 @@ constexpr WalrApi kApi{
     .get_frame_constants = walr_get_frame_constants,
     .record_pass = walr_record_pass,
     .forget_pass_image = walr_forget_pass_image,
+    .get_findings = walr_get_findings,
 };
 
 }  // namespace

@@ -13,14 +13,12 @@ using RegisterCommand = void (*)(CLI::App& program);
 void registerBench(CLI::App& program);
 void registerDenoise(CLI::App& program);
 void registerGraph(CLI::App& program);
+void registerLint(CLI::App& program);
 void registerRender(CLI::App& program);
 
 /// All subcommands of `walr`. A new one is a line here.
-inline constexpr std::array<RegisterCommand, 4> kCommands = {
-    registerBench,
-    registerDenoise,
-    registerGraph,
-    registerRender,
+inline constexpr std::array<RegisterCommand, 5> kCommands = {
+    registerBench, registerDenoise, registerGraph, registerLint, registerRender,
 };
 
 }  // namespace walr

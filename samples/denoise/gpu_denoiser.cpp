@@ -49,6 +49,13 @@ std::array<VkFormat, kHostInputs.size()> formatsOf(bool objectIds) {
   return formats;
 }
 
+/// A buffer of counters as a finished frame left it.
+std::vector<std::uint32_t> wordsOf(const fg::vk::StagedBuffer& counters, std::uint32_t slot) {
+  std::vector<std::uint32_t> words(kCounterWords);
+  std::ranges::copy(counters.staging(slot), std::as_writable_bytes(std::span(words)).begin());
+  return words;
+}
+
 /// The first three components of RGBA32F texels.
 Image viewImage(std::span<const std::byte> texels, int width, int height) {
   Image image(width, height, 3);
@@ -87,11 +94,14 @@ struct GpuDenoiser::State {
                          fg::vk::StagedImage::Direction::Readback, slots, "view of " + view.name);
       executor.bind(view.texture, views.back().external());
     }
-    if (!declared.inspection.counters().empty()) {
-      const fg::Buffer buffer = declared.inspection.counterBuffer();
-      counters.emplace(device.context(), fg::BufferDesc{kCounterBytes}, executor.usage(buffer), slots, "counters");
-      executor.bind(buffer, counters->handle());
-    }
+    if (!declared.inspection.counters().empty()) makeReadback(counters, declared.inspection.counterBuffer());
+    if (declared.lint.valid()) makeReadback(lint, declared.lint);
+  }
+
+  void makeReadback(std::optional<fg::vk::StagedBuffer>& counts, fg::Buffer buffer) {
+    counts.emplace(device.context(), fg::BufferDesc{kCounterBytes}, executor.usage(buffer), framesInFlight,
+                   declared.graph.desc().resources[buffer.resource].name);
+    executor.bind(buffer, counts->handle());
   }
 
   UploadedTexture makeUpload(fg::Texture texture) {
@@ -123,6 +133,7 @@ struct GpuDenoiser::State {
   fg::vk::StagedImage output;
   std::vector<fg::vk::StagedImage> views;
   std::optional<fg::vk::StagedBuffer> counters;
+  std::optional<fg::vk::StagedBuffer> lint;
   fg::vk::FrameQueue queue;
   std::deque<InFlight> inFlight;
 };
@@ -152,7 +163,9 @@ std::uint32_t GpuDenoiser::State::submit(const PackedFrame& packed) {
   executor.record(recorded.commandBuffer, recorded.slot);
   output.recordReadback(recorded.commandBuffer, recorded.slot);
   for (const fg::vk::StagedImage& view : views) view.recordReadback(recorded.commandBuffer, recorded.slot);
-  if (counters) counters->recordReadback(recorded.commandBuffer, recorded.slot);
+  for (const auto* counts : {&counters, &lint}) {
+    if (*counts) (*counts)->recordReadback(recorded.commandBuffer, recorded.slot);
+  }
   queue.submit(recorded);
   return recorded.slot;
 }
@@ -165,12 +178,12 @@ DenoisedPicture GpuDenoiser::State::finish(std::uint32_t slot) {
   std::vector<Rgba16> texels(std::size_t{extent.width} * extent.height);
   std::ranges::copy(output.staging(slot), std::as_writable_bytes(std::span(texels)).begin());
   const std::span<const fg::vk::PassTime> times = executor.passTimes(slot);
-  DenoisedPicture picture{unpackRgb(texels, width, height), {times.begin(), times.end()}, {}, {}};
+  DenoisedPicture picture{unpackRgb(texels, width, height), {times.begin(), times.end()}, {}, {}, {}};
   for (std::size_t i = 0; i < views.size(); ++i)
     picture.views.push_back({declared.inspection.views()[i].name, viewImage(views[i].staging(slot), width, height)});
+  if (lint) picture.lint = wordsOf(*lint, slot);
   if (counters) {
-    std::array<std::uint32_t, kCounterWords> words{};
-    std::ranges::copy(counters->staging(slot), std::as_writable_bytes(std::span(words)).begin());
+    const std::vector<std::uint32_t> words = wordsOf(*counters, slot);
     for (const Counter& counter : declared.inspection.counters())
       picture.counters.push_back({counter.name, counter.value(words)});
   }

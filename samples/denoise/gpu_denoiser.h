@@ -23,6 +23,7 @@ struct DenoisedPicture {
   std::vector<fg::vk::PassTime> passes;
   std::vector<ViewPicture> views;
   std::vector<CounterValue> counters;
+  std::vector<std::uint32_t> lint;  ///< Words of `addLintInputs`, where `InspectionWish::lint` asks for them.
 
   /// Time of all passes; the copies to and from the device are not among them.
   [[nodiscard]] std::optional<double> milliseconds() const;

@@ -57,19 +57,22 @@ PackedFrame packFrame(Frame frame) {
   return packed;
 }
 
+FrameDescription frameDescriptionOf(const Frame& frame, glm::vec2 motionScale) {
+  return {.view = frame.camera.view,
+          .previousView = frame.camera.previousView,
+          .projection = frame.camera.projection,
+          .previousProjection = frame.previousProjection,
+          .jitter = frame.camera.jitter,
+          .previousJitter = frame.previousJitter,
+          .motionScale = motionScale,
+          .frameIndex = static_cast<std::uint32_t>(frame.number),
+          .skyDepth = kSkyDepth};
+}
+
 FrameConstants frameConstantsOf(const Frame& frame, glm::vec2 motionScale) {
   try {
-    return frameConstants(
-        {.view = frame.camera.view,
-         .previousView = frame.camera.previousView,
-         .projection = frame.camera.projection,
-         .previousProjection = frame.previousProjection,
-         .jitter = frame.camera.jitter,
-         .previousJitter = frame.previousJitter,
-         .motionScale = motionScale,
-         .frameIndex = static_cast<std::uint32_t>(frame.number),
-         .skyDepth = kSkyDepth},
-        {static_cast<std::uint32_t>(frame.depth.width()), static_cast<std::uint32_t>(frame.depth.height())});
+    return frameConstants(frameDescriptionOf(frame, motionScale), {static_cast<std::uint32_t>(frame.depth.width()),
+                                                                   static_cast<std::uint32_t>(frame.depth.height())});
   } catch (const std::invalid_argument& error) {
     throw InputError("camera of frame " + std::to_string(frame.number) + ": " + error.what());
   }

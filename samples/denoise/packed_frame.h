@@ -30,6 +30,10 @@ Image unpackRgb(const std::vector<Rgba16>& texels, int width, int height);
 
 PackedFrame packFrame(Frame frame);
 
+/// A frame's camera as the passes know it.
+/// @param motionScale  see `FrameDescription::motionScale`
+FrameDescription frameDescriptionOf(const Frame& frame, glm::vec2 motionScale);
+
 /// The uniform block of a frame's camera.
 /// @param motionScale  see `FrameDescription::motionScale`
 /// @throws InputError naming a frame whose camera makes no sense

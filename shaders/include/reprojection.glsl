@@ -49,14 +49,13 @@ ivec2 nearestPixel(ivec2 p, float z) {
 
 // Where the previous camera has the still surface that pixel `p` shows at depth `z`, in its view space.
 vec3 positionBefore(ivec2 p, float z) {
-  return (frame.previousViewFromView * vec4(rayThrough(frame.rayFromPixel, pixelCentre(p)) * z, 1.0)).xyz;
+  return stillBefore(frame.previousViewFromView, rayThrough(frame.rayFromPixel, pixelCentre(p)) * z);
 }
 
 #ifdef MOTION_FROM_CAMERA
 vec2 motionAt(ivec2 p) {
   const vec3 before = positionBefore(p, unpackDepth(texelFetch(depth, p, 0).x));
-  const vec4 ray = frame.previousRayFromPixel;
-  return (before.xy / -before.z - ray.zw) / ray.xy - pixelCentre(p);
+  return pixelOf(frame.previousRayFromPixel, before) - pixelCentre(p);
 }
 float depthBefore(ivec2 p, float z) { return -positionBefore(p, z).z; }
 #else

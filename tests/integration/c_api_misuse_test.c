@@ -271,6 +271,7 @@ static void test_handles(const WalrDevice* device) {
     EXPECT(walr_reset_history(wrong[i]), WALR_ERROR_INVALID_HANDLE, text);
     EXPECT(walr_get_memory(wrong[i], &memory), WALR_ERROR_INVALID_HANDLE, text);
     EXPECT(walr_get_timings(wrong[i], &count, NULL), WALR_ERROR_INVALID_HANDLE, text);
+    EXPECT(walr_get_findings(wrong[i], &count, NULL), WALR_ERROR_INVALID_HANDLE, text);
   }
 }
 
@@ -368,6 +369,7 @@ static void test_frames(Host* host, WalrDenoiser denoiser) {
   uint32_t count = 0;
   EXPECT_OK(walr_get_timings(denoiser, &count, NULL));
   EXPECT(walr_get_timings(denoiser, NULL, NULL), WALR_ERROR_INVALID_ARGUMENT, "null");
+  EXPECT(walr_get_findings(denoiser, &count, NULL), WALR_ERROR_WRONG_ORDER, "WalrDenoiserInfo::lint");
   WalrPassTime times[32];
   EXPECT_TRUE(count > 3 && count <= 32);
   EXPECT_OK(walr_get_timings(denoiser, &count, times));

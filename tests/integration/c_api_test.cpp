@@ -120,6 +120,55 @@ TEST_F(CApi, TakesOtherFormatsOfTheSameNumbersAndRemembersTheCamera) {
   }
 }
 
+/// Names of what the linter has found.
+std::vector<std::string> findingsOf(WalrDenoiser denoiser) {
+  std::uint32_t count = 0;
+  require(walr_get_findings(denoiser, &count, nullptr));
+  std::vector<WalrFinding> findings(count);
+  require(walr_get_findings(denoiser, &count, findings.data()));
+  std::vector<std::string> names;
+  for (const WalrFinding& finding : findings) {
+    EXPECT_GT(std::strlen(finding.what) * std::strlen(finding.cause) * std::strlen(finding.way_out), 0U);
+    names.emplace_back(finding.name);
+  }
+  return names;
+}
+
+void keepWarning(void* user, WalrLogLevel level, const char* text) {
+  if (level == WALR_LOG_WARNING) static_cast<std::vector<std::string>*>(user)->emplace_back(text);
+}
+
+TEST_F(CApi, SaysOnceWhatLooksWrongInTheInputs) {
+  using Names = std::vector<std::string>;
+  constexpr std::uint32_t kFrames = 5;
+  for (const bool good : {true, false}) {
+    HostedRun::Options options;
+    options.lint = true;
+    options.conventions.motion_scale[0] = good ? 1.0F : -1.0F;
+    std::vector<std::string> log;
+    options.log = keepWarning;
+    options.logUser = &log;
+    HostedRun run(device(), "walr", kSize, options);
+    EXPECT_EQ(findingsOf(run.denoiser()), Names{});
+    for (std::uint32_t i = 0; i < kFrames; ++i) {
+      const FrameDescription camera = walkingCamera(i, kSize);
+      fill(run, renderFrame(sphere(), camera, kSize));
+      run.frame(camera);
+    }
+    EXPECT_EQ(findingsOf(run.denoiser()), good ? Names{} : Names{"motion-x-direction"});
+    ASSERT_EQ(log.size(), good ? 0U : 1U);
+    if (!good) {
+      EXPECT_NE(log[0].find("Way out: negate this axis"), std::string::npos) << log[0];
+    }
+    run.resize({40, 45});
+    EXPECT_EQ(findingsOf(run.denoiser()), Names{});
+  }
+  // Of a denoiser that does not look there is nothing to be asked.
+  HostedRun run(device(), "walr", kSize);
+  std::uint32_t count = 0;
+  EXPECT_EQ(walr_get_findings(run.denoiser(), &count, nullptr), WALR_ERROR_WRONG_ORDER);
+}
+
 TEST_F(CApi, MemoryIsWhatThePlanSaysAndWhatTheDriverGave) {
   HostedRun run(device(), "walr", {640, 360});
   require(walr_prepare(run.denoiser()));

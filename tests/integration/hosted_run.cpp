@@ -59,6 +59,9 @@ HostedRun::HostedRun(const fg::vk::Device& device, const char* method, glm::ivec
   info.normal_format = options.formats[2];
   info.motion_format = options.formats[3];
   info.albedo_format = options.formats[4];
+  info.lint = options.lint ? VK_TRUE : VK_FALSE;
+  info.log = options.log;
+  info.log_user = options.logUser;
   require(walr_create_denoiser(&info, &denoiser_));
   makeImages(size);
 }

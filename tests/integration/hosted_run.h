@@ -23,6 +23,9 @@ class HostedRun {
     WalrConventions conventions{};
     std::array<VkFormat, 5> formats{};  ///< As in WalrDenoiserInfo, in the order of its members.
     bool rememberedCamera = false;      ///< Leave the previous camera to the library.
+    bool lint = false;
+    WalrLog log = nullptr;
+    void* logUser = nullptr;
   };
 
   HostedRun(const fg::vk::Device& device, const char* method, glm::ivec2 size) : HostedRun(device, method, size, {}) {}

@@ -158,6 +158,33 @@ TEST_F(ProgramTest, CountsWhatHappensInside) {
   expectSuccess(denoise({"--method", "none", "--counters"}));
 }
 
+TEST_F(ProgramTest, LintsFrames) {
+  files.write(0, 2);
+  const ProcessResult good = walr({"lint", input.string(), "--validate"});
+  expectSuccess(good);
+  EXPECT_NE(good.out.find("3 frames, nothing looks wrong"), std::string::npos) << good.out;
+  const auto halve = [](Channels& channels) {
+    for (auto& [name, plane] : channels) {
+      if (name.find("Normal.") == std::string::npos) continue;
+      for (float& value : plane.values()) value *= 0.5F;
+    }
+  };
+  for (int frame = 0; frame <= 2; ++frame) files.writeFrame(frame, halve);
+  const ProcessResult spoiled = walr({"lint", input.string(), "--frames", "0-1", "--validate"});
+  expectFailure(spoiled, kInput, {"1 thing looks wrong"});
+  EXPECT_NE(spoiled.out.find("normal-not-unit: normals are not of length 1 on"), std::string::npos) << spoiled.out;
+  EXPECT_NE(spoiled.out.find("Way out: "), std::string::npos) << spoiled.out;
+}
+
+TEST_F(ProgramTest, LintsWhatItRendered) {
+  const std::string scene = std::string(WALR_SCENES) + "/box.gltf";
+  expectSuccess(walr({"render", scene, "--output", input.string(), "--frames", "0-3", "--size", "96x54",
+                      "--reference-spp", "0", "--jitter"}));
+  const ProcessResult result = walr({"lint", input.string(), "--validate"});
+  expectSuccess(result);
+  EXPECT_NE(result.out.find("4 frames, nothing looks wrong"), std::string::npos) << result.out;
+}
+
 TEST_F(ProgramTest, MethodNoneGivesTheInputBack) {
   files.write(0, 1);
   expectSuccess(denoise({"--method", "none"}));

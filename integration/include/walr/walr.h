@@ -186,8 +186,8 @@ typedef struct WalrConventions {
   float motion_scale[2];
   WalrDepth depth;
   WalrNormals normals;
-  VkBool32 pre_exposed; /* Lighting is multiplied by WalrFrame::pre_exposure, and the result is to be, too. */
-  uint32_t reserved;
+  VkBool32 pre_exposed;     /* Lighting is multiplied by WalrFrame::pre_exposure, and the result is to be, too. */
+  VkBool32 motion_jittered; /* motion.xy is between the jittered images. Else it holds no jitter. */
 } WalrConventions;
 
 typedef enum WalrLogLevel {
@@ -220,7 +220,7 @@ typedef struct WalrDenoiserInfo {
   WalrLog log;         /* Optional. */
   void* log_user;
   VkFormat object_id_format; /* Of WalrFrame::object_id, unsigned integers; VK_FORMAT_UNDEFINED: there is none. */
-  uint32_t reserved;
+  VkBool32 lint;             /* Check the inputs of every frame: see walr_get_findings. For debugging; costs a pass. */
 } WalrDenoiserInfo;
 
 /* No Vulkan object is made yet; see walr_prepare. */
@@ -360,6 +360,20 @@ typedef struct WalrPassTime {
 /* GPU times of the last frame that the GPU has finished; none without WalrDenoiserInfo::timestamps.
  * count: in: room at `times`; out: number of passes. `times` may be null. */
 WALR_API WalrResult walr_get_timings(WalrDenoiser denoiser, uint32_t* count, WalrPassTime* times);
+
+/* Something that looks wrong in the host's images or matrices. Valid until the next call that takes the denoiser. */
+typedef struct WalrFinding {
+  const char* name;    /* For programs: "motion-x-direction". */
+  const char* what;    /* What was found, with figures. */
+  const char* cause;   /* What it most likely comes from. */
+  const char* way_out; /* What to do about it. */
+} WalrFinding;
+
+/* What the frames that the GPU has finished say of the host's images and matrices, with WalrDenoiserInfo::lint. A frame
+ * is looked at when the one `frames_in_flight` after it is recorded; what is found for the first time is also logged.
+ * Resizing and changing settings start anew.
+ * count: in: room at `findings`; out: number of findings. `findings` may be null. */
+WALR_API WalrResult walr_get_findings(WalrDenoiser denoiser, uint32_t* count, WalrFinding* findings);
 
 #ifdef __cplusplus
 }

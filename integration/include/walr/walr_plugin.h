@@ -44,6 +44,7 @@ typedef struct WalrApi {
   WalrResult (*record_pass)(WalrPasses passes, uint32_t pass, VkCommandBuffer command_buffer,
                             const WalrPassResource* resources, uint32_t resource_count);
   WalrResult (*forget_pass_image)(WalrPasses passes, VkImage image, uint64_t identity);
+  WalrResult (*get_findings)(WalrDenoiser denoiser, uint32_t* count, WalrFinding* findings);
 } WalrApi;
 
 /* What a host offers to a plug-in. A function that returns false ends the registration. */

@@ -55,7 +55,8 @@ Reprojection reproject(const HostFrame& frame, const Image<Guide>& guides, glm::
   Reprojection r;
   for (int axis = 0; axis < 2; ++axis) {
     const double product = motion[axis];
-    const auto jitter = frame.scene.jitter ? double(constants.jitterDelta[axis]) : 0.0;
+    const bool jittered = frame.scene.jitter && (fromCamera || frame.conventions.motionJittered);
+    const auto jitter = jittered ? double(constants.jitterDelta[axis]) : 0.0;
     motion[axis] = product - jitter;
     if (!options.keepTaps) continue;
     // Single precision rounds both operations, or, where they are contracted, their result.

@@ -1,0 +1,37 @@
+#include "passes/lint_inputs.h"
+
+#include "passes/inspection.h"
+#include "shaders/shaders.h"
+
+namespace walr {
+
+static_assert(kLintWords <= kCounterWords);
+
+fg::Buffer addLintInputs(fg::Graph& graph, const DenoiserInputs& inputs, fg::Buffer counters) {
+  fg::PassBuilder clear = graph.compute("clear lint counters", shaders::countClear);
+  clear.dispatch({1, 1});
+  counters = clear.store("counters", counters);
+  const fg::Extent extent = graph.textureDesc(inputs.depth).extent;
+  fg::PassBuilder pass = graph.compute("lint inputs", shaders::lintInputs);
+  pass.uniform("frameConstants", inputs.frame)
+      .sample("lighting", inputs.lighting)
+      .sample("depth", inputs.depth)
+      .sample("normal", inputs.normal)
+      .sample("motion", inputs.motion)
+      .sample("albedo", inputs.albedo)
+      .specialize("kNormalsInWorldSpace", inputs.conventions.normal == InputConventions::Space::World)
+      .specialize("kMotionDepthGiven", inputs.conventions.motionDepth == InputConventions::MotionDepth::Given)
+      .specialize("kMotionJittered", inputs.conventions.motionJittered)
+      .texels(extent)
+      .dispatch(extent);
+  return pass.update("counters", counters);
+}
+
+void LintCounts::add(std::span<const std::uint32_t> words, bool afterAnother) {
+  for (std::uint32_t word = 0; word < kLintWords; ++word) {
+    const bool aboutMotion = word >= kLintMotionX && word < kLintNormalTested;
+    if (afterAnother || !aboutMotion) sums_[word] += words[word];
+  }
+}
+
+}  // namespace walr

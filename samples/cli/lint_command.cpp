@@ -1,0 +1,75 @@
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "passes/denoiser.h"
+#include "passes/input_linter.h"
+#include "samples/cli/arguments.h"
+#include "samples/cli/command.h"
+#include "samples/cli/exit_code.h"
+#include "samples/denoise/gpu_denoiser.h"
+#include "samples/errors.h"
+#include "samples/sequence/sequence.h"
+
+namespace walr {
+namespace {
+
+struct LintOptions {
+  std::filesystem::path input;
+  std::string frames;
+  GpuDevice::Options gpu;
+  SequenceOptions sequence;
+};
+
+void lint(LintOptions& options) {
+  if (!options.frames.empty()) options.sequence.frames = parseFrameRange(options.frames);
+  options.sequence.nonFinite = NonFinitePolicy::Replace;
+  const Sequence sequence(options.input, options.sequence);
+  const Layout& layout = *sequence.layout().layout;
+  GpuDevice device(options.gpu);
+  const std::unique_ptr<Denoiser> none = makeDenoiser("none");
+  GpuDenoiser runner(device, *none, sequence.extent(), layout, {.lint = true});
+  InputLinter linter(layout.conventions);
+  for (std::size_t i = 0; i < sequence.entries().size(); ++i) {
+    const PackedFrame frame = packFrame(sequence.read(i));
+    linter.add(runner.run(frame).lint, !frame.frame.resetHistory);
+    if (!frame.frame.resetHistory) linter.add(frameDescriptionOf(frame.frame, layout.motionScale), sequence.extent());
+  }
+  device.refuseMessages();
+  const std::vector<LintFinding> findings = linter.findings();
+  for (const LintFinding& finding : findings) std::cout << finding.text() << '\n';
+  std::cout.flush();
+  if (!findings.empty()) {
+    throw InputError(options.input.string() + ": " + std::to_string(findings.size()) +
+                     (findings.size() == 1 ? " thing looks" : " things look") + " wrong");
+  }
+  std::cout << sequence.entries().size() << " frames, nothing looks wrong\n";
+}
+
+}  // namespace
+
+void registerLint(CLI::App& program) {
+  const auto options = std::make_shared<LintOptions>();
+  CLI::App* command = program.add_subcommand("lint",
+                                             "Say in words what looks wrong in the frames of a sequence: values, "
+                                             "normals, depth, motion, jitter, albedo left in "
+                                             "the lighting; exit code 3 where something does");
+  command->add_option("INPUT", options->input, "Folder of frames, as for walr denoise")->required()->type_name("DIR");
+  command->add_option("--frames", options->frames, "Frame numbers to look at, both included; default: all")
+      ->type_name("A-B");
+  command
+      ->add_option("--device", options->gpu.device,
+                   "Vulkan device by number or part of its name; default: the most capable")
+      ->type_name("N|NAME");
+  command->add_flag("--validate", options->gpu.validation,
+                    "Run under the Khronos validation layer with synchronization validation; any message is an error");
+  command->add_option("--view-layer", options->sequence.viewLayer, "View layer to take where the files hold several")
+      ->type_name("NAME");
+  command->footer(kExitCodeHelp);
+  command->callback([options] { lint(*options); });
+}
+
+}  // namespace walr

@@ -1,0 +1,213 @@
+// Counts what looks wrong in a host's inputs, and which other convention would explain it. See constants/lint.h for what
+// is counted, and lint_findings.cpp for what is made of it.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_samplerless_texture_functions : require
+#include "constants/frame.h"
+#include "constants/lint.h"
+#include "include/camera.glsl"
+#include "include/finite.glsl"
+#include "include/luminance.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(constant_id = 0) const bool kNormalsInWorldSpace = false;
+layout(constant_id = 1) const bool kMotionDepthGiven = true;
+layout(constant_id = 2) const bool kMotionJittered = true;
+
+layout(set = 0, binding = 0, std140) uniform frameConstants { FrameConstants frame; };
+layout(set = 0, binding = 1) uniform texture2D lighting;
+layout(set = 0, binding = 2) uniform texture2D depth;
+layout(set = 0, binding = 3) uniform texture2D normal;
+layout(set = 0, binding = 4) uniform texture2D motion;
+layout(set = 0, binding = 5) uniform texture2D albedo;
+layout(set = 0, binding = 6, std430) buffer counters { uint words[]; };
+
+shared uint partial[kLintWords];
+
+void count(uint word, bool condition) {
+  if (condition) atomicAdd(partial[word], 1u);
+}
+
+bool inside(ivec2 p) { return all(lessThan(p, textureSize(depth, 0))); }
+bool isSurfaceDepth(float z) { return isFinite(z) && z > 0.0 && z < frame.skyDepth; }
+bool isInfinity(float z) { return floatBitsToUint(z) == 0x7f800000u; }
+
+float depthAt(ivec2 p) { return texelFetch(depth, p, 0).x; }
+vec3 normalAt(ivec2 p) { return texelFetch(normal, p, 0).xyz; }
+vec3 albedoAt(ivec2 p) { return texelFetch(albedo, p, 0).xyz; }
+bool isUsable(vec3 n) { return isFinite(n) && isFinite(length(n)) && length(n) > 0.0; }
+
+void countValues(vec3 light, float z) {
+  count(kLintPixels, true);
+  count(kLintSurfaces, isSurfaceDepth(z));
+  count(kLintDepthNotFinite, !isFinite(z) && !isInfinity(z));
+  count(kLintDepthNegative, isFinite(z) && z < 0.0);
+  count(kLintDepthZero, z == 0.0);
+  count(kLintLightingNotFinite, !isFinite(light));
+  count(kLintLightingNegative, isFinite(light) && any(lessThan(light, vec3(0.0))));
+}
+
+void countSurfaceValues(vec3 n, vec2 xy, vec3 diffuse) {
+  // Eight bits a component round a unit vector's length by sqrt(3) / 255 at most, a third of this.
+  const float kUnitTolerance = 0.02;
+  const bool zero = all(equal(n, vec3(0.0)));
+  count(kLintNormalNotFinite, !isFinite(n));
+  count(kLintNormalZero, zero);
+  count(kLintNormalNotUnit, isFinite(n) && !zero && !(abs(length(n) - 1.0) <= kUnitTolerance));
+  count(kLintMotionNotFinite, !isFinite(xy));
+  count(kLintAlbedoNotFinite, !isFinite(diffuse));
+  count(kLintAlbedoOutside,
+        isFinite(diffuse) && (any(lessThan(diffuse, vec3(0.0))) || any(greaterThan(diffuse, vec3(1.0)))));
+  count(kLintDiffuse, isFinite(diffuse) && any(greaterThanEqual(diffuse, vec3(kAlbedoLeast))));
+}
+
+// Whether `given` is `scale` times what is expected, to a quarter.
+bool isTimes(float given, float scale, float expected) {
+  return abs(given - scale * expected) < 0.25 * abs(scale * expected);
+}
+
+void countReading(uint base, float given, float expected, float size) {
+  count(base + kReadingTested, true);
+  uint reading = kReadings;
+  const float scales[4] = float[](1.0, 1.0 / size, 2.0 / size, size);
+  for (uint i = 0u; i < 4u; ++i) {
+    if (isTimes(given, scales[i], expected)) reading = kReadingAsStated + 2u * i;
+    if (isTimes(given, -scales[i], expected)) reading = kReadingAsStated + 2u * i + 1u;
+  }
+  // What is smaller than any of these.
+  if (abs(given) * size < 0.25 * abs(expected)) reading = kReadingNone;
+  count(base + reading, reading < kReadings);
+}
+
+// `given` as a host says that it is: pixels, y down.
+void countMotion(ivec2 p, float z, vec2 given, float givenDepth) {
+  const vec3 before = stillBefore(frame.previousViewFromView, rayThrough(frame.rayFromPixel, pixelCentre(p)) * z);
+  if (!(before.z < 0.0) || !isFinite(given)) return;
+  // Between the jittered images, as both rays are.
+  const vec2 betweenImages = pixelOf(frame.previousRayFromPixel, before) - pixelCentre(p);
+  const vec2 still = betweenImages - frame.jitterDelta;
+  const vec2 expected = kMotionJittered ? betweenImages : still;
+  const vec2 residual = given - expected;
+  const float jitter = length(frame.jitterDelta);
+
+  const float kLeastMotion = 0.25;  // Pixels: where a quarter of it is more than roundoff, and than a sample's place.
+  if (abs(still.x) > kLeastMotion + 4.0 * jitter)
+    countReading(kLintMotionX, given.x, expected.x, float(textureSize(depth, 0).x));
+  if (abs(still.y) > kLeastMotion + 4.0 * jitter)
+    countReading(kLintMotionY, given.y, expected.y, float(textureSize(depth, 0).y));
+  if (length(still) < 0.05) {
+    count(kLintStillTested, true);
+    count(kLintStillMoves, length(residual) > 0.5 + 2.0 * jitter);
+  }
+  if (jitter > 0.125) {
+    const vec2 included = kMotionJittered ? -frame.jitterDelta : frame.jitterDelta;
+    const vec2 opposite = kMotionJittered ? -2.0 * frame.jitterDelta : -frame.jitterDelta;
+    count(kLintJitterTested, true);
+    count(kLintJitterAsStated, length(residual) < 0.25 * jitter);
+    count(kLintJitterOther, length(residual - included) < 0.25 * jitter);
+    count(kLintJitterOpposite, length(residual - opposite) < 0.25 * jitter);
+  }
+  const float away = -before.z - z;
+  if (kMotionDepthGiven && abs(away) > 0.005 * z) {
+    count(kLintMotionZ + kReadingTested, true);
+    count(kLintMotionZ + kReadingAsStated, isTimes(givenDepth, 1.0, away));
+    count(kLintMotionZ + kReadingOpposite, isTimes(givenDepth, -1.0, away));
+    count(kLintMotionZ + kReadingNone, abs(givenDepth) < 0.05 * abs(away));
+  }
+}
+
+// View depth behind what the host wrote, by hypothesis and up to a factor, which no slope depends on.
+float assumedDepth(uint hypothesis, float z, vec3 ray) {
+  switch (hypothesis) {
+    case kHypothesisInverseDepth: return 1.0 / z;
+    case kHypothesisDeviceDepth: return 1.0 / max(1.0 - z, 1e-7);
+    case kHypothesisDistance: return z / length(ray);
+  }
+  return z;
+}
+
+vec3 assumedPosition(uint hypothesis, ivec2 p) {
+  const vec3 ray = rayThrough(frame.rayFromPixel, pixelCentre(p));
+  return ray * assumedDepth(hypothesis, depthAt(p), ray);
+}
+
+// Normal of the surface that depth shows, by hypothesis.
+vec3 slopeNormal(uint hypothesis, ivec2 p) {
+  return normalize(cross(assumedPosition(hypothesis, p + ivec2(0, 1)) - assumedPosition(hypothesis, p - ivec2(0, 1)),
+                         assumedPosition(hypothesis, p + ivec2(1, 0)) - assumedPosition(hypothesis, p - ivec2(1, 0))));
+}
+
+bool isSmoothAlong(ivec2 p, ivec2 axis, float z) {
+  const float left = depthAt(p - axis), right = depthAt(p + axis);
+  return isSurfaceDepth(left) && isSurfaceDepth(right) &&
+         abs(left + right - 2.0 * z) < 0.1 * abs(right - left) + 1e-3 * z;
+}
+
+vec3 inViewSpace(vec3 n, bool world) { return normalize(world ? mat3(frame.viewFromWorld) * n : n); }
+
+void countNormals(ivec2 p, float z, vec3 n) {
+  if (any(lessThan(p, ivec2(1))) || !inside(p + 1)) return;
+  if (!isUsable(n) || !isSmoothAlong(p, ivec2(1, 0), z) || !isSmoothAlong(p, ivec2(0, 1), z)) return;
+  const vec3 stated = inViewSpace(n, kNormalsInWorldSpace);
+  const float fit = abs(dot(stated, slopeNormal(kHypothesisOtherSpace, p)));
+  if (!isFinite(fit)) return;
+  count(kLintNormalTested, true);
+  count(kLintNormalFits, fit > kFittingCosine);
+  for (uint h = 0u; h < kHypothesisCount; ++h) {
+    vec3 assumed = stated;
+    if (h == kHypothesisOtherSpace) assumed = inViewSpace(n, !kNormalsInWorldSpace);
+    if (h == kHypothesisFlippedY) assumed = inViewSpace(n * vec3(1.0, -1.0, 1.0), kNormalsInWorldSpace);
+    const float otherFit = abs(dot(assumed, slopeNormal(h, p)));
+    const float kMargin = 0.02;
+    count(kLintHypotheses + 2u * h, otherFit > fit + kMargin);
+    count(kLintHypotheses + 2u * h + 1u, fit > otherFit + kMargin);
+  }
+}
+
+void countOrder(uint base, float light) {
+  const float order = light > 0.0 ? clamp(floor(log2(light)) + float(kLintUnitOrder), 1.0, float(kLintOrders) - 1.0) : 0.0;
+  count(base + uint(order), true);
+}
+
+void countPair(ivec2 p, ivec2 q, float z, vec3 n, vec3 light, vec3 diffuse) {
+  if (!inside(q)) return;
+  const float otherDepth = depthAt(q);
+  const vec3 otherNormal = normalAt(q);
+  const vec3 otherLight = texelFetch(lighting, q, 0).rgb;
+  const vec3 otherDiffuse = albedoAt(q);
+  if (!isUsable(n) || !isUsable(otherNormal) || !isFinite(light) || !isFinite(otherLight)) return;
+  if (!isSurfaceDepth(otherDepth) || abs(otherDepth - z) > 0.02 * z) return;
+  if (dot(n, otherNormal) < 0.99 * length(n) * length(otherNormal)) return;
+  const float here = luminance(diffuse), there = luminance(otherDiffuse);
+  if (!(min(here, there) >= kAlbedoLeast) || max(here, there) < kAlbedoContrast * min(here, there)) return;
+  count(kLintPairs, true);
+  countOrder(here > there ? kLintLightMore : kLintLightLess, luminance(light));
+  countOrder(here > there ? kLintLightLess : kLintLightMore, luminance(otherLight));
+  countOrder(here > there ? kLintDividedMore : kLintDividedLess, luminance(light) / here);
+  countOrder(here > there ? kLintDividedLess : kLintDividedMore, luminance(otherLight) / there);
+}
+
+void countPixel(ivec2 p) {
+  const vec3 light = texelFetch(lighting, p, 0).rgb;
+  const float z = depthAt(p);
+  countValues(light, z);
+  if (!isSurfaceDepth(z)) return;
+  const vec3 n = normalAt(p);
+  const vec3 given = texelFetch(motion, p, 0).xyz;
+  const vec3 diffuse = albedoAt(p);
+  countSurfaceValues(n, given.xy, diffuse);
+  countMotion(p, z, given.xy * frame.motionScale, given.z);
+  countNormals(p, z, n);
+  countPair(p, p + ivec2(1, 0), z, n, light, diffuse);
+  countPair(p, p + ivec2(0, 1), z, n, light, diffuse);
+}
+
+void main() {
+  for (uint i = gl_LocalInvocationIndex; i < kLintWords; i += gl_WorkGroupSize.x * gl_WorkGroupSize.y) partial[i] = 0u;
+  barrier();
+  const ivec2 p = ivec2(gl_GlobalInvocationID.xy);
+  if (inside(p)) countPixel(p);
+  barrier();
+  for (uint i = gl_LocalInvocationIndex; i < kLintWords; i += gl_WorkGroupSize.x * gl_WorkGroupSize.y)
+    if (partial[i] > 0u) atomicAdd(words[i], partial[i]);
+}

@@ -1,0 +1,253 @@
+// The linter of inputs: every complaint is made of input that is spoiled in just that way, and none of good input.
+#include "passes/input_linter.h"
+
+#include <algorithm>
+#include <functional>
+#include <limits>
+#include <random>
+#include <string>
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "passes/inspection.h"
+#include "tests/passes/host_textures.h"
+#include "tests/passes/synthetic_scene.h"
+#include "tests/vulkan/gpu_fixture.h"
+
+namespace walr::test {
+namespace {
+
+using reference::forEachPixel;
+using reference::HostFrame;
+
+constexpr glm::ivec2 kSize(96, 72);
+constexpr fg::Extent kExtent{96, 72};
+constexpr std::uint32_t kFrames = 3;
+
+/// A camera that is turned against the world's axes, walks and turns: motion has every component.
+FrameDescription camera(std::uint32_t frame, bool jittered, bool still) {
+  const auto viewAt = [&](double time) {
+    const glm::dmat4 turn = glm::rotate(glm::dmat4(1.0), 0.35 + 0.015 * time, glm::normalize(glm::dvec3(1, 1, 0.3)));
+    return glm::mat4(glm::translate(turn, -time * glm::dvec3(0.06, 0.05, -0.12)));
+  };
+  FrameDescription description = cameraAt({}, {}, kSize, frame);
+  const double time = still ? 0.0 : frame;
+  description.view = viewAt(time);
+  description.previousView = viewAt(std::max(time - 1.0, 0.0));
+  const auto jitterAt = [](std::uint32_t n) {
+    return glm::vec2(n % 2 == 0 ? 0.3F : -0.2F, n % 2 == 0 ? -0.25F : 0.4F);
+  };
+  if (jittered) {
+    description.jitter = jitterAt(frame);
+    description.previousJitter = jitterAt(frame + 1);
+  }
+  return description;
+}
+
+/// What a host hands over for a frame.
+struct Handed {
+  HostFrame frame;
+  FrameDescription camera;
+};
+
+/// One way to write, or to spoil, a sequence.
+struct Case {
+  const char* name;
+  std::vector<std::string> findings;  ///< In their order.
+  std::function<void(Handed&)> spoil = [](Handed&) {};
+  bool jittered = false;
+  bool still = false;
+  InputConventions conventions = {};
+};
+
+void PrintTo(const Case& c, std::ostream* out) {
+  *out << c.name;
+}
+
+Handed render(std::uint32_t index, const Case& c) {
+  Handed handed{{}, camera(index, c.jittered, c.still)};
+  handed.frame = renderFrame(sphere(), handed.camera, kSize);
+  forEachPixel(kSize, [&](glm::ivec2 p) {
+    glm::dvec3& normal = handed.frame.normal[p];
+    if (normal != glm::dvec3(0.0)) normal = glm::normalize(normal);
+    // Tiles of unlike albedo.
+    if (handed.frame.albedo[p].x > 0.0) handed.frame.albedo[p] = glm::dvec3((p.x / 3 + p.y / 3) % 2 == 0 ? 0.75 : 0.15);
+  });
+  return handed;
+}
+
+template <typename Apply>
+std::function<void(Handed&)> eachPixel(Apply apply) {
+  return [apply](Handed& handed) mutable { forEachPixel(kSize, [&](glm::ivec2 p) { apply(handed.frame, p); }); };
+}
+
+glm::dmat3 worldFromView(const HostFrame& frame) {
+  return glm::transpose(glm::dmat3(glm::mat3(frame.constants.viewFromWorld)));
+}
+
+class Lint : public fg::test::GpuTest, public testing::WithParamInterface<Case> {
+ protected:
+  std::vector<LintFinding> lint(const Case& c) const {
+    fg::Graph graph;
+    const DenoiserInputs inputs = importInputs(graph, kSize, c.conventions);
+    const fg::Buffer imported = graph.import("counters", fg::BufferDesc{kCounterBytes}, fg::vk::kOverwritable);
+    const fg::Buffer counters = addLintInputs(graph, inputs, imported);
+    graph.exported(counters, fg::vk::kReadable);
+    fg::test::GraphRun run(device(), graph);
+    InputLinter linter(c.conventions);
+    for (std::uint32_t i = 0; i < kFrames; ++i) {
+      Handed handed = render(i, c);
+      c.spoil(handed);
+      upload(run, inputs, handed.frame);
+      const std::uint32_t slot = run.submitFrame();
+      run.finish();
+      linter.add(run.elements<std::uint32_t>(counters, slot), i > 0);
+      if (i > 0) linter.add(handed.camera, kExtent);
+    }
+    return linter.findings();
+  }
+};
+
+std::vector<Case> cases() {
+  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  constexpr auto kWorld = InputConventions::Space::World;
+  const auto toWorld = eachPixel([](HostFrame& f, glm::ivec2 p) { f.normal[p] = worldFromView(f) * f.normal[p]; });
+  const auto scaledMotion = [](glm::dvec3 scale) {
+    return eachPixel([scale](HostFrame& f, glm::ivec2 p) { f.motion[p] *= scale; });
+  };
+  const glm::dvec2 size(kSize);
+  std::vector<Case> all{
+      {"good", {}},
+      {"good, still", {}, [](Handed&) {}, false, true},
+      {"good, jittered", {}, [](Handed&) {}, true},
+      {"good, still and jittered", {}, [](Handed&) {}, true, true},
+      {"good, normals in world space", {}, toWorld, false, false, {.normal = kWorld}},
+      {"lighting not finite",
+       {"lighting-not-finite"},
+       [=](Handed& h) {
+         h.frame.lighting[{40, 30}].g = kNaN;
+       }},
+      {"depth not finite",
+       {"depth-not-finite"},
+       [=](Handed& h) {
+         h.frame.depth[{40, 30}] = kNaN;
+       }},
+      {"normals not finite",
+       {"normal-not-finite"},
+       [=](Handed& h) {
+         h.frame.normal[{40, 30}].x = kNaN;
+       }},
+      {"motion not finite",
+       {"motion-not-finite"},
+       [=](Handed& h) {
+         h.frame.motion[{40, 30}].y = kNaN;
+       }},
+      {"albedo not finite",
+       {"albedo-not-finite"},
+       [=](Handed& h) {
+         h.frame.albedo[{40, 30}].z = kNaN;
+       }},
+      {"lighting negative", {"lighting-negative"}, eachPixel([](HostFrame& f, glm::ivec2 p) {
+         f.lighting[p] -= glm::dvec3(0.5);
+       })},
+      {"normals in 0..1", {"normal-not-unit"}, eachPixel([](HostFrame& f, glm::ivec2 p) {
+         f.normal[p] = f.normal[p] * 0.5 + 0.5;
+       })},
+      {"normals not normalised", {"normal-not-unit"}, eachPixel([](HostFrame& f, glm::ivec2 p) {
+         f.normal[p] *= 0.9;
+       })},
+      {"normals missing", {"normal-empty"}, eachPixel([](HostFrame& f, glm::ivec2 p) { f.normal[p] = {}; })},
+      {"normals in world space", {"normal-space"}, toWorld},
+      {"normals in view space", {"normal-space"}, [](Handed&) {}, false, false, {.normal = kWorld}},
+      {"normals with y down", {"normal-y"}, eachPixel([](HostFrame& f, glm::ivec2 p) { f.normal[p].y *= -1.0; })},
+      {"normals at random", {"normal-depth"}, eachPixel([random = std::mt19937(5)](HostFrame& f, glm::ivec2 p) mutable {
+         std::normal_distribution<double> component;
+         f.normal[p] = glm::normalize(glm::dvec3(component(random), component(random), component(random)));
+       })},
+      {"depth negative", {"depth-sign"}, eachPixel([](HostFrame& f, glm::ivec2 p) { f.depth[p] *= -1.0; })},
+      {"depth missing", {"depth-empty"}, eachPixel([](HostFrame& f, glm::ivec2 p) { f.depth[p] = 0.0; })},
+      {"sky alone", {"sky-only"}, eachPixel([](HostFrame& f, glm::ivec2 p) { f.depth[p] = 2e9; })},
+      {"depth reversed",
+       {"depth-reversed"},
+       eachPixel([](HostFrame& f, glm::ivec2 p) { f.depth[p] = 0.1 / f.depth[p]; }),
+       false,
+       true},
+      {"depth of a projection",
+       {"depth-device"},
+       eachPixel([](HostFrame& f, glm::ivec2 p) { f.depth[p] = 1.0 - 0.1 / f.depth[p]; }),
+       false,
+       true},
+      {"distance for depth",
+       {"depth-distance"},
+       eachPixel([](HostFrame& f, glm::ivec2 p) {
+         f.depth[p] *= glm::length(reference::rayThrough(f.constants.rayFromPixel, reference::pixelCentre(p)));
+       }),
+       false,
+       true},
+      {"albedo missing", {"albedo-empty"}, eachPixel([](HostFrame& f, glm::ivec2 p) { f.albedo[p] = {}; })},
+      {"albedo above 1", {"albedo-range"}, eachPixel([](HostFrame& f, glm::ivec2 p) { f.albedo[p] *= 3.0; })},
+      {"albedo in the lighting", {"albedo-in-lighting"}, eachPixel([](HostFrame& f, glm::ivec2 p) {
+         f.lighting[p] *= f.albedo[p];
+       })},
+      {"motion current minus previous", {"motion-x-direction", "motion-y-direction"}, scaledMotion({-1.0, -1.0, 1.0})},
+      {"motion with y up", {"motion-y-direction"}, scaledMotion({1.0, -1.0, 1.0})},
+      {"motion in pictures", {"motion-x-unit", "motion-y-unit"}, scaledMotion({1.0 / size, 1.0})},
+      {"motion in pictures, y up",
+       {"motion-x-unit", "motion-y-unit"},
+       scaledMotion({1.0 / size.x, -1.0 / size.y, 1.0})},
+      {"motion in clip space", {"motion-x-unit", "motion-y-unit"}, scaledMotion({2.0 / size.x, -2.0 / size.y, 1.0})},
+      {"motion in pixels stated in pictures",
+       {"motion-x-unit", "motion-y-unit"},
+       [](Handed& h) { h.frame.constants.motionScale = glm::vec2(kSize); }},
+      {"motion missing", {"motion-x-missing", "motion-y-missing"}, scaledMotion({0.0, 0.0, 1.0})},
+      {"motion.z reversed", {"motion-z-direction"}, scaledMotion({1.0, 1.0, -1.0})},
+      {"motion.z missing", {"motion-z-missing"}, scaledMotion({1.0, 1.0, 0.0})},
+      {"previous camera is this one",
+       {"camera-still"},
+       [](Handed& h) {
+         h.camera.previousView = h.camera.view;
+         h.frame.constants = frameConstants(h.camera, kExtent);
+       }},
+      {"jitter in the motion", {"motion-jitter"}, [](Handed&) {}, true, false, {.motionJittered = false}},
+      {"jitter not in the motion",
+       {"motion-jitter"},
+       [](Handed& h) {
+         forEachPixel(kSize,
+                      [&](glm::ivec2 p) { h.frame.motion[p] -= glm::dvec3(h.frame.constants.jitterDelta, 0.0F); });
+       },
+       true},
+      {"jitter with the other sign",
+       {"jitter-sign"},
+       [](Handed& h) {
+         h.camera.jitter = -h.camera.jitter;
+         h.camera.previousJitter = -h.camera.previousJitter;
+         h.frame.constants = frameConstants(h.camera, kExtent);
+       },
+       true},
+      {"jitter in the matrices",
+       {"jitter-in-matrices"},
+       [](Handed& h) {
+         const glm::vec2 clip = glm::vec2(2.0F, -2.0F) / glm::vec2(kSize);
+         for (int axis = 0; axis < 2; ++axis) {
+           h.camera.projection[2][axis] += h.camera.jitter[axis] * clip[axis];
+           h.camera.previousProjection[2][axis] += h.camera.previousJitter[axis] * clip[axis];
+         }
+       },
+       true},
+  };
+  return all;
+}
+
+TEST_P(Lint, ComplainsOfWhatIsWrongAndOfNothingElse) {
+  std::vector<std::string> names;
+  std::string texts;
+  for (const LintFinding& finding : lint(GetParam())) {
+    names.emplace_back(finding.name);
+    texts += finding.text() + "\n";
+  }
+  EXPECT_EQ(names, GetParam().findings) << texts;
+}
+INSTANTIATE_TEST_SUITE_P(Inputs, Lint, testing::ValuesIn(cases()));
+
+}  // namespace
+}  // namespace walr::test

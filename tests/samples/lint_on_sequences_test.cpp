@@ -1,0 +1,74 @@
+// The linter of inputs on real path-traced frames, where they are at hand: good as they are, and spoiled.
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "passes/input_linter.h"
+#include "samples/denoise/gpu_denoiser.h"
+#include "samples/sequence/sequence.h"
+
+namespace walr {
+namespace {
+
+/// What is found in a sequence whose frames are changed first.
+std::vector<std::string> findings(const Sequence& sequence, const std::function<void(Frame&)>& change) {
+  const Layout& layout = *sequence.layout().layout;
+  const GpuDevice device({.device = {}, .validation = false});
+  const auto none = makeDenoiser("none");
+  GpuDenoiser runner(device, *none, sequence.extent(), layout, {.lint = true});
+  InputLinter linter(layout.conventions);
+  for (std::size_t i = 0; i < sequence.entries().size(); ++i) {
+    Frame frame = sequence.read(i);
+    change(frame);
+    const PackedFrame packed = packFrame(std::move(frame));
+    linter.add(runner.run(packed).lint, !packed.frame.resetHistory);
+    if (!packed.frame.resetHistory) {
+      linter.add(frameDescriptionOf(packed.frame, layout.motionScale), sequence.extent());
+    }
+  }
+  std::vector<std::string> names;
+  for (const LintFinding& finding : linter.findings()) names.emplace_back(finding.name);
+  return names;
+}
+
+using Names = std::vector<std::string>;
+
+class LintOnSequence : public testing::TestWithParam<const char*> {
+ protected:
+  static std::filesystem::path folder() { return std::filesystem::path(WALR_SEQUENCES) / GetParam(); }
+  void SetUp() override {
+    if (!std::filesystem::exists(folder())) GTEST_SKIP() << folder() << " is not here: nothing to look at";
+  }
+};
+
+TEST_P(LintOnSequence, NothingLooksWrong) {
+  EXPECT_EQ(findings(Sequence(folder(), {}), [](Frame&) {}), Names{});
+}
+
+INSTANTIATE_TEST_SUITE_P(Sequences, LintOnSequence, testing::Values("cornell_fence", "sponza"));
+
+// In one path a pixel the contrast of an albedo drowns, and must be found all the same.
+TEST(LintOnNoise, FindsAlbedoAndMotion) {
+  const std::filesystem::path folder = std::filesystem::path(WALR_SEQUENCES) / "sponza";
+  if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is not here: nothing to look at";
+  SequenceOptions options;
+  options.frames = {16, 19};
+  const Sequence sequence(folder, options);
+  EXPECT_EQ(findings(sequence,
+                     [](Frame& frame) {
+                       const auto albedo = frame.albedo.values();
+                       for (std::size_t i = 0; i < albedo.size(); ++i) frame.indirect.values()[i] *= albedo[i];
+                     }),
+            Names{"albedo-in-lighting"});
+  EXPECT_EQ(findings(sequence,
+                     [](Frame& frame) {
+                       for (float& value : frame.motion.values()) value = -value;
+                     }),
+            (Names{"motion-x-direction", "motion-y-direction"}));
+}
+
+}  // namespace
+}  // namespace walr
