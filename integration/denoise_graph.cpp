@@ -50,11 +50,11 @@ DenoiseGraph declareDenoiseGraph(Denoiser& method, fg::Extent extent, const Inpu
   fg::Graph& graph = declared.graph;
   const fg::TextureDesc result{.format = kOutputFormat, .extent = extent};
   declared.inputs = importInputs(graph, extent, conventions, states.inputs, formats, host);
-  if (host.needsConstants()) declared.host = graph.upload(std::string(kHostName), sizeof(HostConstants));
+  if (host.convertsInputs()) declared.host = graph.upload(std::string(kHostName), sizeof(HostConstants));
   declared.output = graph.import(std::string(kOutputName), result, states.outputBefore);
 
   const DenoiserInputs inputs = addConvertInputs(graph, declared.inputs, host, declared.host);
-  const fg::Texture target = host.preExposed ? graph.texture("result without exposure", result) : declared.output;
+  const fg::Texture target = host.convertsResult() ? graph.texture("result to convert", result) : declared.output;
   Inspection& inspection = declared.inspection;
   for (const std::string& view : wanted.views) {
     inspection.want(view,
@@ -71,7 +71,7 @@ DenoiseGraph declareDenoiseGraph(Denoiser& method, fg::Extent extent, const Inpu
   fg::Texture denoised = method.add(graph, inputs, target, &inspection);
   for (const DebugView& view : inspection.views()) graph.exported(view.texture, states.outputAfter);
   if (!inspection.counters().empty()) graph.exported(inspection.counterBuffer(), states.outputAfter);
-  if (host.preExposed) denoised = addExposure(graph, denoised, declared.output, declared.host);
+  if (host.convertsResult()) denoised = addConvertResult(graph, denoised, declared.output, declared.host);
   graph.exported(denoised, states.outputAfter);
   return declared;
 }

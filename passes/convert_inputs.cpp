@@ -8,10 +8,13 @@
 namespace walr {
 namespace {
 
+constexpr VkFormat kColour = VK_FORMAT_R16G16B16A16_SFLOAT;
+
 /// A conversion without its output.
-fg::PassBuilder convert(fg::Graph& graph, const std::string& what, const fg::Shader& shader, fg::Texture source) {
+fg::PassBuilder convert(fg::Graph& graph, const std::string& what, const fg::Shader& shader, fg::Texture source,
+                        fg::Buffer host) {
   fg::PassBuilder pass = graph.compute("convert " + what, shader);
-  pass.sample("source", source).dispatch(graph.textureDesc(source).extent);
+  pass.sample("source", source).uniform("hostConstants", host).dispatch(graph.textureDesc(source).extent);
   return pass;
 }
 
@@ -20,57 +23,71 @@ fg::Texture converted(fg::Graph& graph, const std::string& what, VkFormat format
 }
 
 fg::Texture convertDepth(fg::Graph& graph, fg::Texture depth, HostConventions::Depth kind, fg::Buffer host) {
-  fg::PassBuilder pass = convert(graph, "depth", shaders::convertInputDepth, depth);
-  pass.uniform("hostConstants", host).specialize("kDevice", kind == HostConventions::Depth::Device);
+  fg::PassBuilder pass = convert(graph, "depth", shaders::convertInputDepth, depth, host);
+  pass.specialize("kDevice", kind == HostConventions::Depth::Device)
+      .specialize("kNegative", kind == HostConventions::Depth::NegativeLinear);
   return pass.store("target", converted(graph, "depth", VK_FORMAT_R32_SFLOAT, depth));
 }
 
-fg::Texture convertNormal(fg::Graph& graph, fg::Texture normal, const HostConventions& conventions) {
+fg::Texture convertNormal(fg::Graph& graph, fg::Texture normal, const HostConventions& conventions, fg::Buffer host) {
   using Normal = HostConventions::Normal;
   const Normal kind = conventions.normal;
-  fg::PassBuilder pass = convert(graph, "normal", shaders::convertInputNormal, normal);
+  fg::PassBuilder pass = convert(graph, "normal", shaders::convertInputNormal, normal, host);
   pass.specialize("kUnsigned", kind == Normal::Unsigned || kind == Normal::OctahedralUnsigned)
       .specialize("kOctahedral", conventions.octahedral());
-  return pass.store("target", converted(graph, "normal", VK_FORMAT_R16G16B16A16_SFLOAT, normal));
+  return pass.store("target", converted(graph, "normal", kColour, normal));
+}
+
+fg::Texture convertMotion(fg::Graph& graph, fg::Texture motion, bool reversed, fg::Buffer host) {
+  fg::PassBuilder pass = convert(graph, "motion", shaders::convertInputMotion, motion, host);
+  pass.specialize("kReversed", reversed);
+  return pass.store("target", converted(graph, "motion", VK_FORMAT_R32G32B32A32_SFLOAT, motion));
 }
 
 }  // namespace
 
-HostConstants hostConstants(const glm::mat4& projection, float exposure) {
+HostConstants hostConstants(const glm::mat4& projection, float exposure, glm::ivec2 offset) {
   if (!(exposure > 0.0F && 1.0F / exposure > 0.0F)) {
     throw std::invalid_argument("the exposure is " + std::to_string(exposure) + ": it must be more than 0");
   }
   // Device depth = (z row * view position).z / depth, where z of view space is -depth: -[2][2] + [3][2] / depth.
   return {.depthFromDevice = {projection[3][2], projection[2][2]},
           .exposure = exposure,
-          .inverseExposure = 1.0F / exposure};
+          .inverseExposure = 1.0F / exposure,
+          .offset = offset};
 }
 
 DenoiserInputs addConvertInputs(fg::Graph& graph, DenoiserInputs inputs, const HostConventions& conventions,
                                 fg::Buffer host) {
-  if (conventions.depth != HostConventions::Depth::Linear) {
+  const bool all = conventions.rectangle;
+  if (all || conventions.depth != HostConventions::Depth::Linear) {
     inputs.depth = convertDepth(graph, inputs.depth, conventions.depth, host);
   }
-  if (conventions.normal != HostConventions::Normal::Signed) {
-    inputs.normal = convertNormal(graph, inputs.normal, conventions);
+  if (all || conventions.normal != HostConventions::Normal::Signed) {
+    inputs.normal = convertNormal(graph, inputs.normal, conventions, host);
   }
-  if (conventions.motionDepthReversed) {
-    inputs.motion = convert(graph, "motion", shaders::convertInputMotion, inputs.motion)
-                        .store("target", converted(graph, "motion", VK_FORMAT_R32G32B32A32_SFLOAT, inputs.motion));
+  if (all || conventions.motionDepthReversed) {
+    inputs.motion = convertMotion(graph, inputs.motion, conventions.motionDepthReversed, host);
   }
-  if (conventions.preExposed) {
-    fg::PassBuilder pass = convert(graph, "lighting", shaders::convertInputExposure, inputs.lighting);
-    pass.uniform("hostConstants", host).specialize("kApply", false);
+  if (all || conventions.preExposed) {
+    fg::PassBuilder pass = convert(graph, "lighting", shaders::convertInputExposure, inputs.lighting, host);
     inputs.lighting =
-        pass.store("target", converted(graph, "lighting", VK_FORMAT_R16G16B16A16_SFLOAT, inputs.lighting));
+        pass.specialize("kBack", false).store("target", converted(graph, "lighting", kColour, inputs.lighting));
+  }
+  if (all) {
+    inputs.albedo = convert(graph, "albedo", shaders::convertInputCopy, inputs.albedo, host)
+                        .store("target", converted(graph, "albedo", kColour, inputs.albedo));
+  }
+  if (all && inputs.objectId.valid()) {
+    inputs.objectId = convert(graph, "object numbers", shaders::convertInputNumbers, inputs.objectId, host)
+                          .store("target", converted(graph, "object numbers", VK_FORMAT_R32_UINT, inputs.objectId));
   }
   return inputs;
 }
 
-fg::Texture addExposure(fg::Graph& graph, fg::Texture denoised, fg::Texture output, fg::Buffer host) {
-  fg::PassBuilder pass = convert(graph, "result", shaders::convertInputExposure, denoised);
-  pass.uniform("hostConstants", host).specialize("kApply", true);
-  return pass.store("target", output);
+fg::Texture addConvertResult(fg::Graph& graph, fg::Texture denoised, fg::Texture output, fg::Buffer host) {
+  fg::PassBuilder pass = convert(graph, "result", shaders::convertInputExposure, denoised, host);
+  return pass.specialize("kBack", true).store("target", output);
 }
 
 }  // namespace walr

@@ -30,30 +30,37 @@ struct HostConventions {
   Normal normal = Normal::Signed;
   bool motionDepthReversed = false;  ///< motion.z is current minus previous view depth.
   bool preExposed = false;  ///< Lighting is multiplied by an exposure that changes, and the result is to be, too.
+  /// Textures, the result's among them, may be larger than what is denoised, which starts at `HostConstants::offset`.
+  bool rectangle = false;
 
   [[nodiscard]] bool octahedral() const {
     return normal == Normal::OctahedralSigned || normal == Normal::OctahedralUnsigned;
   }
-  [[nodiscard]] bool needsConstants() const { return depth != Depth::Linear || preExposed; }
+  /// Whether anything is converted.
+  [[nodiscard]] bool convertsInputs() const {
+    return depth != Depth::Linear || normal != Normal::Signed || motionDepthReversed || convertsResult();
+  }
+  [[nodiscard]] bool convertsResult() const { return preExposed || rectangle; }
 };
 
 /// The uniform block of the conversion.
 /// @param projection view to clip space with the z row of the host's device depth
 /// @param exposure   more than 0
+/// @param offset     see `HostConventions::rectangle`
 /// @throws std::invalid_argument for another exposure
-HostConstants hostConstants(const glm::mat4& projection, float exposure);
+HostConstants hostConstants(const glm::mat4& projection, float exposure, glm::ivec2 offset = {});
 
 /// Convert what differs.
 /// @param inputs as the host writes them
-/// @param host   upload of `HostConstants`; not used where `needsConstants` says so
+/// @param host   upload of `HostConstants`; not used where `convertsInputs` says so
 /// @returns inputs as the project takes them
 DenoiserInputs addConvertInputs(fg::Graph& graph, DenoiserInputs inputs, const HostConventions& conventions,
                                 fg::Buffer host);
 
-/// Multiply the result by the exposure of the frame.
+/// Multiply the result by the exposure of the frame and write it to its place.
 /// @param denoised RGBA16F
 /// @param output   RGBA16F texture to write to
 /// @returns the output's new version
-fg::Texture addExposure(fg::Graph& graph, fg::Texture denoised, fg::Texture output, fg::Buffer host);
+fg::Texture addConvertResult(fg::Graph& graph, fg::Texture denoised, fg::Texture output, fg::Buffer host);
 
 }  // namespace walr

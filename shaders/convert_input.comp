@@ -1,4 +1,5 @@
-// Converts one texture from a host's conventions to the project's. Compiled once for each texture.
+// Converts one texture from a host's conventions to the project's, and the result back. Compiled once for each texture. A
+// host's texture may be larger than what is denoised.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -6,24 +7,33 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
+#ifdef NUMBERS
+layout(set = 0, binding = 0) uniform utexture2D source;
+layout(set = 0, binding = 1, r32ui) uniform writeonly uimage2D target;
+#else
 layout(set = 0, binding = 0) uniform texture2D source;
+#endif
 #ifdef DEPTH
 layout(set = 0, binding = 1, r32f) uniform writeonly image2D target;
-layout(constant_id = 0) const bool kDevice = false;  // Device depth; else the view's z, which is negative.
+layout(constant_id = 0) const bool kDevice = false;    // Device depth.
+layout(constant_id = 1) const bool kNegative = false;  // The view's z, which is negative.
 #elif defined(MOTION)
 // In pictures, motion is too small for halves.
 layout(set = 0, binding = 1, rgba32f) uniform writeonly image2D target;
-#else
+#elif !defined(NUMBERS)
 layout(set = 0, binding = 1, rgba16f) uniform writeonly image2D target;
 #endif
-#if defined(DEPTH) || defined(EXPOSURE)
 layout(set = 0, binding = 2, std140) uniform hostConstants { HostConstants host; };
+#ifdef EXPOSURE
+layout(constant_id = 2) const bool kBack = false;  // From the result to the host's texture.
+#else
+const bool kBack = false;
 #endif
 
 #ifdef DEPTH
 // What is infinitely far is sky, as is what no perspective can have made.
 vec4 convert(vec4 value) {
-  if (!kDevice) return vec4(-value.x);
+  if (!kDevice) return vec4(kNegative ? -value.x : value.x);
   const float divisor = value.x + host.depthFromDevice.y;
   const float depth = host.depthFromDevice.x / divisor;
   const float infinity = uintBitsToFloat(0x7f800000u);
@@ -49,18 +59,27 @@ vec4 convert(vec4 value) {
 #endif
 
 #ifdef MOTION
-// The host's third channel is current - previous view depth.
-vec4 convert(vec4 value) { return vec4(value.xy, -value.z, 0.0); }
+layout(constant_id = 0) const bool kReversed = false;  // The third channel is current - previous view depth.
+
+vec4 convert(vec4 value) { return vec4(value.xy, kReversed ? -value.z : value.z, 0.0); }
 #endif
 
 #ifdef EXPOSURE
-layout(constant_id = 0) const bool kApply = false;  // Else take it away.
+vec4 convert(vec4 value) { return vec4(value.rgb * (kBack ? host.exposure : host.inverseExposure), value.a); }
+#endif
 
-vec4 convert(vec4 value) { return vec4(value.rgb * (kApply ? host.exposure : host.inverseExposure), value.a); }
+#ifdef NUMBERS
+uvec4 convert(uvec4 value) { return value; }
+#endif
+
+#ifdef COPY
+vec4 convert(vec4 value) { return value; }
 #endif
 
 void main() {
   const ivec2 p = ivec2(gl_GlobalInvocationID.xy);
-  if (any(greaterThanEqual(p, imageSize(target)))) return;
-  imageStore(target, p, convert(texelFetch(source, p, 0)));
+  if (any(greaterThanEqual(p, kBack ? textureSize(source, 0) : imageSize(target)))) return;
+  const ivec2 from = kBack ? p : p + host.offset;
+  const ivec2 to = kBack ? p + host.offset : p;
+  imageStore(target, to, convert(texelFetch(source, from, 0)));
 }

@@ -37,7 +37,8 @@ HostConventions hostConventions(const WalrConventions& conventions) {
   return {.depth = static_cast<HostConventions::Depth>(conventions.depth),
           .normal = static_cast<HostConventions::Normal>(conventions.normals),
           .motionDepthReversed = conventions.motion_depth == WALR_MOTION_DEPTH_REVERSED,
-          .preExposed = conventions.pre_exposed == VK_TRUE};
+          .preExposed = conventions.pre_exposed == VK_TRUE,
+          .rectangle = conventions.rectangle == VK_TRUE};
 }
 
 fg::Extent checkedExtent(std::uint32_t width, std::uint32_t height) {
@@ -107,7 +108,7 @@ InputConventions Description::inputConventions() const {
 }
 
 Constants Description::constants(const WalrCamera* camera, const WalrCamera* previousCamera, float skyDepth,
-                                 float preExposure) const {
+                                 float preExposure, const std::uint32_t (&offset)[2]) const {
   if (camera == nullptr) throw Error(WALR_ERROR_INVALID_ARGUMENT, "the camera is null");
   const WalrCamera& now = checkedCamera(*camera);
   const WalrCamera& previous = previousCamera != nullptr ? checkedCamera(*previousCamera)
@@ -127,7 +128,21 @@ Constants Description::constants(const WalrCamera* camera, const WalrCamera* pre
   if (skyDepth > 0.0F) description.skyDepth = skyDepth;
   return {.camera = description,
           .frame = frameConstants(description, extent_),
-          .host = hostConstants(glm::make_mat4(now.projection), preExposure == 0.0F ? 1.0F : preExposure)};
+          .host = hostConstants(glm::make_mat4(now.projection), preExposure == 0.0F ? 1.0F : preExposure,
+                                checkedOffset(offset))};
+}
+
+glm::ivec2 Description::checkedOffset(const std::uint32_t (&offset)[2]) const {
+  if (offset[0] == 0 && offset[1] == 0) return {};
+  if (!rectangle()) {
+    throw Error(WALR_ERROR_INVALID_ARGUMENT, "an offset is given, but not stated by WalrConventions::rectangle");
+  }
+  if (offset[0] > kLargestPicture || offset[1] > kLargestPicture) {
+    throw Error(WALR_ERROR_INVALID_ARGUMENT, "an offset of (" + std::to_string(offset[0]) + ", " +
+                                                 std::to_string(offset[1]) + ") pixels: each must be at most " +
+                                                 std::to_string(kLargestPicture));
+  }
+  return {offset[0], offset[1]};
 }
 
 void Description::advance(const WalrCamera& camera) {

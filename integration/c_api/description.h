@@ -41,13 +41,15 @@ class Description {
   /// @param camera, previous null stands for an error, and for the camera of the frame before
   /// @throws Error, or std::invalid_argument, naming what makes no sense
   [[nodiscard]] Constants constants(const WalrCamera* camera, const WalrCamera* previous, float skyDepth,
-                                    float preExposure) const;
+                                    float preExposure, const std::uint32_t (&offset)[2]) const;
   /// Say that a frame with this camera was recorded.
   void advance(const WalrCamera& camera);
 
   [[nodiscard]] Denoiser& method() const { return *method_; }
   [[nodiscard]] const std::string& methodName() const { return methodName_; }
   [[nodiscard]] fg::Extent extent() const { return extent_; }
+  /// Whether images may be larger than what is denoised.
+  [[nodiscard]] bool rectangle() const { return conventions_.rectangle == VK_TRUE; }
   [[nodiscard]] std::uint32_t slots() const { return slots_; }
   /// Frames recorded so far.
   [[nodiscard]] std::uint64_t frames() const { return frames_; }
@@ -55,6 +57,8 @@ class Description {
   [[nodiscard]] std::uint32_t slot() const { return static_cast<std::uint32_t>(frames_ % slots_); }
 
  private:
+  [[nodiscard]] glm::ivec2 checkedOffset(const std::uint32_t (&offset)[2]) const;
+
   std::string methodName_;
   std::unique_ptr<Denoiser> method_;
   fg::Extent extent_;

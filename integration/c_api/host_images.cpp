@@ -104,7 +104,13 @@ FrameImage checkedImage(std::size_t index, const WalrImage* given, const ImageNe
     reject(index, "is of format " + formatText(image.format) + ", but the denoiser was made for " +
                       formatText(needs.format) + ": see WalrDenoiserInfo");
   }
-  if (const fg::Extent extent{image.width, image.height}; extent != needs.extent) {
+  if (needs.offset && (image.width < needs.extent.width + needs.offset->at(0) ||
+                       image.height < needs.extent.height + needs.offset->at(1))) {
+    reject(index, "is " + sizeText({image.width, image.height}) + " pixels, which does not hold " +
+                      sizeText(needs.extent) + " from (" + std::to_string(needs.offset->at(0)) + ", " +
+                      std::to_string(needs.offset->at(1)) + ") on: see WalrFrame::offset");
+  }
+  if (const fg::Extent extent{image.width, image.height}; !needs.offset && extent != needs.extent) {
     reject(index, "is " + sizeText(extent) + " pixels, but the denoiser is for " + sizeText(needs.extent) +
                       ": call walr_resize");
   }

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -32,6 +33,7 @@ struct ImageNeeds {
   VkFormat format = VK_FORMAT_UNDEFINED;
   VkImageUsageFlags usage = 0;
   fg::Extent extent;
+  std::optional<std::array<std::uint32_t, 2>> offset = {};  ///< Where the extent starts in it; absent: it is as large.
 };
 
 /// An image as the host gave it, checked, with everything that it left open filled in.

@@ -128,7 +128,9 @@ FrameImages HostedDenoiser::checkedImages(const WalrFrame& frame) const {
                                                         frame.albedo,   frame.object_id, frame.denoised};
   FrameImages images{};
   for (std::size_t i = 0; i < kImageCount; ++i) {
-    images[i] = checkedImage(i, given[i], declared_->needs[i], device_.context().view.queueFamily);
+    ImageNeeds needs = declared_->needs[i];
+    if (description_.rectangle()) needs.offset = {frame.offset[0], frame.offset[1]};
+    images[i] = checkedImage(i, given[i], needs, device_.context().view.queueFamily);
   }
   for (std::size_t i = 0; i < kOutputImage; ++i) {
     if (images[i].given && images[i].image.image == images[kOutputImage].image.image) {
@@ -156,7 +158,7 @@ void HostedDenoiser::record(VkCommandBuffer commandBuffer, const WalrFrame& fram
     throw Error(WALR_ERROR_INVALID_ARGUMENT, "WalrFrame::flags has unknown bits: " + std::to_string(frame.flags));
   }
   const Constants constants =
-      description_.constants(frame.camera, frame.previous_camera, frame.sky_depth, frame.pre_exposure);
+      description_.constants(frame.camera, frame.previous_camera, frame.sky_depth, frame.pre_exposure, frame.offset);
   declare();
   const FrameImages images = checkedImages(frame);
   dropFinished();

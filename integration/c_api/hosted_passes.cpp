@@ -27,7 +27,8 @@ HostedPasses::HostedPasses(const WalrDenoiserInfo& info, std::span<const WalrSet
 }
 
 void HostedPasses::beginFrame(const WalrPassFrame& frame) {
-  constants_ = description_.constants(frame.camera, frame.previous_camera, frame.sky_depth, frame.pre_exposure);
+  constants_ =
+      description_.constants(frame.camera, frame.previous_camera, frame.sky_depth, frame.pre_exposure, frame.offset);
   if (recording_) {
     recording_->begin(description_.frames());
     for (const std::uint32_t resource : recording_->uploads()) recording_->upload(resource, frameConstants(resource));

@@ -7,6 +7,8 @@
 #include <string>
 #include <string_view>
 
+#include <walr/walr_passes.h>
+
 #include "integration/c_api/error.h"
 
 /// Structures that grow from version to version: `struct_size` says how much of one the caller knows.
@@ -19,6 +21,10 @@ template <>
 inline constexpr std::uint32_t kLeastSize<WalrDenoiserInfo> = offsetof(WalrDenoiserInfo, object_id_format);
 template <>
 inline constexpr std::uint32_t kLeastSize<WalrFrame> = offsetof(WalrFrame, object_id);
+template <>
+inline constexpr std::uint32_t kLeastSize<WalrConventions> = offsetof(WalrConventions, rectangle);
+template <>
+inline constexpr std::uint32_t kLeastSize<WalrPassFrame> = offsetof(WalrPassFrame, offset);
 
 /// More than any structure will ever have: a larger size was never set.
 inline constexpr std::uint32_t kMostSize = 1U << 16;

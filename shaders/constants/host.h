@@ -11,10 +11,11 @@ struct HostConstants {
   vec2 depthFromDevice;   // View depth = x / (device depth + y).
   float exposure;         // That the host multiplied radiance by.
   float inverseExposure;  // Takes that away.
+  ivec2 offset;           // Pixels: first of the host's textures that is denoised; y down.
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(HostConstants) == 2 * 4 + 2 * 4);
+static_assert(sizeof(HostConstants) == 2 * 4 + 2 * 4 + 2 * 4);
 }  // namespace walr
 #endif
 #endif

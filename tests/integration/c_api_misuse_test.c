@@ -327,6 +327,9 @@ static void test_frames(Host* host, WalrDenoiser denoiser) {
   frame.flags = 64;
   EXPECT(walr_record(denoiser, commands, &frame), WALR_ERROR_INVALID_ARGUMENT, "unknown bits");
   frame = good;
+  frame.offset[1] = 1;
+  EXPECT(walr_record(denoiser, commands, &frame), WALR_ERROR_INVALID_ARGUMENT, "WalrConventions::rectangle");
+  frame = good;
   frame.motion = NULL;
   EXPECT(walr_record(denoiser, commands, &frame), WALR_ERROR_INVALID_ARGUMENT, "image 'motion' is null");
 
@@ -398,6 +401,29 @@ static void test_frames(Host* host, WalrDenoiser denoiser) {
   }
 }
 
+/* A rectangle must lie within the images. */
+static void test_rectangle(Host* host, const WalrDevice* device) {
+  const WalrConventions conventions = {.struct_size = sizeof(conventions), .rectangle = VK_TRUE};
+  WalrDenoiserInfo info = info_of(device);
+  info.conventions = &conventions;
+  WalrDenoiser denoiser = NULL;
+  EXPECT_OK(walr_create_denoiser(&info, &denoiser));
+  Images images = make_images(host, denoiser);
+  EXPECT_OK(walr_resize(denoiser, kWidth - 2, kHeight - 1));
+  const VkCommandBuffer commands = host_begin(host);
+  WalrFrame frame = frame_of(&images);
+  frame.offset[0] = 3;
+  EXPECT(walr_record(denoiser, commands, &frame), WALR_ERROR_INVALID_ARGUMENT, "does not hold 62 x 47 from (3, 0) on");
+  frame.offset[0] = UINT32_MAX;
+  EXPECT(walr_record(denoiser, commands, &frame), WALR_ERROR_INVALID_ARGUMENT, "at most 16384");
+  frame.offset[0] = 2;
+  frame.offset[1] = 1;
+  EXPECT_OK(walr_record(denoiser, commands, &frame));
+  host_submit_and_wait(host, commands);
+  EXPECT_OK(walr_destroy_denoiser(denoiser));
+  for (int i = 0; i < 6; ++i) host_destroy_image(host, &images.host[i]);
+}
+
 /* A second thread comes while the first is inside a call: it logs, and is thus known to be there. */
 typedef struct Intruder {
   WalrDenoiser denoiser;
@@ -459,6 +485,7 @@ int main(void) {
   test_settings(denoiser);
   test_frames(&host, denoiser);
   EXPECT_OK(walr_destroy_denoiser(denoiser));
+  test_rectangle(&host, &device);
   test_threads(&device);
   const int messages = host_close(&host);
   if (failures + messages > 0) fprintf(stderr, "%d failures, %d validation messages\n", failures, messages);

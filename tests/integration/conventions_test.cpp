@@ -1,6 +1,10 @@
 // One scene, written as hosts of different conventions would write it: the same result.
+#include <algorithm>
 #include <cmath>
+#include <compare>
 #include <cstring>
+#include <limits>
+#include <map>
 #include <random>
 
 #include <glm/packing.hpp>
@@ -19,15 +23,20 @@ using reference::Image;
 
 constexpr glm::ivec2 kSize(48, 36);
 constexpr std::uint32_t kFrames = 4;
+constexpr glm::ivec2 kOffset(5, 3);
+constexpr glm::ivec2 kMargin(16, 9);
 
-/// A turned camera that walks: view and world space differ, and motion has every sign.
-FrameDescription walkingCamera(std::uint32_t frame) {
-  const glm::dvec3 step(0.05, 0.03, -0.04);
-  return cameraAt(double(frame) * step, (double(frame) - 1.0) * step, kSize, frame);
-}
+/// What a host renders.
+struct Take {
+  bool jittered = false;  ///< Pixels are sampled off their centres.
+  bool skips = false;     ///< The host leaves out frames between those that it hands over.
+
+  friend auto operator<=>(const Take&, const Take&) = default;
+};
 
 /// How a host writes.
 struct Host {
+  Take take = {};
   WalrDepth depth = WALR_DEPTH_LINEAR;
   bool reversedInfinite = false;  ///< Device depth: 1 near, 0 infinitely far; else 0 near, 1 at a far plane.
   WalrNormals normals = WALR_NORMALS_SIGNED;
@@ -36,14 +45,33 @@ struct Host {
   bool motionForward = false;  ///< Motion is current - previous.
   bool motionUp = false;       ///< Motion has y up.
   bool motionDepthReversed = false;
+  bool motionJittered = false;  ///< Motion is between the jittered images.
   bool preExposed = false;
+  bool rectangle = false;   ///< Images are larger than what is denoised.
+  bool remembered = false;  ///< The previous camera is left to the library.
 };
 
+/// A turned camera that walks: view and world space differ, and motion has every sign.
+FrameDescription walkingCamera(const Take& take, std::uint32_t frame) {
+  const glm::dvec3 step(0.05, 0.03, -0.04);
+  const auto timeOf = [&](std::uint32_t n) { return take.skips ? double(n * (n + 1)) / 3.0 : double(n); };
+  const std::uint32_t before = frame > 0 ? frame - 1 : 0;
+  FrameDescription camera = cameraAt(timeOf(frame) * step, timeOf(before) * step, kSize, frame);
+  const auto jitterOf = [&](std::uint32_t n) {
+    return take.jittered ? glm::vec2(n % 2 == 0 ? 0.25F : -0.375F, n % 3 == 0 ? -0.3125F : 0.125F) : glm::vec2(0.0F);
+  };
+  camera.jitter = jitterOf(frame);
+  camera.previousJitter = jitterOf(before);
+  return camera;
+}
+
 std::string nameOf(const Host& h) {
-  return "depth " + std::to_string(h.depth) + (h.reversedInfinite ? " reversed" : "") + ", normals " +
-         std::to_string(h.normals) + (h.world ? " world" : "") + (h.pictures ? ", pictures" : "") +
-         (h.motionForward ? ", forward" : "") + (h.motionUp ? ", up" : "") +
-         (h.motionDepthReversed ? ", z reversed" : "") + (h.preExposed ? ", exposed" : "");
+  return std::string(h.take.jittered ? "jittered, " : "") + (h.take.skips ? "skipping, " : "") + "depth " +
+         std::to_string(h.depth) + (h.reversedInfinite ? " reversed" : "") + ", normals " + std::to_string(h.normals) +
+         (h.world ? " world" : "") + (h.pictures ? ", pictures" : "") + (h.motionForward ? ", forward" : "") +
+         (h.motionUp ? ", up" : "") + (h.motionDepthReversed ? ", z reversed" : "") +
+         (h.motionJittered ? ", motion jittered" : "") + (h.preExposed ? ", exposed" : "") +
+         (h.rectangle ? ", rectangle" : "") + (h.remembered ? ", remembered" : "");
 }
 
 float exposureOf(const Host& host, std::uint32_t frame) {
@@ -60,7 +88,7 @@ constexpr float kNear = 0.5F;
 constexpr float kFar = 200.0F;
 
 FrameDescription cameraOf(const Host& host, std::uint32_t frame) {
-  FrameDescription camera = walkingCamera(frame);
+  FrameDescription camera = walkingCamera(host.take, frame);
   // The scene is made in a world whose axes are the view's; this turns that world.
   const glm::mat4 turn(glm::mat3(glm::transpose(worldFromView())));
   camera.view = camera.view * turn;
@@ -92,7 +120,8 @@ glm::vec4 writtenNormal(const Host& host, glm::dvec3 n) {
   return {glm::vec3(isUnsigned ? n * 0.5 + 0.5 : n), 0.0F};
 }
 
-glm::vec4 writtenMotion(const Host& host, glm::dvec3 motion) {
+glm::vec4 writtenMotion(const Host& host, glm::dvec3 motion, glm::dvec2 jitterDelta) {
+  if (!host.motionJittered) motion -= glm::dvec3(jitterDelta, 0.0);
   if (host.pictures) motion /= glm::dvec3(kSize, 1.0);
   if (host.motionForward) motion *= glm::dvec3(-1.0, -1.0, 1.0);
   if (host.motionUp) motion.y = -motion.y;
@@ -111,16 +140,28 @@ HostedRun::Options optionsOf(const Host& host) {
   c.motion_scale[0] = host.motionForward ? -1.0F : 1.0F;
   c.motion_scale[1] = c.motion_scale[0] * (host.motionUp ? -1.0F : 1.0F);
   c.pre_exposed = host.preExposed ? VK_TRUE : VK_FALSE;
+  c.motion_jittered = host.motionJittered ? VK_TRUE : VK_FALSE;
+  options.rememberedCamera = host.remembered;
+  if (host.rectangle) {
+    options.offset = kOffset;
+    options.margin = kMargin;
+  }
   // Floats, so that what is compared is the conversion and not the host's rounding.
   constexpr VkFormat kFloats = VK_FORMAT_R32G32B32A32_SFLOAT;
   options.formats = {kFloats, VK_FORMAT_R32_SFLOAT, kFloats, kFloats, kFloats};
   return options;
 }
 
+/// What is around the rectangle is of other frames, and not a number.
 template <typename Texel>
-std::vector<std::byte> bytesOf(const std::vector<Texel>& texels) {
-  std::vector<std::byte> bytes(texels.size() * sizeof(Texel));
-  std::memcpy(bytes.data(), texels.data(), bytes.size());
+std::vector<std::byte> bytesOf(const std::vector<Texel>& texels, glm::ivec2 imageSize, glm::ivec2 offset) {
+  std::vector<Texel> image(std::size_t(imageSize.x) * imageSize.y, Texel(std::numeric_limits<float>::quiet_NaN()));
+  for (int y = 0; y < kSize.y; ++y) {
+    std::copy_n(texels.begin() + std::ptrdiff_t(y) * kSize.x, kSize.x,
+                image.begin() + std::ptrdiff_t(y + offset.y) * imageSize.x + offset.x);
+  }
+  std::vector<std::byte> bytes(image.size() * sizeof(Texel));
+  std::memcpy(bytes.data(), image.data(), bytes.size());
   return bytes;
 }
 
@@ -135,29 +176,37 @@ void fill(HostedRun& run, const HostFrame& frame, const Host& host, const FrameD
     lighting.emplace_back(glm::vec3(frame.lighting[p]) * exposure, 0.0F);
     depth.push_back(writtenDepth(host, frame.depth[p] * (1.0 + depthError), camera.projection));
     normal.push_back(writtenNormal(host, frame.normal[p]));
-    motion.push_back(writtenMotion(host, frame.motion[p]));
+    motion.push_back(writtenMotion(host, frame.motion[p], frame.constants.jitterDelta));
     albedo.emplace_back(glm::vec3(frame.albedo[p]), 0.0F);
   });
-  run.fill("lighting", bytesOf(lighting));
-  run.fill("depth", bytesOf(depth));
-  run.fill("normal", bytesOf(normal));
-  run.fill("motion", bytesOf(motion));
-  run.fill("albedo", bytesOf(albedo));
+  const glm::ivec2 offset = host.rectangle ? kOffset : glm::ivec2(0);
+  const auto hand = [&](const char* name, const auto& texels) {
+    run.fill(name, bytesOf(texels, run.imageSize(), offset));
+  };
+  hand("lighting", lighting);
+  hand("depth", depth);
+  hand("normal", normal);
+  hand("motion", motion);
+  hand("albedo", albedo);
 }
 
 class Conventions : public fg::test::GpuTest {
  protected:
   /// The last frame's result without exposure.
   Image<glm::dvec4> denoise(const Host& host, double depthError = 0.0) const {
-    HostedRun run(device(), "walr", kSize, optionsOf(host));
-    Image<glm::dvec4> result;
+    return denoise(host, optionsOf(host), depthError);
+  }
+  Image<glm::dvec4> denoise(const Host& host, const HostedRun::Options& options, double depthError) const {
+    HostedRun run(device(), "walr", kSize, options);
+    Image<glm::dvec4> result(kSize);
     for (std::uint32_t i = 0; i < kFrames; ++i) {
       const FrameDescription camera = cameraOf(host, i);
       const float exposure = exposureOf(host, i);
-      const HostFrame frame = renderFrame(skyBesideSurface(), walkingCamera(i), kSize);
+      const HostFrame frame = renderFrame(skyBesideSurface(), walkingCamera(host.take, i), kSize);
       fill(run, frame, host, camera, exposure, depthError);
-      result = decodeHalves(run.frame(camera, 0, host.preExposed ? exposure : 0.0F), kSize);
-      forEachPixel(kSize, [&](glm::ivec2 p) { result[p] /= double(exposure); });
+      const std::vector<std::uint16_t> texels = run.frame(camera, 0, host.preExposed ? exposure : 0.0F);
+      const Image<glm::dvec4> image = decodeHalves(texels, run.imageSize());
+      forEachPixel(kSize, [&](glm::ivec2 p) { result[p] = image[p + options.offset] / double(exposure); });
     }
     return result;
   }
@@ -187,11 +236,17 @@ std::vector<Host> hosts() {
       {.motionUp = true},
       {.motionDepthReversed = true},
       {.preExposed = true},
+      {.rectangle = true},
+      {.remembered = true},
+      {.take = {.jittered = true}, .motionJittered = true},
+      {.take = {.jittered = true}, .remembered = true},
+      {.take = {.skips = true}, .remembered = true},
   };
   std::mt19937 random(7);
   const auto coin = [&] { return random() % 2 == 0; };
   for (int i = 0; i < 16; ++i) {
-    all.push_back({.depth = static_cast<WalrDepth>(random() % 3),
+    all.push_back({.take = {.jittered = coin(), .skips = coin()},
+                   .depth = static_cast<WalrDepth>(random() % 3),
                    .reversedInfinite = coin(),
                    .normals = static_cast<WalrNormals>(random() % 4),
                    .world = coin(),
@@ -199,31 +254,47 @@ std::vector<Host> hosts() {
                    .motionForward = coin(),
                    .motionUp = coin(),
                    .motionDepthReversed = coin(),
-                   .preExposed = coin()});
+                   .motionJittered = coin(),
+                   .preExposed = coin(),
+                   .rectangle = coin(),
+                   .remembered = coin()});
   }
   return all;
 }
 
-TEST_F(Conventions, OneSceneGivesOneResult) {
-  const Image<glm::dvec4> usual = denoise({});
-  // What a change of depth by one rounding step of its packed form does (surface.glsl keeps 19 bits) is what no host
-  // can do better than; conversions round in single precision, which is finer. A wrong convention is far above it.
-  const double roundoff = std::max(difference(usual, denoise({}, 0x1p-18)), difference(usual, denoise({}, -0x1p-18)));
-  EXPECT_GT(roundoff, 0.0);
-  for (const Host& host : hosts()) EXPECT_LE(difference(usual, denoise(host)), 2.0 * roundoff) << nameOf(host);
-
-  // And the test would see it.
-  Host wrong{.motionForward = true};
-  HostedRun::Options options = optionsOf(wrong);
-  options.conventions.motion_scale[0] = options.conventions.motion_scale[1] = 1.0F;
-  HostedRun run(device(), "walr", kSize, options);
+/// What the usual host gets of a take, and how far roundoff may lead away from it.
+struct Usual {
   Image<glm::dvec4> result;
-  for (std::uint32_t i = 0; i < kFrames; ++i) {
-    const FrameDescription camera = cameraOf(wrong, i);
-    fill(run, renderFrame(skyBesideSurface(), walkingCamera(i), kSize), wrong, camera, 1.0F, 0.0);
-    result = decodeHalves(run.frame(camera), kSize);
+  double roundoff = 0.0;
+};
+
+TEST_F(Conventions, OneSceneGivesOneResult) {
+  std::map<Take, Usual> usual;
+  for (const Host& host : hosts()) {
+    const Host plain{.take = host.take};
+    Usual& expected = usual[host.take];
+    if (expected.roundoff == 0.0) {
+      expected.result = denoise(plain);
+      // What a change of depth by one rounding step of its packed form does (surface.glsl keeps 19 bits) is what no
+      // host can do better than; conversions round in single precision, which is finer. A wrong convention is far above
+      // it.
+      expected.roundoff = std::max(difference(expected.result, denoise(plain, 0x1p-18)),
+                                   difference(expected.result, denoise(plain, -0x1p-18)));
+      ASSERT_GT(expected.roundoff, 0.0);
+    }
+    EXPECT_LE(difference(expected.result, denoise(host)), 2.0 * expected.roundoff) << nameOf(host);
   }
-  EXPECT_GT(difference(usual, result), 10.0 * roundoff);
+  EXPECT_EQ(usual.size(), 4U);
+
+  // And the test would see what is stated wrongly.
+  const auto misstated = [&](const Host& host, auto&& misstate) {
+    HostedRun::Options options = optionsOf(host);
+    misstate(options);
+    return difference(usual[host.take].result, denoise(host, options, 0.0)) / usual[host.take].roundoff;
+  };
+  EXPECT_GT(misstated({.motionForward = true}, [](auto& o) { o.conventions.motion_scale[0] = 1.0F; }), 10.0);
+  EXPECT_GT(misstated({.take = {.jittered = true}}, [](auto& o) { o.conventions.motion_jittered = VK_TRUE; }), 10.0);
+  EXPECT_GT(misstated({.rectangle = true}, [](auto& o) { o.offset.x += 1; }), 10.0);
 }
 
 }  // namespace

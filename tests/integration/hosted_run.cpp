@@ -35,6 +35,8 @@ WalrCamera cameraOf(const glm::mat4& view, const glm::mat4& projection, glm::vec
 HostedRun::HostedRun(const fg::vk::Device& device, const char* method, glm::ivec2 size, const Options& options)
     : device_(&device),
       rememberedCamera_(options.rememberedCamera),
+      offset_(options.offset),
+      margin_(options.margin),
       queue_(device.context(), device.queue(), kFramesInFlight) {
   const fg::vk::DeviceView& view = device.context().view;
   WalrDevice host{};
@@ -46,6 +48,7 @@ HostedRun::HostedRun(const fg::vk::Device& device, const char* method, glm::ivec
   host.get_instance_proc_addr = view.getInstanceProcAddr;
   WalrConventions conventions = options.conventions;
   conventions.struct_size = sizeof(conventions);
+  conventions.rectangle = margin_ != glm::ivec2(0) ? VK_TRUE : VK_FALSE;
   WalrDenoiserInfo info{};
   info.struct_size = sizeof(info);
   info.frames_in_flight = kFramesInFlight;
@@ -78,6 +81,8 @@ void HostedRun::makeImages(glm::ivec2 size) {
     needs.struct_size = sizeof(needs);
     require(walr_get_image_requirements(denoiser_, name, &needs));
     if (glm::ivec2(needs.width, needs.height) != size) throw std::logic_error("requirements of another size");
+    needs.width += static_cast<std::uint32_t>(margin_.x);
+    needs.height += static_cast<std::uint32_t>(margin_.y);
     // An image that the denoiser does not touch may be anything, and is handed over all the same.
     if (needs.usage == 0) needs.usage = VK_IMAGE_USAGE_SAMPLED_BIT;
     const bool output = images_.size() == kOutput;
@@ -140,6 +145,7 @@ std::vector<std::uint16_t> HostedRun::frame(const FrameDescription& camera, std:
   frame.struct_size = sizeof(frame);
   frame.flags = flags;
   frame.pre_exposure = preExposure;
+  for (int axis = 0; axis < 2; ++axis) frame.offset[axis] = static_cast<std::uint32_t>(offset_[axis]);
   frame.lighting = &images[0];
   frame.depth = &images[1];
   frame.normal = &images[2];

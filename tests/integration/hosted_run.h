@@ -24,6 +24,8 @@ class HostedRun {
     std::array<VkFormat, 5> formats{};  ///< As in WalrDenoiserInfo, in the order of its members.
     bool rememberedCamera = false;      ///< Leave the previous camera to the library.
     bool lint = false;
+    glm::ivec2 offset{0};  ///< Of what is denoised in images that are larger by `margin`, for which it is stated.
+    glm::ivec2 margin{0};
     WalrLog log = nullptr;
     void* logUser = nullptr;
   };
@@ -37,6 +39,8 @@ class HostedRun {
   [[nodiscard]] WalrDenoiser denoiser() const { return denoiser_; }
   /// Change the size: new images, and what the old ones leave behind is forgotten.
   void resize(glm::ivec2 size);
+  /// Size of the images.
+  [[nodiscard]] glm::ivec2 imageSize() const { return glm::ivec2(needs_[0].width, needs_[0].height); }
   /// Hand over texels of an image ("lighting", ...) in its format.
   void fill(const std::string& image, std::vector<std::byte> texels);
   /// Record and submit a frame with what was filled in last, and return the result's texels, four halves each.
@@ -48,6 +52,8 @@ class HostedRun {
 
   const fg::vk::Device* device_;
   bool rememberedCamera_;
+  glm::ivec2 offset_;
+  glm::ivec2 margin_;
   WalrDenoiser denoiser_ = nullptr;
   std::vector<WalrImageRequirements> needs_;
   std::vector<std::unique_ptr<fg::vk::StagedImage>> images_;

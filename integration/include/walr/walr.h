@@ -188,6 +188,10 @@ typedef struct WalrConventions {
   WalrNormals normals;
   VkBool32 pre_exposed;     /* Lighting is multiplied by WalrFrame::pre_exposure, and the result is to be, too. */
   VkBool32 motion_jittered; /* motion.xy is between the jittered images. Else it holds no jitter. */
+  /* Images may be larger than what is denoised, a rectangle that starts at WalrFrame::offset. Motion in pictures is in
+   * units of the rectangle. */
+  VkBool32 rectangle;
+  uint32_t reserved;
 } WalrConventions;
 
 typedef enum WalrLogLevel {
@@ -250,7 +254,7 @@ typedef struct WalrImageRequirements {
   VkBool32 required; /* Whether the denoiser touches it with its present settings. */
   VkFormat format;
   VkImageUsageFlags usage; /* Union over all passes. */
-  uint32_t width;
+  uint32_t width;          /* Exactly, or, with WalrConventions::rectangle, at least. */
   uint32_t height;
 } WalrImageRequirements;
 
@@ -319,6 +323,7 @@ typedef struct WalrFrame {
   float sky_depth;                   /* Scene units: a view depth from here on is sky. 0 stands for 1e9. */
   float pre_exposure;                /* With WalrConventions::pre_exposed; 0 stands for 1. */
   const WalrImage* object_id;        /* Optional, see WalrDenoiserInfo::object_id_format. */
+  uint32_t offset[2];                /* With WalrConventions::rectangle: its first pixel in all images, y down. */
 } WalrFrame;
 
 /*

@@ -152,6 +152,7 @@ typedef struct WalrPassFrame {
   const WalrCamera* previous_camera; /* Null stands for the camera of the frame before. */
   float pre_exposure;                /* As in WalrFrame. */
   uint32_t reserved;
+  uint32_t offset[2]; /* As in WalrFrame. */
 } WalrPassFrame;
 
 /* Begin a frame: to be called once before its passes are recorded. The GPU must have finished the frame that was begun
