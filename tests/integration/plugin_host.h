@@ -60,7 +60,7 @@ class Plugin {
 class PluginTest : public testing::Test {
  protected:
   void SetUp() override {
-    host_open(&host);
+    openHost();
     const WalrRegistryHost registry{sizeof(WalrRegistryHost), 0, &registered, takeApi, takeType};
     ASSERT_EQ(plugin.registerWith(&registry), WALR_SUCCESS);
     device.struct_size = sizeof(device);
@@ -71,6 +71,8 @@ class PluginTest : public testing::Test {
     device.get_instance_proc_addr = vkGetInstanceProcAddr;
   }
   void TearDown() override { EXPECT_EQ(host_close(&host), 0) << "validation messages"; }
+
+  virtual void openHost() { host_open(&host); }
 
   [[nodiscard]] const WalrApi& api() const { return *registered.api; }
   void require(WalrResult result) const {

@@ -21,7 +21,9 @@ static VKAPI_ATTR VkBool32 VKAPI_CALL on_message(VkDebugUtilsMessageSeverityFlag
   return VK_FALSE;
 }
 
-static void open_instance(Host* host) {
+enum { kMostExtensions = 8 };
+
+static void open_instance(Host* host, const char* const* more, uint32_t count) {
   const VkValidationFeatureEnableEXT enabled[] = {VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT};
   const VkDebugUtilsMessengerCreateInfoEXT messenger = {
       .sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT,
@@ -36,13 +38,15 @@ static void open_instance(Host* host) {
                                               .pEnabledValidationFeatures = enabled};
   const VkApplicationInfo application = {.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO, .apiVersion = VK_API_VERSION_1_3};
   const char* const layers[] = {"VK_LAYER_KHRONOS_validation"};
-  const char* const extensions[] = {VK_EXT_DEBUG_UTILS_EXTENSION_NAME, VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME};
+  const char* extensions[kMostExtensions + 2] = {VK_EXT_DEBUG_UTILS_EXTENSION_NAME,
+                                                 VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME};
+  for (uint32_t i = 0; i < count && i < kMostExtensions; ++i) extensions[i + 2] = more[i];
   const VkInstanceCreateInfo info = {.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO,
                                      .pNext = &validation,
                                      .pApplicationInfo = &application,
                                      .enabledLayerCount = 1,
                                      .ppEnabledLayerNames = layers,
-                                     .enabledExtensionCount = 2,
+                                     .enabledExtensionCount = count + 2,
                                      .ppEnabledExtensionNames = extensions};
   check(vkCreateInstance(&info, NULL, &host->instance), "creating an instance with the validation layer");
   const PFN_vkCreateDebugUtilsMessengerEXT create =
@@ -84,8 +88,12 @@ static void open_device(Host* host) {
 }
 
 void host_open(Host* host) {
+  host_open_with(host, NULL, 0);
+}
+
+void host_open_with(Host* host, const char* const* extensions, uint32_t count) {
   memset(host, 0, sizeof(*host));
-  open_instance(host);
+  open_instance(host, extensions, count);
   open_device(host);
   const VkCommandPoolCreateInfo pool = {.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
                                         .queueFamilyIndex = host->queue_family};

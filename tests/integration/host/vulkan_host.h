@@ -44,6 +44,8 @@ typedef struct HostImage {
 
 /* A host stays where it was opened. The functions end the program with a message where Vulkan fails. */
 void host_open(Host* host);
+/* The same, with extensions of the instance that others need; at most 8. */
+void host_open_with(Host* host, const char* const* extensions, uint32_t count);
 /* Returns the number of messages, those at destruction included. */
 int host_close(Host* host);
 
