@@ -4,6 +4,16 @@
 
 namespace walr {
 
+BmfrSettings tunedBmfr() {
+  return {};
+}
+
+BmfrSettings paperBmfr() {
+  BmfrSettings settings;
+  settings.fittedAccumulation.maxSamples = 10.0F;
+  return settings;
+}
+
 fg::Texture addBmfr(fg::Graph& graph, const DenoiserInputs& inputs, fg::Texture output, const BmfrSettings& settings,
                     Inspection* inspection) {
   const TemporalStages stages{.accumulation = settings.accumulation,

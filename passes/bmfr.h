@@ -30,6 +30,11 @@ struct BmfrSettings {
   }
 };
 
+/// The defaults: half as long a mean of fitted frames as published, for the anti-aliasing after it averages, too.
+BmfrSettings tunedBmfr();
+/// As published: a fitted frame counts for 10 % (bmfr.txt 3.5).
+BmfrSettings paperBmfr();
+
 /// Blockwise Multi-Order Feature Regression (bmfr.txt, figure 2): accumulation, feature fitting, a second accumulation
 /// and temporal anti-aliasing.
 /// @param output RGBA16F texture to write the result to

@@ -8,7 +8,7 @@ namespace walr {
 
 /// Settings of BMFR's second accumulation (bmfr.txt 3.5).
 struct BmfrAccumulationSettings {
-  float maxSamples = 10.0F;
+  float maxSamples = 5.0F;
 
   void visit(SettingVisitor& v) {
     v.visit({"fitted.max-samples", "Fitted frames after which the cumulative mean turns exponential", "frames", 1.0,

@@ -34,6 +34,9 @@ template <>
 constexpr std::array kPresets<RefwlrSettings>{Preset<RefwlrSettings>{"robust", robustRefwlr},
                                               Preset<RefwlrSettings>{"paper", paperRefwlr}};
 template <>
+constexpr std::array kPresets<BmfrSettings>{Preset<BmfrSettings>{"tuned", tunedBmfr},
+                                            Preset<BmfrSettings>{"paper", paperBmfr}};
+template <>
 constexpr std::array kPresets<SvgfSettings>{Preset<SvgfSettings>{"tuned", tunedSvgf},
                                             Preset<SvgfSettings>{"paper", paperSvgf}};
 

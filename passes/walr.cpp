@@ -35,7 +35,7 @@ WalrSettings blocksWalr() {
 WalrSettings robustWalr() {
   WalrSettings settings;
   settings.filter = SpatialFilter::Pixels;
-  settings.accumulation.change.respond = false;
+  settings.accumulation = {};
   return settings;
 }
 

@@ -21,7 +21,7 @@ enum class SpatialFilter : std::uint32_t {
 struct WalrSettings {
   bool spatialOnly = false;
   PrepareGuidesSettings guides;
-  TemporalAccumulationSettings accumulation{.change = {.respond = true}};
+  TemporalAccumulationSettings accumulation{.maxSamples = 8.0F, .change = {.respond = true}};
   WeightedRegressionSettings regression;
   TemporalAntialiasingSettings antialiasing;
   SpatialFilter filter = SpatialFilter::Blocks;

@@ -147,7 +147,8 @@ void expectPlannedAs(const char* preset, const std::vector<Link>& chain) {
 
 TEST(Registry, StagesConnectedByNameArePlannedAsTheWholeMethodIs) {
   expectPlannedAs("blocks", {{"prepare_guides", {}},
-                             {"temporal_accumulation_with_taps", {{"accumulation.respond-to-change", "on"}}},
+                             {"temporal_accumulation_with_taps",
+                              {{"accumulation.max-samples", "8"}, {"accumulation.respond-to-change", "on"}}},
                              {"ambient_occlusion", {}},
                              {"block_regression", {{"blocks.iterations", "2"}}},
                              {"temporal_antialiasing_with_taps", {}}});
