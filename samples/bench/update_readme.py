@@ -60,6 +60,37 @@ def comparison(data, means):
     return "\n".join(lines)
 
 
+def vmaf_note(data, means):
+    """VMAF of every method, where it was measured."""
+    if not data["vmaf"]["by"]:
+        return ""
+    parts = []
+    for variant in data["variants"]:
+        scores = [means[s["name"], variant["name"]]["vmaf"] for s in data["sequences"]]
+        parts.append(f"`{variant['name']}` " + " and ".join(f"{score:.1f}" for score in scores))
+    return f"* VMAF, which hardly sees fine noise ({data['vmaf']['by']}): " + ", ".join(parts) + ".\n"
+
+
+def response_table(data):
+    """How the methods answer to change, on synthetic scenes."""
+    if not data["responses"]:
+        return ""
+    header = ["method", "first frame RMSE", "settled RMSE", "settled flicker", "light gone", "light lags", "recovered", "trail"]
+    rows = ["| " + " | ".join(header) + " |", "| " + " | ".join(["---"] * len(header)) + " |"]
+
+    def frames(count):
+        return "not by the end" if count is None else str(count)
+
+    for r in data["responses"]:
+        rows.append("| " + " | ".join([f"`{r['variant']}`", figure(r["first_frame_rmse"], 4), figure(r["settled_rmse"], 4),
+                                       figure(r["settled_flicker"], 4), frames(r["light_frames"]), f"{r['light_lag']:.1f}",
+                                       frames(r["recovery_frames"]), f"{r['trail_by_age'][0]:.3f}"]) + " |")
+    return ("\n".join(rows) + "\n\n*Response to change, on synthetic scenes of 192 x 108 with a known answer. Frames until a tenth of a "
+            "light that went down to a tenth is left; frames by which light lags that moves over a still wall; frames until the "
+            "error behind a moving slab is within a quarter of what it is elsewhere; share of the slab's light that its trail "
+            "keeps in the first frame.*\n\n")
+
+
 def section(data):
     """The marked part of the README."""
     means = {(s["name"], r["variant"]): r["mean_after_4"] for s in data["sequences"] for r in s["runs"]}
@@ -87,13 +118,14 @@ def section(data):
         values = [f["reference_noise"] for f in sequence["frames"]]
         if None not in values:
             noise.append(f"{figure(sum(values) / len(values), 4)} on `{sequence['name']}`")
-    text = "\n".join(rows) + "\n\n"
+    text = "\n".join(rows) + "\n\n" + response_table(data)
     text += comparison(data, means) + "\n"
     text += f"* Time: median ratio to `{data['baseline']}` on the same frame in the same run, with 5 to 95 % of them"
     text += ("; **a processor's, not a GPU's**" if software else "") + f" ({device['name']}, {device['driver']}). "
     text += "Bytes moved per pixel, taps of light per pixel and memory (persistent and shared transient) are the plan's and hold on any device.\n"
     if noise:
         text += "* Noise of the references themselves, as an RMSE: " + ", ".join(noise) + ".\n"
+    text += vmaf_note(data, means)
     text += (f"* Measured at commit {data['commit']} ({data['compiler']}, {data['build_type']}) with\n"
              f"  `{data['command']}`.\n\n"
              "![error against time and bytes](samples/images/pareto.png)\n\n"
