@@ -68,7 +68,9 @@ def vmaf_note(data, means):
     for variant in data["variants"]:
         scores = [means[s["name"], variant["name"]]["vmaf"] for s in data["sequences"]]
         parts.append(f"`{variant['name']}` " + " and ".join(f"{score:.1f}" for score in scores))
-    return f"* VMAF, which hardly sees fine noise ({data['vmaf']['by']}): " + ", ".join(parts) + ".\n"
+    program, model = data["vmaf"]["by"].rsplit(", ", 1)
+    version = " ".join(program.split()[:3])
+    return f"* VMAF, which hardly sees fine noise ({version}, {model}): " + ", ".join(parts) + ".\n"
 
 
 def response_table(data):
@@ -88,7 +90,7 @@ def response_table(data):
     return ("\n".join(rows) + "\n\n*Response to change, on synthetic scenes of 192 x 108 with a known answer. Frames until a tenth of a "
             "light that went down to a tenth is left; frames by which light lags that moves over a still wall; frames until the "
             "error behind a moving slab is within a quarter of what it is elsewhere; share of the slab's light that its trail "
-            "keeps in the first frame.*\n\n")
+            "keeps in the first frame, of which `none` shows the floor.*\n\n")
 
 
 def section(data):
