@@ -41,19 +41,26 @@ Json costsJson(const std::vector<PlanCosts>& costs) {
   return list;
 }
 
+/// Whether a variant is its method with its preset, whatever it is called.
+bool isDefault(const BenchReport& report, const Variant& variant) {
+  Variant untouched;
+  untouched.method = variant.method;
+  untouched.preset = variant.preset;
+  return report.settings.at(variant.name) == settingsOf(untouched);
+}
+
 Json variantsJson(const BenchReport& report) {
   Json list = Json::array();
   for (const Variant& variant : report.variants) {
     Json settings = Json::object();
     for (const auto& [name, value] : report.settings.at(variant.name)) settings[name] = value;
-    list.push_back(
-        {{"name", variant.name},
-         {"method", variant.method},
-         {"preset", variant.preset},
-         {"sweep", variant.sweep},
-         {"is_default", report.settings.at(variant.name) == settingsOf(parseMethods(variant.method).front())},
-         {"settings", std::move(settings)},
-         {"costs", costsJson(report.costs.at(variant.name))}});
+    list.push_back({{"name", variant.name},
+                    {"method", variant.method},
+                    {"preset", variant.preset},
+                    {"sweep", variant.sweep},
+                    {"is_default", isDefault(report, variant)},
+                    {"settings", std::move(settings)},
+                    {"costs", costsJson(report.costs.at(variant.name))}});
   }
   return list;
 }

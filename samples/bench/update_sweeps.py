@@ -37,8 +37,11 @@ def keep(folder):
     for variant in data["variants"]:
         if not variant["sweep"]:
             continue
-        default = next(v for v in data["variants"] if not v["sweep"] and v["method"] == variant["method"])
-        sweep = sweeps.setdefault(variant["sweep"], {"method": variant["method"], "commit": data["commit"],
+        # What the sweep changes: the method with the same preset, if it was run, too.
+        default = next((v for v in data["variants"] if not v["sweep"] and (v["method"], v["preset"]) ==
+                        (variant["method"], variant["preset"])), variant)
+        method = ":".join(filter(None, (variant["method"], variant["preset"])))
+        sweep = sweeps.setdefault(variant["sweep"], {"method": method, "commit": data["commit"],
                                                      "device": data["device"]["name"], "settings": [], "values": []})
         for name in settings_changed(variant, by_name[default["name"]]):
             if name not in sweep["settings"]:

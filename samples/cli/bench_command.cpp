@@ -17,6 +17,7 @@
 #include "samples/bench/variant.h"
 #include "samples/cli/arguments.h"
 #include "samples/cli/command.h"
+#include "samples/cli/device_options.h"
 #include "samples/cli/exit_code.h"
 #include "samples/cli/usage_error.h"
 #include "samples/image/file_output.h"
@@ -168,12 +169,7 @@ void registerBench(CLI::App& program) {
                    "Variants that run beside each other; fewer need less device memory at once")
       ->check(CLI::Range(2, 1000))
       ->capture_default_str();
-  command
-      ->add_option("--device", arguments->gpu.device,
-                   "Vulkan device by number or part of its name; default: the most capable")
-      ->type_name("N|NAME");
-  command->add_flag("--validate", arguments->gpu.validation,
-                    "Run under the Khronos validation layer; any message is an error. Times are then worthless");
+  addDeviceOptions(*command, arguments->gpu, "Times are then worthless");
   command->add_flag("--no-html", arguments->noHtml, "Do not draw report.html");
   command->add_option("--python", arguments->python, "Python 3 with matplotlib, which draws report.html")
       ->type_name("FILE")

@@ -16,6 +16,7 @@
 #include "passes/denoiser.h"
 #include "samples/cli/arguments.h"
 #include "samples/cli/command.h"
+#include "samples/cli/device_options.h"
 #include "samples/cli/exit_code.h"
 #include "samples/cli/method_options.h"
 #include "samples/cli/usage_error.h"
@@ -191,12 +192,7 @@ void registerDenoise(CLI::App& program) {
   addMethodOptions(*command, options->method);
   command->add_option("--frames", options->frames, "Frame numbers to denoise, both included; default: all")
       ->type_name("A-B");
-  command
-      ->add_option("--device", options->gpu.device,
-                   "Vulkan device by number or part of its name; default: the most capable")
-      ->type_name("N|NAME");
-  command->add_flag("--validate", options->gpu.validation,
-                    "Run under the Khronos validation layer with synchronization validation; any message is an error");
+  addDeviceOptions(*command, options->gpu);
   command->add_flag("--list-devices", options->listDevices, "List the Vulkan devices and stop");
   command
       ->add_option("--json", options->json,

@@ -9,6 +9,7 @@
 #include "passes/input_linter.h"
 #include "samples/cli/arguments.h"
 #include "samples/cli/command.h"
+#include "samples/cli/device_options.h"
 #include "samples/cli/exit_code.h"
 #include "samples/denoise/gpu_denoiser.h"
 #include "samples/errors.h"
@@ -60,12 +61,7 @@ void registerLint(CLI::App& program) {
   command->add_option("INPUT", options->input, "Folder of frames, as for walr denoise")->required()->type_name("DIR");
   command->add_option("--frames", options->frames, "Frame numbers to look at, both included; default: all")
       ->type_name("A-B");
-  command
-      ->add_option("--device", options->gpu.device,
-                   "Vulkan device by number or part of its name; default: the most capable")
-      ->type_name("N|NAME");
-  command->add_flag("--validate", options->gpu.validation,
-                    "Run under the Khronos validation layer with synchronization validation; any message is an error");
+  addDeviceOptions(*command, options->gpu);
   command->add_option("--view-layer", options->sequence.viewLayer, "View layer to take where the files hold several")
       ->type_name("NAME");
   command->footer(kExitCodeHelp);

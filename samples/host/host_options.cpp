@@ -3,6 +3,8 @@
 #include <map>
 #include <string>
 
+#include "samples/cli/device_options.h"
+
 namespace walr::host {
 
 void addHostOptions(CLI::App& program, HostOptions& options) {
@@ -28,12 +30,7 @@ void addHostOptions(CLI::App& program, HostOptions& options) {
       ->type_name("VIEW")
       ->capture_default_str();
   addMethodOptions(program, options.method);
-  program
-      .add_option("--device", options.gpu.device,
-                  "Vulkan device by number or part of its name; default: the most capable")
-      ->type_name("N|NAME");
-  program.add_flag("--validate", options.gpu.validation,
-                   "Run under the Khronos validation layer with synchronization validation; any message is an error");
+  addDeviceOptions(program, options.gpu);
   constexpr std::uint32_t kMostSamples = 1U << 16U;
   program.add_option("--spp", tracer.samples, "Paths a pixel")
       ->check(CLI::Range(1U, kMostSamples))

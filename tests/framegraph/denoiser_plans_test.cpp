@@ -127,7 +127,7 @@ TEST_P(DenoiserPlansTest, CompilesForEverySceneAndHost) {
     if (!GetParam().preset.empty()) method->usePreset(GetParam().preset);
     const std::vector<SettingText> known = method->settings();
     for (const auto& [name, value] : choice) {
-      if (std::ranges::none_of(known, [&](const SettingText& s) { return s.name == name; })) continue;
+      if (std::ranges::find(known, name, &SettingText::name) == known.end()) continue;
       method->set(name, value);
     }
     const DenoiseGraph declared = declareDenoiseGraph(*method, kExtent, InputConventions{}, kComputeHost);

@@ -137,15 +137,7 @@ TEST_F(LibplaceboTest, SemaphoresHandImagesOverAndBack) {
     }
     pl_gpu_flush(gpu());
 
-    WalrFrame frame{};
-    frame.struct_size = sizeof(frame);
-    frame.lighting = &images[0];
-    frame.depth = &images[1];
-    frame.normal = &images[2];
-    frame.motion = &images[3];
-    frame.albedo = &images[4];
-    frame.denoised = &images[5];
-    frame.camera = &camera;
+    const WalrFrame frame = frameOf(images, camera);
     const VkCommandBuffer commands = host_begin(&host);
     require(api().record(denoiser, commands, &frame));
     const std::uint64_t waited = timeline.value();

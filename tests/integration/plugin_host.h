@@ -24,6 +24,21 @@ struct Size {
   std::uint32_t height;
 };
 
+/// A frame of six images: the inputs in the order of `kInputs`, then the denoised one.
+inline WalrFrame frameOf(const std::vector<WalrImage>& images, const WalrCamera& camera, std::uint32_t flags = 0) {
+  WalrFrame frame{};
+  frame.struct_size = sizeof(frame);
+  frame.flags = flags;
+  frame.lighting = &images[0];
+  frame.depth = &images[1];
+  frame.normal = &images[2];
+  frame.motion = &images[3];
+  frame.albedo = &images[4];
+  frame.denoised = &images[5];
+  frame.camera = &camera;
+  return frame;
+}
+
 /// What the plug-in handed over.
 struct Registered {
   const WalrApi* api = nullptr;
@@ -185,16 +200,7 @@ class Opaque {
       given.height = image.height;
       given.acquire = {image.stage, image.access, image.layout, 0};
     }
-    WalrFrame frame{};
-    frame.struct_size = sizeof(frame);
-    frame.flags = flags;
-    frame.lighting = &images[0];
-    frame.depth = &images[1];
-    frame.normal = &images[2];
-    frame.motion = &images[3];
-    frame.albedo = &images[4];
-    frame.denoised = &images[5];
-    frame.camera = &camera;
+    const WalrFrame frame = frameOf(images, camera, flags);
     const VkCommandBuffer commands = host_begin(host_);
     if (api_->record(denoiser_, commands, &frame) != WALR_SUCCESS) throw std::runtime_error(api_->last_error());
     host_submit_and_wait(host_, commands);

@@ -132,16 +132,7 @@ class QtRhiTest : public PluginTest {
       image.acquire = {VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_WRITE_BIT,
                        static_cast<VkImageLayout>(texture.texture->nativeTexture().layout), 0};
     }
-    WalrFrame frame{};
-    frame.struct_size = sizeof(frame);
-    frame.flags = flags;
-    frame.lighting = &images[0];
-    frame.depth = &images[1];
-    frame.normal = &images[2];
-    frame.motion = &images[3];
-    frame.albedo = &images[4];
-    frame.denoised = &images[5];
-    frame.camera = &camera;
+    const WalrFrame frame = frameOf(images, camera, flags);
     external(commands, [&](VkCommandBuffer buffer) { require(api().record(denoiser, buffer, &frame)); });
     for (std::size_t i = 0; i < shared.size(); ++i) {
       WalrImageState state{};

@@ -486,15 +486,19 @@ TEST_F(BlockViewsTest, ClampedFitsAreThoseBelowZero) {
     in.accumulated[p] = glm::dvec4(glm::dvec3(reference::roundToHalf(0.6 + n.x)), p == kTurned ? 0.0 : 1.0);
   });
   run.filter(in.frame, in.guides, in.accumulated, in.occlusion);
-  for (const auto& [flag, fit] : {std::pair{"clamped", "fine-fit"}, {"coarse-clamped", "coarse-fit"}}) {
-    const Image<glm::dvec3> flags = run.view(flag);
-    const Image<glm::dvec3> colours = run.view(fit);
+  struct Views {
+    const char* flag;
+    const char* fit;
+  };
+  for (const Views& views : {Views{"clamped", "fine-fit"}, Views{"coarse-clamped", "coarse-fit"}}) {
+    const Image<glm::dvec3> flags = run.view(views.flag);
+    const Image<glm::dvec3> colours = run.view(views.fit);
     reference::forEachPixel(kSize, [&](glm::ivec2 p) {
-      EXPECT_EQ(flags[p], glm::dvec3(p == kTurned ? 1.0 : 0.0)) << flag << " at " << p.x << ", " << p.y;
+      EXPECT_EQ(flags[p], glm::dvec3(p == kTurned ? 1.0 : 0.0)) << views.flag << " at " << p.x << ", " << p.y;
       if (p == kTurned) {
-        EXPECT_EQ(colours[p], glm::dvec3(0.0)) << fit;
+        EXPECT_EQ(colours[p], glm::dvec3(0.0)) << views.fit;
       } else {
-        EXPECT_GT(colours[p].r, 0.0) << fit << " at " << p.x << ", " << p.y;
+        EXPECT_GT(colours[p].r, 0.0) << views.fit << " at " << p.x << ", " << p.y;
       }
     });
   }

@@ -68,6 +68,9 @@ TEST_F(BenchProgramTest, MeasuresMethodsBesideEachOther) {
   EXPECT_EQ(data["vmaf"]["missing_because"].is_null(), data["vmaf"]["by"].is_string());
   ASSERT_EQ(data["variants"].size(), 6U);  // walr, two methods, three ways of replacement.
   EXPECT_EQ(data["variants"][0]["name"], "walr");
+  // The sweep is one over the preset `robust`, whose own choice is the default.
+  EXPECT_EQ(data["variants"][3]["name"], "replacement=uniform");
+  for (const std::size_t i : {3, 4, 5}) EXPECT_EQ(data["variants"][i]["is_default"], i == 3) << i;
   const json walr = run(data, "walr");
   EXPECT_TRUE(walr["reproducible"]);
   EXPECT_EQ(walr["timed_frames"], 6);
