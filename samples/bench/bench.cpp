@@ -19,11 +19,17 @@ namespace {
 constexpr std::array kCommonExtents = {fg::Extent{1280, 720}, fg::Extent{1920, 1080}, fg::Extent{2560, 1440},
                                        fg::Extent{3840, 2160}};
 
-/// What all runs on a sequence are made from: programs, device, sequence, repetitions.
-std::string sequenceKey(const GpuDevice& device, const NamedSequence& sequence, const BenchOptions& options) {
+/// What all runs are made from: program, device, repetitions.
+std::string setupKey(const GpuDevice& device, const BenchOptions& options) {
   Fingerprint key;
-  key.addFile("/proc/self/exe").add(device.name()).add(device.driver());
-  key.add(std::to_string(options.repetitions)).add(options.vmaf ? options.vmaf->description() : std::string());
+  key.addFile("/proc/self/exe").add(device.name()).add(device.driver()).add(std::to_string(options.repetitions));
+  return key.text();
+}
+
+/// What all runs on a sequence are made from: the set-up, what computes VMAF, the sequence.
+std::string sequenceKey(const std::string& setup, const NamedSequence& sequence, const BenchOptions& options) {
+  Fingerprint key;
+  key.add(setup).add(options.vmaf ? options.vmaf->description() : std::string());
   for (const Sequence::Entry& entry : sequence.sequence.entries()) {
     key.addFile(entry.file);
     if (!entry.reference.empty()) key.addFile(entry.reference);
@@ -36,9 +42,10 @@ std::string sequenceKey(const GpuDevice& device, const NamedSequence& sequence, 
   return key.text();
 }
 
-std::string runKey(const std::string& sequenceKey, const Variant& variant) {
+/// @param base key of all else that the run is made from
+std::string runKey(const std::string& base, const Variant& variant) {
   Fingerprint key;
-  key.add(sequenceKey).add(variant.method);
+  key.add(base).add(variant.method);
   for (const auto& [name, value] : settingsOf(variant)) key.add(name).add(value);
   return key.text();
 }
@@ -95,19 +102,13 @@ struct SizeWork {
   std::vector<std::vector<Variant>> batches;
 };
 
-std::string sizeKey(const GpuDevice& device, const Variant& variant, const BenchOptions& options) {
-  Fingerprint key;
-  key.addFile("/proc/self/exe").add(device.name()).add(device.driver()).add(std::to_string(options.repetitions));
-  return runKey(key.text(), variant);
-}
-
-std::vector<SizeWork> sizeWork(const GpuDevice& device, const RunStore& store, const BenchOptions& options) {
+std::vector<SizeWork> sizeWork(const std::string& setup, const RunStore& store, const BenchOptions& options) {
   std::vector<SizeWork> work;
   for (const fg::Extent extent : options.sizes) {
     SizeWork todo{extent, "sizes/" + std::to_string(extent.width) + "x" + std::to_string(extent.height), {}};
     std::vector<Variant> missing;
     for (const Variant& variant : options.variants) {
-      if (!store.find(todo.name, variant.name, sizeKey(device, variant, options))) missing.push_back(variant);
+      if (!store.find(todo.name, variant.name, runKey(setup, variant))) missing.push_back(variant);
     }
     todo.batches = batchesOf(missing, options.variants.front(), options.batch);
     work.push_back(std::move(todo));
@@ -116,8 +117,8 @@ std::vector<SizeWork> sizeWork(const GpuDevice& device, const RunStore& store, c
 }
 
 /// Time what is missing at a size, and tell all.
-SizeTimes timeSize(const GpuDevice& device, const RunStore& store, const SizeWork& todo, const BenchOptions& options,
-                   const std::function<void()>& frameDone) {
+SizeTimes timeSize(const GpuDevice& device, const std::string& setup, const RunStore& store, const SizeWork& todo,
+                   const BenchOptions& options, const std::function<void()>& frameDone) {
   std::map<std::string, std::string> whyNot;
   for (const std::vector<Variant>& variants : todo.batches) {
     const SizeTimes found = sizeTimes(device, variants, todo.extent, options.repetitions, frameDone);
@@ -128,12 +129,12 @@ SizeTimes timeSize(const GpuDevice& device, const RunStore& store, const SizeWor
       RunRecord record;
       record.variant = timing.variant;
       record.timing = timing.timing;
-      store.save(todo.name, record, sizeKey(device, variants[i], options));
+      store.save(todo.name, record, runKey(setup, variants[i]));
     }
   }
   SizeTimes all{todo.extent, {}};
   for (const Variant& variant : options.variants) {
-    const auto record = store.find(todo.name, variant.name, sizeKey(device, variant, options));
+    const auto record = store.find(todo.name, variant.name, runKey(setup, variant));
     all.timings.push_back({variant.name, record ? record->timing : Timing(), record ? "" : whyNot.at(variant.name)});
   }
   return all;
@@ -178,10 +179,11 @@ BenchReport bench(const GpuDevice& device, const std::vector<NamedSequence>& seq
   report.device = deviceFacts(device);
 
   const RunStore store(options.output / "runs");
+  const std::string setup = setupKey(device, options);
   std::vector<Work> work;
   std::size_t frames = 0;
   for (const NamedSequence& sequence : sequences) {
-    Work todo{&sequence, sequenceKey(device, sequence, options), {}};
+    Work todo{&sequence, sequenceKey(setup, sequence, options), {}};
     std::vector<Variant> missing;
     for (const Variant& variant : options.variants) {
       if (!store.find(sequence.name, variant.name, runKey(todo.key, variant))) missing.push_back(variant);
@@ -193,7 +195,7 @@ BenchReport bench(const GpuDevice& device, const std::vector<NamedSequence>& seq
     work.push_back(std::move(todo));
   }
 
-  const std::vector<SizeWork> sizes = sizeWork(device, store, options);
+  const std::vector<SizeWork> sizes = sizeWork(setup, store, options);
   for (const SizeWork& todo : sizes) frames += todo.batches.size() * kFramesPerSize * (options.repetitions + 1);
 
   std::optional<Progress> progress;
@@ -222,7 +224,8 @@ BenchReport bench(const GpuDevice& device, const std::vector<NamedSequence>& seq
     }
   }
   for (const SizeWork& todo : sizes) {
-    report.sizes.push_back(timeSize(device, store, todo, options, [&] { progress->advance(Progress::Clock::now()); }));
+    report.sizes.push_back(
+        timeSize(device, setup, store, todo, options, [&] { progress->advance(Progress::Clock::now()); }));
   }
   progress.reset();
   if (options.response) report.responses = responses(device, options.variants);
