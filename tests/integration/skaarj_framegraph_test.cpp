@@ -1,4 +1,4 @@
-// walr's passes in skaarj1989's FrameGraph, where its sources are at hand: cmake -DWALR_SKAARJ_FRAMEGRAPH=FOLDER.
+// walr's passes in skaarj1989's FrameGraph, where it is at hand: cmake -DWALR_SKAARJ_FRAMEGRAPH=FOLDER.
 #include <map>
 #include <memory>
 #include <tuple>

@@ -1,0 +1,104 @@
+/* walr in NVRHI's command lists, with its Vulkan backend. Header-only; C++17. */
+#ifndef WALR_ADAPTERS_NVRHI_H
+#define WALR_ADAPTERS_NVRHI_H
+
+#include <cstddef>
+#include <cstdint>
+#include <stdexcept>
+
+#include <nvrhi/vulkan.h>
+#include <walr/walr.h>
+
+namespace walr::adapters {
+
+/// The textures of a frame. Inputs are for shaders to read, `denoised` has `isUAV`.
+struct NvrhiTextures {
+  nvrhi::ITexture* lighting = nullptr;
+  nvrhi::ITexture* depth = nullptr;
+  nvrhi::ITexture* normal = nullptr;
+  nvrhi::ITexture* motion = nullptr;
+  nvrhi::ITexture* albedo = nullptr;
+  nvrhi::ITexture* denoised = nullptr;
+  nvrhi::ITexture* objectId = nullptr;  ///< Optional.
+};
+
+/// Records a denoiser into NVRHI's command lists. NVRHI goes on tracking the textures' states.
+class NvrhiDenoiser {
+ public:
+  /// Functions of walr, linked or as a plug-in registered them.
+  struct Functions {
+    decltype(&walr_record) record;
+    decltype(&walr_forget_image) forgetImage;
+    decltype(&walr_last_error) lastError;
+  };
+
+  /// @param denoiser stays the caller's
+  NvrhiDenoiser(WalrDenoiser denoiser, const Functions& walr) : denoiser_(denoiser), walr_(walr) {}
+
+  /// Record a frame into an open command list, whose pipeline and bindings are forgotten. NVRHI does not keep the
+  /// textures alive until the GPU has finished with them: the caller must.
+  /// @param frame all but its images
+  /// @throws std::runtime_error with walr's words
+  void record(nvrhi::ICommandList* commands, const NvrhiTextures& textures, WalrFrame frame) const {
+    const Member members[] = {{textures.lighting, &frame.lighting}, {textures.depth, &frame.depth},
+                              {textures.normal, &frame.normal},     {textures.motion, &frame.motion},
+                              {textures.albedo, &frame.albedo},     {textures.denoised, &frame.denoised},
+                              {textures.objectId, &frame.object_id}};
+    WalrImage images[std::size(members)] = {};
+    for (std::size_t i = 0; i < std::size(members); ++i) {
+      nvrhi::ITexture* texture = members[i].texture;
+      if (texture == nullptr) continue;  // walr says so where it needs it.
+      const bool output = texture == textures.denoised;
+      commands->setTextureState(
+          texture, nvrhi::AllSubresources,
+          output ? nvrhi::ResourceStates::UnorderedAccess : nvrhi::ResourceStates::ShaderResource);
+      images[i] = describe(texture, output);
+      *members[i].image = &images[i];
+    }
+    commands->commitBarriers();
+    const VkCommandBuffer buffer = commands->getNativeObject(nvrhi::ObjectTypes::VK_CommandBuffer);
+    const WalrResult result = walr_.record(denoiser_, buffer, &frame);
+    commands->clearState();
+    if (result != WALR_SUCCESS) throw std::runtime_error(walr_.lastError());
+  }
+
+  /// Let go of a texture: before its last handle goes, once the GPU has finished with it.
+  /// @throws std::runtime_error with walr's words
+  void forget(nvrhi::ITexture* texture) const {
+    const VkImage image = texture->getNativeObject(nvrhi::ObjectTypes::VK_Image);
+    if (walr_.forgetImage(denoiser_, image, 0) != WALR_SUCCESS) throw std::runtime_error(walr_.lastError());
+  }
+
+ private:
+  struct Member {
+    nvrhi::ITexture* texture;
+    const WalrImage** image;
+  };
+
+  /// An image that comes in the state that NVRHI has put it in, and goes back in the same.
+  static WalrImage describe(nvrhi::ITexture* texture, bool output) {
+    const nvrhi::TextureDesc& desc = texture->getDesc();
+    WalrImage image{};
+    image.struct_size = sizeof(image);
+    image.queue_family = VK_QUEUE_FAMILY_IGNORED;
+    image.image = texture->getNativeObject(nvrhi::ObjectTypes::VK_Image);
+    image.format = nvrhi::vulkan::convertFormat(desc.format);
+    image.usage = VK_IMAGE_USAGE_SAMPLED_BIT;
+    if (desc.isUAV) image.usage |= VK_IMAGE_USAGE_STORAGE_BIT;
+    image.width = desc.width;
+    image.height = desc.height;
+    image.acquire.stage = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
+    image.acquire.access = VK_ACCESS_2_SHADER_READ_BIT;
+    if (output) image.acquire.access |= VK_ACCESS_2_SHADER_WRITE_BIT;
+    image.acquire.layout = output ? VK_IMAGE_LAYOUT_GENERAL : VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
+    image.release = image.acquire;
+    return image;
+  }
+
+  WalrDenoiser denoiser_;
+  Functions walr_;
+};
+
+}  // namespace walr::adapters
+
+#endif
