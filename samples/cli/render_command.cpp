@@ -70,6 +70,17 @@ void registerRender(CLI::App& program) {
       ->capture_default_str();
   command->add_option("--reference-frames", arguments->referenceFrames,
                       "A-B: the frames of them that get a reference, both included; default: all");
+  command
+      ->add_option("--reference-pixel", options.referenceCoverage.wholePixel,
+                   "What a pixel of the references is: point (light at the frame's sample position; default) or area "
+                   "(the mean over the pixel, as anti-aliasing tends to)")
+      ->transform(CLI::CheckedTransformer(std::map<std::string, bool>{{"point", false}, {"area", true}}));
+  constexpr std::uint32_t kFewestSquares = 4096;
+  command
+      ->add_option("--reference-one-square-in", options.referenceCoverage.oneSquareIn,
+                   "Reference of one in so many squares of 64 x 64 pixels, evenly spread; errors leave out the rest")
+      ->check(CLI::Range(1U, kFewestSquares))
+      ->capture_default_str();
   constexpr std::uint32_t kMostBounces = 1024;
   command->add_option("--bounces", options.bounces, "Surfaces after the first that reflect light")
       ->check(CLI::Range(0U, kMostBounces))

@@ -45,6 +45,8 @@ nlohmann::json describe(const RenderOptions& options) {
       {"height", options.height},
       {"spp", options.samples},
       {"reference_spp", options.referenceSamples},
+      {"reference_pixel", options.referenceCoverage.wholePixel ? "area" : "point"},
+      {"reference_one_square_in", options.referenceCoverage.oneSquareIn},
       {"bounces", options.bounces},
       {"seed", options.seed},
       {"fps", options.framesPerSecond},
@@ -84,18 +86,17 @@ std::string describeWork(const std::string& file, double seconds, std::uint64_t 
 }
 
 // One file of a frame: skipped where it is there already.
-void renderFile(const fs::path& file, const RenderObserver& observer, const std::function<Film()>& render,
-                const std::function<void(const Film&)>& write) {
+// @param render  writes the file; returns the number of rays it traced
+void renderFile(const fs::path& file, const RenderObserver& observer, const std::function<std::uint64_t()>& render) {
   const std::string name = file.filename().string();
   if (fs::exists(file)) {
     observer.fileDone(name + ": is there already");
     return;
   }
   const auto start = std::chrono::steady_clock::now();
-  const Film film = render();
-  write(film);
+  const std::uint64_t rays = render();
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-  observer.fileDone(describeWork(name, seconds.count(), film.rays));
+  observer.fileDone(describeWork(name, seconds.count(), rays));
 }
 
 }  // namespace
@@ -127,28 +128,32 @@ void renderSequence(const RenderOptions& options, const RenderObserver& observer
     const auto jitter = [&](int frame) { return options.jitter ? haltonJitter(frame) : glm::vec2(0.0F); };
     const View view = viewFrom(world, camera, options.width, options.height, jitter(number), jitter(number - 1));
     // Noisy frames and references never share a random sequence: their seeds differ in the lowest bit.
-    const auto render = [&](std::uint32_t samples, std::uint32_t seedBit) {
-      SamplingSettings sampling;
-      sampling.samples = samples;
-      sampling.bounces = options.bounces;
-      sampling.seed = options.seed * 2 + seedBit;
-      sampling.firstSample = static_cast<std::uint32_t>(number) * samples;
+    const auto sampling = [&](std::uint32_t samples, std::uint32_t seedBit) {
+      SamplingSettings settings;
+      settings.samples = samples;
+      settings.bounces = options.bounces;
+      settings.seed = options.seed * 2 + seedBit;
+      settings.firstSample = static_cast<std::uint32_t>(number) * samples;
       // Over many samples of a pixel those of blue noise would be as good as independent.
       const bool spread = options.sampler == Sampler::Kind::BlueNoise && samples == 1;
-      sampling.sampler =
+      settings.sampler =
           options.sampler == Sampler::Kind::BlueNoise && !spread ? Sampler::Kind::Sobol : options.sampler;
-      sampling.threads = options.threads;
-      return renderFilm(world, view, sampling);
+      settings.threads = options.threads;
+      return settings;
     };
-    renderFile(
-        options.output / frameFileName("noisy", number, "exr"), observer, [&] { return render(options.samples, 0); },
-        [&](const Film& film) { writeFrame(options.output, toFrame(film, view, number)); });
-    if (options.hasReference(number)) {
-      renderFile(
-          options.output / frameFileName("ref", number, "exr"), observer,
-          [&] { return render(options.referenceSamples, 1); },
-          [&](const Film& film) { writeReference(options.output, number, toReference(film)); });
-    }
+    renderFile(options.output / frameFileName("noisy", number, "exr"), observer, [&] {
+      const Film film = renderFilm(world, view, sampling(options.samples, 0));
+      writeFrame(options.output, toFrame(film, view, number));
+      return film.rays;
+    });
+    if (!options.hasReference(number)) continue;
+    renderFile(options.output / frameFileName("ref", number, "exr"), observer, [&] {
+      std::uint64_t rays = 0;
+      writeReference(
+          options.output, number,
+          renderReference(world, view, sampling(options.referenceSamples, 1), options.referenceCoverage, rays));
+      return rays;
+    });
   }
 }
 

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "samples/render/reference.h"
 #include "samples/render/sampler.h"
 #include "samples/render/scene.h"
 #include "samples/sequence/sequence.h"
@@ -26,6 +27,7 @@ struct RenderOptions {
   std::uint32_t referenceSamples = 0;  ///< Paths a pixel in the references; 0: no references.
   /// Frames that get a reference; nothing: all. The rest of them is left out.
   std::optional<FrameRange> referenceFrames = {};
+  ReferenceCoverage referenceCoverage = {};
   std::uint32_t bounces = 4;  ///< Surfaces after the first that reflect light.
   std::uint32_t seed = 0;
   double framesPerSecond = 24.0;

@@ -27,10 +27,11 @@ struct Camera {
   bool cut = false;              ///< This frame follows a camera cut: nothing is carried over from the frame before.
 };
 
-/// The noise-free picture of a frame.
+/// The noise-free picture of a frame. A pixel of which no component is a number is one without a reference.
 struct Reference {
-  Image indirect;  ///< 3 components: demodulated diffuse indirect radiance.
-  Image direct;    ///< 3 components: demodulated diffuse direct radiance; may be empty.
+  Image indirect = {};      ///< 3 components: demodulated diffuse indirect radiance.
+  Image direct = {};        ///< 3 components: demodulated diffuse direct radiance; may be empty.
+  Image indirectHalf = {};  ///< 3 components: the mean of one half of the paths of `indirect`; may be empty.
 };
 
 /// Values in one channel of a file that are not finite.

@@ -73,13 +73,21 @@ void addTargets(std::vector<ExrReader::Target>& targets, const RecognizedLayout&
   }
 }
 
-void findNonFinite(const std::filesystem::path& path, std::span<const ExrReader::Target> targets,
+/// Whether a reference has no value at a pixel, as it says by having a number in none of its components.
+bool leftOut(std::span<const ExrReader::Target> targets, std::size_t pixel) {
+  return std::ranges::all_of(targets, [&](const ExrReader::Target& target) {
+    return std::isnan(target.image->pixel(pixel)[static_cast<std::size_t>(target.component)]);
+  });
+}
+
+void findNonFinite(const std::filesystem::path& path, std::span<const ExrReader::Target> targets, bool mayLeaveOut,
                    std::vector<NonFiniteChannel>& found) {
   for (const ExrReader::Target& target : targets) {
     const Image& image = *target.image;
     NonFiniteChannel channel{path, target.channel};
     for (std::size_t i = 0; i < image.pixelCount(); ++i) {
-      if (std::isfinite(image.pixel(i)[static_cast<std::size_t>(target.component)])) {
+      if (std::isfinite(image.pixel(i)[static_cast<std::size_t>(target.component)]) ||
+          (mayLeaveOut && leftOut(targets, i))) {
         continue;
       }
       if (channel.count++ == 0) {
@@ -232,7 +240,7 @@ void readFrame(ExrReader& file, const RecognizedLayout& layout, bool composite, 
     addTargets(targets, layout, skyPlane, sky, file);
   }
   file.read(targets);
-  findNonFinite(file.path(), targets, frame.nonFinite);
+  findNonFinite(file.path(), targets, false, frame.nonFinite);
   for (std::size_t i = 0; i < sky.values().size(); ++i) {
     frame.emission.values()[i] += sky.values()[i];
   }
@@ -248,7 +256,7 @@ Reference readReference(ExrReader& file, const RecognizedLayout& layout, bool co
     addTargets(targets, layout, direct, reference.direct, file);
   }
   file.read(targets);
-  findNonFinite(file.path(), targets, nonFinite);
+  findNonFinite(file.path(), targets, true, nonFinite);
   return reference;
 }
 

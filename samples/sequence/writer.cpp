@@ -47,6 +47,9 @@ void writeReference(const std::filesystem::path& directory, int number, const Re
   if (!reference.direct.empty()) {
     appendChannels(channels, "Direct", "RGB", reference.direct);
   }
+  if (!reference.indirectHalf.empty()) {
+    appendChannels(channels, "IndirectA", "RGB", reference.indirectHalf);
+  }
   writeExr(directory / frameFileName("ref", number, "exr"), channels);
 }
 

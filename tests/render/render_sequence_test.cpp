@@ -1,18 +1,24 @@
 // `walr render` from a scene to files that `walr denoise` reads back.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <numbers>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "samples/errors.h"
 #include "samples/image/exr.h"
+#include "samples/metrics/metrics.h"
 #include "samples/render/instance.h"
 #include "samples/render/load_scene.h"
+#include "samples/render/reference.h"
 #include "samples/render/render_sequence.h"
 #include "samples/sequence/sequence.h"
 #include "samples/sequence/writer.h"
+#include "tests/render/statistics.h"
 #include "tests/samples/temporary_directory.h"
 
 namespace walr::render {
@@ -127,6 +133,105 @@ TEST(RenderSequence, RendersReferencesOfTheFramesAskedFor) {
     EXPECT_TRUE(fs::exists(folder.path() / frameFileName("noisy", frame, "exr")));
     EXPECT_EQ(fs::exists(folder.path() / frameFileName("ref", frame, "exr")), frame >= 4);
   }
+}
+
+TEST(RenderSequence, LeavesSquaresOfReferencesOut) {
+  const walr::test::TemporaryDirectory folder;
+  RenderOptions options = smallBox(folder.path() / "some");
+  options.lastFrame = options.firstFrame;
+  options.width = 256;
+  options.height = 144;
+  options.referenceCoverage.oneSquareIn = 4;
+  render(options);
+  RenderOptions whole = options;
+  whole.output = folder.path() / "all";
+  whole.referenceCoverage.oneSquareIn = 1;
+  render(whole);
+
+  const Frame some = Sequence(options.output, {}).read(0);
+  const Frame all = Sequence(whole.output, {}).read(0);
+  EXPECT_TRUE(some.nonFinite.empty());
+  std::size_t known = 0;
+  for (std::size_t i = 0; i < some.depth.pixelCount(); ++i) {
+    const auto pixel = some.reference->indirect.pixel(i);
+    if (std::isnan(pixel[0])) continue;
+    ++known;
+    EXPECT_TRUE(std::ranges::equal(pixel, all.reference->indirect.pixel(i)));
+  }
+  // 4 x 2 whole squares and 4 that the picture's lower edge cuts to 64 x 16: one of each row.
+  EXPECT_EQ(known, 2U * 64 * 64 + 64 * 16);
+}
+
+TEST(RenderSequence, TellsTheNoiseOfReferences) {
+  const walr::test::TemporaryDirectory folder;
+  RenderOptions options = smallBox(folder.path() / "a");
+  options.lastFrame = options.firstFrame;
+  options.width = 128;
+  options.height = 72;
+  options.referenceSamples = 32;
+  render(options);
+  RenderOptions other = options;
+  other.output = folder.path() / "b";
+  other.seed = 7;
+  render(other);
+
+  const Frame frame = Sequence(options.output, {}).read(0);
+  const walr::Image& reference = frame.reference->indirect;
+  const walr::Image otherReference = Sequence(other.output, {}).read(0).reference->indirect;
+  ExrReader file(options.output / "ref_0003.exr");
+  walr::Image half(file.width(), file.height(), 3);
+  file.read(
+      std::vector<ExrReader::Target>{{"IndirectA.R", &half, 0}, {"IndirectA.G", &half, 1}, {"IndirectA.B", &half, 2}});
+  const PixelMask mask = diffuseMask(frame.albedo, frame.normal, frame.depth, kSkyDepth, reference);
+  const double told = referenceNoise(reference, half, mask).value();
+  // Two independent references differ by sqrt(2) times the noise of one.
+  const double measured = compare(reference, otherReference, mask).rmse.value() / std::numbers::sqrt2;
+  // Over eight pairs of seeds the ratio was .97 on average, as the tone map flattens the halves' larger noise, with a
+  // deviation of .01.
+  EXPECT_NEAR(told, measured, 0.1 * measured);
+}
+
+TEST(RenderSequence, AveragesReferencesOverThePixel) {
+  const Scene scene = loadScene(WALR_SCENES "/box.gltf", {});
+  World world(scene);
+  world.moveTo(0.0, 0.0);
+  View view = viewFrom(world, findCamera(scene, ""), 16, 9, {}, {});
+  SamplingSettings sampling;
+  sampling.samples = 1024;
+  std::uint64_t rays = 0;
+  const Reference area = renderReference(world, view, sampling, {.wholePixel = true}, rays);
+
+  // The same by points of a grid within the pixel. Where there is no diffuse surface, a point does not count.
+  constexpr int kGrid = 8;
+  walr::Image sum(16, 9, 3);
+  std::vector<int> points(sum.pixelCount());
+  sampling.samples = 1024 / (kGrid * kGrid);
+  for (int i = 0; i < kGrid * kGrid; ++i) {
+    view.jitter = (glm::vec2(i % kGrid, i / kGrid) + 0.5F) / static_cast<float>(kGrid) - 0.5F;
+    sampling.seed = 2 * static_cast<std::uint32_t>(i) + 2;
+    const Reference point = renderReference(world, view, sampling, {}, rays);
+    for (std::size_t p = 0; p < points.size(); ++p) {
+      const auto light = point.indirect.pixel(p);
+      if (light[0] + light[1] + light[2] == 0.0F) continue;
+      for (std::size_t c = 0; c < 3; ++c) sum.pixel(p)[c] += light[c];
+      ++points[p];
+    }
+  }
+  test::Statistics difference;
+  test::Statistics squares;
+  for (std::size_t p = 0; p < points.size(); ++p) {
+    if (points[p] == 0) continue;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double expected = sum.pixel(p)[c] / static_cast<float>(points[p]);
+      difference.add(area.indirect.pixel(p)[c] - expected);
+      // Half the difference of the halves has the variance of their mean.
+      squares.add(std::pow(area.indirect.pixel(p)[c] - area.indirectHalf.pixel(p)[c], 2));
+    }
+  }
+  // Both have 1024 paths a pixel, so that the difference has twice the variance.
+  EXPECT_NEAR(difference.mean(), 0.0, test::kConfidence * difference.standardError());
+  EXPECT_LT(difference.variance(), 2.0 * 2.0 * squares.mean());
+  EXPECT_GT(difference.count(), 300U);
 }
 
 TEST(RenderSequence, RefusesToMixSettings) {

@@ -115,7 +115,7 @@ TEST_F(SequenceTest, TheProjectsOwnLayoutRoundTrips) {
   written.objectId.at(1, 2, 0) = 7.0F;
   written.objectId.at(0, 0, 0) = -1.0F;
   writeFrame(directory.path(), written);
-  Reference reference{Image(6, 4, 3), {}};
+  Reference reference{.indirect = Image(6, 4, 3)};
   reference.indirect.at(5, 3, 2) = 2.0F;
   writeReference(directory.path(), 7, reference);
 
@@ -134,6 +134,19 @@ TEST_F(SequenceTest, TheProjectsOwnLayoutRoundTrips) {
   EXPECT_TRUE(std::ranges::equal(read.indirect.values(), written.indirect.values()));
   EXPECT_TRUE(std::ranges::equal(read.depth.values(), written.depth.values()));
   EXPECT_EQ(read.reference->indirect.at(5, 3, 2), 2.0F);
+}
+
+TEST_F(SequenceTest, PixelsOfAReferenceMayBeLeftOutAsAWhole) {
+  constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
+  writeFrame(directory.path(), test::projectFrame(7, 6, 4));
+  Reference reference{.indirect = Image(6, 4, 3)};
+  for (float& value : reference.indirect.pixel(5)) value = kNone;
+  writeReference(directory.path(), 7, reference);
+  EXPECT_TRUE(std::isnan(open().read(0).reference->indirect.pixel(5)[1]));
+
+  reference.indirect.pixel(9)[1] = kNone;
+  writeReference(directory.path(), 7, reference);
+  expectInputError([&] { static_cast<void>(open().read(0)); }, {"Indirect.G has 1 value(s)"});
 }
 
 TEST_F(SequenceTest, ObjectNumbersAreInAllFramesOrInNone) {
