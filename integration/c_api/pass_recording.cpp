@@ -26,6 +26,12 @@ bool isPrevious(const WalrResource& resource) {
   return resource.kind == WALR_RESOURCE_HISTORY_PREVIOUS;
 }
 
+/// Whether a binding may be used in a layout.
+bool allows(const WalrBinding& binding, VkImageLayout layout) {
+  if (layout == VK_IMAGE_LAYOUT_GENERAL || layout == binding.layout) return true;
+  return layout == VK_IMAGE_LAYOUT_READ_ONLY_OPTIMAL && binding.layout == VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
+}
+
 [[noreturn]] void reject(const WalrDispatch& pass, const WalrResource& resource, const std::string& what) {
   throw Error(WALR_ERROR_INVALID_ARGUMENT,
               "pass '" + std::string(pass.name) + "': resource '" + resource.name + "' " + what);
@@ -131,7 +137,7 @@ void PassRecording::requireResources(const WalrDispatch& pass, std::span<const W
       continue;
     }
     const WalrBinding& binding = *pass.bindings[i];
-    if (given.layout != VK_IMAGE_LAYOUT_GENERAL && given.layout != binding.layout) {
+    if (!allows(binding, given.layout)) {
       reject(pass, resource,
              "is bound in layout " + std::to_string(given.layout) + ": it must be GENERAL or " +
                  std::to_string(binding.layout));
@@ -180,9 +186,10 @@ void PassRecording::clear(VkCommandBuffer commandBuffer, const Zeros& zeros) con
   device_->functions.vkCmdPipelineBarrier2(commandBuffer, &dependency);
 }
 
-/// Made when first needed and let go once no frame in flight reads it: histories are seldom null.
-VkImageView PassRecording::zeros(std::uint32_t resource, VkCommandBuffer commandBuffer) {
-  auto known = zeros_.find(resource);
+/// Made when first needed and let go once no frame in flight reads it: histories are seldom null. Every pass has zeros
+/// of its own, as hosts record passes in any order, and the one that clears must come first on the queue.
+VkImageView PassRecording::zeros(const WalrDispatch& pass, std::uint32_t resource, VkCommandBuffer commandBuffer) {
+  auto known = zeros_.find({&pass, resource});
   if (known == zeros_.end()) {
     const fg::ResourceDecl& decl = graph_->resources[resource];
     const auto& desc = std::get<fg::TextureDesc>(decl.desc);
@@ -194,14 +201,14 @@ VkImageView PassRecording::zeros(std::uint32_t resource, VkCommandBuffer command
     made.memory.allocate();
     made.view = fg::vk::createImageView(*device_, made.image.get(), desc, {}, decl.name + " (none)");
     clear(commandBuffer, made);
-    known = zeros_.emplace(resource, std::move(made)).first;
+    known = zeros_.emplace(std::pair(&pass, resource), std::move(made)).first;
   }
   known->second.lastFrame = frame_;
   return known->second.view.get();
 }
 
-PassRecording::Descriptor PassRecording::describe(const WalrBinding& binding, const WalrPassResource& given,
-                                                  VkCommandBuffer commandBuffer) {
+PassRecording::Descriptor PassRecording::describe(const WalrDispatch& pass, const WalrBinding& binding,
+                                                  const WalrPassResource& given, VkCommandBuffer commandBuffer) {
   Descriptor descriptor;
   const WalrResource& resource = *list_->resources[binding.resource];
   if (resource.buffer == VK_TRUE) {
@@ -212,7 +219,7 @@ PassRecording::Descriptor PassRecording::describe(const WalrBinding& binding, co
   }
   const bool none = given.image == VK_NULL_HANDLE;
   descriptor.image = {(binding.filter == VK_FILTER_LINEAR ? linear_ : nearest_).get(),
-                      none ? zeros(binding.resource, commandBuffer) : view(binding.resource, given),
+                      none ? zeros(pass, binding.resource, commandBuffer) : view(binding.resource, given),
                       none ? VK_IMAGE_LAYOUT_GENERAL : given.layout};
   return descriptor;
 }
@@ -223,7 +230,7 @@ void PassRecording::writeSet(VkDescriptorSet set, const WalrDispatch& pass, std:
   std::vector<VkWriteDescriptorSet> writes(resources.size());
   for (std::size_t i = 0; i < resources.size(); ++i) {
     const WalrBinding& binding = *pass.bindings[i];
-    descriptors[i] = describe(binding, resources[i], commandBuffer);
+    descriptors[i] = describe(pass, binding, resources[i], commandBuffer);
     noteAge(binding, resources[i]);
     writes[i].sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
     writes[i].dstSet = set;

@@ -55,9 +55,10 @@ class PassRecording {
   /// @throws Error naming what the host left out; nothing is recorded then
   void requireResources(const WalrDispatch& pass, std::span<const WalrPassResource> resources) const;
   VkImageView view(std::uint32_t resource, const WalrPassResource& given);
-  VkImageView zeros(std::uint32_t resource, VkCommandBuffer commandBuffer);
+  VkImageView zeros(const WalrDispatch& pass, std::uint32_t resource, VkCommandBuffer commandBuffer);
   void clear(VkCommandBuffer commandBuffer, const Zeros& zeros) const;
-  Descriptor describe(const WalrBinding& binding, const WalrPassResource& given, VkCommandBuffer commandBuffer);
+  Descriptor describe(const WalrDispatch& pass, const WalrBinding& binding, const WalrPassResource& given,
+                      VkCommandBuffer commandBuffer);
   void writeSet(VkDescriptorSet set, const WalrDispatch& pass, std::span<const WalrPassResource> resources,
                 VkCommandBuffer commandBuffer);
   void noteAge(const WalrBinding& binding, const WalrPassResource& given);
@@ -75,7 +76,7 @@ class PassRecording {
   std::vector<VkDescriptorSet> sets_;         ///< By slot and pass.
   std::vector<std::uint64_t> recordedFrame_;  ///< By pass: the frame it was recorded in last, plus 1.
   std::map<std::pair<std::uint64_t, std::uint32_t>, fg::vk::Owned<VkImageView>> views_;  ///< By identity, resource.
-  std::map<std::uint32_t, Zeros> zeros_;                                                 ///< By resource.
+  std::map<std::pair<const WalrDispatch*, std::uint32_t>, Zeros> zeros_;                 ///< By pass and resource.
   std::map<std::uint32_t, std::pair<std::uint32_t, std::uint64_t>> ages_;  ///< By resource: age, and frame it is of.
   fg::vk::MemoryArena uploadMemory_;
   std::map<std::uint32_t, std::vector<Upload>> uploads_;  ///< By resource and slot.

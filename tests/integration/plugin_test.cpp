@@ -90,6 +90,42 @@ TEST_F(PluginTest, EveryMethodGivesTheSamePixelsAsADispatchListWithItsHeapsAndBa
   }
 }
 
+// In which hosts that know of synchronization2 alone leave what is read.
+TEST_F(PluginTest, ReadsFromReadOnlyOptimal) {
+  constexpr Size kSize{61, 43};
+  Opaque opaque(host, api(), info("none", kSize));
+  const WalrPasses passes = makePasses("none", kSize);
+  const WalrPassList* list = nullptr;
+  require(api().get_pass_list(passes, &list));
+  ASSERT_EQ(list->pass_count, 1);
+  const WalrCamera camera = cameraAt(0);
+  const auto imageOf = [&](std::size_t i) { return &opaque.image(i); };
+  uploadFrame(host, kSize, 0, imageOf);
+  opaque.frame(camera, 0);
+  const std::vector<std::uint16_t> expected = download(host, opaque.output());
+  uploadFrame(host, kSize, 1, imageOf);
+  opaque.frame(camera, 0);
+  EXPECT_NE(download(host, opaque.output()), expected);
+  uploadFrame(host, kSize, 0, imageOf);
+  const WalrPassFrame frame = passFrame(camera);
+  require(api().begin_frame(passes, &frame));
+  const VkCommandBuffer commands = host_begin(&host);
+  std::vector<WalrPassResource> resources;
+  for (std::uint32_t b = 0; b < list->passes[0]->binding_count; ++b) {
+    const WalrBinding& binding = *list->passes[0]->bindings[b];
+    const bool output = binding.type == VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
+    HostImage& image = output ? opaque.output() : opaque.image(0);
+    host_transition(commands, &image, binding.stage, binding.access,
+                    output ? VK_IMAGE_LAYOUT_GENERAL : VK_IMAGE_LAYOUT_READ_ONLY_OPTIMAL);
+    resources.push_back({image.image, VK_NULL_HANDLE, 0, image.layout, 0});
+  }
+  const auto count = static_cast<std::uint32_t>(resources.size());
+  require(api().record_pass(passes, 0, commands, resources.data(), count));
+  host_submit_and_wait(&host, commands);
+  EXPECT_EQ(download(host, opaque.output()), expected);
+  EXPECT_EQ(api().destroy_passes(passes), WALR_SUCCESS);
+}
+
 // Pixels say nothing about barriers here, so that validation must; and it must be on.
 TEST_F(PluginTest, AHostWithoutBarriersIsFoundOut) {
   const WalrPasses passes = makePasses("walr", {64, 48});

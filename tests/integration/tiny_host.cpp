@@ -131,30 +131,61 @@ void Graph::transition(VkCommandBuffer commands, const WalrBinding& binding) {
   host_transition(commands, image, binding.stage, binding.access, VK_IMAGE_LAYOUT_GENERAL);
 }
 
+std::vector<VkCommandBuffer> Graph::beginPasses() {
+  std::vector<VkCommandBuffer> buffers(list_->pass_count);
+  VkCommandBufferAllocateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO;
+  info.commandPool = host_->command_pool;
+  info.level = VK_COMMAND_BUFFER_LEVEL_SECONDARY;
+  info.commandBufferCount = list_->pass_count;
+  if (vkAllocateCommandBuffers(host_->device, &info, buffers.data()) != VK_SUCCESS) {
+    throw std::runtime_error("allocating the passes' command buffers");
+  }
+  VkCommandBufferInheritanceInfo inheritance{};
+  inheritance.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_INHERITANCE_INFO;
+  VkCommandBufferBeginInfo begin{};
+  begin.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO;
+  begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
+  begin.pInheritanceInfo = &inheritance;
+  for (const VkCommandBuffer buffer : buffers) {
+    if (vkBeginCommandBuffer(buffer, &begin) != VK_SUCCESS) throw std::runtime_error("beginning a pass");
+  }
+  return buffers;
+}
+
+void Graph::recordPass(std::uint32_t index, VkCommandBuffer commands) {
+  const WalrDispatch& pass = *list_->passes[index];
+  std::vector<WalrPassResource> resources(pass.binding_count);
+  for (std::uint32_t b = 0; b < pass.binding_count; ++b) {
+    const WalrBinding& binding = *pass.bindings[b];
+    const WalrResource& resource = *list_->resources[binding.resource];
+    if (resource.kind == WALR_RESOURCE_UPLOAD) continue;
+    if (resource.buffer == VK_TRUE) {
+      resources[b].buffer = buffers_.at(resource.name).buffer;
+      continue;
+    }
+    const HostImage* image = behind(binding.resource);
+    resources[b].image = image == nullptr ? VK_NULL_HANDLE : image->image;
+    resources[b].layout = VK_IMAGE_LAYOUT_GENERAL;
+  }
+  if (api_->record_pass(passes_, index, commands, resources.data(), pass.binding_count) != WALR_SUCCESS) {
+    throw std::runtime_error(api_->last_error());
+  }
+  if (vkEndCommandBuffer(commands) != VK_SUCCESS) throw std::runtime_error("ending a pass");
+}
+
 void Graph::frame(const WalrPassFrame& frame) {
   if (api_->begin_frame(passes_, &frame) != WALR_SUCCESS) throw std::runtime_error(api_->last_error());
   const VkCommandBuffer commands = host_begin(host_);
+  std::vector<VkCommandBuffer> passes = beginPasses();
+  for (std::uint32_t i = list_->pass_count; i-- > 0;) recordPass(i, passes[i]);
   for (std::uint32_t i = 0; i < list_->pass_count; ++i) {
     const WalrDispatch& pass = *list_->passes[i];
-    std::vector<WalrPassResource> resources(pass.binding_count);
-    for (std::uint32_t b = 0; b < pass.binding_count; ++b) {
-      const WalrBinding& binding = *pass.bindings[b];
-      const WalrResource& resource = *list_->resources[binding.resource];
-      transition(commands, binding);
-      if (resource.kind == WALR_RESOURCE_UPLOAD) continue;
-      if (resource.buffer == VK_TRUE) {
-        resources[b].buffer = buffers_.at(resource.name).buffer;
-        continue;
-      }
-      const HostImage* image = behind(binding.resource);
-      resources[b].image = image == nullptr ? VK_NULL_HANDLE : image->image;
-      resources[b].layout = VK_IMAGE_LAYOUT_GENERAL;
-    }
-    if (api_->record_pass(passes_, i, commands, resources.data(), pass.binding_count) != WALR_SUCCESS) {
-      throw std::runtime_error(api_->last_error());
-    }
+    for (std::uint32_t b = 0; b < pass.binding_count; ++b) transition(commands, *pass.bindings[b]);
+    vkCmdExecuteCommands(commands, 1, &passes[i]);
   }
   host_submit_and_wait(host_, commands);
+  vkFreeCommandBuffers(host_->device, host_->command_pool, list_->pass_count, passes.data());
   parity_ = 1 - parity_;
   hasHistory_ = true;
 }

@@ -13,7 +13,8 @@
 
 /// A frame graph in the manner of Granite's: resources go by name and all belong to the graph, nothing is imported;
 /// images with storage use stay in GENERAL, also where they are sampled, and never share memory; a history is null
-/// until a frame lies behind it. It knows walr by the plug-in's headers alone.
+/// until a frame lies behind it; passes are recorded in another order than they run in, as by threads, each into a
+/// command buffer of its own. It knows walr by the plug-in's headers alone.
 namespace tiny_host {
 
 class Graph {
@@ -56,6 +57,8 @@ class Graph {
   /// The image behind a resource in this frame; null for a history that there is none of.
   HostImage* behind(std::uint32_t resource);
   void transition(VkCommandBuffer commands, const WalrBinding& binding);
+  std::vector<VkCommandBuffer> beginPasses();
+  void recordPass(std::uint32_t pass, VkCommandBuffer commands);
 
   Host* host_;
   const WalrApi* api_;

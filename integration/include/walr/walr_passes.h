@@ -56,9 +56,11 @@ typedef struct WalrBinding {
   VkDescriptorType type;
   uint32_t resource;           /* Index into WalrPassList::resources. */
   VkPipelineStageFlags2 stage; /* In which the pass touches it, */
-  VkAccessFlags2 access;       /* how, */
-  VkImageLayout layout;        /* and in which layout unless the host says otherwise. GENERAL always does. */
-  VkFilter filter;             /* Of combined image samplers, which clamp to the edge. */
+  VkAccessFlags2 access;       /* and how. */
+  /* And in which layout unless the host says otherwise. GENERAL always does, and READ_ONLY_OPTIMAL in place of
+   * SHADER_READ_ONLY_OPTIMAL. */
+  VkImageLayout layout;
+  VkFilter filter; /* Of combined image samplers, which clamp to the edge. */
 } WalrBinding;
 
 /* A VkImageMemoryBarrier2 or VkBufferMemoryBarrier2 of the whole resource. */
@@ -174,9 +176,11 @@ typedef struct WalrPassResource {
 } WalrPassResource;
 
 /*
- * Bind and dispatch a pass. There is no barrier in it, save for the zeros of a history that is null: everything that it
- * touches must be in the given layout, visible to the binding's stage and access, and stay so until others wait for it.
- * resources: one for each of the pass's bindings, in their order.
+ * Bind and dispatch a pass. Passes of a frame may be recorded in any order and into different command buffers,
+ * secondary ones too, so long as the GPU comes to them in the list's order or another that works. There is no barrier
+ * in it, save for the zeros of a history that is null: everything that it touches must be in the given layout, visible
+ * to the binding's stage and access, and stay so until others wait for it. resources: one for each of the pass's
+ * bindings, in their order.
  */
 WALR_API WalrResult walr_record_pass(WalrPasses passes, uint32_t pass, VkCommandBuffer command_buffer,
                                      const WalrPassResource* resources, uint32_t resource_count);
