@@ -197,6 +197,7 @@ BenchReport bench(const GpuDevice& device, const std::vector<NamedSequence>& seq
 
   const std::vector<SizeWork> sizes = sizeWork(setup, store, options);
   for (const SizeWork& todo : sizes) frames += todo.batches.size() * kFramesPerSize * (options.repetitions + 1);
+  if (options.content) frames += options.variants.size() * kFramesPerContent * (options.repetitions + 1);
 
   std::optional<Progress> progress;
   if (frames > 0) progress.emplace(log, terminal, "frame", frames, Progress::Clock::now());
@@ -226,6 +227,10 @@ BenchReport bench(const GpuDevice& device, const std::vector<NamedSequence>& seq
   for (const SizeWork& todo : sizes) {
     report.sizes.push_back(
         timeSize(device, setup, store, todo, options, [&] { progress->advance(Progress::Clock::now()); }));
+  }
+  if (options.content) {
+    report.contents = contentTimes(device, options.variants, kContentExtent, options.repetitions,
+                                   [&] { progress->advance(Progress::Clock::now()); });
   }
   progress.reset();
   if (options.response) report.responses = responses(device, options.variants);

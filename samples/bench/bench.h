@@ -10,6 +10,7 @@
 
 #include "samples/bench/bench_frame.h"
 #include "samples/bench/build_info.h"
+#include "samples/bench/content_times.h"
 #include "samples/bench/device_facts.h"
 #include "samples/bench/numerics.h"
 #include "samples/bench/plan_costs.h"
@@ -46,6 +47,7 @@ struct BenchOptions {
   std::optional<VmafTool> vmaf;  ///< Computes VMAF where there is one.
   std::string whyNoVmaf;         ///< In words, where there is none.
   bool hardCases = false;        ///< Also run the hard cases of the arithmetic (`numerics`, `methodHardCases`).
+  bool content = false;          ///< Also time all variants by what the picture holds (`contentTimes`).
   bool response = false;         ///< Also run all variants on the synthetic scenes (`responses`).
 };
 
@@ -71,7 +73,8 @@ struct BenchReport {
   std::map<std::string, std::vector<PlanCosts>> costs;        ///< At the sequences' sizes and 720p to 4K, by variant.
   std::vector<SequenceReport> sequences;
   std::vector<SizeTimes> sizes;
-  std::vector<Response> responses;  ///< Of all variants, or empty.
+  std::vector<ContentTimes> contents;  ///< Of all variants, or empty.
+  std::vector<Response> responses;     ///< Of all variants, or empty.
   std::vector<NumericsResult> numerics;
   std::vector<MethodHardCase> methodHardCases;
 };

@@ -98,6 +98,16 @@ Json sizeJson(const SizeTimes& size) {
   return {{"width", size.extent.width}, {"height", size.extent.height}, {"timings", std::move(timings)}};
 }
 
+Json contentJson(const ContentTimes& times) {
+  Json list = Json::array();
+  for (std::size_t i = 0; i < times.timings.size(); ++i) {
+    Json object = {{"content", contents()[i].name}};
+    addTiming(object, times.timings[i]);
+    list.push_back(std::move(object));
+  }
+  return {{"variant", times.variant}, {"timings", std::move(list)}};
+}
+
 Json cutJson(const CutResponse& cut) {
   return {{"rmse", cut.rmse}, {"left", cut.left}};
 }
@@ -255,6 +265,20 @@ void printSize(std::ostream& stream, const BenchReport& report, const SizeTimes&
   }
 }
 
+void printContents(std::ostream& stream, const BenchReport& report) {
+  const int nameWidth = widestName(report) + 1;
+  stream << '\n' << std::left << std::setw(nameWidth) << "time x, by content" << std::right;
+  for (const Content& content : contents()) stream << std::setw(kCellWidth + 2) << content.name;
+  stream << '\n';
+  for (const ContentTimes& times : report.contents) {
+    stream << std::left << std::setw(nameWidth) << times.variant << std::right;
+    for (const Timing& timing : times.timings) {
+      stream << cell(timing.ratio ? std::optional(timing.ratio->median) : std::nullopt, kCellWidth + 2, 3);
+    }
+    stream << '\n';
+  }
+}
+
 void printSequence(std::ostream& stream, const BenchReport& report, const SequenceReport& sequence) {
   const int nameWidth = widestName(report) + 1;
   stream << '\n' << std::left << std::setw(nameWidth) << sequence.name << std::right;
@@ -315,6 +339,8 @@ std::string benchJson(const BenchReport& report, const std::string& command) {
   for (const SequenceReport& sequence : report.sequences) document["sequences"].push_back(sequenceJson(sequence));
   document["sizes"] = Json::array();
   for (const SizeTimes& size : report.sizes) document["sizes"].push_back(sizeJson(size));
+  document["contents"] = Json::array();
+  for (const ContentTimes& times : report.contents) document["contents"].push_back(contentJson(times));
   document["responses"] = Json::array();
   for (const Response& response : report.responses) document["responses"].push_back(responseJson(response));
   document["hard_cases"] = Json::array();
@@ -372,6 +398,7 @@ void printBench(std::ostream& stream, const BenchReport& report) {
     if (report.vmaf.empty()) stream << "No VMAF: " << report.whyNoVmaf << ".\n";
   }
   for (const SizeTimes& size : report.sizes) printSize(stream, report, size);
+  if (!report.contents.empty()) printContents(stream, report);
   if (!report.responses.empty()) printResponses(stream, report);
   if (!report.numerics.empty()) {
     printHardCases(stream, "ways of storing and solving", report.numerics, [](const NumericsResult& result) {

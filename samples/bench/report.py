@@ -339,6 +339,21 @@ def size_section(bench, size):
             + (svg(figure, f"phases {title}") if figure else ""))
 
 
+def content_section(bench):
+    """Times by what the picture holds, relative to the first content."""
+    contents = bench.json["contents"]
+    names = [t["content"] for t in contents[0]["timings"]]
+    rows = []
+    for entry in contents:
+        ratios = [t["ratio"] for t in entry["timings"]]
+        rows.append([html.escape(entry["variant"])] +
+                    [f"{r['median']:.2f} <small>({r['p5']:.2f} to {r['p95']:.2f})</small>" if r else "no timer"
+                     for r in ratios])
+    return table(["method"] + names, rows, "Median ratio (5 to 95 %) to the same method's time on the first content. "
+                 "A wall and a slab that moves before it; the same with bars of one pixel, eight pixels apart, before it; "
+                 "without light; with the upper half, nine tenths, and all of it sky.")
+
+
 def vmaf_note(vmaf):
     """Who computed VMAF, or why nobody did."""
     return html.escape(f"VMAF by {vmaf['by']}." if vmaf["by"] else f"No VMAF: {vmaf['missing_because']}.")
@@ -370,6 +385,8 @@ def page(bench):
     out.append("<h2>Traffic and memory</h2>" + costs_section(bench))
     if data["sizes"]:
         out.append("<h2>Time by size</h2>" + "".join(size_section(bench, size) for size in data["sizes"]))
+    if data["contents"]:
+        out.append("<h2>Time by content</h2>" + content_section(bench))
     if data["responses"]:
         out.append("<h2>Response to change</h2>" + response_section(bench))
     if data["hard_cases"]:

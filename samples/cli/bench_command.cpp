@@ -68,9 +68,9 @@ void writeText(const std::filesystem::path& path, const std::string& text) {
 }
 
 void runBench(BenchArguments& arguments, const std::string& command) {
-  if (arguments.sequences.empty() && arguments.sizes.empty() && !arguments.bench.response &&
+  if (arguments.sequences.empty() && arguments.sizes.empty() && !arguments.bench.content && !arguments.bench.response &&
       !arguments.bench.hardCases) {
-    throw UsageError("nothing to measure: give --sequences DIR..., --sizes, --response or --hard-cases");
+    throw UsageError("nothing to measure: give --sequences DIR..., --sizes, --content, --response or --hard-cases");
   }
   for (const std::string& size : arguments.sizes) arguments.bench.sizes.push_back(parseSize(size));
   arguments.bench.variants = chosenVariants(arguments);
@@ -125,7 +125,7 @@ void registerBench(CLI::App& program) {
   command
       ->add_option("--sequences", arguments->sequences,
                    "Folders of frames with references (samples/README.md), one report section each; may be left out "
-                   "with --sizes, --response or --hard-cases")
+                   "with --sizes, --content, --response or --hard-cases")
       ->type_name("DIR...");
   command
       ->add_option("-o,--output", arguments->bench.output,
@@ -152,6 +152,8 @@ void registerBench(CLI::App& program) {
       ->delimiter(',')
       ->allow_extra_args(false)
       ->type_name("WIDTHxHEIGHT,...");
+  command->add_flag("--content", arguments->bench.content,
+                    "Also time every variant by what the picture holds: a wall, a fence, no light, more and more sky");
   command->add_flag(
       "--hard-cases", arguments->bench.hardCases,
       "Also run every method, and walr with every storage of the moments and way of solving, on frames that "

@@ -143,6 +143,20 @@ TEST_F(BenchProgramTest, TimesAtOtherSizes) {
   EXPECT_EQ(report(first)["sizes"], data["sizes"]) << "taken up again";
 }
 
+TEST_F(BenchProgramTest, TimesByContent) {
+  expectSuccess(test::runProcess(
+      {WALR_PROGRAM, "bench", "--output", first.string(), "--repeat", "1", "--methods", "none", "--content"}));
+  const json data = report(first);
+  ASSERT_EQ(data["contents"].size(), 2U) << "the baseline is timed, too";
+  for (const json& times : data["contents"]) {
+    ASSERT_EQ(times["timings"].size(), 6U);
+    EXPECT_EQ(times["timings"][0]["content"], "wall");
+    EXPECT_EQ(times["timings"][0]["ratio"]["median"], 1.0);
+    for (const json& timing : times["timings"]) EXPECT_EQ(timing["timed_frames"], 8);
+  }
+  EXPECT_NE(test::readText(first / "report.html").find("Time by content"), std::string::npos);
+}
+
 /// References are dear: frames without one are run all the same, and have no errors.
 TEST_F(BenchProgramTest, MeasuresTheFramesThatHaveAReference) {
   expectSuccess(bench(first, {"--methods", "accumulate"}));

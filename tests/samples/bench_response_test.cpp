@@ -1,10 +1,14 @@
 #include "samples/bench/response.h"
 
+#include <algorithm>
 #include <cmath>
+#include <map>
+#include <string_view>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "samples/bench/content_times.h"
 #include "samples/bench/response_scene.h"
 
 namespace walr {
@@ -43,6 +47,19 @@ TEST(ResponseScene, TheSlabCarriesItsMotionAndUncoversTheWall) {
     EXPECT_EQ(before.age[source], -1) << "pixel " << x;
   }
   EXPECT_EQ(moving, kExtent.width / 4);
+}
+
+TEST(Contents, HoldWhatTheirNamesSay) {
+  constexpr fg::Extent kExtent{64, 40};
+  const auto skyShare = [](const Content& content) {
+    const Image depth = content.frame(kExtent, 8).frame.depth;
+    return static_cast<double>(std::ranges::count(depth.values(), kBackgroundDepth)) / depth.pixelCount();
+  };
+  std::map<std::string_view, double> shares;
+  for (const Content& content : contents()) shares[content.name] = skyShare(content);
+  EXPECT_EQ(shares,
+            (std::map<std::string_view, double>{
+                {"wall", 0.0}, {"fence", 0.0}, {"dark", 0.0}, {"half sky", 0.5}, {"mostly sky", 0.9}, {"sky", 1.0}}));
 }
 
 /// Age of a moving Gaussian that is nearest to an exponential mean over it. The squared distance is least where the

@@ -1,0 +1,96 @@
+#include "samples/bench/content_times.h"
+
+#include <array>
+
+#include "samples/bench/response_scene.h"
+#include "samples/denoise/gpu_denoiser.h"
+
+namespace walr {
+namespace {
+
+constexpr float kFenceDepth = 0.5F;
+constexpr int kFencePeriod = 8;
+
+void clear(Image& image, std::size_t pixel, float value = 0.0F) {
+  for (float& component : image.pixel(pixel)) component = value;
+}
+
+/// The upper rows show sky.
+PackedFrame underSky(fg::Extent extent, int number, double share) {
+  Frame frame = slabFrame(extent, number).packed.frame;
+  const auto rows = static_cast<std::size_t>(share * extent.height);
+  for (std::size_t i = 0; i < rows * extent.width; ++i) {
+    for (Image* image : {&frame.indirect, &frame.albedo, &frame.normal, &frame.motion}) clear(*image, i);
+    clear(frame.depth, i, kBackgroundDepth);
+  }
+  return packFrame(std::move(frame));
+}
+
+PackedFrame behindFence(fg::Extent extent, int number) {
+  Frame frame = slabFrame(extent, number).packed.frame;
+  for (int y = 0; y < frame.depth.height(); ++y) {
+    for (int x = 0; x < frame.depth.width(); ++x) {
+      if (x % kFencePeriod == 0 || y % kFencePeriod == 0) frame.depth.at(x, y, 0) *= kFenceDepth;
+    }
+  }
+  return packFrame(std::move(frame));
+}
+
+PackedFrame dark(fg::Extent extent, int number) {
+  Frame frame = slabFrame(extent, number).packed.frame;
+  for (std::size_t i = 0; i < frame.indirect.pixelCount(); ++i) clear(frame.indirect, i);
+  return packFrame(std::move(frame));
+}
+
+constexpr std::array kContents = {
+    Content{"wall", "a wall and a slab that moves before it",
+            [](fg::Extent extent, int frame) { return slabFrame(extent, frame).packed; }},
+    Content{"fence", "the same with bars of one pixel, eight pixels apart, halfway before it", behindFence},
+    Content{"dark", "the same without light", dark},
+    Content{"half sky", "the same with sky in the upper half",
+            [](fg::Extent extent, int frame) { return underSky(extent, frame, 0.5); }},
+    Content{"mostly sky", "sky but for the lowest tenth",
+            [](fg::Extent extent, int frame) { return underSky(extent, frame, 0.9); }},
+    Content{"sky", "nothing but sky", [](fg::Extent extent, int frame) { return underSky(extent, frame, 1.0); }},
+};
+
+/// One content on its way.
+struct Lane {
+  GpuDenoiser denoiser;
+  std::array<PackedFrame, 2> frames;
+  FrameTimes times;
+};
+
+}  // namespace
+
+std::span<const Content> contents() {
+  return kContents;
+}
+
+std::vector<ContentTimes> contentTimes(const GpuDevice& device, std::span<const Variant> variants, fg::Extent extent,
+                                       std::size_t repetitions, const std::function<void()>& frameDone) {
+  std::vector<ContentTimes> all;
+  for (const Variant& variant : variants) {
+    std::vector<Lane> lanes;
+    for (const Content& content : kContents) {
+      lanes.push_back({GpuDenoiser(device, *makeVariant(variant), extent, projectLayout()),
+                       {content.frame(extent, 8), content.frame(extent, 9)},
+                       {}});
+    }
+    for (std::size_t i = 0; i < kFramesPerContent * (1 + repetitions); ++i) {
+      // Who is first moves on, so that drift hits all alike.
+      for (std::size_t lane = 0; lane < lanes.size(); ++lane) {
+        Lane& now = lanes[(i + lane) % lanes.size()];
+        const DenoisedPicture picture = now.denoiser.run(now.frames[i % now.frames.size()]);
+        if (i >= kFramesPerContent) now.times.add(picture);
+      }
+      frameDone();
+    }
+    ContentTimes& times = all.emplace_back();
+    times.variant = variant.name;
+    for (const Lane& lane : lanes) times.timings.push_back(lane.times.timing(lanes.front().times));
+  }
+  return all;
+}
+
+}  // namespace walr

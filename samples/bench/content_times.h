@@ -1,0 +1,45 @@
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "samples/bench/timing.h"
+#include "samples/bench/variant.h"
+#include "samples/denoise/gpu_device.h"
+#include "samples/denoise/packed_frame.h"
+
+namespace walr {
+
+/// A kind of picture: what it holds that may cost a method more or less.
+struct Content {
+  std::string_view name;
+  std::string_view description;
+  /// Frame of a size; frames follow each other.
+  PackedFrame (*frame)(fg::Extent extent, int frame);
+};
+
+/// The first is what the others are compared with.
+std::span<const Content> contents();
+
+/// Times of one variant by content.
+struct ContentTimes {
+  std::string variant;
+  std::vector<Timing> timings;  ///< In the order of `contents`; ratios are to the first on the same repetition.
+};
+
+/// Size of picture at which `walr bench` compares contents.
+inline constexpr fg::Extent kContentExtent{384, 216};
+
+/// Frames of which each repetition of `contentTimes` consists.
+inline constexpr std::size_t kFramesPerContent = 8;
+
+/// Time each variant on all contents beside each other, after one repetition that warms up.
+/// @param frameDone  called after each frame of all contents
+/// @throws fg::vk::Error when the device fails
+std::vector<ContentTimes> contentTimes(const GpuDevice& device, std::span<const Variant> variants, fg::Extent extent,
+                                       std::size_t repetitions, const std::function<void()>& frameDone);
+
+}  // namespace walr
