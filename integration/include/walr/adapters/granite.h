@@ -1,0 +1,234 @@
+/* walr's passes in Granite's render graph. Header-only; C++17. */
+#ifndef WALR_ADAPTERS_GRANITE_H
+#define WALR_ADAPTERS_GRANITE_H
+
+#include <cstdint>
+#include <map>
+#include <mutex>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+// Granite's headers come before any of Vulkan's.
+#include <render_graph.hpp>
+
+#include <walr/walr_passes.h>
+
+namespace walr::adapters {
+
+/// Adds a method's passes to a Granite::RenderGraph, each as a compute pass of its own. The graph makes every image and
+/// buffer, keeps the histories and places the barriers; the host's passes write the inputs and read the result by name.
+///
+/// A frame is begin(), RenderGraph::setup_attachments, RenderGraph::enqueue_render_passes. The passes must outlive the
+/// graph's frames: RenderGraph::reset comes first.
+class GranitePasses {
+ public:
+  /// Functions of walr, linked or as a plug-in registered them.
+  struct Functions {
+    decltype(&walr_begin_frame) beginFrame;
+    decltype(&walr_record_pass) recordPass;
+    decltype(&walr_last_error) lastError;
+  };
+
+  /// @param passes stays the caller's; may have as many frames in flight as the device has frame contexts
+  /// @param list   of the passes; must outlive this
+  GranitePasses(WalrPasses passes, const WalrPassList& list, const Functions& walr)
+      : passes_(passes), list_(&list), walr_(walr) {}
+  GranitePasses(const GranitePasses&) = delete;
+  GranitePasses& operator=(const GranitePasses&) = delete;
+
+  /// Add the passes to a graph that is not baked yet.
+  /// @param names textures of the graph by walr's names for them ("lighting", ..., "denoised") where they differ
+  /// @throws std::invalid_argument where Granite has no such thing
+  void add(Granite::RenderGraph& graph, const std::map<std::string, std::string>& names = {}) {
+    graph_ = &graph;
+    added_.clear();
+    kept_.clear();
+    states_.assign(list_->resource_count, {});
+    for (std::uint32_t i = 0; i < list_->resource_count; ++i) {
+      const WalrResource& resource = *list_->resources[i];
+      const auto given = names.find(resource.name);
+      states_[i].name = resource.kind != WALR_RESOURCE_HOST ? std::string("walr/") + resource.name
+                        : given == names.end()              ? resource.name
+                                                            : given->second;
+    }
+    for (std::uint32_t i = 0; i < list_->pass_count; ++i) addPass(i);
+  }
+
+  /// Have a pass of the host's read the result. Granite culls what the back buffer does not depend on in this frame:
+  /// what is written for the next one only is kept by this, too.
+  Granite::RenderTextureResource& readBy(Granite::RenderPass& pass) const {
+    for (const std::string& name : kept_) pass.add_proxy_input(name, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, 0);
+    for (std::uint32_t i = 0; i < list_->resource_count; ++i) {
+      const WalrResource& resource = *list_->resources[i];
+      if (resource.kind == WALR_RESOURCE_HOST && states_[i].versions > 0) return pass.add_texture_input(current(i));
+    }
+    throw std::invalid_argument("no pass writes a result: add() comes first");
+  }
+
+  /// Begin a frame, once the device is in its context.
+  /// @param reset leave out the histories: camera cut, or frames were skipped
+  /// @throws std::runtime_error with walr's words, also for what went wrong on Granite's threads in the frame before
+  void begin(const WalrPassFrame& frame, bool reset = false) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (!error_.empty()) throw std::runtime_error(error_);
+    if (walr_.beginFrame(passes_, &frame) != WALR_SUCCESS) throw std::runtime_error(walr_.lastError());
+    reset_ = reset;
+  }
+
+  /// @returns what went wrong on Granite's threads; empty where nothing did
+  std::string error() const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return error_;
+  }
+
+ private:
+  /// Granite knows a resource that several passes write by a new name after each.
+  struct State {
+    std::string name;
+    std::uint32_t versions = 0;                 ///< Written so far.
+    std::vector<Granite::RenderPass*> readers;  ///< Of the current one.
+  };
+  /// What is behind a binding; neither for what is walr's own.
+  struct Bound {
+    Granite::RenderTextureResource* texture = nullptr;
+    Granite::RenderBufferResource* buffer = nullptr;
+    bool history = false;
+  };
+  struct Added {
+    Granite::RenderPass* pass = nullptr;
+    std::vector<Bound> bindings;
+  };
+
+  static bool writes(const WalrBinding& binding) {
+    return (binding.access & (VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT | VK_ACCESS_2_SHADER_WRITE_BIT)) != 0;
+  }
+
+  std::string version(std::uint32_t resource, std::uint32_t number) const {
+    const State& state = states_[resource];
+    return number < 2 ? state.name : state.name + "@" + std::to_string(number);
+  }
+  std::string current(std::uint32_t resource) const { return version(resource, states_[resource].versions); }
+
+  Granite::AttachmentInfo attachment(const WalrResource& resource) const {
+    Granite::AttachmentInfo info;
+    info.size_class = Granite::SizeClass::Absolute;
+    info.size_x = static_cast<float>(resource.width);
+    info.size_y = static_cast<float>(resource.height);
+    info.format = resource.format;
+    info.aux_usage = resource.image_usage;
+    return info;
+  }
+
+  void addPass(std::uint32_t index) {
+    const WalrDispatch& dispatch = *list_->passes[index];
+    Granite::RenderPass& pass =
+        graph_->add_pass(std::string("walr/") + dispatch.name, Granite::RenderGraph::get_default_compute_queue());
+    Added added{&pass, {}};
+    bool keeps = false;
+    for (std::uint32_t b = 0; b < dispatch.binding_count; ++b) {
+      const WalrBinding& binding = *dispatch.bindings[b];
+      const WalrResource& resource = *list_->resources[binding.resource];
+      keeps = keeps || (resource.kind == WALR_RESOURCE_HISTORY_CURRENT && writes(binding));
+      added.bindings.push_back(resource.buffer == VK_TRUE ? declareBuffer(pass, binding) : declareImage(pass, binding));
+    }
+    if (keeps) {
+      kept_.push_back(std::string("walr/kept by ") + dispatch.name);
+      pass.add_proxy_output(kept_.back(), VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, 0);
+    }
+    pass.set_build_render_pass([this, index](Vulkan::CommandBuffer& commands) { record(index, commands); });
+    added_.push_back(std::move(added));
+  }
+
+  Bound declareImage(Granite::RenderPass& pass, const WalrBinding& binding) {
+    const WalrResource& resource = *list_->resources[binding.resource];
+    Bound bound;
+    if (resource.kind == WALR_RESOURCE_HISTORY_PREVIOUS) {
+      bound.history = true;
+      bound.texture = &pass.add_history_input(states_[resource.partner].name);
+    } else if (binding.type == VK_DESCRIPTOR_TYPE_STORAGE_IMAGE) {
+      const auto [input, output] = nextVersion(pass, binding.resource);
+      bound.texture = &pass.add_storage_texture_output(output, attachment(resource), input);
+    } else {
+      bound.texture = &pass.add_texture_input(current(binding.resource));
+      states_[binding.resource].readers.push_back(&pass);
+    }
+    return bound;
+  }
+
+  Bound declareBuffer(Granite::RenderPass& pass, const WalrBinding& binding) {
+    const WalrResource& resource = *list_->resources[binding.resource];
+    Bound bound;
+    if (resource.kind == WALR_RESOURCE_UPLOAD) return bound;
+    if (resource.kind != WALR_RESOURCE_TRANSIENT) {
+      throw std::invalid_argument(std::string(resource.name) + ": Granite has no history of buffers");
+    }
+    if (writes(binding)) {
+      Granite::BufferInfo info;
+      info.size = resource.buffer_size;
+      info.usage = resource.buffer_usage;
+      const auto [input, output] = nextVersion(pass, binding.resource);
+      bound.buffer = &pass.add_storage_output(output, info, input);
+    } else {
+      bound.buffer = &pass.add_storage_read_only_input(current(binding.resource));
+      states_[binding.resource].readers.push_back(&pass);
+    }
+    return bound;
+  }
+
+  /// Names of a resource before and after a pass that writes to it. Granite does not order the pass after those that
+  /// read what was there before.
+  std::pair<std::string, std::string> nextVersion(Granite::RenderPass& pass, std::uint32_t resource) {
+    State& state = states_[resource];
+    const std::string input = state.versions == 0 ? std::string() : current(resource);
+    ++state.versions;
+    const std::string output = current(resource);
+    for (Granite::RenderPass* reader : state.readers) {
+      const std::string order = output + " after " + reader->get_name();
+      reader->add_proxy_output(order, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, 0);
+      pass.add_proxy_input(order, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, 0);
+    }
+    state.readers.clear();
+    return {input, output};
+  }
+
+  WalrPassResource resolve(const Bound& bound) const {
+    if (bound.buffer != nullptr) {
+      return {VK_NULL_HANDLE, graph_->get_physical_buffer_resource(*bound.buffer).get_buffer(), 0,
+              VK_IMAGE_LAYOUT_UNDEFINED, 0};
+    }
+    if (bound.texture == nullptr || (bound.history && reset_)) return {};
+    const Vulkan::ImageView* view = bound.history ? graph_->get_physical_history_texture_resource(*bound.texture)
+                                                  : &graph_->get_physical_texture_resource(*bound.texture);
+    if (view == nullptr) return {};
+    const Vulkan::Image& image = view->get_image();
+    return {image.get_image(), VK_NULL_HANDLE, image.get_cookie(), image.get_layout(VK_IMAGE_LAYOUT_READ_ONLY_OPTIMAL),
+            0};
+  }
+
+  /// On one of Granite's threads, where nothing may be thrown.
+  void record(std::uint32_t index, Vulkan::CommandBuffer& commands) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    std::vector<WalrPassResource> resources;
+    for (const Bound& bound : added_[index].bindings) resources.push_back(resolve(bound));
+    const WalrResult result = walr_.recordPass(passes_, index, commands.get_command_buffer(), resources.data(),
+                                               static_cast<std::uint32_t>(resources.size()));
+    if (result != WALR_SUCCESS && error_.empty()) error_ = walr_.lastError();
+  }
+
+  WalrPasses passes_;
+  const WalrPassList* list_;
+  Functions walr_;
+  Granite::RenderGraph* graph_ = nullptr;
+  std::vector<State> states_;  ///< By resource.
+  std::vector<Added> added_;   ///< By pass.
+  std::vector<std::string> kept_;
+  mutable std::mutex mutex_;  ///< Granite records passes side by side; walr takes one thread at a time.
+  std::string error_;
+  bool reset_ = false;
+};
+
+}  // namespace walr::adapters
+
+#endif
