@@ -25,6 +25,7 @@ SvgfSettings paperSvgf() {
   settings.filter.iterations = 5;
   settings.filter.sigmaNormal = 128.0F;
   settings.filter.feedback = 1;
+  settings.antialiasing.maxSamples = 8.0F;
   return settings;
 }
 

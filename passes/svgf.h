@@ -15,7 +15,7 @@ struct SvgfSettings {
   PrepareGuidesSettings guides;
   SvgfAccumulationSettings accumulation;
   SvgfFilterSettings filter;
-  TemporalAntialiasingSettings antialiasing{.maxSamples = 8.0F};
+  TemporalAntialiasingSettings antialiasing;
 
   void visit(SettingVisitor& v) {
     v.visit({"spatial-only", "Filter each frame by itself, without temporal stages", "", 0, 1, "nagi-svgf.txt"},

@@ -15,7 +15,7 @@ namespace walr {
 /// Settings of the postprocessing stage (walr.txt 4.4).
 struct TemporalAntialiasingSettings {
   bool enabled = true;
-  float maxSamples = 5.0F;
+  float maxSamples = 3.0F;
   float clipGamma = 1.0F;
   std::uint32_t clipRadius = 1;
   HistoryRejection rejection = HistoryRejection::Plane;
