@@ -3,6 +3,7 @@
 #include "framegraph/graph.h"
 #include "passes/prepare_guides.h"
 #include "passes/settings.h"
+#include "passes/tile_lists.h"
 
 namespace walr {
 
@@ -19,8 +20,9 @@ struct AmbientOcclusionSettings {
 
 /// Ambient occlusion of every pixel, from depth alone and without noise.
 /// @param frame upload of `FrameConstants`
+/// @param tiles where given, only their tiles with surfaces get a value
 /// @returns R16_SFLOAT: mean sine of the horizon above the tangent plane, 0 (open) to 1; 0 where there is no surface
 fg::Texture addAmbientOcclusion(fg::Graph& graph, fg::Buffer frame, const Guides& guides,
-                                const AmbientOcclusionSettings& settings = {});
+                                const AmbientOcclusionSettings& settings = {}, const TileLists* tiles = nullptr);
 
 }  // namespace walr

@@ -188,7 +188,7 @@ BlockFits addFineFit(const BlockGrid& grid, BlockAverages averages, fg::Texture 
 
 fg::Texture addBlockRegression(fg::Graph& graph, fg::Buffer frame, fg::Texture accumulated, LightingAlpha alpha,
                                const Guides& guides, fg::Texture occlusion, const BlockRegressionSettings& settings,
-                               Inspection* inspection) {
+                               Inspection* inspection, const TileLists* tiles) {
   if (!(settings.planeNear < settings.planeFar)) {
     throw std::invalid_argument("setting blocks.plane-near must be below blocks.plane-far");
   }
@@ -237,16 +237,24 @@ fg::Texture addBlockRegression(fg::Graph& graph, fg::Buffer frame, fg::Texture a
         .sample("coarseB", coarse.b)
         .sample("coarseC", coarse.c)
         .sample("coarseDepth", coarse.depth)
-        .specialize("kCellSize", grid.cellSize)
-        .dispatch(grid.pixels);
+        .specialize("kCellSize", grid.cellSize);
     return pass;
   };
   if (inspection != nullptr) {
-    inspection->offer(graph, reconstructionViews(), grid.pixels,
-                      [&](const std::string& name) { return reconstruct(name, shaders::blockApplyView); });
+    inspection->offer(graph, reconstructionViews(), grid.pixels, [&](const std::string& name) {
+      return reconstruct(name, shaders::blockApplyView).dispatch(grid.pixels);
+    });
   }
-  return reconstruct("block apply", shaders::blockApply)
-      .store("outFiltered", graph.texture("filtered", {VK_FORMAT_R16G16B16A16_SFLOAT, grid.pixels}));
+  const fg::Texture filtered = graph.texture("filtered", {VK_FORMAT_R16G16B16A16_SFLOAT, grid.pixels});
+  if (tiles == nullptr) {
+    return reconstruct("block apply", shaders::blockApply).dispatch(grid.pixels).store("outFiltered", filtered);
+  }
+  fg::PassBuilder apply = reconstruct("block apply", shaders::blockApplyListed);
+  dispatchTiles(apply, tiles->surfaces);
+  fg::PassBuilder passSky = graph.compute("pass sky", shaders::passSky);
+  passSky.sample("accumulated", accumulated).specialize("kAlphaIsSampleCount", alpha == LightingAlpha::SampleCount);
+  dispatchTiles(passSky, tiles->sky);
+  return passSky.update("filtered", apply.store("outFiltered", filtered));
 }
 
 }  // namespace walr

@@ -7,6 +7,7 @@
 #include "passes/lighting_alpha.h"
 #include "passes/prepare_guides.h"
 #include "passes/settings.h"
+#include "passes/tile_lists.h"
 
 namespace walr {
 
@@ -63,10 +64,13 @@ struct BlockRegressionSettings {
 /// @param alpha       what the alpha channel of `accumulated` says; a pixel with no sample has no say
 /// @param occlusion   R16_SFLOAT: ambient occlusion
 /// @param inspection  is offered the views of every iteration and of the reconstruction
+/// @param tiles       where given, the reconstruction is dispatched over them, and the sky's light is passed through
+/// apart
 /// @returns RGBA16F: filtered radiance; sky and pixels without a diffuse lobe as they were
 /// @throws std::invalid_argument for settings outside their range
 fg::Texture addBlockRegression(fg::Graph& graph, fg::Buffer frame, fg::Texture accumulated, LightingAlpha alpha,
                                const Guides& guides, fg::Texture occlusion,
-                               const BlockRegressionSettings& settings = {}, Inspection* inspection = nullptr);
+                               const BlockRegressionSettings& settings = {}, Inspection* inspection = nullptr,
+                               const TileLists* tiles = nullptr);
 
 }  // namespace walr

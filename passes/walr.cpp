@@ -1,6 +1,7 @@
 #include "passes/walr.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "passes/temporal_stages.h"
 #include "passes/window_fit.h"
@@ -18,12 +19,15 @@ fg::Texture addPixelFilter(fg::Graph& graph, fg::Buffer frame, const FilterInput
 }
 
 fg::Texture addBlockFilter(fg::Graph& graph, fg::Buffer frame, const FilterInput& input, const Guides& guides,
-                           const WalrSettings& settings, Inspection* inspection) {
+                           const WalrSettings& settings, bool sky, Inspection* inspection) {
   BlockRegressionSettings blocks = settings.blocks;
   const std::uint32_t height = graph.textureDesc(input.lighting).extent.height;
   if (settings.fitWindow) blocks.iterations = std::min(blocks.iterations, fittingIterations(height, blocks.size));
-  const fg::Texture occlusion = addAmbientOcclusion(graph, frame, guides, settings.occlusion);
-  return addBlockRegression(graph, frame, input.lighting, input.alpha, guides, occlusion, blocks, inspection);
+  std::optional<TileLists> lists;
+  if (settings.skipSky && sky) lists = addTileLists(graph, guides.depth);
+  const TileLists* tiles = lists ? &*lists : nullptr;
+  const fg::Texture occlusion = addAmbientOcclusion(graph, frame, guides, settings.occlusion, tiles);
+  return addBlockRegression(graph, frame, input.lighting, input.alpha, guides, occlusion, blocks, inspection, tiles);
 }
 
 }  // namespace
@@ -71,7 +75,7 @@ fg::Texture addWalr(fg::Graph& graph, const DenoiserInputs& inputs, fg::Texture 
       addPrepareGuides(graph, inputs, settings.guides, guideNeeds(stages, inputs.scene, geometricPlane), inspection);
   const auto filter = [&](const FilterInput& input) {
     return pixels ? addPixelFilter(graph, inputs.frame, input, guides, settings, inspection)
-                  : addBlockFilter(graph, inputs.frame, input, guides, settings, inspection);
+                  : addBlockFilter(graph, inputs.frame, input, guides, settings, inputs.scene.sky, inspection);
   };
   return addTemporalStages(graph, inputs, guides, output, stages, filter, inspection);
 }

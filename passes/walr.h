@@ -28,6 +28,7 @@ struct WalrSettings {
   AmbientOcclusionSettings occlusion;
   BlockRegressionSettings blocks;
   bool fitWindow = true;
+  bool skipSky = false;
 
   void visit(SettingVisitor& v) {
     v.visit({"spatial-only", "Filter each frame by itself, without the temporal stages", "", 0, 1, "walr.txt 4.3"},
@@ -43,6 +44,11 @@ struct WalrSettings {
              "Leave out the last iterations where their window would span far more than a tenth of the image's height",
              "", 0, 1, "measured"},
             fitWindow);
+    v.visit({"walr.skip-sky",
+             "Regressing over blocks of a scene with sky, dispatch occlusion and reconstruction indirectly over the "
+             "tiles that show a surface",
+             "", 0, 1, "measured"},
+            skipSky);
     regression.visit(v);
     occlusion.visit(v);
     blocks.visit(v);

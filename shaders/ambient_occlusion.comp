@@ -1,7 +1,8 @@
 // Ambient occlusion by what the depth buffer shows around a pixel: the mean over eight directions of the sine at which
 // the horizon stands above the tangent plane (after Bavoil, Sainz and Dimitrov, "Image-space horizon-based ambient
 // occlusion", 2008), each occluder fading out at the search radius. Same pattern at every pixel and no randomness: it
-// serves as a feature of the regression, and a noisy feature would print its noise.
+// serves as a feature of the regression, and a noisy feature would print its noise. With LISTED_TILES only tiles with a
+// surface have a value.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -9,9 +10,10 @@
 #include "constants/ambient_occlusion.h"
 #include "constants/frame.h"
 #include "include/camera.glsl"
+#include "include/listed_tiles.glsl"
 #include "include/surface.glsl"
 
-layout(local_size_x = 8, local_size_y = 8) in;
+layout(local_size_x = kTileSide, local_size_y = kTileSide) in;
 
 layout(set = 0, binding = 0, std140) uniform frameConstants { FrameConstants frame; };
 layout(set = 0, binding = 1) uniform utexture2D depth;
@@ -22,7 +24,7 @@ layout(push_constant) uniform PushConstants { AmbientOcclusionConstants settings
 const int kSteps = 8;  // Their distances grow with the square, from one pixel on.
 
 void main() {
-  const ivec2 p = ivec2(gl_GlobalInvocationID.xy);
+  const ivec2 p = pixelOfThread();
   const ivec2 size = textureSize(depth, 0);
   if (any(greaterThanEqual(p, size))) return;
   const float z = unpackDepth(texelFetch(depth, p, 0).x);

@@ -7,8 +7,9 @@
 #extension GL_EXT_control_flow_attributes : require
 #include "constants/block_regression.h"
 #include "constants/frame.h"
+#include "include/listed_tiles.glsl"
 
-layout(local_size_x = 8, local_size_y = 8) in;
+layout(local_size_x = kTileSide, local_size_y = kTileSide) in;
 layout(constant_id = 0) const int kBlockSize = 4;  // Pixels per axis.
 layout(constant_id = 2) const int kCellSize = 8;   // Pixels per axis.
 
@@ -175,7 +176,7 @@ vec3 viewOf(ivec2 p, Prediction fine, Prediction coarse, float occluded) {
 #endif
 
 void main() {
-  const ivec2 p = ivec2(gl_GlobalInvocationID.xy);
+  const ivec2 p = pixelOfThread();
   if (any(greaterThanEqual(p, textureSize(depth, 0)))) return;
   const float z = unpackDepth(texelFetch(depth, p, 0).x);
   if (z == 0.0) {

@@ -1,0 +1,25 @@
+// The pixel of a thread: with LISTED_TILES in the tiles of a list (list_tiles.comp) alone, else in the whole picture.
+// Needs workgroups of kTileSide squared, and with LISTED_TILES `tileList`.
+#ifndef WALR_LISTED_TILES_GLSL
+#define WALR_LISTED_TILES_GLSL
+#include "constants/tiles.h"
+
+#ifdef LISTED_TILES
+layout(set = 0, binding = 30, std430) readonly buffer tileList {
+  uint groups[3];
+  uint tileCount;
+  uint listedTiles[];  // Column, and row from bit 16 on.
+};
+
+// Outside every picture in the last row's workgroups beyond the list.
+ivec2 pixelOfThread() {
+  const uint i = gl_WorkGroupID.y * kTileListColumns + gl_WorkGroupID.x;
+  if (i >= tileCount) return ivec2(1 << 20);
+  const uvec2 tile = uvec2(listedTiles[i] & 0xffffu, listedTiles[i] >> 16);
+  return ivec2(uint(kTileSide) * tile + gl_LocalInvocationID.xy);
+}
+#else
+ivec2 pixelOfThread() { return ivec2(gl_GlobalInvocationID.xy); }
+#endif
+
+#endif

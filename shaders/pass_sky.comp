@@ -1,0 +1,18 @@
+// What passes through a filter over tiles with surfaces: the light of the tiles without any.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_samplerless_texture_functions : require
+#define LISTED_TILES
+#include "include/listed_tiles.glsl"
+
+layout(local_size_x = kTileSide, local_size_y = kTileSide) in;
+
+layout(set = 0, binding = 0) uniform texture2D accumulated;
+layout(set = 0, binding = 1, rgba16f) uniform image2D filtered;
+#include "include/light.glsl"
+
+void main() {
+  const ivec2 p = pixelOfThread();
+  if (any(greaterThanEqual(p, imageSize(filtered)))) return;
+  imageStore(filtered, p, vec4(passedLight(p), 1.0));
+}
