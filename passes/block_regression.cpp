@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "passes/grid_extent.h"
 #include "shaders/constants/block_regression.h"
 #include "shaders/shaders.h"
 
@@ -37,12 +38,8 @@ struct BlockFits {
   fg::Texture depth;
 };
 
-fg::Extent divided(fg::Extent extent, std::uint32_t size) {
-  return {(extent.width + size - 1) / size, (extent.height + size - 1) / size};
-}
-
 BlockGrid gridOf(fg::Graph& graph, fg::Buffer frame, fg::Extent pixels, const BlockRegressionSettings& s) {
-  const fg::Extent blocks = divided(pixels, s.size);
+  const fg::Extent blocks = gridExtent(pixels, s.size);
   const float sigma = s.coarseSigma * static_cast<float>(pixels.height);
   const auto cellSize = static_cast<std::uint32_t>(std::clamp(sigma / s.coarseResolution, 1.0F, 8.0F));
   BlockRegressionConstants constants{};
@@ -53,7 +50,7 @@ BlockGrid gridOf(fg::Graph& graph, fg::Buffer frame, fg::Extent pixels, const Bl
   constants.coarseSigma = std::max(sigma / static_cast<float>(cellSize), 0.5F);
   constants.coarseRadius = static_cast<std::int32_t>(std::ceil(s.coarseReach * constants.coarseSigma));
   constants.coarseSamples = s.coarseSamples;
-  return {graph, frame, pixels, blocks, divided(pixels, cellSize), s.size, cellSize, constants};
+  return {graph, frame, pixels, blocks, gridExtent(pixels, cellSize), s.size, cellSize, constants};
 }
 
 void readAverages(fg::PassBuilder& pass, const BlockAverages& averages) {

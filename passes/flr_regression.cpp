@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "passes/grid_extent.h"
 #include "shaders/constants/flr.h"
 #include "shaders/shaders.h"
 
@@ -75,7 +76,7 @@ constexpr std::uint64_t kLargestBuffer = std::uint64_t{1} << 27;
 
 /// Cells that cover `pixels` when each takes `factor` pixels per axis.
 fg::Extent gridOf(fg::Extent pixels, std::uint32_t factor, std::uint64_t cellBytes) {
-  const fg::Extent cells{(pixels.width + factor - 1) / factor, (pixels.height + factor - 1) / factor};
+  const fg::Extent cells = gridExtent(pixels, factor);
   if (cellBytes * cells.width * cells.height > kLargestBuffer) {
     throw std::invalid_argument("setting regression.factor of " + std::to_string(factor) + " makes " +
                                 std::to_string(cells.width) + " x " + std::to_string(cells.height) +

@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 
+#include "passes/grid_extent.h"
 #include "shaders/constants/light_change.h"
 #include "shaders/shaders.h"
 
@@ -9,7 +10,7 @@ namespace walr {
 
 LightChange declareLightChange(fg::Graph& graph, fg::Extent pixels) {
   constexpr auto kTile = static_cast<std::uint32_t>(kLightChangeTile);
-  const fg::Extent tiles{(pixels.width + kTile - 1) / kTile, (pixels.height + kTile - 1) / kTile};
+  const fg::Extent tiles = gridExtent(pixels, kTile);
   return {graph.history("light change.doubt", {VK_FORMAT_R32_SFLOAT, tiles}),
           graph.texture("light change.tiles", {VK_FORMAT_R32G32_SFLOAT, tiles})};
 }

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 
+#include "passes/grid_extent.h"
 #include "shaders/constants/tiles.h"
 #include "shaders/shaders.h"
 
@@ -10,7 +11,7 @@ namespace walr {
 TileLists addTileLists(fg::Graph& graph, fg::Texture depth) {
   constexpr auto kSide = static_cast<std::uint32_t>(kTileSide);
   const fg::Extent pixels = graph.textureDesc(depth).extent;
-  const fg::Extent tiles{(pixels.width + kSide - 1) / kSide, (pixels.height + kSide - 1) / kSide};
+  const fg::Extent tiles = gridExtent(pixels, kSide);
 
   fg::PassBuilder find = graph.compute("surface tiles", shaders::surfaceTiles);
   find.sample("depth", depth).dispatch(pixels);

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <cstdint>
+
+#include "framegraph/graph.h"
+
+namespace walr {
+
+/// Extent of the grid whose square cells, of `size` pixels a side, cover a picture.
+inline fg::Extent gridExtent(fg::Extent pixels, std::uint32_t size) {
+  return {(pixels.width + size - 1) / size, (pixels.height + size - 1) / size};
+}
+
+}  // namespace walr
