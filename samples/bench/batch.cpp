@@ -157,10 +157,16 @@ class Batch {
     }
   }
 
-  static void judgeChange(Lane& lane, const DisplayedPair& pair, const PixelMask& mask,
-                          const std::vector<std::uint32_t>& before, const PixelMask& previousMask) {
+  void judgeChange(Lane& lane, const DisplayedPair& pair, const PixelMask& mask,
+                   const std::vector<std::uint32_t>& before, const PixelMask& previousMask) const {
     FrameErrors& errors = lane.record.frames.back();
-    errors.flicker = flicker(pair, *lane.previous, before);
+    const std::vector<double> changes = errorChange(pair, *lane.previous, before);
+    errors.flicker = flicker(changes);
+    if (isKept(errors.frame)) {
+      Image map(pair.test.width(), pair.test.height(), 1);
+      for (std::size_t i = 0; i < changes.size(); ++i) map.pixel(i)[0] = static_cast<float>(changes[i]);
+      writeNpy(picture(lane.record.variant + ".change", errors.frame), map);
+    }
     if (const auto change = luminanceChange(pair, *lane.previous, mask, previousMask)) {
       errors.luminanceChange = change->test;
       errors.referenceLuminanceChange = change->reference;

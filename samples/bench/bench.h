@@ -86,9 +86,9 @@ struct BenchReport {
 BenchReport bench(const GpuDevice& device, const std::vector<NamedSequence>& sequences, const BenchOptions& options,
                   std::ostream& log, bool terminal);
 
-/// Where `bench` leaves the pictures of a sequence: `VARIANT_FFFF.npy`, `VARIANT.errors_FFFF.npy` (RMSE, SSIM, FLIP)
-/// and
-/// `_reference_FFFF.npy`, `_noisy_FFFF.npy`.
+/// Where `bench` leaves the pictures of a sequence: `VARIANT_FFFF.npy`, `VARIANT.errors_FFFF.npy` (RMSE, SSIM, FLIP),
+/// `VARIANT.change_FFFF.npy` (`errorChange`, where the frame before has a reference, too), `_reference_FFFF.npy` and
+/// `_noisy_FFFF.npy`.
 std::filesystem::path pictureFolder(const std::filesystem::path& output, const std::string& sequence);
 
 }  // namespace walr

@@ -142,6 +142,24 @@ def crops_table(pictures, places, size, exposed):
     return "<div class=crops><table>" + "".join(rows) + "</table></div>"
 
 
+def signed_colours(values, top):
+    """Red above 0, blue below, grey where there is no number."""
+    coloured = plt.get_cmap("RdBu_r")(np.clip(0.5 + 0.5 * np.nan_to_num(values) / top, 0, 1))[:, :, :3]
+    coloured[np.isnan(values)] = 0.5
+    return coloured
+
+
+def change_crops(changes, places, size, top):
+    """The places in the change of every method's error along motion."""
+    rows = ["<tr><th></th>" + "".join(f"<th>{html.escape(n)}</th>" for n in changes) + "</tr>"]
+    for index, (x, y) in enumerate(places):
+        rows.append(f"<tr><td>{index + 1}</td>" + "".join(
+            f"<td>{image(signed_colours(c[y:y + size, x:x + size], top))}</td>" for c in changes.values()) + "</tr>")
+    return ("<p>The same places in the change of the error in luminance from the frame before along motion, over the square root of "
+            f"2: red brighter, blue darker, full at {top:.2g}; grey where nothing was there before. Flicker, trails and seams that "
+            "do not stay with their surface show here.</p><div class=crops><table>" + "".join(rows) + "</table></div>")
+
+
 def with_squares(pixels, places, size):
     pixels = pixels.copy()
     for x, y in places:
@@ -164,8 +182,12 @@ def pictures_section(bench, sequence, frame):
     tops = {label: max(float(np.percentile(list(m.values()), 99.5)), 1e-6) for label, m in maps}
     parts = [f"<h3>{html.escape(sequence)}, frame {frame}</h3><p>The squares are the places where the filters' mean FLIP "
              f"is largest. Exposure for display: {exposed:g}.</p>",
-             crops_table([("reference", reference), ("noisy", noisy), *results.items()], places, size, exposed),
-             "<div class=cards>", figure_element(with_squares(displayed(reference, exposed), places, size),
+             crops_table([("reference", reference), ("noisy", noisy), *results.items()], places, size, exposed)]
+    changes = {n: c[:, :, 0] for n in bench.filters if (c := bench.change(sequence, n, frame)) is not None}
+    if changes:
+        top = max(float(np.nanpercentile(np.abs(list(changes.values())), 99.5)), 1e-6)
+        parts.append(change_crops(changes, places, size, top))
+    parts += ["<div class=cards>", figure_element(with_squares(displayed(reference, exposed), places, size),
                                                  "reference, with the hardest places"),
              figure_element(displayed(noisy, exposed), "noisy"), "</div>"]
     for name, result in results.items():
@@ -176,6 +198,9 @@ def pictures_section(bench, sequence, frame):
         for label, values in maps:
             coloured = plt.get_cmap("magma")(np.clip(values[name] / tops[label], 0, 1))[:, :, :3]
             parts.append(figure_element(coloured, f"{label}, 0 to {tops[label]:.2g}", quality=80))
+        if name in changes:
+            parts.append(figure_element(signed_colours(changes[name], top), f"change along motion, -{top:.2g} to {top:.2g}",
+                                        quality=80))
         parts.append("</div>")
     return "".join(parts)
 

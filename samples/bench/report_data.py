@@ -94,6 +94,11 @@ class Bench:
         path = self.folder / "pictures" / sequence / f"{name}_{frame:04d}.npy"
         return np.load(path).astype(np.float32)
 
+    def change(self, sequence, name, frame):
+        """Change of a variant's error along motion; nothing where the frame before has no reference."""
+        path = self.folder / "pictures" / sequence / f"{name}.change_{frame:04d}.npy"
+        return np.load(path).astype(np.float32) if path.exists() else None
+
     def colour(self, variant):
         v = self.variants[variant]
         if v["name"] != v["method"] and not v["preset"]:

@@ -60,7 +60,7 @@ void answerToLight(const GpuDevice& device, const Variant& variant, Response& re
     if (i == 0) response.firstFrame = rmse;
     if (i >= kSettledFrom && i < kLightChange) {
       settled.add(rmse);
-      flickers.add(flicker(pair, previous, itself).value());
+      flickers.add(flicker(errorChange(pair, previous, itself)).value());
     }
     if (i >= kLightChange) {
       const double after = meanLuminance(frame.truth);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numbers>
 #include <span>
 
 #include "samples/metrics/luminance.h"
@@ -67,20 +69,28 @@ std::optional<LuminanceChange> luminanceChange(const DisplayedPair& current, con
   return change;
 }
 
-std::optional<double> flicker(const DisplayedPair& current, const DisplayedPair& previous,
-                              const std::vector<std::uint32_t>& previousPixels) {
+std::vector<double> errorChange(const DisplayedPair& current, const DisplayedPair& previous,
+                                const std::vector<std::uint32_t>& previousPixels) {
   const auto error = [](const DisplayedPair& pair, std::size_t i) {
     return luminance(pair.test.pixel(i)) - luminance(pair.reference.pixel(i));
   };
+  std::vector<double> change(previousPixels.size(), std::numeric_limits<double>::quiet_NaN());
+  for (std::size_t i = 0; i < change.size(); ++i) {
+    if (previousPixels[i] == kNoPixel) continue;
+    change[i] = (error(current, i) - error(previous, previousPixels[i])) / std::numbers::sqrt2;
+  }
+  return change;
+}
+
+std::optional<double> flicker(std::span<const double> errorChange) {
   double squares = 0.0;
   std::size_t count = 0;
-  for (std::size_t i = 0; i < previousPixels.size(); ++i) {
-    if (previousPixels[i] == kNoPixel) continue;
-    const double change = error(current, i) - error(previous, previousPixels[i]);
+  for (const double change : errorChange) {
+    if (std::isnan(change)) continue;
     squares += change * change;
     ++count;
   }
-  return count > 0 ? std::optional(std::sqrt(0.5 * squares / static_cast<double>(count))) : std::nullopt;
+  return count > 0 ? std::optional(std::sqrt(squares / static_cast<double>(count))) : std::nullopt;
 }
 
 }  // namespace walr

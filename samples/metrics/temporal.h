@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "samples/metrics/display.h"
@@ -39,12 +40,15 @@ struct LuminanceChange {
 std::optional<LuminanceChange> luminanceChange(const DisplayedPair& current, const DisplayedPair& previous,
                                                const PixelMask& currentMask, const PixelMask& previousMask);
 
-/// Flicker along motion: the root mean square change, from a frame to the next on the same surface, of the error in
-/// luminance, divided by the square root of 2. White noise of standard deviation s on top of the reference gives s; an
-/// error that stays with its surface gives 0. Pixels without a previous one do not count, and the nearest pixel is
-/// taken, because interpolation would smooth the noise.
+/// Change, from a frame to the next on the same surface, of the error in luminance, divided by the square root of 2, at
+/// every pixel; not a number where there is no previous pixel. The nearest pixel is taken, because interpolation would
+/// smooth the noise.
+std::vector<double> errorChange(const DisplayedPair& current, const DisplayedPair& previous,
+                                const std::vector<std::uint32_t>& previousPixels);
+
+/// Flicker along motion: the root mean square of `errorChange`. White noise of standard deviation s on top of the
+/// reference gives s; an error that stays with its surface gives 0. Pixels without a previous one do not count.
 /// @returns nothing where no pixel has a previous one
-std::optional<double> flicker(const DisplayedPair& current, const DisplayedPair& previous,
-                              const std::vector<std::uint32_t>& previousPixels);
+std::optional<double> flicker(std::span<const double> errorChange);
 
 }  // namespace walr

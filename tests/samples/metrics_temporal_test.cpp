@@ -52,7 +52,7 @@ TEST(Flicker, OfWhiteNoiseIsItsDeviation) {
   const auto pixels = previousPixels(wall(-3.0F, 0.0F), wall(-3.0F, 0.0F));
   // The root mean square of n values of a normal distribution spreads by its deviation / sqrt(2 n). Every value takes
   // part in two differences, which makes it at most sqrt(2) more; five times that.
-  EXPECT_NEAR(*flicker(current, previous, pixels), kDeviation, 5.0 * kDeviation / std::sqrt(kPixels));
+  EXPECT_NEAR(*flicker(errorChange(current, previous, pixels)), kDeviation, 5.0 * kDeviation / std::sqrt(kPixels));
 }
 
 TEST(Flicker, AnErrorThatStaysWithItsSurfaceDoesNotFlicker) {
@@ -61,13 +61,13 @@ TEST(Flicker, AnErrorThatStaysWithItsSurfaceDoesNotFlicker) {
   const DisplayedPair current = noisyPattern(3, 0.0, random);
   const auto pixels = previousPixels(wall(-3.0F, 0.0F), wall(-3.0F, 0.0F));
   // The constant error of 0.1 cancels up to the rounding of floats below 1.
-  EXPECT_NEAR(*flicker(current, previous, pixels), 0.0, std::numeric_limits<float>::epsilon());
+  EXPECT_NEAR(*flicker(errorChange(current, previous, pixels)), 0.0, std::numeric_limits<float>::epsilon());
 }
 
 TEST(Flicker, WithoutPreviousPixelsHasNoValue) {
   std::mt19937 random(1);
   const DisplayedPair pair = noisyPattern(0, 0.1, random);
-  EXPECT_FALSE(flicker(pair, pair, std::vector<std::uint32_t>(kPixels, kNoPixel)).has_value());
+  EXPECT_FALSE(flicker(errorChange(pair, pair, std::vector<std::uint32_t>(kPixels, kNoPixel))).has_value());
 }
 
 TEST(PreviousPixels, FollowMotionToTheNearestPixel) {
