@@ -12,8 +12,8 @@ class Walr(ConanFile):
     description = "Real-time denoiser for diffuse indirect lighting, as a frame-graph plug-in"
     license = "MIT"
     settings = "os", "arch", "compiler", "build_type"
-    options = {"shared": [True, False]}
-    default_options = {"shared": True, "spirv-cross/*:shared": False}
+    package_type = "shared-library"  # The static library and the C++ ones come along.
+    default_options = {"spirv-cross/*:shared": False}
 
     @property
     def _tree(self):
@@ -30,10 +30,11 @@ class Walr(ConanFile):
             copy(self, file, self._tree, self.export_sources_folder)
 
     def requirements(self):
-        self.requires("glm/1.0.1")
-        self.requires("nlohmann_json/3.11.3")
-        self.requires("spirv-cross/1.3.296.0")
-        self.requires("vulkan-loader/1.3.290.0", transitive_headers=True)
+        # The C++ libraries' users see these.
+        self.requires("glm/1.0.1", transitive_headers=True)
+        self.requires("nlohmann_json/3.11.3", transitive_headers=True)
+        self.requires("vulkan-loader/1.3.290.0", transitive_headers=True, transitive_libs=True)
+        self.requires("spirv-cross/1.3.296.0", visible=False)  # Of a program that the build runs.
 
     def build_requirements(self):
         self.tool_requires("glslang/1.3.296.0")
