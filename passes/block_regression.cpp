@@ -47,8 +47,11 @@ BlockGrid gridOf(fg::Graph& graph, fg::Buffer frame, fg::Extent pixels, const Bl
   constants.planeFar = s.planeFar;
   constants.sdfFraction = s.sdfFraction;
   constants.ridge = s.ridge;
-  constants.coarseSigma = std::max(sigma / static_cast<float>(cellSize), 0.5F);
-  constants.coarseRadius = static_cast<std::int32_t>(std::ceil(s.coarseReach * constants.coarseSigma));
+  constants.growthErrors = s.growthErrors;
+  constants.coarseSigma = sigma / static_cast<float>(cellSize);
+  constants.coarseNarrowing = s.coarseNarrowing;
+  constants.coarseReach = s.coarseReach;
+  constants.coarseGrowthErrors = s.coarseGrowthErrors;
   constants.coarseSamples = s.coarseSamples;
   return {graph, frame, pixels, blocks, gridExtent(pixels, cellSize), s.size, cellSize, constants};
 }
@@ -80,17 +83,22 @@ BlockFits writeFits(const BlockGrid& grid, fg::PassBuilder& pass, fg::Extent ext
           store("outFitC", " c", VK_FORMAT_R32G32B32A32_UINT), store("outDepth", " depth", VK_FORMAT_R32_UINT)};
 }
 
-/// The fit of a Gaussian window around every cell, regardless of edges.
+/// The fit of a Gaussian window around every cell, regardless of edges, grown where the light is the same.
 BlockFits addCoarseFit(const BlockGrid& grid, const BlockAverages& averages) {
-  fg::PassBuilder across = grid.graph.compute("coarse fit, across", shaders::blockCoarse);
-  readAverages(across, averages);
-  across.constants(grid.constants).dispatch(grid.cells);
-  const BlockAverages blurred = writeAverages(grid, across, grid.cells, " blurred");
-
-  fg::PassBuilder down = grid.graph.compute("coarse fit, down", shaders::blockCoarseLast);
-  readAverages(down, blurred);
-  down.constants(grid.constants).dispatch(grid.cells);
-  return writeFits(grid, down, grid.cells, "coarse fit");
+  const auto declare = [&](const std::string& name, const fg::Shader& shader, const BlockAverages& read) {
+    fg::PassBuilder pass = grid.graph.compute(name, shader);
+    readAverages(pass, read);
+    pass.specialize("kCellSize", grid.cellSize).constants(grid.constants).dispatch(grid.cells);
+    return pass;
+  };
+  fg::PassBuilder across = declare("coarse fit, across", shaders::blockCoarse, averages);
+  across.specialize("kVertical", false);
+  const BlockAverages blurred = writeAverages(grid, across, grid.cells, " blurred across");
+  fg::PassBuilder down = declare("coarse fit, down", shaders::blockCoarse, blurred);
+  down.specialize("kVertical", true);
+  const BlockAverages windows = writeAverages(grid, down, grid.cells, " blurred");
+  fg::PassBuilder growth = declare("coarse fit, growth", shaders::blockCoarseGrowth, windows);
+  return writeFits(grid, growth, grid.cells, "coarse fit");
 }
 
 /// In the order of `kView` of block_atrous.comp. Names of what the regression over pixels has, too, are the same.
@@ -99,7 +107,9 @@ const std::vector<ViewInfo>& iterationViews() {
       {"edges",
        "Of the pixel's block: step of the nearest edge on the eight traces (one past the last: none), taps lost, W"},
       {"pivots",
-       "Of the pixel's block: smallest pivot of the solve without the ridge, ridge, 1 where that outweighs it",
+       "Of the pixel's block: smallest pivot of the solve without its ridge, in units of the ridge; pivots that the "
+       "ridge "
+       "outweighs, and 1 where there are any",
        {{"regularised-fits", "Z"}}},
       {"colour-mean", "Of the pixel's block: mean of the colour"},
       {"feature-mean", "Of the pixel's block: mean of the shading normal"},

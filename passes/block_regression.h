@@ -19,10 +19,13 @@ struct BlockRegressionSettings {
   float planeFar = 0.015F;
   float sdfFraction = 0.75F;
   float ridge = 1e-4F;
-  float coarseSigma = 0.03F;
+  float growthErrors = 8.5F;
+  float coarseSigma = 0.0224F;
+  float coarseNarrowing = 0.3F;
   float coarseReach = 3.0F;
-  float coarseResolution = 1.5F;
-  float coarseSamples = 300.0F;
+  float coarseResolution = 1.1F;
+  float coarseGrowthErrors = 2.0F;
+  float coarseSamples = 3200.0F;
 
   void visit(SettingVisitor& v) {
     v.visit({"blocks.size", "Side of the blocks whose moments are averaged", "pixels", 2, 4, "measured"}, size);
@@ -42,16 +45,32 @@ struct BlockRegressionSettings {
         {"blocks.ridge", "Ridge on the diagonal of the covariance of the features, which are of the order of 1 or less",
          "", 1e-9, 1.0, "measured"},
         ridge);
-    v.visit({"blocks.coarse-sigma", "Standard deviation of the Gaussian window of the coarse fit, which no edge stops",
+    v.visit(
+        {"blocks.growth-errors",
+         "Up to how many standard errors of difference in luminance a block joins another's window in full; at twice "
+         "as many it does not at all. The error is that of means of paths of their pixels' variance",
+         "standard errors", 0.001, 1e6, "measured"},
+        growthErrors);
+    v.visit({"blocks.coarse-sigma",
+             "Standard deviation of the Gaussian window of the coarse fit, which no edge stops, at one path a pixel",
              "fraction of the image's height", 0.001, 0.2, "measured"},
             coarseSigma);
+    v.visit({"blocks.coarse-narrowing", "Power of the paths a pixel by which that window narrows", "", 0.0, 1.0,
+             "measured"},
+            coarseNarrowing);
     v.visit({"blocks.coarse-reach", "Distance at which that window ends", "sigma", 1.0, 6.0, "measured"}, coarseReach);
     v.visit({"blocks.coarse-resolution",
              "Cells of the coarse fit's grid that this standard deviation spans at least, if of 8 x 8 pixels at most",
              "cells", 0.5, 100.0, "measured"},
             coarseResolution);
-    v.visit({"blocks.coarse-samples", "Samples that the coarse fit counts for beside a block's own", "samples", 0.0,
-             1e6, "measured"},
+    v.visit(
+        {"blocks.coarse-growth-errors",
+         "Up to how many standard errors a cell's fit may miss the mean of a window around it that joins its own in "
+         "full; at twice as many that does not at all",
+         "standard errors", 0.001, 1e6, "measured"},
+        coarseGrowthErrors);
+    v.visit({"blocks.coarse-samples", "Paths that the coarse fit counts for beside those in a block's window", "paths",
+             0.0, 1e6, "measured"},
             coarseSamples);
   }
 };

@@ -22,7 +22,12 @@ fg::Texture addBlockFilter(fg::Graph& graph, fg::Buffer frame, const FilterInput
                            const WalrSettings& settings, bool sky, Inspection* inspection) {
   BlockRegressionSettings blocks = settings.blocks;
   const std::uint32_t height = graph.textureDesc(input.lighting).extent.height;
-  if (settings.fitWindow) blocks.iterations = std::min(blocks.iterations, fittingIterations(height, blocks.size));
+  // Growth stops at light that differs, so that no picture is too small for a window of enough samples.
+  constexpr std::uint32_t kLeastIterations = 2;
+  if (settings.fitWindow) {
+    const std::uint32_t fitting = std::max(fittingIterations(height, blocks.size), kLeastIterations);
+    blocks.iterations = std::min(blocks.iterations, fitting);
+  }
   std::optional<TileLists> lists;
   if (settings.skipSky && sky) lists = addTileLists(graph, guides.depth);
   const TileLists* tiles = lists ? &*lists : nullptr;

@@ -24,6 +24,7 @@ layout(push_constant) uniform PushConstants { BlockRegressionConstants settings;
 #elif !defined(VIEW)
 #define BLOCK_MOMENTS_OUT
 #endif
+#include "include/block_growth.glsl"
 #include "include/block_textures.glsl"
 #include "include/plane.glsl"
 #include "include/block_plane.glsl"
@@ -68,14 +69,30 @@ struct Taps {
   int lost;
 };
 
+// Whether a tap shows the same light as the block, by the paths behind both means. Their variance is that of both together,
+// as it is where they do: few samples may be alike by chance.
+float sameLight(BlockMoments a, BlockMoments b) {
+  const float samples = a.samples + b.samples;
+  const float shareA = a.samples / samples;
+  const float shareB = b.samples / samples;
+  const float difference = luminance(a.y - b.y);
+  const float variance = shareA * a.yy + shareB * b.yy + shareA * shareB * difference * difference;
+  return sameLight(difference, variance / (shareA * shareB * samples), luminance(a.y + b.y), settings.growthErrors);
+}
+
 #ifdef VIEW
+// The smallest pivot without its ridge, in units of the ridge; how many of them the ridge outweighs, and whether any.
 vec3 pivotsOf(BlockMoments m) {
-  const float l[kCovariances] = factorOf(m);
-  float smallest = l[0];
-  for (int i = 1; i < kFeatures; ++i) smallest = min(smallest, l[triangleEntry(i, i)]);
-  // Without the ridge that is in it.
-  const float pivot = smallest * smallest - settings.ridge;
-  return vec3(pivot, settings.ridge, pivot < settings.ridge);
+  const float factor[kCovariances] = factorOf(m);
+  const float ridge[kFeatures] = ridgeOf(m);
+  float smallest = 3.0e38, outweighed = 0.0;
+  for (int i = 0; i < kFeatures; ++i) {
+    const float root = factor[triangleEntry(i, i)];
+    const float pivot = root * root / ridge[i] - 1.0;
+    smallest = min(smallest, pivot);
+    outweighed += pivot < 1.0 ? 1.0 : 0.0;
+  }
+  return vec3(smallest, outweighed, outweighed > 0.0);
 }
 
 vec3 viewOf(Taps taps, BlockMoments m) {
@@ -125,8 +142,9 @@ void main() {
   const vec3 n = blockNormal(packedNormal);
   const Plane plane = planeAt(representativePixel(block, kBlockSize, packedNormal), z, n);
 
+  const BlockMoments own = loadMoments(block);
   BlockMomentSum sum = emptySum();
-  add(sum, 1.0, loadMoments(block));
+  add(sum, 1.0, own);
   Taps taps = Taps(kSpacing + 1, 0);
   for (int tap = 0; tap < 9; ++tap) {
     if (tap == 4) continue;
@@ -139,7 +157,11 @@ void main() {
     }
     const ivec2 q = block + kSpacing * direction;
     const float weight = trace.weight * facing(n, blockNormal(texelFetch(normal, q, 0).x));
-    if (weight > 0.0) add(sum, weight, rescaleDepth(loadMoments(q), z / trace.depth));
+    if (weight <= 0.0) continue;
+    const BlockMoments tapped = loadMoments(q);
+    if (tapped.samples <= 0.0) continue;
+    const float same = own.samples > 0.0 ? sameLight(own, tapped) : 1.0;
+    if (same > 0.0) add(sum, weight * same, rescaleDepth(tapped, z / trace.depth));
   }
   writeResult(block, z, taps, finish(sum));
 }

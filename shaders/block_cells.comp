@@ -38,7 +38,7 @@ void main() {
     const vec4 mean = lightAt(p);
     if (mean.a == 0.0) continue;
     const vec3 shading = unpackNormal(texelFetch(shadingNormal, p, 0).x);
-    add(sum, 1.0, oneSample(featuresOf(shading, z / zp - 1.0, texelFetch(occlusion, p, 0).x), mean.rgb));
+    add(sum, 1.0, onePixel(featuresOf(shading, z / zp - 1.0, texelFetch(occlusion, p, 0).x), mean.rgb, mean.a));
   }
   storeMoments(cell, finish(sum));
   imageStore(outDepth, cell, uvec4(packedDepth));

@@ -1,52 +1,49 @@
-// One axis of the Gaussian window of the coarse fit, which no edge stops (flr-flnr.txt). The vertical pass (LAST)
-// solves the regression in place.
+// One axis of the Gaussian window of the coarse fit, which no edge stops (flr-flnr.txt).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
 #include "constants/block_regression.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
+layout(constant_id = 0) const bool kVertical = false;
 
 layout(push_constant) uniform PushConstants { BlockRegressionConstants settings; };
-#include "include/block_fit.glsl"
 #define BLOCK_MOMENTS_IN
-#ifdef LAST
-#define BLOCK_FIT_OUT
-const ivec2 kAxis = ivec2(0, 1);
-#else
 #define BLOCK_MOMENTS_OUT
-const ivec2 kAxis = ivec2(1, 0);
-#endif
 #include "include/block_textures.glsl"
+#include "include/coarse_window.glsl"
 #include "include/window_depth.glsl"
 
-float depthAt(ivec2 cell) { return insideGrid(cell) ? unpackDepth(texelFetch(depth, cell, 0).x) : 0.0; }
-
-float gaussian(int distance) {
-  const float d = float(distance) / settings.coarseSigma;
+float gaussian(int distance, float sigma) {
+  const float d = float(distance) / sigma;
   return exp(-0.5 * d * d);
 }
 
 void main() {
   const ivec2 cell = ivec2(gl_GlobalInvocationID.xy);
   if (!insideGrid(cell)) return;
+  const ivec2 axis = kVertical ? ivec2(0, 1) : ivec2(1, 0);
+  const float sigma = coarseSigma(pathsPerPixel(loadMoments(cell).samples));
+  const int radius = int(ceil(settings.coarseReach * sigma));
   WindowDepth window = WindowDepth(0.0, 0.0);
-  for (int i = -settings.coarseRadius; i <= settings.coarseRadius; ++i) {
-    add(window, gaussian(i), depthAt(cell + i * kAxis));
+  float weights = 0.0;
+  for (int i = -radius; i <= radius; ++i) {
+    const ivec2 q = cell + i * axis;
+    if (!insideGrid(q)) continue;
+    weights += gaussian(i, sigma);
+    add(window, gaussian(i, sigma), unpackDepth(texelFetch(depth, q, 0).x));
   }
   const uint packedDepth = packDepthSdf(harmonicMean(window), 0u);
   const float z = unpackDepth(packedDepth);
   BlockMomentSum sum = emptySum();
-  for (int i = -settings.coarseRadius; i <= settings.coarseRadius; ++i) {
-    const float tapZ = depthAt(cell + i * kAxis);
+  for (int i = -radius; i <= radius; ++i) {
+    const ivec2 q = cell + i * axis;
+    if (!insideGrid(q)) continue;
+    const float tapZ = unpackDepth(texelFetch(depth, q, 0).x);
     if (tapZ == 0.0) continue;
-    const BlockMoments tap = loadMoments(cell + i * kAxis);
-    if (tap.samples > 0.0) add(sum, gaussian(i), rescaleDepth(tap, z / tapZ));
+    const BlockMoments tap = loadMoments(q);
+    if (tap.samples > 0.0) add(sum, gaussian(i, sigma) / weights, rescaleDepth(tap, z / tapZ));
   }
-#ifdef LAST
-  storeFit(cell, fitOf(finish(sum)));
-#else
   storeMoments(cell, finish(sum));
-#endif
   imageStore(outDepth, cell, uvec4(packedDepth));
 }

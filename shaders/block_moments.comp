@@ -64,7 +64,7 @@ void main() {
         onPlane(planeDistance(plane, p, zp)) * facing(normal, unpackNormal(texelFetch(geometricNormal, p, 0).x));
     if (weight <= 0.0) continue;
     const vec3 shading = unpackNormal(texelFetch(shadingNormal, p, 0).x);
-    add(sum, weight, oneSample(featuresOf(shading, z / zp - 1.0, texelFetch(occlusion, p, 0).x), mean.rgb));
+    add(sum, weight, onePixel(featuresOf(shading, z / zp - 1.0, texelFetch(occlusion, p, 0).x), mean.rgb, mean.a));
   }
   storeMoments(block, finish(sum));
   imageStore(outDepth, block, uvec4(packDepthSdf(z, 0u)));

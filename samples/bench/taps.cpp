@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <string_view>
 
@@ -73,7 +74,8 @@ double flrUpsampling(const Stage& stage) {
 }
 
 double coarseLine(const Stage& stage) {
-  return (2.0 * constantsOf<BlockRegressionConstants>(stage).coarseRadius + 1.0) * stage.share;
+  const auto constants = constantsOf<BlockRegressionConstants>(stage);
+  return (2.0 * std::ceil(constants.coarseReach * constants.coarseSigma) + 1.0) * stage.share;
 }
 
 /// Taps a pixel of a shader by the stem of its name.
@@ -113,7 +115,9 @@ constexpr std::array kShaders = {
     ShaderTaps{"ambient_occlusion", [](const Stage&) { return 0.0; }},
     ShaderTaps{"block_moments", [](const Stage&) { return 1.0; }},
     ShaderTaps{"block_cells", [](const Stage&) { return 1.0; }},
+    // At one path a pixel; with more of them it is narrower.
     ShaderTaps{"block_coarse", coarseLine},
+    ShaderTaps{"block_coarse_growth", [](const Stage& stage) { return window(2) * stage.share; }},
     ShaderTaps{"block_atrous", [](const Stage& stage) { return 9.0 * stage.share; }},
     // The pixel itself, and the four blocks and four cells about it.
     ShaderTaps{"block_apply", [](const Stage&) { return 1.0 + 2.0 * kBilinear; }},

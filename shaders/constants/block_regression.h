@@ -10,13 +10,16 @@ struct BlockRegressionConstants {
   float planeFar;       // Plane distance over depth from which the weight is 0 (d1).
   float sdfFraction;    // Share of the stored edge distance that edge tracing dares to step.
   float ridge;          // Added to the diagonal of the feature covariance.
-  float coarseSigma;    // Standard deviation of the coarse fit's Gaussian window, cells.
-  int coarseRadius;     // Reach of that window, cells.
-  float coarseSamples;  // Samples that the coarse fit counts for.
+  float growthErrors;   // Standard errors of difference up to which a block's window grows in full.
+  float coarseSigma;    // Standard deviation of the coarse fit's Gaussian window at one path a pixel, cells.
+  float coarseNarrowing;     // Power of the paths a pixel by which that window narrows.
+  float coarseReach;         // Where that window ends, standard deviations.
+  float coarseGrowthErrors;  // As growthErrors, of a cell's window.
+  float coarseSamples;       // Paths that the coarse fit counts for.
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(BlockRegressionConstants) == 28);
+static_assert(sizeof(BlockRegressionConstants) == 40);
 }  // namespace walr
 #endif
 #endif

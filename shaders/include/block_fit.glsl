@@ -13,18 +13,30 @@ struct BlockFit {
   float samples;  // 0: no fit.
 };
 
-// Factor of the covariance of the features with a ridge on its diagonal. Centred moments leave the constant out of it, so
-// that the ridge holds the slopes and not the mean.
-float[kCovariances] factorOf(BlockMoments m) {
+// Halves leave each covariance uncertain by 2^-11 of what it can be at most, the root of both variances' product: so large
+// a share of its diagonal keeps every matrix positive whose rows are of kFeatures such entries (Gershgorin).
+const float kRoundingRidge = float(kFeatures) * exp2(-11.0);
+
+// On the diagonal of the features' covariance. Centred moments leave the constant out of it, so that the ridge holds the
+// slopes and not the mean.
+float[kFeatures] ridgeOf(BlockMoments m) {
   float ridge[kFeatures];
-  for (int i = 0; i < kFeatures; ++i) ridge[i] = settings.ridge;
+  for (int i = 0; i < kFeatures; ++i) ridge[i] = settings.ridge + kRoundingRidge * max(m.xx[triangleEntry(i, i)], 0.0);
+  return ridge;
+}
+
+// Factor of that covariance with its ridge.
+float[kCovariances] factorOf(BlockMoments m) {
+  const float ridge[kFeatures] = ridgeOf(m);
   return choleskyFactor(m.xx, ridge, ridge);
 }
+
+vec3[kFeatures] slopesOf(BlockMoments m) { return choleskySolve(factorOf(m), m.yx); }
 
 BlockFit fitOf(BlockMoments m) {
   BlockFit fit;
   fit.samples = m.samples;
-  fit.slope = choleskySolve(factorOf(m), m.yx);
+  fit.slope = slopesOf(m);
   // About the means, as halves hold them, so that rounding in memory is small against the colour, not the slopes.
   fit.colour = m.y;
   for (int i = 0; i < kFeatures; ++i) {
@@ -45,7 +57,7 @@ struct PackedFit {
 };
 
 PackedFit packFit(BlockFit f) {
-  return PackedFit(uvec4(packHalves(f.colour.r, f.colour.g), packHalves(f.colour.b, f.samples),
+  return PackedFit(uvec4(packHalves(f.colour.r, f.colour.g), packHalves(f.colour.b, f.samples / kPathsInMemory),
                          packHalves(f.slope[0].r, f.slope[0].g), packHalves(f.slope[0].b, f.slope[1].r)),
                    uvec4(packHalves(f.slope[1].g, f.slope[1].b), packHalves(f.slope[2].r, f.slope[2].g),
                          packHalves(f.slope[2].b, f.slope[3].r), packHalves(f.slope[3].g, f.slope[3].b)),
@@ -59,7 +71,7 @@ BlockFit unpackFit(PackedFit p) {
              c3 = unpackHalf2x16(p.c.w);
   BlockFit f;
   f.colour = vec3(unpackHalf2x16(p.a.x), a1.x);
-  f.samples = a1.y;
+  f.samples = kPathsInMemory * a1.y;
   f.slope = vec3[](vec3(unpackHalf2x16(p.a.z), a3.x), vec3(a3.y, b0), vec3(unpackHalf2x16(p.b.y), b2.x),
                    vec3(b2.y, unpackHalf2x16(p.b.w)), vec3(unpackHalf2x16(p.c.x), c1.x));
   f.origin = float[](c1.y, c2.x, c2.y, c3.x, c3.y);

@@ -4,6 +4,7 @@
 #ifndef WALR_BLOCK_MOMENTS_GLSL
 #define WALR_BLOCK_MOMENTS_GLSL
 #include "finite.glsl"
+#include "luminance.glsl"
 
 const int kFeatures = 5;
 const int kDepthFeature = 3;
@@ -15,7 +16,8 @@ struct BlockMoments {
   vec3 y;                   // Mean of the colour.
   float xx[kCovariances];   // Covariances of the features: the upper triangle, row by row.
   vec3 yx[kFeatures];       // Covariances of the colour with each feature.
-  float samples;            // W: sum of the sample weights.
+  float yy;                 // Variance of the colour's luminance.
+  float samples;            // W: sum of the weights of the paths behind the samples.
 };
 
 float[kFeatures] featuresOf(vec3 n, float relativeDepth, float occlusion) {
@@ -30,15 +32,17 @@ BlockMoments noSamples() {
   }
   for (int k = 0; k < kCovariances; ++k) m.xx[k] = 0.0;
   m.y = vec3(0.0);
+  m.yy = 0.0;
   m.samples = 0.0;
   return m;
 }
 
-BlockMoments oneSample(float x[kFeatures], vec3 colour) {
+// Of a pixel whose light is the mean of so many paths.
+BlockMoments onePixel(float x[kFeatures], vec3 colour, float paths) {
   BlockMoments m = noSamples();
   m.x = x;
   m.y = colour;
-  m.samples = 1.0;
+  m.samples = paths;
   return m;
 }
 
@@ -75,6 +79,8 @@ void add(inout BlockMomentSum s, float weight, BlockMoments m) {
       s.sum.xx[k] += w * (m.xx[k] + dx * (m.x[j] - s.originX[j]));
     }
   }
+  const float dl = luminance(dy);
+  s.sum.yy += w * (m.yy + dl * dl);
   s.sum.y += w * dy;
   s.sum.samples += w;
 }
@@ -102,6 +108,8 @@ BlockMoments finish(BlockMomentSum s) {
       m.xx[k] = s.sum.xx[k] * scale - dx * (s.sum.x[j] * scale);
     }
   }
+  const float dl = luminance(dy);
+  m.yy = max(s.sum.yy * scale - dl * dl, 0.0);
   m.y = s.originY + dy;
   m.samples = s.sum.samples;
   return m;

@@ -1,4 +1,4 @@
-// How blocks lie in memory: thirty-nine halves of moments in five RGBA32_UINT textures, and the pixel that stands for
+// How blocks lie in memory: forty halves of moments in five RGBA32_UINT textures, and the pixel that stands for
 // the block.
 #ifndef WALR_BLOCK_STORAGE_GLSL
 #define WALR_BLOCK_STORAGE_GLSL
@@ -13,8 +13,12 @@ struct PackedBlock {
   uvec4 word[5];
 };
 
-// Means of the features and the colour, covariances, sample count, covariances with the colour; one to spare.
+// Means of the features and the colour, covariances, sample count, covariances with the colour, standard deviation of
+// luminance, which scales with the light and so has the light's range.
 const int kHalves = 40;
+
+// Of W: a window's paths may be more than halves can count.
+const float kPathsInMemory = 64.0;
 
 PackedBlock packBlock(BlockMoments m) {
   float h[kHalves];
@@ -24,8 +28,8 @@ PackedBlock packBlock(BlockMoments m) {
   }
   for (int c = 0; c < 3; ++c) h[5 + c] = m.y[c];
   for (int k = 0; k < kCovariances; ++k) h[8 + k] = m.xx[k];
-  h[23] = m.samples;
-  h[39] = 0.0;
+  h[23] = m.samples / kPathsInMemory;
+  h[39] = sqrt(m.yy);
   PackedBlock p;
   for (int i = 0; i < kHalves / 2; ++i) p.word[i / 4][i % 4] = packHalves(h[2 * i], h[2 * i + 1]);
   return p;
@@ -45,7 +49,8 @@ BlockMoments unpackBlock(PackedBlock p) {
   }
   m.y = vec3(h[5], h[6], h[7]);
   for (int k = 0; k < kCovariances; ++k) m.xx[k] = h[8 + k];
-  m.samples = h[23];
+  m.samples = kPathsInMemory * h[23];
+  m.yy = h[39] * h[39];
   return m;
 }
 

@@ -3,22 +3,26 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <utility>
 #include <vector>
 
 #include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
 
 #include "tests/passes/reference/hash.h"
 #include "tests/passes/reference/linear_system.h"
+#include "tests/passes/reference/moments.h"
 #include "tests/passes/reference/octahedral.h"
 
 namespace walr::reference {
 namespace {
 
 constexpr int kFeatures = 5;
+constexpr int kDepthFeature = 3;
 using Features = Vector<kFeatures>;
 
-/// What stands for a block, and the weight of every pixel of the picture in its window.
+/// What stands for a block, and the weight of the paths of every pixel of the picture in its window.
 struct Block {
   bool surface = false;
   glm::ivec2 pixel{0};
@@ -44,8 +48,17 @@ struct Picture {
 
   [[nodiscard]] glm::dvec3 ray(glm::ivec2 p) const { return rayThrough(frame.constants.rayFromPixel, pixelCentre(p)); }
 
-  /// Standard deviation of the coarse window, pixels.
+  /// Standard deviation of the coarse window at one path a pixel, pixels.
   [[nodiscard]] double coarseSigma() const { return double(settings.coarseSigma) * guides.size().y; }
+
+  /// Use of (weight, pixel) for all of a window.
+  template <typename Use>
+  void visit(const Block& block, Use use) const {
+    forEachPixel(guides.size(), [&](glm::ivec2 p) {
+      const double w = block.window[static_cast<std::size_t>(p.y) * guides.size().x + p.x];
+      if (w > 0.0) use(w, p);
+    });
+  }
 
   /// 1 on the plane through pixel `centre`, 0 away from it.
   [[nodiscard]] double onPlane(glm::ivec2 centre, double depth, glm::dvec3 normal, glm::ivec2 p, double pDepth) const {
@@ -98,10 +111,67 @@ Image<Block> makeBlocks(const Picture& picture) {
       if (guide.depth == 0.0 || picture.accumulated[p].a == 0.0) continue;
       block.window[static_cast<std::size_t>(p.y) * pixels.x + p.x] =
           picture.onPlane(block.pixel, block.depth, chosen.normal, p, guide.depth) *
-          facing(chosen.normal, guide.normal);
+          facing(chosen.normal, guide.normal) * picture.accumulated[p].a;
     }
   });
   return blocks;
+}
+
+/// Weighted means and covariances over a block's window.
+struct Moments {
+  double samples = 0.0;
+  Features meanX{};
+  glm::dvec3 meanY{0.0};
+  Matrix<kFeatures> covariance{};
+  std::array<glm::dvec3, kFeatures> right{};  ///< Covariances of the features with the colour.
+  double luminanceVariance = 0.0;
+};
+
+Moments momentsOf(const Picture& picture, const Block& block) {
+  Moments m;
+  if (!block.surface) return m;
+  picture.visit(block, [&](double w, glm::ivec2 p) {
+    const Features x = featuresAt(picture, p, block.depth);
+    m.samples += w;
+    for (int i = 0; i < kFeatures; ++i) m.meanX[i] += w * x[i];
+    m.meanY += w * glm::dvec3(picture.accumulated[p]);
+  });
+  if (m.samples == 0.0) return m;
+  for (double& x : m.meanX) x /= m.samples;
+  m.meanY /= m.samples;
+  picture.visit(block, [&](double w, glm::ivec2 p) {
+    const Features x = featuresAt(picture, p, block.depth);
+    const glm::dvec3 dy = glm::dvec3(picture.accumulated[p]) - m.meanY;
+    m.luminanceVariance += w / m.samples * luminance(dy) * luminance(dy);
+    for (int i = 0; i < kFeatures; ++i) {
+      const double dx = w / m.samples * (x[i] - m.meanX[i]);
+      m.right[i] += dx * dy;
+      for (int j = 0; j < kFeatures; ++j) m.covariance[i][j] += dx * (x[j] - m.meanX[j]);
+    }
+  });
+  return m;
+}
+
+/// The ridge holds the slopes, by as much again as covariances in halves can be off.
+std::array<glm::dvec3, kFeatures> slopesOf(const Picture& picture, const Moments& m) {
+  Matrix<kFeatures> covariance = m.covariance;
+  for (int i = 0; i < kFeatures; ++i)
+    covariance[i][i] += double(picture.settings.ridge) + kFeatures * 0x1p-11 * m.covariance[i][i];
+  const Matrix<kFeatures> inverted = inverse(covariance);
+  std::array<glm::dvec3, kFeatures> slopes{};
+  for (int i = 0; i < kFeatures; ++i)
+    for (int j = 0; j < kFeatures; ++j) slopes[i] += inverted[i][j] * m.right[j];
+  return slopes;
+}
+
+/// Means in memory are halves.
+constexpr double kMeanRounding = 0x1p-11;
+
+/// 1 up to `errors` standard errors of difference, 0 from twice as many.
+double sameLight(double difference, double variance, double mean, double errors) {
+  const double error = std::sqrt(variance + std::pow(kMeanRounding * mean, 2.0));
+  if (error == 0.0) return difference == 0.0 ? 1.0 : 0.0;
+  return std::clamp(2.0 - std::abs(difference) / (errors * error), 0.0, 1.0);
 }
 
 void addWindow(std::vector<double>& sum, double weight, const std::vector<double>& window) {
@@ -130,10 +200,24 @@ double traceEdge(const Picture& picture, const Image<Block>& blocks, const Image
   return weight;
 }
 
+/// Whether what joins a block's window shows its light, by the variance of both together; what has no sample of its own
+/// takes any.
+double sameLight(const Picture& picture, const Moments& a, const Moments& b) {
+  if (a.samples == 0.0 || b.samples == 0.0) return 1.0;
+  const double difference = luminance(a.meanY - b.meanY);
+  const double samples = a.samples + b.samples;
+  const double within = (a.samples * a.luminanceVariance + b.samples * b.luminanceVariance) / samples;
+  const double between = a.samples * b.samples * std::pow(difference / samples, 2.0);
+  return sameLight(difference, (within + between) * (1.0 / a.samples + 1.0 / b.samples), luminance(a.meanY + b.meanY),
+                   double(picture.settings.growthErrors));
+}
+
 Image<Block> growWindows(const Picture& picture, Image<Block> blocks) {
   Image<int> distances(blocks.size(), 0);
   int spacing = 1;
   for (std::uint32_t t = 0; t < picture.settings.iterations; ++t, spacing *= 3) {
+    Image<Moments> moments(blocks.size());
+    forEachPixel(blocks.size(), [&](glm::ivec2 b) { moments[b] = momentsOf(picture, blocks[b]); });
     Image<Block> next = blocks;
     Image<int> nextDistances(blocks.size(), 0);
     forEachPixel(blocks.size(), [&](glm::ivec2 b) {
@@ -147,7 +231,8 @@ Image<Block> growWindows(const Picture& picture, Image<Block> blocks) {
         nearest = std::min(nearest, edge);
         if (traced <= 0.0) continue;
         const Block& q = blocks[b + spacing * direction];
-        addWindow(next[b].window, traced * facing(blocks[b].normal, q.normal), q.window);
+        const double weight = traced * facing(blocks[b].normal, q.normal);
+        addWindow(next[b].window, weight * sameLight(picture, moments[b], moments[b + spacing * direction]), q.window);
       }
       nextDistances[b] = std::min(nearest, 31);
     });
@@ -167,9 +252,9 @@ class Union {
     addDepth(weight, other.depth);
     addWindow(block_.window, weight, other.window);
   }
-  void addPixel(std::size_t pixel, double depth, bool sampled) {
+  void addPixel(std::size_t pixel, double depth, double paths) {
     addDepth(1.0, depth);
-    block_.window[pixel] = sampled ? 1.0 : 0.0;
+    block_.window[pixel] = paths;
   }
   [[nodiscard]] Block block() && {
     block_.surface = weights_ > 0.0;
@@ -188,6 +273,17 @@ class Union {
   double inverse_ = 0.0;
 };
 
+double pathsOf(const Block& block) {
+  return std::accumulate(block.window.begin(), block.window.end(), 0.0);
+}
+
+/// Standard deviation, cells, of a window whose centre has so many paths a cell.
+double coarseSigma(const Picture& picture, int cellSize, double paths) {
+  const double perPixel = std::max(paths / (cellSize * cellSize), 1.0);
+  return std::max(picture.coarseSigma() / cellSize * std::pow(perPixel, -double(picture.settings.coarseNarrowing)),
+                  0.5);
+}
+
 /// Gaussian windows on a grid of cells of pixels, whichever surfaces these show. Their depths are harmonic means, first
 /// of cells, then of rows, then of columns.
 Image<Block> coarseWindows(const Picture& picture, int cellSize) {
@@ -200,19 +296,21 @@ Image<Block> coarseWindows(const Picture& picture, int cellSize) {
       const glm::ivec2 p = cellSize * cell + glm::ivec2(i % cellSize, i / cellSize);
       if (!picture.guides.contains(p) || picture.guides[p].depth == 0.0) continue;
       pixelsOfCell.addPixel(static_cast<std::size_t>(p.y) * size.x + p.x, picture.guides[p].depth,
-                            picture.accumulated[p].a > 0.0);
+                            picture.accumulated[p].a);
     }
     cells[cell] = std::move(pixelsOfCell).block();
   });
-  const double sigma = std::max(picture.coarseSigma() / cellSize, 0.5);
-  const int radius = static_cast<int>(std::ceil(double(picture.settings.coarseReach) * sigma));
   const auto blur = [&](const Image<Block>& from, glm::ivec2 axis) {
     Image<Block> to(from.size());
     forEachPixel(from.size(), [&](glm::ivec2 cell) {
+      const double sigma = coarseSigma(picture, cellSize, pathsOf(from[cell]));
+      const int radius = static_cast<int>(std::ceil(double(picture.settings.coarseReach) * sigma));
+      const auto gaussian = [&](int i) { return std::exp(-0.5 * i * i / (sigma * sigma)); };
+      double weights = 0.0;
+      for (int i = -radius; i <= radius; ++i) weights += from.contains(cell + i * axis) ? gaussian(i) : 0.0;
       Union window(pixels);
       for (int i = -radius; i <= radius; ++i) {
-        const glm::ivec2 q = cell + i * axis;
-        if (from.contains(q)) window.add(std::exp(-0.5 * i * i / (sigma * sigma)), from[q]);
+        if (from.contains(cell + i * axis)) window.add(gaussian(i) / weights, from[cell + i * axis]);
       }
       to[cell] = std::move(window).block();
     });
@@ -221,42 +319,54 @@ Image<Block> coarseWindows(const Picture& picture, int cellSize) {
   return blur(blur(cells, {1, 0}), {0, 1});
 }
 
-/// Weighted least squares over a block's window; the ridge holds the slopes.
+/// 5 x 5 windows 3 cells apart join a cell's own where its fit foretells their means.
+Image<Block> growCoarseWindows(const Picture& picture, int cellSize, const Image<Block>& cells) {
+  constexpr double kTapSigma = 1.2;
+  constexpr double kLeastNoise = 0.05;
+  Image<Moments> moments(cells.size());
+  forEachPixel(cells.size(), [&](glm::ivec2 cell) { moments[cell] = momentsOf(picture, cells[cell]); });
+  Image<Block> grown = cells;
+  forEachPixel(cells.size(), [&](glm::ivec2 cell) {
+    const Moments& own = moments[cell];
+    if (own.samples == 0.0) return;
+    const std::array<glm::dvec3, kFeatures> slopes = slopesOf(picture, own);
+    double left = own.luminanceVariance;
+    for (int i = 0; i < kFeatures; ++i) left -= luminance(slopes[i]) * luminance(own.right[i]);
+    const double noise = own.luminanceVariance > 0.0 ? std::clamp(left / own.luminanceVariance, kLeastNoise, 1.0) : 1.0;
+    const double paths = own.samples / (cellSize * cellSize);
+    const double sigma = cellSize * coarseSigma(picture, cellSize, own.samples);
+    const double pixels = 4.0 * glm::pi<double>() * sigma * sigma * std::min(paths, 1.0);
+    for (int i = 0; i < 25; ++i) {
+      const glm::ivec2 tap(i % 5 - 2, i / 5 - 2);
+      const glm::ivec2 q = cell + 3 * tap;
+      if (tap == glm::ivec2(0) || !cells.contains(q) || moments[q].samples == 0.0) continue;
+      const Moments& other = moments[q];
+      double difference = luminance(other.meanY - own.meanY);
+      for (int k = 0; k < kFeatures; ++k) {
+        double x = other.meanX[k];
+        if (k == kDepthFeature) x = (x + 1.0) * cells[cell].depth / cells[q].depth - 1.0;
+        difference -= luminance(slopes[k]) * (x - own.meanX[k]);
+      }
+      const double same = sameLight(difference, noise * (own.luminanceVariance + other.luminanceVariance) / pixels,
+                                    luminance(own.meanY + other.meanY), double(picture.settings.coarseGrowthErrors));
+      const double distance = glm::length(glm::dvec2(tap)) / kTapSigma;
+      addWindow(grown[cell].window, same * std::exp(-0.5 * distance * distance), cells[q].window);
+    }
+  });
+  return grown;
+}
+
+/// Weighted least squares over a block's window.
 Fit fitOf(const Picture& picture, const Block& block) {
   Fit fit;
   if (!block.surface) return fit;
   fit.depth = block.depth;
-  Features meanX{};
-  glm::dvec3 meanY(0.0);
-  const auto visit = [&](auto use) {
-    forEachPixel(picture.guides.size(), [&](glm::ivec2 p) {
-      const double w = block.window[static_cast<std::size_t>(p.y) * picture.guides.size().x + p.x];
-      if (w > 0.0) use(w, featuresAt(picture, p, block.depth), glm::dvec3(picture.accumulated[p]));
-    });
-  };
-  visit([&](double w, const Features& x, glm::dvec3 y) {
-    fit.samples += w;
-    for (int i = 0; i < kFeatures; ++i) meanX[i] += w * x[i];
-    meanY += w * y;
-  });
-  if (fit.samples == 0.0) return fit;
-  for (double& x : meanX) x /= fit.samples;
-  meanY /= fit.samples;
-  Matrix<kFeatures> covariance{};
-  std::array<glm::dvec3, kFeatures> right{};
-  visit([&](double w, const Features& x, glm::dvec3 y) {
-    for (int i = 0; i < kFeatures; ++i) {
-      const double dx = w / fit.samples * (x[i] - meanX[i]);
-      right[i] += dx * (y - meanY);
-      for (int j = 0; j < kFeatures; ++j) covariance[i][j] += dx * (x[j] - meanX[j]);
-    }
-  });
-  for (int i = 0; i < kFeatures; ++i) covariance[i][i] += double(picture.settings.ridge);
-  const Matrix<kFeatures> inverted = inverse(covariance);
-  fit.constant = meanY;
-  for (int i = 0; i < kFeatures; ++i)
-    for (int j = 0; j < kFeatures; ++j) fit.slope[i] += inverted[i][j] * right[j];
-  for (int i = 0; i < kFeatures; ++i) fit.constant -= fit.slope[i] * meanX[i];
+  const Moments m = momentsOf(picture, block);
+  fit.samples = m.samples;
+  if (m.samples == 0.0) return fit;
+  fit.slope = slopesOf(picture, m);
+  fit.constant = m.meanY;
+  for (int i = 0; i < kFeatures; ++i) fit.constant -= fit.slope[i] * m.meanX[i];
   return fit;
 }
 
@@ -293,7 +403,7 @@ Image<glm::dvec3> blockRegression(const HostFrame& frame, const Image<Guide>& gu
   };
   const int cellSize = std::clamp(static_cast<int>(picture.coarseSigma() / double(settings.coarseResolution)), 1, 8);
   const Image<Fit> fine = fitAll(growWindows(picture, blocks));
-  const Image<Fit> coarse = fitAll(coarseWindows(picture, cellSize));
+  const Image<Fit> coarse = fitAll(growCoarseWindows(picture, cellSize, coarseWindows(picture, cellSize)));
 
   Image<glm::dvec3> result(guides.size());
   forEachPixel(guides.size(), [&](glm::ivec2 p) {

@@ -1,0 +1,83 @@
+// The coarse fit's windows grown: those around a cell join its own where its fit foretells their light within the error of
+// the means. Solves the regression in place.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_samplerless_texture_functions : require
+#include "constants/block_regression.h"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+
+layout(push_constant) uniform PushConstants { BlockRegressionConstants settings; };
+#include "include/block_fit.glsl"
+#include "include/block_growth.glsl"
+#define BLOCK_MOMENTS_IN
+#define BLOCK_FIT_OUT
+#include "include/block_textures.glsl"
+#include "include/coarse_window.glsl"
+
+const int kTaps = 5;          // Per axis.
+const int kTapSpacing = 3;    // Cells.
+const float kTapSigma = 1.2;  // Of their Gaussian weights, taps.
+// Share of a window's variance that is taken for noise at least: slopes follow noise, too.
+const float kLeastNoise = 0.05;
+const float kPi = 3.14159265;
+
+// A window and what its fit makes of others.
+struct Window {
+  BlockMoments moments;
+  float slope[kFeatures];  // Of luminance.
+  float noise;             // Share of the variance that the fit leaves.
+  float pixels;            // As many as would have the same error at equal weights.
+};
+
+Window windowOf(BlockMoments m) {
+  Window w;
+  w.moments = m;
+  const vec3 slope[kFeatures] = slopesOf(m);
+  float left = m.yy;
+  for (int i = 0; i < kFeatures; ++i) {
+    w.slope[i] = luminance(slope[i]);
+    left -= w.slope[i] * luminance(m.yx[i]);
+  }
+  w.noise = m.yy > 0.0 ? clamp(left / m.yy, kLeastNoise, 1.0) : 1.0;
+  const float paths = pathsPerPixel(m.samples);
+  const float sigma = float(kCellSize) * coarseSigma(paths);
+  // Where there is less than a path a pixel, some pixels have none.
+  w.pixels = 4.0 * kPi * sigma * sigma * min(paths, 1.0);
+  return w;
+}
+
+// Of another window's moments, which are relative to the same depth.
+float sameLight(Window w, BlockMoments m) {
+  float difference = luminance(m.y - w.moments.y);
+  for (int i = 0; i < kFeatures; ++i) difference -= w.slope[i] * (m.x[i] - w.moments.x[i]);
+  const float variance = w.noise * (w.moments.yy + m.yy) / w.pixels;
+  return sameLight(difference, variance, luminance(w.moments.y + m.y), settings.coarseGrowthErrors);
+}
+
+BlockMoments grown(ivec2 cell, float z, BlockMoments own) {
+  const Window window = windowOf(own);
+  BlockMomentSum sum = emptySum();
+  add(sum, 1.0, own);
+  for (int i = 0; i < kTaps * kTaps; ++i) {
+    const ivec2 tap = ivec2(i % kTaps, i / kTaps) - kTaps / 2;
+    const ivec2 q = cell + kTapSpacing * tap;
+    if (tap == ivec2(0) || !insideGrid(q)) continue;
+    const float tapZ = unpackDepth(texelFetch(depth, q, 0).x);
+    if (tapZ == 0.0) continue;
+    const BlockMoments m = rescaleDepth(loadMoments(q), z / tapZ);
+    const float distance = length(vec2(tap)) / kTapSigma;
+    if (m.samples > 0.0) add(sum, exp(-0.5 * distance * distance) * sameLight(window, m), m);
+  }
+  return finish(sum);
+}
+
+void main() {
+  const ivec2 cell = ivec2(gl_GlobalInvocationID.xy);
+  if (!insideGrid(cell)) return;
+  const uint packedDepth = texelFetch(depth, cell, 0).x;
+  BlockMoments m = loadMoments(cell);
+  if (m.samples > 0.0) m = grown(cell, unpackDepth(packedDepth), m);
+  storeFit(cell, fitOf(m));
+  imageStore(outDepth, cell, uvec4(packedDepth));
+}
