@@ -40,6 +40,7 @@ DenoiserInputs importInputs(fg::Graph& graph, fg::Extent extent, const InputConv
   }
   inputs.frame = graph.upload(std::string(kFrameName), sizeof(FrameConstants));
   inputs.conventions = conventions;
+  inputs.scene.resizing = host.rectangle;
   return inputs;
 }
 

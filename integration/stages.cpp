@@ -104,8 +104,8 @@ void bmfrFit(StagePorts& ports, const BmfrFitSettings& settings) {
 }
 
 void bmfrAccumulation(StagePorts& ports, const BmfrAccumulationSettings& settings) {
-  ports.setOutput(
-      "steady", addBmfrAccumulation(ports.graph(), ports.texture("filtered"), ports.texture("history-taps"), settings));
+  ports.setOutput("steady", addBmfrAccumulation(ports.graph(), ports.buffer(kFrameName), ports.texture("filtered"),
+                                                ports.texture("history-taps"), settings));
 }
 
 void flrRegression(StagePorts& ports, const FlrRegressionSettings& settings) {
@@ -132,8 +132,9 @@ void temporalAntialiasing(StagePorts& ports, const TemporalAntialiasingSettings&
 void temporalAntialiasingWithTaps(StagePorts& ports, const TemporalAntialiasingSettings& settings) {
   const fg::Texture filtered = ports.texture("filtered");
   const fg::Texture target = targetLike(ports, kOutputName, filtered);
-  ports.setOutput(kOutputName, addTemporalAntialiasingWithTaps(ports.graph(), ports.texture("history-taps"), filtered,
-                                                               target, settings));
+  ports.setOutput(kOutputName,
+                  addTemporalAntialiasingWithTaps(ports.graph(), ports.buffer(kFrameName),
+                                                  ports.texture("history-taps"), filtered, target, settings));
 }
 
 void passThrough(StagePorts& ports, const NoSettings& /*settings*/) {

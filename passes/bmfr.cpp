@@ -26,7 +26,9 @@ fg::Texture addBmfr(fg::Graph& graph, const DenoiserInputs& inputs, fg::Texture 
     const fg::Texture target = settings.spatialOnly ? input.output : graph.texture("fit", graph.textureDesc(output));
     const fg::Texture fitted =
         addBmfrFit(graph, inputs.frame, input.lighting, input.alpha, guides, target, settings.fit, inspection);
-    return settings.spatialOnly ? fitted : addBmfrAccumulation(graph, fitted, input.taps, settings.fittedAccumulation);
+    return settings.spatialOnly
+               ? fitted
+               : addBmfrAccumulation(graph, inputs.frame, fitted, input.taps, settings.fittedAccumulation);
   };
   return addTemporalStages(graph, inputs, guides, output, stages, filter, inspection);
 }

@@ -5,13 +5,14 @@
 
 namespace walr {
 
-fg::Texture addBmfrAccumulation(fg::Graph& graph, fg::Texture fitted, fg::Texture taps,
+fg::Texture addBmfrAccumulation(fg::Graph& graph, fg::Buffer frame, fg::Texture fitted, fg::Texture taps,
                                 const BmfrAccumulationSettings& settings) {
   const fg::Extent extent = graph.textureDesc(fitted).extent;
   const fg::History accumulated = graph.history("accumulated fit", {VK_FORMAT_R16G16B16A16_SFLOAT, extent});
 
   fg::PassBuilder pass = graph.compute("bmfr accumulation", shaders::bmfrAccumulation);
-  pass.sample("fitted", fitted)
+  pass.uniform("frameConstants", frame)
+      .sample("fitted", fitted)
       .sample("taps", taps)
       .sample("previousAccumulated", accumulated.previous)
       .constants(BmfrAccumulationConstants{settings.maxSamples})

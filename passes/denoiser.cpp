@@ -46,7 +46,8 @@ SceneDescription common(const SceneDescription& a, const SceneDescription& b) {
           .objectMotion = a.objectMotion && b.objectMotion,
           .jitter = a.jitter && b.jitter,
           .sky = a.sky && b.sky,
-          .hostAntialiasing = a.hostAntialiasing || b.hostAntialiasing};
+          .hostAntialiasing = a.hostAntialiasing || b.hostAntialiasing,
+          .resizing = a.resizing || b.resizing};
 }
 
 /// A method made of a settings struct and the function that adds its passes.

@@ -31,7 +31,13 @@ FrameConstants frameConstants(const FrameDescription& frame, fg::Extent extent) 
     throw std::invalid_argument("the view matrix is singular; pass the camera's world-to-view matrix");
   }
   const glm::dvec4 ray = rayFromPixel(glm::dmat4(frame.projection), frame.jitter, extent);
-  const glm::dvec4 previousRay = rayFromPixel(glm::dmat4(frame.previousProjection), frame.previousJitter, extent);
+  // The previous picture in pixels of this one.
+  const glm::dvec2 size(extent.width, extent.height);
+  const fg::Extent previousExtent = frame.previousExtent.value_or(extent);
+  const glm::dvec2 previousSize(previousExtent.width, previousExtent.height);
+  const glm::dvec2 pixelFromPreviousPixel = size / previousSize;
+  const glm::dvec2 previousJitter = glm::dvec2(frame.previousJitter) * pixelFromPreviousPixel;
+  const glm::dvec4 previousRay = rayFromPixel(glm::dmat4(frame.previousProjection), previousJitter, extent);
 
   FrameConstants constants{};
   constants.viewFromWorld = frame.view;
@@ -39,7 +45,9 @@ FrameConstants frameConstants(const FrameDescription& frame, fg::Extent extent) 
   constants.rayFromPixel = glm::vec4(ray);
   constants.previousRayFromPixel = glm::vec4(previousRay);
   constants.motionScale = frame.motionScale;
-  constants.jitterDelta = frame.jitter - frame.previousJitter;
+  constants.jitterDelta = glm::vec2(glm::dvec2(frame.jitter) - previousJitter);
+  constants.previousPixelFromPixel = glm::vec2(previousSize / size);
+  constants.pixelFromPreviousPixel = glm::vec2(pixelFromPreviousPixel);
   constants.frameIndex = frame.frameIndex;
   constants.skyDepth = frame.skyDepth;
   return constants;

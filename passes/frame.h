@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
@@ -21,10 +22,14 @@ struct FrameDescription {
   /// Multiplies the motion texture's xy; the result must be pixels, previous = current + motion, x right, y down.
   glm::vec2 motionScale{1.0F};
   std::uint32_t frameIndex = 0;  ///< Counts frames; any start.
-  float skyDepth = 1e9F;         ///< Scene units: a linear view depth from here on is sky.
+  /// Size of the previous frame's picture, where it is another; none for the same. Motion is in pixels of this frame
+  /// all the same, each jitter in those of its own.
+  std::optional<fg::Extent> previousExtent = std::nullopt;
+  float skyDepth = 1e9F;  ///< Scene units: a linear view depth from here on is sky.
 };
 
 /// The uniform block that the passes read, computed in double precision.
+/// @param extent the picture's size
 /// @throws std::invalid_argument when the view matrix is singular or the projection is not a perspective one
 FrameConstants frameConstants(const FrameDescription& frame, fg::Extent extent);
 

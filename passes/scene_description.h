@@ -12,9 +12,10 @@ struct SceneDescription {
   bool jitter = true;             ///< Pixels are sampled off their centres, differently from frame to frame.
   bool sky = true;                ///< Some pixels show no surface, at `FrameDescription::skyDepth` and beyond.
   bool hostAntialiasing = false;  ///< The host has a temporal anti-aliasing of its own.
+  bool resizing = false;          ///< Pictures may change their size and keep their history.
 
   /// Every pixel shows the same surface in every frame until the history is reset: nothing has to be reprojected.
-  [[nodiscard]] bool still() const { return !cameraMotion && !objectMotion && !jitter; }
+  [[nodiscard]] bool still() const { return !cameraMotion && !objectMotion && !jitter && !resizing; }
 
   void visit(SettingVisitor& v) {
     v.visit({"scene.camera-motion", "The camera moves", "", 0, 1, "scene"}, cameraMotion);

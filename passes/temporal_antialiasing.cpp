@@ -109,11 +109,13 @@ bool sharesReprojection(const TemporalAntialiasingSettings& antialiasing,
          antialiasing.normalThreshold == accumulation.normalThreshold;
 }
 
-fg::Texture addTemporalAntialiasingWithTaps(fg::Graph& graph, fg::Texture taps, fg::Texture filtered,
+fg::Texture addTemporalAntialiasingWithTaps(fg::Graph& graph, fg::Buffer frame, fg::Texture taps, fg::Texture filtered,
                                             fg::Texture output, const TemporalAntialiasingSettings& settings,
                                             Inspection* inspection) {
   const auto read = [&](fg::PassBuilder& pass, bool /*view*/) {
-    pass.sample("keptTaps", taps).specialize("kRejectHistory", settings.rejection != HistoryRejection::None);
+    pass.uniform("frameConstants", frame)
+        .sample("keptTaps", taps)
+        .specialize("kRejectHistory", settings.rejection != HistoryRejection::None);
   };
   return addStage(graph, {&shaders::temporalAntialiasingKept, &shaders::temporalAntialiasingKeptView}, read, filtered,
                   output, settings, inspection);

@@ -63,8 +63,9 @@ bool sharesReprojection(const TemporalAntialiasingSettings& antialiasing,
                         const TemporalAccumulationSettings& accumulation);
 
 /// The same with the reprojection that accumulation has kept; `sharesReprojection` must hold.
-/// @param taps R32_UINT: `AccumulationWithTaps::taps`
-fg::Texture addTemporalAntialiasingWithTaps(fg::Graph& graph, fg::Texture taps, fg::Texture filtered,
+/// @param frame upload of `FrameConstants`
+/// @param taps  R32_UINT: `AccumulationWithTaps::taps`
+fg::Texture addTemporalAntialiasingWithTaps(fg::Graph& graph, fg::Buffer frame, fg::Texture taps, fg::Texture filtered,
                                             fg::Texture output, const TemporalAntialiasingSettings& settings = {},
                                             Inspection* inspection = nullptr);
 

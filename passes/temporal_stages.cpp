@@ -47,7 +47,8 @@ fg::Texture addTemporalStages(fg::Graph& graph, const DenoiserInputs& inputs, co
   }
   if (!antialias) return filterToOutput(input);
   const fg::Texture filtered = filter(input);
-  return share ? addTemporalAntialiasingWithTaps(graph, input.taps, filtered, output, antialiasing, inspection)
+  return share ? addTemporalAntialiasingWithTaps(graph, inputs.frame, input.taps, filtered, output, antialiasing,
+                                                 inspection)
                : addTemporalAntialiasing(graph, inputs, guides, filtered, output, antialiasing, inspection);
 }
 

@@ -4,6 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
 #include "constants/bmfr.h"
+#include "constants/frame.h"
 #include "include/half.glsl"
 #include "include/history_taps.glsl"
 
@@ -13,6 +14,7 @@ layout(set = 0, binding = 0) uniform texture2D fitted;
 layout(set = 0, binding = 1) uniform utexture2D taps;
 layout(set = 0, binding = 2) uniform texture2D previousAccumulated;  // rgb: mean; a: history length.
 layout(set = 0, binding = 3, rgba16f) uniform writeonly image2D outAccumulated;
+layout(set = 0, binding = 4, std140) uniform frameConstants { FrameConstants frame; };
 layout(push_constant) uniform PushConstants { BmfrAccumulationConstants settings; };
 
 void main() {
@@ -25,7 +27,7 @@ void main() {
     imageStore(outAccumulated, p, vec4(current, 0.0));
     return;
   }
-  const vec4 history = meanOfTaps(previousAccumulated, unpackTaps(p, kept));
+  const vec4 history = meanOfTaps(previousAccumulated, unpackTaps(p, kept, frame.previousPixelFromPixel));
   const float samples = min(history.a + 1.0, settings.maxSamples);
   imageStore(outAccumulated, p, nearestHalf(vec4(mix(history.rgb, current, 1.0 / samples), samples)));
 }

@@ -30,6 +30,7 @@ layout(set = 0, binding = 10, rgba16f) uniform writeonly image2D outMoments;
 #endif
 layout(push_constant) uniform PushConstants { SvgfAccumulationConstants settings; };
 
+#define HISTORY previousColour
 #define REJECT_BY_PLANE
 #include "include/reprojection.glsl"
 

@@ -55,11 +55,12 @@ layout(push_constant) uniform PushConstants { TemporalAccumulationConstants sett
 #ifdef STILL
 #include "include/surface.glsl"
 #else
+#define HISTORY previousAccumulated
 #include "include/bicubic.glsl"
 #include "include/reprojection.glsl"
 #endif
 
-// Mean and length, length 0 where there is none; where it was in the frame before; how many history pixels were rejected.
+// Mean and length, length 0 where there is none; where it was in the picture before; how many history pixels were rejected.
 struct Past {
   vec4 mean;
   vec2 pixel;
@@ -82,7 +83,7 @@ Past foundAt(ivec2 p, float z) {
   imageStore(outTaps, p, uvec4(packTaps(r.motion, taps.accepted)));
 #endif
   const vec4 mean = kBicubicHistory ? bicubicOfTaps(previousAccumulated, taps) : meanOfTaps(previousAccumulated, taps);
-  return Past(mean, pixelCentre(p) + r.motion, tapsRejected(taps));
+  return Past(mean, (pixelCentre(p) + r.motion) * frame.previousPixelFromPixel, tapsRejected(taps));
 }
 bool motionIsFinite(ivec2 p) { return isFinite(motionAt(p)); }
 #endif

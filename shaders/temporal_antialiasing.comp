@@ -25,12 +25,14 @@ layout(set = 0, binding = 2, rgba32f) uniform writeonly image2D outView;
 layout(set = 0, binding = 2, rgba16f) uniform writeonly image2D outResolved;
 layout(set = 0, binding = 3, rgba16f) uniform writeonly image2D outImage;
 #endif
+#ifndef STILL
+layout(set = 0, binding = 4, std140) uniform frameConstants { FrameConstants frame; };
+#endif
 #ifdef KEPT_TAPS
-layout(set = 0, binding = 4) uniform utexture2D keptTaps;
+layout(set = 0, binding = 5) uniform utexture2D keptTaps;
 #else
 layout(set = 0, binding = 6) uniform utexture2D depth;
 #ifndef STILL
-layout(set = 0, binding = 4, std140) uniform frameConstants { FrameConstants frame; };
 #ifndef MOTION_FROM_CAMERA
 layout(set = 0, binding = 5) uniform texture2D motion;
 #endif
@@ -66,11 +68,12 @@ vec4 historyOf(ivec2 p, out int rejected) {
 bool hasSurface(ivec2 q) { return texelFetch(keptTaps, q, 0).x != kNoSurfaceTaps; }
 
 HistoryTaps tapsOf(ivec2 p) {
-  HistoryTaps taps = unpackTaps(p, texelFetch(keptTaps, p, 0).x);
+  HistoryTaps taps = unpackTaps(p, texelFetch(keptTaps, p, 0).x, frame.previousPixelFromPixel);
   if (!kRejectHistory) taps.accepted = tapsInside(taps, textureSize(previousResolved, 0));
   return taps;
 }
 #else
+#define HISTORY previousResolved
 #include "include/reprojection.glsl"
 
 bool hasSurface(ivec2 q) { return unpackDepth(texelFetch(depth, q, 0).x) > 0.0; }

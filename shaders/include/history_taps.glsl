@@ -55,8 +55,11 @@ vec2 keepableMotion(vec2 motion) {
   return mix(rounded, vec2(0.0), lessThan(abs(motion), vec2(6.103515625e-5)));
 }
 
-HistoryTaps tapsAround(ivec2 p, vec2 motion) {
-  const vec2 position = vec2(p) + motion;
+// The four around where a pixel was, in a previous picture of another size: see FrameConstants. Precise, lest stages that
+// keep taps and stages that read them round to different sides of a pixel's centre.
+HistoryTaps tapsAround(ivec2 p, vec2 motion, vec2 previousPixelFromPixel) {
+  precise const vec2 position =
+      (vec2(p) + motion) * previousPixelFromPixel + (0.5 * previousPixelFromPixel - 0.5);
   const vec2 base = floor(position);
   return HistoryTaps(ivec2(base), position - base, 0u);
 }
@@ -78,8 +81,8 @@ uint packTaps(vec2 motion, uint accepted) {
 }
 
 // Of a pixel with a surface.
-HistoryTaps unpackTaps(ivec2 p, uint kept) {
-  HistoryTaps taps = tapsAround(p, unpackHalf2x16(kept & kMotionBits));
+HistoryTaps unpackTaps(ivec2 p, uint kept, vec2 previousPixelFromPixel) {
+  HistoryTaps taps = tapsAround(p, unpackHalf2x16(kept & kMotionBits), previousPixelFromPixel);
   taps.accepted = (kept & 3u) | (kept >> 14 & 12u);
   return taps;
 }

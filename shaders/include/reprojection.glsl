@@ -1,5 +1,6 @@
 // Where a surface was in the previous frame, and whether a history pixel shows it.
-// Needs: `frame` (FrameConstants), `depth`, and, unless MOTION_FROM_CAMERA says that nothing else moves, `motion`. REJECT_BY_PLANE needs `previousDepth` and
+// Needs: `frame` (FrameConstants), `depth`, HISTORY, which is the name of a texture of the previous picture's size, and,
+// unless MOTION_FROM_CAMERA says that nothing else moves, `motion`. REJECT_BY_PLANE needs `previousDepth` and
 // `previousGeometricNormal`, REJECT_BY_DEPTH `previousDepth`; without either every pixel of the picture is accepted.
 // REJECT_BY_OBJECT, beside any of these, needs `objects` and `previousObjects`.
 // KEEP_TAPS: the motion is rounded to what kept taps hold; a view (VIEW) is told whether it is. Takes constant_id 0, 1, 10
@@ -25,7 +26,7 @@ const bool kKeepableMotion = false;
 layout(constant_id = 1) const bool kDilateMotion = false;  // Follow the nearest surface of the 3x3 neighbourhood.
 
 struct Reprojection {
-  vec2 motion;     // To the previous frame, pixels.
+  vec2 motion;     // To the previous frame, pixels of this one.
   vec3 position;   // The surface in the previous frame's view space.
 #ifdef REJECT_BY_OBJECT
   uint object;     // Whose surface it is; 0: nobody's.
@@ -88,7 +89,7 @@ Reprojection reproject(ivec2 p, float z) {
 // depth and with a geometric normal that agrees, by REJECT_BY_DEPTH within a distance relative to depth, by
 // REJECT_BY_OBJECT of the same object.
 bool historyMatches(Reprojection r, vec3 normal, ivec2 q, float tolerance, float normalThreshold) {
-  if (any(lessThan(q, ivec2(0))) || any(greaterThanEqual(q, textureSize(depth, 0)))) return false;
+  if (any(lessThan(q, ivec2(0))) || any(greaterThanEqual(q, textureSize(HISTORY, 0)))) return false;
 #ifdef REJECT_BY_OBJECT
   if (r.object == 0u || texelFetch(previousObjects, q, 0).x != r.object) return false;
 #endif
@@ -97,7 +98,8 @@ bool historyMatches(Reprojection r, vec3 normal, ivec2 q, float tolerance, float
   if (depthThere == 0.0) return false;
 #endif
 #if defined(REJECT_BY_PLANE)
-  const vec3 position = rayThrough(frame.previousRayFromPixel, pixelCentre(q)) * depthThere;
+  const vec2 pixel = pixelCentre(q) * frame.pixelFromPreviousPixel;
+  const vec3 position = rayThrough(frame.previousRayFromPixel, pixel) * depthThere;
   const vec3 normalThere = unpackNormal(texelFetch(previousGeometricNormal, q, 0).x);
   return abs(dot(normal, position - r.position)) <= tolerance * -r.position.z &&
          dot(normal, normalThere) >= normalThreshold;
@@ -110,7 +112,7 @@ bool historyMatches(Reprojection r, vec3 normal, ivec2 q, float tolerance, float
 
 // `normal` is the geometric normal of pixel `p`, which only REJECT_BY_PLANE looks at.
 HistoryTaps historyTaps(ivec2 p, Reprojection r, vec3 normal, float tolerance, float normalThreshold) {
-  HistoryTaps taps = tapsAround(p, r.motion);
+  HistoryTaps taps = tapsAround(p, r.motion, frame.previousPixelFromPixel);
   if (!r.valid) return taps;
   const vec3 normalBefore = mat3(frame.previousViewFromView) * normal;
   for (int i = 0; i < 4; ++i)

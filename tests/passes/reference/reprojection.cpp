@@ -65,22 +65,30 @@ Reprojection reproject(const HostFrame& frame, const Image<Guide>& guides, glm::
     r.undecided |= apart != contracted;
     motion[axis] = apart;
   }
-  r.pixel = pixelCentre(p) + motion;
+  const glm::dvec2 there = pixelCentre(p) + motion;  // In pixels of this picture.
+  const glm::dvec2 scale(constants.previousPixelFromPixel);
+  r.pixel = there * scale;
   // Product, sum and difference, each no larger than the result, the start and the motion, which is at most as far.
   // From the camera, about twelve roundings of a position and its projection, in terms of the previous picture's
   // pixels.
   const double reach = 2.0 * std::max({std::abs(r.pixel.x), std::abs(r.pixel.y), 1.0}) + 1.0;
   const double across = double(std::max(frame.size().x, frame.size().y));
   r.error = fromCamera ? 24.0 * kFloatRoundoff * std::max(reach, across) : 4.0 * kFloatRoundoff * reach;
+  // Of another size: also the sum before it is scaled, which may be the larger one, and, beside the product's own
+  // rounding, that of half a pixel each way.
+  if (scale != glm::dvec2(1.0)) {
+    r.error *= std::max({scale.x, scale.y, 1.0});
+    r.error += 4.0 * kFloatRoundoff * reach;
+  }
   double previousDepth = guides[p].depth + frame.motion[p].z;
   if (fromCamera || frame.conventions.motionDepth == InputConventions::MotionDepth::StaticScene) {
     previousDepth = -positionBefore(p).z;
   }
-  r.position = rayThrough(constants.previousRayFromPixel, r.pixel) * previousDepth;
+  r.position = rayThrough(constants.previousRayFromPixel, there) * previousDepth;
   r.normal = glm::dmat3(previousFromCurrent) * guides[p].normal;
   r.object = guides[p].object;
   const glm::dvec2 size(frame.size());
-  r.valid = r.pixel.x > -1.0 && r.pixel.y > -1.0 && r.pixel.x < size.x + 1.0 && r.pixel.y < size.y + 1.0 &&
+  r.valid = there.x > -1.0 && there.y > -1.0 && there.x < size.x + 1.0 && there.y < size.y + 1.0 &&
             std::isfinite(previousDepth) && previousDepth > 0.0;
   return r;
 }
@@ -102,7 +110,8 @@ std::array<HistoryTap, 4> historyTaps(const HostFrame& frame, const Reprojection
     tap.matches = true;
     if (tests.rejection == HistoryRejection::None) continue;
     const Guide& guide = previousGuides[tap.pixel];
-    const glm::dvec3 position = rayThrough(frame.constants.previousRayFromPixel, pixelCentre(tap.pixel)) * guide.depth;
+    const glm::dvec2 pixel = pixelCentre(tap.pixel) * glm::dvec2(frame.constants.pixelFromPreviousPixel);
+    const glm::dvec3 position = rayThrough(frame.constants.previousRayFromPixel, pixel) * guide.depth;
     const bool byPlane = tests.rejection == HistoryRejection::Plane;
     const double distance =
         byPlane ? std::abs(glm::dot(r.normal, position - r.position)) : std::abs(position.z - r.position.z);

@@ -97,7 +97,7 @@ Image<SvgfMoments> svgfAccumulate(const HostFrame& frame, const Image<Guide>& gu
       out.colour = isFinite(noisy) ? noisy : glm::dvec3(0.0);
       return;
     }
-    if (history.guides.size() == frame.size()) {
+    if (!history.guides.pixels().empty()) {
       const Reprojection r = reproject(frame, guides, p);
       std::array<HistoryTap, 4> taps =
           historyTaps(frame, r, history.guides,

@@ -36,7 +36,7 @@ Image<Accumulated> accumulate(const HostFrame& frame, const Image<Guide>& guides
       return;
     }
     HistorySample past;
-    if (previous.guides.size() == frame.size()) {
+    if (!previous.guides.pixels().empty()) {
       const Reprojection r = reproject(frame, guides, p, {settings.dilateMotion, keepTaps});
       past = sampleHistory(r, historyTaps(frame, r, previous.guides, historyTestsOf(settings)), previous.accumulated,
                            settings.historyFilter);

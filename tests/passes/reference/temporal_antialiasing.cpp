@@ -112,7 +112,7 @@ Image<Accumulated> antialias(const HostFrame& frame, const Image<Guide>& guides,
       out.samples = 1.0;
     else
       out.mean = glm::dvec3(0.0);
-    if (previous.guides.size() != frame.size()) return;
+    if (previous.guides.pixels().empty()) return;
     const Reprojection r = reproject(frame, guides, p, {settings.dilateMotion, keptTaps});
     const HistorySample history =
         sampleHistory(r, historyTaps(frame, r, previous.guides, tests), previous.resolved, HistoryFilter::Bicubic);
