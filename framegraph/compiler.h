@@ -13,6 +13,9 @@ namespace fg {
 /// `vk::Executor::update` takes such differences over as they are.
 bool sameTopology(const GraphDesc& a, const GraphDesc& b);
 
+/// True where two descriptions would have the same topology if their textures and buffers were of the same sizes.
+bool sameButForSizes(const GraphDesc& a, const GraphDesc& b);
+
 /// Compiles again only what has changed: for hosts that declare their graph anew every frame or with every setting.
 class Compiler {
  public:

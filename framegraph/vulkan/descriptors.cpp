@@ -24,7 +24,7 @@ Owned<VkSampler> makeSampler(const DeviceContext& device, VkFilter filter) {
 
 Descriptors::Descriptors(const DeviceContext& device, const GraphDesc& graph, const Plan& plan,
                          const Resources& resources, Views& views, const std::vector<VkDescriptorSetLayout>& setLayouts,
-                         std::uint32_t slots)
+                         std::uint32_t slots, bool historiesChange)
     : device_(&device),
       resources_(&resources),
       views_(&views),
@@ -34,19 +34,21 @@ Descriptors::Descriptors(const DeviceContext& device, const GraphDesc& graph, co
       sets_(plan.passes.size() * slots * kParities),
       writtenEpoch_(static_cast<std::size_t>(slots) * kParities) {
   for (std::size_t i = 0; i < passCount_; ++i) {
-    if (setLayouts[i] != VK_NULL_HANDLE) collectWrites(graph, i, graph.passes[plan.passes[i].pass], views);
+    if (setLayouts[i] != VK_NULL_HANDLE)
+      collectWrites(graph, i, graph.passes[plan.passes[i].pass], views, historiesChange);
   }
-  const std::size_t most = std::max(owned_.size(), imports_.size());
+  const std::size_t most = std::max(lasting_.size(), changing_.size());
   vulkanWrites_.reserve(most);
   imageInfos_.reserve(most);
   bufferInfos_.reserve(most);
   makePool(setLayouts, slots);
   for (std::uint32_t slot = 0; slot < slots; ++slot) {
-    for (std::uint32_t parity = 0; parity < kParities; ++parity) write(owned_, {slot, parity});
+    for (std::uint32_t parity = 0; parity < kParities; ++parity) write(lasting_, {slot, parity});
   }
 }
 
-void Descriptors::collectWrites(const GraphDesc& graph, std::size_t plannedPass, const PassDecl& pass, Views& views) {
+void Descriptors::collectWrites(const GraphDesc& graph, std::size_t plannedPass, const PassDecl& pass, Views& views,
+                                bool historiesChange) {
   const Shader& shader = *std::get<ComputeDispatch>(pass.work).shader;
   for (const ShaderBinding& binding : shader.bindings) {
     const auto access = std::ranges::find(pass.accesses, binding.name, &AccessDecl::binding);
@@ -63,14 +65,16 @@ void Descriptors::collectWrites(const GraphDesc& graph, std::size_t plannedPass,
       write.layout = accessInfo(access->access).layout;
       write.sampler = (access->filter == VK_FILTER_LINEAR ? linear_ : nearest_).get();
     }
-    (resource.lifetime == Lifetime::Imported ? imports_ : owned_).push_back(write);
+    const bool changes =
+        resource.lifetime == Lifetime::Imported || (historiesChange && resource.lifetime == Lifetime::HistoryPrevious);
+    (changes ? changing_ : lasting_).push_back(write);
   }
 }
 
 void Descriptors::makePool(const std::vector<VkDescriptorSetLayout>& setLayouts, std::uint32_t slots) {
   const std::uint32_t copies = slots * kParities;
   std::vector<VkDescriptorPoolSize> sizes;
-  for (const auto* writes : {&owned_, &imports_}) {
+  for (const auto* writes : {&lasting_, &changing_}) {
     for (const Write& write : *writes) sizes.push_back({write.type, copies});
   }
   const auto setCount = static_cast<std::uint32_t>(
@@ -98,9 +102,9 @@ void Descriptors::makePool(const std::vector<VkDescriptorSetLayout>& setLayouts,
 
 void Descriptors::update(FrameIndex frame) {
   std::uint64_t& written = writtenEpoch_[index(frame)];
-  if (written == importEpoch_) return;
-  write(imports_, frame);
-  written = importEpoch_;
+  if (written == epoch_) return;
+  write(changing_, frame);
+  written = epoch_;
 }
 
 void Descriptors::write(const std::vector<Write>& writes, FrameIndex frame) {

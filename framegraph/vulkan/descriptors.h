@@ -10,16 +10,19 @@
 namespace fg::vk {
 
 /// One descriptor set per compute pass, frame slot and history parity, all made before the first frame. Afterwards only
-/// descriptors of imports are rewritten, and only when a frame sees other images than the last frame with its sets.
+/// descriptors of images that change, as imports do, are rewritten, and only when a frame sees others than the last
+/// frame with its sets.
 class Descriptors {
  public:
   /// @param setLayouts by position in `plan.passes`; null for passes that are no compute dispatch
+  /// @param historiesChange whether previous histories are among the images that change
   Descriptors(const DeviceContext& device, const GraphDesc& graph, const Plan& plan, const Resources& resources,
-              Views& views, const std::vector<VkDescriptorSetLayout>& setLayouts, std::uint32_t slots);
+              Views& views, const std::vector<VkDescriptorSetLayout>& setLayouts, std::uint32_t slots,
+              bool historiesChange);
 
-  /// Say that an import changed.
-  void invalidateImports() { ++importEpoch_; }
-  /// Bring the imports of a frame's sets up to date.
+  /// Say that an image changed.
+  void invalidateImages() { ++epoch_; }
+  /// Bring a frame's sets up to date.
   void update(FrameIndex frame);
   [[nodiscard]] VkDescriptorSet set(std::size_t plannedPass, FrameIndex frame) const {
     return sets_[index(frame) * passCount_ + plannedPass];
@@ -39,7 +42,8 @@ class Descriptors {
   [[nodiscard]] std::size_t index(FrameIndex frame) const { return frame.slot * kParities + frame.parity; }
   void makeSamplers();
   void makePool(const std::vector<VkDescriptorSetLayout>& setLayouts, std::uint32_t slots);
-  void collectWrites(const GraphDesc& graph, std::size_t plannedPass, const PassDecl& pass, Views& views);
+  void collectWrites(const GraphDesc& graph, std::size_t plannedPass, const PassDecl& pass, Views& views,
+                     bool historiesChange);
   void write(const std::vector<Write>& writes, FrameIndex frame);
 
   const DeviceContext* device_;
@@ -50,9 +54,9 @@ class Descriptors {
   Owned<VkSampler> linear_;
   Owned<VkDescriptorPool> pool_;
   std::vector<VkDescriptorSet> sets_;
-  std::vector<Write> owned_;
-  std::vector<Write> imports_;
-  std::uint64_t importEpoch_ = 1;
+  std::vector<Write> lasting_;
+  std::vector<Write> changing_;
+  std::uint64_t epoch_ = 1;
   std::vector<std::uint64_t> writtenEpoch_;  ///< By frame index.
   std::vector<VkWriteDescriptorSet> vulkanWrites_;
   std::vector<VkDescriptorImageInfo> imageInfos_;

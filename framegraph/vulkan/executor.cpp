@@ -26,6 +26,11 @@ std::optional<Timestamps> makeTimestamps(const DeviceContext& device, const Grap
   return Timestamps(device, graph, plan, options.framesInFlight);
 }
 
+std::shared_ptr<Pipelines> makePipelines(const DeviceContext& device, const ExecutorOptions& options) {
+  const VkPipelineCache cache = options.pipelineCache != nullptr ? options.pipelineCache->handle() : VK_NULL_HANDLE;
+  return std::make_shared<Pipelines>(device, cache);
+}
+
 /// What the host has bound to an import.
 struct Bound {
   std::uint64_t handle = 0;
@@ -41,7 +46,9 @@ Bound boundImage(const ExternalImage& image) {
 }  // namespace
 
 struct Executor::State {
-  State(const DeviceContext& contextOfDevice, GraphDesc&& declared, Plan&& compiled, const ExecutorOptions& options)
+  /// @param before what is gone on from, or null
+  State(const DeviceContext& contextOfDevice, GraphDesc&& declared, Plan&& compiled, const ExecutorOptions& options,
+        const State* before)
       : device(contextOfDevice),
         graph(std::move(declared)),
         plan(std::move(compiled)),
@@ -49,13 +56,39 @@ struct Executor::State {
         resources(device, graph, plan, slots, options.poison),
         uploads(graph, plan, slots),
         views(device, graph, resources),
-        passes(device, graph, plan, resources, views,
-               options.pipelineCache != nullptr ? options.pipelineCache->handle() : VK_NULL_HANDLE, slots,
-               options.poison),
+        pipelines(before != nullptr ? before->pipelines : makePipelines(device, options)),
+        passes(device, graph, plan, resources, views, *pipelines, slots,
+               {.poison = options.poison, .inheritsHistories = before != nullptr}),
         histories(graph, plan),
         releases(graph, plan.releases),
         timestamps(makeTimestamps(device, graph, plan, options)),
-        bound(graph.resources.size()) {}
+        bound(graph.resources.size()) {
+    if (before != nullptr) inheritHistories(*before);
+  }
+
+  /// The first frame reads what the last one of `before` wrote.
+  void inheritHistories(const State& before) {
+    for (std::uint32_t i = 0; i < graph.histories.size(); ++i) {
+      const std::uint32_t age = before.histories.status(i).age;
+      const HistoryDecl& history = graph.histories[i];
+      if (age == 0 || !plan.resources[history.previous].used) continue;
+      const VkImage image = before.resources.image(history.current, before.frame);
+      inherited.push_back({history.previous, resources.exchange(history.previous, nextParity, image)});
+      views.replace(history.previous, nextParity, image);
+      histories.inherit(i, age);
+    }
+  }
+
+  /// To be called once the first frame, which reads what was inherited, is recorded.
+  void dropInherited() {
+    if (inherited.empty()) return;
+    for (const Inherited& history : inherited) {
+      resources.exchange(history.previous, frame.parity, history.own);
+      views.restore(history.previous, frame.parity);
+    }
+    inherited.clear();
+    passes.invalidateImages();
+  }
 
   void requireImport(ResourceVersion handle) const {
     if (handle.resource < graph.resources.size() && graph.resources[handle.resource].lifetime == Lifetime::Imported) {
@@ -72,7 +105,7 @@ struct Executor::State {
     }
     if (bound[handle.resource] == now) return false;
     bound[handle.resource] = now;
-    passes.invalidateImports();
+    passes.invalidateImages();
     return true;
   }
 
@@ -90,21 +123,38 @@ struct Executor::State {
   const std::uint32_t slots;
   FrameIndex frame;  ///< Recorded last.
   std::uint32_t nextParity = 0;
+  bool recorded = false;  ///< Any frame.
   Resources resources;
   Uploads uploads;
   Views views;
+  std::shared_ptr<Pipelines> pipelines;
   PassRecorder passes;
   HistoryStates histories;
   BarrierBatch releases;
   std::optional<Timestamps> timestamps;
   std::vector<Bound> bound;  ///< By resource.
+  struct Inherited {
+    std::uint32_t previous = kNone;
+    VkImage own = VK_NULL_HANDLE;  ///< In whose place the inherited one is.
+  };
+  std::vector<Inherited> inherited;  ///< Until the frame that reads them is over.
 };
 
-Executor::Executor(const DeviceContext& device, GraphDesc graph, Plan plan, const ExecutorOptions& options)
-    : state_(std::make_unique<State>(device, std::move(graph), std::move(plan), options)) {}
+Executor::Executor(const DeviceContext& device, GraphDesc graph, Plan plan, const ExecutorOptions& options) {
+  const State* const before = options.predecessor != nullptr ? options.predecessor->state_.get() : nullptr;
+  if (before != nullptr && !options.predecessor->mayPrecede(graph)) {
+    throw std::invalid_argument(
+        "the predecessor's graph differs in more than the sizes of its resources: make an executor without one");
+  }
+  state_ = std::make_unique<State>(device, std::move(graph), std::move(plan), options, before);
+}
 Executor::~Executor() = default;
 Executor::Executor(Executor&&) noexcept = default;
 Executor& Executor::operator=(Executor&&) noexcept = default;
+
+bool Executor::mayPrecede(const GraphDesc& graph) const {
+  return sameButForSizes(state_->graph, graph);
+}
 
 void Executor::upload(Buffer buffer, std::span<const std::byte> bytes) {
   state_->uploads.set(buffer.resource, bytes);
@@ -152,6 +202,7 @@ void Executor::record(VkCommandBuffer commandBuffer, std::uint32_t slot) {
     throw std::out_of_range("frame slot " + std::to_string(slot) + " of " + std::to_string(state.slots));
   }
   state.requireBound();
+  if (state.recorded) state.dropInherited();
   state.frame = {slot, state.nextParity};
   state.uploads.copyTo(state.resources, slot);
   if (state.timestamps) state.timestamps->begin(commandBuffer, slot);
@@ -160,6 +211,7 @@ void Executor::record(VkCommandBuffer commandBuffer, std::uint32_t slot) {
   state.releases.record(state.device, commandBuffer, state.resources, state.frame);
   state.histories.advance();
   state.nextParity = 1 - state.nextParity;
+  state.recorded = true;
 }
 
 void Executor::resetHistory(const History& history) {

@@ -15,6 +15,8 @@
 
 namespace fg::vk {
 
+class Executor;
+
 struct ExecutorOptions {
   std::uint32_t framesInFlight = 2;  ///< Frames that may be on the GPU at once; at least 1.
   bool timestamps = false;           ///< Measure GPU time of every pass.
@@ -22,6 +24,10 @@ struct ExecutorOptions {
   /// written shows it (see FillPattern::Poison). Compile the plan with a DriverMemoryModel made for poison.
   bool poison = false;
   PipelineCache* pipelineCache = nullptr;  ///< Shared cache; must outlive the executor's construction.
+  /// One to go on from with resources of other sizes: its pipelines are shared, and the first frame finds the histories
+  /// that its last frame left, in their sizes. It may not record any more, and must live until the GPU has finished the
+  /// first frame of the new one. `mayPrecede` must hold.
+  const Executor* predecessor = nullptr;
 };
 
 /// An image that the host binds to an imported texture.
@@ -45,12 +51,16 @@ class Executor {
  public:
   /// @param device must outlive the executor
   /// @param graph, plan the declared graph and what `compile` made of it for this device; copied
-  /// @throws OutOfMemory, PipelineFailed, Unsupported or Error; everything made until then is released
+  /// @throws OutOfMemory, PipelineFailed, Unsupported or Error; everything made until then is released.
+  ///         std::invalid_argument where the predecessor's graph differs in more than sizes
   Executor(const DeviceContext& device, GraphDesc graph, Plan plan, const ExecutorOptions& options = {});
   /// The GPU must have finished all recorded frames.
   ~Executor();
   Executor(Executor&&) noexcept;
   Executor& operator=(Executor&&) noexcept;
+
+  /// Whether this executor may precede one of another graph: see `ExecutorOptions::predecessor`.
+  [[nodiscard]] bool mayPrecede(const GraphDesc& graph) const;
 
   /// Set the bytes of an upload buffer for the frames recorded from now on.
   /// @throws std::invalid_argument naming the buffer where the size is not the declared one

@@ -22,6 +22,8 @@ class HistoryStates {
   [[nodiscard]] HistoryStatus status(std::uint32_t history) const { return {ages_[history] != 0, ages_[history]}; }
   void reset(std::uint32_t history) { ages_[history] = 0; }
   void resetAll();
+  /// Say that a history goes on from another executor's.
+  void inherit(std::uint32_t history, std::uint32_t age) { ages_[history] = age; }
   /// Clear `previous` of every history without a valid frame behind it.
   void recordClears(const DeviceContext& device, VkCommandBuffer commandBuffer, const Resources& resources,
                     FrameIndex frame);

@@ -27,16 +27,16 @@ void requireGroups(const DeviceContext& device, const PassDecl& pass, const Comp
 }  // namespace
 
 PassRecorder::PassRecorder(const DeviceContext& device, const GraphDesc& graph, const Plan& plan,
-                           const Resources& resources, Views& views, VkPipelineCache cache, std::uint32_t slots,
-                           bool poison)
+                           const Resources& resources, Views& views, Pipelines& pipelines, std::uint32_t slots,
+                           const Options& options)
     : device_(&device),
       plan_(&plan),
       resources_(&resources),
       views_(&views),
-      pipelines_(device, cache),
-      steps_(makeSteps(device, graph, plan, pipelines_, poison)),
+      pipelines_(&pipelines),
+      steps_(makeSteps(device, graph, plan, pipelines, options.poison)),
       callbackViews_(graph.resources.size(), kNone),
-      descriptors_(device, graph, plan, resources, views, setLayouts(), slots) {
+      descriptors_(device, graph, plan, resources, views, setLayouts(), slots, options.inheritsHistories) {
   for (const Step& step : steps_) {
     if (std::holds_alternative<HostCallback>(step.pass->work)) requestCallbackViews(*step.pass);
   }
@@ -74,7 +74,7 @@ void PassRecorder::update(const GraphDesc& graph) {
   for (std::size_t i = 0; i < steps_.size(); ++i) {
     const PassDecl& pass = graph.passes[plan_->passes[i].pass];
     const auto* work = std::get_if<ComputeDispatch>(&pass.work);
-    if (work != nullptr) pipelines[i] = makePipeline(*device_, pass, *work, pipelines_);
+    if (work != nullptr) pipelines[i] = makePipeline(*device_, pass, *work, *pipelines_);
   }
   for (std::size_t i = 0; i < steps_.size(); ++i) {
     const auto* work = std::get_if<ComputeDispatch>(&graph.passes[plan_->passes[i].pass].work);

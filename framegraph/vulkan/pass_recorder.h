@@ -14,16 +14,20 @@ namespace fg::vk {
 /// Records the passes of a plan, each with its barriers.
 class PassRecorder {
  public:
-  /// @param poison fill transients where they take over their memory
+  struct Options {
+    bool poison = false;             ///< Fill transients where they take over their memory.
+    bool inheritsHistories = false;  ///< Images of histories may change.
+  };
+  /// @param pipelines must outlive the recorder
   PassRecorder(const DeviceContext& device, const GraphDesc& graph, const Plan& plan, const Resources& resources,
-               Views& views, VkPipelineCache cache, std::uint32_t slots, bool poison);
+               Views& views, Pipelines& pipelines, std::uint32_t slots, const Options& options);
   PassRecorder(const PassRecorder&) = delete;
   PassRecorder& operator=(const PassRecorder&) = delete;
 
   /// Take constants and pipelines from a graph of the same topology. Nothing changes where this throws.
   void update(const GraphDesc& graph);
-  /// Say that an import changed.
-  void invalidateImports() { descriptors_.invalidateImports(); }
+  /// Say that an image changed.
+  void invalidateImages() { descriptors_.invalidateImages(); }
   void record(VkCommandBuffer commandBuffer, FrameIndex frame, const HistoryStates& histories, Timestamps* timestamps);
 
  private:
@@ -47,7 +51,7 @@ class PassRecorder {
   const Resources* resources_;
   Views* views_;
   FrameIndex frame_;
-  Pipelines pipelines_;
+  Pipelines* pipelines_;
   std::vector<Step> steps_;
   std::vector<std::uint32_t> callbackViews_;  ///< By resource: view of the whole texture, or kNone.
   Descriptors descriptors_;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "framegraph/graph.h"
@@ -25,6 +26,10 @@ class Resources {
   /// First byte of an upload buffer's copy.
   [[nodiscard]] std::byte* mapped(std::uint32_t resource, std::uint32_t slot) const {
     return mapped_[resource * slots_ + slot];
+  }
+  /// Put another image in the place of a frame's. Returns the one that was there.
+  VkImage exchange(std::uint32_t resource, std::uint32_t parity, VkImage image) {
+    return std::exchange(images_[resource * kParities + parity], image);
   }
   void import(std::uint32_t resource, VkImage image);
   void import(std::uint32_t resource, VkBuffer buffer);

@@ -1,6 +1,7 @@
 #include "framegraph/vulkan/views.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "framegraph/vulkan/image.h"
 
@@ -41,6 +42,20 @@ void Views::import(std::uint32_t resource, VkImage image, std::uint64_t identity
       entry = imported_.emplace(std::pair(identity, i), std::move(view)).first;
     }
     std::ranges::fill(request.handles, entry->second.get());
+  }
+}
+
+void Views::replace(std::uint32_t resource, std::uint32_t parity, VkImage image) {
+  for (Request& request : requests_) {
+    if (request.resource != resource) continue;
+    owned_.push_back(makeView(*device_, graph_->resources[resource], request.range, image));
+    request.replaced = std::exchange(request.handles[parity], owned_.back().get());
+  }
+}
+
+void Views::restore(std::uint32_t resource, std::uint32_t parity) {
+  for (Request& request : requests_) {
+    if (request.resource == resource) request.handles[parity] = std::exchange(request.replaced, VK_NULL_HANDLE);
   }
 }
 

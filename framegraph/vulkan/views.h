@@ -22,6 +22,10 @@ class Views {
   }
   /// Point all views of an import at another image.
   void import(std::uint32_t resource, VkImage image, std::uint64_t identity);
+  /// Point all views of a texture at another image, in frames of one parity.
+  void replace(std::uint32_t resource, std::uint32_t parity, VkImage image);
+  /// Take that back.
+  void restore(std::uint32_t resource, std::uint32_t parity);
   /// Destroy the views of a host's image.
   void forget(std::uint64_t identity);
 
@@ -30,6 +34,7 @@ class Views {
     std::uint32_t resource = kNone;
     SubresourceRange range;
     VkImageView handles[kParities] = {};
+    VkImageView replaced = VK_NULL_HANDLE;  ///< In whose place another is, with `replace`.
   };
 
   const DeviceContext* device_;

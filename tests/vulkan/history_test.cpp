@@ -53,6 +53,37 @@ TEST_F(HistoryTest, ResizeStartsOver) {
   }
 }
 
+TEST_F(HistoryTest, GoesOnFromAPredecessorAtEitherParityAndInFlight) {
+  for (std::uint32_t framesBefore = 0; framesBefore <= 3; ++framesBefore) {
+    CountingGraph counting;
+    GraphRun before(device(), counting.graph);
+    for (std::uint32_t i = 0; i < framesBefore; ++i) before.submitFrame();
+    GraphRun run(device(), counting.graph, {.predecessor = &before.executor()});
+    EXPECT_EQ(run.executor().historyStatus(counting.history).age, framesBefore);
+    for (std::uint32_t i = 0; i < 5; ++i) expectFrame(run, counting, framesBefore + i);
+    run.executor().resetAllHistory();
+    expectFrame(run, counting, 0);
+  }
+  // What was inherited may be dropped before it is read, and handed on.
+  CountingGraph counting;
+  GraphRun first(device(), counting.graph);
+  first.frame();
+  GraphRun second(device(), counting.graph, {.predecessor = &first.executor()});
+  second.executor().resetAllHistory();
+  for (std::uint32_t i = 0; i < 3; ++i) expectFrame(second, counting, i);
+  GraphRun third(device(), counting.graph, {.predecessor = &second.executor()});
+  expectFrame(third, counting, 3);
+}
+
+TEST_F(HistoryTest, APredecessorMustBeOfTheSameGraph) {
+  CountingGraph counting;
+  GraphRun before(device(), counting.graph);
+  Graph other;
+  (void)chain(other, 0, 3);
+  EXPECT_FALSE(before.executor().mayPrecede(other.desc()));
+  EXPECT_THROW(GraphRun(device(), other, {.predecessor = &before.executor()}), std::invalid_argument);
+}
+
 TEST_F(HistoryTest, IsPoisonProof) {
   CountingGraph counting;
   GraphRun run(device(), counting.graph, {.poison = true});
