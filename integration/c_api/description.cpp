@@ -107,13 +107,12 @@ InputConventions Description::inputConventions() const {
           .motionJittered = conventions_.motion_jittered == VK_TRUE};
 }
 
-Constants Description::constants(const WalrCamera* camera, const WalrCamera* previousCamera, float skyDepth,
-                                 float preExposure, const std::uint32_t (&offset)[2]) const {
-  if (camera == nullptr) throw Error(WALR_ERROR_INVALID_ARGUMENT, "the camera is null");
-  const WalrCamera& now = checkedCamera(*camera);
-  const WalrCamera& previous = previousCamera != nullptr ? checkedCamera(*previousCamera)
-                               : lastCamera_             ? *lastCamera_
-                                                         : now;
+Constants Description::constants(const FrameStatement& frame) const {
+  if (frame.camera == nullptr) throw Error(WALR_ERROR_INVALID_ARGUMENT, "the camera is null");
+  const WalrCamera& now = checkedCamera(*frame.camera);
+  const WalrCamera& previous = frame.previousCamera != nullptr ? checkedCamera(*frame.previousCamera)
+                               : lastCamera_                   ? *lastCamera_
+                                                               : now;
   glm::vec2 scale(conventions_.motion_scale[0], conventions_.motion_scale[1]);
   if (conventions_.motion_unit == WALR_MOTION_PICTURES) scale *= glm::vec2(extent_.width, extent_.height);
   FrameDescription description{.view = glm::make_mat4(now.view),
@@ -123,30 +122,38 @@ Constants Description::constants(const WalrCamera* camera, const WalrCamera* pre
                                .jitter = glm::make_vec2(now.jitter),
                                .previousJitter = glm::make_vec2(previous.jitter),
                                .motionScale = scale,
-                               .frameIndex = static_cast<std::uint32_t>(frames_)};
-  if (!(skyDepth >= 0.0F)) throw Error(WALR_ERROR_INVALID_ARGUMENT, "sky_depth is negative or NaN");
-  if (skyDepth > 0.0F) description.skyDepth = skyDepth;
+                               .frameIndex = static_cast<std::uint32_t>(frames_),
+                               .previousExtent = lastExtent_};
+  if (!(frame.skyDepth >= 0.0F)) throw Error(WALR_ERROR_INVALID_ARGUMENT, "sky_depth is negative or NaN");
+  if (frame.skyDepth > 0.0F) description.skyDepth = frame.skyDepth;
   return {.camera = description,
           .frame = frameConstants(description, extent_),
-          .host = hostConstants(glm::make_mat4(now.projection), preExposure == 0.0F ? 1.0F : preExposure,
-                                checkedOffset(offset))};
+          .host = hostConstants(glm::make_mat4(now.projection), frame.preExposure == 0.0F ? 1.0F : frame.preExposure,
+                                checkedOffset(frame.offset))};
 }
 
-glm::ivec2 Description::checkedOffset(const std::uint32_t (&offset)[2]) const {
-  if (offset[0] == 0 && offset[1] == 0) return {};
+glm::ivec2 Description::checkedOffset(glm::uvec2 offset) const {
+  if (offset == glm::uvec2(0)) return {};
   if (!rectangle()) {
     throw Error(WALR_ERROR_INVALID_ARGUMENT, "an offset is given, but not stated by WalrConventions::rectangle");
   }
-  if (offset[0] > kLargestPicture || offset[1] > kLargestPicture) {
-    throw Error(WALR_ERROR_INVALID_ARGUMENT, "an offset of (" + std::to_string(offset[0]) + ", " +
-                                                 std::to_string(offset[1]) + ") pixels: each must be at most " +
+  if (offset.x > kLargestPicture || offset.y > kLargestPicture) {
+    throw Error(WALR_ERROR_INVALID_ARGUMENT, "an offset of (" + std::to_string(offset.x) + ", " +
+                                                 std::to_string(offset.y) + ") pixels: each must be at most " +
                                                  std::to_string(kLargestPicture));
   }
-  return {offset[0], offset[1]};
+  return glm::ivec2(offset);
+}
+
+void Description::goOnFrom(const Description& last) {
+  lastCamera_ = last.lastCamera_;
+  lastExtent_ = last.lastExtent_;
+  frames_ = std::max(frames_, last.frames_);
 }
 
 void Description::advance(const WalrCamera& camera) {
   lastCamera_ = camera;
+  lastExtent_ = extent_;
   ++frames_;
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 
 #include <walr/walr.h>
+#include <glm/vec2.hpp>
 
 #include "framegraph/memory_model.h"
 #include "framegraph/plan.h"
@@ -21,6 +22,15 @@ struct Constants {
   FrameDescription camera;  ///< What `frame` was made of.
   FrameConstants frame;
   HostConstants host;
+};
+
+/// What a host says of one frame, besides its images.
+struct FrameStatement {
+  const WalrCamera* camera = nullptr;
+  const WalrCamera* previousCamera = nullptr;  ///< Null stands for the camera of the frame before.
+  float skyDepth = 0.0F;
+  float preExposure = 0.0F;
+  glm::uvec2 offset{0};
 };
 
 /// What a host says of a method and its pictures: a WalrDenoiserInfo, checked.
@@ -38,10 +48,10 @@ class Description {
   [[nodiscard]] InputConventions inputConventions() const;
 
   /// Constants of the next frame.
-  /// @param camera, previous null stands for an error, and for the camera of the frame before
   /// @throws Error, or std::invalid_argument, naming what makes no sense
-  [[nodiscard]] Constants constants(const WalrCamera* camera, const WalrCamera* previous, float skyDepth,
-                                    float preExposure, const std::uint32_t (&offset)[2]) const;
+  [[nodiscard]] Constants constants(const FrameStatement& frame) const;
+  /// Say that the frame recorded last was one of another description.
+  void goOnFrom(const Description& last);
   /// Say that a frame with this camera was recorded.
   void advance(const WalrCamera& camera);
 
@@ -57,7 +67,7 @@ class Description {
   [[nodiscard]] std::uint32_t slot() const { return static_cast<std::uint32_t>(frames_ % slots_); }
 
  private:
-  [[nodiscard]] glm::ivec2 checkedOffset(const std::uint32_t (&offset)[2]) const;
+  [[nodiscard]] glm::ivec2 checkedOffset(glm::uvec2 offset) const;
 
   std::string methodName_;
   std::unique_ptr<Denoiser> method_;
@@ -67,6 +77,7 @@ class Description {
   std::uint32_t slots_;
   std::uint64_t frames_ = 0;
   std::optional<WalrCamera> lastCamera_;
+  std::optional<fg::Extent> lastExtent_;
 };
 
 /// @throws Error with the diagnostics where a graph does not compile

@@ -1,7 +1,10 @@
 #include "integration/c_api/hosted_denoiser.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
+
+#include <glm/gtc/type_ptr.hpp>
 
 #include "framegraph/vulkan/driver_memory_model.h"
 #include "framegraph/vulkan/physical_device.h"
@@ -24,24 +27,25 @@ void HostedDenoiser::log(WalrLogLevel level, const std::string& text) const {
   if (log_ != nullptr) log_(logUser_, level, text.c_str());
 }
 
-void HostedDenoiser::declarationChanged() {
+void HostedDenoiser::declarationChanged(bool historyGoesOn) {
   declared_.reset();
+  goesOn_ = goesOn_ && historyGoesOn;
 }
 
 void HostedDenoiser::resize(std::uint32_t width, std::uint32_t height) {
   const fg::Extent before = description_.extent();
   description_.resize(width, height);
-  if (description_.extent() != before) declarationChanged();
+  if (description_.extent() != before) declarationChanged(description_.rectangle());
 }
 
 void HostedDenoiser::set(std::string_view name, std::string_view value) {
   description_.method().set(name, value);
-  declarationChanged();
+  declarationChanged(false);
 }
 
 void HostedDenoiser::usePreset(std::string_view name) {
   description_.method().usePreset(name);
-  declarationChanged();
+  declarationChanged(false);
 }
 
 std::string HostedDenoiser::setting(std::string_view name) {
@@ -81,15 +85,23 @@ const HostedDenoiser::Declared& HostedDenoiser::declare() {
 void HostedDenoiser::build() {
   const Declared& declared = declare();
   if (built_) return;
-  built_ = Built{.executor = std::make_unique<fg::vk::Executor>(
-                     device_.context(), declared.graph.graph.desc(), declared.plan,
-                     fg::vk::ExecutorOptions{.framesInFlight = description_.slots(), .timestamps = timestamps_}),
+  const Built* const before = predecessor();
+  const fg::vk::ExecutorOptions options{.framesInFlight = description_.slots(),
+                                        .timestamps = timestamps_,
+                                        .predecessor = before != nullptr ? before->executor.get() : nullptr};
+  built_ = Built{.executor = std::make_unique<fg::vk::Executor>(device_.context(), declared.graph.graph.desc(),
+                                                                declared.plan, options),
                  .lint = nullptr,
                  .memory = declared.plan.memory,
+                 .inherits = before != nullptr,
                  .lastFrame = std::nullopt};
   if (lint_) {
-    built_->lint = std::make_unique<HostedLint>(device_.context(), *built_->executor, declared.graph.lint,
-                                                description_.inputConventions(), description_.slots());
+    const fg::Buffer counters = declared.graph.lint;
+    built_->lint = before != nullptr
+                       ? before->lint
+                       : std::make_shared<HostedLint>(device_.context(), built_->executor->usage(counters),
+                                                      description_.inputConventions(), description_.slots());
+    built_->executor->bind(counters, built_->lint->counters());
   }
   const fg::Extent extent = description_.extent();
   log(WALR_LOG_INFO, description_.methodName() + " at " + std::to_string(extent.width) + " x " +
@@ -107,10 +119,21 @@ void HostedDenoiser::retire() {
   built_.reset();
 }
 
+/// What recorded the last frame, where that was another size and the next frame goes on from it.
+HostedDenoiser::Built* HostedDenoiser::predecessor() {
+  const bool recordsNow = built_ && !(built_->inherits && !built_->lastFrame);
+  if (!goesOn_ || recordsNow || retired_.empty()) return nullptr;
+  Built& last = retired_.back();
+  return last.executor->mayPrecede(declared_->graph.graph.desc()) ? &last : nullptr;
+}
+
 /// The host has waited for the frame that was recorded `frames_in_flight` frames before the one it is about to record.
 void HostedDenoiser::dropFinished() {
-  std::erase_if(retired_,
-                [&](const Built& built) { return *built.lastFrame + description_.slots() <= description_.frames(); });
+  const auto end = predecessor() != nullptr ? std::prev(retired_.end()) : retired_.end();
+  const auto finished = [&](const Built& built) {
+    return *built.lastFrame + description_.slots() <= description_.frames();
+  };
+  retired_.erase(std::remove_if(retired_.begin(), end, finished), end);
 }
 
 WalrImageRequirements HostedDenoiser::requirements(std::string_view image) {
@@ -157,8 +180,11 @@ void HostedDenoiser::record(VkCommandBuffer commandBuffer, const WalrFrame& fram
   if ((frame.flags & ~static_cast<std::uint32_t>(WALR_FRAME_RESET_HISTORY)) != 0) {
     throw Error(WALR_ERROR_INVALID_ARGUMENT, "WalrFrame::flags has unknown bits: " + std::to_string(frame.flags));
   }
-  const Constants constants =
-      description_.constants(frame.camera, frame.previous_camera, frame.sky_depth, frame.pre_exposure, frame.offset);
+  const Constants constants = description_.constants({.camera = frame.camera,
+                                                      .previousCamera = frame.previous_camera,
+                                                      .skyDepth = frame.sky_depth,
+                                                      .preExposure = frame.pre_exposure,
+                                                      .offset = glm::make_vec2(frame.offset)});
   declare();
   const FrameImages images = checkedImages(frame);
   dropFinished();
@@ -174,12 +200,14 @@ void HostedDenoiser::record(VkCommandBuffer commandBuffer, const WalrFrame& fram
   if (lint_) built_->lint->recordBefore(commandBuffer);
   built_->executor->record(commandBuffer, description_.slot());
   if (lint_) {
-    const bool first = reset || !built_->lastFrame;
+    const bool first = reset || !(built_->lastFrame || built_->inherits);
     built_->lint->recordAfter(commandBuffer, description_.slot(),
                               first ? std::nullopt : std::optional(constants.camera), description_.extent());
   }
   recordRelease(device_.context(), commandBuffer, images);
 
+  if (Built* const before = predecessor()) before->lastFrame = description_.frames();
+  goesOn_ = true;
   resetRequested_ = false;
   lastImages_ = images;
   built_->lastFrame = description_.frames();

@@ -48,15 +48,17 @@ class HostedDenoiser {
   /// What was made for it.
   struct Built {
     std::unique_ptr<fg::vk::Executor> executor;
-    std::unique_ptr<HostedLint> lint;  ///< Null unless asked for.
+    std::shared_ptr<HostedLint> lint;  ///< Null unless asked for; of several sizes, where history goes on.
     fg::MemoryReport memory;
-    std::optional<std::uint64_t> lastFrame;  ///< Recorded with it.
+    bool inherits = false;                   ///< Its first frame goes on from the last of what was retired last.
+    std::optional<std::uint64_t> lastFrame;  ///< That uses it.
   };
 
   const Declared& declare();
-  void declarationChanged();
+  void declarationChanged(bool historyGoesOn);
   void build();
   void retire();
+  Built* predecessor();
   void dropFinished();
   [[nodiscard]] FrameImages checkedImages(const WalrFrame& frame) const;
   void bind(const FrameImages& images);
@@ -73,7 +75,9 @@ class HostedDenoiser {
 
   std::optional<Declared> declared_;
   std::optional<Built> built_;  ///< Of `declared_`.
-  std::vector<Built> retired_;
+  std::vector<Built> retired_;  ///< By age.
+  /// Whether the next frame may go on from the last one: settings are the same, and a new size keeps its history.
+  bool goesOn_ = false;
   bool resetRequested_ = false;
   FrameImages lastImages_{};
 };

@@ -8,14 +8,12 @@
 
 namespace walr::api {
 
-HostedLint::HostedLint(const fg::vk::DeviceContext& device, fg::vk::Executor& executor, fg::Buffer counters,
+HostedLint::HostedLint(const fg::vk::DeviceContext& device, VkBufferUsageFlags usage,
                        const InputConventions& conventions, std::uint32_t slots)
     : device_(&device),
-      counters_(device, fg::BufferDesc{kCounterBytes}, executor.usage(counters), slots, "lint counters"),
+      counters_(device, fg::BufferDesc{kCounterBytes}, usage, slots, "lint counters"),
       linter_(conventions),
-      pending_(slots) {
-  executor.bind(counters, counters_.handle());
-}
+      pending_(slots) {}
 
 std::vector<LintFinding> HostedLint::collect(std::uint32_t slot) {
   const std::optional<Pending> pending = std::exchange(pending_[slot], std::nullopt);

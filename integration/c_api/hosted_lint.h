@@ -15,10 +15,13 @@ namespace walr::api {
 /// The check of a host's inputs while it renders: reads the counts of each frame once the GPU has finished it.
 class HostedLint {
  public:
-  /// @param counters the graph's import that receives the counts; is bound here
-  /// @param device   must outlive the object
-  HostedLint(const fg::vk::DeviceContext& device, fg::vk::Executor& executor, fg::Buffer counters,
-             const InputConventions& conventions, std::uint32_t slots);
+  /// @param usage  that the graph's import which receives the counts must have
+  /// @param device must outlive the object
+  HostedLint(const fg::vk::DeviceContext& device, VkBufferUsageFlags usage, const InputConventions& conventions,
+             std::uint32_t slots);
+
+  /// Receives the counts.
+  [[nodiscard]] VkBuffer counters() const { return counters_.handle(); }
 
   /// Read what the frame last recorded with a slot has left, which the GPU must have finished.
   /// @returns findings of a kind that was not found before

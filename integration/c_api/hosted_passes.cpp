@@ -2,6 +2,9 @@
 
 #include <string>
 
+#include <glm/gtc/type_ptr.hpp>
+
+#include "framegraph/compiler.h"
 #include "framegraph/vulkan/driver_memory_model.h"
 #include "integration/c_api/structs.h"
 
@@ -26,9 +29,28 @@ HostedPasses::HostedPasses(const WalrDenoiserInfo& info, std::span<const WalrSet
   }
 }
 
+void HostedPasses::goOnFrom(const HostedPasses& last) {
+  if (!description_.rectangle() || !last.description_.rectangle()) {
+    throw Error(WALR_ERROR_INVALID_ARGUMENT, "passes of another size, but not stated by WalrConventions::rectangle");
+  }
+  if (!fg::sameButForSizes(last.graph_.graph.desc(), graph_.graph.desc())) {
+    throw Error(WALR_ERROR_INVALID_ARGUMENT,
+                "the passes differ in more than their size: make both with the same method, settings and conventions");
+  }
+  if (last.description_.frames() == 0) {
+    throw Error(WALR_ERROR_WRONG_ORDER, "the passes to go on from have had no frame: call walr_begin_frame on them");
+  }
+  description_.goOnFrom(last.description_);
+  if (recording_ && last.recording_) recording_->goOnFrom(*last.recording_);
+  constants_.reset();
+}
+
 void HostedPasses::beginFrame(const WalrPassFrame& frame) {
-  constants_ =
-      description_.constants(frame.camera, frame.previous_camera, frame.sky_depth, frame.pre_exposure, frame.offset);
+  constants_ = description_.constants({.camera = frame.camera,
+                                       .previousCamera = frame.previous_camera,
+                                       .skyDepth = frame.sky_depth,
+                                       .preExposure = frame.pre_exposure,
+                                       .offset = glm::make_vec2(frame.offset)});
   if (recording_) {
     recording_->begin(description_.frames());
     for (const std::uint32_t resource : recording_->uploads()) recording_->upload(resource, frameConstants(resource));

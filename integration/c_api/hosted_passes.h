@@ -21,6 +21,9 @@ class HostedPasses {
   HostedPasses(const WalrDenoiserInfo& info, std::span<const WalrSettingValue> settings);
 
   [[nodiscard]] const WalrPassList& list() const { return list_->list(); }
+  /// Let the next frame go on from the last one of passes of another size.
+  /// @throws Error where those have no frame, or differ in more than their size
+  void goOnFrom(const HostedPasses& last);
   void beginFrame(const WalrPassFrame& frame);
   /// Contents of an upload buffer.
   /// @throws Error before the first frame, and for another resource

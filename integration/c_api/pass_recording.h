@@ -22,6 +22,8 @@ class PassRecording {
   PassRecording(const PassRecording&) = delete;
   PassRecording& operator=(const PassRecording&) = delete;
 
+  /// Take over the ages of histories from passes of another size.
+  void goOnFrom(const PassRecording& last) { ages_ = last.ages_; }
   /// Begin a frame in a slot whose last frame the GPU has finished.
   void begin(std::uint64_t frame);
   /// Indices of the upload buffers that passes read.

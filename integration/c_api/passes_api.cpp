@@ -40,6 +40,13 @@ WalrResult walr_get_pass_list(WalrPasses passes, const WalrPassList** list) {
   return withPasses(passes, [&](HostedPasses& object) { required(list, "the list's address") = &object.list(); });
 }
 
+WalrResult walr_continue_passes(WalrPasses passes, WalrPasses last) {
+  return withPasses(passes, [&](HostedPasses& object) {
+    if (passes == last) throw Error(WALR_ERROR_INVALID_ARGUMENT, "passes go on from themselves without being told");
+    allPasses().use(last, [&](const HostedPasses& before) { object.goOnFrom(before); });
+  });
+}
+
 WalrResult walr_begin_frame(WalrPasses passes, const WalrPassFrame* frame) {
   return withPasses(passes, [&](HostedPasses& object) { object.beginFrame(readStruct(frame, "WalrPassFrame")); });
 }

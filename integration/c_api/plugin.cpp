@@ -35,6 +35,7 @@ constexpr WalrApi kApi{
     .record_pass = walr_record_pass,
     .forget_pass_image = walr_forget_pass_image,
     .get_findings = walr_get_findings,
+    .continue_passes = walr_continue_passes,
 };
 
 }  // namespace

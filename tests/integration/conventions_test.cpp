@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 #include <compare>
-#include <cstring>
 #include <limits>
 #include <map>
 #include <random>
@@ -152,19 +151,6 @@ HostedRun::Options optionsOf(const Host& host) {
   return options;
 }
 
-/// What is around the rectangle is of other frames, and not a number.
-template <typename Texel>
-std::vector<std::byte> bytesOf(const std::vector<Texel>& texels, glm::ivec2 imageSize, glm::ivec2 offset) {
-  std::vector<Texel> image(std::size_t(imageSize.x) * imageSize.y, Texel(std::numeric_limits<float>::quiet_NaN()));
-  for (int y = 0; y < kSize.y; ++y) {
-    std::copy_n(texels.begin() + std::ptrdiff_t(y) * kSize.x, kSize.x,
-                image.begin() + std::ptrdiff_t(y + offset.y) * imageSize.x + offset.x);
-  }
-  std::vector<std::byte> bytes(image.size() * sizeof(Texel));
-  std::memcpy(bytes.data(), image.data(), bytes.size());
-  return bytes;
-}
-
 void fill(HostedRun& run, const HostFrame& frame, const Host& host, const FrameDescription& camera, float exposure,
           double depthError) {
   std::vector<glm::vec4> lighting;
@@ -181,7 +167,10 @@ void fill(HostedRun& run, const HostFrame& frame, const Host& host, const FrameD
   });
   const glm::ivec2 offset = host.rectangle ? kOffset : glm::ivec2(0);
   const auto hand = [&](const char* name, const auto& texels) {
-    run.fill(name, bytesOf(texels, run.imageSize(), offset));
+    // What is around the rectangle is of other frames, and not a number.
+    using Texel = std::decay_t<decltype(texels[0])>;
+    const Texel around(std::numeric_limits<float>::quiet_NaN());
+    run.fill(name, placed(texels, kSize, run.imageSize(), offset, around));
   };
   hand("lighting", lighting);
   hand("depth", depth);

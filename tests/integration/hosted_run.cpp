@@ -9,9 +9,10 @@
 namespace walr::test {
 namespace {
 
-constexpr std::uint32_t kFramesInFlight = 2;
-constexpr std::array<const char*, 6> kImages{"lighting", "depth", "normal", "motion", "albedo", "denoised"};
-constexpr std::size_t kOutput = 5;
+constexpr std::array<const char*, 7> kImages{"lighting", "depth",     "normal",  "motion",
+                                             "albedo",   "object_id", "denoised"};
+constexpr std::size_t kObjectIds = 5;
+constexpr std::size_t kOutput = 6;
 
 WalrImageState stateOf(const fg::ExternalState& state) {
   return {.stage = state.stage, .access = state.access, .layout = state.layout, .reserved = 0};
@@ -34,10 +35,12 @@ WalrCamera cameraOf(const glm::mat4& view, const glm::mat4& projection, glm::vec
 
 HostedRun::HostedRun(const fg::vk::Device& device, const char* method, glm::ivec2 size, const Options& options)
     : device_(&device),
+      framesInFlight_(options.framesInFlight),
       rememberedCamera_(options.rememberedCamera),
+      objectIds_(options.objectIds),
       offset_(options.offset),
       margin_(options.margin),
-      queue_(device.context(), device.queue(), kFramesInFlight) {
+      queue_(device.context(), device.queue(), options.framesInFlight) {
   const fg::vk::DeviceView& view = device.context().view;
   WalrDevice host{};
   host.struct_size = sizeof(host);
@@ -51,7 +54,7 @@ HostedRun::HostedRun(const fg::vk::Device& device, const char* method, glm::ivec
   conventions.rectangle = margin_ != glm::ivec2(0) ? VK_TRUE : VK_FALSE;
   WalrDenoiserInfo info{};
   info.struct_size = sizeof(info);
-  info.frames_in_flight = kFramesInFlight;
+  info.frames_in_flight = framesInFlight_;
   info.device = &host;
   info.method = method;
   info.width = static_cast<std::uint32_t>(size.x);
@@ -62,6 +65,7 @@ HostedRun::HostedRun(const fg::vk::Device& device, const char* method, glm::ivec
   info.normal_format = options.formats[2];
   info.motion_format = options.formats[3];
   info.albedo_format = options.formats[4];
+  if (objectIds_) info.object_id_format = VK_FORMAT_R32_UINT;
   info.lint = options.lint ? VK_TRUE : VK_FALSE;
   info.log = options.log;
   info.log_user = options.logUser;
@@ -77,6 +81,11 @@ HostedRun::~HostedRun() {
 void HostedRun::makeImages(glm::ivec2 size) {
   needs_.clear();
   for (const char* name : kImages) {
+    if (images_.size() == kObjectIds && !objectIds_) {
+      images_.push_back(nullptr);
+      needs_.emplace_back();
+      continue;
+    }
     WalrImageRequirements needs{};
     needs.struct_size = sizeof(needs);
     require(walr_get_image_requirements(denoiser_, name, &needs));
@@ -88,7 +97,7 @@ void HostedRun::makeImages(glm::ivec2 size) {
     const bool output = images_.size() == kOutput;
     images_.push_back(std::make_unique<fg::vk::StagedImage>(
         device_->context(), fg::TextureDesc{.format = needs.format, .extent = {needs.width, needs.height}}, needs.usage,
-        output ? fg::vk::StagedImage::Direction::Readback : fg::vk::StagedImage::Direction::Upload, kFramesInFlight,
+        output ? fg::vk::StagedImage::Direction::Readback : fg::vk::StagedImage::Direction::Upload, framesInFlight_,
         name));
     needs_.push_back(needs);
   }
@@ -99,11 +108,17 @@ void HostedRun::makeImages(glm::ivec2 size) {
 void HostedRun::resize(glm::ivec2 size) {
   queue_.waitAll();
   for (std::size_t i = 0; i < images_.size(); ++i) {
+    if (!images_[i]) continue;
     require(walr_forget_image(denoiser_, images_[i]->external().image, firstIdentity_ + i));
   }
   images_.clear();
   require(walr_resize(denoiser_, static_cast<std::uint32_t>(size.x), static_cast<std::uint32_t>(size.y)));
   makeImages(size);
+}
+
+void HostedRun::moveRectangle(glm::ivec2 size, glm::ivec2 offset) {
+  offset_ = offset;
+  require(walr_resize(denoiser_, static_cast<std::uint32_t>(size.x), static_cast<std::uint32_t>(size.y)));
 }
 
 void HostedRun::fill(const std::string& image, std::vector<std::byte> texels) {
@@ -131,14 +146,17 @@ WalrImage HostedRun::describe(std::size_t index) const {
   return image;
 }
 
-std::vector<std::uint16_t> HostedRun::frame(const FrameDescription& camera, std::uint32_t flags, float preExposure) {
+std::uint32_t HostedRun::submit(const FrameDescription& camera, std::uint32_t flags, float preExposure) {
   const fg::vk::Frame recorded = queue_.begin();
   for (std::size_t i = 0; i < texels_.size(); ++i) {
+    if (!images_[i]) continue;
     std::ranges::copy(texels_[i], images_[i]->staging(recorded.slot).begin());
     images_[i]->recordUpload(recorded.commandBuffer, recorded.slot);
   }
   std::array<WalrImage, kImages.size()> images{};
-  for (std::size_t i = 0; i < images.size(); ++i) images[i] = describe(i);
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    if (images_[i]) images[i] = describe(i);
+  }
   const WalrCamera now = cameraOf(camera.view, camera.projection, camera.jitter);
   const WalrCamera before = cameraOf(camera.previousView, camera.previousProjection, camera.previousJitter);
   WalrFrame frame{};
@@ -151,14 +169,20 @@ std::vector<std::uint16_t> HostedRun::frame(const FrameDescription& camera, std:
   frame.normal = &images[2];
   frame.motion = &images[3];
   frame.albedo = &images[4];
+  frame.object_id = objectIds_ ? &images[kObjectIds] : nullptr;
   frame.denoised = &images[kOutput];
   frame.camera = &now;
   frame.previous_camera = rememberedCamera_ ? nullptr : &before;
   require(walr_record(denoiser_, recorded.commandBuffer, &frame));
-  images_[kOutput]->recordReadback(recorded.commandBuffer, recorded.slot);
+  output().recordReadback(recorded.commandBuffer, recorded.slot);
   queue_.submit(recorded);
-  queue_.wait(recorded.slot);
-  const auto bytes = images_[kOutput]->staging(recorded.slot);
+  return recorded.slot;
+}
+
+std::vector<std::uint16_t> HostedRun::frame(const FrameDescription& camera, std::uint32_t flags, float preExposure) {
+  const std::uint32_t slot = submit(camera, flags, preExposure);
+  queue_.wait(slot);
+  const auto bytes = output().staging(slot);
   std::vector<std::uint16_t> texels(bytes.size() / sizeof(std::uint16_t));
   std::memcpy(texels.data(), bytes.data(), bytes.size());
   return texels;

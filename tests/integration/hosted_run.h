@@ -1,7 +1,10 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <memory>
 #include <string>
 #include <vector>
@@ -16,7 +19,7 @@
 
 namespace walr::test {
 
-/// A denoiser behind the C API, fed with host frames one by one by a host that keeps two frames in flight.
+/// A denoiser behind the C API, fed with host frames one by one by a host that keeps some frames in flight.
 class HostedRun {
  public:
   struct Options {
@@ -24,6 +27,8 @@ class HostedRun {
     std::array<VkFormat, 5> formats{};  ///< As in WalrDenoiserInfo, in the order of its members.
     bool rememberedCamera = false;      ///< Leave the previous camera to the library.
     bool lint = false;
+    bool objectIds = false;  ///< There is an image "object_id".
+    std::uint32_t framesInFlight = 2;
     glm::ivec2 offset{0};  ///< Of what is denoised in images that are larger by `margin`, for which it is stated.
     glm::ivec2 margin{0};
     WalrLog log = nullptr;
@@ -39,29 +44,51 @@ class HostedRun {
   [[nodiscard]] WalrDenoiser denoiser() const { return denoiser_; }
   /// Change the size: new images, and what the old ones leave behind is forgotten.
   void resize(glm::ivec2 size);
+  /// Change what is denoised of the images, which stay as they are.
+  void moveRectangle(glm::ivec2 size, glm::ivec2 offset);
   /// Size of the images.
   [[nodiscard]] glm::ivec2 imageSize() const { return glm::ivec2(needs_[0].width, needs_[0].height); }
   /// Hand over texels of an image ("lighting", ...) in its format.
   void fill(const std::string& image, std::vector<std::byte> texels);
   /// Record and submit a frame with what was filled in last, and return the result's texels, four halves each.
   std::vector<std::uint16_t> frame(const FrameDescription& camera, std::uint32_t flags = 0, float preExposure = 0.0F);
+  /// The same without waiting for it.
+  /// @returns the frame's slot
+  std::uint32_t submit(const FrameDescription& camera, std::uint32_t flags = 0, float preExposure = 0.0F);
 
  private:
   void makeImages(glm::ivec2 size);
   [[nodiscard]] WalrImage describe(std::size_t index) const;
+  [[nodiscard]] fg::vk::StagedImage& output() const { return *images_.back(); }
 
   const fg::vk::Device* device_;
+  std::uint32_t framesInFlight_;
   bool rememberedCamera_;
+  bool objectIds_;
   glm::ivec2 offset_;
   glm::ivec2 margin_;
   WalrDenoiser denoiser_ = nullptr;
   std::vector<WalrImageRequirements> needs_;
-  std::vector<std::unique_ptr<fg::vk::StagedImage>> images_;
-  std::array<std::vector<std::byte>, 5> texels_;
+  std::vector<std::unique_ptr<fg::vk::StagedImage>> images_;  ///< Null where the host has none.
+  std::array<std::vector<std::byte>, 6> texels_;
   fg::vk::FrameQueue queue_;
   std::uint64_t nextIdentity_ = 1;
   std::uint64_t firstIdentity_ = 1;
 };
+
+/// The bytes of an image with a picture somewhere in it.
+template <typename Texel>
+std::vector<std::byte> placed(const std::vector<Texel>& picture, glm::ivec2 size, glm::ivec2 imageSize,
+                              glm::ivec2 offset, Texel around) {
+  std::vector<Texel> image(std::size_t(imageSize.x) * std::size_t(imageSize.y), around);
+  for (int y = 0; y < size.y; ++y) {
+    std::copy_n(picture.begin() + std::ptrdiff_t(y) * size.x, size.x,
+                image.begin() + std::ptrdiff_t(y + offset.y) * imageSize.x + offset.x);
+  }
+  std::vector<std::byte> bytes(image.size() * sizeof(Texel));
+  std::memcpy(bytes.data(), image.data(), bytes.size());
+  return bytes;
+}
 
 /// Throws std::runtime_error with the library's text where a call fails.
 void require(WalrResult result);

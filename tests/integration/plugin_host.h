@@ -105,8 +105,8 @@ class PluginTest : public testing::Test {
     info.lighting_format = info.normal_format = info.motion_format = info.albedo_format = VK_FORMAT_R32G32B32A32_SFLOAT;
     return info;
   }
-  [[nodiscard]] WalrPasses makePasses(const char* method, Size size) const {
-    const WalrDenoiserInfo denoiser = info(method, size);
+  [[nodiscard]] WalrPasses makePasses(const char* method, Size size) const { return makePasses(info(method, size)); }
+  [[nodiscard]] WalrPasses makePasses(const WalrDenoiserInfo& denoiser) const {
     WalrPassesInfo passesInfo{};
     passesInfo.struct_size = sizeof(passesInfo);
     passesInfo.denoiser = &denoiser;
@@ -165,20 +165,11 @@ class Opaque {
  public:
   Opaque(Host& host, const WalrApi& api, const WalrDenoiserInfo& info) : host_(&host), api_(&api) {
     if (api.create_denoiser(&info, &denoiser_) != WALR_SUCCESS) throw std::runtime_error(api.last_error());
-    for (const char* name : {"lighting", "depth", "normal", "motion", "albedo", "denoised"}) {
-      WalrImageRequirements needs{};
-      needs.struct_size = sizeof(needs);
-      if (api.get_image_requirements(denoiser_, name, &needs) != WALR_SUCCESS) {
-        throw std::runtime_error(api.last_error());
-      }
-      const std::uint32_t texel = std::string(name) == "depth" ? 4 : std::string(name) == "denoised" ? 8 : 16;
-      images_.push_back(host_make_image(&host, needs.format, texel, needs.width, needs.height,
-                                        needs.usage | VK_IMAGE_USAGE_SAMPLED_BIT));
-    }
+    makeImages();
   }
   ~Opaque() {
     api_->destroy_denoiser(denoiser_);
-    for (HostImage& image : images_) host_destroy_image(host_, &image);
+    destroyImages();
   }
   Opaque(const Opaque&) = delete;
   Opaque& operator=(const Opaque&) = delete;
@@ -186,6 +177,14 @@ class Opaque {
   [[nodiscard]] WalrDenoiser denoiser() const { return denoiser_; }
   HostImage& image(std::size_t index) { return images_[index]; }
   HostImage& output() { return images_.back(); }
+
+  /// Another size, with images of that size.
+  void resize(Size size) {
+    for (const HostImage& image : images_) api_->forget_image(denoiser_, image.image, 0);
+    destroyImages();
+    if (api_->resize(denoiser_, size.width, size.height) != WALR_SUCCESS) throw std::runtime_error(api_->last_error());
+    makeImages();
+  }
 
   void frame(const WalrCamera& camera, std::uint32_t flags) {
     std::vector<WalrImage> images;
@@ -215,6 +214,23 @@ class Opaque {
   }
 
  private:
+  void makeImages() {
+    for (const char* name : {"lighting", "depth", "normal", "motion", "albedo", "denoised"}) {
+      WalrImageRequirements needs{};
+      needs.struct_size = sizeof(needs);
+      if (api_->get_image_requirements(denoiser_, name, &needs) != WALR_SUCCESS) {
+        throw std::runtime_error(api_->last_error());
+      }
+      const std::uint32_t texel = std::string(name) == "depth" ? 4 : std::string(name) == "denoised" ? 8 : 16;
+      images_.push_back(host_make_image(host_, needs.format, texel, needs.width, needs.height,
+                                        needs.usage | VK_IMAGE_USAGE_SAMPLED_BIT));
+    }
+  }
+  void destroyImages() {
+    for (HostImage& image : images_) host_destroy_image(host_, &image);
+    images_.clear();
+  }
+
   Host* host_;
   const WalrApi* api_;
   WalrDenoiser denoiser_ = nullptr;

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <fstream>
 #include <iterator>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -66,6 +67,84 @@ TEST_F(PluginTest, EveryMethodGivesTheSamePixelsPassByPass) {
       EXPECT_EQ(api().destroy_passes(passes), WALR_SUCCESS);
     }
   }
+}
+
+/// Passes of a size, in a host's graph.
+struct SizedGraph {
+  WalrPasses passes;
+  std::unique_ptr<tiny_host::Graph> graph;
+};
+
+// Passes are made for a size; the history that the host keeps goes on with those of another, which may take turns.
+TEST_F(PluginTest, HistoryGoesOnPassByPassAtAnotherSize) {
+  constexpr Size kSizes[] = {{61, 43}, {64, 45}, {56, 40}};
+  constexpr std::size_t kTurns[] = {0, 0, 1, 1, 0, 2, 0};  // By frame.
+  WalrConventions conventions{};
+  conventions.struct_size = sizeof(conventions);
+  conventions.rectangle = VK_TRUE;
+  for (const WalrPassType* type : registered.types) {
+    if (type->method == VK_FALSE) continue;
+    WalrDenoiserInfo whole = info(type->name, kSizes[0]);
+    whole.conventions = &conventions;
+    Opaque opaque(host, api(), whole);
+    std::vector<SizedGraph> sized;
+    for (const Size size : kSizes) {
+      whole.width = size.width;
+      whole.height = size.height;
+      const WalrPasses passes = makePasses(whole);
+      sized.push_back({passes, std::make_unique<tiny_host::Graph>(host, api(), passes)});
+    }
+    for (std::uint32_t frame = 0; frame < std::size(kTurns); ++frame) {
+      SCOPED_TRACE(std::string(type->name) + ", frame " + std::to_string(frame));
+      const Size size = kSizes[kTurns[frame]];
+      tiny_host::Graph& graph = *sized[kTurns[frame]].graph;
+      if (frame > 0 && kTurns[frame] != kTurns[frame - 1]) {
+        const SizedGraph& last = sized[kTurns[frame - 1]];
+        opaque.resize(size);
+        require(api().continue_passes(sized[kTurns[frame]].passes, last.passes));
+        graph.goOnFrom(*last.graph);
+      }
+      const WalrCamera camera = cameraAt(float(frame) * kStep);
+      uploadFrame(host, size, frame, [&](std::size_t i) { return &opaque.image(i); });
+      uploadFrame(host, size, frame, [&](std::size_t i) { return &graph.image(kInputs[i]); });
+      opaque.frame(camera, 0);
+      graph.frame(passFrame(camera));
+      EXPECT_EQ(download(host, graph.image("denoised")), download(host, opaque.output()));
+    }
+    for (SizedGraph& each : sized) each.graph.reset();
+    for (const SizedGraph& each : sized) EXPECT_EQ(api().destroy_passes(each.passes), WALR_SUCCESS);
+  }
+}
+
+TEST_F(PluginTest, PassesGoOnFromTheSamePassesAlone) {
+  WalrConventions conventions{};
+  conventions.struct_size = sizeof(conventions);
+  conventions.rectangle = VK_TRUE;
+  const auto make = [&](const char* method, Size size, bool rectangle) {
+    WalrDenoiserInfo whole = info(method, size);
+    if (rectangle) whole.conventions = &conventions;
+    return makePasses(whole);
+  };
+  const WalrPasses small = make("svgf", {48, 36}, true);
+  const WalrPasses large = make("svgf", {64, 48}, true);
+  const WalrPasses whole = make("svgf", {64, 48}, false);
+  const WalrPasses other = make("accumulate", {64, 48}, true);
+  const auto refused = [&](WalrPasses passes, WalrPasses last, WalrResult result, const char* why) {
+    EXPECT_EQ(api().continue_passes(passes, last), result);
+    EXPECT_NE(std::string(api().last_error()).find(why), std::string::npos) << api().last_error();
+  };
+  refused(large, small, WALR_ERROR_WRONG_ORDER, "walr_begin_frame");
+  const WalrCamera camera = cameraAt(0);
+  const WalrPassFrame frame = passFrame(camera);
+  EXPECT_EQ(api().begin_frame(small, &frame), WALR_SUCCESS);
+  refused(large, large, WALR_ERROR_INVALID_ARGUMENT, "themselves");
+  refused(whole, small, WALR_ERROR_INVALID_ARGUMENT, "WalrConventions::rectangle");
+  refused(other, small, WALR_ERROR_INVALID_ARGUMENT, "same method");
+  refused(large, nullptr, WALR_ERROR_INVALID_HANDLE, "null");
+  refused(nullptr, small, WALR_ERROR_INVALID_HANDLE, "null");
+  EXPECT_EQ(api().continue_passes(large, small), WALR_SUCCESS);
+  for (const WalrPasses passes : {small, large, whole, other}) EXPECT_EQ(api().destroy_passes(passes), WALR_SUCCESS);
+  refused(large, small, WALR_ERROR_INVALID_HANDLE, "destroyed");
 }
 
 TEST_F(PluginTest, EveryMethodGivesTheSamePixelsAsADispatchListWithItsHeapsAndBarriers) {

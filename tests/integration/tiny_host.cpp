@@ -83,10 +83,15 @@ void Graph::makeBuffer(const WalrResource& resource) {
   listedBytes_ += resource.memory_size;
 }
 
+HostImage* Graph::lastOf(const std::string& history) {
+  if (hasHistory_) return &images_.at(history).slots[1 - parity_];
+  return before_ != nullptr ? before_->lastOf(history) : nullptr;
+}
+
 HostImage* Graph::behind(std::uint32_t index) {
   const WalrResource& resource = *list_->resources[index];
   if (resource.kind == WALR_RESOURCE_HISTORY_PREVIOUS) {
-    return hasHistory_ ? &images_.at(list_->resources[resource.partner]->name).slots[1 - parity_] : nullptr;
+    return lastOf(list_->resources[resource.partner]->name);
   }
   Named& named = images_.at(resource.name);
   return &named.slots[named.slots.size() == 2 ? parity_ : 0];
@@ -188,6 +193,7 @@ void Graph::frame(const WalrPassFrame& frame) {
   vkFreeCommandBuffers(host_->device, host_->command_pool, list_->pass_count, passes.data());
   parity_ = 1 - parity_;
   hasHistory_ = true;
+  before_ = nullptr;
 }
 
 }  // namespace tiny_host

@@ -33,6 +33,11 @@ class Graph {
   /// Leave out every barrier before a read that needs no other layout: what a host must not do, and validation must
   /// see.
   void leaveOutReadBarriers() { readBarriers_ = false; }
+  /// Go on from what another graph of the same method at another size left.
+  void goOnFrom(Graph& before) {
+    before_ = &before;
+    hasHistory_ = false;
+  }
   /// Run all passes.
   void frame(const WalrPassFrame& frame);
   /// Bytes that the driver asks for all images and buffers of the graph.
@@ -56,6 +61,8 @@ class Graph {
   void makeBuffer(const WalrResource& resource);
   /// The image behind a resource in this frame; null for a history that there is none of.
   HostImage* behind(std::uint32_t resource);
+  /// What the last frame wrote into a history; null where there was none.
+  [[nodiscard]] HostImage* lastOf(const std::string& history);
   void transition(VkCommandBuffer commands, const WalrBinding& binding);
   std::vector<VkCommandBuffer> beginPasses();
   void recordPass(std::uint32_t pass, VkCommandBuffer commands);
@@ -68,6 +75,7 @@ class Graph {
   std::map<std::string, NamedBuffer> buffers_;
   std::uint64_t bytes_ = 0;
   std::uint64_t listedBytes_ = 0;
+  Graph* before_ = nullptr;  ///< Until a frame lies behind.
   std::uint32_t parity_ = 0;
   bool hasHistory_ = false;
   bool readBarriers_ = true;

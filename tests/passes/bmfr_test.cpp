@@ -212,7 +212,8 @@ TEST_F(Bmfr, TheSecondAccumulationReadsWhatTheFirstAccepted) {
   const DenoiserInputs inputs = importInputs(graph, kSize);
   const Guides guides = addPrepareGuides(graph, inputs);
   const auto [mean, taps] = addTemporalAccumulationWithTaps(graph, inputs, guides, {.maxSamples = kMaxSamples});
-  const fg::Texture second = addBmfrAccumulation(graph, inputs.frame, inputs.lighting, taps, {.maxSamples = kMaxSamples});
+  const fg::Texture second =
+      addBmfrAccumulation(graph, inputs.frame, inputs.lighting, taps, {.maxSamples = kMaxSamples});
   const fg::Texture firstOut = copyOut(graph, "first", mean);
   const fg::Texture secondOut = copyOut(graph, "second", second);
   fg::test::GraphRun run(device(), graph);

@@ -188,8 +188,9 @@ typedef struct WalrConventions {
   WalrNormals normals;
   VkBool32 pre_exposed;     /* Lighting is multiplied by WalrFrame::pre_exposure, and the result is to be, too. */
   VkBool32 motion_jittered; /* motion.xy is between the jittered images. Else it holds no jitter. */
-  /* Images may be larger than what is denoised, a rectangle that starts at WalrFrame::offset. Motion in pictures is in
-   * units of the rectangle. */
+  /* Images may be larger than what is denoised, a rectangle that starts at WalrFrame::offset and whose size
+   * (walr_resize) may change from frame to frame: history goes on. Motion is in units of the frame's own rectangle:
+   * what stays where it is in the picture has none, whatever size the last frame had. So is each jitter. */
   VkBool32 rectangle;
   uint32_t reserved;
 } WalrConventions;
@@ -232,8 +233,9 @@ WALR_API WalrResult walr_create_denoiser(const WalrDenoiserInfo* info, WalrDenoi
 /* The GPU must have finished everything recorded. */
 WALR_API WalrResult walr_destroy_denoiser(WalrDenoiser denoiser);
 
-/* The next three take effect with the next walr_prepare or walr_record, and drop the history. What the frames in flight
- * use lives on until they are finished, so that nothing has to be waited for. */
+/* The next three take effect with the next walr_prepare or walr_record, and drop the history, but for a new size with
+ * WalrConventions::rectangle. What the frames in flight use lives on until they are finished, so that nothing has to be
+ * waited for. */
 WALR_API WalrResult walr_resize(WalrDenoiser denoiser, uint32_t width, uint32_t height);
 WALR_API WalrResult walr_set_setting(WalrDenoiser denoiser, const char* name, const char* value);
 /* Replaces all settings. */

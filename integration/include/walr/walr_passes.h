@@ -147,6 +147,11 @@ WALR_API WalrResult walr_destroy_passes(WalrPasses passes);
 /* Everything in the list is valid until the passes are destroyed. */
 WALR_API WalrResult walr_get_pass_list(WalrPasses passes, const WalrPassList** list);
 
+/* Let the next frame of passes go on from the last frame of others, which are the same but for their size (dynamic
+ * resolution): its camera, its size and its number are taken over. What those wrote as current histories is then to be
+ * given as previous ones. Both must be made with WalrConventions::rectangle. Passes of several sizes may take turns. */
+WALR_API WalrResult walr_continue_passes(WalrPasses passes, WalrPasses last);
+
 typedef struct WalrPassFrame {
   uint32_t struct_size;
   float sky_depth; /* As in WalrFrame. */

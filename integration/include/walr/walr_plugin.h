@@ -45,6 +45,7 @@ typedef struct WalrApi {
                             const WalrPassResource* resources, uint32_t resource_count);
   WalrResult (*forget_pass_image)(WalrPasses passes, VkImage image, uint64_t identity);
   WalrResult (*get_findings)(WalrDenoiser denoiser, uint32_t* count, WalrFinding* findings);
+  WalrResult (*continue_passes)(WalrPasses passes, WalrPasses last);
 } WalrApi;
 
 /* What a host offers to a plug-in. A function that returns false ends the registration. */
