@@ -46,6 +46,7 @@ struct Take {
   Noise noise = Noise::Exponential;
   glm::dvec3 step{0.0};   ///< By which the camera moves each frame.
   bool jittered = false;  ///< Pixels are sampled off their centres, and motion is between the jittered pictures.
+  bool objectIds = false;
 };
 
 using RectangleOf = Rectangle (*)(std::uint32_t frame);
@@ -75,6 +76,7 @@ HostedRun::Options optionsOf(const Take& take) {
   options.margin = kImage - kUsual.size;
   options.conventions.motion_jittered = take.jittered ? VK_TRUE : VK_FALSE;
   options.rememberedCamera = true;
+  options.objectIds = take.objectIds;
   constexpr VkFormat kFloats = VK_FORMAT_R32G32B32A32_SFLOAT;
   options.formats = {kFloats, VK_FORMAT_R32_SFLOAT, kFloats, kFloats, kFloats};
   return options;
@@ -91,12 +93,16 @@ void fill(HostedRun& run, const HostFrame& frame, const Rectangle& rectangle) {
   hand("normal", frame.normal);
   hand("motion", frame.motion);
   hand("albedo", frame.albedo);
+  if (frame.objectId.size() == rectangle.size) {
+    constexpr std::uint32_t kOther = 0;  // The number of an object in the rectangle.
+    run.fill("object_id", placed(frame.objectId.pixels(), rectangle.size, run.imageSize(), rectangle.offset, kOther));
+  }
   run.fill("depth", placed(encodeFloats(frame.depth), rectangle.size, run.imageSize(), rectangle.offset, nowhere.x));
 }
 
 /// The rectangle's part of an image.
-Image<glm::dvec4> cut(const std::vector<std::uint16_t>& texels, const Rectangle& rectangle) {
-  const Image<glm::dvec4> image = decodeHalves(texels, kImage);
+Image<glm::dvec4> cut(const std::vector<std::uint16_t>& texels, glm::ivec2 imageSize, const Rectangle& rectangle) {
+  const Image<glm::dvec4> image = decodeHalves(texels, imageSize);
   Image<glm::dvec4> result(rectangle.size);
   forEachPixel(rectangle.size, [&](glm::ivec2 p) { result[p] = image[p + rectangle.offset]; });
   return result;
@@ -114,7 +120,7 @@ class Playback {
     const Rectangle rectangle = rectangle_(frame_);
     run_.moveRectangle(rectangle.size, rectangle.offset);
     fill(run_, frame, rectangle);
-    return cut(run_.frame(cameraOf(*take_, rectangle_, frame_++), flags), rectangle);
+    return cut(run_.frame(cameraOf(*take_, rectangle_, frame_++), flags), kImage, rectangle);
   }
 
  private:
@@ -171,30 +177,96 @@ TEST_P(DynamicResolutionMethod, NoSampleIsLostAndNoLight) {
   });
 }
 
-TEST_P(DynamicResolutionMethod, ErrorIsThatOfARectangleThatNeverChanges) {
+/// Errors in the first frames of a size, of a rectangle that changes it, one that never does, and one that drops its
+/// history when it does.
+struct ErrorsAtChanges {
+  double changing = 0.0;
+  double unchanging = 0.0;
+  double dropping = 0.0;
+};
+
+ErrorsAtChanges errorsAtChanges(const fg::vk::Device& device, const std::string& method, const Take& take,
+                                const char* switchedOn = nullptr) {
   constexpr std::uint32_t kFrames = 13;
-  const Take take{.scene = sphere(), .step = {0.05, 0.03, -0.04}, .jittered = true};
-  Playback changed(device(), GetParam(), take, changing);
-  Playback same(device(), GetParam(), take, unchanging);
-  Playback reset(device(), GetParam(), take, changing);
-  double changedError = 0.0;
-  double sameError = 0.0;
-  double resetError = 0.0;
-  for (std::uint32_t i = 0; i < kFrames; ++i) {
-    const bool counts = changes(i) && i >= 6;  // Once some history is there to be lost.
-    const auto errorOf = [&](Playback& playback, RectangleOf rectangle, bool drop) {
-      const Image<glm::dvec4> result = playback.next(drop ? WALR_FRAME_RESET_HISTORY : 0);
-      Take truth = take;
-      truth.noise = Noise::None;
-      return counts ? surfaceError(result, render(truth, rectangle, i)) : 0.0;
-    };
-    changedError += errorOf(changed, changing, false);
-    sameError += errorOf(same, unchanging, false);
-    resetError += errorOf(reset, changing, changes(i));
+  Playback change(device, method, take, changing);
+  Playback same(device, method, take, unchanging);
+  Playback drop(device, method, take, changing);
+  for (Playback* each : {&change, &same, &drop}) {
+    if (switchedOn != nullptr) require(walr_set_setting(each->denoiser(), switchedOn, "on"));
   }
-  // Clearly nearer to the one than to the other.
-  EXPECT_LT(changedError, sameError + 0.25 * (resetError - sameError));
-  EXPECT_GT(resetError, 1.25 * sameError) << "nothing was there to be lost";
+  Take truth = take;
+  truth.noise = Noise::None;
+  ErrorsAtChanges errors;
+  for (std::uint32_t i = 0; i < kFrames; ++i) {
+    const Image<glm::dvec4> changed = change.next();
+    const Image<glm::dvec4> unchanged = same.next();
+    const Image<glm::dvec4> dropped = drop.next(changes(i) ? WALR_FRAME_RESET_HISTORY : 0);
+    if (!changes(i) || i < 6) continue;  // Until some history is there to be lost.
+    const HostFrame expected = render(truth, changing, i);
+    errors.changing += surfaceError(changed, expected);
+    errors.unchanging += surfaceError(unchanged, render(truth, unchanging, i));
+    errors.dropping += surfaceError(dropped, expected);
+  }
+  return errors;
+}
+
+/// Clearly nearer to the one than to the other.
+void expectHistoryGoesOn(const ErrorsAtChanges& errors) {
+  EXPECT_LT(errors.changing, errors.unchanging + 0.25 * (errors.dropping - errors.unchanging));
+  EXPECT_GT(errors.dropping, 1.25 * errors.unchanging) << "nothing was there to be lost";
+}
+
+TEST_P(DynamicResolutionMethod, ErrorIsThatOfARectangleThatNeverChanges) {
+  const Take take{.scene = sphere(), .step = {0.05, 0.03, -0.04}, .jittered = true};
+  expectHistoryGoesOn(errorsAtChanges(device(), GetParam(), take));
+}
+
+/// A scene in pieces with numbers of their own, a third of a unit across: a history that is not read in its place shows
+/// another number, and is lost.
+Scene inPieces(const Scene& scene) {
+  return [scene](glm::dvec3 origin, glm::dvec3 direction) {
+    std::optional<SceneHit> hit = scene(origin, direction);
+    if (hit) {
+      const glm::ivec3 piece(glm::floor(3.0 * (origin + hit->distance * direction)));
+      hit->object = static_cast<std::uint32_t>(piece.x + 64 * piece.y + 4096 * piece.z) & 0xffffffU;
+    }
+    return hit;
+  };
+}
+
+constexpr const char* kObjectIds = "antialiasing.object-ids";
+
+TEST_F(DynamicResolution, TellsObjectsApartInTheirPlace) {
+  const Take take{.scene = inPieces(sphere()), .step = {0.05, 0.03, -0.04}, .objectIds = true};
+  for (const char* method : {"joint_bilateral", "walr"}) {
+    SCOPED_TRACE(method);
+    expectHistoryGoesOn(errorsAtChanges(device(), method, take, kObjectIds));
+  }
+}
+
+// Only the numbers tell the panel from the wall that it slides in: they are read from the rectangle, and what is around
+// it has those of other objects.
+TEST_F(DynamicResolution, ARectanglesObjectsAreThoseOfAPictureOfItsOwn) {
+  constexpr std::uint32_t kFrames = 5;
+  Take take{.objectIds = true};
+  for (const char* method : {"joint_bilateral", "walr"}) {
+    const auto lastPicture = [&](bool rectangle, const char* tellApart) {
+      HostedRun::Options options = optionsOf(take);
+      if (!rectangle) options.offset = options.margin = glm::ivec2(0);
+      const Rectangle at{kUsual.size, options.offset};
+      HostedRun run(device(), method, kUsual.size, options);
+      require(walr_set_setting(run.denoiser(), kObjectIds, tellApart));
+      std::vector<glm::dvec4> last;
+      for (std::uint32_t i = 0; i < kFrames; ++i) {
+        take.scene = slidingPanel(i);
+        fill(run, render(take, unchanging, i), at);
+        last = cut(run.frame(cameraOf(take, unchanging, i)), run.imageSize(), at).pixels();
+      }
+      return last;
+    };
+    EXPECT_EQ(lastPicture(true, "on"), lastPicture(false, "on")) << method;
+    EXPECT_NE(lastPicture(true, "on"), lastPicture(true, "off")) << method;
+  }
 }
 
 /// A wall that the camera slides along, with light that is linear on it: interpolation takes nothing away, and what is
@@ -407,7 +479,7 @@ TEST_F(DynamicResolution, ACutAndNewSettingsForgetThePastAtANewSize) {
       run.moveRectangle(changing(i).size, changing(i).offset);
       if (i == kCut && setting != nullptr) require(walr_set_setting(run.denoiser(), setting, "7"));
       fill(run, render(take, changing, i), changing(i));
-      last = cut(run.frame(cameraOf(take, changing, i), i == kCut ? flags : 0), changing(i));
+      last = cut(run.frame(cameraOf(take, changing, i), i == kCut ? flags : 0), kImage, changing(i));
     }
     return last.pixels();
   };
