@@ -2,28 +2,16 @@
 
 #include <cstdint>
 #include <span>
-#include <string>
-#include <string_view>
 #include <vector>
 
 #include <glm/vec2.hpp>
 
 #include "passes/frame.h"
 #include "passes/inputs.h"
+#include "passes/lint_finding.h"
 #include "passes/lint_inputs.h"
 
 namespace walr {
-
-/// Something that looks wrong in a host's inputs.
-struct LintFinding {
-  std::string_view name;    ///< For programs: "motion-x-direction".
-  std::string what;         ///< What was found, with figures.
-  std::string_view cause;   ///< What it most likely comes from.
-  std::string_view wayOut;  ///< What to do about it.
-
-  /// All of it in a paragraph.
-  [[nodiscard]] std::string text() const;
-};
 
 /// Judges a host's inputs over any number of frames, from what `addLintInputs` counts and from the cameras.
 ///
