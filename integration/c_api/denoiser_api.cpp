@@ -15,12 +15,6 @@ HandleTable<WalrDenoiser, HostedDenoiser>& denoisers() {
   return table;
 }
 
-/// Run an action on a denoiser, as the body of a C function.
-template <typename Action>
-WalrResult withDenoiser(WalrDenoiser denoiser, Action action) noexcept {
-  return guarded([&] { denoisers().use(denoiser, action); });
-}
-
 }  // namespace
 
 const char* walr_version(void) {
@@ -51,62 +45,63 @@ WalrResult walr_destroy_denoiser(WalrDenoiser denoiser) {
 }
 
 WalrResult walr_resize(WalrDenoiser denoiser, uint32_t width, uint32_t height) {
-  return withDenoiser(denoiser, [&](HostedDenoiser& object) { object.resize(width, height); });
+  return denoisers().call(denoiser, [&](HostedDenoiser& object) { object.resize(width, height); });
 }
 
 WalrResult walr_set_setting(WalrDenoiser denoiser, const char* name, const char* value) {
-  return withDenoiser(denoiser, [&](HostedDenoiser& object) {
+  return denoisers().call(denoiser, [&](HostedDenoiser& object) {
     object.set(requireText(name, "the setting's name"), requireText(value, "the setting's value"));
   });
 }
 
 WalrResult walr_use_preset(WalrDenoiser denoiser, const char* name) {
-  return withDenoiser(denoiser,
-                      [&](HostedDenoiser& object) { object.usePreset(requireText(name, "the preset's name")); });
+  return denoisers().call(denoiser,
+                          [&](HostedDenoiser& object) { object.usePreset(requireText(name, "the preset's name")); });
 }
 
 WalrResult walr_get_setting(WalrDenoiser denoiser, const char* name, char* value, size_t* size) {
-  return withDenoiser(denoiser, [&](HostedDenoiser& object) {
+  return denoisers().call(denoiser, [&](HostedDenoiser& object) {
     const std::string text = object.setting(requireText(name, "the setting's name"));
     copyOut(text.c_str(), text.size() + 1, value, size);
   });
 }
 
 WalrResult walr_prepare(WalrDenoiser denoiser) {
-  return withDenoiser(denoiser, [](HostedDenoiser& object) { object.prepare(); });
+  return denoisers().call(denoiser, [](HostedDenoiser& object) { object.prepare(); });
 }
 
 WalrResult walr_get_image_requirements(WalrDenoiser denoiser, const char* port, WalrImageRequirements* requirements) {
-  return withDenoiser(denoiser, [&](HostedDenoiser& object) {
+  return denoisers().call(denoiser, [&](HostedDenoiser& object) {
     writeStruct(requirements, object.requirements(requireText(port, "the image's name")), "WalrImageRequirements");
   });
 }
 
 WalrResult walr_get_release_state(WalrDenoiser denoiser, const char* port, WalrImageState* state) {
-  return withDenoiser(denoiser, [&](HostedDenoiser& object) {
+  return denoisers().call(denoiser, [&](HostedDenoiser& object) {
     required(state, "the state's address") = object.releaseState(requireText(port, "the image's name"));
   });
 }
 
 WalrResult walr_forget_image(WalrDenoiser denoiser, VkImage image, uint64_t identity) {
-  return withDenoiser(denoiser, [&](HostedDenoiser& object) { object.forget(image, identity); });
+  return denoisers().call(denoiser, [&](HostedDenoiser& object) { object.forget(image, identity); });
 }
 
 WalrResult walr_record(WalrDenoiser denoiser, VkCommandBuffer command_buffer, const WalrFrame* frame) {
-  return withDenoiser(denoiser,
-                      [&](HostedDenoiser& object) { object.record(command_buffer, readStruct(frame, "WalrFrame")); });
+  return denoisers().call(
+      denoiser, [&](HostedDenoiser& object) { object.record(command_buffer, readStruct(frame, "WalrFrame")); });
 }
 
 WalrResult walr_reset_history(WalrDenoiser denoiser) {
-  return withDenoiser(denoiser, [](HostedDenoiser& object) { object.resetHistory(); });
+  return denoisers().call(denoiser, [](HostedDenoiser& object) { object.resetHistory(); });
 }
 
 WalrResult walr_get_memory(WalrDenoiser denoiser, WalrMemory* memory) {
-  return withDenoiser(denoiser, [&](HostedDenoiser& object) { writeStruct(memory, object.memory(), "WalrMemory"); });
+  return denoisers().call(denoiser,
+                          [&](HostedDenoiser& object) { writeStruct(memory, object.memory(), "WalrMemory"); });
 }
 
 WalrResult walr_get_timings(WalrDenoiser denoiser, uint32_t* count, WalrPassTime* times) {
-  return withDenoiser(denoiser, [&](HostedDenoiser& object) {
+  return denoisers().call(denoiser, [&](HostedDenoiser& object) {
     const auto measured = object.timings();
     uint32_t& room = required(count, "the count's address");
     const std::size_t written = times == nullptr ? 0 : std::min<std::size_t>(room, measured.size());
@@ -116,7 +111,7 @@ WalrResult walr_get_timings(WalrDenoiser denoiser, uint32_t* count, WalrPassTime
 }
 
 WalrResult walr_get_findings(WalrDenoiser denoiser, uint32_t* count, WalrFinding* findings) {
-  return withDenoiser(denoiser, [&](HostedDenoiser& object) {
+  return denoisers().call(denoiser, [&](HostedDenoiser& object) {
     const auto found = object.findings();
     uint32_t& room = required(count, "the count's address");
     const std::size_t written = findings == nullptr ? 0 : std::min<std::size_t>(room, found.size());

@@ -34,6 +34,12 @@ class HandleTable {
     action(*entry->object);
   }
 
+  /// The same as the body of a C function.
+  template <typename Action>
+  WalrResult call(Handle handle, Action action) noexcept {
+    return guarded([&] { use(handle, action); });
+  }
+
   /// Destroy an object.
   /// @throws Error as `use` does
   void remove(Handle handle) {

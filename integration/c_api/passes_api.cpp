@@ -15,11 +15,6 @@ HandleTable<WalrPasses, HostedPasses>& allPasses() {
   return table;
 }
 
-template <typename Action>
-WalrResult withPasses(WalrPasses passes, Action action) noexcept {
-  return guarded([&] { allPasses().use(passes, action); });
-}
-
 }  // namespace
 
 WalrResult walr_create_passes(const WalrPassesInfo* info, WalrPasses* passes) {
@@ -37,22 +32,22 @@ WalrResult walr_destroy_passes(WalrPasses passes) {
 }
 
 WalrResult walr_get_pass_list(WalrPasses passes, const WalrPassList** list) {
-  return withPasses(passes, [&](HostedPasses& object) { required(list, "the list's address") = &object.list(); });
+  return allPasses().call(passes, [&](HostedPasses& object) { required(list, "the list's address") = &object.list(); });
 }
 
 WalrResult walr_continue_passes(WalrPasses passes, WalrPasses last) {
-  return withPasses(passes, [&](HostedPasses& object) {
+  return allPasses().call(passes, [&](HostedPasses& object) {
     if (passes == last) throw Error(WALR_ERROR_INVALID_ARGUMENT, "passes go on from themselves without being told");
     allPasses().use(last, [&](const HostedPasses& before) { object.goOnFrom(before); });
   });
 }
 
 WalrResult walr_begin_frame(WalrPasses passes, const WalrPassFrame* frame) {
-  return withPasses(passes, [&](HostedPasses& object) { object.beginFrame(readStruct(frame, "WalrPassFrame")); });
+  return allPasses().call(passes, [&](HostedPasses& object) { object.beginFrame(readStruct(frame, "WalrPassFrame")); });
 }
 
 WalrResult walr_get_frame_constants(WalrPasses passes, uint32_t resource, void* bytes, size_t* size) {
-  return withPasses(passes, [&](HostedPasses& object) {
+  return allPasses().call(passes, [&](HostedPasses& object) {
     const auto constants = object.frameConstants(resource);
     copyOut(constants.data(), constants.size(), bytes, size);
   });
@@ -60,12 +55,12 @@ WalrResult walr_get_frame_constants(WalrPasses passes, uint32_t resource, void* 
 
 WalrResult walr_record_pass(WalrPasses passes, uint32_t pass, VkCommandBuffer command_buffer,
                             const WalrPassResource* resources, uint32_t resource_count) {
-  return withPasses(passes, [&](HostedPasses& object) {
+  return allPasses().call(passes, [&](HostedPasses& object) {
     if (resource_count > 0) required(resources, "the array of resources");
     object.record(pass, command_buffer, std::span(resources, resource_count));
   });
 }
 
 WalrResult walr_forget_pass_image(WalrPasses passes, VkImage image, uint64_t identity) {
-  return withPasses(passes, [&](HostedPasses& object) { object.forget(image, identity); });
+  return allPasses().call(passes, [&](HostedPasses& object) { object.forget(image, identity); });
 }
