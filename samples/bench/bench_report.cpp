@@ -7,17 +7,13 @@
 
 #include <nlohmann/json.hpp>
 
+#include "samples/bench/or_null.h"
 #include "samples/denoise/report.h"
 
 namespace walr {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-template <typename T>
-Json orNull(const std::optional<T>& value) {
-  return value ? Json(*value) : Json();
-}
 
 Json figuresJson(const std::vector<FrameErrors>& frames,
                  std::optional<double> (*figure)(const std::vector<FrameErrors>&, const Metric&)) {

@@ -5,17 +5,13 @@
 
 #include <nlohmann/json.hpp>
 
+#include "samples/bench/or_null.h"
 #include "samples/image/file_output.h"
 
 namespace walr {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-template <typename T>
-Json orNull(const std::optional<T>& value) {
-  return value ? Json(*value) : Json();
-}
 
 }  // namespace
 
