@@ -50,9 +50,9 @@ TEST(ResponseScene, TheSlabCarriesItsMotionAndUncoversTheWall) {
 }
 
 TEST(Contents, HoldWhatTheirNamesSay) {
-  constexpr fg::Extent kExtent{64, 40};
+  static constexpr fg::Extent kPicture{64, 40};
   const auto skyShare = [](const Content& content) {
-    const Image depth = content.frame(kExtent, 8).frame.depth;
+    const Image depth = content.frame(kPicture, 8).frame.depth;
     return static_cast<double>(std::ranges::count(depth.values(), kBackgroundDepth)) / depth.pixelCount();
   };
   std::map<std::string_view, double> shares;
