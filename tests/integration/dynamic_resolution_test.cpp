@@ -292,16 +292,23 @@ double differenceInside(const Image<glm::dvec4>& a, const Image<glm::dvec4>& b, 
   return worst;
 }
 
+/// Of the widest window, that of `joint_bilateral`.
+constexpr int kReach = 17;
+
+/// Keep the windows of spatial filters within `kReach`, and the same whatever the past: those of `walr`'s default
+/// preset grow with noise and history, those of `flr` go by their deviation.
+void boundWindows(const Playback& playback, const std::string& method) {
+  if (method == "walr") require(walr_use_preset(playback.denoiser(), "robust"));
+  if (method == "flr") require(walr_set_setting(playback.denoiser(), "regression.sigma", "2"));
+}
+
 TEST_P(DynamicResolutionMethod, ReadsThePastInItsPlace) {
   constexpr std::uint32_t kFrames = 11;
   const Take take = slidingAlongLinearLight();
   Playback playback(device(), GetParam(), take, changing);
   // The same with no past: a spatial filter's own error at the borders, which size has a part in, is no matter here.
   Playback alone(device(), GetParam(), take, changing);
-  constexpr int kReach = 17;  // Of the widest window, that of `joint_bilateral`.
-  if (GetParam() == "flr") {
-    for (Playback* each : {&playback, &alone}) require(walr_set_setting(each->denoiser(), "regression.sigma", "2"));
-  }
+  for (Playback* each : {&playback, &alone}) boundWindows(*each, GetParam());
   // Values below 4 round by 2^-10 when they are stored as halves: once in each of four stages, and the mean, which
   // keeps the n-th part of what it erred by, once a frame.
   constexpr double kRoundoff = (4.0 + (kFrames + 1.0) / 2.0) * 0x1p-10;
@@ -322,6 +329,7 @@ TEST_F(DynamicResolution, WhatStandsStillIsReadInItsPlace) {
   take.step = glm::dvec3(0.0);
   for (const char* method : {"accumulate", "walr"}) {
     Playback playback(device(), method, take, changing);
+    boundWindows(playback, method);
     for (const char* setting : {"scene.camera-motion", "scene.object-motion", "scene.jitter"}) {
       require(walr_set_setting(playback.denoiser(), setting, "off"));
     }
@@ -330,7 +338,7 @@ TEST_F(DynamicResolution, WhatStandsStillIsReadInItsPlace) {
       const HostFrame frame = render(take, changing, i);
       forEachPixel(truth.size(), [&](glm::ivec2 p) { truth[p] = glm::dvec4(frame.lighting[p], 1.0); });
       // As above, of fewer frames.
-      EXPECT_LE(differenceInside(playback.next(), truth, 17), 8.0 * 0x1p-10) << method << ", " << i;
+      EXPECT_LE(differenceInside(playback.next(), truth, kReach), 8.0 * 0x1p-10) << method << ", " << i;
     }
   }
 }
