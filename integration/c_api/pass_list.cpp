@@ -93,6 +93,7 @@ const WalrBarrier* PassList::addBarriers(const std::vector<fg::PlannedBarrier>& 
 
 const WalrBinding* const* PassList::addBindings(const fg::PassDecl& pass, const fg::Shader& shader) {
   auto& list = bindingLists_.emplace_back();
+  const fg::Buffer indirect = std::get<fg::ComputeDispatch>(pass.work).indirect;
   for (const fg::ShaderBinding& variable : shader.bindings) {
     const auto access = std::ranges::find(pass.accesses, variable.name, &fg::AccessDecl::binding);
     if (access == pass.accesses.end()) {
@@ -110,6 +111,12 @@ const WalrBinding* const* PassList::addBindings(const fg::PassDecl& pass, const 
     binding.access = info.mask();
     binding.layout = info.layout;
     binding.filter = access->filter;
+    // Hosts that place barriers by bindings then need not know of indirect dispatches.
+    if (indirect.valid() && indirect.resource == access->resource) {
+      const fg::AccessInfo& arguments = fg::accessInfo(fg::Access::IndirectRead);
+      binding.stage |= arguments.stage;
+      binding.access |= arguments.mask();
+    }
     list.push_back(&binding);
   }
   return list.data();

@@ -32,6 +32,14 @@ bool allows(const WalrBinding& binding, VkImageLayout layout) {
   return layout == VK_IMAGE_LAYOUT_READ_ONLY_OPTIMAL && binding.layout == VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
 }
 
+/// The buffer that an indirect dispatch takes its group counts from, which it binds, too.
+VkBuffer groupCounts(const WalrDispatch& pass, std::span<const WalrPassResource> resources) {
+  for (std::uint32_t i = 0; i < pass.binding_count; ++i) {
+    if (pass.bindings[i]->resource == pass.indirect) return resources[i].buffer;
+  }
+  throw Error(WALR_ERROR_INTERNAL, "pass '" + std::string(pass.name) + "' does not bind its group counts");
+}
+
 [[noreturn]] void reject(const WalrDispatch& pass, const WalrResource& resource, const std::string& what) {
   throw Error(WALR_ERROR_INVALID_ARGUMENT,
               "pass '" + std::string(pass.name) + "': resource '" + resource.name + "' " + what);
@@ -54,9 +62,6 @@ PassRecording::PassRecording(const fg::vk::DeviceContext& device, const fg::Grap
   for (const fg::PlannedPass& planned : plan.passes) {
     const fg::PassDecl& pass = graph.passes[planned.pass];
     const auto& work = std::get<fg::ComputeDispatch>(pass.work);
-    if (work.indirect.valid()) {
-      throw Error(WALR_ERROR_UNSUPPORTED, "pass '" + pass.name + "' is dispatched indirectly: record the whole method");
-    }
     passPipelines_.push_back(pipelines_.get(*work.shader, work.specialization));
   }
   makeUploads(list);
@@ -282,7 +287,11 @@ void PassRecording::record(std::uint32_t index, VkCommandBuffer commandBuffer,
     functions.vkCmdPushConstants(commandBuffer, pipeline.layout, VK_SHADER_STAGE_COMPUTE_BIT, 0,
                                  pass.push_constant_size, constants.data());
   }
-  functions.vkCmdDispatch(commandBuffer, pass.group_count[0], pass.group_count[1], pass.group_count[2]);
+  if (pass.indirect == WALR_NONE) {
+    functions.vkCmdDispatch(commandBuffer, pass.group_count[0], pass.group_count[1], pass.group_count[2]);
+  } else {
+    functions.vkCmdDispatchIndirect(commandBuffer, groupCounts(pass, resources), pass.indirect_offset);
+  }
   recordedFrame_[index] = frame_ + 1;
 }
 

@@ -320,7 +320,11 @@ void Player::frame(const WalrPassFrame& frame) {
       vkCmdPushConstants(commands, pass.layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, dispatch.push_constant_size,
                          dispatch.push_constants);
     }
-    vkCmdDispatch(commands, dispatch.group_count[0], dispatch.group_count[1], dispatch.group_count[2]);
+    if (dispatch.indirect == WALR_NONE) {
+      vkCmdDispatch(commands, dispatch.group_count[0], dispatch.group_count[1], dispatch.group_count[2]);
+    } else {
+      vkCmdDispatchIndirect(commands, behind_.at(dispatch.indirect).buffer, dispatch.indirect_offset);
+    }
   }
   barriers(commands, list_->releases, list_->release_count);
   host_submit_and_wait(host_, commands);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <iterator>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -106,8 +107,11 @@ class PluginTest : public testing::Test {
     return info;
   }
   [[nodiscard]] WalrPasses makePasses(const char* method, Size size) const { return makePasses(info(method, size)); }
-  [[nodiscard]] WalrPasses makePasses(const WalrDenoiserInfo& denoiser) const {
+  [[nodiscard]] WalrPasses makePasses(const WalrDenoiserInfo& denoiser,
+                                      std::span<const WalrSettingValue> settings = {}) const {
     WalrPassesInfo passesInfo{};
+    passesInfo.settings = settings.data();
+    passesInfo.setting_count = static_cast<std::uint32_t>(settings.size());
     passesInfo.struct_size = sizeof(passesInfo);
     passesInfo.denoiser = &denoiser;
     WalrPasses passes = nullptr;

@@ -104,7 +104,9 @@ typedef struct WalrDispatch {
   uint32_t history_age_count;
   uint32_t barrier_count;
   uint32_t group_count[3];
-  uint32_t indirect; /* Buffer with the group counts: index of the resource; WALR_NONE usually. */
+  /* Buffer with the group counts: index of a resource that one of the bindings is, too, whose stage and access then say
+   * so; WALR_NONE usually. */
+  uint32_t indirect;
   uint64_t indirect_offset;
 } WalrDispatch;
 

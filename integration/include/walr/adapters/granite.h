@@ -123,6 +123,11 @@ class GranitePasses {
 
   void addPass(std::uint32_t index) {
     const WalrDispatch& dispatch = *list_->passes[index];
+    if (dispatch.indirect != WALR_NONE) {
+      throw std::invalid_argument(std::string(dispatch.name) +
+                                  ": dispatched indirectly, which this adapter does not tell Granite of: leave "
+                                  "walr.skip-sky off");
+    }
     Granite::RenderPass& pass =
         graph_->add_pass(std::string("walr/") + dispatch.name, Granite::RenderGraph::get_default_compute_queue());
     Added added{&pass, {}};
