@@ -108,8 +108,7 @@ const std::vector<ViewInfo>& iterationViews() {
        "Of the pixel's block: step of the nearest edge on the eight traces (one past the last: none), taps lost, W"},
       {"pivots",
        "Of the pixel's block: smallest pivot of the solve without its ridge, in units of the ridge; pivots that the "
-       "ridge "
-       "outweighs, and 1 where there are any",
+       "ridge outweighs, and 1 where there are any",
        {{"regularised-fits", "Z"}}},
       {"colour-mean", "Of the pixel's block: mean of the colour"},
       {"feature-mean", "Of the pixel's block: mean of the shading normal"},

@@ -196,8 +196,8 @@ BenchReport bench(const GpuDevice& device, const std::vector<NamedSequence>& seq
   }
 
   const std::vector<SizeWork> sizes = sizeWork(setup, store, options);
-  for (const SizeWork& todo : sizes) frames += todo.batches.size() * kFramesPerSize * (options.repetitions + 1);
-  if (options.content) frames += options.variants.size() * kFramesPerContent * (options.repetitions + 1);
+  for (const SizeWork& todo : sizes) frames += todo.batches.size() * kFramesPerRepetition * (options.repetitions + 1);
+  if (options.content) frames += options.variants.size() * kFramesPerRepetition * (options.repetitions + 1);
 
   std::optional<Progress> progress;
   if (frames > 0) progress.emplace(log, terminal, "frame", frames, Progress::Clock::now());

@@ -3,7 +3,6 @@
 #include <array>
 
 #include "samples/bench/response_scene.h"
-#include "samples/denoise/gpu_denoiser.h"
 
 namespace walr {
 namespace {
@@ -54,13 +53,6 @@ constexpr std::array kContents = {
     Content{"sky", "nothing but sky", [](fg::Extent extent, int frame) { return underSky(extent, frame, 1.0); }},
 };
 
-/// One content on its way.
-struct Lane {
-  GpuDenoiser denoiser;
-  std::array<PackedFrame, 2> frames;
-  FrameTimes times;
-};
-
 }  // namespace
 
 std::span<const Content> contents() {
@@ -69,26 +61,18 @@ std::span<const Content> contents() {
 
 std::vector<ContentTimes> contentTimes(const GpuDevice& device, std::span<const Variant> variants, fg::Extent extent,
                                        std::size_t repetitions, const std::function<void()>& frameDone) {
+  std::vector<std::array<PackedFrame, 2>> frames;
+  for (const Content& content : kContents) frames.push_back({content.frame(extent, 8), content.frame(extent, 9)});
   std::vector<ContentTimes> all;
   for (const Variant& variant : variants) {
-    std::vector<Lane> lanes;
-    for (const Content& content : kContents) {
-      lanes.push_back({GpuDenoiser(device, *makeVariant(variant), extent, projectLayout()),
-                       {content.frame(extent, 8), content.frame(extent, 9)},
-                       {}});
+    std::vector<TimedLane> lanes;
+    for (const auto& pair : frames) {
+      lanes.push_back({GpuDenoiser(device, *makeVariant(variant), extent, projectLayout()), &pair});
     }
-    for (std::size_t i = 0; i < kFramesPerContent * (1 + repetitions); ++i) {
-      // Who is first moves on, so that drift hits all alike.
-      for (std::size_t lane = 0; lane < lanes.size(); ++lane) {
-        Lane& now = lanes[(i + lane) % lanes.size()];
-        const DenoisedPicture picture = now.denoiser.run(now.frames[i % now.frames.size()]);
-        if (i >= kFramesPerContent) now.times.add(picture);
-      }
-      frameDone();
-    }
+    timeBeside(lanes, repetitions, frameDone);
     ContentTimes& times = all.emplace_back();
     times.variant = variant.name;
-    for (const Lane& lane : lanes) times.timings.push_back(lane.times.timing(lanes.front().times));
+    for (const TimedLane& lane : lanes) times.timings.push_back(lane.times.timing(lanes.front().times));
   }
   return all;
 }

@@ -33,9 +33,6 @@ struct ContentTimes {
 /// Size of picture at which `walr bench` compares contents.
 inline constexpr fg::Extent kContentExtent{384, 216};
 
-/// Frames of which each repetition of `contentTimes` consists.
-inline constexpr std::size_t kFramesPerContent = 8;
-
 /// Time each variant on all contents beside each other, after one repetition that warms up.
 /// @param frameDone  called after each frame of all contents
 /// @throws fg::vk::Error when the device fails

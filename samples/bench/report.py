@@ -133,12 +133,12 @@ def figure_element(pixels, caption, **options):
     return f"<figure>{image(shrunk(pixels), **options)}<figcaption>{html.escape(caption)}</figcaption></figure>"
 
 
-def crops_table(pictures, places, size, exposed):
-    """The places side by side, a row each, in every picture."""
+def crops_table(pictures, places, size, shown):
+    """The places side by side, a row each, in every picture, as `shown` makes colours of it."""
     rows = ["<tr><th></th>" + "".join(f"<th>{html.escape(n)}</th>" for n, _ in pictures) + "</tr>"]
     for index, (x, y) in enumerate(places):
         rows.append(f"<tr><td>{index + 1}</td>" + "".join(
-            f"<td>{image(displayed(p[y:y + size, x:x + size], exposed))}</td>" for _, p in pictures) + "</tr>")
+            f"<td>{image(shown(p[y:y + size, x:x + size]))}</td>" for _, p in pictures) + "</tr>")
     return "<div class=crops><table>" + "".join(rows) + "</table></div>"
 
 
@@ -151,13 +151,10 @@ def signed_colours(values, top):
 
 def change_crops(changes, places, size, top):
     """The places in the change of every method's error along motion."""
-    rows = ["<tr><th></th>" + "".join(f"<th>{html.escape(n)}</th>" for n in changes) + "</tr>"]
-    for index, (x, y) in enumerate(places):
-        rows.append(f"<tr><td>{index + 1}</td>" + "".join(
-            f"<td>{image(signed_colours(c[y:y + size, x:x + size], top))}</td>" for c in changes.values()) + "</tr>")
     return ("<p>The same places in the change of the error in luminance from the frame before along motion, over the square root of "
             f"2: red brighter, blue darker, full at {top:.2g}; grey where nothing was there before. Flicker, trails and seams that "
-            "do not stay with their surface show here.</p><div class=crops><table>" + "".join(rows) + "</table></div>")
+            "do not stay with their surface show here.</p>" +
+            crops_table(changes.items(), places, size, lambda values: signed_colours(values, top)))
 
 
 def with_squares(pixels, places, size):
@@ -182,7 +179,8 @@ def pictures_section(bench, sequence, frame):
     tops = {label: max(float(np.percentile(list(m.values()), 99.5)), 1e-6) for label, m in maps}
     parts = [f"<h3>{html.escape(sequence)}, frame {frame}</h3><p>The squares are the places where the filters' mean FLIP "
              f"is largest. Exposure for display: {exposed:g}.</p>",
-             crops_table([("reference", reference), ("noisy", noisy), *results.items()], places, size, exposed)]
+             crops_table([("reference", reference), ("noisy", noisy), *results.items()], places, size,
+                         lambda pixels: displayed(pixels, exposed))]
     changes = {n: c[:, :, 0] for n in bench.filters if (c := bench.change(sequence, n, frame)) is not None}
     if changes:
         top = max(float(np.nanpercentile(np.abs(list(changes.values())), 99.5)), 1e-6)

@@ -10,13 +10,6 @@
 namespace walr {
 namespace {
 
-/// One variant on its way.
-struct Lane {
-  SizeTiming* result;
-  GpuDenoiser denoiser;
-  FrameTimes times;
-};
-
 std::optional<GpuDenoiser> tryToMake(const GpuDevice& device, const Variant& variant, fg::Extent extent,
                                      std::string& whyNot) {
   try {
@@ -34,7 +27,9 @@ std::optional<GpuDenoiser> tryToMake(const GpuDevice& device, const Variant& var
 SizeTimes sizeTimes(const GpuDevice& device, std::span<const Variant> variants, fg::Extent extent,
                     std::size_t repetitions, const std::function<void()>& frameDone) {
   SizeTimes sized{extent, std::vector<SizeTiming>(variants.size())};
-  std::vector<Lane> lanes;
+  const std::array frames = {slabFrame(extent, 8).packed, slabFrame(extent, 9).packed};
+  std::vector<TimedLane> lanes;
+  std::vector<SizeTiming*> results;
   for (std::size_t i = 0; i < variants.size(); ++i) {
     SizeTiming& result = sized.timings[i];
     result.variant = variants[i].name;
@@ -43,19 +38,12 @@ SizeTimes sizeTimes(const GpuDevice& device, std::span<const Variant> variants, 
       continue;
     }
     if (auto denoiser = tryToMake(device, variants[i], extent, result.whyNot)) {
-      lanes.push_back({&result, std::move(*denoiser), {}});
+      lanes.push_back({std::move(*denoiser), &frames});
+      results.push_back(&result);
     }
   }
-  const std::array frames = {slabFrame(extent, 8).packed, slabFrame(extent, 9).packed};
-  for (std::size_t i = 0; i < kFramesPerSize * (1 + repetitions); ++i) {
-    for (std::size_t lane = 0; lane < lanes.size(); ++lane) {
-      Lane& now = lanes[(i + lane) % lanes.size()];
-      const DenoisedPicture picture = now.denoiser.run(frames[i % frames.size()]);
-      if (i >= kFramesPerSize) now.times.add(picture);
-    }
-    frameDone();
-  }
-  for (Lane& lane : lanes) lane.result->timing = lane.times.timing(lanes.front().times);
+  timeBeside(lanes, repetitions, frameDone);
+  for (std::size_t i = 0; i < lanes.size(); ++i) results[i]->timing = lanes[i].times.timing(lanes.front().times);
   return sized;
 }
 

@@ -24,13 +24,10 @@ struct SizeTimes {
   std::vector<SizeTiming> timings;
 };
 
-/// Frames of which each repetition of `sizeTimes` consists.
-inline constexpr std::size_t kFramesPerSize = 8;
-
 /// Time variants beside each other on two frames of a synthetic scene in turn (`slabFrame`), after one repetition that
 /// warms up. Where settings do not go with a size, or the device's memory does not hold it, that is said.
 /// @param variants   the first one is the baseline that ratios are against
-/// @param frameDone  called after each frame, `kFramesPerSize` times (1 + repetitions) times
+/// @param frameDone  called after each frame, `kFramesPerRepetition` times (1 + repetitions) times
 /// @throws fg::vk::Error where the baseline fails while it runs
 SizeTimes sizeTimes(const GpuDevice& device, std::span<const Variant> variants, fg::Extent extent,
                     std::size_t repetitions, const std::function<void()>& frameDone);

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,6 +11,7 @@
 
 #include "samples/bench/spread.h"
 #include "samples/denoise/gpu_denoiser.h"
+#include "samples/denoise/packed_frame.h"
 
 namespace walr {
 
@@ -40,6 +43,22 @@ class FrameTimes {
   std::vector<std::string> names_;           ///< By pass.
   std::vector<std::vector<double>> passes_;  ///< By pass, then by frame.
 };
+
+/// A denoiser that is timed on two frames in turn.
+struct TimedLane {
+  GpuDenoiser denoiser;
+  const std::array<PackedFrame, 2>* frames;
+  FrameTimes times = {};
+};
+
+/// Frames of which each repetition of `timeBeside` consists.
+inline constexpr std::size_t kFramesPerRepetition = 8;
+
+/// Time denoisers beside each other, after one repetition that warms up. Who is first moves on from frame to frame, so
+/// that drift hits all alike.
+/// @param frameDone  called after each frame of all, `kFramesPerRepetition` times (1 + repetitions) times
+/// @throws fg::vk::Error when the device fails
+void timeBeside(std::vector<TimedLane>& lanes, std::size_t repetitions, const std::function<void()>& frameDone);
 
 /// `timed_frames`, `milliseconds`, `ratio` and `passes` into an object, and back.
 /// @throws nlohmann::json::exception from `timingFromJson` where something is missing

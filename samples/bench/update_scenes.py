@@ -10,6 +10,9 @@ import math
 import pathlib
 import sys
 
+sys.dont_write_bytecode = True
+from update_readme import figure as shown
+
 HERE = pathlib.Path(__file__).resolve().parent
 RESULTS = HERE / "scenes.json"
 PAGE = HERE / "SCENES.md"
@@ -71,7 +74,7 @@ def sequence_section(name, sequence, baseline):
     for method, figures in runs.items():
         row = [f"`{method}`"]
         for figure, _, decimals in FIGURES:
-            text = f"{figures[figure]:.{decimals}f}".removeprefix("0")
+            text = shown(figures[figure], decimals)
             row.append(f"**{text}**" if figure in COMPARED and best_of(runs, figure) == method else text)
         lines.append("| " + " | ".join(row + [f"{figures['time']:.2f}"]) + " |")
     behind = []

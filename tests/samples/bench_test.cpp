@@ -263,9 +263,9 @@ TEST(SizeTimesTest, SaysWhatDoesNotRun) {
   int frames = 0;
   // A cell a pixel takes 128 bytes in a buffer, of which Vulkan guarantees 2^27.
   const SizeTimes times = sizeTimes(device, variants, {1025, 1024}, 1, [&] { ++frames; });
-  EXPECT_EQ(frames, 2 * static_cast<int>(kFramesPerSize));
+  EXPECT_EQ(frames, 2 * static_cast<int>(kFramesPerRepetition));
   ASSERT_EQ(times.timings.size(), 2U);
-  EXPECT_EQ(times.timings[0].timing.frames, kFramesPerSize);
+  EXPECT_EQ(times.timings[0].timing.frames, kFramesPerRepetition);
   EXPECT_EQ(times.timings[0].timing.ratio.value().median, 1.0);
   EXPECT_TRUE(times.timings[0].whyNot.empty());
   EXPECT_EQ(times.timings[1].timing.frames, 0U);
