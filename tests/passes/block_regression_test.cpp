@@ -83,6 +83,29 @@ double onePath(glm::ivec2) {
   return 1.0;
 }
 
+// Left of it the light is darker.
+constexpr int kStep = 24;
+
+/// Light without noise that steps on a wall without features: the largest relative difference from their own side's of
+/// the pixels that count.
+template <typename Counts>
+double farthestFromOwn(const fg::vk::Device& device, const BlockRegressionSettings& settings, Counts counts) {
+  RegressionRun run(device, settings);
+  Inputs inputs = inputsOf(flatWall());
+  const auto lightOf = [](glm::ivec2 p) { return p.x < kStep ? 0.25 : 2.0; };
+  reference::forEachPixel(kSize, [&](glm::ivec2 p) {
+    inputs.accumulated[p] = glm::dvec4(glm::dvec3(lightOf(p)), 64.0);
+    inputs.guides[p].features = inputs.guides[glm::ivec2(0)].features;
+    inputs.occlusion[p] = 0.0;
+  });
+  const Image<glm::dvec4> actual = run.filter(inputs);
+  double farthest = 0.0;
+  reference::forEachPixel(kSize, [&](glm::ivec2 p) {
+    if (counts(p.x)) farthest = std::max(farthest, std::abs(actual[p].x - lightOf(p)) / lightOf(p));
+  });
+  return farthest;
+}
+
 class BlockRegression : public fg::test::GpuTest {
  protected:
   /// @param paths of a pixel
@@ -150,60 +173,33 @@ TEST_F(BlockRegression, GrowthAgreesWithBruteForce) {
   }
 }
 
-// Light without noise that steps at a block's side on a wall without features: every block has its side's light, and
-// none grows over the step. Pixels between the centres of blocks of either side are mixed.
+// Where the light steps at a block's side, every block has its side's light, and none grows over the step. Pixels
+// between the centres of blocks of either side are mixed.
 TEST_F(BlockRegression, BlocksDoNotGrowOverAStepInTheLight) {
-  constexpr int kStep = 24;
-  const auto farthestFromOwn = [&](float errors) {
-    RegressionRun run(device(), {.size = 2, .iterations = 3, .growthErrors = errors, .coarseSamples = 0.0F});
-    Inputs inputs = inputsOf(flatWall());
-    const auto lightOf = [](glm::ivec2 p) { return p.x < kStep ? 0.25 : 2.0; };
-    reference::forEachPixel(kSize, [&](glm::ivec2 p) {
-      inputs.accumulated[p] = glm::dvec4(glm::dvec3(lightOf(p)), 64.0);
-      inputs.guides[p].features = inputs.guides[glm::ivec2(0)].features;
-      inputs.occlusion[p] = 0.0;
-    });
-    const Image<glm::dvec4> actual = run.filter(inputs);
-    double farthest = 0.0;
-    reference::forEachPixel(kSize, [&](glm::ivec2 p) {
-      if (p.x < kStep - 1 || p.x > kStep)
-        farthest = std::max(farthest, std::abs(actual[p].x - lightOf(p)) / lightOf(p));
-    });
-    return farthest;
+  const auto farthest = [&](float errors) {
+    return farthestFromOwn(device(), {.size = 2, .iterations = 3, .growthErrors = errors, .coarseSamples = 0.0F},
+                           [](int x) { return x < kStep - 1 || x > kStep; });
   };
-  EXPECT_LE(farthestFromOwn(8.5F), reference::kHalfRoundoff);
-  EXPECT_GT(farthestFromOwn(1e6F), 0.1);
+  EXPECT_LE(farthest(8.5F), reference::kHalfRoundoff);
+  EXPECT_GT(farthest(1e6F), 0.1);
 }
 
 // The same for cells. What lies within reach of the step has light of both sides in its window from the start, and a
 // mean that is in doubt: only a strict test keeps those from joining others.
 TEST_F(BlockRegression, CellsDoNotGrowOverAStepInTheLight) {
-  constexpr int kStep = 24;
   constexpr int kReach = 6;  // Three standard deviations of half a cell of 2 pixels, half a cell and the cells between.
-  const auto farthestFromOwn = [&](float errors) {
-    RegressionRun run(device(), {.size = 2,
-                                 .iterations = 1,
-                                 .coarseSigma = 1.0F / float(kSize.y),
-                                 .coarseResolution = 0.5F,
-                                 .coarseGrowthErrors = errors,
-                                 .coarseSamples = 1e6F});
-    Inputs inputs = inputsOf(flatWall());
-    const auto lightOf = [](glm::ivec2 p) { return p.x < kStep ? 0.25 : 2.0; };
-    reference::forEachPixel(kSize, [&](glm::ivec2 p) {
-      inputs.accumulated[p] = glm::dvec4(glm::dvec3(lightOf(p)), 64.0);
-      inputs.guides[p].features = inputs.guides[glm::ivec2(0)].features;
-      inputs.occlusion[p] = 0.0;
-    });
-    const Image<glm::dvec4> actual = run.filter(inputs);
-    double farthest = 0.0;
-    reference::forEachPixel(kSize, [&](glm::ivec2 p) {
-      if (std::abs(p.x - kStep) > kReach)
-        farthest = std::max(farthest, std::abs(actual[p].x - lightOf(p)) / lightOf(p));
-    });
-    return farthest;
+  const auto farthest = [&](float errors) {
+    return farthestFromOwn(device(),
+                           {.size = 2,
+                            .iterations = 1,
+                            .coarseSigma = 1.0F / float(kSize.y),
+                            .coarseResolution = 0.5F,
+                            .coarseGrowthErrors = errors,
+                            .coarseSamples = 1e6F},
+                           [](int x) { return std::abs(x - kStep) > kReach; });
   };
-  EXPECT_LE(farthestFromOwn(0.01F), reference::kHalfRoundoff);
-  EXPECT_GT(farthestFromOwn(1e6F), 0.1);
+  EXPECT_LE(farthest(0.01F), reference::kHalfRoundoff);
+  EXPECT_GT(farthest(1e6F), 0.1);
 }
 
 TEST_F(BlockRegression, AConstantStaysWhatItIs) {
