@@ -17,13 +17,14 @@ fg::Texture addAmbientOcclusion(fg::Graph& graph, fg::Buffer frame, const Guides
   pass.uniform("frameConstants", frame)
       .sample("depth", guides.depth)
       .sample("shadingNormal", guides.shadingNormal)
+      .specialize("kSteps", settings.steps)
       .constants(AmbientOcclusionConstants{radius});
   if (tiles != nullptr) {
     dispatchTiles(pass, tiles->surfaces);
   } else {
     pass.dispatch(extent);
   }
-  return pass.store("outOcclusion", graph.texture("occlusion", {VK_FORMAT_R16_SFLOAT, extent}));
+  return pass.store("outOcclusion", graph.texture("occlusion", {VK_FORMAT_R8_UNORM, extent}));
 }
 
 }  // namespace walr

@@ -20,9 +20,10 @@ struct BlockGrid {
   fg::Buffer frame;
   fg::Extent pixels;
   fg::Extent blocks;
-  fg::Extent cells;        // Of the coarse fit.
-  std::uint32_t size;      // Pixels per axis of a block.
-  std::uint32_t cellSize;  // Pixels per axis of a cell.
+  fg::Extent cells;          // Of the coarse fit.
+  std::uint32_t size;        // Pixels per axis of a block.
+  std::uint32_t cellBlocks;  // Blocks per axis of a cell.
+  std::uint32_t cellSize;    // Pixels per axis of a cell.
   BlockRegressionConstants constants;
 };
 
@@ -38,10 +39,19 @@ struct BlockFits {
   fg::Texture depth;
 };
 
+/// Cells are merged by workgroups, whose sides they divide.
+std::uint32_t cellBlocksFor(float cellPixels, std::uint32_t blockSize) {
+  constexpr float kMostPixels = 8.0F;
+  std::uint32_t blocks = 1;
+  while (static_cast<float>(2 * blocks * blockSize) <= std::min(cellPixels, kMostPixels)) blocks *= 2;
+  return blocks;
+}
+
 BlockGrid gridOf(fg::Graph& graph, fg::Buffer frame, fg::Extent pixels, const BlockRegressionSettings& s) {
   const fg::Extent blocks = gridExtent(pixels, s.size);
   const float sigma = s.coarseSigma * static_cast<float>(pixels.height);
-  const auto cellSize = static_cast<std::uint32_t>(std::clamp(sigma / s.coarseResolution, 1.0F, 8.0F));
+  const std::uint32_t cellBlocks = cellBlocksFor(sigma / s.coarseResolution, s.size);
+  const std::uint32_t cellSize = cellBlocks * s.size;
   BlockRegressionConstants constants{};
   constants.planeNear = s.planeNear;
   constants.planeFar = s.planeFar;
@@ -53,7 +63,7 @@ BlockGrid gridOf(fg::Graph& graph, fg::Buffer frame, fg::Extent pixels, const Bl
   constants.coarseReach = s.coarseReach;
   constants.coarseGrowthErrors = s.coarseGrowthErrors;
   constants.coarseSamples = s.coarseSamples;
-  return {graph, frame, pixels, blocks, gridExtent(pixels, cellSize), s.size, cellSize, constants};
+  return {graph, frame, pixels, blocks, gridExtent(pixels, cellSize), s.size, cellBlocks, cellSize, constants};
 }
 
 void readAverages(fg::PassBuilder& pass, const BlockAverages& averages) {
@@ -62,16 +72,16 @@ void readAverages(fg::PassBuilder& pass, const BlockAverages& averages) {
   pass.sample("depth", averages.depth);
 }
 
-BlockAverages writeAverages(const BlockGrid& grid, fg::PassBuilder& pass, fg::Extent extent,
-                            const std::string& suffix) {
-  static constexpr std::array kBindings{"outMoments0", "outMoments1", "outMoments2", "outMoments3", "outMoments4"};
+BlockAverages writeAverages(const BlockGrid& grid, fg::PassBuilder& pass, fg::Extent extent, const std::string& suffix,
+                            const std::string& prefix = "out") {
   BlockAverages averages;
-  for (std::size_t i = 0; i < kBindings.size(); ++i) {
+  for (std::size_t i = 0; i < averages.moments.size(); ++i) {
     const fg::Texture texture =
         grid.graph.texture("block moments " + std::to_string(i) + suffix, {VK_FORMAT_R32G32B32A32_UINT, extent});
-    averages.moments.at(i) = pass.store(kBindings.at(i), texture);
+    averages.moments.at(i) = pass.store(prefix + "Moments" + std::to_string(i), texture);
   }
-  averages.depth = pass.store("outDepth", grid.graph.texture("block depth" + suffix, {VK_FORMAT_R32_UINT, extent}));
+  averages.depth =
+      pass.store(prefix + "Depth", grid.graph.texture("block depth" + suffix, {VK_FORMAT_R32_UINT, extent}));
   return averages;
 }
 
@@ -216,20 +226,12 @@ fg::Texture addBlockRegression(fg::Graph& graph, fg::Buffer frame, fg::Texture a
   };
 
   fg::PassBuilder gather = readPixels("block moments", shaders::blockMoments);
-  gather.dispatch(grid.blocks);
+  gather.specialize("kCellBlocks", grid.cellBlocks).dispatch(grid.blocks);
   const BlockAverages averages = writeAverages(grid, gather, grid.blocks, "");
   const fg::Texture normal =
       gather.store("outNormal", graph.texture("block normal", {VK_FORMAT_R32_UINT, grid.blocks}));
 
-  fg::PassBuilder cells = graph.compute("coarse fit, cells", shaders::blockCells);
-  cells.sample("depth", guides.depth)
-      .sample("shadingNormal", guides.shadingNormal)
-      .sample("occlusion", occlusion)
-      .sample("accumulated", accumulated)
-      .specialize("kAlphaIsSampleCount", alpha == LightingAlpha::SampleCount)
-      .specialize("kCellSize", grid.cellSize)
-      .dispatch(grid.cells);
-  const BlockFits coarse = addCoarseFit(grid, writeAverages(grid, cells, grid.cells, " of cells"));
+  const BlockFits coarse = addCoarseFit(grid, writeAverages(grid, gather, grid.cells, " of cells", "outCell"));
   const BlockFits fine = addFineFit(grid, averages, normal, settings.iterations, inspection);
 
   const auto reconstruct = [&](const std::string& name, const fg::Shader& shader) {

@@ -59,10 +59,12 @@ struct BlockRegressionSettings {
              "measured"},
             coarseNarrowing);
     v.visit({"blocks.coarse-reach", "Distance at which that window ends", "sigma", 1.0, 6.0, "measured"}, coarseReach);
-    v.visit({"blocks.coarse-resolution",
-             "Cells of the coarse fit's grid that this standard deviation spans at least, if of 8 x 8 pixels at most",
-             "cells", 0.5, 100.0, "measured"},
-            coarseResolution);
+    v.visit(
+        {"blocks.coarse-resolution",
+         "Cells of the coarse fit's grid that this standard deviation spans at least, if of one block at least and of "
+         "8 x 8 pixels at most; a cell's side is of 1, 2 or 4 blocks",
+         "cells", 0.5, 100.0, "measured"},
+        coarseResolution);
     v.visit(
         {"blocks.coarse-growth-errors",
          "Up to how many standard errors a cell's fit may miss the mean of a window around it that joins its own in "

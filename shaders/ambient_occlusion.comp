@@ -14,14 +14,13 @@
 #include "include/surface.glsl"
 
 layout(local_size_x = kTileSide, local_size_y = kTileSide) in;
+layout(constant_id = 0) const int kSteps = 5;  // Of a direction; their distances grow with the square, from one pixel on.
 
 layout(set = 0, binding = 0, std140) uniform frameConstants { FrameConstants frame; };
 layout(set = 0, binding = 1) uniform utexture2D depth;
 layout(set = 0, binding = 2) uniform utexture2D shadingNormal;
-layout(set = 0, binding = 3, r16f) uniform writeonly image2D outOcclusion;
+layout(set = 0, binding = 3, r8) uniform writeonly image2D outOcclusion;
 layout(push_constant) uniform PushConstants { AmbientOcclusionConstants settings; };
-
-const int kSteps = 8;  // Their distances grow with the square, from one pixel on.
 
 void main() {
   const ivec2 p = pixelOfThread();
@@ -59,5 +58,6 @@ void main() {
   }
   float sum = 0.0;
   [[unroll]] for (int i = 0; i < 9; ++i) sum += horizon[i];
-  imageStore(outOcclusion, p, vec4(sum / 8.0));
+  // Storing may round either way; this is the nearest.
+  imageStore(outOcclusion, p, vec4(round(255.0 * sum / 8.0) / 255.0));
 }

@@ -1,5 +1,6 @@
 // Moments of each block of pixels: a random one of its surfaces stands for the block, and the samples that lie on that
-// pixel's plane are averaged.
+// pixel's plane are averaged. Beside them moments of square cells of blocks: the grid of the coarse fit, in which every
+// sample counts, whichever its surface.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -9,7 +10,8 @@
 #include "include/hash.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(constant_id = 0) const int kBlockSize = 4;  // Pixels per axis, at most 4.
+layout(constant_id = 0) const int kBlockSize = 4;   // Pixels per axis, at most 4.
+layout(constant_id = 1) const int kCellBlocks = 2;  // Blocks per axis: a power of two, at most 8.
 
 layout(set = 0, binding = 0, std140) uniform frameConstants { FrameConstants frame; };
 layout(set = 0, binding = 1) uniform utexture2D depth;
@@ -18,12 +20,14 @@ layout(set = 0, binding = 3) uniform utexture2D geometricNormal;
 layout(set = 0, binding = 4) uniform texture2D occlusion;
 layout(set = 0, binding = 5) uniform texture2D accumulated;
 #define BLOCK_MOMENTS_OUT
+#define CELL_MOMENTS_OUT
 #include "include/block_textures.glsl"
 layout(set = 0, binding = 18, r32ui) uniform writeonly uimage2D outNormal;
 layout(push_constant) uniform PushConstants { BlockRegressionConstants settings; };
 #include "include/plane.glsl"
 #include "include/block_plane.glsl"
 #include "include/light.glsl"
+#include "include/window_depth.glsl"
 
 // A random pixel of the block with a surface; false where it shows none.
 bool chooseRepresentative(ivec2 block, out int pixel) {
@@ -37,36 +41,81 @@ bool chooseRepresentative(ivec2 block, out int pixel) {
   return surfaces > 0u;
 }
 
-void main() {
-  const ivec2 block = ivec2(gl_GlobalInvocationID.xy);
-  const ivec2 size = textureSize(depth, 0);
-  if (any(greaterThanEqual(kBlockSize * block, size))) return;
+// What a block gives to its cell: moments relative to a depth, and all of its pixels' depths.
+struct CellPart {
+  BlockMoments moments;
+  float depth;
+  WindowDepth window;
+};
+const int kSide = int(gl_WorkGroupSize.x);
+shared CellPart parts[kSide * kSide];
 
+void storeBlock(ivec2 block, BlockMoments m, uint packedDepth, uint packedNormal) {
+  storeMoments(block, m);
+  imageStore(outDepth, block, uvec4(packedDepth));
+  imageStore(outNormal, block, uvec4(packedNormal));
+}
+
+CellPart gather(ivec2 block) {
+  CellPart part = CellPart(noSamples(), 0.0, WindowDepth(0.0, 0.0));
   int pixel;
   if (!chooseRepresentative(block, pixel)) {
-    storeMoments(block, noSamples());
-    imageStore(outDepth, block, uvec4(0u));
-    imageStore(outNormal, block, uvec4(0u));
-    return;
+    storeBlock(block, noSamples(), 0u, 0u);
+    return part;
   }
   const ivec2 centre = kBlockSize * block + ivec2(pixel % kBlockSize, pixel / kBlockSize);
   const vec3 normal = unpackNormal(texelFetch(geometricNormal, centre, 0).x);
   const float z = unpackDepth(texelFetch(depth, centre, 0).x);
   const Plane plane = planeAt(centre, z, normal);
-  BlockMomentSum sum = emptySum();
+  BlockMomentSum onItsPlane = emptySum(), all = emptySum();
   for (int i = 0; i < kBlockSize * kBlockSize; ++i) {
     const ivec2 p = kBlockSize * block + ivec2(i % kBlockSize, i / kBlockSize);
-    if (any(greaterThanEqual(p, size))) continue;
+    if (any(greaterThanEqual(p, textureSize(depth, 0)))) continue;
     const float zp = unpackDepth(texelFetch(depth, p, 0).x);
+    add(part.window, 1.0, zp);
     const vec4 mean = lightAt(p);
     if (zp == 0.0 || mean.a == 0.0) continue;
+    const vec3 shading = unpackNormal(texelFetch(shadingNormal, p, 0).x);
+    const BlockMoments sampled =
+        onePixel(featuresOf(shading, z / zp - 1.0, texelFetch(occlusion, p, 0).x), mean.rgb, mean.a);
     const float weight =
         onPlane(planeDistance(plane, p, zp)) * facing(normal, unpackNormal(texelFetch(geometricNormal, p, 0).x));
-    if (weight <= 0.0) continue;
-    const vec3 shading = unpackNormal(texelFetch(shadingNormal, p, 0).x);
-    add(sum, weight, onePixel(featuresOf(shading, z / zp - 1.0, texelFetch(occlusion, p, 0).x), mean.rgb, mean.a));
+    if (weight > 0.0) add(onItsPlane, weight, sampled);
+    add(all, 1.0, sampled);
   }
-  storeMoments(block, finish(sum));
-  imageStore(outDepth, block, uvec4(packDepthSdf(z, 0u)));
-  imageStore(outNormal, block, uvec4(packBlockNormal(normal, uint(pixel))));
+  storeBlock(block, finish(onItsPlane), packDepthSdf(z, 0u), packBlockNormal(normal, uint(pixel)));
+  part.moments = finish(all);
+  part.depth = z;
+  return part;
+}
+
+// `first`: the upper left block of the cell in the workgroup.
+void storeCell(ivec2 cell, ivec2 first) {
+  WindowDepth window = WindowDepth(0.0, 0.0);
+  for (int i = 0; i < kCellBlocks * kCellBlocks; ++i) {
+    const ivec2 block = first + ivec2(i % kCellBlocks, i / kCellBlocks);
+    const WindowDepth w = parts[block.y * kSide + block.x].window;
+    window.weights += w.weights;
+    window.inverse += w.inverse;
+  }
+  const uint packedDepth = packDepthSdf(harmonicMean(window), 0u);
+  const float z = unpackDepth(packedDepth);
+  BlockMomentSum sum = emptySum();
+  for (int i = 0; i < kCellBlocks * kCellBlocks; ++i) {
+    const ivec2 block = first + ivec2(i % kCellBlocks, i / kCellBlocks);
+    const CellPart part = parts[block.y * kSide + block.x];
+    if (part.moments.samples > 0.0) add(sum, 1.0, rescaleDepth(part.moments, z / part.depth));
+  }
+  storeCellMoments(cell, finish(sum));
+  imageStore(outCellDepth, cell, uvec4(packedDepth));
+}
+
+void main() {
+  const ivec2 block = ivec2(gl_GlobalInvocationID.xy);
+  const bool inside = all(lessThan(kBlockSize * block, textureSize(depth, 0)));
+  CellPart part = CellPart(noSamples(), 0.0, WindowDepth(0.0, 0.0));
+  if (inside) part = gather(block);
+  parts[gl_LocalInvocationIndex] = part;
+  barrier();
+  if (inside && block % kCellBlocks == ivec2(0)) storeCell(block / kCellBlocks, ivec2(gl_LocalInvocationID.xy));
 }

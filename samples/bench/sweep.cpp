@@ -115,6 +115,8 @@ std::vector<Sweep> walrSweeps() {
       over(kDefault, "block-size", "How large are blocks?", "blocks.size", {"2", "3", "4"}),
       over(kDefault, "occlusion", "How far does ambient occlusion look?", "occlusion.radius",
            {"0.02", "0.04", "0.075", "0.15", "0.3"}),
+      over(kDefault, "occlusion-steps", "In how many steps does it look?", "occlusion.steps",
+           {"3", "4", "5", "6", "8"}),
   };
 }
 

@@ -114,7 +114,6 @@ constexpr std::array kShaders = {
     ShaderTaps{"pass_sky", [](const Stage&) { return 1.0; }},
     ShaderTaps{"ambient_occlusion", [](const Stage&) { return 0.0; }},
     ShaderTaps{"block_moments", [](const Stage&) { return 1.0; }},
-    ShaderTaps{"block_cells", [](const Stage&) { return 1.0; }},
     // At one path a pixel; with more of them it is narrower.
     ShaderTaps{"block_coarse", coarseLine},
     ShaderTaps{"block_coarse_growth", [](const Stage& stage) { return window(2) * stage.share; }},

@@ -1,5 +1,5 @@
-// The textures of blocks: BLOCK_MOMENTS_IN reads moments and depth, BLOCK_MOMENTS_OUT writes them, BLOCK_FIT_OUT writes
-// fits and depth.
+// The textures of blocks: BLOCK_MOMENTS_IN reads moments and depth, BLOCK_MOMENTS_OUT writes them, CELL_MOMENTS_OUT writes
+// those of cells, BLOCK_FIT_OUT writes fits and depth.
 #ifndef WALR_BLOCK_TEXTURES_GLSL
 #define WALR_BLOCK_TEXTURES_GLSL
 #include "block_storage.glsl"
@@ -39,6 +39,24 @@ void storeMoments(ivec2 block, BlockMoments m) {
   imageStore(outMoments2, block, p.word[2]);
   imageStore(outMoments3, block, p.word[3]);
   imageStore(outMoments4, block, p.word[4]);
+}
+#endif
+
+#ifdef CELL_MOMENTS_OUT
+layout(set = 0, binding = 19, rgba32ui) uniform writeonly uimage2D outCellMoments0;
+layout(set = 0, binding = 20, rgba32ui) uniform writeonly uimage2D outCellMoments1;
+layout(set = 0, binding = 21, rgba32ui) uniform writeonly uimage2D outCellMoments2;
+layout(set = 0, binding = 22, rgba32ui) uniform writeonly uimage2D outCellMoments3;
+layout(set = 0, binding = 23, rgba32ui) uniform writeonly uimage2D outCellMoments4;
+layout(set = 0, binding = 24, r32ui) uniform writeonly uimage2D outCellDepth;
+
+void storeCellMoments(ivec2 cell, BlockMoments m) {
+  const PackedBlock p = packBlock(m);
+  imageStore(outCellMoments0, cell, p.word[0]);
+  imageStore(outCellMoments1, cell, p.word[1]);
+  imageStore(outCellMoments2, cell, p.word[2]);
+  imageStore(outCellMoments3, cell, p.word[3]);
+  imageStore(outCellMoments4, cell, p.word[4]);
 }
 #endif
 

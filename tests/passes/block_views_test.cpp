@@ -96,7 +96,7 @@ Inputs inputsOf(const Scene& scene) {
   inputs.guides = reference::prepareGuides(inputs.frame, reference::Storage::Quantised);
   inputs.accumulated = withAlpha(inputs.frame.lighting);
   for (glm::dvec4& sample : inputs.accumulated.pixels()) sample.a = 1.0;
-  inputs.occlusion = reference::ambientOcclusion(inputs.frame, inputs.guides, 8.0);
+  inputs.occlusion = reference::ambientOcclusion(inputs.frame, inputs.guides, 8.0, 8);
   for (double& o : inputs.occlusion.pixels()) o = reference::roundToHalf(o);
   return inputs;
 }

@@ -30,7 +30,7 @@ constexpr glm::ivec2 kSize(45, 34);  // No multiple of a cell.
 struct Inputs {
   explicit Inputs(const Scene& scene) : frame(renderStill(scene, kSize)) {
     guides = reference::prepareGuides(frame, Storage::Quantised);
-    occlusion = reference::ambientOcclusion(frame, guides, 8.0);
+    occlusion = reference::ambientOcclusion(frame, guides, 8.0, 8);
     for (double& o : occlusion.pixels()) o = reference::roundToHalf(o);
   }
   HostFrame frame;

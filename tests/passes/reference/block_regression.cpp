@@ -401,7 +401,9 @@ Image<glm::dvec3> blockRegression(const HostFrame& frame, const Image<Guide>& gu
     forEachPixel(windows.size(), [&](glm::ivec2 b) { fits[b] = fitOf(picture, windows[b]); });
     return fits;
   };
-  const int cellSize = std::clamp(static_cast<int>(picture.coarseSigma() / double(settings.coarseResolution)), 1, 8);
+  const double cellPixels = std::min(picture.coarseSigma() / double(settings.coarseResolution), 8.0);
+  int cellSize = int(settings.size);
+  while (2 * cellSize <= cellPixels) cellSize *= 2;
   const Image<Fit> fine = fitAll(growWindows(picture, blocks));
   const Image<Fit> coarse = fitAll(growCoarseWindows(picture, cellSize, coarseWindows(picture, cellSize)));
 
@@ -437,8 +439,7 @@ Image<glm::dvec3> blockRegression(const HostFrame& frame, const Image<Guide>& gu
   return result;
 }
 
-Image<double> ambientOcclusion(const HostFrame& frame, const Image<Guide>& guides, double radius) {
-  constexpr int kSteps = 8;
+Image<double> ambientOcclusion(const HostFrame& frame, const Image<Guide>& guides, double radius, int steps) {
   const double reach = radius * std::abs(double(frame.constants.rayFromPixel.x));
   Image<double> result(guides.size(), 0.0);
   const auto positionAt = [&](glm::ivec2 p) {
@@ -451,8 +452,8 @@ Image<double> ambientOcclusion(const HostFrame& frame, const Image<Guide>& guide
       for (int x = -1; x <= 1; ++x) {
         if (x == 0 && y == 0) continue;
         double horizon = 0.0;
-        for (int step = 1; step <= kSteps; ++step) {
-          const int distance = std::max(static_cast<int>(radius * step * step / double(kSteps * kSteps)), step);
+        for (int step = 1; step <= steps; ++step) {
+          const int distance = std::max(static_cast<int>(radius * step * step / double(steps * steps)), step);
           const glm::ivec2 q = p + distance * glm::ivec2(x, y);
           if (!guides.contains(q)) break;
           if (guides[q].depth == 0.0) continue;

@@ -14,7 +14,8 @@ Image<glm::dvec3> blockRegression(const HostFrame& frame, const Image<Guide>& gu
                                   const Image<glm::dvec4>& accumulated, const Image<double>& occlusion,
                                   const BlockRegressionSettings& settings);
 
-/// Mean sine of the horizon above the tangent plane in eight directions, with occluders fading out at `radius` pixels.
-Image<double> ambientOcclusion(const HostFrame& frame, const Image<Guide>& guides, double radius);
+/// Mean sine of the horizon above the tangent plane in eight directions, with occluders fading out at `radius` pixels
+/// and looked for in so many steps.
+Image<double> ambientOcclusion(const HostFrame& frame, const Image<Guide>& guides, double radius, int steps);
 
 }  // namespace walr::reference
