@@ -13,10 +13,17 @@ namespace fg {
 /// writing pass does it (`BarrierReason::Retire`), and the batch after that one may be the next owner's.
 std::uint32_t heldUntil(const AccessHistory& accesses, const Plan& plan, std::uint32_t resource);
 
-/// Give every used, aliasable transient an offset in the heap of its memory class, so that no two that are alive at
-/// the same time share bytes. The heaps go into `plan.heaps`; imported, exported and history resources get none.
-/// Fills in the transient part of `plan.memory` as well.
+/// Give every used, aliasable transient an offset in a heap of its memory class, so that no two that are alive at the
+/// same time share bytes. The heaps go into `plan.heaps`; imports and exports get none. Fills in the transient part of
+/// `plan.memory` as well.
+///
+/// Histories lie in two heaps of their own that swap roles every frame (`PlannedHeap::partner`), and lend transients
+/// what holds nothing there: of `current` before the pass that writes it, of `previous` after the last pass that reads
+/// it. Transients take room there first, and only the rest makes a heap of its own; the histories' heaps are no larger
+/// than histories need. A history that is exported keeps its memory to itself, as the host may read it after the frame,
+/// and so does one whose `previous` nobody reads.
+/// @param lendHistories false: histories get no place in a heap, and transients share with each other alone
 void placeTransients(const Topology& topology, const AccessHistory& accesses, std::uint64_t bufferImageGranularity,
-                     Plan& plan);
+                     bool lendHistories, Plan& plan);
 
 }  // namespace fg

@@ -38,7 +38,7 @@ std::string CompileResult::text() const {
   return text;
 }
 
-CompileResult compile(const GraphDesc& graph, const MemoryModel& memory) {
+CompileResult compile(const GraphDesc& graph, const MemoryModel& memory, const CompileOptions& options) {
   CompileResult result;
   Plan& plan = result.plan;
   const Topology topology(graph);
@@ -52,7 +52,7 @@ CompileResult compile(const GraphDesc& graph, const MemoryModel& memory) {
   plan.culled = std::move(culling.culled);
   findLifetimes(graph, order, plan.resources);
   const AccessHistory accesses(graph, plan);
-  placeTransients(topology, accesses, memory.bufferImageGranularity(), plan);
+  placeTransients(topology, accesses, memory.bufferImageGranularity(), options.lendHistories, plan);
   synchronize(topology, accesses, plan);
   report(graph, plan);
   for (const CulledPass& culled : plan.culled)

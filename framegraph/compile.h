@@ -20,7 +20,13 @@ struct CompileResult {
   [[nodiscard]] std::string text() const;
 };
 
+struct CompileOptions {
+  /// Let transients have the memory of histories while that holds nothing (see alias.h). For whoever makes one image
+  /// for each resource of a plan, and not one for every other frame, there is no such memory.
+  bool lendHistories = true;
+};
+
 /// Turn a declared graph into a plan: a pure function of its arguments that needs no device.
-CompileResult compile(const GraphDesc& graph, const MemoryModel& memory);
+CompileResult compile(const GraphDesc& graph, const MemoryModel& memory, const CompileOptions& options = {});
 
 }  // namespace fg

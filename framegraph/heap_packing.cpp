@@ -17,19 +17,6 @@ std::uint64_t aligned(std::uint64_t offset, std::uint64_t alignment) {
   return (offset + alignment - 1) / alignment * alignment;
 }
 
-/// By position, the bytes wanted there.
-std::vector<std::uint64_t> liveBytes(const std::vector<HeapRequest>& requests) {
-  std::uint32_t end = 0;
-  for (const HeapRequest& request : requests) end = std::max(end, request.lastUse + 1);
-  std::vector<std::uint64_t> live(std::size_t{end} + 1);
-  for (const HeapRequest& request : requests) {
-    live[request.firstUse] += request.size;
-    live[std::size_t{request.lastUse} + 1] -= request.size;
-  }
-  std::partial_sum(live.begin(), live.end(), live.begin());
-  return live;
-}
-
 /// For every request, those whose intervals meet its own.
 std::vector<std::vector<std::uint32_t>> findNeighbours(const std::vector<HeapRequest>& requests) {
   std::vector<std::uint32_t> byStart(requests.size());
@@ -48,11 +35,31 @@ std::vector<std::vector<std::uint32_t>> findNeighbours(const std::vector<HeapReq
   return neighbours;
 }
 
+/// Bytes from the first to behind the last.
+using Span = std::pair<std::uint64_t, std::uint64_t>;
+
+/// For every request, the obstacles that its interval meets.
+std::vector<std::vector<Span>> findObstacles(const std::vector<HeapRequest>& requests,
+                                             const std::vector<HeapObstacle>& obstacles) {
+  std::vector<std::vector<Span>> met(requests.size());
+  for (std::size_t i = 0; i < requests.size(); ++i) {
+    for (const HeapObstacle& obstacle : obstacles) {
+      if (obstacle.lastUse < requests[i].firstUse || requests[i].lastUse < obstacle.firstUse) continue;
+      met[i].emplace_back(obstacle.begin, obstacle.end);
+    }
+  }
+  return met;
+}
+
 class Packer {
  public:
-  explicit Packer(const std::vector<HeapRequest>& requests)
-      : requests_(requests), neighbours_(findNeighbours(requests)), target_(lowerBound(requests)) {
+  Packer(const std::vector<HeapRequest>& requests, const std::vector<HeapObstacle>& obstacles, std::uint64_t target)
+      : requests_(requests),
+        neighbours_(findNeighbours(requests)),
+        obstacles_(findObstacles(requests, obstacles)),
+        target_(target) {
     for (const auto& list : neighbours_) visitsPerAttempt_ += list.size() + 1;
+    for (const auto& list : obstacles_) visitsPerAttempt_ += list.size();
   }
 
   HeapPacking run() {
@@ -94,9 +101,9 @@ class Packer {
   /// Put every block, in the given order, into the lowest gap that its placed neighbours leave.
   HeapPacking place(const Order& order) {
     HeapPacking packing{std::vector<std::uint64_t>(requests_.size(), kUnplaced), 0};
-    std::vector<std::pair<std::uint64_t, std::uint64_t>> taken;
+    std::vector<Span> taken;
     for (const std::uint32_t i : order) {
-      taken.clear();
+      taken = obstacles_[i];
       for (const std::uint32_t j : neighbours_[i]) {
         if (packing.offsets[j] == kUnplaced) continue;
         taken.emplace_back(packing.offsets[j], packing.offsets[j] + requests_[j].size);
@@ -142,6 +149,7 @@ class Packer {
 
   const std::vector<HeapRequest>& requests_;
   std::vector<std::vector<std::uint32_t>> neighbours_;
+  std::vector<std::vector<Span>> obstacles_;
   std::uint64_t target_;
   std::uint64_t visitsPerAttempt_ = 0;
   std::uint64_t visits_ = 0;
@@ -151,13 +159,30 @@ class Packer {
 
 }  // namespace
 
+std::vector<std::uint64_t> liveBytes(const std::vector<HeapRequest>& requests) {
+  std::uint32_t end = 0;
+  for (const HeapRequest& request : requests) end = std::max(end, request.lastUse + 1);
+  std::vector<std::uint64_t> live(std::size_t{end} + 1);
+  for (const HeapRequest& request : requests) {
+    live[request.firstUse] += request.size;
+    live[std::size_t{request.lastUse} + 1] -= request.size;
+  }
+  std::partial_sum(live.begin(), live.end(), live.begin());
+  return live;
+}
+
 std::uint64_t lowerBound(const std::vector<HeapRequest>& requests) {
   return std::ranges::max(liveBytes(requests));
 }
 
-HeapPacking pack(const std::vector<HeapRequest>& requests) {
+HeapPacking pack(const std::vector<HeapRequest>& requests, const std::vector<HeapObstacle>& obstacles,
+                 std::uint64_t target) {
   if (requests.empty()) return {};
-  return Packer(requests).run();
+  return Packer(requests, obstacles, target).run();
+}
+
+HeapPacking pack(const std::vector<HeapRequest>& requests) {
+  return pack(requests, {}, lowerBound(requests));
 }
 
 }  // namespace fg

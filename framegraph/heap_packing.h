@@ -13,20 +13,35 @@ struct HeapRequest {
   std::uint32_t lastUse = 0;  ///< Inclusive.
 };
 
+/// Bytes that nobody may have in an interval of positions. One without any bytes is a border that no block crosses.
+struct HeapObstacle {
+  std::uint64_t begin = 0;
+  std::uint64_t end = 0;  ///< Exclusive.
+  std::uint32_t firstUse = 0;
+  std::uint32_t lastUse = 0;  ///< Inclusive.
+};
+
 struct HeapPacking {
   std::vector<std::uint64_t> offsets;  ///< By request.
   std::uint64_t size = 0;              ///< Largest end of any block.
 };
 
+/// By position, the bytes wanted there.
+std::vector<std::uint64_t> liveBytes(const std::vector<HeapRequest>& requests);
+
 /// Most bytes wanted at any one position: no packing can be smaller.
 std::uint64_t lowerBound(const std::vector<HeapRequest>& requests);
 
-/// Place all requests so that no two whose intervals meet overlap.
+/// Place all requests so that no two whose intervals meet overlap, in the bytes that obstacles leave.
 ///
 /// Offline dynamic storage allocation, which is NP-hard. Each block goes to the lowest gap that holds it, for several
 /// orders of blocks (by size, by size times duration, by duration, by crowding, by time); the best of them is then
-/// improved by taking the blocks that end highest first. Stops as soon as the lower bound is met. Deterministic; cost
-/// is bounded by a fixed number of placements.
+/// improved by taking the blocks that end highest first. Stops as soon as the target is met. Deterministic; cost is
+/// bounded by a fixed number of placements.
+/// @param target a size that needs no improvement
+HeapPacking pack(const std::vector<HeapRequest>& requests, const std::vector<HeapObstacle>& obstacles,
+                 std::uint64_t target);
+/// Without obstacles.
 HeapPacking pack(const std::vector<HeapRequest>& requests);
 
 }  // namespace fg

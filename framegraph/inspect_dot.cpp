@@ -2,6 +2,7 @@
 #include <sstream>
 
 #include "framegraph/inspect.h"
+#include "framegraph/memory_places.h"
 #include "framegraph/topology.h"
 
 namespace fg {
@@ -59,7 +60,11 @@ class DotWriter {
       const VersionUses& uses = topology_.uses(resource, number);
       const std::string node = version(resource, number);
       if (uses.writer == kNone && uses.readers.empty()) continue;
-      out_ << "  " << node << " [shape=ellipse];\n";
+      out_ << "  " << node << " [shape=ellipse";
+      if (const std::string place = placeInWords(graph_, plan_, resource); !place.empty()) {
+        out_ << ", tooltip=" << quoted(place);
+      }
+      out_ << "];\n";
       if (uses.writer != kNone) {
         out_ << "  " << quoted("pass " + graph_.passes[uses.writer].name) << " -> " << node << ";\n";
       }

@@ -7,6 +7,7 @@
 #include "framegraph/access.h"
 #include "framegraph/format.h"
 #include "framegraph/inspect.h"
+#include "framegraph/memory_places.h"
 #include "framegraph/names.h"
 #include "framegraph/topology.h"
 
@@ -36,7 +37,8 @@ class JsonWriter {
     json["barriers"] = barriers();
     json["heaps"] = Json::array();
     for (const PlannedHeap& heap : plan_.heaps) {
-      json["heaps"].push_back({{"memory_type_bits", heap.memoryTypeBits}, {"bytes", heap.size}});
+      json["heaps"].push_back(
+          {{"memory_type_bits", heap.memoryTypeBits}, {"bytes", heap.size}, {"swaps_with", indexOrNull(heap.partner)}});
     }
     json["histories"] = histories();
     json["culled"] = Json::array();
@@ -58,6 +60,11 @@ class JsonWriter {
 
  private:
   [[nodiscard]] const std::string& nameOf(std::uint32_t resource) const { return graph_.resources[resource].name; }
+  [[nodiscard]] Json namesOf(const std::vector<std::uint32_t>& resources) const {
+    Json list = Json::array();
+    for (const std::uint32_t resource : resources) list.push_back(nameOf(resource));
+    return list;
+  }
 
   [[nodiscard]] Json passes() const {
     Json list = Json::array();
@@ -101,6 +108,7 @@ class JsonWriter {
                    {"last_use", indexOrNull(planned.lastUse)},
                    {"heap", indexOrNull(planned.heap)},
                    {"offset", planned.offset},
+                   {"lenders", namesOf(lenders(graph_, plan_, i))},
                    {"bytes", planned.size},
                    {"alignment", planned.alignment},
                    {"memory_type_bits", planned.memoryTypeBits}});
@@ -170,7 +178,9 @@ class JsonReader {
       for (const Json& resource : json.at(kind)) readResource(resource, plan);
     }
     for (const Json& barrier : json.at("barriers")) readBarrier(barrier, plan);
-    for (const Json& heap : json.at("heaps")) plan.heaps.push_back({heap.at("memory_type_bits"), heap.at("bytes")});
+    for (const Json& heap : json.at("heaps")) {
+      plan.heaps.push_back({heap.at("memory_type_bits"), heap.at("bytes"), noneOrIndex(heap.at("swaps_with"))});
+    }
     for (const Json& history : json.at("histories")) {
       plan.histories[find(graph_.histories, history.at("name"))] = {
           history.at("used"),

@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "framegraph/inspect.h"
+#include "framegraph/memory_places.h"
 #include "framegraph/topology.h"
 
 namespace fg {
@@ -69,16 +70,19 @@ class SvgWriter {
     if (planned.heap == kNone) return;
     static constexpr std::array<std::string_view, 6> kFills = {"#8dbbd8", "#f4d9a8", "#b7d7a8",
                                                                "#d8a8c8", "#c8c0e8", "#e8b8a0"};
+    const bool transient = graph_.resources[index].lifetime == Lifetime::Transient;
+    const auto [first, last] = occupied(graph_, plan_, index);
     const double scale = kMemoryHeight / bytes_;
-    const double x = kMargin + kColumn * planned.firstUse;
+    const double x = kMargin + kColumn * first;
     const double y = kMargin + scale * (heapStart_[planned.heap] + static_cast<double>(planned.offset));
     const double height = scale * static_cast<double>(planned.size);
     const std::string name = escaped(graph_.resources[index].name);
-    out_ << "<g><title>" << name << ": " << planned.size << " bytes at " << planned.offset << "</title><rect x=\"" << x
-         << "\" y=\"" << y << "\" width=\"" << kColumn * (planned.lastUse - planned.firstUse + 1) << "\" height=\""
-         << height << "\" fill=\"" << kFills[topology_.resourceRank(index) % kFills.size()]
-         << "\" stroke=\"#404040\"/><text x=\"" << x + 4 << "\" y=\"" << y + std::min(height / 2 + 4, 20.0) << "\">"
-         << name << "</text></g>\n";
+    out_ << "<g><title>" << name << ": " << planned.size << " bytes, " << escaped(placeInWords(graph_, plan_, index))
+         << "</title><rect x=\"" << x << "\" y=\"" << y << "\" width=\"" << kColumn * (last - first + 1)
+         << "\" height=\"" << height << "\" fill=\""
+         << (transient ? kFills[topology_.resourceRank(index) % kFills.size()] : "#e4e4e4") << "\" stroke=\"#404040\""
+         << (transient ? "" : " stroke-dasharray=\"4 3\"") << "/><text x=\"" << x + 4 << "\" y=\""
+         << y + std::min(height / 2 + 4, 20.0) << "\">" << name << "</text></g>\n";
   }
 
   const GraphDesc& graph_;

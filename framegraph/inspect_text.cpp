@@ -5,6 +5,7 @@
 #include "framegraph/access.h"
 #include "framegraph/format.h"
 #include "framegraph/inspect.h"
+#include "framegraph/memory_places.h"
 #include "framegraph/names.h"
 #include "framegraph/topology.h"
 
@@ -37,6 +38,11 @@ class TextWriter {
     const TrafficReport& traffic = plan_.traffic;
     out_ << "traffic: read " << traffic.bytesRead << ", written " << traffic.bytesWritten << ", "
          << traffic.bytesPerPixel() << " bytes a pixel\n";
+    for (std::size_t i = 0; i < plan_.heaps.size(); ++i) {
+      out_ << "heap " << i << ": " << plan_.heaps[i].size << " bytes";
+      if (plan_.heaps[i].partner != kNone) out_ << ", swaps with heap " << plan_.heaps[i].partner << " every frame";
+      out_ << "\n";
+    }
   }
 
   void writeResource(std::uint32_t index) {
@@ -55,9 +61,7 @@ class TextWriter {
       return;
     }
     if (planned.firstUse != kNone) out_ << ", passes " << planned.firstUse << ".." << planned.lastUse;
-    if (planned.heap != kNone) {
-      out_ << ", heap " << planned.heap << " [" << planned.offset << ", " << planned.offset + planned.size << ")";
-    }
+    if (planned.heap != kNone) out_ << ", " << placeInWords(graph_, plan_, index);
     out_ << "\n";
   }
 

@@ -3,6 +3,7 @@
 #include "framegraph/access_history.h"
 #include "framegraph/alias.h"
 #include "framegraph/inspect.h"
+#include "framegraph/memory_places.h"
 #include "framegraph/names.h"
 
 namespace fg {
@@ -27,32 +28,38 @@ std::string whyAlone(const GraphDesc& graph, const Plan& plan, std::uint32_t ind
   const ResourceDecl& decl = graph.resources[index];
   const std::string start = "'" + decl.name + "' (" + place(decl.where) + ") ";
   if (!plan.resources[index].used) return start + "is not used";
-  if (decl.lifetime != Lifetime::Transient) {
-    return start + "is " + std::string(lifetimeName(decl.lifetime)) + ", and only transients share memory";
+  if (plan.resources[index].heap != kNone) return {};
+  if (decl.lifetime == Lifetime::Transient) return start + "is exported, and the host may use it after the frame";
+  if (decl.history == kNone) {
+    return start + "is " + std::string(lifetimeName(decl.lifetime)) +
+           ", and only transients and histories share memory";
   }
-  if (plan.resources[index].heap == kNone) return start + "is exported, and the host may use it after the frame";
-  return {};
+  return start +
+         "belongs to a history that lends no memory: it is exported, nobody reads it, or lending is switched off";
 }
 
-/// The passes in which a transient keeps its bytes.
+/// The passes in which a resource keeps its bytes.
 class Held {
  public:
   Held(const GraphDesc& graph, const Plan& plan, std::uint32_t index)
-      : first_(plan.resources[index].firstUse),
-        lastUse_(plan.resources[index].lastUse),
-        last_(heldUntil(AccessHistory(graph, plan), plan, index)) {}
+      : occupied_(occupied(graph, plan, index)), last_(occupied_.last) {
+    if (graph.resources[index].lifetime == Lifetime::Transient) {
+      last_ = heldUntil(AccessHistory(graph, plan), plan, index);
+    }
+  }
 
-  [[nodiscard]] bool meets(const Held& other) const { return first_ <= other.last_ && other.first_ <= last_; }
+  [[nodiscard]] bool meets(const Held& other) const {
+    return occupied_.first <= other.last_ && other.occupied_.first <= last_;
+  }
   [[nodiscard]] std::string text() const {
-    return "passes " + std::to_string(first_) + " to " + std::to_string(last_) +
-           (last_ == lastUse_ ? ""
-                              : " (nobody reads the last write, so that a barrier in pass " + std::to_string(last_) +
-                                    " makes it available)");
+    return "passes " + std::to_string(occupied_.first) + " to " + std::to_string(last_) +
+           (last_ == occupied_.last ? ""
+                                    : " (nobody reads the last write, so that a barrier in pass " +
+                                          std::to_string(last_) + " makes it available)");
   }
 
  private:
-  std::uint32_t first_;
-  std::uint32_t lastUse_;
+  PassSpan occupied_;
   std::uint32_t last_;
 };
 
@@ -93,13 +100,15 @@ std::string whyNotAliased(const GraphDesc& graph, const Plan& plan, std::string_
   const PlannedResource& x = plan.resources[a];
   const PlannedResource& y = plan.resources[b];
   const std::string both = "'" + std::string(first) + "' and '" + std::string(second) + "' ";
-  if (x.heap != y.heap) return both + "need different kinds of memory";
+  if (x.memoryTypeBits != y.memoryTypeBits) return both + "need different kinds of memory";
+  const auto isHistory = [&](std::uint32_t index) { return graph.resources[index].history != kNone; };
+  if (isHistory(a) && isHistory(b)) return both + "are images of histories, which lend memory to transients alone";
   const Held held(graph, plan, a);
   const Held otherHeld(graph, plan, b);
   if (held.meets(otherHeld)) {
     return both + "are alive at the same time: " + held.text() + " and " + otherHeld.text();
   }
-  const bool overlap = x.offset < y.offset + y.size && y.offset < x.offset + x.size;
+  const bool overlap = x.heap == y.heap && x.offset < y.offset + y.size && y.offset < x.offset + x.size;
   return both + (overlap ? "share memory" : "could share memory, but other places were as good");
 }
 

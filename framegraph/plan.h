@@ -13,7 +13,10 @@
 /// - A transient's first use waits for whoever owned its bytes last, be it in the frame before, and starts from
 ///   UNDEFINED. For another owner this is an execution dependency only: writes have been made available to readers, or
 ///   by a barrier of their own (`BarrierReason::Retire`) in an earlier batch.
-/// - A history has two images that swap roles every frame (`PlannedHistory`).
+/// - A history has two images that swap roles every frame (`PlannedHistory`). From the last read of `previous` until
+///   it is written again as `current`, be it in the next frame, an image holds nothing, and its bytes are lent to
+///   transients: histories lie in two heaps that swap roles with them (`PlannedHeap::partner`). A transient with a
+///   place in one of these is another image or buffer in every other frame, at the same place in the other allocation.
 /// - Upload buffers have one copy per frame in flight and need no barrier: submission makes host writes visible.
 /// - Imports arrive in the state that was declared (stage NONE: the host has waited otherwise, for instance by a
 ///   semaphore). Exports are released into theirs. Imports that are not exported are given back in the state in which
@@ -33,7 +36,7 @@ enum class BarrierReason : std::uint8_t {
   FirstUse,        ///< Contents are not needed: from UNDEFINED.
   Retire,          ///< Makes a last write that nobody reads available, before the memory has another owner.
   AliasHandOver,   ///< The memory had another owner before (`aliasOf`), in this frame or the last.
-  HistoryCarry,    ///< From last frame's use of the same history slot.
+  HistoryCarry,    ///< From last frame's use of the same history slot, where no transient had its memory in between.
   Acquire,         ///< From the state in which the host hands an import over.
   Release,         ///< Into the state in which the host takes an export back.
 };
@@ -67,7 +70,7 @@ struct PlannedResource {
   VkBufferUsageFlags bufferUsage = 0;
   std::uint32_t firstUse = kNone;  ///< Position in `Plan::passes`.
   std::uint32_t lastUse = kNone;
-  std::uint32_t heap = kNone;  ///< Index into `Plan::heaps`; transients only.
+  std::uint32_t heap = kNone;  ///< Index into `Plan::heaps`; transients, and histories that lend their memory.
   std::uint64_t offset = 0;    ///< Bytes from the start of the heap.
   std::uint64_t size = 0;      ///< Bytes that the driver asks for.
   std::uint64_t alignment = 1;
@@ -75,12 +78,22 @@ struct PlannedResource {
   friend bool operator==(const PlannedResource&, const PlannedResource&) = default;
 };
 
-/// One allocation that transients share.
+/// One allocation that resources share.
 struct PlannedHeap {
   std::uint32_t memoryTypeBits = ~0u;
   std::uint64_t size = 0;
+  /// Histories: the heap with which this one changes places every frame, that is, whose allocation stands for it in
+  /// every other frame; kNone for heaps of transients alone. The `current` of a history lies in the one and `previous`
+  /// at the same offset of the other.
+  std::uint32_t partner = kNone;
   friend bool operator==(const PlannedHeap&, const PlannedHeap&) = default;
 };
+
+/// The allocation that stands for a heap in frames of one parity, as the index of the heap for which it stands in even
+/// ones.
+inline std::uint32_t allocationOf(const std::vector<PlannedHeap>& heaps, std::uint32_t heap, std::uint32_t parity) {
+  return parity % 2 == 0 || heaps[heap].partner == kNone ? heap : heaps[heap].partner;
+}
 
 /// A pass that is not executed.
 struct CulledPass {
@@ -102,10 +115,11 @@ struct PlannedHistory {
 };
 
 struct MemoryReport {
-  std::uint64_t persistentBytes = 0;           ///< Both slots of every history, and exported transients.
-  std::uint64_t transientUnaliasedBytes = 0;   ///< Sum over all transients.
-  std::uint64_t transientPeakBytes = 0;        ///< Sum of the heaps.
-  std::uint64_t transientLowerBoundBytes = 0;  ///< Most bytes alive at any one pass.
+  std::uint64_t persistentBytes = 0;          ///< Both slots of every history, and exported transients.
+  std::uint64_t transientUnaliasedBytes = 0;  ///< Sum over all transients.
+  std::uint64_t transientPeakBytes = 0;       ///< Sum of the heaps of transients alone.
+  /// Most bytes that are alive at any one pass and for which the memory of histories has no room.
+  std::uint64_t transientLowerBoundBytes = 0;
   friend bool operator==(const MemoryReport&, const MemoryReport&) = default;
 };
 

@@ -62,4 +62,16 @@ std::vector<bool> aliasable(const GraphDesc& graph) {
   return result;
 }
 
+std::vector<bool> lendsMemory(const GraphDesc& graph, const std::vector<PlannedResource>& resources) {
+  std::vector<bool> result;
+  for (const HistoryDecl& history : graph.histories) {
+    result.push_back(resources[history.current].used && resources[history.previous].used);
+  }
+  for (const ExportDecl& exported : graph.exports) {
+    const std::uint32_t history = graph.resources[exported.resource.resource].history;
+    if (history != kNone) result[history] = false;
+  }
+  return result;
+}
+
 }  // namespace fg

@@ -108,8 +108,7 @@ class Synchronizer {
       case Lifetime::HistoryPrevious:
         return {{carriedState(decl.history)}, BarrierReason::HistoryCarry};
       case Lifetime::HistoryCurrent:
-        return {{overwritten(ending(graph_.histories[decl.history].previous, 0, carriedState(decl.history)))},
-                BarrierReason::HistoryCarry};
+        return isLent(resource) ? handOver(resource) : swapped(decl.history);
       default:
         return plan_.resources[resource].heap == kNone ? ownBeginning(resource) : handOver(resource);
     }
@@ -140,9 +139,22 @@ class Synchronizer {
             *std::ranges::find_if(owners, [&](std::uint32_t owner) { return owner != resource; })};
   }
 
-  /// True where others own some of the bytes before the next frame.
+  /// After the last frame's reads of the image as `previous`.
+  [[nodiscard]] Beginning swapped(std::uint32_t history) const {
+    const std::uint32_t previous = graph_.histories[history].previous;
+    return {{overwritten(ending(previous, 0, carriedState(history)))}, BarrierReason::HistoryCarry};
+  }
+
+  /// True where transients had some of the bytes of a history's `current` since it was `previous`.
+  [[nodiscard]] bool isLent(std::uint32_t current) const {
+    return std::ranges::any_of(
+        owners_[current], [&](std::uint32_t owner) { return graph_.resources[owner].lifetime == Lifetime::Transient; });
+  }
+
+  /// True where others own some of a transient's bytes before the next frame.
   [[nodiscard]] bool sharesMemory(std::uint32_t resource) const {
-    return plan_.resources[resource].heap != kNone && owners_[resource] != std::vector{resource};
+    return graph_.resources[resource].lifetime == Lifetime::Transient && plan_.resources[resource].heap != kNone &&
+           owners_[resource] != std::vector{resource};
   }
 
   [[nodiscard]] std::uint32_t behind(std::uint32_t position) const {

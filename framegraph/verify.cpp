@@ -70,10 +70,16 @@ class Replay {
   /// First cell of the physical image that stands for the resource in this frame.
   [[nodiscard]] std::uint32_t firstCell(std::uint32_t resource) const { return first_[frame_ % 2][resource]; }
 
+  /// True where frames of either parity have an image or buffer of their own.
+  [[nodiscard]] bool isDoubled(std::uint32_t resource) const {
+    const std::uint32_t heap = plan_.resources[resource].heap;
+    const bool swaps = heap != kNone && plan_.heaps[heap].partner != kNone;
+    return swaps || graph_.resources[resource].lifetime == Lifetime::HistoryCurrent;
+  }
+
   void addCells(std::uint32_t resource) {
-    const bool history = graph_.resources[resource].lifetime == Lifetime::HistoryCurrent;
     for (auto& first : first_) {
-      if (&first == first_.data() || history) {
+      if (&first == first_.data() || isDoubled(resource)) {
         first.push_back(static_cast<std::uint32_t>(device_.cellCount()));
         for (std::uint32_t i = 0; i < cellCount(resource); ++i) {
           Cell cell;
@@ -86,16 +92,38 @@ class Replay {
     }
   }
 
-  void findPeers() {
-    const auto meet = [](const PlannedResource& a, const PlannedResource& b) {
-      return a.heap != kNone && a.heap == b.heap && a.offset < b.offset + b.size && b.offset < a.offset + a.size;
-    };
+  /// Some bytes of an allocation, and whose they are in frames of one parity.
+  struct Block {
+    std::uint32_t resource;
+    std::uint32_t firstCell;
+    std::uint32_t allocation;
+  };
+
+  [[nodiscard]] std::vector<Block> blocks() const {
+    std::vector<Block> result;
     for (std::uint32_t i = 0; i < plan_.resources.size(); ++i) {
-      for (std::uint32_t j = 0; j < plan_.resources.size(); ++j) {
-        if (i == j || !meet(plan_.resources[i], plan_.resources[j])) continue;
-        for (std::uint32_t cell = 0; cell < cellCount(i); ++cell) {
-          for (std::uint32_t peer = 0; peer < cellCount(j); ++peer) {
-            device_.cell(first_[0][i] + cell).peers.push_back(first_[0][j] + peer);
+      const std::uint32_t heap = plan_.resources[i].heap;
+      if (heap == kNone || graph_.resources[i].lifetime == Lifetime::HistoryPrevious) continue;
+      const std::uint32_t partner = plan_.heaps[heap].partner;
+      result.push_back({i, first_[0][i], heap});
+      if (partner != kNone) result.push_back({i, first_[1][i], partner});
+    }
+    return result;
+  }
+
+  void findPeers() {
+    const std::vector<Block> all = blocks();
+    const auto meet = [&](const Block& x, const Block& y) {
+      const PlannedResource& a = plan_.resources[x.resource];
+      const PlannedResource& b = plan_.resources[y.resource];
+      return x.allocation == y.allocation && a.offset < b.offset + b.size && b.offset < a.offset + a.size;
+    };
+    for (const Block& block : all) {
+      for (const Block& other : all) {
+        if (block.firstCell == other.firstCell || !meet(block, other)) continue;
+        for (std::uint32_t cell = 0; cell < cellCount(block.resource); ++cell) {
+          for (std::uint32_t peer = 0; peer < cellCount(other.resource); ++peer) {
+            device_.cell(block.firstCell + cell).peers.push_back(other.firstCell + peer);
           }
         }
       }
@@ -234,8 +262,8 @@ class Replay {
     device_.checkFinished(index, state.stage);
     if (writesOf(state.access) == VK_ACCESS_2_NONE) {
       device_.access(index, {state.stage, state.access, VK_ACCESS_2_NONE, layout, 0}, cell.contents, cell.contents);
-    } else if (cell.written && !cell.available && (cell.writeAccess & ~state.access) != VK_ACCESS_2_NONE) {
-      wrong();
+    } else if (cell.written && (cell.writeAccess & ~state.access) != VK_ACCESS_2_NONE) {
+      if (!cell.available || (cell.availableTo & expanded(state.stage)) == VK_PIPELINE_STAGE_2_NONE) wrong();
     }
   }
 

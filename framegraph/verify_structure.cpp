@@ -17,7 +17,9 @@ class Structure {
     }
     checkPasses();
     if (!faults_.empty()) return std::move(faults_);
+    checkHeaps();
     for (std::uint32_t i = 0; i < plan_.resources.size(); ++i) checkResource(i);
+    for (const HistoryDecl& history : graph_.histories) checkHistory(history);
     for (const PlannedPass& pass : plan_.passes) checkBarriers(pass.barriers);
     checkBarriers(plan_.releases);
     return std::move(faults_);
@@ -71,10 +73,37 @@ class Structure {
       if ((planned.imageUsage & needed) != needed)
         fault(decl, "lacks usage flags of the layout that it is released in");
     }
-    const bool shares = decl.lifetime == Lifetime::Transient && !exported;
     if (first != kNone && !planned.used) fault(decl, "is used, but marked unused");
-    if (!shares && planned.heap != kNone) fault(decl, "must not lie in the transient heap");
-    if (shares && first != kNone) checkPlace(decl, planned);
+    const bool transient = decl.lifetime == Lifetime::Transient;
+    const bool shares = (transient || decl.history != kNone) && !exported;
+    if (!shares && planned.heap != kNone) fault(decl, "must not lie in memory that others share");
+    if (shares && first != kNone && (transient || planned.heap != kNone)) checkPlace(decl, planned);
+  }
+
+  void checkHeaps() {
+    for (std::uint32_t i = 0; i < plan_.heaps.size(); ++i) {
+      const PlannedHeap& heap = plan_.heaps[i];
+      if (heap.partner == kNone) continue;
+      const bool mutual =
+          heap.partner < plan_.heaps.size() && heap.partner != i && plan_.heaps[heap.partner].partner == i;
+      if (!mutual) {
+        faults_.push_back("heap " + std::to_string(i) + " swaps with a heap that does not swap with it");
+      } else if (heap.size != plan_.heaps[heap.partner].size ||
+                 heap.memoryTypeBits != plan_.heaps[heap.partner].memoryTypeBits) {
+        faults_.push_back("heap " + std::to_string(i) + " swaps with a heap of another kind or size");
+      }
+    }
+  }
+
+  /// The images of a history swap, so that each must lie where the other one lay.
+  void checkHistory(const HistoryDecl& history) {
+    const PlannedResource& current = plan_.resources[history.current];
+    const PlannedResource& previous = plan_.resources[history.previous];
+    if (current.heap == kNone && previous.heap == kNone) return;
+    const bool swap = current.heap < plan_.heaps.size() && plan_.heaps[current.heap].partner != kNone &&
+                      plan_.heaps[current.heap].partner == previous.heap && current.offset == previous.offset &&
+                      current.size == previous.size;
+    if (!swap) fault(graph_.resources[history.current], "does not lie where its other image lies in the partner heap");
   }
 
   void checkPlace(const ResourceDecl& decl, const PlannedResource& planned) {

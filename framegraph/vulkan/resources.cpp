@@ -1,6 +1,7 @@
 #include "framegraph/vulkan/resources.h"
 
 #include <algorithm>
+#include <array>
 
 #include "framegraph/vulkan/driver_memory_model.h"
 #include "framegraph/vulkan/image.h"
@@ -16,7 +17,7 @@ Resources::Resources(const DeviceContext& device, const GraphDesc& graph, const 
       persistent_(device, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, "histories and exported resources"),
       uploads_(device, VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT, "upload buffers"),
       images_(graph.resources.size() * kParities),
-      buffers_(graph.resources.size() * slots),
+      buffers_(graph.resources.size() * slots * kParities),
       mapped_(graph.resources.size() * slots) {
   allocateHeaps();
   for (std::uint32_t i = 0; i < graph.resources.size(); ++i) {
@@ -37,7 +38,7 @@ void Resources::import(std::uint32_t resource, VkImage image) {
 }
 
 void Resources::import(std::uint32_t resource, VkBuffer buffer) {
-  std::fill_n(buffers_.begin() + resource * slots_, slots_, buffer);
+  std::fill_n(buffers_.begin() + resource * slots_ * kParities, slots_ * kParities, buffer);
 }
 
 std::uint64_t Resources::allocatedBytes() const {
@@ -49,7 +50,7 @@ std::uint64_t Resources::allocatedBytes() const {
 void Resources::allocateHeaps() {
   for (const PlannedHeap& heap : plan_->heaps) {
     heaps_.push_back(allocateMemory(*device_, heap.size, heap.memoryTypeBits, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT,
-                                    "the heap of transient resources"));
+                                    "resources that share memory"));
   }
 }
 
@@ -58,42 +59,60 @@ void Resources::makeTexture(std::uint32_t resource, const TextureDesc& desc, boo
   const PlannedResource& planned = plan_->resources[resource];
   VkImage* const images = &images_[resource * kParities];
   if (decl.lifetime == Lifetime::HistoryPrevious) return;  // Made with the current one, whose other copy it is.
-  if (decl.lifetime == Lifetime::HistoryCurrent) {
-    const std::uint32_t previous = graph_->histories[decl.history].previous;
-    const VkImageUsageFlags usage =
-        planned.imageUsage | plan_->resources[previous].imageUsage | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
-    for (std::uint32_t parity = 0; parity < kParities; ++parity) {
-      images[parity] = addImage(resource, desc, usage);
-      images_[previous * kParities + (1 - parity)] = images[parity];
-      persistent_.add(images[parity]);
-    }
-    return;
+  const bool history = decl.lifetime == Lifetime::HistoryCurrent;
+  VkImageUsageFlags usage = planned.imageUsage;
+  if (history) {
+    usage |= plan_->resources[graph_->histories[decl.history].previous].imageUsage | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+  } else if (poison) {
+    usage |= kPoisonImageUsage;
   }
-  std::fill_n(images, kParities, addImage(resource, desc, planned.imageUsage | (poison ? kPoisonImageUsage : 0)));
-  if (planned.heap == kNone) return persistent_.add(images[0]);
-  checkPlacement(resource, memoryRequirements(*device_, images[0]));
-  check(
-      device_->functions.vkBindImageMemory(device_->view.device, images[0], heaps_[planned.heap].get(), planned.offset),
-      "binding memory of image '" + decl.name + "'");
+  const std::uint32_t count = history ? kParities : copies(planned);
+  for (std::uint32_t parity = 0; parity < count; ++parity) {
+    images[parity] = addImage(resource, desc, usage);
+    if (planned.heap == kNone) {
+      persistent_.add(images[parity]);
+      continue;
+    }
+    checkPlacement(resource, memoryRequirements(*device_, images[parity]));
+    check(device_->functions.vkBindImageMemory(device_->view.device, images[parity], heapOf(planned, parity),
+                                               planned.offset),
+          "binding memory of image '" + decl.name + "'");
+  }
+  std::fill(images + count, images + kParities, images[0]);
+  if (!history) return;
+  const std::uint32_t previous = graph_->histories[decl.history].previous;
+  for (std::uint32_t parity = 0; parity < kParities; ++parity) {
+    images_[previous * kParities + (1 - parity)] = images[parity];
+  }
 }
 
 void Resources::makeBuffer(std::uint32_t resource, const BufferDesc& desc, bool poison) {
   const ResourceDecl& decl = graph_->resources[resource];
   const PlannedResource& planned = plan_->resources[resource];
-  VkBuffer* const buffers = &buffers_[resource * slots_];
+  VkBuffer* const buffers = &buffers_[resource * slots_ * kParities];
   if (decl.lifetime == Lifetime::Upload) {
     for (std::uint32_t slot = 0; slot < slots_; ++slot) {
-      buffers[slot] = addBuffer(resource, desc, planned.bufferUsage);
-      uploads_.add(buffers[slot], &mapped_[resource * slots_ + slot]);
+      const VkBuffer buffer = addBuffer(resource, desc, planned.bufferUsage);
+      std::fill_n(buffers + slot * kParities, kParities, buffer);
+      uploads_.add(buffer, &mapped_[resource * slots_ + slot]);
     }
     return;
   }
-  std::fill_n(buffers, slots_, addBuffer(resource, desc, planned.bufferUsage | (poison ? kPoisonBufferUsage : 0)));
-  if (planned.heap == kNone) return persistent_.add(buffers[0]);
-  checkPlacement(resource, memoryRequirements(*device_, buffers[0]));
-  check(device_->functions.vkBindBufferMemory(device_->view.device, buffers[0], heaps_[planned.heap].get(),
-                                              planned.offset),
-        "binding memory of buffer '" + decl.name + "'");
+  const VkBufferUsageFlags usage = planned.bufferUsage | (poison ? kPoisonBufferUsage : 0);
+  std::array<VkBuffer, kParities> made{};
+  for (std::uint32_t parity = 0; parity < copies(planned); ++parity) {
+    made[parity] = addBuffer(resource, desc, usage);
+    if (planned.heap == kNone) {
+      persistent_.add(made[parity]);
+      continue;
+    }
+    checkPlacement(resource, memoryRequirements(*device_, made[parity]));
+    check(device_->functions.vkBindBufferMemory(device_->view.device, made[parity], heapOf(planned, parity),
+                                                planned.offset),
+          "binding memory of buffer '" + decl.name + "'");
+  }
+  std::fill(made.begin() + copies(planned), made.end(), made[0]);
+  for (std::uint32_t slot = 0; slot < slots_; ++slot) std::ranges::copy(made, buffers + slot * kParities);
 }
 
 VkImage Resources::addImage(std::uint32_t resource, const TextureDesc& desc, VkImageUsageFlags usage) {

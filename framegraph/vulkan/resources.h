@@ -21,7 +21,7 @@ class Resources {
     return images_[resource * kParities + frame.parity];
   }
   [[nodiscard]] VkBuffer buffer(std::uint32_t resource, FrameIndex frame) const {
-    return buffers_[resource * slots_ + frame.slot];
+    return buffers_[(resource * slots_ + frame.slot) * kParities + frame.parity];
   }
   /// First byte of an upload buffer's copy.
   [[nodiscard]] std::byte* mapped(std::uint32_t resource, std::uint32_t slot) const {
@@ -42,6 +42,14 @@ class Resources {
   VkImage addImage(std::uint32_t resource, const TextureDesc& desc, VkImageUsageFlags usage);
   VkBuffer addBuffer(std::uint32_t resource, const BufferDesc& desc, VkBufferUsageFlags usage);
   void allocateHeaps();
+  /// What stands for a resource's heap in frames of a parity.
+  [[nodiscard]] VkDeviceMemory heapOf(const PlannedResource& planned, std::uint32_t parity) const {
+    return heaps_[allocationOf(plan_->heaps, planned.heap, parity)].get();
+  }
+  /// Parities of frames that need a copy of their own of a resource: those whose heap is another allocation.
+  [[nodiscard]] std::uint32_t copies(const PlannedResource& planned) const {
+    return planned.heap != kNone && plan_->heaps[planned.heap].partner != kNone ? kParities : 1;
+  }
   /// Check that a resource fits where the plan puts it.
   void checkPlacement(std::uint32_t resource, const MemoryRequirements& requirements) const;
 
@@ -54,8 +62,8 @@ class Resources {
   MemoryArena uploads_;
   std::vector<Owned<VkImage>> ownedImages_;
   std::vector<Owned<VkBuffer>> ownedBuffers_;
-  std::vector<VkImage> images_;
-  std::vector<VkBuffer> buffers_;
+  std::vector<VkImage> images_;    ///< By resource and parity.
+  std::vector<VkBuffer> buffers_;  ///< By resource, slot and parity.
   std::vector<std::byte*> mapped_;
 };
 

@@ -7,7 +7,6 @@
 
 #include <glm/gtc/type_ptr.hpp>
 
-#include "framegraph/compile.h"
 #include "integration/c_api/structs.h"
 
 namespace walr::api {
@@ -157,8 +156,8 @@ void Description::advance(const WalrCamera& camera) {
   ++frames_;
 }
 
-fg::Plan compilePlan(const fg::Graph& graph, const fg::MemoryModel& memory) {
-  fg::CompileResult result = fg::compile(graph.desc(), memory);
+fg::Plan compilePlan(const fg::Graph& graph, const fg::MemoryModel& memory, const fg::CompileOptions& options) {
+  fg::CompileResult result = fg::compile(graph.desc(), memory, options);
   if (!result.ok()) throw Error(WALR_ERROR_INTERNAL, "the method's frame graph does not compile:\n" + result.text());
   return std::move(result.plan);
 }

@@ -9,7 +9,7 @@
 #include <walr/walr.h>
 #include <glm/vec2.hpp>
 
-#include "framegraph/memory_model.h"
+#include "framegraph/compile.h"
 #include "framegraph/plan.h"
 #include "integration/c_api/host_images.h"
 #include "passes/denoiser.h"
@@ -81,6 +81,6 @@ class Description {
 };
 
 /// @throws Error with the diagnostics where a graph does not compile
-fg::Plan compilePlan(const fg::Graph& graph, const fg::MemoryModel& memory);
+fg::Plan compilePlan(const fg::Graph& graph, const fg::MemoryModel& memory, const fg::CompileOptions& options = {});
 
 }  // namespace walr::api

@@ -18,10 +18,12 @@ HostedPasses::HostedPasses(const WalrDenoiserInfo& info, std::span<const WalrSet
   }
   if (info.device != nullptr) device_ = std::make_unique<HostDevice>(info.device);
   graph_ = description_.declare();
-  plan_ = compilePlan(graph_.graph, fg::TableMemoryModel());
+  // A host makes one image for each resource of the list, and swaps histories' alone.
+  constexpr fg::CompileOptions kOneImageEach = {.lendHistories = false};
+  plan_ = compilePlan(graph_.graph, fg::TableMemoryModel(), kOneImageEach);
   if (device_) {
     fg::vk::require(device_->physical(), fg::vk::formatUses(graph_.graph.desc(), plan_));
-    plan_ = compilePlan(graph_.graph, fg::vk::DriverMemoryModel(device_->context()));
+    plan_ = compilePlan(graph_.graph, fg::vk::DriverMemoryModel(device_->context()), kOneImageEach);
   }
   list_.emplace(graph_.graph.desc(), plan_);
   if (device_) {

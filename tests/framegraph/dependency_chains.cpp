@@ -42,7 +42,14 @@ struct Operation {
 };
 
 bool overlap(const PlannedResource& a, const PlannedResource& b) {
-  return a.heap != kNone && a.heap == b.heap && a.offset < b.offset + b.size && b.offset < a.offset + a.size;
+  return a.offset < b.offset + b.size && b.offset < a.offset + a.size;
+}
+
+/// Number of the allocation in which a resource lies in frames of one parity; kNone where it has its memory to itself.
+std::uint32_t allocation(const Plan& plan, std::uint32_t resource, std::uint32_t parity) {
+  const std::uint32_t heap = plan.resources[resource].heap;
+  if (heap == kNone) return kNone;
+  return parity == 1 && plan.heaps[heap].partner != kNone ? plan.heaps[heap].partner : heap;
 }
 
 /// All operations and dependencies of a few frames, in submission order.
@@ -50,7 +57,8 @@ class Timeline {
  public:
   Timeline(const GraphDesc& graph, const Plan& plan) : graph_(graph), plan_(plan) {
     for (std::uint32_t i = 0; i < graph.resources.size(); ++i) {
-      const bool doubled = graph.resources[i].lifetime == Lifetime::HistoryCurrent;
+      const bool doubled =
+          graph.resources[i].lifetime == Lifetime::HistoryCurrent || allocation(plan, i, 0) != allocation(plan, i, 1);
       first_[0].push_back(cells_);
       cells_ += cellCount(i);
       first_[1].push_back(doubled ? cells_ : first_[0].back());
@@ -60,15 +68,7 @@ class Timeline {
       first_[1][history.previous] = first_[0][history.current];
       first_[0][history.previous] = first_[1][history.current];
     }
-    peers_.resize(cells_);
-    for (std::uint32_t i = 0; i < graph.resources.size(); ++i) {
-      for (std::uint32_t j = 0; j < graph.resources.size(); ++j) {
-        if (i == j || !overlap(plan.resources[i], plan.resources[j])) continue;
-        for (std::uint32_t a = 0; a < cellCount(i); ++a) {
-          for (std::uint32_t b = 0; b < cellCount(j); ++b) peers_[first_[0][i] + a].push_back(first_[0][j] + b);
-        }
-      }
-    }
+    findPeers();
     since_.resize(cells_);
     operationsOf_.resize(cells_);
     for (frame_ = 0; frame_ < kFrames; ++frame_) runFrame();
@@ -77,6 +77,34 @@ class Timeline {
   std::vector<std::string> takeFaults() { return std::move(faults_); }
 
  private:
+  /// Give every cell those that have a common byte of one allocation with it, be it in frames of another parity.
+  void findPeers() {
+    peers_.resize(cells_);
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> all;  // Resources and parities.
+    for (std::uint32_t i = 0; i < graph_.resources.size(); ++i) {
+      all.emplace_back(i, 0);
+      if (first_[0][i] != first_[1][i]) all.emplace_back(i, 1);
+    }
+    for (const auto& [i, parity] : all) {
+      for (const auto& [j, otherParity] : all) {
+        const std::uint32_t place = allocation(plan_, i, parity);
+        if (place == kNone || place != allocation(plan_, j, otherParity)) continue;
+        const std::uint32_t own = first_[parity][i];
+        const std::uint32_t other = first_[otherParity][j];
+        if (own == other || !overlap(plan_.resources[i], plan_.resources[j])) continue;
+        for (std::uint32_t a = 0; a < cellCount(i); ++a) {
+          for (std::uint32_t b = 0; b < cellCount(j); ++b) addPeer(own + a, other + b);
+        }
+      }
+    }
+  }
+
+  /// The images of a history come twice, as `previous` and as `current`.
+  void addPeer(std::uint32_t cell, std::uint32_t peer) {
+    std::vector<std::uint32_t>& peers = peers_[cell];
+    if (std::ranges::find(peers, peer) == peers.end()) peers.push_back(peer);
+  }
+
   [[nodiscard]] const TextureDesc* texture(std::uint32_t resource) const {
     return std::get_if<TextureDesc>(&graph_.resources[resource].desc);
   }

@@ -2,6 +2,7 @@
 
 #include <cstdlib>
 
+#include "framegraph/memory_places.h"
 #include "tests/vulkan/gpu_fixture.h"
 #include "tests/vulkan/graph_run.h"
 
@@ -23,7 +24,9 @@ class RandomGraphTest : public GpuTest {
   void compareWithCpu(std::uint32_t seed, bool poison) {
     SCOPED_TRACE("WALR_SEED=" + std::to_string(seed) + (poison ? ", poisoned" : ""));
     RandomGraph random(seed, context().functions);
-    GraphRun run(device(), random.graph(), {.poison = poison});
+    const Plan plan = compileFor(context(), random.graph(), poison);
+    countLending(random.graph().desc(), plan);
+    GraphRun run(device(), random.graph(), plan, {.poison = poison});
     for (const Texture input : random.inputs()) run.fill(input, random.texels(input));
     for (std::uint32_t frame = 0; frame < kFrames; ++frame) {
       const std::uint32_t value = seed * kFrames + frame;
@@ -41,12 +44,24 @@ class RandomGraphTest : public GpuTest {
     }
     for (const vk::Message& message : takeMessages()) ADD_FAILURE() << "validation: " << message.text;
   }
+
+  void countLending(const GraphDesc& graph, const Plan& plan) {
+    for (std::uint32_t i = 0; i < graph.resources.size(); ++i) {
+      if (lenders(graph, plan, i).empty()) continue;
+      ++(std::holds_alternative<TextureDesc>(graph.resources[i].desc) ? texturesInHistories_ : buffersInHistories_);
+    }
+  }
+
+  std::uint32_t texturesInHistories_ = 0;
+  std::uint32_t buffersInHistories_ = 0;
 };
 
 TEST_F(RandomGraphTest, ResultsEqualTheDeclaredOrderOnTheCpu) {
   for (std::uint32_t seed = firstSeed(); seed < firstSeed() + kGraphs && !HasFailure(); ++seed) {
     compareWithCpu(seed, seed % 2 == 0);
   }
+  EXPECT_GT(texturesInHistories_, kGraphs / 4) << "transients in the memory of histories";
+  EXPECT_GT(buffersInHistories_, kGraphs / 20) << "transients in the memory of histories";
 }
 
 }  // namespace

@@ -350,7 +350,7 @@ typedef struct WalrMemory {
   uint32_t reserved;
   uint64_t allocated;           /* Bytes of device memory taken from the driver. */
   uint64_t persistent;          /* Histories. */
-  uint64_t transient;           /* Everything else, sharing memory. */
+  uint64_t transient;           /* What everything else needs besides, sharing memory also with histories. */
   uint64_t transient_unaliased; /* The same if nothing shared, as where every pass is the host's. */
   uint64_t transient_least;     /* No arrangement could do with less. */
   uint64_t retired;             /* Of what was replaced, and is in use by frames in flight. */

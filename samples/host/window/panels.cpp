@@ -8,6 +8,7 @@
 
 #include <imgui.h>
 
+#include "framegraph/memory_places.h"
 #include "passes/settings.h"
 
 namespace walr::host {
@@ -215,27 +216,29 @@ void memoryPanel(const fg::GraphDesc& graph, const fg::Plan& plan) {
   ImGui::InvisibleButton("memory", {width, kHeight});
   ImDrawList* const draw = ImGui::GetWindowDrawList();
   draw->AddRectFilled(corner, {corner.x + width, corner.y + kHeight}, ImGui::GetColorU32(ImGuiCol_FrameBg));
-  const double bytes = std::max<double>(1.0, static_cast<double>(memory.transientPeakBytes));
+  std::vector<double> heapStarts;
+  double bytes = 0.0;
+  for (const fg::PlannedHeap& heap : plan.heaps) {
+    heapStarts.push_back(bytes);
+    bytes += static_cast<double>(heap.size);
+  }
+  bytes = std::max(1.0, bytes);
   const auto column = [&](std::uint32_t pass) {
     return corner.x +
            width * static_cast<float>(pass) / static_cast<float>(std::max<std::size_t>(1, plan.passes.size()));
   };
   const auto row = [&](double offset) { return corner.y + kHeight * static_cast<float>(1.0 - offset / bytes); };
-  std::vector<double> heapStarts;
-  double start = 0.0;
-  for (const fg::PlannedHeap& heap : plan.heaps) {
-    heapStarts.push_back(start);
-    start += static_cast<double>(heap.size);
-  }
   for (std::size_t i = 0; i < plan.resources.size(); ++i) {
     const fg::PlannedResource& resource = plan.resources[i];
     if (resource.heap == fg::kNone || !resource.used) {
       continue;
     }
+    const fg::PassSpan span = fg::occupied(graph, plan, static_cast<std::uint32_t>(i));
     const double from = heapStarts[resource.heap] + static_cast<double>(resource.offset);
-    const ImVec2 low(column(resource.firstUse), row(from + static_cast<double>(resource.size)));
-    const ImVec2 high(column(resource.lastUse + 1), row(from));
-    draw->AddRectFilled(low, high, colourOf(i));
+    const ImVec2 low(column(span.first), row(from + static_cast<double>(resource.size)));
+    const ImVec2 high(column(span.last + 1), row(from));
+    const bool transient = graph.resources[i].lifetime == fg::Lifetime::Transient;
+    draw->AddRectFilled(low, high, transient ? colourOf(i) : ImGui::GetColorU32(ImGuiCol_TextDisabled));
     draw->AddRect(low, high, ImGui::GetColorU32(ImGuiCol_WindowBg));
     if (ImGui::IsMouseHoveringRect(low, high)) {
       ImGui::SetTooltip("%s: %.2f MiB, from '%s' to '%s'", graph.resources[i].name.c_str(),

@@ -21,7 +21,7 @@ void methodPanel(Session& session);
 void settingsPanel(Session& session);
 /// Times of tracing and of every pass.
 void timesPanel(const FrameFacts& facts, bool softwareDevice);
-/// Transient memory over passes: a rectangle a texture.
+/// Shared memory over passes: a rectangle a texture, grey for histories.
 void memoryPanel(const fg::GraphDesc& graph, const fg::Plan& plan);
 
 }  // namespace walr::host

@@ -1,0 +1,152 @@
+#include <algorithm>
+#include <functional>
+#include <stdexcept>
+
+#include "framegraph/memory_places.h"
+#include "framegraph/verify.h"
+#include "framegraph/vulkan/driver_memory_model.h"
+#include "framegraph/vulkan/frame_queue.h"
+#include "tests/vulkan/gpu_fixture.h"
+#include "tests/vulkan/graph_run.h"
+#include "tests/vulkan/test_graphs.h"
+
+/// Transients in the memory of histories, on a device.
+namespace fg::test {
+namespace {
+
+/// previous -> early -> across -> current -> late -> "out", one more at each: all three transients find room in the
+/// history's two images.
+struct LendingGraph {
+  static constexpr std::uint32_t kStep = 3;  ///< From frame to frame.
+
+  /// @param out where the result goes
+  explicit LendingGraph(std::function<Texture(Graph&)> makeOut = [](Graph& g) { return importOutput(g, "out"); }) {
+    history = graph.history("history", kTexture);
+    out = makeOut(graph);
+    early = add(graph, "a", history.previous, graph.texture("early", kTexture), 1);
+    across = add(graph, "b", early, graph.texture("across", kTexture), 1);
+    const Texture current = add(graph, "c", across, history.current, 1);
+    late = add(graph, "d", current, graph.texture("late", kTexture), 1);
+    graph.exported(add(graph, "e", late, out, 1), vk::kReadable);
+  }
+  Graph graph;
+  History history;
+  Texture early;
+  Texture across;
+  Texture late;
+  Texture out;
+};
+
+class LendingOnDeviceTest : public GpuTest {
+ protected:
+  /// Run a frame, of which so many lie behind, and look at its result.
+  void expectFrame(GraphRun& run, std::uint32_t framesBehind) {
+    run.frame();
+    EXPECT_EQ(run.texels<std::uint32_t>(lending_.out), constant(LendingGraph::kStep * (framesBehind + 1) + 2))
+        << framesBehind << " frames behind";
+  }
+  static PlannedBarrier& handOver(Plan& plan, Texture texture) {
+    for (PlannedPass& pass : plan.passes) {
+      for (PlannedBarrier& barrier : pass.barriers) {
+        if (barrier.resource == texture.resource && barrier.reason == BarrierReason::AliasHandOver) return barrier;
+      }
+    }
+    throw std::logic_error("the plan has no such barrier");
+  }
+  /// Whether there were messages, all of which must speak of synchronization.
+  bool reportsHazard() {
+    const std::vector<vk::Message> messages = takeMessages();
+    for (const vk::Message& message : messages) EXPECT_TRUE(message.id.starts_with("SYNC-HAZARD")) << message.text;
+    return !messages.empty();
+  }
+  LendingGraph lending_;
+};
+
+TEST_F(LendingOnDeviceTest, AllocatesNothingBesidesTheHistory) {
+  const GraphDesc& desc = lending_.graph.desc();
+  const Plan plan = compileFor(context(), lending_.graph);
+  const auto in = [&](Texture texture) { return lenders(desc, plan, texture.resource); };
+  EXPECT_EQ(in(lending_.early), std::vector{lending_.history.current.resource});
+  EXPECT_EQ(in(lending_.across), std::vector{lending_.history.previous.resource});
+  EXPECT_EQ(in(lending_.late), std::vector{lending_.history.previous.resource});
+  GraphRun run(device(), lending_.graph, plan);
+  EXPECT_EQ(run.executor().allocatedBytes(), 2 * plan.resources[lending_.history.current.resource].size);
+}
+
+TEST_F(LendingOnDeviceTest, FramesFollowEachOther) {
+  GraphRun run(device(), lending_.graph);
+  for (std::uint32_t i = 0; i < 6; ++i) expectFrame(run, i);
+}
+
+TEST_F(LendingOnDeviceTest, FramesFollowEachOtherInFlight) {
+  GraphRun run(device(), lending_.graph);
+  for (int i = 0; i < 25; ++i) run.submitFrame();
+  run.finish();
+  EXPECT_EQ(run.texels<std::uint32_t>(lending_.out), constant(25 * LendingGraph::kStep + 2));
+}
+
+TEST_F(LendingOnDeviceTest, ResetStartsOverAtEitherParity) {
+  GraphRun run(device(), lending_.graph);
+  for (std::uint32_t framesBefore = 1; framesBefore <= 4; ++framesBefore) {
+    for (std::uint32_t i = 0; i < framesBefore; ++i) expectFrame(run, i);
+    run.executor().resetHistory(lending_.history);
+  }
+}
+
+TEST_F(LendingOnDeviceTest, APredecessorsHistoryIsWhole) {
+  for (std::uint32_t framesBefore = 0; framesBefore <= 3; ++framesBefore) {
+    GraphRun before(device(), lending_.graph);
+    for (std::uint32_t i = 0; i < framesBefore; ++i) before.submitFrame();
+    GraphRun run(device(), lending_.graph, {.predecessor = &before.executor()});
+    for (std::uint32_t i = 0; i < 5; ++i) expectFrame(run, framesBefore + i);
+    run.executor().resetAllHistory();
+    expectFrame(run, 0);
+  }
+}
+
+TEST_F(LendingOnDeviceTest, PoisonOfTransientsLeavesHistoriesAlone) {
+  GraphRun run(device(), lending_.graph, {.poison = true});
+  for (std::uint32_t i = 0; i < 5; ++i) expectFrame(run, i);
+  run.executor().resetAllHistory();
+  for (std::uint32_t i = 0; i < 3; ++i) expectFrame(run, i);
+}
+
+TEST_F(LendingOnDeviceTest, HistoriesThatKeepTheirMemoryGiveTheSame) {
+  CompileResult result =
+      compile(lending_.graph.desc(), vk::DriverMemoryModel(context()), CompileOptions{.lendHistories = false});
+  ASSERT_TRUE(result.ok()) << result.text();
+  GraphRun run(device(), lending_.graph, std::move(result.plan));
+  for (std::uint32_t i = 0; i < 4; ++i) expectFrame(run, i);
+}
+
+/// Within a frame: synchronization validation knows whose memory it was.
+TEST_F(LendingOnDeviceTest, MissingHandOversAreCaught) {
+  for (const Texture texture : {lending_.across, lending_.history.current, lending_.late}) {
+    Plan plan = compileFor(context(), lending_.graph);
+    handOver(plan, texture).srcStage = VK_PIPELINE_STAGE_2_NONE;
+    EXPECT_FALSE(verify(lending_.graph.desc(), plan).empty());
+    GraphRun run(device(), lending_.graph, plan);
+    for (int i = 0; i < 3; ++i) run.frame();
+    EXPECT_TRUE(reportsHazard()) << lending_.graph.desc().resources[texture.resource].name;
+  }
+}
+
+/// From frame to frame, where it looks at one command buffer at a time: all frames go into one.
+TEST_F(LendingOnDeviceTest, MissingHandOversFromTheLastFrameAreCaught) {
+  const LendingGraph own([](Graph& graph) { return graph.texture("out", kTexture); });
+  for (const bool whole : {true, false}) {
+    Plan plan = compileFor(context(), own.graph);
+    if (!whole) handOver(plan, own.early).srcStage = VK_PIPELINE_STAGE_2_NONE;
+    EXPECT_EQ(verify(own.graph.desc(), plan).empty(), whole);
+    vk::Executor executor(context(), own.graph.desc(), plan, {.framesInFlight = 4});
+    vk::FrameQueue queue(context(), device().queue());
+    const vk::Frame frame = queue.begin();
+    for (std::uint32_t slot = 0; slot < 4; ++slot) executor.record(frame.commandBuffer, slot);
+    queue.submit(frame);
+    queue.waitAll();
+    EXPECT_NE(reportsHazard(), whole);
+  }
+}
+
+}  // namespace
+}  // namespace fg::test
