@@ -216,7 +216,6 @@ fg::Texture addBlockRegression(fg::Graph& graph, fg::Buffer frame, fg::Texture a
     pass.uniform("frameConstants", frame)
         .sample("depth", guides.depth)
         .sample("shadingNormal", guides.shadingNormal)
-        .sample("geometricNormal", guides.geometricNormal)
         .sample("occlusion", occlusion)
         .sample("accumulated", accumulated)
         .specialize("kAlphaIsSampleCount", alpha == LightingAlpha::SampleCount)
@@ -226,7 +225,9 @@ fg::Texture addBlockRegression(fg::Graph& graph, fg::Buffer frame, fg::Texture a
   };
 
   fg::PassBuilder gather = readPixels("block moments", shaders::blockMoments);
-  gather.specialize("kCellBlocks", grid.cellBlocks).dispatch(grid.blocks);
+  gather.sample("geometricNormal", guides.geometricNormal)
+      .specialize("kCellBlocks", grid.cellBlocks)
+      .dispatch(grid.blocks);
   const BlockAverages averages = writeAverages(grid, gather, grid.blocks, "");
   const fg::Texture normal =
       gather.store("outNormal", graph.texture("block normal", {VK_FORMAT_R32_UINT, grid.blocks}));

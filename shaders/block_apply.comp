@@ -16,7 +16,6 @@ layout(constant_id = 2) const int kCellSize = 8;   // Pixels per axis.
 layout(set = 0, binding = 0, std140) uniform frameConstants { FrameConstants frame; };
 layout(set = 0, binding = 1) uniform utexture2D depth;
 layout(set = 0, binding = 2) uniform utexture2D shadingNormal;
-layout(set = 0, binding = 3) uniform utexture2D geometricNormal;
 layout(set = 0, binding = 4) uniform texture2D occlusion;
 layout(set = 0, binding = 5) uniform texture2D accumulated;
 layout(set = 0, binding = 6) uniform utexture2D fitA;
@@ -131,8 +130,6 @@ Prediction predictCoarse(ivec2 p, float z, vec3 shading, float occluded) {
 
 Prediction predictFine(ivec2 p, float z, vec3 shading, float occluded) {
   Prediction sum = noPrediction();
-  const vec3 normal = unpackNormal(texelFetch(geometricNormal, p, 0).x);
-  const Plane plane = planeAt(p, z, normal);
   const Around blocks = around(p, kBlockSize);
   [[unroll]] for (int i = 0; i < 4; ++i) {
     ivec2 block;
@@ -141,8 +138,9 @@ Prediction predictFine(ivec2 p, float z, vec3 shading, float occluded) {
     const float blockZ = unpackDepth(texelFetch(fitDepth, block, 0).x);
     if (blockZ == 0.0) continue;
     const uint packedNormal = texelFetch(fitNormal, block, 0).x;
-    const float weight = bilinear * facing(normal, blockNormal(packedNormal)) *
-                         onPlane(planeDistance(plane, representativePixel(block, kBlockSize, packedNormal), blockZ));
+    const vec3 normal = blockNormal(packedNormal);
+    const Plane plane = planeAt(representativePixel(block, kBlockSize, packedNormal), blockZ, normal);
+    const float weight = bilinear * onPlane(planeDistance(plane, p, z)) * facing(normal, shading);
     add(sum, weight, loadFine(block), featuresOf(shading, blockZ / z - 1.0, occluded));
   }
   return sum;

@@ -78,8 +78,7 @@ CellPart gather(ivec2 block) {
     const vec3 shading = unpackNormal(texelFetch(shadingNormal, p, 0).x);
     const BlockMoments sampled =
         onePixel(featuresOf(shading, z / zp - 1.0, texelFetch(occlusion, p, 0).x), mean.rgb, mean.a);
-    const float weight =
-        onPlane(planeDistance(plane, p, zp)) * facing(normal, unpackNormal(texelFetch(geometricNormal, p, 0).x));
+    const float weight = onPlane(planeDistance(plane, p, zp)) * facing(normal, shading);
     if (weight > 0.0) add(onItsPlane, weight, sampled);
     add(all, 1.0, sampled);
   }

@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
@@ -158,7 +159,8 @@ class MomentViews {
   std::map<std::string, Image<glm::dvec3>> images_;
 };
 
-/// Moments of 6x6 pixels, and what storing those of their blocks may add to them.
+/// Moments of 6x6 pixels of one plane, weighed by how their shading normals face it, and what storing those of their
+/// blocks may add to them.
 class Window {
  public:
   /// @param depth what the depth feature is relative to
@@ -168,20 +170,24 @@ class Window {
       const glm::dvec3 n = reference::octahedralDecode(in.guides[q].features);
       const glm::dvec4 y = in.accumulated[q];
       samples_[k] = {n.x, n.y, n.z, depth / in.guides[q].depth - 1.0, in.occlusion[q], y.r, y.g, y.b};
+      weights_[k] = std::clamp(glm::dot(n, in.guides[q].normal), 0.0, 1.0);
     }
+    weight_ = std::accumulate(weights_.begin(), weights_.end(), 0.0);
     for (int i = 0; i < kValues; ++i) {
-      for (const auto& sample : samples_) {
-        mean_[i] += sample[i] / kCount;
-        size_[i] = std::max(size_[i], std::abs(sample[i]));
+      for (int k = 0; k < kCount; ++k) {
+        mean_[i] += weights_[k] * samples_[k][i] / weight_;
+        size_[i] = std::max(size_[i], std::abs(samples_[k][i]));
       }
       for (const auto& sample : samples_) spread_[i] = std::max(spread_[i], std::abs(sample[i] - mean_[i]));
     }
   }
+  [[nodiscard]] double weight() const { return weight_; }
   [[nodiscard]] double mean(int i) const { return mean_[i]; }
   [[nodiscard]] double meanTolerance(int i) const { return kStored * size_[i] + kArithmetic * terms(i); }
   [[nodiscard]] double covariance(int i, int j) const {
     double sum = 0.0;
-    for (const auto& sample : samples_) sum += (sample[i] - mean_[i]) * (sample[j] - mean_[j]) / kCount;
+    for (int k = 0; k < kCount; ++k)
+      sum += weights_[k] * (samples_[k][i] - mean_[i]) * (samples_[k][j] - mean_[j]) / weight_;
     return sum;
   }
   /// The blocks' covariances, no larger than the product of the spreads, are rounded, and so are the means whose spread
@@ -198,6 +204,8 @@ class Window {
   [[nodiscard]] double terms(int i) const { return i == kDepth ? 1.0 : size_[i]; }
 
   std::array<std::array<double, kValues>, kCount> samples_{};
+  std::array<double, kCount> weights_{};
+  double weight_ = 0.0;
   std::array<double, kValues> mean_{};
   std::array<double, kValues> size_{};
   std::array<double, kValues> spread_{};
@@ -312,7 +320,7 @@ TEST_F(BlockViewsTest, MomentsAreThoseOfTheWindow) {
       const Window window(in, p - 2, blockDepth(in, {bx, by}));
       const ViewedMoments m = views.at(p);
       comparison.compared();
-      comparison.value(p, "W", edges[p].z, 36.0, 36.0 * kStored);
+      comparison.value(p, "W", edges[p].z, window.weight(), window.weight() * kStored);
       comparison.value(p, "lost", edges[p].y, 0.0, 0.0);
       comparison.value(p, "nearest edge", edges[p].x, 2.0, 0.0);
       for (int i = 0; i < kValues; ++i) {

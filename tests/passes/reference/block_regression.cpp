@@ -111,7 +111,7 @@ Image<Block> makeBlocks(const Picture& picture) {
       if (guide.depth == 0.0 || picture.accumulated[p].a == 0.0) continue;
       block.window[static_cast<std::size_t>(p.y) * pixels.x + p.x] =
           picture.onPlane(block.pixel, block.depth, chosen.normal, p, guide.depth) *
-          facing(chosen.normal, guide.normal) * picture.accumulated[p].a;
+          facing(chosen.normal, octahedralDecode(guide.features)) * picture.accumulated[p].a;
     }
   });
   return blocks;
@@ -424,8 +424,8 @@ Image<glm::dvec3> blockRegression(const HostFrame& frame, const Image<Guide>& gu
     });
     forTheFourAround(p, int(settings.size), fine, [&](glm::ivec2 b, double bilinear) {
       if (fine[b].samples == 0.0) return;
-      const double weight = bilinear * facing(guide.normal, blocks[b].normal) *
-                            picture.onPlane(p, guide.depth, guide.normal, blocks[b].pixel, blocks[b].depth);
+      const double weight = bilinear * facing(blocks[b].normal, octahedralDecode(guide.features)) *
+                            picture.onPlane(blocks[b].pixel, blocks[b].depth, blocks[b].normal, p, guide.depth);
       fineSum += weight * evaluate(picture, fine[b], p);
       samples += weight * fine[b].samples;
       fineWeight += weight;
