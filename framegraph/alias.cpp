@@ -91,7 +91,9 @@ class Placement {
     if (stride_ == 0) return pack(held_);
     const std::uint64_t own = 2 * stride_;
     const std::uint64_t target = own + std::ranges::max(heaps_.excess(held_, heldUntil_));
-    HeapPacking packing = pack(held_, heaps_.obstacles(stride_), target);
+    std::vector<std::vector<ByteSpan>> taken;
+    for (const HeapRequest& request : held_) taken.push_back(heaps_.taken(request, stride_));
+    HeapPacking packing = pack(held_, taken, target);
     if (packing.size <= own + lowerBound(held_)) return packing;
     // The histories' room may have led the search astray.
     HeapPacking apart = pack(held_);

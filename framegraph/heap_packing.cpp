@@ -35,31 +35,13 @@ std::vector<std::vector<std::uint32_t>> findNeighbours(const std::vector<HeapReq
   return neighbours;
 }
 
-/// Bytes from the first to behind the last.
-using Span = std::pair<std::uint64_t, std::uint64_t>;
-
-/// For every request, the obstacles that its interval meets.
-std::vector<std::vector<Span>> findObstacles(const std::vector<HeapRequest>& requests,
-                                             const std::vector<HeapObstacle>& obstacles) {
-  std::vector<std::vector<Span>> met(requests.size());
-  for (std::size_t i = 0; i < requests.size(); ++i) {
-    for (const HeapObstacle& obstacle : obstacles) {
-      if (obstacle.lastUse < requests[i].firstUse || requests[i].lastUse < obstacle.firstUse) continue;
-      met[i].emplace_back(obstacle.begin, obstacle.end);
-    }
-  }
-  return met;
-}
-
 class Packer {
  public:
-  Packer(const std::vector<HeapRequest>& requests, const std::vector<HeapObstacle>& obstacles, std::uint64_t target)
-      : requests_(requests),
-        neighbours_(findNeighbours(requests)),
-        obstacles_(findObstacles(requests, obstacles)),
-        target_(target) {
+  Packer(const std::vector<HeapRequest>& requests, const std::vector<std::vector<ByteSpan>>& taken,
+         std::uint64_t target)
+      : requests_(requests), taken_(taken), neighbours_(findNeighbours(requests)), target_(target) {
     for (const auto& list : neighbours_) visitsPerAttempt_ += list.size() + 1;
-    for (const auto& list : obstacles_) visitsPerAttempt_ += list.size();
+    for (const auto& list : taken_) visitsPerAttempt_ += list.size();
   }
 
   HeapPacking run() {
@@ -101,12 +83,12 @@ class Packer {
   /// Put every block, in the given order, into the lowest gap that its placed neighbours leave.
   HeapPacking place(const Order& order) {
     HeapPacking packing{std::vector<std::uint64_t>(requests_.size(), kUnplaced), 0};
-    std::vector<Span> taken;
+    std::vector<ByteSpan> taken;
     for (const std::uint32_t i : order) {
-      taken = obstacles_[i];
+      taken = taken_[i];
       for (const std::uint32_t j : neighbours_[i]) {
         if (packing.offsets[j] == kUnplaced) continue;
-        taken.emplace_back(packing.offsets[j], packing.offsets[j] + requests_[j].size);
+        taken.push_back({packing.offsets[j], packing.offsets[j] + requests_[j].size});
       }
       std::ranges::sort(taken);
       std::uint64_t offset = 0;
@@ -148,8 +130,8 @@ class Packer {
   static constexpr std::uint64_t kUnplaced = ~std::uint64_t{0};
 
   const std::vector<HeapRequest>& requests_;
+  const std::vector<std::vector<ByteSpan>>& taken_;
   std::vector<std::vector<std::uint32_t>> neighbours_;
-  std::vector<std::vector<Span>> obstacles_;
   std::uint64_t target_;
   std::uint64_t visitsPerAttempt_ = 0;
   std::uint64_t visits_ = 0;
@@ -175,14 +157,14 @@ std::uint64_t lowerBound(const std::vector<HeapRequest>& requests) {
   return std::ranges::max(liveBytes(requests));
 }
 
-HeapPacking pack(const std::vector<HeapRequest>& requests, const std::vector<HeapObstacle>& obstacles,
+HeapPacking pack(const std::vector<HeapRequest>& requests, const std::vector<std::vector<ByteSpan>>& taken,
                  std::uint64_t target) {
   if (requests.empty()) return {};
-  return Packer(requests, obstacles, target).run();
+  return Packer(requests, taken, target).run();
 }
 
 HeapPacking pack(const std::vector<HeapRequest>& requests) {
-  return pack(requests, {}, lowerBound(requests));
+  return pack(requests, std::vector<std::vector<ByteSpan>>(requests.size()), lowerBound(requests));
 }
 
 }  // namespace fg

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <compare>
 #include <cstdint>
 #include <vector>
 
@@ -13,12 +14,11 @@ struct HeapRequest {
   std::uint32_t lastUse = 0;  ///< Inclusive.
 };
 
-/// Bytes that nobody may have in an interval of positions. One without any bytes is a border that no block crosses.
-struct HeapObstacle {
+/// One without any bytes is a border that no block crosses.
+struct ByteSpan {
   std::uint64_t begin = 0;
   std::uint64_t end = 0;  ///< Exclusive.
-  std::uint32_t firstUse = 0;
-  std::uint32_t lastUse = 0;  ///< Inclusive.
+  friend auto operator<=>(const ByteSpan&, const ByteSpan&) = default;
 };
 
 struct HeapPacking {
@@ -32,16 +32,17 @@ std::vector<std::uint64_t> liveBytes(const std::vector<HeapRequest>& requests);
 /// Most bytes wanted at any one position: no packing can be smaller.
 std::uint64_t lowerBound(const std::vector<HeapRequest>& requests);
 
-/// Place all requests so that no two whose intervals meet overlap, in the bytes that obstacles leave.
+/// Place all requests so that no two whose intervals meet overlap.
 ///
 /// Offline dynamic storage allocation, which is NP-hard. Each block goes to the lowest gap that holds it, for several
 /// orders of blocks (by size, by size times duration, by duration, by crowding, by time); the best of them is then
 /// improved by taking the blocks that end highest first. Stops as soon as the target is met. Deterministic; cost is
 /// bounded by a fixed number of placements.
+/// @param taken by request, bytes that it cannot have; ordered
 /// @param target a size that needs no improvement
-HeapPacking pack(const std::vector<HeapRequest>& requests, const std::vector<HeapObstacle>& obstacles,
+HeapPacking pack(const std::vector<HeapRequest>& requests, const std::vector<std::vector<ByteSpan>>& taken,
                  std::uint64_t target);
-/// Without obstacles.
+/// Where all bytes are free.
 HeapPacking pack(const std::vector<HeapRequest>& requests);
 
 }  // namespace fg

@@ -46,39 +46,44 @@ class Contest {
 
 }  // namespace
 
-HistoryHeaps::HistoryHeaps(std::vector<Member> members, std::uint32_t positions)
-    : members_(std::move(members)), positions_(positions) {
+HistoryHeaps::HistoryHeaps(std::vector<Member> members, std::uint32_t positions) : members_(std::move(members)) {
   std::ranges::stable_sort(members_, {}, [](const Member& m) { return std::tuple(m.lastRead, m.written); });
+  std::vector<HeapRequest> incoming;
+  std::vector<HeapRequest> outgoing;
   for (const Member& member : members_) {
     offsets_.push_back((size_ + member.alignment - 1) / member.alignment * member.alignment);
     size_ = offsets_.back() + member.size;
+    incoming.push_back({member.size, member.alignment, member.written, positions - 1});
+    outgoing.push_back({member.size, member.alignment, 0, member.lastRead});
   }
+  const auto unused = [&](const std::vector<HeapRequest>& images) {
+    std::vector<std::uint64_t> bytes = liveBytes(images);
+    bytes.resize(positions);
+    for (std::uint64_t& value : bytes) value = size_ - value;
+    return bytes;
+  };
+  freeIncoming_ = unused(incoming);
+  freeOutgoing_ = unused(outgoing);
 }
 
-std::vector<HeapObstacle> HistoryHeaps::obstacles(std::uint64_t stride) const {
-  const std::uint32_t last = positions_ - 1;
-  std::vector<HeapObstacle> result;
+std::vector<ByteSpan> HistoryHeaps::taken(const HeapRequest& transient, std::uint64_t stride) const {
+  std::vector<ByteSpan> spans;
+  const auto add = [&](std::uint64_t begin, std::uint64_t end) {
+    if (spans.empty() || spans.back().end != begin) {
+      spans.push_back({begin, end});
+    } else {
+      spans.back().end = end;
+    }
+  };
   for (std::size_t i = 0; i < members_.size(); ++i) {
-    const std::uint64_t begin = offsets_[i];
-    const std::uint64_t end = begin + members_[i].size;
-    result.push_back({begin, end, members_[i].written, last});
-    result.push_back({stride + begin, stride + end, 0, members_[i].lastRead});
+    if (members_[i].written <= transient.lastUse) add(offsets_[i], offsets_[i] + members_[i].size);
   }
-  result.push_back({size_, stride, 0, last});
-  result.push_back({stride + size_, 2 * stride, 0, last});
-  return result;
-}
-
-std::uint64_t HistoryHeaps::freeIncoming(std::uint32_t position) const {
-  std::uint64_t bytes = size_;
-  for (const Member& member : members_) bytes -= member.written <= position ? member.size : 0;
-  return bytes;
-}
-
-std::uint64_t HistoryHeaps::freeOutgoing(std::uint32_t position) const {
-  std::uint64_t bytes = size_;
-  for (const Member& member : members_) bytes -= position <= member.lastRead ? member.size : 0;
-  return bytes;
+  add(size_, stride);
+  // Members are in the order of their last reads.
+  const auto unread = std::ranges::lower_bound(members_, transient.firstUse, {}, &Member::lastRead);
+  add(stride + (unread == members_.end() ? size_ : offsets_[static_cast<std::size_t>(unread - members_.begin())]),
+      2 * stride);
+  return spans;
 }
 
 std::vector<std::uint64_t> HistoryHeaps::excess(const std::vector<HeapRequest>& requests,
@@ -90,8 +95,8 @@ std::vector<std::uint64_t> HistoryHeaps::excess(const std::vector<HeapRequest>& 
   std::vector<HeapRequest> inOutgoing;
   for (std::size_t i = 0; i < requests.size(); ++i) {
     const HeapRequest& request = requests[i];
-    const bool incoming = request.size <= freeIncoming(heldUntil[i]);
-    const bool outgoing = request.size <= freeOutgoing(request.firstUse);
+    const bool incoming = request.size <= freeIncoming_[heldUntil[i]];
+    const bool outgoing = request.size <= freeOutgoing_[request.firstUse];
     (incoming || outgoing ? somewhere : nowhere).push_back(request);
     if (incoming && !outgoing) inIncoming.push_back(request);
     if (outgoing && !incoming) inOutgoing.push_back(request);
@@ -100,10 +105,10 @@ std::vector<std::uint64_t> HistoryHeaps::excess(const std::vector<HeapRequest>& 
   const Contest forIncoming(std::move(inIncoming));
   const Contest forOutgoing(std::move(inOutgoing));
   std::vector<std::uint64_t> result = liveBytes(nowhere);
-  result.resize(positions_);
-  for (std::uint32_t i = 0; i < positions_; ++i) {
-    const std::uint64_t incoming = freeIncoming(i);
-    const std::uint64_t outgoing = freeOutgoing(i);
+  result.resize(freeIncoming_.size());
+  for (std::uint32_t i = 0; i < result.size(); ++i) {
+    const std::uint64_t incoming = freeIncoming_[i];
+    const std::uint64_t outgoing = freeOutgoing_[i];
     result[i] += std::max(
         {forIncoming.losers(i, incoming), forOutgoing.losers(i, outgoing), forBoth.losers(i, incoming + outgoing)});
   }

@@ -33,9 +33,9 @@ class HistoryHeaps {
   [[nodiscard]] std::uint64_t offset(std::size_t member) const { return offsets_[member]; }
   /// Of each of the two heaps.
   [[nodiscard]] std::uint64_t size() const { return size_; }
-  /// What the histories take of the two heaps, laid one behind the other from multiples of a stride: `incoming` at 0,
-  /// `outgoing` at one stride. No block crosses a multiple of it up to the second.
-  [[nodiscard]] std::vector<HeapObstacle> obstacles(std::uint64_t stride) const;
+  /// What a transient cannot have of the two heaps laid one behind the other, `incoming` from 0 and `outgoing` from one
+  /// stride, of which the second heap ends at two: the histories' bytes while they hold something, and the borders.
+  [[nodiscard]] std::vector<ByteSpan> taken(const HeapRequest& transient, std::uint64_t stride) const;
 
   /// By position, bytes of transients for which the two heaps have no room, whatever the arrangement.
   /// @param requests from first to last use
@@ -44,14 +44,12 @@ class HistoryHeaps {
                                                   const std::vector<std::uint32_t>& heldUntil) const;
 
  private:
-  /// Bytes of a heap that hold nothing at a position.
-  [[nodiscard]] std::uint64_t freeIncoming(std::uint32_t position) const;
-  [[nodiscard]] std::uint64_t freeOutgoing(std::uint32_t position) const;
-
   std::vector<Member> members_;
   std::vector<std::uint64_t> offsets_;
   std::uint64_t size_ = 0;
-  std::uint32_t positions_;
+  // By position, bytes of a heap that hold nothing.
+  std::vector<std::uint64_t> freeIncoming_;
+  std::vector<std::uint64_t> freeOutgoing_;
 };
 
 }  // namespace fg

@@ -194,13 +194,27 @@ class Mutator {
     return "layout";
   }
 
+  /// True where a pass behind a position reads what a resource holds at that position.
+  [[nodiscard]] bool isReadLater(const PlannedResource& planned, std::uint32_t position) const {
+    const auto resource = static_cast<std::uint32_t>(&planned - plan_.resources.data());
+    std::set<std::uint32_t> held = {0};
+    for (std::uint32_t i = 0; i < plan_.passes.size(); ++i) {
+      for (const AccessDecl& access : graph_.passes[plan_.passes[i].pass].accesses) {
+        if (access.resource != resource) continue;
+        if (i > position && held.contains(access.readVersion)) return true;
+        if (i <= position && access.writeVersion != kNone) held.insert(access.writeVersion);
+      }
+    }
+    return false;
+  }
+
   /// Put one transient on top of another that is alive at the same time.
   std::string moveOffset() {
     std::vector<std::pair<PlannedResource*, PlannedResource*>> pairs;
     for (PlannedResource& a : plan_.resources) {
       for (PlannedResource& b : plan_.resources) {
         const bool together = &a != &b && a.heap != kNone && a.heap == b.heap && a.firstUse < b.lastUse &&
-                              b.firstUse < a.lastUse && a.offset != b.offset;
+                              b.firstUse < a.lastUse && a.offset != b.offset && isReadLater(b, a.firstUse);
         if (together && b.offset + a.size <= plan_.heaps[a.heap].size) pairs.emplace_back(&a, &b);
       }
     }
