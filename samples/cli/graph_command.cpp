@@ -127,7 +127,7 @@ void registerGraph(CLI::App& program) {
   format->add_flag("--json", options->json,
                    "The whole plan as JSON: passes, textures, buffers, barriers, heaps, memory and traffic");
   format->add_flag("--dot", options->dot, "Passes and versions of textures in the language of Graphviz");
-  format->add_flag("--svg", options->svg, "A picture of transient memory over passes");
+  format->add_flag("--svg", options->svg, "A picture of shared memory over passes");
   format
       ->add_option("--why", options->why,
                    "With a pass: why it is culled, or why each of its barriers is there. With two textures or buffers: "

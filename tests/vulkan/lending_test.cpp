@@ -59,7 +59,25 @@ class LendingOnDeviceTest : public GpuTest {
     for (const vk::Message& message : messages) EXPECT_TRUE(message.id.starts_with("SYNC-HAZARD")) << message.text;
     return !messages.empty();
   }
+
+  static constexpr std::uint32_t kFramesTogether = 6;
+
+  /// Record frames of the graph without a host's image into one command buffer, and execute it.
+  /// @param reset before which of them the history is reset
+  void recordTogether(const Plan& plan, bool poison, std::uint32_t reset) {
+    vk::Executor executor(context(), alone_.graph.desc(), plan, {.framesInFlight = kFramesTogether, .poison = poison});
+    vk::FrameQueue queue(context(), device().queue());
+    const vk::Frame together = queue.begin();
+    for (std::uint32_t frame = 0; frame < kFramesTogether; ++frame) {
+      if (frame == reset) executor.resetAllHistory();
+      executor.record(together.commandBuffer, frame);
+    }
+    queue.submit(together);
+    queue.waitAll();
+  }
+
   LendingGraph lending_;
+  LendingGraph alone_{[](Graph& graph) { return graph.texture("out", kTexture); }};
 };
 
 TEST_F(LendingOnDeviceTest, AllocatesNothingBesidesTheHistory) {
@@ -133,18 +151,20 @@ TEST_F(LendingOnDeviceTest, MissingHandOversAreCaught) {
 
 /// From frame to frame, where it looks at one command buffer at a time: all frames go into one.
 TEST_F(LendingOnDeviceTest, MissingHandOversFromTheLastFrameAreCaught) {
-  const LendingGraph own([](Graph& graph) { return graph.texture("out", kTexture); });
-  for (const bool whole : {true, false}) {
-    Plan plan = compileFor(context(), own.graph);
-    if (!whole) handOver(plan, own.early).srcStage = VK_PIPELINE_STAGE_2_NONE;
-    EXPECT_EQ(verify(own.graph.desc(), plan).empty(), whole);
-    vk::Executor executor(context(), own.graph.desc(), plan, {.framesInFlight = 4});
-    vk::FrameQueue queue(context(), device().queue());
-    const vk::Frame frame = queue.begin();
-    for (std::uint32_t slot = 0; slot < 4; ++slot) executor.record(frame.commandBuffer, slot);
-    queue.submit(frame);
-    queue.waitAll();
-    EXPECT_NE(reportsHazard(), whole);
+  Plan plan = compileFor(context(), alone_.graph);
+  handOver(plan, alone_.early).srcStage = VK_PIPELINE_STAGE_2_NONE;
+  EXPECT_FALSE(verify(alone_.graph.desc(), plan).empty());
+  recordTogether(plan, false, kFramesTogether);
+  EXPECT_TRUE(reportsHazard());
+}
+
+TEST_F(LendingOnDeviceTest, FramesInOneCommandBufferHaveNoHazard) {
+  for (const bool poison : {false, true}) {
+    const Plan plan = compileFor(context(), alone_.graph, poison);
+    for (std::uint32_t reset = 0; reset < kFramesTogether; ++reset) {
+      recordTogether(plan, poison, reset);
+      EXPECT_FALSE(reportsHazard()) << "history reset before frame " << reset << (poison ? ", poisoned" : "");
+    }
   }
 }
 
