@@ -49,6 +49,10 @@ fg::Texture StagePorts::texture(std::string_view port) {
   return find(connections_.textures, port);
 }
 
+fg::Texture StagePorts::texture(std::string_view port, VkFormat /*format*/) {
+  return texture(port);
+}
+
 fg::Buffer StagePorts::buffer(std::string_view port) {
   return find(connections_.buffers, port);
 }
@@ -82,7 +86,7 @@ void StagePorts::setOutputs(const Guides& guides) {
   setOutput("guides.previous-geometric-normal", guides.previousGeometricNormal);
 }
 
-fg::ResourceVersion RecordingPorts::ask(std::string_view port) {
+fg::ResourceVersion RecordingPorts::ask(std::string_view port, VkFormat format) {
   const auto known = known_->find(port);
   if (known == known_->end()) {
     throw std::logic_error("no pass type makes what port '" + std::string(port) + "' takes");
@@ -91,7 +95,9 @@ fg::ResourceVersion RecordingPorts::ask(std::string_view port) {
   if (asked != asked_.end()) return asked->resource;
   std::string name(port);
   if (const auto* texture = std::get_if<fg::TextureDesc>(&known->second)) {
-    asked_.push_back({name, graph().import(name, *texture, kAnyState)});
+    fg::TextureDesc desc = *texture;
+    if (format != VK_FORMAT_UNDEFINED) desc.format = format;
+    asked_.push_back({name, graph().import(name, desc, kAnyState)});
   } else {
     asked_.push_back({name, graph().import(name, std::get<fg::BufferDesc>(known->second), kAnyState)});
   }
@@ -102,6 +108,10 @@ fg::Texture RecordingPorts::texture(std::string_view port) {
   const HostInput* input = hostInputNamed(port);
   if (input != nullptr && input->optional && !present_(port)) return {};
   return {ask(port)};
+}
+
+fg::Texture RecordingPorts::texture(std::string_view port, VkFormat format) {
+  return {ask(port, format)};
 }
 
 fg::Buffer RecordingPorts::buffer(std::string_view port) {

@@ -29,6 +29,8 @@ class StagePorts {
   [[nodiscard]] fg::Graph& graph() { return *graph_; }
   /// An input; an invalid handle where nothing is connected.
   virtual fg::Texture texture(std::string_view port);
+  /// The same of an input whose format the settings decide.
+  virtual fg::Texture texture(std::string_view port, VkFormat format);
   virtual fg::Buffer buffer(std::string_view port);
   /// A texture to write an output to: what is connected, or a transient like the texture given.
   virtual fg::Texture target(std::string_view port, VkFormat format, fg::Extent extent);
@@ -61,6 +63,7 @@ class RecordingPorts final : public StagePorts {
       : StagePorts(scratch, {}, conventions, {}), known_(&known), present_(std::move(present)) {}
 
   fg::Texture texture(std::string_view port) override;
+  fg::Texture texture(std::string_view port, VkFormat format) override;
   fg::Buffer buffer(std::string_view port) override;
   fg::Texture target(std::string_view port, VkFormat format, fg::Extent extent) override;
 
@@ -73,7 +76,8 @@ class RecordingPorts final : public StagePorts {
     std::string port;
     fg::ResourceVersion resource;
   };
-  fg::ResourceVersion ask(std::string_view port);
+  /// @param format of a texture; VK_FORMAT_UNDEFINED: as it is known
+  fg::ResourceVersion ask(std::string_view port, VkFormat format = VK_FORMAT_UNDEFINED);
 
   const KnownPorts* known_;
   std::function<bool(std::string_view port)> present_;

@@ -47,6 +47,33 @@ struct NoSettings {
   void visit(SettingVisitor& /*visitor*/) {}
 };
 
+/// Accumulation and anti-aliasing beside a filter of any storage.
+struct AccumulationStageSettings : TemporalAccumulationSettings {
+  void visit(SettingVisitor& v) {
+    TemporalAccumulationSettings::visit(v);
+    visitStorage(v);
+  }
+};
+struct AntialiasingStageSettings : TemporalAntialiasingSettings {
+  void visit(SettingVisitor& v) {
+    TemporalAntialiasingSettings::visit(v);
+    visitStorage(v);
+  }
+};
+
+/// A filter takes the storage settings of the stages around it.
+struct BlockStageSettings {
+  BlockRegressionSettings blocks;
+  TemporalAccumulationSettings accumulation;
+  TemporalAntialiasingSettings antialiasing;
+
+  void visit(SettingVisitor& v) {
+    blocks.visit(v);
+    accumulation.visitStorage(v);
+    antialiasing.visitStorage(v);
+  }
+};
+
 /// What is written to the target of an output that is as large as an input.
 fg::Texture targetLike(StagePorts& ports, std::string_view output, fg::Texture input) {
   return ports.target(output, kColour, ports.graph().textureDesc(input).extent);
@@ -61,11 +88,11 @@ void prepareGuides(StagePorts& ports, const PrepareGuidesSettings& settings) {
   ports.setOutputs(addPrepareGuides(ports.graph(), ports.hostInputs(), settings));
 }
 
-void temporalAccumulation(StagePorts& ports, const TemporalAccumulationSettings& settings) {
+void temporalAccumulation(StagePorts& ports, const AccumulationStageSettings& settings) {
   ports.setOutput("accumulated", addTemporalAccumulation(ports.graph(), ports.hostInputs(), ports.guides(), settings));
 }
 
-void temporalAccumulationWithTaps(StagePorts& ports, const TemporalAccumulationSettings& settings) {
+void temporalAccumulationWithTaps(StagePorts& ports, const AccumulationStageSettings& settings) {
   const AccumulationWithTaps result =
       addTemporalAccumulationWithTaps(ports.graph(), ports.hostInputs(), ports.guides(), settings);
   ports.setOutput("accumulated", result.mean);
@@ -90,10 +117,16 @@ void ambientOcclusion(StagePorts& ports, const AmbientOcclusionSettings& setting
   ports.setOutput("occlusion", addAmbientOcclusion(ports.graph(), ports.buffer(kFrameName), ports.guides(), settings));
 }
 
-void blockRegression(StagePorts& ports, const BlockRegressionSettings& settings) {
-  ports.setOutput("filtered",
-                  addBlockRegression(ports.graph(), ports.buffer(kFrameName), ports.texture("accumulated"),
-                                     LightingAlpha::SampleCount, ports.guides(), ports.texture("occlusion"), settings));
+void blockRegression(StagePorts& ports, const BlockStageSettings& settings) {
+  const fg::Buffer frame = ports.buffer(kFrameName);
+  BlockLight light{.accumulated = ports.texture("accumulated", formatOf(settings.accumulation.storage)),
+                   .alpha = LightingAlpha::SampleCount,
+                   .result = settings.antialiasing.storage};
+  if (settings.accumulation.storage != LightStorage::Half && light.result == LightStorage::Half) {
+    light.lighting = ports.texture("lighting");
+  }
+  ports.setOutput("filtered", addBlockRegression(ports.graph(), frame, light, ports.guides(),
+                                                 ports.texture("occlusion"), settings.blocks));
 }
 
 void bmfrFit(StagePorts& ports, const BmfrFitSettings& settings) {
@@ -122,19 +155,21 @@ void jointBilateralFilter(StagePorts& ports, const JointBilateralFilterSettings&
                                                       target, settings));
 }
 
-void temporalAntialiasing(StagePorts& ports, const TemporalAntialiasingSettings& settings) {
-  const fg::Texture filtered = ports.texture("filtered");
+void temporalAntialiasing(StagePorts& ports, const AntialiasingStageSettings& settings) {
+  const fg::Texture filtered = ports.texture("filtered", formatOf(settings.storage));
   const fg::Texture target = targetLike(ports, kOutputName, filtered);
   ports.setOutput(kOutputName, addTemporalAntialiasing(ports.graph(), ports.hostInputs(), ports.guides(), filtered,
                                                        target, settings));
 }
 
-void temporalAntialiasingWithTaps(StagePorts& ports, const TemporalAntialiasingSettings& settings) {
-  const fg::Texture filtered = ports.texture("filtered");
+void temporalAntialiasingWithTaps(StagePorts& ports, const AntialiasingStageSettings& settings) {
+  const fg::Texture filtered = ports.texture("filtered", formatOf(settings.storage));
   const fg::Texture target = targetLike(ports, kOutputName, filtered);
-  ports.setOutput(kOutputName,
-                  addTemporalAntialiasingWithTaps(ports.graph(), ports.buffer(kFrameName),
-                                                  ports.texture("history-taps"), filtered, target, settings));
+  DenoiserInputs inputs;
+  inputs.frame = ports.buffer(kFrameName);
+  if (settings.storage == LightStorage::Packed) inputs.lighting = ports.texture("lighting");
+  ports.setOutput(kOutputName, addTemporalAntialiasingWithTaps(ports.graph(), inputs, ports.texture("history-taps"),
+                                                               filtered, target, settings));
 }
 
 void passThrough(StagePorts& ports, const NoSettings& /*settings*/) {
@@ -168,9 +203,9 @@ std::vector<StageType> stagesAndMethods() {
       {"prepare_guides", "Convert the host's depth, normals and albedo once into what all other stages read", false,
        make<PrepareGuidesSettings, prepareGuides>},
       {"temporal_accumulation", "Average the noisy lighting over time along its motion", false,
-       make<TemporalAccumulationSettings, temporalAccumulation>},
+       make<AccumulationStageSettings, temporalAccumulation>},
       {"temporal_accumulation_with_taps", "The same, keeping where in the history it read", false,
-       make<TemporalAccumulationSettings, temporalAccumulationWithTaps>},
+       make<AccumulationStageSettings, temporalAccumulationWithTaps>},
       {"weighted_regression", "WALR's filter: weighted linear regression over edge-aware a-trous averages", false,
        make<WeightedRegressionSettings, weightedRegression>},
       {"full_window_regression", "REFWLR's filter: weighted linear regression over the full window", false,
@@ -178,7 +213,7 @@ std::vector<StageType> stagesAndMethods() {
       {"ambient_occlusion", "Ambient occlusion from depth alone, a feature for block_regression and flr_regression",
        false, make<AmbientOcclusionSettings, ambientOcclusion>},
       {"block_regression", "WALR's filter over blocks of pixels, with depth and occlusion among its features", false,
-       make<BlockRegressionSettings, blockRegression>},
+       make<BlockStageSettings, blockRegression>},
       {"bmfr_fit", "BMFR's filter: fit blocks of 32x32 pixels by features of first and second order", false,
        make<BmfrFitSettings, bmfrFit>},
       {"bmfr_accumulation", "Average fitted frames along the taps of temporal_accumulation_with_taps", false,
@@ -188,10 +223,10 @@ std::vector<StageType> stagesAndMethods() {
       {"joint_bilateral_filter", "Joint bilateral filter of one noisy frame", false,
        make<JointBilateralFilterSettings, jointBilateralFilter>},
       {"temporal_antialiasing", "Steady the filtered frames: history, variance clipping, moving average", false,
-       make<TemporalAntialiasingSettings, temporalAntialiasing>},
+       make<AntialiasingStageSettings, temporalAntialiasing>},
       {"temporal_antialiasing_with_taps",
        "The same along the taps of temporal_accumulation_with_taps, whose tests it shares", false,
-       make<TemporalAntialiasingSettings, temporalAntialiasingWithTaps>},
+       make<AntialiasingStageSettings, temporalAntialiasingWithTaps>},
       {"pass_through", "Copy the filtered frame to the output", false, make<NoSettings, passThrough>},
   };
   for (const std::string& name : denoiserNames()) {

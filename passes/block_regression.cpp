@@ -200,15 +200,28 @@ BlockFits addFineFit(const BlockGrid& grid, BlockAverages averages, fg::Texture 
   }
 }
 
+const fg::Shader& applyShader(bool listed, bool packed) {
+  using namespace shaders;
+  if (listed) return packed ? blockApplyListedPacked : blockApplyListed;
+  return packed ? blockApplyPacked : blockApply;
+}
+
 }  // namespace
 
-fg::Texture addBlockRegression(fg::Graph& graph, fg::Buffer frame, fg::Texture accumulated, LightingAlpha alpha,
-                               const Guides& guides, fg::Texture occlusion, const BlockRegressionSettings& settings,
-                               Inspection* inspection, const TileLists* tiles) {
+fg::Texture addBlockRegression(fg::Graph& graph, fg::Buffer frame, const BlockLight& light, const Guides& guides,
+                               fg::Texture occlusion, const BlockRegressionSettings& settings, Inspection* inspection,
+                               const TileLists* tiles) {
   if (!(settings.planeNear < settings.planeFar)) {
     throw std::invalid_argument("setting blocks.plane-near must be below blocks.plane-far");
   }
-  const BlockGrid grid = gridOf(graph, frame, graph.textureDesc(accumulated).extent, settings);
+  const fg::TextureDesc accumulated = graph.textureDesc(light.accumulated);
+  const BlockGrid grid = gridOf(graph, frame, accumulated.extent, settings);
+  const bool readsPacked = lightStorageOf(accumulated.format) == LightStorage::Packed;
+  const bool writesPacked = light.result == LightStorage::Packed;
+  const auto readLight = [&](fg::PassBuilder& pass) {
+    pass.sample("accumulated", light.accumulated);
+    if (!readsPacked) pass.specialize("kAlphaIsSampleCount", light.alpha == LightingAlpha::SampleCount);
+  };
 
   // What gathers the blocks' samples and what fits them to the pixels again read the same pixels.
   const auto readPixels = [&](const std::string& name, const fg::Shader& shader) {
@@ -217,14 +230,14 @@ fg::Texture addBlockRegression(fg::Graph& graph, fg::Buffer frame, fg::Texture a
         .sample("depth", guides.depth)
         .sample("shadingNormal", guides.shadingNormal)
         .sample("occlusion", occlusion)
-        .sample("accumulated", accumulated)
-        .specialize("kAlphaIsSampleCount", alpha == LightingAlpha::SampleCount)
         .specialize("kBlockSize", grid.size)
         .constants(grid.constants);
     return pass;
   };
 
-  fg::PassBuilder gather = readPixels("block moments", shaders::blockMoments);
+  fg::PassBuilder gather =
+      readPixels("block moments", readsPacked ? shaders::blockMomentsPacked : shaders::blockMoments);
+  readLight(gather);
   gather.sample("geometricNormal", guides.geometricNormal)
       .specialize("kCellBlocks", grid.cellBlocks)
       .dispatch(grid.blocks);
@@ -251,19 +264,27 @@ fg::Texture addBlockRegression(fg::Graph& graph, fg::Buffer frame, fg::Texture a
   };
   if (inspection != nullptr) {
     inspection->offer(graph, reconstructionViews(), grid.pixels, [&](const std::string& name) {
-      return reconstruct(name, shaders::blockApplyView).dispatch(grid.pixels);
+      fg::PassBuilder pass = reconstruct(name, readsPacked ? shaders::blockApplyViewPacked : shaders::blockApplyView);
+      readLight(pass);
+      pass.dispatch(grid.pixels);
+      return pass;
     });
   }
-  const fg::Texture filtered = graph.texture("filtered", {VK_FORMAT_R16G16B16A16_SFLOAT, grid.pixels});
+  fg::PassBuilder apply = reconstruct("block apply", applyShader(tiles != nullptr, writesPacked));
+  const fg::Texture passed = readsPacked ? light.lighting : light.accumulated;
+  if (!writesPacked) apply.sample("passed", passed);
   if (tiles == nullptr) {
-    return reconstruct("block apply", shaders::blockApply).dispatch(grid.pixels).store("outFiltered", filtered);
+    apply.dispatch(grid.pixels);
+  } else {
+    dispatchTiles(apply, tiles->surfaces);
   }
-  fg::PassBuilder apply = reconstruct("block apply", shaders::blockApplyListed);
-  dispatchTiles(apply, tiles->surfaces);
+  const fg::Texture filtered =
+      apply.store("outFiltered", graph.texture("filtered", {formatOf(light.result), grid.pixels}));
+  if (tiles == nullptr || writesPacked) return filtered;
   fg::PassBuilder passSky = graph.compute("pass sky", shaders::passSky);
-  passSky.sample("accumulated", accumulated).specialize("kAlphaIsSampleCount", alpha == LightingAlpha::SampleCount);
+  passSky.sample("passed", passed);
   dispatchTiles(passSky, tiles->sky);
-  return passSky.update("filtered", apply.store("outFiltered", filtered));
+  return passSky.update("filtered", filtered);
 }
 
 }  // namespace walr

@@ -4,6 +4,7 @@
 
 #include "framegraph/graph.h"
 #include "passes/inspection.h"
+#include "passes/light_storage.h"
 #include "passes/lighting_alpha.h"
 #include "passes/prepare_guides.h"
 #include "passes/settings.h"
@@ -77,21 +78,26 @@ struct BlockRegressionSettings {
   }
 };
 
+/// What blocks are regressed over, and how.
+struct BlockLight {
+  fg::Texture accumulated;    ///< RGBA16F, or packed: radiance; a value that is not finite is no sample.
+  LightingAlpha alpha;        ///< What the alpha channel of `accumulated` says; a pixel with no sample has no say.
+  fg::Texture lighting = {};  ///< The host's; of need where `accumulated` is packed and the result is not.
+  LightStorage result = LightStorage::Half;  ///< Packed: the light of pixels without a surface is not passed on.
+};
+
 /// Weighted linear regression of the lighting on {1, normal, inverse depth, ambient occlusion} over blocks of pixels:
 /// edge-aware a-trous averages, a coarse fit where they hold few samples, and the reconstruction of every pixel from
 /// the fits around it.
-/// @param frame       upload of `FrameConstants`
-/// @param accumulated RGBA16F: radiance to filter; a value that is not finite is no sample
-/// @param alpha       what the alpha channel of `accumulated` says; a pixel with no sample has no say
-/// @param occlusion   R16_SFLOAT: ambient occlusion
-/// @param inspection  is offered the views of every iteration and of the reconstruction
-/// @param tiles       where given, the reconstruction is dispatched over them, and the sky's light is passed through
+/// @param frame      upload of `FrameConstants`
+/// @param occlusion  R16_SFLOAT: ambient occlusion
+/// @param inspection is offered the views of every iteration and of the reconstruction
+/// @param tiles      where given, the reconstruction is dispatched over them, and the sky's light is passed through
 /// apart
-/// @returns RGBA16F: filtered radiance; sky and pixels without a diffuse lobe as they were
+/// @returns as `light.result` says: filtered radiance; RGBA16F: sky and pixels without a diffuse lobe as they were
 /// @throws std::invalid_argument for settings outside their range
-fg::Texture addBlockRegression(fg::Graph& graph, fg::Buffer frame, fg::Texture accumulated, LightingAlpha alpha,
-                               const Guides& guides, fg::Texture occlusion,
-                               const BlockRegressionSettings& settings = {}, Inspection* inspection = nullptr,
-                               const TileLists* tiles = nullptr);
+fg::Texture addBlockRegression(fg::Graph& graph, fg::Buffer frame, const BlockLight& light, const Guides& guides,
+                               fg::Texture occlusion, const BlockRegressionSettings& settings = {},
+                               Inspection* inspection = nullptr, const TileLists* tiles = nullptr);
 
 }  // namespace walr

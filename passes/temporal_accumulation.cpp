@@ -17,10 +17,14 @@ namespace {
 /// What a pass is there for.
 enum class Role : std::size_t { Mean, MeanAndTaps, View };
 
-// WALR_BY_ROLE(x): shaders x..., xTaps..., xView... with and without response to light that changes.
-#define WALR_BY_CHANGE(shader)       \
-  {                                  \
-    { &shader, &shader##Responsive } \
+// WALR_BY_ROLE(x): shaders x..., xTaps..., xView... with and without response to light that changes, in both storages.
+#define WALR_BY_STORAGE(shader)  \
+  {                              \
+    { &shader, &shader##Packed } \
+  }
+#define WALR_BY_CHANGE(shader)                                       \
+  {                                                                  \
+    { WALR_BY_STORAGE(shader), WALR_BY_STORAGE(shader##Responsive) } \
   }
 #define WALR_BY_ROLE(shader)                                                               \
   {                                                                                        \
@@ -31,9 +35,12 @@ enum class Role : std::size_t { Mean, MeanAndTaps, View };
     { WALR_BY_ROLE(shader##Plane), WALR_BY_ROLE(shader##Depth), WALR_BY_ROLE(shader) } \
   }
 
-const fg::Shader& shaderFor(MotionSource motion, HistoryRejection rejection, Role role, bool responsive) {
+using ByStorage = std::array<const fg::Shader*, 2>;
+using ByChange = std::array<ByStorage, 2>;
+
+const fg::Shader& shaderFor(MotionSource motion, HistoryRejection rejection, Role role, bool responsive,
+                            LightStorage storage) {
   using namespace shaders;
-  using ByChange = std::array<const fg::Shader*, 2>;
   using ByRole = std::array<ByChange, 3>;
   using ByRejection = std::array<ByRole, 3>;
   static constexpr std::array<ByRejection, 2> kShaders{
@@ -41,18 +48,21 @@ const fg::Shader& shaderFor(MotionSource motion, HistoryRejection rejection, Rol
   return *kShaders.at(static_cast<std::size_t>(motion))
               .at(static_cast<std::size_t>(rejection))
               .at(static_cast<std::size_t>(role))
-              .at(responsive ? 1 : 0);
+              .at(responsive ? 1 : 0)
+              .at(static_cast<std::size_t>(storage));
 }
 
-const fg::Shader& stillShaderFor(Role role, bool responsive) {
+const fg::Shader& stillShaderFor(Role role, bool responsive, LightStorage storage) {
   using namespace shaders;
-  if (role == Role::View) return responsive ? temporalAccumulationStillViewResponsive : temporalAccumulationStillView;
-  return responsive ? temporalAccumulationStillResponsive : temporalAccumulationStill;
+  static constexpr ByChange kMeans WALR_BY_CHANGE(temporalAccumulationStill);
+  static constexpr ByChange kViews WALR_BY_CHANGE(temporalAccumulationStillView);
+  return *(role == Role::View ? kViews : kMeans).at(responsive ? 1 : 0).at(static_cast<std::size_t>(storage));
 }
 
 #undef WALR_BY_REJECTION
 #undef WALR_BY_ROLE
 #undef WALR_BY_CHANGE
+#undef WALR_BY_STORAGE
 
 /// The stage in a graph.
 struct Stage {
@@ -69,7 +79,7 @@ Stage stageOf(fg::Graph& graph, const DenoiserInputs& inputs, const Guides& guid
               const TemporalAccumulationSettings& settings, bool keepTaps) {
   const fg::Extent extent = graph.textureDesc(inputs.lighting).extent;
   Stage stage{graph,       inputs,   guides,
-              settings,    keepTaps, graph.history("accumulated", {VK_FORMAT_R16G16B16A16_SFLOAT, extent}),
+              settings,    keepTaps, graph.history("accumulated", {formatOf(settings.storage), extent}),
               std::nullopt};
   if (settings.change.respond) stage.change = declareLightChange(graph, extent);
   return stage;
@@ -81,10 +91,13 @@ fg::PassBuilder declarePass(const Stage& stage, const std::string& name, Role ro
   const bool still = scene.still() && !stage.keepTaps;
   const MotionSource motion = motionSource(scene);
   const bool responsive = stage.change.has_value();
-  fg::PassBuilder pass = stage.graph.compute(
-      name, still ? stillShaderFor(role, responsive) : shaderFor(motion, stage.settings.rejection, role, responsive));
+  const LightStorage storage = stage.settings.storage;
+  fg::PassBuilder pass =
+      stage.graph.compute(name, still ? stillShaderFor(role, responsive, storage)
+                                      : shaderFor(motion, stage.settings.rejection, role, responsive, storage));
   if (still) {
     pass.sample("depth", stage.guides.depth);
+    if (storage == LightStorage::Packed && role != Role::View) pass.uniform("frameConstants", stage.inputs.frame);
   } else {
     readReprojection(pass, stage.inputs, stage.guides, stage.settings.rejection, motion, stage.settings.dilateMotion);
     pass.specialize("kBicubicHistory", stage.settings.historyFilter == HistoryFilter::Bicubic);

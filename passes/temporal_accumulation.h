@@ -10,6 +10,7 @@
 #include "passes/inputs.h"
 #include "passes/inspection.h"
 #include "passes/light_change.h"
+#include "passes/light_storage.h"
 #include "passes/prepare_guides.h"
 #include "passes/settings.h"
 
@@ -27,6 +28,7 @@ struct TemporalAccumulationSettings {
   HistoryFilter historyFilter = HistoryFilter::Bilinear;
   bool dilateMotion = false;
   LightChangeSettings change = {};
+  LightStorage storage = LightStorage::Half;
 
   void visit(SettingVisitor& v) {
     static constexpr std::string_view kFilters[] = {"bilinear", "bicubic"};
@@ -43,6 +45,15 @@ struct TemporalAccumulationSettings {
         dilateMotion);
     change.visit(v);
   }
+  /// For methods and stages whose filter reads either storage.
+  void visitStorage(SettingVisitor& v) {
+    v.visitEnum(
+        {"accumulation.storage",
+         "Storage of the mean light that blocks are regressed over: 64 bits a pixel, or 32 with unbiased rounding "
+         "to 7 bits",
+         "", 0, 1, "measured"},
+        kLightStorages, storage);
+  }
 };
 
 /// Views of every stage that accumulates lighting, in the order of `kView` of its shader.
@@ -51,7 +62,8 @@ std::span<const ViewInfo> accumulationViews(bool respondsToChange);
 
 /// Average the noisy lighting over time along its motion.
 /// @param inspection is offered the stage's views
-/// @returns RGBA16F: mean radiance; alpha: number of samples behind it, 0 where there is nothing to denoise.
+/// @returns as `settings.storage` says: mean radiance; alpha: number of samples behind it, 0 where there is nothing to
+///          denoise.
 fg::Texture addTemporalAccumulation(fg::Graph& graph, const DenoiserInputs& inputs, const Guides& guides,
                                     const TemporalAccumulationSettings& settings = {},
                                     Inspection* inspection = nullptr);

@@ -17,26 +17,41 @@ struct StageShaders {
   const fg::Shader* stage;
   const fg::Shader* view;
 };
+using ByStorage = std::array<StageShaders, 2>;
+
+#define WALR_BY_STORAGE(shader)              \
+  {                                          \
+    {                                        \
+      {&shader, &shader##View}, {            \
+        &shader##Packed, &shader##ViewPacked \
+      }                                      \
+    }                                        \
+  }
+#define WALR_BY_OBJECTS(shader)                                  \
+  {                                                              \
+    { WALR_BY_STORAGE(shader), WALR_BY_STORAGE(shader##Object) } \
+  }
+#define WALR_BY_REJECTION(shader)                                                               \
+  {                                                                                             \
+    { WALR_BY_OBJECTS(shader##Plane), WALR_BY_OBJECTS(shader##Depth), WALR_BY_OBJECTS(shader) } \
+  }
+
+constexpr ByStorage kStill WALR_BY_STORAGE(shaders::temporalAntialiasingStill);
+constexpr ByStorage kKept WALR_BY_STORAGE(shaders::temporalAntialiasingKept);
 
 /// @param objects whether objects are told apart, too
-StageShaders shadersFor(MotionSource motion, HistoryRejection rejection, bool objects) {
+const ByStorage& shadersFor(MotionSource motion, HistoryRejection rejection, bool objects) {
   using namespace shaders;
-  using ByRejection = std::array<StageShaders, 3>;
-  static constexpr std::array<std::array<ByRejection, 2>, 2> kShaders{
-      {{{{{{&temporalAntialiasingPlane, &temporalAntialiasingPlaneView},
-           {&temporalAntialiasingDepth, &temporalAntialiasingDepthView},
-           {&temporalAntialiasing, &temporalAntialiasingView}}},
-         {{{&temporalAntialiasingCameraPlane, &temporalAntialiasingCameraPlaneView},
-           {&temporalAntialiasingCameraDepth, &temporalAntialiasingCameraDepthView},
-           {&temporalAntialiasingCamera, &temporalAntialiasingCameraView}}}}},
-       {{{{{&temporalAntialiasingPlaneObject, &temporalAntialiasingPlaneObjectView},
-           {&temporalAntialiasingDepthObject, &temporalAntialiasingDepthObjectView},
-           {&temporalAntialiasingObject, &temporalAntialiasingObjectView}}},
-         {{{&temporalAntialiasingCameraPlaneObject, &temporalAntialiasingCameraPlaneObjectView},
-           {&temporalAntialiasingCameraDepthObject, &temporalAntialiasingCameraDepthObjectView},
-           {&temporalAntialiasingCameraObject, &temporalAntialiasingCameraObjectView}}}}}}};
-  return kShaders.at(objects ? 1 : 0).at(static_cast<std::size_t>(motion)).at(static_cast<std::size_t>(rejection));
+  using ByObjects = std::array<ByStorage, 2>;
+  using ByRejection = std::array<ByObjects, 3>;
+  static constexpr std::array<ByRejection, 2> kShaders{
+      {WALR_BY_REJECTION(temporalAntialiasing), WALR_BY_REJECTION(temporalAntialiasingCamera)}};
+  return kShaders.at(static_cast<std::size_t>(motion)).at(static_cast<std::size_t>(rejection)).at(objects ? 1 : 0);
 }
+
+#undef WALR_BY_REJECTION
+#undef WALR_BY_OBJECTS
+#undef WALR_BY_STORAGE
 
 /// In the order of `kView` of temporal_antialiasing.comp.
 const std::vector<ViewInfo>& antialiasingViews() {
@@ -56,10 +71,12 @@ const std::vector<ViewInfo>& antialiasingViews() {
 using ReadHistory = std::function<void(fg::PassBuilder& pass, bool view)>;
 
 /// The stage, whose reprojection comes from wherever `read` says.
-fg::Texture addStage(fg::Graph& graph, StageShaders shaders, const ReadHistory& read, fg::Texture filtered,
-                     fg::Texture output, const TemporalAntialiasingSettings& settings, Inspection* inspection) {
+fg::Texture addStage(fg::Graph& graph, const ByStorage& byStorage, const ReadHistory& read, fg::Texture lighting,
+                     fg::Texture filtered, fg::Texture output, const TemporalAntialiasingSettings& settings,
+                     Inspection* inspection) {
   const fg::Extent extent = graph.textureDesc(filtered).extent;
-  const fg::History resolved = graph.history("resolved", {VK_FORMAT_R16G16B16A16_SFLOAT, extent});
+  const fg::History resolved = graph.history("resolved", {formatOf(settings.storage), extent});
+  const StageShaders& shaders = byStorage.at(static_cast<std::size_t>(settings.storage));
   const auto declare = [&](const std::string& name, bool view) {
     fg::PassBuilder pass = graph.compute(name, view ? *shaders.view : *shaders.stage);
     read(pass, view);
@@ -75,6 +92,7 @@ fg::Texture addStage(fg::Graph& graph, StageShaders shaders, const ReadHistory& 
     inspection->offer(graph, antialiasingViews(), extent, [&](const std::string& name) { return declare(name, true); });
   }
   fg::PassBuilder pass = declare("temporal anti-aliasing", false);
+  if (settings.storage == LightStorage::Packed) pass.sample("passed", lighting);
   (void)pass.store("outResolved", resolved.current);
   return pass.store("outImage", output);
 }
@@ -85,9 +103,11 @@ fg::Texture addTemporalAntialiasing(fg::Graph& graph, const DenoiserInputs& inpu
                                     fg::Texture filtered, fg::Texture output,
                                     const TemporalAntialiasingSettings& settings, Inspection* inspection) {
   if (inputs.scene.still()) {
-    const auto read = [&](fg::PassBuilder& pass, bool /*view*/) { pass.sample("depth", guides.depth); };
-    return addStage(graph, {&shaders::temporalAntialiasingStill, &shaders::temporalAntialiasingStillView}, read,
-                    filtered, output, settings, inspection);
+    const auto read = [&](fg::PassBuilder& pass, bool view) {
+      pass.sample("depth", guides.depth);
+      if (settings.storage == LightStorage::Packed && !view) pass.uniform("frameConstants", inputs.frame);
+    };
+    return addStage(graph, kStill, read, inputs.lighting, filtered, output, settings, inspection);
   }
   const MotionSource motion = motionSource(inputs.scene);
   const bool objects = settings.objectIds && inputs.objectId.valid();
@@ -97,7 +117,8 @@ fg::Texture addTemporalAntialiasing(fg::Graph& graph, const DenoiserInputs& inpu
     if (objects) readObjectIds(pass, ids);
     if (view) pass.specialize("kKeepableMotion", false);
   };
-  return addStage(graph, shadersFor(motion, settings.rejection, objects), read, filtered, output, settings, inspection);
+  return addStage(graph, shadersFor(motion, settings.rejection, objects), read, inputs.lighting, filtered, output,
+                  settings, inspection);
 }
 
 bool sharesReprojection(const TemporalAntialiasingSettings& antialiasing,
@@ -109,16 +130,15 @@ bool sharesReprojection(const TemporalAntialiasingSettings& antialiasing,
          antialiasing.normalThreshold == accumulation.normalThreshold;
 }
 
-fg::Texture addTemporalAntialiasingWithTaps(fg::Graph& graph, fg::Buffer frame, fg::Texture taps, fg::Texture filtered,
-                                            fg::Texture output, const TemporalAntialiasingSettings& settings,
-                                            Inspection* inspection) {
+fg::Texture addTemporalAntialiasingWithTaps(fg::Graph& graph, const DenoiserInputs& inputs, fg::Texture taps,
+                                            fg::Texture filtered, fg::Texture output,
+                                            const TemporalAntialiasingSettings& settings, Inspection* inspection) {
   const auto read = [&](fg::PassBuilder& pass, bool /*view*/) {
-    pass.uniform("frameConstants", frame)
+    pass.uniform("frameConstants", inputs.frame)
         .sample("keptTaps", taps)
         .specialize("kRejectHistory", settings.rejection != HistoryRejection::None);
   };
-  return addStage(graph, {&shaders::temporalAntialiasingKept, &shaders::temporalAntialiasingKeptView}, read, filtered,
-                  output, settings, inspection);
+  return addStage(graph, kKept, read, inputs.lighting, filtered, output, settings, inspection);
 }
 
 }  // namespace walr

@@ -6,6 +6,7 @@
 #include "passes/history_tests.h"
 #include "passes/inputs.h"
 #include "passes/inspection.h"
+#include "passes/light_storage.h"
 #include "passes/prepare_guides.h"
 #include "passes/settings.h"
 #include "passes/temporal_accumulation.h"
@@ -23,6 +24,7 @@ struct TemporalAntialiasingSettings {
   float normalThreshold = 0.5F;
   bool objectIds = false;
   bool dilateMotion = false;
+  LightStorage storage = LightStorage::Half;
 
   void visit(SettingVisitor& v) {
     v.visit({"antialiasing.enabled", "Off leaves temporal anti-aliasing to the host", "", 0, 1, "walr.txt 4.4"},
@@ -46,10 +48,19 @@ struct TemporalAntialiasingSettings {
         {"antialiasing.dilate-motion", "Follow the nearest surface of the 3x3 neighbourhood", "", 0, 1, "walr.txt 4.2"},
         dilateMotion);
   }
+  /// For methods and stages whose filter writes either storage.
+  void visitStorage(SettingVisitor& v) {
+    v.visitEnum(
+        {"antialiasing.storage",
+         "Storage of what the regression over blocks leaves and of anti-aliasing's history: 64 bits a pixel, or "
+         "32 with unbiased rounding to 9 and 8 bits",
+         "", 0, 1, "measured"},
+        kLightStorages, storage);
+  }
 };
 
 /// Remove what flicker and aliasing the spatial filter leaves: bicubic history, variance clipping, moving average.
-/// @param filtered RGBA16F: the current frame; alpha: below 0 where no light is known
+/// @param filtered the current frame as `settings.storage` says; RGBA16F: alpha below 0 where no light is known
 /// @param output   RGBA16F: texture to write the result to
 /// @param inspection is offered the stage's views
 /// @returns the output's new version
@@ -63,10 +74,11 @@ bool sharesReprojection(const TemporalAntialiasingSettings& antialiasing,
                         const TemporalAccumulationSettings& accumulation);
 
 /// The same with the reprojection that accumulation has kept; `sharesReprojection` must hold.
-/// @param frame upload of `FrameConstants`
-/// @param taps  R32_UINT: `AccumulationWithTaps::taps`
-fg::Texture addTemporalAntialiasingWithTaps(fg::Graph& graph, fg::Buffer frame, fg::Texture taps, fg::Texture filtered,
-                                            fg::Texture output, const TemporalAntialiasingSettings& settings = {},
+/// @param inputs of these the frame's constants, and the lighting where storage is packed, are read
+/// @param taps   R32_UINT: `AccumulationWithTaps::taps`
+fg::Texture addTemporalAntialiasingWithTaps(fg::Graph& graph, const DenoiserInputs& inputs, fg::Texture taps,
+                                            fg::Texture filtered, fg::Texture output,
+                                            const TemporalAntialiasingSettings& settings = {},
                                             Inspection* inspection = nullptr);
 
 }  // namespace walr

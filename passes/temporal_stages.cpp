@@ -46,9 +46,9 @@ fg::Texture addTemporalStages(fg::Graph& graph, const DenoiserInputs& inputs, co
     input.lighting = addTemporalAccumulation(graph, inputs, guides, stages.accumulation, inspection);
   }
   if (!antialias) return filterToOutput(input);
+  input.result = antialiasing.storage;
   const fg::Texture filtered = filter(input);
-  return share ? addTemporalAntialiasingWithTaps(graph, inputs.frame, input.taps, filtered, output, antialiasing,
-                                                 inspection)
+  return share ? addTemporalAntialiasingWithTaps(graph, inputs, input.taps, filtered, output, antialiasing, inspection)
                : addTemporalAntialiasing(graph, inputs, guides, filtered, output, antialiasing, inspection);
 }
 

@@ -5,6 +5,7 @@
 
 #include "framegraph/graph.h"
 #include "passes/inputs.h"
+#include "passes/light_storage.h"
 #include "passes/lighting_alpha.h"
 #include "passes/prepare_guides.h"
 #include "passes/temporal_accumulation.h"
@@ -14,8 +15,9 @@ namespace walr {
 
 /// What a spatial filter works on.
 struct FilterInput {
-  fg::Texture lighting = {};  ///< RGBA16F: the frame's lighting, or its temporal mean.
+  fg::Texture lighting = {};  ///< The frame's lighting, or its temporal mean as `accumulation.storage` says.
   LightingAlpha alpha = LightingAlpha::Unused;
+  LightStorage result = LightStorage::Half;  ///< What the result is to be in.
   fg::Texture taps = {};    ///< `AccumulationWithTaps::taps`, where `TemporalStages::keepTaps` asks for them.
   fg::Texture output = {};  ///< Where the result had best go; invalid where another stage reads it.
 

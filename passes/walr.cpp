@@ -18,8 +18,8 @@ fg::Texture addPixelFilter(fg::Graph& graph, fg::Buffer frame, const FilterInput
                                regression, inspection);
 }
 
-fg::Texture addBlockFilter(fg::Graph& graph, fg::Buffer frame, const FilterInput& input, const Guides& guides,
-                           const WalrSettings& settings, bool sky, Inspection* inspection) {
+fg::Texture addBlockFilter(fg::Graph& graph, const DenoiserInputs& inputs, const FilterInput& input,
+                           const Guides& guides, const WalrSettings& settings, Inspection* inspection) {
   BlockRegressionSettings blocks = settings.blocks;
   const std::uint32_t height = graph.textureDesc(input.lighting).extent.height;
   // Growth stops at light that differs, so that no picture is too small for a window of enough samples.
@@ -29,10 +29,12 @@ fg::Texture addBlockFilter(fg::Graph& graph, fg::Buffer frame, const FilterInput
     blocks.iterations = std::min(blocks.iterations, fitting);
   }
   std::optional<TileLists> lists;
-  if (settings.skipSky && sky) lists = addTileLists(graph, guides.depth);
+  if (settings.skipSky && inputs.scene.sky) lists = addTileLists(graph, guides.depth);
   const TileLists* tiles = lists ? &*lists : nullptr;
-  const fg::Texture occlusion = addAmbientOcclusion(graph, frame, guides, settings.occlusion, tiles);
-  return addBlockRegression(graph, frame, input.lighting, input.alpha, guides, occlusion, blocks, inspection, tiles);
+  const fg::Texture occlusion = addAmbientOcclusion(graph, inputs.frame, guides, settings.occlusion, tiles);
+  const BlockLight light{
+      .accumulated = input.lighting, .alpha = input.alpha, .lighting = inputs.lighting, .result = input.result};
+  return addBlockRegression(graph, inputs.frame, light, guides, occlusion, blocks, inspection, tiles);
 }
 
 }  // namespace
@@ -45,6 +47,7 @@ WalrSettings robustWalr() {
   WalrSettings settings;
   settings.filter = SpatialFilter::Pixels;
   settings.accumulation = {};
+  settings.antialiasing = {};
   return settings;
 }
 
@@ -71,16 +74,17 @@ WalrSettings paperWalr() {
 
 fg::Texture addWalr(fg::Graph& graph, const DenoiserInputs& inputs, fg::Texture output, const WalrSettings& settings,
                     Inspection* inspection) {
-  const TemporalStages stages{.accumulation = settings.accumulation,
-                              .antialiasing = settings.antialiasing,
-                              .spatialOnly = settings.spatialOnly};
+  TemporalStages stages{.accumulation = settings.accumulation,
+                        .antialiasing = settings.antialiasing,
+                        .spatialOnly = settings.spatialOnly};
   const bool pixels = settings.filter == SpatialFilter::Pixels;
+  if (pixels) stages.accumulation.storage = stages.antialiasing.storage = LightStorage::Half;
   const bool geometricPlane = !pixels || settings.regression.edgeStopping.planeNormal == PlaneNormal::Geometric;
   const Guides guides =
       addPrepareGuides(graph, inputs, settings.guides, guideNeeds(stages, inputs.scene, geometricPlane), inspection);
   const auto filter = [&](const FilterInput& input) {
     return pixels ? addPixelFilter(graph, inputs.frame, input, guides, settings, inspection)
-                  : addBlockFilter(graph, inputs.frame, input, guides, settings, inputs.scene.sky, inspection);
+                  : addBlockFilter(graph, inputs, input, guides, settings, inspection);
   };
   return addTemporalStages(graph, inputs, guides, output, stages, filter, inspection);
 }

@@ -21,9 +21,10 @@ enum class SpatialFilter : std::uint32_t {
 struct WalrSettings {
   bool spatialOnly = false;
   PrepareGuidesSettings guides;
-  TemporalAccumulationSettings accumulation{.maxSamples = 8.0F, .change = {.respond = true}};
+  TemporalAccumulationSettings accumulation{
+      .maxSamples = 8.0F, .change = {.respond = true}, .storage = LightStorage::Packed};
   WeightedRegressionSettings regression;
-  TemporalAntialiasingSettings antialiasing;
+  TemporalAntialiasingSettings antialiasing{.storage = LightStorage::Packed};
   SpatialFilter filter = SpatialFilter::Blocks;
   AmbientOcclusionSettings occlusion;
   BlockRegressionSettings blocks;
@@ -35,6 +36,7 @@ struct WalrSettings {
             spatialOnly);
     guides.visit(v);
     accumulation.visit(v);
+    accumulation.visitStorage(v);
     static constexpr std::string_view kFilters[] = {"pixels", "blocks"};
     v.visitEnum({"walr.filter",
                  "Regress over pixels with the settings regression.*, or over blocks with occlusion.* and blocks.*", "",
@@ -53,6 +55,7 @@ struct WalrSettings {
     occlusion.visit(v);
     blocks.visit(v);
     antialiasing.visit(v);
+    antialiasing.visitStorage(v);
   }
 };
 

@@ -50,6 +50,7 @@ layout(push_constant) uniform PushConstants { AtrousConstants settings; };
 #include "include/edge_tracing.glsl"
 #ifdef FIRST
 #include "include/light.glsl"
+#include "include/passed_light.glsl"
 #endif
 #include "include/moments_storage.glsl"
 

@@ -1,6 +1,7 @@
 // The blocks' fits applied to every pixel's features: those of the four blocks around it, weighed by plane and
-// distance, mixed with the coarse fits of the four cells around it as their samples count against `coarseSamples`. A
-// view (VIEW) does the same and writes something found on the way.
+// distance, mixed with the coarse fits of the four cells around it as their samples count against `coarseSamples`. What
+// shows no surface passes its light on; with PACKED, which packs the result (packed_light.glsl), whoever reads that must. A
+// view (VIEW) does the same and writes something found on the way; of that PACKED says what it reads.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -17,7 +18,6 @@ layout(set = 0, binding = 0, std140) uniform frameConstants { FrameConstants fra
 layout(set = 0, binding = 1) uniform utexture2D depth;
 layout(set = 0, binding = 2) uniform utexture2D shadingNormal;
 layout(set = 0, binding = 4) uniform texture2D occlusion;
-layout(set = 0, binding = 5) uniform texture2D accumulated;
 layout(set = 0, binding = 6) uniform utexture2D fitA;
 layout(set = 0, binding = 7) uniform utexture2D fitB;
 layout(set = 0, binding = 8) uniform utexture2D fitC;
@@ -30,15 +30,29 @@ layout(set = 0, binding = 14) uniform utexture2D coarseDepth;
 #ifdef VIEW
 layout(constant_id = 8) const uint kView = 0;  // Which quantity; numbered in viewOf.
 layout(set = 0, binding = 15, rgba32f) uniform writeonly image2D outView;
+#ifdef PACKED
+layout(set = 0, binding = 5) uniform utexture2D accumulated;
 #else
+layout(set = 0, binding = 5) uniform texture2D accumulated;
+#endif
+#elif defined(PACKED)
+layout(set = 0, binding = 15, r32ui) uniform writeonly uimage2D outFiltered;
+#else
+layout(set = 0, binding = 5) uniform texture2D passed;
 layout(set = 0, binding = 15, rgba16f) uniform writeonly image2D outFiltered;
 #endif
 layout(push_constant) uniform PushConstants { BlockRegressionConstants settings; };
 #include "include/block_fit.glsl"
 #include "include/block_plane.glsl"
-#include "include/half.glsl"
-#include "include/light.glsl"
 #include "include/plane.glsl"
+#ifdef VIEW
+#include "include/light.glsl"
+#elif defined(PACKED)
+#include "include/packed_light.glsl"
+#else
+#include "include/half.glsl"
+#include "include/passed_light.glsl"
+#endif
 
 struct Prediction {
   vec3 colour;    // Weighted sum.
@@ -146,9 +160,8 @@ Prediction predictFine(ivec2 p, float z, vec3 shading, float occluded) {
   return sum;
 }
 
-// Where neither knows anything the pixel has only itself.
-vec3 mixFits(Prediction fine, Prediction coarse, vec3 mean) {
-  if (fine.weight <= 0.0 && coarse.weight <= 0.0) return mean;
+// 0 where neither knows anything: the pixel itself, of whose cell the coarse fit is, has no sample then.
+vec3 mixFits(Prediction fine, Prediction coarse) {
   return mix(colourOf(coarse), colourOf(fine), fineShare(fine, coarse));
 }
 
@@ -173,16 +186,25 @@ vec3 viewOf(ivec2 p, Prediction fine, Prediction coarse, float occluded) {
 }
 #endif
 
+#ifdef VIEW
+void storePassed(ivec2 p) { imageStore(outView, p, vec4(vec3(0.0), 1.0)); }
+#elif defined(PACKED)
+void storePassed(ivec2 p) { imageStore(outFiltered, p, uvec4(0u)); }
+void store(ivec2 p, vec3 colour) {
+  const vec3 chances = chancesOf(p, frame.frameIndex, kFilteredKey).rgb;
+  imageStore(outFiltered, p, uvec4(packFiltered(colour, chances)));
+}
+#else
+void storePassed(ivec2 p) { imageStore(outFiltered, p, vec4(passedLight(passed, p), 1.0)); }
+void store(ivec2 p, vec3 colour) { imageStore(outFiltered, p, nearestHalf(vec4(colour, 1.0))); }
+#endif
+
 void main() {
   const ivec2 p = pixelOfThread();
   if (any(greaterThanEqual(p, textureSize(depth, 0)))) return;
   const float z = unpackDepth(texelFetch(depth, p, 0).x);
   if (z == 0.0) {
-#ifdef VIEW
-    imageStore(outView, p, vec4(vec3(0.0), 1.0));
-#else
-    imageStore(outFiltered, p, vec4(passedLight(p), 1.0));
-#endif
+    storePassed(p);
     return;
   }
   const vec3 shading = unpackNormal(texelFetch(shadingNormal, p, 0).x);
@@ -192,6 +214,6 @@ void main() {
 #ifdef VIEW
   imageStore(outView, p, vec4(viewOf(p, fine, coarse, occluded), 1.0));
 #else
-  imageStore(outFiltered, p, nearestHalf(vec4(mixFits(fine, coarse, lightAt(p).rgb), 1.0)));
+  store(p, mixFits(fine, coarse));
 #endif
 }

@@ -18,7 +18,11 @@ layout(set = 0, binding = 1) uniform utexture2D depth;
 layout(set = 0, binding = 2) uniform utexture2D shadingNormal;
 layout(set = 0, binding = 3) uniform utexture2D geometricNormal;
 layout(set = 0, binding = 4) uniform texture2D occlusion;
+#ifdef PACKED
+layout(set = 0, binding = 5) uniform utexture2D accumulated;
+#else
 layout(set = 0, binding = 5) uniform texture2D accumulated;
+#endif
 #define BLOCK_MOMENTS_OUT
 #define CELL_MOMENTS_OUT
 #include "include/block_textures.glsl"

@@ -7,12 +7,12 @@
 
 layout(local_size_x = kTileSide, local_size_y = kTileSide) in;
 
-layout(set = 0, binding = 0) uniform texture2D accumulated;
+layout(set = 0, binding = 0) uniform texture2D passed;
 layout(set = 0, binding = 1, rgba16f) uniform image2D filtered;
-#include "include/light.glsl"
+#include "include/passed_light.glsl"
 
 void main() {
   const ivec2 p = pixelOfThread();
   if (any(greaterThanEqual(p, imageSize(filtered)))) return;
-  imageStore(filtered, p, vec4(passedLight(p), 1.0));
+  imageStore(filtered, p, vec4(passedLight(passed, p), 1.0));
 }

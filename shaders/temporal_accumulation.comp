@@ -2,8 +2,9 @@
 // number of samples. Each of the four history pixels around the position is tested on its own (REJECT_BY_PLANE,
 // REJECT_BY_DEPTH). KEEP_TAPS also writes which of them passed, so that later stages can read their histories in the same
 // way without testing again (walr.txt 4.4, bmfr.txt 3.5). STILL: every pixel shows what it showed before. RESPONSIVE
-// shortens history where light_change.comp doubts it, and writes what that goes by. A view (VIEW) does the same and writes
-// something found on the way.
+// shortens history where light_change.comp doubts it, and writes what that goes by. PACKED: the history is packed
+// (packed_light.glsl), without the light of pixels that show no surface. A view (VIEW) does the same and writes something
+// found on the way.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -13,9 +14,11 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
+#if !defined(STILL) || (defined(PACKED) && !defined(VIEW))
+layout(set = 0, binding = 0, std140) uniform frameConstants { FrameConstants frame; };
+#endif
 #ifndef STILL
 layout(constant_id = 2) const bool kBicubicHistory = false;
-layout(set = 0, binding = 0, std140) uniform frameConstants { FrameConstants frame; };
 #ifndef MOTION_FROM_CAMERA
 layout(set = 0, binding = 2) uniform texture2D motion;
 #endif
@@ -29,10 +32,17 @@ layout(set = 0, binding = 4) uniform utexture2D previousDepth;
 layout(set = 0, binding = 5) uniform utexture2D geometricNormal;
 layout(set = 0, binding = 6) uniform utexture2D previousGeometricNormal;
 #endif
-layout(set = 0, binding = 7) uniform texture2D previousAccumulated;  // rgb: mean; a: history length.
+// rgb: mean; a: history length.
+#ifdef PACKED
+layout(set = 0, binding = 7) uniform utexture2D previousAccumulated;
+#else
+layout(set = 0, binding = 7) uniform texture2D previousAccumulated;
+#endif
 #ifdef VIEW
 layout(constant_id = 8) const uint kView = 0;  // Which quantity; numbered in viewOf.
 layout(set = 0, binding = 8, rgba32f) uniform writeonly image2D outView;
+#elif defined(PACKED)
+layout(set = 0, binding = 8, r32ui) uniform writeonly uimage2D outAccumulated;
 #else
 layout(set = 0, binding = 8, rgba16f) uniform writeonly image2D outAccumulated;
 #endif
@@ -47,7 +57,12 @@ layout(set = 0, binding = 11, rg32f) uniform writeonly image2D outChange;
 #endif
 layout(push_constant) uniform PushConstants { TemporalAccumulationConstants settings; };
 
+#ifdef PACKED
+#include "include/packed_light.glsl"
+vec4 unpackHistory(uint packed) { return unpackAccumulated(packed); }
+#endif
 #include "include/half.glsl"
+#include "include/history_taps.glsl"
 #ifdef RESPONSIVE
 #include "include/light_change.glsl"
 #include "include/luminance.glsl"
@@ -68,7 +83,7 @@ struct Past {
 };
 
 #ifdef STILL
-Past foundAt(ivec2 p, float z) { return Past(texelFetch(previousAccumulated, p, 0), vec2(p) + 0.5, 0); }
+Past foundAt(ivec2 p, float z) { return Past(historyTexel(previousAccumulated, p), vec2(p) + 0.5, 0); }
 bool motionIsFinite(ivec2 p) { return true; }
 #else
 Past foundAt(ivec2 p, float z) {
@@ -136,13 +151,26 @@ void main() {
   imageStore(outView, p, vec4(viewOf(p, z, texelFetch(lighting, p, 0).rgb), 1.0));
 }
 #else
+#ifdef PACKED
+void storeMean(ivec2 p, vec4 mean) {
+  const vec4 chances = chancesOf(p, frame.frameIndex, kAccumulatedKey);
+  imageStore(outAccumulated, p, uvec4(packAccumulated(mean, chances)));
+}
+void storePassed(ivec2 p, vec3 light) { imageStore(outAccumulated, p, uvec4(0u)); }
+#else
+void storeMean(ivec2 p, vec4 mean) { imageStore(outAccumulated, p, nearestHalf(mean)); }
+void storePassed(ivec2 p, vec3 light) {
+  imageStore(outAccumulated, p, vec4(isFinite(light) ? light : vec3(0.0), 0.0));
+}
+#endif
+
 // By how much the luminance of this frame's light differs from that of history; 0 where one of them is missing.
 float accumulate(ivec2 p) {
   const vec3 noisy = texelFetch(lighting, p, 0).rgb;
   const bool sampleIsFinite = isFinite(noisy);
   const float z = unpackDepth(texelFetch(depth, p, 0).x);
   if (z == 0.0) {
-    imageStore(outAccumulated, p, vec4(sampleIsFinite ? noisy : vec3(0.0), 0.0));
+    storePassed(p, noisy);
 #ifdef KEEP_TAPS
     imageStore(outTaps, p, uvec4(kNoSurfaceTaps));
 #endif
@@ -153,7 +181,7 @@ float accumulate(ivec2 p) {
   const float samples = samplesWith(history, sampleIsFinite);
   const vec3 radiance = clampedRadiance(noisy);
   const vec3 mean = sampleIsFinite ? mix(history.rgb, radiance, 1.0 / max(samples, 1.0)) : history.rgb;
-  imageStore(outAccumulated, p, nearestHalf(vec4(mean, samples)));
+  storeMean(p, vec4(mean, samples));
 #ifdef RESPONSIVE
   return sampleIsFinite && history.a > 0.0 ? luminance(radiance - history.rgb) : 0.0;
 #else

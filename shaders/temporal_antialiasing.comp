@@ -1,8 +1,9 @@
 // WALR postprocessing (walr.txt 4.4): reproject the filtered history with a bicubic filter, pull it into the variance of
 // the current neighbourhood, then a cumulative mean that turns exponential after a fixed number of frames. With KEPT_TAPS
 // the reprojection is what the accumulation kept of its own; else REJECT_BY_PLANE, REJECT_BY_DEPTH and REJECT_BY_OBJECT say
-// how history pixels are tested. STILL: every pixel shows what it showed before. A view (VIEW) does the same and writes something
-// found on the way.
+// how history pixels are tested. STILL: every pixel shows what it showed before. PACKED: what it reads and keeps is packed
+// (packed_light.glsl), and light is known of every surface; the picture it writes is not rounded so. A view (VIEW) does
+// the same and writes something found on the way.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -16,16 +17,26 @@ layout(constant_id = 2) const int kClipRadius = 1;  // Half the neighbourhood of
 layout(constant_id = 3) const bool kRejectHistory = true;  // Leave out taps that the accumulation did not accept.
 #endif
 
+#ifdef PACKED
+layout(set = 0, binding = 0) uniform utexture2D filtered;
+layout(set = 0, binding = 1) uniform utexture2D previousResolved;  // rgb: mean; a: history length.
+#else
 layout(set = 0, binding = 0) uniform texture2D filtered;  // a: below 0 where no light is known.
 layout(set = 0, binding = 1) uniform texture2D previousResolved;  // rgb: mean; a: history length.
+#endif
 #ifdef VIEW
 layout(constant_id = 8) const uint kView = 0;  // Which quantity; numbered in viewOf.
 layout(set = 0, binding = 2, rgba32f) uniform writeonly image2D outView;
 #else
+#ifdef PACKED
+layout(set = 0, binding = 2, r32ui) uniform writeonly uimage2D outResolved;
+layout(set = 0, binding = 12) uniform texture2D passed;
+#else
 layout(set = 0, binding = 2, rgba16f) uniform writeonly image2D outResolved;
+#endif
 layout(set = 0, binding = 3, rgba16f) uniform writeonly image2D outImage;
 #endif
-#ifndef STILL
+#if !defined(STILL) || (defined(PACKED) && !defined(VIEW))
 layout(set = 0, binding = 4, std140) uniform frameConstants { FrameConstants frame; };
 #endif
 #ifdef KEPT_TAPS
@@ -51,6 +62,16 @@ layout(set = 0, binding = 11) uniform utexture2D previousObjects;
 #endif
 layout(push_constant) uniform PushConstants { TemporalAntialiasingConstants settings; };
 
+#ifdef PACKED
+#include "include/packed_light.glsl"
+vec4 unpackHistory(uint packed) { return unpackResolved(packed, settings.maxSamples); }
+vec4 filteredAt(ivec2 q) { return vec4(unpackFiltered(texelFetch(filtered, q, 0).x), 1.0); }
+#ifndef VIEW
+#include "include/passed_light.glsl"
+#endif
+#else
+vec4 filteredAt(ivec2 q) { return texelFetch(filtered, q, 0); }
+#endif
 #include "include/bicubic.glsl"
 #include "include/half.glsl"
 
@@ -61,7 +82,7 @@ bool hasSurface(ivec2 q) { return unpackDepth(texelFetch(depth, q, 0).x) > 0.0; 
 
 vec4 historyOf(ivec2 p, out int rejected) {
   rejected = 0;
-  return texelFetch(previousResolved, p, 0);
+  return historyTexel(previousResolved, p);
 }
 #else
 #ifdef KEPT_TAPS
@@ -101,10 +122,17 @@ vec3 toYCoCg(vec3 c) {
 }
 vec3 fromYCoCg(vec3 c) { return vec3(c.x + c.y - c.z, c.x + c.z, c.x - c.y - c.z); }
 
-// Half size of the smallest clipping box, in units of luma: the rounding of the four halves that a history and a
-// neighbourhood are made of. Where chroma hardly varies, a smaller box would let that rounding decide how much history
-// of the luma is kept.
-const float kLeastReach = 4.0 / 2048.0;
+// Half size of the smallest clipping box around a mean: what rounds a history and a neighbourhood. Where chroma hardly
+// varies, a smaller box would let that rounding decide how much history of the luma is kept.
+#ifdef PACKED
+float leastReach(vec3 mean) {
+  const vec3 colour = fromYCoCg(mean);
+  const float brightest = max(max(colour.r, colour.g), colour.b);
+  return (1.0 / 128.0 + 2.0 / 256.0) * brightest;  // A step of the history and of two filtered colours.
+}
+#else
+float leastReach(vec3 mean) { return 4.0 / 2048.0 * mean.x; }  // The rounding of four halves.
+#endif
 
 // A colour pulled towards the mean until it is inside the box of `gamma` standard deviations (Salvi 2016).
 struct Clipped {
@@ -133,7 +161,7 @@ Neighbourhood neighbourhoodOf(ivec2 p, vec3 centre) {
   const int width = 2 * kClipRadius + 1;
   for (int i = 0; i < width * width; ++i) {
     const ivec2 q = clamp(p + ivec2(i % width, i / width) - kClipRadius, ivec2(0), last);
-    const vec4 colour = texelFetch(filtered, q, 0);
+    const vec4 colour = filteredAt(q);
     if (colour.a < 0.0 || !hasSurface(q)) continue;
     const vec3 difference = toYCoCg(colour.rgb) - centre;
     sum += difference;
@@ -148,7 +176,7 @@ Neighbourhood neighbourhoodOf(ivec2 p, vec3 centre) {
 Clipped clippedHistory(ivec2 p, vec3 current, vec3 history) {
   const vec3 centre = toYCoCg(current);
   const Neighbourhood n = neighbourhoodOf(p, centre);
-  const vec3 reach = max(settings.clipGamma * n.deviation, vec3(kLeastReach * (centre + n.mean).x));
+  const vec3 reach = max(settings.clipGamma * n.deviation, vec3(leastReach(centre + n.mean)));
   return varianceClip(toYCoCg(history), centre + n.mean, reach);
 }
 
@@ -183,18 +211,28 @@ void main() {
   const ivec2 p = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(p, textureSize(filtered, 0)))) return;
 
-  const vec4 current = texelFetch(filtered, p, 0);
+  const vec4 current = filteredAt(p);
 #ifdef VIEW
   imageStore(outView, p, vec4(hasSurface(p) ? viewOf(p, current) : vec3(0.0), 1.0));
 #else
   if (!hasSurface(p)) {
+#ifdef PACKED
+    imageStore(outResolved, p, uvec4(0u));
+    imageStore(outImage, p, vec4(passedLight(passed, p), 1.0));
+#else
     imageStore(outResolved, p, vec4(current.rgb, 0.0));
     imageStore(outImage, p, vec4(current.rgb, 1.0));
+#endif
     return;
   }
   int rejected;
-  const vec4 stored = nearestHalf(resolve(p, current, historyOf(p, rejected)));
-  imageStore(outResolved, p, stored);
-  imageStore(outImage, p, vec4(stored.rgb, 1.0));
+  const vec4 resolved = resolve(p, current, historyOf(p, rejected));
+#ifdef PACKED
+  const vec4 chances = chancesOf(p, frame.frameIndex, kResolvedKey);
+  imageStore(outResolved, p, uvec4(packResolved(resolved, settings.maxSamples, chances)));
+#else
+  imageStore(outResolved, p, nearestHalf(resolved));
+#endif
+  imageStore(outImage, p, nearestHalf(vec4(resolved.rgb, 1.0)));
 #endif
 }

@@ -12,7 +12,7 @@ vec4 catmullRom(float f) {
 // Radiance is bicubic where all four inner pixels show the surface and none of the outer ones is sky or otherwise
 // without history (length 0), whose light would ring into the surface; else the mean of the inner ones that show it.
 // Alpha, the history length, is that mean in either case.
-vec4 bicubicOfTaps(texture2D history, HistoryTaps taps) {
+vec4 bicubicOfTaps(HISTORY_TEXTURE history, HistoryTaps taps) {
   const vec4 linear = meanOfTaps(history, taps);
   if (taps.accepted != kAllTaps || linear.a == 0.0) return linear;
   const vec4 wx = catmullRom(taps.fraction.x), wy = catmullRom(taps.fraction.y);
@@ -21,7 +21,7 @@ vec4 bicubicOfTaps(texture2D history, HistoryTaps taps) {
   float shortest = linear.a;
   [[unroll]] for (int j = 0; j < 4; ++j) {
     [[unroll]] for (int i = 0; i < 4; ++i) {
-      const vec4 texel = texelFetch(history, clamp(taps.base + ivec2(i, j) - 1, ivec2(0), last), 0);
+      const vec4 texel = historyTexel(history, clamp(taps.base + ivec2(i, j) - 1, ivec2(0), last));
       cubic += wx[i] * wy[j] * texel.rgb;
       shortest = min(shortest, texel.a);
     }

@@ -1,6 +1,15 @@
 // The four history pixels around a reprojected position, each tested on its own.
+// With PACKED, histories are packed (utexture2D) as `unpackHistory` knows.
 #ifndef WALR_HISTORY_TAPS_GLSL
 #define WALR_HISTORY_TAPS_GLSL
+
+#ifdef PACKED
+#define HISTORY_TEXTURE utexture2D
+vec4 historyTexel(utexture2D history, ivec2 q) { return unpackHistory(texelFetch(history, q, 0).x); }
+#else
+#define HISTORY_TEXTURE texture2D
+vec4 historyTexel(texture2D history, ivec2 q) { return texelFetch(history, q, 0); }
+#endif
 
 struct HistoryTaps {
   ivec2 base;      // The upper left one.
@@ -26,13 +35,13 @@ const float kLeastTapWeight = 0.01;
 
 // Mean over the taps that show the surface and hold a sample: alpha is the number of samples behind a history pixel,
 // and one without any holds no light rather than black. 0 where there is no history at all.
-vec4 meanOfTaps(texture2D history, HistoryTaps taps) {
+vec4 meanOfTaps(HISTORY_TEXTURE history, HistoryTaps taps) {
   const vec4 weights = tapWeights(taps);
   vec4 sum = vec4(0.0);
   float weightSum = 0.0;
   for (int i = 0; i < 4; ++i) {
     if (weights[i] <= 0.0) continue;
-    const vec4 texel = texelFetch(history, historyTap(taps, i), 0);
+    const vec4 texel = historyTexel(history, historyTap(taps, i));
     if (texel.a == 0.0) continue;
     sum += weights[i] * texel;
     weightSum += weights[i];

@@ -178,7 +178,7 @@ Moments unpackMoments(PackedMoments p) {
 // the last iteration need not read it from where the first did.
 #ifdef FIRST
 uvec2 lightWithoutSurface(ivec2 p) {
-  const vec3 light = passedLight(p);
+  const vec3 light = passedLight(accumulated, p);
   return uvec2(packHalf2x16(light.rg), packHalf2x16(vec2(light.b, 0.0)));
 }
 #else

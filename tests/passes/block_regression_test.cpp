@@ -51,7 +51,7 @@ class RegressionRun {
  public:
   RegressionRun(const fg::vk::Device& device, const BlockRegressionSettings& settings)
       : run_(device, kSize, 2, [&](fg::Graph& graph, fg::Buffer frame, const walr::Guides& guides, const auto& inputs) {
-          return addBlockRegression(graph, frame, inputs[0], LightingAlpha::SampleCount, guides, inputs[1], settings);
+          return addBlockRegression(graph, frame, {inputs[0], LightingAlpha::SampleCount}, guides, inputs[1], settings);
         }) {}
 
   Image<glm::dvec4> filter(const Inputs& inputs) {
@@ -304,7 +304,7 @@ TEST(BlockRegressionSettings, ThePlaneRampMustHaveALength) {
   fg::Graph graph;
   const fg::Texture lighting = graph.texture("lighting", {VK_FORMAT_R16G16B16A16_SFLOAT, {64, 64}});
   try {
-    (void)addBlockRegression(graph, {}, lighting, LightingAlpha::SampleCount, {}, lighting,
+    (void)addBlockRegression(graph, {}, {lighting, LightingAlpha::SampleCount}, {}, lighting,
                              {.planeNear = 0.1F, .planeFar = 0.1F});
     FAIL() << "accepted";
   } catch (const std::invalid_argument& error) {

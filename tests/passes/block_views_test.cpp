@@ -44,8 +44,8 @@ class ViewedRegression {
     for (const std::string& view : views)
       inspection.want(view, graph_.import("view of " + view, {kViewFormat, extent}, fg::vk::kOverwritable));
     output_ = copyOut(graph_, "result",
-                      addBlockRegression(graph_, frame_, accumulated_, LightingAlpha::SampleCount, guides_, occlusion_,
-                                         settings, &inspection));
+                      addBlockRegression(graph_, frame_, {accumulated_, LightingAlpha::SampleCount}, guides_,
+                                         occlusion_, settings, &inspection));
     inspection.requireViews();
     for (const DebugView& view : inspection.views()) {
       graph_.exported(view.texture, fg::vk::kReadable);

@@ -18,8 +18,9 @@ struct DeviceFrame {
   WalrStages current;
 };
 
-/// Hold every stage of a frame against the double-precision reference. Each stage is given what the device's own stage
-/// before it left, so that a difference belongs to one stage and errors do not add up.
+/// Hold every stage of a frame, but the regression over blocks, against the double-precision reference. Each stage is
+/// given what the device's own stage before it left, so that a difference belongs to one stage and errors do not add
+/// up.
 void expectStages(const DeviceFrame& frame, const WalrSettings& settings);
 
 /// Denoise frames in turn; every output must be finite, and the last frame's stages hold.

@@ -1,5 +1,6 @@
 #include "tests/passes/texel_codec.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 
@@ -29,6 +30,35 @@ double unsignedFloat(std::uint32_t bits, int mantissaBits) {
 /// R11G11B10.
 glm::dvec3 triple(std::uint32_t word) {
   return {unsignedFloat(word & 0x7ffU, 6), unsignedFloat((word >> 11U) & 0x7ffU, 6), unsignedFloat(word >> 22U, 5)};
+}
+
+/// Three mantissas under a shared exponent.
+glm::dvec3 sharedExponent(std::uint32_t word, int mantissaBits) {
+  const std::uint32_t mask = (1U << mantissaBits) - 1U;
+  const int exponent = static_cast<int>(word >> (3 * mantissaBits)) & 31;
+  const auto channel = [&](int i) {
+    return std::ldexp(double((word >> (i * mantissaBits)) & mask), exponent - 15 - mantissaBits);
+  };
+  return {channel(0), channel(1), channel(2)};
+}
+
+/// Six bits: halves up to 7.5, then eight steps an octave.
+double decodeCount(std::uint32_t code) {
+  if (code < 8) return 0.5 * code;
+  return std::ldexp(double(8 + code % 8), static_cast<int>(code / 8) - 2);
+}
+
+/// Three bits: 0, powers of two to 32 and the longest.
+double decodeLength(std::uint32_t code, double longest) {
+  if (code == 0) return 0.0;
+  return code == 7 ? longest : std::min(std::ldexp(1.0, static_cast<int>(code) - 1), longest);
+}
+
+template <typename Decode>
+reference::Image<glm::dvec4> decodeWords(const std::vector<std::uint32_t>& texels, glm::ivec2 size, Decode decode) {
+  reference::Image<glm::dvec4> image(size);
+  for (std::size_t i = 0; i < texels.size(); ++i) image.pixels()[i] = decode(texels[i]);
+  return image;
 }
 
 /// The words of one pixel, texture after texture.
@@ -102,6 +132,23 @@ reference::Image<glm::dvec4> decodeHalves(const std::vector<std::uint16_t>& texe
   for (std::size_t i = 0; i < texels.size(); ++i)
     image.pixels()[i / 4][static_cast<int>(i % 4)] = double(glm::unpackHalf1x16(texels[i]));
   return image;
+}
+
+reference::Image<glm::dvec4> decodeAccumulated(const std::vector<std::uint32_t>& texels, glm::ivec2 size) {
+  return decodeWords(texels, size, [](std::uint32_t word) {
+    return glm::dvec4(sharedExponent(word, reference::kAccumulatedBits), decodeCount(word >> 26U));
+  });
+}
+
+reference::Image<glm::dvec4> decodeFiltered(const std::vector<std::uint32_t>& texels, glm::ivec2 size) {
+  return decodeWords(
+      texels, size, [](std::uint32_t word) { return glm::dvec4(sharedExponent(word, reference::kFilteredBits), 1.0); });
+}
+
+reference::Image<glm::dvec4> decodeResolved(const std::vector<std::uint32_t>& texels, double longest, glm::ivec2 size) {
+  return decodeWords(texels, size, [longest](std::uint32_t word) {
+    return glm::dvec4(sharedExponent(word, reference::kResolvedBits), decodeLength(word >> 29U, longest));
+  });
 }
 
 std::vector<float> encodeFloats(const reference::Image<double>& image) {

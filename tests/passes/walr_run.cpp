@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "shaders/constants/light_change.h"
 #include "tests/passes/texel_codec.h"
@@ -57,11 +58,11 @@ WalrRun::WalrRun(const fg::vk::Device& device, glm::ivec2 size, WalrSettings set
                  const InputConventions& conventions, bool inspect, const SceneDescription& scene,
                  const std::vector<std::string>& views)
     : size_(size),
-      storage_(settings.regression.storage),
+      settings_(std::move(settings)),
       copyImage_(reinterpret_cast<PFN_vkCmdCopyImage>(
           device.context().instance.vkGetDeviceProcAddr(device.context().view.device, "vkCmdCopyImage"))),
       inspect_(inspect) {
-  settings.fitWindow = false;
+  settings_.fitWindow = false;
   const fg::Extent extent = extentOf(size);
   const fg::TextureDesc halves{VK_FORMAT_R16G16B16A16_SFLOAT, extent};
   fg::Graph graph;
@@ -77,29 +78,30 @@ WalrRun::WalrRun(const fg::vk::Device& device, glm::ivec2 size, WalrSettings set
 
   for (const std::string& view : views)
     inspection_.want(view, graph.import("view of " + view, {kViewFormat, extent}, kOverwritable));
-  output_ = addWalr(graph, inputs_, output, settings, &inspection_);
+  output_ = addWalr(graph, inputs_, output, settings_, &inspection_);
   inspection_.requireViews();
   for (const DebugView& view : inspection_.views()) graph.exported(view.texture, kReadable);
   graph.exported(output_, kReadable);
-  if (inspect) inspectStages(graph, settings);
+  if (inspect) inspectStages(graph);
   run_ = std::make_unique<fg::test::GraphRun>(device, graph);
 }
 
-void WalrRun::inspectStages(fg::Graph& graph, const WalrSettings& settings) {
+void WalrRun::inspectStages(fg::Graph& graph) {
   constexpr std::array kMomentNames{"moments a ", "moments b ", "moments c ", "moments d "};
   depth_ = tap(graph, findGuide(graph, "guides.depth"));
   shadingNormal_ = tap(graph, textureNamed(graph, "guides.shading normal"));
   const fg::Texture geometricNormal = findGuide(graph, "guides.geometric normal");
   if (geometricNormal.valid()) geometricNormal_ = tap(graph, geometricNormal);
   accumulated_ = tap(graph, textureNamed(graph, "accumulated.current"));
-  if (settings.accumulation.change.respond) {
+  if (settings_.accumulation.change.respond) {
     changeTiles_ = tap(graph, textureNamed(graph, "light change.tiles"));
     doubt_ = tap(graph, textureNamed(graph, "light change.doubt.current"));
   }
-  for (std::uint32_t t = 0; t + 1 < settings.regression.iterations; ++t) {
+  const bool pixels = settings_.filter == SpatialFilter::Pixels;
+  for (std::uint32_t t = 0; pixels && t + 1 < settings_.regression.iterations; ++t) {
     const std::string number = std::to_string(t);
     Iteration iteration;
-    for (std::size_t i = 0; i < momentTextures(storage_); ++i)
+    for (std::size_t i = 0; i < momentTextures(settings_.regression.storage); ++i)
       iteration.moments.push_back(tap(graph, textureNamed(graph, kMomentNames.at(i) + number)));
     iteration.depth = tap(graph, textureNamed(graph, "depth and edges " + number));
     iterations_.push_back(iteration);
@@ -149,7 +151,11 @@ WalrStages WalrRun::frame(const reference::HostFrame& frame) {
   stages.guides =
       decodeGuides(words(depth_), words(shadingNormal_),
                    geometricNormal_.valid() ? words(geometricNormal_) : std::vector<std::uint32_t>(), size_);
-  stages.accumulated = halves(accumulated_);
+  const bool blocks = settings_.filter == SpatialFilter::Blocks;
+  const bool packedMean = blocks && settings_.accumulation.storage == LightStorage::Packed;
+  const bool packedPictures = blocks && settings_.antialiasing.storage == LightStorage::Packed;
+  const double longest = settings_.antialiasing.maxSamples;
+  stages.accumulated = packedMean ? decodeAccumulated(words(accumulated_), size_) : halves(accumulated_);
   if (doubt_.valid()) {
     const glm::ivec2 tiles = (size_ + kLightChangeTile - 1) / kLightChangeTile;
     const std::vector<float> sums = run_->texels<float>(changeTiles_);
@@ -164,13 +170,14 @@ WalrStages WalrRun::frame(const reference::HostFrame& frame) {
   for (const Iteration& iteration : iterations_) {
     std::vector<std::vector<std::uint32_t>> textures;
     for (const fg::Texture& texture : iteration.moments) textures.push_back(words(texture));
-    reference::AtrousState state{decodeMoments(storage_, textures, size_), reference::Image<int>(size_)};
+    reference::AtrousState state{decodeMoments(settings_.regression.storage, textures, size_),
+                                 reference::Image<int>(size_)};
     const std::vector<std::uint32_t> depth = words(iteration.depth);
     for (std::size_t i = 0; i < depth.size(); ++i) state.distances.pixels()[i] = decodeEdgeDistance(depth[i]);
     stages.iterations.push_back(std::move(state));
   }
-  stages.filtered = halves(filtered_);
-  stages.resolved = halves(resolved_);
+  stages.filtered = packedPictures ? decodeFiltered(words(filtered_), size_) : halves(filtered_);
+  stages.resolved = packedPictures ? decodeResolved(words(resolved_), longest, size_) : halves(resolved_);
   return stages;
 }
 

@@ -18,7 +18,7 @@ struct WalrStages {
   reference::Image<glm::dvec4> accumulated;        ///< rgb: mean; a: number of samples.
   reference::Image<glm::dvec2> changeTiles;        ///< Of light that changes: sum, sum of squares; empty without.
   reference::Image<double> doubt;                  ///< The same: in history, by tiles.
-  std::vector<reference::AtrousState> iterations;  ///< After each iteration but the last.
+  std::vector<reference::AtrousState> iterations;  ///< After each iteration but the last; over pixels.
   reference::Image<glm::dvec4> filtered;
   reference::Image<glm::dvec4> resolved;  ///< rgb: mean; a: number of frames.
   reference::Image<glm::dvec4> output;
@@ -49,12 +49,12 @@ class WalrRun {
     fg::Texture depth;
   };
 
-  void inspectStages(fg::Graph& graph, const WalrSettings& settings);
+  void inspectStages(fg::Graph& graph);
   /// Copy a texture to where the test can read it.
   fg::Texture tap(fg::Graph& graph, fg::Texture texture);
 
   glm::ivec2 size_;
-  MomentStorage storage_;
+  WalrSettings settings_;
   PFN_vkCmdCopyImage copyImage_;
   DenoiserInputs inputs_;
   bool inspect_;

@@ -70,6 +70,10 @@ TEST(Numerics, TellStableFromUnstableArithmetic) {
 }
 
 /// A denoiser may leave noise, but must not make errors that were not there, nor values that are no light.
+// A pixel alone in the sky comes out as it went in, but that `walr` packs light: the mean over time errs by less than a
+// step of 7 bits, that is, 2^-6 of the brightest channel, and the filtered colour by one of 9.
+constexpr double kPackedRoundoff = 0x1p-6 + 0x1p-8;
+
 TEST(MethodHardCases, NothingComesOutWorseThanItWentIn) {
   GpuDevice device({.device = {}, .validation = true});
   const std::vector<Variant> variants = parseMethods("none,walr,walr:robust,bmfr,svgf,svgf:paper,flr,joint_bilateral");
@@ -84,7 +88,9 @@ TEST(MethodHardCases, NothingComesOutWorseThanItWentIn) {
     if (result.variant == "none") continue;
     EXPECT_EQ(result.nonFiniteOut, 0U);
     EXPECT_EQ(result.negativeOut, 0U);
-    EXPECT_LE(result.error, noisy.error);
+    // Relative to the truth, beside which the noisy light is at most 1 and its own error.
+    const double rounding = result.variant == "walr" ? kPackedRoundoff * (1.0 + noisy.error) : 0.0;
+    EXPECT_LE(result.error, noisy.error + rounding);
   }
   EXPECT_TRUE(device.takeMessages().empty());
 }

@@ -18,6 +18,28 @@ double roundToFormat(double value, int digits, int smallestExponent) {
 
 }  // namespace
 
+double packedStep(double brightest, int mantissaBits) {
+  constexpr int kBias = 15;
+  const double most = std::ldexp(1.0, mantissaBits) - 1.0;
+  double step = std::ldexp(1.0, -kBias - mantissaBits);
+  while (brightest > most * step) step *= 2.0;
+  return step;
+}
+
+double largestPacked(int mantissaBits) {
+  return std::ldexp(std::ldexp(1.0, mantissaBits) - 1.0, 16 - mantissaBits);
+}
+
+double packedCountStep(double count) {
+  return count < 8.0 ? 0.5 : std::exp2(std::floor(std::log2(count)) - 3.0);
+}
+
+double packedLengthStep(double length, double longest) {
+  constexpr double kLastPower = 32.0;
+  const double low = std::min(std::exp2(std::floor(std::log2(length))), kLastPower);
+  return (low == kLastPower ? longest : std::min(2.0 * low, longest)) - low;
+}
+
 double roundToHalf(double value) {
   const double rounded = roundToFormat(value, 11, -24);
   return std::abs(rounded) > kLargestHalf ? std::copysign(std::numeric_limits<double>::infinity(), value) : rounded;

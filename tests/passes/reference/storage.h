@@ -17,6 +17,21 @@ inline constexpr double kDepthRoundoff = 0x1p-19;      ///< Largest relative err
 inline constexpr double kUnorm16Step = 1.0 / 65535.0;  ///< Step between 16-bit unorms.
 inline constexpr double kFloatRoundoff = 0x1p-24;      ///< Largest relative error of one operation in single precision.
 
+/// Bits of mantissa of packed light (packed_light.glsl).
+inline constexpr int kAccumulatedBits = 7;
+inline constexpr int kFilteredBits = 9;
+inline constexpr int kResolvedBits = 8;
+
+/// Step between packed colours whose brightest channel is this one: the smallest of which the mantissa, rounded up, can
+/// count enough.
+double packedStep(double brightest, int mantissaBits);
+/// Largest packed channel.
+double largestPacked(int mantissaBits);
+/// Step between packed counts of samples.
+double packedCountStep(double count);
+/// Step between packed lengths of at least 1.
+double packedLengthStep(double length, double longest);
+
 /// Nearest half, ties to even; infinite from 65520 on.
 double roundToHalf(double value);
 /// Nearest half that is finite.

@@ -32,7 +32,7 @@ Image<Accumulated> accumulate(const HostFrame& frame, const Image<Guide>& guides
     const glm::dvec3 noisy = frame.lighting[p];
     Accumulated& out = result[p];
     if (guides[p].depth == 0.0) {
-      out.mean = isFinite(noisy) ? noisy : glm::dvec3(0.0);
+      if (settings.storage == LightStorage::Half && isFinite(noisy)) out.mean = noisy;
       return;
     }
     HistorySample past;

@@ -8,8 +8,14 @@
 namespace walr::reference {
 namespace {
 
-/// Half size of the smallest clipping box in units of luma: the rounding of four halves.
-constexpr double kLeastReach = 4.0 * kHalfRoundoff;
+/// Half size of the smallest clipping box around a mean, in YCoCg: the rounding of four halves in units of luma, or, in
+/// units of the brightest channel, the steps that a packed history and two packed colours may be off by.
+double leastReach(glm::dvec3 mean, LightStorage storage) {
+  if (storage == LightStorage::Half) return 4.0 * kHalfRoundoff * mean.x;
+  const glm::dvec3 colour = fromYCoCg(mean);
+  return (std::exp2(-kResolvedBits + 1) + 2.0 * std::exp2(-kFilteredBits + 1)) *
+         std::max({colour.r, colour.g, colour.b});
+}
 
 /// Mean and spread of the surface pixels around a pixel.
 struct Neighbourhood {
@@ -41,7 +47,7 @@ Neighbourhood neighbourhoodOf(const Image<Guide>& guides, const Image<glm::dvec4
     size += (c - centre) * (c - centre) / count;
   }
   const glm::dvec3 deviation = glm::sqrt(variance);
-  const double least = kLeastReach * n.mean.x;
+  const double least = leastReach(n.mean, settings.storage);
   n.reach = glm::max(gamma * deviation, least);
   // The variance is a difference of two averages of at most `size`, each with about a rounding a pixel; the colour
   // transform rounds the differences themselves by a few roundoffs of the colour.

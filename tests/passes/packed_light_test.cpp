@@ -1,0 +1,359 @@
+// Light in 32 bits: what the packing keeps, that its rounding has no bias, and what becomes of it from stage to stage.
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <glm/common.hpp>
+
+#include "passes/ambient_occlusion.h"
+#include "passes/block_regression.h"
+#include "tests/passes/comparison.h"
+#include "tests/passes/filter_run.h"
+#include "tests/passes/shaders.h"
+#include "tests/passes/stage_checks.h"
+#include "tests/passes/synthetic_scene.h"
+#include "tests/vulkan/gpu_fixture.h"
+
+namespace walr::test {
+namespace {
+
+using reference::HostFrame;
+using reference::Image;
+
+/// A packing as the shader that rounds knows it.
+struct Packing {
+  const char* name;
+  std::uint32_t key;
+  int mantissaBits;
+};
+constexpr Packing kAccumulated{"accumulated", 0x100, reference::kAccumulatedBits};
+constexpr Packing kFiltered{"filtered", 0x101, reference::kFilteredBits};
+constexpr Packing kResolved{"resolved", 0x102, reference::kResolvedBits};
+
+/// Pixels that round the same light: each by a chance of its own.
+constexpr int kChances = 4096;
+
+/// A column of mean and variance over the chances, row by row.
+struct Rounded {
+  glm::dvec4 least{std::numeric_limits<double>::infinity()};
+  glm::dvec4 most{-std::numeric_limits<double>::infinity()};
+  glm::dvec4 mean{0.0};
+};
+
+class PackedLight : public fg::test::GpuTest {
+ protected:
+  /// What becomes of lights by all chances.
+  [[nodiscard]] std::vector<Rounded> round(const Packing& packing, const std::vector<glm::dvec4>& lights,
+                                           std::uint32_t longest = 3, std::uint32_t frame = 0) const {
+    const fg::Extent extent{kChances, static_cast<std::uint32_t>(lights.size())};
+    const fg::TextureDesc floats{VK_FORMAT_R32G32B32A32_SFLOAT, extent};
+    fg::Graph graph;
+    const fg::Texture source = graph.import("source", floats, fg::vk::kUploaded);
+    fg::Texture target = graph.import("target", floats, fg::vk::kOverwritable);
+    fg::PassBuilder pass = graph.compute("round", shaders::roundLight);
+    pass.sample("source", source)
+        .specialize("kKey", packing.key)
+        .specialize("kFrame", frame)
+        .specialize("kLongest", longest)
+        .dispatch(extent);
+    target = pass.store("target", target);
+    graph.exported(target, fg::vk::kReadable);
+    fg::test::GraphRun run(device(), graph);
+    std::vector<float> texels;
+    for (const glm::dvec4& light : lights)
+      for (int i = 0; i < kChances; ++i)
+        for (int c = 0; c < 4; ++c) texels.push_back(static_cast<float>(light[c]));
+    run.fill(source, texels);
+    run.frame();
+    const std::vector<float> result = run.texels<float>(target);
+    std::vector<Rounded> rounded(lights.size());
+    for (std::size_t i = 0; i < result.size() / 4; ++i) {
+      const glm::dvec4 v(result[4 * i], result[4 * i + 1], result[4 * i + 2], result[4 * i + 3]);
+      Rounded& r = rounded[i / kChances];
+      r.least = glm::min(r.least, v);
+      r.most = glm::max(r.most, v);
+      r.mean += v / double(kChances);
+    }
+    return rounded;
+  }
+};
+
+double brightest(glm::dvec4 light) {
+  return std::max({light.r, light.g, light.b});
+}
+
+double single(double value) {
+  return double(static_cast<float>(value));
+}
+
+/// Light of all magnitudes that half precision knows, grey and saturated.
+std::vector<glm::dvec4> lightsOfAllMagnitudes() {
+  std::vector<glm::dvec4> lights;
+  const glm::dvec3 colours[] = {{1.0, 0.83, 0.59}, {0.021, 1.0, 0.37}, {0.0013, 0.0, 1.0}};
+  int i = 0;
+  for (double magnitude = 3e-7; magnitude < 6e4; magnitude *= 1.61) {
+    const glm::dvec3 light = magnitude * colours[i++ % 3];
+    lights.emplace_back(single(light.r), single(light.g), single(light.b), 1.0);
+  }
+  return lights;
+}
+
+/// Rounding by chance gives `low` or `low + step`, and `value` on average: within five standard deviations of the mean
+/// of as many trials as there are chances, and what the chances are rounded to.
+void expectByChance(const Rounded& actual, int channel, double value, double low, double step) {
+  const double share = (value - low) / step;
+  const double deviation = step * std::sqrt(std::max(share * (1.0 - share), 0.0) / kChances);
+  EXPECT_GE(actual.least[channel], low);
+  EXPECT_LE(actual.most[channel], share == 0.0 ? low : low + step);
+  EXPECT_NEAR(actual.mean[channel], value, 5.0 * deviation + 0x1p-23 * step + kChances * 0x1p-52 * value);
+}
+
+TEST_F(PackedLight, ColoursAreRoundedToNeighboursWithoutBias) {
+  const std::vector<glm::dvec4> lights = lightsOfAllMagnitudes();
+  for (const Packing& packing : {kAccumulated, kFiltered, kResolved}) {
+    const std::vector<Rounded> rounded = round(packing, lights);
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+      const double step = reference::packedStep(brightest(lights[i]), packing.mantissaBits);
+      for (int c = 0; c < 3; ++c) {
+        SCOPED_TRACE(std::string(packing.name) + ": " + std::to_string(lights[i][c]) + " of " +
+                     std::to_string(brightest(lights[i])));
+        expectByChance(rounded[i], c, lights[i][c], std::floor(lights[i][c] / step) * step, step);
+      }
+    }
+  }
+}
+
+TEST_F(PackedLight, WhatHasBeenRoundedStays) {
+  for (const Packing& packing : {kAccumulated, kFiltered, kResolved}) {
+    std::vector<glm::dvec4> lights;
+    const int most = (1 << packing.mantissaBits) - 1;
+    for (int exponent = -15; exponent <= 16; ++exponent) {
+      const double step = std::ldexp(1.0, exponent - packing.mantissaBits);
+      lights.emplace_back(most * step, 0.0, step, 2.0);
+      lights.emplace_back((most / 2 + 1) * step, 3.0 * step, (most / 2) * step, 1.0);
+    }
+    lights.emplace_back(0.0);
+    const std::vector<Rounded> rounded = round(packing, lights);
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+      EXPECT_EQ(rounded[i].least, lights[i]) << packing.name << ' ' << i;
+      EXPECT_EQ(rounded[i].most, lights[i]) << packing.name << ' ' << i;
+    }
+  }
+}
+
+TEST_F(PackedLight, TheLimitsOfTheFormatHold) {
+  for (const Packing& packing : {kAccumulated, kFiltered, kResolved}) {
+    SCOPED_TRACE(packing.name);
+    const double largest = reference::largestPacked(packing.mantissaBits);
+    const double smallest = std::ldexp(1.0, -15 - packing.mantissaBits);
+    const std::vector<Rounded> rounded =
+        round(packing, {{largest, largest, 1.0, 1.0},
+                        {reference::kLargestHalf, 1e30, std::numeric_limits<double>::infinity(), 1.0},
+                        {-1.0, -0.0, -1e30, 1.0},
+                        {0x1p-140, 0x1p-126, 0.5 * smallest, 1.0}});
+    EXPECT_EQ(glm::dvec2(rounded[0].least), glm::dvec2(largest));
+    EXPECT_EQ(glm::dvec3(rounded[1].least), glm::dvec3(largest));
+    EXPECT_EQ(glm::dvec3(rounded[1].most), glm::dvec3(largest));
+    EXPECT_EQ(glm::dvec3(rounded[2].least), glm::dvec3(0.0));
+    EXPECT_EQ(glm::dvec3(rounded[2].most), glm::dvec3(0.0));
+    EXPECT_EQ(glm::dvec2(rounded[3].most), glm::dvec2(0.0));
+    expectByChance(rounded[3], 2, 0.5 * smallest, 0.0, smallest);
+  }
+}
+
+TEST_F(PackedLight, CountsAreRoundedToNeighboursWithoutBias) {
+  std::vector<glm::dvec4> lights;
+  for (int i = 0; i <= 16; ++i) lights.emplace_back(1.0, 1.0, 1.0, i);
+  for (double count = 1.0; count < 255.0; count *= 1.137) lights.emplace_back(1.0, 1.0, 1.0, single(count));
+  lights.emplace_back(1.0, 1.0, 1.0, 255.0);
+  const std::vector<Rounded> rounded = round(kAccumulated, lights);
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    SCOPED_TRACE(lights[i].a);
+    const double step = reference::packedCountStep(lights[i].a);
+    expectByChance(rounded[i], 3, lights[i].a, std::floor(lights[i].a / step) * step, step);
+  }
+}
+
+TEST_F(PackedLight, LengthsAreRoundedToNeighboursWithoutBias) {
+  for (const std::uint32_t longest : {1U, 2U, 3U, 7U, 64U, 255U}) {
+    std::vector<glm::dvec4> lights;
+    for (double length = 1.0; length < longest; length *= 1.083) lights.emplace_back(1.0, 1.0, 1.0, single(length));
+    lights.emplace_back(1.0, 1.0, 1.0, 0.0);
+    lights.emplace_back(1.0, 1.0, 1.0, longest);
+    const std::vector<Rounded> rounded = round(kResolved, lights, longest);
+    for (std::size_t i = 0; i + 2 < lights.size(); ++i) {
+      const double length = lights[i].a;
+      SCOPED_TRACE(std::to_string(length) + " of " + std::to_string(longest));
+      const double low = std::min(std::exp2(std::floor(std::log2(length))), 32.0);
+      expectByChance(rounded[i], 3, length, low, reference::packedLengthStep(length, longest));
+    }
+    for (std::size_t i = lights.size() - 2; i < lights.size(); ++i) {
+      EXPECT_EQ(rounded[i].least.a, lights[i].a) << longest;
+      EXPECT_EQ(rounded[i].most.a, lights[i].a) << longest;
+    }
+  }
+}
+
+// Chances of successive frames are others, of the same frame the same.
+TEST_F(PackedLight, FramesAreRoundedByTheirOwnChances) {
+  const std::vector<glm::dvec4> lights(8, glm::dvec4(0.7001, 0.3337, 0.1003, 1.0));
+  const auto meanOfRow = [&](std::uint32_t frame) { return round(kResolved, lights, 3, frame)[0].mean; };
+  EXPECT_EQ(meanOfRow(5), meanOfRow(5));
+  EXPECT_NE(meanOfRow(5), meanOfRow(6));
+}
+
+constexpr glm::ivec2 kSize(64, 48);
+
+/// Three frames of a camera that moves by about a pixel and a half.
+std::vector<HostFrame> movingFrames(const Scene& scene) {
+  const auto at = [](double i) { return glm::dvec3(0.09 * i, 0.04 * i, -0.03 * i); };
+  std::vector<HostFrame> frames;
+  for (std::uint32_t i = 0; i < 3; ++i)
+    frames.push_back(renderFrame(scene, cameraAt(at(i), at(i - 1.0), kSize, i), kSize));
+  return frames;
+}
+
+/// Where the temporal stages look for history, and how.
+struct NamedSettings {
+  const char* name;
+  WalrSettings settings;
+};
+std::vector<NamedSettings> waysToReproject() {
+  WalrSettings apart = blocksWalr();
+  apart.antialiasing.normalThreshold = 0.4F;  // Its own reprojection.
+  WalrSettings byDepth = blocksWalr();
+  byDepth.accumulation.rejection = byDepth.antialiasing.rejection = HistoryRejection::Depth;
+  byDepth.accumulation.historyFilter = HistoryFilter::Bicubic;
+  byDepth.accumulation.change.respond = false;
+  WalrSettings untested = blocksWalr();
+  untested.accumulation.rejection = untested.antialiasing.rejection = HistoryRejection::None;
+  untested.antialiasing.maxSamples = 100.0F;
+  WalrSettings accumulationOnly = blocksWalr();
+  accumulationOnly.antialiasing.storage = LightStorage::Half;
+  WalrSettings antialiasingOnly = blocksWalr();
+  antialiasingOnly.accumulation.storage = LightStorage::Half;
+  return {{"shared", blocksWalr()},
+          {"apart", apart},
+          {"by depth", byDepth},
+          {"untested", untested},
+          {"packed accumulation", accumulationOnly},
+          {"packed anti-aliasing", antialiasingOnly}};
+}
+
+TEST_F(PackedLight, TemporalStagesHoldOnEveryScene) {
+  for (const NamedScene& named : allScenes()) {
+    SCOPED_TRACE(named.name);
+    expectSequence(device(), movingFrames(named.scene), blocksWalr());
+  }
+}
+
+TEST_F(PackedLight, TemporalStagesHoldHoweverHistoryIsFound) {
+  for (const NamedSettings& named : waysToReproject()) {
+    SCOPED_TRACE(named.name);
+    for (const SceneDescription& scene : {SceneDescription{}, SceneDescription{.objectMotion = false}}) {
+      std::vector<HostFrame> frames = movingFrames(skyBesideSurface());
+      for (HostFrame& frame : frames) {
+        frame.scene = scene;
+        for (std::size_t i = 0; i < frame.depth.pixels().size(); ++i)
+          if (frame.depth.pixels()[i] > 1e9) frame.lighting.pixels()[i] = glm::dvec3(3.0, -2.0, 5.0);
+      }
+      expectSequence(device(), frames, named.settings);
+    }
+    std::vector<HostFrame> still;
+    for (std::uint32_t i = 0; i < 5; ++i) {
+      still.push_back(renderStill(stairs(), kSize, i));
+      still.back().scene = {.cameraMotion = false, .objectMotion = false};
+    }
+    expectSequence(device(), still, named.settings);
+  }
+}
+
+// The regression over packed light gives what it gives over the same light in halves, rounded by less than a step.
+TEST_F(PackedLight, BlocksReadAndWriteIt) {
+  const WalrSettings settings = blocksWalr();
+  FilterRun inHalves(
+      device(), kSize, 1, [&](fg::Graph& graph, fg::Buffer frame, const walr::Guides& guides, const auto& inputs) {
+        return addBlockRegression(graph, frame, {inputs[0], LightingAlpha::SampleCount}, guides,
+                                  addAmbientOcclusion(graph, frame, guides, settings.occlusion), settings.blocks);
+      });
+  for (const NamedScene& named : allScenes()) {
+    WalrRun run(device(), kSize, settings);
+    WalrStages stages;
+    HostFrame last;
+    for (const HostFrame& frame : movingFrames(named.scene)) stages = run.frame(last = frame);
+    const Image<glm::dvec4> expected = inHalves.run(last, stages.guides, {stages.accumulated});
+    Comparison comparison(named.name);
+    reference::forEachPixel(kSize, [&](glm::ivec2 p) {
+      comparison.compared();
+      if (stages.guides[p].depth == 0.0) return;
+      const double step = reference::packedStep(brightest(expected[p]) * (1.0 + 2.0 * reference::kHalfRoundoff),
+                                                reference::kFilteredBits);
+      for (int c = 0; c < 3; ++c)
+        comparison.value(p, "radiance", stages.filtered[p][c], expected[p][c],
+                         step + halfTolerance(expected[p][c], 0.0));
+    });
+    comparison.expect(0.0);
+  }
+}
+
+// Light without noise on a still wall, of which no channel is what the packing holds and two are darker than its steps.
+// What comes out scatters about it over time by no more than chance explains, and about nothing else on average.
+TEST_F(PackedLight, AStillPictureIsSteadyAndTrue) {
+  const glm::dvec3 light(0.3, 0.01, 0.0007);
+  constexpr std::uint32_t kUnsettled = 24;
+  constexpr std::uint32_t kFrames = 64;
+  const WalrSettings settings = blocksWalr();
+  WalrRun run(device(), kSize, settings, {}, false);
+  Image<glm::dvec3> sums(kSize);
+  Image<glm::dvec3> squares(kSize);
+  HostFrame frame = renderStill(flatWall(), kSize, 0, Noise::None);
+  for (glm::dvec3& l : frame.lighting.pixels())
+    for (int c = 0; c < 3; ++c) l[c] = reference::roundToHalf(light[c]);
+  const glm::dvec3 truth = frame.lighting.pixels().front();
+  for (std::uint32_t i = 0; i < kUnsettled + kFrames; ++i) {
+    frame.constants.frameIndex = i;
+    const WalrStages stages = run.frame(frame);
+    if (i < kUnsettled) continue;
+    reference::forEachPixel(kSize, [&](glm::ivec2 p) {
+      const glm::dvec3 error = glm::dvec3(stages.output[p]) - truth;
+      sums[p] += error;
+      squares[p] += error * error;
+    });
+  }
+  // Rounding adds a variance of at most a quarter of a step squared. An exponential mean of n adds up its own to n^2 /
+  // (2 n - 1) as much, and passes on 1 / (2 n - 1) of that of what it averages; of the history 1 - 1 / n is seen.
+  const double n = settings.antialiasing.maxSamples;
+  const auto steps = [&](int bits) { return reference::packedStep(truth.r, bits); };
+  const double filtered = 0.25 * std::pow(steps(reference::kFilteredBits), 2.0);
+  const double resolved = 0.25 * std::pow(steps(reference::kResolvedBits), 2.0);
+  const double spread = filtered / (2.0 * n - 1.0) + resolved * std::pow(n - 1.0, 2.0) / (2.0 * n - 1.0);
+  // The mean of an accumulated pixel, whose blocks and windows pass on less than its variance, is that of 1 / (1 - a)
+  // times fewer frames.
+  const double m = settings.accumulation.maxSamples;
+  const double accumulated = 0.25 * std::pow(steps(reference::kAccumulatedBits), 2.0);
+  const double trials = double(kFrames) * kSize.x * kSize.y;
+  const double deviationOfMean =
+      std::sqrt((accumulated * m * m + filtered + resolved * (n - 1.0) * (n - 1.0)) / trials);
+  glm::dvec3 bias(0.0);
+  glm::dvec3 variance(0.0);
+  for (std::size_t i = 0; i < sums.pixels().size(); ++i) {
+    const glm::dvec3 mean = sums.pixels()[i] / double(kFrames);
+    bias += mean / double(sums.pixels().size());
+    variance += (squares.pixels()[i] / double(kFrames) - mean * mean) / double(sums.pixels().size());
+  }
+  for (int c = 0; c < 3; ++c) {
+    RecordProperty("relative_bias_" + std::to_string(c), std::to_string(bias[c] / truth[c]));
+    RecordProperty("deviation_of_brightest_" + std::to_string(c), std::to_string(std::sqrt(variance[c]) / truth.r));
+    // Halves of the blocks' moments and fits and of the output round to nearest.
+    const double halves = 6.0 * 2.0 * reference::kHalfRoundoff * truth[c];
+    EXPECT_NEAR(bias[c], 0.0, 5.0 * deviationOfMean + halves) << c;
+    EXPECT_LE(variance[c], spread + halves * halves) << c;
+  }
+}
+
+}  // namespace
+}  // namespace walr::test

@@ -1,0 +1,27 @@
+// What light becomes when it is packed and unpacked, for tests of the packing.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_samplerless_texture_functions : require
+#include "include/packed_light.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(constant_id = 0) const uint kKey = 0;  // Of the texture whose packing it is.
+layout(constant_id = 1) const uint kFrame = 0;
+layout(constant_id = 2) const uint kLongest = 1;  // Length.
+layout(set = 0, binding = 0) uniform texture2D source;
+layout(set = 0, binding = 1, rgba32f) uniform writeonly image2D target;
+
+vec4 rounded(vec4 light, vec4 chances) {
+  switch (kKey) {
+    case kAccumulatedKey: return unpackAccumulated(packAccumulated(light, chances));
+    case kFilteredKey: return vec4(unpackFiltered(packFiltered(light.rgb, chances.rgb)), light.a);
+    case kResolvedKey: return unpackResolved(packResolved(light, float(kLongest), chances), float(kLongest));
+  }
+  return vec4(0.0);
+}
+
+void main() {
+  const ivec2 p = ivec2(gl_GlobalInvocationID.xy);
+  if (any(greaterThanEqual(p, textureSize(source, 0)))) return;
+  imageStore(target, p, rounded(texelFetch(source, p, 0), chancesOf(p, kFrame, kKey)));
+}
