@@ -62,6 +62,7 @@ BlockGrid gridOf(fg::Graph& graph, fg::Buffer frame, fg::Extent pixels, const Bl
   constants.coarseNarrowing = s.coarseNarrowing;
   constants.coarseReach = s.coarseReach;
   constants.coarseGrowthErrors = s.coarseGrowthErrors;
+  constants.coarseGrowthOcclusion = s.coarseGrowthOcclusion;
   constants.coarseSamples = s.coarseSamples;
   return {graph, frame, pixels, blocks, gridExtent(pixels, cellSize), s.size, cellBlocks, cellSize, constants};
 }

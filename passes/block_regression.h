@@ -25,7 +25,8 @@ struct BlockRegressionSettings {
   float coarseNarrowing = 0.3F;
   float coarseReach = 3.0F;
   float coarseResolution = 1.1F;
-  float coarseGrowthErrors = 2.0F;
+  float coarseGrowthErrors = 2.3F;
+  float coarseGrowthOcclusion = 4.0F;
   float coarseSamples = 3200.0F;
 
   void visit(SettingVisitor& v) {
@@ -72,6 +73,10 @@ struct BlockRegressionSettings {
          "full; at twice as many that does not at all",
          "standard errors", 0.001, 1e6, "measured"},
         coarseGrowthErrors);
+    v.visit({"blocks.coarse-growth-occlusion",
+             "How much fewer these errors are where occluders are near: by 1 + this x ambient occlusion", "", 0.0,
+             100.0, "measured"},
+            coarseGrowthOcclusion);
     v.visit({"blocks.coarse-samples", "Paths that the coarse fit counts for beside those in a block's window", "paths",
              0.0, 1e6, "measured"},
             coarseSamples);
@@ -90,7 +95,7 @@ struct BlockLight {
 /// edge-aware a-trous averages, a coarse fit where they hold few samples, and the reconstruction of every pixel from
 /// the fits around it.
 /// @param frame      upload of `FrameConstants`
-/// @param occlusion  R16_SFLOAT: ambient occlusion
+/// @param occlusion  ambient occlusion, 0 to 1
 /// @param inspection is offered the views of every iteration and of the reconstruction
 /// @param tiles      where given, the reconstruction is dispatched over them, and the sky's light is passed through
 /// apart

@@ -28,6 +28,7 @@ struct Window {
   float slope[kFeatures];  // Of luminance.
   float noise;             // Share of the variance that the fit leaves.
   float pixels;            // As many as would have the same error at equal weights.
+  float errors;            // Standard errors up to which others join in full: near occluders light varies faster.
 };
 
 Window windowOf(BlockMoments m) {
@@ -44,6 +45,7 @@ Window windowOf(BlockMoments m) {
   const float sigma = float(kCellSize) * coarseSigma(paths);
   // Where there is less than a path a pixel, some pixels have none.
   w.pixels = 4.0 * kPi * sigma * sigma * min(paths, 1.0);
+  w.errors = settings.coarseGrowthErrors / (1.0 + settings.coarseGrowthOcclusion * max(m.x[kOcclusionFeature], 0.0));
   return w;
 }
 
@@ -52,7 +54,7 @@ float sameLight(Window w, BlockMoments m) {
   float difference = luminance(m.y - w.moments.y);
   for (int i = 0; i < kFeatures; ++i) difference -= w.slope[i] * (m.x[i] - w.moments.x[i]);
   const float variance = w.noise * (w.moments.yy + m.yy) / w.pixels;
-  return sameLight(difference, variance, luminance(w.moments.y + m.y), settings.coarseGrowthErrors);
+  return sameLight(difference, variance, luminance(w.moments.y + m.y), w.errors);
 }
 
 BlockMoments grown(ivec2 cell, float z, BlockMoments own) {

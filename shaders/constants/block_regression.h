@@ -14,12 +14,13 @@ struct BlockRegressionConstants {
   float coarseSigma;    // Standard deviation of the coarse fit's Gaussian window at one path a pixel, cells.
   float coarseNarrowing;     // Power of the paths a pixel by which that window narrows.
   float coarseReach;         // Where that window ends, standard deviations.
-  float coarseGrowthErrors;  // As growthErrors, of a cell's window.
+  float coarseGrowthErrors;     // As growthErrors, of a cell's window without occlusion.
+  float coarseGrowthOcclusion;  // Times ambient occlusion, and 1: what divides these errors.
   float coarseSamples;       // Paths that the coarse fit counts for.
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(BlockRegressionConstants) == 40);
+static_assert(sizeof(BlockRegressionConstants) == 44);
 }  // namespace walr
 #endif
 #endif

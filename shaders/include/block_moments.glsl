@@ -8,6 +8,7 @@
 
 const int kFeatures = 5;
 const int kDepthFeature = 3;
+const int kOcclusionFeature = 4;
 const int kCovariances = kFeatures * (kFeatures + 1) / 2;
 #include "triangle.glsl"
 

@@ -20,6 +20,7 @@ namespace {
 
 constexpr int kFeatures = 5;
 constexpr int kDepthFeature = 3;
+constexpr int kOcclusionFeature = 4;
 using Features = Vector<kFeatures>;
 
 /// What stands for a block, and the weight of the paths of every pixel of the picture in its window.
@@ -336,6 +337,8 @@ Image<Block> growCoarseWindows(const Picture& picture, int cellSize, const Image
     const double paths = own.samples / (cellSize * cellSize);
     const double sigma = cellSize * coarseSigma(picture, cellSize, own.samples);
     const double pixels = 4.0 * glm::pi<double>() * sigma * sigma * std::min(paths, 1.0);
+    const double errors = double(picture.settings.coarseGrowthErrors) /
+                          (1.0 + double(picture.settings.coarseGrowthOcclusion) * own.meanX[kOcclusionFeature]);
     for (int i = 0; i < 25; ++i) {
       const glm::ivec2 tap(i % 5 - 2, i / 5 - 2);
       const glm::ivec2 q = cell + 3 * tap;
@@ -348,7 +351,7 @@ Image<Block> growCoarseWindows(const Picture& picture, int cellSize, const Image
         difference -= luminance(slopes[k]) * (x - own.meanX[k]);
       }
       const double same = sameLight(difference, noise * (own.luminanceVariance + other.luminanceVariance) / pixels,
-                                    luminance(own.meanY + other.meanY), double(picture.settings.coarseGrowthErrors));
+                                    luminance(own.meanY + other.meanY), errors);
       const double distance = glm::length(glm::dvec2(tap)) / kTapSigma;
       addWindow(grown[cell].window, same * std::exp(-0.5 * distance * distance), cells[q].window);
     }
