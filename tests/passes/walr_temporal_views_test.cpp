@@ -39,9 +39,13 @@ std::vector<NamedSettings> allSettings() {
   WalrSettings byDepth = apart;
   byDepth.accumulation.rejection = HistoryRejection::Depth;
   byDepth.antialiasing.rejection = HistoryRejection::Depth;
+  WalrSettings packedApart = blocksWalr();
+  packedApart.antialiasing.normalThreshold = 0.4F;
   const SceneDescription camera{.objectMotion = false};
-  return {{"robust", robustWalr(), {}},    {"paper", paperWalr(), {}}, {"two reprojections", apart, {}},
-          {"camera alone", apart, camera}, {"by depth", byDepth, {}},  {"by depth, camera alone", byDepth, camera}};
+  return {{"robust", robustWalr(), {}},     {"paper", paperWalr(), {}},
+          {"two reprojections", apart, {}}, {"camera alone", apart, camera},
+          {"by depth", byDepth, {}},        {"by depth, camera alone", byDepth, camera},
+          {"packed", blocksWalr(), {}},     {"packed, two reprojections", packedApart, {}}};
 }
 
 /// What a stage sees of its history at a pixel.
@@ -78,8 +82,9 @@ void expectHistory(Comparison& comparison, const DeviceFrame& f, glm::ivec2 p, c
     return;
   }
   comparison.compared();
-  const double samples = f.current.accumulated[p].w;
-  comparison.value(p, "history length", samples, view.x, halfTolerance(view.x, 0.0));
+  const bool packed = settings.filter == SpatialFilter::Blocks;
+  comparison.value(p, "history length", f.current.accumulated[p].w, view.x,
+                   packed ? reference::packedCountStep(view.x) : halfTolerance(view.x, 0.0));
   comparison.value(p, "rejected", view.y, past.rejected, 0.0);
   comparison.value(p, "no history", view.z, past.history.found ? 0.0 : 1.0, 0.0);
 }
@@ -95,8 +100,10 @@ void expectClipping(Comparison& comparison, const DeviceFrame& f, glm::ivec2 p, 
     return;
   }
   comparison.compared();
-  const double n = f.current.resolved[p].w;
-  comparison.value(p, "frames", n, resolved.x, halfTolerance(resolved.x, 0.0));
+  const bool packed = settings.filter == SpatialFilter::Blocks;
+  const double n = resolved.x;
+  comparison.value(p, "frames", f.current.resolved[p].w, n,
+                   packed ? reference::packedLengthStep(n, settings.antialiasing.maxSamples) : halfTolerance(n, 0.0));
   comparison.value(p, "rejected after the filter", resolved.y, past.rejected, 0.0);
   const bool clipped = clip.z == 1.0;
   comparison.value(p, "clipped or not", clip.x > 0.0 ? 1.0 : 0.0, clip.z, 0.0);
@@ -105,7 +112,7 @@ void expectClipping(Comparison& comparison, const DeviceFrame& f, glm::ivec2 p, 
     comparison.value(p, "clipping of nothing", clip.x, 0.0, 0.0);
     return;
   }
-  const glm::dvec3 output(f.current.resolved[p]);
+  const glm::dvec3 output(f.current.output[p]);
   const glm::dvec3 filtered(f.current.filtered[p]);
   if (output.x == 0.0 || output.y == 0.0 || output.z == 0.0) return;  // What is below 0 is cut off.
   const glm::dvec3 kept = filtered + (output - filtered) * n / (n - 1.0);
