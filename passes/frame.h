@@ -21,7 +21,9 @@ struct FrameDescription {
   glm::vec2 previousJitter{0.0F};      ///< The previous frame's.
   /// Multiplies the motion texture's xy; the result must be pixels, previous = current + motion, x right, y down.
   glm::vec2 motionScale{1.0F};
-  std::uint32_t frameIndex = 0;  ///< Counts frames; any start.
+  /// Counts frames; any start. Seeds random picks and the rounding of packed light, which is exact on average only if
+  /// every frame has another.
+  std::uint32_t frameIndex = 0;
   /// Size of the previous frame's picture, where it is another; none for the same. Motion is in pixels of this frame
   /// all the same, each jitter in those of its own.
   std::optional<fg::Extent> previousExtent = std::nullopt;

@@ -16,7 +16,7 @@ struct FrameConstants {
   vec2 jitterDelta;               // Pixels: this frame's jitter minus the previous frame's, y down.
   vec2 previousPixelFromPixel;    // Size of the previous picture over that of this one: 1 unless it changed.
   vec2 pixelFromPreviousPixel;    // Takes that back.
-  uint frameIndex;                // Counts frames; seeds the replacement hashes.
+  uint frameIndex;                // Counts frames; seeds random picks and roundings.
   float skyDepth;                 // Scene units: what is deeper is sky.
 };
 
