@@ -281,9 +281,9 @@ fg::Texture addBlockRegression(fg::Graph& graph, fg::Buffer frame, const BlockLi
   }
   const fg::Texture filtered =
       apply.store("outFiltered", graph.texture("filtered", {formatOf(light.result), grid.pixels}));
-  if (tiles == nullptr || writesPacked) return filtered;
-  fg::PassBuilder passSky = graph.compute("pass sky", shaders::passSky);
-  passSky.sample("passed", passed);
+  if (tiles == nullptr) return filtered;
+  fg::PassBuilder passSky = graph.compute("pass sky", writesPacked ? shaders::passSkyPacked : shaders::passSky);
+  if (!writesPacked) passSky.sample("passed", passed);
   dispatchTiles(passSky, tiles->sky);
   return passSky.update("filtered", filtered);
 }

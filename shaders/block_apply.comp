@@ -189,7 +189,7 @@ vec3 viewOf(ivec2 p, Prediction fine, Prediction coarse, float occluded) {
 #ifdef VIEW
 void storePassed(ivec2 p) { imageStore(outView, p, vec4(vec3(0.0), 1.0)); }
 #elif defined(PACKED)
-void storePassed(ivec2 p) { imageStore(outFiltered, p, uvec4(0u)); }
+void storePassed(ivec2 p) { imageStore(outFiltered, p, uvec4(kNoFiltered)); }
 void store(ivec2 p, vec3 colour) {
   const vec3 chances = chancesOf(p, frame.frameIndex, kFilteredKey).rgb;
   imageStore(outFiltered, p, uvec4(packFiltered(colour, chances)));

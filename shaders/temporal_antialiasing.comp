@@ -65,7 +65,7 @@ layout(push_constant) uniform PushConstants { TemporalAntialiasingConstants sett
 #ifdef PACKED
 #include "include/packed_light.glsl"
 vec4 unpackHistory(uint packed) { return unpackResolved(packed, settings.maxSamples); }
-vec4 filteredAt(ivec2 q) { return vec4(unpackFiltered(texelFetch(filtered, q, 0).x), 1.0); }
+vec4 filteredAt(ivec2 q) { return unpackFiltered(texelFetch(filtered, q, 0).x); }
 #ifndef VIEW
 #include "include/passed_light.glsl"
 #endif
@@ -154,6 +154,12 @@ struct Neighbourhood {
   vec3 deviation;
 };
 
+#ifdef PACKED
+bool isNeighbour(ivec2 q, vec4 colour) { return colour.a >= 0.0; }
+#else
+bool isNeighbour(ivec2 q, vec4 colour) { return colour.a >= 0.0 && hasSurface(q); }
+#endif
+
 Neighbourhood neighbourhoodOf(ivec2 p, vec3 centre) {
   vec3 sum = vec3(0.0), squares = vec3(0.0);
   float count = 0.0;
@@ -162,7 +168,7 @@ Neighbourhood neighbourhoodOf(ivec2 p, vec3 centre) {
   for (int i = 0; i < width * width; ++i) {
     const ivec2 q = clamp(p + ivec2(i % width, i / width) - kClipRadius, ivec2(0), last);
     const vec4 colour = filteredAt(q);
-    if (colour.a < 0.0 || !hasSurface(q)) continue;
+    if (!isNeighbour(q, colour)) continue;
     const vec3 difference = toYCoCg(colour.rgb) - centre;
     sum += difference;
     squares += difference * difference;

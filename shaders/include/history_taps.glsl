@@ -33,20 +33,27 @@ vec4 tapWeights(HistoryTaps taps) {
 // Taps that sum to less say next to nothing about the position between them.
 const float kLeastTapWeight = 0.01;
 
+struct TapMean {
+  vec4 sum;
+  float weights;
+};
+
+void add(inout TapMean mean, float weight, vec4 texel) {
+  if (weight <= 0.0 || texel.a == 0.0) return;
+  mean.sum += weight * texel;
+  mean.weights += weight;
+}
+
+vec4 meanOf(TapMean mean) { return mean.weights > kLeastTapWeight ? mean.sum / mean.weights : vec4(0.0); }
+
 // Mean over the taps that show the surface and hold a sample: alpha is the number of samples behind a history pixel,
 // and one without any holds no light rather than black. 0 where there is no history at all.
 vec4 meanOfTaps(HISTORY_TEXTURE history, HistoryTaps taps) {
   const vec4 weights = tapWeights(taps);
-  vec4 sum = vec4(0.0);
-  float weightSum = 0.0;
-  for (int i = 0; i < 4; ++i) {
-    if (weights[i] <= 0.0) continue;
-    const vec4 texel = historyTexel(history, historyTap(taps, i));
-    if (texel.a == 0.0) continue;
-    sum += weights[i] * texel;
-    weightSum += weights[i];
-  }
-  return weightSum > kLeastTapWeight ? sum / weightSum : vec4(0.0);
+  TapMean mean = TapMean(vec4(0.0), 0.0);
+  for (int i = 0; i < 4; ++i)
+    if (weights[i] > 0.0) add(mean, weights[i], historyTexel(history, historyTap(taps, i)));
+  return meanOf(mean);
 }
 
 // Kept taps: one R32_UINT that says where a surface was and which taps show it, for later stages that read histories of

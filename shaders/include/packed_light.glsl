@@ -79,7 +79,12 @@ vec4 unpackAccumulated(uint packed) { return vec4(unpackColour(packed, 7), unpac
 
 // What a spatial filter makes of it, where that is known of every surface: 3 x 9 bits.
 uint packFiltered(vec3 colour, vec3 chances) { return packColour(colour, 9, chances); }
-vec3 unpackFiltered(uint packed) { return unpackColour(packed, 9); }
+
+// Where there is no surface: an exponent with no mantissa under it, which no colour has.
+const uint kNoFiltered = 1u << 27;
+
+// a: below 0 where there is no surface.
+vec4 unpackFiltered(uint packed) { return vec4(unpackColour(packed, 9), packed == kNoFiltered ? -1.0 : 1.0); }
 
 // Mean of such pictures with the frames behind it, at most `longest` (temporal_antialiasing.comp). rgb: 3 x 8 bits.
 uint packResolved(vec4 mean, float longest, vec4 chances) {

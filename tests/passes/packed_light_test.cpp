@@ -289,6 +289,7 @@ TEST_F(PackedLight, BlocksReadAndWriteIt) {
     Comparison comparison(named.name);
     reference::forEachPixel(kSize, [&](glm::ivec2 p) {
       comparison.compared();
+      comparison.value(p, "surface", stages.filtered[p].a, stages.guides[p].depth > 0.0 ? 1.0 : -1.0, 0.0);
       if (stages.guides[p].depth == 0.0) return;
       const double step = reference::packedStep(brightest(expected[p]) * (1.0 + 2.0 * reference::kHalfRoundoff),
                                                 reference::kFilteredBits);

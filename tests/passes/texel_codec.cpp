@@ -141,8 +141,10 @@ reference::Image<glm::dvec4> decodeAccumulated(const std::vector<std::uint32_t>&
 }
 
 reference::Image<glm::dvec4> decodeFiltered(const std::vector<std::uint32_t>& texels, glm::ivec2 size) {
-  return decodeWords(
-      texels, size, [](std::uint32_t word) { return glm::dvec4(sharedExponent(word, reference::kFilteredBits), 1.0); });
+  constexpr std::uint32_t kNoSurface = 1U << 27U;
+  return decodeWords(texels, size, [](std::uint32_t word) {
+    return glm::dvec4(sharedExponent(word, reference::kFilteredBits), word == kNoSurface ? -1.0 : 1.0);
+  });
 }
 
 reference::Image<glm::dvec4> decodeResolved(const std::vector<std::uint32_t>& texels, double longest, glm::ivec2 size) {

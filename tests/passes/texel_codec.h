@@ -12,7 +12,8 @@ namespace walr::test {
 std::vector<std::uint16_t> encodeHalves(const reference::Image<glm::dvec3>& image);
 reference::Image<glm::dvec4> decodeHalves(const std::vector<std::uint16_t>& texels, glm::ivec2 size);
 
-/// Packed light (packed_light.glsl). Alpha: samples behind it; 1; frames behind it, at most `longest`.
+/// Packed light (packed_light.glsl). Alpha: samples behind it; 1, or -1 where there is no surface; frames behind it, at
+/// most `longest`.
 reference::Image<glm::dvec4> decodeAccumulated(const std::vector<std::uint32_t>& texels, glm::ivec2 size);
 reference::Image<glm::dvec4> decodeFiltered(const std::vector<std::uint32_t>& texels, glm::ivec2 size);
 reference::Image<glm::dvec4> decodeResolved(const std::vector<std::uint32_t>& texels, double longest, glm::ivec2 size);

@@ -14,7 +14,7 @@ layout(set = 0, binding = 1, rgba32f) uniform writeonly image2D target;
 vec4 rounded(vec4 light, vec4 chances) {
   switch (kKey) {
     case kAccumulatedKey: return unpackAccumulated(packAccumulated(light, chances));
-    case kFilteredKey: return vec4(unpackFiltered(packFiltered(light.rgb, chances.rgb)), light.a);
+    case kFilteredKey: return vec4(1.0, 1.0, 1.0, light.a) * unpackFiltered(packFiltered(light.rgb, chances.rgb));
     case kResolvedKey: return unpackResolved(packResolved(light, float(kLongest), chances), float(kLongest));
   }
   return vec4(0.0);
