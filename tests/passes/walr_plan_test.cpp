@@ -58,6 +58,12 @@ TEST(WalrPlan, ThePaperMovesNoMoreThanItsBudget) {
   EXPECT_LE(planWalr(settings).bytesPerPixel(), 280U);
 }
 
+// The project's budget for the default at 1080p: histories and what no history lends room for.
+TEST(WalrPlan, TheDefaultNeedsNoMoreMemoryThanItsBudget) {
+  const fg::MemoryReport memory = planWalr(blocksWalr()).plan.memory;
+  EXPECT_LE(memory.persistentBytes + memory.transientPeakBytes, 91'000'000U);
+}
+
 TEST(WalrPlan, TransientMemoryIsTheLeastThatItsScheduleAllows) {
   for (const WalrSettings& settings : {robustWalr(), paperWalr()}) {
     const fg::Plan plan = planWalr(settings).plan;
