@@ -128,7 +128,7 @@ vec3 fromYCoCg(vec3 c) { return vec3(c.x + c.y - c.z, c.x + c.z, c.x - c.y - c.z
 float leastReach(vec3 mean) {
   const vec3 colour = fromYCoCg(mean);
   const float brightest = max(max(colour.r, colour.g), colour.b);
-  return (1.0 / 128.0 + 2.0 / 256.0) * brightest;  // A step of the history and of two filtered colours.
+  return brightest / 128.0;  // A step of the history at most. Those of nine filtered colours are smaller, and average.
 }
 #else
 float leastReach(vec3 mean) { return 4.0 / 2048.0 * mean.x; }  // The rounding of four halves.

@@ -33,7 +33,7 @@ double halvesTolerance(double value) {
 
 /// Packed light is rounded by chance wherever it is not what a mantissa holds, as the constant itself is: of what
 /// halves make of it the filtered colour errs by a step. History is then clipped to a box in YCoCg about the mean of
-/// such colours, of their deviation or of the least size that there is, 2^-6 of the brightest channel; three half sizes
+/// such colours, of their deviation or of the least size that there is, 2^-7 of the brightest channel; three half sizes
 /// move a channel.
 double constantTolerance(double value, const WalrSettings& settings) {
   const double halves = halvesTolerance(value);
@@ -42,7 +42,7 @@ double constantTolerance(double value, const WalrSettings& settings) {
   const double filtered =
       halves + reference::packedStep(brightest + halvesTolerance(brightest), reference::kFilteredBits);
   const double historyShare = 1.0 - 1.0 / double(settings.antialiasing.maxSamples);
-  return filtered + historyShare * 3.0 * std::max(filtered, 0x1p-6 * brightest);
+  return filtered + historyShare * 3.0 * std::max(filtered, 0x1p-7 * brightest);
 }
 
 /// Blocks between halves alone, which keep constants more tightly.

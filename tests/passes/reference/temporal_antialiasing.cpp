@@ -9,12 +9,11 @@ namespace walr::reference {
 namespace {
 
 /// Half size of the smallest clipping box around a mean, in YCoCg: the rounding of four halves in units of luma, or, in
-/// units of the brightest channel, the steps that a packed history and two packed colours may be off by.
+/// units of the brightest channel, the step that a packed history may be off by.
 double leastReach(glm::dvec3 mean, LightStorage storage) {
   if (storage == LightStorage::Half) return 4.0 * kHalfRoundoff * mean.x;
   const glm::dvec3 colour = fromYCoCg(mean);
-  return (std::exp2(-kResolvedBits + 1) + 2.0 * std::exp2(-kFilteredBits + 1)) *
-         std::max({colour.r, colour.g, colour.b});
+  return std::exp2(-kResolvedBits + 1) * std::max({colour.r, colour.g, colour.b});
 }
 
 /// Mean and spread of the surface pixels around a pixel.
