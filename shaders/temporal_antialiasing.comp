@@ -233,12 +233,13 @@ void main() {
   }
   int rejected;
   const vec4 resolved = resolve(p, current, historyOf(p, rejected));
+  const vec4 rounded = nearestHalf(resolved);
 #ifdef PACKED
   const vec4 chances = chancesOf(p, frame.frameIndex, kResolvedKey);
   imageStore(outResolved, p, uvec4(packResolved(resolved, settings.maxSamples, chances)));
 #else
-  imageStore(outResolved, p, nearestHalf(resolved));
+  imageStore(outResolved, p, rounded);
 #endif
-  imageStore(outImage, p, nearestHalf(vec4(resolved.rgb, 1.0)));
+  imageStore(outImage, p, vec4(rounded.rgb, 1.0));
 #endif
 }
