@@ -73,6 +73,7 @@ DenoiserInputs StagePorts::hostInputs() {
 Guides StagePorts::guides() {
   return {.depth = texture("guides.depth"),
           .shadingNormal = texture("guides.shading-normal"),
+          .features = texture("guides.features"),
           .geometricNormal = texture("guides.geometric-normal"),
           .previousDepth = texture("guides.previous-depth"),
           .previousGeometricNormal = texture("guides.previous-geometric-normal")};
@@ -80,7 +81,8 @@ Guides StagePorts::guides() {
 
 void StagePorts::setOutputs(const Guides& guides) {
   setOutput("guides.depth", guides.depth);
-  setOutput("guides.shading-normal", guides.shadingNormal);
+  if (guides.shadingNormal.valid()) setOutput("guides.shading-normal", guides.shadingNormal);
+  if (guides.features.valid()) setOutput("guides.features", guides.features);
   setOutput("guides.geometric-normal", guides.geometricNormal);
   setOutput("guides.previous-depth", guides.previousDepth);
   setOutput("guides.previous-geometric-normal", guides.previousGeometricNormal);

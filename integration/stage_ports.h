@@ -40,7 +40,7 @@ class StagePorts {
 
   /// The ports of `DenoiserInputs`.
   DenoiserInputs hostInputs();
-  /// The ports that stage "prepare_guides" makes.
+  /// The ports that the stages "prepare_guides" and "prepare_guides_with_occlusion" make.
   Guides guides();
   void setOutputs(const Guides& guides);
 

@@ -4,7 +4,6 @@
 #include <string>
 
 #include "integration/host_inputs.h"
-#include "passes/ambient_occlusion.h"
 #include "passes/block_regression.h"
 #include "passes/bmfr_accumulation.h"
 #include "passes/bmfr_fit.h"
@@ -45,6 +44,17 @@ std::unique_ptr<Stage> make(std::string_view /*name*/) {
 
 struct NoSettings {
   void visit(SettingVisitor& /*visitor*/) {}
+};
+
+/// The conversion of the G-buffer for filters that take ambient occlusion for a feature.
+struct OcclusionStageSettings {
+  PrepareGuidesSettings guides;
+  AmbientOcclusionSettings occlusion;
+
+  void visit(SettingVisitor& v) {
+    guides.visit(v);
+    occlusion.visit(v);
+  }
 };
 
 /// Accumulation and anti-aliasing beside a filter of any storage.
@@ -88,6 +98,11 @@ void prepareGuides(StagePorts& ports, const PrepareGuidesSettings& settings) {
   ports.setOutputs(addPrepareGuides(ports.graph(), ports.hostInputs(), settings));
 }
 
+void prepareGuidesWithOcclusion(StagePorts& ports, const OcclusionStageSettings& settings) {
+  ports.setOutputs(
+      addPrepareGuides(ports.graph(), ports.hostInputs(), settings.guides, {.occlusion = settings.occlusion}));
+}
+
 void temporalAccumulation(StagePorts& ports, const AccumulationStageSettings& settings) {
   ports.setOutput("accumulated", addTemporalAccumulation(ports.graph(), ports.hostInputs(), ports.guides(), settings));
 }
@@ -113,10 +128,6 @@ void fullWindowRegression(StagePorts& ports, const FullWindowSettings& settings)
                                                       ports.guides(), target, settings));
 }
 
-void ambientOcclusion(StagePorts& ports, const AmbientOcclusionSettings& settings) {
-  ports.setOutput("occlusion", addAmbientOcclusion(ports.graph(), ports.buffer(kFrameName), ports.guides(), settings));
-}
-
 void blockRegression(StagePorts& ports, const BlockStageSettings& settings) {
   const fg::Buffer frame = ports.buffer(kFrameName);
   BlockLight light{.accumulated = ports.texture("accumulated", formatOf(settings.accumulation.storage)),
@@ -125,8 +136,7 @@ void blockRegression(StagePorts& ports, const BlockStageSettings& settings) {
   if (settings.accumulation.storage != LightStorage::Half && light.result == LightStorage::Half) {
     light.lighting = ports.texture("lighting");
   }
-  ports.setOutput("filtered", addBlockRegression(ports.graph(), frame, light, ports.guides(),
-                                                 ports.texture("occlusion"), settings.blocks));
+  ports.setOutput("filtered", addBlockRegression(ports.graph(), frame, light, ports.guides(), settings.blocks));
 }
 
 void bmfrFit(StagePorts& ports, const BmfrFitSettings& settings) {
@@ -145,7 +155,7 @@ void flrRegression(StagePorts& ports, const FlrRegressionSettings& settings) {
   const fg::Texture accumulated = ports.texture("accumulated");
   const fg::Texture target = targetLike(ports, "filtered", accumulated);
   ports.setOutput("filtered", addFlrRegression(ports.graph(), accumulated, LightingAlpha::SampleCount, ports.guides(),
-                                               ports.texture("occlusion"), target, settings));
+                                               target, settings));
 }
 
 void jointBilateralFilter(StagePorts& ports, const JointBilateralFilterSettings& settings) {
@@ -202,6 +212,9 @@ std::vector<StageType> stagesAndMethods() {
   std::vector<StageType> types{
       {"prepare_guides", "Convert the host's depth, normals and albedo once into what all other stages read", false,
        make<PrepareGuidesSettings, prepareGuides>},
+      {"prepare_guides_with_occlusion",
+       "The same, with ambient occlusion beside the shading normal, for block_regression and flr_regression", false,
+       make<OcclusionStageSettings, prepareGuidesWithOcclusion>},
       {"temporal_accumulation", "Average the noisy lighting over time along its motion", false,
        make<AccumulationStageSettings, temporalAccumulation>},
       {"temporal_accumulation_with_taps", "The same, keeping where in the history it read", false,
@@ -210,8 +223,6 @@ std::vector<StageType> stagesAndMethods() {
        make<WeightedRegressionSettings, weightedRegression>},
       {"full_window_regression", "REFWLR's filter: weighted linear regression over the full window", false,
        make<FullWindowSettings, fullWindowRegression>},
-      {"ambient_occlusion", "Ambient occlusion from depth alone, a feature for block_regression and flr_regression",
-       false, make<AmbientOcclusionSettings, ambientOcclusion>},
       {"block_regression", "WALR's filter over blocks of pixels, with depth and occlusion among its features", false,
        make<BlockStageSettings, blockRegression>},
       {"bmfr_fit", "BMFR's filter: fit blocks of 32x32 pixels by features of first and second order", false,

@@ -210,7 +210,7 @@ const fg::Shader& applyShader(bool listed, bool packed) {
 }  // namespace
 
 fg::Texture addBlockRegression(fg::Graph& graph, fg::Buffer frame, const BlockLight& light, const Guides& guides,
-                               fg::Texture occlusion, const BlockRegressionSettings& settings, Inspection* inspection,
+                               const BlockRegressionSettings& settings, Inspection* inspection,
                                const TileLists* tiles) {
   if (!(settings.planeNear < settings.planeFar)) {
     throw std::invalid_argument("setting blocks.plane-near must be below blocks.plane-far");
@@ -229,8 +229,7 @@ fg::Texture addBlockRegression(fg::Graph& graph, fg::Buffer frame, const BlockLi
     fg::PassBuilder pass = graph.compute(name, shader);
     pass.uniform("frameConstants", frame)
         .sample("depth", guides.depth)
-        .sample("shadingNormal", guides.shadingNormal)
-        .sample("occlusion", occlusion)
+        .sample("features", guides.features)
         .specialize("kBlockSize", grid.size)
         .constants(grid.constants);
     return pass;

@@ -95,14 +95,14 @@ struct BlockLight {
 /// edge-aware a-trous averages, a coarse fit where they hold few samples, and the reconstruction of every pixel from
 /// the fits around it.
 /// @param frame      upload of `FrameConstants`
-/// @param occlusion  ambient occlusion, 0 to 1
+/// @param guides     with `features`
 /// @param inspection is offered the views of every iteration and of the reconstruction
 /// @param tiles      where given, the reconstruction is dispatched over them, and the sky's light is passed through
 /// apart
 /// @returns as `light.result` says: filtered radiance; RGBA16F: sky and pixels without a diffuse lobe as they were
 /// @throws std::invalid_argument for settings outside their range
 fg::Texture addBlockRegression(fg::Graph& graph, fg::Buffer frame, const BlockLight& light, const Guides& guides,
-                               fg::Texture occlusion, const BlockRegressionSettings& settings = {},
-                               Inspection* inspection = nullptr, const TileLists* tiles = nullptr);
+                               const BlockRegressionSettings& settings = {}, Inspection* inspection = nullptr,
+                               const TileLists* tiles = nullptr);
 
 }  // namespace walr

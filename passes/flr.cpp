@@ -9,16 +9,14 @@ fg::Texture addFlr(fg::Graph& graph, const DenoiserInputs& inputs, fg::Texture o
   const TemporalStages stages{.accumulation = settings.accumulation,
                               .antialiasing = settings.antialiasing,
                               .spatialOnly = settings.spatialOnly};
-  const Guides guides =
-      addPrepareGuides(graph, inputs, settings.guides, guideNeeds(stages, inputs.scene, false), inspection);
+  GuideNeeds needs = guideNeeds(stages, inputs.scene, false);
+  if (settings.regression.occlusionGuide) needs.occlusion = settings.occlusion;
+  const Guides guides = addPrepareGuides(graph, inputs, settings.guides, needs, inspection);
   FlrRegressionSettings regression = settings.regression;
   if (settings.spatialOnly) regression.sigma = settings.singleFrameSigma;
   const auto filter = [&](const FilterInput& input) {
-    const fg::Texture occlusion = regression.occlusionGuide
-                                      ? addAmbientOcclusion(graph, inputs.frame, guides, settings.occlusion)
-                                      : fg::Texture{};
-    return addFlrRegression(graph, input.lighting, input.alpha, guides, occlusion, input.target(graph, "filtered"),
-                            regression, inspection);
+    return addFlrRegression(graph, input.lighting, input.alpha, guides, input.target(graph, "filtered"), regression,
+                            inspection);
   };
   return addTemporalStages(graph, inputs, guides, output, stages, filter, inspection);
 }

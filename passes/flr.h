@@ -1,7 +1,6 @@
 #pragma once
 
 #include "framegraph/graph.h"
-#include "passes/ambient_occlusion.h"
 #include "passes/flr_regression.h"
 #include "passes/inputs.h"
 #include "passes/prepare_guides.h"

@@ -88,8 +88,7 @@ fg::Extent gridOf(fg::Extent pixels, std::uint32_t factor, std::uint64_t cellByt
 }  // namespace
 
 fg::Texture addFlrRegression(fg::Graph& graph, fg::Texture lighting, LightingAlpha alpha, const Guides& guides,
-                             fg::Texture occlusion, fg::Texture output, const FlrRegressionSettings& settings,
-                             Inspection* inspection) {
+                             fg::Texture output, const FlrRegressionSettings& settings, Inspection* inspection) {
   const Variant variant = variantOf(settings.occlusionGuide);
   const fg::Extent extent = graph.textureDesc(lighting).extent;
   const fg::Extent cells = gridOf(extent, settings.factor, variant.productBytes);
@@ -105,9 +104,12 @@ fg::Texture addFlrRegression(fg::Graph& graph, fg::Texture lighting, LightingAlp
   // What sums the products and what applies the fit read the same pixels.
   const auto readPixels = [&](const std::string& name, const fg::Shader& shader) {
     fg::PassBuilder pass = graph.compute(name, shader);
-    pass.sample("lighting", lighting).sample("depth", guides.depth).sample("shadingNormal", guides.shadingNormal);
-    if (settings.occlusionGuide) pass.sample("occlusion", occlusion);
-    pass.constants(constants);
+    pass.sample("lighting", lighting).sample("depth", guides.depth).constants(constants);
+    if (settings.occlusionGuide) {
+      pass.sample("features", guides.features);
+    } else {
+      pass.sample("shadingNormal", guides.shadingNormal);
+    }
     return pass;
   };
   const auto productBuffer = [&](const char* name) { return graph.buffer(name, {cellCount * variant.productBytes}); };

@@ -55,13 +55,13 @@ struct FlrRegressionSettings {
 /// (flr-flnr.txt).
 /// @param lighting  RGBA16F: radiance to filter; a pixel that is not finite has no say in the fit
 /// @param alpha     what the alpha channel of `lighting` says; a pixel with no sample has no say in the fit
-/// @param occlusion R16_SFLOAT: ambient occlusion, 0 to 1; read where `settings.occlusionGuide` is set
+/// @param guides    with `features` where `settings.occlusionGuide` is set
 /// @param output    RGBA16F texture to write the result to
 /// @param inspection is offered the stage's views
 /// @returns the output's new version; sky and pixels without a diffuse lobe as they were
 /// @throws std::invalid_argument where the moments of so many cells do not fit a storage buffer
 fg::Texture addFlrRegression(fg::Graph& graph, fg::Texture lighting, LightingAlpha alpha, const Guides& guides,
-                             fg::Texture occlusion, fg::Texture output, const FlrRegressionSettings& settings = {},
+                             fg::Texture output, const FlrRegressionSettings& settings = {},
                              Inspection* inspection = nullptr);
 
 }  // namespace walr

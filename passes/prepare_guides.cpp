@@ -1,5 +1,6 @@
 #include "passes/prepare_guides.h"
 
+#include <algorithm>
 #include <array>
 #include <string>
 #include <vector>
@@ -15,11 +16,17 @@ bool isMasked(const PrepareGuidesSettings& settings) {
   return settings.albedoThreshold > 0.0F;
 }
 
-const fg::Shader& shaderFor(bool masked, bool geometricNormal) {
+const fg::Shader& shaderFor(bool masked, bool geometricNormal, bool occlusion) {
   using namespace shaders;
-  static constexpr std::array<std::array<const fg::Shader*, 2>, 2> kShaders{
-      {{&prepareGuides, &prepareGuidesGeometry}, {&prepareGuidesMasked, &prepareGuidesMaskedGeometry}}};
-  return *kShaders.at(masked ? 1 : 0).at(geometricNormal ? 1 : 0);
+  static constexpr std::array<const fg::Shader*, 8> kShaders{&prepareGuides,
+                                                             &prepareGuidesMasked,
+                                                             &prepareGuidesGeometry,
+                                                             &prepareGuidesMaskedGeometry,
+                                                             &prepareGuidesOcclusion,
+                                                             &prepareGuidesMaskedOcclusion,
+                                                             &prepareGuidesGeometryOcclusion,
+                                                             &prepareGuidesMaskedGeometryOcclusion};
+  return *kShaders.at((masked ? 1 : 0) + (geometricNormal ? 2 : 0) + (occlusion ? 4 : 0));
 }
 
 /// A guide to be written, and last frame's where it is kept.
@@ -50,15 +57,18 @@ const std::vector<ViewInfo>& guideViews() {
 
 /// A pass without its outputs.
 fg::PassBuilder declarePass(fg::Graph& graph, const std::string& name, const fg::Shader& shader,
-                            const DenoiserInputs& inputs, const PrepareGuidesSettings& settings) {
+                            const DenoiserInputs& inputs, const PrepareGuidesSettings& settings,
+                            const AmbientOcclusionSettings& occlusion = {}) {
   const fg::Extent extent = graph.textureDesc(inputs.depth).extent;
+  const float occlusionRadius = std::max(occlusion.radius * static_cast<float>(extent.height), 1.0F);
   fg::PassBuilder pass = graph.compute(name, shader);
   pass.uniform("frameConstants", inputs.frame)
       .sample("depth", inputs.depth)
       .sample("normal", inputs.normal)
       .specialize("kNormalsInWorldSpace", inputs.conventions.normal == InputConventions::Space::World)
       .specialize("kSky", inputs.scene.sky)
-      .constants(PrepareGuidesConstants{settings.albedoThreshold, settings.tangentTolerance, settings.normalAgreement})
+      .constants(PrepareGuidesConstants{settings.albedoThreshold, settings.tangentTolerance, settings.normalAgreement,
+                                        occlusionRadius})
       .texels(extent)
       .dispatch(extent);
   if (isMasked(settings)) pass.sample("albedo", inputs.albedo);
@@ -76,14 +86,21 @@ Guides addPrepareGuides(fg::Graph& graph, const DenoiserInputs& inputs, const Pr
       return declarePass(graph, name, shader, inputs, settings);
     });
   }
-  fg::PassBuilder pass =
-      declarePass(graph, "prepare guides", shaderFor(isMasked(settings), needs.geometricNormal), inputs, settings);
+  const bool occludes = needs.occlusion.has_value();
+  const fg::Shader& shader = shaderFor(isMasked(settings), needs.geometricNormal, occludes);
+  fg::PassBuilder pass = declarePass(graph, "prepare guides", shader, inputs, settings,
+                                     needs.occlusion.value_or(AmbientOcclusionSettings{}));
   Guides guides;
   const GuideTexture depth = guideTexture(graph, "guides.depth", extent, needs.history);
   guides.depth = pass.store("outDepth", depth.current);
   guides.previousDepth = depth.previous;
-  const GuideTexture shadingNormal = guideTexture(graph, "guides.shading normal", extent, false);
-  guides.shadingNormal = pass.store("outShadingNormal", shadingNormal.current);
+  if (occludes) {
+    pass.specialize("kOcclusionSteps", needs.occlusion->steps);
+    guides.features = pass.store("outFeatures", guideTexture(graph, "guides.features", extent, false).current);
+  } else {
+    const GuideTexture shadingNormal = guideTexture(graph, "guides.shading normal", extent, false);
+    guides.shadingNormal = pass.store("outShadingNormal", shadingNormal.current);
+  }
   if (!needs.geometricNormal) return guides;
   const GuideTexture geometricNormal = guideTexture(graph, "guides.geometric normal", extent, needs.history);
   guides.geometricNormal = pass.store("outGeometricNormal", geometricNormal.current);

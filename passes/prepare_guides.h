@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstdint>
+#include <optional>
+
 #include "framegraph/graph.h"
 #include "passes/inputs.h"
 #include "passes/inspection.h"
@@ -30,10 +33,26 @@ struct PrepareGuidesSettings {
   }
 };
 
+/// Settings of the ambient occlusion that serves as a feature.
+struct AmbientOcclusionSettings {
+  float radius = 0.075F;
+  std::uint32_t steps = 5;
+
+  void visit(SettingVisitor& v) {
+    v.visit({"occlusion.radius", "Distance that the search for occluders reaches", "fraction of the image's height",
+             0.002, 0.5, "measured"},
+            radius);
+    v.visit(
+        {"occlusion.steps", "Pixels that the search looks at in each of its eight directions", "", 1, 16, "measured"},
+        steps);
+  }
+};
+
 /// The noise-free guides of this frame and the last. What is not needed is not there.
 struct Guides {
   fg::Texture depth;          ///< R32_UINT: view depth and edge distance packed (surface.glsl); 0: nothing to denoise.
-  fg::Texture shadingNormal;  ///< R32_UINT: octahedral map of the shading normal.
+  fg::Texture shadingNormal;  ///< R32_UINT: octahedral map of the shading normal; not there where `features` is.
+  fg::Texture features;       ///< R32_UINT: the shading normal, and ambient occlusion, 0 (open) to 1 (surface.glsl).
   fg::Texture geometricNormal;          ///< R32_UINT: octahedral map of the geometric normal, which spans planes.
   fg::Texture previousDepth;            ///< Depth one frame ago; zero while there is no history.
   fg::Texture previousGeometricNormal;  ///< Geometric normal one frame ago; zero while there is no history.
@@ -43,6 +62,7 @@ struct Guides {
 struct GuideNeeds {
   bool geometricNormal = true;
   bool history = true;  ///< Last frame's depth, and geometric normal where there is one.
+  std::optional<AmbientOcclusionSettings> occlusion = {};  ///< Given: `features` in place of `shadingNormal`.
 };
 
 /// Convert the host's G-buffer once into what all later stages read.

@@ -31,10 +31,9 @@ fg::Texture addBlockFilter(fg::Graph& graph, const DenoiserInputs& inputs, const
   std::optional<TileLists> lists;
   if (settings.skipSky && inputs.scene.sky) lists = addTileLists(graph, guides.depth);
   const TileLists* tiles = lists ? &*lists : nullptr;
-  const fg::Texture occlusion = addAmbientOcclusion(graph, inputs.frame, guides, settings.occlusion, tiles);
   const BlockLight light{
       .accumulated = input.lighting, .alpha = input.alpha, .lighting = inputs.lighting, .result = input.result};
-  return addBlockRegression(graph, inputs.frame, light, guides, occlusion, blocks, inspection, tiles);
+  return addBlockRegression(graph, inputs.frame, light, guides, blocks, inspection, tiles);
 }
 
 }  // namespace
@@ -80,8 +79,9 @@ fg::Texture addWalr(fg::Graph& graph, const DenoiserInputs& inputs, fg::Texture 
   const bool pixels = settings.filter == SpatialFilter::Pixels;
   if (pixels) stages.accumulation.storage = stages.antialiasing.storage = LightStorage::Half;
   const bool geometricPlane = !pixels || settings.regression.edgeStopping.planeNormal == PlaneNormal::Geometric;
-  const Guides guides =
-      addPrepareGuides(graph, inputs, settings.guides, guideNeeds(stages, inputs.scene, geometricPlane), inspection);
+  GuideNeeds needs = guideNeeds(stages, inputs.scene, geometricPlane);
+  if (!pixels) needs.occlusion = settings.occlusion;
+  const Guides guides = addPrepareGuides(graph, inputs, settings.guides, needs, inspection);
   const auto filter = [&](const FilterInput& input) {
     return pixels ? addPixelFilter(graph, inputs.frame, input, guides, settings, inspection)
                   : addBlockFilter(graph, inputs, input, guides, settings, inspection);

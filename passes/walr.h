@@ -1,7 +1,6 @@
 #pragma once
 
 #include "framegraph/graph.h"
-#include "passes/ambient_occlusion.h"
 #include "passes/block_regression.h"
 #include "passes/inputs.h"
 #include "passes/prepare_guides.h"
@@ -47,8 +46,8 @@ struct WalrSettings {
              "", 0, 1, "measured"},
             fitWindow);
     v.visit({"walr.skip-sky",
-             "Regressing over blocks of a scene with sky, dispatch occlusion and reconstruction indirectly over the "
-             "tiles that show a surface",
+             "Regressing over blocks of a scene with sky, dispatch the reconstruction indirectly over the tiles that "
+             "show a surface",
              "", 0, 1, "measured"},
             skipSky);
     regression.visit(v);

@@ -16,8 +16,7 @@ layout(constant_id = 2) const int kCellSize = 8;   // Pixels per axis.
 
 layout(set = 0, binding = 0, std140) uniform frameConstants { FrameConstants frame; };
 layout(set = 0, binding = 1) uniform utexture2D depth;
-layout(set = 0, binding = 2) uniform utexture2D shadingNormal;
-layout(set = 0, binding = 4) uniform texture2D occlusion;
+layout(set = 0, binding = 2) uniform utexture2D features;
 layout(set = 0, binding = 6) uniform utexture2D fitA;
 layout(set = 0, binding = 7) uniform utexture2D fitB;
 layout(set = 0, binding = 8) uniform utexture2D fitC;
@@ -129,7 +128,7 @@ float bilinearWeight(Around a, int i, ivec2 grid, out ivec2 texel) {
   return axisWeight.x * axisWeight.y;
 }
 
-Prediction predictCoarse(ivec2 p, float z, vec3 shading, float occluded) {
+Prediction predictCoarse(ivec2 p, float z, NormalAndOcclusion shading) {
   Prediction sum = noPrediction();
   const Around cells = around(p, kCellSize);
   [[unroll]] for (int i = 0; i < 4; ++i) {
@@ -137,12 +136,12 @@ Prediction predictCoarse(ivec2 p, float z, vec3 shading, float occluded) {
     const float weight = bilinearWeight(cells, i, textureSize(coarseDepth, 0), cell);
     if (weight <= 0.0) continue;
     const float cellZ = unpackDepth(texelFetch(coarseDepth, cell, 0).x);
-    if (cellZ > 0.0) add(sum, weight, loadCoarse(cell), featuresOf(shading, cellZ / z - 1.0, occluded));
+    if (cellZ > 0.0) add(sum, weight, loadCoarse(cell), featuresOf(shading, cellZ / z - 1.0));
   }
   return sum;
 }
 
-Prediction predictFine(ivec2 p, float z, vec3 shading, float occluded) {
+Prediction predictFine(ivec2 p, float z, NormalAndOcclusion shading) {
   Prediction sum = noPrediction();
   const Around blocks = around(p, kBlockSize);
   [[unroll]] for (int i = 0; i < 4; ++i) {
@@ -154,8 +153,8 @@ Prediction predictFine(ivec2 p, float z, vec3 shading, float occluded) {
     const uint packedNormal = texelFetch(fitNormal, block, 0).x;
     const vec3 normal = blockNormal(packedNormal);
     const Plane plane = planeAt(representativePixel(block, kBlockSize, packedNormal), blockZ, normal);
-    const float weight = bilinear * onPlane(planeDistance(plane, p, z)) * facing(normal, shading);
-    add(sum, weight, loadFine(block), featuresOf(shading, blockZ / z - 1.0, occluded));
+    const float weight = bilinear * onPlane(planeDistance(plane, p, z)) * facing(normal, shading.normal);
+    add(sum, weight, loadFine(block), featuresOf(shading, blockZ / z - 1.0));
   }
   return sum;
 }
@@ -207,12 +206,11 @@ void main() {
     storePassed(p);
     return;
   }
-  const vec3 shading = unpackNormal(texelFetch(shadingNormal, p, 0).x);
-  const float occluded = texelFetch(occlusion, p, 0).x;
-  const Prediction coarse = predictCoarse(p, z, shading, occluded);
-  const Prediction fine = predictFine(p, z, shading, occluded);
+  const NormalAndOcclusion shading = unpackNormalAndOcclusion(texelFetch(features, p, 0).x);
+  const Prediction coarse = predictCoarse(p, z, shading);
+  const Prediction fine = predictFine(p, z, shading);
 #ifdef VIEW
-  imageStore(outView, p, vec4(viewOf(p, fine, coarse, occluded), 1.0));
+  imageStore(outView, p, vec4(viewOf(p, fine, coarse, shading.occlusion), 1.0));
 #else
   store(p, mixFits(fine, coarse));
 #endif

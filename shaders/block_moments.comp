@@ -15,9 +15,8 @@ layout(constant_id = 1) const int kCellBlocks = 2;  // Blocks per axis: a power 
 
 layout(set = 0, binding = 0, std140) uniform frameConstants { FrameConstants frame; };
 layout(set = 0, binding = 1) uniform utexture2D depth;
-layout(set = 0, binding = 2) uniform utexture2D shadingNormal;
+layout(set = 0, binding = 2) uniform utexture2D features;
 layout(set = 0, binding = 3) uniform utexture2D geometricNormal;
-layout(set = 0, binding = 4) uniform texture2D occlusion;
 #ifdef PACKED
 layout(set = 0, binding = 5) uniform utexture2D accumulated;
 #else
@@ -79,10 +78,9 @@ CellPart gather(ivec2 block) {
     add(part.window, 1.0, zp);
     const vec4 mean = lightAt(p);
     if (zp == 0.0 || mean.a == 0.0) continue;
-    const vec3 shading = unpackNormal(texelFetch(shadingNormal, p, 0).x);
-    const BlockMoments sampled =
-        onePixel(featuresOf(shading, z / zp - 1.0, texelFetch(occlusion, p, 0).x), mean.rgb, mean.a);
-    const float weight = onPlane(planeDistance(plane, p, zp)) * facing(normal, shading);
+    const NormalAndOcclusion shading = unpackNormalAndOcclusion(texelFetch(features, p, 0).x);
+    const BlockMoments sampled = onePixel(featuresOf(shading, z / zp - 1.0), mean.rgb, mean.a);
+    const float weight = onPlane(planeDistance(plane, p, zp)) * facing(normal, shading.normal);
     if (weight > 0.0) add(onItsPlane, weight, sampled);
     add(all, 1.0, sampled);
   }

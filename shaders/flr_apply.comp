@@ -14,7 +14,6 @@ layout(push_constant) uniform PushConstants { FlrConstants settings; };
 
 layout(set = 0, binding = 0) uniform texture2D lighting;
 layout(set = 0, binding = 1) uniform utexture2D depth;
-layout(set = 0, binding = 2) uniform utexture2D shadingNormal;
 layout(set = 0, binding = 3, std430) readonly buffer coefficients { Coefficients cells[]; };
 #ifdef VIEW
 layout(constant_id = 8) const uint kView = 0;  // Which quantity; numbered in viewOf.
@@ -22,9 +21,6 @@ layout(constant_id = 1) const bool kAlphaIsSampleCount = false;
 layout(set = 0, binding = 4, rgba32f) uniform writeonly image2D outView;
 #else
 layout(set = 0, binding = 4, rgba16f) uniform writeonly image2D outFiltered;
-#endif
-#ifdef OCCLUSION
-layout(set = 0, binding = 5) uniform texture2D occlusion;
 #endif
 #include "include/flr_guides.glsl"
 

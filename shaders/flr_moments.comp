@@ -13,11 +13,7 @@ layout(push_constant) uniform PushConstants { FlrConstants settings; };
 
 layout(set = 0, binding = 0) uniform texture2D lighting;
 layout(set = 0, binding = 1) uniform utexture2D depth;
-layout(set = 0, binding = 2) uniform utexture2D shadingNormal;
 layout(set = 0, binding = 3, std430) writeonly buffer outMoments { OuterProducts outCells[]; };
-#ifdef OCCLUSION
-layout(set = 0, binding = 4) uniform texture2D occlusion;
-#endif
 #include "include/flr_guides.glsl"
 
 void main() {

@@ -1,9 +1,11 @@
 // Converts the host's G-buffer into the guides that every later pass reads: view depth (0 where there is nothing to
 // denoise), the two octahedral features of the shading normal, and, with GEOMETRIC_NORMAL, the geometric normal that
-// spans the planes. DIFFUSE_MASK treats pixels without a diffuse lobe like sky.
+// spans the planes. DIFFUSE_MASK treats pixels without a diffuse lobe like sky. With OCCLUSION ambient occlusion shares a
+// texel with the shading normal. Its occluders are all that the host's depth shows: a mirror, too, which is not denoised.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
+#extension GL_EXT_control_flow_attributes : require
 #include "constants/frame.h"
 #include "constants/prepare_guides.h"
 #include "include/camera.glsl"
@@ -25,7 +27,12 @@ layout(constant_id = 8) const uint kView = 0;  // Which quantity; numbered in vi
 layout(set = 0, binding = 4, rgba32f) uniform writeonly image2D outView;
 #else
 layout(set = 0, binding = 4, r32ui) uniform writeonly uimage2D outDepth;
+#ifdef OCCLUSION
+layout(constant_id = 2) const int kOcclusionSteps = 5;
+layout(set = 0, binding = 5, r32ui) uniform writeonly uimage2D outFeatures;
+#else
 layout(set = 0, binding = 5, r32ui) uniform writeonly uimage2D outShadingNormal;
+#endif
 #endif
 #ifdef GEOMETRIC_NORMAL
 layout(set = 0, binding = 6, r32ui) uniform writeonly uimage2D outGeometricNormal;
@@ -34,12 +41,23 @@ layout(push_constant) uniform PushConstants { PrepareGuidesConstants settings; }
 
 bool isSurfaceDepth(float z) { return isFinite(z) && z > 0.0 && (!kSky || z < frame.skyDepth); }
 
+#if defined(GEOMETRIC_NORMAL) || defined(OCCLUSION)
+// 0 outside the image and on sky.
+float surfaceDepthAt(ivec2 p) {
+  const ivec2 inside = clamp(p, ivec2(0), textureSize(depth, 0) - 1);
+  const float z = texelFetch(depth, inside, 0).x;
+  return inside == p && isSurfaceDepth(z) ? z : 0.0;
+}
+#endif
+#ifdef OCCLUSION
+#include "include/ambient_occlusion.glsl"
+#endif
+
 #ifdef GEOMETRIC_NORMAL
 // Inverse depth, which is linear over the image of a plane; 0 outside the image and on sky.
 float inverseDepthAt(ivec2 p) {
-  if (any(lessThan(p, ivec2(0))) || any(greaterThanEqual(p, textureSize(depth, 0)))) return 0.0;
-  const float z = texelFetch(depth, p, 0).x;
-  return isSurfaceDepth(z) ? 1.0 / z : 0.0;
+  const float z = surfaceDepthAt(p);
+  return z > 0.0 ? 1.0 / z : 0.0;
 }
 
 // One-sided difference of position along `axis`, from the side whose two pixels extrapolate best to this one: across an
@@ -122,9 +140,13 @@ void main() {
   imageStore(outView, p, vec4(viewOf(p), 1.0));
 }
 #else
-void storeGuides(ivec2 p, uint packedDepth, uint shadingNormal, uint geometricNormal) {
+void storeGuides(ivec2 p, uint packedDepth, uint features, uint geometricNormal) {
   imageStore(outDepth, p, uvec4(packedDepth));
-  imageStore(outShadingNormal, p, uvec4(shadingNormal));
+#ifdef OCCLUSION
+  imageStore(outFeatures, p, uvec4(features));
+#else
+  imageStore(outShadingNormal, p, uvec4(features));
+#endif
 #ifdef GEOMETRIC_NORMAL
   imageStore(outGeometricNormal, p, uvec4(geometricNormal));
 #endif
@@ -151,6 +173,12 @@ void main() {
 #else
   const uint packedGeometry = 0u;
 #endif
-  storeGuides(p, packDepthSdf(z, 0u), packNormal(shadingNormal), packedGeometry);
+#ifdef OCCLUSION
+  const float occlusion = ambientOcclusion(p, z, shadingNormal, settings.occlusionRadius, kOcclusionSteps);
+  const uint features = packNormalAndOcclusion(NormalAndOcclusion(shadingNormal, occlusion));
+#else
+  const uint features = packNormal(shadingNormal);
+#endif
+  storeGuides(p, packDepthSdf(z, 0u), features, packedGeometry);
 }
 #endif

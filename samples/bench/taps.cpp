@@ -112,7 +112,6 @@ constexpr std::array kShaders = {
     ShaderTaps{"surface_tiles", [](const Stage&) { return 0.0; }},
     ShaderTaps{"list_tiles", [](const Stage&) { return 0.0; }},
     ShaderTaps{"pass_sky", [](const Stage&) { return 1.0; }},
-    ShaderTaps{"ambient_occlusion", [](const Stage&) { return 0.0; }},
     ShaderTaps{"block_moments", [](const Stage&) { return 1.0; }},
     // At one path a pixel; with more of them it is narrower.
     ShaderTaps{"block_coarse", coarseLine},

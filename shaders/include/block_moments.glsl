@@ -5,6 +5,7 @@
 #define WALR_BLOCK_MOMENTS_GLSL
 #include "finite.glsl"
 #include "luminance.glsl"
+#include "surface.glsl"
 
 const int kFeatures = 5;
 const int kDepthFeature = 3;
@@ -21,8 +22,8 @@ struct BlockMoments {
   float samples;            // W: sum of the weights of the paths behind the samples.
 };
 
-float[kFeatures] featuresOf(vec3 n, float relativeDepth, float occlusion) {
-  return float[](n.x, n.y, n.z, relativeDepth, occlusion);
+float[kFeatures] featuresOf(NormalAndOcclusion s, float relativeDepth) {
+  return float[](s.normal.x, s.normal.y, s.normal.z, relativeDepth, s.occlusion);
 }
 
 BlockMoments noSamples() {

@@ -33,4 +33,18 @@ uint packNormal(vec3 n) { return packUnorm2x16(octahedralEncode(n)); }
 vec2 unpackFeatures(uint packed) { return unpackUnorm2x16(packed); }
 vec3 unpackNormal(uint packed) { return octahedralDecode(unpackUnorm2x16(packed)); }
 
+// The shading normal, twice twelve bits, and ambient occlusion, in [0, 1], eight bits, in one R32_UINT.
+struct NormalAndOcclusion {
+  vec3 normal;
+  float occlusion;
+};
+uint packNormalAndOcclusion(NormalAndOcclusion s) {
+  const uvec2 normal = uvec2(round(clamp(octahedralEncode(s.normal), 0.0, 1.0) * 4095.0));
+  return normal.x | (normal.y << 12) | (uint(round(clamp(s.occlusion, 0.0, 1.0) * 255.0)) << 24);
+}
+NormalAndOcclusion unpackNormalAndOcclusion(uint packed) {
+  const uvec2 normal = uvec2(packed, packed >> 12) & 0xfffu;
+  return NormalAndOcclusion(octahedralDecode(vec2(normal) / 4095.0), float(packed >> 24) / 255.0);
+}
+
 #endif

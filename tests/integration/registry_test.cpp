@@ -147,12 +147,11 @@ void expectPlannedAs(const char* preset, const std::vector<Link>& chain) {
 
 TEST(Registry, StagesConnectedByNameArePlannedAsTheWholeMethodIs) {
   expectPlannedAs(
-      "blocks", {{"prepare_guides", {}},
+      "blocks", {{"prepare_guides_with_occlusion", {}},
                  {"temporal_accumulation_with_taps",
                   {{"accumulation.max-samples", "8"},
                    {"accumulation.respond-to-change", "on"},
                    {"accumulation.storage", "packed"}}},
-                 {"ambient_occlusion", {}},
                  {"block_regression",
                   {{"blocks.iterations", "2"}, {"accumulation.storage", "packed"}, {"antialiasing.storage", "packed"}}},
                  {"temporal_antialiasing_with_taps", {{"antialiasing.storage", "packed"}}}});

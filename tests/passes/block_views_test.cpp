@@ -11,7 +11,6 @@
 #include <utility>
 #include <vector>
 
-#include "passes/ambient_occlusion.h"
 #include "passes/block_regression.h"
 #include "tests/passes/comparison.h"
 #include "tests/passes/host_textures.h"
@@ -30,6 +29,9 @@ using reference::Image;
 
 constexpr glm::ivec2 kSize(45, 34);  // No multiple of a block.
 
+// In a picture as small as this.
+constexpr AmbientOcclusionSettings kOcclusionSettings{.radius = 0.25F, .steps = 8};
+
 /// The regression alone, with its views.
 class ViewedRegression {
  public:
@@ -37,15 +39,14 @@ class ViewedRegression {
                    const std::vector<std::string>& views)
       : frame_(graph_.upload("frame constants", sizeof(FrameConstants))),
         guides_(importGuides(graph_, kSize)),
-        accumulated_(importHalves(graph_, "accumulated", kSize)),
-        occlusion_(importHalves(graph_, "occlusion", kSize)) {
+        accumulated_(importHalves(graph_, "accumulated", kSize)) {
     const fg::Extent extent{static_cast<std::uint32_t>(kSize.x), static_cast<std::uint32_t>(kSize.y)};
     Inspection inspection;
     for (const std::string& view : views)
       inspection.want(view, graph_.import("view of " + view, {kViewFormat, extent}, fg::vk::kOverwritable));
-    output_ = copyOut(graph_, "result",
-                      addBlockRegression(graph_, frame_, {accumulated_, LightingAlpha::SampleCount}, guides_,
-                                         occlusion_, settings, &inspection));
+    output_ = copyOut(
+        graph_, "result",
+        addBlockRegression(graph_, frame_, {accumulated_, LightingAlpha::SampleCount}, guides_, settings, &inspection));
     inspection.requireViews();
     for (const DebugView& view : inspection.views()) {
       graph_.exported(view.texture, fg::vk::kReadable);
@@ -54,14 +55,10 @@ class ViewedRegression {
     run_ = std::make_unique<fg::test::GraphRun>(device, graph_);
   }
 
-  void filter(const HostFrame& frame, const Image<reference::Guide>& guides, const Image<glm::dvec4>& accumulated,
-              const Image<double>& occlusion) {
-    Image<glm::dvec4> wide(kSize);
-    reference::forEachPixel(kSize, [&](glm::ivec2 p) { wide[p].x = occlusion[p]; });
+  void filter(const HostFrame& frame, const Image<reference::Guide>& guides, const Image<glm::dvec4>& accumulated) {
     run_->executor().upload(frame_, frame.constants);
     upload(*run_, guides_, guides);
     upload(*run_, accumulated_, accumulated);
-    upload(*run_, occlusion_, wide);
     run_->frame();
   }
   [[nodiscard]] Image<glm::dvec4> output() const { return readHalves(*run_, output_, kSize); }
@@ -78,7 +75,6 @@ class ViewedRegression {
   fg::Buffer frame_;
   Guides guides_;
   fg::Texture accumulated_;
-  fg::Texture occlusion_;
   fg::Texture output_;
   std::map<std::string, fg::Texture> views_;
   std::unique_ptr<fg::test::GraphRun> run_;
@@ -89,18 +85,19 @@ struct Inputs {
   HostFrame frame;
   Image<reference::Guide> guides;
   Image<glm::dvec4> accumulated;
-  Image<double> occlusion;
 };
 Inputs inputsOf(const Scene& scene) {
   Inputs inputs;
   inputs.frame = renderStill(scene, kSize);
-  inputs.guides = reference::prepareGuides(inputs.frame, reference::Storage::Quantised);
+  inputs.guides = reference::prepareGuides(inputs.frame, reference::Storage::Quantised, {}, kOcclusionSettings);
   inputs.accumulated = withAlpha(inputs.frame.lighting);
   for (glm::dvec4& sample : inputs.accumulated.pixels()) sample.a = 1.0;
-  inputs.occlusion = reference::ambientOcclusion(inputs.frame, inputs.guides, 8.0, 8);
-  for (double& o : inputs.occlusion.pixels()) o = reference::roundToHalf(o);
   return inputs;
 }
+
+/// Error of the quotient that unpacks ambient occlusion: 2.5 units in the last place (Vulkan, "Precision of core
+/// operations"), each at most two roundoffs.
+constexpr double kUnpacked = 5.0 * reference::kFloatRoundoff;
 
 /// Largest relative error of a block's moments, which are stored as halves once before the iteration.
 constexpr double kStored = 2.0 * reference::kHalfRoundoff;
@@ -169,7 +166,7 @@ class Window {
       const glm::ivec2 q = first + glm::ivec2(k % 6, k / 6);
       const glm::dvec3 n = reference::octahedralDecode(in.guides[q].features);
       const glm::dvec4 y = in.accumulated[q];
-      samples_[k] = {n.x, n.y, n.z, depth / in.guides[q].depth - 1.0, in.occlusion[q], y.r, y.g, y.b};
+      samples_[k] = {n.x, n.y, n.z, depth / in.guides[q].depth - 1.0, in.guides[q].occlusion, y.r, y.g, y.b};
       weights_[k] = std::clamp(glm::dot(n, in.guides[q].normal), 0.0, 1.0);
     }
     weight_ = std::accumulate(weights_.begin(), weights_.end(), 0.0);
@@ -229,8 +226,10 @@ Inputs wallOfManyFeatures() {
     const double turn = 2.9 * p.x + 1.7 * p.y;
     const glm::dvec3 n(std::sin(tilt) * std::cos(turn), std::sin(tilt) * std::sin(turn), std::cos(tilt));
     const glm::dvec2 uv = reference::octahedralEncode(n);
-    in.guides[p].features = {reference::roundToUnorm16(uv.x), reference::roundToUnorm16(uv.y)};
-    in.occlusion[p] = reference::roundToHalf(0.5 + 0.25 * std::sin(0.5 * p.x + 0.3 * p.y));
+    in.guides[p].features = {reference::roundToUnorm(uv.x, reference::kUnorm12Step),
+                             reference::roundToUnorm(uv.y, reference::kUnorm12Step)};
+    in.guides[p].occlusion =
+        reference::roundToUnorm(0.5 + 0.25 * std::sin(0.5 * p.x + 0.3 * p.y), reference::kUnorm8Step);
   });
   return in;
 }
@@ -269,7 +268,7 @@ TEST_F(BlockViewsTest, TheMixtureIsTheOutput) {
   for (const NamedScene& named : allScenes()) {
     SCOPED_TRACE(named.name);
     const Inputs in = inputsOf(named.scene);
-    run.filter(in.frame, in.guides, in.accumulated, in.occlusion);
+    run.filter(in.frame, in.guides, in.accumulated);
     const Image<glm::dvec4> output = run.output();
     const Image<glm::dvec3> samples = run.view("samples");
     const Image<glm::dvec3> occlusion = run.view("occlusion");
@@ -289,7 +288,7 @@ TEST_F(BlockViewsTest, TheMixtureIsTheOutput) {
       const double share = samples[p].y;
       comparison.value(p, "share", share, k / (w + k), 8.0 * reference::kFloatRoundoff);
       comparison.value(p, "unfitted", samples[p].z, 0.0, 0.0);
-      comparison.value(p, "occlusion", occlusion[p].x, in.occlusion[p], 0.0);
+      comparison.value(p, "occlusion", occlusion[p].x, in.guides[p].occlusion, kUnpacked);
       comparison.value(p, "few", few[p].x, w < 6.0 ? 1.0 : 0.0, 0.0);
       comparison.value(p, "mostly coarse", few[p].y, 1.0 - share < 0.5 ? 1.0 : 0.0, 0.0);
       comparison.value(p, "unsampled", few[p].z, 0.0, 0.0);
@@ -310,7 +309,7 @@ TEST_F(BlockViewsTest, MomentsAreThoseOfTheWindow) {
   wanted.push_back("edges");
   ViewedRegression run(device(), {.size = 2, .iterations = 1}, wanted);
   const Inputs in = wallOfManyFeatures();
-  run.filter(in.frame, in.guides, in.accumulated, in.occlusion);
+  run.filter(in.frame, in.guides, in.accumulated);
   const Image<glm::dvec3> edges = run.view("edges");
   const MomentViews views(run);
   Comparison comparison("moments of a block's window");
@@ -343,7 +342,7 @@ TEST_F(BlockViewsTest, PivotsAreThoseOfTheMoments) {
   for (const float ridge : {1e-4F, 3e-2F}) {
     ViewedRegression run(device(), {.size = 2, .iterations = 2, .ridge = ridge}, wanted);
     for (const Inputs& in : {wallOfManyFeatures(), inputsOf(sphere()), inputsOf(stairs())}) {
-      run.filter(in.frame, in.guides, in.accumulated, in.occlusion);
+      run.filter(in.frame, in.guides, in.accumulated);
       const Image<glm::dvec3> pivots = run.view("pivots");
       const MomentViews views(run);
       Comparison comparison("pivots");
@@ -394,7 +393,7 @@ TEST_F(BlockViewsTest, SlopesAreThoseOfTheBlocksAround) {
   const BlockRegressionSettings settings{.size = 2, .iterations = 1, .ridge = 1e-3F};
   ViewedRegression run(device(), settings, wanted);
   const Inputs in = wallOfManyFeatures();
-  run.filter(in.frame, in.guides, in.accumulated, in.occlusion);
+  run.filter(in.frame, in.guides, in.accumulated);
   const MomentViews views(run);
   Comparison comparison("slopes");
   for (std::size_t feature = 0; feature < kSlopes.size(); ++feature) {
@@ -447,14 +446,14 @@ TEST_F(BlockViewsTest, CoarseSlopesAreThoseOfTheCoarseFit) {
   constexpr int kCell = 8;
   ViewedRegression run(device(), settings, wanted);
   const Inputs in = wallOfManyFeatures();
-  run.filter(in.frame, in.guides, in.accumulated, in.occlusion);
+  run.filter(in.frame, in.guides, in.accumulated);
   const Image<glm::dvec3> fit = run.view("coarse-fit");
   std::array<Image<glm::dvec3>, kFeatures> slopes;
   for (int k = 0; k < kFeatures; ++k) slopes[k] = run.view(kSlopes[k]);
   const Image<glm::dvec3> clamped = run.view("coarse-clamped");
   const auto featuresAt = [&](glm::ivec2 p) {
     const glm::dvec3 n = reference::octahedralDecode(in.guides[p].features);
-    return std::array{n.x, n.y, n.z, 1.0 / in.guides[p].depth, in.occlusion[p]};
+    return std::array{n.x, n.y, n.z, 1.0 / in.guides[p].depth, in.guides[p].occlusion};
   };
   Comparison comparison("coarse slopes");
   const glm::ivec2 origin(0);
@@ -503,10 +502,11 @@ TEST_F(BlockViewsTest, ClampedFitsAreThoseBelowZero) {
                              ? glm::normalize(glm::dvec3(-3.0, 0.0, 1.0))
                              : glm::normalize(glm::dvec3(0.4 * std::sin(0.9 * p.x), 0.4 * std::cos(0.7 * p.y), 1.0));
     const glm::dvec2 uv = reference::octahedralEncode(n);
-    in.guides[p].features = {reference::roundToUnorm16(uv.x), reference::roundToUnorm16(uv.y)};
+    in.guides[p].features = {reference::roundToUnorm(uv.x, reference::kUnorm12Step),
+                             reference::roundToUnorm(uv.y, reference::kUnorm12Step)};
     in.accumulated[p] = glm::dvec4(glm::dvec3(reference::roundToHalf(0.6 + n.x)), p == kTurned ? 0.0 : 1.0);
   });
-  run.filter(in.frame, in.guides, in.accumulated, in.occlusion);
+  run.filter(in.frame, in.guides, in.accumulated);
   struct Views {
     const char* flag;
     const char* fit;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -10,7 +11,6 @@
 
 #include "tests/passes/comparison.h"
 #include "tests/passes/filter_run.h"
-#include "tests/passes/reference/block_regression.h"
 #include "tests/passes/reference/flr.h"
 #include "tests/passes/reference/octahedral.h"
 #include "tests/passes/synthetic_scene.h"
@@ -28,29 +28,26 @@ constexpr glm::ivec2 kSize(45, 34);  // No multiple of a cell.
 
 /// A frame as the regression takes it.
 struct Inputs {
-  explicit Inputs(const Scene& scene) : frame(renderStill(scene, kSize)) {
-    guides = reference::prepareGuides(frame, Storage::Quantised);
-    occlusion = reference::ambientOcclusion(frame, guides, 8.0, 8);
-    for (double& o : occlusion.pixels()) o = reference::roundToHalf(o);
+  Inputs(const Scene& scene, const FlrRegressionSettings& settings) : frame(renderStill(scene, kSize)) {
+    std::optional<AmbientOcclusionSettings> occlusion;
+    if (settings.occlusionGuide) occlusion = {.radius = 0.25F, .steps = 8};
+    guides = reference::prepareGuides(frame, Storage::Quantised, {}, occlusion);
   }
   HostFrame frame;
   Image<Guide> guides;
-  Image<double> occlusion;
 };
 
 /// The regression alone, fed with guides.
 class RegressionRun {
  public:
   RegressionRun(const fg::vk::Device& device, const FlrRegressionSettings& settings)
-      : run_(device, kSize, 2, [&](fg::Graph& graph, fg::Buffer, const Guides& guides, const auto& inputs) {
+      : run_(device, kSize, 1, [&](fg::Graph& graph, fg::Buffer, const Guides& guides, const auto& inputs) {
           const fg::Texture filtered = graph.texture("filtered", graph.textureDesc(inputs[0]));
-          return addFlrRegression(graph, inputs[0], LightingAlpha::Unused, guides, inputs[1], filtered, settings);
+          return addFlrRegression(graph, inputs[0], LightingAlpha::Unused, guides, filtered, settings);
         }) {}
 
   Image<glm::dvec4> filter(const Inputs& inputs, const Image<glm::dvec3>& lighting) {
-    Image<glm::dvec4> occlusion(kSize);
-    reference::forEachPixel(kSize, [&](glm::ivec2 p) { occlusion[p].x = inputs.occlusion[p]; });
-    return run_.run({}, inputs.guides, {withAlpha(lighting), occlusion});
+    return run_.run({}, inputs.guides, {withAlpha(lighting)});
   }
 
  private:
@@ -62,9 +59,9 @@ class Flr : public fg::test::GpuTest {
   void expectAgreement(const FlrRegressionSettings& settings) {
     RegressionRun run(device(), settings);
     for (const NamedScene& scene : allScenes()) {
-      const Inputs inputs(scene.scene);
+      const Inputs inputs(scene.scene, settings);
       const Image<glm::dvec3>& lighting = inputs.frame.lighting;
-      const auto expected = reference::flrRegression(inputs.guides, lighting, inputs.occlusion, settings);
+      const auto expected = reference::flrRegression(inputs.guides, lighting, settings);
       const Image<glm::dvec4> actual = run.filter(inputs, lighting);
       Comparison comparison(scene.name);
       reference::forEachPixel(kSize, [&](glm::ivec2 p) {
@@ -98,9 +95,9 @@ TEST_F(Flr, AConstantStaysWhatItIs) {
   const glm::dvec3 light(0.25, 3.0, 1000.0);
   const FlrRegressionSettings settings;
   RegressionRun run(device(), settings);
-  const Inputs inputs(sphere());
+  const Inputs inputs(sphere(), settings);
   const Image<glm::dvec3> lighting(kSize, light);
-  const auto bound = reference::flrRegression(inputs.guides, lighting, inputs.occlusion, settings);
+  const auto bound = reference::flrRegression(inputs.guides, lighting, settings);
   const Image<glm::dvec4> actual = run.filter(inputs, lighting);
   reference::forEachPixel(kSize, [&](glm::ivec2 p) {
     for (int c = 0; c < 3; ++c)
@@ -113,19 +110,21 @@ TEST_F(Flr, AConstantStaysWhatItIs) {
 /// value of r^2 m / (m + r)^2 is r / 4).
 TEST_F(Flr, ASignalLinearInTheGuidesIsReproduced) {
   constexpr double kRidge = 1e-6;
-  RegressionRun run(device(), {.ridge = static_cast<float>(kRidge)});
-  Inputs inputs(bumpyWall(0.1));
+  const FlrRegressionSettings settings{.ridge = static_cast<float>(kRidge)};
+  RegressionRun run(device(), settings);
+  Inputs inputs(bumpyWall(0.1), settings);
   const glm::dvec3 slope(0.5, -1.0, 0.7);
   const double depthSlope = 3.0;
   const double occlusionSlope = -2.0;
   Image<glm::dvec3> signal(kSize);
   double inverseDepth = 0.0;
   reference::forEachPixel(kSize, [&](glm::ivec2 p) {
-    const Guide& guide = inputs.guides[p];
+    Guide& guide = inputs.guides[p];
     inverseDepth = std::max(inverseDepth, 1.0 / guide.depth);
-    inputs.occlusion[p] = reference::roundToHalf(0.5 + 0.3 * std::sin(0.9 * p.x) * std::cos(0.7 * p.y));
+    guide.occlusion =
+        reference::roundToUnorm(0.5 + 0.3 * std::sin(0.9 * p.x) * std::cos(0.7 * p.y), reference::kUnorm8Step);
     signal[p] = glm::dvec3(4.0 + glm::dot(reference::octahedralDecode(guide.features), slope) +
-                           depthSlope / guide.depth + occlusionSlope * inputs.occlusion[p]);
+                           depthSlope / guide.depth + occlusionSlope * guide.occlusion);
   });
   const Image<glm::dvec4> actual = run.filter(inputs, signal);
   double squares = 0.0;
@@ -145,7 +144,7 @@ TEST(FlrSettings, TooManyCellsAreRejectedWithTheSetting) {
   fg::Graph graph;
   const fg::Texture lighting = graph.texture("lighting", {VK_FORMAT_R16G16B16A16_SFLOAT, {3840, 2160}});
   try {
-    (void)addFlrRegression(graph, lighting, LightingAlpha::Unused, {}, {}, lighting, {.factor = 1});
+    (void)addFlrRegression(graph, lighting, LightingAlpha::Unused, {}, lighting, {.factor = 1});
     FAIL() << "accepted";
   } catch (const std::invalid_argument& error) {
     EXPECT_NE(std::string(error.what()).find("regression.factor"), std::string::npos) << error.what();

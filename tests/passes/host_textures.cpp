@@ -1,6 +1,7 @@
 #include "tests/passes/host_textures.h"
 
 #include <bit>
+#include <cmath>
 #include <cstdint>
 
 #include <glm/gtc/packing.hpp>
@@ -25,6 +26,13 @@ fg::Texture import(fg::Graph& graph, const std::string& name, VkFormat format, g
 
 std::uint32_t packUnorms(glm::dvec2 unorms) {
   return glm::packUnorm2x16(glm::vec2(unorms));
+}
+
+/// The shading normal in twice 12 bits and ambient occlusion in 8.
+std::uint32_t packFeatures(const reference::Guide& guide) {
+  const auto unorm = [](double value, double step) { return static_cast<std::uint32_t>(std::lround(value / step)); };
+  return unorm(guide.features.x, reference::kUnorm12Step) | (unorm(guide.features.y, reference::kUnorm12Step) << 12U) |
+         (unorm(guide.occlusion, reference::kUnorm8Step) << 24U);
 }
 
 /// Upload the guides that are carried from frame to frame, in their packed form.
@@ -72,6 +80,7 @@ Guides importGuides(fg::Graph& graph, glm::ivec2 size) {
   Guides guides;
   guides.depth = import(graph, "guides.depth", VK_FORMAT_R32_UINT, size);
   guides.shadingNormal = import(graph, "guides.shading normal", VK_FORMAT_R32_UINT, size);
+  guides.features = import(graph, "guides.features", VK_FORMAT_R32_UINT, size);
   guides.geometricNormal = import(graph, "guides.geometric normal", VK_FORMAT_R32_UINT, size);
   guides.previousDepth = import(graph, "previous guides.depth", VK_FORMAT_R32_UINT, size);
   guides.previousGeometricNormal = import(graph, "previous guides.geometric normal", VK_FORMAT_R32_UINT, size);
@@ -79,9 +88,14 @@ Guides importGuides(fg::Graph& graph, glm::ivec2 size) {
 }
 
 void upload(fg::test::GraphRun& run, const Guides& guides, const Image<reference::Guide>& values) {
+  std::vector<std::uint32_t> shadingNormals;
   std::vector<std::uint32_t> features;
-  for (const reference::Guide& guide : values.pixels()) features.push_back(packUnorms(guide.features));
-  run.fill(guides.shadingNormal, features);
+  for (const reference::Guide& guide : values.pixels()) {
+    shadingNormals.push_back(packUnorms(guide.features));
+    features.push_back(packFeatures(guide));
+  }
+  run.fill(guides.shadingNormal, shadingNormals);
+  run.fill(guides.features, features);
   uploadDepthAndGeometry(run, guides.depth, guides.geometricNormal, values);
 }
 

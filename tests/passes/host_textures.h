@@ -19,7 +19,8 @@ void upload(fg::test::GraphRun& run, const DenoiserInputs& inputs, const referen
 
 /// Import guides of this frame and the last, as if the first stage had made them.
 Guides importGuides(fg::Graph& graph, glm::ivec2 size);
-/// Have the next frame upload this frame's guides, which must hold values that their packed form keeps exactly.
+/// Have the next frame upload this frame's guides, which must hold values that the packed form that is read keeps
+/// exactly.
 void upload(fg::test::GraphRun& run, const Guides& guides, const reference::Image<reference::Guide>& values);
 /// The same for the last frame's, for passes with a history.
 void uploadPrevious(fg::test::GraphRun& run, const Guides& guides, const reference::Image<reference::Guide>& values);

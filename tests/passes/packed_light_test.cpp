@@ -9,7 +9,6 @@
 
 #include <glm/common.hpp>
 
-#include "passes/ambient_occlusion.h"
 #include "passes/block_regression.h"
 #include "tests/passes/comparison.h"
 #include "tests/passes/filter_run.h"
@@ -277,8 +276,7 @@ TEST_F(PackedLight, BlocksReadAndWriteIt) {
   const WalrSettings settings = blocksWalr();
   FilterRun inHalves(
       device(), kSize, 1, [&](fg::Graph& graph, fg::Buffer frame, const walr::Guides& guides, const auto& inputs) {
-        return addBlockRegression(graph, frame, {inputs[0], LightingAlpha::SampleCount}, guides,
-                                  addAmbientOcclusion(graph, frame, guides, settings.occlusion), settings.blocks);
+        return addBlockRegression(graph, frame, {inputs[0], LightingAlpha::SampleCount}, guides, settings.blocks);
       });
   for (const NamedScene& named : allScenes()) {
     WalrRun run(device(), kSize, settings);

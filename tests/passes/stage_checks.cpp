@@ -21,17 +21,21 @@ using reference::Image;
 
 constexpr const char* kChannels[] = {"red", "green", "blue"};
 
-/// Whether two octahedral features are those of one direction to within `error` radians and a step of their format. The
-/// map turns a direction by `error` into at most 1.4 error of [0, 1]: its derivative is at most 1 + sqrt(3), halved.
-/// The seams of the far side, where the map jumps, are met by comparing directions.
-bool sameDirection(glm::dvec3 actual, glm::dvec3 expected, double error) {
+/// Whether two octahedral features are those of one direction to within `error` radians and a step of their format in
+/// [0, 1]. The map turns a direction by `error` into at most 1.4 error of [0, 1]: its derivative is at most
+/// 1 + sqrt(3), halved. The seams of the far side, where the map jumps, are met by comparing directions.
+bool sameDirection(glm::dvec3 actual, glm::dvec3 expected, double error, double step) {
   const glm::dvec2 difference = glm::abs(reference::octahedralEncode(actual) - reference::octahedralEncode(expected));
-  const double tolerance = 1.4 * error + reference::kUnorm16Step;
+  const double tolerance = 1.4 * error + step;
   const bool near = std::max(difference.x, difference.y) <= tolerance;
-  return near || glm::length(actual - expected) <= error + std::sqrt(18.0) * reference::kUnorm16Step;
+  return near || glm::length(actual - expected) <= error + std::sqrt(18.0) * step;
 }
 
-void expectGuides(const DeviceFrame& f, const PrepareGuidesSettings& settings) {
+void expectGuides(const DeviceFrame& f, const WalrSettings& walr) {
+  const PrepareGuidesSettings& settings = walr.guides;
+  const bool occludes = walr.filter == SpatialFilter::Blocks;
+  const double shadingStep = occludes ? reference::kUnorm12Step : reference::kUnorm16Step;
+  constexpr double kShadingError = 16.0 * reference::kFloatRoundoff;
   Comparison comparison("guides");
   reference::forEachPixel(f.frame.size(), [&](glm::ivec2 p) {
     const Guide& actual = f.current.guides[p];
@@ -41,12 +45,19 @@ void expectGuides(const DeviceFrame& f, const PrepareGuidesSettings& settings) {
     if (surface.depth == 0.0) return;
     const glm::dvec3 shading = reference::octahedralDecode(actual.features);
     comparison.value(p, "shading normal",
-                     sameDirection(shading, surface.shadingNormal, 16.0 * reference::kFloatRoundoff) ? 0.0 : 1.0, 0.0,
-                     0.5);
+                     sameDirection(shading, surface.shadingNormal, kShadingError, shadingStep) ? 0.0 : 1.0, 0.0, 0.5);
+    if (occludes) {
+      // Rounded to nearest; of a difference of two positions, each rounded a few times, over their distance, which is a
+      // pixel at least.
+      const double pixel = std::abs(double(f.frame.constants.rayFromPixel.x));
+      comparison.value(p, "occlusion", actual.occlusion,
+                       reference::ambientOcclusion(f.frame, p, surface, walr.occlusion),
+                       0.5 * reference::kUnorm8Step + 16.0 * reference::kFloatRoundoff / pixel);
+    }
     if (actual.normal == glm::dvec3(0.0)) return;  // These settings have no use for it.
     bool found = false;
     for (const auto& candidate : reference::geometricNormals(f.frame, p, surface, settings))
-      found |= sameDirection(actual.normal, candidate.normal, candidate.error);
+      found |= sameDirection(actual.normal, candidate.normal, candidate.error, reference::kUnorm16Step);
     comparison.value(p, "geometric normal", found ? 0.0 : 1.0, 0.0, 0.5);
   });
   comparison.expect(0.0);
@@ -231,7 +242,7 @@ bool isFinite(const Image<glm::dvec4>& image) {
 }  // namespace
 
 void expectStages(const DeviceFrame& f, const WalrSettings& settings) {
-  expectGuides(f, settings.guides);
+  expectGuides(f, settings);
   const bool keepTaps = sharesReprojection(settings.antialiasing, settings.accumulation);
   expectAccumulation(f, settings.accumulation, keepTaps);
   if (settings.filter == SpatialFilter::Pixels) {

@@ -169,15 +169,20 @@ glm::dvec2 decodeUnorms(std::uint32_t packed) {
   return {(packed & 0xffffU) * reference::kUnorm16Step, (packed >> 16U) * reference::kUnorm16Step};
 }
 
-reference::Image<reference::Guide> decodeGuides(const std::vector<std::uint32_t>& depth,
-                                                const std::vector<std::uint32_t>& shadingNormal,
-                                                const std::vector<std::uint32_t>& geometricNormal, glm::ivec2 size) {
+reference::Image<reference::Guide> decodeGuides(const GuideTexels& texels, glm::ivec2 size) {
   reference::Image<reference::Guide> guides(size);
-  for (std::size_t i = 0; i < depth.size(); ++i) {
-    if (decodeDepth(depth[i]) == 0.0) continue;
-    guides.pixels()[i] = {
-        decodeDepth(depth[i]), decodeUnorms(shadingNormal[i]),
-        geometricNormal.empty() ? glm::dvec3(0.0) : reference::octahedralDecode(decodeUnorms(geometricNormal[i]))};
+  for (std::size_t i = 0; i < texels.depth.size(); ++i) {
+    reference::Guide& guide = guides.pixels()[i];
+    guide.depth = decodeDepth(texels.depth[i]);
+    if (guide.depth == 0.0) continue;
+    if (!texels.shadingNormal.empty()) guide.features = decodeUnorms(texels.shadingNormal[i]);
+    if (!texels.features.empty()) {
+      const std::uint32_t packed = texels.features[i];
+      guide.features = glm::dvec2(packed & 0xfffU, (packed >> 12U) & 0xfffU) * reference::kUnorm12Step;
+      guide.occlusion = (packed >> 24U) * reference::kUnorm8Step;
+    }
+    if (!texels.geometricNormal.empty())
+      guide.normal = reference::octahedralDecode(decodeUnorms(texels.geometricNormal[i]));
   }
   return guides;
 }

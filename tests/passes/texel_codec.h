@@ -27,10 +27,14 @@ int decodeEdgeDistance(std::uint32_t packed);
 /// Two 16-bit unorms.
 glm::dvec2 decodeUnorms(std::uint32_t packed);
 
-/// Guides from the R32_UINT texels of depth, shading normal and, unless it is empty, geometric normal.
-reference::Image<reference::Guide> decodeGuides(const std::vector<std::uint32_t>& depth,
-                                                const std::vector<std::uint32_t>& shadingNormal,
-                                                const std::vector<std::uint32_t>& geometricNormal, glm::ivec2 size);
+/// The R32_UINT texels of guides; what is not needed is empty.
+struct GuideTexels {
+  std::vector<std::uint32_t> depth;
+  std::vector<std::uint32_t> shadingNormal = {};
+  std::vector<std::uint32_t> features = {};
+  std::vector<std::uint32_t> geometricNormal = {};
+};
+reference::Image<reference::Guide> decodeGuides(const GuideTexels& texels, glm::ivec2 size);
 
 /// Centred moments from the texels of a storage's textures; raw storage has no second luminance moment, and W is 1,
 /// or 0 where the features' mean of 0 tells that there is no sample.

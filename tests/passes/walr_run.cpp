@@ -89,7 +89,11 @@ WalrRun::WalrRun(const fg::vk::Device& device, glm::ivec2 size, WalrSettings set
 void WalrRun::inspectStages(fg::Graph& graph) {
   constexpr std::array kMomentNames{"moments a ", "moments b ", "moments c ", "moments d "};
   depth_ = tap(graph, findGuide(graph, "guides.depth"));
-  shadingNormal_ = tap(graph, textureNamed(graph, "guides.shading normal"));
+  if (settings_.filter == SpatialFilter::Pixels) {
+    shadingNormal_ = tap(graph, textureNamed(graph, "guides.shading normal"));
+  } else {
+    features_ = tap(graph, textureNamed(graph, "guides.features"));
+  }
   const fg::Texture geometricNormal = findGuide(graph, "guides.geometric normal");
   if (geometricNormal.valid()) geometricNormal_ = tap(graph, geometricNormal);
   accumulated_ = tap(graph, textureNamed(graph, "accumulated.current"));
@@ -138,6 +142,7 @@ WalrStages WalrRun::frame(const reference::HostFrame& frame) {
 
   const auto halves = [&](fg::Texture t) { return decodeHalves(run_->texels<std::uint16_t>(t), size_); };
   const auto words = [&](fg::Texture t) { return run_->texels<std::uint32_t>(t); };
+  const auto wordsIfAny = [&](fg::Texture t) { return t.valid() ? words(t) : std::vector<std::uint32_t>(); };
   WalrStages stages;
   stages.outputBits = run_->texels<std::uint16_t>(output_);
   stages.output = decodeHalves(stages.outputBits, size_);
@@ -148,9 +153,11 @@ WalrStages WalrRun::frame(const reference::HostFrame& frame) {
       image.pixels()[i] = {texels[4 * i], texels[4 * i + 1], texels[4 * i + 2]};
   }
   if (!inspect_) return stages;
-  stages.guides =
-      decodeGuides(words(depth_), words(shadingNormal_),
-                   geometricNormal_.valid() ? words(geometricNormal_) : std::vector<std::uint32_t>(), size_);
+  stages.guides = decodeGuides({.depth = words(depth_),
+                                .shadingNormal = wordsIfAny(shadingNormal_),
+                                .features = wordsIfAny(features_),
+                                .geometricNormal = wordsIfAny(geometricNormal_)},
+                               size_);
   const bool blocks = settings_.filter == SpatialFilter::Blocks;
   const bool packedMean = blocks && settings_.accumulation.storage == LightStorage::Packed;
   const bool packedPictures = blocks && settings_.antialiasing.storage == LightStorage::Packed;

@@ -58,8 +58,8 @@ class WalrRun {
   PFN_vkCmdCopyImage copyImage_;
   DenoiserInputs inputs_;
   bool inspect_;
-  fg::Texture depth_, shadingNormal_, geometricNormal_, accumulated_, changeTiles_, doubt_, filtered_, resolved_,
-      output_;
+  fg::Texture depth_, shadingNormal_, features_, geometricNormal_, accumulated_, changeTiles_, doubt_, filtered_,
+      resolved_, output_;
   std::vector<Iteration> iterations_;
   Inspection inspection_;
   std::unique_ptr<fg::test::GraphRun> run_;

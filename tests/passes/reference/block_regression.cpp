@@ -44,7 +44,6 @@ struct Picture {
   const HostFrame& frame;
   const Image<Guide>& guides;
   const Image<glm::dvec4>& accumulated;
-  const Image<double>& occlusion;
   const BlockRegressionSettings& settings;
 
   [[nodiscard]] glm::dvec3 ray(glm::ivec2 p) const { return rayThrough(frame.constants.rayFromPixel, pixelCentre(p)); }
@@ -82,7 +81,7 @@ glm::dvec3 quantised(glm::dvec3 normal) {
 Features featuresAt(const Picture& picture, glm::ivec2 p, double relativeTo) {
   const Guide& guide = picture.guides[p];
   const glm::dvec3 n = octahedralDecode(guide.features);
-  return {n.x, n.y, n.z, relativeTo / guide.depth - 1.0, picture.occlusion[p]};
+  return {n.x, n.y, n.z, relativeTo / guide.depth - 1.0, guide.occlusion};
 }
 
 Image<Block> makeBlocks(const Picture& picture) {
@@ -395,9 +394,8 @@ void forTheFourAround(glm::ivec2 p, int size, const Image<Fit>& grid, Use use) {
 }  // namespace
 
 Image<glm::dvec3> blockRegression(const HostFrame& frame, const Image<Guide>& guides,
-                                  const Image<glm::dvec4>& accumulated, const Image<double>& occlusion,
-                                  const BlockRegressionSettings& settings) {
-  const Picture picture{frame, guides, accumulated, occlusion, settings};
+                                  const Image<glm::dvec4>& accumulated, const BlockRegressionSettings& settings) {
+  const Picture picture{frame, guides, accumulated, settings};
   const Image<Block> blocks = makeBlocks(picture);
   const auto fitAll = [&](const Image<Block>& windows) {
     Image<Fit> fits(windows.size());
@@ -438,36 +436,6 @@ Image<glm::dvec3> blockRegression(const HostFrame& frame, const Image<Guide>& gu
     const double own = samples / fineWeight;
     const double other = coarseWeight > 0.0 ? double(settings.coarseSamples) : 0.0;
     result[p] = glm::mix(result[p], fineSum / fineWeight, own / (own + other));
-  });
-  return result;
-}
-
-Image<double> ambientOcclusion(const HostFrame& frame, const Image<Guide>& guides, double radius, int steps) {
-  const double reach = radius * std::abs(double(frame.constants.rayFromPixel.x));
-  Image<double> result(guides.size(), 0.0);
-  const auto positionAt = [&](glm::ivec2 p) {
-    return guides[p].depth * rayThrough(frame.constants.rayFromPixel, pixelCentre(p));
-  };
-  forEachPixel(guides.size(), [&](glm::ivec2 p) {
-    if (guides[p].depth == 0.0) return;
-    const glm::dvec3 normal = octahedralDecode(guides[p].features);
-    for (int y = -1; y <= 1; ++y) {
-      for (int x = -1; x <= 1; ++x) {
-        if (x == 0 && y == 0) continue;
-        double horizon = 0.0;
-        for (int step = 1; step <= steps; ++step) {
-          const int distance = std::max(static_cast<int>(radius * step * step / double(steps * steps)), step);
-          const glm::ivec2 q = p + distance * glm::ivec2(x, y);
-          if (!guides.contains(q)) break;
-          if (guides[q].depth == 0.0) continue;
-          const glm::dvec3 v = (positionAt(q) - positionAt(p)) / guides[p].depth;
-          const double length = glm::length(v);
-          const double fade = std::max(1.0 - length * length / (reach * reach), 0.0);
-          horizon = std::max(horizon, fade * glm::dot(normal, v) / length);
-        }
-        result[p] += horizon / 8.0;
-      }
-    }
   });
   return result;
 }

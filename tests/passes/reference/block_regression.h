@@ -9,13 +9,7 @@ namespace walr::reference {
 /// kept as the weight of each pixel in it, and each fit is weighted least squares over those pixels. No moment is
 /// merged, stored or rescaled.
 /// @param accumulated rgb: radiance; alpha: number of samples behind it
-/// @param occlusion   ambient occlusion
 Image<glm::dvec3> blockRegression(const HostFrame& frame, const Image<Guide>& guides,
-                                  const Image<glm::dvec4>& accumulated, const Image<double>& occlusion,
-                                  const BlockRegressionSettings& settings);
-
-/// Mean sine of the horizon above the tangent plane in eight directions, with occluders fading out at `radius` pixels
-/// and looked for in so many steps.
-Image<double> ambientOcclusion(const HostFrame& frame, const Image<Guide>& guides, double radius, int steps);
+                                  const Image<glm::dvec4>& accumulated, const BlockRegressionSettings& settings);
 
 }  // namespace walr::reference

@@ -44,13 +44,12 @@ struct Fit {
 struct Inputs {
   const Image<Guide>& guides;
   const Image<glm::dvec3>& lighting;
-  const Image<double>& occlusion;
   const FlrRegressionSettings& settings;
 
   /// A guide that is 0 everywhere has a slope of 0.
   [[nodiscard]] GuideVector guidesAt(glm::ivec2 p) const {
     const glm::dvec3 n = octahedralDecode(guides[p].features);
-    return {n.x, n.y, n.z, 1.0 / guides[p].depth, settings.occlusionGuide ? occlusion[p] : 0.0};
+    return {n.x, n.y, n.z, 1.0 / guides[p].depth, settings.occlusionGuide ? guides[p].occlusion : 0.0};
   }
 };
 
@@ -155,8 +154,8 @@ double cellWeight(double t, FlrUpsampling upsampling) {
 }  // namespace
 
 Image<FlrResult> flrRegression(const Image<Guide>& guides, const Image<glm::dvec3>& lighting,
-                               const Image<double>& occlusion, const FlrRegressionSettings& settings) {
-  const Inputs in{guides, lighting, occlusion, settings};
+                               const FlrRegressionSettings& settings) {
+  const Inputs in{guides, lighting, settings};
   const int factor = int(settings.factor);
   Image<Fit> fits((guides.size() + factor - 1) / factor);
   forEachPixel(fits.size(), [&](glm::ivec2 cell) { fits[cell] = fitCell(windowOf(in, cell), settings); });

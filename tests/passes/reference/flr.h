@@ -13,8 +13,7 @@ struct FlrResult {
 
 /// Fast Local Regression without any of its shortcuts: every cell's least squares is summed over all pixels of its
 /// window, in double precision and about the mean, and solved by the matrix's inverse.
-/// @param occlusion read where `settings.occlusionGuide` is set
 Image<FlrResult> flrRegression(const Image<Guide>& guides, const Image<glm::dvec3>& lighting,
-                               const Image<double>& occlusion, const FlrRegressionSettings& settings = {});
+                               const FlrRegressionSettings& settings = {});
 
 }  // namespace walr::reference

@@ -137,7 +137,34 @@ std::vector<NormalCandidate> geometricNormals(const HostFrame& frame, glm::ivec2
   return candidates;
 }
 
-Image<Guide> prepareGuides(const HostFrame& frame, Storage storage, const PrepareGuidesSettings& settings) {
+double ambientOcclusion(const HostFrame& frame, glm::ivec2 p, const Surface& surface,
+                        const AmbientOcclusionSettings& settings) {
+  const auto rayAt = [&](glm::ivec2 q) { return rayThrough(frame.constants.rayFromPixel, pixelCentre(q)); };
+  const double radius = std::max(double(settings.radius) * frame.size().y, 1.0);
+  const double reach = radius * std::abs(double(frame.constants.rayFromPixel.x));
+  double sum = 0.0;
+  for (int i = 0; i < 9; ++i) {
+    const glm::ivec2 direction = glm::ivec2(i % 3, i / 3) - 1;
+    if (direction == glm::ivec2(0)) continue;
+    double horizon = 0.0;
+    for (std::uint32_t step = 1; step <= settings.steps; ++step) {
+      const double share = double(step) / settings.steps;
+      const int distance = std::max(static_cast<int>(radius * share * share), static_cast<int>(step));
+      const glm::ivec2 q = p + distance * direction;
+      const double inverseDepth = inverseDepthAt(frame, q);
+      if (inverseDepth == 0.0) continue;
+      const glm::dvec3 v = rayAt(q) / (inverseDepth * surface.depth) - rayAt(p);
+      const double length = glm::length(v);
+      const double fade = std::max(1.0 - length * length / (reach * reach), 0.0);
+      horizon = std::max(horizon, fade * glm::dot(surface.shadingNormal, v) / length);
+    }
+    sum += horizon;
+  }
+  return sum / 8.0;
+}
+
+Image<Guide> prepareGuides(const HostFrame& frame, Storage storage, const PrepareGuidesSettings& settings,
+                           const std::optional<AmbientOcclusionSettings>& occlusion) {
   Image<Guide> guides(frame.size());
   forEachPixel(frame.size(), [&](glm::ivec2 p) {
     const Surface surface = surfaceAt(frame, p, settings);
@@ -145,10 +172,13 @@ Image<Guide> prepareGuides(const HostFrame& frame, Storage storage, const Prepar
     Guide guide{surface.depth, octahedralEncode(surface.shadingNormal),
                 geometricNormals(frame, p, surface, settings).front().normal};
     if (frame.objectId.contains(p)) guide.object = frame.objectId[p] + 1U;
+    if (occlusion) guide.occlusion = ambientOcclusion(frame, p, surface, *occlusion);
     if (storage == Storage::Quantised) {
+      const double step = occlusion ? kUnorm12Step : kUnorm16Step;
       const glm::dvec2 packed = octahedralEncode(guide.normal);
       guide.depth = roundDepth(guide.depth);
-      guide.features = {roundToUnorm16(guide.features.x), roundToUnorm16(guide.features.y)};
+      guide.features = {roundToUnorm(guide.features.x, step), roundToUnorm(guide.features.y, step)};
+      guide.occlusion = roundToUnorm(guide.occlusion, kUnorm8Step);
       guide.normal = octahedralDecode({roundToUnorm16(packed.x), roundToUnorm16(packed.y)});
     }
     guides[p] = guide;

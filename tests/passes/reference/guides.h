@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "passes/prepare_guides.h"
@@ -15,6 +16,7 @@ struct Guide {
   glm::dvec2 features{0.0};  ///< Octahedral map of the shading normal.
   glm::dvec3 normal{0.0};    ///< Geometric normal, which spans the plane of the edge-stopping function.
   std::uint32_t object = 0;  ///< The host's number + 1; 0: none.
+  double occlusion = 0.0;    ///< Ambient occlusion; 0 where it is not asked for.
 };
 
 /// A geometric normal that an implementation may arrive at.
@@ -37,7 +39,14 @@ Surface surfaceAt(const HostFrame& frame, glm::ivec2 p, const PrepareGuidesSetti
 std::vector<NormalCandidate> geometricNormals(const HostFrame& frame, glm::ivec2 p, const Surface& surface,
                                               const PrepareGuidesSettings& settings);
 
+/// Mean sine of the horizon above a surface's tangent plane in eight directions, with occluders, all that the host's
+/// depth shows, fading out at the radius and looked for in so many steps.
+double ambientOcclusion(const HostFrame& frame, glm::ivec2 p, const Surface& surface,
+                        const AmbientOcclusionSettings& settings);
+
 /// The conversion of the host's G-buffer.
-Image<Guide> prepareGuides(const HostFrame& frame, Storage storage, const PrepareGuidesSettings& settings = {});
+/// @param occlusion where given, ambient occlusion is there, and the shading normal kept as it is beside it
+Image<Guide> prepareGuides(const HostFrame& frame, Storage storage, const PrepareGuidesSettings& settings = {},
+                           const std::optional<AmbientOcclusionSettings>& occlusion = {});
 
 }  // namespace walr::reference

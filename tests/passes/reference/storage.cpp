@@ -58,8 +58,12 @@ double roundToFloat(double value) {
   return double(static_cast<float>(value));
 }
 
+double roundToUnorm(double value, double step) {
+  return std::nearbyint(std::clamp(value, 0.0, 1.0) / step) * step;
+}
+
 double roundToUnorm16(double value) {
-  return std::nearbyint(std::clamp(value, 0.0, 1.0) * 65535.0) / 65535.0;
+  return roundToUnorm(value, kUnorm16Step);
 }
 
 double roundDepth(double depth) {

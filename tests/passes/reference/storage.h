@@ -15,6 +15,8 @@ inline constexpr double kFloat10Roundoff = 0x1p-6;     ///< The same of an unsig
 inline constexpr double kSmallestHalf = 0x1p-24;       ///< Step between subnormal halves.
 inline constexpr double kDepthRoundoff = 0x1p-19;      ///< Largest relative error of a packed depth.
 inline constexpr double kUnorm16Step = 1.0 / 65535.0;  ///< Step between 16-bit unorms.
+inline constexpr double kUnorm12Step = 1.0 / 4095.0;   ///< The same of 12 bits.
+inline constexpr double kUnorm8Step = 1.0 / 255.0;     ///< The same of 8 bits.
 inline constexpr double kFloatRoundoff = 0x1p-24;      ///< Largest relative error of one operation in single precision.
 
 /// Bits of mantissa of packed light (packed_light.glsl).
@@ -41,6 +43,8 @@ double roundToFiniteHalf(double value);
 double roundToUnsignedFloat(double value, int mantissaBits);
 /// Nearest float.
 double roundToFloat(double value);
+/// Nearest multiple of a step of [0, 1].
+double roundToUnorm(double value, double step);
 /// Nearest of the 65536 steps of [0, 1].
 double roundToUnorm16(double value);
 /// Nearest float with 19 significant bits, ties up, of a depth of at least 0: what depth keeps beside the five bits of

@@ -1,0 +1,67 @@
+// Ambient occlusion as the guides of the regression over blocks hold it.
+
+#include <algorithm>
+#include <limits>
+
+#include "tests/passes/stage_checks.h"
+#include "tests/passes/synthetic_scene.h"
+#include "tests/vulkan/gpu_fixture.h"
+
+namespace walr::test {
+namespace {
+
+using reference::Guide;
+using reference::HostFrame;
+using reference::Image;
+
+constexpr glm::ivec2 kSize(45, 34);
+
+/// The default with a search as wide as the scenes are in so small a picture.
+WalrSettings searchingWidely() {
+  WalrSettings settings = blocksWalr();
+  settings.occlusion = {.radius = 0.25F, .steps = 7};
+  return settings;
+}
+
+class AmbientOcclusion : public fg::test::GpuTest {
+ protected:
+  Image<Guide> guidesOf(const HostFrame& frame) {
+    WalrRun run(device(), kSize, searchingWidely());
+    return run.frame(frame).guides;
+  }
+};
+
+TEST_F(AmbientOcclusion, IsTheReferences) {
+  for (const NamedScene& named : allScenes()) {
+    SCOPED_TRACE(named.name);
+    expectSequence(device(), {renderStill(named.scene, kSize)}, searchingWidely());
+  }
+}
+
+TEST_F(AmbientOcclusion, APlaneDoesNotOccludeItself) {
+  const Image<Guide> guides = guidesOf(renderStill(flatWall(), kSize));
+  for (const Guide& guide : guides.pixels()) EXPECT_EQ(guide.occlusion, 0.0);
+}
+
+// What is not denoised, for it reflects like a mirror or has no normal, is in the way of light all the same.
+TEST_F(AmbientOcclusion, MirrorsAndSurfacesWithoutNormalsOcclude) {
+  const HostFrame diffuse = renderStill(stairs(), kSize);
+  HostFrame other = diffuse;
+  reference::forEachPixel(kSize, [&](glm::ivec2 p) {
+    if ((p.x / 4) % 3 == 0) other.albedo[p] = glm::dvec3(0.0);
+    if ((p.x / 4) % 3 == 1) other.normal[p] = glm::dvec3(p.y % 2 == 0 ? 0.0 : std::numeric_limits<double>::infinity());
+  });
+  const Image<Guide> expected = guidesOf(diffuse);
+  const Image<Guide> actual = guidesOf(other);
+  double largest = 0.0;
+  reference::forEachPixel(kSize, [&](glm::ivec2 p) {
+    EXPECT_EQ(actual[p].depth > 0.0, (p.x / 4) % 3 == 2) << p.x << " " << p.y;
+    if (actual[p].depth == 0.0) return;
+    EXPECT_EQ(actual[p].occlusion, expected[p].occlusion) << p.x << " " << p.y;
+    largest = std::max(largest, actual[p].occlusion);
+  });
+  EXPECT_GT(largest, 0.1);
+}
+
+}  // namespace
+}  // namespace walr::test
