@@ -42,8 +42,7 @@ const std::array<HostInput, 6> kHostInputs{{
     {"normal", &DenoiserInputs::normal, kColour, 3, "Unit shading normal in view or world space; zero on sky"},
     {"motion", &DenoiserInputs::motion, kColour, 3,
      "xy: where the surface was in the previous frame, minus where it is; z: previous minus current view depth"},
-    {"albedo", &DenoiserInputs::albedo, kColour, 3,
-     "Diffuse albedo of the first hit; what has none is passed through as it is"},
+    {"albedo", &DenoiserInputs::albedo, kColour, 3, "Diffuse albedo of the first hit; what has none is passed through"},
     {"object_id", &DenoiserInputs::objectId, VK_FORMAT_R32_UINT, 1,
      "Number of the object that the pixel shows, the same from frame to frame; 0xffffffff: none", true},
 }};

@@ -64,6 +64,15 @@ struct AccumulationStageSettings : TemporalAccumulationSettings {
     visitStorage(v);
   }
 };
+/// What taps are for depends on the stage that reads them.
+struct AccumulationWithTapsStageSettings : AccumulationStageSettings {
+  TemporalAntialiasingSettings antialiasing;
+
+  void visit(SettingVisitor& v) {
+    AccumulationStageSettings::visit(v);
+    antialiasing.visitStorage(v);
+  }
+};
 struct AntialiasingStageSettings : TemporalAntialiasingSettings {
   void visit(SettingVisitor& v) {
     TemporalAntialiasingSettings::visit(v);
@@ -107,9 +116,9 @@ void temporalAccumulation(StagePorts& ports, const AccumulationStageSettings& se
   ports.setOutput("accumulated", addTemporalAccumulation(ports.graph(), ports.hostInputs(), ports.guides(), settings));
 }
 
-void temporalAccumulationWithTaps(StagePorts& ports, const AccumulationStageSettings& settings) {
-  const AccumulationWithTaps result =
-      addTemporalAccumulationWithTaps(ports.graph(), ports.hostInputs(), ports.guides(), settings);
+void temporalAccumulationWithTaps(StagePorts& ports, const AccumulationWithTapsStageSettings& settings) {
+  const AccumulationWithTaps result = addTemporalAccumulationWithTaps(ports.graph(), ports.hostInputs(), ports.guides(),
+                                                                      settings, settings.antialiasing.storage);
   ports.setOutput("accumulated", result.mean);
   ports.setOutput("history-taps", result.taps);
 }
@@ -175,11 +184,9 @@ void temporalAntialiasing(StagePorts& ports, const AntialiasingStageSettings& se
 void temporalAntialiasingWithTaps(StagePorts& ports, const AntialiasingStageSettings& settings) {
   const fg::Texture filtered = ports.texture("filtered", formatOf(settings.storage));
   const fg::Texture target = targetLike(ports, kOutputName, filtered);
-  DenoiserInputs inputs;
-  inputs.frame = ports.buffer(kFrameName);
-  if (settings.storage == LightStorage::Packed) inputs.lighting = ports.texture("lighting");
-  ports.setOutput(kOutputName, addTemporalAntialiasingWithTaps(ports.graph(), inputs, ports.texture("history-taps"),
-                                                               filtered, target, settings));
+  ports.setOutput(kOutputName,
+                  addTemporalAntialiasingWithTaps(ports.graph(), ports.buffer(kFrameName),
+                                                  ports.texture("history-taps"), filtered, target, settings));
 }
 
 void passThrough(StagePorts& ports, const NoSettings& /*settings*/) {
@@ -217,8 +224,9 @@ std::vector<StageType> stagesAndMethods() {
        make<OcclusionStageSettings, prepareGuidesWithOcclusion>},
       {"temporal_accumulation", "Average the noisy lighting over time along its motion", false,
        make<AccumulationStageSettings, temporalAccumulation>},
-      {"temporal_accumulation_with_taps", "The same, keeping where in the history it read", false,
-       make<AccumulationStageSettings, temporalAccumulationWithTaps>},
+      {"temporal_accumulation_with_taps",
+       "The same, keeping where in the history it read and, for packed anti-aliasing, the light that passes through",
+       false, make<AccumulationWithTapsStageSettings, temporalAccumulationWithTaps>},
       {"weighted_regression", "WALR's filter: weighted linear regression over edge-aware a-trous averages", false,
        make<WeightedRegressionSettings, weightedRegression>},
       {"full_window_regression", "REFWLR's filter: weighted linear regression over the full window", false,

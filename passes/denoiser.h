@@ -25,8 +25,7 @@ class Denoiser : public Configurable {
   /// @param inputs  the host's textures, and what scene and host bring along; settings may leave out more of it
   /// @param output  RGBA16F texture of the inputs' extent that the result is written to
   /// @returns the output's new version: denoised demodulated diffuse indirect radiance; sky and pixels without a
-  /// diffuse
-  ///          lobe hold the input unchanged
+  ///          diffuse lobe hold the input unchanged, or, where light is packed, rounded (`antialiasing.storage`)
   /// @throws std::invalid_argument naming a setting outside its range, or a view that there is not
   /// @param inspection views and counters to write of the method's inner workings
   virtual fg::Texture add(fg::Graph& graph, const DenoiserInputs& inputs, fg::Texture output,

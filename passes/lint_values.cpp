@@ -74,12 +74,12 @@ void LintJudge::judgeValues() {
   if (isMost(counts_[kLintNormalZero], surfaces)) {
     add({"normal-empty", "normals are zero on " + share(counts_[kLintNormalZero], surfaces, "pixels with a surface"),
          "the normal image was not written, or is another one",
-         "write normals before the denoiser runs: without one a pixel passes through as it is"});
+         "write normals before the denoiser runs: without one a pixel passes through with its noise"});
   }
   if (surfaces >= kLeastLintSample && counts_[kLintDiffuse] == 0) {
     add({"albedo-empty", "no pixel has a diffuse albedo of 0.01 or more",
          "the albedo image was not written, or is another one",
-         "write the diffuse albedo: without it a pixel passes through as it is"});
+         "write the diffuse albedo: without it a pixel passes through with its noise"});
   }
 }
 

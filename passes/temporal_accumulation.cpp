@@ -159,11 +159,12 @@ fg::Texture addTemporalAccumulation(fg::Graph& graph, const DenoiserInputs& inpu
 
 AccumulationWithTaps addTemporalAccumulationWithTaps(fg::Graph& graph, const DenoiserInputs& inputs,
                                                      const Guides& guides, const TemporalAccumulationSettings& settings,
-                                                     Inspection* inspection) {
+                                                     LightStorage antialiasing, Inspection* inspection) {
   const Stage stage = stageOf(graph, inputs, guides, settings, true);
   offerViews(stage, inspection);
   AccumulationWithTaps result;
   fg::PassBuilder pass = accumulate(stage, Role::MeanAndTaps, result.mean);
+  pass.specialize("kKeepPassedLight", antialiasing == LightStorage::Packed);
   const fg::Extent extent = graph.textureDesc(inputs.lighting).extent;
   result.taps = pass.store("outTaps", graph.texture("history taps", {VK_FORMAT_R32_UINT, extent}));
   return result;

@@ -67,13 +67,12 @@ const std::vector<ViewInfo>& antialiasingViews() {
   return kViews;
 }
 
-/// Reads what a pass looks for its history with.
+/// Reads what a pass looks for its history with, and what passes through where the filter leaves no light.
 using ReadHistory = std::function<void(fg::PassBuilder& pass, bool view)>;
 
 /// The stage, whose reprojection comes from wherever `read` says.
-fg::Texture addStage(fg::Graph& graph, const ByStorage& byStorage, const ReadHistory& read, fg::Texture lighting,
-                     fg::Texture filtered, fg::Texture output, const TemporalAntialiasingSettings& settings,
-                     Inspection* inspection) {
+fg::Texture addStage(fg::Graph& graph, const ByStorage& byStorage, const ReadHistory& read, fg::Texture filtered,
+                     fg::Texture output, const TemporalAntialiasingSettings& settings, Inspection* inspection) {
   const fg::Extent extent = graph.textureDesc(filtered).extent;
   const fg::History resolved = graph.history("resolved", {formatOf(settings.storage), extent});
   const StageShaders& shaders = byStorage.at(static_cast<std::size_t>(settings.storage));
@@ -92,7 +91,6 @@ fg::Texture addStage(fg::Graph& graph, const ByStorage& byStorage, const ReadHis
     inspection->offer(graph, antialiasingViews(), extent, [&](const std::string& name) { return declare(name, true); });
   }
   fg::PassBuilder pass = declare("temporal anti-aliasing", false);
-  if (settings.storage == LightStorage::Packed) pass.sample("passed", lighting);
   (void)pass.store("outResolved", resolved.current);
   return pass.store("outImage", output);
 }
@@ -102,12 +100,13 @@ fg::Texture addStage(fg::Graph& graph, const ByStorage& byStorage, const ReadHis
 fg::Texture addTemporalAntialiasing(fg::Graph& graph, const DenoiserInputs& inputs, const Guides& guides,
                                     fg::Texture filtered, fg::Texture output,
                                     const TemporalAntialiasingSettings& settings, Inspection* inspection) {
+  const bool packed = settings.storage == LightStorage::Packed;
   if (inputs.scene.still()) {
     const auto read = [&](fg::PassBuilder& pass, bool view) {
-      pass.sample("depth", guides.depth);
-      if (settings.storage == LightStorage::Packed && !view) pass.uniform("frameConstants", inputs.frame);
+      if (!packed) pass.sample("depth", guides.depth);
+      if (packed && !view) pass.uniform("frameConstants", inputs.frame).sample("passed", inputs.lighting);
     };
-    return addStage(graph, kStill, read, inputs.lighting, filtered, output, settings, inspection);
+    return addStage(graph, kStill, read, filtered, output, settings, inspection);
   }
   const MotionSource motion = motionSource(inputs.scene);
   const bool objects = settings.objectIds && inputs.objectId.valid();
@@ -116,9 +115,9 @@ fg::Texture addTemporalAntialiasing(fg::Graph& graph, const DenoiserInputs& inpu
     readReprojection(pass, inputs, guides, settings.rejection, motion, settings.dilateMotion);
     if (objects) readObjectIds(pass, ids);
     if (view) pass.specialize("kKeepableMotion", false);
+    if (packed && !view) pass.sample("passed", inputs.lighting);
   };
-  return addStage(graph, shadersFor(motion, settings.rejection, objects), read, inputs.lighting, filtered, output,
-                  settings, inspection);
+  return addStage(graph, shadersFor(motion, settings.rejection, objects), read, filtered, output, settings, inspection);
 }
 
 bool sharesReprojection(const TemporalAntialiasingSettings& antialiasing,
@@ -130,15 +129,15 @@ bool sharesReprojection(const TemporalAntialiasingSettings& antialiasing,
          antialiasing.normalThreshold == accumulation.normalThreshold;
 }
 
-fg::Texture addTemporalAntialiasingWithTaps(fg::Graph& graph, const DenoiserInputs& inputs, fg::Texture taps,
-                                            fg::Texture filtered, fg::Texture output,
-                                            const TemporalAntialiasingSettings& settings, Inspection* inspection) {
+fg::Texture addTemporalAntialiasingWithTaps(fg::Graph& graph, fg::Buffer frame, fg::Texture taps, fg::Texture filtered,
+                                            fg::Texture output, const TemporalAntialiasingSettings& settings,
+                                            Inspection* inspection) {
   const auto read = [&](fg::PassBuilder& pass, bool /*view*/) {
-    pass.uniform("frameConstants", inputs.frame)
+    pass.uniform("frameConstants", frame)
         .sample("keptTaps", taps)
         .specialize("kRejectHistory", settings.rejection != HistoryRejection::None);
   };
-  return addStage(graph, kKept, read, inputs.lighting, filtered, output, settings, inspection);
+  return addStage(graph, kKept, read, filtered, output, settings, inspection);
 }
 
 }  // namespace walr

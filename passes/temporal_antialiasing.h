@@ -53,7 +53,8 @@ struct TemporalAntialiasingSettings {
     v.visitEnum(
         {"antialiasing.storage",
          "Storage of what the regression over blocks leaves and of anti-aliasing's history: 64 bits a pixel, or "
-         "32 with unbiased rounding to 9 and 8 bits",
+         "32 with unbiased rounding to 9 and 8 bits. Light of pixels without a surface is then rounded to the nearest "
+         "of 9 bits and clamped to 0 to 65408, where both temporal stages look for history alike and things may move",
          "", 0, 1, "measured"},
         kLightStorages, storage);
   }
@@ -74,11 +75,10 @@ bool sharesReprojection(const TemporalAntialiasingSettings& antialiasing,
                         const TemporalAccumulationSettings& accumulation);
 
 /// The same with the reprojection that accumulation has kept; `sharesReprojection` must hold.
-/// @param inputs of these the frame's constants, and the lighting where storage is packed, are read
-/// @param taps   R32_UINT: `AccumulationWithTaps::taps`
-fg::Texture addTemporalAntialiasingWithTaps(fg::Graph& graph, const DenoiserInputs& inputs, fg::Texture taps,
-                                            fg::Texture filtered, fg::Texture output,
-                                            const TemporalAntialiasingSettings& settings = {},
+/// @param frame upload of `FrameConstants`
+/// @param taps  R32_UINT: `AccumulationWithTaps::taps` for `settings.storage`
+fg::Texture addTemporalAntialiasingWithTaps(fg::Graph& graph, fg::Buffer frame, fg::Texture taps, fg::Texture filtered,
+                                            fg::Texture output, const TemporalAntialiasingSettings& settings = {},
                                             Inspection* inspection = nullptr);
 
 }  // namespace walr

@@ -39,7 +39,8 @@ fg::Texture addTemporalStages(fg::Graph& graph, const DenoiserInputs& inputs, co
   const bool share = antialias && reprojects && sharesReprojection(antialiasing, stages.accumulation);
   FilterInput input{.alpha = LightingAlpha::SampleCount};
   if (share || stages.keepTaps) {
-    const auto [mean, taps] = addTemporalAccumulationWithTaps(graph, inputs, guides, stages.accumulation, inspection);
+    const auto [mean, taps] = addTemporalAccumulationWithTaps(
+        graph, inputs, guides, stages.accumulation, share ? antialiasing.storage : LightStorage::Half, inspection);
     input.lighting = mean;
     input.taps = taps;
   } else {
@@ -48,7 +49,8 @@ fg::Texture addTemporalStages(fg::Graph& graph, const DenoiserInputs& inputs, co
   if (!antialias) return filterToOutput(input);
   input.result = antialiasing.storage;
   const fg::Texture filtered = filter(input);
-  return share ? addTemporalAntialiasingWithTaps(graph, inputs, input.taps, filtered, output, antialiasing, inspection)
+  return share ? addTemporalAntialiasingWithTaps(graph, inputs.frame, input.taps, filtered, output, antialiasing,
+                                                 inspection)
                : addTemporalAntialiasing(graph, inputs, guides, filtered, output, antialiasing, inspection);
 }
 

@@ -33,7 +33,7 @@ struct TemporalStages {
   TemporalAccumulationSettings accumulation;
   TemporalAntialiasingSettings antialiasing;
   bool spatialOnly = false;  ///< Filter each frame by itself, without the temporal stages.
-  bool keepTaps = false;     ///< The filter has a history of its own.
+  bool keepTaps = false;     ///< The filter has a history of its own; anti-aliasing's storage is then half.
 };
 
 /// The guides that these stages read, beside those of the filter.

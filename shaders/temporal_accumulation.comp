@@ -1,10 +1,10 @@
-// WALR preprocessing (walr.txt 4.2): reproject, reject, then a cumulative mean that turns exponential after a fixed
-// number of samples. Each of the four history pixels around the position is tested on its own (REJECT_BY_PLANE,
-// REJECT_BY_DEPTH). KEEP_TAPS also writes which of them passed, so that later stages can read their histories in the same
-// way without testing again (walr.txt 4.4, bmfr.txt 3.5). STILL: every pixel shows what it showed before. RESPONSIVE
-// shortens history where light_change.comp doubts it, and writes what that goes by. PACKED: the history is packed
-// (packed_light.glsl), without the light of pixels that show no surface. A view (VIEW) does the same and writes something
-// found on the way.
+// WALR preprocessing (walr.txt 4.2): reproject, reject, then a cumulative mean that turns exponential after a fixed number
+// of samples. Each of the four history pixels around the position is tested on its own (REJECT_BY_PLANE, REJECT_BY_DEPTH).
+// KEEP_TAPS also writes which of them passed, so that later stages can read their histories in the same way without testing
+// again (walr.txt 4.4, bmfr.txt 3.5), and which light passes through where there is no surface. STILL: every pixel shows
+// what it showed before. RESPONSIVE shortens history where light_change.comp doubts it, and writes what that goes by.
+// PACKED: the history is packed (packed_light.glsl), without the light of pixels that show no surface. A view (VIEW) does
+// the same and writes something found on the way.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -47,6 +47,7 @@ layout(set = 0, binding = 8, r32ui) uniform writeonly uimage2D outAccumulated;
 layout(set = 0, binding = 8, rgba16f) uniform writeonly image2D outAccumulated;
 #endif
 #ifdef KEEP_TAPS
+layout(constant_id = 3) const bool kKeepPassedLight = false;  // Where there is no surface; else kNoSurfaceTaps.
 layout(set = 0, binding = 9, r32ui) uniform writeonly uimage2D outTaps;
 #endif
 #ifdef RESPONSIVE
@@ -57,12 +58,13 @@ layout(set = 0, binding = 11, rg32f) uniform writeonly image2D outChange;
 #endif
 layout(push_constant) uniform PushConstants { TemporalAccumulationConstants settings; };
 
-#ifdef PACKED
 #include "include/packed_light.glsl"
+#ifdef PACKED
 vec4 unpackHistory(uint packed) { return unpackAccumulated(packed); }
 #endif
 #include "include/half.glsl"
 #include "include/history_taps.glsl"
+#include "include/passed_light.glsl"
 #ifdef RESPONSIVE
 #include "include/light_change.glsl"
 #include "include/luminance.glsl"
@@ -159,9 +161,7 @@ void storeMean(ivec2 p, vec4 mean) {
 void storePassed(ivec2 p, vec3 light) { imageStore(outAccumulated, p, uvec4(0u)); }
 #else
 void storeMean(ivec2 p, vec4 mean) { imageStore(outAccumulated, p, nearestHalf(mean)); }
-void storePassed(ivec2 p, vec3 light) {
-  imageStore(outAccumulated, p, vec4(isFinite(light) ? light : vec3(0.0), 0.0));
-}
+void storePassed(ivec2 p, vec3 light) { imageStore(outAccumulated, p, vec4(light, 0.0)); }
 #endif
 
 // By how much the luminance of this frame's light differs from that of history; 0 where one of them is missing.
@@ -170,9 +170,10 @@ float accumulate(ivec2 p) {
   const bool sampleIsFinite = isFinite(noisy);
   const float z = unpackDepth(texelFetch(depth, p, 0).x);
   if (z == 0.0) {
-    storePassed(p, noisy);
+    const vec3 passed = passedLight(noisy);
+    storePassed(p, passed);
 #ifdef KEEP_TAPS
-    imageStore(outTaps, p, uvec4(kNoSurfaceTaps));
+    imageStore(outTaps, p, uvec4(kKeepPassedLight ? packPassed(passed) : kNoSurfaceTaps));
 #endif
     return 0.0;
   }

@@ -2,8 +2,9 @@
 // the current neighbourhood, then a cumulative mean that turns exponential after a fixed number of frames. With KEPT_TAPS
 // the reprojection is what the accumulation kept of its own; else REJECT_BY_PLANE, REJECT_BY_DEPTH and REJECT_BY_OBJECT say
 // how history pixels are tested. STILL: every pixel shows what it showed before. PACKED: what it reads and keeps is packed
-// (packed_light.glsl), and light is known of every surface; the picture it writes is not rounded so. A view (VIEW) does
-// the same and writes something found on the way.
+// (packed_light.glsl), and light is known of every surface and of nothing else; the picture it writes is not rounded so.
+// The light that passes through where there is no surface comes from the kept taps, or from the host. A view (VIEW) does the
+// same and writes something found on the way.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -30,7 +31,9 @@ layout(set = 0, binding = 2, rgba32f) uniform writeonly image2D outView;
 #else
 #ifdef PACKED
 layout(set = 0, binding = 2, r32ui) uniform writeonly uimage2D outResolved;
+#ifndef KEPT_TAPS
 layout(set = 0, binding = 12) uniform texture2D passed;
+#endif
 #else
 layout(set = 0, binding = 2, rgba16f) uniform writeonly image2D outResolved;
 #endif
@@ -42,7 +45,9 @@ layout(set = 0, binding = 4, std140) uniform frameConstants { FrameConstants fra
 #ifdef KEPT_TAPS
 layout(set = 0, binding = 5) uniform utexture2D keptTaps;
 #else
+#if !defined(STILL) || !defined(PACKED)
 layout(set = 0, binding = 6) uniform utexture2D depth;
+#endif
 #ifndef STILL
 #ifndef MOTION_FROM_CAMERA
 layout(set = 0, binding = 5) uniform texture2D motion;
@@ -66,8 +71,11 @@ layout(push_constant) uniform PushConstants { TemporalAntialiasingConstants sett
 #include "include/packed_light.glsl"
 vec4 unpackHistory(uint packed) { return unpackResolved(packed, settings.maxSamples); }
 vec4 filteredAt(ivec2 q) { return unpackFiltered(texelFetch(filtered, q, 0).x); }
-#ifndef VIEW
+#ifdef KEPT_TAPS
+vec3 passedAt(ivec2 p) { return unpackPassed(texelFetch(keptTaps, p, 0).x); }
+#elif !defined(VIEW)
 #include "include/passed_light.glsl"
+vec3 passedAt(ivec2 p) { return passedLight(passed, p); }
 #endif
 #else
 vec4 filteredAt(ivec2 q) { return texelFetch(filtered, q, 0); }
@@ -78,16 +86,12 @@ vec4 filteredAt(ivec2 q) { return texelFetch(filtered, q, 0); }
 #ifdef STILL
 #include "include/surface.glsl"
 
-bool hasSurface(ivec2 q) { return unpackDepth(texelFetch(depth, q, 0).x) > 0.0; }
-
 vec4 historyOf(ivec2 p, out int rejected) {
   rejected = 0;
   return historyTexel(previousResolved, p);
 }
 #else
 #ifdef KEPT_TAPS
-bool hasSurface(ivec2 q) { return texelFetch(keptTaps, q, 0).x != kNoSurfaceTaps; }
-
 HistoryTaps tapsOf(ivec2 p) {
   HistoryTaps taps = unpackTaps(p, texelFetch(keptTaps, p, 0).x, frame.previousPixelFromPixel);
   if (!kRejectHistory) taps.accepted = tapsInside(taps, textureSize(previousResolved, 0));
@@ -96,8 +100,6 @@ HistoryTaps tapsOf(ivec2 p) {
 #else
 #define HISTORY previousResolved
 #include "include/reprojection.glsl"
-
-bool hasSurface(ivec2 q) { return unpackDepth(texelFetch(depth, q, 0).x) > 0.0; }
 
 HistoryTaps tapsOf(ivec2 p) {
 #ifdef REJECT_BY_PLANE
@@ -115,6 +117,15 @@ vec4 historyOf(ivec2 p, out int rejected) {
   rejected = tapsRejected(taps);
   return bicubicOfTaps(previousResolved, taps);
 }
+#endif
+
+// Of a pixel with its filtered colour.
+#ifdef PACKED
+bool hasSurface(ivec2 q, vec4 colour) { return colour.a >= 0.0; }
+#elif defined(KEPT_TAPS)
+bool hasSurface(ivec2 q, vec4 colour) { return texelFetch(keptTaps, q, 0).x != kNoSurfaceTaps; }
+#else
+bool hasSurface(ivec2 q, vec4 colour) { return unpackDepth(texelFetch(depth, q, 0).x) > 0.0; }
 #endif
 
 vec3 toYCoCg(vec3 c) {
@@ -154,12 +165,6 @@ struct Neighbourhood {
   vec3 deviation;
 };
 
-#ifdef PACKED
-bool isNeighbour(ivec2 q, vec4 colour) { return colour.a >= 0.0; }
-#else
-bool isNeighbour(ivec2 q, vec4 colour) { return colour.a >= 0.0 && hasSurface(q); }
-#endif
-
 Neighbourhood neighbourhoodOf(ivec2 p, vec3 centre) {
   vec3 sum = vec3(0.0), squares = vec3(0.0);
   float count = 0.0;
@@ -168,7 +173,7 @@ Neighbourhood neighbourhoodOf(ivec2 p, vec3 centre) {
   for (int i = 0; i < width * width; ++i) {
     const ivec2 q = clamp(p + ivec2(i % width, i / width) - kClipRadius, ivec2(0), last);
     const vec4 colour = filteredAt(q);
-    if (!isNeighbour(q, colour)) continue;
+    if (colour.a < 0.0 || !hasSurface(q, colour)) continue;
     const vec3 difference = toYCoCg(colour.rgb) - centre;
     sum += difference;
     squares += difference * difference;
@@ -219,12 +224,12 @@ void main() {
 
   const vec4 current = filteredAt(p);
 #ifdef VIEW
-  imageStore(outView, p, vec4(hasSurface(p) ? viewOf(p, current) : vec3(0.0), 1.0));
+  imageStore(outView, p, vec4(hasSurface(p, current) ? viewOf(p, current) : vec3(0.0), 1.0));
 #else
-  if (!hasSurface(p)) {
+  if (!hasSurface(p, current)) {
 #ifdef PACKED
     imageStore(outResolved, p, uvec4(0u));
-    imageStore(outImage, p, vec4(passedLight(passed, p), 1.0));
+    imageStore(outImage, p, vec4(passedAt(p), 1.0));
 #else
     imageStore(outResolved, p, vec4(current.rgb, 0.0));
     imageStore(outImage, p, vec4(current.rgb, 1.0));

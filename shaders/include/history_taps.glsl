@@ -57,8 +57,10 @@ vec4 meanOfTaps(HISTORY_TEXTURE history, HistoryTaps taps) {
 }
 
 // Kept taps: one R32_UINT that says where a surface was and which taps show it, for later stages that read histories of
-// their own at the same place. The motion is two halves whose two lowest mantissa bits make room for the accept bits,
-// which leaves it a relative rounding of 2^-9: 1/64 of a pixel where a surface moves by 8 to 16.
+// their own at the same place. Where there is no surface it is kNoSurfaceTaps, or, for stages that know by other means
+// where that is, the light that passes through (packed_light.glsl). The motion is two halves whose two lowest mantissa bits
+// make room for the accept bits, which leaves it a relative rounding of 2^-9: 1/64 of a pixel where a surface moves by 8 to
+// 16.
 const uint kNoSurfaceTaps = 0xffffffffu;
 const uint kMotionBits = 0xfffcfffcu;
 

@@ -1,6 +1,7 @@
 // Light in 32 bits: three mantissas under a shared exponent and, above them, how many samples or frames are behind it.
 // Rounding is unbiased, that is, up or down by chance such that the mean is exact: a running mean that were rounded to
-// nearest would stop where a new sample moves it by less than half a step.
+// nearest would stop where a new sample moves it by less than half a step. What passes through no mean is rounded to
+// nearest.
 #ifndef WALR_PACKED_LIGHT_GLSL
 #define WALR_PACKED_LIGHT_GLSL
 #include "hash.glsl"
@@ -85,6 +86,11 @@ const uint kNoFiltered = 1u << 27;
 
 // a: below 0 where there is no surface.
 vec4 unpackFiltered(uint packed) { return vec4(unpackColour(packed, 9), packed == kNoFiltered ? -1.0 : 1.0); }
+
+// What passes through a pixel without a surface, rounded to nearest lest it flicker where it stays the same: 3 x 9 bits,
+// off by at most 1/511 of the brightest channel. What is below 0 becomes 0, what is above 65408 that.
+uint packPassed(vec3 colour) { return packColour(colour, 9, vec3(0.5)); }
+vec3 unpackPassed(uint packed) { return unpackColour(packed, 9); }
 
 // Mean of such pictures with the frames behind it, at most `longest` (temporal_antialiasing.comp). rgb: 3 x 8 bits.
 uint packResolved(vec4 mean, float longest, vec4 chances) {

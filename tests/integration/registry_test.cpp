@@ -151,7 +151,8 @@ TEST(Registry, StagesConnectedByNameArePlannedAsTheWholeMethodIs) {
                  {"temporal_accumulation_with_taps",
                   {{"accumulation.max-samples", "8"},
                    {"accumulation.respond-to-change", "on"},
-                   {"accumulation.storage", "packed"}}},
+                   {"accumulation.storage", "packed"},
+                   {"antialiasing.storage", "packed"}}},
                  {"block_regression",
                   {{"blocks.iterations", "2"}, {"accumulation.storage", "packed"}, {"antialiasing.storage", "packed"}}},
                  {"temporal_antialiasing_with_taps", {{"antialiasing.storage", "packed"}}}});

@@ -32,6 +32,7 @@ struct Packing {
 constexpr Packing kAccumulated{"accumulated", 0x100, reference::kAccumulatedBits};
 constexpr Packing kFiltered{"filtered", 0x101, reference::kFilteredBits};
 constexpr Packing kResolved{"resolved", 0x102, reference::kResolvedBits};
+constexpr Packing kPassed{"passed", 0, reference::kPassedBits};
 
 /// Pixels that round the same light: each by a chance of its own.
 constexpr int kChances = 4096;
@@ -126,8 +127,29 @@ TEST_F(PackedLight, ColoursAreRoundedToNeighboursWithoutBias) {
   }
 }
 
+// To within half a step of 9 bits. Steps double where the brightest channel is above 511 of them, and so it is always
+// above 255.5: half a step is at most 1/511 of it.
+TEST_F(PackedLight, WhatPassesThroughIsRoundedToNearest) {
+  const std::vector<glm::dvec4> lights = lightsOfAllMagnitudes();
+  const std::vector<Rounded> rounded = round(kPassed, lights);
+  constexpr double kSmallestNormal = 0x1p-16;
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    SCOPED_TRACE(brightest(lights[i]));
+    EXPECT_EQ(rounded[i].least, rounded[i].most);
+    for (int c = 0; c < 3; ++c) {
+      const double tolerance = reference::passedError(lights[i][c], brightest(lights[i]));
+      EXPECT_NEAR(rounded[i].most[c], lights[i][c], tolerance);
+      EXPECT_LE(tolerance, std::max(brightest(lights[i]), kSmallestNormal) / 511.0);
+    }
+  }
+  const double largest = reference::largestPacked(reference::kPassedBits);
+  const std::vector<Rounded> limits = round(kPassed, {{reference::kLargestHalf, 1e30, -1.0, 1.0}});
+  EXPECT_EQ(glm::dvec3(limits[0].least), glm::dvec3(largest, largest, 0.0));
+  EXPECT_EQ(limits[0].most, limits[0].least);
+}
+
 TEST_F(PackedLight, WhatHasBeenRoundedStays) {
-  for (const Packing& packing : {kAccumulated, kFiltered, kResolved}) {
+  for (const Packing& packing : {kAccumulated, kFiltered, kResolved, kPassed}) {
     std::vector<glm::dvec4> lights;
     const int most = (1 << packing.mantissaBits) - 1;
     for (int exponent = -15; exponent <= 16; ++exponent) {

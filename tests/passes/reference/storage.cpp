@@ -26,6 +26,10 @@ double packedStep(double brightest, int mantissaBits) {
   return step;
 }
 
+double passedError(double value, double brightest) {
+  return value == 0.0 ? 0.0 : 0.5 * packedStep(brightest, kPassedBits);
+}
+
 double largestPacked(int mantissaBits) {
   return std::ldexp(std::ldexp(1.0, mantissaBits) - 1.0, 16 - mantissaBits);
 }

@@ -23,10 +23,13 @@ inline constexpr double kFloatRoundoff = 0x1p-24;      ///< Largest relative err
 inline constexpr int kAccumulatedBits = 7;
 inline constexpr int kFilteredBits = 9;
 inline constexpr int kResolvedBits = 8;
+inline constexpr int kPassedBits = 9;
 
 /// Step between packed colours whose brightest channel is this one: the smallest of which the mantissa, rounded up, can
 /// count enough.
 double packedStep(double brightest, int mantissaBits);
+/// Largest error of a packed channel of light that passes through, which is rounded to nearest; 0 stays 0.
+double passedError(double value, double brightest);
 /// Largest packed channel.
 double largestPacked(int mantissaBits);
 /// Step between packed counts of samples.

@@ -17,7 +17,7 @@ vec4 rounded(vec4 light, vec4 chances) {
     case kFilteredKey: return vec4(1.0, 1.0, 1.0, light.a) * unpackFiltered(packFiltered(light.rgb, chances.rgb));
     case kResolvedKey: return unpackResolved(packResolved(light, float(kLongest), chances), float(kLongest));
   }
-  return vec4(0.0);
+  return vec4(unpackPassed(packPassed(light.rgb)), light.a);  // Of no texture, as it is not rounded by chance.
 }
 
 void main() {
