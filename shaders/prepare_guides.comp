@@ -39,14 +39,14 @@ layout(set = 0, binding = 6, r32ui) uniform writeonly uimage2D outGeometricNorma
 #endif
 layout(push_constant) uniform PushConstants { PrepareGuidesConstants settings; };
 
-bool isSurfaceDepth(float z) { return isFinite(z) && z > 0.0 && (!kSky || z < frame.skyDepth); }
+bool isSurfaceDepth(float z, float skyDepth) { return isFinite(z) && z > 0.0 && (!kSky || z < skyDepth); }
 
 #if defined(GEOMETRIC_NORMAL) || defined(OCCLUSION)
 // 0 outside the image and on sky.
-float surfaceDepthAt(ivec2 p) {
+float surfaceDepthAt(ivec2 p, float skyDepth) {
   const ivec2 inside = clamp(p, ivec2(0), textureSize(depth, 0) - 1);
   const float z = texelFetch(depth, inside, 0).x;
-  return inside == p && isSurfaceDepth(z) ? z : 0.0;
+  return inside == p && isSurfaceDepth(z, skyDepth) ? z : 0.0;
 }
 #endif
 #ifdef OCCLUSION
@@ -56,7 +56,7 @@ float surfaceDepthAt(ivec2 p) {
 #ifdef GEOMETRIC_NORMAL
 // Inverse depth, which is linear over the image of a plane; 0 outside the image and on sky.
 float inverseDepthAt(ivec2 p) {
-  const float z = surfaceDepthAt(p);
+  const float z = surfaceDepthAt(p, frame.skyDepth);
   return z > 0.0 ? 1.0 / z : 0.0;
 }
 
@@ -126,7 +126,7 @@ vec3 viewOf(ivec2 p) {
   const vec3 diffuse = albedoAt(p);
   switch (kView) {
     case 0u:
-      if (!isSurfaceDepth(z)) return vec3(1.0, 0.0, 0.0);
+      if (!isSurfaceDepth(z, frame.skyDepth)) return vec3(1.0, 0.0, 0.0);
       if (!isUsable(n)) return vec3(0.0, 1.0, 0.0);
       return vec3(0.0, 0.0, !hasDiffuseLobe(diffuse));
     case 1u: return vec3(!isFinite(z), !isFinite(n), !isFinite(diffuse));
@@ -158,7 +158,7 @@ void main() {
 
   const float z = texelFetch(depth, p, 0).x;
   const vec3 hostNormal = texelFetch(normal, p, 0).xyz;
-  if (!isSurfaceDepth(z) || !isUsable(hostNormal) || !hasDiffuseLobe(albedoAt(p))) {
+  if (!isSurfaceDepth(z, frame.skyDepth) || !isUsable(hostNormal) || !hasDiffuseLobe(albedoAt(p))) {
     storeGuides(p, 0u, 0u, 0u);
     return;
   }
