@@ -79,6 +79,11 @@ std::string formatName(VkFormat format) {
   return std::string(fg::formatInfo(format).name);
 }
 
+/// Stages that read geometric normals take those in 16 bits, too (`Guides::geometricNormal`).
+bool isShortNormal(std::string_view port, VkFormat format) {
+  return port.ends_with("geometric-normal") && format == VK_FORMAT_R16_UINT;
+}
+
 class StageNode final : public PassNode {
  public:
   explicit StageNode(const StageType& type)
@@ -115,7 +120,7 @@ class StageNode final : public PassNode {
     const VkFormat format = graph.textureDesc(connected->second).format;
     const HostInput* input = hostInputNamed(port.name);
     if (!port.output && input != nullptr) return requireInputFormat(*input, format);
-    if (format == port.format) return;
+    if (format == port.format || (!port.output && isShortNormal(port.name, format))) return;
     throw std::invalid_argument("port '" + port.name + "' of pass '" + name_ + "' takes " + formatName(port.format) +
                                 ", but " + formatName(format) + " is connected");
   }

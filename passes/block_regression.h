@@ -14,7 +14,7 @@ namespace walr {
 
 /// Settings of the regression over blocks of pixels.
 struct BlockRegressionSettings {
-  std::uint32_t size = 4;
+  std::uint32_t size = 8;
   std::uint32_t iterations = 4;
   float planeNear = 0.0015F;
   float planeFar = 0.015F;
@@ -30,7 +30,7 @@ struct BlockRegressionSettings {
   float coarseSamples = 3200.0F;
 
   void visit(SettingVisitor& v) {
-    v.visit({"blocks.size", "Side of the blocks whose moments are averaged", "pixels", 2, 4, "measured"}, size);
+    v.visit({"blocks.size", "Side of the blocks whose moments are averaged", "pixels", 2, 8, "measured"}, size);
     v.visit({"blocks.iterations", "A-trous iterations with taps 3^t blocks apart; n of them span 3^n blocks", "", 1, 4,
              "walr.txt 3.2"},
             iterations);

@@ -35,8 +35,7 @@ struct GuideTexture {
   fg::Texture previous;
 };
 
-GuideTexture guideTexture(fg::Graph& graph, const std::string& name, fg::Extent extent, bool keep) {
-  const fg::TextureDesc desc{VK_FORMAT_R32_UINT, extent};
+GuideTexture guideTexture(fg::Graph& graph, const std::string& name, const fg::TextureDesc& desc, bool keep) {
   if (!keep) return {graph.texture(name, desc), {}};
   const fg::History history = graph.history(name, desc);
   return {history.current, history.previous};
@@ -91,18 +90,20 @@ Guides addPrepareGuides(fg::Graph& graph, const DenoiserInputs& inputs, const Pr
   fg::PassBuilder pass = declarePass(graph, "prepare guides", shader, inputs, settings,
                                      needs.occlusion.value_or(AmbientOcclusionSettings{}));
   Guides guides;
-  const GuideTexture depth = guideTexture(graph, "guides.depth", extent, needs.history);
+  const fg::TextureDesc word{VK_FORMAT_R32_UINT, extent};
+  const GuideTexture depth = guideTexture(graph, "guides.depth", word, needs.history);
   guides.depth = pass.store("outDepth", depth.current);
   guides.previousDepth = depth.previous;
   if (occludes) {
     pass.specialize("kOcclusionSteps", needs.occlusion->steps);
-    guides.features = pass.store("outFeatures", guideTexture(graph, "guides.features", extent, false).current);
+    guides.features = pass.store("outFeatures", guideTexture(graph, "guides.features", word, false).current);
   } else {
-    const GuideTexture shadingNormal = guideTexture(graph, "guides.shading normal", extent, false);
+    const GuideTexture shadingNormal = guideTexture(graph, "guides.shading normal", word, false);
     guides.shadingNormal = pass.store("outShadingNormal", shadingNormal.current);
   }
   if (!needs.geometricNormal) return guides;
-  const GuideTexture geometricNormal = guideTexture(graph, "guides.geometric normal", extent, needs.history);
+  const fg::TextureDesc normalDesc{occludes ? VK_FORMAT_R16_UINT : VK_FORMAT_R32_UINT, extent};
+  const GuideTexture geometricNormal = guideTexture(graph, "guides.geometric normal", normalDesc, needs.history);
   guides.geometricNormal = pass.store("outGeometricNormal", geometricNormal.current);
   guides.previousGeometricNormal = geometricNormal.previous;
   return guides;

@@ -53,7 +53,8 @@ struct Guides {
   fg::Texture depth;          ///< R32_UINT: view depth and edge distance packed (surface.glsl); 0: nothing to denoise.
   fg::Texture shadingNormal;  ///< R32_UINT: octahedral map of the shading normal; not there where `features` is.
   fg::Texture features;       ///< R32_UINT: the shading normal, and ambient occlusion, 0 (open) to 1 (surface.glsl).
-  fg::Texture geometricNormal;          ///< R32_UINT: octahedral map of the geometric normal, which spans planes.
+  fg::Texture geometricNormal;          ///< R32_UINT: that of the geometric normal, which spans planes; with `features`
+                                        ///< R16_UINT, where planes are of few dozen pixels.
   fg::Texture previousDepth;            ///< Depth one frame ago; zero while there is no history.
   fg::Texture previousGeometricNormal;  ///< Geometric normal one frame ago; zero while there is no history.
 };
@@ -62,7 +63,7 @@ struct Guides {
 struct GuideNeeds {
   bool geometricNormal = true;
   bool history = true;  ///< Last frame's depth, and geometric normal where there is one.
-  std::optional<AmbientOcclusionSettings> occlusion = {};  ///< Given: `features` in place of `shadingNormal`.
+  std::optional<AmbientOcclusionSettings> occlusion = {};  ///< Given, for filters over blocks or cells: see `Guides`.
 };
 
 /// Convert the host's G-buffer once into what all later stages read.

@@ -25,6 +25,7 @@ fg::Texture addBlockFilter(fg::Graph& graph, const DenoiserInputs& inputs, const
   // Growth stops at light that differs, so that no picture is too small for a window of enough samples.
   constexpr std::uint32_t kLeastIterations = 2;
   if (settings.fitWindow) {
+    blocks.size = std::min(blocks.size, fittingBlockSize(height));
     const std::uint32_t fitting = std::max(fittingIterations(height, blocks.size), kLeastIterations);
     blocks.iterations = std::min(blocks.iterations, fitting);
   }

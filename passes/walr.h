@@ -41,10 +41,12 @@ struct WalrSettings {
                  "Regress over pixels with the settings regression.*, or over blocks with occlusion.* and blocks.*", "",
                  0, 1, "measured"},
                 kFilters, filter);
-    v.visit({"walr.fit-window",
-             "Leave out the last iterations where their window would span far more than a tenth of the image's height",
-             "", 0, 1, "measured"},
-            fitWindow);
+    v.visit(
+        {"walr.fit-window",
+         "Leave out the last iterations where their window would span far more than a tenth of the image's height, and "
+         "make blocks no larger than 1/54 of it but 4 pixels",
+         "", 0, 1, "measured"},
+        fitWindow);
     v.visit({"walr.skip-sky",
              "Regressing over blocks of a scene with sky, dispatch the reconstruction indirectly over the tiles that "
              "show a surface",

@@ -1,6 +1,7 @@
 #include "passes/window_fit.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace walr {
@@ -8,6 +9,10 @@ namespace walr {
 std::uint32_t fittingIterations(std::uint32_t height, std::uint32_t size) {
   const long wanted = std::lround(std::log(height / (10.0 * size)) / std::log(3.0));
   return static_cast<std::uint32_t>(std::max(wanted, 1L));
+}
+
+std::uint32_t fittingBlockSize(std::uint32_t height) {
+  return std::max(std::bit_floor(height / 54), 4U);
 }
 
 std::uint32_t fittingWindow(std::uint32_t height) {

@@ -10,7 +10,7 @@
 #include "include/hash.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(constant_id = 0) const int kBlockSize = 4;   // Pixels per axis, at most 4.
+layout(constant_id = 0) const int kBlockSize = 4;   // Pixels per axis.
 layout(constant_id = 1) const int kCellBlocks = 2;  // Blocks per axis: a power of two, at most 8.
 
 layout(set = 0, binding = 0, std140) uniform frameConstants { FrameConstants frame; };
@@ -67,7 +67,8 @@ CellPart gather(ivec2 block) {
     return part;
   }
   const ivec2 centre = kBlockSize * block + ivec2(pixel % kBlockSize, pixel / kBlockSize);
-  const vec3 normal = unpackNormal(texelFetch(geometricNormal, centre, 0).x);
+  const uint shortNormal = packShortNormal(unpackNormal(texelFetch(geometricNormal, centre, 0).x));
+  const vec3 normal = unpackShortNormal(shortNormal);
   const float z = unpackDepth(texelFetch(depth, centre, 0).x);
   const Plane plane = planeAt(centre, z, normal);
   BlockMomentSum onItsPlane = emptySum(), all = emptySum();
@@ -84,7 +85,7 @@ CellPart gather(ivec2 block) {
     if (weight > 0.0) add(onItsPlane, weight, sampled);
     add(all, 1.0, sampled);
   }
-  storeBlock(block, finish(onItsPlane), packDepthSdf(z, 0u), packBlockNormal(normal, uint(pixel)));
+  storeBlock(block, finish(onItsPlane), packDepthSdf(z, 0u), packBlockNormal(shortNormal, uint(pixel)));
   part.moments = finish(all);
   part.depth = z;
   return part;

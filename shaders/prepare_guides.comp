@@ -1,7 +1,8 @@
 // Converts the host's G-buffer into the guides that every later pass reads: view depth (0 where there is nothing to
 // denoise), the two octahedral features of the shading normal, and, with GEOMETRIC_NORMAL, the geometric normal that
-// spans the planes. DIFFUSE_MASK treats pixels without a diffuse lobe like sky. With OCCLUSION ambient occlusion shares a
-// texel with the shading normal. Its occluders are all that the host's depth shows: a mirror, too, which is not denoised.
+// spans the planes. DIFFUSE_MASK treats pixels without a diffuse lobe like sky. With OCCLUSION, for filters over blocks or
+// cells, ambient occlusion shares a texel with the shading normal, and the geometric normal is a short one. Occluders are
+// all that the host's depth shows: a mirror, too, which is not denoised.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -35,7 +36,11 @@ layout(set = 0, binding = 5, r32ui) uniform writeonly uimage2D outShadingNormal;
 #endif
 #endif
 #ifdef GEOMETRIC_NORMAL
+#ifdef OCCLUSION
+layout(set = 0, binding = 6, r16ui) uniform writeonly uimage2D outGeometricNormal;
+#else
 layout(set = 0, binding = 6, r32ui) uniform writeonly uimage2D outGeometricNormal;
+#endif
 #endif
 layout(push_constant) uniform PushConstants { PrepareGuidesConstants settings; };
 
@@ -97,6 +102,14 @@ vec3 geometricNormal(ivec2 p, float inverseDepth, vec3 shadingNormal) {
   if (!(lengthSquared > 0.0)) return shadingNormal;
   const vec3 unit = n * inversesqrt(lengthSquared);
   return dot(unit, shadingNormal) >= settings.normalAgreement ? unit : shadingNormal;
+}
+
+uint packGeometricNormal(vec3 n) {
+#ifdef OCCLUSION
+  return packShortNormal(n);
+#else
+  return packNormal(n);
+#endif
 }
 #endif
 
@@ -169,7 +182,7 @@ void main() {
   if (dot(shadingNormal, ray) > 0.0) shadingNormal = -shadingNormal;
 
 #ifdef GEOMETRIC_NORMAL
-  const uint packedGeometry = packNormal(geometricNormal(p, 1.0 / z, shadingNormal));
+  const uint packedGeometry = packGeometricNormal(geometricNormal(p, 1.0 / z, shadingNormal));
 #else
   const uint packedGeometry = 0u;
 #endif

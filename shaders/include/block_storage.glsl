@@ -56,13 +56,10 @@ BlockMoments unpackBlock(PackedBlock p) {
 
 // One of a block's pixels stands for it. Its depth lies in memory as a pixel's does (surface.glsl), its geometric
 // normal with the pixel's number in the block.
-uint packBlockNormal(vec3 normal, uint pixel) {
-  const uvec2 bits = uvec2(round(clamp(octahedralEncode(normal), 0.0, 1.0) * 16383.0));
-  return bits.x | (bits.y << 14) | (pixel << 28);
-}
-vec3 blockNormal(uint packed) { return octahedralDecode(vec2(packed & 0x3fffu, (packed >> 14) & 0x3fffu) / 16383.0); }
+uint packBlockNormal(uint shortNormal, uint pixel) { return shortNormal | pixel << 16; }
+vec3 blockNormal(uint packed) { return unpackShortNormal(packed); }
 ivec2 representativePixel(ivec2 block, int blockSize, uint packedNormal) {
-  const int pixel = int(packedNormal >> 28);
+  const int pixel = int(packedNormal >> 16);
   return blockSize * block + ivec2(pixel % blockSize, pixel / blockSize);
 }
 

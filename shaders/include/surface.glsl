@@ -28,10 +28,32 @@ vec3 octahedralDecode(vec2 uv) {
   return normalize(vec3(z < 0.0 ? fold : e, z));
 }
 
-// A normal in one R32_UINT. Of the shading normal the two halves, in [0, 1], are the regression's features.
-uint packNormal(vec3 n) { return packUnorm2x16(octahedralEncode(n)); }
+// A normal in one R32_UINT. Of the shading normal the two halves, in [0, 1], are the regression's features. The second is
+// never 0, which tells it from a short one.
+const uint kShortNormalEnd = 1u << 16;
+
+uint packNormal(vec3 n) {
+  const uint packed = packUnorm2x16(octahedralEncode(n));
+  return packed < kShortNormalEnd ? packed | kShortNormalEnd : packed;
+}
 vec2 unpackFeatures(uint packed) { return unpackUnorm2x16(packed); }
-vec3 unpackNormal(uint packed) { return octahedralDecode(unpackUnorm2x16(packed)); }
+
+// A normal in one R16_UINT, to within a degree: what spans the plane of few pixels needs no more. The steps are even in
+// number, so that what faces the camera does so exactly.
+const float kShortNormalSteps = 254.0;
+
+uint packShortNormal(vec3 n) {
+  const uvec2 steps = uvec2(round(clamp(octahedralEncode(n), 0.0, 1.0) * kShortNormalSteps));
+  return steps.x | steps.y << 8;
+}
+vec3 unpackShortNormal(uint packed) {
+  return octahedralDecode(vec2(packed & 0xffu, packed >> 8 & 0xffu) / kShortNormalSteps);
+}
+
+// Of either kind.
+vec3 unpackNormal(uint packed) {
+  return packed < kShortNormalEnd ? unpackShortNormal(packed) : octahedralDecode(unpackUnorm2x16(packed));
+}
 
 // The shading normal, twice twelve bits, and ambient occlusion, in [0, 1], eight bits, in one R32_UINT.
 struct NormalAndOcclusion {

@@ -25,7 +25,7 @@ fg::Texture import(fg::Graph& graph, const std::string& name, VkFormat format, g
 }
 
 std::uint32_t packUnorms(glm::dvec2 unorms) {
-  return glm::packUnorm2x16(glm::vec2(unorms));
+  return glm::packUnorm2x16(glm::vec2(reference::roundToUnorms(unorms)));
 }
 
 /// The shading normal in twice 12 bits and ambient occlusion in 8.

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 #include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 
 #include "tests/passes/reference/hash.h"
 #include "tests/passes/reference/octahedral.h"
@@ -76,6 +77,13 @@ TEST(Octahedral, SixteenBitsKeepTheDirection) {
     const glm::dvec3 decoded = octahedralDecode({roundToUnorm16(uv.x), roundToUnorm16(uv.y)});
     EXPECT_LE(glm::length(decoded - n), bound);
   });
+}
+
+TEST(Octahedral, ShortNormalsKeepTheDirectionToADegreeAndTheViewAxis) {
+  const double bound = std::sqrt(18.0) / kShortNormalSteps;
+  ASSERT_LT(bound, glm::radians(1.0));
+  forEachDirection([&](glm::dvec3 n) { EXPECT_LE(glm::length(roundToShortNormal(n) - n), bound); });
+  EXPECT_EQ(roundToShortNormal({0.0, 0.0, 1.0}), glm::dvec3(0.0, 0.0, 1.0));
 }
 
 // Normals just this and just that side of n.z = 0 have neighbouring features.

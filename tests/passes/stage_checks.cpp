@@ -35,6 +35,7 @@ void expectGuides(const DeviceFrame& f, const WalrSettings& walr) {
   const PrepareGuidesSettings& settings = walr.guides;
   const bool occludes = walr.filter == SpatialFilter::Blocks;
   const double shadingStep = occludes ? reference::kUnorm12Step : reference::kUnorm16Step;
+  const double geometricStep = occludes ? 1.0 / reference::kShortNormalSteps : reference::kUnorm16Step;
   constexpr double kShadingError = 16.0 * reference::kFloatRoundoff;
   Comparison comparison("guides");
   reference::forEachPixel(f.frame.size(), [&](glm::ivec2 p) {
@@ -57,7 +58,7 @@ void expectGuides(const DeviceFrame& f, const WalrSettings& walr) {
     if (actual.normal == glm::dvec3(0.0)) return;  // These settings have no use for it.
     bool found = false;
     for (const auto& candidate : reference::geometricNormals(f.frame, p, surface, settings))
-      found |= sameDirection(actual.normal, candidate.normal, candidate.error, reference::kUnorm16Step);
+      found |= sameDirection(actual.normal, candidate.normal, candidate.error, geometricStep);
     comparison.value(p, "geometric normal", found ? 0.0 : 1.0, 0.0, 0.5);
   });
   comparison.expect(0.0);

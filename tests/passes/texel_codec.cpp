@@ -169,6 +169,12 @@ glm::dvec2 decodeUnorms(std::uint32_t packed) {
   return {(packed & 0xffffU) * reference::kUnorm16Step, (packed >> 16U) * reference::kUnorm16Step};
 }
 
+glm::dvec3 decodeNormal(std::uint32_t packed) {
+  const bool isShort = packed < 0x10000U;
+  const glm::dvec2 steps(packed & 0xffU, packed >> 8U);
+  return reference::octahedralDecode(isShort ? steps / reference::kShortNormalSteps : decodeUnorms(packed));
+}
+
 reference::Image<reference::Guide> decodeGuides(const GuideTexels& texels, glm::ivec2 size) {
   reference::Image<reference::Guide> guides(size);
   for (std::size_t i = 0; i < texels.depth.size(); ++i) {
@@ -181,8 +187,7 @@ reference::Image<reference::Guide> decodeGuides(const GuideTexels& texels, glm::
       guide.features = glm::dvec2(packed & 0xfffU, (packed >> 12U) & 0xfffU) * reference::kUnorm12Step;
       guide.occlusion = (packed >> 24U) * reference::kUnorm8Step;
     }
-    if (!texels.geometricNormal.empty())
-      guide.normal = reference::octahedralDecode(decodeUnorms(texels.geometricNormal[i]));
+    if (!texels.geometricNormal.empty()) guide.normal = decodeNormal(texels.geometricNormal[i]);
   }
   return guides;
 }

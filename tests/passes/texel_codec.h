@@ -26,6 +26,8 @@ double decodeDepth(std::uint32_t packed);
 int decodeEdgeDistance(std::uint32_t packed);
 /// Two 16-bit unorms.
 glm::dvec2 decodeUnorms(std::uint32_t packed);
+/// A normal of R32_UINT or R16_UINT.
+glm::dvec3 decodeNormal(std::uint32_t packed);
 
 /// The R32_UINT texels of guides; what is not needed is empty.
 struct GuideTexels {

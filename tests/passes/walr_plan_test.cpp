@@ -1,6 +1,7 @@
 // What WALR's plan promises, on any device: how many bytes it moves, and that nothing is there which nobody reads.
 #include <cstdint>
 #include <string>
+#include <variant>
 
 #include <gtest/gtest.h>
 
@@ -28,15 +29,15 @@ struct Planned {
   }
 };
 
-Planned planWalr(const WalrSettings& settings, const SceneDescription& scene = {}) {
+Planned planWalr(const WalrSettings& settings, const SceneDescription& scene = {}, fg::Extent extent = kFullHd) {
   const fg::ExternalState state{VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT,
                                 VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
-  const fg::TextureDesc colour{VK_FORMAT_R16G16B16A16_SFLOAT, kFullHd};
+  const fg::TextureDesc colour{VK_FORMAT_R16G16B16A16_SFLOAT, extent};
   Planned planned;
   fg::Graph& graph = planned.graph;
   DenoiserInputs inputs;
   inputs.lighting = graph.import("lighting", colour, state);
-  inputs.depth = graph.import("depth", {VK_FORMAT_R32_SFLOAT, kFullHd}, state);
+  inputs.depth = graph.import("depth", {VK_FORMAT_R32_SFLOAT, extent}, state);
   inputs.normal = graph.import("normal", colour, state);
   inputs.motion = graph.import("motion", colour, state);
   inputs.albedo = graph.import("albedo", colour, state);
@@ -62,6 +63,32 @@ TEST(WalrPlan, ThePaperMovesNoMoreThanItsBudget) {
 TEST(WalrPlan, TheDefaultNeedsNoMoreMemoryThanItsBudget) {
   const fg::MemoryReport memory = planWalr(blocksWalr()).plan.memory;
   EXPECT_LE(memory.persistentBytes + memory.transientPeakBytes, 91'000'000U);
+}
+
+// The project's budget for the default, from 540 lines on.
+TEST(WalrPlan, TheDefaultMovesAtMostHalfOfWhatThePaperMoves) {
+  for (const fg::Extent extent : {fg::Extent{960, 540}, kFullHd, fg::Extent{3840, 2160}}) {
+    const std::uint64_t paper = planWalr(paperWalr(), {}, extent).bytesPerPixel();
+    EXPECT_LE(2 * planWalr(blocksWalr(), {}, extent).bytesPerPixel(), paper) << extent.height;
+  }
+}
+
+// Blocks as small as 4 x 4 pixels below 432 lines, unless asked not to fit.
+TEST(WalrPlan, BlocksFitThePicture) {
+  const auto blocksOf = [](const WalrSettings& settings, fg::Extent extent) {
+    const Planned planned = planWalr(settings, {}, extent);
+    for (const auto& resource : planned.graph.desc().resources)
+      if (resource.name == "block normal") return std::get<fg::TextureDesc>(resource.desc).extent;
+    return fg::Extent{};
+  };
+  EXPECT_EQ(blocksOf(blocksWalr(), {384, 216}), (fg::Extent{96, 54}));
+  EXPECT_EQ(blocksOf(blocksWalr(), {768, 431}), (fg::Extent{192, 108}));
+  EXPECT_EQ(blocksOf(blocksWalr(), {768, 432}), (fg::Extent{96, 54}));
+  WalrSettings unfitted = blocksWalr();
+  unfitted.fitWindow = false;
+  EXPECT_EQ(blocksOf(unfitted, {384, 216}), (fg::Extent{48, 27}));
+  unfitted.blocks.size = 3;
+  EXPECT_EQ(blocksOf(unfitted, {384, 216}), (fg::Extent{128, 72}));
 }
 
 TEST(WalrPlan, TransientMemoryIsTheLeastThatItsScheduleAllows) {

@@ -73,11 +73,6 @@ double facing(glm::dvec3 a, glm::dvec3 b) {
   return std::clamp(glm::dot(a, b), 0.0, 1.0);
 }
 
-/// A normal in two words of 14 bits.
-glm::dvec3 quantised(glm::dvec3 normal) {
-  return octahedralDecode(glm::round(octahedralEncode(normal) * 16383.0) / 16383.0);
-}
-
 Features featuresAt(const Picture& picture, glm::ivec2 p, double relativeTo) {
   const Guide& guide = picture.guides[p];
   const glm::dvec3 n = octahedralDecode(guide.features);
@@ -103,7 +98,7 @@ Image<Block> makeBlocks(const Picture& picture) {
     const Guide& chosen = picture.guides[block.pixel];
     block.surface = true;
     block.depth = chosen.depth;
-    block.normal = quantised(chosen.normal);
+    block.normal = roundToShortNormal(chosen.normal);
     for (int i = 0; i < size * size; ++i) {
       const glm::ivec2 p = size * b + glm::ivec2(i % size, i / size);
       if (!picture.guides.contains(p)) continue;

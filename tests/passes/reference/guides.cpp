@@ -174,12 +174,13 @@ Image<Guide> prepareGuides(const HostFrame& frame, Storage storage, const Prepar
     if (frame.objectId.contains(p)) guide.object = frame.objectId[p] + 1U;
     if (occlusion) guide.occlusion = ambientOcclusion(frame, p, surface, *occlusion);
     if (storage == Storage::Quantised) {
-      const double step = occlusion ? kUnorm12Step : kUnorm16Step;
-      const glm::dvec2 packed = octahedralEncode(guide.normal);
+      const glm::dvec2 features = guide.features;
       guide.depth = roundDepth(guide.depth);
-      guide.features = {roundToUnorm(guide.features.x, step), roundToUnorm(guide.features.y, step)};
+      guide.features = occlusion
+                           ? glm::dvec2(roundToUnorm(features.x, kUnorm12Step), roundToUnorm(features.y, kUnorm12Step))
+                           : roundToUnorms(features);
       guide.occlusion = roundToUnorm(guide.occlusion, kUnorm8Step);
-      guide.normal = octahedralDecode({roundToUnorm16(packed.x), roundToUnorm16(packed.y)});
+      guide.normal = occlusion ? roundToShortNormal(guide.normal) : roundToNormal(guide.normal);
     }
     guides[p] = guide;
   });

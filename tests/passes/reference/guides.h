@@ -45,7 +45,8 @@ double ambientOcclusion(const HostFrame& frame, glm::ivec2 p, const Surface& sur
                         const AmbientOcclusionSettings& settings);
 
 /// The conversion of the host's G-buffer.
-/// @param occlusion where given, ambient occlusion is there, and the shading normal kept as it is beside it
+/// @param occlusion where given, ambient occlusion is there, the shading normal kept as it is beside it, and the
+///                  geometric normal short
 Image<Guide> prepareGuides(const HostFrame& frame, Storage storage, const PrepareGuidesSettings& settings = {},
                            const std::optional<AmbientOcclusionSettings>& occlusion = {});
 

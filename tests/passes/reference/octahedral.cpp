@@ -1,8 +1,12 @@
 #include "tests/passes/reference/octahedral.h"
 
+#include <algorithm>
 #include <cmath>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
+
+#include "tests/passes/reference/storage.h"
 
 namespace walr::reference {
 namespace {
@@ -24,6 +28,18 @@ glm::dvec3 octahedralDecode(glm::dvec2 uv) {
   const glm::dvec2 e = uv * 2.0 - 1.0;
   const double z = 1.0 - std::abs(e.x) - std::abs(e.y);
   return glm::normalize(glm::dvec3(z < 0.0 ? fold(e) : e, z));
+}
+
+glm::dvec2 roundToUnorms(glm::dvec2 encoded) {
+  return {roundToUnorm16(encoded.x), std::max(roundToUnorm16(encoded.y), kUnorm16Step)};
+}
+
+glm::dvec3 roundToNormal(glm::dvec3 direction) {
+  return octahedralDecode(roundToUnorms(octahedralEncode(direction)));
+}
+
+glm::dvec3 roundToShortNormal(glm::dvec3 direction) {
+  return octahedralDecode(glm::round(octahedralEncode(direction) * kShortNormalSteps) / kShortNormalSteps);
 }
 
 }  // namespace walr::reference

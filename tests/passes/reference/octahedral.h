@@ -9,5 +9,11 @@ namespace walr::reference {
 glm::dvec2 octahedralEncode(glm::dvec3 direction);
 /// Its inverse; unit.
 glm::dvec3 octahedralDecode(glm::dvec2 uv);
+/// The two 16-bit unorms next to a direction's map, of which the second is never 0 (surface.glsl), and the direction
+/// that they mean.
+glm::dvec2 roundToUnorms(glm::dvec2 encoded);
+glm::dvec3 roundToNormal(glm::dvec3 direction);
+/// The short normal next to a direction (surface.glsl).
+glm::dvec3 roundToShortNormal(glm::dvec3 direction);
 
 }  // namespace walr::reference

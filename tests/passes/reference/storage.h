@@ -17,6 +17,7 @@ inline constexpr double kDepthRoundoff = 0x1p-19;      ///< Largest relative err
 inline constexpr double kUnorm16Step = 1.0 / 65535.0;  ///< Step between 16-bit unorms.
 inline constexpr double kUnorm12Step = 1.0 / 4095.0;   ///< The same of 12 bits.
 inline constexpr double kUnorm8Step = 1.0 / 255.0;     ///< The same of 8 bits.
+inline constexpr double kShortNormalSteps = 254.0;     ///< Of a short normal's octahedral map, per axis.
 inline constexpr double kFloatRoundoff = 0x1p-24;      ///< Largest relative error of one operation in single precision.
 
 /// Bits of mantissa of packed light (packed_light.glsl).
