@@ -23,7 +23,7 @@ struct WalrSettings {
   TemporalAccumulationSettings accumulation{
       .maxSamples = 8.0F, .change = {.respond = true}, .storage = LightStorage::Packed};
   WeightedRegressionSettings regression;
-  TemporalAntialiasingSettings antialiasing{.storage = LightStorage::Packed};
+  TemporalAntialiasingSettings antialiasing{.clipGamma = 3.0F, .storage = LightStorage::Packed};
   SpatialFilter filter = SpatialFilter::Blocks;
   AmbientOcclusionSettings occlusion;
   BlockRegressionSettings blocks;

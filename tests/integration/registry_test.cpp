@@ -157,7 +157,8 @@ TEST(Registry, StagesConnectedByNameArePlannedAsTheWholeMethodIs) {
                                {"blocks.iterations", "2"},
                                {"accumulation.storage", "packed"},
                                {"antialiasing.storage", "packed"}}},
-                             {"temporal_antialiasing_with_taps", {{"antialiasing.storage", "packed"}}}});
+                             {"temporal_antialiasing_with_taps",
+                              {{"antialiasing.clip-gamma", "3"}, {"antialiasing.storage", "packed"}}}});
   expectPlannedAs("robust", {{"prepare_guides", {}},
                              {"temporal_accumulation_with_taps", {}},
                              {"weighted_regression", {{"regression.iterations", "3"}}},
