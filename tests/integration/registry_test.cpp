@@ -153,7 +153,7 @@ TEST(Registry, StagesConnectedByNameArePlannedAsTheWholeMethodIs) {
                                {"accumulation.storage", "packed"},
                                {"antialiasing.storage", "packed"}}},
                              {"block_regression",
-                              {{"blocks.size", "4"},
+                              {{"blocks.size", "6"},
                                {"blocks.iterations", "2"},
                                {"accumulation.storage", "packed"},
                                {"antialiasing.storage", "packed"}}},

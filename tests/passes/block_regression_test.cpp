@@ -142,7 +142,7 @@ TEST_F(BlockRegression, CoarseFitsAgreeWithBruteForce) {
   // A window of 5 pixels' standard deviation, on cells of one, two and four blocks a side, beside which the blocks' own
   // fits hardly count. The picture is no multiple of any of these.
   BlockRegressionSettings settings{.iterations = 1, .coarseSigma = kCoarseSigma, .coarseSamples = 10000.0F};
-  for (const std::uint32_t size : {2U, 3U, 4U, 8U}) {
+  for (const std::uint32_t size : {2U, 3U, 5U, 8U}) {
     for (const float resolution : {2.0F, 1.0F, 0.5F}) {
       settings.size = size;
       settings.coarseResolution = resolution;

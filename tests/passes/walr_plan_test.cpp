@@ -65,15 +65,15 @@ TEST(WalrPlan, TheDefaultNeedsNoMoreMemoryThanItsBudget) {
   EXPECT_LE(memory.persistentBytes + memory.transientPeakBytes, 91'000'000U);
 }
 
-// The project's budget for the default, from 540 lines on.
+// The project's budget for the default, from 270 lines on.
 TEST(WalrPlan, TheDefaultMovesAtMostHalfOfWhatThePaperMoves) {
-  for (const fg::Extent extent : {fg::Extent{960, 540}, kFullHd, fg::Extent{3840, 2160}}) {
+  for (const fg::Extent extent : {fg::Extent{480, 270}, fg::Extent{960, 540}, kFullHd, fg::Extent{3840, 2160}}) {
     const std::uint64_t paper = planWalr(paperWalr(), {}, extent).bytesPerPixel();
     EXPECT_LE(2 * planWalr(blocksWalr(), {}, extent).bytesPerPixel(), paper) << extent.height;
   }
 }
 
-// Blocks as small as 4 x 4 pixels below 432 lines, unless asked not to fit.
+// Blocks of 4 x 4 pixels below 270 lines, of 8 x 8 from 432 on, unless asked not to fit.
 TEST(WalrPlan, BlocksFitThePicture) {
   const auto blocksOf = [](const WalrSettings& settings, fg::Extent extent) {
     const Planned planned = planWalr(settings, {}, extent);
@@ -82,7 +82,7 @@ TEST(WalrPlan, BlocksFitThePicture) {
     return fg::Extent{};
   };
   EXPECT_EQ(blocksOf(blocksWalr(), {384, 216}), (fg::Extent{96, 54}));
-  EXPECT_EQ(blocksOf(blocksWalr(), {768, 431}), (fg::Extent{192, 108}));
+  EXPECT_EQ(blocksOf(blocksWalr(), {480, 270}), (fg::Extent{96, 54}));
   EXPECT_EQ(blocksOf(blocksWalr(), {768, 432}), (fg::Extent{96, 54}));
   WalrSettings unfitted = blocksWalr();
   unfitted.fitWindow = false;
