@@ -28,6 +28,9 @@ vec3 octahedralDecode(vec2 uv) {
   return normalize(vec3(z < 0.0 ? fold : e, z));
 }
 
+// The two halves of the map in whole steps.
+uvec2 octahedralSteps(vec3 n, float steps) { return uvec2(round(clamp(octahedralEncode(n), 0.0, 1.0) * steps)); }
+
 // A normal in one R32_UINT. Of the shading normal the two halves, in [0, 1], are the regression's features. The second is
 // never 0, which tells it from a short one.
 const uint kShortNormalEnd = 1u << 16;
@@ -43,7 +46,7 @@ vec2 unpackFeatures(uint packed) { return unpackUnorm2x16(packed); }
 const float kShortNormalSteps = 254.0;
 
 uint packShortNormal(vec3 n) {
-  const uvec2 steps = uvec2(round(clamp(octahedralEncode(n), 0.0, 1.0) * kShortNormalSteps));
+  const uvec2 steps = octahedralSteps(n, kShortNormalSteps);
   return steps.x | steps.y << 8;
 }
 vec3 unpackShortNormal(uint packed) {
@@ -61,7 +64,7 @@ struct NormalAndOcclusion {
   float occlusion;
 };
 uint packNormalAndOcclusion(NormalAndOcclusion s) {
-  const uvec2 normal = uvec2(round(clamp(octahedralEncode(s.normal), 0.0, 1.0) * 4095.0));
+  const uvec2 normal = octahedralSteps(s.normal, 4095.0);
   return normal.x | (normal.y << 12) | (uint(round(clamp(s.occlusion, 0.0, 1.0) * 255.0)) << 24);
 }
 NormalAndOcclusion unpackNormalAndOcclusion(uint packed) {

@@ -23,9 +23,6 @@ using reference::Storage;
 
 constexpr glm::ivec2 kSize(45, 34);  // No multiple of a block.
 
-// In a picture as small as this.
-constexpr AmbientOcclusionSettings kOcclusionSettings{.radius = 0.25F, .steps = 8};
-
 // About the pixels that it is at 216 lines. At 34 the default's window would hold hardly more samples than features.
 constexpr float kCoarseSigma = 0.15F;
 
@@ -39,7 +36,7 @@ struct Inputs {
 Inputs inputsOf(const Scene& scene) {
   Inputs inputs;
   inputs.frame = renderStill(scene, kSize);
-  inputs.guides = reference::prepareGuides(inputs.frame, Storage::Quantised, {}, kOcclusionSettings);
+  inputs.guides = reference::prepareGuides(inputs.frame, Storage::Quantised, {}, kOcclusionInSmallPictures);
   inputs.accumulated = withAlpha(inputs.frame.lighting);
   for (glm::dvec4& sample : inputs.accumulated.pixels()) sample.a = 1.0;
   return inputs;
@@ -142,7 +139,7 @@ TEST_F(BlockRegression, CoarseFitsAgreeWithBruteForce) {
   // A window of 5 pixels' standard deviation, on cells of one, two and four blocks a side, beside which the blocks' own
   // fits hardly count. The picture is no multiple of any of these.
   BlockRegressionSettings settings{.iterations = 1, .coarseSigma = kCoarseSigma, .coarseSamples = 10000.0F};
-  for (const std::uint32_t size : {2U, 3U, 5U, 8U}) {
+  for (const std::uint32_t size : {2U, 3U, 4U, 5U, 8U}) {
     for (const float resolution : {2.0F, 1.0F, 0.5F}) {
       settings.size = size;
       settings.coarseResolution = resolution;

@@ -29,9 +29,6 @@ using reference::Image;
 
 constexpr glm::ivec2 kSize(45, 34);  // No multiple of a block.
 
-// In a picture as small as this.
-constexpr AmbientOcclusionSettings kOcclusionSettings{.radius = 0.25F, .steps = 8};
-
 /// The regression alone, with its views.
 class ViewedRegression {
  public:
@@ -89,7 +86,7 @@ struct Inputs {
 Inputs inputsOf(const Scene& scene) {
   Inputs inputs;
   inputs.frame = renderStill(scene, kSize);
-  inputs.guides = reference::prepareGuides(inputs.frame, reference::Storage::Quantised, {}, kOcclusionSettings);
+  inputs.guides = reference::prepareGuides(inputs.frame, reference::Storage::Quantised, {}, kOcclusionInSmallPictures);
   inputs.accumulated = withAlpha(inputs.frame.lighting);
   for (glm::dvec4& sample : inputs.accumulated.pixels()) sample.a = 1.0;
   return inputs;

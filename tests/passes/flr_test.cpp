@@ -30,7 +30,7 @@ constexpr glm::ivec2 kSize(45, 34);  // No multiple of a cell.
 struct Inputs {
   Inputs(const Scene& scene, const FlrRegressionSettings& settings) : frame(renderStill(scene, kSize)) {
     std::optional<AmbientOcclusionSettings> occlusion;
-    if (settings.occlusionGuide) occlusion = {.radius = 0.25F, .steps = 8};
+    if (settings.occlusionGuide) occlusion = kOcclusionInSmallPictures;
     guides = reference::prepareGuides(frame, Storage::Quantised, {}, occlusion);
   }
   HostFrame frame;

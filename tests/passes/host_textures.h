@@ -17,6 +17,8 @@ fg::Texture importObjectIds(fg::Graph& graph, glm::ivec2 size);
 /// Have the next frame upload a host's frame.
 void upload(fg::test::GraphRun& run, const DenoiserInputs& inputs, const reference::HostFrame& frame);
 
+/// How far occluders are looked for in the small pictures of the tests.
+inline constexpr AmbientOcclusionSettings kOcclusionInSmallPictures{.radius = 0.25F, .steps = 8};
 /// Import guides of this frame and the last, as if the first stage had made them.
 Guides importGuides(fg::Graph& graph, glm::ivec2 size);
 /// Have the next frame upload this frame's guides, which must hold values that the packed form that is read keeps
