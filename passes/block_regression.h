@@ -25,7 +25,7 @@ struct BlockRegressionSettings {
   float coarseNarrowing = 0.3F;
   float coarseReach = 3.0F;
   float coarseResolution = 1.1F;
-  float coarseGrowthErrors = 2.3F;
+  float coarseGrowthErrors = 2.0F;
   float coarseGrowthOcclusion = 4.0F;
   float coarseSamples = 3200.0F;
 

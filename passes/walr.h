@@ -23,7 +23,7 @@ struct WalrSettings {
   TemporalAccumulationSettings accumulation{
       .maxSamples = 8.0F, .change = {.respond = true}, .storage = LightStorage::Packed};
   WeightedRegressionSettings regression;
-  TemporalAntialiasingSettings antialiasing{.clipGamma = 3.0F, .storage = LightStorage::Packed};
+  TemporalAntialiasingSettings antialiasing{.clipGamma = 5.0F, .storage = LightStorage::Packed};
   SpatialFilter filter = SpatialFilter::Blocks;
   AmbientOcclusionSettings occlusion;
   BlockRegressionSettings blocks;
@@ -44,7 +44,7 @@ struct WalrSettings {
     v.visit(
         {"walr.fit-window",
          "Leave out the last iterations where their window would span far more than a tenth of the image's height, and "
-         "make blocks no larger than 1/54 of it but 4 pixels",
+         "make blocks no larger than 1/43 of it but 4 pixels",
          "", 0, 1, "measured"},
         fitWindow);
     v.visit({"walr.skip-sky",

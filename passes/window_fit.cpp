@@ -11,7 +11,7 @@ std::uint32_t fittingIterations(std::uint32_t height, std::uint32_t size) {
 }
 
 std::uint32_t fittingBlockSize(std::uint32_t height) {
-  return std::max(height / 54, 4U);
+  return std::max(height / 43, 4U);
 }
 
 std::uint32_t fittingWindow(std::uint32_t height) {

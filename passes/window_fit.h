@@ -8,8 +8,8 @@ namespace walr {
 /// height: the paper's window at 1080 lines blurs contact shadows away at 216. At least 1.
 std::uint32_t fittingIterations(std::uint32_t height, std::uint32_t size = 1);
 
-/// Side of the blocks whose detail is enough for a picture: 1/54 of the height, 4 at least. Larger ones lose detail at
-/// 216 lines, and at 1080 smaller ones show no more, pixels.
+/// Side of the blocks whose detail is enough for a picture: 1/43 of the height, 4 at least. Larger ones lose detail at
+/// 216 lines, and at 270 and above smaller ones show no more, pixels.
 std::uint32_t fittingBlockSize(std::uint32_t height);
 
 /// The same window of single pixels, pixels.

@@ -146,19 +146,17 @@ void expectPlannedAs(const char* preset, const std::vector<Link>& chain) {
 }
 
 TEST(Registry, StagesConnectedByNameArePlannedAsTheWholeMethodIs) {
-  expectPlannedAs("blocks", {{"prepare_guides_with_occlusion", {}},
-                             {"temporal_accumulation_with_taps",
-                              {{"accumulation.max-samples", "8"},
-                               {"accumulation.respond-to-change", "on"},
-                               {"accumulation.storage", "packed"},
-                               {"antialiasing.storage", "packed"}}},
-                             {"block_regression",
-                              {{"blocks.size", "6"},
-                               {"blocks.iterations", "2"},
-                               {"accumulation.storage", "packed"},
-                               {"antialiasing.storage", "packed"}}},
-                             {"temporal_antialiasing_with_taps",
-                              {{"antialiasing.clip-gamma", "3"}, {"antialiasing.storage", "packed"}}}});
+  expectPlannedAs(
+      "blocks",
+      {{"prepare_guides_with_occlusion", {}},
+       {"temporal_accumulation_with_taps",
+        {{"accumulation.max-samples", "8"},
+         {"accumulation.respond-to-change", "on"},
+         {"accumulation.storage", "packed"},
+         {"antialiasing.storage", "packed"}}},
+       {"block_regression",
+        {{"blocks.iterations", "2"}, {"accumulation.storage", "packed"}, {"antialiasing.storage", "packed"}}},
+       {"temporal_antialiasing_with_taps", {{"antialiasing.clip-gamma", "5"}, {"antialiasing.storage", "packed"}}}});
   expectPlannedAs("robust", {{"prepare_guides", {}},
                              {"temporal_accumulation_with_taps", {}},
                              {"weighted_regression", {{"regression.iterations", "3"}}},

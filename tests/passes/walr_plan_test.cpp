@@ -65,15 +65,16 @@ TEST(WalrPlan, TheDefaultNeedsNoMoreMemoryThanItsBudget) {
   EXPECT_LE(memory.persistentBytes + memory.transientPeakBytes, 91'000'000U);
 }
 
-// The project's budget for the default, from 270 lines on.
+// The project's budget for the default, from the smallest pictures on that it is measured on.
 TEST(WalrPlan, TheDefaultMovesAtMostHalfOfWhatThePaperMoves) {
-  for (const fg::Extent extent : {fg::Extent{480, 270}, fg::Extent{960, 540}, kFullHd, fg::Extent{3840, 2160}}) {
+  for (const fg::Extent extent :
+       {fg::Extent{384, 216}, fg::Extent{480, 270}, fg::Extent{960, 540}, kFullHd, fg::Extent{3840, 2160}}) {
     const std::uint64_t paper = planWalr(paperWalr(), {}, extent).bytesPerPixel();
     EXPECT_LE(2 * planWalr(blocksWalr(), {}, extent).bytesPerPixel(), paper) << extent.height;
   }
 }
 
-// Blocks of 4 x 4 pixels below 270 lines, of 8 x 8 from 432 on, unless asked not to fit.
+// Blocks of 4 x 4 pixels below 215 lines, of 8 x 8 from 344 on, unless asked not to fit.
 TEST(WalrPlan, BlocksFitThePicture) {
   const auto blocksOf = [](const WalrSettings& settings, fg::Extent extent) {
     const Planned planned = planWalr(settings, {}, extent);
@@ -81,9 +82,10 @@ TEST(WalrPlan, BlocksFitThePicture) {
       if (resource.name == "block normal") return std::get<fg::TextureDesc>(resource.desc).extent;
     return fg::Extent{};
   };
-  EXPECT_EQ(blocksOf(blocksWalr(), {384, 216}), (fg::Extent{96, 54}));
-  EXPECT_EQ(blocksOf(blocksWalr(), {480, 270}), (fg::Extent{96, 54}));
-  EXPECT_EQ(blocksOf(blocksWalr(), {768, 432}), (fg::Extent{96, 54}));
+  EXPECT_EQ(blocksOf(blocksWalr(), {192, 108}), (fg::Extent{48, 27}));
+  EXPECT_EQ(blocksOf(blocksWalr(), {384, 216}), (fg::Extent{77, 44}));
+  EXPECT_EQ(blocksOf(blocksWalr(), {480, 270}), (fg::Extent{80, 45}));
+  EXPECT_EQ(blocksOf(blocksWalr(), {640, 344}), (fg::Extent{80, 43}));
   WalrSettings unfitted = blocksWalr();
   unfitted.fitWindow = false;
   EXPECT_EQ(blocksOf(unfitted, {384, 216}), (fg::Extent{48, 27}));
