@@ -8,7 +8,9 @@
 #include <vector>
 
 #include "passes/grid_extent.h"
+#include "passes/tile_lists.h"
 #include "shaders/constants/block_regression.h"
+#include "shaders/constants/tiles.h"
 #include "shaders/shaders.h"
 
 namespace walr {
@@ -36,7 +38,7 @@ struct BlockAverages {
 /// The fit of every block or cell and the depth that its depth feature is relative to.
 struct BlockFits {
   fg::Texture a, b, c;
-  fg::Texture depth;
+  fg::Texture depth;  // Of a block also whether its fit holds paths enough (block_storage.glsl).
 };
 
 /// Cells are merged by workgroups, whose sides they divide.
@@ -64,6 +66,7 @@ BlockGrid gridOf(fg::Graph& graph, fg::Buffer frame, fg::Extent pixels, const Bl
   constants.coarseGrowthErrors = s.coarseGrowthErrors;
   constants.coarseGrowthOcclusion = s.coarseGrowthOcclusion;
   constants.coarseSamples = s.coarseSamples;
+  constants.coarseLeastShare = s.coarseLeastShare;
   return {graph, frame, pixels, blocks, gridExtent(pixels, cellSize), s.size, cellBlocks, cellSize, constants};
 }
 
@@ -86,16 +89,17 @@ BlockAverages writeAverages(const BlockGrid& grid, fg::PassBuilder& pass, fg::Ex
   return averages;
 }
 
+/// But their depth.
 BlockFits writeFits(const BlockGrid& grid, fg::PassBuilder& pass, fg::Extent extent, const std::string& name) {
-  const auto store = [&](const char* binding, const char* part, VkFormat format) {
-    return pass.store(binding, grid.graph.texture(name + part, {format, extent}));
+  const auto store = [&](const char* binding, const char* part) {
+    return pass.store(binding, grid.graph.texture(name + part, {VK_FORMAT_R32G32B32A32_UINT, extent}));
   };
-  return {store("outFitA", " a", VK_FORMAT_R32G32B32A32_UINT), store("outFitB", " b", VK_FORMAT_R32G32B32A32_UINT),
-          store("outFitC", " c", VK_FORMAT_R32G32B32A32_UINT), store("outDepth", " depth", VK_FORMAT_R32_UINT)};
+  return {.a = store("outFitA", " a"), .b = store("outFitB", " b"), .c = store("outFitC", " c"), .depth = {}};
 }
 
-/// The fit of a Gaussian window around every cell, regardless of edges, grown where the light is the same.
-BlockFits addCoarseFit(const BlockGrid& grid, const BlockAverages& averages) {
+/// The fit of a Gaussian window around every cell, regardless of edges, grown where the light is the same and the
+/// blocks' fits, whose depth this reads, want paths.
+BlockFits addCoarseFit(const BlockGrid& grid, const BlockAverages& averages, fg::Texture fitDepth) {
   const auto declare = [&](const std::string& name, const fg::Shader& shader, const BlockAverages& read) {
     fg::PassBuilder pass = grid.graph.compute(name, shader);
     readAverages(pass, read);
@@ -109,7 +113,10 @@ BlockFits addCoarseFit(const BlockGrid& grid, const BlockAverages& averages) {
   down.specialize("kVertical", true);
   const BlockAverages windows = writeAverages(grid, down, grid.cells, " blurred");
   fg::PassBuilder growth = declare("coarse fit, growth", shaders::blockCoarseGrowth, windows);
-  return writeFits(grid, growth, grid.cells, "coarse fit");
+  growth.sample("fitDepth", fitDepth).specialize("kCellBlocks", grid.cellBlocks);
+  BlockFits fits = writeFits(grid, growth, grid.cells, "coarse fit");
+  fits.depth = windows.depth;
+  return fits;
 }
 
 /// In the order of `kView` of block_atrous.comp. Names of what the regression over pixels has, too, are the same.
@@ -196,95 +203,123 @@ BlockFits addFineFit(const BlockGrid& grid, BlockAverages averages, fg::Texture 
     const bool last = t + 1 == iterations;
     const std::string suffix = " " + std::to_string(t);
     fg::PassBuilder pass = declare("block a-trous" + suffix, last ? shaders::blockAtrousLast : shaders::blockAtrous);
-    if (last) return writeFits(grid, pass, grid.blocks, "block fit");
+    if (last) {
+      BlockFits fits = writeFits(grid, pass, grid.blocks, "block fit");
+      fits.depth = pass.store("outDepth", grid.graph.texture("block fit depth", {VK_FORMAT_R32_UINT, grid.blocks}));
+      return fits;
+    }
     averages = writeAverages(grid, pass, grid.blocks, suffix);
   }
 }
 
-const fg::Shader& applyShader(bool listed, bool packed) {
-  using namespace shaders;
-  if (listed) return packed ? blockApplyListedPacked : blockApplyListed;
-  return packed ? blockApplyPacked : blockApply;
+/// All that a pixel's light is made of.
+struct Fits {
+  BlockFits fine;
+  BlockFits coarse;
+  fg::Texture normal;  // Of blocks.
+};
+
+/// What gathers the blocks' samples and what fits them to the pixels again read the same pixels.
+fg::PassBuilder readPixels(const BlockGrid& grid, const Guides& guides, const std::string& name,
+                           const fg::Shader& shader) {
+  fg::PassBuilder pass = grid.graph.compute(name, shader);
+  pass.uniform("frameConstants", grid.frame)
+      .sample("depth", guides.depth)
+      .sample("features", guides.features)
+      .specialize("kBlockSize", grid.size)
+      .constants(grid.constants);
+  return pass;
+}
+
+bool isPacked(const BlockGrid& grid, fg::Texture texture) {
+  return lightStorageOf(grid.graph.textureDesc(texture).format) == LightStorage::Packed;
+}
+
+void readLight(const BlockGrid& grid, const BlockLight& light, fg::PassBuilder& pass) {
+  pass.sample("accumulated", light.accumulated);
+  if (!isPacked(grid, light.accumulated))
+    pass.specialize("kAlphaIsSampleCount", light.alpha == LightingAlpha::SampleCount);
+}
+
+/// Every pixel from the fits around it.
+/// @param sortTiles  dispatch it over lists of tiles by what there is to do
+fg::Texture addReconstruction(const BlockGrid& grid, const BlockLight& light, const Guides& guides, const Fits& fits,
+                              bool sortTiles, Inspection* inspection) {
+  const bool readsPacked = isPacked(grid, light.accumulated);
+  const bool writesPacked = light.result == LightStorage::Packed;
+  const auto reconstruct = [&](const std::string& name, const fg::Shader& shader) {
+    fg::PassBuilder pass = readPixels(grid, guides, name, shader);
+    pass.sample("fitA", fits.fine.a)
+        .sample("fitB", fits.fine.b)
+        .sample("fitC", fits.fine.c)
+        .sample("fitDepth", fits.fine.depth)
+        .sample("fitNormal", fits.normal)
+        .sample("coarseA", fits.coarse.a)
+        .sample("coarseB", fits.coarse.b)
+        .sample("coarseC", fits.coarse.c)
+        .sample("coarseDepth", fits.coarse.depth)
+        .specialize("kCellSize", grid.cellSize);
+    return pass;
+  };
+  if (inspection != nullptr) {
+    inspection->offer(grid.graph, reconstructionViews(), grid.pixels, [&](const std::string& name) {
+      fg::PassBuilder pass = reconstruct(name, readsPacked ? shaders::blockApplyViewPacked : shaders::blockApplyView);
+      readLight(grid, light, pass);
+      pass.dispatch(grid.pixels);
+      return pass;
+    });
+  }
+
+  const auto passLightOn = [&](fg::PassBuilder& pass) {
+    if (!writesPacked) pass.sample("passed", readsPacked ? light.lighting : light.accumulated);
+  };
+  const auto apply = [&](const std::string& name, const fg::Shader& half, const fg::Shader& packed) {
+    fg::PassBuilder pass = reconstruct(name, writesPacked ? packed : half);
+    passLightOn(pass);
+    return pass;
+  };
+  const fg::Texture target = grid.graph.texture("filtered", {formatOf(light.result), grid.pixels});
+  if (!sortTiles) {
+    fg::PassBuilder all = apply("block apply", shaders::blockApply, shaders::blockApplyPacked);
+    all.dispatch(grid.pixels);
+    return all.store("outFiltered", target);
+  }
+  const TileLists tiles = addTileLists(grid.graph, grid.pixels, fits.fine.depth, grid.size);
+  fg::PassBuilder growing = apply("block apply", shaders::blockApplyListed, shaders::blockApplyListedPacked);
+  dispatchTiles(growing, tiles, kTilesGrowing);
+  fg::Texture filtered = growing.store("outFiltered", target);
+  fg::PassBuilder converged =
+      apply("block apply, converged", shaders::blockApplyConverged, shaders::blockApplyConvergedPacked);
+  dispatchTiles(converged, tiles, kTilesConverged);
+  filtered = converged.update("outFiltered", filtered);
+  fg::PassBuilder sky = grid.graph.compute("pass sky", writesPacked ? shaders::passSkyPacked : shaders::passSky);
+  passLightOn(sky);
+  dispatchTiles(sky, tiles, kTilesOfSky);
+  return sky.update("filtered", filtered);
 }
 
 }  // namespace
 
 fg::Texture addBlockRegression(fg::Graph& graph, fg::Buffer frame, const BlockLight& light, const Guides& guides,
-                               const BlockRegressionSettings& settings, Inspection* inspection,
-                               const TileLists* tiles) {
+                               const BlockRegressionSettings& settings, Inspection* inspection) {
   if (!(settings.planeNear < settings.planeFar)) {
     throw std::invalid_argument("setting blocks.plane-near must be below blocks.plane-far");
   }
-  const fg::TextureDesc accumulated = graph.textureDesc(light.accumulated);
-  const BlockGrid grid = gridOf(graph, frame, accumulated.extent, settings);
-  const bool readsPacked = lightStorageOf(accumulated.format) == LightStorage::Packed;
-  const bool writesPacked = light.result == LightStorage::Packed;
-  const auto readLight = [&](fg::PassBuilder& pass) {
-    pass.sample("accumulated", light.accumulated);
-    if (!readsPacked) pass.specialize("kAlphaIsSampleCount", light.alpha == LightingAlpha::SampleCount);
-  };
-
-  // What gathers the blocks' samples and what fits them to the pixels again read the same pixels.
-  const auto readPixels = [&](const std::string& name, const fg::Shader& shader) {
-    fg::PassBuilder pass = graph.compute(name, shader);
-    pass.uniform("frameConstants", frame)
-        .sample("depth", guides.depth)
-        .sample("features", guides.features)
-        .specialize("kBlockSize", grid.size)
-        .constants(grid.constants);
-    return pass;
-  };
-
+  const BlockGrid grid = gridOf(graph, frame, graph.textureDesc(light.accumulated).extent, settings);
   fg::PassBuilder gather =
-      readPixels("block moments", readsPacked ? shaders::blockMomentsPacked : shaders::blockMoments);
-  readLight(gather);
+      readPixels(grid, guides, "block moments",
+                 isPacked(grid, light.accumulated) ? shaders::blockMomentsPacked : shaders::blockMoments);
+  readLight(grid, light, gather);
   gather.sample("geometricNormal", guides.geometricNormal)
       .specialize("kCellBlocks", grid.cellBlocks)
       .dispatch(grid.blocks);
-  const BlockAverages averages = writeAverages(grid, gather, grid.blocks, "");
-  const fg::Texture normal =
-      gather.store("outNormal", graph.texture("block normal", {VK_FORMAT_R32_UINT, grid.blocks}));
-
-  const BlockFits coarse = addCoarseFit(grid, writeAverages(grid, gather, grid.cells, " of cells", "outCell"));
-  const BlockFits fine = addFineFit(grid, averages, normal, settings.iterations, inspection);
-
-  const auto reconstruct = [&](const std::string& name, const fg::Shader& shader) {
-    fg::PassBuilder pass = readPixels(name, shader);
-    pass.sample("fitA", fine.a)
-        .sample("fitB", fine.b)
-        .sample("fitC", fine.c)
-        .sample("fitDepth", fine.depth)
-        .sample("fitNormal", normal)
-        .sample("coarseA", coarse.a)
-        .sample("coarseB", coarse.b)
-        .sample("coarseC", coarse.c)
-        .sample("coarseDepth", coarse.depth)
-        .specialize("kCellSize", grid.cellSize);
-    return pass;
-  };
-  if (inspection != nullptr) {
-    inspection->offer(graph, reconstructionViews(), grid.pixels, [&](const std::string& name) {
-      fg::PassBuilder pass = reconstruct(name, readsPacked ? shaders::blockApplyViewPacked : shaders::blockApplyView);
-      readLight(pass);
-      pass.dispatch(grid.pixels);
-      return pass;
-    });
-  }
-  fg::PassBuilder apply = reconstruct("block apply", applyShader(tiles != nullptr, writesPacked));
-  const fg::Texture passed = readsPacked ? light.lighting : light.accumulated;
-  if (!writesPacked) apply.sample("passed", passed);
-  if (tiles == nullptr) {
-    apply.dispatch(grid.pixels);
-  } else {
-    dispatchTiles(apply, tiles->surfaces);
-  }
-  const fg::Texture filtered =
-      apply.store("outFiltered", graph.texture("filtered", {formatOf(light.result), grid.pixels}));
-  if (tiles == nullptr) return filtered;
-  fg::PassBuilder passSky = graph.compute("pass sky", writesPacked ? shaders::passSkyPacked : shaders::passSky);
-  if (!writesPacked) passSky.sample("passed", passed);
-  dispatchTiles(passSky, tiles->sky);
-  return passSky.update("filtered", filtered);
+  const BlockAverages blocks = writeAverages(grid, gather, grid.blocks, "");
+  const BlockAverages cells = writeAverages(grid, gather, grid.cells, " of cells", "outCell");
+  Fits fits;
+  fits.normal = gather.store("outNormal", graph.texture("block normal", {VK_FORMAT_R32_UINT, grid.blocks}));
+  fits.fine = addFineFit(grid, blocks, fits.normal, settings.iterations, inspection);
+  fits.coarse = addCoarseFit(grid, cells, fits.fine.depth);
+  return addReconstruction(grid, light, guides, fits, settings.sortTiles, inspection);
 }
 
 }  // namespace walr

@@ -8,7 +8,6 @@
 #include "passes/lighting_alpha.h"
 #include "passes/prepare_guides.h"
 #include "passes/settings.h"
-#include "passes/tile_lists.h"
 
 namespace walr {
 
@@ -28,6 +27,8 @@ struct BlockRegressionSettings {
   float coarseGrowthErrors = 2.0F;
   float coarseGrowthOcclusion = 4.0F;
   float coarseSamples = 3200.0F;
+  float coarseLeastShare = 0.15F;
+  bool sortTiles = false;
 
   void visit(SettingVisitor& v) {
     v.visit({"blocks.size", "Side of the blocks whose moments are averaged", "pixels", 2, 8, "measured"}, size);
@@ -80,6 +81,18 @@ struct BlockRegressionSettings {
     v.visit({"blocks.coarse-samples", "Paths that the coarse fit counts for beside those in a block's window", "paths",
              0.0, 1e6, "measured"},
             coarseSamples);
+    v.visit(
+        {"blocks.coarse-least-share",
+         "Share of the mixture at which the coarse fit is left out, which saves time; from twice as much on it counts "
+         "in full",
+         "", 1e-6, 0.5, "measured"},
+        coarseLeastShare);
+    v.visit(
+        {"blocks.sort-tiles",
+         "Sort tiles of 8 x 8 pixels into those whose pixels may want the coarse fit, those that have converged and "
+         "those of the sky, and dispatch the reconstruction indirectly over each list",
+         "", 0, 1, "measured"},
+        sortTiles);
   }
 };
 
@@ -97,12 +110,9 @@ struct BlockLight {
 /// @param frame      upload of `FrameConstants`
 /// @param guides     with `features`
 /// @param inspection is offered the views of every iteration and of the reconstruction
-/// @param tiles      where given, the reconstruction is dispatched over them, and the sky's light is passed through
-/// apart
 /// @returns as `light.result` says: filtered radiance; RGBA16F: sky and pixels without a diffuse lobe as they were
 /// @throws std::invalid_argument for settings outside their range
 fg::Texture addBlockRegression(fg::Graph& graph, fg::Buffer frame, const BlockLight& light, const Guides& guides,
-                               const BlockRegressionSettings& settings = {}, Inspection* inspection = nullptr,
-                               const TileLists* tiles = nullptr);
+                               const BlockRegressionSettings& settings = {}, Inspection* inspection = nullptr);
 
 }  // namespace walr

@@ -1,31 +1,31 @@
 #include "passes/tile_lists.h"
 
-#include <cstdint>
-
 #include "passes/grid_extent.h"
 #include "shaders/constants/tiles.h"
 #include "shaders/shaders.h"
 
 namespace walr {
 
-TileLists addTileLists(fg::Graph& graph, fg::Texture depth) {
-  constexpr auto kSide = static_cast<std::uint32_t>(kTileSide);
-  const fg::Extent pixels = graph.textureDesc(depth).extent;
-  const fg::Extent tiles = gridExtent(pixels, kSide);
+TileLists addTileLists(fg::Graph& graph, fg::Extent pixels, fg::Texture fitDepth, std::uint32_t blockSize) {
+  const fg::Extent tiles = gridExtent(pixels, static_cast<std::uint32_t>(kTileSide));
+  const std::uint64_t count = static_cast<std::uint64_t>(tiles.width) * tiles.height;
+  const TileListConstants constants{.columns = tiles.width, .rows = tiles.height};
 
-  fg::PassBuilder find = graph.compute("surface tiles", shaders::surfaceTiles);
-  find.sample("depth", depth).dispatch(pixels);
-  const fg::Texture found = find.store("outTiles", graph.texture("surface tiles", {VK_FORMAT_R32_UINT, tiles}));
+  fg::PassBuilder clear = graph.compute("clear tile lists", shaders::listTilesClear);
+  clear.constants(constants).dispatch({1, 1});
+  const fg::Buffer empty = clear.store(
+      "tileLists", graph.buffer("tile lists", {kTileLists * (kTileListHeader + count) * sizeof(std::uint32_t)}));
 
-  const std::uint64_t words = kTileListHeader + static_cast<std::uint64_t>(tiles.width) * tiles.height;
   fg::PassBuilder list = graph.compute("tile lists", shaders::listTiles);
-  list.sample("tiles", found).dispatch({1, 1});
-  return {list.store("outSurfaces", graph.buffer("tiles with surfaces", {words * sizeof(std::uint32_t)})),
-          list.store("outSky", graph.buffer("tiles of sky", {words * sizeof(std::uint32_t)}))};
+  list.sample("fitDepth", fitDepth).specialize("kBlockSize", blockSize).constants(constants).dispatch(tiles);
+  return {list.update("tileLists", empty), count};
 }
 
-void dispatchTiles(fg::PassBuilder& pass, fg::Buffer list) {
-  pass.load("tileList", list).dispatchIndirect(list);
+void dispatchTiles(fg::PassBuilder& pass, const TileLists& lists, std::uint32_t list) {
+  const std::uint64_t header = list * (kTileListHeader + lists.tiles);
+  pass.load("tileLists", lists.words)
+      .specialize("kTileListHeaderAt", static_cast<std::uint32_t>(header))
+      .dispatchIndirect(lists.words, header * sizeof(std::uint32_t));
 }
 
 }  // namespace walr

@@ -1,7 +1,6 @@
 #include "passes/walr.h"
 
 #include <algorithm>
-#include <optional>
 
 #include "passes/temporal_stages.h"
 #include "passes/window_fit.h"
@@ -29,12 +28,9 @@ fg::Texture addBlockFilter(fg::Graph& graph, const DenoiserInputs& inputs, const
     const std::uint32_t fitting = std::max(fittingIterations(height, blocks.size), kLeastIterations);
     blocks.iterations = std::min(blocks.iterations, fitting);
   }
-  std::optional<TileLists> lists;
-  if (settings.skipSky && inputs.scene.sky) lists = addTileLists(graph, guides.depth);
-  const TileLists* tiles = lists ? &*lists : nullptr;
   const BlockLight light{
       .accumulated = input.lighting, .alpha = input.alpha, .lighting = inputs.lighting, .result = input.result};
-  return addBlockRegression(graph, inputs.frame, light, guides, blocks, inspection, tiles);
+  return addBlockRegression(graph, inputs.frame, light, guides, blocks, inspection);
 }
 
 }  // namespace

@@ -28,7 +28,6 @@ struct WalrSettings {
   AmbientOcclusionSettings occlusion;
   BlockRegressionSettings blocks;
   bool fitWindow = true;
-  bool skipSky = false;
 
   void visit(SettingVisitor& v) {
     v.visit({"spatial-only", "Filter each frame by itself, without the temporal stages", "", 0, 1, "walr.txt 4.3"},
@@ -47,11 +46,6 @@ struct WalrSettings {
          "make blocks no larger than 1/43 of it but 4 pixels",
          "", 0, 1, "measured"},
         fitWindow);
-    v.visit({"walr.skip-sky",
-             "Regressing over blocks of a scene with sky, dispatch the reconstruction indirectly over the tiles that "
-             "show a surface",
-             "", 0, 1, "measured"},
-            skipSky);
     regression.visit(v);
     occlusion.visit(v);
     blocks.visit(v);

@@ -1,7 +1,8 @@
 // The blocks' fits applied to every pixel's features: those of the four blocks around it, weighed by plane and
-// distance, mixed with the coarse fits of the four cells around it as their samples count against `coarseSamples`. What
-// shows no surface passes its light on; with PACKED, which packs the result (packed_light.glsl), whoever reads that must. A
-// view (VIEW) does the same and writes something found on the way; of that PACKED says what it reads.
+// distance, mixed with the coarse fits of the four cells around it as their samples count against `coarseSamples`.
+// CONVERGED is for tiles where these count for nothing but on pixels that lie on no block's plane. What shows no surface
+// passes its light on; with PACKED, which packs the result (packed_light.glsl), whoever reads that must. A view (VIEW) does
+// the same and writes something found on the way; of that PACKED says what it reads.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -26,6 +27,11 @@ layout(set = 0, binding = 11) uniform utexture2D coarseA;
 layout(set = 0, binding = 12) uniform utexture2D coarseB;
 layout(set = 0, binding = 13) uniform utexture2D coarseC;
 layout(set = 0, binding = 14) uniform utexture2D coarseDepth;
+#ifdef CONVERGED
+#define OUT_ACCESS  // Beside what other tiles have written.
+#else
+#define OUT_ACCESS writeonly
+#endif
 #ifdef VIEW
 layout(constant_id = 8) const uint kView = 0;  // Which quantity; numbered in viewOf.
 layout(set = 0, binding = 15, rgba32f) uniform writeonly image2D outView;
@@ -35,14 +41,15 @@ layout(set = 0, binding = 5) uniform utexture2D accumulated;
 layout(set = 0, binding = 5) uniform texture2D accumulated;
 #endif
 #elif defined(PACKED)
-layout(set = 0, binding = 15, r32ui) uniform writeonly uimage2D outFiltered;
+layout(set = 0, binding = 15, r32ui) uniform OUT_ACCESS uimage2D outFiltered;
 #else
 layout(set = 0, binding = 5) uniform texture2D passed;
-layout(set = 0, binding = 15, rgba16f) uniform writeonly image2D outFiltered;
+layout(set = 0, binding = 15, rgba16f) uniform OUT_ACCESS image2D outFiltered;
 #endif
 layout(push_constant) uniform PushConstants { BlockRegressionConstants settings; };
 #include "include/block_fit.glsl"
 #include "include/block_plane.glsl"
+#include "include/coarse_share.glsl"
 #include "include/plane.glsl"
 #ifdef VIEW
 #include "include/light.glsl"
@@ -98,13 +105,8 @@ BlockFit loadCoarse(ivec2 block) {
 // Weighted mean of the fine fits' samples.
 float fineSamples(Prediction fine) { return fine.weight > 0.0 ? fine.samples / fine.weight : 0.0; }
 
-// Share of the fine fits in the mixture.
-float fineShare(Prediction fine, Prediction coarse) {
-  if (fine.weight <= 0.0) return 0.0;
-  if (coarse.weight <= 0.0) return 1.0;
-  const float samples = fineSamples(fine);
-  return samples / (samples + settings.coarseSamples);
-}
+// Share of the coarse fits in the mixture, where they know anything.
+float coarseShare(Prediction fine) { return fine.weight > 0.0 ? coarseShare(fineSamples(fine)) : 1.0; }
 
 vec3 colourOf(Prediction sum) { return sum.weight > 0.0 ? sum.colour / sum.weight : vec3(0.0); }
 
@@ -128,10 +130,10 @@ float bilinearWeight(Around a, int i, ivec2 grid, out ivec2 texel) {
   return axisWeight.x * axisWeight.y;
 }
 
-Prediction predictCoarse(ivec2 p, float z, NormalAndOcclusion shading) {
+Prediction predictCoarse(ivec2 p, float z, NormalAndOcclusion shading, int count) {
   Prediction sum = noPrediction();
   const Around cells = around(p, kCellSize);
-  [[unroll]] for (int i = 0; i < 4; ++i) {
+  [[unroll]] for (int i = 0; i < count; ++i) {
     ivec2 cell;
     const float weight = bilinearWeight(cells, i, textureSize(coarseDepth, 0), cell);
     if (weight <= 0.0) continue;
@@ -159,27 +161,22 @@ Prediction predictFine(ivec2 p, float z, NormalAndOcclusion shading) {
   return sum;
 }
 
-// 0 where neither knows anything: the pixel itself, of whose cell the coarse fit is, has no sample then.
-vec3 mixFits(Prediction fine, Prediction coarse) {
-  return mix(colourOf(coarse), colourOf(fine), fineShare(fine, coarse));
-}
-
 #ifdef VIEW
 const float kCoefficients = float(kFeatures + 1);  // Of the fit of one channel.
 
 vec3 slopeOf(Prediction sum, uint feature) {
   return sum.weight > 0.0 ? sum.slope[feature] / sum.weight : vec3(0.0);
 }
-vec3 viewOf(ivec2 p, Prediction fine, Prediction coarse, float occluded) {
+vec3 viewOf(ivec2 p, Prediction fine, Prediction coarse, float share, float occluded) {
   const bool known = fine.weight > 0.0 || coarse.weight > 0.0;
   switch (kView) {
-    case 0u: return vec3(fineSamples(fine), known ? 1.0 - fineShare(fine, coarse) : 0.0, !known);
+    case 0u: return vec3(fineSamples(fine), share, !known);
     case 1u: return vec3(occluded, fine.weight, fine.weight <= 0.0 && coarse.weight > 0.0);
     case 2u: return colourOf(fine);
     case 3u: return colourOf(coarse);
     case 4u: return vec3(fine.negative);
     case 5u: return vec3(coarse.negative);
-    case 16u: return vec3(fineSamples(fine) < kCoefficients, known && fineShare(fine, coarse) < 0.5, lightAt(p).a == 0.0);
+    case 16u: return vec3(fineSamples(fine) < kCoefficients, share > 0.5, lightAt(p).a == 0.0);
   }
   return kView < 11u ? slopeOf(fine, kView - 6u) : slopeOf(coarse, kView - 11u);
 }
@@ -207,11 +204,22 @@ void main() {
     return;
   }
   const NormalAndOcclusion shading = unpackNormalAndOcclusion(texelFetch(features, p, 0).x);
-  const Prediction coarse = predictCoarse(p, z, shading);
   const Prediction fine = predictFine(p, z, shading);
-#ifdef VIEW
-  imageStore(outView, p, vec4(viewOf(p, fine, coarse, shading.occlusion), 1.0));
+  const float wanted = coarseShare(fine);
+#if defined(CONVERGED)
+  // A loop ends for all lanes at once even on devices that have no branch, and here hardly any has need of it.
+  const Prediction coarse = predictCoarse(p, z, shading, wanted > 0.0 ? 4 : 0);
+#elif defined(VIEW)
+  const Prediction coarse = predictCoarse(p, z, shading, 4);
 #else
-  store(p, mixFits(fine, coarse));
+  Prediction coarse = noPrediction();
+  if (wanted > 0.0) coarse = predictCoarse(p, z, shading, 4);
+#endif
+  const float share = coarse.weight > 0.0 ? wanted : 0.0;
+#ifdef VIEW
+  imageStore(outView, p, vec4(viewOf(p, fine, coarse, share, shading.occlusion), 1.0));
+#else
+  // 0 where neither knows anything: the pixel itself, of whose cell the coarse fit is, has no sample then.
+  store(p, mix(colourOf(fine), colourOf(coarse), share));
 #endif
 }

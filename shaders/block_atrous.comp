@@ -20,6 +20,7 @@ layout(push_constant) uniform PushConstants { BlockRegressionConstants settings;
 #include "include/block_fit.glsl"
 #define BLOCK_MOMENTS_IN
 #if defined(LAST)
+#include "include/coarse_share.glsl"
 #define BLOCK_FIT_OUT
 #elif !defined(VIEW)
 #define BLOCK_MOMENTS_OUT
@@ -122,10 +123,12 @@ void writeResult(ivec2 block, float z, Taps taps, BlockMoments m) {
 #else
 #ifdef LAST
   storeFit(block, fitOf(m));
+  const uint packedDepth = packFitDepth(z, converges(m.samples));
 #else
   storeMoments(block, m);
+  const uint packedDepth = packDepthSdf(z, uint(taps.nearestEdge));
 #endif
-  imageStore(outDepth, block, uvec4(z > 0.0 ? packDepthSdf(z, uint(taps.nearestEdge)) : 0u));
+  imageStore(outDepth, block, uvec4(z > 0.0 ? packedDepth : 0u));
 #endif
 }
 

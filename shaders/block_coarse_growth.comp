@@ -1,5 +1,5 @@
 // The coarse fit's windows grown: those around a cell join its own where its fit foretells their light within the error of
-// the means. Solves the regression in place.
+// the means, but where the blocks' fits leave them nothing to say. Solves the regression.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -14,6 +14,9 @@ layout(push_constant) uniform PushConstants { BlockRegressionConstants settings;
 #define BLOCK_FIT_OUT
 #include "include/block_textures.glsl"
 #include "include/coarse_window.glsl"
+
+layout(constant_id = 3) const int kCellBlocks = 1;  // Per axis.
+layout(set = 0, binding = 11) uniform utexture2D fitDepth;
 
 const int kTaps = 5;          // Per axis.
 const int kTapSpacing = 3;    // Cells.
@@ -57,11 +60,28 @@ float sameLight(Window w, BlockMoments m) {
   return sameLight(difference, variance, luminance(w.moments.y + m.y), w.errors);
 }
 
+// Whether the fits of some block around a pixel that reads this cell want paths. Where none does, the rare pixel that lies
+// on no block's plane reads a fit that has not grown.
+bool counts(ivec2 cell) {
+  const int reach = kCellBlocks / 2 + 1;
+  const ivec2 first = max(kCellBlocks * cell - reach, ivec2(0));
+  const ivec2 last = min(kCellBlocks * (cell + 1) - 1 + reach, textureSize(fitDepth, 0) - 1);
+  bool wanting = false;
+  for (int y = first.y; y <= last.y; ++y) {
+    for (int x = first.x; x <= last.x; ++x) {
+      const uint packedDepth = texelFetch(fitDepth, ivec2(x, y), 0).x;
+      wanting = wanting || (packedDepth != 0u && !hasConverged(packedDepth));
+    }
+  }
+  return wanting;
+}
+
 BlockMoments grown(ivec2 cell, float z, BlockMoments own) {
+  const int taps = counts(cell) ? kTaps * kTaps : 0;
   const Window window = windowOf(own);
   BlockMomentSum sum = emptySum();
   add(sum, 1.0, own);
-  for (int i = 0; i < kTaps * kTaps; ++i) {
+  for (int i = 0; i < taps; ++i) {
     const ivec2 tap = ivec2(i % kTaps, i / kTaps) - kTaps / 2;
     const ivec2 q = cell + kTapSpacing * tap;
     if (tap == ivec2(0) || !insideGrid(q)) continue;
@@ -77,9 +97,7 @@ BlockMoments grown(ivec2 cell, float z, BlockMoments own) {
 void main() {
   const ivec2 cell = ivec2(gl_GlobalInvocationID.xy);
   if (!insideGrid(cell)) return;
-  const uint packedDepth = texelFetch(depth, cell, 0).x;
   BlockMoments m = loadMoments(cell);
-  if (m.samples > 0.0) m = grown(cell, unpackDepth(packedDepth), m);
+  if (m.samples > 0.0) m = grown(cell, unpackDepth(texelFetch(depth, cell, 0).x), m);
   storeFit(cell, fitOf(m));
-  imageStore(outDepth, cell, uvec4(packedDepth));
 }

@@ -41,10 +41,19 @@ PackedFrame dark(fg::Extent extent, int number) {
   return packFrame(std::move(frame));
 }
 
+/// Every second frame is three times as far away.
+PackedFrame afterCut(fg::Extent extent, int number) {
+  Frame frame = slabFrame(extent, number).packed.frame;
+  const float scale = number % 2 == 0 ? 1.0F : 3.0F;
+  for (std::size_t i = 0; i < frame.depth.pixelCount(); ++i) frame.depth.pixel(i)[0] *= scale;
+  return packFrame(std::move(frame));
+}
+
 constexpr std::array kContents = {
     Content{"wall", "a wall and a slab that moves before it",
             [](fg::Extent extent, int frame) { return slabFrame(extent, frame).packed; }},
     Content{"fence", "the same with bars of one pixel, eight pixels apart, halfway before it", behindFence},
+    Content{"cuts", "the wall three times as far away in every second frame, so that no history holds", afterCut},
     Content{"dark", "the same without light", dark},
     Content{"half sky", "the same with sky in the upper half",
             [](fg::Extent extent, int frame) { return underSky(extent, frame, 0.5); }},

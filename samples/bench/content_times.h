@@ -31,7 +31,7 @@ struct ContentTimes {
 };
 
 /// Size of picture at which `walr bench` compares contents.
-inline constexpr fg::Extent kContentExtent{384, 216};
+inline constexpr fg::Extent kContentExtent{640, 360};
 
 /// Time each variant on all contents beside each other, after one repetition that warms up.
 /// @param frameDone  called after each frame of all contents

@@ -17,10 +17,11 @@ struct BlockRegressionConstants {
   float coarseGrowthErrors;     // As growthErrors, of a cell's window without occlusion.
   float coarseGrowthOcclusion;  // Times ambient occlusion, and 1: what divides these errors.
   float coarseSamples;       // Paths that the coarse fit counts for.
+  float coarseLeastShare;    // Share of the mixture at which it is left out; it counts in full from twice as much on.
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(BlockRegressionConstants) == 44);
+static_assert(sizeof(BlockRegressionConstants) == 48);
 }  // namespace walr
 #endif
 #endif

@@ -63,4 +63,9 @@ ivec2 representativePixel(ivec2 block, int blockSize, uint packedNormal) {
   return blockSize * block + ivec2(pixel % blockSize, pixel / blockSize);
 }
 
+// A fit's depth, and whether the fit holds so many paths that the coarse one has nothing to say beside it
+// (coarse_share.glsl), where moments have the distance to an edge.
+uint packFitDepth(float depth, bool converged) { return packDepthSdf(depth, uint(converged)); }
+bool hasConverged(uint packedDepth) { return unpackSdf(packedDepth) != 0u; }
+
 #endif

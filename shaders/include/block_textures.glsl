@@ -1,5 +1,5 @@
 // The textures of blocks: BLOCK_MOMENTS_IN reads moments and depth, BLOCK_MOMENTS_OUT writes them, CELL_MOMENTS_OUT writes
-// those of cells, BLOCK_FIT_OUT writes fits and depth.
+// those of cells, BLOCK_FIT_OUT writes fits, and depth where that is not known from before.
 #ifndef WALR_BLOCK_TEXTURES_GLSL
 #define WALR_BLOCK_TEXTURES_GLSL
 #include "block_storage.glsl"

@@ -169,13 +169,13 @@ TEST_F(PluginTest, EveryMethodGivesTheSamePixelsAsADispatchListWithItsHeapsAndBa
   }
 }
 
-// A row of tiles without surfaces is left out of what is dispatched.
+// Every tile is dispatched by one of three lists.
 TEST_F(PluginTest, IndirectDispatchesGiveTheSamePixels) {
   constexpr Size kSize{61, 41};
-  constexpr WalrSettingValue kSkipSky[] = {{"walr.skip-sky", "on"}};
+  constexpr WalrSettingValue kSorted[] = {{"blocks.sort-tiles", "on"}};
   Opaque opaque(host, api(), info("walr", kSize));
-  const WalrPasses recorded = makePasses(info("walr", kSize), kSkipSky);
-  const WalrPasses listed = makePasses(info("walr", kSize), kSkipSky);
+  const WalrPasses recorded = makePasses(info("walr", kSize), kSorted);
+  const WalrPasses listed = makePasses(info("walr", kSize), kSorted);
   {
     tiny_host::Graph graph(host, api(), recorded);
     list_host::Player player(host, api(), listed);

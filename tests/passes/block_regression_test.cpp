@@ -172,6 +172,18 @@ TEST_F(BlockRegression, GrowthAgreesWithBruteForce) {
   }
 }
 
+// To the left windows want paths, to the right they have them, and in between the coarse fit fades out. Of the limit of
+// 20 x (1 / .15 - 1) = 113 paths a block's own four pixels have 4 and 400. Coarse windows do not narrow: see above.
+TEST_F(BlockRegression, ConvergedBlocksAgreeWithBruteForce) {
+  BlockRegressionSettings settings{
+      .size = 2, .iterations = 1, .coarseSigma = kCoarseSigma, .coarseNarrowing = 0.0F, .coarseSamples = 20.0F};
+  const auto paths = [](glm::ivec2 p) { return p.x < kSize.x / 2 ? 1.0 : 100.0; };
+  for (const float least : {1e-6F, 0.15F, 0.4F}) {
+    settings.coarseLeastShare = least;
+    expectAgreement(settings, paths);
+  }
+}
+
 // Where the light steps at a block's side, every block has its side's light, and none grows over the step. Pixels
 // between the centres of blocks of either side are mixed.
 TEST_F(BlockRegression, BlocksDoNotGrowOverAStepInTheLight) {

@@ -149,7 +149,7 @@ TEST_F(BenchProgramTest, TimesByContent) {
   const json data = report(first);
   ASSERT_EQ(data["contents"].size(), 2U) << "the baseline is timed, too";
   for (const json& times : data["contents"]) {
-    ASSERT_EQ(times["timings"].size(), 6U);
+    ASSERT_EQ(times["timings"].size(), 7U);
     EXPECT_EQ(times["timings"][0]["content"], "wall");
     EXPECT_EQ(times["timings"][0]["ratio"]["median"], 1.0);
     for (const json& timing : times["timings"]) EXPECT_EQ(timing["timed_frames"], 8);

@@ -57,9 +57,18 @@ TEST(Contents, HoldWhatTheirNamesSay) {
   };
   std::map<std::string_view, double> shares;
   for (const Content& content : contents()) shares[content.name] = skyShare(content);
-  EXPECT_EQ(shares,
-            (std::map<std::string_view, double>{
-                {"wall", 0.0}, {"fence", 0.0}, {"dark", 0.0}, {"half sky", 0.5}, {"mostly sky", 0.9}, {"sky", 1.0}}));
+  EXPECT_EQ(shares, (std::map<std::string_view, double>{{"wall", 0.0},
+                                                        {"fence", 0.0},
+                                                        {"cuts", 0.0},
+                                                        {"dark", 0.0},
+                                                        {"half sky", 0.5},
+                                                        {"mostly sky", 0.9},
+                                                        {"sky", 1.0}}));
+  const auto cuts = std::ranges::find(contents(), std::string_view("cuts"), &Content::name);
+  const Image before = cuts->frame(kPicture, 8).frame.depth;
+  const Image after = cuts->frame(kPicture, 9).frame.depth;
+  // Even where the slab, at half the wall's depth, leaves or comes.
+  for (std::size_t i = 0; i < before.pixelCount(); ++i) EXPECT_GT(after.pixel(i)[0], 1.2F * before.pixel(i)[0]);
 }
 
 /// Age of a moving Gaussian that is nearest to an exponential mean over it. The squared distance is least where the

@@ -314,8 +314,30 @@ Image<Block> coarseWindows(const Picture& picture, int cellSize) {
   return blur(blur(cells, {1, 0}), {0, 1});
 }
 
-/// 5 x 5 windows 3 cells apart join a cell's own where its fit foretells their means.
-Image<Block> growCoarseWindows(const Picture& picture, int cellSize, const Image<Block>& cells) {
+/// Share of the coarse fit beside a fine one of so many paths: none where it would be of little.
+double coarseShare(const BlockRegressionSettings& settings, double paths) {
+  const double share = double(settings.coarseSamples) / (paths + double(settings.coarseSamples));
+  return share * std::clamp(share / double(settings.coarseLeastShare) - 1.0, 0.0, 1.0);
+}
+
+/// Whether some pixel reads this cell beside a block's fit.
+bool counts(const Picture& picture, int cellSize, glm::ivec2 cell, const Image<Fit>& fine) {
+  const double blockSize = picture.settings.size;
+  const glm::dvec2 centre = (glm::dvec2(cell) + 0.5) * double(cellSize);
+  bool counted = false;
+  forEachPixel(fine.size(), [&](glm::ivec2 b) {
+    // A pixel is less than a cell away from what it reads of cells, and than a block of blocks. Of a block's own fit a
+    // little is lost in memory.
+    const glm::dvec2 way = glm::abs((glm::dvec2(b) + 0.5) * blockSize - centre);
+    if (std::max(way.x, way.y) >= cellSize + blockSize || fine[b].depth == 0.0) return;
+    counted = counted || coarseShare(picture.settings, fine[b].samples * (1.0 - 0x1p-10)) > 0.0;
+  });
+  return counted;
+}
+
+/// 5 x 5 windows 3 cells apart join a cell's own where its fit foretells their means and the blocks' fits want paths.
+Image<Block> growCoarseWindows(const Picture& picture, int cellSize, const Image<Block>& cells,
+                               const Image<Fit>& fine) {
   constexpr double kTapSigma = 1.2;
   constexpr double kLeastNoise = 0.05;
   Image<Moments> moments(cells.size());
@@ -323,7 +345,7 @@ Image<Block> growCoarseWindows(const Picture& picture, int cellSize, const Image
   Image<Block> grown = cells;
   forEachPixel(cells.size(), [&](glm::ivec2 cell) {
     const Moments& own = moments[cell];
-    if (own.samples == 0.0) return;
+    if (own.samples == 0.0 || !counts(picture, cellSize, cell, fine)) return;
     const std::array<glm::dvec3, kFeatures> slopes = slopesOf(picture, own);
     double left = own.luminanceVariance;
     for (int i = 0; i < kFeatures; ++i) left -= luminance(slopes[i]) * luminance(own.right[i]);
@@ -401,7 +423,7 @@ Image<glm::dvec3> blockRegression(const HostFrame& frame, const Image<Guide>& gu
   int cellSize = int(settings.size);
   while (2 * cellSize <= cellPixels) cellSize *= 2;
   const Image<Fit> fine = fitAll(growWindows(picture, blocks));
-  const Image<Fit> coarse = fitAll(growCoarseWindows(picture, cellSize, coarseWindows(picture, cellSize)));
+  const Image<Fit> coarse = fitAll(growCoarseWindows(picture, cellSize, coarseWindows(picture, cellSize), fine));
 
   Image<glm::dvec3> result(guides.size());
   forEachPixel(guides.size(), [&](glm::ivec2 p) {
@@ -428,9 +450,8 @@ Image<glm::dvec3> blockRegression(const HostFrame& frame, const Image<Guide>& gu
     });
     if (coarseWeight > 0.0) result[p] = coarseSum / coarseWeight;
     if (fineWeight == 0.0) return;
-    const double own = samples / fineWeight;
-    const double other = coarseWeight > 0.0 ? double(settings.coarseSamples) : 0.0;
-    result[p] = glm::mix(result[p], fineSum / fineWeight, own / (own + other));
+    const double share = coarseWeight > 0.0 ? coarseShare(settings, samples / fineWeight) : 0.0;
+    result[p] = glm::mix(fineSum / fineWeight, result[p], share);
   });
   return result;
 }

@@ -126,7 +126,7 @@ class GranitePasses {
     if (dispatch.indirect != WALR_NONE) {
       throw std::invalid_argument(std::string(dispatch.name) +
                                   ": dispatched indirectly, which this adapter does not tell Granite of: leave "
-                                  "walr.skip-sky off");
+                                  "blocks.sort-tiles off");
     }
     Granite::RenderPass& pass =
         graph_->add_pass(std::string("walr/") + dispatch.name, Granite::RenderGraph::get_default_compute_queue());
