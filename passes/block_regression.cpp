@@ -89,7 +89,7 @@ BlockAverages writeAverages(const BlockGrid& grid, fg::PassBuilder& pass, fg::Ex
   return averages;
 }
 
-/// But their depth.
+/// All of them but their depth.
 BlockFits writeFits(const BlockGrid& grid, fg::PassBuilder& pass, fg::Extent extent, const std::string& name) {
   const auto store = [&](const char* binding, const char* part) {
     return pass.store(binding, grid.graph.texture(name + part, {VK_FORMAT_R32G32B32A32_UINT, extent}));

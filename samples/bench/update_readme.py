@@ -2,7 +2,8 @@
 """Puts measured figures into the project's README.
 
     update_readme.py FOLDER    takes what `walr bench` left in FOLDER: keeps its bench.json as results.json beside this
-                               script, draws samples/images/pareto.png, and rewrites the marked part of README.md
+                               script, draws pareto.png and crops.png in samples/images, and rewrites the marked part of
+                               README.md
     update_readme.py --check   fails unless the marked part of README.md is what results.json gives
 """
 import json
@@ -14,6 +15,8 @@ PROJECT = HERE.parent.parent
 RESULTS = HERE / "results.json"
 README = PROJECT / "README.md"
 PLOT = PROJECT / "samples" / "images" / "pareto.png"
+CROPS = PROJECT / "samples" / "images" / "crops.png"
+CROPPED = ["walr", "walr:paper", "bmfr", "svgf", "flr", "joint_bilateral"]
 BEGIN = "<!-- Written by samples/bench/update_readme.py: begin -->\n"
 END = "<!-- Written by samples/bench/update_readme.py: end -->\n"
 COLUMNS = [("rmse", "RMSE", 4), ("ssim", "SSIM", 3), ("flip", "FLIP", 3), ("flicker", "flicker", 4)]
@@ -131,8 +134,43 @@ def section(data):
     text += (f"* Measured at commit {data['commit']} ({data['compiler']}, {data['build_type']}) with\n"
              f"  `{data['command']}`.\n\n"
              "![error against time and bytes](samples/images/pareto.png)\n\n"
-             "*Mean over the sequences; filled: on the Pareto front, beaten by none in both.*\n")
+             "*Mean over the sequences; filled: on the Pareto front, beaten by none in both.*\n\n"
+             "![the hardest places](samples/images/crops.png)\n\n"
+             "*The two places of each sequence's last frame in which the filters' mean FLIP is largest, and below each the change of "
+             "the error in luminance from the frame before along motion: red brighter, blue darker, grey where nothing was there "
+             "before. Flicker, trails and seams that do not stay with their surface show there.*\n")
     return text
+
+
+def draw_crops(bench):
+    """The hardest places of each sequence's last frame that was kept, and how errors change there along motion."""
+    import numpy as np
+    from report import displayed, exposure, hardest_places, signed_colours
+    from report_plots import plt
+
+    rows = []
+    for sequence, facts in bench.sequences.items():
+        frame = max(facts["picture_frames"])
+        pictures = {n: bench.picture(sequence, n, frame) for n in ["_reference", "_noisy", *CROPPED]}
+        changes = {n: bench.change(sequence, n, frame)[:, :, 0] for n in CROPPED}
+        exposed = exposure(pictures["_reference"])
+        top = float(np.nanpercentile(np.abs(list(changes.values())), 99.5))
+        places, size = hardest_places(bench, sequence, frame, 2)
+        for x, y in places:
+            place = np.s_[y:y + size, x:x + size]
+            rows.append({n: displayed(p[place], exposed) for n, p in pictures.items()})
+            rows.append({n: signed_colours(c[place], top) for n, c in changes.items()})
+    names = list(rows[0])
+    figure, axes = plt.subplots(len(rows), len(names), figsize=(1.3 * len(names), 1.34 * len(rows)))
+    for index, (row, line) in enumerate(zip(rows, axes)):
+        for name, cell in zip(names, line):
+            cell.set_axis_off()
+            if name in row:
+                cell.imshow(row[name], interpolation="nearest")
+            if index == 0:
+                cell.set_title(name.removeprefix("_"), fontsize=8)
+    figure.subplots_adjust(0.005, 0.005, 0.995, 0.975, wspace=0.04, hspace=0.04)
+    figure.savefig(CROPS, dpi=100, metadata={"Software": None})
 
 
 def replaced(readme, text):
@@ -159,6 +197,7 @@ def main():
     everything = None if len(bench.sequences) > 1 else data["sequences"][0]["name"]
     report_plots.pareto_figure(bench, everything, ("rmse",)).savefig(PLOT, dpi=110, bbox_inches="tight",
                                                                metadata={"Software": None})
+    draw_crops(bench)
     README.write_text(replaced(readme, section(data)), encoding="utf-8")
 
 
