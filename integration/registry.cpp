@@ -56,6 +56,7 @@ struct Catalogue {
       std::vector<Port> ports = portsOf(*stage, type.composition, {}, known);
       for (const Port& port : ports) {
         if (port.output) known.emplace(port.name, fg::TextureDesc{.format = port.format, .extent = kListedExtent});
+        if (port.name == kHistoryTaps) known.emplace(kHistoryTapsWithLight, known.at(port.name));
       }
       types.push_back({.name = type.name,
                        .description = type.description,
@@ -125,7 +126,10 @@ class StageNode final : public PassNode {
                                 ", but " + formatName(format) + " is connected");
   }
   [[noreturn]] void rejectUnconnected(const Port& port) const {
-    throw std::invalid_argument("nothing is connected to port '" + port.name + "' of pass '" + name_ + "'");
+    const bool taps = port.name == kHistoryTaps || port.name == kHistoryTapsWithLight;
+    throw std::invalid_argument(
+        "nothing is connected to port '" + port.name + "' of pass '" + name_ + "'" +
+        (taps ? "; which taps temporal_accumulation_with_taps makes is for its setting antialiasing.storage" : ""));
   }
 
   std::string name_;

@@ -93,6 +93,11 @@ struct BlockStageSettings {
   }
 };
 
+/// Taps that hold the light which passes through besides are no use to who expects mere taps, nor the reverse.
+std::string_view tapsPort(LightStorage antialiasing) {
+  return antialiasing == LightStorage::Packed ? kHistoryTapsWithLight : kHistoryTaps;
+}
+
 /// What is written to the target of an output that is as large as an input.
 fg::Texture targetLike(StagePorts& ports, std::string_view output, fg::Texture input) {
   return ports.target(output, kColour, ports.graph().textureDesc(input).extent);
@@ -120,7 +125,7 @@ void temporalAccumulationWithTaps(StagePorts& ports, const AccumulationWithTapsS
   const AccumulationWithTaps result = addTemporalAccumulationWithTaps(ports.graph(), ports.hostInputs(), ports.guides(),
                                                                       settings, settings.antialiasing.storage);
   ports.setOutput("accumulated", result.mean);
-  ports.setOutput("history-taps", result.taps);
+  ports.setOutput(tapsPort(settings.antialiasing.storage), result.taps);
 }
 
 void weightedRegression(StagePorts& ports, const WeightedRegressionSettings& settings) {
@@ -157,7 +162,7 @@ void bmfrFit(StagePorts& ports, const BmfrFitSettings& settings) {
 
 void bmfrAccumulation(StagePorts& ports, const BmfrAccumulationSettings& settings) {
   ports.setOutput("steady", addBmfrAccumulation(ports.graph(), ports.buffer(kFrameName), ports.texture("filtered"),
-                                                ports.texture("history-taps"), settings));
+                                                ports.texture(kHistoryTaps), settings));
 }
 
 void flrRegression(StagePorts& ports, const FlrRegressionSettings& settings) {
@@ -184,9 +189,9 @@ void temporalAntialiasing(StagePorts& ports, const AntialiasingStageSettings& se
 void temporalAntialiasingWithTaps(StagePorts& ports, const AntialiasingStageSettings& settings) {
   const fg::Texture filtered = ports.texture("filtered", formatOf(settings.storage));
   const fg::Texture target = targetLike(ports, kOutputName, filtered);
-  ports.setOutput(kOutputName,
-                  addTemporalAntialiasingWithTaps(ports.graph(), ports.buffer(kFrameName),
-                                                  ports.texture("history-taps"), filtered, target, settings));
+  ports.setOutput(kOutputName, addTemporalAntialiasingWithTaps(ports.graph(), ports.buffer(kFrameName),
+                                                               ports.texture(tapsPort(settings.storage)), filtered,
+                                                               target, settings));
 }
 
 void passThrough(StagePorts& ports, const NoSettings& /*settings*/) {

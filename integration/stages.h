@@ -9,6 +9,11 @@
 
 namespace walr {
 
+/// Ports of the taps that "temporal_accumulation_with_taps" keeps: the second where these hold the light that passes
+/// through, besides, as anti-aliasing with `antialiasing.storage` packed takes them.
+inline constexpr std::string_view kHistoryTaps = "history-taps";
+inline constexpr std::string_view kHistoryTapsWithLight = "history-taps-with-light";
+
 /// A stage of the methods: its settings, and how it declares its passes between ports.
 class Stage : public Configurable {
  public:

@@ -163,6 +163,36 @@ TEST(Registry, StagesConnectedByNameArePlannedAsTheWholeMethodIs) {
                              {"temporal_antialiasing_with_taps", {}}});
 }
 
+// Taps with and without the light that passes through are of one format: their ports keep them apart.
+TEST(Registry, TapsForAnotherStorageDoNotConnect) {
+  for (const std::string kept : {"half", "packed"}) {
+    for (const std::string taken : {"half", "packed"}) {
+      HostGraph host;
+      const auto accumulation = makePass("temporal_accumulation_with_taps");
+      accumulation->set("antialiasing.storage", kept);
+      const auto antialiasing = makePass("temporal_antialiasing_with_taps");
+      antialiasing->set("antialiasing.storage", taken);
+      std::vector<std::string> outputs;
+      for (const Port& port : accumulation->ports())
+        if (port.output) outputs.push_back(port.name);
+      int taps = 0;
+      for (const Port& port : antialiasing->ports()) taps += int(std::ranges::count(outputs, port.name));
+      EXPECT_EQ(taps, kept == taken ? 1 : 0) << kept << ", " << taken;
+      if (kept == taken) continue;
+      const std::string error = rejection([&] {
+        for (const Port& port : antialiasing->ports()) {
+          if (port.buffer) antialiasing->connect(port.name, host.inputs.frame);
+          if (port.name == "filtered")
+            antialiasing->connect(port.name, host.graph.texture("filtered", {port.format, {640, 360}}));
+        }
+        (void)antialiasing->add(host.graph);
+      });
+      EXPECT_NE(error.find("'history-taps"), std::string::npos) << error;
+      EXPECT_NE(error.find("temporal_accumulation_with_taps"), std::string::npos) << error;
+    }
+  }
+}
+
 TEST(Registry, NamesWhatIsWrong) {
   EXPECT_NE(rejection([] { (void)makePass("wlr"); }).find("\"wlr\"; known types: prepare_guides"), std::string::npos);
   HostGraph host;
