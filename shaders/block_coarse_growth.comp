@@ -77,11 +77,10 @@ bool counts(ivec2 cell) {
 }
 
 BlockMoments grown(ivec2 cell, float z, BlockMoments own) {
-  const int taps = counts(cell) ? kTaps * kTaps : 0;
   const Window window = windowOf(own);
   BlockMomentSum sum = emptySum();
   add(sum, 1.0, own);
-  for (int i = 0; i < taps; ++i) {
+  for (int i = 0; i < kTaps * kTaps; ++i) {
     const ivec2 tap = ivec2(i % kTaps, i / kTaps) - kTaps / 2;
     const ivec2 q = cell + kTapSpacing * tap;
     if (tap == ivec2(0) || !insideGrid(q)) continue;
@@ -98,6 +97,6 @@ void main() {
   const ivec2 cell = ivec2(gl_GlobalInvocationID.xy);
   if (!insideGrid(cell)) return;
   BlockMoments m = loadMoments(cell);
-  if (m.samples > 0.0) m = grown(cell, unpackDepth(texelFetch(depth, cell, 0).x), m);
+  if (m.samples > 0.0 && counts(cell)) m = grown(cell, unpackDepth(texelFetch(depth, cell, 0).x), m);
   storeFit(cell, fitOf(m));
 }
