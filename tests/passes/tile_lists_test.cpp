@@ -57,12 +57,11 @@ class TileListsTest : public fg::test::GpuTest {
     fg::Graph graph;
     const fg::Texture fitDepth =
         graph.import("fit depth", {VK_FORMAT_R32_UINT, gridExtent(pixels, blockSize)}, fg::vk::kUploaded);
-    const fg::Texture zeros = graph.import("zeros", {VK_FORMAT_R32_UINT, pixels}, fg::vk::kUploaded);
     const TileLists lists = addTileLists(graph, pixels, fitDepth, blockSize);
     fg::Texture marked = graph.import("marks", {VK_FORMAT_R32_UINT, pixels}, fg::vk::kOverwritable);
-    fg::PassBuilder copy = graph.compute("clear", shaders::copyUint);
-    copy.sample("source", zeros).dispatch(pixels);
-    marked = copy.store("target", marked);
+    fg::PassBuilder clear = graph.compute("clear", shaders::markTiles);
+    clear.specialize("kMark", 0U).dispatch(pixels);
+    marked = clear.store("marks", marked);
     for (std::uint32_t list = 0; list < kTileLists; ++list) {
       fg::PassBuilder pass = graph.compute("mark " + std::to_string(list), shaders::markTilesListed);
       pass.specialize("kMark", markOf(list));
@@ -74,8 +73,6 @@ class TileListsTest : public fg::test::GpuTest {
     std::vector<std::uint32_t> texels;
     for (const Block block : blocks) texels.push_back(fitDepthOf(block));
     run.fill(fitDepth, texels);
-    texels.assign(static_cast<std::size_t>(kSize.x) * kSize.y, 0U);
-    run.fill(zeros, texels);
     run.frame();
     return run.texels<std::uint32_t>(marked);
   }
