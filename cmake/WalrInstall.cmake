@@ -13,7 +13,8 @@ install(DIRECTORY integration/include/walr DESTINATION "${CMAKE_INSTALL_INCLUDED
 
 install(TARGETS walr_framegraph walr_framegraph_vulkan walr_shaders walr_passes walr_integration
   EXPORT walr-cpp ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT cpp)
-foreach(folder IN ITEMS framegraph framegraph/vulkan passes shaders/constants integration)
+foreach(folder IN ITEMS framegraph/declare framegraph/plan framegraph/check framegraph/compile framegraph/verify
+    framegraph/inspect framegraph/vulkan passes shaders/constants integration)
   file(GLOB headers CONFIGURE_DEPENDS "${folder}/*.h")
   install(FILES ${headers} DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/walr/${folder}" COMPONENT cpp)
 endforeach()

@@ -12,7 +12,7 @@ function(walr_target target)
 endfunction()
 
 # walr_library(<name> SOURCES ...): a library target walr_<name>, known to users as walr::<name>, whose includes are
-# written from the project's root ("framegraph/graph.h").
+# written from the project's root ("framegraph/declare/graph.h").
 function(walr_library name)
   cmake_parse_arguments(ARG "" "" "SOURCES" ${ARGN})
   add_library(walr_${name} ${ARG_SOURCES})

@@ -3,7 +3,7 @@
 #include <span>
 #include <string>
 
-#include "framegraph/graph.h"
+#include "framegraph/declare/graph.h"
 #include "integration/host_inputs.h"
 #include "passes/convert_inputs.h"
 #include "passes/denoiser.h"

@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "framegraph/format.h"
+#include "framegraph/declare/format.h"
 
 namespace walr {
 namespace {

@@ -4,8 +4,8 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "framegraph/access.h"
-#include "framegraph/format.h"
+#include "framegraph/declare/access.h"
+#include "framegraph/declare/format.h"
 #include "integration/host_inputs.h"
 #include "integration/stages.h"
 #include "passes/text.h"

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "framegraph/graph.h"
+#include "framegraph/declare/graph.h"
 #include "integration/setting_info.h"
 #include "passes/inputs.h"
 

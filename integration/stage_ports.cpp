@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "framegraph/access.h"
+#include "framegraph/declare/access.h"
 #include "integration/host_inputs.h"
 
 namespace walr {

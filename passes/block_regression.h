@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "framegraph/graph.h"
+#include "framegraph/declare/graph.h"
 #include "passes/inspection.h"
 #include "passes/light_storage.h"
 #include "passes/lighting_alpha.h"

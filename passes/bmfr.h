@@ -1,6 +1,6 @@
 #pragma once
 
-#include "framegraph/graph.h"
+#include "framegraph/declare/graph.h"
 #include "passes/bmfr_accumulation.h"
 #include "passes/bmfr_fit.h"
 #include "passes/inputs.h"

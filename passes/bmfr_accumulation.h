@@ -1,6 +1,6 @@
 #pragma once
 
-#include "framegraph/graph.h"
+#include "framegraph/declare/graph.h"
 #include "passes/settings.h"
 #include "passes/temporal_accumulation.h"
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "framegraph/graph.h"
+#include "framegraph/declare/graph.h"
 #include "passes/inspection.h"
 #include "passes/lighting_alpha.h"
 #include "passes/prepare_guides.h"

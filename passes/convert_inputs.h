@@ -4,7 +4,7 @@
 
 #include <glm/mat4x4.hpp>
 
-#include "framegraph/graph.h"
+#include "framegraph/declare/graph.h"
 #include "passes/inputs.h"
 #include "shaders/constants/host.h"
 

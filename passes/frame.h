@@ -6,7 +6,7 @@
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 
-#include "framegraph/graph.h"
+#include "framegraph/declare/graph.h"
 #include "shaders/constants/frame.h"
 
 namespace walr {

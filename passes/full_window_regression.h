@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "framegraph/graph.h"
+#include "framegraph/declare/graph.h"
 #include "passes/edge_stopping.h"
 #include "passes/prepare_guides.h"
 #include "passes/regularisation.h"

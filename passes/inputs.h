@@ -1,6 +1,6 @@
 #pragma once
 
-#include "framegraph/graph.h"
+#include "framegraph/declare/graph.h"
 #include "passes/scene_description.h"
 
 namespace walr {

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "framegraph/graph.h"
+#include "framegraph/declare/graph.h"
 #include "shaders/constants/count.h"
 
 /// Looking into a method while it runs: views, which are pictures of what happens inside a stage, and counters, which

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "framegraph/graph.h"
+#include "framegraph/declare/graph.h"
 #include "passes/inspection.h"
 #include "passes/prepare_guides.h"
 #include "passes/settings.h"

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <span>
 
-#include "framegraph/graph.h"
+#include "framegraph/declare/graph.h"
 #include "passes/inputs.h"
 #include "shaders/constants/lint.h"
 

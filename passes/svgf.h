@@ -1,6 +1,6 @@
 #pragma once
 
-#include "framegraph/graph.h"
+#include "framegraph/declare/graph.h"
 #include "passes/inputs.h"
 #include "passes/prepare_guides.h"
 #include "passes/svgf_accumulation.h"

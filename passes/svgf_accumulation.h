@@ -1,6 +1,6 @@
 #pragma once
 
-#include "framegraph/graph.h"
+#include "framegraph/declare/graph.h"
 #include "passes/history_tests.h"
 #include "passes/inputs.h"
 #include "passes/inspection.h"

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "framegraph/graph.h"
+#include "framegraph/declare/graph.h"
 #include "passes/history_tests.h"
 #include "passes/inputs.h"
 #include "passes/inspection.h"

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "framegraph/graph.h"
+#include "framegraph/declare/graph.h"
 #include "passes/history_tests.h"
 #include "passes/inputs.h"
 #include "passes/inspection.h"

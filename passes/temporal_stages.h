@@ -3,7 +3,7 @@
 #include <functional>
 #include <string>
 
-#include "framegraph/graph.h"
+#include "framegraph/declare/graph.h"
 #include "passes/inputs.h"
 #include "passes/light_storage.h"
 #include "passes/lighting_alpha.h"

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "framegraph/plan.h"
+#include "framegraph/plan/plan.h"
 #include "framegraph/vulkan/resources.h"
 
 namespace fg::vk {

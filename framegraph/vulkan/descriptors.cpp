@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "framegraph/access.h"
+#include "framegraph/declare/access.h"
 
 namespace fg::vk {
 namespace {

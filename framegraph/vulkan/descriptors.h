@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "framegraph/plan.h"
+#include "framegraph/plan/plan.h"
 #include "framegraph/vulkan/pipelines.h"
 #include "framegraph/vulkan/views.h"
 

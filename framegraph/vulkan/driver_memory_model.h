@@ -4,7 +4,7 @@
 #include <mutex>
 #include <tuple>
 
-#include "framegraph/memory_model.h"
+#include "framegraph/declare/memory_model.h"
 #include "framegraph/vulkan/device_context.h"
 
 namespace fg::vk {

@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "framegraph/compiler.h"
+#include "framegraph/declare/same_topology.h"
 #include "framegraph/vulkan/barriers.h"
 #include "framegraph/vulkan/error.h"
 #include "framegraph/vulkan/pass_recorder.h"

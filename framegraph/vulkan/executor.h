@@ -6,8 +6,8 @@
 #include <span>
 #include <type_traits>
 
-#include "framegraph/graph.h"
-#include "framegraph/plan.h"
+#include "framegraph/declare/graph.h"
+#include "framegraph/plan/plan.h"
 #include "framegraph/vulkan/device_context.h"
 #include "framegraph/vulkan/history_state.h"
 #include "framegraph/vulkan/pipelines.h"

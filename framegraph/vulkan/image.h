@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "framegraph/graph.h"
+#include "framegraph/declare/graph.h"
 #include "framegraph/vulkan/owned.h"
 
 /// How the graph's descriptions become Vulkan images, views and buffers.

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "framegraph/memory_model.h"
+#include "framegraph/declare/memory_model.h"
 #include "framegraph/vulkan/owned.h"
 
 namespace fg::vk {

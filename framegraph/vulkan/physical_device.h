@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "framegraph/graph.h"
-#include "framegraph/plan.h"
+#include "framegraph/declare/graph.h"
+#include "framegraph/plan/plan.h"
 #include "framegraph/vulkan/instance.h"
 
 namespace fg::vk {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "framegraph/graph.h"
+#include "framegraph/declare/graph.h"
 #include "framegraph/vulkan/owned.h"
 
 namespace fg::vk {

@@ -4,8 +4,8 @@
 #include <utility>
 #include <vector>
 
-#include "framegraph/graph.h"
-#include "framegraph/plan.h"
+#include "framegraph/declare/graph.h"
+#include "framegraph/plan/plan.h"
 #include "framegraph/vulkan/frame_index.h"
 #include "framegraph/vulkan/memory.h"
 

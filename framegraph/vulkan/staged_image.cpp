@@ -1,6 +1,6 @@
 #include "framegraph/vulkan/staged_image.h"
 
-#include "framegraph/format.h"
+#include "framegraph/declare/format.h"
 #include "framegraph/vulkan/image.h"
 #include "framegraph/vulkan/memory_barrier.h"
 

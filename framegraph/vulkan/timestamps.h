@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "framegraph/plan.h"
+#include "framegraph/plan/plan.h"
 #include "framegraph/vulkan/owned.h"
 
 namespace fg::vk {

@@ -9,8 +9,8 @@
 #include <walr/walr.h>
 #include <glm/vec2.hpp>
 
-#include "framegraph/compile.h"
-#include "framegraph/plan.h"
+#include "framegraph/compile/compile.h"
+#include "framegraph/plan/plan.h"
 #include "integration/c_api/host_images.h"
 #include "passes/denoiser.h"
 #include "passes/frame.h"

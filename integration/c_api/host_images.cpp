@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "framegraph/format.h"
+#include "framegraph/declare/format.h"
 #include "framegraph/vulkan/image.h"
 #include "integration/c_api/structs.h"
 

@@ -4,7 +4,7 @@
 
 #include <glm/gtc/type_ptr.hpp>
 
-#include "framegraph/compiler.h"
+#include "framegraph/declare/same_topology.h"
 #include "framegraph/vulkan/driver_memory_model.h"
 #include "integration/c_api/structs.h"
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "framegraph/access.h"
+#include "framegraph/declare/access.h"
 #include "integration/c_api/error.h"
 
 namespace walr::api {

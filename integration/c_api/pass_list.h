@@ -6,7 +6,7 @@
 
 #include <walr/walr_passes.h>
 
-#include "framegraph/plan.h"
+#include "framegraph/plan/plan.h"
 
 namespace walr::api {
 

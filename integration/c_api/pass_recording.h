@@ -8,7 +8,7 @@
 
 #include <walr/walr_passes.h>
 
-#include "framegraph/plan.h"
+#include "framegraph/plan/plan.h"
 #include "framegraph/vulkan/memory.h"
 #include "framegraph/vulkan/pipelines.h"
 

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "framegraph/compile.h"
+#include "framegraph/compile/compile.h"
 #include "framegraph/vulkan/driver_memory_model.h"
 #include "framegraph/vulkan/executor.h"
 #include "framegraph/vulkan/frame_queue.h"

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "framegraph/graph.h"
+#include "framegraph/declare/graph.h"
 #include "samples/denoise/packed_frame.h"
 
 namespace walr {

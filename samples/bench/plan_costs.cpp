@@ -2,7 +2,7 @@
 
 #include <stdexcept>
 
-#include "framegraph/compile.h"
+#include "framegraph/compile/compile.h"
 #include "integration/denoise_graph.h"
 #include "samples/bench/taps.h"
 

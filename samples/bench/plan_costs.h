@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "framegraph/graph.h"
+#include "framegraph/declare/graph.h"
 #include "passes/inputs.h"
 #include "samples/bench/variant.h"
 

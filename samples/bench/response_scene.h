@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "framegraph/graph.h"
+#include "framegraph/declare/graph.h"
 #include "samples/denoise/packed_frame.h"
 
 namespace walr {

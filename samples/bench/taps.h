@@ -2,8 +2,8 @@
 
 #include <optional>
 
-#include "framegraph/graph.h"
-#include "framegraph/plan.h"
+#include "framegraph/declare/graph.h"
+#include "framegraph/plan/plan.h"
 
 namespace walr {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "framegraph/graph.h"
+#include "framegraph/declare/graph.h"
 #include "samples/metrics/display.h"
 
 namespace walr {

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "framegraph/graph.h"
+#include "framegraph/declare/graph.h"
 #include "samples/sequence/sequence.h"
 
 namespace walr {

@@ -9,8 +9,8 @@
 
 #include <CLI/CLI.hpp>
 
-#include "framegraph/compile.h"
-#include "framegraph/inspect.h"
+#include "framegraph/compile/compile.h"
+#include "framegraph/inspect/inspect.h"
 #include "integration/denoise_graph.h"
 #include "integration/registry.h"
 #include "samples/cli/arguments.h"

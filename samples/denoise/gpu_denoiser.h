@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "framegraph/graph.h"
+#include "framegraph/declare/graph.h"
 #include "framegraph/vulkan/timestamps.h"
 #include "integration/denoise_graph.h"
 #include "passes/denoiser.h"

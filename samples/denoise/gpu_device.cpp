@@ -3,7 +3,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "framegraph/compile.h"
+#include "framegraph/compile/compile.h"
 #include "framegraph/vulkan/driver_memory_model.h"
 
 namespace walr {

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "framegraph/graph.h"
-#include "framegraph/plan.h"
+#include "framegraph/declare/graph.h"
+#include "framegraph/plan/plan.h"
 #include "framegraph/vulkan/device.h"
 #include "framegraph/vulkan/instance.h"
 #include "framegraph/vulkan/messages.h"

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "framegraph/graph.h"
+#include "framegraph/declare/graph.h"
 #include "samples/metrics/metrics.h"
 
 namespace walr {

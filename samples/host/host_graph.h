@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "framegraph/graph.h"
+#include "framegraph/declare/graph.h"
 #include "framegraph/vulkan/device_context.h"
 #include "passes/denoiser.h"
 #include "samples/host/host_passes.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "framegraph/format.h"
+#include "framegraph/declare/format.h"
 #include "samples/host/shaders.h"
 
 namespace walr::host {

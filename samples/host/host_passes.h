@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "framegraph/graph.h"
+#include "framegraph/declare/graph.h"
 #include "framegraph/vulkan/device_context.h"
 
 /// The host's own passes: what an engine has in its frame around a denoiser.

@@ -9,7 +9,7 @@
 
 #include <glm/mat4x4.hpp>
 
-#include "framegraph/graph.h"
+#include "framegraph/declare/graph.h"
 #include "samples/render/film.h"
 #include "samples/render/gbuffer.h"
 #include "samples/render/scene.h"

@@ -1,11 +1,11 @@
-#include "framegraph/compile.h"
+#include "framegraph/compile/compile.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "framegraph/inspect.h"
-#include "framegraph/verify.h"
+#include "framegraph/inspect/inspect.h"
+#include "framegraph/verify/verify.h"
 #include "tests/framegraph/test_shaders.h"
 
 namespace fg {

@@ -1,4 +1,5 @@
-#include "framegraph/compiler.h"
+#include "framegraph/compile/compiler.h"
+#include "framegraph/declare/same_topology.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +8,7 @@
 #include <functional>
 #include <vector>
 
-#include "framegraph/diagnostic_codes.h"
+#include "framegraph/check/diagnostic_codes.h"
 #include "tests/framegraph/random_graph.h"
 #include "tests/framegraph/test_shaders.h"
 

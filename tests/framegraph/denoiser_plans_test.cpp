@@ -11,9 +11,9 @@
 #include <utility>
 #include <vector>
 
-#include "framegraph/compile.h"
-#include "framegraph/inspect.h"
-#include "framegraph/verify.h"
+#include "framegraph/compile/compile.h"
+#include "framegraph/inspect/inspect.h"
+#include "framegraph/verify/verify.h"
 #include "integration/denoise_graph.h"
 #include "tests/framegraph/line_diff.h"
 

@@ -6,7 +6,7 @@
 #include <optional>
 #include <set>
 
-#include "framegraph/verify_rules.h"
+#include "framegraph/verify/verify_rules.h"
 
 namespace fg::test {
 namespace {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "framegraph/plan.h"
+#include "framegraph/plan/plan.h"
 
 namespace fg::test {
 

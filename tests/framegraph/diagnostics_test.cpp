@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 
-#include "framegraph/compile.h"
-#include "framegraph/diagnostic_codes.h"
+#include "framegraph/check/diagnostic_codes.h"
+#include "framegraph/compile/compile.h"
 #include "tests/framegraph/test_shaders.h"
 
 namespace fg {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "framegraph/compiler.h"
+#include "framegraph/compile/compiler.h"
 
 namespace fg {
 namespace {

@@ -7,13 +7,13 @@
 #include <random>
 #include <set>
 
-#include "framegraph/access_history.h"
-#include "framegraph/alias.h"
-#include "framegraph/compile.h"
-#include "framegraph/heap_packing.h"
-#include "framegraph/inspect.h"
-#include "framegraph/memory_places.h"
-#include "framegraph/verify.h"
+#include "framegraph/compile/access_history.h"
+#include "framegraph/compile/alias.h"
+#include "framegraph/compile/compile.h"
+#include "framegraph/compile/heap_packing.h"
+#include "framegraph/inspect/inspect.h"
+#include "framegraph/plan/memory_places.h"
+#include "framegraph/verify/verify.h"
 #include "tests/framegraph/dependency_chains.h"
 #include "tests/framegraph/random_graph.h"
 

@@ -1,4 +1,4 @@
-#include "framegraph/inspect.h"
+#include "framegraph/inspect/inspect.h"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "framegraph/compile.h"
-#include "framegraph/names.h"
+#include "framegraph/compile/compile.h"
+#include "framegraph/plan/names.h"
 #include "tests/framegraph/random_graph.h"
 #include "tests/framegraph/test_shaders.h"
 

@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "framegraph/compile.h"
-#include "framegraph/history_heaps.h"
-#include "framegraph/inspect.h"
-#include "framegraph/memory_places.h"
-#include "framegraph/verify.h"
+#include "framegraph/compile/compile.h"
+#include "framegraph/compile/history_heaps.h"
+#include "framegraph/inspect/inspect.h"
+#include "framegraph/plan/memory_places.h"
+#include "framegraph/verify/verify.h"
 #include "tests/framegraph/random_graph.h"
 #include "tests/framegraph/test_shaders.h"
 

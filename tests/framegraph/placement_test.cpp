@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "framegraph/compile.h"
-#include "framegraph/heap_packing.h"
-#include "framegraph/verify.h"
+#include "framegraph/compile/compile.h"
+#include "framegraph/compile/heap_packing.h"
+#include "framegraph/verify/verify.h"
 #include "tests/framegraph/random_graph.h"
 
 /// Placement of transients on a device with awkward wishes.

@@ -10,7 +10,7 @@
 
 #include <gtest/gtest.h>
 
-#include "framegraph/compile.h"
+#include "framegraph/compile/compile.h"
 #include "integration/denoise_graph.h"
 
 namespace walr {

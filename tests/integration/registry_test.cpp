@@ -8,9 +8,9 @@
 
 #include <gtest/gtest.h>
 
-#include "framegraph/access.h"
-#include "framegraph/compile.h"
-#include "framegraph/inspect.h"
+#include "framegraph/compile/compile.h"
+#include "framegraph/declare/access.h"
+#include "framegraph/inspect/inspect.h"
 #include "integration/denoise_graph.h"
 
 namespace walr {

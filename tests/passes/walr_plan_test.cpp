@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "framegraph/compile.h"
+#include "framegraph/compile/compile.h"
 #include "passes/walr.h"
 #include "shaders/constants/frame.h"
 

@@ -10,9 +10,9 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "framegraph/compile.h"
-#include "framegraph/inspect.h"
-#include "framegraph/verify.h"
+#include "framegraph/compile/compile.h"
+#include "framegraph/inspect/inspect.h"
+#include "framegraph/verify/verify.h"
 #include "integration/denoise_graph.h"
 #include "tests/samples/process.h"
 #include "tests/samples/temporary_directory.h"

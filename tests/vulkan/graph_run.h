@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "framegraph/compile.h"
+#include "framegraph/compile/compile.h"
 #include "framegraph/vulkan/device.h"
 #include "framegraph/vulkan/executor.h"
 #include "framegraph/vulkan/frame_queue.h"

@@ -2,8 +2,8 @@
 #include <functional>
 #include <stdexcept>
 
-#include "framegraph/memory_places.h"
-#include "framegraph/verify.h"
+#include "framegraph/plan/memory_places.h"
+#include "framegraph/verify/verify.h"
 #include "framegraph/vulkan/driver_memory_model.h"
 #include "framegraph/vulkan/frame_queue.h"
 #include "tests/vulkan/gpu_fixture.h"

@@ -2,7 +2,7 @@
 
 #include <cstdlib>
 
-#include "framegraph/memory_places.h"
+#include "framegraph/plan/memory_places.h"
 #include "tests/vulkan/gpu_fixture.h"
 #include "tests/vulkan/graph_run.h"
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "framegraph/graph.h"
+#include "framegraph/declare/graph.h"
 #include "framegraph/vulkan/staged_image.h"
 #include "tests/vulkan/shaders.h"
 

@@ -7,8 +7,8 @@
 
 #include <vulkan/vulkan.h>
 
-#include "framegraph/graph.h"
-#include "framegraph/plan.h"
+#include "framegraph/declare/graph.h"
+#include "framegraph/plan/plan.h"
 #include "framegraph/vulkan/timestamps.h"
 #include "samples/denoise/gpu_device.h"
 #include "samples/host/session.h"

@@ -8,7 +8,7 @@
 
 #include <imgui.h>
 
-#include "framegraph/memory_places.h"
+#include "framegraph/plan/memory_places.h"
 #include "passes/settings.h"
 
 namespace walr::host {

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "framegraph/graph.h"
-#include "framegraph/plan.h"
+#include "framegraph/declare/graph.h"
+#include "framegraph/plan/plan.h"
 #include "samples/host/session.h"
 #include "samples/host/window/interface.h"
 

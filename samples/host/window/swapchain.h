@@ -6,7 +6,7 @@
 
 #include <vulkan/vulkan.h>
 
-#include "framegraph/graph.h"
+#include "framegraph/declare/graph.h"
 #include "samples/denoise/gpu_device.h"
 
 namespace walr::host {

@@ -5,7 +5,7 @@
 
 #include <vulkan/vulkan.h>
 
-#include "framegraph/graph.h"
+#include "framegraph/declare/graph.h"
 
 struct GLFWwindow;
 

@@ -1,7 +1,7 @@
 // A host that adds a method to a graph of its own, from the installed C++ libraries.
 #include <cstdio>
 
-#include "framegraph/compile.h"
+#include "framegraph/compile/compile.h"
 #include "integration/denoise_graph.h"
 #include "integration/registry.h"
 

@@ -1,0 +1,170 @@
+#include "framegraph/compile/alias.h"
+
+#include <algorithm>
+#include <functional>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "framegraph/compile/heap_packing.h"
+#include "framegraph/compile/history_heaps.h"
+#include "framegraph/compile/requirements.h"
+
+namespace fg {
+namespace {
+
+std::uint64_t roundUp(std::uint64_t value, std::uint64_t step) {
+  return (value + step - 1) / step * step;
+}
+
+/// Places transients and histories of one memory class.
+class Placement {
+ public:
+  /// @param transients, histories by name; resources and `GraphDesc::histories`
+  Placement(const Topology& topology, const AccessHistory& accesses, std::uint64_t granularity,
+            std::vector<std::uint32_t> transients, const std::vector<std::uint32_t>& histories, Plan& plan)
+      : graph_(topology.graph()),
+        plan_(plan),
+        transients_(std::move(transients)),
+        page_(pageSize(granularity, !histories.empty())),
+        heaps_(members(histories), static_cast<std::uint32_t>(plan.passes.size())) {
+    for (const std::uint32_t resource : transients_) {
+      const PlannedResource& planned = plan.resources[resource];
+      heldUntil_.push_back(heldUntil(accesses, plan, resource));
+      used_.push_back({planned.size, planned.alignment, planned.firstUse, planned.lastUse});
+      held_.push_back(
+          {roundUp(planned.size, page_), std::max(planned.alignment, page_), planned.firstUse, heldUntil_.back()});
+    }
+  }
+
+  void run(std::uint32_t memoryTypeBits) {
+    for (const HeapRequest& request : held_) stride_ = std::max(stride_, request.alignment);
+    for (const HistoryHeaps::Member& member : heaps_.members()) stride_ = std::max(stride_, member.alignment);
+    stride_ = roundUp(heaps_.size(), stride_);
+    HeapPacking packing = packAll();
+    const auto first = static_cast<std::uint32_t>(plan_.heaps.size());
+    if (stride_ != 0) {
+      plan_.heaps.push_back({memoryTypeBits, heaps_.size(), first + 1});
+      plan_.heaps.push_back({memoryTypeBits, heaps_.size(), first});
+    }
+    placeHistories(first);
+    const std::uint64_t own = 2 * stride_;  // Where the heap of transients alone begins.
+    for (std::size_t i = 0; i < transients_.size(); ++i) {
+      PlannedResource& resource = plan_.resources[transients_[i]];
+      const std::uint64_t offset = packing.offsets[i];
+      const std::uint64_t heap = offset < own ? offset / stride_ : (own == 0 ? 0 : 2);
+      resource.heap = first + static_cast<std::uint32_t>(heap);
+      resource.offset = offset - heap * stride_;
+      plan_.memory.transientUnaliasedBytes += resource.size;
+    }
+    if (packing.size <= own) return;
+    plan_.heaps.push_back({memoryTypeBits, packing.size - own});
+    plan_.memory.transientPeakBytes += packing.size - own;
+  }
+
+  /// By position, the bytes of transients for which the histories have no room.
+  [[nodiscard]] std::vector<std::uint64_t> excess() const { return heaps_.excess(used_, heldUntil_); }
+
+ private:
+  /// Linear and optimally tiled neighbours must not share a page of `granularity` bytes: where a heap has both, all
+  /// blocks are whole pages.
+  [[nodiscard]] std::uint64_t pageSize(std::uint64_t granularity, bool hasHistories) const {
+    const auto buffers = std::ranges::count_if(
+        transients_, [&](std::uint32_t i) { return std::holds_alternative<BufferDesc>(graph_.resources[i].desc); });
+    const bool both = buffers != 0 && (hasHistories || buffers != std::ssize(transients_));
+    return both ? granularity : 1;
+  }
+
+  [[nodiscard]] std::vector<HistoryHeaps::Member> members(const std::vector<std::uint32_t>& histories) const {
+    std::vector<HistoryHeaps::Member> members;
+    for (const std::uint32_t index : histories) {
+      const HistoryDecl& history = graph_.histories[index];
+      const PlannedResource& current = plan_.resources[history.current];
+      members.push_back({index, roundUp(current.size, page_), std::max(current.alignment, page_), current.firstUse,
+                         plan_.resources[history.previous].lastUse});
+    }
+    return members;
+  }
+
+  /// Histories' heaps and the heap of transients alone as one: blocks take the lowest bytes that they can have.
+  [[nodiscard]] HeapPacking packAll() const {
+    if (stride_ == 0) return pack(held_);
+    const std::uint64_t own = 2 * stride_;
+    const std::uint64_t target = own + std::ranges::max(heaps_.excess(held_, heldUntil_));
+    std::vector<std::vector<ByteSpan>> taken;
+    for (const HeapRequest& request : held_) taken.push_back(heaps_.taken(request, stride_));
+    HeapPacking packing = pack(held_, taken, target);
+    if (packing.size <= own + lowerBound(held_)) return packing;
+    // The histories' room may have led the search astray.
+    HeapPacking apart = pack(held_);
+    if (own + apart.size >= packing.size) return packing;
+    for (std::uint64_t& offset : apart.offsets) offset += own;
+    apart.size += own;
+    return apart;
+  }
+
+  void placeHistories(std::uint32_t incoming) {
+    for (std::size_t i = 0; i < heaps_.members().size(); ++i) {
+      const HistoryDecl& history = graph_.histories[heaps_.members()[i].history];
+      plan_.resources[history.current].heap = incoming;
+      plan_.resources[history.previous].heap = incoming + 1;
+      for (const std::uint32_t resource : {history.current, history.previous}) {
+        plan_.resources[resource].offset = heaps_.offset(i);
+      }
+    }
+  }
+
+  const GraphDesc& graph_;
+  Plan& plan_;
+  std::vector<std::uint32_t> transients_;
+  std::uint64_t page_;
+  HistoryHeaps heaps_;
+  std::vector<std::uint32_t> heldUntil_;  ///< By transient.
+  std::vector<HeapRequest> used_;         ///< By transient, from first to last use.
+  std::vector<HeapRequest> held_;         ///< By transient, whole pages until others may have them.
+  std::uint64_t stride_ = 1;
+};
+
+/// Resources that share memory among themselves, all by name.
+struct MemoryClass {
+  std::vector<std::uint32_t> transients;
+  std::vector<std::uint32_t> histories;  ///< Index into `GraphDesc::histories`.
+};
+
+/// By the memory types that the device allows.
+std::map<std::uint32_t, MemoryClass> memoryClasses(const Topology& topology, const Plan& plan, bool lendHistories) {
+  const GraphDesc& graph = topology.graph();
+  const std::vector<bool> shared = aliasable(graph);
+  const std::vector<bool> lends = lendsMemory(graph, plan.resources);
+  std::map<std::uint32_t, MemoryClass> classes;
+  for (const std::uint32_t resource : topology.resourcesByName()) {
+    const PlannedResource& planned = plan.resources[resource];
+    if (shared[resource] && planned.used) classes[planned.memoryTypeBits].transients.push_back(resource);
+    const ResourceDecl& decl = graph.resources[resource];
+    if (decl.lifetime != Lifetime::HistoryCurrent || !lendHistories || !lends[decl.history]) continue;
+    classes[planned.memoryTypeBits].histories.push_back(decl.history);
+  }
+  return classes;
+}
+
+}  // namespace
+
+std::uint32_t heldUntil(const AccessHistory& accesses, const Plan& plan, std::uint32_t resource) {
+  const std::uint32_t lastUse = plan.resources[resource].lastUse;
+  const std::uint32_t unread = accesses.lastUnreadWrite(resource);
+  const auto lastPass = static_cast<std::uint32_t>(plan.passes.size()) - 1;
+  return unread == kNone ? lastUse : std::max(lastUse, std::min(unread + 1, lastPass));
+}
+
+void placeTransients(const Topology& topology, const AccessHistory& accesses, std::uint64_t bufferImageGranularity,
+                     bool lendHistories, Plan& plan) {
+  std::vector<std::uint64_t> excess(plan.passes.size());
+  for (auto& [memoryTypeBits, members] : memoryClasses(topology, plan, lendHistories)) {
+    Placement placement(topology, accesses, bufferImageGranularity, members.transients, members.histories, plan);
+    placement.run(memoryTypeBits);
+    std::ranges::transform(excess, placement.excess(), excess.begin(), std::plus{});
+  }
+  plan.memory.transientLowerBoundBytes = excess.empty() ? 0 : std::ranges::max(excess);
+}
+
+}  // namespace fg

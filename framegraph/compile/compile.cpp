@@ -1,0 +1,85 @@
+#include "framegraph/compile/compile.h"
+
+#include <algorithm>
+
+#include "framegraph/check/diagnostic_codes.h"
+#include "framegraph/compile/access_history.h"
+#include "framegraph/compile/alias.h"
+#include "framegraph/compile/cull.h"
+#include "framegraph/compile/lifetimes.h"
+#include "framegraph/compile/report.h"
+#include "framegraph/compile/requirements.h"
+#include "framegraph/compile/schedule.h"
+#include "framegraph/compile/synchronize.h"
+#include "framegraph/declare/topology.h"
+
+namespace fg {
+
+namespace {
+
+Diagnostic withoutEffect(const PassDecl& pass, const CulledPass& culled) {
+  return {std::string(code::kPassWithoutEffect),
+          Severity::Warning,
+          pass.name,
+          {},
+          "pass '" + pass.name + "' is culled: " + culled.reason,
+          pass.where};
+}
+
+}  // namespace
+
+bool CompileResult::ok() const {
+  return std::ranges::none_of(diagnostics, [](const Diagnostic& d) { return d.severity == Severity::Error; });
+}
+
+std::string CompileResult::text() const {
+  std::string text;
+  for (const Diagnostic& diagnostic : diagnostics) text += toText(diagnostic) + "\n";
+  return text;
+}
+
+CompileResult compile(const GraphDesc& graph, const MemoryModel& memory, const CompileOptions& options) {
+  CompileResult result;
+  Plan& plan = result.plan;
+
+  // Who writes and reads each version of a resource. Every later step asks this table instead of the declarations.
+  const Topology topology(graph);
+
+  // Report all errors at once, before anything is planned: the later steps rely on a graph without errors.
+  result.diagnostics = diagnose(topology, memory);
+  if (!result.ok()) return result;
+
+  // Drop passes whose results reach no export. They then cost no memory and no barrier.
+  Culling culling = cull(topology);
+
+  // Ask the memory model for the size of every resource that is left: the order of passes depends on sizes.
+  plan.resources = requirements(graph, culling, memory);
+
+  // Order the passes so that few transient bytes are alive at any time. The number of a pass in this order is its
+  // position, the unit of time from here on.
+  const std::vector<std::uint32_t> order = schedule(topology, culling, plan.resources);
+  for (const std::uint32_t pass : order) plan.passes.push_back({pass, {}});
+  plan.culled = std::move(culling.culled);
+
+  // The first and last position at which each resource is used: resources whose intervals are apart may share bytes.
+  findLifetimes(graph, order, plan.resources);
+
+  // Group accesses that need no barrier among themselves. Placement needs this before synchronization does, because a
+  // write that nobody reads holds its bytes until a barrier has made it available.
+  const AccessHistory accesses(graph, plan);
+
+  // Give transients their offsets in shared heaps.
+  placeTransients(topology, accesses, memory.bufferImageGranularity(), options.lendHistories, plan);
+
+  // Derive the barriers. This comes after placement, because the previous owner of a resource's bytes must be waited
+  // for.
+  synchronize(topology, accesses, plan);
+
+  // Sum up memory and traffic, and warn of every pass that is not executed.
+  report(graph, plan);
+  for (const CulledPass& culled : plan.culled)
+    result.diagnostics.push_back(withoutEffect(graph.passes[culled.pass], culled));
+  return result;
+}
+
+}  // namespace fg

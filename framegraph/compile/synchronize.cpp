@@ -1,0 +1,237 @@
+#include "framegraph/compile/synchronize.h"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "framegraph/compile/access_history.h"
+#include "framegraph/compile/hand_over.h"
+#include "framegraph/compile/merge_ranges.h"
+#include "framegraph/declare/access.h"
+
+namespace fg {
+namespace {
+
+/// How a resource's first use in a frame connects to what was before.
+struct Beginning {
+  std::vector<SubresourceState> states;
+  BarrierReason reason = BarrierReason::FirstUse;
+  std::uint32_t aliasOf = kNone;
+};
+
+/// Position of releases, after all passes.
+constexpr std::uint32_t kAfterLastPass = kNone;
+
+class Synchronizer {
+ public:
+  Synchronizer(const Topology& topology, const AccessHistory& accesses, Plan& plan)
+      : topology_(topology),
+        graph_(topology.graph()),
+        plan_(plan),
+        history_(accesses),
+        owners_(previousOwners(plan)),
+        releases_(graph_.resources.size()) {
+    for (const ExportDecl& exported : graph_.exports) {
+      releases_[exported.resource.resource] = bordering(exported.resource.resource, exported.release);
+    }
+  }
+
+  void run() {
+    plan_.histories.resize(graph_.histories.size());
+    for (std::size_t i = 0; i < graph_.histories.size(); ++i) {
+      if (plan_.resources[graph_.histories[i].current].used) plan_.histories[i] = carried(graph_.histories[i]);
+    }
+    for (const std::uint32_t resource : topology_.resourcesByName()) {
+      if (plan_.resources[resource].used && graph_.resources[resource].lifetime != Lifetime::Upload) emit(resource);
+    }
+  }
+
+ private:
+  /// The host's state of a resource; a buffer has no layout, whatever the host wrote there.
+  [[nodiscard]] ExternalState bordering(std::uint32_t resource, ExternalState state) const {
+    if (std::holds_alternative<BufferDesc>(graph_.resources[resource].desc)) state.layout = VK_IMAGE_LAYOUT_UNDEFINED;
+    return state;
+  }
+
+  /// What a frame leaves of a resource whose first use overwrites it, so that nothing before matters.
+  [[nodiscard]] SubresourceState ending(std::uint32_t resource, std::uint32_t subresource,
+                                        SubresourceState state = {}) const {
+    for (const AccessGroup& group : history_.groups(resource, subresource)) advance(state, group);
+    if (releases_[resource]) release(state, *releases_[resource]);
+    return state;
+  }
+
+  [[nodiscard]] PlannedHistory carried(const HistoryDecl& history) const {
+    const SubresourceState end = ending(history.current, 0);
+    return {true, {end.stage, end.pendingWrite, end.layout}};
+  }
+
+  /// The state in which the executor, or the last frame, leaves `previous`.
+  [[nodiscard]] SubresourceState carriedState(std::uint32_t history) const {
+    const ExternalState& carry = plan_.histories[history].carry;
+    return {.stage = carry.stage, .pendingWrite = carry.access, .layout = carry.layout};
+  }
+
+  /// Hand a resource to the host. Where the host names no stage it waits by a fence or semaphore, which makes all
+  /// writes visible, and the next frame has to wait for this one by itself.
+  static std::optional<PlannedBarrier> release(SubresourceState& state, const ExternalState& to) {
+    AccessGroup group;
+    group.position = kAfterLastPass;
+    group.stage = to.stage;
+    group.readMask = to.access & ~kWriteAccesses;
+    group.writeMask = to.access & kWriteAccesses;
+    group.layout = to.layout;
+    const auto released = [](std::optional<PlannedBarrier> barrier) {
+      if (barrier) barrier->reason = BarrierReason::Release;
+      return barrier;
+    };
+    if (to.stage != VK_PIPELINE_STAGE_2_NONE) {
+      // Who goes on from the state waits for its stages and no others.
+      if ((state.stage & ~to.stage) != VK_PIPELINE_STAGE_2_NONE) state.visibleStage = VK_PIPELINE_STAGE_2_NONE;
+      return released(advance(state, group));
+    }
+    if (state.layout == to.layout) return std::nullopt;
+    // Who waits for the last stages in the next frame then waits for the layout transition too.
+    const VkPipelineStageFlags2 stage = state.stage;
+    std::optional<PlannedBarrier> barrier = released(advance(state, group));
+    barrier->dstStage = stage;
+    state.stage = stage;
+    return barrier;
+  }
+
+  [[nodiscard]] Beginning beginning(std::uint32_t resource) const {
+    const ResourceDecl& decl = graph_.resources[resource];
+    const std::uint32_t count = history_.subresourceCount(resource);
+    switch (decl.lifetime) {
+      case Lifetime::Imported:
+        return {std::vector(count, externalState(bordering(resource, *decl.acquire))), BarrierReason::Acquire};
+      case Lifetime::HistoryPrevious:
+        return {{carriedState(decl.history)}, BarrierReason::HistoryCarry};
+      case Lifetime::HistoryCurrent:
+        return isLent(resource) ? handOver(resource) : swapped(decl.history);
+      default:
+        return plan_.resources[resource].heap == kNone ? ownBeginning(resource) : handOver(resource);
+    }
+  }
+
+  /// After everything that was done to a resource, its contents being of no interest any more.
+  static SubresourceState overwritten(SubresourceState state) {
+    state.layout = VK_IMAGE_LAYOUT_UNDEFINED;
+    return state;
+  }
+
+  [[nodiscard]] Beginning ownBeginning(std::uint32_t resource) const {
+    Beginning result;
+    for (std::uint32_t i = 0; i < history_.subresourceCount(resource); ++i) {
+      result.states.push_back(overwritten(ending(resource, i)));
+    }
+    return result;
+  }
+
+  [[nodiscard]] Beginning handOver(std::uint32_t resource) const {
+    const std::vector<std::uint32_t>& owners = owners_[resource];
+    if (owners == std::vector{resource}) return ownBeginning(resource);
+    SubresourceState state;
+    for (const std::uint32_t owner : owners) {
+      for (std::uint32_t i = 0; i < history_.subresourceCount(owner); ++i) state.stage |= ending(owner, i).stage;
+    }
+    return {std::vector(history_.subresourceCount(resource), state), BarrierReason::AliasHandOver,
+            *std::ranges::find_if(owners, [&](std::uint32_t owner) { return owner != resource; })};
+  }
+
+  /// After the last frame's reads of the image as `previous`.
+  [[nodiscard]] Beginning swapped(std::uint32_t history) const {
+    const std::uint32_t previous = graph_.histories[history].previous;
+    return {{overwritten(ending(previous, 0, carriedState(history)))}, BarrierReason::HistoryCarry};
+  }
+
+  /// True where transients had some of the bytes of a history's `current` since it was `previous`.
+  [[nodiscard]] bool isLent(std::uint32_t current) const {
+    return std::ranges::any_of(
+        owners_[current], [&](std::uint32_t owner) { return graph_.resources[owner].lifetime == Lifetime::Transient; });
+  }
+
+  /// True where others own some of a transient's bytes before the next frame.
+  [[nodiscard]] bool sharesMemory(std::uint32_t resource) const {
+    return graph_.resources[resource].lifetime == Lifetime::Transient && plan_.resources[resource].heap != kNone &&
+           owners_[resource] != std::vector{resource};
+  }
+
+  [[nodiscard]] std::uint32_t behind(std::uint32_t position) const {
+    return position + 1 < plan_.passes.size() ? position + 1 : kAfterLastPass;
+  }
+
+  /// Make a write available for which no reader does it. Whoever waits for the writing stage then waits for this too.
+  static PlannedBarrier retire(const SubresourceState& state) {
+    PlannedBarrier barrier;
+    barrier.reason = BarrierReason::Retire;
+    barrier.srcStage = state.stage;
+    barrier.srcAccess = state.pendingWrite;
+    barrier.dstStage = state.stage;
+    barrier.oldLayout = state.layout;
+    barrier.newLayout = state.layout;
+    return barrier;
+  }
+
+  void emit(std::uint32_t resource) {
+    const Beginning begin = beginning(resource);
+    std::vector<std::pair<std::uint32_t, PlannedBarrier>> barriers;
+    for (std::uint32_t i = 0; i < history_.subresourceCount(resource); ++i) {
+      SubresourceState state = begin.states[i];
+      const auto add = [&](std::uint32_t position, const std::optional<PlannedBarrier>& barrier) {
+        if (!barrier) return;
+        barriers.emplace_back(position, *barrier);
+        barriers.back().second.resource = resource;
+        barriers.back().second.range = history_.range(resource, i);
+      };
+      const std::span<const AccessGroup> groups = history_.groups(resource, i);
+      for (const AccessGroup& group : groups) {
+        std::optional<PlannedBarrier> barrier = advance(state, group);
+        if (barrier && &group == groups.data()) {
+          barrier->reason = begin.reason;
+          barrier->aliasOf = begin.aliasOf;
+        }
+        add(group.position, barrier);
+      }
+      if (const auto to = finalState(resource, state)) add(kAfterLastPass, release(state, *to));
+      if (sharesMemory(resource) && state.pendingWrite != VK_ACCESS_2_NONE) {
+        add(behind(groups.back().position), retire(state));
+      }
+    }
+    if (history_.subresourceCount(resource) > 1) mergeRanges(graph_.resources[resource], barriers);
+    for (const auto& [position, barrier] : barriers) {
+      (position == kAfterLastPass ? plan_.releases : plan_.passes[position].barriers).push_back(barrier);
+    }
+  }
+
+  /// The state in which a host gets a resource back. Imports that are not exported go back as they came, so that the
+  /// next frame finds them so.
+  [[nodiscard]] std::optional<ExternalState> finalState(std::uint32_t resource, const SubresourceState& state) const {
+    if (releases_[resource]) return releases_[resource];
+    if (!graph_.resources[resource].acquire) return std::nullopt;
+    const ExternalState acquire = bordering(resource, *graph_.resources[resource].acquire);
+    // Who goes on from the state waits for its stages and no others, and covers writes that look like the host's own.
+    const bool hostWrites = (acquire.access & kWriteAccesses) != VK_ACCESS_2_NONE;
+    const bool readable =
+        (acquire.stage & ~state.visibleStage) == 0 && (acquire.access & ~state.visibleAccess) == VK_ACCESS_2_NONE;
+    const bool covered = (state.stage & ~acquire.stage) == 0 && (state.pendingWrite & ~acquire.access) == 0;
+    const bool asItCame = state.layout == acquire.layout && covered && (hostWrites || readable);
+    const bool unknown = acquire.layout == VK_IMAGE_LAYOUT_UNDEFINED && state.layout != VK_IMAGE_LAYOUT_UNDEFINED;
+    return asItCame || unknown ? std::nullopt : std::optional(acquire);
+  }
+
+  const Topology& topology_;
+  const GraphDesc& graph_;
+  Plan& plan_;
+  const AccessHistory& history_;
+  std::vector<std::vector<std::uint32_t>> owners_;
+  std::vector<std::optional<ExternalState>> releases_;
+};
+
+}  // namespace
+
+void synchronize(const Topology& topology, const AccessHistory& accesses, Plan& plan) {
+  Synchronizer(topology, accesses, plan).run();
+}
+
+}  // namespace fg

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "framegraph/declare/topology.h"
+
+namespace fg {
+
+enum class DependencyKind : std::uint8_t { ReadAfterWrite, WriteAfterRead, WriteAfterWrite };
+
+/// `before` must be executed before `after`.
+struct Dependency {
+  std::uint32_t before = kNone;  ///< Index into `GraphDesc::passes`.
+  std::uint32_t after = kNone;
+  std::uint32_t resource = kNone;  ///< On account of this resource
+  std::uint32_t version = kNone;   ///< at this version.
+  DependencyKind kind = DependencyKind::ReadAfterWrite;
+};
+
+/// All dependencies between the passes marked live, in an order that does not depend on registration.
+std::vector<Dependency> dependencies(const Topology& topology, const std::vector<bool>& live);
+
+}  // namespace fg

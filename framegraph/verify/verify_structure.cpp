@@ -1,0 +1,148 @@
+#include "framegraph/verify/verify_structure.h"
+
+#include <algorithm>
+
+#include "framegraph/verify/verify_rules.h"
+
+namespace fg::check {
+namespace {
+
+class Structure {
+ public:
+  Structure(const GraphDesc& graph, const Plan& plan) : graph_(graph), plan_(plan) {}
+
+  std::vector<std::string> run() {
+    if (plan_.resources.size() != graph_.resources.size() || plan_.histories.size() != graph_.histories.size()) {
+      return {"the plan has another number of resources or histories than the graph"};
+    }
+    checkPasses();
+    if (!faults_.empty()) return std::move(faults_);
+    checkHeaps();
+    for (std::uint32_t i = 0; i < plan_.resources.size(); ++i) checkResource(i);
+    for (const HistoryDecl& history : graph_.histories) checkHistory(history);
+    for (const PlannedPass& pass : plan_.passes) checkBarriers(pass.barriers);
+    checkBarriers(plan_.releases);
+    return std::move(faults_);
+  }
+
+ private:
+  void checkPasses() {
+    std::vector<int> seen(graph_.passes.size());
+    const auto see = [&](std::uint32_t pass) {
+      if (pass >= seen.size()) {
+        faults_.emplace_back("the plan names a pass that the graph does not have");
+      } else {
+        ++seen[pass];
+      }
+    };
+    for (const PlannedPass& pass : plan_.passes) see(pass.pass);
+    for (const CulledPass& pass : plan_.culled) {
+      see(pass.pass);
+      if (pass.pass < seen.size() && graph_.passes[pass.pass].sideEffects) {
+        faults_.push_back("pass '" + graph_.passes[pass.pass].name + "' has side effects, but is culled");
+      }
+    }
+    if (std::ranges::any_of(seen, [](int count) { return count != 1; })) {
+      faults_.emplace_back("some pass is not exactly once either executed or culled");
+    }
+  }
+
+  void checkResource(std::uint32_t index) {
+    const ResourceDecl& decl = graph_.resources[index];
+    const PlannedResource& planned = plan_.resources[index];
+    std::uint32_t first = kNone;
+    std::uint32_t last = kNone;
+    VkFlags usage = 0;
+    const bool texture = std::holds_alternative<TextureDesc>(decl.desc);
+    for (std::uint32_t position = 0; position < plan_.passes.size(); ++position) {
+      for (const AccessDecl& access : graph_.passes[plan_.passes[position].pass].accesses) {
+        if (access.resource != index) continue;
+        if (first == kNone) first = position;
+        last = position;
+        usage |= useOf(access.access, texture).usage;
+      }
+    }
+    if (planned.firstUse != first || planned.lastUse != last)
+      fault(decl, "is given another lifetime than its uses have");
+    if (((texture ? planned.imageUsage : planned.bufferUsage) & usage) != usage) fault(decl, "lacks usage flags");
+    bool exported = false;
+    for (const ExportDecl& other : graph_.exports) {
+      if (other.resource.resource != index) continue;
+      exported = true;
+      const VkFlags needed = texture ? usageInLayout(other.release.layout) : 0;
+      if ((planned.imageUsage & needed) != needed)
+        fault(decl, "lacks usage flags of the layout that it is released in");
+    }
+    if (first != kNone && !planned.used) fault(decl, "is used, but marked unused");
+    const bool transient = decl.lifetime == Lifetime::Transient;
+    const bool shares = (transient || decl.history != kNone) && !exported;
+    if (!shares && planned.heap != kNone) fault(decl, "must not lie in memory that others share");
+    if (shares && first != kNone && (transient || planned.heap != kNone)) checkPlace(decl, planned);
+  }
+
+  void checkHeaps() {
+    for (std::uint32_t i = 0; i < plan_.heaps.size(); ++i) {
+      const PlannedHeap& heap = plan_.heaps[i];
+      if (heap.partner == kNone) continue;
+      const bool mutual =
+          heap.partner < plan_.heaps.size() && heap.partner != i && plan_.heaps[heap.partner].partner == i;
+      if (!mutual) {
+        faults_.push_back("heap " + std::to_string(i) + " swaps with a heap that does not swap with it");
+      } else if (heap.size != plan_.heaps[heap.partner].size ||
+                 heap.memoryTypeBits != plan_.heaps[heap.partner].memoryTypeBits) {
+        faults_.push_back("heap " + std::to_string(i) + " swaps with a heap of another kind or size");
+      }
+    }
+  }
+
+  /// The images of a history swap, so that each must lie where the other one lay.
+  void checkHistory(const HistoryDecl& history) {
+    const PlannedResource& current = plan_.resources[history.current];
+    const PlannedResource& previous = plan_.resources[history.previous];
+    if (current.heap == kNone && previous.heap == kNone) return;
+    const bool swap = current.heap < plan_.heaps.size() && plan_.heaps[current.heap].partner != kNone &&
+                      plan_.heaps[current.heap].partner == previous.heap && current.offset == previous.offset &&
+                      current.size == previous.size;
+    if (!swap) fault(graph_.resources[history.current], "does not lie where its other image lies in the partner heap");
+  }
+
+  void checkPlace(const ResourceDecl& decl, const PlannedResource& planned) {
+    if (planned.heap >= plan_.heaps.size()) return fault(decl, "has no heap");
+    const PlannedHeap& heap = plan_.heaps[planned.heap];
+    if (planned.alignment == 0 || planned.offset % planned.alignment != 0) fault(decl, "is misaligned");
+    if (planned.offset + planned.size > heap.size) fault(decl, "reaches past the end of its heap");
+    if ((heap.memoryTypeBits & ~planned.memoryTypeBits) != 0) fault(decl, "is in memory that it cannot use");
+  }
+
+  void checkBarriers(const std::vector<PlannedBarrier>& barriers) {
+    for (const PlannedBarrier& barrier : barriers) {
+      if (barrier.resource >= graph_.resources.size()) {
+        faults_.emplace_back("a barrier names a resource that the graph does not have");
+        continue;
+      }
+      const ResourceDecl& decl = graph_.resources[barrier.resource];
+      if (((barrier.srcStage | barrier.dstStage) & VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT) != 0) {
+        fault(decl, "has a barrier on ALL_COMMANDS");
+      }
+      const bool texture = std::holds_alternative<TextureDesc>(decl.desc);
+      if (texture == (barrier.newLayout == VK_IMAGE_LAYOUT_UNDEFINED)) fault(decl, "has a barrier into a wrong layout");
+      if (barrier.reason == BarrierReason::Retire && barrier.oldLayout != barrier.newLayout) {
+        fault(decl, "changes its layout where its contents are given up");
+      }
+    }
+  }
+
+  void fault(const ResourceDecl& decl, const std::string& what) { faults_.push_back("'" + decl.name + "' " + what); }
+
+  const GraphDesc& graph_;
+  const Plan& plan_;
+  std::vector<std::string> faults_;
+};
+
+}  // namespace
+
+std::vector<std::string> structuralFaults(const GraphDesc& graph, const Plan& plan) {
+  return Structure(graph, plan).run();
+}
+
+}  // namespace fg::check

@@ -1,0 +1,66 @@
+#!/usr/bin/env python3
+"""Checks which folder includes which: every folder may include only the folders that its line in `ALLOWED` names.
+
+    check_layers.py SOURCE_FOLDER
+
+Each folder of the frame graph is one step of its work. The verifier replays plans with a model of its own, so it may
+include the two descriptions that it compares and nothing of the compiler.
+"""
+import pathlib
+import re
+import sys
+
+ALLOWED = {
+    "framegraph/declare": set(),
+    "framegraph/plan": {"framegraph/declare"},
+    "framegraph/check": {"framegraph/declare", "framegraph/plan"},
+    "framegraph/compile": {"framegraph/declare", "framegraph/plan", "framegraph/check"},
+    "framegraph/verify": {"framegraph/declare", "framegraph/plan"},
+    "framegraph/inspect": {"framegraph/declare", "framegraph/plan", "framegraph/compile"},
+    "framegraph/vulkan": {"framegraph/declare", "framegraph/plan"},
+    "framegraph/tools": {"framegraph/declare"},
+    "passes": {"framegraph/declare", "framegraph/plan", "shaders"},
+    "integration": {"framegraph", "passes", "shaders"},
+    "samples": {"framegraph", "passes", "shaders", "integration"},
+    "shaders": set(),
+}
+# The verifier may read the two descriptions, but no function that interprets them for the compiler.
+VERIFIER_HEADERS = {"framegraph/declare/graph.h", "framegraph/plan/plan.h"}
+INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"', re.MULTILINE)
+
+
+def longest_prefix(path, folders):
+    """The innermost of some folders that holds a path; None where none does."""
+    return max((f for f in folders if path.startswith(f + "/")), key=len, default=None)
+
+
+def violations(root):
+    folders = set(ALLOWED) | {"tests"}
+    sources = [p for pattern in ("*.h", "*.cpp", "*.c") for top in {f.split("/")[0] for f in ALLOWED}
+               for p in (root / top).rglob(pattern)]
+    if not sources:
+        sys.exit(f"{root} holds no source")
+    for source in sorted(sources):
+        name = source.relative_to(root).as_posix()
+        folder = longest_prefix(name, ALLOWED)
+        if folder is None:
+            yield f"{name}: its folder has no line in {pathlib.Path(__file__).name}"
+            continue
+        for included in INCLUDE.findall(source.read_text()):
+            target = longest_prefix(included, folders)
+            if target is None or target == folder:
+                continue  # A system header in quotes, or a neighbour.
+            if not any(target == allowed or target.startswith(allowed + "/") for allowed in ALLOWED[folder]):
+                yield f"{name}: {folder}/ may not include {included}"
+            elif folder == "framegraph/verify" and included not in VERIFIER_HEADERS:
+                yield f"{name}: the verifier may not include {included}, which the compiler uses"
+
+
+def main():
+    found = list(violations(pathlib.Path(sys.argv[1])))
+    print("\n".join(found) if found else "Every include runs in the allowed direction.")
+    sys.exit(1 if found else 0)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,2 @@
+// Breaks a rule on purpose: passes know nothing of how they are embedded.
+#include "integration/registry.h"
