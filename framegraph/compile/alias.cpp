@@ -38,9 +38,11 @@ class Placement {
   }
 
   void run(std::uint32_t memoryTypeBits) {
-    for (const HeapRequest& request : held_) stride_ = std::max(stride_, request.alignment);
-    for (const HistoryHeaps::Member& member : heaps_.members()) stride_ = std::max(stride_, member.alignment);
-    stride_ = roundUp(heaps_.size(), stride_);
+    // The second heap begins at a multiple of every alignment, so that offsets in both heaps are aligned alike.
+    std::uint64_t alignment = 1;
+    for (const HeapRequest& request : held_) alignment = std::max(alignment, request.alignment);
+    for (const HistoryHeaps::Member& member : heaps_.members()) alignment = std::max(alignment, member.alignment);
+    stride_ = roundUp(heaps_.size(), alignment);
     HeapPacking packing = packAll();
     const auto first = static_cast<std::uint32_t>(plan_.heaps.size());
     if (stride_ != 0) {
@@ -62,7 +64,7 @@ class Placement {
     plan_.memory.transientPeakBytes += packing.size - own;
   }
 
-  /// By position, the bytes of transients for which the histories have no room.
+  /// By position, a lower bound of the bytes of transients that find no room in the histories' heaps.
   [[nodiscard]] std::vector<std::uint64_t> excess() const { return heaps_.excess(used_, heldUntil_); }
 
  private:
@@ -86,7 +88,9 @@ class Placement {
     return members;
   }
 
-  /// Histories' heaps and the heap of transients alone as one: blocks take the lowest bytes that they can have.
+  /// Place all transients in one address space: [0, stride) is the heap of every history's `current`, [stride,
+  /// 2 stride) that of every `previous`, and what lies beyond is the heap of transients alone. Each block takes the
+  /// lowest bytes that it can have, so that the third heap is used last.
   [[nodiscard]] HeapPacking packAll() const {
     if (stride_ == 0) return pack(held_);
     const std::uint64_t own = 2 * stride_;
@@ -95,7 +99,7 @@ class Placement {
     for (const HeapRequest& request : held_) taken.push_back(heaps_.taken(request, stride_));
     HeapPacking packing = pack(held_, taken, target);
     if (packing.size <= own + lowerBound(held_)) return packing;
-    // The histories' room may have led the search astray.
+    // The search is a heuristic: using the histories' room may have made the rest worse than using none of it.
     HeapPacking apart = pack(held_);
     if (own + apart.size >= packing.size) return packing;
     for (std::uint64_t& offset : apart.offsets) offset += own;
@@ -122,7 +126,7 @@ class Placement {
   std::vector<std::uint32_t> heldUntil_;  ///< By transient.
   std::vector<HeapRequest> used_;         ///< By transient, from first to last use.
   std::vector<HeapRequest> held_;         ///< By transient, whole pages until others may have them.
-  std::uint64_t stride_ = 1;
+  std::uint64_t stride_ = 0;              ///< Distance of the histories' two heaps; 0 without histories.
 };
 
 /// Resources that share memory among themselves, all by name.
@@ -132,16 +136,16 @@ struct MemoryClass {
 };
 
 /// By the memory types that the device allows.
-std::map<std::uint32_t, MemoryClass> memoryClasses(const Topology& topology, const Plan& plan, bool lendHistories) {
+std::map<std::uint32_t, MemoryClass> memoryClasses(const Topology& topology, const Plan& plan, bool aliasHistories) {
   const GraphDesc& graph = topology.graph();
   const std::vector<bool> shared = aliasable(graph);
-  const std::vector<bool> lends = lendsMemory(graph, plan.resources);
+  const std::vector<bool> aliasable = aliasableHistories(graph, plan.resources);
   std::map<std::uint32_t, MemoryClass> classes;
   for (const std::uint32_t resource : topology.resourcesByName()) {
     const PlannedResource& planned = plan.resources[resource];
     if (shared[resource] && planned.used) classes[planned.memoryTypeBits].transients.push_back(resource);
     const ResourceDecl& decl = graph.resources[resource];
-    if (decl.lifetime != Lifetime::HistoryCurrent || !lendHistories || !lends[decl.history]) continue;
+    if (decl.lifetime != Lifetime::HistoryCurrent || !aliasHistories || !aliasable[decl.history]) continue;
     classes[planned.memoryTypeBits].histories.push_back(decl.history);
   }
   return classes;
@@ -157,9 +161,9 @@ std::uint32_t heldUntil(const AccessHistory& accesses, const Plan& plan, std::ui
 }
 
 void placeTransients(const Topology& topology, const AccessHistory& accesses, std::uint64_t bufferImageGranularity,
-                     bool lendHistories, Plan& plan) {
+                     bool aliasHistories, Plan& plan) {
   std::vector<std::uint64_t> excess(plan.passes.size());
-  for (auto& [memoryTypeBits, members] : memoryClasses(topology, plan, lendHistories)) {
+  for (auto& [memoryTypeBits, members] : memoryClasses(topology, plan, aliasHistories)) {
     Placement placement(topology, accesses, bufferImageGranularity, members.transients, members.histories, plan);
     placement.run(memoryTypeBits);
     std::ranges::transform(excess, placement.excess(), excess.begin(), std::plus{});

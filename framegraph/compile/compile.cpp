@@ -69,7 +69,7 @@ CompileResult compile(const GraphDesc& graph, const MemoryModel& memory, const C
   const AccessHistory accesses(graph, plan);
 
   // Give transients their offsets in shared heaps.
-  placeTransients(topology, accesses, memory.bufferImageGranularity(), options.lendHistories, plan);
+  placeTransients(topology, accesses, memory.bufferImageGranularity(), options.aliasHistories, plan);
 
   // Derive the barriers. This comes after placement, because the previous owner of a resource's bytes must be waited
   // for.

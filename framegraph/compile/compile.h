@@ -21,9 +21,9 @@ struct CompileResult {
 };
 
 struct CompileOptions {
-  /// Let transients have the memory of histories while that holds nothing (see alias.h). For whoever makes one image
-  /// for each resource of a plan, and not one for every other frame, there is no such memory.
-  bool lendHistories = true;
+  /// Let transients alias the memory of histories while that holds nothing (see alias.h). A transient there needs two
+  /// images, one for even and one for odd frames: switch this off where a plan's resources get one image each.
+  bool aliasHistories = true;
 };
 
 /// Turn a declared graph into a plan: a pure function of its arguments that needs no device.

@@ -14,7 +14,7 @@ struct HeapRequest {
   std::uint32_t lastUse = 0;  ///< Inclusive.
 };
 
-/// One without any bytes is a border that no block crosses.
+/// Bytes of a heap. An empty span is a border that no block crosses.
 struct ByteSpan {
   std::uint64_t begin = 0;
   std::uint64_t end = 0;  ///< Exclusive.

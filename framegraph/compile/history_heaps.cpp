@@ -8,8 +8,8 @@
 namespace fg {
 namespace {
 
-/// Most bytes of whole blocks that a capacity holds. Bounded in cost: where there are too many combinations, the
-/// capacity.
+/// Most bytes of whole blocks that fit into a capacity (subset sum). Gives the capacity itself, an upper bound, where
+/// there are too many combinations to try.
 std::uint64_t mostFitting(const std::vector<std::uint64_t>& blocks, std::uint64_t capacity) {
   constexpr std::size_t kMostSums = 1024;
   std::set<std::uint64_t> sums = {0};
@@ -24,13 +24,13 @@ std::uint64_t mostFitting(const std::vector<std::uint64_t>& blocks, std::uint64_
   return *sums.rbegin();
 }
 
-/// Requests that compete for the same bytes.
-class Contest {
+/// What some requests want of a memory that all of them may use.
+class Demand {
  public:
-  explicit Contest(std::vector<HeapRequest> requests) : requests_(std::move(requests)), live_(liveBytes(requests_)) {}
+  explicit Demand(std::vector<HeapRequest> requests) : requests_(std::move(requests)), live_(liveBytes(requests_)) {}
 
-  /// Least bytes of those alive at a position that are left when a capacity is full.
-  [[nodiscard]] std::uint64_t losers(std::uint32_t position, std::uint64_t capacity) const {
+  /// Least bytes of the requests alive at a position that do not fit into a capacity.
+  [[nodiscard]] std::uint64_t overSubscription(std::uint32_t position, std::uint64_t capacity) const {
     if (position >= live_.size() || live_[position] <= capacity) return 0;
     std::vector<std::uint64_t> blocks;
     for (const HeapRequest& request : requests_) {
@@ -88,7 +88,7 @@ std::vector<ByteSpan> HistoryHeaps::taken(const HeapRequest& transient, std::uin
 
 std::vector<std::uint64_t> HistoryHeaps::excess(const std::vector<HeapRequest>& requests,
                                                 const std::vector<std::uint32_t>& heldUntil) const {
-  // By where they could lie, were they alone.
+  // Sort the transients by the heaps that could hold them, each considered alone.
   std::vector<HeapRequest> nowhere;
   std::vector<HeapRequest> somewhere;
   std::vector<HeapRequest> inIncoming;
@@ -101,16 +101,16 @@ std::vector<std::uint64_t> HistoryHeaps::excess(const std::vector<HeapRequest>& 
     if (incoming && !outgoing) inIncoming.push_back(request);
     if (outgoing && !incoming) inOutgoing.push_back(request);
   }
-  const Contest forBoth(std::move(somewhere));
-  const Contest forIncoming(std::move(inIncoming));
-  const Contest forOutgoing(std::move(inOutgoing));
+  const Demand forBoth(std::move(somewhere));
+  const Demand forIncoming(std::move(inIncoming));
+  const Demand forOutgoing(std::move(inOutgoing));
   std::vector<std::uint64_t> result = liveBytes(nowhere);
   result.resize(freeIncoming_.size());
   for (std::uint32_t i = 0; i < result.size(); ++i) {
     const std::uint64_t incoming = freeIncoming_[i];
     const std::uint64_t outgoing = freeOutgoing_[i];
-    result[i] += std::max(
-        {forIncoming.losers(i, incoming), forOutgoing.losers(i, outgoing), forBoth.losers(i, incoming + outgoing)});
+    result[i] += std::max({forIncoming.overSubscription(i, incoming), forOutgoing.overSubscription(i, outgoing),
+                           forBoth.overSubscription(i, incoming + outgoing)});
   }
   return result;
 }

@@ -22,8 +22,7 @@ class HistoryHeaps {
     std::uint32_t lastRead = 0;  ///< Last position that uses `previous`.
   };
 
-  /// Lay histories out, those next to each other that end at about the same time, so that what they leave is in one
-  /// piece.
+  /// Lay histories out in the order of their last reads, so that those read by a position leave one gap.
   /// @param members in an order that is a function of the description alone
   /// @param positions number of passes
   HistoryHeaps(std::vector<Member> members, std::uint32_t positions);
@@ -33,11 +32,13 @@ class HistoryHeaps {
   [[nodiscard]] std::uint64_t offset(std::size_t member) const { return offsets_[member]; }
   /// Of each of the two heaps.
   [[nodiscard]] std::uint64_t size() const { return size_; }
-  /// What a transient cannot have of the two heaps laid one behind the other, `incoming` from 0 and `outgoing` from one
-  /// stride, of which the second heap ends at two: the histories' bytes while they hold something, and the borders.
+  /// Bytes that a transient cannot have: those of histories that hold something during its lifetime, and what lies
+  /// beyond the end of each heap.
+  /// @param stride address of `outgoing` in one address space in which `incoming` begins at 0; at least `size()`. The
+  ///               space ends at twice the stride
   [[nodiscard]] std::vector<ByteSpan> taken(const HeapRequest& transient, std::uint64_t stride) const;
 
-  /// By position, bytes of transients for which the two heaps have no room, whatever the arrangement.
+  /// By position, a lower bound of the bytes of transients that the two heaps cannot hold in any arrangement.
   /// @param requests from first to last use
   /// @param heldUntil by request, the last position at which others may not have its bytes
   [[nodiscard]] std::vector<std::uint64_t> excess(const std::vector<HeapRequest>& requests,

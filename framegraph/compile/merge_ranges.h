@@ -8,9 +8,10 @@
 
 namespace fg {
 
-/// Merge barriers of single subresources of one texture that differ in nothing but their range into as few rectangles
-/// of mip levels and layers as neighbours allow.
-/// @param barriers each with its position, for one resource; mip levels before layers at every position
+/// Merge barriers of one texture that are equal but for their range. Ranges of neighbouring mip levels and layers
+/// become one rectangle.
+/// @param barriers of single subresources, each with its position; ordered by position, then mip level, then array
+/// layer
 void mergeRanges(const ResourceDecl& resource, std::vector<std::pair<std::uint32_t, PlannedBarrier>>& barriers);
 
 }  // namespace fg

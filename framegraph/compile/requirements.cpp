@@ -62,7 +62,7 @@ std::vector<bool> aliasable(const GraphDesc& graph) {
   return result;
 }
 
-std::vector<bool> lendsMemory(const GraphDesc& graph, const std::vector<PlannedResource>& resources) {
+std::vector<bool> aliasableHistories(const GraphDesc& graph, const std::vector<PlannedResource>& resources) {
   std::vector<bool> result;
   for (const HistoryDecl& history : graph.histories) {
     result.push_back(resources[history.current].used && resources[history.previous].used);

@@ -14,8 +14,8 @@ std::vector<PlannedResource> requirements(const GraphDesc& graph, const Culling&
 /// By index into `GraphDesc::resources`: true for transients that share memory, which exported ones do not.
 std::vector<bool> aliasable(const GraphDesc& graph);
 
-/// By index into `GraphDesc::histories`: true for those that transients may share memory with, which are read every
-/// frame and not exported.
-std::vector<bool> lendsMemory(const GraphDesc& graph, const std::vector<PlannedResource>& resources);
+/// By index into `GraphDesc::histories`: true for those that transients may alias. They are read every frame and not
+/// exported.
+std::vector<bool> aliasableHistories(const GraphDesc& graph, const std::vector<PlannedResource>& resources);
 
 }  // namespace fg

@@ -19,7 +19,7 @@ std::string toText(const GraphDesc& graph, const PlannedBarrier& barrier);
 /// `memory` (bytes: `persistent_bytes`, `transient_unaliased_bytes`, `transient_peak_bytes`,
 /// `transient_lower_bound_bytes`) and `traffic` (`bytes_read`, `bytes_written`, `pixels`, `bytes_per_pixel`). Flags are
 /// numbers, as Vulkan has them, next to a description in words. A transient in the memory of histories names their
-/// images as `lenders`; heaps that change places every frame name each other as `swaps_with`.
+/// images as `aliases`; heaps that change places every frame name each other as `swaps_with`.
 std::string toJson(const GraphDesc& graph, const Plan& plan);
 
 /// Read back what `toJson` wrote, for the same description in any order of registration.
@@ -29,8 +29,8 @@ Plan planFromJson(const GraphDesc& graph, std::string_view json);
 /// Passes and versions of resources as a directed graph in Graphviz' language. Culled passes are dashed.
 std::string toDot(const GraphDesc& graph, const Plan& plan);
 
-/// Shared memory over passes: one rectangle a transient, heaps stacked, as an SVG image. Images of histories that lend
-/// their memory are grey, while they hold something.
+/// Shared memory over passes: one rectangle a transient, heaps stacked, as an SVG image. Images of histories that
+/// transients may alias are grey while they hold something.
 std::string toSvg(const GraphDesc& graph, const Plan& plan);
 
 /// Why a pass is not executed, or that it is; follows the chain of readers to its ends.

@@ -108,7 +108,7 @@ class JsonWriter {
                    {"last_use", indexOrNull(planned.lastUse)},
                    {"heap", indexOrNull(planned.heap)},
                    {"offset", planned.offset},
-                   {"lenders", namesOf(lenders(graph_, plan_, i))},
+                   {"aliases", namesOf(aliasedHistoryImages(graph_, plan_, i))},
                    {"bytes", planned.size},
                    {"alignment", planned.alignment},
                    {"memory_type_bits", planned.memoryTypeBits}});

@@ -35,7 +35,7 @@ std::string whyAlone(const GraphDesc& graph, const Plan& plan, std::uint32_t ind
            ", and only transients and histories share memory";
   }
   return start +
-         "belongs to a history that lends no memory: it is exported, nobody reads it, or lending is switched off";
+         "belongs to a history that transients may not alias: it is exported, nobody reads it, or the option is off";
 }
 
 /// The passes in which a resource keeps its bytes.
@@ -102,7 +102,7 @@ std::string whyNotAliased(const GraphDesc& graph, const Plan& plan, std::string_
   const std::string both = "'" + std::string(first) + "' and '" + std::string(second) + "' ";
   if (x.memoryTypeBits != y.memoryTypeBits) return both + "need different kinds of memory";
   const auto isHistory = [&](std::uint32_t index) { return graph.resources[index].history != kNone; };
-  if (isHistory(a) && isHistory(b)) return both + "are images of histories, which lend memory to transients alone";
+  if (isHistory(a) && isHistory(b)) return both + "are images of histories, whose memory only transients alias";
   const Held held(graph, plan, a);
   const Held otherHeld(graph, plan, b);
   if (held.meets(otherHeld)) {

@@ -17,7 +17,7 @@ PassSpan occupied(const GraphDesc& graph, const Plan& plan, std::uint32_t resour
   }
 }
 
-std::vector<std::uint32_t> lenders(const GraphDesc& graph, const Plan& plan, std::uint32_t resource) {
+std::vector<std::uint32_t> aliasedHistoryImages(const GraphDesc& graph, const Plan& plan, std::uint32_t resource) {
   std::vector<std::uint32_t> result;
   const PlannedResource& own = plan.resources[resource];
   if (own.heap == kNone || graph.resources[resource].lifetime != Lifetime::Transient) return result;
@@ -36,8 +36,8 @@ std::string placeInWords(const GraphDesc& graph, const Plan& plan, std::uint32_t
   std::string text = "heap " + std::to_string(planned.heap) + " [" + std::to_string(planned.offset) + ", " +
                      std::to_string(planned.offset + planned.size) + ")";
   const char* join = " of ";
-  for (const std::uint32_t lender : lenders(graph, plan, resource)) {
-    text += join + graph.resources[lender].name;
+  for (const std::uint32_t image : aliasedHistoryImages(graph, plan, resource)) {
+    text += join + graph.resources[image].name;
     join = " and ";
   }
   return text;

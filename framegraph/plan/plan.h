@@ -13,10 +13,10 @@
 /// - A transient's first use waits for whoever owned its bytes last, be it in the frame before, and starts from
 ///   UNDEFINED. For another owner this is an execution dependency only: writes have been made available to readers, or
 ///   by a barrier of their own (`BarrierReason::Retire`) in an earlier batch.
-/// - A history has two images that swap roles every frame (`PlannedHistory`). From the last read of `previous` until
-///   it is written again as `current`, be it in the next frame, an image holds nothing, and its bytes are lent to
-///   transients: histories lie in two heaps that swap roles with them (`PlannedHeap::partner`). A transient with a
-///   place in one of these is another image or buffer in every other frame, at the same place in the other allocation.
+/// - A history has two images that swap roles every frame (`PlannedHistory`). An image holds nothing between the last
+///   read of it as `previous` and the next write to it as `current`. Transients may alias its bytes meanwhile. To this
+///   end histories lie in two heaps that swap roles every frame, too (`PlannedHeap::partner`). A transient in such a
+///   heap is therefore made twice, at the same offset of both allocations, and every frame uses the other one.
 /// - Upload buffers have one copy per frame in flight and need no barrier: submission makes host writes visible.
 /// - Imports arrive in the state that was declared (stage NONE: the host has waited otherwise, for instance by a
 ///   semaphore). Exports are released into theirs. Imports that are not exported are given back in the state in which
@@ -70,7 +70,7 @@ struct PlannedResource {
   VkBufferUsageFlags bufferUsage = 0;
   std::uint32_t firstUse = kNone;  ///< Position in `Plan::passes`.
   std::uint32_t lastUse = kNone;
-  std::uint32_t heap = kNone;  ///< Index into `Plan::heaps`; transients, and histories that lend their memory.
+  std::uint32_t heap = kNone;  ///< Index into `Plan::heaps`; transients, and histories that transients may alias.
   std::uint64_t offset = 0;    ///< Bytes from the start of the heap.
   std::uint64_t size = 0;      ///< Bytes that the driver asks for.
   std::uint64_t alignment = 1;

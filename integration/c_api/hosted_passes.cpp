@@ -19,7 +19,7 @@ HostedPasses::HostedPasses(const WalrDenoiserInfo& info, std::span<const WalrSet
   if (info.device != nullptr) device_ = std::make_unique<HostDevice>(info.device);
   graph_ = description_.declare();
   // A host makes one image for each resource of the list, and swaps histories' alone.
-  constexpr fg::CompileOptions kOneImageEach = {.lendHistories = false};
+  constexpr fg::CompileOptions kOneImageEach = {.aliasHistories = false};
   plan_ = compilePlan(graph_.graph, fg::TableMemoryModel(), kOneImageEach);
   if (device_) {
     fg::vk::require(device_->physical(), fg::vk::formatUses(graph_.graph.desc(), plan_));

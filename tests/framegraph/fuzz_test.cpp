@@ -83,29 +83,29 @@ TEST(Fuzz, TheCheckerAcceptsEveryPlanOfRandomGraphs) {
   std::cout << "seeds " << seeds.first << " to " << seeds.first + seeds.count - 1 << "\n";
   Ratios ratios;
   Ratios packingRatios;
-  Ratios lendingRatios;
+  Ratios aliasingRatios;
   for (std::uint64_t seed = seeds.first; seed < seeds.first + seeds.count; ++seed) {
     const Graph graph = randomGraph(seed, limitsOf(seed));
-    const CompileOptions options = {.lendHistories = seed % 4 != 0};
+    const CompileOptions options = {.aliasHistories = seed % 4 != 0};
     const CompileResult result = compile(graph.desc(), TableMemoryModel(), options);
     ASSERT_TRUE(result.ok()) << "seed " << seed << "\n" << result.text();
     const std::vector<std::string> faults = verify(graph.desc(), result.plan);
     ASSERT_TRUE(faults.empty()) << "seed " << seed << "\n" << joined(faults) << toText(graph.desc(), result.plan);
     const MemoryReport& memory = result.plan.memory;
     if (const std::uint64_t bytes = heapsOfHistories(result.plan); bytes != 0) {
-      lendingRatios.add(bytes + memory.transientPeakBytes, bytes + memory.transientLowerBoundBytes);
+      aliasingRatios.add(bytes + memory.transientPeakBytes, bytes + memory.transientLowerBoundBytes);
     }
-    if (memory.transientLowerBoundBytes == 0 || options.lendHistories) continue;
+    if (memory.transientLowerBoundBytes == 0 || options.aliasHistories) continue;
     ratios.add(memory.transientPeakBytes, memory.transientLowerBoundBytes);
     packingRatios.add(memory.transientPeakBytes, lowerBoundOfHeld(graph.desc(), result.plan));
   }
   std::cout << "aliased peak over most bytes alive on " << ratios.count << " graphs: mean " << ratios.mean()
             << ", worst " << ratios.worst << "; over most bytes held: mean " << packingRatios.mean() << ", worst "
-            << packingRatios.worst << "; with all histories, on " << lendingRatios.count << " that lend: mean "
-            << lendingRatios.mean() << ", worst " << lendingRatios.worst << "\n";
+            << packingRatios.worst << "; with all histories, on " << aliasingRatios.count
+            << " that transients alias: mean " << aliasingRatios.mean() << ", worst " << aliasingRatios.worst << "\n";
   // The project's goal for random graphs.
   EXPECT_LE(ratios.mean(), 1.10);
-  EXPECT_LE(lendingRatios.mean(), 1.10);
+  EXPECT_LE(aliasingRatios.mean(), 1.10);
 }
 
 TEST(Fuzz, RegistrationOrderDoesNotChangeThePlan) {

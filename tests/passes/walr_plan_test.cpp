@@ -59,7 +59,7 @@ TEST(WalrPlan, ThePaperMovesNoMoreThanItsBudget) {
   EXPECT_LE(planWalr(settings).bytesPerPixel(), 280U);
 }
 
-// The project's budget for the default at 1080p: histories and what no history lends room for.
+// The project's budget for the default at 1080p: histories, and transients that find no room in them.
 TEST(WalrPlan, TheDefaultNeedsNoMoreMemoryThanItsBudget) {
   const fg::MemoryReport memory = planWalr(blocksWalr()).plan.memory;
   EXPECT_LE(memory.persistentBytes + memory.transientPeakBytes, 91'000'000U);

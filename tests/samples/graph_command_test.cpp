@@ -82,8 +82,8 @@ TEST(GraphCommand, JsonReportsItsMemoryRightly) {
         EXPECT_LE(resource["offset"].get<std::uint64_t>() + bytes, heap["bytes"].get<std::uint64_t>());
         if (resource["lifetime"] != "Transient") continue;
         unaliased += bytes;
-        EXPECT_EQ(resource["lenders"].empty(), heap["swaps_with"].is_null()) << resource["name"];
-        if (!resource["lenders"].empty()) continue;
+        EXPECT_EQ(resource["aliases"].empty(), heap["swaps_with"].is_null()) << resource["name"];
+        if (!resource["aliases"].empty()) continue;
         const auto first = resource["first_use"].get<std::size_t>();
         const auto last = resource["last_use"].get<std::size_t>();
         for (std::size_t pass = first; pass <= last; ++pass) alive[pass] += bytes;
@@ -188,9 +188,9 @@ TEST(GraphCommand, SaysWhyMemoryIsShared) {
     const std::string why = printed({"--why", a["name"], b["name"]});
     EXPECT_EQ(why.find("alive at the same time") != std::string::npos, alive(a, b)) << why;
     EXPECT_EQ(why.ends_with("' share memory\n"), overlap(a, b)) << why;
-    for (const json& lender : a["lenders"]) {
-      const std::string lent = printed({"--why", a["name"], lender});
-      EXPECT_TRUE(lent.ends_with("' share memory\n")) << lent;
+    for (const json& image : a["aliases"]) {
+      const std::string aliased = printed({"--why", a["name"], image});
+      EXPECT_TRUE(aliased.ends_with("' share memory\n")) << aliased;
     }
   }
 }

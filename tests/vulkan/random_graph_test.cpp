@@ -25,7 +25,7 @@ class RandomGraphTest : public GpuTest {
     SCOPED_TRACE("WALR_SEED=" + std::to_string(seed) + (poison ? ", poisoned" : ""));
     RandomGraph random(seed, context().functions);
     const Plan plan = compileFor(context(), random.graph(), poison);
-    countLending(random.graph().desc(), plan);
+    countHistoryAliases(random.graph().desc(), plan);
     GraphRun run(device(), random.graph(), plan, {.poison = poison});
     for (const Texture input : random.inputs()) run.fill(input, random.texels(input));
     for (std::uint32_t frame = 0; frame < kFrames; ++frame) {
@@ -45,9 +45,9 @@ class RandomGraphTest : public GpuTest {
     for (const vk::Message& message : takeMessages()) ADD_FAILURE() << "validation: " << message.text;
   }
 
-  void countLending(const GraphDesc& graph, const Plan& plan) {
+  void countHistoryAliases(const GraphDesc& graph, const Plan& plan) {
     for (std::uint32_t i = 0; i < graph.resources.size(); ++i) {
-      if (lenders(graph, plan, i).empty()) continue;
+      if (aliasedHistoryImages(graph, plan, i).empty()) continue;
       ++(std::holds_alternative<TextureDesc>(graph.resources[i].desc) ? texturesInHistories_ : buffersInHistories_);
     }
   }

@@ -16,11 +16,11 @@ namespace {
 
 /// previous -> early -> across -> current -> late -> "out", one more at each: all three transients find room in the
 /// history's two images.
-struct LendingGraph {
+struct AliasingGraph {
   static constexpr std::uint32_t kStep = 3;  ///< From frame to frame.
 
   /// @param out where the result goes
-  explicit LendingGraph(std::function<Texture(Graph&)> makeOut = [](Graph& g) { return importOutput(g, "out"); }) {
+  explicit AliasingGraph(std::function<Texture(Graph&)> makeOut = [](Graph& g) { return importOutput(g, "out"); }) {
     history = graph.history("history", kTexture);
     out = makeOut(graph);
     early = add(graph, "a", history.previous, graph.texture("early", kTexture), 1);
@@ -37,12 +37,12 @@ struct LendingGraph {
   Texture out;
 };
 
-class LendingOnDeviceTest : public GpuTest {
+class HistoryAliasingOnDeviceTest : public GpuTest {
  protected:
   /// Run a frame, of which so many lie behind, and look at its result.
   void expectFrame(GraphRun& run, std::uint32_t framesBehind) {
     run.frame();
-    EXPECT_EQ(run.texels<std::uint32_t>(lending_.out), constant(LendingGraph::kStep * (framesBehind + 1) + 2))
+    EXPECT_EQ(run.texels<std::uint32_t>(aliasing_.out), constant(AliasingGraph::kStep * (framesBehind + 1) + 2))
         << framesBehind << " frames behind";
   }
   static PlannedBarrier& handOver(Plan& plan, Texture texture) {
@@ -76,81 +76,81 @@ class LendingOnDeviceTest : public GpuTest {
     queue.waitAll();
   }
 
-  LendingGraph lending_;
-  LendingGraph alone_{[](Graph& graph) { return graph.texture("out", kTexture); }};
+  AliasingGraph aliasing_;
+  AliasingGraph alone_{[](Graph& graph) { return graph.texture("out", kTexture); }};
 };
 
-TEST_F(LendingOnDeviceTest, AllocatesNothingBesidesTheHistory) {
-  const GraphDesc& desc = lending_.graph.desc();
-  const Plan plan = compileFor(context(), lending_.graph);
-  const auto in = [&](Texture texture) { return lenders(desc, plan, texture.resource); };
-  EXPECT_EQ(in(lending_.early), std::vector{lending_.history.current.resource});
-  EXPECT_EQ(in(lending_.across), std::vector{lending_.history.previous.resource});
-  EXPECT_EQ(in(lending_.late), std::vector{lending_.history.previous.resource});
-  GraphRun run(device(), lending_.graph, plan);
-  EXPECT_EQ(run.executor().allocatedBytes(), 2 * plan.resources[lending_.history.current.resource].size);
+TEST_F(HistoryAliasingOnDeviceTest, AllocatesNothingBesidesTheHistory) {
+  const GraphDesc& desc = aliasing_.graph.desc();
+  const Plan plan = compileFor(context(), aliasing_.graph);
+  const auto in = [&](Texture texture) { return aliasedHistoryImages(desc, plan, texture.resource); };
+  EXPECT_EQ(in(aliasing_.early), std::vector{aliasing_.history.current.resource});
+  EXPECT_EQ(in(aliasing_.across), std::vector{aliasing_.history.previous.resource});
+  EXPECT_EQ(in(aliasing_.late), std::vector{aliasing_.history.previous.resource});
+  GraphRun run(device(), aliasing_.graph, plan);
+  EXPECT_EQ(run.executor().allocatedBytes(), 2 * plan.resources[aliasing_.history.current.resource].size);
 }
 
-TEST_F(LendingOnDeviceTest, FramesFollowEachOther) {
-  GraphRun run(device(), lending_.graph);
+TEST_F(HistoryAliasingOnDeviceTest, FramesFollowEachOther) {
+  GraphRun run(device(), aliasing_.graph);
   for (std::uint32_t i = 0; i < 6; ++i) expectFrame(run, i);
 }
 
-TEST_F(LendingOnDeviceTest, FramesFollowEachOtherInFlight) {
-  GraphRun run(device(), lending_.graph);
+TEST_F(HistoryAliasingOnDeviceTest, FramesFollowEachOtherInFlight) {
+  GraphRun run(device(), aliasing_.graph);
   for (int i = 0; i < 25; ++i) run.submitFrame();
   run.finish();
-  EXPECT_EQ(run.texels<std::uint32_t>(lending_.out), constant(25 * LendingGraph::kStep + 2));
+  EXPECT_EQ(run.texels<std::uint32_t>(aliasing_.out), constant(25 * AliasingGraph::kStep + 2));
 }
 
-TEST_F(LendingOnDeviceTest, ResetStartsOverAtEitherParity) {
-  GraphRun run(device(), lending_.graph);
+TEST_F(HistoryAliasingOnDeviceTest, ResetStartsOverAtEitherParity) {
+  GraphRun run(device(), aliasing_.graph);
   for (std::uint32_t framesBefore = 1; framesBefore <= 4; ++framesBefore) {
     for (std::uint32_t i = 0; i < framesBefore; ++i) expectFrame(run, i);
-    run.executor().resetHistory(lending_.history);
+    run.executor().resetHistory(aliasing_.history);
   }
 }
 
-TEST_F(LendingOnDeviceTest, APredecessorsHistoryIsWhole) {
+TEST_F(HistoryAliasingOnDeviceTest, APredecessorsHistoryIsWhole) {
   for (std::uint32_t framesBefore = 0; framesBefore <= 3; ++framesBefore) {
-    GraphRun before(device(), lending_.graph);
+    GraphRun before(device(), aliasing_.graph);
     for (std::uint32_t i = 0; i < framesBefore; ++i) before.submitFrame();
-    GraphRun run(device(), lending_.graph, {.predecessor = &before.executor()});
+    GraphRun run(device(), aliasing_.graph, {.predecessor = &before.executor()});
     for (std::uint32_t i = 0; i < 5; ++i) expectFrame(run, framesBefore + i);
     run.executor().resetAllHistory();
     expectFrame(run, 0);
   }
 }
 
-TEST_F(LendingOnDeviceTest, PoisonOfTransientsLeavesHistoriesAlone) {
-  GraphRun run(device(), lending_.graph, {.poison = true});
+TEST_F(HistoryAliasingOnDeviceTest, PoisonOfTransientsLeavesHistoriesAlone) {
+  GraphRun run(device(), aliasing_.graph, {.poison = true});
   for (std::uint32_t i = 0; i < 5; ++i) expectFrame(run, i);
   run.executor().resetAllHistory();
   for (std::uint32_t i = 0; i < 3; ++i) expectFrame(run, i);
 }
 
-TEST_F(LendingOnDeviceTest, HistoriesThatKeepTheirMemoryGiveTheSame) {
+TEST_F(HistoryAliasingOnDeviceTest, HistoriesThatKeepTheirMemoryGiveTheSame) {
   CompileResult result =
-      compile(lending_.graph.desc(), vk::DriverMemoryModel(context()), CompileOptions{.lendHistories = false});
+      compile(aliasing_.graph.desc(), vk::DriverMemoryModel(context()), CompileOptions{.aliasHistories = false});
   ASSERT_TRUE(result.ok()) << result.text();
-  GraphRun run(device(), lending_.graph, std::move(result.plan));
+  GraphRun run(device(), aliasing_.graph, std::move(result.plan));
   for (std::uint32_t i = 0; i < 4; ++i) expectFrame(run, i);
 }
 
 /// Within a frame: synchronization validation knows whose memory it was.
-TEST_F(LendingOnDeviceTest, MissingHandOversAreCaught) {
-  for (const Texture texture : {lending_.across, lending_.history.current, lending_.late}) {
-    Plan plan = compileFor(context(), lending_.graph);
+TEST_F(HistoryAliasingOnDeviceTest, MissingHandOversAreCaught) {
+  for (const Texture texture : {aliasing_.across, aliasing_.history.current, aliasing_.late}) {
+    Plan plan = compileFor(context(), aliasing_.graph);
     handOver(plan, texture).srcStage = VK_PIPELINE_STAGE_2_NONE;
-    EXPECT_FALSE(verify(lending_.graph.desc(), plan).empty());
-    GraphRun run(device(), lending_.graph, plan);
+    EXPECT_FALSE(verify(aliasing_.graph.desc(), plan).empty());
+    GraphRun run(device(), aliasing_.graph, plan);
     for (int i = 0; i < 3; ++i) run.frame();
-    EXPECT_TRUE(reportsHazard()) << lending_.graph.desc().resources[texture.resource].name;
+    EXPECT_TRUE(reportsHazard()) << aliasing_.graph.desc().resources[texture.resource].name;
   }
 }
 
 /// From frame to frame, where it looks at one command buffer at a time: all frames go into one.
-TEST_F(LendingOnDeviceTest, MissingHandOversFromTheLastFrameAreCaught) {
+TEST_F(HistoryAliasingOnDeviceTest, MissingHandOversFromTheLastFrameAreCaught) {
   Plan plan = compileFor(context(), alone_.graph);
   handOver(plan, alone_.early).srcStage = VK_PIPELINE_STAGE_2_NONE;
   EXPECT_FALSE(verify(alone_.graph.desc(), plan).empty());
@@ -158,7 +158,7 @@ TEST_F(LendingOnDeviceTest, MissingHandOversFromTheLastFrameAreCaught) {
   EXPECT_TRUE(reportsHazard());
 }
 
-TEST_F(LendingOnDeviceTest, FramesInOneCommandBufferHaveNoHazard) {
+TEST_F(HistoryAliasingOnDeviceTest, FramesInOneCommandBufferHaveNoHazard) {
   for (const bool poison : {false, true}) {
     const Plan plan = compileFor(context(), alone_.graph, poison);
     for (std::uint32_t reset = 0; reset < kFramesTogether; ++reset) {

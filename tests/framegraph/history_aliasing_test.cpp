@@ -25,9 +25,9 @@ constexpr TextureDesc kTwiceColor = {kColor.format, {64, 64}};
 
 /// `previous` is read by the first of five passes and `current` written by the third. In between, and after, transients
 /// of half a history's size come and go; the last one is written and never read.
-class LendingTest : public ::testing::Test {
+class HistoryAliasingTest : public ::testing::Test {
  protected:
-  LendingTest() {
+  HistoryAliasingTest() {
     history_ = graph_.history("history", kTwiceColor);
     auto a = graph_.callback("a", recordNothing);
     a.sample("in", history_.previous);
@@ -65,8 +65,8 @@ class LendingTest : public ::testing::Test {
     }
     throw std::logic_error("no hand-over of " + graph_.desc().resources[texture.resource].name);
   }
-  [[nodiscard]] std::vector<std::uint32_t> lendersOf(Texture texture) const {
-    return lenders(graph_.desc(), plan_, texture.resource);
+  [[nodiscard]] std::vector<std::uint32_t> aliasesOf(Texture texture) const {
+    return aliasedHistoryImages(graph_.desc(), plan_, texture.resource);
   }
 
   Graph graph_;
@@ -79,7 +79,7 @@ class LendingTest : public ::testing::Test {
   Plan plan_;
 };
 
-TEST_F(LendingTest, TransientsNeedNoMemoryBesidesTheHistorys) {
+TEST_F(HistoryAliasingTest, TransientsNeedNoMemoryBesidesTheHistorys) {
   EXPECT_EQ(plan_.memory.persistentBytes, 2 * 2 * kBytes);
   EXPECT_EQ(plan_.memory.transientUnaliasedBytes, 4 * kBytes);
   EXPECT_EQ(plan_.memory.transientPeakBytes, 0U);
@@ -90,14 +90,14 @@ TEST_F(LendingTest, TransientsNeedNoMemoryBesidesTheHistorys) {
   EXPECT_EQ(plan_.heaps[1].partner, 0U);
 }
 
-TEST_F(LendingTest, WhatEndsBeforeCurrentIsWrittenLiesThereAndWhatBeginsAfterPreviousIsReadThere) {
-  EXPECT_EQ(lendersOf(before_), std::vector{history_.current.resource});
+TEST_F(HistoryAliasingTest, WhatEndsBeforeCurrentIsWrittenLiesThereAndWhatBeginsAfterPreviousIsReadThere) {
+  EXPECT_EQ(aliasesOf(before_), std::vector{history_.current.resource});
   for (const Texture late : {across_, after_, unread_}) {
-    EXPECT_EQ(lendersOf(late), std::vector{history_.previous.resource});
+    EXPECT_EQ(aliasesOf(late), std::vector{history_.previous.resource});
   }
 }
 
-TEST_F(LendingTest, BarriersHandMemoryFromFrameToFrame) {
+TEST_F(HistoryAliasingTest, BarriersHandMemoryFromFrameToFrame) {
   // Reads of `previous` end in this frame; what is in the other image's memory has been there since the last one.
   EXPECT_EQ(handOver(plan_, across_).aliasOf, history_.previous.resource);
   const std::uint32_t last = handOver(plan_, before_).aliasOf;
@@ -110,8 +110,8 @@ TEST_F(LendingTest, BarriersHandMemoryFromFrameToFrame) {
   ASSERT_EQ(std::ranges::count(plan_.releases, BarrierReason::Retire, &PlannedBarrier::reason), 1);
 }
 
-TEST_F(LendingTest, IsSwitchedOff) {
-  const Plan plan = planOf({.lendHistories = false});
+TEST_F(HistoryAliasingTest, IsSwitchedOff) {
+  const Plan plan = planOf({.aliasHistories = false});
   EXPECT_EQ(plan.resources[history_.current.resource].heap, kNone);
   EXPECT_EQ(plan.resources[history_.previous.resource].heap, kNone);
   EXPECT_EQ(plan.memory.persistentBytes, plan_.memory.persistentBytes);
@@ -119,15 +119,15 @@ TEST_F(LendingTest, IsSwitchedOff) {
   EXPECT_EQ(plan.memory.transientLowerBoundBytes, 2 * kBytes);
 }
 
-TEST_F(LendingTest, AHostThatGetsAHistoryKeepsItsMemory) {
+TEST_F(HistoryAliasingTest, AHostThatGetsAHistoryKeepsItsMemory) {
   graph_.exported(current_, test::kSampled);
   plan_ = planOf();
-  EXPECT_TRUE(lendersOf(before_).empty());
-  EXPECT_TRUE(lendersOf(after_).empty());
+  EXPECT_TRUE(aliasesOf(before_).empty());
+  EXPECT_TRUE(aliasesOf(after_).empty());
   EXPECT_EQ(plan_.memory.transientPeakBytes, 2 * kBytes);
 }
 
-TEST_F(LendingTest, InspectionsSayWhereATransientLives) {
+TEST_F(HistoryAliasingTest, InspectionsSayWhereATransientLives) {
   const GraphDesc& desc = graph_.desc();
   const std::string place = placeInWords(desc, plan_, across_.resource);
   EXPECT_TRUE(place.starts_with("heap 1 [") && place.ends_with(") of history.previous")) << place;
@@ -136,7 +136,7 @@ TEST_F(LendingTest, InspectionsSayWhereATransientLives) {
   EXPECT_NE(text.find("heap 1: 32768 bytes, swaps with heap 0 every frame"), std::string::npos) << text;
   EXPECT_NE(toDot(desc, plan_).find("tooltip=\"" + place), std::string::npos);
   EXPECT_NE(toSvg(desc, plan_).find(place), std::string::npos);
-  EXPECT_NE(toJson(desc, plan_).find("\"lenders\": [\n        \"history.previous\""), std::string::npos);
+  EXPECT_NE(toJson(desc, plan_).find("\"aliases\": [\n        \"history.previous\""), std::string::npos);
   EXPECT_NE(whyBarriers(desc, plan_, "b").find("AliasHandOver of history.previous"), std::string::npos);
   EXPECT_NE(whyNotAliased(desc, plan_, "across", "history.previous").find("share memory"), std::string::npos);
   EXPECT_NE(whyNotAliased(desc, plan_, "across", "history.current").find("alive at the same time: passes 1 to 2 and"),
@@ -146,7 +146,7 @@ TEST_F(LendingTest, InspectionsSayWhereATransientLives) {
 }
 
 /// Plans that are wrong on purpose, and what the checker has to say of them.
-TEST_F(LendingTest, TheCheckerRejectsWhatBreaksARule) {
+TEST_F(HistoryAliasingTest, TheCheckerRejectsWhatBreaksARule) {
   struct Damage {
     const char* what;
     std::function<void(Plan&)> apply;
@@ -198,18 +198,18 @@ TEST_F(LendingTest, TheCheckerRejectsWhatBreaksARule) {
   }
 }
 
-TEST(Lending, NeverNeedsMoreMemoryThanNone) {
+TEST(HistoryAliasing, NeverNeedsMoreMemoryThanNone) {
   constexpr std::uint64_t kGraphs = 2000;
-  std::uint64_t lent = 0;
+  std::uint64_t saved = 0;
   for (std::uint64_t seed = 1; seed <= kGraphs; ++seed) {
     const Graph graph = test::randomGraph(seed, {4, 24});
     const CompileResult with = compile(graph.desc(), TableMemoryModel());
-    const CompileResult without = compile(graph.desc(), TableMemoryModel(), {.lendHistories = false});
+    const CompileResult without = compile(graph.desc(), TableMemoryModel(), {.aliasHistories = false});
     ASSERT_LE(with.plan.memory.transientPeakBytes, without.plan.memory.transientPeakBytes) << "seed " << seed;
     ASSERT_EQ(with.plan.memory.persistentBytes, without.plan.memory.persistentBytes) << "seed " << seed;
-    lent += with.plan.memory.transientPeakBytes < without.plan.memory.transientPeakBytes ? 1 : 0;
+    saved += with.plan.memory.transientPeakBytes < without.plan.memory.transientPeakBytes ? 1 : 0;
   }
-  EXPECT_GT(lent, kGraphs / 10) << "graphs in which lending saves memory";
+  EXPECT_GT(saved, kGraphs / 10) << "graphs in which aliasing histories saves memory";
 }
 
 TEST(HistoryHeaps, ThoseThatAreReadFirstLieTogether) {
