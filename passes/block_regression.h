@@ -33,16 +33,16 @@ struct BlockRegressionSettings {
   void visit(SettingVisitor& v) {
     v.visit({"blocks.size", "Side of the blocks whose moments are averaged", "pixels", 2, 8, "measured"}, size);
     v.visit({"blocks.iterations", "A-trous iterations with taps 3^t blocks apart; n of them span 3^n blocks", "", 1, 4,
-             "walr.txt 3.2"},
+             "Meunier & Harada 2022, 3.2"},
             iterations);
     v.visit({"blocks.plane-near", "Distance from the plane up to which a block counts in full; below plane-far",
-             "fraction of depth", 0.0, 1.0, "walr.txt 4.3"},
+             "fraction of depth", 0.0, 1.0, "Meunier & Harada 2022, 4.3"},
             planeNear);
     v.visit({"blocks.plane-far", "Distance from the plane from which a block is an edge", "fraction of depth", 1e-6,
-             1.0, "walr.txt 4.3"},
+             1.0, "Meunier & Harada 2022, 4.3"},
             planeFar);
     v.visit({"blocks.sdf-fraction", "Share of the distance to the nearest edge that edge tracing steps at once", "",
-             0.0, 1.0, "walr.txt 5.2"},
+             0.0, 1.0, "Meunier & Harada 2022, 5.2"},
             sdfFraction);
     v.visit(
         {"blocks.ridge", "Ridge on the diagonal of the covariance of the features, which are of the order of 1 or less",

@@ -20,7 +20,8 @@ struct BmfrSettings {
   TemporalAntialiasingSettings antialiasing;
 
   void visit(SettingVisitor& v) {
-    v.visit({"spatial-only", "Fit each frame on its own, without the temporal stages", "", 0, 1, "bmfr.txt 3.3"},
+    v.visit({"spatial-only", "Fit each frame on its own, without the temporal stages", "", 0, 1,
+             "Koskela et al. 2019, 3.3"},
             spatialOnly);
     guides.visit(v);
     accumulation.visit(v);
@@ -32,11 +33,11 @@ struct BmfrSettings {
 
 /// The defaults: half as long a mean of fitted frames as published, for the anti-aliasing after it averages, too.
 BmfrSettings tunedBmfr();
-/// As published: a fitted frame counts for 10 % (bmfr.txt 3.5).
+/// As published: a fitted frame counts for 10 % (Koskela et al. 2019, 3.5).
 BmfrSettings paperBmfr();
 
-/// Blockwise Multi-Order Feature Regression (bmfr.txt, figure 2): accumulation, feature fitting, a second accumulation
-/// and temporal anti-aliasing.
+/// Blockwise Multi-Order Feature Regression (Koskela et al. 2019, figure 2): accumulation, feature fitting, a second
+/// accumulation and temporal anti-aliasing.
 /// @param output RGBA16F texture to write the result to
 /// @param inspection is offered the views of the stages that have some
 /// @returns the output's new version

@@ -14,11 +14,11 @@ namespace walr {
 
 /// What is done about features that depend on each other within a block, such as the positions on a single plane.
 enum class RankHandling : std::uint8_t {
-  Stochastic,     ///< Noise makes the features independent (bmfr.txt 3.4).
+  Stochastic,     ///< Noise makes the features independent (Koskela et al. 2019, 3.4).
   Deterministic,  ///< No noise: a feature that earlier ones explain is left out of its block's fit.
 };
 
-/// Settings of the blockwise feature fit (bmfr.txt 3.3, 3.4).
+/// Settings of the blockwise feature fit (Koskela et al. 2019, 3.3 and 3.4).
 struct BmfrFitSettings {
   RankHandling rankHandling = RankHandling::Stochastic;
   float noiseAmplitude = 0.01F;
@@ -28,10 +28,10 @@ struct BmfrFitSettings {
   void visit(SettingVisitor& v) {
     static constexpr std::array<std::string_view, 2> kRankHandlings{"stochastic", "deterministic"};
     v.visitEnum({"fit.rank-handling", "What is done about features that depend on each other within a block", "", 0, 1,
-                 "bmfr.txt 3.4"},
+                 "Koskela et al. 2019, 3.4"},
                 kRankHandlings, rankHandling);
     v.visit({"fit.noise-amplitude", "Half width of the uniform noise on the features, stochastic handling only",
-             "feature range / 2", 1e-3, 1.0, "bmfr.txt 3.4"},
+             "feature range / 2", 1e-3, 1.0, "Koskela et al. 2019, 3.4"},
             noiseAmplitude);
     v.visit({"fit.rank-tolerance",
              "Root mean square of the unexplained part of a feature at which it is left out, deterministic handling "

@@ -22,13 +22,13 @@ struct EdgeStoppingSettings {
   void visit(SettingVisitor& v) {
     static constexpr std::string_view kPlaneNormals[] = {"geometric", "shading"};
     v.visit({"regression.plane-near", "Distance from the plane up to which a pixel counts in full; below plane-far",
-             "fraction of depth", 0.0, 1.0, "walr.txt 4.3"},
+             "fraction of depth", 0.0, 1.0, "Meunier & Harada 2022, 4.3"},
             planeNear);
     v.visit({"regression.plane-far", "Distance from the plane from which a pixel is an edge", "fraction of depth", 1e-6,
-             1.0, "walr.txt 4.3"},
+             1.0, "Meunier & Harada 2022, 4.3"},
             planeFar);
-    v.visitEnum({"regression.plane-normal", "Normal that spans the plane", "", 0, 1, "walr.txt 4.3"}, kPlaneNormals,
-                planeNormal);
+    v.visitEnum({"regression.plane-normal", "Normal that spans the plane", "", 0, 1, "Meunier & Harada 2022, 4.3"},
+                kPlaneNormals, planeNormal);
     v.visit(
         {"regression.normal-factor", "Weigh pixels by the cosine between the planes' normals", "", 0, 1, "measured"},
         normalFactor);

@@ -21,7 +21,7 @@ struct FlrSettings {
 
   void visit(SettingVisitor& v) {
     v.visit({"spatial-only", "Filter each frame on its own, as published, without the temporal stages", "", 0, 1,
-             "flr-flnr.txt"},
+             "Salmi et al. 2024"},
             spatialOnly);
     guides.visit(v);
     accumulation.visit(v);
@@ -35,7 +35,7 @@ struct FlrSettings {
   }
 };
 
-/// Fast Local Regression (flr-flnr.txt), between temporal accumulation and temporal anti-aliasing.
+/// Fast Local Regression (Salmi et al. 2024), between temporal accumulation and temporal anti-aliasing.
 /// @param output RGBA16F texture to write the result to
 /// @param inspection is offered the views of the stages that have some
 /// @returns the output's new version

@@ -44,15 +44,15 @@ struct FlrRegressionSettings {
     v.visitEnum(
         {"regression.upsampling", "How the cells' coefficients are interpolated at a pixel", "", 0, 1, "measured"},
         kUpsamplings, upsampling);
-    v.visit(
-        {"regression.occlusion-guide", "Take ambient occlusion among the guides", "", 0, 1, "flr-flnr.txt: optional"},
-        occlusionGuide);
+    v.visit({"regression.occlusion-guide", "Take ambient occlusion among the guides", "", 0, 1,
+             "Salmi et al. 2024: optional"},
+            occlusionGuide);
   }
 };
 
 /// Weighted least squares of the lighting on {1, normal, inverse depth, ambient occlusion} in a Gaussian window around
 /// every cell of a coarse grid; the coefficients, interpolated, are applied to the guides of every pixel
-/// (flr-flnr.txt).
+/// (Salmi et al. 2024).
 /// @param lighting  RGBA16F: radiance to filter; a pixel that is not finite has no say in the fit
 /// @param alpha     what the alpha channel of `lighting` says; a pixel with no sample has no say in the fit
 /// @param guides    with `features` where `settings.occlusionGuide` is set

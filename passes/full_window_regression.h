@@ -17,7 +17,7 @@ struct FullWindowSettings {
   RegularisationSettings regularisation{};
 
   void visit(SettingVisitor& v) {
-    v.visit({"regression.window", "Side of the window; odd", "pixels", 1, 105, "walr.txt 6"}, window);
+    v.visit({"regression.window", "Side of the window; odd", "pixels", 1, 105, "Meunier & Harada 2022, 6"}, window);
     edgeStopping.visit(v);
     regularisation.visit(v);
   }

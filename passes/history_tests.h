@@ -10,15 +10,16 @@ namespace walr {
 /// How a pixel of the last frame is told to show the surface whose history is sought (reprojection.glsl).
 enum class HistoryRejection : std::uint32_t {
   Plane,  ///< By its distance from the surface's plane and by its geometric normal.
-  Depth,  ///< By its depth, against that which motion and `motion.z` lead to (walr.txt 4.2).
+  Depth,  ///< By its depth, against that which motion and `motion.z` lead to (Meunier & Harada 2022, 4.2).
   None,   ///< Not at all: every pixel with a history does.
 };
 
 /// Visit the way in which a stage with a history tests its history pixels.
 inline void visitRejection(SettingVisitor& v, std::string_view name, HistoryRejection& rejection) {
   static constexpr std::string_view kRejections[] = {"plane", "depth", "none"};
-  v.visitEnum({name, "What tells history of the surface from that of another", "", 0, 1, "walr.txt 4.2, 4.4"},
-              kRejections, rejection);
+  v.visitEnum(
+      {name, "What tells history of the surface from that of another", "", 0, 1, "Meunier & Harada 2022, 4.2 and 4.4"},
+      kRejections, rejection);
 }
 
 /// Visit the two limits that every stage with a history tests its history pixels by (reprojection.glsl).

@@ -13,13 +13,13 @@ struct JointBilateralSettings {
   bool spatialOnly = false;
   PrepareGuidesSettings guides;
   JointBilateralFilterSettings filter;
-  /// Accumulation of the filtered frames (joint-bilateral.txt, 4): alpha 0.2, clamped to the 7x7 neighbourhood, within
+  /// Accumulation of the filtered frames (Wang 2024, 4): alpha 0.2, clamped to the 7x7 neighbourhood, within
   /// a number of deviations that the text leaves open. Filtered pixels are much alike: a tight clamp takes the frame
   /// before for an outlier where it differs by its noise alone.
   TemporalAntialiasingSettings accumulation{.maxSamples = 5.0F, .clipGamma = 8.0F, .clipRadius = 3, .objectIds = true};
 
   void visit(SettingVisitor& v) {
-    v.visit({"spatial-only", "Filter each frame by itself, without temporal stages", "", 0, 1, "joint-bilateral.txt"},
+    v.visit({"spatial-only", "Filter each frame by itself, without temporal stages", "", 0, 1, "Wang 2024"},
             spatialOnly);
     guides.visit(v);
     filter.visit(v);
@@ -27,7 +27,7 @@ struct JointBilateralSettings {
   }
 };
 
-/// Joint bilateral filter with temporal accumulation (joint-bilateral.txt, 1): denoise one frame, project the last
+/// Joint bilateral filter with temporal accumulation (Wang 2024, 1): denoise one frame, project the last
 /// result into it, accumulate. Surfaces are told apart by the object's number, as in the text, where the host gives it,
 /// and by plane and geometric normal, as in the other methods.
 /// @param output RGBA16F texture to write the result to

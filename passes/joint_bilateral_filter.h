@@ -10,7 +10,7 @@
 
 namespace walr {
 
-/// Settings of the joint bilateral filter (joint-bilateral.txt, 2). An infinite sigma switches its term off.
+/// Settings of the joint bilateral filter (Wang 2024, 2). An infinite sigma switches its term off.
 struct JointBilateralFilterSettings {
   static constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
@@ -22,14 +22,13 @@ struct JointBilateralFilterSettings {
 
   void visit(SettingVisitor& v) {
     const auto infinity = static_cast<double>(kInfinity);
-    v.visit({"bilateral.radius", "Half the window's width; 16 is a window of 33x33", "pixels", 1, 64,
-             "joint-bilateral.txt, 2"},
+    v.visit({"bilateral.radius", "Half the window's width; 16 is a window of 33x33", "pixels", 1, 64, "Wang 2024, 2"},
             radius);
     v.visit({"bilateral.sigma-position", "Standard deviation of the Gaussian of the distance in the image", "pixels",
              0.1, infinity, "measured"},
             sigmaPosition);
     v.visit({"bilateral.sigma-colour", "Standard deviation of the Gaussian of the distance in colour",
-             "mean luminance of the window", 1e-3, infinity, "measured; joint-bilateral.txt, 5: 10"},
+             "mean luminance of the window", 1e-3, infinity, "measured; Wang 2024, 5: 10"},
             sigmaColour);
     v.visit({"bilateral.sigma-normal", "Standard deviation of the Gaussian of the angle between normals", "radians",
              1e-3, infinity, "measured"},

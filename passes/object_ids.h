@@ -6,7 +6,7 @@
 
 namespace walr {
 
-/// Which object every pixel shows, to tell the histories of two by (joint-bilateral.txt, 3): R32_UINT, the host's
+/// Which object every pixel shows, to tell the histories of two by (Wang 2024, 3): R32_UINT, the host's
 /// number
 /// + 1, and 0 where there is none.
 struct ObjectIds {

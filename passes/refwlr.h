@@ -34,8 +34,8 @@ RefwlrSettings robustRefwlr();
 /// The same of WALR's preset "paper".
 RefwlrSettings paperRefwlr();
 
-/// Reference Weighted Linear Regression (walr.txt 6): WALR with a full window in place of a-trous averages, to tell
-/// what those cost in quality. Takes seconds a frame.
+/// Reference Weighted Linear Regression (Meunier & Harada 2022, 6): WALR with a full window in place of a-trous
+/// averages, to tell what those cost in quality. Takes seconds a frame.
 /// @param output RGBA16F texture to write the result to
 /// @param inspection is offered the views of the stages that have some
 /// @returns the output's new version

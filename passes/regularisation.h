@@ -9,7 +9,7 @@ namespace walr {
 /// How the normal equations are kept solvable.
 enum class Regularisation : std::uint32_t {
   Ridge,  ///< A ridge on the diagonal that grows with the noise of the mean.
-  Floor,  ///< Pivots are floored (walr.txt, algorithm 1).
+  Floor,  ///< Pivots are floored (Meunier & Harada 2022, algorithm 1).
 };
 
 /// Settings of the regression's solve.
@@ -21,7 +21,7 @@ struct RegularisationSettings {
   void visit(SettingVisitor& v) {
     static constexpr std::string_view kMethods[] = {"ridge", "floor"};
     v.visitEnum({"regression.regularisation", "How the normal equations are kept solvable", "", 0, 1,
-                 "walr.txt 3.1, algorithm 1"},
+                 "Meunier & Harada 2022, 3.1, algorithm 1"},
                 kMethods, method);
     v.visit({"regression.ridge",
              "Ridge on, or floor under, the diagonal of the covariance of the features, which lie in 0..1", "", 1e-9,

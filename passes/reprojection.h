@@ -20,7 +20,7 @@ MotionSource motionSource(const SceneDescription& scene);
 /// Declare what a pass that includes reprojection.glsl reads.
 /// @param rejection    the one that the pass's shader is made for
 /// @param motion       the same of the motion's source
-/// @param dilateMotion follow the nearest surface of the 3x3 neighbourhood (walr.txt 4.2)
+/// @param dilateMotion follow the nearest surface of the 3x3 neighbourhood (Meunier & Harada 2022, 4.2)
 void readReprojection(fg::PassBuilder& pass, const DenoiserInputs& inputs, const Guides& guides,
                       HistoryRejection rejection, MotionSource motion, bool dilateMotion = false);
 

@@ -18,8 +18,7 @@ struct SvgfSettings {
   TemporalAntialiasingSettings antialiasing;
 
   void visit(SettingVisitor& v) {
-    v.visit({"spatial-only", "Filter each frame by itself, without temporal stages", "", 0, 1, "nagi-svgf.txt"},
-            spatialOnly);
+    v.visit({"spatial-only", "Filter each frame by itself, without temporal stages", "", 0, 1, "Fu 2022"}, spatialOnly);
     guides.visit(v);
     accumulation.visit(v);
     filter.visit(v);
@@ -33,7 +32,7 @@ SvgfSettings tunedSvgf();
 /// As published (Schied et al. 2017, 4.2 to 4.4; figure 1).
 SvgfSettings paperSvgf();
 
-/// Spatiotemporal Variance-Guided Filtering (Schied et al. 2017, figure 1; nagi-svgf.txt): temporal accumulation,
+/// Spatiotemporal Variance-Guided Filtering (Schied et al. 2017, figure 1; Fu 2022): temporal accumulation,
 /// variance estimation, variance-guided a-trous iterations whose first feeds the history, temporal anti-aliasing.
 /// @param output RGBA16F texture to write the result to
 /// @param inspection is offered the views of the stages that have some

@@ -34,25 +34,25 @@ struct SvgfFilterSettings {
     static constexpr std::array<std::string_view, 2> kWindows{"atrous", "full"};
     v.visitEnum({"svgf.window",
                  "A-trous iterations, or one bilateral filter over all pixels that they reach: what they approximate",
-                 "", 0, 1, "nagi-svgf.txt"},
+                 "", 0, 1, "Fu 2022"},
                 kWindows, window);
     v.visit({"svgf.iterations", "A-trous iterations with taps 2^i pixels apart", "", 1, 8,
-             "nagi-svgf.txt: 4; Schied et al. 2017: 5"},
+             "Fu 2022: 4; Schied et al. 2017: 5"},
             iterations);
     v.visit({"svgf.radius", "Taps on each side of the centre; 1, 2, 3, 4 are kernels of 3x3, 5x5, 7x7, 9x9", "taps", 1,
-             4, "nagi-svgf.txt"},
+             4, "Fu 2022"},
             radius);
     v.visit({"svgf.sigma-depth", "Distance from the tangent plane at which a pixel weighs 1/e", "fraction of depth",
              1e-6, 1e6, "measured"},
             sigmaDepth);
     v.visit({"svgf.sigma-normal", "Exponent of the cosine between normals; 0 weighs all normals alike", "", 0.0, 1e4,
-             "Schied et al. 2017, 4.4: 128; nagi-svgf.txt: 64"},
+             "Schied et al. 2017, 4.4: 128; Fu 2022: 64"},
             sigmaNormal);
     v.visit({"svgf.luminance-weight", "Stop at edges of the luminance that its variance does not explain", "", 0, 1,
-             "nagi-svgf.txt"},
+             "Fu 2022"},
             luminanceWeight);
     v.visit({"svgf.sigma-luminance", "Luminance difference at which a pixel weighs 1/e", "standard deviations", 1e-6,
-             1e6, "Schied et al. 2017, 4.4; nagi-svgf.txt: 4"},
+             1e6, "Schied et al. 2017, 4.4; Fu 2022: 4"},
             sigmaLuminance);
     v.visit({"svgf.min-history", "Samples below which the variance is estimated over 7x7 pixels", "frames", 0.0, 256.0,
              "Schied et al. 2017, 4.2"},

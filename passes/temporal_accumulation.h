@@ -19,7 +19,7 @@ namespace walr {
 /// How a history texture is read between its pixels.
 enum class HistoryFilter : std::uint32_t { Bilinear, Bicubic };
 
-/// Settings of the preprocessing accumulation (walr.txt 4.2).
+/// Settings of the preprocessing accumulation (Meunier & Harada 2022, 4.2).
 struct TemporalAccumulationSettings {
   float maxSamples = 16.0F;
   HistoryRejection rejection = HistoryRejection::Plane;
@@ -33,16 +33,17 @@ struct TemporalAccumulationSettings {
   void visit(SettingVisitor& v) {
     static constexpr std::string_view kFilters[] = {"bilinear", "bicubic"};
     v.visit({"accumulation.max-samples", "Samples after which the cumulative mean turns exponential", "frames", 1.0,
-             255.0, "walr.txt 4.2"},
+             255.0, "Meunier & Harada 2022, 4.2"},
             maxSamples);
     visitRejection(v, "accumulation.rejection", rejection);
     visitHistoryTests(v, "accumulation.plane-tolerance", planeTolerance, "accumulation.normal-threshold",
                       normalThreshold);
-    v.visitEnum({"accumulation.history-filter", "How history is read between pixels", "", 0, 1, "walr.txt 4.2"},
-                kFilters, historyFilter);
-    v.visit(
-        {"accumulation.dilate-motion", "Follow the nearest surface of the 3x3 neighbourhood", "", 0, 1, "walr.txt 4.2"},
-        dilateMotion);
+    v.visitEnum(
+        {"accumulation.history-filter", "How history is read between pixels", "", 0, 1, "Meunier & Harada 2022, 4.2"},
+        kFilters, historyFilter);
+    v.visit({"accumulation.dilate-motion", "Follow the nearest surface of the 3x3 neighbourhood", "", 0, 1,
+             "Meunier & Harada 2022, 4.2"},
+            dilateMotion);
     change.visit(v);
   }
   /// For methods and stages whose filter reads either storage.
@@ -77,7 +78,7 @@ struct AccumulationWithTaps {
   fg::Texture taps;
 };
 
-/// The same, keeping what the reprojection and its tests found (walr.txt 4.4, bmfr.txt 3.5).
+/// The same, keeping what the reprojection and its tests found (Meunier & Harada 2022, 4.4; Koskela et al. 2019, 3.5).
 /// @param antialiasing storage of the anti-aliasing that reads the taps. Packed: it knows otherwise where there is no
 ///                     surface, and finds light there instead of the mark that other stages need.
 AccumulationWithTaps addTemporalAccumulationWithTaps(fg::Graph& graph, const DenoiserInputs& inputs,

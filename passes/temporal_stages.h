@@ -28,7 +28,7 @@ struct FilterInput {
 /// Adds the spatial filter's passes and returns their result.
 using AddFilter = std::function<fg::Texture(const FilterInput& input)>;
 
-/// The temporal stages around a spatial filter (walr.txt, figure 6).
+/// The temporal stages around a spatial filter (Meunier & Harada 2022, figure 6).
 struct TemporalStages {
   TemporalAccumulationSettings accumulation;
   TemporalAntialiasingSettings antialiasing;

@@ -30,7 +30,8 @@ struct WalrSettings {
   bool fitWindow = true;
 
   void visit(SettingVisitor& v) {
-    v.visit({"spatial-only", "Filter each frame by itself, without the temporal stages", "", 0, 1, "walr.txt 4.3"},
+    v.visit({"spatial-only", "Filter each frame by itself, without the temporal stages", "", 0, 1,
+             "Meunier & Harada 2022, 4.3"},
             spatialOnly);
     guides.visit(v);
     accumulation.visit(v);
@@ -65,7 +66,8 @@ WalrSettings robustWalr();
 /// surface taken for a diffuse one.
 WalrSettings paperWalr();
 
-/// Weighted A-Trous Linear Regression (walr.txt, figure 6): preprocessing, spatial filtering, postprocessing.
+/// Weighted A-Trous Linear Regression (Meunier & Harada 2022, figure 6): preprocessing, spatial filtering,
+/// postprocessing.
 /// @param output RGBA16F texture to write the result to
 /// @param inspection is offered the views of all stages
 /// @returns the output's new version

@@ -20,14 +20,14 @@ enum class MomentStorage : std::uint32_t {
   Raw32,      ///< Raw averages in single precision, 56 bytes; for study.
 };
 
-/// What takes the place of a tap behind an edge (walr.txt 3.3).
+/// What takes the place of a tap behind an edge (Meunier & Harada 2022, 3.3).
 enum class TapReplacement : std::uint32_t {
   Off,      ///< Nothing.
   Uniform,  ///< Any pixel before the edge, picked at random.
   Near,     ///< One of the last third before the edge, picked at random.
 };
 
-/// Settings of the spatial filter (walr.txt 3, 4.3, 5).
+/// Settings of the spatial filter (Meunier & Harada 2022, 3, 4.3, 5).
 struct WeightedRegressionSettings {
   std::uint32_t iterations = 4;
   EdgeStoppingSettings edgeStopping{};
@@ -44,32 +44,33 @@ struct WeightedRegressionSettings {
     static constexpr std::string_view kReplacements[] = {"off", "uniform", "near"};
     static constexpr std::string_view kStorages[] = {"centred16", "raw16", "raw11", "raw32"};
     v.visit({"regression.iterations", "A-trous iterations with taps 3^t pixels apart; n of them span 3^n x 3^n pixels",
-             "", 1, 5, "walr.txt 3.2"},
+             "", 1, 5, "Meunier & Harada 2022, 3.2"},
             iterations);
     edgeStopping.visit(v);
     v.visit({"regression.trace-edges", "Take the smallest weight along the segment to a tap, not the tap's own", "", 0,
-             1, "walr.txt 3.3"},
+             1, "Meunier & Harada 2022, 3.3"},
             traceEdges);
     v.visit({"regression.sdf-fraction",
              "Share of the distance to the nearest edge that edge tracing steps at once; 0 walks pixel by pixel", "",
-             0.0, 1.0, "walr.txt 5.2"},
+             0.0, 1.0, "Meunier & Harada 2022, 5.2"},
             sdfFraction);
     v.visitEnum({"regression.replace-taps",
                  "Which pixel before an edge takes the place of a tap behind it: none, any, or one near the edge", "",
-                 0, 1, "walr.txt 3.3"},
+                 0, 1, "Meunier & Harada 2022, 3.3"},
                 kReplacements, replaceTaps);
     v.visit({"regression.repeat-centre",
              "With replace-taps: count the centre again for each tap whose edge is the very next pixel", "", 0, 1,
-             "walr.txt 3.3"},
+             "Meunier & Harada 2022, 3.3"},
             repeatCentre);
     v.visit({"regression.edge-leak",
              "Weight of the very next pixel where it is an edge, for pixels with few of their surface around them", "",
              0.0, 1.0, "measured"},
             edgeLeak);
-    v.visitEnum({"regression.moments", "Storage of the averages between two iterations", "", 0, 1, "walr.txt 5.2"},
+    v.visitEnum({"regression.moments", "Storage of the averages between two iterations", "", 0, 1,
+                 "Meunier & Harada 2022, 5.2"},
                 kStorages, storage);
     v.visit({"regression.keep-sample-count", "Carry W, so that every sample weighs the same; centred16 only", "", 0, 1,
-             "walr.txt 3.2, 5.2"},
+             "Meunier & Harada 2022, 3.2 and 5.2"},
             keepSampleCount);
     regularisation.visit(v);
   }

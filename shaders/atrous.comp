@@ -1,7 +1,7 @@
-// One edge-aware a-trous iteration (walr.txt 3.2, 3.3): the moments of 3x3 taps, 3^t pixels apart, are averaged with the
-// weights that edge tracing finds. The first iteration (FIRST) makes the moments of its taps from the inputs as it
-// reads them; the last (LAST) solves the regression in place, so moments exist in memory only between iterations. A view
-// (VIEW) does what the last one does, and writes something found on the way.
+// One edge-aware a-trous iteration (Meunier & Harada 2022, 3.2 and 3.3): the moments of 3x3 taps, 3^t pixels apart, are
+// averaged with the weights that edge tracing finds. The first iteration (FIRST) makes the moments of its taps from the
+// inputs as it reads them; the last (LAST) solves the regression in place, so moments exist in memory only between
+// iterations. A view (VIEW) does what the last one does, and writes something found on the way.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require

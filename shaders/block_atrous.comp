@@ -1,5 +1,5 @@
-// One edge-aware a-trous iteration over blocks (walr.txt 3.2, 3.3). The last iteration (LAST) solves the regression
-// in place. A view (VIEW) writes what the iteration finds of each block to all pixels of the block.
+// One edge-aware a-trous iteration over blocks (Meunier & Harada 2022, 3.2 and 3.3). The last iteration (LAST) solves
+// the regression in place. A view (VIEW) writes what the iteration finds of each block to all pixels of the block.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require

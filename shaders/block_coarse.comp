@@ -1,4 +1,4 @@
-// One axis of the Gaussian window of the coarse fit, which no edge stops (flr-flnr.txt).
+// One axis of the Gaussian window of the coarse fit, which no edge stops (Salmi et al. 2024).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require

@@ -1,5 +1,6 @@
-// BMFR postprocessing (bmfr.txt 3.5): the fitted frame is averaged over time through the taps that the first accumulation
-// accepted, a cumulative mean that turns exponential. Displaced blocks and the noise of the regularisation average out.
+// BMFR postprocessing (Koskela et al. 2019, 3.5): the fitted frame is averaged over time through the taps that the
+// first accumulation accepted, a cumulative mean that turns exponential. Displaced blocks and the noise of the
+// regularisation average out.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require

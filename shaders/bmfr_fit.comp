@@ -1,6 +1,6 @@
-// Blockwise multi-order feature regression (bmfr.txt 3.3, 3.4): one work group fits the colours of a block of 32x32
-// pixels as a linear combination of ten features, by Householder QR with three right-hand sides, and writes the fit. A
-// view (VIEW) does the same and writes something found on the way.
+// Blockwise multi-order feature regression (Koskela et al. 2019, 3.3 and 3.4): one work group fits the colours of a
+// block of 32x32 pixels as a linear combination of ten features, by Householder QR with three right-hand sides, and
+// writes the fit. A view (VIEW) does the same and writes something found on the way.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -36,7 +36,7 @@ const int kColumns = 13;   // Features, then red, green, blue.
 uint threadIndex = gl_LocalInvocationIndex;
 #include "include/householder.glsl"
 
-// Displacement of the block grid, uniform over the possible ones, one after the other (bmfr.txt 6.1).
+// Displacement of the block grid, uniform over the possible ones, one after the other (Koskela et al. 2019, 6.1).
 const ivec2 kBlockOffsets[16] = ivec2[16](
     ivec2(-14, -14), ivec2(4, -6), ivec2(-8, 14), ivec2(8, 0), ivec2(-10, -8), ivec2(2, 12), ivec2(12, -12),
     ivec2(-10, 0), ivec2(12, 14), ivec2(-8, -16), ivec2(6, 6), ivec2(-2, -2), ivec2(6, -14), ivec2(-16, 12),
@@ -104,8 +104,9 @@ Bounds blockBounds(Pixel pixels[kRowsPerThread]) {
   return Bounds(0.5 * (highest + lowest), 1.0 / max(halfExtent, vec3(least)));
 }
 
-// The multi-order features (bmfr.txt equation 8), each within [-1, 1]. Squares of positions scaled about the block's
-// centre span, together with the lower orders, what squares of world positions span, without their cancellation.
+// The multi-order features (Koskela et al. 2019, equation 8), each within [-1, 1]. Squares of positions scaled about
+// the block's centre span, together with the lower orders, what squares of world positions span, without their
+// cancellation.
 float[kFeatures] featuresOf(Pixel pixel, Bounds bounds) {
   const vec3 w = (pixel.position - bounds.centre) * bounds.scale;
   const vec3 n = pixel.normal;
@@ -146,7 +147,7 @@ float rowsInUse(float rows[kRowsPerThread][kColumns]) {
   return totals[kColumns - 1];
 }
 
-// The synthesis uses the features without noise (bmfr.txt 3.4).
+// The synthesis uses the features without noise (Koskela et al. 2019, 3.4).
 vec3 synthesis(Pixel pixel, Bounds bounds) {
   const float features[kFeatures] = featuresOf(pixel, bounds);
   vec3 colour = vec3(0.0);

@@ -1,5 +1,5 @@
-// FLR, last stage (flr-flnr.txt): coefficients, upsampled, applied to the guides at full resolution. A view (VIEW) does
-// the same and writes something found on the way.
+// FLR, last stage (Salmi et al. 2024): coefficients, upsampled, applied to the guides at full resolution. A view (VIEW)
+// does the same and writes something found on the way.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require

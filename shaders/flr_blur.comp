@@ -1,4 +1,4 @@
-// FLR, second stage (flr-flnr.txt): the horizontal half of the separable Gaussian over the cells' outer products.
+// FLR, second stage (Salmi et al. 2024): the horizontal half of the separable Gaussian over the cells' outer products.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "constants/flr.h"

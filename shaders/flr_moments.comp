@@ -1,4 +1,4 @@
-// FLR, first stage (flr-flnr.txt): outer products of guides and colour, downsampled to one sum per cell.
+// FLR, first stage (Salmi et al. 2024): outer products of guides and colour, downsampled to one sum per cell.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require

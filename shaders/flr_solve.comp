@@ -1,5 +1,5 @@
-// FLR, third stage (flr-flnr.txt): the vertical half of the Gaussian, then the weighted least squares of every cell. A
-// view (VIEW) does the same and writes something found on the way to the cell's pixels.
+// FLR, third stage (Salmi et al. 2024): the vertical half of the Gaussian, then the weighted least squares of every
+// cell. A view (VIEW) does the same and writes something found on the way to the cell's pixels.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "constants/flr.h"

@@ -1,6 +1,6 @@
-// Weighted linear regression over a full window (REFWLR, walr.txt 6): every pixel of the window with the smallest
-// edge-stopping weight on the straight line to it. What WALR's a-trous averages approximate, at many times their cost;
-// one dispatch does one tile of the image.
+// Weighted linear regression over a full window (REFWLR, Meunier & Harada 2022, 6): every pixel of the window with the
+// smallest edge-stopping weight on the straight line to it. What WALR's a-trous averages approximate, at many times
+// their cost; one dispatch does one tile of the image.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require

@@ -1,4 +1,4 @@
-// Joint bilateral filter of one noisy frame (joint-bilateral.txt, 2): every pixel of a square window, weighted by a
+// Joint bilateral filter of one noisy frame (Wang 2024, 2): every pixel of a square window, weighted by a
 // Gaussian of its distance in the image, in colour, in normal and from the tangent plane.
 #version 460
 #extension GL_GOOGLE_include_directive : require

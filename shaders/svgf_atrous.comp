@@ -1,4 +1,4 @@
-// SVGF, one edge-avoiding a-trous iteration (nagi-svgf.txt): a binomial kernel, its taps 2^i pixels apart, weighted by
+// SVGF, one edge-avoiding a-trous iteration (Fu 2022): a binomial kernel, its taps 2^i pixels apart, weighted by
 // plane distance, normal and luminance; the variance that guides the luminance weight is filtered along. With a Gaussian
 // instead of the binomial kernel it is the bilateral filter that the iterations approximate.
 #version 460

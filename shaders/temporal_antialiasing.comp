@@ -1,10 +1,10 @@
-// WALR postprocessing (walr.txt 4.4): reproject the filtered history with a bicubic filter, pull it into the variance of
-// the current neighbourhood, then a cumulative mean that turns exponential after a fixed number of frames. With KEPT_TAPS
-// the reprojection is what the accumulation kept of its own; else REJECT_BY_PLANE, REJECT_BY_DEPTH and REJECT_BY_OBJECT say
-// how history pixels are tested. STILL: every pixel shows what it showed before. PACKED: what it reads and keeps is packed
-// (packed_light.glsl), and light is known of every surface and of nothing else; the picture it writes is not rounded so.
-// The light that passes through where there is no surface comes from the kept taps, or from the host. A view (VIEW) does the
-// same and writes something found on the way.
+// WALR postprocessing (Meunier & Harada 2022, 4.4): reproject the filtered history with a bicubic filter, pull it into
+// the variance of the current neighbourhood, then a cumulative mean that turns exponential after a fixed number of
+// frames. With KEPT_TAPS the reprojection is what the accumulation kept of its own; else REJECT_BY_PLANE,
+// REJECT_BY_DEPTH and REJECT_BY_OBJECT say how history pixels are tested. STILL: every pixel shows what it showed
+// before. PACKED: what it reads and keeps is packed (packed_light.glsl), and light is known of every surface and of
+// nothing else; the picture it writes is not rounded so. The light that passes through where there is no surface comes
+// from the kept taps, or from the host. A view (VIEW) does the same and writes something found on the way.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require

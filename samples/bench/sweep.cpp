@@ -124,7 +124,7 @@ std::vector<Sweep> walrSweeps() {
   };
 }
 
-/// The parameters that the baselines' papers leave open, and the comparisons of nagi-svgf.txt.
+/// The parameters that the baselines' papers leave open, and the comparisons that Fu 2022 makes.
 std::vector<Sweep> baselineSweeps() {
   return {
       over(kFlr, "flr-factor", "How coarse a grid for FLR's outer products?", "regression.factor",

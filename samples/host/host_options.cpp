@@ -61,7 +61,7 @@ void addHostOptions(CLI::App& program, HostOptions& options) {
       .add_option(
           "--gbuffer", tracer.gbuffer,
           "first-hit: depth, normal and albedo of the first surface; metals show no light. material: in mirrors "
-          "those of what they show, on glossy metals albedos mixed (nagi-svgf.txt)")
+          "those of what they show, on glossy metals albedos mixed (Fu 2022)")
       ->transform(CLI::CheckedTransformer(std::map<std::string, render::GBufferMode>{
           {"first-hit", render::GBufferMode::FirstHit}, {"material", render::GBufferMode::Material}}))
       ->type_name("")

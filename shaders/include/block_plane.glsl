@@ -1,4 +1,5 @@
-// Edge-stopping function between blocks and pixels (walr.txt 4.3). Needs: `settings` (BlockRegressionConstants).
+// Edge-stopping function between blocks and pixels (Meunier & Harada 2022, 4.3). Needs: `settings`
+// (BlockRegressionConstants).
 #ifndef WALR_BLOCK_PLANE_GLSL
 #define WALR_BLOCK_PLANE_GLSL
 

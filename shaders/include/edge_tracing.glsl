@@ -1,7 +1,7 @@
-// The eight taps of an a-trous iteration: edge tracing along axes and diagonals (walr.txt 3.3, 5.2), and what takes the
-// place of a tap behind an edge.
-// Needs: `frame` (FrameConstants), `depth`, `planeNormal` (utexture2D), `settings` (AtrousConstants), and atrous.comp's
-// specialization constants. FIRST: of the first iteration, whose taps are the very next pixels.
+// The eight taps of an a-trous iteration: edge tracing along axes and diagonals (Meunier & Harada 2022, 3.3 and 5.2),
+// and what takes the place of a tap behind an edge. Needs: `frame` (FrameConstants), `depth`, `planeNormal`
+// (utexture2D), `settings` (AtrousConstants), and atrous.comp's specialization constants. FIRST: of the first
+// iteration, whose taps are the very next pixels.
 #ifndef WALR_EDGE_TRACING_GLSL
 #define WALR_EDGE_TRACING_GLSL
 #include "hash.glsl"
@@ -52,7 +52,7 @@ Line lineFrom(Centre centre, ivec2 direction) {
   return Line(direction, min(inside.x, inside.y), plane.offset * plane.inverseDepth, slope * plane.inverseDepth);
 }
 
-// What the edge-stopping function (walr.txt 4.3) makes of one pixel.
+// What the edge-stopping function (Meunier & Harada 2022, 4.3) makes of one pixel.
 struct Look {
   float weight;  // 1 or more near the plane; 0 or less at an edge.
   bool surface;  // None outside the image.

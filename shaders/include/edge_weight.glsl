@@ -1,4 +1,4 @@
-// Edge-stopping function (walr.txt 4.3).
+// Edge-stopping function (Meunier & Harada 2022, 4.3).
 // Needs: `frame` (FrameConstants), `depth` (utexture2D), `settings` (with planeNear and planeFar).
 #ifndef WALR_EDGE_WEIGHT_GLSL
 #define WALR_EDGE_WEIGHT_GLSL

@@ -1,4 +1,4 @@
-// The guides of Fast Local Regression (flr-flnr.txt), their outer products and the grid these live on.
+// The guides of Fast Local Regression (Salmi et al. 2024), their outer products and the grid these live on.
 // Needs: `settings` (FlrConstants). OCCLUSION: ambient occlusion is a guide too.
 #ifndef WALR_FLR_GLSL
 #define WALR_FLR_GLSL

@@ -1,7 +1,7 @@
-// Least squares by Householder QR over one work group (bmfr.txt 3.4, 6.1): a matrix of kRows x kColumns values, of which
-// the first kFeatures columns are features and the rest right-hand sides. Each thread keeps its rows in registers; shared
-// memory carries the sums and R only.
-// Needs: kThreads, kRowsPerThread, kFeatures, kColumns, `threadIndex` (uint).
+// Least squares by Householder QR over one work group (Koskela et al. 2019, 3.4 and 6.1): a matrix of kRows x kColumns
+// values, of which the first kFeatures columns are features and the rest right-hand sides. Each thread keeps its rows
+// in registers; shared memory carries the sums and R only. Needs: kThreads, kRowsPerThread, kFeatures, kColumns,
+// `threadIndex` (uint).
 #ifndef WALR_HOUSEHOLDER_GLSL
 #define WALR_HOUSEHOLDER_GLSL
 

@@ -1,7 +1,7 @@
 // How moments lie in memory between two iterations. One of the macros CENTRED16, RAW16, RAW11 and RAW32 chooses:
 //   CENTRED16  means and covariances as halves, with the sample count and the root of the mean squared luminance
-//   RAW16      raw moments as halves (walr.txt 5.2, RGBA16_FLOAT)
-//   RAW11      raw moments as unsigned 11- and 10-bit floats (walr.txt 5.2, R11G11B10_FLOAT)
+//   RAW16      raw moments as halves (Meunier & Harada 2022, 5.2, RGBA16_FLOAT)
+//   RAW11      raw moments as unsigned 11- and 10-bit floats (Meunier & Harada 2022, 5.2, R11G11B10_FLOAT)
 //   RAW32      raw moments in single precision, to tell storage from arithmetic
 // Raw formats hold the averages of products that the paper stores; they drop the sample count as it does. Features that
 // are 0 in the mean tell pixels without a sample: no normal that faces the camera lies in that corner of the map.

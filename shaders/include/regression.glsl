@@ -1,4 +1,5 @@
-// Weighted linear regression from its moments (walr.txt 3.1): solve for the coefficients, then reconstruct.
+// Weighted linear regression from its moments (Meunier & Harada 2022, 3.1): solve for the coefficients, then
+// reconstruct.
 #ifndef WALR_REGRESSION_GLSL
 #define WALR_REGRESSION_GLSL
 #include "finite.glsl"

@@ -14,7 +14,7 @@ float unpackDepth(uint packed) { return uintBitsToFloat(packed & ~kSdfMask); }
 uint unpackSdf(uint packed) { return packed & kSdfMask; }
 
 // Octahedral map of a unit vector with the pole on +Z, the view axis, so that normals that face the camera do not wrap
-// (Cigolle et al. 2014; walr.txt 5.2). Result in [0, 1].
+// (Cigolle et al. 2014; Meunier & Harada 2022, 5.2). Result in [0, 1].
 vec2 octahedralEncode(vec3 n) {
   n /= abs(n.x) + abs(n.y) + abs(n.z);
   const vec2 fold = (1.0 - abs(n.yx)) * vec2(n.x < 0.0 ? -1.0 : 1.0, n.y < 0.0 ? -1.0 : 1.0);

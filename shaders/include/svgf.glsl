@@ -1,5 +1,5 @@
 // What the passes of SVGF share: the form in which colour and variance travel, and the edge-stopping functions that need
-// no colour (nagi-svgf.txt, W_Z and W_N).
+// no colour (Fu 2022, W_Z and W_N).
 // Needs: `frame` (FrameConstants), `depth`, `shadingNormal`, `geometricNormal` (utexture2D), `settings`
 // (SvgfFilterConstants).
 #ifndef WALR_SVGF_GLSL

@@ -167,7 +167,7 @@ TEST(PlanCostsTest, TapsAreTheWindowsOfTheStages) {
   // 33 x 33 of its default radius; 7 x 7 of its clipping.
   EXPECT_EQ(taps("joint_bilateral"), 33.0 * 33.0 + 16 + 1 + 7 * 7);
   EXPECT_EQ(taps("bmfr"), 5.0 + 1.0 + 5.0 + kAntialiasing);
-  // An iteration of WALR is 3 x 3 taps (walr.txt 3.2).
+  // An iteration of WALR is 3 x 3 taps (Meunier & Harada 2022, 3.2).
   const auto walr = [](const char* iterations) {
     const std::string text = std::string("w=walr:robust,walr.fit-window=off,regression.iterations=") + iterations;
     return *planCosts(parseVariant(text), {320, 180}, {}).tapsPerPixel;

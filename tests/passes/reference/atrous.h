@@ -24,7 +24,8 @@ struct AtrousPixel {
 /// The moments before the first iteration: each pixel's own sample.
 AtrousState sampleMoments(const Image<Guide>& guides, const Image<glm::dvec4>& accumulated);
 
-/// One pixel of iteration `t` (walr.txt 3.2, 3.3): merge of nine taps, 3^t pixels apart. The pixel must be a surface.
+/// One pixel of iteration `t` (Meunier & Harada 2022, 3.2 and 3.3): merge of nine taps, 3^t pixels apart. The pixel
+/// must be a surface.
 AtrousPixel atrousPixel(const HostFrame& frame, const Image<Guide>& guides, const AtrousState& state, glm::ivec2 p,
                         std::uint32_t iteration, const WeightedRegressionSettings& settings);
 

@@ -14,7 +14,8 @@ struct BmfrResult {
   bool undecided = false;  ///< Rounding may decide whether one of the block's features counts as dependent.
 };
 
-/// The blockwise fit (bmfr.txt 3.3, 3.4) in double precision, by Gram-Schmidt orthogonalisation applied twice.
+/// The blockwise fit (Koskela et al. 2019, 3.3 and 3.4) in double precision, by Gram-Schmidt orthogonalisation applied
+/// twice.
 Image<BmfrResult> bmfrFit(const HostFrame& frame, const Image<Guide>& guides, const Image<glm::dvec3>& lighting,
                           const BmfrFitSettings& settings = {});
 

@@ -19,7 +19,7 @@ glm::dvec3 planeNormal(const Guide& guide, const EdgeStoppingSettings& settings)
 double facing(const Guide& a, const Guide& b, const EdgeStoppingSettings& settings);
 
 /// Weight between a centre `p` and a pixel `q`: 1 near the plane through the centre, 0 away from it, outside the
-/// picture and where there is no surface (walr.txt 4.3).
+/// picture and where there is no surface (Meunier & Harada 2022, 4.3).
 EdgeWeight edgeWeight(const HostFrame& frame, const Image<Guide>& guides, glm::ivec2 p, glm::ivec2 q,
                       const EdgeStoppingSettings& settings);
 
@@ -29,8 +29,9 @@ struct Trace {
   int edge = 0;                        ///< Step at which it became 0; steps + 1 where it did not.
 };
 
-/// Walk from `p` in `direction` up to `steps` pixels (walr.txt 3.3, 5.2). A step is max(1, floor(fraction x distance))
-/// pixels, with the edge distance of the pixel just visited. Without edge tracing only the far end is looked at.
+/// Walk from `p` in `direction` up to `steps` pixels (Meunier & Harada 2022, 3.3 and 5.2). A step is max(1,
+/// floor(fraction x distance)) pixels, with the edge distance of the pixel just visited. Without edge tracing only the
+/// far end is looked at.
 /// @param distances edge distances that the last iteration found; empty where there is none
 Trace traceEdge(const HostFrame& frame, const Image<Guide>& guides, const Image<int>& distances, glm::ivec2 p,
                 glm::ivec2 direction, int steps, const WeightedRegressionSettings& settings);

@@ -12,9 +12,9 @@ struct WindowPixel {
   bool undecided = false;  ///< Whether there is any sample at all lies within rounding.
 };
 
-/// The spatial filter that WALR approximates (REFWLR, walr.txt 6): every pixel of the window with the smallest weight
-/// of the edge-stopping function on the straight line to it; no a-trous iterations and no replacement. Pixels without a
-/// surface stay as they were.
+/// The spatial filter that WALR approximates (REFWLR, Meunier & Harada 2022, 6): every pixel of the window with the
+/// smallest weight of the edge-stopping function on the straight line to it; no a-trous iterations and no replacement.
+/// Pixels without a surface stay as they were.
 Image<WindowPixel> fullWindowRegression(const HostFrame& frame, const Image<Guide>& guides,
                                         const Image<glm::dvec4>& accumulated, const FullWindowSettings& settings);
 

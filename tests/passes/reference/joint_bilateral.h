@@ -12,7 +12,7 @@ struct BilateralPixel {
   glm::dvec3 spread{0.0};
 };
 
-/// Joint bilateral filter (joint-bilateral.txt, 2) of one noisy frame.
+/// Joint bilateral filter (Wang 2024, 2) of one noisy frame.
 Image<BilateralPixel> jointBilateral(const HostFrame& frame, const Image<Guide>& guides,
                                      const JointBilateralFilterSettings& settings = {});
 

@@ -11,7 +11,8 @@
 
 namespace walr::reference {
 
-/// The weighted averages behind one pixel's regression, centred: means, and covariances about them (walr.txt 3.1).
+/// The weighted averages behind one pixel's regression, centred: means, and covariances about them (Meunier & Harada
+/// 2022, 3.1).
 struct Moments {
   glm::dvec2 x{0.0};     ///< Mean of the two features.
   glm::dvec3 y{0.0};     ///< Mean of the colour.

@@ -5,7 +5,7 @@
 
 namespace walr::reference {
 
-/// Octahedral map of a unit vector, pole on +Z, remapped to [0, 1] (Cigolle et al. 2014; walr.txt 5.2).
+/// Octahedral map of a unit vector, pole on +Z, remapped to [0, 1] (Cigolle et al. 2014; Meunier & Harada 2022, 5.2).
 glm::dvec2 octahedralEncode(glm::dvec3 direction);
 /// Its inverse; unit.
 glm::dvec3 octahedralDecode(glm::dvec2 uv);

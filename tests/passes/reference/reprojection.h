@@ -20,8 +20,9 @@ struct Reprojection {
 
 /// How the way to the previous frame is found.
 struct ReprojectionOptions {
-  bool dilateMotion = false;  ///< Follow the motion of the nearest surface of the 3x3 neighbourhood (walr.txt 4.2).
-  bool keepTaps = false;      ///< Round the motion to what later stages are told of it: halves with 9 significant bits.
+  /// Follow the motion of the nearest surface of the 3x3 neighbourhood (Meunier & Harada 2022, 4.2).
+  bool dilateMotion = false;
+  bool keepTaps = false;  ///< Round the motion to what later stages are told of it: halves with 9 significant bits.
 };
 Reprojection reproject(const HostFrame& frame, const Image<Guide>& guides, glm::ivec2 p,
                        const ReprojectionOptions& options = {});
