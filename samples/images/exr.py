@@ -1,0 +1,120 @@
+"""Reads and rewrites what `walr` writes: OpenEXR files of scan lines, uncompressed or ZIP, as arrays by channel name."""
+import struct
+import zlib
+
+import numpy as np
+
+TYPES = {0: np.dtype("<u4"), 1: np.dtype("<f2"), 2: np.dtype("<f4")}
+LINES_PER_BLOCK = {0: 1, 2: 1, 3: 16}  # Without compression; ZIP of single lines; ZIP of 16 lines.
+
+
+def attributes(data):
+    """The header's attributes by name, as bytes, and where the header ends."""
+    found, at = {}, 8
+    while data[at]:
+        name, kind = (text.decode() for text in data[at:].split(b"\0", 2)[:2])
+        at += len(name) + len(kind) + 2
+        size, = struct.unpack_from("<i", data, at)
+        found[name] = data[at + 4:at + 4 + size]
+        at += 4 + size
+    return found, at + 1
+
+
+def channels_of(attribute):
+    """Names and types of the channels, in the order of the file."""
+    found = []
+    while attribute[0]:
+        name, attribute = attribute.split(b"\0", 1)
+        found.append((name.decode(), TYPES[struct.unpack_from("<i", attribute)[0]]))
+        attribute = attribute[16:]
+    return found
+
+
+def inflate(packed, size):
+    """Undo ZIP as OpenEXR uses it: deflate, then differences of bytes, then halves that were interleaved."""
+    if len(packed) == size:
+        return packed
+    delta = np.frombuffer(zlib.decompress(packed), np.uint8).astype(np.int64)
+    delta[1:] -= 128
+    ordered = np.cumsum(delta).astype(np.uint8)
+    result = np.empty(size, np.uint8)
+    half = (size + 1) // 2
+    result[0::2], result[1::2] = ordered[:half], ordered[half:]
+    return result.tobytes()
+
+
+def read(path):
+    """All channels of a file, each an array of height x width."""
+    with open(path, "rb") as file:
+        data = file.read()
+    header, at = attributes(data)
+    left, top, right, bottom = struct.unpack("<4i", header["dataWindow"])
+    width, height = right - left + 1, bottom - top + 1
+    compression = header["compression"][0]
+    if compression not in LINES_PER_BLOCK:
+        raise ValueError(f"{path}: compression {compression} is not read here; write it with none or ZIP")
+    lines = LINES_PER_BLOCK[compression]
+    channels = channels_of(header["channels"])
+    images = {name: np.empty((height, width), np.float32) for name, _ in channels}
+    for offset in struct.unpack_from(f"<{-(-height // lines)}Q", data, at):
+        y, packed = struct.unpack_from("<2i", data, offset)
+        y -= top
+        count = min(lines, height - y)
+        size = count * width * sum(kind.itemsize for _, kind in channels)
+        block = inflate(data[offset + 8:offset + 8 + packed], size) if compression else data[offset + 8:offset + 8 + packed]
+        position = 0
+        for line in range(count):
+            for name, kind in channels:
+                images[name][y + line] = np.frombuffer(block, kind, width, position)
+                position += width * kind.itemsize
+    return images
+
+
+def rewrite(source, target, images):
+    """A copy of a file with the same header and these values in its channels, uncompressed."""
+    with open(source, "rb") as file:
+        data = file.read()
+    header, end = attributes(data)
+    start = bytearray(data[:end])
+    name = b"compression\0compression\0" + struct.pack("<i", 1)
+    start[start.index(name) + len(name)] = 0
+    left, top, right, bottom = struct.unpack("<4i", header["dataWindow"])
+    width, height = right - left + 1, bottom - top + 1
+    channels = channels_of(header["channels"])
+    size = width * sum(kind.itemsize for _, kind in channels)
+    first = end + 8 * height
+    with open(target, "wb") as file:
+        file.write(start)
+        file.write(np.arange(first, first + height * (8 + size), 8 + size, dtype="<u8").tobytes())
+        for line in range(height):
+            file.write(struct.pack("<2i", top + line, size))
+            for name, kind in channels:
+                file.write(images[name][line].astype(kind).tobytes())
+
+
+def write_black(path):
+    """A black picture with the channels R, G and B."""
+    def attribute(name, kind, value):
+        return f"{name}\0{kind}\0".encode() + struct.pack("<i", len(value)) + value
+
+    width, height = 4, 2
+    channels = b"".join(name + struct.pack("<4i", 2, 0, 1, 1) for name in (b"B\0", b"G\0", b"R\0")) + b"\0"
+    window = struct.pack("<4i", 0, 0, width - 1, height - 1)
+    header = struct.pack("<2i", 20000630, 2) + b"".join(attribute(*a) for a in (
+        ("channels", "chlist", channels), ("compression", "compression", b"\0"), ("dataWindow", "box2i", window),
+        ("displayWindow", "box2i", window), ("lineOrder", "lineOrder", b"\0"),
+        ("pixelAspectRatio", "float", struct.pack("<f", 1)), ("screenWindowCenter", "v2f", struct.pack("<2f", 0, 0)),
+        ("screenWindowWidth", "float", struct.pack("<f", 1)))) + b"\0"
+    line = bytes(width * 3 * 4)
+    first = len(header) + 8 * height
+    offsets = [first + y * (8 + len(line)) for y in range(height)]
+    with open(path, "wb") as file:
+        file.write(header + struct.pack(f"<{height}Q", *offsets))
+        for y in range(height):
+            file.write(struct.pack("<2i", y, len(line)) + line)
+
+
+def colour(images, layer=""):
+    """The channels R, G and B of a layer as one array."""
+    prefix = layer + "." if layer else ""
+    return np.stack([images[prefix + name] for name in "RGB"], axis=2)
