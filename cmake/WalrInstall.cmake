@@ -1,6 +1,6 @@
 # What `cmake --install` puts where. Install components: runtime (shared library, plug-in), dev (headers, static library,
-# CMake and pkg-config files), cpp (the C++ libraries with their headers), and tools (the program walr). `cpack` makes Debian
-# packages of them.
+# CMake and pkg-config files, guides), cpp (the C++ libraries with their headers), and tools (the program walr). `cpack`
+# makes Debian packages of them.
 include(CMakePackageConfigHelpers)
 
 set(package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/walr")
@@ -36,6 +36,13 @@ install(FILES "${CMAKE_CURRENT_BINARY_DIR}/walrConfig.cmake" "${CMAKE_CURRENT_BI
   DESTINATION "${package_dir}" COMPONENT dev)
 install(FILES "${CMAKE_CURRENT_BINARY_DIR}/walr.pc" DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig" COMPONENT dev)
 install(FILES LICENSE DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT runtime)
+# The guides, in folders as in the tree so that their links to each other hold, and the documentation of the headers if the
+# target docs has been built.
+install(FILES integration/README.md integration/ADAPTERS.md DESTINATION "${CMAKE_INSTALL_DOCDIR}/integration" COMPONENT dev)
+install(FILES passes/WALR.md passes/WALR_EXPERIMENTS.md passes/GLOSSARY.md passes/BIBLIOGRAPHY.md
+  DESTINATION "${CMAKE_INSTALL_DOCDIR}/passes" COMPONENT dev)
+install(FILES passes/images/walr.svg DESTINATION "${CMAKE_INSTALL_DOCDIR}/passes/images" COMPONENT dev)
+install(DIRECTORY "${CMAKE_BINARY_DIR}/docs/html" DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT dev OPTIONAL)
 if(TARGET walr)
   install(TARGETS walr RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT tools)
 endif()

@@ -7,7 +7,7 @@
 
 namespace walr {
 
-/// The whole report as JSON (samples/README.md says what is in it).
+/// The whole report as JSON (samples/docs/bench.md says what is in it).
 /// @param command  the command line that made it
 std::string benchJson(const BenchReport& report, const std::string& command);
 

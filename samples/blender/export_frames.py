@@ -3,7 +3,7 @@
     blender -b scene.blend --python samples/blender/export_frames.py -- \\
         --output DIR --frames A-B [--size WIDTHxHEIGHT] [--spp N] [--reference-spp M] [--camera NAME]
 
-writes to DIR, in the layout of samples/README.md ("Blender Cycles"):
+writes to DIR, in the layout of samples/docs/sequences.md ("Blender Cycles"):
 
     noisy_FFFF.exr   one path a pixel, with the passes that the denoiser needs
     ref_FFFF.exr     the same frame with M paths a pixel, for --reference-spp

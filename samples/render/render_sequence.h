@@ -51,9 +51,10 @@ struct RenderObserver {
   std::function<void(const std::string&)> warning = [](const std::string&) {};
 };
 
-/// Render frames of a scene's camera animation to `output` in the project's layout (samples/README.md): noisy_FFFF.exr
-/// and, where asked for, ref_FFFF.exr; frame F shows the time F / framesPerSecond. Files that are there already are
-/// skipped, so that an interrupted run goes on where it was; the settings are kept in `render.json` beside them.
+/// Render frames of a scene's camera animation to `output` in the project's layout (samples/docs/sequences.md):
+/// noisy_FFFF.exr and, where asked for, ref_FFFF.exr; frame F shows the time F / framesPerSecond. Files that are there
+/// already are skipped, so that an interrupted run goes on where it was; the settings are kept in `render.json` beside
+/// them.
 /// @throws SceneError  if the scene cannot be rendered
 /// @throws InputError  if `output` holds frames of other settings
 /// @throws OutputError if a file cannot be written

@@ -27,7 +27,7 @@ struct Plane {
 /// Where a layout keeps its cameras.
 enum class CameraSource { JsonFile, HeaderAttributes };
 
-/// A convention of channel names, spaces and scales. See samples/README.md.
+/// A convention of channel names, spaces and scales. See samples/docs/sequences.md.
 struct Layout {
   std::string_view name;
   std::span<const Plane> planes;
