@@ -134,8 +134,12 @@ def comparison(arguments, folder):
 def animation(arguments, folder, frames=32, start=12):
     """The frames from `start` on, by when history has built up, at the exposure of their first one."""
     sequence(arguments, folder, "640x360", start + frames - 1)
+    draw_animation(folder, range(start, start + frames))
+
+
+def draw_animation(folder, frames):
     pictures, exposure = [], None
-    for frame in range(start, start + frames):
+    for frame in frames:
         images, noisy, denoised = lit_pictures(folder, frame)
         exposure = exposure or exposure_of(lit_picture(images, denoised))
         picture = display(lit_picture(images, denoised), exposure)
@@ -143,9 +147,8 @@ def animation(arguments, folder, frames=32, start=12):
         picture[:, :middle] = display(lit_picture(images, noisy), exposure)[:, :middle]
         picture[:, middle - 1:middle + 1] = 255
         pictures.append(Image.fromarray(picture))
-    # Forth and back, so that it does not jump.
-    pictures[0].save(HERE / "animation.webp", save_all=True, append_images=pictures[1:] + pictures[-2:0:-1], duration=60,
-                     loop=0, quality=55, method=6)
+    pictures[0].save(HERE / "animation.webp", save_all=True, append_images=pictures[1:], duration=80, loop=0, quality=55,
+                     method=4)
 
 
 def main():
