@@ -1,4 +1,4 @@
-"""Reads and rewrites what `walr` writes: OpenEXR files of scan lines, uncompressed or ZIP, as arrays by channel name."""
+"""Reads and rewrites what `walr` writes: OpenEXR files of scan lines, uncompressed or ZIP, by channel name."""
 import struct
 import zlib
 
@@ -61,7 +61,9 @@ def read(path):
         y -= top
         count = min(lines, height - y)
         size = count * width * sum(kind.itemsize for _, kind in channels)
-        block = inflate(data[offset + 8:offset + 8 + packed], size) if compression else data[offset + 8:offset + 8 + packed]
+        block = data[offset + 8:offset + 8 + packed]
+        if compression:
+            block = inflate(block, size)
         position = 0
         for line in range(count):
             for name, kind in channels:

@@ -8,13 +8,13 @@ renders the scene into FOLDER (what is there already is kept), denoises it, and 
     comparison.webp   frame --frame: noisy, denoised, reference side by side, and two enlarged crops of each
     animation.webp    32 frames: the left half of the picture noisy, the right half denoised
 
-Needs numpy and Pillow (Debian: python3-matplotlib has both). The reference takes most of the time: about half an hour on
-two cores at 320 samples per pixel.
+Needs numpy and Pillow, which come with Debian's python3-matplotlib. The reference takes most of the time: about a
+quarter of an hour on two idle cores at 320 samples per pixel.
 
-The light of the sun is free of noise at one sample per pixel, as in an engine that has shadow maps or traces shadow rays.
-What is denoised is the rest, light of the sky and light that surfaces reflect: `walr render` writes the former into
-the direct light, from which this script moves it into the indirect light. It is what remains once the same frames
-are rendered under a black sky and without reflection.
+The light of the sun is free of noise at one sample per pixel, as in an engine that has shadow maps or traces shadow
+rays. What is denoised is the rest: light of the sky and light that surfaces reflect. `walr render` writes the light of
+the sky into the direct light. This script moves it into the indirect light: it is what the direct light holds beyond
+that of the same frames rendered under a black sky.
 """
 import argparse
 import pathlib
@@ -26,7 +26,8 @@ from PIL import Image, ImageDraw, ImageFont
 
 HERE = pathlib.Path(__file__).resolve().parent
 FONT = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf"
-CROPS = [(728, 298), (125, 245)]  # Upper left corners in the picture of 960 x 540: a relief in the shade; chains and leaves.
+# Upper left corners in the picture of 960 x 540: a relief in the shade; chains and leaves.
+CROPS = [(728, 298), (125, 245)]
 CROP = (120, 90)
 SCALE = 4
 
@@ -43,8 +44,6 @@ def merge(lit, sun, target):
         sky = np.maximum(images["Direct." + c] - direct["Direct." + c], 0)
         images["Indirect." + c] += sky
         images["Direct." + c] = direct["Direct." + c]
-        if "IndirectA." + c in images:  # Of the halves of a reference, which nothing here reads.
-            images["IndirectA." + c] += sky
     exr.rewrite(lit, target, images)
 
 
@@ -57,15 +56,14 @@ def display(linear, exposure):
 
 
 def exposure_of(linear):
-    """Brings the geometric mean of the luminance to 0.25."""
+    """Brings the geometric mean of the luminance to 0.3."""
     luminance = linear @ np.array([0.2126, 0.7152, 0.0722], np.float32)
-    return 0.25 / float(np.exp(np.mean(np.log(luminance + 1e-3))))
+    return 0.3 / float(np.exp(np.mean(np.log(luminance + 1e-3))))
 
 
-def lit_picture(frame, indirect, direct=None):
+def lit_picture(frame, indirect):
     """Albedo times light plus emission."""
-    direct = exr.colour(frame, "Direct") if direct is None else direct
-    return exr.colour(frame, "Albedo") * (direct + indirect) + exr.colour(frame, "Emission")
+    return exr.colour(frame, "Albedo") * (exr.colour(frame, "Direct") + indirect) + exr.colour(frame, "Emission")
 
 
 def sequence(arguments, folder, size, last):
@@ -115,20 +113,32 @@ def labelled(picture, text):
     return np.asarray(image)
 
 
+def framed(picture):
+    """With the crops marked."""
+    image = Image.fromarray(picture)
+    draw = ImageDraw.Draw(image)
+    for x, y in CROPS:
+        draw.rectangle((x - 1, y - 1, x + CROP[0], y + CROP[1]), outline=(255, 255, 255))
+    return np.asarray(image)
+
+
 def comparison(arguments, folder):
-    """Three pictures side by side, below each two crops of it."""
     sequence(arguments, folder, "960x540", arguments.frame)
     truth = reference(arguments, folder, "960x540", arguments.frame)
-    images, noisy, denoised = lit_pictures(folder, arguments.frame)
+    draw_comparison(folder, arguments.frame, truth, f"reference, {arguments.samples} samples per pixel")
+
+
+def draw_comparison(folder, frame, truth, label):
+    """Three pictures side by side, below each two crops of it."""
+    images, noisy, denoised = lit_pictures(folder, frame)
     exposure = exposure_of(lit_picture(images, truth))
     columns = []
-    for light, text in ((noisy, "1 sample per pixel"), (denoised, "denoised by walr"),
-                        (truth, f"reference, {arguments.samples} samples per pixel")):
+    for light, text in ((noisy, "1 sample per pixel"), (denoised, "denoised by walr"), (truth, label)):
         picture = display(lit_picture(images, light), exposure)
         crops = np.concatenate([enlarged(picture, corner) for corner in CROPS], axis=1)
-        columns.append(np.concatenate([labelled(picture, text), crops], axis=0))
+        columns.append(np.concatenate([labelled(framed(picture), text), crops], axis=0))
     image = Image.fromarray(np.concatenate(columns, axis=1))
-    image.save(HERE / "comparison.webp", quality=88, method=6)
+    image.save(HERE / "comparison.webp", quality=88, method=4)
 
 
 def animation(arguments, folder, frames=32, start=12):
@@ -138,6 +148,7 @@ def animation(arguments, folder, frames=32, start=12):
 
 
 def draw_animation(folder, frames):
+    """The left half of each picture noisy, the right half denoised."""
     pictures, exposure = [], None
     for frame in frames:
         images, noisy, denoised = lit_pictures(folder, frame)
@@ -147,8 +158,8 @@ def draw_animation(folder, frames):
         picture[:, :middle] = display(lit_picture(images, noisy), exposure)[:, :middle]
         picture[:, middle - 1:middle + 1] = 255
         pictures.append(Image.fromarray(picture))
-    pictures[0].save(HERE / "animation.webp", save_all=True, append_images=pictures[1:], duration=80, loop=0, quality=55,
-                     method=4)
+    pictures[0].save(HERE / "animation.webp", save_all=True, append_images=pictures[1:], duration=80, loop=0,
+                     quality=55, method=4)
 
 
 def main():

@@ -9,7 +9,7 @@
 namespace walr {
 
 /// Pixels per degree of visual angle at which pictures are judged: a monitor of 3840 pixels and 0.7 m width seen from
-/// 0.7 m, as in Andersson et al. 2020, section 4.1.
+/// 0.7 m, as in Andersson et al. 2020, 4.1.
 inline constexpr double kFlipPixelsPerDegree = 67.0206432765823;
 
 /// LDR-FLIP (Andersson, Nilsson, Akenine-Moeller, Oskarsson, Astroem and Fairchild, "FLIP: A Difference Evaluator for

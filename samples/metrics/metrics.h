@@ -26,15 +26,15 @@ PixelMask diffuseMask(const Image& albedo, const Image& normal, const Image& dep
 
 /// Compare two linear RGB pictures of one size.
 ///
-/// SSIM as in Wang, Bovik, Sheikh and Simoncelli 2004 (section III.B and C): 11 x 11 Gaussian window of sigma 1.5,
+/// SSIM as in Wang et al. 2004 (III.B and III.C): 11 x 11 Gaussian window of sigma 1.5,
 /// K1 = 0.01, K2 = 0.03, dynamic range 1, only windows that lie inside the picture. Pixels outside the mask take the
 /// reference's value in both pictures, and do not count in the mean. Values that are not finite: see `display`.
 ErrorFigures compare(const Image& test, const Image& reference, const PixelMask& mask);
 /// The same for pictures that were made displayable with that mask already.
 ErrorFigures compare(const DisplayedPair& pair, const PixelMask& mask);
 
-/// Mean over the mask's pixels and RGB of (x - r)^2 / (r^2 + 0.01), in linear radiance without a tone map (Rousselle,
-/// Knaus and Zwicker 2011). A value of `test` that is not finite counts as 65504, the largest half float.
+/// Mean over the mask's pixels and RGB of (x - r)^2 / (r^2 + 0.01), in linear radiance without a tone map (Rousselle et
+/// al. 2011). A value of `test` that is not finite counts as 65504, the largest half float.
 /// @returns nothing where the mask is empty
 std::optional<double> relativeMse(const Image& test, const Image& reference, const PixelMask& mask);
 

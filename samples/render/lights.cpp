@@ -87,7 +87,7 @@ EmitterSample Lights::sampleEmitters(const Scene& scene, const std::vector<Insta
   const Mesh& mesh = scene.meshes[instance.mesh];
   const Material& material = scene.materials[mesh.material];
 
-  // Uniform on a triangle (Shirley and Chiu; PBRT, section 6.5.4).
+  // Uniform on a triangle (Pharr et al. 2023, 6.5.4).
   const float root = std::sqrt(point.x);
   const glm::vec2 barycentric(root * (1.0F - point.y), root * point.y);
   const std::array<glm::vec3, 3> corners = worldCorners(scene, instance, emitter.triangle);

@@ -28,7 +28,7 @@ std::uint32_t reverseBits(std::uint32_t x) {
   return (x << 16U) | (x >> 16U);
 }
 
-// Burley 2020, section 3.2: a permutation in which every bit depends only on the bits below it (Laine and Karras
+// Burley 2020, 3.2: a permutation in which every bit depends only on the bits below it (Laine and Karras
 // 2011), so that between two bit reversals it is an Owen scramble.
 std::uint32_t owenScramble(std::uint32_t x, std::uint32_t seed) {
   x = reverseBits(x);

@@ -8,14 +8,13 @@ namespace walr::render {
 
 /// Random numbers for one path: each call gives the next dimensions of the path's sample.
 ///
-/// `Sobol` pads two-dimensional Sobol sequences, each Owen-scrambled and shuffled on its own (B. Burley, "Practical
-/// Hash-based Owen Scrambling", JCGT 9(4), 2020): the samples of one pixel are well spread in every dimension pair,
-/// over the samples of a frame and over frames, and independent between pixels.
+/// `Sobol` pads two-dimensional Sobol sequences, each Owen-scrambled and shuffled on its own (Burley 2020): the samples
+/// of one pixel are well spread in every dimension pair, over the samples of a frame and over frames, and independent
+/// between pixels.
 ///
 /// `BlueNoise` spreads the samples over the picture instead: in each frame every pixel takes one point of a sequence
-/// that all share, by the pixel's place on a Z-order curve whose quadrants are shuffled at every level (A. Ahmed and P.
-/// Wonka, "Screen-Space Blue-Noise Diffusion of Monte Carlo Sampling Error via Hierarchical Ordering of Pixels", ACM
-/// TOG 39(6), 2020). Neighbours' errors then differ, which filters over pixels take away; samples of one pixel are
+/// that all share, by the pixel's place on a Z-order curve whose quadrants are shuffled at every level (Ahmed and
+/// Wonka 2020). Neighbours' errors then differ, which filters over pixels take away; samples of one pixel are
 /// independent.
 ///
 /// `Independent` draws uniform numbers.

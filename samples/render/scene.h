@@ -20,8 +20,8 @@ namespace walr::render {
 /// How a diffuse lobe reflects.
 enum class DiffuseModel : std::uint8_t {
   Lambert,  ///< The same into all directions.
-  /// As the diffuse lobe of Disney's principled model (B. Burley, "Extending the Disney BRDF to a BSDF", 2015, section
-  /// 5.3), which Blender's Principled BSDF uses: darker or, for rough surfaces, brighter at grazing angles.
+  /// As the diffuse lobe of Disney's principled model (Burley 2015, 5.3), which Blender's Principled BSDF uses: darker
+  /// or, for rough surfaces, brighter at grazing angles.
   Disney,
 };
 

@@ -27,8 +27,7 @@ class Sky {
   [[nodiscard]] glm::vec3 radiance(const glm::vec3& direction) const;
   /// Whether `sample` is of use: there is a map, and light in it.
   [[nodiscard]] bool isSampled() const { return !rows_.empty(); }
-  /// A direction, texels chosen in proportion to the light within them (M. Pharr, W. Jakob and G. Humphreys,
-  /// "Physically Based Rendering", 3rd edition, section 14.2.4).
+  /// A direction, texels chosen in proportion to the light within them (Pharr et al. 2016, 14.2.4).
   /// @param random  uniform in the unit square
   [[nodiscard]] SkySample sample(const glm::vec2& random) const;
   /// Density per solid angle with which `sample` takes a direction; 0 unless `isSampled`.

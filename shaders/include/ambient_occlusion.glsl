@@ -1,7 +1,7 @@
 // Ambient occlusion by what the depth buffer shows around a pixel: the mean over eight directions of the sine at which
-// the horizon stands above the tangent plane (after Bavoil, Sainz and Dimitrov, "Image-space horizon-based ambient
-// occlusion", 2008), each occluder fading out at the search radius. Same pattern at every pixel and no randomness: it
-// serves as a feature of the regression, and a noisy feature would print its noise.
+// the horizon stands above the tangent plane (after Bavoil et al. 2008), each occluder fading out at the search radius.
+// Same pattern at every pixel and no randomness: it serves as a feature of the regression, and a noisy feature would
+// print its noise.
 // Needs: `frame` (FrameConstants), `surfaceDepthAt(ivec2 p, float skyDepth)`: view depth, 0 outside the picture and on sky.
 #ifndef WALR_AMBIENT_OCCLUSION_GLSL
 #define WALR_AMBIENT_OCCLUSION_GLSL

@@ -1,4 +1,4 @@
-// Integer hash pcg4d (Jarzynski and Olano, "Hash Functions for GPU Rendering", JCGT 2020).
+// Integer hash pcg4d (Jarzynski and Olano 2020).
 #ifndef WALR_HASH_GLSL
 #define WALR_HASH_GLSL
 

@@ -6,7 +6,7 @@
 
 namespace walr::reference {
 
-/// Integer hash of four words (Jarzynski and Olano, "Hash Functions for GPU Rendering", JCGT 2020, pcg4d).
+/// Integer hash of four words (Jarzynski and Olano 2020, pcg4d).
 glm::uvec4 pcg4d(glm::uvec4 key);
 
 /// Uniform in 0 .. count - 1: the hash's first word as a fraction of 2^32, times `count`.

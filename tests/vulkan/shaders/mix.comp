@@ -36,7 +36,7 @@ layout(set = 0, binding = 9) uniform Frame { uint value; } frame;
 #endif
 layout(push_constant) uniform Push { uint seed; uint width; uint height; } push;
 
-// PCG hash: Jarzynski and Olano, "Hash Functions for GPU Rendering", JCGT 9(3), 2020.
+// PCG hash: Jarzynski and Olano 2020.
 uint hash(uint x) {
   const uint state = x * 747796405u + 2891336453u;
   const uint word = ((state >> ((state >> 28u) + 4u)) ^ state) * 277803737u;
