@@ -71,6 +71,7 @@ TEST(Settings, EverySettingOfEveryMethodSaysWhatItIs) {
     for (const SettingText& setting : denoiser->settings()) {
       EXPECT_FALSE(setting.description.empty()) << method << " " << setting.name;
       EXPECT_FALSE(setting.source.empty()) << method << " " << setting.name;
+      EXPECT_EQ(setting.source.find(".txt"), std::string::npos) << "authors and year, not a file: " << setting.source;
       EXPECT_FALSE(setting.range.empty()) << method << " " << setting.name;
       names.push_back(setting.name);
     }
