@@ -23,7 +23,8 @@ inline constexpr fg::Extent kHardCaseExtent{64, 64};
 
 /// Small but nonzero variance of the features, collinear features, isolated pixels, fireflies, values that are not
 /// finite, extremes of radiance and depth, a grazing plane, normals on the octahedral fold and off the unit sphere.
-/// Noise is exponential: a sample's deviation is its mean.
+/// Noise is exponential: a sample's deviation is its mean. The hard cases of tests/passes are others on purpose: they
+/// are compared with a reference in double precision, need no known answer, and have smooth surfaces over two frames.
 std::vector<HardCase> hardCases();
 
 }  // namespace walr

@@ -1,13 +1,14 @@
 #!/usr/bin/python3
 """Draws the report of a benchmark.
 
-    report.py FOLDER    reads FOLDER/bench.json and FOLDER/pictures, writes FOLDER/report.html and FOLDER/pareto.svg
+    report.py FOLDER    reads FOLDER/bench.json and FOLDER/pictures, writes report.html, bench.csv and pareto.svg into FOLDER
 
 `walr bench` leaves a copy of this script beside what it measured and runs it. Needs matplotlib (Debian:
 python3-matplotlib, and with it Pillow). The page is self-contained: plots are inlined as SVG, pictures as
 WebP, those of results without loss.
 """
 import base64
+import csv
 import html
 import io
 import math
@@ -430,10 +431,26 @@ def page(bench):
     return "\n".join(out)
 
 
+def csv_table(bench):
+    """Means, worst figures, times and costs: a header, then one row a sequence and variant."""
+    metrics = [m["name"] for m in bench.json["metrics"]]
+    costs = ("taps_per_pixel", "persistent_bytes", "transient_unaliased_bytes", "transient_peak_bytes")
+    yield ["sequence", "variant", "sweep", *(n for m in metrics for n in (m, "worst_" + m)), "non_finite", "time_ratio_median",
+           "time_ratio_p5", "time_ratio_p95", "bytes_per_pixel", *costs]
+    for (sequence, variant), run in bench.runs.items():
+        cost = bench.cost(sequence, variant)
+        yield [sequence, variant, bench.variants[variant]["sweep"],
+               *(run[kind][m] for m in metrics for kind in ("mean_after_4", "worst_after_4")),
+               sum(f["non_finite"] for f in run["frames"]), *(bench.ratio(sequence, variant) or [None] * 3),
+               bench.bytes_per_pixel(sequence, variant), *(cost[c] for c in costs)]
+
+
 def main():
     if len(sys.argv) != 2:
         sys.exit(__doc__)
     bench = Bench(sys.argv[1])
+    with open(bench.folder / "bench.csv", "w", newline="", encoding="utf-8") as file:
+        csv.writer(file, lineterminator="\n").writerows(csv_table(bench))
     (bench.folder / "report.html").write_text(page(bench), encoding="utf-8")
     if not bench.sequences:
         return

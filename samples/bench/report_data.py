@@ -6,8 +6,8 @@ import pathlib
 import numpy as np
 
 # Okabe and Ito's colours, which the colour-blind tell apart; the baseline is black.
-COLOURS = {"walr": "#000000", "bmfr": "#0072B2", "svgf": "#D55E00", "flr": "#009E73", "joint_bilateral": "#CC79A7",
-           "accumulate": "#E69F00", "none": "#999999"}
+COLOURS = {"walr": "#000000", "walr_paper": "#666666", "bmfr": "#0072B2", "svgf": "#D55E00", "flr": "#009E73",
+           "joint_bilateral": "#CC79A7", "accumulate": "#E69F00", "none": "#999999"}
 SPARE_COLOURS = ["#56B4E9", "#8C6D31", "#7F3C8D", "#B2182B", "#4D9221"]
 ERRORS = [("rmse", "RMSE"), ("flip", "FLIP"), ("ssim", "1 - SSIM"), ("flicker", "flicker")]
 TABLE = [("rmse", "RMSE", 4), ("psnr", "PSNR", 2), ("ssim", "SSIM", 4), ("flip", "FLIP", 4),

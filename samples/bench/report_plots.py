@@ -30,65 +30,67 @@ def plain(value, _=None):
     return f"{value:.4g}"
 
 
-def place_labels(axes, points, bench):
-    """Names beside their points, moved up or down where two would lie on each other."""
-    taken = []
+def place_labels(axes, points, colour):
+    """Names beside their points, moved up where one would lie on another name or on another point."""
+    taken = [axes.transData.transform(p) for p in points.values()]
     for name, (x, y) in sorted(points.items(), key=lambda item: item[1][1]):
         px, py = axes.transData.transform((x, y))
         offset = 0
-        while any(abs(px - qx) < 62 and abs(py + offset - qy) < 10 for qx, qy in taken):
+        while any(-12 < qx - px < 12 + 7 * len(name) and abs(py + offset - qy) < 10 and (qx, qy) != (px, py) for qx, qy in taken):
             offset += 10
-        taken.append((px, py + offset))
+        taken.append((px + 5, py + offset))
         axes.annotate(name, (x, y), xytext=(5, offset * 72 / axes.figure.dpi + 4), textcoords="offset points",
-                      color=bench.colour(name), fontsize=8, arrowprops=dict(arrowstyle="-", lw=0.4, color="#999999")
+                      color=colour(name), fontsize=8, arrowprops=dict(arrowstyle="-", lw=0.4, color="#999999")
                       if offset else None)
 
 
-def pareto_axes(axes, bench, sequence, metric, title, against):
-    """One plot of error against cost."""
-    if against == "time":
-        points = {n: (bench.ratio(sequence, n)[0], bench.error(sequence, n, metric)) for n in bench.filters
-                  if bench.ratio(sequence, n)}
-    else:
-        points = {n: (bench.bytes_per_pixel(sequence, n), bench.error(sequence, n, metric)) for n in bench.filters}
-    points = {n: p for n, p in points.items() if p[1] is not None}
-    if not points:
-        axes.set_visible(False)
-        return
-    front = sorted(pareto(points), key=lambda n: points[n])
+def error_axes(axes, points, colour, marker, widen, spreads=None):
+    """Error against cost: a point a method, filled where none is better in both, which a line joins.
+
+    points: cost and error by name; colour, marker: functions of the name, the latter giving an index; widen: by what factor the
+    axis goes on behind the last point, for names; spreads: cost's 5 and 95 % by name."""
+    front = sorted(pareto(points), key=points.get)
     axes.set_xscale("log")
     axes.xaxis.set_major_locator(matplotlib.ticker.LogLocator(subs=(1, 2, 5)))
     axes.xaxis.set_major_formatter(matplotlib.ticker.FuncFormatter(plain))
     axes.xaxis.set_minor_locator(matplotlib.ticker.NullLocator())
-    xs = [p[0] for p in points.values()]
-    ys = [p[1] for p in points.values()]
-    low, high = min(xs) / 1.5, max(xs) * (2.6 if against == "time" else 1.7)
-    steps_x, steps_y = [], []
-    for i, name in enumerate(front):
-        x, y = points[name]
-        steps_x += [x, points[front[i + 1]][0] if i + 1 < len(front) else high]
-        steps_y += [y, y]
-    axes.step(steps_x, steps_y, where="post", color="#bbbbbb", lw=1, zorder=1)
+    xs, ys = zip(*points.values())
+    low, high = min(xs) / 1.5, max(xs) * widen
+    corners = [points[n] for n in front]
+    axes.step([x for x, _ in corners] + [high], [y for _, y in corners] + [corners[-1][1]], where="post", color="#bbbbbb", lw=1,
+              zorder=1)
     for name, (x, y) in points.items():
-        if against == "time":
-            _, p5, p95 = bench.ratio(sequence, name)
-            axes.plot([p5, p95], [y, y], color=bench.colour(name), lw=0.8, alpha=0.5)
-        axes.plot(x, y, MARKERS[list(COLOURS).index(bench.variants[name]["method"]) % len(MARKERS)]
-                  if bench.variants[name]["method"] in COLOURS else "o", color=bench.colour(name), ms=6,
-                  mfc=bench.colour(name) if name in front else "white")
+        if spreads:
+            axes.plot(spreads[name], [y, y], color=colour(name), lw=0.8, alpha=0.5)
+        axes.plot(x, y, MARKERS[marker(name) % len(MARKERS)], color=colour(name), ms=6, mfc=colour(name) if name in front else "white")
     axes.set_xlim(low, high)
     margin = 0.12 * (max(ys) - min(ys) or max(ys))
     axes.set_ylim(min(ys) - 1.5 * margin, max(ys) + 2 * margin)
+    axes.figure.canvas.draw()
+    place_labels(axes, points, colour)
+
+
+def pareto_axes(axes, bench, sequence, metric, title, against):
+    """One plot of error against cost."""
+    ratios = {n: bench.ratio(sequence, n) for n in bench.filters}
+    costs = {n: r and r[0] for n, r in ratios.items()} if against == "time" else {
+        n: bench.bytes_per_pixel(sequence, n) for n in bench.filters}
+    points = {n: (cost, bench.error(sequence, n, metric)) for n, cost in costs.items()}
+    points = {n: p for n, p in points.items() if None not in p}
+    if not points:
+        axes.set_visible(False)
+        return
+    methods = list(COLOURS)
+    error_axes(axes, points, bench.colour, lambda n: methods.index(m) if (m := bench.variants[n]["method"]) in COLOURS else 0,
+               2.6 if against == "time" else 1.7, {n: r[1:] for n, r in ratios.items() if r} if against == "time" else None)
     floor = bench.floor(sequence) if metric == "rmse" else None
     if floor and axes.get_ylim()[0] < floor < axes.get_ylim()[1]:
         axes.axhline(floor, color="#999999", ls=":", lw=1)
-        axes.text(low * 1.05, floor, "noise of the reference", fontsize=7, color="#777777", va="bottom")
+        axes.text(axes.get_xlim()[0] * 1.05, floor, "noise of the reference", fontsize=7, color="#777777", va="bottom")
     axes.set_title(title, loc="left", fontsize=9, fontweight="bold")
     axes.set_xlabel(f"time over {bench.baseline}'s" + (" (processor)" if bench.json["device"]["software"] else "")
                     if against == "time" else "bytes moved per pixel, from the plan")
     axes.set_ylabel(dict(ERRORS)[metric])
-    axes.figure.canvas.draw()
-    place_labels(axes, points, bench)
 
 
 def pareto_figure(bench, sequence, metrics=("rmse", "flip")):

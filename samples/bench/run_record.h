@@ -8,7 +8,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "samples/bench/errors.h"
+#include "samples/bench/frame_errors.h"
 #include "samples/bench/timing.h"
 
 namespace walr {

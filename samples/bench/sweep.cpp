@@ -23,7 +23,7 @@ constexpr Base kBmfr{"bmfr", {}};
 constexpr Base kBilateral{"joint_bilateral", {}};
 
 Sweep of(Base base, std::string_view name, std::string_view question, std::vector<SweepPoint> points) {
-  return {name, question, base.method, base.preset, std::move(points)};
+  return {name, question, base.method, base.preset, {}, std::move(points)};
 }
 
 /// A sweep over one setting's values.
@@ -35,10 +35,9 @@ Sweep over(Base base, std::string_view name, std::string_view question, std::str
 }
 
 std::vector<Sweep> walrSweeps() {
-  Sweep iterations = of(kPerPixel, "iterations", "How many a-trous iterations, at 3^n pixels of window?", {});
-  for (const std::string_view n : {"1", "2", "3", "4", "5"}) {
-    iterations.points.push_back({n, {{"walr.fit-window", "off"}, {"regression.iterations", std::string(n)}}});
-  }
+  Sweep iterations = over(kPerPixel, "iterations", "How many a-trous iterations, at 3^n pixels of window?",
+                          "regression.iterations", {"1", "2", "3", "4", "5"});
+  iterations.held = {{"walr.fit-window", "off"}};
   const SettingValue kDropped = {"regression.keep-sample-count", "off"};
   Sweep remap = of(kPerPixel, "edge-range", "How far from the plane does an edge begin and end?", {});
   for (const auto& [label, near, far] : {std::tuple{"quarter", "0.000375", "0.00375"},
@@ -82,7 +81,7 @@ std::vector<Sweep> walrSweeps() {
       over(kPerPixel, "epsilon", "How large a ridge?", "regression.ridge",
            {"1e-6", "1e-5", "1e-4", "1e-3", "1e-2", "1e-1"}),
       over(kPerPixel, "noise-ridge", "How much further ridge for noise?", "regression.noise-ridge",
-           {"0", "1", "3", "10", "30"}),
+           {"0", "0.3", "1", "3", "10", "30"}),
       over(kDefault, "history", "How many samples before the filter?", "accumulation.max-samples",
            {"1", "4", "8", "16", "32", "64"}),
       over(kDefault, "change-response", "Shorten history where the light changes?", "accumulation.respond-to-change",
@@ -116,7 +115,8 @@ std::vector<Sweep> walrSweeps() {
            "blocks.coarse-growth-occlusion", {"0", "2", "4", "8"}),
       over(kDefault, "growth", "How much may light differ that blocks' windows grow over?", "blocks.growth-errors",
            {"0.001", "4", "8.5", "17", "1000000"}),
-      over(kDefault, "block-size", "How large are blocks?", "blocks.size", {"2", "3", "4"}),
+      over(kDefault, "block-size", "How large may blocks be, where the picture is not too small for them?",
+           "blocks.size", {"2", "3", "4", "5", "6", "8"}),
       over(kDefault, "occlusion", "How far does ambient occlusion look?", "occlusion.radius",
            {"0.02", "0.04", "0.075", "0.15", "0.3"}),
       over(kDefault, "occlusion-steps", "In how many steps does it look?", "occlusion.steps",
@@ -126,6 +126,9 @@ std::vector<Sweep> walrSweeps() {
 
 /// The parameters that the baselines' papers leave open, and the comparisons that Fu 2022 makes.
 std::vector<Sweep> baselineSweeps() {
+  Sweep singleFrame = over(kFlr, "flr-single-frame", "How wide a window for FLR where it filters single frames?",
+                           "regression.single-frame-sigma", {"8", "10", "12", "15"});
+  singleFrame.held = {{"spatial-only", "on"}};
   return {
       over(kFlr, "flr-factor", "How coarse a grid for FLR's outer products?", "regression.factor",
            {"1", "2", "4", "8", "16"}),
@@ -142,11 +145,7 @@ std::vector<Sweep> baselineSweeps() {
           {"0.04", {{"occlusion.radius", "0.04"}}},
           {"0.075", {{"occlusion.radius", "0.075"}}},
           {"0.15", {{"occlusion.radius", "0.15"}}}}),
-      of(kFlr, "flr-single-frame", "How wide a window for FLR where it filters single frames?",
-         {{"8", {{"spatial-only", "on"}, {"regression.single-frame-sigma", "8"}}},
-          {"10", {{"spatial-only", "on"}, {"regression.single-frame-sigma", "10"}}},
-          {"12", {{"spatial-only", "on"}, {"regression.single-frame-sigma", "12"}}},
-          {"15", {{"spatial-only", "on"}, {"regression.single-frame-sigma", "15"}}}}),
+      singleFrame,
       over(kFlr, "flr-history", "How many samples before FLR?", "accumulation.max-samples", {"4", "8", "16", "32"}),
       of(kSvgf, "svgf-kernel", "How large a kernel for SVGF's iterations? 3, 5, 7 or 9 taps an axis.",
          {{"3x3", {{"svgf.radius", "1"}}},
@@ -199,6 +198,12 @@ std::vector<Sweep> makeSweeps() {
   return all;
 }
 
+/// Nothing where there is no such sweep.
+const Sweep* find(std::string_view name) {
+  const auto found = std::ranges::find(sweeps(), name, &Sweep::name);
+  return found == sweeps().end() ? nullptr : &*found;
+}
+
 }  // namespace
 
 std::span<const Sweep> sweeps() {
@@ -207,21 +212,30 @@ std::span<const Sweep> sweeps() {
 }
 
 std::vector<Variant> sweepVariants(std::string_view name) {
-  const auto found = std::ranges::find(sweeps(), name, &Sweep::name);
-  if (found == sweeps().end()) {
+  const Sweep* sweep = find(name);
+  if (sweep == nullptr) {
     std::vector<std::string_view> names;
-    for (const Sweep& sweep : sweeps()) names.push_back(sweep.name);
+    for (const Sweep& known : sweeps()) names.push_back(known.name);
     throw std::invalid_argument("there is no sweep \"" + std::string(name) + "\"; known sweeps: " + join(names));
   }
   std::vector<Variant> variants;
-  for (const SweepPoint& point : found->points) {
-    variants.push_back({.name = std::string(name) + "=" + std::string(point.label),
-                        .method = std::string(found->method),
-                        .preset = std::string(found->preset),
-                        .settings = point.settings,
-                        .sweep = std::string(name)});
+  for (const SweepPoint& point : sweep->points) {
+    Variant variant{.name = std::string(name) + "=" + std::string(point.label),
+                    .method = std::string(sweep->method),
+                    .preset = std::string(sweep->preset),
+                    .settings = sweep->held,
+                    .sweep = std::string(name)};
+    variant.settings.insert(variant.settings.end(), point.settings.begin(), point.settings.end());
+    variants.push_back(std::move(variant));
   }
   return variants;
+}
+
+bool isDefault(const Variant& variant) {
+  Variant untouched{
+      .name = {}, .method = variant.method, .preset = variant.preset, .settings = {}, .sweep = variant.sweep};
+  if (const Sweep* sweep = find(variant.sweep)) untouched.settings = sweep->held;
+  return settingsOf(untouched) == settingsOf(variant);
 }
 
 }  // namespace walr

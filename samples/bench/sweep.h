@@ -20,8 +20,9 @@ struct Sweep {
   std::string_view name;
   std::string_view question;
   std::string_view method;
-  std::string_view preset;  ///< That the settings are changes to; empty: the default.
-  std::vector<SweepPoint> points;
+  std::string_view preset;         ///< That the settings are changes to; empty: the default.
+  std::vector<SettingValue> held;  ///< Further settings that all points share, and with them the default.
+  std::vector<SweepPoint> points;  ///< The default is one of them.
 };
 
 /// All sweeps. A new one is a line here.
@@ -30,5 +31,10 @@ std::span<const Sweep> sweeps();
 /// The variants of a sweep.
 /// @throws std::invalid_argument naming the unknown sweep and the known ones
 std::vector<Variant> sweepVariants(std::string_view name);
+
+/// Whether a variant is its method with its preset and nothing else, whatever it is called; for a variant of a sweep,
+/// besides what the sweep holds.
+/// @throws std::invalid_argument as `makeVariant`
+bool isDefault(const Variant& variant);
 
 }  // namespace walr

@@ -91,9 +91,8 @@ void runBench(BenchArguments& arguments, const std::string& command) {
     throw std::runtime_error("the validation layer has " + std::to_string(messages.size()) +
                              " message(s); the first: " + messages.front().text);
   }
-  printBench(std::cout, report);
+  printSummary(std::cout, report);
   writeText(output / "bench.json", benchJson(report, command));
-  writeText(output / "bench.csv", benchCsv(report));
   if (arguments.noHtml) return;
   const std::string trouble = writeHtmlReport(output, arguments.python);
   std::cout << (trouble.empty() ? "report: " + (output / "report.html").string() : trouble) << std::endl;
@@ -129,7 +128,7 @@ void registerBench(CLI::App& program) {
       ->type_name("DIR...");
   command
       ->add_option("-o,--output", arguments->bench.output,
-                   "Folder for bench.json, bench.csv, report.html and all that they are made from; run again, it goes "
+                   "Folder for bench.json, report.html, bench.csv and all that they are made from; run again, it goes "
                    "on where it was, and runs anew only what has changed")
       ->required()
       ->type_name("DIR");

@@ -48,9 +48,7 @@ inline constexpr std::size_t kWarmUpFrames = 4;
 /// Mean over the frames from `first` on, each figure over the frames that have it.
 FrameReport meanReport(const std::vector<FrameReport>& frames, std::size_t first);
 
-/// The report as JSON: `method`, `device`, `driver`, `frames[]` with `frame`, `gpu_ms`, `rmse`, `psnr`, `ssim`, the
-/// same for the input under `noisy`, and `counters` by name where there are any; `mean` and `mean_after_4` with the
-/// same. Figures without a value are null.
+/// The report as JSON, as samples/denoise/denoise.schema.json describes it.
 std::string reportJson(const DenoiseReport& report);
 
 /// The report as a table for people.

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "samples/bench/hard_case_scenes.h"
+#include "tests/samples/bench_schema.h"
 
 namespace walr {
 namespace {
@@ -67,6 +68,9 @@ TEST(Numerics, TellStableFromUnstableArithmetic) {
   // Eleven bits hold E[xx] - E[x]^2 of such normals no better than to a few of its own size.
   EXPECT_GT(find("raw11", "normals vary by 0.1").error, 100.0);
   EXPECT_TRUE(device.takeMessages().empty());
+  BenchReport report;
+  report.numerics = results;
+  EXPECT_EQ(test::schemaTroubles(report), "");
 }
 
 /// A denoiser may leave noise, but must not make errors that were not there, nor values that are no light.
@@ -93,6 +97,9 @@ TEST(MethodHardCases, NothingComesOutWorseThanItWentIn) {
     EXPECT_LE(result.error, noisy.error + rounding);
   }
   EXPECT_TRUE(device.takeMessages().empty());
+  BenchReport report;
+  report.methodHardCases = results;
+  EXPECT_EQ(test::schemaTroubles(report), "");
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/samples/process.h"
+#include "tests/samples/schema_check.h"
 #include "tests/samples/synthetic_sequence.h"
 #include "tests/samples/temporary_directory.h"
 
@@ -36,7 +37,10 @@ class BenchProgramTest : public testing::Test {
     arguments.insert(arguments.end(), more.begin(), more.end());
     return test::runProcess(arguments);
   }
-  static json report(const fs::path& output) { return json::parse(test::readText(output / "bench.json")); }
+  static json report(const fs::path& output) {
+    EXPECT_EQ(test::schemaTroubles("samples/bench/bench.schema.json", output / "bench.json"), "");
+    return json::parse(test::readText(output / "bench.json"));
+  }
   static json run(const json& report, const std::string& variant) {
     for (const json& run : report["sequences"][0]["runs"]) {
       if (run["variant"] == variant) return run;
@@ -85,6 +89,10 @@ TEST_F(BenchProgramTest, MeasuresMethodsBesideEachOther) {
        {"bench.csv", "report.html", "report.py", "report_data.py", "report_plots.py", "pareto.svg"}) {
     EXPECT_TRUE(fs::exists(first / file)) << file << ": " << result.out;
   }
+  const std::string table = test::readText(first / "bench.csv");
+  EXPECT_TRUE(table.starts_with("sequence,variant,sweep,rmse,worst_rmse,")) << table;
+  EXPECT_NE(table.find("\nwall,replacement=off,replacement,0."), std::string::npos) << table;
+  EXPECT_EQ(std::ranges::count(table, '\n'), 7) << "a header and six variants";
   const std::string page = test::readText(first / "report.html");
   EXPECT_NE(page.find("<svg"), std::string::npos);
   EXPECT_EQ(page.find("src=\"http"), std::string::npos) << "the page must hold all that it shows";

@@ -10,6 +10,7 @@
 
 #include "samples/bench/content_times.h"
 #include "samples/bench/response_scene.h"
+#include "tests/samples/bench_schema.h"
 
 namespace walr {
 namespace {
@@ -144,6 +145,9 @@ TEST(ResponseTest, OfMethodsWithAKnownAnswer) {
   EXPECT_LT(alert.lightLag, 0.6 * mean.lightLag);
   EXPECT_NEAR(alert.settled, mean.settled, 0.05 * mean.settled) << "steady light is not doubted";
   EXPECT_TRUE(device.takeMessages().empty());
+  BenchReport report;
+  report.responses = found;
+  EXPECT_EQ(test::schemaTroubles(report), "");
 }
 
 }  // namespace

@@ -9,8 +9,8 @@
 #include <nlohmann/json.hpp>
 
 #include "samples/bench/bench_frame.h"
-#include "samples/bench/errors.h"
 #include "samples/bench/fingerprint.h"
+#include "samples/bench/frame_errors.h"
 #include "samples/bench/npy.h"
 #include "samples/bench/plan_costs.h"
 #include "samples/bench/run_record.h"
@@ -147,6 +147,18 @@ TEST(Sweeps, HoldSettingsThatExist) {
     }
   }
   EXPECT_NE(messageOf([] { sweepVariants("magic"); }).find("known sweeps: iterations"), std::string::npos);
+}
+
+TEST(Sweeps, HoldTheDefaultOnce) {
+  for (const Sweep& sweep : sweeps()) {
+    EXPECT_EQ(std::ranges::count_if(sweepVariants(sweep.name), isDefault), 1) << sweep.name;
+  }
+}
+
+TEST(Sweeps, TellTheDefaultFromOtherSettings) {
+  EXPECT_TRUE(isDefault(parseVariant("mine=walr")));
+  EXPECT_TRUE(isDefault(parseVariant("mine=bmfr:paper")));
+  EXPECT_FALSE(isDefault(parseVariant("mine=walr,blocks.size=4")));
 }
 
 TEST(PlanCostsTest, OfACopyAreItsTexels) {

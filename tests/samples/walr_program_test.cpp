@@ -11,6 +11,7 @@
 #include "passes/denoiser.h"
 #include "samples/image/exr.h"
 #include "tests/samples/process.h"
+#include "tests/samples/schema_check.h"
 #include "tests/samples/synthetic_sequence.h"
 #include "tests/samples/temporary_directory.h"
 
@@ -119,6 +120,7 @@ TEST_F(ProgramTest, DenoisesAndMeasures) {
   EXPECT_NE(result.err.find("frame 6 of 6"), std::string::npos) << result.err;
   EXPECT_EQ(outputFiles().size(), 18U);
 
+  EXPECT_EQ(test::schemaTroubles("samples/denoise/denoise.schema.json", json), "");
   const auto report = nlohmann::json::parse(test::readText(json));
   EXPECT_EQ(report["method"], "walr");
   EXPECT_FALSE(report["device"].get<std::string>().empty());
@@ -151,6 +153,7 @@ TEST_F(ProgramTest, CountsWhatHappensInside) {
   const ProcessResult result = denoise({"--counters", "--json", json.string()});
   expectSuccess(result);
   EXPECT_NE(result.out.find("rejected-history-taps"), std::string::npos) << result.out;
+  EXPECT_EQ(test::schemaTroubles("samples/denoise/denoise.schema.json", json), "");
   const auto report = nlohmann::json::parse(test::readText(json));
   EXPECT_EQ(report["frames"][1]["counters"]["non-finite-lighting"], 0);
   EXPECT_GT(report["frames"][0]["counters"]["no-history"], 0);

@@ -1,4 +1,4 @@
-#include "samples/bench/errors.h"
+#include "samples/bench/frame_errors.h"
 
 #include <algorithm>
 

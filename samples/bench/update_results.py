@@ -1,0 +1,419 @@
+#!/usr/bin/python3
+"""Puts the figures of `walr bench` into the project's documents.
+
+    update_results.py methods FOLDER    takes the comparison of methods from FOLDER/bench.json, and its pictures
+    update_results.py scenes FOLDER     takes the rendered scenes and the times by content from FOLDER/bench.json
+    update_results.py                   writes the documents anew from the figures that were taken
+    update_results.py --check           fails where a document is not what those figures give
+
+What the documents show is kept in results.json beside this script. From it are written: the marked part of README.md,
+samples/bench/RESULTS.md, samples/bench/SCENES.md and the plot samples/images/pareto.png. Pictures need matplotlib.
+"""
+import json
+import math
+import pathlib
+import sys
+
+HERE = pathlib.Path(__file__).resolve().parent
+PROJECT = HERE.parent.parent
+KEPT = HERE / "results.json"
+IMAGES = PROJECT / "samples" / "images"
+BEGIN = "<!-- Written by samples/bench/update_results.py: begin -->\n"
+END = "<!-- Written by samples/bench/update_results.py: end -->\n"
+FIGURES = ("rmse", "ssim", "flip", "flicker", "vmaf")
+LABELS = {"rmse": "RMSE", "ssim": "SSIM", "flip": "FLIP", "flicker": "flicker"}
+DECIMALS = {"rmse": 4, "ssim": 3, "flip": 3, "flicker": 4}
+SCENE_COLUMNS = (("clean_rmse", "RMSE", 5), ("rmse", "RMSE with noise", 5), ("ssim", "SSIM", 4), ("flip", "FLIP", 4),
+                 ("flicker", "flicker", 5))
+RESPONSES = ("first_frame_rmse", "settled_rmse", "settled_flicker", "light_frames", "light_lag", "recovery_frames")
+UNFILTERED = ("accumulate", "none")
+CROPPED = ("walr", "walr_paper", "bmfr", "svgf", "flr", "joint_bilateral")
+
+
+# What is kept of a benchmark.
+
+def mean(values):
+    values = list(values)
+    return sum(values) / len(values)
+
+
+def rounded(value, decimals=6):
+    return value if value is None else round(value, decimals)
+
+
+def origin(data):
+    """Where figures come from."""
+    return {"commit": data["commit"][:12], "compiler": f"{data['compiler']}, {data['build_type']}", "command": data["command"],
+            "device": data["device"]["name"], "driver": data["device"]["driver"], "software": data["device"]["software"]}
+
+
+def costs_at_1080p(variant):
+    cost = next(c for c in variant["costs"] if (c["width"], c["height"]) == (1920, 1080))
+    return {"bytes": round(cost["bytes_read_per_pixel"] + cost["bytes_written_per_pixel"], 1), "taps": rounded(cost["taps_per_pixel"], 1),
+            "megabytes": round((cost["persistent_bytes"] + cost["transient_peak_bytes"]) / 1e6, 1)}
+
+
+def keep_methods(data):
+    """What the pages show of a comparison of methods."""
+    kept = {**origin(data), "vmaf": data["vmaf"]["by"], "noise": {}, "methods": {}}
+    for variant in data["variants"]:
+        if not variant["sweep"]:
+            kept["methods"][variant["name"]] = {**costs_at_1080p(variant), "sequences": {}}
+    for sequence in data["sequences"]:
+        noise = [f["reference_noise"] for f in sequence["frames"]]
+        kept["noise"][sequence["name"]] = None if None in noise else rounded(mean(noise))
+        for run in sequence["runs"]:
+            if run["variant"] in kept["methods"]:
+                figures = {m: rounded(run["mean_after_4"][m]) for m in FIGURES}
+                figures["time"] = run["ratio"] and [rounded(run["ratio"][k], 3) for k in ("median", "p5", "p95")]
+                kept["methods"][run["variant"]]["sequences"][sequence["name"]] = figures
+    for response in data["responses"]:
+        if response["variant"] in kept["methods"]:
+            kept["methods"][response["variant"]]["response"] = {**{k: rounded(response[k]) for k in RESPONSES},
+                                                                "trail": rounded(response["trail_by_age"][0])}
+    return kept
+
+
+def keep_scenes(data):
+    """What the page shows of the rendered scenes and of the times by content."""
+    kept = {**origin(data), "sequences": {}, "contents": {}}
+    methods = [v["name"] for v in data["variants"] if v["name"] in (v["method"], f"{v['method']}:{v['preset']}")]
+    for sequence in data["sequences"]:
+        noise = {f["frame"]: f["reference_noise"] for f in sequence["frames"] if f["reference_noise"] is not None}
+        runs = {}
+        for run in sequence["runs"]:
+            if run["variant"] not in methods:
+                continue
+            frames = [f for f in run["frames"] if f["rmse"] is not None]
+            runs[run["variant"]] = {m: rounded(run["mean_after_4"][m]) for m in FIGURES[:4]}
+            runs[run["variant"]]["clean_rmse"] = rounded(mean(math.sqrt(max(f["rmse"] ** 2 - noise[f["frame"]] ** 2, 0.0))
+                                                             for f in frames))
+            runs[run["variant"]]["time"] = rounded(run["ratio"]["median"])
+        kept["sequences"][sequence["name"]] = {"size": [sequence["width"], sequence["height"]],
+                                               "noise": rounded(mean(noise.values())), "runs": runs}
+    for entry in data["contents"]:
+        kept["contents"][entry["variant"]] = {t["content"]: rounded(t["ratio"]["median"], 3) for t in entry["timings"]}
+    return kept
+
+
+# The documents.
+
+def number(value, decimals):
+    return "-" if value is None else f"{value:.{decimals}f}".removeprefix("0")
+
+
+def table(header, rows):
+    lines = [header, ["---"] * len(header), *rows]
+    return "\n".join("| " + " | ".join(line) + " |" for line in lines) + "\n"
+
+
+def listed(words):
+    words = list(words)
+    return words[0] if len(words) == 1 else ", ".join(words[:-1]) + " and " + words[-1]
+
+
+def times(method):
+    """Median, 5 % and 95 % of a method's time over the baseline's, mean over the sequences; None where there is no timer."""
+    ratios = [s["time"] for s in method["sequences"].values()]
+    return None if None in ratios else [mean(r[i] for r in ratios) for i in range(3)]
+
+
+def over_sequences(method, figure):
+    return mean(s[figure] for s in method["sequences"].values())
+
+
+def processor_note(kept):
+    return f" This is a processor's time, not a GPU's ({kept['device']})." if kept["software"] else ""
+
+
+def headline(kept):
+    """The methods of README.md: each once, with its default preset."""
+    return {n: m for n, m in kept["methods"].items() if ":" not in n and n != "accumulate"}
+
+
+def readme_part(kept):
+    """A small table, its terms, and one plot."""
+    sequences = list(kept["noise"])
+    rows = []
+    for name, method in headline(kept).items():
+        time = times(method)
+        rows.append([f"`{name}`", *(number(method["sequences"][s]["rmse"], 4) for s in sequences),
+                     number(over_sequences(method, "flip"), 3), number(over_sequences(method, "flicker"), 4), f"{method['bytes']:.0f}",
+                     "-" if time is None else f"{time[0]:.2f}"])
+    return (table(["method", *(f"RMSE, `{s}`" for s in sequences), "FLIP", "flicker", "bytes per pixel", "relative time"], rows) + f"""
+* **Method**: every one with its default settings, on the same frames. `none` is the noisy input.
+* **RMSE**: root mean square error against the reference after the tone map x / (1 + x); lower is better.
+* **FLIP**: difference that a person would see (Andersson et al. 2020), 0 to 1; lower is better. Mean over both sequences.
+* **Flicker**: how much the error changes from one frame to the next on the same surface point; lower is better. Mean over both
+  sequences.
+* **Bytes per pixel**: what the passes of one frame read and write at 1920 x 1080, counted from the compiled graph. It holds on any
+  device. A texel counts once a pass, so that the wide window of `joint_bilateral` looks cheap here.
+* **Relative time**: time of a frame over that of `walr` on the same frame, median.{processor_note(kept)}
+
+![RMSE against bytes per pixel](samples/images/pareto.png)
+
+*Lower left is better. Grey line: no method below it on both axes. RMSE is the mean over both sequences.*
+
+All figures, presets and pictures of the hardest places: [samples/bench/RESULTS.md](samples/bench/RESULTS.md). Larger pictures and
+moving objects: [samples/bench/SCENES.md](samples/bench/SCENES.md).
+""")
+
+
+def best_method(values, figure):
+    return (max if figure == "ssim" else min)(values, key=values.get)
+
+
+def standing(runs, baseline, figures):
+    """In which figures the baseline is the best of the methods that filter, and how far it is behind in the others."""
+    ahead, others = [], []
+    for figure in figures:
+        label = "RMSE" if figure == "clean_rmse" else LABELS[figure]
+        values = {n: run[figure] for n, run in runs.items() if n not in UNFILTERED}
+        best = best_method(values, figure)
+        if best == baseline:
+            ahead.append(label)
+        else:
+            change = 100 * (values[baseline] / values[best] - 1)
+            others.append(f"`{best}` has the best {label}, from which that of `{baseline}` differs by {change:+.1f} %")
+    return "; ".join(([f"`{baseline}` has the best {listed(ahead)} of all methods"] if ahead else []) + others)
+
+
+def methods_table(kept):
+    header = ["method"]
+    for sequence in kept["noise"]:
+        header += [f"`{sequence}`: RMSE", *list(LABELS.values())[1:]]
+    rows = []
+    for name, method in kept["methods"].items():
+        time = times(method)
+        rows.append([f"`{name}`", *(number(s[f], DECIMALS[f]) for s in method["sequences"].values() for f in LABELS),
+                     "-" if time is None else f"{time[0]:.2f} ({time[1]:.2f} to {time[2]:.2f})", f"{method['bytes']:.0f}",
+                     "-" if method["taps"] is None else f"{method['taps']:.0f}", f"{method['megabytes']:.0f}"])
+    return table(header + ["relative time", "bytes per pixel", "taps per pixel", "memory, MB"], rows)
+
+
+def response_section(kept):
+    shown = {n: m["response"] for n, m in kept["methods"].items() if "response" in m}
+    if not shown:
+        return ""
+
+    def frames(count):
+        return "not by the end" if count is None else str(count)
+
+    rows = [[f"`{n}`", number(r["first_frame_rmse"], 4), number(r["settled_rmse"], 4), number(r["settled_flicker"], 4),
+             frames(r["light_frames"]), f"{r['light_lag']:.1f}", frames(r["recovery_frames"]), f"{r['trail']:.3f}"]
+            for n, r in shown.items()]
+    return "\n## Response to change\n\nSynthetic scenes of 192 x 108 pixels whose exact light is known.\n\n" + table(
+        ["method", "first frame, RMSE", "settled, RMSE", "settled, flicker", "light goes down, frames", "light moves, frames",
+         "disocclusion, frames", "trail, share"], rows) + """
+* **First frame**: there is no history. **Settled**: the history is as long as it gets.
+* **Light goes down**: a light drops to a tenth; frames until no more than a tenth of the difference is left.
+* **Light moves**: a light moves over a still wall; the result is nearest to the truth of so many frames ago.
+* **Disocclusion**: a slab moves and uncovers a wall; frames until the wall's error there is within a quarter of its error elsewhere.
+* **Trail**: share of the slab's light that is left on the wall in the first frame after. `none` shows what noise alone gives.
+"""
+
+
+def results_page(kept):
+    noise = listed(f"{number(v, 4)} on `{s}`" for s, v in kept["noise"].items() if v is not None)
+    standings = "".join(f"* On `{s}` " + standing({n: m["sequences"][s] for n, m in kept["methods"].items()}, "walr", list(LABELS)) + ".\n"
+                        for s in kept["noise"])
+    vmaf = ""
+    if kept["vmaf"]:
+        program, model = kept["vmaf"].rsplit(", ", 1)
+        vmaf = ("\n## VMAF\n\nA video metric, 0 to 100; higher is better. It hardly sees fine noise, so no method should be judged by it "
+                f"alone. {' '.join(program.split()[:3])}, {model}.\n\n" +
+                table(["method", *(f"`{s}`" for s in kept["noise"])],
+                      [[f"`{n}`", *(f"{s['vmaf']:.1f}" for s in m["sequences"].values())] for n, m in kept["methods"].items()]))
+    return f"""# Speed against error
+
+Written by `samples/bench/update_results.py` from `results.json`. Two sequences rendered with Blender Cycles, 384 x 216, 1 sample per
+pixel, moving camera; references of 1,400 to 2,100 samples per pixel. Figures are means over the frames after the fourth, over pixels
+with a diffuse lobe. A method's name stands for its default preset; `METHOD:PRESET` names another one.
+
+{methods_table(kept)}
+* **RMSE**, **SSIM** (structural similarity, Wang et al. 2004; higher is better) and **FLIP** (Andersson et al. 2020, 67 pixels per
+  degree) are taken after the tone map x / (1 + x). **Flicker** is the root mean square change of the error in luminance along
+  motion, without disocclusions, over the square root of 2: white noise of deviation s has flicker s.
+* **Relative time**: time of a frame over that of `walr` on the same frame in the same run; median, and in brackets the 5th to the 95th
+  percentile; mean over both sequences.{processor_note(kept)}
+* **Bytes**, **taps** and **memory** are those of the compiled graph at 1920 x 1080 and hold on any device. Bytes: every texel that a
+  pass reads or writes, once. Taps: fetches of light, of its history and of averages of it. Memory: histories, and the memory that
+  textures of one frame share, without the images of the host.
+* The references have noise of their own. As an RMSE it is {noise}.
+{standings}
+![the hardest places](../images/crops.png)
+
+*The two places of each sequence's last frame in which the methods' mean FLIP is largest. Below each: change of the error in luminance
+from the frame before, along motion. Red: brighter. Blue: darker. Grey: the surface was not visible in the frame before. Flicker,
+trails, and seams that do not stay with their surface show there.*
+{response_section(kept)}{vmaf}
+## How it was measured
+
+At commit {kept['commit']} ({kept['compiler']}) on {kept['device']}, {kept['driver']}, with
+
+    {kept['command']}
+""" + renamed_note(kept)
+
+
+def renamed_note(kept):
+    """Names that were changed by hand in results.json, where they were."""
+    return f"\n{kept['renamed']}\n" if "renamed" in kept else ""
+
+
+SCENES_INTRODUCTION = """# Larger pictures, jitter, moving objects
+
+Written by `samples/bench/update_results.py` from `results.json`. The built-in scenes are `box` (a walk through a room) and
+`turntable` (objects that turn and slide). They were rendered with jitter at 480 x 270, 960 x 540 and 1920 x 1080:
+
+    walr render samples/scenes/SCENE.gltf --output SCENE_HEIGHT --frames 4-15 --size SIZE --jitter --reference-spp 256 \\
+                --reference-frames 13-15 --reference-pixel area --reference-one-square-in N
+
+N is 1, 4 and 16, so that every size has the same number of pixels with a reference. `box_270` has references of 512 samples per pixel
+in frames 12 to 15. A reference is the mean over the area of the pixel, which anti-aliasing tends to.
+
+* Figures are means over the frames with a reference. Bold: the best of a column.
+* **RMSE** is without the noise of the references: the root of (measured RMSE)^2 - (noise)^2. The noise is estimated from the two
+  halves of the reference's samples. This estimate is a few per cent too low, since the tone map flattens the halves, so that RMSE is
+  somewhat too high, by the same square for all methods.
+* **RMSE with noise**, SSIM, FLIP and flicker contain the noise of the references, which is the same for all methods.
+* SSIM and FLIP take pixels without a reference for correct. Both look better than they are, for all methods alike.
+* **Relative time**: time of a frame over that of `walr` on the same frame in the same run, median.{processor}
+  Other programs were running.
+"""
+
+
+def scene_section(name, sequence):
+    runs = sequence["runs"]
+    best = {f: best_method({n: r[f] for n, r in runs.items()}, f) for f, _, _ in SCENE_COLUMNS if f != "rmse"}
+    rows = []
+    for method, figures in runs.items():
+        row = [f"`{method}`"]
+        for figure, _, decimals in SCENE_COLUMNS:
+            text = number(figures[figure], decimals)
+            row.append(f"**{text}**" if best.get(figure) == method else text)
+        rows.append(row + [f"{figures['time']:.2f}"])
+    against = 100 * (runs["walr"]["clean_rmse"] / runs["walr_paper"]["clean_rmse"] - 1)
+    header = ["method", *(label for _, label, _ in SCENE_COLUMNS), "relative time"]
+    return (f"\n## `{name}`\n\n{table(header, rows)}\n{sequence['size'][0]} x {sequence['size'][1]}; noise of the references "
+            f".{round(sequence['noise'] * 1e4):04d}. {standing(runs, 'walr', ['clean_rmse', 'ssim', 'flip', 'flicker'])}; its RMSE is "
+            f"{abs(against):.0f} % {'below' if against < 0 else 'above'} that of `walr_paper`.\n")
+
+
+def content_section(contents):
+    if not contents:
+        return ""
+    names = list(next(iter(contents.values())))
+    rows = [[f"`{method}`", *(f"{ratios[n]:.2f}" for n in names)] for method, ratios in contents.items()]
+    return """
+## Time by content
+
+Median time of a frame of 640 x 360 over the same method's time on `wall`, a plain wall with a slab before it. `fence`: bars of one pixel,
+eight pixels apart, before the wall. `cuts`: a camera cut in every frame, so that there is never a history. `dark`: no light. The others: sky
+in the upper half, in nine tenths, and in all of the picture. On this device a pixel that ends early costs what its neighbours cost.
+
+""" + table(["method", *names], rows)
+
+
+def scenes_page(kept):
+    introduction = SCENES_INTRODUCTION.replace("{processor}", processor_note(kept))
+    return (introduction + f"\nMeasured at commit {kept['commit']}.\n" + renamed_note(kept) +
+            "".join(scene_section(name, s) for name, s in kept["sequences"].items()) + content_section(kept["contents"]))
+
+
+def replaced(readme, text):
+    begin, end = readme.index(BEGIN) + len(BEGIN), readme.index(END)
+    return readme[:begin] + "\n" + text + "\n" + readme[end:]
+
+
+def documents(kept):
+    """Text of every document by its file."""
+    readme = PROJECT / "README.md"
+    return {readme: replaced(readme.read_text(encoding="utf-8"), readme_part(kept["methods"])),
+            HERE / "RESULTS.md": results_page(kept["methods"]), HERE / "SCENES.md": scenes_page(kept["scenes"])}
+
+
+# Pictures.
+
+def draw_plot(kept):
+    from report_plots import COLOURS, error_axes, plt
+
+    points = {n: (m["bytes"], over_sequences(m, "rmse")) for n, m in headline(kept).items() if n not in UNFILTERED}
+    figure, axes = plt.subplots(figsize=(7, 3.6))
+    error_axes(axes, points, COLOURS.__getitem__, list(COLOURS).index, 1.35)
+    axes.set_xlabel("bytes per pixel at 1920 x 1080")
+    axes.set_ylabel("RMSE after the tone map")
+    figure.savefig(IMAGES / "pareto.png", dpi=110, bbox_inches="tight", metadata={"Software": None})
+
+
+def draw_crops(folder):
+    """The hardest places of each sequence's last frame that was kept, and how errors change there along motion."""
+    import numpy as np
+    from report import displayed, exposure, hardest_places, signed_colours
+    from report_data import Bench
+    from report_plots import plt
+
+    bench, rows = Bench(folder), []
+    for sequence, facts in bench.sequences.items():
+        frame = max(facts["picture_frames"])
+        pictures = {n: bench.picture(sequence, n, frame) for n in ["_reference", "_noisy", *CROPPED]}
+        changes = {n: bench.change(sequence, n, frame)[:, :, 0] for n in CROPPED}
+        exposed = exposure(pictures["_reference"])
+        top = float(np.nanpercentile(np.abs(list(changes.values())), 99.5))
+        places, size = hardest_places(bench, sequence, frame, 2)
+        for x, y in places:
+            place = np.s_[y:y + size, x:x + size]
+            rows.append({n: displayed(p[place], exposed) for n, p in pictures.items()})
+            rows.append({n: signed_colours(c[place], top) for n, c in changes.items()})
+    names = list(rows[0])
+    figure, axes = plt.subplots(len(rows), len(names), figsize=(1.3 * len(names), 1.34 * len(rows)))
+    for index, (row, line) in enumerate(zip(rows, axes)):
+        for name, cell in zip(names, line):
+            cell.set_axis_off()
+            if name in row:
+                cell.imshow(row[name], interpolation="nearest")
+            if index == 0:
+                cell.set_title(name.removeprefix("_"), fontsize=8)
+    figure.subplots_adjust(0.005, 0.005, 0.995, 0.975, wspace=0.04, hspace=0.04)
+    figure.savefig(IMAGES / "crops.png", dpi=100, metadata={"Software": None})
+
+
+def save(kept):
+    """One line a method or sequence, so that a change can be read."""
+    parts = []
+    for name, part in kept.items():
+        lines = []
+        for key, value in part.items():
+            if key in ("methods", "sequences", "contents"):
+                inner = ",\n".join(f"  {json.dumps(k)}:{json.dumps(v, separators=(',', ':'))}" for k, v in value.items())
+                lines.append(f" {json.dumps(key)}:{{\n{inner}}}")
+            else:
+                lines.append(f" {json.dumps(key)}:{json.dumps(value)}")
+        parts.append(f"{json.dumps(name)}:{{\n" + ",\n".join(lines) + "}")
+    KEPT.write_text("{" + ",\n".join(parts) + "}\n")
+
+
+def main():
+    arguments = sys.argv[1:]
+    sys.dont_write_bytecode = True
+    kept = json.loads(KEPT.read_text())
+    if arguments == ["--check"]:
+        stale = [str(path) for path, text in documents(kept).items() if path.read_text(encoding="utf-8") != text]
+        if stale:
+            sys.exit(f"{listed(stale)}: not what results.json gives; run samples/bench/update_results.py")
+        return
+    keep = {"methods": keep_methods, "scenes": keep_scenes}
+    if len(arguments) == 2 and arguments[0] in keep:
+        what, folder = arguments[0], pathlib.Path(arguments[1])
+        kept[what] = keep[what](json.loads((folder / "bench.json").read_text()))
+        save(kept)
+        if what == "methods":
+            draw_crops(folder)
+    elif arguments:
+        sys.exit(__doc__)
+    for path, text in documents(kept).items():
+        path.write_text(text, encoding="utf-8")
+    draw_plot(kept["methods"])
+
+
+if __name__ == "__main__":
+    main()
