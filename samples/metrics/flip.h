@@ -12,8 +12,7 @@ namespace walr {
 /// from 0.7 m (Andersson et al. 2020, 4.1).
 inline constexpr double kFlipPixelsPerDegree = 67.0206432765823;
 
-/// LDR-FLIP (Andersson et al. 2020, "FLIP: A Difference Evaluator for Alternating Images"): the difference that an
-/// observer perceives who flips between two images.
+/// LDR-FLIP (Andersson et al. 2020): the difference that an observer perceives who flips between two images.
 /// @param pair  linear RGB in 0..1, before the sRGB transfer function
 /// @returns one value in 0..1 per pixel, 0 where the images look equal
 std::vector<double> flipMap(const DisplayedPair& pair, double pixelsPerDegree = kFlipPixelsPerDegree);

@@ -8,15 +8,14 @@ namespace walr::render {
 
 /// Random numbers for one path: each call returns the next dimensions of the path's sample point.
 ///
-/// `Sobol`: padded two-dimensional Sobol sequences, each independently Owen-scrambled and shuffled (Burley 2020,
-/// "Practical Hash-based Owen Scrambling"). The samples of one pixel are well distributed in every pair of dimensions,
-/// within a frame and over frames. Different pixels are independent.
+/// `Sobol`: padded two-dimensional Sobol sequences, each independently Owen-scrambled and shuffled (Burley 2020). The
+/// samples of one pixel are well distributed in every pair of dimensions, within a frame and over frames. Different
+/// pixels are independent.
 ///
 /// `BlueNoise`: well distributed over the image instead. All pixels share one sequence per frame. Each pixel takes the
 /// point whose index is the pixel's position on a Z-order curve with quadrants shuffled at every level (Ahmed and Wonka
-/// 2020, "Screen-Space Blue-Noise Diffusion of Monte Carlo Sampling Error via Hierarchical Ordering of Pixels"). The
-/// errors of neighbouring pixels then differ, so that a spatial filter removes them well. The samples of one pixel are
-/// independent.
+/// 2020). The errors of neighbouring pixels then differ, so that a spatial filter removes them well. The samples of one
+/// pixel are independent.
 ///
 /// `Independent`: independent uniform numbers.
 class Sampler {
