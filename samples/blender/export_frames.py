@@ -1,20 +1,20 @@
-"""Renders frames of a Blender scene with Cycles as `walr denoise` takes them.
+"""Renders frames of a Blender scene with Cycles, for `walr denoise`.
 
     blender -b scene.blend --python samples/blender/export_frames.py -- \\
         --output DIR --frames A-B [--size WIDTHxHEIGHT] [--spp N] [--reference-spp M] [--camera NAME]
 
 writes to DIR, in the layout of samples/docs/sequences.md ("Blender Cycles"):
 
-    noisy_FFFF.exr   one path a pixel, with the passes that the denoiser needs
-    ref_FFFF.exr     the same frame with M paths a pixel, for --reference-spp
+    noisy_FFFF.exr   1 sample per pixel (--spp), with the passes that the denoiser needs
+    ref_FFFF.exr     the same frame with M samples per pixel (--reference-spp)
     cameras.json     the camera of every frame
 
-Every value belongs to the centre of its pixel: the pixel filter is 0.01 pixel wide. Each frame has random numbers of its
-own, and references never share those of the noisy frames. Nothing is clamped, denoised or sampled adaptively. Files that
-are there already are kept, so that an interrupted run goes on. The scene file itself is not changed.
+Pixels are sampled at their centres: the pixel filter is 0.01 pixel wide. Each frame has its own random seed, and
+references never share a seed with noisy frames. Clamping, denoising and adaptive sampling are turned off. Existing
+files are kept, so that an interrupted run can be resumed. The scene file itself is not changed.
 
-Motion comes from Blender for all that moves, but `walr denoise` takes the depth change of the camera's motion alone: the
-script names objects that move.
+Blender's vectors hold the motion of the camera and of objects in the image, but no change of depth. `walr denoise`
+computes the change of depth from the camera alone, which is wrong for moving objects: the script prints their names.
 """
 
 import argparse
@@ -24,7 +24,7 @@ import sys
 
 import bpy
 
-# Cycles ignores the width of its box filter, so that it must be another.
+# Cycles ignores the width of its box filter.
 FILTER = "GAUSSIAN"
 FILTER_WIDTH = 0.01
 REFERENCE_SEED = 1000003
@@ -32,7 +32,7 @@ MOST_SAMPLES = 1 << 24
 
 
 def fail(message):
-    # Blender ends with 0 after an exception in a script; only this is seen by whoever called.
+    # After an exception in a script Blender still exits with 0; sys.exit makes the failure visible to the caller.
     print(f"export_frames.py: {message}", file=sys.stderr)
     sys.exit(1)
 
@@ -54,22 +54,22 @@ def samples(text):
 def parse_arguments():
     own = sys.argv[sys.argv.index("--") + 1:] if "--" in sys.argv else []
     parser = argparse.ArgumentParser(prog="export_frames.py", description="Renders frames for walr denoise")
-    parser.add_argument("--output", required=True, type=pathlib.Path, help="folder, made if need be")
-    parser.add_argument("--frames", required=True, help="A-B: frame numbers, both included")
+    parser.add_argument("--output", required=True, type=pathlib.Path, help="output folder, created if it is missing")
+    parser.add_argument("--frames", required=True, help="A-B: first and last frame number, both included")
     parser.add_argument("--size", help="WIDTHxHEIGHT in pixels; default: the scene's")
-    parser.add_argument("--spp", type=samples, default=1, help="paths a pixel of the noisy frames; default 1")
-    parser.add_argument("--reference-spp", type=samples, default=0, help="paths a pixel of the references; 0: none")
+    parser.add_argument("--spp", type=samples, default=1, help="samples per pixel of the noisy frames; default 1")
+    parser.add_argument("--reference-spp", type=samples, default=0, help="samples per pixel of references; 0: none")
     parser.add_argument("--camera", help="name of the camera object; default: the scene's")
     arguments = parser.parse_args(own)
     first, last = pair(arguments.frames, "-", "--frames", "1-24") if "-" in arguments.frames else (
         pair(f"{arguments.frames}-{arguments.frames}", "-", "--frames", "1-24"))
     if first > last:
-        fail(f"--frames {arguments.frames}: the first is after the last")
+        fail(f"--frames {arguments.frames}: the first frame is greater than the last")
     arguments.frames = range(first, last + 1)
     if arguments.size:
         arguments.size = pair(arguments.size, "x", "--size", "640x360")
     if arguments.spp < 1:
-        fail("--spp 0: give at least one path a pixel")
+        fail("--spp 0: give at least one sample per pixel")
     return arguments
 
 
@@ -78,14 +78,14 @@ def choose_camera(scene, name):
         camera = scene.objects.get(name)
         if camera is None or camera.type != "CAMERA":
             known = ", ".join(o.name for o in scene.objects if o.type == "CAMERA") or "none"
-            fail(f"--camera {name}: there is no such camera; cameras: {known}")
+            fail(f"--camera {name}: the scene has no such camera; its cameras: {known}")
         scene.camera = camera
     if scene.camera is None:
         fail("the scene has no camera; add one or choose one with --camera")
     if scene.camera.data.type != "PERSP":
-        fail(f"camera '{scene.camera.name}' is not a perspective one")
+        fail(f"camera '{scene.camera.name}' is not a perspective camera")
     if scene.camera.data.dof.use_dof:
-        print(f"warning: depth of field of '{scene.camera.name}' is turned off: every pixel must show one point")
+        print(f"warning: depth of field of '{scene.camera.name}' is turned off: every pixel must show a single point")
         scene.camera.data.dof.use_dof = False
 
 
@@ -121,7 +121,7 @@ def set_up(scene, size):
     layers = [layer for layer in scene.view_layers if layer.use]
     if len(layers) > 1:
         names = ", ".join(layer.name for layer in layers)
-        print(f"warning: several view layers ({names}): give walr denoise --view-layer NAME")
+        print(f"warning: the scene has several view layers ({names}): choose one with walr denoise --view-layer NAME")
     for layer in layers:
         layer.use_pass_z = True
         layer.use_pass_normal = True
@@ -130,13 +130,13 @@ def set_up(scene, size):
         layer.use_pass_diffuse_indirect = True
         layer.use_pass_diffuse_color = True
         layer.use_pass_emit = True
-        # The emission pass lacks the sky.
+        # The sky is in this pass; the emission pass holds only surfaces.
         layer.use_pass_environment = True
         layer.cycles.denoising_store_passes = False
 
 
 def numbers(matrix):
-    """Column-major, as the project has it; Blender's rows are rows."""
+    """The 16 elements column by column, the project's order; Blender's matrices are indexed by row."""
     return [matrix[row][column] for column in range(4) for row in range(4)]
 
 
@@ -166,17 +166,17 @@ def name_moving_objects(scene, frames):
     first, last = places(frames.start - 1), places(frames.stop - 1)
     moving = sorted(name for name in first if name in last and first[name] != last[name])
     if moving:
-        print(f"warning: objects move ({', '.join(moving[:8])}{', ...' if len(moving) > 8 else ''}): walr denoise takes "
-              "their motion in the picture, but not their change of depth")
+        print(f"warning: objects move ({', '.join(moving[:8])}{', ...' if len(moving) > 8 else ''}): walr denoise uses "
+              "their motion in the image, but not their change of depth")
 
 
 def render(scene, file, sample_count, seed):
     if file.exists():
-        print(f"{file.name}: is there already")
+        print(f"{file.name}: already exists, skipped")
         return
     scene.cycles.samples = sample_count
     scene.cycles.seed = seed
-    # Under another name until it is whole; Blender appends the extension where it lacks it.
+    # A temporary name until the file is complete. It ends with .exr because Blender would append that otherwise.
     unfinished = file.with_name("unfinished.exr")
     scene.render.filepath = str(unfinished)
     bpy.ops.render.render(write_still=True)

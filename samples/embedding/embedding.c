@@ -1,4 +1,4 @@
-/* The least that a Vulkan program does to denoise. C11 and C++20; links to walr and to the Vulkan loader. */
+/* The smallest Vulkan program that denoises. Compiles as C11 and as C++20; links to walr and to the Vulkan loader. */
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -9,11 +9,11 @@ enum { kWidth = 640, kHeight = 360, kImages = 6, kFrames = 3 };
 static const char* const kNames[kImages] = {"lighting", "depth", "normal", "motion", "albedo", "denoised"};
 static VkDeviceMemory memory[kImages];
 
-static void check(int result) { /* A VkResult or a WalrResult. */
+static void check(int result) { /* Takes a VkResult or a WalrResult. */
   if (result != 0) exit(fprintf(stderr, "error %d: %s\n", result, walr_last_error()));
 }
 
-/* An engine has images already, and renders to them what is cleared here. */
+/* Creates an image and clears it. An engine would pass images that it has rendered to. */
 static WalrImage make_image(VkDevice device, WalrDenoiser denoiser, int index, VkCommandBuffer commands) {
   WalrImageRequirements needs = {.struct_size = sizeof(needs)};
   check(walr_get_image_requirements(denoiser, kNames[index], &needs)); /* Known before any image is made. */
@@ -50,13 +50,13 @@ static WalrImage make_image(VkDevice device, WalrDenoiser denoiser, int index, V
                       .usage = info.usage,
                       .width = kWidth,
                       .height = kHeight,
-                      .acquire = {VK_PIPELINE_STAGE_2_CLEAR_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT, /* Who wrote it. */
+                      .acquire = {VK_PIPELINE_STAGE_2_CLEAR_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT, /* The last write. */
                                   VK_IMAGE_LAYOUT_GENERAL, 0}};
   return result;
 }
 
 int main(void) {
-  /* The engine's device: Vulkan 1.3, or 1.1 with VK_KHR_synchronization2. Queue family 0 does compute. */
+  /* The engine's device: Vulkan 1.3, or 1.1 with VK_KHR_synchronization2. Queue family 0 must support compute. */
   WalrDevice device = {.struct_size = sizeof(device), .get_instance_proc_addr = vkGetInstanceProcAddr};
   VkApplicationInfo application = {.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO, .apiVersion = VK_API_VERSION_1_3};
   VkInstanceCreateInfo instance = {.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO, .pApplicationInfo = &application};
@@ -94,7 +94,7 @@ int main(void) {
     check(vkBeginCommandBuffer(commands, &begin));
     for (int i = 0; i < kImages && number == 0; ++i) images[i] = make_image(device.device, denoiser, i, commands);
 
-    WalrCamera camera = {.view = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}, /* Column by column. */
+    WalrCamera camera = {.view = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}, /* Column-major. */
                          .projection = {1.125F, 0, 0, 0, 0, 2, 0, 0, 0, 0, -1, -1, 0, 0, -0.2F, 0}};
     WalrFrame frame = {.struct_size = sizeof(frame), .camera = &camera};
     frame.lighting = &images[0], frame.depth = &images[1], frame.normal = &images[2];

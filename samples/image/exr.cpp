@@ -23,10 +23,10 @@
 namespace walr {
 namespace {
 
-// The largest image dimension that common Vulkan devices take; also keeps a damaged header from asking for terabytes.
+// The largest image dimension of common Vulkan devices. Also keeps a damaged header from requesting terabytes.
 constexpr int kLargestDimension = 16384;
 
-/// A slice over a buffer of interleaved values that starts at the data window's corner.
+/// A slice over a buffer of interleaved values whose first value belongs to the corner of the data window.
 template <typename T>
 Imf::Slice makeSlice(Imf::PixelType type, T* values, int component, int components, const Imath::Box2i& window) {
   const auto stride = static_cast<std::size_t>(components) * sizeof(T);
@@ -55,7 +55,7 @@ ExrReader::ExrReader(std::filesystem::path path) : path_(std::move(path)) {
   }
   if (width() > kLargestDimension || height() > kLargestDimension) {
     throw InputError(path_.string() + ": " + std::to_string(width()) + " x " + std::to_string(height()) +
-                     " pixels are too many, the limit is " + std::to_string(kLargestDimension) + " a side");
+                     " pixels exceed the limit of " + std::to_string(kLargestDimension) + " pixels a side");
   }
 }
 

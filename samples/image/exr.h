@@ -19,10 +19,10 @@ namespace walr {
 /// An OpenEXR file (scan lines or tiles, first part) opened for reading. Opening reads the header only.
 class ExrReader {
  public:
-  /// One channel and the place its values go to.
+  /// One channel to read and the image component that receives its values.
   struct Target {
     std::string channel;
-    Image* image = nullptr;  ///< Of the file's size.
+    Image* image = nullptr;  ///< Has the file's size.
     int component = 0;
   };
 
@@ -38,14 +38,14 @@ class ExrReader {
   [[nodiscard]] int height() const;
   /// Names of all channels, sorted.
   [[nodiscard]] std::vector<std::string> channels() const;
-  /// Header attribute of type M44f; nothing where it is absent or of another type.
+  /// Header attribute of type M44f; nullopt if it is absent or of another type. The same for the two below.
   [[nodiscard]] std::optional<glm::mat4> matrix(const std::string& name) const;
   /// Header attribute of type V2f.
   [[nodiscard]] std::optional<glm::vec2> vector(const std::string& name) const;
   /// Header attribute of type int.
   [[nodiscard]] std::optional<int> integer(const std::string& name) const;
 
-  /// Read channels, of whatever type, as floats. One pass over the file.
+  /// Read channels of any type as floats, in one pass over the file.
   /// @throws InputError when a channel is missing or subsampled, or when the data are truncated or damaged
   void read(std::span<const Target> targets);
 
@@ -58,7 +58,7 @@ class ExrReader {
 /// How a channel is stored.
 enum class ExrType { Half, Float };
 
-/// One channel to write.
+/// One channel to write: a component of an image.
 struct ExrChannel {
   std::string name;
   const Image* image = nullptr;
@@ -66,16 +66,18 @@ struct ExrChannel {
   ExrType type = ExrType::Half;
 };
 
-/// A header attribute to write. Matrices keep the 16 floats of GLM's column-major, column-vector form in their order,
-/// which is Imath's row-major, row-vector form of the same transformation.
+/// A header attribute to write. A matrix is written as its 16 floats in GLM's order: GLM's column-major matrix for
+/// column vectors and Imath's row-major matrix for row vectors have the same memory layout.
 using ExrAttribute = std::pair<std::string, std::variant<glm::mat4, glm::vec2, int, std::string>>;
 
-/// Write a scan-line file with ZIP compression, whole or not at all. All images have one size.
+/// Write a scan-line file with ZIP compression. The write is atomic: see `writeFileAtomically`.
+/// @param channels  their images must have one size
 /// @throws OutputError
 void writeExr(const std::filesystem::path& path, std::span<const ExrChannel> channels,
               std::span<const ExrAttribute> attributes = {});
 
-/// Append `name`.R, .G, .B (or .X, .Y, .Z: one letter of `components` each) for the first components of an image.
+/// Append one channel `name`.C for each letter C of `components`, such as "RGB" or "XYZ": the first letter names
+/// component 0 of the image.
 void appendChannels(std::vector<ExrChannel>& channels, const std::string& name, const std::string& components,
                     const Image& image, ExrType type = ExrType::Half);
 

@@ -16,7 +16,7 @@ std::string reason(int error) {
   return std::generic_category().message(error);
 }
 
-/// A temporary file beside its final name; removed unless committed.
+/// A temporary file in the directory of its final name; removed unless it is committed.
 class TemporaryFile {
  public:
   explicit TemporaryFile(const std::filesystem::path& target)

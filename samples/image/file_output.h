@@ -6,13 +6,13 @@
 
 namespace walr {
 
-/// Make the directory if need be, and check that files can be made in it.
+/// Create the directory if it does not exist, and check that files can be created in it.
 /// @throws OutputError
 void prepareOutputDirectory(const std::filesystem::path& directory);
 
-/// Write a whole file, or nothing: the bytes go to a temporary name in the same directory which is then renamed.
-/// Existing files are replaced.
-/// @throws OutputError, with the temporary file removed
+/// Write a file completely or not at all: the bytes go to a temporary file in the same directory, which is then
+/// renamed. An existing file is replaced.
+/// @throws OutputError; the temporary file is removed
 void writeFileAtomically(const std::filesystem::path& path, std::span<const std::byte> bytes);
 
 }  // namespace walr

@@ -6,7 +6,7 @@
 
 namespace walr {
 
-/// A picture of interleaved 32-bit floats, rows from the top.
+/// An image of interleaved 32-bit floats, rows from the top.
 class Image {
  public:
   Image() = default;

@@ -5,7 +5,7 @@
 
 namespace walr {
 
-/// The tone map of all pictures and error figures: Reinhard's x / (1 + x) (Reinhard et al. 2002, eq. 3), for linear
+/// The tone map of all PNG images and error metrics: Reinhard's x / (1 + x) (Reinhard et al. 2002, eq. 3), for linear
 /// scene-referred x >= 0. Negative values count as 0.
 inline float toneMap(float value) {
   const float positive = std::max(value, 0.0F);

@@ -17,7 +17,6 @@ constexpr Matrix kToXyz = {{{10135552.0 / 24577794.0, 8788810.0 / 24577794.0, 44
                             {2613072.0 / 12288897.0, 8788810.0 / 12288897.0, 887015.0 / 12288897.0},
                             {1425312.0 / 73733382.0, 8788810.0 / 73733382.0, 70074185.0 / 73733382.0}}};
 
-/// By cofactors.
 constexpr Matrix inverse(const Matrix& m) {
   const auto cofactor = [&m](std::size_t row, std::size_t column) {
     const std::size_t r1 = (row + 1) % 3;
@@ -83,7 +82,8 @@ double hyab(const Colour& a, const Colour& b) {
 constexpr double kColourExponent = 0.7;
 constexpr double kFeatureExponent = 0.5;
 
-/// Compresses large colour errors into 0..1 (section 4.1.3): the range below 0.4 of the largest takes 0.95 of it.
+/// Maps colour errors to 0..1 and compresses large ones (section 4.1.3): errors below 0.4 of the largest error map to
+/// 0..0.95.
 double redistribute(double error) {
   static const double kLargest =
       std::pow(hyab(toHuntLab({0.0, 1.0, 0.0}), toHuntLab({0.0, 0.0, 1.0})), kColourExponent);
@@ -94,7 +94,7 @@ double redistribute(double error) {
   return value < knee ? kShare / knee * value : kShare + (value - knee) / (kLargest - knee) * (1.0 - kShare);
 }
 
-/// A filter along one axis, odd in length.
+/// The weights of a filter along one axis; their number is odd.
 using Kernel = std::vector<double>;
 
 Kernel gaussian(int radius, double exponentPerSquaredPixel) {
@@ -114,7 +114,7 @@ Kernel scaled(Kernel kernel, double factor) {
   return kernel;
 }
 
-/// Positive weights add up to 1, negative ones to -1.
+/// Scales the positive weights to a sum of 1 and the negative ones to a sum of -1.
 Kernel balanced(Kernel kernel) {
   double positive = 0.0;
   double negative = 0.0;
@@ -123,12 +123,12 @@ Kernel balanced(Kernel kernel) {
   return kernel;
 }
 
-/// One plane of values with its size.
+/// The size of a plane, and filters over planes of this size.
 struct Field {
   int width;
   int height;
 
-  /// Filter along x by one kernel and along y by another; the border is continued.
+  /// Filter with one kernel along x and another along y. Beyond the border the nearest value is repeated.
   [[nodiscard]] Plane filter(const Plane& plane, const Kernel& alongX, const Kernel& alongY) const {
     const int radiusX = static_cast<int>(alongX.size()) / 2;
     const int radiusY = static_cast<int>(alongY.size()) / 2;
@@ -159,7 +159,8 @@ struct Field {
   }
 };
 
-/// a sqrt(pi / b) exp(-pi^2 r^2 / b), r in degrees: a contrast sensitivity as a filter (table 1, eq. 1).
+/// A contrast sensitivity function as a spatial filter (eq. 1, table 1): a sqrt(pi / b) exp(-pi^2 r^2 / b), r in
+/// degrees.
 struct Sensitivity {
   double a;
   double b;
@@ -169,7 +170,7 @@ constexpr Sensitivity kAchromatic{1.0, 0.0047};
 constexpr Sensitivity kRedGreen{1.0, 0.0053};
 constexpr std::array kBlueYellow{Sensitivity{34.1, 0.04}, Sensitivity{13.5, 0.025}};
 
-/// Planes of YCxCz.
+/// The planes Y, Cx and Cz of an image.
 using Opponent = std::array<Plane, 3>;
 
 Opponent opponentPlanes(const Image& image) {
@@ -183,7 +184,7 @@ Opponent opponentPlanes(const Image& image) {
   return planes;
 }
 
-/// What the eye resolves of a picture (section 4.1.1), in the space of `toHuntLab`.
+/// The image filtered by the eye's contrast sensitivity (section 4.1.1), in the space of `toHuntLab`.
 std::vector<Colour> perceived(const Opponent& planes, const Field& field, double pixelsPerDegree) {
   constexpr double kSquaredPi = std::numbers::pi * std::numbers::pi;
   const int radius =

@@ -8,17 +8,16 @@
 
 namespace walr {
 
-/// Pixels per degree of visual angle at which pictures are judged: a monitor of 3840 pixels and 0.7 m width seen from
-/// 0.7 m, as in Andersson et al. 2020, 4.1.
+/// Pixels per degree of visual angle, which FLIP assumes for the observer: a monitor 3840 pixels and 0.7 m wide, seen
+/// from 0.7 m (Andersson et al. 2020, 4.1).
 inline constexpr double kFlipPixelsPerDegree = 67.0206432765823;
 
-/// LDR-FLIP (Andersson, Nilsson, Akenine-Moeller, Oskarsson, Astroem and Fairchild, "FLIP: A Difference Evaluator for
-/// Alternating Images", HPG 2020): how strongly an observer who flips between two pictures sees them differ.
-/// @param pair  linear RGB in 0..1; the sRGB display that the paper assumes shows it with its own transfer function
-/// @returns one value in 0..1 a pixel, 0 where nothing differs
+/// LDR-FLIP (Andersson et al. 2020): the difference that an observer perceives who flips between two images.
+/// @param pair  linear RGB in 0..1, before the sRGB transfer function
+/// @returns one value in 0..1 per pixel, 0 where the images look equal
 std::vector<double> flipMap(const DisplayedPair& pair, double pixelsPerDegree = kFlipPixelsPerDegree);
 
-/// Mean of a map over the pixels of a mask; nothing where the mask is empty.
+/// Mean of a map over the pixels of a mask; nullopt if the mask is empty.
 std::optional<double> maskedMean(std::span<const double> map, const PixelMask& mask);
 
 }  // namespace walr

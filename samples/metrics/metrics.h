@@ -10,43 +10,43 @@
 
 namespace walr {
 
-/// How far a picture is from its reference, after the tone map x / (1 + x) (`toneMap`), over the pixels of a mask.
-/// A figure is absent where it has no value: all of them where the mask is empty, PSNR where the pictures are equal,
-/// SSIM where no 11 x 11 window fits.
+/// Errors of an image against its reference, after the tone map x / (1 + x) (`toneMap`), over the pixels of a mask. All
+/// are absent if the mask is empty; PSNR is absent if the images are equal; SSIM is absent if no 11 x 11 window fits.
 struct ErrorFigures {
-  std::optional<double> rmse;  ///< Root of the mean squared difference over pixels and RGB; 0..1, 0 is equal.
-  std::optional<double> psnr;  ///< Decibel against a peak of 1: -20 log10(rmse).
-  std::optional<double> ssim;  ///< Structural similarity, mean over pixels and RGB; at most 1, 1 is equal.
+  std::optional<double> rmse;  ///< Root mean square difference over pixels and RGB, 0..1; 0 if the images are equal.
+  std::optional<double> psnr;  ///< Decibels against a peak of 1: -20 log10(rmse).
+  std::optional<double> ssim;  ///< Structural similarity, mean over pixels and RGB; 1 if the images are equal.
 };
 
-/// Pixels with a diffuse lobe: albedo of at least 0.01 in some channel, a normal that is not zero, and a depth below
-/// `skyDepth`. Pixels where the reference is not finite are left out.
+/// Mask of the pixels with a diffuse lobe and a known reference: an albedo of at least 0.01 in some channel, a normal
+/// that is not zero, a depth below `skyDepth`, and a finite reference.
 PixelMask diffuseMask(const Image& albedo, const Image& normal, const Image& depth, float skyDepth,
                       const Image& reference);
 
-/// Compare two linear RGB pictures of one size.
+/// Compare two linear RGB images of one size. `display` tone-maps them and handles masked and non-finite pixels.
 ///
-/// SSIM as in Wang et al. 2004 (III.B and III.C): 11 x 11 Gaussian window of sigma 1.5,
-/// K1 = 0.01, K2 = 0.03, dynamic range 1, only windows that lie inside the picture. Pixels outside the mask take the
-/// reference's value in both pictures, and do not count in the mean. Values that are not finite: see `display`.
+/// SSIM as in Wang et al. 2004 (III.B, III.C): 11 x 11 Gaussian window of sigma 1.5, K1 = 0.01, K2 = 0.03, dynamic
+/// range 1. Only windows that lie inside the image are used. Pixels outside the mask lie in windows, with the
+/// reference's value in both images, but their own SSIM does not count in the mean.
 ErrorFigures compare(const Image& test, const Image& reference, const PixelMask& mask);
-/// The same for pictures that were made displayable with that mask already.
+/// The same for the result of `display` with the same mask.
 ErrorFigures compare(const DisplayedPair& pair, const PixelMask& mask);
 
-/// Mean over the mask's pixels and RGB of (x - r)^2 / (r^2 + 0.01), in linear radiance without a tone map (Rousselle et
-/// al. 2011). A value of `test` that is not finite counts as 65504, the largest half float.
-/// @returns nothing where the mask is empty
+/// Relative mean squared error in linear radiance, without a tone map: the mean of (x - r)^2 / (r^2 + 0.01) over the
+/// mask's pixels and RGB (Rousselle et al. 2011). A non-finite value of `test` counts as 65504, the largest half float.
+/// @returns nullopt if the mask is empty
 std::optional<double> relativeMse(const Image& test, const Image& reference, const PixelMask& mask);
 
-/// Noise of a reference R from one half A of its samples, B = 2 R - A the other: the root mean square of
-/// (T(A) - T(B)) / 2, with T the tone map, which is the RMSE (`compare`) that a perfect result would have against R.
-/// @returns nothing where the mask is empty
+/// Estimate the noise of a reference R: the RMSE (`compare`) that a noise-free image would have against R. `half` is A,
+/// the mean of one half of R's samples; the mean of the other half is B = 2 R - A. The estimate is the root mean square
+/// of (T(A) - T(B)) / 2, where T is the tone map.
+/// @returns nullopt if the mask is empty
 std::optional<double> referenceNoise(const Image& reference, const Image& half, const PixelMask& mask);
 
 /// Number of values of an image that are not finite.
 std::size_t countNonFinite(const Image& image);
 
-/// Mean of figures over frames, each over those frames that have it.
+/// Means of error figures over frames. A frame without a value for a figure does not count in the mean of that figure.
 class MeanFigures {
  public:
   void add(const ErrorFigures& figures);

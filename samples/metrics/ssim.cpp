@@ -28,7 +28,7 @@ Window gaussianWindow() {
   return window;
 }
 
-/// Weighted sums of x, y, xx, yy and xy.
+/// Weighted means of x, y, xx, yy and xy over a window.
 struct Moments {
   double x = 0.0;
   double y = 0.0;
@@ -65,7 +65,7 @@ std::vector<double> similarityMap(std::span<const double> test, std::span<const 
   std::vector<double> map(mask.size(), std::numeric_limits<double>::quiet_NaN());
   std::vector<Moments> columns(static_cast<std::size_t>(width));
   for (int y = kRadius; y < height - kRadius; ++y) {
-    // The window is separable: down the columns once a row, then along the row.
+    // The window is separable: first sum down every column, then along the row.
     for (int x = 0; x < width; ++x) {
       Moments column;
       for (int dy = -kRadius; dy <= kRadius; ++dy) {

@@ -12,7 +12,7 @@ namespace walr {
 namespace {
 
 constexpr double kDepthTolerance = 0.03;
-constexpr double kLeastCosine = 0.8660254037844386;  // Of 30 degrees.
+constexpr double kLeastCosine = 0.8660254037844386;  // The cosine of 30 degrees.
 
 double dot(std::span<const float> a, std::span<const float> b) {
   return static_cast<double>(a[0]) * b[0] + static_cast<double>(a[1]) * b[1] + static_cast<double>(a[2]) * b[2];
@@ -31,7 +31,7 @@ std::vector<std::uint32_t> previousPixels(const VisibleSurfaces& current, const 
       const auto motion = current.motion.pixel(pixel);
       const double previousX = std::floor(x + 0.5 + motion[0]);
       const double previousY = std::floor(y + 0.5 + motion[1]);
-      // Written so that motion that is not a number fails, too.
+      // Negated so that the test also rejects motion that is NaN.
       if (!(previousX >= 0 && previousX < width && previousY >= 0 && previousY < height)) continue;
       const auto candidate =
           static_cast<std::size_t>(previousY) * static_cast<std::size_t>(width) + static_cast<std::size_t>(previousX);

@@ -22,7 +22,8 @@ void applyChannel(const AnimationChannel& channel, double seconds, Transform& tr
                     channel.values[a] == channel.values[b];
   const float fraction = hold ? 0.0F : (time - channel.times[a]) / (channel.times[b] - channel.times[a]);
   glm::vec4 value = channel.values[a];
-  // At a key and between equal keys the value is the key's: what stands still must not tremble by a blend's roundoff.
+  // At a key, and between equal keys, return the key's exact value: interpolation would make still objects move by its
+  // rounding error.
   if (fraction > 0.0F && channel.path == AnimationChannel::Path::Rotation) {
     const glm::quat blend = glm::slerp(asQuaternion(value), asQuaternion(channel.values[b]), fraction);
     value = glm::vec4(blend.x, blend.y, blend.z, blend.w);

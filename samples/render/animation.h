@@ -8,11 +8,11 @@
 
 namespace walr::render {
 
-/// The matrices that bring every node's object space to world space, at one time of the animation.
-/// @param seconds  before the first key and after the last one a channel holds that key's value
+/// For every node, the matrix from its object space to world space at one time of the animation.
+/// @param seconds  time; before its first key and after its last one, a channel keeps that key's value
 std::vector<glm::mat4> worldTransforms(const Scene& scene, double seconds);
 
-/// For every node: whether it, or a node above it, is animated.
+/// For every node, whether it or one of its ancestors is animated.
 std::vector<bool> animatedNodes(const Scene& scene);
 
 }  // namespace walr::render

@@ -6,7 +6,8 @@
 
 namespace walr::render {
 
-/// A direction given about +Z, turned about a unit normal (Duff et al. 2017).
+/// Transform a direction from the local frame of a unit normal, where the normal is +Z, to the normal's space (Duff et
+/// al. 2017).
 inline glm::vec3 fromLocal(const glm::vec3& normal, const glm::vec3& local) {
   const float sign = std::copysign(1.0F, normal.z);
   const float a = -1.0F / (sign + normal.z);

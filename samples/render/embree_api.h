@@ -1,6 +1,7 @@
 #pragma once
 
-// Embree 3 and 4 differ in how a ray query takes its context; everything else the project uses is the same in both.
+// Embree 3 and 4 differ in how a ray query takes its context. Everything else that the project uses is the same in
+// both.
 #if __has_include(<embree4/rtcore.h>)
 #include <embree4/rtcore.h>
 #else

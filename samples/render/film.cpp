@@ -12,7 +12,7 @@ namespace walr::render {
 
 namespace {
 
-// Light of one pixel, and the rays it took.
+// The light of one pixel, and the number of rays traced for it.
 struct PixelLight {
   glm::dvec3 direct{0.0};
   glm::dvec3 indirect{0.0};
@@ -36,8 +36,8 @@ class PixelTracer {
     return mean(light);
   }
 
-  // Of a glossy metal: all of it as indirect light, over a mean of the albedos that it shows, which is the same in
-  // every frame and in its reference.
+  // The light of a glossy metal, all of it counted as indirect, divided by the mean of the albedos that it reflects.
+  // That mean is written to `albedo`. It uses a fixed seed, so that it is the same in every frame and in the reference.
   PixelLight glossy(const PrimaryHit& hit, glm::vec3& albedo) const {
     PixelLight light;
     glm::vec3 sum(0.0F);

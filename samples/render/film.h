@@ -33,7 +33,7 @@ struct Film {
   std::uint64_t rays = 0;           ///< Rays traced.
 };
 
-/// Render a frame: one primary ray a pixel, and from the point it meets as many paths as asked for.
+/// Render a frame: one primary ray per pixel, and `settings.samples` paths from the point that it hits.
 Film renderFilm(const World& world, const View& view, const SamplingSettings& settings);
 
 }  // namespace walr::render

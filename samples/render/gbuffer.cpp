@@ -11,8 +11,8 @@
 namespace walr::render {
 namespace {
 
-// Motion of what was at `previous` in the previous view space. What was behind the camera, or far outside the image,
-// gets a motion that leads outside of the image and still fits a half float.
+// Image motion of a point whose position in the previous view space is `previous`. A point that was behind the camera
+// or far outside the image gets a motion that leads outside the image and still fits a half float.
 glm::vec2 imageMotion(const View& view, std::uint32_t x, std::uint32_t y, const glm::vec3& previous) {
   const glm::vec2 size(static_cast<float>(view.width), static_cast<float>(view.height));
   const glm::vec2 outside = 2.0F * size;
@@ -23,10 +23,10 @@ glm::vec2 imageMotion(const View& view, std::uint32_t x, std::uint32_t y, const 
   return glm::clamp(project(view, previous) - view.previousJitter - center, -outside, outside);
 }
 
-// Mirrors that a pixel is followed through.
+// A pixel is followed through at most this many mirrors.
 constexpr int kMostMirrors = 8;
 
-// The map from what is there to its image in a surface's mirror.
+// The matrix that reflects points at the tangent plane of a mirror.
 glm::mat4 reflectionAt(const Surface& mirror) {
   const glm::vec3& n = mirror.shadingNormal;
   glm::mat4 map(glm::mat3(1.0F) - 2.0F * glm::outerProduct(n, n));
@@ -40,7 +40,7 @@ PrimaryHit tracePrimary(const World& world, const View& view, std::uint32_t x, s
   const Ray primary = primaryRay(view, x, y);
   PrimaryHit result;
   Ray ray = primary;
-  glm::mat4 imageFromWorld(1.0F);  // Where mirrors show what is there.
+  glm::mat4 imageFromWorld(1.0F);  // From a point to its virtual image behind the mirrors so far.
   for (int mirrors = 0;; ++mirrors) {
     const std::optional<Hit> hit = world.rays().closest(ray);
     if (!hit) {

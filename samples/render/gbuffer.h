@@ -12,7 +12,7 @@
 
 namespace walr::render {
 
-/// What a pixel shows, free of noise. Conventions as everywhere in the project.
+/// The noise-free values of one pixel, in the conventions of `walr::Frame` for the project's layout.
 struct GBufferPixel {
   static constexpr std::uint32_t kSky = std::numeric_limits<std::uint32_t>::max();
 
@@ -21,11 +21,11 @@ struct GBufferPixel {
   glm::vec3 albedo{0.0F};    ///< Diffuse; 0 on sky and, with `GBufferMode::FirstHit`, on metals.
   glm::vec3 emission{0.0F};  ///< Radiance of a visible emitter or of the sky.
   glm::vec3 motion{0.0F};    ///< Pixels to the previous frame, y down, between the jittered images; z: previous minus
-                             ///< current view depth. On sky that of the direction, z = 0.
+                             ///< current view depth. On sky: motion of the ray's direction, z = 0.
   std::uint32_t objectId = kSky;  ///< Index of the instance (`World::instances`).
 };
 
-/// What of a pixel the G-buffer tells.
+/// Which surface the G-buffer describes.
 enum class GBufferMode : std::uint8_t {
   FirstHit,  ///< The first surface. Metals show no light.
   /// Blended by material (Fu 2022): in a mirror the image of what it shows, as if that stood behind it; of a
@@ -33,14 +33,14 @@ enum class GBufferMode : std::uint8_t {
   Material,
 };
 
-/// One pixel's G-buffer entry with the surface in world space that light is gathered at.
+/// One pixel's G-buffer entry, and the surface in world space where its light is gathered.
 struct PrimaryHit {
   GBufferPixel pixel;
   std::optional<Surface> surface;  ///< Nothing on sky.
-  glm::vec3 tint{1.0F};            ///< By which mirrors on the way change the light.
+  glm::vec3 tint{1.0F};            ///< Product of the reflection weights of the mirrors in between.
 };
 
-/// Trace the ray through a pixel's sample position. Mirrors are taken to have stood where they are one frame ago.
+/// Trace the ray through a pixel's sample position. For motion seen in mirrors, the mirrors are assumed not to move.
 PrimaryHit tracePrimary(const World& world, const View& view, std::uint32_t x, std::uint32_t y,
                         GBufferMode mode = GBufferMode::FirstHit);
 

@@ -27,7 +27,7 @@ Elements findElements(const tinygltf::Model& model, int index, int type, const s
     throw SceneError(name + ": sparse accessors and accessors without a buffer view are not supported");
   }
   if (accessor.type != type) {
-    throw SceneError(name + ": has elements of another type than this use takes");
+    throw SceneError(name + ": has the wrong element type for this use");
   }
   const std::span<const std::uint8_t> view = bufferViewBytes(model, accessor.bufferView, name);
   const int stride = accessor.ByteStride(model.bufferViews[static_cast<std::size_t>(accessor.bufferView)]);

@@ -10,22 +10,22 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
-/// Reading glTF accessors, every index and range checked. `what` names the use in errors: "mesh 3 POSITION".
+/// Readers for glTF accessors that check every index and range. `what` names the use in errors: "mesh 3 POSITION".
 namespace walr::render::gltf {
 
 /// The bytes of a buffer view.
-/// @throws SceneError if there is no such view or it exceeds its buffer
+/// @throws SceneError if the view does not exist or exceeds its buffer
 std::span<const std::uint8_t> bufferViewBytes(const tinygltf::Model& model, int view, const std::string& what);
 
-/// An accessor of float elements. @throws SceneError also for values that are not finite
+/// The elements of a float accessor. @throws SceneError also for values that are not finite
 std::vector<float> readScalars(const tinygltf::Model& model, int accessor, const std::string& what);
 std::vector<glm::vec3> readVec3s(const tinygltf::Model& model, int accessor, const std::string& what);
 std::vector<glm::vec4> readVec4s(const tinygltf::Model& model, int accessor, const std::string& what);
 
-/// An accessor of float or normalised unsigned integer pairs.
+/// The elements of an accessor of float or normalised unsigned integer pairs.
 std::vector<glm::vec2> readVec2s(const tinygltf::Model& model, int accessor, const std::string& what);
 
-/// An accessor of unsigned integers of 8, 16 or 32 bits.
+/// The elements of an accessor of unsigned integers of 8, 16 or 32 bits.
 std::vector<std::uint32_t> readIndices(const tinygltf::Model& model, int accessor, const std::string& what);
 
 }  // namespace walr::render::gltf

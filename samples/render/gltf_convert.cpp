@@ -12,7 +12,7 @@ std::string partName(const std::string& kind, std::size_t index, const std::stri
 
 glm::vec3 readColor(const std::vector<double>& numbers, const std::string& what, Scene& scene) {
   if (numbers.size() < 3) {
-    throw SceneError(what + ": takes three numbers");
+    throw SceneError(what + ": must have three numbers");
   }
   const glm::vec3 color(numbers[0], numbers[1], numbers[2]);
   constexpr float kLargest = 1e9F;
@@ -20,7 +20,7 @@ glm::vec3 readColor(const std::vector<double>& numbers, const std::string& what,
     throw SceneError(what + ": larger than 1e9");
   }
   if (color.x < 0.0F || color.y < 0.0F || color.z < 0.0F) {
-    scene.warnings.push_back(what + ": negative components are taken as 0");
+    scene.warnings.push_back(what + ": negative components are set to 0");
   }
   return glm::max(color, glm::vec3(0.0F));
 }

@@ -10,15 +10,15 @@
 
 #include "samples/render/scene.h"
 
-/// The parts of turning a parsed file into a `Scene`. Each appends to `scene`, its warnings included, and throws
-/// `SceneError` for what is malformed.
+/// The steps that convert a parsed file to a `Scene`. Each appends its part and its warnings to `scene`, and throws
+/// `SceneError` if the file is malformed.
 namespace walr::render::gltf {
 
-/// Images and textures. An image that is missing or cannot be decoded gives a warning; materials then do without it.
-/// @returns for every texture of the model its index in `Scene::textures`, or nothing
+/// Images and textures. A missing or undecodable image gives a warning, and materials do not use it.
+/// @returns for every texture of the model its index in `Scene::textures`, or nullopt
 std::vector<std::optional<std::uint32_t>> convertTextures(const tinygltf::Model& model, Scene& scene);
 
-/// Materials, and one more at the end for primitives without a material.
+/// Materials, and a default material at the end for primitives without one.
 void convertMaterials(const tinygltf::Model& model, const std::vector<std::optional<std::uint32_t>>& textures,
                       Scene& scene);
 
@@ -26,18 +26,18 @@ void convertMaterials(const tinygltf::Model& model, const std::vector<std::optio
 /// @returns for every mesh of the model the indices of its primitives in `Scene::meshes`
 std::vector<std::vector<std::uint32_t>> convertMeshes(const tinygltf::Model& model, Scene& scene);
 
-/// The default scene's nodes with cameras and lights, its sky, and the animation of its nodes.
+/// The nodes of the file's default scene with their cameras, lights and animation, and its sky.
 void convertNodes(const tinygltf::Model& model, const std::vector<std::vector<std::uint32_t>>& meshes, Scene& scene);
 
-/// A glTF animation's channels for the nodes that are in the scene.
-/// @param nodes  for every node of the model its index in `Scene::nodes`, or nothing
+/// The animation channels of the nodes that are in the scene.
+/// @param nodes  for every node of the model its index in `Scene::nodes`, or nullopt
 void convertAnimation(const tinygltf::Model& model, const std::vector<std::optional<std::uint32_t>>& nodes,
                       Scene& scene);
 
-/// "mesh 3 'wall'": how a part of the file is called in messages.
+/// The name of a part of the file in messages, such as "mesh 3 'wall'".
 std::string partName(const std::string& kind, std::size_t index, const std::string& name);
 
-/// Three numbers of a file as a linear colour. Negative components become 0, with a warning naming `what`.
+/// A linear colour from three numbers of a file. Negative components become 0, with a warning that names `what`.
 glm::vec3 readColor(const std::vector<double>& numbers, const std::string& what, Scene& scene);
 
 }  // namespace walr::render::gltf

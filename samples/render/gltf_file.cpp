@@ -13,11 +13,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// tinygltf measures files in 32-bit integers.
+// tinygltf stores file sizes in 32-bit integers.
 constexpr std::uintmax_t kLargestFile = 0x7fffffff;
 constexpr std::uintmax_t kAllFiles = std::uintmax_t{1} << 32U;
 
-// glTF itself nests about ten deep; the parser recurses once a level, so a hostile file must not choose the depth.
+// The parser recurses once per level, so that a hostile file could overflow the stack. glTF itself needs about ten
+// levels.
 constexpr int kDeepestNesting = 128;
 
 std::vector<unsigned char> readWholeFile(const fs::path& file, std::uintmax_t budget) {
@@ -33,7 +34,7 @@ std::vector<unsigned char> readWholeFile(const fs::path& file, std::uintmax_t bu
     throw SceneError(error ? error.message() : "larger than 2 GiB");
   }
   if (size > budget) {
-    throw SceneError("the scene's files have more than 4 GiB in all, each counted as often as it is named");
+    throw SceneError("the scene's files exceed 4 GiB in all; a file counts once for each time it is named");
   }
   std::vector<unsigned char> bytes(size);
   std::ifstream stream(file, std::ios::binary);
@@ -67,7 +68,7 @@ bool isBinary(const std::vector<unsigned char>& bytes) {
   return bytes.size() >= 4 && std::memcmp(bytes.data(), "glTF", 4) == 0;
 }
 
-// The JSON text: the whole of a .gltf file, the first chunk of a .glb file.
+// The JSON text: all of a .gltf file, or the first chunk of a .glb file.
 std::string_view jsonText(const std::vector<unsigned char>& bytes) {
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   if (!isBinary(bytes)) {
@@ -80,14 +81,14 @@ std::string_view jsonText(const std::vector<unsigned char>& bytes) {
   std::uint32_t chunk = 0;
   std::memcpy(&chunk, &bytes[12], sizeof chunk);
   if (chunk > bytes.size() - kHeader) {
-    throw SceneError("truncated: its JSON chunk has " + std::to_string(chunk) + " bytes, " +
-                     std::to_string(bytes.size() - kHeader) + " are there");
+    throw SceneError("truncated: its JSON chunk should have " + std::to_string(chunk) + " bytes, the file has " +
+                     std::to_string(bytes.size() - kHeader));
   }
   return text.substr(kHeader, chunk);
 }
 
-// Called by tinygltf for every image. Those of a buffer view are left where they are, for tinygltf has not checked
-// that the view lies within its buffer; those of a URI are kept as they came.
+// tinygltf calls this for every image. An image with a URI is stored without decoding. An image in a buffer view is not
+// read here, because tinygltf has not checked that the view lies within its buffer.
 bool keepEncodedImage(tinygltf::Image* image, int /*index*/, std::string* /*errors*/, std::string* /*warnings*/,
                       int /*width*/, int /*height*/, const unsigned char* bytes, int size, void* /*user*/) {
   if (image->bufferView < 0 && size > 0) {
@@ -101,7 +102,7 @@ bool fileExists(const std::string& file, void* /*user*/) {
   return fs::is_regular_file(file, error);
 }
 
-/// @param user  bytes that all files together may still have, a std::uintmax_t
+/// @param user  a std::uintmax_t: the bytes left of the limit for all files together
 bool readFile(std::vector<unsigned char>* bytes, std::string* errors, const std::string& file, void* user) {
   auto& budget = *static_cast<std::uintmax_t*>(user);
   try {

@@ -6,8 +6,8 @@
 
 namespace walr::render::gltf {
 
-/// Parse a glTF or GLB file and read its buffers. Images stay encoded: those of a URI in `tinygltf::Image::image`
-/// (empty where the file is missing), the others in their buffer view.
+/// Parse a glTF or GLB file and read its buffers. Images stay encoded: an image with a URI in `tinygltf::Image::image`
+/// (empty if its file is missing), any other image in its buffer view.
 /// @throws SceneError
 tinygltf::Model readModel(const std::filesystem::path& file);
 

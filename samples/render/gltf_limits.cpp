@@ -9,7 +9,8 @@
 namespace walr::render::gltf {
 namespace {
 
-// Counts elements up to what the file's bytes can hold: numbers that are plainly wrong are for their reader to name.
+// Counts the elements of accessors. A count beyond the file's bytes is capped: it is invalid, and the accessor's reader
+// reports that with a better message.
 class Uses {
  public:
   explicit Uses(const tinygltf::Model& model) : model_(model) {
@@ -53,8 +54,7 @@ void checkUses(const tinygltf::Model& model) {
   constexpr std::uint64_t kMost = std::uint64_t{1} << 27U;
   if (uses.total() > kMost) {
     throw SceneError("its meshes and animations have " + std::to_string(uses.total()) +
-                     " vertices, indices and keys, counted as often as they are used; at most " +
-                     std::to_string(kMost) + " are taken");
+                     " vertices, indices and keys, counted once for each use; the limit is " + std::to_string(kMost));
   }
 }
 
@@ -67,8 +67,7 @@ void checkPlacedTriangles(const Scene& scene) {
   }
   constexpr std::uint64_t kMost = std::uint64_t{1} << 26U;
   if (total > kMost) {
-    throw SceneError("its nodes place " + std::to_string(total) + " triangles; at most " + std::to_string(kMost) +
-                     " are taken");
+    throw SceneError("its nodes have " + std::to_string(total) + " triangles; the limit is " + std::to_string(kMost));
   }
 }
 

@@ -4,15 +4,15 @@
 
 #include "samples/render/scene.h"
 
-/// A small file can name the same data many times over: limits that keep it from filling the memory.
+/// Limits on data that a file uses many times: without them a small file could fill the memory.
 namespace walr::render::gltf {
 
-/// Before anything is read: vertices, indices and animation keys, each as often as it is used.
-/// @throws SceneError if they are more than 2^27
+/// Count vertices, indices and animation keys, each once per use. To be called before any of them is read.
+/// @throws SceneError if there are more than 2^27
 void checkUses(const tinygltf::Model& model);
 
-/// The triangles of all nodes, each of which gets a copy of its mesh.
-/// @throws SceneError if they are more than 2^26
+/// Count the triangles of all nodes, because every node gets a copy of its mesh.
+/// @throws SceneError if there are more than 2^26
 void checkPlacedTriangles(const Scene& scene);
 
 }  // namespace walr::render::gltf

@@ -20,7 +20,7 @@ OptionalIndices convertImages(const tinygltf::Model& model, Scene& scene) {
     const std::string name = partName("image", i, source.uri.empty() ? source.name : source.uri);
     indices.emplace_back();
     if (source.bufferView < 0 && source.image.empty()) {
-      scene.warnings.push_back(name + ": not found; done without");
+      scene.warnings.push_back(name + ": not found; it is not used");
       continue;
     }
     try {
@@ -31,7 +31,7 @@ OptionalIndices convertImages(const tinygltf::Model& model, Scene& scene) {
       indices.back() = static_cast<std::uint32_t>(scene.images.size());
       scene.images.push_back(std::move(image));
     } catch (const SceneError& error) {
-      scene.warnings.push_back(name + ": " + error.what() + "; done without");
+      scene.warnings.push_back(name + ": " + error.what() + "; it is not used");
     }
   }
   return indices;
@@ -48,7 +48,7 @@ Wrap convertWrap(int wrap) {
   }
 }
 
-// Finds textures for one material, saying what of them cannot be used.
+// Finds the textures of one material, and warns of those that cannot be used.
 class TextureFinder {
  public:
   TextureFinder(const OptionalIndices& textures, std::string material, Scene& scene)
@@ -64,7 +64,7 @@ class TextureFinder {
       throw SceneError(what + ": there is no texture " + std::to_string(info.index));
     }
     if (info.texCoord != 0) {
-      scene_.warnings.push_back(what + ": only TEXCOORD_0 is supported; done without");
+      scene_.warnings.push_back(what + ": only TEXCOORD_0 is supported; the texture is not used");
       return std::nullopt;
     }
     if (info.extensions.count("KHR_texture_transform") != 0) {
@@ -81,7 +81,7 @@ class TextureFinder {
 
 float unitInterval(double value, const std::string& what, Scene& scene) {
   if (!(value >= 0.0 && value <= 1.0)) {
-    scene.warnings.push_back(what + ": brought into 0..1");
+    scene.warnings.push_back(what + ": clamped to 0..1");
   }
   return static_cast<float>(glm::clamp(value, 0.0, 1.0));
 }
@@ -103,7 +103,7 @@ Material convertMaterial(const tinygltf::Material& source, const std::string& na
                          Scene& scene) {
   const tinygltf::PbrMetallicRoughness& pbr = source.pbrMetallicRoughness;
   if (pbr.baseColorFactor.size() != 4) {
-    throw SceneError(name + " baseColorFactor: takes four numbers");
+    throw SceneError(name + " baseColorFactor: must have four numbers");
   }
   Material material;
   material.name = source.name;
@@ -128,7 +128,7 @@ Material convertMaterial(const tinygltf::Material& source, const std::string& na
   if (source.alphaMode == "MASK") {
     material.alphaCutoff = static_cast<float>(source.alphaCutoff);
   } else if (source.alphaMode != "OPAQUE") {
-    scene.warnings.push_back(name + ": alpha mode " + source.alphaMode + " is not supported; taken as opaque");
+    scene.warnings.push_back(name + ": alpha mode " + source.alphaMode + " is not supported; rendered as opaque");
   }
   return material;
 }
@@ -142,7 +142,7 @@ OptionalIndices convertTextures(const tinygltf::Model& model, Scene& scene) {
     const tinygltf::Texture& source = model.textures[i];
     indices.emplace_back();
     if (source.source < 0 || static_cast<std::size_t>(source.source) >= images.size()) {
-      scene.warnings.push_back(partName("texture", i, source.name) + ": names no image of the file; done without");
+      scene.warnings.push_back(partName("texture", i, source.name) + ": names no image of the file; it is not used");
       continue;
     }
     if (!images[static_cast<std::size_t>(source.source)]) {

@@ -12,7 +12,7 @@
 namespace walr::render::gltf {
 namespace {
 
-// Squares and products of two coordinates stay finite in float.
+// With this limit, squares and products of two coordinates stay finite in float.
 constexpr float kLargestCoordinate = 1e12F;
 
 std::optional<int> findAttribute(const tinygltf::Primitive& primitive, const std::string& name) {
@@ -39,7 +39,7 @@ std::vector<glm::uvec3> readTriangles(const tinygltf::Model& model, const tinygl
     }
   }
   if (indices.size() % 3 != 0) {
-    throw SceneError(name + ": " + std::to_string(indices.size()) + " indices are not a number of triangles");
+    throw SceneError(name + ": has " + std::to_string(indices.size()) + " indices, which is not a multiple of 3");
   }
   std::vector<glm::uvec3> triangles(indices.size() / 3);
   for (std::size_t i = 0; i < indices.size(); ++i) {
@@ -57,7 +57,7 @@ std::vector<glm::vec3> readNormals(const tinygltf::Model& model, int accessor, c
   for (std::size_t i = 0; i < normals.size(); ++i) {
     const float length = glm::length(normals[i]);
     if (!(length > 0.0F) || !std::isfinite(length)) {
-      throw SceneError(what + ": element " + std::to_string(i) + " has no direction");
+      throw SceneError(what + ": element " + std::to_string(i) + " cannot be normalised");
     }
     normals[i] /= length;
   }
@@ -109,7 +109,7 @@ Mesh convertPrimitive(const tinygltf::Model& model, const tinygltf::Primitive& p
       mesh.tangents = deriveTangents(mesh);
     }
   } else if (material.normalTexture) {
-    scene.warnings.push_back(name + ": a normal map needs NORMAL and TEXCOORD_0; done without");
+    scene.warnings.push_back(name + ": a normal map needs NORMAL and TEXCOORD_0; it is not used");
   }
   if (findAttribute(primitive, "COLOR_0")) {
     scene.warnings.push_back(name + ": vertex colours are ignored");

@@ -20,7 +20,7 @@ std::optional<std::array<float, N>> readNumbers(const std::vector<double>& numbe
     return std::nullopt;
   }
   if (numbers.size() != N) {
-    throw SceneError(what + ": takes " + std::to_string(N) + " numbers");
+    throw SceneError(what + ": must have " + std::to_string(N) + " numbers");
   }
   std::array<float, N> values{};
   for (std::size_t i = 0; i < N; ++i) {
@@ -64,10 +64,10 @@ void convertCameras(const tinygltf::Model& model, Scene& scene) {
         throw SceneError(name + ": its vertical field of view must lie between 0 and pi");
       }
       if (!(camera.znear > 0.0F && camera.zfar > camera.znear)) {
-        throw SceneError(name + ": its depth range must hold 0 < znear < zfar");
+        throw SceneError(name + ": must have 0 < znear < zfar");
       }
     } else {
-      scene.warnings.push_back(name + ": only perspective cameras are supported; taken as one of 0.8 radians");
+      scene.warnings.push_back(name + ": only perspective cameras are supported; replaced by one with yfov 0.8");
     }
     scene.cameras.push_back(camera);
   }
@@ -86,7 +86,7 @@ void convertLights(const tinygltf::Model& model, Scene& scene) {
       light.kind = PunctualLight::Kind::Spot;
       if (!(source.spot.innerConeAngle >= 0.0 && source.spot.innerConeAngle < source.spot.outerConeAngle &&
             source.spot.outerConeAngle <= std::numbers::pi / 2.0 + 1e-6)) {
-        throw SceneError(name + ": its cone angles must hold 0 <= inner < outer <= pi / 2");
+        throw SceneError(name + ": must have 0 <= innerConeAngle < outerConeAngle <= pi / 2");
       }
       light.cosInnerCone = static_cast<float>(std::cos(source.spot.innerConeAngle));
       light.cosOuterCone = static_cast<float>(std::cos(source.spot.outerConeAngle));
@@ -101,7 +101,7 @@ void convertLights(const tinygltf::Model& model, Scene& scene) {
     light.intensity = readColor(source.color.empty() ? white : source.color, name + " color", scene) *
                       static_cast<float>(source.intensity);
     if (source.range > 0.0) {
-      scene.warnings.push_back(name + ": its range is ignored, light falls off with the squared distance alone");
+      scene.warnings.push_back(name + ": its range is ignored; light falls off with the squared distance only");
     }
     scene.lights.push_back(light);
   }
@@ -112,7 +112,7 @@ std::optional<std::uint32_t> optionalIndex(int index, std::size_t size, const st
     return std::nullopt;
   }
   if (static_cast<std::size_t>(index) >= size) {
-    throw SceneError(what + ": there is no number " + std::to_string(index));
+    throw SceneError(what + ": there is no index " + std::to_string(index));
   }
   return static_cast<std::uint32_t>(index);
 }
@@ -158,7 +158,7 @@ void convertNodes(const tinygltf::Model& model, const std::vector<std::vector<st
   convertLights(model, scene);
   const std::size_t index = model.defaultScene < 0 ? 0 : static_cast<std::size_t>(model.defaultScene);
   if (index >= model.scenes.size()) {
-    throw SceneError("there is no scene " + std::to_string(index) + " in it");
+    throw SceneError("the file has no scene " + std::to_string(index));
   }
   convertSky(model.scenes[index], scene);
 
@@ -175,13 +175,13 @@ void convertNodes(const tinygltf::Model& model, const std::vector<std::vector<st
   for (std::size_t next = 0; next < pending.size(); ++next) {
     const Pending current = pending[next];
     if (current.source < 0 || static_cast<std::size_t>(current.source) >= model.nodes.size()) {
-      throw SceneError("there is no node " + std::to_string(current.source));
+      throw SceneError("the file has no node " + std::to_string(current.source));
     }
     const auto at = static_cast<std::size_t>(current.source);
     const tinygltf::Node& source = model.nodes[at];
     const std::string name = partName("node", at, source.name);
     if (converted[at]) {
-      throw SceneError(name + ": is in the hierarchy twice");
+      throw SceneError(name + ": appears in the hierarchy twice");
     }
     converted[at] = static_cast<std::uint32_t>(scene.nodes.size());
     Node node = convertNode(source, name, meshes, scene);

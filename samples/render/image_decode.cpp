@@ -12,7 +12,7 @@
 namespace walr::render {
 namespace {
 
-// The library knows more formats than glTF, and most of them are little used, and so little tested.
+// stb_image reads more formats than glTF allows. They are refused, because their decoders are little tested.
 bool isPngOrJpeg(std::span<const std::uint8_t> bytes) {
   constexpr std::array<std::uint8_t, 4> kPng = {0x89, 'P', 'N', 'G'};
   constexpr std::array<std::uint8_t, 3> kJpeg = {0xff, 0xd8, 0xff};
@@ -31,18 +31,18 @@ Image decodeImage(std::span<const std::uint8_t> bytes, std::uint64_t& texelBudge
   int height = 0;
   int components = 0;
   if (!isPngOrJpeg(bytes)) {
-    throw SceneError("not a PNG or JPEG picture");
+    throw SceneError("not a PNG or JPEG image");
   }
   if (stbi_info_from_memory(bytes.data(), size, &width, &height, &components) == 0) {
     throw SceneError(std::string("cannot be read: ") + stbi_failure_reason());
   }
   const std::string dimensions = std::to_string(width) + " x " + std::to_string(height) + " texels";
   if (width < 1 || height < 1 || width > kLargestSide || height > kLargestSide) {
-    throw SceneError("has " + dimensions + "; at most " + std::to_string(kLargestSide) + " a side are taken");
+    throw SceneError("has " + dimensions + "; the limit is " + std::to_string(kLargestSide) + " a side");
   }
   const auto texels = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
   if (texels > texelBudget) {
-    throw SceneError("has " + dimensions + ", more than the memory for textures still holds");
+    throw SceneError("has " + dimensions + ", which exceeds the limit for all textures together");
   }
   constexpr int kRgba = 4;
   const std::unique_ptr<stbi_uc, decltype(&stbi_image_free)> decoded(

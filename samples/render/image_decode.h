@@ -7,10 +7,10 @@
 
 namespace walr::render {
 
-/// Decode a PNG or JPEG picture, which is what glTF 2.0 knows, to 8-bit RGBA.
+/// Decode a PNG or JPEG image, the formats of glTF 2.0, to 8-bit RGBA.
 /// @param bytes        the encoded file
-/// @param texelBudget  texels that may still be decoded; what is used is taken off
-/// @throws SceneError if the bytes are no such picture, or one of more than 16384 texels a side or than the budget
+/// @param texelBudget  number of texels that may still be decoded; reduced by those of the image
+/// @throws SceneError if the image is invalid, has more than 16384 texels a side, or exceeds the budget
 Image decodeImage(std::span<const std::uint8_t> bytes, std::uint64_t& texelBudget);
 
 }  // namespace walr::render

@@ -15,7 +15,7 @@ glm::mat3 cofactors(const glm::mat3& m) {
   return {glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1])};
 }
 
-// A bound under which positions of any mesh that the loader takes stay finite, with room for squares of distances.
+// Whether positions of any mesh that the loader accepts, and squared distances between them, stay finite in float.
 bool isUsable(const glm::mat4& m) {
   constexpr float kLargest = 1e6F;
   for (glm::length_t column = 0; column < 4; ++column) {
@@ -54,7 +54,7 @@ void placeInstances(const Scene& scene, const std::vector<glm::mat4>& current, c
     instance.previousWorldFromObject = previous[instance.node];
     if (!isUsable(instance.worldFromObject) || !isUsable(instance.previousWorldFromObject)) {
       throw SceneError("node '" + scene.nodes[instance.node].name +
-                       "': its transform is not finite or beyond 1e6 scene units");
+                       "': its transform is not finite or exceeds 1e6 scene units");
     }
     const glm::mat3 linear(instance.worldFromObject);
     instance.normalFromObject = cofactors(linear);

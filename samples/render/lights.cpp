@@ -24,7 +24,7 @@ std::array<glm::vec3, 3> worldCorners(const Scene& scene, const Instance& instan
   return corners;
 }
 
-// Twice the area, along the front normal.
+// A vector along the front normal whose length is twice the triangle's area.
 glm::vec3 areaVector(const Instance& instance, const std::array<glm::vec3, 3>& corners) {
   return glm::cross(corners[1] - corners[0], corners[2] - corners[0]) * (instance.mirrored ? -1.0F : 1.0F);
 }
@@ -46,7 +46,8 @@ Lights::Lights(const Scene& scene, const std::vector<Instance>& instances, const
     }
   }
 
-  // Every triangle of an emissive mesh gets an entry, so that a triangle's entry is found by its number.
+  // Every triangle of an emissive mesh gets an entry, even one without area, so that entries can be indexed by
+  // triangle.
   constexpr std::size_t kMostEmitters = std::size_t{1} << 24U;
   double total = 0.0;
   for (std::uint32_t i = 0; i < instances.size(); ++i) {
@@ -56,7 +57,7 @@ Lights::Lights(const Scene& scene, const std::vector<Instance>& instances, const
       continue;
     }
     if (emitters_.size() + mesh.triangles.size() > kMostEmitters) {
-      throw SceneError("more than 2^24 emissive triangles; let fewer materials emit");
+      throw SceneError("the scene has more than 2^24 emissive triangles; make fewer materials emissive");
     }
     firstEmitter_[i] = static_cast<std::uint32_t>(emitters_.size());
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -87,7 +88,7 @@ EmitterSample Lights::sampleEmitters(const Scene& scene, const std::vector<Insta
   const Mesh& mesh = scene.meshes[instance.mesh];
   const Material& material = scene.materials[mesh.material];
 
-  // Uniform on a triangle (Pharr et al. 2023, 6.5.4).
+  // Uniform sampling of a triangle (Pharr et al. 2016, 13.6.5).
   const float root = std::sqrt(point.x);
   const glm::vec2 barycentric(root * (1.0F - point.y), root * point.y);
   const std::array<glm::vec3, 3> corners = worldCorners(scene, instance, emitter.triangle);

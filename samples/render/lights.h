@@ -12,30 +12,30 @@
 
 namespace walr::render {
 
-/// A light without extent at its place in the world.
+/// A punctual light in world space.
 struct PlacedLight {
   PunctualLight light;
   glm::vec3 position{0.0F};
-  glm::vec3 axis{0.0F, 0.0F, -1.0F};  ///< Unit: where it shines.
+  glm::vec3 axis{0.0F, 0.0F, -1.0F};  ///< Direction in which it shines, unit.
 };
 
-/// What a light without extent sends to a point.
+/// The light that a punctual light sends to a point.
 struct Illumination {
   glm::vec3 towardsLight{0.0F};  ///< Unit.
   float distance = 0.0F;         ///< Infinite for a directional light.
-  glm::vec3 irradiance{0.0F};    ///< On a plane facing the light, if nothing is in between.
+  glm::vec3 irradiance{0.0F};    ///< On a plane that faces the light, without occlusion.
 };
 
 /// A point on an emissive triangle.
 struct EmitterSample {
   glm::vec3 position{0.0F};
   glm::vec3 normal{0.0F};    ///< Unit, front side.
-  glm::vec3 radiance{0.0F};  ///< To the front, and to the back if `doubleSided`.
+  glm::vec3 radiance{0.0F};  ///< Emitted to the front, and to the back if `doubleSided`.
   bool doubleSided = false;
   float density = 0.0F;  ///< Probability density per area.
 };
 
-/// Punctual lights and emissive triangles of a scene at one moment. The sky is no part of it (see `Sky`).
+/// The punctual lights and emissive triangles of a scene at one time. The sky is separate (see `Sky`).
 class Lights {
  public:
   /// @param worldFromNode  see `worldTransforms`
@@ -44,13 +44,13 @@ class Lights {
   [[nodiscard]] const std::vector<PlacedLight>& punctual() const { return punctual_; }
   [[nodiscard]] bool hasEmitters() const { return !emitters_.empty(); }
 
-  /// A point on all emissive triangles, triangles chosen in proportion to area times emission.
+  /// Sample a point on the emissive triangles. Triangles are chosen in proportion to area times emission.
   /// @param choice  uniform in [0, 1): picks the triangle
   /// @param point   uniform in the unit square: picks the point on it
   [[nodiscard]] EmitterSample sampleEmitters(const Scene& scene, const std::vector<Instance>& instances, float choice,
                                              const glm::vec2& point) const;
 
-  /// Probability density per area with which `sampleEmitters` takes a point of a triangle; 0 if it is no emitter.
+  /// Probability density per area of `sampleEmitters` for the points of a triangle; 0 if the triangle does not emit.
   [[nodiscard]] float emitterDensity(std::uint32_t instance, std::uint32_t triangle) const;
 
  private:
@@ -58,16 +58,17 @@ class Lights {
     std::uint32_t instance = 0;
     std::uint32_t triangle = 0;
     float area = 0.0F;
-    double cumulative = 0.0;  // Probability of this emitter and all before it.
+    double cumulative = 0.0;  // Sum of the probabilities of this emitter and all before it.
     float probability = 0.0F;
   };
 
   std::vector<PlacedLight> punctual_;
   std::vector<Emitter> emitters_;
-  std::vector<std::optional<std::uint32_t>> firstEmitter_;  // By instance: its triangles are consecutive in emitters_.
+  // For every instance that emits, the index of its first triangle in `emitters_`, where its triangles are consecutive.
+  std::vector<std::optional<std::uint32_t>> firstEmitter_;
 };
 
-/// @param point  in world space
+/// The light that arrives at a point in world space, without occlusion.
 Illumination illuminate(const PlacedLight& light, const glm::vec3& point);
 
 }  // namespace walr::render

@@ -39,12 +39,12 @@ void checkContent(Scene& scene) {
     }
   }
   if (!triangles) {
-    throw SceneError("there are no triangles in its default scene");
+    throw SceneError("its default scene has no triangles");
   }
   if (!emission) {
     scene.warnings.emplace_back(
-        "the scene has no light: add a KHR_lights_punctual light, an emissive material, sky_radiance in the scene's "
-        "extras or --sky; everything will be black");
+        "the scene has no light, so that all frames will be black: add a KHR_lights_punctual light, an emissive "
+        "material, sky_radiance in the scene's extras, or --sky");
   }
 }
 

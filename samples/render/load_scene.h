@@ -6,18 +6,18 @@
 
 namespace walr::render {
 
-/// Read a glTF 2.0 file (.gltf or .glb) with everything it refers to.
-/// @param sky  file of an equirectangular sky (see `loadSky`) in place of the scene's own; may be empty
+/// Read a glTF 2.0 file (.gltf or .glb) with everything that it refers to.
+/// @param sky  file of an equirectangular sky (see `loadSky`) that replaces the scene's own; may be empty
 ///
-/// Taken: the default scene's nodes, triangle meshes (float attributes; normalised integer texture coordinates),
+/// Supported: the default scene's nodes, triangle meshes (float attributes; normalised integer texture coordinates),
 /// base colour, metallic, emissive and normal textures of TEXCOORD_0, alpha mode MASK, perspective cameras, LINEAR and
 /// STEP animation of translation, rotation and scale, KHR_lights_punctual, KHR_materials_emissive_strength, and a
 /// constant sky in `scenes[i].extras.sky_radiance`. Light units are radiometric: directional intensity is irradiance
 /// on a plane facing the light, point and spot intensity is radiant intensity, emission is radiance.
-/// What the file holds beyond that is named in `Scene::warnings`.
-/// @throws SceneError naming the file and the part that is wrong: missing, truncated, malformed, or larger than the
-///         limits (2 GiB a file and 4 GiB in all, 16384 texels a side and 1 GiB of texels in all, 2^27 vertices,
-///         indices and keys, 2^26 triangles).
+/// `Scene::warnings` lists what the file holds beyond that.
+/// @throws SceneError naming the file and the part that is missing, truncated, malformed or larger than a limit: 2 GiB
+///         per file and 4 GiB in all; 16384 texels a side and 1 GiB of texels in all; 2^27 vertices, indices and keys;
+///         2^26 triangles
 Scene loadScene(const std::filesystem::path& file, const std::filesystem::path& sky = {});
 
 }  // namespace walr::render

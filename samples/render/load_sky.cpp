@@ -22,8 +22,8 @@ SkyMap loadSky(const std::filesystem::path& file) {
     for (const float value : pixel) {
       constexpr float kLargest = 1e9F;
       if (!(value >= 0.0F && value <= kLargest)) {
-        throw SceneError(file.string() + ": a sky's radiance must lie in 0..1e9; at texel (" +
-                         std::to_string(i % map.width) + ", " + std::to_string(i / map.width) + ") it does not");
+        throw SceneError(file.string() + ": the radiance at texel (" + std::to_string(i % map.width) + ", " +
+                         std::to_string(i / map.width) + ") is not in 0..1e9");
       }
     }
     map.radiance.emplace_back(pixel[0], pixel[1], pixel[2]);

@@ -6,10 +6,9 @@
 
 namespace walr::render {
 
-/// Read an equirectangular sky from an OpenEXR file: R, G, B are linear radiance, the picture's middle lies along -Z,
-/// its top along +Y, its right half along +X.
-/// @throws InputError naming the file that is missing or damaged, lacks a channel, or holds values that are negative or
-///         not finite
+/// Read an equirectangular sky from an OpenEXR file. R, G, B are linear radiance. The image's middle lies along -Z, its
+/// top along +Y, its right half along +X.
+/// @throws InputError naming the file if it is missing or damaged, lacks a channel, or has values outside 0..1e9
 SkyMap loadSky(const std::filesystem::path& file);
 
 }  // namespace walr::render

@@ -20,14 +20,14 @@ glm::vec3 cosineDirection(const glm::vec3& normal, const glm::vec2& random) {
   return fromLocal(normal, {radius * std::cos(angle), radius * std::sin(angle), std::sqrt(1.0F - random.x)});
 }
 
-// Cosine at a surface to a direction, 0 for light from behind the shading normal or from under the surface.
+// Cosine between shading normal and direction; 0 for light from behind the shading normal or from below the surface.
 float lightCosine(const Surface& surface, const glm::vec3& direction) {
   return glm::dot(surface.geometricNormal, direction) > 0.0F
              ? std::max(0.0F, glm::dot(surface.shadingNormal, direction))
              : 0.0F;
 }
 
-// The diffuse lobe over that of a Lambert surface of the same albedo.
+// The value of the diffuse lobe relative to a Lambert lobe of the same albedo (Burley 2015, 5.3).
 float lobe(DiffuseModel model, const Surface& surface, const glm::vec3& towardsLight) {
   if (model == DiffuseModel::Lambert) {
     return 1.0F;
@@ -43,12 +43,12 @@ float lobe(DiffuseModel model, const Surface& surface, const glm::vec3& towardsL
   return (1.0F - 0.5F * light) * (1.0F - 0.5F * view) + retro * (light + view + light * view * (retro - 1.0F));
 }
 
-// Light sampling along one path, with the rays it took.
+// Next-event estimation along one path; counts its rays.
 class LightSampling {
  public:
   LightSampling(const World& world, Sampler& sampler) : world_(world), sampler_(sampler) {}
 
-  // Irradiance / pi of all punctual lights.
+  // Irradiance / pi from all punctual lights.
   glm::vec3 fromEveryPunctual(const Surface& surface) {
     glm::vec3 sum(0.0F);
     for (const PlacedLight& light : world_.lights().punctual()) {
@@ -57,7 +57,7 @@ class LightSampling {
     return sum;
   }
 
-  // An estimate of the same from one of them.
+  // An estimate of the same from one random light.
   glm::vec3 fromOnePunctual(const Surface& surface) {
     const std::vector<PlacedLight>& lights = world_.lights().punctual();
     if (lights.empty()) {
@@ -69,7 +69,7 @@ class LightSampling {
     return fromPunctual(surface, lights[index]) * count;
   }
 
-  // An estimate of irradiance / pi of the emissive triangles, weighted for the use beside cosine sampling.
+  // An estimate of irradiance / pi from the emissive triangles, weighted for combination with cosine sampling.
   glm::vec3 fromEmitters(const Surface& surface) {
     if (!world_.lights().hasEmitters()) {
       return glm::vec3(0.0F);
@@ -89,7 +89,7 @@ class LightSampling {
     if (cosine <= 0.0F || cosineAtLight <= 0.0F || light.radiance == glm::vec3(0.0F)) {
       return glm::vec3(0.0F);
     }
-    // The ray ends a little before the light, on the side that shines here.
+    // The ray ends slightly before the light, so that it does not hit the light itself.
     const glm::vec3 origin = rayOrigin(surface, direction);
     constexpr float kBeforeTheEnd = 1.0F - 1e-4F;
     if (occluded({origin, light.position - origin, kBeforeTheEnd})) {
@@ -101,7 +101,7 @@ class LightSampling {
                              (solidAngleDensity + cosineDensity));
   }
 
-  // The same of a sky from a map.
+  // The same from the sky map.
   glm::vec3 fromSky(const Surface& surface) {
     const Sky& sky = world_.sky();
     if (!sky.isSampled()) {
@@ -142,7 +142,7 @@ class LightSampling {
   std::uint32_t rays_ = 0;
 };
 
-// Share of cosine sampling in the light of an emissive triangle that it met (balance heuristic).
+// Weight of cosine sampling for an emissive triangle that it hit (balance heuristic).
 float cosineWeight(const World& world, const Surface& from, const glm::vec3& direction, const Hit& hit,
                    const Surface& light) {
   const float density = world.lights().emitterDensity(hit.instance, hit.triangle);
@@ -150,12 +150,12 @@ float cosineWeight(const World& world, const Surface& from, const glm::vec3& dir
   const float cosineAtLight = std::abs(glm::dot(light.geometricNormal, direction));
   const float cosineDensity = glm::dot(from.shadingNormal, direction) / kPi;
   const float lightDensity = density * glm::dot(offset, offset);
-  // Both densities times the cosine at the light, which may be 0.
+  // Both densities are multiplied by the cosine at the light, because a division by it could be by 0.
   const float sum = lightDensity + cosineDensity * cosineAtLight;
   return sum > 0.0F ? cosineDensity * cosineAtLight / sum : 0.0F;
 }
 
-// Sky that cosine sampling met, with its share in it (balance heuristic).
+// Radiance of the sky where cosine sampling met it, times the weight of cosine sampling (balance heuristic).
 glm::vec3 metSky(const Sky& sky, const Surface& from, const glm::vec3& direction) {
   const glm::vec3 radiance = sky.radiance(direction);
   if (!sky.isSampled()) {

@@ -10,24 +10,26 @@
 
 namespace walr::render {
 
-/// What one path brings to a diffuse surface point, demodulated: irradiance / pi, so that radiance is albedo times it.
+/// The light that one path brings to a diffuse surface point, demodulated: irradiance / pi, so that albedo times this
+/// value is the radiance.
 struct PathSample {
-  /// Light that comes straight from lights, emissive surfaces and the sky.
+  /// Light that arrives directly from lights, emissive surfaces and the sky.
   glm::vec3 direct{0.0F};
-  /// Light that at least one other surface reflected.
+  /// Light that was reflected by at least one other surface.
   glm::vec3 indirect{0.0F};
   /// Rays traced.
   std::uint32_t rays = 0;
 };
 
-/// Trace one path from a surface point: an unbiased estimate without any clamping.
+/// Trace one path from a surface point. The estimate is unbiased and not clamped.
 ///
-/// At every vertex light is sampled in two ways: next-event estimation (every punctual light at the first vertex, so
-/// that hard-edged light is free of noise, one of them at later ones; one point of the emissive triangles) and the
-/// cosine-distributed direction in which the path goes on. Emissive triangles are found by both; the balance heuristic
-/// (Veach and Guibas 1995) weights them. So it is with a sky from a map; a constant one is found by the latter
-/// alone. What the first direction meets of emission or sky is direct light.
-/// @param bounces  surfaces after the first that reflect light: 0 gives no indirect light
+/// Every vertex samples light in two ways: by next-event estimation, and by the cosine-distributed direction in which
+/// the path continues. Next-event estimation takes all punctual lights at the first vertex, so that their direct light
+/// has no noise, and one random punctual light at later vertices; one point of the emissive triangles; and one
+/// direction of the sky map. Both ways find emissive triangles and the sky map, so the balance heuristic (Veach and
+/// Guibas 1995) weights them. Only the continued path finds a constant sky. Emission and sky that the first direction
+/// meets are direct light.
+/// @param bounces  number of surfaces after the first that reflect light; 0 gives no indirect light
 PathSample tracePath(const World& world, const Surface& first, std::uint32_t bounces, Sampler& sampler);
 
 }  // namespace walr::render

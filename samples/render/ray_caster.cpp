@@ -25,13 +25,13 @@ using Device = std::unique_ptr<std::remove_pointer_t<RTCDevice>, ReleaseDevice>;
 using SceneHandle = std::unique_ptr<std::remove_pointer_t<RTCScene>, ReleaseScene>;
 using Geometry = std::unique_ptr<std::remove_pointer_t<RTCGeometry>, ReleaseGeometry>;
 
-// What the filter needs to look a cut-out up.
+// The user data of the filter function for a mesh with cut-outs.
 struct CutOut {
   const Scene* scene;
   const Mesh* mesh;
 };
 
-// Embree calls this for every triangle a ray meets; clearing `valid` lets the ray pass.
+// Embree calls this for every triangle that a ray hits; clearing `valid` lets the ray pass.
 void passThroughHoles(const RTCFilterFunctionNArguments* arguments) {
   const auto& cutOut = *static_cast<const CutOut*>(arguments->geometryUserPtr);
   for (unsigned int i = 0; i < arguments->N; ++i) {
@@ -98,7 +98,7 @@ class RayCaster::Impl {
       }
       rtcCommitScene(all_.get());
     }
-    check("cannot take the scene");
+    check("cannot build the scene");
   }
 
   void update(const std::vector<Instance>& instances) {
@@ -113,7 +113,8 @@ class RayCaster::Impl {
 
   [[nodiscard]] RTCScene root() const { return all_ ? all_.get() : still_.get(); }
 
-  // Geometries of the still part are numbered by instance; so are the instances over it.
+  // Both the geometries of the still part and the instances in the top-level scene have the instance's index as their
+  // id.
   [[nodiscard]] std::uint32_t instanceOf(const RTCHit& hit) const {
     const unsigned int over = hit.instID[0];
     return over == RTC_INVALID_GEOMETRY_ID || over == stillId_ ? hit.geomID : over;
@@ -139,7 +140,7 @@ class RayCaster::Impl {
     auto* triangles = static_cast<glm::uvec3*>(rtcSetNewGeometryBuffer(
         geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(glm::uvec3), mesh.triangles.size()));
     if (vertices == nullptr || triangles == nullptr) {
-      check("has no memory for " + mesh.name);
+      check("cannot allocate memory for " + mesh.name);
     }
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
       vertices[i] = glm::vec3(worldFromObject * glm::vec4(mesh.positions[i], 1.0F));
@@ -178,7 +179,7 @@ class RayCaster::Impl {
   Device device_;
   std::vector<CutOut> cutOuts_;
   SceneHandle still_;
-  SceneHandle all_;  // The still part and the moving instances; null where nothing moves.
+  SceneHandle all_;  // The still part and the moving instances; null if nothing moves.
   std::vector<Moving> moving_;
 };
 

@@ -14,28 +14,28 @@
 
 namespace walr::render {
 
-/// A half-line, or a part of it.
+/// A ray, or a segment of it.
 struct Ray {
   glm::vec3 origin{0.0F};
-  glm::vec3 direction{0.0F, 0.0F, -1.0F};  ///< Distances count in its length.
-  float length = std::numeric_limits<float>::infinity();
+  glm::vec3 direction{0.0F, 0.0F, -1.0F};                 ///< Any length but 0.
+  float length = std::numeric_limits<float>::infinity();  ///< In units of the length of `direction`.
 };
 
-/// Where a ray met a triangle.
+/// The point where a ray hit a triangle.
 struct Hit {
-  std::uint32_t instance = 0;   ///< Index into the instances the ray caster was made with.
+  std::uint32_t instance = 0;   ///< Index into the instances that the ray caster was constructed with.
   std::uint32_t triangle = 0;   ///< Index into `Mesh::triangles`.
   glm::vec2 barycentric{0.0F};  ///< Weights of the triangle's second and third vertex.
 };
 
-/// Finds what rays meet: Embree over the scene's instances, cut-outs (`Material::alphaCutoff`) seen through. What
-/// does not move is one acceleration structure in world space, so that large meshes lying over one another cost
-/// nothing extra; what moves is instanced over it.
+/// Intersects rays with the scene's instances, using Embree. Rays pass through the holes of cut-outs
+/// (`Material::alphaCutoff`). All still instances share one acceleration structure in world space, so that overlapping
+/// large meshes cost nothing extra. Each moving instance is an instance of its own in a top-level structure.
 class RayCaster {
  public:
   /// @param scene      must outlive the ray caster
-  /// @param instances  placed; still ones stay where they are now
-  /// @throws std::runtime_error naming Embree's complaint
+  /// @param instances  with their current transforms; those of still instances are final
+  /// @throws std::runtime_error with Embree's error code
   RayCaster(const Scene& scene, const std::vector<Instance>& instances);
   ~RayCaster();
   RayCaster(const RayCaster&) = delete;
@@ -43,13 +43,13 @@ class RayCaster {
   RayCaster(RayCaster&&) = delete;
   RayCaster& operator=(RayCaster&&) = delete;
 
-  /// Take over the places of the moving instances. Not while rays are traced.
+  /// Update the transforms of the moving instances. Must not be called while rays are traced.
   void update(const std::vector<Instance>& instances);
 
-  /// The first triangle along a ray. Safe to call from many threads.
+  /// The nearest triangle along a ray. Safe to call from many threads.
   [[nodiscard]] std::optional<Hit> closest(const Ray& ray) const;
 
-  /// Whether anything lies along a ray. Safe to call from many threads.
+  /// Whether a ray hits anything. Safe to call from many threads.
   [[nodiscard]] bool occluded(const Ray& ray) const;
 
  private:

@@ -29,7 +29,7 @@ bool diffuse(const PrimaryHit& hit) {
   return hit.surface && hit.pixel.albedo != glm::vec3(0.0F);
 }
 
-// Every row of squares starts a golden section further on, so that the chosen ones do not line up.
+// Each row of squares is shifted by the golden ratio of the period, so that the chosen squares do not form columns.
 bool covered(std::uint32_t x, std::uint32_t y, std::uint32_t oneSquareIn) {
   constexpr std::uint32_t kSide = 64;
   constexpr double kGolden = 0.6180339887498949;
@@ -42,7 +42,7 @@ class ReferenceTracer {
   ReferenceTracer(const World& world, const View& view, const SamplingSettings& settings, bool wholePixel)
       : world_(world), view_(view), settings_(settings), wholePixel_(wholePixel) {}
 
-  // Halves differ in their sequence of random numbers.
+  // Adds up samples of one half; the two halves use different random sequences.
   LightSum trace(std::uint32_t x, std::uint32_t y, std::uint32_t half, std::uint32_t paths, std::uint64_t& rays) const {
     LightSum sum;
     PrimaryHit hit;

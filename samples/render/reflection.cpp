@@ -14,11 +14,11 @@
 namespace walr::render {
 namespace {
 
-// As in the study's own program.
+// The thresholds of the program of Fu 2022.
 constexpr float kLeastMetallic = 0.5F;
 constexpr float kMirrorRoughness = 0.1F;
 
-// Metals that a path meets before it is given up.
+// A path ends after this many reflections at metals.
 constexpr int kMostReflections = 8;
 
 glm::vec3 fresnel(const glm::vec3& reflectance, float cosine) {
@@ -30,7 +30,7 @@ bool leadsUnder(const Surface& surface, const glm::vec3& direction) {
   return glm::dot(surface.geometricNormal, direction) <= 0.0F;
 }
 
-// Smith's function of a direction about +Z, of which the masking is 1 / (1 + it).
+// Smith's Lambda of a direction in the frame where the normal is +Z. The masking term is 1 / (1 + Lambda).
 float smith(const glm::vec3& direction, float alpha) {
   const float tangent2 = (1.0F - direction.z * direction.z) / (direction.z * direction.z);
   return 0.5F * (std::sqrt(1.0F + alpha * alpha * tangent2) - 1.0F);

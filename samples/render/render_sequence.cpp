@@ -35,7 +35,7 @@ const char* nameOf(Sampler::Kind kind) {
   return "independent";
 }
 
-// All that the pixels depend on, but the range of frames.
+// All settings that pixels depend on. The range of frames is left out, because more frames may be added later.
 nlohmann::json describe(const RenderOptions& options) {
   return {
       {"scene", options.scene.filename().string()},
@@ -57,7 +57,7 @@ nlohmann::json describe(const RenderOptions& options) {
   };
 }
 
-// Keeps frames of different settings from standing side by side.
+// Ensures that all frames of a folder have the same settings: writes them, or compares them with those in the folder.
 void matchSettings(const RenderOptions& options) {
   const fs::path file = options.output / kSettingsFile;
   const nlohmann::json settings = describe(options);
@@ -72,8 +72,8 @@ void matchSettings(const RenderOptions& options) {
   for (const auto& [key, value] : settings.items()) {
     const bool same = before.is_object() && before.contains(key) && before[key] == value;
     if (!same) {
-      throw InputError(file.string() + ": the frames there were rendered with another '" + key +
-                       "'; take another --output or remove that folder");
+      throw InputError(file.string() + ": the frames in this folder were rendered with a different '" + key +
+                       "'; use another --output or remove the folder");
     }
   }
 }
@@ -134,7 +134,7 @@ void renderSequence(const RenderOptions& options, const RenderObserver& observer
       settings.bounces = options.bounces;
       settings.seed = options.seed * 2 + seedBit;
       settings.firstSample = static_cast<std::uint32_t>(number) * samples;
-      // Over many samples of a pixel those of blue noise would be as good as independent.
+      // With several samples per pixel, blue noise would be no better than independent samples, but Sobol points are.
       const bool spread = options.sampler == Sampler::Kind::BlueNoise && samples == 1;
       settings.sampler =
           options.sampler == Sampler::Kind::BlueNoise && !spread ? Sampler::Kind::Sobol : options.sampler;

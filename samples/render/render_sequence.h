@@ -14,10 +14,10 @@
 
 namespace walr::render {
 
-/// What `walr render` is asked for.
+/// The options of `walr render`.
 struct RenderOptions {
   std::filesystem::path scene;
-  std::filesystem::path sky;  ///< Equirectangular sky (`loadSky`) in place of the scene's; may be empty.
+  std::filesystem::path sky;  ///< Equirectangular sky (`loadSky`) that replaces the scene's; may be empty.
   std::filesystem::path output;
   int firstFrame = 0;
   int lastFrame = 0;  ///< Included.
@@ -31,9 +31,9 @@ struct RenderOptions {
   std::uint32_t bounces = 4;  ///< Surfaces after the first that reflect light.
   std::uint32_t seed = 0;
   double framesPerSecond = 24.0;
-  std::string camera;                                ///< Name of the camera or of its node; empty: the first.
-  bool jitter = false;                               ///< Sample off the pixel centre, by `haltonJitter`.
-  Sampler::Kind sampler = Sampler::Kind::BlueNoise;  ///< Of the noisy frames; references take Sobol points for it.
+  std::string camera;                                ///< Name of the camera or of its node; empty: the first camera.
+  bool jitter = false;                               ///< Offset sample positions by `haltonJitter`.
+  Sampler::Kind sampler = Sampler::Kind::BlueNoise;  ///< BlueNoise: Sobol if there are several samples per pixel.
   unsigned int threads = 0;                          ///< 0: one for every core.
   DiffuseModel diffuseModel = DiffuseModel::Lambert;
 

@@ -28,8 +28,8 @@ std::uint32_t reverseBits(std::uint32_t x) {
   return (x << 16U) | (x >> 16U);
 }
 
-// Burley 2020, 3.2: a permutation in which every bit depends only on the bits below it (Laine and Karras
-// 2011), so that between two bit reversals it is an Owen scramble.
+// A permutation in which every bit depends only on the bits below it (Laine and Karras 2011). Between two bit reversals
+// it is an Owen scramble (Burley 2020, 3.2).
 std::uint32_t owenScramble(std::uint32_t x, std::uint32_t seed) {
   x = reverseBits(x);
   x += seed;
@@ -40,7 +40,7 @@ std::uint32_t owenScramble(std::uint32_t x, std::uint32_t seed) {
   return reverseBits(x);
 }
 
-// Second dimension of the Sobol sequence, whose generator matrix is Pascal's triangle modulo 2.
+// Second dimension of the Sobol sequence; its generator matrix is Pascal's triangle modulo 2.
 std::uint32_t sobolSecond(std::uint32_t index) {
   std::uint32_t result = 0;
   for (std::uint32_t column = 0x80000000U; index != 0; index >>= 1U, column ^= column >> 1U) {
@@ -49,7 +49,7 @@ std::uint32_t sobolSecond(std::uint32_t index) {
   return result;
 }
 
-// Puts a zero before each of the lower 16 bits.
+// Inserts a zero bit above each of the lower 16 bits.
 std::uint32_t spreadBits(std::uint32_t x) {
   x &= 0x0000ffffU;
   x = (x | (x << 8U)) & 0x00ff00ffU;
@@ -58,7 +58,7 @@ std::uint32_t spreadBits(std::uint32_t x) {
   return (x | (x << 1U)) & 0x55555555U;
 }
 
-// The 24 orders of four things, each as four numbers of two bits, the lowest first.
+// The 24 permutations of four quadrants, each as four numbers of two bits, the first in the lowest bits.
 constexpr auto kOrders = [] {
   std::array<std::uint8_t, 24> orders{};
   std::array<unsigned int, 4> order = {0, 1, 2, 3};
@@ -69,13 +69,13 @@ constexpr auto kOrders = [] {
   return orders;
 }();
 
-// Place on a Z-order curve whose quadrants are shuffled, at every level and in every quadrant on its own.
+// Position on a Z-order curve whose four quadrants are shuffled independently within every quadrant of every level.
 std::uint32_t shuffledZOrder(std::uint32_t place, std::uint32_t seed) {
-  constexpr std::uint32_t kLevels = 14;  // Pictures of up to 16384 pixels a side.
+  constexpr std::uint32_t kLevels = 14;  // Enough for images of up to 16384 pixels a side.
   std::uint32_t shuffled = 0;
   for (std::uint32_t level = 0; level < kLevels; ++level) {
     const std::uint32_t shift = 2 * level;
-    // A leading one tells the quadrants of one level from those of another.
+    // The leading one distinguishes the quadrants of different levels.
     const std::uint32_t quadrant = (place | 1U << 2 * kLevels) >> (shift + 2);
     const std::uint32_t order = kOrders.at(combine(seed, quadrant) % kOrders.size());
     shuffled |= (order >> 2 * (place >> shift & 3U) & 3U) << shift;
@@ -83,12 +83,12 @@ std::uint32_t shuffledZOrder(std::uint32_t place, std::uint32_t seed) {
   return shuffled;
 }
 
-// The upper 24 bits: every value is exact in float and below 1.
+// Uses the upper 24 bits, so that every value is exact in float and below 1.
 float toUnit(std::uint32_t x) {
   return static_cast<float>(x >> 8U) * 0x1p-24F;
 }
 
-// A point of the Owen-scrambled Sobol sequence, its two dimensions scrambled on their own.
+// A point of the Sobol sequence; its two dimensions are Owen-scrambled independently.
 glm::vec2 sobolPoint(std::uint32_t index, std::uint32_t seed) {
   return {toUnit(owenScramble(reverseBits(index), combine(seed, 1U))),
           toUnit(owenScramble(sobolSecond(index), combine(seed, 2U)))};

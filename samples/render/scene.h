@@ -13,29 +13,29 @@
 
 #include "samples/render/texture.h"
 
-/// A scene as the path tracer takes it: what a glTF file says, checked, in plain values. World space is glTF's:
-/// right-handed, +Y up, metres.
+/// The scene that the path tracer renders: the checked contents of a glTF file in plain structures. World space is that
+/// of glTF: right-handed, +Y up, metres.
 namespace walr::render {
 
-/// How a diffuse lobe reflects.
+/// The shape of the diffuse lobe.
 enum class DiffuseModel : std::uint8_t {
-  Lambert,  ///< The same into all directions.
-  /// As the diffuse lobe of Disney's principled model (Burley 2015, 5.3), which Blender's Principled BSDF uses: darker
-  /// or, for rough surfaces, brighter at grazing angles.
+  Lambert,  ///< The same radiance in all directions.
+  /// The diffuse lobe of Disney's principled model (Burley 2015, 5.3), which Blender's Principled BSDF uses. At grazing
+  /// angles it is darker, or brighter for rough surfaces.
   Disney,
 };
 
-/// A diffuse surface, or one without a diffuse lobe (metallic 1).
+/// A material of glTF's metallic-roughness model. At metallic 1 it has no diffuse lobe.
 struct Material {
   std::string name;
   glm::vec3 baseColor{1.0F};                              ///< Linear, 0..1.
-  float baseAlpha = 1.0F;                                 ///< 0..1; matters where there is an `alphaCutoff`.
+  float baseAlpha = 1.0F;                                 ///< 0..1; used only with an `alphaCutoff`.
   float metallic = 0.0F;                                  ///< 0..1; the diffuse albedo is base colour * (1 - metallic).
   glm::vec3 emission{0.0F};                               ///< Radiance: emissive factor * emissive strength.
   float roughness = 1.0F;                                 ///< 0..1; matters for `DiffuseModel::Disney`.
   float normalScale = 1.0F;                               ///< Multiplies x and y of the normal map.
   bool doubleSided = false;                               ///< Emits from both sides; reflection is always two-sided.
-  std::optional<float> alphaCutoff;                       ///< Cut-out: less alpha is a hole (glTF alpha mode MASK).
+  std::optional<float> alphaCutoff;                       ///< Cut-out: alpha below is a hole (glTF alpha mode MASK).
   std::optional<std::uint32_t> baseColorTexture;          ///< Indices into `Scene::textures`.
   std::optional<std::uint32_t> metallicRoughnessTexture;  ///< Metallic in blue, roughness in green.
   std::optional<std::uint32_t> emissiveTexture;
@@ -48,21 +48,21 @@ struct Material {
 struct Mesh {
   std::string name;
   std::vector<glm::vec3> positions;   ///< Finite.
-  std::vector<glm::vec3> normals;     ///< Unit, one a position; empty for flat shading.
-  std::vector<glm::vec2> uvs;         ///< One a position; empty where no texture needs them.
-  std::vector<glm::vec4> tangents;    ///< xyz unit, w = handedness; only where the material has a normal map.
+  std::vector<glm::vec3> normals;     ///< Unit, one per position; empty for flat shading.
+  std::vector<glm::vec2> uvs;         ///< One per position; empty if no texture needs them.
+  std::vector<glm::vec4> tangents;    ///< xyz unit, w = handedness; empty unless the material has a normal map.
   std::vector<glm::uvec3> triangles;  ///< Indices into `positions`, counter-clockwise seen from the front.
   std::uint32_t material = 0;
 };
 
-/// An equirectangular picture of the sky; its middle lies along -Z, its top along +Y, its right half along +X.
+/// An equirectangular image of the sky; its middle lies along -Z, its top along +Y, its right half along +X.
 struct SkyMap {
   std::uint32_t width = 0;
   std::uint32_t height = 0;
   std::vector<glm::vec3> radiance;  ///< Linear RGB, rows from the top; finite, not negative.
 };
 
-/// A light without extent (KHR_lights_punctual), at the origin of its node, shining along the node's -Z.
+/// A light without extent (KHR_lights_punctual) at the origin of its node; it shines along the node's -Z.
 struct PunctualLight {
   enum class Kind : std::uint8_t { Directional, Point, Spot };
   Kind kind = Kind::Point;
@@ -72,11 +72,11 @@ struct PunctualLight {
   float cosOuterCone = 0.0F;  ///< Spot: no light outside this cone.
 };
 
-/// A pinhole camera at the origin of its node, looking along the node's -Z.
+/// A pinhole camera at the origin of its node; it looks along the node's -Z.
 struct Camera {
   std::string name;
   float yfov = 0.8F;   ///< Radians, 0..pi.
-  float znear = 0.1F;  ///< Scene units; the projection matrix only, nothing is clipped.
+  float znear = 0.1F;  ///< Scene units; used for the projection matrix only, nothing is clipped.
   float zfar = 1000.0F;
 };
 
@@ -92,7 +92,7 @@ struct Node {
   std::string name;
   std::optional<std::uint32_t> parent;  ///< Index into `Scene::nodes`, smaller than the node's own.
   Transform transform;
-  std::optional<glm::mat4> matrix;  ///< In place of `transform`, where the file gives one.
+  std::optional<glm::mat4> matrix;  ///< Replaces `transform` if the file gives a matrix.
   std::vector<std::uint32_t> meshes;
   std::optional<std::uint32_t> light;
   std::optional<std::uint32_t> camera;
@@ -106,10 +106,10 @@ struct AnimationChannel {
   Path path = Path::Translation;
   Interpolation interpolation = Interpolation::Linear;
   std::vector<float> times;       ///< Seconds, strictly increasing, at least one.
-  std::vector<glm::vec4> values;  ///< One a time: xyz, or a unit quaternion xyzw.
+  std::vector<glm::vec4> values;  ///< One per time: xyz, or a unit quaternion xyzw.
 };
 
-/// Everything a file holds that can be rendered.
+/// The contents of a file that can be rendered.
 struct Scene {
   std::vector<Image> images;
   std::vector<Texture> textures;
@@ -120,9 +120,9 @@ struct Scene {
   std::vector<Node> nodes;  ///< Parents before children.
   std::vector<AnimationChannel> animation;
   DiffuseModel diffuseModel = DiffuseModel::Lambert;
-  glm::vec3 skyRadiance{0.0F};  ///< Constant, linear RGB; where there is no map.
+  glm::vec3 skyRadiance{0.0F};  ///< Constant, linear RGB; used without a map.
   std::optional<SkyMap> skyMap;
-  std::vector<std::string> warnings;  ///< What the file asks for and is not supported or had to be replaced.
+  std::vector<std::string> warnings;  ///< Features of the file that are not supported, and values that were replaced.
 };
 
 }  // namespace walr::render

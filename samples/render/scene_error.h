@@ -4,8 +4,8 @@
 
 namespace walr::render {
 
-/// A scene file that cannot be rendered. The message names the file's part that is wrong and, where there is one, the
-/// way out.
+/// Thrown for a scene file that cannot be rendered. The message names the wrong part of the file and, where there is
+/// one, a remedy.
 class SceneError : public InputError {
  public:
   using InputError::InputError;

@@ -6,10 +6,10 @@
 
 namespace walr::render {
 
-/// A rendered frame in the project's conventions, with direct light and emission.
+/// Convert a film to a frame in the project's conventions, with direct light and emission.
 walr::Frame toFrame(const Film& film, const View& view, int number);
 
-/// The light of a frame of many samples.
+/// Convert the light of a film with many samples per pixel to a reference.
 walr::Reference toReference(const Film& film);
 
 }  // namespace walr::render

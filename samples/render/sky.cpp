@@ -14,7 +14,7 @@ namespace {
 
 constexpr float kPi = std::numbers::pi_v<float>;
 
-// Place in the map, both 0..1: its middle is -Z, its top +Y, its right half +X.
+// Position in the map, both coordinates in 0..1 (see `SkyMap`).
 glm::vec2 placeOf(const glm::vec3& direction) {
   return {0.5F + std::atan2(direction.x, -direction.z) / (2.0F * kPi),
           std::acos(glm::clamp(direction.y, -1.0F, 1.0F)) / kPi};
@@ -30,7 +30,8 @@ std::uint32_t texelAt(float place, std::uint32_t size) {
   return std::min(static_cast<std::uint32_t>(std::max(place, 0.0F) * static_cast<float>(size)), size - 1);
 }
 
-// Mean light of the interpolated map within a texel: an eighth of either neighbour reaches in, in each direction.
+// Mean of the bilinearly interpolated map over the area of a texel: along each axis the texel has the weight 3/4 and
+// each neighbour 1/8.
 double lightWithin(const SkyMap& map, std::uint32_t x, std::uint32_t y) {
   constexpr std::array kReach = {0.125, 0.75, 0.125};
   double sum = 0.0;
@@ -45,7 +46,7 @@ double lightWithin(const SkyMap& map, std::uint32_t x, std::uint32_t y) {
   return sum;
 }
 
-// Turns weights into their cumulative shares; returns their sum.
+// Writes the cumulative distribution of weights, and returns their sum.
 double accumulate(std::span<const double> weights, std::span<float> cumulative) {
   double sum = 0.0;
   for (const double weight : weights) {
@@ -54,7 +55,7 @@ double accumulate(std::span<const double> weights, std::span<float> cumulative) 
   double until = 0.0;
   for (std::size_t i = 0; i < weights.size(); ++i) {
     until += weights[i];
-    // Where there is no light every texel is as good; such a row is never taken.
+    // A row without light gets a uniform distribution, which avoids 0 / 0. Such a row is never chosen.
     cumulative[i] = static_cast<float>(sum > 0.0 ? until / sum : static_cast<double>(i + 1) / weights.size());
   }
   cumulative.back() = 1.0F;
@@ -65,7 +66,7 @@ float shareOf(std::span<const float> cumulative, std::size_t index) {
   return cumulative[index] - (index > 0 ? cumulative[index - 1] : 0.0F);
 }
 
-// The entry that a number in [0, 1) falls in, and where in it.
+// Inverts a cumulative distribution: the entry that a number in [0, 1) falls into, and its relative position there.
 std::pair<std::size_t, float> pick(std::span<const float> cumulative, float random) {
   const auto found = std::upper_bound(cumulative.begin(), cumulative.end(), random);
   const auto index = static_cast<std::size_t>(std::min(found, cumulative.end() - 1) - cumulative.begin());
@@ -138,7 +139,7 @@ float Sky::density(const glm::vec3& direction) const {
   const std::uint32_t y = texelAt(place.y, map.height);
   const float share =
       shareOf(rows_, y) * shareOf(std::span(columns_).subspan(static_cast<std::size_t>(y) * map.width, map.width), x);
-  // The map's unit square covers the sphere with 2 pi^2 sin(polar angle).
+  // The Jacobian from the map's unit square to solid angle is 2 pi^2 sin(polar angle).
   const float sine = std::sin(place.y * kPi);
   const float texels = static_cast<float>(map.width) * static_cast<float>(map.height);
   return sine > 0.0F ? share * texels / (2.0F * kPi * kPi * sine) : 0.0F;

@@ -9,28 +9,28 @@
 
 namespace walr::render {
 
-/// A direction towards the sky.
+/// A sampled direction towards the sky.
 struct SkySample {
   glm::vec3 direction{0.0F, 1.0F, 0.0F};  ///< Unit.
   glm::vec3 radiance{0.0F};
   float density = 0.0F;  ///< Probability density per solid angle.
 };
 
-/// What lies behind everything: a constant, which cosine-distributed directions sample best, or a map, of which bright
-/// parts are also sought out.
+/// The light that arrives where rays hit nothing: a constant, or a map. Bright parts of a map are importance-sampled; a
+/// constant does not need it, because cosine-distributed directions sample it best.
 class Sky {
  public:
   /// @param scene  must outlive the sky
   explicit Sky(const Scene& scene);
 
-  /// Radiance from a direction, unit. Maps are interpolated bilinearly.
+  /// Radiance from a unit direction. Maps are interpolated bilinearly.
   [[nodiscard]] glm::vec3 radiance(const glm::vec3& direction) const;
-  /// Whether `sample` is of use: there is a map, and light in it.
+  /// Whether `sample` may be called: there is a map that is not black.
   [[nodiscard]] bool isSampled() const { return !rows_.empty(); }
-  /// A direction, texels chosen in proportion to the light within them (Pharr et al. 2016, 14.2.4).
+  /// Sample a direction; texels are chosen in proportion to their light (Pharr et al. 2016, 14.2.4).
   /// @param random  uniform in the unit square
   [[nodiscard]] SkySample sample(const glm::vec2& random) const;
-  /// Density per solid angle with which `sample` takes a direction; 0 unless `isSampled`.
+  /// Probability density per solid angle of `sample` for a direction; 0 unless `isSampled`.
   [[nodiscard]] float density(const glm::vec3& direction) const;
 
  private:

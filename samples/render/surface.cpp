@@ -68,7 +68,7 @@ glm::vec3 mappedNormal(const Scene& scene, const Instance& instance, const Hit& 
   return unitOr(worldTangent * local.x + bitangent * local.y + normal * local.z, normal);
 }
 
-// Keeps a normal from pointing away from the viewer.
+// Bends a normal that points away from the viewer until it is perpendicular to the view direction.
 glm::vec3 facing(const glm::vec3& normal, const glm::vec3& viewDirection, const glm::vec3& geometricNormal) {
   const float away = glm::dot(normal, viewDirection);
   return away <= 0.0F ? normal : unitOr(normal - viewDirection * away, geometricNormal);
@@ -117,7 +117,7 @@ Surface evaluateSurface(const Scene& scene, const Instance& instance, const Hit&
   surface.previousPosition = instance.moves ? glm::vec3(instance.previousWorldFromObject *
                                                         glm::vec4(interpolate(mesh.positions, triangle, weights), 1.0F))
                                             : surface.position;
-  // Some tens of the roundoff (2^-24) that the corners' coordinates carry.
+  // 2^-18: 64 times the relative rounding error (2^-24) of the corners' coordinates.
   constexpr float kRelativeOffset = 1.0F / 262144.0F;
   surface.rayOffset = extent * kRelativeOffset;
 

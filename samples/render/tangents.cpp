@@ -9,7 +9,7 @@ namespace walr::render {
 namespace {
 
 struct TriangleTangent {
-  glm::vec3 direction{0.0F};  // Of rising u, unit; zero if the triangle has no extent in the texture.
+  glm::vec3 direction{0.0F};  // Of increasing u, unit; zero if the triangle has no area in the texture.
   float handedness = 1.0F;
 };
 
@@ -24,7 +24,7 @@ TriangleTangent triangleTangent(const Mesh& mesh, const glm::uvec3& triangle) {
   if (determinant == 0.0F || !(length > 0.0F) || !std::isfinite(length)) {
     return {};
   }
-  // glTF's v points down the picture, the bitangent of a normal map up: hence the sign.
+  // The sign is negative because glTF's v points down in the image and the bitangent of a normal map points up.
   return {scaled / length, determinant < 0.0F ? 1.0F : -1.0F};
 }
 

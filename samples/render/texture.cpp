@@ -29,7 +29,7 @@ ByteTable makeLinearTable() {
   return table;
 }
 
-// Two neighbouring texels along one axis, and how far the place is from the first to the second.
+// Two neighbouring texels along one axis, and the weight of the second.
 struct Neighbors {
   std::size_t first = 0;
   std::size_t second = 0;
@@ -37,7 +37,7 @@ struct Neighbors {
 };
 
 Neighbors findNeighbors(float coordinate, std::uint32_t size, const Texture& texture, Wrap wrap) {
-  // Beyond this a float holds no fraction of a texel any more.
+  // A float from 2^24 on has no fractional part.
   constexpr float kLargestCoordinate = 16777216.0F;
   float place = std::abs(coordinate) < kLargestCoordinate ? coordinate : 0.0F;
   if (wrap == Wrap::Repeat) {
@@ -54,7 +54,7 @@ Neighbors findNeighbors(float coordinate, std::uint32_t size, const Texture& tex
     const std::size_t index = std::min(static_cast<std::size_t>(texel), last);
     return {index, index, 0.0F};
   }
-  // Half a texel before the first centre the neighbour is the last texel, or the first again.
+  // Before the centre of the first texel, its neighbour is the last texel (repeat) or the first one itself.
   const float corner = std::floor(texel - 0.5F);
   const bool before = corner < 0.0F;
   const std::size_t beyond = wrap == Wrap::Repeat ? 0 : last;

@@ -9,7 +9,7 @@
 
 namespace walr::render {
 
-/// A decoded picture: 8-bit RGBA, rows from the top, no padding.
+/// A decoded image: 8-bit RGBA, rows from the top, no padding.
 struct Image {
   std::string name;
   std::uint32_t width = 0;
@@ -17,7 +17,7 @@ struct Image {
   std::vector<std::uint8_t> rgba;
 };
 
-/// What a texture coordinate outside 0..1 means (glTF sampler `wrapS` and `wrapT`).
+/// How texture coordinates outside 0..1 are wrapped (glTF sampler `wrapS` and `wrapT`).
 enum class Wrap : std::uint8_t { Repeat, ClampToEdge, MirroredRepeat };
 
 /// An image with the way it is sampled.
@@ -28,11 +28,11 @@ struct Texture {
   bool nearest = false;  ///< No interpolation (glTF `magFilter` NEAREST).
 };
 
-/// How the red, green and blue bytes of a texture are meant; alpha is always linear.
+/// The encoding of the red, green and blue bytes of a texture; alpha is always linear.
 enum class ColorSpace : std::uint8_t { Srgb, Linear };
 
-/// Value of a texture at `uv` (v down, as glTF), from the finest level: bilinear, after conversion to linear values.
-/// A texture coordinate that is not finite gives the texel at the origin.
+/// Value of a texture at `uv` (v points down, as in glTF). Texels are converted to linear values and interpolated
+/// bilinearly; there are no mipmaps. A coordinate that is not finite counts as 0.
 glm::vec4 sampleTexture(const Image& image, const Texture& texture, glm::vec2 uv, ColorSpace space);
 
 }  // namespace walr::render

@@ -46,14 +46,14 @@ std::uint32_t findCamera(const Scene& scene, const std::string& name) {
     }
     known += (known.empty() ? "'" : ", '") + scene.nodes[node].name + "'";
   }
-  throw SceneError("the scene has no camera '" + name + "'; it has " + known);
+  throw SceneError("the scene has no camera '" + name + "'; its cameras: " + known);
 }
 
 glm::mat4 viewFromNode(const glm::mat4& worldFromNode, const std::string& name) {
   const glm::vec3 back(worldFromNode[2]);
   const glm::vec3 right = glm::cross(glm::vec3(worldFromNode[1]), back);
   if (!(glm::length(back) > 0.0F) || !(glm::length(right) > 0.0F)) {
-    throw SceneError("camera node '" + name + "': its scale leaves it no direction");
+    throw SceneError("camera node '" + name + "': its transform gives no view direction; its scale must not be 0");
   }
   const glm::vec3 z = glm::normalize(back);
   const glm::vec3 x = glm::normalize(right);

@@ -13,13 +13,13 @@
 
 namespace walr::render {
 
-/// A scene at one moment of its animation, ready to be traced.
+/// A scene at one time of its animation, ready to be traced.
 class World {
  public:
-  /// At time 0. @param scene must outlive the world
+  /// Starts at time 0. @param scene must outlive the world
   explicit World(const Scene& scene);
 
-  /// Go to a moment. @param seconds, previousSeconds  times of this frame and of the frame before it
+  /// Set the time. @param seconds, previousSeconds  times of this frame and of the frame before it
   void moveTo(double seconds, double previousSeconds);
 
   [[nodiscard]] const Scene& scene() const { return scene_; }

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Makes the built-in scenes beside this script: box.gltf and turntable.gltf.
+"""Writes the built-in scenes, box.gltf and turntable.gltf, to the folder of this script.
 
-    make_scenes.py           write them
-    make_scenes.py --check   fail if the files differ from what this script makes
+    make_scenes.py           write the files
+    make_scenes.py --check   fail if the files differ from what this script writes
 
-Needs nothing but Python. Units and conventions are those of samples/render/load_scene.h: metres, +Y up, radiometric
+Needs Python only. Units and conventions are those of samples/render/load_scene.h: metres, +Y up, radiometric
 light units, 24 frames a second.
 """
 
@@ -21,7 +21,7 @@ FPS = 24.0
 
 
 def png(width, height, rows, channels):
-    """A PNG picture whose data are stored, not compressed: the same bytes whatever the zlib."""
+    """A PNG image whose data are stored uncompressed, so that the bytes do not depend on the zlib version."""
 
     def chunk(kind, data):
         return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
@@ -48,7 +48,7 @@ def tile_normal_map(size=64, bevel=6):
         length = math.sqrt(x * x + y * y + 1.0)
         return [round(127.5 + 127.5 * c / length) for c in (x, y, 1.0)]
 
-    # Row 0 is the top of the picture; the left edge faces left, the top edge faces up.
+    # Row 0 is the top of the image; the left edge faces left, the top edge faces up.
     return png(size, size, [sum((encode(0.6 * slope(x), -0.6 * slope(y)) for x in range(size)), []) for y in range(size)], 3)
 
 
@@ -63,13 +63,13 @@ def perforation(size=32):
 
 
 class Mesh:
-    """Triangles with hard edges: every face has vertices of its own."""
+    """Triangles with hard edges: faces share no vertices."""
 
     def __init__(self):
         self.positions, self.normals, self.uvs, self.indices = [], [], [], []
 
     def quad(self, corner, u, v, tiles=(1.0, 1.0)):
-        """A parallelogram; its front is where cross(u, v) points. The texture repeats tiles times, its top along v."""
+        """A parallelogram whose front faces cross(u, v). The texture repeats `tiles` times; its top points along v."""
         normal = (u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0])
         length = math.sqrt(sum(c * c for c in normal))
         first = len(self.positions)
@@ -80,7 +80,7 @@ class Mesh:
         self.indices += [first, first + 1, first + 2, first, first + 2, first + 3]
 
     def block(self, center, size, degrees=0.0):
-        """A block turned about the vertical axis."""
+        """A box turned about the vertical axis."""
         cosine, sine = math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
         x = (cosine * size[0], 0.0, -sine * size[0])
         y = (0.0, size[1], 0.0)
@@ -102,7 +102,7 @@ class Mesh:
 
 
 class Gltf:
-    """Collects a scene and writes it as one text file with its buffer inside."""
+    """Collects a scene and turns it into the text of one glTF file with an embedded buffer."""
 
     def __init__(self, name, sky):
         self.buffer = bytearray()
@@ -144,7 +144,7 @@ class Gltf:
         return self.add("textures", {"source": image, "sampler": sampler})
 
     def material(self, name, color, emission=None, picture=None, **properties):
-        """A Lambert material. picture: a PNG that multiplies the colour; emission: radiance, from the front only."""
+        """A Lambert material. `picture`: PNG that multiplies the colour; `emission`: radiance, from the front only."""
         material = {
             "name": name,
             "doubleSided": emission is None,
@@ -178,7 +178,7 @@ class Gltf:
         return index
 
     def animate(self, node, path, keys):
-        """Keys are one a frame, from frame 0."""
+        """Adds a channel with one key per frame, from frame 0."""
         animation = self.document.setdefault("animations", [{"samplers": [], "channels": []}])[0]
         times = self.floats([(i / FPS,) for i in range(len(keys))], "SCALAR", bounds=True)
         output = self.floats(keys, "VEC4" if path == "rotation" else "VEC3")
@@ -186,7 +186,7 @@ class Gltf:
         animation["channels"].append({"sampler": len(animation["samplers"]) - 1, "target": {"node": node, "path": path}})
 
     def camera(self, positions, targets, name="camera"):
-        """A camera with one position and target a frame."""
+        """A camera with one position and one target per frame."""
         camera = self.add("cameras", {"name": name, "type": "perspective",
                                       "perspective": {"yfov": 0.8, "aspectRatio": 16 / 9, "znear": 0.05, "zfar": 50.0}})
         rotations = [look_at(p, t) for p, t in zip(positions, targets)]
@@ -216,7 +216,7 @@ def look_at(position, target):
 
 
 def room(scene, tiles):
-    """A room of 4 x 2.6 x 5 m with coloured side walls, a lamp under the ceiling, and a window with bars to the sky."""
+    """A room of 4 x 2.6 x 5 m with coloured side walls, a lamp under the ceiling, and a barred window to the sky."""
     white = scene.material("white", (0.73, 0.73, 0.73))
     red = scene.material("red", (0.65, 0.06, 0.05))
     green = scene.material("green", (0.13, 0.48, 0.15))
@@ -265,11 +265,11 @@ def make_box():
     brass = scene.material("brass", (1.0, 1.0, 1.0), picture=perforation(), alphaMode="MASK", alphaCutoff=0.5)
     scene.mesh("perforated plate", plate, brass, textured=True)
 
-    # Still in frames 0 to 3, then a walk to the right with the eyes on the middle of the room.
+    # The camera stands still in frames 0 to 3, then moves to the right and keeps looking at the middle of the room.
     steps = [max(0, i - 3) for i in range(48)]
     scene.camera([(round(-0.9 + 0.04 * s, 6), 1.45, round(2.3 - 0.012 * s, 6)) for s in steps],
                  [(round(-0.15 + 0.012 * s, 6), 1.05, -1.2) for s in steps])
-    # Others look at one thing each and move from the start.
+    # Each of the other cameras looks at one object and moves from the start.
     frames = range(48)
     scene.camera([(round(-1.5 + 0.02 * i, 6), 0.75, 1.25) for i in frames],
                  [(round(-1.1 + 0.015 * i, 6), 0.45, 0.25) for i in frames], "fence")
@@ -281,7 +281,7 @@ def make_box():
 
 
 def make_turntable():
-    """Objects that move under a camera that first stands still: one on a turntable, one that slides."""
+    """Moving objects, one on a turntable and one that slides, seen by a camera that first stands still."""
     scene = Gltf("turntable", [1.6, 2.1, 2.8])
     room(scene, scene.material("plaster", (0.7, 0.69, 0.63)))
     blue = scene.material("blue", (0.2, 0.34, 0.7))
@@ -304,7 +304,7 @@ def make_turntable():
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--check", action="store_true", help="compare the files with what this script makes")
+    parser.add_argument("--check", action="store_true", help="compare the files with what this script would write")
     check = parser.parse_args().check
     folder = pathlib.Path(__file__).resolve().parent
     stale = []
@@ -316,7 +316,7 @@ def main():
         elif not file.exists() or file.read_text(encoding="utf-8") != text:
             stale.append(file.name)
     if stale:
-        sys.exit(f"{', '.join(stale)}: not what {pathlib.Path(__file__).name} makes; run it again")
+        sys.exit(f"{', '.join(stale)}: differs from what {pathlib.Path(__file__).name} writes; run it again")
 
 
 if __name__ == "__main__":

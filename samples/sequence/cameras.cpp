@@ -22,7 +22,7 @@ void requireFinite(const glm::mat4& matrix, const std::string& what) {
   }
 }
 
-/// Copies an array of `count` numbers.
+/// Copies the array `key` of `count` numbers to `values`.
 void readNumbers(const Json& object, const char* key, const std::string& where, float* values, std::size_t count) {
   const auto entry = object.find(key);
   if (entry == object.end()) {
@@ -52,8 +52,8 @@ std::map<int, Camera> readCameraFile(const std::filesystem::path& path) {
   std::ifstream stream(path);
   if (!stream) {
     throw InputError("cannot read " + path.string() +
-                     ": Blender Cycles frames need a cameras.json beside them with view, prev_view and projection of "
-                     "every frame");
+                     ": Blender Cycles frames need a cameras.json in their folder with view, prev_view and projection "
+                     "of every frame");
   }
   Json document;
   try {
@@ -85,7 +85,7 @@ std::map<int, Camera> readCameraFile(const std::filesystem::path& path) {
       camera.cut = entry["cut"].get<bool>();
     }
     if (!cameras.emplace(number, camera).second) {
-      throw InputError(where + " is there twice");
+      throw InputError(where + " is listed twice");
     }
   }
   return cameras;

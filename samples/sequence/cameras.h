@@ -21,8 +21,8 @@ inline constexpr const char* kCutAttribute = "cameraCut";
 /// @throws InputError naming file, frame and entry
 std::map<int, Camera> readCameraFile(const std::filesystem::path& path);
 
-/// Read a camera from the attributes of a frame in the project's own layout. The jitter may be absent (none), and so
-/// may the cut.
+/// Read a camera from the header attributes of a frame in the project's own layout. Jitter and cut are optional:
+/// without them the jitter is zero and the frame follows no cut.
 /// @throws InputError naming file and attribute
 Camera readCameraAttributes(const ExrReader& file);
 

@@ -60,7 +60,7 @@ std::string join(const std::vector<std::string>& names) {
   return text.empty() ? "none" : text;
 }
 
-/// Components of the image that a plane is read into: motion always has its third.
+/// Components of the image that a plane is read into. Motion always gets three, even if the file has no z.
 int imageComponents(const Plane& plane) {
   return plane.role == Role::Motion ? 3 : static_cast<int>(plane.components.size());
 }
@@ -73,7 +73,7 @@ void addTargets(std::vector<ExrReader::Target>& targets, const RecognizedLayout&
   }
 }
 
-/// Whether a reference has no value at a pixel, as it says by having a number in none of its components.
+/// Whether a reference has no value at a pixel, which is written as NaN in all components.
 bool leftOut(std::span<const ExrReader::Target> targets, std::size_t pixel) {
   return std::ranges::all_of(targets, [&](const ExrReader::Target& target) {
     return std::isnan(target.image->pixel(pixel)[static_cast<std::size_t>(target.component)]);
@@ -101,7 +101,7 @@ void findNonFinite(const std::filesystem::path& path, std::span<const ExrReader:
   }
 }
 
-/// View layers of the file that hold the first channel of a plane, as prefixes without their dot.
+/// View layers that hold a channel of a plane: the prefixes of the channel names without their dot.
 std::set<std::string> viewLayersWith(std::span<const std::string> channels, const Plane& plane) {
   std::set<std::string> layers;
   for (const char component : plane.components) {
@@ -117,7 +117,7 @@ std::set<std::string> viewLayersWith(std::span<const std::string> channels, cons
   return layers;
 }
 
-/// Whether a file has a plane, or a part of it.
+/// Whether a file has a plane, or some components of it.
 bool hasPlane(const ExrReader& file, const RecognizedLayout& layout, const Plane& plane) {
   const std::vector<std::string> present = file.channels();
   return std::ranges::any_of(plane.components, [&](char component) {
@@ -146,8 +146,8 @@ void requirePlanes(const ExrReader& file, const RecognizedLayout& layout, std::s
 }  // namespace
 
 const Layout& cyclesLayout() {
-  // Blender's vectors point to the previous position with y up; its normals are in world space. Its emission is that of
-  // surfaces.
+  // Blender's vectors point to the previous position with y up, and its normals are in world space. Its emission pass
+  // holds only surfaces; the sky is in the pass "Env".
   static const Layout layout{"Blender Cycles multi-layer",
                              kCyclesPlanes,
                              CameraSource::JsonFile,
@@ -178,7 +178,7 @@ RecognizedLayout recognizeLayout(const ExrReader& file, std::string_view viewLay
   for (const Layout* layout : {&cyclesLayout(), &projectLayout()}) {
     std::set<std::string> layers = viewLayersWith(channels, planeOf(*layout, Role::Indirect));
     if (layers.empty()) {
-      // A file without the light itself is still told by its albedo, so that the message can name what is missing.
+      // A file without light channels is recognised by its albedo, so that the error can name the missing channels.
       layers = viewLayersWith(channels, planeOf(*layout, Role::Albedo));
     }
     if (layers.empty()) {
@@ -186,7 +186,7 @@ RecognizedLayout recognizeLayout(const ExrReader& file, std::string_view viewLay
     }
     if (!viewLayer.empty() && !layers.contains(std::string(viewLayer))) {
       throw InputError(file.path().string() + ": no view layer '" + std::string(viewLayer) +
-                       "'; there are: " + join({layers.begin(), layers.end()}));
+                       "'; the file has: " + join({layers.begin(), layers.end()}));
     }
     if (viewLayer.empty() && layers.size() > 1) {
       throw InputError(file.path().string() + ": several view layers (" + join({layers.begin(), layers.end()}) +
@@ -197,7 +197,7 @@ RecognizedLayout recognizeLayout(const ExrReader& file, std::string_view viewLay
     return recognized;
   }
   throw InputError(file.path().string() +
-                   ": neither a Blender Cycles frame (channels DiffInd.R, ...) nor one of walr's own layout "
+                   ": neither a Blender Cycles frame (channels DiffInd.R, ...) nor a frame in walr's own layout "
                    "(Indirect.R, ...). Channels found: " +
                    join(channels));
 }

@@ -13,10 +13,10 @@
 
 namespace walr {
 
-/// What a picture in a file holds.
+/// The quantity that an image in a file holds.
 enum class Role { Indirect, Direct, Albedo, Normal, Depth, Motion, Emission, ObjectId };
 
-/// One picture of a layout: its name without view layer, and one letter a component.
+/// One image of a layout: its name without the view layer, and one letter per component.
 struct Plane {
   Role role;
   std::string_view name;
@@ -24,7 +24,7 @@ struct Plane {
   bool compositeOnly = false;  ///< Needed only for a composite.
 };
 
-/// Where a layout keeps its cameras.
+/// Where a layout stores its cameras.
 enum class CameraSource { JsonFile, HeaderAttributes };
 
 /// A convention of channel names, spaces and scales. See samples/docs/sequences.md.
@@ -34,34 +34,34 @@ struct Layout {
   CameraSource cameras;
   InputConventions conventions;
   glm::vec2 motionScale;  ///< See `FrameDescription::motionScale`.
-  Plane objectId;         ///< Read where the first frame has it.
-  /// Plane with the radiance of the sky, which is added to the emission where a file has it; empty: none.
+  Plane objectId;         ///< Optional: read in all frames if the first frame has it.
+  /// Name of the plane with the radiance of the sky, which is added to the emission if a file has it; empty: none.
   std::string_view sky = {};
 };
 
 const Layout& cyclesLayout();
 const Layout& projectLayout();
 
-/// A layout recognised in a file.
+/// The layout of a file, with the file's view layer.
 struct RecognizedLayout {
   const Layout* layout = nullptr;
-  std::string viewLayer;   ///< Empty where the channels carry no view-layer prefix.
+  std::string viewLayer;   ///< Empty if the channels have no view-layer prefix.
   bool objectIds = false;  ///< The file has `Layout::objectId`.
 
   /// Full name of a channel.
   [[nodiscard]] std::string channel(std::string_view plane, char component) const;
 };
 
-/// Tell a layout by its channel names.
-/// @param viewLayer  which view layer to take where there are several; empty: the only one
-/// @throws InputError naming the channels found when none fits, or when several view layers do
+/// Recognise the layout of a file by its channel names.
+/// @param viewLayer  the view layer to use; may be empty if the file has one view layer
+/// @throws InputError naming the channels if no layout fits, or the view layers if one must be chosen
 RecognizedLayout recognizeLayout(const ExrReader& file, std::string_view viewLayer);
 
 /// Check that the file has every channel of the planes that are needed.
 /// @throws InputError naming file and channels
 void requireChannels(const ExrReader& file, const RecognizedLayout& layout, bool composite);
 
-/// The same for a reference, which holds the indirect light and, for a composite, may hold the direct light.
+/// The same for a reference, which must hold the indirect light only.
 void requireReferenceChannels(const ExrReader& file, const RecognizedLayout& layout);
 
 /// Read the planes needed into the frame's images, and list the channels with values that are not finite.

@@ -17,11 +17,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The number made by the trailing digits of a file stem; nothing where there are none.
+/// The number at the end of a file stem; nullopt if the stem does not end with a digit.
 std::optional<int> frameNumber(const std::string& stem) {
   const auto lastOther = std::find_if(stem.rbegin(), stem.rend(), [](unsigned char c) { return std::isdigit(c) == 0; });
   const std::string digits(lastOther.base(), stem.end());
-  constexpr std::size_t kMostDigits = 9;  // Fits an int whatever they are.
+  constexpr std::size_t kMostDigits = 9;  // Any number of nine digits fits an int.
   if (digits.empty() || digits.size() > kMostDigits) {
     return std::nullopt;
   }
@@ -34,12 +34,12 @@ void addFile(FilesByNumber& files, int number, const fs::path& path) {
   const auto [existing, isNew] = files.emplace(number, path);
   if (!isNew) {
     const auto [first, second] = std::minmax(existing->second, path);
-    throw InputError("frame " + std::to_string(number) + " is there twice: " + first.string() + " and " +
-                     second.string() + ". Keep one sequence a folder.");
+    throw InputError("frame " + std::to_string(number) + " exists twice: " + first.string() + " and " +
+                     second.string() + ". Keep one sequence per folder.");
   }
 }
 
-/// Whether two matrices differ by more than rounding to float of values computed on two ways.
+/// Whether two matrices differ by more than the rounding errors of two ways to compute one matrix.
 bool differs(const glm::mat4& a, const glm::mat4& b) {
   for (int i = 0; i < 16; ++i) {
     const float x = glm::value_ptr(a)[i];
@@ -67,7 +67,7 @@ void refuseNonFinite(const std::vector<NonFiniteChannel>& channels) {
       " value(s) that are not finite (NaN or infinity), the first at pixel (" + std::to_string(first.firstX) + ", " +
       std::to_string(first.firstY) + ")" +
       (channels.size() > 1 ? "; " + std::to_string(channels.size() - 1) + " more channel(s) have some, too" : "") +
-      ". Mend the render, or pass --non-finite replace to denoise it all the same.");
+      ". Fix the render, or use --non-finite replace to denoise the frame anyway.");
 }
 
 }  // namespace
@@ -107,8 +107,8 @@ void Sequence::scan() {
       throw InputError("frame " + std::to_string(number) + " is missing in " + folder_.string() +
                        ", which has frames " + std::to_string(frames.begin()->first) + " to " +
                        std::to_string(std::prev(frames.end())->first) +
-                       ". Every frame needs the one before it: render it, or choose a range without gaps with "
-                       "--frames A-B.");
+                       ". Every frame needs the one before it: render the missing frame, or choose a range without "
+                       "gaps with --frames A-B.");
     }
     Entry entry;
     entry.number = number;
@@ -155,7 +155,7 @@ void Sequence::checkSize(const ExrReader& file) const {
   if (file.width() != width || file.height() != height) {
     throw InputError(file.path().string() + " is " + sizeText(file.width(), file.height()) + " pixels, but " +
                      entries_.front().file.filename().string() + " is " + sizeText(width, height) +
-                     ". All frames and references need one size.");
+                     ". All frames and references must have the same size.");
   }
 }
 
@@ -163,7 +163,7 @@ void Sequence::markCuts() {
   for (const int cut : options_.cuts) {
     const auto entry = std::ranges::find(entries_, cut, &Entry::number);
     if (entry == entries_.end()) {
-      throw InputError("--cut " + std::to_string(cut) + ": there is no such frame; they run from " +
+      throw InputError("--cut " + std::to_string(cut) + ": there is no such frame; the sequence has frames " +
                        std::to_string(entries_.front().number) + " to " + std::to_string(entries_.back().number));
     }
     entry->camera.cut = true;

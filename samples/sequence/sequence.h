@@ -17,28 +17,29 @@ struct FrameRange {
   int last = 0;
 };
 
-/// What to do with input values that are not finite.
+/// What to do with non-finite input values.
 enum class NonFinitePolicy {
   Fail,     ///< Refuse the frame, naming file and channel.
-  Replace,  ///< Take it; the denoiser replaces such values before any average.
+  Replace,  ///< Accept the frame; the denoiser replaces such values before it averages anything.
 };
 
 struct SequenceOptions {
-  std::optional<FrameRange> frames;  ///< Absent: all.
-  bool composite = false;            ///< Direct light and emission are needed, too.
-  std::string viewLayer;             ///< Empty: the only one.
-  std::vector<int> cuts;             ///< Frames that follow a camera cut, beside those that the cameras tell.
+  std::optional<FrameRange> frames;  ///< Absent: all frames.
+  bool composite = false;            ///< Also read direct light and emission.
+  std::string viewLayer;             ///< See `recognizeLayout`.
+  std::vector<int> cuts;             ///< Frames that follow a camera cut, in addition to those that the cameras show.
   NonFinitePolicy nonFinite = NonFinitePolicy::Fail;
 };
 
-/// A folder of frames, checked as a whole before the first pixel is read: names, numbers, channels, sizes, cameras.
+/// A folder of frames. The constructor checks names, numbers, channels, sizes and cameras of all frames before any
+/// pixel is read.
 class Sequence {
  public:
   /// One frame's files and camera.
   struct Entry {
     int number = 0;
     std::filesystem::path file;
-    std::filesystem::path reference;  ///< Empty where there is none.
+    std::filesystem::path reference;  ///< Empty if there is none.
     Camera camera;
     bool resetHistory = false;  ///< First frame, or a camera cut.
   };
@@ -52,7 +53,7 @@ class Sequence {
   [[nodiscard]] fg::Extent extent() const { return extent_; }
   [[nodiscard]] bool hasReferences() const;
 
-  /// Read one frame with its reference. Reads nothing that is shared, so that frames may be read on several threads.
+  /// Read one frame with its reference. Several threads may read frames at the same time.
   /// @throws InputError
   [[nodiscard]] Frame read(std::size_t index) const;
 

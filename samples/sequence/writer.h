@@ -17,7 +17,7 @@ std::string frameFileName(const std::string& prefix, int number, const std::stri
 /// @throws OutputError
 void writeFrame(const std::filesystem::path& directory, const Frame& frame);
 
-/// Write `ref_FFFF.exr`. What is empty is left out.
+/// Write `ref_FFFF.exr`. Empty images are left out.
 /// @throws OutputError
 void writeReference(const std::filesystem::path& directory, int number, const Reference& reference);
 

@@ -1,4 +1,4 @@
-// The path tracer against a renderer that is not ours: Blender Cycles' frames of the same scenes and cameras.
+// Compares the path tracer with Blender Cycles: frames of the same scenes and cameras.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -40,7 +40,7 @@ glm::vec3 pixelOf(const walr::Image& image, std::uint32_t x, std::uint32_t y) {
   return {image.at(column, row, 0), image.at(column, row, 1), image.components() > 2 ? image.at(column, row, 2) : 0.0F};
 }
 
-// The `share` quantile.
+// The quantile of order `share`, 0..1.
 float quantile(std::vector<float> values, double share) {
   const auto at = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
   std::nth_element(values.begin(), values.begin() + at, values.end());
@@ -78,7 +78,7 @@ TEST_P(Cycles, GBufferAgrees) {
   std::vector<float> albedoErrors;
   int otherSurface = 0;
   int bentNormals = 0;
-  // Cycles' pixel filter is 0.01 pixel wide; its positions are found to project within 0.022 pixel of the centre.
+  // Cycles' pixel filter is 0.01 pixel wide. Measured: its positions project to within 0.022 pixel of the centre.
   const float filterFootprint = 0.022F * 2.0F / (view.projection[1][1] * static_cast<float>(kHeight));
   constexpr float kPositionRounding = 0x1p-13F;  // Metres.
   const glm::mat3 rotation(view.viewFromWorld);
@@ -92,7 +92,7 @@ TEST_P(Cycles, GBufferAgrees) {
       }
       const glm::vec3 expected(view.viewFromWorld * glm::vec4(pixelOf(position, x, y), 1.0F));
       const float distance = glm::length(expected);
-      // At a silhouette the two rays, a fraction of a pixel apart, meet other surfaces.
+      // At a silhouette the two rays, a fraction of a pixel apart, can hit different surfaces.
       if (sky || !hit.surface || glm::distance(expected, pixel.position) > 0.01F * distance) {
         ++otherSurface;
         continue;
@@ -103,7 +103,7 @@ TEST_P(Cycles, GBufferAgrees) {
       motionErrors.push_back(glm::distance(glm::vec2(vector.x, -vector.y), glm::vec2(pixel.motion)));
       const glm::vec3 albedoError = glm::abs(pixelOf(albedo, x, y) - pixel.albedo);
       albedoErrors.push_back(glm::max(albedoError.x, glm::max(albedoError.y, albedoError.z)));
-      // Cycles turns a normal whose mirror direction would lie under the surface; the project does not.
+      // Cycles bends a normal whose mirror direction would lie below the surface; this project does not.
       const glm::vec3 mirrored = glm::reflect(-hit.surface->towardsViewer, hit.surface->shadingNormal);
       if (glm::dot(mirrored, hit.surface->geometricNormal) < 0.01F) {
         ++bentNormals;
@@ -122,12 +122,12 @@ TEST_P(Cycles, GBufferAgrees) {
   EXPECT_LE(otherSurface, kWidth * kHeight / 1000);
   EXPECT_LE(quantile(positionErrors, 0.999), 1.0F);
   EXPECT_LE(quantile(motionErrors, 1.0), 0.05F);
-  // The files hold half floats: 2^-11 a component.
+  // The files hold half floats, whose rounding error is 2^-11 per component.
   EXPECT_LE(quantile(normalErrors, 0.5), 0.06F);
-  // Two steps of an 8-bit normal map.
+  // The tolerance is two steps of an 8-bit normal map.
   EXPECT_LE(quantile(normalErrors, 0.95), 0.9F);
   EXPECT_LE(bentNormals, kWidth * kHeight / 20);
-  // Two steps of an 8-bit texture; Cycles interpolates sRGB values, glTF asks for linear ones.
+  // The tolerance is two steps of an 8-bit texture: Cycles interpolates sRGB values, glTF requires linear ones.
   EXPECT_LE(quantile(albedoErrors, 0.5), 0.5F / 255.0F);
   EXPECT_LE(quantile(albedoErrors, 0.9), 2.0F / 255.0F);
 }
@@ -144,7 +144,7 @@ TEST_P(Cycles, MeanLightAgrees) {
     return;
   }
   Scene scene = loadScene(*glb);
-  // The frames were made with Blender's Principled BSDF, whose diffuse lobe is not a Lambert one.
+  // The frames were rendered with Blender's Principled BSDF, whose diffuse lobe is not Lambertian.
   scene.diffuseModel = DiffuseModel::Disney;
   World world(scene);
   world.moveTo(number / kFramesPerSecond, (number - 1) / kFramesPerSecond);
@@ -166,7 +166,7 @@ TEST_P(Cycles, MeanLightAgrees) {
     const double error = std::hypot(cycles.standardError(), here.standardError());
     std::cout << plane << ": Cycles " << cycles.mean() << ", here " << here.mean() << ", ratio "
               << here.mean() / cycles.mean() << " +- " << error / cycles.mean() << '\n';
-    // Sampling noise must not decide.
+    // The sampling noise must be much smaller than the tolerance.
     EXPECT_LE(3.0 * error, 0.05 * cycles.mean());
     EXPECT_NEAR(here.mean(), cycles.mean(), 0.05 * cycles.mean());
   }

@@ -1,4 +1,4 @@
-// Loading glTF: what is taken, what is warned of, and that nothing malformed gets through or brings the program down.
+// Loading glTF: supported features, warnings, and malformed files, which must give an error and never crash.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -34,18 +34,18 @@ class Gltf : public testing::Test {
     return directory_.path() / name;
   }
 
-  /// The box scene, changed.
+  /// Writes the box scene after `change`.
   fs::path boxWith(const std::function<void(Json&)>& change) const {
     Json json = Json::parse(std::ifstream(WALR_SCENES "/box.gltf"));
     change(json);
     return write("scene.gltf", json.dump());
   }
 
-  /// Loading fails with a message that names the file and holds `text`.
+  /// Expects that loading fails with a message that contains the file's name and `text`.
   static void expectError(const fs::path& file, const std::string& text) {
     try {
       loadScene(file);
-      ADD_FAILURE() << "loaded, but should have said: " << text;
+      ADD_FAILURE() << "loaded without the expected error: " << text;
     } catch (const SceneError& error) {
       EXPECT_NE(std::string(error.what()).find(text), std::string::npos) << error.what();
       EXPECT_NE(std::string(error.what()).find(file.string()), std::string::npos) << error.what();
@@ -62,7 +62,7 @@ class Gltf : public testing::Test {
   walr::test::TemporaryDirectory directory_;
 };
 
-// The same scene as a binary file.
+// The scene of a .gltf file as the bytes of a .glb file.
 std::string asGlb(const fs::path& file) {
   Json json = Json::parse(std::ifstream(file));
   // Base64, RFC 4648.
@@ -123,7 +123,7 @@ TEST_F(Gltf, BinaryFileHoldsTheSameScene) {
   EXPECT_EQ(text.images[0].rgba, binary.images[0].rgba);
 }
 
-TEST_F(Gltf, TakesMaterialsLightsAndEmission) {
+TEST_F(Gltf, ReadsMaterialsLightsAndEmission) {
   const fs::path file = boxWith([](Json& json) {
     json["materials"][0]["pbrMetallicRoughness"]["metallicFactor"] = 1.0;
     json["extensions"]["KHR_lights_punctual"]["lights"] = {
@@ -154,7 +154,7 @@ TEST_F(Gltf, CutOutLeavesHoles) {
     return scene.materials[scene.meshes[instance.mesh].material].alphaCutoff.has_value();
   });
   ASSERT_NE(plate, world.instances().end());
-  // Rays perpendicular to the plate, at its middle holes and at the bars between them.
+  // Rays perpendicular to the plate: at its middle holes and at the metal between them.
   const Mesh& mesh = scene.meshes[plate->mesh];
   const glm::vec3 u = (mesh.positions[1] - mesh.positions[0]) / 9.0F;
   const glm::vec3 v = (mesh.positions[3] - mesh.positions[0]) / 8.0F;
@@ -168,7 +168,7 @@ TEST_F(Gltf, CutOutLeavesHoles) {
   EXPECT_TRUE(instanceMet(4.5F, 3.98F));
 }
 
-TEST_F(Gltf, AnimationIsLinearAndHoldsItsEnds) {
+TEST_F(Gltf, AnimationIsLinearAndConstantBeyondItsKeys) {
   Scene scene = loadScene(WALR_SCENES "/turntable.gltf");
   const auto channel = std::find_if(scene.animation.begin(), scene.animation.end(), [&](const AnimationChannel& c) {
     return scene.nodes[c.node].name == "sliding block";
@@ -183,7 +183,7 @@ TEST_F(Gltf, AnimationIsLinearAndHoldsItsEnds) {
   EXPECT_NEAR(place(10.5 / 24.0), 0.9F - 0.03F * 10.0F, 1e-5F);
 }
 
-TEST_F(Gltf, NamesWhatItDoesNotSupport) {
+TEST_F(Gltf, WarnsOfUnsupportedFeatures) {
   expectWarning(boxWith([](Json& json) { json["extensionsUsed"].push_back("KHR_materials_clearcoat"); }),
                 "KHR_materials_clearcoat");
   expectWarning(boxWith([](Json& json) { json["materials"][0]["alphaMode"] = "BLEND"; }), "alpha mode BLEND");
@@ -197,7 +197,7 @@ TEST_F(Gltf, NamesWhatItDoesNotSupport) {
                 "CUBICSPLINE");
 }
 
-TEST_F(Gltf, MissingTextureIsReplacedAndSaid) {
+TEST_F(Gltf, MissingImageGivesAWarning) {
   const fs::path missing = boxWith([](Json& json) {
     json["images"][0].erase("bufferView");
     json["images"][0]["uri"] = "nowhere.png";
@@ -207,8 +207,8 @@ TEST_F(Gltf, MissingTextureIsReplacedAndSaid) {
   expectError(boxWith([](Json& json) { json["images"][0]["bufferView"] = 999; }), "image[0]");
 }
 
-TEST_F(Gltf, DamagedOrOversizedPictureIsReplacedAndSaid) {
-  expectWarning(boxWith([](Json& json) { json["images"][0]["bufferView"] = 2; }), "not a PNG or JPEG picture");
+TEST_F(Gltf, DamagedOrOversizedImageGivesAWarning) {
+  expectWarning(boxWith([](Json& json) { json["images"][0]["bufferView"] = 2; }), "not a PNG or JPEG image");
   // A PNG header of 20000 x 8 texels without data.
   write("huge.png", {"\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\x4e\x20\0\0\0\x08\x08\x06\0\0\0\0\0\0\0", 33});
   expectWarning(boxWith([](Json& json) {
@@ -218,7 +218,7 @@ TEST_F(Gltf, DamagedOrOversizedPictureIsReplacedAndSaid) {
                 "20000 x 8");
 }
 
-TEST_F(Gltf, SceneWithoutLightIsSaid) {
+TEST_F(Gltf, SceneWithoutLightGivesAWarning) {
   expectWarning(boxWith([](Json& json) {
                   json["scenes"][0].erase("extras");
                   for (Json& material : json["materials"]) {
@@ -262,7 +262,7 @@ TEST_F(Gltf, RefusesRangesBeyondTheBuffer) {
   }
 }
 
-// A mesh of one vertex and 21845 triangles in a file of 90 KB, used many times.
+// A file of 90 KB with a mesh of one vertex and 21845 triangles that is used many times.
 TEST_F(Gltf, RefusesDataUsedTooOften) {
   constexpr std::size_t kBytes = 65535;
   const auto file = [&](std::size_t primitives, std::size_t nodes) {
@@ -286,16 +286,16 @@ TEST_F(Gltf, RefusesDataUsedTooOften) {
     return write("often.gltf", json.dump());
   };
   EXPECT_NO_THROW(loadScene(file(1, 1)));
-  expectError(file((std::size_t{1} << 27U) / kBytes + 1, 1), "counted as often as they are used");
-  expectError(file(1, (std::size_t{1} << 26U) / (kBytes / 3) + 1), "triangles; at most");
+  expectError(file((std::size_t{1} << 27U) / kBytes + 1, 1), "counted once for each use");
+  expectError(file(1, (std::size_t{1} << 26U) / (kBytes / 3) + 1), "triangles; the limit is");
 }
 
-TEST_F(Gltf, RefusesHierarchiesThatAreNoTree) {
+TEST_F(Gltf, RefusesHierarchiesThatAreNotTrees) {
   expectError(boxWith([](Json& json) { json["nodes"][0]["children"] = {1}; }), "in the hierarchy twice");
   expectError(boxWith([](Json& json) { json["nodes"][0]["children"] = {0}; }), "in the hierarchy twice");
 }
 
-TEST_F(Gltf, RefusesNumbersWithoutMeaning) {
+TEST_F(Gltf, RefusesInvalidNumbers) {
   expectError(boxWith([](Json& json) { json["nodes"][0]["rotation"] = {0.0, 0.0, 0.0, 0.0}; }), "quaternion");
   expectError(boxWith([](Json& json) { json["cameras"][0]["perspective"]["yfov"] = 4.0; }), "field of view");
   expectError(boxWith([](Json& json) { json["scenes"][0]["extras"]["sky_radiance"] = {1.0}; }), "sky_radiance");
@@ -323,7 +323,7 @@ TEST_F(Gltf, CameraIsFoundByNameOrRefused) {
   EXPECT_THROW(findCamera(blind, ""), SceneError);
 }
 
-// Loads a file, and traces a few rays if it loads; nothing but a named error may come of it.
+// Loads a file and traces a few rays. The file may be refused, but only with a SceneError.
 void loadAndTrace(const fs::path& file) {
   try {
     const Scene scene = loadScene(file);
@@ -338,7 +338,7 @@ void loadAndTrace(const fs::path& file) {
 
 TEST_F(Gltf, TruncatedFilesAreErrors) {
   const std::string glb = asGlb(WALR_SCENES "/box.gltf");
-  // Every length in the header's neighbourhood, then steps through the whole file.
+  // Every length near the header, then steps through the whole file.
   for (std::size_t size = 0; size < glb.size(); size += size < 64 ? 1 : 997) {
     const fs::path file = write("cut.glb", glb.substr(0, size));
     EXPECT_THROW(loadScene(file), SceneError) << size << " bytes";
@@ -356,7 +356,8 @@ TEST_F(Gltf, FuzzedFilesNeverCrash) {
   constexpr int kFiles = 400;
   for (int i = 0; i < kFiles; ++i) {
     std::string bytes = glb;
-    // Mostly the JSON part, where the structure is; digits for digits keep it parsable and make odd numbers.
+    // Changes mostly the JSON part, which holds the structure. Digits mostly become digits, so that the file stays
+    // parsable and gets unusual numbers.
     for (std::size_t changes = 1 + below(6); changes > 0; --changes) {
       const std::size_t at = below(4) == 0 ? below(bytes.size()) : 20 + below(jsonBytes);
       const bool digit = bytes[at] >= '0' && bytes[at] <= '9';
@@ -370,8 +371,8 @@ std::span<const std::uint8_t> bytesOf(const std::string& text) {
   return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
 }
 
-// The pictures within a file, damaged: 64 x 64 texels of PNG as the scenes' script makes it, and one of JPEG.
-TEST_F(Gltf, DamagedPicturesNeverCrash) {
+// Damages encoded images: a PNG of 64 x 64 texels from a built-in scene, and a JPEG.
+TEST_F(Gltf, DamagedImagesNeverCrash) {
   const std::string glb = asGlb(WALR_SCENES "/box.gltf");
   const Json json = Json::parse(std::ifstream(WALR_SCENES "/box.gltf"));
   const Json& view = json["bufferViews"][json["images"][0]["bufferView"].get<std::size_t>()];
@@ -390,7 +391,7 @@ TEST_F(Gltf, DamagedPicturesNeverCrash) {
     for (int i = 0; i < 2000; ++i) {
       std::string bytes = picture.substr(0, below(3) == 0 ? below(picture.size()) : picture.size());
       for (std::size_t changes = below(4); changes > 0 && !bytes.empty(); --changes) {
-        // Mostly the header, where sizes and types are.
+        // Changes mostly the header, which holds sizes and types.
         bytes[below(below(2) == 0 ? std::min<std::size_t>(bytes.size(), 64) : bytes.size())] =
             static_cast<char>(below(256));
       }
@@ -407,8 +408,8 @@ TEST_F(Gltf, DamagedPicturesNeverCrash) {
   EXPECT_GT(read, 100);
 }
 
-// Values of every number and reference in the file replaced one by one.
-TEST_F(Gltf, EveryNumberMayBeWrong) {
+// Replaces every number of the file, one at a time, by an unusual value.
+TEST_F(Gltf, AnyWrongNumberNeverCrashes) {
   const Json original = Json::parse(std::ifstream(WALR_SCENES "/turntable.gltf")).flatten();
   std::mt19937 random(7);
   for (const auto& [key, value] : original.items()) {

@@ -1,4 +1,4 @@
-// The path tracer against theory: scenes whose light is known in closed form, and a tracer of another kind.
+// Compares the path tracer with scenes whose light is known in closed form, and with an independent, simpler tracer.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -23,7 +23,7 @@ using test::Statistics;
 
 constexpr double kPi = std::numbers::pi;
 
-// The surface that a camera sees in the middle of its picture.
+// The surface that a camera sees in the middle of its image.
 Surface surfaceSeen(const World& world, std::uint32_t camera) {
   const View view = viewFrom(world, camera, 1, 1, glm::vec2(0.0F), glm::vec2(0.0F));
   return tracePrimary(world, view, 0, 0).surface.value();
@@ -34,7 +34,7 @@ struct Light {
   Statistics indirect;
 };
 
-// Red light at a surface by many independent paths.
+// The red channel of the light at a surface, from many independent paths.
 Light gather(const World& world, const Surface& surface, std::uint32_t bounces, int paths, std::uint32_t seed = 1) {
   Light light;
   for (int i = 0; i < paths; ++i) {
@@ -46,8 +46,8 @@ Light gather(const World& world, const Surface& surface, std::uint32_t bounces, 
   return light;
 }
 
-// All walls emit e and reflect rho of what arrives: radiance of the n-th order is e rho^n everywhere.
-TEST(Light, FurnaceHoldsTheSeriesOfReflections) {
+// Furnace test: all walls emit e and have the albedo rho, so that n reflections add the radiance e rho^n everywhere.
+TEST(Light, FurnaceMatchesTheGeometricSeries) {
   constexpr float kEmission = 0.5F;
   constexpr float kAlbedo = 0.8F;
   constexpr std::uint32_t kBounces = 4;
@@ -65,8 +65,8 @@ TEST(Light, FurnaceHoldsTheSeriesOfReflections) {
   EXPECT_NEAR(light.indirect.mean(), reflected, kConfidence * light.indirect.standardError());
 }
 
-// Under a sky of radiance 1 a white surface has radiance 1, however it is folded: what of the sky the other side of the
-// fold hides it gives back.
+// Under a sky of radiance 1, a white folded surface has radiance 1: each side of the fold reflects as much light to the
+// other as it hides from it.
 TEST(Light, WhiteFoldUnderAWhiteSkyIsWhite) {
   SceneBuilder builder;
   builder.sky(glm::vec3(1.0F));
@@ -96,7 +96,7 @@ TEST(Light, SunOnAFloorIsIrradianceOverPi) {
   const std::uint32_t camera = builder.camera(glm::vec3(0.0F, 2.0F, 2.0F), glm::vec3(0.0F));
   const World world(builder.scene());
   const Light light = gather(world, surfaceSeen(world, camera), 4, 100);
-  // No noise: only the roundoff of some tens of single-precision operations.
+  // There is no noise, only the rounding errors of some tens of single-precision operations.
   EXPECT_NEAR(light.direct.mean(), 14.0 * -shining.y / kPi, 1e-5 * 14.0);
   EXPECT_EQ(light.direct.variance(), 0.0);
   EXPECT_EQ(light.indirect.mean(), 0.0);
@@ -134,8 +134,8 @@ TEST(Light, PointAndSpotFallOffWithTheSquaredDistance) {
   EXPECT_EQ(direct(), 0.0);
 }
 
-// Form factor of a square of side 2a at height h over a parallel element below its middle
-// (Howell, A Catalog of Radiation Heat Transfer Configuration Factors, B-3, four times).
+// Form factor from an element to a parallel square of side 2a at height h above it: four times B-3 of Howell, A Catalog
+// of Radiation Heat Transfer Configuration Factors.
 TEST(Light, SquareLampMatchesItsFormFactor) {
   constexpr float kHalf = 0.5F;
   constexpr float kHeight = 1.5F;
@@ -184,14 +184,14 @@ std::uint32_t buildBox(SceneBuilder& builder) {
   return builder.camera(glm::vec3(0.0F, 0.0F, 3.0F), glm::vec3(0.3F, -0.9F, -0.2F));
 }
 
-// Light arriving along cosine-distributed directions alone: no light sampling, no weights, no split into direct and
-// indirect.
+// A reference tracer: light is found by cosine-distributed directions only. There is no next-event estimation, no
+// weighting, and no split into direct and indirect light.
 double oneWalk(const World& world, const Surface& first, std::uint32_t bounces, Sampler& sampler) {
   glm::vec3 throughput(1.0F);
   glm::vec3 sum(0.0F);
   Surface surface = first;
   for (std::uint32_t bounce = 0; bounce <= bounces; ++bounce) {
-    // A point on the unit sphere around the normal's tip is cosine-distributed.
+    // The direction to a uniform point on the unit sphere around the normal's tip is cosine-distributed.
     const glm::vec2 random = sampler.next2D();
     const float z = 1.0F - 2.0F * random.x;
     const float angle = 2.0F * static_cast<float>(kPi) * random.y;
@@ -209,7 +209,7 @@ double oneWalk(const World& world, const Surface& first, std::uint32_t bounces, 
   return sum.x;
 }
 
-TEST(Light, DirectAndIndirectAddUpToAOnePassRender) {
+TEST(Light, DirectPlusIndirectMatchesTheReferenceTracer) {
   SceneBuilder builder;
   const std::uint32_t camera = buildBox(builder);
   const World world(builder.scene());
@@ -221,13 +221,13 @@ TEST(Light, DirectAndIndirectAddUpToAOnePassRender) {
     Sampler sampler(Sampler::Kind::Independent, 2, 0, static_cast<std::uint32_t>(i));
     whole.add(oneWalk(world, surface, 4, sampler));
   }
-  // Direct and indirect of one path depend on each other: at worst their errors add up.
+  // Direct and indirect light of one path are correlated: at worst their errors add up.
   const double error = std::hypot(whole.standardError(), light.direct.standardError() + light.indirect.standardError());
   EXPECT_NEAR(light.direct.mean() + light.indirect.mean(), whole.mean(), kConfidence * error);
   EXPECT_LT(error, 0.01 * whole.mean());
 }
 
-// Squared difference of two renders over the pixels that are lit.
+// Mean squared difference of two renders over the lit pixels.
 double meanSquaredDifference(const Film& a, const Film& b) {
   double sum = 0.0;
   for (std::size_t i = 0; i < a.indirect.size(); ++i) {
@@ -246,7 +246,7 @@ Film renderBox(const World& world, std::uint32_t camera, std::uint32_t samples, 
   return renderFilm(world, viewFrom(world, camera, 48, 32, glm::vec2(0.0F), glm::vec2(0.0F)), settings);
 }
 
-TEST(Light, ErrorFallsWithTheRootOfTheSamples) {
+TEST(Light, ErrorFallsWithTheSquareRootOfTheSamples) {
   SceneBuilder builder;
   const std::uint32_t camera = buildBox(builder);
   const World world(builder.scene());
@@ -256,10 +256,11 @@ TEST(Light, ErrorFallsWithTheRootOfTheSamples) {
   };
   const double few = difference(4, Sampler::Kind::Independent);
   const double many = difference(64, Sampler::Kind::Independent);
-  // Each is a mean of about 1200 squared differences, heavy-tailed: their relative spread is below 10 %, so that the
-  // ratio, 16 in theory, lies within four times 14 %.
+  // Each value is a mean of about 1200 squared differences with heavy tails. Its relative standard deviation is below
+  // 10 %, that of the ratio below 14 %. The ratio is 16 in theory; the tolerance is four standard deviations.
   EXPECT_NEAR(few / many, 16.0, 0.56 * 16.0);
-  // Scrambled Sobol points are never worse in the mean, and in smooth parts of the picture better.
+  // On average, scrambled Sobol points are never worse than independent ones; in smooth parts of the image they are
+  // better.
   const double sobol = difference(64, Sampler::Kind::Sobol);
   std::cout << "mean squared error at 64 samples: independent " << many << ", Sobol " << sobol << '\n';
   EXPECT_LT(sobol, many);
@@ -276,7 +277,7 @@ TEST(Light, IndependentReferencesAgreeWithinTheirNoise) {
     difference.add(static_cast<double>(a.indirect[i].x) - b.indirect[i].x);
   }
   EXPECT_NEAR(difference.mean(), 0.0, kConfidence * difference.standardError());
-  // One path has about the relative error 2: 256 of them 1/8; the difference of two renders 0.18 of the mean.
+  // The relative error of one path is about 2, that of 256 paths 1/8, that of the difference of two renders 0.18.
   Statistics light;
   for (const glm::vec3& value : a.indirect) {
     light.add(value.x);
@@ -284,7 +285,7 @@ TEST(Light, IndependentReferencesAgreeWithinTheirNoise) {
   EXPECT_LT(std::sqrt(difference.variance()), 0.18 * light.mean());
 }
 
-TEST(Light, ResultDoesNotDependOnTheThreads) {
+TEST(Light, ResultDoesNotDependOnTheNumberOfThreads) {
   SceneBuilder builder;
   const std::uint32_t camera = buildBox(builder);
   const World world(builder.scene());

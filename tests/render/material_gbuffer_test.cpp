@@ -1,5 +1,5 @@
-// The G-buffer blended by material: mirrors against a scene in which the image stands behind them, glossy metals
-// against a quadrature of their reflection.
+// The G-buffer blended by material. Mirrors are compared with a scene where the mirrored object stands behind the
+// mirror's plane; glossy metals are compared with a quadrature of their reflection.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -32,7 +32,7 @@ std::uint32_t metal(SceneBuilder& builder, const glm::vec3& color, float roughne
   return index;
 }
 
-/// A point or direction as a mirror in the plane x = 2 shows it.
+/// A point reflected at the plane x = 2.
 glm::vec3 imageOf(const glm::vec3& point) {
   return {4.0F - point.x, point.y, point.z};
 }
@@ -40,8 +40,8 @@ glm::vec3 imageOfDirection(const glm::vec3& direction) {
   return {-direction.x, direction.y, direction.z};
 }
 
-/// A camera that moves and, to its side, a slanted board that moves, too: before a mirror, or with its image where the
-/// mirror would be.
+/// A moving camera and, to its side, a slanted moving board. Either a mirror shows the board, or the board's mirror
+/// image stands behind the plane of the mirror.
 struct MirrorScene {
   explicit MirrorScene(bool withMirror) {
     const std::uint32_t paint = builder.material({0.6F, 0.3F, 0.2F});
@@ -51,7 +51,7 @@ struct MirrorScene {
     const glm::vec3 way(0.3F, -0.1F, 0.2F);
     if (withMirror) {
       builder.move(builder.quad(paint, corner, u, v), glm::vec3(0.0F), way);
-      // A mirror that reflects all: what it shows keeps its albedo.
+      // The mirror reflects all light, so that the albedo in it is that of the board.
       builder.quad(metal(builder, glm::vec3(1.0F), 0.0F), {2.0F, -2.0F, -3.0F}, {0.0F, 0.0F, 6.0F}, {0.0F, 4.0F, 0.0F});
     } else {
       builder.move(builder.quad(paint, imageOf(corner), imageOfDirection(v), imageOfDirection(u)), glm::vec3(0.0F),
@@ -79,7 +79,7 @@ TEST(MaterialGBuffer, AMirrorShowsWhatStandsBehindIt) {
     for (std::uint32_t x = 0; x < kWidth; ++x) {
       const PrimaryHit first = tracePrimary(mirror, view, x, y, GBufferMode::FirstHit);
       if (!first.surface || first.surface->metallic < 1.0F) {
-        continue;  // Past the mirror.
+        continue;  // The ray misses the mirror.
       }
       EXPECT_EQ(first.pixel.albedo, glm::vec3(0.0F));
       const PrimaryHit shown = tracePrimary(mirror, view, x, y, GBufferMode::Material);
@@ -92,7 +92,7 @@ TEST(MaterialGBuffer, AMirrorShowsWhatStandsBehindIt) {
         continue;
       }
       ++compared;
-      // Some tens of roundings of coordinates of up to 8, and of pixels of up to 48.
+      // The tolerances allow for some tens of rounding errors of coordinates up to 8 and of pixel positions up to 48.
       EXPECT_LT(glm::distance(shown.pixel.position, expected.pixel.position), 1e-4F);
       EXPECT_LT(glm::distance(shown.pixel.normal, expected.pixel.normal), 1e-5F);
       EXPECT_LT(glm::distance(shown.pixel.motion, expected.pixel.motion), 1e-3F);
@@ -104,7 +104,8 @@ TEST(MaterialGBuffer, AMirrorShowsWhatStandsBehindIt) {
   EXPECT_LE(edges, 2);
 }
 
-// The light that a metal passes on of a sky of 1: the integral of its reflection over the hemisphere, by midpoints.
+// The light that a metal reflects under a sky of radiance 1: the integral of its BRDF times cosine over the hemisphere,
+// by the midpoint rule.
 double directionalAlbedo(double cosine, double roughness, double reflectance) {
   const double alpha2 = std::pow(roughness, 4.0);
   const glm::dvec3 viewer(std::sqrt(1.0 - cosine * cosine), 0.0, cosine);
@@ -128,8 +129,8 @@ double directionalAlbedo(double cosine, double roughness, double reflectance) {
   return sum * 2.0 * std::numbers::pi / (kSteps * kSteps);
 }
 
-// Both the radiance and, of a sky, the albedo that it shows.
-TEST(MaterialGBuffer, AGlossyMetalPassesOnWhatItsReflectionIntegratesTo) {
+// Under a sky of radiance 1 both the radiance and the albedo of a sample estimate the directional albedo.
+TEST(MaterialGBuffer, GlossySamplesMatchTheDirectionalAlbedo) {
   for (const float roughness : {0.3F, 0.6F, 1.0F}) {
     SCOPED_TRACE(roughness);
     SceneBuilder builder;
@@ -153,13 +154,14 @@ TEST(MaterialGBuffer, AGlossyMetalPassesOnWhatItsReflectionIntegratesTo) {
   }
 }
 
-// What the film holds of a glossy metal, albedo times light, is its radiance; depth and normal are its own.
-TEST(MaterialGBuffer, AGlossyMetalsAlbedoTimesItsLightIsWhatItShows) {
+// For a glossy metal, the film's albedo times its light is the metal's radiance. Depth and normal are those of the
+// metal.
+TEST(MaterialGBuffer, AlbedoTimesLightOfAGlossyMetalIsItsRadiance) {
   SceneBuilder builder;
   builder.sky(glm::vec3(1.0F));
   builder.quad(metal(builder, glm::vec3(0.9F, 0.5F, 0.2F), 0.4F), {-9.0F, -1.0F, 9.0F}, {18.0F, 0.0F, 0.0F},
                {0.0F, 0.0F, -18.0F});
-  // Half of what it reflects is a wall of another albedo.
+  // A wall of another albedo fills half of what the metal reflects.
   builder.quad(builder.material({0.2F, 0.6F, 0.8F}), {0.0F, -1.0F, 9.0F}, {0.0F, 9.0F, 0.0F}, {0.0F, 0.0F, -18.0F});
   const std::uint32_t camera = builder.camera({-2.0F, 1.0F, 0.0F}, {-0.5F, -1.0F, 0.0F});
   const World world(builder.scene());
@@ -184,7 +186,7 @@ TEST(MaterialGBuffer, AGlossyMetalsAlbedoTimesItsLightIsWhatItShows) {
   const Film film = renderFilm(world, view, settings);
   for (int c = 0; c < 3; ++c) {
     const double shown = double(film.gbuffer[0].albedo[c]) * double(film.indirect[0][c]);
-    // Both are means of as many paths.
+    // Both are means of equally many paths, so that their difference has twice the variance.
     EXPECT_NEAR(shown, radiance[c].mean(), kConfidence * std::sqrt(2.0) * radiance[c].standardError())
         << "channel " << c;
     EXPECT_GT(film.gbuffer[0].albedo[c], 0.0F);

@@ -1,4 +1,4 @@
-// Motion against what it is for: the surface point that a pixel shows is found again in the previous frame.
+// Checks that motion leads from the surface point that a pixel shows to the same point in the previous frame.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -38,15 +38,16 @@ RenderedFrame renderFrame(World& world, int number, bool jitter) {
 }
 
 struct Residuals {
-  int pixels = 0;        // Pixels of the objects looked at, whose point was inside the previous picture.
-  int found = 0;         // Of them: those where a ray through the place that motion tells met that very point.
-  double longest = 0.0;  // Motion, pixels.
+  int pixels = 0;        // Number of the objects' pixels whose motion leads to a position inside the previous image.
+  int found = 0;         // Number of these where a ray through that position hits the same surface point.
+  double longest = 0.0;  // Length of the longest motion in pixels.
 };
 
-// Single precision at some metres, over rays that may graze: a hundredth of a pixel's footprint.
+// Tolerance for positions in metres: a hundredth of a pixel's footprint. It allows for single precision at distances of
+// some metres and for rays at grazing angles.
 constexpr float kSamePoint = 1e-4F;
 
-// Follows every pixel of some objects to the previous frame, at which the world must stand.
+// Follows every pixel of some objects to the previous frame. `previousWorld` must be at the time of that frame.
 Residuals reproject(const World& previousWorld, const RenderedFrame& now, const View& before,
                     const std::vector<bool>& objects) {
   Residuals result;
@@ -79,7 +80,7 @@ Residuals reproject(const World& previousWorld, const RenderedFrame& now, const 
 
 class Motion : public testing::TestWithParam<bool> {};
 
-// Frame 9: still camera, moving objects. Frame 20: both move.
+// In frame 9 only objects move; in frame 20 the camera moves, too.
 TEST_P(Motion, FindsTheSameSurfacePoint) {
   const Scene scene = loadScene(WALR_SCENES "/turntable.gltf");
   World world(scene);
@@ -97,23 +98,23 @@ TEST_P(Motion, FindsTheSameSurfacePoint) {
       const Residuals residuals = reproject(world, now, before, objects);
       std::cout << "frame " << number << ", " << name << ": " << residuals.found << " of " << residuals.pixels
                 << " points found again; longest motion " << residuals.longest << " pixels\n";
-      // The others were hidden in the frame before: a strip as wide as the motion at the objects' edges.
+      // The other points were hidden in the previous frame, in a strip at the objects' edges as wide as the motion.
       EXPECT_GT(residuals.found, 19 * residuals.pixels / 20);
       EXPECT_GT(residuals.pixels, 1000);
     }
   }
 }
 
-TEST_P(Motion, IsThatOfTheJitteredImages) {
+TEST_P(Motion, IncludesTheJitter) {
   const Scene scene = loadScene(WALR_SCENES "/turntable.gltf");
   World world(scene);
-  // Camera and room stand still: what remains is the jitter.
+  // Camera and room stand still, so that motion is the difference of the jitters.
   constexpr int kFrame = 5;
   const RenderedFrame frame = renderFrame(world, kFrame, GetParam());
   const glm::vec2 expected = GetParam() ? haltonJitter(kFrame) - haltonJitter(kFrame - 1) : glm::vec2(0.0F);
   for (const PrimaryHit& hit : frame.hits) {
     if (!hit.surface || !world.instances()[hit.pixel.objectId].moves) {
-      // Roundoff of a projection to 160 pixels.
+      // The rounding error of a projection to 160 pixels.
       EXPECT_LT(glm::distance(glm::vec2(hit.pixel.motion), expected), 2e-4F);
       EXPECT_EQ(hit.pixel.motion.z, 0.0F);
     }
@@ -123,7 +124,7 @@ TEST_P(Motion, IsThatOfTheJitteredImages) {
 INSTANTIATE_TEST_SUITE_P(Jitter, Motion, testing::Bool(),
                          [](const auto& info) { return info.param ? "jittered" : "centred"; });
 
-TEST(Projection, BringsAPositionBackToItsPixel) {
+TEST(Projection, MapsAPositionBackToItsPixel) {
   const Scene scene = loadScene(WALR_SCENES "/box.gltf");
   World world(scene);
   const RenderedFrame frame = renderFrame(world, 12, true);

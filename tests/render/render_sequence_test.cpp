@@ -1,4 +1,4 @@
-// `walr render` from a scene to files that `walr denoise` reads back.
+// `walr render`: from a scene to files that `walr denoise` can read.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -56,7 +56,7 @@ TEST(RenderSequence, IsReadBackInTheProjectsConventions) {
   ASSERT_EQ(sequence.entries().size(), 3U);
   EXPECT_TRUE(sequence.hasReferences());
   EXPECT_EQ(sequence.layout().layout, &projectLayout());
-  // The camera sets off in frame 4: no cut, but motion.
+  // The camera starts to move in frame 4: that is motion, not a cut.
   EXPECT_FALSE(sequence.entries()[1].resetHistory);
   EXPECT_EQ(sequence.entries()[0].camera.view, sequence.entries()[0].camera.previousView);
   EXPECT_NE(sequence.entries()[1].camera.view, sequence.entries()[1].camera.previousView);
@@ -73,7 +73,7 @@ TEST(RenderSequence, IsReadBackInTheProjectsConventions) {
       EXPECT_EQ(squared, 0.0F);
       EXPECT_GT(frame.emission.pixel(i)[2], 0.0F);
     } else {
-      // Three half floats of 11 bits.
+      // The tolerance is the rounding error of three half floats, with 11 bits each.
       EXPECT_NEAR(squared, 1.0F, 3e-3F);
     }
     light += frame.reference->indirect.pixel(i)[0];
@@ -83,7 +83,7 @@ TEST(RenderSequence, IsReadBackInTheProjectsConventions) {
   EXPECT_TRUE(frame.nonFinite.empty());
 }
 
-TEST(RenderSequence, TellsTheObjectOfEveryPixel) {
+TEST(RenderSequence, WritesTheObjectOfEveryPixel) {
   const walr::test::TemporaryDirectory folder;
   render(smallBox(folder.path()));
   ExrReader file(folder.path() / "noisy_0003.exr");
@@ -104,7 +104,7 @@ TEST(RenderSequence, TellsTheObjectOfEveryPixel) {
   EXPECT_TRUE(seen.contains("blue block"));
 }
 
-TEST(RenderSequence, GoesOnWhereItWas) {
+TEST(RenderSequence, ResumesAnInterruptedRun) {
   const walr::test::TemporaryDirectory folder;
   RenderOptions options = smallBox(folder.path());
   options.lastFrame = 4;
@@ -124,7 +124,7 @@ TEST(RenderSequence, GoesOnWhereItWas) {
   EXPECT_TRUE(fs::exists(lost));
 }
 
-TEST(RenderSequence, RendersReferencesOfTheFramesAskedFor) {
+TEST(RenderSequence, RendersReferencesOfTheSelectedFrames) {
   const walr::test::TemporaryDirectory folder;
   RenderOptions options = smallBox(folder.path());
   options.referenceFrames = {4, 9};
@@ -135,7 +135,7 @@ TEST(RenderSequence, RendersReferencesOfTheFramesAskedFor) {
   }
 }
 
-TEST(RenderSequence, LeavesSquaresOfReferencesOut) {
+TEST(RenderSequence, RendersSomeSquaresOfAReferenceOnly) {
   const walr::test::TemporaryDirectory folder;
   RenderOptions options = smallBox(folder.path() / "some");
   options.lastFrame = options.firstFrame;
@@ -158,11 +158,12 @@ TEST(RenderSequence, LeavesSquaresOfReferencesOut) {
     ++known;
     EXPECT_TRUE(std::ranges::equal(pixel, all.reference->indirect.pixel(i)));
   }
-  // 4 x 2 whole squares and 4 that the picture's lower edge cuts to 64 x 16: one of each row.
+  // The image has two rows of 4 squares and a row of 4 that its lower edge cuts to 64 x 16. One square of each row is
+  // rendered.
   EXPECT_EQ(known, 2U * 64 * 64 + 64 * 16);
 }
 
-TEST(RenderSequence, TellsTheNoiseOfReferences) {
+TEST(RenderSequence, HalvesGiveTheNoiseOfReferences) {
   const walr::test::TemporaryDirectory folder;
   RenderOptions options = smallBox(folder.path() / "a");
   options.lastFrame = options.firstFrame;
@@ -183,12 +184,12 @@ TEST(RenderSequence, TellsTheNoiseOfReferences) {
   file.read(
       std::vector<ExrReader::Target>{{"IndirectA.R", &half, 0}, {"IndirectA.G", &half, 1}, {"IndirectA.B", &half, 2}});
   const PixelMask mask = diffuseMask(frame.albedo, frame.normal, frame.depth, kSkyDepth, reference);
-  const double told = referenceNoise(reference, half, mask).value();
+  const double estimated = referenceNoise(reference, half, mask).value();
   // Two independent references differ by sqrt(2) times the noise of one.
   const double measured = compare(reference, otherReference, mask).rmse.value() / std::numbers::sqrt2;
-  // Over eight pairs of seeds the ratio was .97 on average, as the tone map flattens the halves' larger noise, with a
-  // deviation of .01.
-  EXPECT_NEAR(told, measured, 0.1 * measured);
+  // Over eight pairs of seeds the ratio was 0.97 on average, with a standard deviation of 0.01. It is below 1 because
+  // the tone map compresses the larger noise of the halves.
+  EXPECT_NEAR(estimated, measured, 0.1 * measured);
 }
 
 TEST(RenderSequence, AveragesReferencesOverThePixel) {
@@ -201,7 +202,7 @@ TEST(RenderSequence, AveragesReferencesOverThePixel) {
   std::uint64_t rays = 0;
   const Reference area = renderReference(world, view, sampling, {.wholePixel = true}, rays);
 
-  // The same by points of a grid within the pixel. Where there is no diffuse surface, a point does not count.
+  // The same average from points on a grid within the pixel. A point without a diffuse surface does not count.
   constexpr int kGrid = 8;
   walr::Image sum(16, 9, 3);
   std::vector<int> points(sum.pixelCount());
@@ -224,11 +225,11 @@ TEST(RenderSequence, AveragesReferencesOverThePixel) {
     for (std::size_t c = 0; c < 3; ++c) {
       const double expected = sum.pixel(p)[c] / static_cast<float>(points[p]);
       difference.add(area.indirect.pixel(p)[c] - expected);
-      // Half the difference of the halves has the variance of their mean.
+      // The square of half the difference of the two halves estimates the variance of their mean.
       squares.add(std::pow(area.indirect.pixel(p)[c] - area.indirectHalf.pixel(p)[c], 2));
     }
   }
-  // Both have 1024 paths a pixel, so that the difference has twice the variance.
+  // Both have 1024 samples per pixel, so that the difference has twice the variance.
   EXPECT_NEAR(difference.mean(), 0.0, test::kConfidence * difference.standardError());
   EXPECT_LT(difference.variance(), 2.0 * 2.0 * squares.mean());
   EXPECT_GT(difference.count(), 300U);
@@ -242,13 +243,13 @@ TEST(RenderSequence, RefusesToMixSettings) {
   options.bounces = 2;
   try {
     render(options);
-    FAIL() << "frames of other settings were added";
+    FAIL() << "frames with other settings were added";
   } catch (const InputError& error) {
     EXPECT_NE(std::string(error.what()).find("'bounces'"), std::string::npos) << error.what();
   }
 }
 
-TEST(RenderSequence, NamesTheSceneThatIsMissing) {
+TEST(RenderSequence, NamesAMissingScene) {
   const walr::test::TemporaryDirectory folder;
   RenderOptions options = smallBox(folder.path());
   options.scene = folder.path() / "none.glb";

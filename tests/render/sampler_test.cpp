@@ -1,4 +1,4 @@
-// Random numbers against the properties that their constructions promise.
+// Checks the properties that the constructions of the samplers guarantee.
 #include <gtest/gtest.h>
 
 #include <set>
@@ -17,7 +17,7 @@ std::uint32_t pixelAt(std::uint32_t x, std::uint32_t y) {
   return (y << 16U) | x;
 }
 
-// Number of different cells of a grid that 64 points fall into.
+// The number of cells of a grid that 64 points occupy.
 template <typename PointOf>
 std::size_t cells(float columns, float rows, PointOf pointOf) {
   std::set<std::pair<int, int>> seen;
@@ -29,7 +29,8 @@ std::size_t cells(float columns, float rows, PointOf pointOf) {
   return seen.size();
 }
 
-// 64 points of a (0, 2)-sequence, from a multiple of 64 on, are one in every cell of every grid of 64 equal cells.
+// Any 64 points of a (0, 2)-sequence from a multiple of 64 on have one point in every cell of every grid of 64 equal
+// cells.
 template <typename PointOf>
 void expectNet(PointOf pointOf) {
   for (const auto& [columns, rows] : {std::pair(8.0F, 8.0F), {64.0F, 1.0F}, {1.0F, 64.0F}, {16.0F, 4.0F}}) {
@@ -73,7 +74,8 @@ TEST(Sampler, FramesAndSeedsDiffer) {
   }
 }
 
-// What a pixel takes over frames is uniform: its mean and that of its square are those of uniform numbers.
+// The numbers of a pixel over frames are uniform: their mean and the mean of their squares are those of uniform
+// numbers.
 TEST(Sampler, EveryPixelIsUniformOverFrames) {
   for (const Sampler::Kind kind : {Sampler::Kind::Sobol, Sampler::Kind::BlueNoise, Sampler::Kind::Independent}) {
     test::Statistics value;

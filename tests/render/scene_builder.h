@@ -10,7 +10,7 @@
 
 namespace walr::render::test {
 
-/// Makes small scenes in memory.
+/// Builds small scenes in memory.
 class SceneBuilder {
  public:
   SceneBuilder& sky(const glm::vec3& radiance) {
@@ -26,12 +26,12 @@ class SceneBuilder {
     return static_cast<std::uint32_t>(scene_.materials.size() - 1);
   }
 
-  /// A parallelogram; its front is where `cross(u, v)` points. @returns its node
+  /// Add a parallelogram whose front faces `cross(u, v)`. @returns its node
   std::uint32_t quad(std::uint32_t material, const glm::vec3& corner, const glm::vec3& u, const glm::vec3& v) {
     return addMesh(material, {corner, corner + u, corner + u + v, corner + v}, {{0, 1, 2}, {0, 2, 3}});
   }
 
-  /// A closed axis-aligned box seen from within. @returns its node
+  /// Add a closed axis-aligned box whose faces face inward. @returns its node
   std::uint32_t room(std::uint32_t material, const glm::vec3& low, const glm::vec3& high) {
     std::vector<glm::vec3> corners;
     for (int i = 0; i < 8; ++i) {
@@ -59,7 +59,7 @@ class SceneBuilder {
     return node;
   }
 
-  /// A camera at `position` looking at `target`, +Y up. @returns its node
+  /// Add a camera at `position` that looks at `target`, +Y up. @returns its node
   std::uint32_t camera(const glm::vec3& position, const glm::vec3& target) {
     scene_.cameras.emplace_back();
     Transform transform;
@@ -70,7 +70,7 @@ class SceneBuilder {
     return node;
   }
 
-  /// Linear motion from one translation to another over one second.
+  /// Animate a node linearly from one translation to another over one second.
   SceneBuilder& move(std::uint32_t node, const glm::vec3& from, const glm::vec3& to) {
     AnimationChannel channel;
     channel.node = node;
@@ -80,7 +80,7 @@ class SceneBuilder {
     return *this;
   }
 
-  /// Linear rotation over one second.
+  /// Animate a node linearly from one rotation to another over one second.
   SceneBuilder& turn(std::uint32_t node, const glm::quat& from, const glm::quat& to) {
     AnimationChannel channel;
     channel.node = node;

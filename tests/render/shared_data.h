@@ -6,11 +6,12 @@
 
 namespace walr::render::test {
 
-/// A file or folder of the data set beside the project; nothing, said on the console, where the data set is absent.
+/// The path of a file or folder of the data set beside the project. If it is absent: nullopt, and a line on the
+/// console.
 inline std::optional<std::filesystem::path> sharedData(const std::filesystem::path& relative) {
   const std::filesystem::path path = std::filesystem::path(WALR_SHARED_DATA) / relative;
   if (!std::filesystem::exists(path)) {
-    std::cout << "not checked: there is no " << relative << " in the data set beside the project\n";
+    std::cout << "not checked: the data set beside the project has no " << relative << '\n';
     return std::nullopt;
   }
   return path;

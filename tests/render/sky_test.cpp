@@ -1,4 +1,4 @@
-// Skies from maps: against quadrature, closed forms and a sky without a map.
+// Compares skies from maps with quadrature, closed forms and a constant sky.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -36,14 +36,14 @@ SkyMap constantMap(const glm::vec3& radiance) {
   return {16, 8, std::vector<glm::vec3>(16 * 8, radiance)};
 }
 
-// Dim, with a bright texel up to the right of the middle.
+// A dim map with one bright texel, above and to the right of the middle.
 SkyMap mapWithASun() {
   SkyMap map = constantMap(glm::vec3(0.1F, 0.2F, 0.3F));
   map.radiance[2 * 16 + 10] = glm::vec3(500.0F, 400.0F, 300.0F);
   return map;
 }
 
-// Integral over the sphere by the midpoint rule, cells much smaller than the map's texels.
+// Integral over the sphere by the midpoint rule with cells much smaller than the map's texels.
 template <typename Function>
 double integrate(Function function) {
   constexpr int kSteps = 1024;
@@ -65,14 +65,15 @@ Scene sceneUnder(const SkyMap& map) {
   return scene;
 }
 
-TEST(Sky, MapIsOrientedAsSaid) {
+TEST(Sky, MiddleOfTheMapIsMinusZAndItsTopPlusY) {
   SkyMap map{4, 2, {}};
   for (int i = 0; i < 8; ++i) {
     map.radiance.emplace_back(static_cast<float>(i));
   }
   const Scene scene = sceneUnder(map);
   const Sky sky(scene);
-  // Texel centres: columns look along -135, -45, 45 and 135 degrees from -Z to +X, rows 45 degrees up and down.
+  // The centres of the four columns lie at -135, -45, 45 and 135 degrees from -Z towards +X, those of the two rows 45
+  // degrees up and down.
   const float s = std::sqrt(0.5F);
   for (int column = 0; column < 4; ++column) {
     const auto angle = static_cast<float>((column - 1.5) * kPi / 2.0);
@@ -82,10 +83,10 @@ TEST(Sky, MapIsOrientedAsSaid) {
   }
 }
 
-TEST(Sky, DensityIsOneInAll) {
+TEST(Sky, DensityIntegratesToOne) {
   const Scene scene = sceneUnder(mapWithASun());
   const Sky sky(scene);
-  // The midpoint rule over cells that never straddle a texel's edge is wrong by the sine's curvature alone.
+  // No cell straddles a texel's edge, so that the only error of the midpoint rule comes from the curvature of the sine.
   EXPECT_NEAR(integrate([&](const glm::vec3& direction) { return sky.density(direction); }), 1.0, 1e-3);
 }
 
@@ -134,7 +135,7 @@ TEST(Sky, WhiteFoldUnderAWhiteMapIsWhite) {
   EXPECT_NEAR(light.whole.mean(), 1.0, kConfidence * light.whole.standardError());
 }
 
-TEST(Sky, SunOfAMapLightsAFloorAsItShould) {
+TEST(Sky, SunInAMapGivesAFloorTheIntegratedIrradiance) {
   SceneBuilder builder;
   builder.scene().skyMap = mapWithASun();
   builder.quad(builder.material(glm::vec3(0.5F)), glm::vec3(-5.0F, 0.0F, 5.0F), glm::vec3(10.0F, 0.0F, 0.0F),
@@ -146,10 +147,11 @@ TEST(Sky, SunOfAMapLightsAFloorAsItShould) {
   });
   const Light light = gather(builder.scene(), camera, 0, 20000);
   EXPECT_NEAR(light.direct.mean(), irradiance / kPi, kConfidence * light.direct.standardError());
-  // Cosine sampling alone would meet the sun once in 44 paths, with a standard deviation of 6.6 means. Sought out, what
-  // remains is how the interpolated texel varies: uniform over its support that is sqrt((4/3)^2 - 1) = 0.88 means.
+  // With cosine sampling alone, one path in 44 would hit the sun: a standard deviation of 6.6 times the mean. With
+  // importance sampling only the variation of the interpolated texel remains: for directions uniform over its support,
+  // sqrt((4/3)^2 - 1) = 0.88 times the mean.
   EXPECT_LT(std::sqrt(light.direct.variance()), light.direct.mean());
-  // What misses the floor sees the map itself.
+  // A ray that misses the floor sees the map itself.
   const World world(builder.scene());
   EXPECT_EQ(world.sky().radiance({0.0F, 0.0F, -1.0F}), sky.radiance({0.0F, 0.0F, -1.0F}));
 }
@@ -174,7 +176,7 @@ class SkyFile : public testing::Test {
   static void expectError(const std::filesystem::path& file, const std::string& text) {
     try {
       loadSky(file);
-      ADD_FAILURE() << "loaded, but should have said: " << text;
+      ADD_FAILURE() << "loaded without the expected error: " << text;
     } catch (const InputError& error) {
       EXPECT_NE(std::string(error.what()).find(text), std::string::npos) << error.what();
       EXPECT_NE(std::string(error.what()).find(file.string()), std::string::npos) << error.what();
@@ -184,7 +186,7 @@ class SkyFile : public testing::Test {
   walr::test::TemporaryDirectory folder;
 };
 
-TEST_F(SkyFile, IsReadWithItsScene) {
+TEST_F(SkyFile, IsReadWithAScene) {
   walr::Image image(4, 2, 3);
   image.at(3, 1, 2) = 7.0F;
   const Scene scene = loadScene(WALR_SCENES "/box.gltf", write(image));
@@ -192,7 +194,7 @@ TEST_F(SkyFile, IsReadWithItsScene) {
   EXPECT_EQ(scene.skyMap->radiance[7], glm::vec3(0.0F, 0.0F, 7.0F));
 }
 
-TEST_F(SkyFile, RefusesWhatIsNoSky) {
+TEST_F(SkyFile, RefusesInvalidSkies) {
   walr::Image image(4, 2, 3);
   expectError(folder.path() / "none.exr", "none.exr");
   expectError(write(image, "RG"), "B");
@@ -229,7 +231,7 @@ TEST_F(SkyFile, DamagedFilesNeverCrash) {
       EXPECT_NE(std::string(error.what()).find(damaged.string()), std::string::npos) << error.what();
     }
   }
-  // Not every byte matters: some files are read all the same.
+  // Some damaged files can still be read, because not every byte matters.
   EXPECT_GT(read, 0);
 }
 

@@ -5,7 +5,7 @@
 
 namespace walr::render::test {
 
-/// A baseline JPEG of 24 x 16 texels: ramps of red and green, as libjpeg wrote it.
+/// A baseline JPEG of 24 x 16 texels, written by libjpeg: ramps of red and green.
 inline std::string smallJpeg() {
   constexpr std::string_view kHex =
       "ffd8ffe000104a46494600010100000100010000ffdb0043001b12141714111b1716171e1c1b2028422b28252528513a3d30"

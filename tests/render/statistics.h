@@ -26,7 +26,7 @@ class Statistics {
   double squares_ = 0.0;
 };
 
-/// Half the width of the interval, in standard errors, that the mean of many samples leaves once in 15,000 tests.
+/// Tolerance in standard errors: the mean of many samples lies outside plus or minus 4 once in about 15,000 tests.
 inline constexpr double kConfidence = 4.0;
 
 }  // namespace walr::render::test

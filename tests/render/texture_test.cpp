@@ -1,4 +1,4 @@
-// Texture lookups against values worked out by hand.
+// Compares texture lookups with values computed by hand.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -21,10 +21,10 @@ float red(const Texture& texture, float u, float v = 0.5F) {
   return sampleTexture(ramp(), texture, {u, v}, ColorSpace::Linear).x;
 }
 
-// Roundoff of a few operations on values up to 1.
+// The rounding error of a few operations on values up to 1.
 constexpr float kRoundoff = 1e-6F;
 
-TEST(Texture, CentresHoldTheTexelsAndTheMiddleTheirMean) {
+TEST(Texture, InterpolatesBetweenTexelCentres) {
   const Texture texture;
   EXPECT_NEAR(red(texture, 0.125F), 0.0F, kRoundoff);
   EXPECT_NEAR(red(texture, 0.375F), 0.2F, kRoundoff);
@@ -40,7 +40,7 @@ TEST(Texture, RepeatBlendsTheLastTexelWithTheFirst) {
   EXPECT_NEAR(red(texture, -1.625F), 0.2F, kRoundoff);
 }
 
-TEST(Texture, ClampHoldsTheEdges) {
+TEST(Texture, ClampRepeatsTheEdgeTexels) {
   Texture texture;
   texture.wrapU = Wrap::ClampToEdge;
   EXPECT_NEAR(red(texture, 0.0F), 0.0F, kRoundoff);
@@ -49,7 +49,7 @@ TEST(Texture, ClampHoldsTheEdges) {
   EXPECT_NEAR(red(texture, 9.0F), 1.0F, kRoundoff);
 }
 
-TEST(Texture, MirrorTurnsAround) {
+TEST(Texture, MirroredRepeatReflectsCoordinates) {
   Texture texture;
   texture.wrapU = Wrap::MirroredRepeat;
   for (const float u : {0.1F, 0.375F, 0.6F, 0.95F}) {
@@ -68,14 +68,14 @@ TEST(Texture, NearestTakesOneTexel) {
   EXPECT_EQ(red(texture, 1.0F), 0.0F);
 }
 
-TEST(Texture, SrgbIsDecodedAndAlphaIsNot) {
+TEST(Texture, SrgbDecodesColoursButNotAlpha) {
   const glm::vec4 value = sampleTexture(ramp(), {}, {0.625F, 0.5F}, ColorSpace::Srgb);
-  // IEC 61966-2-1 at 0.4.
+  // The linear value of sRGB 0.4 (IEC 61966-2-1).
   EXPECT_NEAR(value.x, 0.13286832F, kRoundoff);
   EXPECT_NEAR(value.w, 2.0F / 255.0F, kRoundoff);
 }
 
-TEST(Texture, CoordinatesWithoutMeaningAreHarmless) {
+TEST(Texture, NonFiniteAndHugeCoordinatesGiveAValidTexel) {
   for (const float u : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(), 1e30F}) {
     for (const Wrap wrap : {Wrap::Repeat, Wrap::ClampToEdge, Wrap::MirroredRepeat}) {
       Texture texture;

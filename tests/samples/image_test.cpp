@@ -76,7 +76,7 @@ TEST(Exr, HalfFloatsOutOfRangeSaturateAndNonFiniteOnesStay) {
   EXPECT_TRUE(std::isnan(image.at(2, 0, 0)));
 }
 
-TEST(Exr, TruncatedAtAnyLengthIsAnInputErrorThatNamesTheFile) {
+TEST(Exr, TruncationAtAnyLengthGivesAnErrorThatNamesTheFile) {
   const TemporaryDirectory directory;
   const auto file = directory.path() / "cut.exr";
   const Image image = ramp(40, 40, 1);
@@ -95,13 +95,13 @@ TEST(Exr, TruncatedAtAnyLengthIsAnInputErrorThatNamesTheFile) {
   }
 }
 
-TEST(FileOutput, AFailedWriteLeavesTheOldFileAndNoOther) {
+TEST(FileOutput, AFailedWriteKeepsTheOldFileAndLeavesNoOther) {
   const TemporaryDirectory directory;
   const auto file = directory.path() / "a";
   test::writeText(file, "old");
   std::filesystem::create_directory(directory.path() / "taken");
   const std::string text = "new";
-  // A directory cannot be replaced by a file, so that the last step fails.
+  // A file cannot replace a directory, so that the final rename fails.
   EXPECT_THROW(writeFileAtomically(directory.path() / "taken", std::as_bytes(std::span(text))), OutputError);
   EXPECT_EQ(filesIn(directory.path()), 2U);
   writeFileAtomically(file, std::as_bytes(std::span(text)));
@@ -109,7 +109,7 @@ TEST(FileOutput, AFailedWriteLeavesTheOldFileAndNoOther) {
   EXPECT_EQ(filesIn(directory.path()), 2U);
 }
 
-TEST(FileOutput, AnOutputDirectoryThatCannotBeMadeIsNamed) {
+TEST(FileOutput, AnOutputDirectoryThatCannotBeCreatedIsNamed) {
   const TemporaryDirectory directory;
   test::writeText(directory.path() / "file", "");
   for (const auto& path : {directory.path() / "file", directory.path() / "file" / "below"}) {

@@ -1,7 +1,7 @@
-/// Values of FLIP by its authors' own implementation (FLIP.h, version 1.6 of https://github.com/NVlabs/flip).
+/// Computes FLIP with its authors' own implementation (FLIP.h, version 1.6 of https://github.com/NVlabs/flip).
 ///
-///     make_flip_fixture FILE            writes flip_fixture.json
-///     make_flip_fixture --check FILE    fails unless FILE holds what would be written
+///     make_flip_fixture FILE            writes the values to FILE (flip_fixture.json)
+///     make_flip_fixture --check FILE    fails if FILE differs from what would be written
 #include <fstream>
 #include <iostream>
 #include <memory>
@@ -26,7 +26,7 @@ struct Case {
 
 constexpr Case kCases[] = {
     {"odd_size", 37, 29, 0.3, 67.02064F}, {"strong_noise", 64, 40, 3.0, 67.02064F}, {"close", 96, 54, 0.5, 20.0F}};
-// Every so many pixels, one is in the fixture.
+// The fixture holds every 29th pixel.
 constexpr std::size_t kStride = 29;
 
 nlohmann::ordered_json measure(const Case& c) {
@@ -69,6 +69,6 @@ int main(int argc, char** argv) {
   }
   std::ifstream stream(argv[2]);
   if (std::string(std::istreambuf_iterator<char>(stream), {}) == text) return 0;
-  std::cerr << argv[2] << " is not what FLIP.h gives\n";
+  std::cerr << argv[2] << " differs from the values that FLIP.h computes\n";
   return 1;
 }

@@ -1,8 +1,8 @@
 #!/usr/bin/python3
-"""Values of the error figures by scikit-image, an implementation that shares nothing with samples/metrics.
+"""Computes the error metrics with scikit-image, which shares no code with samples/metrics.
 
 Writes metric_fixture.json, or with --check compares it with freshly computed values. Needs python3-skimage.
-The pictures come from a formula that metrics_test.cpp repeats.
+The test images come from a formula that metric_pictures.h repeats.
 """
 import json
 import pathlib
@@ -70,13 +70,13 @@ def main():
         for key, value in fresh.items():
             same = abs(stored[key] - value) < 1e-9 if isinstance(value, float) else stored[key] == value
             if not same:
-                sys.exit(f"{stored['name']}: stored {key} {stored[key]}, scikit-image says {value}")
+                sys.exit(f"{stored['name']}: stored {key} {stored[key]}, scikit-image computes {value}")
 
 
 if __name__ == "__main__":
     try:
         import skimage  # noqa: F401
     except ImportError:
-        print("scikit-image is not installed (python3-skimage): the stored values are not checked again")
+        print("scikit-image (python3-skimage) is not installed: the stored values are not checked")
         sys.exit(77)
     main()

@@ -6,7 +6,7 @@
 
 namespace walr::test {
 
-/// The hash of make_metric_fixture.py, to [0, 1).
+/// The same hash to [0, 1) as in make_metric_fixture.py.
 inline double uniform(std::uint32_t n) {
   n ^= n >> 16U;
   n *= 0x7FEB352DU;
@@ -21,7 +21,7 @@ struct Pictures {
   Image reference;
 };
 
-/// The pictures of make_metric_fixture.py.
+/// The same test images as in make_metric_fixture.py.
 inline Pictures makePictures(int width, int height, double amplitude) {
   Pictures pictures{Image(width, height, 3), Image(width, height, 3)};
   for (int y = 0; y < height; ++y) {

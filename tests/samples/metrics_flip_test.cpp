@@ -29,8 +29,8 @@ TEST(Flip, AgreesWithItsAuthorsImplementation) {
   std::ifstream stream(WALR_TEST_DATA "/flip_fixture.json");
   const auto cases = nlohmann::json::parse(stream);
   ASSERT_FALSE(cases.empty());
-  // Theirs computes in single precision. An error e of a feature's difference d changes its root by e / (2 sqrt(d)),
-  // and the differences here are above 1e-3; e is some sixty roundings of values below 1.
+  // The authors' implementation uses single precision. An error e of a feature difference d changes its square root by
+  // e / (2 sqrt(d)). The differences here are above 1e-3; e is about sixty rounding errors of values below 1.
   const double tolerance = 60.0 * std::numeric_limits<float>::epsilon() / (2.0 * std::sqrt(1e-3));
   for (const auto& expected : cases) {
     SCOPED_TRACE(expected["name"].get<std::string>());
@@ -51,22 +51,22 @@ TEST(Flip, EqualPicturesDifferNowhere) {
   EXPECT_EQ(std::ranges::max(map), 0.0);
 }
 
-/// Section 4.1.3: the largest distance, between green and blue, is 1; what lies below 0.4 of it takes 0.95.
+/// Section 4.1.3: the largest colour distance, between green and blue, maps to 1.
 TEST(Flip, IsOneBetweenGreenAndBlue) {
   for (const double value : flipMap({constant(30, 30, 0, 1, 0), constant(30, 30, 0, 0, 1)})) {
     EXPECT_NEAR(value, 1.0, 1e-12);
   }
 }
 
-/// Black and white differ by 100 in L* and in nothing else, green and blue by the well-known L*a*b* of the primaries
-/// (87.74, -86.18, 83.18) and (32.30, 79.19, -107.86) with the Hunt effect: hence a closed form.
-TEST(Flip, BetweenBlackAndWhiteIsThatOfTheirLightness) {
+/// The error between black and white has a closed form: they differ by 100 in L* only. The largest distance is that of
+/// green and blue, L*a*b* (87.74, -86.18, 83.18) and (32.30, 79.19, -107.86), with the Hunt effect.
+TEST(Flip, BetweenBlackAndWhiteFollowsFromTheirLightness) {
   const double greenToBlue = (87.7347 - 32.2970) + std::hypot(0.877347 * -86.1827 - 0.322970 * 79.1875,
                                                               0.877347 * 83.1793 - 0.322970 * -107.8602);
   const double ratio = std::pow(100.0 / greenToBlue, 0.7);
   const double expected = ratio < 0.4 ? 0.95 * ratio / 0.4 : 0.95 + 0.05 * (ratio - 0.4) / 0.6;
   for (const double value : flipMap({constant(30, 30, 0, 0, 0), constant(30, 30, 1, 1, 1)})) {
-    EXPECT_NEAR(value, expected, 1e-4);  // The primaries' digits.
+    EXPECT_NEAR(value, expected, 1e-4);  // The precision of the primaries above.
   }
 }
 
@@ -77,7 +77,7 @@ TEST(Flip, IsSymmetric) {
   EXPECT_EQ(forth, back);
 }
 
-TEST(Flip, NonFiniteTestValuesAreSeen) {
+TEST(Flip, NonFiniteTestValuesGiveErrors) {
   const Image reference = constant(31, 31, 0.5F, 0.5F, 0.5F);
   Image test = reference;
   test.at(15, 15, 0) = std::numeric_limits<float>::quiet_NaN();

@@ -14,7 +14,7 @@ constexpr int kWidth = 160;
 constexpr int kHeight = 120;
 constexpr std::size_t kPixels = static_cast<std::size_t>(kWidth) * kHeight;
 
-/// A wall four units away that moves by some pixels from frame to frame.
+/// A wall four units away that moves by the given number of pixels from frame to frame.
 VisibleSurfaces wall(float motionX, float motionY) {
   VisibleSurfaces surfaces{Image(kWidth, kHeight, 1), Image(kWidth, kHeight, 3), Image(kWidth, kHeight, 3),
                            PixelMask(kPixels, 1)};
@@ -27,7 +27,7 @@ VisibleSurfaces wall(float motionX, float motionY) {
   return surfaces;
 }
 
-/// Grey pictures of a pattern that moves with the wall, and white noise on the test.
+/// A grey pattern that moves with the wall: the reference without noise, the test image with white noise.
 DisplayedPair noisyPattern(int shift, double deviation, std::mt19937& random) {
   DisplayedPair pair{Image(kWidth, kHeight, 3), Image(kWidth, kHeight, 3)};
   std::normal_distribution<double> noise(0.0, 1.0);
@@ -50,8 +50,8 @@ TEST(Flicker, OfWhiteNoiseIsItsDeviation) {
   const DisplayedPair previous = noisyPattern(0, kDeviation, random);
   const DisplayedPair current = noisyPattern(3, kDeviation, random);
   const auto pixels = previousPixels(wall(-3.0F, 0.0F), wall(-3.0F, 0.0F));
-  // The root mean square of n values of a normal distribution spreads by its deviation / sqrt(2 n). Every value takes
-  // part in two differences, which makes it at most sqrt(2) more; five times that.
+  // The root mean square of n normal values has the standard deviation s / sqrt(2 n). Every value enters two
+  // differences, which increases it by at most sqrt(2). The tolerance is five times that.
   EXPECT_NEAR(*flicker(errorChange(current, previous, pixels)), kDeviation, 5.0 * kDeviation / std::sqrt(kPixels));
 }
 
@@ -60,7 +60,7 @@ TEST(Flicker, AnErrorThatStaysWithItsSurfaceDoesNotFlicker) {
   const DisplayedPair previous = noisyPattern(0, 0.0, random);
   const DisplayedPair current = noisyPattern(3, 0.0, random);
   const auto pixels = previousPixels(wall(-3.0F, 0.0F), wall(-3.0F, 0.0F));
-  // The constant error of 0.1 cancels up to the rounding of floats below 1.
+  // The constant error of 0.1 cancels except for the rounding errors of floats below 1.
   EXPECT_NEAR(*flicker(errorChange(current, previous, pixels)), 0.0, std::numeric_limits<float>::epsilon());
 }
 
@@ -70,21 +70,21 @@ TEST(Flicker, WithoutPreviousPixelsHasNoValue) {
   EXPECT_FALSE(flicker(errorChange(pair, pair, std::vector<std::uint32_t>(kPixels, kNoPixel))).has_value());
 }
 
-TEST(PreviousPixels, FollowMotionToTheNearestPixel) {
+TEST(PreviousPixels, AreTheNearestPixelsAlongMotion) {
   const VisibleSurfaces surfaces = wall(-2.4F, 1.6F);
   const auto pixels = previousPixels(surfaces, surfaces);
   EXPECT_EQ(pixels[10 * kWidth + 20], 12U * kWidth + 18U);
-  EXPECT_EQ(pixels[10 * kWidth + 1], kNoPixel) << "left of the picture";
-  EXPECT_EQ(pixels[(kHeight - 1) * kWidth + 20], kNoPixel) << "below the picture";
+  EXPECT_EQ(pixels[10 * kWidth + 1], kNoPixel) << "left of the image";
+  EXPECT_EQ(pixels[(kHeight - 1) * kWidth + 20], kNoPixel) << "below the image";
 }
 
-TEST(PreviousPixels, AreMissingWhereAnotherSurfaceWas) {
+TEST(PreviousPixels, AreMissingAtDisocclusions) {
   VisibleSurfaces current = wall(0.0F, 0.0F);
   VisibleSurfaces previous = wall(0.0F, 0.0F);
-  previous.depth.pixel(0)[0] = 4.2F;  // Off by 5 %.
-  previous.depth.pixel(1)[0] = 4.2F;  // The same, but the surface came nearer by as much.
+  previous.depth.pixel(0)[0] = 4.2F;  // The depth differs by 5 %.
+  previous.depth.pixel(1)[0] = 4.2F;  // The same, but the motion predicts this depth.
   current.motion.pixel(1)[2] = 0.2F;
-  previous.normal.pixel(2)[0] = 0.6F;  // Turned by 37 degrees.
+  previous.normal.pixel(2)[0] = 0.6F;  // The normal differs by 37 degrees.
   previous.normal.pixel(2)[2] = 0.8F;
   previous.mask[3] = 0;
   current.mask[4] = 0;
@@ -101,7 +101,7 @@ TEST(LuminanceChangeTest, OfWhiteNoiseIsItsMeanDifference) {
   const DisplayedPair previous = noisyPattern(0, kDeviation, random);
   const DisplayedPair current = noisyPattern(0, kDeviation, random);
   const auto change = luminanceChange(current, previous, PixelMask(kPixels, 1), PixelMask(kPixels, 1));
-  // |difference of two normal values| has the mean 2 s / sqrt(pi) and a deviation below that.
+  // The absolute difference of two normal values has the mean 2 s / sqrt(pi) and a smaller standard deviation.
   const double expected = 2.0 * kDeviation / std::sqrt(3.14159265358979);
   EXPECT_NEAR(change->test, expected, 5.0 * expected / std::sqrt(kPixels));
   EXPECT_EQ(change->reference, 0.0);

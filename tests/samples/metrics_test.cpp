@@ -35,8 +35,8 @@ TEST(Metrics, AgreeWithScikitImage) {
       mask[static_cast<std::size_t>(i)] = (i % width + 2 * (i / width)) % stride != 0 ? 1 : 0;
     }
     const ErrorFigures figures = compare(pictures.test, pictures.reference, mask);
-    // The tone map is computed in float on both sides: its unit roundoff bounds the difference of each pixel, which a
-    // mean does not enlarge; SSIM divides by C2 = 9e-4, and PSNR multiplies the relative error by 20 / ln 10.
+    // Both sides compute the tone map in float, so that pixels differ by at most the unit roundoff. A mean does not
+    // enlarge that. SSIM divides it by C2 = 9e-4; PSNR multiplies the relative error by 20 / ln 10.
     const double roundoff = std::numeric_limits<float>::epsilon();
     EXPECT_NEAR(*figures.rmse, expected["rmse"].get<double>(), roundoff);
     EXPECT_NEAR(*figures.psnr, expected["psnr"].get<double>(), 8.7 * roundoff / expected["rmse"].get<double>());
@@ -44,12 +44,12 @@ TEST(Metrics, AgreeWithScikitImage) {
   }
 }
 
-TEST(Metrics, EqualPicturesHaveNoErrorAndNoPsnr) {
+TEST(Metrics, EqualImagesHaveNoErrorAndNoPsnr) {
   const Pictures pictures = makePictures(20, 16, 0.0);
   const ErrorFigures figures = compare(pictures.reference, pictures.reference, fullMask(pictures.reference));
   EXPECT_EQ(figures.rmse, 0.0);
   EXPECT_FALSE(figures.psnr.has_value());
-  // Not exactly 1 by rounding: numerator and denominator are equal up to a few roundings of double.
+  // Not exactly 1: numerator and denominator differ by a few rounding errors of double.
   EXPECT_NEAR(*figures.ssim, 1.0, 1e-12);
 }
 
@@ -71,8 +71,8 @@ TEST(Metrics, NonFiniteTestValuesCountAsTheWorst) {
   Image reference(1, 2, 3);
   Image test(1, 2, 3);
   for (int c = 0; c < 3; ++c) {
-    reference.at(0, 0, c) = 0.25F;  // Tone-mapped 0.2: the worst is 1, off by 0.8.
-    reference.at(0, 1, c) = 4.0F;   // Tone-mapped 0.8: the worst is 0, off by 0.8.
+    reference.at(0, 0, c) = 0.25F;  // Tone-mapped 0.2: the worst value is 1, an error of 0.8.
+    reference.at(0, 1, c) = 4.0F;   // Tone-mapped 0.8: the worst value is 0, an error of 0.8.
     test.at(0, 0, c) = std::numeric_limits<float>::quiet_NaN();
     test.at(0, 1, c) = std::numeric_limits<float>::infinity();
   }
@@ -97,7 +97,7 @@ TEST(Metrics, RelativeMseFollowsItsDefinition) {
 }
 
 TEST(Metrics, NoiseOfAReferenceIsThatOfTheMeanOfItsHalves) {
-  // Halves that are far below 1, where the tone map is close to the identity, with uniform noise of known deviation.
+  // Two halves with uniform noise of known standard deviation, far below 1, where the tone map is nearly the identity.
   constexpr int kSize = 256;
   constexpr double kAmplitude = 1e-4;
   Image reference(kSize, kSize, 3);
@@ -108,8 +108,8 @@ TEST(Metrics, NoiseOfAReferenceIsThatOfTheMeanOfItsHalves) {
     half.values()[i] = static_cast<float>(a);
     reference.values()[i] = static_cast<float>(0.5 * (a + b));
   }
-  // A mean of two has the deviation of one over the square root of two. Its estimate from n values spreads by 1 /
-  // sqrt(n) about it or less; five times that. The slope of the tone map lies within 0.3 % of 1.
+  // The mean of two values has 1 / sqrt(2) of the standard deviation of one. The relative error of its estimate from n
+  // values is at most 1 / sqrt(n); the tolerance is five times that. The slope of the tone map lies within 0.3 % of 1.
   const double expected = kAmplitude / std::sqrt(12.0) / std::sqrt(2.0);
   const double spread = 5.0 / std::sqrt(kSize * kSize * 3.0);
   EXPECT_NEAR(*referenceNoise(reference, half, fullMask(reference)), expected, (spread + 0.003) * expected);
@@ -144,7 +144,7 @@ TEST(Metrics, MaskHoldsDiffuseSurfacesWithAKnownReference) {
   EXPECT_EQ(diffuseMask(albedo, normal, depth, 1e9F, reference), (PixelMask{1, 0, 0, 0, 0}));
 }
 
-TEST(Metrics, MeansLeaveOutFramesWithoutAFigure) {
+TEST(Metrics, MeansLeaveOutFramesWithoutAValue) {
   MeanFigures mean;
   mean.add({0.25, 12.0, 0.5});
   mean.add({0.75, std::nullopt, std::nullopt});

@@ -20,7 +20,7 @@ namespace {
 using test::Channels;
 using test::SyntheticSequence;
 
-/// Expects an InputError whose message holds all the given parts.
+/// Expects an InputError whose message contains all of the given parts.
 template <typename Action>
 void expectInputError(Action action, std::initializer_list<const char*> parts) {
   try {
@@ -50,7 +50,7 @@ class SequenceTest : public testing::Test {
   SyntheticSequence files{directory.path(), 6, 4};
 };
 
-TEST_F(SequenceTest, ReadsBlenderFramesAsTheyAre) {
+TEST_F(SequenceTest, ReadsBlenderFramesUnchanged) {
   files.write(3, 5);
   const Sequence sequence = open();
   EXPECT_EQ(sequence.layout().layout, &cyclesLayout());
@@ -69,7 +69,7 @@ TEST_F(SequenceTest, ReadsBlenderFramesAsTheyAre) {
   EXPECT_TRUE(sequence.read(0).resetHistory);
 }
 
-TEST_F(SequenceTest, TakesAViewLayerPrefix) {
+TEST_F(SequenceTest, AcceptsAViewLayerPrefix) {
   files.write(0, 0);
   const auto prefixed = [](const std::string& prefix) {
     return [prefix](Channels& channels) {
@@ -87,7 +87,7 @@ TEST_F(SequenceTest, TakesAViewLayerPrefix) {
   EXPECT_EQ(sequence.read(0).albedo.at(2, 2, 1), 0.8F);
 }
 
-TEST_F(SequenceTest, SeveralViewLayersNeedAChoice) {
+TEST_F(SequenceTest, SeveralViewLayersRequireAChoice) {
   files.write(0, 0);
   files.writeFrame(0, [](Channels& channels) {
     for (const auto& [name, image] : Channels(channels)) {
@@ -136,7 +136,7 @@ TEST_F(SequenceTest, TheProjectsOwnLayoutRoundTrips) {
   EXPECT_EQ(read.reference->indirect.at(5, 3, 2), 2.0F);
 }
 
-TEST_F(SequenceTest, PixelsOfAReferenceMayBeLeftOutAsAWhole) {
+TEST_F(SequenceTest, ReferencesMayHavePixelsThatAreNanInAllChannels) {
   constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
   writeFrame(directory.path(), test::projectFrame(7, 6, 4));
   Reference reference{.indirect = Image(6, 4, 3)};
@@ -149,7 +149,7 @@ TEST_F(SequenceTest, PixelsOfAReferenceMayBeLeftOutAsAWhole) {
   expectInputError([&] { static_cast<void>(open().read(0)); }, {"Indirect.G has 1 value(s)"});
 }
 
-TEST_F(SequenceTest, ObjectNumbersAreInAllFramesOrInNone) {
+TEST_F(SequenceTest, ObjectNumbersMustBeInAllFramesOrInNone) {
   const auto numbered = [](Channels& channels) { channels["IndexOB.X"] = Image(6, 4, 1); };
   files.write(0, 1);
   EXPECT_FALSE(open().layout().objectIds);
@@ -232,7 +232,7 @@ TEST_F(SequenceTest, AGapIsNamedAndARangeAvoidsIt) {
 TEST_F(SequenceTest, TwoFilesOfOneFrameAreRefused) {
   files.write(0, 0);
   std::filesystem::copy(files.frameFile(0), directory.path() / "other_00.exr");
-  expectRefused({"frame 0 is there twice", "noisy_0000.exr", "other_00.exr"});
+  expectRefused({"frame 0 exists twice", "noisy_0000.exr", "other_00.exr"});
 }
 
 TEST_F(SequenceTest, AnEmptyOrMissingFolderIsRefused) {
@@ -278,11 +278,11 @@ TEST_F(SequenceTest, AMissingCameraAttributeIsNamed) {
   expectRefused({"noisy_0000.exr", "worldToCamera"});
 }
 
-TEST_F(SequenceTest, ACutIsToldByTheCamerasTheirFlagOrTheCaller) {
+TEST_F(SequenceTest, CutsComeFromCamerasTheirFlagOrTheCaller) {
   files.write(0, 4);
   editCameras([](nlohmann::json& frames) {
-    frames[1]["prev_view"][12] = 1e-7;  // Rounding.
-    frames[2]["prev_view"][12] = 0.01;  // Another place than frame 1 was seen from.
+    frames[1]["prev_view"][12] = 1e-7;  // A rounding error: no cut.
+    frames[2]["prev_view"][12] = 0.01;  // Differs from the view of frame 1: a cut.
     frames[3]["cut"] = true;
   });
   SequenceOptions options;
@@ -311,7 +311,7 @@ TEST_F(SequenceTest, JitterAndProjectionOfTheFrameBeforeAreKept) {
 
 class NonFiniteTest : public SequenceTest, public testing::WithParamInterface<const char*> {};
 
-TEST_P(NonFiniteTest, IsRefusedWithPlaceAndCountOrTakenWhenAsked) {
+TEST_P(NonFiniteTest, IsRefusedWithPositionAndCountOrAcceptedOnRequest) {
   files.write(0, 0);
   files.writeFrame(0, [](Channels& channels) {
     channels.at(GetParam()).at(4, 1, 0) = std::numeric_limits<float>::quiet_NaN();
@@ -335,7 +335,7 @@ INSTANTIATE_TEST_SUITE_P(EveryChannel, NonFiniteTest,
 TEST(DevelopmentSequences, AreRecognisedAndRead) {
   const std::filesystem::path root = WALR_SEQUENCES;
   if (!std::filesystem::is_directory(root)) {
-    GTEST_SKIP() << root << " is not there";
+    GTEST_SKIP() << root << " does not exist";
   }
   for (const char* name : {"sponza", "cornell_fence"}) {
     const Sequence sequence(root / name, {});

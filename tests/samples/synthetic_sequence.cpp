@@ -18,7 +18,7 @@ constexpr float kWallDepth = 4.0F;
 constexpr float kLight = 0.5F;
 constexpr float kAlbedo = 0.8F;
 
-// A symmetric perspective with a vertical opening of 90 degrees, OpenGL form, near 0.1, far 100.
+// A symmetric OpenGL perspective projection: vertical field of view 90 degrees, near plane 0.1, far plane 100.
 constexpr std::array<float, 16> kProjection = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -1.002002F, -1, 0, 0, -0.2002002F, 0};
 constexpr std::array<float, 16> kIdentity = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
 
@@ -38,7 +38,7 @@ Image plane(int width, int height, float wall, float sky) {
   return image;
 }
 
-/// Light of mean `kLight` on the wall, seen once in four pixels, as one path a pixel gives it.
+/// Noisy light on the wall with the mean `kLight`: one pixel in four is lit, as with 1 sample per pixel.
 Image noisyLight(int width, int height, std::uint32_t seed) {
   std::mt19937 random(seed);
   Image image = plane(width, height, kLight, 0.0F);

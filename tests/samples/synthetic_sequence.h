@@ -10,13 +10,13 @@
 
 namespace walr::test {
 
-/// Channels of one file by full name, one plane each.
+/// The channels of one file: full name to image of one component.
 using Channels = std::map<std::string, Image>;
 /// A change to a frame before it is written.
 using Edit = std::function<void(Channels&)>;
 
-/// A tiny sequence in Blender's layout: a wall that faces a still camera four units away, noisy light, a row of sky at
-/// the top where there is more than one row.
+/// A tiny sequence in Blender's layout: a still camera four units in front of a wall with noisy light, and a row of sky
+/// at the top if there is more than one row.
 class SyntheticSequence {
  public:
   SyntheticSequence(std::filesystem::path folder, int width, int height)
@@ -43,7 +43,7 @@ class SyntheticSequence {
 /// The same wall as one frame in the project's own conventions.
 Frame projectFrame(int number, int width, int height);
 
-/// Write channels as they are, all of them as 32-bit floats.
+/// Write channels unchanged, all of them as 32-bit floats.
 void writeChannels(const std::filesystem::path& file, const Channels& channels);
 
 /// Replace a text file.

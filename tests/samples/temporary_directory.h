@@ -7,13 +7,13 @@
 
 namespace walr::test {
 
-/// A fresh directory that goes with the test.
+/// A new directory that is deleted with the object.
 class TemporaryDirectory {
  public:
   TemporaryDirectory() {
     std::string name = (std::filesystem::temp_directory_path() / "walr-test-XXXXXX").string();
     if (mkdtemp(name.data()) == nullptr) {
-      throw std::runtime_error("cannot make a temporary directory");
+      throw std::runtime_error("cannot create a temporary directory");
     }
     path_ = name;
   }
