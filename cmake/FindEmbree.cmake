@@ -1,5 +1,5 @@
-# Embree 4 (Ubuntu 24.04) or 3 (Debian 12), as the target Embree::Embree. The packages' own configuration files differ
-# in name and in what they ask for; header and library are all that is needed.
+# Finds Embree 4 (Ubuntu 24.04) or 3 (Debian 12) as the target Embree::Embree. This project does not use the packages'
+# own configuration files, which differ in name and dependencies: it needs only the header and the library.
 foreach(major 4 3)
   find_path(Embree_INCLUDE_DIR embree${major}/rtcore.h)
   if(Embree_INCLUDE_DIR)

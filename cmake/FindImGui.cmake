@@ -1,5 +1,5 @@
-# Dear ImGui with its GLFW and Vulkan backends as the distributions package it (libimgui-dev: a static library that holds
-# the backends), as the target ImGui::ImGui. The package leaves GLFW, Vulkan and stb to be linked by its user.
+# Finds Dear ImGui with its GLFW and Vulkan backends as the target ImGui::ImGui. Distributions package it as a static
+# library that contains the backends (libimgui-dev). Its users must link GLFW, Vulkan and stb themselves.
 include(CheckCXXSourceCompiles)
 include(CMakePushCheckState)
 find_path(ImGui_INCLUDE_DIR imgui.h PATH_SUFFIXES imgui)

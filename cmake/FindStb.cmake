@@ -1,4 +1,4 @@
-# stb_image as the distributions package it (libstb-dev: headers and one library), as the target Stb::Stb.
+# Finds stb_image as the target Stb::Stb. Distributions package it as headers and one library (libstb-dev).
 find_path(Stb_INCLUDE_DIR stb_image.h PATH_SUFFIXES stb)
 find_library(Stb_LIBRARY stb)
 

@@ -1,4 +1,5 @@
-# Target docs: the Doxygen site in build/docs/html, built without a warning or not at all. Absent without doxygen.
+# The target docs builds the Doxygen site in build/docs/html. Any warning is an error. Without doxygen there is no such
+# target.
 find_package(Doxygen OPTIONAL_COMPONENTS dot QUIET)
 if(DOXYGEN_FOUND)
   set(DOXYGEN_PROJECT_NAME walr)
@@ -15,7 +16,7 @@ if(DOXYGEN_FOUND)
   set(DOXYGEN_FILTER_PATTERNS
     "*/include/walr/walr*.h=sed -E -f ${PROJECT_SOURCE_DIR}/cmake/doxygen_c_comments.sed")
   set(DOXYGEN_QUIET YES)
-  # A parameter whose name says it needs no line of its own.
+  # A parameter with a self-explanatory name needs no @param line.
   set(DOXYGEN_WARN_IF_INCOMPLETE_DOC NO)
   set(DOXYGEN_WARN_AS_ERROR FAIL_ON_WARNINGS)
   set(DOXYGEN_MACRO_EXPANSION YES)

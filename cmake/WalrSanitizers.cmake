@@ -1,6 +1,6 @@
-# WALR_SANITIZE=address,undefined or WALR_SANITIZE=thread: every target is built with these sanitizers, and any finding ends
-# the program with an error.
-set(WALR_SANITIZE "" CACHE STRING "Sanitizers to build with, as the compiler's -fsanitize= takes them; none if empty")
+# WALR_SANITIZE=address,undefined or WALR_SANITIZE=thread builds every target with these sanitizers. Any error that they
+# find ends the program with a failure.
+set(WALR_SANITIZE "" CACHE STRING "Sanitizers to build with (value of -fsanitize=); empty for none")
 
 if(WALR_SANITIZE)
   add_compile_options(-fsanitize=${WALR_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)

@@ -1,4 +1,4 @@
-# walr_target(<target>): the compile options that every target of the project shares.
+# walr_target(<target>): sets the compile options that all targets of the project share.
 function(walr_target target)
   target_compile_features(${target} PUBLIC cxx_std_20)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic)
@@ -11,8 +11,8 @@ function(walr_target target)
   endif()
 endfunction()
 
-# walr_library(<name> SOURCES ...): a library target walr_<name>, known to users as walr::<name>, whose includes are
-# written from the project's root ("framegraph/declare/graph.h").
+# walr_library(<name> SOURCES ...): adds a library target walr_<name> with the alias walr::<name>. Include paths start at
+# the project's root ("framegraph/declare/graph.h").
 function(walr_library name)
   cmake_parse_arguments(ARG "" "" "SOURCES" ${ARGN})
   add_library(walr_${name} ${ARG_SOURCES})

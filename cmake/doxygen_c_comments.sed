@@ -1,3 +1,3 @@
-# The comments of the C headers, as Doxygen knows them: of what follows, or of what stands before them on the line.
+# Turns the comments of the C headers into Doxygen comments: those after a declaration on its line, and those before one.
 s#([;,]) +/\* #\1 /**< #
 s#^( *)/\*( |$)#\1/**\2#

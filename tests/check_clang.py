@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Checks every source of a build with clang: what gcc built must be clean under both compilers.
+"""Compiles every source of a build with clang, because the sources must be free of warnings under gcc and clang.
 
     check_clang.py BUILD_FOLDER    reads BUILD_FOLDER/compile_commands.json
 
-Warnings are errors under clang 14, the version that the project holds itself to; other versions may warn of more.
+Warnings are errors under clang 14, the version that the project supports. Other versions may have further warnings.
 """
 import concurrent.futures
 import json
@@ -18,7 +18,7 @@ STRICT_MAJOR_VERSION = "14"
 
 
 def clang_command(entry, strict):
-    """The recorded command with clang in the compiler's place, checking only."""
+    """The recorded command with clang as compiler and without output."""
     words = [word for word in shlex.split(entry["command"]) if word != "-Werror"]
     while os.path.basename(words[0]) in ("ccache", "sccache"):
         words = words[1:]
@@ -38,7 +38,7 @@ def main():
     entries = json.loads((pathlib.Path(sys.argv[1]) / "compile_commands.json").read_text())
     sources = [entry for entry in entries if entry["file"].endswith(".cpp")]
     if not sources:
-        sys.exit("compile_commands.json names no source")
+        sys.exit("compile_commands.json lists no source")
     failed = 0
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         for file, code, messages in pool.map(check, sources):

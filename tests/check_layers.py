@@ -3,8 +3,8 @@
 
     check_layers.py SOURCE_FOLDER
 
-Each folder of the frame graph is one step of its work. The verifier replays plans with a model of its own, so it may
-include the two descriptions that it compares and nothing of the compiler.
+Each folder of the frame graph is one step of its work. The verifier replays plans with a model of its own. It may
+include the declarations and the plan, which it compares, and nothing of the compiler.
 """
 import pathlib
 import re
@@ -24,13 +24,13 @@ ALLOWED = {
     "samples": {"framegraph", "passes", "shaders", "integration"},
     "shaders": set(),
 }
-# The verifier may read the two descriptions, but no function that interprets them for the compiler.
+# The verifier may include the two data structures, but no function that the compiler uses to interpret them.
 VERIFIER_HEADERS = {"framegraph/declare/graph.h", "framegraph/plan/plan.h"}
 INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"', re.MULTILINE)
 
 
 def longest_prefix(path, folders):
-    """The innermost of some folders that holds a path; None where none does."""
+    """The innermost of the folders that contains a path; None if none does."""
     return max((f for f in folders if path.startswith(f + "/")), key=len, default=None)
 
 
@@ -39,7 +39,7 @@ def violations(root):
     sources = [p for pattern in ("*.h", "*.cpp", "*.c") for top in {f.split("/")[0] for f in ALLOWED}
                for p in (root / top).rglob(pattern)]
     if not sources:
-        sys.exit(f"{root} holds no source")
+        sys.exit(f"{root} contains no source")
     for source in sorted(sources):
         name = source.relative_to(root).as_posix()
         folder = longest_prefix(name, ALLOWED)

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Prints one SHA-256 for the denoised frames of every method and preset: equal lines mean equal pictures to the bit.
+"""Prints one SHA-256 of the denoised frames per sequence, method and preset: equal hashes mean bit-identical images.
 
     hash_outputs.py WALR SEQUENCE... [--frames A-B] [--methods LIST]
 
-Run it with two builds on one machine and compare what they print. The device and its driver decide rounding, so that
-hashes of two machines need not agree.
+Run it with two builds on one machine and compare the output. Hashes of two machines may differ, because rounding
+depends on the device and its driver.
 """
 import argparse
 import hashlib
@@ -24,12 +24,12 @@ def denoised_hash(walr, sequence, frames, method, preset, output):
     run = subprocess.run(command, capture_output=True, text=True)
     if run.returncode != 0:
         sys.exit(f"{' '.join(map(str, command))} failed:\n{run.stderr}")
-    pictures = sorted(pathlib.Path(output).glob("denoised_*.exr"))
-    if not pictures:
-        sys.exit(f"{method} left no picture of {sequence}")
+    images = sorted(pathlib.Path(output).glob("denoised_*.exr"))
+    if not images:
+        sys.exit(f"{method} wrote no image of {sequence}")
     digest = hashlib.sha256()
-    for picture in pictures:
-        digest.update(picture.name.encode() + picture.read_bytes())
+    for image in images:
+        digest.update(image.name.encode() + image.read_bytes())
     return digest.hexdigest()
 
 

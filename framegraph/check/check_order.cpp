@@ -7,7 +7,7 @@
 namespace fg {
 namespace {
 
-/// Finds passes that wait for each other, one cycle per knot of passes.
+/// Finds cycles of passes that wait for each other. Cycles that share a pass are reported once.
 class CycleSearch {
  public:
   explicit CycleSearch(const Topology& topology)
@@ -28,7 +28,7 @@ class CycleSearch {
  private:
   enum class State : std::uint8_t { New, Open, Done };
 
-  /// Depth first, without recursion, as chains of passes can be long.
+  /// Depth-first search with a stack of its own: chains of passes can be too long for recursion.
   void visit(std::uint32_t root) {
     struct Frame {
       std::uint32_t pass;

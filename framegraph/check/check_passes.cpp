@@ -51,7 +51,7 @@ class PassCheck {
   void checkAccess(const AccessDecl& access) {
     if (!valid(access)) {
       findings_.error(code::kInvalidHandle, pass_, access,
-                      "pass " + quoted(pass_.name) + " uses a handle that is empty or comes from another graph" +
+                      "pass " + quoted(pass_.name) + " uses a handle that is empty or belongs to another graph" +
                           (access.binding.empty() ? "" : " for " + quoted(access.binding)));
       return;
     }
@@ -69,11 +69,11 @@ class PassCheck {
     }
     const bool readOnly = resource.lifetime == Lifetime::Upload || resource.lifetime == Lifetime::HistoryPrevious;
     if (info.writes() && readOnly) {
-      findings_.error(
-          code::kReadOnlyWritten, pass_, access,
-          "pass " + quoted(pass_.name) + " writes " + quoted(resource.name) +
-              (resource.lifetime == Lifetime::Upload ? ", which only the host writes; use a transient buffer"
-                                                     : ", last frame's contents; write the history's `current`"));
+      findings_.error(code::kReadOnlyWritten, pass_, access,
+                      "pass " + quoted(pass_.name) + " writes " + quoted(resource.name) +
+                          (resource.lifetime == Lifetime::Upload
+                               ? ", which only the host writes; use a transient buffer"
+                               : ", which holds last frame's contents; write the history's `current`"));
     }
   }
 
@@ -101,10 +101,10 @@ class PassCheck {
     findings_.error(code::kExtentMismatch, pass_, access,
                     "pass " + quoted(pass_.name) + " works on " + size(*pass_.extent) + " texels, but " +
                         quoted(findings_.resourceName(access.resource)) + producers(access) + " has " + size(extent) +
-                        "; give it that extent, or access the mip level that has it");
+                        "; give the texture that extent, or access the mip level that has it");
   }
 
-  /// Who wrote what an access reads: ", written by 'x'"; empty where nobody did.
+  /// The passes that wrote what an access reads, as text: ", written by 'x',". Empty if there is none.
   [[nodiscard]] std::string producers(const AccessDecl& access) const {
     if (access.readVersion == kNone) return {};
     std::string text;
@@ -127,15 +127,16 @@ class PassCheck {
     };
     if (readsOwn(first, second) || readsOwn(second, first) ||
         ((a.writes() || b.writes()) && meets(resource, first, second))) {
-      findings_.error(code::kReadAndWritten, pass_, second,
-                      "pass " + quoted(pass_.name) + " accesses " + quoted(resource.name) +
-                          " twice and writes it; declare one access in place (update), or use two textures");
+      findings_.error(
+          code::kReadAndWritten, pass_, second,
+          "pass " + quoted(pass_.name) + " accesses " + quoted(resource.name) +
+              " twice and writes it; declare one access that reads and writes (update), or use two textures");
     } else if (std::holds_alternative<TextureDesc>(resource.desc) && a.layout != b.layout &&
                meets(resource, first, second)) {
       findings_.error(code::kTwoLayouts, pass_, second,
                       "pass " + quoted(pass_.name) + " reads " + quoted(resource.name) + " as " + std::string(a.name) +
                           " and as " + std::string(b.name) +
-                          ", which need two layouts at once; read it in one way only");
+                          ", which need two layouts at once; read it in only one of these ways");
     }
   }
 
@@ -166,8 +167,9 @@ class PassCheck {
     if (dispatch.indirect.valid()) {
       checkIndirect(dispatch);
     } else if (std::ranges::find(dispatch.groups, 0U) != std::end(dispatch.groups)) {
-      findings_.error(code::kEmptyDispatch, pass_,
-                      "pass " + quoted(pass_.name) + " dispatches no work group; call dispatch with its extent");
+      findings_.error(
+          code::kEmptyDispatch, pass_,
+          "pass " + quoted(pass_.name) + " dispatches no work group; call dispatch with an extent that is not empty");
     }
   }
 
@@ -182,7 +184,7 @@ class PassCheck {
                   findings_.resourceName(dispatch.indirect.resource),
                   "pass " + quoted(pass_.name) + " takes 12 bytes of dispatch arguments at offset " +
                       std::to_string(dispatch.indirectOffset) + " of " + std::to_string(buffer->size) +
-                      " bytes; the offset must be a multiple of 4 and the arguments inside",
+                      " bytes; the offset must be a multiple of 4, and the arguments must lie inside the buffer",
                   pass_.where);
   }
 

@@ -8,7 +8,7 @@
 namespace fg {
 namespace {
 
-/// Image usage that the declared accesses of a texture, and its host's after an export, add up to.
+/// Indexed by resource: the union of the image usages of all declared accesses, and of the host's use after an export.
 std::vector<VkImageUsageFlags> declaredUsage(const GraphDesc& graph) {
   std::vector<VkImageUsageFlags> usage(graph.resources.size());
   for (const PassDecl& pass : graph.passes) {
@@ -65,12 +65,12 @@ void checkFormat(const ResourceDecl& resource, VkImageUsageFlags usage, const Me
   const auto* texture = std::get_if<TextureDesc>(&resource.desc);
   if (texture == nullptr || usage == 0 || memory.supports(texture->format, usage)) return;
   const FormatInfo& info = formatInfo(texture->format);
-  std::string message = "texture '" + resource.name + "': this device has no optimally tiled " +
+  std::string message = "texture '" + resource.name + "': this device does not support optimally tiled " +
                         std::string(info.name) + " (" + std::to_string(texture->format) + ") for " +
                         imageUsageNames(usage);
   if (info.fallback != VK_FORMAT_UNDEFINED) {
     message += "; the documented fallback is " + std::string(formatInfo(info.fallback).name);
-    if (!memory.supports(info.fallback, usage)) message += ", which the device does not have either";
+    if (!memory.supports(info.fallback, usage)) message += ", which the device does not support either";
   } else {
     message += "; choose another format";
   }
@@ -89,7 +89,8 @@ void checkResources(const Topology& topology, const MemoryModel& memory, Finding
     checkFormat(resource, usage[i], memory, findings);
     if (resource.lifetime == Lifetime::Imported && !resource.acquire) {
       findings.error(code::kImportWithoutState, resource,
-                     "import '" + resource.name + "' does not say in which state it arrives");
+                     "import '" + resource.name +
+                         "' has no state; give the layout, stages and accesses in which the host leaves it");
     }
   }
 }

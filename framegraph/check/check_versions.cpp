@@ -5,7 +5,7 @@
 namespace fg {
 namespace {
 
-/// Subresources of a resource by mip level, then layer.
+/// One mark per subresource of a resource, indexed by mip level, then layer.
 class Coverage {
  public:
   explicit Coverage(const ResourceDecl& resource)
@@ -48,7 +48,7 @@ class VersionCheck {
   }
 
  private:
-  /// True where some part of the range holds nothing at this version.
+  /// True if some part of the range has no contents at this version.
   [[nodiscard]] bool lacksContents(std::uint32_t resource, std::uint32_t version, const SubresourceRange& range) const {
     Coverage missing(graph_.resources[resource]);
     missing.mark(range, true);
@@ -82,15 +82,15 @@ class VersionCheck {
     if (resource.lifetime == Lifetime::Imported) {
       findings_.error(code::kImportWithoutState, pass, access,
                       start +
-                          ", but the import's state has layout UNDEFINED, which has no contents; give the layout in "
-                          "which the host hands it over");
+                          ", but the import's state has layout UNDEFINED, so that it has no contents; give the layout "
+                          "in which the host leaves it");
       return;
     }
     findings_.error(
         code::kReadNeverWritten, pass, access,
         start +
-            (access.readVersion == 0 ? ", which nobody has written; use the handle that its writer returns"
-                                     : ", parts of which nobody has written; write all mip levels and layers") +
+            (access.readVersion == 0 ? ", which no pass has written; use the handle that its writer returns"
+                                     : ", parts of which no pass has written; write all mip levels and layers") +
             (resource.lifetime == Lifetime::HistoryCurrent ? ", or the history's `previous`" : ""));
   }
 
@@ -102,7 +102,7 @@ class VersionCheck {
     findings_.error(code::kTwoWriters, pass, access,
                     "passes '" + other.name + "' and '" + pass.name + "' both make version " +
                         std::to_string(access.writeVersion) + " of '" + graph_.resources[access.resource].name +
-                        "'; hand the handle that one returns to the other, or use two textures");
+                        "'; pass the handle that one of them returns to the other, or use two textures");
   }
 
   void checkHistory(const HistoryDecl& history) {
@@ -134,14 +134,14 @@ class VersionCheck {
     const ExportDecl& exported = graph_.exports[index];
     const auto [resource, version] = exported.resource;
     if (resource >= graph_.resources.size() || version > graph_.resources[resource].versions) {
-      findings_.error(code::kInvalidHandle, exported, "an export's handle is empty or comes from another graph");
+      findings_.error(code::kInvalidHandle, exported, "an export's handle is empty or belongs to another graph");
       return;
     }
     const ResourceDecl& decl = graph_.resources[resource];
     const std::string start = "export '" + decl.name + "' ";
     if (lacksContents(resource, version, {})) {
       findings_.error(code::kExportNeverWritten, exported,
-                      start + "is never written, or only in part; export the handle that its writer returns");
+                      start + "is not written, or only in part; export the handle that its writer returns");
     }
     if (version + 1 < topology_.versionCount(resource) && topology_.uses(resource, version + 1).writer != kNone) {
       const PassDecl& writer = graph_.passes[topology_.uses(resource, version + 1).writer];
@@ -154,7 +154,7 @@ class VersionCheck {
     if (twice) findings_.error(code::kExportedTwice, exported, start + "is exported twice; export it once");
     if (std::holds_alternative<TextureDesc>(decl.desc) && exported.release.layout == VK_IMAGE_LAYOUT_UNDEFINED) {
       findings_.error(code::kExportWithoutLayout, exported,
-                      start + "has release layout UNDEFINED; give the layout in which the host takes it");
+                      start + "has release layout UNDEFINED; give the layout in which the host uses it next");
     }
   }
 

@@ -10,7 +10,7 @@
 #include "framegraph/declare/memory_model.h"
 #include "framegraph/declare/topology.h"
 
-/// The checks that `diagnose` is made of. Each adds what it finds.
+/// The checks that `diagnose` runs. Each adds what it finds to `Findings`.
 namespace fg {
 
 /// Collects diagnostics about one graph.
@@ -45,15 +45,16 @@ class Findings {
   std::vector<Diagnostic> list_;
 };
 
-/// Names, sizes, formats, imports.
+/// Checks names, sizes, formats and the states of imports.
 void checkResources(const Topology& topology, const MemoryModel& memory, Findings& findings);
-/// Handles, ranges and conflicts inside every single pass; attachments and dispatches.
+/// Checks every pass on its own: handles, ranges, conflicting accesses, attachments and dispatches.
 void checkPasses(const Topology& topology, Findings& findings);
-/// Who writes and reads which version; histories and exports.
+/// Checks that every version has one writer, that what is read has been written, and the rules of histories and
+/// exports.
 void checkVersions(const Topology& topology, Findings& findings);
-/// Passes that wait for each other, and versions read too late.
+/// Finds passes that wait for each other, and reads of versions that have been overwritten by then.
 void checkOrder(const Topology& topology, Findings& findings);
-/// What passes declare against what their shaders do.
+/// Compares what passes declare with what their shaders do.
 void checkShaders(const Topology& topology, Findings& findings);
 
 }  // namespace fg

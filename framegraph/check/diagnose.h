@@ -15,20 +15,20 @@ struct GraphDesc;
 
 enum class Severity : std::uint8_t { Warning, Error };
 
-/// One thing found wrong in a declared graph.
+/// One fault in a declared graph.
 struct Diagnostic {
-  std::string code;  ///< Stable, for machines: "FG001"; see diagnostic_codes.h.
+  std::string code;  ///< Stable identifier for programs: "FG001"; see diagnostic_codes.h.
   Severity severity = Severity::Error;
-  std::string pass;      ///< Name of the pass, where one is at fault.
-  std::string resource;  ///< Name of the texture or buffer, where one is at fault.
+  std::string pass;      ///< Name of the pass at fault; empty if there is none.
+  std::string resource;  ///< Name of the texture or buffer at fault; empty if there is none.
   std::string message;   ///< What is wrong and what to change.
-  SourceLocation where;
+  SourceLocation where;  ///< The declaration at fault.
 };
 
-/// One line: place, severity, code, message.
+/// One line: source location, severity, code, message.
 std::string toText(const Diagnostic& diagnostic);
 
-/// Everything wrong with a declared graph on a device, found in one go and ordered by code, pass and resource.
+/// All faults of a declared graph on a device, ordered by code, pass and resource.
 std::vector<Diagnostic> diagnose(const Topology& topology, const MemoryModel& memory);
 
 /// What is wrong with replacing one compiled graph by another: histories of the same name whose description changed,

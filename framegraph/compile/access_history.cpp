@@ -12,7 +12,7 @@ bool isHistory(const ResourceDecl& resource) {
   return resource.lifetime == Lifetime::HistoryPrevious || resource.lifetime == Lifetime::HistoryCurrent;
 }
 
-/// True where the access goes on with the group: reads with reads of the same layout, or everything in one pass.
+/// True if the access belongs to the group: a further read in the same layout, or an access by the same pass.
 bool continues(const AccessGroup& group, const AccessInfo& info, VkImageLayout layout, std::uint32_t position) {
   return group.layout == layout &&
          (group.position == position || (group.writeMask == VK_ACCESS_2_NONE && !info.writes()));
@@ -81,7 +81,7 @@ void AccessHistory::add(std::uint32_t position, const AccessDecl& access) {
 
 SubresourceState externalState(const ExternalState& state) {
   const VkAccessFlags2 writes = state.access & kWriteAccesses;
-  // Nothing named: the host has waited by other means, such as a fence or semaphore, after which all is visible.
+  // No stage: the host has waited for a fence or semaphore, which makes all writes available and visible.
   const bool waited = state.stage == VK_PIPELINE_STAGE_2_NONE;
   return {.stage = state.stage,
           .pendingWrite = writes,

@@ -10,9 +10,9 @@
 namespace fg {
 
 /// Consecutive accesses to one subresource that need no barrier among themselves: one write, or any number of reads in
-/// one layout. A single barrier before the first of them serves them all.
+/// one layout. One barrier before the first access is enough for all of them.
 struct AccessGroup {
-  std::uint32_t position = 0;  ///< Of the first of them in `Plan::passes`.
+  std::uint32_t position = 0;  ///< Position in `Plan::passes` of the first access.
   VkPipelineStageFlags2 stage = VK_PIPELINE_STAGE_2_NONE;
   VkAccessFlags2 readMask = VK_ACCESS_2_NONE;
   VkAccessFlags2 writeMask = VK_ACCESS_2_NONE;
@@ -21,8 +21,8 @@ struct AccessGroup {
 
 /// The groups of every subresource in execution order.
 ///
-/// A subresource here is one mip level of one array layer; a buffer has one, and a history counts as one however many
-/// it has, because both of its images must be handed from frame to frame in one state.
+/// A subresource here is one mip level of one array layer. A buffer has one. A history counts as one whatever its mip
+/// levels and layers, because the plan carries each of its images to the next frame in a single state.
 class AccessHistory {
  public:
   AccessHistory(const GraphDesc& graph, const Plan& plan);
@@ -33,9 +33,9 @@ class AccessHistory {
   [[nodiscard]] std::span<const AccessGroup> groups(std::uint32_t resource, std::uint32_t subresource) const {
     return groups_[first_[resource] + subresource];
   }
-  /// Position of the last pass that leaves some subresource written and not read again; kNone where there is none.
+  /// Position of the last pass whose write to some subresource no later pass reads; kNone if there is none.
   [[nodiscard]] std::uint32_t lastUnreadWrite(std::uint32_t resource) const;
-  /// The part of the resource that a subresource stands for.
+  /// Mip level and layer of a subresource; the whole resource if it has only one.
   [[nodiscard]] SubresourceRange range(std::uint32_t resource, std::uint32_t subresource) const;
 
  private:
@@ -46,19 +46,19 @@ class AccessHistory {
   std::vector<std::vector<AccessGroup>> groups_;
 };
 
-/// What a barrier must know of a subresource's past.
+/// Synchronization state of a subresource: what the next barrier depends on.
 struct SubresourceState {
-  VkPipelineStageFlags2 stage = VK_PIPELINE_STAGE_2_NONE;  ///< To be waited for: the last writer's, or its readers'.
-  VkAccessFlags2 pendingWrite = VK_ACCESS_2_NONE;          ///< Writes not yet made available.
-  VkPipelineStageFlags2 visibleStage = VK_PIPELINE_STAGE_2_NONE;  ///< Where the contents can be read as they are
-  VkAccessFlags2 visibleAccess = VK_ACCESS_2_NONE;                ///< and how.
+  VkPipelineStageFlags2 stage = VK_PIPELINE_STAGE_2_NONE;         ///< Stages of the last write, or of the reads since.
+  VkAccessFlags2 pendingWrite = VK_ACCESS_2_NONE;                 ///< Writes not yet made available.
+  VkPipelineStageFlags2 visibleStage = VK_PIPELINE_STAGE_2_NONE;  ///< Stages that can read without a barrier,
+  VkAccessFlags2 visibleAccess = VK_ACCESS_2_NONE;                ///< and the accesses with which they can.
   VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
 };
 
-/// The state at the border with the host.
+/// The state of a resource as the host leaves it.
 SubresourceState externalState(const ExternalState& state);
 
-/// Go on to the next group: the barrier that it needs, if any, and the state that it leaves.
+/// Advance to the next group: returns the barrier that it needs, if any, and updates the state.
 std::optional<PlannedBarrier> advance(SubresourceState& state, const AccessGroup& next);
 
 }  // namespace fg

@@ -20,7 +20,8 @@ std::uint64_t roundUp(std::uint64_t value, std::uint64_t step) {
 /// Places transients and histories of one memory class.
 class Placement {
  public:
-  /// @param transients, histories by name; resources and `GraphDesc::histories`
+  /// @param transients resources, ordered by name
+  /// @param histories indices into `GraphDesc::histories`, ordered by name
   Placement(const Topology& topology, const AccessHistory& accesses, std::uint64_t granularity,
             std::vector<std::uint32_t> transients, const std::vector<std::uint32_t>& histories, Plan& plan)
       : graph_(topology.graph()),
@@ -50,7 +51,7 @@ class Placement {
       plan_.heaps.push_back({memoryTypeBits, heaps_.size(), first});
     }
     placeHistories(first);
-    const std::uint64_t own = 2 * stride_;  // Where the heap of transients alone begins.
+    const std::uint64_t own = 2 * stride_;  // Start of the heap that holds only transients.
     for (std::size_t i = 0; i < transients_.size(); ++i) {
       PlannedResource& resource = plan_.resources[transients_[i]];
       const std::uint64_t offset = packing.offsets[i];
@@ -64,12 +65,12 @@ class Placement {
     plan_.memory.transientPeakBytes += packing.size - own;
   }
 
-  /// By position, a lower bound of the bytes of transients that find no room in the histories' heaps.
+  /// Indexed by position: a lower bound of the bytes of transients that do not fit into the histories' heaps.
   [[nodiscard]] std::vector<std::uint64_t> excess() const { return heaps_.excess(used_, heldUntil_); }
 
  private:
-  /// Linear and optimally tiled neighbours must not share a page of `granularity` bytes: where a heap has both, all
-  /// blocks are whole pages.
+  /// Unit of offsets and sizes in a heap. Buffers and optimally tiled images must not share a page of `granularity`
+  /// bytes, so that a heap with both consists of whole pages; in other heaps a page is one byte.
   [[nodiscard]] std::uint64_t pageSize(std::uint64_t granularity, bool hasHistories) const {
     const auto buffers = std::ranges::count_if(
         transients_, [&](std::uint32_t i) { return std::holds_alternative<BufferDesc>(graph_.resources[i].desc); });
@@ -88,9 +89,9 @@ class Placement {
     return members;
   }
 
-  /// Place all transients in one address space: [0, stride) is the heap of every history's `current`, [stride,
-  /// 2 stride) that of every `previous`, and what lies beyond is the heap of transients alone. Each block takes the
-  /// lowest bytes that it can have, so that the third heap is used last.
+  /// Place all transients in one address space of three heaps: [0, stride) holds every history's `current`, [stride,
+  /// 2 stride) every `previous`, and from 2 stride on there are only transients. Each block takes the lowest free
+  /// bytes, so that the third heap is used last.
   [[nodiscard]] HeapPacking packAll() const {
     if (stride_ == 0) return pack(held_);
     const std::uint64_t own = 2 * stride_;
@@ -99,7 +100,7 @@ class Placement {
     for (const HeapRequest& request : held_) taken.push_back(heaps_.taken(request, stride_));
     HeapPacking packing = pack(held_, taken, target);
     if (packing.size <= own + lowerBound(held_)) return packing;
-    // The search is a heuristic: using the histories' room may have made the rest worse than using none of it.
+    // The search is a heuristic: a packing without the histories' heaps can turn out smaller.
     HeapPacking apart = pack(held_);
     if (own + apart.size >= packing.size) return packing;
     for (std::uint64_t& offset : apart.offsets) offset += own;
@@ -123,19 +124,19 @@ class Placement {
   std::vector<std::uint32_t> transients_;
   std::uint64_t page_;
   HistoryHeaps heaps_;
-  std::vector<std::uint32_t> heldUntil_;  ///< By transient.
-  std::vector<HeapRequest> used_;         ///< By transient, from first to last use.
-  std::vector<HeapRequest> held_;         ///< By transient, whole pages until others may have them.
-  std::uint64_t stride_ = 0;              ///< Distance of the histories' two heaps; 0 without histories.
+  std::vector<std::uint32_t> heldUntil_;  ///< Indexed by transient.
+  std::vector<HeapRequest> used_;         ///< Indexed by transient: from first to last use.
+  std::vector<HeapRequest> held_;         ///< Indexed by transient: whole pages, from first use to `heldUntil_`.
+  std::uint64_t stride_ = 0;              ///< Distance between the histories' heaps; 0 without histories.
 };
 
-/// Resources that share memory among themselves, all by name.
+/// Resources that may share memory with each other. Both lists are ordered by name.
 struct MemoryClass {
   std::vector<std::uint32_t> transients;
   std::vector<std::uint32_t> histories;  ///< Index into `GraphDesc::histories`.
 };
 
-/// By the memory types that the device allows.
+/// Maps the memory types that the device allows for a resource to all resources with these types.
 std::map<std::uint32_t, MemoryClass> memoryClasses(const Topology& topology, const Plan& plan, bool aliasHistories) {
   const GraphDesc& graph = topology.graph();
   const std::vector<bool> shared = aliasable(graph);

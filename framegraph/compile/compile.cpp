@@ -42,7 +42,7 @@ CompileResult compile(const GraphDesc& graph, const MemoryModel& memory, const C
   CompileResult result;
   Plan& plan = result.plan;
 
-  // Who writes and reads each version of a resource. Every later step asks this table instead of the declarations.
+  // The table of writers and readers of each version of a resource. Later steps use it instead of the declarations.
   const Topology topology(graph);
 
   // Report all errors at once, before anything is planned: the later steps rely on a graph without errors.
@@ -52,7 +52,7 @@ CompileResult compile(const GraphDesc& graph, const MemoryModel& memory, const C
   // Drop passes whose results reach no export. They then cost no memory and no barrier.
   Culling culling = cull(topology);
 
-  // Ask the memory model for the size of every resource that is left: the order of passes depends on sizes.
+  // Ask the memory model for the size of every remaining resource: the order of passes depends on sizes.
   plan.resources = requirements(graph, culling, memory);
 
   // Order the passes so that few transient bytes are alive at any time. The number of a pass in this order is its
@@ -61,7 +61,8 @@ CompileResult compile(const GraphDesc& graph, const MemoryModel& memory, const C
   for (const std::uint32_t pass : order) plan.passes.push_back({pass, {}});
   plan.culled = std::move(culling.culled);
 
-  // The first and last position at which each resource is used: resources whose intervals are apart may share bytes.
+  // Find the first and last position at which each resource is used. Resources whose intervals do not overlap may
+  // share bytes.
   findLifetimes(graph, order, plan.resources);
 
   // Group accesses that need no barrier among themselves. Placement needs this before synchronization does, because a
@@ -71,8 +72,8 @@ CompileResult compile(const GraphDesc& graph, const MemoryModel& memory, const C
   // Give transients their offsets in shared heaps.
   placeTransients(topology, accesses, memory.bufferImageGranularity(), options.aliasHistories, plan);
 
-  // Derive the barriers. This comes after placement, because the previous owner of a resource's bytes must be waited
-  // for.
+  // Derive the barriers. This comes after placement, because a resource must wait for the previous owner of its
+  // bytes.
   synchronize(topology, accesses, plan);
 
   // Sum up memory and traffic, and warn of every pass that is not executed.

@@ -11,18 +11,18 @@
 
 namespace fg {
 
-/// A plan with the warnings met on the way, or the errors that prevented it.
+/// A plan with warnings, or the errors that prevented it.
 struct CompileResult {
-  Plan plan;                            ///< Empty where there are errors.
+  Plan plan;                            ///< Empty if there are errors.
   std::vector<Diagnostic> diagnostics;  ///< Errors and warnings, in a fixed order.
   [[nodiscard]] bool ok() const;
-  /// All diagnostics, one a line.
+  /// All diagnostics, one per line.
   [[nodiscard]] std::string text() const;
 };
 
 struct CompileOptions {
-  /// Let transients alias the memory of histories while that holds nothing (see alias.h). A transient there needs two
-  /// images, one for even and one for odd frames: switch this off where a plan's resources get one image each.
+  /// Let transients alias the memory of histories while it holds nothing (see alias.h). Such a transient needs two
+  /// images, one for even and one for odd frames. Hosts that make one image per resource must switch this off.
   bool aliasHistories = true;
 };
 

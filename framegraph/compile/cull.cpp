@@ -5,7 +5,7 @@
 namespace fg {
 namespace {
 
-/// Walks from what is needed to the passes that make it.
+/// Marks the passes that are needed, from exports and side effects backwards to their inputs.
 class Marker {
  public:
   explicit Marker(const Topology& topology) : topology_(topology), live_(topology.graph().passes.size()) {}

@@ -9,11 +9,12 @@ namespace fg {
 
 /// Which passes are executed, and why the others are not.
 struct Culling {
-  std::vector<bool> live;          ///< By index into `GraphDesc::passes`.
-  std::vector<CulledPass> culled;  ///< By name.
+  std::vector<bool> live;          ///< Indexed like `GraphDesc::passes`.
+  std::vector<CulledPass> culled;  ///< Ordered by name.
 };
 
-/// Drop the passes that reach no export, no side effect, and no history whose previous contents a kept pass reads.
+/// Keep the passes with side effects and those that contribute to an export, to a kept pass, or to a history whose
+/// `previous` a kept pass reads. Drop all others.
 Culling cull(const Topology& topology);
 
 }  // namespace fg

@@ -10,14 +10,14 @@
 namespace fg {
 namespace {
 
-/// Bounds the work of all attempts together, counted in visits of neighbouring blocks.
+/// Bounds the work of all attempts together. Unit: visits of blocks that are alive at the same time.
 constexpr std::uint64_t kVisitBudget = 200'000;
 
 std::uint64_t aligned(std::uint64_t offset, std::uint64_t alignment) {
   return (offset + alignment - 1) / alignment * alignment;
 }
 
-/// For every request, those whose intervals meet its own.
+/// Indexed by request: the requests that are alive at some position at which it is alive.
 std::vector<std::vector<std::uint32_t>> findNeighbours(const std::vector<HeapRequest>& requests) {
   std::vector<std::uint32_t> byStart(requests.size());
   std::iota(byStart.begin(), byStart.end(), 0U);
@@ -80,7 +80,7 @@ class Packer {
             orderedBy([&](std::uint32_t i) { return std::pair(~requests_[i].firstUse, size(i)); })};
   }
 
-  /// Put every block, in the given order, into the lowest gap that its placed neighbours leave.
+  /// Put every block, in the given order, into the lowest gap between the neighbours that are already placed.
   HeapPacking place(const Order& order) {
     HeapPacking packing{std::vector<std::uint64_t>(requests_.size(), kUnplaced), 0};
     std::vector<ByteSpan> taken;
@@ -111,7 +111,8 @@ class Packer {
     return true;
   }
 
-  /// A block that ends at the top found only bad gaps: let it choose earlier, until that no longer helps.
+  /// Move the block with the highest end forward in the order, so that it finds a lower gap. Repeat until it is first,
+  /// the target is met or the budget is used up.
   void improve() {
     Order order = bestOrder_;
     HeapPacking current = best_;

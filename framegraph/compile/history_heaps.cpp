@@ -8,8 +8,8 @@
 namespace fg {
 namespace {
 
-/// Most bytes of whole blocks that fit into a capacity (subset sum). Gives the capacity itself, an upper bound, where
-/// there are too many combinations to try.
+/// Largest sum of whole blocks that fits into a capacity (subset sum). Returns the capacity, an upper bound, if there
+/// are too many combinations to try.
 std::uint64_t mostFitting(const std::vector<std::uint64_t>& blocks, std::uint64_t capacity) {
   constexpr std::size_t kMostSums = 1024;
   std::set<std::uint64_t> sums = {0};
@@ -24,12 +24,12 @@ std::uint64_t mostFitting(const std::vector<std::uint64_t>& blocks, std::uint64_
   return *sums.rbegin();
 }
 
-/// What some requests want of a memory that all of them may use.
+/// Requests that compete for the same memory.
 class Demand {
  public:
   explicit Demand(std::vector<HeapRequest> requests) : requests_(std::move(requests)), live_(liveBytes(requests_)) {}
 
-  /// Least bytes of the requests alive at a position that do not fit into a capacity.
+  /// Smallest number of bytes by which the requests at a position exceed a capacity, as blocks cannot be split.
   [[nodiscard]] std::uint64_t overSubscription(std::uint32_t position, std::uint64_t capacity) const {
     if (position >= live_.size() || live_[position] <= capacity) return 0;
     std::vector<std::uint64_t> blocks;

@@ -9,38 +9,37 @@
 
 namespace fg {
 
-/// The images of some histories and when in a frame they hold nothing: `current` until it is first written, `previous`
-/// once it has been read for the last time. They lie in two heaps that swap roles every frame, `incoming`, with every
-/// history's `current`, and `outgoing`, with every `previous` at the same offset.
+/// The two heaps of some histories, and the times in a frame at which each image holds nothing: `current` before it is
+/// first written, `previous` after it is last read. The heap `incoming` holds every history's `current`, and the heap
+/// `outgoing` holds every `previous` at the same offset. The heaps swap roles every frame.
 class HistoryHeaps {
  public:
   struct Member {
     std::uint32_t history = kNone;  ///< Index into `GraphDesc::histories`.
-    std::uint64_t size = 0;         ///< Of one image.
+    std::uint64_t size = 0;         ///< Size of one image.
     std::uint64_t alignment = 1;
     std::uint32_t written = 0;   ///< First position that uses `current`.
     std::uint32_t lastRead = 0;  ///< Last position that uses `previous`.
   };
 
-  /// Lay histories out in the order of their last reads, so that those read by a position leave one gap.
-  /// @param members in an order that is a function of the description alone
+  /// Lay histories out in the order of their last reads, so that the bytes which are free at a position form one gap.
+  /// @param members in an order that does not depend on registration
   /// @param positions number of passes
   HistoryHeaps(std::vector<Member> members, std::uint32_t positions);
 
   [[nodiscard]] std::span<const Member> members() const { return members_; }
-  /// By member.
+  /// Offset of a member in each of the two heaps.
   [[nodiscard]] std::uint64_t offset(std::size_t member) const { return offsets_[member]; }
-  /// Of each of the two heaps.
+  /// Size of each of the two heaps.
   [[nodiscard]] std::uint64_t size() const { return size_; }
-  /// Bytes that a transient cannot have: those of histories that hold something during its lifetime, and what lies
-  /// beyond the end of each heap.
-  /// @param stride address of `outgoing` in one address space in which `incoming` begins at 0; at least `size()`. The
-  ///               space ends at twice the stride
+  /// Bytes that a transient cannot have: those of histories that hold something during its lifetime, and those past
+  /// the end of each heap. Both heaps are in one address space: `incoming` starts at 0 and `outgoing` at `stride`.
+  /// @param stride at least `size()`
   [[nodiscard]] std::vector<ByteSpan> taken(const HeapRequest& transient, std::uint64_t stride) const;
 
-  /// By position, a lower bound of the bytes of transients that the two heaps cannot hold in any arrangement.
-  /// @param requests from first to last use
-  /// @param heldUntil by request, the last position at which others may not have its bytes
+  /// Indexed by position: a lower bound of the bytes of transients that do not fit into the two heaps.
+  /// @param requests transients, from first to last use
+  /// @param heldUntil indexed by request: the last position at which it holds its bytes (see alias.h)
   [[nodiscard]] std::vector<std::uint64_t> excess(const std::vector<HeapRequest>& requests,
                                                   const std::vector<std::uint32_t>& heldUntil) const;
 
@@ -48,7 +47,7 @@ class HistoryHeaps {
   std::vector<Member> members_;
   std::vector<std::uint64_t> offsets_;
   std::uint64_t size_ = 0;
-  // By position, bytes of a heap that hold nothing.
+  // Indexed by position: bytes of the heap that hold nothing.
   std::vector<std::uint64_t> freeIncoming_;
   std::vector<std::uint64_t> freeOutgoing_;
 };

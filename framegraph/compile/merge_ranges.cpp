@@ -23,7 +23,7 @@ bool nextMips(const SubresourceRange& a, const SubresourceRange& b) {
   return a.baseLayer == b.baseLayer && a.layerCount == b.layerCount && a.baseMip + a.mipCount == b.baseMip;
 }
 
-/// Grow each barrier by those that come after it and continue its range, which are dropped.
+/// Extend each barrier by the later ones that continue its range, and drop those.
 template <typename Continues, typename Grow>
 void absorb(std::vector<Placed>& barriers, Continues continues, Grow grow) {
   std::vector<Placed> kept;

@@ -8,10 +8,9 @@
 
 namespace fg {
 
-/// Merge barriers of one texture that are equal but for their range. Ranges of neighbouring mip levels and layers
-/// become one rectangle.
-/// @param barriers of single subresources, each with its position; ordered by position, then mip level, then array
-/// layer
+/// Merge barriers of one texture that differ only in their range. Ranges of neighbouring mip levels and layers become
+/// one rectangle.
+/// @param barriers barriers of single subresources with their positions, ordered by position, mip level and layer
 void mergeRanges(const ResourceDecl& resource, std::vector<std::pair<std::uint32_t, PlannedBarrier>>& barriers);
 
 }  // namespace fg

@@ -4,7 +4,8 @@
 
 namespace fg {
 
-/// Fill in the persistent bytes of `plan.memory` (the transient ones come with the placement), and `plan.traffic`.
+/// Fill in `plan.traffic` and the persistent bytes of `plan.memory`. `placeTransients` has filled in the transient
+/// part.
 void report(const GraphDesc& graph, Plan& plan);
 
 }  // namespace fg

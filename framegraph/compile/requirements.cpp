@@ -14,8 +14,8 @@ void addUses(const PassDecl& pass, std::vector<PlannedResource>& resources) {
   }
 }
 
-/// What the host does with a resource needs usage flags as well.
-void addBorder(const ExternalState& state, PlannedResource& resource) {
+/// Add the usage flags that the host's own use of a resource needs.
+void addExternalUse(const ExternalState& state, PlannedResource& resource) {
   resource.imageUsage |= imageUsageIn(state);
   resource.bufferUsage |= bufferUsageIn(state);
 }
@@ -28,11 +28,11 @@ std::vector<PlannedResource> requirements(const GraphDesc& graph, const Culling&
     if (culling.live[i]) addUses(graph.passes[i], resources);
   }
   for (std::size_t i = 0; i < resources.size(); ++i) {
-    if (graph.resources[i].acquire) addBorder(*graph.resources[i].acquire, resources[i]);
+    if (graph.resources[i].acquire) addExternalUse(*graph.resources[i].acquire, resources[i]);
   }
   for (const ExportDecl& exported : graph.exports) {
     resources[exported.resource.resource].used = true;
-    addBorder(exported.release, resources[exported.resource.resource]);
+    addExternalUse(exported.release, resources[exported.resource.resource]);
   }
   for (const HistoryDecl& history : graph.histories) {
     PlannedResource& previous = resources[history.previous];

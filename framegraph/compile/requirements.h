@@ -8,13 +8,13 @@
 
 namespace fg {
 
-/// Every resource's usage flags over all executed passes, and what memory the device asks for it.
+/// Usage flags of every resource over all executed passes, and the memory that the device requires for it.
 std::vector<PlannedResource> requirements(const GraphDesc& graph, const Culling& culling, const MemoryModel& memory);
 
-/// By index into `GraphDesc::resources`: true for transients that share memory, which exported ones do not.
+/// Indexed like `GraphDesc::resources`: true for transients that may share memory, that is, all that are not exported.
 std::vector<bool> aliasable(const GraphDesc& graph);
 
-/// By index into `GraphDesc::histories`: true for those that transients may alias. They are read every frame and not
+/// Indexed like `GraphDesc::histories`: true for those that transients may alias, which are read every frame and not
 /// exported.
 std::vector<bool> aliasableHistories(const GraphDesc& graph, const std::vector<PlannedResource>& resources);
 

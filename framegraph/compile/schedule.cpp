@@ -10,10 +10,10 @@
 namespace fg {
 namespace {
 
-/// Lists of numbers, one list per number, in one allocation.
+/// A list of numbers for each of the numbers 0 to count - 1, all in one allocation.
 class Lists {
  public:
-  /// @param pairs (list, element), in any order; elements keep theirs inside a list.
+  /// @param pairs (list, element) in any order; the elements of one list keep theirs
   Lists(std::size_t count, const std::vector<std::pair<std::uint32_t, std::uint32_t>>& pairs)
       : begin_(count + 1), elements_(pairs.size()) {
     for (const auto& [list, element] : pairs) ++begin_[list + 1];
@@ -32,12 +32,12 @@ class Lists {
 
 using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
-/// The passes to order, numbered by name, and the transients that they keep alive.
+/// The passes to order, numbered in the order of their names, and the transients that they use.
 struct Problem {
-  std::vector<std::uint32_t> passes;  ///< Index into `GraphDesc::passes`, by number.
-  std::vector<std::uint64_t> bytes;   ///< Of every transient.
-  Lists touched;                      ///< Transients by pass.
-  Lists touching;                     ///< Passes by transient.
+  std::vector<std::uint32_t> passes;  ///< Indexed by pass number: index into `GraphDesc::passes`.
+  std::vector<std::uint64_t> bytes;   ///< Size of every transient.
+  Lists touched;                      ///< Transients of each pass.
+  Lists touching;                     ///< Passes of each transient.
   Lists successors;
   Lists predecessors;
 };
@@ -81,7 +81,8 @@ Problem makeProblem(const Topology& topology, const Culling& culling, const std:
 
 /// A list schedule in one direction of time.
 ///
-/// Taking a pass makes the transients alive that it is the first to touch, and ends those that it is the last to touch.
+/// A pass starts the lifetime of the transients that no taken pass uses, and ends it for those that no pass uses after
+/// it. Its cost is the bytes that it starts less those that it ends.
 class ListSchedule {
  public:
   ListSchedule(const Problem& problem, const Lists& before, const Lists& after)
@@ -127,15 +128,15 @@ class ListSchedule {
       --remaining_[transient];
       const bool starts = !started_[transient];
       started_[transient] = true;
-      // Others no longer pay for its start; the last one is paid for its end.
-      if (starts || remaining_[transient] == 1) cheapen(transient, starts);
+      // Once it is alive, its bytes no longer count as a cost. The last pass that uses it gets them deducted.
+      if (starts || remaining_[transient] == 1) reduceCosts(transient, starts);
     }
     for (const std::uint32_t next : after_[pass]) {
       if (--waiting_[next] == 0) ready_.emplace(cost_[next], next);
     }
   }
 
-  void cheapen(std::uint32_t transient, bool starts) {
+  void reduceCosts(std::uint32_t transient, bool starts) {
     const std::int64_t bytes = signedBytes(transient);
     for (const std::uint32_t other : problem_.touching[transient]) {
       if (waiting_[other] == kNone) continue;
@@ -146,8 +147,8 @@ class ListSchedule {
 
   const Problem& problem_;
   const Lists& after_;
-  std::vector<std::uint32_t> waiting_;  ///< Passes yet to come first; kNone once taken.
-  std::vector<std::int64_t> cost_;      ///< Bytes that taking the pass adds to those alive.
+  std::vector<std::uint32_t> waiting_;  ///< Number of passes that must come first; kNone once taken.
+  std::vector<std::int64_t> cost_;      ///< Change of the live bytes when the pass is taken.
   std::vector<std::uint32_t> remaining_;
   std::vector<bool> started_;
   using Entry = std::pair<std::int64_t, std::uint32_t>;

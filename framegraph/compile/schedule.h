@@ -9,11 +9,11 @@
 
 namespace fg {
 
-/// Order of execution: every pass after those it depends on, with few transient bytes alive at any time.
+/// Order of execution: every pass comes after those that it depends on, and few transient bytes are alive at any time.
 ///
-/// Two list schedules are made, one from the front and one from the back, each taking next the pass that adds the
-/// fewest live bytes; the one with the lower peak is kept. Ties go by pass name, so that the result is a function of
-/// the description alone.
+/// There are two list schedules, one from the first pass on and one from the last pass back. Each takes the pass next
+/// that adds the fewest live bytes. The schedule with the lower peak wins. Ties are broken by pass name, so that the
+/// result does not depend on registration.
 std::vector<std::uint32_t> schedule(const Topology& topology, const Culling& culling,
                                     const std::vector<PlannedResource>& resources);
 

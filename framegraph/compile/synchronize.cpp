@@ -5,21 +5,21 @@
 #include <utility>
 
 #include "framegraph/compile/access_history.h"
-#include "framegraph/compile/hand_over.h"
 #include "framegraph/compile/merge_ranges.h"
+#include "framegraph/compile/previous_owners.h"
 #include "framegraph/declare/access.h"
 
 namespace fg {
 namespace {
 
-/// How a resource's first use in a frame connects to what was before.
+/// The state in which a resource's first use in a frame finds it.
 struct Beginning {
   std::vector<SubresourceState> states;
   BarrierReason reason = BarrierReason::FirstUse;
   std::uint32_t aliasOf = kNone;
 };
 
-/// Position of releases, after all passes.
+/// Position of releases: they come after all passes.
 constexpr std::uint32_t kAfterLastPass = kNone;
 
 class Synchronizer {
@@ -32,7 +32,7 @@ class Synchronizer {
         owners_(previousOwners(plan)),
         releases_(graph_.resources.size()) {
     for (const ExportDecl& exported : graph_.exports) {
-      releases_[exported.resource.resource] = bordering(exported.resource.resource, exported.release);
+      releases_[exported.resource.resource] = hostState(exported.resource.resource, exported.release);
     }
   }
 
@@ -47,13 +47,14 @@ class Synchronizer {
   }
 
  private:
-  /// The host's state of a resource; a buffer has no layout, whatever the host wrote there.
-  [[nodiscard]] ExternalState bordering(std::uint32_t resource, ExternalState state) const {
+  /// The host's state of a resource, without a layout if it is a buffer.
+  [[nodiscard]] ExternalState hostState(std::uint32_t resource, ExternalState state) const {
     if (std::holds_alternative<BufferDesc>(graph_.resources[resource].desc)) state.layout = VK_IMAGE_LAYOUT_UNDEFINED;
     return state;
   }
 
-  /// What a frame leaves of a resource whose first use overwrites it, so that nothing before matters.
+  /// The state in which a frame leaves a subresource.
+  /// @param state before the frame; the default is right if the first use overwrites the contents
   [[nodiscard]] SubresourceState ending(std::uint32_t resource, std::uint32_t subresource,
                                         SubresourceState state = {}) const {
     for (const AccessGroup& group : history_.groups(resource, subresource)) advance(state, group);
@@ -66,14 +67,14 @@ class Synchronizer {
     return {true, {end.stage, end.pendingWrite, end.layout}};
   }
 
-  /// The state in which the executor, or the last frame, leaves `previous`.
+  /// The state of `previous` at the start of a frame, as the last frame or a clear by the executor leaves it.
   [[nodiscard]] SubresourceState carriedState(std::uint32_t history) const {
     const ExternalState& carry = plan_.histories[history].carry;
     return {.stage = carry.stage, .pendingWrite = carry.access, .layout = carry.layout};
   }
 
-  /// Hand a resource to the host. Where the host names no stage it waits by a fence or semaphore, which makes all
-  /// writes visible, and the next frame has to wait for this one by itself.
+  /// Release a resource to the host. A host that names no stage waits for a fence or semaphore, which makes all writes
+  /// visible to it. In that case the next frame needs a barrier of its own on the stages of this one.
   static std::optional<PlannedBarrier> release(SubresourceState& state, const ExternalState& to) {
     AccessGroup group;
     group.position = kAfterLastPass;
@@ -86,12 +87,12 @@ class Synchronizer {
       return barrier;
     };
     if (to.stage != VK_PIPELINE_STAGE_2_NONE) {
-      // Who goes on from the state waits for its stages and no others.
+      // The host waits only for the stages that it names, so that a barrier must lead from all others to these.
       if ((state.stage & ~to.stage) != VK_PIPELINE_STAGE_2_NONE) state.visibleStage = VK_PIPELINE_STAGE_2_NONE;
       return released(advance(state, group));
     }
     if (state.layout == to.layout) return std::nullopt;
-    // Who waits for the last stages in the next frame then waits for the layout transition too.
+    // The next frame waits for the last stages, and thereby for the layout transition too.
     const VkPipelineStageFlags2 stage = state.stage;
     std::optional<PlannedBarrier> barrier = released(advance(state, group));
     barrier->dstStage = stage;
@@ -104,17 +105,17 @@ class Synchronizer {
     const std::uint32_t count = history_.subresourceCount(resource);
     switch (decl.lifetime) {
       case Lifetime::Imported:
-        return {std::vector(count, externalState(bordering(resource, *decl.acquire))), BarrierReason::Acquire};
+        return {std::vector(count, externalState(hostState(resource, *decl.acquire))), BarrierReason::Acquire};
       case Lifetime::HistoryPrevious:
         return {{carriedState(decl.history)}, BarrierReason::HistoryCarry};
       case Lifetime::HistoryCurrent:
-        return isLent(resource) ? handOver(resource) : swapped(decl.history);
+        return aliasedByTransients(resource) ? handOver(resource) : swapped(decl.history);
       default:
         return plan_.resources[resource].heap == kNone ? ownBeginning(resource) : handOver(resource);
     }
   }
 
-  /// After everything that was done to a resource, its contents being of no interest any more.
+  /// The same state with contents that may be discarded.
   static SubresourceState overwritten(SubresourceState state) {
     state.layout = VK_IMAGE_LAYOUT_UNDEFINED;
     return state;
@@ -139,29 +140,29 @@ class Synchronizer {
             *std::ranges::find_if(owners, [&](std::uint32_t owner) { return owner != resource; })};
   }
 
-  /// After the last frame's reads of the image as `previous`.
+  /// `current` is the image that was `previous` in the last frame: wait for the reads of it there.
   [[nodiscard]] Beginning swapped(std::uint32_t history) const {
     const std::uint32_t previous = graph_.histories[history].previous;
     return {{overwritten(ending(previous, 0, carriedState(history)))}, BarrierReason::HistoryCarry};
   }
 
-  /// True where transients had some of the bytes of a history's `current` since it was `previous`.
-  [[nodiscard]] bool isLent(std::uint32_t current) const {
+  /// True if transients have used some of the bytes of a history's `current` since it was `previous`.
+  [[nodiscard]] bool aliasedByTransients(std::uint32_t current) const {
     return std::ranges::any_of(
         owners_[current], [&](std::uint32_t owner) { return graph_.resources[owner].lifetime == Lifetime::Transient; });
   }
 
-  /// True where others own some of a transient's bytes before the next frame.
+  /// True if other resources use some of a transient's bytes before the next frame does.
   [[nodiscard]] bool sharesMemory(std::uint32_t resource) const {
     return graph_.resources[resource].lifetime == Lifetime::Transient && plan_.resources[resource].heap != kNone &&
            owners_[resource] != std::vector{resource};
   }
 
-  [[nodiscard]] std::uint32_t behind(std::uint32_t position) const {
+  [[nodiscard]] std::uint32_t nextPosition(std::uint32_t position) const {
     return position + 1 < plan_.passes.size() ? position + 1 : kAfterLastPass;
   }
 
-  /// Make a write available for which no reader does it. Whoever waits for the writing stage then waits for this too.
+  /// A barrier that makes a write available which nobody reads. A later wait for the writing stage includes it.
   static PlannedBarrier retire(const SubresourceState& state) {
     PlannedBarrier barrier;
     barrier.reason = BarrierReason::Retire;
@@ -195,7 +196,7 @@ class Synchronizer {
       }
       if (const auto to = finalState(resource, state)) add(kAfterLastPass, release(state, *to));
       if (sharesMemory(resource) && state.pendingWrite != VK_ACCESS_2_NONE) {
-        add(behind(groups.back().position), retire(state));
+        add(nextPosition(groups.back().position), retire(state));
       }
     }
     if (history_.subresourceCount(resource) > 1) mergeRanges(graph_.resources[resource], barriers);
@@ -204,13 +205,13 @@ class Synchronizer {
     }
   }
 
-  /// The state in which a host gets a resource back. Imports that are not exported go back as they came, so that the
-  /// next frame finds them so.
+  /// The state in which the host gets a resource back. Imports that are not exported return to the state in which they
+  /// arrived, because the next frame expects that state again.
   [[nodiscard]] std::optional<ExternalState> finalState(std::uint32_t resource, const SubresourceState& state) const {
     if (releases_[resource]) return releases_[resource];
     if (!graph_.resources[resource].acquire) return std::nullopt;
-    const ExternalState acquire = bordering(resource, *graph_.resources[resource].acquire);
-    // Who goes on from the state waits for its stages and no others, and covers writes that look like the host's own.
+    const ExternalState acquire = hostState(resource, *graph_.resources[resource].acquire);
+    // A barrier that starts from the import's state waits for its stages only, and makes its writes available only.
     const bool hostWrites = (acquire.access & kWriteAccesses) != VK_ACCESS_2_NONE;
     const bool readable =
         (acquire.stage & ~state.visibleStage) == 0 && (acquire.access & ~state.visibleAccess) == VK_ACCESS_2_NONE;

@@ -7,7 +7,7 @@
 namespace fg {
 
 /// Fill in the barriers of `plan.passes`, `plan.releases` and `plan.histories`. The order, the lifetimes and the heap
-/// offsets must stand.
+/// offsets must be final.
 void synchronize(const Topology& topology, const AccessHistory& accesses, Plan& plan);
 
 }  // namespace fg

@@ -48,7 +48,7 @@ constexpr std::array<AccessInfo, 16> kAccesses{{
      VK_BUFFER_USAGE_INDEX_BUFFER_BIT},
 }};
 
-/// True where some part of a state is what an access needs.
+/// True if a state has some access flag of an access, or the layout that only this kind of access uses.
 bool servesState(const AccessInfo& info, const ExternalState& state) {
   const bool ownLayout = info.layout != VK_IMAGE_LAYOUT_UNDEFINED && info.layout != VK_IMAGE_LAYOUT_GENERAL;
   return (info.mask() & state.access) != VK_ACCESS_2_NONE || (ownLayout && info.layout == state.layout);

@@ -8,30 +8,30 @@
 
 namespace fg {
 
-/// What Vulkan must know of one way to touch a resource.
+/// Vulkan's stages, access flags, layout and usage flags for one value of `Access`.
 struct AccessInfo {
   std::string_view name;  ///< As spelled in `Access`.
   VkPipelineStageFlags2 stage = VK_PIPELINE_STAGE_2_NONE;
   VkAccessFlags2 readMask = VK_ACCESS_2_NONE;   ///< Access flags of the reading part.
   VkAccessFlags2 writeMask = VK_ACCESS_2_NONE;  ///< Access flags of the writing part.
   VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
-  VkImageUsageFlags imageUsage = 0;    ///< 0 where textures cannot be touched this way.
-  VkBufferUsageFlags bufferUsage = 0;  ///< 0 where buffers cannot be touched this way.
+  VkImageUsageFlags imageUsage = 0;    ///< 0 if textures cannot be accessed this way.
+  VkBufferUsageFlags bufferUsage = 0;  ///< 0 if buffers cannot be accessed this way.
 
   [[nodiscard]] bool reads() const { return readMask != VK_ACCESS_2_NONE; }
   [[nodiscard]] bool writes() const { return writeMask != VK_ACCESS_2_NONE; }
   [[nodiscard]] VkAccessFlags2 mask() const { return readMask | writeMask; }
 };
 
-/// Stage, access masks, layout and usage flags of an access.
+/// The properties of an access.
 const AccessInfo& accessInfo(Access access);
 
-/// Usage flags that a resource needs for what its host does with it in a state: for the layout that it is brought into,
-/// and for the accesses named.
+/// Usage flags that a resource needs for its host's use of it in a state: for the layout and for the accesses of this
+/// state.
 VkImageUsageFlags imageUsageIn(const ExternalState& state);
 VkBufferUsageFlags bufferUsageIn(const ExternalState& state);
 
-/// Every access flag that writes.
+/// All access flags that write.
 inline constexpr VkAccessFlags2 kWriteAccesses = VK_ACCESS_2_SHADER_WRITE_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT |
                                                  VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT |
                                                  VK_ACCESS_2_TRANSFER_WRITE_BIT | VK_ACCESS_2_HOST_WRITE_BIT |

@@ -13,12 +13,12 @@ enum class DependencyKind : std::uint8_t { ReadAfterWrite, WriteAfterRead, Write
 struct Dependency {
   std::uint32_t before = kNone;  ///< Index into `GraphDesc::passes`.
   std::uint32_t after = kNone;
-  std::uint32_t resource = kNone;  ///< On account of this resource
-  std::uint32_t version = kNone;   ///< at this version.
+  std::uint32_t resource = kNone;  ///< The resource that causes the dependency,
+  std::uint32_t version = kNone;   ///< and its version.
   DependencyKind kind = DependencyKind::ReadAfterWrite;
 };
 
-/// All dependencies between the passes marked live, in an order that does not depend on registration.
+/// All dependencies between the passes that are marked live, in an order that does not depend on registration.
 std::vector<Dependency> dependencies(const Topology& topology, const std::vector<bool>& live);
 
 }  // namespace fg

@@ -8,30 +8,31 @@
 
 namespace fg {
 
-/// What a device asks of the memory behind a resource.
+/// Requirements of a device for the memory of a resource.
 struct MemoryRequirements {
   std::uint64_t size = 0;
   std::uint64_t alignment = 1;
   std::uint32_t memoryTypeBits = ~0u;
 };
 
-/// Bytes of the texels in part of a texture, tightly packed. Parts that the texture lacks count nothing.
+/// Bytes of the texels in a part of a texture, tightly packed. Mip levels and layers that do not exist count as 0.
 std::uint64_t texelBytes(const TextureDesc& desc, const SubresourceRange& range);
 
-/// The compiler's only view of a device: sizes, alignments, and which format serves which use.
-/// The executor's implementation asks the driver; `TableMemoryModel` computes from a table.
+/// The only properties of a device that the compiler needs: sizes and alignments of resources, and the supported
+/// formats. `vk::DriverMemoryModel` queries the driver; `TableMemoryModel` computes from a table.
 class MemoryModel {
  public:
   virtual ~MemoryModel() = default;
   [[nodiscard]] virtual MemoryRequirements texture(const TextureDesc& desc, VkImageUsageFlags usage) const = 0;
   [[nodiscard]] virtual MemoryRequirements buffer(const BufferDesc& desc, VkBufferUsageFlags usage) const = 0;
-  /// True where optimally tiled images of this format can be used in all these ways.
+  /// True if optimally tiled images of this format support all these usages.
   [[nodiscard]] virtual bool supports(VkFormat format, VkImageUsageFlags usage) const = 0;
-  /// Bytes between a linear and an optimally tiled neighbour in one allocation.
+  /// Vulkan's bufferImageGranularity: page size in bytes that buffers and optimally tiled images must not share.
   [[nodiscard]] virtual std::uint64_t bufferImageGranularity() const = 0;
 };
 
-/// Tightly packed texels in 256-byte steps; every format known to `formatInfo` serves every use.
+/// A memory model that needs no device: sizes are those of tightly packed texels, rounded up to 256 bytes, and every
+/// format known to `formatInfo` supports every usage.
 class TableMemoryModel final : public MemoryModel {
  public:
   [[nodiscard]] MemoryRequirements texture(const TextureDesc& desc, VkImageUsageFlags usage) const override;

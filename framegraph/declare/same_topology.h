@@ -4,9 +4,9 @@
 
 namespace fg {
 
-/// True where two descriptions have one plan: where they differ at most in what is only recorded, which is values of
-/// push constants and of specialization constants, work group counts, callbacks, and where in the source it all stands.
-/// `vk::Executor::update` takes such differences over as they are.
+/// True if two descriptions have the same plan. They may then differ only in what a plan does not contain: values of
+/// push constants and of specialization constants, work group counts, callbacks and source locations.
+/// `vk::Executor::update` adopts such differences without a new plan.
 bool sameTopology(const GraphDesc& a, const GraphDesc& b);
 
 /// True where two descriptions would have the same topology if their textures and buffers were of the same sizes.

@@ -4,11 +4,11 @@
 
 namespace fg {
 
-/// Where in the host's source something was declared. A stand-in for std::source_location, with its interface, which
-/// clang has only from version 16 on.
+/// The place in the host's source at which something was declared. Replaces std::source_location, which clang has only
+/// since version 16, and has the same interface.
 class SourceLocation {
  public:
-  /// As a default argument: the place of the call.
+  /// The place of the call, if used as a default argument.
   static constexpr SourceLocation current(const char* file = __builtin_FILE(), std::uint32_t line = __builtin_LINE()) {
     SourceLocation location;
     location.file_ = file;

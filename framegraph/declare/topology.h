@@ -9,24 +9,25 @@
 
 namespace fg {
 
-/// Everything that is declared to happen to one version of a resource.
+/// All declared accesses to one version of a resource.
 struct VersionUses {
-  std::uint32_t writer = kNone;        ///< Pass that makes it; the first by name where several claim to.
-  const AccessDecl* write = nullptr;   ///< The access by which it does.
+  std::uint32_t writer = kNone;        ///< Pass that writes it; the first by name if several do.
+  const AccessDecl* write = nullptr;   ///< The writing access.
   std::uint32_t predecessor = kNone;   ///< Version that it replaces or updates.
-  bool keepsPredecessor = false;       ///< Some contents come from the predecessor: updated in place, or only a part
-                                       ///< written.
-  std::vector<std::uint32_t> readers;  ///< Passes that read it, updates in place included; by name, each once.
+  bool keepsPredecessor = false;       ///< True if some contents come from the predecessor: it is updated in place, or
+                                       ///< only a part is written.
+  std::vector<std::uint32_t> readers;  ///< Passes that read or update it, ordered by name, each once.
 };
 
-/// Who makes, reads and replaces every version; names as ranks, so that nothing depends on registration order.
-/// Accesses through invalid handles are left out. Refers to the graph, which must outlive it.
+/// The table of writers and readers of every version of every resource. Passes and resources are also available in the
+/// order of their names, so that results need not depend on the order of registration. Accesses through invalid handles
+/// are left out. Refers to the graph, which must outlive it.
 class Topology {
  public:
   explicit Topology(const GraphDesc& graph);
 
   [[nodiscard]] const GraphDesc& graph() const { return *graph_; }
-  /// Number of versions of a resource, the zeroth included.
+  /// Number of versions of a resource, including version 0.
   [[nodiscard]] std::uint32_t versionCount(std::uint32_t resource) const {
     return first_[resource + 1] - first_[resource];
   }
@@ -37,7 +38,7 @@ class Topology {
   [[nodiscard]] std::span<const std::uint32_t> passesByName() const { return passesByName_; }
   /// All resources, ordered by name.
   [[nodiscard]] std::span<const std::uint32_t> resourcesByName() const { return resourcesByName_; }
-  /// Place of a resource in `resourcesByName`.
+  /// Index of a resource in `resourcesByName`.
   [[nodiscard]] std::uint32_t resourceRank(std::uint32_t resource) const { return resourceRank_[resource]; }
 
  private:
@@ -51,13 +52,13 @@ class Topology {
   std::vector<std::uint32_t> resourceRank_;
 };
 
-/// True where an access names a declared resource and versions of it that some handle can have.
+/// True if an access refers to a declared resource and to existing versions of it.
 bool validHandle(const GraphDesc& graph, const AccessDecl& access);
 
-/// The texture's part with VK_REMAINING_* resolved; buffers have one mip level and one layer.
+/// The range with VK_REMAINING_* replaced by numbers. Buffers have one mip level and one layer.
 SubresourceRange resolved(const ResourceDecl& resource, const SubresourceRange& range);
 
-/// True where the range is all of the resource.
+/// True if the range is the whole resource.
 bool coversAll(const ResourceDecl& resource, const SubresourceRange& range);
 
 }  // namespace fg

@@ -61,7 +61,7 @@ class DotWriter {
       const std::string node = version(resource, number);
       if (uses.writer == kNone && uses.readers.empty()) continue;
       out_ << "  " << node << " [shape=ellipse";
-      if (const std::string place = placeInWords(graph_, plan_, resource); !place.empty()) {
+      if (const std::string place = placeText(graph_, plan_, resource); !place.empty()) {
         out_ << ", tooltip=" << quoted(place);
       }
       out_ << "];\n";

@@ -239,7 +239,8 @@ class JsonReader {
     const std::uint32_t pass = find(graph_.passes, json.at("before"));
     const auto planned = std::ranges::find(plan.passes, pass, &PlannedPass::pass);
     if (planned == plan.passes.end()) {
-      throw std::invalid_argument("a barrier comes before '" + graph_.passes[pass].name + "', which is not executed");
+      throw std::invalid_argument("a barrier is recorded before '" + graph_.passes[pass].name +
+                                  "', which is not executed");
     }
     planned->barriers.push_back(barrier);
   }

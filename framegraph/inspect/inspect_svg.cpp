@@ -77,7 +77,7 @@ class SvgWriter {
     const double y = kMargin + scale * (heapStart_[planned.heap] + static_cast<double>(planned.offset));
     const double height = scale * static_cast<double>(planned.size);
     const std::string name = escaped(graph_.resources[index].name);
-    out_ << "<g><title>" << name << ": " << planned.size << " bytes, " << escaped(placeInWords(graph_, plan_, index))
+    out_ << "<g><title>" << name << ": " << planned.size << " bytes, " << escaped(placeText(graph_, plan_, index))
          << "</title><rect x=\"" << x << "\" y=\"" << y << "\" width=\"" << kColumn * (last - first + 1)
          << "\" height=\"" << height << "\" fill=\""
          << (transient ? kFills[topology_.resourceRank(index) % kFills.size()] : "#e4e4e4") << "\" stroke=\"#404040\""

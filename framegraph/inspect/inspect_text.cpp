@@ -61,7 +61,7 @@ class TextWriter {
       return;
     }
     if (planned.firstUse != kNone) out_ << ", passes " << planned.firstUse << ".." << planned.lastUse;
-    if (planned.heap != kNone) out_ << ", " << placeInWords(graph_, plan_, index);
+    if (planned.heap != kNone) out_ << ", " << placeText(graph_, plan_, index);
     out_ << "\n";
   }
 

@@ -23,7 +23,7 @@ std::string unknown(std::string_view name) {
   return "the graph declares no '" + std::string(name) + "'";
 }
 
-/// Why a resource has its bytes for itself; empty where it may share them.
+/// The reason why a resource does not share its bytes; empty if it may share them.
 std::string whyAlone(const GraphDesc& graph, const Plan& plan, std::uint32_t index) {
   const ResourceDecl& decl = graph.resources[index];
   const std::string start = "'" + decl.name + "' (" + place(decl.where) + ") ";
@@ -35,10 +35,11 @@ std::string whyAlone(const GraphDesc& graph, const Plan& plan, std::uint32_t ind
            ", and only transients and histories share memory";
   }
   return start +
-         "belongs to a history that transients may not alias: it is exported, nobody reads it, or the option is off";
+         "belongs to a history that transients may not alias: it is exported, no pass reads it, or aliasing of "
+         "histories is off";
 }
 
-/// The passes in which a resource keeps its bytes.
+/// The passes during which a resource holds its bytes.
 class Held {
  public:
   Held(const GraphDesc& graph, const Plan& plan, std::uint32_t index)
@@ -109,7 +110,7 @@ std::string whyNotAliased(const GraphDesc& graph, const Plan& plan, std::string_
     return both + "are alive at the same time: " + held.text() + " and " + otherHeld.text();
   }
   const bool overlap = x.heap == y.heap && x.offset < y.offset + y.size && y.offset < x.offset + x.size;
-  return both + (overlap ? "share memory" : "could share memory, but other places were as good");
+  return both + (overlap ? "share memory" : "could share memory, but are placed apart");
 }
 
 }  // namespace fg

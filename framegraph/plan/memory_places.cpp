@@ -30,7 +30,7 @@ std::vector<std::uint32_t> aliasedHistoryImages(const GraphDesc& graph, const Pl
   return result;
 }
 
-std::string placeInWords(const GraphDesc& graph, const Plan& plan, std::uint32_t resource) {
+std::string placeText(const GraphDesc& graph, const Plan& plan, std::uint32_t resource) {
   const PlannedResource& planned = plan.resources[resource];
   if (planned.heap == kNone) return {};
   std::string text = "heap " + std::to_string(planned.heap) + " [" + std::to_string(planned.offset) + ", " +

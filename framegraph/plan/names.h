@@ -12,7 +12,7 @@ namespace fg {
 std::string stageNames(VkPipelineStageFlags2 stages);
 /// "SHADER_SAMPLED_READ"; "NONE" for no access.
 std::string accessNames(VkAccessFlags2 accesses);
-/// "GENERAL"; a number for layouts that the frame graph does not use.
+/// "GENERAL"; a number for layouts without a name in the table.
 std::string layoutName(VkImageLayout layout);
 std::string_view reasonName(BarrierReason reason);
 std::string_view lifetimeName(Lifetime lifetime);

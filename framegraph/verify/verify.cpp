@@ -13,7 +13,7 @@ namespace {
 using namespace check;
 
 constexpr std::uint32_t kFrames = 5;
-/// Version that a cleared history stands for.
+/// Version that marks the contents of a cleared history.
 constexpr std::uint32_t kCleared = kNone;
 
 bool resetsHistories(std::uint32_t frame) {
@@ -67,10 +67,10 @@ class Replay {
   [[nodiscard]] std::uint32_t cellCount(std::uint32_t resource) const {
     return texture(resource) != nullptr ? texture(resource)->mipLevels * layers(resource) : 1;
   }
-  /// First cell of the physical image that stands for the resource in this frame.
+  /// First cell of the physical image or buffer that the resource uses in this frame.
   [[nodiscard]] std::uint32_t firstCell(std::uint32_t resource) const { return first_[frame_ % 2][resource]; }
 
-  /// True where frames of either parity have an image or buffer of their own.
+  /// True if even and odd frames use different images or buffers for the resource.
   [[nodiscard]] bool isDoubled(std::uint32_t resource) const {
     const std::uint32_t heap = plan_.resources[resource].heap;
     const bool swaps = heap != kNone && plan_.heaps[heap].partner != kNone;
@@ -92,7 +92,7 @@ class Replay {
     }
   }
 
-  /// Some bytes of an allocation, and whose they are in frames of one parity.
+  /// The bytes of an allocation that a resource uses in frames of one parity.
   struct Block {
     std::uint32_t resource;
     std::uint32_t firstCell;
@@ -130,7 +130,7 @@ class Replay {
     }
   }
 
-  /// Cells that a range stands for; one past the texture's end is left out.
+  /// The cells of a range. Mip levels and layers that the texture lacks are left out.
   [[nodiscard]] std::vector<std::uint32_t> cellsOf(std::uint32_t resource, const SubresourceRange& range) const {
     const TextureDesc* desc = texture(resource);
     if (desc == nullptr) return {firstCell(resource)};
@@ -145,7 +145,7 @@ class Replay {
     return cells;
   }
 
-  /// What a cell holds at a version: what the last write up to it that covers the cell has made.
+  /// The contents of a cell at a version: those of the last write up to this version that covers the cell.
   [[nodiscard]] Contents contentsAt(std::uint32_t resource, std::uint32_t version, std::uint32_t cell) const {
     const ResourceDecl& decl = graph_.resources[resource];
     std::uint32_t made = 0;
@@ -171,13 +171,13 @@ class Replay {
     const bool empty = texture(resource) != nullptr && state.layout == VK_IMAGE_LAYOUT_UNDEFINED;
     for (std::uint32_t i = 0; i < cellCount(resource); ++i) {
       Cell& cell = device_.cell(firstCell(resource) + i);
-      hand(cell, state, texture(resource) != nullptr);
+      putIntoState(cell, state, texture(resource) != nullptr);
       cell.contents = empty ? Contents{} : Contents{resource, 0, frame_};
     }
   }
 
-  /// Put a cell into the state that a host has left it in.
-  static void hand(Cell& cell, const ExternalState& state, bool isTexture) {
+  /// Put a cell into the state in which the host leaves it.
+  static void putIntoState(Cell& cell, const ExternalState& state, bool isTexture) {
     const VkPipelineStageFlags2 stage = expanded(state.stage);
     const VkAccessFlags2 writes = writesOf(state.access);
     cell.layout = isTexture ? state.layout : VK_IMAGE_LAYOUT_UNDEFINED;
@@ -198,7 +198,8 @@ class Replay {
     }
   }
 
-  /// What the executor does with an invalid history: wait for its last use, clear it, leave it as the plan says.
+  /// Do what the executor does with an invalid history: wait for its last use, clear it, and leave it in the planned
+  /// state.
   void clear(std::uint32_t history) {
     if (!plan_.histories[history].used) return;
     const ExternalState& carry = plan_.histories[history].carry;
@@ -229,7 +230,7 @@ class Replay {
                        barrier.oldLayout, barrier.newLayout, cellsOf(barrier.resource, barrier.range)});
     }
     device_.barrier(batch);
-    // A buffer has no layout transition: its new owner's first write is checked instead.
+    // Buffers have no layout transition. The first write of a new owner is checked in their case (Device::access).
   }
 
   void touch(const AccessDecl& access) {
@@ -243,20 +244,24 @@ class Replay {
 
   void end(std::uint32_t resource) {
     const ResourceDecl& decl = graph_.resources[resource];
-    if (const ExportDecl* exported = exports_[resource]) return handBack(resource, *exported);
+    if (const ExportDecl* exported = exports_[resource]) return checkExport(resource, *exported);
     if (decl.lifetime != Lifetime::Imported) return;
     const ExternalState& state = *decl.acquire;
     const bool isTexture = texture(resource) != nullptr;
     if (isTexture && state.layout == VK_IMAGE_LAYOUT_UNDEFINED) return;
-    for (std::uint32_t i = 0; i < cellCount(resource); ++i) giveBack(firstCell(resource) + i, state, isTexture);
+    for (std::uint32_t i = 0; i < cellCount(resource); ++i)
+      checkReturnedImport(firstCell(resource) + i, state, isTexture);
   }
 
-  /// Check that an import is in the state in which it came: in its layout; everything done to it in, or before, the
-  /// stages named; writes available but for those that the state names; and readable where the state only reads.
-  void giveBack(std::uint32_t index, const ExternalState& state, bool isTexture) {
+  /// Check that an import is back in the state in which it arrived: it has the same layout; all accesses happen in or
+  /// before the stages of the state; all writes are available, except those that the state names; and it is readable
+  /// if the state only reads.
+  void checkReturnedImport(std::uint32_t index, const ExternalState& state, bool isTexture) {
     const Cell cell = device_.cell(index);
     const VkImageLayout layout = isTexture ? state.layout : VK_IMAGE_LAYOUT_UNDEFINED;
-    const auto wrong = [&] { device_.complain("import '" + cell.name + "' is not given back as it came"); };
+    const auto wrong = [&] {
+      device_.complain("import '" + cell.name + "' is not returned in the state in which it arrived");
+    };
     if (cell.layout != layout) return wrong();
     if (state.stage == VK_PIPELINE_STAGE_2_NONE) return;
     device_.checkFinished(index, state.stage);
@@ -267,7 +272,7 @@ class Replay {
     }
   }
 
-  void handBack(std::uint32_t resource, const ExportDecl& exported) {
+  void checkExport(std::uint32_t resource, const ExportDecl& exported) {
     const ExternalState& state = exported.release;
     const bool isTexture = texture(resource) != nullptr;
     for (std::uint32_t i = 0; i < cellCount(resource); ++i) {
@@ -277,8 +282,7 @@ class Replay {
       if (cell.contents != expected) device_.complain("export '" + cell.name + "' does not hold what was declared");
       const VkImageLayout layout = isTexture ? state.layout : VK_IMAGE_LAYOUT_UNDEFINED;
       if (state.stage == VK_PIPELINE_STAGE_2_NONE) {
-        if (cell.layout != layout)
-          device_.complain("export '" + cell.name + "' is not in the layout that was declared");
+        if (cell.layout != layout) device_.complain("export '" + cell.name + "' is not in the declared layout");
         continue;
       }
       device_.checkFinished(index, state.stage);
@@ -292,7 +296,7 @@ class Replay {
   std::vector<const ExportDecl*> exports_;
   std::vector<const AccessDecl*> writes_;
   Device device_;
-  /// By frame parity, the first cell of every resource.
+  /// Indexed by frame parity and resource: the first cell.
   std::array<std::vector<std::uint32_t>, 2> first_;
   std::uint32_t frame_ = 0;
 };

@@ -5,13 +5,13 @@
 namespace fg::check {
 namespace {
 
-/// True where the operation is in the first synchronization scope of a dependency on these stages.
+/// True if the operation is in the first synchronization scope of a dependency with these source stages.
 bool waitsFor(VkPipelineStageFlags2 srcStage, const Operation& operation) {
   const bool direct = operation.stage != 0 && (operation.stage & ~srcStage) == 0;
   return direct || (operation.ordered & srcStage) != 0;
 }
 
-/// True where a command's work in these stages happens after the operation.
+/// True if the work of later commands in these stages happens after the operation.
 bool happensAfter(VkPipelineStageFlags2 stage, const Operation& operation) {
   return (stage & ~operation.ordered) == 0;
 }
@@ -20,12 +20,12 @@ bool isTransition(const Dependency& dependency) {
   return dependency.oldLayout != dependency.newLayout;
 }
 
-/// True where a dependency on these stages comes after the cell's last write was made available.
+/// True if the cell's last write is available before a dependency with these source stages.
 bool findsAvailable(VkPipelineStageFlags2 srcStage, const Cell& cell) {
   return !cell.written || (cell.available && (cell.availableTo & srcStage) != 0);
 }
 
-/// True where the dependency makes the cell's last write available itself.
+/// True if the dependency itself makes the cell's last write available.
 bool makesAvailable(const Dependency& dependency, const Cell& cell) {
   return cell.written && !cell.available && (cell.write.stage & ~dependency.srcStage) == 0 &&
          (cell.writeAccess & ~dependency.srcAccess) == 0;
@@ -98,10 +98,10 @@ void Device::checkTransition(const Dependency& dependency, std::uint32_t index) 
     return findsAvailable(dependency.srcStage, other) && (!other.written || waitsFor(dependency.srcStage, other.write));
   };
   if (dependency.oldLayout != VK_IMAGE_LAYOUT_UNDEFINED && dependency.oldLayout != cell.layout) {
-    complain("a barrier takes '" + cell.name + "' to be in layout " + std::to_string(dependency.oldLayout) +
+    complain("a barrier expects '" + cell.name + "' in layout " + std::to_string(dependency.oldLayout) +
              ", but it is in " + std::to_string(cell.layout));
   }
-  // Layout transitions of one image come in submission order by themselves.
+  // Vulkan executes layout transitions of one image in submission order without further dependencies.
   const bool afterTransition = cell.write.stage == VK_PIPELINE_STAGE_2_NONE;
   if (!readsFinished(cell) || !(afterTransition || writeFinished(cell) || makesAvailable(dependency, cell))) {
     complain("the layout of '" + cell.name + "' changes before earlier accesses have finished");
@@ -183,7 +183,8 @@ void Device::checkFinished(std::uint32_t index, VkPipelineStageFlags2 stage) {
   const VkPipelineStageFlags2 waited = expanded(stage);
   const bool finished = (!cell.written || waitsFor(waited, cell.write)) &&
                         std::ranges::all_of(cell.reads, [&](const Operation& read) { return waitsFor(waited, read); });
-  if (!finished) complain("'" + cell.name + "' is handed back while others than the stages named still access it");
+  if (!finished)
+    complain("'" + cell.name + "' is returned to the host while stages that its state does not name still access it");
 }
 
 }  // namespace fg::check

@@ -6,24 +6,25 @@
 
 #include "framegraph/verify/verify_rules.h"
 
-/// The checker's model of one queue and of the memory that it works on.
+/// The verifier's model of one queue and its memory.
 namespace fg::check {
 
-/// What some bytes hold: a version of a resource as made in one frame.
+/// The contents of some bytes: a version of a resource, written in one frame.
 struct Contents {
-  std::uint32_t resource = kNone;  ///< kNone: garbage.
+  std::uint32_t resource = kNone;  ///< kNone: undefined contents.
   std::uint32_t version = 0;
   std::uint32_t frame = 0;
   friend bool operator==(const Contents&, const Contents&) = default;
 };
 
-/// Something that was done to a cell and that later work may have to wait for.
+/// An access to a cell, or a layout transition of it, that later work may have to wait for.
 struct Operation {
-  VkPipelineStageFlags2 stage = VK_PIPELINE_STAGE_2_NONE;    ///< In which it happens; none for a layout transition.
+  VkPipelineStageFlags2 stage =
+      VK_PIPELINE_STAGE_2_NONE;  ///< Stages in which it happens; none for a layout transition.
   VkPipelineStageFlags2 ordered = VK_PIPELINE_STAGE_2_NONE;  ///< Stages of later commands that happen after it.
 };
 
-/// Accesses in a set of stages to which a write has been made visible.
+/// Stages and accesses to which a write has been made visible.
 struct Visibility {
   VkPipelineStageFlags2 stage;
   VkAccessFlags2 access;
@@ -33,20 +34,20 @@ struct Visibility {
 struct Cell {
   VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
   Contents contents;
-  bool written = false;  ///< Whether `write` stands for anything.
+  bool written = false;  ///< False if there has been no write; `write` is then unused.
   Operation write;
   VkAccessFlags2 writeAccess = VK_ACCESS_2_NONE;
   bool available = false;
-  /// Stages of later commands that happen after the write was made available, which can be fewer than those that happen
-  /// after the write.
+  /// Stages of later commands that happen after the write has become available. They can be fewer than those that
+  /// happen after the write itself.
   VkPipelineStageFlags2 availableTo = VK_PIPELINE_STAGE_2_NONE;
   std::vector<Visibility> visible;
-  std::vector<Operation> reads;      ///< Since the write, one for each stage.
-  std::vector<std::uint32_t> peers;  ///< Cells of other resources in the same bytes.
+  std::vector<Operation> reads;      ///< Reads since the write, one per set of stages.
+  std::vector<std::uint32_t> peers;  ///< Cells of other resources that use some of the same bytes.
   std::string name;
 };
 
-/// A dependency that applies to some cells' memory and to everybody's execution.
+/// A barrier: an execution dependency for all commands, and a memory dependency for some cells.
 struct Dependency {
   VkPipelineStageFlags2 srcStage;
   VkAccessFlags2 srcAccess;
@@ -66,14 +67,14 @@ class Device {
   [[nodiscard]] Cell& cell(std::uint32_t index) { return cells_[index]; }
   [[nodiscard]] std::size_t cellCount() const { return cells_.size(); }
 
-  /// One vkCmdPipelineBarrier2: its dependencies do not order each other.
+  /// Execute one vkCmdPipelineBarrier2. Its dependencies do not order each other.
   void barrier(const std::vector<Dependency>& batch);
-  /// A command's access to a cell, which must hold `expected` if it is read, and holds `result` once written.
+  /// Execute a command's access to a cell. A cell that is read must hold `expected`; a written one then holds `result`.
   void access(std::uint32_t cell, const Use& use, const Contents& expected, const Contents& result);
-  /// Check that who goes on from a state of a cell, and waits for its stages only, waits for all that was done to it.
+  /// Check that work which waits only for these stages comes after all accesses to the cell.
   void checkFinished(std::uint32_t cell, VkPipelineStageFlags2 stage);
 
-  /// Said before every complaint: where the replay stands.
+  /// Set the position of the replay, which is the prefix of every complaint.
   void setPlace(std::string place) { place_ = std::move(place); }
   void complain(const std::string& what);
   [[nodiscard]] std::vector<std::string> takeComplaints() { return std::move(complaints_); }
@@ -82,7 +83,7 @@ class Device {
   void checkTransition(const Dependency& dependency, std::uint32_t index);
   void transition(const Dependency& dependency, std::uint32_t index);
 
-  /// What a dependency does for a cell's last write.
+  /// The effect of a dependency on a cell's last write: it becomes visible, and perhaps available first.
   struct Publication {
     const Dependency* dependency;
     std::uint32_t cell;

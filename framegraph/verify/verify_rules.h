@@ -4,8 +4,8 @@
 
 #include "framegraph/declare/graph.h"
 
-/// What the checker knows of Vulkan, written down a second time on purpose: an error in the compiler's table must not
-/// hide itself.
+/// The verifier's own table of Vulkan's rules. It repeats the compiler's table on purpose, so that an error in one of
+/// the two shows.
 namespace fg::check {
 
 struct Use {
@@ -13,19 +13,19 @@ struct Use {
   VkAccessFlags2 reads = VK_ACCESS_2_NONE;
   VkAccessFlags2 writes = VK_ACCESS_2_NONE;
   VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
-  VkFlags usage = 0;  ///< Image or buffer usage, by what is accessed.
+  VkFlags usage = 0;  ///< Image usage for textures, buffer usage for buffers.
 };
 
-/// What an access of a texture or of a buffer needs.
+/// Stages, accesses, layout and usage flags of an access to a texture or buffer.
 Use useOf(Access access, bool texture);
 
-/// Usage without which an image cannot be brought into a layout; none for layouts that ask for nothing.
+/// Usage flags that an image needs to be in a layout; 0 for layouts that need none.
 VkImageUsageFlags usageInLayout(VkImageLayout layout);
 
-/// The stages with those written out that a collective name stands for.
+/// The stages, with ALL_TRANSFER replaced by the stages that it consists of.
 VkPipelineStageFlags2 expanded(VkPipelineStageFlags2 stages);
 
-/// The accesses that write.
+/// Those of the accesses that write.
 VkAccessFlags2 writesOf(VkAccessFlags2 accesses);
 
 }  // namespace fg::check

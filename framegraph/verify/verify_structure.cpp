@@ -13,7 +13,7 @@ class Structure {
 
   std::vector<std::string> run() {
     if (plan_.resources.size() != graph_.resources.size() || plan_.histories.size() != graph_.histories.size()) {
-      return {"the plan has another number of resources or histories than the graph"};
+      return {"the numbers of resources or histories of plan and graph differ"};
     }
     checkPasses();
     if (!faults_.empty()) return std::move(faults_);
@@ -43,7 +43,7 @@ class Structure {
       }
     }
     if (std::ranges::any_of(seen, [](int count) { return count != 1; })) {
-      faults_.emplace_back("some pass is not exactly once either executed or culled");
+      faults_.emplace_back("some pass is neither executed nor culled, or appears twice");
     }
   }
 
@@ -62,8 +62,7 @@ class Structure {
         usage |= useOf(access.access, texture).usage;
       }
     }
-    if (planned.firstUse != first || planned.lastUse != last)
-      fault(decl, "is given another lifetime than its uses have");
+    if (planned.firstUse != first || planned.lastUse != last) fault(decl, "has a lifetime that differs from its uses");
     if (((texture ? planned.imageUsage : planned.bufferUsage) & usage) != usage) fault(decl, "lacks usage flags");
     bool exported = false;
     for (const ExportDecl& other : graph_.exports) {
@@ -71,12 +70,12 @@ class Structure {
       exported = true;
       const VkFlags needed = texture ? usageInLayout(other.release.layout) : 0;
       if ((planned.imageUsage & needed) != needed)
-        fault(decl, "lacks usage flags of the layout that it is released in");
+        fault(decl, "lacks usage flags of the layout in which it is released");
     }
     if (first != kNone && !planned.used) fault(decl, "is used, but marked unused");
     const bool transient = decl.lifetime == Lifetime::Transient;
     const bool shares = (transient || decl.history != kNone) && !exported;
-    if (!shares && planned.heap != kNone) fault(decl, "must not lie in memory that others share");
+    if (!shares && planned.heap != kNone) fault(decl, "must not share memory");
     if (shares && first != kNone && (transient || planned.heap != kNone)) checkPlace(decl, planned);
   }
 
@@ -95,7 +94,7 @@ class Structure {
     }
   }
 
-  /// The images of a history swap, so that each must lie where the other one lay.
+  /// The images of a history swap roles, so that each must lie at the same place of the partner heap as the other.
   void checkHistory(const HistoryDecl& history) {
     const PlannedResource& current = plan_.resources[history.current];
     const PlannedResource& previous = plan_.resources[history.previous];
@@ -111,7 +110,7 @@ class Structure {
     const PlannedHeap& heap = plan_.heaps[planned.heap];
     if (planned.alignment == 0 || planned.offset % planned.alignment != 0) fault(decl, "is misaligned");
     if (planned.offset + planned.size > heap.size) fault(decl, "reaches past the end of its heap");
-    if ((heap.memoryTypeBits & ~planned.memoryTypeBits) != 0) fault(decl, "is in memory that it cannot use");
+    if ((heap.memoryTypeBits & ~planned.memoryTypeBits) != 0) fault(decl, "is in a type of memory that it cannot use");
   }
 
   void checkBarriers(const std::vector<PlannedBarrier>& barriers) {
@@ -125,9 +124,10 @@ class Structure {
         fault(decl, "has a barrier on ALL_COMMANDS");
       }
       const bool texture = std::holds_alternative<TextureDesc>(decl.desc);
-      if (texture == (barrier.newLayout == VK_IMAGE_LAYOUT_UNDEFINED)) fault(decl, "has a barrier into a wrong layout");
+      if (texture == (barrier.newLayout == VK_IMAGE_LAYOUT_UNDEFINED))
+        fault(decl, "has a barrier with the wrong new layout");
       if (barrier.reason == BarrierReason::Retire && barrier.oldLayout != barrier.newLayout) {
-        fault(decl, "changes its layout where its contents are given up");
+        fault(decl, "changes its layout in a Retire barrier");
       }
     }
   }

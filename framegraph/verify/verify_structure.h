@@ -7,8 +7,9 @@
 
 namespace fg::check {
 
-/// What is wrong with a plan at sight, without replaying it: indices, the set of passes, lifetimes, usage flags, places
-/// in the heaps, stage masks.
+/// Check a plan without replaying it: indices, the set of passes, lifetimes, usage flags, places in the heaps, stage
+/// masks.
+/// @return the faults as text
 std::vector<std::string> structuralFaults(const GraphDesc& graph, const Plan& plan);
 
 }  // namespace fg::check

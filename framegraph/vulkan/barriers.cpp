@@ -5,7 +5,7 @@
 namespace fg::vk {
 namespace {
 
-/// Stages and accesses, which the three kinds of barrier spell alike.
+/// A barrier of any of the three kinds with its stages and accesses: the members have the same names in all of them.
 template <typename Barrier>
 Barrier scopes(VkStructureType type, const PlannedBarrier& planned) {
   Barrier barrier{};

@@ -9,12 +9,13 @@
 
 namespace fg::vk {
 
-/// Planned barriers as one vkCmdPipelineBarrier2, built once; only handles are filled in when a frame is recorded.
+/// Planned barriers as one vkCmdPipelineBarrier2. The batch is built once; recording a frame only fills in handles.
 ///
-/// A hand-over of memory is recorded as a global memory barrier beside the image's layout transition: a barrier on the
-/// new owner alone makes no promise about writes of the old one, which is another resource. The layout transition then
-/// covers all writes of its source stages, not only pending ones: synchronization validation (1.3.239) forgets an
-/// owner's writes only when a later owner of the same kind, image or buffer, has written all of its texels.
+/// Where memory gets a new owner (`AliasHandOver`), a global memory barrier is recorded beside the image's layout
+/// transition: a barrier on the new owner alone does not cover writes to the old one, which is another resource. The
+/// layout transition then covers all writes of its source stages, not only pending ones. Synchronization validation
+/// (1.3.239) requires this: it forgets an owner's writes only after a later owner of the same kind, image or buffer,
+/// has written all of its texels.
 class BarrierBatch {
  public:
   BarrierBatch() = default;

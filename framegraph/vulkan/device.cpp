@@ -14,7 +14,7 @@ VkDevice createDevice(const Instance& instance, const PhysicalDevice& physicalDe
   for (const char* const extension : wanted) {
     if (std::ranges::find(physicalDevice.extensions, extension) == physicalDevice.extensions.end()) {
       throw Unsupported("device '" + physicalDevice.name + "' lacks the extension " + extension +
-                            ": choose another device, or do without what needs it",
+                            ": choose another device, or run without what needs it",
                         VK_ERROR_EXTENSION_NOT_PRESENT);
     }
   }

@@ -7,14 +7,14 @@
 
 namespace fg::vk {
 
-/// A logical device with one queue, for programs that bring none of their own.
+/// A logical device with one queue, for programs that have none of their own.
 ///
-/// Enabled are synchronization2 and shaderStorageImageExtendedFormats, which are needed, and where the device has them
-/// maintenance4, shaderStorageImageWriteWithoutFormat and shaderInt16.
+/// It enables synchronization2 and shaderStorageImageExtendedFormats, which are required. It also enables maintenance4,
+/// shaderStorageImageWriteWithoutFormat and shaderInt16 if the physical device has them.
 class Device {
  public:
-  /// @param extensions enabled besides, for instance VK_KHR_swapchain
-  /// @throws Unsupported naming what the device lacks
+  /// @param extensions to enable in addition, for instance VK_KHR_swapchain
+  /// @throws Unsupported with a message that names what the device lacks
   Device(const Instance& instance, const PhysicalDevice& physicalDevice, std::span<const char* const> extensions = {});
   ~Device();
   Device(const Device&) = delete;

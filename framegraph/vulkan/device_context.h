@@ -9,7 +9,7 @@
 
 namespace fg::vk {
 
-/// A device as its owner hands it over. Nothing here is owned, and all of it must outlive what is made from it.
+/// A host's Vulkan device. The handles remain the host's, and must outlive everything that is created from them.
 ///
 /// The device must have been created with the synchronization2 feature (Vulkan 1.3, or VK_KHR_synchronization2).
 struct DeviceView {
@@ -17,17 +17,17 @@ struct DeviceView {
   VkPhysicalDevice physicalDevice = VK_NULL_HANDLE;
   VkDevice device = VK_NULL_HANDLE;
   PFN_vkGetInstanceProcAddr getInstanceProcAddr = nullptr;
-  std::uint32_t queueFamily = 0;  ///< Family of the queue that recorded frames are submitted to; must do compute.
+  std::uint32_t queueFamily = 0;  ///< Family of the queue to which frames are submitted; must support compute.
   const VkAllocationCallbacks* allocator = nullptr;  ///< Optional.
 };
 
-/// A device's functions and what is asked of it again and again, loaded once.
+/// A device with its functions and those of its properties that are needed often. Loaded once.
 struct DeviceContext {
   DeviceContext() = default;
-  /// @throws Unsupported naming a Vulkan function that is missing
+  /// @throws Unsupported with a message that names a missing Vulkan function
   explicit DeviceContext(const DeviceView& deviceView);
 
-  /// Give a Vulkan object a name for validation messages and captures; nothing happens without VK_EXT_debug_utils.
+  /// Name a Vulkan object for validation messages and captures. Does nothing without VK_EXT_debug_utils.
   template <typename Handle>
   void setName(VkObjectType type, Handle handle, const std::string& name) const {
     setName(type, reinterpret_cast<std::uint64_t>(handle), name);
@@ -39,7 +39,7 @@ struct DeviceContext {
   DeviceFunctions functions;
   VkPhysicalDeviceProperties properties{};
   VkPhysicalDeviceMemoryProperties memory{};
-  std::uint32_t timestampBits = 0;  ///< Valid bits of a timestamp on the queue family; 0 where it has none.
+  std::uint32_t timestampBits = 0;  ///< Valid bits of a timestamp on the queue family; 0 if it has no timestamps.
 };
 
 }  // namespace fg::vk

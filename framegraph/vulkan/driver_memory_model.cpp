@@ -6,7 +6,7 @@
 namespace fg::vk {
 namespace {
 
-/// Ask through maintenance4 where the device has it, else by making the resource once.
+/// Query the requirements through maintenance4. Without it, create the resource, query it and destroy it again.
 template <typename Info, typename CreateInfo, typename Query, typename Make>
 MemoryRequirements query(const DeviceContext& device, VkStructureType type, const CreateInfo& createInfo,
                          Query function, Make make) {

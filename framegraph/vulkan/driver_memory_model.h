@@ -9,11 +9,12 @@
 
 namespace fg::vk {
 
-/// What the driver says about memory and formats. Answers are cached; may be asked from several threads.
+/// A memory model that queries the driver. Results are cached. Several threads may use it at once.
 class DriverMemoryModel final : public MemoryModel {
  public:
   /// @param device must outlive the model
-  /// @param poison for a plan that is executed with `ExecutorOptions::poison`: images can then also be cleared
+  /// @param poison must equal `ExecutorOptions::poison` of the executor that gets the plan: poisoning needs the usage
+  ///        flags below
   explicit DriverMemoryModel(const DeviceContext& device, bool poison = false) : device_(&device), poison_(poison) {}
 
   [[nodiscard]] MemoryRequirements texture(const TextureDesc& desc, VkImageUsageFlags usage) const override;
@@ -33,7 +34,7 @@ class DriverMemoryModel final : public MemoryModel {
   mutable std::map<BufferKey, MemoryRequirements> buffers_;
 };
 
-/// Usage flags that poisoning adds to a resource: it is cleared by a transfer command.
+/// Usage flags that poisoning adds to a resource, because a transfer command fills it.
 inline constexpr VkImageUsageFlags kPoisonImageUsage = VK_IMAGE_USAGE_TRANSFER_DST_BIT;
 inline constexpr VkBufferUsageFlags kPoisonBufferUsage = VK_BUFFER_USAGE_TRANSFER_DST_BIT;
 

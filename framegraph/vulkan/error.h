@@ -7,7 +7,7 @@
 
 namespace fg::vk {
 
-/// Something went wrong in Vulkan. The message names what was being done and the way out; `result` is Vulkan's word.
+/// A Vulkan call failed. The message names the failed action and what to do about it; `result` is Vulkan's error code.
 class Error : public std::runtime_error {
  public:
   explicit Error(const std::string& message, VkResult result = VK_ERROR_UNKNOWN)
@@ -18,22 +18,22 @@ class Error : public std::runtime_error {
   VkResult result_;
 };
 
-/// Host or device memory ran out. Everything made so far is released; try again with smaller textures.
+/// Host or device memory ran out. Everything created so far is released. Try again with smaller textures.
 class OutOfMemory final : public Error {
   using Error::Error;
 };
 
-/// The device is gone: it hung, was reset or was unplugged. Make a new device and a new executor.
+/// The device is lost: it hung, was reset or was unplugged. Create a new device and a new executor.
 class DeviceLost final : public Error {
   using Error::Error;
 };
 
-/// The driver would not make a pipeline. The message names the shader.
+/// The driver failed to create a pipeline. The message names the shader.
 class PipelineFailed final : public Error {
   using Error::Error;
 };
 
-/// No Vulkan, no device, or a device without something that is needed.
+/// There is no Vulkan, no device, or a device that lacks something required.
 class Unsupported final : public Error {
   using Error::Error;
 };
@@ -41,8 +41,8 @@ class Unsupported final : public Error {
 /// Vulkan's name of a result, for instance "VK_ERROR_DEVICE_LOST".
 std::string resultName(VkResult result);
 
-/// Throw the fitting error unless `result` is a success.
-/// @param action what was being done, as in "creating image 'depth'"
+/// Throw the error class for `result`, unless it is a success.
+/// @param action what the call does, for the message: "creating image 'depth'"
 void check(VkResult result, const std::string& action);
 
 }  // namespace fg::vk

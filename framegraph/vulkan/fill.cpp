@@ -9,13 +9,13 @@ namespace {
 
 constexpr std::uint32_t kAllOnes = ~0u;
 
-// vkCmdFillBuffer is a clear to the specification and a copy to some validation layers.
+// For vkCmdFillBuffer the specification names the clear stage, but some validation layers expect the copy stage.
 constexpr VkPipelineStageFlags2 kFillStage = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;
 
 VkClearColorValue clearColor(FillPattern pattern) {
   VkClearColorValue color{};
   if (pattern == FillPattern::Zero) return color;
-  // All bits set is a quiet NaN to float formats, the largest value to unsigned and -1 to signed integer formats.
+  // All bits set is a quiet NaN in float formats, the largest value in unsigned and -1 in signed integer formats.
   for (std::uint32_t& channel : color.uint32) channel = kAllOnes;
   return color;
 }
@@ -69,7 +69,7 @@ void FillingBatch::fill(const DeviceContext& device, VkCommandBuffer commandBuff
     const VkClearColorValue color = clearColor(pattern_);
     functions.vkCmdClearColorImage(commandBuffer, image, kLayout, &color, 1, &target.range);
   } else {
-    // Depth cannot be NaN without VK_EXT_depth_range_unrestricted; the far plane and an odd stencil stand out instead.
+    // Depth cannot be NaN without VK_EXT_depth_range_unrestricted: use the far plane and an unusual stencil instead.
     const VkClearDepthStencilValue value =
         pattern_ == FillPattern::Poison ? VkClearDepthStencilValue{1.0f, 0xffu} : VkClearDepthStencilValue{0.0f, 0};
     functions.vkCmdClearDepthStencilImage(commandBuffer, image, kLayout, &value, 1, &target.range);
@@ -79,7 +79,7 @@ void FillingBatch::fill(const DeviceContext& device, VkCommandBuffer commandBuff
 FillingBatch historyClear(const GraphDesc& graph, const Plan& plan, std::uint32_t history) {
   const std::uint32_t previous = graph.histories[history].previous;
   if (!plan.resources[previous].used) return {};
-  // From the state in which a frame leaves the history, with contents dropped, and back into that state.
+  // Starts from the state in which a frame leaves the history, discards the contents, and returns to the same state.
   const ExternalState& carry = plan.histories[history].carry;
   PlannedBarrier clear;
   clear.resource = previous;

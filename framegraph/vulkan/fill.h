@@ -5,26 +5,25 @@
 
 #include "framegraph/vulkan/barriers.h"
 
-/// Filling resources outside of any pass: histories with zeros, poisoned memory with NaNs.
+/// Fills resources outside of any pass: invalid histories with zeros, poisoned memory with NaNs.
 namespace fg::vk {
 
-/// What a resource is filled with.
 enum class FillPattern : std::uint8_t {
   Zero,
-  /// Every float a NaN; every integer channel all ones; every normalised channel its largest value, since those cannot
-  /// hold a NaN. Buffers are all ones, which is a NaN as float and as half.
+  /// Float channels are NaN. Integer channels have all bits set. Normalised channels, which cannot hold a NaN, have
+  /// their largest value. Buffers have all bits set, which is a NaN as float and as half.
   Poison,
 };
 
-/// Take the place of a batch of planned barriers: the resources that come in with undefined contents go by way of a
-/// fill command.
+/// A batch of planned barriers in which some resources are filled. It replaces the planned batch.
 ///
-/// Their barriers are split in two around the fill, so that the dependency chain into the pass stays whole.
+/// The barrier of a filled resource is split in two, one before and one after the fill command, so that the dependency
+/// chain into the pass stays complete.
 class FillingBatch {
  public:
   FillingBatch() = default;
   /// @param barriers the planned batch
-  /// @param filled which of them to split, by position
+  /// @param filled indexed like `barriers`: whether to fill the resource of this barrier
   FillingBatch(const GraphDesc& graph, const std::vector<PlannedBarrier>& barriers, const std::vector<bool>& filled,
                FillPattern pattern);
 
@@ -45,14 +44,14 @@ class FillingBatch {
   BarrierBatch after_;
 };
 
-/// Clearing of one history's `previous` before a frame that has no valid frame behind it. Leaves it in the state in
-/// which the plan expects to find last frame's contents.
+/// Clears a history's `previous` before a frame without a valid previous frame. Leaves it in the state in which the
+/// plan expects last frame's contents.
 FillingBatch historyClear(const GraphDesc& graph, const Plan& plan, std::uint32_t history);
 
-/// Planned barriers as they are, nothing filled.
+/// The planned barriers without any fill.
 FillingBatch plainBarriers(const GraphDesc& graph, const std::vector<PlannedBarrier>& barriers);
 
-/// A planned pass's barriers with poison written into every transient that begins its life there.
+/// The barriers of a planned pass, with every transient that is first used there filled with poison.
 FillingBatch poisonedBarriers(const GraphDesc& graph, const PlannedPass& pass);
 
 }  // namespace fg::vk

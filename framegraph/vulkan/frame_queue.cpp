@@ -27,7 +27,7 @@ FrameQueue::FrameQueue(const DeviceContext& device, VkQueue queue, std::uint32_t
 }
 
 FrameQueue::~FrameQueue() {
-  // Also right on a lost device: it reports the loss, and nothing is in flight any more.
+  // Safe on a lost device too: the call returns an error, and nothing is in flight any more.
   device_->functions.vkDeviceWaitIdle(device_->view.device);
 }
 

@@ -10,34 +10,34 @@ namespace fg::vk {
 /// One frame being recorded.
 struct Frame {
   VkCommandBuffer commandBuffer = VK_NULL_HANDLE;
-  std::uint32_t slot = 0;  ///< As `Executor::record` takes it.
+  std::uint32_t slot = 0;  ///< Argument of `Executor::record`.
 };
 
-/// What a frame waits for and tells beside its fence, for instance to and from a swapchain.
+/// Semaphores that a frame waits for and signals, for instance those of a swapchain. A frame always signals its fence.
 struct FrameSemaphores {
   VkSemaphore wait = VK_NULL_HANDLE;
-  VkPipelineStageFlags waitStage = 0;  ///< Of the frame: the first that waits.
+  VkPipelineStageFlags waitStage = 0;  ///< First stage of the frame that waits.
   VkSemaphore signal = VK_NULL_HANDLE;
 };
 
-/// Command buffers and fences of a program that submits one command buffer a frame to one queue and lets a few frames
-/// be in flight.
+/// Command buffers and fences for a program that submits one command buffer per frame to one queue, with a few frames
+/// in flight.
 class FrameQueue {
  public:
-  /// @param queue of the family `device.view.queueFamily`
+  /// @param queue a queue of the family `device.view.queueFamily`
   FrameQueue(const DeviceContext& device, VkQueue queue, std::uint32_t framesInFlight = 2);
   /// Waits for all frames.
   ~FrameQueue();
   FrameQueue(const FrameQueue&) = delete;
   FrameQueue& operator=(const FrameQueue&) = delete;
 
-  /// Start recording with the slot that was used longest ago, once the GPU has finished with it. A frame that was begun
-  /// and not submitted is dropped.
+  /// Start recording into the slot that was used longest ago, after waiting for the GPU to finish with it. Discards a
+  /// frame that was begun but not submitted.
   /// @throws DeviceLost, OutOfMemory
   Frame begin();
   /// @throws DeviceLost, OutOfMemory
   void submit(const Frame& frame, const FrameSemaphores& semaphores = {});
-  /// Wait for the frame last submitted with a slot; at once where there is none.
+  /// Wait for the frame last submitted with a slot. Returns at once if there is none.
   /// @throws DeviceLost
   void wait(std::uint32_t slot);
   void waitAll();

@@ -11,7 +11,7 @@ namespace {
   throw Unsupported(std::string("Vulkan function ") + name + " is missing: " + wayOut, VK_ERROR_FEATURE_NOT_PRESENT);
 }
 
-/// The core function, or the extension's from before it became core.
+/// The core function, or the one of the extension that became core.
 template <typename Function>
 Function loadPromoted(VkDevice device, PFN_vkGetDeviceProcAddr getProcAddr, const std::string& name) {
   PFN_vkVoidFunction function = getProcAddr(device, name.c_str());

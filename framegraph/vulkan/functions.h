@@ -2,11 +2,11 @@
 
 #include <vulkan/vulkan_core.h>
 
-/// Tables of the Vulkan functions in use, filled from proc addresses, so that nothing depends on what the loader
-/// exports and a host may bring whatever entry points it has.
+/// Tables of the Vulkan functions in use. They are loaded through vkGetInstanceProcAddr and vkGetDeviceProcAddr, so
+/// that nothing depends on the symbols of a loader and a host can pass its own entry points.
 namespace fg::vk {
 
-// One line a function keeps declaration and loading in step; C++ has no other way to iterate over names.
+// Lists of names, because C++ has no other way to declare and to load the functions from one list.
 #define FG_VK_INSTANCE_FUNCTIONS(X)           \
   X(vkDestroyInstance)                        \
   X(vkEnumeratePhysicalDevices)               \
@@ -88,12 +88,12 @@ namespace fg::vk {
   X(vkCmdCopyImageToBuffer)        \
   X(vkCmdResetQueryPool)
 
-// Core in Vulkan 1.3, VK_KHR_synchronization2 before.
+// Core in Vulkan 1.3; before that in VK_KHR_synchronization2.
 #define FG_VK_SYNCHRONIZATION2_FUNCTIONS(X) \
   X(vkCmdPipelineBarrier2)                  \
   X(vkCmdWriteTimestamp2)
 
-// Core in Vulkan 1.3, VK_KHR_maintenance4 before; made use of where it is there.
+// Core in Vulkan 1.3; before that in VK_KHR_maintenance4. Optional.
 #define FG_VK_OPTIONAL_FUNCTIONS(X)     \
   X(vkGetDeviceImageMemoryRequirements) \
   X(vkGetDeviceBufferMemoryRequirements)
@@ -105,7 +105,7 @@ struct InstanceFunctions {
   FG_VK_INSTANCE_FUNCTIONS(FG_VK_DECLARE)
   FG_VK_DEBUG_FUNCTIONS(FG_VK_DECLARE)  // Null without VK_EXT_debug_utils.
 
-  /// @throws Unsupported naming the first function that is missing
+  /// @throws Unsupported with a message that names the first missing function
   static InstanceFunctions load(VkInstance instance, PFN_vkGetInstanceProcAddr getInstanceProcAddr);
 };
 
@@ -114,7 +114,7 @@ struct DeviceFunctions {
   FG_VK_SYNCHRONIZATION2_FUNCTIONS(FG_VK_DECLARE)
   FG_VK_OPTIONAL_FUNCTIONS(FG_VK_DECLARE)
 
-  /// @throws Unsupported naming the first function that is missing
+  /// @throws Unsupported with a message that names the first missing function
   static DeviceFunctions load(VkDevice device, PFN_vkGetDeviceProcAddr getDeviceProcAddr);
 };
 

@@ -3,7 +3,7 @@
 namespace fg::vk {
 namespace {
 
-/// @param what what is made, for the error's text
+/// @param what kind of object, for the error message
 template <typename Handle, typename Info, typename Function>
 Owned<Handle> createNamed(const DeviceContext& device, VkObjectType type, Function function, const Info& info,
                           const std::string& what, const std::string& name) {

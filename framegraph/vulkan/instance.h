@@ -10,21 +10,21 @@
 namespace fg::vk {
 
 /// Open the system's Vulkan loader and return its entry point. The loader stays open until the program ends.
-/// @throws Unsupported where there is none
+/// @throws Unsupported if there is none
 PFN_vkGetInstanceProcAddr openLoader();
 
 struct InstanceOptions {
   std::string applicationName = "walr";
-  bool debugLabels = false;  ///< Enable VK_EXT_debug_utils where it is there: names and labels in captures.
+  bool debugLabels = false;  ///< Enable VK_EXT_debug_utils if available: names and labels in captures.
   bool validation = false;   ///< The Khronos validation layer with synchronization validation; implies debug labels.
-  MessageSink sink;          ///< Takes validation messages; called only with `validation`.
-  std::vector<const char*> extensions;  ///< Enabled besides, for instance those of a window system.
+  MessageSink sink;          ///< Receives validation messages; called only with `validation`.
+  std::vector<const char*> extensions;  ///< Additional ones, for instance those of a window system.
 };
 
-/// A Vulkan instance for programs that bring none of their own.
+/// A Vulkan instance for programs that have none of their own.
 class Instance {
  public:
-  /// @throws Unsupported where there is no loader or driver, or no validation layer though one is asked for
+  /// @throws Unsupported if there is no loader or driver, or if the requested validation layer is missing
   explicit Instance(const InstanceOptions& options = {}, PFN_vkGetInstanceProcAddr entry = openLoader());
   ~Instance();
   Instance(const Instance&) = delete;

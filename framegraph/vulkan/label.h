@@ -4,7 +4,7 @@
 
 namespace fg::vk {
 
-/// A named region of a command buffer, for captures and validation messages. Nothing without VK_EXT_debug_utils.
+/// A named region of a command buffer, for captures and validation messages. Does nothing without VK_EXT_debug_utils.
 class Label {
  public:
   Label(const DeviceContext& device, VkCommandBuffer commandBuffer, const char* name)

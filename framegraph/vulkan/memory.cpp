@@ -29,11 +29,11 @@ Owned<VkDeviceMemory> allocateMemory(const DeviceContext& device, std::uint64_t 
     device.setName(VK_OBJECT_TYPE_DEVICE_MEMORY, memory.get(), what);
     return memory;
   }
-  // Every device has a type that is device-local, but not every resource may live in one.
+  // Every device has a device-local memory type, but not every resource can use one.
   if ((properties & VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT) != 0) {
     return allocateMemory(device, size, memoryTypeBits, properties & ~VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, what);
   }
-  throw Unsupported("no memory type of the device serves " + what, VK_ERROR_FEATURE_NOT_PRESENT);
+  throw Unsupported("no memory type of the device is suitable for " + what, VK_ERROR_FEATURE_NOT_PRESENT);
 }
 
 MemoryRequirements memoryRequirements(const DeviceContext& device, VkImage image) {

@@ -10,24 +10,25 @@
 
 namespace fg::vk {
 
-/// Allocate from the first memory type that is allowed and has the wanted properties.
-/// @param what what the memory is for, for the error's text
-/// @throws OutOfMemory, or Unsupported where no memory type fits
+/// Allocate from the first allowed memory type that has these properties. Device-local memory is only a preference:
+/// other memory is used if no allowed type is device-local.
+/// @param what user of the memory, for the error message
+/// @throws OutOfMemory, or Unsupported if no memory type is suitable
 Owned<VkDeviceMemory> allocateMemory(const DeviceContext& device, std::uint64_t size, std::uint32_t memoryTypeBits,
                                      VkMemoryPropertyFlags properties, const std::string& what);
 
 MemoryRequirements memoryRequirements(const DeviceContext& device, VkImage image);
 MemoryRequirements memoryRequirements(const DeviceContext& device, VkBuffer buffer);
 
-/// Images and buffers that live as long as each other, laid one after the other into one allocation per set of allowed
-/// memory types. Add everything, then allocate once.
+/// Memory for images and buffers of equal lifetime: one allocation per set of allowed memory types, in which they lie
+/// one after the other. Add everything, then allocate once.
 class MemoryArena {
  public:
   MemoryArena(const DeviceContext& device, VkMemoryPropertyFlags properties, std::string name)
       : device_(&device), properties_(properties), name_(std::move(name)) {}
 
   void add(VkImage image);
-  /// @param mapped receives the buffer's first byte once memory is allocated; for host-visible arenas
+  /// @param mapped for host-visible arenas: `allocate` stores the address of the buffer's first byte here
   void add(VkBuffer buffer, std::byte** mapped = nullptr);
   /// Allocate, bind and map. Call once.
   void allocate();

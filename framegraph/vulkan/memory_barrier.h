@@ -5,11 +5,11 @@
 
 namespace fg::vk {
 
-/// A barrier over all memory, for what is recorded outside a graph or within one of its passes. Layouts are ignored.
+/// Record a global memory barrier, for commands outside a graph or inside one of its passes. Ignores layouts.
 void recordMemoryBarrier(const DeviceContext& device, VkCommandBuffer commandBuffer, const ExternalState& before,
                          const ExternalState& after);
 
-/// Make what copies have written visible to the host, once it has waited for the frame.
+/// Make the results of copies visible to the host after it has waited for the frame.
 void recordHostVisibility(const DeviceContext& device, VkCommandBuffer commandBuffer);
 
 }  // namespace fg::vk

@@ -15,14 +15,14 @@ struct Message {
   std::string text;  ///< The whole message.
 };
 
-/// Takes each warning and error as it comes, from whichever thread makes the offending call.
+/// Called with each warning and error at once, on the thread of the offending call.
 using MessageSink = std::function<void(const Message&)>;
 
-/// A sink that keeps what it is given. Must outlive the instance that it is passed to.
+/// Keeps messages for later. Must outlive the instance that uses its sink.
 class MessageLog {
  public:
   [[nodiscard]] MessageSink sink();
-  /// Everything since the last call.
+  /// All messages since the last call.
   std::vector<Message> take();
 
  private:

@@ -7,7 +7,7 @@
 
 namespace fg::vk {
 
-/// The destroying function of each handle type.
+/// The function that destroys handles of a type.
 template <typename Handle>
 inline constexpr auto kDestroy = nullptr;
 template <>
@@ -39,7 +39,7 @@ inline constexpr auto kDestroy<VkFence> = &DeviceFunctions::vkDestroyFence;
 template <>
 inline constexpr auto kDestroy<VkCommandPool> = &DeviceFunctions::vkDestroyCommandPool;
 
-/// A Vulkan handle that is destroyed with its owner.
+/// A Vulkan handle, destroyed in the destructor.
 template <typename Handle>
 class Owned {
  public:
@@ -66,7 +66,7 @@ class Owned {
 };
 
 /// Call a Vulkan function of the shape `vkCreateX(device, &info, allocator, &handle)`.
-/// @param action what is being done, for the error's text
+/// @param action what the call does, for the error message
 template <typename Handle, typename Info, typename Function>
 Owned<Handle> create(const DeviceContext& device, Function function, const Info& info, const std::string& action) {
   Handle handle = VK_NULL_HANDLE;

@@ -55,7 +55,7 @@ bool hasExtension(const PhysicalDevice& device, std::string_view name) {
   return std::ranges::find(device.extensions, name) != device.extensions.end();
 }
 
-/// Ask for a feature struct, unless neither the version nor the extension that defines it is there.
+/// Query a feature struct. All features are off if the device has neither Vulkan 1.3 nor the extension.
 template <typename Features>
 Features queryFeature(const InstanceFunctions& functions, const PhysicalDevice& device, VkStructureType type,
                       std::string_view extension) {
@@ -166,7 +166,7 @@ std::vector<PhysicalDevice> physicalDevices(const Instance& instance) {
   check(functions.vkEnumeratePhysicalDevices(instance.handle(), &count, handles.data()), "enumerating devices");
   if (handles.empty()) {
     throw Unsupported(
-        "no Vulkan device found: the drivers that are installed see no hardware; Mesa's software driver "
+        "no Vulkan device found: the installed drivers find no hardware; Mesa's software driver "
         "(package mesa-vulkan-drivers) needs none",
         VK_ERROR_INITIALIZATION_FAILED);
   }
@@ -195,7 +195,7 @@ const PhysicalDevice& choose(const std::vector<PhysicalDevice>& devices, std::st
     return isIndex ? candidate.index == index : lower(candidate.name).find(lower(choice)) != std::string::npos;
   });
   if (device == devices.end()) {
-    throw Unsupported("no Vulkan device '" + std::string(choice) + "'; there is\n" + listing(devices),
+    throw Unsupported("no Vulkan device '" + std::string(choice) + "'; available devices:\n" + listing(devices),
                       VK_ERROR_INITIALIZATION_FAILED);
   }
   return *device;
@@ -216,7 +216,7 @@ std::vector<std::string> missing(const PhysicalDevice& device, const std::vector
   if (device.apiVersion < VK_API_VERSION_1_1) {
     lacks.push_back("Vulkan 1.1 (it has " + versionText(device.apiVersion) + "): update the driver");
   }
-  if (device.computeQueueFamily == kNone) lacks.emplace_back("a queue that does compute: choose another device");
+  if (device.computeQueueFamily == kNone) lacks.emplace_back("a queue that supports compute: choose another device");
   if (!device.synchronization2) {
     lacks.emplace_back("feature synchronization2 (Vulkan 1.3 or VK_KHR_synchronization2): update the driver");
   }

@@ -12,51 +12,51 @@
 
 namespace fg::vk {
 
-/// What people and programs want to know about a device before they choose it.
+/// Properties of a device by which people and programs choose one.
 struct PhysicalDevice {
   VkPhysicalDevice handle = VK_NULL_HANDLE;
-  std::uint32_t index = 0;  ///< As `--device` takes it.
+  std::uint32_t index = 0;  ///< Argument of the option `--device`.
   std::string name;         ///< "AMD Radeon RX 7600".
   std::string driver;       ///< Driver and its version: "radv Mesa 22.3.6".
   VkPhysicalDeviceType type{};
   std::uint32_t apiVersion = 0;
-  std::uint32_t computeQueueFamily = kNone;  ///< A graphics family where there is one that also does compute.
+  std::uint32_t computeQueueFamily = kNone;  ///< A family that also supports graphics if there is one.
   bool synchronization2 = false;             ///< As core feature of Vulkan 1.3 or as extension.
   bool maintenance4 = false;
   VkPhysicalDeviceFeatures features{};
   std::vector<std::string> extensions;
-  /// Features of optimally tiled images.
+  /// Features of optimally tiled images of a format.
   std::function<VkFormatFeatureFlags(VkFormat)> formatFeatures;
 };
 
-/// What a host's device is and can do.
-/// @param index as its owner numbers it
+/// The properties of a host's device.
+/// @param index the host's number for it
 PhysicalDevice physicalDevice(const InstanceFunctions& functions, VkPhysicalDevice handle, std::uint32_t index = 0);
 
 /// All devices of all drivers, in the loader's order.
-/// @throws Unsupported where there is none
+/// @throws Unsupported if there is none
 std::vector<PhysicalDevice> physicalDevices(const Instance& instance);
 
-/// One line a device: index, name, driver, type and Vulkan version.
+/// One line per device: index, name, driver, type and Vulkan version.
 std::string listing(const std::vector<PhysicalDevice>& devices);
 
 /// Choose a device.
-/// @param choice an index, a part of a name (case does not matter), or nothing for the best: discrete before integrated
-///        before virtual before software, among equals the first
-/// @throws Unsupported naming the choice and what there is
+/// @param choice an index or a part of a name, ignoring case. If empty, the best device is chosen: discrete before
+///        integrated before virtual before software; the first among equals
+/// @throws Unsupported with a message that names the choice and the available devices
 const PhysicalDevice& choose(const std::vector<PhysicalDevice>& devices, std::string_view choice);
 
-/// A use of a format that a device must offer.
+/// A use of a format that a device must support.
 struct FormatUse {
   VkFormat format = VK_FORMAT_UNDEFINED;
   VkImageUsageFlags usage = 0;
-  std::string resource;  ///< Whose format it is, for the error's text.
+  std::string resource;  ///< Resource with this format, for the error message.
 };
 
 /// Every use of a format in a plan.
 std::vector<FormatUse> formatUses(const GraphDesc& graph, const Plan& plan);
 
-/// What a device lacks, each with the way out; empty for a device that will do.
+/// What a device lacks, each with a remedy. Empty if it lacks nothing.
 std::vector<std::string> missing(const PhysicalDevice& device, const std::vector<FormatUse>& formats = {});
 
 /// @throws Unsupported with everything that `missing` finds

@@ -58,7 +58,7 @@ void Resources::makeTexture(std::uint32_t resource, const TextureDesc& desc, boo
   const ResourceDecl& decl = graph_->resources[resource];
   const PlannedResource& planned = plan_->resources[resource];
   VkImage* const images = &images_[resource * kParities];
-  if (decl.lifetime == Lifetime::HistoryPrevious) return;  // Made with the current one, whose other copy it is.
+  if (decl.lifetime == Lifetime::HistoryPrevious) return;  // Created with `current`: the two swap images.
   const bool history = decl.lifetime == Lifetime::HistoryCurrent;
   VkImageUsageFlags usage = planned.imageUsage;
   if (history) {
@@ -130,9 +130,10 @@ void Resources::checkPlacement(std::uint32_t resource, const MemoryRequirements&
                     planned.offset + requirements.size <= heap.size &&
                     (requirements.memoryTypeBits & heap.memoryTypeBits) == heap.memoryTypeBits;
   if (fits) return;
-  throw Error("'" + graph_->resources[resource].name + "' does not fit where the plan puts it (needs " +
-              std::to_string(requirements.size) + " bytes, has " + std::to_string(planned.size) +
-              "): compile the graph with the DriverMemoryModel of this device, made with the executor's poison option");
+  throw Error(
+      "'" + graph_->resources[resource].name + "' does not fit where the plan puts it (it needs " +
+      std::to_string(requirements.size) + " bytes and has " + std::to_string(planned.size) +
+      "): compile the graph with the DriverMemoryModel of this device, with the same poison option as the executor");
 }
 
 }  // namespace fg::vk

@@ -11,10 +11,10 @@
 
 namespace fg::vk {
 
-/// Every image and buffer that a plan uses, made or imported, by resource index and frame.
+/// Every image and buffer that a plan uses, created or imported. Indexed by resource and frame.
 class Resources {
  public:
-  /// @throws OutOfMemory, or Error where the plan was compiled for another device
+  /// @throws OutOfMemory, or Error if the plan was compiled for another device
   Resources(const DeviceContext& device, const GraphDesc& graph, const Plan& plan, std::uint32_t slots, bool poison);
 
   [[nodiscard]] VkImage image(std::uint32_t resource, FrameIndex frame) const {
@@ -23,17 +23,17 @@ class Resources {
   [[nodiscard]] VkBuffer buffer(std::uint32_t resource, FrameIndex frame) const {
     return buffers_[(resource * slots_ + frame.slot) * kParities + frame.parity];
   }
-  /// First byte of an upload buffer's copy.
+  /// First byte of a frame slot's copy of an upload buffer.
   [[nodiscard]] std::byte* mapped(std::uint32_t resource, std::uint32_t slot) const {
     return mapped_[resource * slots_ + slot];
   }
-  /// Put another image in the place of a frame's. Returns the one that was there.
+  /// Replace the image of a resource in frames of one parity. Returns the old image.
   VkImage exchange(std::uint32_t resource, std::uint32_t parity, VkImage image) {
     return std::exchange(images_[resource * kParities + parity], image);
   }
   void import(std::uint32_t resource, VkImage image);
   void import(std::uint32_t resource, VkBuffer buffer);
-  /// Bytes allocated, all memory together.
+  /// Sum of all allocated bytes.
   [[nodiscard]] std::uint64_t allocatedBytes() const;
 
  private:
@@ -42,11 +42,11 @@ class Resources {
   VkImage addImage(std::uint32_t resource, const TextureDesc& desc, VkImageUsageFlags usage);
   VkBuffer addBuffer(std::uint32_t resource, const BufferDesc& desc, VkBufferUsageFlags usage);
   void allocateHeaps();
-  /// What stands for a resource's heap in frames of a parity.
+  /// The allocation of a resource's heap in frames of one parity.
   [[nodiscard]] VkDeviceMemory heapOf(const PlannedResource& planned, std::uint32_t parity) const {
     return heaps_[allocationOf(plan_->heaps, planned.heap, parity)].get();
   }
-  /// Parities of frames that need a copy of their own of a resource: those whose heap is another allocation.
+  /// Number of copies of a resource: two if its heap is another allocation in odd frames.
   [[nodiscard]] std::uint32_t copies(const PlannedResource& planned) const {
     return planned.heap != kNone && plan_->heaps[planned.heap].partner != kNone ? kParities : 1;
   }
@@ -62,8 +62,8 @@ class Resources {
   MemoryArena uploads_;
   std::vector<Owned<VkImage>> ownedImages_;
   std::vector<Owned<VkBuffer>> ownedBuffers_;
-  std::vector<VkImage> images_;    ///< By resource and parity.
-  std::vector<VkBuffer> buffers_;  ///< By resource, slot and parity.
+  std::vector<VkImage> images_;    ///< Indexed by resource and parity.
+  std::vector<VkBuffer> buffers_;  ///< Indexed by resource, slot and parity.
   std::vector<std::byte*> mapped_;
 };
 

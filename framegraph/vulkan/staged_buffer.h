@@ -10,17 +10,17 @@
 
 namespace fg::vk {
 
-/// A host's buffer with staging memory for every frame slot, so that what a frame left in it is read while other frames
-/// are in flight. Import it as `kOverwritable` and export it as `kReadable` (staged_image.h).
+/// A host's buffer with staging memory for every frame slot, so that the host can read a frame's result while other
+/// frames are in flight. Import it as `kOverwritable` and export it as `kReadable` (staged_image.h).
 class StagedBuffer {
  public:
-  /// @param usage what the graph does with it (see `Executor::usage`); the transfer is added
+  /// @param usage usage flags that the graph needs (see `Executor::usage`); those of the transfer are added
   /// @throws OutOfMemory
   StagedBuffer(const DeviceContext& device, const BufferDesc& desc, VkBufferUsageFlags usage, std::uint32_t slots,
                const std::string& name);
 
   [[nodiscard]] VkBuffer handle() const { return buffer_.get(); }
-  /// To be read once the frame of `recordReadback` is finished, and until the slot is used again.
+  /// Contents to read after the frame of `recordReadback` has finished, until the slot is used again.
   [[nodiscard]] std::span<const std::byte> staging(std::uint32_t slot) const;
   void recordReadback(VkCommandBuffer commandBuffer, std::uint32_t slot) const;
 

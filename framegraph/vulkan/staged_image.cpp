@@ -50,7 +50,7 @@ VkBufferImageCopy StagedImage::copyRegion() const {
 void StagedImage::recordUpload(VkCommandBuffer commandBuffer, std::uint32_t slot) const {
   VkImageMemoryBarrier2 barrier{};
   barrier.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2;
-  // Whatever read it in the frame before; only the graph knows the stages, and it does not hand this image back.
+  // Waits for all reads in the previous frame. Only the graph knows their stages, and it does not export this image.
   barrier.srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
   barrier.dstStageMask = kUploaded.stage;
   barrier.dstAccessMask = kUploaded.access;

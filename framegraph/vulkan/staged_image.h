@@ -18,20 +18,20 @@ inline constexpr ExternalState kReadable{VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS
 /// How to import a StagedImage whose contents the graph overwrites: it waits for the last frame's readback.
 inline constexpr ExternalState kOverwritable{VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_NONE, VK_IMAGE_LAYOUT_UNDEFINED};
 
-/// A host's image of one level and layer with staging memory for every frame slot: texels come in through
-/// `recordUpload` and go out through `recordReadback`, while other frames are in flight.
+/// A host's image of one mip level and layer with staging memory for every frame slot: `recordUpload` writes its texels
+/// and `recordReadback` reads them, while other frames are in flight.
 class StagedImage {
  public:
   enum class Direction { Upload, Readback };
 
-  /// @param usage what the graph does with it (see `Executor::usage`); the transfer is added
+  /// @param usage usage flags that the graph needs (see `Executor::usage`); those of the transfer are added
   /// @throws OutOfMemory
   StagedImage(const DeviceContext& device, const TextureDesc& desc, VkImageUsageFlags usage, Direction direction,
               std::uint32_t slots, const std::string& name);
 
   [[nodiscard]] ExternalImage external() const { return {image_.get(), 0}; }
-  /// Rows of texels without padding. To be written before `recordUpload` is submitted, or read once the frame of
-  /// `recordReadback` is finished.
+  /// Rows of texels without padding. Write them before the frame of `recordUpload` is submitted, or read them after the
+  /// frame of `recordReadback` has finished.
   [[nodiscard]] std::span<std::byte> staging(std::uint32_t slot) const;
   void recordUpload(VkCommandBuffer commandBuffer, std::uint32_t slot) const;
   void recordReadback(VkCommandBuffer commandBuffer, std::uint32_t slot) const;

@@ -13,19 +13,19 @@ namespace fg::vk {
 /// GPU time of one pass.
 struct PassTime {
   std::string name;
-  double milliseconds = 0.0;  ///< From the end of the pass before, so barriers count to the pass that waits.
+  double milliseconds = 0.0;  ///< Measured from the end of the previous pass, so it includes the barriers.
 };
 
-/// GPU timestamps between the passes, by frame slot.
+/// GPU timestamps between the passes, for every frame slot.
 class Timestamps {
  public:
-  /// @throws Unsupported where the queue family has no timestamps
+  /// @throws Unsupported if the queue family has no timestamps
   Timestamps(const DeviceContext& device, const GraphDesc& graph, const Plan& plan, std::uint32_t slots);
 
   void begin(VkCommandBuffer commandBuffer, std::uint32_t slot);
-  /// The end of the pass at this position of the plan.
+  /// Record the end of the pass at this position of the plan.
   void endPass(VkCommandBuffer commandBuffer, std::uint32_t slot, std::uint32_t plannedPass);
-  /// Times of the frame last recorded with the slot; the GPU must have finished it. Empty where there is none.
+  /// Times of the frame last recorded with the slot, which the GPU must have finished. Empty if there is none.
   std::span<const PassTime> read(std::uint32_t slot);
 
  private:
@@ -34,7 +34,7 @@ class Timestamps {
   const DeviceContext* device_;
   std::uint32_t queryCount_;
   std::vector<Owned<VkQueryPool>> pools_;
-  std::vector<bool> recorded_;  ///< By slot.
+  std::vector<bool> recorded_;  ///< Indexed by slot.
   std::vector<std::uint64_t> ticks_;
   std::vector<PassTime> times_;
 };

@@ -19,7 +19,8 @@ Uploads::Uploads(const GraphDesc& graph, const Plan& plan, std::uint32_t slots)
 
 void Uploads::set(std::uint32_t resource, std::span<const std::byte> bytes) {
   if (resource >= entryOf_.size() || entryOf_[resource] == kNone) {
-    throw std::invalid_argument("upload: the buffer was not declared with Graph::upload");
+    throw std::invalid_argument(
+        "upload: the buffer is not declared with Graph::upload; use the handle that it returns");
   }
   Entry& entry = entries_[entryOf_[resource]];
   if (bytes.size() != entry.bytes.size()) {

@@ -23,7 +23,7 @@ std::uint32_t Views::request(std::uint32_t resource, const SubresourceRange& ran
   Request request{resource, range, {}};
   for (std::uint32_t parity = 0; parity < kParities; ++parity) {
     const VkImage image = resources_->image(resource, {.slot = 0, .parity = parity});
-    if (image == VK_NULL_HANDLE) break;  // An import; its views come with its images.
+    if (image == VK_NULL_HANDLE) break;  // An import: its views are created when an image is bound.
     const bool sameAsFirst = parity == 1 && image == resources_->image(resource, {.slot = 0, .parity = 0});
     if (!sameAsFirst) owned_.push_back(makeView(*device_, graph_->resources[resource], range, image));
     request.handles[parity] = owned_.back().get();

@@ -8,14 +8,14 @@
 
 namespace fg::vk {
 
-/// Views of the textures that passes touch. Those of imports are kept by the host's identity of the image, so that a
-/// host that takes turns among a few images makes no views after the first round.
+/// Image views of the textures that passes use. Views of imports are cached under the host's identity of the image, so
+/// that a host which alternates between a few images causes no new views after the first round.
 class Views {
  public:
   Views(const DeviceContext& device, const GraphDesc& graph, const Resources& resources)
       : device_(&device), graph_(&graph), resources_(&resources) {}
 
-  /// Ask for a view before the first frame. Returns its index; the same for the same texture and range.
+  /// Request a view before the first frame. Returns its index, which is the same for the same texture and range.
   std::uint32_t request(std::uint32_t resource, const SubresourceRange& range);
   [[nodiscard]] VkImageView get(std::uint32_t view, FrameIndex frame) const {
     return requests_[view].handles[frame.parity];
@@ -24,9 +24,9 @@ class Views {
   void import(std::uint32_t resource, VkImage image, std::uint64_t identity);
   /// Point all views of a texture at another image, in frames of one parity.
   void replace(std::uint32_t resource, std::uint32_t parity, VkImage image);
-  /// Take that back.
+  /// Undo `replace`.
   void restore(std::uint32_t resource, std::uint32_t parity);
-  /// Destroy the views of a host's image.
+  /// Destroy the views of the host's image with this identity.
   void forget(std::uint64_t identity);
 
  private:
@@ -34,7 +34,7 @@ class Views {
     std::uint32_t resource = kNone;
     SubresourceRange range;
     VkImageView handles[kParities] = {};
-    VkImageView replaced = VK_NULL_HANDLE;  ///< In whose place another is, with `replace`.
+    VkImageView replaced = VK_NULL_HANDLE;  ///< The view that `replace` has replaced.
   };
 
   const DeviceContext* device_;
@@ -42,7 +42,7 @@ class Views {
   const Resources* resources_;
   std::vector<Request> requests_;
   std::vector<Owned<VkImageView>> owned_;
-  std::map<std::pair<std::uint64_t, std::uint32_t>, Owned<VkImageView>> imported_;  ///< By identity and request.
+  std::map<std::pair<std::uint64_t, std::uint32_t>, Owned<VkImageView>> imported_;  ///< Keyed by identity and request.
 };
 
 }  // namespace fg::vk

@@ -14,7 +14,7 @@ namespace {
 using test::kColor;
 using test::recordNothing;
 
-TEST(Compile, ChainOfPassesSharesMemoryAndHasOneBarrierAnAccess) {
+TEST(Compile, ChainOfPassesSharesMemoryAndHasOneBarrierPerAccess) {
   Graph graph;
   const Texture input = graph.import("input", kColor, test::kSampled);
   const History history = graph.history("accumulated", kColor);
@@ -49,7 +49,7 @@ class UnreadWriteTest : public ::testing::Test {
     EXPECT_TRUE(result.ok()) << result.text();
     plan_ = std::move(result.plan);
   }
-  /// Position in the plan of the only barrier of a kind; kNone where there is none.
+  /// Position in the plan of the only barrier with this reason; kNone if there is none.
   static std::uint32_t positionOf(const Plan& plan, BarrierReason reason) {
     for (std::uint32_t i = 0; i < plan.passes.size(); ++i) {
       if (std::ranges::count(plan.passes[i].barriers, reason, &PlannedBarrier::reason) == 1) return i;
@@ -60,7 +60,7 @@ class UnreadWriteTest : public ::testing::Test {
   Plan plan_;
 };
 
-TEST_F(UnreadWriteTest, IsMadeAvailableBehindItsPassAndThenGivesUpItsMemory) {
+TEST_F(UnreadWriteTest, IsMadeAvailableAfterItsPassAndHoldsItsMemoryUntilThen) {
   const std::uint32_t unread = plan_.resources[0].firstUse;
   ASSERT_LT(unread + 1, plan_.passes.size());
   EXPECT_EQ(positionOf(plan_, BarrierReason::Retire), unread + 1);
@@ -69,7 +69,7 @@ TEST_F(UnreadWriteTest, IsMadeAvailableBehindItsPassAndThenGivesUpItsMemory) {
   EXPECT_TRUE(verify(graph_.desc(), plan_).empty());
 }
 
-TEST_F(UnreadWriteTest, IsAHazardToTheNextOwnerWhereNothingMakesItAvailable) {
+TEST_F(UnreadWriteTest, IsAHazardForTheNextOwnerIfNothingMakesItAvailable) {
   std::erase_if(plan_.passes[positionOf(plan_, BarrierReason::Retire)].barriers,
                 [](const PlannedBarrier& barrier) { return barrier.reason == BarrierReason::Retire; });
   const std::vector<std::string> faults = verify(graph_.desc(), plan_);
@@ -77,7 +77,7 @@ TEST_F(UnreadWriteTest, IsAHazardToTheNextOwnerWhereNothingMakesItAvailable) {
   EXPECT_NE(faults.front().find("takes over the memory of 'unread'"), std::string::npos) << faults.front();
 }
 
-TEST_F(UnreadWriteTest, ExplainsWhyTheNextPassDoesNotHaveItsMemory) {
+TEST_F(UnreadWriteTest, IsTheReasonWhyTheNextPassCannotUseItsMemory) {
   EXPECT_NE(whyNotAliased(graph_.desc(), plan_, "unread", "of b").find("nobody reads the last write"),
             std::string::npos)
       << whyNotAliased(graph_.desc(), plan_, "unread", "of b") << toText(graph_.desc(), plan_);

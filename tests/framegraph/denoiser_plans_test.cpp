@@ -17,8 +17,8 @@
 #include "integration/denoise_graph.h"
 #include "tests/framegraph/line_diff.h"
 
-/// The plans of all denoisers' graphs beside those on record, one text file a method and preset, at a fixed size and
-/// with the built-in memory table, so that every change of a plan is seen in review. After a change that is meant:
+/// Compares the plans of all denoisers with recorded ones, so that every change of a plan shows in review. There is one
+/// text file per method and preset, for a fixed image size and the built-in memory table. After an intended change:
 ///
 ///     cmake --build build --target update_plans
 namespace walr {
@@ -28,10 +28,10 @@ namespace fs = std::filesystem;
 
 constexpr fg::Extent kExtent = {1920, 1080};
 
-/// One way to denoise.
+/// A method with one of its presets.
 struct Variant {
   std::string method;
-  std::string preset;  ///< Empty where the method has none.
+  std::string preset;  ///< Empty if the method has none.
 
   [[nodiscard]] std::string name() const { return preset.empty() ? method : method + "-" + preset; }
 };
@@ -58,7 +58,7 @@ fs::path fileOf(const Variant& variant) {
   return folder() / (variant.name() + ".txt");
 }
 
-/// Whether to write the plans, in place of comparing them.
+/// True if the plans are to be written instead of compared.
 bool updating() {
   return std::getenv("WALR_UPDATE_PLANS") != nullptr;
 }
@@ -86,7 +86,7 @@ class DenoiserPlansTest : public testing::TestWithParam<Variant> {
   fg::CompileResult result_;
 };
 
-TEST_P(DenoiserPlansTest, IsTheOneOnRecord) {
+TEST_P(DenoiserPlansTest, EqualsTheRecordedPlan) {
   const std::string text = fg::toText(desc(), plan());
   const fs::path file = fileOf(GetParam());
   if (updating()) {
@@ -94,26 +94,26 @@ TEST_P(DenoiserPlansTest, IsTheOneOnRecord) {
     GTEST_SKIP() << "wrote " << file.string();
   }
   ASSERT_TRUE(fs::exists(file)) << "there is no " << file.string()
-                                << "; write it: cmake --build build --target update_plans";
+                                << "; write it with cmake --build build --target update_plans";
   const std::string diff = fg::test::lineDiff(readText(file), text);
   if (diff.empty()) return;
-  ADD_FAILURE() << "the plan differs from " << file.filename().string() << " (-: on record, +: now):\n"
-                << diff << "if that is meant: cmake --build build --target update_plans";
+  ADD_FAILURE() << "the plan differs from " << file.filename().string() << " (-: recorded, +: now):\n"
+                << diff << "if this is intended, write it with cmake --build build --target update_plans";
 }
 
-TEST_P(DenoiserPlansTest, IsAcceptedByTheChecker) {
+TEST_P(DenoiserPlansTest, IsAcceptedByTheVerifier) {
   const std::vector<std::string> faults = fg::verify(desc(), plan());
   EXPECT_TRUE(faults.empty()) << faults.front();
 }
 
-TEST_P(DenoiserPlansTest, NeedsHardlyMoreMemoryThanItsLargestPass) {
+TEST_P(DenoiserPlansTest, NeedsAtMostTwoPercentMoreMemoryThanItsLowerBound) {
   const fg::MemoryReport& memory = plan().memory;
-  // The project's goal: 2 %.
+  // The project's goal is 2 %.
   EXPECT_LE(static_cast<double>(memory.transientPeakBytes), 1.02 * static_cast<double>(memory.transientLowerBoundBytes))
       << memory.transientPeakBytes << " bytes, at least " << memory.transientLowerBoundBytes;
 }
 
-// What scene and host need or bring along takes passes out of the graph; what is left must be a graph.
+// Settings for scene and host remove passes. The remaining ones must form a complete graph without unused passes.
 TEST_P(DenoiserPlansTest, CompilesForEverySceneAndHost) {
   const std::vector<std::vector<std::pair<std::string, std::string>>> choices{
       {{"scene.host-antialiasing", "on"}},
@@ -142,7 +142,7 @@ INSTANTIATE_TEST_SUITE_P(Denoisers, DenoiserPlansTest, testing::ValuesIn(variant
   return name;
 });
 
-TEST(DenoiserPlans, AreOfMethodsAndPresetsThatExist) {
+TEST(DenoiserPlans, EveryRecordedPlanBelongsToAMethodAndPreset) {
   std::set<fs::path> files;
   for (const Variant& variant : variants()) files.insert(fileOf(variant));
   for (const auto& file : fs::directory_iterator(folder())) {
@@ -150,7 +150,7 @@ TEST(DenoiserPlans, AreOfMethodsAndPresetsThatExist) {
     if (updating()) {
       fs::remove(file);
     } else {
-      ADD_FAILURE() << file.path().string() << " belongs to no method and preset: remove it";
+      ADD_FAILURE() << file.path().string() << " belongs to no method or preset: remove it";
     }
   }
 }

@@ -14,11 +14,11 @@ namespace {
 using Stages = VkPipelineStageFlags2;
 using Accesses = VkAccessFlags2;
 
-/// Histories swap roles every frame, and are cleared where no valid frame lies behind.
+/// Histories swap roles every frame. They are cleared before frames without a valid previous frame.
 constexpr std::uint32_t kFrames = 4;
 constexpr std::array kCleared = {true, false, false, true};
 
-/// Dependencies that do not order each other; one moment of time.
+/// One dependency of a batch. The dependencies of one batch have the same time and do not order each other.
 struct Dependency {
   Stages srcStage = 0;
   Accesses srcAccess = 0;
@@ -28,14 +28,15 @@ struct Dependency {
   std::vector<std::uint32_t> cells;
 };
 
-/// Something done to one cell at one moment: one mip level and layer of one physical image, or one buffer.
+/// An access to one cell, or a layout transition of it, at one time. A cell is one mip level and layer of one physical
+/// image, or one buffer.
 struct Operation {
   std::size_t time = 0;
   std::uint32_t cell = 0;
-  Stages stage = 0;  ///< None for a layout transition, which belongs to no stage.
+  Stages stage = 0;  ///< None for a layout transition, which has no stage.
   Accesses reads = 0;
   Accesses writes = 0;
-  std::optional<Dependency> transition;  ///< What it is made by, or, for what a host hands over, looks like.
+  std::optional<Dependency> transition;  ///< The transition; also used for imports in a readable state.
   std::string name;
 
   [[nodiscard]] bool changes() const { return writes != 0 || transition.has_value(); }
@@ -45,7 +46,7 @@ bool overlap(const PlannedResource& a, const PlannedResource& b) {
   return a.offset < b.offset + b.size && b.offset < a.offset + a.size;
 }
 
-/// Number of the allocation in which a resource lies in frames of one parity; kNone where it has its memory to itself.
+/// The allocation in which a resource lies in frames of one parity; kNone if it has memory of its own.
 std::uint32_t allocation(const Plan& plan, std::uint32_t resource, std::uint32_t parity) {
   const std::uint32_t heap = plan.resources[resource].heap;
   if (heap == kNone) return kNone;
@@ -77,7 +78,7 @@ class Timeline {
   std::vector<std::string> takeFaults() { return std::move(faults_); }
 
  private:
-  /// Give every cell those that have a common byte of one allocation with it, be it in frames of another parity.
+  /// Find the peers of every cell: those that share a byte of an allocation with it, in frames of either parity.
   void findPeers() {
     peers_.resize(cells_);
     std::vector<std::pair<std::uint32_t, std::uint32_t>> all;  // Resources and parities.
@@ -99,7 +100,7 @@ class Timeline {
     }
   }
 
-  /// The images of a history come twice, as `previous` and as `current`.
+  /// Add a peer once: images of a history are listed both as `previous` and as `current`.
   void addPeer(std::uint32_t cell, std::uint32_t peer) {
     std::vector<std::uint32_t>& peers = peers_[cell];
     if (std::ranges::find(peers, peer) == peers.end()) peers.push_back(peer);
@@ -189,7 +190,7 @@ class Timeline {
     const Stages stage = check::expanded(state.stage);
     const Accesses writes = check::writesOf(state.access);
     for (const std::uint32_t cell : cellsOf(resource, {})) {
-      since_[cell] = time_;  // What was before is the host's business.
+      since_[cell] = time_;  // Earlier accesses do not count: the host has ordered them.
       if (stage == VK_PIPELINE_STAGE_2_NONE) continue;
       Operation operation{time_, cell, stage, state.access & ~writes, writes, std::nullopt, "host on " + decl.name};
       if (writes == 0) {
@@ -242,7 +243,7 @@ class Timeline {
     }
   }
 
-  /// An import that goes back as it came may leave such writes unavailable as the host's own state names.
+  /// An import that returns to the state in which it arrived may have unavailable writes, if the state names them.
   void checkPending(std::uint32_t cell, const ExternalState& state, const std::string& name) {
     const Operation* write = lastChange(cell);
     if (write == nullptr || write->writes == 0 || (write->writes & ~state.access) == 0) return;
@@ -262,14 +263,14 @@ class Timeline {
     return std::ranges::find(dependency.cells, cell) != dependency.cells.end();
   }
 
-  /// What of the work that is submitted before a moment comes after something.
+  /// The work that is ordered after an operation.
   struct Reached {
-    Stages stages = 0;         ///< Later commands' work in these stages.
-    bool transitions = false;  ///< Later layout transitions of the image in question, which come in submission order.
+    Stages stages = 0;         ///< Work of later commands in these stages.
+    bool transitions = false;  ///< Later layout transitions of the same image, which are in submission order.
   };
 
-  /// Follow the dependencies between two moments.
-  /// @param direct which dependencies wait for the beginning itself
+  /// Follow the dependencies between two times.
+  /// @param direct true for dependencies that wait for the first operation itself
   template <typename Direct>
   [[nodiscard]] Reached follow(std::size_t begin, std::size_t end, std::uint32_t image, Reached reached,
                                Direct direct) const {
@@ -287,7 +288,8 @@ class Timeline {
     return reached;
   }
 
-  /// What comes after one stage of an operation, as far as another operation's image is concerned.
+  /// The work that is ordered after one stage of an operation.
+  /// @param image the cell whose layout transitions count
   [[nodiscard]] Reached after(const Operation& operation, Stages bit, std::size_t until, std::uint32_t image) const {
     const std::size_t begin = operation.time + 1;
     if (operation.transition) {
@@ -297,7 +299,7 @@ class Timeline {
     return follow(begin, until, image, {}, [&](const Dependency& d) { return (d.srcStage & bit) != 0; });
   }
 
-  /// What comes after a write was made available; nothing where it was not.
+  /// The work that is ordered after a write has become available; none if it has not.
   [[nodiscard]] Reached afterAvailable(const Operation& write, std::size_t until) const {
     if (write.transition) return after(write, 0, until, write.cell);
     return follow(write.time + 1, until, write.cell, {}, [&](const Dependency& d) { return makesAvailable(d, write); });
@@ -312,14 +314,14 @@ class Timeline {
     return true;
   }
 
-  /// True where work that waits for any of these stages, at a moment, comes after the operation.
+  /// True if work that waits for any of these stages, at this time, comes after the operation.
   [[nodiscard]] bool precedes(const Operation& operation, Stages stages, std::size_t time) const {
     return forEachBit(operation.stage, [&](Stages bit) {
       return (bit & stages) != 0 || (after(operation, bit, time, operation.cell).stages & stages) != 0;
     });
   }
 
-  /// True where a chain leads from one operation to another.
+  /// True if a chain of dependencies leads from one operation to another.
   [[nodiscard]] bool ordered(const Operation& first, const Operation& second) const {
     return forEachBit(first.stage, [&](Stages bit) {
       const Reached reached = after(first, bit, second.time, second.cell);
@@ -333,7 +335,8 @@ class Timeline {
            (write.writes & ~dependency.srcAccess) == 0;
   }
 
-  /// True where a write is visible to the reading, or to the writing, part of an access.
+  /// True if a write is visible to an access.
+  /// @param wanted the access flags of the reading or of the writing part
   [[nodiscard]] bool visible(const Operation& write, const Operation& access, Accesses wanted) const {
     if (wanted == 0) return true;
     return forEachBit(access.stage, [&](Stages bit) {
@@ -391,13 +394,13 @@ class Timeline {
 
   const GraphDesc& graph_;
   const Plan& plan_;
-  std::array<std::vector<std::uint32_t>, 2> first_;  ///< By frame parity, the first cell of every resource.
+  std::array<std::vector<std::uint32_t>, 2> first_;  ///< Indexed by frame parity and resource: the first cell.
   std::uint32_t cells_ = 0;
   std::vector<std::vector<std::uint32_t>> peers_;
-  std::vector<std::size_t> since_;                ///< By cell: the moment from which on this graph has it.
-  std::vector<std::vector<Dependency>> batches_;  ///< By moment.
+  std::vector<std::size_t> since_;                ///< Indexed by cell: the time since which the graph owns it.
+  std::vector<std::vector<Dependency>> batches_;  ///< Indexed by time.
   std::vector<Operation> operations_;
-  std::vector<std::vector<std::size_t>> operationsOf_;  ///< By cell.
+  std::vector<std::vector<std::size_t>> operationsOf_;  ///< Indexed by cell.
   std::uint32_t frame_ = 0;
   std::size_t time_ = 0;
   std::vector<std::string> faults_;

@@ -7,15 +7,14 @@
 
 namespace fg::test {
 
-/// Every two accesses to the same bytes, over frames, that nothing orders as the Vulkan specification has it: by a
-/// chain of dependencies from the one to the other, which for a write includes one that makes it available and one that
-/// makes it visible.
+/// Finds all pairs of conflicting accesses to the same bytes, over several frames, that are not ordered. Two accesses
+/// are ordered if a chain of dependencies, as defined by the Vulkan specification, leads from one to the other. After a
+/// write, the chain must contain a dependency that makes the write available and one that makes it visible.
 ///
-/// Where `fg::verify` replays a frame and carries along what is known of each piece of memory, this looks for the chain
-/// of each pair by itself, takes nothing from pairs in between, and shares no code with it but the table of what an
-/// access means. It knows of order and memory, not of contents: it is there to prove that a plan which `verify` accepts
-/// has no hazard.
-/// @return what is not ordered, in words
+/// It proves that a plan which `fg::verify` accepts has no hazard. `fg::verify` replays frames and keeps a state for
+/// each piece of memory. This function searches a chain for each pair on its own instead, and shares no code with it
+/// except the table of accesses (verify_rules.h). It checks order and memory dependencies, not contents.
+/// @return the pairs as text
 std::vector<std::string> unorderedAccesses(const GraphDesc& graph, const Plan& plan);
 
 }  // namespace fg::test

@@ -25,13 +25,13 @@ std::uint64_t fromEnvironment(const char* variable, std::uint64_t otherwise) {
   return text != nullptr ? std::strtoull(text, nullptr, 10) : otherwise;
 }
 
-/// Seeds of this run: WALR_SEED is the first, WALR_GRAPHS how many.
+/// Seeds of this run: WALR_SEED is the first seed, WALR_GRAPHS the number of graphs.
 struct Seeds {
   std::uint64_t first = fromEnvironment("WALR_SEED", 1);
   std::uint64_t count = fromEnvironment("WALR_GRAPHS", 100'000);
 };
 
-/// Mostly small graphs, of which many can be tried; one in 20 middling, one in 2,000 large.
+/// Most graphs are small, so that many can be tried. One in 20 has a medium size, and one in 2,000 is large.
 RandomGraphLimits limitsOf(std::uint64_t seed) {
   if (seed % 2'000 == 0) return {100, 150};
   if (seed % 20 == 0) return {15, 40};
@@ -44,7 +44,7 @@ std::string joined(const std::vector<std::string>& lines) {
   return text;
 }
 
-/// Aliased peak over a lower bound, of many graphs.
+/// Statistics of aliased peak / lower bound over many graphs.
 struct Ratios {
   double sum = 0;
   double worst = 1;
@@ -59,7 +59,8 @@ struct Ratios {
   [[nodiscard]] double mean() const { return sum / static_cast<double>(count); }
 };
 
-/// The lower bound of memory once a write that nobody reads holds its bytes for a pass more: what packing can reach.
+/// The lower bound of memory that a packing can reach: it includes that a write that no pass reads holds its bytes for
+/// one more pass.
 std::uint64_t lowerBoundOfHeld(const GraphDesc& graph, const Plan& plan) {
   const AccessHistory accesses(graph, plan);
   std::vector<HeapRequest> requests;
@@ -71,14 +72,14 @@ std::uint64_t lowerBoundOfHeld(const GraphDesc& graph, const Plan& plan) {
   return lowerBound(requests);
 }
 
-/// Bytes of the heaps in which histories lie.
+/// Bytes of the heaps that hold histories.
 std::uint64_t heapsOfHistories(const Plan& plan) {
   std::uint64_t bytes = 0;
   for (const PlannedHeap& heap : plan.heaps) bytes += heap.partner != kNone ? heap.size : 0;
   return bytes;
 }
 
-TEST(Fuzz, TheCheckerAcceptsEveryPlanOfRandomGraphs) {
+TEST(Fuzz, TheVerifierAcceptsThePlansOfRandomGraphs) {
   const Seeds seeds;
   std::cout << "seeds " << seeds.first << " to " << seeds.first + seeds.count - 1 << "\n";
   Ratios ratios;
@@ -125,7 +126,7 @@ class Mutator {
  public:
   Mutator(const GraphDesc& graph, Plan& plan, std::uint64_t seed) : graph_(graph), plan_(plan), random_(seed) {}
 
-  /// What was done; empty where the plan offers nothing to do it to.
+  /// Damage the plan at random. Returns the kind of damage; empty if the plan has nothing to damage in this way.
   std::string run() {
     switch (random_() % 8) {
       case 0:
@@ -194,7 +195,7 @@ class Mutator {
     return "layout";
   }
 
-  /// True where a pass behind a position reads what a resource holds at that position.
+  /// True if a pass after a position reads what a resource holds at that position.
   [[nodiscard]] bool isReadLater(const PlannedResource& planned, std::uint32_t position) const {
     const auto resource = static_cast<std::uint32_t>(&planned - plan_.resources.data());
     std::set<std::uint32_t> held = {0};
@@ -208,7 +209,7 @@ class Mutator {
     return false;
   }
 
-  /// Put one transient on top of another that is alive at the same time.
+  /// Place a transient on the bytes of another that is alive at the same time.
   std::string moveOffset() {
     std::vector<std::pair<PlannedResource*, PlannedResource*>> pairs;
     for (PlannedResource& a : plan_.resources) {
@@ -224,7 +225,7 @@ class Mutator {
     return "offset";
   }
 
-  /// Put a transient onto an image of a history that holds something then.
+  /// Place a transient on the bytes of a history image while that holds something.
   std::string moveToPartner() {
     std::vector<PlannedResource*> candidates;
     for (PlannedResource& a : plan_.resources) {
@@ -279,12 +280,12 @@ class Mutator {
   std::mt19937_64 random_;
 };
 
-/// Damage that leaves contents, layouts and places as they are.
+/// Kinds of damage that change only the order of accesses, not contents, layouts or places.
 const std::set<std::string> kAboutOrder = {"drop barrier", "source stage", "destination stage", "access"};
 
-/// A damaged plan is rejected, or it is proved harmless: by a search for the chain of dependencies behind every pair of
-/// conflicting accesses, which finds them all. The other way round, whatever lacks a chain is rejected.
-TEST(Fuzz, TheCheckerRejectsDamagedPlans) {
+/// The verifier must reject a damaged plan, unless the damage is proved harmless: a search must then find a chain of
+/// dependencies for every pair of conflicting accesses. Hence a plan in which a chain is missing must be rejected.
+TEST(Fuzz, TheVerifierRejectsDamagedPlans) {
   struct Score {
     std::uint64_t rejected = 0;
     std::uint64_t proved = 0;

@@ -13,7 +13,7 @@
 #include "tests/framegraph/random_graph.h"
 #include "tests/framegraph/test_shaders.h"
 
-/// Transients in the memory of histories that hold nothing.
+/// Tests that transients use the memory of histories while that holds nothing.
 namespace fg {
 namespace {
 
@@ -23,8 +23,8 @@ using test::recordNothing;
 constexpr std::uint64_t kBytes = 64 * 32 * 8;
 constexpr TextureDesc kTwiceColor = {kColor.format, {64, 64}};
 
-/// `previous` is read by the first of five passes and `current` written by the third. In between, and after, transients
-/// of half a history's size come and go; the last one is written and never read.
+/// Of five passes the first reads `previous` and the third writes `current`. Four transients of half a history's size
+/// live before, between and after these passes. The last one is written and never read.
 class HistoryAliasingTest : public ::testing::Test {
  protected:
   HistoryAliasingTest() {
@@ -56,14 +56,14 @@ class HistoryAliasingTest : public ::testing::Test {
     return std::move(result.plan);
   }
   PlannedResource& resource(Plan& plan, Texture texture) const { return plan.resources[texture.resource]; }
-  /// The barrier by which a texture takes over its memory.
+  /// The AliasHandOver barrier of a texture.
   PlannedBarrier& handOver(Plan& plan, Texture texture) const {
     for (PlannedPass& pass : plan.passes) {
       for (PlannedBarrier& barrier : pass.barriers) {
         if (barrier.resource == texture.resource && barrier.reason == BarrierReason::AliasHandOver) return barrier;
       }
     }
-    throw std::logic_error("no hand-over of " + graph_.desc().resources[texture.resource].name);
+    throw std::logic_error("no AliasHandOver barrier of " + graph_.desc().resources[texture.resource].name);
   }
   [[nodiscard]] std::vector<std::uint32_t> aliasesOf(Texture texture) const {
     return aliasedHistoryImages(graph_.desc(), plan_, texture.resource);
@@ -79,7 +79,7 @@ class HistoryAliasingTest : public ::testing::Test {
   Plan plan_;
 };
 
-TEST_F(HistoryAliasingTest, TransientsNeedNoMemoryBesidesTheHistorys) {
+TEST_F(HistoryAliasingTest, TransientsNeedNoMemoryBesidesTheHistory) {
   EXPECT_EQ(plan_.memory.persistentBytes, 2 * 2 * kBytes);
   EXPECT_EQ(plan_.memory.transientUnaliasedBytes, 4 * kBytes);
   EXPECT_EQ(plan_.memory.transientPeakBytes, 0U);
@@ -90,15 +90,15 @@ TEST_F(HistoryAliasingTest, TransientsNeedNoMemoryBesidesTheHistorys) {
   EXPECT_EQ(plan_.heaps[1].partner, 0U);
 }
 
-TEST_F(HistoryAliasingTest, WhatEndsBeforeCurrentIsWrittenLiesThereAndWhatBeginsAfterPreviousIsReadThere) {
+TEST_F(HistoryAliasingTest, TransientsUseCurrentBeforeItsWriteAndPreviousAfterItsLastRead) {
   EXPECT_EQ(aliasesOf(before_), std::vector{history_.current.resource});
   for (const Texture late : {across_, after_, unread_}) {
     EXPECT_EQ(aliasesOf(late), std::vector{history_.previous.resource});
   }
 }
 
-TEST_F(HistoryAliasingTest, BarriersHandMemoryFromFrameToFrame) {
-  // Reads of `previous` end in this frame; what is in the other image's memory has been there since the last one.
+TEST_F(HistoryAliasingTest, BarriersWaitForThePreviousOwnersAlsoInTheLastFrame) {
+  // The owner before `across` is `previous` in this frame; that before `before` is a transient of the last frame.
   EXPECT_EQ(handOver(plan_, across_).aliasOf, history_.previous.resource);
   const std::uint32_t last = handOver(plan_, before_).aliasOf;
   EXPECT_TRUE(last == after_.resource || last == unread_.resource);
@@ -110,7 +110,7 @@ TEST_F(HistoryAliasingTest, BarriersHandMemoryFromFrameToFrame) {
   ASSERT_EQ(std::ranges::count(plan_.releases, BarrierReason::Retire, &PlannedBarrier::reason), 1);
 }
 
-TEST_F(HistoryAliasingTest, IsSwitchedOff) {
+TEST_F(HistoryAliasingTest, CanBeSwitchedOff) {
   const Plan plan = planOf({.aliasHistories = false});
   EXPECT_EQ(plan.resources[history_.current.resource].heap, kNone);
   EXPECT_EQ(plan.resources[history_.previous.resource].heap, kNone);
@@ -119,7 +119,7 @@ TEST_F(HistoryAliasingTest, IsSwitchedOff) {
   EXPECT_EQ(plan.memory.transientLowerBoundBytes, 2 * kBytes);
 }
 
-TEST_F(HistoryAliasingTest, AHostThatGetsAHistoryKeepsItsMemory) {
+TEST_F(HistoryAliasingTest, ExportedHistoriesAreNotAliased) {
   graph_.exported(current_, test::kSampled);
   plan_ = planOf();
   EXPECT_TRUE(aliasesOf(before_).empty());
@@ -127,9 +127,9 @@ TEST_F(HistoryAliasingTest, AHostThatGetsAHistoryKeepsItsMemory) {
   EXPECT_EQ(plan_.memory.transientPeakBytes, 2 * kBytes);
 }
 
-TEST_F(HistoryAliasingTest, InspectionsSayWhereATransientLives) {
+TEST_F(HistoryAliasingTest, InspectionNamesTheAliasedHistory) {
   const GraphDesc& desc = graph_.desc();
-  const std::string place = placeInWords(desc, plan_, across_.resource);
+  const std::string place = placeText(desc, plan_, across_.resource);
   EXPECT_TRUE(place.starts_with("heap 1 [") && place.ends_with(") of history.previous")) << place;
   const std::string text = toText(desc, plan_);
   EXPECT_NE(text.find("Transient across: R16G16B16A16_SFLOAT 64x32, passes 1..2, " + place), std::string::npos) << text;
@@ -141,12 +141,12 @@ TEST_F(HistoryAliasingTest, InspectionsSayWhereATransientLives) {
   EXPECT_NE(whyNotAliased(desc, plan_, "across", "history.previous").find("share memory"), std::string::npos);
   EXPECT_NE(whyNotAliased(desc, plan_, "across", "history.current").find("alive at the same time: passes 1 to 2 and"),
             std::string::npos);
-  EXPECT_NE(whyNotAliased(desc, plan_, "history.current", "history.previous").find("to transients alone"),
+  EXPECT_NE(whyNotAliased(desc, plan_, "history.current", "history.previous").find("only transients alias"),
             std::string::npos);
 }
 
-/// Plans that are wrong on purpose, and what the checker has to say of them.
-TEST_F(HistoryAliasingTest, TheCheckerRejectsWhatBreaksARule) {
+/// Plans that are wrong on purpose, with the expected faults.
+TEST_F(HistoryAliasingTest, TheVerifierRejectsWrongPlans) {
   struct Damage {
     const char* what;
     std::function<void(Plan&)> apply;
@@ -158,7 +158,7 @@ TEST_F(HistoryAliasingTest, TheCheckerRejectsWhatBreaksARule) {
   const std::vector<Damage> damages = {
       {"nothing waits for the last frame's transients", unordered(before_), "'before' takes over the memory of"},
       {"nothing waits for the reads of `previous`", unordered(across_), "takes over the memory of 'history.current'"},
-      {"`current` waits for nobody", unordered(history_.current), "takes over the memory of 'before'"},
+      {"`current` waits for nothing", unordered(history_.current), "takes over the memory of 'before'"},
       {"nothing makes the last write of a frame available",
        [](Plan& plan) {
          std::erase_if(plan.releases, [](const PlannedBarrier& b) { return b.reason == BarrierReason::Retire; });
@@ -170,13 +170,13 @@ TEST_F(HistoryAliasingTest, TheCheckerRejectsWhatBreaksARule) {
       {"a transient where `current` is written",
        [&](Plan& plan) { resource(plan, after_).heap = resource(plan, history_.current).heap; },
        "does not hold what was declared"},
-      {"images that swap, but not their places",
+      {"images that swap, but lie at different offsets",
        [&](Plan& plan) {
          for (PlannedHeap& heap : plan.heaps) heap.size += 4096;
          resource(plan, history_.previous).offset = 4096;
        },
        "'history.current' does not lie where its other image lies"},
-      {"images in heaps that stay",
+      {"images in heaps that do not swap",
        [](Plan& plan) {
          for (PlannedHeap& heap : plan.heaps) heap.partner = kNone;
        },
@@ -198,7 +198,7 @@ TEST_F(HistoryAliasingTest, TheCheckerRejectsWhatBreaksARule) {
   }
 }
 
-TEST(HistoryAliasing, NeverNeedsMoreMemoryThanNone) {
+TEST(HistoryAliasing, NeverNeedsMoreMemoryThanWithoutAliasing) {
   constexpr std::uint64_t kGraphs = 2000;
   std::uint64_t saved = 0;
   for (std::uint64_t seed = 1; seed <= kGraphs; ++seed) {
@@ -209,10 +209,10 @@ TEST(HistoryAliasing, NeverNeedsMoreMemoryThanNone) {
     ASSERT_EQ(with.plan.memory.persistentBytes, without.plan.memory.persistentBytes) << "seed " << seed;
     saved += with.plan.memory.transientPeakBytes < without.plan.memory.transientPeakBytes ? 1 : 0;
   }
-  EXPECT_GT(saved, kGraphs / 10) << "graphs in which aliasing histories saves memory";
+  EXPECT_GT(saved, kGraphs / 10) << "too few graphs in which aliasing histories saves memory";
 }
 
-TEST(HistoryHeaps, ThoseThatAreReadFirstLieTogether) {
+TEST(HistoryHeaps, HistoriesLieInTheOrderOfTheirLastReads) {
   const HistoryHeaps heaps({{0, 64, 1, 3, 3}, {1, 30, 16, 0, 1}, {2, 16, 16, 1, 1}}, 4);
   ASSERT_EQ(heaps.members().size(), 3U);
   EXPECT_EQ(heaps.members()[0].history, 1U);
@@ -221,16 +221,17 @@ TEST(HistoryHeaps, ThoseThatAreReadFirstLieTogether) {
   EXPECT_EQ(heaps.size(), 48U + 64U);
 }
 
-/// Two blocks of 60 do not fit into 100 bytes, whatever a sum of bytes would say; nor do those that live too long.
-TEST(HistoryHeaps, ExcessIsOfWholeBlocks) {
+/// Of two blocks of 60 bytes only one fits into 100 bytes, so that the excess is 60 and not 20. A block that is alive
+/// while the history holds something does not fit either.
+TEST(HistoryHeaps, ExcessCountsWholeBlocks) {
   const HistoryHeaps heaps({{0, 100, 1, 0, 0}}, 3);
   EXPECT_EQ(heaps.excess({{60, 1, 1, 1}, {60, 1, 1, 2}}, {1, 2}), (std::vector<std::uint64_t>{0, 60, 0}));
   EXPECT_EQ(heaps.excess({{60, 1, 1, 1}, {40, 1, 1, 2}}, {1, 2}), (std::vector<std::uint64_t>{0, 0, 0}));
   EXPECT_EQ(heaps.excess({{60, 1, 0, 1}}, {1}), (std::vector<std::uint64_t>{60, 60, 0}));
 }
 
-/// A write that nobody reads is made available a pass later, which is when `current` wants the bytes.
-TEST(HistoryHeaps, ExcessCountsWhatIsHeldTooLong) {
+/// A write that no pass reads holds its bytes one pass longer, when `current` is already written.
+TEST(HistoryHeaps, ExcessCountsBytesThatAreHeldTooLong) {
   const HistoryHeaps heaps({{0, 100, 1, 1, 1}}, 2);
   EXPECT_EQ(heaps.excess({{60, 1, 0, 0}}, {0}), (std::vector<std::uint64_t>{0, 0}));
   EXPECT_EQ(heaps.excess({{60, 1, 0, 0}}, {1}), (std::vector<std::uint64_t>{60, 0}));

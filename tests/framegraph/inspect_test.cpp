@@ -29,7 +29,7 @@ TEST(Inspect, JsonRoundTripsIntoAnyOrderOfRegistration) {
   }
 }
 
-TEST(Inspect, JsonThatIsNoPlanIsRejectedByName) {
+TEST(Inspect, JsonThatIsNoPlanIsRejectedWithTheFaultNamed) {
   const GraphDesc empty;
   EXPECT_THROW(planFromJson(empty, "{"), std::invalid_argument);
   try {

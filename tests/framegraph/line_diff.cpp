@@ -24,10 +24,11 @@ std::vector<std::string_view> split(std::string_view text) {
   return lines;
 }
 
-/// A shortest script of kept, removed and added lines, by way of the longest common subsequence.
+/// A shortest sequence of kept, removed and added lines, found through the longest common subsequence.
 std::vector<Line> script(const std::vector<std::string_view>& before, const std::vector<std::string_view>& after) {
   const std::size_t width = after.size() + 1;
-  std::vector<std::uint32_t> common((before.size() + 1) * width);  // Of what follows two positions.
+  std::vector<std::uint32_t> common((before.size() + 1) *
+                                    width);  // Lengths of the longest common subsequences after two positions.
   for (std::size_t i = before.size(); i-- > 0;) {
     for (std::size_t j = after.size(); j-- > 0;) {
       common[i * width + j] = before[i] == after[j] ? common[(i + 1) * width + j + 1] + 1

@@ -5,8 +5,8 @@
 
 namespace fg::test {
 
-/// What has to be done to the lines of one text to get another: "- " before lines that go, "+ " before lines that come,
-/// unchanged lines around them for context, "..." where such lines are left out. Empty where the texts are equal.
+/// Line-by-line difference of two texts: "- " marks removed lines and "+ " added ones. Unchanged lines around them are
+/// shown as context; "..." replaces further unchanged lines. Empty if the texts are equal.
 std::string lineDiff(std::string_view before, std::string_view after);
 
 }  // namespace fg::test

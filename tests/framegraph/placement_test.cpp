@@ -9,13 +9,14 @@
 #include "framegraph/verify/verify.h"
 #include "tests/framegraph/random_graph.h"
 
-/// Placement of transients on a device with awkward wishes.
+/// Tests the placement of transients for a device with unusual requirements.
 namespace fg {
 namespace {
 
 constexpr std::uint64_t kGraphs = 500;
 
-/// Sizes that are no multiple of the alignment, three memory classes, and pages that buffers and images must not share.
+/// A device with sizes that are no multiple of the alignment, with several memory classes, and with pages that buffers
+/// and images must not share.
 class AwkwardModel final : public MemoryModel {
  public:
   static constexpr std::uint64_t kGranularity = 4096;
@@ -52,7 +53,8 @@ bool aliveTogether(const PlannedResource& a, const PlannedResource& b) {
   return a.firstUse <= b.lastUse && b.firstUse <= a.lastUse;
 }
 
-/// True where two blocks touch a common page of so many bytes.
+/// True if two blocks overlap the same page.
+/// @param page size in bytes
 bool sharePage(const PlannedResource& a, const PlannedResource& b, std::uint64_t page) {
   return a.offset / page <= (b.offset + b.size - 1) / page && b.offset / page <= (a.offset + a.size - 1) / page;
 }
@@ -82,7 +84,7 @@ TEST(Placement, KeepsToAlignmentMemoryClassAndGranularity) {
   EXPECT_GT(mixedPairs, 100U);
 }
 
-/// Every position wants exactly seven bytes, so that there is no room for a gap.
+/// Exactly seven bytes are needed at every position, so that an optimal packing has no gap.
 TEST(HeapPacking, ReachesTheLowerBoundOfAFullHeap) {
   const std::vector<HeapRequest> requests = {
       {4, 1, 0, 1}, {3, 1, 1, 2}, {3, 1, 0, 0}, {4, 1, 2, 3}, {2, 1, 3, 3}, {1, 1, 3, 3},
@@ -92,7 +94,7 @@ TEST(HeapPacking, ReachesTheLowerBoundOfAFullHeap) {
   EXPECT_EQ(lowerBound(requests), 7U);
 }
 
-TEST(HeapPacking, OfNothingIsEmpty) {
+TEST(HeapPacking, OfNoRequestsIsEmpty) {
   EXPECT_EQ(pack({}).size, 0U);
 }
 

@@ -77,7 +77,7 @@ class Generator {
     if (chance(40)) buffers_.push_back({graph_.import(name("bufferImport"), BufferDesc{256}, kComputeWritten)});
   }
 
-  /// A handle that no access of this pass has touched; -1 where there is none.
+  /// The index of a handle that no access of this pass uses; -1 if there is none.
   template <typename State>
   int pick(const std::vector<State>& from) {
     if (from.empty()) return -1;
@@ -98,7 +98,7 @@ class Generator {
                                     Access::ColorWrite};
     return onceAnAttachment(kWrites[below(kWrites.size())]);
   }
-  /// Attachments of one pass must have one extent, so that a pass here has one at most.
+  /// Attachments of one pass must have the same extent, so that a pass here has at most one.
   Access onceAnAttachment(Access access) {
     if (access != Access::ColorWrite && access != Access::ColorReadWrite) return access;
     if (std::exchange(hasAttachment_, true))
@@ -211,7 +211,7 @@ class Generator {
   std::uint32_t names_ = 0;
 };
 
-/// A random order of a list: the new place of every element.
+/// A random order of a list: the new index of every element.
 std::vector<std::uint32_t> permutation(std::size_t count, std::mt19937_64& random) {
   std::vector<std::uint32_t> places(count);
   std::iota(places.begin(), places.end(), 0U);

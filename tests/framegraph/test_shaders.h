@@ -4,7 +4,7 @@
 
 namespace fg::test {
 
-/// States in which a host usually hands images over.
+/// States in which hosts usually import and export images.
 inline constexpr ExternalState kSampled = {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT,
                                            VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
 inline constexpr ExternalState kTransferSource = {VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_READ_BIT,

@@ -13,7 +13,7 @@ namespace {
 
 using DeviceTest = GpuTest;
 
-/// The message of the error that `action` must throw.
+/// The message of the Unsupported error that `action` must throw.
 template <typename Action>
 std::string unsupportedMessage(Action action) {
   try {
@@ -88,7 +88,7 @@ TEST(RequireDevice, NamesEveryMissingFeatureAndFormat) {
   EXPECT_EQ(vk::missing(device, uses).size(), 5u);
 }
 
-TEST_F(DeviceTest, FormatUsesOfAPlanAreServed) {
+TEST_F(DeviceTest, SupportsTheFormatsOfAPlan) {
   Graph graph;
   chain(graph, 0, 2);
   const auto uses = vk::formatUses(graph.desc(), compileFor(context(), graph));
@@ -97,8 +97,8 @@ TEST_F(DeviceTest, FormatUsesOfAPlanAreServed) {
   EXPECT_NO_THROW(vk::require(vk::physicalDevices(instance()).front(), uses));
 }
 
-TEST(NoDriver, IsSaidWithTheWayOut) {
-  // Each test runs in a process of its own, but be kind to those who run them all in one.
+TEST(NoDriver, MessageNamesTheRemedy) {
+  // CTest runs each test in a process of its own. Without CTest, later tests need the environment restored.
   const char* names[] = {"VK_DRIVER_FILES", "VK_ICD_FILENAMES"};
   for (const char* name : names) setenv(name, "/nowhere/at/all.json", 1);
   const std::string message = unsupportedMessage([] {
@@ -110,7 +110,7 @@ TEST(NoDriver, IsSaidWithTheWayOut) {
   expectContains(message, "mesa-vulkan-drivers");
 }
 
-TEST(NoLayer, IsSaidWithTheWayOut) {
+TEST(NoLayer, MessageNamesTheRemedy) {
   const auto entry = [](VkInstance instance, const char* name) -> PFN_vkVoidFunction {
     if (std::string_view(name) != "vkEnumerateInstanceLayerProperties") return vk::openLoader()(instance, name);
     const PFN_vkEnumerateInstanceLayerProperties none = [](std::uint32_t* count, VkLayerProperties*) {
@@ -139,7 +139,7 @@ TEST_F(DeviceTest, MissingFunctionIsNamed) {
   expectContains(message, "VK_KHR_synchronization2");
 }
 
-TEST_F(DeviceTest, ExtensionNamesStandInForCoreFunctions) {
+TEST_F(DeviceTest, ExtensionFunctionsReplaceMissingCoreFunctions) {
   static PFN_vkGetDeviceProcAddr real;
   real = instance().functions().vkGetDeviceProcAddr;
   // As on a device of Vulkan 1.1 with the extension.
@@ -154,7 +154,7 @@ TEST_F(DeviceTest, ExtensionNamesStandInForCoreFunctions) {
   EXPECT_EQ(functions.vkCmdPipelineBarrier2, context().functions.vkCmdPipelineBarrier2);
 }
 
-TEST_F(DeviceTest, MemoryModelAsksTheDriverWithAndWithoutMaintenance4) {
+TEST_F(DeviceTest, MemoryModelQueriesTheDriverWithAndWithoutMaintenance4) {
   vk::DeviceContext old = context();
   old.functions.vkGetDeviceImageMemoryRequirements = nullptr;
   old.functions.vkGetDeviceBufferMemoryRequirements = nullptr;

@@ -59,7 +59,7 @@ TEST_F(ExecutorTest, StorageReadAndInPlaceUpdate) {
   EXPECT_EQ(run.texels<std::uint32_t>(out), expected);
 }
 
-TEST_F(ExecutorTest, ImportsComeInAndExportsGoOut) {
+TEST_F(ExecutorTest, ReadsImportsAndWritesExports) {
   Graph graph;
   const Texture in = graph.import("in", kTexture, vk::kUploaded);
   const Texture out = importOutput(graph, "out");
@@ -73,7 +73,7 @@ TEST_F(ExecutorTest, ImportsComeInAndExportsGoOut) {
   EXPECT_EQ(run.texels<std::uint32_t>(out), texels);
 }
 
-TEST_F(ExecutorTest, ExportedTransientIsTheExecutors) {
+TEST_F(ExecutorTest, OwnsExportedTransients) {
   Graph graph;
   const Texture kept = fill(graph, "fill", graph.texture("kept", kTexture), 9);
   const ExternalState storageRead{VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_READ_BIT,
@@ -142,13 +142,13 @@ TEST_F(ExecutorTest, UploadOfAnotherSizeIsRefusedByName) {
   GraphRun run(device(), uniform.graph);
   try {
     run.executor().upload(uniform.frame, std::uint32_t{1});
-    FAIL() << "an upload of 4 bytes into 8 was taken";
+    FAIL() << "an upload of 4 bytes into a buffer of 8 was accepted";
   } catch (const std::invalid_argument& error) {
     EXPECT_STREQ(error.what(), "upload of 4 bytes into 'frame', which has 8");
   }
 }
 
-TEST_F(ExecutorTest, IndirectDispatchTakesItsGroupsFromTheGpu) {
+TEST_F(ExecutorTest, IndirectDispatchReadsItsGroupCountsOnTheGpu) {
   Graph graph;
   const Texture out = importOutput(graph, "out");
   const Buffer arguments = groupCount(graph, "arguments", 2, 1);
@@ -200,7 +200,7 @@ TEST_F(ExecutorTest, ImportWithoutImageIsRefusedByName) {
   EXPECT_THROW(executor.record(frame.commandBuffer, 2), std::out_of_range);
 }
 
-TEST_F(ExecutorTest, HostMayTakeTurnsAmongImages) {
+TEST_F(ExecutorTest, HostMayAlternateBetweenImages) {
   Graph graph;
   const Texture out = chain(graph, 0, 2);
   GraphRun run(device(), graph);
@@ -244,7 +244,7 @@ TEST_F(ExecutorTest, TimestampsNameEveryPass) {
   EXPECT_LT(sum, 10'000.0) << "four passes over 19 x 13 texels cannot take ten seconds";
 }
 
-/// Labels begun, and how many have ended.
+/// Names of the labels that were begun, and the number of those that were ended.
 struct LabelLog {
   std::vector<std::string> begun;
   std::size_t ended = 0;
@@ -284,7 +284,7 @@ TEST_F(ExecutorTest, PlanOfAnotherDeviceIsRefusedByName) {
   for (PlannedResource& resource : plan.resources) resource.size /= 2;
   try {
     const vk::Executor executor(context(), graph.desc(), plan);
-    FAIL() << "a plan with half the bytes was taken";
+    FAIL() << "a plan with half the bytes was accepted";
   } catch (const vk::Error& error) {
     EXPECT_NE(std::string(error.what()).find("'link0' does not fit where the plan puts it"), std::string::npos)
         << error.what();
@@ -324,7 +324,7 @@ TEST_F(PipelineCacheTest, IsKeptInAFile) {
 }
 
 TEST_F(PipelineCacheTest, DamagedFileCountsAsEmpty) {
-  std::ofstream(file_) << "this was never a pipeline cache, whatever its name says";
+  std::ofstream(file_) << "this is not a pipeline cache";
   vk::PipelineCache cache(context(), file_);
   EXPECT_EQ(cache.loadedBytes(), 0u);
   runWith(cache);
@@ -336,7 +336,7 @@ TEST_F(PipelineCacheTest, UnwritableFileIsNamed) {
   runWith(cache);
   try {
     cache.save();
-    FAIL() << "saved into a folder that is not there";
+    FAIL() << "saved into a folder that does not exist";
   } catch (const std::filesystem::filesystem_error& error) {
     EXPECT_NE(std::string(error.what()).find(nowhere.string()), std::string::npos) << error.what();
   }

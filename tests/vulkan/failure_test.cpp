@@ -9,7 +9,7 @@
 namespace fg::test {
 namespace {
 
-/// Failures are injected into the function table. What is not released is reported by the validation layer when the
+/// Injects failures into the function table. The validation layer reports objects that have not been released when the
 /// fixture destroys the device.
 class FailureTest : public GpuTest {
  protected:
@@ -45,7 +45,7 @@ TEST_F(FailureTest, EveryStepOfConstructionMayRunOutOfMemory) {
           << error.what();
     }
   }
-  EXPECT_GT(failures, 20u) << "memory, images, views, buffers, pipelines, descriptors, queries";
+  EXPECT_GT(failures, 20u) << "expected steps for memory, images, views, buffers, pipelines, descriptors and queries";
 
   hookState = {};
   GraphRun run(device(), counting.graph);
@@ -62,7 +62,7 @@ TEST_F(FailureTest, PipelineFailureNamesTheShader) {
   hookState = {.calls = 0, .failAt = 1, .failure = VK_ERROR_INITIALIZATION_FAILED};
   try {
     const vk::Executor executor(tampered_, graph.desc(), plan);
-    FAIL() << "the failure of the second pipeline went unnoticed";
+    FAIL() << "the failure of the second pipeline was not reported";
   } catch (const vk::PipelineFailed& error) {
     EXPECT_STREQ(error.what(),
                  "creating the pipeline of shader 'add': VK_ERROR_INITIALIZATION_FAILED; update the driver");
@@ -73,14 +73,14 @@ TEST_F(FailureTest, PipelineFailureNamesTheShader) {
   EXPECT_EQ(run.texels<std::uint32_t>(out), filled(2));
 }
 
-TEST_F(FailureTest, LostDeviceIsToldApart) {
+TEST_F(FailureTest, LostDeviceThrowsDeviceLost) {
   CountingGraph counting;
   hook<&vk::DeviceFunctions::vkQueueSubmit>(tampered_);
   GraphRun run({tampered_, device().queue()}, counting.graph);
   run.frame();
   hookState = {.calls = 0, .failAt = 0, .failure = VK_ERROR_DEVICE_LOST};
   EXPECT_THROW(run.frame(), vk::DeviceLost);
-  // As after a new device: nothing of what was recorded counts.
+  // As with a new device: the contents of histories are lost.
   run.executor().resetAllHistory();
   for (std::uint32_t i = 1; i <= 3; ++i) {
     run.frame();
@@ -88,9 +88,9 @@ TEST_F(FailureTest, LostDeviceIsToldApart) {
   }
 }
 
-/// Whatever call fails while a frame is recorded, submitted or waited for: the error says which, and after a reset the
-/// graph counts from one again.
-TEST_F(FailureTest, EveryStepOfAFrameMayFailAndTheGraphGoesOnAfterAReset) {
+/// Every call that records, submits or waits for a frame fails once. The error must have the failing result, and after
+/// a reset the graph must count from one again.
+TEST_F(FailureTest, EveryStepOfAFrameMayFailAndAResetRecovers) {
   CountingGraph counting;
   using F = vk::DeviceFunctions;
   hook<&F::vkResetCommandPool, &F::vkBeginCommandBuffer, &F::vkEndCommandBuffer, &F::vkQueueSubmit, &F::vkWaitForFences,
@@ -118,7 +118,7 @@ TEST_F(FailureTest, EveryStepOfAFrameMayFailAndTheGraphGoesOnAfterAReset) {
         EXPECT_EQ(run.texels<std::uint32_t>(counting.count), constant(i)) << "after a failure of step " << steps;
       }
     }
-    EXPECT_GE(steps, 7U) << "six steps that fail, and the frame that succeeds";
+    EXPECT_GE(steps, 7U) << "expected six failing steps and one frame that succeeds";
   }
 }
 

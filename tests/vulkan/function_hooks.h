@@ -4,13 +4,13 @@
 
 #include "framegraph/vulkan/device_context.h"
 
-/// Tampering with a device's function table: count the calls that make Vulkan objects, make one of them fail, or take
-/// the driver and its layers out of the way.
+/// Replaces entries of a device's function table: to count the calls that create Vulkan objects, to let one of them
+/// fail, or to skip driver and layers.
 namespace fg::test {
 
-/// What all hooks share. One test at a time.
+/// State that all hooks share, so that only one test at a time can use them.
 struct HookState {
-  std::uint32_t calls = 0;     ///< Calls of hooked functions since `reset`.
+  std::uint32_t calls = 0;     ///< Calls of hooked functions since it was last set to 0.
   std::uint32_t failAt = ~0u;  ///< Number of the call that fails, counted from 0.
   VkResult failure = VK_ERROR_OUT_OF_DEVICE_MEMORY;
 };
@@ -36,7 +36,7 @@ void hook(vk::DeviceContext& device) {
   (Hook<kMembers>::install(device), ...);
 }
 
-/// Hook everything that makes a Vulkan object or takes memory, and that can therefore fail.
+/// Hook all functions that create Vulkan objects or allocate memory, and can therefore fail.
 inline void hookCreation(vk::DeviceContext& device) {
   using F = vk::DeviceFunctions;
   hook<&F::vkAllocateMemory, &F::vkMapMemory, &F::vkCreateImage, &F::vkBindImageMemory, &F::vkCreateImageView,
@@ -57,7 +57,7 @@ void silence(Functions&... functions) {
   ((functions = Silenced<Functions>::call), ...);
 }
 
-/// Let everything that recording calls do nothing.
+/// Replace all functions that recording calls by functions that do nothing.
 inline void silenceRecording(vk::DeviceContext& device) {
   auto& f = device.functions;
   auto& i = device.instance;

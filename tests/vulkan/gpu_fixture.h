@@ -11,10 +11,10 @@
 
 namespace fg::test {
 
-/// A test on a Vulkan device with the validation layer and its synchronization validation on. Fails on every warning
-/// and error of the layer, those at destruction of the device included, and where the layer or a device is missing.
+/// A test on a Vulkan device with the validation layer and synchronization validation. It fails on every warning and
+/// error of the layer, including those at destruction of the device. It also fails if the layer or a device is missing.
 ///
-/// The device is the loader's first; the environment chooses among several.
+/// It uses the loader's first device; the loader's environment variables can select another.
 class GpuTest : public testing::Test {
  protected:
   void SetUp() override;
@@ -23,7 +23,7 @@ class GpuTest : public testing::Test {
   [[nodiscard]] const vk::Instance& instance() const { return *instance_; }
   [[nodiscard]] const vk::Device& device() const { return *device_; }
   [[nodiscard]] const vk::DeviceContext& context() const { return device_->context(); }
-  /// Messages until now, which then do not fail the test: for tests that provoke them.
+  /// Take the messages so far, so that they do not fail the test. For tests that provoke messages.
   std::vector<vk::Message> takeMessages() { return log_.take(); }
 
  private:

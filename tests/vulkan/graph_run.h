@@ -17,7 +17,7 @@ namespace fg::test {
 
 inline constexpr std::uint32_t kFramesInFlight = 2;
 
-/// Where to run: a whole device, or a context whose functions a test has tampered with.
+/// The queue to run on, with a device or with a context in which a test has replaced functions (function_hooks.h).
 struct GpuQueue {
   GpuQueue(const vk::Device& device) : context(device.context()), queue(device.queue()) {}
   GpuQueue(const vk::DeviceContext& tampered, VkQueue queueOfDevice) : context(tampered), queue(queueOfDevice) {}
@@ -26,24 +26,24 @@ struct GpuQueue {
 };
 
 /// Compile for a device.
-/// @throws std::runtime_error with the diagnostics where the graph has errors
+/// @throws std::runtime_error with the diagnostics if the graph has errors
 Plan compileFor(const vk::DeviceContext& device, const Graph& graph, bool poison = false);
 
-/// A graph on a device, frame by frame, with two frames in flight. Imported textures get an image each: those that
-/// arrive as `vk::kUploaded` are filled by the test, those that arrive as `vk::kOverwritable` are read back, as are
-/// imported buffers that do. What arrives otherwise the test binds itself.
+/// Runs a graph on a device frame by frame, with two frames in flight. It creates an image for every texture that is
+/// imported as `vk::kUploaded`, which the test fills, and an image or buffer for every resource imported as
+/// `vk::kOverwritable`, which is read back. The test must bind imports in other states itself.
 class GraphRun {
  public:
   GraphRun(const GpuQueue& gpu, const Graph& graph, const vk::ExecutorOptions& options = {});
-  /// With a plan that the test made or changed.
+  /// Runs a plan that the test has made or changed.
   GraphRun(const GpuQueue& gpu, const Graph& graph, Plan plan, const vk::ExecutorOptions& options = {});
 
   [[nodiscard]] vk::Executor& executor() { return executor_; }
 
-  /// The image that the run made for an output.
+  /// The image that the run has created for an output.
   [[nodiscard]] vk::ExternalImage external(Texture output) const { return readbacks_.at(output.resource)->external(); }
 
-  /// Texels that the next frame uploads, and those after it until told otherwise.
+  /// Set the texels that the following frames upload.
   template <typename T>
   void fill(Texture texture, const std::vector<T>& texels) {
     auto& bytes = uploads_.at(texture.resource).bytes;
@@ -57,7 +57,7 @@ class GraphRun {
   /// `submitFrame` and wait for it.
   void frame();
 
-  /// Texels of an output as the frame last submitted with the slot left them. That frame must be finished.
+  /// Texels of an output after the frame last submitted with the slot, which must have finished.
   template <typename T>
   [[nodiscard]] std::vector<T> texels(Texture texture, std::uint32_t slot) const {
     const auto bytes = readbacks_.at(texture.resource)->staging(slot);
@@ -65,13 +65,13 @@ class GraphRun {
     std::memcpy(result.data(), bytes.data(), result.size() * sizeof(T));
     return result;
   }
-  /// Of the frame last submitted, once `frame` or `finish` has returned.
+  /// The same for the frame last submitted. Call `frame` or `finish` first.
   template <typename T>
   [[nodiscard]] std::vector<T> texels(Texture texture) const {
     return texels<T>(texture, lastSlot_);
   }
 
-  /// Contents of a buffer as the frame last submitted with the slot left them. That frame must be finished.
+  /// Contents of a buffer after the frame last submitted with the slot, which must have finished.
   template <typename T>
   [[nodiscard]] std::vector<T> elements(Buffer buffer, std::uint32_t slot) const {
     const auto bytes = bufferReadbacks_.at(buffer.resource)->staging(slot);

@@ -10,16 +10,16 @@
 #include "tests/vulkan/graph_run.h"
 #include "tests/vulkan/test_graphs.h"
 
-/// Transients in the memory of histories, on a device.
+/// Tests on a device that transients may use the memory of histories.
 namespace fg::test {
 namespace {
 
-/// previous -> early -> across -> current -> late -> "out", one more at each: all three transients find room in the
-/// history's two images.
+/// previous -> early -> across -> current -> late -> "out", where each arrow adds 1. All three transients fit into the
+/// two images of the history.
 struct AliasingGraph {
-  static constexpr std::uint32_t kStep = 3;  ///< From frame to frame.
+  static constexpr std::uint32_t kStep = 3;  ///< Increase of `current` from frame to frame.
 
-  /// @param out where the result goes
+  /// @param makeOut creates the texture for the result
   explicit AliasingGraph(std::function<Texture(Graph&)> makeOut = [](Graph& g) { return importOutput(g, "out"); }) {
     history = graph.history("history", kTexture);
     out = makeOut(graph);
@@ -39,11 +39,12 @@ struct AliasingGraph {
 
 class HistoryAliasingOnDeviceTest : public GpuTest {
  protected:
-  /// Run a frame, of which so many lie behind, and look at its result.
+  /// Run a frame and check its result.
+  /// @param framesBehind number of frames since the history was last invalid
   void expectFrame(GraphRun& run, std::uint32_t framesBehind) {
     run.frame();
     EXPECT_EQ(run.texels<std::uint32_t>(aliasing_.out), constant(AliasingGraph::kStep * (framesBehind + 1) + 2))
-        << framesBehind << " frames behind";
+        << "after " << framesBehind << " frames";
   }
   static PlannedBarrier& handOver(Plan& plan, Texture texture) {
     for (PlannedPass& pass : plan.passes) {
@@ -53,7 +54,7 @@ class HistoryAliasingOnDeviceTest : public GpuTest {
     }
     throw std::logic_error("the plan has no such barrier");
   }
-  /// Whether there were messages, all of which must speak of synchronization.
+  /// True if there were validation messages. All of them must be synchronization hazards.
   bool reportsHazard() {
     const std::vector<vk::Message> messages = takeMessages();
     for (const vk::Message& message : messages) EXPECT_TRUE(message.id.starts_with("SYNC-HAZARD")) << message.text;
@@ -62,8 +63,8 @@ class HistoryAliasingOnDeviceTest : public GpuTest {
 
   static constexpr std::uint32_t kFramesTogether = 6;
 
-  /// Record frames of the graph without a host's image into one command buffer, and execute it.
-  /// @param reset before which of them the history is reset
+  /// Record several frames of the graph without imported images into one command buffer, and execute it.
+  /// @param reset number of the frame before which the history is reset
   void recordTogether(const Plan& plan, bool poison, std::uint32_t reset) {
     vk::Executor executor(context(), alone_.graph.desc(), plan, {.framesInFlight = kFramesTogether, .poison = poison});
     vk::FrameQueue queue(context(), device().queue());
@@ -129,7 +130,7 @@ TEST_F(HistoryAliasingOnDeviceTest, PoisonOfTransientsLeavesHistoriesAlone) {
   for (std::uint32_t i = 0; i < 3; ++i) expectFrame(run, i);
 }
 
-TEST_F(HistoryAliasingOnDeviceTest, HistoriesThatKeepTheirMemoryGiveTheSame) {
+TEST_F(HistoryAliasingOnDeviceTest, ResultIsTheSameWithoutAliasing) {
   CompileResult result =
       compile(aliasing_.graph.desc(), vk::DriverMemoryModel(context()), CompileOptions{.aliasHistories = false});
   ASSERT_TRUE(result.ok()) << result.text();
@@ -137,8 +138,8 @@ TEST_F(HistoryAliasingOnDeviceTest, HistoriesThatKeepTheirMemoryGiveTheSame) {
   for (std::uint32_t i = 0; i < 4; ++i) expectFrame(run, i);
 }
 
-/// Within a frame: synchronization validation knows whose memory it was.
-TEST_F(HistoryAliasingOnDeviceTest, MissingHandOversAreCaught) {
+/// Within a frame: synchronization validation reports a missing dependency on the previous owner.
+TEST_F(HistoryAliasingOnDeviceTest, MissingAliasBarriersAreReported) {
   for (const Texture texture : {aliasing_.across, aliasing_.history.current, aliasing_.late}) {
     Plan plan = compileFor(context(), aliasing_.graph);
     handOver(plan, texture).srcStage = VK_PIPELINE_STAGE_2_NONE;
@@ -149,8 +150,9 @@ TEST_F(HistoryAliasingOnDeviceTest, MissingHandOversAreCaught) {
   }
 }
 
-/// From frame to frame, where it looks at one command buffer at a time: all frames go into one.
-TEST_F(HistoryAliasingOnDeviceTest, MissingHandOversFromTheLastFrameAreCaught) {
+/// Between frames: all frames are in one command buffer, because synchronization validation checks each command buffer
+/// on its own.
+TEST_F(HistoryAliasingOnDeviceTest, MissingAliasBarriersBetweenFramesAreReported) {
   Plan plan = compileFor(context(), alone_.graph);
   handOver(plan, alone_.early).srcStage = VK_PIPELINE_STAGE_2_NONE;
   EXPECT_FALSE(verify(alone_.graph.desc(), plan).empty());

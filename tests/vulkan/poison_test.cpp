@@ -7,7 +7,7 @@ namespace {
 
 using PoisonTest = GpuTest;
 
-TEST_F(PoisonTest, WhatIsWrittenBeforeItIsReadIsUntouched) {
+TEST_F(PoisonTest, TexelsWrittenBeforeTheyAreReadAreNotAffected) {
   Graph graph;
   const Texture out = chain(graph, 3, 8);
   GraphRun run(device(), graph, {.poison = true});
@@ -17,7 +17,7 @@ TEST_F(PoisonTest, WhatIsWrittenBeforeItIsReadIsUntouched) {
   }
 }
 
-/// A pass that writes only its first 8 x 8 texels, and one that shows the whole.
+/// The first pass writes only 8 x 8 texels. The second shows which texels are NaN.
 TEST_F(PoisonTest, UnwrittenTexelsOfFloatTexturesAreNaN) {
   constexpr Extent kExtent{16, 8};
   Graph graph;

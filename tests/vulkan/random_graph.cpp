@@ -17,7 +17,7 @@ std::uint32_t hash(std::uint32_t x) {
 
 }  // namespace
 
-/// What a variant of mix.comp binds.
+/// A variant of mix.comp and its bindings.
 struct RandomGraph::Variant {
   const Shader* shader = nullptr;
   std::uint32_t sampled = 0;
@@ -137,7 +137,7 @@ void RandomGraph::addRandomPass() {
 void RandomGraph::finish(std::uint32_t target) {
   const Variant* variant = nullptr;
   do {
-    variant = &variants()[1 + below(3)];  // Those that sample one to three textures.
+    variant = &variants()[1 + below(3)];  // The variants that sample one to three textures.
   } while (readable_.size() < variant->sampled && readable_.size() > 0);
   addMix(readable_.empty() ? variants().front() : *variant, target);
 }

@@ -12,7 +12,7 @@ namespace {
 constexpr std::uint32_t kGraphs = 300;
 constexpr std::uint32_t kFrames = 4;
 
-/// Seed of the first graph; the environment may give another to look further, or to repeat one.
+/// Seed of the first graph. WALR_SEED sets another one, to try further graphs or to repeat a failure.
 std::uint32_t firstSeed() {
   const char* const seed = std::getenv("WALR_SEED");
   return seed != nullptr ? static_cast<std::uint32_t>(std::strtoul(seed, nullptr, 10)) : 1u;
@@ -20,7 +20,7 @@ std::uint32_t firstSeed() {
 
 class RandomGraphTest : public GpuTest {
  protected:
-  /// Frames on both sides with uploads that change and resets in between, two in flight.
+  /// Run frames on device and CPU, with changing uploads and with resets. Two frames are in flight.
   void compareWithCpu(std::uint32_t seed, bool poison) {
     SCOPED_TRACE("WALR_SEED=" + std::to_string(seed) + (poison ? ", poisoned" : ""));
     RandomGraph random(seed, context().functions);
@@ -60,8 +60,8 @@ TEST_F(RandomGraphTest, ResultsEqualTheDeclaredOrderOnTheCpu) {
   for (std::uint32_t seed = firstSeed(); seed < firstSeed() + kGraphs && !HasFailure(); ++seed) {
     compareWithCpu(seed, seed % 2 == 0);
   }
-  EXPECT_GT(texturesInHistories_, kGraphs / 4) << "transients in the memory of histories";
-  EXPECT_GT(buffersInHistories_, kGraphs / 20) << "transients in the memory of histories";
+  EXPECT_GT(texturesInHistories_, kGraphs / 4) << "too few textures in the memory of histories";
+  EXPECT_GT(buffersInHistories_, kGraphs / 20) << "too few buffers in the memory of histories";
 }
 
 }  // namespace

@@ -32,8 +32,8 @@ std::atomic<std::uint64_t> allocations{0};
 namespace fg::test {
 namespace {
 
-/// Everything that recording can meet: history with an age, an upload, a chain of transients, an indirect dispatch, a
-/// callback, an import whose image changes from frame to frame.
+/// A graph with everything that recording must handle: a history with an age, an upload, a chain of transients, an
+/// indirect dispatch, a callback, and an import whose image changes from frame to frame.
 struct BusyGraph : CountingGraph {
   BusyGraph() {
     upload = graph.upload("frame", 8);
@@ -71,12 +71,12 @@ class SteadyStateTest : public GpuTest {
 
 constexpr vk::ExecutorOptions kEverything{.timestamps = true, .poison = true};
 
-TEST_F(SteadyStateTest, FramesMakeNoVulkanObjects) {
+TEST_F(SteadyStateTest, FramesCreateNoVulkanObjects) {
   BusyGraph busy;
   GraphRun run(gpu(), busy.graph, kEverything);
   const vk::StagedImage other(context(), kTexture, run.executor().usage(busy.out), vk::StagedImage::Direction::Readback,
                               kFramesInFlight, "other");
-  EXPECT_GT(hookState.calls, 0u) << "the hooks must see what is made";
+  EXPECT_GT(hookState.calls, 0u) << "the hooks must count the objects that are created";
   run.frame();
   run.executor().bind(busy.out, other.external());
   run.executor().bind(busy.out, run.external(busy.out));
@@ -97,7 +97,7 @@ TEST_F(SteadyStateTest, FramesAllocateNothingOnTheHeap) {
   BusyGraph busy;
   GraphRun run(gpu(), busy.graph, kEverything);
   run.frame();
-  // Layers and drivers allocate at will, so they are kept out of what is counted.
+  // Layers and drivers may allocate, so that they must not be called here.
   silenceRecording(tampered_);
   const std::uint64_t before = allocations;
   for (std::uint32_t i = 0; i < 10; ++i) {
@@ -110,7 +110,7 @@ TEST_F(SteadyStateTest, FramesAllocateNothingOnTheHeap) {
   EXPECT_EQ(allocations - before, 0u);
   EXPECT_EQ(busy.calls, 11);
   const auto counted = std::make_unique<int>(0);
-  EXPECT_GT(allocations - before, 0u) << "the counter must see allocations";
+  EXPECT_GT(allocations - before, 0u) << "the counter must count allocations";
 }
 
 }  // namespace

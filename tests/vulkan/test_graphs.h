@@ -8,7 +8,7 @@
 #include "framegraph/vulkan/staged_image.h"
 #include "tests/vulkan/shaders.h"
 
-/// Small graphs whose results are known, on 32-bit unsigned textures.
+/// Small graphs with known results, on 32-bit unsigned textures.
 namespace fg::test {
 
 /// Neither square nor a multiple of the work group size.
@@ -44,7 +44,7 @@ inline Buffer groupCount(Graph& graph, const std::string& name, std::uint32_t x,
   return arguments;
 }
 
-/// What `fill` leaves, plus `value`.
+/// The result of `fill`, plus `value`.
 inline std::vector<std::uint32_t> filled(std::uint32_t value, Extent extent = kTexture.extent) {
   std::vector<std::uint32_t> texels;
   for (std::uint32_t y = 0; y < extent.height; ++y) {
@@ -69,7 +69,8 @@ inline Texture chain(Graph& graph, std::uint32_t start, std::uint32_t length) {
   return out;
 }
 
-/// A history that counts frames, read back as "count", and the age that its pass is told, as "age".
+/// A history that counts frames, read back as "count". Its age, which the pass gets as a push constant, is read back as
+/// "age".
 struct CountingGraph {
   CountingGraph() {
     history = graph.history("counter", kTexture);

@@ -7,7 +7,7 @@
 namespace fg::test {
 namespace {
 
-/// A frame counter in a history, and beside it what two settings give: a push constant and a specialization constant.
+/// A frame counter in a history, and a result that depends on a push constant and a specialization constant.
 struct AdjustableGraph : CountingGraph {
   AdjustableGraph(std::uint32_t added, std::uint32_t factor) {
     const Buffer upload = graph.upload("frame", 8);
@@ -29,7 +29,7 @@ class UpdateTest : public GpuTest {
     hookState = {};
     tampered_ = context();
   }
-  /// A graph's executor after two frames.
+  /// A run of the graph after two frames.
   std::unique_ptr<GraphRun> startedRun(const AdjustableGraph& adjustable) {
     auto run = std::make_unique<GraphRun>(GpuQueue(tampered_, device().queue()), adjustable.graph);
     run->executor().upload(adjustable.frame, std::uint64_t{10} << 32U);
@@ -41,7 +41,7 @@ class UpdateTest : public GpuTest {
   vk::DeviceContext tampered_;
 };
 
-TEST_F(UpdateTest, TakesOverConstantsMakingNothingAndHistoryGoesOn) {
+TEST_F(UpdateTest, ChangesConstantsWithoutNewObjectsAndKeepsHistory) {
   const AdjustableGraph adjustable(1, 2);
   hookCreation(tampered_);
   const auto run = startedRun(adjustable);
@@ -53,7 +53,7 @@ TEST_F(UpdateTest, TakesOverConstantsMakingNothingAndHistoryGoesOn) {
   EXPECT_EQ(run->texels<std::uint32_t>(adjustable.count), constant(3));
 }
 
-TEST_F(UpdateTest, MakesAPipelineForNewSpecializationConstantsOnly) {
+TEST_F(UpdateTest, CreatesPipelinesOnlyForNewSpecializationConstants) {
   const AdjustableGraph adjustable(1, 2);
   hook<&vk::DeviceFunctions::vkAllocateMemory, &vk::DeviceFunctions::vkCreateComputePipelines>(tampered_);
   const auto run = startedRun(adjustable);
@@ -61,15 +61,15 @@ TEST_F(UpdateTest, MakesAPipelineForNewSpecializationConstantsOnly) {
   const std::vector<std::uint32_t> factors = {3, 2, 3};
   for (std::size_t i = 0; i < factors.size(); ++i) {
     run->executor().update(AdjustableGraph(1, factors[i]).graph.desc());
-    run->submitFrame();  // While the frame before may still be on the device.
-    EXPECT_EQ(hookState.calls, 1U) << "the pipelines of both factors are kept";
+    run->submitFrame();  // The previous frame may still be running.
+    EXPECT_EQ(hookState.calls, 1U) << "the pipelines of both factors must be kept";
   }
   run->finish();
   EXPECT_EQ(run->texels<std::uint32_t>(adjustable.out), constant(10 * 3 + 1));
   EXPECT_EQ(run->texels<std::uint32_t>(adjustable.count), constant(5));
 }
 
-TEST_F(UpdateTest, ThatFailsLeavesTheExecutorAsItWas) {
+TEST_F(UpdateTest, LeavesTheExecutorUnchangedIfItFails) {
   const AdjustableGraph adjustable(1, 2);
   hook<&vk::DeviceFunctions::vkCreateComputePipelines>(tampered_);
   const auto run = startedRun(adjustable);

@@ -7,7 +7,7 @@
 namespace fg::test {
 namespace {
 
-/// Shows that the fixture would catch what it is there for: plans that are wrong on purpose.
+/// Runs plans that are wrong on purpose, to show that the fixture catches such faults.
 class ValidationTest : public GpuTest {
  protected:
   void SetUp() override {
@@ -16,7 +16,7 @@ class ValidationTest : public GpuTest {
     plan_ = compileFor(context(), graph_);
   }
 
-  /// Two frames of a plan; the messages that they cause.
+  /// The messages of two frames of a plan.
   std::vector<vk::Message> messagesOf(const Plan& plan) {
     GraphRun run(device(), graph_, plan);
     run.frame();
@@ -42,7 +42,7 @@ class ValidationTest : public GpuTest {
   Plan plan_;
 };
 
-TEST_F(ValidationTest, WholePlanIsClean) {
+TEST_F(ValidationTest, CorrectPlanCausesNoMessage) {
   EXPECT_TRUE(messagesOf(plan_).empty());
 }
 
@@ -68,7 +68,7 @@ TEST_F(ValidationTest, EveryDroppedReadBarrierIsCaught) {
       ++dropped;
     }
   }
-  EXPECT_EQ(dropped, 3) << "a chain of three reads of what was just written";
+  EXPECT_EQ(dropped, 3) << "the chain has three reads after writes";
 }
 
 TEST_F(ValidationTest, WrongLayoutIsCaught) {

@@ -1,4 +1,4 @@
-// current = previous + 1, and the age that the pass is told.
+// current = previous + 1. Also writes the age of the history, which is a push constant.
 #version 460
 #extension GL_EXT_samplerless_texture_functions : require
 layout(local_size_x = 8, local_size_y = 8) in;

@@ -1,4 +1,4 @@
-// Arguments of an indirect dispatch of `x` times `y` work groups.
+// Writes the arguments of an indirect dispatch of `x` times `y` work groups.
 #version 460
 layout(local_size_x = 1) in;
 layout(set = 0, binding = 0, std430) writeonly buffer Arguments { uint groups[3]; } arguments;

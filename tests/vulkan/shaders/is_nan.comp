@@ -1,4 +1,4 @@
-// 1 where all channels of the source are NaN, 2 where none is, 3 between.
+// Writes 1 if all channels of the source are NaN, 2 if none is, 3 otherwise.
 #version 460
 #extension GL_EXT_samplerless_texture_functions : require
 layout(local_size_x = 8, local_size_y = 8) in;

@@ -1,5 +1,5 @@
-// Hashes everything that it reads into everything that it writes, so that one wrong texel anywhere shows at the end.
-// Variants differ in what they bind; tests/vulkan/random_graph.cpp does the same on the CPU.
+// Writes a hash of everything that it reads, so that a single wrong texel anywhere changes the final result.
+// Variants differ in their bindings. tests/vulkan/random_graph.cpp computes the same on the CPU.
 #version 460
 #extension GL_EXT_samplerless_texture_functions : require
 layout(local_size_x = 8, local_size_y = 8) in;

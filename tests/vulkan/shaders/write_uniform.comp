@@ -1,4 +1,4 @@
-// target = what the host uploaded, times a specialization constant.
+// target = uploaded value * specialization constant.
 #version 460
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 4) const uint factor = 1;

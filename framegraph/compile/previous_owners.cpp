@@ -1,4 +1,4 @@
-#include "framegraph/compile/hand_over.h"
+#include "framegraph/compile/previous_owners.h"
 
 #include <algorithm>
 #include <iterator>
@@ -13,10 +13,10 @@ struct Owner {
   int frame;
 };
 
-/// Who owns which bytes of one allocation.
+/// The current owner of every byte of one allocation.
 class Ownership {
  public:
-  /// Give bytes to a resource, and return those who had any of them.
+  /// Give bytes to a resource, and return the owners that had any of them before.
   std::vector<Owner> take(std::uint64_t begin, std::uint64_t end, const Owner& owner) {
     split(begin);
     split(end);
@@ -45,13 +45,13 @@ class Ownership {
     blocks_.emplace(offset, rest);
   }
 
-  std::map<std::uint64_t, Block> blocks_;  ///< By first byte.
+  std::map<std::uint64_t, Block> blocks_;  ///< Keyed by first byte.
 };
 
 }  // namespace
 
 std::vector<std::vector<std::uint32_t>> previousOwners(const Plan& plan) {
-  // Heaps that swap hold every other frame the same resources again.
+  // Heaps that swap hold the same resources again every other frame, so that four frames reach the steady state.
   constexpr int kFrames = 4;
   std::vector<std::uint32_t> byFirstUse;
   for (std::uint32_t i = 0; i < plan.resources.size(); ++i) {
