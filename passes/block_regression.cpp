@@ -8,9 +8,7 @@
 #include <vector>
 
 #include "passes/grid_extent.h"
-#include "passes/tile_lists.h"
 #include "shaders/constants/block_regression.h"
-#include "shaders/constants/tiles.h"
 #include "shaders/shaders.h"
 
 namespace walr {
@@ -242,9 +240,8 @@ void readLight(const BlockGrid& grid, const BlockLight& light, fg::PassBuilder& 
 }
 
 /// Every pixel from the fits around it.
-/// @param sortTiles  dispatch it over lists of tiles by what there is to do
 fg::Texture addReconstruction(const BlockGrid& grid, const BlockLight& light, const Guides& guides, const Fits& fits,
-                              bool sortTiles, Inspection* inspection) {
+                              Inspection* inspection) {
   const bool readsPacked = isPacked(grid, light.accumulated);
   const bool writesPacked = light.result == LightStorage::Packed;
   const auto reconstruct = [&](const std::string& name, const fg::Shader& shader) {
@@ -258,44 +255,21 @@ fg::Texture addReconstruction(const BlockGrid& grid, const BlockLight& light, co
         .sample("coarseB", fits.coarse.b)
         .sample("coarseC", fits.coarse.c)
         .sample("coarseDepth", fits.coarse.depth)
-        .specialize("kCellSize", grid.cellSize);
+        .specialize("kCellSize", grid.cellSize)
+        .dispatch(grid.pixels);
     return pass;
   };
   if (inspection != nullptr) {
     inspection->offer(grid.graph, reconstructionViews(), grid.pixels, [&](const std::string& name) {
       fg::PassBuilder pass = reconstruct(name, readsPacked ? shaders::blockApplyViewPacked : shaders::blockApplyView);
       readLight(grid, light, pass);
-      pass.dispatch(grid.pixels);
       return pass;
     });
   }
 
-  const auto passLightOn = [&](fg::PassBuilder& pass) {
-    if (!writesPacked) pass.sample("passed", readsPacked ? light.lighting : light.accumulated);
-  };
-  const auto apply = [&](const std::string& name, const fg::Shader& half, const fg::Shader& packed) {
-    fg::PassBuilder pass = reconstruct(name, writesPacked ? packed : half);
-    passLightOn(pass);
-    return pass;
-  };
-  const fg::Texture target = grid.graph.texture("filtered", {formatOf(light.result), grid.pixels});
-  if (!sortTiles) {
-    fg::PassBuilder all = apply("block apply", shaders::blockApply, shaders::blockApplyPacked);
-    all.dispatch(grid.pixels);
-    return all.store("outFiltered", target);
-  }
-  const TileLists tiles = addTileLists(grid.graph, grid.pixels, fits.fine.depth, grid.size);
-  fg::PassBuilder growing = apply("block apply", shaders::blockApplyListed, shaders::blockApplyListedPacked);
-  dispatchTiles(growing, tiles, kTilesGrowing);
-  fg::Texture filtered = growing.store("outFiltered", target);
-  fg::PassBuilder converged =
-      apply("block apply, converged", shaders::blockApplyConverged, shaders::blockApplyConvergedPacked);
-  dispatchTiles(converged, tiles, kTilesConverged);
-  filtered = converged.update("outFiltered", filtered);
-  fg::PassBuilder sky = grid.graph.compute("pass sky", writesPacked ? shaders::passSkyPacked : shaders::passSky);
-  passLightOn(sky);
-  dispatchTiles(sky, tiles, kTilesOfSky);
-  return sky.update("filtered", filtered);
+  fg::PassBuilder pass = reconstruct("block apply", writesPacked ? shaders::blockApplyPacked : shaders::blockApply);
+  if (!writesPacked) pass.sample("passed", readsPacked ? light.lighting : light.accumulated);
+  return pass.store("outFiltered", grid.graph.texture("filtered", {formatOf(light.result), grid.pixels}));
 }
 
 }  // namespace
@@ -319,7 +293,7 @@ fg::Texture addBlockRegression(fg::Graph& graph, fg::Buffer frame, const BlockLi
   fits.normal = gather.store("outNormal", graph.texture("block normal", {VK_FORMAT_R32_UINT, grid.blocks}));
   fits.fine = addFineFit(grid, blocks, fits.normal, settings.iterations, inspection);
   fits.coarse = addCoarseFit(grid, cells, fits.fine.depth);
-  return addReconstruction(grid, light, guides, fits, settings.sortTiles, inspection);
+  return addReconstruction(grid, light, guides, fits, inspection);
 }
 
 }  // namespace walr

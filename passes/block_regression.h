@@ -28,7 +28,6 @@ struct BlockRegressionSettings {
   float coarseGrowthOcclusion = 4.0F;
   float coarseSamples = 3200.0F;
   float coarseLeastShare = 0.15F;
-  bool sortTiles = false;
 
   void visit(SettingVisitor& v) {
     v.visit({"blocks.size", "Side of the blocks whose moments are averaged", "pixels", 2, 8, "measured"}, size);
@@ -87,12 +86,6 @@ struct BlockRegressionSettings {
          "in full",
          "", 1e-6, 0.5, "measured"},
         coarseLeastShare);
-    v.visit(
-        {"blocks.sort-tiles",
-         "Sort tiles of 8 x 8 pixels into those whose pixels may want the coarse fit, those that have converged and "
-         "those of the sky, and dispatch the reconstruction indirectly over each list",
-         "", 0, 1, "measured"},
-        sortTiles);
   }
 };
 

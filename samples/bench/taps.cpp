@@ -109,8 +109,6 @@ constexpr std::array kShaders = {
     ShaderTaps{"flr_blur", flrLine},
     ShaderTaps{"flr_solve", flrLine},
     ShaderTaps{"flr_apply", flrUpsampling},
-    ShaderTaps{"list_tiles", [](const Stage&) { return 0.0; }},
-    ShaderTaps{"pass_sky", [](const Stage&) { return 1.0; }},
     ShaderTaps{"block_moments", [](const Stage&) { return 1.0; }},
     // At one path a pixel; with more of them it is narrower.
     ShaderTaps{"block_coarse", coarseLine},

@@ -169,34 +169,6 @@ TEST_F(PluginTest, EveryMethodGivesTheSamePixelsAsADispatchListWithItsHeapsAndBa
   }
 }
 
-// Every tile is dispatched by one of three lists.
-TEST_F(PluginTest, IndirectDispatchesGiveTheSamePixels) {
-  constexpr Size kSize{61, 41};
-  constexpr WalrSettingValue kSorted[] = {{"blocks.sort-tiles", "on"}};
-  Opaque opaque(host, api(), info("walr", kSize));
-  const WalrPasses recorded = makePasses(info("walr", kSize), kSorted);
-  const WalrPasses listed = makePasses(info("walr", kSize), kSorted);
-  {
-    tiny_host::Graph graph(host, api(), recorded);
-    list_host::Player player(host, api(), listed);
-    for (std::uint32_t frame = 0; frame < 4; ++frame) {
-      SCOPED_TRACE(frame);
-      uploadFrame(host, kSize, frame, [&](std::size_t i) { return &opaque.image(i); });
-      uploadFrame(host, kSize, frame, [&](std::size_t i) { return &graph.image(kInputs[i]); });
-      uploadFrame(host, kSize, frame, [&](std::size_t i) { return &player.image(kInputs[i]); });
-      const WalrCamera camera = cameraAt(float(frame) * kStep);
-      opaque.frame(camera, 0);
-      graph.frame(passFrame(camera));
-      player.frame(passFrame(camera));
-      const std::vector<std::uint16_t> expected = download(host, opaque.output());
-      EXPECT_EQ(download(host, graph.image("denoised")), expected);
-      EXPECT_EQ(download(host, player.image("denoised")), expected);
-    }
-  }
-  EXPECT_EQ(api().destroy_passes(recorded), WALR_SUCCESS);
-  EXPECT_EQ(api().destroy_passes(listed), WALR_SUCCESS);
-}
-
 // In which hosts that know of synchronization2 alone leave what is read.
 TEST_F(PluginTest, ReadsFromReadOnlyOptimal) {
   constexpr Size kSize{61, 43};
