@@ -7,11 +7,11 @@ namespace walr {
 
 fg::Texture addAccumulate(fg::Graph& graph, const DenoiserInputs& inputs, fg::Texture output,
                           const AccumulateSettings& settings, Inspection* inspection) {
-  const TemporalStages stages{.accumulation = settings.accumulation, .antialiasing = {.enabled = false}};
-  const Guides guides =
-      addPrepareGuides(graph, inputs, settings.guides, guideNeeds(stages, inputs.scene, false), inspection);
-  return addPassThrough(graph, addTemporalAccumulation(graph, inputs, guides, settings.accumulation, inspection),
-                        output);
+  const TemporalPlan plan =
+      planTemporalStages(inputs, {.accumulation = settings.accumulation, .antialiasing = {.enabled = false}});
+  const Guides guides = addPrepareGuides(graph, inputs, settings.guides, plan.guides, inspection);
+  const Accumulated accumulated = addAccumulation(graph, inputs, guides, plan, inspection);
+  return addPassThrough(graph, accumulated.lighting, output);
 }
 
 }  // namespace walr

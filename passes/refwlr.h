@@ -28,10 +28,10 @@ struct RefwlrSettings {
   }
 };
 
-/// What WALR's preset "robust" approximates: the same stages and weights.
+/// What the preset "robust" of `walr_paper` approximates: the same stages and weights.
 RefwlrSettings robustRefwlr();
 
-/// The same of WALR's preset "paper".
+/// The same of its preset "paper".
 RefwlrSettings paperRefwlr();
 
 /// Reference Weighted Linear Regression (walr.txt 6): WALR with a full window in place of a-trous averages, to tell

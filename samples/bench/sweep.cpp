@@ -16,7 +16,7 @@ struct Base {
 
 constexpr Base kDefault{kBaseline, {}};
 /// The preset that regresses at every pixel, with the settings regression.*.
-constexpr Base kPerPixel{kBaseline, "robust"};
+constexpr Base kPerPixel{"walr_paper", "robust"};
 constexpr Base kFlr{"flr", {}};
 constexpr Base kSvgf{"svgf", {}};
 constexpr Base kBmfr{"bmfr", {}};
@@ -37,7 +37,7 @@ Sweep over(Base base, std::string_view name, std::string_view question, std::str
 std::vector<Sweep> walrSweeps() {
   Sweep iterations = of(kPerPixel, "iterations", "How many a-trous iterations, at 3^n pixels of window?", {});
   for (const std::string_view n : {"1", "2", "3", "4", "5"}) {
-    iterations.points.push_back({n, {{"walr.fit-window", "off"}, {"regression.iterations", std::string(n)}}});
+    iterations.points.push_back({n, {{"walr_paper.fit-window", "off"}, {"regression.iterations", std::string(n)}}});
   }
   const SettingValue kDropped = {"regression.keep-sample-count", "off"};
   Sweep remap = of(kPerPixel, "edge-range", "How far from the plane does an edge begin and end?", {});
@@ -73,7 +73,6 @@ std::vector<Sweep> walrSweeps() {
          {{"traced", {{"regression.trace-edges", "on"}}},
           {"traced-without-sdf", {{"regression.trace-edges", "on"}, {"regression.sdf-fraction", "0"}}},
           {"untraced", {{"regression.trace-edges", "off"}}}}),
-      over(kDefault, "filter", "Regress on every pixel, or on blocks of pixels?", "walr.filter", {"pixels", "blocks"}),
       over(kPerPixel, "replacement", "Replace taps behind edges?", "regression.replace-taps",
            {"uniform", "near", "off"}),
       over(kPerPixel, "sample-count", "Carry the sample count W through the iterations?",

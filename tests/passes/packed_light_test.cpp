@@ -244,20 +244,20 @@ struct NamedSettings {
   WalrSettings settings;
 };
 std::vector<NamedSettings> waysToReproject() {
-  WalrSettings apart = blocksWalr();
+  WalrSettings apart;
   apart.antialiasing.normalThreshold = 0.4F;  // Its own reprojection.
-  WalrSettings byDepth = blocksWalr();
+  WalrSettings byDepth;
   byDepth.accumulation.rejection = byDepth.antialiasing.rejection = HistoryRejection::Depth;
   byDepth.accumulation.historyFilter = HistoryFilter::Bicubic;
   byDepth.accumulation.change.respond = false;
-  WalrSettings untested = blocksWalr();
+  WalrSettings untested;
   untested.accumulation.rejection = untested.antialiasing.rejection = HistoryRejection::None;
   untested.antialiasing.maxSamples = 100.0F;
-  WalrSettings accumulationOnly = blocksWalr();
+  WalrSettings accumulationOnly;
   accumulationOnly.antialiasing.storage = LightStorage::Half;
-  WalrSettings antialiasingOnly = blocksWalr();
+  WalrSettings antialiasingOnly;
   antialiasingOnly.accumulation.storage = LightStorage::Half;
-  return {{"shared", blocksWalr()},
+  return {{"shared", WalrSettings{}},
           {"apart", apart},
           {"by depth", byDepth},
           {"untested", untested},
@@ -268,7 +268,7 @@ std::vector<NamedSettings> waysToReproject() {
 TEST_F(PackedLight, TemporalStagesHoldOnEveryScene) {
   for (const NamedScene& named : allScenes()) {
     SCOPED_TRACE(named.name);
-    expectSequence(device(), movingFrames(named.scene), blocksWalr());
+    expectSequence(device(), movingFrames(named.scene), WalrSettings{});
   }
 }
 
@@ -295,7 +295,7 @@ TEST_F(PackedLight, TemporalStagesHoldHoweverHistoryIsFound) {
 
 // The regression over packed light gives what it gives over the same light in halves, rounded by less than a step.
 TEST_F(PackedLight, BlocksReadAndWriteIt) {
-  const WalrSettings settings = blocksWalr();
+  const WalrSettings settings{};
   FilterRun inHalves(
       device(), kSize, 1, [&](fg::Graph& graph, fg::Buffer frame, const walr::Guides& guides, const auto& inputs) {
         return addBlockRegression(graph, frame, {inputs[0], LightingAlpha::SampleCount}, guides, settings.blocks);
@@ -327,7 +327,7 @@ TEST_F(PackedLight, AStillPictureIsSteadyAndTrue) {
   const glm::dvec3 light(0.3, 0.01, 0.0007);
   constexpr std::uint32_t kUnsettled = 24;
   constexpr std::uint32_t kFrames = 64;
-  const WalrSettings settings = blocksWalr();
+  const WalrSettings settings{};
   WalrRun run(device(), kSize, settings, {}, false);
   Image<glm::dvec3> sums(kSize);
   Image<glm::dvec3> squares(kSize);

@@ -29,7 +29,7 @@ std::string valueOf(Denoiser& denoiser, const std::string& name) {
 }
 
 TEST(Settings, EveryKindIsSetFromText) {
-  const auto walr = makeDenoiser("walr");
+  const auto walr = makeDenoiser("walr_paper");
   walr->set("regression.iterations", "3");
   walr->set("regression.plane-far", "0.02");
   walr->set("regression.replace-taps", "off");
@@ -41,14 +41,14 @@ TEST(Settings, EveryKindIsSetFromText) {
 }
 
 TEST(Settings, AnUnknownNameIsRejectedWithTheKnownOnes) {
-  const auto walr = makeDenoiser("walr");
+  const auto walr = makeDenoiser("walr_paper");
   const std::string message = rejection([&] { walr->set("regression.iteration", "3"); });
   EXPECT_NE(message.find("\"regression.iteration\""), std::string::npos) << message;
   EXPECT_NE(message.find("regression.iterations"), std::string::npos) << message;
 }
 
 TEST(Settings, AValueOutsideTheRangeIsRejectedWithTheRange) {
-  const auto walr = makeDenoiser("walr");
+  const auto walr = makeDenoiser("walr_paper");
   for (const char* value : {"0", "6", "-1", "3.5", "many", "", "nan", "3 "}) {
     const std::string message = rejection([&] { walr->set("regression.iterations", value); });
     EXPECT_NE(message.find("regression.iterations"), std::string::npos) << value;
@@ -59,7 +59,7 @@ TEST(Settings, AValueOutsideTheRangeIsRejectedWithTheRange) {
 }
 
 TEST(Settings, AnUnknownChoiceIsRejectedWithTheChoices) {
-  const auto walr = makeDenoiser("walr");
+  const auto walr = makeDenoiser("walr_paper");
   const std::string message = rejection([&] { walr->set("regression.moments", "raw64"); });
   EXPECT_NE(message.find("centred16, raw16, raw11, raw32"), std::string::npos) << message;
 }
@@ -109,7 +109,7 @@ TEST(Settings, AnUnknownMethodIsRejectedWithTheKnownOnes) {
 }
 
 TEST(Presets, ReplaceAllSettings) {
-  const auto walr = makeDenoiser("walr");
+  const auto walr = makeDenoiser("walr_paper");
   walr->set("regression.iterations", "2");
   walr->usePreset("paper");
   EXPECT_EQ(valueOf(*walr, "regression.iterations"), "4");
@@ -132,8 +132,17 @@ TEST(Presets, TheFirstHoldsTheDefaults) {
 }
 
 TEST(Presets, AnUnknownOneIsRejectedWithTheKnownOnes) {
-  const std::string message = rejection([] { makeDenoiser("walr")->usePreset("best"); });
-  EXPECT_NE(message.find("blocks, robust, paper"), std::string::npos) << message;
+  const std::string message = rejection([] { makeDenoiser("walr_paper")->usePreset("best"); });
+  EXPECT_NE(message.find("paper, robust"), std::string::npos) << message;
+}
+
+TEST(Presets, ThoseThatWalrHadNameTheMethodsThatTheyAreNow) {
+  for (const char* preset : {"blocks", "robust", "paper"}) {
+    const std::string message = rejection([&] { makeDenoiser("walr")->usePreset(preset); });
+    EXPECT_NE(message.find("\"" + std::string(preset) + "\""), std::string::npos) << message;
+    EXPECT_NE(message.find("walr is what its preset blocks was"), std::string::npos) << message;
+    EXPECT_NE(message.find("robust and paper are those of the method walr_paper"), std::string::npos) << message;
+  }
 }
 
 }  // namespace

@@ -31,9 +31,9 @@ bool sameDirection(glm::dvec3 actual, glm::dvec3 expected, double error, double 
   return near || glm::length(actual - expected) <= error + std::sqrt(18.0) * step;
 }
 
-void expectGuides(const DeviceFrame& f, const WalrSettings& walr) {
-  const PrepareGuidesSettings& settings = walr.guides;
-  const bool occludes = walr.filter == SpatialFilter::Blocks;
+void expectGuides(const DeviceFrame& f, const AnyWalr& walr) {
+  const PrepareGuidesSettings& settings = walr.guides();
+  const bool occludes = walr.blocks() != nullptr;
   const double shadingStep = occludes ? reference::kUnorm12Step : reference::kUnorm16Step;
   const double geometricStep = occludes ? 1.0 / reference::kShortNormalSteps : reference::kUnorm16Step;
   constexpr double kShadingError = 16.0 * reference::kFloatRoundoff;
@@ -52,7 +52,7 @@ void expectGuides(const DeviceFrame& f, const WalrSettings& walr) {
       // pixel at least.
       const double pixel = std::abs(double(f.frame.constants.rayFromPixel.x));
       comparison.value(p, "occlusion", actual.occlusion,
-                       reference::ambientOcclusion(f.frame, p, surface, walr.occlusion),
+                       reference::ambientOcclusion(f.frame, p, surface, walr.blocks()->occlusion),
                        0.5 * reference::kUnorm8Step + 16.0 * reference::kFloatRoundoff / pixel);
     }
     if (actual.normal == glm::dvec3(0.0)) return;  // These settings have no use for it.
@@ -249,18 +249,18 @@ bool isFinite(const Image<glm::dvec4>& image) {
 
 }  // namespace
 
-void expectStages(const DeviceFrame& f, const WalrSettings& settings) {
+void expectStages(const DeviceFrame& f, const AnyWalr& settings) {
   expectGuides(f, settings);
-  const bool keepTaps = !f.frame.scene.still() && sharesReprojection(settings.antialiasing, settings.accumulation);
-  expectAccumulation(f, settings.accumulation, keepTaps);
-  if (settings.filter == SpatialFilter::Pixels) {
-    expectIterations(f, settings.regression);
-    expectRegression(f, settings.regression);
+  const bool keepTaps = !f.frame.scene.still() && sharesReprojection(settings.antialiasing(), settings.accumulation());
+  expectAccumulation(f, settings.accumulation(), keepTaps);
+  if (const WalrPaperSettings* pixels = settings.pixels()) {
+    expectIterations(f, pixels->regression);
+    expectRegression(f, pixels->regression);
   }
-  expectAntialiasing(f, settings.antialiasing, keepTaps);
+  expectAntialiasing(f, settings.antialiasing(), keepTaps);
 }
 
-void expectSequence(const fg::vk::Device& device, const std::vector<HostFrame>& frames, const WalrSettings& settings) {
+void expectSequence(const fg::vk::Device& device, const std::vector<HostFrame>& frames, const AnyWalr& settings) {
   WalrRun run(device, frames.front().size(), settings, frames.front().conventions, true, frames.front().scene);
   DeviceFrame f;
   for (const HostFrame& frame : frames) {

@@ -29,7 +29,7 @@ TEST_F(WalrLongRunTest, TheMeanDoesNotDriftAndMemoryDoesNotGrow) {
     cycle.push_back(renderStill(flatWall(), kSize, i));
     for (const glm::dvec3& l : cycle.back().lighting.pixels()) inputMean += l;
   }
-  WalrSettings settings = robustWalr();
+  WalrPaperSettings settings = robustWalr();
   settings.regression.iterations = 1;
   WalrRun run(device(), kSize, settings);
   (void)run.frame(cycle.front());

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "framegraph/vulkan/device.h"
-#include "passes/walr.h"
+#include "tests/passes/any_walr.h"
 #include "tests/passes/reference/atrous.h"
 #include "tests/vulkan/graph_run.h"
 
@@ -32,7 +32,7 @@ class WalrRun {
   /// @param settings as they are, however small the picture: `fitWindow` is taken for off
   /// @param inspect read back every stage, not only the output
   /// @param views   views of the filter to read back
-  WalrRun(const fg::vk::Device& device, glm::ivec2 size, WalrSettings settings = robustWalr(),
+  WalrRun(const fg::vk::Device& device, glm::ivec2 size, AnyWalr settings = robustWalr(),
           const InputConventions& conventions = {}, bool inspect = true, const SceneDescription& scene = {},
           const std::vector<std::string>& views = {});
 
@@ -54,7 +54,7 @@ class WalrRun {
   fg::Texture tap(fg::Graph& graph, fg::Texture texture);
 
   glm::ivec2 size_;
-  WalrSettings settings_;
+  AnyWalr settings_;
   PFN_vkCmdCopyImage copyImage_;
   DenoiserInputs inputs_;
   bool inspect_;
