@@ -284,11 +284,11 @@ TEST_F(PluginTest, WrongUseOfPassesIsAnError) {
   // Without a device passes can be listed, and that is all.
   WalrDenoiserInfo listed = info("walr", {64, 48});
   listed.device = nullptr;
-  const WalrSettingValue settings[] = {{"regression.iterations", "9"}};
+  const WalrSettingValue settings[] = {{"blocks.iterations", "9"}};
   WalrPassesInfo passesInfo{sizeof(WalrPassesInfo), 1, &listed, settings};
   WalrPasses plain = nullptr;
   EXPECT_EQ(api().create_passes(&passesInfo, &plain), WALR_ERROR_INVALID_ARGUMENT);
-  EXPECT_NE(text().find("1..5"), std::string::npos);
+  EXPECT_NE(text().find("1..4"), std::string::npos);
   passesInfo.setting_count = 0;
   ASSERT_EQ(api().create_passes(&passesInfo, &plain), WALR_SUCCESS);
   ASSERT_EQ(api().get_pass_list(plain, &list), WALR_SUCCESS);

@@ -40,11 +40,42 @@ TEST(Settings, EveryKindIsSetFromText) {
   EXPECT_EQ(valueOf(*walr, "accumulation.history-filter"), "bicubic");
 }
 
-TEST(Settings, AnUnknownNameIsRejectedWithTheKnownOnes) {
-  const auto walr = makeDenoiser("walr_paper");
-  const std::string message = rejection([&] { walr->set("regression.iteration", "3"); });
-  EXPECT_NE(message.find("\"regression.iteration\""), std::string::npos) << message;
-  EXPECT_NE(message.find("regression.iterations"), std::string::npos) << message;
+/// What a method says of a name that it does not know.
+std::string unknown(const std::string& method, const std::string& name) {
+  return rejection([&] { makeDenoiser(method)->set(name, "3"); });
+}
+
+TEST(Settings, AnUnknownNameIsRejectedWithTheNearOnes) {
+  const std::string misspelt = unknown("walr_paper", "regression.iteration");
+  EXPECT_EQ(misspelt.find("there is no setting \"regression.iteration\" here; near ones: regression.iterations, "), 0U)
+      << misspelt;
+  EXPECT_EQ(misspelt.find("accumulation."), std::string::npos) << misspelt;
+  EXPECT_EQ(unknown("walr", "spacial-only"), "there is no setting \"spacial-only\" here; near ones: spatial-only");
+  EXPECT_EQ(unknown("walr", "iterations"), "there is no setting \"iterations\" here; near ones: blocks.iterations");
+  const std::string message = unknown("none", "strength");
+  EXPECT_EQ(message.find("there is no setting \"strength\" here; known settings: scene.camera-motion, "), 0U)
+      << message;
+}
+
+TEST(Settings, OnesThatTheMethodDoesNotUseAreRejected) {
+  EXPECT_EQ(unknown("walr", "regression.iterations"),
+            "there is no setting \"regression.iterations\" here; near ones: blocks.iterations");
+  EXPECT_EQ(unknown("walr_paper", "blocks.iterations"),
+            "there is no setting \"blocks.iterations\" here; near ones: regression.iterations");
+  EXPECT_EQ(unknown("walr_paper", "walr.fit-window"),
+            "there is no setting \"walr.fit-window\" here; near ones: walr_paper.fit-window");
+  for (const char* name : {"occlusion.steps", "accumulation.storage", "antialiasing.storage", "blocks.size"}) {
+    EXPECT_NE(unknown("walr_paper", name).find("there is no setting"), std::string::npos) << name;
+    EXPECT_EQ(unknown("walr", name).find("there is no setting"), std::string::npos) << name;
+  }
+}
+
+TEST(Settings, FormerOnesAreRejectedWithTheWayOut) {
+  EXPECT_EQ(unknown("walr", "walr.filter"),
+            "there is no setting \"walr.filter\" here: method walr regresses over blocks of pixels, method walr_paper "
+            "over pixels");
+  EXPECT_EQ(unknown("walr", "blocks.sort-tiles"),
+            "there is no setting \"blocks.sort-tiles\" here: tiles are no longer sorted; leave it out");
 }
 
 TEST(Settings, AValueOutsideTheRangeIsRejectedWithTheRange) {
