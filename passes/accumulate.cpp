@@ -5,12 +5,12 @@
 
 namespace walr {
 
-fg::Texture addAccumulate(fg::Graph& graph, const DenoiserInputs& inputs, fg::Texture output,
-                          const AccumulateSettings& settings, Inspection* inspection) {
+fg::Texture addAccumulate(StageGraph graph, const DenoiserInputs& inputs, fg::Texture output,
+                          const AccumulateSettings& settings) {
   const TemporalPlan plan =
       planTemporalStages(inputs, {.accumulation = settings.accumulation, .antialiasing = {.enabled = false}});
-  const Guides guides = addPrepareGuides(graph, inputs, settings.guides, plan.guides, inspection);
-  const Accumulated accumulated = addAccumulation(graph, inputs, guides, plan, inspection);
+  const Guides guides = addPrepareGuides(graph, inputs, settings.guides, plan.guides);
+  const Accumulated accumulated = addAccumulation(graph, inputs, guides, plan);
   return addPassThrough(graph, accumulated.lighting, output);
 }
 

@@ -16,7 +16,7 @@ namespace {
 
 /// What the passes share.
 struct BlockGrid {
-  fg::Graph& graph;
+  StageGraph graph;
   fg::Buffer frame;
   fg::Extent pixels;
   fg::Extent blocks;
@@ -47,7 +47,7 @@ std::uint32_t cellBlocksFor(float cellPixels, std::uint32_t blockSize) {
   return blocks;
 }
 
-BlockGrid gridOf(fg::Graph& graph, fg::Buffer frame, fg::Extent pixels, const BlockRegressionSettings& s) {
+BlockGrid gridOf(StageGraph graph, fg::Buffer frame, fg::Extent pixels, const BlockRegressionSettings& s) {
   const fg::Extent blocks = gridExtent(pixels, s.size);
   const float sigma = s.coarseSigma * static_cast<float>(pixels.height);
   const std::uint32_t cellBlocks = cellBlocksFor(sigma / s.coarseResolution, s.size);
@@ -79,18 +79,18 @@ BlockAverages writeAverages(const BlockGrid& grid, fg::PassBuilder& pass, fg::Ex
   BlockAverages averages;
   for (std::size_t i = 0; i < averages.moments.size(); ++i) {
     const fg::Texture texture =
-        grid.graph.texture("block moments " + std::to_string(i) + suffix, {VK_FORMAT_R32G32B32A32_UINT, extent});
+        grid.graph->texture("block moments " + std::to_string(i) + suffix, {VK_FORMAT_R32G32B32A32_UINT, extent});
     averages.moments.at(i) = pass.store(prefix + "Moments" + std::to_string(i), texture);
   }
   averages.depth =
-      pass.store(prefix + "Depth", grid.graph.texture("block depth" + suffix, {VK_FORMAT_R32_UINT, extent}));
+      pass.store(prefix + "Depth", grid.graph->texture("block depth" + suffix, {VK_FORMAT_R32_UINT, extent}));
   return averages;
 }
 
 /// All of them but their depth.
 BlockFits writeFits(const BlockGrid& grid, fg::PassBuilder& pass, fg::Extent extent, const std::string& name) {
   const auto store = [&](const char* binding, const char* part) {
-    return pass.store(binding, grid.graph.texture(name + part, {VK_FORMAT_R32G32B32A32_UINT, extent}));
+    return pass.store(binding, grid.graph->texture(name + part, {VK_FORMAT_R32G32B32A32_UINT, extent}));
   };
   return {.a = store("outFitA", " a"), .b = store("outFitB", " b"), .c = store("outFitC", " c"), .depth = {}};
 }
@@ -99,7 +99,7 @@ BlockFits writeFits(const BlockGrid& grid, fg::PassBuilder& pass, fg::Extent ext
 /// blocks' fits, whose depth this reads, want paths.
 BlockFits addCoarseFit(const BlockGrid& grid, const BlockAverages& averages, fg::Texture fitDepth) {
   const auto declare = [&](const std::string& name, const fg::Shader& shader, const BlockAverages& read) {
-    fg::PassBuilder pass = grid.graph.compute(name, shader);
+    fg::PassBuilder pass = grid.graph->compute(name, shader);
     readAverages(pass, read);
     pass.specialize("kCellSize", grid.cellSize).constants(grid.constants).dispatch(grid.cells);
     return pass;
@@ -178,12 +178,11 @@ const std::vector<ViewInfo>& reconstructionViews() {
 }
 
 /// The fit of an edge-aware window around every block (walr.txt 3.2).
-BlockFits addFineFit(const BlockGrid& grid, BlockAverages averages, fg::Texture normal, std::uint32_t iterations,
-                     Inspection* inspection) {
+BlockFits addFineFit(const BlockGrid& grid, BlockAverages averages, fg::Texture normal, std::uint32_t iterations) {
   std::uint32_t spacing = 1;
   for (std::uint32_t t = 0;; ++t, spacing *= 3) {
     const auto declare = [&](const std::string& name, const fg::Shader& shader) {
-      fg::PassBuilder pass = grid.graph.compute(name, shader);
+      fg::PassBuilder pass = grid.graph->compute(name, shader);
       readAverages(pass, averages);
       pass.uniform("frameConstants", grid.frame)
           .sample("normal", normal)
@@ -193,17 +192,15 @@ BlockFits addFineFit(const BlockGrid& grid, BlockAverages averages, fg::Texture 
           .dispatch(grid.blocks);
       return pass;
     };
-    if (inspection != nullptr) {
-      inspection->offer(grid.graph, iterationViews(), grid.pixels,
-                        [&](const std::string& name) { return declare(name, shaders::blockAtrousView); },
-                        {.index = t, .count = iterations});
-    }
+    grid.graph.offer(iterationViews(), grid.pixels,
+                     [&](const std::string& name) { return declare(name, shaders::blockAtrousView); },
+                     {.index = t, .count = iterations});
     const bool last = t + 1 == iterations;
     const std::string suffix = " " + std::to_string(t);
     fg::PassBuilder pass = declare("block a-trous" + suffix, last ? shaders::blockAtrousLast : shaders::blockAtrous);
     if (last) {
       BlockFits fits = writeFits(grid, pass, grid.blocks, "block fit");
-      fits.depth = pass.store("outDepth", grid.graph.texture("block fit depth", {VK_FORMAT_R32_UINT, grid.blocks}));
+      fits.depth = pass.store("outDepth", grid.graph->texture("block fit depth", {VK_FORMAT_R32_UINT, grid.blocks}));
       return fits;
     }
     averages = writeAverages(grid, pass, grid.blocks, suffix);
@@ -220,7 +217,7 @@ struct Fits {
 /// What gathers the blocks' samples and what fits them to the pixels again read the same pixels.
 fg::PassBuilder readPixels(const BlockGrid& grid, const Guides& guides, const std::string& name,
                            const fg::Shader& shader) {
-  fg::PassBuilder pass = grid.graph.compute(name, shader);
+  fg::PassBuilder pass = grid.graph->compute(name, shader);
   pass.uniform("frameConstants", grid.frame)
       .sample("depth", guides.depth)
       .sample("features", guides.features)
@@ -230,7 +227,7 @@ fg::PassBuilder readPixels(const BlockGrid& grid, const Guides& guides, const st
 }
 
 bool isPacked(const BlockGrid& grid, fg::Texture texture) {
-  return lightStorageOf(grid.graph.textureDesc(texture).format) == LightStorage::Packed;
+  return lightStorageOf(grid.graph->textureDesc(texture).format) == LightStorage::Packed;
 }
 
 void readLight(const BlockGrid& grid, const BlockLight& light, fg::PassBuilder& pass) {
@@ -240,8 +237,7 @@ void readLight(const BlockGrid& grid, const BlockLight& light, fg::PassBuilder& 
 }
 
 /// Every pixel from the fits around it.
-fg::Texture addReconstruction(const BlockGrid& grid, const BlockLight& light, const Guides& guides, const Fits& fits,
-                              Inspection* inspection) {
+fg::Texture addReconstruction(const BlockGrid& grid, const BlockLight& light, const Guides& guides, const Fits& fits) {
   const bool readsPacked = isPacked(grid, light.accumulated);
   const bool writesPacked = light.result == LightStorage::Packed;
   const auto reconstruct = [&](const std::string& name, const fg::Shader& shader) {
@@ -259,27 +255,25 @@ fg::Texture addReconstruction(const BlockGrid& grid, const BlockLight& light, co
         .dispatch(grid.pixels);
     return pass;
   };
-  if (inspection != nullptr) {
-    inspection->offer(grid.graph, reconstructionViews(), grid.pixels, [&](const std::string& name) {
-      fg::PassBuilder pass = reconstruct(name, readsPacked ? shaders::blockApplyViewPacked : shaders::blockApplyView);
-      readLight(grid, light, pass);
-      return pass;
-    });
-  }
+  grid.graph.offer(reconstructionViews(), grid.pixels, [&](const std::string& name) {
+    fg::PassBuilder pass = reconstruct(name, readsPacked ? shaders::blockApplyViewPacked : shaders::blockApplyView);
+    readLight(grid, light, pass);
+    return pass;
+  });
 
   fg::PassBuilder pass = reconstruct("block apply", writesPacked ? shaders::blockApplyPacked : shaders::blockApply);
   if (!writesPacked) pass.sample("passed", readsPacked ? light.lighting : light.accumulated);
-  return pass.store("outFiltered", grid.graph.texture("filtered", {formatOf(light.result), grid.pixels}));
+  return pass.store("outFiltered", grid.graph->texture("filtered", {formatOf(light.result), grid.pixels}));
 }
 
 }  // namespace
 
-fg::Texture addBlockRegression(fg::Graph& graph, fg::Buffer frame, const BlockLight& light, const Guides& guides,
-                               const BlockRegressionSettings& settings, Inspection* inspection) {
+fg::Texture addBlockRegression(StageGraph graph, fg::Buffer frame, const BlockLight& light, const Guides& guides,
+                               const BlockRegressionSettings& settings) {
   if (!(settings.planeNear < settings.planeFar)) {
     throw std::invalid_argument("setting blocks.plane-near must be below blocks.plane-far");
   }
-  const BlockGrid grid = gridOf(graph, frame, graph.textureDesc(light.accumulated).extent, settings);
+  const BlockGrid grid = gridOf(graph, frame, graph->textureDesc(light.accumulated).extent, settings);
   fg::PassBuilder gather =
       readPixels(grid, guides, "block moments",
                  isPacked(grid, light.accumulated) ? shaders::blockMomentsPacked : shaders::blockMoments);
@@ -290,10 +284,10 @@ fg::Texture addBlockRegression(fg::Graph& graph, fg::Buffer frame, const BlockLi
   const BlockAverages blocks = writeAverages(grid, gather, grid.blocks, "");
   const BlockAverages cells = writeAverages(grid, gather, grid.cells, " of cells", "outCell");
   Fits fits;
-  fits.normal = gather.store("outNormal", graph.texture("block normal", {VK_FORMAT_R32_UINT, grid.blocks}));
-  fits.fine = addFineFit(grid, blocks, fits.normal, settings.iterations, inspection);
+  fits.normal = gather.store("outNormal", graph->texture("block normal", {VK_FORMAT_R32_UINT, grid.blocks}));
+  fits.fine = addFineFit(grid, blocks, fits.normal, settings.iterations);
   fits.coarse = addCoarseFit(grid, cells, fits.fine.depth);
-  return addReconstruction(grid, light, guides, fits, inspection);
+  return addReconstruction(grid, light, guides, fits);
 }
 
 }  // namespace walr

@@ -3,11 +3,11 @@
 #include <cstdint>
 
 #include "framegraph/declare/graph.h"
-#include "passes/inspection.h"
 #include "passes/light_storage.h"
 #include "passes/lighting_alpha.h"
 #include "passes/prepare_guides.h"
 #include "passes/settings.h"
+#include "passes/stage_graph.h"
 
 namespace walr {
 
@@ -102,10 +102,9 @@ struct BlockLight {
 /// the fits around it.
 /// @param frame      upload of `FrameConstants`
 /// @param guides     with `features`
-/// @param inspection is offered the views of every iteration and of the reconstruction
 /// @returns as `light.result` says: filtered radiance; RGBA16F: sky and pixels without a diffuse lobe as they were
 /// @throws std::invalid_argument for settings outside their range
-fg::Texture addBlockRegression(fg::Graph& graph, fg::Buffer frame, const BlockLight& light, const Guides& guides,
-                               const BlockRegressionSettings& settings = {}, Inspection* inspection = nullptr);
+fg::Texture addBlockRegression(StageGraph graph, fg::Buffer frame, const BlockLight& light, const Guides& guides,
+                               const BlockRegressionSettings& settings = {});
 
 }  // namespace walr

@@ -84,12 +84,12 @@ class DenoiserOf final : public Denoiser {
                                 std::string(kFormerPresets<Settings>));
   }
 
-  fg::Texture add(fg::Graph& graph, const DenoiserInputs& inputs, fg::Texture output, Inspection* inspection) override {
+  fg::Texture add(StageGraph graph, const DenoiserInputs& inputs, fg::Texture output) override {
     checkSettings();
     DenoiserInputs described = inputs;
     described.scene = common(inputs.scene, scene_);
-    const fg::Texture denoised = kAdd(graph, described, output, settings_, inspection);
-    if (inspection != nullptr) inspection->requireViews();
+    const fg::Texture denoised = kAdd(graph, described, output, settings_);
+    graph.requireViews();
     return denoised;
   }
 
@@ -107,8 +107,7 @@ struct NoSettings {
   void visit(SettingVisitor& /*visitor*/) {}
 };
 
-fg::Texture addNone(fg::Graph& graph, const DenoiserInputs& inputs, fg::Texture output, const NoSettings& /*none*/,
-                    Inspection* /*inspection*/) {
+fg::Texture addNone(StageGraph graph, const DenoiserInputs& inputs, fg::Texture output, const NoSettings& /*none*/) {
   return addPassThrough(graph, inputs.lighting, output);
 }
 
@@ -158,7 +157,7 @@ std::vector<ViewInfo> Denoiser::views() {
   inputs.albedo = graph.texture("albedo", colour);
   inputs.frame = graph.upload("frame constants", sizeof(FrameConstants));
   Inspection inspection;
-  (void)add(graph, inputs, graph.texture("output", colour), &inspection);
+  (void)add({graph, inspection}, inputs, graph.texture("output", colour));
   return inspection.known();
 }
 

@@ -4,8 +4,7 @@
 
 namespace walr {
 
-fg::Texture addFlr(fg::Graph& graph, const DenoiserInputs& inputs, fg::Texture output, const FlrSettings& settings,
-                   Inspection* inspection) {
+fg::Texture addFlr(StageGraph graph, const DenoiserInputs& inputs, fg::Texture output, const FlrSettings& settings) {
   const TemporalPlan plan = planTemporalStages(inputs, {.accumulation = settings.accumulation,
                                                         .antialiasing = settings.antialiasing,
                                                         .spatialOnly = settings.spatialOnly});
@@ -14,11 +13,11 @@ fg::Texture addFlr(fg::Graph& graph, const DenoiserInputs& inputs, fg::Texture o
   FlrRegressionSettings regression = settings.regression;
   if (settings.spatialOnly) regression.sigma = settings.singleFrameSigma;
 
-  const Guides guides = addPrepareGuides(graph, inputs, settings.guides, needs, inspection);
-  const Accumulated accumulated = addAccumulation(graph, inputs, guides, plan, inspection);
+  const Guides guides = addPrepareGuides(graph, inputs, settings.guides, needs);
+  const Accumulated accumulated = addAccumulation(graph, inputs, guides, plan);
   const fg::Texture filtered = addFlrRegression(graph, accumulated.lighting, accumulated.alpha, guides,
-                                                filterTarget(graph, plan, output), regression, inspection);
-  return addAntialiasing(graph, inputs, guides, plan, accumulated, filtered, output, inspection);
+                                                filterTarget(graph, plan, output), regression);
+  return addAntialiasing(graph, inputs, guides, plan, accumulated, filtered, output);
 }
 
 }  // namespace walr

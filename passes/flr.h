@@ -4,6 +4,7 @@
 #include "passes/flr_regression.h"
 #include "passes/inputs.h"
 #include "passes/prepare_guides.h"
+#include "passes/stage_graph.h"
 #include "passes/temporal_accumulation.h"
 #include "passes/temporal_antialiasing.h"
 
@@ -37,9 +38,8 @@ struct FlrSettings {
 
 /// Fast Local Regression (flr-flnr.txt), between temporal accumulation and temporal anti-aliasing.
 /// @param output RGBA16F texture to write the result to
-/// @param inspection is offered the views of the stages that have some
 /// @returns the output's new version
-fg::Texture addFlr(fg::Graph& graph, const DenoiserInputs& inputs, fg::Texture output, const FlrSettings& settings = {},
-                   Inspection* inspection = nullptr);
+fg::Texture addFlr(StageGraph graph, const DenoiserInputs& inputs, fg::Texture output,
+                   const FlrSettings& settings = {});
 
 }  // namespace walr

@@ -4,6 +4,7 @@
 #include "passes/inputs.h"
 #include "passes/joint_bilateral_filter.h"
 #include "passes/prepare_guides.h"
+#include "passes/stage_graph.h"
 #include "passes/temporal_antialiasing.h"
 
 namespace walr {
@@ -31,9 +32,8 @@ struct JointBilateralSettings {
 /// result into it, accumulate. Surfaces are told apart by the object's number, as in the text, where the host gives it,
 /// and by plane and geometric normal, as in the other methods.
 /// @param output RGBA16F texture to write the result to
-/// @param inspection is offered the views of the stages that have some
 /// @returns the output's new version
-fg::Texture addJointBilateral(fg::Graph& graph, const DenoiserInputs& inputs, fg::Texture output,
-                              const JointBilateralSettings& settings = {}, Inspection* inspection = nullptr);
+fg::Texture addJointBilateral(StageGraph graph, const DenoiserInputs& inputs, fg::Texture output,
+                              const JointBilateralSettings& settings = {});
 
 }  // namespace walr

@@ -31,19 +31,19 @@ RefwlrSettings paperRefwlr() {
   return likeWalr(paperWalr());
 }
 
-fg::Texture addRefwlr(fg::Graph& graph, const DenoiserInputs& inputs, fg::Texture output,
-                      const RefwlrSettings& settings, Inspection* inspection) {
+fg::Texture addRefwlr(StageGraph graph, const DenoiserInputs& inputs, fg::Texture output,
+                      const RefwlrSettings& settings) {
   FullWindowSettings regression = settings.regression;
-  const std::uint32_t height = graph.textureDesc(inputs.lighting).extent.height;
+  const std::uint32_t height = graph->textureDesc(inputs.lighting).extent.height;
   if (settings.fitWindow) regression.window = std::min(regression.window, fittingWindow(height));
 
   const TemporalPlan plan =
       planTemporalStages(inputs, {.accumulation = settings.accumulation, .antialiasing = settings.antialiasing});
-  const Guides guides = addPrepareGuides(graph, inputs, settings.guides, {}, inspection);
-  const Accumulated accumulated = addAccumulation(graph, inputs, guides, plan, inspection);
+  const Guides guides = addPrepareGuides(graph, inputs, settings.guides, {});
+  const Accumulated accumulated = addAccumulation(graph, inputs, guides, plan);
   const fg::Texture filtered = addFullWindowRegression(graph, inputs.frame, accumulated.lighting, guides,
                                                        filterTarget(graph, plan, output), regression);
-  return addAntialiasing(graph, inputs, guides, plan, accumulated, filtered, output, inspection);
+  return addAntialiasing(graph, inputs, guides, plan, accumulated, filtered, output);
 }
 
 }  // namespace walr

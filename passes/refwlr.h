@@ -4,6 +4,7 @@
 #include "passes/full_window_regression.h"
 #include "passes/inputs.h"
 #include "passes/prepare_guides.h"
+#include "passes/stage_graph.h"
 #include "passes/temporal_accumulation.h"
 #include "passes/temporal_antialiasing.h"
 
@@ -37,9 +38,8 @@ RefwlrSettings paperRefwlr();
 /// Reference Weighted Linear Regression (walr.txt 6): WALR with a full window in place of a-trous averages, to tell
 /// what those cost in quality. Takes seconds a frame.
 /// @param output RGBA16F texture to write the result to
-/// @param inspection is offered the views of the stages that have some
 /// @returns the output's new version
-fg::Texture addRefwlr(fg::Graph& graph, const DenoiserInputs& inputs, fg::Texture output,
-                      const RefwlrSettings& settings = {}, Inspection* inspection = nullptr);
+fg::Texture addRefwlr(StageGraph graph, const DenoiserInputs& inputs, fg::Texture output,
+                      const RefwlrSettings& settings = {});
 
 }  // namespace walr

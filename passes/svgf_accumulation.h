@@ -3,9 +3,9 @@
 #include "framegraph/declare/graph.h"
 #include "passes/history_tests.h"
 #include "passes/inputs.h"
-#include "passes/inspection.h"
 #include "passes/prepare_guides.h"
 #include "passes/settings.h"
+#include "passes/stage_graph.h"
 
 namespace walr {
 
@@ -37,9 +37,8 @@ struct SvgfAccumulated {
 /// Average colour and luminance moments over time along the motion.
 /// @param previousColour RGBA16F: the colour's history
 /// @param colour         RGBA16F texture to write the mean colour to
-/// @param inspection     is offered the stage's views
-SvgfAccumulated addSvgfAccumulation(fg::Graph& graph, const DenoiserInputs& inputs, const Guides& guides,
+SvgfAccumulated addSvgfAccumulation(StageGraph graph, const DenoiserInputs& inputs, const Guides& guides,
                                     fg::Texture previousColour, fg::Texture colour,
-                                    const SvgfAccumulationSettings& settings = {}, Inspection* inspection = nullptr);
+                                    const SvgfAccumulationSettings& settings = {});
 
 }  // namespace walr

@@ -66,7 +66,7 @@ const fg::Shader& stillShaderFor(Role role, bool responsive, LightStorage storag
 
 /// The stage in a graph.
 struct Stage {
-  fg::Graph& graph;
+  StageGraph graph;
   const DenoiserInputs& inputs;
   const Guides& guides;
   const TemporalAccumulationSettings& settings;
@@ -75,11 +75,11 @@ struct Stage {
   std::optional<LightChange> change;  ///< Where the stage responds to it.
 };
 
-Stage stageOf(fg::Graph& graph, const DenoiserInputs& inputs, const Guides& guides,
+Stage stageOf(StageGraph graph, const DenoiserInputs& inputs, const Guides& guides,
               const TemporalAccumulationSettings& settings, bool keepTaps) {
-  const fg::Extent extent = graph.textureDesc(inputs.lighting).extent;
+  const fg::Extent extent = graph->textureDesc(inputs.lighting).extent;
   Stage stage{graph,       inputs,   guides,
-              settings,    keepTaps, graph.history("accumulated", {formatOf(settings.storage), extent}),
+              settings,    keepTaps, graph->history("accumulated", {formatOf(settings.storage), extent}),
               std::nullopt};
   if (settings.change.respond) stage.change = declareLightChange(graph, extent);
   return stage;
@@ -93,8 +93,8 @@ fg::PassBuilder declarePass(const Stage& stage, const std::string& name, Role ro
   const bool responsive = stage.change.has_value();
   const LightStorage storage = stage.settings.storage;
   fg::PassBuilder pass =
-      stage.graph.compute(name, still ? stillShaderFor(role, responsive, storage)
-                                      : shaderFor(motion, stage.settings.rejection, role, responsive, storage));
+      stage.graph->compute(name, still ? stillShaderFor(role, responsive, storage)
+                                       : shaderFor(motion, stage.settings.rejection, role, responsive, storage));
   if (still) {
     pass.sample("depth", stage.guides.depth);
     if (storage == LightStorage::Packed && role != Role::View) pass.uniform("frameConstants", stage.inputs.frame);
@@ -108,14 +108,12 @@ fg::PassBuilder declarePass(const Stage& stage, const std::string& name, Role ro
       .sample("previousAccumulated", stage.accumulated.previous)
       .constants(TemporalAccumulationConstants{stage.settings.maxSamples, stage.settings.planeTolerance,
                                                stage.settings.normalThreshold})
-      .dispatch(stage.graph.textureDesc(stage.inputs.lighting).extent);
+      .dispatch(stage.graph->textureDesc(stage.inputs.lighting).extent);
   return pass;
 }
 
-void offerViews(const Stage& stage, Inspection* inspection) {
-  if (inspection == nullptr) return;
-  inspection->offer(stage.graph, accumulationViews(stage.change.has_value()),
-                    stage.graph.textureDesc(stage.inputs.lighting).extent,
+void offerViews(const Stage& stage) {
+  stage.graph.offer(accumulationViews(stage.change.has_value()), stage.graph->textureDesc(stage.inputs.lighting).extent,
                     [&](const std::string& name) { return declarePass(stage, name, Role::View); });
 }
 
@@ -148,25 +146,25 @@ std::span<const ViewInfo> accumulationViews(bool respondsToChange) {
   return std::span(kViews).first(respondsToChange ? kViews.size() : kViews.size() - 1);
 }
 
-fg::Texture addTemporalAccumulation(fg::Graph& graph, const DenoiserInputs& inputs, const Guides& guides,
-                                    const TemporalAccumulationSettings& settings, Inspection* inspection) {
+fg::Texture addTemporalAccumulation(StageGraph graph, const DenoiserInputs& inputs, const Guides& guides,
+                                    const TemporalAccumulationSettings& settings) {
   const Stage stage = stageOf(graph, inputs, guides, settings, false);
-  offerViews(stage, inspection);
+  offerViews(stage);
   fg::Texture mean;
   accumulate(stage, Role::Mean, mean);
   return mean;
 }
 
-AccumulationWithTaps addTemporalAccumulationWithTaps(fg::Graph& graph, const DenoiserInputs& inputs,
+AccumulationWithTaps addTemporalAccumulationWithTaps(StageGraph graph, const DenoiserInputs& inputs,
                                                      const Guides& guides, const TemporalAccumulationSettings& settings,
-                                                     LightStorage antialiasing, Inspection* inspection) {
+                                                     LightStorage antialiasing) {
   const Stage stage = stageOf(graph, inputs, guides, settings, true);
-  offerViews(stage, inspection);
+  offerViews(stage);
   AccumulationWithTaps result;
   fg::PassBuilder pass = accumulate(stage, Role::MeanAndTaps, result.mean);
   pass.specialize("kKeepPassedLight", antialiasing == LightStorage::Packed);
-  const fg::Extent extent = graph.textureDesc(inputs.lighting).extent;
-  result.taps = pass.store("outTaps", graph.texture("history taps", {VK_FORMAT_R32_UINT, extent}));
+  const fg::Extent extent = graph->textureDesc(inputs.lighting).extent;
+  result.taps = pass.store("outTaps", graph->texture("history taps", {VK_FORMAT_R32_UINT, extent}));
   return result;
 }
 

@@ -8,11 +8,11 @@
 #include "framegraph/declare/graph.h"
 #include "passes/history_tests.h"
 #include "passes/inputs.h"
-#include "passes/inspection.h"
 #include "passes/light_change.h"
 #include "passes/light_storage.h"
 #include "passes/prepare_guides.h"
 #include "passes/settings.h"
+#include "passes/stage_graph.h"
 
 namespace walr {
 
@@ -61,12 +61,10 @@ struct TemporalAccumulationSettings {
 std::span<const ViewInfo> accumulationViews(bool respondsToChange);
 
 /// Average the noisy lighting over time along its motion.
-/// @param inspection is offered the stage's views
 /// @returns as `settings.storage` says: mean radiance; alpha: number of samples behind it, 0 where there is nothing to
 ///          denoise.
-fg::Texture addTemporalAccumulation(fg::Graph& graph, const DenoiserInputs& inputs, const Guides& guides,
-                                    const TemporalAccumulationSettings& settings = {},
-                                    Inspection* inspection = nullptr);
+fg::Texture addTemporalAccumulation(StageGraph graph, const DenoiserInputs& inputs, const Guides& guides,
+                                    const TemporalAccumulationSettings& settings = {});
 
 /// What temporal accumulation leaves for a later stage that reads its own history along the same motion.
 struct AccumulationWithTaps {
@@ -80,10 +78,9 @@ struct AccumulationWithTaps {
 /// The same, keeping what the reprojection and its tests found (walr.txt 4.4, bmfr.txt 3.5).
 /// @param antialiasing storage of the anti-aliasing that reads the taps. Packed: it knows otherwise where there is no
 ///                     surface, and finds light there instead of the mark that other stages need.
-AccumulationWithTaps addTemporalAccumulationWithTaps(fg::Graph& graph, const DenoiserInputs& inputs,
+AccumulationWithTaps addTemporalAccumulationWithTaps(StageGraph graph, const DenoiserInputs& inputs,
                                                      const Guides& guides,
                                                      const TemporalAccumulationSettings& settings = {},
-                                                     LightStorage antialiasing = LightStorage::Half,
-                                                     Inspection* inspection = nullptr);
+                                                     LightStorage antialiasing = LightStorage::Half);
 
 }  // namespace walr

@@ -5,10 +5,10 @@
 #include "framegraph/declare/graph.h"
 #include "passes/history_tests.h"
 #include "passes/inputs.h"
-#include "passes/inspection.h"
 #include "passes/light_storage.h"
 #include "passes/prepare_guides.h"
 #include "passes/settings.h"
+#include "passes/stage_graph.h"
 #include "passes/temporal_accumulation.h"
 
 namespace walr {
@@ -63,12 +63,10 @@ struct TemporalAntialiasingSettings {
 /// Remove what flicker and aliasing the spatial filter leaves: bicubic history, variance clipping, moving average.
 /// @param filtered the current frame as `settings.storage` says; RGBA16F: alpha below 0 where no light is known
 /// @param output   RGBA16F: texture to write the result to
-/// @param inspection is offered the stage's views
 /// @returns the output's new version
-fg::Texture addTemporalAntialiasing(fg::Graph& graph, const DenoiserInputs& inputs, const Guides& guides,
+fg::Texture addTemporalAntialiasing(StageGraph graph, const DenoiserInputs& inputs, const Guides& guides,
                                     fg::Texture filtered, fg::Texture output,
-                                    const TemporalAntialiasingSettings& settings = {},
-                                    Inspection* inspection = nullptr);
+                                    const TemporalAntialiasingSettings& settings = {});
 
 /// Whether anti-aliasing with these settings looks for its history just where accumulation has looked for its own.
 bool sharesReprojection(const TemporalAntialiasingSettings& antialiasing,
@@ -77,8 +75,7 @@ bool sharesReprojection(const TemporalAntialiasingSettings& antialiasing,
 /// The same with the reprojection that accumulation has kept; `sharesReprojection` must hold.
 /// @param frame upload of `FrameConstants`
 /// @param taps  R32_UINT: `AccumulationWithTaps::taps` for `settings.storage`
-fg::Texture addTemporalAntialiasingWithTaps(fg::Graph& graph, fg::Buffer frame, fg::Texture taps, fg::Texture filtered,
-                                            fg::Texture output, const TemporalAntialiasingSettings& settings = {},
-                                            Inspection* inspection = nullptr);
+fg::Texture addTemporalAntialiasingWithTaps(StageGraph graph, fg::Buffer frame, fg::Texture taps, fg::Texture filtered,
+                                            fg::Texture output, const TemporalAntialiasingSettings& settings = {});
 
 }  // namespace walr

@@ -32,16 +32,15 @@ TemporalPlan planTemporalStages(const DenoiserInputs& inputs, const TemporalStag
   return plan;
 }
 
-Accumulated addAccumulation(fg::Graph& graph, const DenoiserInputs& inputs, const Guides& guides,
-                            const TemporalPlan& plan, Inspection* inspection) {
+Accumulated addAccumulation(StageGraph graph, const DenoiserInputs& inputs, const Guides& guides,
+                            const TemporalPlan& plan) {
   if (!plan.accumulates) return {.lighting = inputs.lighting};
   if (!plan.keepsTaps) {
-    return {.lighting = addTemporalAccumulation(graph, inputs, guides, plan.accumulation, inspection),
+    return {.lighting = addTemporalAccumulation(graph, inputs, guides, plan.accumulation),
             .alpha = LightingAlpha::SampleCount};
   }
   const LightStorage reader = plan.sharesTaps ? plan.antialiasing.storage : LightStorage::Half;
-  const auto [mean, taps] =
-      addTemporalAccumulationWithTaps(graph, inputs, guides, plan.accumulation, reader, inspection);
+  const auto [mean, taps] = addTemporalAccumulationWithTaps(graph, inputs, guides, plan.accumulation, reader);
   return {.lighting = mean, .alpha = LightingAlpha::SampleCount, .taps = taps};
 }
 
@@ -50,16 +49,15 @@ fg::Texture filterTarget(fg::Graph& graph, const TemporalPlan& plan, fg::Texture
   return graph.texture("filtered", {VK_FORMAT_R16G16B16A16_SFLOAT, graph.textureDesc(output).extent});
 }
 
-fg::Texture addAntialiasing(fg::Graph& graph, const DenoiserInputs& inputs, const Guides& guides,
+fg::Texture addAntialiasing(StageGraph graph, const DenoiserInputs& inputs, const Guides& guides,
                             const TemporalPlan& plan, const Accumulated& accumulated, fg::Texture filtered,
-                            fg::Texture output, Inspection* inspection) {
+                            fg::Texture output) {
   if (!plan.antialiases) {
     return filtered.resource == output.resource ? filtered : addPassThrough(graph, filtered, output);
   }
-  return plan.sharesTaps
-             ? addTemporalAntialiasingWithTaps(graph, inputs.frame, accumulated.taps, filtered, output,
-                                               plan.antialiasing, inspection)
-             : addTemporalAntialiasing(graph, inputs, guides, filtered, output, plan.antialiasing, inspection);
+  return plan.sharesTaps ? addTemporalAntialiasingWithTaps(graph, inputs.frame, accumulated.taps, filtered, output,
+                                                           plan.antialiasing)
+                         : addTemporalAntialiasing(graph, inputs, guides, filtered, output, plan.antialiasing);
 }
 
 }  // namespace walr

@@ -5,6 +5,7 @@
 #include "passes/light_storage.h"
 #include "passes/lighting_alpha.h"
 #include "passes/prepare_guides.h"
+#include "passes/stage_graph.h"
 #include "passes/temporal_accumulation.h"
 #include "passes/temporal_antialiasing.h"
 
@@ -45,9 +46,8 @@ struct Accumulated {
 };
 
 /// Add temporal accumulation, if the plan has it.
-/// @param inspection is offered the stage's views
-Accumulated addAccumulation(fg::Graph& graph, const DenoiserInputs& inputs, const Guides& guides,
-                            const TemporalPlan& plan, Inspection* inspection = nullptr);
+Accumulated addAccumulation(StageGraph graph, const DenoiserInputs& inputs, const Guides& guides,
+                            const TemporalPlan& plan);
 
 /// The RGBA16F texture that a filter had best write to: the method's output where no stage follows, else a new one.
 fg::Texture filterTarget(fg::Graph& graph, const TemporalPlan& plan, fg::Texture output);
@@ -55,10 +55,9 @@ fg::Texture filterTarget(fg::Graph& graph, const TemporalPlan& plan, fg::Texture
 /// Add temporal anti-aliasing, if the plan has it. Else copy what is not in the output yet.
 /// @param filtered   the filter's result as `plan.filtered` says
 /// @param output     RGBA16F texture to write the result to
-/// @param inspection is offered the stage's views
 /// @returns the output's new version
-fg::Texture addAntialiasing(fg::Graph& graph, const DenoiserInputs& inputs, const Guides& guides,
+fg::Texture addAntialiasing(StageGraph graph, const DenoiserInputs& inputs, const Guides& guides,
                             const TemporalPlan& plan, const Accumulated& accumulated, fg::Texture filtered,
-                            fg::Texture output, Inspection* inspection = nullptr);
+                            fg::Texture output);
 
 }  // namespace walr

@@ -21,23 +21,22 @@ BlockRegressionSettings fittedBlocks(const WalrSettings& settings, std::uint32_t
 
 }  // namespace
 
-fg::Texture addWalr(fg::Graph& graph, const DenoiserInputs& inputs, fg::Texture output, const WalrSettings& settings,
-                    Inspection* inspection) {
+fg::Texture addWalr(StageGraph graph, const DenoiserInputs& inputs, fg::Texture output, const WalrSettings& settings) {
   const TemporalPlan plan = planTemporalStages(inputs, {.accumulation = settings.accumulation,
                                                         .antialiasing = settings.antialiasing,
                                                         .spatialOnly = settings.spatialOnly});
   GuideNeeds needs = plan.guides;
   needs.geometricNormal = true;
   needs.occlusion = settings.occlusion;
-  const Guides guides = addPrepareGuides(graph, inputs, settings.guides, needs, inspection);
-  const Accumulated accumulated = addAccumulation(graph, inputs, guides, plan, inspection);
+  const Guides guides = addPrepareGuides(graph, inputs, settings.guides, needs);
+  const Accumulated accumulated = addAccumulation(graph, inputs, guides, plan);
   const BlockLight light{.accumulated = accumulated.lighting,
                          .alpha = accumulated.alpha,
                          .lighting = inputs.lighting,
                          .result = plan.filtered};
-  const BlockRegressionSettings blocks = fittedBlocks(settings, graph.textureDesc(inputs.lighting).extent.height);
-  const fg::Texture filtered = addBlockRegression(graph, inputs.frame, light, guides, blocks, inspection);
-  return addAntialiasing(graph, inputs, guides, plan, accumulated, filtered, output, inspection);
+  const BlockRegressionSettings blocks = fittedBlocks(settings, graph->textureDesc(inputs.lighting).extent.height);
+  const fg::Texture filtered = addBlockRegression(graph, inputs.frame, light, guides, blocks);
+  return addAntialiasing(graph, inputs, guides, plan, accumulated, filtered, output);
 }
 
 }  // namespace walr

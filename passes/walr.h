@@ -4,6 +4,7 @@
 #include "passes/block_regression.h"
 #include "passes/inputs.h"
 #include "passes/prepare_guides.h"
+#include "passes/stage_graph.h"
 #include "passes/temporal_accumulation.h"
 #include "passes/temporal_antialiasing.h"
 
@@ -41,10 +42,9 @@ struct WalrSettings {
 /// The project's own method: Weighted A-Trous Linear Regression (Meunier & Harada 2022, figure 6) over blocks of
 /// pixels in place of pixels, which leaves room for features that know depth and occlusion.
 /// @param output     RGBA16F texture to write the result to
-/// @param inspection is offered the views of all stages
 /// @returns the output's new version
 /// @throws std::invalid_argument for settings outside their range
-fg::Texture addWalr(fg::Graph& graph, const DenoiserInputs& inputs, fg::Texture output,
-                    const WalrSettings& settings = {}, Inspection* inspection = nullptr);
+fg::Texture addWalr(StageGraph graph, const DenoiserInputs& inputs, fg::Texture output,
+                    const WalrSettings& settings = {});
 
 }  // namespace walr

@@ -24,20 +24,20 @@ WalrPaperSettings robustWalr() {
   return {.guides = {}, .accumulation = {}, .regression = {}, .fitWindow = true, .antialiasing = {}};
 }
 
-fg::Texture addWalrPaper(fg::Graph& graph, const DenoiserInputs& inputs, fg::Texture output,
-                         const WalrPaperSettings& settings, Inspection* inspection) {
+fg::Texture addWalrPaper(StageGraph graph, const DenoiserInputs& inputs, fg::Texture output,
+                         const WalrPaperSettings& settings) {
   const TemporalPlan plan = planTemporalStages(inputs, {.accumulation = settings.accumulation,
                                                         .antialiasing = settings.antialiasing,
                                                         .spatialOnly = settings.spatialOnly});
   GuideNeeds needs = plan.guides;
   if (settings.regression.edgeStopping.planeNormal == PlaneNormal::Geometric) needs.geometricNormal = true;
-  const Guides guides = addPrepareGuides(graph, inputs, settings.guides, needs, inspection);
-  const Accumulated accumulated = addAccumulation(graph, inputs, guides, plan, inspection);
+  const Guides guides = addPrepareGuides(graph, inputs, settings.guides, needs);
+  const Accumulated accumulated = addAccumulation(graph, inputs, guides, plan);
   const WeightedRegressionSettings regression =
-      fittedRegression(settings, graph.textureDesc(inputs.lighting).extent.height);
+      fittedRegression(settings, graph->textureDesc(inputs.lighting).extent.height);
   const fg::Texture filtered = addWeightedRegression(graph, inputs.frame, accumulated.lighting, accumulated.alpha,
-                                                     guides, filterTarget(graph, plan, output), regression, inspection);
-  return addAntialiasing(graph, inputs, guides, plan, accumulated, filtered, output, inspection);
+                                                     guides, filterTarget(graph, plan, output), regression);
+  return addAntialiasing(graph, inputs, guides, plan, accumulated, filtered, output);
 }
 
 }  // namespace walr

@@ -3,6 +3,7 @@
 #include "framegraph/declare/graph.h"
 #include "passes/inputs.h"
 #include "passes/prepare_guides.h"
+#include "passes/stage_graph.h"
 #include "passes/temporal_accumulation.h"
 #include "passes/temporal_antialiasing.h"
 #include "passes/weighted_regression.h"
@@ -49,10 +50,9 @@ WalrPaperSettings robustWalr();
 
 /// Weighted A-Trous Linear Regression as published, over pixels (Meunier & Harada 2022, figure 6).
 /// @param output     RGBA16F texture to write the result to
-/// @param inspection is offered the views of all stages
 /// @returns the output's new version
 /// @throws std::invalid_argument for settings outside their range
-fg::Texture addWalrPaper(fg::Graph& graph, const DenoiserInputs& inputs, fg::Texture output,
-                         const WalrPaperSettings& settings = {}, Inspection* inspection = nullptr);
+fg::Texture addWalrPaper(StageGraph graph, const DenoiserInputs& inputs, fg::Texture output,
+                         const WalrPaperSettings& settings = {});
 
 }  // namespace walr

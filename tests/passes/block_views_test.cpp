@@ -41,9 +41,9 @@ class ViewedRegression {
     Inspection inspection;
     for (const std::string& view : views)
       inspection.want(view, graph_.import("view of " + view, {kViewFormat, extent}, fg::vk::kOverwritable));
-    output_ = copyOut(
-        graph_, "result",
-        addBlockRegression(graph_, frame_, {accumulated_, LightingAlpha::SampleCount}, guides_, settings, &inspection));
+    output_ = copyOut(graph_, "result",
+                      addBlockRegression({graph_, inspection}, frame_, {accumulated_, LightingAlpha::SampleCount},
+                                         guides_, settings));
     inspection.requireViews();
     for (const DebugView& view : inspection.views()) {
       graph_.exported(view.texture, fg::vk::kReadable);

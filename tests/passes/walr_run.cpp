@@ -77,8 +77,9 @@ WalrRun::WalrRun(const fg::vk::Device& device, glm::ivec2 size, AnyWalr settings
 
   for (const std::string& view : views)
     inspection_.want(view, graph.import("view of " + view, {kViewFormat, extent}, kOverwritable));
-  output_ = settings_.blocks() != nullptr ? addWalr(graph, inputs_, output, *settings_.blocks(), &inspection_)
-                                          : addWalrPaper(graph, inputs_, output, *settings_.pixels(), &inspection_);
+  const StageGraph inspected(graph, inspection_);
+  output_ = settings_.blocks() != nullptr ? addWalr(inspected, inputs_, output, *settings_.blocks())
+                                          : addWalrPaper(inspected, inputs_, output, *settings_.pixels());
   inspection_.requireViews();
   for (const DebugView& view : inspection_.views()) graph.exported(view.texture, kReadable);
   graph.exported(output_, kReadable);
