@@ -194,6 +194,40 @@ TEST(Registry, TapsForAnotherStorageDoNotConnect) {
   }
 }
 
+// Geometric normals are of 16 bits where planes span few dozen pixels; what reads them takes both.
+TEST(Registry, InputsSayEveryFormatThatTheyTake) {
+  const auto otherFormats = [](const char* type, const std::string& port) {
+    return std::ranges::find(typeOf(type).ports, port, &Port::name)->otherFormats;
+  };
+  EXPECT_EQ(otherFormats("temporal_accumulation", "guides.geometric-normal"), std::vector{VK_FORMAT_R16_UINT});
+  EXPECT_TRUE(otherFormats("temporal_antialiasing", "filtered").empty());
+
+  HostGraph host;
+  const auto node = makePass("weighted_regression");
+  for (const Port& port : node->ports()) {
+    if (port.output) continue;
+    if (port.buffer) node->connect(port.name, host.inputs.frame);
+    if (!port.buffer) node->connect(port.name, host.graph.texture(port.name, {port.format, kExtent}));
+  }
+  node->connect("guides.geometric-normal", host.graph.texture("short", {VK_FORMAT_R16_UINT, kExtent}));
+  EXPECT_EQ(rejection([&] { node->add(host.graph); }), "");
+  node->connect("guides.geometric-normal", host.graph.texture("shorter", {VK_FORMAT_R8_UINT, kExtent}));
+  EXPECT_NE(rejection([&] { node->add(host.graph); }).find("takes R32_UINT or R16_UINT, but R8_UINT"),
+            std::string::npos);
+}
+
+TEST(Registry, ConventionsReachThePasses) {
+  const auto specialization = [](const InputConventions& conventions) {
+    HostGraph host;
+    const auto node = makePass("prepare_guides");
+    node->setConventions(conventions);
+    connectHost(*node, host.inputs);
+    (void)node->add(host.graph);
+    return std::get<fg::ComputeDispatch>(host.graph.desc().passes.back().work).specialization;
+  };
+  EXPECT_NE(specialization({.normal = InputConventions::Space::World}), specialization({}));
+}
+
 TEST(Registry, NamesWhatIsWrong) {
   EXPECT_NE(rejection([] { (void)makePass("wlr"); }).find("\"wlr\"; known types: prepare_guides"), std::string::npos);
   HostGraph host;
