@@ -1,7 +1,6 @@
 #pragma once
 
 #include <span>
-
 #include <string_view>
 #include <vector>
 
@@ -69,15 +68,16 @@ fg::Texture addTemporalAccumulation(StageGraph graph, const DenoiserInputs& inpu
 /// What temporal accumulation leaves for a later stage that reads its own history along the same motion.
 struct AccumulationWithTaps {
   fg::Texture mean;  ///< As `addTemporalAccumulation` returns it.
-  /// R32_UINT: where the surface was and which history pixels show it (history_taps.glsl). Where there is none: a mark,
-  /// or the light that passes through, rounded to the nearest of 9 bits, 0.2 % of its brightest channel at most, and
-  /// clamped to 0 to 65408; 0 where it is not finite.
+  /// R32_UINT: where the surface was and which history pixels show it. Where there is no surface: a mark, or the light
+  /// that passes through, as `addTemporalAccumulationWithTaps` was asked (history_taps.glsl has all three). That light
+  /// is rounded to the nearest of 9 bits, by 0.2 % of its brightest channel at most, and clamped to 0 to 65408; it is 0
+  /// where it is not finite.
   fg::Texture taps;
 };
 
 /// The same, keeping what the reprojection and its tests found (walr.txt 4.4, bmfr.txt 3.5).
-/// @param antialiasing storage of the anti-aliasing that reads the taps. Packed: it knows otherwise where there is no
-///                     surface, and finds light there instead of the mark that other stages need.
+/// @param antialiasing storage of the anti-aliasing that reads the taps. Packed: taps hold light where there is no
+///                     surface, which the filter's result then says. Half, and for other readers: they hold a mark.
 AccumulationWithTaps addTemporalAccumulationWithTaps(StageGraph graph, const DenoiserInputs& inputs,
                                                      const Guides& guides,
                                                      const TemporalAccumulationSettings& settings = {},
