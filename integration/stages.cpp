@@ -150,7 +150,9 @@ void blockRegression(StagePorts& ports, const BlockStageSettings& settings) {
   if (settings.accumulation.storage != LightStorage::Half && light.result == LightStorage::Half) {
     light.lighting = ports.texture("lighting");
   }
-  ports.setOutput("filtered", addBlockRegression(ports.graph(), frame, light, ports.guides(), settings.blocks));
+  const Guides guides = ports.guides();
+  const BlockFits fits = addBlockRegression(ports.graph(), frame, light, guides, settings.blocks);
+  ports.setOutput("filtered", addBlockReconstruction(ports.graph(), frame, light, guides, fits, settings.blocks));
 }
 
 void bmfrFit(StagePorts& ports, const BmfrFitSettings& settings) {

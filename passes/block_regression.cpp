@@ -33,12 +33,6 @@ struct BlockAverages {
   fg::Texture depth;
 };
 
-/// The fit of every block or cell and the depth that its depth feature is relative to.
-struct BlockFits {
-  fg::Texture a, b, c;
-  fg::Texture depth;  // Of a block also whether its fit holds paths enough (block_storage.glsl).
-};
-
 /// Cells are merged by workgroups, whose sides they divide.
 std::uint32_t cellBlocksFor(float cellPixels, std::uint32_t blockSize) {
   constexpr float kMostPixels = 8.0F;
@@ -47,6 +41,7 @@ std::uint32_t cellBlocksFor(float cellPixels, std::uint32_t blockSize) {
   return blocks;
 }
 
+/// Also the unit of `coarseSigma` becomes that of the shaders: cells in place of the share of the picture's height.
 BlockGrid gridOf(StageGraph graph, fg::Buffer frame, fg::Extent pixels, const BlockRegressionSettings& s) {
   const fg::Extent blocks = gridExtent(pixels, s.size);
   const float sigma = s.coarseSigma * static_cast<float>(pixels.height);
@@ -88,7 +83,7 @@ BlockAverages writeAverages(const BlockGrid& grid, fg::PassBuilder& pass, fg::Ex
 }
 
 /// All of them but their depth.
-BlockFits writeFits(const BlockGrid& grid, fg::PassBuilder& pass, fg::Extent extent, const std::string& name) {
+FitTextures writeFits(const BlockGrid& grid, fg::PassBuilder& pass, fg::Extent extent, const std::string& name) {
   const auto store = [&](const char* binding, const char* part) {
     return pass.store(binding, grid.graph->texture(name + part, {VK_FORMAT_R32G32B32A32_UINT, extent}));
   };
@@ -97,7 +92,7 @@ BlockFits writeFits(const BlockGrid& grid, fg::PassBuilder& pass, fg::Extent ext
 
 /// The fit of a Gaussian window around every cell, regardless of edges, grown where the light is the same and the
 /// blocks' fits, whose depth this reads, want paths.
-BlockFits addCoarseFit(const BlockGrid& grid, const BlockAverages& averages, fg::Texture fitDepth) {
+FitTextures addCoarseFit(const BlockGrid& grid, const BlockAverages& averages, fg::Texture fitDepth) {
   const auto declare = [&](const std::string& name, const fg::Shader& shader, const BlockAverages& read) {
     fg::PassBuilder pass = grid.graph->compute(name, shader);
     readAverages(pass, read);
@@ -112,7 +107,7 @@ BlockFits addCoarseFit(const BlockGrid& grid, const BlockAverages& averages, fg:
   const BlockAverages windows = writeAverages(grid, down, grid.cells, " blurred");
   fg::PassBuilder growth = declare("coarse fit, growth", shaders::blockCoarseGrowth, windows);
   growth.sample("fitDepth", fitDepth).specialize("kCellBlocks", grid.cellBlocks);
-  BlockFits fits = writeFits(grid, growth, grid.cells, "coarse fit");
+  FitTextures fits = writeFits(grid, growth, grid.cells, "coarse fit");
   fits.depth = windows.depth;
   return fits;
 }
@@ -178,7 +173,7 @@ const std::vector<ViewInfo>& reconstructionViews() {
 }
 
 /// The fit of an edge-aware window around every block (walr.txt 3.2).
-BlockFits addFineFit(const BlockGrid& grid, BlockAverages averages, fg::Texture normal, std::uint32_t iterations) {
+FitTextures addFineFit(const BlockGrid& grid, BlockAverages averages, fg::Texture normal, std::uint32_t iterations) {
   std::uint32_t spacing = 1;
   for (std::uint32_t t = 0;; ++t, spacing *= 3) {
     const auto declare = [&](const std::string& name, const fg::Shader& shader) {
@@ -199,20 +194,13 @@ BlockFits addFineFit(const BlockGrid& grid, BlockAverages averages, fg::Texture 
     const std::string suffix = " " + std::to_string(t);
     fg::PassBuilder pass = declare("block a-trous" + suffix, last ? shaders::blockAtrousLast : shaders::blockAtrous);
     if (last) {
-      BlockFits fits = writeFits(grid, pass, grid.blocks, "block fit");
+      FitTextures fits = writeFits(grid, pass, grid.blocks, "block fit");
       fits.depth = pass.store("outDepth", grid.graph->texture("block fit depth", {VK_FORMAT_R32_UINT, grid.blocks}));
       return fits;
     }
     averages = writeAverages(grid, pass, grid.blocks, suffix);
   }
 }
-
-/// All that a pixel's light is made of.
-struct Fits {
-  BlockFits fine;
-  BlockFits coarse;
-  fg::Texture normal;  // Of blocks.
-};
 
 /// What gathers the blocks' samples and what fits them to the pixels again read the same pixels.
 fg::PassBuilder readPixels(const BlockGrid& grid, const Guides& guides, const std::string& name,
@@ -236,8 +224,33 @@ void readLight(const BlockGrid& grid, const BlockLight& light, fg::PassBuilder& 
     pass.specialize("kAlphaIsSampleCount", light.alpha == LightingAlpha::SampleCount);
 }
 
-/// Every pixel from the fits around it.
-fg::Texture addReconstruction(const BlockGrid& grid, const BlockLight& light, const Guides& guides, const Fits& fits) {
+}  // namespace
+
+BlockFits addBlockRegression(StageGraph graph, fg::Buffer frame, const BlockLight& light, const Guides& guides,
+                             const BlockRegressionSettings& settings) {
+  if (!(settings.planeNear < settings.planeFar)) {
+    throw std::invalid_argument("setting blocks.plane-near must be below blocks.plane-far");
+  }
+  const BlockGrid grid = gridOf(graph, frame, graph->textureDesc(light.accumulated).extent, settings);
+  fg::PassBuilder gather =
+      readPixels(grid, guides, "block moments",
+                 isPacked(grid, light.accumulated) ? shaders::blockMomentsPacked : shaders::blockMoments);
+  readLight(grid, light, gather);
+  gather.sample("geometricNormal", guides.geometricNormal)
+      .specialize("kCellBlocks", grid.cellBlocks)
+      .dispatch(grid.blocks);
+  const BlockAverages blocks = writeAverages(grid, gather, grid.blocks, "");
+  const BlockAverages cells = writeAverages(grid, gather, grid.cells, " of cells", "outCell");
+  BlockFits fits;
+  fits.normal = gather.store("outNormal", graph->texture("block normal", {VK_FORMAT_R32_UINT, grid.blocks}));
+  fits.fine = addFineFit(grid, blocks, fits.normal, settings.iterations);
+  fits.coarse = addCoarseFit(grid, cells, fits.fine.depth);
+  return fits;
+}
+
+fg::Texture addBlockReconstruction(StageGraph graph, fg::Buffer frame, const BlockLight& light, const Guides& guides,
+                                   const BlockFits& fits, const BlockRegressionSettings& settings) {
+  const BlockGrid grid = gridOf(graph, frame, graph->textureDesc(light.accumulated).extent, settings);
   const bool readsPacked = isPacked(grid, light.accumulated);
   const bool writesPacked = light.result == LightStorage::Packed;
   const auto reconstruct = [&](const std::string& name, const fg::Shader& shader) {
@@ -255,7 +268,7 @@ fg::Texture addReconstruction(const BlockGrid& grid, const BlockLight& light, co
         .dispatch(grid.pixels);
     return pass;
   };
-  grid.graph.offer(reconstructionViews(), grid.pixels, [&](const std::string& name) {
+  graph.offer(reconstructionViews(), grid.pixels, [&](const std::string& name) {
     fg::PassBuilder pass = reconstruct(name, readsPacked ? shaders::blockApplyViewPacked : shaders::blockApplyView);
     readLight(grid, light, pass);
     return pass;
@@ -263,31 +276,7 @@ fg::Texture addReconstruction(const BlockGrid& grid, const BlockLight& light, co
 
   fg::PassBuilder pass = reconstruct("block apply", writesPacked ? shaders::blockApplyPacked : shaders::blockApply);
   if (!writesPacked) pass.sample("passed", readsPacked ? light.lighting : light.accumulated);
-  return pass.store("outFiltered", grid.graph->texture("filtered", {formatOf(light.result), grid.pixels}));
-}
-
-}  // namespace
-
-fg::Texture addBlockRegression(StageGraph graph, fg::Buffer frame, const BlockLight& light, const Guides& guides,
-                               const BlockRegressionSettings& settings) {
-  if (!(settings.planeNear < settings.planeFar)) {
-    throw std::invalid_argument("setting blocks.plane-near must be below blocks.plane-far");
-  }
-  const BlockGrid grid = gridOf(graph, frame, graph->textureDesc(light.accumulated).extent, settings);
-  fg::PassBuilder gather =
-      readPixels(grid, guides, "block moments",
-                 isPacked(grid, light.accumulated) ? shaders::blockMomentsPacked : shaders::blockMoments);
-  readLight(grid, light, gather);
-  gather.sample("geometricNormal", guides.geometricNormal)
-      .specialize("kCellBlocks", grid.cellBlocks)
-      .dispatch(grid.blocks);
-  const BlockAverages blocks = writeAverages(grid, gather, grid.blocks, "");
-  const BlockAverages cells = writeAverages(grid, gather, grid.cells, " of cells", "outCell");
-  Fits fits;
-  fits.normal = gather.store("outNormal", graph->texture("block normal", {VK_FORMAT_R32_UINT, grid.blocks}));
-  fits.fine = addFineFit(grid, blocks, fits.normal, settings.iterations);
-  fits.coarse = addCoarseFit(grid, cells, fits.fine.depth);
-  return addReconstruction(grid, light, guides, fits);
+  return pass.store("outFiltered", graph->texture("filtered", {formatOf(light.result), grid.pixels}));
 }
 
 }  // namespace walr

@@ -97,14 +97,33 @@ struct BlockLight {
   LightStorage result = LightStorage::Half;  ///< Packed: the light of pixels without a surface is not passed on.
 };
 
+/// The fit of every block or cell, and the depth that its depth feature is relative to (block_storage.glsl).
+struct FitTextures {
+  fg::Texture a, b, c;  ///< R32G32B32A32_UINT: coefficients and sample count.
+  fg::Texture depth;    ///< R32_UINT; of a block also whether its fit holds samples enough.
+};
+
+/// What the regression leaves to the reconstruction.
+struct BlockFits {
+  FitTextures fine;    ///< A texel a block.
+  FitTextures coarse;  ///< A texel a cell of the coarse fit's grid.
+  fg::Texture normal;  ///< R32_UINT: of every block, its plane's normal and the pixel that stands for it.
+};
+
 /// Weighted linear regression of the lighting on {1, normal, inverse depth, ambient occlusion} over blocks of pixels:
-/// edge-aware a-trous averages, a coarse fit where they hold few samples, and the reconstruction of every pixel from
-/// the fits around it.
-/// @param frame      upload of `FrameConstants`
-/// @param guides     with `features`
-/// @returns as `light.result` says: filtered radiance; RGBA16F: sky and pixels without a diffuse lobe as they were
+/// edge-aware a-trous averages, and a coarse fit where they hold few samples. Offers the views of every iteration.
+/// @param frame  upload of `FrameConstants`
+/// @param guides with `features`
 /// @throws std::invalid_argument for settings outside their range
-fg::Texture addBlockRegression(StageGraph graph, fg::Buffer frame, const BlockLight& light, const Guides& guides,
-                               const BlockRegressionSettings& settings = {});
+BlockFits addBlockRegression(StageGraph graph, fg::Buffer frame, const BlockLight& light, const Guides& guides,
+                             const BlockRegressionSettings& settings = {});
+
+/// Reconstruct every pixel from the fits around it and its own features.
+/// @param frame    upload of `FrameConstants`
+/// @param light    what the fits are of
+/// @param settings of the regression
+/// @returns as `light.result` says: filtered radiance; RGBA16F: sky and pixels without a diffuse lobe as they were
+fg::Texture addBlockReconstruction(StageGraph graph, fg::Buffer frame, const BlockLight& light, const Guides& guides,
+                                   const BlockFits& fits, const BlockRegressionSettings& settings = {});
 
 }  // namespace walr

@@ -35,7 +35,8 @@ fg::Texture addWalr(StageGraph graph, const DenoiserInputs& inputs, fg::Texture 
                          .lighting = inputs.lighting,
                          .result = plan.filtered};
   const BlockRegressionSettings blocks = fittedBlocks(settings, graph->textureDesc(inputs.lighting).extent.height);
-  const fg::Texture filtered = addBlockRegression(graph, inputs.frame, light, guides, blocks);
+  const BlockFits fits = addBlockRegression(graph, inputs.frame, light, guides, blocks);
+  const fg::Texture filtered = addBlockReconstruction(graph, inputs.frame, light, guides, fits, blocks);
   return addAntialiasing(graph, inputs, guides, plan, accumulated, filtered, output);
 }
 

@@ -10,6 +10,7 @@
 #include <glm/common.hpp>
 
 #include "passes/block_regression.h"
+#include "tests/passes/block_filter.h"
 #include "tests/passes/comparison.h"
 #include "tests/passes/filter_run.h"
 #include "tests/passes/shaders.h"
@@ -298,7 +299,7 @@ TEST_F(PackedLight, BlocksReadAndWriteIt) {
   const WalrSettings settings{};
   FilterRun inHalves(
       device(), kSize, 1, [&](fg::Graph& graph, fg::Buffer frame, const walr::Guides& guides, const auto& inputs) {
-        return addBlockRegression(graph, frame, {inputs[0], LightingAlpha::SampleCount}, guides, settings.blocks);
+        return addBlockFilter(graph, frame, {inputs[0], LightingAlpha::SampleCount}, guides, settings.blocks);
       });
   for (const NamedScene& named : allScenes()) {
     WalrRun run(device(), kSize, settings);
