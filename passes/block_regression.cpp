@@ -91,7 +91,7 @@ FitTextures writeFits(const BlockGrid& grid, fg::PassBuilder& pass, fg::Extent e
 }
 
 /// The fit of a Gaussian window around every cell, regardless of edges, grown where the light is the same and the
-/// blocks' fits, whose depth this reads, want paths.
+/// blocks' fits, whose depth this reads, want samples.
 FitTextures addCoarseFit(const BlockGrid& grid, const BlockAverages& averages, fg::Texture fitDepth) {
   const auto declare = [&](const std::string& name, const fg::Shader& shader, const BlockAverages& read) {
     fg::PassBuilder pass = grid.graph->compute(name, shader);

@@ -50,14 +50,15 @@ struct BlockRegressionSettings {
     v.visit(
         {"blocks.growth-errors",
          "Up to how many standard errors of difference in luminance a block joins another's window in full; at twice "
-         "as many it does not at all. The error is that of means of paths of their pixels' variance",
+         "as many it does not at all. The error is that of means of samples of their pixels' variance",
          "standard errors", 0.001, 1e6, "measured"},
         growthErrors);
-    v.visit({"blocks.coarse-sigma",
-             "Standard deviation of the Gaussian window of the coarse fit, which no edge stops, at one path a pixel",
-             "fraction of the image's height", 0.001, 0.2, "measured"},
-            coarseSigma);
-    v.visit({"blocks.coarse-narrowing", "Power of the paths a pixel by which that window narrows", "", 0.0, 1.0,
+    v.visit(
+        {"blocks.coarse-sigma",
+         "Standard deviation of the Gaussian window of the coarse fit, which no edge stops, at one sample per pixel",
+         "fraction of the image's height", 0.001, 0.2, "measured"},
+        coarseSigma);
+    v.visit({"blocks.coarse-narrowing", "Power of the samples per pixel by which that window narrows", "", 0.0, 1.0,
              "measured"},
             coarseNarrowing);
     v.visit({"blocks.coarse-reach", "Distance at which that window ends", "sigma", 1.0, 6.0, "measured"}, coarseReach);
@@ -77,8 +78,8 @@ struct BlockRegressionSettings {
              "How much fewer these errors are where occluders are near: by 1 + this x ambient occlusion", "", 0.0,
              100.0, "measured"},
             coarseGrowthOcclusion);
-    v.visit({"blocks.coarse-samples", "Paths that the coarse fit counts for beside those in a block's window", "paths",
-             0.0, 1e6, "measured"},
+    v.visit({"blocks.coarse-samples", "Samples that the coarse fit counts for beside those in a block's window",
+             "samples", 0.0, 1e6, "measured"},
             coarseSamples);
     v.visit(
         {"blocks.coarse-least-share",

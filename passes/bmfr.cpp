@@ -10,7 +10,7 @@ BmfrSettings tunedBmfr() {
 
 BmfrSettings paperBmfr() {
   BmfrSettings settings;
-  settings.fittedAccumulation.maxSamples = 10.0F;
+  settings.fittedAccumulation.maxHistory = 10.0F;
   return settings;
 }
 

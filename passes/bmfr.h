@@ -15,7 +15,7 @@ namespace walr {
 struct BmfrSettings {
   bool spatialOnly = false;
   PrepareGuidesSettings guides;
-  TemporalAccumulationSettings accumulation{.maxSamples = 5.0F};
+  TemporalAccumulationSettings accumulation{.maxHistory = 5.0F};
   BmfrFitSettings fit;
   BmfrAccumulationSettings fittedAccumulation;
   TemporalAntialiasingSettings antialiasing;

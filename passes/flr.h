@@ -14,7 +14,7 @@ namespace walr {
 struct FlrSettings {
   bool spatialOnly = false;
   PrepareGuidesSettings guides;
-  TemporalAccumulationSettings accumulation{.maxSamples = 8.0F};
+  TemporalAccumulationSettings accumulation{.maxHistory = 8.0F};
   AmbientOcclusionSettings occlusion;
   FlrRegressionSettings regression;
   float singleFrameSigma = 12.0F;

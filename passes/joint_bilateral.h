@@ -17,7 +17,7 @@ struct JointBilateralSettings {
   /// Accumulation of the filtered frames (joint-bilateral.txt, 4): alpha 0.2, clamped to the 7x7 neighbourhood, within
   /// a number of deviations that the text leaves open. Filtered pixels are much alike: a tight clamp takes the frame
   /// before for an outlier where it differs by its noise alone.
-  TemporalAntialiasingSettings accumulation{.maxSamples = 5.0F, .clipGamma = 8.0F, .clipRadius = 3, .objectIds = true};
+  TemporalAntialiasingSettings accumulation{.maxHistory = 5.0F, .clipGamma = 8.0F, .clipRadius = 3, .objectIds = true};
 
   void visit(SettingVisitor& v) {
     v.visit({"spatial-only", "Filter each frame by itself, without temporal stages", "", 0, 1, "joint-bilateral.txt"},

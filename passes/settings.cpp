@@ -48,6 +48,14 @@ struct FormerSetting {
 };
 
 constexpr std::array kFormerSettings{
+    FormerSetting{"accumulation.max-samples", "accumulation.max-history", {}},
+    FormerSetting{"accumulation.max-moment-samples", "accumulation.max-moment-history", {}},
+    FormerSetting{"antialiasing.max-samples", "antialiasing.max-history", {}},
+    FormerSetting{"fitted.max-samples", "fitted.max-history", {}},
+    FormerSetting{"accumulation.respond-to-change", "accumulation.antilag", {}},
+    FormerSetting{"accumulation.change-radius", "accumulation.antilag-radius", {}},
+    FormerSetting{"accumulation.change-low", "accumulation.antilag-low", {}},
+    FormerSetting{"accumulation.change-high", "accumulation.antilag-high", {}},
     FormerSetting{"walr.filter", {}, "method walr regresses over blocks of pixels, method walr_paper over pixels"},
     FormerSetting{"blocks.sort-tiles", {}, "tiles are no longer sorted; leave it out"},
 };

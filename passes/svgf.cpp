@@ -20,11 +20,11 @@ SvgfSettings tunedSvgf() {
 
 SvgfSettings paperSvgf() {
   SvgfSettings settings;
-  settings.accumulation.maxSamples = 5.0F;
+  settings.accumulation.maxHistory = 5.0F;
   settings.filter.iterations = 5;
   settings.filter.sigmaNormal = 128.0F;
   settings.filter.feedback = 1;
-  settings.antialiasing.maxSamples = 8.0F;
+  settings.antialiasing.maxHistory = 8.0F;
   return settings;
 }
 

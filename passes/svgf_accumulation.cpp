@@ -21,7 +21,7 @@ SvgfAccumulated addSvgfAccumulation(StageGraph graph, const DenoiserInputs& inpu
     pass.sample("lighting", inputs.lighting)
         .sample("previousColour", previousColour)
         .sample("previousMoments", moments.previous)
-        .constants(SvgfAccumulationConstants{settings.maxSamples, settings.maxMomentSamples, settings.planeTolerance,
+        .constants(SvgfAccumulationConstants{settings.maxHistory, settings.maxMomentHistory, settings.planeTolerance,
                                              settings.normalThreshold})
         .dispatch(extent);
     return pass;

@@ -11,18 +11,18 @@ namespace walr {
 
 /// Settings of SVGF's temporal filtering.
 struct SvgfAccumulationSettings {
-  float maxSamples = 8.0F;
-  float maxMomentSamples = 5.0F;
+  float maxHistory = 8.0F;
+  float maxMomentHistory = 5.0F;
   float planeTolerance = 0.01F;
   float normalThreshold = 0.5F;
 
   void visit(SettingVisitor& v) {
-    v.visit({"accumulation.max-samples", "Samples after which the mean colour turns exponential", "frames", 1.0, 255.0,
+    v.visit({"accumulation.max-history", "Frames after which the mean colour turns exponential", "frames", 1.0, 255.0,
              "measured; the paper's alpha of 0.2 is 5"},
-            maxSamples);
-    v.visit({"accumulation.max-moment-samples", "Samples after which the luminance moments turn exponential", "frames",
+            maxHistory);
+    v.visit({"accumulation.max-moment-history", "Frames after which the luminance moments turn exponential", "frames",
              1.0, 255.0, "Schied et al. 2017, 4.2: alpha 0.2"},
-            maxMomentSamples);
+            maxMomentHistory);
     visitHistoryTests(v, "accumulation.plane-tolerance", planeTolerance, "accumulation.normal-threshold",
                       normalThreshold);
   }

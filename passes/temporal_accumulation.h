@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "framegraph/declare/graph.h"
+#include "passes/antilag.h"
 #include "passes/history_tests.h"
 #include "passes/inputs.h"
-#include "passes/light_change.h"
 #include "passes/light_storage.h"
 #include "passes/prepare_guides.h"
 #include "passes/settings.h"
@@ -20,20 +20,20 @@ enum class HistoryFilter : std::uint32_t { Bilinear, Bicubic };
 
 /// Settings of the preprocessing accumulation (walr.txt 4.2).
 struct TemporalAccumulationSettings {
-  float maxSamples = 16.0F;
+  float maxHistory = 16.0F;
   HistoryRejection rejection = HistoryRejection::Plane;
   float planeTolerance = 0.01F;
   float normalThreshold = 0.5F;
   HistoryFilter historyFilter = HistoryFilter::Bilinear;
   bool dilateMotion = false;
-  LightChangeSettings change = {};
+  AntilagSettings antilag = {};
   LightStorage storage = LightStorage::Half;
 
   void visit(SettingVisitor& v) {
     static constexpr std::string_view kFilters[] = {"bilinear", "bicubic"};
-    v.visit({"accumulation.max-samples", "Samples after which the cumulative mean turns exponential", "frames", 1.0,
+    v.visit({"accumulation.max-history", "Frames after which the cumulative mean turns exponential", "frames", 1.0,
              255.0, "walr.txt 4.2"},
-            maxSamples);
+            maxHistory);
     visitRejection(v, "accumulation.rejection", rejection);
     visitHistoryTests(v, "accumulation.plane-tolerance", planeTolerance, "accumulation.normal-threshold",
                       normalThreshold);
@@ -42,7 +42,7 @@ struct TemporalAccumulationSettings {
     v.visit(
         {"accumulation.dilate-motion", "Follow the nearest surface of the 3x3 neighbourhood", "", 0, 1, "walr.txt 4.2"},
         dilateMotion);
-    change.visit(v);
+    antilag.visit(v);
   }
   /// For methods and stages whose filter reads either storage.
   void visitStorage(SettingVisitor& v) {
@@ -56,8 +56,8 @@ struct TemporalAccumulationSettings {
 };
 
 /// Views of every stage that accumulates lighting, in the order of `kView` of its shader.
-/// @param respondsToChange whether the stage responds to light that changes, which has a view of its own
-std::span<const ViewInfo> accumulationViews(bool respondsToChange);
+/// @param withAntilag whether the stage has antilag, which has a view of its own
+std::span<const ViewInfo> accumulationViews(bool withAntilag);
 
 /// Average the noisy lighting over time along its motion.
 /// @returns as `settings.storage` says: mean radiance; alpha: number of samples behind it, 0 where there is nothing to

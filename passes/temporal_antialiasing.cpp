@@ -82,7 +82,7 @@ fg::Texture addStage(StageGraph graph, const ByStorage& byStorage, const ReadHis
     pass.sample("filtered", filtered)
         .sample("previousResolved", resolved.previous)
         .specialize("kClipRadius", settings.clipRadius)
-        .constants(TemporalAntialiasingConstants{settings.maxSamples, settings.clipGamma, settings.planeTolerance,
+        .constants(TemporalAntialiasingConstants{settings.maxHistory, settings.clipGamma, settings.planeTolerance,
                                                  settings.normalThreshold})
         .dispatch(extent);
     return pass;

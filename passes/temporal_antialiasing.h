@@ -16,7 +16,7 @@ namespace walr {
 /// Settings of the postprocessing stage (walr.txt 4.4).
 struct TemporalAntialiasingSettings {
   bool enabled = true;
-  float maxSamples = 3.0F;
+  float maxHistory = 3.0F;
   float clipGamma = 1.0F;
   std::uint32_t clipRadius = 1;
   HistoryRejection rejection = HistoryRejection::Plane;
@@ -29,9 +29,9 @@ struct TemporalAntialiasingSettings {
   void visit(SettingVisitor& v) {
     v.visit({"antialiasing.enabled", "Off leaves temporal anti-aliasing to the host", "", 0, 1, "walr.txt 4.4"},
             enabled);
-    v.visit({"antialiasing.max-samples", "Frames after which the cumulative mean turns exponential", "frames", 1.0,
+    v.visit({"antialiasing.max-history", "Frames after which the cumulative mean turns exponential", "frames", 1.0,
              255.0, "walr.txt 4.4"},
-            maxSamples);
+            maxHistory);
     v.visit({"antialiasing.clip-gamma", "Half size of the variance-clipping box", "standard deviations", 0.0, 1e6,
              "walr.txt 4.4"},
             clipGamma);

@@ -15,7 +15,7 @@ struct WalrSettings {
   bool spatialOnly = false;
   PrepareGuidesSettings guides;
   TemporalAccumulationSettings accumulation{
-      .maxSamples = 8.0F, .change = {.respond = true}, .storage = LightStorage::Packed};
+      .maxHistory = 8.0F, .antilag = {.enabled = true}, .storage = LightStorage::Packed};
   AmbientOcclusionSettings occlusion;
   BlockRegressionSettings blocks;
   bool fitWindow = true;

@@ -21,8 +21,8 @@ Variant spatialOnly(const NumericsSetting& setting) {
   variant.preset = "robust";  // The regression that offers the choice of storage and of solving.
   variant.settings = {{"walr_paper.fit-window", "off"},
                       {"regression.iterations", "3"},
-                      {"accumulation.max-samples", "1"},
-                      {"antialiasing.max-samples", "1"},
+                      {"accumulation.max-history", "1"},
+                      {"antialiasing.max-history", "1"},
                       {"regression.moments", setting.storage},
                       {"regression.keep-sample-count", setting.storage == "centred16" ? "on" : "off"},
                       {"regression.regularisation", setting.regularisation},

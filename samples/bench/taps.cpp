@@ -7,9 +7,9 @@
 #include <string_view>
 
 #include "passes/flr_regression.h"
+#include "shaders/constants/antilag.h"
 #include "shaders/constants/block_regression.h"
 #include "shaders/constants/flr.h"
-#include "shaders/constants/light_change.h"
 
 namespace walr {
 namespace {
@@ -91,10 +91,9 @@ constexpr std::array kShaders = {
                [](const Stage& stage) {
                  return 1.0 + (specializationOf(stage, "kBicubicHistory") != 0 ? kBicubic : kBilinear);
                }},
-    ShaderTaps{"light_change",
+    ShaderTaps{"antilag",
                [](const Stage& stage) {
-                 return window(static_cast<std::uint32_t>(constantsOf<LightChangeConstants>(stage).radius)) *
-                        stage.share;
+                 return window(static_cast<std::uint32_t>(constantsOf<AntilagConstants>(stage).radius)) * stage.share;
                }},
     ShaderTaps{"temporal_antialiasing",
                [](const Stage& stage) { return kBicubic + 1.0 + window(specializationOf(stage, "kClipRadius")); }},

@@ -167,7 +167,7 @@ TEST_P(DynamicResolutionMethod, NoSampleIsLostAndNoLight) {
   const double leastReach = packed ? 2.0 / 3.0 * 0x1p-6 : 4.0 / 2048.0;
   Take take{.noise = Noise::None};
   Playback playback(device(), GetParam(), take, changing);
-  require(walr_set_setting(playback.denoiser(), "accumulation.max-samples", "64"));
+  require(walr_set_setting(playback.denoiser(), "accumulation.max-history", "64"));
   Image<glm::dvec4> result;
   for (std::uint32_t i = 0; i < kFrames; ++i) {
     take.light = [&](glm::dvec3, glm::dvec3) { return glm::dvec3(i + 1 < kFrames ? kBefore : kAfter); };
@@ -498,7 +498,7 @@ TEST_F(DynamicResolution, ACutAndNewSettingsForgetThePastAtANewSize) {
     }
     return last.pixels();
   };
-  constexpr const char* kSetting = "accumulation.max-samples";
+  constexpr const char* kSetting = "accumulation.max-history";
   EXPECT_NE(lastAfter(true, 0, nullptr), lastAfter(false, 0, nullptr));
   EXPECT_EQ(lastAfter(true, WALR_FRAME_RESET_HISTORY, nullptr), lastAfter(false, 0, nullptr));
   EXPECT_EQ(lastAfter(true, 0, kSetting), lastAfter(false, 0, kSetting));

@@ -150,8 +150,8 @@ TEST(Registry, StagesConnectedByNameArePlannedAsTheWholeMethodIs) {
       "walr", nullptr,
       {{"prepare_guides_with_occlusion", {}},
        {"temporal_accumulation_with_taps",
-        {{"accumulation.max-samples", "8"},
-         {"accumulation.respond-to-change", "on"},
+        {{"accumulation.max-history", "8"},
+         {"accumulation.antilag", "on"},
          {"accumulation.storage", "packed"},
          {"antialiasing.storage", "packed"}}},
        {"block_regression",
@@ -304,7 +304,7 @@ TEST(Registry, SettingsAreDescribedAsTheyAre) {
   EXPECT_EQ(iterations.most, 5.0);
   EXPECT_EQ(find("regression.moments").choices.size(), 4U);
   EXPECT_EQ(find("regression.trace-edges").kind, SettingKind::Switch);
-  EXPECT_EQ(find("accumulation.max-samples").unit, "frames");
+  EXPECT_EQ(find("accumulation.max-history").unit, "frames");
   // A listed value can be set again, and means the same.
   for (const PassType& type : passTypes()) {
     const auto node = makePass(type.name);

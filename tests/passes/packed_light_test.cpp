@@ -250,10 +250,10 @@ std::vector<NamedSettings> waysToReproject() {
   WalrSettings byDepth;
   byDepth.accumulation.rejection = byDepth.antialiasing.rejection = HistoryRejection::Depth;
   byDepth.accumulation.historyFilter = HistoryFilter::Bicubic;
-  byDepth.accumulation.change.respond = false;
+  byDepth.accumulation.antilag.enabled = false;
   WalrSettings untested;
   untested.accumulation.rejection = untested.antialiasing.rejection = HistoryRejection::None;
-  untested.antialiasing.maxSamples = 100.0F;
+  untested.antialiasing.maxHistory = 100.0F;
   WalrSettings accumulationOnly;
   accumulationOnly.antialiasing.storage = LightStorage::Half;
   WalrSettings antialiasingOnly;
@@ -348,14 +348,14 @@ TEST_F(PackedLight, AStillPictureIsSteadyAndTrue) {
   }
   // Rounding adds a variance of at most a quarter of a step squared. An exponential mean of n adds up its own to n^2 /
   // (2 n - 1) as much, and passes on 1 / (2 n - 1) of that of what it averages; of the history 1 - 1 / n is seen.
-  const double n = settings.antialiasing.maxSamples;
+  const double n = settings.antialiasing.maxHistory;
   const auto steps = [&](int bits) { return reference::packedStep(truth.r, bits); };
   const double filtered = 0.25 * std::pow(steps(reference::kFilteredBits), 2.0);
   const double resolved = 0.25 * std::pow(steps(reference::kResolvedBits), 2.0);
   const double spread = filtered / (2.0 * n - 1.0) + resolved * std::pow(n - 1.0, 2.0) / (2.0 * n - 1.0);
   // The mean of an accumulated pixel, whose blocks and windows pass on less than its variance, is that of 1 / (1 - a)
   // times fewer frames.
-  const double m = settings.accumulation.maxSamples;
+  const double m = settings.accumulation.maxHistory;
   const double accumulated = 0.25 * std::pow(steps(reference::kAccumulatedBits), 2.0);
   const double trials = double(kFrames) * kSize.x * kSize.y;
   const double deviationOfMean =

@@ -238,7 +238,7 @@ TEST(Theory, ScalingRadianceByAPowerOfTwoScalesTheOutputExactly) {
 TEST(Theory, AStillViewIsTheMeanOfItsSamplesUpToTheCap) {
   constexpr std::uint32_t kFrames = 20;
   TemporalAccumulationSettings settings;
-  settings.maxSamples = 8.0F;
+  settings.maxHistory = 8.0F;
   reference::AccumulationHistory history;
   Image<glm::dvec3> sum(kSize);
   for (std::uint32_t i = 0; i < kFrames; ++i) {

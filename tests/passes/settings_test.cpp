@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -74,6 +75,23 @@ TEST(Settings, FormerOnesAreRejectedWithTheWayOut) {
   EXPECT_EQ(unknown("walr", "walr.filter"),
             "there is no setting \"walr.filter\" here: method walr regresses over blocks of pixels, method walr_paper "
             "over pixels");
+  for (const auto& [former, now] : {std::pair{"accumulation.max-samples", "accumulation.max-history"},
+                                    {"antialiasing.max-samples", "antialiasing.max-history"},
+                                    {"accumulation.respond-to-change", "accumulation.antilag"},
+                                    {"accumulation.change-radius", "accumulation.antilag-radius"},
+                                    {"accumulation.change-low", "accumulation.antilag-low"},
+                                    {"accumulation.change-high", "accumulation.antilag-high"}}) {
+    EXPECT_EQ(unknown("walr", former),
+              "there is no setting \"" + std::string(former) + "\" here: it is called " + now + " now");
+  }
+  EXPECT_NE(unknown("bmfr", "fitted.max-samples").find("fitted.max-history now"), std::string::npos);
+  EXPECT_NE(unknown("svgf", "accumulation.max-moment-samples").find("accumulation.max-moment-history now"),
+            std::string::npos);
+  EXPECT_EQ(
+      unknown("svgf", "accumulation.respond-to-change")
+          .find("there is no setting \"accumulation.respond-to-change\" here: it is called accumulation.antilag now, "
+                "which is not a setting here either; near ones: accumulation."),
+      0U);
   EXPECT_EQ(unknown("walr", "blocks.sort-tiles"),
             "there is no setting \"blocks.sort-tiles\" here: tiles are no longer sorted; leave it out");
 }

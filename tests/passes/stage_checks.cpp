@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "tests/passes/comparison.h"
-#include "tests/passes/reference/light_change.h"
+#include "tests/passes/reference/antilag.h"
 #include "tests/passes/reference/octahedral.h"
 #include "tests/passes/reference/walr.h"
 
@@ -64,22 +64,22 @@ void expectGuides(const DeviceFrame& f, const AnyWalr& walr) {
   comparison.expect(0.0);
 }
 
-void expectLightChange(const DeviceFrame& f, const Image<reference::Accumulated>& accumulated,
-                       const LightChangeSettings& settings) {
+void expectAntilag(const DeviceFrame& f, const Image<reference::Accumulated>& accumulated,
+                   const AntilagSettings& settings) {
   const Image<reference::TileChange> tiles = reference::changeByTiles(accumulated);
-  const Image<reference::Bounded> doubt = reference::doubtOf(f.current.changeTiles, settings);
-  ASSERT_EQ(f.current.changeTiles.size(), tiles.size());
-  Comparison comparison("change of light");
+  const Image<reference::Bounded> antilag = reference::antilagOf(f.current.antilagTiles, settings);
+  ASSERT_EQ(f.current.antilagTiles.size(), tiles.size());
+  Comparison comparison("antilag");
   reference::forEachPixel(tiles.size(), [&](glm::ivec2 t) {
-    comparison.value(t, "doubt", f.current.doubt[t], doubt[t].value, doubt[t].error);
+    comparison.value(t, "antilag", f.current.antilag[t], antilag[t].value, antilag[t].error);
     if (tiles[t].undecided) {
       comparison.undecided();
       return;
     }
     comparison.compared();
     const reference::TileChange& e = tiles[t];
-    comparison.value(t, "sum", f.current.changeTiles[t].x, e.sum.value, e.sum.error);
-    comparison.value(t, "sum of squares", f.current.changeTiles[t].y, e.squares.value, e.squares.error);
+    comparison.value(t, "sum", f.current.antilagTiles[t].x, e.sum.value, e.sum.error);
+    comparison.value(t, "sum of squares", f.current.antilagTiles[t].y, e.squares.value, e.squares.error);
   });
   // A tile is undecided where any of its 64 pixels is.
   comparison.expect(0.5);
@@ -101,7 +101,7 @@ using test::halfTolerance;
 
 void expectAccumulation(const DeviceFrame& f, const TemporalAccumulationSettings& settings, bool keepTaps) {
   const Image<reference::Accumulated> expected =
-      reference::accumulate(f.frame, f.current.guides, {f.previous.guides, f.previous.accumulated, f.previous.doubt},
+      reference::accumulate(f.frame, f.current.guides, {f.previous.guides, f.previous.accumulated, f.previous.antilag},
                             reference::Storage::Exact, settings, keepTaps);
   const bool packed = settings.storage == LightStorage::Packed;
   Comparison comparison("temporal accumulation");
@@ -120,7 +120,7 @@ void expectAccumulation(const DeviceFrame& f, const TemporalAccumulationSettings
     comparison.value(p, "samples", f.current.accumulated[p].w, e.samples, samplesTolerance);
   });
   comparison.expect(kUndecidedShare);
-  if (settings.change.respond) expectLightChange(f, expected, settings.change);
+  if (settings.antilag.enabled) expectAntilag(f, expected, settings.antilag);
 }
 
 /// What iteration `t` starts from on the device. Pixels without a surface have no moments, whatever lies in their
@@ -232,7 +232,7 @@ void expectAntialiasing(const DeviceFrame& f, const TemporalAntialiasingSettings
       comparison.value(p, kChannels[c], output[c], e.mean[c], tolerance[c]);
       comparison.value(p, kChannels[c], resolved[c], e.mean[c], kept[c]);
     }
-    const double longest = settings.maxSamples;
+    const double longest = settings.maxHistory;
     const double framesTolerance =
         packed ? reference::packedLengthStep(std::max(e.samples - e.samplesError, 1.0), longest) + e.samplesError
                : halfTolerance(e.samples, e.samplesError);

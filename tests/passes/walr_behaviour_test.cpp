@@ -41,7 +41,7 @@ double constantTolerance(double value, const AnyWalr& settings) {
   const double brightest = std::max({kConstant.r, kConstant.g, kConstant.b});
   const double filtered =
       halves + reference::packedStep(brightest + halvesTolerance(brightest), reference::kFilteredBits);
-  const double historyShare = 1.0 - 1.0 / double(settings.antialiasing().maxSamples);
+  const double historyShare = 1.0 - 1.0 / double(settings.antialiasing().maxHistory);
   return filtered + historyShare * 3.0 * std::max(filtered, 0x1p-7 * brightest);
 }
 

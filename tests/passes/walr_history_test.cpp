@@ -97,7 +97,7 @@ TEST_F(WalrHistoryTest, StagesHoldWhenExposureChangesBy256) {
 /// The settings that choose a shader of their own for the accumulation.
 std::vector<WalrPaperSettings> responsiveSettings() {
   WalrPaperSettings plane = robustWalr();
-  plane.accumulation.change.respond = true;
+  plane.accumulation.antilag.enabled = true;
   WalrPaperSettings depth = plane;
   depth.accumulation.rejection = depth.antialiasing.rejection = HistoryRejection::Depth;
   depth.accumulation.historyFilter = HistoryFilter::Bicubic;
@@ -105,20 +105,20 @@ std::vector<WalrPaperSettings> responsiveSettings() {
   none.accumulation.rejection = none.antialiasing.rejection = HistoryRejection::None;
   WalrPaperSettings apart = plane;
   apart.antialiasing.normalThreshold = 0.4F;  // Its own reprojection.
-  apart.accumulation.change.radius = 0;
+  apart.accumulation.antilag.radius = 0;
   return {plane, depth, none, apart};
 }
 
-/// Largest doubt in the history of the last frame but one, after the light has changed in it.
-double doubtAfterChange(const fg::vk::Device& device, const WalrPaperSettings& settings, const SceneDescription& scene,
-                        double change) {
+/// Largest antilag factor in the history of the last frame but one, after the light has changed in it.
+double antilagAfterChange(const fg::vk::Device& device, const WalrPaperSettings& settings,
+                          const SceneDescription& scene, double change) {
   WalrRun run(device, kSize, settings, {}, true, scene);
   double largest = 0.0;
   for (std::uint32_t i = 0; i < 4; ++i) {
     HostFrame frame = renderStill(bumpyWall(0.1), kSize, i);
     if (i == 3) scaleLight(frame, change);
     const WalrStages stages = run.frame(frame);
-    if (i == 3) largest = *std::ranges::max_element(stages.doubt.pixels());
+    if (i == 3) largest = *std::ranges::max_element(stages.antilag.pixels());
   }
   return largest;
 }
@@ -126,9 +126,9 @@ double doubtAfterChange(const fg::vk::Device& device, const WalrPaperSettings& s
 TEST_F(WalrHistoryTest, StagesHoldWhereLightChanges) {
   for (const WalrPaperSettings& settings : responsiveSettings()) {
     SCOPED_TRACE("rejection " + std::to_string(int(settings.accumulation.rejection)) + ", radius " +
-                 std::to_string(settings.accumulation.change.radius));
+                 std::to_string(settings.accumulation.antilag.radius));
     for (const bool cameraAlone : {false, true}) {
-      // The light changes in the last frame but one, so that the last one finds doubt.
+      // The light changes in the last frame but one, so that antilag shortens history in the last one.
       std::vector<HostFrame> frames;
       for (std::uint32_t i = 0; i < 5; ++i) frames.push_back(movingFrame(bumpyWall(0.1), i, i - 1.0, i));
       for (std::size_t i = 3; i < 5; ++i) scaleLight(frames[i], 0.25);
@@ -145,11 +145,11 @@ TEST_F(WalrHistoryTest, StagesHoldWhereLightChanges) {
   }
 }
 
-TEST_F(WalrHistoryTest, DoubtFollowsTheLight) {
+TEST_F(WalrHistoryTest, AntilagFollowsTheLight) {
   const WalrPaperSettings settings = responsiveSettings().front();
   // A fall to a quarter is many standard errors of a window; the same light is less than a few.
-  EXPECT_EQ(doubtAfterChange(device(), settings, {}, 0.25), 1.0);
-  EXPECT_LT(doubtAfterChange(device(), settings, {}, 1.0), 0.5);
+  EXPECT_EQ(antilagAfterChange(device(), settings, {}, 0.25), 1.0);
+  EXPECT_LT(antilagAfterChange(device(), settings, {}, 1.0), 0.5);
 }
 
 TEST_F(WalrHistoryTest, StagesHoldWithMotionFromTheCameraAlone) {
@@ -223,7 +223,7 @@ TEST_F(WalrHistoryTest, JitterCostsNoHistory) {
     const HostFrame frame =
         renderFrame(flatWall(), jittered(cameraAt({}, {}, kSize, i), i), kSize, constantLight, Noise::None);
     const WalrStages stages = run.frame(frame);
-    const double expected = std::min(double(i), double(settings.accumulation.maxSamples));
+    const double expected = std::min(double(i), double(settings.accumulation.maxHistory));
     for (const glm::dvec4& v : stages.accumulated.pixels()) {
       EXPECT_NEAR(v.w, expected, 2.0 * reference::kHalfRoundoff * expected);
       // Each frame's store may round anew, and the mean carries that on for as many frames as it spans.
@@ -238,8 +238,8 @@ TEST_F(WalrHistoryTest, JitterCostsNoHistory) {
 // of the luma, and each colour is at most 4 times the smallest of its channels here.
 TEST_F(WalrHistoryTest, AStepOfExposureDecaysAsTheMeanDoes) {
   WalrPaperSettings settings = robustWalr();
-  settings.accumulation.maxSamples = 4.0F;
-  const double n = double(settings.accumulation.maxSamples);
+  settings.accumulation.maxHistory = 4.0F;
+  const double n = double(settings.accumulation.maxHistory);
   WalrRun run(device(), kSize, settings);
   for (std::uint32_t i = 0; i < 16; ++i) {
     HostFrame frame = renderFrame(flatWall(), cameraAt({}, {}, kSize, i), kSize, constantLight, Noise::None);

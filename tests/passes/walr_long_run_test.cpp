@@ -43,12 +43,12 @@ TEST_F(WalrLongRunTest, TheMeanDoesNotDriftAndMemoryDoesNotGrow) {
     if (i + kCycle <= kFrames) continue;
     for (const glm::dvec4& v : stages.accumulated.pixels()) {
       accumulatedMean += glm::dvec3(v);
-      EXPECT_EQ(v.w, double(settings.accumulation.maxSamples));
+      EXPECT_EQ(v.w, double(settings.accumulation.maxHistory));
     }
   }
   EXPECT_EQ(run.allocatedBytes(), bytes);
   const double stores = double(kCycle) * kSize.x * kSize.y;
-  const double n = double(settings.accumulation.maxSamples);
+  const double n = double(settings.accumulation.maxHistory);
   const double deviation = n * 2.0 * reference::kHalfRoundoff / std::sqrt(12.0 * stores);
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(accumulatedMean[c] / inputMean[c], 1.0, 5.0 * deviation) << "channel " << c;
 }

@@ -4,7 +4,7 @@
 #include <string>
 #include <utility>
 
-#include "shaders/constants/light_change.h"
+#include "shaders/constants/antilag.h"
 #include "tests/passes/texel_codec.h"
 
 namespace walr::test {
@@ -99,9 +99,9 @@ void WalrRun::inspectStages(fg::Graph& graph) {
   const fg::Texture geometricNormal = findGuide(graph, "guides.geometric normal");
   if (geometricNormal.valid()) geometricNormal_ = tap(graph, geometricNormal);
   accumulated_ = tap(graph, textureNamed(graph, "accumulated.current"));
-  if (settings_.accumulation().change.respond) {
-    changeTiles_ = tap(graph, textureNamed(graph, "light change.tiles"));
-    doubt_ = tap(graph, textureNamed(graph, "light change.doubt.current"));
+  if (settings_.accumulation().antilag.enabled) {
+    antilagTiles_ = tap(graph, textureNamed(graph, "antilag.tiles"));
+    antilag_ = tap(graph, textureNamed(graph, "antilag.factor.current"));
   }
   for (std::uint32_t t = 0; pixels != nullptr && t + 1 < pixels->regression.iterations; ++t) {
     const std::string number = std::to_string(t);
@@ -167,18 +167,18 @@ WalrStages WalrRun::frame(const reference::HostFrame& frame) {
                                 .geometricNormal = normalsIfAny(geometricNormal_)},
                                size_);
   const bool packedPictures = settings_.packsAntialiasing();
-  const double longest = settings_.antialiasing().maxSamples;
+  const double longest = settings_.antialiasing().maxHistory;
   stages.accumulated =
       settings_.packsAccumulation() ? decodeAccumulated(words(accumulated_), size_) : halves(accumulated_);
-  if (doubt_.valid()) {
-    const glm::ivec2 tiles = (size_ + kLightChangeTile - 1) / kLightChangeTile;
-    const std::vector<float> sums = run_->texels<float>(changeTiles_);
-    const std::vector<float> doubt = run_->texels<float>(doubt_);
-    stages.changeTiles = reference::Image<glm::dvec2>(tiles);
-    stages.doubt = reference::Image<double>(tiles);
-    for (std::size_t i = 0; i < doubt.size(); ++i) {
-      stages.changeTiles.pixels()[i] = {sums[2 * i], sums[2 * i + 1]};
-      stages.doubt.pixels()[i] = doubt[i];
+  if (antilag_.valid()) {
+    const glm::ivec2 tiles = (size_ + kAntilagTile - 1) / kAntilagTile;
+    const std::vector<float> sums = run_->texels<float>(antilagTiles_);
+    const std::vector<float> antilag = run_->texels<float>(antilag_);
+    stages.antilagTiles = reference::Image<glm::dvec2>(tiles);
+    stages.antilag = reference::Image<double>(tiles);
+    for (std::size_t i = 0; i < antilag.size(); ++i) {
+      stages.antilagTiles.pixels()[i] = {sums[2 * i], sums[2 * i + 1]};
+      stages.antilag.pixels()[i] = antilag[i];
     }
   }
   for (const Iteration& iteration : iterations_) {

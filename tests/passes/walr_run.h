@@ -16,8 +16,8 @@ namespace walr::test {
 struct WalrStages {
   reference::Image<reference::Guide> guides;
   reference::Image<glm::dvec4> accumulated;        ///< rgb: mean; a: number of samples.
-  reference::Image<glm::dvec2> changeTiles;        ///< Of light that changes: sum, sum of squares; empty without.
-  reference::Image<double> doubt;                  ///< The same: in history, by tiles.
+  reference::Image<glm::dvec2> antilagTiles;       ///< Of light that changes: sum, sum of squares; empty without.
+  reference::Image<double> antilag;                ///< The same: in history, by tiles.
   std::vector<reference::AtrousState> iterations;  ///< After each iteration but the last; over pixels.
   reference::Image<glm::dvec4> filtered;
   reference::Image<glm::dvec4> resolved;  ///< rgb: mean; a: number of frames.
@@ -58,7 +58,7 @@ class WalrRun {
   PFN_vkCmdCopyImage copyImage_;
   DenoiserInputs inputs_;
   bool inspect_;
-  fg::Texture depth_, shadingNormal_, features_, geometricNormal_, accumulated_, changeTiles_, doubt_, filtered_,
+  fg::Texture depth_, shadingNormal_, features_, geometricNormal_, accumulated_, antilagTiles_, antilag_, filtered_,
       resolved_, output_;
   std::vector<Iteration> iterations_;
   Inspection inspection_;

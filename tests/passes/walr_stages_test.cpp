@@ -162,11 +162,11 @@ double toneMappedRmse(const reference::Image<glm::dvec4>& actual, const referenc
 TEST_F(WalrStagesTest, WholePipelineStaysNearDoublePrecision) {
   constexpr double kBudget = 2e-4 + 0.25 * 2.0 * reference::kHalfRoundoff;
   WalrPaperSettings responsive = robustWalr();
-  responsive.accumulation.change.respond = true;
+  responsive.accumulation.antilag.enabled = true;
   for (const NamedScene& named : allScenes()) {
     if (named.name == std::string_view("thin bars")) continue;
     for (const WalrPaperSettings& settings : {robustWalr(), responsive}) {
-      SCOPED_TRACE(std::string(named.name) + (settings.accumulation.change.respond ? ", responsive" : ""));
+      SCOPED_TRACE(std::string(named.name) + (settings.accumulation.antilag.enabled ? ", responsive" : ""));
       WalrRun run(device(), {64, 48}, settings);
       reference::Walr exact(reference::Storage::Exact, settings);
       for (std::uint32_t i = 0; i < 4; ++i) {

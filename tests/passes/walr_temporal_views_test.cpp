@@ -102,7 +102,7 @@ void expectClipping(Comparison& comparison, const DeviceFrame& f, glm::ivec2 p, 
   const bool packed = settings.packsAntialiasing();
   const double n = resolved.x;
   comparison.value(p, "frames", f.current.resolved[p].w, n,
-                   packed ? reference::packedLengthStep(n, settings.antialiasing().maxSamples) : halfTolerance(n, 0.0));
+                   packed ? reference::packedLengthStep(n, settings.antialiasing().maxHistory) : halfTolerance(n, 0.0));
   comparison.value(p, "rejected after the filter", resolved.y, past.rejected, 0.0);
   const bool clipped = clip.z == 1.0;
   comparison.value(p, "clipped or not", clip.x > 0.0 ? 1.0 : 0.0, clip.z, 0.0);
@@ -173,11 +173,11 @@ TEST_F(WalrTemporalViewsTest, AStillPictureLosesNoHistory) {
   }
 }
 
-TEST_F(WalrTemporalViewsTest, ShowWhereHistoryIsDoubted) {
+TEST_F(WalrTemporalViewsTest, ShowWhereHistoryIsShortened) {
   constexpr std::uint32_t kChange = 4;
   WalrPaperSettings settings = robustWalr();
-  settings.accumulation.change.respond = true;
-  WalrRun run(device(), kSize, settings, {}, true, {}, {"light-change", "history"});
+  settings.accumulation.antilag.enabled = true;
+  WalrRun run(device(), kSize, settings, {}, true, {}, {"antilag", "history"});
   WalrStages stages;
   Image<glm::dvec4> before;
   for (std::uint32_t i = 0; i <= kChange + 1; ++i) {
@@ -187,10 +187,10 @@ TEST_F(WalrTemporalViewsTest, ShowWhereHistoryIsDoubted) {
     before = stages.accumulated;
     stages = run.frame(frame);
   }
-  const double most = settings.accumulation.maxSamples;
+  const double most = settings.accumulation.maxHistory;
   int shortened = 0;
   reference::forEachPixel(kSize, [&](glm::ivec2 p) {
-    const glm::dvec3 view = stages.views.at("light-change")[p];
+    const glm::dvec3 view = stages.views.at("antilag")[p];
     EXPECT_NEAR(view.y, most + (1.0 - most) * view.x, 4.0 * reference::kFloatRoundoff * most);
     EXPECT_EQ(view.z, before[p].w > view.y ? 1.0 : 0.0);
     const double samples = std::min(before[p].w, view.y) + 1.0;

@@ -106,7 +106,7 @@ TEST(Variants, AllHoldEveryMethodWithEveryPreset) {
 }
 
 TEST(Variants, TakeSettingsUnderAName) {
-  const Variant variant = parseVariant("mine=walr_paper:paper,regression.iterations=3,accumulation.max-samples=8");
+  const Variant variant = parseVariant("mine=walr_paper:paper,regression.iterations=3,accumulation.max-history=8");
   EXPECT_EQ(variant.name, "mine");
   EXPECT_EQ(variant.preset, "paper");
   const auto settings = makeVariant(variant)->settings();

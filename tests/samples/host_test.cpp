@@ -510,7 +510,7 @@ TEST_F(SessionTest, TellsThePresetInUse) {
   EXPECT_EQ(session.preset(), "paper");
   session.choosePreset("robust");
   EXPECT_EQ(session.preset(), "robust");
-  session.method().set("accumulation.max-samples", "5");
+  session.method().set("accumulation.max-history", "5");
   session.settingsChanged();
   EXPECT_EQ(session.preset(), std::nullopt);
   session.chooseMethod("svgf");
