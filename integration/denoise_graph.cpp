@@ -69,7 +69,7 @@ DenoiseGraph declareDenoiseGraph(Denoiser& method, fg::Extent extent, const Inpu
     declared.lint = addLintInputs(graph, inputs, counts);
     graph.exported(declared.lint, states.outputAfter);
   }
-  fg::Texture denoised = method.add(graph, inputs, target, &inspection);
+  fg::Texture denoised = method.add({graph, inspection}, inputs, target);
   for (const DebugView& view : inspection.views()) graph.exported(view.texture, states.outputAfter);
   if (!inspection.counters().empty()) graph.exported(inspection.counterBuffer(), states.outputAfter);
   if (host.convertsResult()) denoised = addConvertResult(graph, denoised, declared.output, declared.host);

@@ -20,9 +20,10 @@ constexpr fg::Extent kListedExtent{1920, 1080};
 KnownPorts hostPorts() {
   KnownPorts known;
   for (const HostInput& input : kHostInputs) {
-    known.emplace(input.name, fg::TextureDesc{.format = input.format, .extent = kListedExtent});
+    known.emplace(input.name, KnownPort{.desc = fg::TextureDesc{.format = input.format, .extent = kListedExtent},
+                                        .description = input.description});
   }
-  known.emplace(kFrameName, fg::BufferDesc{sizeof(FrameConstants)});
+  known.emplace(kFrameName, KnownPort{.desc = fg::BufferDesc{sizeof(FrameConstants)}});
   return known;
 }
 
@@ -52,11 +53,14 @@ std::vector<std::string> passesOf(Stage& stage, const InputConventions& conventi
 struct Catalogue {
   Catalogue() : known(hostPorts()) {
     for (const StageType& type : stageTypes()) {
+      for (const SettingsOutput& output : type.settingsOutputs) {
+        known.emplace(output.name, KnownPort{.desc = fg::TextureDesc{.format = output.format, .extent = kListedExtent},
+                                             .description = output.description});
+      }
       const std::unique_ptr<Stage> stage = type.make(type.name);
       std::vector<Port> ports = portsOf(*stage, type.composition, {}, known);
       for (const Port& port : ports) {
-        if (port.output) known.emplace(port.name, fg::TextureDesc{.format = port.format, .extent = kListedExtent});
-        if (port.name == kHistoryTaps) known.emplace(kHistoryTapsWithLight, known.at(port.name));
+        if (port.output) learn(port);
       }
       types.push_back({.name = type.name,
                        .description = type.description,
@@ -67,6 +71,15 @@ struct Catalogue {
                        .passes = passesOf(*stage, {}, known, {})});
     }
   }
+  /// Later types may read what this one makes, in the format of any that makes it.
+  void learn(const Port& output) {
+    const fg::TextureDesc desc{.format = output.format, .extent = kListedExtent};
+    const auto [entry, isNew] = known.emplace(output.name, KnownPort{.desc = desc});
+    if (isNew || std::get<fg::TextureDesc>(entry->second.desc).format == output.format) return;
+    std::vector<VkFormat>& others = entry->second.otherFormats;
+    if (std::ranges::find(others, output.format) == others.end()) others.push_back(output.format);
+  }
+
   KnownPorts known;
   std::vector<PassType> types;
 };
@@ -78,11 +91,6 @@ const Catalogue& catalogue() {
 
 std::string formatName(VkFormat format) {
   return std::string(fg::formatInfo(format).name);
-}
-
-/// Stages that read geometric normals take those in 16 bits, too (`Guides::geometricNormal`).
-bool isShortNormal(std::string_view port, VkFormat format) {
-  return port.ends_with("geometric-normal") && format == VK_FORMAT_R16_UINT;
 }
 
 class StageNode final : public PassNode {
@@ -121,15 +129,15 @@ class StageNode final : public PassNode {
     const VkFormat format = graph.textureDesc(connected->second).format;
     const HostInput* input = hostInputNamed(port.name);
     if (!port.output && input != nullptr) return requireInputFormat(*input, format);
-    if (format == port.format || (!port.output && isShortNormal(port.name, format))) return;
-    throw std::invalid_argument("port '" + port.name + "' of pass '" + name_ + "' takes " + formatName(port.format) +
-                                ", but " + formatName(format) + " is connected");
+    if (format == port.format || std::ranges::find(port.otherFormats, format) != port.otherFormats.end()) return;
+    std::string taken = formatName(port.format);
+    for (const VkFormat other : port.otherFormats) taken += " or " + formatName(other);
+    throw std::invalid_argument("port '" + port.name + "' of pass '" + name_ + "' takes " + taken + ", but " +
+                                formatName(format) + " is connected");
   }
   [[noreturn]] void rejectUnconnected(const Port& port) const {
-    const bool taps = port.name == kHistoryTaps || port.name == kHistoryTapsWithLight;
-    throw std::invalid_argument(
-        "nothing is connected to port '" + port.name + "' of pass '" + name_ + "'" +
-        (taps ? "; which taps temporal_accumulation_with_taps makes is for its setting antialiasing.storage" : ""));
+    throw std::invalid_argument("nothing is connected to port '" + port.name + "' of pass '" + name_ + "'" +
+                                (port.description.empty() ? "" : ": " + port.description));
   }
 
   std::string name_;
@@ -143,6 +151,7 @@ void listPort(std::ostream& out, const Port& port) {
     out << port.size << " bytes";
   } else {
     out << formatName(port.format);
+    for (const VkFormat other : port.otherFormats) out << " or " << formatName(other);
   }
   std::vector<std::string_view> accesses;
   for (const fg::Access access : port.accesses) accesses.push_back(fg::accessInfo(access).name);

@@ -20,9 +20,10 @@ Handle find(const std::map<std::string, Handle, std::less<>>& connections, std::
 }
 
 /// Describe a port by everything that the recorded passes do with its resource.
-Port describe(const fg::GraphDesc& graph, std::string name, std::uint32_t resource) {
+Port describe(const fg::GraphDesc& graph, const KnownPorts& known, std::string name, std::uint32_t resource) {
   Port port;
   port.name = std::move(name);
+  if (const auto found = known.find(port.name); found != known.end()) port.description = found->second.description;
   const auto& desc = graph.resources[resource].desc;
   if (const auto* texture = std::get_if<fg::TextureDesc>(&desc)) port.format = texture->format;
   if (const auto* buffer = std::get_if<fg::BufferDesc>(&desc)) {
@@ -39,7 +40,6 @@ Port describe(const fg::GraphDesc& graph, std::string name, std::uint32_t resour
       port.bufferUsage |= fg::accessInfo(access.access).bufferUsage;
     }
   }
-  if (const HostInput* input = hostInputNamed(port.name)) port.description = input->description;
   return port;
 }
 
@@ -96,12 +96,13 @@ fg::ResourceVersion RecordingPorts::ask(std::string_view port, VkFormat format) 
   const auto asked = std::ranges::find(asked_, port, &Asked::port);
   if (asked != asked_.end()) return asked->resource;
   std::string name(port);
-  if (const auto* texture = std::get_if<fg::TextureDesc>(&known->second)) {
+  if (const auto* texture = std::get_if<fg::TextureDesc>(&known->second.desc)) {
     fg::TextureDesc desc = *texture;
-    if (format != VK_FORMAT_UNDEFINED) desc.format = format;
-    asked_.push_back({name, graph().import(name, desc, kAnyState)});
+    const bool anyFormat = format == VK_FORMAT_UNDEFINED;
+    if (!anyFormat) desc.format = format;
+    asked_.push_back({name, graph().import(name, desc, kAnyState), anyFormat});
   } else {
-    asked_.push_back({name, graph().import(name, std::get<fg::BufferDesc>(known->second), kAnyState)});
+    asked_.push_back({name, graph().import(name, std::get<fg::BufferDesc>(known->second.desc), kAnyState)});
   }
   return asked_.back().resource;
 }
@@ -128,14 +129,15 @@ std::vector<Port> RecordingPorts::takePorts(bool unread) {
   std::vector<Port> ports;
   const fg::GraphDesc& desc = graph().desc();
   for (const Asked& asked : asked_) {
-    Port port = describe(desc, asked.port, asked.resource.resource);
+    Port port = describe(desc, *known_, asked.port, asked.resource.resource);
+    if (asked.anyFormat) port.otherFormats = known_->at(port.name).otherFormats;
     const HostInput* input = hostInputNamed(port.name);
     const bool isRead = !port.accesses.empty();
     port.optional = !isRead || (input != nullptr && input->optional);
     if (unread || isRead) ports.push_back(std::move(port));
   }
   for (const auto& [name, texture] : takeOutputs().textures) {
-    Port port = describe(desc, name, texture.resource);
+    Port port = describe(desc, *known_, name, texture.resource);
     port.output = true;
     port.optional = true;
     ports.push_back(std::move(port));

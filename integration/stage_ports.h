@@ -7,13 +7,19 @@
 #include <variant>
 #include <vector>
 
-#include "integration/registry.h"
+#include "integration/ports.h"
+#include "passes/inputs.h"
 #include "passes/prepare_guides.h"
 
 namespace walr {
 
-/// Descriptions of ports by name, as far as they are known.
-using KnownPorts = std::map<std::string, std::variant<fg::TextureDesc, fg::BufferDesc>, std::less<>>;
+/// What is known of the port of a name before a stage that reads it is recorded.
+struct KnownPort {
+  std::variant<fg::TextureDesc, fg::BufferDesc> desc;
+  std::vector<VkFormat> otherFormats = {};  ///< See `Port::otherFormats`.
+  std::string_view description = {};        ///< See `Port::description`.
+};
+using KnownPorts = std::map<std::string, KnownPort, std::less<>>;
 
 /// What a stage sees of its ports while it declares its passes.
 class StagePorts {
@@ -75,6 +81,7 @@ class RecordingPorts final : public StagePorts {
   struct Asked {
     std::string port;
     fg::ResourceVersion resource;
+    bool anyFormat = false;  ///< Else the settings decide its format.
   };
   /// @param format of a texture; VK_FORMAT_UNDEFINED: as it is known
   fg::ResourceVersion ask(std::string_view port, VkFormat format = VK_FORMAT_UNDEFINED);

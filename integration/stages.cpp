@@ -150,7 +150,9 @@ void blockRegression(StagePorts& ports, const BlockStageSettings& settings) {
   if (settings.accumulation.storage != LightStorage::Half && light.result == LightStorage::Half) {
     light.lighting = ports.texture("lighting");
   }
-  ports.setOutput("filtered", addBlockRegression(ports.graph(), frame, light, ports.guides(), settings.blocks));
+  const Guides guides = ports.guides();
+  const BlockFits fits = addBlockRegression(ports.graph(), frame, light, guides, settings.blocks);
+  ports.setOutput("filtered", addBlockReconstruction(ports.graph(), frame, light, guides, fits, settings.blocks));
 }
 
 void bmfrFit(StagePorts& ports, const BmfrFitSettings& settings) {
@@ -231,7 +233,12 @@ std::vector<StageType> stagesAndMethods() {
        make<AccumulationStageSettings, temporalAccumulation>},
       {"temporal_accumulation_with_taps",
        "The same, keeping where in the history it read and, for packed anti-aliasing, the light that passes through",
-       false, make<AccumulationWithTapsStageSettings, temporalAccumulationWithTaps>},
+       false,
+       make<AccumulationWithTapsStageSettings, temporalAccumulationWithTaps>,
+       {{kHistoryTaps, VK_FORMAT_R32_UINT,
+         "Made by temporal_accumulation_with_taps where its setting antialiasing.storage is half"},
+        {kHistoryTapsWithLight, VK_FORMAT_R32_UINT,
+         "Made by temporal_accumulation_with_taps where its setting antialiasing.storage is packed"}}},
       {"weighted_regression", "WALR's filter: weighted linear regression over edge-aware a-trous averages", false,
        make<WeightedRegressionSettings, weightedRegression>},
       {"full_window_regression", "REFWLR's filter: weighted linear regression over the full window", false,

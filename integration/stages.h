@@ -23,12 +23,20 @@ class Stage : public Configurable {
   virtual void declare(StagePorts& ports) = 0;
 };
 
+/// An output of a stage that its settings decide about: with others it makes another output in its place.
+struct SettingsOutput {
+  std::string_view name;
+  VkFormat format;
+  std::string_view description;
+};
+
 /// A kind of stage by name.
 struct StageType {
   std::string name;
   std::string description;
   bool composition = false;  ///< A whole method.
   std::unique_ptr<Stage> (*make)(std::string_view name);
+  std::vector<SettingsOutput> settingsOutputs = {};
 };
 
 /// All of them, the whole methods last; whatever a stage takes, an earlier one makes.

@@ -5,13 +5,13 @@
 
 namespace walr {
 
-fg::Texture addAccumulate(fg::Graph& graph, const DenoiserInputs& inputs, fg::Texture output,
-                          const AccumulateSettings& settings, Inspection* inspection) {
-  const TemporalStages stages{.accumulation = settings.accumulation, .antialiasing = {.enabled = false}};
-  const Guides guides =
-      addPrepareGuides(graph, inputs, settings.guides, guideNeeds(stages, inputs.scene, false), inspection);
-  return addPassThrough(graph, addTemporalAccumulation(graph, inputs, guides, settings.accumulation, inspection),
-                        output);
+fg::Texture addAccumulate(StageGraph graph, const DenoiserInputs& inputs, fg::Texture output,
+                          const AccumulateSettings& settings) {
+  const TemporalPlan plan =
+      planTemporalStages(inputs, {.accumulation = settings.accumulation, .antialiasing = {.enabled = false}});
+  const Guides guides = addPrepareGuides(graph, inputs, settings.guides, plan.guides);
+  const Accumulated accumulated = addAccumulation(graph, inputs, guides, plan);
+  return addPassThrough(graph, accumulated.lighting, output);
 }
 
 }  // namespace walr

@@ -3,6 +3,7 @@
 #include "framegraph/declare/graph.h"
 #include "passes/inputs.h"
 #include "passes/prepare_guides.h"
+#include "passes/stage_graph.h"
 #include "passes/temporal_accumulation.h"
 
 namespace walr {
@@ -20,9 +21,8 @@ struct AccumulateSettings {
 
 /// Temporal accumulation alone: what every spatial filter is measured against.
 /// @param output RGBA16F texture to write the result to
-/// @param inspection is offered the views of the stages that have some
 /// @returns the output's new version
-fg::Texture addAccumulate(fg::Graph& graph, const DenoiserInputs& inputs, fg::Texture output,
-                          const AccumulateSettings& settings = {}, Inspection* inspection = nullptr);
+fg::Texture addAccumulate(StageGraph graph, const DenoiserInputs& inputs, fg::Texture output,
+                          const AccumulateSettings& settings = {});
 
 }  // namespace walr

@@ -8,9 +8,7 @@
 #include <vector>
 
 #include "passes/grid_extent.h"
-#include "passes/tile_lists.h"
 #include "shaders/constants/block_regression.h"
-#include "shaders/constants/tiles.h"
 #include "shaders/shaders.h"
 
 namespace walr {
@@ -18,7 +16,7 @@ namespace {
 
 /// What the passes share.
 struct BlockGrid {
-  fg::Graph& graph;
+  StageGraph graph;
   fg::Buffer frame;
   fg::Extent pixels;
   fg::Extent blocks;
@@ -35,12 +33,6 @@ struct BlockAverages {
   fg::Texture depth;
 };
 
-/// The fit of every block or cell and the depth that its depth feature is relative to.
-struct BlockFits {
-  fg::Texture a, b, c;
-  fg::Texture depth;  // Of a block also whether its fit holds paths enough (block_storage.glsl).
-};
-
 /// Cells are merged by workgroups, whose sides they divide.
 std::uint32_t cellBlocksFor(float cellPixels, std::uint32_t blockSize) {
   constexpr float kMostPixels = 8.0F;
@@ -49,7 +41,8 @@ std::uint32_t cellBlocksFor(float cellPixels, std::uint32_t blockSize) {
   return blocks;
 }
 
-BlockGrid gridOf(fg::Graph& graph, fg::Buffer frame, fg::Extent pixels, const BlockRegressionSettings& s) {
+/// Also the unit of `coarseSigma` becomes that of the shaders: cells in place of the share of the picture's height.
+BlockGrid gridOf(StageGraph graph, fg::Buffer frame, fg::Extent pixels, const BlockRegressionSettings& s) {
   const fg::Extent blocks = gridExtent(pixels, s.size);
   const float sigma = s.coarseSigma * static_cast<float>(pixels.height);
   const std::uint32_t cellBlocks = cellBlocksFor(sigma / s.coarseResolution, s.size);
@@ -81,27 +74,27 @@ BlockAverages writeAverages(const BlockGrid& grid, fg::PassBuilder& pass, fg::Ex
   BlockAverages averages;
   for (std::size_t i = 0; i < averages.moments.size(); ++i) {
     const fg::Texture texture =
-        grid.graph.texture("block moments " + std::to_string(i) + suffix, {VK_FORMAT_R32G32B32A32_UINT, extent});
+        grid.graph->texture("block moments " + std::to_string(i) + suffix, {VK_FORMAT_R32G32B32A32_UINT, extent});
     averages.moments.at(i) = pass.store(prefix + "Moments" + std::to_string(i), texture);
   }
   averages.depth =
-      pass.store(prefix + "Depth", grid.graph.texture("block depth" + suffix, {VK_FORMAT_R32_UINT, extent}));
+      pass.store(prefix + "Depth", grid.graph->texture("block depth" + suffix, {VK_FORMAT_R32_UINT, extent}));
   return averages;
 }
 
 /// All of them but their depth.
-BlockFits writeFits(const BlockGrid& grid, fg::PassBuilder& pass, fg::Extent extent, const std::string& name) {
+FitTextures writeFits(const BlockGrid& grid, fg::PassBuilder& pass, fg::Extent extent, const std::string& name) {
   const auto store = [&](const char* binding, const char* part) {
-    return pass.store(binding, grid.graph.texture(name + part, {VK_FORMAT_R32G32B32A32_UINT, extent}));
+    return pass.store(binding, grid.graph->texture(name + part, {VK_FORMAT_R32G32B32A32_UINT, extent}));
   };
   return {.a = store("outFitA", " a"), .b = store("outFitB", " b"), .c = store("outFitC", " c"), .depth = {}};
 }
 
 /// The fit of a Gaussian window around every cell, regardless of edges, grown where the light is the same and the
-/// blocks' fits, whose depth this reads, want paths.
-BlockFits addCoarseFit(const BlockGrid& grid, const BlockAverages& averages, fg::Texture fitDepth) {
+/// blocks' fits, whose depth this reads, want samples.
+FitTextures addCoarseFit(const BlockGrid& grid, const BlockAverages& averages, fg::Texture fitDepth) {
   const auto declare = [&](const std::string& name, const fg::Shader& shader, const BlockAverages& read) {
-    fg::PassBuilder pass = grid.graph.compute(name, shader);
+    fg::PassBuilder pass = grid.graph->compute(name, shader);
     readAverages(pass, read);
     pass.specialize("kCellSize", grid.cellSize).constants(grid.constants).dispatch(grid.cells);
     return pass;
@@ -114,7 +107,7 @@ BlockFits addCoarseFit(const BlockGrid& grid, const BlockAverages& averages, fg:
   const BlockAverages windows = writeAverages(grid, down, grid.cells, " blurred");
   fg::PassBuilder growth = declare("coarse fit, growth", shaders::blockCoarseGrowth, windows);
   growth.sample("fitDepth", fitDepth).specialize("kCellBlocks", grid.cellBlocks);
-  BlockFits fits = writeFits(grid, growth, grid.cells, "coarse fit");
+  FitTextures fits = writeFits(grid, growth, grid.cells, "coarse fit");
   fits.depth = windows.depth;
   return fits;
 }
@@ -179,13 +172,12 @@ const std::vector<ViewInfo>& reconstructionViews() {
   return kViews;
 }
 
-/// The fit of an edge-aware window around every block (Meunier & Harada 2022, 3.2).
-BlockFits addFineFit(const BlockGrid& grid, BlockAverages averages, fg::Texture normal, std::uint32_t iterations,
-                     Inspection* inspection) {
+/// The fit of an edge-aware window around every block (walr.txt 3.2).
+FitTextures addFineFit(const BlockGrid& grid, BlockAverages averages, fg::Texture normal, std::uint32_t iterations) {
   std::uint32_t spacing = 1;
   for (std::uint32_t t = 0;; ++t, spacing *= 3) {
     const auto declare = [&](const std::string& name, const fg::Shader& shader) {
-      fg::PassBuilder pass = grid.graph.compute(name, shader);
+      fg::PassBuilder pass = grid.graph->compute(name, shader);
       readAverages(pass, averages);
       pass.uniform("frameConstants", grid.frame)
           .sample("normal", normal)
@@ -195,34 +187,25 @@ BlockFits addFineFit(const BlockGrid& grid, BlockAverages averages, fg::Texture 
           .dispatch(grid.blocks);
       return pass;
     };
-    if (inspection != nullptr) {
-      inspection->offer(grid.graph, iterationViews(), grid.pixels,
-                        [&](const std::string& name) { return declare(name, shaders::blockAtrousView); },
-                        {.index = t, .count = iterations});
-    }
+    grid.graph.offer(iterationViews(), grid.pixels,
+                     [&](const std::string& name) { return declare(name, shaders::blockAtrousView); },
+                     {.index = t, .count = iterations});
     const bool last = t + 1 == iterations;
     const std::string suffix = " " + std::to_string(t);
     fg::PassBuilder pass = declare("block a-trous" + suffix, last ? shaders::blockAtrousLast : shaders::blockAtrous);
     if (last) {
-      BlockFits fits = writeFits(grid, pass, grid.blocks, "block fit");
-      fits.depth = pass.store("outDepth", grid.graph.texture("block fit depth", {VK_FORMAT_R32_UINT, grid.blocks}));
+      FitTextures fits = writeFits(grid, pass, grid.blocks, "block fit");
+      fits.depth = pass.store("outDepth", grid.graph->texture("block fit depth", {VK_FORMAT_R32_UINT, grid.blocks}));
       return fits;
     }
     averages = writeAverages(grid, pass, grid.blocks, suffix);
   }
 }
 
-/// All that a pixel's light is made of.
-struct Fits {
-  BlockFits fine;
-  BlockFits coarse;
-  fg::Texture normal;  // Of blocks.
-};
-
 /// What gathers the blocks' samples and what fits them to the pixels again read the same pixels.
 fg::PassBuilder readPixels(const BlockGrid& grid, const Guides& guides, const std::string& name,
                            const fg::Shader& shader) {
-  fg::PassBuilder pass = grid.graph.compute(name, shader);
+  fg::PassBuilder pass = grid.graph->compute(name, shader);
   pass.uniform("frameConstants", grid.frame)
       .sample("depth", guides.depth)
       .sample("features", guides.features)
@@ -232,7 +215,7 @@ fg::PassBuilder readPixels(const BlockGrid& grid, const Guides& guides, const st
 }
 
 bool isPacked(const BlockGrid& grid, fg::Texture texture) {
-  return lightStorageOf(grid.graph.textureDesc(texture).format) == LightStorage::Packed;
+  return lightStorageOf(grid.graph->textureDesc(texture).format) == LightStorage::Packed;
 }
 
 void readLight(const BlockGrid& grid, const BlockLight& light, fg::PassBuilder& pass) {
@@ -241,10 +224,33 @@ void readLight(const BlockGrid& grid, const BlockLight& light, fg::PassBuilder& 
     pass.specialize("kAlphaIsSampleCount", light.alpha == LightingAlpha::SampleCount);
 }
 
-/// Every pixel from the fits around it.
-/// @param sortTiles  dispatch it over lists of tiles by what there is to do
-fg::Texture addReconstruction(const BlockGrid& grid, const BlockLight& light, const Guides& guides, const Fits& fits,
-                              bool sortTiles, Inspection* inspection) {
+}  // namespace
+
+BlockFits addBlockRegression(StageGraph graph, fg::Buffer frame, const BlockLight& light, const Guides& guides,
+                             const BlockRegressionSettings& settings) {
+  if (!(settings.planeNear < settings.planeFar)) {
+    throw std::invalid_argument("setting blocks.plane-near must be below blocks.plane-far");
+  }
+  const BlockGrid grid = gridOf(graph, frame, graph->textureDesc(light.accumulated).extent, settings);
+  fg::PassBuilder gather =
+      readPixels(grid, guides, "block moments",
+                 isPacked(grid, light.accumulated) ? shaders::blockMomentsPacked : shaders::blockMoments);
+  readLight(grid, light, gather);
+  gather.sample("geometricNormal", guides.geometricNormal)
+      .specialize("kCellBlocks", grid.cellBlocks)
+      .dispatch(grid.blocks);
+  const BlockAverages blocks = writeAverages(grid, gather, grid.blocks, "");
+  const BlockAverages cells = writeAverages(grid, gather, grid.cells, " of cells", "outCell");
+  BlockFits fits;
+  fits.normal = gather.store("outNormal", graph->texture("block normal", {VK_FORMAT_R32_UINT, grid.blocks}));
+  fits.fine = addFineFit(grid, blocks, fits.normal, settings.iterations);
+  fits.coarse = addCoarseFit(grid, cells, fits.fine.depth);
+  return fits;
+}
+
+fg::Texture addBlockReconstruction(StageGraph graph, fg::Buffer frame, const BlockLight& light, const Guides& guides,
+                                   const BlockFits& fits, const BlockRegressionSettings& settings) {
+  const BlockGrid grid = gridOf(graph, frame, graph->textureDesc(light.accumulated).extent, settings);
   const bool readsPacked = isPacked(grid, light.accumulated);
   const bool writesPacked = light.result == LightStorage::Packed;
   const auto reconstruct = [&](const std::string& name, const fg::Shader& shader) {
@@ -258,68 +264,19 @@ fg::Texture addReconstruction(const BlockGrid& grid, const BlockLight& light, co
         .sample("coarseB", fits.coarse.b)
         .sample("coarseC", fits.coarse.c)
         .sample("coarseDepth", fits.coarse.depth)
-        .specialize("kCellSize", grid.cellSize);
+        .specialize("kCellSize", grid.cellSize)
+        .dispatch(grid.pixels);
     return pass;
   };
-  if (inspection != nullptr) {
-    inspection->offer(grid.graph, reconstructionViews(), grid.pixels, [&](const std::string& name) {
-      fg::PassBuilder pass = reconstruct(name, readsPacked ? shaders::blockApplyViewPacked : shaders::blockApplyView);
-      readLight(grid, light, pass);
-      pass.dispatch(grid.pixels);
-      return pass;
-    });
-  }
-
-  const auto passLightOn = [&](fg::PassBuilder& pass) {
-    if (!writesPacked) pass.sample("passed", readsPacked ? light.lighting : light.accumulated);
-  };
-  const auto apply = [&](const std::string& name, const fg::Shader& half, const fg::Shader& packed) {
-    fg::PassBuilder pass = reconstruct(name, writesPacked ? packed : half);
-    passLightOn(pass);
+  graph.offer(reconstructionViews(), grid.pixels, [&](const std::string& name) {
+    fg::PassBuilder pass = reconstruct(name, readsPacked ? shaders::blockApplyViewPacked : shaders::blockApplyView);
+    readLight(grid, light, pass);
     return pass;
-  };
-  const fg::Texture target = grid.graph.texture("filtered", {formatOf(light.result), grid.pixels});
-  if (!sortTiles) {
-    fg::PassBuilder all = apply("block apply", shaders::blockApply, shaders::blockApplyPacked);
-    all.dispatch(grid.pixels);
-    return all.store("outFiltered", target);
-  }
-  const TileLists tiles = addTileLists(grid.graph, grid.pixels, fits.fine.depth, grid.size);
-  fg::PassBuilder growing = apply("block apply", shaders::blockApplyListed, shaders::blockApplyListedPacked);
-  dispatchTiles(growing, tiles, kTilesGrowing);
-  fg::Texture filtered = growing.store("outFiltered", target);
-  fg::PassBuilder converged =
-      apply("block apply, converged", shaders::blockApplyConverged, shaders::blockApplyConvergedPacked);
-  dispatchTiles(converged, tiles, kTilesConverged);
-  filtered = converged.update("outFiltered", filtered);
-  fg::PassBuilder sky = grid.graph.compute("pass sky", writesPacked ? shaders::passSkyPacked : shaders::passSky);
-  passLightOn(sky);
-  dispatchTiles(sky, tiles, kTilesOfSky);
-  return sky.update("filtered", filtered);
-}
+  });
 
-}  // namespace
-
-fg::Texture addBlockRegression(fg::Graph& graph, fg::Buffer frame, const BlockLight& light, const Guides& guides,
-                               const BlockRegressionSettings& settings, Inspection* inspection) {
-  if (!(settings.planeNear < settings.planeFar)) {
-    throw std::invalid_argument("setting blocks.plane-near must be below blocks.plane-far");
-  }
-  const BlockGrid grid = gridOf(graph, frame, graph.textureDesc(light.accumulated).extent, settings);
-  fg::PassBuilder gather =
-      readPixels(grid, guides, "block moments",
-                 isPacked(grid, light.accumulated) ? shaders::blockMomentsPacked : shaders::blockMoments);
-  readLight(grid, light, gather);
-  gather.sample("geometricNormal", guides.geometricNormal)
-      .specialize("kCellBlocks", grid.cellBlocks)
-      .dispatch(grid.blocks);
-  const BlockAverages blocks = writeAverages(grid, gather, grid.blocks, "");
-  const BlockAverages cells = writeAverages(grid, gather, grid.cells, " of cells", "outCell");
-  Fits fits;
-  fits.normal = gather.store("outNormal", graph.texture("block normal", {VK_FORMAT_R32_UINT, grid.blocks}));
-  fits.fine = addFineFit(grid, blocks, fits.normal, settings.iterations, inspection);
-  fits.coarse = addCoarseFit(grid, cells, fits.fine.depth);
-  return addReconstruction(grid, light, guides, fits, settings.sortTiles, inspection);
+  fg::PassBuilder pass = reconstruct("block apply", writesPacked ? shaders::blockApplyPacked : shaders::blockApply);
+  if (!writesPacked) pass.sample("passed", readsPacked ? light.lighting : light.accumulated);
+  return pass.store("outFiltered", graph->texture("filtered", {formatOf(light.result), grid.pixels}));
 }
 
 }  // namespace walr

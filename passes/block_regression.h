@@ -3,11 +3,11 @@
 #include <cstdint>
 
 #include "framegraph/declare/graph.h"
-#include "passes/inspection.h"
 #include "passes/light_storage.h"
 #include "passes/lighting_alpha.h"
 #include "passes/prepare_guides.h"
 #include "passes/settings.h"
+#include "passes/stage_graph.h"
 
 namespace walr {
 
@@ -28,7 +28,6 @@ struct BlockRegressionSettings {
   float coarseGrowthOcclusion = 4.0F;
   float coarseSamples = 3200.0F;
   float coarseLeastShare = 0.15F;
-  bool sortTiles = false;
 
   void visit(SettingVisitor& v) {
     v.visit({"blocks.size", "Side of the blocks whose moments are averaged", "pixels", 2, 8, "measured"}, size);
@@ -51,14 +50,15 @@ struct BlockRegressionSettings {
     v.visit(
         {"blocks.growth-errors",
          "Up to how many standard errors of difference in luminance a block joins another's window in full; at twice "
-         "as many it does not at all. The error is that of means of paths of their pixels' variance",
+         "as many it does not at all. The error is that of means of samples of their pixels' variance",
          "standard errors", 0.001, 1e6, "measured"},
         growthErrors);
-    v.visit({"blocks.coarse-sigma",
-             "Standard deviation of the Gaussian window of the coarse fit, which no edge stops, at one path a pixel",
-             "fraction of the image's height", 0.001, 0.2, "measured"},
-            coarseSigma);
-    v.visit({"blocks.coarse-narrowing", "Power of the paths a pixel by which that window narrows", "", 0.0, 1.0,
+    v.visit(
+        {"blocks.coarse-sigma",
+         "Standard deviation of the Gaussian window of the coarse fit, which no edge stops, at one sample per pixel",
+         "fraction of the image's height", 0.001, 0.2, "measured"},
+        coarseSigma);
+    v.visit({"blocks.coarse-narrowing", "Power of the samples per pixel by which that window narrows", "", 0.0, 1.0,
              "measured"},
             coarseNarrowing);
     v.visit({"blocks.coarse-reach", "Distance at which that window ends", "sigma", 1.0, 6.0, "measured"}, coarseReach);
@@ -78,8 +78,8 @@ struct BlockRegressionSettings {
              "How much fewer these errors are where occluders are near: by 1 + this x ambient occlusion", "", 0.0,
              100.0, "measured"},
             coarseGrowthOcclusion);
-    v.visit({"blocks.coarse-samples", "Paths that the coarse fit counts for beside those in a block's window", "paths",
-             0.0, 1e6, "measured"},
+    v.visit({"blocks.coarse-samples", "Samples that the coarse fit counts for beside those in a block's window",
+             "samples", 0.0, 1e6, "measured"},
             coarseSamples);
     v.visit(
         {"blocks.coarse-least-share",
@@ -87,12 +87,6 @@ struct BlockRegressionSettings {
          "in full",
          "", 1e-6, 0.5, "measured"},
         coarseLeastShare);
-    v.visit(
-        {"blocks.sort-tiles",
-         "Sort tiles of 8 x 8 pixels into those whose pixels may want the coarse fit, those that have converged and "
-         "those of the sky, and dispatch the reconstruction indirectly over each list",
-         "", 0, 1, "measured"},
-        sortTiles);
   }
 };
 
@@ -104,15 +98,33 @@ struct BlockLight {
   LightStorage result = LightStorage::Half;  ///< Packed: the light of pixels without a surface is not passed on.
 };
 
+/// The fit of every block or cell, and the depth that its depth feature is relative to (block_storage.glsl).
+struct FitTextures {
+  fg::Texture a, b, c;  ///< R32G32B32A32_UINT: coefficients and sample count.
+  fg::Texture depth;    ///< R32_UINT; of a block also whether its fit holds samples enough.
+};
+
+/// What the regression leaves to the reconstruction.
+struct BlockFits {
+  FitTextures fine;    ///< A texel a block.
+  FitTextures coarse;  ///< A texel a cell of the coarse fit's grid.
+  fg::Texture normal;  ///< R32_UINT: of every block, its plane's normal and the pixel that stands for it.
+};
+
 /// Weighted linear regression of the lighting on {1, normal, inverse depth, ambient occlusion} over blocks of pixels:
-/// edge-aware a-trous averages, a coarse fit where they hold few samples, and the reconstruction of every pixel from
-/// the fits around it.
-/// @param frame      upload of `FrameConstants`
-/// @param guides     with `features`
-/// @param inspection is offered the views of every iteration and of the reconstruction
-/// @returns as `light.result` says: filtered radiance; RGBA16F: sky and pixels without a diffuse lobe as they were
+/// edge-aware a-trous averages, and a coarse fit where they hold few samples. Offers the views of every iteration.
+/// @param frame  upload of `FrameConstants`
+/// @param guides with `features`
 /// @throws std::invalid_argument for settings outside their range
-fg::Texture addBlockRegression(fg::Graph& graph, fg::Buffer frame, const BlockLight& light, const Guides& guides,
-                               const BlockRegressionSettings& settings = {}, Inspection* inspection = nullptr);
+BlockFits addBlockRegression(StageGraph graph, fg::Buffer frame, const BlockLight& light, const Guides& guides,
+                             const BlockRegressionSettings& settings = {});
+
+/// Reconstruct every pixel from the fits around it and its own features.
+/// @param frame    upload of `FrameConstants`
+/// @param light    what the fits are of
+/// @param settings of the regression
+/// @returns as `light.result` says: filtered radiance; RGBA16F: sky and pixels without a diffuse lobe as they were
+fg::Texture addBlockReconstruction(StageGraph graph, fg::Buffer frame, const BlockLight& light, const Guides& guides,
+                                   const BlockFits& fits, const BlockRegressionSettings& settings = {});
 
 }  // namespace walr

@@ -10,27 +10,24 @@ BmfrSettings tunedBmfr() {
 
 BmfrSettings paperBmfr() {
   BmfrSettings settings;
-  settings.fittedAccumulation.maxSamples = 10.0F;
+  settings.fittedAccumulation.maxHistory = 10.0F;
   return settings;
 }
 
-fg::Texture addBmfr(fg::Graph& graph, const DenoiserInputs& inputs, fg::Texture output, const BmfrSettings& settings,
-                    Inspection* inspection) {
-  const TemporalStages stages{.accumulation = settings.accumulation,
-                              .antialiasing = settings.antialiasing,
-                              .spatialOnly = settings.spatialOnly,
-                              .keepTaps = true};
-  const Guides guides =
-      addPrepareGuides(graph, inputs, settings.guides, guideNeeds(stages, inputs.scene, false), inspection);
-  const auto filter = [&](const FilterInput& input) {
-    const fg::Texture target = settings.spatialOnly ? input.output : graph.texture("fit", graph.textureDesc(output));
-    const fg::Texture fitted =
-        addBmfrFit(graph, inputs.frame, input.lighting, input.alpha, guides, target, settings.fit, inspection);
-    return settings.spatialOnly
-               ? fitted
-               : addBmfrAccumulation(graph, inputs.frame, fitted, input.taps, settings.fittedAccumulation);
-  };
-  return addTemporalStages(graph, inputs, guides, output, stages, filter, inspection);
+fg::Texture addBmfr(StageGraph graph, const DenoiserInputs& inputs, fg::Texture output, const BmfrSettings& settings) {
+  const TemporalPlan plan = planTemporalStages(inputs, {.accumulation = settings.accumulation,
+                                                        .antialiasing = settings.antialiasing,
+                                                        .spatialOnly = settings.spatialOnly,
+                                                        .keepTaps = true});
+  const Guides guides = addPrepareGuides(graph, inputs, settings.guides, plan.guides);
+  const Accumulated accumulated = addAccumulation(graph, inputs, guides, plan);
+  const fg::Texture fitTarget = plan.accumulates ? graph->texture("fit", graph->textureDesc(output)) : output;
+  fg::Texture fitted =
+      addBmfrFit(graph, inputs.frame, accumulated.lighting, accumulated.alpha, guides, fitTarget, settings.fit);
+  if (plan.accumulates) {
+    fitted = addBmfrAccumulation(graph, inputs.frame, fitted, accumulated.taps, settings.fittedAccumulation);
+  }
+  return addAntialiasing(graph, inputs, guides, plan, accumulated, fitted, output);
 }
 
 }  // namespace walr

@@ -5,6 +5,7 @@
 #include "passes/bmfr_fit.h"
 #include "passes/inputs.h"
 #include "passes/prepare_guides.h"
+#include "passes/stage_graph.h"
 #include "passes/temporal_accumulation.h"
 #include "passes/temporal_antialiasing.h"
 
@@ -14,7 +15,7 @@ namespace walr {
 struct BmfrSettings {
   bool spatialOnly = false;
   PrepareGuidesSettings guides;
-  TemporalAccumulationSettings accumulation{.maxSamples = 5.0F};
+  TemporalAccumulationSettings accumulation{.maxHistory = 5.0F};
   BmfrFitSettings fit;
   BmfrAccumulationSettings fittedAccumulation;
   TemporalAntialiasingSettings antialiasing;
@@ -39,9 +40,8 @@ BmfrSettings paperBmfr();
 /// Blockwise Multi-Order Feature Regression (Koskela et al. 2019, figure 2): accumulation, feature fitting, a second
 /// accumulation and temporal anti-aliasing.
 /// @param output RGBA16F texture to write the result to
-/// @param inspection is offered the views of the stages that have some
 /// @returns the output's new version
-fg::Texture addBmfr(fg::Graph& graph, const DenoiserInputs& inputs, fg::Texture output,
-                    const BmfrSettings& settings = {}, Inspection* inspection = nullptr);
+fg::Texture addBmfr(StageGraph graph, const DenoiserInputs& inputs, fg::Texture output,
+                    const BmfrSettings& settings = {});
 
 }  // namespace walr

@@ -15,7 +15,7 @@ fg::Texture addBmfrAccumulation(fg::Graph& graph, fg::Buffer frame, fg::Texture 
       .sample("fitted", fitted)
       .sample("taps", taps)
       .sample("previousAccumulated", accumulated.previous)
-      .constants(BmfrAccumulationConstants{settings.maxSamples})
+      .constants(BmfrAccumulationConstants{settings.maxHistory})
       .dispatch(extent);
   return pass.store("outAccumulated", accumulated.current);
 }

@@ -34,18 +34,17 @@ const std::vector<ViewInfo>& fitViews() {
 
 }  // namespace
 
-fg::Texture addBmfrFit(fg::Graph& graph, fg::Buffer frame, fg::Texture lighting, LightingAlpha alpha,
-                       const Guides& guides, fg::Texture output, const BmfrFitSettings& settings,
-                       Inspection* inspection) {
+fg::Texture addBmfrFit(StageGraph graph, fg::Buffer frame, fg::Texture lighting, LightingAlpha alpha,
+                       const Guides& guides, fg::Texture output, const BmfrFitSettings& settings) {
   const bool stochastic = settings.rankHandling == RankHandling::Stochastic;
   const BmfrFitConstants constants{stochastic ? settings.noiseAmplitude : 0.0F,
                                    stochastic ? kRoundingTolerance : settings.rankTolerance, settings.extentFloor};
   // One block more than fits an axis, so that the displaced grid still covers the image.
-  const fg::Extent extent = graph.textureDesc(lighting).extent;
+  const fg::Extent extent = graph->textureDesc(lighting).extent;
   const auto declare = [&](const std::string& name, const fg::Shader& shader) {
     const fg::Extent threads{(extent.width / kBlockSize + 2) * shader.localSize[0],
                              (extent.height / kBlockSize + 2) * shader.localSize[1]};
-    fg::PassBuilder pass = graph.compute(name, shader);
+    fg::PassBuilder pass = graph->compute(name, shader);
     pass.uniform("frameConstants", frame)
         .sample("lighting", lighting)
         .sample("depth", guides.depth)
@@ -55,10 +54,7 @@ fg::Texture addBmfrFit(fg::Graph& graph, fg::Buffer frame, fg::Texture lighting,
         .dispatch(threads);
     return pass;
   };
-  if (inspection != nullptr) {
-    inspection->offer(graph, fitViews(), extent,
-                      [&](const std::string& name) { return declare(name, shaders::bmfrFitView); });
-  }
+  graph.offer(fitViews(), extent, [&](const std::string& name) { return declare(name, shaders::bmfrFitView); });
   fg::PassBuilder pass = declare("bmfr fit", shaders::bmfrFit);
   return pass.store("outFitted", output);
 }

@@ -5,10 +5,10 @@
 #include <string_view>
 
 #include "framegraph/declare/graph.h"
-#include "passes/inspection.h"
 #include "passes/lighting_alpha.h"
 #include "passes/prepare_guides.h"
 #include "passes/settings.h"
+#include "passes/stage_graph.h"
 
 namespace walr {
 
@@ -49,10 +49,8 @@ struct BmfrFitSettings {
 /// @param lighting RGBA16F: radiance to fit; a pixel that is not finite has no say in the fit
 /// @param alpha    what the alpha channel of `lighting` says; a pixel with no sample has no say in the fit
 /// @param output   RGBA16F texture to write the fit to
-/// @param inspection is offered the stage's views
 /// @returns the output's new version; sky and pixels without a diffuse lobe as they were
-fg::Texture addBmfrFit(fg::Graph& graph, fg::Buffer frame, fg::Texture lighting, LightingAlpha alpha,
-                       const Guides& guides, fg::Texture output, const BmfrFitSettings& settings = {},
-                       Inspection* inspection = nullptr);
+fg::Texture addBmfrFit(StageGraph graph, fg::Buffer frame, fg::Texture lighting, LightingAlpha alpha,
+                       const Guides& guides, fg::Texture output, const BmfrFitSettings& settings = {});
 
 }  // namespace walr

@@ -13,6 +13,7 @@
 #include "passes/svgf.h"
 #include "passes/text.h"
 #include "passes/walr.h"
+#include "passes/walr_paper.h"
 #include "shaders/constants/frame.h"
 
 namespace walr {
@@ -27,9 +28,8 @@ struct Preset {
 template <typename Settings>
 constexpr std::array<Preset<Settings>, 0> kPresets{};
 template <>
-constexpr std::array kPresets<WalrSettings>{Preset<WalrSettings>{"blocks", blocksWalr},
-                                            Preset<WalrSettings>{"robust", robustWalr},
-                                            Preset<WalrSettings>{"paper", paperWalr}};
+constexpr std::array kPresets<WalrPaperSettings>{Preset<WalrPaperSettings>{"paper", paperWalr},
+                                                 Preset<WalrPaperSettings>{"robust", robustWalr}};
 template <>
 constexpr std::array kPresets<RefwlrSettings>{Preset<RefwlrSettings>{"robust", robustRefwlr},
                                               Preset<RefwlrSettings>{"paper", paperRefwlr}};
@@ -39,6 +39,13 @@ constexpr std::array kPresets<BmfrSettings>{Preset<BmfrSettings>{"tuned", tunedB
 template <>
 constexpr std::array kPresets<SvgfSettings>{Preset<SvgfSettings>{"tuned", tunedSvgf},
                                             Preset<SvgfSettings>{"paper", paperSvgf}};
+
+/// What a method without such a preset says of the presets that it had once.
+template <typename Settings>
+constexpr std::string_view kFormerPresets{};
+template <>
+constexpr std::string_view kFormerPresets<WalrSettings> =
+    "; walr is what its preset blocks was, and its presets robust and paper are those of the method walr_paper";
 
 /// What two descriptions of one scene leave of it.
 SceneDescription common(const SceneDescription& a, const SceneDescription& b) {
@@ -73,15 +80,16 @@ class DenoiserOf final : public Denoiser {
       return;
     }
     throw std::invalid_argument("there is no preset \"" + std::string(name) + "\" of this method; known presets: " +
-                                (kPresets<Settings>.empty() ? "none" : join(presets())));
+                                (kPresets<Settings>.empty() ? "none" : join(presets())) +
+                                std::string(kFormerPresets<Settings>));
   }
 
-  fg::Texture add(fg::Graph& graph, const DenoiserInputs& inputs, fg::Texture output, Inspection* inspection) override {
+  fg::Texture add(StageGraph graph, const DenoiserInputs& inputs, fg::Texture output) override {
     checkSettings();
     DenoiserInputs described = inputs;
     described.scene = common(inputs.scene, scene_);
-    const fg::Texture denoised = kAdd(graph, described, output, settings_, inspection);
-    if (inspection != nullptr) inspection->requireViews();
+    const fg::Texture denoised = kAdd(graph, described, output, settings_);
+    graph.requireViews();
     return denoised;
   }
 
@@ -99,8 +107,7 @@ struct NoSettings {
   void visit(SettingVisitor& /*visitor*/) {}
 };
 
-fg::Texture addNone(fg::Graph& graph, const DenoiserInputs& inputs, fg::Texture output, const NoSettings& /*none*/,
-                    Inspection* /*inspection*/) {
+fg::Texture addNone(StageGraph graph, const DenoiserInputs& inputs, fg::Texture output, const NoSettings& /*none*/) {
   return addPassThrough(graph, inputs.lighting, output);
 }
 
@@ -111,8 +118,11 @@ struct Method {
 };
 
 constexpr std::array kMethods{
-    Method{"walr", "Weighted A-Trous Linear Regression", make<WalrSettings, addWalr>},
-    Method{"refwlr", "WALR's reference: regression over the full window, seconds a frame",
+    Method{"walr", "Weighted A-Trous Linear Regression over blocks of pixels: the project's own method",
+           make<WalrSettings, addWalr>},
+    Method{"walr_paper", "Weighted A-Trous Linear Regression over pixels, as published",
+           make<WalrPaperSettings, addWalrPaper>},
+    Method{"refwlr", "The reference of walr_paper: regression over the full window, seconds a frame",
            make<RefwlrSettings, addRefwlr>},
     Method{"bmfr", "Blockwise Multi-Order Feature Regression", make<BmfrSettings, addBmfr>},
     Method{"svgf", "Spatiotemporal Variance-Guided Filtering", make<SvgfSettings, addSvgf>},
@@ -147,7 +157,7 @@ std::vector<ViewInfo> Denoiser::views() {
   inputs.albedo = graph.texture("albedo", colour);
   inputs.frame = graph.upload("frame constants", sizeof(FrameConstants));
   Inspection inspection;
-  (void)add(graph, inputs, graph.texture("output", colour), &inspection);
+  (void)add({graph, inspection}, inputs, graph.texture("output", colour));
   return inspection.known();
 }
 

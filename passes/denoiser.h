@@ -7,8 +7,8 @@
 
 #include "framegraph/declare/graph.h"
 #include "passes/inputs.h"
-#include "passes/inspection.h"
 #include "passes/settings.h"
+#include "passes/stage_graph.h"
 
 namespace walr {
 
@@ -21,15 +21,13 @@ class Denoiser : public Configurable {
   /// @throws std::invalid_argument naming the unknown preset and the known ones
   virtual void usePreset(std::string_view name) = 0;
   /// Add the method's passes to a graph.
-  /// @param graph   the host's graph
+  /// @param graph   the host's graph, with the views and counters to write of the method's inner workings, if any
   /// @param inputs  the host's textures, and what scene and host bring along; settings may leave out more of it
   /// @param output  RGBA16F texture of the inputs' extent that the result is written to
   /// @returns the output's new version: denoised demodulated diffuse indirect radiance; sky and pixels without a
   ///          diffuse lobe hold the input unchanged, or, where light is packed, rounded (`antialiasing.storage`)
   /// @throws std::invalid_argument naming a setting outside its range, or a view that there is not
-  /// @param inspection views and counters to write of the method's inner workings
-  virtual fg::Texture add(fg::Graph& graph, const DenoiserInputs& inputs, fg::Texture output,
-                          Inspection* inspection = nullptr) = 0;
+  virtual fg::Texture add(StageGraph graph, const DenoiserInputs& inputs, fg::Texture output) = 0;
   /// The views that `add` takes with the present settings.
   /// @throws std::invalid_argument naming a setting outside its range
   [[nodiscard]] std::vector<ViewInfo> views();

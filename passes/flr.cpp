@@ -4,21 +4,20 @@
 
 namespace walr {
 
-fg::Texture addFlr(fg::Graph& graph, const DenoiserInputs& inputs, fg::Texture output, const FlrSettings& settings,
-                   Inspection* inspection) {
-  const TemporalStages stages{.accumulation = settings.accumulation,
-                              .antialiasing = settings.antialiasing,
-                              .spatialOnly = settings.spatialOnly};
-  GuideNeeds needs = guideNeeds(stages, inputs.scene, false);
+fg::Texture addFlr(StageGraph graph, const DenoiserInputs& inputs, fg::Texture output, const FlrSettings& settings) {
+  const TemporalPlan plan = planTemporalStages(inputs, {.accumulation = settings.accumulation,
+                                                        .antialiasing = settings.antialiasing,
+                                                        .spatialOnly = settings.spatialOnly});
+  GuideNeeds needs = plan.guides;
   if (settings.regression.occlusionGuide) needs.occlusion = settings.occlusion;
-  const Guides guides = addPrepareGuides(graph, inputs, settings.guides, needs, inspection);
   FlrRegressionSettings regression = settings.regression;
   if (settings.spatialOnly) regression.sigma = settings.singleFrameSigma;
-  const auto filter = [&](const FilterInput& input) {
-    return addFlrRegression(graph, input.lighting, input.alpha, guides, input.target(graph, "filtered"), regression,
-                            inspection);
-  };
-  return addTemporalStages(graph, inputs, guides, output, stages, filter, inspection);
+
+  const Guides guides = addPrepareGuides(graph, inputs, settings.guides, needs);
+  const Accumulated accumulated = addAccumulation(graph, inputs, guides, plan);
+  const fg::Texture filtered = addFlrRegression(graph, accumulated.lighting, accumulated.alpha, guides,
+                                                filterTarget(graph, plan, output), regression);
+  return addAntialiasing(graph, inputs, guides, plan, accumulated, filtered, output);
 }
 
 }  // namespace walr

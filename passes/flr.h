@@ -4,6 +4,7 @@
 #include "passes/flr_regression.h"
 #include "passes/inputs.h"
 #include "passes/prepare_guides.h"
+#include "passes/stage_graph.h"
 #include "passes/temporal_accumulation.h"
 #include "passes/temporal_antialiasing.h"
 
@@ -13,7 +14,7 @@ namespace walr {
 struct FlrSettings {
   bool spatialOnly = false;
   PrepareGuidesSettings guides;
-  TemporalAccumulationSettings accumulation{.maxSamples = 8.0F};
+  TemporalAccumulationSettings accumulation{.maxHistory = 8.0F};
   AmbientOcclusionSettings occlusion;
   FlrRegressionSettings regression;
   float singleFrameSigma = 12.0F;
@@ -37,9 +38,8 @@ struct FlrSettings {
 
 /// Fast Local Regression (Salmi et al. 2024), between temporal accumulation and temporal anti-aliasing.
 /// @param output RGBA16F texture to write the result to
-/// @param inspection is offered the views of the stages that have some
 /// @returns the output's new version
-fg::Texture addFlr(fg::Graph& graph, const DenoiserInputs& inputs, fg::Texture output, const FlrSettings& settings = {},
-                   Inspection* inspection = nullptr);
+fg::Texture addFlr(StageGraph graph, const DenoiserInputs& inputs, fg::Texture output,
+                   const FlrSettings& settings = {});
 
 }  // namespace walr

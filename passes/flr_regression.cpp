@@ -87,10 +87,10 @@ fg::Extent gridOf(fg::Extent pixels, std::uint32_t factor, std::uint64_t cellByt
 
 }  // namespace
 
-fg::Texture addFlrRegression(fg::Graph& graph, fg::Texture lighting, LightingAlpha alpha, const Guides& guides,
-                             fg::Texture output, const FlrRegressionSettings& settings, Inspection* inspection) {
+fg::Texture addFlrRegression(StageGraph graph, fg::Texture lighting, LightingAlpha alpha, const Guides& guides,
+                             fg::Texture output, const FlrRegressionSettings& settings) {
   const Variant variant = variantOf(settings.occlusionGuide);
-  const fg::Extent extent = graph.textureDesc(lighting).extent;
+  const fg::Extent extent = graph->textureDesc(lighting).extent;
   const fg::Extent cells = gridOf(extent, settings.factor, variant.productBytes);
   const std::uint64_t cellCount = std::uint64_t{cells.width} * cells.height;
   const float sigma = settings.sigma / static_cast<float>(settings.factor);
@@ -103,7 +103,7 @@ fg::Texture addFlrRegression(fg::Graph& graph, fg::Texture lighting, LightingAlp
 
   // What sums the products and what applies the fit read the same pixels.
   const auto readPixels = [&](const std::string& name, const fg::Shader& shader) {
-    fg::PassBuilder pass = graph.compute(name, shader);
+    fg::PassBuilder pass = graph->compute(name, shader);
     pass.sample("lighting", lighting).sample("depth", guides.depth).constants(constants);
     if (settings.occlusionGuide) {
       pass.sample("features", guides.features);
@@ -112,24 +112,24 @@ fg::Texture addFlrRegression(fg::Graph& graph, fg::Texture lighting, LightingAlp
     }
     return pass;
   };
-  const auto productBuffer = [&](const char* name) { return graph.buffer(name, {cellCount * variant.productBytes}); };
+  const auto productBuffer = [&](const char* name) { return graph->buffer(name, {cellCount * variant.productBytes}); };
 
   fg::PassBuilder downsample = readPixels("flr outer products", variant.moments);
   downsample.specialize("kAlphaIsSampleCount", alpha == LightingAlpha::SampleCount ? 1U : 0U).dispatch(cells);
   const fg::Buffer moments = downsample.store("outMoments", productBuffer("outer products"));
 
-  fg::PassBuilder blur = graph.compute("flr blur", variant.blur);
+  fg::PassBuilder blur = graph->compute("flr blur", variant.blur);
   blur.load("moments", moments).constants(constants).dispatch(cells);
   const fg::Buffer blurred = blur.store("outBlurred", productBuffer("blurred products"));
 
   const auto declareSolve = [&](const std::string& name, const fg::Shader& shader) {
-    fg::PassBuilder pass = graph.compute(name, shader);
+    fg::PassBuilder pass = graph->compute(name, shader);
     pass.load("blurred", blurred).constants(constants).dispatch(cells);
     return pass;
   };
   fg::PassBuilder solve = declareSolve("flr solve", variant.solve);
   const fg::Buffer coefficients =
-      solve.store("outCoefficients", graph.buffer("coefficients", {cellCount * variant.coefficientBytes}));
+      solve.store("outCoefficients", graph->buffer("coefficients", {cellCount * variant.coefficientBytes}));
 
   const auto declareApply = [&](const std::string& name, const fg::Shader& shader) {
     fg::PassBuilder pass = readPixels(name, shader);
@@ -138,15 +138,12 @@ fg::Texture addFlrRegression(fg::Graph& graph, fg::Texture lighting, LightingAlp
         .dispatch(extent);
     return pass;
   };
-  if (inspection != nullptr) {
-    inspection->offer(graph, solveViews(), extent,
-                      [&](const std::string& name) { return declareSolve(name, variant.solveView); });
-    inspection->offer(graph, applyViews(), extent, [&](const std::string& name) {
-      fg::PassBuilder pass = declareApply(name, variant.applyView);
-      pass.specialize("kAlphaIsSampleCount", alpha == LightingAlpha::SampleCount);
-      return pass;
-    });
-  }
+  graph.offer(solveViews(), extent, [&](const std::string& name) { return declareSolve(name, variant.solveView); });
+  graph.offer(applyViews(), extent, [&](const std::string& name) {
+    fg::PassBuilder pass = declareApply(name, variant.applyView);
+    pass.specialize("kAlphaIsSampleCount", alpha == LightingAlpha::SampleCount);
+    return pass;
+  });
   fg::PassBuilder apply = declareApply("flr apply", variant.apply);
   return apply.store("outFiltered", output);
 }

@@ -5,10 +5,10 @@
 #include <string_view>
 
 #include "framegraph/declare/graph.h"
-#include "passes/inspection.h"
 #include "passes/lighting_alpha.h"
 #include "passes/prepare_guides.h"
 #include "passes/settings.h"
+#include "passes/stage_graph.h"
 
 namespace walr {
 
@@ -57,11 +57,9 @@ struct FlrRegressionSettings {
 /// @param alpha     what the alpha channel of `lighting` says; a pixel with no sample has no say in the fit
 /// @param guides    with `features` where `settings.occlusionGuide` is set
 /// @param output    RGBA16F texture to write the result to
-/// @param inspection is offered the stage's views
 /// @returns the output's new version; sky and pixels without a diffuse lobe as they were
 /// @throws std::invalid_argument where the moments of so many cells do not fit a storage buffer
-fg::Texture addFlrRegression(fg::Graph& graph, fg::Texture lighting, LightingAlpha alpha, const Guides& guides,
-                             fg::Texture output, const FlrRegressionSettings& settings = {},
-                             Inspection* inspection = nullptr);
+fg::Texture addFlrRegression(StageGraph graph, fg::Texture lighting, LightingAlpha alpha, const Guides& guides,
+                             fg::Texture output, const FlrRegressionSettings& settings = {});
 
 }  // namespace walr

@@ -5,7 +5,8 @@
 
 namespace walr {
 
-/// How a host's inputs differ from the project's conventions (see architecture: view space, y down, `motion.z`). Stated
+/// How a host's inputs differ from the project's conventions: normals in view space, where the camera looks down -Z and
+/// y is up; motion between jittered pictures whose y is down, with the change of view depth as its third channel. Stated
 /// once; the first stage converts.
 struct InputConventions {
   enum class Space { View, World };

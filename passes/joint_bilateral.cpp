@@ -2,17 +2,17 @@
 
 namespace walr {
 
-fg::Texture addJointBilateral(fg::Graph& graph, const DenoiserInputs& inputs, fg::Texture output,
-                              const JointBilateralSettings& settings, Inspection* inspection) {
+fg::Texture addJointBilateral(StageGraph graph, const DenoiserInputs& inputs, fg::Texture output,
+                              const JointBilateralSettings& settings) {
   const bool antialias = settings.accumulation.enabled && !inputs.scene.hostAntialiasing && !settings.spatialOnly;
   const Guides guides =
-      addPrepareGuides(graph, inputs, settings.guides, {.history = antialias && !inputs.scene.still()}, inspection);
-  const fg::TextureDesc colourDesc{VK_FORMAT_R16G16B16A16_SFLOAT, graph.textureDesc(inputs.lighting).extent};
-  const fg::Texture target = !antialias ? output : graph.texture("bilateral.filtered", colourDesc);
+      addPrepareGuides(graph, inputs, settings.guides, {.history = antialias && !inputs.scene.still()});
+  const fg::TextureDesc colourDesc{VK_FORMAT_R16G16B16A16_SFLOAT, graph->textureDesc(inputs.lighting).extent};
+  const fg::Texture target = !antialias ? output : graph->texture("bilateral.filtered", colourDesc);
   const fg::Texture filtered =
-      addJointBilateralFilter(graph, inputs.frame, inputs.lighting, guides, target, settings.filter, inspection);
+      addJointBilateralFilter(graph, inputs.frame, inputs.lighting, guides, target, settings.filter);
   if (!antialias) return filtered;
-  return addTemporalAntialiasing(graph, inputs, guides, filtered, output, settings.accumulation, inspection);
+  return addTemporalAntialiasing(graph, inputs, guides, filtered, output, settings.accumulation);
 }
 
 }  // namespace walr

@@ -4,6 +4,7 @@
 #include "passes/inputs.h"
 #include "passes/joint_bilateral_filter.h"
 #include "passes/prepare_guides.h"
+#include "passes/stage_graph.h"
 #include "passes/temporal_antialiasing.h"
 
 namespace walr {
@@ -16,7 +17,7 @@ struct JointBilateralSettings {
   /// Accumulation of the filtered frames (Wang 2024, 4): alpha 0.2, clamped to the 7x7 neighbourhood, within
   /// a number of deviations that the text leaves open. Filtered pixels are much alike: a tight clamp takes the frame
   /// before for an outlier where it differs by its noise alone.
-  TemporalAntialiasingSettings accumulation{.maxSamples = 5.0F, .clipGamma = 8.0F, .clipRadius = 3, .objectIds = true};
+  TemporalAntialiasingSettings accumulation{.maxHistory = 5.0F, .clipGamma = 8.0F, .clipRadius = 3, .objectIds = true};
 
   void visit(SettingVisitor& v) {
     v.visit({"spatial-only", "Filter each frame by itself, without temporal stages", "", 0, 1, "Wang 2024"},
@@ -31,9 +32,8 @@ struct JointBilateralSettings {
 /// result into it, accumulate. Surfaces are told apart by the object's number, as in the text, where the host gives it,
 /// and by plane and geometric normal, as in the other methods.
 /// @param output RGBA16F texture to write the result to
-/// @param inspection is offered the views of the stages that have some
 /// @returns the output's new version
-fg::Texture addJointBilateral(fg::Graph& graph, const DenoiserInputs& inputs, fg::Texture output,
-                              const JointBilateralSettings& settings = {}, Inspection* inspection = nullptr);
+fg::Texture addJointBilateral(StageGraph graph, const DenoiserInputs& inputs, fg::Texture output,
+                              const JointBilateralSettings& settings = {});
 
 }  // namespace walr

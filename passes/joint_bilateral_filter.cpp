@@ -25,12 +25,11 @@ const std::vector<ViewInfo>& filterViews() {
 
 }  // namespace
 
-fg::Texture addJointBilateralFilter(fg::Graph& graph, fg::Buffer frame, fg::Texture lighting, const Guides& guides,
-                                    fg::Texture output, const JointBilateralFilterSettings& settings,
-                                    Inspection* inspection) {
-  const fg::Extent extent = graph.textureDesc(lighting).extent;
+fg::Texture addJointBilateralFilter(StageGraph graph, fg::Buffer frame, fg::Texture lighting, const Guides& guides,
+                                    fg::Texture output, const JointBilateralFilterSettings& settings) {
+  const fg::Extent extent = graph->textureDesc(lighting).extent;
   const auto declare = [&](const std::string& name, const fg::Shader& shader) {
-    fg::PassBuilder pass = graph.compute(name, shader);
+    fg::PassBuilder pass = graph->compute(name, shader);
     pass.uniform("frameConstants", frame)
         .sample("depth", guides.depth)
         .sample("shadingNormal", guides.shadingNormal)
@@ -42,10 +41,8 @@ fg::Texture addJointBilateralFilter(fg::Graph& graph, fg::Buffer frame, fg::Text
         .dispatch(extent);
     return pass;
   };
-  if (inspection != nullptr) {
-    inspection->offer(graph, filterViews(), extent,
-                      [&](const std::string& name) { return declare(name, shaders::jointBilateralView); });
-  }
+  graph.offer(filterViews(), extent,
+              [&](const std::string& name) { return declare(name, shaders::jointBilateralView); });
   fg::PassBuilder pass = declare("joint bilateral filter", shaders::jointBilateral);
   return pass.store("outFiltered", output);
 }

@@ -4,9 +4,9 @@
 #include <limits>
 
 #include "framegraph/declare/graph.h"
-#include "passes/inspection.h"
 #include "passes/prepare_guides.h"
 #include "passes/settings.h"
+#include "passes/stage_graph.h"
 
 namespace walr {
 
@@ -43,10 +43,8 @@ struct JointBilateralFilterSettings {
 /// @param frame    upload of `FrameConstants`
 /// @param lighting RGBA16F: noisy radiance; a pixel that is not finite is no sample
 /// @param output   RGBA16F texture to write the result to
-/// @param inspection is offered the stage's views
 /// @returns the output's new version; sky and pixels without a diffuse lobe as they were
-fg::Texture addJointBilateralFilter(fg::Graph& graph, fg::Buffer frame, fg::Texture lighting, const Guides& guides,
-                                    fg::Texture output, const JointBilateralFilterSettings& settings = {},
-                                    Inspection* inspection = nullptr);
+fg::Texture addJointBilateralFilter(StageGraph graph, fg::Buffer frame, fg::Texture lighting, const Guides& guides,
+                                    fg::Texture output, const JointBilateralFilterSettings& settings = {});
 
 }  // namespace walr

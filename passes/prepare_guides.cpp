@@ -76,15 +76,13 @@ fg::PassBuilder declarePass(fg::Graph& graph, const std::string& name, const fg:
 
 }  // namespace
 
-Guides addPrepareGuides(fg::Graph& graph, const DenoiserInputs& inputs, const PrepareGuidesSettings& settings,
-                        const GuideNeeds& needs, Inspection* inspection) {
-  const fg::Extent extent = graph.textureDesc(inputs.depth).extent;
-  if (inspection != nullptr) {
-    inspection->offer(graph, guideViews(), extent, [&](const std::string& name) {
-      const fg::Shader& shader = isMasked(settings) ? shaders::prepareGuidesMaskedView : shaders::prepareGuidesView;
-      return declarePass(graph, name, shader, inputs, settings);
-    });
-  }
+Guides addPrepareGuides(StageGraph graph, const DenoiserInputs& inputs, const PrepareGuidesSettings& settings,
+                        const GuideNeeds& needs) {
+  const fg::Extent extent = graph->textureDesc(inputs.depth).extent;
+  graph.offer(guideViews(), extent, [&](const std::string& name) {
+    const fg::Shader& shader = isMasked(settings) ? shaders::prepareGuidesMaskedView : shaders::prepareGuidesView;
+    return declarePass(graph, name, shader, inputs, settings);
+  });
   const bool occludes = needs.occlusion.has_value();
   const fg::Shader& shader = shaderFor(isMasked(settings), needs.geometricNormal, occludes);
   fg::PassBuilder pass = declarePass(graph, "prepare guides", shader, inputs, settings,

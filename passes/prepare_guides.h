@@ -5,8 +5,8 @@
 
 #include "framegraph/declare/graph.h"
 #include "passes/inputs.h"
-#include "passes/inspection.h"
 #include "passes/settings.h"
+#include "passes/stage_graph.h"
 
 namespace walr {
 
@@ -67,8 +67,7 @@ struct GuideNeeds {
 };
 
 /// Convert the host's G-buffer once into what all later stages read.
-/// @param inspection is offered the stage's views
-Guides addPrepareGuides(fg::Graph& graph, const DenoiserInputs& inputs, const PrepareGuidesSettings& settings = {},
-                        const GuideNeeds& needs = {}, Inspection* inspection = nullptr);
+Guides addPrepareGuides(StageGraph graph, const DenoiserInputs& inputs, const PrepareGuidesSettings& settings = {},
+                        const GuideNeeds& needs = {});
 
 }  // namespace walr

@@ -3,14 +3,14 @@
 #include <algorithm>
 
 #include "passes/temporal_stages.h"
-#include "passes/walr.h"
+#include "passes/walr_paper.h"
 #include "passes/window_fit.h"
 
 namespace walr {
 namespace {
 
 /// With all that the two methods share.
-RefwlrSettings likeWalr(const WalrSettings& walr) {
+RefwlrSettings likeWalr(const WalrPaperSettings& walr) {
   RefwlrSettings settings;
   settings.guides = walr.guides;
   settings.accumulation = walr.accumulation;
@@ -31,19 +31,19 @@ RefwlrSettings paperRefwlr() {
   return likeWalr(paperWalr());
 }
 
-fg::Texture addRefwlr(fg::Graph& graph, const DenoiserInputs& inputs, fg::Texture output,
-                      const RefwlrSettings& settings, Inspection* inspection) {
+fg::Texture addRefwlr(StageGraph graph, const DenoiserInputs& inputs, fg::Texture output,
+                      const RefwlrSettings& settings) {
   FullWindowSettings regression = settings.regression;
-  const std::uint32_t height = graph.textureDesc(inputs.lighting).extent.height;
+  const std::uint32_t height = graph->textureDesc(inputs.lighting).extent.height;
   if (settings.fitWindow) regression.window = std::min(regression.window, fittingWindow(height));
 
-  const TemporalStages stages{.accumulation = settings.accumulation, .antialiasing = settings.antialiasing};
-  const Guides guides = addPrepareGuides(graph, inputs, settings.guides, {}, inspection);
-  const auto filter = [&](const FilterInput& input) {
-    return addFullWindowRegression(graph, inputs.frame, input.lighting, guides, input.target(graph, "filtered"),
-                                   regression);
-  };
-  return addTemporalStages(graph, inputs, guides, output, stages, filter, inspection);
+  const TemporalPlan plan =
+      planTemporalStages(inputs, {.accumulation = settings.accumulation, .antialiasing = settings.antialiasing});
+  const Guides guides = addPrepareGuides(graph, inputs, settings.guides, {});
+  const Accumulated accumulated = addAccumulation(graph, inputs, guides, plan);
+  const fg::Texture filtered = addFullWindowRegression(graph, inputs.frame, accumulated.lighting, guides,
+                                                       filterTarget(graph, plan, output), regression);
+  return addAntialiasing(graph, inputs, guides, plan, accumulated, filtered, output);
 }
 
 }  // namespace walr

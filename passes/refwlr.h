@@ -4,6 +4,7 @@
 #include "passes/full_window_regression.h"
 #include "passes/inputs.h"
 #include "passes/prepare_guides.h"
+#include "passes/stage_graph.h"
 #include "passes/temporal_accumulation.h"
 #include "passes/temporal_antialiasing.h"
 
@@ -28,18 +29,17 @@ struct RefwlrSettings {
   }
 };
 
-/// What WALR's preset "robust" approximates: the same stages and weights.
+/// What the preset "robust" of `walr_paper` approximates: the same stages and weights.
 RefwlrSettings robustRefwlr();
 
-/// The same of WALR's preset "paper".
+/// The same of its preset "paper".
 RefwlrSettings paperRefwlr();
 
 /// Reference Weighted Linear Regression (Meunier & Harada 2022, 6): WALR with a full window in place of a-trous
 /// averages, to tell what those cost in quality. Takes seconds a frame.
 /// @param output RGBA16F texture to write the result to
-/// @param inspection is offered the views of the stages that have some
 /// @returns the output's new version
-fg::Texture addRefwlr(fg::Graph& graph, const DenoiserInputs& inputs, fg::Texture output,
-                      const RefwlrSettings& settings = {}, Inspection* inspection = nullptr);
+fg::Texture addRefwlr(StageGraph graph, const DenoiserInputs& inputs, fg::Texture output,
+                      const RefwlrSettings& settings = {});
 
 }  // namespace walr

@@ -1,7 +1,11 @@
 #include "passes/settings.h"
 
+#include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
+#include <iterator>
+#include <numeric>
 #include <sstream>
 #include <stdexcept>
 
@@ -36,6 +40,84 @@ void checkRange(const SettingInfo& info, Number value) {
   if (!inRange(info, value)) reject(info, number(value), rangeText(info));
 }
 
+/// A setting that went by another name, or that there is no more.
+struct FormerSetting {
+  std::string_view name;
+  std::string_view now;     ///< Its name now; empty where there is none.
+  std::string_view wayOut;  ///< What to do in its place, where there is none.
+};
+
+constexpr std::array kFormerSettings{
+    FormerSetting{"accumulation.max-samples", "accumulation.max-history", {}},
+    FormerSetting{"accumulation.max-moment-samples", "accumulation.max-moment-history", {}},
+    FormerSetting{"antialiasing.max-samples", "antialiasing.max-history", {}},
+    FormerSetting{"fitted.max-samples", "fitted.max-history", {}},
+    FormerSetting{"accumulation.respond-to-change", "accumulation.antilag", {}},
+    FormerSetting{"accumulation.change-radius", "accumulation.antilag-radius", {}},
+    FormerSetting{"accumulation.change-low", "accumulation.antilag-low", {}},
+    FormerSetting{"accumulation.change-high", "accumulation.antilag-high", {}},
+    FormerSetting{"walr.filter", {}, "method walr regresses over blocks of pixels, method walr_paper over pixels"},
+    FormerSetting{"blocks.sort-tiles", {}, "tiles are no longer sorted; leave it out"},
+};
+
+/// Number of letters to insert, to delete or to replace that makes one text the other.
+std::size_t editDistance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i + 1;
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      const std::size_t replaced = diagonal + (a[i] == b[j] ? 0 : 1);
+      diagonal = row[j + 1];
+      row[j + 1] = std::min({row[j] + 1, row[j + 1] + 1, replaced});
+    }
+  }
+  return row.back();
+}
+
+/// Of a name "stage.setting", the stage; empty where there is none.
+std::string_view stageOf(std::string_view name) {
+  const std::size_t dot = name.find('.');
+  return dot == std::string_view::npos ? std::string_view() : name.substr(0, dot);
+}
+std::string_view withoutStage(std::string_view name) {
+  return name.substr(name.find('.') + 1);
+}
+
+/// The names that a mistaken one may have meant, the likeliest first: spelt alike, of the same stage, or the same of
+/// another stage.
+std::vector<std::string_view> nearNames(std::string_view name, const std::vector<std::string_view>& known) {
+  constexpr std::size_t kMost = 6;
+  const auto isNear = [&](std::string_view other) {
+    return editDistance(name, other) <= name.size() / 4 || withoutStage(other) == withoutStage(name) ||
+           (!stageOf(name).empty() && stageOf(other) == stageOf(name));
+  };
+  std::vector<std::string_view> near;
+  std::ranges::copy_if(known, std::back_inserter(near), isNear);
+  std::ranges::stable_sort(near, {}, [&](std::string_view other) {
+    return withoutStage(other) == withoutStage(name) ? 0 : editDistance(name, other);
+  });
+  near.resize(std::min(near.size(), kMost));
+  return near;
+}
+
+[[noreturn]] void rejectUnknown(std::string_view name, const std::vector<std::string_view>& known) {
+  std::string message = "there is no setting \"" + std::string(name) + "\" here";
+  std::string_view meant = name;
+  const auto* former = std::ranges::find(kFormerSettings, name, &FormerSetting::name);
+  if (former != kFormerSettings.end()) {
+    if (former->now.empty()) throw std::invalid_argument(message + ": " + std::string(former->wayOut));
+    message += ": it is called " + std::string(former->now) + " now";
+    if (std::ranges::find(known, former->now) != known.end()) throw std::invalid_argument(message);
+    message += ", which is not a setting here either";
+    meant = former->now;
+  }
+  const std::vector<std::string_view> near = nearNames(meant, known);
+  message += near.empty() ? "; known settings: " + join(known) : "; near ones: " + join(near);
+  throw std::invalid_argument(message);
+}
+
 /// Parses one value into the setting of the given name.
 class Setter final : public SettingVisitor {
  public:
@@ -61,11 +143,11 @@ class Setter final : public SettingVisitor {
   }
 
   [[nodiscard]] bool found() const { return found_; }
-  [[nodiscard]] const std::string& known() const { return known_; }
+  [[nodiscard]] const std::vector<std::string_view>& known() const { return known_; }
 
  private:
   bool matches(const SettingInfo& info) {
-    known_.append(known_.empty() ? "" : ", ").append(info.name);
+    known_.push_back(info.name);
     found_ = found_ || info.name == name_;
     return info.name == name_;
   }
@@ -83,7 +165,7 @@ class Setter final : public SettingVisitor {
   std::string_view name_;
   std::string_view text_;
   bool found_ = false;
-  std::string known_;
+  std::vector<std::string_view> known_;
 };
 
 class Lister final : public SettingVisitor {
@@ -119,9 +201,7 @@ class RangeChecker final : public SettingVisitor {
 void Configurable::set(std::string_view name, std::string_view value) {
   Setter setter(name, value);
   visitSettings(setter);
-  if (!setter.found()) {
-    throw std::invalid_argument("there is no setting \"" + std::string(name) + "\"; known settings: " + setter.known());
-  }
+  if (!setter.found()) rejectUnknown(name, setter.known());
 }
 
 std::vector<SettingText> Configurable::settings() {

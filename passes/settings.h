@@ -53,7 +53,8 @@ class Configurable {
   virtual void visitSettings(SettingVisitor& visitor) = 0;
 
   /// Set by name from text.
-  /// @throws std::invalid_argument naming the setting and its range, or, for an unknown name, the nearest known ones
+  /// @throws std::invalid_argument naming the setting and its range; for an unknown name, the near ones that there are,
+  ///         or what a former setting is called now
   void set(std::string_view name, std::string_view value);
   /// All settings with their present values.
   [[nodiscard]] std::vector<SettingText> settings();

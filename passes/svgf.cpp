@@ -5,10 +5,9 @@
 namespace walr {
 namespace {
 
-fg::Texture addSpatialSvgf(fg::Graph& graph, const DenoiserInputs& inputs, const Guides& guides, fg::Texture output,
-                           const SvgfSettings& settings, Inspection* inspection) {
-  const fg::Texture noisy =
-      addSvgfSingleFrameVariance(graph, inputs.frame, inputs.lighting, guides, settings.filter, inspection);
+fg::Texture addSpatialSvgf(StageGraph graph, const DenoiserInputs& inputs, const Guides& guides, fg::Texture output,
+                           const SvgfSettings& settings) {
+  const fg::Texture noisy = addSvgfSingleFrameVariance(graph, inputs.frame, inputs.lighting, guides, settings.filter);
   const fg::Texture filtered = addSvgfAtrous(graph, inputs.frame, noisy, guides, {}, settings.filter);
   return addPassThrough(graph, filtered, output);
 }
@@ -21,30 +20,28 @@ SvgfSettings tunedSvgf() {
 
 SvgfSettings paperSvgf() {
   SvgfSettings settings;
-  settings.accumulation.maxSamples = 5.0F;
+  settings.accumulation.maxHistory = 5.0F;
   settings.filter.iterations = 5;
   settings.filter.sigmaNormal = 128.0F;
   settings.filter.feedback = 1;
-  settings.antialiasing.maxSamples = 8.0F;
+  settings.antialiasing.maxHistory = 8.0F;
   return settings;
 }
 
-fg::Texture addSvgf(fg::Graph& graph, const DenoiserInputs& inputs, fg::Texture output, const SvgfSettings& settings,
-                    Inspection* inspection) {
-  const Guides guides =
-      addPrepareGuides(graph, inputs, settings.guides, {.history = !settings.spatialOnly}, inspection);
-  if (settings.spatialOnly) return addSpatialSvgf(graph, inputs, guides, output, settings, inspection);
+fg::Texture addSvgf(StageGraph graph, const DenoiserInputs& inputs, fg::Texture output, const SvgfSettings& settings) {
+  const Guides guides = addPrepareGuides(graph, inputs, settings.guides, {.history = !settings.spatialOnly});
+  if (settings.spatialOnly) return addSpatialSvgf(graph, inputs, guides, output, settings);
 
-  const fg::TextureDesc colourDesc{VK_FORMAT_R16G16B16A16_SFLOAT, graph.textureDesc(inputs.lighting).extent};
-  const fg::History colour = graph.history("svgf.colour", colourDesc);
-  const fg::Texture mean = settings.filter.feedback == 0 ? colour.current : graph.texture("svgf.mean", colourDesc);
+  const fg::TextureDesc colourDesc{VK_FORMAT_R16G16B16A16_SFLOAT, graph->textureDesc(inputs.lighting).extent};
+  const fg::History colour = graph->history("svgf.colour", colourDesc);
+  const fg::Texture mean = settings.filter.feedback == 0 ? colour.current : graph->texture("svgf.mean", colourDesc);
 
   const SvgfAccumulated accumulated =
-      addSvgfAccumulation(graph, inputs, guides, colour.previous, mean, settings.accumulation, inspection);
-  const fg::Texture guided = addSvgfVariance(graph, inputs.frame, accumulated, guides, settings.filter, inspection);
+      addSvgfAccumulation(graph, inputs, guides, colour.previous, mean, settings.accumulation);
+  const fg::Texture guided = addSvgfVariance(graph, inputs.frame, accumulated, guides, settings.filter);
   const fg::Texture filtered = addSvgfAtrous(graph, inputs.frame, guided, guides, colour.current, settings.filter);
   if (!settings.antialiasing.enabled || inputs.scene.hostAntialiasing) return addPassThrough(graph, filtered, output);
-  return addTemporalAntialiasing(graph, inputs, guides, filtered, output, settings.antialiasing, inspection);
+  return addTemporalAntialiasing(graph, inputs, guides, filtered, output, settings.antialiasing);
 }
 
 }  // namespace walr

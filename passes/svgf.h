@@ -3,6 +3,7 @@
 #include "framegraph/declare/graph.h"
 #include "passes/inputs.h"
 #include "passes/prepare_guides.h"
+#include "passes/stage_graph.h"
 #include "passes/svgf_accumulation.h"
 #include "passes/svgf_filter.h"
 #include "passes/temporal_antialiasing.h"
@@ -35,9 +36,8 @@ SvgfSettings paperSvgf();
 /// Spatiotemporal Variance-Guided Filtering (Schied et al. 2017, figure 1; Fu 2022): temporal accumulation,
 /// variance estimation, variance-guided a-trous iterations whose first feeds the history, temporal anti-aliasing.
 /// @param output RGBA16F texture to write the result to
-/// @param inspection is offered the views of the stages that have some
 /// @returns the output's new version
-fg::Texture addSvgf(fg::Graph& graph, const DenoiserInputs& inputs, fg::Texture output,
-                    const SvgfSettings& settings = {}, Inspection* inspection = nullptr);
+fg::Texture addSvgf(StageGraph graph, const DenoiserInputs& inputs, fg::Texture output,
+                    const SvgfSettings& settings = {});
 
 }  // namespace walr

@@ -9,30 +9,28 @@
 
 namespace walr {
 
-SvgfAccumulated addSvgfAccumulation(fg::Graph& graph, const DenoiserInputs& inputs, const Guides& guides,
+SvgfAccumulated addSvgfAccumulation(StageGraph graph, const DenoiserInputs& inputs, const Guides& guides,
                                     fg::Texture previousColour, fg::Texture colour,
-                                    const SvgfAccumulationSettings& settings, Inspection* inspection) {
-  const fg::Extent extent = graph.textureDesc(inputs.lighting).extent;
-  const fg::History moments = graph.history("svgf.moments", {VK_FORMAT_R16G16B16A16_SFLOAT, extent});
+                                    const SvgfAccumulationSettings& settings) {
+  const fg::Extent extent = graph->textureDesc(inputs.lighting).extent;
+  const fg::History moments = graph->history("svgf.moments", {VK_FORMAT_R16G16B16A16_SFLOAT, extent});
 
   const auto declare = [&](const std::string& name, const fg::Shader& shader) {
-    fg::PassBuilder pass = graph.compute(name, shader);
+    fg::PassBuilder pass = graph->compute(name, shader);
     readReprojection(pass, inputs, guides, HistoryRejection::Plane, MotionSource::Texture);
     pass.sample("lighting", inputs.lighting)
         .sample("previousColour", previousColour)
         .sample("previousMoments", moments.previous)
-        .constants(SvgfAccumulationConstants{settings.maxSamples, settings.maxMomentSamples, settings.planeTolerance,
+        .constants(SvgfAccumulationConstants{settings.maxHistory, settings.maxMomentHistory, settings.planeTolerance,
                                              settings.normalThreshold})
         .dispatch(extent);
     return pass;
   };
-  if (inspection != nullptr) {
-    inspection->offer(graph, accumulationViews(false), extent, [&](const std::string& name) {
-      fg::PassBuilder pass = declare(name, shaders::svgfAccumulationView);
-      pass.specialize("kKeepableMotion", false);
-      return pass;
-    });
-  }
+  graph.offer(accumulationViews(false), extent, [&](const std::string& name) {
+    fg::PassBuilder pass = declare(name, shaders::svgfAccumulationView);
+    pass.specialize("kKeepableMotion", false);
+    return pass;
+  });
   fg::PassBuilder pass = declare("svgf accumulation", shaders::svgfAccumulation);
   SvgfAccumulated accumulated;
   accumulated.colour = pass.store("outColour", colour);

@@ -3,26 +3,26 @@
 #include "framegraph/declare/graph.h"
 #include "passes/history_tests.h"
 #include "passes/inputs.h"
-#include "passes/inspection.h"
 #include "passes/prepare_guides.h"
 #include "passes/settings.h"
+#include "passes/stage_graph.h"
 
 namespace walr {
 
 /// Settings of SVGF's temporal filtering.
 struct SvgfAccumulationSettings {
-  float maxSamples = 8.0F;
-  float maxMomentSamples = 5.0F;
+  float maxHistory = 8.0F;
+  float maxMomentHistory = 5.0F;
   float planeTolerance = 0.01F;
   float normalThreshold = 0.5F;
 
   void visit(SettingVisitor& v) {
-    v.visit({"accumulation.max-samples", "Samples after which the mean colour turns exponential", "frames", 1.0, 255.0,
+    v.visit({"accumulation.max-history", "Frames after which the mean colour turns exponential", "frames", 1.0, 255.0,
              "measured; the paper's alpha of 0.2 is 5"},
-            maxSamples);
-    v.visit({"accumulation.max-moment-samples", "Samples after which the luminance moments turn exponential", "frames",
+            maxHistory);
+    v.visit({"accumulation.max-moment-history", "Frames after which the luminance moments turn exponential", "frames",
              1.0, 255.0, "Schied et al. 2017, 4.2: alpha 0.2"},
-            maxMomentSamples);
+            maxMomentHistory);
     visitHistoryTests(v, "accumulation.plane-tolerance", planeTolerance, "accumulation.normal-threshold",
                       normalThreshold);
   }
@@ -37,9 +37,8 @@ struct SvgfAccumulated {
 /// Average colour and luminance moments over time along the motion.
 /// @param previousColour RGBA16F: the colour's history
 /// @param colour         RGBA16F texture to write the mean colour to
-/// @param inspection     is offered the stage's views
-SvgfAccumulated addSvgfAccumulation(fg::Graph& graph, const DenoiserInputs& inputs, const Guides& guides,
+SvgfAccumulated addSvgfAccumulation(StageGraph graph, const DenoiserInputs& inputs, const Guides& guides,
                                     fg::Texture previousColour, fg::Texture colour,
-                                    const SvgfAccumulationSettings& settings = {}, Inspection* inspection = nullptr);
+                                    const SvgfAccumulationSettings& settings = {});
 
 }  // namespace walr

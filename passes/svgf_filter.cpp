@@ -76,30 +76,26 @@ std::vector<Kernel> kernelsOf(const SvgfFilterSettings& settings) {
 
 }  // namespace
 
-fg::Texture addSvgfVariance(fg::Graph& graph, fg::Buffer frame, const SvgfAccumulated& accumulated,
-                            const Guides& guides, const SvgfFilterSettings& settings, Inspection* inspection) {
+fg::Texture addSvgfVariance(StageGraph graph, fg::Buffer frame, const SvgfAccumulated& accumulated,
+                            const Guides& guides, const SvgfFilterSettings& settings) {
   const auto declare = [&](const std::string& name, const fg::Shader& shader) {
     fg::PassBuilder pass = filterPass(graph, name, shader, frame, accumulated.colour, guides, settings);
     pass.sample("moments", accumulated.moments);
     return pass;
   };
-  if (inspection != nullptr) {
-    inspection->offer(graph, varianceViews(), graph.textureDesc(accumulated.colour).extent,
-                      [&](const std::string& name) { return declare(name, shaders::svgfVarianceView); });
-  }
+  graph.offer(varianceViews(), graph->textureDesc(accumulated.colour).extent,
+              [&](const std::string& name) { return declare(name, shaders::svgfVarianceView); });
   fg::PassBuilder pass = declare(kVariancePass, shaders::svgfVariance);
   return pass.store("outColour", colourTexture(graph, accumulated.colour, "svgf.variance"));
 }
 
-fg::Texture addSvgfSingleFrameVariance(fg::Graph& graph, fg::Buffer frame, fg::Texture lighting, const Guides& guides,
-                                       const SvgfFilterSettings& settings, Inspection* inspection) {
+fg::Texture addSvgfSingleFrameVariance(StageGraph graph, fg::Buffer frame, fg::Texture lighting, const Guides& guides,
+                                       const SvgfFilterSettings& settings) {
   const auto declare = [&](const std::string& name, const fg::Shader& shader) {
     return filterPass(graph, name, shader, frame, lighting, guides, settings);
   };
-  if (inspection != nullptr) {
-    inspection->offer(graph, varianceViews(), graph.textureDesc(lighting).extent,
-                      [&](const std::string& name) { return declare(name, shaders::svgfVarianceSingleFrameView); });
-  }
+  graph.offer(varianceViews(), graph->textureDesc(lighting).extent,
+              [&](const std::string& name) { return declare(name, shaders::svgfVarianceSingleFrameView); });
   fg::PassBuilder pass = declare(kVariancePass, shaders::svgfVarianceSingleFrame);
   return pass.store("outColour", colourTexture(graph, lighting, "svgf.variance"));
 }

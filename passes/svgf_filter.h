@@ -5,9 +5,9 @@
 #include <string_view>
 
 #include "framegraph/declare/graph.h"
-#include "passes/inspection.h"
 #include "passes/prepare_guides.h"
 #include "passes/settings.h"
+#include "passes/stage_graph.h"
 #include "passes/svgf_accumulation.h"
 
 namespace walr {
@@ -64,16 +64,14 @@ struct SvgfFilterSettings {
 };
 
 /// Put the standard deviation of the luminance beside the colour.
-/// @param inspection is offered the stage's views
 /// @returns RGBA16F: radiance; alpha: standard deviation, negative where no sample has been seen
-fg::Texture addSvgfVariance(fg::Graph& graph, fg::Buffer frame, const SvgfAccumulated& accumulated,
-                            const Guides& guides, const SvgfFilterSettings& settings = {},
-                            Inspection* inspection = nullptr);
+fg::Texture addSvgfVariance(StageGraph graph, fg::Buffer frame, const SvgfAccumulated& accumulated,
+                            const Guides& guides, const SvgfFilterSettings& settings = {});
 
 /// The same from a single frame, by the spatial estimate alone.
 /// @param lighting RGBA16F: noisy radiance
-fg::Texture addSvgfSingleFrameVariance(fg::Graph& graph, fg::Buffer frame, fg::Texture lighting, const Guides& guides,
-                                       const SvgfFilterSettings& settings = {}, Inspection* inspection = nullptr);
+fg::Texture addSvgfSingleFrameVariance(StageGraph graph, fg::Buffer frame, fg::Texture lighting, const Guides& guides,
+                                       const SvgfFilterSettings& settings = {});
 
 /// Edge-avoiding a-trous iterations guided by variance, or the one filter that they approximate.
 /// @param colour   RGBA16F: radiance and standard deviation, from one of the above

@@ -66,22 +66,22 @@ const fg::Shader& stillShaderFor(Role role, bool responsive, LightStorage storag
 
 /// The stage in a graph.
 struct Stage {
-  fg::Graph& graph;
+  StageGraph graph;
   const DenoiserInputs& inputs;
   const Guides& guides;
   const TemporalAccumulationSettings& settings;
   bool keepTaps;
   fg::History accumulated;
-  std::optional<LightChange> change;  ///< Where the stage responds to it.
+  std::optional<Antilag> antilag;  ///< Where the stage has it.
 };
 
-Stage stageOf(fg::Graph& graph, const DenoiserInputs& inputs, const Guides& guides,
+Stage stageOf(StageGraph graph, const DenoiserInputs& inputs, const Guides& guides,
               const TemporalAccumulationSettings& settings, bool keepTaps) {
-  const fg::Extent extent = graph.textureDesc(inputs.lighting).extent;
+  const fg::Extent extent = graph->textureDesc(inputs.lighting).extent;
   Stage stage{graph,       inputs,   guides,
-              settings,    keepTaps, graph.history("accumulated", {formatOf(settings.storage), extent}),
+              settings,    keepTaps, graph->history("accumulated", {formatOf(settings.storage), extent}),
               std::nullopt};
-  if (settings.change.respond) stage.change = declareLightChange(graph, extent);
+  if (settings.antilag.enabled) stage.antilag = declareAntilag(graph, extent);
   return stage;
 }
 
@@ -90,11 +90,11 @@ fg::PassBuilder declarePass(const Stage& stage, const std::string& name, Role ro
   const SceneDescription& scene = stage.inputs.scene;
   const bool still = scene.still() && !stage.keepTaps;
   const MotionSource motion = motionSource(scene);
-  const bool responsive = stage.change.has_value();
+  const bool responsive = stage.antilag.has_value();
   const LightStorage storage = stage.settings.storage;
   fg::PassBuilder pass =
-      stage.graph.compute(name, still ? stillShaderFor(role, responsive, storage)
-                                      : shaderFor(motion, stage.settings.rejection, role, responsive, storage));
+      stage.graph->compute(name, still ? stillShaderFor(role, responsive, storage)
+                                       : shaderFor(motion, stage.settings.rejection, role, responsive, storage));
   if (still) {
     pass.sample("depth", stage.guides.depth);
     if (storage == LightStorage::Packed && role != Role::View) pass.uniform("frameConstants", stage.inputs.frame);
@@ -103,37 +103,36 @@ fg::PassBuilder declarePass(const Stage& stage, const std::string& name, Role ro
     pass.specialize("kBicubicHistory", stage.settings.historyFilter == HistoryFilter::Bicubic);
     if (role == Role::View) pass.specialize("kKeepableMotion", stage.keepTaps);
   }
-  if (responsive) pass.sample("previousDoubt", stage.change->doubt.previous);
+  if (responsive) pass.sample("previousAntilag", stage.antilag->factor.previous);
   pass.sample("lighting", stage.inputs.lighting)
       .sample("previousAccumulated", stage.accumulated.previous)
-      .constants(TemporalAccumulationConstants{stage.settings.maxSamples, stage.settings.planeTolerance,
+      .constants(TemporalAccumulationConstants{stage.settings.maxHistory, stage.settings.planeTolerance,
                                                stage.settings.normalThreshold})
-      .dispatch(stage.graph.textureDesc(stage.inputs.lighting).extent);
+      .dispatch(stage.graph->textureDesc(stage.inputs.lighting).extent);
   return pass;
 }
 
-void offerViews(const Stage& stage, Inspection* inspection) {
-  if (inspection == nullptr) return;
-  inspection->offer(stage.graph, accumulationViews(stage.change.has_value()),
-                    stage.graph.textureDesc(stage.inputs.lighting).extent,
+void offerViews(const Stage& stage) {
+  stage.graph.offer(accumulationViews(stage.antilag.has_value()),
+                    stage.graph->textureDesc(stage.inputs.lighting).extent,
                     [&](const std::string& name) { return declarePass(stage, name, Role::View); });
 }
 
-/// The pass with its mean; the detection of change goes by what it leaves.
+/// The pass with its mean; antilag goes by what it leaves.
 fg::PassBuilder accumulate(const Stage& stage, Role role, fg::Texture& mean) {
   fg::PassBuilder pass = declarePass(stage, "temporal accumulation", role);
   mean = pass.store("outAccumulated", stage.accumulated.current);
-  if (stage.change) {
-    LightChange change = *stage.change;
-    change.tiles = pass.store("outChange", change.tiles);
-    addLightChange(stage.graph, change, stage.settings.change);
+  if (stage.antilag) {
+    Antilag antilag = *stage.antilag;
+    antilag.tiles = pass.store("outTiles", antilag.tiles);
+    addAntilag(stage.graph, antilag, stage.settings.antilag);
   }
   return pass;
 }
 
 }  // namespace
 
-std::span<const ViewInfo> accumulationViews(bool respondsToChange) {
+std::span<const ViewInfo> accumulationViews(bool withAntilag) {
   static const std::vector<ViewInfo> kViews{
       {"history",
        "History length with this frame's sample, history pixels rejected (of four), 1 where none is left",
@@ -141,32 +140,34 @@ std::span<const ViewInfo> accumulationViews(bool respondsToChange) {
       {"broken-lighting",
        "1 where the lighting is not finite, where it is clamped, where the motion is not finite",
        {{"non-finite-lighting", "X"}, {"clamped-lighting", "Y"}, {"non-finite-motion", "Z"}}},
-      {"light-change",
-       "Doubt that the light is still that of history, longest history that counts, 1 where that cuts it short",
+      {"antilag",
+       "Antilag factor: 0 where history counts in full, 1 where as one sample; longest history that counts; 1 where "
+       "that cuts it "
+       "short",
        {{"shortened-history", "Z"}}},
   };
-  return std::span(kViews).first(respondsToChange ? kViews.size() : kViews.size() - 1);
+  return std::span(kViews).first(withAntilag ? kViews.size() : kViews.size() - 1);
 }
 
-fg::Texture addTemporalAccumulation(fg::Graph& graph, const DenoiserInputs& inputs, const Guides& guides,
-                                    const TemporalAccumulationSettings& settings, Inspection* inspection) {
+fg::Texture addTemporalAccumulation(StageGraph graph, const DenoiserInputs& inputs, const Guides& guides,
+                                    const TemporalAccumulationSettings& settings) {
   const Stage stage = stageOf(graph, inputs, guides, settings, false);
-  offerViews(stage, inspection);
+  offerViews(stage);
   fg::Texture mean;
   accumulate(stage, Role::Mean, mean);
   return mean;
 }
 
-AccumulationWithTaps addTemporalAccumulationWithTaps(fg::Graph& graph, const DenoiserInputs& inputs,
+AccumulationWithTaps addTemporalAccumulationWithTaps(StageGraph graph, const DenoiserInputs& inputs,
                                                      const Guides& guides, const TemporalAccumulationSettings& settings,
-                                                     LightStorage antialiasing, Inspection* inspection) {
+                                                     LightStorage antialiasing) {
   const Stage stage = stageOf(graph, inputs, guides, settings, true);
-  offerViews(stage, inspection);
+  offerViews(stage);
   AccumulationWithTaps result;
   fg::PassBuilder pass = accumulate(stage, Role::MeanAndTaps, result.mean);
   pass.specialize("kKeepPassedLight", antialiasing == LightStorage::Packed);
-  const fg::Extent extent = graph.textureDesc(inputs.lighting).extent;
-  result.taps = pass.store("outTaps", graph.texture("history taps", {VK_FORMAT_R32_UINT, extent}));
+  const fg::Extent extent = graph->textureDesc(inputs.lighting).extent;
+  result.taps = pass.store("outTaps", graph->texture("history taps", {VK_FORMAT_R32_UINT, extent}));
   return result;
 }
 

@@ -1,50 +1,48 @@
 #pragma once
 
 #include <span>
-
 #include <string_view>
 #include <vector>
 
 #include "framegraph/declare/graph.h"
+#include "passes/antilag.h"
 #include "passes/history_tests.h"
 #include "passes/inputs.h"
-#include "passes/inspection.h"
-#include "passes/light_change.h"
 #include "passes/light_storage.h"
 #include "passes/prepare_guides.h"
 #include "passes/settings.h"
+#include "passes/stage_graph.h"
 
 namespace walr {
 
 /// How a history texture is read between its pixels.
 enum class HistoryFilter : std::uint32_t { Bilinear, Bicubic };
 
-/// Settings of the preprocessing accumulation (Meunier & Harada 2022, 4.2).
+/// Settings of the preprocessing accumulation (walr.txt 4.2).
 struct TemporalAccumulationSettings {
-  float maxSamples = 16.0F;
+  float maxHistory = 16.0F;
   HistoryRejection rejection = HistoryRejection::Plane;
   float planeTolerance = 0.01F;
   float normalThreshold = 0.5F;
   HistoryFilter historyFilter = HistoryFilter::Bilinear;
   bool dilateMotion = false;
-  LightChangeSettings change = {};
+  AntilagSettings antilag = {};
   LightStorage storage = LightStorage::Half;
 
   void visit(SettingVisitor& v) {
     static constexpr std::string_view kFilters[] = {"bilinear", "bicubic"};
-    v.visit({"accumulation.max-samples", "Samples after which the cumulative mean turns exponential", "frames", 1.0,
-             255.0, "Meunier & Harada 2022, 4.2"},
-            maxSamples);
+    v.visit({"accumulation.max-history", "Frames after which the cumulative mean turns exponential", "frames", 1.0,
+             255.0, "walr.txt 4.2"},
+            maxHistory);
     visitRejection(v, "accumulation.rejection", rejection);
     visitHistoryTests(v, "accumulation.plane-tolerance", planeTolerance, "accumulation.normal-threshold",
                       normalThreshold);
-    v.visitEnum(
-        {"accumulation.history-filter", "How history is read between pixels", "", 0, 1, "Meunier & Harada 2022, 4.2"},
-        kFilters, historyFilter);
-    v.visit({"accumulation.dilate-motion", "Follow the nearest surface of the 3x3 neighbourhood", "", 0, 1,
-             "Meunier & Harada 2022, 4.2"},
-            dilateMotion);
-    change.visit(v);
+    v.visitEnum({"accumulation.history-filter", "How history is read between pixels", "", 0, 1, "walr.txt 4.2"},
+                kFilters, historyFilter);
+    v.visit(
+        {"accumulation.dilate-motion", "Follow the nearest surface of the 3x3 neighbourhood", "", 0, 1, "walr.txt 4.2"},
+        dilateMotion);
+    antilag.visit(v);
   }
   /// For methods and stages whose filter reads either storage.
   void visitStorage(SettingVisitor& v) {
@@ -58,33 +56,31 @@ struct TemporalAccumulationSettings {
 };
 
 /// Views of every stage that accumulates lighting, in the order of `kView` of its shader.
-/// @param respondsToChange whether the stage responds to light that changes, which has a view of its own
-std::span<const ViewInfo> accumulationViews(bool respondsToChange);
+/// @param withAntilag whether the stage has antilag, which has a view of its own
+std::span<const ViewInfo> accumulationViews(bool withAntilag);
 
 /// Average the noisy lighting over time along its motion.
-/// @param inspection is offered the stage's views
 /// @returns as `settings.storage` says: mean radiance; alpha: number of samples behind it, 0 where there is nothing to
 ///          denoise.
-fg::Texture addTemporalAccumulation(fg::Graph& graph, const DenoiserInputs& inputs, const Guides& guides,
-                                    const TemporalAccumulationSettings& settings = {},
-                                    Inspection* inspection = nullptr);
+fg::Texture addTemporalAccumulation(StageGraph graph, const DenoiserInputs& inputs, const Guides& guides,
+                                    const TemporalAccumulationSettings& settings = {});
 
 /// What temporal accumulation leaves for a later stage that reads its own history along the same motion.
 struct AccumulationWithTaps {
   fg::Texture mean;  ///< As `addTemporalAccumulation` returns it.
-  /// R32_UINT: where the surface was and which history pixels show it (history_taps.glsl). Where there is none: a mark,
-  /// or the light that passes through, rounded to the nearest of 9 bits, 0.2 % of its brightest channel at most, and
-  /// clamped to 0 to 65408; 0 where it is not finite.
+  /// R32_UINT: where the surface was and which history pixels show it. Where there is no surface: a mark, or the light
+  /// that passes through, as `addTemporalAccumulationWithTaps` was asked (history_taps.glsl has all three). That light
+  /// is rounded to the nearest of 9 bits, by 0.2 % of its brightest channel at most, and clamped to 0 to 65408; it is 0
+  /// where it is not finite.
   fg::Texture taps;
 };
 
-/// The same, keeping what the reprojection and its tests found (Meunier & Harada 2022, 4.4; Koskela et al. 2019, 3.5).
-/// @param antialiasing storage of the anti-aliasing that reads the taps. Packed: it knows otherwise where there is no
-///                     surface, and finds light there instead of the mark that other stages need.
-AccumulationWithTaps addTemporalAccumulationWithTaps(fg::Graph& graph, const DenoiserInputs& inputs,
+/// The same, keeping what the reprojection and its tests found (walr.txt 4.4, bmfr.txt 3.5).
+/// @param antialiasing storage of the anti-aliasing that reads the taps. Packed: taps hold light where there is no
+///                     surface, which the filter's result then says. Half, and for other readers: they hold a mark.
+AccumulationWithTaps addTemporalAccumulationWithTaps(StageGraph graph, const DenoiserInputs& inputs,
                                                      const Guides& guides,
                                                      const TemporalAccumulationSettings& settings = {},
-                                                     LightStorage antialiasing = LightStorage::Half,
-                                                     Inspection* inspection = nullptr);
+                                                     LightStorage antialiasing = LightStorage::Half);
 
 }  // namespace walr

@@ -71,25 +71,23 @@ const std::vector<ViewInfo>& antialiasingViews() {
 using ReadHistory = std::function<void(fg::PassBuilder& pass, bool view)>;
 
 /// The stage, whose reprojection comes from wherever `read` says.
-fg::Texture addStage(fg::Graph& graph, const ByStorage& byStorage, const ReadHistory& read, fg::Texture filtered,
-                     fg::Texture output, const TemporalAntialiasingSettings& settings, Inspection* inspection) {
-  const fg::Extent extent = graph.textureDesc(filtered).extent;
-  const fg::History resolved = graph.history("resolved", {formatOf(settings.storage), extent});
+fg::Texture addStage(StageGraph graph, const ByStorage& byStorage, const ReadHistory& read, fg::Texture filtered,
+                     fg::Texture output, const TemporalAntialiasingSettings& settings) {
+  const fg::Extent extent = graph->textureDesc(filtered).extent;
+  const fg::History resolved = graph->history("resolved", {formatOf(settings.storage), extent});
   const StageShaders& shaders = byStorage.at(static_cast<std::size_t>(settings.storage));
   const auto declare = [&](const std::string& name, bool view) {
-    fg::PassBuilder pass = graph.compute(name, view ? *shaders.view : *shaders.stage);
+    fg::PassBuilder pass = graph->compute(name, view ? *shaders.view : *shaders.stage);
     read(pass, view);
     pass.sample("filtered", filtered)
         .sample("previousResolved", resolved.previous)
         .specialize("kClipRadius", settings.clipRadius)
-        .constants(TemporalAntialiasingConstants{settings.maxSamples, settings.clipGamma, settings.planeTolerance,
+        .constants(TemporalAntialiasingConstants{settings.maxHistory, settings.clipGamma, settings.planeTolerance,
                                                  settings.normalThreshold})
         .dispatch(extent);
     return pass;
   };
-  if (inspection != nullptr) {
-    inspection->offer(graph, antialiasingViews(), extent, [&](const std::string& name) { return declare(name, true); });
-  }
+  graph.offer(antialiasingViews(), extent, [&](const std::string& name) { return declare(name, true); });
   fg::PassBuilder pass = declare("temporal anti-aliasing", false);
   (void)pass.store("outResolved", resolved.current);
   return pass.store("outImage", output);
@@ -97,16 +95,16 @@ fg::Texture addStage(fg::Graph& graph, const ByStorage& byStorage, const ReadHis
 
 }  // namespace
 
-fg::Texture addTemporalAntialiasing(fg::Graph& graph, const DenoiserInputs& inputs, const Guides& guides,
+fg::Texture addTemporalAntialiasing(StageGraph graph, const DenoiserInputs& inputs, const Guides& guides,
                                     fg::Texture filtered, fg::Texture output,
-                                    const TemporalAntialiasingSettings& settings, Inspection* inspection) {
+                                    const TemporalAntialiasingSettings& settings) {
   const bool packed = settings.storage == LightStorage::Packed;
   if (inputs.scene.still()) {
     const auto read = [&](fg::PassBuilder& pass, bool view) {
       if (!packed) pass.sample("depth", guides.depth);
       if (packed && !view) pass.uniform("frameConstants", inputs.frame).sample("passed", inputs.lighting);
     };
-    return addStage(graph, kStill, read, filtered, output, settings, inspection);
+    return addStage(graph, kStill, read, filtered, output, settings);
   }
   const MotionSource motion = motionSource(inputs.scene);
   const bool objects = settings.objectIds && inputs.objectId.valid();
@@ -117,7 +115,7 @@ fg::Texture addTemporalAntialiasing(fg::Graph& graph, const DenoiserInputs& inpu
     if (view) pass.specialize("kKeepableMotion", false);
     if (packed && !view) pass.sample("passed", inputs.lighting);
   };
-  return addStage(graph, shadersFor(motion, settings.rejection, objects), read, filtered, output, settings, inspection);
+  return addStage(graph, shadersFor(motion, settings.rejection, objects), read, filtered, output, settings);
 }
 
 bool sharesReprojection(const TemporalAntialiasingSettings& antialiasing,
@@ -129,15 +127,14 @@ bool sharesReprojection(const TemporalAntialiasingSettings& antialiasing,
          antialiasing.normalThreshold == accumulation.normalThreshold;
 }
 
-fg::Texture addTemporalAntialiasingWithTaps(fg::Graph& graph, fg::Buffer frame, fg::Texture taps, fg::Texture filtered,
-                                            fg::Texture output, const TemporalAntialiasingSettings& settings,
-                                            Inspection* inspection) {
+fg::Texture addTemporalAntialiasingWithTaps(StageGraph graph, fg::Buffer frame, fg::Texture taps, fg::Texture filtered,
+                                            fg::Texture output, const TemporalAntialiasingSettings& settings) {
   const auto read = [&](fg::PassBuilder& pass, bool /*view*/) {
     pass.uniform("frameConstants", frame)
         .sample("keptTaps", taps)
         .specialize("kRejectHistory", settings.rejection != HistoryRejection::None);
   };
-  return addStage(graph, kKept, read, filtered, output, settings, inspection);
+  return addStage(graph, kKept, read, filtered, output, settings);
 }
 
 }  // namespace walr

@@ -5,18 +5,18 @@
 #include "framegraph/declare/graph.h"
 #include "passes/history_tests.h"
 #include "passes/inputs.h"
-#include "passes/inspection.h"
 #include "passes/light_storage.h"
 #include "passes/prepare_guides.h"
 #include "passes/settings.h"
+#include "passes/stage_graph.h"
 #include "passes/temporal_accumulation.h"
 
 namespace walr {
 
-/// Settings of the postprocessing stage (Meunier & Harada 2022, 4.4).
+/// Settings of the postprocessing stage (walr.txt 4.4).
 struct TemporalAntialiasingSettings {
   bool enabled = true;
-  float maxSamples = 3.0F;
+  float maxHistory = 3.0F;
   float clipGamma = 1.0F;
   std::uint32_t clipRadius = 1;
   HistoryRejection rejection = HistoryRejection::Plane;
@@ -27,27 +27,26 @@ struct TemporalAntialiasingSettings {
   LightStorage storage = LightStorage::Half;
 
   void visit(SettingVisitor& v) {
-    v.visit({"antialiasing.enabled", "Off leaves temporal anti-aliasing to the host", "", 0, 1,
-             "Meunier & Harada 2022, 4.4"},
+    v.visit({"antialiasing.enabled", "Off leaves temporal anti-aliasing to the host", "", 0, 1, "walr.txt 4.4"},
             enabled);
-    v.visit({"antialiasing.max-samples", "Frames after which the cumulative mean turns exponential", "frames", 1.0,
-             255.0, "Meunier & Harada 2022, 4.4"},
-            maxSamples);
+    v.visit({"antialiasing.max-history", "Frames after which the cumulative mean turns exponential", "frames", 1.0,
+             255.0, "walr.txt 4.4"},
+            maxHistory);
     v.visit({"antialiasing.clip-gamma", "Half size of the variance-clipping box", "standard deviations", 0.0, 1e6,
-             "Meunier & Harada 2022, 4.4"},
+             "walr.txt 4.4"},
             clipGamma);
     v.visit({"antialiasing.clip-radius", "Half the neighbourhood of the variance clipping; 1 is 3x3", "pixels", 1, 8,
-             "Meunier & Harada 2022, 4.4"},
+             "walr.txt 4.4"},
             clipRadius);
     visitRejection(v, "antialiasing.rejection", rejection);
     visitHistoryTests(v, "antialiasing.plane-tolerance", planeTolerance, "antialiasing.normal-threshold",
                       normalThreshold);
     v.visit({"antialiasing.object-ids", "Tell surfaces apart by the host's object numbers, too, where it gives them",
-             "", 0, 1, "Wang 2024, 3"},
+             "", 0, 1, "joint-bilateral.txt, 3"},
             objectIds);
-    v.visit({"antialiasing.dilate-motion", "Follow the nearest surface of the 3x3 neighbourhood", "", 0, 1,
-             "Meunier & Harada 2022, 4.2"},
-            dilateMotion);
+    v.visit(
+        {"antialiasing.dilate-motion", "Follow the nearest surface of the 3x3 neighbourhood", "", 0, 1, "walr.txt 4.2"},
+        dilateMotion);
   }
   /// For methods and stages whose filter writes either storage.
   void visitStorage(SettingVisitor& v) {
@@ -64,12 +63,10 @@ struct TemporalAntialiasingSettings {
 /// Remove what flicker and aliasing the spatial filter leaves: bicubic history, variance clipping, moving average.
 /// @param filtered the current frame as `settings.storage` says; RGBA16F: alpha below 0 where no light is known
 /// @param output   RGBA16F: texture to write the result to
-/// @param inspection is offered the stage's views
 /// @returns the output's new version
-fg::Texture addTemporalAntialiasing(fg::Graph& graph, const DenoiserInputs& inputs, const Guides& guides,
+fg::Texture addTemporalAntialiasing(StageGraph graph, const DenoiserInputs& inputs, const Guides& guides,
                                     fg::Texture filtered, fg::Texture output,
-                                    const TemporalAntialiasingSettings& settings = {},
-                                    Inspection* inspection = nullptr);
+                                    const TemporalAntialiasingSettings& settings = {});
 
 /// Whether anti-aliasing with these settings looks for its history just where accumulation has looked for its own.
 bool sharesReprojection(const TemporalAntialiasingSettings& antialiasing,
@@ -78,8 +75,7 @@ bool sharesReprojection(const TemporalAntialiasingSettings& antialiasing,
 /// The same with the reprojection that accumulation has kept; `sharesReprojection` must hold.
 /// @param frame upload of `FrameConstants`
 /// @param taps  R32_UINT: `AccumulationWithTaps::taps` for `settings.storage`
-fg::Texture addTemporalAntialiasingWithTaps(fg::Graph& graph, fg::Buffer frame, fg::Texture taps, fg::Texture filtered,
-                                            fg::Texture output, const TemporalAntialiasingSettings& settings = {},
-                                            Inspection* inspection = nullptr);
+fg::Texture addTemporalAntialiasingWithTaps(StageGraph graph, fg::Buffer frame, fg::Texture taps, fg::Texture filtered,
+                                            fg::Texture output, const TemporalAntialiasingSettings& settings = {});
 
 }  // namespace walr

@@ -1,57 +1,63 @@
 #include "passes/temporal_stages.h"
 
-#include <utility>
-
 #include "passes/pass_through.h"
 
 namespace walr {
+namespace {
 
-GuideNeeds guideNeeds(const TemporalStages& stages, const SceneDescription& scene, bool filterNeedsGeometricNormal) {
-  const bool reprojects = !stages.spatialOnly && (!scene.still() || stages.keepTaps);
-  if (!reprojects) return {.geometricNormal = filterNeedsGeometricNormal, .history = false};
-  const bool antialias = stages.antialiasing.enabled && !scene.hostAntialiasing;
+/// Guides that tell which of the history's pixels show the same surface.
+GuideNeeds guidesOf(const TemporalPlan& plan) {
   const auto uses = [&](HistoryRejection rejection) {
-    return stages.accumulation.rejection == rejection || (antialias && stages.antialiasing.rejection == rejection);
+    return plan.accumulation.rejection == rejection || (plan.antialiases && plan.antialiasing.rejection == rejection);
   };
   const bool byPlane = uses(HistoryRejection::Plane);
-  return {.geometricNormal = filterNeedsGeometricNormal || byPlane,
-          .history = byPlane || uses(HistoryRejection::Depth)};
+  return {.geometricNormal = byPlane, .history = byPlane || uses(HistoryRejection::Depth)};
 }
 
-fg::Texture FilterInput::target(fg::Graph& graph, std::string name) const {
-  if (output.valid()) return output;
-  return graph.texture(std::move(name), {VK_FORMAT_R16G16B16A16_SFLOAT, graph.textureDesc(lighting).extent});
+}  // namespace
+
+TemporalPlan planTemporalStages(const DenoiserInputs& inputs, const TemporalStages& stages) {
+  TemporalPlan plan{.accumulation = stages.accumulation,
+                    .antialiasing = stages.antialiasing,
+                    .accumulates = !stages.spatialOnly,
+                    .antialiases = !stages.spatialOnly && stages.antialiasing.enabled && !inputs.scene.hostAntialiasing,
+                    .guides = {.geometricNormal = false, .history = false}};
+  plan.antialiasing.objectIds = stages.antialiasing.objectIds && inputs.objectId.valid();
+  if (plan.antialiases) plan.filtered = plan.antialiasing.storage;
+  const bool reprojects = plan.accumulates && (!inputs.scene.still() || stages.keepTaps);
+  if (!reprojects) return plan;
+  plan.sharesTaps = plan.antialiases && sharesReprojection(plan.antialiasing, plan.accumulation);
+  plan.keepsTaps = plan.sharesTaps || stages.keepTaps;
+  plan.guides = guidesOf(plan);
+  return plan;
 }
 
-fg::Texture addTemporalStages(fg::Graph& graph, const DenoiserInputs& inputs, const Guides& guides, fg::Texture output,
-                              const TemporalStages& stages, const AddFilter& filter, Inspection* inspection) {
-  const auto filterToOutput = [&](FilterInput input) {
-    input.output = output;
-    const fg::Texture result = filter(input);
-    return result.resource == output.resource ? result : addPassThrough(graph, result, output);
-  };
-  if (stages.spatialOnly) return filterToOutput({.lighting = inputs.lighting});
-
-  const bool antialias = stages.antialiasing.enabled && !inputs.scene.hostAntialiasing;
-  const bool reprojects = !inputs.scene.still() || stages.keepTaps;
-  TemporalAntialiasingSettings antialiasing = stages.antialiasing;
-  antialiasing.objectIds = antialiasing.objectIds && inputs.objectId.valid();
-  const bool share = antialias && reprojects && sharesReprojection(antialiasing, stages.accumulation);
-  FilterInput input{.alpha = LightingAlpha::SampleCount};
-  if (share || stages.keepTaps) {
-    const auto [mean, taps] = addTemporalAccumulationWithTaps(
-        graph, inputs, guides, stages.accumulation, share ? antialiasing.storage : LightStorage::Half, inspection);
-    input.lighting = mean;
-    input.taps = taps;
-  } else {
-    input.lighting = addTemporalAccumulation(graph, inputs, guides, stages.accumulation, inspection);
+Accumulated addAccumulation(StageGraph graph, const DenoiserInputs& inputs, const Guides& guides,
+                            const TemporalPlan& plan) {
+  if (!plan.accumulates) return {.lighting = inputs.lighting};
+  if (!plan.keepsTaps) {
+    return {.lighting = addTemporalAccumulation(graph, inputs, guides, plan.accumulation),
+            .alpha = LightingAlpha::SampleCount};
   }
-  if (!antialias) return filterToOutput(input);
-  input.result = antialiasing.storage;
-  const fg::Texture filtered = filter(input);
-  return share ? addTemporalAntialiasingWithTaps(graph, inputs.frame, input.taps, filtered, output, antialiasing,
-                                                 inspection)
-               : addTemporalAntialiasing(graph, inputs, guides, filtered, output, antialiasing, inspection);
+  const LightStorage reader = plan.sharesTaps ? plan.antialiasing.storage : LightStorage::Half;
+  const auto [mean, taps] = addTemporalAccumulationWithTaps(graph, inputs, guides, plan.accumulation, reader);
+  return {.lighting = mean, .alpha = LightingAlpha::SampleCount, .taps = taps};
+}
+
+fg::Texture filterTarget(fg::Graph& graph, const TemporalPlan& plan, fg::Texture output) {
+  if (!plan.antialiases) return output;
+  return graph.texture("filtered", {VK_FORMAT_R16G16B16A16_SFLOAT, graph.textureDesc(output).extent});
+}
+
+fg::Texture addAntialiasing(StageGraph graph, const DenoiserInputs& inputs, const Guides& guides,
+                            const TemporalPlan& plan, const Accumulated& accumulated, fg::Texture filtered,
+                            fg::Texture output) {
+  if (!plan.antialiases) {
+    return filtered.resource == output.resource ? filtered : addPassThrough(graph, filtered, output);
+  }
+  return plan.sharesTaps ? addTemporalAntialiasingWithTaps(graph, inputs.frame, accumulated.taps, filtered, output,
+                                                           plan.antialiasing)
+                         : addTemporalAntialiasing(graph, inputs, guides, filtered, output, plan.antialiasing);
 }
 
 }  // namespace walr

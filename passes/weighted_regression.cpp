@@ -152,21 +152,18 @@ Averages writeAverages(fg::Graph& graph, fg::PassBuilder& pass, const StorageLay
 
 }  // namespace
 
-fg::Texture addWeightedRegression(fg::Graph& graph, fg::Buffer frame, fg::Texture accumulated, LightingAlpha alpha,
-                                  const Guides& guides, fg::Texture output, const WeightedRegressionSettings& settings,
-                                  Inspection* inspection) {
+fg::Texture addWeightedRegression(StageGraph graph, fg::Buffer frame, fg::Texture accumulated, LightingAlpha alpha,
+                                  const Guides& guides, fg::Texture output,
+                                  const WeightedRegressionSettings& settings) {
   checkSettings(settings);
-  const fg::Extent extent = graph.textureDesc(accumulated).extent;
+  const fg::Extent extent = graph->textureDesc(accumulated).extent;
   Iteration iteration{.averages = {.moments = {}, .depth = guides.depth}};
   const auto declare = [&](const std::string& name, Role role) {
     return declareIteration(graph, name, role, iteration, frame, accumulated, alpha, guides, settings);
   };
   for (;; ++iteration.index, iteration.spacing *= 3) {
-    if (inspection != nullptr) {
-      inspection->offer(graph, iterationViews(), extent,
-                        [&](const std::string& name) { return declare(name, Role::View); },
-                        {.index = iteration.index, .count = settings.iterations});
-    }
+    graph.offer(iterationViews(), extent, [&](const std::string& name) { return declare(name, Role::View); },
+                {.index = iteration.index, .count = settings.iterations});
     const std::string suffix = " " + std::to_string(iteration.index);
     if (iteration.index + 1 == settings.iterations) {
       return declare("a-trous" + suffix, Role::Filter).store("outFiltered", output);

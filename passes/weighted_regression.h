@@ -4,11 +4,11 @@
 
 #include "framegraph/declare/graph.h"
 #include "passes/edge_stopping.h"
-#include "passes/inspection.h"
 #include "passes/lighting_alpha.h"
 #include "passes/prepare_guides.h"
 #include "passes/regularisation.h"
 #include "passes/settings.h"
+#include "passes/stage_graph.h"
 
 namespace walr {
 
@@ -81,12 +81,11 @@ struct WeightedRegressionSettings {
 /// @param accumulated RGBA16F: radiance to filter; a value that is not finite is no sample
 /// @param alpha       what the alpha channel of `accumulated` says; a pixel with no sample has no say
 /// @param output      RGBA16F texture to write the result to
-/// @param inspection  is offered the views of every iteration, as if it were the last
 /// @returns the output's new version: filtered radiance, alpha below 0 where no sample was in reach; sky and pixels
 /// without a diffuse lobe as they were
 /// @throws std::invalid_argument for settings outside their range
-fg::Texture addWeightedRegression(fg::Graph& graph, fg::Buffer frame, fg::Texture accumulated, LightingAlpha alpha,
+fg::Texture addWeightedRegression(StageGraph graph, fg::Buffer frame, fg::Texture accumulated, LightingAlpha alpha,
                                   const Guides& guides, fg::Texture output,
-                                  const WeightedRegressionSettings& settings = {}, Inspection* inspection = nullptr);
+                                  const WeightedRegressionSettings& settings = {});
 
 }  // namespace walr

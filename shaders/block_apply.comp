@@ -1,17 +1,15 @@
 // The blocks' fits applied to every pixel's features: those of the four blocks around it, weighed by plane and
 // distance, mixed with the coarse fits of the four cells around it as their samples count against `coarseSamples`.
-// CONVERGED is for tiles where these count for nothing but on pixels that lie on no block's plane. What shows no surface
-// passes its light on; with PACKED, which packs the result (packed_light.glsl), whoever reads that must. A view (VIEW) does
-// the same and writes something found on the way; of that PACKED says what it reads.
+// What shows no surface passes its light on; with PACKED, which packs the result (packed_light.glsl), whoever reads that
+// must. A view (VIEW) does the same and writes something found on the way; of that PACKED says what it reads.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
 #extension GL_EXT_control_flow_attributes : require
 #include "constants/block_regression.h"
 #include "constants/frame.h"
-#include "include/listed_tiles.glsl"
 
-layout(local_size_x = kTileSide, local_size_y = kTileSide) in;
+layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 0) const int kBlockSize = 4;  // Pixels per axis.
 layout(constant_id = 2) const int kCellSize = 8;   // Pixels per axis.
 
@@ -27,11 +25,6 @@ layout(set = 0, binding = 11) uniform utexture2D coarseA;
 layout(set = 0, binding = 12) uniform utexture2D coarseB;
 layout(set = 0, binding = 13) uniform utexture2D coarseC;
 layout(set = 0, binding = 14) uniform utexture2D coarseDepth;
-#ifdef CONVERGED
-#define OUT_ACCESS  // Beside what other tiles have written.
-#else
-#define OUT_ACCESS writeonly
-#endif
 #ifdef VIEW
 layout(constant_id = 8) const uint kView = 0;  // Which quantity; numbered in viewOf.
 layout(set = 0, binding = 15, rgba32f) uniform writeonly image2D outView;
@@ -41,10 +34,10 @@ layout(set = 0, binding = 5) uniform utexture2D accumulated;
 layout(set = 0, binding = 5) uniform texture2D accumulated;
 #endif
 #elif defined(PACKED)
-layout(set = 0, binding = 15, r32ui) uniform OUT_ACCESS uimage2D outFiltered;
+layout(set = 0, binding = 15, r32ui) uniform writeonly uimage2D outFiltered;
 #else
 layout(set = 0, binding = 5) uniform texture2D passed;
-layout(set = 0, binding = 15, rgba16f) uniform OUT_ACCESS image2D outFiltered;
+layout(set = 0, binding = 15, rgba16f) uniform writeonly image2D outFiltered;
 #endif
 layout(push_constant) uniform PushConstants { BlockRegressionConstants settings; };
 #include "include/block_fit.glsl"
@@ -130,10 +123,10 @@ float bilinearWeight(Around a, int i, ivec2 grid, out ivec2 texel) {
   return axisWeight.x * axisWeight.y;
 }
 
-Prediction predictCoarse(ivec2 p, float z, NormalAndOcclusion shading, int count) {
+Prediction predictCoarse(ivec2 p, float z, NormalAndOcclusion shading) {
   Prediction sum = noPrediction();
   const Around cells = around(p, kCellSize);
-  [[unroll]] for (int i = 0; i < count; ++i) {
+  [[unroll]] for (int i = 0; i < 4; ++i) {
     ivec2 cell;
     const float weight = bilinearWeight(cells, i, textureSize(coarseDepth, 0), cell);
     if (weight <= 0.0) continue;
@@ -196,7 +189,7 @@ void store(ivec2 p, vec3 colour) { imageStore(outFiltered, p, nearestHalf(vec4(c
 #endif
 
 void main() {
-  const ivec2 p = pixelOfThread();
+  const ivec2 p = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(p, textureSize(depth, 0)))) return;
   const float z = unpackDepth(texelFetch(depth, p, 0).x);
   if (z == 0.0) {
@@ -206,14 +199,11 @@ void main() {
   const NormalAndOcclusion shading = unpackNormalAndOcclusion(texelFetch(features, p, 0).x);
   const Prediction fine = predictFine(p, z, shading);
   const float wanted = coarseShare(fine);
-#if defined(CONVERGED)
-  // A loop ends for all lanes at once even on devices that have no branch, and here hardly any has need of it.
-  const Prediction coarse = predictCoarse(p, z, shading, wanted > 0.0 ? 4 : 0);
-#elif defined(VIEW)
-  const Prediction coarse = predictCoarse(p, z, shading, 4);
+#ifdef VIEW
+  const Prediction coarse = predictCoarse(p, z, shading);
 #else
   Prediction coarse = noPrediction();
-  if (wanted > 0.0) coarse = predictCoarse(p, z, shading, 4);
+  if (wanted > 0.0) coarse = predictCoarse(p, z, shading);
 #endif
   const float share = coarse.weight > 0.0 ? wanted : 0.0;
 #ifdef VIEW

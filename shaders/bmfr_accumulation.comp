@@ -29,6 +29,6 @@ void main() {
     return;
   }
   const vec4 history = meanOfTaps(previousAccumulated, unpackTaps(p, kept, frame.previousPixelFromPixel));
-  const float samples = min(history.a + 1.0, settings.maxSamples);
+  const float samples = min(history.a + 1.0, settings.maxHistory);
   imageStore(outAccumulated, p, nearestHalf(vec4(mix(history.rgb, current, 1.0 / samples), samples)));
 }

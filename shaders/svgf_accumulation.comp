@@ -85,8 +85,8 @@ vec3 clampedRadiance(vec3 noisy) { return clamp(noisy, vec3(0.0), vec3(kLargestH
 // The history with this frame's sample. A sample that is not finite is no sample: the moments stay as they were.
 TemporalMoments momentsWith(TemporalMoments m, vec3 noisy) {
   if (!isFinite(noisy)) return m;
-  m.samples = min(m.samples + 1.0, settings.maxSamples);
-  const float momentSamples = min(m.samples, settings.maxMomentSamples);
+  m.samples = min(m.samples + 1.0, settings.maxHistory);
+  const float momentSamples = min(m.samples, settings.maxMomentHistory);
   addSample(m, clampedRadiance(noisy), 1.0 / m.samples, 1.0 / momentSamples);
   return m;
 }

@@ -1,11 +1,10 @@
-// WALR preprocessing (Meunier & Harada 2022, 4.2): reproject, reject, then a cumulative mean that turns exponential
-// after a fixed number of samples. Each of the four history pixels around the position is tested on its own
-// (REJECT_BY_PLANE, REJECT_BY_DEPTH). KEEP_TAPS also writes which of them passed, so that later stages can read their
-// histories in the same way without testing again (Meunier & Harada 2022, 4.4; Koskela et al. 2019, 3.5), and which
-// light passes through where there is no surface. STILL: every pixel shows what it showed before. RESPONSIVE shortens
-// history where light_change.comp doubts it, and writes what that goes by. PACKED: the history is packed
-// (packed_light.glsl), without the light of pixels that show no surface. A view (VIEW) does the same and writes
-// something found on the way.
+// WALR preprocessing (walr.txt 4.2): reproject, reject, then a cumulative mean that turns exponential after a fixed number
+// of samples. Each of the four history pixels around the position is tested on its own (REJECT_BY_PLANE, REJECT_BY_DEPTH).
+// KEEP_TAPS also writes which of them passed, so that later stages can read their histories in the same way without testing
+// again (walr.txt 4.4, bmfr.txt 3.5), and which light passes through where there is no surface. STILL: every pixel shows
+// what it showed before. RESPONSIVE shortens history by the factor of antilag.comp, and writes what that goes by.
+// PACKED: the history is packed (packed_light.glsl), without the light of pixels that show no surface. A view (VIEW) does
+// the same and writes something found on the way.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -52,9 +51,9 @@ layout(constant_id = 3) const bool kKeepPassedLight = false;  // Where there is 
 layout(set = 0, binding = 9, r32ui) uniform writeonly uimage2D outTaps;
 #endif
 #ifdef RESPONSIVE
-layout(set = 0, binding = 10) uniform texture2D previousDoubt;
+layout(set = 0, binding = 10) uniform texture2D previousAntilag;
 #ifndef VIEW
-layout(set = 0, binding = 11, rg32f) uniform writeonly image2D outChange;
+layout(set = 0, binding = 11, rg32f) uniform writeonly image2D outTiles;
 #endif
 #endif
 layout(push_constant) uniform PushConstants { TemporalAccumulationConstants settings; };
@@ -67,7 +66,7 @@ vec4 unpackHistory(uint packed) { return unpackAccumulated(packed); }
 #include "include/history_taps.glsl"
 #include "include/passed_light.glsl"
 #ifdef RESPONSIVE
-#include "include/light_change.glsl"
+#include "include/antilag.glsl"
 #include "include/luminance.glsl"
 #endif
 #ifdef STILL
@@ -109,7 +108,7 @@ bool motionIsFinite(ivec2 p) { return isFinite(motionAt(p)); }
 #ifdef RESPONSIVE
 Past pastOf(ivec2 p, float z) {
   Past past = foundAt(p, z);
-  past.mean.a = min(past.mean.a, longestHistory(past.pixel, settings.maxSamples));
+  past.mean.a = min(past.mean.a, longestHistory(past.pixel, settings.maxHistory));
   return past;
 }
 #else
@@ -118,7 +117,7 @@ Past pastOf(ivec2 p, float z) { return foundAt(p, z); }
 
 // A sample that is not finite is no sample: the mean stays as it was.
 float samplesWith(vec4 history, bool sampleIsFinite) {
-  return min(history.a + (sampleIsFinite ? 1.0 : 0.0), settings.maxSamples);
+  return min(history.a + (sampleIsFinite ? 1.0 : 0.0), settings.maxHistory);
 }
 vec3 clampedRadiance(vec3 noisy) { return clamp(noisy, vec3(0.0), vec3(kLargestHalf)); }
 
@@ -139,8 +138,8 @@ vec3 viewOf(ivec2 p, float z, vec3 noisy) {
     case 2u: {
       if (!surface) return vec3(0.0);
       const Past past = foundAt(p, z);
-      const float longest = longestHistory(past.pixel, settings.maxSamples);
-      return vec3(doubtAt(past.pixel), longest, past.mean.a > longest);
+      const float longest = longestHistory(past.pixel, settings.maxHistory);
+      return vec3(antilagAt(past.pixel), longest, past.mean.a > longest);
     }
 #endif
   }

@@ -69,7 +69,7 @@ layout(push_constant) uniform PushConstants { TemporalAntialiasingConstants sett
 
 #ifdef PACKED
 #include "include/packed_light.glsl"
-vec4 unpackHistory(uint packed) { return unpackResolved(packed, settings.maxSamples); }
+vec4 unpackHistory(uint packed) { return unpackResolved(packed, settings.maxHistory); }
 vec4 filteredAt(ivec2 q) { return unpackFiltered(texelFetch(filtered, q, 0).x); }
 #ifdef KEPT_TAPS
 vec3 passedAt(ivec2 p) { return unpackPassed(texelFetch(keptTaps, p, 0).x); }
@@ -197,7 +197,7 @@ vec4 resolve(ivec2 p, vec4 current, vec4 history) {
   if (current.a < 0.0) return history;
   if (history.a == 0.0) return vec4(current.rgb, 1.0);
   const vec3 clipped = clippedHistory(p, current.rgb, history.rgb).colour;
-  const float samples = min(history.a + 1.0, settings.maxSamples);
+  const float samples = min(history.a + 1.0, settings.maxHistory);
   return vec4(max(mix(fromYCoCg(clipped), current.rgb, 1.0 / samples), vec3(0.0)), samples);
 }
 
@@ -241,7 +241,7 @@ void main() {
   const vec4 rounded = nearestHalf(resolved);
 #ifdef PACKED
   const vec4 chances = chancesOf(p, frame.frameIndex, kResolvedKey);
-  imageStore(outResolved, p, uvec4(packResolved(resolved, settings.maxSamples, chances)));
+  imageStore(outResolved, p, uvec4(packResolved(resolved, settings.maxHistory, chances)));
 #else
   imageStore(outResolved, p, rounded);
 #endif

@@ -17,12 +17,12 @@ constexpr std::array kEpsilons = {"1e-6", "1e-5", "1e-4", "1e-3", "1e-2"};
 
 Variant spatialOnly(const NumericsSetting& setting) {
   Variant variant;
-  variant.method = kBaseline;
+  variant.method = "walr_paper";
   variant.preset = "robust";  // The regression that offers the choice of storage and of solving.
-  variant.settings = {{"walr.fit-window", "off"},
+  variant.settings = {{"walr_paper.fit-window", "off"},
                       {"regression.iterations", "3"},
-                      {"accumulation.max-samples", "1"},
-                      {"antialiasing.max-samples", "1"},
+                      {"accumulation.max-history", "1"},
+                      {"antialiasing.max-history", "1"},
                       {"regression.moments", setting.storage},
                       {"regression.keep-sample-count", setting.storage == "centred16" ? "on" : "off"},
                       {"regression.regularisation", setting.regularisation},

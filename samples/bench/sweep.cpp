@@ -16,7 +16,7 @@ struct Base {
 
 constexpr Base kDefault{kBaseline, {}};
 /// The preset that regresses at every pixel, with the settings regression.*.
-constexpr Base kPerPixel{kBaseline, "robust"};
+constexpr Base kPerPixel{"walr_paper", "robust"};
 constexpr Base kFlr{"flr", {}};
 constexpr Base kSvgf{"svgf", {}};
 constexpr Base kBmfr{"bmfr", {}};
@@ -37,7 +37,7 @@ Sweep over(Base base, std::string_view name, std::string_view question, std::str
 std::vector<Sweep> walrSweeps() {
   Sweep iterations = over(kPerPixel, "iterations", "How many a-trous iterations, at 3^n pixels of window?",
                           "regression.iterations", {"1", "2", "3", "4", "5"});
-  iterations.held = {{"walr.fit-window", "off"}};
+  iterations.held = {{"walr_paper.fit-window", "off"}};
   const SettingValue kDropped = {"regression.keep-sample-count", "off"};
   Sweep remap = of(kPerPixel, "edge-range", "How far from the plane does an edge begin and end?", {});
   for (const auto& [label, near, far] : {std::tuple{"quarter", "0.000375", "0.00375"},
@@ -72,7 +72,6 @@ std::vector<Sweep> walrSweeps() {
          {{"traced", {{"regression.trace-edges", "on"}}},
           {"traced-without-sdf", {{"regression.trace-edges", "on"}, {"regression.sdf-fraction", "0"}}},
           {"untraced", {{"regression.trace-edges", "off"}}}}),
-      over(kDefault, "filter", "Regress on every pixel, or on blocks of pixels?", "walr.filter", {"pixels", "blocks"}),
       over(kPerPixel, "replacement", "Replace taps behind edges?", "regression.replace-taps",
            {"uniform", "near", "off"}),
       over(kPerPixel, "sample-count", "Carry the sample count W through the iterations?",
@@ -82,15 +81,15 @@ std::vector<Sweep> walrSweeps() {
            {"1e-6", "1e-5", "1e-4", "1e-3", "1e-2", "1e-1"}),
       over(kPerPixel, "noise-ridge", "How much further ridge for noise?", "regression.noise-ridge",
            {"0", "0.3", "1", "3", "10", "30"}),
-      over(kDefault, "history", "How many samples before the filter?", "accumulation.max-samples",
+      over(kDefault, "history", "How many samples before the filter?", "accumulation.max-history",
            {"1", "4", "8", "16", "32", "64"}),
-      over(kDefault, "change-response", "Shorten history where the light changes?", "accumulation.respond-to-change",
+      over(kDefault, "change-response", "Shorten history where the light changes?", "accumulation.antilag",
            {"on", "off"}),
-      of(kDefault, "change-score", "From how many standard errors of change on is history doubted?",
-         {{"2-4", {{"accumulation.change-low", "2"}, {"accumulation.change-high", "4"}}},
-          {"3-6", {{"accumulation.change-low", "3"}, {"accumulation.change-high", "6"}}},
-          {"4-8", {{"accumulation.change-low", "4"}, {"accumulation.change-high", "8"}}}}),
-      over(kDefault, "late-history", "How many frames after the filter?", "antialiasing.max-samples",
+      of(kDefault, "change-score", "From how many standard errors of change on is history shortened?",
+         {{"2-4", {{"accumulation.antilag-low", "2"}, {"accumulation.antilag-high", "4"}}},
+          {"3-6", {{"accumulation.antilag-low", "3"}, {"accumulation.antilag-high", "6"}}},
+          {"4-8", {{"accumulation.antilag-low", "4"}, {"accumulation.antilag-high", "8"}}}}),
+      over(kDefault, "late-history", "How many frames after the filter?", "antialiasing.max-history",
            {"1", "3", "5", "8", "16", "32"}),
       over(kDefault, "clipping", "How tight a box of variance clipping?", "antialiasing.clip-gamma",
            {"1", "2", "3", "5", "8"}),
@@ -146,7 +145,7 @@ std::vector<Sweep> baselineSweeps() {
           {"0.075", {{"occlusion.radius", "0.075"}}},
           {"0.15", {{"occlusion.radius", "0.15"}}}}),
       singleFrame,
-      over(kFlr, "flr-history", "How many samples before FLR?", "accumulation.max-samples", {"4", "8", "16", "32"}),
+      over(kFlr, "flr-history", "How many samples before FLR?", "accumulation.max-history", {"4", "8", "16", "32"}),
       of(kSvgf, "svgf-kernel", "How large a kernel for SVGF's iterations? 3, 5, 7 or 9 taps an axis.",
          {{"3x3", {{"svgf.radius", "1"}}},
           {"5x5", {{"svgf.radius", "2"}}},
@@ -167,15 +166,15 @@ std::vector<Sweep> baselineSweeps() {
            {"8", "16", "24", "32", "64", "128"}),
       over(kSvgf, "svgf-depth", "How far from the plane does SVGF reach?", "svgf.sigma-depth",
            {"0.005", "0.01", "0.02", "0.04", "0.08"}),
-      over(kSvgf, "svgf-history", "How many samples before SVGF's filter?", "accumulation.max-samples",
+      over(kSvgf, "svgf-history", "How many samples before SVGF's filter?", "accumulation.max-history",
            {"5", "8", "16", "32"}),
       over(kBmfr, "bmfr-rank", "Noise, or features left out, where features depend on each other?", "fit.rank-handling",
            {"stochastic", "deterministic"}),
       over(kBmfr, "bmfr-noise", "How much noise on BMFR's features?", "fit.noise-amplitude",
            {"0.001", "0.003", "0.01", "0.03", "0.1"}),
-      over(kBmfr, "bmfr-history", "How many samples before BMFR's fit?", "accumulation.max-samples",
+      over(kBmfr, "bmfr-history", "How many samples before BMFR's fit?", "accumulation.max-history",
            {"3", "5", "8", "16"}),
-      over(kBmfr, "bmfr-late-history", "How many fitted frames does BMFR average?", "fitted.max-samples",
+      over(kBmfr, "bmfr-late-history", "How many fitted frames does BMFR average?", "fitted.max-history",
            {"5", "10", "20"}),
       over(kBilateral, "bilateral-radius", "How large a window for the joint bilateral filter?", "bilateral.radius",
            {"8", "12", "16", "24"}),

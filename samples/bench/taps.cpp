@@ -7,9 +7,9 @@
 #include <string_view>
 
 #include "passes/flr_regression.h"
+#include "shaders/constants/antilag.h"
 #include "shaders/constants/block_regression.h"
 #include "shaders/constants/flr.h"
-#include "shaders/constants/light_change.h"
 
 namespace walr {
 namespace {
@@ -91,10 +91,9 @@ constexpr std::array kShaders = {
                [](const Stage& stage) {
                  return 1.0 + (specializationOf(stage, "kBicubicHistory") != 0 ? kBicubic : kBilinear);
                }},
-    ShaderTaps{"light_change",
+    ShaderTaps{"antilag",
                [](const Stage& stage) {
-                 return window(static_cast<std::uint32_t>(constantsOf<LightChangeConstants>(stage).radius)) *
-                        stage.share;
+                 return window(static_cast<std::uint32_t>(constantsOf<AntilagConstants>(stage).radius)) * stage.share;
                }},
     ShaderTaps{"temporal_antialiasing",
                [](const Stage& stage) { return kBicubic + 1.0 + window(specializationOf(stage, "kClipRadius")); }},
@@ -109,8 +108,6 @@ constexpr std::array kShaders = {
     ShaderTaps{"flr_blur", flrLine},
     ShaderTaps{"flr_solve", flrLine},
     ShaderTaps{"flr_apply", flrUpsampling},
-    ShaderTaps{"list_tiles", [](const Stage&) { return 0.0; }},
-    ShaderTaps{"pass_sky", [](const Stage&) { return 1.0; }},
     ShaderTaps{"block_moments", [](const Stage&) { return 1.0; }},
     // At one path a pixel; with more of them it is narrower.
     ShaderTaps{"block_coarse", coarseLine},

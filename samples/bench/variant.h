@@ -27,7 +27,7 @@ struct Variant {
 /// The variant against which all times are given: WALR with its defaults.
 inline constexpr std::string_view kBaseline = "walr";
 
-/// Every method with each of its presets: "walr", "walr:paper", "bmfr", ...
+/// Every method with each of its presets: "walr", "walr_paper", "walr_paper:robust", "bmfr", ...
 std::vector<Variant> allMethods();
 
 /// A list of METHOD or METHOD:PRESET, parted by commas, or "all".

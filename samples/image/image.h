@@ -24,7 +24,6 @@ class Image {
   [[nodiscard]] std::size_t pixelCount() const {
     return static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
   }
-  [[nodiscard]] bool sameSize(const Image& other) const { return width_ == other.width_ && height_ == other.height_; }
 
   /// All values, pixel by pixel.
   [[nodiscard]] std::span<float> values() { return values_; }

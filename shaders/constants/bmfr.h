@@ -13,7 +13,7 @@ struct BmfrFitConstants {
 };
 
 struct BmfrAccumulationConstants {
-  float maxSamples;  // History length at which the cumulative mean turns exponential.
+  float maxHistory;  // History length at which the cumulative mean turns exponential.
 };
 
 #ifdef __cplusplus

@@ -6,8 +6,8 @@ namespace walr {
 #endif
 
 struct SvgfAccumulationConstants {
-  float maxSamples;        // History length at which the mean of the colour turns exponential.
-  float maxMomentSamples;  // The same for the moments of the luminance.
+  float maxHistory;        // History length at which the mean of the colour turns exponential.
+  float maxMomentHistory;  // The same for the moments of the luminance.
   float planeTolerance;    // Largest plane distance of a history tap, in units of its depth.
   float normalThreshold;   // Smallest cosine between geometric normals.
 };

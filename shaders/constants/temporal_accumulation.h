@@ -6,9 +6,9 @@ namespace walr {
 #endif
 
 struct TemporalAccumulationConstants {
-  float maxSamples;        // History length at which the cumulative mean turns exponential.
-  float planeTolerance;    // Largest plane distance of a history tap, in units of its depth.
-  float normalThreshold;   // Smallest cosine between geometric normals.
+  float maxHistory;       // History length at which the cumulative mean turns exponential.
+  float planeTolerance;   // Largest plane distance of a history tap, in units of its depth.
+  float normalThreshold;  // Smallest cosine between geometric normals.
 };
 
 #ifdef __cplusplus

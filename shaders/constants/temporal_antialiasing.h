@@ -6,10 +6,10 @@ namespace walr {
 #endif
 
 struct TemporalAntialiasingConstants {
-  float maxSamples;        // History length at which the cumulative mean turns exponential.
-  float clipGamma;         // Half size of the clipping box in standard deviations of the 3x3 neighbourhood.
-  float planeTolerance;    // Largest plane distance of a history tap, in units of its depth.
-  float normalThreshold;   // Smallest cosine between geometric normals.
+  float maxHistory;       // History length at which the cumulative mean turns exponential.
+  float clipGamma;        // Half size of the clipping box in standard deviations of the 3x3 neighbourhood.
+  float planeTolerance;   // Largest plane distance of a history tap, in units of its depth.
+  float normalThreshold;  // Smallest cosine between geometric normals.
 };
 
 #ifdef __cplusplus

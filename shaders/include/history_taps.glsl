@@ -56,11 +56,15 @@ vec4 meanOfTaps(HISTORY_TEXTURE history, HistoryTaps taps) {
   return meanOf(mean);
 }
 
-// Kept taps: one R32_UINT that says where a surface was and which taps show it, for later stages that read histories of
-// their own at the same place. Where there is no surface it is kNoSurfaceTaps, or, for stages that know by other means
-// where that is, the light that passes through (packed_light.glsl). The motion is two halves whose two lowest mantissa bits
-// make room for the accept bits, which leaves it a relative rounding of 2^-9: 1/64 of a pixel where a surface moves by 8 to
-// 16.
+// Kept taps let later stages read histories of their own where accumulation has read its history. A pixel's texel, one
+// R32_UINT, is one of three things:
+//   where there is a surface   its motion and which taps show it (packTaps)
+//   where there is none        kNoSurfaceTaps, for readers that find so from this texel
+//                              or the light that passes through (packPassed of packed_light.glsl), for packed
+//                              anti-aliasing, which finds so from its filter's result (kNoFiltered)
+// The second and the third are told apart by what is asked of the accumulation, not by the texel.
+// The motion is two halves whose two lowest mantissa bits make room for the accept bits, which leaves it a relative
+// rounding of 2^-9: 1/64 of a pixel where a surface moves by 8 to 16.
 const uint kNoSurfaceTaps = 0xffffffffu;
 const uint kMotionBits = 0xfffcfffcu;
 

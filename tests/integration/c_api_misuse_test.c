@@ -150,7 +150,7 @@ static void test_create(const WalrDevice* device) {
   EXPECT(walr_create_denoiser(&info, &denoiser), WALR_ERROR_INVALID_ARGUMENT, "known methods: walr");
   info = info_of(device);
   info.preset = "magic";
-  EXPECT(walr_create_denoiser(&info, &denoiser), WALR_ERROR_INVALID_ARGUMENT, "known presets: blocks");
+  EXPECT(walr_create_denoiser(&info, &denoiser), WALR_ERROR_INVALID_ARGUMENT, "known presets: none; walr is what its preset blocks was");
   info = info_of(device);
   info.width = 0;
   EXPECT(walr_create_denoiser(&info, &denoiser), WALR_ERROR_INVALID_ARGUMENT, "0 x 48");
@@ -277,16 +277,16 @@ static void test_handles(const WalrDevice* device) {
 
 static void test_settings(WalrDenoiser denoiser) {
   EXPECT(walr_set_setting(denoiser, NULL, "1"), WALR_ERROR_INVALID_ARGUMENT, "null");
-  EXPECT(walr_set_setting(denoiser, "regression.iterations", NULL), WALR_ERROR_INVALID_ARGUMENT, "null");
-  EXPECT(walr_set_setting(denoiser, "iterations", "1"), WALR_ERROR_INVALID_ARGUMENT, "known settings: ");
-  EXPECT(walr_set_setting(denoiser, "regression.iterations", "9"), WALR_ERROR_INVALID_ARGUMENT, "1..5");
+  EXPECT(walr_set_setting(denoiser, "blocks.iterations", NULL), WALR_ERROR_INVALID_ARGUMENT, "null");
+  EXPECT(walr_set_setting(denoiser, "iterations", "1"), WALR_ERROR_INVALID_ARGUMENT, "near ones: blocks.iterations");
+  EXPECT(walr_set_setting(denoiser, "blocks.iterations", "9"), WALR_ERROR_INVALID_ARGUMENT, "1..4");
   EXPECT(walr_use_preset(denoiser, "magic"), WALR_ERROR_INVALID_ARGUMENT, "known presets");
   char value[8];
   size_t size = 1;
-  EXPECT(walr_get_setting(denoiser, "regression.ridge", value, &size), WALR_ERROR_INVALID_ARGUMENT, "needs 6 bytes");
-  EXPECT_TRUE(size == strlen("0.001") + 1);
-  EXPECT_OK(walr_get_setting(denoiser, "regression.ridge", value, &size));
-  EXPECT_TRUE(strcmp(value, "0.001") == 0);
+  EXPECT(walr_get_setting(denoiser, "blocks.sdf-fraction", value, &size), WALR_ERROR_INVALID_ARGUMENT, "needs 5 bytes");
+  EXPECT_TRUE(size == strlen("0.75") + 1);
+  EXPECT_OK(walr_get_setting(denoiser, "blocks.sdf-fraction", value, &size));
+  EXPECT_TRUE(strcmp(value, "0.75") == 0);
   EXPECT(walr_get_setting(denoiser, "magic", value, &size), WALR_ERROR_INVALID_ARGUMENT, "\"magic\"");
   EXPECT(walr_resize(denoiser, 0, 1), WALR_ERROR_INVALID_ARGUMENT, "0 x 1");
   /* Settings that contradict each other are found when they are put to use, and can be mended. */

@@ -92,7 +92,7 @@ TEST_F(CApi, ResetAndNewSettingsForgetThePast) {
   EXPECT_NE(secondAfterFirst([](WalrDenoiser) {}), alone);
   EXPECT_EQ(secondAfterFirst([](WalrDenoiser denoiser) { require(walr_reset_history(denoiser)); }), alone);
   EXPECT_EQ(secondAfterFirst(
-                [](WalrDenoiser denoiser) { require(walr_set_setting(denoiser, "accumulation.max-samples", "16")); }),
+                [](WalrDenoiser denoiser) { require(walr_set_setting(denoiser, "accumulation.max-history", "16")); }),
             alone);
 }
 

@@ -169,34 +169,6 @@ TEST_F(PluginTest, EveryMethodGivesTheSamePixelsAsADispatchListWithItsHeapsAndBa
   }
 }
 
-// Every tile is dispatched by one of three lists.
-TEST_F(PluginTest, IndirectDispatchesGiveTheSamePixels) {
-  constexpr Size kSize{61, 41};
-  constexpr WalrSettingValue kSorted[] = {{"blocks.sort-tiles", "on"}};
-  Opaque opaque(host, api(), info("walr", kSize));
-  const WalrPasses recorded = makePasses(info("walr", kSize), kSorted);
-  const WalrPasses listed = makePasses(info("walr", kSize), kSorted);
-  {
-    tiny_host::Graph graph(host, api(), recorded);
-    list_host::Player player(host, api(), listed);
-    for (std::uint32_t frame = 0; frame < 4; ++frame) {
-      SCOPED_TRACE(frame);
-      uploadFrame(host, kSize, frame, [&](std::size_t i) { return &opaque.image(i); });
-      uploadFrame(host, kSize, frame, [&](std::size_t i) { return &graph.image(kInputs[i]); });
-      uploadFrame(host, kSize, frame, [&](std::size_t i) { return &player.image(kInputs[i]); });
-      const WalrCamera camera = cameraAt(float(frame) * kStep);
-      opaque.frame(camera, 0);
-      graph.frame(passFrame(camera));
-      player.frame(passFrame(camera));
-      const std::vector<std::uint16_t> expected = download(host, opaque.output());
-      EXPECT_EQ(download(host, graph.image("denoised")), expected);
-      EXPECT_EQ(download(host, player.image("denoised")), expected);
-    }
-  }
-  EXPECT_EQ(api().destroy_passes(recorded), WALR_SUCCESS);
-  EXPECT_EQ(api().destroy_passes(listed), WALR_SUCCESS);
-}
-
 // In which hosts that know of synchronization2 alone leave what is read.
 TEST_F(PluginTest, ReadsFromReadOnlyOptimal) {
   constexpr Size kSize{61, 43};
@@ -312,11 +284,11 @@ TEST_F(PluginTest, WrongUseOfPassesIsAnError) {
   // Without a device passes can be listed, and that is all.
   WalrDenoiserInfo listed = info("walr", {64, 48});
   listed.device = nullptr;
-  const WalrSettingValue settings[] = {{"regression.iterations", "9"}};
+  const WalrSettingValue settings[] = {{"blocks.iterations", "9"}};
   WalrPassesInfo passesInfo{sizeof(WalrPassesInfo), 1, &listed, settings};
   WalrPasses plain = nullptr;
   EXPECT_EQ(api().create_passes(&passesInfo, &plain), WALR_ERROR_INVALID_ARGUMENT);
-  EXPECT_NE(text().find("1..5"), std::string::npos);
+  EXPECT_NE(text().find("1..4"), std::string::npos);
   passesInfo.setting_count = 0;
   ASSERT_EQ(api().create_passes(&passesInfo, &plain), WALR_SUCCESS);
   ASSERT_EQ(api().get_pass_list(plain, &list), WALR_SUCCESS);

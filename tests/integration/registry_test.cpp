@@ -123,10 +123,10 @@ struct Link {
   std::vector<std::pair<const char*, const char*>> settings;
 };
 
-void expectPlannedAs(const char* preset, const std::vector<Link>& chain) {
+void expectPlannedAs(const char* name, const char* preset, const std::vector<Link>& chain) {
   HostGraph whole;
-  const auto method = makePass("walr");
-  method->usePreset(preset);
+  const auto method = makePass(name);
+  if (preset != nullptr) method->usePreset(preset);
   connectHost(*method, whole.inputs);
   method->connect(kOutputName, whole.output);
   whole.graph.exported(method->add(whole.graph).textures.at(std::string(kOutputName)), kComputeHost.outputAfter);
@@ -142,25 +142,26 @@ void expectPlannedAs(const char* preset, const std::vector<Link>& chain) {
     made.textures.merge(node->add(parts.graph).textures);
   }
   parts.graph.exported(made.textures.at(std::string(kOutputName)), kComputeHost.outputAfter);
-  EXPECT_TRUE(compiled(parts.graph) == compiled(whole.graph)) << preset;
+  EXPECT_TRUE(compiled(parts.graph) == compiled(whole.graph)) << name;
 }
 
 TEST(Registry, StagesConnectedByNameArePlannedAsTheWholeMethodIs) {
   expectPlannedAs(
-      "blocks",
+      "walr", nullptr,
       {{"prepare_guides_with_occlusion", {}},
        {"temporal_accumulation_with_taps",
-        {{"accumulation.max-samples", "8"},
-         {"accumulation.respond-to-change", "on"},
+        {{"accumulation.max-history", "8"},
+         {"accumulation.antilag", "on"},
          {"accumulation.storage", "packed"},
          {"antialiasing.storage", "packed"}}},
        {"block_regression",
         {{"blocks.iterations", "2"}, {"accumulation.storage", "packed"}, {"antialiasing.storage", "packed"}}},
        {"temporal_antialiasing_with_taps", {{"antialiasing.clip-gamma", "5"}, {"antialiasing.storage", "packed"}}}});
-  expectPlannedAs("robust", {{"prepare_guides", {}},
-                             {"temporal_accumulation_with_taps", {}},
-                             {"weighted_regression", {{"regression.iterations", "3"}}},
-                             {"temporal_antialiasing_with_taps", {}}});
+  expectPlannedAs("walr_paper", "robust",
+                  {{"prepare_guides", {}},
+                   {"temporal_accumulation_with_taps", {}},
+                   {"weighted_regression", {{"regression.iterations", "3"}}},
+                   {"temporal_antialiasing_with_taps", {}}});
 }
 
 // Taps with and without the light that passes through are of one format: their ports keep them apart.
@@ -191,6 +192,40 @@ TEST(Registry, TapsForAnotherStorageDoNotConnect) {
       EXPECT_NE(error.find("temporal_accumulation_with_taps"), std::string::npos) << error;
     }
   }
+}
+
+// Geometric normals are of 16 bits where planes span few dozen pixels; what reads them takes both.
+TEST(Registry, InputsSayEveryFormatThatTheyTake) {
+  const auto otherFormats = [](const char* type, const std::string& port) {
+    return std::ranges::find(typeOf(type).ports, port, &Port::name)->otherFormats;
+  };
+  EXPECT_EQ(otherFormats("temporal_accumulation", "guides.geometric-normal"), std::vector{VK_FORMAT_R16_UINT});
+  EXPECT_TRUE(otherFormats("temporal_antialiasing", "filtered").empty());
+
+  HostGraph host;
+  const auto node = makePass("weighted_regression");
+  for (const Port& port : node->ports()) {
+    if (port.output) continue;
+    if (port.buffer) node->connect(port.name, host.inputs.frame);
+    if (!port.buffer) node->connect(port.name, host.graph.texture(port.name, {port.format, kExtent}));
+  }
+  node->connect("guides.geometric-normal", host.graph.texture("short", {VK_FORMAT_R16_UINT, kExtent}));
+  EXPECT_EQ(rejection([&] { node->add(host.graph); }), "");
+  node->connect("guides.geometric-normal", host.graph.texture("shorter", {VK_FORMAT_R8_UINT, kExtent}));
+  EXPECT_NE(rejection([&] { node->add(host.graph); }).find("takes R32_UINT or R16_UINT, but R8_UINT"),
+            std::string::npos);
+}
+
+TEST(Registry, ConventionsReachThePasses) {
+  const auto specialization = [](const InputConventions& conventions) {
+    HostGraph host;
+    const auto node = makePass("prepare_guides");
+    node->setConventions(conventions);
+    connectHost(*node, host.inputs);
+    (void)node->add(host.graph);
+    return std::get<fg::ComputeDispatch>(host.graph.desc().passes.back().work).specialization;
+  };
+  EXPECT_NE(specialization({.normal = InputConventions::Space::World}), specialization({}));
 }
 
 TEST(Registry, NamesWhatIsWrong) {
@@ -258,7 +293,7 @@ TEST(Registry, ObjectNumbersAreAPortOfTheirOwn) {
 }
 
 TEST(Registry, SettingsAreDescribedAsTheyAre) {
-  const PassType& walr = typeOf("walr");
+  const PassType& walr = typeOf("walr_paper");
   const auto find = [&](const char* name) {
     return *std::ranges::find(walr.settings, std::string(name), &SettingDescription::name);
   };
@@ -269,7 +304,7 @@ TEST(Registry, SettingsAreDescribedAsTheyAre) {
   EXPECT_EQ(iterations.most, 5.0);
   EXPECT_EQ(find("regression.moments").choices.size(), 4U);
   EXPECT_EQ(find("regression.trace-edges").kind, SettingKind::Switch);
-  EXPECT_EQ(find("accumulation.max-samples").unit, "frames");
+  EXPECT_EQ(find("accumulation.max-history").unit, "frames");
   // A listed value can be set again, and means the same.
   for (const PassType& type : passTypes()) {
     const auto node = makePass(type.name);

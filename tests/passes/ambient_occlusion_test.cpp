@@ -18,7 +18,7 @@ constexpr glm::ivec2 kSize(45, 34);
 
 /// The default with a search as wide as the scenes are in so small a picture.
 WalrSettings searchingWidely() {
-  WalrSettings settings = blocksWalr();
+  WalrSettings settings;
   settings.occlusion = {.radius = 0.25F, .steps = 7};
   return settings;
 }

@@ -6,6 +6,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "tests/passes/block_filter.h"
 #include "tests/passes/comparison.h"
 #include "tests/passes/filter_run.h"
 #include "tests/passes/reference/block_regression.h"
@@ -47,7 +48,7 @@ class RegressionRun {
  public:
   RegressionRun(const fg::vk::Device& device, const BlockRegressionSettings& settings)
       : run_(device, kSize, 1, [&](fg::Graph& graph, fg::Buffer frame, const walr::Guides& guides, const auto& inputs) {
-          return addBlockRegression(graph, frame, {inputs[0], LightingAlpha::SampleCount}, guides, settings);
+          return addBlockFilter(graph, frame, {inputs[0], LightingAlpha::SampleCount}, guides, settings);
         }) {}
 
   Image<glm::dvec4> filter(const Inputs& inputs) { return run_.run(inputs.frame, inputs.guides, {inputs.accumulated}); }

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "passes/block_regression.h"
+#include "tests/passes/block_filter.h"
 #include "tests/passes/comparison.h"
 #include "tests/passes/host_textures.h"
 #include "tests/passes/reference/block_regression.h"
@@ -43,7 +44,7 @@ class ViewedRegression {
       inspection.want(view, graph_.import("view of " + view, {kViewFormat, extent}, fg::vk::kOverwritable));
     output_ = copyOut(
         graph_, "result",
-        addBlockRegression(graph_, frame_, {accumulated_, LightingAlpha::SampleCount}, guides_, settings, &inspection));
+        addBlockFilter({graph_, inspection}, frame_, {accumulated_, LightingAlpha::SampleCount}, guides_, settings));
     inspection.requireViews();
     for (const DebugView& view : inspection.views()) {
       graph_.exported(view.texture, fg::vk::kReadable);

@@ -211,9 +211,9 @@ TEST_F(Bmfr, TheSecondAccumulationReadsWhatTheFirstAccepted) {
   fg::Graph graph;
   const DenoiserInputs inputs = importInputs(graph, kSize);
   const Guides guides = addPrepareGuides(graph, inputs);
-  const auto [mean, taps] = addTemporalAccumulationWithTaps(graph, inputs, guides, {.maxSamples = kMaxSamples});
+  const auto [mean, taps] = addTemporalAccumulationWithTaps(graph, inputs, guides, {.maxHistory = kMaxSamples});
   const fg::Texture second =
-      addBmfrAccumulation(graph, inputs.frame, inputs.lighting, taps, {.maxSamples = kMaxSamples});
+      addBmfrAccumulation(graph, inputs.frame, inputs.lighting, taps, {.maxHistory = kMaxSamples});
   const fg::Texture firstOut = copyOut(graph, "first", mean);
   const fg::Texture secondOut = copyOut(graph, "second", second);
   fg::test::GraphRun run(device(), graph);

@@ -13,7 +13,7 @@ CountedRun::CountedRun(const fg::vk::Device& device, Denoiser& method, glm::ivec
   inspection_.wantCounters(graph_.import("counters", fg::BufferDesc{kCounterBytes}, fg::vk::kOverwritable));
   for (const std::string& view : views)
     inspection_.want(view, graph_.import("view of " + view, {kViewFormat, extent}, fg::vk::kOverwritable));
-  graph_.exported(method.add(graph_, inputs_, output_, &inspection_), fg::vk::kReadable);
+  graph_.exported(method.add({graph_, inspection_}, inputs_, output_), fg::vk::kReadable);
   for (const DebugView& view : inspection_.views()) graph_.exported(view.texture, fg::vk::kReadable);
   graph_.exported(inspection_.counterBuffer(), fg::vk::kReadable);
   run_ = std::make_unique<fg::test::GraphRun>(device, graph_);

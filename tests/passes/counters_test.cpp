@@ -111,11 +111,18 @@ TEST_F(CountersTest, AreReadWhileOtherFramesAreInFlight) {
   }
 }
 
+/// `walr_paper` with a preset, or `walr` where it is empty.
+std::unique_ptr<Denoiser> walrOf(const std::string& preset) {
+  if (preset.empty()) return makeDenoiser("walr");
+  std::unique_ptr<Denoiser> method = makeDenoiser("walr_paper");
+  method->usePreset(preset);
+  return method;
+}
+
 TEST_F(CountersTest, ChangeNothing) {
   const HostFrame frames[] = {renderStill(stairs(), kSize, 0), renderStill(stairs(), kSize, 1)};
-  for (const char* preset : {"blocks", "robust", "paper"}) {
-    const auto method = makeDenoiser("walr");
-    method->usePreset(preset);
+  for (const char* preset : {"", "robust", "paper"}) {
+    const std::unique_ptr<Denoiser> method = walrOf(preset);
     fg::Graph graph;
     const DenoiserInputs inputs = importInputs(graph, kSize);
     const fg::Texture output = importOutput(graph, kSize);
@@ -131,13 +138,13 @@ TEST_F(CountersTest, ChangeNothing) {
   }
 }
 
-/// A preset with a storage and a way of solving.
+/// A preset of `walr_paper`, or `walr` where there is none, with a storage and a way of solving.
 struct Variant {
   const char* preset;
   std::vector<std::pair<const char*, const char*>> settings;
 };
 const std::vector<Variant> kVariants{
-    {"blocks", {}},
+    {"", {}},
     {"robust", {}},
     {"robust", {{"regression.regularisation", "floor"}, {"regression.ridge", "1e-4"}}},
     {"paper", {}},
@@ -151,17 +158,17 @@ const std::vector<Variant> kVariants{
 // counter is the sum of the view that it belongs to.
 TEST_F(CountersTest, AreRightOnHardCasesInEveryStorageAndSolver) {
   for (const Variant& variant : kVariants) {
-    const auto method = makeDenoiser("walr");
-    method->usePreset(variant.preset);
-    std::string name = variant.preset;
+    const std::unique_ptr<Denoiser> method = walrOf(variant.preset);
+    const std::string preset = variant.preset;
+    std::string name = preset.empty() ? "walr" : preset;
     for (const auto& [setting, value] : variant.settings) {
       method->set(setting, value);
       name += std::string(", ") + setting + "=" + value;
     }
     SCOPED_TRACE(name);
-    const bool masked = std::string(variant.preset) != "paper";
+    const bool masked = preset != "paper";
     const std::vector<std::string> views{"no-surface", "history", "clamped", "pivots", "few-samples", "clip"};
-    method->set("walr.fit-window", "off");
+    method->set(preset.empty() ? "walr.fit-window" : "walr_paper.fit-window", "off");
     CountedRun run(device(), *method, kSize, views);
     for (const HardCase& hard : hardCases()) {
       SCOPED_TRACE(hard.name);
@@ -192,11 +199,10 @@ TEST_F(CountersTest, AreRightOnHardCasesInEveryStorageAndSolver) {
 // Where the features do not vary at all, regularisation alone holds every fit; where they vary as widely as the scene's
 // normals do, with variances of 0.01 and more, a ridge of 1e-5 holds none.
 TEST_F(CountersTest, RegularisedFitsFollowTheFeatures) {
-  const auto method = makeDenoiser("walr");
-  method->usePreset("robust");
+  const std::unique_ptr<Denoiser> method = walrOf("robust");
   method->set("regression.noise-ridge", "0");
   method->set("regression.ridge", "1e-5");
-  method->set("walr.fit-window", "off");
+  method->set("walr_paper.fit-window", "off");
   CountedRun run(device(), *method, kSize);
   const auto flat = run.count(renderStill(flatWall(), kSize));
   EXPECT_EQ(flat.at("regularised-fits"), std::uint64_t(kSize.x) * kSize.y);

@@ -10,6 +10,7 @@
 #include <glm/common.hpp>
 
 #include "passes/block_regression.h"
+#include "tests/passes/block_filter.h"
 #include "tests/passes/comparison.h"
 #include "tests/passes/filter_run.h"
 #include "tests/passes/shaders.h"
@@ -244,20 +245,20 @@ struct NamedSettings {
   WalrSettings settings;
 };
 std::vector<NamedSettings> waysToReproject() {
-  WalrSettings apart = blocksWalr();
+  WalrSettings apart;
   apart.antialiasing.normalThreshold = 0.4F;  // Its own reprojection.
-  WalrSettings byDepth = blocksWalr();
+  WalrSettings byDepth;
   byDepth.accumulation.rejection = byDepth.antialiasing.rejection = HistoryRejection::Depth;
   byDepth.accumulation.historyFilter = HistoryFilter::Bicubic;
-  byDepth.accumulation.change.respond = false;
-  WalrSettings untested = blocksWalr();
+  byDepth.accumulation.antilag.enabled = false;
+  WalrSettings untested;
   untested.accumulation.rejection = untested.antialiasing.rejection = HistoryRejection::None;
-  untested.antialiasing.maxSamples = 100.0F;
-  WalrSettings accumulationOnly = blocksWalr();
+  untested.antialiasing.maxHistory = 100.0F;
+  WalrSettings accumulationOnly;
   accumulationOnly.antialiasing.storage = LightStorage::Half;
-  WalrSettings antialiasingOnly = blocksWalr();
+  WalrSettings antialiasingOnly;
   antialiasingOnly.accumulation.storage = LightStorage::Half;
-  return {{"shared", blocksWalr()},
+  return {{"shared", WalrSettings{}},
           {"apart", apart},
           {"by depth", byDepth},
           {"untested", untested},
@@ -268,7 +269,7 @@ std::vector<NamedSettings> waysToReproject() {
 TEST_F(PackedLight, TemporalStagesHoldOnEveryScene) {
   for (const NamedScene& named : allScenes()) {
     SCOPED_TRACE(named.name);
-    expectSequence(device(), movingFrames(named.scene), blocksWalr());
+    expectSequence(device(), movingFrames(named.scene), WalrSettings{});
   }
 }
 
@@ -295,10 +296,10 @@ TEST_F(PackedLight, TemporalStagesHoldHoweverHistoryIsFound) {
 
 // The regression over packed light gives what it gives over the same light in halves, rounded by less than a step.
 TEST_F(PackedLight, BlocksReadAndWriteIt) {
-  const WalrSettings settings = blocksWalr();
+  const WalrSettings settings{};
   FilterRun inHalves(
       device(), kSize, 1, [&](fg::Graph& graph, fg::Buffer frame, const walr::Guides& guides, const auto& inputs) {
-        return addBlockRegression(graph, frame, {inputs[0], LightingAlpha::SampleCount}, guides, settings.blocks);
+        return addBlockFilter(graph, frame, {inputs[0], LightingAlpha::SampleCount}, guides, settings.blocks);
       });
   for (const NamedScene& named : allScenes()) {
     WalrRun run(device(), kSize, settings);
@@ -327,7 +328,7 @@ TEST_F(PackedLight, AStillPictureIsSteadyAndTrue) {
   const glm::dvec3 light(0.3, 0.01, 0.0007);
   constexpr std::uint32_t kUnsettled = 24;
   constexpr std::uint32_t kFrames = 64;
-  const WalrSettings settings = blocksWalr();
+  const WalrSettings settings{};
   WalrRun run(device(), kSize, settings, {}, false);
   Image<glm::dvec3> sums(kSize);
   Image<glm::dvec3> squares(kSize);
@@ -347,14 +348,14 @@ TEST_F(PackedLight, AStillPictureIsSteadyAndTrue) {
   }
   // Rounding adds a variance of at most a quarter of a step squared. An exponential mean of n adds up its own to n^2 /
   // (2 n - 1) as much, and passes on 1 / (2 n - 1) of that of what it averages; of the history 1 - 1 / n is seen.
-  const double n = settings.antialiasing.maxSamples;
+  const double n = settings.antialiasing.maxHistory;
   const auto steps = [&](int bits) { return reference::packedStep(truth.r, bits); };
   const double filtered = 0.25 * std::pow(steps(reference::kFilteredBits), 2.0);
   const double resolved = 0.25 * std::pow(steps(reference::kResolvedBits), 2.0);
   const double spread = filtered / (2.0 * n - 1.0) + resolved * std::pow(n - 1.0, 2.0) / (2.0 * n - 1.0);
   // The mean of an accumulated pixel, whose blocks and windows pass on less than its variance, is that of 1 / (1 - a)
   // times fewer frames.
-  const double m = settings.accumulation.maxSamples;
+  const double m = settings.accumulation.maxHistory;
   const double accumulated = 0.25 * std::pow(steps(reference::kAccumulatedBits), 2.0);
   const double trials = double(kFrames) * kSize.x * kSize.y;
   const double deviationOfMean =

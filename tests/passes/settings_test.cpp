@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -29,7 +30,7 @@ std::string valueOf(Denoiser& denoiser, const std::string& name) {
 }
 
 TEST(Settings, EveryKindIsSetFromText) {
-  const auto walr = makeDenoiser("walr");
+  const auto walr = makeDenoiser("walr_paper");
   walr->set("regression.iterations", "3");
   walr->set("regression.plane-far", "0.02");
   walr->set("regression.replace-taps", "off");
@@ -40,15 +41,63 @@ TEST(Settings, EveryKindIsSetFromText) {
   EXPECT_EQ(valueOf(*walr, "accumulation.history-filter"), "bicubic");
 }
 
-TEST(Settings, AnUnknownNameIsRejectedWithTheKnownOnes) {
-  const auto walr = makeDenoiser("walr");
-  const std::string message = rejection([&] { walr->set("regression.iteration", "3"); });
-  EXPECT_NE(message.find("\"regression.iteration\""), std::string::npos) << message;
-  EXPECT_NE(message.find("regression.iterations"), std::string::npos) << message;
+/// What a method says of a name that it does not know.
+std::string unknown(const std::string& method, const std::string& name) {
+  return rejection([&] { makeDenoiser(method)->set(name, "3"); });
+}
+
+TEST(Settings, AnUnknownNameIsRejectedWithTheNearOnes) {
+  const std::string misspelt = unknown("walr_paper", "regression.iteration");
+  EXPECT_EQ(misspelt.find("there is no setting \"regression.iteration\" here; near ones: regression.iterations, "), 0U)
+      << misspelt;
+  EXPECT_EQ(misspelt.find("accumulation."), std::string::npos) << misspelt;
+  EXPECT_EQ(unknown("walr", "spacial-only"), "there is no setting \"spacial-only\" here; near ones: spatial-only");
+  EXPECT_EQ(unknown("walr", "iterations"), "there is no setting \"iterations\" here; near ones: blocks.iterations");
+  const std::string message = unknown("none", "strength");
+  EXPECT_EQ(message.find("there is no setting \"strength\" here; known settings: scene.camera-motion, "), 0U)
+      << message;
+}
+
+TEST(Settings, OnesThatTheMethodDoesNotUseAreRejected) {
+  EXPECT_EQ(unknown("walr", "regression.iterations"),
+            "there is no setting \"regression.iterations\" here; near ones: blocks.iterations");
+  EXPECT_EQ(unknown("walr_paper", "blocks.iterations"),
+            "there is no setting \"blocks.iterations\" here; near ones: regression.iterations");
+  EXPECT_EQ(unknown("walr_paper", "walr.fit-window"),
+            "there is no setting \"walr.fit-window\" here; near ones: walr_paper.fit-window");
+  for (const char* name : {"occlusion.steps", "accumulation.storage", "antialiasing.storage", "blocks.size"}) {
+    EXPECT_NE(unknown("walr_paper", name).find("there is no setting"), std::string::npos) << name;
+    EXPECT_EQ(unknown("walr", name).find("there is no setting"), std::string::npos) << name;
+  }
+}
+
+TEST(Settings, FormerOnesAreRejectedWithTheWayOut) {
+  EXPECT_EQ(unknown("walr", "walr.filter"),
+            "there is no setting \"walr.filter\" here: method walr regresses over blocks of pixels, method walr_paper "
+            "over pixels");
+  for (const auto& [former, now] : {std::pair{"accumulation.max-samples", "accumulation.max-history"},
+                                    {"antialiasing.max-samples", "antialiasing.max-history"},
+                                    {"accumulation.respond-to-change", "accumulation.antilag"},
+                                    {"accumulation.change-radius", "accumulation.antilag-radius"},
+                                    {"accumulation.change-low", "accumulation.antilag-low"},
+                                    {"accumulation.change-high", "accumulation.antilag-high"}}) {
+    EXPECT_EQ(unknown("walr", former),
+              "there is no setting \"" + std::string(former) + "\" here: it is called " + now + " now");
+  }
+  EXPECT_NE(unknown("bmfr", "fitted.max-samples").find("fitted.max-history now"), std::string::npos);
+  EXPECT_NE(unknown("svgf", "accumulation.max-moment-samples").find("accumulation.max-moment-history now"),
+            std::string::npos);
+  EXPECT_EQ(
+      unknown("svgf", "accumulation.respond-to-change")
+          .find("there is no setting \"accumulation.respond-to-change\" here: it is called accumulation.antilag now, "
+                "which is not a setting here either; near ones: accumulation."),
+      0U);
+  EXPECT_EQ(unknown("walr", "blocks.sort-tiles"),
+            "there is no setting \"blocks.sort-tiles\" here: tiles are no longer sorted; leave it out");
 }
 
 TEST(Settings, AValueOutsideTheRangeIsRejectedWithTheRange) {
-  const auto walr = makeDenoiser("walr");
+  const auto walr = makeDenoiser("walr_paper");
   for (const char* value : {"0", "6", "-1", "3.5", "many", "", "nan", "3 "}) {
     const std::string message = rejection([&] { walr->set("regression.iterations", value); });
     EXPECT_NE(message.find("regression.iterations"), std::string::npos) << value;
@@ -59,7 +108,7 @@ TEST(Settings, AValueOutsideTheRangeIsRejectedWithTheRange) {
 }
 
 TEST(Settings, AnUnknownChoiceIsRejectedWithTheChoices) {
-  const auto walr = makeDenoiser("walr");
+  const auto walr = makeDenoiser("walr_paper");
   const std::string message = rejection([&] { walr->set("regression.moments", "raw64"); });
   EXPECT_NE(message.find("centred16, raw16, raw11, raw32"), std::string::npos) << message;
 }
@@ -110,7 +159,7 @@ TEST(Settings, AnUnknownMethodIsRejectedWithTheKnownOnes) {
 }
 
 TEST(Presets, ReplaceAllSettings) {
-  const auto walr = makeDenoiser("walr");
+  const auto walr = makeDenoiser("walr_paper");
   walr->set("regression.iterations", "2");
   walr->usePreset("paper");
   EXPECT_EQ(valueOf(*walr, "regression.iterations"), "4");
@@ -133,8 +182,17 @@ TEST(Presets, TheFirstHoldsTheDefaults) {
 }
 
 TEST(Presets, AnUnknownOneIsRejectedWithTheKnownOnes) {
-  const std::string message = rejection([] { makeDenoiser("walr")->usePreset("best"); });
-  EXPECT_NE(message.find("blocks, robust, paper"), std::string::npos) << message;
+  const std::string message = rejection([] { makeDenoiser("walr_paper")->usePreset("best"); });
+  EXPECT_NE(message.find("paper, robust"), std::string::npos) << message;
+}
+
+TEST(Presets, ThoseThatWalrHadNameTheMethodsThatTheyAreNow) {
+  for (const char* preset : {"blocks", "robust", "paper"}) {
+    const std::string message = rejection([&] { makeDenoiser("walr")->usePreset(preset); });
+    EXPECT_NE(message.find("\"" + std::string(preset) + "\""), std::string::npos) << message;
+    EXPECT_NE(message.find("walr is what its preset blocks was"), std::string::npos) << message;
+    EXPECT_NE(message.find("robust and paper are those of the method walr_paper"), std::string::npos) << message;
+  }
 }
 
 }  // namespace

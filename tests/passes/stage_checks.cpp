@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "tests/passes/comparison.h"
-#include "tests/passes/reference/light_change.h"
+#include "tests/passes/reference/antilag.h"
 #include "tests/passes/reference/octahedral.h"
 #include "tests/passes/reference/walr.h"
 
@@ -31,9 +31,9 @@ bool sameDirection(glm::dvec3 actual, glm::dvec3 expected, double error, double 
   return near || glm::length(actual - expected) <= error + std::sqrt(18.0) * step;
 }
 
-void expectGuides(const DeviceFrame& f, const WalrSettings& walr) {
-  const PrepareGuidesSettings& settings = walr.guides;
-  const bool occludes = walr.filter == SpatialFilter::Blocks;
+void expectGuides(const DeviceFrame& f, const AnyWalr& walr) {
+  const PrepareGuidesSettings& settings = walr.guides();
+  const bool occludes = walr.blocks() != nullptr;
   const double shadingStep = occludes ? reference::kUnorm12Step : reference::kUnorm16Step;
   const double geometricStep = occludes ? 1.0 / reference::kShortNormalSteps : reference::kUnorm16Step;
   constexpr double kShadingError = 16.0 * reference::kFloatRoundoff;
@@ -52,7 +52,7 @@ void expectGuides(const DeviceFrame& f, const WalrSettings& walr) {
       // pixel at least.
       const double pixel = std::abs(double(f.frame.constants.rayFromPixel.x));
       comparison.value(p, "occlusion", actual.occlusion,
-                       reference::ambientOcclusion(f.frame, p, surface, walr.occlusion),
+                       reference::ambientOcclusion(f.frame, p, surface, walr.blocks()->occlusion),
                        0.5 * reference::kUnorm8Step + 16.0 * reference::kFloatRoundoff / pixel);
     }
     if (actual.normal == glm::dvec3(0.0)) return;  // These settings have no use for it.
@@ -64,22 +64,22 @@ void expectGuides(const DeviceFrame& f, const WalrSettings& walr) {
   comparison.expect(0.0);
 }
 
-void expectLightChange(const DeviceFrame& f, const Image<reference::Accumulated>& accumulated,
-                       const LightChangeSettings& settings) {
+void expectAntilag(const DeviceFrame& f, const Image<reference::Accumulated>& accumulated,
+                   const AntilagSettings& settings) {
   const Image<reference::TileChange> tiles = reference::changeByTiles(accumulated);
-  const Image<reference::Bounded> doubt = reference::doubtOf(f.current.changeTiles, settings);
-  ASSERT_EQ(f.current.changeTiles.size(), tiles.size());
-  Comparison comparison("change of light");
+  const Image<reference::Bounded> antilag = reference::antilagOf(f.current.antilagTiles, settings);
+  ASSERT_EQ(f.current.antilagTiles.size(), tiles.size());
+  Comparison comparison("antilag");
   reference::forEachPixel(tiles.size(), [&](glm::ivec2 t) {
-    comparison.value(t, "doubt", f.current.doubt[t], doubt[t].value, doubt[t].error);
+    comparison.value(t, "antilag", f.current.antilag[t], antilag[t].value, antilag[t].error);
     if (tiles[t].undecided) {
       comparison.undecided();
       return;
     }
     comparison.compared();
     const reference::TileChange& e = tiles[t];
-    comparison.value(t, "sum", f.current.changeTiles[t].x, e.sum.value, e.sum.error);
-    comparison.value(t, "sum of squares", f.current.changeTiles[t].y, e.squares.value, e.squares.error);
+    comparison.value(t, "sum", f.current.antilagTiles[t].x, e.sum.value, e.sum.error);
+    comparison.value(t, "sum of squares", f.current.antilagTiles[t].y, e.squares.value, e.squares.error);
   });
   // A tile is undecided where any of its 64 pixels is.
   comparison.expect(0.5);
@@ -101,7 +101,7 @@ using test::halfTolerance;
 
 void expectAccumulation(const DeviceFrame& f, const TemporalAccumulationSettings& settings, bool keepTaps) {
   const Image<reference::Accumulated> expected =
-      reference::accumulate(f.frame, f.current.guides, {f.previous.guides, f.previous.accumulated, f.previous.doubt},
+      reference::accumulate(f.frame, f.current.guides, {f.previous.guides, f.previous.accumulated, f.previous.antilag},
                             reference::Storage::Exact, settings, keepTaps);
   const bool packed = settings.storage == LightStorage::Packed;
   Comparison comparison("temporal accumulation");
@@ -120,7 +120,7 @@ void expectAccumulation(const DeviceFrame& f, const TemporalAccumulationSettings
     comparison.value(p, "samples", f.current.accumulated[p].w, e.samples, samplesTolerance);
   });
   comparison.expect(kUndecidedShare);
-  if (settings.change.respond) expectLightChange(f, expected, settings.change);
+  if (settings.antilag.enabled) expectAntilag(f, expected, settings.antilag);
 }
 
 /// What iteration `t` starts from on the device. Pixels without a surface have no moments, whatever lies in their
@@ -232,7 +232,7 @@ void expectAntialiasing(const DeviceFrame& f, const TemporalAntialiasingSettings
       comparison.value(p, kChannels[c], output[c], e.mean[c], tolerance[c]);
       comparison.value(p, kChannels[c], resolved[c], e.mean[c], kept[c]);
     }
-    const double longest = settings.maxSamples;
+    const double longest = settings.maxHistory;
     const double framesTolerance =
         packed ? reference::packedLengthStep(std::max(e.samples - e.samplesError, 1.0), longest) + e.samplesError
                : halfTolerance(e.samples, e.samplesError);
@@ -249,18 +249,18 @@ bool isFinite(const Image<glm::dvec4>& image) {
 
 }  // namespace
 
-void expectStages(const DeviceFrame& f, const WalrSettings& settings) {
+void expectStages(const DeviceFrame& f, const AnyWalr& settings) {
   expectGuides(f, settings);
-  const bool keepTaps = !f.frame.scene.still() && sharesReprojection(settings.antialiasing, settings.accumulation);
-  expectAccumulation(f, settings.accumulation, keepTaps);
-  if (settings.filter == SpatialFilter::Pixels) {
-    expectIterations(f, settings.regression);
-    expectRegression(f, settings.regression);
+  const bool keepTaps = !f.frame.scene.still() && sharesReprojection(settings.antialiasing(), settings.accumulation());
+  expectAccumulation(f, settings.accumulation(), keepTaps);
+  if (const WalrPaperSettings* pixels = settings.pixels()) {
+    expectIterations(f, pixels->regression);
+    expectRegression(f, pixels->regression);
   }
-  expectAntialiasing(f, settings.antialiasing, keepTaps);
+  expectAntialiasing(f, settings.antialiasing(), keepTaps);
 }
 
-void expectSequence(const fg::vk::Device& device, const std::vector<HostFrame>& frames, const WalrSettings& settings) {
+void expectSequence(const fg::vk::Device& device, const std::vector<HostFrame>& frames, const AnyWalr& settings) {
   WalrRun run(device, frames.front().size(), settings, frames.front().conventions, true, frames.front().scene);
   DeviceFrame f;
   for (const HostFrame& frame : frames) {

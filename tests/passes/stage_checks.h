@@ -21,10 +21,10 @@ struct DeviceFrame {
 /// Hold every stage of a frame, but the regression over blocks, against the double-precision reference. Each stage is
 /// given what the device's own stage before it left, so that a difference belongs to one stage and errors do not add
 /// up.
-void expectStages(const DeviceFrame& frame, const WalrSettings& settings);
+void expectStages(const DeviceFrame& frame, const AnyWalr& settings);
 
 /// Denoise frames in turn; every output must be finite, and the last frame's stages hold.
 void expectSequence(const fg::vk::Device& device, const std::vector<reference::HostFrame>& frames,
-                    const WalrSettings& settings);
+                    const AnyWalr& settings);
 
 }  // namespace walr::test

@@ -35,19 +35,19 @@ double halvesTolerance(double value) {
 /// halves make of it the filtered colour errs by a step. History is then clipped to a box in YCoCg about the mean of
 /// such colours, of their deviation or of the least size that there is, 2^-7 of the brightest channel; three half sizes
 /// move a channel.
-double constantTolerance(double value, const WalrSettings& settings) {
+double constantTolerance(double value, const AnyWalr& settings) {
   const double halves = halvesTolerance(value);
-  if (settings.filter == SpatialFilter::Pixels || settings.antialiasing.storage == LightStorage::Half) return halves;
+  if (!settings.packsAntialiasing()) return halves;
   const double brightest = std::max({kConstant.r, kConstant.g, kConstant.b});
   const double filtered =
       halves + reference::packedStep(brightest + halvesTolerance(brightest), reference::kFilteredBits);
-  const double historyShare = 1.0 - 1.0 / double(settings.antialiasing.maxSamples);
+  const double historyShare = 1.0 - 1.0 / double(settings.antialiasing().maxHistory);
   return filtered + historyShare * 3.0 * std::max(filtered, 0x1p-7 * brightest);
 }
 
 /// Blocks between halves alone, which keep constants more tightly.
 WalrSettings blocksInHalves() {
-  WalrSettings settings = blocksWalr();
+  WalrSettings settings;
   settings.accumulation.storage = settings.antialiasing.storage = LightStorage::Half;
   return settings;
 }
@@ -59,7 +59,7 @@ HostFrame constantFrame(const Scene& scene, std::uint32_t index, glm::ivec2 size
       Noise::None);
 }
 
-void expectConstant(const WalrStages& stages, const HostFrame& frame, const WalrSettings& settings) {
+void expectConstant(const WalrStages& stages, const HostFrame& frame, const AnyWalr& settings) {
   Comparison comparison("output");
   reference::forEachPixel(frame.size(), [&](glm::ivec2 p) {
     comparison.compared();
@@ -73,13 +73,13 @@ void expectConstant(const WalrStages& stages, const HostFrame& frame, const Walr
 
 class WalrBehaviourTest : public fg::test::GpuTest {
  protected:
-  [[nodiscard]] WalrRun makeRun(glm::ivec2 size, const WalrSettings& settings = robustWalr()) const {
+  [[nodiscard]] WalrRun makeRun(glm::ivec2 size, const AnyWalr& settings = robustWalr()) const {
     return {device(), size, settings, {}, false};
   }
 };
 
 TEST_F(WalrBehaviourTest, ConstantLightComesBackUnchanged) {
-  const auto expectUnchanged = [&](const Scene& scene, const WalrSettings& settings) {
+  const auto expectUnchanged = [&](const Scene& scene, const AnyWalr& settings) {
     WalrRun run = makeRun(kSmall, settings);
     for (std::uint32_t i = 0; i < 6; ++i) {
       const HostFrame frame = constantFrame(scene, i, kSmall);
@@ -89,7 +89,7 @@ TEST_F(WalrBehaviourTest, ConstantLightComesBackUnchanged) {
   for (const NamedScene& named : allScenes()) {
     SCOPED_TRACE(named.name);
     expectUnchanged(named.scene, robustWalr());
-    expectUnchanged(named.scene, blocksWalr());
+    expectUnchanged(named.scene, WalrSettings{});
     expectUnchanged(named.scene, blocksInHalves());
   }
   // Bicubic history, which the paper's preset reads without clipping, takes in the sky beside a surface: none here.
@@ -116,7 +116,7 @@ HostFrame frameThatPassesThrough(std::uint32_t index) {
 }
 
 TEST_F(WalrBehaviourTest, SkyAndPixelsWithoutDiffuseLobeKeepEveryBit) {
-  for (const WalrSettings& settings : {robustWalr(), blocksInHalves()}) {
+  for (const AnyWalr& settings : {AnyWalr(robustWalr()), AnyWalr(blocksInHalves())}) {
     WalrRun run = makeRun(kSize, settings);
     for (std::uint32_t i = 0; i < 3; ++i) {
       const HostFrame frame = frameThatPassesThrough(i);
@@ -131,7 +131,7 @@ TEST_F(WalrBehaviourTest, SkyAndPixelsWithoutDiffuseLobeKeepEveryBit) {
 
 // Packed, they are rounded to nearest, in every frame alike.
 TEST_F(WalrBehaviourTest, PackedSkyAndPixelsWithoutDiffuseLobeAreTrueAndDoNotFlicker) {
-  WalrRun run = makeRun(kSize, blocksWalr());
+  WalrRun run = makeRun(kSize, WalrSettings{});
   std::vector<std::uint16_t> firstBits;
   for (std::uint32_t i = 0; i < 4; ++i) {
     const HostFrame frame = frameThatPassesThrough(i);
@@ -152,10 +152,10 @@ TEST_F(WalrBehaviourTest, PackedSkyAndPixelsWithoutDiffuseLobeAreTrueAndDoNotFli
 }
 
 TEST_F(WalrBehaviourTest, TheSkysLightStaysInTheSky) {
-  for (WalrSettings settings : {robustWalr(), blocksWalr(), blocksInHalves()}) {
+  for (AnyWalr settings : {AnyWalr(robustWalr()), AnyWalr(WalrSettings{}), AnyWalr(blocksInHalves())}) {
     for (const bool spatialOnly : {false, true}) {
       SCOPED_TRACE(spatialOnly ? "single frame" : "with history");
-      settings.spatialOnly = spatialOnly;
+      settings.change([&](auto& s) { s.spatialOnly = spatialOnly; });
       WalrRun run = makeRun(kSmall, settings);
       HostFrame frame = constantFrame(skyBesideSurface(), 0, kSmall);
       for (std::size_t i = 0; i < frame.depth.pixels().size(); ++i)
@@ -198,7 +198,7 @@ TEST_F(WalrBehaviourTest, FirstFramesAreDenoisedSpatially) {
 }
 
 TEST_F(WalrBehaviourTest, TwoRunsGiveTheSameBits) {
-  for (const WalrSettings& settings : {robustWalr(), paperWalr(), blocksWalr()}) {
+  for (const AnyWalr& settings : {AnyWalr(robustWalr()), AnyWalr(paperWalr()), AnyWalr(WalrSettings{})}) {
     WalrRun first = makeRun(kSmall, settings);
     WalrRun second = makeRun(kSmall, settings);
     for (std::uint32_t i = 0; i < 4; ++i) {
@@ -242,10 +242,10 @@ std::vector<Damage> allDamage() {
 TEST_F(WalrBehaviourTest, BrokenInputStaysFiniteAndDoesNotSpread) {
   const glm::ivec2 broken(19, 13);
   // The paper's raw moments keep a constant on a flat wall only.
-  const std::pair<WalrSettings, Scene> cases[] = {{robustWalr(), bumpyWall(0.1)},
-                                                  {blocksWalr(), bumpyWall(0.1)},
-                                                  {blocksInHalves(), bumpyWall(0.1)},
-                                                  {paperWalr(), flatWall()}};
+  const std::pair<AnyWalr, Scene> cases[] = {{robustWalr(), bumpyWall(0.1)},
+                                             {WalrSettings{}, bumpyWall(0.1)},
+                                             {blocksInHalves(), bumpyWall(0.1)},
+                                             {paperWalr(), flatWall()}};
   for (const auto& [settings, scene] : cases) {
     for (const Damage& damage : allDamage()) {
       SCOPED_TRACE(damage.name);
@@ -267,12 +267,15 @@ TEST_F(WalrBehaviourTest, BrokenInputStaysFiniteAndDoesNotSpread) {
 // Whatever share of the first frame is no sample: the others' light is all that is seen. The share is drawn anew in
 // each channel, so that what counted as black in one would also show as a tint.
 TEST_F(WalrBehaviourTest, PixelsWithoutASampleDoNotDarken) {
-  WalrSettings raw11 = paperWalr();
+  WalrPaperSettings raw11 = paperWalr();
   raw11.regression.storage = MomentStorage::Raw11;
   raw11.regression.regularisation.ridge = 1e-2F;
   for (const double share : {0.1, 0.5}) {
-    for (const WalrSettings& settings : {robustWalr(), paperWalr(), raw11, blocksWalr(), blocksInHalves()}) {
-      SCOPED_TRACE(std::to_string(share) + ", storage " + std::to_string(int(settings.regression.storage)));
+    for (const AnyWalr& settings : {AnyWalr(robustWalr()), AnyWalr(paperWalr()), AnyWalr(raw11),
+                                    AnyWalr(WalrSettings{}), AnyWalr(blocksInHalves())}) {
+      const WalrPaperSettings* const pixels = settings.pixels();
+      SCOPED_TRACE(std::to_string(share) + ", " +
+                   (pixels ? "storage " + std::to_string(int(pixels->regression.storage)) : "blocks"));
       WalrRun run = makeRun(kSmall, settings);
       HostFrame frame = constantFrame(flatWall(), 0, kSmall);
       int without = 0;
@@ -285,7 +288,7 @@ TEST_F(WalrBehaviourTest, PixelsWithoutASampleDoNotDarken) {
       EXPECT_GT(without, int(0.8 * share * kSmall.x * kSmall.y));
       const WalrStages stages = run.frame(frame);
       const auto tolerance = [&](double value) {
-        const bool raw11 = settings.regression.storage == MomentStorage::Raw11;
+        const bool raw11 = pixels != nullptr && pixels->regression.storage == MomentStorage::Raw11;
         return raw11 ? 6.0 * reference::kFloat10Roundoff * value : constantTolerance(value, settings);
       };
       for (const glm::dvec4& v : stages.output.pixels())
@@ -295,7 +298,7 @@ TEST_F(WalrBehaviourTest, PixelsWithoutASampleDoNotDarken) {
 }
 
 TEST_F(WalrBehaviourTest, FirstFrameMayHoldNothingButBrokenValues) {
-  for (const WalrSettings& settings : {robustWalr(), blocksWalr()}) {
+  for (const AnyWalr& settings : {AnyWalr(robustWalr()), AnyWalr(WalrSettings{})}) {
     WalrRun run = makeRun(kSmall, settings);
     HostFrame frame = constantFrame(bumpyWall(0.1), 0, kSmall);
     for (glm::dvec3& l : frame.lighting.pixels()) l = glm::dvec3(std::numeric_limits<double>::quiet_NaN());
@@ -311,7 +314,7 @@ TEST_F(WalrBehaviourTest, FirstFrameMayHoldNothingButBrokenValues) {
 TEST_F(WalrBehaviourTest, BlocksSurviveTheHardCases) {
   for (const HardCase& hard : hardCases()) {
     SCOPED_TRACE(hard.name);
-    WalrRun run = makeRun(hard.frames.front().size(), blocksWalr());
+    WalrRun run = makeRun(hard.frames.front().size(), WalrSettings{});
     for (const HostFrame& frame : hard.frames) {
       const WalrStages stages = run.frame(frame);
       for (const glm::dvec4& v : stages.output.pixels()) {

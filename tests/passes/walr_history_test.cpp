@@ -54,7 +54,7 @@ class WalrHistoryTest : public fg::test::GpuTest {
  protected:
   /// Both presets, against double precision.
   void expectFrames(const std::vector<HostFrame>& frames) const {
-    for (const WalrSettings& settings : {robustWalr(), paperWalr()}) {
+    for (const WalrPaperSettings& settings : {robustWalr(), paperWalr()}) {
       SCOPED_TRACE(settings.regression.storage == MomentStorage::Centred16 ? "robust" : "paper");
       expectSequence(device(), frames, settings);
     }
@@ -95,40 +95,40 @@ TEST_F(WalrHistoryTest, StagesHoldWhenExposureChangesBy256) {
 }
 
 /// The settings that choose a shader of their own for the accumulation.
-std::vector<WalrSettings> responsiveSettings() {
-  WalrSettings plane = robustWalr();
-  plane.accumulation.change.respond = true;
-  WalrSettings depth = plane;
+std::vector<WalrPaperSettings> responsiveSettings() {
+  WalrPaperSettings plane = robustWalr();
+  plane.accumulation.antilag.enabled = true;
+  WalrPaperSettings depth = plane;
   depth.accumulation.rejection = depth.antialiasing.rejection = HistoryRejection::Depth;
   depth.accumulation.historyFilter = HistoryFilter::Bicubic;
-  WalrSettings none = plane;
+  WalrPaperSettings none = plane;
   none.accumulation.rejection = none.antialiasing.rejection = HistoryRejection::None;
-  WalrSettings apart = plane;
+  WalrPaperSettings apart = plane;
   apart.antialiasing.normalThreshold = 0.4F;  // Its own reprojection.
-  apart.accumulation.change.radius = 0;
+  apart.accumulation.antilag.radius = 0;
   return {plane, depth, none, apart};
 }
 
-/// Largest doubt in the history of the last frame but one, after the light has changed in it.
-double doubtAfterChange(const fg::vk::Device& device, const WalrSettings& settings, const SceneDescription& scene,
-                        double change) {
+/// Largest antilag factor in the history of the last frame but one, after the light has changed in it.
+double antilagAfterChange(const fg::vk::Device& device, const WalrPaperSettings& settings,
+                          const SceneDescription& scene, double change) {
   WalrRun run(device, kSize, settings, {}, true, scene);
   double largest = 0.0;
   for (std::uint32_t i = 0; i < 4; ++i) {
     HostFrame frame = renderStill(bumpyWall(0.1), kSize, i);
     if (i == 3) scaleLight(frame, change);
     const WalrStages stages = run.frame(frame);
-    if (i == 3) largest = *std::ranges::max_element(stages.doubt.pixels());
+    if (i == 3) largest = *std::ranges::max_element(stages.antilag.pixels());
   }
   return largest;
 }
 
 TEST_F(WalrHistoryTest, StagesHoldWhereLightChanges) {
-  for (const WalrSettings& settings : responsiveSettings()) {
+  for (const WalrPaperSettings& settings : responsiveSettings()) {
     SCOPED_TRACE("rejection " + std::to_string(int(settings.accumulation.rejection)) + ", radius " +
-                 std::to_string(settings.accumulation.change.radius));
+                 std::to_string(settings.accumulation.antilag.radius));
     for (const bool cameraAlone : {false, true}) {
-      // The light changes in the last frame but one, so that the last one finds doubt.
+      // The light changes in the last frame but one, so that antilag shortens history in the last one.
       std::vector<HostFrame> frames;
       for (std::uint32_t i = 0; i < 5; ++i) frames.push_back(movingFrame(bumpyWall(0.1), i, i - 1.0, i));
       for (std::size_t i = 3; i < 5; ++i) scaleLight(frames[i], 0.25);
@@ -145,16 +145,16 @@ TEST_F(WalrHistoryTest, StagesHoldWhereLightChanges) {
   }
 }
 
-TEST_F(WalrHistoryTest, DoubtFollowsTheLight) {
-  const WalrSettings settings = responsiveSettings().front();
+TEST_F(WalrHistoryTest, AntilagFollowsTheLight) {
+  const WalrPaperSettings settings = responsiveSettings().front();
   // A fall to a quarter is many standard errors of a window; the same light is less than a few.
-  EXPECT_EQ(doubtAfterChange(device(), settings, {}, 0.25), 1.0);
-  EXPECT_LT(doubtAfterChange(device(), settings, {}, 1.0), 0.5);
+  EXPECT_EQ(antilagAfterChange(device(), settings, {}, 0.25), 1.0);
+  EXPECT_LT(antilagAfterChange(device(), settings, {}, 1.0), 0.5);
 }
 
 TEST_F(WalrHistoryTest, StagesHoldWithMotionFromTheCameraAlone) {
   constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-  WalrSettings settings = robustWalr();
+  WalrPaperSettings settings = robustWalr();
   settings.antialiasing.normalThreshold = 0.4F;  // Its own reprojection, which no rounding of the motion precedes.
   for (const Scene& scene : {sphere(), stairs()}) {
     std::vector<HostFrame> frames;
@@ -183,7 +183,7 @@ TEST_F(WalrHistoryTest, StagesHoldInAStillPicture) {
 // frame would have been. The paper's anti-aliasing rejects nothing but what variance clipping takes away.
 TEST_F(WalrHistoryTest, AnUnannouncedCutLeavesNothingOfTheHistory) {
   for (const bool robust : {true, false}) {
-    const WalrSettings settings = robust ? robustWalr() : paperWalr();
+    const WalrPaperSettings settings = robust ? robustWalr() : paperWalr();
     WalrRun run(device(), kSize, settings);
     for (std::uint32_t i = 0; i < 3; ++i) (void)run.frame(renderStill(flatWall(), kSize, i));
     HostFrame after = renderStill(bumpyWall(0.1), kSize, 3);
@@ -217,13 +217,13 @@ TEST_F(WalrHistoryTest, ASkippedFrameCostsHistoryOnlyAtTheBorder) {
 // A still camera whose pixels are jittered sees the same plane at the same place once the jitter is taken off the
 // motion: no pixel ever loses its history, and constant light stays what it is.
 TEST_F(WalrHistoryTest, JitterCostsNoHistory) {
-  const WalrSettings settings = robustWalr();
+  const WalrPaperSettings settings = robustWalr();
   WalrRun run(device(), kSize, settings);
   for (std::uint32_t i = 1; i <= 20; ++i) {
     const HostFrame frame =
         renderFrame(flatWall(), jittered(cameraAt({}, {}, kSize, i), i), kSize, constantLight, Noise::None);
     const WalrStages stages = run.frame(frame);
-    const double expected = std::min(double(i), double(settings.accumulation.maxSamples));
+    const double expected = std::min(double(i), double(settings.accumulation.maxHistory));
     for (const glm::dvec4& v : stages.accumulated.pixels()) {
       EXPECT_NEAR(v.w, expected, 2.0 * reference::kHalfRoundoff * expected);
       // Each frame's store may round anew, and the mean carries that on for as many frames as it spans.
@@ -237,9 +237,9 @@ TEST_F(WalrHistoryTest, JitterCostsNoHistory) {
 // clipping, in a neighbourhood of one colour, leaves anti-aliasing no history further away than its least box: 4 / 2048
 // of the luma, and each colour is at most 4 times the smallest of its channels here.
 TEST_F(WalrHistoryTest, AStepOfExposureDecaysAsTheMeanDoes) {
-  WalrSettings settings = robustWalr();
-  settings.accumulation.maxSamples = 4.0F;
-  const double n = double(settings.accumulation.maxSamples);
+  WalrPaperSettings settings = robustWalr();
+  settings.accumulation.maxHistory = 4.0F;
+  const double n = double(settings.accumulation.maxHistory);
   WalrRun run(device(), kSize, settings);
   for (std::uint32_t i = 0; i < 16; ++i) {
     HostFrame frame = renderFrame(flatWall(), cameraAt({}, {}, kSize, i), kSize, constantLight, Noise::None);

@@ -29,7 +29,7 @@ TEST_F(WalrLongRunTest, TheMeanDoesNotDriftAndMemoryDoesNotGrow) {
     cycle.push_back(renderStill(flatWall(), kSize, i));
     for (const glm::dvec3& l : cycle.back().lighting.pixels()) inputMean += l;
   }
-  WalrSettings settings = robustWalr();
+  WalrPaperSettings settings = robustWalr();
   settings.regression.iterations = 1;
   WalrRun run(device(), kSize, settings);
   (void)run.frame(cycle.front());
@@ -43,12 +43,12 @@ TEST_F(WalrLongRunTest, TheMeanDoesNotDriftAndMemoryDoesNotGrow) {
     if (i + kCycle <= kFrames) continue;
     for (const glm::dvec4& v : stages.accumulated.pixels()) {
       accumulatedMean += glm::dvec3(v);
-      EXPECT_EQ(v.w, double(settings.accumulation.maxSamples));
+      EXPECT_EQ(v.w, double(settings.accumulation.maxHistory));
     }
   }
   EXPECT_EQ(run.allocatedBytes(), bytes);
   const double stores = double(kCycle) * kSize.x * kSize.y;
-  const double n = double(settings.accumulation.maxSamples);
+  const double n = double(settings.accumulation.maxHistory);
   const double deviation = n * 2.0 * reference::kHalfRoundoff / std::sqrt(12.0 * stores);
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(accumulatedMean[c] / inputMean[c], 1.0, 5.0 * deviation) << "channel " << c;
 }

@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "framegraph/compile/compile.h"
-#include "passes/walr.h"
 #include "shaders/constants/frame.h"
+#include "tests/passes/any_walr.h"
 
 namespace walr {
 namespace {
@@ -29,7 +29,7 @@ struct Planned {
   }
 };
 
-Planned planWalr(const WalrSettings& settings, const SceneDescription& scene = {}, fg::Extent extent = kFullHd) {
+Planned planWalr(const test::AnyWalr& settings, const SceneDescription& scene = {}, fg::Extent extent = kFullHd) {
   const fg::ExternalState state{VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT,
                                 VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
   const fg::TextureDesc colour{VK_FORMAT_R16G16B16A16_SFLOAT, extent};
@@ -44,7 +44,9 @@ Planned planWalr(const WalrSettings& settings, const SceneDescription& scene = {
   inputs.scene = scene;
   inputs.frame = graph.upload("frame constants", sizeof(FrameConstants));
   const fg::Texture output = graph.import("output", colour, state);
-  graph.exported(addWalr(graph, inputs, output, settings), state);
+  const fg::Texture denoised = settings.blocks() != nullptr ? addWalr(graph, inputs, output, *settings.blocks())
+                                                            : addWalrPaper(graph, inputs, output, *settings.pixels());
+  graph.exported(denoised, state);
   fg::CompileResult result = fg::compile(graph.desc(), fg::TableMemoryModel());
   EXPECT_TRUE(result.ok()) << result.text();
   planned.plan = std::move(result.plan);
@@ -53,7 +55,7 @@ Planned planWalr(const WalrSettings& settings, const SceneDescription& scene = {
 
 // The project's budgets for the paper's pipeline at 1080p, every texel of every access counted once a pass.
 TEST(WalrPlan, ThePaperMovesNoMoreThanItsBudget) {
-  WalrSettings settings = paperWalr();
+  WalrPaperSettings settings = paperWalr();
   EXPECT_LE(planWalr(settings).bytesPerPixel(), 350U);
   settings.regression.storage = MomentStorage::Raw11;
   EXPECT_LE(planWalr(settings).bytesPerPixel(), 280U);
@@ -61,7 +63,7 @@ TEST(WalrPlan, ThePaperMovesNoMoreThanItsBudget) {
 
 // The project's budget for the default at 1080p: histories, and transients that find no room in them.
 TEST(WalrPlan, TheDefaultNeedsNoMoreMemoryThanItsBudget) {
-  const fg::MemoryReport memory = planWalr(blocksWalr()).plan.memory;
+  const fg::MemoryReport memory = planWalr(WalrSettings{}).plan.memory;
   EXPECT_LE(memory.persistentBytes + memory.transientPeakBytes, 91'000'000U);
 }
 
@@ -70,7 +72,7 @@ TEST(WalrPlan, TheDefaultMovesAtMostHalfOfWhatThePaperMoves) {
   for (const fg::Extent extent :
        {fg::Extent{384, 216}, fg::Extent{480, 270}, fg::Extent{960, 540}, kFullHd, fg::Extent{3840, 2160}}) {
     const std::uint64_t paper = planWalr(paperWalr(), {}, extent).bytesPerPixel();
-    EXPECT_LE(2 * planWalr(blocksWalr(), {}, extent).bytesPerPixel(), paper) << extent.height;
+    EXPECT_LE(2 * planWalr(WalrSettings{}, {}, extent).bytesPerPixel(), paper) << extent.height;
   }
 }
 
@@ -82,11 +84,11 @@ TEST(WalrPlan, BlocksFitThePicture) {
       if (resource.name == "block normal") return std::get<fg::TextureDesc>(resource.desc).extent;
     return fg::Extent{};
   };
-  EXPECT_EQ(blocksOf(blocksWalr(), {192, 108}), (fg::Extent{48, 27}));
-  EXPECT_EQ(blocksOf(blocksWalr(), {384, 216}), (fg::Extent{77, 44}));
-  EXPECT_EQ(blocksOf(blocksWalr(), {480, 270}), (fg::Extent{80, 45}));
-  EXPECT_EQ(blocksOf(blocksWalr(), {640, 344}), (fg::Extent{80, 43}));
-  WalrSettings unfitted = blocksWalr();
+  EXPECT_EQ(blocksOf({}, {192, 108}), (fg::Extent{48, 27}));
+  EXPECT_EQ(blocksOf({}, {384, 216}), (fg::Extent{77, 44}));
+  EXPECT_EQ(blocksOf({}, {480, 270}), (fg::Extent{80, 45}));
+  EXPECT_EQ(blocksOf({}, {640, 344}), (fg::Extent{80, 43}));
+  WalrSettings unfitted;
   unfitted.fitWindow = false;
   EXPECT_EQ(blocksOf(unfitted, {384, 216}), (fg::Extent{48, 27}));
   unfitted.blocks.size = 3;
@@ -94,7 +96,7 @@ TEST(WalrPlan, BlocksFitThePicture) {
 }
 
 TEST(WalrPlan, TransientMemoryIsTheLeastThatItsScheduleAllows) {
-  for (const WalrSettings& settings : {robustWalr(), paperWalr()}) {
+  for (const WalrPaperSettings& settings : {robustWalr(), paperWalr()}) {
     const fg::Plan plan = planWalr(settings).plan;
     EXPECT_EQ(plan.memory.transientPeakBytes, plan.memory.transientLowerBoundBytes);
   }
@@ -107,7 +109,7 @@ TEST(WalrPlan, HoldsOnlyWhatItsSettingsRead) {
   const Planned paper = planWalr(paperWalr());
   EXPECT_FALSE(paper.uses("albedo"));
   EXPECT_FALSE(paper.uses("guides.geometric normal.current"));
-  WalrSettings host = robustWalr();
+  WalrPaperSettings host = robustWalr();
   host.antialiasing.enabled = false;
   const Planned withoutAntialiasing = planWalr(host);
   EXPECT_FALSE(withoutAntialiasing.uses("resolved.current"));
@@ -130,7 +132,7 @@ TEST(WalrPlan, HoldsOnlyWhatTheSceneNeeds) {
 }
 
 TEST(WalrPlan, IsOneFilterAloneWithoutTemporalStages) {
-  WalrSettings settings = robustWalr();
+  WalrPaperSettings settings = robustWalr();
   settings.spatialOnly = true;
   const Planned spatial = planWalr(settings);
   EXPECT_EQ(spatial.plan.memory.persistentBytes, 0U);

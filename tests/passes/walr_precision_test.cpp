@@ -16,7 +16,7 @@ class WalrPrecisionTest : public fg::test::GpuTest {
  protected:
   [[nodiscard]] double error(const LinearSignal& signal, MomentStorage storage, Regularisation method,
                              double epsilon) const {
-    WalrSettings settings = robustWalr();
+    WalrPaperSettings settings = robustWalr();
     settings.spatialOnly = true;
     settings.regression.storage = storage;
     settings.regression.keepSampleCount = storage == MomentStorage::Centred16;

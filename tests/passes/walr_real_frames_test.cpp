@@ -67,7 +67,7 @@ class WalrRealFramesTest : public fg::test::GpuTest {
     std::vector<HostFrame> frames;
     for (std::size_t i = 0; i < sequence.entries().size(); ++i)
       frames.push_back(cropOf(sequence.read(i), *sequence.layout().layout, origin));
-    for (const WalrSettings& settings : {robustWalr(), paperWalr()}) expectSequence(device(), frames, settings);
+    for (const WalrPaperSettings& settings : {robustWalr(), paperWalr()}) expectSequence(device(), frames, settings);
   }
 };
 

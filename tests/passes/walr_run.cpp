@@ -4,7 +4,7 @@
 #include <string>
 #include <utility>
 
-#include "shaders/constants/light_change.h"
+#include "shaders/constants/antilag.h"
 #include "tests/passes/texel_codec.h"
 
 namespace walr::test {
@@ -54,15 +54,14 @@ fg::Extent extentOf(glm::ivec2 size) {
 
 }  // namespace
 
-WalrRun::WalrRun(const fg::vk::Device& device, glm::ivec2 size, WalrSettings settings,
-                 const InputConventions& conventions, bool inspect, const SceneDescription& scene,
-                 const std::vector<std::string>& views)
+WalrRun::WalrRun(const fg::vk::Device& device, glm::ivec2 size, AnyWalr settings, const InputConventions& conventions,
+                 bool inspect, const SceneDescription& scene, const std::vector<std::string>& views)
     : size_(size),
       settings_(std::move(settings)),
       copyImage_(reinterpret_cast<PFN_vkCmdCopyImage>(
           device.context().instance.vkGetDeviceProcAddr(device.context().view.device, "vkCmdCopyImage"))),
       inspect_(inspect) {
-  settings_.fitWindow = false;
+  settings_.change([](auto& s) { s.fitWindow = false; });
   const fg::Extent extent = extentOf(size);
   const fg::TextureDesc halves{VK_FORMAT_R16G16B16A16_SFLOAT, extent};
   fg::Graph graph;
@@ -78,7 +77,9 @@ WalrRun::WalrRun(const fg::vk::Device& device, glm::ivec2 size, WalrSettings set
 
   for (const std::string& view : views)
     inspection_.want(view, graph.import("view of " + view, {kViewFormat, extent}, kOverwritable));
-  output_ = addWalr(graph, inputs_, output, settings_, &inspection_);
+  const StageGraph inspected(graph, inspection_);
+  output_ = settings_.blocks() != nullptr ? addWalr(inspected, inputs_, output, *settings_.blocks())
+                                          : addWalrPaper(inspected, inputs_, output, *settings_.pixels());
   inspection_.requireViews();
   for (const DebugView& view : inspection_.views()) graph.exported(view.texture, kReadable);
   graph.exported(output_, kReadable);
@@ -89,7 +90,8 @@ WalrRun::WalrRun(const fg::vk::Device& device, glm::ivec2 size, WalrSettings set
 void WalrRun::inspectStages(fg::Graph& graph) {
   constexpr std::array kMomentNames{"moments a ", "moments b ", "moments c ", "moments d "};
   depth_ = tap(graph, findGuide(graph, "guides.depth"));
-  if (settings_.filter == SpatialFilter::Pixels) {
+  const WalrPaperSettings* const pixels = settings_.pixels();
+  if (pixels != nullptr) {
     shadingNormal_ = tap(graph, textureNamed(graph, "guides.shading normal"));
   } else {
     features_ = tap(graph, textureNamed(graph, "guides.features"));
@@ -97,15 +99,14 @@ void WalrRun::inspectStages(fg::Graph& graph) {
   const fg::Texture geometricNormal = findGuide(graph, "guides.geometric normal");
   if (geometricNormal.valid()) geometricNormal_ = tap(graph, geometricNormal);
   accumulated_ = tap(graph, textureNamed(graph, "accumulated.current"));
-  if (settings_.accumulation.change.respond) {
-    changeTiles_ = tap(graph, textureNamed(graph, "light change.tiles"));
-    doubt_ = tap(graph, textureNamed(graph, "light change.doubt.current"));
+  if (settings_.accumulation().antilag.enabled) {
+    antilagTiles_ = tap(graph, textureNamed(graph, "antilag.tiles"));
+    antilag_ = tap(graph, textureNamed(graph, "antilag.factor.current"));
   }
-  const bool pixels = settings_.filter == SpatialFilter::Pixels;
-  for (std::uint32_t t = 0; pixels && t + 1 < settings_.regression.iterations; ++t) {
+  for (std::uint32_t t = 0; pixels != nullptr && t + 1 < pixels->regression.iterations; ++t) {
     const std::string number = std::to_string(t);
     Iteration iteration;
-    for (std::size_t i = 0; i < momentTextures(settings_.regression.storage); ++i)
+    for (std::size_t i = 0; i < momentTextures(pixels->regression.storage); ++i)
       iteration.moments.push_back(tap(graph, textureNamed(graph, kMomentNames.at(i) + number)));
     iteration.depth = tap(graph, textureNamed(graph, "depth and edges " + number));
     iterations_.push_back(iteration);
@@ -165,26 +166,25 @@ WalrStages WalrRun::frame(const reference::HostFrame& frame) {
                                 .features = wordsIfAny(features_),
                                 .geometricNormal = normalsIfAny(geometricNormal_)},
                                size_);
-  const bool blocks = settings_.filter == SpatialFilter::Blocks;
-  const bool packedMean = blocks && settings_.accumulation.storage == LightStorage::Packed;
-  const bool packedPictures = blocks && settings_.antialiasing.storage == LightStorage::Packed;
-  const double longest = settings_.antialiasing.maxSamples;
-  stages.accumulated = packedMean ? decodeAccumulated(words(accumulated_), size_) : halves(accumulated_);
-  if (doubt_.valid()) {
-    const glm::ivec2 tiles = (size_ + kLightChangeTile - 1) / kLightChangeTile;
-    const std::vector<float> sums = run_->texels<float>(changeTiles_);
-    const std::vector<float> doubt = run_->texels<float>(doubt_);
-    stages.changeTiles = reference::Image<glm::dvec2>(tiles);
-    stages.doubt = reference::Image<double>(tiles);
-    for (std::size_t i = 0; i < doubt.size(); ++i) {
-      stages.changeTiles.pixels()[i] = {sums[2 * i], sums[2 * i + 1]};
-      stages.doubt.pixels()[i] = doubt[i];
+  const bool packedPictures = settings_.packsAntialiasing();
+  const double longest = settings_.antialiasing().maxHistory;
+  stages.accumulated =
+      settings_.packsAccumulation() ? decodeAccumulated(words(accumulated_), size_) : halves(accumulated_);
+  if (antilag_.valid()) {
+    const glm::ivec2 tiles = (size_ + kAntilagTile - 1) / kAntilagTile;
+    const std::vector<float> sums = run_->texels<float>(antilagTiles_);
+    const std::vector<float> antilag = run_->texels<float>(antilag_);
+    stages.antilagTiles = reference::Image<glm::dvec2>(tiles);
+    stages.antilag = reference::Image<double>(tiles);
+    for (std::size_t i = 0; i < antilag.size(); ++i) {
+      stages.antilagTiles.pixels()[i] = {sums[2 * i], sums[2 * i + 1]};
+      stages.antilag.pixels()[i] = antilag[i];
     }
   }
   for (const Iteration& iteration : iterations_) {
     std::vector<std::vector<std::uint32_t>> textures;
     for (const fg::Texture& texture : iteration.moments) textures.push_back(words(texture));
-    reference::AtrousState state{decodeMoments(settings_.regression.storage, textures, size_),
+    reference::AtrousState state{decodeMoments(settings_.pixels()->regression.storage, textures, size_),
                                  reference::Image<int>(size_)};
     const std::vector<std::uint32_t> depth = words(iteration.depth);
     for (std::size_t i = 0; i < depth.size(); ++i) state.distances.pixels()[i] = decodeEdgeDistance(depth[i]);

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "framegraph/vulkan/device.h"
-#include "passes/walr.h"
+#include "tests/passes/any_walr.h"
 #include "tests/passes/reference/atrous.h"
 #include "tests/vulkan/graph_run.h"
 
@@ -16,8 +16,8 @@ namespace walr::test {
 struct WalrStages {
   reference::Image<reference::Guide> guides;
   reference::Image<glm::dvec4> accumulated;        ///< rgb: mean; a: number of samples.
-  reference::Image<glm::dvec2> changeTiles;        ///< Of light that changes: sum, sum of squares; empty without.
-  reference::Image<double> doubt;                  ///< The same: in history, by tiles.
+  reference::Image<glm::dvec2> antilagTiles;       ///< Of light that changes: sum, sum of squares; empty without.
+  reference::Image<double> antilag;                ///< The same: in history, by tiles.
   std::vector<reference::AtrousState> iterations;  ///< After each iteration but the last; over pixels.
   reference::Image<glm::dvec4> filtered;
   reference::Image<glm::dvec4> resolved;  ///< rgb: mean; a: number of frames.
@@ -32,7 +32,7 @@ class WalrRun {
   /// @param settings as they are, however small the picture: `fitWindow` is taken for off
   /// @param inspect read back every stage, not only the output
   /// @param views   views of the filter to read back
-  WalrRun(const fg::vk::Device& device, glm::ivec2 size, WalrSettings settings = robustWalr(),
+  WalrRun(const fg::vk::Device& device, glm::ivec2 size, AnyWalr settings = robustWalr(),
           const InputConventions& conventions = {}, bool inspect = true, const SceneDescription& scene = {},
           const std::vector<std::string>& views = {});
 
@@ -54,11 +54,11 @@ class WalrRun {
   fg::Texture tap(fg::Graph& graph, fg::Texture texture);
 
   glm::ivec2 size_;
-  WalrSettings settings_;
+  AnyWalr settings_;
   PFN_vkCmdCopyImage copyImage_;
   DenoiserInputs inputs_;
   bool inspect_;
-  fg::Texture depth_, shadingNormal_, features_, geometricNormal_, accumulated_, changeTiles_, doubt_, filtered_,
+  fg::Texture depth_, shadingNormal_, features_, geometricNormal_, accumulated_, antilagTiles_, antilag_, filtered_,
       resolved_, output_;
   std::vector<Iteration> iterations_;
   Inspection inspection_;

@@ -26,16 +26,16 @@ std::vector<HostFrame> movingFrames(const Scene& scene, glm::ivec2 size) {
 /// The presets, and the paper's with its other storages at the epsilon that suits each.
 struct NamedSettings {
   const char* name;
-  WalrSettings settings;
+  WalrPaperSettings settings;
 };
 std::vector<NamedSettings> allSettings() {
-  WalrSettings raw11 = paperWalr();
+  WalrPaperSettings raw11 = paperWalr();
   raw11.regression.storage = MomentStorage::Raw11;
   raw11.regression.regularisation.ridge = 1e-2F;
-  WalrSettings raw32 = paperWalr();
+  WalrPaperSettings raw32 = paperWalr();
   raw32.regression.storage = MomentStorage::Raw32;
   raw32.regression.regularisation.ridge = 1e-5F;
-  WalrSettings centredWithFloor = robustWalr();
+  WalrPaperSettings centredWithFloor = robustWalr();
   centredWithFloor.regression.regularisation.method = Regularisation::Floor;
   centredWithFloor.regression.regularisation.ridge = 1e-4F;
   return {{"robust", robustWalr()},
@@ -48,7 +48,7 @@ std::vector<NamedSettings> allSettings() {
 class WalrStagesTest : public fg::test::GpuTest {};
 
 TEST_F(WalrStagesTest, HoldOnEveryScene) {
-  for (const WalrSettings& settings : {robustWalr(), paperWalr()}) {
+  for (const WalrPaperSettings& settings : {robustWalr(), paperWalr()}) {
     SCOPED_TRACE(settings.regression.storage == MomentStorage::Centred16 ? "robust" : "paper");
     for (const NamedScene& named : allScenes()) {
       SCOPED_TRACE(named.name);
@@ -68,18 +68,18 @@ TEST_F(WalrStagesTest, HoldForEveryStorageOnHardCases) {
 }
 
 TEST_F(WalrStagesTest, HoldWithoutTracingReplacementOrSampleCounts) {
-  WalrSettings plain = robustWalr();
+  WalrPaperSettings plain = robustWalr();
   plain.regression.traceEdges = false;
   plain.regression.replaceTaps = TapReplacement::Off;
   plain.regression.keepSampleCount = false;
   plain.regression.sdfFraction = 0.0F;
   plain.regression.iterations = 3;
   plain.antialiasing.clipRadius = 2;
-  WalrSettings short1 = robustWalr();
+  WalrPaperSettings short1 = robustWalr();
   short1.regression.iterations = 1;
   short1.accumulation.historyFilter = HistoryFilter::Bicubic;
   short1.regression.edgeStopping.planeNormal = PlaneNormal::Shading;
-  for (const WalrSettings& settings : {plain, short1}) {
+  for (const WalrPaperSettings& settings : {plain, short1}) {
     expectSequence(device(), movingFrames(thinBars(), {96, 64}), settings);
     expectSequence(device(), movingFrames(stairs(), {96, 64}), settings);
   }
@@ -92,7 +92,7 @@ TEST_F(WalrStagesTest, HoldForEveryReplacementWithAndWithoutDistances) {
         SCOPED_TRACE("replacement " + std::to_string(int(replacement)) +
                      (repeatCentre ? ", repeating the centre" : "") + ", distances times " +
                      std::to_string(sdfFraction));
-        WalrSettings settings = robustWalr();
+        WalrPaperSettings settings = robustWalr();
         settings.regression.replaceTaps = replacement;
         settings.regression.repeatCentre = repeatCentre;
         settings.regression.edgeLeak = repeatCentre ? 0.0F : 0.3F;
@@ -119,7 +119,7 @@ TEST_F(WalrStagesTest, HoldForEveryStorageBesideALitSky) {
 TEST_F(WalrStagesTest, HoldForEveryNumberOfIterations) {
   for (const std::uint32_t iterations : {1U, 2U, 3U, 4U, 5U}) {
     SCOPED_TRACE(std::to_string(iterations) + " iterations");
-    for (WalrSettings settings : {robustWalr(), paperWalr()}) {
+    for (WalrPaperSettings settings : {robustWalr(), paperWalr()}) {
       settings.regression.iterations = iterations;
       expectSequence(device(), movingFrames(stairs(), {64, 48}), settings);
     }
@@ -161,12 +161,12 @@ double toneMappedRmse(const reference::Image<glm::dvec4>& actual, const referenc
 // which leaves out the pixels where rounding decides between a bar and the wall behind.
 TEST_F(WalrStagesTest, WholePipelineStaysNearDoublePrecision) {
   constexpr double kBudget = 2e-4 + 0.25 * 2.0 * reference::kHalfRoundoff;
-  WalrSettings responsive = robustWalr();
-  responsive.accumulation.change.respond = true;
+  WalrPaperSettings responsive = robustWalr();
+  responsive.accumulation.antilag.enabled = true;
   for (const NamedScene& named : allScenes()) {
     if (named.name == std::string_view("thin bars")) continue;
-    for (const WalrSettings& settings : {robustWalr(), responsive}) {
-      SCOPED_TRACE(std::string(named.name) + (settings.accumulation.change.respond ? ", responsive" : ""));
+    for (const WalrPaperSettings& settings : {robustWalr(), responsive}) {
+      SCOPED_TRACE(std::string(named.name) + (settings.accumulation.antilag.enabled ? ", responsive" : ""));
       WalrRun run(device(), {64, 48}, settings);
       reference::Walr exact(reference::Storage::Exact, settings);
       for (std::uint32_t i = 0; i < 4; ++i) {

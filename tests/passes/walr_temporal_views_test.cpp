@@ -30,22 +30,22 @@ HostFrame movingFrame(const Scene& scene, std::uint32_t i) {
 /// The settings that choose a shader of their own.
 struct NamedSettings {
   const char* name;
-  WalrSettings settings;
+  AnyWalr settings;
   SceneDescription scene;
 };
 std::vector<NamedSettings> allSettings() {
-  WalrSettings apart = robustWalr();
+  WalrPaperSettings apart = robustWalr();
   apart.antialiasing.normalThreshold = 0.4F;  // Its own reprojection.
-  WalrSettings byDepth = apart;
+  WalrPaperSettings byDepth = apart;
   byDepth.accumulation.rejection = HistoryRejection::Depth;
   byDepth.antialiasing.rejection = HistoryRejection::Depth;
-  WalrSettings packedApart = blocksWalr();
+  WalrSettings packedApart;
   packedApart.antialiasing.normalThreshold = 0.4F;
   const SceneDescription camera{.objectMotion = false};
   return {{"robust", robustWalr(), {}},     {"paper", paperWalr(), {}},
           {"two reprojections", apart, {}}, {"camera alone", apart, camera},
           {"by depth", byDepth, {}},        {"by depth, camera alone", byDepth, camera},
-          {"packed", blocksWalr(), {}},     {"packed, two reprojections", packedApart, {}}};
+          {"packed", WalrSettings{}, {}},   {"packed, two reprojections", packedApart, {}}};
 }
 
 /// What a stage sees of its history at a pixel.
@@ -72,17 +72,16 @@ Past pastOf(const DeviceFrame& f, const Image<glm::dvec4>& before, glm::ivec2 p,
   return past;
 }
 
-void expectHistory(Comparison& comparison, const DeviceFrame& f, glm::ivec2 p, const WalrSettings& settings,
-                   bool keepTaps) {
+void expectHistory(Comparison& comparison, const DeviceFrame& f, glm::ivec2 p, const AnyWalr& settings, bool keepTaps) {
   const glm::dvec3 view = f.current.views.at("history")[p];
   const Past past =
-      pastOf(f, f.previous.accumulated, p, settings.accumulation, settings.accumulation.historyFilter, keepTaps);
+      pastOf(f, f.previous.accumulated, p, settings.accumulation(), settings.accumulation().historyFilter, keepTaps);
   if (past.undecided) {
     comparison.undecided();
     return;
   }
   comparison.compared();
-  const bool packed = settings.filter == SpatialFilter::Blocks;
+  const bool packed = settings.packsAccumulation();
   comparison.value(p, "history length", f.current.accumulated[p].w, view.x,
                    packed ? reference::packedCountStep(view.x) : halfTolerance(view.x, 0.0));
   comparison.value(p, "rejected", view.y, past.rejected, 0.0);
@@ -90,20 +89,20 @@ void expectHistory(Comparison& comparison, const DeviceFrame& f, glm::ivec2 p, c
 }
 
 /// Of the mean of n frames, n - 1 are the clipped history: what the output says of it is what the view says.
-void expectClipping(Comparison& comparison, const DeviceFrame& f, glm::ivec2 p, const WalrSettings& settings,
+void expectClipping(Comparison& comparison, const DeviceFrame& f, glm::ivec2 p, const AnyWalr& settings,
                     bool keepTaps) {
   const glm::dvec3 clip = f.current.views.at("clip")[p];
   const glm::dvec3 resolved = f.current.views.at("resolved-history")[p];
-  const Past past = pastOf(f, f.previous.resolved, p, settings.antialiasing, HistoryFilter::Bicubic, keepTaps);
+  const Past past = pastOf(f, f.previous.resolved, p, settings.antialiasing(), HistoryFilter::Bicubic, keepTaps);
   if (past.undecided || past.history.found != (resolved.z == 0.0)) {
     comparison.undecided();
     return;
   }
   comparison.compared();
-  const bool packed = settings.filter == SpatialFilter::Blocks;
+  const bool packed = settings.packsAntialiasing();
   const double n = resolved.x;
   comparison.value(p, "frames", f.current.resolved[p].w, n,
-                   packed ? reference::packedLengthStep(n, settings.antialiasing.maxSamples) : halfTolerance(n, 0.0));
+                   packed ? reference::packedLengthStep(n, settings.antialiasing().maxHistory) : halfTolerance(n, 0.0));
   comparison.value(p, "rejected after the filter", resolved.y, past.rejected, 0.0);
   const bool clipped = clip.z == 1.0;
   comparison.value(p, "clipped or not", clip.x > 0.0 ? 1.0 : 0.0, clip.z, 0.0);
@@ -135,7 +134,7 @@ TEST_F(WalrTemporalViewsTest, ShowHistoryAndClipping) {
     for (const Scene& scene : {thinBars(), skyBesideSurface()}) {
       SCOPED_TRACE(named.name);
       WalrRun run(device(), kSize, named.settings, {}, true, named.scene, {"history", "clip", "resolved-history"});
-      const bool keepTaps = sharesReprojection(named.settings.antialiasing, named.settings.accumulation);
+      const bool keepTaps = sharesReprojection(named.settings.antialiasing(), named.settings.accumulation());
       DeviceFrame f;
       for (std::uint32_t i = 0; i < 3; ++i) {
         f.previous = std::move(f.current);
@@ -174,11 +173,11 @@ TEST_F(WalrTemporalViewsTest, AStillPictureLosesNoHistory) {
   }
 }
 
-TEST_F(WalrTemporalViewsTest, ShowWhereHistoryIsDoubted) {
+TEST_F(WalrTemporalViewsTest, ShowWhereHistoryIsShortened) {
   constexpr std::uint32_t kChange = 4;
-  WalrSettings settings = robustWalr();
-  settings.accumulation.change.respond = true;
-  WalrRun run(device(), kSize, settings, {}, true, {}, {"light-change", "history"});
+  WalrPaperSettings settings = robustWalr();
+  settings.accumulation.antilag.enabled = true;
+  WalrRun run(device(), kSize, settings, {}, true, {}, {"antilag", "history"});
   WalrStages stages;
   Image<glm::dvec4> before;
   for (std::uint32_t i = 0; i <= kChange + 1; ++i) {
@@ -188,10 +187,10 @@ TEST_F(WalrTemporalViewsTest, ShowWhereHistoryIsDoubted) {
     before = stages.accumulated;
     stages = run.frame(frame);
   }
-  const double most = settings.accumulation.maxSamples;
+  const double most = settings.accumulation.maxHistory;
   int shortened = 0;
   reference::forEachPixel(kSize, [&](glm::ivec2 p) {
-    const glm::dvec3 view = stages.views.at("light-change")[p];
+    const glm::dvec3 view = stages.views.at("antilag")[p];
     EXPECT_NEAR(view.y, most + (1.0 - most) * view.x, 4.0 * reference::kFloatRoundoff * most);
     EXPECT_EQ(view.z, before[p].w > view.y ? 1.0 : 0.0);
     const double samples = std::min(before[p].w, view.y) + 1.0;

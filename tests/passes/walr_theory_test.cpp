@@ -32,8 +32,8 @@ constexpr Storage kStorages[] = {{"centred16", MomentStorage::Centred16, 2.0 * r
                                  {"raw11", MomentStorage::Raw11, reference::kFloat10Roundoff},
                                  {"raw32", MomentStorage::Raw32, reference::kFloatRoundoff}};
 
-WalrSettings settingsOf(const Storage& storage) {
-  WalrSettings settings = robustWalr();
+WalrPaperSettings settingsOf(const Storage& storage) {
+  WalrPaperSettings settings = robustWalr();
   settings.regression.storage = storage.storage;
   settings.regression.keepSampleCount = storage.storage == MomentStorage::Centred16;
   return settings;
@@ -63,7 +63,7 @@ TEST_F(WalrTheoryTest, FourIterationsTouchEachSampleOfTheWindowOnce) {
   frame.lighting[kCentre] = impulse;
   for (const Storage& storage : kStorages) {
     SCOPED_TRACE(storage.name);
-    WalrSettings settings = settingsOf(storage);
+    WalrPaperSettings settings = settingsOf(storage);
     settings.spatialOnly = true;
     settings.regression.replaceTaps = TapReplacement::Off;
     WalrRun run(device(), kSize, settings, {}, false, {}, {"samples"});
@@ -105,7 +105,7 @@ TEST_F(WalrTheoryTest, ASignalLinearInTheFeaturesComesBack) {
   for (const Storage& storage : kStorages) {
     if (storage.storage != MomentStorage::Centred16 && storage.storage != MomentStorage::Raw32) continue;
     SCOPED_TRACE(storage.name);
-    WalrSettings settings = settingsOf(storage);
+    WalrPaperSettings settings = settingsOf(storage);
     settings.spatialOnly = true;
     settings.regression.iterations = 3;
     settings.regression.regularisation.ridge = static_cast<float>(kRidge);
@@ -126,7 +126,7 @@ TEST_F(WalrTheoryTest, ASignalLinearInTheFeaturesComesBack) {
 TEST_F(WalrTheoryTest, OutputFollowsFlipsAndTransposition) {
   constexpr double kBudget = 2e-4 + 0.25 * 2.0 * reference::kHalfRoundoff;
   constexpr glm::ivec2 kSize(64, 48);
-  WalrSettings settings = robustWalr();
+  WalrPaperSettings settings = robustWalr();
   settings.regression.replaceTaps = TapReplacement::Off;
   for (const Symmetry& symmetry : {Symmetry{"flip x", true, false, false}, Symmetry{"flip y", false, true, false},
                                    Symmetry{"transpose", false, false, true}}) {
@@ -159,7 +159,7 @@ TEST_F(WalrTheoryTest, OutputFollowsFlipsAndTransposition) {
 // Powers of two change exponents only, as long as no covariance leaves the normal range of halves.
 TEST_F(WalrTheoryTest, ScalingRadianceByAPowerOfTwoScalesTheOutputExactly) {
   constexpr glm::ivec2 kSize(48, 36);
-  for (const WalrSettings& settings : {robustWalr(), paperWalr()}) {
+  for (const WalrPaperSettings& settings : {robustWalr(), paperWalr()}) {
     SCOPED_TRACE(settings.regression.storage == MomentStorage::Centred16 ? "robust" : "paper");
     for (const double scale : {0x1p3, 0x1p5}) {
       WalrRun plain(device(), kSize, settings, {}, false);

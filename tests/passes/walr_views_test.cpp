@@ -20,7 +20,7 @@ constexpr glm::ivec2 kSize(48, 36);
 /// First and last iteration, and one between.
 constexpr std::uint32_t kIterations = 3;
 
-WalrSettings withIterations(WalrSettings settings) {
+WalrPaperSettings withIterations(WalrPaperSettings settings) {
   settings.regression.iterations = kIterations;
   return settings;
 }
@@ -114,8 +114,8 @@ void expectFit(Comparison& comparison, const PixelViews& view, const WalrStages&
 class WalrViewsTest : public fg::test::GpuTest {};
 
 TEST_F(WalrViewsTest, ShowWhatHappensInEveryIteration) {
-  for (const WalrSettings& preset : {robustWalr(), paperWalr()}) {
-    const WalrSettings settings = withIterations(preset);
+  for (const WalrPaperSettings& preset : {robustWalr(), paperWalr()}) {
+    const WalrPaperSettings settings = withIterations(preset);
     SCOPED_TRACE(settings.regression.storage == MomentStorage::Centred16 ? "robust" : "paper");
     const HostFrame frame = someFrame();
     WalrRun run(device(), kSize, settings, {}, true, {}, allViews());
@@ -149,7 +149,7 @@ TEST_F(WalrViewsTest, ShowWhatHappensInEveryIteration) {
 
 TEST_F(WalrViewsTest, ChangeNothing) {
   const HostFrame frame = someFrame();
-  for (const WalrSettings& settings : {robustWalr(), paperWalr()}) {
+  for (const WalrPaperSettings& settings : {robustWalr(), paperWalr()}) {
     WalrRun plain(device(), kSize, settings, {}, false);
     WalrRun viewed(device(), kSize, settings, {}, false, {}, {"edges", "slope-u.1"});
     EXPECT_EQ(plain.frame(frame).outputBits, viewed.frame(frame).outputBits);

@@ -80,7 +80,8 @@ constexpr double kPackedRoundoff = 0x1p-6 + 0x1p-8;
 
 TEST(MethodHardCases, NothingComesOutWorseThanItWentIn) {
   GpuDevice device({.device = {}, .validation = true});
-  const std::vector<Variant> variants = parseMethods("none,walr,walr:robust,bmfr,svgf,svgf:paper,flr,joint_bilateral");
+  const std::vector<Variant> variants =
+      parseMethods("none,walr,walr_paper:robust,bmfr,svgf,svgf:paper,flr,joint_bilateral");
   const std::vector<MethodHardCase> results = methodHardCases(device, variants);
   ASSERT_EQ(results.size(), variants.size() * hardCases().size());
   for (std::size_t i = 0; i < results.size(); ++i) {

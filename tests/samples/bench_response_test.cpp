@@ -107,9 +107,9 @@ TEST(ResponseScene, ACutShowsAnotherPlaceAndSaysSoIfAsked) {
 TEST(ResponseTest, OfMethodsWithAKnownAnswer) {
   GpuDevice device({.device = {}, .validation = true});
   const std::vector<Variant> variants = {parseVariant("none=none"),
-                                         parseVariant("mean=accumulate,accumulation.max-samples=8"),
-                                         parseVariant("alert=accumulate,accumulation.max-samples=8,"
-                                                      "accumulation.respond-to-change=on")};
+                                         parseVariant("mean=accumulate,accumulation.max-history=8"),
+                                         parseVariant("alert=accumulate,accumulation.max-history=8,"
+                                                      "accumulation.antilag=on")};
   const std::vector<Response> found = responses(device, variants);
   ASSERT_EQ(found.size(), 3U);
   // Without a memory nothing is left of the light, and every age has the same error; five deviations of the mean noise.

@@ -101,12 +101,12 @@ TEST(Variants, AllHoldEveryMethodWithEveryPreset) {
   std::set<std::string> names;
   for (const Variant& variant : allMethods()) names.insert(variant.name);
   for (const std::string& method : denoiserNames()) EXPECT_TRUE(names.contains(method)) << method;
-  EXPECT_TRUE(names.contains("walr:paper"));
+  EXPECT_TRUE(names.contains("walr_paper:robust"));
   EXPECT_EQ(parseMethods("all"), allMethods());
 }
 
 TEST(Variants, TakeSettingsUnderAName) {
-  const Variant variant = parseVariant("mine=walr:paper,regression.iterations=3,accumulation.max-samples=8");
+  const Variant variant = parseVariant("mine=walr_paper:paper,regression.iterations=3,accumulation.max-history=8");
   EXPECT_EQ(variant.name, "mine");
   EXPECT_EQ(variant.preset, "paper");
   const auto settings = makeVariant(variant)->settings();
@@ -181,14 +181,14 @@ TEST(PlanCostsTest, TapsAreTheWindowsOfTheStages) {
   EXPECT_EQ(taps("bmfr"), 5.0 + 1.0 + 5.0 + kAntialiasing);
   // An iteration of WALR is 3 x 3 taps (Meunier & Harada 2022, 3.2).
   const auto walr = [](const char* iterations) {
-    const std::string text = std::string("w=walr:robust,walr.fit-window=off,regression.iterations=") + iterations;
+    const std::string text =
+        std::string("w=walr_paper:robust,walr_paper.fit-window=off,regression.iterations=") + iterations;
     return *planCosts(parseVariant(text), {320, 180}, {}).tapsPerPixel;
   };
   EXPECT_EQ(walr("4") - walr("2"), 18.0);
   // Over blocks of 4 x 4 pixels an iteration is a sixteenth of that.
   const auto blocks = [](const char* iterations) {
-    const std::string text =
-        std::string("w=walr:blocks,blocks.size=4,walr.fit-window=off,blocks.iterations=") + iterations;
+    const std::string text = std::string("w=walr,blocks.size=4,walr.fit-window=off,blocks.iterations=") + iterations;
     return *planCosts(parseVariant(text), {320, 180}, {}).tapsPerPixel;
   };
   EXPECT_EQ(blocks("4") - blocks("2"), 18.0 / 16.0);
@@ -203,7 +203,7 @@ TEST(PlanCostsTest, SharedMemoryIsNoLargerThanUnshared) {
 
 RunRecord someRecord() {
   RunRecord record;
-  record.variant = "walr:paper";
+  record.variant = "walr_paper:robust";
   record.frames.resize(2);
   record.frames[1].frame = 7;
   record.frames[1].flip = 0.125;
@@ -217,9 +217,9 @@ RunRecord someRecord() {
 TEST(RunStoreTest, GivesBackWhatWasSaved) {
   const TemporaryDirectory directory;
   const RunStore store(directory.path() / "runs");
-  EXPECT_FALSE(store.find("fence", "walr:paper", "key").has_value());
+  EXPECT_FALSE(store.find("fence", "walr_paper:robust", "key").has_value());
   store.save("fence", someRecord(), "key");
-  const auto found = store.find("fence", "walr:paper", "key");
+  const auto found = store.find("fence", "walr_paper:robust", "key");
   ASSERT_TRUE(found.has_value());
   EXPECT_EQ(toJson(*found), toJson(someRecord()));
   EXPECT_FALSE(found->timing.ratio.has_value());
@@ -229,13 +229,13 @@ TEST(RunStoreTest, TakesNothingThatWasMadeFromSomethingElseOrIsDamaged) {
   const TemporaryDirectory directory;
   const RunStore store(directory.path());
   store.save("fence", someRecord(), "key");
-  EXPECT_FALSE(store.find("fence", "walr:paper", "other key").has_value());
-  const std::filesystem::path file = directory.path() / "fence" / "walr:paper.json";
+  EXPECT_FALSE(store.find("fence", "walr_paper:robust", "other key").has_value());
+  const std::filesystem::path file = directory.path() / "fence" / "walr_paper:robust.json";
   const std::string text = test::readText(file);
   test::writeText(file, text.substr(0, text.size() / 2));
-  EXPECT_FALSE(store.find("fence", "walr:paper", "key").has_value());
+  EXPECT_FALSE(store.find("fence", "walr_paper:robust", "key").has_value());
   test::writeText(file, R"({"key": "key", "run": {}})");
-  EXPECT_FALSE(store.find("fence", "walr:paper", "key").has_value());
+  EXPECT_FALSE(store.find("fence", "walr_paper:robust", "key").has_value());
 }
 
 class BenchFrameTest : public testing::Test {

@@ -505,10 +505,12 @@ TEST_F(SessionTest, OnlyWhatChangesTheGraphAsksForAnother) {
 
 TEST_F(SessionTest, TellsThePresetInUse) {
   Session session = make({0, 9}, false);
-  EXPECT_EQ(session.preset(), "blocks");
-  session.choosePreset("paper");
+  EXPECT_EQ(session.preset(), std::nullopt);
+  session.chooseMethod("walr_paper");
   EXPECT_EQ(session.preset(), "paper");
-  session.method().set("accumulation.max-samples", "5");
+  session.choosePreset("robust");
+  EXPECT_EQ(session.preset(), "robust");
+  session.method().set("accumulation.max-history", "5");
   session.settingsChanged();
   EXPECT_EQ(session.preset(), std::nullopt);
   session.chooseMethod("svgf");

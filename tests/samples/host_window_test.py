@@ -247,16 +247,18 @@ def methods(host, screen):
         for index, name in [*enumerate(names)][1:] + [(0, names[0])]:
             window.choose_method(index, len(names))
             expect(f"method {name}", "--method", name)
-        presets = host.known("--preset")
+        paper = "walr_paper"
+        window.choose_method(names.index(paper), len(names))
+        presets = host.known("--preset", "--method", paper)
         for index, name in [*enumerate(presets)][1:]:
             window.choose_preset(index, len(presets))
-            expect(f"preset {name}", "--preset", name)
+            expect(f"preset {name}", "--method", paper, "--preset", name)
         write_png(host.screenshot, screen.rows())
 
 
 def views(host, screen):
     """Every view can be chosen, and of the textures the first, the last and some between."""
-    preset = ("--preset", "robust")  # Its list of textures needs no scrolling.
+    preset = ("--method", "walr_paper", "--preset", "robust")  # Its list of textures needs no scrolling.
     with host.window(screen, "0-3", *preset) as window:
         window.choose_view("texture")
         textures = host.known("--view", *preset)

@@ -104,7 +104,9 @@ TEST_F(ProgramTest, AWrongCommandLineIsAUsageError) {
   expectFailure(denoise({"--set", "nothing"}), kUsage, {"NAME=VALUE"});
   expectFailure(walr({"denoise", input, "--output", input}), kUsage, {"input folder"});
   expectFailure(denoise({"--preset", "fancy"}), kUsage, {"--preset fancy"});
-  expectFailure(denoise({"--view", "hedges", "--preset", "robust"}), kUsage, {"--view hedges", "edges: ", "slope-u: "});
+  expectFailure(denoise({"--preset", "paper"}), kUsage, {"--preset paper", "walr_paper"});
+  expectFailure(denoise({"--view", "hedges", "--method", "walr_paper"}), kUsage,
+                {"--view hedges", "edges: ", "slope-u: "});
   expectFailure(denoise({"--view", "slope-u"}), kUsage, {"--view slope-u", "with these settings", "slope-occlusion: "});
   expectFailure(denoise({"--view", "edges", "--method", "flr"}), kUsage, {"--view edges", "flr has no", "history: "});
   expectFailure(denoise({"--view", "history", "--method", "none"}), kUsage, {"--view history", "none has no views"});
@@ -136,7 +138,7 @@ TEST_F(ProgramTest, DenoisesAndMeasures) {
 // At this height the window is that of one iteration, 3x3 samples at most.
 TEST_F(ProgramTest, WritesViewsBesideTheResult) {
   files.write(0, 1);
-  expectSuccess(denoise({"--preset", "robust", "--view", "samples", "--view", "edges.0"}));
+  expectSuccess(denoise({"--method", "walr_paper", "--preset", "robust", "--view", "samples", "--view", "edges.0"}));
   const std::vector<std::string> expected = {"denoised_0000.exr",     "denoised_0001.exr",     "view_edges.0_0000.exr",
                                              "view_edges.0_0001.exr", "view_samples_0000.exr", "view_samples_0001.exr"};
   EXPECT_EQ(outputFiles(), expected);
@@ -157,7 +159,8 @@ TEST_F(ProgramTest, CountsWhatHappensInside) {
   const auto report = nlohmann::json::parse(test::readText(json));
   EXPECT_EQ(report["frames"][1]["counters"]["non-finite-lighting"], 0);
   EXPECT_GT(report["frames"][0]["counters"]["no-history"], 0);
-  expectFailure(denoise({"--preset", "robust", "--view", "edges.3"}), kUsage, {"view \"edges.3\"", "0 to 0"});
+  expectFailure(denoise({"--method", "walr_paper", "--preset", "robust", "--view", "edges.3"}), kUsage,
+                {"view \"edges.3\"", "0 to 0"});
   expectSuccess(denoise({"--method", "none", "--counters"}));
 }
 

@@ -116,8 +116,8 @@ Image<SvgfMoments> svgfAccumulate(const HostFrame& frame, const Image<Guide>& gu
     if (!isFinite(noisy)) return;
     const glm::dvec3 radiance = glm::clamp(noisy, 0.0, kLargestHalf);
     const double l = luminance(radiance);
-    out.samples = std::min(out.samples + 1.0, double(settings.maxSamples));
-    const double momentAlpha = 1.0 / std::min(out.samples, double(settings.maxMomentSamples));
+    out.samples = std::min(out.samples + 1.0, double(settings.maxHistory));
+    const double momentAlpha = 1.0 / std::min(out.samples, double(settings.maxMomentHistory));
     out.colour += (radiance - out.colour) / out.samples;
     out.mean += (l - out.mean) * momentAlpha;
     out.square += (l * l - out.square) * momentAlpha;

@@ -5,7 +5,7 @@
 
 #include <glm/common.hpp>
 
-#include "tests/passes/reference/light_change.h"
+#include "tests/passes/reference/antilag.h"
 #include "tests/passes/reference/moments.h"
 
 namespace walr::reference {
@@ -15,9 +15,9 @@ bool isFinite(glm::dvec3 v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-/// History in doubt counts for fewer samples.
-void shorten(HistorySample& past, const Image<double>& doubt, const Reprojection& r, double maxSamples) {
-  const Bounded longest = longestHistory(doubt, r.pixel, r.error, maxSamples);
+/// History counts for fewer samples where the antilag factor is high.
+void shorten(HistorySample& past, const Image<double>& antilag, const Reprojection& r, double maxHistory) {
+  const Bounded longest = longestHistory(antilag, r.pixel, r.error, maxHistory);
   if (past.value.w <= longest.value - longest.error) return;
   past.error.w = std::max(past.error.w, longest.error);
   past.value.w = std::min(past.value.w, longest.value);
@@ -40,14 +40,14 @@ Image<Accumulated> accumulate(const HostFrame& frame, const Image<Guide>& guides
       const Reprojection r = reproject(frame, guides, p, {settings.dilateMotion, keepTaps});
       past = sampleHistory(r, historyTaps(frame, r, previous.guides, historyTestsOf(settings)), previous.accumulated,
                            settings.historyFilter);
-      if (past.found && !previous.doubt.pixels().empty()) shorten(past, previous.doubt, r, settings.maxSamples);
+      if (past.found && !previous.antilag.pixels().empty()) shorten(past, previous.antilag, r, settings.maxHistory);
     }
     const glm::dvec3 pastMean(past.value);
     out.undecided = past.undecided;
     out.samplesError = past.error.w + 2.0 * kFloatRoundoff * past.value.w;
     if (isFinite(noisy)) {
       const glm::dvec3 radiance = glm::clamp(noisy, 0.0, kLargestHalf);
-      out.samples = std::min(past.value.w + 1.0, double(settings.maxSamples));
+      out.samples = std::min(past.value.w + 1.0, double(settings.maxHistory));
       const double newest = 1.0 / std::max(out.samples, 1.0);
       out.mean = pastMean + (radiance - pastMean) * newest;
       out.error = glm::dvec3(past.error) + 8.0 * kFloatRoundoff * (glm::abs(pastMean) + glm::abs(radiance)) +
@@ -58,7 +58,7 @@ Image<Accumulated> accumulate(const HostFrame& frame, const Image<Guide>& guides
                               8.0 * kFloatRoundoff * (luminance(radiance) + luminance(glm::abs(pastMean)));
       }
     } else {
-      out.samples = std::min(past.value.w, double(settings.maxSamples));
+      out.samples = std::min(past.value.w, double(settings.maxHistory));
       out.mean = pastMean;
       out.error = glm::dvec3(past.error);
     }

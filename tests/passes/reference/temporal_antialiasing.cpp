@@ -134,7 +134,7 @@ Image<Accumulated> antialias(const HostFrame& frame, const Image<Guide>& guides,
     const Neighbourhood n = neighbourhoodOf(guides, filtered, p, settings);
     const glm::dvec3 pastYCoCg = toYCoCg(glm::dvec3(history.value));
     const glm::dvec3 clipped = fromYCoCg(varianceClip(pastYCoCg, n.mean, n.reach));
-    out.samples = std::min(history.value.w + 1.0, double(settings.maxSamples));
+    out.samples = std::min(history.value.w + 1.0, double(settings.maxHistory));
     out.samplesError = history.error.w + 2.0 * kFloatRoundoff * out.samples;
     const double newest = 1.0 / out.samples;
     out.mean = glm::max(clipped + (current - clipped) * newest, 0.0);

@@ -1,6 +1,6 @@
 #include "tests/passes/reference/walr.h"
 
-#include "tests/passes/reference/light_change.h"
+#include "tests/passes/reference/antilag.h"
 
 namespace walr::reference {
 
@@ -15,7 +15,7 @@ Image<glm::dvec3> Walr::denoise(const HostFrame& frame) {
   const Image<glm::dvec4> resolved =
       meansAndLengths(antialias(frame, guides, filtered, antialiasing_, storage_, settings_.antialiasing, keepTaps));
   accumulation_ = {guides, accumulated};
-  if (settings_.accumulation.change.respond) accumulation_.doubt = doubtOf(mean, settings_.accumulation.change);
+  if (settings_.accumulation.antilag.enabled) accumulation_.antilag = antilagOf(mean, settings_.accumulation.antilag);
   antialiasing_ = {guides, resolved};
   Image<glm::dvec3> output(frame.size());
   forEachPixel(frame.size(), [&](glm::ivec2 p) { output[p] = glm::dvec3(resolved[p]); });

@@ -1,15 +1,15 @@
 #pragma once
 
-#include "passes/walr.h"
+#include "passes/walr_paper.h"
 #include "tests/passes/reference/atrous.h"
 #include "tests/passes/reference/temporal_antialiasing.h"
 
 namespace walr::reference {
 
-/// All stages of WALR in double precision, with the histories that they carry from frame to frame.
+/// All stages of `walr_paper` in double precision, with the histories that they carry from frame to frame.
 class Walr {
  public:
-  explicit Walr(Storage storage, const WalrSettings& settings = robustWalr())
+  explicit Walr(Storage storage, const WalrPaperSettings& settings = robustWalr())
       : storage_(storage), settings_(settings) {}
 
   /// The denoised frame.
@@ -24,7 +24,7 @@ class Walr {
 
  private:
   Storage storage_;
-  WalrSettings settings_;
+  WalrPaperSettings settings_;
   AccumulationHistory accumulation_;
   AntialiasingHistory antialiasing_;
   Image<glm::dvec3> filtered_;

@@ -125,8 +125,7 @@ class GranitePasses {
     const WalrDispatch& dispatch = *list_->passes[index];
     if (dispatch.indirect != WALR_NONE) {
       throw std::invalid_argument(std::string(dispatch.name) +
-                                  ": dispatched indirectly, which this adapter does not tell Granite of: leave "
-                                  "blocks.sort-tiles off");
+                                  ": dispatched indirectly, which this adapter does not tell Granite of");
     }
     Granite::RenderPass& pass =
         graph_->add_pass(std::string("walr/") + dispatch.name, Granite::RenderGraph::get_default_compute_queue());

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "passes/light_change.h"
+#include "passes/antilag.h"
 #include "tests/passes/reference/temporal_accumulation.h"
 
 namespace walr::reference {
@@ -22,14 +22,14 @@ struct TileChange {
 };
 Image<TileChange> changeByTiles(const Image<Accumulated>& accumulated);
 
-/// Doubt from the sums (x) and sums of squares (y) of tiles.
-Image<Bounded> doubtOf(const Image<glm::dvec2>& tiles, const LightChangeSettings& settings);
+/// Antilag factor from the sums (x) and sums of squares (y) of tiles.
+Image<Bounded> antilagOf(const Image<glm::dvec2>& tiles, const AntilagSettings& settings);
 
 /// The same from what a frame's accumulation found, without the bounds.
-Image<double> doubtOf(const Image<Accumulated>& accumulated, const LightChangeSettings& settings);
+Image<double> antilagOf(const Image<Accumulated>& accumulated, const AntilagSettings& settings);
 
 /// The number of samples that history may count for at a position in the previous picture.
 /// @param pixelError of the position, pixels
-Bounded longestHistory(const Image<double>& doubt, glm::dvec2 pixel, double pixelError, double maxSamples);
+Bounded longestHistory(const Image<double>& antilag, glm::dvec2 pixel, double pixelError, double maxHistory);
 
 }  // namespace walr::reference

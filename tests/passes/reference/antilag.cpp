@@ -1,4 +1,4 @@
-#include "tests/passes/reference/light_change.h"
+#include "tests/passes/reference/antilag.h"
 
 #include <algorithm>
 #include <cmath>
@@ -24,8 +24,8 @@ Image<TileChange> changeByTiles(const Image<Accumulated>& accumulated) {
   return tiles;
 }
 
-Image<Bounded> doubtOf(const Image<glm::dvec2>& tiles, const LightChangeSettings& settings) {
-  Image<Bounded> doubt(tiles.size());
+Image<Bounded> antilagOf(const Image<glm::dvec2>& tiles, const AntilagSettings& settings) {
+  Image<Bounded> antilag(tiles.size());
   const int radius = static_cast<int>(settings.radius);
   const double range = double(settings.scoreHigh) - double(settings.scoreLow);
   forEachPixel(tiles.size(), [&](glm::ivec2 t) {
@@ -42,26 +42,26 @@ Image<Bounded> doubtOf(const Image<glm::dvec2>& tiles, const LightChangeSettings
     }
     if (sum.y <= 0.0) return;
     const double score = std::abs(sum.x) / std::sqrt(sum.y);
-    doubt[t].value = std::clamp((score - settings.scoreLow) / range, 0.0, 1.0);
+    antilag[t].value = std::clamp((score - settings.scoreLow) / range, 0.0, 1.0);
     // Vulkan allows an inverse square root two units in the last place; a sum errs by a roundoff of each partial one.
     const double scoreError =
         count * kFloatRoundoff * magnitudes / std::sqrt(sum.y) + (count + 8.0) * kFloatRoundoff * score;
-    doubt[t].error = (scoreError + 4.0 * kFloatRoundoff * (score + settings.scoreHigh)) / range;
+    antilag[t].error = (scoreError + 4.0 * kFloatRoundoff * (score + settings.scoreHigh)) / range;
   });
-  return doubt;
+  return antilag;
 }
 
-Image<double> doubtOf(const Image<Accumulated>& accumulated, const LightChangeSettings& settings) {
+Image<double> antilagOf(const Image<Accumulated>& accumulated, const AntilagSettings& settings) {
   const Image<TileChange> tiles = changeByTiles(accumulated);
   Image<glm::dvec2> sums(tiles.size());
-  Image<double> doubt(tiles.size());
+  Image<double> antilag(tiles.size());
   forEachPixel(tiles.size(), [&](glm::ivec2 t) { sums[t] = {tiles[t].sum.value, tiles[t].squares.value}; });
-  const Image<Bounded> bounded = doubtOf(sums, settings);
-  forEachPixel(tiles.size(), [&](glm::ivec2 t) { doubt[t] = bounded[t].value; });
-  return doubt;
+  const Image<Bounded> bounded = antilagOf(sums, settings);
+  forEachPixel(tiles.size(), [&](glm::ivec2 t) { antilag[t] = bounded[t].value; });
+  return antilag;
 }
 
-Bounded longestHistory(const Image<double>& doubt, glm::dvec2 pixel, double pixelError, double maxSamples) {
+Bounded longestHistory(const Image<double>& antilag, glm::dvec2 pixel, double pixelError, double maxHistory) {
   const glm::dvec2 position = pixel / double(kChangeTile) - 0.5;
   const glm::dvec2 base = glm::floor(position);
   const glm::dvec2 f = position - base;
@@ -70,14 +70,14 @@ Bounded longestHistory(const Image<double>& doubt, glm::dvec2 pixel, double pixe
   double most = 0.0;
   for (int i = 0; i < 4; ++i) {
     const glm::ivec2 offset(i % 2, i / 2);
-    const glm::ivec2 tile = glm::clamp(glm::ivec2(base) + offset, glm::ivec2(0), doubt.size() - 1);
-    value += (offset.x == 1 ? f.x : 1.0 - f.x) * (offset.y == 1 ? f.y : 1.0 - f.y) * doubt[tile];
-    least = std::min(least, doubt[tile]);
-    most = std::max(most, doubt[tile]);
+    const glm::ivec2 tile = glm::clamp(glm::ivec2(base) + offset, glm::ivec2(0), antilag.size() - 1);
+    value += (offset.x == 1 ? f.x : 1.0 - f.x) * (offset.y == 1 ? f.y : 1.0 - f.y) * antilag[tile];
+    least = std::min(least, antilag[tile]);
+    most = std::max(most, antilag[tile]);
   }
   // Both weights of an axis move with the position, by an eighth of it.
   const double error = 4.0 * pixelError / kChangeTile * (most - least) + 8.0 * kFloatRoundoff;
-  return {maxSamples + (1.0 - maxSamples) * value, (maxSamples - 1.0) * error + 4.0 * kFloatRoundoff * maxSamples};
+  return {maxHistory + (1.0 - maxHistory) * value, (maxHistory - 1.0) * error + 4.0 * kFloatRoundoff * maxHistory};
 }
 
 }  // namespace walr::reference

@@ -1,16 +1,16 @@
-// How much doubt there is that the light is still that of history: over a window of tiles, the mean of what this frame's
-// samples differ by from history, against its standard error. Of samples that differ by chance alone the score is
-// normally distributed with a deviation of 1, whatever their noise, and a single firefly cannot raise it above 1.
+// The antilag factor: 0 where history counts in full, 1 where it counts as one sample. Over a window of tiles, the mean of
+// what this frame's samples differ by from history is held against its standard error. Where noise alone makes them differ,
+// the score is normally distributed with a deviation of 1, whatever the noise, and a single firefly cannot raise it above 1.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
-#include "constants/light_change.h"
+#include "constants/antilag.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(set = 0, binding = 0) uniform texture2D tiles;  // x: sum of the differences over a tile; y: sum of their squares.
-layout(set = 0, binding = 1, r32f) uniform writeonly image2D outDoubt;
-layout(push_constant) uniform PushConstants { LightChangeConstants settings; };
+layout(set = 0, binding = 1, r32f) uniform writeonly image2D outFactor;
+layout(push_constant) uniform PushConstants { AntilagConstants settings; };
 
 void main() {
   const ivec2 tile = ivec2(gl_GlobalInvocationID.xy);
@@ -24,6 +24,6 @@ void main() {
     for (int x = first.x; x <= last.x; ++x) sum += texelFetch(tiles, ivec2(x, y), 0).xy;
   }
   const float score = sum.y > 0.0 ? abs(sum.x) * inversesqrt(sum.y) : 0.0;
-  const float doubt = clamp((score - settings.scoreLow) / (settings.scoreHigh - settings.scoreLow), 0.0, 1.0);
-  imageStore(outDoubt, tile, vec4(doubt));
+  const float factor = clamp((score - settings.scoreLow) / (settings.scoreHigh - settings.scoreLow), 0.0, 1.0);
+  imageStore(outFactor, tile, vec4(factor));
 }

@@ -1,0 +1,28 @@
+#include "passes/antilag.h"
+
+#include <stdexcept>
+
+#include "passes/grid_extent.h"
+#include "shaders/constants/antilag.h"
+#include "shaders/shaders.h"
+
+namespace walr {
+
+Antilag declareAntilag(fg::Graph& graph, fg::Extent pixels) {
+  constexpr auto kTile = static_cast<std::uint32_t>(kAntilagTile);
+  const fg::Extent tiles = gridExtent(pixels, kTile);
+  return {graph.history("antilag.factor", {VK_FORMAT_R32_SFLOAT, tiles}),
+          graph.texture("antilag.tiles", {VK_FORMAT_R32G32_SFLOAT, tiles})};
+}
+
+void addAntilag(fg::Graph& graph, const Antilag& antilag, const AntilagSettings& settings) {
+  if (!(settings.scoreLow < settings.scoreHigh)) {
+    throw std::invalid_argument("setting accumulation.antilag-low must be below accumulation.antilag-high");
+  }
+  const AntilagConstants constants{static_cast<std::int32_t>(settings.radius), settings.scoreLow, settings.scoreHigh};
+  fg::PassBuilder pass = graph.compute("antilag", shaders::antilag);
+  pass.sample("tiles", antilag.tiles).constants(constants).dispatch(graph.textureDesc(antilag.tiles).extent);
+  static_cast<void>(pass.store("outFactor", antilag.factor.current));
+}
+
+}  // namespace walr

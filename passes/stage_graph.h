@@ -1,0 +1,35 @@
+#pragma once
+
+#include <span>
+
+#include "framegraph/declare/graph.h"
+#include "passes/inspection.h"
+
+namespace walr {
+
+/// The graph that a stage adds its passes to, with what a caller wants to see of the stage's inner workings. Made of a
+/// graph alone where nobody looks. Refers to both, which must outlive it.
+class StageGraph {
+ public:
+  StageGraph(fg::Graph& graph) : graph_(&graph) {}
+  StageGraph(fg::Graph& graph, Inspection& inspection) : graph_(&graph), inspection_(&inspection) {}
+
+  fg::Graph* operator->() const { return graph_; }
+  operator fg::Graph&() const { return *graph_; }
+
+  /// Offer a stage's views: see `Inspection::offer`. Adds nothing where nobody looks.
+  void offer(std::span<const ViewInfo> views, fg::Extent extent, const Inspection::DeclareView& declare,
+             StageIteration iteration = {}) const {
+    if (inspection_ != nullptr) inspection_->offer(*graph_, views, extent, declare, iteration);
+  }
+  /// @throws std::invalid_argument naming a wanted view that no stage has offered
+  void requireViews() const {
+    if (inspection_ != nullptr) inspection_->requireViews();
+  }
+
+ private:
+  fg::Graph* graph_;
+  Inspection* inspection_ = nullptr;
+};
+
+}  // namespace walr

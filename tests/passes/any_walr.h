@@ -1,0 +1,48 @@
+#pragma once
+
+#include <variant>
+
+#include "passes/walr.h"
+#include "passes/walr_paper.h"
+
+namespace walr::test {
+
+/// Settings of `walr` or of `walr_paper`, for tests of what holds of both.
+class AnyWalr {
+ public:
+  AnyWalr(const WalrSettings& settings) : settings_(settings) {}
+  AnyWalr(const WalrPaperSettings& settings) : settings_(settings) {}
+
+  /// The settings of `walr`; null of `walr_paper`.
+  [[nodiscard]] const WalrSettings* blocks() const { return std::get_if<WalrSettings>(&settings_); }
+  /// The settings of `walr_paper`; null of `walr`.
+  [[nodiscard]] const WalrPaperSettings* pixels() const { return std::get_if<WalrPaperSettings>(&settings_); }
+
+  /// Call `use` with whichever they are.
+  template <typename Use>
+  decltype(auto) with(Use&& use) const {
+    return std::visit(use, settings_);
+  }
+  template <typename Change>
+  void change(Change&& change) {
+    std::visit(change, settings_);
+  }
+
+  [[nodiscard]] const PrepareGuidesSettings& guides() const {
+    return with([](const auto& s) -> const PrepareGuidesSettings& { return s.guides; });
+  }
+  [[nodiscard]] const TemporalAccumulationSettings& accumulation() const {
+    return with([](const auto& s) -> const TemporalAccumulationSettings& { return s.accumulation; });
+  }
+  [[nodiscard]] const TemporalAntialiasingSettings& antialiasing() const {
+    return with([](const auto& s) -> const TemporalAntialiasingSettings& { return s.antialiasing; });
+  }
+
+  [[nodiscard]] bool packsAccumulation() const { return accumulation().storage == LightStorage::Packed; }
+  [[nodiscard]] bool packsAntialiasing() const { return antialiasing().storage == LightStorage::Packed; }
+
+ private:
+  std::variant<WalrSettings, WalrPaperSettings> settings_;
+};
+
+}  // namespace walr::test
