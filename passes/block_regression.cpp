@@ -172,7 +172,7 @@ const std::vector<ViewInfo>& reconstructionViews() {
   return kViews;
 }
 
-/// The fit of an edge-aware window around every block (walr.txt 3.2).
+/// The fit of an edge-aware window around every block (Meunier & Harada 2022, 3.2).
 FitTextures addFineFit(const BlockGrid& grid, BlockAverages averages, fg::Texture normal, std::uint32_t iterations) {
   std::uint32_t spacing = 1;
   for (std::uint32_t t = 0;; ++t, spacing *= 3) {

@@ -6,13 +6,13 @@
 
 namespace walr {
 
-/// Settings of BMFR's second accumulation (bmfr.txt 3.5).
+/// Settings of BMFR's second accumulation (Koskela et al. 2019, 3.5).
 struct BmfrAccumulationSettings {
   float maxHistory = 5.0F;
 
   void visit(SettingVisitor& v) {
     v.visit({"fitted.max-history", "Fitted frames after which the cumulative mean turns exponential", "frames", 1.0,
-             255.0, "bmfr.txt 3.5"},
+             255.0, "Koskela et al. 2019, 3.5"},
             maxHistory);
   }
 };

@@ -18,7 +18,7 @@ namespace walr {
 /// How a history texture is read between its pixels.
 enum class HistoryFilter : std::uint32_t { Bilinear, Bicubic };
 
-/// Settings of the preprocessing accumulation (walr.txt 4.2).
+/// Settings of the preprocessing accumulation (Meunier & Harada 2022, 4.2).
 struct TemporalAccumulationSettings {
   float maxHistory = 16.0F;
   HistoryRejection rejection = HistoryRejection::Plane;
@@ -32,16 +32,17 @@ struct TemporalAccumulationSettings {
   void visit(SettingVisitor& v) {
     static constexpr std::string_view kFilters[] = {"bilinear", "bicubic"};
     v.visit({"accumulation.max-history", "Frames after which the cumulative mean turns exponential", "frames", 1.0,
-             255.0, "walr.txt 4.2"},
+             255.0, "Meunier & Harada 2022, 4.2"},
             maxHistory);
     visitRejection(v, "accumulation.rejection", rejection);
     visitHistoryTests(v, "accumulation.plane-tolerance", planeTolerance, "accumulation.normal-threshold",
                       normalThreshold);
-    v.visitEnum({"accumulation.history-filter", "How history is read between pixels", "", 0, 1, "walr.txt 4.2"},
-                kFilters, historyFilter);
-    v.visit(
-        {"accumulation.dilate-motion", "Follow the nearest surface of the 3x3 neighbourhood", "", 0, 1, "walr.txt 4.2"},
-        dilateMotion);
+    v.visitEnum(
+        {"accumulation.history-filter", "How history is read between pixels", "", 0, 1, "Meunier & Harada 2022, 4.2"},
+        kFilters, historyFilter);
+    v.visit({"accumulation.dilate-motion", "Follow the nearest surface of the 3x3 neighbourhood", "", 0, 1,
+             "Meunier & Harada 2022, 4.2"},
+            dilateMotion);
     antilag.visit(v);
   }
   /// For methods and stages whose filter reads either storage.
@@ -75,7 +76,7 @@ struct AccumulationWithTaps {
   fg::Texture taps;
 };
 
-/// The same, keeping what the reprojection and its tests found (walr.txt 4.4, bmfr.txt 3.5).
+/// The same, keeping what the reprojection and its tests found (Meunier & Harada 2022, 4.4; Koskela et al. 2019, 3.5).
 /// @param antialiasing storage of the anti-aliasing that reads the taps. Packed: taps hold light where there is no
 ///                     surface, which the filter's result then says. Half, and for other readers: they hold a mark.
 AccumulationWithTaps addTemporalAccumulationWithTaps(StageGraph graph, const DenoiserInputs& inputs,

@@ -13,7 +13,7 @@
 
 namespace walr {
 
-/// Settings of the postprocessing stage (walr.txt 4.4).
+/// Settings of the postprocessing stage (Meunier & Harada 2022, 4.4).
 struct TemporalAntialiasingSettings {
   bool enabled = true;
   float maxHistory = 3.0F;
@@ -27,26 +27,27 @@ struct TemporalAntialiasingSettings {
   LightStorage storage = LightStorage::Half;
 
   void visit(SettingVisitor& v) {
-    v.visit({"antialiasing.enabled", "Off leaves temporal anti-aliasing to the host", "", 0, 1, "walr.txt 4.4"},
+    v.visit({"antialiasing.enabled", "Off leaves temporal anti-aliasing to the host", "", 0, 1,
+             "Meunier & Harada 2022, 4.4"},
             enabled);
     v.visit({"antialiasing.max-history", "Frames after which the cumulative mean turns exponential", "frames", 1.0,
-             255.0, "walr.txt 4.4"},
+             255.0, "Meunier & Harada 2022, 4.4"},
             maxHistory);
     v.visit({"antialiasing.clip-gamma", "Half size of the variance-clipping box", "standard deviations", 0.0, 1e6,
-             "walr.txt 4.4"},
+             "Meunier & Harada 2022, 4.4"},
             clipGamma);
     v.visit({"antialiasing.clip-radius", "Half the neighbourhood of the variance clipping; 1 is 3x3", "pixels", 1, 8,
-             "walr.txt 4.4"},
+             "Meunier & Harada 2022, 4.4"},
             clipRadius);
     visitRejection(v, "antialiasing.rejection", rejection);
     visitHistoryTests(v, "antialiasing.plane-tolerance", planeTolerance, "antialiasing.normal-threshold",
                       normalThreshold);
     v.visit({"antialiasing.object-ids", "Tell surfaces apart by the host's object numbers, too, where it gives them",
-             "", 0, 1, "joint-bilateral.txt, 3"},
+             "", 0, 1, "Wang 2024, 3"},
             objectIds);
-    v.visit(
-        {"antialiasing.dilate-motion", "Follow the nearest surface of the 3x3 neighbourhood", "", 0, 1, "walr.txt 4.2"},
-        dilateMotion);
+    v.visit({"antialiasing.dilate-motion", "Follow the nearest surface of the 3x3 neighbourhood", "", 0, 1,
+             "Meunier & Harada 2022, 4.2"},
+            dilateMotion);
   }
   /// For methods and stages whose filter writes either storage.
   void visitStorage(SettingVisitor& v) {

@@ -22,7 +22,8 @@ struct WalrSettings {
   TemporalAntialiasingSettings antialiasing{.clipGamma = 5.0F, .storage = LightStorage::Packed};
 
   void visit(SettingVisitor& v) {
-    v.visit({"spatial-only", "Filter each frame by itself, without the temporal stages", "", 0, 1, "walr.txt 4.3"},
+    v.visit({"spatial-only", "Filter each frame by itself, without the temporal stages", "", 0, 1,
+             "Meunier & Harada 2022, 4.3"},
             spatialOnly);
     guides.visit(v);
     accumulation.visit(v);

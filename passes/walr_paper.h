@@ -29,7 +29,8 @@ struct WalrPaperSettings {
       .maxHistory = 8.0F, .rejection = HistoryRejection::None, .dilateMotion = true};
 
   void visit(SettingVisitor& v) {
-    v.visit({"spatial-only", "Filter each frame by itself, without the temporal stages", "", 0, 1, "walr.txt 4.3"},
+    v.visit({"spatial-only", "Filter each frame by itself, without the temporal stages", "", 0, 1,
+             "Meunier & Harada 2022, 4.3"},
             spatialOnly);
     guides.visit(v);
     accumulation.visit(v);

@@ -1,10 +1,11 @@
-// WALR preprocessing (walr.txt 4.2): reproject, reject, then a cumulative mean that turns exponential after a fixed number
-// of samples. Each of the four history pixels around the position is tested on its own (REJECT_BY_PLANE, REJECT_BY_DEPTH).
-// KEEP_TAPS also writes which of them passed, so that later stages can read their histories in the same way without testing
-// again (walr.txt 4.4, bmfr.txt 3.5), and which light passes through where there is no surface. STILL: every pixel shows
-// what it showed before. RESPONSIVE shortens history by the factor of antilag.comp, and writes what that goes by.
-// PACKED: the history is packed (packed_light.glsl), without the light of pixels that show no surface. A view (VIEW) does
-// the same and writes something found on the way.
+// WALR preprocessing (Meunier & Harada 2022, 4.2): reproject, reject, then a cumulative mean that turns exponential
+// after a fixed number of samples. Each of the four history pixels around the position is tested on its own
+// (REJECT_BY_PLANE, REJECT_BY_DEPTH). KEEP_TAPS also writes which of them passed, so that later stages can read their
+// histories in the same way without testing again (Meunier & Harada 2022, 4.4; Koskela et al. 2019, 3.5), and which
+// light passes through where there is no surface. STILL: every pixel shows what it showed before. RESPONSIVE shortens
+// history by the factor of antilag.comp, and writes what that goes by. PACKED: the history is packed
+// (packed_light.glsl), without the light of pixels that show no surface. A view (VIEW) does the same and writes
+// something found on the way.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require

@@ -23,7 +23,8 @@ struct AccumulationHistory {
   Image<double> antilag = {};     ///< In history, by tiles; empty where nobody detects light that changes.
 };
 
-/// The preprocessing accumulation (walr.txt 4.2): cumulative mean that turns exponential after `maxHistory`.
+/// The preprocessing accumulation (Meunier & Harada 2022, 4.2): cumulative mean that turns exponential after
+/// `maxHistory`.
 /// @param keepTaps whether later stages are told where the history was, which rounds it
 Image<Accumulated> accumulate(const HostFrame& frame, const Image<Guide>& guides, const AccumulationHistory& previous,
                               Storage storage, const TemporalAccumulationSettings& settings = {},
