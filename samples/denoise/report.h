@@ -26,8 +26,10 @@ struct FrameReport {
   std::optional<double> gpuMilliseconds;  ///< By timestamps, all passes; absent where the queue has no timestamps.
   ErrorFigures denoised;                  ///< Absent figures where there is no reference.
   ErrorFigures noisy;                     ///< The input's own.
-  std::size_t nonFiniteOutput = 0;        ///< Values of the result that are not finite.
-  std::vector<CounterValue> counters;     ///< The same names in every frame; empty where nobody asked for any.
+  /// RMSE that the reference's own noise puts on every result; absent where the reference does not hold its halves.
+  std::optional<double> referenceNoise;
+  std::size_t nonFiniteOutput = 0;     ///< Values of the result that are not finite.
+  std::vector<CounterValue> counters;  ///< The same names in every frame; empty where nobody asked for any.
 };
 
 /// What a run was and what it measured.
@@ -49,8 +51,8 @@ inline constexpr std::size_t kWarmUpFrames = 4;
 FrameReport meanReport(const std::vector<FrameReport>& frames, std::size_t first);
 
 /// The report as JSON: `method`, `device`, `driver`, `frames[]` with `frame`, `gpu_ms`, `rmse`, `psnr`, `ssim`, the
-/// same for the input under `noisy`, and `counters` by name where there are any; `mean` and `mean_after_4` with the
-/// same. Figures without a value are null.
+/// same for the input under `noisy`, `reference_noise`, and `counters` by name where there are any; `mean` and
+/// `mean_after_4` with the same. Figures without a value are null.
 std::string reportJson(const DenoiseReport& report);
 
 /// The report as a table for people.

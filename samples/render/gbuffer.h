@@ -28,7 +28,7 @@ struct GBufferPixel {
 /// What of a pixel the G-buffer tells.
 enum class GBufferMode : std::uint8_t {
   FirstHit,  ///< The first surface. Metals show no light.
-  /// Blended by material (nagi-svgf.txt): in a mirror the image of what it shows, as if that stood behind it; of a
+  /// Blended by material (Fu 2022): in a mirror the image of what it shows, as if that stood behind it; of a
   /// glossy metal its own depth and normal, its albedo mixed with those of what it shows.
   Material,
 };

@@ -9,7 +9,7 @@
 #include "samples/render/surface.h"
 #include "samples/render/world.h"
 
-/// What metals show: the classes of nagi-svgf.txt, told by glTF's metallic and roughness.
+/// What metals show: the classes of Fu 2022, told by glTF's metallic and roughness.
 namespace walr::render {
 
 /// How a surface's G-buffer is made where it is blended by material.

@@ -247,10 +247,11 @@ def methods(host, screen):
         for index, name in [*enumerate(names)][1:] + [(0, names[0])]:
             window.choose_method(index, len(names))
             expect(f"method {name}", "--method", name)
-        presets = host.known("--preset")
+        window.choose_method(names.index("svgf"), len(names))
+        presets = host.known("--preset", "--method", "svgf")
         for index, name in [*enumerate(presets)][1:]:
             window.choose_preset(index, len(presets))
-            expect(f"preset {name}", "--preset", name)
+            expect(f"preset {name}", "--method", "svgf", "--preset", name)
         write_png(host.screenshot, screen.rows())
 
 
