@@ -4,7 +4,7 @@
 #
 #     samples/run.sh [FOLDER]    FOLDER: where the results go; default: build/run
 #
-# Takes a few minutes on two cores; run again, it goes on where it was.
+# Takes some six minutes on two cores; run again, it goes on where it was.
 set -euo pipefail
 folder=$(realpath --canonicalize-missing "${1:-$(dirname "${BASH_SOURCE[0]}")/../build/run}")
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -12,9 +12,9 @@ source .ci/setup.sh
 
 walr_setup
 walr_build walr
-# The reference is nearly all of the work, so only the last frame gets one, once history has built up. At 1536 samples
-# per pixel its own noise, which is part of the errors and printed below them, is clearly less than the result's error.
-build/bin/walr render samples/scenes/box.gltf --output "$folder/box" --frames 0-9 --size 480x270 --reference-spp 1536 \
+# The reference is nearly all of the work, so only the last frame gets one, once history has built up. At 4096 samples
+# per pixel, some five minutes on two idle cores, its own noise is less than the result's error; both are printed.
+build/bin/walr render samples/scenes/box.gltf --output "$folder/box" --frames 0-9 --size 320x180 --reference-spp 4096 \
   --reference-frames 9-9
 build/bin/walr denoise "$folder/box" --output "$folder/denoised" --composite --direct-light reference --png
 echo "Noisy | denoised | reference, lit and below the light alone: $folder/denoised/comparison_0009.png"

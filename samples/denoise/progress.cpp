@@ -44,7 +44,7 @@ void Progress::count(double work, Clock::time_point now) {
   workDone_ += work;
   const std::chrono::duration<double> elapsed = now - start_;
   const double remaining = workDone_ > 0.0 ? elapsed.count() / workDone_ * std::max(work_ - workDone_, 0.0) : 0.0;
-  left_ = std::chrono::seconds(std::llround(std::ceil(remaining)));
+  left_ = std::chrono::seconds(done_ < total_ ? std::llround(std::ceil(remaining)) : 0);
 }
 
 void Progress::advance(Clock::time_point now) {

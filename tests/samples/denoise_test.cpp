@@ -285,7 +285,10 @@ TEST(Progress, TellsTheRemainingTimeByWork) {
   progress.skipped(40.0);
   progress.advance(start + 20s);
   progress.worked(90.0, start + 50s);
-  EXPECT_EQ(stream.str(), "file 1 of 3, 4:00 left\nfile 2 of 3, 6:40 left\nfile 2 of 3, 0:55 left\n");
+  // The last file ends it, however the work was estimated.
+  progress.advance(start + 60s);
+  EXPECT_EQ(stream.str(),
+            "file 1 of 3, 4:00 left\nfile 2 of 3, 6:40 left\nfile 2 of 3, 0:55 left\nfile 3 of 3, 0:00 left\n");
 }
 
 TEST(Progress, DrawsABarOnATerminal) {
