@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Checks which folder includes which: every folder may include only the folders that its line in `ALLOWED` names.
+"""Checks which folder includes which: every folder may include only the folders and headers that its line in `ALLOWED`
+names.
 
     check_layers.py SOURCE_FOLDER
 
@@ -21,7 +22,21 @@ ALLOWED = {
     "framegraph/tools": {"framegraph/declare"},
     "passes": {"framegraph/declare", "framegraph/plan", "shaders"},
     "integration": {"framegraph", "passes", "shaders"},
-    "samples": {"framegraph", "passes", "shaders", "integration"},
+    **{f"samples/{name}": {"framegraph", "passes", "shaders", "integration", "samples/errors.h"}
+       | {f"samples/{other}" for other in others}
+       for name, others in {
+           "image": (),
+           "metrics": ("image",),
+           "sequence": ("image",),
+           "render": ("image", "sequence"),
+           "denoise": ("image", "metrics", "sequence"),
+           "bench": ("image", "metrics", "sequence", "denoise"),
+           "command_line": ("sequence", "denoise"),
+           "cli": ("image", "sequence", "render", "denoise", "bench", "command_line"),
+           "host": ("image", "sequence", "render", "denoise", "command_line"),
+           "embedding": (),
+       }.items()},
+    "samples": set(),
     "shaders": set(),
 }
 # The verifier may include the two data structures, but no function that the compiler uses to interpret them.
@@ -50,7 +65,8 @@ def violations(root):
             target = longest_prefix(included, folders)
             if target is None or target == folder:
                 continue  # A system header in quotes, or a neighbour.
-            if not any(target == allowed or target.startswith(allowed + "/") for allowed in ALLOWED[folder]):
+            if not any(place == allowed or place.startswith(allowed + "/")
+                       for allowed in ALLOWED[folder] for place in (target, included)):
                 yield f"{name}: {folder}/ may not include {included}"
             elif folder == "framegraph/verify" and included not in VERIFIER_HEADERS:
                 yield f"{name}: the verifier may not include {included}, which the compiler uses"

@@ -2,6 +2,9 @@
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <random>
+#include <span>
+#include <string>
 #include <system_error>
 
 #include "framegraph/vulkan/pipelines.h"
@@ -12,6 +15,24 @@ namespace {
 std::vector<char> readFile(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// FNV-1a. A file ends with that of the driver's bytes: drivers need not notice damage, and must not be given any
+/// (VUID-VkPipelineCacheCreateInfo-initialDataSize-00769).
+std::uint64_t hashOf(std::span<const char> bytes) {
+  std::uint64_t hash = 0xcbf29ce484222325U;
+  for (const char byte : bytes) hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001b3U;
+  return hash;
+}
+
+/// The driver's bytes out of those of a file; none where the file is damaged.
+std::vector<char> unsealed(std::vector<char> file) {
+  std::uint64_t hash = 0;
+  if (file.size() < sizeof(hash)) return {};
+  const std::size_t size = file.size() - sizeof(hash);
+  std::memcpy(&hash, file.data() + size, sizeof(hash));
+  file.resize(size);
+  return hash == hashOf(file) ? file : std::vector<char>();
 }
 
 /// Drivers should refuse what is not theirs, and some crash on it instead.
@@ -33,7 +54,7 @@ bool belongsTo(const DeviceContext& device, const std::vector<char>& bytes) {
 
 PipelineCache::PipelineCache(const DeviceContext& device, std::filesystem::path file)
     : device_(&device), file_(std::move(file)) {
-  if (!file_.empty()) loaded_ = readFile(file_);
+  if (!file_.empty()) loaded_ = unsealed(readFile(file_));
   if (!belongsTo(device, loaded_)) loaded_.clear();
   VkPipelineCacheCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO;
@@ -55,12 +76,19 @@ void PipelineCache::save() {
   bytes.resize(size);
   if (bytes == loaded_) return;
 
+  // Programs that write at the same time each have a name of their own, and the last to rename wins.
   std::filesystem::path temporary = file_;
-  temporary += ".new";
+  temporary += "." + std::to_string(std::random_device()()) + ".new";
+  const std::uint64_t hash = hashOf(bytes);
   std::ofstream out(temporary, std::ios::binary);
   out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  out.write(reinterpret_cast<const char*>(&hash), sizeof(hash));
   out.close();
-  if (!out) cannotWrite(temporary);
+  if (!out) {
+    std::error_code ignored;
+    std::filesystem::remove(temporary, ignored);
+    cannotWrite(temporary);
+  }
   std::filesystem::rename(temporary, file_);
   loaded_ = std::move(bytes);
 }

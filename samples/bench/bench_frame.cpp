@@ -1,7 +1,6 @@
 #include "samples/bench/bench_frame.h"
 
 #include <algorithm>
-#include <string>
 
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
@@ -49,30 +48,12 @@ VisibleSurfaces visibleSurfaces(const Frame& frame, const Layout& layout) {
   return surfaces;
 }
 
-std::optional<Image> readHalfReference(const Sequence& sequence, const std::filesystem::path& file) {
-  ExrReader reader(file);
-  const RecognizedLayout& layout = sequence.layout();
-  const auto plane = std::ranges::find(layout.layout->planes, Role::Indirect, &Plane::role);
-  const std::vector<std::string> channels = reader.channels();
-  Image half(reader.width(), reader.height(), 3);
-  std::vector<ExrReader::Target> targets;
-  for (std::size_t c = 0; c < plane->components.size(); ++c) {
-    targets.push_back(
-        {layout.channel(std::string(plane->name) + "A", plane->components[c]), &half, static_cast<int>(c)});
-    if (std::ranges::find(channels, targets.back().channel) == channels.end()) return std::nullopt;
-  }
-  reader.read(targets);
-  return half;
-}
-
 }  // namespace
 
 BenchFrame readBenchFrame(const Sequence& sequence, std::size_t index) {
   BenchFrame result;
   result.packed = packFrame(sequence.read(index));
   result.surfaces = visibleSurfaces(result.packed.frame, *sequence.layout().layout);
-  const std::filesystem::path& reference = sequence.entries()[index].reference;
-  if (!reference.empty()) result.halfReference = readHalfReference(sequence, reference);
   return result;
 }
 
@@ -87,8 +68,8 @@ std::vector<FrameFacts> survey(const Sequence& sequence) {
     fact.resetHistory = frame.packed.frame.resetHistory;
     fact.hasReference = frame.packed.frame.reference.has_value();
     if (!fact.resetHistory) fact.disoccluded = disoccludedShare(previousPixels(frame.surfaces, previous), mask);
-    if (frame.halfReference) {
-      fact.referenceNoise = referenceNoise(frame.packed.frame.reference->indirect, *frame.halfReference, mask);
+    if (const auto& reference = frame.packed.frame.reference; reference && !reference->indirectHalf.empty()) {
+      fact.referenceNoise = referenceNoise(reference->indirect, reference->indirectHalf, mask);
     }
     previous = std::move(frame.surfaces);
     facts.push_back(fact);

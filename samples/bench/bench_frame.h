@@ -15,11 +15,9 @@ namespace walr {
 struct BenchFrame {
   PackedFrame packed;
   VisibleSurfaces surfaces;
-  std::optional<Image> halfReference;  ///< Mean of one half of the reference's samples, where the file holds it.
 };
 
-/// Read a frame. The half reference is the reference's plane with an A after its name:
-/// `DiffIndA.{R,G,B}` or `IndirectA.{R,G,B}`.
+/// Read a frame.
 /// @throws InputError
 BenchFrame readBenchFrame(const Sequence& sequence, std::size_t index);
 

@@ -8,7 +8,7 @@
 
 #include "samples/bench/response_scene.h"
 #include "samples/denoise/gpu_denoiser.h"
-#include "samples/metrics/luminance.h"
+#include "samples/image/luminance.h"
 #include "samples/metrics/metrics.h"
 #include "samples/metrics/temporal.h"
 

@@ -15,11 +15,11 @@
 #include "samples/bench/html_report.h"
 #include "samples/bench/sweep.h"
 #include "samples/bench/variant.h"
-#include "samples/cli/arguments.h"
 #include "samples/cli/command.h"
-#include "samples/cli/device_options.h"
-#include "samples/cli/exit_code.h"
-#include "samples/cli/usage_error.h"
+#include "samples/command_line/arguments.h"
+#include "samples/command_line/device_options.h"
+#include "samples/command_line/exit_code.h"
+#include "samples/command_line/usage_error.h"
 #include "samples/image/file_output.h"
 
 namespace walr {

@@ -1,6 +1,8 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -14,12 +16,12 @@
 #include "framegraph/vulkan/instance.h"
 #include "framegraph/vulkan/physical_device.h"
 #include "passes/denoiser.h"
-#include "samples/cli/arguments.h"
 #include "samples/cli/command.h"
-#include "samples/cli/device_options.h"
-#include "samples/cli/exit_code.h"
-#include "samples/cli/method_options.h"
-#include "samples/cli/usage_error.h"
+#include "samples/command_line/arguments.h"
+#include "samples/command_line/device_options.h"
+#include "samples/command_line/exit_code.h"
+#include "samples/command_line/method_options.h"
+#include "samples/command_line/usage_error.h"
 #include "samples/denoise/frame_output.h"
 #include "samples/denoise/gpu_denoiser.h"
 #include "samples/denoise/pipeline.h"
@@ -43,7 +45,10 @@ struct DenoiseOptions {
   bool listDevices = false;
   std::filesystem::path json;
   std::string nonFinite = "fail";
+  std::string exposure = "auto";
+  std::string directLight = "frame";
   std::vector<std::string> views;
+  bool listViews = false;
   bool counters = false;
   SequenceOptions sequence;
 };
@@ -79,26 +84,49 @@ void refuseOutputIntoInput(const DenoiseOptions& options) {
   }
 }
 
+/// One line a view that the method has with its settings.
+std::string viewList(const std::vector<ViewInfo>& views) {
+  std::string text;
+  for (const ViewInfo& view : views) {
+    text.append("\n  ").append(view.name).append(": ").append(view.description);
+  }
+  return text;
+}
+
+void listViews(const MethodOptions& options) {
+  const std::vector<ViewInfo> views = makeMethod(options)->views();
+  std::cout << "method " << options.name << " has " << (views.empty() ? "no views" : "these views") << viewList(views)
+            << '\n';
+}
+
 void refuseUnknownViews(const DenoiseOptions& options, Denoiser& method) {
   const std::vector<ViewInfo> views = method.views();
-  std::string known;
-  for (const ViewInfo& view : views) {
-    known.append("\n  ").append(view.name).append(": ").append(view.description);
-  }
   for (const std::string& wanted : options.views) {
     const auto isWanted = [name = wanted.substr(0, wanted.find('.'))](const ViewInfo& view) {
       return view.name == name;
     };
-    if (std::ranges::none_of(views, isWanted)) {
-      throw UsageError("--view " + wanted + ": method " + options.method.name +
-                       (known.empty() ? " has no views" : " has no such view with these settings; it has" + known));
-    }
+    if (std::ranges::any_of(views, isWanted)) continue;
+    if (wanted == "?") throw UsageError("--view ?: give --list-views to see the method's views");
+    throw UsageError("--view " + wanted + ": method " + options.method.name +
+                     (views.empty() ? " has no views" : " has no such view with these settings; it has") +
+                     viewList(views));
   }
 }
 
+/// @returns stops; nothing where they shall be chosen from the pictures
+std::optional<float> parseExposure(const std::string& text) {
+  if (text == "auto") return std::nullopt;
+  float stops = 0.0F;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), stops);
+  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(stops)) {
+    throw UsageError("--exposure " + text + ": give auto or a number of stops, as in --exposure 1.5");
+  }
+  return stops;
+}
+
 /// @throws UsageError naming a view of an iteration that there is not at the pictures' size, or settings at odds
-GpuDenoiser makeDenoiser(const DenoiseOptions& options, const GpuDevice& device, Denoiser& method,
-                         const Sequence& sequence) {
+GpuDenoiser makeGpuDenoiser(const DenoiseOptions& options, const GpuDevice& device, Denoiser& method,
+                            const Sequence& sequence) {
   try {
     return {device,
             method,
@@ -114,6 +142,8 @@ GpuDenoiser makeDenoiser(const DenoiseOptions& options, const GpuDevice& device,
 
 void denoise(DenoiseOptions& options) {
   options.sequence.composite = options.output.composite;
+  options.output.referenceDirect = options.directLight == "reference";
+  options.output.exposure = parseExposure(options.exposure);
   options.sequence.nonFinite = options.nonFinite == "replace" ? NonFinitePolicy::Replace : NonFinitePolicy::Fail;
   if (!options.frames.empty()) {
     options.sequence.frames = parseFrameRange(options.frames);
@@ -126,7 +156,7 @@ void denoise(DenoiseOptions& options) {
   describeInput(std::cout, options.input, sequence);
 
   GpuDevice device(options.gpu);
-  GpuDenoiser denoiser = makeDenoiser(options, device, *method, sequence);
+  GpuDenoiser denoiser = makeGpuDenoiser(options, device, *method, sequence);
   DenoiseReport report;
   report.method = options.method.name;
   for (const SettingText& setting : method->settings()) {
@@ -140,6 +170,7 @@ void denoise(DenoiseOptions& options) {
   std::cout << "method: " << report.method << "\ndevice: " << report.device << ", driver " << report.driver
             << (report.softwareDevice ? " (software)" : "") << std::endl;
   {
+    FrameWriter writer(options.output);
     Progress progress(std::cerr, isatty(STDERR_FILENO) != 0, "frame", sequence.entries().size(),
                       Progress::Clock::now());
     runPipeline(
@@ -151,7 +182,7 @@ void denoise(DenoiseOptions& options) {
         },
         [&] { return denoiser.finish(); },
         [&](const DenoisedFrame& frame) {
-          writeDenoisedFrame(frame, options.output);
+          writer.write(frame);
           report.frames.push_back(measure(frame));
           noteNonFinite(progress, frame.frame);
           if (const std::size_t count = report.frames.back().nonFiniteOutput; count > 0) {
@@ -202,10 +233,10 @@ void registerDenoise(CLI::App& program) {
       ->add_option(
           "--view", options->views,
           "Also write a view of the method's inner workings, view_NAME_FFFF.exr, channels X, Y, Z; may be given "
-          "several times. NAME.T looks into iteration T (0 is the first) instead of the last. A name that "
-          "there is not lists those of the method with its settings")
+          "several times. NAME.T looks into iteration T (0 is the first) instead of the last")
       ->allow_extra_args(false)
       ->type_name("NAME");
+  command->add_flag("--list-views", options->listViews, "List the views of the method with its settings, and stop");
   command->add_flag(
       "--counters", options->counters,
       "Count what happens inside the method in every frame - values that are not finite, history rejected, "
@@ -214,9 +245,22 @@ void registerDenoise(CLI::App& program) {
   command->add_flag("--composite", options->output.composite,
                     "Write the lit picture albedo * (direct + indirect) + emission as R,G,B; needs those channels. "
                     "Errors are measured on the indirect light all the same");
+  command
+      ->add_option("--direct-light", options->directLight,
+                   "Direct light of lit pictures: that of the frame, or that of its reference where there is one. An "
+                   "engine has its direct light by other means; without its noise only the denoised light differs")
+      ->check(CLI::IsMember({"frame", "reference"}))
+      ->type_name("")
+      ->capture_default_str();
   command->add_flag("--png", options->output.png,
                     "Also write denoised_FFFF.png and comparison_FFFF.png (noisy | denoised | reference), tone-mapped "
-                    "by x/(1+x), then sRGB");
+                    "by x/(1+x), then sRGB; with --composite the lit picture and beside or below it the light alone");
+  command
+      ->add_option("--exposure", options->exposure,
+                   "Of the PNGs, in stops: a number, or auto, which brings the log-average luminance to middle grey "
+                   "(Reinhard et al. 2002), chosen at the first frame and after each camera cut")
+      ->type_name("auto|EV")
+      ->capture_default_str();
   command
       ->add_option("--non-finite", options->nonFinite,
                    "What to do with NaN and infinity in the input: fail, or replace them before they enter any average")
@@ -235,6 +279,10 @@ void registerDenoise(CLI::App& program) {
   command->callback([=] {
     if (options->listDevices) {
       listDevices();
+      return;
+    }
+    if (options->listViews) {
+      listViews(options->method);
       return;
     }
     for (const CLI::Option* option : {input, output}) {

@@ -13,11 +13,11 @@
 #include "framegraph/inspect/inspect.h"
 #include "integration/denoise_graph.h"
 #include "integration/registry.h"
-#include "samples/cli/arguments.h"
 #include "samples/cli/command.h"
-#include "samples/cli/exit_code.h"
-#include "samples/cli/method_options.h"
-#include "samples/cli/usage_error.h"
+#include "samples/command_line/arguments.h"
+#include "samples/command_line/exit_code.h"
+#include "samples/command_line/method_options.h"
+#include "samples/command_line/usage_error.h"
 #include "samples/image/file_output.h"
 
 namespace walr {

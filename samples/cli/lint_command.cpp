@@ -7,10 +7,10 @@
 
 #include "passes/denoiser.h"
 #include "passes/input_linter.h"
-#include "samples/cli/arguments.h"
 #include "samples/cli/command.h"
-#include "samples/cli/device_options.h"
-#include "samples/cli/exit_code.h"
+#include "samples/command_line/arguments.h"
+#include "samples/command_line/device_options.h"
+#include "samples/command_line/exit_code.h"
 #include "samples/denoise/gpu_denoiser.h"
 #include "samples/errors.h"
 #include "samples/sequence/sequence.h"

@@ -1,7 +1,7 @@
 #include <CLI/CLI.hpp>
 
 #include "samples/cli/command.h"
-#include "samples/cli/program.h"
+#include "samples/command_line/program.h"
 
 int main(int argc, char** argv) {
   CLI::App program("walr: real-time denoising of 1-sample-per-pixel diffuse indirect light", "walr");

@@ -7,9 +7,9 @@
 
 #include <CLI/CLI.hpp>
 
-#include "samples/cli/arguments.h"
 #include "samples/cli/command.h"
-#include "samples/cli/exit_code.h"
+#include "samples/command_line/arguments.h"
+#include "samples/command_line/exit_code.h"
 #include "samples/denoise/progress.h"
 #include "samples/render/render_sequence.h"
 
@@ -35,9 +35,12 @@ void renderFrames(RenderArguments& arguments) {
   options.width = extent.width;
   options.height = extent.height;
 
-  Progress progress(std::cerr, isatty(STDERR_FILENO) != 0, "file", options.files(), Progress::Clock::now());
+  Progress progress(std::cerr, isatty(STDERR_FILENO) != 0, "file", options.files(), Progress::Clock::now(),
+                    options.paths());
   render::RenderObserver observer;
   observer.warning = [&](const std::string& warning) { progress.note("warning: " + warning); };
+  observer.traced = [&](double paths) { progress.worked(paths, Progress::Clock::now()); };
+  observer.skipped = [&](double paths) { progress.skipped(paths); };
   observer.fileDone = [&](const std::string& line) {
     progress.note(line);
     progress.advance(Progress::Clock::now());
@@ -62,10 +65,10 @@ void registerRender(CLI::App& program) {
       ->capture_default_str();
   command->add_option("--size", arguments->size, "WIDTHxHEIGHT in pixels")->capture_default_str();
   constexpr std::uint32_t kMostSamples = 1U << 20U;
-  command->add_option("--spp", options.samples, "Paths a pixel in the noisy frames")
+  command->add_option("--spp", options.samples, "Samples per pixel of the noisy frames")
       ->check(CLI::Range(1U, kMostSamples))
       ->capture_default_str();
-  command->add_option("--reference-spp", options.referenceSamples, "Paths a pixel in the references; 0: none")
+  command->add_option("--reference-spp", options.referenceSamples, "Samples per pixel of the references; 0: none")
       ->check(CLI::Range(0U, kMostSamples))
       ->capture_default_str();
   command->add_option("--reference-frames", arguments->referenceFrames,
@@ -98,7 +101,7 @@ void registerRender(CLI::App& program) {
   command
       ->add_option(
           "--sampler", options.sampler,
-          "Random numbers: blue-noise (spread over the pixels of a frame; default; several paths a pixel take sobol), "
+          "Random numbers: blue-noise (spread over the pixels of a frame; default; several samples per pixel take sobol), "
           "sobol (Owen-scrambled Sobol points over the samples of a pixel) or independent")
       ->transform(CLI::CheckedTransformer(
           std::map<std::string, render::Sampler::Kind>{{"blue-noise", render::Sampler::Kind::BlueNoise},

@@ -3,18 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <cstring>
 #include <deque>
 #include <numeric>
 #include <span>
 #include <stdexcept>
 #include <utility>
 
-#include "framegraph/vulkan/device.h"
-#include "framegraph/vulkan/executor.h"
-#include "framegraph/vulkan/frame_queue.h"
-#include "framegraph/vulkan/staged_buffer.h"
 #include "framegraph/vulkan/staged_image.h"
+#include "samples/denoise/device_graph.h"
 
 namespace walr {
 namespace {
@@ -49,19 +45,10 @@ std::array<VkFormat, kHostInputs.size()> formatsOf(bool objectIds) {
   return formats;
 }
 
-/// A buffer of counters as a finished frame left it.
-std::vector<std::uint32_t> wordsOf(const fg::vk::StagedBuffer& counters, std::uint32_t slot) {
-  std::vector<std::uint32_t> words(kCounterWords);
-  std::ranges::copy(counters.staging(slot), std::as_writable_bytes(std::span(words)).begin());
-  return words;
-}
-
 /// The first three components of RGBA32F texels.
-Image viewImage(std::span<const std::byte> texels, int width, int height) {
+Image viewImage(std::span<const std::array<float, 4>> texels, int width, int height) {
   Image image(width, height, 3);
-  for (std::size_t i = 0; i < image.pixelCount(); ++i) {
-    std::memcpy(image.pixel(i).data(), texels.data() + i * 4 * sizeof(float), 3 * sizeof(float));
-  }
+  for (std::size_t i = 0; i < image.pixelCount(); ++i) std::copy_n(texels[i].begin(), 3, image.pixel(i).begin());
   return image;
 }
 
@@ -69,73 +56,48 @@ Image viewImage(std::span<const std::byte> texels, int width, int height) {
 
 struct GpuDenoiser::State {
   State(const GpuDevice& gpu, Denoiser& method, fg::Extent extent, const Layout& frameLayout,
-        const InspectionWish& wanted, std::uint32_t slots, bool objectIds)
-      : framesInFlight(slots),
-        device(gpu.device()),
-        layout(frameLayout),
+        const InspectionWish& wanted, std::uint32_t framesInFlight, bool objectIds)
+      : layout(frameLayout),
         declared(declareDenoiseGraph(
             method, extent, layout.conventions,
             {.inputs = fg::vk::kUploaded, .outputBefore = fg::vk::kOverwritable, .outputAfter = fg::vk::kReadable},
             formatsOf(objectIds), {}, wanted)),
-        executor(device.context(), declared.graph.desc(), compileFor(gpu, declared.graph),
-                 {.framesInFlight = slots, .timestamps = device.context().timestampBits > 0}),
-        lighting(makeUpload(declared.inputs.lighting)),
-        depth(makeUpload(declared.inputs.depth)),
-        normal(makeUpload(declared.inputs.normal)),
-        motion(makeUpload(declared.inputs.motion)),
-        albedo(makeUpload(declared.inputs.albedo)),
-        output(device.context(), declared.graph.textureDesc(declared.output), executor.usage(declared.output),
-               fg::vk::StagedImage::Direction::Readback, slots, "denoised"),
-        queue(device.context(), device.queue(), slots) {
-    executor.bind(declared.output, output.external());
-    if (objectIds) objectId.emplace(device.context(), declared.graph, executor, declared.inputs.objectId, slots);
-    for (const DebugView& view : declared.inspection.views()) {
-      views.emplace_back(device.context(), declared.graph.textureDesc(view.texture), executor.usage(view.texture),
-                         fg::vk::StagedImage::Direction::Readback, slots, "view of " + view.name);
-      executor.bind(view.texture, views.back().external());
-    }
-    if (!declared.inspection.counters().empty()) makeReadback(counters, declared.inspection.counterBuffer());
-    if (declared.lint.valid()) makeReadback(lint, declared.lint);
+        graph(gpu, declared.graph, framesInFlight),
+        lighting(makeUpload(gpu, declared.inputs.lighting, framesInFlight)),
+        depth(makeUpload(gpu, declared.inputs.depth, framesInFlight)),
+        normal(makeUpload(gpu, declared.inputs.normal, framesInFlight)),
+        motion(makeUpload(gpu, declared.inputs.motion, framesInFlight)),
+        albedo(makeUpload(gpu, declared.inputs.albedo, framesInFlight)),
+        output(graph.readBack(declared.output)) {
+    if (objectIds) objectId.emplace(makeUpload(gpu, declared.inputs.objectId, framesInFlight));
+    for (const DebugView& view : declared.inspection.views()) views.push_back(graph.readBack(view.texture));
+    if (!declared.inspection.counters().empty()) counters = graph.readBack(declared.inspection.counterBuffer());
+    if (declared.lint.valid()) lint = graph.readBack(declared.lint);
   }
 
-  void makeReadback(std::optional<fg::vk::StagedBuffer>& counts, fg::Buffer buffer) {
-    counts.emplace(device.context(), fg::BufferDesc{kCounterBytes}, executor.usage(buffer), framesInFlight,
-                   declared.graph.desc().resources[buffer.resource].name);
-    executor.bind(buffer, counts->handle());
+  UploadedTexture makeUpload(const GpuDevice& gpu, fg::Texture texture, std::uint32_t slots) {
+    return {gpu.device().context(), declared.graph, graph.executor(), texture, slots};
   }
 
-  UploadedTexture makeUpload(fg::Texture texture) {
-    return {device.context(), declared.graph, executor, texture, framesInFlight};
-  }
+  /// Record and submit a frame.
+  void submit(const PackedFrame& packed);
+  /// Wait for the oldest frame and read it back.
+  DenoisedPicture finish();
 
-  /// Record and submit a frame. @returns its slot
-  std::uint32_t submit(const PackedFrame& packed);
-  /// Wait for the frame of a slot and read it back.
-  DenoisedPicture finish(std::uint32_t slot);
-
-  /// A frame that the device has not been waited for.
-  struct InFlight {
-    Frame frame;
-    std::uint32_t slot;
-  };
-
-  std::uint32_t framesInFlight;
-  const fg::vk::Device& device;
   const Layout& layout;
   DenoiseGraph declared;
-  fg::vk::Executor executor;
+  ReadbackGraph graph;
   UploadedTexture lighting;
   UploadedTexture depth;
   UploadedTexture normal;
   UploadedTexture motion;
   UploadedTexture albedo;
   std::optional<UploadedTexture> objectId;
-  fg::vk::StagedImage output;
-  std::vector<fg::vk::StagedImage> views;
-  std::optional<fg::vk::StagedBuffer> counters;
-  std::optional<fg::vk::StagedBuffer> lint;
-  fg::vk::FrameQueue queue;
-  std::deque<InFlight> inFlight;
+  ReadbackGraph::Index output;
+  std::vector<ReadbackGraph::Index> views;
+  std::optional<ReadbackGraph::Index> counters;
+  std::optional<ReadbackGraph::Index> lint;
+  std::deque<Frame> frames;  ///< In flight, but for that of `run`.
 };
 
 std::optional<double> DenoisedPicture::milliseconds() const {
@@ -146,44 +108,38 @@ std::optional<double> DenoisedPicture::milliseconds() const {
                          [](double sum, const fg::vk::PassTime& time) { return sum + time.milliseconds; });
 }
 
-std::uint32_t GpuDenoiser::State::submit(const PackedFrame& packed) {
-  if (inFlight.size() == framesInFlight) throw std::logic_error("GpuDenoiser::submit: finish a frame first");
+void GpuDenoiser::State::submit(const PackedFrame& packed) {
   const Frame& frame = packed.frame;
-  executor.upload(declared.inputs.frame, frameConstantsOf(frame, layout.motionScale));
+  const FrameConstants constants = frameConstantsOf(frame, layout.motionScale);
+  const fg::vk::Frame recorded = graph.begin();
+  graph.executor().upload(declared.inputs.frame, constants);
   if (frame.resetHistory) {
-    executor.resetAllHistory();
+    graph.executor().resetAllHistory();
   }
-  const fg::vk::Frame recorded = queue.begin();
   lighting.upload(recorded, packed.lighting);
   depth.upload(recorded, frame.depth.values());
   normal.upload(recorded, packed.normal);
   motion.upload(recorded, packed.motion);
   albedo.upload(recorded, packed.albedo);
   if (objectId) objectId->upload(recorded, packed.objectId);
-  executor.record(recorded.commandBuffer, recorded.slot);
-  output.recordReadback(recorded.commandBuffer, recorded.slot);
-  for (const fg::vk::StagedImage& view : views) view.recordReadback(recorded.commandBuffer, recorded.slot);
-  for (const auto* counts : {&counters, &lint}) {
-    if (*counts) (*counts)->recordReadback(recorded.commandBuffer, recorded.slot);
-  }
-  queue.submit(recorded);
-  return recorded.slot;
+  graph.submit(recorded);
 }
 
-DenoisedPicture GpuDenoiser::State::finish(std::uint32_t slot) {
-  queue.wait(slot);
+DenoisedPicture GpuDenoiser::State::finish() {
+  const std::uint32_t slot = graph.finish();
   const fg::Extent extent = declared.graph.textureDesc(declared.output).extent;
   const auto width = static_cast<int>(extent.width);
   const auto height = static_cast<int>(extent.height);
-  std::vector<Rgba16> texels(std::size_t{extent.width} * extent.height);
-  std::ranges::copy(output.staging(slot), std::as_writable_bytes(std::span(texels)).begin());
-  const std::span<const fg::vk::PassTime> times = executor.passTimes(slot);
-  DenoisedPicture picture{unpackRgb(texels, width, height), {times.begin(), times.end()}, {}, {}, {}};
-  for (std::size_t i = 0; i < views.size(); ++i)
-    picture.views.push_back({declared.inspection.views()[i].name, viewImage(views[i].staging(slot), width, height)});
-  if (lint) picture.lint = wordsOf(*lint, slot);
+  const std::span<const fg::vk::PassTime> times = graph.executor().passTimes(slot);
+  DenoisedPicture picture{
+      unpackRgb(graph.read<Rgba16>(output, slot), width, height), {times.begin(), times.end()}, {}, {}, {}};
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    const auto texels = graph.read<std::array<float, 4>>(views[i], slot);
+    picture.views.push_back({declared.inspection.views()[i].name, viewImage(texels, width, height)});
+  }
+  if (lint) picture.lint = graph.read<std::uint32_t>(*lint, slot);
   if (counters) {
-    const std::vector<std::uint32_t> words = wordsOf(*counters, slot);
+    const auto words = graph.read<std::uint32_t>(*counters, slot);
     for (const Counter& counter : declared.inspection.counters())
       picture.counters.push_back({counter.name, counter.value(words)});
   }
@@ -198,35 +154,35 @@ GpuDenoiser::GpuDenoiser(GpuDenoiser&&) noexcept = default;
 GpuDenoiser& GpuDenoiser::operator=(GpuDenoiser&&) noexcept = default;
 
 bool GpuDenoiser::full() const {
-  return state_->inFlight.size() == state_->framesInFlight;
+  return state_->graph.full();
 }
 
 void GpuDenoiser::submit(PackedFrame packed) {
-  const std::uint32_t slot = state_->submit(packed);
-  state_->inFlight.push_back({std::move(packed.frame), slot});
+  state_->submit(packed);
+  state_->frames.push_back(std::move(packed.frame));
 }
 
 std::optional<DenoisedFrame> GpuDenoiser::finish() {
-  if (state_->inFlight.empty()) return std::nullopt;
-  State::InFlight oldest = std::move(state_->inFlight.front());
-  state_->inFlight.pop_front();
-  DenoisedPicture picture = state_->finish(oldest.slot);
+  if (state_->frames.empty()) return std::nullopt;
+  DenoisedPicture picture = state_->finish();
   DenoisedFrame denoised;
   denoised.gpuMilliseconds = picture.milliseconds();
   denoised.indirect = std::move(picture.indirect);
   denoised.views = std::move(picture.views);
   denoised.counters = std::move(picture.counters);
-  denoised.frame = std::move(oldest.frame);
+  denoised.frame = std::move(state_->frames.front());
+  state_->frames.pop_front();
   return denoised;
 }
 
 DenoisedPicture GpuDenoiser::run(const PackedFrame& packed) {
-  if (!state_->inFlight.empty()) throw std::logic_error("GpuDenoiser::run: finish the frames in flight first");
-  return state_->finish(state_->submit(packed));
+  if (!state_->frames.empty()) throw std::logic_error("GpuDenoiser::run: finish the frames in flight first");
+  state_->submit(packed);
+  return state_->finish();
 }
 
 DenoisedFrame GpuDenoiser::denoise(PackedFrame packed) {
-  if (!state_->inFlight.empty()) throw std::logic_error("GpuDenoiser::denoise: finish the frames in flight first");
+  if (!state_->frames.empty()) throw std::logic_error("GpuDenoiser::denoise: finish the frames in flight first");
   submit(std::move(packed));
   return *finish();
 }

@@ -1,5 +1,10 @@
 #include "samples/denoise/gpu_device.h"
 
+#include <cstdint>
+#include <cstdlib>
+#include <exception>
+#include <iomanip>
+#include <sstream>
 #include <stdexcept>
 #include <utility>
 
@@ -28,7 +33,22 @@ fg::Plan compilePlan(const fg::Graph& graph, const fg::MemoryModel& memory) {
 GpuDevice::GpuDevice(const Options& options)
     : instance_({.validation = options.validation, .sink = log_.sink(), .extensions = options.instanceExtensions}),
       physical_(chooseDevice(instance_, options.device)),
-      device_(instance_, physical_, options.deviceExtensions) {}
+      device_(instance_, physical_, options.deviceExtensions) {
+  if (!options.keepPipelines) return;
+  const std::filesystem::path file = pipelineCacheFile(device_.context());
+  std::error_code ignored;  // As with any that cannot be written.
+  if (!file.empty()) std::filesystem::create_directories(file.parent_path(), ignored);
+  pipelineCache_ = std::make_unique<fg::vk::PipelineCache>(device_.context(), file);
+}
+
+GpuDevice::~GpuDevice() {
+  if (pipelineCache_ == nullptr) return;
+  try {
+    pipelineCache_->save();
+  } catch (const std::exception&) {
+    // See the declaration.
+  }
+}
 
 void GpuDevice::refuseMessages() {
   const std::vector<fg::vk::Message> messages = takeMessages();
@@ -36,6 +56,23 @@ void GpuDevice::refuseMessages() {
     throw std::runtime_error("the validation layer has " + std::to_string(messages.size()) +
                              " message(s); the first: " + messages.front().text);
   }
+}
+
+std::filesystem::path pipelineCacheFile(const fg::vk::DeviceContext& device) {
+  const auto folderOf = [](const char* variable, const char* below) -> std::filesystem::path {
+    const char* const value = std::getenv(variable);
+    // The specification wants paths that are not absolute ignored.
+    if (value == nullptr || !std::filesystem::path(value).is_absolute()) return {};
+    return std::filesystem::path(value) / below;
+  };
+  std::filesystem::path folder = folderOf("XDG_CACHE_HOME", "walr");
+  if (folder.empty()) folder = folderOf("HOME", ".cache/walr");
+  if (folder.empty()) return {};
+  std::ostringstream name;
+  name << "pipelines-" << std::hex << std::setfill('0');
+  for (const std::uint8_t byte : device.properties.pipelineCacheUUID) name << std::setw(2) << unsigned{byte};
+  name << '-' << device.properties.driverVersion << ".bin";
+  return folder / name.str();
 }
 
 fg::Plan compileFor(const GpuDevice& device, const fg::Graph& graph) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -9,6 +11,7 @@
 #include "framegraph/vulkan/instance.h"
 #include "framegraph/vulkan/messages.h"
 #include "framegraph/vulkan/physical_device.h"
+#include "framegraph/vulkan/pipelines.h"
 
 namespace walr {
 
@@ -20,10 +23,16 @@ class GpuDevice {
     bool validation = false;  ///< Run under the Khronos validation layer with synchronization validation.
     std::vector<const char*> instanceExtensions = {};  ///< Enabled besides, for instance for windows.
     std::vector<const char*> deviceExtensions = {};
+    bool keepPipelines = false;  ///< Keep compiled pipelines from run to run, see `pipelineCacheFile`.
   };
 
   /// @throws fg::vk::Error where there is no device, or none that will do
   explicit GpuDevice(const Options& options);
+  /// Writes the pipelines that were added, if they are kept. A file that cannot be written only costs the next start
+  /// time, and is passed over.
+  ~GpuDevice();
+  GpuDevice(const GpuDevice&) = delete;
+  GpuDevice& operator=(const GpuDevice&) = delete;
 
   [[nodiscard]] const std::string& name() const { return physical_.name; }
   /// Driver and its version.
@@ -34,6 +43,8 @@ class GpuDevice {
   [[nodiscard]] const fg::vk::PhysicalDevice& physical() const { return physical_; }
   [[nodiscard]] const fg::vk::Device& device() const { return device_; }
   [[nodiscard]] VkInstance instance() const { return instance_.handle(); }
+  /// Where executors take compiled pipelines from and leave new ones; null unless they are kept.
+  [[nodiscard]] fg::vk::PipelineCache* pipelineCache() const { return pipelineCache_.get(); }
 
   /// What the validation layer said since the last call.
   std::vector<fg::vk::Message> takeMessages() { return log_.take(); }
@@ -45,7 +56,13 @@ class GpuDevice {
   fg::vk::Instance instance_;
   fg::vk::PhysicalDevice physical_;
   fg::vk::Device device_;
+  std::unique_ptr<fg::vk::PipelineCache> pipelineCache_;
 };
+
+/// The file that holds a device's compiled pipelines: in `$XDG_CACHE_HOME/walr`, else `~/.cache/walr` (XDG Base
+/// Directory Specification), with the device's pipeline cache UUID and the driver's version in its name. Empty where
+/// the user has no such folder.
+std::filesystem::path pipelineCacheFile(const fg::vk::DeviceContext& device);
 
 /// Compile a graph for a device, after a check that names every format use that the device lacks.
 /// @throws std::runtime_error with all that is wrong with the graph; fg::vk::Error for what the device lacks

@@ -1,5 +1,6 @@
 #include "samples/denoise/progress.h"
 
+#include <algorithm>
 #include <cmath>
 #include <iomanip>
 #include <sstream>
@@ -18,8 +19,16 @@ std::string formatDuration(std::chrono::seconds duration) {
   return text.str();
 }
 
-Progress::Progress(std::ostream& stream, bool terminal, std::string unit, std::size_t total, Clock::time_point start)
-    : stream_(stream), terminal_(terminal), unit_(std::move(unit)), total_(total), start_(start) {
+Progress::Progress(std::ostream& stream, bool terminal, std::string unit, std::size_t total, Clock::time_point start,
+                   std::optional<double> work)
+    : stream_(stream),
+      terminal_(terminal),
+      unit_(std::move(unit)),
+      total_(total),
+      sameWork_(!work),
+      work_(work.value_or(static_cast<double>(total))),
+      start_(start),
+      drawn_(start) {
   if (terminal_) {
     draw();
   }
@@ -31,11 +40,25 @@ Progress::~Progress() {
   }
 }
 
+void Progress::count(double work, Clock::time_point now) {
+  workDone_ += work;
+  const std::chrono::duration<double> elapsed = now - start_;
+  const double remaining = workDone_ > 0.0 ? elapsed.count() / workDone_ * std::max(work_ - workDone_, 0.0) : 0.0;
+  left_ = std::chrono::seconds(done_ < total_ ? std::llround(std::ceil(remaining)) : 0);
+}
+
 void Progress::advance(Clock::time_point now) {
   ++done_;
-  const std::chrono::duration<double> elapsed = now - start_;
-  const double remaining = elapsed.count() / static_cast<double>(done_) * static_cast<double>(total_ - done_);
-  left_ = std::chrono::seconds(std::llround(std::ceil(remaining)));
+  count(sameWork_ ? 1.0 : 0.0, now);
+  drawn_ = now;
+  draw();
+}
+
+void Progress::worked(double work, Clock::time_point now) {
+  constexpr std::chrono::seconds kQuiet(30);
+  count(work, now);
+  if (!terminal_ && now - drawn_ < kQuiet) return;
+  drawn_ = now;
   draw();
 }
 
@@ -52,12 +75,13 @@ void Progress::note(const std::string& line) {
 void Progress::draw() {
   std::ostringstream text;
   text << unit_ << ' ' << done_ << " of " << total_;
-  if (done_ > 0) {
+  if (workDone_ > 0.0 || done_ > 0) {
     text << ", " << formatDuration(left_) << " left";
   }
   if (terminal_) {
     constexpr std::size_t kBarWidth = 30;
-    const std::size_t filled = kBarWidth * done_ / total_;
+    const double share = work_ > 0.0 ? std::min(workDone_ / work_, 1.0) : 1.0;
+    const auto filled = static_cast<std::size_t>(share * kBarWidth);
     // Return to the start of the line, and clear what a longer text before left behind.
     stream_ << "\r[" << std::string(filled, '#') << std::string(kBarWidth - filled, '.') << "] " << text.str()
             << "\x1b[K" << std::flush;

@@ -26,6 +26,7 @@ void addMeasurements(Json& object, const FrameReport& frame) {
   object["gpu_ms"] = number(frame.gpuMilliseconds);
   addFigures(object, frame.denoised);
   addFigures(object["noisy"], frame.noisy);
+  object["reference_noise"] = number(frame.referenceNoise);
 }
 
 Json meanJson(const FrameReport& mean) {
@@ -85,12 +86,16 @@ FrameReport meanReport(const std::vector<FrameReport>& frames, std::size_t first
   MeanFigures noisy;
   double milliseconds = 0.0;
   std::size_t timed = 0;
+  double referenceNoise = 0.0;
+  std::size_t halved = 0;
   FrameReport mean;
   for (std::size_t i = first; i < frames.size(); ++i) {
     denoised.add(frames[i].denoised);
     noisy.add(frames[i].noisy);
     milliseconds += frames[i].gpuMilliseconds.value_or(0.0);
     timed += frames[i].gpuMilliseconds ? 1 : 0;
+    referenceNoise += frames[i].referenceNoise.value_or(0.0);
+    halved += frames[i].referenceNoise ? 1 : 0;
     mean.nonFiniteOutput += frames[i].nonFiniteOutput;
   }
   mean.denoised = denoised.mean();
@@ -98,6 +103,7 @@ FrameReport meanReport(const std::vector<FrameReport>& frames, std::size_t first
   if (timed > 0) {
     mean.gpuMilliseconds = milliseconds / static_cast<double>(timed);
   }
+  if (halved > 0) mean.referenceNoise = referenceNoise / static_cast<double>(halved);
   return mean;
 }
 
@@ -154,6 +160,9 @@ void printReport(std::ostream& stream, const DenoiseReport& report) {
   if (withErrors) {
     stream << "Errors after the tone map x/(1+x), over pixels with diffuse albedo of at least 0.01 that are not sky; "
               "PSNR in dB against a peak of 1; SSIM with an 11x11 Gaussian window.\n";
+  }
+  if (const std::optional<double> noise = meanReport(report.frames, 0).referenceNoise) {
+    stream << "The references' own noise: RMSE " << cell(noise, 5, 0) << ", which is part of every error above.\n";
   }
   printCounters(stream, report.frames);
   if (report.softwareDevice) {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "samples/cli/usage_error.h"
+#include "samples/command_line/usage_error.h"
 #include "samples/host/shaders/view_constants.h"
 #include "shaders/constants/frame.h"
 

@@ -3,7 +3,7 @@
 #include <map>
 #include <string>
 
-#include "samples/cli/device_options.h"
+#include "samples/command_line/device_options.h"
 
 namespace walr::host {
 
@@ -32,12 +32,12 @@ void addHostOptions(CLI::App& program, HostOptions& options) {
   addMethodOptions(program, options.method);
   addDeviceOptions(program, options.gpu);
   constexpr std::uint32_t kMostSamples = 1U << 16U;
-  program.add_option("--spp", tracer.samples, "Paths a pixel")
+  program.add_option("--spp", tracer.samples, "Samples per pixel")
       ->check(CLI::Range(1U, kMostSamples))
       ->capture_default_str();
   program
       .add_option("--reference-spp", tracer.referenceSamples,
-                  "Paths a pixel of a reference, for the views that show one; they add up while nothing moves")
+                  "Samples per pixel of a reference, for the views that show one; they add up while nothing moves")
       ->check(CLI::Range(1U, kMostSamples))
       ->capture_default_str();
   constexpr std::uint32_t kMostBounces = 1024;
@@ -56,7 +56,7 @@ void addHostOptions(CLI::App& program, HostOptions& options) {
   program.add_flag("--jitter", tracer.jitter, "Sample off the pixel centre: 16 Halton points, one a frame");
   program.add_flag(
       "--denoise-direct", tracer.denoiseDirect,
-      "Denoise the direct light with the indirect: for lamps and skies that one path a pixel samples badly");
+      "Denoise the direct light with the indirect: for lamps and skies that one sample per pixel finds badly");
   program
       .add_option(
           "--gbuffer", tracer.gbuffer,

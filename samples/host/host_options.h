@@ -5,7 +5,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "samples/cli/method_options.h"
+#include "samples/command_line/method_options.h"
 #include "samples/denoise/gpu_device.h"
 #include "samples/host/host_graph.h"
 #include "samples/host/tracer.h"

@@ -8,9 +8,9 @@
 
 #include <CLI/CLI.hpp>
 
-#include "samples/cli/arguments.h"
-#include "samples/cli/program.h"
-#include "samples/cli/usage_error.h"
+#include "samples/command_line/arguments.h"
+#include "samples/command_line/program.h"
+#include "samples/command_line/usage_error.h"
 #include "samples/denoise/progress.h"
 #include "samples/host/headless.h"
 #include "samples/host/host_options.h"

@@ -1,8 +1,6 @@
 #include "samples/host/renderer.h"
 
-#include <algorithm>
 #include <span>
-#include <stdexcept>
 
 namespace walr::host {
 namespace {
@@ -20,74 +18,42 @@ HostTargets targetsOf(const Renderer::Options& options) {
   return targets;
 }
 
-template <typename Texel>
-std::vector<Texel> texelsOf(const fg::vk::StagedImage& image, std::uint32_t slot) {
-  const std::span<const std::byte> bytes = image.staging(slot);
-  std::vector<Texel> texels(bytes.size() / sizeof(Texel));
-  std::ranges::copy(bytes, std::as_writable_bytes(std::span(texels)).begin());
-  return texels;
-}
-
 }  // namespace
 
 Renderer::Renderer(const GpuDevice& gpu, Denoiser& method, fg::Extent extent, const Options& options)
-    : gpu_(gpu),
-      extent_(extent),
+    : extent_(extent),
       options_(options),
       host_(declareHostGraph(gpu.device().context(), method, extent, options.view, targetsOf(options))),
-      plan_(compileFor(gpu, host_.graph)),
-      executor_(gpu.device().context(), host_.graph.desc(), plan_,
-                {.framesInFlight = options.framesInFlight, .timestamps = gpu.device().context().timestampBits > 0}),
-      queue_(gpu.device().context(), gpu.device().queue(), options.framesInFlight) {
-  makeReadback(display_, host_.display, "display");
-  if (options.readComposite) {
-    makeReadback(composite_, host_.composite, "lit");
-  }
-  if (options.readDenoised) {
-    makeReadback(denoised_, host_.denoised, "denoised");
-  }
-}
-
-void Renderer::makeReadback(Readback& image, fg::Texture texture, const char* name) {
-  image.emplace(gpu_.device().context(), host_.graph.textureDesc(texture), executor_.usage(texture),
-                fg::vk::StagedImage::Direction::Readback, options_.framesInFlight, name);
-  executor_.bind(texture, image->external());
+      graph_(gpu, host_.graph, options.framesInFlight),
+      display_(graph_.readBack(host_.display)) {
+  if (options.readComposite) composite_ = graph_.readBack(host_.composite);
+  if (options.readDenoised) denoised_ = graph_.readBack(host_.denoised);
 }
 
 void Renderer::submit(const HostFrame& frame) {
-  if (full()) {
-    throw std::logic_error("Renderer::submit: finish a frame first");
-  }
-  uploadFrame(executor_, host_, frame, options_.viewConstants);
-  const fg::vk::Frame recorded = queue_.begin();
-  executor_.record(recorded.commandBuffer, recorded.slot);
-  for (const Readback* image : {&display_, &composite_, &denoised_}) {
-    if (*image) {
-      (*image)->recordReadback(recorded.commandBuffer, recorded.slot);
-    }
-  }
-  queue_.submit(recorded);
-  inFlight_.push_back({frame.inputs.frame.number, recorded.slot});
+  const fg::vk::Frame recorded = graph_.begin();
+  uploadFrame(graph_.executor(), host_, frame, options_.viewConstants);
+  graph_.submit(recorded);
+  numbers_.push_back(frame.inputs.frame.number);
 }
 
 std::optional<RenderedFrame> Renderer::finish() {
-  if (inFlight_.empty()) {
+  if (numbers_.empty()) {
     return std::nullopt;
   }
-  const InFlight oldest = inFlight_.front();
-  inFlight_.pop_front();
-  queue_.wait(oldest.slot);
+  const std::uint32_t slot = graph_.finish();
   RenderedFrame frame;
-  frame.number = oldest.number;
-  frame.display = texelsOf<std::uint32_t>(*display_, oldest.slot);
-  const auto readImage = [&](const Readback& image) {
-    return image ? unpackRgb(texelsOf<Rgba16>(*image, oldest.slot), static_cast<int>(extent_.width),
+  frame.number = numbers_.front();
+  numbers_.pop_front();
+  frame.display = graph_.read<std::uint32_t>(display_, slot);
+  const auto readImage = [&](const std::optional<ReadbackGraph::Index>& image) {
+    return image ? unpackRgb(graph_.read<Rgba16>(*image, slot), static_cast<int>(extent_.width),
                              static_cast<int>(extent_.height))
                  : Image();
   };
   frame.composite = readImage(composite_);
   frame.denoised = readImage(denoised_);
-  const auto times = executor_.passTimes(oldest.slot);
+  const auto times = graph_.executor().passTimes(slot);
   frame.passTimes.assign(times.begin(), times.end());
   return frame;
 }

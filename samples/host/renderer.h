@@ -5,9 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "framegraph/vulkan/executor.h"
-#include "framegraph/vulkan/frame_queue.h"
-#include "framegraph/vulkan/staged_image.h"
+#include "samples/denoise/device_graph.h"
 #include "samples/denoise/gpu_device.h"
 #include "samples/host/host_frame.h"
 #include "samples/host/host_graph.h"
@@ -44,33 +42,22 @@ class Renderer {
   /// Send a frame to the device. Its history is dropped first where the frame says so.
   /// @throws std::logic_error when as many frames as may be are in flight
   void submit(const HostFrame& frame);
-  [[nodiscard]] bool full() const { return inFlight_.size() == options_.framesInFlight; }
+  [[nodiscard]] bool full() const { return graph_.full(); }
   /// Wait for the oldest frame in flight. Nothing where there is none.
   std::optional<RenderedFrame> finish();
 
   [[nodiscard]] const fg::Graph& graph() const { return host_.graph; }
-  [[nodiscard]] const fg::Plan& plan() const { return plan_; }
+  [[nodiscard]] const fg::Plan& plan() const { return graph_.plan(); }
 
  private:
-  struct InFlight {
-    int number;
-    std::uint32_t slot;
-  };
-  using Readback = std::optional<fg::vk::StagedImage>;
-
-  void makeReadback(Readback& image, fg::Texture texture, const char* name);
-
-  const GpuDevice& gpu_;
   fg::Extent extent_;
   Options options_;
   HostGraph host_;
-  fg::Plan plan_;
-  fg::vk::Executor executor_;
-  Readback display_;
-  Readback composite_;
-  Readback denoised_;
-  fg::vk::FrameQueue queue_;
-  std::deque<InFlight> inFlight_;
+  ReadbackGraph graph_;
+  ReadbackGraph::Index display_;
+  std::optional<ReadbackGraph::Index> composite_;
+  std::optional<ReadbackGraph::Index> denoised_;
+  std::deque<int> numbers_;  // Of the frames in flight.
 };
 
 /// Hand a frame's pictures and constants to an executor of the graph, for the frame recorded next.

@@ -1,10 +1,11 @@
 #include "samples/host/session.h"
 
+#include <algorithm>
 #include <utility>
 
 #include <glm/geometric.hpp>
 
-#include "samples/cli/method_options.h"
+#include "samples/command_line/method_options.h"
 
 namespace walr::host {
 
@@ -55,20 +56,22 @@ void Session::chooseMethod(const std::string& name) {
   method_ = makeDenoiser(name);
   methodName_ = name;
   settingsChanged();
+  graphChange_ = GraphChange::Method;
 }
 
 void Session::choosePreset(const std::string& name) {
   method_->usePreset(name);
   settingsChanged();
+  graphChange_ = GraphChange::Method;
 }
 
 void Session::settingsChanged() {
   preset_ = presetInUse(methodName_, *method_);
-  graphChanged_ = true;
+  graphChange_ = std::max(graphChange_, GraphChange::Settings);
 }
 
 void Session::chooseView(const HostView& view) {
-  graphChanged_ = graphChanged_ || !(view == view_);
+  if (!(view == view_)) graphChange_ = std::max(graphChange_, GraphChange::Settings);
   view_ = view;
 }
 
@@ -110,8 +113,8 @@ void Session::cutCamera() {
   animationFrame_ = frames_.first + (animationFrame_ - frames_.first + count / 2) % count;
 }
 
-bool Session::takeGraphChange() {
-  return std::exchange(graphChanged_, false);
+GraphChange Session::takeGraphChange() {
+  return std::exchange(graphChange_, GraphChange::None);
 }
 
 }  // namespace walr::host

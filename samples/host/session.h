@@ -13,6 +13,13 @@
 
 namespace walr::host {
 
+/// What of the graph must follow what the user has chosen.
+enum class GraphChange {
+  None,
+  Settings,  ///< Of the method, or the view: the next frame goes on from the histories there are.
+  Method,    ///< Another method or preset: the next frame starts anew, so that methods can be compared.
+};
+
 /// Who moves the camera.
 enum class CameraMode { Scene, Orbit, Fly };
 
@@ -39,8 +46,8 @@ class Session {
   void cutCamera();
   void resetHistory() { reset_ = true; }
 
-  /// Whether the graph must be declared anew; asks once.
-  bool takeGraphChange();
+  /// What has changed since the last call.
+  GraphChange takeGraphChange();
 
   [[nodiscard]] const std::string& methodName() const { return methodName_; }
   [[nodiscard]] Denoiser& method() { return *method_; }
@@ -56,6 +63,8 @@ class Session {
   ViewConstants viewConstants;
   bool paused = false;  ///< The animation stands still; tracing goes on.
   bool frozen = false;  ///< Nothing is traced.
+  /// The user is dragging a setting: what takes time to make waits until it is let go.
+  bool dragging = false;
 
  private:
   const Tracer& tracer_;
@@ -72,7 +81,7 @@ class Session {
   bool started_ = false;
   bool cut_ = false;
   bool reset_ = false;
-  bool graphChanged_ = false;
+  GraphChange graphChange_ = GraphChange::None;
 };
 
 }  // namespace walr::host

@@ -25,8 +25,8 @@ class Tracer {
     std::filesystem::path scene;
     std::filesystem::path sky;  ///< Equirectangular sky in place of the scene's; may be empty.
     fg::Extent extent;
-    std::uint32_t samples = 1;           ///< Paths a pixel.
-    std::uint32_t referenceSamples = 1;  ///< Paths a pixel of one step of a reference.
+    std::uint32_t samples = 1;           ///< Samples per pixel.
+    std::uint32_t referenceSamples = 1;  ///< Samples per pixel of one step of a reference.
     std::uint32_t bounces = 4;
     std::uint32_t seed = 0;
     double framesPerSecond = 24.0;

@@ -16,13 +16,13 @@ namespace {
 
 using Rgb8 = std::array<std::uint8_t, 3>;
 
-Rgb8 displayColour(std::span<const float> linear) {
+Rgb8 displayColour(std::span<const float> linear, float scale) {
   Rgb8 colour{};
   for (std::size_t c = 0; c < colour.size(); ++c) {
     if (!std::isfinite(linear[c])) {
       return {255, 0, 255};
     }
-    colour.at(c) = static_cast<std::uint8_t>(std::lround(255.0F * encodeSrgb(toneMap(linear[c]))));
+    colour.at(c) = static_cast<std::uint8_t>(std::lround(255.0F * encodeSrgb(toneMap(scale * linear[c]))));
   }
   return colour;
 }
@@ -43,17 +43,23 @@ void write(const std::filesystem::path& path, std::size_t width, std::size_t hei
 
 }  // namespace
 
-void writePng(const std::filesystem::path& path, std::span<const Image* const> pictures) {
-  const auto width = static_cast<std::size_t>(pictures.front()->width());
-  const auto height = static_cast<std::size_t>(pictures.front()->height());
-  std::vector<Rgb8> pixels(width * pictures.size() * height);
-  for (std::size_t p = 0; p < pictures.size(); ++p) {
-    for (std::size_t i = 0; i < width * height; ++i) {
-      const std::size_t row = i / width;
-      pixels[(row * pictures.size() + p) * width + i % width] = displayColour(pictures[p]->pixel(i));
+void writePng(const std::filesystem::path& path, const PictureGrid& grid) {
+  const std::size_t columns = grid.front().size();
+  const auto width = static_cast<std::size_t>(grid.front().front().picture->width());
+  const auto height = static_cast<std::size_t>(grid.front().front().picture->height());
+  const std::size_t stride = width * columns;
+  std::vector<Rgb8> pixels(stride * height * grid.size());
+  for (std::size_t row = 0; row < grid.size(); ++row) {
+    for (std::size_t column = 0; column < columns; ++column) {
+      const ExposedPicture& shown = grid[row][column];
+      const float scale = std::exp2(shown.exposure);
+      const std::size_t corner = row * height * stride + column * width;
+      for (std::size_t i = 0; i < width * height; ++i) {
+        pixels[corner + i / width * stride + i % width] = displayColour(shown.picture->pixel(i), scale);
+      }
     }
   }
-  write(path, width * pictures.size(), height, pixels);
+  write(path, stride, height * grid.size(), pixels);
 }
 
 void writePng(const std::filesystem::path& path, int width, int height, std::span<const std::uint32_t> texels) {

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <span>
 
-#include "samples/metrics/luminance.h"
+#include "samples/image/luminance.h"
 
 namespace walr {
 namespace {

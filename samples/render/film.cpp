@@ -89,28 +89,32 @@ Film renderFilm(const World& world, const View& view, const SamplingSettings& se
   film.direct.resize(pixels);
   film.indirect.resize(pixels);
   std::atomic<std::uint64_t> rays = 0;
-  forEachTile(view.width, view.height, settings.threads, [&](const Tile& tile) {
-    std::uint64_t tileRays = 0;
-    for (std::uint32_t y = tile.y0; y < tile.y1; ++y) {
-      for (std::uint32_t x = tile.x0; x < tile.x1; ++x) {
-        const std::uint32_t index = y * view.width + x;
-        const PrimaryHit hit = tracePrimary(world, view, x, y, settings.gbuffer);
-        film.gbuffer[index] = hit.pixel;
-        ++tileRays;
-        const bool byMaterial = settings.gbuffer == GBufferMode::Material;
-        const bool glossy = byMaterial && hit.surface && glossOf(*hit.surface) == Gloss::Glossy;
-        if (!hit.surface || (!glossy && hit.pixel.albedo == glm::vec3(0.0F))) {
-          continue;
+  forEachTile(
+      view.width, view.height, settings.threads,
+      [&](const Tile& tile) {
+        std::uint64_t tileRays = 0;
+        for (std::uint32_t y = tile.y0; y < tile.y1; ++y) {
+          for (std::uint32_t x = tile.x0; x < tile.x1; ++x) {
+            const std::uint32_t index = y * view.width + x;
+            const PrimaryHit hit = tracePrimary(world, view, x, y, settings.gbuffer);
+            film.gbuffer[index] = hit.pixel;
+            ++tileRays;
+            const bool byMaterial = settings.gbuffer == GBufferMode::Material;
+            const bool glossy = byMaterial && hit.surface && glossOf(*hit.surface) == Gloss::Glossy;
+            if (!hit.surface || (!glossy && hit.pixel.albedo == glm::vec3(0.0F))) {
+              continue;
+            }
+            const PixelTracer tracer(world, settings, (y << 16U) | x);
+            const PixelLight light =
+                glossy ? tracer.glossy(hit, film.gbuffer[index].albedo) : tracer.diffuse(*hit.surface);
+            film.direct[index] = glm::vec3(light.direct);
+            film.indirect[index] = glm::vec3(light.indirect);
+            tileRays += light.rays;
+          }
         }
-        const PixelTracer tracer(world, settings, (y << 16U) | x);
-        const PixelLight light = glossy ? tracer.glossy(hit, film.gbuffer[index].albedo) : tracer.diffuse(*hit.surface);
-        film.direct[index] = glm::vec3(light.direct);
-        film.indirect[index] = glm::vec3(light.indirect);
-        tileRays += light.rays;
-      }
-    }
-    rays += tileRays;
-  });
+        rays += tileRays;
+      },
+      settings.pixelsDone);
   film.rays = rays;
   return film;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include <glm/vec3.hpp>
@@ -14,13 +15,15 @@ namespace walr::render {
 
 /// How the light of a frame is sampled.
 struct SamplingSettings {
-  std::uint32_t samples = 1;      ///< Paths a pixel, at least 1.
+  std::uint32_t samples = 1;      ///< Samples per pixel, at least 1.
   std::uint32_t bounces = 4;      ///< See `tracePath`.
   std::uint32_t seed = 0;         ///< Frames of different seeds are independent.
   std::uint32_t firstSample = 0;  ///< Number of the first path in each pixel's sequence; goes on from frame to frame.
   Sampler::Kind sampler = Sampler::Kind::Sobol;
   GBufferMode gbuffer = GBufferMode::FirstHit;
   unsigned int threads = 0;  ///< 0: one for every core. The result does not depend on it.
+  /// See `forEachTile`.
+  std::function<void(std::uint64_t)> pixelsDone = [](std::uint64_t) {};
 };
 
 /// One rendered frame: rows from the top, no padding.

@@ -90,32 +90,35 @@ walr::Reference renderReference(const World& world, const View& view, const Samp
   walr::Reference reference{image(), image(), inHalves ? image() : walr::Image()};
   const ReferenceTracer tracer(world, view, settings, coverage.wholePixel);
   std::atomic<std::uint64_t> allRays = 0;
-  forEachTile(view.width, view.height, settings.threads, [&](const Tile& tile) {
-    std::uint64_t tileRays = 0;
-    for (std::uint32_t y = tile.y0; y < tile.y1; ++y) {
-      for (std::uint32_t x = tile.x0; x < tile.x1; ++x) {
-        const std::size_t index = static_cast<std::size_t>(y) * view.width + x;
-        if (!covered(x, y, coverage.oneSquareIn)) {
-          const glm::dvec3 nothing(std::numeric_limits<double>::quiet_NaN());
-          set(reference.direct, index, nothing);
-          set(reference.indirect, index, nothing);
-          if (inHalves) set(reference.indirectHalf, index, nothing);
-          continue;
+  forEachTile(
+      view.width, view.height, settings.threads,
+      [&](const Tile& tile) {
+        std::uint64_t tileRays = 0;
+        for (std::uint32_t y = tile.y0; y < tile.y1; ++y) {
+          for (std::uint32_t x = tile.x0; x < tile.x1; ++x) {
+            const std::size_t index = static_cast<std::size_t>(y) * view.width + x;
+            if (!covered(x, y, coverage.oneSquareIn)) {
+              const glm::dvec3 nothing(std::numeric_limits<double>::quiet_NaN());
+              set(reference.direct, index, nothing);
+              set(reference.indirect, index, nothing);
+              if (inHalves) set(reference.indirectHalf, index, nothing);
+              continue;
+            }
+            LightSum sum = tracer.trace(x, y, 0, inHalves ? settings.samples / 2 : settings.samples, tileRays);
+            if (inHalves) {
+              const LightSum first = sum;
+              sum += tracer.trace(x, y, 1, settings.samples / 2, tileRays);
+              // Where one half met no diffuse surface, the two say nothing of each other.
+              const bool both = first.paths > 0 && first.paths < sum.paths;
+              set(reference.indirectHalf, index, both ? first.mean(first.indirect) : sum.mean(sum.indirect));
+            }
+            set(reference.direct, index, sum.mean(sum.direct));
+            set(reference.indirect, index, sum.mean(sum.indirect));
+          }
         }
-        LightSum sum = tracer.trace(x, y, 0, inHalves ? settings.samples / 2 : settings.samples, tileRays);
-        if (inHalves) {
-          const LightSum first = sum;
-          sum += tracer.trace(x, y, 1, settings.samples / 2, tileRays);
-          // Where one half met no diffuse surface, the two say nothing of each other.
-          const bool both = first.paths > 0 && first.paths < sum.paths;
-          set(reference.indirectHalf, index, both ? first.mean(first.indirect) : sum.mean(sum.indirect));
-        }
-        set(reference.direct, index, sum.mean(sum.direct));
-        set(reference.indirect, index, sum.mean(sum.indirect));
-      }
-    }
-    allRays += tileRays;
-  });
+        allRays += tileRays;
+      },
+      settings.pixelsDone);
   rays = allRays;
   return reference;
 }

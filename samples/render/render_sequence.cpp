@@ -86,10 +86,13 @@ std::string describeWork(const std::string& file, double seconds, std::uint64_t 
 }
 
 // One file of a frame: skipped where it is there already.
+// @param paths   that it takes
 // @param render  writes the file; returns the number of rays it traced
-void renderFile(const fs::path& file, const RenderObserver& observer, const std::function<std::uint64_t()>& render) {
+void renderFile(const fs::path& file, double paths, const RenderObserver& observer,
+                const std::function<std::uint64_t()>& render) {
   const std::string name = file.filename().string();
   if (fs::exists(file)) {
+    observer.skipped(paths);
     observer.fileDone(name + ": is there already");
     return;
   }
@@ -104,6 +107,22 @@ void renderFile(const fs::path& file, const RenderObserver& observer, const std:
 bool RenderOptions::hasReference(int frame) const {
   const bool named = !referenceFrames || (referenceFrames->first <= frame && frame <= referenceFrames->last);
   return referenceSamples > 0 && named;
+}
+
+double RenderOptions::noisyPaths() const {
+  return static_cast<double>(width) * height * (samples + 1.0);
+}
+
+double RenderOptions::referencePaths() const {
+  return static_cast<double>(width) * height * referenceSamples / referenceCoverage.oneSquareIn;
+}
+
+double RenderOptions::paths() const {
+  double sum = 0.0;
+  for (int frame = firstFrame; frame <= lastFrame; ++frame) {
+    sum += noisyPaths() + (hasReference(frame) ? referencePaths() : 0.0);
+  }
+  return sum;
 }
 
 std::size_t RenderOptions::files() const {
@@ -128,7 +147,7 @@ void renderSequence(const RenderOptions& options, const RenderObserver& observer
     const auto jitter = [&](int frame) { return options.jitter ? haltonJitter(frame) : glm::vec2(0.0F); };
     const View view = viewFrom(world, camera, options.width, options.height, jitter(number), jitter(number - 1));
     // Noisy frames and references never share a random sequence: their seeds differ in the lowest bit.
-    const auto sampling = [&](std::uint32_t samples, std::uint32_t seedBit) {
+    const auto sampling = [&](std::uint32_t samples, double paths, std::uint32_t seedBit) {
       SamplingSettings settings;
       settings.samples = samples;
       settings.bounces = options.bounces;
@@ -139,19 +158,22 @@ void renderSequence(const RenderOptions& options, const RenderObserver& observer
       settings.sampler =
           options.sampler == Sampler::Kind::BlueNoise && !spread ? Sampler::Kind::Sobol : options.sampler;
       settings.threads = options.threads;
+      const double pathsOfPixel = paths / (static_cast<double>(options.width) * options.height);
+      settings.pixelsDone = [&observer, pathsOfPixel](std::uint64_t pixels) {
+        observer.traced(pathsOfPixel * static_cast<double>(pixels));
+      };
       return settings;
     };
-    renderFile(options.output / frameFileName("noisy", number, "exr"), observer, [&] {
-      const Film film = renderFilm(world, view, sampling(options.samples, 0));
+    renderFile(options.output / frameFileName("noisy", number, "exr"), options.noisyPaths(), observer, [&] {
+      const Film film = renderFilm(world, view, sampling(options.samples, options.noisyPaths(), 0));
       writeFrame(options.output, toFrame(film, view, number));
       return film.rays;
     });
     if (!options.hasReference(number)) continue;
-    renderFile(options.output / frameFileName("ref", number, "exr"), observer, [&] {
+    renderFile(options.output / frameFileName("ref", number, "exr"), options.referencePaths(), observer, [&] {
       std::uint64_t rays = 0;
-      writeReference(
-          options.output, number,
-          renderReference(world, view, sampling(options.referenceSamples, 1), options.referenceCoverage, rays));
+      const SamplingSettings settings = sampling(options.referenceSamples, options.referencePaths(), 1);
+      writeReference(options.output, number, renderReference(world, view, settings, options.referenceCoverage, rays));
       return rays;
     });
   }

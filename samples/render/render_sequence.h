@@ -23,8 +23,8 @@ struct RenderOptions {
   int lastFrame = 0;  ///< Included.
   std::uint32_t width = 320;
   std::uint32_t height = 180;
-  std::uint32_t samples = 1;           ///< Paths a pixel in the noisy frames.
-  std::uint32_t referenceSamples = 0;  ///< Paths a pixel in the references; 0: no references.
+  std::uint32_t samples = 1;           ///< Samples per pixel of the noisy frames.
+  std::uint32_t referenceSamples = 0;  ///< Samples per pixel of the references; 0: no references.
   /// Frames that get a reference; nothing: all. The rest of them is left out.
   std::optional<FrameRange> referenceFrames = {};
   ReferenceCoverage referenceCoverage = {};
@@ -41,10 +41,17 @@ struct RenderOptions {
   [[nodiscard]] bool hasReference(int frame) const;
   /// Number of files that are rendered.
   [[nodiscard]] std::size_t files() const;
+  /// Paths to trace for a noisy frame, whose G-buffer counts as one a pixel, for a reference, and for all files.
+  [[nodiscard]] double noisyPaths() const;
+  [[nodiscard]] double referencePaths() const;
+  [[nodiscard]] double paths() const;
 };
 
 /// What is told while rendering goes on.
 struct RenderObserver {
+  /// Paths were traced since the last call; or need not be, because the file is there already. By one thread at a time.
+  std::function<void(double)> traced = [](double) {};
+  std::function<void(double)> skipped = [](double) {};
   /// A file of a frame is there, rendered or found; with one line about it. Called `RenderOptions::files` times.
   std::function<void(const std::string&)> fileDone = [](const std::string&) {};
   /// What of the scene is not supported or had to be replaced.

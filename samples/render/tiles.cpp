@@ -10,7 +10,7 @@
 namespace walr::render {
 
 void forEachTile(std::uint32_t width, std::uint32_t height, unsigned int threads,
-                 const std::function<void(const Tile&)>& work) {
+                 const std::function<void(const Tile&)>& work, const std::function<void(std::uint64_t)>& pixelsDone) {
   // Small enough to share out evenly, large enough to be worth the hand-over.
   constexpr std::uint32_t kSide = 16;
   const std::uint32_t columns = (width + kSide - 1) / kSide;
@@ -22,8 +22,11 @@ void forEachTile(std::uint32_t width, std::uint32_t height, unsigned int threads
     for (std::uint32_t tile = next++; tile < columns * rows; tile = next++) {
       const std::uint32_t x0 = tile % columns * kSide;
       const std::uint32_t y0 = tile / columns * kSide;
+      const Tile area{x0, y0, std::min(x0 + kSide, width), std::min(y0 + kSide, height)};
       try {
-        work({x0, y0, std::min(x0 + kSide, width), std::min(y0 + kSide, height)});
+        work(area);
+        const std::lock_guard lock(mutex);
+        pixelsDone(std::uint64_t{area.x1 - area.x0} * (area.y1 - area.y0));
       } catch (...) {
         const std::lock_guard lock(mutex);
         failure = failure ? failure : std::current_exception();

@@ -255,8 +255,13 @@ Reference readReference(ExrReader& file, const RecognizedLayout& layout, bool co
   if (composite && hasPlane(file, layout, direct)) {
     addTargets(targets, layout, direct, reference.direct, file);
   }
+  const std::size_t checked = targets.size();
+  Plane half = planeOf(*layout.layout, Role::Indirect);
+  const std::string halfName = std::string(half.name) + "A";
+  half.name = halfName;
+  if (hasPlane(file, layout, half)) addTargets(targets, layout, half, reference.indirectHalf, file);
   file.read(targets);
-  findNonFinite(file.path(), targets, true, nonFinite);
+  findNonFinite(file.path(), std::span(targets).first(checked), true, nonFinite);
   return reference;
 }
 

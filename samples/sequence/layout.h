@@ -67,7 +67,8 @@ void requireReferenceChannels(const ExrReader& file, const RecognizedLayout& lay
 /// Read the planes needed into the frame's images, and list the channels with values that are not finite.
 void readFrame(ExrReader& file, const RecognizedLayout& layout, bool composite, Frame& frame);
 
-/// Read a reference; adds to `nonFinite`.
+/// Read a reference; adds to `nonFinite`. Its half is the indirect light's plane with an A after its name, where the
+/// file has it: `DiffIndA.{R,G,B}` or `IndirectA.{R,G,B}`.
 Reference readReference(ExrReader& file, const RecognizedLayout& layout, bool composite,
                         std::vector<NonFiniteChannel>& nonFinite);
 

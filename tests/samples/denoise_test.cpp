@@ -8,6 +8,7 @@
 #include <string>
 
 #include <gtest/gtest.h>
+#include <png.h>
 #include <nlohmann/json.hpp>
 
 #include "samples/denoise/frame_output.h"
@@ -96,7 +97,7 @@ class FrameOutputTest : public testing::Test {
 };
 
 TEST_F(FrameOutputTest, WritesIndirectLightByDefault) {
-  writeDenoisedFrame(denoised, options);
+  FrameWriter(options).write(denoised);
   EXPECT_EQ(writtenFiles(), (std::vector<std::string>{"denoised_0012.exr"}));
   EXPECT_EQ(ExrReader(directory.path() / "denoised_0012.exr").channels(),
             (std::vector<std::string>{"Indirect.B", "Indirect.G", "Indirect.R"}));
@@ -106,7 +107,7 @@ TEST_F(FrameOutputTest, WritesACompositeAndPicturesWhenAsked) {
   options.composite = true;
   options.png = true;
   denoised.frame.reference = Reference{denoised.frame.indirect, {}};
-  writeDenoisedFrame(denoised, options);
+  FrameWriter(options).write(denoised);
   EXPECT_EQ(writtenFiles(),
             (std::vector<std::string>{"comparison_0012.png", "denoised_0012.exr", "denoised_0012.png"}));
   ExrReader file(directory.path() / "denoised_0012.exr");
@@ -114,6 +115,60 @@ TEST_F(FrameOutputTest, WritesACompositeAndPicturesWhenAsked) {
   Image sky(16, 12, 1);
   file.read(std::vector<ExrReader::Target>{{"R", &sky, 0}});
   EXPECT_EQ(sky.at(3, 0, 0), 2.0F);
+}
+
+TEST_F(FrameOutputTest, LightsPicturesByTheReferenceWhenAsked) {
+  options.composite = true;
+  Image direct = denoised.frame.direct;
+  for (float& value : direct.values()) value += 1.0F;
+  denoised.frame.reference = Reference{denoised.frame.indirect, direct, {}};
+  const auto red = [&] {
+    FrameWriter(options).write(denoised);
+    ExrReader file(directory.path() / "denoised_0012.exr");
+    Image lit(16, 12, 1);
+    file.read(std::vector<ExrReader::Target>{{"R", &lit, 0}});
+    return lit.at(8, 9, 0);
+  };
+  const float byFrame = red();
+  options.referenceDirect = true;
+  const float albedo = denoised.frame.albedo.at(8, 9, 0);
+  ASSERT_GT(albedo, 0.0F);
+  EXPECT_NEAR(red() - byFrame, albedo, 0x1p-9F);
+}
+
+TEST_F(FrameOutputTest, ExposesPicturesAlikeUntilACameraCut) {
+  options.png = true;
+  FrameWriter writer(options);
+  // Brightness of the result as it is shown, for light that is so many times that of the first frame.
+  const auto shown = [&](int number, float scale, bool cut) {
+    denoised.frame.number = number;
+    denoised.frame.resetHistory = cut;
+    for (float& value : denoised.indirect.values()) value = scale * 0.01F;
+    writer.write(denoised);
+    const std::string file = directory.path() / ("denoised_00" + std::to_string(number) + ".png");
+    png_image image{};
+    image.version = PNG_IMAGE_VERSION;
+    EXPECT_NE(png_image_begin_read_from_file(&image, file.c_str()), 0);
+    EXPECT_EQ(image.width, 16U);
+    EXPECT_EQ(image.height, 12U);
+    image.format = PNG_FORMAT_RGB;
+    std::vector<std::uint8_t> bytes(PNG_IMAGE_SIZE(image));
+    EXPECT_NE(png_image_finish_read(&image, nullptr, bytes.data(), 0, nullptr), 0);
+    return int{bytes.at(0)};
+  };
+  // Middle grey, 0.18 / 1.18, is code value 109; four times as much light, 0.72 / 1.72, is 173.
+  EXPECT_EQ(shown(20, 1.0F, true), 109);
+  EXPECT_EQ(shown(21, 4.0F, false), 173);
+  EXPECT_EQ(shown(22, 4.0F, true), 109);
+}
+
+TEST_F(FrameOutputTest, TellsTheNoiseOfAReferenceInHalves) {
+  EXPECT_FALSE(measure(denoised).referenceNoise.has_value());
+  Image half = denoised.frame.indirect;
+  denoised.frame.reference = Reference{denoised.frame.indirect, {}, half};
+  EXPECT_EQ(measure(denoised).referenceNoise, 0.0);
+  for (float& value : denoised.frame.reference->indirectHalf.values()) value *= 1.5F;
+  EXPECT_GT(measure(denoised).referenceNoise.value(), 0.0);
 }
 
 TEST_F(FrameOutputTest, MeasuresResultAndInput) {
@@ -219,6 +274,21 @@ TEST(Progress, WritesPlainLinesWhereThereIsNoTerminal) {
     progress.advance(start + 20s);
   }
   EXPECT_EQ(stream.str(), "frame 1 of 3, 0:20 left\na note\nframe 2 of 3, 0:10 left\n");
+}
+
+TEST(Progress, TellsTheRemainingTimeByWork) {
+  std::ostringstream stream;
+  const auto start = Progress::Clock::now();
+  Progress progress(stream, false, "file", 3, start, 250.0);
+  progress.worked(10.0, start + 10s);
+  progress.advance(start + 10s);
+  progress.skipped(40.0);
+  progress.advance(start + 20s);
+  progress.worked(90.0, start + 50s);
+  // The last file ends it, however the work was estimated.
+  progress.advance(start + 60s);
+  EXPECT_EQ(stream.str(),
+            "file 1 of 3, 4:00 left\nfile 2 of 3, 6:40 left\nfile 2 of 3, 0:55 left\nfile 3 of 3, 0:00 left\n");
 }
 
 TEST(Progress, DrawsABarOnATerminal) {

@@ -1,6 +1,9 @@
 // Frames on a device, one at a time and several at once.
 #include <algorithm>
+#include <cstdlib>
+#include <filesystem>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -12,6 +15,7 @@
 #include "samples/denoise/gpu_denoiser.h"
 #include "samples/image/half.h"
 #include "tests/samples/synthetic_sequence.h"
+#include "tests/samples/temporary_directory.h"
 
 namespace walr {
 namespace {
@@ -93,6 +97,65 @@ TEST_F(GpuDenoiserTest, RefusesMoreFramesThanMayBeInFlight) {
   EXPECT_EQ(denoiser.finish()->frame.number, 0);
   EXPECT_EQ(denoiser.finish()->frame.number, 1);
   EXPECT_EQ(denoiser.denoise(all[2]).frame.number, 2);
+}
+
+/// Sets an environment variable of this process, and restores it afterwards.
+class Environment {
+ public:
+  Environment(std::string name, const char* value) : name_(std::move(name)) {
+    if (const char* const before = std::getenv(name_.c_str())) before_ = before;
+    set(value);
+  }
+  ~Environment() { set(before_ ? before_->c_str() : nullptr); }
+  Environment(const Environment&) = delete;
+  Environment& operator=(const Environment&) = delete;
+
+ private:
+  void set(const char* value) const { value != nullptr ? setenv(name_.c_str(), value, 1) : unsetenv(name_.c_str()); }
+  std::string name_;
+  std::optional<std::string> before_;
+};
+
+TEST(PipelineCacheFile, LiesInTheUsersCacheFolder) {
+  const GpuDevice gpu({.device = {}, .validation = false});
+  const fg::vk::DeviceContext& device = gpu.device().context();
+  EXPECT_EQ(gpu.pipelineCache(), nullptr);
+  const Environment home("HOME", "/home/of/someone");
+  const Environment xdg("XDG_CACHE_HOME", "/somewhere/else");
+  EXPECT_EQ(pipelineCacheFile(device).parent_path(), "/somewhere/else/walr");
+  const Environment relative("XDG_CACHE_HOME", "not/absolute");
+  EXPECT_EQ(pipelineCacheFile(device).parent_path(), "/home/of/someone/.cache/walr");
+  const Environment none("HOME", nullptr);
+  EXPECT_TRUE(pipelineCacheFile(device).empty());
+}
+
+TEST(PipelineCacheFile, IsWrittenWhereAskedForAndReadAtTheNextStart) {
+  const test::TemporaryDirectory folder;
+  const Environment xdg("XDG_CACHE_HOME", folder.path().c_str());
+  const auto loadedBytes = [] {
+    const GpuDevice gpu({.device = {}, .validation = false, .keepPipelines = true});
+    GpuDenoiser denoiser(gpu, *makeDenoiser("accumulate"), kExtent, projectLayout());
+    denoiser.run(frames().front());
+    return gpu.pipelineCache()->loadedBytes();
+  };
+  EXPECT_EQ(loadedBytes(), 0U);
+  EXPECT_GT(loadedBytes(), 0U);
+  std::filesystem::path file;
+  for (const auto& entry : std::filesystem::directory_iterator(folder.path() / "walr")) {
+    EXPECT_TRUE(file.empty()) << entry.path() << " beside " << file;
+    file = entry.path();
+  }
+  test::writeText(file, "damaged");
+  EXPECT_EQ(loadedBytes(), 0U);
+  EXPECT_GT(loadedBytes(), 0U);
+}
+
+// A cache that cannot be written is no reason to fail.
+TEST(PipelineCacheFile, MayBeImpossible) {
+  const Environment xdg("XDG_CACHE_HOME", "/dev/null/no/folder");
+  const GpuDevice gpu({.device = {}, .validation = false, .keepPipelines = true});
+  GpuDenoiser denoiser(gpu, *makeDenoiser("none"), kExtent, projectLayout());
+  EXPECT_NO_THROW(denoiser.run(frames().front()));
 }
 
 }  // namespace

@@ -14,11 +14,12 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "passes/denoiser.h"
-#include "samples/cli/usage_error.h"
+#include "samples/command_line/usage_error.h"
 #include "samples/denoise/frame_output.h"
 #include "samples/denoise/gpu_denoiser.h"
 #include "samples/denoise/gpu_device.h"
 #include "samples/host/headless.h"
+#include "samples/host/live_frame.h"
 #include "samples/host/renderer.h"
 #include "samples/host/session.h"
 #include "samples/host/tracer.h"
@@ -26,6 +27,7 @@
 #include "samples/image/half.h"
 #include "samples/image/tone_map.h"
 #include "tests/samples/temporary_directory.h"
+#include "tests/vulkan/function_hooks.h"
 
 namespace walr::host {
 namespace {
@@ -225,6 +227,75 @@ TEST_F(HostTest, UnknownTextureIsNamedWithThoseThereAre) {
     EXPECT_NE(std::string(error.what()).find("'nothing'"), std::string::npos) << error.what();
     EXPECT_NE(std::string(error.what()).find("'albedo'"), std::string::npos) << error.what();
   }
+}
+
+/// A window's frame without the window.
+class LiveFrameTest : public HostTest {
+ protected:
+  void record() {
+    const HostFrame frame = packHostFrame(tracer.trace({.number = number, .animationFrame = double(number)}));
+    ++number;
+    const fg::vk::Frame recorded = queue.begin();
+    live.record(recorded, frame, {});
+    queue.submit(recorded);
+  }
+  std::vector<std::uint32_t> ages() {
+    std::vector<std::uint32_t> ages;
+    for (const fg::vk::HistoryStatus& status : live.histories()) ages.push_back(status.age);
+    return ages;
+  }
+  std::vector<std::uint32_t> all(std::uint32_t age) { return std::vector<std::uint32_t>(live.histories().size(), age); }
+
+  Tracer tracer{tracing()};
+  int number = kFrames.first;
+  ShownPicture picture{gpu, kExtent};
+  LiveFrame live{gpu, picture, 2};
+  fg::vk::FrameQueue queue{gpu.device().context(), gpu.device().queue(), 2};
+};
+
+TEST_F(LiveFrameTest, AConstantChangesWithoutAnythingMadeAndHistoryGrows) {
+  const std::unique_ptr<Denoiser> method = makeDenoiser("walr");
+  EXPECT_FALSE(live.update(*method, {}));
+  live.declare(*method, {}, LiveFrame::Start::FromHistory);
+  for (int i = 0; i < 3; ++i) record();
+  ASSERT_FALSE(ages().empty());
+  EXPECT_EQ(ages(), all(3));
+  // The device's functions may be counted: nothing but the tests writes to the table.
+  auto& context = const_cast<fg::vk::DeviceContext&>(gpu.device().context());
+  const fg::vk::DeviceFunctions real = context.functions;
+  fg::test::hookCreation(context);
+  fg::test::hookState = {};
+  for (const char* const value : {"1.5", "2.5", "3.5"}) {
+    method->set("blocks.growth-errors", value);
+    EXPECT_TRUE(live.update(*method, {}));
+    record();
+  }
+  EXPECT_EQ(fg::test::hookState.calls, 0U);
+  context.functions = real;
+  EXPECT_EQ(ages(), all(6));
+}
+
+// Frames of the graph before are in flight all the while.
+TEST_F(LiveFrameTest, AnotherGraphTakesOverBetweenFrames) {
+  const std::unique_ptr<Denoiser> method = makeDenoiser("walr");
+  live.declare(*method, {}, LiveFrame::Start::FromHistory);
+  for (const char* const texture : {"albedo", "normal", "denoised", "lit"}) {
+    for (int i = 0; i < 2; ++i) record();
+    const HostView view{HostView::Kind::Texture, texture};
+    EXPECT_FALSE(live.update(*method, view));
+    // The second finds a graph that has recorded nothing.
+    live.declare(*method, {HostView::Kind::Noisy}, LiveFrame::Start::FromHistory);
+    live.declare(*method, view, LiveFrame::Start::FromHistory);
+  }
+  record();
+  const std::unique_ptr<Denoiser> other = makeDenoiser("svgf");
+  live.declare(*other, {}, LiveFrame::Start::Anew);
+  EXPECT_EQ(ages(), all(0));
+  record();
+  EXPECT_EQ(ages(), all(1));
+  EXPECT_THROW(live.declare(*other, {HostView::Kind::Texture, "nothing"}, LiveFrame::Start::FromHistory), UsageError);
+  record();
+  EXPECT_EQ(ages(), all(2));
 }
 
 TEST_F(HostTest, WritesPicturesThatReadBack) {
@@ -491,16 +562,21 @@ TEST_F(SessionTest, CutsAndResetsAreAskedOnce) {
 
 TEST_F(SessionTest, OnlyWhatChangesTheGraphAsksForAnother) {
   Session session = make({0, 9}, false);
-  EXPECT_FALSE(session.takeGraphChange());
+  EXPECT_EQ(session.takeGraphChange(), GraphChange::None);
   session.chooseView({});
-  EXPECT_FALSE(session.takeGraphChange());
+  EXPECT_EQ(session.takeGraphChange(), GraphChange::None);
   session.chooseView({HostView::Kind::Split});
-  EXPECT_TRUE(session.takeGraphChange());
-  EXPECT_FALSE(session.takeGraphChange());
+  EXPECT_EQ(session.takeGraphChange(), GraphChange::Settings);
+  EXPECT_EQ(session.takeGraphChange(), GraphChange::None);
   EXPECT_TRUE(session.nextRequest()->reference);
   session.chooseMethod("svgf");
   EXPECT_EQ(session.methodName(), "svgf");
-  EXPECT_TRUE(session.takeGraphChange());
+  session.chooseView({});
+  EXPECT_EQ(session.takeGraphChange(), GraphChange::Method);
+  session.choosePreset("paper");
+  EXPECT_EQ(session.takeGraphChange(), GraphChange::Method);
+  session.settingsChanged();
+  EXPECT_EQ(session.takeGraphChange(), GraphChange::Settings);
 }
 
 TEST_F(SessionTest, TellsThePresetInUse) {

@@ -7,6 +7,7 @@
 #include <png.h>
 
 #include "samples/errors.h"
+#include "samples/image/exposure.h"
 #include "samples/image/exr.h"
 #include "samples/image/file_output.h"
 #include "samples/image/png.h"
@@ -147,8 +148,7 @@ TEST(Png, ShowsPicturesSideBySideToneMapped) {
   left.at(0, 0, 0) = 1.0F;
   right.at(1, 0, 2) = 1e30F;
   right.at(0, 0, 1) = std::numeric_limits<float>::quiet_NaN();
-  const std::array<const Image*, 2> pictures = {&left, &right};
-  writePng(file, pictures);
+  writePng(file, {{{&left}, {&right}}});
 
   png_image image{};
   image.version = PNG_IMAGE_VERSION;
@@ -159,6 +159,41 @@ TEST(Png, ShowsPicturesSideBySideToneMapped) {
   std::vector<std::uint8_t> bytes(PNG_IMAGE_SIZE(image));
   ASSERT_NE(png_image_finish_read(&image, nullptr, bytes.data(), 0, nullptr), 0);
   EXPECT_EQ(bytes, (std::vector<std::uint8_t>{188, 0, 0, 0, 0, 0, 255, 0, 255, 0, 0, 255}));
+}
+
+TEST(Png, ExposesEachPictureByItselfAndSetsRowsBelowOneAnother) {
+  const TemporaryDirectory directory;
+  const auto file = directory.path() / "a.png";
+  Image one(1, 1, 3);
+  one.at(0, 0, 0) = 1.0F;
+  Image two(1, 1, 3);
+  two.at(0, 0, 0) = 2.0F;
+  writePng(file, {{{&one, 0.0F}, {&two, -1.0F}}, {{&one, 1.0F}, {&two, 0.0F}}});
+  png_image image{};
+  image.version = PNG_IMAGE_VERSION;
+  ASSERT_NE(png_image_begin_read_from_file(&image, file.c_str()), 0);
+  EXPECT_EQ(image.width, 2U);
+  EXPECT_EQ(image.height, 2U);
+  image.format = PNG_FORMAT_RGB;
+  std::vector<std::uint8_t> bytes(PNG_IMAGE_SIZE(image));
+  ASSERT_NE(png_image_finish_read(&image, nullptr, bytes.data(), 0, nullptr), 0);
+  // 1 / (1 + 1) is code value 188, 2 / (1 + 2) is 213.
+  EXPECT_EQ(bytes, (std::vector<std::uint8_t>{188, 0, 0, 188, 0, 0, 213, 0, 0, 213, 0, 0}));
+}
+
+TEST(Exposure, BringsTheLogAverageLuminanceToMiddleGrey) {
+  Image picture(4, 1, 3);
+  const auto fill = [&](int x, float value) {
+    for (int c = 0; c < 3; ++c) picture.at(x, 0, c) = value;
+  };
+  EXPECT_FALSE(autoExposure(picture).has_value());
+  fill(0, 0.36F);
+  EXPECT_NEAR(autoExposure(picture).value(), -1.0F, 1e-4F);
+  // Their logarithms have the same mean; what is black or no number does not count.
+  fill(1, 0.72F);
+  fill(2, 0.18F);
+  fill(3, std::numeric_limits<float>::infinity());
+  EXPECT_NEAR(autoExposure(picture).value(), -1.0F, 1e-4F);
 }
 
 }  // namespace

@@ -110,6 +110,9 @@ TEST_F(ProgramTest, AWrongCommandLineIsAUsageError) {
   expectFailure(denoise({"--view", "slope-u"}), kUsage, {"--view slope-u", "with these settings", "slope-occlusion: "});
   expectFailure(denoise({"--view", "edges", "--method", "flr"}), kUsage, {"--view edges", "flr has no", "history: "});
   expectFailure(denoise({"--view", "history", "--method", "none"}), kUsage, {"--view history", "none has no views"});
+  expectFailure(denoise({"--view", "?"}), kUsage, {"--list-views"});
+  expectFailure(denoise({"--exposure", "bright"}), kUsage, {"--exposure bright", "auto"});
+  expectFailure(denoise({"--direct-light", "none"}), kUsage, {"none"});
   expectFailure(walr({"graph", "--size", "10"}), kUsage, {"--size 10"});
 }
 
@@ -133,6 +136,15 @@ TEST_F(ProgramTest, DenoisesAndMeasures) {
   // The reference is a constant, which a denoiser finds far better than one path a pixel does.
   EXPECT_LT(report["frames"][5]["rmse"].get<double>(), 0.25 * report["frames"][5]["noisy"]["rmse"].get<double>());
   expectFinite(readIndirect(output / "denoised_0005.exr"));
+}
+
+TEST_F(ProgramTest, ListsViews) {
+  const ProcessResult result = walr({"denoise", "--list-views", "--method", "svgf"});
+  expectSuccess(result);
+  for (const ViewInfo& view : makeDenoiser("svgf")->views()) {
+    EXPECT_NE(result.out.find(std::string(view.name) + ": "), std::string::npos) << result.out;
+  }
+  EXPECT_NE(walr({"denoise", "--list-views", "--method", "none"}).out.find("no views"), std::string::npos);
 }
 
 // At this height the window is that of one iteration, 3x3 samples at most.

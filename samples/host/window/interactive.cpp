@@ -1,5 +1,6 @@
 #include "samples/host/window/interactive.h"
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <future>
@@ -11,8 +12,8 @@
 #include <GLFW/glfw3.h>
 
 #include "framegraph/vulkan/frame_queue.h"
+#include "samples/host/live_frame.h"
 #include "samples/host/window/interface.h"
-#include "samples/host/window/live_frame.h"
 #include "samples/host/window/presenter.h"
 
 namespace walr::host {
@@ -46,6 +47,7 @@ class Show {
         window_(window),
         surface_(surface),
         picture_(device, extent),
+        live_(device, picture_, kFramesInFlight),
         queue_(device.device().context(), device.device().queue(), kFramesInFlight),
         interface_(device, window, kFramesInFlight) {}
 
@@ -75,7 +77,9 @@ class Show {
 
  private:
   void startTracing() {
-    if (const std::optional<Tracer::Request> request = session_.nextRequest(wanted_ && !frameFits())) {
+    const bool needed = again_ || (change_ != GraphChange::None && !frameFits());
+    if (const std::optional<Tracer::Request> request = session_.nextRequest(needed)) {
+      again_ = false;
       next_ = std::async(std::launch::async, [this, request] {
         const Clock::time_point start = Clock::now();
         Traced traced{packHostFrame(tracer_.trace(*request)), 0.0};
@@ -98,14 +102,22 @@ class Show {
     presenter_.emplace(device_, surface_.handle(), window_.size(), picture_, kFramesInFlight, Interface::draw);
   }
 
-  /// The graph for what the session has chosen; the frame at hand is its first.
-  void makeLiveFrame() {
-    queue_.waitAll();
-    live_.reset();
-    live_.emplace(device_, session_.method(), session_.view(), picture_, kFramesInFlight);
+  /// Make the graph what the session has chosen.
+  void follow() {
+    if (change_ == GraphChange::Settings && live_.update(session_.method(), session_.view())) {
+      again_ = session_.frozen;  // One more frame shows it, with the history there is.
+      change_ = GraphChange::None;
+      return;
+    }
+    if (session_.dragging) {
+      return;
+    }
+    // While nothing is traced, the frame at hand is all that there is, and no history goes before it.
+    const bool anew = change_ == GraphChange::Method || session_.frozen;
+    live_.declare(session_.method(), session_.view(), anew ? LiveFrame::Start::Anew : LiveFrame::Start::FromHistory);
+    change_ = GraphChange::None;
     lastSlot_.reset();
-    frame_.inputs.frame.resetHistory = true;
-    fresh_ = true;
+    fresh_ = fresh_ || anew;
   }
 
   /// A view with a reference can only show frames that have one.
@@ -129,13 +141,11 @@ class Show {
     if (!fresh_) {
       waitForFrame();
     }
-    const bool changed = session_.takeGraphChange() || !live_;
-    wanted_ = wanted_ || changed;
-    if (wanted_ && frameFits()) {
-      makeLiveFrame();
-      wanted_ = false;
+    change_ = std::max(change_, session_.takeGraphChange());
+    if (change_ != GraphChange::None && frameFits()) {
+      follow();
     }
-    interface_.update(session_, live_->graph(), live_->plan(), facts_);
+    interface_.update(session_, live_.graph(), live_.plan(), facts_);
     const fg::vk::Frame recorded = queue_.begin();
     const std::optional<std::uint32_t> image = presenter_->swapchain().acquire(recorded.slot);
     if (!image) {
@@ -145,12 +155,12 @@ class Show {
     // The device has finished what was last recorded with this slot. While nothing new comes, that of the last frame
     // stays.
     if (lastSlot_ && (fresh_ || recorded.slot == *lastSlot_)) {
-      const auto times = live_->passTimes(recorded.slot);
+      const auto times = live_.passTimes(recorded.slot);
       facts_.passTimes.assign(times.begin(), times.end());
     }
     if (std::exchange(fresh_, false)) {
       lastSlot_ = recorded.slot;
-      live_->record(recorded, frame_, session_.viewConstants);
+      live_.record(recorded, frame_, session_.viewConstants);
     }
     presenter_->record(recorded, *image, place());
     queue_.submit(recorded, {.wait = presenter_->swapchain().acquired(recorded.slot),
@@ -173,16 +183,17 @@ class Show {
   const Window& window_;
   const Surface& surface_;
   ShownPicture picture_;
+  LiveFrame live_;
   fg::vk::FrameQueue queue_;
   Interface interface_;
   std::optional<Presenter> presenter_;
-  std::optional<LiveFrame> live_;
   std::optional<std::uint32_t> lastSlot_;  // Of the last frame that `live_` recorded.
   std::future<Traced> next_;
   HostFrame frame_;
   FrameFacts facts_;
-  bool fresh_ = false;   // The frame at hand is not in the picture yet.
-  bool wanted_ = false;  // The graph must be declared anew.
+  bool fresh_ = false;                        // The frame at hand is not in the picture yet.
+  bool again_ = false;                        // One more frame is to be traced, even if the session is frozen.
+  GraphChange change_ = GraphChange::Method;  // What the graph has not followed yet.
 };
 
 }  // namespace

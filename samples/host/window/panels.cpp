@@ -42,17 +42,17 @@ class SettingWidgets : public SettingVisitor {
     }
     constexpr double kDecades = 1000.0;
     const bool wide = info.least > 0.0 && info.most / info.least >= kDecades;
-    ImGui::SliderFloat(label(info).c_str(), &value, least, most, "%.4g",
-                       ImGuiSliderFlags_AlwaysClamp | (wide ? ImGuiSliderFlags_Logarithmic : 0));
-    finish(info, ImGui::IsItemDeactivatedAfterEdit());
+    const bool moved = ImGui::SliderFloat(label(info).c_str(), &value, least, most, "%.4g",
+                                          ImGuiSliderFlags_AlwaysClamp | (wide ? ImGuiSliderFlags_Logarithmic : 0));
+    finishSlider(info, moved);
   }
 
   void visit(const SettingInfo& info, std::uint32_t& value) override {
     const auto least = static_cast<std::uint32_t>(info.least);
     const auto most = static_cast<std::uint32_t>(info.most);
-    ImGui::SliderScalar(label(info).c_str(), ImGuiDataType_U32, &value, &least, &most, "%u",
-                        ImGuiSliderFlags_AlwaysClamp);
-    finish(info, ImGui::IsItemDeactivatedAfterEdit());
+    const bool moved = ImGui::SliderScalar(label(info).c_str(), ImGuiDataType_U32, &value, &least, &most, "%u",
+                                           ImGuiSliderFlags_AlwaysClamp);
+    finishSlider(info, moved);
   }
 
   void visit(const SettingInfo& info, bool& value) override {
@@ -67,6 +67,8 @@ class SettingWidgets : public SettingVisitor {
   }
 
   [[nodiscard]] bool changed() const { return changed_; }
+  /// Whether a slider is being dragged.
+  [[nodiscard]] bool dragging() const { return dragging_; }
 
  private:
   // A number to type, since a slider needs an end, beside a button for infinity, which cannot be typed.
@@ -91,6 +93,11 @@ class SettingWidgets : public SettingVisitor {
 
   static std::string label(const SettingInfo& info) { return std::string(info.name); }
 
+  void finishSlider(const SettingInfo& info, bool moved) {
+    dragging_ = dragging_ || ImGui::IsItemActive();
+    finish(info, moved || ImGui::IsItemDeactivatedAfterEdit());
+  }
+
   void finish(const SettingInfo& info, bool changed) {
     changed_ = changed_ || changed;
     if (ImGui::IsItemHovered()) {
@@ -102,6 +109,7 @@ class SettingWidgets : public SettingVisitor {
   }
 
   bool changed_ = false;
+  bool dragging_ = false;
 };
 
 ImU32 colourOf(std::size_t index) {
@@ -181,6 +189,7 @@ void settingsPanel(Session& session) {
   SettingWidgets widgets;
   session.method().visitSettings(widgets);
   ImGui::PopItemWidth();
+  session.dragging = widgets.dragging();
   if (widgets.changed()) {
     session.settingsChanged();
   }

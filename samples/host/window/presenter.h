@@ -9,7 +9,7 @@
 
 #include "framegraph/vulkan/executor.h"
 #include "framegraph/vulkan/frame_queue.h"
-#include "samples/host/window/live_frame.h"
+#include "samples/host/live_frame.h"
 #include "samples/host/window/swapchain.h"
 
 namespace walr::host {

@@ -1,11 +1,11 @@
-#include "samples/cli/arguments.h"
+#include "samples/command_line/arguments.h"
 
 #include <charconv>
 #include <optional>
 #include <string_view>
 #include <utility>
 
-#include "samples/cli/usage_error.h"
+#include "samples/command_line/usage_error.h"
 
 namespace walr {
 namespace {

@@ -1,8 +1,9 @@
-#include "samples/cli/device_options.h"
+#include "samples/command_line/device_options.h"
 
 namespace walr {
 
 void addDeviceOptions(CLI::App& command, GpuDevice::Options& options, const std::string& caution) {
+  options.keepPipelines = true;
   command
       .add_option("--device", options.device, "Vulkan device by number or part of its name; default: the most capable")
       ->type_name("N|NAME");

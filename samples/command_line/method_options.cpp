@@ -1,11 +1,11 @@
-#include "samples/cli/method_options.h"
+#include "samples/command_line/method_options.h"
 
 #include <algorithm>
 #include <stdexcept>
 
 #include <CLI/CLI.hpp>
 
-#include "samples/cli/usage_error.h"
+#include "samples/command_line/usage_error.h"
 
 namespace walr {
 namespace {

@@ -1,9 +1,9 @@
-#include "samples/cli/program.h"
+#include "samples/command_line/program.h"
 
 #include <csignal>
 #include <iostream>
 
-#include "samples/cli/exit_code.h"
+#include "samples/command_line/exit_code.h"
 
 namespace walr {
 

@@ -1,7 +1,7 @@
-#include "samples/cli/exit_code.h"
+#include "samples/command_line/exit_code.h"
 
 #include "framegraph/vulkan/error.h"
-#include "samples/cli/usage_error.h"
+#include "samples/command_line/usage_error.h"
 #include "samples/errors.h"
 
 namespace walr {

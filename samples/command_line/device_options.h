@@ -8,7 +8,8 @@
 
 namespace walr {
 
-/// Adds `--device` and `--validate` to a subcommand.
+/// Adds `--device` and `--validate` to a subcommand, and keeps the device's compiled pipelines in the user's cache
+/// folder (`pipelineCacheFile`).
 /// @param caution what else to say of validation
 void addDeviceOptions(CLI::App& command, GpuDevice::Options& options, const std::string& caution = {});
 

@@ -1,0 +1,77 @@
+#include "samples/host/live_frame.h"
+
+#include <utility>
+
+#include "framegraph/declare/same_topology.h"
+#include "framegraph/vulkan/image.h"
+#include "samples/host/renderer.h"
+
+namespace walr::host {
+namespace {
+
+HostTargets shownTarget() {
+  constexpr fg::ExternalState kShownBefore{kShown.stage, VK_ACCESS_2_NONE, VK_IMAGE_LAYOUT_UNDEFINED};
+  HostTargets targets;
+  targets.display = {kShownBefore, kShown};
+  return targets;
+}
+
+}  // namespace
+
+ShownPicture::ShownPicture(const GpuDevice& device, fg::Extent extent)
+    : desc_{.format = VK_FORMAT_R8G8B8A8_UNORM, .extent = extent},
+      image_(fg::vk::createImage(device.device().context(), desc_,
+                                 VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT, "shown picture")),
+      memory_(device.device().context(), VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, "shown picture") {
+  memory_.add(image_.get());
+  memory_.allocate();
+}
+
+LiveFrame::LiveFrame(const GpuDevice& device, const ShownPicture& picture, std::uint32_t framesInFlight)
+    : device_(device), picture_(picture), framesInFlight_(framesInFlight) {}
+
+HostGraph LiveFrame::declareHost(Denoiser& method, const HostView& view) const {
+  return declareHostGraph(device_.device().context(), method, picture_.desc().extent, view, shownTarget());
+}
+
+bool LiveFrame::update(Denoiser& method, const HostView& view) {
+  if (!declared()) return false;
+  HostGraph host = declareHost(method, view);
+  if (!fg::sameTopology(running_->host.graph.desc(), host.graph.desc())) return false;
+  running_->device.executor().update(host.graph.desc());
+  running_->host = std::move(host);
+  return true;
+}
+
+void LiveFrame::declare(Denoiser& method, const HostView& view, Start start) {
+  // A graph that has recorded nothing has nothing to hand on but what it was to take over itself.
+  const bool recorded = declared() && running_->frames > 0;
+  Running* const before = recorded ? running_.get() : predecessor_.get();
+  HostGraph host = declareHost(method, view);
+  DeviceGraph device(device_, host.graph, framesInFlight_,
+                     start == Start::FromHistory && before != nullptr ? &before->device : nullptr);
+  device.executor().bind(host.display, picture_.external());
+  if (recorded) predecessor_ = std::move(running_);
+  running_ = std::make_unique<Running>(Running{std::move(host), std::move(device)});
+}
+
+void LiveFrame::record(const fg::vk::Frame& recorded, const HostFrame& frame, const ViewConstants& view) {
+  // Whoever records with a slot has waited for the frame recorded with it before, and so for all frames up to that.
+  std::erase_if(retired_, [&](const Retired& retired) { return retired.until <= frames_; });
+  uploadFrame(running_->device.executor(), running_->host, frame, view);
+  running_->device.executor().record(recorded.commandBuffer, recorded.slot);
+  // The first frame of a graph reads the histories of its predecessor.
+  if (predecessor_ != nullptr) retired_.push_back({std::move(predecessor_), frames_ + framesInFlight_});
+  ++running_->frames;
+  ++frames_;
+}
+
+std::vector<fg::vk::HistoryStatus> LiveFrame::histories() {
+  std::vector<fg::vk::HistoryStatus> statuses;
+  for (std::uint32_t i = 0; i < graph().desc().histories.size(); ++i) {
+    statuses.push_back(running_->device.executor().historyStatus({{}, {}, i}));
+  }
+  return statuses;
+}
+
+}  // namespace walr::host
