@@ -48,12 +48,12 @@ VkBuffer groupCounts(const WalrDispatch& pass, std::span<const WalrPassResource>
 }  // namespace
 
 PassRecording::PassRecording(const fg::vk::DeviceContext& device, const fg::GraphDesc& graph, const fg::Plan& plan,
-                             const WalrPassList& list, std::uint32_t slots)
+                             const WalrPassList& list, std::uint32_t slots, VkPipelineCache cache)
     : device_(&device),
       graph_(&graph),
       list_(&list),
       slots_(slots),
-      pipelines_(device, VK_NULL_HANDLE),
+      pipelines_(device, cache),
       nearest_(makeSampler(device, VK_FILTER_NEAREST)),
       linear_(makeSampler(device, VK_FILTER_LINEAR)),
       recordedFrame_(list.pass_count),
@@ -105,6 +105,14 @@ void PassRecording::makeSets() {
       fg::vk::check(device_->functions.vkAllocateDescriptorSets(device_->view.device, &info, &sets_.emplace_back()),
                     "allocating descriptor sets");
     }
+  }
+}
+
+void PassRecording::goOnFrom(const PassRecording& last, std::span<const fg::vk::InheritedHistory> inherited) {
+  ages_.clear();
+  for (const auto& [history, before] : inherited) {
+    const auto known = last.ages_.find(last.graph_->histories[before].previous);
+    if (known != last.ages_.end()) ages_[graph_->histories[history].previous] = known->second;
   }
 }
 

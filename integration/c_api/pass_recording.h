@@ -9,6 +9,7 @@
 #include <walr/walr_passes.h>
 
 #include "framegraph/plan/plan.h"
+#include "framegraph/vulkan/inherited_histories.h"
 #include "framegraph/vulkan/memory.h"
 #include "framegraph/vulkan/pipelines.h"
 
@@ -17,13 +18,14 @@ namespace walr::api {
 /// What it takes to bind and dispatch the passes of a list one at a time, with resources that are all the host's.
 class PassRecording {
  public:
+  /// @param cache optional; must outlive the constructor
   PassRecording(const fg::vk::DeviceContext& device, const fg::GraphDesc& graph, const fg::Plan& plan,
-                const WalrPassList& list, std::uint32_t slots);
+                const WalrPassList& list, std::uint32_t slots, VkPipelineCache cache);
   PassRecording(const PassRecording&) = delete;
   PassRecording& operator=(const PassRecording&) = delete;
 
-  /// Take over the ages of histories from passes of another size.
-  void goOnFrom(const PassRecording& last) { ages_ = last.ages_; }
+  /// Take over the ages of histories from the passes before.
+  void goOnFrom(const PassRecording& last, std::span<const fg::vk::InheritedHistory> inherited);
   /// Begin a frame in a slot whose last frame the GPU has finished.
   void begin(std::uint64_t frame);
   /// Indices of the upload buffers that passes read.
