@@ -36,6 +36,13 @@ install(FILES "${CMAKE_CURRENT_BINARY_DIR}/walrConfig.cmake" "${CMAKE_CURRENT_BI
   DESTINATION "${package_dir}" COMPONENT dev)
 install(FILES "${CMAKE_CURRENT_BINARY_DIR}/walr.pc" DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig" COMPONENT dev)
 install(FILES LICENSE DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT runtime)
+# The guide with what it refers to, in folders as in the repository so that its links lead somewhere; and, where it was
+# built (target docs), the headers' documentation.
+install(FILES integration/README.md integration/ADAPTERS.md DESTINATION "${CMAKE_INSTALL_DOCDIR}/integration"
+  COMPONENT dev)
+install(FILES samples/embedding/embedding.c DESTINATION "${CMAKE_INSTALL_DOCDIR}/samples/embedding" COMPONENT dev)
+install(FILES samples/README.md DESTINATION "${CMAKE_INSTALL_DOCDIR}/samples" COMPONENT dev)
+install(DIRECTORY "${CMAKE_BINARY_DIR}/docs/html" DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT dev OPTIONAL)
 if(TARGET walr)
   install(TARGETS walr RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT tools)
 endif()
