@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -9,6 +10,7 @@
 #include <walr/walr_passes.h>
 
 #include "framegraph/plan/plan.h"
+#include "framegraph/vulkan/descriptor_sets.h"
 #include "framegraph/vulkan/inherited_histories.h"
 #include "framegraph/vulkan/memory.h"
 #include "framegraph/vulkan/pipelines.h"
@@ -76,9 +78,8 @@ class PassRecording {
   std::vector<fg::vk::ComputePipeline> passPipelines_;  ///< By pass.
   fg::vk::Owned<VkSampler> nearest_;
   fg::vk::Owned<VkSampler> linear_;
-  fg::vk::Owned<VkDescriptorPool> pool_;
-  std::vector<VkDescriptorSet> sets_;         ///< By slot and pass.
-  std::vector<std::uint64_t> recordedFrame_;  ///< By pass: the frame it was recorded in last, plus 1.
+  std::optional<fg::vk::DescriptorSets> sets_;  ///< A copy for each slot.
+  std::vector<std::uint64_t> recordedFrame_;    ///< By pass: the frame it was recorded in last, plus 1.
   std::map<std::pair<std::uint64_t, std::uint32_t>, fg::vk::Owned<VkImageView>> views_;  ///< By identity, resource.
   std::map<std::pair<const WalrDispatch*, std::uint32_t>, Zeros> zeros_;                 ///< By pass and resource.
   std::map<std::uint32_t, std::pair<std::uint32_t, std::uint64_t>> ages_;  ///< By resource: age, and frame it is of.
