@@ -42,6 +42,8 @@ install(FILES integration/README.md integration/ADAPTERS.md DESTINATION "${CMAKE
 install(FILES passes/WALR.md passes/WALR_EXPERIMENTS.md passes/GLOSSARY.md passes/BIBLIOGRAPHY.md
   DESTINATION "${CMAKE_INSTALL_DOCDIR}/passes" COMPONENT dev)
 install(FILES passes/images/walr.svg DESTINATION "${CMAKE_INSTALL_DOCDIR}/passes/images" COMPONENT dev)
+install(FILES samples/embedding/embedding.c DESTINATION "${CMAKE_INSTALL_DOCDIR}/samples/embedding" COMPONENT dev)
+install(FILES samples/README.md DESTINATION "${CMAKE_INSTALL_DOCDIR}/samples" COMPONENT dev)
 install(DIRECTORY "${CMAKE_BINARY_DIR}/docs/html" DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT dev OPTIONAL)
 if(TARGET walr)
   install(TARGETS walr RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT tools)

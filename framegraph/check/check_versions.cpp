@@ -109,7 +109,7 @@ class VersionCheck {
     const ResourceDecl& previous = graph_.resources[history.previous];
     const ResourceDecl& current = graph_.resources[history.current];
     if (previous.desc != current.desc) {
-      findings_.error(code::kHistoryChanged, current,
+      findings_.error(code::kHistoryMismatch, current,
                       "the two images of history '" + history.name + "' are described differently");
     }
     const bool read = !topology_.uses(history.previous, 0).readers.empty();

@@ -26,19 +26,4 @@ std::vector<Diagnostic> diagnose(const Topology& topology, const MemoryModel& me
   return list;
 }
 
-std::vector<Diagnostic> diagnoseReplacement(const GraphDesc& before, const GraphDesc& after,
-                                            std::span<const std::string> resets) {
-  Findings findings(after);
-  for (const HistoryDecl& history : after.histories) {
-    const auto old = std::ranges::find(before.histories, history.name, &HistoryDecl::name);
-    if (old == before.histories.end() || std::ranges::find(resets, history.name) != resets.end()) continue;
-    const ResourceDecl& current = after.resources[history.current];
-    if (before.resources[old->current].desc == current.desc) continue;
-    findings.error(code::kHistoryChanged, current,
-                   "the description of history '" + history.name +
-                       "' differs from that of the last frame; reset the history with the change");
-  }
-  return findings.take();
-}
-
 }  // namespace fg

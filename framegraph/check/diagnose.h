@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -30,11 +29,5 @@ std::string toText(const Diagnostic& diagnostic);
 
 /// All faults of a declared graph on a device, ordered by code, pass and resource.
 std::vector<Diagnostic> diagnose(const Topology& topology, const MemoryModel& memory);
-
-/// What is wrong with replacing one compiled graph by another: histories of the same name whose description changed,
-/// unless they are reset. Their old contents cannot be carried over.
-/// @param resets names of the histories that the host resets with the change
-std::vector<Diagnostic> diagnoseReplacement(const GraphDesc& before, const GraphDesc& after,
-                                            std::span<const std::string> resets);
 
 }  // namespace fg

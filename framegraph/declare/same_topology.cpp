@@ -56,21 +56,4 @@ bool sameTopology(const GraphDesc& a, const GraphDesc& b) {
          std::ranges::equal(a.passes, b.passes, [](const PassDecl& x, const PassDecl& y) { return same(x, y); });
 }
 
-bool sameButForSizes(const GraphDesc& a, const GraphDesc& b) {
-  if (a.resources.size() != b.resources.size() || a.passes.size() != b.passes.size()) return false;
-  GraphDesc resized = a;
-  for (std::size_t i = 0; i < b.resources.size(); ++i) {
-    auto& desc = resized.resources[i].desc;
-    const auto& other = b.resources[i].desc;
-    if (desc.index() != other.index()) return false;
-    if (auto* texture = std::get_if<TextureDesc>(&desc)) {
-      texture->extent = std::get<TextureDesc>(other).extent;
-    } else {
-      std::get<BufferDesc>(desc).size = std::get<BufferDesc>(other).size;
-    }
-  }
-  for (std::size_t i = 0; i < b.passes.size(); ++i) resized.passes[i].extent = b.passes[i].extent;
-  return sameTopology(resized, b);
-}
-
 }  // namespace fg

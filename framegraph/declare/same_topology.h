@@ -9,7 +9,4 @@ namespace fg {
 /// `vk::Executor::update` adopts such differences without a new plan.
 bool sameTopology(const GraphDesc& a, const GraphDesc& b);
 
-/// True where two descriptions would have the same topology if their textures and buffers were of the same sizes.
-bool sameButForSizes(const GraphDesc& a, const GraphDesc& b);
-
 }  // namespace fg

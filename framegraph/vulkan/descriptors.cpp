@@ -5,35 +5,16 @@
 #include "framegraph/declare/access.h"
 
 namespace fg::vk {
-namespace {
-
-Owned<VkSampler> makeSampler(const DeviceContext& device, VkFilter filter) {
-  VkSamplerCreateInfo info{};
-  info.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO;
-  info.magFilter = filter;
-  info.minFilter = filter;
-  info.mipmapMode = VK_SAMPLER_MIPMAP_MODE_NEAREST;
-  info.addressModeU = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
-  info.addressModeV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
-  info.addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
-  info.maxLod = VK_LOD_CLAMP_NONE;
-  return create<VkSampler>(device, device.functions.vkCreateSampler, info, "creating a sampler");
-}
-
-}  // namespace
-
 Descriptors::Descriptors(const DeviceContext& device, const GraphDesc& graph, const Plan& plan,
                          const Resources& resources, Views& views, const std::vector<VkDescriptorSetLayout>& setLayouts,
                          std::uint32_t slots, bool historiesChange)
     : device_(&device),
       resources_(&resources),
       views_(&views),
-      passCount_(plan.passes.size()),
       nearest_(makeSampler(device, VK_FILTER_NEAREST)),
       linear_(makeSampler(device, VK_FILTER_LINEAR)),
-      sets_(plan.passes.size() * slots * kParities),
       writtenEpoch_(static_cast<std::size_t>(slots) * kParities) {
-  for (std::size_t i = 0; i < passCount_; ++i) {
+  for (std::size_t i = 0; i < setLayouts.size(); ++i) {
     if (setLayouts[i] != VK_NULL_HANDLE)
       collectWrites(graph, i, graph.passes[plan.passes[i].pass], views, historiesChange);
   }
@@ -41,7 +22,11 @@ Descriptors::Descriptors(const DeviceContext& device, const GraphDesc& graph, co
   vulkanWrites_.reserve(most);
   imageInfos_.reserve(most);
   bufferInfos_.reserve(most);
-  makePool(setLayouts, slots);
+  std::vector<VkDescriptorType> types;
+  for (const auto* writes : {&lasting_, &changing_}) {
+    for (const Write& write : *writes) types.push_back(write.type);
+  }
+  sets_.emplace(device, setLayouts, types, slots * kParities);
   for (std::uint32_t slot = 0; slot < slots; ++slot) {
     for (std::uint32_t parity = 0; parity < kParities; ++parity) write(lasting_, {slot, parity});
   }
@@ -68,35 +53,6 @@ void Descriptors::collectWrites(const GraphDesc& graph, std::size_t plannedPass,
     const bool changes =
         resource.lifetime == Lifetime::Imported || (historiesChange && resource.lifetime == Lifetime::HistoryPrevious);
     (changes ? changing_ : lasting_).push_back(write);
-  }
-}
-
-void Descriptors::makePool(const std::vector<VkDescriptorSetLayout>& setLayouts, std::uint32_t slots) {
-  const std::uint32_t copies = slots * kParities;
-  std::vector<VkDescriptorPoolSize> sizes;
-  for (const auto* writes : {&lasting_, &changing_}) {
-    for (const Write& write : *writes) sizes.push_back({write.type, copies});
-  }
-  const auto setCount = static_cast<std::uint32_t>(
-      copies * (setLayouts.size() - static_cast<std::size_t>(std::ranges::count(setLayouts, VkDescriptorSetLayout{}))));
-  if (sizes.empty()) return;  // No shader binds anything.
-  VkDescriptorPoolCreateInfo poolInfo{};
-  poolInfo.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
-  poolInfo.maxSets = setCount;
-  poolInfo.poolSizeCount = static_cast<std::uint32_t>(sizes.size());
-  poolInfo.pPoolSizes = sizes.data();
-  pool_ = create<VkDescriptorPool>(*device_, device_->functions.vkCreateDescriptorPool, poolInfo,
-                                   "creating the descriptor pool");
-  for (std::size_t i = 0; i < sets_.size(); ++i) {
-    const VkDescriptorSetLayout layout = setLayouts[i % passCount_];
-    if (layout == VK_NULL_HANDLE) continue;
-    VkDescriptorSetAllocateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO;
-    info.descriptorPool = pool_.get();
-    info.descriptorSetCount = 1;
-    info.pSetLayouts = &layout;
-    check(device_->functions.vkAllocateDescriptorSets(device_->view.device, &info, &sets_[i]),
-          "allocating descriptor sets");
   }
 }
 

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "framegraph/plan/plan.h"
+#include "framegraph/vulkan/descriptor_sets.h"
 #include "framegraph/vulkan/pipelines.h"
 #include "framegraph/vulkan/views.h"
 
@@ -25,7 +27,7 @@ class Descriptors {
   /// Bring a frame's sets up to date.
   void update(FrameIndex frame);
   [[nodiscard]] VkDescriptorSet set(std::size_t plannedPass, FrameIndex frame) const {
-    return sets_[index(frame) * passCount_ + plannedPass];
+    return sets_->get(plannedPass, index(frame));
   }
 
  private:
@@ -40,8 +42,6 @@ class Descriptors {
     std::uint64_t size = 0;
   };
   [[nodiscard]] std::size_t index(FrameIndex frame) const { return frame.slot * kParities + frame.parity; }
-  void makeSamplers();
-  void makePool(const std::vector<VkDescriptorSetLayout>& setLayouts, std::uint32_t slots);
   void collectWrites(const GraphDesc& graph, std::size_t plannedPass, const PassDecl& pass, Views& views,
                      bool historiesChange);
   void write(const std::vector<Write>& writes, FrameIndex frame);
@@ -49,11 +49,9 @@ class Descriptors {
   const DeviceContext* device_;
   const Resources* resources_;
   const Views* views_;
-  std::size_t passCount_;
   Owned<VkSampler> nearest_;
   Owned<VkSampler> linear_;
-  Owned<VkDescriptorPool> pool_;
-  std::vector<VkDescriptorSet> sets_;
+  std::optional<DescriptorSets> sets_;  ///< Made once it is known what is written.
   std::vector<Write> lasting_;
   std::vector<Write> changing_;
   std::uint64_t epoch_ = 1;

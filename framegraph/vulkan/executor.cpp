@@ -9,6 +9,7 @@
 #include "framegraph/declare/same_topology.h"
 #include "framegraph/vulkan/barriers.h"
 #include "framegraph/vulkan/error.h"
+#include "framegraph/vulkan/inherited_histories.h"
 #include "framegraph/vulkan/pass_recorder.h"
 #include "framegraph/vulkan/uploads.h"
 
@@ -26,11 +27,6 @@ std::optional<Timestamps> makeTimestamps(const DeviceContext& device, const Grap
   return Timestamps(device, graph, plan, options.framesInFlight);
 }
 
-std::shared_ptr<Pipelines> makePipelines(const DeviceContext& device, const ExecutorOptions& options) {
-  const VkPipelineCache cache = options.pipelineCache != nullptr ? options.pipelineCache->handle() : VK_NULL_HANDLE;
-  return std::make_shared<Pipelines>(device, cache);
-}
-
 /// What the host has bound to an import.
 struct Bound {
   std::uint64_t handle = 0;
@@ -46,7 +42,7 @@ Bound boundImage(const ExternalImage& image) {
 }  // namespace
 
 struct Executor::State {
-  /// @param before what is gone on from, or null
+  /// @param before the predecessor, or null
   State(const DeviceContext& contextOfDevice, GraphDesc&& declared, Plan&& compiled, const ExecutorOptions& options,
         const State* before)
       : device(contextOfDevice),
@@ -56,27 +52,29 @@ struct Executor::State {
         resources(device, graph, plan, slots, options.poison),
         uploads(graph, plan, slots),
         views(device, graph, resources),
-        pipelines(before != nullptr ? before->pipelines : makePipelines(device, options)),
+        pipelines(before != nullptr ? before->pipelines : std::make_shared<Pipelines>(device, options.pipelineCache)),
         passes(device, graph, plan, resources, views, *pipelines, slots,
-               {.poison = options.poison, .inheritsHistories = before != nullptr}),
+               {.poison = options.poison, .inheritsHistories = before != nullptr && options.inheritHistories}),
         histories(graph, plan),
         releases(graph, plan.releases),
         timestamps(makeTimestamps(device, graph, plan, options)),
         bound(graph.resources.size()) {
-    if (before != nullptr) inheritHistories(*before);
+    if (before != nullptr && options.inheritHistories) inheritHistories(*before);
   }
 
   /// The first frame reads what the last one of `before` wrote.
   void inheritHistories(const State& before) {
-    for (std::uint32_t i = 0; i < graph.histories.size(); ++i) {
-      const std::uint32_t age = before.histories.status(i).age;
-      const HistoryDecl& history = graph.histories[i];
-      if (age == 0 || !plan.resources[history.previous].used) continue;
-      const VkImage image = before.resources.image(history.current, before.frame);
-      inherited.push_back({history.previous, resources.exchange(history.previous, nextParity, image)});
-      views.replace(history.previous, nextParity, image);
-      histories.inherit(i, age);
+    if (!before.recorded) return;
+    std::vector<InheritedHistory> taken = inheritedHistories(graph, plan, before.graph, before.plan);
+    std::erase_if(taken, [&](const InheritedHistory& each) { return !before.histories.status(each.before).valid; });
+    for (const InheritedHistory& each : taken) {
+      const std::uint32_t previous = graph.histories[each.history].previous;
+      const VkImage image = before.resources.image(before.graph.histories[each.before].current, before.frame);
+      inherited.push_back({previous, resources.exchange(previous, nextParity, image)});
+      views.replace(previous, nextParity, image);
+      histories.inherit(each.history, before.histories.status(each.before).age);
     }
+    takeOver = BarrierBatch(graph, takeOverBarriers(graph, plan, before.plan, taken));
   }
 
   /// To be called once the first frame, which reads what was inherited, is recorded.
@@ -138,23 +136,16 @@ struct Executor::State {
     VkImage own = VK_NULL_HANDLE;  ///< In whose place the inherited one is.
   };
   std::vector<Inherited> inherited;  ///< Until the frame that reads them is over.
+  BarrierBatch takeOver;             ///< On what is inherited, before that frame.
 };
 
 Executor::Executor(const DeviceContext& device, GraphDesc graph, Plan plan, const ExecutorOptions& options) {
   const State* const before = options.predecessor != nullptr ? options.predecessor->state_.get() : nullptr;
-  if (before != nullptr && !options.predecessor->mayPrecede(graph)) {
-    throw std::invalid_argument(
-        "the predecessor's graph differs in more than the sizes of its resources: make an executor without one");
-  }
   state_ = std::make_unique<State>(device, std::move(graph), std::move(plan), options, before);
 }
 Executor::~Executor() = default;
 Executor::Executor(Executor&&) noexcept = default;
 Executor& Executor::operator=(Executor&&) noexcept = default;
-
-bool Executor::mayPrecede(const GraphDesc& graph) const {
-  return sameButForSizes(state_->graph, graph);
-}
 
 void Executor::upload(Buffer buffer, std::span<const std::byte> bytes) {
   state_->uploads.set(buffer.resource, bytes);
@@ -202,10 +193,12 @@ void Executor::record(VkCommandBuffer commandBuffer, std::uint32_t slot) {
     throw std::out_of_range("frame slot " + std::to_string(slot) + " of " + std::to_string(state.slots));
   }
   state.requireBound();
-  if (state.recorded) state.dropInherited();
+  const bool first = !state.recorded;
+  if (!first) state.dropInherited();
   state.frame = {slot, state.nextParity};
   state.uploads.copyTo(state.resources, slot);
   if (state.timestamps) state.timestamps->begin(commandBuffer, slot);
+  if (first) state.takeOver.record(state.device, commandBuffer, state.resources, state.frame);
   state.histories.recordClears(state.device, commandBuffer, state.resources, state.frame);
   state.passes.record(commandBuffer, state.frame, state.histories, state.timestamps ? &*state.timestamps : nullptr);
   state.releases.record(state.device, commandBuffer, state.resources, state.frame);

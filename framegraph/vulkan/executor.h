@@ -23,11 +23,18 @@ struct ExecutorOptions {
   /// Fill every transient resource with NaN where it takes over its memory, so that whoever reads what was never
   /// written shows it (see FillPattern::Poison). Compile the plan with a DriverMemoryModel made for poison.
   bool poison = false;
-  PipelineCache* pipelineCache = nullptr;  ///< Shared cache; must outlive the executor's construction.
-  /// One to go on from with resources of other sizes: its pipelines are shared, and the first frame finds the histories
-  /// that its last frame left, in their sizes. It may not record any more, and must live until the GPU has finished the
-  /// first frame of the new one. `mayPrecede` must hold.
+  /// Where pipelines are looked up and kept, such as `PipelineCache::handle`; optional. Must outlive the executor and
+  /// those that name it as their predecessor.
+  VkPipelineCache pipelineCache = VK_NULL_HANDLE;
+  /// An executor of the same device to take over from, of any graph. Its pipelines are shared, so that only those of
+  /// new shaders and specialization constants are made, and `pipelineCache` is its own. The first frame goes on from
+  /// the histories that its last frame left: see `inheritHistories`. It may not record any more, and must live until
+  /// the GPU has finished the first frame of the new one.
   const Executor* predecessor = nullptr;
+  /// Whether histories of the predecessor go on with their ages, where name, format, mip levels and layers are the
+  /// same; all others start anew. Sizes may differ: the first frame reads a history in the size that it has. Without
+  /// this, only pipelines are shared, and the predecessor need not live on.
+  bool inheritHistories = true;
 };
 
 /// An image that the host binds to an imported texture.
@@ -42,8 +49,8 @@ struct ExternalImage {
 /// Makes everything that a plan needs, once, and records frames. Where the instance has VK_EXT_debug_utils, objects
 /// carry the names that were declared and every pass is a labelled region.
 ///
-/// Recording allocates nothing on the heap and makes no
-/// Vulkan object, except the views of an imported image that is seen for the first time.
+/// Recording allocates nothing on the heap and makes no Vulkan object, except the views of an imported image that is
+/// seen for the first time.
 ///
 /// Recorded frames must be submitted in the order of recording, all to one queue. Not for use from several threads at
 /// once.
@@ -51,16 +58,12 @@ class Executor {
  public:
   /// @param device must outlive the executor
   /// @param graph, plan the declared graph and what `compile` made of it for this device; copied
-  /// @throws OutOfMemory, PipelineFailed, Unsupported or Error; everything made until then is released.
-  ///         std::invalid_argument where the predecessor's graph differs in more than sizes
+  /// @throws OutOfMemory, PipelineFailed, Unsupported or Error; everything made until then is released
   Executor(const DeviceContext& device, GraphDesc graph, Plan plan, const ExecutorOptions& options = {});
   /// The GPU must have finished all recorded frames.
   ~Executor();
   Executor(Executor&&) noexcept;
   Executor& operator=(Executor&&) noexcept;
-
-  /// Whether this executor may precede one of another graph: see `ExecutorOptions::predecessor`.
-  [[nodiscard]] bool mayPrecede(const GraphDesc& graph) const;
 
   /// Set the bytes of an upload buffer for the frames recorded from now on.
   /// @throws std::invalid_argument naming the buffer where the size is not the declared one

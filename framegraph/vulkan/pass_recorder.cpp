@@ -1,8 +1,10 @@
 #include "framegraph/vulkan/pass_recorder.h"
 
+#include <array>
 #include <cstring>
 #include <string>
 
+#include "framegraph/vulkan/dispatch.h"
 #include "framegraph/vulkan/label.h"
 
 namespace fg::vk {
@@ -119,28 +121,14 @@ void PassRecorder::record(VkCommandBuffer commandBuffer, FrameIndex frame, const
 
 void PassRecorder::dispatch(VkCommandBuffer commandBuffer, std::size_t index, const ComputeDispatch& work,
                             const HistoryStates& histories) {
-  const DeviceFunctions& functions = device_->functions;
   Step& step = steps_[index];
-  functions.vkCmdBindPipeline(commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, step.pipeline.pipeline);
-  const VkDescriptorSet set = descriptors_.set(index, frame_);
-  if (set != VK_NULL_HANDLE) {
-    functions.vkCmdBindDescriptorSets(commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, step.pipeline.layout, 0, 1, &set,
-                                      0, nullptr);
-  }
   for (const HistoryAgeConstant& constant : work.historyAges) {
     const std::uint32_t age = histories.status(constant.history).age;
     std::memcpy(step.constants.data() + constant.offset, &age, sizeof(age));
   }
-  if (!step.constants.empty()) {
-    functions.vkCmdPushConstants(commandBuffer, step.pipeline.layout, VK_SHADER_STAGE_COMPUTE_BIT, 0,
-                                 static_cast<std::uint32_t>(step.constants.size()), step.constants.data());
-  }
-  if (work.indirect.valid()) {
-    functions.vkCmdDispatchIndirect(commandBuffer, resources_->buffer(work.indirect.resource, frame_),
-                                    work.indirectOffset);
-  } else {
-    functions.vkCmdDispatch(commandBuffer, work.groups[0], work.groups[1], work.groups[2]);
-  }
+  const VkBuffer indirect = work.indirect.valid() ? resources_->buffer(work.indirect.resource, frame_) : VK_NULL_HANDLE;
+  recordDispatch(*device_, commandBuffer, step.pipeline, descriptors_.set(index, frame_),
+                 {step.constants, std::to_array(work.groups), indirect, work.indirectOffset});
 }
 
 }  // namespace fg::vk

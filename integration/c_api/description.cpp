@@ -54,6 +54,13 @@ std::uint32_t checkedSlots(std::uint32_t framesInFlight) {
                                                ": it must be at most " + std::to_string(kMostFramesInFlight));
 }
 
+/// Null for a whole method.
+/// @throws std::invalid_argument naming all methods and stages where it is neither
+std::unique_ptr<PassNode> stageNamed(std::string_view name) {
+  const auto found = std::ranges::find(passTypes(), name, &PassType::name);
+  return found != passTypes().end() && found->composition ? nullptr : makePass(name);
+}
+
 VkFormat formatOr(VkFormat format, std::size_t input) {
   const bool usual = format == VK_FORMAT_UNDEFINED && !kHostInputs.at(input).optional;
   return usual ? kHostInputs.at(input).format : format;
@@ -73,15 +80,16 @@ const WalrCamera& checkedCamera(const WalrCamera& camera) {
 
 }  // namespace
 
-Description::Description(const WalrDenoiserInfo& info)
+Description::Description(const WalrDenoiserInfo& info, Of of)
     : methodName_(info.method == nullptr ? "walr" : info.method),
-      method_(makeDenoiser(methodName_)),
+      stage_(of == Of::MethodsAndStages ? stageNamed(methodName_) : nullptr),
+      method_(stage_ != nullptr ? nullptr : makeDenoiser(methodName_)),
       extent_(checkedExtent(info.width, info.height)),
       conventions_(checkedConventions(info.conventions)),
       formats_{formatOr(info.lighting_format, 0), formatOr(info.depth_format, 1),  formatOr(info.normal_format, 2),
                formatOr(info.motion_format, 3),   formatOr(info.albedo_format, 4), formatOr(info.object_id_format, 5)},
       slots_(checkedSlots(info.frames_in_flight)) {
-  if (info.preset != nullptr) method_->usePreset(info.preset);
+  if (info.preset != nullptr) usePreset(info.preset);
   // Formats are refused here, and not when the first frame is recorded.
   fg::Graph scratch;
   (void)importInputs(scratch, extent_, inputConventions(), kInnerStates.inputs, formats_,
@@ -95,6 +103,54 @@ void Description::resize(std::uint32_t width, std::uint32_t height) {
 DenoiseGraph Description::declare(bool lint) const {
   return declareDenoiseGraph(*method_, extent_, inputConventions(), kInnerStates, formats_,
                              hostConventions(conventions_), {.lint = lint});
+}
+
+ListedGraph Description::list(std::span<const WalrPortFormat> ports) const {
+  if (stage_ != nullptr) return listStage(ports);
+  if (!ports.empty()) {
+    throw Error(WALR_ERROR_INVALID_ARGUMENT, "'" + methodName_ +
+                                                 "' is a whole method: its images' formats are in WalrDenoiserInfo, "
+                                                 "WalrPassesInfo::ports are those of a single stage");
+  }
+  DenoiseGraph declared = declare();
+  return {.graph = std::move(declared.graph), .frame = declared.inputs.frame, .host = declared.host, .ports = {}};
+}
+
+ListedGraph Description::listStage(std::span<const WalrPortFormat> ports) const {
+  if (hostConventions(conventions_).convertsInputs()) {
+    throw Error(WALR_ERROR_INVALID_ARGUMENT,
+                "stage '" + methodName_ +
+                    "' takes linear depth, signed normals, motion_depth as given or of a static scene, no pre-exposure "
+                    "and no rectangle: convert the images before, or use a whole method");
+  }
+  PortFormats formats;
+  for (const Port& port : stage_->ports()) {
+    const HostInput* input = port.output ? nullptr : hostInputNamed(port.name);
+    if (input == nullptr) continue;
+    const VkFormat format = formats_.at(static_cast<std::size_t>(input - kHostInputs.data()));
+    if (format != VK_FORMAT_UNDEFINED) formats.emplace(port.name, format);
+  }
+  for (const WalrPortFormat& port : ports) {
+    const std::string name(requireText(port.port, "WalrPortFormat::port"));
+    if (formats.emplace(name, port.format).second) continue;
+    throw Error(WALR_ERROR_INVALID_ARGUMENT,
+                "port '" + name + "' is named twice, or is an image whose format is in WalrDenoiserInfo");
+  }
+  stage_->setConventions(inputConventions());
+  StageGraph declared = declareStageGraph(*stage_, extent_, kInnerStates, formats);
+  return {.graph = std::move(declared.graph), .frame = declared.frame, .host = {}, .ports = std::move(declared.ports)};
+}
+
+Configurable& Description::settings() const {
+  return stage_ != nullptr ? static_cast<Configurable&>(*stage_) : *method_;
+}
+
+void Description::usePreset(std::string_view name) {
+  if (stage_ != nullptr) {
+    stage_->usePreset(name);
+  } else {
+    method_->usePreset(name);
+  }
 }
 
 InputConventions Description::inputConventions() const {

@@ -4,14 +4,18 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
+#include <vector>
 
-#include <walr/walr.h>
+#include <walr/walr_passes.h>
 #include <glm/vec2.hpp>
 
 #include "framegraph/compile/compile.h"
 #include "framegraph/plan/plan.h"
 #include "integration/c_api/host_images.h"
+#include "integration/stage_graph.h"
 #include "passes/denoiser.h"
 #include "passes/frame.h"
 
@@ -33,11 +37,20 @@ struct FrameStatement {
   glm::uvec2 offset{0};
 };
 
-/// What a host says of a method and its pictures: a WalrDenoiserInfo, checked.
+/// What there is to be run, alone in a graph between the host's images.
+struct ListedGraph {
+  fg::Graph graph;
+  fg::Buffer frame;              ///< Upload of `Constants::frame`; invalid where nothing reads it.
+  fg::Buffer host;               ///< Upload of `Constants::host`; invalid where nothing reads it.
+  std::vector<StagePort> ports;  ///< Of a single stage.
+};
+
+/// What a host says of a method, or of a single stage, and its pictures: a WalrDenoiserInfo, checked.
 class Description {
  public:
+  enum class Of : std::uint8_t { Methods, MethodsAndStages };
   /// @throws Error, or std::invalid_argument, naming what is wrong
-  explicit Description(const WalrDenoiserInfo& info);
+  explicit Description(const WalrDenoiserInfo& info, Of of = Of::Methods);
 
   void resize(std::uint32_t width, std::uint32_t height);
 
@@ -45,6 +58,10 @@ class Description {
   /// @throws std::invalid_argument naming settings that contradict each other
   /// @param lint count what looks wrong in the images as well
   [[nodiscard]] DenoiseGraph declare(bool lint = false) const;
+  /// The method or the stage between the host's images.
+  /// @param ports formats of what is connected to a stage's inputs, besides the host's images; none for a method
+  /// @throws as `declare` does; also naming a port that there is not, or conventions that a stage does not take
+  [[nodiscard]] ListedGraph list(std::span<const WalrPortFormat> ports) const;
   [[nodiscard]] InputConventions inputConventions() const;
 
   /// Constants of the next frame.
@@ -55,7 +72,10 @@ class Description {
   /// Say that a frame with this camera was recorded.
   void advance(const WalrCamera& camera);
 
-  [[nodiscard]] Denoiser& method() const { return *method_; }
+  [[nodiscard]] Configurable& settings() const;
+  /// @throws std::invalid_argument naming the unknown preset and the known ones
+  void usePreset(std::string_view name);
+  /// Of the method or the stage.
   [[nodiscard]] const std::string& methodName() const { return methodName_; }
   [[nodiscard]] fg::Extent extent() const { return extent_; }
   /// Whether images may be larger than what is denoised.
@@ -67,10 +87,12 @@ class Description {
   [[nodiscard]] std::uint32_t slot() const { return static_cast<std::uint32_t>(frames_ % slots_); }
 
  private:
+  [[nodiscard]] ListedGraph listStage(std::span<const WalrPortFormat> ports) const;
   [[nodiscard]] glm::ivec2 checkedOffset(glm::uvec2 offset) const;
 
   std::string methodName_;
-  std::unique_ptr<Denoiser> method_;
+  std::unique_ptr<PassNode> stage_;   ///< Null for a method.
+  std::unique_ptr<Denoiser> method_;  ///< Null for a stage.
   fg::Extent extent_;
   WalrConventions conventions_;
   std::array<VkFormat, std::tuple_size_v<decltype(kHostInputs)>> formats_;

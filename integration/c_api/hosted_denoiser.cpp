@@ -6,6 +6,7 @@
 
 #include <glm/gtc/type_ptr.hpp>
 
+#include "framegraph/declare/same_topology.h"
 #include "framegraph/vulkan/driver_memory_model.h"
 #include "framegraph/vulkan/physical_device.h"
 #include "integration/c_api/structs.h"
@@ -18,6 +19,7 @@ HostedDenoiser::HostedDenoiser(const WalrDenoiserInfo& info)
       description_(info),
       timestamps_(info.timestamps == VK_TRUE && device_.context().timestampBits > 0),
       lint_(info.lint == VK_TRUE),
+      pipelineCache_(info.pipeline_cache),
       log_(info.log),
       logUser_(info.log_user) {
   if (info.timestamps == VK_TRUE && !timestamps_) log(WALR_LOG_WARNING, "the queue family has no timestamps");
@@ -27,29 +29,23 @@ void HostedDenoiser::log(WalrLogLevel level, const std::string& text) const {
   if (log_ != nullptr) log_(logUser_, level, text.c_str());
 }
 
-void HostedDenoiser::declarationChanged(bool historyGoesOn) {
-  declared_.reset();
-  goesOn_ = goesOn_ && historyGoesOn;
-}
-
 void HostedDenoiser::resize(std::uint32_t width, std::uint32_t height) {
-  const fg::Extent before = description_.extent();
   description_.resize(width, height);
-  if (description_.extent() != before) declarationChanged(description_.rectangle());
+  stale_ = true;
 }
 
 void HostedDenoiser::set(std::string_view name, std::string_view value) {
-  description_.method().set(name, value);
-  declarationChanged(false);
+  description_.settings().set(name, value);
+  stale_ = true;
 }
 
 void HostedDenoiser::usePreset(std::string_view name) {
-  description_.method().usePreset(name);
-  declarationChanged(false);
+  description_.usePreset(name);
+  stale_ = true;
 }
 
 std::string HostedDenoiser::setting(std::string_view name) {
-  for (SettingDescription& setting : describeSettings(description_.method())) {
+  for (SettingDescription& setting : describeSettings(description_.settings())) {
     if (setting.name == name) return std::move(setting.value);
   }
   throw Error(WALR_ERROR_INVALID_ARGUMENT,
@@ -57,9 +53,23 @@ std::string HostedDenoiser::setting(std::string_view name) {
 }
 
 const HostedDenoiser::Declared& HostedDenoiser::declare() {
-  if (declared_) return *declared_;
+  if (!stale_) return *declared_;
+  DenoiseGraph graph = description_.declare(lint_);
+  if (declared_ && fg::sameTopology(declared_->graph.graph.desc(), graph.graph.desc())) {
+    declared_->graph = std::move(graph);
+    updates_ = true;
+  } else {
+    Declared compiled = compile(std::move(graph));
+    retire();
+    declared_ = std::move(compiled);
+  }
+  stale_ = false;
+  return *declared_;
+}
+
+HostedDenoiser::Declared HostedDenoiser::compile(DenoiseGraph graph) const {
   Declared declared;
-  declared.graph = description_.declare(lint_);
+  declared.graph = std::move(graph);
   // What the device lacks is said for every format at once, before the driver is asked for memory.
   const fg::Plan portable = compilePlan(declared.graph.graph, fg::TableMemoryModel());
   fg::vk::require(device_.physical(), fg::vk::formatUses(declared.graph.graph.desc(), portable));
@@ -77,35 +87,45 @@ const HostedDenoiser::Declared& HostedDenoiser::declare() {
                          .usage = planned.imageUsage,
                          .extent = description_.extent()};
   }
-  retire();
-  declared_ = std::move(declared);
-  return *declared_;
+  return declared;
 }
 
 void HostedDenoiser::build() {
-  const Declared& declared = declare();
-  if (built_) return;
+  declare();
+  if (!built_) {
+    makeExecutor();
+  } else if (updates_) {
+    built_->executor->update(declared_->graph.graph.desc());
+  }
+  updates_ = false;
+}
+
+void HostedDenoiser::makeExecutor() {
+  const fg::Extent extent = description_.extent();
   const Built* const before = predecessor();
+  const bool inherits = before != nullptr && (description_.rectangle() || before->extent == extent);
   const fg::vk::ExecutorOptions options{.framesInFlight = description_.slots(),
                                         .timestamps = timestamps_,
-                                        .predecessor = before != nullptr ? before->executor.get() : nullptr};
-  built_ = Built{.executor = std::make_unique<fg::vk::Executor>(device_.context(), declared.graph.graph.desc(),
-                                                                declared.plan, options),
-                 .lint = nullptr,
-                 .memory = declared.plan.memory,
-                 .inherits = before != nullptr,
-                 .lastFrame = std::nullopt};
+                                        .pipelineCache = pipelineCache_,
+                                        .predecessor = before != nullptr ? before->executor.get() : nullptr,
+                                        .inheritHistories = inherits};
+  Built made{.executor = std::make_unique<fg::vk::Executor>(device_.context(), declared_->graph.graph.desc(),
+                                                            declared_->plan, options),
+             .lint = nullptr,
+             .memory = declared_->plan.memory,
+             .extent = extent,
+             .inherits = inherits,
+             .lastFrame = std::nullopt};
   if (lint_) {
-    const fg::Buffer counters = declared.graph.lint;
-    built_->lint = before != nullptr
-                       ? before->lint
-                       : std::make_shared<HostedLint>(device_.context(), built_->executor->usage(counters),
-                                                      description_.inputConventions(), description_.slots());
-    built_->executor->bind(counters, built_->lint->counters());
+    const fg::Buffer counters = declared_->graph.lint;
+    made.lint = inherits ? before->lint
+                         : std::make_shared<HostedLint>(device_.context(), made.executor->usage(counters),
+                                                        description_.inputConventions(), description_.slots());
+    made.executor->bind(counters, made.lint->counters());
   }
-  const fg::Extent extent = description_.extent();
+  built_ = std::move(made);
   log(WALR_LOG_INFO, description_.methodName() + " at " + std::to_string(extent.width) + " x " +
-                         std::to_string(extent.height) + ": " + std::to_string(declared.plan.passes.size()) +
+                         std::to_string(extent.height) + ": " + std::to_string(declared_->plan.passes.size()) +
                          " passes, " + std::to_string(built_->executor->allocatedBytes()) + " bytes of device memory");
 }
 
@@ -119,12 +139,10 @@ void HostedDenoiser::retire() {
   built_.reset();
 }
 
-/// What recorded the last frame, where that was another size and the next frame goes on from it.
+/// What recorded the last frame, where the next frame needs it: to be made from it, or to go on from its histories.
 HostedDenoiser::Built* HostedDenoiser::predecessor() {
-  const bool recordsNow = built_ && !(built_->inherits && !built_->lastFrame);
-  if (!goesOn_ || recordsNow || retired_.empty()) return nullptr;
-  Built& last = retired_.back();
-  return last.executor->mayPrecede(declared_->graph.graph.desc()) ? &last : nullptr;
+  const bool needed = !built_ || (built_->inherits && !built_->lastFrame);
+  return needed && !retired_.empty() ? &retired_.back() : nullptr;
 }
 
 /// The host has waited for the frame that was recorded `frames_in_flight` frames before the one it is about to record.
@@ -207,7 +225,6 @@ void HostedDenoiser::record(VkCommandBuffer commandBuffer, const WalrFrame& fram
   recordRelease(device_.context(), commandBuffer, images);
 
   if (Built* const before = predecessor()) before->lastFrame = description_.frames();
-  goesOn_ = true;
   resetRequested_ = false;
   lastImages_ = images;
   built_->lastFrame = description_.frames();

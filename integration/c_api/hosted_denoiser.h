@@ -38,7 +38,7 @@ class HostedDenoiser {
   [[nodiscard]] std::span<const LintFinding> findings() const;
 
  private:
-  /// The graph with the present settings and size, and what is known of it before anything is made.
+  /// The graph with some settings and a size, and what is known of it before anything is made.
   struct Declared {
     DenoiseGraph graph;
     fg::Plan plan;
@@ -48,15 +48,18 @@ class HostedDenoiser {
   /// What was made for it.
   struct Built {
     std::unique_ptr<fg::vk::Executor> executor;
-    std::shared_ptr<HostedLint> lint;  ///< Null unless asked for; of several sizes, where history goes on.
+    std::shared_ptr<HostedLint> lint;  ///< Null unless asked for; of several executors, where history goes on.
     fg::MemoryReport memory;
+    fg::Extent extent;
     bool inherits = false;                   ///< Its first frame goes on from the last of what was retired last.
     std::optional<std::uint64_t> lastFrame;  ///< That uses it.
   };
 
+  /// The graph with the present settings and size. Where only constants differ from the last one, its plan is kept.
   const Declared& declare();
-  void declarationChanged(bool historyGoesOn);
+  Declared compile(DenoiseGraph graph) const;
   void build();
+  void makeExecutor();
   void retire();
   Built* predecessor();
   void dropFinished();
@@ -70,14 +73,15 @@ class HostedDenoiser {
   Description description_;
   bool timestamps_;
   bool lint_;
+  VkPipelineCache pipelineCache_;
   WalrLog log_;
   void* logUser_;
 
-  std::optional<Declared> declared_;
-  std::optional<Built> built_;  ///< Of `declared_`.
-  std::vector<Built> retired_;  ///< By age.
-  /// Whether the next frame may go on from the last one: settings are the same, and a new size keeps its history.
-  bool goesOn_ = false;
+  std::optional<Declared> declared_;  ///< Last.
+  bool stale_ = true;                 ///< Settings or size may have changed since.
+  bool updates_ = false;              ///< Constants of `declared_` are still to be handed to the executor.
+  std::optional<Built> built_;        ///< For the topology of `declared_`.
+  std::vector<Built> retired_;        ///< By age.
   bool resetRequested_ = false;
   FrameImages lastImages_{};
 };

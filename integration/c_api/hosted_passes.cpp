@@ -4,20 +4,21 @@
 
 #include <glm/gtc/type_ptr.hpp>
 
-#include "framegraph/declare/same_topology.h"
 #include "framegraph/vulkan/driver_memory_model.h"
+#include "framegraph/vulkan/inherited_histories.h"
 #include "integration/c_api/structs.h"
 
 namespace walr::api {
 
-HostedPasses::HostedPasses(const WalrDenoiserInfo& info, std::span<const WalrSettingValue> settings)
-    : description_(info) {
+HostedPasses::HostedPasses(const WalrDenoiserInfo& info, std::span<const WalrSettingValue> settings,
+                           std::span<const WalrPortFormat> ports)
+    : description_(info, Description::Of::MethodsAndStages) {
   for (const WalrSettingValue& setting : settings) {
-    description_.method().set(requireText(setting.name, "WalrSettingValue::name"),
-                              requireText(setting.value, "WalrSettingValue::value"));
+    description_.settings().set(requireText(setting.name, "WalrSettingValue::name"),
+                                requireText(setting.value, "WalrSettingValue::value"));
   }
   if (info.device != nullptr) device_ = std::make_unique<HostDevice>(info.device);
-  graph_ = description_.declare();
+  graph_ = description_.list(ports);
   // A host makes one image for each resource of the list, and swaps histories' alone.
   constexpr fg::CompileOptions kOneImageEach = {.aliasHistories = false};
   plan_ = compilePlan(graph_.graph, fg::TableMemoryModel(), kOneImageEach);
@@ -25,25 +26,31 @@ HostedPasses::HostedPasses(const WalrDenoiserInfo& info, std::span<const WalrSet
     fg::vk::require(device_->physical(), fg::vk::formatUses(graph_.graph.desc(), plan_));
     plan_ = compilePlan(graph_.graph, fg::vk::DriverMemoryModel(device_->context()), kOneImageEach);
   }
-  list_.emplace(graph_.graph.desc(), plan_);
+  list_.emplace(graph_.graph.desc(), plan_, graph_.ports);
   if (device_) {
-    recording_.emplace(device_->context(), graph_.graph.desc(), plan_, list_->list(), description_.slots());
+    recording_.emplace(device_->context(), graph_.graph.desc(), plan_, list_->list(), description_.slots(),
+                       info.pipeline_cache);
   }
 }
 
 void HostedPasses::goOnFrom(const HostedPasses& last) {
-  if (!description_.rectangle() || !last.description_.rectangle()) {
-    throw Error(WALR_ERROR_INVALID_ARGUMENT, "passes of another size, but not stated by WalrConventions::rectangle");
+  if (description_.methodName() != last.description_.methodName()) {
+    throw Error(WALR_ERROR_INVALID_ARGUMENT, "the passes to go on from are those of method '" +
+                                                 last.description_.methodName() +
+                                                 "': make both with the same method and conventions");
   }
-  if (!fg::sameButForSizes(last.graph_.graph.desc(), graph_.graph.desc())) {
-    throw Error(WALR_ERROR_INVALID_ARGUMENT,
-                "the passes differ in more than their size: make both with the same method, settings and conventions");
+  const bool resizes = description_.rectangle() && last.description_.rectangle();
+  if (!resizes && description_.extent() != last.description_.extent()) {
+    throw Error(WALR_ERROR_INVALID_ARGUMENT, "passes of another size, but not stated by WalrConventions::rectangle");
   }
   if (last.description_.frames() == 0) {
     throw Error(WALR_ERROR_WRONG_ORDER, "the passes to go on from have had no frame: call walr_begin_frame on them");
   }
   description_.goOnFrom(last.description_);
-  if (recording_ && last.recording_) recording_->goOnFrom(*last.recording_);
+  if (recording_ && last.recording_) {
+    const auto inherited = fg::vk::inheritedHistories(graph_.graph.desc(), plan_, last.graph_.graph.desc(), last.plan_);
+    recording_->goOnFrom(*last.recording_, inherited);
+  }
   constants_.reset();
 }
 
@@ -62,7 +69,7 @@ void HostedPasses::beginFrame(const WalrPassFrame& frame) {
 
 std::span<const std::byte> HostedPasses::frameConstants(std::uint32_t resource) const {
   if (!constants_) throw Error(WALR_ERROR_WRONG_ORDER, "there is no frame yet: call walr_begin_frame before");
-  if (resource == graph_.inputs.frame.resource) return std::as_bytes(std::span(&constants_->frame, 1));
+  if (graph_.frame.valid() && resource == graph_.frame.resource) return std::as_bytes(std::span(&constants_->frame, 1));
   if (graph_.host.valid() && resource == graph_.host.resource) return std::as_bytes(std::span(&constants_->host, 1));
   throw Error(WALR_ERROR_INVALID_ARGUMENT, "resource " + std::to_string(resource) + " is not an upload");
 }

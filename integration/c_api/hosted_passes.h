@@ -14,15 +14,17 @@
 
 namespace walr::api {
 
-/// A method spelled out for a host that schedules by itself: what is behind a WalrPasses.
+/// A method or a single stage spelled out for a host that schedules by itself: what is behind a WalrPasses.
 class HostedPasses {
  public:
   /// @throws what is wrong with the description
-  HostedPasses(const WalrDenoiserInfo& info, std::span<const WalrSettingValue> settings);
+  /// @param ports see `Description::list`
+  HostedPasses(const WalrDenoiserInfo& info, std::span<const WalrSettingValue> settings,
+               std::span<const WalrPortFormat> ports);
 
   [[nodiscard]] const WalrPassList& list() const { return list_->list(); }
-  /// Let the next frame go on from the last one of passes of another size.
-  /// @throws Error where those have no frame, or differ in more than their size
+  /// Let the next frame go on from the last one of other passes: of another size, or with other settings.
+  /// @throws Error where those have no frame, or are of another size that was not stated to change
   void goOnFrom(const HostedPasses& last);
   void beginFrame(const WalrPassFrame& frame);
   /// Contents of an upload buffer.
@@ -34,7 +36,7 @@ class HostedPasses {
  private:
   Description description_;
   std::unique_ptr<HostDevice> device_;  ///< Null where passes are only listed.
-  DenoiseGraph graph_;
+  ListedGraph graph_;
   fg::Plan plan_;
   std::optional<PassList> list_;
   std::optional<PassRecording> recording_;

@@ -35,7 +35,7 @@ std::uint32_t partnerOf(const fg::GraphDesc& graph, std::uint32_t index) {
 
 }  // namespace
 
-PassList::PassList(const fg::GraphDesc& graph, const fg::Plan& plan) {
+PassList::PassList(const fg::GraphDesc& graph, const fg::Plan& plan, std::span<const StagePort> ports) {
   for (std::uint32_t i = 0; i < graph.resources.size(); ++i) addResource(graph, plan, i);
   for (const fg::PlannedPass& planned : plan.passes) addPass(graph, planned);
   for (const fg::PlannedHeap& heap : plan.heaps) heaps_.push_back({heap.size, heap.memoryTypeBits, 0});
@@ -50,6 +50,11 @@ PassList::PassList(const fg::GraphDesc& graph, const fg::Plan& plan) {
   list_.release_count = static_cast<std::uint32_t>(plan.releases.size());
   list_.heaps = heaps_.data();
   list_.heap_count = static_cast<std::uint32_t>(heaps_.size());
+  for (const StagePort& port : ports) {
+    ports_.push_back({port.name.c_str(), port.resource, port.output ? VK_TRUE : VK_FALSE});
+  }
+  list_.ports = ports_.data();
+  list_.port_count = static_cast<std::uint32_t>(ports_.size());
 }
 
 void PassList::addResource(const fg::GraphDesc& graph, const fg::Plan& plan, std::uint32_t index) {

@@ -1,20 +1,23 @@
 #pragma once
 
 #include <deque>
+#include <span>
 #include <string>
 #include <vector>
 
 #include <walr/walr_passes.h>
 
 #include "framegraph/plan/plan.h"
+#include "integration/stage_graph.h"
 
 namespace walr::api {
 
 /// A compiled graph as the plain data of walr_passes.h. Points into the graph, which must outlive it unchanged.
 class PassList {
  public:
+  /// @param ports of a single stage; they must outlive the list, too
   /// @throws Error where the graph has a pass that is not a compute dispatch
-  PassList(const fg::GraphDesc& graph, const fg::Plan& plan);
+  PassList(const fg::GraphDesc& graph, const fg::Plan& plan, std::span<const StagePort> ports);
   PassList(const PassList&) = delete;
   PassList& operator=(const PassList&) = delete;
 
@@ -38,6 +41,7 @@ class PassList {
   std::vector<const WalrResource*> resourceList_;
   std::vector<const WalrDispatch*> dispatchList_;
   std::vector<WalrHeap> heaps_;
+  std::vector<WalrPortResource> ports_;
   WalrPassList list_{};
 };
 

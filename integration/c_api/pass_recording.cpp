@@ -1,26 +1,17 @@
 #include "integration/c_api/pass_recording.h"
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <string>
 
+#include "framegraph/vulkan/dispatch.h"
 #include "framegraph/vulkan/image.h"
 #include "framegraph/vulkan/label.h"
 #include "integration/c_api/error.h"
 
 namespace walr::api {
 namespace {
-
-fg::vk::Owned<VkSampler> makeSampler(const fg::vk::DeviceContext& device, VkFilter filter) {
-  VkSamplerCreateInfo info{};
-  info.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO;
-  info.magFilter = filter;
-  info.minFilter = filter;
-  info.addressModeU = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
-  info.addressModeV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
-  info.addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
-  return fg::vk::create<VkSampler>(device, device.functions.vkCreateSampler, info, "creating a sampler");
-}
 
 bool isPrevious(const WalrResource& resource) {
   return resource.kind == WALR_RESOURCE_HISTORY_PREVIOUS;
@@ -48,14 +39,14 @@ VkBuffer groupCounts(const WalrDispatch& pass, std::span<const WalrPassResource>
 }  // namespace
 
 PassRecording::PassRecording(const fg::vk::DeviceContext& device, const fg::GraphDesc& graph, const fg::Plan& plan,
-                             const WalrPassList& list, std::uint32_t slots)
+                             const WalrPassList& list, std::uint32_t slots, VkPipelineCache cache)
     : device_(&device),
       graph_(&graph),
       list_(&list),
       slots_(slots),
-      pipelines_(device, VK_NULL_HANDLE),
-      nearest_(makeSampler(device, VK_FILTER_NEAREST)),
-      linear_(makeSampler(device, VK_FILTER_LINEAR)),
+      pipelines_(device, cache),
+      nearest_(fg::vk::makeSampler(device, VK_FILTER_NEAREST)),
+      linear_(fg::vk::makeSampler(device, VK_FILTER_LINEAR)),
       recordedFrame_(list.pass_count),
       uploadMemory_(device, VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT,
                     "frame constants") {
@@ -83,28 +74,21 @@ void PassRecording::makeUploads(const WalrPassList& list) {
 }
 
 void PassRecording::makeSets() {
-  std::vector<VkDescriptorPoolSize> sizes;
+  std::vector<VkDescriptorSetLayout> layouts;
+  std::vector<VkDescriptorType> types;
   for (std::uint32_t i = 0; i < list_->pass_count; ++i) {
     const WalrDispatch& pass = *list_->passes[i];
-    for (std::uint32_t b = 0; b < pass.binding_count; ++b) sizes.push_back({pass.bindings[b]->type, slots_});
+    layouts.push_back(passPipelines_[i].setLayout);
+    for (std::uint32_t b = 0; b < pass.binding_count; ++b) types.push_back(pass.bindings[b]->type);
   }
-  VkDescriptorPoolCreateInfo poolInfo{};
-  poolInfo.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
-  poolInfo.maxSets = slots_ * list_->pass_count;
-  poolInfo.poolSizeCount = static_cast<std::uint32_t>(sizes.size());
-  poolInfo.pPoolSizes = sizes.data();
-  pool_ = fg::vk::create<VkDescriptorPool>(*device_, device_->functions.vkCreateDescriptorPool, poolInfo,
-                                           "creating the descriptor pool");
-  for (std::uint32_t slot = 0; slot < slots_; ++slot) {
-    for (const fg::vk::ComputePipeline& pipeline : passPipelines_) {
-      VkDescriptorSetAllocateInfo info{};
-      info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO;
-      info.descriptorPool = pool_.get();
-      info.descriptorSetCount = 1;
-      info.pSetLayouts = &pipeline.setLayout;
-      fg::vk::check(device_->functions.vkAllocateDescriptorSets(device_->view.device, &info, &sets_.emplace_back()),
-                    "allocating descriptor sets");
-    }
+  sets_.emplace(*device_, layouts, types, slots_);
+}
+
+void PassRecording::goOnFrom(const PassRecording& last, std::span<const fg::vk::InheritedHistory> inherited) {
+  ages_.clear();
+  for (const auto& [history, before] : inherited) {
+    const auto known = last.ages_.find(last.graph_->histories[before].previous);
+    if (known != last.ages_.end()) ages_[graph_->histories[history].previous] = known->second;
   }
 }
 
@@ -270,28 +254,17 @@ void PassRecording::record(std::uint32_t index, VkCommandBuffer commandBuffer,
                 "pass '" + std::string(pass.name) + "' is recorded twice in a frame: call walr_begin_frame between");
   }
   const fg::vk::Label label(*device_, commandBuffer, pass.name);
-  const fg::vk::DeviceFunctions& functions = device_->functions;
-  const fg::vk::ComputePipeline& pipeline = passPipelines_[index];
-  const VkDescriptorSet set = sets_[slot() * list_->pass_count + index];
+  const VkDescriptorSet set = sets_->get(index, slot());
   writeSet(set, pass, resources, commandBuffer);
-  functions.vkCmdBindPipeline(commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.pipeline);
-  functions.vkCmdBindDescriptorSets(commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.layout, 0, 1, &set, 0,
-                                    nullptr);
-  if (pass.push_constant_size > 0) {
-    std::vector<std::byte> constants(pass.push_constant_size);
-    std::memcpy(constants.data(), pass.push_constants, constants.size());
-    for (std::uint32_t i = 0; i < pass.history_age_count; ++i) {
-      const std::uint32_t age = ages_[pass.history_ages[i].resource].first;
-      std::memcpy(constants.data() + pass.history_ages[i].offset, &age, sizeof(age));
-    }
-    functions.vkCmdPushConstants(commandBuffer, pipeline.layout, VK_SHADER_STAGE_COMPUTE_BIT, 0,
-                                 pass.push_constant_size, constants.data());
+  std::vector<std::byte> constants(pass.push_constant_size);
+  if (!constants.empty()) std::memcpy(constants.data(), pass.push_constants, constants.size());
+  for (std::uint32_t i = 0; i < pass.history_age_count; ++i) {
+    const std::uint32_t age = ages_[pass.history_ages[i].resource].first;
+    std::memcpy(constants.data() + pass.history_ages[i].offset, &age, sizeof(age));
   }
-  if (pass.indirect == WALR_NONE) {
-    functions.vkCmdDispatch(commandBuffer, pass.group_count[0], pass.group_count[1], pass.group_count[2]);
-  } else {
-    functions.vkCmdDispatchIndirect(commandBuffer, groupCounts(pass, resources), pass.indirect_offset);
-  }
+  const VkBuffer indirect = pass.indirect == WALR_NONE ? VK_NULL_HANDLE : groupCounts(pass, resources);
+  fg::vk::recordDispatch(*device_, commandBuffer, passPipelines_[index], set,
+                         {constants, std::to_array(pass.group_count), indirect, pass.indirect_offset});
   recordedFrame_[index] = frame_ + 1;
 }
 

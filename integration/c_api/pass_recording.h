@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -9,6 +10,8 @@
 #include <walr/walr_passes.h>
 
 #include "framegraph/plan/plan.h"
+#include "framegraph/vulkan/descriptor_sets.h"
+#include "framegraph/vulkan/inherited_histories.h"
 #include "framegraph/vulkan/memory.h"
 #include "framegraph/vulkan/pipelines.h"
 
@@ -17,13 +20,14 @@ namespace walr::api {
 /// What it takes to bind and dispatch the passes of a list one at a time, with resources that are all the host's.
 class PassRecording {
  public:
+  /// @param cache optional; must outlive the constructor
   PassRecording(const fg::vk::DeviceContext& device, const fg::GraphDesc& graph, const fg::Plan& plan,
-                const WalrPassList& list, std::uint32_t slots);
+                const WalrPassList& list, std::uint32_t slots, VkPipelineCache cache);
   PassRecording(const PassRecording&) = delete;
   PassRecording& operator=(const PassRecording&) = delete;
 
-  /// Take over the ages of histories from passes of another size.
-  void goOnFrom(const PassRecording& last) { ages_ = last.ages_; }
+  /// Take over the ages of histories from the passes before.
+  void goOnFrom(const PassRecording& last, std::span<const fg::vk::InheritedHistory> inherited);
   /// Begin a frame in a slot whose last frame the GPU has finished.
   void begin(std::uint64_t frame);
   /// Indices of the upload buffers that passes read.
@@ -74,9 +78,8 @@ class PassRecording {
   std::vector<fg::vk::ComputePipeline> passPipelines_;  ///< By pass.
   fg::vk::Owned<VkSampler> nearest_;
   fg::vk::Owned<VkSampler> linear_;
-  fg::vk::Owned<VkDescriptorPool> pool_;
-  std::vector<VkDescriptorSet> sets_;         ///< By slot and pass.
-  std::vector<std::uint64_t> recordedFrame_;  ///< By pass: the frame it was recorded in last, plus 1.
+  std::optional<fg::vk::DescriptorSets> sets_;  ///< A copy for each slot.
+  std::vector<std::uint64_t> recordedFrame_;    ///< By pass: the frame it was recorded in last, plus 1.
   std::map<std::pair<std::uint64_t, std::uint32_t>, fg::vk::Owned<VkImageView>> views_;  ///< By identity, resource.
   std::map<std::pair<const WalrDispatch*, std::uint32_t>, Zeros> zeros_;                 ///< By pass and resource.
   std::map<std::uint32_t, std::pair<std::uint32_t, std::uint64_t>> ages_;  ///< By resource: age, and frame it is of.

@@ -22,8 +22,10 @@ WalrResult walr_create_passes(const WalrPassesInfo* info, WalrPasses* passes) {
     required(passes, "the result's address") = nullptr;
     const WalrPassesInfo given = readStruct(info, "WalrPassesInfo");
     if (given.setting_count > 0) required(given.settings, "WalrPassesInfo::settings");
+    if (given.port_count > 0) required(given.ports, "WalrPassesInfo::ports");
     *passes = allPasses().add(std::make_unique<HostedPasses>(readStruct(given.denoiser, "WalrDenoiserInfo"),
-                                                             std::span(given.settings, given.setting_count)));
+                                                             std::span(given.settings, given.setting_count),
+                                                             std::span(given.ports, given.port_count)));
   });
 }
 

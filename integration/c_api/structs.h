@@ -24,6 +24,8 @@ inline constexpr std::uint32_t kLeastSize<WalrFrame> = offsetof(WalrFrame, objec
 template <>
 inline constexpr std::uint32_t kLeastSize<WalrConventions> = offsetof(WalrConventions, rectangle);
 template <>
+inline constexpr std::uint32_t kLeastSize<WalrPassesInfo> = offsetof(WalrPassesInfo, ports);
+template <>
 inline constexpr std::uint32_t kLeastSize<WalrPassFrame> = offsetof(WalrPassFrame, offset);
 
 /// More than any structure will ever have: a larger size was never set.

@@ -5,6 +5,7 @@
 
 #include "framegraph/check/diagnostic_codes.h"
 #include "framegraph/compile/compile.h"
+#include "framegraph/declare/topology.h"
 #include "tests/framegraph/test_shaders.h"
 
 namespace fg {
@@ -227,18 +228,14 @@ TEST_F(DiagnosticsTest, HistoryWrittenTwice) {
   expect(code::kHistoryWrittenTwice, "", "past.current", line);
 }
 
-TEST_F(DiagnosticsTest, HistoryChangedWithoutAReset) {
-  Graph before;
-  (void)before.history("past", {VK_FORMAT_R32_SFLOAT, {8, 8}});
-  (void)graph.history("past", {VK_FORMAT_R32_SFLOAT, {16, 8}});
-  const auto line = __LINE__ - 1;
-  const auto found = diagnoseReplacement(before.desc(), graph.desc(), {});
-  ASSERT_EQ(found.size(), 1U);
-  EXPECT_EQ(found[0].code, code::kHistoryChanged);
-  EXPECT_EQ(found[0].resource, "past.current");
-  EXPECT_EQ(found[0].where.line(), line);
-  const std::array<std::string, 1> resets = {"past"};
-  EXPECT_TRUE(diagnoseReplacement(before.desc(), graph.desc(), resets).empty());
+TEST_F(DiagnosticsTest, HistoryOfTwoDifferentImages) {
+  (void)graph.history("past", kColor);
+  GraphDesc changed = graph.desc();
+  std::get<TextureDesc>(changed.resources[changed.histories[0].previous].desc).extent = {16, 8};
+  const std::vector<Diagnostic> found = diagnose(Topology(changed), TableMemoryModel());
+  const auto about = std::ranges::find(found, code::kHistoryMismatch, &Diagnostic::code);
+  ASSERT_NE(about, found.end());
+  EXPECT_EQ(about->resource, "past.current");
 }
 
 TEST_F(DiagnosticsTest, BindingNotInShader) {

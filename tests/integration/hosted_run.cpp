@@ -48,7 +48,8 @@ HostedRun::HostedRun(const fg::vk::Device& device, const char* method, glm::ivec
   host.instance = view.instance;
   host.physical_device = view.physicalDevice;
   host.device = view.device;
-  host.get_instance_proc_addr = view.getInstanceProcAddr;
+  const bool own = options.getInstanceProcAddr != nullptr;
+  host.get_instance_proc_addr = own ? options.getInstanceProcAddr : view.getInstanceProcAddr;
   WalrConventions conventions = options.conventions;
   conventions.struct_size = sizeof(conventions);
   conventions.rectangle = margin_ != glm::ivec2(0) ? VK_TRUE : VK_FALSE;
@@ -69,6 +70,7 @@ HostedRun::HostedRun(const fg::vk::Device& device, const char* method, glm::ivec
   info.lint = options.lint ? VK_TRUE : VK_FALSE;
   info.log = options.log;
   info.log_user = options.logUser;
+  info.pipeline_cache = options.pipelineCache;
   require(walr_create_denoiser(&info, &denoiser_));
   makeImages(size);
 }

@@ -33,6 +33,8 @@ class HostedRun {
     glm::ivec2 margin{0};
     WalrLog log = nullptr;
     void* logUser = nullptr;
+    PFN_vkGetInstanceProcAddr getInstanceProcAddr = nullptr;  ///< In place of the device's.
+    VkPipelineCache pipelineCache = VK_NULL_HANDLE;
   };
 
   HostedRun(const fg::vk::Device& device, const char* method, glm::ivec2 size) : HostedRun(device, method, size, {}) {}

@@ -46,6 +46,22 @@ run(COMMAND cc -std=c11 "${EMBEDDING}" ${flags} -lvulkan -o "${STAGING}/c_pkg_co
 cmake_path(GET pc_dir PARENT_PATH lib_dir)
 run(COMMAND "${CMAKE_COMMAND}" -E env "LD_LIBRARY_PATH=${lib_dir}" "${STAGING}/c_pkg_config")
 
+# The guide is there, and so is what its links lead to.
+foreach(guide IN ITEMS README.md ADAPTERS.md)
+  set(folder "${STAGING}/usr/share/doc/walr/integration")
+  file(READ "${folder}/${guide}" text)
+  string(REGEX MATCHALL "\\([^()`:# ]+\\.(md|c)\\)" links "${text}")
+  if(guide STREQUAL README.md AND NOT links)
+    message(FATAL_ERROR "${guide} has no links")
+  endif()
+  foreach(link IN LISTS links)
+    string(REGEX REPLACE "^.(.*).$" "\\1" target "${link}")
+    if(NOT EXISTS "${folder}/${target}")
+      message(FATAL_ERROR "${guide} leads to ${target}, which is not installed")
+    endif()
+  endforeach()
+endforeach()
+
 # Under 120 lines, as the README says.
 file(READ "${EMBEDDING}" text)
 string(REGEX MATCHALL "\n" ends "${text}")

@@ -5,12 +5,14 @@
 #include <cstdio>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "list_host.h"
 #include "plugin_host.h"
+#include "stage_host.h"
 #include "tiny_host.h"
 
 namespace plugin_host {
@@ -169,6 +171,75 @@ TEST_F(PluginTest, EveryMethodGivesTheSamePixelsAsADispatchListWithItsHeapsAndBa
   }
 }
 
+/// A stage of a chain, and what is set of it.
+struct Link {
+  const char* stage;
+  std::vector<WalrSettingValue> settings;
+  std::map<std::string, std::string> renamed = {};
+};
+
+TEST_F(PluginTest, StagesMadeOneByOneGiveThePixelsOfTheWholeMethod) {
+  constexpr Size kSize{640, 360};  // For other sizes `walr` has other settings.
+  const std::vector<WalrSettingValue> packed{{"accumulation.storage", "packed"}, {"antialiasing.storage", "packed"}};
+  const auto with = [&](std::vector<WalrSettingValue> settings) {
+    settings.insert(settings.end(), packed.begin(), packed.end());
+    return settings;
+  };
+  const std::map<std::string, std::vector<Link>> chains{
+      {"accumulate",
+       {{"prepare_guides", {}}, {"temporal_accumulation", {}}, {"pass_through", {}, {{"filtered", "accumulated"}}}}},
+      {"walr",
+       {{"prepare_guides_with_occlusion", {}},
+        {"temporal_accumulation_with_taps", with({{"accumulation.max-history", "8"}, {"accumulation.antilag", "on"}})},
+        {"block_regression", with({{"blocks.iterations", "2"}})},
+        {"temporal_antialiasing_with_taps", {{"antialiasing.clip-gamma", "5"}, {"antialiasing.storage", "packed"}}}}}};
+  for (const auto& [method, links] : chains) {
+    Opaque opaque(host, api(), info(method.c_str(), kSize));
+    stage_host::Chain chain(host, api());
+    for (const Link& link : links) chain.add(info(link.stage, kSize), link.settings, link.renamed);
+    for (std::uint32_t frame = 0; frame < 4; ++frame) {
+      SCOPED_TRACE(method + ", frame " + std::to_string(frame));
+      uploadFrame(host, kSize, frame, [&](std::size_t i) { return &opaque.image(i); });
+      for (const char* name : kInputs) {
+        if (HostImage* image = chain.image(name)) host_upload(&host, image, texels(name, kSize, frame).data());
+      }
+      const WalrCamera camera = cameraAt(float(frame) * kStep);
+      opaque.frame(camera, 0);
+      chain.frame(passFrame(camera));
+      EXPECT_EQ(download(host, *chain.image("denoised")), download(host, opaque.output()));
+    }
+  }
+}
+
+TEST_F(PluginTest, WrongUseOfStagesIsAnError) {
+  const auto refused = [&](const WalrDenoiserInfo& whole, std::vector<WalrPortFormat> ports, const char* why) {
+    WalrPassesInfo passesInfo{};
+    passesInfo.struct_size = sizeof(passesInfo);
+    passesInfo.denoiser = &whole;
+    passesInfo.ports = ports.data();
+    passesInfo.port_count = static_cast<std::uint32_t>(ports.size());
+    WalrPasses passes = nullptr;
+    EXPECT_EQ(api().create_passes(&passesInfo, &passes), WALR_ERROR_INVALID_ARGUMENT);
+    EXPECT_NE(std::string(api().last_error()).find(why), std::string::npos) << api().last_error();
+  };
+  constexpr Size kSize{64, 48};
+  const WalrDenoiserInfo stage = info("weighted_regression", kSize);
+  refused(stage, {{"acumulated", VK_FORMAT_R32_UINT, 0}}, "no input \"acumulated\"; with these settings it has: ");
+  refused(stage, {{"accumulated", VK_FORMAT_R32_SFLOAT, 0}}, "takes R16G16B16A16_SFLOAT, but R32_SFLOAT");
+  refused(stage, {{nullptr, VK_FORMAT_R32_SFLOAT, 0}}, "WalrPortFormat::port is null");
+  refused(info("prepare_guides", kSize), {{"depth", VK_FORMAT_D32_SFLOAT, 0}}, "WalrDenoiserInfo");
+  refused(info("walr", kSize), {{"accumulated", VK_FORMAT_R32_UINT, 0}}, "whole method");
+  refused(info("weighted_regresion", kSize), {}, "weighted_regresion");
+  WalrConventions conventions{};
+  conventions.struct_size = sizeof(conventions);
+  conventions.depth = WALR_DEPTH_DEVICE;
+  WalrDenoiserInfo converted = info("prepare_guides", kSize);
+  converted.conventions = &conventions;
+  refused(converted, {}, "takes linear depth");
+  WalrDenoiser denoiser = nullptr;
+  EXPECT_EQ(api().create_denoiser(&stage, &denoiser), WALR_ERROR_INVALID_ARGUMENT);
+}
+
 // In which hosts that know of synchronization2 alone leave what is read.
 TEST_F(PluginTest, ReadsFromReadOnlyOptimal) {
   constexpr Size kSize{61, 43};
@@ -285,7 +356,7 @@ TEST_F(PluginTest, WrongUseOfPassesIsAnError) {
   WalrDenoiserInfo listed = info("walr", {64, 48});
   listed.device = nullptr;
   const WalrSettingValue settings[] = {{"blocks.iterations", "9"}};
-  WalrPassesInfo passesInfo{sizeof(WalrPassesInfo), 1, &listed, settings};
+  WalrPassesInfo passesInfo{sizeof(WalrPassesInfo), 1, &listed, settings, nullptr, 0, 0};
   WalrPasses plain = nullptr;
   EXPECT_EQ(api().create_passes(&passesInfo, &plain), WALR_ERROR_INVALID_ARGUMENT);
   EXPECT_NE(text().find("1..4"), std::string::npos);

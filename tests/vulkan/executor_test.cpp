@@ -306,7 +306,7 @@ class PipelineCacheTest : public GpuTest {
   void runWith(vk::PipelineCache& cache) const {
     Graph graph;
     const Texture out = chain(graph, 0, 2);
-    GraphRun run(device(), graph, {.pipelineCache = &cache});
+    GraphRun run(device(), graph, {.pipelineCache = cache.handle()});
     run.frame();
     EXPECT_EQ(run.texels<std::uint32_t>(out), filled(2));
   }

@@ -1,3 +1,4 @@
+#include "tests/vulkan/function_hooks.h"
 #include "tests/vulkan/gpu_fixture.h"
 #include "tests/vulkan/graph_run.h"
 #include "tests/vulkan/test_graphs.h"
@@ -75,13 +76,90 @@ TEST_F(HistoryTest, GoesOnFromAPredecessorAtEitherParityAndInFlight) {
   expectFrame(third, counting, 3);
 }
 
-TEST_F(HistoryTest, APredecessorMustBeOfTheSameGraph) {
+/// The same with a second counter, which goes by another name.
+struct TwoCounters : CountingGraph {
+  TwoCounters() {
+    second = graph.history("second", kTexture);
+    secondCount = importOutput(graph, "second count");
+    auto pass = graph.compute("accumulate second", shaders::accumulate)
+                    .sample("previous", second.previous)
+                    .constants(std::uint64_t{0});
+    const Texture current = pass.store("current", second.current);
+    static_cast<void>(pass.store("toldAge", graph.texture("no age", kTexture)));
+    pass.dispatch(kTexture.extent);
+    graph.exported(add(graph, "show second", current, secondCount, 0), vk::kReadable);
+  }
+  History second;
+  Texture secondCount;
+};
+
+/// A counter that no pass shows: a frame leaves it in another state than that of `CountingGraph`.
+struct HiddenCounter {
+  HiddenCounter() {
+    history = graph.history("counter", kTexture);
+    auto pass = graph.compute("accumulate", shaders::accumulate)
+                    .sample("previous", history.previous)
+                    .constants(std::uint64_t{0});
+    static_cast<void>(pass.store("current", history.current));
+    graph.exported(pass.store("toldAge", importOutput(graph, "age")), vk::kReadable);
+    pass.dispatch(kTexture.extent);
+  }
+  Graph graph;
+  History history;
+};
+
+TEST_F(HistoryTest, GoesOnFromAnotherGraphWhereTheNameIsTheSame) {
   CountingGraph counting;
-  GraphRun before(device(), counting.graph);
+  TwoCounters two;
+  HiddenCounter hidden;
+  GraphRun first(device(), counting.graph);
+  for (std::uint32_t i = 0; i < 3; ++i) first.submitFrame();
+  GraphRun second(device(), two.graph, {.predecessor = &first.executor()});
+  EXPECT_EQ(second.executor().historyStatus(two.second).age, 0U);
+  expectFrame(second, two, 3);
+  EXPECT_EQ(second.texels<std::uint32_t>(two.secondCount), constant(1));
+  expectFrame(second, two, 4);
+  EXPECT_EQ(second.texels<std::uint32_t>(two.secondCount), constant(2));
+  GraphRun third(device(), hidden.graph, {.predecessor = &second.executor()});
+  EXPECT_EQ(third.executor().historyStatus(hidden.history).age, 5U);
+  third.submitFrame();
+  GraphRun fourth(device(), two.graph, {.predecessor = &third.executor()});
+  EXPECT_EQ(fourth.executor().historyStatus(two.second).age, 0U) << "the frame before had none";
+  expectFrame(fourth, two, 6);
+  EXPECT_EQ(fourth.texels<std::uint32_t>(two.secondCount), constant(1));
+  GraphRun unrecorded(device(), counting.graph, {.predecessor = &fourth.executor()});
+  GraphRun last(device(), counting.graph, {.predecessor = &unrecorded.executor()});
+  expectFrame(last, counting, 0);
+}
+
+TEST_F(HistoryTest, StartsOverWhereTheFormatIsAnotherOrWhereItIsAskedTo) {
+  Graph graph;
+  auto writer = graph.callback("write", [](const RecordContext&) {});
+  static_cast<void>(writer.store("o", graph.history("counter", {VK_FORMAT_R32_SFLOAT, kTexture.extent}).current));
+  writer.sideEffects();
+  GraphRun floats(device(), graph);
+  floats.frame();
+  CountingGraph counting;
+  GraphRun run(device(), counting.graph, {.predecessor = &floats.executor()});
+  expectFrame(run, counting, 0);
+  GraphRun anew(device(), counting.graph, {.predecessor = &run.executor(), .inheritHistories = false});
+  expectFrame(anew, counting, 0);
+}
+
+TEST_F(HistoryTest, PipelinesOfAPredecessorAreShared) {
+  hookState = {};
+  vk::DeviceContext tampered = context();
+  hook<&vk::DeviceFunctions::vkCreateComputePipelines>(tampered);
+  const GpuQueue gpu(tampered, device().queue());
+  CountingGraph counting;
+  GraphRun before(gpu, counting.graph);
+  EXPECT_EQ(hookState.calls, 2U);
+  TwoCounters two;
+  GraphRun more(gpu, two.graph, {.predecessor = &before.executor()});
   Graph other;
   (void)chain(other, 0, 3);
-  EXPECT_FALSE(before.executor().mayPrecede(other.desc()));
-  EXPECT_THROW(GraphRun(device(), other, {.predecessor = &before.executor()}), std::invalid_argument);
+  GraphRun others(gpu, other, {.predecessor = &more.executor(), .inheritHistories = false});
+  EXPECT_EQ(hookState.calls, 3U) << "all but that of 'fill' are there";
 }
 
 TEST_F(HistoryTest, IsPoisonProof) {

@@ -98,10 +98,11 @@ typedef struct WalrPort {
   const char* description; /* May be empty. */
 } WalrPort;
 
-/* A stage, or a whole denoising method: something made of passes, with ports and settings. */
+/* A stage, or a whole denoising method: something made of passes, with ports and settings. walr_create_passes makes
+ * either, walr_create_denoiser only whole methods. */
 typedef struct WalrPassType {
   uint32_t struct_size;
-  VkBool32 method; /* A whole method: its name is good for WalrDenoiserInfo::method. */
+  VkBool32 method; /* A whole method. */
   const char* name;
   const char* description;
   const WalrPort* const* ports;
@@ -226,6 +227,9 @@ typedef struct WalrDenoiserInfo {
   void* log_user;
   VkFormat object_id_format; /* Of WalrFrame::object_id, unsigned integers; VK_FORMAT_UNDEFINED: there is none. */
   VkBool32 lint;             /* Check the inputs of every frame: see walr_get_findings. For debugging; costs a pass. */
+  /* In which all pipelines are looked up and kept; optional. It must live as long as what is made here. A host that
+   * saves what vkGetPipelineCacheData returns and makes the cache from it at the next start compiles nothing then. */
+  VkPipelineCache pipeline_cache;
 } WalrDenoiserInfo;
 
 /* No Vulkan object is made yet; see walr_prepare. */
@@ -233,9 +237,17 @@ WALR_API WalrResult walr_create_denoiser(const WalrDenoiserInfo* info, WalrDenoi
 /* The GPU must have finished everything recorded. */
 WALR_API WalrResult walr_destroy_denoiser(WalrDenoiser denoiser);
 
-/* The next three take effect with the next walr_prepare or walr_record, and drop the history, but for a new size with
- * WalrConventions::rectangle. What the frames in flight use lives on until they are finished, so that nothing has to be
- * waited for. */
+/*
+ * The next three take effect with the next walr_prepare or walr_record. Nothing has to be waited for: what frames in
+ * flight use lives on until they are finished.
+ *
+ * - A setting that changes only numbers inside the passes, as most do, keeps the history and makes nothing: no image,
+ * no memory, and a pipeline only where a shader is to be specialized for a value that it has not had yet.
+ * - A setting that changes passes or textures makes new images and memory, and pipelines for new passes only. A history
+ *   goes on, with its length, where the new passes keep one of its name and format; others start anew.
+ * - A new size makes new images and memory, but no pipelines. The history goes on with WalrConventions::rectangle, and
+ *   is dropped without.
+ */
 WALR_API WalrResult walr_resize(WalrDenoiser denoiser, uint32_t width, uint32_t height);
 WALR_API WalrResult walr_set_setting(WalrDenoiser denoiser, const char* name, const char* value);
 /* Replaces all settings. */
@@ -378,7 +390,7 @@ typedef struct WalrFinding {
 
 /* What the frames that the GPU has finished say of the host's images and matrices, with WalrDenoiserInfo::lint. A frame
  * is looked at when the one `frames_in_flight` after it is recorded; what is found for the first time is also logged.
- * Resizing and changing settings start anew.
+ * A new size starts anew, unless WalrConventions::rectangle is stated.
  * count: in: room at `findings`; out: number of findings. `findings` may be null. */
 WALR_API WalrResult walr_get_findings(WalrDenoiser denoiser, uint32_t* count, WalrFinding* findings);
 

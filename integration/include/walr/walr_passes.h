@@ -1,6 +1,6 @@
 /*
- * A method spelled out, for engines that schedule and record by themselves: passes, what they read and write, and
- * everything that is needed to run them, as plain data.
+ * A method or a single stage of one spelled out, for engines that schedule and record by themselves: passes, what they
+ * read and write, and everything that is needed to run them, as plain data.
  *
  * Two ways to use it:
  * - Pass by pass: each pass becomes one of the host's graph. The host makes every resource of the list, orders the
@@ -19,7 +19,8 @@ extern "C" {
 #endif
 
 typedef enum WalrResourceKind {
-  WALR_RESOURCE_HOST = 0,             /* One of the host's own images: "lighting", ..., "denoised". */
+  /* An image of the host's: "lighting", ..., "denoised", or, of a single stage, an input that has the port's name. */
+  WALR_RESOURCE_HOST = 0,
   WALR_RESOURCE_TRANSIENT = 1,        /* Lives within the frame. */
   WALR_RESOURCE_HISTORY_PREVIOUS = 2, /* What the last frame wrote into `partner`. Nothing, on the first. */
   WALR_RESOURCE_HISTORY_CURRENT = 3,  /* Kept for the next frame, which finds it in `partner`. */
@@ -116,6 +117,13 @@ typedef struct WalrHeap {
   uint32_t reserved;
 } WalrHeap;
 
+/* A port of a single stage: WalrPassType::ports. */
+typedef struct WalrPortResource {
+  const char* port;
+  uint32_t resource; /* Index into WalrPassList::resources. */
+  VkBool32 output;
+} WalrPortResource;
+
 typedef struct WalrPassList {
   uint32_t struct_size;
   uint32_t resource_count;
@@ -127,6 +135,9 @@ typedef struct WalrPassList {
   uint32_t release_count;
   uint32_t heap_count;
   uint32_t reserved;
+  const WalrPortResource* ports; /* Of a single stage; none of a method. */
+  uint32_t port_count;
+  uint32_t reserved2;
 } WalrPassList;
 
 typedef struct WalrPasses_T* WalrPasses;
@@ -136,22 +147,49 @@ typedef struct WalrSettingValue {
   const char* value;
 } WalrSettingValue;
 
+/* What is connected to an input of a single stage, where it is not of WalrPort::format. Formats of the host's own
+ * images are in WalrDenoiserInfo. */
+typedef struct WalrPortFormat {
+  const char* port;
+  VkFormat format;
+  uint32_t reserved;
+} WalrPortFormat;
+
 typedef struct WalrPassesInfo {
   uint32_t struct_size;
   uint32_t setting_count;
-  const WalrDenoiserInfo* denoiser; /* Its device may be null where no pass is to be recorded. */
+  /* Its method may be the name of any WalrPassType. Its device may be null where no pass is to be recorded. */
+  const WalrDenoiserInfo* denoiser;
   const WalrSettingValue* settings;
+  const WalrPortFormat* ports; /* Of a single stage; optional. */
+  uint32_t port_count;
+  uint32_t reserved;
 } WalrPassesInfo;
 
+/*
+ * Passes of a whole method, or of a single stage (a WalrPassType that is no method), from which a host builds a method
+ * of its own:
+ * - An output of one stage goes into the inputs of the same name of those that follow: the host gives the image behind
+ *   the one port (WalrPassList::ports) for the other, in place of a WALR_RESOURCE_HOST. Such an image is made with the
+ *   usage of all resources that it stands for, and lives until the last of these stages has read it.
+ * - An output that is a previous history ("guides.previous-depth") is what the last frame wrote into its partner. In
+ * the first frame, and where the past is of no use, give an image of zeros for it to the stages that follow.
+ * - A stage takes images in walr's own conventions: WalrConventions may state only normal_space, motion_unit,
+ *   motion_scale, motion_jittered and a static scene's motion_depth.
+ * - Every stage's frame is begun with the same camera.
+ */
 WALR_API WalrResult walr_create_passes(const WalrPassesInfo* info, WalrPasses* passes);
 /* The GPU must have finished everything recorded. */
 WALR_API WalrResult walr_destroy_passes(WalrPasses passes);
 /* Everything in the list is valid until the passes are destroyed. */
 WALR_API WalrResult walr_get_pass_list(WalrPasses passes, const WalrPassList** list);
 
-/* Let the next frame of passes go on from the last frame of others, which are the same but for their size (dynamic
- * resolution): its camera, its size and its number are taken over. What those wrote as current histories is then to be
- * given as previous ones. Both must be made with WalrConventions::rectangle. Passes of several sizes may take turns. */
+/* Let the next frame of passes go on from the last frame of others: its camera, its size and its number are taken over.
+ * A list never changes, so a host that changes a setting or the size makes new passes and lets them go on from the old.
+ * What those wrote as current histories is then to be given as previous ones of the same name and format; where the old
+ * passes have no such history, null is. Both must be of one method, and of one size unless WalrConventions::rectangle
+ * is stated. Passes of several sizes may take turns. WalrDenoiserInfo::pipeline_cache spares the pipelines that were
+ * there before from being compiled again. */
 WALR_API WalrResult walr_continue_passes(WalrPasses passes, WalrPasses last);
 
 typedef struct WalrPassFrame {
