@@ -9,11 +9,15 @@
 #
 #   "atrous.comp"                                               -> extern const fg::Shader atrous;
 #   "edge_trace.comp VARIANT raw16 DEFINES STORAGE=RAW16 HALF"  -> extern const fg::Shader edgeTraceRaw16;
+#   "fit.comp AXES view=VIEW packed=PACKED"                     -> const fg::Shader& fit(FitVariant);
 #
-# Its fg::Shader::name is "atrous" and "edge_trace.raw16". Changes of a shader or of anything it includes rebuild it.
+# Its fg::Shader::name is "atrous" and "edge_trace.raw16". AXES makes a shader of every combination of the words, with the
+# define of each, and a function that chooses one by name: fit({.packed = true}) has the name "fit.packed". What only decides
+# which inputs are read needs no axis: see PassBuilder::unread. Changes of a shader or of anything it includes rebuild it.
 # SPIR-V is for Vulkan 1.1, the oldest version on which a host can have synchronization2.
 # Bindings: descriptor set 0 only, named by their variable; a block without an instance name goes by its block name.
-# Bindings that are declared and not used do not count. See framegraph/tools/reflect.h.
+# Bindings that are declared and not used do not count. Those without a number are given one. See framegraph/tools/reflect.h.
+# The SPIR-V that is embedded has no names, but in builds for debugging, where validation messages show them.
 find_program(GLSLANG_VALIDATOR NAMES glslangValidator glslang REQUIRED
   DOC "glslang's compiler (Debian package glslang-tools)")
 
@@ -30,39 +34,103 @@ function(_walr_shader_identifier out words)
   set(${out} "${identifier}" PARENT_SCOPE)
 endfunction()
 
+# _walr_combinations(<out> <axis>...): "-" and every choice among axes such as packed=PACKED, joined by "+", such that the
+# i-th axis is part of those whose index has bit i.
+function(_walr_combinations out)
+  set(combinations "-")
+  foreach(axis IN LISTS ARGN)
+    list(TRANSFORM combinations APPEND "+${axis}" OUTPUT_VARIABLE more)
+    list(APPEND combinations ${more})
+  endforeach()
+  set(${out} "${combinations}" PARENT_SCOPE)
+endfunction()
+
+# _walr_variant_chooser(<out> <identifier> <axes> <modules>): C++ that chooses among modules, in the order of
+# _walr_combinations, by the names of axes.
+function(_walr_variant_chooser out identifier axes modules)
+  string(SUBSTRING "${identifier}" 0 1 initial)
+  string(SUBSTRING "${identifier}" 1 -1 rest)
+  string(TOUPPER "${initial}" initial)
+  set(type "${initial}${rest}Variant")
+  set(members "")
+  set(index "")
+  set(bit 1)
+  foreach(axis IN LISTS axes)
+    string(REGEX REPLACE "=.*" "" word "${axis}")
+    string(APPEND members " bool ${word} = false;")
+    list(APPEND index "(variant.${word} ? ${bit} : 0)")
+    math(EXPR bit "2 * ${bit}")
+  endforeach()
+  list(JOIN index " + " index)
+  list(TRANSFORM modules PREPEND "&modules::")
+  list(JOIN modules ", " modules)
+  set(${out} "struct ${type} {${members} };
+inline const fg::Shader& ${identifier}(${type} variant) {
+  static constexpr const fg::Shader* kModules[] = {${modules}};
+  return *kModules[${index}];
+}
+" PARENT_SCOPE)
+endfunction()
+
 function(walr_add_shaders name)
   cmake_parse_arguments(ARG "" "NAMESPACE;HEADER" "INCLUDE_DIRS;SHADERS" ${ARGN})
   set(generated "${CMAKE_CURRENT_BINARY_DIR}/${name}")
   list(TRANSFORM ARG_INCLUDE_DIRS PREPEND "-I" OUTPUT_VARIABLE includes)
 
-  set(declarations "")
+  set(variables "")
+  set(modules "")
+  set(choosers "")
+  set(all "")
   set(sources "")
   foreach(shader IN LISTS ARG_SHADERS)
     separate_arguments(words UNIX_COMMAND "${shader}")
     list(POP_FRONT words file)
-    cmake_parse_arguments(SHADER "" "VARIANT" "DEFINES" ${words})
+    cmake_parse_arguments(SHADER "" "VARIANT" "DEFINES;AXES" ${words})
     get_filename_component(stem "${file}" NAME_WE)
-    set(shader_name "${stem}")
-    if(SHADER_VARIANT)
-      string(APPEND shader_name ".${SHADER_VARIANT}")
-    endif()
-    _walr_shader_identifier(identifier "${shader_name}")
-    list(TRANSFORM SHADER_DEFINES PREPEND "-D" OUTPUT_VARIABLE defines)
+    string(JOIN "." base "${stem}" ${SHADER_VARIANT})
+    _walr_shader_identifier(family "${base}")
+    _walr_combinations(combinations ${SHADER_AXES})
+    set(choices "")
+    foreach(combination IN LISTS combinations)
+      string(REGEX MATCHALL "[^+-][^+]*" combined "${combination}")
+      list(TRANSFORM combined REPLACE "=.*" "" OUTPUT_VARIABLE words)
+      list(TRANSFORM combined REPLACE ".*=" "")
+      list(JOIN words "." words)
+      string(JOIN "." shader_name "${base}" ${words})
+      _walr_shader_identifier(identifier "${shader_name}")
+      set(namespace "${ARG_NAMESPACE}")
+      if(SHADER_AXES)
+        string(APPEND namespace "::modules")
+        string(APPEND modules "extern const fg::Shader ${identifier};\n")
+        list(APPEND choices "${identifier}")
+        list(APPEND all "&modules::${identifier}")
+      else()
+        string(APPEND variables "extern const fg::Shader ${identifier};\n")
+        list(APPEND all "&${identifier}")
+      endif()
+      list(TRANSFORM SHADER_DEFINES PREPEND "-D" OUTPUT_VARIABLE defines)
+      list(TRANSFORM combined PREPEND "-D")
 
-    set(spirv "${generated}/${shader_name}.spv")
-    set(source "${generated}/${shader_name}.cpp")
-    add_custom_command(OUTPUT "${spirv}"
-      COMMAND "${GLSLANG_VALIDATOR}" -V --target-env vulkan1.1 ${includes} ${defines}
-        --depfile "${spirv}.d" -o "${spirv}" "${CMAKE_CURRENT_SOURCE_DIR}/${file}"
-      DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/${file}" DEPFILE "${spirv}.d"
-      COMMENT "Compiling shader ${shader_name}" VERBATIM)
-    add_custom_command(OUTPUT "${source}"
-      COMMAND embed_shader "${spirv}" "${source}" "${ARG_HEADER}" "${ARG_NAMESPACE}" "${identifier}" "${shader_name}"
-      DEPENDS embed_shader "${spirv}"
-      COMMENT "Embedding shader ${shader_name}" VERBATIM)
-    list(APPEND sources "${source}")
-    string(APPEND declarations "extern const fg::Shader ${identifier};\n")
+      set(spirv "${generated}/${shader_name}.spv")
+      set(source "${generated}/${shader_name}.cpp")
+      add_custom_command(OUTPUT "${spirv}"
+        COMMAND "${GLSLANG_VALIDATOR}" -V --target-env vulkan1.1 --auto-map-bindings ${includes} ${defines} ${combined}
+          --depfile "${spirv}.d" -o "${spirv}" "${CMAKE_CURRENT_SOURCE_DIR}/${file}"
+        DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/${file}" DEPFILE "${spirv}.d"
+        COMMENT "Compiling shader ${shader_name}" VERBATIM)
+      add_custom_command(OUTPUT "${source}"
+        COMMAND embed_shader "${spirv}" "${source}" "${ARG_HEADER}" "${namespace}" "${identifier}" "${shader_name}"
+          "$<IF:$<CONFIG:Debug>,names,no-names>"
+        DEPENDS embed_shader "${spirv}"
+        COMMENT "Embedding shader ${shader_name}" VERBATIM)
+      list(APPEND sources "${source}")
+    endforeach()
+    if(SHADER_AXES)
+      _walr_variant_chooser(chooser "${family}" "${SHADER_AXES}" "${choices}")
+      string(APPEND choosers "${chooser}")
+    endif()
   endforeach()
+  list(JOIN all ", " all)
 
   set(header "${generated}/include/${ARG_HEADER}")
   file(CONFIGURE OUTPUT "${header}" @ONLY CONTENT [[// Generated by walr_add_shaders.
@@ -71,7 +139,14 @@ function(walr_add_shaders name)
 #include "framegraph/declare/shader.h"
 
 namespace @ARG_NAMESPACE@ {
-@declarations@}  // namespace @ARG_NAMESPACE@
+@variables@
+namespace modules {
+@modules@}  // namespace modules
+
+@choosers@
+/// Every shader above.
+inline constexpr const fg::Shader* kAll[] = {@all@};
+}  // namespace @ARG_NAMESPACE@
 ]])
   walr_library(${name} SOURCES ${sources} "${header}")
   target_include_directories(walr_${name} PUBLIC $<BUILD_INTERFACE:${generated}/include>)

@@ -11,37 +11,14 @@
 namespace walr {
 namespace {
 
-/// The shaders for a set of guides, and the bytes of a cell in their buffers.
-struct Variant {
-  const fg::Shader& moments;
-  const fg::Shader& blur;
-  const fg::Shader& solve;
-  const fg::Shader& apply;
-  const fg::Shader& solveView;
-  const fg::Shader& applyView;
-  std::uint64_t productBytes;      ///< `OuterProducts` of flr.glsl, std430.
-  std::uint64_t coefficientBytes;  ///< `Coefficients` of flr.glsl, std430.
+/// Bytes of a cell in the buffers, which differ with the number of guides.
+struct CellBytes {
+  std::uint64_t products;      ///< `OuterProducts` of flr.glsl, std430.
+  std::uint64_t coefficients;  ///< `Coefficients` of flr.glsl, std430.
 };
 
-Variant variantOf(bool occlusion) {
-  if (occlusion) {
-    return {shaders::flrMomentsOcclusion,
-            shaders::flrBlurOcclusion,
-            shaders::flrSolveOcclusion,
-            shaders::flrApplyOcclusion,
-            shaders::flrSolveOcclusionView,
-            shaders::flrApplyOcclusionView,
-            160,
-            80};
-  }
-  return {shaders::flrMoments,
-          shaders::flrBlur,
-          shaders::flrSolve,
-          shaders::flrApply,
-          shaders::flrSolveView,
-          shaders::flrApplyView,
-          128,
-          64};
+CellBytes cellBytesOf(bool occlusion) {
+  return occlusion ? CellBytes{160, 80} : CellBytes{128, 64};
 }
 
 /// In the order of `kView` of flr_solve.comp. Names of what WALR's regression has, too, are the same.
@@ -89,9 +66,10 @@ fg::Extent gridOf(fg::Extent pixels, std::uint32_t factor, std::uint64_t cellByt
 
 fg::Texture addFlrRegression(StageGraph graph, fg::Texture lighting, LightingAlpha alpha, const Guides& guides,
                              fg::Texture output, const FlrRegressionSettings& settings) {
-  const Variant variant = variantOf(settings.occlusionGuide);
+  const bool occlusion = settings.occlusionGuide;
+  const CellBytes bytes = cellBytesOf(occlusion);
   const fg::Extent extent = graph->textureDesc(lighting).extent;
-  const fg::Extent cells = gridOf(extent, settings.factor, variant.productBytes);
+  const fg::Extent cells = gridOf(extent, settings.factor, bytes.products);
   const std::uint64_t cellCount = std::uint64_t{cells.width} * cells.height;
   const float sigma = settings.sigma / static_cast<float>(settings.factor);
   FlrConstants constants{};
@@ -105,20 +83,20 @@ fg::Texture addFlrRegression(StageGraph graph, fg::Texture lighting, LightingAlp
   const auto readPixels = [&](const std::string& name, const fg::Shader& shader) {
     fg::PassBuilder pass = graph->compute(name, shader);
     pass.sample("lighting", lighting).sample("depth", guides.depth).constants(constants);
-    if (settings.occlusionGuide) {
+    if (occlusion) {
       pass.sample("features", guides.features);
     } else {
       pass.sample("shadingNormal", guides.shadingNormal);
     }
     return pass;
   };
-  const auto productBuffer = [&](const char* name) { return graph->buffer(name, {cellCount * variant.productBytes}); };
+  const auto productBuffer = [&](const char* name) { return graph->buffer(name, {cellCount * bytes.products}); };
 
-  fg::PassBuilder downsample = readPixels("flr outer products", variant.moments);
+  fg::PassBuilder downsample = readPixels("flr outer products", shaders::flrMoments({.occlusion = occlusion}));
   downsample.specialize("kAlphaIsSampleCount", alpha == LightingAlpha::SampleCount ? 1U : 0U).dispatch(cells);
   const fg::Buffer moments = downsample.store("outMoments", productBuffer("outer products"));
 
-  fg::PassBuilder blur = graph->compute("flr blur", variant.blur);
+  fg::PassBuilder blur = graph->compute("flr blur", shaders::flrBlur({.occlusion = occlusion}));
   blur.load("moments", moments).constants(constants).dispatch(cells);
   const fg::Buffer blurred = blur.store("outBlurred", productBuffer("blurred products"));
 
@@ -127,9 +105,9 @@ fg::Texture addFlrRegression(StageGraph graph, fg::Texture lighting, LightingAlp
     pass.load("blurred", blurred).constants(constants).dispatch(cells);
     return pass;
   };
-  fg::PassBuilder solve = declareSolve("flr solve", variant.solve);
+  fg::PassBuilder solve = declareSolve("flr solve", shaders::flrSolve({.occlusion = occlusion}));
   const fg::Buffer coefficients =
-      solve.store("outCoefficients", graph->buffer("coefficients", {cellCount * variant.coefficientBytes}));
+      solve.store("outCoefficients", graph->buffer("coefficients", {cellCount * bytes.coefficients}));
 
   const auto declareApply = [&](const std::string& name, const fg::Shader& shader) {
     fg::PassBuilder pass = readPixels(name, shader);
@@ -138,13 +116,15 @@ fg::Texture addFlrRegression(StageGraph graph, fg::Texture lighting, LightingAlp
         .dispatch(extent);
     return pass;
   };
-  graph.offer(solveViews(), extent, [&](const std::string& name) { return declareSolve(name, variant.solveView); });
+  graph.offer(solveViews(), extent, [&](const std::string& name) {
+    return declareSolve(name, shaders::flrSolveView({.occlusion = occlusion}));
+  });
   graph.offer(applyViews(), extent, [&](const std::string& name) {
-    fg::PassBuilder pass = declareApply(name, variant.applyView);
+    fg::PassBuilder pass = declareApply(name, shaders::flrApplyView({.occlusion = occlusion}));
     pass.specialize("kAlphaIsSampleCount", alpha == LightingAlpha::SampleCount);
     return pass;
   });
-  fg::PassBuilder apply = declareApply("flr apply", variant.apply);
+  fg::PassBuilder apply = declareApply("flr apply", shaders::flrApply({.occlusion = occlusion}));
   return apply.store("outFiltered", output);
 }
 

@@ -1,7 +1,6 @@
 #include "passes/prepare_guides.h"
 
 #include <algorithm>
-#include <array>
 #include <string>
 #include <vector>
 
@@ -14,19 +13,6 @@ namespace {
 /// Whether pixels without a diffuse lobe are told apart.
 bool isMasked(const PrepareGuidesSettings& settings) {
   return settings.albedoThreshold > 0.0F;
-}
-
-const fg::Shader& shaderFor(bool masked, bool geometricNormal, bool occlusion) {
-  using namespace shaders;
-  static constexpr std::array<const fg::Shader*, 8> kShaders{&prepareGuides,
-                                                             &prepareGuidesMasked,
-                                                             &prepareGuidesGeometry,
-                                                             &prepareGuidesMaskedGeometry,
-                                                             &prepareGuidesOcclusion,
-                                                             &prepareGuidesMaskedOcclusion,
-                                                             &prepareGuidesGeometryOcclusion,
-                                                             &prepareGuidesMaskedGeometryOcclusion};
-  return *kShaders.at((masked ? 1 : 0) + (geometricNormal ? 2 : 0) + (occlusion ? 4 : 0));
 }
 
 /// A guide to be written, and last frame's where it is kept.
@@ -66,11 +52,12 @@ fg::PassBuilder declarePass(fg::Graph& graph, const std::string& name, const fg:
       .sample("normal", inputs.normal)
       .specialize("kNormalsInWorldSpace", inputs.conventions.normal == InputConventions::Space::World)
       .specialize("kSky", inputs.scene.sky)
+      .specialize("kDiffuseMask", isMasked(settings))
+      .sampleIf(isMasked(settings), "albedo", inputs.albedo, inputs.normal)
       .constants(PrepareGuidesConstants{settings.albedoThreshold, settings.tangentTolerance, settings.normalAgreement,
                                         occlusionRadius})
       .texels(extent)
       .dispatch(extent);
-  if (isMasked(settings)) pass.sample("albedo", inputs.albedo);
   return pass;
 }
 
@@ -80,11 +67,10 @@ Guides addPrepareGuides(StageGraph graph, const DenoiserInputs& inputs, const Pr
                         const GuideNeeds& needs) {
   const fg::Extent extent = graph->textureDesc(inputs.depth).extent;
   graph.offer(guideViews(), extent, [&](const std::string& name) {
-    const fg::Shader& shader = isMasked(settings) ? shaders::prepareGuidesMaskedView : shaders::prepareGuidesView;
-    return declarePass(graph, name, shader, inputs, settings);
+    return declarePass(graph, name, shaders::prepareGuidesView, inputs, settings);
   });
   const bool occludes = needs.occlusion.has_value();
-  const fg::Shader& shader = shaderFor(isMasked(settings), needs.geometricNormal, occludes);
+  const fg::Shader& shader = shaders::prepareGuides({.geometry = needs.geometricNormal, .occlusion = occludes});
   fg::PassBuilder pass = declarePass(graph, "prepare guides", shader, inputs, settings,
                                      needs.occlusion.value_or(AmbientOcclusionSettings{}));
   Guides guides;

@@ -2,30 +2,35 @@
 
 namespace walr {
 
-MotionSource motionSource(const SceneDescription& scene) {
-  return scene.objectMotion ? MotionSource::Texture : MotionSource::Camera;
+ReprojectionSettings reprojectionOf(const SceneDescription& scene, bool still, HistoryRejection rejection,
+                                    bool dilateMotion) {
+  if (still && scene.still()) return {MotionSource::None, HistoryRejection::None, false};
+  return {scene.objectMotion ? MotionSource::Texture : MotionSource::Camera, rejection, dilateMotion};
 }
 
 void readReprojection(fg::PassBuilder& pass, const DenoiserInputs& inputs, const Guides& guides,
-                      HistoryRejection rejection, MotionSource motion, bool dilateMotion) {
-  pass.uniform("frameConstants", inputs.frame)
-      .sample("depth", guides.depth)
-      .specialize("kJitter",
-                  inputs.scene.jitter && (motion == MotionSource::Camera || inputs.conventions.motionJittered))
-      .specialize("kDilateMotion", dilateMotion);
-  if (motion == MotionSource::Texture) {
-    const bool motionDepthGiven = inputs.conventions.motionDepth == InputConventions::MotionDepth::Given;
-    pass.sample("motion", inputs.motion).specialize("kMotionDepthGiven", motionDepthGiven);
-  }
-  if (rejection != HistoryRejection::None) pass.sample("previousDepth", guides.previousDepth);
-  if (rejection == HistoryRejection::Plane) {
-    pass.sample("geometricNormal", guides.geometricNormal)
-        .sample("previousGeometricNormal", guides.previousGeometricNormal);
-  }
+                      const ReprojectionSettings& settings, const StandIns& standIns) {
+  const bool fromTexture = settings.motion == MotionSource::Texture;
+  const bool byPlane = settings.rejection == HistoryRejection::Plane;
+  const bool byDepth = settings.rejection == HistoryRejection::Depth;
+  pass.specialize("kJitter", inputs.scene.jitter && (!fromTexture || inputs.conventions.motionJittered))
+      .specialize("kDilateMotion", settings.dilateMotion)
+      .specialize("kMotionFromCamera", !fromTexture)
+      .specialize("kMotionDepthGiven", inputs.conventions.motionDepth == InputConventions::MotionDepth::Given)
+      .specialize("kRejectByPlane", byPlane)
+      .specialize("kRejectByDepth", byDepth)
+      .sampleIf(fromTexture || !standIns.colour.valid(), "motion", fromTexture ? inputs.motion : inputs.lighting,
+                standIns.colour)
+      .sampleIf(byPlane || byDepth, "previousDepth", guides.previousDepth, standIns.number)
+      .sampleIf(byPlane, "geometricNormal", guides.geometricNormal, standIns.number)
+      .sampleIf(byPlane, "previousGeometricNormal", guides.previousGeometricNormal, standIns.number);
 }
 
-void readObjectIds(fg::PassBuilder& pass, const ObjectIds& objects) {
-  pass.sample("objects", objects.current).sample("previousObjects", objects.previous);
+void readObjectIds(fg::PassBuilder& pass, const ObjectIds& objects, const StandIns& standIns) {
+  const bool known = objects.current.valid();
+  pass.specialize("kRejectByObject", known)
+      .sampleIf(known, "objects", objects.current, standIns.number)
+      .sampleIf(known, "previousObjects", objects.previous, standIns.number);
 }
 
 }  // namespace walr

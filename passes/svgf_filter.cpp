@@ -80,7 +80,7 @@ fg::Texture addSvgfVariance(StageGraph graph, fg::Buffer frame, const SvgfAccumu
                             const Guides& guides, const SvgfFilterSettings& settings) {
   const auto declare = [&](const std::string& name, const fg::Shader& shader) {
     fg::PassBuilder pass = filterPass(graph, name, shader, frame, accumulated.colour, guides, settings);
-    pass.sample("moments", accumulated.moments);
+    pass.sample("moments", accumulated.moments).specialize("kSingleFrame", false);
     return pass;
   };
   graph.offer(varianceViews(), graph->textureDesc(accumulated.colour).extent,
@@ -92,11 +92,13 @@ fg::Texture addSvgfVariance(StageGraph graph, fg::Buffer frame, const SvgfAccumu
 fg::Texture addSvgfSingleFrameVariance(StageGraph graph, fg::Buffer frame, fg::Texture lighting, const Guides& guides,
                                        const SvgfFilterSettings& settings) {
   const auto declare = [&](const std::string& name, const fg::Shader& shader) {
-    return filterPass(graph, name, shader, frame, lighting, guides, settings);
+    fg::PassBuilder pass = filterPass(graph, name, shader, frame, lighting, guides, settings);
+    pass.unread("moments", lighting).specialize("kSingleFrame", true);
+    return pass;
   };
   graph.offer(varianceViews(), graph->textureDesc(lighting).extent,
-              [&](const std::string& name) { return declare(name, shaders::svgfVarianceSingleFrameView); });
-  fg::PassBuilder pass = declare(kVariancePass, shaders::svgfVarianceSingleFrame);
+              [&](const std::string& name) { return declare(name, shaders::svgfVarianceView); });
+  fg::PassBuilder pass = declare(kVariancePass, shaders::svgfVariance);
   return pass.store("outColour", colourTexture(graph, lighting, "svgf.variance"));
 }
 

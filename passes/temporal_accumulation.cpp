@@ -1,6 +1,6 @@
 #include "passes/temporal_accumulation.h"
 
-#include <array>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -15,54 +15,13 @@ namespace walr {
 namespace {
 
 /// What a pass is there for.
-enum class Role : std::size_t { Mean, MeanAndTaps, View };
+enum class Role : std::uint8_t { Mean, MeanAndTaps, View };
 
-// WALR_BY_ROLE(x): shaders x..., xTaps..., xView... with and without response to light that changes, in both storages.
-#define WALR_BY_STORAGE(shader)  \
-  {                              \
-    { &shader, &shader##Packed } \
-  }
-#define WALR_BY_CHANGE(shader)                                       \
-  {                                                                  \
-    { WALR_BY_STORAGE(shader), WALR_BY_STORAGE(shader##Responsive) } \
-  }
-#define WALR_BY_ROLE(shader)                                                               \
-  {                                                                                        \
-    { WALR_BY_CHANGE(shader), WALR_BY_CHANGE(shader##Taps), WALR_BY_CHANGE(shader##View) } \
-  }
-#define WALR_BY_REJECTION(shader)                                                      \
-  {                                                                                    \
-    { WALR_BY_ROLE(shader##Plane), WALR_BY_ROLE(shader##Depth), WALR_BY_ROLE(shader) } \
-  }
-
-using ByStorage = std::array<const fg::Shader*, 2>;
-using ByChange = std::array<ByStorage, 2>;
-
-const fg::Shader& shaderFor(MotionSource motion, HistoryRejection rejection, Role role, bool responsive,
-                            LightStorage storage) {
-  using namespace shaders;
-  using ByRole = std::array<ByChange, 3>;
-  using ByRejection = std::array<ByRole, 3>;
-  static constexpr std::array<ByRejection, 2> kShaders{
-      {WALR_BY_REJECTION(temporalAccumulation), WALR_BY_REJECTION(temporalAccumulationCamera)}};
-  return *kShaders.at(static_cast<std::size_t>(motion))
-              .at(static_cast<std::size_t>(rejection))
-              .at(static_cast<std::size_t>(role))
-              .at(responsive ? 1 : 0)
-              .at(static_cast<std::size_t>(storage));
+const fg::Shader& shaderFor(Role role, bool antilag, LightStorage storage) {
+  const bool packed = storage == LightStorage::Packed;
+  if (role == Role::View) return shaders::temporalAccumulationView({.packed = packed});
+  return shaders::temporalAccumulation({.taps = role == Role::MeanAndTaps, .antilag = antilag, .packed = packed});
 }
-
-const fg::Shader& stillShaderFor(Role role, bool responsive, LightStorage storage) {
-  using namespace shaders;
-  static constexpr ByChange kMeans WALR_BY_CHANGE(temporalAccumulationStill);
-  static constexpr ByChange kViews WALR_BY_CHANGE(temporalAccumulationStillView);
-  return *(role == Role::View ? kViews : kMeans).at(responsive ? 1 : 0).at(static_cast<std::size_t>(storage));
-}
-
-#undef WALR_BY_REJECTION
-#undef WALR_BY_ROLE
-#undef WALR_BY_CHANGE
-#undef WALR_BY_STORAGE
 
 /// The stage in a graph.
 struct Stage {
@@ -87,27 +46,26 @@ Stage stageOf(StageGraph graph, const DenoiserInputs& inputs, const Guides& guid
 
 /// A pass without its outputs; the first of them is the current texture of `accumulated`.
 fg::PassBuilder declarePass(const Stage& stage, const std::string& name, Role role) {
-  const SceneDescription& scene = stage.inputs.scene;
-  const bool still = scene.still() && !stage.keepTaps;
-  const MotionSource motion = motionSource(scene);
-  const bool responsive = stage.antilag.has_value();
-  const LightStorage storage = stage.settings.storage;
-  fg::PassBuilder pass =
-      stage.graph->compute(name, still ? stillShaderFor(role, responsive, storage)
-                                       : shaderFor(motion, stage.settings.rejection, role, responsive, storage));
-  if (still) {
-    pass.sample("depth", stage.guides.depth);
-    if (storage == LightStorage::Packed && role != Role::View) pass.uniform("frameConstants", stage.inputs.frame);
-  } else {
-    readReprojection(pass, stage.inputs, stage.guides, stage.settings.rejection, motion, stage.settings.dilateMotion);
-    pass.specialize("kBicubicHistory", stage.settings.historyFilter == HistoryFilter::Bicubic);
-    if (role == Role::View) pass.specialize("kKeepableMotion", stage.keepTaps);
+  const TemporalAccumulationSettings& settings = stage.settings;
+  const bool antilag = stage.antilag.has_value();
+  const ReprojectionSettings reprojection =
+      reprojectionOf(stage.inputs.scene, !stage.keepTaps, settings.rejection, settings.dilateMotion);
+  fg::PassBuilder pass = stage.graph->compute(name, shaderFor(role, antilag, settings.storage));
+  pass.uniform("frameConstants", stage.inputs.frame)
+      .sample("depth", stage.guides.depth)
+      .specialize("kBicubicHistory", settings.historyFilter == HistoryFilter::Bicubic);
+  readReprojection(pass, stage.inputs, stage.guides, reprojection,
+                   {.colour = stage.inputs.lighting, .number = stage.guides.depth});
+  if (role != Role::MeanAndTaps) pass.specialize("kStill", reprojection.motion == MotionSource::None);
+  if (role == Role::View) pass.specialize("kKeepableMotion", stage.keepTaps).specialize("kAntilag", antilag);
+  if (antilag) {
+    pass.sample("previousAntilag", stage.antilag->factor.previous);
+  } else if (role == Role::View) {
+    pass.unread("previousAntilag", stage.inputs.lighting);
   }
-  if (responsive) pass.sample("previousAntilag", stage.antilag->factor.previous);
   pass.sample("lighting", stage.inputs.lighting)
       .sample("previousAccumulated", stage.accumulated.previous)
-      .constants(TemporalAccumulationConstants{stage.settings.maxHistory, stage.settings.planeTolerance,
-                                               stage.settings.normalThreshold})
+      .constants(TemporalAccumulationConstants{settings.maxHistory, settings.planeTolerance, settings.normalThreshold})
       .dispatch(stage.graph->textureDesc(stage.inputs.lighting).extent);
   return pass;
 }

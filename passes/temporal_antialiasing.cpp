@@ -1,6 +1,5 @@
 #include "passes/temporal_antialiasing.h"
 
-#include <array>
 #include <functional>
 #include <string>
 #include <vector>
@@ -11,47 +10,6 @@
 
 namespace walr {
 namespace {
-
-/// A shader and the one of its views.
-struct StageShaders {
-  const fg::Shader* stage;
-  const fg::Shader* view;
-};
-using ByStorage = std::array<StageShaders, 2>;
-
-#define WALR_BY_STORAGE(shader)              \
-  {                                          \
-    {                                        \
-      {&shader, &shader##View}, {            \
-        &shader##Packed, &shader##ViewPacked \
-      }                                      \
-    }                                        \
-  }
-#define WALR_BY_OBJECTS(shader)                                  \
-  {                                                              \
-    { WALR_BY_STORAGE(shader), WALR_BY_STORAGE(shader##Object) } \
-  }
-#define WALR_BY_REJECTION(shader)                                                               \
-  {                                                                                             \
-    { WALR_BY_OBJECTS(shader##Plane), WALR_BY_OBJECTS(shader##Depth), WALR_BY_OBJECTS(shader) } \
-  }
-
-constexpr ByStorage kStill WALR_BY_STORAGE(shaders::temporalAntialiasingStill);
-constexpr ByStorage kKept WALR_BY_STORAGE(shaders::temporalAntialiasingKept);
-
-/// @param objects whether objects are told apart, too
-const ByStorage& shadersFor(MotionSource motion, HistoryRejection rejection, bool objects) {
-  using namespace shaders;
-  using ByObjects = std::array<ByStorage, 2>;
-  using ByRejection = std::array<ByObjects, 3>;
-  static constexpr std::array<ByRejection, 2> kShaders{
-      {WALR_BY_REJECTION(temporalAntialiasing), WALR_BY_REJECTION(temporalAntialiasingCamera)}};
-  return kShaders.at(static_cast<std::size_t>(motion)).at(static_cast<std::size_t>(rejection)).at(objects ? 1 : 0);
-}
-
-#undef WALR_BY_REJECTION
-#undef WALR_BY_OBJECTS
-#undef WALR_BY_STORAGE
 
 /// In the order of `kView` of temporal_antialiasing.comp.
 const std::vector<ViewInfo>& antialiasingViews() {
@@ -71,13 +29,16 @@ const std::vector<ViewInfo>& antialiasingViews() {
 using ReadHistory = std::function<void(fg::PassBuilder& pass, bool view)>;
 
 /// The stage, whose reprojection comes from wherever `read` says.
-fg::Texture addStage(StageGraph graph, const ByStorage& byStorage, const ReadHistory& read, fg::Texture filtered,
-                     fg::Texture output, const TemporalAntialiasingSettings& settings) {
+/// @param kept from the taps that accumulation has kept
+fg::Texture addStage(StageGraph graph, bool kept, const ReadHistory& read, fg::Texture filtered, fg::Texture output,
+                     const TemporalAntialiasingSettings& settings) {
   const fg::Extent extent = graph->textureDesc(filtered).extent;
   const fg::History resolved = graph->history("resolved", {formatOf(settings.storage), extent});
-  const StageShaders& shaders = byStorage.at(static_cast<std::size_t>(settings.storage));
+  const bool packed = settings.storage == LightStorage::Packed;
   const auto declare = [&](const std::string& name, bool view) {
-    fg::PassBuilder pass = graph->compute(name, view ? *shaders.view : *shaders.stage);
+    fg::PassBuilder pass =
+        graph->compute(name, view ? shaders::temporalAntialiasingView({.kept = kept, .packed = packed})
+                                  : shaders::temporalAntialiasing({.kept = kept, .packed = packed}));
     read(pass, view);
     pass.sample("filtered", filtered)
         .sample("previousResolved", resolved.previous)
@@ -99,23 +60,24 @@ fg::Texture addTemporalAntialiasing(StageGraph graph, const DenoiserInputs& inpu
                                     fg::Texture filtered, fg::Texture output,
                                     const TemporalAntialiasingSettings& settings) {
   const bool packed = settings.storage == LightStorage::Packed;
-  if (inputs.scene.still()) {
-    const auto read = [&](fg::PassBuilder& pass, bool view) {
-      if (!packed) pass.sample("depth", guides.depth);
-      if (packed && !view) pass.uniform("frameConstants", inputs.frame).sample("passed", inputs.lighting);
-    };
-    return addStage(graph, kStill, read, filtered, output, settings);
-  }
-  const MotionSource motion = motionSource(inputs.scene);
-  const bool objects = settings.objectIds && inputs.objectId.valid();
+  const ReprojectionSettings reprojection =
+      reprojectionOf(inputs.scene, true, settings.rejection, settings.dilateMotion);
+  const bool still = reprojection.motion == MotionSource::None;
+  const bool objects = !still && settings.objectIds && inputs.objectId.valid();
   const ObjectIds ids = objects ? addObjectIds(graph, inputs, guides) : ObjectIds{};
   const auto read = [&](fg::PassBuilder& pass, bool view) {
-    readReprojection(pass, inputs, guides, settings.rejection, motion, settings.dilateMotion);
-    if (objects) readObjectIds(pass, ids);
+    // A view shows nothing of the light that passes through, and so does not read it.
+    const fg::Texture light = view ? fg::Texture{} : inputs.lighting;
+    const StandIns standIns = {.colour = packed ? light : filtered, .number = packed ? filtered : guides.depth};
+    pass.uniform("frameConstants", inputs.frame)
+        .sampleIf(!still || !packed, "depth", guides.depth, standIns.number)
+        .specialize("kStill", still);
+    readReprojection(pass, inputs, guides, reprojection, standIns);
+    readObjectIds(pass, ids, standIns);
     if (view) pass.specialize("kKeepableMotion", false);
     if (packed && !view) pass.sample("passed", inputs.lighting);
   };
-  return addStage(graph, shadersFor(motion, settings.rejection, objects), read, filtered, output, settings);
+  return addStage(graph, false, read, filtered, output, settings);
 }
 
 bool sharesReprojection(const TemporalAntialiasingSettings& antialiasing,
@@ -134,7 +96,7 @@ fg::Texture addTemporalAntialiasingWithTaps(StageGraph graph, fg::Buffer frame, 
         .sample("keptTaps", taps)
         .specialize("kRejectHistory", settings.rejection != HistoryRejection::None);
   };
-  return addStage(graph, kKept, read, filtered, output, settings);
+  return addStage(graph, true, read, filtered, output, settings);
 }
 
 }  // namespace walr

@@ -8,8 +8,8 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
-layout(set = 0, binding = 0) uniform texture2D tiles;  // x: sum of the differences over a tile; y: sum of their squares.
-layout(set = 0, binding = 1, r32f) uniform writeonly image2D outFactor;
+uniform texture2D tiles;  // x: sum of the differences over a tile; y: sum of their squares.
+layout(r32f) uniform writeonly image2D outFactor;
 layout(push_constant) uniform PushConstants { AntilagConstants settings; };
 
 void main() {

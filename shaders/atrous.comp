@@ -29,21 +29,21 @@ layout(constant_id = 5) const bool kKeepSampleCount = true;  // W goes from iter
 layout(constant_id = 6) const bool kRepeatCentre = false;  // Where the next pixel is an edge, the centre takes its place.
 layout(constant_id = 7) const float kEdgeLeak = 0.01;      // Weight of the next pixel where it is an edge.
 
-layout(set = 0, binding = 0, std140) uniform frameConstants { FrameConstants frame; };
-layout(set = 0, binding = 1) uniform utexture2D depth;
-layout(set = 0, binding = 2) uniform utexture2D planeNormal;
+layout(std140) uniform frameConstants { FrameConstants frame; };
+uniform utexture2D depth;
+uniform utexture2D planeNormal;
 #if defined(FIRST) || defined(VIEW)
-layout(set = 0, binding = 3) uniform texture2D accumulated;
+uniform texture2D accumulated;
 #endif
 #if defined(FIRST) || defined(LAST)
-layout(set = 0, binding = 13) uniform utexture2D shadingNormal;
+uniform utexture2D shadingNormal;
 #endif
 #if defined(VIEW)
-layout(set = 0, binding = 12, rgba32f) uniform writeonly image2D outView;
+layout(rgba32f) uniform writeonly image2D outView;
 #elif defined(LAST)
-layout(set = 0, binding = 12, rgba16f) uniform writeonly image2D outFiltered;
+layout(rgba16f) uniform writeonly image2D outFiltered;
 #else
-layout(set = 0, binding = 12, r32ui) uniform writeonly uimage2D outDepth;
+layout(r32ui) uniform writeonly uimage2D outDepth;
 #endif
 layout(push_constant) uniform PushConstants { AtrousConstants settings; };
 

@@ -10,11 +10,11 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 0) const int kBlockSize = 4;  // Pixels per axis.
 layout(constant_id = 1) const int kSpacing = 1;    // 3^t blocks.
 
-layout(set = 0, binding = 0, std140) uniform frameConstants { FrameConstants frame; };
-layout(set = 0, binding = 1) uniform utexture2D normal;
+layout(std140) uniform frameConstants { FrameConstants frame; };
+uniform utexture2D normal;
 #ifdef VIEW
 layout(constant_id = 8) const uint kView = 0;  // Which quantity; numbered in viewOf.
-layout(set = 0, binding = 2, rgba32f) uniform writeonly image2D outView;
+layout(rgba32f) uniform writeonly image2D outView;
 #endif
 layout(push_constant) uniform PushConstants { BlockRegressionConstants settings; };
 #include "include/block_fit.glsl"

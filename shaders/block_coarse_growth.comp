@@ -16,7 +16,7 @@ layout(push_constant) uniform PushConstants { BlockRegressionConstants settings;
 #include "include/coarse_window.glsl"
 
 layout(constant_id = 3) const int kCellBlocks = 1;  // Per axis.
-layout(set = 0, binding = 11) uniform utexture2D fitDepth;
+uniform utexture2D fitDepth;
 
 const int kTaps = 5;          // Per axis.
 const int kTapSpacing = 3;    // Cells.

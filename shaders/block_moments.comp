@@ -13,19 +13,19 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 0) const int kBlockSize = 4;   // Pixels per axis.
 layout(constant_id = 1) const int kCellBlocks = 2;  // Blocks per axis: a power of two, at most 8.
 
-layout(set = 0, binding = 0, std140) uniform frameConstants { FrameConstants frame; };
-layout(set = 0, binding = 1) uniform utexture2D depth;
-layout(set = 0, binding = 2) uniform utexture2D features;
-layout(set = 0, binding = 3) uniform utexture2D geometricNormal;
+layout(std140) uniform frameConstants { FrameConstants frame; };
+uniform utexture2D depth;
+uniform utexture2D features;
+uniform utexture2D geometricNormal;
 #ifdef PACKED
-layout(set = 0, binding = 5) uniform utexture2D accumulated;
+uniform utexture2D accumulated;
 #else
-layout(set = 0, binding = 5) uniform texture2D accumulated;
+uniform texture2D accumulated;
 #endif
 #define BLOCK_MOMENTS_OUT
 #define CELL_MOMENTS_OUT
 #include "include/block_textures.glsl"
-layout(set = 0, binding = 18, r32ui) uniform writeonly uimage2D outNormal;
+layout(r32ui) uniform writeonly uimage2D outNormal;
 layout(push_constant) uniform PushConstants { BlockRegressionConstants settings; };
 #include "include/plane.glsl"
 #include "include/block_plane.glsl"

@@ -11,11 +11,11 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
-layout(set = 0, binding = 0) uniform texture2D fitted;
-layout(set = 0, binding = 1) uniform utexture2D taps;
-layout(set = 0, binding = 2) uniform texture2D previousAccumulated;  // rgb: mean; a: history length.
-layout(set = 0, binding = 3, rgba16f) uniform writeonly image2D outAccumulated;
-layout(set = 0, binding = 4, std140) uniform frameConstants { FrameConstants frame; };
+uniform texture2D fitted;
+uniform utexture2D taps;
+uniform texture2D previousAccumulated;  // rgb: mean; a: history length.
+layout(rgba16f) uniform writeonly image2D outAccumulated;
+layout(std140) uniform frameConstants { FrameConstants frame; };
 layout(push_constant) uniform PushConstants { BmfrAccumulationConstants settings; };
 
 void main() {

@@ -15,15 +15,15 @@
 layout(local_size_x = 16, local_size_y = 16) in;
 layout(constant_id = 0) const bool kAlphaIsSampleCount = false;
 
-layout(set = 0, binding = 0, std140) uniform frameConstants { FrameConstants frame; };
-layout(set = 0, binding = 1) uniform texture2D lighting;
-layout(set = 0, binding = 2) uniform utexture2D depth;
-layout(set = 0, binding = 3) uniform utexture2D shadingNormal;
+layout(std140) uniform frameConstants { FrameConstants frame; };
+uniform texture2D lighting;
+uniform utexture2D depth;
+uniform utexture2D shadingNormal;
 #ifdef VIEW
 layout(constant_id = 8) const uint kView = 0;  // Which quantity; numbered in viewOf.
-layout(set = 0, binding = 4, rgba32f) uniform writeonly image2D outView;
+layout(rgba32f) uniform writeonly image2D outView;
 #else
-layout(set = 0, binding = 4, rgba16f) uniform writeonly image2D outFitted;
+layout(rgba16f) uniform writeonly image2D outFitted;
 #endif
 layout(push_constant) uniform PushConstants { BmfrFitConstants settings; };
 

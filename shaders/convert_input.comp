@@ -8,22 +8,22 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 
 #ifdef NUMBERS
-layout(set = 0, binding = 0) uniform utexture2D source;
-layout(set = 0, binding = 1, r32ui) uniform writeonly uimage2D target;
+uniform utexture2D source;
+layout(r32ui) uniform writeonly uimage2D target;
 #else
-layout(set = 0, binding = 0) uniform texture2D source;
+uniform texture2D source;
 #endif
 #ifdef DEPTH
-layout(set = 0, binding = 1, r32f) uniform writeonly image2D target;
+layout(r32f) uniform writeonly image2D target;
 layout(constant_id = 0) const bool kDevice = false;    // Device depth.
 layout(constant_id = 1) const bool kNegative = false;  // The view's z, which is negative.
 #elif defined(MOTION)
 // In pictures, motion is too small for halves.
-layout(set = 0, binding = 1, rgba32f) uniform writeonly image2D target;
+layout(rgba32f) uniform writeonly image2D target;
 #elif !defined(NUMBERS)
-layout(set = 0, binding = 1, rgba16f) uniform writeonly image2D target;
+layout(rgba16f) uniform writeonly image2D target;
 #endif
-layout(set = 0, binding = 2, std140) uniform hostConstants { HostConstants host; };
+layout(std140) uniform hostConstants { HostConstants host; };
 #ifdef EXPOSURE
 layout(constant_id = 2) const bool kBack = false;  // From the result to the host's texture.
 #else

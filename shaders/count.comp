@@ -7,15 +7,15 @@
 
 #ifdef CLEAR
 layout(local_size_x = 64) in;
-layout(set = 0, binding = 0, std430) writeonly buffer counters { uint words[]; };
+layout(std430) writeonly buffer counters { uint words[]; };
 
 void main() {
   for (uint i = gl_LocalInvocationIndex; i < kCounterWords; i += gl_WorkGroupSize.x) words[i] = 0u;
 }
 #else
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(set = 0, binding = 0, std430) buffer counters { uint words[]; };
-layout(set = 0, binding = 1) uniform texture2D view;
+layout(std430) buffer counters { uint words[]; };
+uniform texture2D view;
 layout(push_constant) uniform PushConstants { CountConstants settings; };
 
 shared uint partial[3];

@@ -12,15 +12,15 @@ layout(constant_id = 0) const uint kUpsampling = 1u;  // FlrUpsampling.
 layout(push_constant) uniform PushConstants { FlrConstants settings; };
 #include "include/flr.glsl"
 
-layout(set = 0, binding = 0) uniform texture2D lighting;
-layout(set = 0, binding = 1) uniform utexture2D depth;
-layout(set = 0, binding = 3, std430) readonly buffer coefficients { Coefficients cells[]; };
+uniform texture2D lighting;
+uniform utexture2D depth;
+layout(std430) readonly buffer coefficients { Coefficients cells[]; };
 #ifdef VIEW
 layout(constant_id = 8) const uint kView = 0;  // Which quantity; numbered in viewOf.
 layout(constant_id = 1) const bool kAlphaIsSampleCount = false;
-layout(set = 0, binding = 4, rgba32f) uniform writeonly image2D outView;
+layout(rgba32f) uniform writeonly image2D outView;
 #else
-layout(set = 0, binding = 4, rgba16f) uniform writeonly image2D outFiltered;
+layout(rgba16f) uniform writeonly image2D outFiltered;
 #endif
 #include "include/flr_guides.glsl"
 

@@ -8,8 +8,8 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(push_constant) uniform PushConstants { FlrConstants settings; };
 #include "include/flr.glsl"
 
-layout(set = 0, binding = 0, std430) readonly buffer moments { OuterProducts cells[]; };
-layout(set = 0, binding = 1, std430) writeonly buffer outBlurred { OuterProducts outCells[]; };
+layout(std430) readonly buffer moments { OuterProducts cells[]; };
+layout(std430) writeonly buffer outBlurred { OuterProducts outCells[]; };
 
 void main() {
   const ivec2 cell = ivec2(gl_GlobalInvocationID.xy);

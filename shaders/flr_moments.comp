@@ -11,9 +11,9 @@ layout(constant_id = 0) const bool kAlphaIsSampleCount = false;
 layout(push_constant) uniform PushConstants { FlrConstants settings; };
 #include "include/flr.glsl"
 
-layout(set = 0, binding = 0) uniform texture2D lighting;
-layout(set = 0, binding = 1) uniform utexture2D depth;
-layout(set = 0, binding = 3, std430) writeonly buffer outMoments { OuterProducts outCells[]; };
+uniform texture2D lighting;
+uniform utexture2D depth;
+layout(std430) writeonly buffer outMoments { OuterProducts outCells[]; };
 #include "include/flr_guides.glsl"
 
 void main() {

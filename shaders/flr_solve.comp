@@ -10,12 +10,12 @@ layout(push_constant) uniform PushConstants { FlrConstants settings; };
 #include "include/flr.glsl"
 #include "include/cholesky.glsl"
 
-layout(set = 0, binding = 0, std430) readonly buffer blurred { OuterProducts cells[]; };
+layout(std430) readonly buffer blurred { OuterProducts cells[]; };
 #ifdef VIEW
 layout(constant_id = 8) const uint kView = 0;  // Which quantity; numbered in viewOf.
-layout(set = 0, binding = 1, rgba32f) uniform writeonly image2D outView;
+layout(rgba32f) uniform writeonly image2D outView;
 #else
-layout(set = 0, binding = 1, std430) writeonly buffer outCoefficients { Coefficients outCells[]; };
+layout(std430) writeonly buffer outCoefficients { Coefficients outCells[]; };
 #endif
 
 // Solving the constant first leaves the system of the covariances, so that the ridge holds the slopes and not the mean:

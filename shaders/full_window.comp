@@ -15,12 +15,12 @@ layout(constant_id = 0) const int kRadius = 40;           // Half the window.
 layout(constant_id = 1) const bool kNormalFactor = true;  // Weights fall with the cosine between the planes' normals.
 layout(constant_id = 2) const bool kPivotFloor = false;   // Floor the pivots instead of adding a ridge.
 
-layout(set = 0, binding = 0, std140) uniform frameConstants { FrameConstants frame; };
-layout(set = 0, binding = 1) uniform utexture2D depth;
-layout(set = 0, binding = 2) uniform utexture2D planeNormal;
-layout(set = 0, binding = 3) uniform utexture2D shadingNormal;
-layout(set = 0, binding = 4) uniform texture2D accumulated;
-layout(set = 0, binding = 5, rgba16f) uniform image2D outFiltered;  // Pixels without a surface stay as they are.
+layout(std140) uniform frameConstants { FrameConstants frame; };
+uniform utexture2D depth;
+uniform utexture2D planeNormal;
+uniform utexture2D shadingNormal;
+uniform texture2D accumulated;
+layout(rgba16f) uniform image2D outFiltered;  // Pixels without a surface stay as they are.
 layout(push_constant) uniform PushConstants { FullWindowConstants settings; };
 
 #include "include/edge_weight.glsl"

@@ -13,16 +13,16 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 0) const int kRadius = 16;  // Pixels on each side of the centre.
 
-layout(set = 0, binding = 0, std140) uniform frameConstants { FrameConstants frame; };
-layout(set = 0, binding = 1) uniform utexture2D depth;
-layout(set = 0, binding = 2) uniform utexture2D shadingNormal;
-layout(set = 0, binding = 3) uniform utexture2D geometricNormal;
-layout(set = 0, binding = 4) uniform texture2D lighting;
+layout(std140) uniform frameConstants { FrameConstants frame; };
+uniform utexture2D depth;
+uniform utexture2D shadingNormal;
+uniform utexture2D geometricNormal;
+uniform texture2D lighting;
 #ifdef VIEW
 layout(constant_id = 8) const uint kView = 0;  // Which quantity; numbered in viewOf.
-layout(set = 0, binding = 5, rgba32f) uniform writeonly image2D outView;
+layout(rgba32f) uniform writeonly image2D outView;
 #else
-layout(set = 0, binding = 5, rgba16f) uniform writeonly image2D outFiltered;
+layout(rgba16f) uniform writeonly image2D outFiltered;
 #endif
 layout(push_constant) uniform PushConstants { JointBilateralConstants settings; };
 

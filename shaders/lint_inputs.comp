@@ -14,13 +14,13 @@ layout(constant_id = 0) const bool kNormalsInWorldSpace = false;
 layout(constant_id = 1) const bool kMotionDepthGiven = true;
 layout(constant_id = 2) const bool kMotionJittered = true;
 
-layout(set = 0, binding = 0, std140) uniform frameConstants { FrameConstants frame; };
-layout(set = 0, binding = 1) uniform texture2D lighting;
-layout(set = 0, binding = 2) uniform texture2D depth;
-layout(set = 0, binding = 3) uniform texture2D normal;
-layout(set = 0, binding = 4) uniform texture2D motion;
-layout(set = 0, binding = 5) uniform texture2D albedo;
-layout(set = 0, binding = 6, std430) buffer counters { uint words[]; };
+layout(std140) uniform frameConstants { FrameConstants frame; };
+uniform texture2D lighting;
+uniform texture2D depth;
+uniform texture2D normal;
+uniform texture2D motion;
+uniform texture2D albedo;
+layout(std430) buffer counters { uint words[]; };
 
 shared uint partial[kLintWords];
 

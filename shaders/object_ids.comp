@@ -7,9 +7,9 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
-layout(set = 0, binding = 0) uniform utexture2D depth;
-layout(set = 0, binding = 1) uniform utexture2D objectId;
-layout(set = 0, binding = 2, r32ui) uniform writeonly uimage2D outObjects;
+uniform utexture2D depth;
+uniform utexture2D objectId;
+layout(r32ui) uniform writeonly uimage2D outObjects;
 
 void main() {
   const ivec2 p = ivec2(gl_GlobalInvocationID.xy);

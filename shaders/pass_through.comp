@@ -5,8 +5,8 @@
 #include "include/finite.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(set = 0, binding = 0) uniform texture2D lighting;
-layout(set = 0, binding = 1, rgba16f) uniform writeonly image2D outImage;
+uniform texture2D lighting;
+layout(rgba16f) uniform writeonly image2D outImage;
 
 void main() {
   const ivec2 p = ivec2(gl_GlobalInvocationID.xy);

@@ -1,6 +1,6 @@
 // Converts the host's G-buffer into the guides that every later pass reads: view depth (0 where there is nothing to
 // denoise), the two octahedral features of the shading normal, and, with GEOMETRIC_NORMAL, the geometric normal that
-// spans the planes. DIFFUSE_MASK treats pixels without a diffuse lobe like sky. With OCCLUSION, for filters over blocks or
+// spans the planes. kDiffuseMask treats pixels without a diffuse lobe like sky. With OCCLUSION, for filters over blocks or
 // cells, ambient occlusion shares a texel with the shading normal, and the geometric normal is a short one. Occluders are
 // all that the host's depth shows: a mirror, too, which is not denoised.
 #version 460
@@ -17,29 +17,28 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 0) const bool kNormalsInWorldSpace = false;
 layout(constant_id = 1) const bool kSky = true;  // Some pixels show none but the sky.
 
-layout(set = 0, binding = 0, std140) uniform frameConstants { FrameConstants frame; };
-layout(set = 0, binding = 1) uniform texture2D depth;
-layout(set = 0, binding = 2) uniform texture2D normal;
-#ifdef DIFFUSE_MASK
-layout(set = 0, binding = 3) uniform texture2D albedo;
-#endif
+layout(std140) uniform frameConstants { FrameConstants frame; };
+uniform texture2D depth;
+uniform texture2D normal;
+layout(constant_id = 3) const bool kDiffuseMask = true;
+uniform texture2D albedo;
 #ifdef VIEW
 layout(constant_id = 8) const uint kView = 0;  // Which quantity; numbered in viewOf.
-layout(set = 0, binding = 4, rgba32f) uniform writeonly image2D outView;
+layout(rgba32f) uniform writeonly image2D outView;
 #else
-layout(set = 0, binding = 4, r32ui) uniform writeonly uimage2D outDepth;
+layout(r32ui) uniform writeonly uimage2D outDepth;
 #ifdef OCCLUSION
 layout(constant_id = 2) const int kOcclusionSteps = 5;
-layout(set = 0, binding = 5, r32ui) uniform writeonly uimage2D outFeatures;
+layout(r32ui) uniform writeonly uimage2D outFeatures;
 #else
-layout(set = 0, binding = 5, r32ui) uniform writeonly uimage2D outShadingNormal;
+layout(r32ui) uniform writeonly uimage2D outShadingNormal;
 #endif
 #endif
 #ifdef GEOMETRIC_NORMAL
 #ifdef OCCLUSION
-layout(set = 0, binding = 6, r16ui) uniform writeonly uimage2D outGeometricNormal;
+layout(r16ui) uniform writeonly uimage2D outGeometricNormal;
 #else
-layout(set = 0, binding = 6, r32ui) uniform writeonly uimage2D outGeometricNormal;
+layout(r32ui) uniform writeonly uimage2D outGeometricNormal;
 #endif
 #endif
 layout(push_constant) uniform PushConstants { PrepareGuidesConstants settings; };
@@ -114,13 +113,7 @@ uint packGeometricNormal(vec3 n) {
 #endif
 
 // The surface's albedo; 1 where it is left unread.
-vec3 albedoAt(ivec2 p) {
-#ifdef DIFFUSE_MASK
-  return texelFetch(albedo, p, 0).xyz;
-#else
-  return vec3(1.0);
-#endif
-}
+vec3 albedoAt(ivec2 p) { return kDiffuseMask ? texelFetch(albedo, p, 0).xyz : vec3(1.0); }
 
 // Whether something shows that diffuse light leaves.
 bool hasDiffuseLobe(vec3 diffuse) {

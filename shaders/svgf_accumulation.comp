@@ -12,26 +12,25 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
-layout(set = 0, binding = 0, std140) uniform frameConstants { FrameConstants frame; };
-layout(set = 0, binding = 1) uniform texture2D lighting;
-layout(set = 0, binding = 2) uniform texture2D motion;
-layout(set = 0, binding = 3) uniform utexture2D depth;
-layout(set = 0, binding = 4) uniform utexture2D geometricNormal;
-layout(set = 0, binding = 5) uniform utexture2D previousDepth;
-layout(set = 0, binding = 6) uniform utexture2D previousGeometricNormal;
-layout(set = 0, binding = 7) uniform texture2D previousColour;
-layout(set = 0, binding = 8) uniform texture2D previousMoments;  // Mean luminance, its deviation, history length.
+layout(std140) uniform frameConstants { FrameConstants frame; };
+uniform texture2D lighting;
+uniform texture2D motion;
+uniform utexture2D depth;
+uniform utexture2D geometricNormal;
+uniform utexture2D previousDepth;
+uniform utexture2D previousGeometricNormal;
+uniform texture2D previousColour;
+uniform texture2D previousMoments;  // Mean luminance, its deviation, history length.
 #ifdef VIEW
 layout(constant_id = 8) const uint kView = 0;  // Which quantity; numbered in viewOf.
-layout(set = 0, binding = 9, rgba32f) uniform writeonly image2D outView;
+layout(rgba32f) uniform writeonly image2D outView;
 #else
-layout(set = 0, binding = 9, rgba16f) uniform writeonly image2D outColour;
-layout(set = 0, binding = 10, rgba16f) uniform writeonly image2D outMoments;
+layout(rgba16f) uniform writeonly image2D outColour;
+layout(rgba16f) uniform writeonly image2D outMoments;
 #endif
 layout(push_constant) uniform PushConstants { SvgfAccumulationConstants settings; };
 
 #define HISTORY previousColour
-#define REJECT_BY_PLANE
 #include "include/reprojection.glsl"
 
 struct TemporalMoments {

@@ -15,12 +15,12 @@ layout(constant_id = 1) const int kSpacing = 1;   // 2^i pixels.
 layout(constant_id = 2) const bool kLuminanceWeight = true;
 layout(constant_id = 3) const float kGaussianFalloff = 0.0;  // exp(-falloff d^2), d in pixels; 0: binomial.
 
-layout(set = 0, binding = 0, std140) uniform frameConstants { FrameConstants frame; };
-layout(set = 0, binding = 1) uniform utexture2D depth;
-layout(set = 0, binding = 2) uniform utexture2D shadingNormal;
-layout(set = 0, binding = 3) uniform utexture2D geometricNormal;
-layout(set = 0, binding = 4) uniform texture2D colour;  // rgb: radiance; a: standard deviation of its luminance.
-layout(set = 0, binding = 5, rgba16f) uniform writeonly image2D outColour;
+layout(std140) uniform frameConstants { FrameConstants frame; };
+uniform utexture2D depth;
+uniform utexture2D shadingNormal;
+uniform utexture2D geometricNormal;
+uniform texture2D colour;  // rgb: radiance; a: standard deviation of its luminance.
+layout(rgba16f) uniform writeonly image2D outColour;
 layout(push_constant) uniform PushConstants { SvgfFilterConstants settings; };
 
 #include "include/svgf.glsl"

@@ -1,5 +1,5 @@
 // SVGF, variance estimation: the temporal variance of a pixel's luminance, or, while its history is too short to tell,
-// the variance over 7x7 pixels of the same surface. A single frame (SINGLE_FRAME) has no temporal variance at all. A
+// the variance over 7x7 pixels of the same surface. A single frame (kSingleFrame) has no temporal variance at all. A
 // view (VIEW) does the same and writes something found on the way.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -11,19 +11,18 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
-layout(set = 0, binding = 0, std140) uniform frameConstants { FrameConstants frame; };
-layout(set = 0, binding = 1) uniform utexture2D depth;
-layout(set = 0, binding = 2) uniform utexture2D shadingNormal;
-layout(set = 0, binding = 3) uniform utexture2D geometricNormal;
-layout(set = 0, binding = 4) uniform texture2D colour;
-#ifndef SINGLE_FRAME
-layout(set = 0, binding = 5) uniform texture2D moments;  // Mean luminance, its standard deviation, history length.
-#endif
+layout(std140) uniform frameConstants { FrameConstants frame; };
+uniform utexture2D depth;
+uniform utexture2D shadingNormal;
+uniform utexture2D geometricNormal;
+uniform texture2D colour;
+layout(constant_id = 0) const bool kSingleFrame = false;
+uniform texture2D moments;  // Mean luminance, its standard deviation, history length.
 #ifdef VIEW
 layout(constant_id = 8) const uint kView = 0;  // Which quantity; numbered in viewOf.
-layout(set = 0, binding = 6, rgba32f) uniform writeonly image2D outView;
+layout(rgba32f) uniform writeonly image2D outView;
 #else
-layout(set = 0, binding = 6, rgba16f) uniform writeonly image2D outColour;
+layout(rgba16f) uniform writeonly image2D outColour;
 #endif
 layout(push_constant) uniform PushConstants { SvgfFilterConstants settings; };
 
@@ -38,14 +37,13 @@ struct Estimate {
 
 Estimate estimateAt(ivec2 q) {
   const vec3 radiance = texelFetch(colour, q, 0).rgb;
-#ifdef SINGLE_FRAME
+  if (!kSingleFrame) {
+    const vec3 m = texelFetch(moments, q, 0).xyz;
+    return Estimate(radiance, m.x, m.y, m.z);
+  }
   if (!isFinite(radiance)) return Estimate(vec3(0.0), 0.0, 0.0, 0.0);
   const vec3 bounded = clamp(radiance, vec3(0.0), vec3(kLargestHalf));
   return Estimate(bounded, luminance(bounded), 0.0, 1.0);
-#else
-  const vec3 m = texelFetch(moments, q, 0).xyz;
-  return Estimate(radiance, m.x, m.y, m.z);
-#endif
 }
 
 // Standard deviation of the luminance over the pixels of one surface, by the variances of each and their spread.

@@ -1,11 +1,11 @@
 // WALR preprocessing (Meunier & Harada 2022, 4.2): reproject, reject, then a cumulative mean that turns exponential
 // after a fixed number of samples. Each of the four history pixels around the position is tested on its own
-// (REJECT_BY_PLANE, REJECT_BY_DEPTH). KEEP_TAPS also writes which of them passed, so that later stages can read their
-// histories in the same way without testing again (Meunier & Harada 2022, 4.4; Koskela et al. 2019, 3.5), and which
-// light passes through where there is no surface. STILL: every pixel shows what it showed before. RESPONSIVE shortens
-// history by the factor of antilag.comp, and writes what that goes by. PACKED: the history is packed
+// (reprojection.glsl). KEEP_TAPS also writes which of them passed, so that later stages can read their histories in
+// the same way without testing again (Meunier & Harada 2022, 4.4; Koskela et al. 2019, 3.5), and which light passes
+// through where there is no surface. kStill: every pixel shows what it showed before. ANTILAG shortens history
+// by the factor of antilag.comp, and writes what that factor is computed from. PACKED: the history is packed
 // (packed_light.glsl), without the light of pixels that show no surface. A view (VIEW) does the same and writes
-// something found on the way.
+// something found on the way; whether it applies antilag is specialized (kAntilag).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -15,47 +15,45 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
-#if !defined(STILL) || (defined(PACKED) && !defined(VIEW))
-layout(set = 0, binding = 0, std140) uniform frameConstants { FrameConstants frame; };
-#endif
-#ifndef STILL
-layout(constant_id = 2) const bool kBicubicHistory = false;
-#ifndef MOTION_FROM_CAMERA
-layout(set = 0, binding = 2) uniform texture2D motion;
-#endif
-#endif
-layout(set = 0, binding = 1) uniform texture2D lighting;
-layout(set = 0, binding = 3) uniform utexture2D depth;
-#if defined(REJECT_BY_PLANE) || defined(REJECT_BY_DEPTH)
-layout(set = 0, binding = 4) uniform utexture2D previousDepth;
-#endif
-#ifdef REJECT_BY_PLANE
-layout(set = 0, binding = 5) uniform utexture2D geometricNormal;
-layout(set = 0, binding = 6) uniform utexture2D previousGeometricNormal;
-#endif
+layout(std140) uniform frameConstants { FrameConstants frame; };
+uniform texture2D lighting;
+uniform texture2D motion;
+uniform utexture2D depth;
+uniform utexture2D previousDepth;
+uniform utexture2D geometricNormal;
+uniform utexture2D previousGeometricNormal;
 // rgb: mean; a: history length.
 #ifdef PACKED
-layout(set = 0, binding = 7) uniform utexture2D previousAccumulated;
+uniform utexture2D previousAccumulated;
 #else
-layout(set = 0, binding = 7) uniform texture2D previousAccumulated;
+uniform texture2D previousAccumulated;
 #endif
+#ifdef KEEP_TAPS
+const bool kStill = false;
+#else
+layout(constant_id = 4) const bool kStill = false;
+#endif
+layout(constant_id = 2) const bool kBicubicHistory = false;
 #ifdef VIEW
 layout(constant_id = 8) const uint kView = 0;  // Which quantity; numbered in viewOf.
-layout(set = 0, binding = 8, rgba32f) uniform writeonly image2D outView;
+layout(rgba32f) uniform writeonly image2D outView;
 #elif defined(PACKED)
-layout(set = 0, binding = 8, r32ui) uniform writeonly uimage2D outAccumulated;
+layout(r32ui) uniform writeonly uimage2D outAccumulated;
 #else
-layout(set = 0, binding = 8, rgba16f) uniform writeonly image2D outAccumulated;
+layout(rgba16f) uniform writeonly image2D outAccumulated;
 #endif
 #ifdef KEEP_TAPS
 layout(constant_id = 3) const bool kKeepPassedLight = false;  // Where there is no surface; else kNoSurfaceTaps.
-layout(set = 0, binding = 9, r32ui) uniform writeonly uimage2D outTaps;
+layout(r32ui) uniform writeonly uimage2D outTaps;
 #endif
-#ifdef RESPONSIVE
-layout(set = 0, binding = 10) uniform texture2D previousAntilag;
-#ifndef VIEW
-layout(set = 0, binding = 11, rg32f) uniform writeonly image2D outTiles;
+#if defined(ANTILAG) || defined(VIEW)
+uniform texture2D previousAntilag;
 #endif
+#ifdef ANTILAG
+const bool kAntilag = true;
+layout(rg32f) uniform writeonly image2D outTiles;
+#elif defined(VIEW)
+layout(constant_id = 5) const bool kAntilag = false;
 #endif
 layout(push_constant) uniform PushConstants { TemporalAccumulationConstants settings; };
 
@@ -66,17 +64,13 @@ vec4 unpackHistory(uint packed) { return unpackAccumulated(packed); }
 #include "include/half.glsl"
 #include "include/history_taps.glsl"
 #include "include/passed_light.glsl"
-#ifdef RESPONSIVE
+#if defined(ANTILAG) || defined(VIEW)
 #include "include/antilag.glsl"
 #include "include/luminance.glsl"
 #endif
-#ifdef STILL
-#include "include/surface.glsl"
-#else
 #define HISTORY previousAccumulated
 #include "include/bicubic.glsl"
 #include "include/reprojection.glsl"
-#endif
 
 // Mean and length, length 0 where there is none; where it was in the picture before; how many history pixels were rejected.
 struct Past {
@@ -85,16 +79,10 @@ struct Past {
   int rejected;
 };
 
-#ifdef STILL
-Past foundAt(ivec2 p, float z) { return Past(historyTexel(previousAccumulated, p), vec2(p) + 0.5, 0); }
-bool motionIsFinite(ivec2 p) { return true; }
-#else
 Past foundAt(ivec2 p, float z) {
-#ifdef REJECT_BY_PLANE
-  const vec3 normal = unpackNormal(texelFetch(geometricNormal, p, 0).x);
-#else
-  const vec3 normal = vec3(0.0);
-#endif
+  if (kStill) return Past(historyTexel(previousAccumulated, p), vec2(p) + 0.5, 0);
+  vec3 normal = vec3(0.0);
+  if (kRejectByPlane) normal = unpackNormal(texelFetch(geometricNormal, p, 0).x);
   const Reprojection r = reproject(p, z);
   const HistoryTaps taps = historyTaps(p, r, normal, settings.planeTolerance, settings.normalThreshold);
 #ifdef KEEP_TAPS
@@ -103,18 +91,14 @@ Past foundAt(ivec2 p, float z) {
   const vec4 mean = kBicubicHistory ? bicubicOfTaps(previousAccumulated, taps) : meanOfTaps(previousAccumulated, taps);
   return Past(mean, (pixelCentre(p) + r.motion) * frame.previousPixelFromPixel, tapsRejected(taps));
 }
-bool motionIsFinite(ivec2 p) { return isFinite(motionAt(p)); }
-#endif
 
-#ifdef RESPONSIVE
 Past pastOf(ivec2 p, float z) {
   Past past = foundAt(p, z);
-  past.mean.a = min(past.mean.a, longestHistory(past.pixel, settings.maxHistory));
+#if defined(ANTILAG) || defined(VIEW)
+  if (kAntilag) past.mean.a = min(past.mean.a, longestHistory(past.pixel, settings.maxHistory));
+#endif
   return past;
 }
-#else
-Past pastOf(ivec2 p, float z) { return foundAt(p, z); }
-#endif
 
 // A sample that is not finite is no sample: the mean stays as it was.
 float samplesWith(vec4 history, bool sampleIsFinite) {
@@ -134,15 +118,13 @@ vec3 viewOf(ivec2 p, float z, vec3 noisy) {
     }
     case 1u:
       return vec3(!sampleIsFinite, surface && sampleIsFinite && clampedRadiance(noisy) != noisy,
-                  surface && !motionIsFinite(p));
-#ifdef RESPONSIVE
+                  surface && !kStill && !isFinite(motionAt(p)));
     case 2u: {
-      if (!surface) return vec3(0.0);
+      if (!surface || !kAntilag) return vec3(0.0);
       const Past past = foundAt(p, z);
       const float longest = longestHistory(past.pixel, settings.maxHistory);
       return vec3(antilagAt(past.pixel), longest, past.mean.a > longest);
     }
-#endif
   }
   return vec3(0.0);
 }
@@ -184,7 +166,7 @@ float accumulate(ivec2 p) {
   const vec3 radiance = clampedRadiance(noisy);
   const vec3 mean = sampleIsFinite ? mix(history.rgb, radiance, 1.0 / max(samples, 1.0)) : history.rgb;
   storeMean(p, vec4(mean, samples));
-#ifdef RESPONSIVE
+#ifdef ANTILAG
   return sampleIsFinite && history.a > 0.0 ? luminance(radiance - history.rgb) : 0.0;
 #else
   return 0.0;
@@ -195,7 +177,7 @@ void main() {
   const ivec2 p = ivec2(gl_GlobalInvocationID.xy);
   const bool inside = all(lessThan(p, textureSize(lighting, 0)));
   const float difference = inside ? accumulate(p) : 0.0;
-#ifdef RESPONSIVE
+#ifdef ANTILAG
   sumOverTile(difference);
 #endif
 }

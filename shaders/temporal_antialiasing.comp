@@ -1,10 +1,10 @@
-// WALR postprocessing (Meunier & Harada 2022, 4.4): reproject the filtered history with a bicubic filter, pull it into
-// the variance of the current neighbourhood, then a cumulative mean that turns exponential after a fixed number of
-// frames. With KEPT_TAPS the reprojection is what the accumulation kept of its own; else REJECT_BY_PLANE,
-// REJECT_BY_DEPTH and REJECT_BY_OBJECT say how history pixels are tested. STILL: every pixel shows what it showed
-// before. PACKED: what it reads and keeps is packed (packed_light.glsl), and light is known of every surface and of
-// nothing else; the picture it writes is not rounded so. The light that passes through where there is no surface comes
-// from the kept taps, or from the host. A view (VIEW) does the same and writes something found on the way.
+// WALR postprocessing (Meunier & Harada 2022, 4.4): reproject the filtered history with a bicubic filter, pull it
+// into the variance of the current neighbourhood, then a cumulative mean that turns exponential after a fixed number
+// of frames. With KEPT_TAPS the reprojection is what the accumulation kept of its own; else it is done anew, or,
+// with kStill, every pixel shows what it showed before. PACKED: what it reads and keeps is packed
+// (packed_light.glsl), and light is known of every surface and of nothing else; the picture it writes is not rounded
+// so. The light that passes through where there is no surface comes from the kept taps, or from the host. A view
+// (VIEW) does the same and writes something found on the way.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -19,51 +19,38 @@ layout(constant_id = 3) const bool kRejectHistory = true;  // Leave out taps tha
 #endif
 
 #ifdef PACKED
-layout(set = 0, binding = 0) uniform utexture2D filtered;
-layout(set = 0, binding = 1) uniform utexture2D previousResolved;  // rgb: mean; a: history length.
+uniform utexture2D filtered;
+uniform utexture2D previousResolved;  // rgb: mean; a: history length.
 #else
-layout(set = 0, binding = 0) uniform texture2D filtered;  // a: below 0 where no light is known.
-layout(set = 0, binding = 1) uniform texture2D previousResolved;  // rgb: mean; a: history length.
+uniform texture2D filtered;  // a: below 0 where no light is known.
+uniform texture2D previousResolved;  // rgb: mean; a: history length.
 #endif
 #ifdef VIEW
 layout(constant_id = 8) const uint kView = 0;  // Which quantity; numbered in viewOf.
-layout(set = 0, binding = 2, rgba32f) uniform writeonly image2D outView;
+layout(rgba32f) uniform writeonly image2D outView;
 #else
 #ifdef PACKED
-layout(set = 0, binding = 2, r32ui) uniform writeonly uimage2D outResolved;
+layout(r32ui) uniform writeonly uimage2D outResolved;
 #ifndef KEPT_TAPS
-layout(set = 0, binding = 12) uniform texture2D passed;
+uniform texture2D passed;
 #endif
 #else
-layout(set = 0, binding = 2, rgba16f) uniform writeonly image2D outResolved;
+layout(rgba16f) uniform writeonly image2D outResolved;
 #endif
-layout(set = 0, binding = 3, rgba16f) uniform writeonly image2D outImage;
+layout(rgba16f) uniform writeonly image2D outImage;
 #endif
-#if !defined(STILL) || (defined(PACKED) && !defined(VIEW))
-layout(set = 0, binding = 4, std140) uniform frameConstants { FrameConstants frame; };
-#endif
+layout(std140) uniform frameConstants { FrameConstants frame; };
 #ifdef KEPT_TAPS
-layout(set = 0, binding = 5) uniform utexture2D keptTaps;
+uniform utexture2D keptTaps;
 #else
-#if !defined(STILL) || !defined(PACKED)
-layout(set = 0, binding = 6) uniform utexture2D depth;
-#endif
-#ifndef STILL
-#ifndef MOTION_FROM_CAMERA
-layout(set = 0, binding = 5) uniform texture2D motion;
-#endif
-#endif
-#if defined(REJECT_BY_PLANE) || defined(REJECT_BY_DEPTH)
-layout(set = 0, binding = 7) uniform utexture2D previousDepth;
-#endif
-#ifdef REJECT_BY_PLANE
-layout(set = 0, binding = 8) uniform utexture2D geometricNormal;
-layout(set = 0, binding = 9) uniform utexture2D previousGeometricNormal;
-#endif
-#ifdef REJECT_BY_OBJECT
-layout(set = 0, binding = 10) uniform utexture2D objects;
-layout(set = 0, binding = 11) uniform utexture2D previousObjects;
-#endif
+layout(constant_id = 4) const bool kStill = false;
+uniform texture2D motion;
+uniform utexture2D depth;
+uniform utexture2D previousDepth;
+uniform utexture2D geometricNormal;
+uniform utexture2D previousGeometricNormal;
+uniform utexture2D objects;
+uniform utexture2D previousObjects;
 #endif
 layout(push_constant) uniform PushConstants { TemporalAntialiasingConstants settings; };
 
@@ -83,15 +70,9 @@ vec4 filteredAt(ivec2 q) { return texelFetch(filtered, q, 0); }
 #include "include/bicubic.glsl"
 #include "include/half.glsl"
 
-#ifdef STILL
-#include "include/surface.glsl"
-
-vec4 historyOf(ivec2 p, out int rejected) {
-  rejected = 0;
-  return historyTexel(previousResolved, p);
-}
-#else
 #ifdef KEPT_TAPS
+const bool kStill = false;
+
 HistoryTaps tapsOf(ivec2 p) {
   HistoryTaps taps = unpackTaps(p, texelFetch(keptTaps, p, 0).x, frame.previousPixelFromPixel);
   if (!kRejectHistory) taps.accepted = tapsInside(taps, textureSize(previousResolved, 0));
@@ -99,25 +80,24 @@ HistoryTaps tapsOf(ivec2 p) {
 }
 #else
 #define HISTORY previousResolved
+#define OBJECTS
 #include "include/reprojection.glsl"
 
 HistoryTaps tapsOf(ivec2 p) {
-#ifdef REJECT_BY_PLANE
-  const vec3 normal = unpackNormal(texelFetch(geometricNormal, p, 0).x);
-#else
-  const vec3 normal = vec3(0.0);
-#endif
+  vec3 normal = vec3(0.0);
+  if (kRejectByPlane) normal = unpackNormal(texelFetch(geometricNormal, p, 0).x);
   const Reprojection r = reproject(p, unpackDepth(texelFetch(depth, p, 0).x));
   return historyTaps(p, r, normal, settings.planeTolerance, settings.normalThreshold);
 }
 #endif
 
 vec4 historyOf(ivec2 p, out int rejected) {
+  rejected = 0;
+  if (kStill) return historyTexel(previousResolved, p);
   const HistoryTaps taps = tapsOf(p);
   rejected = tapsRejected(taps);
   return bicubicOfTaps(previousResolved, taps);
 }
-#endif
 
 // Of a pixel with its filtered colour.
 #ifdef PACKED

@@ -67,6 +67,7 @@ class PassCheck {
       checkRange(access, *texture);
       checkExtent(access, *texture);
     }
+    if (access.unread) checkUnread(access);
     const bool readOnly = resource.lifetime == Lifetime::Upload || resource.lifetime == Lifetime::HistoryPrevious;
     if (info.writes() && readOnly) {
       findings_.error(code::kReadOnlyWritten, pass_, access,
@@ -75,6 +76,19 @@ class PassCheck {
                                ? ", which only the host writes; use a transient buffer"
                                : ", which holds last frame's contents; write the history's `current`"));
     }
+  }
+
+  /// Nothing is done for a texture that is only bound: some other access must bring it into the state of a read.
+  void checkUnread(const AccessDecl& access) {
+    const bool isRead = std::ranges::any_of(pass_.accesses, [&](const AccessDecl& other) {
+      return !other.unread && other.resource == access.resource && other.readVersion == access.readVersion &&
+             other.access == access.access && other.range == access.range;
+    });
+    if (isRead) return;
+    findings_.error(code::kUnreadTexture, pass_, access,
+                    "pass " + quoted(pass_.name) + " binds " + quoted(findings_.resourceName(access.resource)) +
+                        " to " + quoted(access.binding) + " as unread, but does not sample it under another name; " +
+                        "bind a texture that it samples anyhow, or declare the read (sample)");
   }
 
   void checkRange(const AccessDecl& access, const TextureDesc& texture) {

@@ -38,8 +38,10 @@ void report(const GraphDesc& graph, Plan& plan) {
   for (const PlannedPass& planned : plan.passes) {
     const std::vector<AccessDecl>& accesses = graph.passes[planned.pass].accesses;
     for (auto access = accesses.begin(); access != accesses.end(); ++access) {
+      if (access->unread) continue;
       const auto sameBytes = [&](const AccessDecl& other) {
-        return other.resource == access->resource && other.access == access->access && other.range == access->range;
+        return !other.unread && other.resource == access->resource && other.access == access->access &&
+               other.range == access->range;
       };
       if (std::any_of(accesses.begin(), access, sameBytes)) continue;  // Bound twice, read once.
       const std::uint64_t bytes = accessedBytes(graph.resources[access->resource], *access);

@@ -39,6 +39,17 @@ PassBuilder& PassBuilder::sample(std::string_view binding, Texture texture, VkFi
   return *this;
 }
 
+PassBuilder& PassBuilder::unread(std::string_view binding, Texture texture, Where where) {
+  AccessDecl decl = declareRead(texture, Access::SampledRead, binding, where);
+  decl.unread = true;
+  graph_->desc_.passes[pass_].accesses.push_back(std::move(decl));
+  return *this;
+}
+
+PassBuilder& PassBuilder::sampleIf(bool read, std::string_view binding, Texture texture, Texture standIn, Where where) {
+  return read ? sample(binding, texture, VK_FILTER_NEAREST, where) : unread(binding, standIn, where);
+}
+
 PassBuilder& PassBuilder::load(std::string_view binding, Texture texture, Where where) {
   return read(texture, Access::StorageRead, binding, where);
 }

@@ -152,6 +152,7 @@ struct AccessDecl {
   SubresourceRange range;
   std::string binding;                  ///< Name of the shader variable; empty for callback passes.
   VkFilter filter = VK_FILTER_NEAREST;  ///< For combined image samplers; addressing clamps to the edge.
+  bool unread = false;                  ///< Bound only because the layout asks for it; see `PassBuilder::unread`.
   SourceLocation where;
 };
 
@@ -205,6 +206,15 @@ class PassBuilder {
   /// Read through a sampled image (`texture2D`, `utexture2D`) or combined sampler with the given filter.
   PassBuilder& sample(std::string_view binding, Texture texture, VkFilter filter = VK_FILTER_NEAREST,
                       Where where = Where::current());
+  /// Bind a sampled image that the shader declares, but, specialized as it is, never reads. Vulkan wants a descriptor
+  /// of the right type all the same.
+  /// @param texture one that the pass samples under another name, so that it costs neither a barrier nor traffic, and
+  ///                whose texels have the type that the shader declares (`texture2D`: float, `utexture2D`: unsigned)
+  PassBuilder& unread(std::string_view binding, Texture texture, Where where = Where::current());
+  /// `sample` a texture where the shader, as it is specialized, reads it; else leave it `unread` and bind another
+  /// instead.
+  PassBuilder& sampleIf(bool read, std::string_view binding, Texture texture, Texture standIn,
+                        Where where = Where::current());
   /// Read through a `readonly` storage image or buffer.
   PassBuilder& load(std::string_view binding, Texture texture, Where where = Where::current());
   PassBuilder& load(std::string_view binding, Buffer buffer, Where where = Where::current());

@@ -14,7 +14,7 @@ auto essence(const ResourceDecl& resource) {
 }
 auto essence(const AccessDecl& access) {
   return std::tie(access.resource, access.readVersion, access.writeVersion, access.replacesVersion, access.access,
-                  access.range, access.binding, access.filter);
+                  access.range, access.binding, access.filter, access.unread);
 }
 auto essence(const HistoryAgeConstant& age) {
   return std::tie(age.history, age.offset);

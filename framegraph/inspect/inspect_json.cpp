@@ -75,6 +75,7 @@ class JsonWriter {
         accesses.push_back({{"resource", nameOf(access.resource)},
                             {"access", accessInfo(access.access).name},
                             {"binding", access.binding},
+                            {"unread", access.unread},
                             {"reads_version", indexOrNull(access.readVersion)},
                             {"writes_version", indexOrNull(access.writeVersion)}});
       }

@@ -74,6 +74,7 @@ class TextWriter {
       out_ << "  " << accessInfo(access.access).name << " " << graph_.resources[access.resource].name;
       if (access.readVersion != kNone) out_ << " v" << access.readVersion;
       if (access.writeVersion != kNone) out_ << " -> v" << access.writeVersion;
+      if (access.unread) out_ << ", unread, for " << access.binding;
       out_ << "\n";
     }
   }

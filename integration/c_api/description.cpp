@@ -137,7 +137,7 @@ ListedGraph Description::listStage(std::span<const WalrPortFormat> ports) const 
                 "port '" + name + "' is named twice, or is an image whose format is in WalrDenoiserInfo");
   }
   stage_->setConventions(inputConventions());
-  StageGraph declared = declareStageGraph(*stage_, extent_, kInnerStates, formats);
+  SingleStage declared = declareSingleStage(*stage_, extent_, kInnerStates, formats);
   return {.graph = std::move(declared.graph), .frame = declared.frame, .host = {}, .ports = std::move(declared.ports)};
 }
 

@@ -15,7 +15,7 @@
 #include "framegraph/compile/compile.h"
 #include "framegraph/plan/plan.h"
 #include "integration/c_api/host_images.h"
-#include "integration/stage_graph.h"
+#include "integration/single_stage.h"
 #include "passes/denoiser.h"
 #include "passes/frame.h"
 

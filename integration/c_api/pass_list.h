@@ -8,7 +8,7 @@
 #include <walr/walr_passes.h>
 
 #include "framegraph/plan/plan.h"
-#include "integration/stage_graph.h"
+#include "integration/single_stage.h"
 
 namespace walr::api {
 

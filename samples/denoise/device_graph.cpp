@@ -5,13 +5,11 @@
 namespace walr {
 namespace {
 
-fg::vk::ExecutorOptions optionsOf(const GpuDevice& gpu, const fg::Graph& graph, std::uint32_t framesInFlight,
-                                  DeviceGraph* predecessor) {
-  const bool goesOn = predecessor != nullptr && predecessor->executor().mayPrecede(graph.desc());
+fg::vk::ExecutorOptions optionsOf(const GpuDevice& gpu, std::uint32_t framesInFlight, DeviceGraph* predecessor) {
   return {.framesInFlight = framesInFlight,
           .timestamps = gpu.device().context().timestampBits > 0,
-          .pipelineCache = gpu.pipelineCache(),
-          .predecessor = goesOn ? &predecessor->executor() : nullptr};
+          .pipelineCache = gpu.pipelineCache() != nullptr ? gpu.pipelineCache()->handle() : VK_NULL_HANDLE,
+          .predecessor = predecessor != nullptr ? &predecessor->executor() : nullptr};
 }
 
 }  // namespace
@@ -19,7 +17,7 @@ fg::vk::ExecutorOptions optionsOf(const GpuDevice& gpu, const fg::Graph& graph, 
 DeviceGraph::DeviceGraph(const GpuDevice& gpu, const fg::Graph& graph, std::uint32_t framesInFlight,
                          DeviceGraph* predecessor)
     : plan_(compileFor(gpu, graph)),
-      executor_(gpu.device().context(), graph.desc(), plan_, optionsOf(gpu, graph, framesInFlight, predecessor)) {}
+      executor_(gpu.device().context(), graph.desc(), plan_, optionsOf(gpu, framesInFlight, predecessor)) {}
 
 ReadbackGraph::ReadbackGraph(const GpuDevice& gpu, const fg::Graph& graph, std::uint32_t framesInFlight)
     : gpu_(gpu),

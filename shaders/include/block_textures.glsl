@@ -5,12 +5,12 @@
 #include "block_storage.glsl"
 
 #ifdef BLOCK_MOMENTS_IN
-layout(set = 0, binding = 5) uniform utexture2D moments0;
-layout(set = 0, binding = 6) uniform utexture2D moments1;
-layout(set = 0, binding = 7) uniform utexture2D moments2;
-layout(set = 0, binding = 8) uniform utexture2D moments3;
-layout(set = 0, binding = 9) uniform utexture2D moments4;
-layout(set = 0, binding = 10) uniform utexture2D depth;
+uniform utexture2D moments0;
+uniform utexture2D moments1;
+uniform utexture2D moments2;
+uniform utexture2D moments3;
+uniform utexture2D moments4;
+uniform utexture2D depth;
 
 BlockMoments loadMoments(ivec2 block) {
   PackedBlock p;
@@ -25,12 +25,12 @@ bool insideGrid(ivec2 block) {
 #endif
 
 #ifdef BLOCK_MOMENTS_OUT
-layout(set = 0, binding = 12, rgba32ui) uniform writeonly uimage2D outMoments0;
-layout(set = 0, binding = 13, rgba32ui) uniform writeonly uimage2D outMoments1;
-layout(set = 0, binding = 14, rgba32ui) uniform writeonly uimage2D outMoments2;
-layout(set = 0, binding = 15, rgba32ui) uniform writeonly uimage2D outMoments3;
-layout(set = 0, binding = 16, rgba32ui) uniform writeonly uimage2D outMoments4;
-layout(set = 0, binding = 17, r32ui) uniform writeonly uimage2D outDepth;
+layout(rgba32ui) uniform writeonly uimage2D outMoments0;
+layout(rgba32ui) uniform writeonly uimage2D outMoments1;
+layout(rgba32ui) uniform writeonly uimage2D outMoments2;
+layout(rgba32ui) uniform writeonly uimage2D outMoments3;
+layout(rgba32ui) uniform writeonly uimage2D outMoments4;
+layout(r32ui) uniform writeonly uimage2D outDepth;
 
 void storeMoments(ivec2 block, BlockMoments m) {
   const PackedBlock p = packBlock(m);
@@ -43,12 +43,12 @@ void storeMoments(ivec2 block, BlockMoments m) {
 #endif
 
 #ifdef CELL_MOMENTS_OUT
-layout(set = 0, binding = 19, rgba32ui) uniform writeonly uimage2D outCellMoments0;
-layout(set = 0, binding = 20, rgba32ui) uniform writeonly uimage2D outCellMoments1;
-layout(set = 0, binding = 21, rgba32ui) uniform writeonly uimage2D outCellMoments2;
-layout(set = 0, binding = 22, rgba32ui) uniform writeonly uimage2D outCellMoments3;
-layout(set = 0, binding = 23, rgba32ui) uniform writeonly uimage2D outCellMoments4;
-layout(set = 0, binding = 24, r32ui) uniform writeonly uimage2D outCellDepth;
+layout(rgba32ui) uniform writeonly uimage2D outCellMoments0;
+layout(rgba32ui) uniform writeonly uimage2D outCellMoments1;
+layout(rgba32ui) uniform writeonly uimage2D outCellMoments2;
+layout(rgba32ui) uniform writeonly uimage2D outCellMoments3;
+layout(rgba32ui) uniform writeonly uimage2D outCellMoments4;
+layout(r32ui) uniform writeonly uimage2D outCellDepth;
 
 void storeCellMoments(ivec2 cell, BlockMoments m) {
   const PackedBlock p = packBlock(m);
@@ -61,10 +61,10 @@ void storeCellMoments(ivec2 cell, BlockMoments m) {
 #endif
 
 #ifdef BLOCK_FIT_OUT
-layout(set = 0, binding = 12, rgba32ui) uniform writeonly uimage2D outFitA;
-layout(set = 0, binding = 13, rgba32ui) uniform writeonly uimage2D outFitB;
-layout(set = 0, binding = 14, rgba32ui) uniform writeonly uimage2D outFitC;
-layout(set = 0, binding = 15, r32ui) uniform writeonly uimage2D outDepth;
+layout(rgba32ui) uniform writeonly uimage2D outFitA;
+layout(rgba32ui) uniform writeonly uimage2D outFitB;
+layout(rgba32ui) uniform writeonly uimage2D outFitC;
+layout(r32ui) uniform writeonly uimage2D outDepth;
 
 void storeFit(ivec2 block, BlockFit fit) {
   const PackedFit p = packFit(fit);

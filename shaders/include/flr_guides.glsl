@@ -6,14 +6,14 @@
 #include "surface.glsl"
 
 #ifdef OCCLUSION
-layout(set = 0, binding = 2) uniform utexture2D features;
+uniform utexture2D features;
 
 float[kFeatures] guidesAt(ivec2 p, float z) {
   const NormalAndOcclusion s = unpackNormalAndOcclusion(texelFetch(features, p, 0).x);
   return float[](s.normal.x, s.normal.y, s.normal.z, 1.0 / z, s.occlusion);
 }
 #else
-layout(set = 0, binding = 2) uniform utexture2D shadingNormal;
+uniform utexture2D shadingNormal;
 
 float[kFeatures] guidesAt(ivec2 p, float z) {
   const vec3 n = unpackNormal(texelFetch(shadingNormal, p, 0).x);

@@ -28,23 +28,23 @@
 #endif
 
 #ifndef FIRST
-layout(set = 0, binding = 4) uniform utexture2D momentsA;
-layout(set = 0, binding = 5) uniform utexture2D momentsB;
+uniform utexture2D momentsA;
+uniform utexture2D momentsB;
 #if MOMENT_TEXTURES > 2
-layout(set = 0, binding = 6) uniform utexture2D momentsC;
+uniform utexture2D momentsC;
 #endif
 #if MOMENT_TEXTURES > 3
-layout(set = 0, binding = 7) uniform utexture2D momentsD;
+uniform utexture2D momentsD;
 #endif
 #endif
 #ifndef LAST
-layout(set = 0, binding = 8, rgba32ui) uniform writeonly uimage2D outMomentsA;
-layout(set = 0, binding = 9, MOMENT_FORMAT_B) uniform writeonly uimage2D outMomentsB;
+layout(rgba32ui) uniform writeonly uimage2D outMomentsA;
+layout(MOMENT_FORMAT_B) uniform writeonly uimage2D outMomentsB;
 #if MOMENT_TEXTURES > 2
-layout(set = 0, binding = 10, MOMENT_FORMAT_C) uniform writeonly uimage2D outMomentsC;
+layout(MOMENT_FORMAT_C) uniform writeonly uimage2D outMomentsC;
 #endif
 #if MOMENT_TEXTURES > 3
-layout(set = 0, binding = 11, MOMENT_FORMAT_D) uniform writeonly uimage2D outMomentsD;
+layout(MOMENT_FORMAT_D) uniform writeonly uimage2D outMomentsD;
 #endif
 #endif
 

@@ -1,10 +1,10 @@
 // Where a surface was in the previous frame, and whether a history pixel shows it.
-// Needs: `frame` (FrameConstants), `depth`, HISTORY, which is the name of a texture of the previous picture's size, and,
-// unless MOTION_FROM_CAMERA says that nothing else moves, `motion`. REJECT_BY_PLANE needs `previousDepth` and
-// `previousGeometricNormal`, REJECT_BY_DEPTH `previousDepth`; without either every pixel of the picture is accepted.
-// REJECT_BY_OBJECT, beside any of these, needs `objects` and `previousObjects`.
-// KEEP_TAPS: the motion is rounded to what kept taps hold; a view (VIEW) is told whether it is. Takes constant_id 0, 1, 10
-// and 11.
+// Needs: `frame` (FrameConstants), `depth`, `motion`, `previousDepth`, `previousGeometricNormal`, HISTORY, which is the name
+// of a texture of the previous picture's size, and, with OBJECTS, `objects` and `previousObjects`. What is specialized away
+// is never read: `motion` where nothing but the camera moves (kMotionFromCamera), the others where the test is not made that
+// reads them (kRejectByPlane, kRejectByDepth, kRejectByObject). Without any test every pixel of the picture is accepted.
+// KEEP_TAPS: the motion is rounded to what kept taps hold; a view (VIEW) is told whether it is. Takes constant_id 0, 1 and
+// 10 to 15.
 #ifndef WALR_REPROJECTION_GLSL
 #define WALR_REPROJECTION_GLSL
 #include "camera.glsl"
@@ -12,8 +12,12 @@
 #include "history_taps.glsl"
 #include "surface.glsl"
 
-#ifndef MOTION_FROM_CAMERA
 layout(constant_id = 0) const bool kMotionDepthGiven = true;
+layout(constant_id = 12) const bool kMotionFromCamera = false;
+layout(constant_id = 13) const bool kRejectByPlane = true;
+layout(constant_id = 14) const bool kRejectByDepth = false;
+#ifdef OBJECTS
+layout(constant_id = 15) const bool kRejectByObject = false;
 #endif
 layout(constant_id = 10) const bool kJitter = true;
 #if defined(KEEP_TAPS)
@@ -28,8 +32,8 @@ layout(constant_id = 1) const bool kDilateMotion = false;  // Follow the nearest
 struct Reprojection {
   vec2 motion;     // To the previous frame, pixels of this one.
   vec3 position;   // The surface in the previous frame's view space.
-#ifdef REJECT_BY_OBJECT
-  uint object;     // Whose surface it is; 0: nobody's.
+#ifdef OBJECTS
+  uint object;     // Whose surface it is; 0: nobody's. Only with kRejectByObject.
 #endif
   bool valid;
 };
@@ -53,18 +57,15 @@ vec3 positionBefore(ivec2 p, float z) {
   return stillBefore(frame.previousViewFromView, rayThrough(frame.rayFromPixel, pixelCentre(p)) * z);
 }
 
-#ifdef MOTION_FROM_CAMERA
 vec2 motionAt(ivec2 p) {
+  if (!kMotionFromCamera) return texelFetch(motion, p, 0).xy * frame.motionScale;
   const vec3 before = positionBefore(p, unpackDepth(texelFetch(depth, p, 0).x));
   return pixelOf(frame.previousRayFromPixel, before) - pixelCentre(p);
 }
-float depthBefore(ivec2 p, float z) { return -positionBefore(p, z).z; }
-#else
-vec2 motionAt(ivec2 p) { return texelFetch(motion, p, 0).xy * frame.motionScale; }
 float depthBefore(ivec2 p, float z) {
-  return kMotionDepthGiven ? z + texelFetch(motion, p, 0).z : -positionBefore(p, z).z;
+  if (!kMotionFromCamera && kMotionDepthGiven) return z + texelFetch(motion, p, 0).z;
+  return -positionBefore(p, z).z;
 }
-#endif
 
 Reprojection reproject(ivec2 p, float z) {
   Reprojection r;
@@ -76,8 +77,8 @@ Reprojection reproject(ivec2 p, float z) {
   const vec2 pixel = pixelCentre(p) + r.motion;
   const float previousDepthHere = depthBefore(p, z);
   r.position = rayThrough(frame.previousRayFromPixel, pixel) * previousDepthHere;
-#ifdef REJECT_BY_OBJECT
-  r.object = texelFetch(objects, p, 0).x;
+#ifdef OBJECTS
+  r.object = kRejectByObject ? texelFetch(objects, p, 0).x : 0u;
 #endif
   const vec2 size = vec2(textureSize(depth, 0));
   r.valid = all(greaterThan(pixel, vec2(-1.0))) && all(lessThan(pixel, size + 1.0)) && isFinite(previousDepthHere) &&
@@ -85,32 +86,26 @@ Reprojection reproject(ivec2 p, float z) {
   return r;
 }
 
-// True where the history pixel `q` shows the reprojected surface, by REJECT_BY_PLANE within a plane distance relative to
-// depth and with a geometric normal that agrees, by REJECT_BY_DEPTH within a distance relative to depth, by
-// REJECT_BY_OBJECT of the same object.
+// True where the history pixel `q` shows the reprojected surface, by kRejectByPlane within a plane distance relative to
+// depth and with a geometric normal that agrees, by kRejectByDepth within a distance relative to depth, by kRejectByObject
+// of the same object.
 bool historyMatches(Reprojection r, vec3 normal, ivec2 q, float tolerance, float normalThreshold) {
   if (any(lessThan(q, ivec2(0))) || any(greaterThanEqual(q, textureSize(HISTORY, 0)))) return false;
-#ifdef REJECT_BY_OBJECT
-  if (r.object == 0u || texelFetch(previousObjects, q, 0).x != r.object) return false;
+#ifdef OBJECTS
+  if (kRejectByObject && (r.object == 0u || texelFetch(previousObjects, q, 0).x != r.object)) return false;
 #endif
-#if defined(REJECT_BY_PLANE) || defined(REJECT_BY_DEPTH)
+  if (!kRejectByPlane && !kRejectByDepth) return true;
   const float depthThere = unpackDepth(texelFetch(previousDepth, q, 0).x);
   if (depthThere == 0.0) return false;
-#endif
-#if defined(REJECT_BY_PLANE)
+  if (kRejectByDepth) return abs(depthThere + r.position.z) <= tolerance * -r.position.z;
   const vec2 pixel = pixelCentre(q) * frame.pixelFromPreviousPixel;
   const vec3 position = rayThrough(frame.previousRayFromPixel, pixel) * depthThere;
   const vec3 normalThere = unpackNormal(texelFetch(previousGeometricNormal, q, 0).x);
   return abs(dot(normal, position - r.position)) <= tolerance * -r.position.z &&
          dot(normal, normalThere) >= normalThreshold;
-#elif defined(REJECT_BY_DEPTH)
-  return abs(depthThere + r.position.z) <= tolerance * -r.position.z;
-#else
-  return true;
-#endif
 }
 
-// `normal` is the geometric normal of pixel `p`, which only REJECT_BY_PLANE looks at.
+// `normal` is the geometric normal of pixel `p`, which only kRejectByPlane looks at.
 HistoryTaps historyTaps(ivec2 p, Reprojection r, vec3 normal, float tolerance, float normalThreshold) {
   HistoryTaps taps = tapsAround(p, r.motion, frame.previousPixelFromPixel);
   if (!r.valid) return taps;

@@ -34,6 +34,26 @@ TEST(Compile, ChainOfPassesSharesMemoryAndHasOneBarrierPerAccess) {
   EXPECT_EQ(result.plan.memory.transientPeakBytes, 64 * 32 * 8);
 }
 
+/// One pass that samples a texture and leaves a second binding unread.
+/// @param bind whether it says what is bound there
+CompileResult compileUnread(bool bind) {
+  Graph graph;
+  const Texture made = graph.callback("make", recordNothing).store("out", graph.texture("made", kColor));
+  auto pass = graph.callback("filter", recordNothing);
+  if (bind) pass.unread("motion", made);
+  pass.sample("light", made);
+  graph.exported(pass.store("out", graph.texture("filtered", kColor)), test::kTransferSource);
+  return compile(graph.desc(), TableMemoryModel());
+}
+
+TEST(Compile, WhatAPassLeavesUnreadCostsNothing) {
+  const CompileResult bound = compileUnread(true);
+  const CompileResult without = compileUnread(false);
+  ASSERT_TRUE(bound.ok()) << bound.text();
+  EXPECT_EQ(bound.plan, without.plan) << "the same barriers, memory and traffic";
+  EXPECT_EQ(bound.plan.traffic.bytesRead, 64U * 32 * 8);
+}
+
 /// Passes "a" to "d", each of which writes a texture of its own; nobody reads what "a" writes.
 class UnreadWriteTest : public ::testing::Test {
  protected:

@@ -274,6 +274,22 @@ TEST_F(DiagnosticsTest, BindingTwice) {
   expect(code::kBindingTwice, "filter", "two", line);
 }
 
+TEST_F(DiagnosticsTest, UnreadTextureThatThePassDoesNotSampleOtherwise) {
+  auto pass = filter();
+  pass.unread("noisy", written());
+  const auto line = __LINE__ - 1;
+  expect(code::kUnreadTexture, "filter", "output", line);
+}
+
+TEST_F(DiagnosticsTest, UnreadTextureOfAnotherVersion) {
+  const Texture old = written();
+  const Texture updated = graph.callback("update", recordNothing).update("io", old);
+  auto pass = graph.callback("late", recordNothing);
+  pass.sample("read", updated).unread("bound", old);
+  const auto line = __LINE__ - 1;
+  expect(code::kUnreadTexture, "late", "output", line);
+}
+
 TEST_F(DiagnosticsTest, BufferTooSmall) {
   auto pass = filter();
   pass.uniform("frame", graph.upload("constants", 32));

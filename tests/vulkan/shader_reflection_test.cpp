@@ -26,6 +26,7 @@ constexpr ShaderBinding kExpected[] = {
     {"Arguments", 0, 6, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, true, false},
     {"result", 0, 7, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, false, true},
     {"totals", 0, 8, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, true, true},
+    {"assigned", 0, 9, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, true, false},
 };
 
 TEST(ShaderReflection, TellsWhatTheShaderReallyBinds) {
@@ -39,6 +40,19 @@ TEST(ShaderReflection, TellsWhatTheShaderReallyBinds) {
   EXPECT_EQ(shader.localSize[0], 8u);
   EXPECT_EQ(shader.localSize[1], 4u);
   EXPECT_EQ(shader.localSize[2], 2u);
+}
+
+TEST(ShaderReflection, LeavesNamesOutOfTheModule) {
+#ifndef NDEBUG
+  GTEST_SKIP() << "builds for debugging keep them";
+#endif
+  constexpr std::uint32_t kOpName = 5;
+  constexpr std::size_t kHeaderWords = 5;
+  const auto code = test::shaders::reflected.code;
+  for (std::size_t at = kHeaderWords; at < code.size(); at += code[at] >> 16) {
+    ASSERT_NE(code[at] >> 16, 0U) << "an instruction without a length, at word " << at;
+    EXPECT_NE(code[at] & 0xffffU, kOpName) << "at word " << at;
+  }
 }
 
 TEST(ShaderReflection, OrdersSpecializationConstantsById) {

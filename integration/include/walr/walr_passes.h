@@ -55,7 +55,7 @@ typedef struct WalrBinding {
   uint32_t binding;
   const char* name;
   VkDescriptorType type;
-  uint32_t resource;           /* Index into WalrPassList::resources. */
+  uint32_t resource;           /* Index into WalrPassList::resources. A pass may bind one more than once. */
   VkPipelineStageFlags2 stage; /* In which the pass touches it, */
   VkAccessFlags2 access;       /* and how. */
   /* And in which layout unless the host says otherwise. GENERAL always does, and READ_ONLY_OPTIMAL in place of

@@ -18,13 +18,14 @@ layout(set = 0, binding = 5) uniform Frame { mat4 view; vec2 scale; } frame;
 layout(set = 0, binding = 6, std430) readonly buffer Arguments { uint arguments[]; };
 layout(set = 0, binding = 7, std430) writeonly buffer Result { uint value; } result;
 layout(set = 0, binding = 8, std430) buffer Totals { uint total[4]; } totals;
-layout(set = 0, binding = 9) uniform texture2D unused;
+uniform texture2D assigned;
+uniform texture2D unused;
 
 layout(push_constant) uniform Push { vec4 a; uint b; } push;
 
 void main() {
   const ivec2 p = ivec2(gl_GlobalInvocationID.xy);
-  vec4 sum = texelFetch(separate, p, 0) + textureLod(combined, vec2(p) * frame.scale, 0.0) + imageLoad(source, p);
+  vec4 sum = texelFetch(separate, p, 0) + textureLod(combined, vec2(p) * frame.scale, 0.0) + imageLoad(source, p) + texelFetch(assigned, p, 0);
   for (uint i = 0; i < iterations; ++i) sum += push.a * sigma;
   imageStore(target, p, frame.view * sum);
   imageStore(inPlace, p, imageLoad(inPlace, p) + arguments[0] + push.b);

@@ -19,7 +19,7 @@ struct StagePort {
 
 /// A single stage alone in a graph. Its inputs are imports that go by the ports' names, as is the result `kOutputName`;
 /// its other outputs are textures and histories of its own, which are exported.
-struct StageGraph {
+struct SingleStage {
   fg::Graph graph;
   fg::Buffer frame;  ///< Upload of `FrameConstants`; invalid where the stage reads none.
   std::vector<StagePort> ports;
@@ -34,6 +34,6 @@ using PortFormats = std::map<std::string, VkFormat, std::less<>>;
 ///                unconnected
 /// @throws std::invalid_argument naming a port that is no input of the stage and those that are, a format that a port
 ///         does not take, or a setting that is out of range
-StageGraph declareStageGraph(PassNode& stage, fg::Extent extent, const HostStates& states, const PortFormats& formats);
+SingleStage declareSingleStage(PassNode& stage, fg::Extent extent, const HostStates& states, const PortFormats& formats);
 
 }  // namespace walr

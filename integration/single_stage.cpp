@@ -1,4 +1,4 @@
-#include "integration/stage_graph.h"
+#include "integration/single_stage.h"
 
 #include <algorithm>
 #include <stdexcept>
@@ -22,8 +22,8 @@ void requireInputs(const std::vector<Port>& ports, const PortFormats& formats) {
 
 }  // namespace
 
-StageGraph declareStageGraph(PassNode& stage, fg::Extent extent, const HostStates& states, const PortFormats& formats) {
-  StageGraph declared;
+SingleStage declareSingleStage(PassNode& stage, fg::Extent extent, const HostStates& states, const PortFormats& formats) {
+  SingleStage declared;
   const std::vector<Port> ports = stage.ports();
   requireInputs(ports, formats);
   for (const Port& port : ports) {

@@ -1,0 +1,43 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <set>
+#include <string_view>
+
+#include "shaders/shaders.h"
+
+namespace walr {
+namespace {
+
+// What only decides which inputs are read is specialized and needs no module of its own; see fg::PassBuilder::unread.
+// When these limits were set there were 87 modules of 2.1 MB, after 220 of 6.8 MB. Every module costs each user's build
+// a compilation, each program that links the library its bytes, and a reader a row in the lists of shaders.
+constexpr std::size_t kMostModules = 90;
+constexpr std::size_t kMostBytes = 3'000'000;
+
+TEST(ShaderModules, AreFew) {
+  EXPECT_LE(std::size(shaders::kAll), kMostModules);
+}
+
+TEST(ShaderModules, AreSmall) {
+  std::size_t bytes = 0;
+  for (const fg::Shader* shader : shaders::kAll) bytes += shader->code.size_bytes();
+  EXPECT_LE(bytes, kMostBytes);
+  RecordProperty("bytes", static_cast<int>(bytes));
+}
+
+TEST(ShaderModules, HaveNamesOfTheirOwn) {
+  std::set<std::string_view> names;
+  for (const fg::Shader* shader : shaders::kAll) EXPECT_TRUE(names.insert(shader->name).second) << shader->name;
+}
+
+TEST(ShaderModules, AreChosenByTheNamesOfTheirAxes) {
+  EXPECT_EQ(shaders::temporalAccumulation({}).name, "temporal_accumulation");
+  EXPECT_EQ(shaders::temporalAccumulation({.responsive = true}).name, "temporal_accumulation.responsive");
+  EXPECT_EQ(shaders::temporalAccumulation({.taps = true, .packed = true}).name, "temporal_accumulation.taps.packed");
+  EXPECT_EQ(shaders::temporalAntialiasingView({.kept = true}).name, "temporal_antialiasing.view.kept");
+}
+
+}  // namespace
+}  // namespace walr
