@@ -22,7 +22,8 @@ void requireInputs(const std::vector<Port>& ports, const PortFormats& formats) {
 
 }  // namespace
 
-SingleStage declareSingleStage(PassNode& stage, fg::Extent extent, const HostStates& states, const PortFormats& formats) {
+SingleStage declareSingleStage(PassNode& stage, fg::Extent extent, const HostStates& states,
+                               const PortFormats& formats) {
   SingleStage declared;
   const std::vector<Port> ports = stage.ports();
   requireInputs(ports, formats);

@@ -34,6 +34,7 @@ using PortFormats = std::map<std::string, VkFormat, std::less<>>;
 ///                unconnected
 /// @throws std::invalid_argument naming a port that is no input of the stage and those that are, a format that a port
 ///         does not take, or a setting that is out of range
-SingleStage declareSingleStage(PassNode& stage, fg::Extent extent, const HostStates& states, const PortFormats& formats);
+SingleStage declareSingleStage(PassNode& stage, fg::Extent extent, const HostStates& states,
+                               const PortFormats& formats);
 
 }  // namespace walr

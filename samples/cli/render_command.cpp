@@ -99,10 +99,10 @@ void registerRender(CLI::App& program) {
                       "Equirectangular sky in place of the scene's: an EXR file, R,G,B, its middle along -Z");
   command->add_flag("--jitter", options.jitter, "Sample off the pixel centre: 16 Halton points, one a frame");
   command
-      ->add_option(
-          "--sampler", options.sampler,
-          "Random numbers: blue-noise (spread over the pixels of a frame; default; several samples per pixel take sobol), "
-          "sobol (Owen-scrambled Sobol points over the samples of a pixel) or independent")
+      ->add_option("--sampler", options.sampler,
+                   "Random numbers: blue-noise (spread over the pixels of a frame; default; several samples per pixel "
+                   "take sobol), "
+                   "sobol (Owen-scrambled Sobol points over the samples of a pixel) or independent")
       ->transform(CLI::CheckedTransformer(
           std::map<std::string, render::Sampler::Kind>{{"blue-noise", render::Sampler::Kind::BlueNoise},
                                                        {"sobol", render::Sampler::Kind::Sobol},

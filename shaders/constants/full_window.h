@@ -6,9 +6,9 @@ namespace walr {
 #endif
 
 struct FullWindowConstants {
-  ivec2 begin;         // First pixel of the tile.
-  ivec2 end;           // One past its last.
-  float planeNear;     // As in AtrousConstants, like the three that follow.
+  ivec2 begin;      // First pixel of the tile.
+  ivec2 end;        // One past its last.
+  float planeNear;  // As in AtrousConstants, like the three that follow.
   float planeFar;
   float ridge;
   float noiseRidge;

@@ -150,7 +150,8 @@ static void test_create(const WalrDevice* device) {
   EXPECT(walr_create_denoiser(&info, &denoiser), WALR_ERROR_INVALID_ARGUMENT, "known methods: walr");
   info = info_of(device);
   info.preset = "magic";
-  EXPECT(walr_create_denoiser(&info, &denoiser), WALR_ERROR_INVALID_ARGUMENT, "known presets: none; walr is what its preset blocks was");
+  EXPECT(walr_create_denoiser(&info, &denoiser), WALR_ERROR_INVALID_ARGUMENT,
+         "known presets: none; walr is what its preset blocks was");
   info = info_of(device);
   info.width = 0;
   EXPECT(walr_create_denoiser(&info, &denoiser), WALR_ERROR_INVALID_ARGUMENT, "0 x 48");
