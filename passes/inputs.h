@@ -6,8 +6,8 @@
 namespace walr {
 
 /// How a host's inputs differ from the project's conventions: normals in view space, where the camera looks down -Z and
-/// y is up; motion between jittered pictures whose y is down, with the change of view depth as its third channel. Stated
-/// once; the first stage converts.
+/// y is up; motion between jittered pictures whose y is down, with the change of view depth as its third channel.
+/// Stated once; the first stage converts.
 struct InputConventions {
   enum class Space { View, World };
   /// Where motion.z (previous minus current view depth, scene units) comes from.
