@@ -13,31 +13,31 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 0) const int kBlockSize = 4;  // Pixels per axis.
 layout(constant_id = 2) const int kCellSize = 8;   // Pixels per axis.
 
-layout(set = 0, binding = 0, std140) uniform frameConstants { FrameConstants frame; };
-layout(set = 0, binding = 1) uniform utexture2D depth;
-layout(set = 0, binding = 2) uniform utexture2D features;
-layout(set = 0, binding = 6) uniform utexture2D fitA;
-layout(set = 0, binding = 7) uniform utexture2D fitB;
-layout(set = 0, binding = 8) uniform utexture2D fitC;
-layout(set = 0, binding = 9) uniform utexture2D fitDepth;
-layout(set = 0, binding = 10) uniform utexture2D fitNormal;
-layout(set = 0, binding = 11) uniform utexture2D coarseA;
-layout(set = 0, binding = 12) uniform utexture2D coarseB;
-layout(set = 0, binding = 13) uniform utexture2D coarseC;
-layout(set = 0, binding = 14) uniform utexture2D coarseDepth;
+layout(std140) uniform frameConstants { FrameConstants frame; };
+uniform utexture2D depth;
+uniform utexture2D features;
+uniform utexture2D fitA;
+uniform utexture2D fitB;
+uniform utexture2D fitC;
+uniform utexture2D fitDepth;
+uniform utexture2D fitNormal;
+uniform utexture2D coarseA;
+uniform utexture2D coarseB;
+uniform utexture2D coarseC;
+uniform utexture2D coarseDepth;
 #ifdef VIEW
 layout(constant_id = 8) const uint kView = 0;  // Which quantity; numbered in viewOf.
-layout(set = 0, binding = 15, rgba32f) uniform writeonly image2D outView;
+layout(rgba32f) uniform writeonly image2D outView;
 #ifdef PACKED
-layout(set = 0, binding = 5) uniform utexture2D accumulated;
+uniform utexture2D accumulated;
 #else
-layout(set = 0, binding = 5) uniform texture2D accumulated;
+uniform texture2D accumulated;
 #endif
 #elif defined(PACKED)
-layout(set = 0, binding = 15, r32ui) uniform writeonly uimage2D outFiltered;
+layout(r32ui) uniform writeonly uimage2D outFiltered;
 #else
-layout(set = 0, binding = 5) uniform texture2D passed;
-layout(set = 0, binding = 15, rgba16f) uniform writeonly image2D outFiltered;
+uniform texture2D passed;
+layout(rgba16f) uniform writeonly image2D outFiltered;
 #endif
 layout(push_constant) uniform PushConstants { BlockRegressionConstants settings; };
 #include "include/block_fit.glsl"

@@ -26,8 +26,10 @@ struct FrameReport {
   std::optional<double> gpuMilliseconds;  ///< By timestamps, all passes; absent where the queue has no timestamps.
   ErrorFigures denoised;                  ///< Absent figures where there is no reference.
   ErrorFigures noisy;                     ///< The input's own.
-  std::size_t nonFiniteOutput = 0;        ///< Values of the result that are not finite.
-  std::vector<CounterValue> counters;     ///< The same names in every frame; empty where nobody asked for any.
+  /// RMSE that the noise of the reference itself adds to every result; absent if the reference lacks its two halves.
+  std::optional<double> referenceNoise;
+  std::size_t nonFiniteOutput = 0;     ///< Number of non-finite values in the result.
+  std::vector<CounterValue> counters;  ///< The same names in every frame; empty unless counters were requested.
 };
 
 /// What a run was and what it measured.
