@@ -34,7 +34,7 @@ TEST(ShaderModules, HaveNamesOfTheirOwn) {
 
 TEST(ShaderModules, AreChosenByTheNamesOfTheirAxes) {
   EXPECT_EQ(shaders::temporalAccumulation({}).name, "temporal_accumulation");
-  EXPECT_EQ(shaders::temporalAccumulation({.responsive = true}).name, "temporal_accumulation.responsive");
+  EXPECT_EQ(shaders::temporalAccumulation({.antilag = true}).name, "temporal_accumulation.antilag");
   EXPECT_EQ(shaders::temporalAccumulation({.taps = true, .packed = true}).name, "temporal_accumulation.taps.packed");
   EXPECT_EQ(shaders::temporalAntialiasingView({.kept = true}).name, "temporal_antialiasing.view.kept");
 }
