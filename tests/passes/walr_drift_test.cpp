@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <span>
 #include <string>
@@ -33,7 +34,15 @@ struct MeanOf {
   double variance = 0.0;
 };
 
-class WalrDriftTest : public fg::test::GpuTest, public testing::WithParamInterface<const char*> {};
+/// A method with windows of a fixed number of iterations.
+struct DriftCase {
+  std::string name;
+  std::string method;
+  std::string preset;
+  std::map<std::string, std::string> settings;
+};
+
+class WalrDriftTest : public fg::test::GpuTest, public testing::WithParamInterface<DriftCase> {};
 
 // The same frames come again and again, and only the random picks of samples and taps are others each time: the means
 // of the cycles are alike and hardly depend on each other, histories being much shorter than a cycle. If nothing drifts
@@ -42,12 +51,10 @@ class WalrDriftTest : public fg::test::GpuTest, public testing::WithParamInterfa
 TEST_P(WalrDriftTest, TheOutputStaysWhereItIsAndMemoryDoesNotGrow) {
   std::vector<HostFrame> cycle;
   for (std::uint32_t i = 0; i < kCycle; ++i) cycle.push_back(renderStill(stairs(), kSize, i));
-  const std::unique_ptr<Denoiser> method = makeDenoiser("walr");
-  method->usePreset(GetParam());
-  // As in a picture large enough for windows of several iterations, whose taps meet edges.
-  method->set("walr.fit-window", "off");
-  method->set("regression.iterations", "3");
-  method->set("blocks.iterations", "2");
+  const std::unique_ptr<Denoiser> method = makeDenoiser(GetParam().method);
+  if (!GetParam().preset.empty()) method->usePreset(GetParam().preset);
+  // As in an image that is large enough for windows of several iterations, whose taps meet edges.
+  for (const auto& [name, value] : GetParam().settings) method->set(name, value);
   DenoiserRun run(device(), *method, kSize);
 
   std::array<std::vector<double>, 3> means;
@@ -78,8 +85,14 @@ TEST_P(WalrDriftTest, TheOutputStaysWhereItIsAndMemoryDoesNotGrow) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Presets, WalrDriftTest, testing::Values("blocks", "robust"),
-                         [](const auto& info) { return std::string(info.param); });
+INSTANTIATE_TEST_SUITE_P(
+    Methods, WalrDriftTest,
+    testing::Values(DriftCase{"walr", "walr", "", {{"walr.fit-window", "off"}, {"blocks.iterations", "2"}}},
+                    DriftCase{"robust",
+                              "walr_paper",
+                              "robust",
+                              {{"walr_paper.fit-window", "off"}, {"regression.iterations", "3"}}}),
+    [](const auto& info) { return info.param.name; });
 
 }  // namespace
 }  // namespace walr::test
