@@ -83,8 +83,7 @@ class PassRecording {
   std::vector<std::uint64_t> recordedFrame_;    ///< By pass: number of the last frame that has it, plus 1.
   std::map<std::pair<std::uint64_t, std::uint32_t>, fg::vk::Owned<VkImageView>> views_;  ///< By identity and resource.
   std::map<std::pair<const WalrDispatch*, std::uint32_t>, Zeros> zeros_;                 ///< By pass and resource.
-  std::map<std::uint32_t, std::pair<std::uint32_t, std::uint64_t>>
-      ages_;  ///< By resource: age, and the frame that has it.
+  std::map<std::uint32_t, std::pair<std::uint32_t, std::uint64_t>> ages_;  ///< By resource: age and its frame.
   fg::vk::MemoryArena uploadMemory_;
   std::map<std::uint32_t, std::vector<Upload>> uploads_;  ///< By resource and slot.
 };
