@@ -21,7 +21,7 @@ struct DenoiseGraph {
   fg::Buffer lint;        ///< Import that receives the counts of `addLintInputs`; invalid unless requested.
 };
 
-/// What a graph shall output besides the result, for debugging.
+/// Further outputs of a graph, for debugging.
 struct InspectionWish {
   std::span<const std::string> views = {};  ///< Names of views.
   bool counters = false;

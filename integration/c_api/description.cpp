@@ -201,7 +201,7 @@ glm::ivec2 Description::checkedOffset(glm::uvec2 offset) const {
   return glm::ivec2(offset);
 }
 
-void Description::goOnFrom(const Description& last) {
+void Description::continueFrom(const Description& last) {
   lastCamera_ = last.lastCamera_;
   lastExtent_ = last.lastExtent_;
   frames_ = std::max(frames_, last.frames_);

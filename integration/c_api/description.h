@@ -68,7 +68,7 @@ class Description {
   /// @throws Error, or std::invalid_argument, naming what is invalid
   [[nodiscard]] Constants constants(const FrameStatement& frame) const;
   /// Take over camera, size and frame number of the frame that was recorded last with another description.
-  void goOnFrom(const Description& last);
+  void continueFrom(const Description& last);
   /// Note that a frame with this camera was recorded.
   void advance(const WalrCamera& camera);
 

@@ -33,7 +33,7 @@ HostedPasses::HostedPasses(const WalrDenoiserInfo& info, std::span<const WalrSet
   }
 }
 
-void HostedPasses::goOnFrom(const HostedPasses& last) {
+void HostedPasses::continueFrom(const HostedPasses& last) {
   if (description_.methodName() != last.description_.methodName()) {
     throw Error(WALR_ERROR_INVALID_ARGUMENT, "the passes to continue from are those of method '" +
                                                  last.description_.methodName() +
@@ -47,10 +47,10 @@ void HostedPasses::goOnFrom(const HostedPasses& last) {
   if (last.description_.frames() == 0) {
     throw Error(WALR_ERROR_WRONG_ORDER, "the passes to continue from have had no frame: call walr_begin_frame on them");
   }
-  description_.goOnFrom(last.description_);
+  description_.continueFrom(last.description_);
   if (recording_ && last.recording_) {
     const auto inherited = fg::vk::inheritedHistories(graph_.graph.desc(), plan_, last.graph_.graph.desc(), last.plan_);
-    recording_->goOnFrom(*last.recording_, inherited);
+    recording_->continueFrom(*last.recording_, inherited);
   }
   constants_.reset();
 }

@@ -26,7 +26,7 @@ class HostedPasses {
   /// Continue from the last frame of other passes, which have another size or other settings.
   /// @throws Error if those have had no frame, are of another method, or are of another size without
   ///         WalrConventions::rectangle
-  void goOnFrom(const HostedPasses& last);
+  void continueFrom(const HostedPasses& last);
   void beginFrame(const WalrPassFrame& frame);
   /// Contents of an upload buffer.
   /// @throws Error before the first frame, and for a resource that is not an upload

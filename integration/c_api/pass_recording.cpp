@@ -84,7 +84,7 @@ void PassRecording::makeSets() {
   sets_.emplace(*device_, layouts, types, slots_);
 }
 
-void PassRecording::goOnFrom(const PassRecording& last, std::span<const fg::vk::InheritedHistory> inherited) {
+void PassRecording::continueFrom(const PassRecording& last, std::span<const fg::vk::InheritedHistory> inherited) {
   ages_.clear();
   for (const auto& [history, before] : inherited) {
     const auto known = last.ages_.find(last.graph_->histories[before].previous);

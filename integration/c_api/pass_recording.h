@@ -27,7 +27,7 @@ class PassRecording {
   PassRecording& operator=(const PassRecording&) = delete;
 
   /// Take over the ages of histories from other passes.
-  void goOnFrom(const PassRecording& last, std::span<const fg::vk::InheritedHistory> inherited);
+  void continueFrom(const PassRecording& last, std::span<const fg::vk::InheritedHistory> inherited);
   /// Begin a frame. The GPU must have finished the last frame with the same slot.
   void begin(std::uint64_t frame);
   /// Indices of the upload buffers that passes read.

@@ -40,7 +40,7 @@ WalrResult walr_get_pass_list(WalrPasses passes, const WalrPassList** list) {
 WalrResult walr_continue_passes(WalrPasses passes, WalrPasses last) {
   return allPasses().call(passes, [&](HostedPasses& object) {
     if (passes == last) throw Error(WALR_ERROR_INVALID_ARGUMENT, "passes cannot continue from themselves");
-    allPasses().use(last, [&](const HostedPasses& before) { object.goOnFrom(before); });
+    allPasses().use(last, [&](const HostedPasses& before) { object.continueFrom(before); });
   });
 }
 

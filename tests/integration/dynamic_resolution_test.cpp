@@ -221,14 +221,14 @@ ErrorsAtChanges errorsAtChanges(const fg::vk::Device& device, const std::string&
 }
 
 /// The error is clearly closer to that with constant size than to that without history.
-void expectHistoryGoesOn(const ErrorsAtChanges& errors) {
+void expectHistoryIsKept(const ErrorsAtChanges& errors) {
   EXPECT_LT(errors.changing, errors.unchanging + 0.25 * (errors.dropping - errors.unchanging));
   EXPECT_GT(errors.dropping, 1.25 * errors.unchanging) << "there was no history to lose";
 }
 
 TEST_P(DynamicResolutionMethod, ErrorEqualsThatOfARectangleOfConstantSize) {
   const Take take{.scene = sphere(), .step = {0.05, 0.03, -0.04}, .jittered = true};
-  expectHistoryGoesOn(errorsAtChanges(device(), GetParam(), take));
+  expectHistoryIsKept(errorsAtChanges(device(), GetParam(), take));
 }
 
 /// A scene of small objects with different ids, a third of a unit wide. A history that is read at a wrong position
@@ -250,7 +250,7 @@ TEST_F(DynamicResolution, ReadsObjectIdsAtTheRightPosition) {
   const Take take{.scene = inPieces(sphere()), .step = {0.05, 0.03, -0.04}, .objectIds = true};
   for (const char* method : {"joint_bilateral", "walr"}) {
     SCOPED_TRACE(method);
-    expectHistoryGoesOn(errorsAtChanges(device(), method, take, kObjectIds));
+    expectHistoryIsKept(errorsAtChanges(device(), method, take, kObjectIds));
   }
 }
 

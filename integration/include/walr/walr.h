@@ -364,7 +364,7 @@ typedef struct WalrMemory {
   uint32_t reserved;
   uint64_t allocated;           /* Bytes of device memory allocated from the driver. */
   uint64_t persistent;          /* Histories. */
-  uint64_t transient;           /* What transients need besides; they alias each other and histories. */
+  uint64_t transient;           /* Further memory for transients, which alias each other and histories. */
   uint64_t transient_unaliased; /* The same without aliasing. */
   uint64_t transient_least;     /* Lower bound of `transient`. */
   uint64_t retired;             /* Replaced, but still in use by frames in flight. */
