@@ -1,5 +1,5 @@
-# Finds Embree 4 (Ubuntu 24.04) or 3 (Debian 12) as the target Embree::Embree. This project does not use the packages'
-# own configuration files, which differ in name and dependencies: it needs only the header and the library.
+# Finds Embree 4 (Ubuntu 24.04) or 3 (Debian 12) as the target Embree::Embree. The packages' own configuration files are
+# not used, because they differ in name and dependencies. Only the header and the library are needed.
 foreach(major 4 3)
   find_path(Embree_INCLUDE_DIR embree${major}/rtcore.h)
   if(Embree_INCLUDE_DIR)

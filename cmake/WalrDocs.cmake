@@ -1,5 +1,5 @@
-# The target docs builds the Doxygen site in build/docs/html. Any warning is an error. Without doxygen there is no such
-# target.
+# The target docs builds the Doxygen site in build/docs/html. Any warning is an error. The target exists only if doxygen
+# is found.
 find_package(Doxygen OPTIONAL_COMPONENTS dot QUIET)
 if(DOXYGEN_FOUND)
   set(DOXYGEN_PROJECT_NAME walr)

@@ -1,4 +1,4 @@
-# What `cmake --install` puts where. Install components: runtime (shared library, plug-in), dev (headers, static library,
+# Install rules. Components: runtime (shared library, plug-in), dev (headers, static library,
 # CMake and pkg-config files, guides), cpp (the C++ libraries with their headers), and tools (the program walr). `cpack`
 # makes Debian packages of them.
 include(CMakePackageConfigHelpers)
@@ -36,14 +36,15 @@ install(FILES "${CMAKE_CURRENT_BINARY_DIR}/walrConfig.cmake" "${CMAKE_CURRENT_BI
   DESTINATION "${package_dir}" COMPONENT dev)
 install(FILES "${CMAKE_CURRENT_BINARY_DIR}/walr.pc" DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig" COMPONENT dev)
 install(FILES LICENSE DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT runtime)
-# The guides, in folders as in the tree so that their links to each other hold, and the documentation of the headers if the
-# target docs has been built.
+# The guides are installed in the folders of the source tree, so that links between them work. The documentation of the
+# headers is installed if the target docs has been built.
 install(FILES integration/README.md integration/ADAPTERS.md DESTINATION "${CMAKE_INSTALL_DOCDIR}/integration" COMPONENT dev)
 install(FILES passes/WALR.md passes/WALR_EXPERIMENTS.md passes/GLOSSARY.md passes/BIBLIOGRAPHY.md
   DESTINATION "${CMAKE_INSTALL_DOCDIR}/passes" COMPONENT dev)
 install(FILES passes/images/walr.svg DESTINATION "${CMAKE_INSTALL_DOCDIR}/passes/images" COMPONENT dev)
 install(FILES samples/embedding/embedding.c DESTINATION "${CMAKE_INSTALL_DOCDIR}/samples/embedding" COMPONENT dev)
 install(FILES samples/README.md DESTINATION "${CMAKE_INSTALL_DOCDIR}/samples" COMPONENT dev)
+install(DIRECTORY samples/docs DESTINATION "${CMAKE_INSTALL_DOCDIR}/samples" COMPONENT dev FILES_MATCHING PATTERN "*.md")
 install(DIRECTORY "${CMAKE_BINARY_DIR}/docs/html" DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT dev OPTIONAL)
 if(TARGET walr)
   install(TARGETS walr RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT tools)

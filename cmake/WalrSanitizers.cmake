@@ -1,5 +1,5 @@
-# WALR_SANITIZE=address,undefined or WALR_SANITIZE=thread builds every target with these sanitizers. Any error that they
-# find ends the program with a failure.
+# WALR_SANITIZE=address,undefined or WALR_SANITIZE=thread builds every target with these sanitizers. A program fails at the
+# first error that they find.
 set(WALR_SANITIZE "" CACHE STRING "Sanitizers to build with (value of -fsanitize=); empty for none")
 
 if(WALR_SANITIZE)

@@ -4,24 +4,24 @@
 #   [INCLUDE_DIRS <dir>...]     searched by #include, after the including file's own folder
 #   SHADERS <shader>...)
 #
-# A library walr_<name> (alias walr::<name>) that holds compute shaders: GLSL is compiled to SPIR-V and reflected while
-# the project is built, so that a run needs no files. Every <shader> is one string:
+# Adds a library walr_<name> (alias walr::<name>) of compute shaders. GLSL is compiled to SPIR-V and reflected at build
+# time, so programs read no shader files at run time. Every <shader> is one string:
 #
 #   "atrous.comp"                                               -> extern const fg::Shader atrous;
 #   "edge_trace.comp VARIANT raw16 DEFINES STORAGE=RAW16 HALF"  -> extern const fg::Shader edgeTraceRaw16;
 #   "fit.comp AXES view=VIEW packed=PACKED"                     -> const fg::Shader& fit(FitVariant);
 #
-# Its fg::Shader::name is "atrous" and "edge_trace.raw16". AXES makes a shader of every combination of the words, with the
-# define of each, and a function that chooses one by name: fit({.packed = true}) has the name "fit.packed". What only decides
-# which inputs are read needs no axis: see PassBuilder::unread. Changes of a shader or of anything it includes rebuild it.
-# SPIR-V is for Vulkan 1.1, the oldest version on which a host can have synchronization2.
-# Bindings: descriptor set 0 only, named by their variable; a block without an instance name goes by its block name.
-# Bindings that are declared and not used do not count. Those without a number are given one. See framegraph/tools/reflect.h.
-# The SPIR-V that is embedded has no names, but in builds for debugging, where validation messages show them.
+# The names in fg::Shader::name are "atrous" and "edge_trace.raw16". AXES compiles a shader for every combination of the
+# words, with the define of each, and generates a function that chooses one: fit({.packed = true}) returns "fit.packed". A
+# switch that only decides which inputs are read needs no axis: see PassBuilder::unread. A shader is rebuilt when it or an
+# included file changes. SPIR-V targets Vulkan 1.1, the oldest version on which a host can have synchronization2.
+# Bindings must be in descriptor set 0. A binding has the name of its variable, or of its block if the block has no instance
+# name. Unused bindings are left out. The compiler numbers bindings that have no number. See framegraph/tools/reflect.h.
+# Only debug builds embed names in the SPIR-V, for validation messages.
 find_program(GLSLANG_VALIDATOR NAMES glslangValidator glslang REQUIRED
   DOC "glslang's compiler (Debian package glslang-tools)")
 
-# _walr_shader_identifier(<out> <words>): camelCase of words parted by anything that is no letter or digit.
+# _walr_shader_identifier(<out> <words>): camelCase of words that are separated by anything but letters and digits.
 function(_walr_shader_identifier out words)
   string(REGEX REPLACE "[^A-Za-z0-9]+" ";" parts "${words}")
   list(POP_FRONT parts identifier)
@@ -34,8 +34,8 @@ function(_walr_shader_identifier out words)
   set(${out} "${identifier}" PARENT_SCOPE)
 endfunction()
 
-# _walr_combinations(<out> <axis>...): "-" and every choice among axes such as packed=PACKED, joined by "+", such that the
-# i-th axis is part of those whose index has bit i.
+# _walr_combinations(<out> <axis>...): all combinations of axes such as packed=PACKED, joined by "+" after a "-". A
+# combination includes the i-th axis if bit i of its index is set.
 function(_walr_combinations out)
   set(combinations "-")
   foreach(axis IN LISTS ARGN)
@@ -45,8 +45,8 @@ function(_walr_combinations out)
   set(${out} "${combinations}" PARENT_SCOPE)
 endfunction()
 
-# _walr_variant_chooser(<out> <identifier> <axes> <modules>): C++ that chooses among modules, in the order of
-# _walr_combinations, by the names of axes.
+# _walr_variant_chooser(<out> <identifier> <axes> <modules>): C++ code that chooses a module by the names of axes. The
+# modules are in the order of _walr_combinations.
 function(_walr_variant_chooser out identifier axes modules)
   string(SUBSTRING "${identifier}" 0 1 initial)
   string(SUBSTRING "${identifier}" 1 -1 rest)

@@ -1,4 +1,4 @@
-# walr_target(<target>): sets the compile options that all targets of the project share.
+# walr_target(<target>): sets the compile options of all targets of the project.
 function(walr_target target)
   target_compile_features(${target} PUBLIC cxx_std_20)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic)

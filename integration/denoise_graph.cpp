@@ -16,7 +16,7 @@ const HostStates kComputeHost{
 
 namespace {
 
-/// Channels of an input that are read.
+/// The number of channels of an input that are read.
 std::uint32_t channelsRead(const HostInput& input, const InputConventions& conventions, const HostConventions& host) {
   const bool flatMotion = conventions.motionDepth == InputConventions::MotionDepth::StaticScene;
   const bool twoChannels = (input.texture == &DenoiserInputs::motion && flatMotion) ||

@@ -11,8 +11,8 @@ namespace {
 
 constexpr VkFormat kColour = VK_FORMAT_R16G16B16A16_SFLOAT;
 
-/// Channels of a format that a float sampler reads, 0 where it reads none. Vulkan's names list the channels before
-/// their numeric format; of a depth-stencil format the depth, which comes first, is sampled.
+/// The number of channels that a float sampler reads from a format; 0 if it cannot. Vulkan's format names list the
+/// channels before the numeric format. Of a depth-stencil format, depth comes first and is what is sampled.
 std::uint32_t sampledChannels(const fg::FormatInfo& format) {
   for (const std::string_view numeric : {"_SFLOAT", "_UFLOAT", "_UNORM", "_SNORM", "_SRGB"}) {
     const std::size_t end = format.name.find(numeric);
@@ -24,7 +24,7 @@ std::uint32_t sampledChannels(const fg::FormatInfo& format) {
   return 0;
 }
 
-/// Channels of a colour format of unsigned integers, 0 of any other.
+/// The number of channels of a colour format of unsigned integers; 0 for any other format.
 std::uint32_t integerChannels(const fg::FormatInfo& format) {
   const std::string_view channels = format.name.substr(0, format.name.find('_'));
   if (!format.name.substr(channels.size()).starts_with("_UINT")) return 0;
@@ -42,7 +42,8 @@ const std::array<HostInput, 6> kHostInputs{{
     {"normal", &DenoiserInputs::normal, kColour, 3, "Unit shading normal in view or world space; zero on sky"},
     {"motion", &DenoiserInputs::motion, kColour, 3,
      "xy: where the surface was in the previous frame, minus where it is; z: previous minus current view depth"},
-    {"albedo", &DenoiserInputs::albedo, kColour, 3, "Diffuse albedo of the first hit; what has none is passed through"},
+    {"albedo", &DenoiserInputs::albedo, kColour, 3,
+     "Diffuse albedo of the first hit; pixels without any are passed through"},
     {"object_id", &DenoiserInputs::objectId, VK_FORMAT_R32_UINT, 1,
      "Number of the object that the pixel shows, the same from frame to frame; 0xffffffff: none", true},
 }};

@@ -9,21 +9,21 @@
 
 namespace walr {
 
-/// Something that a pass type reads or writes. Ports of one name are meant for each other: an output called
-/// "accumulated" goes into an input called "accumulated". Others may be connected where their formats agree.
+/// A resource that a pass type reads or writes. Ports with the same name match: connect the output "accumulated" to the
+/// input "accumulated". Ports with other names may be connected if their formats agree.
 struct Port {
   std::string name;
   bool output = false;
-  bool optional = false;  ///< May be left unconnected: an output that is then transient, or an input
-                          ///< that is not read with the present settings or that the host need not have.
+  bool optional = false;  ///< May be left unconnected: an output that is then transient, or an input that is not read
+                          ///< with the current settings or that hosts need not have.
   bool buffer = false;
   VkFormat format = VK_FORMAT_UNDEFINED;  ///< Textures.
-  std::vector<VkFormat> otherFormats;     ///< Inputs: what else it takes, because pass types make it, too.
+  std::vector<VkFormat> otherFormats;     ///< Inputs: further formats, which some pass types output.
   std::uint64_t size = 0;                 ///< Bytes; buffers.
-  std::vector<fg::Access> accesses;       ///< All that the passes do with it, each once.
-  VkImageUsageFlags imageUsage = 0;       ///< Usage flags that these add up to.
+  std::vector<fg::Access> accesses;       ///< Accesses of all passes, without repetition.
+  VkImageUsageFlags imageUsage = 0;       ///< Union of the flags that the accesses need.
   VkBufferUsageFlags bufferUsage = 0;
-  std::string description;  ///< Empty where the name says it.
+  std::string description;  ///< May be empty.
 };
 
 /// Textures and buffers of one graph by port name.

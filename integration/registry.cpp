@@ -14,7 +14,7 @@
 namespace walr {
 namespace {
 
-/// Extent of what is recorded to be looked at: methods may fit themselves to the picture.
+/// Image size in scratch graphs. Methods may choose passes by the size.
 constexpr fg::Extent kListedExtent{1920, 1080};
 
 KnownPorts hostPorts() {
@@ -27,8 +27,8 @@ KnownPorts hostPorts() {
   return known;
 }
 
-/// The ports that a stage has where the host has all that it may.
-/// @param composition every method takes all of the host's textures, whether it reads them or not
+/// The ports of a stage if the host has all optional inputs.
+/// @param composition whether it is a whole method, which has all of the host's textures as ports, read or not
 std::vector<Port> portsOf(Stage& stage, bool composition, const InputConventions& conventions,
                           const KnownPorts& known) {
   fg::Graph scratch;
@@ -37,7 +37,7 @@ std::vector<Port> portsOf(Stage& stage, bool composition, const InputConventions
   return ports.takePorts(composition);
 }
 
-/// The passes that a stage declares where the host has what `connections` hold of what it need not have.
+/// The passes that a stage declares if the host has those optional inputs that `connections` hold.
 std::vector<std::string> passesOf(Stage& stage, const InputConventions& conventions, const KnownPorts& known,
                                   const Connections& connections) {
   fg::Graph scratch;
@@ -49,7 +49,7 @@ std::vector<std::string> passesOf(Stage& stage, const InputConventions& conventi
   return names;
 }
 
-/// All types, and what their ports are, which is known of a type once all earlier ones are recorded.
+/// All types with their ports. The ports of a type can be recorded only after those of all earlier types.
 struct Catalogue {
   Catalogue() : known(hostPorts()) {
     for (const StageType& type : stageTypes()) {
@@ -71,7 +71,7 @@ struct Catalogue {
                        .passes = passesOf(*stage, {}, known, {})});
     }
   }
-  /// Later types may read what this one makes, in the format of any that makes it.
+  /// Make an output known to later types. They accept the formats of all types that have such an output.
   void learn(const Port& output) {
     const fg::TextureDesc desc{.format = output.format, .extent = kListedExtent};
     const auto [entry, isNew] = known.emplace(output.name, KnownPort{.desc = desc});

@@ -10,17 +10,17 @@
 #include "integration/setting_info.h"
 #include "passes/inputs.h"
 
-/// Pass types by name: what a host's graph editor or scripting layer needs to list, create, connect and set them.
-/// Ports, formats and accesses are not written down here: they are what a type's own declarations say when they are
-/// recorded on a graph that is thrown away. No device is needed for anything.
+/// Pass types by name. A host's graph editor or scripting layer can list, create, connect and configure them. Ports,
+/// formats and accesses are not listed by hand: each type declares its passes in a scratch graph, and they are read
+/// from that. No device is needed.
 namespace walr {
 
-/// One use of a pass type, with settings of its own.
+/// An instance of a pass type with its own settings.
 class PassNode : public Configurable {
  public:
-  /// The ports with the present settings.
+  /// The ports with the current settings.
   [[nodiscard]] virtual std::vector<Port> ports() = 0;
-  /// Names of the passes that `add` declares with the present settings and connections, in the order of declaration.
+  /// Names of the passes that `add` declares with the current settings and connections, in the order of declaration.
   [[nodiscard]] virtual std::vector<std::string> passNames() = 0;
   /// Names of the presets that `usePreset` takes. Empty where there are none.
   [[nodiscard]] virtual std::vector<std::string> presets() const = 0;
@@ -49,7 +49,7 @@ class PassNode : public Configurable {
   [[nodiscard]] const Port& requirePort(const std::vector<Port>& all, std::string_view name, bool buffer) const;
 };
 
-/// What can be listed of a pass type.
+/// Properties of a pass type.
 struct PassType {
   std::string name;
   std::string description;
@@ -60,13 +60,13 @@ struct PassType {
   std::vector<std::string> passes;  ///< Passes that it declares with default settings and no optional input.
 };
 
-/// All pass types, stages first. Made when first asked for; safe from several threads.
+/// All pass types, stages first. Created on the first call; thread-safe.
 const std::vector<PassType>& passTypes();
 
 /// @throws std::invalid_argument naming the unknown type and the known ones
 std::unique_ptr<PassNode> makePass(std::string_view type);
 
-/// The pass types in words: ports, settings, passes.
+/// A text that lists all pass types with ports, settings and passes.
 std::string passListing();
 
 }  // namespace walr

@@ -15,11 +15,11 @@ enum class SettingKind : std::uint32_t {
   Choice,   ///< One of the names of `choices`.
 };
 
-/// A setting as a host's user interface needs to know it.
+/// A setting, described for a user interface.
 struct SettingDescription {
   std::string name;
   SettingKind kind = SettingKind::Number;
-  std::string value;                 ///< Present value, as `Configurable::set` takes it.
+  std::string value;                 ///< Current value, as text for `Configurable::set`.
   double least = 0.0;                ///< Numbers and integers.
   double most = 0.0;                 ///< Numbers and integers.
   std::vector<std::string> choices;  ///< Switches and choices: every value.
@@ -28,7 +28,7 @@ struct SettingDescription {
   std::string source;                ///< Paper and section, or "measured".
 };
 
-/// All settings in their order, with their present values.
+/// All settings in order, with their current values.
 std::vector<SettingDescription> describeSettings(Configurable& configurable);
 
 }  // namespace walr

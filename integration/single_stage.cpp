@@ -44,7 +44,7 @@ SingleStage declareSingleStage(PassNode& stage, fg::Extent extent, const HostSta
   }
   for (const auto& [name, texture] : stage.add(declared.graph).textures) {
     declared.ports.push_back({name, true, texture.resource});
-    const bool written = texture.version > 0;  // A previous history is not: it is there for the stages that follow.
+    const bool written = texture.version > 0;  // False for a previous history, which later stages read.
     if (written) declared.graph.exported(texture, states.outputAfter);
   }
   return declared;

@@ -17,23 +17,24 @@ struct StagePort {
   std::uint32_t resource = fg::kNone;
 };
 
-/// A single stage alone in a graph. Its inputs are imports that go by the ports' names, as is the result `kOutputName`;
-/// its other outputs are textures and histories of its own, which are exported.
+/// A graph that holds one stage. Its inputs and the result `kOutputName` are imports with the names of the ports. Its
+/// other outputs are the graph's own textures and histories, which are exported.
 struct SingleStage {
   fg::Graph graph;
-  fg::Buffer frame;  ///< Upload of `FrameConstants`; invalid where the stage reads none.
+  fg::Buffer frame;  ///< Upload of `FrameConstants`; invalid if the stage does not read it.
   std::vector<StagePort> ports;
 };
 
-/// Formats of what is connected, by port.
+/// Formats of the connected textures, by port.
 using PortFormats = std::map<std::string, VkFormat, std::less<>>;
 
-/// @param stage   settings and conventions as they are to be; nothing connected
-/// @param extent  of all textures between stages
-/// @param formats of inputs that are not of their port's usual format; optional inputs that are not named here are left
-///                unconnected
-/// @throws std::invalid_argument naming a port that is no input of the stage and those that are, a format that a port
-///         does not take, or a setting that is out of range
+/// Declare one stage.
+/// @param stage   with its settings and conventions set and nothing connected
+/// @param extent  size of all textures between stages
+/// @param formats formats that differ from the port's usual one; optional inputs that are not listed stay unconnected
+/// @throws std::invalid_argument naming a port that is not an input of the stage, and the inputs it has; a format that
+/// a
+///         port does not accept; or a setting that is out of range
 SingleStage declareSingleStage(PassNode& stage, fg::Extent extent, const HostStates& states,
                                const PortFormats& formats);
 

@@ -9,7 +9,7 @@
 namespace walr {
 namespace {
 
-/// Where the scratch graph's imports come from does not matter: it is never compiled.
+/// Any state will do for the imports of the scratch graph: it is never compiled.
 constexpr fg::ExternalState kAnyState{VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT,
                                       VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
 
@@ -19,7 +19,7 @@ Handle find(const std::map<std::string, Handle, std::less<>>& connections, std::
   return found == connections.end() ? Handle{} : found->second;
 }
 
-/// Describe a port by everything that the recorded passes do with its resource.
+/// Describe a port by the accesses of the recorded passes to its resource.
 Port describe(const fg::GraphDesc& graph, const KnownPorts& known, std::string name, std::uint32_t resource) {
   Port port;
   port.name = std::move(name);

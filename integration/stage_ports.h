@@ -13,7 +13,7 @@
 
 namespace walr {
 
-/// What is known of the port of a name before a stage that reads it is recorded.
+/// Properties of a port that are known before a stage that reads it is recorded.
 struct KnownPort {
   std::variant<fg::TextureDesc, fg::BufferDesc> desc;
   std::vector<VkFormat> otherFormats = {};  ///< See `Port::otherFormats`.
@@ -21,10 +21,10 @@ struct KnownPort {
 };
 using KnownPorts = std::map<std::string, KnownPort, std::less<>>;
 
-/// What a stage sees of its ports while it declares its passes.
+/// Access to a stage's ports while it declares its passes.
 class StagePorts {
  public:
-  /// @param instance prefixed to the names of the textures that are made for outputs left unconnected
+  /// @param instance prefix for the names of textures that are created for unconnected outputs
   StagePorts(fg::Graph& graph, Connections connections, const InputConventions& conventions, std::string instance)
       : graph_(&graph),
         connections_(std::move(connections)),
@@ -33,20 +33,20 @@ class StagePorts {
   virtual ~StagePorts() = default;
 
   [[nodiscard]] fg::Graph& graph() { return *graph_; }
-  /// An input; an invalid handle where nothing is connected.
+  /// The texture of an input; an invalid handle if nothing is connected.
   virtual fg::Texture texture(std::string_view port);
-  /// The same of an input whose format the settings decide.
+  /// The same for an input whose format depends on the settings.
   virtual fg::Texture texture(std::string_view port, VkFormat format);
   virtual fg::Buffer buffer(std::string_view port);
-  /// A texture to write an output to: what is connected, or a transient like the texture given.
+  /// The texture to write an output to: the connected one, or a transient of the given format and size.
   virtual fg::Texture target(std::string_view port, VkFormat format, fg::Extent extent);
   void setOutput(std::string_view port, fg::Texture texture) {
     outputs_.textures.insert_or_assign(std::string(port), texture);
   }
 
-  /// The ports of `DenoiserInputs`.
+  /// The textures of the ports of `DenoiserInputs`.
   DenoiserInputs hostInputs();
-  /// The ports that the stages "prepare_guides" and "prepare_guides_with_occlusion" make.
+  /// The textures of the ports that the stages "prepare_guides" and "prepare_guides_with_occlusion" output.
   Guides guides();
   void setOutputs(const Guides& guides);
 
@@ -60,10 +60,10 @@ class StagePorts {
   Connections outputs_;
 };
 
-/// Ports that are recorded instead of connected: every input is an import of its own.
+/// Records which ports a stage uses. Every input is a separate import.
 class RecordingPorts final : public StagePorts {
  public:
-  /// @param present whether the host has what `HostInput::optional` says that it need not have
+  /// @param present whether the host has an optional input (`HostInput::optional`)
   RecordingPorts(fg::Graph& scratch, const InputConventions& conventions, const KnownPorts& known,
                  std::function<bool(std::string_view port)> present)
       : StagePorts(scratch, {}, conventions, {}), known_(&known), present_(std::move(present)) {}
@@ -73,17 +73,17 @@ class RecordingPorts final : public StagePorts {
   fg::Buffer buffer(std::string_view port) override;
   fg::Texture target(std::string_view port, VkFormat format, fg::Extent extent) override;
 
-  /// What was recorded: inputs in the order in which they were asked for, then outputs by name.
-  /// @param unread whether inputs that nothing reads count
+  /// The recorded ports: inputs in the order in which the stage used them, then outputs by name.
+  /// @param unread whether to include inputs that no pass reads
   std::vector<Port> takePorts(bool unread);
 
  private:
   struct Asked {
     std::string port;
     fg::ResourceVersion resource;
-    bool anyFormat = false;  ///< Else the settings decide its format.
+    bool anyFormat = false;  ///< Otherwise its format depends on the settings.
   };
-  /// @param format of a texture; VK_FORMAT_UNDEFINED: as it is known
+  /// @param format of a texture; VK_FORMAT_UNDEFINED: that in `known_`
   fg::ResourceVersion ask(std::string_view port, VkFormat format = VK_FORMAT_UNDEFINED);
 
   const KnownPorts* known_;

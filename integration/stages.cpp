@@ -46,7 +46,7 @@ struct NoSettings {
   void visit(SettingVisitor& /*visitor*/) {}
 };
 
-/// The conversion of the G-buffer for filters that take ambient occlusion for a feature.
+/// Settings of the G-buffer's conversion for filters with ambient occlusion as a feature.
 struct OcclusionStageSettings {
   PrepareGuidesSettings guides;
   AmbientOcclusionSettings occlusion;
@@ -57,14 +57,14 @@ struct OcclusionStageSettings {
   }
 };
 
-/// Accumulation and anti-aliasing beside a filter of any storage.
+/// Single stages also have the settings of storage, so that accumulation and anti-aliasing fit any filter.
 struct AccumulationStageSettings : TemporalAccumulationSettings {
   void visit(SettingVisitor& v) {
     TemporalAccumulationSettings::visit(v);
     visitStorage(v);
   }
 };
-/// What taps are for depends on the stage that reads them.
+/// The contents of the taps' texture depend on the storage of anti-aliasing, which reads it.
 struct AccumulationWithTapsStageSettings : AccumulationStageSettings {
   TemporalAntialiasingSettings antialiasing;
 
@@ -80,7 +80,7 @@ struct AntialiasingStageSettings : TemporalAntialiasingSettings {
   }
 };
 
-/// A filter takes the storage settings of the stages around it.
+/// A filter has the storage settings of the stages before and after it.
 struct BlockStageSettings {
   BlockRegressionSettings blocks;
   TemporalAccumulationSettings accumulation;
@@ -93,17 +93,17 @@ struct BlockStageSettings {
   }
 };
 
-/// Taps that hold the light which passes through besides are no use to who expects mere taps, nor the reverse.
+/// Taps with and without pass-through light have different ports, because neither can replace the other.
 std::string_view tapsPort(LightStorage antialiasing) {
   return antialiasing == LightStorage::Packed ? kHistoryTapsWithLight : kHistoryTaps;
 }
 
-/// What is written to the target of an output that is as large as an input.
+/// The target of an output that has the size of an input.
 fg::Texture targetLike(StagePorts& ports, std::string_view output, fg::Texture input) {
   return ports.target(output, kColour, ports.graph().textureDesc(input).extent);
 }
 
-/// The texture between a filter and anti-aliasing, under the name that it has in the whole method.
+/// The texture between a filter and anti-aliasing, with the name that it has in the whole method.
 fg::Texture filteredLike(StagePorts& ports, fg::Texture input) {
   return ports.graph().texture("filtered", {kColour, ports.graph().textureDesc(input).extent});
 }
@@ -224,21 +224,21 @@ std::unique_ptr<Stage> makeMethod(std::string_view name) {
 
 std::vector<StageType> stagesAndMethods() {
   std::vector<StageType> types{
-      {"prepare_guides", "Convert the host's depth, normals and albedo once into what all other stages read", false,
-       make<PrepareGuidesSettings, prepareGuides>},
+      {"prepare_guides", "Convert the host's depth, normals and albedo once into the guides that all other stages read",
+       false, make<PrepareGuidesSettings, prepareGuides>},
       {"prepare_guides_with_occlusion",
-       "The same, with ambient occlusion beside the shading normal, for block_regression and flr_regression", false,
+       "prepare_guides that adds ambient occlusion, for block_regression and flr_regression", false,
        make<OcclusionStageSettings, prepareGuidesWithOcclusion>},
       {"temporal_accumulation", "Average the noisy lighting over time along its motion", false,
        make<AccumulationStageSettings, temporalAccumulation>},
       {"temporal_accumulation_with_taps",
-       "The same, keeping where in the history it read and, for packed anti-aliasing, the light that passes through",
+       "temporal_accumulation that also outputs its history taps and, for packed anti-aliasing, the pass-through light",
        false,
        make<AccumulationWithTapsStageSettings, temporalAccumulationWithTaps>,
        {{kHistoryTaps, VK_FORMAT_R32_UINT,
-         "Made by temporal_accumulation_with_taps where its setting antialiasing.storage is half"},
+         "Output of temporal_accumulation_with_taps if its setting antialiasing.storage is half"},
         {kHistoryTapsWithLight, VK_FORMAT_R32_UINT,
-         "Made by temporal_accumulation_with_taps where its setting antialiasing.storage is packed"}}},
+         "Output of temporal_accumulation_with_taps if its setting antialiasing.storage is packed"}}},
       {"weighted_regression", "WALR's filter: weighted linear regression over edge-aware a-trous averages", false,
        make<WeightedRegressionSettings, weightedRegression>},
       {"full_window_regression", "REFWLR's filter: weighted linear regression over the full window", false,
@@ -253,10 +253,10 @@ std::vector<StageType> stagesAndMethods() {
        make<FlrRegressionSettings, flrRegression>},
       {"joint_bilateral_filter", "Joint bilateral filter of one noisy frame", false,
        make<JointBilateralFilterSettings, jointBilateralFilter>},
-      {"temporal_antialiasing", "Steady the filtered frames: history, variance clipping, moving average", false,
-       make<AntialiasingStageSettings, temporalAntialiasing>},
+      {"temporal_antialiasing", "Reduce flicker of the filtered frames: history, variance clipping, moving average",
+       false, make<AntialiasingStageSettings, temporalAntialiasing>},
       {"temporal_antialiasing_with_taps",
-       "The same along the taps of temporal_accumulation_with_taps, whose tests it shares", false,
+       "temporal_antialiasing that reuses the history taps of temporal_accumulation_with_taps, with their tests", false,
        make<AntialiasingStageSettings, temporalAntialiasingWithTaps>},
       {"pass_through", "Copy the filtered frame to the output", false, make<NoSettings, passThrough>},
   };

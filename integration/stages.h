@@ -9,12 +9,12 @@
 
 namespace walr {
 
-/// Ports of the taps that "temporal_accumulation_with_taps" keeps: the second where these hold the light that passes
-/// through, besides, as anti-aliasing with `antialiasing.storage` packed takes them.
+/// Ports of the history taps that "temporal_accumulation_with_taps" outputs. It is the second one if
+/// `antialiasing.storage` is packed; the texture then also holds the pass-through light.
 inline constexpr std::string_view kHistoryTaps = "history-taps";
 inline constexpr std::string_view kHistoryTapsWithLight = "history-taps-with-light";
 
-/// A stage of the methods: its settings, and how it declares its passes between ports.
+/// A stage: it has settings and declares its passes between ports.
 class Stage : public Configurable {
  public:
   [[nodiscard]] virtual std::vector<std::string> presets() const { return {}; }
@@ -23,14 +23,14 @@ class Stage : public Configurable {
   virtual void declare(StagePorts& ports) = 0;
 };
 
-/// An output of a stage that its settings decide about: with others it makes another output in its place.
+/// An output that a stage has only with some values of its settings; with others it has another output instead.
 struct SettingsOutput {
   std::string_view name;
   VkFormat format;
   std::string_view description;
 };
 
-/// A kind of stage by name.
+/// A stage or method by name.
 struct StageType {
   std::string name;
   std::string description;
@@ -39,7 +39,7 @@ struct StageType {
   std::vector<SettingsOutput> settingsOutputs = {};
 };
 
-/// All of them, the whole methods last; whatever a stage takes, an earlier one makes.
+/// All stages, then all methods. Each input of a stage is an output of an earlier stage or comes from the host.
 const std::vector<StageType>& stageTypes();
 
 }  // namespace walr

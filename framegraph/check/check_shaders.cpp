@@ -7,7 +7,7 @@
 namespace fg {
 namespace {
 
-/// True where a descriptor of this type can serve the access.
+/// Whether a descriptor of this type can serve the access.
 bool serves(VkDescriptorType type, Access access, bool texture) {
   switch (access) {
     case Access::SampledRead:
@@ -117,7 +117,7 @@ class ShaderCheck {
     if (work_.constants.size() != shader_.pushConstantSize) {
       findings_.error(code::kPushConstantSize, pass_,
                       start() + std::to_string(work_.constants.size()) +
-                          " bytes of push constants are given, but the " + "shader takes " +
+                          " bytes of push constants are given, but the shader takes " +
                           std::to_string(shader_.pushConstantSize));
     }
     for (const HistoryAgeConstant& age : work_.historyAges) {
@@ -125,10 +125,10 @@ class ShaderCheck {
                           age.offset <= work_.constants.size() - sizeof(std::uint32_t);
       if (inside && age.history < graph_.histories.size()) continue;
       findings_.error(code::kHistoryAge, pass_,
-                      start() + (inside ? "the age of a history of another graph is asked for"
-                                        : "the age of a history is to go to byte " + std::to_string(age.offset) +
-                                              " of " + std::to_string(work_.constants.size()) +
-                                              " bytes of push constants; it must be a multiple of 4 inside"));
+                      start() + (inside ? "historyAge names a history of another graph"
+                                        : "historyAge has offset " + std::to_string(age.offset) + " into " +
+                                              std::to_string(work_.constants.size()) +
+                                              " bytes of push constants; it must be a multiple of 4 inside them"));
     }
     for (const std::string& name : work_.unknownConstants) {
       findings_.error(code::kUnknownConstant, pass_, start() + "there is no specialization constant '" + name + "'");

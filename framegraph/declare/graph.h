@@ -16,17 +16,17 @@
 #include "framegraph/declare/shader.h"
 #include "framegraph/declare/source_location.h"
 
-/// Declare -> compile -> record. This header is the declaration: a plain value that says what every pass reads and
-/// writes. It needs neither a Vulkan device nor the Vulkan loader.
+/// A frame graph is declared, compiled and recorded. This header is for declaring: it builds a plain value that lists
+/// what every pass reads and writes. It needs neither a Vulkan device nor the Vulkan loader.
 namespace fg {
 
 inline constexpr std::uint32_t kNone = ~0u;
 
-/// Handle of a resource at one version. Every write makes a new version; a handle always names one version.
-/// `Texture` and `Buffer` are distinct types over the same idea.
+/// Handle of one version of a resource. Every write creates a new version. `Texture` and `Buffer` are distinct types so
+/// that they cannot be confused.
 struct ResourceVersion {
   std::uint32_t resource = kNone;  ///< Index into `GraphDesc::resources`.
-  std::uint32_t version = 0;       ///< 0: as declared, imported or carried over; n: after the n-th write.
+  std::uint32_t version = 0;       ///< 0: as declared, imported or kept from the last frame; n: after the n-th write.
   friend bool operator==(const ResourceVersion&, const ResourceVersion&) = default;
   [[nodiscard]] bool valid() const { return resource != kNone; }
 };
@@ -40,7 +40,7 @@ struct Extent {
   friend bool operator==(const Extent&, const Extent&) = default;
 };
 
-/// A two-dimensional texture, described and not yet made.
+/// Description of a two-dimensional texture.
 struct TextureDesc {
   VkFormat format = VK_FORMAT_UNDEFINED;
   Extent extent;
@@ -49,13 +49,13 @@ struct TextureDesc {
   friend bool operator==(const TextureDesc&, const TextureDesc&) = default;
 };
 
-/// A linear buffer, described and not yet made.
+/// Description of a buffer.
 struct BufferDesc {
   std::uint64_t size = 0;  ///< Bytes.
   friend bool operator==(const BufferDesc&, const BufferDesc&) = default;
 };
 
-/// Part of a texture. The default is the whole of it.
+/// Part of a texture. The default is the whole texture.
 struct SubresourceRange {
   std::uint32_t baseMip = 0;
   std::uint32_t mipCount = VK_REMAINING_MIP_LEVELS;
@@ -64,12 +64,12 @@ struct SubresourceRange {
   friend bool operator==(const SubresourceRange&, const SubresourceRange&) = default;
 };
 
-/// How a pass touches a resource. Stage, access mask, layout and usage flags all follow from it (see access.h).
+/// How a pass accesses a resource. Stage, access mask, layout and usage flags follow from it (see access.h).
 enum class Access : std::uint8_t {
   SampledRead,          ///< Compute: sampled image, read only.
   StorageRead,          ///< Compute: storage image or buffer, read only.
   StorageWrite,         ///< Compute: storage image or buffer, written; earlier contents are not needed.
-  StorageReadWrite,     ///< Compute: in place; the earlier contents are read and a new version is written.
+  StorageReadWrite,     ///< Compute: storage image or buffer, read and written in place.
   UniformRead,          ///< Compute: uniform block.
   IndirectRead,         ///< Arguments of an indirect dispatch or draw.
   TransferRead,         ///< Source of a copy or blit.
@@ -92,43 +92,43 @@ struct ExternalState {
   friend bool operator==(const ExternalState&, const ExternalState&) = default;
 };
 
-/// What becomes of a resource's memory.
+/// How long a resource and its contents live.
 enum class Lifetime : std::uint8_t {
-  Transient,        ///< Lives from its first to its last use in the frame; memory is aliased.
+  Transient,        ///< Lives from its first to its last use in the frame; its memory is aliased.
   Imported,         ///< Owned by the host; bound to the executor before recording.
   HistoryPrevious,  ///< What the last frame wrote into the matching HistoryCurrent; zero while there is none.
   HistoryCurrent,   ///< Kept for the next frame.
   Upload,           ///< Host-visible bytes written by the host every frame, one copy per frame in flight.
 };
 
-/// A texture that outlives its frame. Reading `previous` while no valid frame lies behind gives zeros, never garbage;
-/// a pass may also be told the age (see `PassBuilder::historyAge`).
+/// A texture that is kept for the next frame. In the first frame and after a reset, `previous` reads as zeros. A pass
+/// can also read the age of the history (see `PassBuilder::historyAge`).
 struct History {
-  Texture previous;             ///< Last frame's contents, readable as it is.
+  Texture previous;             ///< Contents from the last frame, read-only.
   Texture current;              ///< To be written exactly once this frame.
   std::uint32_t index = kNone;  ///< Index into `GraphDesc::histories`.
 };
 
-/// One value that the executor fills into a pass's push constants when it records a frame.
+/// The age of a history, which the executor writes into a pass's push constants when it records a frame.
 struct HistoryAgeConstant {
   std::uint32_t history = kNone;  ///< Index into `GraphDesc::histories`.
-  std::uint32_t offset = 0;       ///< Byte offset of a uint: frames behind `previous`, 0 while it is not valid.
+  std::uint32_t offset = 0;       ///< Byte offset of a uint: number of frames, 0 if there is no history.
 };
 
-/// Compute work as plain data: nothing here has to be run to be inspected.
+/// Compute work as plain data, which can be inspected without a device.
 struct ComputeDispatch {
   const Shader* shader = nullptr;
   std::vector<std::uint32_t> specialization;  ///< One word per entry of `shader->constants`, in that order.
-  std::vector<bool> specialized;              ///< Which of them were set; leaving one out is an error.
-  std::vector<std::string> unknownConstants;  ///< Names set that the shader does not have: an error of `compile`.
+  std::vector<bool> specialized;              ///< Which of them were set; `compile` reports those that were not.
+  std::vector<std::string> unknownConstants;  ///< Names that the shader does not have; `compile` reports them.
   std::vector<std::byte> constants;           ///< Push constants; size must be the shader's.
   std::vector<HistoryAgeConstant> historyAges;
   std::uint32_t groups[3] = {0, 0, 0};  ///< Work groups; ignored when `indirect` is valid.
-  Buffer indirect;                      ///< Arguments of vkCmdDispatchIndirect, where given.
+  Buffer indirect;                      ///< Arguments of vkCmdDispatchIndirect; optional.
   std::uint64_t indirectOffset = 0;
 };
 
-/// What a host's own pass may use while it records itself.
+/// Vulkan objects that a host's callback may use while it records its pass.
 struct RecordContext {
   VkCommandBuffer commandBuffer = VK_NULL_HANDLE;
   std::function<VkImage(Texture)> image;
@@ -136,7 +136,7 @@ struct RecordContext {
   std::function<VkBuffer(Buffer)> buffer;
 };
 
-/// Work that a host records itself (raster, ray tracing, copies). Its accesses are declared like any other pass's.
+/// Work that the host records (raster, ray tracing, copies). Its accesses are declared like those of other passes.
 struct HostCallback {
   std::function<void(const RecordContext&)> record;
 };
@@ -145,14 +145,14 @@ struct HostCallback {
 struct AccessDecl {
   std::uint32_t resource = kNone;
   std::uint32_t readVersion = kNone;   ///< Version read, or kNone for a pure write.
-  std::uint32_t writeVersion = kNone;  ///< Version made, or kNone for a pure read.
-  /// For a pure write: the version it replaces, which all its readers must have finished with.
+  std::uint32_t writeVersion = kNone;  ///< Version written, or kNone for a pure read.
+  /// For a pure write: the version that it overwrites. The pass runs after all readers of that version.
   std::uint32_t replacesVersion = kNone;
   Access access = Access::SampledRead;
   SubresourceRange range;
   std::string binding;                  ///< Name of the shader variable; empty for callback passes.
   VkFilter filter = VK_FILTER_NEAREST;  ///< For combined image samplers; addressing clamps to the edge.
-  bool unread = false;                  ///< Bound only because the layout asks for it; see `PassBuilder::unread`.
+  bool unread = false;                  ///< Bound only because the layout requires it; see `PassBuilder::unread`.
   SourceLocation where;
 };
 
@@ -160,8 +160,8 @@ struct PassDecl {
   std::string name;
   std::variant<ComputeDispatch, HostCallback> work;
   std::vector<AccessDecl> accesses;
-  std::optional<Extent> extent = std::nullopt;  ///< That all its textures must have, where it says so.
-  bool sideEffects = false;                     ///< Kept even if it reaches no export and no history.
+  std::optional<Extent> extent = std::nullopt;  ///< Required of all its textures; see `PassBuilder::texels`.
+  bool sideEffects = false;                     ///< Never culled.
   SourceLocation where;
 };
 
@@ -184,11 +184,11 @@ struct HistoryDecl {
 
 struct ExportDecl {
   ResourceVersion resource;
-  ExternalState release;  ///< State in which the host gets it back.
+  ExternalState release;  ///< State for the host after the graph.
   SourceLocation where;
 };
 
-/// Everything declared, as a plain value.
+/// A declared graph as a plain value.
 struct GraphDesc {
   std::vector<ResourceDecl> resources;
   std::vector<PassDecl> passes;
@@ -198,35 +198,35 @@ struct GraphDesc {
 
 class Graph;
 
-/// Declares one pass. Obtained from `Graph::compute` or `Graph::callback`; a short-lived reference into the graph.
+/// Declares one pass. Returned by `Graph::compute` and `Graph::callback`; a short-lived reference into the graph.
 class PassBuilder {
  public:
   using Where = SourceLocation;
 
-  /// Read through a sampled image (`texture2D`, `utexture2D`) or combined sampler with the given filter.
+  /// Read a sampled image (`texture2D`, `utexture2D`), or a combined image sampler with the given filter.
   PassBuilder& sample(std::string_view binding, Texture texture, VkFilter filter = VK_FILTER_NEAREST,
                       Where where = Where::current());
-  /// Bind a sampled image that the shader declares, but, specialized as it is, never reads. Vulkan wants a descriptor
-  /// of the right type all the same.
-  /// @param texture one that the pass samples under another name, so that it costs neither a barrier nor traffic, and
-  ///                whose texels have the type that the shader declares (`texture2D`: float, `utexture2D`: unsigned)
+  /// Bind a texture to a sampled image that the shader declares but does not read with these specialization constants.
+  /// Vulkan requires a valid descriptor anyway.
+  /// @param texture a texture that the pass samples under another name, so that no barrier and no traffic is added. Its
+  ///                texels have the type that the shader declares (`texture2D`: float, `utexture2D`: unsigned).
   PassBuilder& unread(std::string_view binding, Texture texture, Where where = Where::current());
-  /// `sample` a texture where the shader, as it is specialized, reads it; else leave it `unread` and bind another
-  /// instead.
+  /// `sample` the texture if the shader reads it with these specialization constants; otherwise bind `standIn` as
+  /// `unread`.
   PassBuilder& sampleIf(bool read, std::string_view binding, Texture texture, Texture standIn,
                         Where where = Where::current());
-  /// Read through a `readonly` storage image or buffer.
+  /// Read a `readonly` storage image or buffer.
   PassBuilder& load(std::string_view binding, Texture texture, Where where = Where::current());
   PassBuilder& load(std::string_view binding, Buffer buffer, Where where = Where::current());
   /// Read a uniform block.
   PassBuilder& uniform(std::string_view binding, Buffer buffer, Where where = Where::current());
-  /// Overwrite through a `writeonly` storage image or buffer. Returns the new version.
+  /// Write a `writeonly` storage image or buffer; earlier contents are lost. Returns the new version.
   [[nodiscard]] Texture store(std::string_view binding, Texture texture, Where where = Where::current());
   [[nodiscard]] Buffer store(std::string_view binding, Buffer buffer, Where where = Where::current());
   /// Read and write one storage image or buffer in place. Returns the new version.
   [[nodiscard]] Texture update(std::string_view binding, Texture texture, Where where = Where::current());
   [[nodiscard]] Buffer update(std::string_view binding, Buffer buffer, Where where = Where::current());
-  /// Any other access, for callback passes. Writing accesses return the new version, reading ones the same.
+  /// Any access of a callback pass. Returns the new version for a write, the same version for a read.
   Texture access(Texture texture, Access access, SubresourceRange range = {}, Where where = Where::current());
   Buffer access(Buffer buffer, Access access, Where where = Where::current());
 
@@ -237,21 +237,21 @@ class PassBuilder {
     return constants(std::as_bytes(std::span(&value, 1)));
   }
   PassBuilder& constants(std::span<const std::byte> bytes);
-  /// Have the executor write the age of `history` (frames; 0 while `previous` is not valid) at a byte offset of the
-  /// push constants.
+  /// Let the executor write the age of `history` at a byte offset of the push constants: the number of frames, 0 if
+  /// there is no history.
   PassBuilder& historyAge(const History& history, std::uint32_t offset);
   /// Set a specialization constant by its name in the shader.
   PassBuilder& specialize(std::string_view constant, std::uint32_t value);
   PassBuilder& specialize(std::string_view constant, float value);
   PassBuilder& specialize(std::string_view constant, bool value);
-  /// Say that the pass takes all its textures texel by texel, so that the levels that it accesses must have this
-  /// extent: `compile` then names those of another size, and the passes that made them.
+  /// Require this extent of all mip levels that the pass accesses, for passes that process all textures texel by texel.
+  /// `compile` reports levels of another size and the passes that wrote them.
   PassBuilder& texels(Extent extent);
-  /// Work groups enough to cover `threads` with the shader's work group size.
+  /// Dispatch enough work groups of the shader's size to cover `threads`.
   PassBuilder& dispatch(Extent threads, std::uint32_t layers = 1);
   /// Take the work group counts from a buffer.
   PassBuilder& dispatchIndirect(Buffer arguments, std::uint64_t offset = 0, Where where = Where::current());
-  /// Keep the pass even where nothing it writes is used.
+  /// Never cull the pass, even if nothing that it writes is used.
   PassBuilder& sideEffects();
 
  private:
@@ -265,7 +265,7 @@ class PassBuilder {
   std::uint32_t pass_;
 };
 
-/// The frame graph under construction. Declaring never fails; every error is found, all at once, by `compile`.
+/// A frame graph under construction. Declaring never fails; `compile` reports all errors at once.
 class Graph {
  public:
   using Where = SourceLocation;
@@ -273,15 +273,17 @@ class Graph {
   /// Declare a transient texture or buffer.
   Texture texture(std::string name, const TextureDesc& desc, Where where = Where::current());
   Buffer buffer(std::string name, const BufferDesc& desc, Where where = Where::current());
-  /// Declare bytes that the host writes every frame (see `Executor::upload`).
+  /// Declare a buffer that the host writes every frame (see `Executor::upload`).
   Buffer upload(std::string name, std::uint64_t size, Where where = Where::current());
-  /// Declare a resource owned by the host, and the state in which it arrives.
+  /// Declare a resource that the host owns.
+  /// @param acquire its state before the graph
   Texture import(std::string name, const TextureDesc& desc, const ExternalState& acquire,
                  Where where = Where::current());
   Buffer import(std::string name, const BufferDesc& desc, const ExternalState& acquire, Where where = Where::current());
-  /// Declare a texture that is carried from frame to frame.
+  /// Declare a texture that is kept from frame to frame.
   History history(std::string name, const TextureDesc& desc, Where where = Where::current());
-  /// Hand a version back to the host in the given state. What no export or history needs is culled.
+  /// Declare a version as a result of the graph. Passes that no export and no history needs are culled.
+  /// @param release its state for the host after the graph
   void exported(Texture texture, const ExternalState& release, Where where = Where::current());
   void exported(Buffer buffer, const ExternalState& release, Where where = Where::current());
 
@@ -292,7 +294,7 @@ class Graph {
                        Where where = Where::current());
 
   [[nodiscard]] const GraphDesc& desc() const { return desc_; }
-  /// Description of the texture behind a handle; an empty one where the handle names no texture.
+  /// Description of the texture behind a handle; an empty one if the handle is not of a texture.
   [[nodiscard]] const TextureDesc& textureDesc(Texture texture) const;
 
  private:

@@ -10,14 +10,14 @@
 
 #include "framegraph/tools/reflect.h"
 
-/// Writes the C++ definition of one fg::Shader: the SPIR-V words and what reflection found in them.
+/// Writes the C++ definition of one fg::Shader: the SPIR-V words and their reflection.
 namespace fg::tools {
 namespace {
 
 struct Arguments {
   std::string spirv;       ///< Compiled shader to read.
   std::string output;      ///< C++ source to write.
-  std::string header;      ///< Header that declares the variable, as it is included.
+  std::string header;      ///< Header that declares the variable, as in #include.
   std::string nameSpace;   ///< "walr::shaders".
   std::string identifier;  ///< Name of the variable.
   std::string name;        ///< `fg::Shader::name`.
@@ -35,7 +35,7 @@ std::vector<std::uint32_t> readWords(const std::string& path) {
   return words;
 }
 
-/// What a module says about its source, and nothing that a driver needs.
+/// Instructions that only describe the source and that no driver needs.
 bool isAboutSource(std::uint32_t opcode) {
   switch (opcode) {
     case SpvOpSourceContinued:
@@ -52,14 +52,14 @@ bool isAboutSource(std::uint32_t opcode) {
   }
 }
 
-/// The module without names, and without notes on its source. They are a sixth of it.
-/// @throws std::runtime_error where an instruction is longer than the module
+/// The module without instructions that describe its source, which take a sixth of its size.
+/// @throws std::runtime_error if an instruction is longer than the rest of the module
 std::vector<std::uint32_t> withoutNames(const std::vector<std::uint32_t>& words) {
   constexpr std::size_t kHeaderWords = 5;
   std::vector<std::uint32_t> kept(words.begin(), words.begin() + std::min(words.size(), kHeaderWords));
   for (std::size_t at = kHeaderWords; at < words.size();) {
     const std::size_t length = words[at] >> SpvWordCountShift;
-    if (length == 0 || length > words.size() - at) throw std::runtime_error("its SPIR-V breaks off");
+    if (length == 0 || length > words.size() - at) throw std::runtime_error("its SPIR-V is truncated");
     const auto first = words.begin() + static_cast<std::ptrdiff_t>(at);
     if (!isAboutSource(words[at] & SpvOpCodeMask))
       kept.insert(kept.end(), first, first + static_cast<std::ptrdiff_t>(length));
@@ -86,7 +86,7 @@ void write(std::ostream& out, const ReflectedConstant& constant) {
   out << "  {.name = \"" << constant.name << "\", .id = " << constant.id << "},\n";
 }
 
-/// A table as a constant array, and the initialiser that refers to it. C++ has no arrays of length 0.
+/// Write a table as a constant array. Returns its name, or {} for an empty table, as C++ has no arrays of length 0.
 template <typename Row>
 std::string writeTable(std::ostream& out, const char* type, const char* table, const std::vector<Row>& rows) {
   if (rows.empty()) return "{}";

@@ -20,7 +20,7 @@ class Reflector {
  public:
   explicit Reflector(const std::vector<std::uint32_t>& code) {
     spvc_context context = nullptr;
-    if (spvc_context_create(&context) != SPVC_SUCCESS) throw std::runtime_error("SPIRV-Cross cannot start");
+    if (spvc_context_create(&context) != SPVC_SUCCESS) throw std::runtime_error("SPIRV-Cross cannot create a context");
     context_.reset(context);
     spvc_parsed_ir ir = nullptr;
     check(spvc_context_parse_spirv(context, code.data(), code.size(), &ir));

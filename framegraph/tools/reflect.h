@@ -7,8 +7,8 @@
 
 #include <vulkan/vulkan_core.h>
 
-/// Reflection of a compute shader's SPIR-V. The structs own their strings; `fg::Shader` (framegraph/shader.h) is the
-/// form in which the result is compiled into the program, and explains the members.
+/// Reflection of a compute shader's SPIR-V. The structs own their strings. `fg::Shader` (framegraph/declare/shader.h)
+/// has the same members and documents them; it is what is compiled into the program.
 namespace fg::tools {
 
 struct ReflectedBinding {
@@ -33,16 +33,18 @@ struct Reflection {
   std::array<std::uint32_t, 3> localSize{1, 1, 1};
 };
 
-/// Find out what a shader binds.
+/// Reflect a compute shader.
 ///
-/// - A binding counts where the shader uses it; one that is declared and never used is left out.
-/// - Its name is the variable's; a uniform or storage block without an instance name goes by its block name.
-/// - Access is what the declaration allows: a storage image or buffer that is neither `readonly` nor `writeonly` reads
-///   and writes.
+/// - Bindings that the shader declares but does not use are left out.
+/// - A binding has the name of its variable. A uniform or storage block without an instance name has its block name.
+/// - Accesses are those that the declaration allows: a storage image or buffer that is neither `readonly` nor
+/// `writeonly`
+///   counts as read and written.
 ///
-/// @throws std::runtime_error where the SPIR-V cannot be read, or has something that a compute pass cannot bind:
-///         another stage, a descriptor set other than 0, an array of descriptors, two variables at one binding, a
-///         work group size that is a specialization constant
+/// @throws std::runtime_error if the SPIR-V cannot be parsed, or is not supported: another stage, a descriptor set
+/// other
+///         than 0, an array of descriptors, two variables at one binding, a work group size that is a specialization
+///         constant
 Reflection reflect(const std::vector<std::uint32_t>& code);
 
 }  // namespace fg::tools

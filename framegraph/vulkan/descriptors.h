@@ -11,18 +11,18 @@
 
 namespace fg::vk {
 
-/// One descriptor set per compute pass, frame slot and history parity, all made before the first frame. Afterwards only
-/// descriptors of images that change, as imports do, are rewritten, and only when a frame sees others than the last
-/// frame with its sets.
+/// One descriptor set per compute pass, frame slot and history parity, all created before the first frame. Afterwards
+/// only descriptors of images that may change, such as imports, are rewritten, and only if an image has changed since
+/// the last frame with the same sets.
 class Descriptors {
  public:
-  /// @param setLayouts by position in `plan.passes`; null for passes that are no compute dispatch
-  /// @param historiesChange whether previous histories are among the images that change
+  /// @param setLayouts by position in `plan.passes`; null for callback passes
+  /// @param historiesChange whether images of previous histories may change
   Descriptors(const DeviceContext& device, const GraphDesc& graph, const Plan& plan, const Resources& resources,
               Views& views, const std::vector<VkDescriptorSetLayout>& setLayouts, std::uint32_t slots,
               bool historiesChange);
 
-  /// Say that an image changed.
+  /// Note that an image has changed.
   void invalidateImages() { ++epoch_; }
   /// Bring a frame's sets up to date.
   void update(FrameIndex frame);
@@ -51,7 +51,7 @@ class Descriptors {
   const Views* views_;
   Owned<VkSampler> nearest_;
   Owned<VkSampler> linear_;
-  std::optional<DescriptorSets> sets_;  ///< Made once it is known what is written.
+  std::optional<DescriptorSets> sets_;  ///< Created after all writes are collected.
   std::vector<Write> lasting_;
   std::vector<Write> changing_;
   std::uint64_t epoch_ = 1;

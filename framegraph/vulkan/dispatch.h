@@ -9,11 +9,11 @@
 
 namespace fg::vk {
 
-/// What a dispatch is told besides what it binds.
+/// Parameters of a dispatch besides its pipeline and descriptor set.
 struct DispatchCommand {
   std::span<const std::byte> constants;
   std::array<std::uint32_t, 3> groups{};
-  VkBuffer indirect = VK_NULL_HANDLE;  ///< Holds the group counts, where it is not null.
+  VkBuffer indirect = VK_NULL_HANDLE;  ///< Holds the group counts, unless it is null.
   std::uint64_t indirectOffset = 0;
 };
 

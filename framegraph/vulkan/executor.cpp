@@ -27,7 +27,7 @@ std::optional<Timestamps> makeTimestamps(const DeviceContext& device, const Grap
   return Timestamps(device, graph, plan, options.framesInFlight);
 }
 
-/// What the host has bound to an import.
+/// A host's image or buffer that is bound to an import.
 struct Bound {
   std::uint64_t handle = 0;
   std::uint64_t identity = 0;
@@ -62,7 +62,7 @@ struct Executor::State {
     if (before != nullptr && options.inheritHistories) inheritHistories(*before);
   }
 
-  /// The first frame reads what the last one of `before` wrote.
+  /// Let the first frame read the histories that the last frame of `before` wrote.
   void inheritHistories(const State& before) {
     if (!before.recorded) return;
     std::vector<InheritedHistory> taken = inheritedHistories(graph, plan, before.graph, before.plan);
@@ -77,7 +77,7 @@ struct Executor::State {
     takeOver = BarrierBatch(graph, takeOverBarriers(graph, plan, before.plan, taken));
   }
 
-  /// To be called once the first frame, which reads what was inherited, is recorded.
+  /// Bind this executor's own images again. Call it after the first frame, which reads the inherited ones, is recorded.
   void dropInherited() {
     if (inherited.empty()) return;
     for (const Inherited& history : inherited) {
@@ -95,7 +95,7 @@ struct Executor::State {
     throw std::invalid_argument("bind: the resource was not declared with Graph::import");
   }
 
-  /// Remember what is bound. Returns whether it is news.
+  /// Remember a binding. Returns whether it has changed.
   bool bind(ResourceVersion handle, const Bound& now) {
     requireImport(handle);
     if (now.handle == 0) {
@@ -119,9 +119,9 @@ struct Executor::State {
   GraphDesc graph;
   const Plan plan;
   const std::uint32_t slots;
-  FrameIndex frame;  ///< Recorded last.
+  FrameIndex frame;  ///< The frame recorded last.
   std::uint32_t nextParity = 0;
-  bool recorded = false;  ///< Any frame.
+  bool recorded = false;  ///< Whether any frame was.
   Resources resources;
   Uploads uploads;
   Views views;
@@ -133,10 +133,10 @@ struct Executor::State {
   std::vector<Bound> bound;  ///< By resource.
   struct Inherited {
     std::uint32_t previous = kNone;
-    VkImage own = VK_NULL_HANDLE;  ///< In whose place the inherited one is.
+    VkImage own = VK_NULL_HANDLE;  ///< Replaced by the inherited one for one frame.
   };
-  std::vector<Inherited> inherited;  ///< Until the frame that reads them is over.
-  BarrierBatch takeOver;             ///< On what is inherited, before that frame.
+  std::vector<Inherited> inherited;  ///< Empty after the first frame.
+  BarrierBatch takeOver;             ///< For inherited images, before the first frame.
 };
 
 Executor::Executor(const DeviceContext& device, GraphDesc graph, Plan plan, const ExecutorOptions& options) {

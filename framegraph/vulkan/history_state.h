@@ -8,13 +8,13 @@
 
 namespace fg::vk {
 
-/// How much lies behind a history.
+/// Whether a history holds frames, and how many.
 struct HistoryStatus {
   bool valid = false;     ///< Whether `previous` holds the last frame; it holds zeros otherwise.
-  std::uint32_t age = 0;  ///< Frames behind `previous` without a reset.
+  std::uint32_t age = 0;  ///< Number of frames since the last reset.
 };
 
-/// Ages of all histories, and the clearing of those that have none.
+/// Keeps the ages of all histories and clears those of age 0.
 class HistoryStates {
  public:
   HistoryStates(const GraphDesc& graph, const Plan& plan);
@@ -22,12 +22,12 @@ class HistoryStates {
   [[nodiscard]] HistoryStatus status(std::uint32_t history) const { return {ages_[history] != 0, ages_[history]}; }
   void reset(std::uint32_t history) { ages_[history] = 0; }
   void resetAll();
-  /// Say that a history goes on from another executor's.
+  /// Set the age of a history that is inherited from another executor.
   void inherit(std::uint32_t history, std::uint32_t age) { ages_[history] = age; }
-  /// Clear `previous` of every history without a valid frame behind it.
+  /// Clear `previous` of every history of age 0.
   void recordClears(const DeviceContext& device, VkCommandBuffer commandBuffer, const Resources& resources,
                     FrameIndex frame);
-  /// Say that a frame was recorded.
+  /// Note that a frame was recorded.
   void advance();
 
  private:

@@ -14,7 +14,7 @@ bool sameButForSize(TextureDesc a, const TextureDesc& b) {
   return a == b;
 }
 
-/// What the images of a history are made for, as `Resources` makes them.
+/// Usage flags that `Resources` creates the images of a history with.
 VkImageUsageFlags usageOf(const Plan& plan, const HistoryDecl& history) {
   return plan.resources[history.previous].imageUsage | plan.resources[history.current].imageUsage;
 }

@@ -10,7 +10,7 @@
 namespace fg::vk {
 namespace {
 
-/// Uses for which Vulkan allows a view to be made.
+/// Vulkan allows views only of images with one of these usage flags.
 constexpr VkImageUsageFlags kViewableUsage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT |
                                              VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT |
                                              VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT;

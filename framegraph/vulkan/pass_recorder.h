@@ -15,8 +15,8 @@ namespace fg::vk {
 class PassRecorder {
  public:
   struct Options {
-    bool poison = false;             ///< Fill transients where they take over their memory.
-    bool inheritsHistories = false;  ///< Images of histories may change.
+    bool poison = false;             ///< See `ExecutorOptions::poison`.
+    bool inheritsHistories = false;  ///< Images of previous histories may change.
   };
   /// @param pipelines must outlive the recorder
   PassRecorder(const DeviceContext& device, const GraphDesc& graph, const Plan& plan, const Resources& resources,
@@ -24,9 +24,9 @@ class PassRecorder {
   PassRecorder(const PassRecorder&) = delete;
   PassRecorder& operator=(const PassRecorder&) = delete;
 
-  /// Take constants and pipelines from a graph of the same topology. Nothing changes where this throws.
+  /// Take constants and pipelines from a graph of the same topology. If this throws, nothing has changed.
   void update(const GraphDesc& graph);
-  /// Say that an image changed.
+  /// Note that an image has changed.
   void invalidateImages() { descriptors_.invalidateImages(); }
   void record(VkCommandBuffer commandBuffer, FrameIndex frame, const HistoryStates& histories, Timestamps* timestamps);
 
@@ -35,7 +35,7 @@ class PassRecorder {
     const PassDecl* pass = nullptr;
     FillingBatch barriers;
     ComputePipeline pipeline;          ///< Null for callback passes.
-    std::vector<std::byte> constants;  ///< The declared ones; ages are filled in.
+    std::vector<std::byte> constants;  ///< Push constants; ages of histories are filled in.
   };
   static std::vector<Step> makeSteps(const DeviceContext& device, const GraphDesc& graph, const Plan& plan,
                                      Pipelines& pipelines, bool poison);
@@ -55,7 +55,7 @@ class PassRecorder {
   std::vector<Step> steps_;
   std::vector<std::uint32_t> callbackViews_;  ///< By resource: view of the whole texture, or kNone.
   Descriptors descriptors_;
-  RecordContext context_;  ///< What callbacks get.
+  RecordContext context_;  ///< Passed to callbacks.
 };
 
 }  // namespace fg::vk

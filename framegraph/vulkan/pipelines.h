@@ -10,17 +10,18 @@
 
 namespace fg::vk {
 
-/// A VkPipelineCache that may be kept in a file, so that the next start compiles nothing. Share one among executors.
+/// A VkPipelineCache that can be saved to a file, so that the next start compiles nothing. Executors can share one.
 class PipelineCache {
  public:
-  /// @param file where to load from and save to; empty for none. A file that is not there, is damaged, or is another
-  ///        device's or driver's counts as empty.
+  /// @param file file to load and save; empty for none. A file that is missing, damaged, or from another device or
+  /// driver
+  ///        is ignored.
   explicit PipelineCache(const DeviceContext& device, std::filesystem::path file = {});
 
   [[nodiscard]] VkPipelineCache handle() const { return cache_.get(); }
-  /// Bytes that the file contributed; 0 where it did not count.
+  /// Bytes that were loaded from the file; 0 if it was ignored.
   [[nodiscard]] std::size_t loadedBytes() const { return loaded_.size(); }
-  /// Write the file if anything was added, by way of a temporary name so that it is never half written.
+  /// Write the file if anything was added. It is first written under a temporary name, so that it is never incomplete.
   /// @throws std::filesystem::filesystem_error naming a file that cannot be written
   void save();
 
@@ -31,14 +32,14 @@ class PipelineCache {
   Owned<VkPipelineCache> cache_;
 };
 
-/// What is bound to run a shader.
+/// A pipeline and its layouts.
 struct ComputePipeline {
   VkPipeline pipeline = VK_NULL_HANDLE;
   VkPipelineLayout layout = VK_NULL_HANDLE;
   VkDescriptorSetLayout setLayout = VK_NULL_HANDLE;
 };
 
-/// Pipelines of a graph: one per shader and specialization, layouts one per shader.
+/// Creates and keeps pipelines, one per shader and specialization, and layouts, one per shader.
 class Pipelines {
  public:
   Pipelines(const DeviceContext& device, VkPipelineCache cache) : device_(&device), cache_(cache) {}

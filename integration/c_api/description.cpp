@@ -12,7 +12,7 @@
 namespace walr::api {
 namespace {
 
-constexpr std::uint32_t kLargestPicture = 16384;
+constexpr std::uint32_t kLargestExtent = 16384;
 constexpr std::uint32_t kMostFramesInFlight = 16;
 constexpr std::uint32_t kUsualFramesInFlight = 2;
 
@@ -41,9 +41,10 @@ HostConventions hostConventions(const WalrConventions& conventions) {
 }
 
 fg::Extent checkedExtent(std::uint32_t width, std::uint32_t height) {
-  if (width == 0 || height == 0 || width > kLargestPicture || height > kLargestPicture) {
-    throw Error(WALR_ERROR_INVALID_ARGUMENT, "a picture of " + std::to_string(width) + " x " + std::to_string(height) +
-                                                 " pixels: both must be 1 to " + std::to_string(kLargestPicture));
+  if (width == 0 || height == 0 || width > kLargestExtent || height > kLargestExtent) {
+    throw Error(WALR_ERROR_INVALID_ARGUMENT, "an image size of " + std::to_string(width) + " x " +
+                                                 std::to_string(height) + " pixels: both must be 1 to " +
+                                                 std::to_string(kLargestExtent));
   }
   return {width, height};
 }
@@ -55,7 +56,7 @@ std::uint32_t checkedSlots(std::uint32_t framesInFlight) {
 }
 
 /// Null for a whole method.
-/// @throws std::invalid_argument naming all methods and stages where it is neither
+/// @throws std::invalid_argument naming all methods and stages if it is neither
 std::unique_ptr<PassNode> stageNamed(std::string_view name) {
   const auto found = std::ranges::find(passTypes(), name, &PassType::name);
   return found != passTypes().end() && found->composition ? nullptr : makePass(name);
@@ -90,7 +91,7 @@ Description::Description(const WalrDenoiserInfo& info, Of of)
                formatOr(info.motion_format, 3),   formatOr(info.albedo_format, 4), formatOr(info.object_id_format, 5)},
       slots_(checkedSlots(info.frames_in_flight)) {
   if (info.preset != nullptr) usePreset(info.preset);
-  // Formats are refused here, and not when the first frame is recorded.
+  // Refuse wrong formats here and not when the first frame is recorded.
   fg::Graph scratch;
   (void)importInputs(scratch, extent_, inputConventions(), kInnerStates.inputs, formats_,
                      hostConventions(conventions_));
@@ -190,17 +191,17 @@ Constants Description::constants(const FrameStatement& frame) const {
 glm::ivec2 Description::checkedOffset(glm::uvec2 offset) const {
   if (offset == glm::uvec2(0)) return {};
   if (!rectangle()) {
-    throw Error(WALR_ERROR_INVALID_ARGUMENT, "an offset is given, but not stated by WalrConventions::rectangle");
+    throw Error(WALR_ERROR_INVALID_ARGUMENT, "WalrFrame::offset is not zero: set WalrConventions::rectangle");
   }
-  if (offset.x > kLargestPicture || offset.y > kLargestPicture) {
+  if (offset.x > kLargestExtent || offset.y > kLargestExtent) {
     throw Error(WALR_ERROR_INVALID_ARGUMENT, "an offset of (" + std::to_string(offset.x) + ", " +
                                                  std::to_string(offset.y) + ") pixels: each must be at most " +
-                                                 std::to_string(kLargestPicture));
+                                                 std::to_string(kLargestExtent));
   }
   return glm::ivec2(offset);
 }
 
-void Description::goOnFrom(const Description& last) {
+void Description::continueFrom(const Description& last) {
   lastCamera_ = last.lastCamera_;
   lastExtent_ = last.lastExtent_;
   frames_ = std::max(frames_, last.frames_);

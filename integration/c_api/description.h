@@ -21,31 +21,31 @@
 
 namespace walr::api {
 
-/// What the upload buffers of one frame hold.
+/// Contents of the upload buffers of one frame.
 struct Constants {
-  FrameDescription camera;  ///< What `frame` was made of.
+  FrameDescription camera;  ///< Source of `frame`.
   FrameConstants frame;
   HostConstants host;
 };
 
-/// What a host says of one frame, besides its images.
+/// A frame as the host describes it, without its images.
 struct FrameStatement {
   const WalrCamera* camera = nullptr;
-  const WalrCamera* previousCamera = nullptr;  ///< Null stands for the camera of the frame before.
+  const WalrCamera* previousCamera = nullptr;  ///< Null means the camera of the frame before.
   float skyDepth = 0.0F;
   float preExposure = 0.0F;
   glm::uvec2 offset{0};
 };
 
-/// What there is to be run, alone in a graph between the host's images.
+/// A graph that holds one method or stage between the host's images.
 struct ListedGraph {
   fg::Graph graph;
-  fg::Buffer frame;              ///< Upload of `Constants::frame`; invalid where nothing reads it.
-  fg::Buffer host;               ///< Upload of `Constants::host`; invalid where nothing reads it.
+  fg::Buffer frame;              ///< Upload of `Constants::frame`; invalid if nothing reads it.
+  fg::Buffer host;               ///< Upload of `Constants::host`; invalid if nothing reads it.
   std::vector<StagePort> ports;  ///< Of a single stage.
 };
 
-/// What a host says of a method, or of a single stage, and its pictures: a WalrDenoiserInfo, checked.
+/// A method or single stage and the host's images: the checked contents of a WalrDenoiserInfo.
 class Description {
  public:
   enum class Of : std::uint8_t { Methods, MethodsAndStages };
@@ -54,36 +54,36 @@ class Description {
 
   void resize(std::uint32_t width, std::uint32_t height);
 
-  /// The method between the host's images, which come and go in `kInnerStates`.
+  /// A graph of the method between the host's images, which have `kInnerStates` before and after it.
   /// @throws std::invalid_argument naming settings that contradict each other
-  /// @param lint count what looks wrong in the images as well
+  /// @param lint also count likely faults in the images
   [[nodiscard]] DenoiseGraph declare(bool lint = false) const;
-  /// The method or the stage between the host's images.
-  /// @param ports formats of what is connected to a stage's inputs, besides the host's images; none for a method
-  /// @throws as `declare` does; also naming a port that there is not, or conventions that a stage does not take
+  /// A graph of the method or the stage between the host's images.
+  /// @param ports formats of the images that are connected to a stage's other inputs; empty for a method
+  /// @throws as `declare` does; also naming an unknown port, or conventions that a stage does not accept
   [[nodiscard]] ListedGraph list(std::span<const WalrPortFormat> ports) const;
   [[nodiscard]] InputConventions inputConventions() const;
 
   /// Constants of the next frame.
-  /// @throws Error, or std::invalid_argument, naming what makes no sense
+  /// @throws Error, or std::invalid_argument, naming what is invalid
   [[nodiscard]] Constants constants(const FrameStatement& frame) const;
-  /// Say that the frame recorded last was one of another description.
-  void goOnFrom(const Description& last);
-  /// Say that a frame with this camera was recorded.
+  /// Take over camera, size and frame number of the frame that was recorded last with another description.
+  void continueFrom(const Description& last);
+  /// Note that a frame with this camera was recorded.
   void advance(const WalrCamera& camera);
 
   [[nodiscard]] Configurable& settings() const;
   /// @throws std::invalid_argument naming the unknown preset and the known ones
   void usePreset(std::string_view name);
-  /// Of the method or the stage.
+  /// Name of the method or the stage.
   [[nodiscard]] const std::string& methodName() const { return methodName_; }
   [[nodiscard]] fg::Extent extent() const { return extent_; }
-  /// Whether images may be larger than what is denoised.
+  /// Whether only a rectangle of the images is denoised.
   [[nodiscard]] bool rectangle() const { return conventions_.rectangle == VK_TRUE; }
   [[nodiscard]] std::uint32_t slots() const { return slots_; }
   /// Frames recorded so far.
   [[nodiscard]] std::uint64_t frames() const { return frames_; }
-  /// Slot of the next frame.
+  /// Slot (among the frames in flight) of the next frame.
   [[nodiscard]] std::uint32_t slot() const { return static_cast<std::uint32_t>(frames_ % slots_); }
 
  private:
@@ -102,7 +102,7 @@ class Description {
   std::optional<fg::Extent> lastExtent_;
 };
 
-/// @throws Error with the diagnostics where a graph does not compile
+/// @throws Error with the diagnostics if the graph does not compile
 fg::Plan compilePlan(const fg::Graph& graph, const fg::MemoryModel& memory, const fg::CompileOptions& options = {});
 
 }  // namespace walr::api

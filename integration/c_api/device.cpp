@@ -29,7 +29,7 @@ void requireCompute(const fg::vk::DeviceContext& context) {
   context.instance.vkGetPhysicalDeviceQueueFamilyProperties(context.view.physicalDevice, &count, families.data());
   if ((families.at(context.view.queueFamily).queueFlags & VK_QUEUE_COMPUTE_BIT) != 0) return;
   throw Error(WALR_ERROR_UNSUPPORTED, "queue family " + std::to_string(context.view.queueFamily) +
-                                          " does no compute: record for a queue of another family");
+                                          " does not support compute: use a queue of another family");
 }
 
 }  // namespace

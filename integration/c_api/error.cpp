@@ -10,7 +10,7 @@
 namespace walr::api {
 namespace {
 
-/// Fixed, so that saying what is wrong cannot fail.
+/// A fixed size, so that reporting an error cannot fail.
 constexpr std::size_t kTextSize = 2048;
 thread_local std::array<char, kTextSize> lastText{};
 

@@ -7,7 +7,7 @@
 
 namespace walr::api {
 
-/// An error with the code that the C API gives it.
+/// An error with its code in the C API.
 class Error final : public std::runtime_error {
  public:
   Error(WalrResult result, const std::string& message) : std::runtime_error(message), result_(result) {}
@@ -17,7 +17,8 @@ class Error final : public std::runtime_error {
   WalrResult result_;
 };
 
-/// The exception being handled as a code; its text becomes the thread's last error. Call in a catch block.
+/// Convert the exception that is being handled to a code and store its text as the thread's last error. Call it in a
+/// catch block.
 WalrResult translateException() noexcept;
 
 /// The thread's last error, with its terminating zero.
@@ -25,7 +26,7 @@ const char* lastError() noexcept;
 
 const char* resultName(WalrResult result) noexcept;
 
-/// Run the body of a C function: nothing is thrown out of it.
+/// Run the body of a C function and convert exceptions to codes.
 template <typename Action>
 WalrResult guarded(Action&& action) noexcept {
   try {

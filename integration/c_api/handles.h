@@ -11,8 +11,8 @@
 
 namespace walr::api {
 
-/// Objects behind the handles of the C API. A handle is a number that is never used again, so that every handle which
-/// does not name a living object is found out.
+/// Objects behind the handles of the C API. A handle is a number that is never reused, so every handle of a destroyed
+/// object is recognized.
 template <typename Handle, typename Object>
 class HandleTable {
  public:
@@ -25,8 +25,8 @@ class HandleTable {
     return reinterpret_cast<Handle>(number);
   }
 
-  /// Run an action on an object that nobody else is using.
-  /// @throws Error for a handle of nothing, and while another call is using the object
+  /// Run an action on an object, if no other call is using it.
+  /// @throws Error for an invalid handle, and while another call is using the object
   template <typename Action>
   void use(Handle handle, Action action) {
     const std::shared_ptr<Entry> entry = find(handle);
@@ -34,7 +34,7 @@ class HandleTable {
     action(*entry->object);
   }
 
-  /// The same as the body of a C function.
+  /// `use` as the body of a C function.
   template <typename Action>
   WalrResult call(Handle handle, Action action) noexcept {
     return guarded([&] { use(handle, action); });
@@ -85,11 +85,12 @@ class HandleTable {
   }
   [[noreturn]] void rejectDead() const {
     throw Error(WALR_ERROR_INVALID_HANDLE,
-                std::string(kind_) + " was destroyed before, or is a handle that was never made");
+                std::string(kind_) + " was destroyed before, or its handle was never created");
   }
   [[noreturn]] void rejectBusy() const {
     throw Error(WALR_ERROR_CONCURRENT_USE,
-                std::string(kind_) + " is in use: let the other thread's call, or the call that logs, return first");
+                std::string(kind_) +
+                    " is in use: wait until the other thread's call returns, and do not call it from a log callback");
   }
 
   const char* kind_;

@@ -12,7 +12,7 @@ namespace {
 constexpr VkImageLayout kInputLayout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
 constexpr VkImageLayout kOutputLayout = VK_IMAGE_LAYOUT_GENERAL;
 
-/// What the denoiser does with an image.
+/// How the denoiser accesses an image.
 struct InnerUse {
   VkAccessFlags2 access;
   VkImageLayout layout;
@@ -116,7 +116,7 @@ FrameImage checkedImage(std::size_t index, const WalrImage* given, const ImageNe
   }
   if ((image.usage & needs.usage) != needs.usage) {
     reject(index, "lacks usage flags " + std::to_string(needs.usage & ~image.usage) +
-                      ": make it with those of walr_get_image_requirements");
+                      ": create it with those of walr_get_image_requirements");
   }
   if (image.queue_family != VK_QUEUE_FAMILY_IGNORED && image.queue_family != queueFamily) {
     reject(index, "is owned by queue family " + std::to_string(image.queue_family) +
@@ -124,12 +124,12 @@ FrameImage checkedImage(std::size_t index, const WalrImage* given, const ImageNe
                       ": transfer its ownership first");
   }
   if (index != kOutputImage && !isStateLayout(image.acquire.layout)) {
-    reject(index, "comes in layout " + std::to_string(image.acquire.layout) +
-                      ", which has no contents: say in WalrImage::acquire how it was written");
+    reject(index, "is acquired in layout " + std::to_string(image.acquire.layout) +
+                      ", which has no contents: state in WalrImage::acquire how it was written");
   }
   fillRelease(index, image);
   if (!isStateLayout(image.release.layout)) {
-    reject(index, "cannot go back in layout " + std::to_string(image.release.layout));
+    reject(index, "cannot be released in layout " + std::to_string(image.release.layout));
   }
   return {.given = true, .image = image};
 }

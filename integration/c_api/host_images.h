@@ -12,31 +12,32 @@
 #include "framegraph/vulkan/device_context.h"
 #include "integration/denoise_graph.h"
 
-/// The host's images of one frame, and the barriers between its work and the denoiser's.
+/// The host's images of one frame, and the barriers between the host's work and the denoiser's.
 namespace walr::api {
 
-/// Positions of the images in arrays: `kHostInputs` and then the output.
+/// Arrays of images are ordered like `kHostInputs`, followed by the output.
 inline constexpr std::size_t kImageCount = std::tuple_size_v<decltype(kHostInputs)> + 1;
 inline constexpr std::size_t kOutputImage = kImageCount - 1;
 
-/// Name of an image as the C API's functions take it.
+/// Name of an image in the C API.
 std::string_view imageName(std::size_t index);
 /// @throws Error naming the unknown port and the known ones
 std::size_t imageIndex(std::string_view name);
 
-/// In which state the graph finds the images after `acquireBarriers` and leaves them before `releaseBarriers`.
+/// States of the images between `recordAcquire` and `recordRelease`.
 extern const HostStates kInnerStates;
 
-/// What an image must be for a graph.
+/// Requirements of a graph on an image.
 struct ImageNeeds {
   bool used = false;
   VkFormat format = VK_FORMAT_UNDEFINED;
   VkImageUsageFlags usage = 0;
   fg::Extent extent;
-  std::optional<std::array<std::uint32_t, 2>> offset = {};  ///< Where the extent starts in it; absent: it is as large.
+  std::optional<std::array<std::uint32_t, 2>> offset =
+      {};  ///< First pixel of the extent in the image; absent: sizes are equal.
 };
 
-/// An image as the host gave it, checked, with everything that it left open filled in.
+/// A checked image of the host, with defaults filled in.
 struct FrameImage {
   bool given = false;
   WalrImage image{};
@@ -47,9 +48,9 @@ FrameImage checkedImage(std::size_t index, const WalrImage* image, const ImageNe
 
 using FrameImages = std::array<FrameImage, kImageCount>;
 
-/// Take the images over from the host's work.
+/// Record the barriers from the host's work to the denoiser.
 void recordAcquire(const fg::vk::DeviceContext& device, VkCommandBuffer commandBuffer, const FrameImages& images);
-/// Give them back.
+/// Record the barriers from the denoiser to the host's work.
 void recordRelease(const fg::vk::DeviceContext& device, VkCommandBuffer commandBuffer, const FrameImages& images);
 
 }  // namespace walr::api

@@ -70,7 +70,7 @@ const HostedDenoiser::Declared& HostedDenoiser::declare() {
 HostedDenoiser::Declared HostedDenoiser::compile(DenoiseGraph graph) const {
   Declared declared;
   declared.graph = std::move(graph);
-  // What the device lacks is said for every format at once, before the driver is asked for memory.
+  // Report all formats that the device lacks at once, before memory requirements are queried.
   const fg::Plan portable = compilePlan(declared.graph.graph, fg::TableMemoryModel());
   fg::vk::require(device_.physical(), fg::vk::formatUses(declared.graph.graph.desc(), portable));
   declared.plan = compilePlan(declared.graph.graph, fg::vk::DriverMemoryModel(device_.context()));
@@ -133,19 +133,20 @@ void HostedDenoiser::prepare() {
   build();
 }
 
-/// Frames in flight may still use what was built.
+/// Keep what was built for as long as frames in flight may use it.
 void HostedDenoiser::retire() {
   if (built_ && built_->lastFrame) retired_.push_back(std::move(*built_));
   built_.reset();
 }
 
-/// What recorded the last frame, where the next frame needs it: to be made from it, or to go on from its histories.
+/// The `Built` that recorded the last frame, if the next frame needs it: to create the next executor from it, or
+/// because the next frame reads its histories.
 HostedDenoiser::Built* HostedDenoiser::predecessor() {
   const bool needed = !built_ || (built_->inherits && !built_->lastFrame);
   return needed && !retired_.empty() ? &retired_.back() : nullptr;
 }
 
-/// The host has waited for the frame that was recorded `frames_in_flight` frames before the one it is about to record.
+/// Destroy what finished frames used: the host has waited for the frame that is `frames_in_flight` before the next one.
 void HostedDenoiser::dropFinished() {
   const auto end = predecessor() != nullptr ? std::prev(retired_.end()) : retired_.end();
   const auto finished = [&](const Built& built) {
@@ -176,7 +177,7 @@ FrameImages HostedDenoiser::checkedImages(const WalrFrame& frame) const {
   for (std::size_t i = 0; i < kOutputImage; ++i) {
     if (images[i].given && images[i].image.image == images[kOutputImage].image.image) {
       throw Error(WALR_ERROR_INVALID_ARGUMENT,
-                  "image '" + std::string(imageName(i)) + "' is also the output: make an image of its own for that");
+                  "image '" + std::string(imageName(i)) + "' is also the output: use another image for the output");
     }
   }
   return images;
@@ -231,7 +232,7 @@ void HostedDenoiser::record(VkCommandBuffer commandBuffer, const WalrFrame& fram
   description_.advance(*frame.camera);
 }
 
-/// The host has waited for the frame that was recorded with the slot of the next one.
+/// Read the counts of the frame that used the slot of the next one: the host has waited for it.
 void HostedDenoiser::collectFindings() {
   if (!lint_) return;
   for (const LintFinding& finding : built_->lint->collect(description_.slot())) {
@@ -241,7 +242,7 @@ void HostedDenoiser::collectFindings() {
 
 std::span<const LintFinding> HostedDenoiser::findings() const {
   if (!lint_) {
-    throw Error(WALR_ERROR_WRONG_ORDER, "inputs are not looked at: make the denoiser with WalrDenoiserInfo::lint");
+    throw Error(WALR_ERROR_WRONG_ORDER, "inputs are not checked: create the denoiser with WalrDenoiserInfo::lint");
   }
   return built_ ? std::span(built_->lint->findings()) : std::span<const LintFinding>();
 }
@@ -259,7 +260,7 @@ WalrImageState HostedDenoiser::releaseState(std::string_view image) const {
 }
 
 WalrMemory HostedDenoiser::memory() const {
-  if (!built_) throw Error(WALR_ERROR_WRONG_ORDER, "nothing is made yet: call walr_prepare before");
+  if (!built_) throw Error(WALR_ERROR_WRONG_ORDER, "no memory is allocated yet: call walr_prepare before");
   WalrMemory memory{};
   memory.allocated = built_->executor->allocatedBytes();
   memory.persistent = built_->memory.persistentBytes;

@@ -17,10 +17,10 @@
 
 namespace walr::api {
 
-/// A denoiser that records into a host's command buffers: what is behind a WalrDenoiser.
+/// The object behind a WalrDenoiser: a denoiser that records into a host's command buffers.
 class HostedDenoiser {
  public:
-  /// @throws what is wrong with the description
+  /// @throws as `Description` does
   explicit HostedDenoiser(const WalrDenoiserInfo& info);
 
   void resize(std::uint32_t width, std::uint32_t height);
@@ -38,24 +38,24 @@ class HostedDenoiser {
   [[nodiscard]] std::span<const LintFinding> findings() const;
 
  private:
-  /// The graph with some settings and a size, and what is known of it before anything is made.
+  /// The graph for given settings and size, with its plan. It needs no Vulkan object.
   struct Declared {
     DenoiseGraph graph;
     fg::Plan plan;
     std::array<fg::Texture, kImageCount> images;
     std::array<ImageNeeds, kImageCount> needs;
   };
-  /// What was made for it.
+  /// The Vulkan objects for a `Declared`.
   struct Built {
     std::unique_ptr<fg::vk::Executor> executor;
-    std::shared_ptr<HostedLint> lint;  ///< Null unless asked for; of several executors, where history goes on.
+    std::shared_ptr<HostedLint> lint;  ///< Null without lint; shared among executors if the history is kept.
     fg::MemoryReport memory;
     fg::Extent extent;
-    bool inherits = false;                   ///< Its first frame goes on from the last of what was retired last.
-    std::optional<std::uint64_t> lastFrame;  ///< That uses it.
+    bool inherits = false;  ///< Its first frame reads the histories of the `Built` that was retired last.
+    std::optional<std::uint64_t> lastFrame;  ///< Number of the last frame that uses it.
   };
 
-  /// The graph with the present settings and size. Where only constants differ from the last one, its plan is kept.
+  /// The graph for the current settings and size. If only constants differ from the last one, its plan is kept.
   const Declared& declare();
   Declared compile(DenoiseGraph graph) const;
   void build();
@@ -77,11 +77,11 @@ class HostedDenoiser {
   WalrLog log_;
   void* logUser_;
 
-  std::optional<Declared> declared_;  ///< Last.
+  std::optional<Declared> declared_;  ///< The latest.
   bool stale_ = true;                 ///< Settings or size may have changed since.
-  bool updates_ = false;              ///< Constants of `declared_` are still to be handed to the executor.
+  bool updates_ = false;              ///< The executor does not have the constants of `declared_` yet.
   std::optional<Built> built_;        ///< For the topology of `declared_`.
-  std::vector<Built> retired_;        ///< By age.
+  std::vector<Built> retired_;        ///< In use by frames in flight; the oldest first.
   bool resetRequested_ = false;
   FrameImages lastImages_{};
 };

@@ -15,21 +15,21 @@ namespace walr::api {
 /// The check of a host's inputs while it renders: reads the counts of each frame once the GPU has finished it.
 class HostedLint {
  public:
-  /// @param usage  that the graph's import which receives the counts must have
+  /// @param usage  usage flags of the graph's import that receives the counts
   /// @param device must outlive the object
   HostedLint(const fg::vk::DeviceContext& device, VkBufferUsageFlags usage, const InputConventions& conventions,
              std::uint32_t slots);
 
-  /// Receives the counts.
+  /// The buffer that receives the counts.
   [[nodiscard]] VkBuffer counters() const { return counters_.handle(); }
 
-  /// Read what the frame last recorded with a slot has left, which the GPU must have finished.
-  /// @returns findings of a kind that was not found before
+  /// Evaluate the counts of the frame recorded last with a slot. The GPU must have finished it.
+  /// @returns findings with names that were not found before
   std::vector<LintFinding> collect(std::uint32_t slot);
   /// Record before the graph.
   void recordBefore(VkCommandBuffer commandBuffer) const;
   /// Record after the graph.
-  /// @param camera of a frame that has one before it; else nothing
+  /// @param camera nothing for a frame without a previous frame
   void recordAfter(VkCommandBuffer commandBuffer, std::uint32_t slot, const std::optional<FrameDescription>& camera,
                    fg::Extent extent);
 

@@ -19,7 +19,7 @@ HostedPasses::HostedPasses(const WalrDenoiserInfo& info, std::span<const WalrSet
   }
   if (info.device != nullptr) device_ = std::make_unique<HostDevice>(info.device);
   graph_ = description_.list(ports);
-  // A host makes one image for each resource of the list, and swaps histories' alone.
+  // A host creates one image for each resource and swaps only those of histories, so transients cannot alias histories.
   constexpr fg::CompileOptions kOneImageEach = {.aliasHistories = false};
   plan_ = compilePlan(graph_.graph, fg::TableMemoryModel(), kOneImageEach);
   if (device_) {
@@ -33,23 +33,24 @@ HostedPasses::HostedPasses(const WalrDenoiserInfo& info, std::span<const WalrSet
   }
 }
 
-void HostedPasses::goOnFrom(const HostedPasses& last) {
+void HostedPasses::continueFrom(const HostedPasses& last) {
   if (description_.methodName() != last.description_.methodName()) {
-    throw Error(WALR_ERROR_INVALID_ARGUMENT, "the passes to go on from are those of method '" +
+    throw Error(WALR_ERROR_INVALID_ARGUMENT, "the passes to continue from are those of method '" +
                                                  last.description_.methodName() +
-                                                 "': make both with the same method and conventions");
+                                                 "': create both with the same method and conventions");
   }
   const bool resizes = description_.rectangle() && last.description_.rectangle();
   if (!resizes && description_.extent() != last.description_.extent()) {
-    throw Error(WALR_ERROR_INVALID_ARGUMENT, "passes of another size, but not stated by WalrConventions::rectangle");
+    throw Error(WALR_ERROR_INVALID_ARGUMENT,
+                "the passes have different sizes: create both with WalrConventions::rectangle");
   }
   if (last.description_.frames() == 0) {
-    throw Error(WALR_ERROR_WRONG_ORDER, "the passes to go on from have had no frame: call walr_begin_frame on them");
+    throw Error(WALR_ERROR_WRONG_ORDER, "the passes to continue from have had no frame: call walr_begin_frame on them");
   }
-  description_.goOnFrom(last.description_);
+  description_.continueFrom(last.description_);
   if (recording_ && last.recording_) {
     const auto inherited = fg::vk::inheritedHistories(graph_.graph.desc(), plan_, last.graph_.graph.desc(), last.plan_);
-    recording_->goOnFrom(*last.recording_, inherited);
+    recording_->continueFrom(*last.recording_, inherited);
   }
   constants_.reset();
 }
@@ -77,7 +78,7 @@ std::span<const std::byte> HostedPasses::frameConstants(std::uint32_t resource) 
 void HostedPasses::record(std::uint32_t pass, VkCommandBuffer commandBuffer,
                           std::span<const WalrPassResource> resources) {
   if (!recording_) {
-    throw Error(WALR_ERROR_WRONG_ORDER, "these passes were made without a device: they can be listed only");
+    throw Error(WALR_ERROR_WRONG_ORDER, "these passes were created without a device: they can only be listed");
   }
   if (!constants_) throw Error(WALR_ERROR_WRONG_ORDER, "there is no frame yet: call walr_begin_frame before");
   if (commandBuffer == VK_NULL_HANDLE) throw Error(WALR_ERROR_INVALID_ARGUMENT, "the command buffer is null");

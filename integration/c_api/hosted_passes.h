@@ -14,21 +14,22 @@
 
 namespace walr::api {
 
-/// A method or a single stage spelled out for a host that schedules by itself: what is behind a WalrPasses.
+/// The object behind a WalrPasses: the passes of a method or a single stage, for a host that schedules them itself.
 class HostedPasses {
  public:
-  /// @throws what is wrong with the description
+  /// @throws as `Description` does
   /// @param ports see `Description::list`
   HostedPasses(const WalrDenoiserInfo& info, std::span<const WalrSettingValue> settings,
                std::span<const WalrPortFormat> ports);
 
   [[nodiscard]] const WalrPassList& list() const { return list_->list(); }
-  /// Let the next frame go on from the last one of other passes: of another size, or with other settings.
-  /// @throws Error where those have no frame, or are of another size that was not stated to change
-  void goOnFrom(const HostedPasses& last);
+  /// Continue from the last frame of other passes, which have another size or other settings.
+  /// @throws Error if those have had no frame, are of another method, or are of another size without
+  ///         WalrConventions::rectangle
+  void continueFrom(const HostedPasses& last);
   void beginFrame(const WalrPassFrame& frame);
   /// Contents of an upload buffer.
-  /// @throws Error before the first frame, and for another resource
+  /// @throws Error before the first frame, and for a resource that is not an upload
   [[nodiscard]] std::span<const std::byte> frameConstants(std::uint32_t resource) const;
   void record(std::uint32_t pass, VkCommandBuffer commandBuffer, std::span<const WalrPassResource> resources);
   void forget(VkImage image, std::uint64_t identity);

@@ -116,7 +116,7 @@ const WalrBinding* const* PassList::addBindings(const fg::PassDecl& pass, const 
     binding.access = info.mask();
     binding.layout = info.layout;
     binding.filter = access->filter;
-    // Hosts that place barriers by bindings then need not know of indirect dispatches.
+    // With this, hosts that derive barriers from bindings need no special case for indirect dispatches.
     if (indirect.valid() && indirect.resource == access->resource) {
       const fg::AccessInfo& arguments = fg::accessInfo(fg::Access::IndirectRead);
       binding.stage |= arguments.stage;

@@ -12,11 +12,12 @@
 
 namespace walr::api {
 
-/// A compiled graph as the plain data of walr_passes.h. Points into the graph, which must outlive it unchanged.
+/// Converts a compiled graph to the plain data of walr_passes.h. The data points into the graph, which must outlive it
+/// unchanged.
 class PassList {
  public:
-  /// @param ports of a single stage; they must outlive the list, too
-  /// @throws Error where the graph has a pass that is not a compute dispatch
+  /// @param ports of a single stage; they must also outlive the list
+  /// @throws Error if the graph has a pass that is not a compute dispatch
   PassList(const fg::GraphDesc& graph, const fg::Plan& plan, std::span<const StagePort> ports);
   PassList(const PassList&) = delete;
   PassList& operator=(const PassList&) = delete;
@@ -29,7 +30,7 @@ class PassList {
   const WalrBarrier* addBarriers(const std::vector<fg::PlannedBarrier>& planned);
   const WalrBinding* const* addBindings(const fg::PassDecl& pass, const fg::Shader& shader);
 
-  // Deques, so that what is pointed to stays where it is.
+  // Deques never move their elements, which `list_` points to.
   std::deque<std::string> texts_;
   std::deque<WalrResource> resources_;
   std::deque<WalrBinding> bindings_;

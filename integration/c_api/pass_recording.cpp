@@ -17,13 +17,13 @@ bool isPrevious(const WalrResource& resource) {
   return resource.kind == WALR_RESOURCE_HISTORY_PREVIOUS;
 }
 
-/// Whether a binding may be used in a layout.
+/// Whether a binding's image may be in a layout.
 bool allows(const WalrBinding& binding, VkImageLayout layout) {
   if (layout == VK_IMAGE_LAYOUT_GENERAL || layout == binding.layout) return true;
   return layout == VK_IMAGE_LAYOUT_READ_ONLY_OPTIMAL && binding.layout == VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
 }
 
-/// The buffer that an indirect dispatch takes its group counts from, which it binds, too.
+/// The buffer with the group counts of an indirect dispatch, which is also one of its bindings.
 VkBuffer groupCounts(const WalrDispatch& pass, std::span<const WalrPassResource> resources) {
   for (std::uint32_t i = 0; i < pass.binding_count; ++i) {
     if (pass.bindings[i]->resource == pass.indirect) return resources[i].buffer;
@@ -84,7 +84,7 @@ void PassRecording::makeSets() {
   sets_.emplace(*device_, layouts, types, slots_);
 }
 
-void PassRecording::goOnFrom(const PassRecording& last, std::span<const fg::vk::InheritedHistory> inherited) {
+void PassRecording::continueFrom(const PassRecording& last, std::span<const fg::vk::InheritedHistory> inherited) {
   ages_.clear();
   for (const auto& [history, before] : inherited) {
     const auto known = last.ages_.find(last.graph_->histories[before].previous);
@@ -175,8 +175,8 @@ void PassRecording::clear(VkCommandBuffer commandBuffer, const Zeros& zeros) con
   device_->functions.vkCmdPipelineBarrier2(commandBuffer, &dependency);
 }
 
-/// Made when first needed and let go once no frame in flight reads it: histories are seldom null. Every pass has zeros
-/// of its own, as hosts record passes in any order, and the one that clears must come first on the queue.
+/// Created on demand and destroyed when no frame in flight reads it, because histories are rarely null. Every pass has
+/// its own zeros: hosts record passes in any order, and the pass that clears must run first on the queue.
 VkImageView PassRecording::zeros(const WalrDispatch& pass, std::uint32_t resource, VkCommandBuffer commandBuffer) {
   auto known = zeros_.find({&pass, resource});
   if (known == zeros_.end()) {
@@ -233,7 +233,7 @@ void PassRecording::writeSet(VkDescriptorSet set, const WalrDispatch& pass, std:
                                             writes.data(), 0, nullptr);
 }
 
-/// A history is a frame older in every frame that has it, and new where the host has none.
+/// The age of a history grows by one in every frame that binds it, and restarts at 0 when the host binds null.
 void PassRecording::noteAge(const WalrBinding& binding, const WalrPassResource& given) {
   if (!isPrevious(*list_->resources[binding.resource])) return;
   auto& [age, frame] = ages_[binding.resource];

@@ -17,7 +17,7 @@
 
 namespace walr::api {
 
-/// What it takes to bind and dispatch the passes of a list one at a time, with resources that are all the host's.
+/// Binds and dispatches the passes of a list one at a time. All resources are the host's, except uploads.
 class PassRecording {
  public:
   /// @param cache optional; must outlive the constructor
@@ -26,9 +26,9 @@ class PassRecording {
   PassRecording(const PassRecording&) = delete;
   PassRecording& operator=(const PassRecording&) = delete;
 
-  /// Take over the ages of histories from the passes before.
-  void goOnFrom(const PassRecording& last, std::span<const fg::vk::InheritedHistory> inherited);
-  /// Begin a frame in a slot whose last frame the GPU has finished.
+  /// Take over the ages of histories from other passes.
+  void continueFrom(const PassRecording& last, std::span<const fg::vk::InheritedHistory> inherited);
+  /// Begin a frame. The GPU must have finished the last frame with the same slot.
   void begin(std::uint64_t frame);
   /// Indices of the upload buffers that passes read.
   [[nodiscard]] std::vector<std::uint32_t> uploads() const;
@@ -39,7 +39,7 @@ class PassRecording {
   void forget(std::uint64_t identity);
 
  private:
-  /// Zeros in place of a history that the host does not have.
+  /// An image of zeros in place of a history that the host does not have.
   struct Zeros {
     fg::vk::Owned<VkImage> image;
     fg::vk::MemoryArena memory;
@@ -58,7 +58,8 @@ class PassRecording {
   [[nodiscard]] std::uint32_t slot() const { return static_cast<std::uint32_t>(frame_ % slots_); }
   void makeUploads(const WalrPassList& list);
   void makeSets();
-  /// @throws Error naming what the host left out; nothing is recorded then
+  /// Check all resources before anything is recorded.
+  /// @throws Error naming a resource that is missing or in a wrong layout
   void requireResources(const WalrDispatch& pass, std::span<const WalrPassResource> resources) const;
   VkImageView view(std::uint32_t resource, const WalrPassResource& given);
   VkImageView zeros(const WalrDispatch& pass, std::uint32_t resource, VkCommandBuffer commandBuffer);
@@ -78,11 +79,11 @@ class PassRecording {
   std::vector<fg::vk::ComputePipeline> passPipelines_;  ///< By pass.
   fg::vk::Owned<VkSampler> nearest_;
   fg::vk::Owned<VkSampler> linear_;
-  std::optional<fg::vk::DescriptorSets> sets_;  ///< A copy for each slot.
-  std::vector<std::uint64_t> recordedFrame_;    ///< By pass: the frame it was recorded in last, plus 1.
-  std::map<std::pair<std::uint64_t, std::uint32_t>, fg::vk::Owned<VkImageView>> views_;  ///< By identity, resource.
+  std::optional<fg::vk::DescriptorSets> sets_;  ///< One per pass and slot.
+  std::vector<std::uint64_t> recordedFrame_;    ///< By pass: number of the last frame that has it, plus 1.
+  std::map<std::pair<std::uint64_t, std::uint32_t>, fg::vk::Owned<VkImageView>> views_;  ///< By identity and resource.
   std::map<std::pair<const WalrDispatch*, std::uint32_t>, Zeros> zeros_;                 ///< By pass and resource.
-  std::map<std::uint32_t, std::pair<std::uint32_t, std::uint64_t>> ages_;  ///< By resource: age, and frame it is of.
+  std::map<std::uint32_t, std::pair<std::uint32_t, std::uint64_t>> ages_;  ///< By resource: age and its frame.
   fg::vk::MemoryArena uploadMemory_;
   std::map<std::uint32_t, std::vector<Upload>> uploads_;  ///< By resource and slot.
 };

@@ -39,8 +39,8 @@ WalrResult walr_get_pass_list(WalrPasses passes, const WalrPassList** list) {
 
 WalrResult walr_continue_passes(WalrPasses passes, WalrPasses last) {
   return allPasses().call(passes, [&](HostedPasses& object) {
-    if (passes == last) throw Error(WALR_ERROR_INVALID_ARGUMENT, "passes go on from themselves without being told");
-    allPasses().use(last, [&](const HostedPasses& before) { object.goOnFrom(before); });
+    if (passes == last) throw Error(WALR_ERROR_INVALID_ARGUMENT, "passes cannot continue from themselves");
+    allPasses().use(last, [&](const HostedPasses& before) { object.continueFrom(before); });
   });
 }
 

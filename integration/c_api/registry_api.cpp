@@ -10,7 +10,7 @@
 namespace walr::api {
 namespace {
 
-/// The registry's pass types as C structures. Strings are the registry's own, which lives as long as the program.
+/// The registry's pass types as C structures. Their strings are those of the registry and live as long as the program.
 class PassTypeTable {
  public:
   PassTypeTable() {
@@ -81,7 +81,7 @@ class PassTypeTable {
             .source = setting.source.c_str()};
   }
 
-  // Deques, so that what is pointed to stays where it is.
+  // Deques never move their elements, which others point to.
   std::deque<WalrPort> allPorts_;
   std::deque<WalrSetting> allSettings_;
   std::deque<std::vector<const WalrPort*>> ports_;

@@ -11,10 +11,10 @@
 
 #include "integration/c_api/error.h"
 
-/// Structures that grow from version to version: `struct_size` says how much of one the caller knows.
+/// Structures that may grow with every version: `struct_size` is the size that the caller knows.
 namespace walr::api {
 
-/// Size of a structure in the first version that had it: nobody can know less.
+/// Size of a structure in the first version that had it. No caller can know less.
 template <typename Struct>
 inline constexpr std::uint32_t kLeastSize = sizeof(Struct);
 template <>
@@ -28,7 +28,7 @@ inline constexpr std::uint32_t kLeastSize<WalrPassesInfo> = offsetof(WalrPassesI
 template <>
 inline constexpr std::uint32_t kLeastSize<WalrPassFrame> = offsetof(WalrPassFrame, offset);
 
-/// More than any structure will ever have: a larger size was never set.
+/// Larger than any structure will ever be. A larger `struct_size` is an uninitialized one.
 inline constexpr std::uint32_t kMostSize = 1U << 16;
 
 template <typename Struct>
@@ -42,8 +42,8 @@ std::uint32_t structSize(const Struct* given, const char* name) {
   return size;
 }
 
-/// What the caller gave; what it does not know of is zero.
-/// @throws Error for null, for a size that was not set, and for fields in use that this version does not know
+/// Copy a structure of the caller. Fields that the caller does not know are zero.
+/// @throws Error for null, for a size that was not set, and for nonzero fields that this version does not know
 template <typename Struct>
 Struct readStruct(const Struct* given, const char* name) {
   const std::uint32_t size = structSize(given, name);
@@ -59,13 +59,13 @@ Struct readStruct(const Struct* given, const char* name) {
   return known;
 }
 
-/// The same for an optional structure.
+/// `readStruct` for an optional structure: null gives zeros.
 template <typename Struct>
 Struct readOptional(const Struct* given, const char* name) {
   return given == nullptr ? Struct{} : readStruct(given, name);
 }
 
-/// Fill in as much as the caller knows of.
+/// Write those fields that the caller knows.
 template <typename Struct>
 void writeStruct(Struct* target, Struct value, const char* name) {
   const std::uint32_t size = structSize(target, name);
@@ -73,7 +73,7 @@ void writeStruct(Struct* target, Struct value, const char* name) {
   std::memcpy(target, &value, std::min<std::size_t>(size, sizeof(Struct)));
 }
 
-/// @throws Error where an enumeration holds none of its values
+/// @throws Error if an enumeration holds none of its values
 template <typename Enum>
 Enum checkedEnum(Enum value, Enum last, const char* name) {
   const auto number = static_cast<std::int64_t>(value);
@@ -82,21 +82,22 @@ Enum checkedEnum(Enum value, Enum last, const char* name) {
                                                std::to_string(static_cast<std::int64_t>(last)));
 }
 
-/// @throws Error where a string is null
+/// @throws Error if a string is null
 inline std::string_view requireText(const char* text, const char* name) {
   if (text == nullptr) throw Error(WALR_ERROR_INVALID_ARGUMENT, std::string(name) + " is null");
   return text;
 }
 
-/// @throws Error where an address is null
+/// @throws Error if an address is null
 template <typename T>
 T& required(T* pointer, const char* name) {
   if (pointer == nullptr) throw Error(WALR_ERROR_INVALID_ARGUMENT, std::string(name) + " is null");
   return *pointer;
 }
 
-/// Give bytes to a caller who says how many it has room for and is told how many there are.
-/// @throws Error where the room is too small
+/// Copy bytes to the caller.
+/// @param size in: bytes at `target`; out: `count`
+/// @throws Error if `target` is too small
 inline void copyOut(const void* bytes, std::size_t count, void* target, std::size_t* size) {
   std::size_t& room = required(size, "the size's address");
   const std::size_t given = room;

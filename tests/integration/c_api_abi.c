@@ -1,5 +1,5 @@
-/* The layout of every structure of the API on 64-bit targets, as callers of version 0.1 were compiled with it.
- * Structures with struct_size may grow at their end; nothing that is listed here may ever move. */
+/* Checks the layout of every structure of the API on 64-bit targets against that of version 0.1, which callers were
+ * compiled with. Structures with struct_size may grow at their end; no field listed here may ever move. */
 #include <stddef.h>
 
 #include <walr/walr_plugin.h>

@@ -1,4 +1,4 @@
-/* Wrong use of the C API: always a code and a text, never a crash, and nothing is recorded. */
+/* Misuse of the C API always gives an error code and a text. It never crashes, and nothing is recorded. */
 #include <math.h>
 #include <stddef.h>
 #include <stdio.h>
@@ -90,7 +90,7 @@ static WalrFrame frame_of(const Images* images) {
                      .camera = &kCamera};
 }
 
-/* After a frame the images are as they were released. */
+/* After a frame the images are in their release states. */
 static void follow(Images* images, WalrDenoiser denoiser) {
   for (int i = 0; i < 6; ++i) {
     WalrImageState state;
@@ -175,7 +175,7 @@ static void test_create(const WalrDevice* device) {
   EXPECT(walr_create_denoiser(&info, &denoiser), WALR_ERROR_INVALID_ARGUMENT, "motion_scale");
   EXPECT_TRUE(denoiser == NULL);
 
-  /* A caller of a later version: fine as long as it asks for nothing that this one does not know. */
+  /* A caller with a newer header works as long as it sets no field that this version does not know. */
   struct {
     WalrDenoiserInfo info;
     uint64_t later;
@@ -187,8 +187,8 @@ static void test_create(const WalrDevice* device) {
   EXPECT_OK(walr_destroy_denoiser(denoiser));
 }
 
-/* Object numbers are there where their format is given, and needed where the method asks for them. A caller who was
- * compiled before they were has none. */
+/* Object ids exist if their format is given, and are required if the method reads them. A caller with an older header
+ * has none. */
 static void test_object_ids(const WalrDevice* device) {
   for (int given = 0; given < 2; ++given) {
     for (int reads = 0; reads < 2; ++reads) {
@@ -211,7 +211,7 @@ static void test_object_ids(const WalrDevice* device) {
   EXPECT(walr_create_denoiser(&info, &denoiser), WALR_ERROR_INVALID_ARGUMENT, "'object_id' cannot be of format");
 }
 
-/* A frame with object numbers, and one of a caller who knows of none where the denoiser needs them. */
+/* A frame with object ids, and one of a caller with an older header although the denoiser needs them. */
 static void test_object_id_frames(Host* host, const WalrDevice* device) {
   WalrDenoiser denoiser;
   WalrDenoiserInfo info = info_of(device);
@@ -290,7 +290,7 @@ static void test_settings(WalrDenoiser denoiser) {
   EXPECT_TRUE(strcmp(value, "0.75") == 0);
   EXPECT(walr_get_setting(denoiser, "magic", value, &size), WALR_ERROR_INVALID_ARGUMENT, "\"magic\"");
   EXPECT(walr_resize(denoiser, 0, 1), WALR_ERROR_INVALID_ARGUMENT, "0 x 1");
-  /* Settings that contradict each other are found when they are put to use, and can be mended. */
+  /* Settings that contradict each other are reported when they are first used, and can be corrected. */
   EXPECT_OK(walr_set_setting(denoiser, "blocks.plane-near", "0.5"));
   EXPECT(walr_prepare(denoiser), WALR_ERROR_INVALID_ARGUMENT, "blocks.plane-near must be below blocks.plane-far");
   EXPECT_OK(walr_set_setting(denoiser, "blocks.plane-near", "0.0015"));
@@ -363,7 +363,8 @@ static void test_frames(Host* host, WalrDenoiser denoiser) {
   frame.denoised = &image;
   EXPECT(walr_record(denoiser, commands, &frame), WALR_ERROR_INVALID_ARGUMENT, "also the output");
 
-  /* After all that, a frame. Then one of another size, while this one might still be in flight. */
+  /* The denoiser still works after all these errors: record a frame, then one of another size while the first may still
+   * be in flight. */
   EXPECT_OK(walr_record(denoiser, commands, &good));
   host_submit_and_wait(host, commands);
   follow(&images, denoiser);
@@ -389,7 +390,7 @@ static void test_frames(Host* host, WalrDenoiser denoiser) {
   EXPECT_TRUE(memory.retired > 0);
   host_submit_and_wait(host, again);
   follow(&images, denoiser);
-  /* The second frame went on from the history of the first, which lives until the second is known to be finished. */
+  /* The second frame reads the history of the first, which is kept until the second has finished. */
   for (int i = 0; i < 2; ++i) {
     const VkCommandBuffer later = host_begin(host);
     EXPECT_OK(walr_record(denoiser, later, &next));
@@ -428,7 +429,7 @@ static void test_rectangle(Host* host, const WalrDevice* device) {
   for (int i = 0; i < 6; ++i) host_destroy_image(host, &images.host[i]);
 }
 
-/* A second thread comes while the first is inside a call: it logs, and is thus known to be there. */
+/* A second thread calls while the first is inside a call. The first one's log callback shows that it is. */
 typedef struct Intruder {
   WalrDenoiser denoiser;
   WalrResult prepare;

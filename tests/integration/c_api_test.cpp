@@ -1,4 +1,4 @@
-// What comes out of the C API: the pixels of our own executor, and its history.
+// The C API gives the same pixels and histories as our own executor.
 #include <cmath>
 #include <cstring>
 
@@ -18,7 +18,7 @@ using reference::Image;
 
 constexpr glm::ivec2 kSize(53, 37);
 
-/// A camera that walks past a sphere, so that history is found, moved and lost.
+/// A camera that moves past a sphere, so that some history is reprojected and some is disoccluded.
 FrameDescription walkingCamera(std::uint32_t frame, glm::ivec2 size) {
   const glm::dvec3 step(0.06, 0.02, -0.03);
   return cameraAt(double(frame) * step, (double(frame) - 1.0) * step, size, frame);
@@ -38,7 +38,7 @@ void fill(HostedRun& run, const HostFrame& frame) {
   run.fill("albedo", bytesOf(encodeHalves(frame.albedo)));
 }
 
-/// Number of pixels whose four channels are not the same numbers.
+/// Number of pixels that differ in any channel.
 int differing(const Image<glm::dvec4>& a, const Image<glm::dvec4>& b) {
   int count = 0;
   reference::forEachPixel(a.size(), [&](glm::ivec2 p) { count += a[p] == b[p] ? 0 : 1; });
@@ -74,7 +74,7 @@ TEST_P(CApiMethod, GivesThePixelsOfOurOwnExecutorThroughResetAndResize) {
 }
 INSTANTIATE_TEST_SUITE_P(Methods, CApiMethod, testing::ValuesIn(denoiserNames()));
 
-TEST_F(CApi, AResetForgetsThePastAndNewSettingsDoNot) {
+TEST_F(CApi, ResetDropsTheHistoryAndNewSettingsKeepIt) {
   const FrameDescription camera = cameraAt({}, {}, kSize, 0);
   const HostFrame first = renderFrame(flatWall(), camera, kSize);
   const HostFrame second = renderFrame(flatWall(), cameraAt({}, {}, kSize, 7), kSize);
@@ -92,13 +92,13 @@ TEST_F(CApi, AResetForgetsThePastAndNewSettingsDoNot) {
   const std::vector<std::uint16_t> both = secondAfterFirst([](WalrDenoiser) {});
   EXPECT_NE(both, alone);
   EXPECT_EQ(secondAfterFirst([](WalrDenoiser denoiser) { require(walr_reset_history(denoiser)); }), alone);
-  // Two frames are fewer than either number.
+  // Two frames are fewer than both history lengths.
   EXPECT_EQ(secondAfterFirst(
                 [](WalrDenoiser denoiser) { require(walr_set_setting(denoiser, "accumulation.max-history", "7")); }),
             both);
 }
 
-TEST_F(CApi, TakesOtherFormatsOfTheSameNumbersAndRemembersTheCamera) {
+TEST_F(CApi, AcceptsOtherFormatsAndRemembersTheCamera) {
   HostedRun usual(device(), "walr", kSize);
   HostedRun other(device(), "walr", kSize,
                   {.conventions = {},
@@ -140,7 +140,7 @@ void keepWarning(void* user, WalrLogLevel level, const char* text) {
   if (level == WALR_LOG_WARNING) static_cast<std::vector<std::string>*>(user)->emplace_back(text);
 }
 
-TEST_F(CApi, SaysOnceWhatLooksWrongInTheInputs) {
+TEST_F(CApi, LogsEachFindingOnce) {
   using Names = std::vector<std::string>;
   constexpr std::uint32_t kFrames = 5;
   for (const bool good : {true, false}) {
@@ -165,13 +165,13 @@ TEST_F(CApi, SaysOnceWhatLooksWrongInTheInputs) {
     run.resize({40, 45});
     EXPECT_EQ(findingsOf(run.denoiser()), Names{});
   }
-  // Of a denoiser that does not look there is nothing to be asked.
+  // A denoiser without lint has no findings to return.
   HostedRun run(device(), "walr", kSize);
   std::uint32_t count = 0;
   EXPECT_EQ(walr_get_findings(run.denoiser(), &count, nullptr), WALR_ERROR_WRONG_ORDER);
 }
 
-TEST_F(CApi, MemoryIsWhatThePlanSaysAndWhatTheDriverGave) {
+TEST_F(CApi, MemoryEqualsThePlanAndTheAllocations) {
   HostedRun run(device(), "walr", {640, 360});
   require(walr_prepare(run.denoiser()));
   WalrMemory memory{};
@@ -179,7 +179,7 @@ TEST_F(CApi, MemoryIsWhatThePlanSaysAndWhatTheDriverGave) {
   require(walr_get_memory(run.denoiser(), &memory));
   EXPECT_LT(memory.transient, memory.transient_unaliased);
   EXPECT_GE(memory.transient, memory.transient_least);
-  // Histories are laid one after the other, each at its alignment, beside the small upload buffers.
+  // Histories are placed one after the other, each at its alignment. The upload buffers are small.
   EXPECT_GE(memory.allocated, memory.persistent + memory.transient);
   EXPECT_LT(memory.allocated, memory.persistent + memory.transient + (1U << 16));
 }

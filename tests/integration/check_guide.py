@@ -1,4 +1,4 @@
-"""Check that every block of C or C++ in a guide is in one of the programs that they come from, word by word.
+"""Check that every block of C or C++ in a guide is an exact excerpt of one of the programs.
 
 usage: check_guide.py GUIDE.md PROGRAM...
 """

@@ -1,4 +1,4 @@
-"""Check that the version stands in CMakeLists.txt and that every package which repeats it says the same.
+"""Check that all packages have the version of CMakeLists.txt.
 
 usage: check_packages.py PROJECT_FOLDER
 """
@@ -18,7 +18,7 @@ wrong = {name: said for name, said in found.items() if said != version}
 if wrong:
     sys.exit(f"the version is {version}, but {wrong}")
 
-# What the recipes turn off must be what the project calls it.
+# The options that the recipes set must exist in the project.
 options = set(re.findall(r"option\((WALR_\w+)", (folder / "CMakeLists.txt").read_text()))
 recipes = [packages / "vcpkg" / "walr" / "portfile.cmake", packages / "conan" / "conanfile.py"]
 for recipe in recipes:

@@ -1,4 +1,4 @@
-"""Check that a shared library exports the functions that its headers declare, and nothing else.
+"""Check that a shared library exports exactly the functions that its headers declare.
 
 usage: check_symbols.py NM LIBRARY HEADER...
 """

@@ -1,4 +1,4 @@
-// One scene, written as hosts of different conventions would write it: the same result.
+// One scene, written by hosts with different conventions, gives the same result.
 #include <algorithm>
 #include <cmath>
 #include <compare>
@@ -21,37 +21,37 @@ using reference::HostFrame;
 using reference::Image;
 
 constexpr glm::ivec2 kSize(48, 36);
-constexpr const char* kMethod = "svgf";  // Reads every input, and has few pipelines to make for each host.
+constexpr const char* kMethod = "svgf";  // Reads every input, and has few pipelines to create for each host.
 constexpr std::uint32_t kFrames = 4;
 constexpr glm::ivec2 kOffset(5, 3);
 constexpr glm::ivec2 kMargin(16, 9);
 
-/// What a host renders.
+/// The frames that a host renders.
 struct Take {
-  bool jittered = false;  ///< Pixels are sampled off their centres.
-  bool skips = false;     ///< The host leaves out frames between those that it hands over.
+  bool jittered = false;  ///< Samples are off the pixel centres.
+  bool skips = false;     ///< The host denoises only some of the frames.
 
   friend auto operator<=>(const Take&, const Take&) = default;
 };
 
-/// How a host writes.
+/// The conventions of a host.
 struct Host {
   Take take = {};
   WalrDepth depth = WALR_DEPTH_LINEAR;
-  bool reversedInfinite = false;  ///< Device depth: 1 near, 0 infinitely far; else 0 near, 1 at a far plane.
+  bool reversedInfinite = false;  ///< Device depth: 1 near, 0 at infinity; otherwise 0 near, 1 at a far plane.
   WalrNormals normals = WALR_NORMALS_SIGNED;
   bool world = false;
-  bool pictures = false;       ///< Motion in pictures.
+  bool pictures = false;       ///< Motion is in UV.
   bool motionForward = false;  ///< Motion is current - previous.
   bool motionUp = false;       ///< Motion has y up.
   bool motionDepthReversed = false;
-  bool motionJittered = false;  ///< Motion is between the jittered images.
+  bool motionJittered = false;  ///< Motion includes the jitter of both frames.
   bool preExposed = false;
-  bool rectangle = false;   ///< Images are larger than what is denoised.
-  bool remembered = false;  ///< The previous camera is left to the library.
+  bool rectangle = false;   ///< Only a rectangle of the images is denoised.
+  bool remembered = false;  ///< The library remembers the previous camera.
 };
 
-/// A turned camera that walks: view and world space differ, and motion has every sign.
+/// A rotated camera that moves: view and world space differ, and motion has both signs.
 FrameDescription walkingCamera(const Take& take, std::uint32_t frame) {
   const glm::dvec3 step(0.05, 0.03, -0.04);
   const auto timeOf = [&](std::uint32_t n) { return take.skips ? double(n * (n + 1)) / 3.0 : double(n); };
@@ -89,7 +89,7 @@ constexpr float kFar = 200.0F;
 
 FrameDescription cameraOf(const Host& host, std::uint32_t frame) {
   FrameDescription camera = walkingCamera(host.take, frame);
-  // The scene is made in a world whose axes are the view's; this turns that world.
+  // The scene is defined in a world with the axes of view space; rotate that world.
   const glm::mat4 turn(glm::mat3(glm::transpose(worldFromView())));
   camera.view = camera.view * turn;
   camera.previousView = camera.previousView * turn;
@@ -146,7 +146,7 @@ HostedRun::Options optionsOf(const Host& host) {
     options.offset = kOffset;
     options.margin = kMargin;
   }
-  // Floats, so that what is compared is the conversion and not the host's rounding.
+  // 32-bit floats, so that the test compares conversions and not the host's rounding.
   constexpr VkFormat kFloats = VK_FORMAT_R32G32B32A32_SFLOAT;
   options.formats = {kFloats, VK_FORMAT_R32_SFLOAT, kFloats, kFloats, kFloats};
   return options;
@@ -168,7 +168,7 @@ void fill(HostedRun& run, const HostFrame& frame, const Host& host, const FrameD
   });
   const glm::ivec2 offset = host.rectangle ? kOffset : glm::ivec2(0);
   const auto hand = [&](const char* name, const auto& texels) {
-    // What is around the rectangle is of other frames, and not a number.
+    // Fill the surroundings of the rectangle with NaN.
     using Texel = std::decay_t<decltype(texels[0])>;
     const Texel around(std::numeric_limits<float>::quiet_NaN());
     run.fill(name, placed(texels, kSize, run.imageSize(), offset, around));
@@ -182,7 +182,7 @@ void fill(HostedRun& run, const HostFrame& frame, const Host& host, const FrameD
 
 class Conventions : public fg::test::GpuTest {
  protected:
-  /// The last frame's result without exposure.
+  /// The last frame's result, divided by the exposure.
   Image<glm::dvec4> denoise(const Host& host, double depthError = 0.0) const {
     return denoise(host, optionsOf(host), depthError);
   }
@@ -252,7 +252,7 @@ std::vector<Host> hosts() {
   return all;
 }
 
-/// What the usual host gets of a take, and how far roundoff may lead away from it.
+/// The result of a host with walr's own conventions, and the tolerance for rounding.
 struct Usual {
   Image<glm::dvec4> result;
   double roundoff = 0.0;
@@ -265,9 +265,8 @@ TEST_F(Conventions, OneSceneGivesOneResult) {
     Usual& expected = usual[host.take];
     if (expected.roundoff == 0.0) {
       expected.result = denoise(plain);
-      // What a change of depth by one rounding step of its packed form does (surface.glsl keeps 19 bits) is what no
-      // host can do better than; conversions round in single precision, which is finer. A wrong convention is far above
-      // it.
+      // The tolerance is the effect of one rounding step of packed depth, of which surface.glsl keeps 19 bits.
+      // Conversions round in single precision, which is finer. A wrong convention gives a far larger difference.
       expected.roundoff = std::max(difference(expected.result, denoise(plain, 0x1p-18)),
                                    difference(expected.result, denoise(plain, -0x1p-18)));
       ASSERT_GT(expected.roundoff, 0.0);
@@ -276,7 +275,7 @@ TEST_F(Conventions, OneSceneGivesOneResult) {
   }
   EXPECT_EQ(usual.size(), 4U);
 
-  // And the test would see what is stated wrongly.
+  // The test detects a wrongly stated convention.
   const auto misstated = [&](const Host& host, auto&& misstate) {
     HostedRun::Options options = optionsOf(host);
     misstate(options);

@@ -1,4 +1,4 @@
-# Makes Debian packages of the library and the program, unpacks them, and lets the program find nothing missing.
+# Builds Debian packages of the library and the program, unpacks them, and checks that the program runs.
 # cmake -DBUILD=... -DSTAGING=... -DVERSION=... -DPROGRAM=0|1 -P debian_test.cmake
 function(run)
   execute_process(COMMAND ${ARGV} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)

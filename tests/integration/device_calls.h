@@ -10,22 +10,22 @@
 
 #include "framegraph/vulkan/device_context.h"
 
-/// What the library asks of the driver through the functions that a host gives it: WalrDevice::get_instance_proc_addr.
+/// Counts the library's calls of the driver, through the functions of WalrDevice::get_instance_proc_addr.
 namespace walr::test {
 
 struct DeviceCalls {
-  std::uint32_t objects = 0;         ///< Made, or bound to memory, but for pipelines.
-  std::uint32_t pipelines = 0;       ///< Made.
+  std::uint32_t objects = 0;         ///< Created or bound to memory, except pipelines.
+  std::uint32_t pipelines = 0;       ///< Created.
   std::uint32_t waits = 0;           ///< For a queue, the device or a fence.
-  std::uint64_t bytes = 0;           ///< Of device memory allocated.
-  std::set<VkPipelineCache> caches;  ///< With which pipelines were made.
+  std::uint64_t bytes = 0;           ///< Device memory allocated.
+  std::set<VkPipelineCache> caches;  ///< That pipelines were created with.
 };
-/// Since it was last set to {}. One test at a time.
+/// Counts since it was last set to {}. Only one test may use it at a time.
 inline DeviceCalls deviceCalls;
 
 namespace detail {
 
-/// A function of the driver with its calls counted.
+/// A wrapper of a driver's function that counts its calls.
 template <typename Function, std::uint32_t DeviceCalls::*kCounter>
 struct Counted;
 template <typename... Args, std::uint32_t DeviceCalls::*kCounter>
@@ -94,7 +94,7 @@ inline PFN_vkVoidFunction instanceProcAddr(VkInstance instance, const char* name
 
 }  // namespace detail
 
-/// What to give to the library so that its calls are counted. `deviceCalls` starts from zero.
+/// The function for WalrDevice::get_instance_proc_addr that counts calls. Resets `deviceCalls`.
 inline PFN_vkGetInstanceProcAddr countDeviceCalls(const fg::vk::DeviceContext& device) {
   deviceCalls = {};
   detail::realInstanceProcAddr = device.view.getInstanceProcAddr;

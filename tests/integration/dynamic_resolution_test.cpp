@@ -1,4 +1,4 @@
-// A rectangle of larger images that changes its size and its place from frame to frame: histories go on.
+// A rectangle of larger images that changes its size and position from frame to frame keeps its histories.
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -21,7 +21,7 @@ using reference::Image;
 
 constexpr glm::ivec2 kImage(64, 48);
 
-/// What is denoised of the images.
+/// The rectangle that is denoised.
 struct Rectangle {
   glm::ivec2 size;
   glm::ivec2 offset;
@@ -29,7 +29,8 @@ struct Rectangle {
 
 constexpr Rectangle kUsual{{48, 36}, {5, 3}};
 
-/// Dynamic resolution: a few percent up or down, to all of the images, and back; the aspect ratio changes by rounding.
+/// Dynamic resolution: a few percent larger or smaller, then the whole images, and back. Rounding changes the aspect
+/// ratio.
 Rectangle changing(std::uint32_t frame) {
   static const std::vector<Rectangle> kSteps{kUsual, {{51, 38}, {0, 0}}, {{46, 35}, {9, 7}}, {{64, 48}, {0, 0}}};
   return kSteps[frame / 2 % kSteps.size()];
@@ -39,13 +40,13 @@ Rectangle unchanging(std::uint32_t /*frame*/) {
   return kUsual;
 }
 
-/// What a host renders into its rectangle.
+/// The frames that a host renders into its rectangle.
 struct Take {
   Scene scene = flatWall();
   Light light = smoothLight;
   Noise noise = Noise::Exponential;
-  glm::dvec3 step{0.0};   ///< By which the camera moves each frame.
-  bool jittered = false;  ///< Pixels are sampled off their centres, and motion is between the jittered pictures.
+  glm::dvec3 step{0.0};   ///< The camera's movement per frame.
+  bool jittered = false;  ///< Samples are off the pixel centres; motion includes the jitter of both frames.
   bool objectIds = false;
 };
 
@@ -100,7 +101,7 @@ void fill(HostedRun& run, const HostFrame& frame, const Rectangle& rectangle) {
   run.fill("depth", placed(encodeFloats(frame.depth), rectangle.size, run.imageSize(), rectangle.offset, nowhere.x));
 }
 
-/// The rectangle's part of an image.
+/// The part of an image inside a rectangle.
 Image<glm::dvec4> cut(const std::vector<std::uint16_t>& texels, glm::ivec2 imageSize, const Rectangle& rectangle) {
   const Image<glm::dvec4> image = decodeHalves(texels, imageSize);
   Image<glm::dvec4> result(rectangle.size);
@@ -108,12 +109,12 @@ Image<glm::dvec4> cut(const std::vector<std::uint16_t>& texels, glm::ivec2 image
   return result;
 }
 
-/// Denoises a take's frames in turn, in rectangles as they come.
+/// Denoises the frames of a take one after the other, each in its rectangle.
 class Playback {
  public:
   Playback(const fg::vk::Device& device, const std::string& method, const Take& take, RectangleOf rectangle)
       : take_(&take), rectangle_(rectangle), run_(device, method.c_str(), kUsual.size, optionsOf(take)) {
-    // The paper's raw moments and its history without tests do not keep the promises made here.
+    // With the paper's raw moments and untested history these tests would fail.
     if (method == "walr_paper") require(walr_use_preset(denoiser(), "robust"));
   }
 
@@ -143,26 +144,28 @@ class DynamicResolution : public fg::test::GpuTest {};
 class DynamicResolutionMethod : public DynamicResolution, public testing::WithParamInterface<std::string> {};
 INSTANTIATE_TEST_SUITE_P(Methods, DynamicResolutionMethod, testing::ValuesIn(methodsWithHistory()));
 
-/// Frames of `changing` from which on every other one is the first of its size.
+/// From this frame of `changing` on, every second frame has a new size.
 constexpr std::uint32_t kFirstChange = 2;
 
 bool changes(std::uint32_t frame) {
   return frame >= kFirstChange && changing(frame).size != changing(frame - 1).size;
 }
 
-/// Constant light that changes in the last frame tells how many samples are behind a pixel: with `n` before, the mean
-/// has come from 1 by 1 / (n + 1) of the way to the new value.
-TEST_P(DynamicResolutionMethod, NoSampleIsLostAndNoLight) {
-  if (GetParam() == "joint_bilateral") GTEST_SKIP() << "it accumulates behind its filter, and clips history to that";
+/// Light is constant and changes in the last frame. This shows the history length of a pixel: with length `n`, the mean
+/// covers 1 / (n + 1) of the way from the old value to the new one.
+TEST_P(DynamicResolutionMethod, KeepsHistoryLengthAndLight) {
+  if (GetParam() == "joint_bilateral")
+    GTEST_SKIP() << "it accumulates after its filter, and clips history to the filtered light";
   constexpr std::uint32_t kFrames = 7;
   ASSERT_TRUE(changes(kFrames - 1));
-  // A seventh of the way is what packed light can hold.
+  // Packed light can hold a seventh of the way.
   constexpr double kBefore = 1.0;
   constexpr double kAfter = 1.875;
   // Accumulation, filter, a second accumulation and the result are stored as halves, none of them twice as far from 1.
   constexpr double kRoundoff = 4.0 * 2.0 * reference::kHalfRoundoff;
-  // Anti-aliasing clips what differs by less than this, relative to light, into its least box. Of packed light the
-  // result is a third this frame's, whose blocks leave it rounded by less than a step, and the box is larger.
+  // Anti-aliasing clips history to a box around the new value. The box has at least this size, relative to light, so
+  // the result may be off by as much. With packed light a third of the result is from this frame and rounded by less
+  // than a step, and the box is larger.
   const bool packed = GetParam() == "walr";
   const double leastReach = packed ? 2.0 / 3.0 * 0x1p-6 : 4.0 / 2048.0;
   Take take{.noise = Noise::None};
@@ -175,7 +178,7 @@ TEST_P(DynamicResolutionMethod, NoSampleIsLostAndNoLight) {
     if (i + 1 == kFrames) break;
     forEachPixel(result.size(), [&](glm::ivec2 p) { ASSERT_NEAR(result[p].x, kBefore, kRoundoff) << i; });
   }
-  // BMFR averages its fits once more, five of them.
+  // BMFR averages its fits once more, over five frames.
   const double averaged = GetParam() == "bmfr" ? 5.0 : 1.0;
   const double expected = kBefore + (kAfter - kBefore) / (kFrames * averaged);
   const double roundoff = kRoundoff + (packed ? reference::packedStep(expected, reference::kFilteredBits) : 0.0);
@@ -184,8 +187,8 @@ TEST_P(DynamicResolutionMethod, NoSampleIsLostAndNoLight) {
   });
 }
 
-/// Errors in the first frames of a size, of a rectangle that changes it, one that never does, and one that drops its
-/// history when it does.
+/// Errors in the first frames of each size: of a rectangle that changes its size, of one of constant size, and of one
+/// that drops its history at each change.
 struct ErrorsAtChanges {
   double changing = 0.0;
   double unchanging = 0.0;
@@ -208,7 +211,7 @@ ErrorsAtChanges errorsAtChanges(const fg::vk::Device& device, const std::string&
     const Image<glm::dvec4> changed = change.next();
     const Image<glm::dvec4> unchanged = same.next();
     const Image<glm::dvec4> dropped = drop.next(changes(i) ? WALR_FRAME_RESET_HISTORY : 0);
-    if (!changes(i) || i < 6) continue;  // Until some history is there to be lost.
+    if (!changes(i) || i < 6) continue;  // Not enough history yet.
     const HostFrame expected = render(truth, changing, i);
     errors.changing += surfaceError(changed, expected);
     errors.unchanging += surfaceError(unchanged, render(truth, unchanging, i));
@@ -217,19 +220,19 @@ ErrorsAtChanges errorsAtChanges(const fg::vk::Device& device, const std::string&
   return errors;
 }
 
-/// Clearly nearer to the one than to the other.
-void expectHistoryGoesOn(const ErrorsAtChanges& errors) {
+/// The error is clearly closer to that with constant size than to that without history.
+void expectHistoryIsKept(const ErrorsAtChanges& errors) {
   EXPECT_LT(errors.changing, errors.unchanging + 0.25 * (errors.dropping - errors.unchanging));
-  EXPECT_GT(errors.dropping, 1.25 * errors.unchanging) << "nothing was there to be lost";
+  EXPECT_GT(errors.dropping, 1.25 * errors.unchanging) << "there was no history to lose";
 }
 
-TEST_P(DynamicResolutionMethod, ErrorIsThatOfARectangleThatNeverChanges) {
+TEST_P(DynamicResolutionMethod, ErrorEqualsThatOfARectangleOfConstantSize) {
   const Take take{.scene = sphere(), .step = {0.05, 0.03, -0.04}, .jittered = true};
-  expectHistoryGoesOn(errorsAtChanges(device(), GetParam(), take));
+  expectHistoryIsKept(errorsAtChanges(device(), GetParam(), take));
 }
 
-/// A scene in pieces with numbers of their own, a third of a unit across: a history that is not read in its place shows
-/// another number, and is lost.
+/// A scene of small objects with different ids, a third of a unit wide. A history that is read at a wrong position
+/// belongs to another id and is rejected.
 Scene inPieces(const Scene& scene) {
   return [scene](glm::dvec3 origin, glm::dvec3 direction) {
     std::optional<SceneHit> hit = scene(origin, direction);
@@ -243,17 +246,17 @@ Scene inPieces(const Scene& scene) {
 
 constexpr const char* kObjectIds = "antialiasing.object-ids";
 
-TEST_F(DynamicResolution, TellsObjectsApartInTheirPlace) {
+TEST_F(DynamicResolution, ReadsObjectIdsAtTheRightPosition) {
   const Take take{.scene = inPieces(sphere()), .step = {0.05, 0.03, -0.04}, .objectIds = true};
   for (const char* method : {"joint_bilateral", "walr"}) {
     SCOPED_TRACE(method);
-    expectHistoryGoesOn(errorsAtChanges(device(), method, take, kObjectIds));
+    expectHistoryIsKept(errorsAtChanges(device(), method, take, kObjectIds));
   }
 }
 
-// Only the numbers tell the panel from the wall that it slides in: they are read from the rectangle, and what is around
-// it has those of other objects.
-TEST_F(DynamicResolution, ARectanglesObjectsAreThoseOfAPictureOfItsOwn) {
+// A panel slides within a wall, and only object ids tell them apart. They are read from the rectangle; its surroundings
+// have the ids of other objects.
+TEST_F(DynamicResolution, ObjectIdsOfARectangleEqualThoseOfASeparateImage) {
   constexpr std::uint32_t kFrames = 5;
   Take take{.objectIds = true};
   for (const char* method : {"joint_bilateral", "walr"}) {
@@ -276,8 +279,8 @@ TEST_F(DynamicResolution, ARectanglesObjectsAreThoseOfAPictureOfItsOwn) {
   }
 }
 
-/// A wall that the camera slides along, with light that is linear on it: interpolation takes nothing away, and what is
-/// read beside the right place shows by how much.
+/// The camera moves along a wall whose light is linear in position. Interpolation is exact, and an error in the
+/// position of a read shows as a proportional error in the light.
 Take slidingAlongLinearLight() {
   Take take{.noise = Noise::None, .step = {0.031, 0.017, 0.0}};
   take.scene = [](glm::dvec3 origin, glm::dvec3 direction) -> std::optional<SceneHit> {
@@ -299,25 +302,26 @@ double differenceInside(const Image<glm::dvec4>& a, const Image<glm::dvec4>& b, 
   return worst;
 }
 
-/// Of the widest window, that of `joint_bilateral`.
+/// Reach in pixels of the widest window, that of `joint_bilateral`.
 constexpr int kReach = 17;
 
-/// Keep the windows of spatial filters within `kReach`, and the same whatever the past: those of `flr` go by their
+/// Keep the windows of spatial filters within `kReach` and independent of history. The windows of `flr` depend on the
 /// deviation.
 void boundWindows(const Playback& playback, const std::string& method) {
   if (method == "flr") require(walr_set_setting(playback.denoiser(), "regression.sigma", "2"));
 }
 
-TEST_P(DynamicResolutionMethod, ReadsThePastInItsPlace) {
+TEST_P(DynamicResolutionMethod, ReadsTheHistoryAtTheRightPosition) {
   if (GetParam() == "walr") GTEST_SKIP() << "its windows grow with noise and history; walr_paper's do not";
   constexpr std::uint32_t kFrames = 11;
   const Take take = slidingAlongLinearLight();
   Playback playback(device(), GetParam(), take, changing);
-  // The same with no past: a spatial filter's own error at the borders, which size has a part in, is no matter here.
+  // Compare with a result without history, because a spatial filter has its own error at borders, which depends on
+  // size.
   Playback alone(device(), GetParam(), take, changing);
   for (Playback* each : {&playback, &alone}) boundWindows(*each, GetParam());
-  // Values below 4 round by 2^-10 when they are stored as halves: once in each of four stages, and the mean, which
-  // keeps the n-th part of what it erred by, once a frame.
+  // Values below 4 round by 2^-10 when they are stored as halves: once in each of four stages. The mean rounds once per
+  // frame and keeps a part of its earlier rounding errors.
   constexpr double kRoundoff = (4.0 + (kFrames + 1.0) / 2.0) * 0x1p-10;
   double worst = 0.0;
   for (std::uint32_t i = 0; i < kFrames; ++i) {
@@ -325,13 +329,14 @@ TEST_P(DynamicResolutionMethod, ReadsThePastInItsPlace) {
     worst = std::max(worst, differenceInside(result, alone.next(WALR_FRAME_RESET_HISTORY), kReach));
   }
   EXPECT_LE(worst, kRoundoff);
-  // The finest picture's pixels differ by 5 units of the wall over its height; that is a fifth of one.
+  // The image's height covers 5 units of the wall. This is the change of light per pixel at the highest resolution; the
+  // tolerance is below a fifth of it.
   constexpr double kPixel = 0.5 * 5.0 / 48.0;
   static_assert(kRoundoff < 0.2 * kPixel);
 }
 
-// Nothing has to be looked for where nothing ever moves, but for the place of the same pixel at another size.
-TEST_F(DynamicResolution, WhatStandsStillIsReadInItsPlace) {
+// In a still scene, the only displacement between frames is that of the change in size.
+TEST_F(DynamicResolution, ReadsTheHistoryOfAStillSceneAtTheRightPosition) {
   Take take = slidingAlongLinearLight();
   take.step = glm::dvec3(0.0);
   for (const char* method : {"accumulate", "walr_paper"}) {
@@ -344,18 +349,18 @@ TEST_F(DynamicResolution, WhatStandsStillIsReadInItsPlace) {
       Image<glm::dvec4> truth(changing(i).size);
       const HostFrame frame = render(take, changing, i);
       forEachPixel(truth.size(), [&](glm::ivec2 p) { truth[p] = glm::dvec4(frame.lighting[p], 1.0); });
-      // As above, of fewer frames.
+      // As above, with fewer frames.
       EXPECT_LE(differenceInside(playback.next(), truth, kReach), 8.0 * 0x1p-10) << method << ", " << i;
     }
   }
 }
 
-/// What the linter has logged.
+/// Messages that the linter has logged.
 void keepWarning(void* user, WalrLogLevel level, const char* text) {
   if (level == WALR_LOG_WARNING) static_cast<std::vector<std::string>*>(user)->emplace_back(text);
 }
 
-TEST_F(DynamicResolution, TheLinterGoesOnWithWhatItHasSeen) {
+TEST_F(DynamicResolution, TheLinterKeepsItsFindings) {
   const Take take{.scene = sphere(), .step = {0.09, 0.03, -0.04}};
   for (const bool good : {true, false}) {
     std::vector<std::string> log;
@@ -377,7 +382,7 @@ TEST_F(DynamicResolution, TheLinterGoesOnWithWhatItHasSeen) {
   }
 }
 
-/// How history is looked for.
+/// Variants of reprojection.
 struct Search {
   HistoryRejection rejection;
   HistoryFilter filter;
@@ -392,8 +397,8 @@ const char* nameOf(HistoryFilter filter) {
   return filter == HistoryFilter::Bilinear ? "bilinear" : "bicubic";
 }
 
-/// Temporal accumulation against the double-precision reference, through changes of size of a camera that moves and
-/// jitters. Each frame's reference goes on from what the device left, so that errors do not add up.
+/// Compares temporal accumulation with the double-precision reference, with changing sizes and a camera that moves and
+/// jitters. The reference of each frame starts from the device's history, so that errors do not accumulate.
 TEST_F(DynamicResolution, AccumulatesAsTheDoublePrecisionReferenceDoes) {
   constexpr std::uint32_t kFrames = 9;
   for (const Search& search : {Search{HistoryRejection::Plane, HistoryFilter::Bilinear, true},
@@ -439,7 +444,7 @@ TEST_F(DynamicResolution, AccumulatesAsTheDoublePrecisionReferenceDoes) {
   }
 }
 
-/// Bits of the last of some frames, between which a host does something.
+/// The bits of the last of several frames, between which a host makes some change.
 template <typename Between>
 std::vector<std::uint16_t> lastOf(const fg::vk::Device& device, const Take& take, std::uint32_t framesInFlight,
                                   std::uint32_t frames, bool wait, Between between) {
@@ -470,7 +475,7 @@ TEST_F(DynamicResolution, FramesInFlightKeepWhatTheyRead) {
   for (const std::uint32_t framesInFlight : {1U, 2U, 3U}) {
     EXPECT_EQ(lastOf(device(), take, framesInFlight, kFrames, false, nothing), expected) << framesInFlight;
   }
-  // Made ahead of time; sizes that no frame has; sizes for which something was made, and no frame.
+  // Prepared sizes; sizes that no frame uses; sizes that are prepared but that no frame uses.
   const auto prepared = [](HostedRun& run, std::uint32_t) { require(walr_prepare(run.denoiser())); };
   EXPECT_EQ(lastOf(device(), take, 2, kFrames, false, prepared), expected);
   const auto detour = [](HostedRun& run, std::uint32_t i) {
@@ -482,11 +487,11 @@ TEST_F(DynamicResolution, FramesInFlightKeepWhatTheyRead) {
   EXPECT_EQ(lastOf(device(), take, 2, kFrames, false, detour), expected);
 }
 
-TEST_F(DynamicResolution, ACutForgetsThePastAtANewSizeAndNewSettingsDoNot) {
+TEST_F(DynamicResolution, ResetDropsTheHistoryAtANewSizeAndNewSettingsKeepIt) {
   const Take take{.scene = sphere(), .step = {0.05, 0.03, -0.04}};
   constexpr std::uint32_t kCut = 6;
   ASSERT_TRUE(changes(kCut));
-  // A method that no frame's number has a part in, as the two have different ones.
+  // A method that does not depend on the frame number, which differs between the two runs.
   const auto lastAfter = [&](bool past, std::uint32_t flags, const char* setting) {
     HostedRun run(device(), "accumulate", kUsual.size, optionsOf(take));
     Image<glm::dvec4> last;

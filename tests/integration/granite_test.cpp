@@ -1,4 +1,4 @@
-// walr's passes in Granite's render graph, where it is at hand: cmake -DWALR_GRANITE=FOLDER.
+// walr's passes in Granite's render graph. Built with cmake -DWALR_GRANITE=FOLDER.
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -13,7 +13,7 @@ namespace {
 
 class Granite : public PluginTest {
  protected:
-  /// Granite records every pass into a command buffer of its own: hazards show between submissions.
+  /// Granite records every pass into its own command buffer, so hazards occur between submissions.
   void openHost() override {
     setenv("VK_LAYER_ENABLES", "VALIDATION_CHECK_ENABLE_SYNCHRONIZATION_VALIDATION_QUEUE_SUBMIT", 1);
     PluginTest::openHost();
@@ -40,7 +40,7 @@ class Granite : public PluginTest {
     opaque.frame(cameraAt(float(number) * kStep), reset ? WALR_FRAME_RESET_HISTORY : 0);
   }
 
-  /// Five frames against the opaque way in a host of our own, with a reset.
+  /// Compare five frames, with a reset, with those of the opaque call in a plain Vulkan host.
   void compare(granite_host::Engine& engine, const char* method, Size size) {
     Opaque opaque(host, api(), info(method, size));
     const WalrPasses passes = makePasses(method, size);
@@ -80,7 +80,7 @@ TEST_F(Granite, FramesInFlightGiveTheSamePixels) {
   EXPECT_EQ(result, download(host, opaque.output()));
 }
 
-/// A list of passes that read and write images by number, of which the last is the result.
+/// A list of passes that read and write numbered images. The last image is the result.
 class Listed {
  public:
   struct Access {
@@ -136,8 +136,8 @@ class Listed {
   WalrPassList list_{};
 };
 
-// Granite alone would be free to overwrite first.
-TEST_F(Granite, WhatIsOverwrittenHasBeenReadBefore) {
+// Without the adapter's proxies Granite may run the overwriting pass first.
+TEST_F(Granite, OverwritesComeAfterReads) {
   granite_host::Engine engine(host);
   for (const bool swapped : {false, true}) {
     std::vector<Listed::Access> last = {{0, false}, {1, false}, {2, true}};
@@ -154,7 +154,7 @@ TEST_F(Granite, WhatIsOverwrittenHasBeenReadBefore) {
 std::atomic<int> inWalr{0};
 std::atomic<int> mostInWalr{0};
 
-TEST_F(Granite, OneThreadAtATimeComesToWalr) {
+TEST_F(Granite, OnlyOneThreadAtATimeCallsWalr) {
   WalrApi slow = api();
   slow.begin_frame = [](WalrPasses, const WalrPassFrame*) { return WALR_SUCCESS; };
   slow.record_pass = [](WalrPasses, std::uint32_t, VkCommandBuffer, const WalrPassResource*, std::uint32_t) {
@@ -172,8 +172,8 @@ TEST_F(Granite, OneThreadAtATimeComesToWalr) {
   EXPECT_EQ(mostInWalr, 1);
 }
 
-// That the other tests are silent says something only if hazards between submissions are seen.
-TEST_F(Granite, AHazardBetweenSubmissionsIsFoundOut) {
+// Shows that the other tests would report hazards between submissions.
+TEST_F(Granite, ValidationReportsAHazardBetweenSubmissions) {
   constexpr Size kSize{61, 43};
   granite_host::Engine engine(host);
   const WalrPasses passes = makePasses("none", kSize);

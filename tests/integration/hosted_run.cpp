@@ -94,7 +94,7 @@ void HostedRun::makeImages(glm::ivec2 size) {
     if (glm::ivec2(needs.width, needs.height) != size) throw std::logic_error("requirements of another size");
     needs.width += static_cast<std::uint32_t>(margin_.x);
     needs.height += static_cast<std::uint32_t>(margin_.y);
-    // An image that the denoiser does not touch may be anything, and is handed over all the same.
+    // An image that the denoiser does not use may be anything. It is given anyway.
     if (needs.usage == 0) needs.usage = VK_IMAGE_USAGE_SAMPLED_BIT;
     const bool output = images_.size() == kOutput;
     images_.push_back(std::make_unique<fg::vk::StagedImage>(

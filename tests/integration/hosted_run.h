@@ -19,21 +19,21 @@
 
 namespace walr::test {
 
-/// A denoiser behind the C API, fed with host frames one by one by a host that keeps some frames in flight.
+/// Runs a denoiser through the C API, frame by frame, with several frames in flight.
 class HostedRun {
  public:
   struct Options {
     WalrConventions conventions{};
     std::array<VkFormat, 5> formats{};  ///< As in WalrDenoiserInfo, in the order of its members.
-    bool rememberedCamera = false;      ///< Leave the previous camera to the library.
+    bool rememberedCamera = false;      ///< Let the library remember the previous camera.
     bool lint = false;
-    bool objectIds = false;  ///< There is an image "object_id".
+    bool objectIds = false;  ///< Give an image "object_id".
     std::uint32_t framesInFlight = 2;
-    glm::ivec2 offset{0};  ///< Of what is denoised in images that are larger by `margin`, for which it is stated.
+    glm::ivec2 offset{0};  ///< Of the rectangle in images that are larger by `margin`.
     glm::ivec2 margin{0};
     WalrLog log = nullptr;
     void* logUser = nullptr;
-    PFN_vkGetInstanceProcAddr getInstanceProcAddr = nullptr;  ///< In place of the device's.
+    PFN_vkGetInstanceProcAddr getInstanceProcAddr = nullptr;  ///< Instead of the device's.
     VkPipelineCache pipelineCache = VK_NULL_HANDLE;
   };
 
@@ -44,15 +44,15 @@ class HostedRun {
   HostedRun& operator=(const HostedRun&) = delete;
 
   [[nodiscard]] WalrDenoiser denoiser() const { return denoiser_; }
-  /// Change the size: new images, and what the old ones leave behind is forgotten.
+  /// Change the size: create new images and forget the views of the old ones.
   void resize(glm::ivec2 size);
-  /// Change what is denoised of the images, which stay as they are.
+  /// Change the rectangle that is denoised and keep the images.
   void moveRectangle(glm::ivec2 size, glm::ivec2 offset);
   /// Size of the images.
   [[nodiscard]] glm::ivec2 imageSize() const { return glm::ivec2(needs_[0].width, needs_[0].height); }
-  /// Hand over texels of an image ("lighting", ...) in its format.
+  /// Upload texels of an image ("lighting", ...) in its format.
   void fill(const std::string& image, std::vector<std::byte> texels);
-  /// Record and submit a frame with what was filled in last, and return the result's texels, four halves each.
+  /// Record and submit a frame with the texels uploaded last, and return the result's texels, four halves each.
   std::vector<std::uint16_t> frame(const FrameDescription& camera, std::uint32_t flags = 0, float preExposure = 0.0F);
   /// The same without waiting for it.
   /// @returns the frame's slot
@@ -71,14 +71,14 @@ class HostedRun {
   glm::ivec2 margin_;
   WalrDenoiser denoiser_ = nullptr;
   std::vector<WalrImageRequirements> needs_;
-  std::vector<std::unique_ptr<fg::vk::StagedImage>> images_;  ///< Null where the host has none.
+  std::vector<std::unique_ptr<fg::vk::StagedImage>> images_;  ///< Null for images that the host does not have.
   std::array<std::vector<std::byte>, 6> texels_;
   fg::vk::FrameQueue queue_;
   std::uint64_t nextIdentity_ = 1;
   std::uint64_t firstIdentity_ = 1;
 };
 
-/// The bytes of an image with a picture somewhere in it.
+/// The bytes of an image with a smaller one copied into it.
 template <typename Texel>
 std::vector<std::byte> placed(const std::vector<Texel>& picture, glm::ivec2 size, glm::ivec2 imageSize,
                               glm::ivec2 offset, Texel around) {
@@ -92,10 +92,10 @@ std::vector<std::byte> placed(const std::vector<Texel>& picture, glm::ivec2 size
   return bytes;
 }
 
-/// Throws std::runtime_error with the library's text where a call fails.
+/// Throws std::runtime_error with the library's text if a call fails.
 void require(WalrResult result);
 
-/// The camera of a frame as the C API takes it.
+/// The camera of a frame for the C API.
 WalrCamera cameraOf(const glm::mat4& view, const glm::mat4& projection, glm::vec2 jitter);
 
 }  // namespace walr::test

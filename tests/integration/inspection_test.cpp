@@ -1,4 +1,4 @@
-// What a method offers to be looked at, without a device.
+// Views and counters of methods. No device is needed.
 
 #include "passes/inspection.h"
 
@@ -24,7 +24,7 @@ DenoiseGraph declare(const std::string& method, const std::string& preset, const
   return declareDenoiseGraph(*denoiser, kExtent, {}, kComputeHost, {}, {}, wanted);
 }
 
-/// What a method and preset say of a view.
+/// The error of a method and preset for a view; empty if it exists.
 std::string rejection(const std::string& method, const std::string& preset, const std::string& view) {
   try {
     (void)declare(method, preset, {.views = {&view, 1}});
@@ -34,7 +34,7 @@ std::string rejection(const std::string& method, const std::string& preset, cons
   return {};
 }
 
-TEST(Inspection, NamesWhatThereIsNot) {
+TEST(Inspection, ErrorsNameTheKnownViews) {
   EXPECT_NE(rejection("walr_paper", "robust", "edge").find("known views: no-surface, "), std::string::npos);
   EXPECT_NE(rejection("walr_paper", "robust", "edge").find(", edges, samples, "), std::string::npos);
   EXPECT_NE(rejection("walr_paper", "robust", "edges.4").find("0 to 3"), std::string::npos)
@@ -47,7 +47,7 @@ TEST(Inspection, NamesWhatThereIsNot) {
   EXPECT_EQ(rejection("walr_paper", "robust", "edges"), "");
 }
 
-TEST(Inspection, ListsWhatTheSettingsHave) {
+TEST(Inspection, ListsViewsForTheCurrentSettings) {
   const auto has = [](Denoiser& method, std::string_view name) {
     const std::vector<ViewInfo> views = method.views();
     return std::ranges::any_of(views, [&](const ViewInfo& view) { return view.name == name; });
@@ -98,7 +98,7 @@ TEST(Inspection, EveryViewOfEveryMethodCompiles) {
   }
 }
 
-TEST(Inspection, NothingIsThereUnlessAskedFor) {
+TEST(Inspection, AddsNothingUnlessRequested) {
   const DenoiseGraph plain = declare("walr_paper", "robust", {});
   for (const fg::ResourceDecl& resource : plain.graph.desc().resources) {
     EXPECT_FALSE(resource.name.starts_with("count")) << resource.name;
@@ -109,7 +109,7 @@ TEST(Inspection, NothingIsThereUnlessAskedFor) {
     EXPECT_EQ(dispatch.shader->name.find("view"), std::string_view::npos) << pass.name;
     EXPECT_EQ(dispatch.shader->name.find("count"), std::string_view::npos) << pass.name;
   }
-  // What is asked for stands beside the method's own passes, which stay as they are.
+  // The method's own passes do not change; those for views and counters are added.
   const DenoiseGraph counted = declare("walr_paper", "robust", {.counters = true});
   std::vector<std::string> left;
   for (const fg::PassDecl& pass : counted.graph.desc().passes) {

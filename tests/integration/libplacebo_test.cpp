@@ -1,5 +1,5 @@
-// walr in libplacebo's hands: images are its own, it fills them and reads the result back, and semaphores hand them
-// over.
+// walr with libplacebo as the host: libplacebo creates the images, fills them and reads the result back. Semaphores
+// order its work and walr's.
 #include <map>
 
 #include "plugin_host.h"
@@ -13,7 +13,7 @@ namespace {
 
 constexpr Size kSize{61, 43};
 
-/// A counter on the GPU that each side waits for and raises.
+/// A timeline semaphore that each side waits for and signals.
 class Timeline {
  public:
   explicit Timeline(VkDevice device) : device_(device) {
@@ -39,7 +39,7 @@ class Timeline {
   std::uint64_t value_ = 0;
 };
 
-/// A texture of libplacebo's, and the image behind it.
+/// A texture of libplacebo and its image.
 struct Shared {
   pl_tex texture = nullptr;
   VkImage image = VK_NULL_HANDLE;
@@ -60,7 +60,7 @@ class LibplaceboTest : public PluginTest {
     params.features = &host.features;
     vulkan_ = pl_vulkan_import(nullptr, &params);
     ASSERT_NE(vulkan_, nullptr);
-    // It asks its own device for functions of extensions that were not enabled; that is before any call of ours.
+    // libplacebo queries functions of extensions that were not enabled. These messages come before any call of ours.
     hostMessages_ = host.messages;
   }
   void TearDown() override {
@@ -102,7 +102,7 @@ WalrImage describe(const Shared& shared) {
   image.usage = shared.usage;
   image.width = kSize.width;
   image.height = kSize.height;
-  // The semaphore is waited for before any command, so that whatever comes first chains to it.
+  // All commands wait for the semaphore, so the first barrier may chain to any stage.
   image.acquire = {VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_NONE, VK_IMAGE_LAYOUT_GENERAL, 0};
   return image;
 }

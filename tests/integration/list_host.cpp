@@ -138,7 +138,7 @@ void Player::makeResource(std::uint32_t index) {
     image = host_make_image(host_, resource.format, texelSize(resource.format), resource.width, resource.height,
                             resource.image_usage);
     behind.images[0] = behind.images[1] = image.image;
-    // An image that nobody touches has no use that a view could be made for.
+    // An unused image has no usage flag that allows a view.
     if (resource.used == VK_TRUE) behind.views[0] = behind.views[1] = makeView(image.image, resource.format);
     return;
   }
@@ -159,7 +159,7 @@ void Player::makeResource(std::uint32_t index) {
   }
 }
 
-/// Zeros in every history, left in the layout from which the list's barriers start.
+/// Clear every history and leave it in the layout that the list's barriers start from.
 void Player::clearHistories() {
   const VkCommandBuffer commands = host_begin(host_);
   for (std::uint32_t i = 0; i < list_->resource_count; ++i) {
@@ -266,7 +266,7 @@ void Player::barriers(VkCommandBuffer commands, const WalrBarrier* first, std::u
     const WalrBarrier& barrier = first[i];
     const bool handOver = barrier.alias_of != WALR_NONE;
     const VkImage image = behind_[barrier.resource].images[parity_];
-    // A buffer needs no more than a memory barrier, and nor does memory that changes hands.
+    // For buffers and for aliased memory a memory barrier is enough.
     if (handOver || image == VK_NULL_HANDLE) {
       memory.push_back({VK_STRUCTURE_TYPE_MEMORY_BARRIER_2, nullptr, barrier.src_stage, barrier.src_access,
                         barrier.dst_stage, barrier.dst_access});
@@ -303,7 +303,7 @@ void Player::frame(const WalrPassFrame& frame) {
   }
   const VkCommandBuffer commands = host_begin(host_);
   for (auto& [name, image] : hostImages_) {
-    if ((image.usage & (VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT)) == 0) continue;  // Not touched.
+    if ((image.usage & (VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT)) == 0) continue;  // Unused.
     const bool output = name == "denoised";
     host_transition(commands, &image, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
                     output ? VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT : VK_ACCESS_2_SHADER_SAMPLED_READ_BIT,

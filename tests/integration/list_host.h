@@ -10,8 +10,8 @@
 
 #include "host/vulkan_host.h"
 
-/// A host that takes a dispatch list as the data that it is: pipelines, heaps, barriers and dispatches of its own
-/// making, in the order of the list, and no call into walr but for the frame's constants.
+/// A host that uses the dispatch list only as data. It creates pipelines and heaps and records barriers and dispatches
+/// itself, in the order of the list. It calls walr only for the constants of each frame.
 namespace list_host {
 
 class Player {
@@ -25,7 +25,7 @@ class Player {
   void frame(const WalrPassFrame& frame);
 
  private:
-  /// What is behind a resource, by parity: the images of a history take turns.
+  /// The images of a resource by frame parity: the two images of a history swap.
   struct Behind {
     VkImage images[2] = {};
     VkImageView views[2] = {};

@@ -1,4 +1,4 @@
-// walr in NVRHI's command lists, where it is at hand: cmake -DWALR_NVRHI=FOLDER.
+// walr in NVRHI's command lists. Built with cmake -DWALR_NVRHI=FOLDER.
 #include <cstring>
 #include <memory>
 
@@ -10,7 +10,7 @@
 namespace plugin_host {
 namespace {
 
-/// What NVRHI itself complains of, its own validation included.
+/// Counts NVRHI's own messages, including those of its validation layer.
 class Complaints final : public nvrhi::IMessageCallback {
  public:
   void message(nvrhi::MessageSeverity severity, const char* text) override {
@@ -26,7 +26,7 @@ class Nvrhi : public PluginTest {
     PluginTest::SetUp();
     makeDevice(true);
   }
-  /// @param newBarriers whether NVRHI is to use synchronization2 for its own
+  /// @param newBarriers whether NVRHI uses synchronization2 for its barriers
   void makeDevice(bool newBarriers) {
     const char* extensions[] = {VK_KHR_SYNCHRONIZATION_2_EXTENSION_NAME};
     nvrhi::vulkan::DeviceDesc desc{};
@@ -114,7 +114,7 @@ class Nvrhi : public PluginTest {
     return read(staging, size);
   }
 
-  /// Seven frames against the opaque way in a host of our own, with a reset and a new size between them.
+  /// Compare seven frames, with a reset and a new size, with those of a plain Vulkan host.
   void compare(const char* method) {
     Size size{61, 43};
     auto opaque = std::make_unique<Opaque>(host, api(), info(method, size));
@@ -131,7 +131,7 @@ class Nvrhi : public PluginTest {
         size = {40, 45};
         require(api().resize(denoiser, size.width, size.height));
         textures = makeTextures(size);
-        // Frames are numbered on, and cameras remembered, where histories are lost.
+        // A dropped history does not restart frame numbers or forget the camera.
         opaque = std::make_unique<Opaque>(host, api(), info(method, size));
         uploadFrame(host, size, number, [&](std::size_t i) { return &opaque->image(i); });
         for (std::uint32_t before = 0; before < number; ++before) opaque->frame(cameraAt(float(before) * kStep), 0);
@@ -155,12 +155,12 @@ TEST_F(Nvrhi, EveryMethodGivesTheSamePixelsThroughResetAndResize) {
     if (type->method == VK_TRUE) compare(type->name);
 }
 
-TEST_F(Nvrhi, TheSameWhereItsBarriersAreTheOldOnes) {
+TEST_F(Nvrhi, GivesTheSamePixelsWithOldBarriers) {
   makeDevice(false);
   compare("walr");
 }
 
-TEST_F(Nvrhi, WhatIsMissingIsAnErrorAndTheCommandListGoesOn) {
+TEST_F(Nvrhi, AMissingImageIsAnErrorAndTheCommandListStaysUsable) {
   constexpr Size kSize{64, 48};
   const WalrDenoiserInfo described = info("walr", kSize);
   WalrDenoiser denoiser = nullptr;
@@ -185,8 +185,8 @@ TEST_F(Nvrhi, WhatIsMissingIsAnErrorAndTheCommandListGoesOn) {
   require(api().destroy_denoiser(denoiser));
 }
 
-// That the other tests are silent says something only if this one is not.
-TEST_F(Nvrhi, WithoutTheAdaptersStatesTheHandOverIsFoundOut) {
+// Shows that the other tests would report missing barriers.
+TEST_F(Nvrhi, ValidationReportsHazardsWithoutTheAdaptersStates) {
   constexpr Size kSize{64, 48};
   const WalrDenoiserInfo described = info("walr", kSize);
   WalrDenoiser denoiser = nullptr;
@@ -201,7 +201,7 @@ TEST_F(Nvrhi, WithoutTheAdaptersStatesTheHandOverIsFoundOut) {
     images[i].usage = VK_IMAGE_USAGE_SAMPLED_BIT | (i + 1 == images.size() ? VK_IMAGE_USAGE_STORAGE_BIT : 0);
     images[i].width = kSize.width;
     images[i].height = kSize.height;
-    // The right layout, and no word of who wrote it.
+    // The layout is right, but the last write is not stated.
     const bool output = i + 1 == images.size();
     images[i].acquire.layout = output ? VK_IMAGE_LAYOUT_UNDEFINED : VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL;
     images[i].release = {VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_READ_BIT,
@@ -209,7 +209,7 @@ TEST_F(Nvrhi, WithoutTheAdaptersStatesTheHandOverIsFoundOut) {
   }
   const nvrhi::CommandListHandle commands = rhi_->createCommandList();
   commands->open();
-  upload(commands, textures, kSize, 0);  // Leaves them as targets of copies.
+  upload(commands, textures, kSize, 0);  // Leaves them in the state of copy destinations.
   const WalrCamera camera = cameraAt(0);
   const WalrFrame frame = frameOf(images, camera);
   const VkCommandBuffer buffer = commands->getNativeObject(nvrhi::ObjectTypes::VK_CommandBuffer);

@@ -1,5 +1,5 @@
-# Installs walr to an empty folder, builds the project in package/ against it, and runs what that builds under the
-# validation layer with synchronization validation.
+# Installs walr to an empty folder, builds the project in package/ against it, and runs its programs under the validation
+# layer with synchronization validation.
 # cmake -DBUILD=... -DSTAGING=... -DSOURCE=... -DEMBEDDING=... -P package_test.cmake
 function(run)
   cmake_parse_arguments(ARG "" "OUTPUT" "COMMAND" ${ARGN})
@@ -46,7 +46,7 @@ run(COMMAND cc -std=c11 "${EMBEDDING}" ${flags} -lvulkan -o "${STAGING}/c_pkg_co
 cmake_path(GET pc_dir PARENT_PATH lib_dir)
 run(COMMAND "${CMAKE_COMMAND}" -E env "LD_LIBRARY_PATH=${lib_dir}" "${STAGING}/c_pkg_config")
 
-# The guide is there, and so is what its links lead to.
+# The guides and the files that they link to are installed.
 foreach(guide IN ITEMS README.md ADAPTERS.md)
   set(folder "${STAGING}/usr/share/doc/walr/integration")
   file(READ "${folder}/${guide}" text)

@@ -15,7 +15,7 @@
 
 #include "host/vulkan_host.h"
 
-/// Hosts that were not built with walr: they link none of it and open the plug-in while they run.
+/// Hosts that do not link walr and load the plug-in at run time.
 namespace plugin_host {
 
 inline constexpr const char* kInputs[] = {"lighting", "depth", "normal", "motion", "albedo"};
@@ -40,7 +40,7 @@ inline WalrFrame frameOf(const std::vector<WalrImage>& images, const WalrCamera&
   return frame;
 }
 
-/// What the plug-in handed over.
+/// What the plug-in registered.
 struct Registered {
   const WalrApi* api = nullptr;
   std::vector<const WalrPassType*> types;
@@ -102,7 +102,7 @@ class PluginTest : public testing::Test {
     info.method = method;
     info.width = size.width;
     info.height = size.height;
-    // So that a host without halves can fill them.
+    // 32-bit floats, so that hosts need not convert to halves.
     info.lighting_format = info.normal_format = info.motion_format = info.albedo_format = VK_FORMAT_R32G32B32A32_SFLOAT;
     return info;
   }
@@ -131,7 +131,7 @@ inline WalrCamera cameraAt(float x) {
           .jitter = {0, 0}};
 }
 
-inline constexpr float kStep = 0.05F;  ///< Scene units that the camera moves to the right each frame.
+inline constexpr float kStep = 0.05F;  ///< The camera's movement to the right per frame, in scene units.
 
 /// Texels of an input: a slanted wall behind a nearer square, seen by a camera that moves to the right, noisy light.
 inline std::vector<float> texels(const std::string& name, Size size, std::uint32_t frame) {
@@ -149,7 +149,7 @@ inline std::vector<float> texels(const std::string& name, Size size, std::uint32
       }
       float texel[4] = {0, 0, 0, 0};
       if (name == "normal") texel[2] = 1.0F;
-      // A point at view depth d moves by focal * step / d of half the picture's width.
+      // A point at view depth d moves by focal * step / d times half the image's width.
       if (name == "motion") texel[0] = 1.5F * kStep / depth * 0.5F * float(size.width);
       if (name == "albedo") texel[0] = texel[1] = texel[2] = v > 0.9F ? 0.0F : 0.5F;
       if (name == "lighting") {
@@ -182,7 +182,7 @@ class Opaque {
   HostImage& image(std::size_t index) { return images_[index]; }
   HostImage& output() { return images_.back(); }
 
-  /// Another size, with images of that size.
+  /// Change the size and create images of that size.
   void resize(Size size) {
     for (const HostImage& image : images_) api_->forget_image(denoiser_, image.image, 0);
     destroyImages();
@@ -210,7 +210,7 @@ class Opaque {
     for (std::size_t i = 0; i < images_.size(); ++i) {
       WalrImageState state{};
       const char* name = i < 5 ? kInputs[i] : "denoised";
-      if (api_->get_release_state(denoiser_, name, &state) != WALR_SUCCESS) continue;  // Not touched.
+      if (api_->get_release_state(denoiser_, name, &state) != WALR_SUCCESS) continue;  // Unused.
       images_[i].stage = state.stage;
       images_[i].access = state.access;
       images_[i].layout = state.layout;
@@ -247,7 +247,7 @@ inline std::vector<std::uint16_t> download(Host& host, HostImage& image) {
   return result;
 }
 
-/// Every input of a frame, by name.
+/// All inputs of a frame, by name.
 template <typename ImageOf>
 void uploadFrame(Host& host, Size size, std::uint32_t frame, ImageOf imageOf) {
   for (std::size_t i = 0; i < std::size(kInputs); ++i) {

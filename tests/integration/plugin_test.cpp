@@ -1,5 +1,5 @@
-// The plug-in in hosts of different kinds. The same frames go through the whole method in one opaque pass, pass by pass
-// through a graph of the host's own, and as a dispatch list.
+// The plug-in in hosts of different kinds. They denoise the same frames with one opaque call, pass by pass in the
+// host's own graph, and with a dispatch list.
 #include <algorithm>
 #include <cstddef>
 #include <cstdio>
@@ -18,7 +18,7 @@
 namespace plugin_host {
 namespace {
 
-TEST_F(PluginTest, RegistersEveryPassTypeAndAnApiOfItsOwnSize) {
+TEST_F(PluginTest, RegistersEveryPassTypeAndTheFunctionTable) {
   EXPECT_EQ(api().struct_size, sizeof(WalrApi));
   EXPECT_EQ(registered.types.size(), api().pass_type_count());
   EXPECT_NE(std::string(api().version()), "");
@@ -77,8 +77,8 @@ struct SizedGraph {
   std::unique_ptr<tiny_host::Graph> graph;
 };
 
-// Passes are made for a size; the history that the host keeps goes on with those of another, which may take turns.
-TEST_F(PluginTest, HistoryGoesOnPassByPassAtAnotherSize) {
+// A host keeps its history while it alternates between passes of different sizes.
+TEST_F(PluginTest, HistoryIsKeptPassByPassAtAnotherSize) {
   constexpr Size kSizes[] = {{61, 43}, {64, 45}, {56, 40}};
   constexpr std::size_t kTurns[] = {0, 0, 1, 1, 0, 2, 0};  // By frame.
   WalrConventions conventions{};
@@ -118,7 +118,7 @@ TEST_F(PluginTest, HistoryGoesOnPassByPassAtAnotherSize) {
   }
 }
 
-TEST_F(PluginTest, PassesGoOnFromTheSamePassesAlone) {
+TEST_F(PluginTest, PassesContinueOnlyFromPassesOfTheSameMethod) {
   WalrConventions conventions{};
   conventions.struct_size = sizeof(conventions);
   conventions.rectangle = VK_TRUE;
@@ -171,15 +171,15 @@ TEST_F(PluginTest, EveryMethodGivesTheSamePixelsAsADispatchListWithItsHeapsAndBa
   }
 }
 
-/// A stage of a chain, and what is set of it.
+/// A stage of a chain with its settings.
 struct Link {
   const char* stage;
   std::vector<WalrSettingValue> settings;
   std::map<std::string, std::string> renamed = {};
 };
 
-TEST_F(PluginTest, StagesMadeOneByOneGiveThePixelsOfTheWholeMethod) {
-  constexpr Size kSize{640, 360};  // For other sizes `walr` has other settings.
+TEST_F(PluginTest, SingleStagesGiveThePixelsOfTheWholeMethod) {
+  constexpr Size kSize{640, 360};  // `walr` derives settings from the size; the chain's settings are for this one.
   const std::vector<WalrSettingValue> packed{{"accumulation.storage", "packed"}, {"antialiasing.storage", "packed"}};
   const auto with = [&](std::vector<WalrSettingValue> settings) {
     settings.insert(settings.end(), packed.begin(), packed.end());
@@ -240,7 +240,7 @@ TEST_F(PluginTest, WrongUseOfStagesIsAnError) {
   EXPECT_EQ(api().create_denoiser(&stage, &denoiser), WALR_ERROR_INVALID_ARGUMENT);
 }
 
-// In which hosts that know of synchronization2 alone leave what is read.
+// Hosts with synchronization2 may leave inputs in this layout.
 TEST_F(PluginTest, ReadsFromReadOnlyOptimal) {
   constexpr Size kSize{61, 43};
   Opaque opaque(host, api(), info("none", kSize));
@@ -276,8 +276,8 @@ TEST_F(PluginTest, ReadsFromReadOnlyOptimal) {
   EXPECT_EQ(api().destroy_passes(passes), WALR_SUCCESS);
 }
 
-// Pixels say nothing about barriers here, so that validation must; and it must be on.
-TEST_F(PluginTest, AHostWithoutBarriersIsFoundOut) {
+// Missing barriers do not change pixels here, so validation must report them. This shows that it is enabled.
+TEST_F(PluginTest, ValidationReportsMissingBarriers) {
   const WalrPasses passes = makePasses("walr", {64, 48});
   {
     tiny_host::Graph graph(host, api(), passes);
@@ -294,8 +294,8 @@ TEST_F(PluginTest, AHostWithoutBarriersIsFoundOut) {
   host.messages = 0;
 }
 
-// The figures are in the integration guide: what a host pays that shares no memory between our passes.
-TEST_F(PluginTest, MemoryOfBothWaysIsWhatTheDriverSays) {
+// Compares the table of memory in the integration guide with the driver's values.
+TEST_F(PluginTest, MemoryInTheGuideIsWhatTheDriverRequires) {
   constexpr double kMebibyte = 1024.0 * 1024.0;
   std::ifstream file(WALR_GUIDE);
   const std::string guide{std::istreambuf_iterator<char>(file), {}};
@@ -352,7 +352,7 @@ TEST_F(PluginTest, WrongUseOfPassesIsAnError) {
   EXPECT_EQ(api().destroy_passes(passes), WALR_ERROR_INVALID_HANDLE);
   EXPECT_EQ(api().begin_frame(passes, &frame), WALR_ERROR_INVALID_HANDLE);
 
-  // Without a device passes can be listed, and that is all.
+  // Without a device, passes can only be listed.
   WalrDenoiserInfo listed = info("walr", {64, 48});
   listed.device = nullptr;
   const WalrSettingValue settings[] = {{"blocks.iterations", "9"}};

@@ -1,5 +1,5 @@
-// walr in the hands of Qt's QRhi: images are its own, it fills them and reads the result back, and walr records between
-// its commands, into its command buffer.
+// walr with Qt's QRhi as the host: QRhi creates the images, fills them and reads the result back. walr records into
+// QRhi's command buffer, between its commands.
 #include <memory>
 
 #include <vulkan/vulkan.h>
@@ -17,7 +17,7 @@ namespace {
 constexpr VkImageUsageFlags kInputUsage =
     VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
 
-/// A texture of QRhi's.
+/// A texture of QRhi.
 struct Shared {
   std::unique_ptr<QRhiTexture> texture;
   VkFormat format = VK_FORMAT_UNDEFINED;
@@ -37,7 +37,7 @@ class QtRhiTest : public PluginTest {
   static void TearDownTestSuite() { application.reset(); }
 
   void openHost() override {
-    // It asks for functions of surfaces though none is made.
+    // QRhi queries functions of surfaces although none is created.
     constexpr const char* kExtensions[] = {"VK_KHR_surface", "VK_KHR_xcb_surface"};
     host_open_with(&host, kExtensions, 2);
   }
@@ -106,7 +106,7 @@ class QtRhiTest : public PluginTest {
     commands->resourceUpdate(batch);
   }
 
-  /// Have commands of ours recorded between QRhi's.
+  /// Record our own commands between QRhi's.
   template <typename Record>
   void external(QRhiCommandBuffer* commands, Record record) {
     commands->beginExternal();
@@ -115,7 +115,7 @@ class QtRhiTest : public PluginTest {
     commands->endExternal();
   }
 
-  /// Record a denoiser's frame, and tell QRhi the layouts that it leaves.
+  /// Record a frame of a denoiser and tell QRhi the resulting layouts.
   void denoise(QRhiCommandBuffer* commands, WalrDenoiser denoiser, std::vector<Shared>& shared, Size size,
                const WalrCamera& camera, std::uint32_t flags) {
     std::vector<WalrImage> images;
@@ -128,7 +128,7 @@ class QtRhiTest : public PluginTest {
       image.usage = texture.usage;
       image.width = size.width;
       image.height = size.height;
-      // QRhi tells the layout and nothing else.
+      // QRhi tracks only the layout.
       image.acquire = {VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_WRITE_BIT,
                        static_cast<VkImageLayout>(texture.texture->nativeTexture().layout), 0};
     }
@@ -137,7 +137,7 @@ class QtRhiTest : public PluginTest {
     for (std::size_t i = 0; i < shared.size(); ++i) {
       WalrImageState state{};
       if (api().get_release_state(denoiser, i < std::size(kInputs) ? kInputs[i] : "denoised", &state) != WALR_SUCCESS)
-        continue;  // Not touched.
+        continue;  // Unused.
       shared[i].texture->setNativeLayout(int(state.layout));
     }
   }
@@ -157,7 +157,7 @@ std::vector<std::uint16_t> halves(const QRhiReadbackResult& result) {
   return values;
 }
 
-// A submission of its own for what follows, as the guide says for hosts that take a layout and nothing else.
+// As the guide says for hosts that track only layouts, the submission ends after the denoiser.
 TEST_F(QtRhiTest, RecordsBetweenItsCommandsThroughResetAndResize) {
   for (const char* method : {"walr", "svgf", "accumulate"}) {
     Size size{61, 43};
@@ -173,7 +173,7 @@ TEST_F(QtRhiTest, RecordsBetweenItsCommandsThroughResetAndResize) {
         size = {40, 45};
         require(api().resize(denoiser, size.width, size.height));
         shared = makeShared(size);
-        // Frames are numbered on, and cameras remembered, where histories are lost.
+        // A dropped history does not restart frame numbers or forget the camera.
         own = std::make_unique<Opaque>(host, api(), info(method, size));
         uploadFrame(host, size, number, [&](std::size_t i) { return &own->image(i); });
         for (std::uint32_t before = 0; before < number; ++before) own->frame(cameraAt(float(before) * kStep), 0);
@@ -197,7 +197,7 @@ TEST_F(QtRhiTest, RecordsBetweenItsCommandsThroughResetAndResize) {
   }
 }
 
-/// What QRhi does with an image that was written between its commands.
+/// QRhi's own barrier after an image was written between its commands causes a message, even without walr.
 TEST_F(QtRhiTest, MessagesWithinASubmissionAreTheHosts) {
   constexpr Size kSize{61, 43};
   const auto messagesOf = [&](bool ours) {

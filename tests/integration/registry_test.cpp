@@ -56,7 +56,7 @@ std::string compiled(const fg::Graph& graph) {
   return result.ok() ? fg::toText(graph.desc(), result.plan) : "does not compile: " + result.text();
 }
 
-/// A graph with the host's textures, to which a test adds nodes.
+/// A graph with the host's textures. Tests add nodes to it.
 struct HostGraph {
   HostGraph() {
     inputs = importInputs(graph, kExtent, {}, kComputeHost.inputs);
@@ -96,12 +96,12 @@ TEST(Registry, PortsHaveTheUsageThatThePlanHas) {
     const fg::CompileResult result = fg::compile(declared.graph.desc(), fg::TableMemoryModel());
     ASSERT_TRUE(result.ok()) << result.text();
     for (const Port& port : typeOf(method).ports) {
-      if (port.name == "object_id") continue;  // This host has none.
+      if (port.name == "object_id") continue;  // This host does not have it.
       const auto& resources = declared.graph.desc().resources;
       const auto found = std::ranges::find(resources, port.name, &fg::ResourceDecl::name);
       ASSERT_NE(found, resources.end()) << port.name;
       const fg::PlannedResource& planned = result.plan.resources[static_cast<std::size_t>(found - resources.begin())];
-      // The plan adds what the host itself does with its resources.
+      // The plan also includes the host's own accesses.
       VkImageUsageFlags imageUsage = port.imageUsage;
       VkBufferUsageFlags bufferUsage = port.bufferUsage;
       const auto addBorder = [&](const fg::ExternalState& state) {
@@ -117,7 +117,7 @@ TEST(Registry, PortsHaveTheUsageThatThePlanHas) {
   }
 }
 
-/// A stage of a chain, with settings that the whole method fits to a picture of 360 lines, or that are its own.
+/// A stage of a chain, with the settings that the whole method derives for an image of 360 lines or sets itself.
 struct Link {
   const char* type;
   std::vector<std::pair<const char*, const char*>> settings;
@@ -164,7 +164,7 @@ TEST(Registry, StagesConnectedByNameArePlannedAsTheWholeMethodIs) {
                    {"temporal_antialiasing_with_taps", {}}});
 }
 
-// Taps with and without the light that passes through are of one format: their ports keep them apart.
+// Taps with and without pass-through light have the same format, so only their ports tell them apart.
 TEST(Registry, TapsForAnotherStorageDoNotConnect) {
   for (const std::string kept : {"half", "packed"}) {
     for (const std::string taken : {"half", "packed"}) {
@@ -194,8 +194,8 @@ TEST(Registry, TapsForAnotherStorageDoNotConnect) {
   }
 }
 
-// Geometric normals are of 16 bits where planes span few dozen pixels; what reads them takes both.
-TEST(Registry, InputsSayEveryFormatThatTheyTake) {
+// Geometric normals have 16 bits if planes span a few dozen pixels. Their readers accept both formats.
+TEST(Registry, InputsListEveryFormatThatTheyAccept) {
   const auto otherFormats = [](const char* type, const std::string& port) {
     return std::ranges::find(typeOf(type).ports, port, &Port::name)->otherFormats;
   };
@@ -228,7 +228,7 @@ TEST(Registry, ConventionsReachThePasses) {
   EXPECT_NE(specialization({.normal = InputConventions::Space::World}), specialization({}));
 }
 
-TEST(Registry, NamesWhatIsWrong) {
+TEST(Registry, ErrorsNameTheFaultAndTheValidChoices) {
   EXPECT_NE(rejection([] { (void)makePass("wlr"); }).find("\"wlr\"; known types: prepare_guides"), std::string::npos);
   HostGraph host;
   const auto node = makePass("weighted_regression");
@@ -260,8 +260,8 @@ TEST(Registry, NamesWhatIsWrong) {
             std::string::npos);
 }
 
-// What a host need not have is a port that may be left open, and makes passes only where it is connected.
-TEST(Registry, ObjectNumbersAreAPortOfTheirOwn) {
+// An optional input is a port that may be left unconnected. Its passes are declared only if it is connected.
+TEST(Registry, ObjectIdsAreAnOptionalPort) {
   const auto portOf = [](PassNode& node) {
     const std::vector<Port> ports = node.ports();
     return *std::ranges::find(ports, std::string("object_id"), &Port::name);
@@ -292,7 +292,7 @@ TEST(Registry, ObjectNumbersAreAPortOfTheirOwn) {
   EXPECT_NE(plan.find("keep object ids"), std::string::npos) << plan;
 }
 
-TEST(Registry, SettingsAreDescribedAsTheyAre) {
+TEST(Registry, SettingsAreDescribedWithTheirCurrentValues) {
   const PassType& walr = typeOf("walr_paper");
   const auto find = [&](const char* name) {
     return *std::ranges::find(walr.settings, std::string(name), &SettingDescription::name);
@@ -305,7 +305,7 @@ TEST(Registry, SettingsAreDescribedAsTheyAre) {
   EXPECT_EQ(find("regression.moments").choices.size(), 4U);
   EXPECT_EQ(find("regression.trace-edges").kind, SettingKind::Switch);
   EXPECT_EQ(find("accumulation.max-history").unit, "frames");
-  // A listed value can be set again, and means the same.
+  // Setting the listed value changes nothing.
   for (const PassType& type : passTypes()) {
     const auto node = makePass(type.name);
     for (const SettingDescription& setting : type.settings) node->set(setting.name, setting.value);

@@ -1,4 +1,5 @@
-// Settings and sizes that change between two frames: when they act, what they make, what becomes of the history.
+// Settings and sizes that change between two frames: when they take effect, what is created, and whether history is
+// kept.
 #include <cstring>
 #include <functional>
 
@@ -17,8 +18,7 @@ using reference::HostFrame;
 
 constexpr glm::ivec2 kSize(61, 43);
 constexpr std::uint32_t kFrames = 6;
-/// Before the last frame.
-constexpr std::uint32_t kChange = kFrames - 1;
+constexpr std::uint32_t kLastFrame = kFrames - 1;
 
 using Texels = std::vector<std::uint16_t>;
 using Change = std::function<void(WalrDenoiser)>;
@@ -40,7 +40,7 @@ void fill(HostedRun& run, const HostFrame& frame) {
   hand("albedo", encodeHalves(frame.albedo));
 }
 
-/// The frame of a sequence in which a camera walks past a sphere.
+/// A frame of a sequence in which a camera moves past a sphere.
 Texels walk(HostedRun& run, std::uint32_t frame, glm::ivec2 size = kSize) {
   const glm::dvec3 step(0.06, 0.02, -0.03);
   const FrameDescription camera = cameraAt(double(frame) * step, (double(frame) - 1.0) * step, size, frame);
@@ -67,16 +67,16 @@ class Settings : public fg::test::GpuTest {
     options.getInstanceProcAddr = countDeviceCalls(context());
     return options;
   }
-  /// The last frame of a walk, before which a host changes something.
+  /// The last frame of a sequence. A host makes some change before it.
   [[nodiscard]] Texels lastAfter(const char* method, const Change& change) const {
     HostedRun run(device(), method, kSize);
-    for (std::uint32_t i = 0; i < kChange; ++i) walk(run, i);
+    for (std::uint32_t i = 0; i < kLastFrame; ++i) walk(run, i);
     change(run.denoiser());
-    return walk(run, kChange);
+    return walk(run, kLastFrame);
   }
 };
 
-/// A setting that changes numbers alone, and one that changes the passes.
+/// A setting that changes only numbers, and one that changes the passes.
 struct Adjustable {
   const char* method;
   const char* constant;
@@ -92,11 +92,11 @@ constexpr Adjustable kAdjustables[] = {
     {"accumulate", "accumulation.normal-threshold", "0.99", "0.5", "accumulation.rejection", "depth", "plane"},
 };
 
-TEST_F(Settings, AConstantActsInTheNextFrameAndMakesNothing) {
+TEST_F(Settings, AConstantTakesEffectInTheNextFrameAndCreatesNothing) {
   for (const Adjustable& each : kAdjustables) {
     SCOPED_TRACE(each.method);
     HostedRun run(device(), each.method, kSize, counted());
-    for (std::uint32_t i = 0; i < kChange; ++i) walk(run, i);
+    for (std::uint32_t i = 0; i < kLastFrame; ++i) walk(run, i);
     EXPECT_GT(deviceCalls.objects, 0U) << "the calls must be seen";
     EXPECT_GT(deviceCalls.pipelines, 0U);
     EXPECT_GT(deviceCalls.bytes, 0U);
@@ -104,7 +104,7 @@ TEST_F(Settings, AConstantActsInTheNextFrameAndMakesNothing) {
     deviceCalls = {};
     set(run.denoiser(), each.constant, each.value);
     require(walr_prepare(run.denoiser()));
-    const Texels changed = walk(run, kChange);
+    const Texels changed = walk(run, kLastFrame);
     EXPECT_EQ(deviceCalls.objects, 0U);
     EXPECT_EQ(deviceCalls.pipelines, 0U);
     EXPECT_EQ(deviceCalls.bytes, 0U);
@@ -114,7 +114,7 @@ TEST_F(Settings, AConstantActsInTheNextFrameAndMakesNothing) {
     EXPECT_TRUE(finite(changed));
     const Texels unchanged = lastAfter(each.method, [](WalrDenoiser) {});
     EXPECT_NE(changed, unchanged);
-    // The same in an executor that is made for the new setting and goes on from the same history.
+    // The same in an executor that is created for the new setting and inherits the history.
     const Texels made = lastAfter(each.method, [&](WalrDenoiser denoiser) {
       set(denoiser, each.topology, each.other);
       require(walr_prepare(denoiser));
@@ -127,14 +127,14 @@ TEST_F(Settings, AConstantActsInTheNextFrameAndMakesNothing) {
   }
 }
 
-/// Constant light that changes in the last frame tells how many samples are behind a pixel: with `n` before, the mean
-/// has come from 1 by 1 / (n + 1) of the way to the new value.
+/// Light is constant and changes in the last frame. This shows the history length of a pixel: with length `n`, the mean
+/// covers 1 / (n + 1) of the way from the old value to the new one.
 class HistoryLength : public Settings {
  protected:
   static constexpr double kAfter = 1.875;
   static constexpr std::uint32_t kLast = 6;
 
-  /// @param change called before each frame but the first
+  /// @param change called before each frame except the first
   [[nodiscard]] Texels lastPicture(const char* method,
                                    const std::function<void(HostedRun&, std::uint32_t)>& change) const {
     HostedRun run(device(), method, kSize, counted());
@@ -150,7 +150,7 @@ class HistoryLength : public Settings {
   }
   static void expectSamplesBehind(const Texels& texels, std::uint32_t samples) {
     const double expected = 1.0 + (kAfter - 1.0) / (samples + 1.0);
-    // Of what is packed: rounding of the mean, and anti-aliasing's least box around it.
+    // For packed light: rounding of the mean, and the least size of anti-aliasing's clipping box.
     const double reach = reference::packedStep(expected, reference::kFilteredBits) + 2.0 / 3.0 * 0x1p-6 * expected;
     const reference::Image<glm::dvec4> picture = decodeHalves(texels, kSize);
     reference::forEachPixel(kSize, [&](glm::ivec2 p) { ASSERT_NEAR(picture[p].x, expected, reach + 0x1p-8); });
@@ -168,9 +168,9 @@ TEST_F(HistoryLength, GrowsThroughConstantsThatChangeInEveryFrame) {
   }
 }
 
-TEST_F(HistoryLength, GrowsThroughOtherPassesAndTheirPipelinesAreMadeOnce) {
+TEST_F(HistoryLength, GrowsThroughOtherPassesAndTheirPipelinesAreCreatedOnce) {
   for (const Adjustable& each : kAdjustables) {
-    // Its other passes test the history against the last frame's normals, which these do not keep.
+    // The other passes test history against the previous frame's normals, which these passes do not keep.
     if (std::string_view(each.method) == "accumulate") continue;
     SCOPED_TRACE(each.method);
     expectSamplesBehind(lastPicture(each.method,
@@ -188,7 +188,7 @@ TEST_F(HistoryLength, GrowsThroughOtherPassesAndTheirPipelinesAreMadeOnce) {
   }
 }
 
-TEST_F(HistoryLength, StartsAnewWhereTheFormatIsAnother) {
+TEST_F(HistoryLength, RestartsIfTheFormatDiffers) {
   const Texels texels = lastPicture("walr", [](HostedRun& run, std::uint32_t frame) {
     if (frame == 1) set(run.denoiser(), "antialiasing.enabled", "off");
     if (frame == kLast) set(run.denoiser(), "accumulation.storage", "half");
@@ -196,7 +196,7 @@ TEST_F(HistoryLength, StartsAnewWhereTheFormatIsAnother) {
   expectSamplesBehind(texels, 0);
 }
 
-TEST_F(Settings, ANewSizeMakesNoPipelinesAndWaitsForNothing) {
+TEST_F(Settings, ANewSizeCreatesNoPipelinesAndDoesNotWait) {
   constexpr glm::ivec2 kOther(40, 45);
   HostedRun run(device(), "walr", kSize, counted());
   for (std::uint32_t i = 0; i < 3; ++i) walk(run, i);
@@ -209,7 +209,7 @@ TEST_F(Settings, ANewSizeMakesNoPipelinesAndWaitsForNothing) {
   EXPECT_TRUE(finite(resized));
 }
 
-TEST_F(Settings, AHostsPipelineCacheIsTheOneInUse) {
+TEST_F(Settings, UsesTheHostsPipelineCache) {
   fg::vk::PipelineCache cache(context());
   HostedRun::Options options = counted();
   options.pipelineCache = cache.handle();

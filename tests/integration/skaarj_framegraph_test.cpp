@@ -1,4 +1,4 @@
-// walr's passes in skaarj1989's FrameGraph, where it is at hand: cmake -DWALR_SKAARJ_FRAMEGRAPH=FOLDER.
+// walr's passes in skaarj1989's FrameGraph. Built with cmake -DWALR_SKAARJ_FRAMEGRAPH=FOLDER.
 #include <map>
 #include <memory>
 #include <tuple>
@@ -18,7 +18,7 @@ struct BufferDesc {
   VkBufferUsageFlags usage = 0;
 };
 
-/// Images and buffers that a frame gives back and the next takes again, with the state in which they were left.
+/// A pool of images and buffers that frames reuse, with their current states.
 class Pool {
  public:
   using Key = std::tuple<VkFormat, std::uint32_t, std::uint32_t, VkImageUsageFlags>;
@@ -49,7 +49,7 @@ class Pool {
   void give(const Key& key, HostImage* image) { free_[key].push_back(image); }
   [[nodiscard]] std::size_t size() const { return all_.size(); }
 
-  /// Buffers are few and are not given back.
+  /// Buffers are few and are not reused.
   VkBuffer makeBuffer(const BufferDesc& desc) {
     VkBufferCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
@@ -104,7 +104,7 @@ struct Buffer {
   void preWrite(const Desc& /*desc*/, std::uint32_t /*flags*/, void* context) { barrier(context); }
 
  private:
-  /// Whatever comes next may do whatever it wants.
+  /// A barrier for any later use.
   static void barrier(void* context) {
     VkMemoryBarrier2 everything{};
     everything.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2;
@@ -137,7 +137,7 @@ struct Binder {
   static VkCommandBuffer commands(void* context) { return static_cast<VkCommandBuffer>(context); }
 };
 
-/// The host: makes its own images and the histories, and a graph every frame.
+/// The host: it creates its images and the histories once, and a graph in every frame.
 class Engine {
  public:
   Engine(Host& host, const WalrApi& api, WalrPasses passes) : host_(&host), api_(&api), passes_(passes), pool_(host) {

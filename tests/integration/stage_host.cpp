@@ -45,7 +45,7 @@ Chain::~Chain() {
   }
 }
 
-/// With every use that an image between stages may have, and zeros in it.
+/// Create images with all usage flags that images between stages may need, filled with zeros.
 void Chain::makeImages(const std::string& name, const WalrResource& resource, std::size_t count) {
   std::vector<HostImage>& images = images_[name];
   while (images.size() < count) {

@@ -10,8 +10,8 @@
 
 #include "host/vulkan_host.h"
 
-/// A host that builds a method out of single stages, which it connects by the names of their ports. It keeps every
-/// image in one layout and waits for everything between two passes.
+/// A host that builds a method out of single stages, which it connects by the names of their ports. It keeps all images
+/// in one layout and records a full barrier between passes.
 namespace stage_host {
 
 class Chain {
@@ -22,13 +22,13 @@ class Chain {
   Chain(const Chain&) = delete;
   Chain& operator=(const Chain&) = delete;
 
-  /// Append a stage. Its inputs are outputs of those before it, or the host's images. The result is the last one's.
-  /// @param info     with the stage's name for its method
+  /// Append a stage. Its inputs are outputs of earlier stages or the host's images. The last stage writes the result.
+  /// @param info     `method` is the stage's name
   /// @param settings of the stage
-  /// @param renamed  inputs that take outputs of other names
+  /// @param renamed  inputs that are connected to outputs of other names
   void add(WalrDenoiserInfo info, const std::vector<WalrSettingValue>& settings,
            const std::map<std::string, std::string>& renamed = {});
-  /// An image of the host's, by name; null where no stage takes it.
+  /// An image of the host by name; null if no stage uses it.
   HostImage* image(const std::string& name) {
     const auto found = images_.find(name);
     return found == images_.end() ? nullptr : found->second.data();
@@ -40,10 +40,10 @@ class Chain {
   struct Stage {
     WalrPasses passes = nullptr;
     const WalrPassList* list = nullptr;
-    std::vector<std::string> images;  ///< By resource: name of what is behind it; empty where nothing is.
-    std::vector<bool> swapped;        ///< By resource: it is the image of the frame before.
+    std::vector<std::string> images;  ///< By resource: name of its image; empty if it has none.
+    std::vector<bool> swapped;        ///< By resource: whether it is the previous frame's image.
   };
-  /// The image behind an output, and whether it is that of the frame before.
+  /// The image of an output, and whether it is the previous frame's.
   struct Output {
     std::string image;
     bool swapped = false;
@@ -57,7 +57,7 @@ class Chain {
   Host* host_;
   const WalrApi* api_;
   std::vector<Stage> stages_;
-  std::map<std::string, std::vector<HostImage>> images_;  ///< Histories have two, which take turns.
+  std::map<std::string, std::vector<HostImage>> images_;  ///< Histories have two, which swap.
   std::map<std::string, Output> outputs_;                 ///< By port.
   std::uint32_t frames_ = 0;
 };

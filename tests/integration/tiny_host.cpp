@@ -131,7 +131,7 @@ void Graph::transition(VkCommandBuffer commands, const WalrBinding& binding) {
     host_transition(commands, image, binding.stage, binding.access, VK_IMAGE_LAYOUT_GENERAL);
     return;
   }
-  // Overwritten: what was there before is of no use.
+  // It is overwritten, so earlier contents may be discarded.
   if (binding.access == VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT) image->layout = VK_IMAGE_LAYOUT_UNDEFINED;
   host_transition(commands, image, binding.stage, binding.access, VK_IMAGE_LAYOUT_GENERAL);
 }

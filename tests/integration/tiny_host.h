@@ -11,42 +11,41 @@
 
 #include "host/vulkan_host.h"
 
-/// A frame graph in the manner of Granite's: resources go by name and all belong to the graph, nothing is imported;
-/// images with storage use stay in GENERAL, also where they are sampled, and never share memory; a history is null
-/// until a frame lies behind it; passes are recorded in another order than they run in, as by threads, each into a
-/// command buffer of its own. It knows walr by the plug-in's headers alone.
+/// A small frame graph that works like Granite's. The graph owns all resources and identifies them by name; nothing is
+/// imported. Storage images stay in GENERAL and never alias. A history is null in the first frame. Passes are recorded
+/// in another order than they run in, as if by several threads, each into its own command buffer. It uses only the
+/// plug-in's headers.
 namespace tiny_host {
 
 class Graph {
  public:
-  /// Take a plug-in's passes over, one by one.
+  /// Add each of a plug-in's passes.
   /// @param api what the plug-in registered
   Graph(Host& host, const WalrApi& api, WalrPasses passes);
   ~Graph();
   Graph(const Graph&) = delete;
   Graph& operator=(const Graph&) = delete;
 
-  /// The graph's image of a name.
+  /// The graph's image with a name.
   HostImage& image(const std::string& name) { return images_.at(name).slots[0]; }
-  /// Forget what lies behind: histories are null in the next frame.
+  /// Drop the history: previous histories are null in the next frame.
   void resetHistory() { hasHistory_ = false; }
-  /// Leave out every barrier before a read that needs no other layout: what a host must not do, and validation must
-  /// see.
+  /// Leave out barriers before reads that need no layout transition. This is an error that validation must report.
   void leaveOutReadBarriers() { readBarriers_ = false; }
-  /// Go on from what another graph of the same method at another size left.
+  /// Continue from the histories of another graph, of the same method at another size.
   void goOnFrom(Graph& before) {
     before_ = &before;
     hasHistory_ = false;
   }
   /// Run all passes.
   void frame(const WalrPassFrame& frame);
-  /// Bytes that the driver asks for all images and buffers of the graph.
+  /// Bytes that the driver requires for all images and buffers of the graph.
   [[nodiscard]] std::uint64_t bytes() const { return bytes_; }
-  /// The same as the plug-in's list has it.
+  /// The same according to the plug-in's list.
   [[nodiscard]] std::uint64_t listedBytes() const { return listedBytes_; }
 
  private:
-  /// A named image; histories have two that take turns.
+  /// A named image; histories have two, which swap.
   struct Named {
     std::vector<HostImage> slots;
   };
@@ -59,9 +58,9 @@ class Graph {
 
   void makeResource(const WalrResource& resource);
   void makeBuffer(const WalrResource& resource);
-  /// The image behind a resource in this frame; null for a history that there is none of.
+  /// The image of a resource in this frame; null for a history that does not exist.
   HostImage* behind(std::uint32_t resource);
-  /// What the last frame wrote into a history; null where there was none.
+  /// The history image that the last frame wrote; null if there was none.
   [[nodiscard]] HostImage* lastOf(const std::string& history);
   void transition(VkCommandBuffer commands, const WalrBinding& binding);
   std::vector<VkCommandBuffer> beginPasses();
@@ -75,7 +74,7 @@ class Graph {
   std::map<std::string, NamedBuffer> buffers_;
   std::uint64_t bytes_ = 0;
   std::uint64_t listedBytes_ = 0;
-  Graph* before_ = nullptr;  ///< Until a frame lies behind.
+  Graph* before_ = nullptr;  ///< Until the first frame has run.
   std::uint32_t parity_ = 0;
   bool hasHistory_ = false;
   bool readBarriers_ = true;

@@ -1,13 +1,13 @@
 /*
- * A method or a single stage of one spelled out, for engines that schedule and record by themselves: passes, what they
- * read and write, and everything that is needed to run them, as plain data.
+ * The passes of a method or of a single stage as plain data, for engines that schedule and record passes themselves:
+ * what each pass reads and writes, and all that is needed to run it.
  *
- * Two ways to use it:
- * - Pass by pass: each pass becomes one of the host's graph. The host makes every resource of the list, orders the
- *   passes, places barriers, swaps histories, and calls walr_record_pass from each, which binds and dispatches and does
- *   nothing else.
- * - A dispatch list: the host makes the pipelines itself from what it finds here and need not even give a device. The
- *   list's order, barriers and places in shared heaps may be used as they are.
+ * There are two ways to use it:
+ * - Pass by pass: each pass becomes a pass of the host's graph. The host creates all resources of the list, orders the
+ *   passes, places barriers and swaps histories. It calls walr_record_pass for each pass, which only binds and
+ *   dispatches.
+ * - A dispatch list: the host also creates the pipelines, from the SPIR-V and constants in the list. It need not give a
+ *   device. It may use the list's order, barriers and heap offsets as they are.
  */
 #ifndef WALR_WALR_PASSES_H
 #define WALR_WALR_PASSES_H
@@ -19,12 +19,13 @@ extern "C" {
 #endif
 
 typedef enum WalrResourceKind {
-  /* An image of the host's: "lighting", ..., "denoised", or, of a single stage, an input that has the port's name. */
+  /* An image of the host: "lighting", ..., "denoised". Of a single stage also its other inputs, named like the ports.
+   */
   WALR_RESOURCE_HOST = 0,
   WALR_RESOURCE_TRANSIENT = 1,        /* Lives within the frame. */
-  WALR_RESOURCE_HISTORY_PREVIOUS = 2, /* What the last frame wrote into `partner`. Nothing, on the first. */
-  WALR_RESOURCE_HISTORY_CURRENT = 3,  /* Kept for the next frame, which finds it in `partner`. */
-  WALR_RESOURCE_UPLOAD = 4,           /* A uniform buffer that is new every frame: walr_get_frame_constants. */
+  WALR_RESOURCE_HISTORY_PREVIOUS = 2, /* What the last frame wrote into `partner`. Null in the first frame. */
+  WALR_RESOURCE_HISTORY_CURRENT = 3,  /* Kept for the next frame, which reads it as `partner`. */
+  WALR_RESOURCE_UPLOAD = 4, /* A uniform buffer with new contents in every frame, see walr_get_frame_constants. */
   WALR_RESOURCE_KIND_MAX = 0x7fffffff
 } WalrResourceKind;
 
@@ -34,40 +35,40 @@ typedef struct WalrResource {
   uint32_t struct_size;
   WalrResourceKind kind;
   const char* name;
-  VkBool32 used; /* Whether any pass touches it. */
+  VkBool32 used; /* Whether any pass uses it. */
   VkBool32 buffer;
-  VkFormat format; /* Images only, as are width, height and image_usage. */
+  VkFormat format; /* For images only, like width, height and image_usage. */
   uint32_t width;
   uint32_t height;
   VkImageUsageFlags image_usage; /* Union over all passes. */
   VkBufferUsageFlags buffer_usage;
-  uint32_t partner;     /* Histories: index of the other one; WALR_NONE otherwise. */
+  uint32_t partner;     /* Index of the other resource of a history; WALR_NONE if it is none. */
   uint64_t buffer_size; /* Bytes; buffers only. */
-  uint64_t memory_size; /* Bytes that the driver asks for; without a device, those of the texels. */
-  uint32_t heap;        /* Transients that share memory: index of the heap; WALR_NONE otherwise. */
+  uint64_t memory_size; /* Bytes that the driver requires; without a device, bytes of the texels. */
+  uint32_t heap;        /* Index of the heap, for transients that alias; WALR_NONE otherwise. */
   uint32_t reserved;
   uint64_t heap_offset; /* Bytes. */
 } WalrResource;
 
-/* One variable of a shader, all in descriptor set 0. */
+/* One binding of a shader. All are in descriptor set 0. */
 typedef struct WalrBinding {
   uint32_t struct_size;
   uint32_t binding;
   const char* name;
   VkDescriptorType type;
-  uint32_t resource;           /* Index into WalrPassList::resources. A pass may bind one more than once. */
-  VkPipelineStageFlags2 stage; /* In which the pass touches it, */
-  VkAccessFlags2 access;       /* and how. */
-  /* And in which layout unless the host says otherwise. GENERAL always does, and READ_ONLY_OPTIMAL in place of
-   * SHADER_READ_ONLY_OPTIMAL. */
+  uint32_t resource;           /* Index into WalrPassList::resources. A pass may bind a resource more than once. */
+  VkPipelineStageFlags2 stage; /* Stages in which the pass uses it, */
+  VkAccessFlags2 access;       /* and all its accesses. */
+  /* The usual layout. The host may use GENERAL instead of any, and READ_ONLY_OPTIMAL instead of
+   * SHADER_READ_ONLY_OPTIMAL; see WalrPassResource::layout. */
   VkImageLayout layout;
-  VkFilter filter; /* Of combined image samplers, which clamp to the edge. */
+  VkFilter filter; /* For combined image samplers, which clamp to the edge. */
 } WalrBinding;
 
-/* A VkImageMemoryBarrier2 or VkBufferMemoryBarrier2 of the whole resource. */
+/* A VkImageMemoryBarrier2 or VkBufferMemoryBarrier2 for a whole resource. */
 typedef struct WalrBarrier {
   uint32_t resource;
-  uint32_t alias_of; /* The resource that had the memory before, where it changes hands; WALR_NONE otherwise. */
+  uint32_t alias_of; /* The resource that used the memory before, if that was another; WALR_NONE otherwise. */
   VkPipelineStageFlags2 src_stage;
   VkAccessFlags2 src_access;
   VkPipelineStageFlags2 dst_stage;
@@ -78,35 +79,35 @@ typedef struct WalrBarrier {
 
 typedef struct WalrSpecialization {
   uint32_t constant_id;
-  uint32_t value; /* 32 bits, be they of a uint, float or bool. */
+  uint32_t value; /* The 32 bits of a uint, float or bool. */
 } WalrSpecialization;
 
-/* The age of a history, in frames, that the pass wants at an offset of its push constants; 0 while there is none. */
+/* The pass reads the age of a history from its push constants: the number of frames, 0 if there is none. */
 typedef struct WalrHistoryAge {
-  uint32_t resource; /* The previous one. */
-  uint32_t offset;   /* Bytes. */
+  uint32_t resource; /* The previous history. */
+  uint32_t offset;   /* Bytes into the push constants. */
 } WalrHistoryAge;
 
 /* One dispatch of a compute shader. */
 typedef struct WalrDispatch {
   uint32_t struct_size;
   uint32_t binding_count;
-  const char* name;   /* Of the pass; no other has it. */
-  const char* shader; /* Name of the shader; passes of one name have the same SPIR-V. */
+  const char* name;   /* Name of the pass, unique in the list. */
+  const char* shader; /* Passes with the same shader name have the same SPIR-V. */
   const uint32_t* spirv;
   size_t spirv_size; /* Bytes. */
   const WalrBinding* const* bindings;
   const WalrSpecialization* specializations;
   const void* push_constants;
   const WalrHistoryAge* history_ages;
-  const WalrBarrier* barriers; /* Before the dispatch, where the list's order and heaps are used. */
+  const WalrBarrier* barriers; /* To record before the dispatch, if the list's order and heaps are used. */
   uint32_t specialization_count;
   uint32_t push_constant_size; /* Bytes. */
   uint32_t history_age_count;
   uint32_t barrier_count;
   uint32_t group_count[3];
-  /* Buffer with the group counts: index of a resource that one of the bindings is, too, whose stage and access then say
-   * so; WALR_NONE usually. */
+  /* Index of the buffer that holds the group counts, or WALR_NONE. It is also one of the bindings, whose stage and
+   * access include the indirect read. */
   uint32_t indirect;
   uint64_t indirect_offset;
 } WalrDispatch;
@@ -128,14 +129,14 @@ typedef struct WalrPassList {
   uint32_t struct_size;
   uint32_t resource_count;
   const WalrResource* const* resources;
-  const WalrDispatch* const* passes; /* In an order that works. */
-  const WalrBarrier* releases;       /* After the last pass. */
+  const WalrDispatch* const* passes; /* In a valid order. */
+  const WalrBarrier* releases;       /* To record after the last pass. */
   const WalrHeap* heaps;
   uint32_t pass_count;
   uint32_t release_count;
   uint32_t heap_count;
   uint32_t reserved;
-  const WalrPortResource* ports; /* Of a single stage; none of a method. */
+  const WalrPortResource* ports; /* Of a single stage; a method has none. */
   uint32_t port_count;
   uint32_t reserved2;
 } WalrPassList;
@@ -147,8 +148,8 @@ typedef struct WalrSettingValue {
   const char* value;
 } WalrSettingValue;
 
-/* What is connected to an input of a single stage, where it is not of WalrPort::format. Formats of the host's own
- * images are in WalrDenoiserInfo. */
+/* Format of the image that is connected to an input of a single stage, if it differs from WalrPort::format. The formats
+ * of the host's own images are in WalrDenoiserInfo. */
 typedef struct WalrPortFormat {
   const char* port;
   VkFormat format;
@@ -158,74 +159,74 @@ typedef struct WalrPortFormat {
 typedef struct WalrPassesInfo {
   uint32_t struct_size;
   uint32_t setting_count;
-  /* Its method may be the name of any WalrPassType. Its device may be null where no pass is to be recorded. */
+  /* `method` may be the name of any WalrPassType. `device` may be null if no pass will be recorded. */
   const WalrDenoiserInfo* denoiser;
   const WalrSettingValue* settings;
-  const WalrPortFormat* ports; /* Of a single stage; optional. */
+  const WalrPortFormat* ports; /* For a single stage; optional. */
   uint32_t port_count;
   uint32_t reserved;
 } WalrPassesInfo;
 
 /*
- * Passes of a whole method, or of a single stage (a WalrPassType that is no method), from which a host builds a method
- * of its own:
- * - An output of one stage goes into the inputs of the same name of those that follow: the host gives the image behind
- *   the one port (WalrPassList::ports) for the other, in place of a WALR_RESOURCE_HOST. Such an image is made with the
- *   usage of all resources that it stands for, and lives until the last of these stages has read it.
- * - An output that is a previous history ("guides.previous-depth") is what the last frame wrote into its partner. In
- * the first frame, and where the past is of no use, give an image of zeros for it to the stages that follow.
- * - A stage takes images in walr's own conventions: WalrConventions may state only normal_space, motion_unit,
- *   motion_scale, motion_jittered and a static scene's motion_depth.
- * - Every stage's frame is begun with the same camera.
+ * Create the passes of a whole method or of a single stage (a WalrPassType that is not a method). A host can build its
+ * own method out of stages:
+ * - Connect an output of one stage to the inputs of the same name of later stages. To do so, use the image behind the
+ *   output (WalrPassList::ports) also for the WALR_RESOURCE_HOST behind the input. Create it with the combined usage
+ *   flags of all these resources, and keep its contents until the last of these stages has read it.
+ * - An output that is a previous history ("guides.previous-depth") holds what the last frame wrote into its partner. In
+ *   the first frame and after a camera cut, give later stages an image of zeros for it.
+ * - A stage takes images in walr's own conventions. Of WalrConventions it accepts only normal_space, motion_unit,
+ *   motion_scale, motion_jittered, and WALR_MOTION_DEPTH_STATIC_SCENE.
+ * - Begin each frame of every stage with the same camera.
  */
 WALR_API WalrResult walr_create_passes(const WalrPassesInfo* info, WalrPasses* passes);
 /* The GPU must have finished everything recorded. */
 WALR_API WalrResult walr_destroy_passes(WalrPasses passes);
-/* Everything in the list is valid until the passes are destroyed. */
+/* The list and all it points to are valid until the passes are destroyed. */
 WALR_API WalrResult walr_get_pass_list(WalrPasses passes, const WalrPassList** list);
 
-/* Let the next frame of passes go on from the last frame of others: its camera, its size and its number are taken over.
- * A list never changes, so a host that changes a setting or the size makes new passes and lets them go on from the old.
- * What those wrote as current histories is then to be given as previous ones of the same name and format; where the old
- * passes have no such history, null is. Both must be of one method, and of one size unless WalrConventions::rectangle
- * is stated. Passes of several sizes may take turns. WalrDenoiserInfo::pipeline_cache spares the pipelines that were
- * there before from being compiled again. */
+/* Continue from the last frame of other passes: `passes` takes over the camera, size and frame number of `last`, and
+ * the ages of its histories. A pass list never changes, so a host that changes a setting or the size creates new passes
+ * and continues from the old ones. In the next frame, bind the current histories of `last` as the previous histories of
+ * the same name and format; bind null if `last` has no such history. Both must be of the same method, and of the same
+ * size unless both set WalrConventions::rectangle. Hosts may alternate between passes of several sizes. With
+ * WalrDenoiserInfo::pipeline_cache, pipelines that `last` has need not be compiled again. */
 WALR_API WalrResult walr_continue_passes(WalrPasses passes, WalrPasses last);
 
 typedef struct WalrPassFrame {
   uint32_t struct_size;
   float sky_depth; /* As in WalrFrame. */
   const WalrCamera* camera;
-  const WalrCamera* previous_camera; /* Null stands for the camera of the frame before. */
+  const WalrCamera* previous_camera; /* Null means the camera of the frame before. */
   float pre_exposure;                /* As in WalrFrame. */
   uint32_t reserved;
   uint32_t offset[2]; /* As in WalrFrame. */
 } WalrPassFrame;
 
-/* Begin a frame: to be called once before its passes are recorded. The GPU must have finished the frame that was begun
- * `frames_in_flight` frames earlier. */
+/* Begin a frame. Call it once before the passes of the frame are recorded. The GPU must have finished the frame that
+ * was begun `frames_in_flight` frames earlier. */
 WALR_API WalrResult walr_begin_frame(WalrPasses passes, const WalrPassFrame* frame);
 
-/* Contents of an upload buffer for the frame begun last, for hosts that bind it themselves.
+/* Contents of an upload buffer for the frame begun last, for hosts that bind their own buffer.
  * resource: index of a WALR_RESOURCE_UPLOAD
  * size: in: bytes at `bytes`; out: bytes needed. `bytes` may be null. */
 WALR_API WalrResult walr_get_frame_constants(WalrPasses passes, uint32_t resource, void* bytes, size_t* size);
 
-/* What the host binds. */
+/* A resource that the host binds. */
 typedef struct WalrPassResource {
-  VkImage image;     /* Null for a history of which there is no last frame: zeros are read. */
-  VkBuffer buffer;   /* Of buffers, but not of uploads, which are the library's. */
+  VkImage image;     /* Null for a previous history that does not exist: the pass reads zeros. */
+  VkBuffer buffer;   /* For buffers, except uploads: the library binds its own. */
   uint64_t identity; /* As in WalrImage. */
   VkImageLayout layout;
   uint32_t reserved;
 } WalrPassResource;
 
 /*
- * Bind and dispatch a pass. Passes of a frame may be recorded in any order and into different command buffers,
- * secondary ones too, so long as the GPU comes to them in the list's order or another that works. There is no barrier
- * in it, save for the zeros of a history that is null: everything that it touches must be in the given layout, visible
- * to the binding's stage and access, and stay so until others wait for it. resources: one for each of the pass's
- * bindings, in their order.
+ * Bind and dispatch a pass. Passes of a frame may be recorded in any order and into different command buffers, also
+ * secondary ones, if the GPU executes them in the list's order or another valid one. The call records no barrier,
+ * except to clear the zeros that stand in for a null history: all resources must be in the given layout and visible to
+ * the binding's stage and access, and must stay so until the pass has finished. resources: one for each binding of the
+ * pass, in the order of WalrDispatch::bindings
  */
 WALR_API WalrResult walr_record_pass(WalrPasses passes, uint32_t pass, VkCommandBuffer command_buffer,
                                      const WalrPassResource* resources, uint32_t resource_count);

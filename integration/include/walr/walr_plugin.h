@@ -1,7 +1,7 @@
 /*
- * The library as a plug-in that is loaded while a host runs: one function is exported, walr_register_plugin, which
- * hands the host the pass types for its own registry and a table with every function of walr.h and walr_passes.h. The
- * host needs these headers and nothing else of walr.
+ * The library as a plug-in that a host loads at run time. It exports one function, walr_register_plugin, which gives
+ * the host all pass types for its own registry and a table with every function of walr.h and walr_passes.h. Of walr,
+ * the host needs only these headers at compile time.
  */
 #ifndef WALR_WALR_PLUGIN_H
 #define WALR_WALR_PLUGIN_H
@@ -12,9 +12,9 @@
 extern "C" {
 #endif
 
-/* Grows at its end only. */
+/* All functions. Later versions add members at the end only. */
 typedef struct WalrApi {
-  uint32_t struct_size; /* Of what the plug-in has: check it before the use of a later function. */
+  uint32_t struct_size; /* Size in the plug-in: compare it before you use a member that was added later. */
   uint32_t reserved;
   const char* (*version)(void);
   const char* (*result_name)(WalrResult result);
@@ -48,12 +48,12 @@ typedef struct WalrApi {
   WalrResult (*continue_passes)(WalrPasses passes, WalrPasses last);
 } WalrApi;
 
-/* What a host offers to a plug-in. A function that returns false ends the registration. */
+/* Callbacks of the host. If one returns false, the registration ends with an error. */
 typedef struct WalrRegistryHost {
   uint32_t struct_size;
   uint32_t reserved;
   void* user;
-  /* Called first. The table is valid for as long as the plug-in is loaded. */
+  /* Called first. The table is valid while the plug-in is loaded. */
   VkBool32 (*register_api)(void* user, const WalrApi* api);
   /* Called for each pass type; may be null. */
   VkBool32 (*register_pass_type)(void* user, const WalrPassType* type);

@@ -31,7 +31,7 @@ VkFormat formatOf(std::size_t input) {
   return input == 1 ? VK_FORMAT_R32_SFLOAT : VK_FORMAT_R32G32B32A32_SFLOAT;
 }
 
-/// Hands the host's instance over.
+/// Lets Granite use the host's instance.
 class Instance final : public Vulkan::InstanceFactory {
  public:
   explicit Instance(const Host& host) : instance_(host.instance) {
@@ -53,7 +53,7 @@ class Instance final : public Vulkan::InstanceFactory {
   VkInstanceCreateInfo info_{};
 };
 
-/// Hands the host's device over, and its one queue.
+/// Lets Granite use the host's device and its only queue.
 class Device final : public Vulkan::DeviceFactory {
  public:
   explicit Device(Host& host) : host_(&host) {
@@ -84,7 +84,7 @@ class Device final : public Vulkan::DeviceFactory {
 class Globals {
  public:
   Globals() {
-    setenv("GRANITE_NUM_WORKER_THREADS", "4", 1);  // As many as the machine has may be one.
+    setenv("GRANITE_NUM_WORKER_THREADS", "4", 1);  // The default, the number of cores, may be one.
     Granite::Global::init(Granite::Global::MANAGER_FEATURE_EVENT_BIT |
                           Granite::Global::MANAGER_FEATURE_THREAD_GROUP_BIT |
                           Granite::Global::MANAGER_FEATURE_LOGGING_BIT);
@@ -137,7 +137,7 @@ struct Engine::Parts {
   Vulkan::Program* gbuffer = nullptr;
   Vulkan::Program* present = nullptr;
   std::optional<walr::adapters::GranitePasses> walr;
-  std::vector<Vulkan::ImageHandle> sources;  ///< That the G-buffer is drawn from.
+  std::vector<Vulkan::ImageHandle> sources;  ///< Source textures of the G-buffer.
   Vulkan::ImageHandle backBuffer;
   Granite::AttachmentInfo backInfo;
   Granite::RenderGraph graph;
@@ -183,7 +183,7 @@ void Engine::Parts::addPresent() {
   });
 }
 
-/// Images that Granite fills and moves itself make messages of their own; here all is spelled out.
+/// Fill an image with explicit commands: Granite's own uploads cause validation messages.
 void Engine::Parts::makeImages(std::uint32_t width, std::uint32_t height) {
   Vulkan::ImageCreateInfo back = Vulkan::ImageCreateInfo::render_target(width, height, VK_FORMAT_R16G16B16A16_SFLOAT);
   back.usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;

@@ -9,32 +9,32 @@
 
 #include "host/vulkan_host.h"
 
-/// Granite with a render graph of a G-buffer, walr's passes and a back buffer. Granite takes Vulkan's functions from
-/// volk, so that nothing else of it is to be seen here.
+/// Granite with a render graph of a G-buffer, walr's passes and a back buffer. Granite gets Vulkan's functions from
+/// volk, so this header must not include any of its headers.
 namespace granite_host {
 
 class Engine {
  public:
-  /// @param host whose instance and device Granite takes over for as long as this lives
+  /// @param host Granite uses its instance and device; must outlive this object
   explicit Engine(Host& host);
   ~Engine();
   Engine(const Engine&) = delete;
   Engine& operator=(const Engine&) = delete;
 
-  /// Make a graph for the passes, in place of the one before.
+  /// Create a graph for the passes and replace the one before.
   void build(const WalrApi& api, WalrPasses passes, const WalrPassList& list, std::uint32_t width,
              std::uint32_t height);
-  /// Drop the graph, once the GPU has finished.
+  /// Wait for the GPU and destroy the graph.
   void drop();
 
-  /// Where the graph has put a pass of walr's.
+  /// Position of one of walr's passes in the baked graph.
   [[nodiscard]] unsigned position(const std::string& pass) const;
 
-  /// Run a frame, and do not wait for it.
+  /// Run a frame without waiting for it.
   /// @param inputs texels by channel, in the order of lighting, depth, normal, motion, albedo
   void frame(const WalrPassFrame& frame, const std::vector<std::vector<float>>& inputs, bool reset);
-  /// @param barrier whether to wait for what was drawn, as one must
-  /// @returns the back buffer, four halves a pixel
+  /// @param barrier whether to record the required barrier after drawing
+  /// @returns the back buffer, four halves per pixel
   std::vector<std::uint16_t> read(bool barrier = true);
 
  private:

@@ -1,5 +1,5 @@
 #version 450
-// What a renderer would draw, from textures.
+// Copies textures in place of drawing a scene.
 layout(set = 0, binding = 0) uniform sampler2D sources[5];
 layout(location = 0) out vec4 lighting;
 layout(location = 1) out float depth;

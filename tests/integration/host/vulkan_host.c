@@ -71,7 +71,7 @@ static void open_device(Host* host) {
                                          .pQueuePriorities = &priority};
   host->vulkan13 = (VkPhysicalDeviceVulkan13Features){.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES,
                                                       .synchronization2 = VK_TRUE};
-  /* Timelines and query resets are for the sake of libplacebo. */
+  /* libplacebo needs timeline semaphores and query resets. */
   host->vulkan12 = (VkPhysicalDeviceVulkan12Features){.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES,
                                                       .pNext = &host->vulkan13,
                                                       .hostQueryReset = VK_TRUE,
@@ -232,7 +232,7 @@ void host_transition(VkCommandBuffer command_buffer, HostImage* image, VkPipelin
   image->layout = layout;
 }
 
-/* Texels between the host's memory and an image: a buffer that lives for one copy. */
+/* A staging buffer for one copy between host memory and an image. */
 static void copy(Host* host, HostImage* image, void* texels, bool to_image) {
   const VkDeviceSize size = (VkDeviceSize)image->width * image->height * image->texel_size;
   const VkBufferCreateInfo info = {.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO,

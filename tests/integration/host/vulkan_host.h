@@ -20,7 +20,7 @@ typedef struct Host {
   VkDevice device;
   uint32_t queue_family;
   VkQueue queue;
-  VkPhysicalDeviceFeatures2 features; /* That the device was made with. */
+  VkPhysicalDeviceFeatures2 features; /* Enabled features. */
   VkPhysicalDeviceVulkan12Features vulkan12;
   VkPhysicalDeviceVulkan13Features vulkan13;
   VkCommandPool command_pool;
@@ -28,7 +28,7 @@ typedef struct Host {
   int messages; /* Warnings and errors of the layer so far; each is printed. */
 } Host;
 
-/* An image with memory of its own, and the state in which it was left. */
+/* An image with its own memory and its current state. */
 typedef struct HostImage {
   VkImage image;
   VkDeviceMemory memory;
@@ -42,30 +42,30 @@ typedef struct HostImage {
   VkImageLayout layout;
 } HostImage;
 
-/* A host stays where it was opened. The functions end the program with a message where Vulkan fails. */
+/* Do not move or copy a host after it is opened. If Vulkan fails, the functions end the program with a message. */
 void host_open(Host* host);
-/* The same, with extensions of the instance that others need; at most 8. */
+/* The same, with further instance extensions; at most 8. */
 void host_open_with(Host* host, const char* const* extensions, uint32_t count);
 /* Returns the number of messages, those at destruction included. */
 int host_close(Host* host);
 
-/* Memory of the first type that is allowed and has the properties. */
+/* Allocate memory of the first allowed type with the properties. */
 VkDeviceMemory host_allocate(Host* host, VkMemoryRequirements needs, VkMemoryPropertyFlags properties);
 
-/* A copy of texels into and out of it is always possible. */
+/* Usage flags for copies in both directions are added. */
 HostImage host_make_image(Host* host, VkFormat format, uint32_t texel_size, uint32_t width, uint32_t height,
                           VkImageUsageFlags usage);
 void host_destroy_image(Host* host, HostImage* image);
-/* Bytes of device memory that the driver asks for the image. */
+/* Bytes of device memory that the driver requires for the image. */
 VkDeviceSize host_image_bytes(Host* host, const HostImage* image);
 
 VkCommandBuffer host_begin(Host* host);
 void host_submit_and_wait(Host* host, VkCommandBuffer command_buffer);
-/* The same once a timeline semaphore has a value, which then gets another. */
+/* The same, but wait for a value of a timeline semaphore before and signal another after. */
 void host_submit_between(Host* host, VkCommandBuffer command_buffer, VkSemaphore timeline, uint64_t before,
                          uint64_t after);
 
-/* Move an image into a state. */
+/* Record a barrier that brings an image into a state. */
 void host_transition(VkCommandBuffer command_buffer, HostImage* image, VkPipelineStageFlags2 stage,
                      VkAccessFlags2 access, VkImageLayout layout);
 /* Replace all texels, rows without padding. */

@@ -1,4 +1,4 @@
-/* walr's passes in skaarj1989's FrameGraph, the callback graph in the manner of Frostbite's. Header-only; C++20. */
+/* walr's passes in skaarj1989's FrameGraph, a graph of callbacks like Frostbite's. Header-only; C++20. */
 #ifndef WALR_ADAPTERS_FRAMEGRAPH_H
 #define WALR_ADAPTERS_FRAMEGRAPH_H
 
@@ -12,13 +12,13 @@
 
 namespace walr::adapters {
 
-/// Adds a method's passes to a FrameGraph, each as a callback pass of its own.
+/// Adds the passes of a method to a FrameGraph, each as one callback pass.
 ///
-/// `Host` says what the graph's owner makes images of:
+/// `Host` names the resource types of the graph's owner:
 ///
 ///     struct Host {
 ///       using Texture = ...;  // A type for FrameGraph's resources.
-///       using Buffer = ...;   // The same of buffers.
+///       using Buffer = ...;   // The same for buffers.
 ///       static Texture::Desc textureDesc(const WalrResource&);
 ///       static Buffer::Desc bufferDesc(const WalrResource&);
 ///       static std::uint32_t flags(const WalrBinding&);  // For preRead and preWrite, which place barriers.
@@ -29,21 +29,20 @@ namespace walr::adapters {
 template <typename Host>
 class FrameGraphPasses {
  public:
-  /// What there is of nothing: a history on the first frame.
+  /// No resource, for instance a previous history in the first frame.
   static constexpr FrameGraphResource kNone = -1;
 
-  /// @param list   of the passes; must outlive this
-  /// @param record walr_record_pass, or what a plug-in registered as such
-  /// @param error  walr_last_error, or the plug-in's
+  /// @param list   list of the passes; must outlive this object
+  /// @param record walr_record_pass, linked or from a plug-in's table
+  /// @param error  walr_last_error, likewise
   FrameGraphPasses(WalrPasses passes, const WalrPassList& list, decltype(&walr_record_pass) record,
                    decltype(&walr_last_error) error)
       : passes_(passes), list_(&list), record_(record), error_(error) {}
 
   /// Add the passes of one frame, after walr_begin_frame.
-  /// @param resources one for each of the list's: imports of the host for WALR_RESOURCE_HOST and histories, kNone for
-  /// all
-  ///        that the graph is to make and for histories that are not there
-  /// @returns the same with what the passes wrote, at its new version
+  /// @param resources one for each resource of the list: imports for WALR_RESOURCE_HOST and histories, kNone for those
+  ///        that the graph creates and for previous histories that do not exist
+  /// @returns the same; what the passes wrote is at its new version
   std::vector<FrameGraphResource> add(FrameGraph& graph, std::vector<FrameGraphResource> resources) const {
     if (resources.size() != list_->resource_count) throw std::invalid_argument("a handle for each resource is needed");
     for (std::uint32_t i = 0; i < list_->pass_count; ++i) addPass(graph, i, resources);

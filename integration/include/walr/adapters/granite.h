@@ -17,30 +17,31 @@
 
 namespace walr::adapters {
 
-/// Adds a method's passes to a Granite::RenderGraph, each as a compute pass of its own. The graph makes every image and
-/// buffer, keeps the histories and places the barriers; the host's passes write the inputs and read the result by name.
+/// Adds the passes of a method to a Granite::RenderGraph, each as one compute pass. The graph creates all images and
+/// buffers, keeps the histories and places the barriers. The host's passes write the inputs and read the result by
+/// name.
 ///
-/// A frame is begin(), RenderGraph::setup_attachments, RenderGraph::enqueue_render_passes. The passes must outlive the
-/// graph's frames: RenderGraph::reset comes first.
+/// In each frame call begin(), RenderGraph::setup_attachments and RenderGraph::enqueue_render_passes. Call
+/// RenderGraph::reset before this object is destroyed.
 class GranitePasses {
  public:
-  /// Functions of walr, linked or as a plug-in registered them.
+  /// Functions of walr, linked or from a plug-in's table.
   struct Functions {
     decltype(&walr_begin_frame) beginFrame;
     decltype(&walr_record_pass) recordPass;
     decltype(&walr_last_error) lastError;
   };
 
-  /// @param passes stays the caller's; may have as many frames in flight as the device has frame contexts
-  /// @param list   of the passes; must outlive this
+  /// @param passes remains owned by the caller; created with as many frames in flight as the device has frame contexts
+  /// @param list   list of the passes; must outlive this object
   GranitePasses(WalrPasses passes, const WalrPassList& list, const Functions& walr)
       : passes_(passes), list_(&list), walr_(walr) {}
   GranitePasses(const GranitePasses&) = delete;
   GranitePasses& operator=(const GranitePasses&) = delete;
 
   /// Add the passes to a graph that is not baked yet.
-  /// @param names textures of the graph by walr's names for them ("lighting", ..., "denoised") where they differ
-  /// @throws std::invalid_argument where Granite has no such thing
+  /// @param names the graph's names of textures that differ from walr's, by walr's names ("lighting", ..., "denoised")
+  /// @throws std::invalid_argument for a pass or resource that Granite cannot express
   void add(Granite::RenderGraph& graph, const std::map<std::string, std::string>& names = {}) {
     graph_ = &graph;
     added_.clear();
@@ -56,8 +57,8 @@ class GranitePasses {
     for (std::uint32_t i = 0; i < list_->pass_count; ++i) addPass(i);
   }
 
-  /// Have a pass of the host's read the result. Granite culls what the back buffer does not depend on in this frame:
-  /// what is written for the next one only is kept by this, too.
+  /// Let a pass of the host read the result. Granite culls passes that the back buffer does not depend on in this
+  /// frame. This call also keeps those that only write histories for the next frame.
   Granite::RenderTextureResource& readBy(Granite::RenderPass& pass) const {
     for (const std::string& name : kept_) pass.add_proxy_input(name, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, 0);
     for (std::uint32_t i = 0; i < list_->resource_count; ++i) {
@@ -67,9 +68,9 @@ class GranitePasses {
     throw std::invalid_argument("no pass writes a result: add() comes first");
   }
 
-  /// Begin a frame, once the device is in its context.
-  /// @param reset leave out the histories: camera cut, or frames were skipped
-  /// @throws std::runtime_error with walr's words, also for what went wrong on Granite's threads in the frame before
+  /// Begin a frame, after the device has begun its frame context.
+  /// @param reset drop the histories: see WALR_FRAME_RESET_HISTORY
+  /// @throws std::runtime_error with walr's error text, also for an error on Granite's threads in the frame before
   void begin(const WalrPassFrame& frame, bool reset = false) {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (!error_.empty()) throw std::runtime_error(error_);
@@ -77,20 +78,20 @@ class GranitePasses {
     reset_ = reset;
   }
 
-  /// @returns what went wrong on Granite's threads; empty where nothing did
+  /// @returns the first error on Granite's threads; empty if there was none
   std::string error() const {
     const std::lock_guard<std::mutex> lock(mutex_);
     return error_;
   }
 
  private:
-  /// Granite knows a resource that several passes write by a new name after each.
+  /// A resource that several passes write has a new name in Granite after each write.
   struct State {
     std::string name;
-    std::uint32_t versions = 0;                 ///< Written so far.
-    std::vector<Granite::RenderPass*> readers;  ///< Of the current one.
+    std::uint32_t versions = 0;                 ///< Writes so far.
+    std::vector<Granite::RenderPass*> readers;  ///< Of the current version.
   };
-  /// What is behind a binding; neither for what is walr's own.
+  /// The resource behind a binding; both pointers are null for walr's own upload buffers.
   struct Bound {
     Granite::RenderTextureResource* texture = nullptr;
     Granite::RenderBufferResource* buffer = nullptr;
@@ -181,8 +182,8 @@ class GranitePasses {
     return bound;
   }
 
-  /// Names of a resource before and after a pass that writes to it. Granite does not order the pass after those that
-  /// read what was there before.
+  /// Names of a resource before and after a pass that writes to it. Granite does not order the pass after the readers
+  /// of the old contents, so proxy resources do.
   std::pair<std::string, std::string> nextVersion(Granite::RenderPass& pass, std::uint32_t resource) {
     State& state = states_[resource];
     const std::string input = state.versions == 0 ? std::string() : current(resource);
@@ -211,7 +212,7 @@ class GranitePasses {
             0};
   }
 
-  /// On one of Granite's threads, where nothing may be thrown.
+  /// Runs on one of Granite's threads, where it must not throw.
   void record(std::uint32_t index, Vulkan::CommandBuffer& commands) {
     const std::lock_guard<std::mutex> lock(mutex_);
     std::vector<WalrPassResource> resources;
@@ -228,7 +229,7 @@ class GranitePasses {
   std::vector<State> states_;  ///< By resource.
   std::vector<Added> added_;   ///< By pass.
   std::vector<std::string> kept_;
-  mutable std::mutex mutex_;  ///< Granite records passes side by side; walr takes one thread at a time.
+  mutable std::mutex mutex_;  ///< Granite records passes in parallel; walr allows one thread at a time.
   std::string error_;
   bool reset_ = false;
 };

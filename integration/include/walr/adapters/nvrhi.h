@@ -1,4 +1,4 @@
-/* walr in NVRHI's command lists, with its Vulkan backend. Header-only; C++17. */
+/* A walr denoiser in the command lists of NVRHI's Vulkan backend. Header-only; C++17. */
 #ifndef WALR_ADAPTERS_NVRHI_H
 #define WALR_ADAPTERS_NVRHI_H
 
@@ -12,7 +12,7 @@
 
 namespace walr::adapters {
 
-/// The textures of a frame. Inputs are for shaders to read, `denoised` has `isUAV`.
+/// The textures of a frame. Inputs are shader resources, `denoised` is created with `isUAV`.
 struct NvrhiTextures {
   nvrhi::ITexture* lighting = nullptr;
   nvrhi::ITexture* depth = nullptr;
@@ -23,23 +23,23 @@ struct NvrhiTextures {
   nvrhi::ITexture* objectId = nullptr;  ///< Optional.
 };
 
-/// Records a denoiser into NVRHI's command lists. NVRHI goes on tracking the textures' states.
+/// Records a denoiser into NVRHI's command lists. NVRHI still tracks the states of the textures.
 class NvrhiDenoiser {
  public:
-  /// Functions of walr, linked or as a plug-in registered them.
+  /// Functions of walr, linked or from a plug-in's table.
   struct Functions {
     decltype(&walr_record) record;
     decltype(&walr_forget_image) forgetImage;
     decltype(&walr_last_error) lastError;
   };
 
-  /// @param denoiser stays the caller's
+  /// @param denoiser remains owned by the caller; must outlive this object
   NvrhiDenoiser(WalrDenoiser denoiser, const Functions& walr) : denoiser_(denoiser), walr_(walr) {}
 
-  /// Record a frame into an open command list, whose pipeline and bindings are forgotten. NVRHI does not keep the
-  /// textures alive until the GPU has finished with them: the caller must.
-  /// @param frame all but its images
-  /// @throws std::runtime_error with walr's words
+  /// Record a frame into an open command list. Its pipeline and bindings are cleared. NVRHI does not keep the textures
+  /// alive until the GPU has finished with them: the caller must.
+  /// @param frame everything but the images
+  /// @throws std::runtime_error with walr's error text
   void record(nvrhi::ICommandList* commands, const NvrhiTextures& textures, WalrFrame frame) const {
     const Member members[] = {{textures.lighting, &frame.lighting}, {textures.depth, &frame.depth},
                               {textures.normal, &frame.normal},     {textures.motion, &frame.motion},
@@ -48,7 +48,7 @@ class NvrhiDenoiser {
     WalrImage images[std::size(members)] = {};
     for (std::size_t i = 0; i < std::size(members); ++i) {
       nvrhi::ITexture* texture = members[i].texture;
-      if (texture == nullptr) continue;  // walr says so where it needs it.
+      if (texture == nullptr) continue;  // If it is required, walr reports it.
       const bool output = texture == textures.denoised;
       commands->setTextureState(
           texture, nvrhi::AllSubresources,
@@ -63,8 +63,8 @@ class NvrhiDenoiser {
     if (result != WALR_SUCCESS) throw std::runtime_error(walr_.lastError());
   }
 
-  /// Let go of a texture: before its last handle goes, once the GPU has finished with it.
-  /// @throws std::runtime_error with walr's words
+  /// Destroy walr's views of a texture. Call it before the texture is destroyed and after the GPU has finished with it.
+  /// @throws std::runtime_error with walr's error text
   void forget(nvrhi::ITexture* texture) const {
     const VkImage image = texture->getNativeObject(nvrhi::ObjectTypes::VK_Image);
     if (walr_.forgetImage(denoiser_, image, 0) != WALR_SUCCESS) throw std::runtime_error(walr_.lastError());
@@ -76,7 +76,7 @@ class NvrhiDenoiser {
     const WalrImage** image;
   };
 
-  /// An image that comes in the state that NVRHI has put it in, and goes back in the same.
+  /// Acquired and released in the state that NVRHI has put the texture into.
   static WalrImage describe(nvrhi::ITexture* texture, bool output) {
     const nvrhi::TextureDesc& desc = texture->getDesc();
     WalrImage image{};
