@@ -51,14 +51,12 @@ class Graph {
     std::vector<HostImage> slots;
   };
   struct NamedBuffer {
-    VkBuffer buffer = VK_NULL_HANDLE;
-    VkDeviceMemory memory = VK_NULL_HANDLE;
+    HostBuffer own{};
     VkPipelineStageFlags2 stage = VK_PIPELINE_STAGE_2_NONE;
     VkAccessFlags2 access = VK_ACCESS_2_NONE;
   };
 
   void makeResource(const WalrResource& resource);
-  void makeBuffer(const WalrResource& resource);
   /// The image behind a resource in this frame; null for a history that there is none of.
   HostImage* behind(std::uint32_t resource);
   /// What the last frame wrote into a history; null where there was none.
