@@ -195,9 +195,16 @@ class Gltf:
         self.animate(node, "rotation", rotations)
 
     def text(self):
+        """The document with one line per entry of each of its lists: a change of one node changes one line."""
+
+        def lines(value):
+            if not isinstance(value, list):
+                return json.dumps(value)
+            return "[\n  " + ",\n  ".join(map(json.dumps, value)) + "\n ]"
+
         data = base64.b64encode(bytes(self.buffer)).decode()
         self.document["buffers"] = [{"byteLength": len(self.buffer), "uri": "data:application/octet-stream;base64," + data}]
-        return json.dumps(self.document, indent=1) + "\n"
+        return "{\n " + ",\n ".join(f'"{key}": {lines(value)}' for key, value in self.document.items()) + "\n}\n"
 
 
 def turn(axis, degrees):

@@ -50,8 +50,9 @@ class DiagnosticsTest : public ::testing::Test {
     const Texture texture = graph.texture(name, kColor);
     return graph.callback(std::string("write ") + name, recordNothing).store("o", texture);
   }
-  void expect(std::string_view code, const std::string& pass, const std::string& resource, std::uint32_t line,
-              const MemoryModel& memory = TableMemoryModel()) {
+  /// @param line of the fault; that before the call where none is given
+  void expect(std::string_view code, const std::string& pass, const std::string& resource,
+              std::uint32_t line = __builtin_LINE() - 1, const MemoryModel& memory = TableMemoryModel()) {
     const CompileResult result = compile(graph.desc(), memory);
     const auto found = std::ranges::find_if(result.diagnostics, [&](const Diagnostic& diagnostic) {
       return diagnostic.code == code && diagnostic.pass == pass && diagnostic.resource == resource &&
@@ -73,23 +74,20 @@ class DiagnosticsTest : public ::testing::Test {
 
 TEST_F(DiagnosticsTest, InvalidHandle) {
   graph.callback("reader", recordNothing).load("i", Texture{});
-  const auto line = __LINE__ - 1;
-  expect(code::kInvalidHandle, "reader", "", line);
+  expect(code::kInvalidHandle, "reader", "");
 }
 
 TEST_F(DiagnosticsTest, ReadNeverWritten) {
   const Texture texture = graph.texture("empty", kColor);
   graph.callback("reader", recordNothing).load("i", texture);
-  const auto line = __LINE__ - 1;
-  expect(code::kReadNeverWritten, "reader", "empty", line);
+  expect(code::kReadNeverWritten, "reader", "empty");
 }
 
 TEST_F(DiagnosticsTest, ReadOfALevelThatIsNeverWritten) {
   const Texture texture = graph.texture("pyramid", {VK_FORMAT_R32_SFLOAT, {64, 64}, 2});
   const Texture half = graph.callback("writer", recordNothing).access(texture, Access::StorageWrite, {0, 1, 0, 1});
   graph.callback("reader", recordNothing).access(half, Access::SampledRead, {1, 1, 0, 1});
-  const auto line = __LINE__ - 1;
-  expect(code::kReadNeverWritten, "reader", "pyramid", line);
+  expect(code::kReadNeverWritten, "reader", "pyramid");
 }
 
 TEST_F(DiagnosticsTest, CycleNamesItsPath) {
@@ -110,16 +108,14 @@ TEST_F(DiagnosticsTest, StaleVersionRead) {
   auto late = graph.callback("late", recordNothing);
   late.load("i", updated);
   late.load("old", old);
-  const auto line = __LINE__ - 1;
-  expect(code::kStaleVersionRead, "late", "output", line);
+  expect(code::kStaleVersionRead, "late", "output");
 }
 
 TEST_F(DiagnosticsTest, TwoWriters) {
   const Texture texture = graph.texture("target", kColor);
   (void)graph.callback("first", recordNothing).store("o", texture);
   (void)graph.callback("second", recordNothing).store("o", texture);
-  const auto line = __LINE__ - 1;
-  expect(code::kTwoWriters, "second", "target", line);
+  expect(code::kTwoWriters, "second", "target");
 }
 
 TEST_F(DiagnosticsTest, ReadAndWrittenWithoutSayingInPlace) {
@@ -127,8 +123,7 @@ TEST_F(DiagnosticsTest, ReadAndWrittenWithoutSayingInPlace) {
   auto pass = graph.callback("both", recordNothing);
   pass.load("i", texture);
   (void)pass.store("o", texture);
-  const auto line = __LINE__ - 1;
-  expect(code::kReadAndWritten, "both", "output", line);
+  expect(code::kReadAndWritten, "both", "output");
 }
 
 TEST_F(DiagnosticsTest, ReadAndWrittenInDisjointLevelsIsFine) {
@@ -156,8 +151,7 @@ TEST_F(DiagnosticsTest, ExtentMismatchNamesTheProducer) {
   const Texture written = graph.callback("downsample", recordNothing).store("o", half);
   auto pass = graph.callback("filter", recordNothing);
   pass.texels(kColor.extent).load("i", written);
-  const auto line = __LINE__ - 1;
-  expect(code::kExtentMismatch, "filter", "half", line);
+  expect(code::kExtentMismatch, "filter", "half");
   EXPECT_NE(compile(graph.desc(), TableMemoryModel()).text().find("written by 'downsample'"), std::string::npos);
 }
 
@@ -174,43 +168,37 @@ TEST_F(DiagnosticsTest, ExtentMismatch) {
   auto pass = graph.callback("draw", recordNothing);
   pass.access(graph.texture("color", kColor), Access::ColorWrite);
   pass.access(graph.texture("depth", {VK_FORMAT_D32_SFLOAT, {8, 8}}), Access::DepthWrite);
-  const auto line = __LINE__ - 1;
-  expect(code::kExtentMismatch, "draw", "depth", line);
+  expect(code::kExtentMismatch, "draw", "depth");
 }
 
 TEST_F(DiagnosticsTest, ImportWithoutState) {
   const Texture texture = graph.import("host", kColor, {});
   graph.callback("reader", recordNothing).load("i", texture);
-  const auto line = __LINE__ - 1;
-  expect(code::kImportWithoutState, "reader", "host", line);
+  expect(code::kImportWithoutState, "reader", "host");
 }
 
 TEST_F(DiagnosticsTest, ExportNeverWritten) {
   graph.exported(graph.texture("empty", kColor), kSampled);
-  const auto line = __LINE__ - 1;
-  expect(code::kExportNeverWritten, "", "empty", line);
+  expect(code::kExportNeverWritten, "", "empty");
 }
 
 TEST_F(DiagnosticsTest, ExportOverwritten) {
   const Texture texture = written();
   (void)graph.callback("later", recordNothing).store("o", texture);
   graph.exported(texture, kSampled);
-  const auto line = __LINE__ - 1;
-  expect(code::kExportOverwritten, "", "output", line);
+  expect(code::kExportOverwritten, "", "output");
 }
 
 TEST_F(DiagnosticsTest, ExportedTwice) {
   const Texture texture = written();
   graph.exported(texture, kSampled);
   graph.exported(texture, test::kTransferSource);
-  const auto line = __LINE__ - 1;
-  expect(code::kExportedTwice, "", "output", line);
+  expect(code::kExportedTwice, "", "output");
 }
 
 TEST_F(DiagnosticsTest, ExportWithoutLayout) {
   graph.exported(written(), {});
-  const auto line = __LINE__ - 1;
-  expect(code::kExportWithoutLayout, "", "output", line);
+  expect(code::kExportWithoutLayout, "", "output");
 }
 
 TEST_F(DiagnosticsTest, HistoryNeverWritten) {
@@ -241,8 +229,7 @@ TEST_F(DiagnosticsTest, HistoryOfTwoDifferentImages) {
 TEST_F(DiagnosticsTest, BindingNotInShader) {
   auto pass = filter();
   pass.sample("noise", written());
-  const auto line = __LINE__ - 1;
-  expect(code::kBindingNotInShader, "filter", "output", line);
+  expect(code::kBindingNotInShader, "filter", "output");
 }
 
 TEST_F(DiagnosticsTest, BindingNotDeclared) {
@@ -255,30 +242,26 @@ TEST_F(DiagnosticsTest, BindingNotDeclared) {
 TEST_F(DiagnosticsTest, BindingWithAnotherAccess) {
   auto pass = filter();
   pass.load("noisy", written());
-  const auto line = __LINE__ - 1;
-  expect(code::kBindingAccess, "filter", "output", line);
+  expect(code::kBindingAccess, "filter", "output");
 }
 
 TEST_F(DiagnosticsTest, BindingWithAnotherFormat) {
   auto pass = filter();
   (void)pass.store("result", graph.texture("thin", {VK_FORMAT_R32_SFLOAT, kColor.extent}));
-  const auto line = __LINE__ - 1;
-  expect(code::kBindingFormat, "filter", "thin", line);
+  expect(code::kBindingFormat, "filter", "thin");
 }
 
 TEST_F(DiagnosticsTest, BindingTwice) {
   auto pass = filter();
   pass.sample("noisy", written("one"));
   pass.sample("noisy", written("two"));
-  const auto line = __LINE__ - 1;
-  expect(code::kBindingTwice, "filter", "two", line);
+  expect(code::kBindingTwice, "filter", "two");
 }
 
 TEST_F(DiagnosticsTest, UnreadTextureThatThePassDoesNotSampleOtherwise) {
   auto pass = filter();
   pass.unread("noisy", written());
-  const auto line = __LINE__ - 1;
-  expect(code::kUnreadTexture, "filter", "output", line);
+  expect(code::kUnreadTexture, "filter", "output");
 }
 
 TEST_F(DiagnosticsTest, UnreadTextureOfAnotherVersion) {
@@ -286,15 +269,13 @@ TEST_F(DiagnosticsTest, UnreadTextureOfAnotherVersion) {
   const Texture updated = graph.callback("update", recordNothing).update("io", old);
   auto pass = graph.callback("late", recordNothing);
   pass.sample("read", updated).unread("bound", old);
-  const auto line = __LINE__ - 1;
-  expect(code::kUnreadTexture, "late", "output", line);
+  expect(code::kUnreadTexture, "late", "output");
 }
 
 TEST_F(DiagnosticsTest, BufferTooSmall) {
   auto pass = filter();
   pass.uniform("frame", graph.upload("constants", 32));
-  const auto line = __LINE__ - 1;
-  expect(code::kBufferTooSmall, "filter", "constants", line);
+  expect(code::kBufferTooSmall, "filter", "constants");
 }
 
 TEST_F(DiagnosticsTest, PushConstantSize) {
@@ -313,8 +294,7 @@ TEST_F(DiagnosticsTest, UnknownSpecializationConstant) {
 
 TEST_F(DiagnosticsTest, SpecializationConstantNotSet) {
   (void)graph.compute("filter", kFilter);
-  const auto line = __LINE__ - 1;
-  expect(code::kConstantNotSet, "filter", "", line);
+  expect(code::kConstantNotSet, "filter", "");
 }
 
 TEST_F(DiagnosticsTest, HistoryAgeOutsideThePushConstants) {
@@ -328,33 +308,28 @@ TEST_F(DiagnosticsTest, HistoryAgeOutsideThePushConstants) {
 TEST_F(DiagnosticsTest, DuplicatePassName) {
   graph.callback("twin", recordNothing).sideEffects();
   graph.callback("twin", recordNothing).sideEffects();
-  const auto line = __LINE__ - 1;
-  expect(code::kDuplicateName, "twin", "", line);
+  expect(code::kDuplicateName, "twin", "");
 }
 
 TEST_F(DiagnosticsTest, DuplicateResourceName) {
   (void)graph.texture("twin", kColor);
   (void)graph.texture("twin", kColor);
-  const auto line = __LINE__ - 1;
-  expect(code::kDuplicateName, "", "twin", line);
+  expect(code::kDuplicateName, "", "twin");
 }
 
 TEST_F(DiagnosticsTest, EmptyExtent) {
   (void)graph.texture("flat", {VK_FORMAT_R32_SFLOAT, {64, 0}});
-  const auto line = __LINE__ - 1;
-  expect(code::kEmptyExtent, "", "flat", line);
+  expect(code::kEmptyExtent, "", "flat");
 }
 
 TEST_F(DiagnosticsTest, EmptyDispatch) {
   (void)graph.compute("idle", kFilter);
-  const auto line = __LINE__ - 1;
-  expect(code::kEmptyDispatch, "idle", "", line);
+  expect(code::kEmptyDispatch, "idle", "");
 }
 
 TEST_F(DiagnosticsTest, SubresourceOutOfRange) {
   graph.callback("reader", recordNothing).access(written(), Access::SampledRead, {1, 1, 0, 1});
-  const auto line = __LINE__ - 1;
-  expect(code::kSubresourceRange, "reader", "output", line);
+  expect(code::kSubresourceRange, "reader", "output");
 }
 
 TEST_F(DiagnosticsTest, PassWithoutEffectIsAWarning) {
@@ -367,15 +342,13 @@ TEST_F(DiagnosticsTest, PassWithoutEffectIsAWarning) {
 
 TEST_F(DiagnosticsTest, AccessOfTheWrongKind) {
   graph.callback("reader", recordNothing).access(graph.upload("bytes", 64), Access::ColorWrite);
-  const auto line = __LINE__ - 1;
-  expect(code::kAccessKind, "reader", "bytes", line);
+  expect(code::kAccessKind, "reader", "bytes");
 }
 
 TEST_F(DiagnosticsTest, ReadOnlyResourceWritten) {
   const History history = graph.history("past", kColor);
   (void)graph.callback("writer", recordNothing).store("o", history.previous);
-  const auto line = __LINE__ - 1;
-  expect(code::kReadOnlyWritten, "writer", "past.previous", line);
+  expect(code::kReadOnlyWritten, "writer", "past.previous");
 }
 
 TEST_F(DiagnosticsTest, IndirectArgumentsPastTheEnd) {
@@ -391,8 +364,7 @@ TEST_F(DiagnosticsTest, TwoLayoutsInOnePass) {
   auto pass = graph.callback("reader", recordNothing);
   pass.sample("a", texture);
   pass.load("b", texture);
-  const auto line = __LINE__ - 1;
-  expect(code::kTwoLayouts, "reader", "output", line);
+  expect(code::kTwoLayouts, "reader", "output");
 }
 
 TEST_F(DiagnosticsTest, AllErrorsAreFoundAtOnce) {

@@ -64,8 +64,7 @@ static Images make_images(Host* host, WalrDenoiser denoiser) {
     EXPECT_OK(walr_get_image_requirements(denoiser, kNames[i], &needs));
     EXPECT_TRUE(needs.width == kWidth && needs.height == kHeight && needs.required);
     HostImage* image = &images.host[i];
-    *image =
-        host_make_image(host, needs.format, needs.format == VK_FORMAT_R32_SFLOAT ? 4 : 8, kWidth, kHeight, needs.usage);
+    *image = host_make_image(host, needs.format, kWidth, kHeight, needs.usage);
     host_upload(host, image, zeros);
     images.image[i] = (WalrImage){.struct_size = sizeof(WalrImage),
                                   .queue_family = VK_QUEUE_FAMILY_IGNORED,
@@ -222,7 +221,7 @@ static void test_object_id_frames(Host* host, const WalrDevice* device) {
   WalrImageRequirements needs = {.struct_size = sizeof(needs)};
   EXPECT_OK(walr_get_image_requirements(denoiser, "object_id", &needs));
   static uint32_t numbers[kWidth * kHeight];
-  HostImage ids = host_make_image(host, needs.format, 4, kWidth, kHeight, needs.usage);
+  HostImage ids = host_make_image(host, needs.format, kWidth, kHeight, needs.usage);
   host_upload(host, &ids, numbers);
   const WalrImage object_id = {.struct_size = sizeof(WalrImage),
                                .queue_family = VK_QUEUE_FAMILY_IGNORED,

@@ -9,11 +9,6 @@ void check(VkResult result) {
   if (result != VK_SUCCESS) throw std::runtime_error("VkResult " + std::to_string(result));
 }
 
-std::uint32_t texelSize(VkFormat format) {
-  if (format == VK_FORMAT_R32_SFLOAT) return 4;
-  return format == VK_FORMAT_R16G16B16A16_SFLOAT ? 8 : 16;
-}
-
 }  // namespace
 
 Player::Player(Host& host, const WalrApi& api, WalrPasses passes) : host_(&host), api_(&api), passes_(passes) {
@@ -135,8 +130,7 @@ void Player::makeResource(std::uint32_t index) {
   Behind& behind = behind_[index];
   if (resource.kind == WALR_RESOURCE_HOST) {
     HostImage& image = hostImages_[resource.name];
-    image = host_make_image(host_, resource.format, texelSize(resource.format), resource.width, resource.height,
-                            resource.image_usage);
+    image = host_make_image(host_, resource.format, resource.width, resource.height, resource.image_usage);
     behind.images[0] = behind.images[1] = image.image;
     // An unused image has no usage flag that allows a view.
     if (resource.used == VK_TRUE) behind.views[0] = behind.views[1] = makeView(image.image, resource.format);

@@ -225,9 +225,8 @@ class Opaque {
       if (api_->get_image_requirements(denoiser_, name, &needs) != WALR_SUCCESS) {
         throw std::runtime_error(api_->last_error());
       }
-      const std::uint32_t texel = std::string(name) == "depth" ? 4 : std::string(name) == "denoised" ? 8 : 16;
-      images_.push_back(host_make_image(host_, needs.format, texel, needs.width, needs.height,
-                                        needs.usage | VK_IMAGE_USAGE_SAMPLED_BIT));
+      images_.push_back(
+          host_make_image(host_, needs.format, needs.width, needs.height, needs.usage | VK_IMAGE_USAGE_SAMPLED_BIT));
     }
   }
   void destroyImages() {

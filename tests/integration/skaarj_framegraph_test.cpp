@@ -38,8 +38,7 @@ class Pool {
     std::vector<HostImage*>& free = free_[key];
     if (free.empty()) {
       const auto [format, width, height, usage] = key;
-      const std::uint32_t texel = format == VK_FORMAT_R32_SFLOAT || format == VK_FORMAT_R32_UINT ? 4 : 8;
-      all_.push_back(std::make_unique<HostImage>(host_make_image(host_, format, texel, width, height, usage)));
+      all_.push_back(std::make_unique<HostImage>(host_make_image(host_, format, width, height, usage)));
       return all_.back().get();
     }
     HostImage* image = free.back();
@@ -211,13 +210,7 @@ class Engine {
   };
 
   HostImage make(const WalrResource& r) {
-    const bool wide = r.format == VK_FORMAT_R32G32B32A32_SFLOAT;
-    const bool narrow = r.format == VK_FORMAT_R32_SFLOAT || r.format == VK_FORMAT_R32_UINT;
-    return host_make_image(host_, r.format,
-                           wide     ? 16
-                           : narrow ? 4
-                                    : 8,
-                           r.width, r.height, r.image_usage | VK_IMAGE_USAGE_SAMPLED_BIT);
+    return host_make_image(host_, r.format, r.width, r.height, r.image_usage | VK_IMAGE_USAGE_SAMPLED_BIT);
   }
 
   Host* host_;

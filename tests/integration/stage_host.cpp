@@ -6,22 +6,6 @@
 namespace stage_host {
 namespace {
 
-std::uint32_t texelSize(VkFormat format) {
-  switch (format) {
-    case VK_FORMAT_R16_UINT:
-      return 2;
-    case VK_FORMAT_R32_SFLOAT:
-    case VK_FORMAT_R32_UINT:
-      return 4;
-    case VK_FORMAT_R16G16B16A16_SFLOAT:
-    case VK_FORMAT_R32G32_SFLOAT:
-    case VK_FORMAT_R32G32_UINT:
-      return 8;
-    default:
-      return 16;
-  }
-}
-
 constexpr VkPipelineStageFlags2 kStage = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
 constexpr VkAccessFlags2 kAccess = VK_ACCESS_2_SHADER_READ_BIT | VK_ACCESS_2_SHADER_WRITE_BIT;
 
@@ -49,8 +33,8 @@ Chain::~Chain() {
 void Chain::makeImages(const std::string& name, const WalrResource& resource, std::size_t count) {
   std::vector<HostImage>& images = images_[name];
   while (images.size() < count) {
-    images.push_back(host_make_image(host_, resource.format, texelSize(resource.format), resource.width,
-                                     resource.height, VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT));
+    images.push_back(host_make_image(host_, resource.format, resource.width, resource.height,
+                                     VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT));
     HostImage& image = images.back();
     const std::vector<std::byte> zeros(std::size_t{image.texel_size} * image.width * image.height);
     host_upload(host_, &image, zeros.data());

@@ -5,19 +5,6 @@
 namespace tiny_host {
 namespace {
 
-std::uint32_t texelSize(VkFormat format) {
-  switch (format) {
-    case VK_FORMAT_R32_SFLOAT:
-    case VK_FORMAT_R32_UINT:
-      return 4;
-    case VK_FORMAT_R16G16B16A16_SFLOAT:
-    case VK_FORMAT_R32G32_UINT:
-      return 8;
-    default:
-      return 16;
-  }
-}
-
 bool writes(VkAccessFlags2 access) {
   return (access & (VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT | VK_ACCESS_2_TRANSFER_WRITE_BIT)) != 0;
 }
@@ -43,44 +30,27 @@ Graph::~Graph() {
       host_destroy_image(host_, &image);
     }
   }
-  for (auto& [name, named] : buffers_) {
-    vkDestroyBuffer(host_->device, named.buffer, nullptr);
-    vkFreeMemory(host_->device, named.memory, nullptr);
-  }
+  for (auto& [name, named] : buffers_) host_destroy_buffer(host_, &named.own);
 }
 
 void Graph::makeResource(const WalrResource& resource) {
   if (resource.kind == WALR_RESOURCE_UPLOAD || resource.kind == WALR_RESOURCE_HISTORY_PREVIOUS) return;
-  if (resource.buffer == VK_TRUE) return makeBuffer(resource);
+  if (resource.buffer == VK_TRUE) {
+    HostBuffer& buffer = buffers_[resource.name].own;
+    buffer = host_make_buffer(host_, resource.buffer_size, resource.buffer_usage, 0);
+    bytes_ += buffer.bytes;
+    listedBytes_ += resource.memory_size;
+    return;
+  }
   Named& named = images_[resource.name];
   for (int slot = 0; slot < (isHistory(resource) ? 2 : 1); ++slot) {
-    HostImage image = host_make_image(host_, resource.format, texelSize(resource.format), resource.width,
-                                      resource.height, resource.image_usage);
+    HostImage image = host_make_image(host_, resource.format, resource.width, resource.height, resource.image_usage);
     if (resource.kind != WALR_RESOURCE_HOST) {
       bytes_ += host_image_bytes(host_, &image);
       listedBytes_ += resource.memory_size;
     }
     named.slots.push_back(image);
   }
-}
-
-void Graph::makeBuffer(const WalrResource& resource) {
-  VkBufferCreateInfo info{};
-  info.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
-  info.size = resource.buffer_size;
-  info.usage = resource.buffer_usage;
-  NamedBuffer& named = buffers_[resource.name];
-  if (vkCreateBuffer(host_->device, &info, nullptr, &named.buffer) != VK_SUCCESS) {
-    throw std::runtime_error("creating a buffer");
-  }
-  VkMemoryRequirements needs{};
-  vkGetBufferMemoryRequirements(host_->device, named.buffer, &needs);
-  named.memory = host_allocate(host_, needs, 0);
-  if (vkBindBufferMemory(host_->device, named.buffer, named.memory, 0) != VK_SUCCESS) {
-    throw std::runtime_error("binding a buffer's memory");
-  }
-  bytes_ += needs.size;
-  listedBytes_ += resource.memory_size;
 }
 
 HostImage* Graph::lastOf(const std::string& history) {
@@ -110,7 +80,7 @@ void Graph::transition(VkCommandBuffer commands, const WalrBinding& binding) {
     barrier.dstAccessMask = binding.access;
     barrier.srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
     barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
-    barrier.buffer = buffer.buffer;
+    barrier.buffer = buffer.own.buffer;
     barrier.size = VK_WHOLE_SIZE;
     VkDependencyInfo dependency{};
     dependency.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
@@ -166,7 +136,7 @@ void Graph::recordPass(std::uint32_t index, VkCommandBuffer commands) {
     const WalrResource& resource = *list_->resources[binding.resource];
     if (resource.kind == WALR_RESOURCE_UPLOAD) continue;
     if (resource.buffer == VK_TRUE) {
-      resources[b].buffer = buffers_.at(resource.name).buffer;
+      resources[b].buffer = buffers_.at(resource.name).own.buffer;
       continue;
     }
     const HostImage* image = behind(binding.resource);

@@ -50,14 +50,12 @@ class Graph {
     std::vector<HostImage> slots;
   };
   struct NamedBuffer {
-    VkBuffer buffer = VK_NULL_HANDLE;
-    VkDeviceMemory memory = VK_NULL_HANDLE;
+    HostBuffer own{};
     VkPipelineStageFlags2 stage = VK_PIPELINE_STAGE_2_NONE;
     VkAccessFlags2 access = VK_ACCESS_2_NONE;
   };
 
   void makeResource(const WalrResource& resource);
-  void makeBuffer(const WalrResource& resource);
   /// The image of a resource in this frame; null for a history that does not exist.
   HostImage* behind(std::uint32_t resource);
   /// The history image that the last frame wrote; null if there was none.

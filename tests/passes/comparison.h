@@ -31,8 +31,13 @@ class Comparison {
  public:
   explicit Comparison(std::string what) : what_(std::move(what)) {}
 
-  /// Skip a pixel whose result hangs on a decision within rounding.
-  void undecided() { ++undecided_; }
+  /// Count a pixel, whose result may hang on a decision within rounding.
+  /// @returns whether it does, so that the pixel is not to be compared
+  [[nodiscard]] bool skips(bool undecided) {
+    ++(undecided ? undecided_ : compared_);
+    return undecided;
+  }
+  /// Count a pixel whose result hangs on no decision.
   void compared() { ++compared_; }
   /// One value of a compared pixel.
   void value(glm::ivec2 p, const char* name, double actual, double expected, double tolerance);

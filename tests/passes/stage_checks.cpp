@@ -72,11 +72,7 @@ void expectAntilag(const DeviceFrame& f, const Image<reference::Accumulated>& ac
   Comparison comparison("antilag");
   reference::forEachPixel(tiles.size(), [&](glm::ivec2 t) {
     comparison.value(t, "antilag", f.current.antilag[t], antilag[t].value, antilag[t].error);
-    if (tiles[t].undecided) {
-      comparison.undecided();
-      return;
-    }
-    comparison.compared();
+    if (comparison.skips(tiles[t].undecided)) return;
     const reference::TileChange& e = tiles[t];
     comparison.value(t, "sum", f.current.antilagTiles[t].x, e.sum.value, e.sum.error);
     comparison.value(t, "sum of squares", f.current.antilagTiles[t].y, e.squares.value, e.squares.error);
@@ -107,11 +103,7 @@ void expectAccumulation(const DeviceFrame& f, const TemporalAccumulationSettings
   Comparison comparison("temporal accumulation");
   reference::forEachPixel(f.frame.size(), [&](glm::ivec2 p) {
     const reference::Accumulated& e = expected[p];
-    if (e.undecided) {
-      comparison.undecided();
-      return;
-    }
-    comparison.compared();
+    if (comparison.skips(e.undecided)) return;
     const glm::dvec3 tolerance =
         packed ? packedTolerance(e, reference::kAccumulatedBits) : halfTolerance(e.mean, e.error);
     for (int c = 0; c < 3; ++c) comparison.value(p, kChannels[c], f.current.accumulated[p][c], e.mean[c], tolerance[c]);
@@ -141,11 +133,7 @@ void expectIterations(const DeviceFrame& f, const WeightedRegressionSettings& se
     reference::forEachPixel(f.frame.size(), [&](glm::ivec2 p) {
       if (f.current.guides[p].depth == 0.0) return;
       reference::AtrousPixel expected = reference::atrousPixel(f.frame, f.current.guides, before, p, t, settings);
-      if (expected.undecided) {
-        comparison.undecided();
-        return;
-      }
-      comparison.compared();
+      if (comparison.skips(expected.undecided)) return;
       if (!settings.keepSampleCount) {
         double& samples = expected.merged.moments.samples;
         samples = samples > 0.0 ? 1.0 : 0.0;
@@ -175,11 +163,7 @@ void expectRegression(const DeviceFrame& f, const WeightedRegressionSettings& se
     }
     const auto [merged, edge, replaced, lost, undecided] =
         reference::atrousPixel(f.frame, f.current.guides, before, p, last, settings);
-    if (undecided) {
-      comparison.undecided();
-      return;
-    }
-    comparison.compared();
+    if (comparison.skips(undecided)) return;
     const double known = merged.moments.samples > 0.0 ? 1.0 : -1.0;
     comparison.value(p, "whether light is known", f.current.filtered[p].w, known, 0.0);
     const reference::Reconstruction expected =
@@ -221,11 +205,7 @@ void expectAntialiasing(const DeviceFrame& f, const TemporalAntialiasingSettings
       EXPECT_EQ(resolved, glm::dvec4(0.0));
       return;
     }
-    if (e.undecided) {
-      comparison.undecided();
-      return;
-    }
-    comparison.compared();
+    if (comparison.skips(e.undecided)) return;
     const glm::dvec3 tolerance = halfTolerance(e.mean, e.error);
     const glm::dvec3 kept = packed ? packedTolerance(e, reference::kResolvedBits) : tolerance;
     for (int c = 0; c < 3; ++c) {

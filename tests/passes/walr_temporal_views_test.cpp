@@ -76,11 +76,7 @@ void expectHistory(Comparison& comparison, const DeviceFrame& f, glm::ivec2 p, c
   const glm::dvec3 view = f.current.views.at("history")[p];
   const Past past =
       pastOf(f, f.previous.accumulated, p, settings.accumulation(), settings.accumulation().historyFilter, keepTaps);
-  if (past.undecided) {
-    comparison.undecided();
-    return;
-  }
-  comparison.compared();
+  if (comparison.skips(past.undecided)) return;
   const bool packed = settings.packsAccumulation();
   comparison.value(p, "history length", f.current.accumulated[p].w, view.x,
                    packed ? reference::packedCountStep(view.x) : halfTolerance(view.x, 0.0));
@@ -94,11 +90,7 @@ void expectClipping(Comparison& comparison, const DeviceFrame& f, glm::ivec2 p, 
   const glm::dvec3 clip = f.current.views.at("clip")[p];
   const glm::dvec3 resolved = f.current.views.at("resolved-history")[p];
   const Past past = pastOf(f, f.previous.resolved, p, settings.antialiasing(), HistoryFilter::Bicubic, keepTaps);
-  if (past.undecided || past.history.found != (resolved.z == 0.0)) {
-    comparison.undecided();
-    return;
-  }
-  comparison.compared();
+  if (comparison.skips(past.undecided || past.history.found != (resolved.z == 0.0))) return;
   const bool packed = settings.packsAntialiasing();
   const double n = resolved.x;
   comparison.value(p, "frames", f.current.resolved[p].w, n,

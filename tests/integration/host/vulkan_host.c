@@ -129,12 +129,49 @@ VkDeviceMemory host_allocate(Host* host, VkMemoryRequirements needs, VkMemoryPro
   return VK_NULL_HANDLE;
 }
 
-HostImage host_make_image(Host* host, VkFormat format, uint32_t texel_size, uint32_t width, uint32_t height,
-                          VkImageUsageFlags usage) {
+HostBuffer host_make_buffer(Host* host, VkDeviceSize size, VkBufferUsageFlags usage, VkMemoryPropertyFlags properties) {
+  HostBuffer result = {.buffer = VK_NULL_HANDLE};
+  const VkBufferCreateInfo info = {.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO, .size = size, .usage = usage};
+  check(vkCreateBuffer(host->device, &info, NULL, &result.buffer), "creating a buffer");
+  VkMemoryRequirements needs;
+  vkGetBufferMemoryRequirements(host->device, result.buffer, &needs);
+  result.memory = host_allocate(host, needs, properties);
+  result.bytes = needs.size;
+  check(vkBindBufferMemory(host->device, result.buffer, result.memory, 0), "binding a buffer's memory");
+  return result;
+}
+
+void host_destroy_buffer(Host* host, HostBuffer* buffer) {
+  vkDestroyBuffer(host->device, buffer->buffer, NULL);
+  vkFreeMemory(host->device, buffer->memory, NULL);
+  memset(buffer, 0, sizeof(*buffer));
+}
+
+/* Bytes of a texel; 0 for other formats, whose texels nobody copies. */
+static uint32_t texel_size_of(VkFormat format) {
+  switch (format) {
+    case VK_FORMAT_R16_UINT:
+      return 2;
+    case VK_FORMAT_R32_SFLOAT:
+    case VK_FORMAT_R32_UINT:
+      return 4;
+    case VK_FORMAT_R16G16B16A16_SFLOAT:
+    case VK_FORMAT_R32G32_SFLOAT:
+    case VK_FORMAT_R32G32_UINT:
+      return 8;
+    case VK_FORMAT_R32G32B32A32_SFLOAT:
+    case VK_FORMAT_R32G32B32A32_UINT:
+      return 16;
+    default:
+      return 0;
+  }
+}
+
+HostImage host_make_image(Host* host, VkFormat format, uint32_t width, uint32_t height, VkImageUsageFlags usage) {
   HostImage image = {.format = format,
                      .width = width,
                      .height = height,
-                     .texel_size = texel_size,
+                     .texel_size = texel_size_of(format),
                      .usage = usage | VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT};
   const VkImageCreateInfo info = {.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO,
                                   .imageType = VK_IMAGE_TYPE_2D,
@@ -235,18 +272,10 @@ void host_transition(VkCommandBuffer command_buffer, HostImage* image, VkPipelin
 /* A staging buffer for one copy between host memory and an image. */
 static void copy(Host* host, HostImage* image, void* texels, bool to_image) {
   const VkDeviceSize size = (VkDeviceSize)image->width * image->height * image->texel_size;
-  const VkBufferCreateInfo info = {.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO,
-                                   .size = size,
-                                   .usage = VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT};
-  VkBuffer buffer = VK_NULL_HANDLE;
-  check(vkCreateBuffer(host->device, &info, NULL, &buffer), "creating a buffer");
-  VkMemoryRequirements needs;
-  vkGetBufferMemoryRequirements(host->device, buffer, &needs);
-  const VkDeviceMemory memory =
-      host_allocate(host, needs, VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT);
-  check(vkBindBufferMemory(host->device, buffer, memory, 0), "binding a buffer's memory");
+  HostBuffer staging = host_make_buffer(host, size, VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                                        VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT);
   void* mapped = NULL;
-  check(vkMapMemory(host->device, memory, 0, VK_WHOLE_SIZE, 0, &mapped), "mapping");
+  check(vkMapMemory(host->device, staging.memory, 0, VK_WHOLE_SIZE, 0, &mapped), "mapping");
   if (to_image) memcpy(mapped, texels, size);
 
   const VkCommandBuffer commands = host_begin(host);
@@ -255,16 +284,15 @@ static void copy(Host* host, HostImage* image, void* texels, bool to_image) {
   if (to_image) {
     host_transition(commands, image, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
                     VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
-    vkCmdCopyBufferToImage(commands, buffer, image->image, image->layout, 1, &region);
+    vkCmdCopyBufferToImage(commands, staging.buffer, image->image, image->layout, 1, &region);
   } else {
     host_transition(commands, image, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_READ_BIT,
                     VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
-    vkCmdCopyImageToBuffer(commands, image->image, image->layout, buffer, 1, &region);
+    vkCmdCopyImageToBuffer(commands, image->image, image->layout, staging.buffer, 1, &region);
   }
   host_submit_and_wait(host, commands);
   if (!to_image) memcpy(texels, mapped, size);
-  vkDestroyBuffer(host->device, buffer, NULL);
-  vkFreeMemory(host->device, memory, NULL);
+  host_destroy_buffer(host, &staging);
 }
 
 void host_upload(Host* host, HostImage* image, const void* texels) {

@@ -52,9 +52,17 @@ int host_close(Host* host);
 /* Allocate memory of the first allowed type with the properties. */
 VkDeviceMemory host_allocate(Host* host, VkMemoryRequirements needs, VkMemoryPropertyFlags properties);
 
+/* A buffer with memory of its own. */
+typedef struct HostBuffer {
+  VkBuffer buffer;
+  VkDeviceMemory memory;
+  VkDeviceSize bytes; /* Of device memory. */
+} HostBuffer;
+HostBuffer host_make_buffer(Host* host, VkDeviceSize size, VkBufferUsageFlags usage, VkMemoryPropertyFlags properties);
+void host_destroy_buffer(Host* host, HostBuffer* buffer);
+
 /* Usage flags for copies in both directions are added. */
-HostImage host_make_image(Host* host, VkFormat format, uint32_t texel_size, uint32_t width, uint32_t height,
-                          VkImageUsageFlags usage);
+HostImage host_make_image(Host* host, VkFormat format, uint32_t width, uint32_t height, VkImageUsageFlags usage);
 void host_destroy_image(Host* host, HostImage* image);
 /* Bytes of device memory that the driver requires for the image. */
 VkDeviceSize host_image_bytes(Host* host, const HostImage* image);
