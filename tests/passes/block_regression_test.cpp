@@ -37,7 +37,7 @@ struct Inputs {
 Inputs inputsOf(const Scene& scene) {
   Inputs inputs;
   inputs.frame = renderStill(scene, kSize);
-  inputs.guides = reference::prepareGuides(inputs.frame, Storage::Quantised, {}, kOcclusionInSmallPictures);
+  inputs.guides = reference::prepareGuides(inputs.frame, Storage::Quantised, {}, kOcclusionInSmallImages);
   inputs.accumulated = withAlpha(inputs.frame.lighting);
   for (glm::dvec4& sample : inputs.accumulated.pixels()) sample.a = 1.0;
   return inputs;

@@ -87,7 +87,7 @@ struct Inputs {
 Inputs inputsOf(const Scene& scene) {
   Inputs inputs;
   inputs.frame = renderStill(scene, kSize);
-  inputs.guides = reference::prepareGuides(inputs.frame, reference::Storage::Quantised, {}, kOcclusionInSmallPictures);
+  inputs.guides = reference::prepareGuides(inputs.frame, reference::Storage::Quantised, {}, kOcclusionInSmallImages);
   inputs.accumulated = withAlpha(inputs.frame.lighting);
   for (glm::dvec4& sample : inputs.accumulated.pixels()) sample.a = 1.0;
   return inputs;

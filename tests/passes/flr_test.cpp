@@ -30,7 +30,7 @@ constexpr glm::ivec2 kSize(45, 34);  // No multiple of a cell.
 struct Inputs {
   Inputs(const Scene& scene, const FlrRegressionSettings& settings) : frame(renderStill(scene, kSize)) {
     std::optional<AmbientOcclusionSettings> occlusion;
-    if (settings.occlusionGuide) occlusion = kOcclusionInSmallPictures;
+    if (settings.occlusionGuide) occlusion = kOcclusionInSmallImages;
     guides = reference::prepareGuides(frame, Storage::Quantised, {}, occlusion);
   }
   HostFrame frame;

@@ -33,7 +33,7 @@ struct Packing {
 constexpr Packing kAccumulated{"accumulated", 0x100, reference::kAccumulatedBits};
 constexpr Packing kFiltered{"filtered", 0x101, reference::kFilteredBits};
 constexpr Packing kResolved{"resolved", 0x102, reference::kResolvedBits};
-constexpr Packing kPassed{"passed", 0, reference::kPassedBits};
+constexpr Packing kPassed{"passed", 0, reference::kPassThroughBits};
 
 /// Pixels that round the same light: each by a chance of its own.
 constexpr int kChances = 4096;
@@ -138,12 +138,12 @@ TEST_F(PackedLight, WhatPassesThroughIsRoundedToNearest) {
     SCOPED_TRACE(brightest(lights[i]));
     EXPECT_EQ(rounded[i].least, rounded[i].most);
     for (int c = 0; c < 3; ++c) {
-      const double tolerance = reference::passedError(lights[i][c], brightest(lights[i]));
+      const double tolerance = reference::passThroughError(lights[i][c], brightest(lights[i]));
       EXPECT_NEAR(rounded[i].most[c], lights[i][c], tolerance);
       EXPECT_LE(tolerance, std::max(brightest(lights[i]), kSmallestNormal) / 511.0);
     }
   }
-  const double largest = reference::largestPacked(reference::kPassedBits);
+  const double largest = reference::largestPacked(reference::kPassThroughBits);
   const std::vector<Rounded> limits = round(kPassed, {{reference::kLargestHalf, 1e30, -1.0, 1.0}});
   EXPECT_EQ(glm::dvec3(limits[0].least), glm::dvec3(largest, largest, 0.0));
   EXPECT_EQ(limits[0].most, limits[0].least);

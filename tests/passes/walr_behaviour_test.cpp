@@ -142,7 +142,7 @@ TEST_F(WalrBehaviourTest, PackedSkyAndPixelsWithoutDiffuseLobeAreTrueAndDoNotFli
       SCOPED_TRACE(std::to_string(p.x) + ", " + std::to_string(p.y));
       const glm::dvec3 light = frame.lighting[p];
       for (int c = 0; c < 3; ++c) {
-        const double tolerance = reference::passedError(light[c], std::max({light.r, light.g, light.b}));
+        const double tolerance = reference::passThroughError(light[c], std::max({light.r, light.g, light.b}));
         EXPECT_NEAR(stages.output[p][c], light[c], tolerance);
         const std::size_t texel = 4 * (std::size_t(p.y) * kSize.x + p.x) + c;
         EXPECT_EQ(stages.outputBits[texel], firstBits[texel]);

@@ -1,4 +1,4 @@
-// What light becomes when it is packed and unpacked, for tests of the packing.
+// Packs and unpacks light, for tests of the packing.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
