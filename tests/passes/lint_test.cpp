@@ -1,4 +1,4 @@
-// The linter of inputs: every complaint is made of input that is spoiled in just that way, and none of good input.
+// The linter of inputs: it reports exactly the fault that the input has, and nothing for correct input.
 #include "passes/input_linter.h"
 
 #include <algorithm>
@@ -24,7 +24,7 @@ constexpr glm::ivec2 kSize(96, 72);
 constexpr fg::Extent kExtent{96, 72};
 constexpr std::uint32_t kFrames = 3;
 
-/// A camera that is turned against the world's axes, walks and turns: motion has every component.
+/// A camera that is rotated against the world's axes, moves and turns, so that motion has every component.
 FrameDescription camera(std::uint32_t frame, bool jittered, bool still) {
   const auto viewAt = [&](double time) {
     const glm::dmat4 turn = glm::rotate(glm::dmat4(1.0), 0.35 + 0.015 * time, glm::normalize(glm::dvec3(1, 1, 0.3)));
@@ -44,16 +44,16 @@ FrameDescription camera(std::uint32_t frame, bool jittered, bool still) {
   return description;
 }
 
-/// What a host hands over for a frame.
+/// The inputs of one frame.
 struct Handed {
   HostFrame frame;
   FrameDescription camera;
 };
 
-/// One way to write, or to spoil, a sequence.
+/// A sequence of frames, correct or with one kind of fault.
 struct Case {
   const char* name;
-  std::vector<std::string> findings;  ///< In their order.
+  std::vector<std::string> findings;  ///< Expected findings, in order.
   std::function<void(Handed&)> spoil = [](Handed&) {};
   bool jittered = false;
   bool still = false;
@@ -70,7 +70,7 @@ Handed render(std::uint32_t index, const Case& c) {
   forEachPixel(kSize, [&](glm::ivec2 p) {
     glm::dvec3& normal = handed.frame.normal[p];
     if (normal != glm::dvec3(0.0)) normal = glm::normalize(normal);
-    // Tiles of unlike albedo.
+    // Tiles of alternating albedo.
     if (handed.frame.albedo[p].x > 0.0) handed.frame.albedo[p] = glm::dvec3((p.x / 3 + p.y / 3) % 2 == 0 ? 0.75 : 0.15);
   });
   return handed;
@@ -191,12 +191,10 @@ std::vector<Case> cases() {
        })},
       {"motion current minus previous", {"motion-x-direction", "motion-y-direction"}, scaledMotion({-1.0, -1.0, 1.0})},
       {"motion with y up", {"motion-y-direction"}, scaledMotion({1.0, -1.0, 1.0})},
-      {"motion in pictures", {"motion-x-unit", "motion-y-unit"}, scaledMotion({1.0 / size, 1.0})},
-      {"motion in pictures, y up",
-       {"motion-x-unit", "motion-y-unit"},
-       scaledMotion({1.0 / size.x, -1.0 / size.y, 1.0})},
+      {"motion in UV", {"motion-x-unit", "motion-y-unit"}, scaledMotion({1.0 / size, 1.0})},
+      {"motion in UV, y up", {"motion-x-unit", "motion-y-unit"}, scaledMotion({1.0 / size.x, -1.0 / size.y, 1.0})},
       {"motion in clip space", {"motion-x-unit", "motion-y-unit"}, scaledMotion({2.0 / size.x, -2.0 / size.y, 1.0})},
-      {"motion in pixels stated in pictures",
+      {"motion in pixels declared as UV",
        {"motion-x-unit", "motion-y-unit"},
        [](Handed& h) { h.frame.constants.motionScale = glm::vec2(kSize); }},
       {"motion missing", {"motion-x-missing", "motion-y-missing"}, scaledMotion({0.0, 0.0, 1.0})},
@@ -238,7 +236,7 @@ std::vector<Case> cases() {
   return all;
 }
 
-TEST_P(Lint, ComplainsOfWhatIsWrongAndOfNothingElse) {
+TEST_P(Lint, ReportsTheFaultAndNothingElse) {
   std::vector<std::string> names;
   std::string texts;
   for (const LintFinding& finding : lint(GetParam())) {
