@@ -5,19 +5,19 @@
 #include "include/packed_light.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(constant_id = 0) const uint kKey = 0;  // Of the texture whose packing it is.
+layout(constant_id = 0) const uint kKey = 0;  // Key of the texture; 0 for the pass-through.
 layout(constant_id = 1) const uint kFrame = 0;
-layout(constant_id = 2) const uint kLongest = 1;  // Length.
+layout(constant_id = 2) const uint kLongest = 1;  // Longest history length of the resolved texture.
 layout(set = 0, binding = 0) uniform texture2D source;
 layout(set = 0, binding = 1, rgba32f) uniform writeonly image2D target;
 
-vec4 rounded(vec4 light, vec4 chances) {
+vec4 rounded(vec4 light, vec4 random) {
   switch (kKey) {
-    case kAccumulatedKey: return unpackAccumulated(packAccumulated(light, chances));
-    case kFilteredKey: return vec4(1.0, 1.0, 1.0, light.a) * unpackFiltered(packFiltered(light.rgb, chances.rgb));
-    case kResolvedKey: return unpackResolved(packResolved(light, float(kLongest), chances), float(kLongest));
+    case kAccumulatedKey: return unpackAccumulated(packAccumulated(light, random));
+    case kFilteredKey: return vec4(1.0, 1.0, 1.0, light.a) * unpackFiltered(packFiltered(light.rgb, random.rgb));
+    case kResolvedKey: return unpackResolved(packResolved(light, float(kLongest), random), float(kLongest));
   }
-  return vec4(unpackPassed(packPassed(light.rgb)), light.a);  // Of no texture, as it is not rounded by chance.
+  return vec4(unpackPassed(packPassed(light.rgb)), light.a);  // The pass-through is rounded to nearest.
 }
 
 void main() {
