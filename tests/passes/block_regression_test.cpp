@@ -175,7 +175,7 @@ TEST_F(BlockRegression, GrowthAgreesWithBruteForce) {
 }
 
 // Windows on the left have few samples, those on the right have many, and in between the coarse fit fades out. The
-// coarse fit gets no share from 20 x (1 / .15 - 1) = 113 samples on; a block's own four pixels hold 4 and 400. Coarse
+// coarse fit gets no share from 20 x (1 / .15 - 1) = 113 samples on; a block's own four pixels hold 4 or 400. Coarse
 // windows do not narrow, for the reason given above.
 TEST_F(BlockRegression, ConvergedBlocksAgreeWithBruteForce) {
   BlockRegressionSettings settings{

@@ -154,8 +154,8 @@ const std::vector<Variant> kVariants{
     {"paper", {{"regression.moments", "raw32"}, {"regression.ridge", "1e-5"}}},
     {"paper", {{"regression.moments", "raw32"}, {"regression.ridge", "1e-5"}, {"regression.regularisation", "ridge"}}}};
 
-// The output is finite and not negative, the counters of the input agree with the input, and every other counter is
-// the sum of its view.
+// The output is finite and not negative, the counters of the input agree with the input, and every counter that has a
+// view is the view's sum.
 TEST_F(CountersTest, AgreeWithInputAndViewsOnHardCasesInEveryStorageAndSolver) {
   for (const Variant& variant : kVariants) {
     const std::unique_ptr<Denoiser> method = walrOf(variant.preset);

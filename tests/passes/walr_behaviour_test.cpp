@@ -31,9 +31,9 @@ double halvesTolerance(double value) {
   return 6.0 * 2.0 * reference::kHalfRoundoff * value;
 }
 
-/// Packed light is rounded stochastically unless a mantissa holds it exactly. A mantissa holds the constant, but not the
-/// constant with the errors of halves, so the filtered colour errs by a step more. History is then clipped to a box in
-/// YCoCg about the mean of such colours. The box's half size is their deviation, or at least 2^-7 of the brightest
+/// Packed light is rounded stochastically unless a mantissa holds it exactly. A mantissa holds the constant, but not
+/// the constant with the errors of halves, so the filtered colour errs by a step more. History is then clipped to a box
+/// in YCoCg about the mean of such colours. The box's half size is their deviation, or at least 2^-7 of the brightest
 /// channel, and three half sizes add up in a channel.
 double constantTolerance(double value, const AnyWalr& settings) {
   const double halves = halvesTolerance(value);
