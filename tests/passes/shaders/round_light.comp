@@ -11,13 +11,13 @@ layout(constant_id = 2) const uint kLongest = 1;  // Longest history length of t
 layout(set = 0, binding = 0) uniform texture2D source;
 layout(set = 0, binding = 1, rgba32f) uniform writeonly image2D target;
 
-vec4 rounded(vec4 light, vec4 random) {
+vec4 rounded(vec4 light, vec4 chances) {
   switch (kKey) {
-    case kAccumulatedKey: return unpackAccumulated(packAccumulated(light, random));
-    case kFilteredKey: return vec4(1.0, 1.0, 1.0, light.a) * unpackFiltered(packFiltered(light.rgb, random.rgb));
-    case kResolvedKey: return unpackResolved(packResolved(light, float(kLongest), random), float(kLongest));
+    case kAccumulatedKey: return unpackAccumulated(packAccumulated(light, chances));
+    case kFilteredKey: return vec4(1.0, 1.0, 1.0, light.a) * unpackFiltered(packFiltered(light.rgb, chances.rgb));
+    case kResolvedKey: return unpackResolved(packResolved(light, float(kLongest), chances), float(kLongest));
   }
-  return vec4(unpackPassed(packPassed(light.rgb)), light.a);  // The pass-through is rounded to nearest.
+  return vec4(unpackPassed(packPassed(light.rgb)), light.a);  // Of no texture, as it is not rounded by chance.
 }
 
 void main() {
