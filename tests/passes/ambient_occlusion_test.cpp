@@ -1,4 +1,4 @@
-// Ambient occlusion as the guides of the regression over blocks hold it.
+// Ambient occlusion, a guide of the regression over blocks.
 
 #include <algorithm>
 #include <limits>
@@ -16,7 +16,7 @@ using reference::Image;
 
 constexpr glm::ivec2 kSize(45, 34);
 
-/// The default with a search as wide as the scenes are in so small a picture.
+/// The default settings, with a radius as wide as the scenes are in so small an image.
 WalrSettings searchingWidely() {
   WalrSettings settings;
   settings.occlusion = {.radius = 0.25F, .steps = 7};
@@ -31,7 +31,7 @@ class AmbientOcclusion : public fg::test::GpuTest {
   }
 };
 
-TEST_F(AmbientOcclusion, IsTheReferences) {
+TEST_F(AmbientOcclusion, AgreesWithTheReference) {
   for (const NamedScene& named : allScenes()) {
     SCOPED_TRACE(named.name);
     expectSequence(device(), {renderStill(named.scene, kSize)}, searchingWidely());
@@ -43,7 +43,7 @@ TEST_F(AmbientOcclusion, APlaneDoesNotOccludeItself) {
   for (const Guide& guide : guides.pixels()) EXPECT_EQ(guide.occlusion, 0.0);
 }
 
-// What is not denoised, for it reflects like a mirror or has no normal, is in the way of light all the same.
+// Pixels that are not denoised, because they are mirrors or have no normal, still block light.
 TEST_F(AmbientOcclusion, MirrorsAndSurfacesWithoutNormalsOcclude) {
   const HostFrame diffuse = renderStill(stairs(), kSize);
   HostFrame other = diffuse;

@@ -7,18 +7,18 @@
 
 namespace walr::test {
 
-/// Settings of `walr` or of `walr_paper`, for tests of what holds of both.
+/// Settings of `walr` or of `walr_paper`, for tests of what both methods promise.
 class AnyWalr {
  public:
   AnyWalr(const WalrSettings& settings) : settings_(settings) {}
   AnyWalr(const WalrPaperSettings& settings) : settings_(settings) {}
 
-  /// The settings of `walr`; null of `walr_paper`.
+  /// The settings of `walr`; null for `walr_paper`.
   [[nodiscard]] const WalrSettings* blocks() const { return std::get_if<WalrSettings>(&settings_); }
-  /// The settings of `walr_paper`; null of `walr`.
+  /// The settings of `walr_paper`; null for `walr`.
   [[nodiscard]] const WalrPaperSettings* pixels() const { return std::get_if<WalrPaperSettings>(&settings_); }
 
-  /// Call `use` with whichever they are.
+  /// Call `use` with the settings, whichever method they belong to.
   template <typename Use>
   decltype(auto) with(Use&& use) const {
     return std::visit(use, settings_);

@@ -1,5 +1,5 @@
-// What the other methods' filters count of themselves: right to one where the answer is known, and the sums of their
-// views on every hard case.
+// Counters of the other methods' filters: exact where the answer is known, and equal to the sums of their views on
+// every hard case.
 
 #include <cmath>
 #include <limits>
@@ -29,7 +29,8 @@ CountedRun countedRun(const fg::vk::Device& device, const char* name, const Sett
   return {device, *method, size};
 }
 
-/// One pixel in `rarity`, scattered, finds light of 4, the others none: what one path a pixel makes of a small window.
+/// Light as a small window sees it at one sample per pixel: one pixel in `rarity`, scattered, has the value 4, the
+/// others 0.
 HostFrame sparseLight(const Scene& scene, std::uint32_t rarity) {
   HostFrame frame = renderStill(scene, kSize);
   reference::forEachPixel(kSize, [&](glm::ivec2 p) {
@@ -53,8 +54,8 @@ std::uint64_t channelsAtZero(const Image<glm::dvec4>& output) {
 
 class BaselineCountersTest : public fg::test::GpuTest {};
 
-// On a wall of one normal, with nothing to keep them apart, the normals' components and one axis of the positions are
-// explained by the constant and the other axes: all blocks leave features out. Noise keeps all of them.
+// On a wall with a single normal and no noise, the components of the normal and one axis of the positions are linear
+// combinations of the constant and the other axes, so all blocks drop features. With noise all features are kept.
 TEST_F(BaselineCountersTest, BmfrCountsBlocksShortOfRank) {
   const HostFrame flat = renderStill(flatWall(), kSize);
   CountedRun aware = countedRun(device(), "bmfr", {{"spatial-only", "on"}, {"fit.rank-handling", "deterministic"}});
@@ -63,8 +64,8 @@ TEST_F(BaselineCountersTest, BmfrCountsBlocksShortOfRank) {
   EXPECT_EQ(noisy.count(flat).at("rank-deficient-fits"), 0U);
 }
 
-// Frame 11 displaces the grid by (-2, -2), so that blocks begin at -18, 14, 46 and 78. Without a sample in the columns
-// from 40 to 85 the blocks from 46 to 77 have none.
+// Frame 11 displaces the grid by (-2, -2), so blocks begin at -18, 14, 46 and 78. With no samples in columns 40 to 85,
+// the blocks from 46 to 77 have none.
 TEST_F(BaselineCountersTest, BmfrCountsBlocksWithoutASample) {
   HostFrame frame = renderStill(bumpyWall(0.1), kSize, 11);
   dropSamples(frame, [](glm::ivec2 p) { return p.x >= 40 && p.x < 86; });
@@ -76,8 +77,8 @@ TEST_F(BaselineCountersTest, BmfrCountsBlocksWithoutASample) {
   EXPECT_EQ(counted.at("non-finite-fits"), 0U);
 }
 
-// A fit below 0 is one that comes out as 0: of light so sparse that fits swing through 0, but that some is in reach of
-// each, none is exactly 0 of itself.
+// A channel of a fit is below 0 exactly where the output is 0: the light is so sparse that fits swing through 0, but
+// each window holds some light, so no fit is exactly 0.
 TEST_F(BaselineCountersTest, FitsBelowZeroAreThoseThatComeOutAsZero) {
   struct Case {
     const char* method;
@@ -95,17 +96,17 @@ TEST_F(BaselineCountersTest, FitsBelowZeroAreThoseThatComeOutAsZero) {
   }
 }
 
-// Where the guides do not vary the ridge holds every slope; where normals and depth vary as widely as here, a ridge of
-// 1e-6 holds none.
-TEST_F(BaselineCountersTest, FlrCountsTheFitsThatTheRidgeHolds) {
+// Where the guides do not vary, the ridge determines every slope. Where normals and depth vary as widely as here, a
+// ridge of 1e-6 determines none.
+TEST_F(BaselineCountersTest, FlrCountsFitsDeterminedByTheRidge) {
   const Settings settings{{"spatial-only", "on"}, {"regression.occlusion-guide", "off"}, {"regression.ridge", "1e-6"}};
   CountedRun run = countedRun(device(), "flr", settings);
   EXPECT_EQ(run.count(renderStill(flatWall(), kSize)).at("regularised-fits"), kPixels);
   EXPECT_EQ(run.count(renderStill(bumpyWall(0.3), kSize)).at("regularised-fits"), 0U);
 }
 
-// A window of one cell, 1 sigma of 4 pixels wide, reaches the eight cells around: of the columns without a sample those
-// at least a cell away from the others have none in reach.
+// A window reaches 1 sigma of 4 pixels, which is one cell, and so covers the eight cells around. Among the columns
+// without a sample, those at least a cell away from the others have no sample in reach.
 TEST_F(BaselineCountersTest, FlrCountsCellsWithoutASample) {
   HostFrame frame = renderStill(bumpyWall(0.1), kSize);
   dropSamples(frame, [](glm::ivec2 p) { return p.x >= 32 && p.x < 64; });
@@ -121,14 +122,14 @@ TEST_F(BaselineCountersTest, FlrCountsCellsWithoutASample) {
   EXPECT_EQ(counted.at("non-finite-fits"), 0U);
 }
 
-// Until four frames are there, the spread over the surface stands in for that over time.
+// Until a pixel has four frames, the spatial variance replaces the temporal one.
 TEST_F(BaselineCountersTest, SvgfCountsDeviationsFromTheSurroundings) {
   CountedRun run = countedRun(device(), "svgf", {});
   for (std::uint32_t i = 0; i < 5; ++i) {
     HostFrame frame = renderStill(bumpyWall(0.1), kSize, i);
     if (i == 0) dropSamples(frame, [](glm::ivec2 p) { return p.x < 7; });
     const auto counted = run.count(frame);
-    const std::uint64_t late = 7U * kSize.y;  // Those columns are a sample behind.
+    const std::uint64_t late = 7U * kSize.y;  // Pixels of the columns that have one sample less.
     EXPECT_EQ(counted.at("unsampled-pixels"), i == 0 ? late : 0U) << "frame " << i;
     const std::uint64_t few = i == 0 ? kPixels - late : i < 3 ? kPixels : i == 3 ? late : 0U;
     EXPECT_EQ(counted.at("deviations-from-surroundings"), few) << "frame " << i;
@@ -144,7 +145,7 @@ TEST_F(BaselineCountersTest, JointBilateralCountsWindowsWithoutASample) {
   EXPECT_EQ(counted.at("no-samples"), 24U * kSize.y);
 }
 
-/// Whether light reaches a pixel's surface that is no number.
+/// Whether a pixel shows a surface but its light is not finite.
 std::uint64_t unsampledSurfaces(const HostFrame& frame) {
   std::uint64_t count = 0;
   reference::forEachPixel(frame.size(), [&](glm::ivec2 p) {
@@ -155,8 +156,8 @@ std::uint64_t unsampledSurfaces(const HostFrame& frame) {
   return count;
 }
 
-// Whatever comes in: no fit is not finite, what is no sample is counted, and every counter is the sum of its view.
-TEST_F(BaselineCountersTest, AreRightOnHardCases) {
+// No fit is non-finite, pixels without a sample are counted, and every counter is the sum of its view.
+TEST_F(BaselineCountersTest, AreTheSumsOfTheirViewsOnHardCases) {
   for (const char* name : {"bmfr", "flr", "svgf", "joint_bilateral"}) {
     for (const char* spatialOnly : {"off", "on"}) {
       const auto method = makeDenoiser(name);
@@ -175,7 +176,7 @@ TEST_F(BaselineCountersTest, AreRightOnHardCases) {
           if (counted.contains("non-finite-fits")) {
             EXPECT_EQ(counted.at("non-finite-fits"), 0U);
           }
-          // What lies behind a second frame may stand in for its sample.
+          // From the second frame on, history may replace the sample.
           if (i == 0) {
             EXPECT_EQ(counted.at("unsampled-pixels"), unsampledSurfaces(hard.frames[i]));
           }

@@ -1,5 +1,5 @@
-// What must hold of a whole denoiser whatever its method: unit gain, invalid pixels and samples left out, finite output
-// for any input, and a result better than temporal accumulation alone.
+// Promises that every denoiser keeps: unit gain, invalid pixels and samples ignored, finite output for any input, and a
+// smaller error than temporal accumulation alone.
 #include <cmath>
 #include <string>
 
@@ -44,7 +44,7 @@ bool hits(glm::ivec2 p, std::uint32_t frame, std::uint32_t channel, double share
   return (reference::pcg4d({p, frame, channel}).x + 0.5) * 0x1p-32 < share;
 }
 
-/// Light of one radiance, of which a share of the pixels has no finite sample.
+/// Constant light, with a share of pixels that have no finite sample.
 HostFrame constantFrame(const Scene& scene, std::uint32_t index, double light, double elsewhere, double share) {
   HostFrame frame = renderFrame(scene, walkingCamera(index, kSize), kSize);
   forEachPixel(kSize, [&](glm::ivec2 p) {
@@ -55,7 +55,7 @@ HostFrame constantFrame(const Scene& scene, std::uint32_t index, double light, d
   return frame;
 }
 
-TEST_P(DenoiserTest, KeepsConstantLightAndLeavesOutWhatIsNoSample) {
+TEST_P(DenoiserTest, KeepsConstantLightAndIgnoresPixelsWithoutASample) {
   constexpr double kLight = 0.75;
   constexpr double kElsewhere = 7.25;
   const std::unique_ptr<Denoiser> denoiser = makeCase();
@@ -69,10 +69,10 @@ TEST_P(DenoiserTest, KeepsConstantLightAndLeavesOutWhatIsNoSample) {
         const Image<glm::dvec4> result = run.frame(frame);
         forEachPixel(kSize, [&](glm::ivec2 p) {
           const bool surface = reference::surfaceAt(frame, p, {}).depth > 0.0;
-          // Averages of equal halves: each of at most seven stages may round by half a step.
+          // These are averages of equal halves. Each of at most seven stages may round by half a step.
           const double tolerance = surface ? 7.0 * reference::kHalfRoundoff * kLight : 0.0;
           const bool dark = surface && glm::dvec3(result[p]) == glm::dvec3(0.0);
-          if (dark && !std::isfinite(frame.lighting[p].y)) return;  // Nothing of its surface was sampled within reach.
+          if (dark && !std::isfinite(frame.lighting[p].y)) return;  // The surface has no sample within reach.
           for (int c = 0; c < 3; ++c)
             EXPECT_NEAR(result[p][c], surface ? kLight : kElsewhere, tolerance) << "at (" << p.x << ", " << p.y << ")";
         });
@@ -126,11 +126,11 @@ TEST_P(BaselineTest, BeatsAccumulationAlone) {
       plainError = surfaceError(plainRun.frame(noisy), truth);
     }
     RecordProperty(std::string(name) + "_error", std::to_string(error));
-    EXPECT_LT(error, 0.5 * plainError) << "error " << error << ", of accumulation alone " << plainError;
+    EXPECT_LT(error, 0.5 * plainError) << "error " << error << ", accumulation alone " << plainError;
   }
 }
 
-// WALR's raw moments keep constants only where features do not vary: its paper preset has tests of its own.
+// The raw moments of walr_paper's preset paper keep constants only where features do not vary; tests of WALR cover it.
 INSTANTIATE_TEST_SUITE_P(Methods, DenoiserTest,
                          testing::Values(Case{"svgf"}, Case{"svgf", true}, Case{"joint_bilateral"},
                                          Case{"joint_bilateral", true}, Case{"bmfr"}, Case{"bmfr", true}, Case{"flr"},

@@ -22,12 +22,13 @@ using reference::HostFrame;
 using reference::Image;
 using reference::Storage;
 
-constexpr glm::ivec2 kSize(45, 34);  // No multiple of a block.
+constexpr glm::ivec2 kSize(45, 34);  // Not a multiple of the block size.
 
-// About the pixels that it is at 216 lines. At 34 the default's window would hold hardly more samples than features.
+// Gives about the width in pixels that the default has at 216 lines. At 34 lines the default's window would hold hardly
+// more samples than features.
 constexpr float kCoarseSigma = 0.15F;
 
-/// A frame as the regression takes it.
+/// Inputs of the regression.
 struct Inputs {
   HostFrame frame;
   Image<Guide> guides;
@@ -37,13 +38,13 @@ struct Inputs {
 Inputs inputsOf(const Scene& scene) {
   Inputs inputs;
   inputs.frame = renderStill(scene, kSize);
-  inputs.guides = reference::prepareGuides(inputs.frame, Storage::Quantised, {}, kOcclusionInSmallPictures);
+  inputs.guides = reference::prepareGuides(inputs.frame, Storage::Quantised, {}, kOcclusionInSmallImages);
   inputs.accumulated = withAlpha(inputs.frame.lighting);
   for (glm::dvec4& sample : inputs.accumulated.pixels()) sample.a = 1.0;
   return inputs;
 }
 
-/// The regression alone.
+/// The regression and its reconstruction alone.
 class RegressionRun {
  public:
   RegressionRun(const fg::vk::Device& device, const BlockRegressionSettings& settings)
@@ -72,15 +73,15 @@ double distance(const Image<Guide>& guides, const Image<glm::dvec4>& a, const Im
   return count > 0 ? std::sqrt(squares / count) : 0.0;
 }
 
-double onePath(glm::ivec2) {
+double oneSample(glm::ivec2) {
   return 1.0;
 }
 
-// Left of it the light is darker.
+// Column at which the light steps; it is darker on the left.
 constexpr int kStep = 24;
 
-/// Light without noise that steps on a wall without features: the largest relative difference from their own side's of
-/// the pixels that count.
+/// Filter noise-free light with a step, on a wall without features. Returns the largest relative error of the pixels
+/// whose column `counts`.
 template <typename Counts>
 double farthestFromOwn(const fg::vk::Device& device, const BlockRegressionSettings& settings, Counts counts) {
   RegressionRun run(device, settings);
@@ -101,16 +102,16 @@ double farthestFromOwn(const fg::vk::Device& device, const BlockRegressionSettin
 
 class BlockRegression : public fg::test::GpuTest {
  protected:
-  /// @param paths of a pixel
-  template <typename Paths = double(glm::ivec2)>
-  void expectAgreement(const BlockRegressionSettings& settings, const Paths& paths = onePath) {
-    // Centred moments in halves stay this close to double precision where the input itself has the noise of one path a
-    // pixel (design figure of the regression per pixel, which stores as often).
+  /// @param historyLength history length of each pixel
+  template <typename Lengths = double(glm::ivec2)>
+  void expectAgreement(const BlockRegressionSettings& settings, const Lengths& historyLength = oneSample) {
+    // Design goal for centred moments in halves, at the noise of one sample per pixel; the regression over pixels,
+    // which rounds as often, has the same.
     constexpr double kBound = 2e-4;
     RegressionRun run(device(), settings);
     for (const NamedScene& scene : allScenes()) {
       Inputs inputs = inputsOf(scene.scene);
-      reference::forEachPixel(kSize, [&](glm::ivec2 p) { inputs.accumulated[p].a = paths(p); });
+      reference::forEachPixel(kSize, [&](glm::ivec2 p) { inputs.accumulated[p].a = historyLength(p); });
       const Image<glm::dvec4> actual = run.filter(inputs);
       const auto expected = reference::blockRegression(inputs.frame, inputs.guides, inputs.accumulated, settings);
       const double rms = distance(inputs.guides, actual, expected);
@@ -137,8 +138,8 @@ TEST_F(BlockRegression, SteppingByTheEdgeDistanceAgreesWithBruteForce) {
 }
 
 TEST_F(BlockRegression, CoarseFitsAgreeWithBruteForce) {
-  // A window of 5 pixels' standard deviation, on cells of one, two and four blocks a side, beside which the blocks' own
-  // fits hardly count. The picture is no multiple of any of these.
+  // The coarse window has a standard deviation of 5 pixels, on cells of one, two and four blocks a side. The share of
+  // the blocks' own fits is small. The image's size is not a multiple of any cell size.
   BlockRegressionSettings settings{.iterations = 1, .coarseSigma = kCoarseSigma, .coarseSamples = 10000.0F};
   for (const std::uint32_t size : {2U, 3U, 4U, 5U, 8U}) {
     for (const float resolution : {2.0F, 1.0F, 0.5F}) {
@@ -149,16 +150,16 @@ TEST_F(BlockRegression, CoarseFitsAgreeWithBruteForce) {
   }
 }
 
-// As history leaves them, some pixels have more paths than others, and coarse windows narrow from place to place. None
-// is without: of a block whose own pixels are, a weight that is 0 but for rounding would be the window.
-TEST_F(BlockRegression, PathsAgreeWithBruteForce) {
+// Pixels have unequal history lengths, and the width of coarse windows varies. No pixel is without a sample: in a block
+// without samples, a weight that is 0 but for rounding would be the whole window.
+TEST_F(BlockRegression, UnequalHistoryLengthsAgreeWithBruteForce) {
   BlockRegressionSettings settings{.size = 2, .iterations = 2, .coarseSigma = kCoarseSigma, .coarseSamples = 300.0F};
-  const auto paths = [](glm::ivec2 p) { return double(((p.x * 5 + p.y * 3) % 4 + 1) * (p.x / 15 + 1)); };
-  expectAgreement(settings, paths);
-  // No narrower: of windows of half a cell, twelve pixels, fits of six coefficients are the roundings' as much as the
-  // light's (up to 1e-3 of distance).
+  const auto historyLength = [](glm::ivec2 p) { return double(((p.x * 5 + p.y * 3) % 4 + 1) * (p.x / 15 + 1)); };
+  expectAgreement(settings, historyLength);
+  // Not narrower: over windows of half a cell, twelve pixels, fits of six coefficients depend as much on rounding as
+  // on the light (a distance of up to 1e-3).
   settings.coarseNarrowing = 0.4F;
-  expectAgreement(settings, paths);
+  expectAgreement(settings, historyLength);
 }
 
 TEST_F(BlockRegression, GrowthAgreesWithBruteForce) {
@@ -173,20 +174,21 @@ TEST_F(BlockRegression, GrowthAgreesWithBruteForce) {
   }
 }
 
-// To the left windows want paths, to the right they have them, and in between the coarse fit fades out. Of the limit of
-// 20 x (1 / .15 - 1) = 113 paths a block's own four pixels have 4 and 400. Coarse windows do not narrow: see above.
+// Windows on the left have few samples, those on the right have many, and in between the coarse fit fades out. The
+// coarse fit gets no share from 20 x (1 / .15 - 1) = 113 samples on; a block's own four pixels hold 4 or 400. Coarse
+// windows do not narrow, for the reason given above.
 TEST_F(BlockRegression, ConvergedBlocksAgreeWithBruteForce) {
   BlockRegressionSettings settings{
       .size = 2, .iterations = 1, .coarseSigma = kCoarseSigma, .coarseNarrowing = 0.0F, .coarseSamples = 20.0F};
-  const auto paths = [](glm::ivec2 p) { return p.x < kSize.x / 2 ? 1.0 : 100.0; };
+  const auto historyLength = [](glm::ivec2 p) { return p.x < kSize.x / 2 ? 1.0 : 100.0; };
   for (const float least : {1e-6F, 0.15F, 0.4F}) {
     settings.coarseLeastShare = least;
-    expectAgreement(settings, paths);
+    expectAgreement(settings, historyLength);
   }
 }
 
-// Where the light steps at a block's side, every block has its side's light, and none grows over the step. Pixels
-// between the centres of blocks of either side are mixed.
+// The light steps at a block's border. Every block must keep the light of its own side and not grow over the step. The
+// pixels between the centres of the blocks on both sides are mixed and do not count.
 TEST_F(BlockRegression, BlocksDoNotGrowOverAStepInTheLight) {
   const auto farthest = [&](float errors) {
     return farthestFromOwn(device(), {.size = 2, .iterations = 3, .growthErrors = errors, .coarseSamples = 0.0F},
@@ -196,10 +198,11 @@ TEST_F(BlockRegression, BlocksDoNotGrowOverAStepInTheLight) {
   EXPECT_GT(farthest(1e6F), 0.1);
 }
 
-// The same for cells. What lies within reach of the step has light of both sides in its window from the start, and a
-// mean that is in doubt: only a strict test keeps those from joining others.
+// The same for cells. A cell within reach of the step has light of both sides in its window from the start, so its mean
+// is uncertain: only a strict test keeps such cells from joining others.
 TEST_F(BlockRegression, CellsDoNotGrowOverAStepInTheLight) {
-  constexpr int kReach = 6;  // Three standard deviations of half a cell of 2 pixels, half a cell and the cells between.
+  // Three standard deviations of half a cell (of 2 pixels), half a cell, and the cells between.
+  constexpr int kReach = 6;
   const auto farthest = [&](float errors) {
     return farthestFromOwn(device(),
                            {.size = 2,
@@ -214,15 +217,15 @@ TEST_F(BlockRegression, CellsDoNotGrowOverAStepInTheLight) {
   EXPECT_GT(farthest(1e6F), 0.1);
 }
 
-TEST_F(BlockRegression, AConstantStaysWhatItIs) {
+TEST_F(BlockRegression, ConstantLightIsUnchanged) {
   const glm::dvec3 light(0.25, 3.0, 1000.0);
   RegressionRun run(device(), {.size = 2, .iterations = 2});
   for (const NamedScene& scene : allScenes()) {
     Inputs inputs = inputsOf(scene.scene);
     for (glm::dvec4& sample : inputs.accumulated.pixels()) sample = glm::dvec4(light, 1.0);
     const Image<glm::dvec4> actual = run.filter(inputs);
-    // Means of equal halves are merged about the first of them, so that nothing but single precision rounds: the
-    // constant of a fit and the mixing of eight of them.
+    // Means of equal halves are merged about the first of them, so only single precision rounds: the constant of a
+    // fit and the mixing of eight fits.
     reference::forEachPixel(kSize, [&](glm::ivec2 p) {
       for (int c = 0; c < 3; ++c)
         ASSERT_NEAR(actual[p][c], light[c], halfTolerance(light[c], 64.0 * reference::kFloatRoundoff * light[c]))
@@ -231,8 +234,8 @@ TEST_F(BlockRegression, AConstantStaysWhatItIs) {
   }
 }
 
-/// The ridge r takes the slope s of a linear signal to (M + r)^-1 M s with the covariance M of a window, which misses
-/// the signal, averaged over the window, by no more than sqrt(r) |s| / 2.
+// With the covariance M of a window, the ridge r changes the slope s of a linear signal to (M + r)^-1 M s. The mean
+// error over the window is then at most sqrt(r) |s| / 2.
 TEST_F(BlockRegression, ASignalLinearInTheFeaturesIsReproduced) {
   constexpr double kRidge = 1e-6;
   RegressionRun run(device(), {.size = 2, .iterations = 2, .ridge = static_cast<float>(kRidge)});
@@ -251,18 +254,18 @@ TEST_F(BlockRegression, ASignalLinearInTheFeaturesIsReproduced) {
   double squares = 0.0;
   reference::forEachPixel(kSize, [&](glm::ivec2 p) { squares += std::pow(actual[p].x - signal[p].x, 2.0); });
   const double slopeLength = glm::length(glm::dvec4(slope, occlusionSlope));
-  const double rounding = 4.0 * reference::kHalfRoundoff * largest;  // Of the signal, the constant and the result.
+  const double rounding = 4.0 * reference::kHalfRoundoff * largest;  // Signal, constant and result are halves.
   EXPECT_LE(std::sqrt(squares / double(signal.pixels().size())), 0.5 * std::sqrt(kRidge) * slopeLength + rounding);
 }
 
-TEST_F(BlockRegression, APowerOfTwoScalesTheOutput) {
+TEST_F(BlockRegression, ScalingTheInputByAPowerOfTwoScalesTheOutput) {
   RegressionRun run(device(), {.size = 2, .iterations = 2});
   const auto scaled = [&](double factor) {
     Inputs inputs = inputsOf(sphere());
     for (glm::dvec4& sample : inputs.accumulated.pixels()) sample = glm::dvec4(factor * glm::dvec3(sample), sample.a);
     return run.filter(inputs);
   };
-  // Radiance so high that covariances stay in the normal range of halves, and so low that no slope leaves it.
+  // The radiance is so high that covariances stay in the normal range of halves, and so low that no slope leaves it.
   const Image<glm::dvec4> before = scaled(16.0);
   const Image<glm::dvec4> after = scaled(128.0);
   reference::forEachPixel(kSize, [&](glm::ivec2 p) {
@@ -270,7 +273,7 @@ TEST_F(BlockRegression, APowerOfTwoScalesTheOutput) {
   });
 }
 
-TEST_F(BlockRegression, PixelsWithoutASampleHaveNoSay) {
+TEST_F(BlockRegression, PixelsWithoutASampleAreIgnored) {
   RegressionRun run(device(), {.size = 2, .iterations = 2});
   Inputs inputs = inputsOf(sphere());
   reference::forEachPixel(kSize, [&](glm::ivec2 p) {
@@ -285,7 +288,7 @@ TEST_F(BlockRegression, PixelsWithoutASampleHaveNoSay) {
   });
 }
 
-TEST(BlockRegressionSettings, ThePlaneRampMustHaveALength) {
+TEST(BlockRegressionSettings, AnEmptyPlaneRampIsRejected) {
   fg::Graph graph;
   const fg::Texture lighting = graph.texture("lighting", {VK_FORMAT_R16G16B16A16_SFLOAT, {64, 64}});
   try {

@@ -1,4 +1,4 @@
-// Views of the regression over blocks: that they fit together to what the filter makes of them.
+// Views of the regression over blocks: they agree with each other and with the output.
 
 #include <algorithm>
 #include <array>
@@ -28,9 +28,9 @@ namespace {
 using reference::HostFrame;
 using reference::Image;
 
-constexpr glm::ivec2 kSize(45, 34);  // No multiple of a block.
+constexpr glm::ivec2 kSize(45, 34);  // Not a multiple of the block size.
 
-/// The regression alone, with its views.
+/// The regression alone, with views.
 class ViewedRegression {
  public:
   ViewedRegression(const fg::vk::Device& device, const BlockRegressionSettings& settings,
@@ -78,7 +78,7 @@ class ViewedRegression {
   std::unique_ptr<fg::test::GraphRun> run_;
 };
 
-/// A frame as the regression takes it.
+/// Inputs of the regression.
 struct Inputs {
   HostFrame frame;
   Image<reference::Guide> guides;
@@ -87,28 +87,28 @@ struct Inputs {
 Inputs inputsOf(const Scene& scene) {
   Inputs inputs;
   inputs.frame = renderStill(scene, kSize);
-  inputs.guides = reference::prepareGuides(inputs.frame, reference::Storage::Quantised, {}, kOcclusionInSmallPictures);
+  inputs.guides = reference::prepareGuides(inputs.frame, reference::Storage::Quantised, {}, kOcclusionInSmallImages);
   inputs.accumulated = withAlpha(inputs.frame.lighting);
   for (glm::dvec4& sample : inputs.accumulated.pixels()) sample.a = 1.0;
   return inputs;
 }
 
-/// Error of the quotient that unpacks ambient occlusion: 2.5 units in the last place (Vulkan, "Precision of core
+/// Error of unpacked ambient occlusion, a quotient: 2.5 units in the last place (Vulkan, "Precision of core
 /// operations"), each at most two roundoffs.
 constexpr double kUnpacked = 5.0 * reference::kFloatRoundoff;
 
-/// Largest relative error of a block's moments, which are stored as halves once before the iteration.
+/// Largest relative error of a block's moments, which are stored as halves once, before the iteration.
 constexpr double kStored = 2.0 * reference::kHalfRoundoff;
 
-constexpr int kFeatures = 5;  ///< The normal, depth, ambient occlusion.
+constexpr int kFeatures = 5;  ///< Three components of the normal, depth, ambient occlusion.
 constexpr int kDepth = 3;
 constexpr int kOcclusion = 4;
-constexpr int kValues = 8;  ///< Of a sample: its features and its colour.
+constexpr int kValues = 8;  ///< Values of a sample: features and colour.
 
-/// The moments of a pixel's block, read from the views that show them.
+/// The moments of the block that a pixel lies in, read from their views.
 struct ViewedMoments {
   std::array<double, kValues> mean{};
-  reference::Matrix<kValues> covariance{};  ///< Those among colours are not kept.
+  reference::Matrix<kValues> covariance{};  ///< Covariances among colours are not stored.
 };
 
 const std::vector<std::string>& momentViews() {
@@ -154,11 +154,11 @@ class MomentViews {
   std::map<std::string, Image<glm::dvec3>> images_;
 };
 
-/// Moments of 6x6 pixels of one plane, weighed by how their shading normals face it, and what storing those of their
-/// blocks may add to them.
+/// Moments of 6x6 pixels of one plane, with weights by how their shading normals face it, and bounds of the error that
+/// storing the blocks' moments adds.
 class Window {
  public:
-  /// @param depth what the depth feature is relative to
+  /// @param depth depth of the block, to which the depth feature is relative
   Window(const Inputs& in, glm::ivec2 first, double depth) {
     for (int k = 0; k < kCount; ++k) {
       const glm::ivec2 q = first + glm::ivec2(k % 6, k / 6);
@@ -185,8 +185,8 @@ class Window {
       sum += weights_[k] * (samples_[k][i] - mean_[i]) * (samples_[k][j] - mean_[j]) / weight_;
     return sum;
   }
-  /// The blocks' covariances, no larger than the product of the spreads, are rounded, and so are the means whose spread
-  /// about the window's mean comes on top.
+  /// The blocks' stored covariances are no larger than the product of the spreads. The stored means are rounded too,
+  /// and their spread about the window's mean adds to the covariance.
   [[nodiscard]] double covarianceTolerance(int i, int j) const {
     const double stored = spread_[i] * spread_[j] + size_[i] * spread_[j] + spread_[i] * size_[j];
     return kStored * stored + kArithmetic * terms(i) * terms(j);
@@ -194,8 +194,8 @@ class Window {
 
  private:
   static constexpr int kCount = 36;
-  static constexpr double kArithmetic = 64.0 * reference::kFloatRoundoff;  // Some sums of some tens of terms.
-  /// What a value is a difference of: the depth feature of a quotient and 1.
+  static constexpr double kArithmetic = 64.0 * reference::kFloatRoundoff;  // A few sums of some tens of terms.
+  /// Size of the terms of which a value is the difference: the depth feature is a quotient less 1.
   [[nodiscard]] double terms(int i) const { return i == kDepth ? 1.0 : size_[i]; }
 
   std::array<std::array<double, kValues>, kCount> samples_{};
@@ -206,7 +206,7 @@ class Window {
   std::array<double, kValues> spread_{};
 };
 
-/// Depth of the pixel that stands for a block of 2x2 pixels with a surface: one of them, picked at random.
+/// Depth of a 2x2 block's representative pixel, chosen at random. All four pixels must show a surface.
 double blockDepth(const Inputs& in, glm::ivec2 block) {
   double depth = 0.0;
   for (std::uint32_t i = 0; i < 4; ++i) {
@@ -216,7 +216,7 @@ double blockDepth(const Inputs& in, glm::ivec2 block) {
   return depth;
 }
 
-/// The flat wall with features that vary in all their components, though its plane does not.
+/// The flat wall with all five features varying over it.
 Inputs wallOfManyFeatures() {
   Inputs in = inputsOf(flatWall());
   reference::forEachPixel(kSize, [&](glm::ivec2 p) {
@@ -232,12 +232,12 @@ Inputs wallOfManyFeatures() {
   return in;
 }
 
-/// The ridge on a feature's variance, with what covariances in halves may be off.
+/// The ridge of a feature, which includes the rounding of covariances stored as halves.
 double ridgeOf(const ViewedMoments& m, int feature, double ridge) {
   return ridge + kFeatures * reference::kHalfRoundoff * std::max(m.covariance[feature][feature], 0.0);
 }
 
-/// The features' covariances with their ridge, from the views.
+/// The features' covariance matrix with its ridge, from the views.
 reference::Matrix<kFeatures> normalMatrix(const ViewedMoments& m, double ridge) {
   reference::Matrix<kFeatures> a{};
   for (int i = 0; i < kFeatures; ++i) {
@@ -253,13 +253,13 @@ double trace(const reference::Matrix<kFeatures>& a) {
   return sum;
 }
 
-/// Roundings of a Cholesky decomposition of five rows, relative to the matrix: its backward error is below
-/// (n + 1) u / (1 - (n + 1) u) of |L| |L^T| (Higham, Accuracy and Stability of Numerical Algorithms, theorem 10.3).
+/// Relative error of a Cholesky decomposition of five rows. Its backward error is below (n + 1) u / (1 - (n + 1) u) of
+/// |L| |L^T| (Higham, Accuracy and Stability of Numerical Algorithms, theorem 10.3).
 constexpr double kDecomposed = 7.0 * reference::kFloatRoundoff;
 
 class BlockViewsTest : public fg::test::GpuTest {};
 
-// The output is the mixture of the two fits in the share that the samples give them.
+// The output mixes fine and coarse fits by the share that follows from the sample counts.
 TEST_F(BlockViewsTest, TheMixtureIsTheOutput) {
   const BlockRegressionSettings settings{.size = 2, .iterations = 2};
   ViewedRegression run(device(), settings, {"samples", "occlusion", "fine-fit", "coarse-fit", "few-samples"});
@@ -300,8 +300,8 @@ TEST_F(BlockViewsTest, TheMixtureIsTheOutput) {
   }
 }
 
-// On a flat wall without sky, away from the border, one iteration over blocks of 2x2 has 6x6 samples of weight 1 to the
-// rounding of unit vectors, and their moments are those of the pixels in the window.
+// On a flat wall without sky, away from the border, one iteration over blocks of 2x2 covers 6x6 samples, whose weights
+// are 1 up to the rounding of unit vectors. The moments in the views must be those of these pixels.
 TEST_F(BlockViewsTest, MomentsAreThoseOfTheWindow) {
   std::vector<std::string> wanted = momentViews();
   wanted.push_back("edges");
@@ -331,9 +331,9 @@ TEST_F(BlockViewsTest, MomentsAreThoseOfTheWindow) {
   comparison.expect(0.0);
 }
 
-// The smallest pivot is that of the block's matrix: each pivot is 1 over the last diagonal entry of the inverse of a
-// leading part. A pivot is a Schur complement, in which the decomposition's error counts (1 + |w|)^2 times, w being
-// what eliminates the rows before.
+// The smallest pivot must be that of the block's matrix. Each pivot is 1 over the last diagonal entry of the inverse of
+// a leading submatrix. It is a Schur complement, in which the decomposition's error counts (1 + |w|)^2 times, where w
+// eliminates the rows before.
 TEST_F(BlockViewsTest, PivotsAreThoseOfTheMoments) {
   std::vector<std::string> wanted = momentViews();
   wanted.push_back("pivots");
@@ -345,7 +345,7 @@ TEST_F(BlockViewsTest, PivotsAreThoseOfTheMoments) {
       const MomentViews views(run);
       Comparison comparison("pivots");
       reference::forEachPixel(kSize, [&](glm::ivec2 p) {
-        if (pivots[p] == glm::dvec3(0.0)) return;  // A block without a surface.
+        if (pivots[p] == glm::dvec3(0.0)) return;  // The block has no surface.
         const ViewedMoments moments = views.at(p);
         const reference::Matrix<kFeatures> a = normalMatrix(moments, double(ridge));
         double smallest = std::numeric_limits<double>::infinity();
@@ -353,7 +353,7 @@ TEST_F(BlockViewsTest, PivotsAreThoseOfTheMoments) {
         int outweighed = 0;
         bool certain = true;
         for (int k = 0; k < kFeatures; ++k) {
-          // The leading k+1 rows, and nothing but 1 beside them.
+          // The leading k+1 rows; the identity in the rest.
           reference::Matrix<kFeatures> leading{};
           for (int i = 0; i < kFeatures; ++i)
             for (int j = 0; j < kFeatures; ++j) leading[i][j] = i <= k && j <= k ? a[i][j] : i == j ? 1.0 : 0.0;
@@ -362,7 +362,7 @@ TEST_F(BlockViewsTest, PivotsAreThoseOfTheMoments) {
           double eliminated = 1.0;
           for (int i = 0; i < k; ++i) eliminated += std::abs(inverted[k][i]) * pivot;
           const double itsRidge = ridgeOf(moments, k, double(ridge));
-          // No pivot is smaller than its ridge, but for rounding.
+          // Up to rounding, no pivot is smaller than its ridge.
           const double above = std::max(pivot / itsRidge - 1.0, 0.0);
           const double itsError = kDecomposed * trace(a) * eliminated * eliminated / itsRidge;
           smallest = std::min(smallest, above);
@@ -382,9 +382,9 @@ TEST_F(BlockViewsTest, PivotsAreThoseOfTheMoments) {
   }
 }
 
-// On the wall, away from the border, a pixel's slopes are those of the four blocks around it, mixed bilinearly: solved
-// here from the moments that the views show, stored as halves there.
-TEST_F(BlockViewsTest, SlopesAreThoseOfTheBlocksAround) {
+// On the wall, away from the border, a pixel's slopes are those of the four blocks around it, mixed bilinearly. The
+// test solves for them from the moments in the views, which the filter stores as halves.
+TEST_F(BlockViewsTest, SlopesAreMixedFromTheFourBlocksAround) {
   constexpr std::array kSlopes{"slope-x", "slope-y", "slope-z", "slope-depth", "slope-occlusion"};
   std::vector<std::string> wanted = momentViews();
   wanted.insert(wanted.end(), kSlopes.begin(), kSlopes.end());
@@ -418,7 +418,8 @@ TEST_F(BlockViewsTest, SlopesAreThoseOfTheBlocksAround) {
             double size = 0.0;
             for (const double slope : solved) size += std::abs(slope);
             expected[c] += weight * solved[feature];
-            // Decomposition and both substitutions, each with the decomposition's bound; the store; the four weights.
+            // Error of the decomposition and both substitutions, each with the decomposition's bound; of the store; of
+            // the four weights.
             tolerance[c] += weight * (3.0 * kDecomposed * trace(inverted) * trace(a) * size +
                                       (kStored + 16.0 * reference::kFloatRoundoff) * std::abs(solved[feature]));
           }
@@ -431,14 +432,15 @@ TEST_F(BlockViewsTest, SlopesAreThoseOfTheBlocksAround) {
   comparison.expect(0.0);
 }
 
-// In the corners of the picture a single cell's fit holds, whose slopes are what tells its colours at two pixels apart.
-// The depth that its depth feature is relative to is not shown; one pixel gives it away, the others must agree.
+// In a corner of the image only one cell's fit counts, so its slopes must explain the difference of its colours at two
+// pixels. No view shows the depth to which the depth feature is relative. One pixel determines it; the others must
+// agree.
 TEST_F(BlockViewsTest, CoarseSlopesAreThoseOfTheCoarseFit) {
   constexpr std::array kSlopes{"coarse-slope-x", "coarse-slope-y", "coarse-slope-z", "coarse-slope-depth",
                                "coarse-slope-occlusion"};
   std::vector<std::string> wanted{"coarse-fit", "coarse-clamped"};
   wanted.insert(wanted.end(), kSlopes.begin(), kSlopes.end());
-  // Cells of 8x8 pixels: 0.2 of 34 pixels over half a cell, and no larger.
+  // Cells have 8x8 pixels, the largest size there is: 0.2 x 34 / 0.5 pixels would allow more.
   const BlockRegressionSettings settings{
       .size = 2, .iterations = 1, .coarseSigma = 0.2F, .coarseReach = 3.0F, .coarseResolution = 0.5F};
   constexpr int kCell = 8;
@@ -456,7 +458,7 @@ TEST_F(BlockViewsTest, CoarseSlopesAreThoseOfTheCoarseFit) {
   Comparison comparison("coarse slopes");
   const glm::ivec2 origin(0);
   for (int c = 0; c < 3; ++c) {
-    // What is left for the depth feature, over its slope, at each pixel of the corner.
+    // At each pixel of the corner, the part of the colour that is left for the depth feature, divided by its slope.
     const auto rest = [&](glm::ivec2 p) {
       double value = fit[p][c] - fit[origin][c];
       for (int k = 0; k < kFeatures; ++k)
@@ -488,8 +490,8 @@ TEST_F(BlockViewsTest, CoarseSlopesAreThoseOfTheCoarseFit) {
   comparison.expect(0.0);
 }
 
-// Light that grows with the normal's x falls below 0 at the one pixel that turns farther than all others and has no
-// sample of its own.
+// Light that grows with the normal's x falls below 0 at the one pixel whose normal is turned farther than all others
+// and that has no sample of its own.
 TEST_F(BlockViewsTest, ClampedFitsAreThoseBelowZero) {
   ViewedRegression run(device(), {.size = 2, .iterations = 2, .ridge = 1e-6F},
                        {"clamped", "coarse-clamped", "fine-fit", "coarse-fit"});

@@ -26,9 +26,9 @@ using reference::HostFrame;
 using reference::Image;
 using reference::Storage;
 
-constexpr glm::ivec2 kSize(70, 45);  // Neither a multiple of the block size.
+constexpr glm::ivec2 kSize(70, 45);  // Not multiples of the block size.
 
-/// The fit alone, fed with guides.
+/// The fit alone, with guides as input.
 class FitRun {
  public:
   FitRun(const fg::vk::Device& device, const BmfrFitSettings& settings)
@@ -49,7 +49,7 @@ BmfrFitSettings deterministic(float tolerance) {
   return {.rankHandling = RankHandling::Deterministic, .rankTolerance = tolerance};
 }
 
-/// What faces the camera, all of one normal: at a single depth, or slabs at three.
+/// Slabs that face the camera, at the given depths.
 Scene facingSlabs(std::vector<double> depths) {
   return [depths](glm::dvec3 origin, glm::dvec3 direction) -> std::optional<SceneHit> {
     for (std::size_t i = 0; i < depths.size(); ++i) {
@@ -62,7 +62,8 @@ Scene facingSlabs(std::vector<double> depths) {
   };
 }
 
-/// Scenes whose blocks leave features without a say: the position on a plane, the normal where it is the same, both.
+/// Scenes whose blocks have linearly dependent features: the position on a plane, the normal where it is constant, or
+/// both.
 std::vector<NamedScene> rankDeficientScenes() {
   return {{"one plane", flatWall()},
           {"one plane, facing the camera", facingSlabs({5.0})},
@@ -104,9 +105,8 @@ TEST_F(Bmfr, DeterministicFitAgreesWithTheReference) {
     expectAgreement(run, renderStill(scene.scene, kSize, 3), settings, scene.name);
 }
 
-/// The constant is the first feature and carries no noise, so that both fits reproduce a single colour, whatever the
-/// rank.
-TEST_F(Bmfr, AConstantStaysWhatItIs) {
+/// The constant is the first feature and gets no noise, so both fits reproduce a single colour, whatever the rank.
+TEST_F(Bmfr, ConstantLightIsUnchanged) {
   const glm::dvec3 light(0.25, 3.0, 1000.0);
   std::vector<NamedScene> scenes = rankDeficientScenes();
   scenes.push_back({"sphere", sphere()});
@@ -128,8 +128,9 @@ TEST_F(Bmfr, AConstantStaysWhatItIs) {
   }
 }
 
-/// Without noise a signal in the span of the features is its own fit. What is left is the rounding of the signal to
-/// halves, of which a pixel takes over no more than the root of its leverage times that of all pixels of the block.
+/// Without noise, the fit of a signal in the span of the features is the signal. Only the signal's rounding to halves
+/// remains. Its effect on a pixel is at most the root of the pixel's leverage times the root of the squared errors of
+/// all pixels of the block.
 TEST_F(Bmfr, ASignalLinearInTheFeaturesIsReproduced) {
   const BmfrFitSettings settings = deterministic(1e-3F);
   FitRun run(device(), settings);
@@ -149,7 +150,7 @@ TEST_F(Bmfr, ASignalLinearInTheFeaturesIsReproduced) {
     frame.lighting[p] = {reference::roundToHalf(signal[p].x), reference::roundToHalf(signal[p].y),
                          reference::roundToHalf(signal[p].z)};
   });
-  const double rounding = reference::kHalfRoundoff * largest * 32.0;  // The root of 32 x 32 squares.
+  const double rounding = reference::kHalfRoundoff * largest * 32.0;  // The root of the sum of 32 x 32 squares.
   const auto bound = reference::bmfrFit(frame, guides, frame.lighting, settings);
   const Image<glm::dvec4> actual = run.fit(frame, guides);
   Comparison comparison("linear signal");
@@ -163,9 +164,9 @@ TEST_F(Bmfr, ASignalLinearInTheFeaturesIsReproduced) {
   comparison.expect(0.0);
 }
 
-/// One plane with one normal leaves four of ten features. The noise that stands in for the missing rank moves the fit
-/// from frame to frame; its average over many must lie nearer to the rank-aware fit than a single one does to the
-/// average.
+/// One plane with one normal leaves four independent features of ten. The noise that replaces the missing rank moves
+/// the fit from frame to frame. The average over many frames must be nearer to the rank-aware fit than a single fit is
+/// to the average.
 TEST_F(Bmfr, StochasticFitScattersAboutTheRankAwareOne) {
   constexpr int kSeeds = 24;
   FitRun stochasticRun(device(), {});
@@ -179,7 +180,7 @@ TEST_F(Bmfr, StochasticFitScattersAboutTheRankAwareOne) {
       Image<glm::dvec4> sum(kSize);
       Image<glm::dvec4> squares(kSize);
       for (int seed = 0; seed < kSeeds; ++seed) {
-        frame.constants.frameIndex = std::uint32_t(16 * seed);  // The same displacement of the blocks.
+        frame.constants.frameIndex = std::uint32_t(16 * seed);  // Always the same displacement of the blocks.
         const Image<glm::dvec4> fit = stochasticRun.fit(frame, guides);
         for (std::size_t i = 0; i < fit.pixels().size(); ++i) {
           sum.pixels()[i] += fit.pixels()[i];
@@ -201,10 +202,10 @@ TEST_F(Bmfr, StochasticFitScattersAboutTheRankAwareOne) {
   }
 }
 
-/// The first accumulation's taps lead the second to the same history: given the same signal and the same number of
-/// samples, both make the same mean. They differ by the 14 bits that a fraction is kept with, twice a frame, and by the
-/// rounding of both histories to halves.
-TEST_F(Bmfr, TheSecondAccumulationReadsWhatTheFirstAccepted) {
+/// The second accumulation reads its history where the first one accepted taps: given the same signal and the same
+/// history lengths, both compute the same mean. They differ by the 14 bits of a stored fraction, twice a frame, and by
+/// the rounding of both histories to halves.
+TEST_F(Bmfr, TheSecondAccumulationReadsTheHistoryThatTheFirstAccepted) {
   constexpr int kFrames = 6;
   constexpr float kMaxSamples = 4.0F;
   fg::Graph graph;

@@ -16,8 +16,8 @@ using namespace reference;
 
 constexpr int kLuma2 = 14;
 
-/// Errors of the averages of products that raw storage keeps: those of the covariances, those of the means times the
-/// other mean, and three roundings of the product that is added.
+/// Errors of the averages of products that raw storage holds: the errors of the covariances, those of the means times
+/// the other mean, and three roundings of the added product.
 MomentValues rawError(const MergedMoments& merged) {
   const MomentValues& e = merged.error;
   const glm::dvec2 x = glm::abs(merged.moments.x);
@@ -33,7 +33,7 @@ MomentValues rawError(const MergedMoments& merged) {
   return result;
 }
 
-/// Whether R11G11B10 packing gives a value the shorter third place.
+/// Whether R11G11B10 packing stores a value in the shorter third channel.
 bool isBlue(int k) {
   return k == 4 || k == 7 || k == 10 || k == 13;
 }
@@ -52,7 +52,7 @@ double roundoffOf(MomentStorage storage, int k) {
   return 0.0;
 }
 
-/// What a stored value saturates at.
+/// The largest value of a storage format, at which stored values saturate.
 double largestOf(MomentStorage storage, int k) {
   switch (storage) {
     case MomentStorage::Centred16:
@@ -103,7 +103,7 @@ void Comparison::value(glm::ivec2 p, const char* name, double actual, double exp
   if (difference <= tolerance) return;
   ++failures_;
   const double ratio = difference / tolerance;
-  if (ratio <= worstRatio_) return;  // A NaN is neither this nor the above, and is told.
+  if (ratio <= worstRatio_) return;  // False for a NaN, which is therefore reported.
   worstRatio_ = ratio;
   std::ostringstream text;
   text.precision(9);

@@ -7,13 +7,13 @@
 #include "passes/weighted_regression.h"
 #include "tests/passes/reference/moments.h"
 
-/// Comparison of a device's results with the double-precision reference. A tolerance is the sum of two bounds: what
-/// single-precision arithmetic may add (worked out by the reference along with each value) and what rounding to the
-/// storage format adds. Nothing is tuned.
+/// Comparison of a device's results with the double-precision reference. A tolerance is the sum of two bounds: the
+/// error of single-precision arithmetic, which the reference computes along with each value, and the rounding of the
+/// storage format. No tolerance is tuned.
 namespace walr::test {
 
-/// Tolerance of a value that is stored as a half. A conversion may round either way (Vulkan leaves the rounding of
-/// image stores and of packHalf2x16 to the driver), so that it errs by a unit in the last place: two roundoffs.
+/// Tolerance of a value that is stored as a half. Vulkan leaves the rounding of image stores and of packHalf2x16 to the
+/// driver. A conversion may therefore err by a unit in the last place, which is two roundoffs.
 double halfTolerance(double expected, double error);
 
 /// The moments as they are stored, and the tolerance of each.
@@ -22,27 +22,28 @@ struct StoredMoments {
   reference::MomentValues tolerance{};
 };
 StoredMoments storedMoments(const reference::MergedMoments& merged, MomentStorage storage);
-/// The same values of moments read back from a device.
+/// The stored form of moments read back from a device.
 reference::MomentValues storedValues(const reference::Moments& centred, MomentStorage storage);
 
-/// Collects a comparison of two pictures. Pixels where a decision is closer than single precision can tell are counted
-/// instead of compared.
+/// Comparison of two images. Undecided pixels, where a decision is closer than single precision can resolve, are
+/// counted instead of compared.
 class Comparison {
  public:
   explicit Comparison(std::string what) : what_(std::move(what)) {}
 
-  /// Count a pixel, whose result may hang on a decision within rounding.
-  /// @returns whether it does, so that the pixel is not to be compared
+  /// Count a pixel as compared, or as undecided if its result depends on a decision within rounding.
+  /// @returns whether it is undecided, so that the caller does not compare it
   [[nodiscard]] bool skips(bool undecided) {
     ++(undecided ? undecided_ : compared_);
     return undecided;
   }
-  /// Count a pixel whose result hangs on no decision.
+  /// Count a pixel whose result depends on no such decision.
   void compared() { ++compared_; }
-  /// One value of a compared pixel.
+  /// Compare one value of a pixel.
   void value(glm::ivec2 p, const char* name, double actual, double expected, double tolerance);
 
-  /// Report to GoogleTest: every value within its tolerance, and no more than this share of pixels undecided.
+  /// Report to GoogleTest: every value must lie within its tolerance, and no more than this share of pixels may be
+  /// undecided.
   void expect(double undecidedShare) const;
 
  private:

@@ -11,7 +11,7 @@
 
 namespace walr::test {
 
-/// A method on a device with all of its counters, and views beside them.
+/// A method on a device with all its counters, and optionally some of its views.
 class CountedRun {
  public:
   using Counts = std::map<std::string, std::uint64_t>;
@@ -24,13 +24,13 @@ class CountedRun {
   void finish() { run_->finish(); }
   /// Denoise a frame.
   Counts count(const reference::HostFrame& frame);
-  /// Of the frame last submitted with a slot.
+  /// The counters of the last frame that was submitted to a slot.
   [[nodiscard]] Counts counters(std::uint32_t slot) const;
   void reset() { run_->executor().resetAllHistory(); }
   [[nodiscard]] reference::Image<glm::dvec4> output() const { return readHalves(*run_, output_, size_); }
-  /// Sum of a component of a view over the picture.
+  /// Sum of a component of a view over the image.
   [[nodiscard]] double viewSum(std::size_t view, int component) const;
-  /// Hold every counter of the views that were asked for against the sum of its components.
+  /// Expect every counter of the requested views to be the sum of its view's component.
   void expectSumsOfViews(const Counts& counted) const;
   [[nodiscard]] const Inspection& inspection() const { return inspection_; }
 

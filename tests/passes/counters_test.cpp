@@ -1,4 +1,4 @@
-// Counters of what happens inside a method: right to one, in every method, while other frames are in flight.
+// Counters of every method: exact, also while other frames are in flight.
 
 #include <algorithm>
 #include <cmath>
@@ -21,7 +21,7 @@ constexpr glm::ivec2 kSize(48, 36);
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// A first-hand count of what the input holds.
+/// Counts taken directly from the input.
 struct InputCounts {
   std::uint64_t nonFiniteLighting = 0;
   std::uint64_t nonFiniteDepth = 0;
@@ -42,7 +42,7 @@ InputCounts countInput(const HostFrame& frame) {
   return counts;
 }
 
-/// Visit `count` pixels of a scattering that meets none twice, from the `start`-th on.
+/// Visit `count` scattered pixels, from the `start`-th of a sequence on that visits no pixel twice.
 template <typename Apply>
 void scatter(int start, int count, Apply apply) {
   for (int i = start; i < start + count; ++i) {
@@ -53,7 +53,7 @@ void scatter(int start, int count, Apply apply) {
 
 class CountersTest : public fg::test::GpuTest {};
 
-TEST_F(CountersTest, ExactlyWhatIsInjectedIsCountedInEveryMethod) {
+TEST_F(CountersTest, EveryMethodCountsExactlyWhatIsInjected) {
   HostFrame frame = renderStill(bumpyWall(0.1), kSize);
   scatter(0, 17, [&](glm::ivec2 p) { frame.lighting[p].g = kNaN; });
   scatter(17, 5, [&](glm::ivec2 p) { frame.lighting[p].r = kInfinity; });
@@ -86,7 +86,7 @@ TEST_F(CountersTest, ExactlyWhatIsInjectedIsCountedInEveryMethod) {
         EXPECT_FALSE(always) << counter;
       }
     }
-    // Nothing lies behind a first frame.
+    // A first frame has no history.
     if (counted.contains("no-history")) {
       EXPECT_EQ(counted.at("no-history"), surfaces);
       EXPECT_EQ(counted.at("rejected-history-taps"), 4 * surfaces);
@@ -102,7 +102,7 @@ TEST_F(CountersTest, AreReadWhileOtherFramesAreInFlight) {
     scatter(0, count, [&](glm::ivec2 p) { frame.lighting[p].g = kNaN; });
     return frame;
   };
-  // Each pair is recorded before the first of it is waited for; what is read of it is its own.
+  // Both frames of a pair are recorded before the test waits for the first one. Each frame has its own counters.
   for (int i = 1; i < 8; i += 2) {
     const std::uint32_t first = run.submit(broken(3 * i));
     const std::uint32_t second = run.submit(broken(3 * i + 1));
@@ -113,7 +113,7 @@ TEST_F(CountersTest, AreReadWhileOtherFramesAreInFlight) {
   }
 }
 
-/// `walr_paper` with a preset, or `walr` where it is empty.
+/// `walr_paper` with a preset, or `walr` if the preset is empty.
 std::unique_ptr<Denoiser> walrOf(const std::string& preset) {
   if (preset.empty()) return makeDenoiser("walr");
   std::unique_ptr<Denoiser> method = makeDenoiser("walr_paper");
@@ -121,7 +121,7 @@ std::unique_ptr<Denoiser> walrOf(const std::string& preset) {
   return method;
 }
 
-TEST_F(CountersTest, ChangeNothing) {
+TEST_F(CountersTest, DoNotChangeTheOutput) {
   const HostFrame frames[] = {renderStill(stairs(), kSize, 0), renderStill(stairs(), kSize, 1)};
   for (const char* preset : {"", "robust", "paper"}) {
     const std::unique_ptr<Denoiser> method = walrOf(preset);
@@ -140,7 +140,7 @@ TEST_F(CountersTest, ChangeNothing) {
   }
 }
 
-/// A preset of `walr_paper`, or `walr` where there is none, with a storage and a way of solving.
+/// A preset of `walr_paper`, or `walr` if it is empty, with settings of storage and regularisation.
 struct Variant {
   const char* preset;
   std::vector<std::pair<const char*, const char*>> settings;
@@ -156,9 +156,9 @@ const std::vector<Variant> kVariants{
     {"paper", {{"regression.moments", "raw32"}, {"regression.ridge", "1e-5"}}},
     {"paper", {{"regression.moments", "raw32"}, {"regression.ridge", "1e-5"}, {"regression.regularisation", "ridge"}}}};
 
-// Whatever comes in: the output is finite and not negative, the input's counters are those of the input, and every
-// counter is the sum of the view that it belongs to.
-TEST_F(CountersTest, AreRightOnHardCasesInEveryStorageAndSolver) {
+// The output is finite and not negative, the counters of the input agree with the input, and every counter that has a
+// view is the view's sum.
+TEST_F(CountersTest, AgreeWithInputAndViewsOnHardCasesInEveryStorageAndSolver) {
   for (const Variant& variant : kVariants) {
     const std::unique_ptr<Denoiser> method = walrOf(variant.preset);
     const std::string preset = variant.preset;
@@ -181,9 +181,10 @@ TEST_F(CountersTest, AreRightOnHardCasesInEveryStorageAndSolver) {
         EXPECT_EQ(counted.at("non-finite-lighting"), input.nonFiniteLighting);
         EXPECT_EQ(counted.at("non-finite-depth"), input.nonFiniteDepth);
         EXPECT_EQ(counted.at("non-finite-normals"), input.nonFiniteNormals);
-        const std::uint64_t passed = counted.at("sky") + counted.at("unusable-normals") + counted.at("no-diffuse-lobe");
+        const std::uint64_t passThrough =
+            counted.at("sky") + counted.at("unusable-normals") + counted.at("no-diffuse-lobe");
         if (masked) {
-          EXPECT_EQ(passed, kSize.x * kSize.y - input.surfaces);
+          EXPECT_EQ(passThrough, kSize.x * kSize.y - input.surfaces);
         }
         run.expectSumsOfViews(counted);
         const Image<glm::dvec4> output = run.output();
@@ -198,9 +199,9 @@ TEST_F(CountersTest, AreRightOnHardCasesInEveryStorageAndSolver) {
   }
 }
 
-// Where the features do not vary at all, regularisation alone holds every fit; where they vary as widely as the scene's
-// normals do, with variances of 0.01 and more, a ridge of 1e-5 holds none.
-TEST_F(CountersTest, RegularisedFitsFollowTheFeatures) {
+// Where the features do not vary, regularisation alone determines every fit. Where they vary as widely as this
+// scene's normals do, with variances of at least 0.01, a ridge of 1e-5 determines none.
+TEST_F(CountersTest, RegularisedFitsAreThoseWhoseFeaturesDoNotVary) {
   const std::unique_ptr<Denoiser> method = walrOf("robust");
   method->set("regression.noise-ridge", "0");
   method->set("regression.ridge", "1e-5");

@@ -11,11 +11,11 @@ class DenoiserRun {
   DenoiserRun(const fg::vk::Device& device, Denoiser& denoiser, glm::ivec2 size,
               const InputConventions& conventions = {});
 
-  /// Forget all frames so far.
+  /// Forget all histories.
   void reset() { run_->executor().resetAllHistory(); }
   /// Device memory of the graph, bytes.
   [[nodiscard]] std::uint64_t allocatedBytes() { return run_->executor().allocatedBytes(); }
-  /// Denoise the next frame. rgb: the result.
+  /// Denoise the next frame. rgb of the returned image is the result.
   reference::Image<glm::dvec4> frame(const reference::HostFrame& frame);
 
  private:
@@ -26,7 +26,7 @@ class DenoiserRun {
   std::unique_ptr<fg::test::GraphRun> run_;
 };
 
-/// Root mean square difference of the colours over the pixels of a surface.
+/// Root mean square difference of the colours over pixels that show a surface.
 double surfaceError(const reference::Image<glm::dvec4>& result, const reference::HostFrame& truth);
 
 }  // namespace walr::test

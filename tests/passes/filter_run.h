@@ -7,16 +7,16 @@
 
 namespace walr::test {
 
-/// Passes that read guides and RGBA16F textures and make one RGBA16F texture, on a device.
+/// Passes on a device that read guides and RGBA16F textures and write one RGBA16F texture.
 class FilterRun {
  public:
-  /// Adds the passes to a graph and returns their result. The inputs are in the order in which `run` takes them.
+  /// Adds the passes to a graph and returns their result. The inputs have the order in which `run` takes them.
   using Add = std::function<fg::Texture(fg::Graph& graph, fg::Buffer frame, const Guides& guides,
                                         const std::vector<fg::Texture>& inputs)>;
 
   FilterRun(const fg::vk::Device& device, glm::ivec2 size, std::size_t inputCount, const Add& add);
 
-  /// The result for these guides and inputs. Of the frame only the constants are used.
+  /// The result for these guides and inputs. Only the constants of the frame are used.
   reference::Image<glm::dvec4> run(const reference::HostFrame& frame, const reference::Image<reference::Guide>& guides,
                                    const std::vector<reference::Image<glm::dvec4>>& inputs);
 

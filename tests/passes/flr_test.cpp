@@ -24,20 +24,20 @@ using reference::HostFrame;
 using reference::Image;
 using reference::Storage;
 
-constexpr glm::ivec2 kSize(45, 34);  // No multiple of a cell.
+constexpr glm::ivec2 kSize(45, 34);  // Not a multiple of the cell size.
 
-/// A frame as the regression takes it.
+/// Inputs of the regression.
 struct Inputs {
   Inputs(const Scene& scene, const FlrRegressionSettings& settings) : frame(renderStill(scene, kSize)) {
     std::optional<AmbientOcclusionSettings> occlusion;
-    if (settings.occlusionGuide) occlusion = kOcclusionInSmallPictures;
+    if (settings.occlusionGuide) occlusion = kOcclusionInSmallImages;
     guides = reference::prepareGuides(frame, Storage::Quantised, {}, occlusion);
   }
   HostFrame frame;
   Image<Guide> guides;
 };
 
-/// The regression alone, fed with guides.
+/// The regression alone, with guides as input.
 class RegressionRun {
  public:
   RegressionRun(const fg::vk::Device& device, const FlrRegressionSettings& settings)
@@ -76,8 +76,8 @@ class Flr : public fg::test::GpuTest {
   }
 };
 
-/// The reference sums every window pixel by pixel: at one pixel a cell this is brute-force weighted least squares.
-TEST_F(Flr, OnePixelACellIsBruteForceLeastSquares) {
+/// The reference sums every window pixel by pixel. With cells of one pixel it is brute-force weighted least squares.
+TEST_F(Flr, CellsOfOnePixelAgreeWithBruteForce) {
   for (const bool occlusion : {false, true})
     expectAgreement({.factor = 1, .sigma = 2.0F, .reach = 2.0F, .occlusionGuide = occlusion});
 }
@@ -91,7 +91,7 @@ TEST_F(Flr, EveryUpsamplingAgreesWithTheReference) {
     expectAgreement({.upsampling = upsampling});
 }
 
-TEST_F(Flr, AConstantStaysWhatItIs) {
+TEST_F(Flr, ConstantLightIsUnchanged) {
   const glm::dvec3 light(0.25, 3.0, 1000.0);
   const FlrRegressionSettings settings;
   RegressionRun run(device(), settings);
@@ -105,9 +105,9 @@ TEST_F(Flr, AConstantStaysWhatItIs) {
   });
 }
 
-/// A signal a + s.x is reproduced up to the ridge: with the covariance M of a window, the ridge r takes the slope s to
-/// (M + r)^-1 M s, which misses the signal, averaged over the window, by no more than sqrt(r) |s| / 2 (the largest
-/// value of r^2 m / (m + r)^2 is r / 4).
+/// A signal a + s.x is reproduced up to the effect of the ridge. With the covariance M of a window, the ridge r changes
+/// the slope s to (M + r)^-1 M s. The mean error over the window is then at most sqrt(r) |s| / 2, since the largest
+/// value of r^2 m / (m + r)^2 is r / 4.
 TEST_F(Flr, ASignalLinearInTheGuidesIsReproduced) {
   constexpr double kRidge = 1e-6;
   const FlrRegressionSettings settings{.ridge = static_cast<float>(kRidge)};
@@ -133,9 +133,9 @@ TEST_F(Flr, ASignalLinearInTheGuidesIsReproduced) {
     squares += (actual[p].x - signal[p].x) * (actual[p].x - signal[p].x);
     largest = std::max(largest, signal[p].x);
   });
-  // The ridge of the inverse depth is relative, which is as if the guide were measured in units of its mean.
+  // The ridge of the inverse depth is relative, as if that guide were divided by its mean.
   const double slopeLength = std::hypot(glm::length(glm::dvec4(slope, depthSlope * inverseDepth)), occlusionSlope);
-  const double rounding = 4.0 * reference::kHalfRoundoff * largest;  // Of the signal and of the result.
+  const double rounding = 4.0 * reference::kHalfRoundoff * largest;  // Signal and result are halves.
   EXPECT_LE(std::sqrt(squares / double(inputs.guides.pixels().size())),
             0.5 * std::sqrt(kRidge) * slopeLength + rounding);
 }

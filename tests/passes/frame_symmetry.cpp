@@ -7,13 +7,13 @@
 namespace walr::test {
 namespace {
 
-/// The linear map of view space; y points up there and down in the picture.
+/// The linear map of view space. y points up there and down in the image.
 glm::dmat3 viewMap(const Symmetry& s) {
   const glm::dvec3 flip(s.flipX ? -1.0 : 1.0, s.flipY ? -1.0 : 1.0, 1.0);
   glm::dmat3 map(1.0);
   for (int i = 0; i < 3; ++i) map[i] *= flip[i];
   if (!s.transpose) return map;
-  // The picture's diagonal runs from the upper left: x goes to -y and y to -x.
+  // The diagonal of the image runs from the upper left: x goes to -y and y to -x.
   const glm::dmat3 transpose(glm::dvec3(0.0, -1.0, 0.0), glm::dvec3(-1.0, 0.0, 0.0), glm::dvec3(0.0, 0.0, 1.0));
   return transpose * map;
 }

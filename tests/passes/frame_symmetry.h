@@ -2,18 +2,18 @@
 
 #include "tests/passes/reference/frame.h"
 
-/// The symmetries of a picture, applied to whole frames: the denoised picture must follow.
+/// Symmetries of the image, applied to whole frames. The denoised image must follow them.
 namespace walr::test {
 
-/// A mirror of the picture, and of the directions in it.
+/// A mirroring of the image and of the directions in it.
 struct Symmetry {
   const char* name;
   bool flipX = false;
   bool flipY = false;
-  bool transpose = false;  ///< After the flips.
+  bool transpose = false;  ///< Applied after the flips.
 };
 
-/// Where pixel `p` of a picture of this size goes.
+/// The position to which a symmetry moves pixel `p` of an image of this size.
 glm::ivec2 mapPixel(const Symmetry& symmetry, glm::ivec2 p, glm::ivec2 size);
 
 template <typename T>
@@ -24,7 +24,7 @@ reference::Image<T> mapImage(const Symmetry& symmetry, const reference::Image<T>
   return mapped;
 }
 
-/// The frame as its mirrored world would show it. The camera's axis must go through the middle of the picture.
+/// The frame of the mirrored world. The camera's axis must go through the middle of the image.
 reference::HostFrame mapFrame(const Symmetry& symmetry, const reference::HostFrame& frame);
 
 }  // namespace walr::test

@@ -10,8 +10,8 @@ namespace {
 
 constexpr fg::Extent kExtent{640, 360};
 
-/// Single precision rounds each of the few operations of a projection by half a unit in the last place, 6e-8; with
-/// coordinates of up to 640 pixels that is some 1e-4 of a pixel.
+/// Single precision rounds each of the few operations of a projection by half a unit in the last place, 6e-8. With
+/// coordinates of up to 640 pixels the error is about 1e-4 of a pixel.
 constexpr double kPixelTolerance = 1e-3;
 
 FrameDescription movingCamera() {
@@ -20,13 +20,13 @@ FrameDescription movingCamera() {
   frame.previousView =
       glm::lookAt(glm::vec3(0.8F, 2.1F, 3.2F), glm::vec3(0.5F, 1.0F, -4.0F), glm::vec3(0.0F, 1.0F, 0.0F));
   frame.projection = glm::perspective(0.9F, 640.0F / 360.0F, 0.1F, 100.0F);
-  frame.projection[2][0] = 0.03F;  // Off centre, as a shifted lens is.
+  frame.projection[2][0] = 0.03F;  // Off centre, like that of a shifted lens.
   frame.projection[2][1] = -0.02F;
   frame.previousProjection = frame.projection;
   return frame;
 }
 
-/// Pixel position, y down, by the definition of clip space.
+/// Pixel position of a point, y down, by the definition of clip space.
 glm::dvec2 project(const glm::mat4& projection, glm::vec3 viewPosition) {
   const glm::dvec4 clip = glm::dmat4(projection) * glm::dvec4(viewPosition, 1.0F);
   return {(0.5 + 0.5 * clip.x / clip.w) * kExtent.width, (0.5 - 0.5 * clip.y / clip.w) * kExtent.height};

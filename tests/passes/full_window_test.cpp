@@ -1,4 +1,4 @@
-// REFWLR's filter on a device against the double-precision reference, and what must hold of it.
+// REFWLR's filter on a device: it agrees with the double-precision reference and keeps its promises.
 
 #include <cmath>
 
@@ -20,9 +20,9 @@ using reference::HostFrame;
 using reference::Image;
 
 constexpr glm::ivec2 kSize(48, 36);
-constexpr std::uint32_t kMostWindow = 105;  ///< The setting's range.
+constexpr std::uint32_t kMostWindow = 105;  ///< Upper end of the setting's range.
 
-/// A frame's lighting as temporal accumulation would leave it after the first frame.
+/// A frame's lighting as temporal accumulation leaves it after the first frame.
 Image<glm::dvec4> firstAccumulation(const HostFrame& frame) {
   Image<glm::dvec4> accumulated(frame.size());
   forEachPixel(frame.size(), [&](glm::ivec2 p) {
@@ -57,12 +57,12 @@ class FullWindowTest : public fg::test::GpuTest {
         comparison.value(p, "colour", actual[p][c], e.fitted.colour[c],
                          halfTolerance(e.fitted.colour[c], e.fitted.error[c]));
     });
-    // Pixels without a sample whose window holds next to no weight.
+    // Undecided are pixels without a sample whose window has almost no weight.
     comparison.expect(kUndecidedShare);
   }
 };
 
-TEST_F(FullWindowTest, IsTheReferenceOnEveryScene) {
+TEST_F(FullWindowTest, AgreesWithTheReferenceOnEveryScene) {
   FullWindowSettings paper{.window = 27};
   paper.edgeStopping.planeNormal = PlaneNormal::Shading;
   paper.edgeStopping.normalFactor = false;
@@ -76,7 +76,7 @@ TEST_F(FullWindowTest, IsTheReferenceOnEveryScene) {
   }
 }
 
-TEST_F(FullWindowTest, IsTheReferenceOnHardCases) {
+TEST_F(FullWindowTest, AgreesWithTheReferenceOnHardCases) {
   const FullWindowSettings settings{.window = 13};
   FilterRun run = makeRun(settings);
   for (const HardCase& hard : hardCases()) {
@@ -85,7 +85,7 @@ TEST_F(FullWindowTest, IsTheReferenceOnHardCases) {
   }
 }
 
-TEST_F(FullWindowTest, IsTheReferenceAtOddSizesAndInTheLargestWindow) {
+TEST_F(FullWindowTest, AgreesWithTheReferenceAtOddSizesAndInTheLargestWindow) {
   for (const glm::ivec2 size : {glm::ivec2(1, 1), glm::ivec2(2, 3), glm::ivec2(37, 1), glm::ivec2(13, 9)}) {
     SCOPED_TRACE(std::to_string(size.x) + " x " + std::to_string(size.y));
     for (const std::uint32_t window : {1U, 3U, kMostWindow}) {
@@ -96,7 +96,7 @@ TEST_F(FullWindowTest, IsTheReferenceAtOddSizesAndInTheLargestWindow) {
   }
 }
 
-/// A flat wall's features are all equal, and so are its weights: pixels whose window is the whole picture come to its
+/// On a flat wall all features and all weights are equal, so a pixel whose window is the whole image gets the image's
 /// mean.
 void expectMean(FilterRun& run, glm::ivec2 size) {
   const HostFrame frame = renderStill(flatWall(), size);
@@ -109,7 +109,7 @@ void expectMean(FilterRun& run, glm::ivec2 size) {
     mean += glm::dvec3(v) / double(size.x * size.y);
     largest = glm::max(largest, glm::dvec3(v));
   }
-  // Additions along a row and of the rows, of differences from the centre.
+  // Error of the additions along a row and of the rows, for differences from the centre.
   const double roundings = (size.x + size.y + 7.0) * reference::kFloatRoundoff;
   const int reach = int(kMostWindow) / 2;
   forEachPixel(size, [&](glm::ivec2 p) {
@@ -119,14 +119,14 @@ void expectMean(FilterRun& run, glm::ivec2 size) {
   });
 }
 
-// In the middle 177,120 weights a pixel, none of which may be left out.
-TEST_F(FullWindowTest, SeesTheWholeOfTheLargestWindowOfWalr) {
+// A pixel in the middle has 177,120 weights, and none may be left out.
+TEST_F(FullWindowTest, AveragesTheWholeOfTheLargestWindowOfWalr) {
   constexpr glm::ivec2 kWhole(81, 81);
   FilterRun run = makeRun({.window = kMostWindow}, kWhole);
   expectMean(run, kWhole);
 }
 
-// Two tiles, which must not show.
+// The image has two tiles.
 TEST_F(FullWindowTest, TilesMeetWithoutSeams) {
   constexpr glm::ivec2 kWide(kMostWindow / 2 * 3, 7);
   ASSERT_LT(fullWindowTile(kMostWindow), std::uint32_t(kWide.x));
@@ -147,7 +147,7 @@ TEST_F(FullWindowTest, DispatchesStayWithinTheirBound) {
   }
 }
 
-TEST_F(FullWindowTest, KeepsConstantLightAndWhatIsNoSurface) {
+TEST_F(FullWindowTest, KeepsConstantLightAndPixelsWithoutASurface) {
   const glm::dvec3 constant(0.75, 0.5, 1.25);
   FilterRun run = makeRun({.window = 27});
   for (const NamedScene& named : allScenes()) {
@@ -162,7 +162,7 @@ TEST_F(FullWindowTest, KeepsConstantLightAndWhatIsNoSurface) {
     const Image<glm::dvec4> actual = run.run(frame, guides, {firstAccumulation(frame)});
     forEachPixel(kSize, [&](glm::ivec2 p) {
       const bool surface = guides[p].depth > 0.0;
-      // No sample in a window: black.
+      // Black where the window has no sample.
       if (surface && !std::isfinite(frame.lighting[p].g) && glm::dvec3(actual[p]) == glm::dvec3(0.0)) return;
       for (int c = 0; c < 3; ++c) {
         const double expected = frame.lighting[p][c];

@@ -19,7 +19,7 @@ constexpr glm::ivec2 kSize(48, 36);
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-/// Two still frames, each changed by the same hand.
+/// Two still frames, both changed in the same way.
 std::vector<HostFrame> framesOf(const Scene& scene, const std::function<void(HostFrame&)>& change = {}) {
   std::vector<HostFrame> frames{renderStill(scene, kSize, 0), renderStill(scene, kSize, 1)};
   if (change) {
@@ -28,12 +28,12 @@ std::vector<HostFrame> framesOf(const Scene& scene, const std::function<void(Hos
   return frames;
 }
 
-/// Uniform in [0, 1) by pixel.
+/// A scattered number per pixel, uniform in [0, 1).
 double scatter(glm::ivec2 p) {
   return reference::pcg4d({p, 5, 9}).x * 0x1p-32;
 }
 
-/// A wall whose normals vary along one diagonal of the feature space only.
+/// A wall whose normals vary along only one diagonal of the feature space.
 Scene collinearWall() {
   return [wall = flatWall()](glm::dvec3 origin, glm::dvec3 direction) {
     auto hit = wall(origin, direction);
@@ -58,7 +58,7 @@ std::function<void(HostFrame&)> scaleDepth(const std::function<double(glm::ivec2
   };
 }
 
-/// A value in every 37th pixel.
+/// A high value in every 37th pixel.
 std::function<void(HostFrame&)> fireflies(double value) {
   return [value](HostFrame& frame) {
     for (std::size_t i = 11; i < frame.lighting.pixels().size(); i += 37)
@@ -66,7 +66,7 @@ std::function<void(HostFrame&)> fireflies(double value) {
   };
 }
 
-/// Pixels without a finite sample, in all frames alike.
+/// Pixels without a finite sample, the same in all frames.
 std::function<void(HostFrame&)> unsampled(double share) {
   return [share](HostFrame& frame) {
     reference::forEachPixel(kSize, [&](glm::ivec2 p) {

@@ -7,7 +7,7 @@
 
 namespace walr::test {
 
-/// Frames that strain the arithmetic.
+/// Frames that are hard on the arithmetic.
 struct HardCase {
   std::string name;
   std::vector<reference::HostFrame> frames;

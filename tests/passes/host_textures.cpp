@@ -28,14 +28,14 @@ std::uint32_t packUnorms(glm::dvec2 unorms) {
   return glm::packUnorm2x16(glm::vec2(reference::roundToUnorms(unorms)));
 }
 
-/// The shading normal in twice 12 bits and ambient occlusion in 8.
+/// Pack the shading normal into twice 12 bits and ambient occlusion into 8.
 std::uint32_t packFeatures(const reference::Guide& guide) {
   const auto unorm = [](double value, double step) { return static_cast<std::uint32_t>(std::lround(value / step)); };
   return unorm(guide.features.x, reference::kUnorm12Step) | (unorm(guide.features.y, reference::kUnorm12Step) << 12U) |
          (unorm(guide.occlusion, reference::kUnorm8Step) << 24U);
 }
 
-/// Upload the guides that are carried from frame to frame, in their packed form.
+/// Upload depths and geometric normals, the guides that have a history.
 void uploadDepthAndGeometry(fg::test::GraphRun& run, fg::Texture depth, fg::Texture geometricNormal,
                             const Image<reference::Guide>& values) {
   std::vector<std::uint32_t> depths;

@@ -7,39 +7,38 @@
 #include "tests/passes/reference/guides.h"
 #include "tests/vulkan/graph_run.h"
 
-/// The textures of a host between the pictures of the tests, in double precision, and the GPU.
+/// A host's textures on the GPU, filled from and read back to the double-precision images of the tests.
 namespace walr::test {
 
-/// Import all that every host has.
+/// Import the inputs that every host provides.
 DenoiserInputs importInputs(fg::Graph& graph, glm::ivec2 size, const InputConventions& conventions = {});
-/// Import object numbers, which a host may have, too.
+/// Import object numbers, an optional input.
 fg::Texture importObjectIds(fg::Graph& graph, glm::ivec2 size);
-/// Have the next frame upload a host's frame.
+/// Upload a host's frame before the next frame runs.
 void upload(fg::test::GraphRun& run, const DenoiserInputs& inputs, const reference::HostFrame& frame);
 
-/// How far occluders are looked for in the small pictures of the tests.
-inline constexpr AmbientOcclusionSettings kOcclusionInSmallPictures{.radius = 0.25F, .steps = 8};
-/// Import guides of this frame and the last, as if the first stage had made them.
+/// Ambient occlusion with a radius that suits the small images of the tests.
+inline constexpr AmbientOcclusionSettings kOcclusionInSmallImages{.radius = 0.25F, .steps = 8};
+/// Import guides of this frame and the previous one, in place of those that `prepare guides` would write.
 Guides importGuides(fg::Graph& graph, glm::ivec2 size);
-/// Have the next frame upload this frame's guides, which must hold values that the packed form that is read keeps
-/// exactly.
+/// Upload this frame's guides before the next frame runs. Their values must be exact in the packed form that is read.
 void upload(fg::test::GraphRun& run, const Guides& guides, const reference::Image<reference::Guide>& values);
-/// The same for the last frame's, for passes with a history.
+/// Upload the previous frame's guides, for passes with a history.
 void uploadPrevious(fg::test::GraphRun& run, const Guides& guides, const reference::Image<reference::Guide>& values);
 
-/// Import an RGBA16F texture, for passes that read nothing else of a host.
+/// Import an RGBA16F texture, for passes that read no other input of a host.
 fg::Texture importHalves(fg::Graph& graph, const std::string& name, glm::ivec2 size);
-/// Have the next frame upload it; values are rounded to halves.
+/// Upload it before the next frame runs; values are rounded to halves.
 void upload(fg::test::GraphRun& run, fg::Texture texture, const reference::Image<glm::dvec4>& values);
 
-/// A picture with alpha 0.
+/// The image with alpha 0.
 reference::Image<glm::dvec4> withAlpha(const reference::Image<glm::dvec3>& image);
 
-/// An RGBA16F texture of the host for a denoiser's result.
+/// Import an RGBA16F texture for a denoiser's result.
 fg::Texture importOutput(fg::Graph& graph, glm::ivec2 size);
-/// Copy a texture of halves, of one to four channels, to one that `readHalves` can read.
+/// Copy a texture of halves with one to four channels to one that `readHalves` can read.
 fg::Texture copyOut(fg::Graph& graph, const std::string& name, fg::Texture texture);
-/// An output as the last frame left it.
+/// Read an output of the last frame.
 reference::Image<glm::dvec4> readHalves(const fg::test::GraphRun& run, fg::Texture output, glm::ivec2 size);
 
 }  // namespace walr::test

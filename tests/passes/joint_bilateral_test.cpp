@@ -1,4 +1,4 @@
-// The joint bilateral filter on a device against the double-precision reference and against plain averages.
+// The joint bilateral filter on a device: it agrees with the double-precision reference and with plain averages.
 #include <cmath>
 
 #include "passes/joint_bilateral_filter.h"
@@ -20,10 +20,10 @@ using reference::kFloatRoundoff;
 constexpr glm::ivec2 kSize(45, 31);
 constexpr float kInfinity = JointBilateralFilterSettings::kInfinity;
 
-/// Largest relative error of a weight in single precision. Vulkan lets an arc sine err by 4096 units in the last place,
-/// twice that in its square, of which a weight sees at most 1 / e. The way between two neighbours, a hundredth of
-/// their depth long, errs by about eight roundings of a position, and its sine by that over the way's length, against
-/// `sigmaPlane`. The rest is a hundred roundings.
+/// Largest relative error of a weight in single precision. Vulkan allows an arc sine an error of 4096 units in the last
+/// place. Its square has twice that, and a weight changes by at most 1 / e of it. The vector between two neighbours, a
+/// hundredth of their depth long, errs by about eight roundings of a position; its sine errs by that over the vector's
+/// length, relative to `sigmaPlane`. The rest is a hundred roundings.
 double weightError(const JointBilateralFilterSettings& settings) {
   return 2.0 * 4096.0 * 0x1p-23 / std::exp(1.0) + 8.0 * kFloatRoundoff * 100.0 / double(settings.sigmaPlane) +
          100.0 * kFloatRoundoff;
@@ -40,7 +40,7 @@ class JointBilateralTest : public fg::test::GpuTest {
   }
 };
 
-TEST_F(JointBilateralTest, IsTheReferences) {
+TEST_F(JointBilateralTest, AgreesWithTheReference) {
   JointBilateralFilterSettings settings;
   settings.radius = 5;
   for (const float sigmaColour : {kInfinity, 2.0F}) {
@@ -66,7 +66,7 @@ TEST_F(JointBilateralTest, IsTheReferences) {
   }
 }
 
-TEST_F(JointBilateralTest, InfiniteSigmasLeaveTheBoxAverageAndItsGaussian) {
+TEST_F(JointBilateralTest, InfiniteSigmasGiveABoxAverageOrAGaussian) {
   const HostFrame frame = renderStill(flatWall(), kSize);
   const Image<Guide> guides = reference::prepareGuides(frame, reference::Storage::Quantised);
   for (const float sigmaPosition : {kInfinity, 2.0F}) {
@@ -89,7 +89,8 @@ TEST_F(JointBilateralTest, InfiniteSigmasLeaveTheBoxAverageAndItsGaussian) {
         }
       }
       for (int c = 0; c < 3; ++c) {
-        // Exponentials err by 3 + 2 abs(x) units in the last place, x at most 4; 81 sums by half of one each.
+        // Exponentials err by 3 + 2 abs(x) units in the last place, with x at most 4, and each of 81 sums by half a
+        // unit.
         const double mean = sum[c] / weightSum;
         EXPECT_NEAR(result[p][c], mean, halfTolerance(mean, 0.0) + (2.0 * 11.0 + 81.0) * 2.0 * kFloatRoundoff * mean);
       }
@@ -97,7 +98,7 @@ TEST_F(JointBilateralTest, InfiniteSigmasLeaveTheBoxAverageAndItsGaussian) {
   }
 }
 
-TEST_F(JointBilateralTest, NothingSampledMeansNoLight) {
+TEST_F(JointBilateralTest, WindowsWithoutASampleAreBlack) {
   HostFrame frame = renderStill(flatWall(), {7, 5});
   for (glm::dvec3& radiance : frame.lighting.pixels()) radiance = glm::dvec3(NAN);
   const Image<Guide> guides = reference::prepareGuides(frame, reference::Storage::Quantised);

@@ -14,7 +14,7 @@ LinearSignal linearSignal(glm::ivec2 size, double normalVariation) {
   reference::forEachPixel(size, [&](glm::ivec2 p) {
     const glm::dvec2 x = signal.guides[p].features;
     signal.truth[p] = glm::dvec3(1.0 + x.x - 0.7 * x.y);
-    // The same exponential variate that the scene's samples have.
+    // Exponential noise, as in the samples of the synthetic scenes.
     const double sample = signal.truth[p].g * signal.frame.lighting[p].g / clean.lighting[p].g;
     signal.frame.lighting[p] = glm::dvec3(reference::roundToHalf(sample));
   });

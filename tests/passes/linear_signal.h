@@ -13,10 +13,10 @@ struct LinearSignal {
   reference::Image<glm::dvec3> truth;
 };
 
-/// @param normalVariation amplitude of the shading normals' wavering
+/// @param normalVariation amplitude by which the shading normals vary
 LinearSignal linearSignal(glm::ivec2 size, double normalVariation);
 
-/// Relative root mean square distance of a channel of the filtered signal to the truth.
+/// Relative root mean square error of the filtered signal in one channel.
 template <typename Colour>
 double relativeRmse(const LinearSignal& signal, const reference::Image<Colour>& filtered) {
   double error = 0.0;

@@ -1,4 +1,4 @@
-// The linter of inputs: every complaint is made of input that is spoiled in just that way, and none of good input.
+// The linter of inputs: it reports exactly the fault that the input has, and nothing for correct input.
 #include "passes/input_linter.h"
 
 #include <algorithm>
@@ -24,7 +24,7 @@ constexpr glm::ivec2 kSize(96, 72);
 constexpr fg::Extent kExtent{96, 72};
 constexpr std::uint32_t kFrames = 3;
 
-/// A camera that is turned against the world's axes, walks and turns: motion has every component.
+/// A camera that is rotated against the world's axes, moves and turns, so that motion has every component.
 FrameDescription camera(std::uint32_t frame, bool jittered, bool still) {
   const auto viewAt = [&](double time) {
     const glm::dmat4 turn = glm::rotate(glm::dmat4(1.0), 0.35 + 0.015 * time, glm::normalize(glm::dvec3(1, 1, 0.3)));
@@ -44,17 +44,17 @@ FrameDescription camera(std::uint32_t frame, bool jittered, bool still) {
   return description;
 }
 
-/// What a host hands over for a frame.
-struct Handed {
+/// The inputs of one frame.
+struct HostInput {
   HostFrame frame;
   FrameDescription camera;
 };
 
-/// One way to write, or to spoil, a sequence.
+/// A sequence of frames, correct or with one kind of fault.
 struct Case {
   const char* name;
-  std::vector<std::string> findings;  ///< In their order.
-  std::function<void(Handed&)> spoil = [](Handed&) {};
+  std::vector<std::string> findings;  ///< Expected findings, in order.
+  std::function<void(HostInput&)> spoil = [](HostInput&) {};
   bool jittered = false;
   bool still = false;
   InputConventions conventions = {};
@@ -64,21 +64,21 @@ void PrintTo(const Case& c, std::ostream* out) {
   *out << c.name;
 }
 
-Handed render(std::uint32_t index, const Case& c) {
-  Handed handed{{}, camera(index, c.jittered, c.still)};
-  handed.frame = renderFrame(sphere(), handed.camera, kSize);
+HostInput render(std::uint32_t index, const Case& c) {
+  HostInput host{{}, camera(index, c.jittered, c.still)};
+  host.frame = renderFrame(sphere(), host.camera, kSize);
   forEachPixel(kSize, [&](glm::ivec2 p) {
-    glm::dvec3& normal = handed.frame.normal[p];
+    glm::dvec3& normal = host.frame.normal[p];
     if (normal != glm::dvec3(0.0)) normal = glm::normalize(normal);
-    // Tiles of unlike albedo.
-    if (handed.frame.albedo[p].x > 0.0) handed.frame.albedo[p] = glm::dvec3((p.x / 3 + p.y / 3) % 2 == 0 ? 0.75 : 0.15);
+    // Tiles of alternating albedo.
+    if (host.frame.albedo[p].x > 0.0) host.frame.albedo[p] = glm::dvec3((p.x / 3 + p.y / 3) % 2 == 0 ? 0.75 : 0.15);
   });
-  return handed;
+  return host;
 }
 
 template <typename Apply>
-std::function<void(Handed&)> eachPixel(Apply apply) {
-  return [apply](Handed& handed) mutable { forEachPixel(kSize, [&](glm::ivec2 p) { apply(handed.frame, p); }); };
+std::function<void(HostInput&)> eachPixel(Apply apply) {
+  return [apply](HostInput& host) mutable { forEachPixel(kSize, [&](glm::ivec2 p) { apply(host.frame, p); }); };
 }
 
 glm::dmat3 worldFromView(const HostFrame& frame) {
@@ -96,13 +96,13 @@ class Lint : public fg::test::GpuTest, public testing::WithParamInterface<Case> 
     fg::test::GraphRun run(device(), graph);
     InputLinter linter(c.conventions);
     for (std::uint32_t i = 0; i < kFrames; ++i) {
-      Handed handed = render(i, c);
-      c.spoil(handed);
-      upload(run, inputs, handed.frame);
+      HostInput host = render(i, c);
+      c.spoil(host);
+      upload(run, inputs, host.frame);
       const std::uint32_t slot = run.submitFrame();
       run.finish();
       linter.add(run.elements<std::uint32_t>(counters, slot), i > 0);
-      if (i > 0) linter.add(handed.camera, kExtent);
+      if (i > 0) linter.add(host.camera, kExtent);
     }
     return linter.findings();
   }
@@ -118,33 +118,33 @@ std::vector<Case> cases() {
   const glm::dvec2 size(kSize);
   std::vector<Case> all{
       {"good", {}},
-      {"good, still", {}, [](Handed&) {}, false, true},
-      {"good, jittered", {}, [](Handed&) {}, true},
-      {"good, still and jittered", {}, [](Handed&) {}, true, true},
+      {"good, still", {}, [](HostInput&) {}, false, true},
+      {"good, jittered", {}, [](HostInput&) {}, true},
+      {"good, still and jittered", {}, [](HostInput&) {}, true, true},
       {"good, normals in world space", {}, toWorld, false, false, {.normal = kWorld}},
       {"lighting not finite",
        {"lighting-not-finite"},
-       [=](Handed& h) {
+       [=](HostInput& h) {
          h.frame.lighting[{40, 30}].g = kNaN;
        }},
       {"depth not finite",
        {"depth-not-finite"},
-       [=](Handed& h) {
+       [=](HostInput& h) {
          h.frame.depth[{40, 30}] = kNaN;
        }},
       {"normals not finite",
        {"normal-not-finite"},
-       [=](Handed& h) {
+       [=](HostInput& h) {
          h.frame.normal[{40, 30}].x = kNaN;
        }},
       {"motion not finite",
        {"motion-not-finite"},
-       [=](Handed& h) {
+       [=](HostInput& h) {
          h.frame.motion[{40, 30}].y = kNaN;
        }},
       {"albedo not finite",
        {"albedo-not-finite"},
-       [=](Handed& h) {
+       [=](HostInput& h) {
          h.frame.albedo[{40, 30}].z = kNaN;
        }},
       {"lighting negative", {"lighting-negative"}, eachPixel([](HostFrame& f, glm::ivec2 p) {
@@ -158,7 +158,7 @@ std::vector<Case> cases() {
        })},
       {"normals missing", {"normal-empty"}, eachPixel([](HostFrame& f, glm::ivec2 p) { f.normal[p] = {}; })},
       {"normals in world space", {"normal-space"}, toWorld},
-      {"normals in view space", {"normal-space"}, [](Handed&) {}, false, false, {.normal = kWorld}},
+      {"normals in view space", {"normal-space"}, [](HostInput&) {}, false, false, {.normal = kWorld}},
       {"normals with y down", {"normal-y"}, eachPixel([](HostFrame& f, glm::ivec2 p) { f.normal[p].y *= -1.0; })},
       {"normals at random", {"normal-depth"}, eachPixel([random = std::mt19937(5)](HostFrame& f, glm::ivec2 p) mutable {
          std::normal_distribution<double> component;
@@ -191,34 +191,32 @@ std::vector<Case> cases() {
        })},
       {"motion current minus previous", {"motion-x-direction", "motion-y-direction"}, scaledMotion({-1.0, -1.0, 1.0})},
       {"motion with y up", {"motion-y-direction"}, scaledMotion({1.0, -1.0, 1.0})},
-      {"motion in pictures", {"motion-x-unit", "motion-y-unit"}, scaledMotion({1.0 / size, 1.0})},
-      {"motion in pictures, y up",
-       {"motion-x-unit", "motion-y-unit"},
-       scaledMotion({1.0 / size.x, -1.0 / size.y, 1.0})},
+      {"motion in UV", {"motion-x-unit", "motion-y-unit"}, scaledMotion({1.0 / size, 1.0})},
+      {"motion in UV, y up", {"motion-x-unit", "motion-y-unit"}, scaledMotion({1.0 / size.x, -1.0 / size.y, 1.0})},
       {"motion in clip space", {"motion-x-unit", "motion-y-unit"}, scaledMotion({2.0 / size.x, -2.0 / size.y, 1.0})},
-      {"motion in pixels stated in pictures",
+      {"motion in pixels declared as UV",
        {"motion-x-unit", "motion-y-unit"},
-       [](Handed& h) { h.frame.constants.motionScale = glm::vec2(kSize); }},
+       [](HostInput& h) { h.frame.constants.motionScale = glm::vec2(kSize); }},
       {"motion missing", {"motion-x-missing", "motion-y-missing"}, scaledMotion({0.0, 0.0, 1.0})},
       {"motion.z reversed", {"motion-z-direction"}, scaledMotion({1.0, 1.0, -1.0})},
       {"motion.z missing", {"motion-z-missing"}, scaledMotion({1.0, 1.0, 0.0})},
       {"previous camera is this one",
        {"camera-still"},
-       [](Handed& h) {
+       [](HostInput& h) {
          h.camera.previousView = h.camera.view;
          h.frame.constants = frameConstants(h.camera, kExtent);
        }},
-      {"jitter in the motion", {"motion-jitter"}, [](Handed&) {}, true, false, {.motionJittered = false}},
+      {"jitter in the motion", {"motion-jitter"}, [](HostInput&) {}, true, false, {.motionJittered = false}},
       {"jitter not in the motion",
        {"motion-jitter"},
-       [](Handed& h) {
+       [](HostInput& h) {
          forEachPixel(kSize,
                       [&](glm::ivec2 p) { h.frame.motion[p] -= glm::dvec3(h.frame.constants.jitterDelta, 0.0F); });
        },
        true},
       {"jitter with the other sign",
        {"jitter-sign"},
-       [](Handed& h) {
+       [](HostInput& h) {
          h.camera.jitter = -h.camera.jitter;
          h.camera.previousJitter = -h.camera.previousJitter;
          h.frame.constants = frameConstants(h.camera, kExtent);
@@ -226,7 +224,7 @@ std::vector<Case> cases() {
        true},
       {"jitter in the matrices",
        {"jitter-in-matrices"},
-       [](Handed& h) {
+       [](HostInput& h) {
          const glm::vec2 clip = glm::vec2(2.0F, -2.0F) / glm::vec2(kSize);
          for (int axis = 0; axis < 2; ++axis) {
            h.camera.projection[2][axis] += h.camera.jitter[axis] * clip[axis];
@@ -238,7 +236,7 @@ std::vector<Case> cases() {
   return all;
 }
 
-TEST_P(Lint, ComplainsOfWhatIsWrongAndOfNothingElse) {
+TEST_P(Lint, ReportsTheFaultAndNothingElse) {
   std::vector<std::string> names;
   std::string texts;
   for (const LintFinding& finding : lint(GetParam())) {

@@ -1,5 +1,5 @@
-// Histories of two objects told apart by the host's numbers: on a device against the double-precision reference, and
-// where nothing else tells them apart.
+// Object numbers tell histories of two objects apart: in agreement with the double-precision reference, and where depth
+// and normal are the same.
 
 #include <algorithm>
 #include <cmath>
@@ -22,10 +22,10 @@ using reference::Guide;
 using reference::HostFrame;
 using reference::Image;
 
-constexpr glm::ivec2 kSize(60, 40);  // The wall has 8 pixels a unit, so that a step of the panel is 4.
+constexpr glm::ivec2 kSize(60, 40);  // The wall has 8 pixels per unit, so the panel moves by 4 pixels a frame.
 constexpr std::uint32_t kNobody = 0xffffffffU;
 
-/// Temporal anti-aliasing alone, of frames that are its input.
+/// Temporal anti-aliasing alone.
 class AntialiasingRun {
  public:
   AntialiasingRun(const fg::vk::Device& device, const TemporalAntialiasingSettings& settings,
@@ -60,14 +60,14 @@ HostFrame panelFrame(std::uint32_t index, const Light& light, Noise noise, doubl
   const glm::dvec3 step(cameraStep, 0.3 * cameraStep, 0.0);
   HostFrame frame = renderFrame(slidingPanel(index), cameraAt(double(index) * step, (index - 1.0) * step, kSize, index),
                                 kSize, light, noise);
-  // Nobody's pixels have no history, not even of nobody.
+  // Pixels of no object have no history, not even from one another.
   for (int x = 40; x < 50; ++x) frame.objectId[{x, 35}] = kNobody;
   return frame;
 }
 
 class ObjectIdsTest : public fg::test::GpuTest {};
 
-TEST_F(ObjectIdsTest, HistoryIsTheReferences) {
+TEST_F(ObjectIdsTest, HistoryAgreesWithTheReference) {
   for (const HistoryRejection rejection : {HistoryRejection::Plane, HistoryRejection::Depth, HistoryRejection::None}) {
     for (const bool objectMotion : {true, false}) {
       SCOPED_TRACE("rejection " + std::to_string(int(rejection)) + ", object motion " + std::to_string(objectMotion));
@@ -84,7 +84,7 @@ TEST_F(ObjectIdsTest, HistoryIsTheReferences) {
       (void)run.frame(first, guides, Image<Guide>(kSize));
       const Image<glm::dvec4> result = run.frame(second, guidesNow, guides);
 
-      // What the first frame leaves is itself, once.
+      // The first frame is its own result, with a history length of 1.
       Image<glm::dvec4> resolved = withAlpha(first.lighting);
       for (glm::dvec4& pixel : resolved.pixels()) pixel.w = 1.0;
       const Image<reference::Accumulated> expected = reference::antialias(
@@ -101,7 +101,7 @@ TEST_F(ObjectIdsTest, HistoryIsTheReferences) {
   }
 }
 
-/// Where the picture is not that of the light.
+/// Number of pixels whose light is not that of their surface.
 int pixelsOff(const Image<glm::dvec4>& result, const HostFrame& truth) {
   int count = 0;
   reference::forEachPixel(kSize, [&](glm::ivec2 p) {
@@ -111,12 +111,12 @@ int pixelsOff(const Image<glm::dvec4>& result, const HostFrame& truth) {
   return count;
 }
 
-// The panel uncovers a wall of its own depth and normal. With numbers that has no history; without, it has the panel's,
-// for as long as the clipping lets it.
+// The panel uncovers a wall of the same depth and normal. With object numbers the wall has no history. Without them it
+// takes the panel's, for as long as clipping allows.
 TEST_F(ObjectIdsTest, ASurfaceUncoveredInTheSamePlaneHasNoHistory) {
   TemporalAntialiasingSettings settings;
   settings.clipGamma = 1e6F;
-  settings.clipRadius = 8;  // So that the panel's edge is in sight of both strips that it uncovers.
+  settings.clipRadius = 8;  // Wide enough that the panel's border lies in the window of both strips that it uncovers.
   for (const bool objectIds : {true, false}) {
     for (const HistoryRejection rejection : {HistoryRejection::Plane, HistoryRejection::None}) {
       settings.objectIds = objectIds;
@@ -132,7 +132,7 @@ TEST_F(ObjectIdsTest, ASurfaceUncoveredInTheSamePlaneHasNoHistory) {
         const Image<Guide> guides = reference::prepareGuides(frame, reference::Storage::Quantised);
         const Image<glm::dvec4> result = run.frame(frame, guides, before);
         before = guides;
-        // The panel is 18 pixels high and moves by four; each strip that it leaves keeps some of it.
+        // The panel is 18 pixels high and moves by four. Each strip that it uncovers keeps some of its light.
         const int uncovered = 4 * 18 * int(i);
         EXPECT_EQ(pixelsOff(result, frame), objectIds ? 0 : uncovered) << "frame " << i;
       }
@@ -144,8 +144,8 @@ bool hasPass(const fg::Graph& graph, const std::string& name) {
   return std::ranges::any_of(graph.desc().passes, [&](const fg::PassDecl& pass) { return pass.name == name; });
 }
 
-// Numbers cost something only where a host has them, and a method asks for them.
-TEST_F(ObjectIdsTest, AreKeptOnlyWhereThereAreAnyAndTheyAreAskedFor) {
+// Object numbers take memory only if a host has them and a method reads them.
+TEST_F(ObjectIdsTest, AreKeptOnlyIfTheHostHasThemAndTheMethodReadsThem) {
   for (const std::string& name : denoiserNames()) {
     for (const bool given : {false, true}) {
       const auto method = makeDenoiser(name);

@@ -1,4 +1,4 @@
-// Light in 32 bits: what the packing keeps, that its rounding has no bias, and what becomes of it from stage to stage.
+// Packed light in 32 bits: the precision of the packing, the mean of its rounding, and its use by the stages.
 
 #include <algorithm>
 #include <cmath>
@@ -24,7 +24,7 @@ namespace {
 using reference::HostFrame;
 using reference::Image;
 
-/// A packing as the shader that rounds knows it.
+/// A packing, as round_light.comp selects it.
 struct Packing {
   const char* name;
   std::uint32_t key;
@@ -33,12 +33,12 @@ struct Packing {
 constexpr Packing kAccumulated{"accumulated", 0x100, reference::kAccumulatedBits};
 constexpr Packing kFiltered{"filtered", 0x101, reference::kFilteredBits};
 constexpr Packing kResolved{"resolved", 0x102, reference::kResolvedBits};
-constexpr Packing kPassed{"passed", 0, reference::kPassedBits};
+constexpr Packing kPassThrough{"pass-through", 0, reference::kPassThroughBits};
 
-/// Pixels that round the same light: each by a chance of its own.
-constexpr int kChances = 4096;
+/// Number of pixels that round the same light, each with a random number of its own.
+constexpr int kRandomNumbers = 4096;
 
-/// A column of mean and variance over the chances, row by row.
+/// Range and mean of a light's rounded values over the random numbers.
 struct Rounded {
   glm::dvec4 least{std::numeric_limits<double>::infinity()};
   glm::dvec4 most{-std::numeric_limits<double>::infinity()};
@@ -47,10 +47,10 @@ struct Rounded {
 
 class PackedLight : public fg::test::GpuTest {
  protected:
-  /// What becomes of lights by all chances.
+  /// Round lights with all random numbers.
   [[nodiscard]] std::vector<Rounded> round(const Packing& packing, const std::vector<glm::dvec4>& lights,
                                            std::uint32_t longest = 3, std::uint32_t frame = 0) const {
-    const fg::Extent extent{kChances, static_cast<std::uint32_t>(lights.size())};
+    const fg::Extent extent{kRandomNumbers, static_cast<std::uint32_t>(lights.size())};
     const fg::TextureDesc floats{VK_FORMAT_R32G32B32A32_SFLOAT, extent};
     fg::Graph graph;
     const fg::Texture source = graph.import("source", floats, fg::vk::kUploaded);
@@ -66,7 +66,7 @@ class PackedLight : public fg::test::GpuTest {
     fg::test::GraphRun run(device(), graph);
     std::vector<float> texels;
     for (const glm::dvec4& light : lights)
-      for (int i = 0; i < kChances; ++i)
+      for (int i = 0; i < kRandomNumbers; ++i)
         for (int c = 0; c < 4; ++c) texels.push_back(static_cast<float>(light[c]));
     run.fill(source, texels);
     run.frame();
@@ -74,10 +74,10 @@ class PackedLight : public fg::test::GpuTest {
     std::vector<Rounded> rounded(lights.size());
     for (std::size_t i = 0; i < result.size() / 4; ++i) {
       const glm::dvec4 v(result[4 * i], result[4 * i + 1], result[4 * i + 2], result[4 * i + 3]);
-      Rounded& r = rounded[i / kChances];
+      Rounded& r = rounded[i / kRandomNumbers];
       r.least = glm::min(r.least, v);
       r.most = glm::max(r.most, v);
-      r.mean += v / double(kChances);
+      r.mean += v / double(kRandomNumbers);
     }
     return rounded;
   }
@@ -91,7 +91,7 @@ double single(double value) {
   return double(static_cast<float>(value));
 }
 
-/// Light of all magnitudes that half precision knows, grey and saturated.
+/// Light of all magnitudes that half precision can hold, grey and saturated.
 std::vector<glm::dvec4> lightsOfAllMagnitudes() {
   std::vector<glm::dvec4> lights;
   const glm::dvec3 colours[] = {{1.0, 0.83, 0.59}, {0.021, 1.0, 0.37}, {0.0013, 0.0, 1.0}};
@@ -103,14 +103,14 @@ std::vector<glm::dvec4> lightsOfAllMagnitudes() {
   return lights;
 }
 
-/// Rounding by chance gives `low` or `low + step`, and `value` on average: within five standard deviations of the mean
-/// of as many trials as there are chances, and what the chances are rounded to.
-void expectByChance(const Rounded& actual, int channel, double value, double low, double step) {
+/// Expects stochastic rounding: every result is `low` or `low + step`, and their mean is `value` within five standard
+/// deviations of a mean of so many trials, plus the resolution of the random numbers.
+void expectStochasticRounding(const Rounded& actual, int channel, double value, double low, double step) {
   const double share = (value - low) / step;
-  const double deviation = step * std::sqrt(std::max(share * (1.0 - share), 0.0) / kChances);
+  const double deviation = step * std::sqrt(std::max(share * (1.0 - share), 0.0) / kRandomNumbers);
   EXPECT_GE(actual.least[channel], low);
   EXPECT_LE(actual.most[channel], share == 0.0 ? low : low + step);
-  EXPECT_NEAR(actual.mean[channel], value, 5.0 * deviation + 0x1p-23 * step + kChances * 0x1p-52 * value);
+  EXPECT_NEAR(actual.mean[channel], value, 5.0 * deviation + 0x1p-23 * step + kRandomNumbers * 0x1p-52 * value);
 }
 
 TEST_F(PackedLight, ColoursAreRoundedToNeighboursWithoutBias) {
@@ -122,35 +122,35 @@ TEST_F(PackedLight, ColoursAreRoundedToNeighboursWithoutBias) {
       for (int c = 0; c < 3; ++c) {
         SCOPED_TRACE(std::string(packing.name) + ": " + std::to_string(lights[i][c]) + " of " +
                      std::to_string(brightest(lights[i])));
-        expectByChance(rounded[i], c, lights[i][c], std::floor(lights[i][c] / step) * step, step);
+        expectStochasticRounding(rounded[i], c, lights[i][c], std::floor(lights[i][c] / step) * step, step);
       }
     }
   }
 }
 
-// To within half a step of 9 bits. Steps double where the brightest channel is above 511 of them, and so it is always
-// above 255.5: half a step is at most 1/511 of it.
-TEST_F(PackedLight, WhatPassesThroughIsRoundedToNearest) {
+// The error is at most half a step of 9 bits. The step doubles where the brightest channel exceeds 511 steps, so the
+// brightest channel is always above 255.5 steps, and half a step is at most 1/511 of it.
+TEST_F(PackedLight, ThePassThroughIsRoundedToNearest) {
   const std::vector<glm::dvec4> lights = lightsOfAllMagnitudes();
-  const std::vector<Rounded> rounded = round(kPassed, lights);
+  const std::vector<Rounded> rounded = round(kPassThrough, lights);
   constexpr double kSmallestNormal = 0x1p-16;
   for (std::size_t i = 0; i < lights.size(); ++i) {
     SCOPED_TRACE(brightest(lights[i]));
     EXPECT_EQ(rounded[i].least, rounded[i].most);
     for (int c = 0; c < 3; ++c) {
-      const double tolerance = reference::passedError(lights[i][c], brightest(lights[i]));
+      const double tolerance = reference::passThroughError(lights[i][c], brightest(lights[i]));
       EXPECT_NEAR(rounded[i].most[c], lights[i][c], tolerance);
       EXPECT_LE(tolerance, std::max(brightest(lights[i]), kSmallestNormal) / 511.0);
     }
   }
-  const double largest = reference::largestPacked(reference::kPassedBits);
-  const std::vector<Rounded> limits = round(kPassed, {{reference::kLargestHalf, 1e30, -1.0, 1.0}});
+  const double largest = reference::largestPacked(reference::kPassThroughBits);
+  const std::vector<Rounded> limits = round(kPassThrough, {{reference::kLargestHalf, 1e30, -1.0, 1.0}});
   EXPECT_EQ(glm::dvec3(limits[0].least), glm::dvec3(largest, largest, 0.0));
   EXPECT_EQ(limits[0].most, limits[0].least);
 }
 
-TEST_F(PackedLight, WhatHasBeenRoundedStays) {
-  for (const Packing& packing : {kAccumulated, kFiltered, kResolved, kPassed}) {
+TEST_F(PackedLight, RoundedValuesAreRoundedToThemselves) {
+  for (const Packing& packing : {kAccumulated, kFiltered, kResolved, kPassThrough}) {
     std::vector<glm::dvec4> lights;
     const int most = (1 << packing.mantissaBits) - 1;
     for (int exponent = -15; exponent <= 16; ++exponent) {
@@ -167,7 +167,7 @@ TEST_F(PackedLight, WhatHasBeenRoundedStays) {
   }
 }
 
-TEST_F(PackedLight, TheLimitsOfTheFormatHold) {
+TEST_F(PackedLight, ValuesBeyondTheFormatAreClamped) {
   for (const Packing& packing : {kAccumulated, kFiltered, kResolved}) {
     SCOPED_TRACE(packing.name);
     const double largest = reference::largestPacked(packing.mantissaBits);
@@ -183,11 +183,11 @@ TEST_F(PackedLight, TheLimitsOfTheFormatHold) {
     EXPECT_EQ(glm::dvec3(rounded[2].least), glm::dvec3(0.0));
     EXPECT_EQ(glm::dvec3(rounded[2].most), glm::dvec3(0.0));
     EXPECT_EQ(glm::dvec2(rounded[3].most), glm::dvec2(0.0));
-    expectByChance(rounded[3], 2, 0.5 * smallest, 0.0, smallest);
+    expectStochasticRounding(rounded[3], 2, 0.5 * smallest, 0.0, smallest);
   }
 }
 
-TEST_F(PackedLight, CountsAreRoundedToNeighboursWithoutBias) {
+TEST_F(PackedLight, HistoryLengthsOfAccumulationAreRoundedToNeighboursWithoutBias) {
   std::vector<glm::dvec4> lights;
   for (int i = 0; i <= 16; ++i) lights.emplace_back(1.0, 1.0, 1.0, i);
   for (double count = 1.0; count < 255.0; count *= 1.137) lights.emplace_back(1.0, 1.0, 1.0, single(count));
@@ -196,11 +196,11 @@ TEST_F(PackedLight, CountsAreRoundedToNeighboursWithoutBias) {
   for (std::size_t i = 0; i < lights.size(); ++i) {
     SCOPED_TRACE(lights[i].a);
     const double step = reference::packedCountStep(lights[i].a);
-    expectByChance(rounded[i], 3, lights[i].a, std::floor(lights[i].a / step) * step, step);
+    expectStochasticRounding(rounded[i], 3, lights[i].a, std::floor(lights[i].a / step) * step, step);
   }
 }
 
-TEST_F(PackedLight, LengthsAreRoundedToNeighboursWithoutBias) {
+TEST_F(PackedLight, HistoryLengthsOfAntialiasingAreRoundedToNeighboursWithoutBias) {
   for (const std::uint32_t longest : {1U, 2U, 3U, 7U, 64U, 255U}) {
     std::vector<glm::dvec4> lights;
     for (double length = 1.0; length < longest; length *= 1.083) lights.emplace_back(1.0, 1.0, 1.0, single(length));
@@ -211,7 +211,7 @@ TEST_F(PackedLight, LengthsAreRoundedToNeighboursWithoutBias) {
       const double length = lights[i].a;
       SCOPED_TRACE(std::to_string(length) + " of " + std::to_string(longest));
       const double low = std::min(std::exp2(std::floor(std::log2(length))), 32.0);
-      expectByChance(rounded[i], 3, length, low, reference::packedLengthStep(length, longest));
+      expectStochasticRounding(rounded[i], 3, length, low, reference::packedLengthStep(length, longest));
     }
     for (std::size_t i = lights.size() - 2; i < lights.size(); ++i) {
       EXPECT_EQ(rounded[i].least.a, lights[i].a) << longest;
@@ -220,8 +220,8 @@ TEST_F(PackedLight, LengthsAreRoundedToNeighboursWithoutBias) {
   }
 }
 
-// Chances of successive frames are others, of the same frame the same.
-TEST_F(PackedLight, FramesAreRoundedByTheirOwnChances) {
+// Random numbers differ between successive frames and repeat for the same frame.
+TEST_F(PackedLight, EveryFrameHasItsOwnRandomNumbers) {
   const std::vector<glm::dvec4> lights(8, glm::dvec4(0.7001, 0.3337, 0.1003, 1.0));
   const auto meanOfRow = [&](std::uint32_t frame) { return round(kResolved, lights, 3, frame)[0].mean; };
   EXPECT_EQ(meanOfRow(5), meanOfRow(5));
@@ -239,14 +239,14 @@ std::vector<HostFrame> movingFrames(const Scene& scene) {
   return frames;
 }
 
-/// Where the temporal stages look for history, and how.
+/// Settings of how the temporal stages find their history.
 struct NamedSettings {
   const char* name;
   WalrSettings settings;
 };
 std::vector<NamedSettings> waysToReproject() {
   WalrSettings apart;
-  apart.antialiasing.normalThreshold = 0.4F;  // Its own reprojection.
+  apart.antialiasing.normalThreshold = 0.4F;  // Makes anti-aliasing do its own reprojection.
   WalrSettings byDepth;
   byDepth.accumulation.rejection = byDepth.antialiasing.rejection = HistoryRejection::Depth;
   byDepth.accumulation.historyFilter = HistoryFilter::Bicubic;
@@ -266,14 +266,14 @@ std::vector<NamedSettings> waysToReproject() {
           {"packed anti-aliasing", antialiasingOnly}};
 }
 
-TEST_F(PackedLight, TemporalStagesHoldOnEveryScene) {
+TEST_F(PackedLight, TemporalStagesAgreeWithTheReferenceOnEveryScene) {
   for (const NamedScene& named : allScenes()) {
     SCOPED_TRACE(named.name);
     expectSequence(device(), movingFrames(named.scene), WalrSettings{});
   }
 }
 
-TEST_F(PackedLight, TemporalStagesHoldHoweverHistoryIsFound) {
+TEST_F(PackedLight, TemporalStagesAgreeWithTheReferenceForEveryReprojection) {
   for (const NamedSettings& named : waysToReproject()) {
     SCOPED_TRACE(named.name);
     for (const SceneDescription& scene : {SceneDescription{}, SceneDescription{.objectMotion = false}}) {
@@ -294,8 +294,8 @@ TEST_F(PackedLight, TemporalStagesHoldHoweverHistoryIsFound) {
   }
 }
 
-// The regression over packed light gives what it gives over the same light in halves, rounded by less than a step.
-TEST_F(PackedLight, BlocksReadAndWriteIt) {
+// The regression gives the same result for packed light as for the same light in halves, up to less than a step.
+TEST_F(PackedLight, BlocksGiveTheSameResultAsForHalves) {
   const WalrSettings settings{};
   FilterRun inHalves(
       device(), kSize, 1, [&](fg::Graph& graph, fg::Buffer frame, const walr::Guides& guides, const auto& inputs) {
@@ -322,9 +322,9 @@ TEST_F(PackedLight, BlocksReadAndWriteIt) {
   }
 }
 
-// Light without noise on a still wall, of which no channel is what the packing holds and two are darker than its steps.
-// What comes out scatters about it over time by no more than chance explains, and about nothing else on average.
-TEST_F(PackedLight, AStillPictureIsSteadyAndTrue) {
+// A still wall under noise-free light. No channel can be packed exactly, and two are darker than a step. The output
+// varies over time by no more than stochastic rounding explains, and its mean is the light.
+TEST_F(PackedLight, AStillImageIsStableAndUnbiased) {
   const glm::dvec3 light(0.3, 0.01, 0.0007);
   constexpr std::uint32_t kUnsettled = 24;
   constexpr std::uint32_t kFrames = 64;
@@ -346,15 +346,16 @@ TEST_F(PackedLight, AStillPictureIsSteadyAndTrue) {
       squares[p] += error * error;
     });
   }
-  // Rounding adds a variance of at most a quarter of a step squared. An exponential mean of n adds up its own to n^2 /
-  // (2 n - 1) as much, and passes on 1 / (2 n - 1) of that of what it averages; of the history 1 - 1 / n is seen.
+  // Rounding adds a variance of at most a quarter of a squared step. In an exponential mean over n frames the
+  // variance of its own rounding grows by n^2 / (2 n - 1), and that of its input shrinks by 1 / (2 n - 1). History
+  // has a share of 1 - 1 / n in the output.
   const double n = settings.antialiasing.maxHistory;
   const auto steps = [&](int bits) { return reference::packedStep(truth.r, bits); };
   const double filtered = 0.25 * std::pow(steps(reference::kFilteredBits), 2.0);
   const double resolved = 0.25 * std::pow(steps(reference::kResolvedBits), 2.0);
   const double spread = filtered / (2.0 * n - 1.0) + resolved * std::pow(n - 1.0, 2.0) / (2.0 * n - 1.0);
-  // The mean of an accumulated pixel, whose blocks and windows pass on less than its variance, is that of 1 / (1 - a)
-  // times fewer frames.
+  // A rounding error stays in the accumulated mean for m frames, so its deviation counts m times in the mean over time.
+  // Blocks and windows reduce it further.
   const double m = settings.accumulation.maxHistory;
   const double accumulated = 0.25 * std::pow(steps(reference::kAccumulatedBits), 2.0);
   const double trials = double(kFrames) * kSize.x * kSize.y;
@@ -370,7 +371,7 @@ TEST_F(PackedLight, AStillPictureIsSteadyAndTrue) {
   for (int c = 0; c < 3; ++c) {
     RecordProperty("relative_bias_" + std::to_string(c), std::to_string(bias[c] / truth[c]));
     RecordProperty("deviation_of_brightest_" + std::to_string(c), std::to_string(std::sqrt(variance[c]) / truth.r));
-    // Halves of the blocks' moments and fits and of the output round to nearest.
+    // Halves of the blocks' moments and fits, and those of the output, are rounded to nearest.
     const double halves = 6.0 * 2.0 * reference::kHalfRoundoff * truth[c];
     EXPECT_NEAR(bias[c], 0.0, 5.0 * deviationOfMean + halves) << c;
     EXPECT_LE(variance[c], spread + halves * halves) << c;

@@ -1,4 +1,4 @@
-// What rounding the moments between iterations costs, for each storage and regularisation: the double-precision
+// The cost of rounding the moments between iterations, for each storage and regularisation: the double-precision
 // reference with and without storage rounding.
 
 #include <cmath>
@@ -20,7 +20,7 @@ glm::dvec3 toneMap(glm::dvec3 x) {
   return x / (1.0 + x);
 }
 
-/// Root mean square difference after x / (1 + x).
+/// Root mean square difference after the tone map x / (1 + x).
 double toneMappedRmse(const Image<glm::dvec3>& a, const Image<glm::dvec3>& b) {
   double sum = 0.0;
   reference::forEachPixel(a.size(), [&](glm::ivec2 p) {
@@ -36,7 +36,7 @@ Image<glm::dvec4> withLength(const Image<glm::dvec3>& colours) {
   return result;
 }
 
-/// Relative root mean square distance of the filtered signal to the truth.
+/// Relative root mean square error of the filtered signal.
 double relativeRmse(const LinearSignal& signal, MomentStorage storage, Regularisation regularisation, double epsilon) {
   WeightedRegressionSettings settings;
   settings.storage = storage;
@@ -48,7 +48,7 @@ double relativeRmse(const LinearSignal& signal, MomentStorage storage, Regularis
                                                     Storage::Quantised, settings));
 }
 
-// What a storage costs is its distance to single-precision raw moments, regularised in the same way. A storage fails
+// The cost of a storage is its distance to single-precision raw moments with the same regularisation. A storage fails
 // where its error exceeds the signal, and passes where it adds less than a tenth to the error that noise leaves anyway.
 TEST(Precision, EachStorageHoldsAtItsOwnEpsilonAndFailsBelowIt) {
   constexpr auto kFloor = Regularisation::Floor;
@@ -69,7 +69,8 @@ TEST(Precision, EachStorageHoldsAtItsOwnEpsilonAndFailsBelowIt) {
             1.1 * relativeRmse(bumpy, MomentStorage::Raw32, kFloor, 1e-6));
 }
 
-/// The spatial filter up to the solve with moments rounded between iterations, or not; the result is not rounded.
+/// The spatial filter up to the solve, with or without rounding of moments between iterations; the result is not
+/// rounded.
 Image<glm::dvec3> filterWith(const LinearSignal& signal, Storage storage, const WeightedRegressionSettings& settings) {
   reference::AtrousState state = reference::sampleMoments(signal.guides, withLength(signal.frame.lighting));
   for (std::uint32_t t = 0; t < settings.iterations; ++t) {
@@ -84,7 +85,7 @@ Image<glm::dvec3> filterWith(const LinearSignal& signal, Storage storage, const 
   return out;
 }
 
-// The project's requirement: what rounding the moments does to the tone-mapped picture.
+// The project's limit for the effect of rounded moments on the tone-mapped image.
 TEST(Precision, StorageRoundingStaysBelowItsBudget) {
   for (const double variation : {1e-3, 0.1}) {
     const LinearSignal signal = linearSignal(kSize, variation);
@@ -92,7 +93,7 @@ TEST(Precision, StorageRoundingStaysBelowItsBudget) {
       WeightedRegressionSettings settings;
       settings.storage = storage;
       settings.keepSampleCount = storage == MomentStorage::Centred16;
-      // Raw storage drops the second moment of the luminance, and with it the ridge's measure of noise.
+      // Raw storage drops the second moment of the luminance, from which the ridge measures the noise.
       if (storage != MomentStorage::Centred16) settings.regularisation.method = Regularisation::Floor;
       return toneMappedRmse(filterWith(signal, Storage::Exact, settings),
                             filterWith(signal, Storage::Quantised, settings));

@@ -52,7 +52,7 @@ TEST(Storage, UnormsSpanTheUnitInterval) {
   EXPECT_NEAR(roundToUnorm16(0.5), 0.5, 0.5 * kUnorm16Step);
 }
 
-/// Directions all over the sphere, none of them exactly on the seam of the octahedral map.
+/// Directions all over the sphere, none of them exactly on a seam of the octahedral map.
 template <typename Visit>
 void forEachDirection(Visit visit) {
   for (double polar = 0.01; polar < 3.1; polar += 0.07)
@@ -68,8 +68,8 @@ TEST(Octahedral, DecodeInvertsEncode) {
   });
 }
 
-// Half a step in [0, 1] is a step s in [-1, 1]: x and y move by s, z by 2 s, together sqrt(6) s on an octahedron that
-// is nowhere nearer to the origin than 1 / sqrt(3).
+// Half a step in [0, 1] is a step s in [-1, 1]. x and y move by s and z by 2 s, together by sqrt(6) s, on an octahedron
+// that is nowhere nearer to the origin than 1 / sqrt(3).
 TEST(Octahedral, SixteenBitsKeepTheDirection) {
   const double bound = std::sqrt(18.0) * kUnorm16Step;
   forEachDirection([&](glm::dvec3 n) {
@@ -86,7 +86,7 @@ TEST(Octahedral, ShortNormalsKeepTheDirectionToADegreeAndTheViewAxis) {
   EXPECT_EQ(roundToShortNormal({0.0, 0.0, 1.0}), glm::dvec3(0.0, 0.0, 1.0));
 }
 
-// Normals just this and just that side of n.z = 0 have neighbouring features.
+// Normals on the two sides of n.z = 0 have neighbouring features.
 TEST(Octahedral, FoldIsContinuous) {
   constexpr double kStep = 1e-9;
   for (double azimuth = 0.01; azimuth < 6.28; azimuth += 0.1) {

@@ -1,5 +1,5 @@
-// What linear regression, averaging and the edge-stopping function promise, held against the double-precision reference
-// itself: the tests on a device lean on it.
+// Promises of linear regression, averaging and the edge-stopping function, tested on the double-precision reference
+// itself, on which the tests of a device rely.
 
 #include <cmath>
 
@@ -25,7 +25,7 @@ using reference::Storage;
 
 constexpr glm::ivec2 kSize(48, 36);
 
-/// Rounding of some thousand double-precision operations on values of this size.
+/// Bound of the rounding of some thousand double-precision operations on values of this size.
 double roundingOf(double size) {
   return 1e-12 * size;
 }
@@ -39,7 +39,7 @@ double largestDifference(const Image<glm::dvec3>& a, const Image<glm::dvec3>& b)
   return largest;
 }
 
-/// A frame and its guides that show nothing but a wall parallel to the picture: every weight is exactly 1.
+/// A wall parallel to the image and its guides: every weight is exactly 1.
 struct Parallel {
   HostFrame frame;
   Image<Guide> guides;
@@ -64,7 +64,7 @@ WeightedRegressionSettings withoutReplacement() {
   return settings;
 }
 
-TEST(Theory, ConstantLightComesBackUnchanged) {
+TEST(Theory, ConstantLightIsUnchanged) {
   const glm::dvec3 constant(0.75, 0.5, 1.25);
   for (const NamedScene& named : allScenes()) {
     SCOPED_TRACE(named.name);
@@ -79,9 +79,9 @@ TEST(Theory, ConstantLightComesBackUnchanged) {
   }
 }
 
-// With the pivots' floor far below the features' variance (which is above 1e-4 in every window of this scene), the fit
-// of a linear signal is exact to rounding over the smallest pivot.
-TEST(Theory, SignalsLinearInTheFeaturesComeBack) {
+// With the pivots' floor far below the features' variance, which is above 1e-4 in every window of this scene, the fit
+// of a linear signal is exact up to rounding over the smallest pivot.
+TEST(Theory, SignalsLinearInTheFeaturesAreReproduced) {
   const HostFrame frame = renderStill(bumpyWall(0.3), kSize);
   const Image<Guide> guides = reference::prepareGuides(frame, Storage::Exact);
   Image<glm::dvec3> signal(kSize);
@@ -97,7 +97,8 @@ TEST(Theory, SignalsLinearInTheFeaturesComeBack) {
   EXPECT_LE(largestDifference(out, signal), roundingOf(4.0) / 1e-4);
 }
 
-// Of a signal s + b . x, a ridge takes away at most what the covariance's smallest eigenvalue does not outweigh.
+// A ridge r reduces the slope b of a signal s + b . x by at most its share r / (r + e), where e is the covariance's
+// smallest eigenvalue.
 TEST(Theory, RidgeOnlyShrinksTheSlope) {
   Moments m;
   m.x = {0.4, 0.6};
@@ -119,11 +120,11 @@ TEST(Theory, RidgeOnlyShrinksTheSlope) {
     EXPECT_GT(error, last);
     last = error;
   }
-  // At the mean of the features the fit is the mean of the colour, whatever the ridge.
+  // At the mean of the features the fit is the mean of the colour, for any ridge.
   EXPECT_NEAR(reconstruct(m, m.x, {}).colour.g, 2.0, roundingOf(2.0));
 }
 
-TEST(Theory, FourIterationsTouchEachSampleOfTheWindowOnce) {
+TEST(Theory, FourIterationsCountEachSampleOfTheWindowOnce) {
   constexpr glm::ivec2 kImpulseSize(163, 163);
   constexpr glm::ivec2 kCentre(81, 81);
   const Parallel wall = parallelWall(kImpulseSize);
@@ -139,14 +140,14 @@ TEST(Theory, FourIterationsTouchEachSampleOfTheWindowOnce) {
     EXPECT_NEAR(out[p].g, 2.0 * expected, roundingOf(expected));
     sum += out[p].r;
   });
-  EXPECT_NEAR(sum, 1.0, roundingOf(1.0));  // The mean of the picture is preserved.
+  EXPECT_NEAR(sum, 1.0, roundingOf(1.0));  // The mean of the image is preserved.
 }
 
 TEST(Theory, EachIterationIsTheBoxMeanWhereAllWeightsAreOne) {
   constexpr glm::ivec2 kWallSize(91, 87);
   Parallel wall = parallelWall(kWallSize);
   Image<glm::dvec3> colours = renderStill(flatWall(), kWallSize).lighting;
-  // Features that vary, on a plane that does not.
+  // The features vary, but the plane does not.
   reference::forEachPixel(kWallSize, [&](glm::ivec2 p) {
     wall.guides[p].features = {0.5 + 0.2 * std::sin(0.9 * p.x), 0.5 + 0.3 * std::cos(0.7 * p.y + 0.2 * p.x)};
   });
@@ -166,7 +167,8 @@ TEST(Theory, EachIterationIsTheBoxMeanWhereAllWeightsAreOne) {
   }
 }
 
-// Dropping the sample counts changes only how parts are weighted: inside, where all counts are equal, nothing.
+// Without sample counts only the weights of the parts change. Away from the border all counts are equal, so nothing
+// changes.
 TEST(Theory, SampleCountsDoNotMatterWhereTheyAreEqual) {
   constexpr glm::ivec2 kWallSize(83, 83);
   const Parallel wall = parallelWall(kWallSize);
@@ -188,7 +190,7 @@ TEST(Theory, FullWindowEqualsIterationsWhereNoEdgeIsInReach) {
   const Image<glm::dvec4> accumulated = withLength(frame.lighting);
   WeightedRegressionSettings settings = withoutReplacement();
   settings.iterations = 3;
-  // Geometric normals come from depths that are floats, so the factor between two of them is 1 to that rounding.
+  // Geometric normals come from depths in single precision, so the factor between two of them is 1 up to that rounding.
   settings.edgeStopping.normalFactor = false;
   const Image<glm::dvec3> atrous = reference::weightedRegression(frame, guides, accumulated, Storage::Exact, settings);
   const Image<reference::WindowPixel> full = reference::fullWindowRegression(
@@ -200,9 +202,9 @@ TEST(Theory, FullWindowEqualsIterationsWhereNoEdgeIsInReach) {
 
 TEST(Theory, OutputFollowsFlipsAndTransposition) {
   WalrPaperSettings settings = robustWalr();
-  settings.accumulation = WalrSettings{}.accumulation;  // Responds to changes of light.
+  settings.accumulation = WalrSettings{}.accumulation;  // With antilag.
   settings.antialiasing = WalrSettings{}.antialiasing;
-  settings.regression.replaceTaps = TapReplacement::Off;  // The hashes do not follow.
+  settings.regression.replaceTaps = TapReplacement::Off;  // Random replacement does not follow the symmetry.
   for (const Symmetry& symmetry : {Symmetry{"flip x", true, false, false}, Symmetry{"flip y", false, true, false},
                                    Symmetry{"transpose", false, false, true}}) {
     for (const NamedScene& named : allScenes()) {
@@ -214,7 +216,7 @@ TEST(Theory, OutputFollowsFlipsAndTransposition) {
             cameraAt({0.06 * i, 0.02 * i, 0.0}, {0.06 * (i - 1.0), 0.02 * (i - 1.0), 0.0}, kSize, i);
         const HostFrame frame = renderFrame(named.scene, camera, kSize);
         const Image<glm::dvec3> expected = mapImage(symmetry, straight.denoise(frame));
-        // Rays of the mirrored picture are rounded anew, which tilts planes by a few float roundoffs.
+        // Rays of the mirrored image are rounded anew, which tilts planes by a few float roundoffs.
         EXPECT_LE(largestDifference(mirrored.denoise(mapFrame(symmetry, frame)), expected), 1e-6);
       }
     }
@@ -255,7 +257,7 @@ TEST(Theory, AStillViewIsTheMeanOfItsSamplesUpToTheCap) {
   }
 }
 
-TEST(Theory, WhatWasHiddenStartsAnew) {
+TEST(Theory, DisocclusionsStartWithoutHistory) {
   const HostFrame before = renderFrame(thinBars(), cameraAt({}, {}, kSize, 0), kSize);
   const HostFrame after = renderFrame(thinBars(), cameraAt({0.4, 0.0, 0.0}, {}, kSize, 1), kSize);
   const Image<Guide> guidesBefore = reference::prepareGuides(before, Storage::Exact);
@@ -271,7 +273,7 @@ TEST(Theory, WhatWasHiddenStartsAnew) {
     }
     ++fresh;
     EXPECT_EQ(second[p].mean, after.lighting[p]);
-    // Nothing of this surface was around where it was: bar and wall are 2.3 apart at least.
+    // No tap showed this surface; bar and wall are at least 2.3 apart.
     const glm::ivec2 base(glm::floor(glm::dvec2(p) + glm::dvec2(after.motion[p])));
     const double depthBefore = after.depth[p] + after.motion[p].z;
     int same = 0;
@@ -292,7 +294,7 @@ TEST(Theory, CovariancesStayPositiveSemidefinite) {
     for (const Storage storage : {Storage::Exact, Storage::Quantised}) {
       const Image<Guide> guides = reference::prepareGuides(frame, storage);
       AtrousState state = reference::sampleMoments(guides, withLength(frame.lighting));
-      // Rounding to halves changes each of uu vv - uv^2's factors by half a unit in the last place.
+      // Rounding to halves changes each factor of uu vv - uv^2 by half a unit in the last place.
       const double roundoff = storage == Storage::Exact ? 1e-12 : 4.0 * reference::kHalfRoundoff;
       const double smallest = storage == Storage::Exact ? 1e-30 : std::pow(2.0 * reference::kSmallestHalf, 2);
       for (std::uint32_t t = 0; t < 4; ++t) {

@@ -39,7 +39,7 @@ void expectFinite(const Image<glm::dvec4>& image, const std::string& what) {
   });
 }
 
-TEST_P(RegressionRobustness, SkyIsPassedThroughAndALoneSurfaceKeepsItsLight) {
+TEST_P(RegressionRobustness, SkyIsUnchangedAndALoneSurfaceKeepsItsLight) {
   constexpr glm::ivec2 kSize(34, 33);
   constexpr glm::ivec2 kLone(20, 11);
   const std::unique_ptr<Denoiser> denoiser = makeMethod();
@@ -51,7 +51,7 @@ TEST_P(RegressionRobustness, SkyIsPassedThroughAndALoneSurfaceKeepsItsLight) {
   const Image<glm::dvec4> image = run.frame(frame);
   reference::forEachPixel(kSize, [&](glm::ivec2 p) {
     for (int c = 0; c < 3; ++c) {
-      // A lone sample is its own fit, up to the rounding of a solve and of the textures on the way.
+      // The fit of a lone sample is the sample, up to the rounding of a solve and of the textures in between.
       const double tolerance = p == kLone ? 8.0 * reference::kHalfRoundoff * frame.lighting[p][c] : 0.0;
       EXPECT_NEAR(image[p][c], frame.lighting[p][c], tolerance) << p.x << " " << p.y;
     }

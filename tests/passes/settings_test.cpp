@@ -41,7 +41,7 @@ TEST(Settings, EveryKindIsSetFromText) {
   EXPECT_EQ(valueOf(*walr, "accumulation.history-filter"), "bicubic");
 }
 
-/// What a method says of a name that it does not know.
+/// The error message of a method for an unknown name.
 std::string unknown(const std::string& method, const std::string& name) {
   return rejection([&] { makeDenoiser(method)->set(name, "3"); });
 }
@@ -58,7 +58,7 @@ TEST(Settings, AnUnknownNameIsRejectedWithTheNearOnes) {
       << message;
 }
 
-TEST(Settings, OnesThatTheMethodDoesNotUseAreRejected) {
+TEST(Settings, SettingsOfOtherMethodsAreRejected) {
   EXPECT_EQ(unknown("walr", "regression.iterations"),
             "there is no setting \"regression.iterations\" here; near ones: blocks.iterations");
   EXPECT_EQ(unknown("walr_paper", "blocks.iterations"),
@@ -71,7 +71,7 @@ TEST(Settings, OnesThatTheMethodDoesNotUseAreRejected) {
   }
 }
 
-TEST(Settings, FormerOnesAreRejectedWithTheWayOut) {
+TEST(Settings, FormerNamesAreRejectedWithTheReplacement) {
   EXPECT_EQ(unknown("walr", "walr.filter"),
             "there is no setting \"walr.filter\" here: method walr regresses over blocks of pixels, method walr_paper "
             "over pixels");
@@ -113,19 +113,20 @@ TEST(Settings, AnUnknownChoiceIsRejectedWithTheChoices) {
   EXPECT_NE(message.find("centred16, raw16, raw11, raw32"), std::string::npos) << message;
 }
 
-TEST(Settings, EverySettingOfEveryMethodSaysWhatItIs) {
+TEST(Settings, EverySettingOfEveryMethodHasDescriptionSourceAndRange) {
   for (const std::string& method : denoiserNames()) {
     const auto denoiser = makeDenoiser(method);
     std::vector<std::string> names;
     for (const SettingText& setting : denoiser->settings()) {
       EXPECT_FALSE(setting.description.empty()) << method << " " << setting.name;
       EXPECT_FALSE(setting.source.empty()) << method << " " << setting.name;
-      EXPECT_EQ(setting.source.find(".txt"), std::string::npos) << "authors and year, not a file: " << setting.source;
+      EXPECT_EQ(setting.source.find(".txt"), std::string::npos)
+          << "cites a file instead of authors and year: " << setting.source;
       EXPECT_FALSE(setting.range.empty()) << method << " " << setting.name;
       names.push_back(setting.name);
     }
     std::ranges::sort(names);
-    EXPECT_TRUE(std::ranges::adjacent_find(names) == names.end()) << method << " names a setting twice";
+    EXPECT_TRUE(std::ranges::adjacent_find(names) == names.end()) << method << " has two settings of the same name";
     EXPECT_NO_THROW(denoiser->checkSettings()) << method;
   }
 }
@@ -168,7 +169,7 @@ TEST(Presets, ReplaceAllSettings) {
   EXPECT_EQ(valueOf(*walr, "regression.moments"), "centred16");
 }
 
-TEST(Presets, TheFirstHoldsTheDefaults) {
+TEST(Presets, TheFirstOneHasTheDefaults) {
   for (const std::string& method : denoiserNames()) {
     const auto denoiser = makeDenoiser(method);
     if (denoiser->presets().empty()) continue;
@@ -186,7 +187,7 @@ TEST(Presets, AnUnknownOneIsRejectedWithTheKnownOnes) {
   EXPECT_NE(message.find("paper, robust"), std::string::npos) << message;
 }
 
-TEST(Presets, ThoseThatWalrHadNameTheMethodsThatTheyAreNow) {
+TEST(Presets, FormerPresetsOfWalrAreRejectedWithTheMethodToUse) {
   for (const char* preset : {"blocks", "robust", "paper"}) {
     const std::string message = rejection([&] { makeDenoiser("walr")->usePreset(preset); });
     EXPECT_NE(message.find("\"" + std::string(preset) + "\""), std::string::npos) << message;

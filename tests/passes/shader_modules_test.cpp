@@ -10,9 +10,10 @@
 namespace walr {
 namespace {
 
-// What only decides which inputs are read is specialized and needs no module of its own; see fg::PassBuilder::unread.
-// When these limits were set there were 87 modules of 2.1 MB, after 220 of 6.8 MB. Every module costs each user's build
-// a compilation, each program that links the library its bytes, and a reader a row in the lists of shaders.
+// A choice that only decides which inputs are read is a specialization constant and needs no module of its own; see
+// fg::PassBuilder::unread. When these limits were set there were 87 modules of 2.1 MB, after 220 of 6.8 MB. Every
+// module costs compile time in every build, bytes in every program that links the library, and an entry in the lists of
+// shaders.
 constexpr std::size_t kMostModules = 90;
 constexpr std::size_t kMostBytes = 3'000'000;
 

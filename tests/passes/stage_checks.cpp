@@ -22,8 +22,8 @@ using reference::Image;
 constexpr const char* kChannels[] = {"red", "green", "blue"};
 
 /// Whether two octahedral features are those of one direction to within `error` radians and a step of their format in
-/// [0, 1]. The map turns a direction by `error` into at most 1.4 error of [0, 1]: its derivative is at most
-/// 1 + sqrt(3), halved. The seams of the far side, where the map jumps, are met by comparing directions.
+/// [0, 1]. A rotation by `error` moves a feature by at most 1.4 `error`, because the map's derivative is at most (1 +
+/// sqrt(3)) / 2. On the seams of the far side, where the map jumps, directions are compared instead.
 bool sameDirection(glm::dvec3 actual, glm::dvec3 expected, double error, double step) {
   const glm::dvec2 difference = glm::abs(reference::octahedralEncode(actual) - reference::octahedralEncode(expected));
   const double tolerance = 1.4 * error + step;
@@ -48,14 +48,14 @@ void expectGuides(const DeviceFrame& f, const AnyWalr& walr) {
     comparison.value(p, "shading normal",
                      sameDirection(shading, surface.shadingNormal, kShadingError, shadingStep) ? 0.0 : 1.0, 0.0, 0.5);
     if (occludes) {
-      // Rounded to nearest; of a difference of two positions, each rounded a few times, over their distance, which is a
-      // pixel at least.
+      // The result is rounded to nearest. It comes from a difference of two positions, each rounded a few times, over
+      // their distance, which is at least a pixel.
       const double pixel = std::abs(double(f.frame.constants.rayFromPixel.x));
       comparison.value(p, "occlusion", actual.occlusion,
                        reference::ambientOcclusion(f.frame, p, surface, walr.blocks()->occlusion),
                        0.5 * reference::kUnorm8Step + 16.0 * reference::kFloatRoundoff / pixel);
     }
-    if (actual.normal == glm::dvec3(0.0)) return;  // These settings have no use for it.
+    if (actual.normal == glm::dvec3(0.0)) return;  // These settings do not use it.
     bool found = false;
     for (const auto& candidate : reference::geometricNormals(f.frame, p, surface, settings))
       found |= sameDirection(actual.normal, candidate.normal, candidate.error, geometricStep);
@@ -77,11 +77,12 @@ void expectAntilag(const DeviceFrame& f, const Image<reference::Accumulated>& ac
     comparison.value(t, "sum", f.current.antilagTiles[t].x, e.sum.value, e.sum.error);
     comparison.value(t, "sum of squares", f.current.antilagTiles[t].y, e.squares.value, e.squares.error);
   });
-  // A tile is undecided where any of its 64 pixels is.
+  // A tile is undecided if any of its 64 pixels is.
   comparison.expect(0.5);
 }
 
-/// Rounding by chance errs by less than a step, and light above what can be packed becomes the brightest that can.
+/// Stochastic rounding errs by less than a step. Light that is too bright to be packed becomes the brightest packed
+/// light.
 glm::dvec3 packedTolerance(const reference::Accumulated& e, int mantissaBits) {
   const glm::dvec3 most = e.mean + e.error;
   const double step = reference::packedStep(std::max({most.r, most.g, most.b}), mantissaBits);
@@ -115,8 +116,8 @@ void expectAccumulation(const DeviceFrame& f, const TemporalAccumulationSettings
   if (settings.antilag.enabled) expectAntilag(f, expected, settings.antilag);
 }
 
-/// What iteration `t` starts from on the device. Pixels without a surface have no moments, whatever lies in their
-/// place.
+/// The device's state before iteration `t`. Pixels without a surface have no moments; whatever their texels hold is
+/// dropped.
 AtrousState stateBefore(const test::WalrStages& stages, std::uint32_t t) {
   if (t == 0) return reference::sampleMoments(stages.guides, stages.accumulated);
   AtrousState state = stages.iterations[t - 1];
@@ -175,16 +176,17 @@ void expectRegression(const DeviceFrame& f, const WeightedRegressionSettings& se
   comparison.expect(kUndecidedShare);
 }
 
-/// Of a pixel without a surface: as it is, or, along kept taps, packed.
-void expectPassed(glm::dvec3 output, glm::dvec3 lighting, bool keptTaps) {
+/// The output of a pixel without a surface: the input unchanged, or packed where it travels in the texels of the
+/// history taps.
+void expectPassThrough(glm::dvec3 output, glm::dvec3 lighting, bool keptTaps) {
   const glm::dvec3 light = std::isfinite(lighting.r + lighting.g + lighting.b) ? lighting : glm::dvec3(0.0);
   if (!keptTaps) {
     EXPECT_EQ(output, light);
     return;
   }
-  const glm::dvec3 within = glm::clamp(light, 0.0, reference::largestPacked(reference::kPassedBits));
+  const glm::dvec3 within = glm::clamp(light, 0.0, reference::largestPacked(reference::kPassThroughBits));
   const double brightest = std::max({within.r, within.g, within.b});
-  for (int c = 0; c < 3; ++c) EXPECT_NEAR(output[c], within[c], reference::passedError(within[c], brightest));
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(output[c], within[c], reference::passThroughError(within[c], brightest));
 }
 
 void expectAntialiasing(const DeviceFrame& f, const TemporalAntialiasingSettings& settings, bool keptTaps) {
@@ -201,7 +203,7 @@ void expectAntialiasing(const DeviceFrame& f, const TemporalAntialiasingSettings
       EXPECT_EQ(output, glm::dvec3(resolved));
     }
     if (packed && f.current.guides[p].depth == 0.0) {
-      expectPassed(output, f.frame.lighting[p], keptTaps);
+      expectPassThrough(output, f.frame.lighting[p], keptTaps);
       EXPECT_EQ(resolved, glm::dvec4(0.0));
       return;
     }

@@ -6,24 +6,24 @@
 
 namespace walr::test {
 
-/// Largest share of pixels whose result may hang on a decision within rounding. Plane distances, of order 1, carry an
-/// error below 5e-6, so that a threshold of 0.015 decides by chance for about 1e-3 of those that lie evenly below it;
-/// a pixel looks at up to 216 of them along its traces, most of which lie in one plane, far below it.
+/// Largest share of undecided pixels. Plane distances are of order 1 and carry an error below 5e-6, so rounding decides
+/// for about 1e-3 of the distances that are spread evenly below a threshold of 0.015. A pixel tests up to 216 distances
+/// along its traces, but most of them lie in one plane, far below the threshold.
 inline constexpr double kUndecidedShare = 0.02;
 
-/// A frame on a device, with the one before, which has no pixels where there is none.
+/// The stages of a frame on a device and those of the previous frame, which are empty if there was none.
 struct DeviceFrame {
   reference::HostFrame frame;
   WalrStages previous;
   WalrStages current;
 };
 
-/// Hold every stage of a frame, but the regression over blocks, against the double-precision reference. Each stage is
-/// given what the device's own stage before it left, so that a difference belongs to one stage and errors do not add
-/// up.
+/// Compare every stage of a frame, except the regression over blocks, with the double-precision reference. The
+/// reference of each stage starts from the device's own results of the stage before, so that a difference belongs to
+/// one stage and errors do not add up.
 void expectStages(const DeviceFrame& frame, const AnyWalr& settings);
 
-/// Denoise frames in turn; every output must be finite, and the last frame's stages hold.
+/// Denoise frames in turn. Every output must be finite, and every stage of the last frame must match the reference.
 void expectSequence(const fg::vk::Device& device, const std::vector<reference::HostFrame>& frames,
                     const AnyWalr& settings);
 

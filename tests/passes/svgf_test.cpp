@@ -1,5 +1,5 @@
-// SVGF's passes on a device against the double-precision reference, each fed with what the device itself made before,
-// so that no error is carried from pass to pass.
+// SVGF's passes on a device agree with the double-precision reference. The reference of each pass starts from the
+// device's own results of the pass before, so that no error is carried from pass to pass.
 #include <cmath>
 #include <string>
 
@@ -25,10 +25,10 @@ using reference::SvgfPixel;
 
 constexpr glm::ivec2 kSize(45, 31);
 
-/// Largest relative error of a product of edge-stopping weights in single precision. Vulkan's log2 errs by 2^-21, exp
-/// by 3 + 2 abs(x) units in the last place where weights matter, a cosine of decoded normals by about eight roundings
-/// and a plane distance, whose terms are of order 1, by about sixteen. An exponent's own relative error counts most
-/// where the weight times it is largest, at 1 / e.
+/// Largest relative error of a product of edge-stopping weights in single precision. Where weights matter, Vulkan's
+/// log2 errs by 2^-21 and its exp by 3 + 2 abs(x) units in the last place. A cosine of decoded normals errs by about
+/// eight roundings, and a plane distance, whose terms are of order 1, by about sixteen. The relative error of an
+/// exponent counts most where the product of exponent and weight is largest, at 1 / e.
 double weightError(const SvgfFilterSettings& settings) {
   return double(settings.sigmaNormal) * (0x1p-21 + 8.0 * kFloatRoundoff) +
          16.0 * kFloatRoundoff / double(settings.sigmaDepth) + 32.0 * kFloatRoundoff;
@@ -42,7 +42,7 @@ Image<Guide> guidesOf(const HostFrame& frame) {
   return reference::prepareGuides(frame, reference::Storage::Quantised);
 }
 
-/// Colours with their deviations, as the variance estimate hands them on: some dark, some bright, some never sampled.
+/// Colours with deviations, as the variance estimate produces them: some dark, some bright, some without a sample.
 Image<glm::dvec4> someColours(const Image<Guide>& guides) {
   Image<glm::dvec4> colours(guides.size());
   forEachPixel(guides.size(), [&](glm::ivec2 p) {
@@ -69,7 +69,7 @@ void expectNear(double value, double expected, double tolerance, glm::ivec2 p, c
 
 class SvgfTest : public fg::test::GpuTest {
  protected:
-  /// The a-trous iterations, whose input is a colour with its deviation.
+  /// The a-trous iterations, with a colour and its deviation as input.
   FilterRun atrous(const SvgfFilterSettings& settings) {
     return {device(), kSize, 1,
             [&](fg::Graph& graph, fg::Buffer frame, const Guides& guides, const std::vector<fg::Texture>& inputs) {
@@ -86,7 +86,7 @@ void expectDeviations(const Image<glm::dvec4>& result, const Image<SvgfPixel>& e
       EXPECT_LT(result[p].w, 0.0) << "a deviation without a sample at (" << p.x << ", " << p.y << ")";
       return;
     }
-    // The variance, which is what arithmetic errs in. Its weights err twice: in the mean and in the mean square.
+    // Error of the variance, on which arithmetic acts. Its weights err twice: in the mean and in the mean square.
     const double variance = expected[p].deviation * expected[p].deviation;
     const double arithmetic = 4.0 * weightError(settings) + 64.0 * kFloatRoundoff;
     const double stored = 2.0 * expected[p].deviation * halfTolerance(expected[p].deviation, 0.0) +
@@ -95,7 +95,7 @@ void expectDeviations(const Image<glm::dvec4>& result, const Image<SvgfPixel>& e
   });
 }
 
-TEST_F(SvgfTest, AccumulationIsThatOfRawMoments) {
+TEST_F(SvgfTest, AccumulationAgreesWithRawMoments) {
   for (const Scene& scene : {flatWall(), skyBesideSurface(), thinBars()}) {
     fg::Graph graph;
     const DenoiserInputs inputs = importInputs(graph, kSize);
@@ -141,7 +141,7 @@ TEST_F(SvgfTest, AccumulationIsThatOfRawMoments) {
         const double difference = m.momentError.y + 2.0 * m.mean * m.momentError.x + arithmetic * m.square;
         expectNear(moments[p].y * moments[p].y, m.variance(), stored + difference, p, "variance");
       });
-      // What the device keeps, as the raw moments that the reference reads.
+      // The device's stored history, converted to the raw moments that the reference reads.
       forEachPixel(kSize, [&](glm::ivec2 p) {
         const glm::dvec4 m = moments[p];
         moments[p] = {m.x, m.y * m.y + m.x * m.x, 0.0, m.z};
@@ -152,7 +152,7 @@ TEST_F(SvgfTest, AccumulationIsThatOfRawMoments) {
   }
 }
 
-TEST_F(SvgfTest, VarianceIsTemporalOrOfTheNeighbourhood) {
+TEST_F(SvgfTest, VarianceIsTemporalOrSpatial) {
   FilterRun variance(
       device(), kSize, 2,
       [](fg::Graph& graph, fg::Buffer frame, const Guides& guides, const std::vector<fg::Texture>& inputs) {
@@ -180,7 +180,7 @@ TEST_F(SvgfTest, VarianceIsTemporalOrOfTheNeighbourhood) {
   }
 }
 
-TEST_F(SvgfTest, VarianceOfASingleFrameIsOfTheNeighbourhood) {
+TEST_F(SvgfTest, VarianceOfASingleFrameIsSpatial) {
   HostFrame frame = renderStill(sphere(), kSize);
   frame.lighting[{20, 15}].x = NAN;
   frame.lighting[{22, 15}].z = INFINITY;
@@ -209,7 +209,7 @@ void expectIteration(const Image<glm::dvec4>& result, const Image<SvgfPixel>& ex
   });
 }
 
-TEST_F(SvgfTest, EveryIterationIsTheReferences) {
+TEST_F(SvgfTest, EveryIterationAgreesWithTheReference) {
   const std::vector<NamedScene> scenes = allScenes();
   std::vector<HostFrame> frames;
   std::vector<Image<glm::dvec4>> inputs;
@@ -233,7 +233,7 @@ TEST_F(SvgfTest, EveryIterationIsTheReferences) {
   }
 }
 
-TEST_F(SvgfTest, EveryKernelSizeIsTheReferences) {
+TEST_F(SvgfTest, EveryKernelSizeAgreesWithTheReference) {
   const HostFrame frame = renderStill(sphere(), kSize);
   const Image<Guide> guides = guidesOf(frame);
   const Image<glm::dvec4> colours = someColours(guides);
@@ -247,7 +247,7 @@ TEST_F(SvgfTest, EveryKernelSizeIsTheReferences) {
   }
 }
 
-TEST_F(SvgfTest, WithoutTheLuminanceWeightItIsTheReferences) {
+TEST_F(SvgfTest, TheFilterWithoutTheLuminanceWeightAgreesWithTheReference) {
   const HostFrame frame = renderStill(sphere(), kSize);
   const Image<Guide> guides = guidesOf(frame);
   const Image<glm::dvec4> colours = someColours(guides);
@@ -259,7 +259,7 @@ TEST_F(SvgfTest, WithoutTheLuminanceWeightItIsTheReferences) {
   }
 }
 
-TEST_F(SvgfTest, TheFullWindowIsTheReferences) {
+TEST_F(SvgfTest, TheFullWindowAgreesWithTheReference) {
   const HostFrame frame = renderStill(stairs(), kSize);
   const Image<Guide> guides = guidesOf(frame);
   const Image<glm::dvec4> colours = someColours(guides);
@@ -270,7 +270,7 @@ TEST_F(SvgfTest, TheFullWindowIsTheReferences) {
   }
 }
 
-/// Mean squared distance along x of what the filter makes of one bright pixel on a wall.
+/// Mean squared distance along x of the light into which the filter spreads one bright pixel on a wall.
 double spreadOf(const Image<glm::dvec4>& response, glm::ivec2 centre) {
   double sum = 0.0;
   double squares = 0.0;
@@ -293,13 +293,13 @@ TEST_F(SvgfTest, TheFullWindowIsAsWideAsTheIterations) {
   const double full = spreadOf(atrous(settings).run(frame, guides, {impulse}), centre);
   double sum = 0.0;
   double squares = 0.0;
-  for (int x = -14; x <= 14; ++x) {  // Where the iterations end.
+  for (int x = -14; x <= 14; ++x) {  // The reach of the iterations.
     const double gaussian = std::exp(-0.5 * x * x / 21.0);
     sum += gaussian;
     squares += gaussian * x * x;
   }
-  // Binomial rows of variance 1 with spacings of 1, 2 and 4 add up to 21. Weights are one to a few parts in a thousand
-  // on the wall (`WeightsAreOneOnAPlane`).
+  // The variances of the binomial kernels, with spacings of 1, 2 and 4, add up to 21. On the wall weights are one up to
+  // a few parts in a thousand (`WeightsAreOneOnAPlane`).
   EXPECT_NEAR(iterated, 21.0, 0.01 * 21.0);
   EXPECT_NEAR(full, squares / sum, 0.01 * 21.0);
 }
@@ -329,8 +329,8 @@ TEST_F(SvgfTest, WeightsAreOneOnAPlane) {
   settings.luminanceWeight = false;
   const Image<glm::dvec4> result = atrous(settings).run(frame, guides, {colours});
 
-  // Rounded depths and normals leave the plane a little: a depth by its rounding, a normal tilted by two steps at a
-  // distance of no more than a tenth of the depth by a fifth of a step; the cosine of such a tilt is 1.
+  // Rounded depths and normals deviate a little from the plane: a depth by its rounding, and a normal tilted by two
+  // steps moves the plane at a tenth of the depth away by a fifth of a step. The cosine of such a tilt is 1.
   const double distance = 2.0 * reference::kDepthRoundoff + 0.2 * 2.0 * reference::kUnorm16Step;
   const double weights = distance / double(settings.sigmaDepth) + weightError(settings);
   constexpr double kSpline[] = {1.0, 4.0, 6.0, 4.0, 1.0};
@@ -341,7 +341,7 @@ TEST_F(SvgfTest, WeightsAreOneOnAPlane) {
         for (int i = 0; i < 5; ++i)
           mean += kSpline[i] * kSpline[j] / 256.0 * glm::dvec3(colours[{x + i - 2, y + j - 2}]);
       for (int c = 0; c < 3; ++c) {
-        // No tap is further from the mean than the largest colour, exp(1).
+        // No tap differs from the mean by more than the largest colour, exp(1).
         expectNear(result[{x, y}][c], mean[c], 2.0 * weights * std::exp(1.0) + halfTolerance(mean[c], 0.0), {x, y},
                    "colour");
       }

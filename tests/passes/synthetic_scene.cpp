@@ -14,10 +14,10 @@ namespace {
 
 using reference::HostFrame;
 
-constexpr double kFocalLength = 2.0;  // Of a picture whose height is 2.
+constexpr double kFocalLength = 2.0;  // For an image plane of height 2.
 constexpr double kBackgroundDepth = 1e10;
 
-/// Distance to the plane through `point`; nothing behind the camera.
+/// Distance to the plane through `point`; none behind the camera.
 std::optional<double> hitPlane(glm::dvec3 origin, glm::dvec3 direction, glm::dvec3 point, glm::dvec3 normal) {
   const double t = glm::dot(point - origin, normal) / glm::dot(direction, normal);
   if (!(t > 1e-6)) return std::nullopt;
@@ -37,7 +37,7 @@ const glm::dvec3 kWallPoint(0.0, 0.0, -5.0);
 const glm::dvec3 kWallNormal = glm::normalize(glm::dvec3(0.3, 0.2, 1.0));
 const glm::dvec3 kBackNormal(0.0, 0.0, 1.0);
 
-/// Uniform in (0, 1), from a hash of pixel, frame and channel.
+/// A random number, uniform in (0, 1), from a hash of pixel, frame and channel.
 double uniformSample(glm::ivec2 p, std::uint32_t frameIndex, std::uint32_t channel) {
   return (reference::pcg4d({p, frameIndex, channel + 1000U}).x + 0.5) * 0x1p-32;
 }
@@ -76,7 +76,7 @@ Scene sphere() {
 
 Scene thinBars() {
   return [](glm::dvec3 origin, glm::dvec3 direction) -> std::optional<SceneHit> {
-    // At this distance a picture 96 x 64 has 12.8 pixels per unit.
+    // At this distance an image of 96 x 64 has 12.8 pixels per unit.
     const auto bar = hitPlane(origin, direction, {0.0, 0.0, -5.0}, kBackNormal);
     if (bar) {
       const glm::dvec3 p = origin + *bar * direction;

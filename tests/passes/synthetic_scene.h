@@ -13,63 +13,63 @@
 /// Small analytic scenes with their G-buffers, for tests of the passes.
 namespace walr::test {
 
-/// What a ray meets.
+/// The point at which a ray meets a surface.
 struct SceneHit {
-  double distance = 0.0;          ///< In units of the ray's direction.
+  double distance = 0.0;          ///< In units of the length of the ray's direction.
   glm::dvec3 shadingNormal{0.0};  ///< World space; need not be unit.
   bool diffuse = true;            ///< False for black metal, glass, emitters: albedo 0.
   std::uint32_t object = 0;       ///< Number of the object.
-  glm::dvec3 moved{0.0};          ///< By how much it has moved since the frame before, world space.
+  glm::dvec3 moved{0.0};          ///< Movement since the previous frame, world space.
 };
 
-/// A world: what a ray from `origin` along `direction` meets first, or nothing: sky.
+/// A world: the first hit of a ray from `origin` along `direction`; none for sky.
 using Scene = std::function<std::optional<SceneHit>(glm::dvec3 origin, glm::dvec3 direction)>;
 
 /// A tilted wall.
 Scene flatWall();
-/// The same wall with shading normals that waver by the given amplitude.
+/// The same wall with shading normals that vary by the given amplitude.
 Scene bumpyWall(double amplitude);
-/// A sphere before a wall.
+/// A sphere in front of a wall.
 Scene sphere();
-/// Bars 1.5 pixels wide (in a picture 96 pixels wide) before a wall.
+/// Bars 1.5 pixels wide (in an image 96 pixels wide) in front of a wall.
 Scene thinBars();
-/// A wall that ends in the middle of the picture, sky behind, and a patch on it without a diffuse lobe.
+/// A wall that ends in the middle of the image, with sky behind it and a patch on it without a diffuse lobe.
 Scene skyBesideSurface();
 /// Stairs, seen from the front.
 Scene stairs();
 /// A floor seen at a grazing angle.
 Scene grazingFloor();
 
-/// A wall and, in its plane, a panel that slides to the right by `kPanelStep` a frame.
+/// A wall and, in its plane, a panel that slides to the right by `kPanelStep` per frame.
 Scene slidingPanel(std::uint32_t frame);
 inline constexpr double kPanelStep = 0.5;
 
-/// All of the above that stand still, by name.
+/// All of the scenes above that stand still, with their names.
 struct NamedScene {
   const char* name;
   Scene scene;
 };
 std::vector<NamedScene> allScenes();
 
-/// Radiance that leaves a point.
+/// Radiance that leaves a point of a surface.
 using Light = std::function<glm::dvec3(glm::dvec3 point, glm::dvec3 normal)>;
 /// Smooth light that varies with position and normal, between about 0.2 and 2.
 glm::dvec3 smoothLight(glm::dvec3 point, glm::dvec3 normal);
 
-/// How the lighting samples scatter about the true radiance.
+/// Noise of the lighting samples.
 enum class Noise {
   None,
-  Exponential,  ///< Relative standard deviation 1, as of one path per pixel.
+  Exponential,  ///< Relative standard deviation 1, as at one sample per pixel.
 };
 
-/// A camera that looks down -Z from the origin, moved by `position`; field of view 53 degrees across the height.
+/// A camera at `position` that looks down -Z; field of view 53 degrees across the height.
 FrameDescription cameraAt(glm::dvec3 position, glm::dvec3 previousPosition, glm::ivec2 size, std::uint32_t frameIndex);
 
-/// Render a frame; every value is rounded to the format of the texture that it is meant for.
+/// Render a frame; every value is rounded to the format of its texture.
 reference::HostFrame renderFrame(const Scene& scene, const FrameDescription& camera, glm::ivec2 size,
                                  const Light& light = smoothLight, Noise noise = Noise::Exponential);
 
-/// A still camera's frame.
+/// Render a frame of a still camera.
 reference::HostFrame renderStill(const Scene& scene, glm::ivec2 size, std::uint32_t frameIndex = 0,
                                  Noise noise = Noise::Exponential);
 

@@ -19,7 +19,7 @@ double half(std::uint32_t word, int index) {
   return double(glm::unpackHalf1x16(static_cast<std::uint16_t>(word >> (16 * index))));
 }
 
-/// Unsigned float with a 5-bit exponent.
+/// Decode an unsigned float with a 5-bit exponent.
 double unsignedFloat(std::uint32_t bits, int mantissaBits) {
   const int exponent = static_cast<int>(bits >> mantissaBits);
   const int mantissa = static_cast<int>(bits & ((1U << mantissaBits) - 1U));
@@ -27,12 +27,12 @@ double unsignedFloat(std::uint32_t bits, int mantissaBits) {
   return std::ldexp(double(mantissa + implied), std::max(exponent, 1) - 15 - mantissaBits);
 }
 
-/// R11G11B10.
+/// Decode R11G11B10.
 glm::dvec3 triple(std::uint32_t word) {
   return {unsignedFloat(word & 0x7ffU, 6), unsignedFloat((word >> 11U) & 0x7ffU, 6), unsignedFloat(word >> 22U, 5)};
 }
 
-/// Three mantissas under a shared exponent.
+/// Decode three mantissas under a shared exponent.
 glm::dvec3 sharedExponent(std::uint32_t word, int mantissaBits) {
   const std::uint32_t mask = (1U << mantissaBits) - 1U;
   const int exponent = static_cast<int>(word >> (3 * mantissaBits)) & 31;
@@ -42,13 +42,13 @@ glm::dvec3 sharedExponent(std::uint32_t word, int mantissaBits) {
   return {channel(0), channel(1), channel(2)};
 }
 
-/// Six bits: halves up to 7.5, then eight steps an octave.
+/// Decode the six bits of a history length after accumulation: halves up to 7.5, then eight steps an octave.
 double decodeCount(std::uint32_t code) {
   if (code < 8) return 0.5 * code;
   return std::ldexp(double(8 + code % 8), static_cast<int>(code / 8) - 2);
 }
 
-/// Three bits: 0, powers of two to 32 and the longest.
+/// Decode the three bits of a history length of anti-aliasing: 0, powers of two to 32, and the longest.
 double decodeLength(std::uint32_t code, double longest) {
   if (code == 0) return 0.0;
   return code == 7 ? longest : std::min(std::ldexp(1.0, static_cast<int>(code) - 1), longest);
@@ -72,11 +72,11 @@ MomentValues halvesInOrder(const Words& words, int count) {
 
 reference::Moments decodeCentred16(const Words& words) {
   MomentValues values = halvesInOrder(words, reference::kMomentCount);
-  values[14] *= values[14];  // Kept as its root.
+  values[14] *= values[14];  // Stored as its root.
   return reference::fromArray(values);
 }
 
-/// Raw halves and floats keep u, v, uu, uv, vv, Y, YX_u, YX_v in this order.
+/// Raw halves and floats store u, v, uu, uv, vv, Y, YX_u, YX_v in this order.
 reference::Moments fromRawOrder(const MomentValues& v) {
   return reference::toCentred({.x = {v[0], v[1]},
                                .y = {v[5], v[6], v[7]},

@@ -5,15 +5,15 @@
 
 #include "tests/passes/reference/atrous.h"
 
-/// Texels of the passes' textures as numbers, from what their formats and packings document.
+/// Conversion between numbers and the texels of the passes' textures, written from the documented formats and packings.
 namespace walr::test {
 
-/// RGBA16F. Values must be representable as halves, or not finite.
+/// RGBA16F. Values must be exact as halves, or not finite.
 std::vector<std::uint16_t> encodeHalves(const reference::Image<glm::dvec3>& image);
 reference::Image<glm::dvec4> decodeHalves(const std::vector<std::uint16_t>& texels, glm::ivec2 size);
 
-/// Packed light (packed_light.glsl). Alpha: samples behind it; 1, or -1 where there is no surface; frames behind it, at
-/// most `longest`.
+/// Packed light (packed_light.glsl). Alpha is the history length of accumulated light; for filtered light 1, or -1
+/// where there is no surface; and the history length of resolved light, at most `longest`.
 reference::Image<glm::dvec4> decodeAccumulated(const std::vector<std::uint32_t>& texels, glm::ivec2 size);
 reference::Image<glm::dvec4> decodeFiltered(const std::vector<std::uint32_t>& texels, glm::ivec2 size);
 reference::Image<glm::dvec4> decodeResolved(const std::vector<std::uint32_t>& texels, double longest, glm::ivec2 size);
@@ -21,7 +21,7 @@ reference::Image<glm::dvec4> decodeResolved(const std::vector<std::uint32_t>& te
 /// R32F.
 std::vector<float> encodeFloats(const reference::Image<double>& image);
 
-/// The bits of a packed view depth without those of the edge distance, and the edge distance.
+/// Split a packed view depth into the depth and the edge distance.
 double decodeDepth(std::uint32_t packed);
 int decodeEdgeDistance(std::uint32_t packed);
 /// Two 16-bit unorms.
@@ -29,7 +29,7 @@ glm::dvec2 decodeUnorms(std::uint32_t packed);
 /// A normal of R32_UINT or R16_UINT.
 glm::dvec3 decodeNormal(std::uint32_t packed);
 
-/// The R32_UINT texels of guides; what is not needed is empty.
+/// The R32_UINT texels of guides; those that a test does not need are empty.
 struct GuideTexels {
   std::vector<std::uint32_t> depth;
   std::vector<std::uint32_t> shadingNormal = {};
@@ -38,8 +38,8 @@ struct GuideTexels {
 };
 reference::Image<reference::Guide> decodeGuides(const GuideTexels& texels, glm::ivec2 size);
 
-/// Centred moments from the texels of a storage's textures; raw storage has no second luminance moment, and W is 1,
-/// or 0 where the features' mean of 0 tells that there is no sample.
+/// Centred moments from the texels of a storage's textures. Raw storage has no second moment of luminance; its W is 1,
+/// or 0 where a feature mean of 0 marks a pixel without a sample.
 reference::Image<reference::Moments> decodeMoments(MomentStorage storage,
                                                    const std::vector<std::vector<std::uint32_t>>& textures,
                                                    glm::ivec2 size);

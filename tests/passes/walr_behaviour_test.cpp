@@ -1,4 +1,4 @@
-// What WALR promises to a host, on a device: constants, sky, first frames, broken input, repeatability.
+// Promises of WALR to a host, on a device: constant light, sky, first frames, broken input, repeatability.
 
 #include <algorithm>
 #include <cmath>
@@ -23,18 +23,18 @@ constexpr glm::ivec2 kSize(96, 64);
 constexpr glm::ivec2 kSmall(40, 28);
 const glm::dvec3 kConstant(0.75, 0.5, 1.25);
 
-/// A value passes through six stores as a half (accumulation, three iterations, regression, anti-aliasing; or blocks,
-/// two iterations, their fit, regression), each of which may move it by a unit in the last place; averages of equal
-/// values add nothing. Raw moments keep this promise only where features do not vary: rounding of the averages of
-/// products leaves a slope.
+/// A value is stored as a half six times (accumulation, three iterations, regression, anti-aliasing; or blocks, two
+/// iterations, their fit, regression), and each store may move it by a unit in the last place. Averages of equal values
+/// add no error. Raw moments keep constants only where features do not vary, because rounding the averages of products
+/// leaves a slope.
 double halvesTolerance(double value) {
   return 6.0 * 2.0 * reference::kHalfRoundoff * value;
 }
 
-/// Packed light is rounded by chance wherever it is not what a mantissa holds, as the constant itself is: of what
-/// halves make of it the filtered colour errs by a step. History is then clipped to a box in YCoCg about the mean of
-/// such colours, of their deviation or of the least size that there is, 2^-7 of the brightest channel; three half sizes
-/// move a channel.
+/// Packed light is rounded stochastically unless a mantissa holds it exactly. A mantissa holds the constant, but not
+/// the constant with the errors of halves, so the filtered colour errs by a step more. History is then clipped to a box
+/// in YCoCg about the mean of such colours. The box's half size is their deviation, or at least 2^-7 of the brightest
+/// channel, and three half sizes add up in a channel.
 double constantTolerance(double value, const AnyWalr& settings) {
   const double halves = halvesTolerance(value);
   if (!settings.packsAntialiasing()) return halves;
@@ -45,7 +45,7 @@ double constantTolerance(double value, const AnyWalr& settings) {
   return filtered + historyShare * 3.0 * std::max(filtered, 0x1p-7 * brightest);
 }
 
-/// Blocks between halves alone, which keep constants more tightly.
+/// Settings of `walr` without packed light, which keep constants more precisely.
 WalrSettings blocksInHalves() {
   WalrSettings settings;
   settings.accumulation.storage = settings.antialiasing.storage = LightStorage::Half;
@@ -92,16 +92,17 @@ TEST_F(WalrBehaviourTest, ConstantLightComesBackUnchanged) {
     expectUnchanged(named.scene, WalrSettings{});
     expectUnchanged(named.scene, blocksInHalves());
   }
-  // Bicubic history, which the paper's preset reads without clipping, takes in the sky beside a surface: none here.
+  // The preset paper reads history with a bicubic filter and does not clip it, which takes in sky beside a surface.
+  // These scenes have none.
   for (const Scene& scene : {flatWall(), thinBars()}) expectUnchanged(scene, paperWalr());
 }
 
-/// Whether a pixel is sky or has no diffuse lobe.
+/// Whether a pixel takes the pass-through: sky or no diffuse lobe.
 bool passesThrough(const HostFrame& frame, glm::ivec2 p) {
   return frame.depth[p] > 1e9 || frame.albedo[p] == glm::dvec3(0.0);
 }
 
-/// A frame where what passes through is something that no filter would leave alone, the same in every frame.
+/// A frame whose pass-through has values that any filter would change, the same in every frame.
 HostFrame frameThatPassesThrough(std::uint32_t index) {
   HostFrame frame = renderFrame(skyBesideSurface(), cameraAt({}, {}, kSize, index), kSize);
   int passing = 0;
@@ -129,8 +130,8 @@ TEST_F(WalrBehaviourTest, SkyAndPixelsWithoutDiffuseLobeKeepEveryBit) {
   }
 }
 
-// Packed, they are rounded to nearest, in every frame alike.
-TEST_F(WalrBehaviourTest, PackedSkyAndPixelsWithoutDiffuseLobeAreTrueAndDoNotFlicker) {
+// Packed light of the pass-through is rounded to nearest, in every frame alike.
+TEST_F(WalrBehaviourTest, PackedSkyAndPixelsWithoutDiffuseLobeAreRoundedToNearestAndDoNotFlicker) {
   WalrRun run = makeRun(kSize, WalrSettings{});
   std::vector<std::uint16_t> firstBits;
   for (std::uint32_t i = 0; i < 4; ++i) {
@@ -142,7 +143,7 @@ TEST_F(WalrBehaviourTest, PackedSkyAndPixelsWithoutDiffuseLobeAreTrueAndDoNotFli
       SCOPED_TRACE(std::to_string(p.x) + ", " + std::to_string(p.y));
       const glm::dvec3 light = frame.lighting[p];
       for (int c = 0; c < 3; ++c) {
-        const double tolerance = reference::passedError(light[c], std::max({light.r, light.g, light.b}));
+        const double tolerance = reference::passThroughError(light[c], std::max({light.r, light.g, light.b}));
         EXPECT_NEAR(stages.output[p][c], light[c], tolerance);
         const std::size_t texel = 4 * (std::size_t(p.y) * kSize.x + p.x) + c;
         EXPECT_EQ(stages.outputBits[texel], firstBits[texel]);
@@ -165,7 +166,7 @@ TEST_F(WalrBehaviourTest, TheSkysLightStaysInTheSky) {
   }
 }
 
-/// Variance of the output relative to its squared mean, over a picture of one radiance.
+/// Variance of the output relative to its squared mean, for constant light.
 double relativeVariance(const WalrStages& stages) {
   double sum = 0.0;
   double squares = 0.0;
@@ -178,9 +179,9 @@ double relativeVariance(const WalrStages& stages) {
   return squares / count / (mean * mean) - 1.0;
 }
 
-// Four iterations see at least the quarter of their window, 41 x 41 pixels, in a corner of the picture (64 pixels
-// high); replaced taps count samples again, up to four times along a border. So of a sample's relative variance, 1, no
-// more than 4 / 41^2 is left.
+// In a corner of the image, which is 64 pixels high, four iterations average at least a quarter of their window, 41 x
+// 41 pixels. Replaced taps count samples again, up to four times along a border. A sample's relative variance is 1, so
+// at most 4 / 41^2 remains.
 TEST_F(WalrBehaviourTest, FirstFramesAreDenoisedSpatially) {
   const auto noisy = [](std::uint32_t index) {
     return renderFrame(
@@ -192,7 +193,7 @@ TEST_F(WalrBehaviourTest, FirstFramesAreDenoisedSpatially) {
   run.resetHistory();
   const WalrStages afterReset = run.frame(noisy(7));
   EXPECT_LE(relativeVariance(afterReset), 4.0 / (41.0 * 41.0));
-  // Nothing is left of what was before.
+  // The reset leaves nothing of the frames before.
   WalrRun fresh = makeRun(kSize);
   EXPECT_EQ(afterReset.outputBits, fresh.frame(noisy(7)).outputBits);
 }
@@ -209,7 +210,7 @@ TEST_F(WalrBehaviourTest, TwoRunsGiveTheSameBits) {
   }
 }
 
-/// One broken value in one input.
+/// A broken value in one of the inputs.
 struct Damage {
   const char* name;
   std::function<void(HostFrame&, glm::ivec2)> apply;
@@ -237,11 +238,11 @@ std::vector<Damage> allDamage() {
           {"albedo inf", [](HostFrame& f, glm::ivec2 p) { f.albedo[p].b = kInfinity; }}};
 }
 
-// Under constant light whatever a broken value does to any other pixel shows: all of them must keep the constant, in
-// the frame itself and in those after it.
+// Under constant light, any effect of a broken value on another pixel shows. All other pixels must keep the constant,
+// in the same frame and in the following ones.
 TEST_F(WalrBehaviourTest, BrokenInputStaysFiniteAndDoesNotSpread) {
   const glm::ivec2 broken(19, 13);
-  // The paper's raw moments keep a constant on a flat wall only.
+  // The raw moments of the preset paper keep a constant only on a flat wall.
   const std::pair<AnyWalr, Scene> cases[] = {{robustWalr(), bumpyWall(0.1)},
                                              {WalrSettings{}, bumpyWall(0.1)},
                                              {blocksInHalves(), bumpyWall(0.1)},
@@ -255,7 +256,7 @@ TEST_F(WalrBehaviourTest, BrokenInputStaysFiniteAndDoesNotSpread) {
         if (i == 1) damage.apply(frame, broken);
         const WalrStages stages = run.frame(frame);
         for (int c = 0; c < 3; ++c) EXPECT_TRUE(std::isfinite(stages.output[broken][c]));
-        // The pixel itself may be passed through as sky is, where a value that is not finite becomes 0.
+        // The pixel itself may take the pass-through like sky, where a value that is not finite becomes 0.
         HostFrame expected = frame;
         expected.lighting[broken] = i == 1 ? glm::dvec3(stages.output[broken]) : kConstant;
         expectConstant(stages, expected, settings);
@@ -264,8 +265,8 @@ TEST_F(WalrBehaviourTest, BrokenInputStaysFiniteAndDoesNotSpread) {
   }
 }
 
-// Whatever share of the first frame is no sample: the others' light is all that is seen. The share is drawn anew in
-// each channel, so that what counted as black in one would also show as a tint.
+// A share of the first frame's pixels has no sample. Only the light of the others may show. The share is drawn anew in
+// each channel, so that a sample counted as black in one of them would also show as a tint.
 TEST_F(WalrBehaviourTest, PixelsWithoutASampleDoNotDarken) {
   WalrPaperSettings raw11 = paperWalr();
   raw11.regression.storage = MomentStorage::Raw11;
@@ -297,7 +298,7 @@ TEST_F(WalrBehaviourTest, PixelsWithoutASampleDoNotDarken) {
   }
 }
 
-TEST_F(WalrBehaviourTest, FirstFrameMayHoldNothingButBrokenValues) {
+TEST_F(WalrBehaviourTest, AFirstFrameWithoutSamplesIsBlackAndTheNextOneFinite) {
   for (const AnyWalr& settings : {AnyWalr(robustWalr()), AnyWalr(WalrSettings{})}) {
     WalrRun run = makeRun(kSmall, settings);
     HostFrame frame = constantFrame(bumpyWall(0.1), 0, kSmall);
@@ -310,8 +311,9 @@ TEST_F(WalrBehaviourTest, FirstFrameMayHoldNothingButBrokenValues) {
   }
 }
 
-// The stages of `robust` are held against their reference on these; blocks must come out finite and never negative.
-TEST_F(WalrBehaviourTest, BlocksSurviveTheHardCases) {
+// Tests of the stages compare `robust` with its reference on these cases. The output of blocks must be finite and never
+// negative.
+TEST_F(WalrBehaviourTest, BlocksAreFiniteAndNotNegativeOnHardCases) {
   for (const HardCase& hard : hardCases()) {
     SCOPED_TRACE(hard.name);
     WalrRun run = makeRun(hard.frames.front().size(), WalrSettings{});

@@ -1,5 +1,4 @@
-// What becomes of WALR's histories when the camera jumps, a frame is lost, pixels are jittered, exposure changes or the
-// scene holds still.
+// WALR's histories when the camera jumps, a frame is lost, pixels are jittered, exposure changes or the scene is still.
 
 #include <algorithm>
 #include <cmath>
@@ -23,12 +22,12 @@ glm::dvec3 constantLight(glm::dvec3 /*point*/, glm::dvec3 /*normal*/) {
   return kConstant;
 }
 
-/// Where the camera is at a time; it moves by about a pixel and a half a frame.
+/// Position of the camera at a time; it moves by about a pixel and a half a frame.
 glm::dvec3 cameraPosition(double time) {
   return {0.09 * time, 0.04 * time, -0.03 * time};
 }
 
-/// Samples of a pixel in steps of 1/2 and 1/3 about its centre (Halton 1960).
+/// Jitter about the pixel's centre, by the Halton sequences of bases 2 and 3 (Halton 1960).
 glm::vec2 jitterAt(std::uint32_t index) {
   constexpr std::array kHalton{glm::vec2(0.0F, -0.16666667F), glm::vec2(-0.25F, 0.16666667F),
                                glm::vec2(0.25F, -0.38888889F), glm::vec2(-0.375F, -0.05555556F)};
@@ -52,7 +51,7 @@ void scaleLight(HostFrame& frame, double scale) {
 
 class WalrHistoryTest : public fg::test::GpuTest {
  protected:
-  /// Both presets, against double precision.
+  /// Both presets agree with the reference.
   void expectFrames(const std::vector<HostFrame>& frames) const {
     for (const WalrPaperSettings& settings : {robustWalr(), paperWalr()}) {
       SCOPED_TRACE(settings.regression.storage == MomentStorage::Centred16 ? "robust" : "paper");
@@ -61,7 +60,7 @@ class WalrHistoryTest : public fg::test::GpuTest {
   }
 };
 
-TEST_F(WalrHistoryTest, StagesHoldAcrossACameraCut) {
+TEST_F(WalrHistoryTest, StagesAgreeWithTheReferenceAcrossACameraCut) {
   for (const Scene& scene : {sphere(), stairs()}) {
     std::vector<HostFrame> frames{movingFrame(scene, 0, -1, 0), movingFrame(scene, 1, 0, 1)};
     frames.push_back(movingFrame(scene, 12, 1, 2));
@@ -69,12 +68,12 @@ TEST_F(WalrHistoryTest, StagesHoldAcrossACameraCut) {
   }
 }
 
-TEST_F(WalrHistoryTest, StagesHoldWhenAFrameIsSkipped) {
+TEST_F(WalrHistoryTest, StagesAgreeWithTheReferenceWhenAFrameIsSkipped) {
   for (const Scene& scene : {sphere(), thinBars()})
     expectFrames({movingFrame(scene, 0, -1, 0), movingFrame(scene, 1, 0, 1), movingFrame(scene, 3, 1, 3)});
 }
 
-TEST_F(WalrHistoryTest, StagesHoldUnderJitter) {
+TEST_F(WalrHistoryTest, StagesAgreeWithTheReferenceUnderJitter) {
   for (const Scene& scene : {sphere(), thinBars()}) {
     std::vector<HostFrame> frames;
     for (std::uint32_t i = 1; i < 4; ++i) {
@@ -85,7 +84,7 @@ TEST_F(WalrHistoryTest, StagesHoldUnderJitter) {
   }
 }
 
-TEST_F(WalrHistoryTest, StagesHoldWhenExposureChangesBy256) {
+TEST_F(WalrHistoryTest, StagesAgreeWithTheReferenceWhenExposureChangesBy256) {
   for (const double scale : {0x1p8, 0x1p-8}) {
     std::vector<HostFrame> frames;
     for (std::uint32_t i = 0; i < 3; ++i) frames.push_back(movingFrame(bumpyWall(0.1), i, i - 1.0, i));
@@ -94,7 +93,7 @@ TEST_F(WalrHistoryTest, StagesHoldWhenExposureChangesBy256) {
   }
 }
 
-/// The settings that choose a shader of their own for the accumulation.
+/// Settings with antilag, each of which selects another shader of the accumulation.
 std::vector<WalrPaperSettings> responsiveSettings() {
   WalrPaperSettings plane = robustWalr();
   plane.accumulation.antilag.enabled = true;
@@ -104,12 +103,12 @@ std::vector<WalrPaperSettings> responsiveSettings() {
   WalrPaperSettings none = plane;
   none.accumulation.rejection = none.antialiasing.rejection = HistoryRejection::None;
   WalrPaperSettings apart = plane;
-  apart.antialiasing.normalThreshold = 0.4F;  // Its own reprojection.
+  apart.antialiasing.normalThreshold = 0.4F;  // Makes anti-aliasing do its own reprojection.
   apart.accumulation.antilag.radius = 0;
   return {plane, depth, none, apart};
 }
 
-/// Largest antilag factor in the history of the last frame but one, after the light has changed in it.
+/// Largest antilag factor after the light has changed in the last frame.
 double antilagAfterChange(const fg::vk::Device& device, const WalrPaperSettings& settings,
                           const SceneDescription& scene, double change) {
   WalrRun run(device, kSize, settings, {}, true, scene);
@@ -123,12 +122,12 @@ double antilagAfterChange(const fg::vk::Device& device, const WalrPaperSettings&
   return largest;
 }
 
-TEST_F(WalrHistoryTest, StagesHoldWhereLightChanges) {
+TEST_F(WalrHistoryTest, StagesAgreeWithTheReferenceWhereTheLightChanges) {
   for (const WalrPaperSettings& settings : responsiveSettings()) {
     SCOPED_TRACE("rejection " + std::to_string(int(settings.accumulation.rejection)) + ", radius " +
                  std::to_string(settings.accumulation.antilag.radius));
     for (const bool cameraAlone : {false, true}) {
-      // The light changes in the last frame but one, so that antilag shortens history in the last one.
+      // The light changes in the last frame but one, so antilag shortens history in the last one.
       std::vector<HostFrame> frames;
       for (std::uint32_t i = 0; i < 5; ++i) frames.push_back(movingFrame(bumpyWall(0.1), i, i - 1.0, i));
       for (std::size_t i = 3; i < 5; ++i) scaleLight(frames[i], 0.25);
@@ -147,28 +146,29 @@ TEST_F(WalrHistoryTest, StagesHoldWhereLightChanges) {
 
 TEST_F(WalrHistoryTest, AntilagFollowsTheLight) {
   const WalrPaperSettings settings = responsiveSettings().front();
-  // A fall to a quarter is many standard errors of a window; the same light is less than a few.
+  // A fall to a quarter is many standard errors of a window; unchanged light differs by less than a few.
   EXPECT_EQ(antilagAfterChange(device(), settings, {}, 0.25), 1.0);
   EXPECT_LT(antilagAfterChange(device(), settings, {}, 1.0), 0.5);
 }
 
-TEST_F(WalrHistoryTest, StagesHoldWithMotionFromTheCameraAlone) {
+TEST_F(WalrHistoryTest, StagesAgreeWithTheReferenceWithMotionFromTheCameraAlone) {
   constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   WalrPaperSettings settings = robustWalr();
-  settings.antialiasing.normalThreshold = 0.4F;  // Its own reprojection, which no rounding of the motion precedes.
+  // Makes anti-aliasing do its own reprojection, so motion is not rounded.
+  settings.antialiasing.normalThreshold = 0.4F;
   for (const Scene& scene : {sphere(), stairs()}) {
     std::vector<HostFrame> frames;
     for (std::uint32_t i = 1; i < 4; ++i) {
       const FrameDescription camera = cameraAt(cameraPosition(i), cameraPosition(i - 1.0), kSize, i);
       frames.push_back(renderFrame(scene, jittered(camera, i), kSize));
       frames.back().scene.objectMotion = false;
-      for (glm::dvec3& motion : frames.back().motion.pixels()) motion = glm::dvec3(kNaN);  // Not to be read.
+      for (glm::dvec3& motion : frames.back().motion.pixels()) motion = glm::dvec3(kNaN);  // Must not be read.
     }
     expectSequence(device(), frames, settings);
   }
 }
 
-TEST_F(WalrHistoryTest, StagesHoldInAStillPicture) {
+TEST_F(WalrHistoryTest, StagesAgreeWithTheReferenceInAStillImage) {
   for (const Scene& scene : {skyBesideSurface(), thinBars()}) {
     std::vector<HostFrame> frames;
     for (std::uint32_t i = 0; i < 3; ++i) {
@@ -179,8 +179,8 @@ TEST_F(WalrHistoryTest, StagesHoldInAStillPicture) {
   }
 }
 
-// Nobody says that everything is twice as far away now: all history is rejected, and what comes out is what a first
-// frame would have been. The paper's anti-aliasing rejects nothing but what variance clipping takes away.
+// Everything is suddenly twice as far away, but motion does not say so. All history is rejected, and the output equals
+// that of a first frame. Anti-aliasing of the preset paper only clips history and does not reject it.
 TEST_F(WalrHistoryTest, AnUnannouncedCutLeavesNothingOfTheHistory) {
   for (const bool robust : {true, false}) {
     const WalrPaperSettings settings = robust ? robustWalr() : paperWalr();
@@ -198,8 +198,8 @@ TEST_F(WalrHistoryTest, AnUnannouncedCutLeavesNothingOfTheHistory) {
   }
 }
 
-// On a plane the picture shifts by the same number of pixels everywhere, so that only what comes in at the border has
-// no history: of n pixels along an axis, the shift and one more.
+// On a plane the image shifts by the same number of pixels everywhere. Only pixels that come in at the border have no
+// history: along an axis, the shift and one more.
 TEST_F(WalrHistoryTest, ASkippedFrameCostsHistoryOnlyAtTheBorder) {
   WalrRun run(device(), kSize);
   for (std::uint32_t i = 0; i < 4; ++i) (void)run.frame(movingFrame(flatWall(), i, i - 1.0, i));
@@ -214,8 +214,8 @@ TEST_F(WalrHistoryTest, ASkippedFrameCostsHistoryOnlyAtTheBorder) {
   EXPECT_GT(first, 0);
 }
 
-// A still camera whose pixels are jittered sees the same plane at the same place once the jitter is taken off the
-// motion: no pixel ever loses its history, and constant light stays what it is.
+// A still camera with jitter sees the same plane at the same place once the jitter is removed from motion: no pixel
+// ever loses its history, and constant light stays constant.
 TEST_F(WalrHistoryTest, JitterCostsNoHistory) {
   const WalrPaperSettings settings = robustWalr();
   WalrRun run(device(), kSize, settings);
@@ -226,16 +226,16 @@ TEST_F(WalrHistoryTest, JitterCostsNoHistory) {
     const double expected = std::min(double(i), double(settings.accumulation.maxHistory));
     for (const glm::dvec4& v : stages.accumulated.pixels()) {
       EXPECT_NEAR(v.w, expected, 2.0 * reference::kHalfRoundoff * expected);
-      // Each frame's store may round anew, and the mean carries that on for as many frames as it spans.
+      // Every frame's store may round anew, and the mean keeps that error for as many frames as it spans.
       for (int c = 0; c < 3; ++c)
         EXPECT_NEAR(v[c], kConstant[c], 2.0 * reference::kHalfRoundoff * expected * kConstant[c]);
     }
   }
 }
 
-// After a step of the light by 2^8, k frames leave (1 - 1/n)^k of the difference in a mean of n samples. Variance
-// clipping, in a neighbourhood of one colour, leaves anti-aliasing no history further away than its least box: 4 / 2048
-// of the luma, and each colour is at most 4 times the smallest of its channels here.
+// After a step of the light by 2^8, a mean of n samples keeps (1 - 1/n)^k of the difference after k frames. In a
+// neighbourhood of one colour, variance clipping limits the distance of the anti-aliasing history to the smallest box,
+// 4 / 2048 of the luma. Here the luma is at most 4 times the smallest channel.
 TEST_F(WalrHistoryTest, AStepOfExposureDecaysAsTheMeanDoes) {
   WalrPaperSettings settings = robustWalr();
   settings.accumulation.maxHistory = 4.0F;

@@ -1,4 +1,4 @@
-// Ten thousand frames of a still, noisy scene on a device.
+// Ten thousand frames of a still, noisy scene on a device: the mean does not drift.
 
 #include <cmath>
 
@@ -12,16 +12,16 @@ namespace {
 using reference::HostFrame;
 
 constexpr glm::ivec2 kSize(24, 16);
-constexpr std::uint32_t kCycle = 61;  ///< Different noisy frames, shown again and again.
+constexpr std::uint32_t kCycle = 61;  ///< Number of different noisy frames, shown in turn.
 constexpr std::uint32_t kFrames = 164 * kCycle;
 static_assert(kFrames > 10000);
 
 class WalrLongRunTest : public fg::test::GpuTest {};
 
-// A running mean is linear: over whole cycles its mean is the mean of the samples, but for what its stores round away.
-// A store errs by up to half a unit in the last place, 2 roundoffs wide and evenly, and the mean of n samples carries
-// an error on for n frames. Over all stores of a cycle that leaves a mean error of standard deviation
-// n (2 roundoffs / sqrt(12)) / sqrt(stores); a store that always rounds down would leave n roundoffs, 60 times more.
+// A running mean is linear: over whole cycles its mean is the mean of the samples, up to the rounding of its stores. A
+// store errs by up to half a unit in the last place, evenly over a width of 2 roundoffs, and the mean of n samples
+// keeps an error for n frames. Over all stores of a cycle that leaves a mean error of standard deviation n (2 roundoffs
+// / sqrt(12)) / sqrt(stores). A store that always rounds down would leave n roundoffs, 60 times more.
 TEST_F(WalrLongRunTest, TheMeanDoesNotDriftAndMemoryDoesNotGrow) {
   std::vector<HostFrame> cycle;
   glm::dvec3 inputMean(0.0);

@@ -1,4 +1,4 @@
-// What WALR's plan promises, on any device: how many bytes it moves, and that nothing is there which nobody reads.
+// Promises of WALR's plan, on any device: traffic, memory, and no resource that no pass reads.
 #include <cstdint>
 #include <string>
 #include <variant>
@@ -18,7 +18,7 @@ struct Planned {
   fg::Graph graph;
   fg::Plan plan;
 
-  /// Declared traffic in whole bytes a pixel: the frame constants add less than a thousandth.
+  /// Declared traffic in whole bytes per pixel; the frame constants add less than a thousandth.
   [[nodiscard]] std::uint64_t bytesPerPixel() const {
     return (plan.traffic.bytesRead + plan.traffic.bytesWritten) / plan.traffic.pixels;
   }
@@ -53,7 +53,7 @@ Planned planWalr(const test::AnyWalr& settings, const SceneDescription& scene = 
   return planned;
 }
 
-// The project's budgets for the paper's pipeline at 1080p, every texel of every access counted once a pass.
+// The project's budgets for the paper's pipeline at 1080p. Each pass counts every texel of each of its accesses once.
 TEST(WalrPlan, ThePaperMovesNoMoreThanItsBudget) {
   WalrPaperSettings settings = paperWalr();
   EXPECT_LE(planWalr(settings).bytesPerPixel(), 350U);
@@ -61,13 +61,13 @@ TEST(WalrPlan, ThePaperMovesNoMoreThanItsBudget) {
   EXPECT_LE(planWalr(settings).bytesPerPixel(), 280U);
 }
 
-// The project's budget for the default at 1080p: histories, and transients that find no room in them.
+// The project's budget for the default at 1080p: histories, and transients that cannot alias them.
 TEST(WalrPlan, TheDefaultNeedsNoMoreMemoryThanItsBudget) {
   const fg::MemoryReport memory = planWalr(WalrSettings{}).plan.memory;
   EXPECT_LE(memory.persistentBytes + memory.transientPeakBytes, 91'000'000U);
 }
 
-// The project's budget for the default, from the smallest pictures on that it is measured on.
+// The project's budget for the default, at the smallest image size for which it is measured and above.
 TEST(WalrPlan, TheDefaultMovesAtMostHalfOfWhatThePaperMoves) {
   for (const fg::Extent extent :
        {fg::Extent{384, 216}, fg::Extent{480, 270}, fg::Extent{960, 540}, kFullHd, fg::Extent{3840, 2160}}) {
@@ -76,7 +76,7 @@ TEST(WalrPlan, TheDefaultMovesAtMostHalfOfWhatThePaperMoves) {
   }
 }
 
-// Blocks of 4 x 4 pixels below 215 lines, of 8 x 8 from 344 on, unless asked not to fit.
+// Blocks have 4 x 4 pixels below 215 lines and 8 x 8 from 344 lines on, unless `walr.fit-window` is off.
 TEST(WalrPlan, BlocksFitThePicture) {
   const auto blocksOf = [](const WalrSettings& settings, fg::Extent extent) {
     const Planned planned = planWalr(settings, {}, extent);

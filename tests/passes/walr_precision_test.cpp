@@ -1,5 +1,5 @@
-// Which epsilon each storage of the moments needs, on a device: the table of design figures, with a signal that is
-// linear in the features. What is said to fail must be seen to fail.
+// The epsilon that each storage of the moments needs, on a device: the table of design goals, for a signal that is
+// linear in the features. A storage that is said to fail must fail.
 
 #include <string>
 

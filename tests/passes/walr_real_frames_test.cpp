@@ -1,4 +1,4 @@
-// The stages of WALR on crops of real path-traced frames, where they are at hand.
+// The stages of WALR agree with the reference on crops of real path-traced frames, if these are installed.
 
 #include <filesystem>
 
@@ -22,7 +22,7 @@ glm::dvec3 triple(const Image& image, glm::ivec2 p) {
   return value;
 }
 
-/// The part of a frame from `origin` on, as a camera with a shifted lens would show it.
+/// The part of a frame from `origin` on, with the camera's lens shifted accordingly.
 HostFrame cropOf(const Frame& frame, const Layout& layout, glm::ivec2 origin) {
   FrameDescription description;
   description.view = frame.camera.view;
@@ -60,7 +60,7 @@ class WalrRealFramesTest : public fg::test::GpuTest {
  protected:
   void expectCrop(const char* name, FrameRange range, glm::ivec2 origin) const {
     const std::filesystem::path folder = std::filesystem::path(WALR_SEQUENCES) / name;
-    if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is not here: nothing to compare";
+    if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " does not exist: there are no frames to compare";
     SequenceOptions options;
     options.frames = range;
     const Sequence sequence(folder, options);

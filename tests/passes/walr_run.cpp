@@ -14,7 +14,7 @@ using fg::vk::kOverwritable;
 using fg::vk::kReadable;
 using fg::vk::kUploaded;
 
-/// The version last written of the resource of this name; invalid where there is none.
+/// The last version of the resource of this name; invalid where there is none.
 fg::Texture findTexture(const fg::Graph& graph, const std::string& name) {
   const auto& resources = graph.desc().resources;
   for (std::uint32_t i = 0; i < resources.size(); ++i) {
@@ -23,7 +23,7 @@ fg::Texture findTexture(const fg::Graph& graph, const std::string& name) {
   return {};
 }
 
-/// A guide, whether it is kept for the next frame or not.
+/// A guide by its name, with or without history.
 fg::Texture findGuide(const fg::Graph& graph, const std::string& name) {
   const fg::Texture kept = findTexture(graph, name + ".current");
   return kept.valid() ? kept : findTexture(graph, name);
@@ -144,7 +144,7 @@ WalrStages WalrRun::frame(const reference::HostFrame& frame) {
   const auto halves = [&](fg::Texture t) { return decodeHalves(run_->texels<std::uint16_t>(t), size_); };
   const auto words = [&](fg::Texture t) { return run_->texels<std::uint32_t>(t); };
   const auto wordsIfAny = [&](fg::Texture t) { return t.valid() ? words(t) : std::vector<std::uint32_t>(); };
-  // In 16 or 32 bits.
+  // Stored in 16 or 32 bits.
   const auto normalsIfAny = [&](fg::Texture t) {
     if (!t.valid()) return std::vector<std::uint32_t>();
     const std::vector<std::uint16_t> words16 = run_->texels<std::uint16_t>(t);

@@ -12,12 +12,13 @@
 
 namespace walr::test {
 
-/// What every stage of WALR left in one frame on the device.
+/// Results of every stage of WALR in one frame on the device.
 struct WalrStages {
   reference::Image<reference::Guide> guides;
-  reference::Image<glm::dvec4> accumulated;        ///< rgb: mean; a: number of samples.
-  reference::Image<glm::dvec2> antilagTiles;       ///< Of light that changes: sum, sum of squares; empty without.
-  reference::Image<double> antilag;                ///< The same: in history, by tiles.
+  reference::Image<glm::dvec4> accumulated;  ///< rgb: mean; a: number of samples.
+  reference::Image<glm::dvec2>
+      antilagTiles;                  ///< Per tile, sum and sum of squares of differences; empty without antilag.
+  reference::Image<double> antilag;  ///< Antilag factor per tile; empty without antilag.
   std::vector<reference::AtrousState> iterations;  ///< After each iteration but the last; over pixels.
   reference::Image<glm::dvec4> filtered;
   reference::Image<glm::dvec4> resolved;  ///< rgb: mean; a: number of frames.
@@ -29,7 +30,7 @@ struct WalrStages {
 /// WALR on a device, fed with frames in memory.
 class WalrRun {
  public:
-  /// @param settings as they are, however small the picture: `fitWindow` is taken for off
+  /// @param settings used as they are, however small the image: `fitWindow` is ignored
   /// @param inspect read back every stage, not only the output
   /// @param views   views of the filter to read back
   WalrRun(const fg::vk::Device& device, glm::ivec2 size, AnyWalr settings = robustWalr(),

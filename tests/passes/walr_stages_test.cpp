@@ -1,4 +1,4 @@
-// Every stage of WALR on a device against the double-precision reference.
+// Every stage of WALR on a device agrees with the double-precision reference.
 
 #include <cmath>
 #include <string_view>
@@ -23,7 +23,7 @@ std::vector<HostFrame> movingFrames(const Scene& scene, glm::ivec2 size) {
   return frames;
 }
 
-/// The presets, and the paper's with its other storages at the epsilon that suits each.
+/// The presets, and the preset paper with other storages, each with the epsilon that suits it.
 struct NamedSettings {
   const char* name;
   WalrPaperSettings settings;
@@ -47,7 +47,7 @@ std::vector<NamedSettings> allSettings() {
 
 class WalrStagesTest : public fg::test::GpuTest {};
 
-TEST_F(WalrStagesTest, HoldOnEveryScene) {
+TEST_F(WalrStagesTest, AgreeWithTheReferenceOnEveryScene) {
   for (const WalrPaperSettings& settings : {robustWalr(), paperWalr()}) {
     SCOPED_TRACE(settings.regression.storage == MomentStorage::Centred16 ? "robust" : "paper");
     for (const NamedScene& named : allScenes()) {
@@ -57,7 +57,7 @@ TEST_F(WalrStagesTest, HoldOnEveryScene) {
   }
 }
 
-TEST_F(WalrStagesTest, HoldForEveryStorageOnHardCases) {
+TEST_F(WalrStagesTest, AgreeWithTheReferenceForEveryStorageOnHardCases) {
   for (const HardCase& hard : hardCases()) {
     SCOPED_TRACE(hard.name);
     for (const NamedSettings& named : allSettings()) {
@@ -67,7 +67,7 @@ TEST_F(WalrStagesTest, HoldForEveryStorageOnHardCases) {
   }
 }
 
-TEST_F(WalrStagesTest, HoldWithoutTracingReplacementOrSampleCounts) {
+TEST_F(WalrStagesTest, AgreeWithTheReferenceWithoutTracingReplacementOrSampleCounts) {
   WalrPaperSettings plain = robustWalr();
   plain.regression.traceEdges = false;
   plain.regression.replaceTaps = TapReplacement::Off;
@@ -85,7 +85,7 @@ TEST_F(WalrStagesTest, HoldWithoutTracingReplacementOrSampleCounts) {
   }
 }
 
-TEST_F(WalrStagesTest, HoldForEveryReplacementWithAndWithoutDistances) {
+TEST_F(WalrStagesTest, AgreeWithTheReferenceForEveryReplacementWithAndWithoutDistances) {
   for (const TapReplacement replacement : {TapReplacement::Off, TapReplacement::Uniform, TapReplacement::Near}) {
     for (const bool repeatCentre : {false, true}) {
       for (const float sdfFraction : {0.0F, 1.0F}) {
@@ -103,8 +103,9 @@ TEST_F(WalrStagesTest, HoldForEveryReplacementWithAndWithoutDistances) {
   }
 }
 
-// Raw storage tells no sample from one by its features, and the light of the sky that lies there looks like some.
-TEST_F(WalrStagesTest, HoldForEveryStorageBesideALitSky) {
+// Raw storage marks a pixel without a sample by its features, and the light of the sky that its texels hold looks like
+// features.
+TEST_F(WalrStagesTest, AgreeWithTheReferenceForEveryStorageBesideALitSky) {
   std::vector<HostFrame> frames = movingFrames(skyBesideSurface(), {64, 48});
   for (HostFrame& frame : frames)
     for (std::size_t i = 0; i < frame.depth.pixels().size(); ++i)
@@ -116,7 +117,7 @@ TEST_F(WalrStagesTest, HoldForEveryStorageBesideALitSky) {
   }
 }
 
-TEST_F(WalrStagesTest, HoldForEveryNumberOfIterations) {
+TEST_F(WalrStagesTest, AgreeWithTheReferenceForEveryNumberOfIterations) {
   for (const std::uint32_t iterations : {1U, 2U, 3U, 4U, 5U}) {
     SCOPED_TRACE(std::to_string(iterations) + " iterations");
     for (WalrPaperSettings settings : {robustWalr(), paperWalr()}) {
@@ -126,7 +127,7 @@ TEST_F(WalrStagesTest, HoldForEveryNumberOfIterations) {
   }
 }
 
-TEST_F(WalrStagesTest, HoldAtOddSizes) {
+TEST_F(WalrStagesTest, AgreeWithTheReferenceAtOddSizes) {
   for (const glm::ivec2 size : {glm::ivec2(1, 1), glm::ivec2(2, 3), glm::ivec2(37, 1), glm::ivec2(35, 29)}) {
     SCOPED_TRACE(std::to_string(size.x) + " x " + std::to_string(size.y));
     expectSequence(device(), movingFrames(bumpyWall(0.1), size), robustWalr());
@@ -134,10 +135,10 @@ TEST_F(WalrStagesTest, HoldAtOddSizes) {
   }
 }
 
-TEST_F(WalrStagesTest, HoldForWorldSpaceNormalsAndStaticScenes) {
+TEST_F(WalrStagesTest, AgreeWithTheReferenceForWorldSpaceNormalsAndStaticScenes) {
   std::vector<HostFrame> frames = movingFrames(sphere(), {96, 64});
   for (HostFrame& frame : frames) {
-    // The camera only moves, so that world and view space differ by no rotation unless told otherwise.
+    // The camera only moves, so world and view space differ by a rotation only where the test adds one.
     frame.conventions = {InputConventions::Space::World, InputConventions::MotionDepth::StaticScene};
     for (glm::dvec3& motion : frame.motion.pixels()) motion.z = 0.0;
   }
@@ -155,10 +156,10 @@ double toneMappedRmse(const reference::Image<glm::dvec4>& actual, const referenc
   return std::sqrt(sum / (3.0 * double(expected.pixels().size())));
 }
 
-// The whole pipeline, each on its own from the first frame on, the reference with nothing rounded at all. The budget is
-// the project's for centred half-precision moments, 2e-4, and what the store of the filtered frame may add where the
-// driver truncates: a unit in the last place, 2^-10 relative. The thin bars are left to the stages' own test,
-// which leaves out the pixels where rounding decides between a bar and the wall behind.
+// The whole pipeline of the device and the reference, which rounds nothing, each run on their own from the first frame
+// on. The bound is the project's budget for centred half-precision moments, 2e-4, plus the error of storing the
+// filtered frame where the driver truncates: a unit in the last place, 2^-10 relative. The thin bars are left to the
+// tests of the stages, which skip pixels where rounding decides between a bar and the wall behind it.
 TEST_F(WalrStagesTest, WholePipelineStaysNearDoublePrecision) {
   constexpr double kBudget = 2e-4 + 0.25 * 2.0 * reference::kHalfRoundoff;
   WalrPaperSettings responsive = robustWalr();
@@ -171,7 +172,7 @@ TEST_F(WalrStagesTest, WholePipelineStaysNearDoublePrecision) {
       reference::Walr exact(reference::Storage::Exact, settings);
       for (std::uint32_t i = 0; i < 4; ++i) {
         HostFrame frame = renderStill(named.scene, {64, 48}, i);
-        if (i > 0)  // The light falls after the first frame; halves stay halves.
+        if (i > 0)  // The light falls after the first frame; its halves stay exact.
           for (glm::dvec3& l : frame.lighting.pixels()) l *= 0.25;
         const WalrStages stages = run.frame(frame);
         const reference::Image<glm::dvec3> expected = exact.denoise(frame);

@@ -1,4 +1,4 @@
-// Views of WALR's guides and temporal stages: that they show what happens, against the double-precision reference.
+// Views of WALR's guides and temporal stages agree with the double-precision reference.
 
 #include <algorithm>
 #include <cmath>
@@ -27,7 +27,7 @@ HostFrame movingFrame(const Scene& scene, std::uint32_t i) {
   return renderFrame(scene, cameraAt(at(i), at(i - 1.0), kSize, i), kSize);
 }
 
-/// The settings that choose a shader of their own.
+/// Settings that each select other shaders.
 struct NamedSettings {
   const char* name;
   AnyWalr settings;
@@ -35,7 +35,7 @@ struct NamedSettings {
 };
 std::vector<NamedSettings> allSettings() {
   WalrPaperSettings apart = robustWalr();
-  apart.antialiasing.normalThreshold = 0.4F;  // Its own reprojection.
+  apart.antialiasing.normalThreshold = 0.4F;  // Makes anti-aliasing do its own reprojection.
   WalrPaperSettings byDepth = apart;
   byDepth.accumulation.rejection = HistoryRejection::Depth;
   byDepth.antialiasing.rejection = HistoryRejection::Depth;
@@ -48,7 +48,7 @@ std::vector<NamedSettings> allSettings() {
           {"packed", WalrSettings{}, {}},   {"packed, two reprojections", packedApart, {}}};
 }
 
-/// What a stage sees of its history at a pixel.
+/// The history of a stage at a pixel.
 struct Past {
   reference::HistorySample history;
   int rejected = 0;
@@ -62,7 +62,7 @@ Past pastOf(const DeviceFrame& f, const Image<glm::dvec4>& before, glm::ivec2 p,
   const auto taps = reference::historyTaps(f.frame, r, f.previous.guides, reference::historyTestsOf(settings));
   Past past{reference::sampleHistory(r, taps, before, filter), 0, r.undecided};
   for (const reference::HistoryTap& tap : taps) {
-    // Without a test only the picture's border rejects; the sky is passed over for its want of samples.
+    // With no test of history only the image's border rejects a tap; the sky is skipped because it has no samples.
     const bool accepted =
         settings.rejection == HistoryRejection::None ? f.previous.guides.contains(tap.pixel) : tap.matches;
     past.rejected += r.valid && accepted ? 0 : 1;
@@ -84,7 +84,8 @@ void expectHistory(Comparison& comparison, const DeviceFrame& f, glm::ivec2 p, c
   comparison.value(p, "no history", view.z, past.history.found ? 0.0 : 1.0, 0.0);
 }
 
-/// Of the mean of n frames, n - 1 are the clipped history: what the output says of it is what the view says.
+/// The output is a mean of n frames, n - 1 of which are the clipped history. The history that follows from it agrees
+/// with the view.
 void expectClipping(Comparison& comparison, const DeviceFrame& f, glm::ivec2 p, const AnyWalr& settings,
                     bool keepTaps) {
   const glm::dvec3 clip = f.current.views.at("clip")[p];
@@ -98,20 +99,20 @@ void expectClipping(Comparison& comparison, const DeviceFrame& f, glm::ivec2 p, 
   comparison.value(p, "rejected after the filter", resolved.y, past.rejected, 0.0);
   const bool clipped = clip.z == 1.0;
   comparison.value(p, "clipped or not", clip.x > 0.0 ? 1.0 : 0.0, clip.z, 0.0);
-  comparison.value(p, "share or none", clip.y > 0.0 ? 1.0 : 0.0, clip.z, 0.0);
+  comparison.value(p, "share where clipped", clip.y > 0.0 ? 1.0 : 0.0, clip.z, 0.0);
   if (!past.history.found) {
-    comparison.value(p, "clipping of nothing", clip.x, 0.0, 0.0);
+    comparison.value(p, "clipped without history", clip.x, 0.0, 0.0);
     return;
   }
   const glm::dvec3 output(f.current.output[p]);
   const glm::dvec3 filtered(f.current.filtered[p]);
-  if (output.x == 0.0 || output.y == 0.0 || output.z == 0.0) return;  // What is below 0 is cut off.
+  if (output.x == 0.0 || output.y == 0.0 || output.z == 0.0) return;  // Values below 0 were clamped.
   const glm::dvec3 kept = filtered + (output - filtered) * n / (n - 1.0);
   const glm::dvec3 before(past.history.value);
   const glm::dvec3 size = glm::abs(output) + glm::abs(filtered) + glm::abs(before);
   const double reach = size.x + size.y + size.z;
-  // The output is stored as a half, and what it says of the history is n / (n - 1) as uncertain; the history's own
-  // error comes on top. A length in YCoCg is at most that in RGB.
+  // The output is stored as a half, and the history computed from it is n / (n - 1) times as uncertain. The error of
+  // the history itself is added. A length in YCoCg is at most that in RGB.
   const glm::dvec3 pastError(past.history.error);
   const double tolerance =
       n / (n - 1.0) * 2.0 * reference::kHalfRoundoff * reach + pastError.x + pastError.y + pastError.z;
@@ -153,7 +154,7 @@ TEST_F(WalrTemporalViewsTest, ShowHistoryAndClipping) {
   }
 }
 
-TEST_F(WalrTemporalViewsTest, AStillPictureLosesNoHistory) {
+TEST_F(WalrTemporalViewsTest, AStillImageLosesNoHistory) {
   const SceneDescription still{.cameraMotion = false, .objectMotion = false, .jitter = false};
   WalrRun run(device(), kSize, robustWalr(), {}, true, still, {"history", "resolved-history", "broken-lighting"});
   for (std::uint32_t i = 0; i < 3; ++i) {
@@ -175,7 +176,7 @@ TEST_F(WalrTemporalViewsTest, ShowWhereHistoryIsShortened) {
   for (std::uint32_t i = 0; i <= kChange + 1; ++i) {
     HostFrame frame = renderStill(bumpyWall(0.1), kSize, i);
     if (i >= kChange)
-      for (glm::dvec3& l : frame.lighting.pixels()) l *= 0.25;  // Halves stay halves.
+      for (glm::dvec3& l : frame.lighting.pixels()) l *= 0.25;  // Exact for halves.
     before = stages.accumulated;
     stages = run.frame(frame);
   }
@@ -193,7 +194,7 @@ TEST_F(WalrTemporalViewsTest, ShowWhereHistoryIsShortened) {
   EXPECT_GT(shortened, kSize.x * kSize.y / 2);
 }
 
-// Each damaged pixel, and no other, is seen by the view that is there for it.
+// Each broken pixel, and no other, shows in the view for its kind of fault.
 TEST_F(WalrTemporalViewsTest, MasksShowExactlyWhatIsBroken) {
   struct Damage {
     const char* view;
@@ -223,7 +224,7 @@ TEST_F(WalrTemporalViewsTest, MasksShowExactlyWhatIsBroken) {
       damage.apply(frame, {x, y});
       for (int v = 0; v < 3; ++v)
         if (views[v] == damage.view) expected[v][{x, y}][damage.component] = 1.0;
-      // A surface is not there, too, where depth, normal or albedo are no numbers.
+      // A pixel has no surface either where depth, normal or albedo are not finite.
       if (std::string(damage.view) == "broken-guides") expected[2][{x, y}][damage.component] = 1.0;
     }
   }

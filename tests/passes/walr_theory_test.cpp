@@ -1,5 +1,5 @@
-// What regression and averaging promise, on a device and in every storage; reference_theory_test.cpp holds the
-// double-precision reference to the same.
+// Promises of regression and averaging, on a device and in every storage; reference_theory_test.cpp tests the same for
+// the double-precision reference.
 
 #include <algorithm>
 #include <cmath>
@@ -21,7 +21,7 @@ using reference::HostFrame;
 using reference::Image;
 using reference::Moments;
 
-/// A storage and the largest relative error of a value that is stored in it; a driver may truncate halves.
+/// A storage, and the largest relative error of a stored value; a driver may truncate halves.
 struct Storage {
   const char* name;
   MomentStorage storage;
@@ -39,7 +39,7 @@ WalrPaperSettings settingsOf(const Storage& storage) {
   return settings;
 }
 
-/// A wall parallel to the picture: every weight is 1 but for the rounding of a product of unit vectors.
+/// A wall parallel to the image: every weight is 1 up to the rounding of a product of unit vectors.
 HostFrame parallelWall(glm::ivec2 size) {
   HostFrame frame = renderStill(flatWall(), size, 0, Noise::None);
   reference::forEachPixel(size, [&](glm::ivec2 p) {
@@ -52,9 +52,9 @@ HostFrame parallelWall(glm::ivec2 size) {
 
 class WalrTheoryTest : public fg::test::GpuTest {};
 
-// Of a bright pixel every pixel of 81x81 around it gets one part in 81 * 81, and no other gets anything: had an
-// iteration touched a sample twice, or not at all, it would show as twice as much, or as nothing.
-TEST_F(WalrTheoryTest, FourIterationsTouchEachSampleOfTheWindowOnce) {
+// One bright pixel: each of the 81x81 pixels around it gets one part in 81 * 81, and no other gets anything. If an
+// iteration counted a sample twice, or not at all, a pixel would get twice as much, or nothing.
+TEST_F(WalrTheoryTest, FourIterationsCountEachSampleOfTheWindowOnce) {
   constexpr glm::ivec2 kSize(163, 163);
   constexpr glm::ivec2 kCentre(81, 81);
   constexpr int kStores = 4;  // Three between iterations, and the result.
@@ -83,14 +83,14 @@ TEST_F(WalrTheoryTest, FourIterationsTouchEachSampleOfTheWindowOnce) {
       }
     });
     EXPECT_EQ(wrong, 0);
-    EXPECT_NEAR(sum, impulse.r, tolerance * impulse.r);  // The mean of the picture is preserved.
+    EXPECT_NEAR(sum, impulse.r, tolerance * impulse.r);  // The mean of the image is preserved.
   }
 }
 
-/// The ridge r takes the slope s of a linear signal to (M + r)^-1 M s with the covariance M of a window, which misses
-/// the signal, averaged over the window, by no more than sqrt(r) |s| / 2. Each store rounds the mean and, through the
-/// covariances, the slope. The raw packings lose the variance in the squares and promise nothing.
-TEST_F(WalrTheoryTest, ASignalLinearInTheFeaturesComesBack) {
+/// With the covariance M of a window, the ridge r changes the slope s of a linear signal to (M + r)^-1 M s. The mean
+/// error over the window is then at most sqrt(r) |s| / 2. Each store rounds the mean and, through the covariances, the
+/// slope. The raw packings lose the variance in the squares and promise nothing.
+TEST_F(WalrTheoryTest, ASignalLinearInTheFeaturesIsReproduced) {
   constexpr glm::ivec2 kSize(48, 36);
   constexpr double kRidge = 1e-6;
   constexpr int kStores = 4;  // The input, two between iterations, and the result.
@@ -121,8 +121,8 @@ TEST_F(WalrTheoryTest, ASignalLinearInTheFeaturesComesBack) {
   }
 }
 
-// Both pictures are within the project's budget of double precision (walr_stages_test.cpp), so that they are within
-// twice that of each other. Random replacement is off: its hashes do not follow.
+// Both images are within the project's budget of double precision (walr_stages_test.cpp), so they differ by at most
+// twice that. Tap replacement is off because its random numbers do not follow the symmetry.
 TEST_F(WalrTheoryTest, OutputFollowsFlipsAndTransposition) {
   constexpr double kBudget = 2e-4 + 0.25 * 2.0 * reference::kHalfRoundoff;
   constexpr glm::ivec2 kSize(64, 48);
@@ -134,7 +134,7 @@ TEST_F(WalrTheoryTest, OutputFollowsFlipsAndTransposition) {
     WalrRun straight(device(), kSize, settings, {}, false);
     WalrRun mirrored(device(), mirroredSize, settings, {}, false);
     for (const NamedScene& named : allScenes()) {
-      // Rounding decides between a bar and the wall behind.
+      // Rounding decides between a bar and the wall behind it.
       if (named.name == std::string("thin bars")) continue;
       SCOPED_TRACE(std::string(symmetry.name) + ", " + named.name);
       straight.resetHistory();
@@ -178,9 +178,9 @@ TEST_F(WalrTheoryTest, ScalingRadianceByAPowerOfTwoScalesTheOutputExactly) {
   }
 }
 
-// Centred storage claims covariances that are positive semidefinite to rounding; raw storage holds averages of products
-// instead, whose difference to a product of averages may have any sign (regularisation.h). In single precision that
-// difference is no further below zero than the rounding of its terms, which are 1 at most.
+// Centred storage promises covariances that are positive semidefinite up to rounding. Raw storage holds averages of
+// products instead; their difference from a product of averages may have any sign. In single precision that difference
+// is no further below zero than the rounding of its terms, which are at most 1.
 TEST_F(WalrTheoryTest, CovariancesStayPositiveSemidefinite) {
   constexpr glm::ivec2 kSize(64, 48);
   for (const Storage& storage : {kStorages[0], kStorages[3]}) {

@@ -1,5 +1,4 @@
-// Views of WALR's inner workings: that they show what happens, against the double-precision reference, and change
-// nothing.
+// Views of WALR's spatial filter agree with the double-precision reference and do not change the output.
 
 #include <cmath>
 
@@ -17,7 +16,7 @@ using reference::Image;
 using reference::kFloatRoundoff;
 
 constexpr glm::ivec2 kSize(48, 36);
-/// First and last iteration, and one between.
+/// The first, a middle and the last iteration.
 constexpr std::uint32_t kIterations = 3;
 
 WalrPaperSettings withIterations(WalrPaperSettings settings) {
@@ -25,7 +24,7 @@ WalrPaperSettings withIterations(WalrPaperSettings settings) {
   return settings;
 }
 
-/// Every view of every iteration.
+/// The views of all iterations.
 std::vector<std::string> allViews() {
   std::vector<std::string> names;
   for (const std::string view : {"edges", "samples", "pivots", "feature-mean", "feature-covariance", "colour-mean",
@@ -34,7 +33,7 @@ std::vector<std::string> allViews() {
   return names;
 }
 
-/// Stairs, of which some pixels have no finite sample.
+/// Stairs, where some pixels have no finite sample.
 HostFrame someFrame() {
   HostFrame frame = renderStill(stairs(), kSize);
   for (std::size_t i = 5; i < frame.lighting.pixels().size(); i += 23) frame.lighting.pixels()[i].r = NAN;
@@ -49,7 +48,7 @@ struct PixelViews {
   glm::dvec3 operator[](const char* name) const { return stages->views.at(name + ("." + iteration))[p]; }
 };
 
-/// What the averages are made of, against the reference.
+/// Compare the views of the averages with the reference.
 void expectAverages(Comparison& comparison, const PixelViews& view, const reference::AtrousPixel& expected) {
   const glm::dvec3 edges = view["edges"];
   comparison.value(view.p, "nearest edge", edges.x, expected.nearestEdge, 0.0);
@@ -69,12 +68,12 @@ void expectAverages(Comparison& comparison, const PixelViews& view, const refere
   const reference::MomentValues a = toArray(actual);
   const reference::MomentValues e = toArray(expected.merged.moments);
   for (int k = 0; k < reference::kMomentCount; ++k) {
-    if (k == 14) continue;  // The second moment of luminance is seen in the relative variance.
+    if (k == 14) continue;  // The second moment of luminance is part of the view of the relative variance.
     comparison.value(view.p, reference::momentName(k), a[k], e[k], expected.merged.error[k] + 0x1p-126);
   }
 }
 
-/// What the solve makes of the averages that the views show.
+/// Compare the views of the solve with a solve of the averages that the views show.
 void expectSolve(Comparison& comparison, const PixelViews& view, const RegularisationSettings& settings) {
   const glm::dvec3 xx = view["feature-covariance"];
   const glm::dvec3 samples = view["samples"];
@@ -91,7 +90,7 @@ void expectSolve(Comparison& comparison, const PixelViews& view, const Regularis
   comparison.value(view.p, "outweighed", pivots.z, pivots.x < pivots.y ? 1.0 : 0.0, 0.0);
 }
 
-/// Coefficients times features are the filter's output.
+/// Coefficients times features must be the filter's output.
 void expectFit(Comparison& comparison, const PixelViews& view, const WalrStages& stages) {
   const glm::dvec2 offset = stages.guides[view.p].features - glm::dvec2(view["feature-mean"]);
   const glm::dvec3 mean = view["colour-mean"];
@@ -100,7 +99,7 @@ void expectFit(Comparison& comparison, const PixelViews& view, const WalrStages&
   const glm::dvec3 fitted = mean + u + v;
   for (int c = 0; c < 3; ++c) {
     const double size = std::abs(mean[c]) + std::abs(u[c]) + std::abs(v[c]);
-    // Features and their mean, of order 1, round before they are subtracted.
+    // Features and their means, of order 1, are rounded before they are subtracted.
     const glm::dvec3 slopes = glm::abs(view["slope-u"]) + glm::abs(view["slope-v"]);
     const double rounding = 4.0 * kFloatRoundoff * (size + slopes[c]);
     const double expected = std::clamp(fitted[c], 0.0, reference::kLargestHalf);
@@ -113,7 +112,7 @@ void expectFit(Comparison& comparison, const PixelViews& view, const WalrStages&
 
 class WalrViewsTest : public fg::test::GpuTest {};
 
-TEST_F(WalrViewsTest, ShowWhatHappensInEveryIteration) {
+TEST_F(WalrViewsTest, AgreeWithTheReferenceInEveryIteration) {
   for (const WalrPaperSettings& preset : {robustWalr(), paperWalr()}) {
     const WalrPaperSettings settings = withIterations(preset);
     SCOPED_TRACE(settings.regression.storage == MomentStorage::Centred16 ? "robust" : "paper");
@@ -143,7 +142,7 @@ TEST_F(WalrViewsTest, ShowWhatHappensInEveryIteration) {
   }
 }
 
-TEST_F(WalrViewsTest, ChangeNothing) {
+TEST_F(WalrViewsTest, DoNotChangeTheOutput) {
   const HostFrame frame = someFrame();
   for (const WalrPaperSettings& settings : {robustWalr(), paperWalr()}) {
     WalrRun plain(device(), kSize, settings, {}, false);

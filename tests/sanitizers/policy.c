@@ -1,7 +1,7 @@
-// Settings of the sanitizers of a WALR_SANITIZE build for code outside of this project. They are linked into every
-// executable, so that no environment variables are needed.
+// Sanitizer settings of a WALR_SANITIZE build, made necessary by code outside this project. They are linked into every
+// executable, so no environment variables are needed.
 
-/// Keeps drivers and layers loaded: reports at exit name the module of a leak or race only while it is loaded.
+/// Keeps drivers and layers loaded, because a report at exit names the module of a leak or race only if it is loaded.
 int dlclose(void* module) {
   (void)module;
   return 0;
@@ -12,7 +12,7 @@ const char* __lsan_default_suppressions(void) {
   return "leak:libVkLayer_khronos_validation\n";
 }
 
-/// Tests compare the output of programs, so that the sanitizer must not add to it.
+/// Tests compare the output of programs, so the sanitizer must not add to it.
 const char* __lsan_default_options(void) {
   return "print_suppressions=0";
 }

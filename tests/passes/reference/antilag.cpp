@@ -15,7 +15,7 @@ Image<TileChange> changeByTiles(const Image<Accumulated>& accumulated) {
     const double d = pixel.difference;
     tile.sum.value += d;
     tile.squares.value += d * d;
-    // A sum of 64 by halves adds six times.
+    // A sum of 64 terms by halves is six additions deep.
     tile.sum.error += pixel.differenceError + 6.0 * kFloatRoundoff * std::abs(d);
     tile.squares.error +=
         pixel.differenceError * (2.0 * std::abs(d) + pixel.differenceError) + 8.0 * kFloatRoundoff * d * d;
@@ -43,7 +43,7 @@ Image<Bounded> antilagOf(const Image<glm::dvec2>& tiles, const AntilagSettings& 
     if (sum.y <= 0.0) return;
     const double score = std::abs(sum.x) / std::sqrt(sum.y);
     antilag[t].value = std::clamp((score - settings.scoreLow) / range, 0.0, 1.0);
-    // Vulkan allows an inverse square root two units in the last place; a sum errs by a roundoff of each partial one.
+    // Vulkan allows an inverse square root two units in the last place. A sum errs by a roundoff of each partial sum.
     const double scoreError =
         count * kFloatRoundoff * magnitudes / std::sqrt(sum.y) + (count + 8.0) * kFloatRoundoff * score;
     antilag[t].error = (scoreError + 4.0 * kFloatRoundoff * (score + settings.scoreHigh)) / range;
@@ -75,7 +75,7 @@ Bounded longestHistory(const Image<double>& antilag, glm::dvec2 pixel, double pi
     least = std::min(least, antilag[tile]);
     most = std::max(most, antilag[tile]);
   }
-  // Both weights of an axis move with the position, by an eighth of it.
+  // A position error of one pixel moves the weights of an axis by an eighth.
   const double error = 4.0 * pixelError / kChangeTile * (most - least) + 8.0 * kFloatRoundoff;
   return {maxHistory + (1.0 - maxHistory) * value, (maxHistory - 1.0) * error + 4.0 * kFloatRoundoff * maxHistory};
 }

@@ -5,7 +5,7 @@
 
 namespace walr::reference {
 
-/// Side of the tiles over which change is summed, pixels.
+/// Side of the tiles over which differences are summed, pixels.
 inline constexpr int kChangeTile = 8;
 
 /// A number with a bound of what single-precision arithmetic adds to it.
@@ -14,22 +14,23 @@ struct Bounded {
   double error = 0.0;
 };
 
-/// What the samples of a tile differ by from history.
+/// Sums over a tile of the differences d between new light and history (passes/WALR.md, 3).
 struct TileChange {
   Bounded sum;
   Bounded squares;
-  bool undecided = false;  ///< One of the pixels is.
+  bool undecided = false;  ///< Whether any of the tile's pixels is undecided.
 };
 Image<TileChange> changeByTiles(const Image<Accumulated>& accumulated);
 
-/// Antilag factor from the sums (x) and sums of squares (y) of tiles.
+/// The antilag factor a of passes/WALR.md, 3, from the sums (x) and sums of squares (y) of tiles.
 Image<Bounded> antilagOf(const Image<glm::dvec2>& tiles, const AntilagSettings& settings);
 
-/// The same from what a frame's accumulation found, without the bounds.
+/// The antilag factor computed from an accumulated frame, without error bounds.
 Image<double> antilagOf(const Image<Accumulated>& accumulated, const AntilagSettings& settings);
 
-/// The number of samples that history may count for at a position in the previous picture.
-/// @param pixelError of the position, pixels
+/// The largest history length at a position in the previous image, M - a (M - 1) of passes/WALR.md, 2, with a read
+/// bilinearly.
+/// @param pixelError error bound of the position, pixels
 Bounded longestHistory(const Image<double>& antilag, glm::dvec2 pixel, double pixelError, double maxHistory);
 
 }  // namespace walr::reference

@@ -12,13 +12,15 @@ namespace {
 
 constexpr int kLargestDistance = 31;
 
+/// Distance between the taps of an iteration: 3^t pixels, the kernel h_t of Meunier & Harada 2022, 3.2.
 int spacingOf(std::uint32_t iteration) {
   int spacing = 1;
   for (std::uint32_t t = 0; t < iteration; ++t) spacing *= 3;
   return spacing;
 }
 
-/// Step of the pixel that stands in for tap `tap`, which met its edge at step `edge`: any before it, or the last third.
+/// Random replacement of a tap that met an edge (Meunier & Harada 2022, 3.3): the step of its replacement, either any
+/// before step `edge` or one of the last third.
 int replacementStep(const HostFrame& frame, glm::ivec2 p, std::uint32_t iteration, int tap, int edge,
                     TapReplacement replacement) {
   const glm::uvec4 key(p, frame.constants.frameIndex, iteration * 9U + static_cast<std::uint32_t>(tap));
@@ -88,7 +90,8 @@ AtrousPixel atrousPixel(const HostFrame& frame, const Image<Guide>& guides, cons
     parts[count++] = part(q, weight, traced.weight.error + 16.0 * kFloatRoundoff);
   }
   result.merged = merge(parts.data(), count, kMostParts);
-  // Beyond that the averages' error bounds do not hold, and where there is no sample at all there may be one.
+  // With a larger error the bounds of the averages do not hold. Where the merge has no sample at all, rounding may
+  // still give it one.
   result.undecided |= result.merged.error[kMomentCount - 1] > 0.5 * result.merged.moments.samples;
   return result;
 }

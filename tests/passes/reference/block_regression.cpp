@@ -23,7 +23,7 @@ constexpr int kDepthFeature = 3;
 constexpr int kOcclusionFeature = 4;
 using Features = Vector<kFeatures>;
 
-/// What stands for a block, and the weight of the paths of every pixel of the picture in its window.
+/// Representative pixel of a block or cell, and its window: for every pixel of the image, the weight of its samples.
 struct Block {
   bool surface = false;
   glm::ivec2 pixel{0};
@@ -32,7 +32,7 @@ struct Block {
   std::vector<double> window;
 };
 
-/// Colour = constant + slope^T features.
+/// A fit (passes/WALR.md, 5): colour = constant + slope^T features.
 struct Fit {
   double samples = 0.0;
   double depth = 0.0;
@@ -40,7 +40,7 @@ struct Fit {
   std::array<glm::dvec3, kFeatures> slope{};
 };
 
-struct Picture {
+struct Inputs {
   const HostFrame& frame;
   const Image<Guide>& guides;
   const Image<glm::dvec4>& accumulated;
@@ -48,20 +48,21 @@ struct Picture {
 
   [[nodiscard]] glm::dvec3 ray(glm::ivec2 p) const { return rayThrough(frame.constants.rayFromPixel, pixelCentre(p)); }
 
-  /// Standard deviation of the coarse window at one path a pixel, pixels.
+  /// Standard deviation of the coarse window at one sample per pixel, in pixels (passes/WALR.md, 6).
   [[nodiscard]] double coarseSigma() const { return double(settings.coarseSigma) * guides.size().y; }
 
-  /// Use of (weight, pixel) for all of a window.
-  template <typename Use>
-  void visit(const Block& block, Use use) const {
+  /// Call `visit(weight, pixel)` for all pixels of a window.
+  template <typename Visit>
+  void visit(const Block& block, Visit visit) const {
     forEachPixel(guides.size(), [&](glm::ivec2 p) {
       const double w = block.window[static_cast<std::size_t>(p.y) * guides.size().x + p.x];
-      if (w > 0.0) use(w, p);
+      if (w > 0.0) visit(w, p);
     });
   }
 
-  /// 1 on the plane through pixel `centre`, 0 away from it.
-  [[nodiscard]] double onPlane(glm::ivec2 centre, double depth, glm::dvec3 normal, glm::ivec2 p, double pDepth) const {
+  /// The edge-stopping function e of passes/WALR.md, 4: 1 on the plane through pixel `centre`, 0 away from it.
+  [[nodiscard]] double edgeStopping(glm::ivec2 centre, double depth, glm::dvec3 normal, glm::ivec2 p,
+                                    double pDepth) const {
     const double distance = std::abs(glm::dot(normal, pDepth * ray(p) - depth * ray(centre))) / depth;
     const double near = settings.planeNear;
     const double far = settings.planeFar;
@@ -69,50 +70,53 @@ struct Picture {
   }
 };
 
+/// The factor max(g . n, 0) of the weights of passes/WALR.md, 4, 5 and 8.
 double facing(glm::dvec3 a, glm::dvec3 b) {
   return std::clamp(glm::dot(a, b), 0.0, 1.0);
 }
 
-Features featuresAt(const Picture& picture, glm::ivec2 p, double relativeTo) {
-  const Guide& guide = picture.guides[p];
+/// The features X of passes/WALR.md, 4.
+Features featuresAt(const Inputs& inputs, glm::ivec2 p, double relativeTo) {
+  const Guide& guide = inputs.guides[p];
   const glm::dvec3 n = octahedralDecode(guide.features);
   return {n.x, n.y, n.z, relativeTo / guide.depth - 1.0, guide.occlusion};
 }
 
-Image<Block> makeBlocks(const Picture& picture) {
-  const int size = static_cast<int>(picture.settings.size);
-  const glm::ivec2 pixels = picture.guides.size();
+/// Representative pixels of the blocks, and the weights w_p of each block's own pixels (passes/WALR.md, 4).
+Image<Block> representBlocks(const Inputs& inputs) {
+  const int size = static_cast<int>(inputs.settings.size);
+  const glm::ivec2 pixels = inputs.guides.size();
   Image<Block> blocks((pixels + size - 1) / size);
   forEachPixel(blocks.size(), [&](glm::ivec2 b) {
     Block& block = blocks[b];
-    block.window.assign(picture.guides.pixels().size(), 0.0);
+    block.window.assign(inputs.guides.pixels().size(), 0.0);
     std::uint32_t surfaces = 0;
     for (int i = 0; i < size * size; ++i) {
       const glm::ivec2 p = size * b + glm::ivec2(i % size, i / size);
-      if (!picture.guides.contains(p) || picture.guides[p].depth == 0.0) continue;
+      if (!inputs.guides.contains(p) || inputs.guides[p].depth == 0.0) continue;
       ++surfaces;
-      const glm::uvec4 key(b, picture.frame.constants.frameIndex, i);
+      const glm::uvec4 key(b, inputs.frame.constants.frameIndex, i);
       if (hashBelow(key, surfaces) == 0) block.pixel = p;
     }
     if (surfaces == 0) return;
-    const Guide& chosen = picture.guides[block.pixel];
+    const Guide& chosen = inputs.guides[block.pixel];
     block.surface = true;
     block.depth = chosen.depth;
     block.normal = roundToShortNormal(chosen.normal);
     for (int i = 0; i < size * size; ++i) {
       const glm::ivec2 p = size * b + glm::ivec2(i % size, i / size);
-      if (!picture.guides.contains(p)) continue;
-      const Guide& guide = picture.guides[p];
-      if (guide.depth == 0.0 || picture.accumulated[p].a == 0.0) continue;
+      if (!inputs.guides.contains(p)) continue;
+      const Guide& guide = inputs.guides[p];
+      if (guide.depth == 0.0 || inputs.accumulated[p].a == 0.0) continue;
       block.window[static_cast<std::size_t>(p.y) * pixels.x + p.x] =
-          picture.onPlane(block.pixel, block.depth, chosen.normal, p, guide.depth) *
-          facing(chosen.normal, octahedralDecode(guide.features)) * picture.accumulated[p].a;
+          inputs.edgeStopping(block.pixel, block.depth, chosen.normal, p, guide.depth) *
+          facing(chosen.normal, octahedralDecode(guide.features)) * inputs.accumulated[p].a;
     }
   });
   return blocks;
 }
 
-/// Weighted means and covariances over a block's window.
+/// The moments W, X, m, C, c and V of passes/WALR.md, 4, over a window.
 struct Moments {
   double samples = 0.0;
   Features meanX{};
@@ -122,21 +126,22 @@ struct Moments {
   double luminanceVariance = 0.0;
 };
 
-Moments momentsOf(const Picture& picture, const Block& block) {
+/// Moments of a window from its pixels.
+Moments momentsOf(const Inputs& inputs, const Block& block) {
   Moments m;
   if (!block.surface) return m;
-  picture.visit(block, [&](double w, glm::ivec2 p) {
-    const Features x = featuresAt(picture, p, block.depth);
+  inputs.visit(block, [&](double w, glm::ivec2 p) {
+    const Features x = featuresAt(inputs, p, block.depth);
     m.samples += w;
     for (int i = 0; i < kFeatures; ++i) m.meanX[i] += w * x[i];
-    m.meanY += w * glm::dvec3(picture.accumulated[p]);
+    m.meanY += w * glm::dvec3(inputs.accumulated[p]);
   });
   if (m.samples == 0.0) return m;
   for (double& x : m.meanX) x /= m.samples;
   m.meanY /= m.samples;
-  picture.visit(block, [&](double w, glm::ivec2 p) {
-    const Features x = featuresAt(picture, p, block.depth);
-    const glm::dvec3 dy = glm::dvec3(picture.accumulated[p]) - m.meanY;
+  inputs.visit(block, [&](double w, glm::ivec2 p) {
+    const Features x = featuresAt(inputs, p, block.depth);
+    const glm::dvec3 dy = glm::dvec3(inputs.accumulated[p]) - m.meanY;
     m.luminanceVariance += w / m.samples * luminance(dy) * luminance(dy);
     for (int i = 0; i < kFeatures; ++i) {
       const double dx = w / m.samples * (x[i] - m.meanX[i]);
@@ -147,11 +152,11 @@ Moments momentsOf(const Picture& picture, const Block& block) {
   return m;
 }
 
-/// The ridge holds the slopes, by as much again as covariances in halves can be off.
-std::array<glm::dvec3, kFeatures> slopesOf(const Picture& picture, const Moments& m) {
+/// The slopes beta of passes/WALR.md, 5. The ridge also covers the rounding of covariances that are stored as halves.
+std::array<glm::dvec3, kFeatures> slopesOf(const Inputs& inputs, const Moments& m) {
   Matrix<kFeatures> covariance = m.covariance;
   for (int i = 0; i < kFeatures; ++i)
-    covariance[i][i] += double(picture.settings.ridge) + kFeatures * 0x1p-11 * m.covariance[i][i];
+    covariance[i][i] += double(inputs.settings.ridge) + kFeatures * 0x1p-11 * m.covariance[i][i];
   const Matrix<kFeatures> inverted = inverse(covariance);
   std::array<glm::dvec3, kFeatures> slopes{};
   for (int i = 0; i < kFeatures; ++i)
@@ -159,10 +164,10 @@ std::array<glm::dvec3, kFeatures> slopesOf(const Picture& picture, const Moments
   return slopes;
 }
 
-/// Means in memory are halves.
+/// Moments are stored as halves; this is the relative rounding error of a mean.
 constexpr double kMeanRounding = 0x1p-11;
 
-/// 1 up to `errors` standard errors of difference, 0 from twice as many.
+/// Growth, same_k of passes/WALR.md, 5: 1 up to `errors` standard errors of difference, 0 from twice as many.
 double sameLight(double difference, double variance, double mean, double errors) {
   const double error = std::sqrt(variance + std::pow(kMeanRounding * mean, 2.0));
   if (error == 0.0) return difference == 0.0 ? 1.0 : 0.0;
@@ -173,19 +178,20 @@ void addWindow(std::vector<double>& sum, double weight, const std::vector<double
   for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += weight * window[i];
 }
 
-/// Smallest weight on the way to a block; steps as the last iteration's edge distances allow.
-double traceEdge(const Picture& picture, const Image<Block>& blocks, const Image<int>& distances, glm::ivec2 from,
+/// Edge tracing (Meunier & Harada 2022, 3.3; passes/WALR.md, 5): the smallest weight on the way to a block. Step
+/// lengths follow the edge distances that the previous iteration found.
+double traceEdge(const Inputs& inputs, const Image<Block>& blocks, const Image<int>& distances, glm::ivec2 from,
                  glm::ivec2 direction, int steps, int& edge) {
   const Block& centre = blocks[from];
   double weight = 1.0;
   edge = steps + 1;
   for (int step = 0; step < steps;) {
-    const int stride = static_cast<int>(picture.settings.sdfFraction * double(distances[from + step * direction]));
+    const int stride = static_cast<int>(inputs.settings.sdfFraction * double(distances[from + step * direction]));
     step = std::min(step + std::max(stride, 1), steps);
     const glm::ivec2 q = from + step * direction;
     const bool surface = blocks.contains(q) && blocks[q].surface;
-    weight = surface ? std::min(weight, picture.onPlane(centre.pixel, centre.depth, centre.normal, blocks[q].pixel,
-                                                        blocks[q].depth))
+    weight = surface ? std::min(weight, inputs.edgeStopping(centre.pixel, centre.depth, centre.normal, blocks[q].pixel,
+                                                            blocks[q].depth))
                      : 0.0;
     if (weight <= 0.0) {
       edge = step;
@@ -195,24 +201,25 @@ double traceEdge(const Picture& picture, const Image<Block>& blocks, const Image
   return weight;
 }
 
-/// Whether what joins a block's window shows its light, by the variance of both together; what has no sample of its own
-/// takes any.
-double sameLight(const Picture& picture, const Moments& a, const Moments& b) {
+/// Growth between two blocks, with the variance of their pixels together; 1 where one of them has no sample
+/// (passes/WALR.md, 5).
+double sameLight(const Inputs& inputs, const Moments& a, const Moments& b) {
   if (a.samples == 0.0 || b.samples == 0.0) return 1.0;
   const double difference = luminance(a.meanY - b.meanY);
   const double samples = a.samples + b.samples;
   const double within = (a.samples * a.luminanceVariance + b.samples * b.luminanceVariance) / samples;
   const double between = a.samples * b.samples * std::pow(difference / samples, 2.0);
   return sameLight(difference, (within + between) * (1.0 / a.samples + 1.0 / b.samples), luminance(a.meanY + b.meanY),
-                   double(picture.settings.growthErrors));
+                   double(inputs.settings.growthErrors));
 }
 
-Image<Block> growWindows(const Picture& picture, Image<Block> blocks) {
+/// Windows of the fine fits: all a-trous iterations over blocks (passes/WALR.md, 5).
+Image<Block> fineWindows(const Inputs& inputs, Image<Block> blocks) {
   Image<int> distances(blocks.size(), 0);
   int spacing = 1;
-  for (std::uint32_t t = 0; t < picture.settings.iterations; ++t, spacing *= 3) {
+  for (std::uint32_t t = 0; t < inputs.settings.iterations; ++t, spacing *= 3) {
     Image<Moments> moments(blocks.size());
-    forEachPixel(blocks.size(), [&](glm::ivec2 b) { moments[b] = momentsOf(picture, blocks[b]); });
+    forEachPixel(blocks.size(), [&](glm::ivec2 b) { moments[b] = momentsOf(inputs, blocks[b]); });
     Image<Block> next = blocks;
     Image<int> nextDistances(blocks.size(), 0);
     forEachPixel(blocks.size(), [&](glm::ivec2 b) {
@@ -222,12 +229,12 @@ Image<Block> growWindows(const Picture& picture, Image<Block> blocks) {
         const glm::ivec2 direction(tap % 3 - 1, tap / 3 - 1);
         if (direction == glm::ivec2(0)) continue;
         int edge = 0;
-        const double traced = traceEdge(picture, blocks, distances, b, direction, spacing, edge);
+        const double traced = traceEdge(inputs, blocks, distances, b, direction, spacing, edge);
         nearest = std::min(nearest, edge);
         if (traced <= 0.0) continue;
         const Block& q = blocks[b + spacing * direction];
         const double weight = traced * facing(blocks[b].normal, q.normal);
-        addWindow(next[b].window, weight * sameLight(picture, moments[b], moments[b + spacing * direction]), q.window);
+        addWindow(next[b].window, weight * sameLight(inputs, moments[b], moments[b + spacing * direction]), q.window);
       }
       nextDistances[b] = std::min(nearest, 31);
     });
@@ -247,9 +254,9 @@ class Union {
     addDepth(weight, other.depth);
     addWindow(block_.window, weight, other.window);
   }
-  void addPixel(std::size_t pixel, double depth, double paths) {
+  void addPixel(std::size_t pixel, double depth, double samples) {
     addDepth(1.0, depth);
-    block_.window[pixel] = paths;
+    block_.window[pixel] = samples;
   }
   [[nodiscard]] Block block() && {
     block_.surface = weights_ > 0.0;
@@ -268,38 +275,38 @@ class Union {
   double inverse_ = 0.0;
 };
 
-double pathsOf(const Block& block) {
+/// Sample count W of a window.
+double samplesOf(const Block& block) {
   return std::accumulate(block.window.begin(), block.window.end(), 0.0);
 }
 
-/// Standard deviation, cells, of a window whose centre has so many paths a cell.
-double coarseSigma(const Picture& picture, int cellSize, double paths) {
-  const double perPixel = std::max(paths / (cellSize * cellSize), 1.0);
-  return std::max(picture.coarseSigma() / cellSize * std::pow(perPixel, -double(picture.settings.coarseNarrowing)),
-                  0.5);
+/// Standard deviation of a coarse window in cells, sigma of passes/WALR.md, 6.
+double coarseSigma(const Inputs& inputs, int cellSize, double samples) {
+  const double perPixel = std::max(samples / (cellSize * cellSize), 1.0);
+  return std::max(inputs.coarseSigma() / cellSize * std::pow(perPixel, -double(inputs.settings.coarseNarrowing)), 0.5);
 }
 
-/// Gaussian windows on a grid of cells of pixels, whichever surfaces these show. Their depths are harmonic means, first
-/// of cells, then of rows, then of columns.
-Image<Block> coarseWindows(const Picture& picture, int cellSize) {
-  const glm::ivec2 size = picture.guides.size();
-  const std::size_t pixels = picture.guides.pixels().size();
+/// Separable Gaussian windows around cells, which no edge ends (passes/WALR.md, 6). Depths are harmonic means, first of
+/// the pixels of a cell, then of rows, then of columns.
+Image<Block> coarseWindows(const Inputs& inputs, int cellSize) {
+  const glm::ivec2 size = inputs.guides.size();
+  const std::size_t pixels = inputs.guides.pixels().size();
   Image<Block> cells((size + cellSize - 1) / cellSize);
   forEachPixel(cells.size(), [&](glm::ivec2 cell) {
     Union pixelsOfCell(pixels);
     for (int i = 0; i < cellSize * cellSize; ++i) {
       const glm::ivec2 p = cellSize * cell + glm::ivec2(i % cellSize, i / cellSize);
-      if (!picture.guides.contains(p) || picture.guides[p].depth == 0.0) continue;
-      pixelsOfCell.addPixel(static_cast<std::size_t>(p.y) * size.x + p.x, picture.guides[p].depth,
-                            picture.accumulated[p].a);
+      if (!inputs.guides.contains(p) || inputs.guides[p].depth == 0.0) continue;
+      pixelsOfCell.addPixel(static_cast<std::size_t>(p.y) * size.x + p.x, inputs.guides[p].depth,
+                            inputs.accumulated[p].a);
     }
     cells[cell] = std::move(pixelsOfCell).block();
   });
   const auto blur = [&](const Image<Block>& from, glm::ivec2 axis) {
     Image<Block> to(from.size());
     forEachPixel(from.size(), [&](glm::ivec2 cell) {
-      const double sigma = coarseSigma(picture, cellSize, pathsOf(from[cell]));
-      const int radius = static_cast<int>(std::ceil(double(picture.settings.coarseReach) * sigma));
+      const double sigma = coarseSigma(inputs, cellSize, samplesOf(from[cell]));
+      const int radius = static_cast<int>(std::ceil(double(inputs.settings.coarseReach) * sigma));
       const auto gaussian = [&](int i) { return std::exp(-0.5 * i * i / (sigma * sigma)); };
       double weights = 0.0;
       for (int i = -radius; i <= radius; ++i) weights += from.contains(cell + i * axis) ? gaussian(i) : 0.0;
@@ -314,47 +321,47 @@ Image<Block> coarseWindows(const Picture& picture, int cellSize) {
   return blur(blur(cells, {1, 0}), {0, 1});
 }
 
-/// Share of the coarse fit beside a fine one of so many paths: none where it would be of little.
-double coarseShare(const BlockRegressionSettings& settings, double paths) {
-  const double share = double(settings.coarseSamples) / (paths + double(settings.coarseSamples));
+/// Share s of the coarse fit (passes/WALR.md, 8).
+double coarseShare(const BlockRegressionSettings& settings, double samples) {
+  const double share = double(settings.coarseSamples) / (samples + double(settings.coarseSamples));
   return share * std::clamp(share / double(settings.coarseLeastShare) - 1.0, 0.0, 1.0);
 }
 
-/// Whether some pixel reads this cell beside a block's fit.
-bool counts(const Picture& picture, int cellSize, glm::ivec2 cell, const Image<Fit>& fine) {
-  const double blockSize = picture.settings.size;
+/// Whether some pixel reads this cell's fit: next to converged blocks alone, none does.
+bool isRead(const Inputs& inputs, int cellSize, glm::ivec2 cell, const Image<Fit>& fine) {
+  const double blockSize = inputs.settings.size;
   const glm::dvec2 centre = (glm::dvec2(cell) + 0.5) * double(cellSize);
-  bool counted = false;
+  bool read = false;
   forEachPixel(fine.size(), [&](glm::ivec2 b) {
-    // A pixel is less than a cell away from what it reads of cells, and than a block of blocks. Of a block's own fit a
-    // little is lost in memory.
+    // A pixel reads cells whose centres are less than a cell away and blocks whose centres are less than a block away.
+    // The factor allows for the rounding of a block's stored sample count.
     const glm::dvec2 way = glm::abs((glm::dvec2(b) + 0.5) * blockSize - centre);
     if (std::max(way.x, way.y) >= cellSize + blockSize || fine[b].depth == 0.0) return;
-    counted = counted || coarseShare(picture.settings, fine[b].samples * (1.0 - 0x1p-10)) > 0.0;
+    read = read || coarseShare(inputs.settings, fine[b].samples * (1.0 - 0x1p-10)) > 0.0;
   });
-  return counted;
+  return read;
 }
 
-/// 5 x 5 windows 3 cells apart join a cell's own where its fit foretells their means and the blocks' fits want paths.
-Image<Block> growCoarseWindows(const Picture& picture, int cellSize, const Image<Block>& cells,
-                               const Image<Fit>& fine) {
+/// Growth of the coarse windows (passes/WALR.md, 7): 5 x 5 taps, 3 cells apart, join a cell's window if the cell's fit
+/// predicts their mean luminance.
+Image<Block> growCoarseWindows(const Inputs& inputs, int cellSize, const Image<Block>& cells, const Image<Fit>& fine) {
   constexpr double kTapSigma = 1.2;
   constexpr double kLeastNoise = 0.05;
   Image<Moments> moments(cells.size());
-  forEachPixel(cells.size(), [&](glm::ivec2 cell) { moments[cell] = momentsOf(picture, cells[cell]); });
+  forEachPixel(cells.size(), [&](glm::ivec2 cell) { moments[cell] = momentsOf(inputs, cells[cell]); });
   Image<Block> grown = cells;
   forEachPixel(cells.size(), [&](glm::ivec2 cell) {
     const Moments& own = moments[cell];
-    if (own.samples == 0.0 || !counts(picture, cellSize, cell, fine)) return;
-    const std::array<glm::dvec3, kFeatures> slopes = slopesOf(picture, own);
+    if (own.samples == 0.0 || !isRead(inputs, cellSize, cell, fine)) return;
+    const std::array<glm::dvec3, kFeatures> slopes = slopesOf(inputs, own);
     double left = own.luminanceVariance;
     for (int i = 0; i < kFeatures; ++i) left -= luminance(slopes[i]) * luminance(own.right[i]);
     const double noise = own.luminanceVariance > 0.0 ? std::clamp(left / own.luminanceVariance, kLeastNoise, 1.0) : 1.0;
-    const double paths = own.samples / (cellSize * cellSize);
-    const double sigma = cellSize * coarseSigma(picture, cellSize, own.samples);
-    const double pixels = 4.0 * glm::pi<double>() * sigma * sigma * std::min(paths, 1.0);
-    const double errors = double(picture.settings.coarseGrowthErrors) /
-                          (1.0 + double(picture.settings.coarseGrowthOcclusion) * own.meanX[kOcclusionFeature]);
+    const double perPixel = own.samples / (cellSize * cellSize);
+    const double sigma = cellSize * coarseSigma(inputs, cellSize, own.samples);
+    const double pixels = 4.0 * glm::pi<double>() * sigma * sigma * std::min(perPixel, 1.0);
+    const double errors = double(inputs.settings.coarseGrowthErrors) /
+                          (1.0 + double(inputs.settings.coarseGrowthOcclusion) * own.meanX[kOcclusionFeature]);
     for (int i = 0; i < 25; ++i) {
       const glm::ivec2 tap(i % 5 - 2, i / 5 - 2);
       const glm::ivec2 q = cell + 3 * tap;
@@ -375,36 +382,37 @@ Image<Block> growCoarseWindows(const Picture& picture, int cellSize, const Image
   return grown;
 }
 
-/// Weighted least squares over a block's window.
-Fit fitOf(const Picture& picture, const Block& block) {
+/// The fit f of passes/WALR.md, 5: weighted least squares over a window.
+Fit fitOf(const Inputs& inputs, const Block& block) {
   Fit fit;
   if (!block.surface) return fit;
   fit.depth = block.depth;
-  const Moments m = momentsOf(picture, block);
+  const Moments m = momentsOf(inputs, block);
   fit.samples = m.samples;
   if (m.samples == 0.0) return fit;
-  fit.slope = slopesOf(picture, m);
+  fit.slope = slopesOf(inputs, m);
   fit.constant = m.meanY;
   for (int i = 0; i < kFeatures; ++i) fit.constant -= fit.slope[i] * m.meanX[i];
   return fit;
 }
 
-glm::dvec3 evaluate(const Picture& picture, const Fit& fit, glm::ivec2 p) {
-  const Features x = featuresAt(picture, p, fit.depth);
+/// Evaluate a fit with a pixel's own features: max(f(X_p), 0) of passes/WALR.md, 8.
+glm::dvec3 evaluate(const Inputs& inputs, const Fit& fit, glm::ivec2 p) {
+  const Features x = featuresAt(inputs, p, fit.depth);
   glm::dvec3 colour = fit.constant;
   for (int i = 0; i < kFeatures; ++i) colour += fit.slope[i] * x[i];
   return glm::max(colour, glm::dvec3(0.0));
 }
 
-/// The fits around a pixel on a grid of `size` pixels, with their bilinear weights.
-template <typename Use>
-void forTheFourAround(glm::ivec2 p, int size, const Image<Fit>& grid, Use use) {
+/// Visit the four blocks or cells of `size` pixels around a pixel, with their bilinear weights.
+template <typename Visit>
+void forFourNeighbours(glm::ivec2 p, int size, const Image<Fit>& grid, Visit visit) {
   const glm::dvec2 position = (glm::dvec2(p) + 0.5) / double(size) - 0.5;
   const glm::ivec2 base = glm::ivec2(glm::floor(position));
   const glm::dvec2 f = position - glm::dvec2(base);
   for (const glm::ivec2 offset : {glm::ivec2(0, 0), glm::ivec2(1, 0), glm::ivec2(0, 1), glm::ivec2(1, 1)}) {
     if (!grid.contains(base + offset)) continue;
-    use(base + offset, (offset.x == 1 ? f.x : 1.0 - f.x) * (offset.y == 1 ? f.y : 1.0 - f.y));
+    visit(base + offset, (offset.x == 1 ? f.x : 1.0 - f.x) * (offset.y == 1 ? f.y : 1.0 - f.y));
   }
 }
 
@@ -412,18 +420,18 @@ void forTheFourAround(glm::ivec2 p, int size, const Image<Fit>& grid, Use use) {
 
 Image<glm::dvec3> blockRegression(const HostFrame& frame, const Image<Guide>& guides,
                                   const Image<glm::dvec4>& accumulated, const BlockRegressionSettings& settings) {
-  const Picture picture{frame, guides, accumulated, settings};
-  const Image<Block> blocks = makeBlocks(picture);
+  const Inputs inputs{frame, guides, accumulated, settings};
+  const Image<Block> blocks = representBlocks(inputs);
   const auto fitAll = [&](const Image<Block>& windows) {
     Image<Fit> fits(windows.size());
-    forEachPixel(windows.size(), [&](glm::ivec2 b) { fits[b] = fitOf(picture, windows[b]); });
+    forEachPixel(windows.size(), [&](glm::ivec2 b) { fits[b] = fitOf(inputs, windows[b]); });
     return fits;
   };
-  const double cellPixels = std::min(picture.coarseSigma() / double(settings.coarseResolution), 8.0);
+  const double cellPixels = std::min(inputs.coarseSigma() / double(settings.coarseResolution), 8.0);
   int cellSize = int(settings.size);
   while (2 * cellSize <= cellPixels) cellSize *= 2;
-  const Image<Fit> fine = fitAll(growWindows(picture, blocks));
-  const Image<Fit> coarse = fitAll(growCoarseWindows(picture, cellSize, coarseWindows(picture, cellSize), fine));
+  const Image<Fit> fine = fitAll(fineWindows(inputs, blocks));
+  const Image<Fit> coarse = fitAll(growCoarseWindows(inputs, cellSize, coarseWindows(inputs, cellSize), fine));
 
   Image<glm::dvec3> result(guides.size());
   forEachPixel(guides.size(), [&](glm::ivec2 p) {
@@ -435,16 +443,16 @@ Image<glm::dvec3> blockRegression(const HostFrame& frame, const Image<Guide>& gu
     double fineWeight = 0.0;
     double coarseWeight = 0.0;
     double samples = 0.0;
-    forTheFourAround(p, cellSize, coarse, [&](glm::ivec2 cell, double bilinear) {
+    forFourNeighbours(p, cellSize, coarse, [&](glm::ivec2 cell, double bilinear) {
       if (coarse[cell].samples == 0.0) return;
-      coarseSum += bilinear * evaluate(picture, coarse[cell], p);
+      coarseSum += bilinear * evaluate(inputs, coarse[cell], p);
       coarseWeight += bilinear;
     });
-    forTheFourAround(p, int(settings.size), fine, [&](glm::ivec2 b, double bilinear) {
+    forFourNeighbours(p, int(settings.size), fine, [&](glm::ivec2 b, double bilinear) {
       if (fine[b].samples == 0.0) return;
       const double weight = bilinear * facing(blocks[b].normal, octahedralDecode(guide.features)) *
-                            picture.onPlane(blocks[b].pixel, blocks[b].depth, blocks[b].normal, p, guide.depth);
-      fineSum += weight * evaluate(picture, fine[b], p);
+                            inputs.edgeStopping(blocks[b].pixel, blocks[b].depth, blocks[b].normal, p, guide.depth);
+      fineSum += weight * evaluate(inputs, fine[b], p);
       samples += weight * fine[b].samples;
       fineWeight += weight;
     });

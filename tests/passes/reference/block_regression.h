@@ -5,10 +5,10 @@
 
 namespace walr::reference {
 
-/// The regression over blocks by brute force. Averages of averages are averages of samples: every block's window is
-/// kept as the weight of each pixel in it, and each fit is weighted least squares over those pixels. No moment is
-/// merged, stored or rescaled.
-/// @param accumulated rgb: radiance; alpha: number of samples behind it
+/// The regression over blocks of passes/WALR.md, 4 to 8, by brute force. An average of averages is an average of
+/// samples, so every window is kept as the weight of each pixel in it, and each fit is weighted least squares over
+/// those pixels. No moments are merged, stored or rescaled.
+/// @param accumulated rgb: radiance; a: history length
 Image<glm::dvec3> blockRegression(const HostFrame& frame, const Image<Guide>& guides,
                                   const Image<glm::dvec4>& accumulated, const BlockRegressionSettings& settings);
 

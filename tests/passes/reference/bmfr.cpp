@@ -21,6 +21,7 @@ constexpr int kFeatures = 10;
 using Column = std::vector<double>;
 using Features = std::array<double, kFeatures>;
 
+/// Displacements of the block grid, one per frame in turn (Koskela et al. 2019, 3.5 and 6.1).
 constexpr std::array<std::array<int, 2>, 16> kOffsets{{{-14, -14},
                                                        {4, -6},
                                                        {-8, 14},
@@ -42,20 +43,22 @@ bool isFinite(glm::dvec3 v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-/// Walks back and forth over 0 .. size - 1.
+/// Reflect a coordinate at the borders of 0 .. size - 1 until it lies inside.
 int mirrored(int x, int size) {
   while (x < 0 || x >= size) x = x < 0 ? -1 - x : 2 * size - 1 - x;
   return x;
 }
 
+/// A pixel of a block: world-space features and noisy colour.
 struct Sample {
-  glm::ivec2 place;  ///< Before mirroring.
+  glm::ivec2 place;  ///< Position before it is reflected at the image's border.
   bool counts = false;
   glm::dvec3 normal{0.0};
   glm::dvec3 position{0.0};
   glm::dvec3 colour{0.0};
 };
 
+/// The pixels of the block at `origin`, its window Omega (Koskela et al. 2019, 3.3).
 std::vector<Sample> samplesOf(const HostFrame& frame, const Image<Guide>& guides, const Image<glm::dvec3>& lighting,
                               glm::ivec2 origin) {
   const glm::dmat3 worldFromView = glm::transpose(glm::dmat3(frame.constants.viewFromWorld));
@@ -75,11 +78,13 @@ std::vector<Sample> samplesOf(const HostFrame& frame, const Image<Guide>& guides
   return samples;
 }
 
+/// Maps world positions to [-1, 1] within a block.
 struct Scaling {
   glm::dvec3 centre{0.0};
   glm::dvec3 scale{1.0};
 };
 
+/// Scaling of a block's features to [-1, 1] (Koskela et al. 2019, 3.4).
 Scaling scalingOf(const std::vector<Sample>& samples, const Image<Guide>& guides, double extentFloor) {
   glm::dvec3 low(std::numeric_limits<double>::max());
   glm::dvec3 high(-low);
@@ -94,12 +99,14 @@ Scaling scalingOf(const std::vector<Sample>& samples, const Image<Guide>& guides
   return {0.5 * (high + low), 1.0 / glm::max(half, glm::dvec3(least))};
 }
 
+/// The feature buffers T (Koskela et al. 2019, equation 8).
 Features featuresOf(const Sample& s, const Scaling& scaling) {
   const glm::dvec3 w = (s.position - scaling.centre) * scaling.scale;
   const glm::dvec3 n = s.normal;
   return {1.0, n.x, n.y, n.z, w.x, w.y, w.z, w.x * w.x, w.y * w.y, w.z * w.z};
 }
 
+/// The noise N of stochastic regularisation (Koskela et al. 2019, equation 7), in [-1, 1].
 Features noiseOf(int index, glm::ivec2 block, std::uint32_t frameIndex) {
   Features noise{};
   for (int i = 1; i < kFeatures; ++i) {
@@ -115,7 +122,8 @@ double dot(const Column& a, const Column& b) {
   return sum;
 }
 
-/// Least squares with the features that are not dependent on earlier ones: A = Q R, R c = Q^t y.
+/// QR solution of the least-squares problem (Koskela et al. 2019, equations 2 and 5) with the features that are not
+/// linearly dependent on earlier ones: A = Q R, R c = Q^t y.
 struct Fit {
   std::vector<int> used;    ///< Features in use.
   std::vector<Features> r;  ///< Row i of R, over positions in `used`.
@@ -141,6 +149,7 @@ Features solveTriangle(const Fit& fit, const Features& b, bool transposed) {
   return x;
 }
 
+/// Factorise the features and solve equations 2 and 5 of Koskela et al. 2019 for each colour channel.
 Fit solve(const std::vector<Column>& features, const std::array<Column, 3>& colours, double tolerance) {
   Fit fit;
   std::vector<Column> q;
@@ -157,7 +166,7 @@ Fit solve(const std::vector<Column>& features, const std::array<Column, 3>& colo
     }
     const double length = std::sqrt(dot(column, column));
     const double limit = tolerance * std::sqrt(rows);
-    // Ten reflections, each of sums forty additions deep (see `bmfrFit`).
+    // Householder's method makes ten reflections, each with sums that are forty additions deep.
     const double lengthError = 400.0 * kFloatRoundoff * std::sqrt(dot(features[k], features[k]));
     if (rows > 0.0 && std::abs(length - limit) <= lengthError && length > 0.0) fit.undecided = true;
     if (!(length > limit)) continue;
@@ -189,9 +198,10 @@ double length(const Features& v) {
   return std::sqrt(sum);
 }
 
-/// The fit at noise-free features, and how far single precision may take it. Householder's computed solution is that of
-/// a matrix whose columns are off by a relative `kColumnError` (Higham, Accuracy and Stability, theorem 20.3); to first
-/// order a change E of the matrix A moves the prediction f.c by (A^+)^t f . E c and by (A^t A)^-1 f . E^t r.
+/// The fit at noise-free features (Koskela et al. 2019, equation 3), with a bound of its error in single precision. The
+/// solution by Householder's method is that of a matrix whose columns are off by a relative `kColumnError` (Higham,
+/// Accuracy and Stability of Numerical Algorithms, theorem 20.3). To first order a change E of the matrix A moves the
+/// prediction f.c by (A^+)^t f . E c and by (A^t A)^-1 f . E^t r.
 BmfrResult evaluate(const Fit& fit, const Features& features, double featureError) {
   constexpr double kColumnError = 400.0 * kFloatRoundoff;
   Features f{};

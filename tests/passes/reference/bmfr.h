@@ -9,13 +9,13 @@ namespace walr::reference {
 struct BmfrResult {
   glm::dvec3 colour{0.0};
   glm::dvec3 error{0.0};
-  double leverage =
-      0.0;  ///< Squared length of the row of the hat matrix: what the fit takes over of errors in its data.
-  bool undecided = false;  ///< Rounding may decide whether one of the block's features counts as dependent.
+  /// Squared length of the pixel's row of the hat matrix: how much of the errors in its data the fit takes over.
+  double leverage = 0.0;
+  bool undecided = false;  ///< Rounding may decide whether a feature of the block is linearly dependent on others.
 };
 
-/// The blockwise fit (Koskela et al. 2019, 3.3 and 3.4) in double precision, by Gram-Schmidt orthogonalisation applied
-/// twice.
+/// Blockwise multi-order feature regression (Koskela et al. 2019, 3.3 and 3.4) in double precision, by Gram-Schmidt
+/// orthogonalisation applied twice instead of Householder's QR factorisation.
 Image<BmfrResult> bmfrFit(const HostFrame& frame, const Image<Guide>& guides, const Image<glm::dvec3>& lighting,
                           const BmfrFitSettings& settings = {});
 

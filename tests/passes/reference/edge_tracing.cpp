@@ -27,8 +27,8 @@ EdgeWeight edgeWeight(const HostFrame& frame, const Image<Guide>& guides, glm::i
   const double ratio = guides[q].depth / centre.depth;
   // dot(n, position - centre) / depth of the centre.
   const double distance = std::abs(glm::dot(planeNormal(centre, settings), ratio * ray - centreRay));
-  // About twelve roundings, of the normal's decoding, the rays, the ratio and the products, each of terms no larger
-  // than the two positions in units of the centre's depth.
+  // About twelve roundings, of the normal's decoding, the rays, the ratio and the products. Each term is no larger than
+  // the two positions in units of the centre's depth.
   const double distanceError = 12.0 * kFloatRoundoff * (ratio * glm::length(ray) + glm::length(centreRay));
   const auto planeNear = double(settings.planeNear);
   const auto planeFar = double(settings.planeFar);

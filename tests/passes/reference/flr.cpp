@@ -12,7 +12,7 @@
 namespace walr::reference {
 namespace {
 
-/// Normal, inverse depth, ambient occlusion.
+/// Guides: normal, inverse depth, ambient occlusion.
 constexpr std::size_t kGuides = 5;
 constexpr std::size_t kInverseDepth = 3;
 using GuideVector = Vector<kGuides>;
@@ -21,6 +21,7 @@ bool isFinite(glm::dvec3 v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
+/// A pixel of a window: weight, guides x and colour y.
 struct Sample {
   double weight;
   GuideVector x;
@@ -33,27 +34,28 @@ struct Fit {
   GuideVector meanX{};
   glm::dvec3 meanY{0.0};
   std::array<GuideVector, 3> slope{};
-  // What rounding the sums of products may change: the inverse of the matrix, and the largest error of its entries and
-  // of each right-hand side.
+  // Bounds of rounding in the sums of products: magnitudes of the inverse matrix, and the largest errors of the matrix
+  // and of each right-hand side.
   Matrix<kGuides> inverseMagnitude{};
   Matrix<kGuides> matrixError{};
   std::array<GuideVector, 3> rightError{};
 };
 
-/// What the regression reads.
+/// Inputs of the regression.
 struct Inputs {
   const Image<Guide>& guides;
   const Image<glm::dvec3>& lighting;
   const FlrRegressionSettings& settings;
 
-  /// A guide that is 0 everywhere has a slope of 0.
+  /// Guides of a pixel. One that is 0 everywhere gets a slope of 0.
   [[nodiscard]] GuideVector guidesAt(glm::ivec2 p) const {
     const glm::dvec3 n = octahedralDecode(guides[p].features);
     return {n.x, n.y, n.z, 1.0 / guides[p].depth, settings.occlusionGuide ? guides[p].occlusion : 0.0};
   }
 };
 
-/// The samples of all cells in the window of a cell, each with its cell's Gaussian weight.
+/// The samples in the window of a cell, with Gaussian weights by the distance between cells (Salmi et al. 2024:
+/// downsampled outer products, Gaussian blur).
 std::vector<Sample> windowOf(const Inputs& in, glm::ivec2 cell) {
   const FlrRegressionSettings& settings = in.settings;
   const int factor = int(settings.factor);
@@ -70,6 +72,7 @@ std::vector<Sample> windowOf(const Inputs& in, glm::ivec2 cell) {
   return samples;
 }
 
+/// Solve the normal equations of a window, (X^T X)^-1 X^T Y (Salmi et al. 2024), with a ridge.
 Fit fitCell(const std::vector<Sample>& samples, const FlrRegressionSettings& settings) {
   Fit fit;
   double total = 0.0;
@@ -106,9 +109,9 @@ Fit fitCell(const std::vector<Sample>& samples, const FlrRegressionSettings& set
   for (int c = 0; c < 3; ++c) fit.slope[c] = inverted * right[c];
   for (std::size_t i = 0; i < kGuides; ++i) fit.inverseMagnitude[i] = absolute(inverted[i]);
 
-  // A sum of products goes through one addition per pixel of a cell and per tap of each blur, every one rounding what
-  // is summed so far; the exponential of a weight errs by a few roundoffs more (Vulkan: 3 + 2 |x| units); then comes
-  // the difference of E[ab] and E[a] E[b], of which both err alike.
+  // A sum of products goes through one addition per pixel of a cell and per tap of each blur, each of which rounds the
+  // partial sum. The exponential of a weight errs by a few roundoffs more (Vulkan: 3 + 2 |x| units). Then comes the
+  // difference of E[ab] and E[a] E[b], which both err alike.
   const double reach = 2.0 * std::ceil(double(settings.reach) * double(settings.sigma) / settings.factor) + 1.0;
   const double exponent = 0.5 * double(settings.reach) * double(settings.reach) + 1.0;
   const double roundings = double(settings.factor * settings.factor) + 2.0 * (reach + 6.0 + 4.0 * exponent) + 8.0;
@@ -120,7 +123,7 @@ Fit fitCell(const std::vector<Sample>& samples, const FlrRegressionSettings& set
   return fit;
 }
 
-/// A fit at a pixel's guides, with what rounding may change of it.
+/// Evaluate a fit at a pixel's guides, I_k = x_k A_k* (Salmi et al. 2024), with a bound of the error.
 FlrResult predict(const Fit& fit, const GuideVector& x) {
   FlrResult result;
   GuideVector d = x;
@@ -133,7 +136,7 @@ FlrResult predict(const Fit& fit, const GuideVector& x) {
     const GuideVector slope = absolute(fit.slope[c]);
     GuideVector rightError = fit.matrixError * slope;
     for (std::size_t i = 0; i < kGuides; ++i) rightError[i] += fit.rightError[c][i];
-    // The constant is the mean minus the slope's part of it, which evaluation adds again.
+    // The shader's constant is the mean minus the slope times the mean guides, which evaluation adds again.
     result.colour[c] = fit.meanY[c] + dot(fit.slope[c], d);
     result.error[c] =
         dot(fit.inverseMagnitude * rightError, absolute(d)) + 16.0 * kFloatRoundoff * (fit.meanY[c] + dot(slope, size));
@@ -141,12 +144,12 @@ FlrResult predict(const Fit& fit, const GuideVector& x) {
   return result;
 }
 
-/// Share of a cell `t` cells away along one axis.
+/// Upsampling weight of a cell at a distance of `t` cells along one axis.
 double cellWeight(double t, FlrUpsampling upsampling) {
   const double d = std::abs(t);
   if (upsampling == FlrUpsampling::Nearest) return d < 0.5 ? 1.0 : 0.0;
   if (upsampling == FlrUpsampling::Bilinear) return std::max(1.0 - d, 0.0);
-  // The cubic B-spline as the fourfold convolution of a box: its truncated powers.
+  // The cubic B-spline is the fourfold convolution of a box, here as a sum of truncated powers.
   const auto cube = [](double x) { return x > 0.0 ? x * x * x : 0.0; };
   return (cube(2.0 - d) - 4.0 * cube(1.0 - d)) / 6.0;
 }

@@ -11,8 +11,8 @@ struct FlrResult {
   glm::dvec3 error{0.0};
 };
 
-/// Fast Local Regression without any of its shortcuts: every cell's least squares is summed over all pixels of its
-/// window, in double precision and about the mean, and solved by the matrix's inverse.
+/// Fast Local Regression (Salmi et al. 2024: the weighted least-squares solution A*) without its shortcuts: the sums of
+/// each cell go over all pixels of its window, in double precision and about the mean, and the matrix is inverted.
 Image<FlrResult> flrRegression(const Image<Guide>& guides, const Image<glm::dvec3>& lighting,
                                const FlrRegressionSettings& settings = {});
 

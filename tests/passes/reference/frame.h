@@ -12,7 +12,7 @@
 
 namespace walr::reference {
 
-/// What a host hands over for one frame, with the values that its textures hold.
+/// The input of one frame as a host provides it, with the values that its textures hold.
 struct HostFrame {
   Image<glm::dvec3> lighting;  ///< Demodulated radiance; may hold NaN and infinity.
   Image<double> depth;         ///< Linear view depth.

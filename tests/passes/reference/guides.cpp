@@ -12,39 +12,40 @@
 namespace walr::reference {
 namespace {
 
-/// A division may err by 2.5 units in the last place (Vulkan, "Precision of core operations"), a sum or product by half
-/// of one; a unit in the last place is at most two roundoffs.
+/// Relative error of an inverse. Vulkan ("Precision of core operations") allows a division 2.5 units in the last place,
+/// and a unit in the last place is at most two roundoffs.
 constexpr double kInverseError = 5.0 * kFloatRoundoff;
-/// Relative error of a position: two roundings in the ray, the inverse depth, one division.
+/// Relative error of a position: two roundings in the ray, the inverse depth and one division.
 constexpr double kPositionError = 2.0 * kFloatRoundoff + 2.0 * kInverseError;
 
 bool isFinite(glm::dvec3 v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-/// Inverse view depth; 0 outside the picture and on sky.
+/// Inverse view depth; 0 outside the image and on sky.
 double inverseDepthAt(const HostFrame& frame, glm::ivec2 p) {
   if (!frame.depth.contains(p)) return 0.0;
   const double z = frame.depth[p];
   return std::isfinite(z) && z > 0.0 && z < double(frame.constants.skyDepth) ? 1.0 / z : 0.0;
 }
 
+/// One-sided difference of position between a pixel and its neighbour along an axis.
 struct Tangent {
   glm::dvec3 value;
-  double misfit;       ///< How far the two pixels on this side miss the centre's inverse depth.
-  double misfitError;  ///< What single precision may add to that.
+  double misfit;  ///< How far the extrapolation from the two pixels on this side misses the centre's inverse depth.
+  double misfitError;  ///< Bound of what single precision adds to `misfit`.
   double error;        ///< Absolute error of `value` in single precision.
 };
 
-/// Drop the second of two tangents where the first is better beyond doubt.
+/// Drop the second of two tangents where rounding cannot make it the better one.
 void keepUndecided(std::vector<Tangent>& candidates) {
   if (candidates.size() < 2) return;
   const double gap = candidates[1].misfit - candidates[0].misfit;
   if (gap > candidates[0].misfitError + candidates[1].misfitError) candidates.pop_back();
 }
 
-/// The one-sided difference of position along an axis that shows the surface best, or nothing where neither does: first
-/// the exact answer, then those that rounding may take for it.
+/// The tangent along an axis with the smallest misfit, or nothing where both sides exceed the tolerance. The first
+/// entry is the exact answer; the others are those that rounding may choose instead.
 std::vector<std::optional<Tangent>> tangents(const HostFrame& frame, glm::ivec2 p, glm::ivec2 axis, double tolerance) {
   const double centreInverse = inverseDepthAt(frame, p);
   const glm::dvec3 centre = rayThrough(frame.constants.rayFromPixel, pixelCentre(p)) / centreInverse;
@@ -74,7 +75,7 @@ std::vector<std::optional<Tangent>> tangents(const HostFrame& frame, glm::ivec2 
   return options;
 }
 
-/// The normal that two tangents span, or, with one alone, the shading normal made perpendicular to it. Not normalised.
+/// The cross product of two tangents or, with only one, the shading normal made perpendicular to it. Not normalised.
 struct SpannedNormal {
   glm::dvec3 value{0.0};
   double error = 0.0;  ///< Absolute error in single precision.

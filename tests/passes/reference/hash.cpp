@@ -3,7 +3,7 @@
 namespace walr::reference {
 namespace {
 
-/// Every word gains the product of two others, in turn.
+/// Add to every word the product of two others, one word after the other.
 void mix(std::uint32_t (&word)[4]) {
   constexpr int kFactors[4][2] = {{1, 3}, {2, 0}, {0, 1}, {1, 2}};
   for (int i = 0; i < 4; ++i) word[i] += word[kFactors[i][0]] * word[kFactors[i][1]];

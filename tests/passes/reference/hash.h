@@ -6,10 +6,10 @@
 
 namespace walr::reference {
 
-/// Integer hash of four words (Jarzynski and Olano 2020, pcg4d).
+/// Integer hash of four words (pcg4d, Jarzynski and Olano 2020).
 glm::uvec4 pcg4d(glm::uvec4 key);
 
-/// Uniform in 0 .. count - 1: the hash's first word as a fraction of 2^32, times `count`.
+/// A random number in 0 .. count - 1, uniform over keys: the hash's first word as a fraction of 2^32, times `count`.
 std::uint32_t hashBelow(glm::uvec4 key, std::uint32_t count);
 
 }  // namespace walr::reference

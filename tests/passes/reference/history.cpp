@@ -8,10 +8,10 @@
 namespace walr::reference {
 namespace {
 
-/// History whose taps sum to less than this hundredth of a pixel is dropped.
+/// History is dropped where the weights of the accepted taps sum to less than this.
 constexpr double kLeastWeight = 0.01;
 
-/// Mean of the taps that match and hold a sample, in proportion to their weights.
+/// Bilinear mean of the accepted taps that hold a sample, with their weights normalised.
 HistorySample sampleBilinear(const Reprojection& r, const std::array<HistoryTap, 4>& taps,
                              const Image<glm::dvec4>& previous) {
   glm::dvec4 sum(0.0);
@@ -32,14 +32,14 @@ HistorySample sampleBilinear(const Reprojection& r, const std::array<HistoryTap,
   history.found = weightSum > kLeastWeight;
   if (!history.found) return history;
   history.value = sum / weightSum;
-  // Each weight may err by twice the position's error, of which the normalised mean sees what the taps differ by.
+  // Each weight may err by twice the position's error. In the normalised mean that counts by the taps' differences.
   history.error =
       8.0 * r.error / weightSum * (most - least) + 16.0 * kFloatRoundoff * glm::max(glm::abs(most), glm::abs(least));
   return history;
 }
 
-/// Colour of the 4x4 pixels around the position; the picture goes on with its border pixels. Not found where one of
-/// them has no history.
+/// Bicubic colour of the 4x4 pixels around the position; border pixels repeat outside the image. Not found where one of
+/// the pixels has no history.
 HistorySample sampleBicubic(const Reprojection& r, const Image<glm::dvec4>& previous) {
   const glm::dvec2 base = glm::floor(r.pixel - 0.5);
   const glm::dvec2 f = r.pixel - 0.5 - base;
@@ -78,7 +78,7 @@ HistorySample sampleHistory(const Reprojection& r, const std::array<HistoryTap, 
   if (!r.valid) return {};
   HistorySample history = sampleBilinear(r, taps, previous);
   if (filter == HistoryFilter::Bilinear || !history.found) return history;
-  // Which pixels surround the position decides whether all of them match.
+  // The position decides which four pixels are tested.
   const glm::dvec2 fraction = glm::fract(r.pixel - 0.5);
   for (int axis = 0; axis < 2; ++axis) {
     const double toPixel = std::min(fraction[axis], 1.0 - fraction[axis]);

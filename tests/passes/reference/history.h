@@ -5,7 +5,7 @@
 
 namespace walr::reference {
 
-/// What a history texture says about a surface.
+/// The history of a surface, read from a history texture.
 struct HistorySample {
   glm::dvec4 value{0.0};   ///< rgb: mean; a: number of samples behind it.
   glm::dvec4 error{0.0};   ///< Bound of what single precision adds.
@@ -13,12 +13,13 @@ struct HistorySample {
   bool undecided = false;  ///< A decision lay within rounding: single precision may differ by more than `error`.
 };
 
-/// Catmull-Rom spline weights of the four points around a position `f` past the second.
+/// Catmull-Rom weights of four points, for a position `f` past the second one: the bicubic resampling of Meunier &
+/// Harada 2022, 4.2.
 std::array<double, 4> catmullRom(double f);
 
-/// Read a history texture at a reprojected position from the taps that match. Bicubic reading needs all four taps to
-/// match and all sixteen pixels to have a history, else it falls back to bilinear; the number of samples is always read
-/// bilinearly.
+/// Read a history texture at a reprojected position (Meunier & Harada 2022, 4.2; passes/WALR.md, 2 and 9). A bicubic
+/// read needs all four taps accepted and a history in all sixteen pixels; otherwise it falls back to the bilinear mean
+/// of the accepted taps. The history length is always read bilinearly.
 HistorySample sampleHistory(const Reprojection& r, const std::array<HistoryTap, 4>& taps,
                             const Image<glm::dvec4>& previous, HistoryFilter filter);
 

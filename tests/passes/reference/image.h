@@ -6,7 +6,7 @@
 
 namespace walr::reference {
 
-/// A picture in double precision; pixel (0, 0) is at the top left.
+/// An image in double precision; pixel (0, 0) is at the top left.
 template <typename T>
 class Image {
  public:
@@ -27,7 +27,7 @@ class Image {
   std::vector<T> pixels_;
 };
 
-/// Call `visit(p)` for every pixel position of a picture, row by row.
+/// Call `visit(p)` for every pixel position of an image, row by row.
 template <typename Visit>
 void forEachPixel(glm::ivec2 size, Visit visit) {
   for (int y = 0; y < size.y; ++y)

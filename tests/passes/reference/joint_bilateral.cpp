@@ -12,7 +12,7 @@
 namespace walr::reference {
 namespace {
 
-/// The guides of a frame, decoded once.
+/// The guides of a pixel, decoded.
 struct Decoded {
   glm::dvec3 position{0.0};
   glm::dvec3 normal{0.0};
@@ -38,7 +38,7 @@ Image<Decoded> decode(const HostFrame& frame, const Image<Guide>& guides) {
   return result;
 }
 
-/// Mean luminance over the 9x9 pixels that the unit of colour distances is taken from.
+/// Mean luminance over 9x9 pixels spread over the window: the unit of colour distances.
 double windowLuminance(const Image<Decoded>& decoded, glm::ivec2 p, int radius) {
   double sum = 0.0;
   int count = 0;

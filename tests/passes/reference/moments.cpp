@@ -104,11 +104,11 @@ MergedMoments merge(const WeightedMoments* parts, int count, int additions) {
   mean[kSamples] = weightSum;
   merged.moments = fromArray(mean);
 
-  // Error bounds. Each addition rounds once; seven further roundings come from the differences, the products, the
-  // division and the final correction. Differences are taken about the centre at worst.
+  // Error bounds. Each addition rounds once. Seven further roundings come from the differences, the products, the
+  // division and the final correction. In the worst case differences are taken about the centre.
   double weightErrorSum = 0.0;
   for (int i = 0; i < count; ++i) weightErrorSum += parts[i].weightError * parts[i].moments.samples;
-  // Shares of the sum err by this much more, because the sum errs too.
+  // The sum of weights errs too, which makes the relative weights err by this factor more.
   const double shareOfRest = 1.0 / std::max(1.0 - weightErrorSum / weightSum, 0.5);
   const double roundings = (additions + 7.0) * kFloatRoundoff;
   const Moments& centre = parts[0].moments;
@@ -121,7 +121,7 @@ MergedMoments merge(const WeightedMoments* parts, int count, int additions) {
     const MomentValues aboutMean = about(part.moments, meanX, meanY);
     const MomentValues products =
         toArray(meanProducts({.x = glm::abs(part.moments.x - centre.x), .y = glm::abs(part.moments.y - centre.y)}));
-    // What errors in the part's means do to the products of their differences.
+    // Effect of errors in the part's means on the products of differences.
     const glm::dvec2 dx = glm::abs(part.moments.x - meanX);
     const glm::dvec3 dy = glm::abs(part.moments.y - meanY);
     const glm::dvec2 ex(part.error[0], part.error[1]);
@@ -130,7 +130,7 @@ MergedMoments merge(const WeightedMoments* parts, int count, int additions) {
                                                 .yu = dy * ex.x + ey * dx.x,
                                                 .yv = dy * ex.y + ey * dx.y});
     for (int k = 0; k < kMomentCount; ++k) {
-      // A wrong weight pulls each average towards or from the part by how much the two differ.
+      // An error of a weight moves each average by its difference from the part.
       const double pull = k < 5 ? aboutMean[k] : aboutMean[k] - result[k];
       merged.error[k] += roundings * w * (std::abs(aboutCentre[k]) + products[k]) +
                          shareOfRest * weightError * std::abs(pull) + w * (part.error[k] + productErrors[k]);

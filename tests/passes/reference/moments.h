@@ -11,8 +11,8 @@
 
 namespace walr::reference {
 
-/// The weighted averages behind one pixel's regression, centred: means, and covariances about them (Meunier & Harada
-/// 2022, 3.1).
+/// The weighted averages of one pixel's regression (Meunier & Harada 2022, 3.1: XX and YX), in centred form: means, and
+/// covariances about them.
 struct Moments {
   glm::dvec2 x{0.0};     ///< Mean of the two features.
   glm::dvec3 y{0.0};     ///< Mean of the colour.
@@ -26,24 +26,24 @@ struct Moments {
 /// Number of values in `Moments`.
 inline constexpr int kMomentCount = 16;
 using MomentValues = std::array<double, kMomentCount>;
-/// The values in the order of their declaration, and back.
+/// Convert between `Moments` and an array of its values in the order of declaration.
 MomentValues toArray(const Moments& m);
 Moments fromArray(const MomentValues& values);
-/// Names of the values in that order.
+/// Names of the values, in the same order.
 const char* momentName(int index);
 
-/// The averages of products that raw storage holds in place of the covariances: E[ab] = cov(a, b) + E[a] E[b].
+/// Convert between covariances and the averages of products that raw storage holds: E[ab] = cov(a, b) + E[a] E[b].
 Moments toRaw(const Moments& centred);
 Moments toCentred(const Moments& raw);
 
-/// Rec. 709 luminance.
+/// Rec. 709 luminance, Y of passes/WALR.md.
 double luminance(glm::dvec3 colour);
 
-/// Moments of a single pixel.
-/// @param accumulated rgb: mean; a: number of samples behind it; 0: the pixel weighs nothing
+/// Moments of a single pixel: iteration 0 of the averages of Meunier & Harada 2022, 3.2.
+/// @param accumulated rgb: mean; a: history length; at 0 the pixel has no sample
 Moments momentsOf(glm::dvec2 features, glm::dvec4 accumulated);
 
-/// One part of a merge.
+/// Moments that take part in a merge.
 struct WeightedMoments {
   Moments moments;
   double weight = 0.0;       ///< Edge weight; multiplies `moments.samples`.
@@ -51,27 +51,29 @@ struct WeightedMoments {
   MomentValues error{};      ///< Bound of what single precision added to the moments.
 };
 
-/// A merge, with the error that single-precision arithmetic may have made in each value.
+/// Merged moments, with the error that single-precision arithmetic may have made in each value.
 struct MergedMoments {
   Moments moments;
   MomentValues error{};
 };
 
-/// Moments of the union of weighted sets of samples: C = sum w (C_i + (m_i - M)(m_i - M)^T) / sum w. Without any sample
-/// the means are the centre's, and the rest is 0.
+/// Moments of the union of weighted sets of samples: the averages of averages of Meunier & Harada 2022, 3.2, in centred
+/// form: C = sum w (C_i + (m_i - M)(m_i - M)^T) / sum w. If there is no sample, the means are those of the centre and
+/// the rest is 0.
 /// @param parts     the first is the window's centre, about which an implementation may take differences
-/// @param additions the most that a term goes through on its way into a sum; the nine of an iteration unless told
+/// @param additions the largest number of additions that a term goes through; nine by default, as in one iteration
 MergedMoments merge(const WeightedMoments* parts, int count, int additions = 9);
 
-/// As a format keeps them between two iterations, rounded to nearest. Sixteen halves keep the mean squared luminance as
-/// its root; raw formats drop it and the sample count. Without a sample all values are 0.
+/// Moments rounded to nearest as a storage format keeps them between two iterations (Meunier & Harada 2022, 5.2).
+/// Centred storage keeps the root of the mean squared luminance; raw storage drops it and the sample count. If there is
+/// no sample, all values are 0.
 Moments roundMoments(const Moments& m, MomentStorage storage);
 
-/// What single precision adds to moments that an iteration reads: nothing where they are stored centred, else the
+/// Bound of what single precision adds to moments when an iteration reads them: 0 for centred storage, else the
 /// rounding of the subtraction that centres them.
 MomentValues loadError(const Moments& m, MomentStorage storage);
 
-/// What single precision adds to the moments of a single sample: features are decoded from 16-bit unorms.
+/// Bound of what single precision adds to the moments of a single pixel, whose features are decoded from 16-bit unorms.
 MomentValues sampleError(const Moments& m);
 
 }  // namespace walr::reference

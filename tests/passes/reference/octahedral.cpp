@@ -11,7 +11,7 @@
 namespace walr::reference {
 namespace {
 
-/// Mirror a point of the octahedron's far side across the near side's border, or back: the map is its own inverse.
+/// Map a point between the octahedron's far and near side (Cigolle et al. 2014); the map is its own inverse.
 glm::dvec2 fold(glm::dvec2 e) {
   return {(1.0 - std::abs(e.y)) * (e.x < 0.0 ? -1.0 : 1.0), (1.0 - std::abs(e.x)) * (e.y < 0.0 ? -1.0 : 1.0)};
 }

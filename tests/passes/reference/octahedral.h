@@ -7,13 +7,13 @@ namespace walr::reference {
 
 /// Octahedral map of a unit vector, pole on +Z, remapped to [0, 1] (Cigolle et al. 2014; Meunier & Harada 2022, 5.2).
 glm::dvec2 octahedralEncode(glm::dvec3 direction);
-/// Its inverse; unit.
+/// The inverse of the map; a unit vector.
 glm::dvec3 octahedralDecode(glm::dvec2 uv);
-/// The two 16-bit unorms next to a direction's map, of which the second is never 0 (surface.glsl), and the direction
-/// that they mean.
+/// The two 16-bit unorms nearest to an octahedral map; the second one is never 0 (surface.glsl).
 glm::dvec2 roundToUnorms(glm::dvec2 encoded);
+/// The direction that these unorms decode to.
 glm::dvec3 roundToNormal(glm::dvec3 direction);
-/// The short normal next to a direction (surface.glsl).
+/// The direction that the nearest short normal decodes to (surface.glsl).
 glm::dvec3 roundToShortNormal(glm::dvec3 direction);
 
 }  // namespace walr::reference

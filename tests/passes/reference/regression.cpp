@@ -8,14 +8,15 @@
 namespace walr::reference {
 namespace {
 
+/// Solution of the normal equations.
 struct Fit {
   std::vector<double> beta;  ///< Coefficients of the constant and the two features.
   Matrix factor;             ///< Cholesky factor of the normal equations.
   double lambda = 0.0;       ///< Ridge.
 };
 
-/// First-order bound of what errors in the moments, and single precision in the solve, do to the fitted colour.
-/// With slope b = A^-1 c: |delta b| <= |A^-1| (|delta c| + |delta A| |b|), and for A = L L^t with L = (p 0; q r) the
+/// First-order bound of the error of the fitted colour, from errors of the moments and from single precision in the
+/// solve. With slope b = A^-1 c: |delta b| <= |A^-1| (|delta c| + |delta A| |b|). For A = L L^t with L = (p 0; q r) the
 /// trace 1 / p^2 + (1 + (q / p)^2) / r^2 of A^-1 bounds its norm.
 double fitError(const Moments& m, glm::dvec2 offset, const MomentValues& e, const Fit& fit, double noiseRidge,
                 int channel) {
@@ -89,7 +90,7 @@ Reconstruction reconstruct(const Moments& m, glm::dvec2 features, const Regulari
   Fit fit;
   fit.lambda = ridged ? ridge + (m.samples > 0.0 ? noiseRidge * relativeVariance(m) / m.samples : 0.0) : 0.0;
   const double pivotFloor = ridged ? fit.lambda : ridge;
-  // The normal equations of the paper, with the raw averages; a ridge leaves the constant alone, so that gain is 1.
+  // The paper's normal equations with raw averages. The ridge does not apply to the constant, so that gain is 1.
   const Moments raw = toRaw(m);
   fit.factor = cholesky(
       {{1.0, m.x.x, m.x.y}, {m.x.x, raw.xx.x + fit.lambda, raw.xx.y}, {m.x.y, raw.xx.y, raw.xx.z + fit.lambda}},

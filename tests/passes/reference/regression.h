@@ -25,10 +25,11 @@ struct Reconstruction {
 /// Relative variance of one input sample over the window: E[l^2] / E[l]^2 - 1.
 double relativeVariance(const Moments& m);
 
-/// Fit the colour to the constant and the two features, and evaluate the fit at `features`; at least 0, at most the
-/// largest half. Regularisation::Ridge adds `ridge + noiseRidge * relativeVariance / W` to the covariance's diagonal
-/// and takes no pivot smaller than that, Regularisation::Floor floors the pivots at `ridge`.
-/// @param momentsError error of each moment that single precision made before (zeros where they are exact)
+/// Solve the normal equations (Meunier & Harada 2022, 3.1) for the constant and the two features, and evaluate the fit
+/// at `features`. The result is at least 0 and at most the largest half. Regularisation::Ridge adds `ridge + noiseRidge
+/// * relativeVariance / W` to the covariance's diagonal and floors the pivots there; Regularisation::Floor floors the
+/// pivots at `ridge` (algorithm 1).
+/// @param momentsError error bound of each moment; zeros where they are exact
 Reconstruction reconstruct(const Moments& m, glm::dvec2 features, const RegularisationSettings& settings,
                            const MomentValues& momentsError = {});
 

@@ -11,8 +11,8 @@
 namespace walr::reference {
 namespace {
 
-/// The surface nearest to the camera in the 3x3 neighbourhood; the first in reading order of equally near ones, but the
-/// pixel itself before all.
+/// Motion vector dilation (Meunier & Harada 2022, 4.2): the pixel of the 3x3 neighbourhood whose surface is nearest to
+/// the camera. Among equally near ones the pixel itself comes first, then reading order.
 glm::ivec2 nearestPixel(const Image<Guide>& guides, glm::ivec2 p) {
   glm::ivec2 nearest = p;
   for (int dy = -1; dy <= 1; ++dy) {
@@ -25,8 +25,8 @@ glm::ivec2 nearestPixel(const Image<Guide>& guides, glm::ivec2 p) {
   return nearest;
 }
 
-/// A motion as later stages are told of it: a half with the two lowest bits of its mantissa cleared, to nearest, ties
-/// to even; 0 below the normal halves.
+/// The motion that the texture of history taps holds: a half with the two lowest bits of its mantissa cleared, rounded
+/// to nearest, ties to even; 0 below the normal halves.
 double keptMotion(double motion) {
   if (std::abs(motion) < 0x1p-14) return 0.0;
   int exponent = 0;
@@ -59,23 +59,22 @@ Reprojection reproject(const HostFrame& frame, const Image<Guide>& guides, glm::
     const auto jitter = jittered ? double(constants.jitterDelta[axis]) : 0.0;
     motion[axis] = product - jitter;
     if (!options.keepTaps) continue;
-    // Single precision rounds both operations, or, where they are contracted, their result.
+    // Single precision rounds both operations, or only the result where the compiler contracts them to one.
     const double apart = keptMotion(roundToFloat(roundToFloat(product) - jitter));
     const double contracted = keptMotion(roundToFloat(product - jitter));
     r.undecided |= apart != contracted;
     motion[axis] = apart;
   }
-  const glm::dvec2 there = pixelCentre(p) + motion;  // In pixels of this picture.
+  const glm::dvec2 there = pixelCentre(p) + motion;  // In pixels of the current image.
   const glm::dvec2 scale(constants.previousPixelFromPixel);
   r.pixel = there * scale;
-  // Product, sum and difference, each no larger than the result, the start and the motion, which is at most as far.
-  // From the camera, about twelve roundings of a position and its projection, in terms of the previous picture's
-  // pixels.
+  // Motion from a vector: product, sum and difference, each no larger than result, start and motion.
+  // Motion from the camera: about twelve roundings of a position and its projection, in pixels of the previous image.
   const double reach = 2.0 * std::max({std::abs(r.pixel.x), std::abs(r.pixel.y), 1.0}) + 1.0;
   const double across = double(std::max(frame.size().x, frame.size().y));
   r.error = fromCamera ? 24.0 * kFloatRoundoff * std::max(reach, across) : 4.0 * kFloatRoundoff * reach;
-  // Of another size: also the sum before it is scaled, which may be the larger one, and, beside the product's own
-  // rounding, that of half a pixel each way.
+  // If the previous image has another size, the sum is rounded before it is scaled and may be the larger one. The
+  // product and half a pixel each way round too.
   if (scale != glm::dvec2(1.0)) {
     r.error *= std::max({scale.x, scale.y, 1.0});
     r.error += 4.0 * kFloatRoundoff * reach;
@@ -116,7 +115,7 @@ std::array<HistoryTap, 4> historyTaps(const HostFrame& frame, const Reprojection
     const double distance =
         byPlane ? std::abs(glm::dot(r.normal, position - r.position)) : std::abs(position.z - r.position.z);
     const double tolerance = tests.planeTolerance * -r.position.z;
-    // About sixteen roundings of terms no larger than the two positions, and of unit vectors.
+    // About sixteen roundings, of terms no larger than the two positions and of unit vectors.
     const double distanceError = 16.0 * kFloatRoundoff * (glm::length(position) + glm::length(r.position)) +
                                  r.error * std::abs(r.position.z) *
                                      std::max(std::abs(double(frame.constants.previousRayFromPixel.x)),

@@ -7,46 +7,49 @@
 
 namespace walr::reference {
 
-/// Where a surface was in the previous frame.
+/// The position of a surface in the previous frame.
 struct Reprojection {
-  glm::dvec2 pixel{0.0};     ///< Position in the previous picture, pixels.
+  glm::dvec2 pixel{0.0};     ///< Position in the previous image, pixels.
   glm::dvec3 position{0.0};  ///< In the previous frame's view space.
-  glm::dvec3 normal{0.0};    ///< Its geometric normal there.
-  std::uint32_t object = 0;  ///< Whose it is, as in `Guide`.
-  bool valid = false;        ///< False where motion leaves the picture or is not finite.
-  bool undecided = false;    ///< Rounding may decide which of two motions is kept.
-  double error = 0.0;        ///< What single precision may add to `pixel`, pixels.
+  glm::dvec3 normal{0.0};    ///< Geometric normal in the previous frame's view space.
+  std::uint32_t object = 0;  ///< Object of the surface, numbered as in `Guide`.
+  bool valid = false;        ///< False where motion leaves the image or is not finite.
+  bool undecided = false;    ///< Rounding may change to which of two values the motion is rounded.
+  double error = 0.0;        ///< Bound of what single precision adds to `pixel`, pixels.
 };
 
-/// How the way to the previous frame is found.
+/// How surfaces are reprojected.
 struct ReprojectionOptions {
   /// Follow the motion of the nearest surface of the 3x3 neighbourhood (Meunier & Harada 2022, 4.2).
   bool dilateMotion = false;
-  bool keepTaps = false;  ///< Round the motion to what later stages are told of it: halves with 9 significant bits.
+  bool keepTaps = false;  ///< Round the motion as for the texture of history taps: to halves with 9 significant bits.
 };
+/// Reproject the surface at a pixel (Meunier & Harada 2022, 4.2): its position in the previous image by motion vector,
+/// or by the camera alone, and its depth there by `motion.z`.
 Reprojection reproject(const HostFrame& frame, const Image<Guide>& guides, glm::ivec2 p,
                        const ReprojectionOptions& options = {});
 
-/// What tells a history pixel of the surface from that of another.
+/// The tests by which a history tap is accepted (passes/WALR.md, 2).
 struct HistoryTests {
   HistoryRejection rejection = HistoryRejection::Plane;
-  double planeTolerance = 0.0;   ///< Largest distance from the plane, or of the depth, in units of depth.
+  double planeTolerance = 0.0;   ///< Largest distance from the plane, or difference of depth, in units of depth.
   double normalThreshold = 0.0;  ///< Smallest cosine between geometric normals.
-  bool objects = false;          ///< Of another object is not of the surface.
+  bool objects = false;          ///< Reject pixels of other objects (Wang 2024, 3).
 };
 template <typename Settings>
 HistoryTests historyTestsOf(const Settings& settings) {
   return {settings.rejection, double(settings.planeTolerance), double(settings.normalThreshold)};
 }
 
-/// One pixel of the previous frame that a surface's history may come from.
+/// One of the four pixels of the previous frame around a reprojected position.
 struct HistoryTap {
   glm::ivec2 pixel{0};
-  double weight = 0.0;     ///< Bilinear.
-  bool matches = false;    ///< Inside the picture and on the surface.
+  double weight = 0.0;     ///< Bilinear weight.
+  bool matches = false;    ///< Accepted: it lies inside the image and shows the surface.
   bool undecided = false;  ///< A test is so close to its threshold that rounding may decide.
 };
-/// The four pixels around a reprojected position, each tested on its own.
+/// The four history taps around a reprojected position, each tested on its own (passes/WALR.md, 2; with
+/// HistoryRejection::Depth Meunier & Harada 2022, 4.2).
 std::array<HistoryTap, 4> historyTaps(const HostFrame& frame, const Reprojection& r, const Image<Guide>& previousGuides,
                                       const HistoryTests& tests);
 

@@ -26,8 +26,8 @@ double packedStep(double brightest, int mantissaBits) {
   return step;
 }
 
-double passedError(double value, double brightest) {
-  return value == 0.0 ? 0.0 : 0.5 * packedStep(brightest, kPassedBits);
+double passThroughError(double value, double brightest) {
+  return value == 0.0 ? 0.0 : 0.5 * packedStep(brightest, kPassThroughBits);
 }
 
 double largestPacked(int mantissaBits) {

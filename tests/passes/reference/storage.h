@@ -15,44 +15,44 @@ inline constexpr double kFloat10Roundoff = 0x1p-6;     ///< The same of an unsig
 inline constexpr double kSmallestHalf = 0x1p-24;       ///< Step between subnormal halves.
 inline constexpr double kDepthRoundoff = 0x1p-19;      ///< Largest relative error of a packed depth.
 inline constexpr double kUnorm16Step = 1.0 / 65535.0;  ///< Step between 16-bit unorms.
-inline constexpr double kUnorm12Step = 1.0 / 4095.0;   ///< The same of 12 bits.
-inline constexpr double kUnorm8Step = 1.0 / 255.0;     ///< The same of 8 bits.
-inline constexpr double kShortNormalSteps = 254.0;     ///< Of a short normal's octahedral map, per axis.
+inline constexpr double kUnorm12Step = 1.0 / 4095.0;   ///< Step between 12-bit unorms.
+inline constexpr double kUnorm8Step = 1.0 / 255.0;     ///< Step between 8-bit unorms.
+inline constexpr double kShortNormalSteps = 254.0;     ///< Steps per axis of a short normal's octahedral map.
 inline constexpr double kFloatRoundoff = 0x1p-24;      ///< Largest relative error of one operation in single precision.
 
-/// Bits of mantissa of packed light (packed_light.glsl).
+/// Bits of mantissa of packed light (packed_light.glsl; passes/WALR.md, Storage).
 inline constexpr int kAccumulatedBits = 7;
 inline constexpr int kFilteredBits = 9;
 inline constexpr int kResolvedBits = 8;
-inline constexpr int kPassedBits = 9;
+inline constexpr int kPassThroughBits = 9;
 
-/// Step between packed colours whose brightest channel is this one: the smallest of which the mantissa, rounded up, can
-/// count enough.
+/// Step between packed colours with this brightest channel: the smallest one with which the mantissa can hold the
+/// channel.
 double packedStep(double brightest, int mantissaBits);
-/// Largest error of a packed channel of light that passes through, which is rounded to nearest; 0 stays 0.
-double passedError(double value, double brightest);
-/// Largest packed channel.
+/// Largest error of a packed channel of the pass-through, which is rounded to nearest; 0 stays 0.
+double passThroughError(double value, double brightest);
+/// Largest value of a packed channel.
 double largestPacked(int mantissaBits);
-/// Step between packed counts of samples.
+/// Step between packed history lengths after accumulation.
 double packedCountStep(double count);
-/// Step between packed lengths of at least 1.
+/// Step between packed history lengths of at least 1 in the anti-aliasing history.
 double packedLengthStep(double length, double longest);
 
 /// Nearest half, ties to even; infinite from 65520 on.
 double roundToHalf(double value);
 /// Nearest half that is finite.
 double roundToFiniteHalf(double value);
-/// Nearest unsigned float with a 5-bit exponent and the given bits of mantissa, as R11G11B10_FLOAT has them; what is
-/// below 0 becomes 0, and what is too large the largest.
+/// Nearest unsigned float with a 5-bit exponent and the given bits of mantissa, as in R11G11B10_FLOAT. Values below 0
+/// become 0; values that are too large become the largest.
 double roundToUnsignedFloat(double value, int mantissaBits);
 /// Nearest float.
 double roundToFloat(double value);
-/// Nearest multiple of a step of [0, 1].
+/// Nearest multiple of `step` in [0, 1].
 double roundToUnorm(double value, double step);
-/// Nearest of the 65536 steps of [0, 1].
+/// Nearest 16-bit unorm.
 double roundToUnorm16(double value);
-/// Nearest float with 19 significant bits, ties up, of a depth of at least 0: what depth keeps beside the five bits of
-/// the edge distance.
+/// Nearest float with 19 significant bits, ties up: the precision of a packed depth, which shares 32 bits with five
+/// bits of edge distance. `depth` is at least 0.
 double roundDepth(double depth);
 
 }  // namespace walr::reference

@@ -17,7 +17,8 @@ bool isFinite(glm::dvec3 v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-/// Edge-stopping functions of depth and normal for the pair of pixels (p, q); 0 where q has nothing to lend.
+/// Edge-stopping functions of depth and normal (Schied et al. 2017, 4.4) between two pixels, the depth one by distance
+/// from the plane of p; 0 where q has no surface.
 double surfaceWeight(const HostFrame& frame, const Image<Guide>& guides, glm::ivec2 p, glm::ivec2 q,
                      const SvgfFilterSettings& settings) {
   if (!guides.contains(q) || guides[q].depth == 0.0) return 0.0;
@@ -34,7 +35,8 @@ double binomial(int n, int k) {
   return std::round(std::exp(std::lgamma(n + 1.0) - std::lgamma(k + 1.0) - std::lgamma(n - k + 1.0)));
 }
 
-/// Variance of the luminance over 7x7 pixels, and its second moment about the pixel's own mean.
+/// Spatial estimate (Schied et al. 2017, 4.2): the luminance's variance over 7x7 pixels, and its second moment about
+/// the pixel's own mean.
 struct SpatialMoments {
   double variance = 0.0;
   double secondMoment = 0.0;
@@ -61,6 +63,7 @@ SpatialMoments spatialMoments(const HostFrame& frame, const Image<Guide>& guides
   return {std::max(square - mean * mean, 0.0), square - 2.0 * mean * own + own * own};
 }
 
+/// Root of the variance after a 3x3 Gaussian, for the luminance's edge-stopping function (Schied et al. 2017, 4.4).
 double smoothDeviation(const Image<Guide>& guides, const Image<SvgfPixel>& input, glm::ivec2 p) {
   double sum = 0.0;
   double weightSum = 0.0;
@@ -76,7 +79,7 @@ double smoothDeviation(const Image<Guide>& guides, const Image<SvgfPixel>& input
   return std::sqrt(sum / weightSum);
 }
 
-/// Variance along an axis of the kernel that all iterations make up where nothing stops them.
+/// Variance along an axis of the kernel that all iterations form together where no edge stops them.
 double kernelVariance(const SvgfFilterSettings& settings) {
   return double(settings.radius) / 2.0 * (std::pow(4.0, settings.iterations) - 1.0) / 3.0;
 }

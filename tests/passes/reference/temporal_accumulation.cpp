@@ -15,7 +15,7 @@ bool isFinite(glm::dvec3 v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-/// History counts for fewer samples where the antilag factor is high.
+/// Limit the history length by the antilag factor: min(N_h, M - a (M - 1)) of passes/WALR.md, 2.
 void shorten(HistorySample& past, const Image<double>& antilag, const Reprojection& r, double maxHistory) {
   const Bounded longest = longestHistory(antilag, r.pixel, r.error, maxHistory);
   if (past.value.w <= longest.value - longest.error) return;

@@ -4,33 +4,33 @@
 
 namespace walr::reference {
 
-/// A running mean.
+/// A running mean over time.
 struct Accumulated {
   glm::dvec3 mean{0.0};
-  double samples = 0.0;   ///< Number of samples behind it.
+  double samples = 0.0;   ///< Number of samples in the mean: the history length.
   glm::dvec3 error{0.0};  ///< Bound of what single-precision arithmetic adds to the mean.
   double samplesError = 0.0;
-  /// Luminance of the frame's light less that of history; 0 where one of them is missing.
+  /// Luminance of the frame's light minus that of history, d of passes/WALR.md, 3; 0 where one of them is missing.
   double difference = 0.0;
   double differenceError = 0.0;
   bool undecided = false;  ///< A decision lay within rounding: single precision may differ by more than `error`.
 };
 
-/// What a picture of running means was one frame ago.
+/// Guides and running means of the previous frame.
 struct AccumulationHistory {
   Image<Guide> guides;            ///< Empty while there is no history.
   Image<glm::dvec4> accumulated;  ///< rgb: mean; a: number of samples.
-  Image<double> antilag = {};     ///< In history, by tiles; empty where nobody detects light that changes.
+  Image<double> antilag = {};     ///< Antilag factor of each tile; empty where antilag is off.
 };
 
-/// The preprocessing accumulation (Meunier & Harada 2022, 4.2): cumulative mean that turns exponential after
-/// `maxHistory`.
-/// @param keepTaps whether later stages are told where the history was, which rounds it
+/// Temporal accumulation, the preprocessing phase (Meunier & Harada 2022, 4.2; passes/WALR.md, 2): a cumulative moving
+/// average that becomes exponential after `maxHistory` samples.
+/// @param keepTaps whether later stages read the history taps of this one, for which the motion is rounded
 Image<Accumulated> accumulate(const HostFrame& frame, const Image<Guide>& guides, const AccumulationHistory& previous,
                               Storage storage, const TemporalAccumulationSettings& settings = {},
                               bool keepTaps = false);
 
-/// The part of a running mean that the next stages and the next frame read.
+/// Mean and history length, which the next stages and the next frame read.
 Image<glm::dvec4> meansAndLengths(const Image<Accumulated>& accumulated);
 
 }  // namespace walr::reference

@@ -8,22 +8,22 @@
 namespace walr::reference {
 namespace {
 
-/// Half size of the smallest clipping box around a mean, in YCoCg: the rounding of four halves in units of luma, or, in
-/// units of the brightest channel, the step that a packed history may be off by.
+/// Smallest half size of the clipping box around a mean, in YCoCg. With halves it is the rounding of four halves in
+/// units of luma; with packed light it is the step of the packed history, in units of the brightest channel.
 double leastReach(glm::dvec3 mean, LightStorage storage) {
   if (storage == LightStorage::Half) return 4.0 * kHalfRoundoff * mean.x;
   const glm::dvec3 colour = fromYCoCg(mean);
   return std::exp2(-kResolvedBits + 1) * std::max({colour.r, colour.g, colour.b});
 }
 
-/// Mean and spread of the surface pixels around a pixel.
+/// Mean of the surface pixels around a pixel, and the clipping box about it.
 struct Neighbourhood {
   glm::dvec3 mean{0.0};
   glm::dvec3 reach{0.0};       ///< Half size of the clipping box.
   glm::dvec3 reachError{0.0};  ///< Bound of what single precision adds to it.
 };
 
-/// A pixel outside the picture stands for the nearest one inside.
+/// Mean mu and half size gamma sigma of the clipping box (passes/WALR.md, 9). Border pixels repeat outside the image.
 Neighbourhood neighbourhoodOf(const Image<Guide>& guides, const Image<glm::dvec4>& filtered, glm::ivec2 p,
                               const TemporalAntialiasingSettings& settings) {
   const auto radius = static_cast<int>(settings.clipRadius);
@@ -48,7 +48,7 @@ Neighbourhood neighbourhoodOf(const Image<Guide>& guides, const Image<glm::dvec4
   const glm::dvec3 deviation = glm::sqrt(variance);
   const double least = leastReach(n.mean, settings.storage);
   n.reach = glm::max(gamma * deviation, least);
-  // The variance is a difference of two averages of at most `size`, each with about a rounding a pixel; the colour
+  // The variance is a difference of two averages of at most `size`, each with about one rounding per pixel. The colour
   // transform rounds the differences themselves by a few roundoffs of the colour.
   const glm::dvec3 transformError(4.0 * kFloatRoundoff *
                                   (std::abs(centre.x) + std::abs(centre.y) + std::abs(centre.z)));
@@ -63,14 +63,14 @@ Neighbourhood neighbourhoodOf(const Image<Guide>& guides, const Image<glm::dvec4
   return n;
 }
 
-/// Bound of the error of a clipped colour in YCoCg: the colour's own, and the box's. Shrinking towards the mean scales
-/// all components by the tightest ratio reach / offset, so each errs by its offset times that ratio's error.
+/// Error bound of a clipped colour in YCoCg, from the errors of the colour and of the box. Clipping scales all
+/// components by the smallest ratio reach / offset, so the error of that ratio counts once per offset.
 glm::dvec3 clipError(glm::dvec3 offset, const Neighbourhood& n, double colourError) {
   double ratio = 1.0;
   double ratioError = 0.0;
   for (int i = 0; i < 3; ++i) {
     const double size = std::abs(offset[i]);
-    if (size + colourError <= n.reach[i] - n.reachError[i]) continue;  // Inside beyond doubt.
+    if (size + colourError <= n.reach[i] - n.reachError[i]) continue;  // Inside, however it is rounded.
     if (size <= colourError) {
       ratioError = 1.0;
       continue;

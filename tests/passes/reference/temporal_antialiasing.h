@@ -5,23 +5,24 @@
 
 namespace walr::reference {
 
-/// What the postprocessing left one frame ago.
+/// Guides and anti-aliased result of the previous frame.
 struct AntialiasingHistory {
   Image<Guide> guides;         ///< Empty while there is no history.
   Image<glm::dvec4> resolved;  ///< rgb: mean; a: number of frames.
 };
 
-/// The axes in which colours are clipped: luma, orange minus blue, green minus the others.
+/// Convert to and from YCoCg, the axes in which colours are clipped: luma, orange minus blue, green minus the others.
 glm::dvec3 toYCoCg(glm::dvec3 rgb);
 glm::dvec3 fromYCoCg(glm::dvec3 yCoCg);
 
-/// Pull a colour towards a mean until no component is further from it than its deviation (Salvi 2016).
+/// Variance clipping (Salvi 2016; h' of passes/WALR.md, 9): scale a colour's offset from a mean until no component
+/// exceeds its deviation.
 glm::dvec3 varianceClip(glm::dvec3 colour, glm::dvec3 mean, glm::dvec3 deviation);
 
-/// The postprocessing (Meunier & Harada 2022, 4.4): bicubic history, variance clipping, moving average.
-/// `Accumulated::error` bounds what single precision adds.
+/// Temporal anti-aliasing, the postprocessing phase (Meunier & Harada 2022, 4.4; passes/WALR.md, 9): bicubic history,
+/// variance clipping, moving average. `Accumulated::error` bounds what single precision adds.
 /// @param filtered rgb: the current frame; a: below 0 where no light is known
-/// @param keptTaps whether the reprojection is the one that accumulation kept, which is rounded
+/// @param keptTaps whether the history taps are those that accumulation kept, for which the motion is rounded
 Image<Accumulated> antialias(const HostFrame& frame, const Image<Guide>& guides, const Image<glm::dvec4>& filtered,
                              const AntialiasingHistory& previous, Storage storage,
                              const TemporalAntialiasingSettings& settings = {}, bool keptTaps = false);

@@ -6,19 +6,19 @@
 
 namespace walr::reference {
 
-/// All stages of `walr_paper` in double precision, with the histories that they carry from frame to frame.
+/// The method `walr_paper` (Meunier & Harada 2022, figure 6) in double precision, with its histories.
 class Walr {
  public:
   explicit Walr(Storage storage, const WalrPaperSettings& settings = robustWalr())
       : storage_(storage), settings_(settings) {}
 
-  /// The denoised frame.
+  /// Denoise the next frame.
   Image<glm::dvec3> denoise(const HostFrame& frame);
 
   /// Forget all histories.
   void reset();
 
-  /// The spatial filter's input and output in the last frame.
+  /// Input and output of the spatial filter in the last frame.
   [[nodiscard]] const Image<glm::dvec4>& accumulated() const { return accumulation_.accumulated; }
   [[nodiscard]] const Image<glm::dvec3>& filtered() const { return filtered_; }
 

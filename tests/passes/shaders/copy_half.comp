@@ -1,4 +1,4 @@
-// Copies a texture of halves as it is, so that a test can read a transient one back.
+// Copies a texture of halves unchanged, so that a test can read back a transient one.
 #version 460
 #extension GL_EXT_samplerless_texture_functions : require
 

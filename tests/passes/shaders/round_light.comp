@@ -1,13 +1,13 @@
-// What light becomes when it is packed and unpacked, for tests of the packing.
+// Packs and unpacks light, for tests of the packing.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
 #include "include/packed_light.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(constant_id = 0) const uint kKey = 0;  // Of the texture whose packing it is.
+layout(constant_id = 0) const uint kKey = 0;  // Key of the texture; 0 for the pass-through.
 layout(constant_id = 1) const uint kFrame = 0;
-layout(constant_id = 2) const uint kLongest = 1;  // Length.
+layout(constant_id = 2) const uint kLongest = 1;  // Longest history length of the resolved texture.
 layout(set = 0, binding = 0) uniform texture2D source;
 layout(set = 0, binding = 1, rgba32f) uniform writeonly image2D target;
 
