@@ -275,7 +275,7 @@ fg::Texture addBlockReconstruction(StageGraph graph, fg::Buffer frame, const Blo
   });
 
   fg::PassBuilder pass = reconstruct("block apply", writesPacked ? shaders::blockApplyPacked : shaders::blockApply);
-  if (!writesPacked) pass.sample("passed", readsPacked ? light.lighting : light.accumulated);
+  if (!writesPacked) pass.sample("passThrough", readsPacked ? light.lighting : light.accumulated);
   return pass.store("outFiltered", graph->texture("filtered", {formatOf(light.result), grid.pixels}));
 }
 

@@ -123,7 +123,7 @@ AccumulationWithTaps addTemporalAccumulationWithTaps(StageGraph graph, const Den
   offerViews(stage);
   AccumulationWithTaps result;
   fg::PassBuilder pass = accumulate(stage, Role::MeanAndTaps, result.mean);
-  pass.specialize("kKeepPassedLight", antialiasing == LightStorage::Packed);
+  pass.specialize("kKeepPassThrough", antialiasing == LightStorage::Packed);
   const fg::Extent extent = graph->textureDesc(inputs.lighting).extent;
   result.taps = pass.store("outTaps", graph->texture("history taps", {VK_FORMAT_R32_UINT, extent}));
   return result;

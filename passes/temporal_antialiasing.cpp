@@ -75,7 +75,7 @@ fg::Texture addTemporalAntialiasing(StageGraph graph, const DenoiserInputs& inpu
     readReprojection(pass, inputs, guides, reprojection, standIns);
     readObjectIds(pass, ids, standIns);
     if (view) pass.specialize("kKeepableMotion", false);
-    if (packed && !view) pass.sample("passed", inputs.lighting);
+    if (packed && !view) pass.sample("passThrough", inputs.lighting);
   };
   return addStage(graph, false, read, filtered, output, settings);
 }

@@ -10,20 +10,20 @@ layout(local_size_x = 8, local_size_y = 8) in;
 
 uniform texture2D tiles;  // x: sum of the differences over a tile; y: sum of their squares.
 layout(r32f) uniform writeonly image2D outFactor;
-layout(push_constant) uniform PushConstants { AntilagConstants settings; };
+layout(push_constant) uniform PushConstants { AntilagConstants constants; };
 
 void main() {
   const ivec2 tile = ivec2(gl_GlobalInvocationID.xy);
   const ivec2 size = textureSize(tiles, 0);
   if (any(greaterThanEqual(tile, size))) return;
 
-  const ivec2 first = max(tile - settings.radius, ivec2(0));
-  const ivec2 last = min(tile + settings.radius, size - 1);
+  const ivec2 first = max(tile - constants.radius, ivec2(0));
+  const ivec2 last = min(tile + constants.radius, size - 1);
   vec2 sum = vec2(0.0);
   for (int y = first.y; y <= last.y; ++y) {
     for (int x = first.x; x <= last.x; ++x) sum += texelFetch(tiles, ivec2(x, y), 0).xy;
   }
   const float score = sum.y > 0.0 ? abs(sum.x) * inversesqrt(sum.y) : 0.0;
-  const float factor = clamp((score - settings.scoreLow) / (settings.scoreHigh - settings.scoreLow), 0.0, 1.0);
+  const float factor = clamp((score - constants.scoreLow) / (constants.scoreHigh - constants.scoreLow), 0.0, 1.0);
   imageStore(outFactor, tile, vec4(factor));
 }

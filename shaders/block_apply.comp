@@ -36,10 +36,10 @@ uniform texture2D accumulated;
 #elif defined(PACKED)
 layout(r32ui) uniform writeonly uimage2D outFiltered;
 #else
-uniform texture2D passed;
+uniform texture2D passThrough;
 layout(rgba16f) uniform writeonly image2D outFiltered;
 #endif
-layout(push_constant) uniform PushConstants { BlockRegressionConstants settings; };
+layout(push_constant) uniform PushConstants { BlockRegressionConstants constants; };
 #include "include/block_fit.glsl"
 #include "include/block_plane.glsl"
 #include "include/coarse_share.glsl"
@@ -50,7 +50,7 @@ layout(push_constant) uniform PushConstants { BlockRegressionConstants settings;
 #include "include/packed_light.glsl"
 #else
 #include "include/half.glsl"
-#include "include/passed_light.glsl"
+#include "include/pass_through.glsl"
 #endif
 
 struct Prediction {
@@ -104,18 +104,18 @@ float coarseShare(Prediction fine) { return fine.weight > 0.0 ? coarseShare(fine
 vec3 colourOf(Prediction sum) { return sum.weight > 0.0 ? sum.colour / sum.weight : vec3(0.0); }
 
 // The four texels around a pixel on a grid that is `size` times as coarse.
-struct Around {
+struct BilinearTexels {
   ivec2 base;
   vec2 f;
 };
 
-Around around(ivec2 p, int size) {
+BilinearTexels bilinearTexels(ivec2 p, int size) {
   const vec2 position = (vec2(p) + 0.5) / float(size) - 0.5;
-  return Around(ivec2(floor(position)), fract(position));
+  return BilinearTexels(ivec2(floor(position)), fract(position));
 }
 
 // 0 outside the grid.
-float bilinearWeight(Around a, int i, ivec2 grid, out ivec2 texel) {
+float bilinearWeight(BilinearTexels a, int i, ivec2 grid, out ivec2 texel) {
   const ivec2 offset = ivec2(i & 1, i >> 1);
   texel = a.base + offset;
   if (any(lessThan(texel, ivec2(0))) || any(greaterThanEqual(texel, grid))) return 0.0;
@@ -125,7 +125,7 @@ float bilinearWeight(Around a, int i, ivec2 grid, out ivec2 texel) {
 
 Prediction predictCoarse(ivec2 p, float z, NormalAndOcclusion shading) {
   Prediction sum = noPrediction();
-  const Around cells = around(p, kCellSize);
+  const BilinearTexels cells = bilinearTexels(p, kCellSize);
   [[unroll]] for (int i = 0; i < 4; ++i) {
     ivec2 cell;
     const float weight = bilinearWeight(cells, i, textureSize(coarseDepth, 0), cell);
@@ -138,7 +138,7 @@ Prediction predictCoarse(ivec2 p, float z, NormalAndOcclusion shading) {
 
 Prediction predictFine(ivec2 p, float z, NormalAndOcclusion shading) {
   Prediction sum = noPrediction();
-  const Around blocks = around(p, kBlockSize);
+  const BilinearTexels blocks = bilinearTexels(p, kBlockSize);
   [[unroll]] for (int i = 0; i < 4; ++i) {
     ivec2 block;
     const float bilinear = bilinearWeight(blocks, i, textureSize(fitDepth, 0), block);
@@ -176,15 +176,15 @@ vec3 viewOf(ivec2 p, Prediction fine, Prediction coarse, float share, float occl
 #endif
 
 #ifdef VIEW
-void storePassed(ivec2 p) { imageStore(outView, p, vec4(vec3(0.0), 1.0)); }
+void storeNoSurface(ivec2 p) { imageStore(outView, p, vec4(vec3(0.0), 1.0)); }
 #elif defined(PACKED)
-void storePassed(ivec2 p) { imageStore(outFiltered, p, uvec4(kNoFiltered)); }
+void storeNoSurface(ivec2 p) { imageStore(outFiltered, p, uvec4(kFilteredNoSurface)); }
 void store(ivec2 p, vec3 colour) {
-  const vec3 chances = chancesOf(p, frame.frameIndex, kFilteredKey).rgb;
-  imageStore(outFiltered, p, uvec4(packFiltered(colour, chances)));
+  const vec3 random = randomNumbers(p, frame.frameIndex, kFilteredSeed).rgb;
+  imageStore(outFiltered, p, uvec4(packFiltered(colour, random)));
 }
 #else
-void storePassed(ivec2 p) { imageStore(outFiltered, p, vec4(passedLight(passed, p), 1.0)); }
+void storeNoSurface(ivec2 p) { imageStore(outFiltered, p, vec4(passThroughLight(passThrough, p), 1.0)); }
 void store(ivec2 p, vec3 colour) { imageStore(outFiltered, p, nearestHalf(vec4(colour, 1.0))); }
 #endif
 
@@ -193,7 +193,7 @@ void main() {
   if (any(greaterThanEqual(p, textureSize(depth, 0)))) return;
   const float z = unpackDepth(texelFetch(depth, p, 0).x);
   if (z == 0.0) {
-    storePassed(p);
+    storeNoSurface(p);
     return;
   }
   const NormalAndOcclusion shading = unpackNormalAndOcclusion(texelFetch(features, p, 0).x);

@@ -16,7 +16,7 @@ uniform utexture2D normal;
 layout(constant_id = 8) const uint kView = 0;  // Which quantity; numbered in viewOf.
 layout(rgba32f) uniform writeonly image2D outView;
 #endif
-layout(push_constant) uniform PushConstants { BlockRegressionConstants settings; };
+layout(push_constant) uniform PushConstants { BlockRegressionConstants constants; };
 #include "include/block_fit.glsl"
 #define BLOCK_MOMENTS_IN
 #if defined(LAST)
@@ -51,7 +51,7 @@ Trace traceEdge(Plane plane, ivec2 block, ivec2 direction, uint edge) {
   Trace trace = Trace(1.0, kSpacing + 1, 0.0);
   int step = 0;
   while (step < kSpacing) {
-    step = min(step + max(int(settings.sdfFraction * float(edge)), 1), kSpacing);
+    step = min(step + max(int(constants.sdfFraction * float(edge)), 1), kSpacing);
     uint packedDepth;
     trace.weight = min(trace.weight, edgeWeight(plane, block + step * direction, packedDepth));
     if (trace.weight <= 0.0) {
@@ -64,8 +64,8 @@ Trace traceEdge(Plane plane, ivec2 block, ivec2 direction, uint edge) {
   return trace;
 }
 
-// What became of the taps.
-struct Taps {
+// What the traces to all eight taps found.
+struct TraceSummary {
   int nearestEdge;
   int lost;
 };
@@ -78,7 +78,7 @@ float sameLight(BlockMoments a, BlockMoments b) {
   const float shareB = b.samples / samples;
   const float difference = luminance(a.y - b.y);
   const float variance = shareA * a.yy + shareB * b.yy + shareA * shareB * difference * difference;
-  return sameLight(difference, variance / (shareA * shareB * samples), luminance(a.y + b.y), settings.growthErrors);
+  return sameLight(difference, variance / (shareA * shareB * samples), luminance(a.y + b.y), constants.growthErrors);
 }
 
 #ifdef VIEW
@@ -96,9 +96,9 @@ vec3 pivotsOf(BlockMoments m) {
   return vec3(smallest, outweighed, outweighed > 0.0);
 }
 
-vec3 viewOf(Taps taps, BlockMoments m) {
+vec3 viewOf(TraceSummary summary, BlockMoments m) {
   switch (kView) {
-    case 0u: return vec3(taps.nearestEdge, taps.lost, m.samples);
+    case 0u: return vec3(summary.nearestEdge, summary.lost, m.samples);
     case 1u: return pivotsOf(m);
     case 2u: return m.y;
     case 3u: return vec3(m.x[0], m.x[1], m.x[2]);
@@ -113,9 +113,9 @@ vec3 viewOf(Taps taps, BlockMoments m) {
 }
 #endif
 
-void writeResult(ivec2 block, float z, Taps taps, BlockMoments m) {
+void writeResult(ivec2 block, float z, TraceSummary summary, BlockMoments m) {
 #ifdef VIEW
-  const vec3 value = z > 0.0 ? viewOf(taps, m) : vec3(0.0);
+  const vec3 value = z > 0.0 ? viewOf(summary, m) : vec3(0.0);
   for (int i = 0; i < kBlockSize * kBlockSize; ++i) {
     const ivec2 p = kBlockSize * block + ivec2(i % kBlockSize, i / kBlockSize);
     if (all(lessThan(p, imageSize(outView)))) imageStore(outView, p, vec4(value, 1.0));
@@ -126,7 +126,7 @@ void writeResult(ivec2 block, float z, Taps taps, BlockMoments m) {
   const uint packedDepth = packFitDepth(z, converges(m.samples));
 #else
   storeMoments(block, m);
-  const uint packedDepth = packDepthSdf(z, uint(taps.nearestEdge));
+  const uint packedDepth = packDepthSdf(z, uint(summary.nearestEdge));
 #endif
   imageStore(outDepth, block, uvec4(z > 0.0 ? packedDepth : 0u));
 #endif
@@ -138,7 +138,7 @@ void main() {
   const uint packedDepth = texelFetch(depth, block, 0).x;
   const float z = unpackDepth(packedDepth);
   if (z == 0.0) {
-    writeResult(block, 0.0, Taps(0, 0), noSamples());
+    writeResult(block, 0.0, TraceSummary(0, 0), noSamples());
     return;
   }
   const uint packedNormal = texelFetch(normal, block, 0).x;
@@ -148,14 +148,14 @@ void main() {
   const BlockMoments own = loadMoments(block);
   BlockMomentSum sum = emptySum();
   add(sum, 1.0, own);
-  Taps taps = Taps(kSpacing + 1, 0);
+  TraceSummary summary = TraceSummary(kSpacing + 1, 0);
   for (int tap = 0; tap < 9; ++tap) {
     if (tap == 4) continue;
     const ivec2 direction = ivec2(tap % 3, tap / 3) - 1;
     const Trace trace = traceEdge(plane, block, direction, unpackSdf(packedDepth));
-    taps.nearestEdge = min(taps.nearestEdge, trace.edge);
+    summary.nearestEdge = min(summary.nearestEdge, trace.edge);
     if (trace.weight <= 0.0) {
-      ++taps.lost;
+      ++summary.lost;
       continue;
     }
     const ivec2 q = block + kSpacing * direction;
@@ -166,5 +166,5 @@ void main() {
     const float same = own.samples > 0.0 ? sameLight(own, tapped) : 1.0;
     if (same > 0.0) add(sum, weight * same, rescaleDepth(tapped, z / trace.depth));
   }
-  writeResult(block, z, taps, finish(sum));
+  writeResult(block, z, summary, finish(sum));
 }

@@ -7,7 +7,7 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
-layout(push_constant) uniform PushConstants { BlockRegressionConstants settings; };
+layout(push_constant) uniform PushConstants { BlockRegressionConstants constants; };
 #include "include/block_fit.glsl"
 #include "include/block_growth.glsl"
 #define BLOCK_MOMENTS_IN
@@ -18,9 +18,9 @@ layout(push_constant) uniform PushConstants { BlockRegressionConstants settings;
 layout(constant_id = 3) const int kCellBlocks = 1;  // Per axis.
 uniform utexture2D fitDepth;
 
-const int kTaps = 5;          // Per axis.
-const int kTapSpacing = 3;    // Cells.
-const float kTapSigma = 1.2;  // Of their Gaussian weights, taps.
+const int kGrowthTaps = 5;          // Per axis.
+const int kGrowthSpacing = 3;    // Cells.
+const float kGrowthSigma = 1.2;  // Of their Gaussian weights, taps.
 // Share of a window's variance that is taken for noise at least: slopes follow noise, too.
 const float kLeastNoise = 0.05;
 const float kPi = 3.14159265;
@@ -44,11 +44,11 @@ Window windowOf(BlockMoments m) {
     left -= w.slope[i] * luminance(m.yx[i]);
   }
   w.noise = m.yy > 0.0 ? clamp(left / m.yy, kLeastNoise, 1.0) : 1.0;
-  const float paths = pathsPerPixel(m.samples);
+  const float paths = samplesPerPixel(m.samples);
   const float sigma = float(kCellSize) * coarseSigma(paths);
   // Where there is less than a path a pixel, some pixels have none.
   w.pixels = 4.0 * kPi * sigma * sigma * min(paths, 1.0);
-  w.errors = settings.coarseGrowthErrors / (1.0 + settings.coarseGrowthOcclusion * max(m.x[kOcclusionFeature], 0.0));
+  w.errors = constants.coarseGrowthErrors / (1.0 + constants.coarseGrowthOcclusion * max(m.x[kOcclusionFeature], 0.0));
   return w;
 }
 
@@ -62,7 +62,7 @@ float sameLight(Window w, BlockMoments m) {
 
 // Whether the fits of some block around a pixel that reads this cell want paths. Where none does, the rare pixel that lies
 // on no block's plane reads a fit that has not grown.
-bool counts(ivec2 cell) {
+bool isRead(ivec2 cell) {
   const int reach = kCellBlocks / 2 + 1;
   const ivec2 first = max(kCellBlocks * cell - reach, ivec2(0));
   const ivec2 last = min(kCellBlocks * (cell + 1) - 1 + reach, textureSize(fitDepth, 0) - 1);
@@ -76,18 +76,18 @@ bool counts(ivec2 cell) {
   return wanting;
 }
 
-BlockMoments grown(ivec2 cell, float z, BlockMoments own) {
+BlockMoments grow(ivec2 cell, float z, BlockMoments own) {
   const Window window = windowOf(own);
   BlockMomentSum sum = emptySum();
   add(sum, 1.0, own);
-  for (int i = 0; i < kTaps * kTaps; ++i) {
-    const ivec2 tap = ivec2(i % kTaps, i / kTaps) - kTaps / 2;
-    const ivec2 q = cell + kTapSpacing * tap;
+  for (int i = 0; i < kGrowthTaps * kGrowthTaps; ++i) {
+    const ivec2 tap = ivec2(i % kGrowthTaps, i / kGrowthTaps) - kGrowthTaps / 2;
+    const ivec2 q = cell + kGrowthSpacing * tap;
     if (tap == ivec2(0) || !insideGrid(q)) continue;
     const float tapZ = unpackDepth(texelFetch(depth, q, 0).x);
     if (tapZ == 0.0) continue;
     const BlockMoments m = rescaleDepth(loadMoments(q), z / tapZ);
-    const float distance = length(vec2(tap)) / kTapSigma;
+    const float distance = length(vec2(tap)) / kGrowthSigma;
     if (m.samples > 0.0) add(sum, exp(-0.5 * distance * distance) * sameLight(window, m), m);
   }
   return finish(sum);
@@ -97,6 +97,6 @@ void main() {
   const ivec2 cell = ivec2(gl_GlobalInvocationID.xy);
   if (!insideGrid(cell)) return;
   BlockMoments m = loadMoments(cell);
-  if (m.samples > 0.0 && counts(cell)) m = grown(cell, unpackDepth(texelFetch(depth, cell, 0).x), m);
+  if (m.samples > 0.0 && isRead(cell)) m = grow(cell, unpackDepth(texelFetch(depth, cell, 0).x), m);
   storeFit(cell, fitOf(m));
 }

@@ -26,7 +26,7 @@ uniform texture2D accumulated;
 #define CELL_MOMENTS_OUT
 #include "include/block_textures.glsl"
 layout(r32ui) uniform writeonly uimage2D outNormal;
-layout(push_constant) uniform PushConstants { BlockRegressionConstants settings; };
+layout(push_constant) uniform PushConstants { BlockRegressionConstants constants; };
 #include "include/plane.glsl"
 #include "include/block_plane.glsl"
 #include "include/light.glsl"

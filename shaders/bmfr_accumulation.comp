@@ -16,7 +16,7 @@ uniform utexture2D taps;
 uniform texture2D previousAccumulated;  // rgb: mean; a: history length.
 layout(rgba16f) uniform writeonly image2D outAccumulated;
 layout(std140) uniform frameConstants { FrameConstants frame; };
-layout(push_constant) uniform PushConstants { BmfrAccumulationConstants settings; };
+layout(push_constant) uniform PushConstants { BmfrAccumulationConstants constants; };
 
 void main() {
   const ivec2 p = ivec2(gl_GlobalInvocationID.xy);
@@ -29,6 +29,6 @@ void main() {
     return;
   }
   const vec4 history = meanOfTaps(previousAccumulated, unpackTaps(p, kept, frame.previousPixelFromPixel));
-  const float samples = min(history.a + 1.0, settings.maxHistory);
+  const float samples = min(history.a + 1.0, constants.maxHistory);
   imageStore(outAccumulated, p, nearestHalf(vec4(mix(history.rgb, current, 1.0 / samples), samples)));
 }

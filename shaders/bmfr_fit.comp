@@ -25,7 +25,7 @@ layout(rgba32f) uniform writeonly image2D outView;
 #else
 layout(rgba16f) uniform writeonly image2D outFitted;
 #endif
-layout(push_constant) uniform PushConstants { BmfrFitConstants settings; };
+layout(push_constant) uniform PushConstants { BmfrFitConstants constants; };
 
 const int kBlockSize = 32;
 const uint kThreads = 256u;
@@ -100,7 +100,7 @@ Bounds blockBounds(Pixel pixels[kRowsPerThread]) {
   const vec3 lowest = -vec3(totals[kFirst + 3], totals[kFirst + 4], totals[kFirst + 5]);
   const vec3 halfExtent = 0.5 * (highest - lowest);
   // An axis along which the block hardly extends holds rounding, which must not be blown up to a feature.
-  const float least = max(settings.extentFloor * max(max(halfExtent.x, halfExtent.y), halfExtent.z), kNear);
+  const float least = max(constants.extentFloor * max(max(halfExtent.x, halfExtent.y), halfExtent.z), kNear);
   return Bounds(0.5 * (highest + lowest), 1.0 / max(halfExtent, vec3(least)));
 }
 
@@ -133,7 +133,7 @@ float[kColumns] rowOf(Pixel pixel, uint index, Bounds bounds) {
   if (!pixel.surface || !pixel.sampled) return row;
   const float features[kFeatures] = featuresOf(pixel, bounds);
   const float noise[kFeatures] = noiseOf(index);
-  [[unroll]] for (int j = 0; j < kFeatures; ++j) row[j] = features[j] + settings.noiseAmplitude * noise[j];
+  [[unroll]] for (int j = 0; j < kFeatures; ++j) row[j] = features[j] + constants.noiseAmplitude * noise[j];
   const vec3 colour = clamp(pixel.colour, vec3(0.0), vec3(kLargestHalf));
   [[unroll]] for (int c = 0; c < 3; ++c) row[kFeatures + c] = colour[c];
   return row;
@@ -193,7 +193,7 @@ void main() {
   [[unroll]] for (int s = 0; s < kRowsPerThread; ++s)
     rows[s] = rowOf(pixels[s], threadIndex + uint(s) * kThreads, bounds);
   const float samples = rowsInUse(rows);
-  solveLeastSquares(rows, samples, settings.rankTolerance);
+  solveLeastSquares(rows, samples, constants.rankTolerance);
 
   [[unroll]] for (int s = 0; s < kRowsPerThread; ++s) {
     const ivec2 p = pixels[s].p;

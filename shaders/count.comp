@@ -16,7 +16,7 @@ void main() {
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(std430) buffer counters { uint words[]; };
 uniform texture2D view;
-layout(push_constant) uniform PushConstants { CountConstants settings; };
+layout(push_constant) uniform PushConstants { CountConstants constants; };
 
 shared uint partial[3];
 
@@ -32,7 +32,7 @@ void main() {
   barrier();
   if (gl_LocalInvocationIndex < 3u) {
     const uint sum = partial[gl_LocalInvocationIndex];
-    if (sum > 0u) atomicAdd(words[settings.word + gl_LocalInvocationIndex], sum);
+    if (sum > 0u) atomicAdd(words[constants.word + gl_LocalInvocationIndex], sum);
   }
 }
 #endif

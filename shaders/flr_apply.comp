@@ -9,7 +9,7 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 0) const uint kUpsampling = 1u;  // FlrUpsampling.
 
-layout(push_constant) uniform PushConstants { FlrConstants settings; };
+layout(push_constant) uniform PushConstants { FlrConstants constants; };
 #include "include/flr.glsl"
 
 uniform texture2D lighting;
@@ -43,7 +43,7 @@ vec3 evaluate(Coefficients k, float x[kFeatures]) {
 // Interpolated prediction of the cells around pixel `p` that have a fit.
 // Alpha: 0 where no cell has any.
 vec4 predict(ivec2 p, float x[kFeatures]) {
-  const vec2 position = (vec2(p) + 0.5) / float(settings.factor) - 0.5;
+  const vec2 position = (vec2(p) + 0.5) / float(constants.factor) - 0.5;
   const int reach = kUpsampling == 2u ? 2 : 1;
   const ivec2 base = ivec2(floor(position)) + 1 - reach;
   vec3 sum = vec3(0.0);

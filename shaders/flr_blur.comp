@@ -5,7 +5,7 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
-layout(push_constant) uniform PushConstants { FlrConstants settings; };
+layout(push_constant) uniform PushConstants { FlrConstants constants; };
 #include "include/flr.glsl"
 
 layout(std430) readonly buffer moments { OuterProducts cells[]; };
@@ -15,7 +15,7 @@ void main() {
   const ivec2 cell = ivec2(gl_GlobalInvocationID.xy);
   if (!insideGrid(cell)) return;
   OuterProducts sum = noSamples();
-  for (int i = -settings.radius; i <= settings.radius; ++i) {
+  for (int i = -constants.radius; i <= constants.radius; ++i) {
     const ivec2 tap = cell + ivec2(i, 0);
     if (insideGrid(tap)) add(sum, gaussian(i), cells[cellIndex(tap)]);
   }

@@ -8,7 +8,7 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 0) const bool kAlphaIsSampleCount = false;
 
-layout(push_constant) uniform PushConstants { FlrConstants settings; };
+layout(push_constant) uniform PushConstants { FlrConstants constants; };
 #include "include/flr.glsl"
 
 uniform texture2D lighting;
@@ -19,8 +19,8 @@ layout(std430) writeonly buffer outMoments { OuterProducts outCells[]; };
 void main() {
   const ivec2 cell = ivec2(gl_GlobalInvocationID.xy);
   if (!insideGrid(cell)) return;
-  const ivec2 first = cell * settings.factor;
-  const ivec2 end = min(first + settings.factor, textureSize(depth, 0));
+  const ivec2 first = cell * constants.factor;
+  const ivec2 end = min(first + constants.factor, textureSize(depth, 0));
   OuterProducts sum = noSamples();
   for (int y = first.y; y < end.y; ++y) {
     for (int x = first.x; x < end.x; ++x) {

@@ -6,7 +6,7 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
-layout(push_constant) uniform PushConstants { FlrConstants settings; };
+layout(push_constant) uniform PushConstants { FlrConstants constants; };
 #include "include/flr.glsl"
 #include "include/cholesky.glsl"
 
@@ -37,7 +37,7 @@ NormalEquations normalEquations(OuterProducts p) {
   float covariances[kCovariances];
   for (int i = 0; i < kFeatures; ++i) e.x[i] = scale * productAt(p, kMeanX + i);
   for (int i = 0; i < kFeatures; ++i) {
-    e.ridge[i] = settings.ridge * (i == kInverseDepth ? e.x[i] * e.x[i] : 1.0);
+    e.ridge[i] = constants.ridge * (i == kInverseDepth ? e.x[i] * e.x[i] : 1.0);
     e.yx[i] = scale * colourProductAt(p, i + 1) - e.y * e.x[i];
     for (int j = 0; j < kFeatures; ++j) {
       if (j < i) continue;
@@ -72,8 +72,8 @@ vec3 viewOf(OuterProducts p) {
 
 void write(ivec2 cell, OuterProducts p) {
   const vec3 value = viewOf(p);
-  for (int i = 0; i < settings.factor * settings.factor; ++i) {
-    const ivec2 pixel = settings.factor * cell + ivec2(i % settings.factor, i / settings.factor);
+  for (int i = 0; i < constants.factor * constants.factor; ++i) {
+    const ivec2 pixel = constants.factor * cell + ivec2(i % constants.factor, i / constants.factor);
     if (all(lessThan(pixel, imageSize(outView)))) imageStore(outView, pixel, vec4(value, 1.0));
   }
 }
@@ -101,7 +101,7 @@ void main() {
   const ivec2 cell = ivec2(gl_GlobalInvocationID.xy);
   if (!insideGrid(cell)) return;
   OuterProducts sum = noSamples();
-  for (int i = -settings.radius; i <= settings.radius; ++i) {
+  for (int i = -constants.radius; i <= constants.radius; ++i) {
     const ivec2 tap = cell + ivec2(0, i);
     if (insideGrid(tap)) add(sum, gaussian(i), cells[cellIndex(tap)]);
   }

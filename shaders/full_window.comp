@@ -21,7 +21,7 @@ uniform utexture2D planeNormal;
 uniform utexture2D shadingNormal;
 uniform texture2D accumulated;
 layout(rgba16f) uniform image2D outFiltered;  // Pixels without a surface stay as they are.
-layout(push_constant) uniform PushConstants { FullWindowConstants settings; };
+layout(push_constant) uniform PushConstants { FullWindowConstants constants; };
 
 #include "include/edge_weight.glsl"
 
@@ -53,8 +53,8 @@ float traceLine(Plane plane, ivec2 p, ivec2 offset) {
 }
 
 void main() {
-  const ivec2 p = settings.begin + ivec2(gl_GlobalInvocationID.xy);
-  if (any(greaterThanEqual(p, settings.end))) return;
+  const ivec2 p = constants.begin + ivec2(gl_GlobalInvocationID.xy);
+  if (any(greaterThanEqual(p, constants.end))) return;
   const float z = unpackDepth(texelFetch(depth, p, 0).x);
   if (z == 0.0) return;
 
@@ -77,6 +77,6 @@ void main() {
     join(sum, row);
   }
   const vec3 colour =
-      reconstruct(finish(sum), featuresAt(p), kPivotFloor, settings.ridge, settings.noiseRidge);
+      reconstruct(finish(sum), featuresAt(p), kPivotFloor, constants.ridge, constants.noiseRidge);
   imageStore(outFiltered, p, vec4(colour, 0.0));
 }

@@ -24,7 +24,7 @@ layout(rgba32f) uniform writeonly image2D outView;
 #else
 layout(rgba16f) uniform writeonly image2D outFiltered;
 #endif
-layout(push_constant) uniform PushConstants { JointBilateralConstants settings; };
+layout(push_constant) uniform PushConstants { JointBilateralConstants constants; };
 
 struct Surface {
   vec3 position;         // View space.
@@ -82,8 +82,8 @@ struct Filtered {
 
 Filtered filterAround(ivec2 p, Surface centre) {
   // Colours that nothing sampled, or in the dark, are all alike: the least unit keeps the quotient finite.
-  const float unit = settings.colour > 0.0 ? max(windowLuminance(p), 1e-6) : 1.0;
-  const float colourFalloff = centre.valid ? settings.colour / (unit * unit) : 0.0;
+  const float unit = constants.colour > 0.0 ? max(windowLuminance(p), 1e-6) : 1.0;
+  const float colourFalloff = centre.valid ? constants.colour / (unit * unit) : 0.0;
   const ivec2 begin = max(p - kRadius, ivec2(0)), end = min(p + kRadius, textureSize(depth, 0) - 1);
   Filtered result = Filtered(vec3(0.0), 0.0);
   for (int y = begin.y; y <= end.y; ++y) {
@@ -94,8 +94,8 @@ Filtered filterAround(ivec2 p, Surface centre) {
       const float angle = angleBetween(centre.normal, s.normal);
       const float sine = planeSine(centre, s.position);
       const vec3 difference = s.radiance - centre.radiance;
-      const float exponent = dot(offset, offset) * settings.position + dot(difference, difference) * colourFalloff +
-                             angle * angle * settings.normal + sine * sine * settings.plane;
+      const float exponent = dot(offset, offset) * constants.position + dot(difference, difference) * colourFalloff +
+                             angle * angle * constants.normal + sine * sine * constants.plane;
       const float weight = exp(-exponent);
       result.sum += weight * s.radiance;
       result.weightSum += weight;

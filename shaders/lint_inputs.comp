@@ -81,7 +81,7 @@ void countReading(uint base, float given, float expected, float size) {
 
 // `given` as a host says that it is: pixels, y down.
 void countMotion(ivec2 p, float z, vec2 given, float givenDepth) {
-  const vec3 before = stillBefore(frame.previousViewFromView, rayThrough(frame.rayFromPixel, pixelCentre(p)) * z);
+  const vec3 before = previousPosition(frame.previousViewFromView, rayThrough(frame.rayFromPixel, pixelCentre(p)) * z);
   if (!(before.z < 0.0) || !isFinite(given)) return;
   // Between the jittered images, as both rays are.
   const vec2 betweenImages = pixelOf(frame.previousRayFromPixel, before) - pixelCentre(p);

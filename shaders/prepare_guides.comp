@@ -41,7 +41,7 @@ layout(r16ui) uniform writeonly uimage2D outGeometricNormal;
 layout(r32ui) uniform writeonly uimage2D outGeometricNormal;
 #endif
 #endif
-layout(push_constant) uniform PushConstants { PrepareGuidesConstants settings; };
+layout(push_constant) uniform PushConstants { PrepareGuidesConstants constants; };
 
 bool isSurfaceDepth(float z, float skyDepth) { return isFinite(z) && z > 0.0 && (!kSky || z < skyDepth); }
 
@@ -68,7 +68,7 @@ float inverseDepthAt(ivec2 p) {
 // edge the other side does not. On an object one pixel wide neither does, and both may miss alike.
 vec3 tangent(ivec2 p, ivec2 axis, float inverseDepth, out bool found) {
   const vec3 centre = rayThrough(frame.rayFromPixel, pixelCentre(p)) / inverseDepth;
-  float bestError = settings.tangentTolerance * inverseDepth;
+  float bestError = constants.tangentTolerance * inverseDepth;
   found = false;
   vec3 best = vec3(0.0);
   for (int side = -1; side <= 1; side += 2) {
@@ -100,7 +100,7 @@ vec3 geometricNormal(ivec2 p, float inverseDepth, vec3 shadingNormal) {
   const float lengthSquared = dot(n, n);
   if (!(lengthSquared > 0.0)) return shadingNormal;
   const vec3 unit = n * inversesqrt(lengthSquared);
-  return dot(unit, shadingNormal) >= settings.normalAgreement ? unit : shadingNormal;
+  return dot(unit, shadingNormal) >= constants.normalAgreement ? unit : shadingNormal;
 }
 
 uint packGeometricNormal(vec3 n) {
@@ -117,7 +117,7 @@ vec3 albedoAt(ivec2 p) { return kDiffuseMask ? texelFetch(albedo, p, 0).xyz : ve
 
 // Whether something shows that diffuse light leaves.
 bool hasDiffuseLobe(vec3 diffuse) {
-  return isFinite(diffuse) && any(greaterThanEqual(diffuse, vec3(settings.albedoThreshold)));
+  return isFinite(diffuse) && any(greaterThanEqual(diffuse, vec3(constants.albedoThreshold)));
 }
 
 bool isUsable(vec3 normal) {
@@ -180,7 +180,7 @@ void main() {
   const uint packedGeometry = 0u;
 #endif
 #ifdef OCCLUSION
-  const float occlusion = ambientOcclusion(p, z, shadingNormal, settings.occlusionRadius, kOcclusionSteps);
+  const float occlusion = ambientOcclusion(p, z, shadingNormal, constants.occlusionRadius, kOcclusionSteps);
   const uint features = packNormalAndOcclusion(NormalAndOcclusion(shadingNormal, occlusion));
 #else
   const uint features = packNormal(shadingNormal);

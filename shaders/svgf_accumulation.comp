@@ -28,7 +28,7 @@ layout(rgba32f) uniform writeonly image2D outView;
 layout(rgba16f) uniform writeonly image2D outColour;
 layout(rgba16f) uniform writeonly image2D outMoments;
 #endif
-layout(push_constant) uniform PushConstants { SvgfAccumulationConstants settings; };
+layout(push_constant) uniform PushConstants { SvgfAccumulationConstants constants; };
 
 #define HISTORY previousColour
 #include "include/reprojection.glsl"
@@ -42,7 +42,7 @@ struct TemporalMoments {
 
 HistoryTaps tapsOf(ivec2 p, float z) {
   const vec3 normal = unpackNormal(texelFetch(geometricNormal, p, 0).x);
-  return historyTaps(p, reproject(p, z), normal, settings.planeTolerance, settings.normalThreshold);
+  return historyTaps(p, reproject(p, z), normal, constants.planeTolerance, constants.normalThreshold);
 }
 
 TemporalMoments sampleHistory(HistoryTaps taps) {
@@ -84,8 +84,8 @@ vec3 clampedRadiance(vec3 noisy) { return clamp(noisy, vec3(0.0), vec3(kLargestH
 // The history with this frame's sample. A sample that is not finite is no sample: the moments stay as they were.
 TemporalMoments momentsWith(TemporalMoments m, vec3 noisy) {
   if (!isFinite(noisy)) return m;
-  m.samples = min(m.samples + 1.0, settings.maxHistory);
-  const float momentSamples = min(m.samples, settings.maxMomentHistory);
+  m.samples = min(m.samples + 1.0, constants.maxHistory);
+  const float momentSamples = min(m.samples, constants.maxMomentHistory);
   addSample(m, clampedRadiance(noisy), 1.0 / m.samples, 1.0 / momentSamples);
   return m;
 }

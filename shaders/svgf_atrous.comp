@@ -21,7 +21,7 @@ uniform utexture2D shadingNormal;
 uniform utexture2D geometricNormal;
 uniform texture2D colour;  // rgb: radiance; a: standard deviation of its luminance.
 layout(rgba16f) uniform writeonly image2D outColour;
-layout(push_constant) uniform PushConstants { SvgfFilterConstants settings; };
+layout(push_constant) uniform PushConstants { SvgfFilterConstants constants; };
 
 #include "include/svgf.glsl"
 
@@ -46,7 +46,7 @@ float luminanceFalloff(ivec2 p, vec4 centre) {
   if (!kLuminanceWeight || centre.a < 0.0) return 0.0;
   // Luminances that differ by no more than the rounding of a half do not differ.
   const float rounding = luminance(centre.rgb) * 1e-3 + 1e-7;
-  return 1.0 / (settings.sigmaLuminance * smoothDeviation(p) + rounding);
+  return 1.0 / (constants.sigmaLuminance * smoothDeviation(p) + rounding);
 }
 
 // The binomial row of order 2r, walked tap by tap; its sum is 1. Of order 4 it is the B3 spline 1 4 6 4 1.

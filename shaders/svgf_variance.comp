@@ -24,7 +24,7 @@ layout(rgba32f) uniform writeonly image2D outView;
 #else
 layout(rgba16f) uniform writeonly image2D outColour;
 #endif
-layout(push_constant) uniform PushConstants { SvgfFilterConstants settings; };
+layout(push_constant) uniform PushConstants { SvgfFilterConstants constants; };
 
 #include "include/svgf.glsl"
 
@@ -69,13 +69,13 @@ float deviationAround(ivec2 p, float z, float origin) {
 }
 
 // Whether the spread over the surface stands in for that over time.
-bool isEstimatedAround(Estimate e) { return e.samples > 0.0 && e.samples < settings.minHistory; }
+bool isEstimatedAround(Estimate e) { return e.samples > 0.0 && e.samples < constants.minHistory; }
 
 float deviationOf(ivec2 p, float z, Estimate e) {
   if (e.samples <= 0.0) return kNoSample;
   if (!isEstimatedAround(e)) return e.deviation;
   // Few samples tell little of their spread, which is rather taken too large than too small.
-  const float boost = sqrt(settings.minHistory / e.samples);
+  const float boost = sqrt(constants.minHistory / e.samples);
   return min(boost * deviationAround(p, z, e.mean), kLargestHalf);
 }
 

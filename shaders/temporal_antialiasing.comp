@@ -32,7 +32,7 @@ layout(rgba32f) uniform writeonly image2D outView;
 #ifdef PACKED
 layout(r32ui) uniform writeonly uimage2D outResolved;
 #ifndef KEPT_TAPS
-uniform texture2D passed;
+uniform texture2D passThrough;
 #endif
 #else
 layout(rgba16f) uniform writeonly image2D outResolved;
@@ -52,17 +52,17 @@ uniform utexture2D previousGeometricNormal;
 uniform utexture2D objects;
 uniform utexture2D previousObjects;
 #endif
-layout(push_constant) uniform PushConstants { TemporalAntialiasingConstants settings; };
+layout(push_constant) uniform PushConstants { TemporalAntialiasingConstants constants; };
 
 #ifdef PACKED
 #include "include/packed_light.glsl"
-vec4 unpackHistory(uint packed) { return unpackResolved(packed, settings.maxHistory); }
+vec4 unpackHistory(uint packed) { return unpackResolved(packed, constants.maxHistory); }
 vec4 filteredAt(ivec2 q) { return unpackFiltered(texelFetch(filtered, q, 0).x); }
 #ifdef KEPT_TAPS
-vec3 passedAt(ivec2 p) { return unpackPassed(texelFetch(keptTaps, p, 0).x); }
+vec3 passThroughAt(ivec2 p) { return unpackPassThrough(texelFetch(keptTaps, p, 0).x); }
 #elif !defined(VIEW)
-#include "include/passed_light.glsl"
-vec3 passedAt(ivec2 p) { return passedLight(passed, p); }
+#include "include/pass_through.glsl"
+vec3 passThroughAt(ivec2 p) { return passThroughLight(passThrough, p); }
 #endif
 #else
 vec4 filteredAt(ivec2 q) { return texelFetch(filtered, q, 0); }
@@ -87,7 +87,7 @@ HistoryTaps tapsOf(ivec2 p) {
   vec3 normal = vec3(0.0);
   if (kRejectByPlane) normal = unpackNormal(texelFetch(geometricNormal, p, 0).x);
   const Reprojection r = reproject(p, unpackDepth(texelFetch(depth, p, 0).x));
-  return historyTaps(p, r, normal, settings.planeTolerance, settings.normalThreshold);
+  return historyTaps(p, r, normal, constants.planeTolerance, constants.normalThreshold);
 }
 #endif
 
@@ -116,13 +116,13 @@ vec3 fromYCoCg(vec3 c) { return vec3(c.x + c.y - c.z, c.x + c.z, c.x - c.y - c.z
 // Half size of the smallest clipping box around a mean: what rounds a history and a neighbourhood. Where chroma hardly
 // varies, a smaller box would let that rounding decide how much history of the luma is kept.
 #ifdef PACKED
-float leastReach(vec3 mean) {
+float smallestHalfSize(vec3 mean) {
   const vec3 colour = fromYCoCg(mean);
   const float brightest = max(max(colour.r, colour.g), colour.b);
   return brightest / 128.0;  // A step of the history at most. Those of nine filtered colours are smaller, and average.
 }
 #else
-float leastReach(vec3 mean) { return 4.0 / 2048.0 * mean.x; }  // The rounding of four halves.
+float smallestHalfSize(vec3 mean) { return 4.0 / 2048.0 * mean.x; }  // The rounding of four halves.
 #endif
 
 // A colour pulled towards the mean until it is inside the box of `gamma` standard deviations (Salvi 2016).
@@ -167,8 +167,8 @@ Neighbourhood neighbourhoodOf(ivec2 p, vec3 centre) {
 Clipped clippedHistory(ivec2 p, vec3 current, vec3 history) {
   const vec3 centre = toYCoCg(current);
   const Neighbourhood n = neighbourhoodOf(p, centre);
-  const vec3 reach = max(settings.clipGamma * n.deviation, vec3(leastReach(centre + n.mean)));
-  return varianceClip(toYCoCg(history), centre + n.mean, reach);
+  const vec3 halfSize = max(constants.clipGamma * n.deviation, vec3(smallestHalfSize(centre + n.mean)));
+  return varianceClip(toYCoCg(history), centre + n.mean, halfSize);
 }
 
 // The running mean with its length.
@@ -177,7 +177,7 @@ vec4 resolve(ivec2 p, vec4 current, vec4 history) {
   if (current.a < 0.0) return history;
   if (history.a == 0.0) return vec4(current.rgb, 1.0);
   const vec3 clipped = clippedHistory(p, current.rgb, history.rgb).colour;
-  const float samples = min(history.a + 1.0, settings.maxHistory);
+  const float samples = min(history.a + 1.0, constants.maxHistory);
   return vec4(max(mix(fromYCoCg(clipped), current.rgb, 1.0 / samples), vec3(0.0)), samples);
 }
 
@@ -209,7 +209,7 @@ void main() {
   if (!hasSurface(p, current)) {
 #ifdef PACKED
     imageStore(outResolved, p, uvec4(0u));
-    imageStore(outImage, p, vec4(passedAt(p), 1.0));
+    imageStore(outImage, p, vec4(passThroughAt(p), 1.0));
 #else
     imageStore(outResolved, p, vec4(current.rgb, 0.0));
     imageStore(outImage, p, vec4(current.rgb, 1.0));
@@ -220,8 +220,8 @@ void main() {
   const vec4 resolved = resolve(p, current, historyOf(p, rejected));
   const vec4 rounded = nearestHalf(resolved);
 #ifdef PACKED
-  const vec4 chances = chancesOf(p, frame.frameIndex, kResolvedKey);
-  imageStore(outResolved, p, uvec4(packResolved(resolved, settings.maxHistory, chances)));
+  const vec4 random = randomNumbers(p, frame.frameIndex, kResolvedSeed);
+  imageStore(outResolved, p, uvec4(packResolved(resolved, constants.maxHistory, random)));
 #else
   imageStore(outResolved, p, rounded);
 #endif

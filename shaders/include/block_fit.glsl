@@ -1,5 +1,5 @@
 // Weighted linear regression from a block's moments, and its fit in memory: twenty-four halves.
-// Needs: `settings` (BlockRegressionConstants).
+// Needs: `constants` (BlockRegressionConstants).
 #ifndef WALR_BLOCK_FIT_GLSL
 #define WALR_BLOCK_FIT_GLSL
 #include "block_storage.glsl"
@@ -21,7 +21,7 @@ const float kRoundingRidge = float(kFeatures) * exp2(-11.0);
 // slopes and not the mean.
 float[kFeatures] ridgeOf(BlockMoments m) {
   float ridge[kFeatures];
-  for (int i = 0; i < kFeatures; ++i) ridge[i] = settings.ridge + kRoundingRidge * max(m.xx[triangleEntry(i, i)], 0.0);
+  for (int i = 0; i < kFeatures; ++i) ridge[i] = constants.ridge + kRoundingRidge * max(m.xx[triangleEntry(i, i)], 0.0);
   return ridge;
 }
 
@@ -57,7 +57,7 @@ struct PackedFit {
 };
 
 PackedFit packFit(BlockFit f) {
-  return PackedFit(uvec4(packHalves(f.colour.r, f.colour.g), packHalves(f.colour.b, f.samples / kPathsInMemory),
+  return PackedFit(uvec4(packHalves(f.colour.r, f.colour.g), packHalves(f.colour.b, f.samples / kSampleCountUnit),
                          packHalves(f.slope[0].r, f.slope[0].g), packHalves(f.slope[0].b, f.slope[1].r)),
                    uvec4(packHalves(f.slope[1].g, f.slope[1].b), packHalves(f.slope[2].r, f.slope[2].g),
                          packHalves(f.slope[2].b, f.slope[3].r), packHalves(f.slope[3].g, f.slope[3].b)),
@@ -71,7 +71,7 @@ BlockFit unpackFit(PackedFit p) {
              c3 = unpackHalf2x16(p.c.w);
   BlockFit f;
   f.colour = vec3(unpackHalf2x16(p.a.x), a1.x);
-  f.samples = kPathsInMemory * a1.y;
+  f.samples = kSampleCountUnit * a1.y;
   f.slope = vec3[](vec3(unpackHalf2x16(p.a.z), a3.x), vec3(a3.y, b0), vec3(unpackHalf2x16(p.b.y), b2.x),
                    vec3(b2.y, unpackHalf2x16(p.b.w)), vec3(unpackHalf2x16(p.c.x), c1.x));
   f.origin = float[](c1.y, c2.x, c2.y, c3.x, c3.y);

@@ -18,7 +18,7 @@ struct PackedBlock {
 const int kHalves = 40;
 
 // Of W: a window's paths may be more than halves can count.
-const float kPathsInMemory = 64.0;
+const float kSampleCountUnit = 64.0;
 
 PackedBlock packBlock(BlockMoments m) {
   float h[kHalves];
@@ -28,7 +28,7 @@ PackedBlock packBlock(BlockMoments m) {
   }
   for (int c = 0; c < 3; ++c) h[5 + c] = m.y[c];
   for (int k = 0; k < kCovariances; ++k) h[8 + k] = m.xx[k];
-  h[23] = m.samples / kPathsInMemory;
+  h[23] = m.samples / kSampleCountUnit;
   h[39] = sqrt(m.yy);
   PackedBlock p;
   for (int i = 0; i < kHalves / 2; ++i) p.word[i / 4][i % 4] = packHalves(h[2 * i], h[2 * i + 1]);
@@ -49,7 +49,7 @@ BlockMoments unpackBlock(PackedBlock p) {
   }
   m.y = vec3(h[5], h[6], h[7]);
   for (int k = 0; k < kCovariances; ++k) m.xx[k] = h[8 + k];
-  m.samples = kPathsInMemory * h[23];
+  m.samples = kSampleCountUnit * h[23];
   m.yy = h[39] * h[39];
   return m;
 }

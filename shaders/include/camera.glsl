@@ -13,7 +13,7 @@ vec2 pixelOf(vec4 rayFromPixel, vec3 position) {
 }
 
 // A view-space position of a still surface in the view space of the previous camera.
-vec3 stillBefore(mat4 previousViewFromView, vec3 position) {
+vec3 previousPosition(mat4 previousViewFromView, vec3 position) {
   return (previousViewFromView * vec4(position, 1.0)).xyz;
 }
 

@@ -1,6 +1,6 @@
 // The eight taps of an a-trous iteration: edge tracing along axes and diagonals (Meunier & Harada 2022, 3.3 and 5.2),
 // and what takes the place of a tap behind an edge. Needs: `frame` (FrameConstants), `depth`, `planeNormal`
-// (utexture2D), `settings` (AtrousConstants), and atrous.comp's specialization constants. FIRST: of the first
+// (utexture2D), `constants` (AtrousConstants), and atrous.comp's specialization constants. FIRST: of the first
 // iteration, whose taps are the very next pixels.
 #ifndef WALR_EDGE_TRACING_GLSL
 #define WALR_EDGE_TRACING_GLSL
@@ -22,8 +22,8 @@ struct Centre {
   uint sdf;
 };
 
-// What became of the taps.
-struct Taps {
+// What the traces to all eight taps found.
+struct TraceSummary {
   int nearestEdge;
   int replaced;
   int lost;
@@ -53,19 +53,19 @@ Line lineFrom(Centre centre, ivec2 direction) {
 }
 
 // What the edge-stopping function (Meunier & Harada 2022, 4.3) makes of one pixel.
-struct Look {
+struct TracedPixel {
   float weight;  // 1 or more near the plane; 0 or less at an edge.
   bool surface;  // None outside the image.
   uint sdf;
 };
 
-Look lookAt(Centre centre, Line line, int step) {
+TracedPixel tracePixel(Centre centre, Line line, int step) {
   uint packedDepth = texelFetch(depth, centre.pixel + min(step, line.inside) * line.direction, 0).x;
   if (step > line.inside) packedDepth = 0u;
   const float z = unpackDepth(packedDepth);
   const float distance = abs(z * (line.offset + float(step) * line.slope) - centre.plane.offset);
-  const float weight = (settings.planeFar - distance) * centre.scale;
-  return Look(z > 0.0 ? weight : 0.0, z > 0.0, unpackSdf(packedDepth));
+  const float weight = (constants.planeFar - distance) * centre.scale;
+  return TracedPixel(z > 0.0 ? weight : 0.0, z > 0.0, unpackSdf(packedDepth));
 }
 
 // Step of the pixel that stands in for a tap which met its edge at step `edge`.
@@ -81,29 +81,29 @@ int replacementStep(ivec2 p, int tap, int edge) {
 //
 // A tap behind an edge gives way to a random one before it, so that no seam follows the tap pattern. The way there is
 // walked in the same loop, side by side with invocations that are still on their first.
-Tap findTap(Centre centre, int tap, ivec2 direction, inout Taps taps) {
+Tap findTap(Centre centre, int tap, ivec2 direction, inout TraceSummary summary) {
   const Line line = lineFrom(centre, direction);
   int edge = kSpacing + 1;  // Step of the first edge.
   int reach = kSpacing;
   float weight = 1.0;
   bool surface = false;  // At the edge.
 #ifdef FIRST
-  const Look look = lookAt(centre, line, 1);
-  weight = min(look.weight, 1.0);
-  surface = look.surface;
+  const TracedPixel traced = tracePixel(centre, line, 1);
+  weight = min(traced.weight, 1.0);
+  surface = traced.surface;
   if (weight <= 0.0) edge = 1;
 #else
   int step = 0;
   uint sdf = centre.sdf;
   while (step < reach) {
-    step = kTraceEdges ? min(step + max(int(settings.sdfFraction * float(sdf)), 1), reach) : reach;
-    const Look look = lookAt(centre, line, step);
-    weight = min(weight, look.weight);
-    sdf = look.sdf;
+    step = kTraceEdges ? min(step + max(int(constants.sdfFraction * float(sdf)), 1), reach) : reach;
+    const TracedPixel traced = tracePixel(centre, line, step);
+    weight = min(weight, traced.weight);
+    sdf = traced.sdf;
     if (weight <= 0.0) {
       if (edge <= kSpacing) break;
       edge = step;
-      surface = look.surface;
+      surface = traced.surface;
       if (edge == 1 || kReplacement == kNoReplacement) break;
       reach = replacementStep(centre.pixel, tap, edge);
       step = 0;
@@ -112,16 +112,16 @@ Tap findTap(Centre centre, int tap, ivec2 direction, inout Taps taps) {
     }
   }
 #endif
-  taps.nearestEdge = min(taps.nearestEdge, edge);
+  summary.nearestEdge = min(summary.nearestEdge, edge);
   bool leak = false;
   if (edge <= kSpacing) {
     const bool isolated = edge == 1;
     if (isolated || reach == 0) weight = 0.0;
     if (kReplacement == kNoReplacement || (isolated && !kRepeatCentre)) {
-      ++taps.lost;
+      ++summary.lost;
     } else {
-      ++taps.replaced;
-      if (weight <= 0.0) ++taps.centred;
+      ++summary.replaced;
+      if (weight <= 0.0) ++summary.centred;
     }
     if (isolated && surface && kEdgeLeak > 0.0) {
       // A pixel that shares its surface with few around it takes a little from beyond its edges.

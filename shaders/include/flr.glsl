@@ -1,5 +1,5 @@
 // The guides of Fast Local Regression (Salmi et al. 2024), their outer products and the grid these live on.
-// Needs: `settings` (FlrConstants). OCCLUSION: ambient occlusion is a guide too.
+// Needs: `constants` (FlrConstants). OCCLUSION: ambient occlusion is a guide too.
 #ifndef WALR_FLR_GLSL
 #define WALR_FLR_GLSL
 
@@ -63,7 +63,7 @@ void add(inout OuterProducts sum, float weight, OuterProducts p) {
 }
 
 float gaussian(int distance) {
-  const float d = float(distance) / settings.sigma;
+  const float d = float(distance) / constants.sigma;
   return exp(-0.5 * d * d);
 }
 
@@ -74,7 +74,7 @@ struct Coefficients {
   vec4 slope[kSlopeVectors];  // rgb of every guide in turn.
 };
 
-bool insideGrid(ivec2 cell) { return all(greaterThanEqual(cell, ivec2(0))) && all(lessThan(cell, settings.cells)); }
-uint cellIndex(ivec2 cell) { return uint(cell.y * settings.cells.x + cell.x); }
+bool insideGrid(ivec2 cell) { return all(greaterThanEqual(cell, ivec2(0))) && all(lessThan(cell, constants.cells)); }
+uint cellIndex(ivec2 cell) { return uint(cell.y * constants.cells.x + cell.x); }
 
 #endif

@@ -60,8 +60,8 @@ vec4 meanOfTaps(HISTORY_TEXTURE history, HistoryTaps taps) {
 // R32_UINT, is one of three things:
 //   where there is a surface   its motion and which taps show it (packTaps)
 //   where there is none        kNoSurfaceTaps, for readers that find so from this texel
-//                              or the light that passes through (packPassed of packed_light.glsl), for packed
-//                              anti-aliasing, which finds so from its filter's result (kNoFiltered)
+//                              or the light that passes through (packPassThrough of packed_light.glsl), for packed
+//                              anti-aliasing, which finds so from its filter's result (kFilteredNoSurface)
 // The second and the third are told apart by what is asked of the accumulation, not by the texel.
 // The motion is two halves whose two lowest mantissa bits make room for the accept bits, which leaves it a relative
 // rounding of 2^-9: 1/64 of a pixel where a surface moves by 8 to 16.

@@ -177,12 +177,12 @@ Moments unpackMoments(PackedMoments p) {
 // A pixel without a surface has no moments. Their place keeps the light that such a pixel came with, bit by bit, so that
 // the last iteration need not read it from where the first did.
 #ifdef FIRST
-uvec2 lightWithoutSurface(ivec2 p) {
-  const vec3 light = passedLight(accumulated, p);
+uvec2 packedPassThrough(ivec2 p) {
+  const vec3 light = passThroughLight(accumulated, p);
   return uvec2(packHalf2x16(light.rg), packHalf2x16(vec2(light.b, 0.0)));
 }
 #else
-uvec2 lightWithoutSurface(ivec2 p) { return texelFetch(momentsA, p, 0).xy; }
+uvec2 packedPassThrough(ivec2 p) { return texelFetch(momentsA, p, 0).xy; }
 
 Moments loadMoments(ivec2 p) {
   PackedMoments packed;
@@ -211,8 +211,8 @@ void storePacked(ivec2 p, PackedMoments packed) {
 }
 void storeMoments(ivec2 p, Moments m) { storePacked(p, packMoments(m)); }
 void storeNoMoments(ivec2 p) { storePacked(p, PackedMoments(uvec4(0u), uvec4(0u), uvec4(0u), uvec4(0u))); }
-void storeLightWithoutSurface(ivec2 p) {
-  storePacked(p, PackedMoments(uvec4(lightWithoutSurface(p), 0u, 0u), uvec4(0u), uvec4(0u), uvec4(0u)));
+void storePassThrough(ivec2 p) {
+  storePacked(p, PackedMoments(uvec4(packedPassThrough(p), 0u, 0u), uvec4(0u), uvec4(0u), uvec4(0u)));
 }
 #endif
 

@@ -53,18 +53,18 @@ ivec2 nearestPixel(ivec2 p, float z) {
 }
 
 // Where the previous camera has the still surface that pixel `p` shows at depth `z`, in its view space.
-vec3 positionBefore(ivec2 p, float z) {
-  return stillBefore(frame.previousViewFromView, rayThrough(frame.rayFromPixel, pixelCentre(p)) * z);
+vec3 previousPositionAt(ivec2 p, float z) {
+  return previousPosition(frame.previousViewFromView, rayThrough(frame.rayFromPixel, pixelCentre(p)) * z);
 }
 
 vec2 motionAt(ivec2 p) {
   if (!kMotionFromCamera) return texelFetch(motion, p, 0).xy * frame.motionScale;
-  const vec3 before = positionBefore(p, unpackDepth(texelFetch(depth, p, 0).x));
+  const vec3 before = previousPositionAt(p, unpackDepth(texelFetch(depth, p, 0).x));
   return pixelOf(frame.previousRayFromPixel, before) - pixelCentre(p);
 }
-float depthBefore(ivec2 p, float z) {
+float previousDepthOf(ivec2 p, float z) {
   if (!kMotionFromCamera && kMotionDepthGiven) return z + texelFetch(motion, p, 0).z;
-  return -positionBefore(p, z).z;
+  return -previousPositionAt(p, z).z;
 }
 
 Reprojection reproject(ivec2 p, float z) {
@@ -75,7 +75,7 @@ Reprojection reproject(ivec2 p, float z) {
   r.motion = isFinite(exact) ? exact : vec2(kLargestHalf);
   if (kKeepableMotion) r.motion = keepableMotion(r.motion);
   const vec2 pixel = pixelCentre(p) + r.motion;
-  const float previousDepthHere = depthBefore(p, z);
+  const float previousDepthHere = previousDepthOf(p, z);
   r.position = rayThrough(frame.previousRayFromPixel, pixel) * previousDepthHere;
 #ifdef OBJECTS
   r.object = kRejectByObject ? texelFetch(objects, p, 0).x : 0u;

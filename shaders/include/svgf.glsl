@@ -1,6 +1,6 @@
 // What the passes of SVGF share: the form in which colour and variance travel, and the edge-stopping functions that need
 // no colour (Fu 2022, W_Z and W_N).
-// Needs: `frame` (FrameConstants), `depth`, `shadingNormal`, `geometricNormal` (utexture2D), `settings`
+// Needs: `frame` (FrameConstants), `depth`, `shadingNormal`, `geometricNormal` (utexture2D), `constants`
 // (SvgfFilterConstants).
 #ifndef WALR_SVGF_GLSL
 #define WALR_SVGF_GLSL
@@ -29,7 +29,7 @@ float surfaceWeight(Surface surface, ivec2 q) {
   if (z == 0.0) return 0.0;
   const vec3 normal = unpackNormal(texelFetch(shadingNormal, q, 0).x);
   const float cosine = clamp(dot(surface.normal, normal), 1e-6, 1.0);
-  return exp(-planeDistance(surface.plane, q, z) * settings.inverseSigmaDepth) * pow(cosine, settings.sigmaNormal);
+  return exp(-planeDistance(surface.plane, q, z) * constants.inverseSigmaDepth) * pow(cosine, constants.sigmaNormal);
 }
 
 #endif
