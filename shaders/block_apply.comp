@@ -1,7 +1,13 @@
-// The blocks' fits applied to every pixel's features: those of the four blocks around it, weighed by plane and
-// distance, mixed with the coarse fits of the four cells around it as their samples count against `coarseSamples`.
-// What shows no surface passes its light on; with PACKED, which packs the result (packed_light.glsl), whoever reads that
-// must. A view (VIEW) does the same and writes something found on the way; of that PACKED says what it reads.
+// WALR, reconstruction (passes/WALR.md, 8): the light of every pixel, predicted from the pixel's own features by the
+// fits around it.
+// Fine: the fits of the four blocks around the pixel, with bilinear weights times the edge-stopping function of each
+// block's plane. Coarse: the fits of the four cells around it, with bilinear weights. The share of the coarse fits is
+// large where the windows of the fine fits have few samples (coarse_share.glsl).
+// A pixel without a surface gets the pass-through.
+// PACKED: the result is packed light (packed_light.glsl). A pixel without a surface then gets a mark, and the reader of
+// the result writes the pass-through.
+// VIEW: does the same work and writes one of its intermediate values instead of the result. With VIEW, PACKED says that
+// `accumulated` is packed.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -59,7 +65,7 @@ struct Prediction {
   float weight;
 #ifdef VIEW
   vec3 slope[kFeatures];  // Weighted sums.
-  bvec3 negative;         // Where a fit gave less than 0.
+  bvec3 negative;         // Whether a fit is below 0, by channel.
 #endif
 };
 
@@ -95,15 +101,15 @@ BlockFit loadCoarse(ivec2 block) {
       PackedFit(texelFetch(coarseA, block, 0), texelFetch(coarseB, block, 0), texelFetch(coarseC, block, 0)));
 }
 
-// Weighted mean of the fine fits' samples.
+// Mean sample count W of the fine fits.
 float fineSamples(Prediction fine) { return fine.weight > 0.0 ? fine.samples / fine.weight : 0.0; }
 
-// Share of the coarse fits in the mixture, where they know anything.
+// Share of the coarse fits if any of them has samples: 1 where no fine fit has any.
 float coarseShare(Prediction fine) { return fine.weight > 0.0 ? coarseShare(fineSamples(fine)) : 1.0; }
 
 vec3 colourOf(Prediction sum) { return sum.weight > 0.0 ? sum.colour / sum.weight : vec3(0.0); }
 
-// The four texels around a pixel on a grid that is `size` times as coarse.
+// The four texels around a pixel on a grid whose texels are `size` pixels a side.
 struct BilinearTexels {
   ivec2 base;
   vec2 f;
@@ -114,7 +120,7 @@ BilinearTexels bilinearTexels(ivec2 p, int size) {
   return BilinearTexels(ivec2(floor(position)), fract(position));
 }
 
-// 0 outside the grid.
+// Weight of texel `i` of the four; 0 outside the grid.
 float bilinearWeight(BilinearTexels a, int i, ivec2 grid, out ivec2 texel) {
   const ivec2 offset = ivec2(i & 1, i >> 1);
   texel = a.base + offset;
@@ -198,18 +204,18 @@ void main() {
   }
   const NormalAndOcclusion shading = unpackNormalAndOcclusion(texelFetch(features, p, 0).x);
   const Prediction fine = predictFine(p, z, shading);
-  const float wanted = coarseShare(fine);
+  const float shareIfAny = coarseShare(fine);
 #ifdef VIEW
   const Prediction coarse = predictCoarse(p, z, shading);
 #else
   Prediction coarse = noPrediction();
-  if (wanted > 0.0) coarse = predictCoarse(p, z, shading);
+  if (shareIfAny > 0.0) coarse = predictCoarse(p, z, shading);
 #endif
-  const float share = coarse.weight > 0.0 ? wanted : 0.0;
+  const float share = coarse.weight > 0.0 ? shareIfAny : 0.0;
 #ifdef VIEW
   imageStore(outView, p, vec4(viewOf(p, fine, coarse, share, shading.occlusion), 1.0));
 #else
-  // 0 where neither knows anything: the pixel itself, of whose cell the coarse fit is, has no sample then.
+  // 0 where no fit has samples. The pixel itself has none then: its cell would otherwise have a coarse fit.
   store(p, mix(colourOf(fine), colourOf(coarse), share));
 #endif
 }
