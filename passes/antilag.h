@@ -7,8 +7,8 @@
 
 namespace walr {
 
-/// Settings of antilag: temporal accumulation shortens its history where light changes and no motion vector tells: a
-/// lamp goes out, a door opens, a light or a caster of shadows moves.
+/// Settings of antilag: it shortens the history of temporal accumulation where the light changes although no surface
+/// moves: a lamp goes out, a door opens, a light or an object that casts a shadow moves.
 struct AntilagSettings {
   bool enabled = false;
   std::uint32_t radius = 2;
@@ -32,21 +32,21 @@ struct AntilagSettings {
   }
 };
 
-/// What temporal accumulation and antilag hand each other: by tiles of 8 x 8 pixels.
+/// Textures that temporal accumulation and antilag exchange: a texel for each tile of 8 x 8 pixels.
 struct Antilag {
   fg::History factor;  ///< R32_SFLOAT: 0 where history counts in full, 1 where it counts as one sample.
-  /// R32G32_SFLOAT: over a tile, the sum of the luminance of this frame's samples less that of history, and the sum of
-  /// its squares.
+  /// R32G32_SFLOAT: sums over a tile of d and d^2, where d is the luminance of this frame's sample less that of
+  /// history.
   fg::Texture tiles;
 };
 
 /// Declare the textures.
-/// @param pixels the picture's extent
+/// @param pixels the image's extent
 Antilag declareAntilag(fg::Graph& graph, fg::Extent pixels);
 
-/// Find where the light has changed, for the next frame.
-/// @param antilag as the accumulation of this frame left it
-/// @throws std::invalid_argument where the settings contradict each other
+/// Add the pass that computes the antilag factor for the next frame.
+/// @param antilag as the accumulation of this frame wrote it
+/// @throws std::invalid_argument if antilag-low is not below antilag-high
 void addAntilag(fg::Graph& graph, const Antilag& antilag, const AntilagSettings& settings);
 
 }  // namespace walr

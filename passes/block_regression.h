@@ -11,7 +11,7 @@
 
 namespace walr {
 
-/// Settings of the regression over blocks of pixels.
+/// Settings of the regression over blocks of pixels (passes/WALR.md, 4 to 8).
 struct BlockRegressionSettings {
   std::uint32_t size = 8;
   std::uint32_t iterations = 4;
@@ -90,29 +90,30 @@ struct BlockRegressionSettings {
   }
 };
 
-/// What blocks are regressed over, and how.
+/// The light that the regression over blocks fits, and the storage of its result.
 struct BlockLight {
-  fg::Texture accumulated;    ///< RGBA16F, or packed: radiance; a value that is not finite is no sample.
-  LightingAlpha alpha;        ///< What the alpha channel of `accumulated` says; a pixel with no sample has no say.
-  fg::Texture lighting = {};  ///< The host's; of need where `accumulated` is packed and the result is not.
-  LightStorage result = LightStorage::Half;  ///< Packed: the light of pixels without a surface is not passed on.
+  fg::Texture accumulated;    ///< RGBA16F, or packed: radiance; values that are not finite do not count.
+  LightingAlpha alpha;        ///< What the alpha channel of `accumulated` holds; pixels without samples do not count.
+  fg::Texture lighting = {};  ///< The host's; needed only if `accumulated` is packed and the result is not.
+  LightStorage result = LightStorage::Half;  ///< Packed: holds no pass-through; see packed_light.glsl.
 };
 
 /// The fit of every block or cell, and the depth that its depth feature is relative to (block_storage.glsl).
 struct FitTextures {
   fg::Texture a, b, c;  ///< R32G32B32A32_UINT: coefficients and sample count.
-  fg::Texture depth;    ///< R32_UINT; of a block also whether its fit holds samples enough.
+  fg::Texture depth;    ///< R32_UINT; for blocks also whether the fit has converged.
 };
 
-/// What the regression leaves to the reconstruction.
+/// The fits of a frame, which the reconstruction reads.
 struct BlockFits {
-  FitTextures fine;    ///< A texel a block.
-  FitTextures coarse;  ///< A texel a cell of the coarse fit's grid.
-  fg::Texture normal;  ///< R32_UINT: of every block, its plane's normal and the pixel that stands for it.
+  FitTextures fine;    ///< One texel per block.
+  FitTextures coarse;  ///< One texel per cell.
+  fg::Texture normal;  ///< R32_UINT: normal of each block's plane, and its representative pixel.
 };
 
 /// Weighted linear regression of the lighting on {1, normal, inverse depth, ambient occlusion} over blocks of pixels:
-/// edge-aware a-trous averages, and a coarse fit where they hold few samples. Offers the views of every iteration.
+/// fine fits from edge-aware a-trous averages, and coarse fits where fine ones have few samples. Offers the views of
+/// every iteration.
 /// @param frame  upload of `FrameConstants`
 /// @param guides with `features`
 /// @throws std::invalid_argument for settings outside their range
@@ -121,9 +122,9 @@ BlockFits addBlockRegression(StageGraph graph, fg::Buffer frame, const BlockLigh
 
 /// Reconstruct every pixel from the fits around it and its own features.
 /// @param frame    upload of `FrameConstants`
-/// @param light    what the fits are of
+/// @param light    as given to `addBlockRegression`
 /// @param settings of the regression
-/// @returns as `light.result` says: filtered radiance; RGBA16F: sky and pixels without a diffuse lobe as they were
+/// @returns filtered radiance in the storage `light.result`; RGBA16F also holds the pass-through
 fg::Texture addBlockReconstruction(StageGraph graph, fg::Buffer frame, const BlockLight& light, const Guides& guides,
                                    const BlockFits& fits, const BlockRegressionSettings& settings = {});
 

@@ -11,7 +11,7 @@
 namespace walr {
 namespace {
 
-/// Bytes of a cell in the buffers, which differ with the number of guides.
+/// Bytes of a cell in the buffers; they depend on the number of guides.
 struct CellBytes {
   std::uint64_t products;      ///< `OuterProducts` of flr.glsl, std430.
   std::uint64_t coefficients;  ///< `Coefficients` of flr.glsl, std430.

@@ -8,7 +8,7 @@
 namespace walr {
 namespace {
 
-/// Mean of the light whose orders are counted from a word on, and how far it may be off, relatively.
+/// Mean of the light in a histogram that starts at a word, and the relative variance of that mean.
 struct MeanLight {
   MeanLight(const LintCounts& counts, std::uint32_t base, std::uint64_t samples) {
     double sum = 0.0;

@@ -20,7 +20,7 @@ enum class MomentStorage : std::uint32_t {
   Raw32,      ///< Raw averages in single precision, 56 bytes; for study.
 };
 
-/// What takes the place of a tap behind an edge (Meunier & Harada 2022, 3.3).
+/// What replaces a tap behind an edge (Meunier & Harada 2022, 3.3).
 enum class TapReplacement : std::uint32_t {
   Off,      ///< Nothing.
   Uniform,  ///< Any pixel before the edge, picked at random.
@@ -78,11 +78,11 @@ struct WeightedRegressionSettings {
 
 /// Weighted linear regression of the lighting on the normal over edge-aware a-trous averages.
 /// @param frame       upload of `FrameConstants`
-/// @param accumulated RGBA16F: radiance to filter; a value that is not finite is no sample
-/// @param alpha       what the alpha channel of `accumulated` says; a pixel with no sample has no say
+/// @param accumulated RGBA16F: radiance to filter; values that are not finite do not count
+/// @param alpha       what the alpha channel of `accumulated` holds; pixels without samples do not count
 /// @param output      RGBA16F texture to write the result to
-/// @returns the output's new version: filtered radiance, alpha below 0 where no sample was in reach; sky and pixels
-/// without a diffuse lobe as they were
+/// @returns the output's new version: filtered radiance, alpha below 0 where the window has no sample; the
+///          pass-through at sky and pixels without a diffuse lobe
 /// @throws std::invalid_argument for settings outside their range
 fg::Texture addWeightedRegression(StageGraph graph, fg::Buffer frame, fg::Texture accumulated, LightingAlpha alpha,
                                   const Guides& guides, fg::Texture output,
