@@ -16,18 +16,18 @@ struct AntilagSettings {
   float scoreHigh = 4.0F;
 
   void visit(SettingVisitor& v) {
-    v.visit({"accumulation.antilag",
-             "Shorten history where the light of a window differs from it by more than noise explains", "", 0, 1,
-             "measured"},
+    v.visit({"accumulation.antilag", "Shorten history where the light has changed by more than noise explains", "", 0,
+             1, "measured"},
             enabled);
-    v.visit({"accumulation.antilag-radius", "Reach of that window around a tile of 8 x 8 pixels", "tiles", 0, 8,
+    v.visit({"accumulation.antilag-radius",
+             "Radius of the window of tiles, 8 x 8 pixels each, over which the change is measured", "tiles", 0, 8,
              "measured"},
             radius);
-    v.visit({"accumulation.antilag-low", "Difference up to which history counts in full; below antilag-high",
+    v.visit({"accumulation.antilag-low", "Change of the light up to which history counts in full; below antilag-high",
              "standard errors", 0.0, 100.0, "measured"},
             scoreLow);
-    v.visit({"accumulation.antilag-high", "Difference from which history counts as one sample", "standard errors", 0.0,
-             100.0, "measured"},
+    v.visit({"accumulation.antilag-high", "Change of the light from which history counts as one sample",
+             "standard errors", 0.0, 100.0, "measured"},
             scoreHigh);
   }
 };

@@ -43,14 +43,13 @@ struct BlockRegressionSettings {
     v.visit({"blocks.sdf-fraction", "Share of the distance to the nearest edge that edge tracing steps at once", "",
              0.0, 1.0, "Meunier & Harada 2022, 5.2"},
             sdfFraction);
-    v.visit(
-        {"blocks.ridge", "Ridge on the diagonal of the covariance of the features, which are of the order of 1 or less",
-         "", 1e-9, 1.0, "measured"},
-        ridge);
+    v.visit({"blocks.ridge", "Ridge on the diagonal of the covariance of the features, which are of order 1 or less",
+             "", 1e-9, 1.0, "measured"},
+            ridge);
     v.visit(
         {"blocks.growth-errors",
-         "Up to how many standard errors of difference in luminance a block joins another's window in full; at twice "
-         "as many it does not at all. The error is that of means of samples of their pixels' variance",
+         "Growth of fine fits: a block joins another's window in full up to this difference of their mean luminances, "
+         "and not at all from twice as much on. The errors are those of means of W samples with the pixels' variance",
          "standard errors", 0.001, 1e6, "measured"},
         growthErrors);
     v.visit(
@@ -58,35 +57,35 @@ struct BlockRegressionSettings {
          "Standard deviation of the Gaussian window of the coarse fit, which no edge stops, at one sample per pixel",
          "fraction of the image's height", 0.001, 0.2, "measured"},
         coarseSigma);
-    v.visit({"blocks.coarse-narrowing", "Power of the samples per pixel by which that window narrows", "", 0.0, 1.0,
-             "measured"},
-            coarseNarrowing);
-    v.visit({"blocks.coarse-reach", "Distance at which that window ends", "sigma", 1.0, 6.0, "measured"}, coarseReach);
     v.visit(
-        {"blocks.coarse-resolution",
-         "Cells of the coarse fit's grid that this standard deviation spans at least, if of one block at least and of "
-         "8 x 8 pixels at most; a cell's side is of 1, 2 or 4 blocks",
-         "cells", 0.5, 100.0, "measured"},
-        coarseResolution);
+        {"blocks.coarse-narrowing", "The coarse window narrows with this power of the samples per pixel; 0: not at all",
+         "", 0.0, 1.0, "measured"},
+        coarseNarrowing);
+    v.visit({"blocks.coarse-reach", "Distance at which the coarse window ends", "sigma", 1.0, 6.0, "measured"},
+            coarseReach);
+    v.visit({"blocks.coarse-resolution",
+             "Least number of cells that coarse-sigma spans. Cells are as large as it allows: 1, 2 or 4 blocks a side, "
+             "at most 8 pixels if more than one",
+             "cells", 0.5, 100.0, "measured"},
+            coarseResolution);
+    v.visit({"blocks.coarse-growth-errors",
+             "Growth of coarse fits: a window joins that of a cell in full up to this error of the cell's fit at the "
+             "window's mean, and not at all from twice as much on",
+             "standard errors", 0.001, 1e6, "measured"},
+            coarseGrowthErrors);
     v.visit(
-        {"blocks.coarse-growth-errors",
-         "Up to how many standard errors a cell's fit may miss the mean of a window around it that joins its own in "
-         "full; at twice as many that does not at all",
-         "standard errors", 0.001, 1e6, "measured"},
-        coarseGrowthErrors);
-    v.visit({"blocks.coarse-growth-occlusion",
-             "How much fewer these errors are where occluders are near: by 1 + this x ambient occlusion", "", 0.0,
-             100.0, "measured"},
-            coarseGrowthOcclusion);
-    v.visit({"blocks.coarse-samples", "Samples that the coarse fit counts for beside those in a block's window",
-             "samples", 0.0, 1e6, "measured"},
-            coarseSamples);
+        {"blocks.coarse-growth-occlusion",
+         "Near occluders coarse-growth-errors is divided by 1 + this x ambient occlusion", "", 0.0, 100.0, "measured"},
+        coarseGrowthOcclusion);
     v.visit(
-        {"blocks.coarse-least-share",
-         "Share of the mixture at which the coarse fit is left out, which saves time; from twice as much on it counts "
-         "in full",
-         "", 1e-6, 0.5, "measured"},
-        coarseLeastShare);
+        {"blocks.coarse-samples", "Samples that the coarse fit counts for in the mixture with a fine fit of W samples",
+         "samples", 0.0, 1e6, "measured"},
+        coarseSamples);
+    v.visit({"blocks.coarse-least-share",
+             "The coarse fit is left out, to save time, where its share of the mixture is below this; from twice as "
+             "much on it counts in full",
+             "", 1e-6, 0.5, "measured"},
+            coarseLeastShare);
   }
 };
 

@@ -35,12 +35,10 @@ struct FlrRegressionSettings {
             factor);
     v.visit({"regression.sigma", "Standard deviation of the Gaussian window", "pixels", 0.1, 256.0, "measured"}, sigma);
     v.visit({"regression.reach", "Distance at which the Gaussian window ends", "sigma", 1.0, 6.0, "measured"}, reach);
-    v.visit(
-        {"regression.ridge",
-         "Added to the diagonal of the covariance of normal and occlusion, and relative to its squared mean to that "
-         "of the inverse depth",
-         "", 1e-6, 1.0, "measured"},
-        ridge);
+    v.visit({"regression.ridge",
+             "Ridge on the diagonal of the covariance of the guides; for inverse depth relative to its squared mean",
+             "", 1e-6, 1.0, "measured"},
+            ridge);
     v.visitEnum(
         {"regression.upsampling", "How the cells' coefficients are interpolated at a pixel", "", 0, 1, "measured"},
         kUpsamplings, upsampling);

@@ -18,14 +18,15 @@ enum class HistoryRejection : std::uint32_t {
 inline void visitRejection(SettingVisitor& v, std::string_view name, HistoryRejection& rejection) {
   static constexpr std::string_view kRejections[] = {"plane", "depth", "none"};
   v.visitEnum(
-      {name, "What tells history of the surface from that of another", "", 0, 1, "Meunier & Harada 2022, 4.2 and 4.4"},
+      {name, "Test whether a history pixel shows the same surface", "", 0, 1, "Meunier & Harada 2022, 4.2 and 4.4"},
       kRejections, rejection);
 }
 
 /// Visit the two thresholds of these tests.
 inline void visitHistoryTests(SettingVisitor& v, std::string_view planeToleranceName, float& planeTolerance,
                               std::string_view normalThresholdName, float& normalThreshold) {
-  v.visit({planeToleranceName, "Largest distance of a history pixel from the surface's plane, or from its depth",
+  v.visit({planeToleranceName,
+           "Largest distance of a history pixel from the surface's plane or, with rejection depth, from its depth",
            "fraction of depth", 0.0, 1.0, "measured"},
           planeTolerance);
   v.visit({normalThresholdName, "Smallest cosine between geometric normals of surface and history pixel", "", -1.0, 1.0,

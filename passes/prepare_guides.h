@@ -23,12 +23,12 @@ struct PrepareGuidesSettings {
              "", 0.0, 1.0, "measured"},
             albedoThreshold);
     v.visit({"guides.tangent-tolerance",
-             "How far the two pixels beside one may miss its inverse depth, extrapolated, and still show its surface",
+             "Largest error of inverse depth extrapolated from two neighbours that still show the pixel's surface",
              "fraction of inverse depth", 0.0, 1e3, "measured"},
             tangentTolerance);
     v.visit({"guides.normal-agreement",
-             "Cosine between the normal computed from depth and the shading normal below which the latter stands in",
-             "", -1.0, 1.0, "measured"},
+             "Cosine between shading normal and normal from depth below which the shading normal is used for both", "",
+             -1.0, 1.0, "measured"},
             normalAgreement);
   }
 };

@@ -36,7 +36,7 @@ struct TemporalAntialiasingSettings {
     v.visit({"antialiasing.clip-gamma", "Half size of the variance-clipping box", "standard deviations", 0.0, 1e6,
              "Meunier & Harada 2022, 4.4"},
             clipGamma);
-    v.visit({"antialiasing.clip-radius", "Half the neighbourhood of the variance clipping; 1 is 3x3", "pixels", 1, 8,
+    v.visit({"antialiasing.clip-radius", "Radius of the neighbourhood for variance clipping; 1 is 3x3", "pixels", 1, 8,
              "Meunier & Harada 2022, 4.4"},
             clipRadius);
     visitRejection(v, "antialiasing.rejection", rejection);

@@ -63,8 +63,8 @@ struct WeightedRegressionSettings {
              "Meunier & Harada 2022, 3.3"},
             repeatCentre);
     v.visit({"regression.edge-leak",
-             "Weight of the very next pixel where it is an edge, for pixels with few of their surface around them", "",
-             0.0, 1.0, "measured"},
+             "Weight of an adjacent pixel that is an edge, for pixels with few neighbours on their surface", "", 0.0,
+             1.0, "measured"},
             edgeLeak);
     v.visitEnum({"regression.moments", "Storage of the averages between two iterations", "", 0, 1,
                  "Meunier & Harada 2022, 5.2"},
