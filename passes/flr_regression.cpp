@@ -79,7 +79,7 @@ fg::Texture addFlrRegression(StageGraph graph, fg::Texture lighting, LightingAlp
   constants.sigma = sigma;
   constants.ridge = settings.ridge;
 
-  // What sums the products and what applies the fit read the same pixels.
+  // The pass that sums the products and the pass that applies the fit read the same pixels.
   const auto readPixels = [&](const std::string& name, const fg::Shader& shader) {
     fg::PassBuilder pass = graph->compute(name, shader);
     pass.sample("lighting", lighting).sample("depth", guides.depth).constants(constants);

@@ -1,4 +1,4 @@
-// Motion beside that of the cameras.
+// Motion compared with that of the cameras.
 #include <array>
 
 #include "passes/lint_judge.h"
@@ -96,7 +96,7 @@ void LintJudge::judgeMotion() {
   judgeAxis("y", kLintMotionY);
   judgeMotionDepth();
   judgeJitter();
-  // Objects may fill most of a picture, but hardly all of it.
+  // Objects may fill most of an image, but hardly all of it.
   const std::uint64_t tested = counts_[kLintStillTested];
   if (tested >= kLeastLintSample && 10 * counts_[kLintStillMoves] > 9 * tested) {
     add({"camera-still",
