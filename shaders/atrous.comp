@@ -1,7 +1,9 @@
-// One edge-aware a-trous iteration (Meunier & Harada 2022, 3.2 and 3.3): the moments of 3x3 taps, 3^t pixels apart, are
-// averaged with the weights that edge tracing finds. The first iteration (FIRST) makes the moments of its taps from the
-// inputs as it reads them; the last (LAST) solves the regression in place, so moments exist in memory only between
-// iterations. A view (VIEW) does what the last one does, and writes something found on the way.
+// WALR over pixels (method walr_paper): one edge-aware a-trous iteration (Meunier & Harada 2022, 3.2 and 3.3). It
+// averages the moments of 3 x 3 taps, 3^t pixels apart, with the weights that edge tracing finds.
+// FIRST: the first iteration. It computes the moments of its taps from the inputs.
+// LAST: the last iteration. It also solves the regression and writes the fitted colour, so that moments are in memory
+// only between iterations.
+// VIEW: does the same work as LAST and writes one of its intermediate values instead of the result.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -16,7 +18,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 0) const uint kIteration = 0;
 layout(constant_id = 1) const int kSpacing = 1;        // 3^t pixels.
 layout(constant_id = 2) const bool kTraceEdges = true;
-layout(constant_id = 3) const uint kReplacement = 1;   // What takes the place of a tap behind an edge.
+layout(constant_id = 3) const uint kReplacement = 1;   // TapReplacement: what replaces a tap behind an edge.
 layout(constant_id = 4) const bool kNormalFactor = true;  // Weights fall with the cosine between the planes' normals.
 #ifdef VIEW
 layout(constant_id = 8) const uint kView = 0;  // Which quantity; numbered in writeResult.
@@ -24,10 +26,10 @@ layout(constant_id = 8) const uint kView = 0;  // Which quantity; numbered in wr
 #ifdef LAST
 layout(constant_id = 5) const bool kPivotFloor = false;      // Floor the pivots instead of adding a ridge.
 #else
-layout(constant_id = 5) const bool kKeepSampleCount = true;  // W goes from iteration to iteration.
+layout(constant_id = 5) const bool kKeepSampleCount = true;  // Carry W from iteration to iteration.
 #endif
-layout(constant_id = 6) const bool kRepeatCentre = false;  // Where the next pixel is an edge, the centre takes its place.
-layout(constant_id = 7) const float kEdgeLeak = 0.01;      // Weight of the next pixel where it is an edge.
+layout(constant_id = 6) const bool kRepeatCentre = false;  // Replace a tap behind an adjacent edge by the centre.
+layout(constant_id = 7) const float kEdgeLeak = 0.01;      // Weight of an adjacent pixel that is an edge.
 
 layout(std140) uniform frameConstants { FrameConstants frame; };
 uniform utexture2D depth;
@@ -45,12 +47,12 @@ layout(rgba16f) uniform writeonly image2D outFiltered;
 #else
 layout(r32ui) uniform writeonly uimage2D outDepth;
 #endif
-layout(push_constant) uniform PushConstants { AtrousConstants settings; };
+layout(push_constant) uniform PushConstants { AtrousConstants constants; };
 
 #include "include/edge_tracing.glsl"
 #ifdef FIRST
 #include "include/light.glsl"
-#include "include/passed_light.glsl"
+#include "include/pass_through.glsl"
 #endif
 #include "include/moments_storage.glsl"
 
@@ -66,14 +68,14 @@ Moments readMoments(ivec2 q) {
 #endif
 }
 
-void writeWithoutSurface(ivec2 p) {
+void writePassThrough(ivec2 p) {
 #if defined(VIEW)
   imageStore(outView, p, vec4(0.0));
 #elif defined(LAST)
-  const uvec2 light = lightWithoutSurface(p);
+  const uvec2 light = packedPassThrough(p);
   imageStore(outFiltered, p, vec4(unpackHalf2x16(light.x), unpackHalf2x16(light.y).x, 1.0));
 #else
-  storeLightWithoutSurface(p);
+  storePassThrough(p);
   imageStore(outDepth, p, uvec4(0u));
 #endif
 }
@@ -81,12 +83,12 @@ void writeWithoutSurface(ivec2 p) {
 #ifdef VIEW
 const float kCoefficients = 3.0;  // Of the fit of one channel.
 
-vec3 viewOf(ivec2 p, Taps taps, Moments m) {
-  const Factor factor = factorOf(m, kPivotFloor, settings.ridge, settings.noiseRidge);
+vec3 viewOf(ivec2 p, TraceSummary summary, Moments m) {
+  const Factor factor = factorOf(m, kPivotFloor, constants.ridge, constants.noiseRidge);
   const Slopes slopes = slopesOf(m, factor);
   const vec3 colour = fitted(m, slopes, featuresAt(p));
   switch (kView) {
-    case 0u: return vec3(taps.nearestEdge, taps.replaced, taps.lost);
+    case 0u: return vec3(summary.nearestEdge, summary.replaced, summary.lost);
     case 1u: return vec3(m.samples, relativeVariance(m), texelFetch(accumulated, p, 0).a > 0.0 ? 0.0 : 1.0);
     case 2u: return vec3(factor.smallestPivot, factor.regularisation, factor.smallestPivot < factor.regularisation);
     case 3u: return vec3(m.x, 0.0);
@@ -103,17 +105,17 @@ vec3 viewOf(ivec2 p, Taps taps, Moments m) {
 }
 #endif
 
-void writeResult(ivec2 p, float z, Taps taps, Moments m) {
+void writeResult(ivec2 p, float z, TraceSummary summary, Moments m) {
 #if defined(VIEW)
-  imageStore(outView, p, vec4(viewOf(p, taps, m), 1.0));
+  imageStore(outView, p, vec4(viewOf(p, summary, m), 1.0));
 #elif defined(LAST)
-  const vec3 colour = reconstruct(m, featuresAt(p), kPivotFloor, settings.ridge, settings.noiseRidge);
+  const vec3 colour = reconstruct(m, featuresAt(p), kPivotFloor, constants.ridge, constants.noiseRidge);
   imageStore(outFiltered, p, vec4(colour, m.samples > 0.0 ? 1.0 : -1.0));
 #else
   if (!kKeepSampleCount) m.samples = m.samples > 0.0 ? 1.0 : 0.0;
   if (m.samples > 0.0) storeMoments(p, m);
   else storeNoMoments(p);
-  imageStore(outDepth, p, uvec4(packDepthSdf(z, uint(taps.nearestEdge))));
+  imageStore(outDepth, p, uvec4(packDepthSdf(z, uint(summary.nearestEdge))));
 #endif
 }
 
@@ -125,26 +127,27 @@ void main() {
   const uint packedDepth = texelFetch(depth, p, 0).x;
   const float z = unpackDepth(packedDepth);
   if (z == 0.0) {
-    writeWithoutSurface(p);
+    writePassThrough(p);
     return;
   }
   const Plane plane = planeAt(p, z, unpackNormal(texelFetch(planeNormal, p, 0).x));
-  const Centre centre = Centre(p, size, plane, 1.0 / (settings.planeFar - settings.planeNear), unpackSdf(packedDepth));
+  const Centre centre =
+      Centre(p, size, plane, 1.0 / (constants.planeFar - constants.planeNear), unpackSdf(packedDepth));
 
-  // Call by call: drivers unroll no loop that holds another one, and half of a tap's arithmetic is gone where its
-  // direction is a constant. The averages, most of the registers, are read once all walks have ended.
-  Taps taps = Taps(kSpacing + 1, 0, 0, 0);
+  // Unrolled by hand: drivers do not unroll a loop that holds another one, and a constant direction saves half of the
+  // arithmetic of a tap. The moments, which take most of the registers, are read after all traces.
+  TraceSummary summary = TraceSummary(kSpacing + 1, 0, 0, 0);
   const Tap found[] = Tap[](
-      findTap(centre, 0, ivec2(-1, -1), taps), findTap(centre, 1, ivec2(0, -1), taps),
-      findTap(centre, 2, ivec2(1, -1), taps), findTap(centre, 3, ivec2(-1, 0), taps),
-      findTap(centre, 5, ivec2(1, 0), taps), findTap(centre, 6, ivec2(-1, 1), taps),
-      findTap(centre, 7, ivec2(0, 1), taps), findTap(centre, 8, ivec2(1, 1), taps));
+      findTap(centre, 0, ivec2(-1, -1), summary), findTap(centre, 1, ivec2(0, -1), summary),
+      findTap(centre, 2, ivec2(1, -1), summary), findTap(centre, 3, ivec2(-1, 0), summary),
+      findTap(centre, 5, ivec2(1, 0), summary), findTap(centre, 6, ivec2(-1, 1), summary),
+      findTap(centre, 7, ivec2(0, 1), summary), findTap(centre, 8, ivec2(1, 1), summary));
 
   const Moments here = readMoments(p);
   MomentSum sum = startSum(here);
-  add(sum, float(1 + taps.centred), here);
+  add(sum, float(1 + summary.centred), here);
   [[unroll]] for (int i = 0; i < 8; ++i) {
     if (found[i].weight > 0.0) add(sum, found[i].weight, readMoments(found[i].pixel));
   }
-  writeResult(p, z, taps, finish(sum));
+  writeResult(p, z, summary, finish(sum));
 }

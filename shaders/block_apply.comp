@@ -1,7 +1,13 @@
-// The blocks' fits applied to every pixel's features: those of the four blocks around it, weighed by plane and
-// distance, mixed with the coarse fits of the four cells around it as their samples count against `coarseSamples`.
-// What shows no surface passes its light on; with PACKED, which packs the result (packed_light.glsl), whoever reads that
-// must. A view (VIEW) does the same and writes something found on the way; of that PACKED says what it reads.
+// WALR, reconstruction (passes/WALR.md, 8): the light of every pixel, predicted from the pixel's own features by the
+// fits around it.
+// Fine: the fits of the four blocks around the pixel, with bilinear weights times the edge-stopping function of each
+// block's plane. Coarse: the fits of the four cells around it, with bilinear weights. The share of the coarse fits is
+// large where the windows of the fine fits have few samples (coarse_share.glsl).
+// A pixel without a surface gets the pass-through.
+// PACKED: the result is packed light (packed_light.glsl). A pixel without a surface then gets a mark, and the reader of
+// the result writes the pass-through.
+// VIEW: does the same work and writes one of its intermediate values instead of the result. With VIEW, PACKED says that
+// `accumulated` is packed.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -36,10 +42,10 @@ uniform texture2D accumulated;
 #elif defined(PACKED)
 layout(r32ui) uniform writeonly uimage2D outFiltered;
 #else
-uniform texture2D passed;
+uniform texture2D passThrough;
 layout(rgba16f) uniform writeonly image2D outFiltered;
 #endif
-layout(push_constant) uniform PushConstants { BlockRegressionConstants settings; };
+layout(push_constant) uniform PushConstants { BlockRegressionConstants constants; };
 #include "include/block_fit.glsl"
 #include "include/block_plane.glsl"
 #include "include/coarse_share.glsl"
@@ -50,7 +56,7 @@ layout(push_constant) uniform PushConstants { BlockRegressionConstants settings;
 #include "include/packed_light.glsl"
 #else
 #include "include/half.glsl"
-#include "include/passed_light.glsl"
+#include "include/pass_through.glsl"
 #endif
 
 struct Prediction {
@@ -59,7 +65,7 @@ struct Prediction {
   float weight;
 #ifdef VIEW
   vec3 slope[kFeatures];  // Weighted sums.
-  bvec3 negative;         // Where a fit gave less than 0.
+  bvec3 negative;         // Whether a fit is below 0, by channel.
 #endif
 };
 
@@ -95,27 +101,27 @@ BlockFit loadCoarse(ivec2 block) {
       PackedFit(texelFetch(coarseA, block, 0), texelFetch(coarseB, block, 0), texelFetch(coarseC, block, 0)));
 }
 
-// Weighted mean of the fine fits' samples.
+// Mean sample count W of the fine fits.
 float fineSamples(Prediction fine) { return fine.weight > 0.0 ? fine.samples / fine.weight : 0.0; }
 
-// Share of the coarse fits in the mixture, where they know anything.
+// Share of the coarse fits if any of them has samples: 1 where no fine fit has any.
 float coarseShare(Prediction fine) { return fine.weight > 0.0 ? coarseShare(fineSamples(fine)) : 1.0; }
 
 vec3 colourOf(Prediction sum) { return sum.weight > 0.0 ? sum.colour / sum.weight : vec3(0.0); }
 
-// The four texels around a pixel on a grid that is `size` times as coarse.
-struct Around {
+// The four texels around a pixel on a grid whose texels are `size` pixels a side.
+struct BilinearTexels {
   ivec2 base;
   vec2 f;
 };
 
-Around around(ivec2 p, int size) {
+BilinearTexels bilinearTexels(ivec2 p, int size) {
   const vec2 position = (vec2(p) + 0.5) / float(size) - 0.5;
-  return Around(ivec2(floor(position)), fract(position));
+  return BilinearTexels(ivec2(floor(position)), fract(position));
 }
 
-// 0 outside the grid.
-float bilinearWeight(Around a, int i, ivec2 grid, out ivec2 texel) {
+// Weight of texel `i` of the four; 0 outside the grid.
+float bilinearWeight(BilinearTexels a, int i, ivec2 grid, out ivec2 texel) {
   const ivec2 offset = ivec2(i & 1, i >> 1);
   texel = a.base + offset;
   if (any(lessThan(texel, ivec2(0))) || any(greaterThanEqual(texel, grid))) return 0.0;
@@ -125,7 +131,7 @@ float bilinearWeight(Around a, int i, ivec2 grid, out ivec2 texel) {
 
 Prediction predictCoarse(ivec2 p, float z, NormalAndOcclusion shading) {
   Prediction sum = noPrediction();
-  const Around cells = around(p, kCellSize);
+  const BilinearTexels cells = bilinearTexels(p, kCellSize);
   [[unroll]] for (int i = 0; i < 4; ++i) {
     ivec2 cell;
     const float weight = bilinearWeight(cells, i, textureSize(coarseDepth, 0), cell);
@@ -138,7 +144,7 @@ Prediction predictCoarse(ivec2 p, float z, NormalAndOcclusion shading) {
 
 Prediction predictFine(ivec2 p, float z, NormalAndOcclusion shading) {
   Prediction sum = noPrediction();
-  const Around blocks = around(p, kBlockSize);
+  const BilinearTexels blocks = bilinearTexels(p, kBlockSize);
   [[unroll]] for (int i = 0; i < 4; ++i) {
     ivec2 block;
     const float bilinear = bilinearWeight(blocks, i, textureSize(fitDepth, 0), block);
@@ -176,15 +182,15 @@ vec3 viewOf(ivec2 p, Prediction fine, Prediction coarse, float share, float occl
 #endif
 
 #ifdef VIEW
-void storePassed(ivec2 p) { imageStore(outView, p, vec4(vec3(0.0), 1.0)); }
+void storeNoSurface(ivec2 p) { imageStore(outView, p, vec4(vec3(0.0), 1.0)); }
 #elif defined(PACKED)
-void storePassed(ivec2 p) { imageStore(outFiltered, p, uvec4(kNoFiltered)); }
+void storeNoSurface(ivec2 p) { imageStore(outFiltered, p, uvec4(kFilteredNoSurface)); }
 void store(ivec2 p, vec3 colour) {
-  const vec3 chances = chancesOf(p, frame.frameIndex, kFilteredKey).rgb;
-  imageStore(outFiltered, p, uvec4(packFiltered(colour, chances)));
+  const vec3 random = randomNumbers(p, frame.frameIndex, kFilteredSeed).rgb;
+  imageStore(outFiltered, p, uvec4(packFiltered(colour, random)));
 }
 #else
-void storePassed(ivec2 p) { imageStore(outFiltered, p, vec4(passedLight(passed, p), 1.0)); }
+void storeNoSurface(ivec2 p) { imageStore(outFiltered, p, vec4(passThroughLight(passThrough, p), 1.0)); }
 void store(ivec2 p, vec3 colour) { imageStore(outFiltered, p, nearestHalf(vec4(colour, 1.0))); }
 #endif
 
@@ -193,23 +199,23 @@ void main() {
   if (any(greaterThanEqual(p, textureSize(depth, 0)))) return;
   const float z = unpackDepth(texelFetch(depth, p, 0).x);
   if (z == 0.0) {
-    storePassed(p);
+    storeNoSurface(p);
     return;
   }
   const NormalAndOcclusion shading = unpackNormalAndOcclusion(texelFetch(features, p, 0).x);
   const Prediction fine = predictFine(p, z, shading);
-  const float wanted = coarseShare(fine);
+  const float shareIfAny = coarseShare(fine);
 #ifdef VIEW
   const Prediction coarse = predictCoarse(p, z, shading);
 #else
   Prediction coarse = noPrediction();
-  if (wanted > 0.0) coarse = predictCoarse(p, z, shading);
+  if (shareIfAny > 0.0) coarse = predictCoarse(p, z, shading);
 #endif
-  const float share = coarse.weight > 0.0 ? wanted : 0.0;
+  const float share = coarse.weight > 0.0 ? shareIfAny : 0.0;
 #ifdef VIEW
   imageStore(outView, p, vec4(viewOf(p, fine, coarse, share, shading.occlusion), 1.0));
 #else
-  // 0 where neither knows anything: the pixel itself, of whose cell the coarse fit is, has no sample then.
+  // 0 where no fit has samples. The pixel itself has none then: its cell would otherwise have a coarse fit.
   store(p, mix(colourOf(fine), colourOf(coarse), share));
 #endif
 }

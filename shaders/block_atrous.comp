@@ -1,5 +1,9 @@
-// One edge-aware a-trous iteration over blocks (Meunier & Harada 2022, 3.2 and 3.3). The last iteration (LAST) solves
-// the regression in place. A view (VIEW) writes what the iteration finds of each block to all pixels of the block.
+// WALR, fine fit (passes/WALR.md, 5): one edge-aware a-trous iteration over blocks (Meunier & Harada 2022, 3.2 and
+// 3.3). The moments of a block are merged with those of eight taps, blocks 3^t apart. A tap's weight is the smallest
+// edge-stopping weight on the way to it, times the cosine between the normals, times the growth weight
+// (block_growth.glsl).
+// LAST: the last iteration. It solves the regression and writes fits instead of moments.
+// VIEW: does the same work and writes one of its intermediate values of each block to all pixels of the block.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -16,7 +20,7 @@ uniform utexture2D normal;
 layout(constant_id = 8) const uint kView = 0;  // Which quantity; numbered in viewOf.
 layout(rgba32f) uniform writeonly image2D outView;
 #endif
-layout(push_constant) uniform PushConstants { BlockRegressionConstants settings; };
+layout(push_constant) uniform PushConstants { BlockRegressionConstants constants; };
 #include "include/block_fit.glsl"
 #define BLOCK_MOMENTS_IN
 #if defined(LAST)
@@ -30,7 +34,7 @@ layout(push_constant) uniform PushConstants { BlockRegressionConstants settings;
 #include "include/plane.glsl"
 #include "include/block_plane.glsl"
 
-// Weight of a block, 0 outside the image and where it shows no surface.
+// Edge-stopping weight of a block; 0 outside the image and where the block shows no surface.
 float edgeWeight(Plane plane, ivec2 block, out uint packedDepth) {
   packedDepth = 0u;
   if (!insideGrid(block)) return 0.0;
@@ -41,17 +45,18 @@ float edgeWeight(Plane plane, ivec2 block, out uint packedDepth) {
 }
 
 struct Trace {
-  float weight;  // Smallest edge weight met on the segment.
-  int edge;      // Step at which it became 0; steps + 1 where it did not.
-  float depth;   // Depth at its far end.
+  float weight;  // Smallest edge-stopping weight on the segment.
+  int edge;      // Step at which it became 0; kSpacing + 1 if it did not.
+  float depth;   // Depth of the block at the far end.
 };
 
-// As in edge_tracing.glsl, a step being one block.
+// Edge tracing as in edge_tracing.glsl, with blocks in place of pixels. `edge`: distance of the centre to the nearest
+// edge.
 Trace traceEdge(Plane plane, ivec2 block, ivec2 direction, uint edge) {
   Trace trace = Trace(1.0, kSpacing + 1, 0.0);
   int step = 0;
   while (step < kSpacing) {
-    step = min(step + max(int(settings.sdfFraction * float(edge)), 1), kSpacing);
+    step = min(step + max(int(constants.sdfFraction * float(edge)), 1), kSpacing);
     uint packedDepth;
     trace.weight = min(trace.weight, edgeWeight(plane, block + step * direction, packedDepth));
     if (trace.weight <= 0.0) {
@@ -64,25 +69,26 @@ Trace traceEdge(Plane plane, ivec2 block, ivec2 direction, uint edge) {
   return trace;
 }
 
-// What became of the taps.
-struct Taps {
+// What the traces to all eight taps found.
+struct TraceSummary {
   int nearestEdge;
   int lost;
 };
 
-// Whether a tap shows the same light as the block, by the paths behind both means. Their variance is that of both together,
-// as it is where they do: few samples may be alike by chance.
+// Growth weight of a tap: 1 where both blocks show the same light within the standard errors of their means. The
+// variance is that of the pixels of both blocks together: that of a few samples may be small by chance.
 float sameLight(BlockMoments a, BlockMoments b) {
   const float samples = a.samples + b.samples;
   const float shareA = a.samples / samples;
   const float shareB = b.samples / samples;
   const float difference = luminance(a.y - b.y);
   const float variance = shareA * a.yy + shareB * b.yy + shareA * shareB * difference * difference;
-  return sameLight(difference, variance / (shareA * shareB * samples), luminance(a.y + b.y), settings.growthErrors);
+  return sameLight(difference, variance / (shareA * shareB * samples), luminance(a.y + b.y), constants.growthErrors);
 }
 
 #ifdef VIEW
-// The smallest pivot without its ridge, in units of the ridge; how many of them the ridge outweighs, and whether any.
+// The smallest pivot without its ridge, in units of the ridge; the number of pivots below their ridge; 1 if there are
+// any.
 vec3 pivotsOf(BlockMoments m) {
   const float factor[kCovariances] = factorOf(m);
   const float ridge[kFeatures] = ridgeOf(m);
@@ -96,9 +102,9 @@ vec3 pivotsOf(BlockMoments m) {
   return vec3(smallest, outweighed, outweighed > 0.0);
 }
 
-vec3 viewOf(Taps taps, BlockMoments m) {
+vec3 viewOf(TraceSummary summary, BlockMoments m) {
   switch (kView) {
-    case 0u: return vec3(taps.nearestEdge, taps.lost, m.samples);
+    case 0u: return vec3(summary.nearestEdge, summary.lost, m.samples);
     case 1u: return pivotsOf(m);
     case 2u: return m.y;
     case 3u: return vec3(m.x[0], m.x[1], m.x[2]);
@@ -113,9 +119,9 @@ vec3 viewOf(Taps taps, BlockMoments m) {
 }
 #endif
 
-void writeResult(ivec2 block, float z, Taps taps, BlockMoments m) {
+void writeResult(ivec2 block, float z, TraceSummary summary, BlockMoments m) {
 #ifdef VIEW
-  const vec3 value = z > 0.0 ? viewOf(taps, m) : vec3(0.0);
+  const vec3 value = z > 0.0 ? viewOf(summary, m) : vec3(0.0);
   for (int i = 0; i < kBlockSize * kBlockSize; ++i) {
     const ivec2 p = kBlockSize * block + ivec2(i % kBlockSize, i / kBlockSize);
     if (all(lessThan(p, imageSize(outView)))) imageStore(outView, p, vec4(value, 1.0));
@@ -126,7 +132,7 @@ void writeResult(ivec2 block, float z, Taps taps, BlockMoments m) {
   const uint packedDepth = packFitDepth(z, converges(m.samples));
 #else
   storeMoments(block, m);
-  const uint packedDepth = packDepthSdf(z, uint(taps.nearestEdge));
+  const uint packedDepth = packDepthSdf(z, uint(summary.nearestEdge));
 #endif
   imageStore(outDepth, block, uvec4(z > 0.0 ? packedDepth : 0u));
 #endif
@@ -138,7 +144,7 @@ void main() {
   const uint packedDepth = texelFetch(depth, block, 0).x;
   const float z = unpackDepth(packedDepth);
   if (z == 0.0) {
-    writeResult(block, 0.0, Taps(0, 0), noSamples());
+    writeResult(block, 0.0, TraceSummary(0, 0), noSamples());
     return;
   }
   const uint packedNormal = texelFetch(normal, block, 0).x;
@@ -148,14 +154,14 @@ void main() {
   const BlockMoments own = loadMoments(block);
   BlockMomentSum sum = emptySum();
   add(sum, 1.0, own);
-  Taps taps = Taps(kSpacing + 1, 0);
+  TraceSummary summary = TraceSummary(kSpacing + 1, 0);
   for (int tap = 0; tap < 9; ++tap) {
     if (tap == 4) continue;
     const ivec2 direction = ivec2(tap % 3, tap / 3) - 1;
     const Trace trace = traceEdge(plane, block, direction, unpackSdf(packedDepth));
-    taps.nearestEdge = min(taps.nearestEdge, trace.edge);
+    summary.nearestEdge = min(summary.nearestEdge, trace.edge);
     if (trace.weight <= 0.0) {
-      ++taps.lost;
+      ++summary.lost;
       continue;
     }
     const ivec2 q = block + kSpacing * direction;
@@ -166,5 +172,5 @@ void main() {
     const float same = own.samples > 0.0 ? sameLight(own, tapped) : 1.0;
     if (same > 0.0) add(sum, weight * same, rescaleDepth(tapped, z / trace.depth));
   }
-  writeResult(block, z, taps, finish(sum));
+  writeResult(block, z, summary, finish(sum));
 }

@@ -1,4 +1,5 @@
-// One axis of the Gaussian window of the coarse fit, which no edge stops (Salmi et al. 2024).
+// WALR, coarse fit (passes/WALR.md, 6): averages the moments of cells with one axis of a separable Gaussian that no
+// edge ends (after Salmi et al. 2024). The Gaussian is wider where the cell has fewer samples per pixel.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -7,7 +8,7 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 0) const bool kVertical = false;
 
-layout(push_constant) uniform PushConstants { BlockRegressionConstants settings; };
+layout(push_constant) uniform PushConstants { BlockRegressionConstants constants; };
 #define BLOCK_MOMENTS_IN
 #define BLOCK_MOMENTS_OUT
 #include "include/block_textures.glsl"
@@ -23,8 +24,8 @@ void main() {
   const ivec2 cell = ivec2(gl_GlobalInvocationID.xy);
   if (!insideGrid(cell)) return;
   const ivec2 axis = kVertical ? ivec2(0, 1) : ivec2(1, 0);
-  const float sigma = coarseSigma(pathsPerPixel(loadMoments(cell).samples));
-  const int radius = int(ceil(settings.coarseReach * sigma));
+  const float sigma = coarseSigma(samplesPerPixel(loadMoments(cell).samples));
+  const int radius = int(ceil(constants.coarseReach * sigma));
   WindowDepth window = WindowDepth(0.0, 0.0);
   float weights = 0.0;
   for (int i = -radius; i <= radius; ++i) {

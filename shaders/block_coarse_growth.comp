@@ -1,5 +1,7 @@
-// The coarse fit's windows grown: those around a cell join its own where its fit foretells their light within the error of
-// the means, but where the blocks' fits leave them nothing to say. Solves the regression.
+// WALR, growth of the coarse fit and its solve (passes/WALR.md, 7): the windows around a cell, on 5 x 5 growth taps 3
+// cells apart, are merged into the cell's own window if the fit of the cell predicts their light within the standard
+// errors of the means. Cells that only converged blocks would read do not grow: these blocks give the coarse fit no
+// share.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -7,7 +9,7 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
-layout(push_constant) uniform PushConstants { BlockRegressionConstants settings; };
+layout(push_constant) uniform PushConstants { BlockRegressionConstants constants; };
 #include "include/block_fit.glsl"
 #include "include/block_growth.glsl"
 #define BLOCK_MOMENTS_IN
@@ -18,41 +20,41 @@ layout(push_constant) uniform PushConstants { BlockRegressionConstants settings;
 layout(constant_id = 3) const int kCellBlocks = 1;  // Per axis.
 uniform utexture2D fitDepth;
 
-const int kTaps = 5;          // Per axis.
-const int kTapSpacing = 3;    // Cells.
-const float kTapSigma = 1.2;  // Of their Gaussian weights, taps.
-// Share of a window's variance that is taken for noise at least: slopes follow noise, too.
+const int kGrowthTaps = 5;          // Per axis, the cell itself among them.
+const int kGrowthSpacing = 3;    // Cells.
+const float kGrowthSigma = 1.2;  // Standard deviation of their Gaussian weights, in taps.
+// The noise is at least this share of a window's variance: slopes fit noise, too, and so make it look smaller.
 const float kLeastNoise = 0.05;
 const float kPi = 3.14159265;
 
-// A window and what its fit makes of others.
+// The window of a cell, and how to compare others with it.
 struct Window {
   BlockMoments moments;
   float slope[kFeatures];  // Of luminance.
-  float noise;             // Share of the variance that the fit leaves.
-  float pixels;            // As many as would have the same error at equal weights.
-  float errors;            // Standard errors up to which others join in full: near occluders light varies faster.
+  float noise;             // Share of the variance that the fit leaves unexplained.
+  float pixels;            // Effective number of pixels: as many equal weights would give the same standard error.
+  float errors;            // Standard errors up to which others join in full; fewer near occluders.
 };
 
 Window windowOf(BlockMoments m) {
   Window w;
   w.moments = m;
   const vec3 slope[kFeatures] = slopesOf(m);
-  float left = m.yy;
+  float unexplained = m.yy;
   for (int i = 0; i < kFeatures; ++i) {
     w.slope[i] = luminance(slope[i]);
-    left -= w.slope[i] * luminance(m.yx[i]);
+    unexplained -= w.slope[i] * luminance(m.yx[i]);
   }
-  w.noise = m.yy > 0.0 ? clamp(left / m.yy, kLeastNoise, 1.0) : 1.0;
-  const float paths = pathsPerPixel(m.samples);
-  const float sigma = float(kCellSize) * coarseSigma(paths);
-  // Where there is less than a path a pixel, some pixels have none.
-  w.pixels = 4.0 * kPi * sigma * sigma * min(paths, 1.0);
-  w.errors = settings.coarseGrowthErrors / (1.0 + settings.coarseGrowthOcclusion * max(m.x[kOcclusionFeature], 0.0));
+  w.noise = m.yy > 0.0 ? clamp(unexplained / m.yy, kLeastNoise, 1.0) : 1.0;
+  const float density = samplesPerPixel(m.samples);
+  const float sigma = float(kCellSize) * coarseSigma(density);
+  // Below one sample per pixel some pixels have no sample.
+  w.pixels = 4.0 * kPi * sigma * sigma * min(density, 1.0);
+  w.errors = constants.coarseGrowthErrors / (1.0 + constants.coarseGrowthOcclusion * max(m.x[kOcclusionFeature], 0.0));
   return w;
 }
 
-// Of another window's moments, which are relative to the same depth.
+// Growth weight of another window. `m` must be relative to the same depth as the moments of `w`.
 float sameLight(Window w, BlockMoments m) {
   float difference = luminance(m.y - w.moments.y);
   for (int i = 0; i < kFeatures; ++i) difference -= w.slope[i] * (m.x[i] - w.moments.x[i]);
@@ -60,34 +62,34 @@ float sameLight(Window w, BlockMoments m) {
   return sameLight(difference, variance, luminance(w.moments.y + m.y), w.errors);
 }
 
-// Whether the fits of some block around a pixel that reads this cell want paths. Where none does, the rare pixel that lies
-// on no block's plane reads a fit that has not grown.
-bool counts(ivec2 cell) {
+// Whether any block that shares a pixel with this cell in the reconstruction has not converged. If all have, only the
+// rare pixel that lies on no block's plane reads this cell, and it reads a fit that has not grown.
+bool isRead(ivec2 cell) {
   const int reach = kCellBlocks / 2 + 1;
   const ivec2 first = max(kCellBlocks * cell - reach, ivec2(0));
   const ivec2 last = min(kCellBlocks * (cell + 1) - 1 + reach, textureSize(fitDepth, 0) - 1);
-  bool wanting = false;
+  bool unconverged = false;
   for (int y = first.y; y <= last.y; ++y) {
     for (int x = first.x; x <= last.x; ++x) {
       const uint packedDepth = texelFetch(fitDepth, ivec2(x, y), 0).x;
-      wanting = wanting || (packedDepth != 0u && !hasConverged(packedDepth));
+      unconverged = unconverged || (packedDepth != 0u && !hasConverged(packedDepth));
     }
   }
-  return wanting;
+  return unconverged;
 }
 
-BlockMoments grown(ivec2 cell, float z, BlockMoments own) {
+BlockMoments grow(ivec2 cell, float z, BlockMoments own) {
   const Window window = windowOf(own);
   BlockMomentSum sum = emptySum();
   add(sum, 1.0, own);
-  for (int i = 0; i < kTaps * kTaps; ++i) {
-    const ivec2 tap = ivec2(i % kTaps, i / kTaps) - kTaps / 2;
-    const ivec2 q = cell + kTapSpacing * tap;
+  for (int i = 0; i < kGrowthTaps * kGrowthTaps; ++i) {
+    const ivec2 tap = ivec2(i % kGrowthTaps, i / kGrowthTaps) - kGrowthTaps / 2;
+    const ivec2 q = cell + kGrowthSpacing * tap;
     if (tap == ivec2(0) || !insideGrid(q)) continue;
     const float tapZ = unpackDepth(texelFetch(depth, q, 0).x);
     if (tapZ == 0.0) continue;
     const BlockMoments m = rescaleDepth(loadMoments(q), z / tapZ);
-    const float distance = length(vec2(tap)) / kTapSigma;
+    const float distance = length(vec2(tap)) / kGrowthSigma;
     if (m.samples > 0.0) add(sum, exp(-0.5 * distance * distance) * sameLight(window, m), m);
   }
   return finish(sum);
@@ -97,6 +99,6 @@ void main() {
   const ivec2 cell = ivec2(gl_GlobalInvocationID.xy);
   if (!insideGrid(cell)) return;
   BlockMoments m = loadMoments(cell);
-  if (m.samples > 0.0 && counts(cell)) m = grown(cell, unpackDepth(texelFetch(depth, cell, 0).x), m);
+  if (m.samples > 0.0 && isRead(cell)) m = grow(cell, unpackDepth(texelFetch(depth, cell, 0).x), m);
   storeFit(cell, fitOf(m));
 }

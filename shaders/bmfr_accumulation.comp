@@ -1,6 +1,6 @@
-// BMFR postprocessing (Koskela et al. 2019, 3.5): the fitted frame is averaged over time through the taps that the
-// first accumulation accepted, a cumulative mean that turns exponential. Displaced blocks and the noise of the
-// regularisation average out.
+// BMFR, second accumulation (Koskela et al. 2019, 3.5): averages the fitted frames over time through the history taps
+// that the first accumulation accepted. The cumulative mean turns exponential at `maxHistory`. Averaging hides the
+// borders of blocks, which are displaced every frame, and the noise that the fit adds to its features.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -12,11 +12,11 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 
 uniform texture2D fitted;
-uniform utexture2D taps;
+uniform utexture2D taps;  // Kept history taps (history_taps.glsl).
 uniform texture2D previousAccumulated;  // rgb: mean; a: history length.
 layout(rgba16f) uniform writeonly image2D outAccumulated;
 layout(std140) uniform frameConstants { FrameConstants frame; };
-layout(push_constant) uniform PushConstants { BmfrAccumulationConstants settings; };
+layout(push_constant) uniform PushConstants { BmfrAccumulationConstants constants; };
 
 void main() {
   const ivec2 p = ivec2(gl_GlobalInvocationID.xy);
@@ -29,6 +29,6 @@ void main() {
     return;
   }
   const vec4 history = meanOfTaps(previousAccumulated, unpackTaps(p, kept, frame.previousPixelFromPixel));
-  const float samples = min(history.a + 1.0, settings.maxHistory);
+  const float samples = min(history.a + 1.0, constants.maxHistory);
   imageStore(outAccumulated, p, nearestHalf(vec4(mix(history.rgb, current, 1.0 / samples), samples)));
 }

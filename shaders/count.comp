@@ -1,5 +1,5 @@
-// Sums of a view's components, which count something at each pixel, over the picture. CLEAR: zeros all counters before
-// the first of them is summed.
+// Sums the components of a view, which hold counts, over all pixels. CLEAR: sets all counters to zero before the first
+// sum.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -16,7 +16,7 @@ void main() {
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(std430) buffer counters { uint words[]; };
 uniform texture2D view;
-layout(push_constant) uniform PushConstants { CountConstants settings; };
+layout(push_constant) uniform PushConstants { CountConstants constants; };
 
 shared uint partial[3];
 
@@ -32,7 +32,7 @@ void main() {
   barrier();
   if (gl_LocalInvocationIndex < 3u) {
     const uint sum = partial[gl_LocalInvocationIndex];
-    if (sum > 0u) atomicAdd(words[settings.word + gl_LocalInvocationIndex], sum);
+    if (sum > 0u) atomicAdd(words[constants.word + gl_LocalInvocationIndex], sum);
   }
 }
 #endif

@@ -1,4 +1,4 @@
-// FLR, first stage (Salmi et al. 2024): outer products of guides and colour, downsampled to one sum per cell.
+// FLR, first stage (Salmi et al. 2024): sums the outer products of guides and colour over the pixels of each cell.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -8,7 +8,7 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 0) const bool kAlphaIsSampleCount = false;
 
-layout(push_constant) uniform PushConstants { FlrConstants settings; };
+layout(push_constant) uniform PushConstants { FlrConstants constants; };
 #include "include/flr.glsl"
 
 uniform texture2D lighting;
@@ -19,8 +19,8 @@ layout(std430) writeonly buffer outMoments { OuterProducts outCells[]; };
 void main() {
   const ivec2 cell = ivec2(gl_GlobalInvocationID.xy);
   if (!insideGrid(cell)) return;
-  const ivec2 first = cell * settings.factor;
-  const ivec2 end = min(first + settings.factor, textureSize(depth, 0));
+  const ivec2 first = cell * constants.factor;
+  const ivec2 end = min(first + constants.factor, textureSize(depth, 0));
   OuterProducts sum = noSamples();
   for (int y = first.y; y < end.y; ++y) {
     for (int x = first.x; x < end.x; ++x) {
@@ -28,7 +28,7 @@ void main() {
       const float z = unpackDepth(texelFetch(depth, p, 0).x);
       const vec4 sampleHere = texelFetch(lighting, p, 0);
       const vec3 colour = sampleHere.rgb;
-      // Sky, pixels without a diffuse lobe and pixels without a finite sample have no say.
+      // Sky, pixels without a diffuse lobe and pixels without a finite sample do not count.
       if (z == 0.0 || !isFinite(colour) || (kAlphaIsSampleCount && sampleHere.a == 0.0)) continue;
       add(sum, 1.0, outerProducts(guidesAt(p, z), clamp(colour, 0.0, kLargestHalf)));
     }

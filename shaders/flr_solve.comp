@@ -1,12 +1,13 @@
-// FLR, third stage (Salmi et al. 2024): the vertical half of the Gaussian, then the weighted least squares of every
-// cell. A view (VIEW) does the same and writes something found on the way to the cell's pixels.
+// FLR, third stage (Salmi et al. 2024): the vertical pass of the Gaussian, then the weighted least squares of every
+// cell.
+// VIEW: does the same work and writes one of its intermediate values to all pixels of the cell.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "constants/flr.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
-layout(push_constant) uniform PushConstants { FlrConstants settings; };
+layout(push_constant) uniform PushConstants { FlrConstants constants; };
 #include "include/flr.glsl"
 #include "include/cholesky.glsl"
 
@@ -18,9 +19,9 @@ layout(rgba32f) uniform writeonly image2D outView;
 layout(std430) writeonly buffer outCoefficients { Coefficients outCells[]; };
 #endif
 
-// Solving the constant first leaves the system of the covariances, so that the ridge holds the slopes and not the mean:
-// on the constant it would darken the fit. Inverse depth is not of order 1 as the other guides are; its ridge is
-// relative.
+// The normal equations about the means, that is, with the constant solved first: the ridge then restrains the slopes
+// only, where on the constant it would darken the fit. Inverse depth is not of order 1 as the other guides are; its
+// ridge is relative to its squared mean.
 struct NormalEquations {
   vec3 y;  // Mean colour.
   float x[kFeatures];
@@ -29,7 +30,7 @@ struct NormalEquations {
   vec3 yx[kFeatures];
 };
 
-// Of at least one sample.
+// Needs at least one sample.
 NormalEquations normalEquations(OuterProducts p) {
   const float scale = 1.0 / productAt(p, 0);
   NormalEquations e;
@@ -37,7 +38,7 @@ NormalEquations normalEquations(OuterProducts p) {
   float covariances[kCovariances];
   for (int i = 0; i < kFeatures; ++i) e.x[i] = scale * productAt(p, kMeanX + i);
   for (int i = 0; i < kFeatures; ++i) {
-    e.ridge[i] = settings.ridge * (i == kInverseDepth ? e.x[i] * e.x[i] : 1.0);
+    e.ridge[i] = constants.ridge * (i == kInverseDepth ? e.x[i] * e.x[i] : 1.0);
     e.yx[i] = scale * colourProductAt(p, i + 1) - e.y * e.x[i];
     for (int j = 0; j < kFeatures; ++j) {
       if (j < i) continue;
@@ -50,7 +51,7 @@ NormalEquations normalEquations(OuterProducts p) {
 }
 
 #ifdef VIEW
-// The smallest pivot without its ridge, in units of the ridge; how many of them the ridge outweighs.
+// The smallest pivot without its ridge, in units of the ridge; the number of pivots below their ridge.
 vec2 pivotsOf(NormalEquations e) {
   float smallest = 3.0e38, outweighed = 0.0;
   for (int i = 0; i < kFeatures; ++i) {
@@ -72,8 +73,8 @@ vec3 viewOf(OuterProducts p) {
 
 void write(ivec2 cell, OuterProducts p) {
   const vec3 value = viewOf(p);
-  for (int i = 0; i < settings.factor * settings.factor; ++i) {
-    const ivec2 pixel = settings.factor * cell + ivec2(i % settings.factor, i / settings.factor);
+  for (int i = 0; i < constants.factor * constants.factor; ++i) {
+    const ivec2 pixel = constants.factor * cell + ivec2(i % constants.factor, i / constants.factor);
     if (all(lessThan(pixel, imageSize(outView)))) imageStore(outView, pixel, vec4(value, 1.0));
   }
 }
@@ -101,7 +102,7 @@ void main() {
   const ivec2 cell = ivec2(gl_GlobalInvocationID.xy);
   if (!insideGrid(cell)) return;
   OuterProducts sum = noSamples();
-  for (int i = -settings.radius; i <= settings.radius; ++i) {
+  for (int i = -constants.radius; i <= constants.radius; ++i) {
     const ivec2 tap = cell + ivec2(0, i);
     if (insideGrid(tap)) add(sum, gaussian(i), cells[cellIndex(tap)]);
   }

@@ -1,5 +1,6 @@
-// Joint bilateral filter of one noisy frame (Wang 2024, 2): every pixel of a square window, weighted by a
-// Gaussian of its distance in the image, in colour, in normal and from the tangent plane.
+// Joint bilateral filter of one noisy frame (Wang 2024, 2): the mean over a square window, weighted by Gaussians of the
+// distance in the image, the difference in colour, the angle between normals and the angle to the tangent plane.
+// VIEW: does the same work and writes one of its intermediate values instead of the result.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -24,7 +25,7 @@ layout(rgba32f) uniform writeonly image2D outView;
 #else
 layout(rgba16f) uniform writeonly image2D outFiltered;
 #endif
-layout(push_constant) uniform PushConstants { JointBilateralConstants settings; };
+layout(push_constant) uniform PushConstants { JointBilateralConstants constants; };
 
 struct Surface {
   vec3 position;         // View space.
@@ -49,17 +50,17 @@ Surface surfaceAt(ivec2 q) {
   return s;
 }
 
-// Angle between unit vectors, by their chord: the arc cosine loses all precision at small angles.
+// Angle between unit vectors, from their chord: the arc cosine loses all precision at small angles.
 float angleBetween(vec3 a, vec3 b) { return 2.0 * asin(min(0.5 * length(a - b), 1.0)); }
 
-// Sine of the angle between the plane of `centre` and the way to `position`; 0 for the centre itself.
+// Sine of the angle between the plane of `centre` and the vector to `position`; 0 for the centre itself.
 float planeSine(Surface centre, vec3 position) {
   const vec3 way = position - centre.position;
   const float distance = length(way);
   return distance > 0.0 ? dot(centre.geometricNormal, way) / distance : 0.0;
 }
 
-// Mean luminance over 9x9 pixels spread over the window: the unit of colour distances, so that their sigma does not
+// Mean luminance of 9 x 9 pixels spread over the window: the unit of colour differences, so that their sigma does not
 // depend on exposure.
 float windowLuminance(ivec2 p) {
   const ivec2 last = textureSize(depth, 0) - 1;
@@ -81,9 +82,9 @@ struct Filtered {
 };
 
 Filtered filterAround(ivec2 p, Surface centre) {
-  // Colours that nothing sampled, or in the dark, are all alike: the least unit keeps the quotient finite.
-  const float unit = settings.colour > 0.0 ? max(windowLuminance(p), 1e-6) : 1.0;
-  const float colourFalloff = centre.valid ? settings.colour / (unit * unit) : 0.0;
+  // Without samples and in the dark all colours are alike: the smallest unit keeps the quotient finite.
+  const float unit = constants.colour > 0.0 ? max(windowLuminance(p), 1e-6) : 1.0;
+  const float colourFalloff = centre.valid ? constants.colour / (unit * unit) : 0.0;
   const ivec2 begin = max(p - kRadius, ivec2(0)), end = min(p + kRadius, textureSize(depth, 0) - 1);
   Filtered result = Filtered(vec3(0.0), 0.0);
   for (int y = begin.y; y <= end.y; ++y) {
@@ -94,8 +95,8 @@ Filtered filterAround(ivec2 p, Surface centre) {
       const float angle = angleBetween(centre.normal, s.normal);
       const float sine = planeSine(centre, s.position);
       const vec3 difference = s.radiance - centre.radiance;
-      const float exponent = dot(offset, offset) * settings.position + dot(difference, difference) * colourFalloff +
-                             angle * angle * settings.normal + sine * sine * settings.plane;
+      const float exponent = dot(offset, offset) * constants.position + dot(difference, difference) * colourFalloff +
+                             angle * angle * constants.normal + sine * sine * constants.plane;
       const float weight = exp(-exponent);
       result.sum += weight * s.radiance;
       result.weightSum += weight;
@@ -125,7 +126,7 @@ void main() {
     return;
   }
   const Filtered filtered = filterAround(p, surfaceAt(p));
-  // Without a sample in the whole window there is no light to hand on.
+  // Alpha below 0: the window has no sample, so there is no light.
   const bool known = filtered.weightSum > 0.0;
   imageStore(outFiltered, p, known ? vec4(filtered.sum / filtered.weightSum, 1.0) : vec4(vec3(0.0), -1.0));
 #endif

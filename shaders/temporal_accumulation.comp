@@ -1,11 +1,15 @@
-// WALR preprocessing (Meunier & Harada 2022, 4.2): reproject, reject, then a cumulative mean that turns exponential
-// after a fixed number of samples. Each of the four history pixels around the position is tested on its own
-// (reprojection.glsl). KEEP_TAPS also writes which of them passed, so that later stages can read their histories in
-// the same way without testing again (Meunier & Harada 2022, 4.4; Koskela et al. 2019, 3.5), and which light passes
-// through where there is no surface. kStill: every pixel shows what it showed before. ANTILAG shortens history
-// by the factor of antilag.comp, and writes what that factor is computed from. PACKED: the history is packed
-// (packed_light.glsl), without the light of pixels that show no surface. A view (VIEW) does the same and writes
-// something found on the way; whether it applies antilag is specialized (kAntilag).
+// Temporal accumulation (passes/WALR.md, 2; Meunier & Harada 2022, 4.2): reprojects the pixel, tests the four history
+// taps one by one (reprojection.glsl), and adds this frame's sample to the mean of the accepted ones. The cumulative
+// mean turns exponential at `maxHistory`.
+// KEEP_TAPS: also writes motion and accepted taps, so that later stages read their histories without testing again
+// (Meunier & Harada 2022, 4.4; Koskela et al. 2019, 3.5), and at pixels without a surface a mark or the pass-through
+// (history_taps.glsl).
+// ANTILAG: shortens history by the antilag factor of the previous frame, and writes the sums for the next one
+// (antilag.comp).
+// PACKED: the mean is packed light (packed_light.glsl) and holds nothing at pixels without a surface.
+// VIEW: does the same work and writes one of its intermediate values instead of the result; kAntilag says whether
+// antilag is on.
+// kStill: nothing moves, so that the history of a pixel is the pixel itself.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -43,7 +47,7 @@ layout(r32ui) uniform writeonly uimage2D outAccumulated;
 layout(rgba16f) uniform writeonly image2D outAccumulated;
 #endif
 #ifdef KEEP_TAPS
-layout(constant_id = 3) const bool kKeepPassedLight = false;  // Where there is no surface; else kNoSurfaceTaps.
+layout(constant_id = 3) const bool kKeepPassThrough = false;  // At pixels without a surface; else kNoSurfaceTaps.
 layout(r32ui) uniform writeonly uimage2D outTaps;
 #endif
 #if defined(ANTILAG) || defined(VIEW)
@@ -55,7 +59,7 @@ layout(rg32f) uniform writeonly image2D outTiles;
 #elif defined(VIEW)
 layout(constant_id = 5) const bool kAntilag = false;
 #endif
-layout(push_constant) uniform PushConstants { TemporalAccumulationConstants settings; };
+layout(push_constant) uniform PushConstants { TemporalAccumulationConstants constants; };
 
 #include "include/packed_light.glsl"
 #ifdef PACKED
@@ -63,7 +67,7 @@ vec4 unpackHistory(uint packed) { return unpackAccumulated(packed); }
 #endif
 #include "include/half.glsl"
 #include "include/history_taps.glsl"
-#include "include/passed_light.glsl"
+#include "include/pass_through.glsl"
 #if defined(ANTILAG) || defined(VIEW)
 #include "include/antilag.glsl"
 #include "include/luminance.glsl"
@@ -72,37 +76,37 @@ vec4 unpackHistory(uint packed) { return unpackAccumulated(packed); }
 #include "include/bicubic.glsl"
 #include "include/reprojection.glsl"
 
-// Mean and length, length 0 where there is none; where it was in the picture before; how many history pixels were rejected.
-struct Past {
-  vec4 mean;
-  vec2 pixel;
-  int rejected;
+// The history of a pixel.
+struct ReprojectedHistory {
+  vec4 mean;     // rgb: mean light; a: history length, 0: none.
+  vec2 pixel;    // Position in pixels of the previous frame.
+  int rejected;  // Number of history taps that were rejected.
 };
 
-Past foundAt(ivec2 p, float z) {
-  if (kStill) return Past(historyTexel(previousAccumulated, p), vec2(p) + 0.5, 0);
+ReprojectedHistory readHistory(ivec2 p, float z) {
+  if (kStill) return ReprojectedHistory(historyTexel(previousAccumulated, p), vec2(p) + 0.5, 0);
   vec3 normal = vec3(0.0);
   if (kRejectByPlane) normal = unpackNormal(texelFetch(geometricNormal, p, 0).x);
   const Reprojection r = reproject(p, z);
-  const HistoryTaps taps = historyTaps(p, r, normal, settings.planeTolerance, settings.normalThreshold);
+  const HistoryTaps taps = historyTaps(p, r, normal, constants.planeTolerance, constants.normalThreshold);
 #ifdef KEEP_TAPS
   imageStore(outTaps, p, uvec4(packTaps(r.motion, taps.accepted)));
 #endif
   const vec4 mean = kBicubicHistory ? bicubicOfTaps(previousAccumulated, taps) : meanOfTaps(previousAccumulated, taps);
-  return Past(mean, (pixelCentre(p) + r.motion) * frame.previousPixelFromPixel, tapsRejected(taps));
+  return ReprojectedHistory(mean, (pixelCentre(p) + r.motion) * frame.previousPixelFromPixel, tapsRejected(taps));
 }
 
-Past pastOf(ivec2 p, float z) {
-  Past past = foundAt(p, z);
+ReprojectedHistory historyWithAntilag(ivec2 p, float z) {
+  ReprojectedHistory found = readHistory(p, z);
 #if defined(ANTILAG) || defined(VIEW)
-  if (kAntilag) past.mean.a = min(past.mean.a, longestHistory(past.pixel, settings.maxHistory));
+  if (kAntilag) found.mean.a = min(found.mean.a, longestHistory(found.pixel, constants.maxHistory));
 #endif
-  return past;
+  return found;
 }
 
-// A sample that is not finite is no sample: the mean stays as it was.
+// History length with this frame's sample. A sample that is not finite does not count: the mean stays as it was.
 float samplesWith(vec4 history, bool sampleIsFinite) {
-  return min(history.a + (sampleIsFinite ? 1.0 : 0.0), settings.maxHistory);
+  return min(history.a + (sampleIsFinite ? 1.0 : 0.0), constants.maxHistory);
 }
 vec3 clampedRadiance(vec3 noisy) { return clamp(noisy, vec3(0.0), vec3(kLargestHalf)); }
 
@@ -113,17 +117,17 @@ vec3 viewOf(ivec2 p, float z, vec3 noisy) {
   switch (kView) {
     case 0u: {
       if (!surface) return vec3(0.0);
-      const Past past = pastOf(p, z);
-      return vec3(samplesWith(past.mean, sampleIsFinite), past.rejected, past.mean.a == 0.0);
+      const ReprojectedHistory found = historyWithAntilag(p, z);
+      return vec3(samplesWith(found.mean, sampleIsFinite), found.rejected, found.mean.a == 0.0);
     }
     case 1u:
       return vec3(!sampleIsFinite, surface && sampleIsFinite && clampedRadiance(noisy) != noisy,
                   surface && !kStill && !isFinite(motionAt(p)));
     case 2u: {
       if (!surface || !kAntilag) return vec3(0.0);
-      const Past past = foundAt(p, z);
-      const float longest = longestHistory(past.pixel, settings.maxHistory);
-      return vec3(antilagAt(past.pixel), longest, past.mean.a > longest);
+      const ReprojectedHistory found = readHistory(p, z);
+      const float longest = longestHistory(found.pixel, constants.maxHistory);
+      return vec3(antilagAt(found.pixel), longest, found.mean.a > longest);
     }
   }
   return vec3(0.0);
@@ -138,30 +142,31 @@ void main() {
 #else
 #ifdef PACKED
 void storeMean(ivec2 p, vec4 mean) {
-  const vec4 chances = chancesOf(p, frame.frameIndex, kAccumulatedKey);
-  imageStore(outAccumulated, p, uvec4(packAccumulated(mean, chances)));
+  const vec4 random = randomNumbers(p, frame.frameIndex, kAccumulatedSeed);
+  imageStore(outAccumulated, p, uvec4(packAccumulated(mean, random)));
 }
-void storePassed(ivec2 p, vec3 light) { imageStore(outAccumulated, p, uvec4(0u)); }
+void storeNoSurface(ivec2 p, vec3 light) { imageStore(outAccumulated, p, uvec4(0u)); }
 #else
 void storeMean(ivec2 p, vec4 mean) { imageStore(outAccumulated, p, nearestHalf(mean)); }
-void storePassed(ivec2 p, vec3 light) { imageStore(outAccumulated, p, vec4(light, 0.0)); }
+void storeNoSurface(ivec2 p, vec3 light) { imageStore(outAccumulated, p, vec4(light, 0.0)); }
 #endif
 
-// By how much the luminance of this frame's light differs from that of history; 0 where one of them is missing.
+// Accumulates one pixel. Returns the difference for antilag: the luminance of this frame's sample less that of history;
+// 0 if one of them is missing.
 float accumulate(ivec2 p) {
   const vec3 noisy = texelFetch(lighting, p, 0).rgb;
   const bool sampleIsFinite = isFinite(noisy);
   const float z = unpackDepth(texelFetch(depth, p, 0).x);
   if (z == 0.0) {
-    const vec3 passed = passedLight(noisy);
-    storePassed(p, passed);
+    const vec3 passed = passThroughLight(noisy);
+    storeNoSurface(p, passed);
 #ifdef KEEP_TAPS
-    imageStore(outTaps, p, uvec4(kKeepPassedLight ? packPassed(passed) : kNoSurfaceTaps));
+    imageStore(outTaps, p, uvec4(kKeepPassThrough ? packPassThrough(passed) : kNoSurfaceTaps));
 #endif
     return 0.0;
   }
 
-  const vec4 history = pastOf(p, z).mean;
+  const vec4 history = historyWithAntilag(p, z).mean;
   const float samples = samplesWith(history, sampleIsFinite);
   const vec3 radiance = clampedRadiance(noisy);
   const vec3 mean = sampleIsFinite ? mix(history.rgb, radiance, 1.0 / max(samples, 1.0)) : history.rgb;

@@ -1,5 +1,5 @@
-// How blocks lie in memory: forty halves of moments in five RGBA32_UINT textures, and the pixel that stands for
-// the block.
+// Storage of blocks: forty halves of moments in five RGBA32_UINT textures, and the depth and normal of the
+// representative pixel.
 #ifndef WALR_BLOCK_STORAGE_GLSL
 #define WALR_BLOCK_STORAGE_GLSL
 #include "block_moments.glsl"
@@ -13,12 +13,12 @@ struct PackedBlock {
   uvec4 word[5];
 };
 
-// Means of the features and the colour, covariances, sample count, covariances with the colour, standard deviation of
-// luminance, which scales with the light and so has the light's range.
+// In this order: means of the features and the colour, covariances of the features, W, covariances with the colour, and
+// the standard deviation of luminance, whose range is that of the light where a variance would overflow.
 const int kHalves = 40;
 
-// Of W: a window's paths may be more than halves can count.
-const float kPathsInMemory = 64.0;
+// W is stored in units of this many samples, because a window may hold more samples than the largest half.
+const float kSampleCountUnit = 64.0;
 
 PackedBlock packBlock(BlockMoments m) {
   float h[kHalves];
@@ -28,7 +28,7 @@ PackedBlock packBlock(BlockMoments m) {
   }
   for (int c = 0; c < 3; ++c) h[5 + c] = m.y[c];
   for (int k = 0; k < kCovariances; ++k) h[8 + k] = m.xx[k];
-  h[23] = m.samples / kPathsInMemory;
+  h[23] = m.samples / kSampleCountUnit;
   h[39] = sqrt(m.yy);
   PackedBlock p;
   for (int i = 0; i < kHalves / 2; ++i) p.word[i / 4][i % 4] = packHalves(h[2 * i], h[2 * i + 1]);
@@ -49,13 +49,13 @@ BlockMoments unpackBlock(PackedBlock p) {
   }
   m.y = vec3(h[5], h[6], h[7]);
   for (int k = 0; k < kCovariances; ++k) m.xx[k] = h[8 + k];
-  m.samples = kPathsInMemory * h[23];
+  m.samples = kSampleCountUnit * h[23];
   m.yy = h[39] * h[39];
   return m;
 }
 
-// One of a block's pixels stands for it. Its depth lies in memory as a pixel's does (surface.glsl), its geometric
-// normal with the pixel's number in the block.
+// The representative pixel: the block stores its depth as pixels do (surface.glsl), and its geometric normal together
+// with its index in the block.
 uint packBlockNormal(uint shortNormal, uint pixel) { return shortNormal | pixel << 16; }
 vec3 blockNormal(uint packed) { return unpackShortNormal(packed); }
 ivec2 representativePixel(ivec2 block, int blockSize, uint packedNormal) {
@@ -63,8 +63,8 @@ ivec2 representativePixel(ivec2 block, int blockSize, uint packedNormal) {
   return blockSize * block + ivec2(pixel % blockSize, pixel / blockSize);
 }
 
-// A fit's depth, and whether the fit holds so many paths that the coarse one has nothing to say beside it
-// (coarse_share.glsl), where moments have the distance to an edge.
+// Depth of a fit and whether the fit has converged, that is, holds so many samples that the coarse fit gets no share
+// (coarse_share.glsl). The flag takes the bits in which moments have the distance to an edge.
 uint packFitDepth(float depth, bool converged) { return packDepthSdf(depth, uint(converged)); }
 bool hasConverged(uint packedDepth) { return unpackSdf(packedDepth) != 0u; }
 

@@ -11,17 +11,17 @@ layout(constant_id = 2) const uint kLongest = 1;  // Longest history length of t
 layout(set = 0, binding = 0) uniform texture2D source;
 layout(set = 0, binding = 1, rgba32f) uniform writeonly image2D target;
 
-vec4 rounded(vec4 light, vec4 chances) {
+vec4 rounded(vec4 light, vec4 random) {
   switch (kKey) {
-    case kAccumulatedKey: return unpackAccumulated(packAccumulated(light, chances));
-    case kFilteredKey: return vec4(1.0, 1.0, 1.0, light.a) * unpackFiltered(packFiltered(light.rgb, chances.rgb));
-    case kResolvedKey: return unpackResolved(packResolved(light, float(kLongest), chances), float(kLongest));
+    case kAccumulatedSeed: return unpackAccumulated(packAccumulated(light, random));
+    case kFilteredSeed: return vec4(1.0, 1.0, 1.0, light.a) * unpackFiltered(packFiltered(light.rgb, random.rgb));
+    case kResolvedSeed: return unpackResolved(packResolved(light, float(kLongest), random), float(kLongest));
   }
-  return vec4(unpackPassed(packPassed(light.rgb)), light.a);  // Of no texture, as it is not rounded by chance.
+  return vec4(unpackPassThrough(packPassThrough(light.rgb)), light.a);  // Rounded to nearest.
 }
 
 void main() {
   const ivec2 p = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(p, textureSize(source, 0)))) return;
-  imageStore(target, p, rounded(texelFetch(source, p, 0), chancesOf(p, kFrame, kKey)));
+  imageStore(target, p, rounded(texelFetch(source, p, 0), randomNumbers(p, kFrame, kKey)));
 }
