@@ -1,6 +1,8 @@
-// The antilag factor: 0 where history counts in full, 1 where it counts as one sample. Over a window of tiles, the mean of
-// what this frame's samples differ by from history is held against its standard error. Where noise alone makes them differ,
-// the score is normally distributed with a deviation of 1, whatever the noise, and a single firefly cannot raise it above 1.
+// Antilag (passes/WALR.md, 3): how far the light has changed, for each tile of 8 x 8 pixels. The antilag factor is 0
+// where history counts in full and 1 where it counts as one sample.
+// score = |sum d| / sqrt(sum d^2) over a window of tiles, where d is the luminance of this frame's sample less that of
+// history. If the light has not changed, the score is normally distributed with standard deviation 1, whatever the
+// noise; a single firefly cannot raise it above 1.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -8,7 +10,7 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
-uniform texture2D tiles;  // x: sum of the differences over a tile; y: sum of their squares.
+uniform texture2D tiles;  // x: sum of d over a tile; y: sum of d^2.
 layout(r32f) uniform writeonly image2D outFactor;
 layout(push_constant) uniform PushConstants { AntilagConstants constants; };
 

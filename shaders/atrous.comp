@@ -1,7 +1,9 @@
-// One edge-aware a-trous iteration (Meunier & Harada 2022, 3.2 and 3.3): the moments of 3x3 taps, 3^t pixels apart, are
-// averaged with the weights that edge tracing finds. The first iteration (FIRST) makes the moments of its taps from the
-// inputs as it reads them; the last (LAST) solves the regression in place, so moments exist in memory only between
-// iterations. A view (VIEW) does what the last one does, and writes something found on the way.
+// WALR over pixels (method walr_paper): one edge-aware a-trous iteration (Meunier & Harada 2022, 3.2 and 3.3). It
+// averages the moments of 3 x 3 taps, 3^t pixels apart, with the weights that edge tracing finds.
+// FIRST: the first iteration. It computes the moments of its taps from the inputs.
+// LAST: the last iteration. It also solves the regression and writes the fitted colour, so that moments are in memory
+// only between iterations.
+// VIEW: does the same work as LAST and writes one of its intermediate values instead of the result.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -16,7 +18,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 0) const uint kIteration = 0;
 layout(constant_id = 1) const int kSpacing = 1;        // 3^t pixels.
 layout(constant_id = 2) const bool kTraceEdges = true;
-layout(constant_id = 3) const uint kReplacement = 1;   // What takes the place of a tap behind an edge.
+layout(constant_id = 3) const uint kReplacement = 1;   // TapReplacement: what replaces a tap behind an edge.
 layout(constant_id = 4) const bool kNormalFactor = true;  // Weights fall with the cosine between the planes' normals.
 #ifdef VIEW
 layout(constant_id = 8) const uint kView = 0;  // Which quantity; numbered in writeResult.
@@ -24,10 +26,10 @@ layout(constant_id = 8) const uint kView = 0;  // Which quantity; numbered in wr
 #ifdef LAST
 layout(constant_id = 5) const bool kPivotFloor = false;      // Floor the pivots instead of adding a ridge.
 #else
-layout(constant_id = 5) const bool kKeepSampleCount = true;  // W goes from iteration to iteration.
+layout(constant_id = 5) const bool kKeepSampleCount = true;  // Carry W from iteration to iteration.
 #endif
-layout(constant_id = 6) const bool kRepeatCentre = false;  // Where the next pixel is an edge, the centre takes its place.
-layout(constant_id = 7) const float kEdgeLeak = 0.01;      // Weight of the next pixel where it is an edge.
+layout(constant_id = 6) const bool kRepeatCentre = false;  // Replace a tap behind an adjacent edge by the centre.
+layout(constant_id = 7) const float kEdgeLeak = 0.01;      // Weight of an adjacent pixel that is an edge.
 
 layout(std140) uniform frameConstants { FrameConstants frame; };
 uniform utexture2D depth;
@@ -129,10 +131,11 @@ void main() {
     return;
   }
   const Plane plane = planeAt(p, z, unpackNormal(texelFetch(planeNormal, p, 0).x));
-  const Centre centre = Centre(p, size, plane, 1.0 / (constants.planeFar - constants.planeNear), unpackSdf(packedDepth));
+  const Centre centre =
+      Centre(p, size, plane, 1.0 / (constants.planeFar - constants.planeNear), unpackSdf(packedDepth));
 
-  // Call by call: drivers unroll no loop that holds another one, and half of a tap's arithmetic is gone where its
-  // direction is a constant. The averages, most of the registers, are read once all walks have ended.
+  // Unrolled by hand: drivers do not unroll a loop that holds another one, and a constant direction saves half of the
+  // arithmetic of a tap. The moments, which take most of the registers, are read after all traces.
   TraceSummary summary = TraceSummary(kSpacing + 1, 0, 0, 0);
   const Tap found[] = Tap[](
       findTap(centre, 0, ivec2(-1, -1), summary), findTap(centre, 1, ivec2(0, -1), summary),

@@ -1,5 +1,9 @@
-// One edge-aware a-trous iteration over blocks (Meunier & Harada 2022, 3.2 and 3.3). The last iteration (LAST) solves
-// the regression in place. A view (VIEW) writes what the iteration finds of each block to all pixels of the block.
+// WALR, fine fit (passes/WALR.md, 5): one edge-aware a-trous iteration over blocks (Meunier & Harada 2022, 3.2 and
+// 3.3). The moments of a block are merged with those of eight taps, blocks 3^t apart. A tap's weight is the smallest
+// edge-stopping weight on the way to it, times the cosine between the normals, times the growth weight
+// (block_growth.glsl).
+// LAST: the last iteration. It solves the regression and writes fits instead of moments.
+// VIEW: does the same work and writes one of its intermediate values of each block to all pixels of the block.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -30,7 +34,7 @@ layout(push_constant) uniform PushConstants { BlockRegressionConstants constants
 #include "include/plane.glsl"
 #include "include/block_plane.glsl"
 
-// Weight of a block, 0 outside the image and where it shows no surface.
+// Edge-stopping weight of a block; 0 outside the image and where the block shows no surface.
 float edgeWeight(Plane plane, ivec2 block, out uint packedDepth) {
   packedDepth = 0u;
   if (!insideGrid(block)) return 0.0;
@@ -41,12 +45,13 @@ float edgeWeight(Plane plane, ivec2 block, out uint packedDepth) {
 }
 
 struct Trace {
-  float weight;  // Smallest edge weight met on the segment.
-  int edge;      // Step at which it became 0; steps + 1 where it did not.
-  float depth;   // Depth at its far end.
+  float weight;  // Smallest edge-stopping weight on the segment.
+  int edge;      // Step at which it became 0; kSpacing + 1 if it did not.
+  float depth;   // Depth of the block at the far end.
 };
 
-// As in edge_tracing.glsl, a step being one block.
+// Edge tracing as in edge_tracing.glsl, with blocks in place of pixels. `edge`: distance of the centre to the nearest
+// edge.
 Trace traceEdge(Plane plane, ivec2 block, ivec2 direction, uint edge) {
   Trace trace = Trace(1.0, kSpacing + 1, 0.0);
   int step = 0;
@@ -70,8 +75,8 @@ struct TraceSummary {
   int lost;
 };
 
-// Whether a tap shows the same light as the block, by the paths behind both means. Their variance is that of both together,
-// as it is where they do: few samples may be alike by chance.
+// Growth weight of a tap: 1 where both blocks show the same light within the standard errors of their means. The
+// variance is that of the pixels of both blocks together: that of a few samples may be small by chance.
 float sameLight(BlockMoments a, BlockMoments b) {
   const float samples = a.samples + b.samples;
   const float shareA = a.samples / samples;
@@ -82,7 +87,8 @@ float sameLight(BlockMoments a, BlockMoments b) {
 }
 
 #ifdef VIEW
-// The smallest pivot without its ridge, in units of the ridge; how many of them the ridge outweighs, and whether any.
+// The smallest pivot without its ridge, in units of the ridge; the number of pivots below their ridge; 1 if there are
+// any.
 vec3 pivotsOf(BlockMoments m) {
   const float factor[kCovariances] = factorOf(m);
   const float ridge[kFeatures] = ridgeOf(m);

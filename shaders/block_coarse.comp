@@ -1,4 +1,5 @@
-// One axis of the Gaussian window of the coarse fit, which no edge stops (Salmi et al. 2024).
+// WALR, coarse fit (passes/WALR.md, 6): averages the moments of cells with one axis of a separable Gaussian that no
+// edge ends (after Salmi et al. 2024). The Gaussian is wider where the cell has fewer samples per pixel.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require

@@ -1,5 +1,7 @@
-// The coarse fit's windows grown: those around a cell join its own where its fit foretells their light within the error of
-// the means, but where the blocks' fits leave them nothing to say. Solves the regression.
+// WALR, growth of the coarse fit and its solve (passes/WALR.md, 7): the windows around a cell, on 5 x 5 growth taps 3
+// cells apart, are merged into the cell's own window if the fit of the cell predicts their light within the standard
+// errors of the means. Cells that only converged blocks would read do not grow: these blocks give the coarse fit no
+// share.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -18,41 +20,41 @@ layout(push_constant) uniform PushConstants { BlockRegressionConstants constants
 layout(constant_id = 3) const int kCellBlocks = 1;  // Per axis.
 uniform utexture2D fitDepth;
 
-const int kGrowthTaps = 5;          // Per axis.
+const int kGrowthTaps = 5;          // Per axis, the cell itself among them.
 const int kGrowthSpacing = 3;    // Cells.
-const float kGrowthSigma = 1.2;  // Of their Gaussian weights, taps.
-// Share of a window's variance that is taken for noise at least: slopes follow noise, too.
+const float kGrowthSigma = 1.2;  // Standard deviation of their Gaussian weights, in taps.
+// The noise is at least this share of a window's variance: slopes fit noise, too, and so make it look smaller.
 const float kLeastNoise = 0.05;
 const float kPi = 3.14159265;
 
-// A window and what its fit makes of others.
+// The window of a cell, and how to compare others with it.
 struct Window {
   BlockMoments moments;
   float slope[kFeatures];  // Of luminance.
-  float noise;             // Share of the variance that the fit leaves.
-  float pixels;            // As many as would have the same error at equal weights.
-  float errors;            // Standard errors up to which others join in full: near occluders light varies faster.
+  float noise;             // Share of the variance that the fit leaves unexplained.
+  float pixels;            // Effective number of pixels: as many equal weights would give the same standard error.
+  float errors;            // Standard errors up to which others join in full; fewer near occluders.
 };
 
 Window windowOf(BlockMoments m) {
   Window w;
   w.moments = m;
   const vec3 slope[kFeatures] = slopesOf(m);
-  float left = m.yy;
+  float unexplained = m.yy;
   for (int i = 0; i < kFeatures; ++i) {
     w.slope[i] = luminance(slope[i]);
-    left -= w.slope[i] * luminance(m.yx[i]);
+    unexplained -= w.slope[i] * luminance(m.yx[i]);
   }
-  w.noise = m.yy > 0.0 ? clamp(left / m.yy, kLeastNoise, 1.0) : 1.0;
-  const float paths = samplesPerPixel(m.samples);
-  const float sigma = float(kCellSize) * coarseSigma(paths);
-  // Where there is less than a path a pixel, some pixels have none.
-  w.pixels = 4.0 * kPi * sigma * sigma * min(paths, 1.0);
+  w.noise = m.yy > 0.0 ? clamp(unexplained / m.yy, kLeastNoise, 1.0) : 1.0;
+  const float density = samplesPerPixel(m.samples);
+  const float sigma = float(kCellSize) * coarseSigma(density);
+  // Below one sample per pixel some pixels have no sample.
+  w.pixels = 4.0 * kPi * sigma * sigma * min(density, 1.0);
   w.errors = constants.coarseGrowthErrors / (1.0 + constants.coarseGrowthOcclusion * max(m.x[kOcclusionFeature], 0.0));
   return w;
 }
 
-// Of another window's moments, which are relative to the same depth.
+// Growth weight of another window. `m` must be relative to the same depth as the moments of `w`.
 float sameLight(Window w, BlockMoments m) {
   float difference = luminance(m.y - w.moments.y);
   for (int i = 0; i < kFeatures; ++i) difference -= w.slope[i] * (m.x[i] - w.moments.x[i]);
@@ -60,20 +62,20 @@ float sameLight(Window w, BlockMoments m) {
   return sameLight(difference, variance, luminance(w.moments.y + m.y), w.errors);
 }
 
-// Whether the fits of some block around a pixel that reads this cell want paths. Where none does, the rare pixel that lies
-// on no block's plane reads a fit that has not grown.
+// Whether any block that shares a pixel with this cell in the reconstruction has not converged. If all have, only the
+// rare pixel that lies on no block's plane reads this cell, and it reads a fit that has not grown.
 bool isRead(ivec2 cell) {
   const int reach = kCellBlocks / 2 + 1;
   const ivec2 first = max(kCellBlocks * cell - reach, ivec2(0));
   const ivec2 last = min(kCellBlocks * (cell + 1) - 1 + reach, textureSize(fitDepth, 0) - 1);
-  bool wanting = false;
+  bool unconverged = false;
   for (int y = first.y; y <= last.y; ++y) {
     for (int x = first.x; x <= last.x; ++x) {
       const uint packedDepth = texelFetch(fitDepth, ivec2(x, y), 0).x;
-      wanting = wanting || (packedDepth != 0u && !hasConverged(packedDepth));
+      unconverged = unconverged || (packedDepth != 0u && !hasConverged(packedDepth));
     }
   }
-  return wanting;
+  return unconverged;
 }
 
 BlockMoments grow(ivec2 cell, float z, BlockMoments own) {

@@ -1,6 +1,9 @@
-// Moments of each block of pixels: a random one of its surfaces stands for the block, and the samples that lie on that
-// pixel's plane are averaged. Beside them moments of square cells of blocks: the grid of the coarse fit, in which every
-// sample counts, whichever its surface.
+// WALR, moments of blocks and cells (passes/WALR.md, 4). A random pixel of a block, its representative pixel, gives the
+// block its depth and normal. Pixels of the block count by their number of samples, the edge-stopping function of that
+// pixel's plane, and the cosine between the normals.
+// The moments of cells, the grid of the coarse fit, count every pixel by its number of samples alone, whichever its
+// surface.
+// PACKED: `accumulated` is packed light (packed_light.glsl).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -32,7 +35,8 @@ layout(push_constant) uniform PushConstants { BlockRegressionConstants constants
 #include "include/light.glsl"
 #include "include/window_depth.glsl"
 
-// A random pixel of the block with a surface; false where it shows none.
+// Chooses a random one of the block's pixels with a surface; false if there is none. Each of the surfaces is equally
+// likely (reservoir sampling).
 bool chooseRepresentative(ivec2 block, out int pixel) {
   uint surfaces = 0u;
   for (int i = 0; i < kBlockSize * kBlockSize; ++i) {
@@ -44,7 +48,7 @@ bool chooseRepresentative(ivec2 block, out int pixel) {
   return surfaces > 0u;
 }
 
-// What a block gives to its cell: moments relative to a depth, and all of its pixels' depths.
+// What a block contributes to its cell: moments with their depth, and the depths of all of its pixels.
 struct CellPart {
   BlockMoments moments;
   float depth;
@@ -59,7 +63,7 @@ void storeBlock(ivec2 block, BlockMoments m, uint packedDepth, uint packedNormal
   imageStore(outNormal, block, uvec4(packedNormal));
 }
 
-CellPart gather(ivec2 block) {
+CellPart momentsOfBlock(ivec2 block) {
   CellPart part = CellPart(noSamples(), 0.0, WindowDepth(0.0, 0.0));
   int pixel;
   if (!chooseRepresentative(block, pixel)) {
@@ -116,7 +120,7 @@ void main() {
   const ivec2 block = ivec2(gl_GlobalInvocationID.xy);
   const bool inside = all(lessThan(kBlockSize * block, textureSize(depth, 0)));
   CellPart part = CellPart(noSamples(), 0.0, WindowDepth(0.0, 0.0));
-  if (inside) part = gather(block);
+  if (inside) part = momentsOfBlock(block);
   parts[gl_LocalInvocationIndex] = part;
   barrier();
   if (inside && block % kCellBlocks == ivec2(0)) storeCell(block / kCellBlocks, ivec2(gl_LocalInvocationID.xy));

@@ -1,6 +1,6 @@
-// BMFR postprocessing (Koskela et al. 2019, 3.5): the fitted frame is averaged over time through the taps that the
-// first accumulation accepted, a cumulative mean that turns exponential. Displaced blocks and the noise of the
-// regularisation average out.
+// BMFR, second accumulation (Koskela et al. 2019, 3.5): averages the fitted frames over time through the history taps
+// that the first accumulation accepted. The cumulative mean turns exponential at `maxHistory`. Averaging hides the
+// borders of blocks, which are displaced every frame, and the noise that the fit adds to its features.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -12,7 +12,7 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 
 uniform texture2D fitted;
-uniform utexture2D taps;
+uniform utexture2D taps;  // Kept history taps (history_taps.glsl).
 uniform texture2D previousAccumulated;  // rgb: mean; a: history length.
 layout(rgba16f) uniform writeonly image2D outAccumulated;
 layout(std140) uniform frameConstants { FrameConstants frame; };

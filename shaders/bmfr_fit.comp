@@ -1,6 +1,6 @@
-// Blockwise multi-order feature regression (Koskela et al. 2019, 3.3 and 3.4): one work group fits the colours of a
-// block of 32x32 pixels as a linear combination of ten features, by Householder QR with three right-hand sides, and
-// writes the fit. A view (VIEW) does the same and writes something found on the way.
+// BMFR, the fit (Koskela et al. 2019, 3.3 and 3.4): one work group fits the colours of a block of 32 x 32 pixels as a
+// linear combination of ten features, by Householder QR with three right-hand sides, and writes the fitted colours.
+// VIEW: does the same work and writes one of its intermediate values instead of the result.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -36,13 +36,13 @@ const int kColumns = 13;   // Features, then red, green, blue.
 uint threadIndex = gl_LocalInvocationIndex;
 #include "include/householder.glsl"
 
-// Displacement of the block grid, uniform over the possible ones, one after the other (Koskela et al. 2019, 6.1).
+// Displacements of the block grid, one for each of 16 frames, spread uniformly (Koskela et al. 2019, 6.1).
 const ivec2 kBlockOffsets[16] = ivec2[16](
     ivec2(-14, -14), ivec2(4, -6), ivec2(-8, 14), ivec2(8, 0), ivec2(-10, -8), ivec2(2, 12), ivec2(12, -12),
     ivec2(-10, 0), ivec2(12, 14), ivec2(-8, -16), ivec2(6, 6), ivec2(-2, -2), ivec2(6, -14), ivec2(-16, 12),
     ivec2(14, -4), ivec2(-6, 4));
 
-// Coordinate mirrored at the borders of the image, any number of times.
+// The coordinate mirrored at the borders of the image as often as needed.
 int mirrored(int x, int size) {
   const int period = 2 * size;
   const int m = ((x % period) + period) % period;
@@ -51,12 +51,12 @@ int mirrored(int x, int size) {
 
 // One pixel of the block.
 struct Pixel {
-  ivec2 p;        // Its place, before mirroring.
+  ivec2 p;        // Position before mirroring.
   bool surface;   // There is something to denoise.
   vec3 normal;    // Shading normal.
-  vec3 position;  // From the camera, along world axes: bounded by what is seen, wherever the world's origin lies.
+  vec3 position;  // Relative to the camera, along the world's axes: small even far from the world's origin.
   vec3 colour;
-  bool sampled;   // The colour is one.
+  bool sampled;   // The colour is a sample.
 };
 
 Pixel readPixel(uint index) {
@@ -76,7 +76,7 @@ Pixel readPixel(uint index) {
   return pixel;
 }
 
-// Where the block's positions lie, so that each axis can be scaled to [-1, 1].
+// The block's bounding box, by which each axis of the positions is scaled to [-1, 1].
 struct Bounds {
   vec3 centre;
   vec3 scale;
@@ -99,13 +99,13 @@ Bounds blockBounds(Pixel pixels[kRowsPerThread]) {
   const vec3 highest = vec3(totals[kFirst], totals[kFirst + 1], totals[kFirst + 2]);
   const vec3 lowest = -vec3(totals[kFirst + 3], totals[kFirst + 4], totals[kFirst + 5]);
   const vec3 halfExtent = 0.5 * (highest - lowest);
-  // An axis along which the block hardly extends holds rounding, which must not be blown up to a feature.
+  // An axis along which the block hardly extends holds only rounding errors, which must not be scaled up to a feature.
   const float least = max(constants.extentFloor * max(max(halfExtent.x, halfExtent.y), halfExtent.z), kNear);
   return Bounds(0.5 * (highest + lowest), 1.0 / max(halfExtent, vec3(least)));
 }
 
-// The multi-order features (Koskela et al. 2019, equation 8), each within [-1, 1]. Squares of positions scaled about
-// the block's centre span, together with the lower orders, what squares of world positions span, without their
+// The multi-order features (Koskela et al. 2019, equation 8), each within [-1, 1]. Positions are relative to the
+// block's centre: with the lower orders, their squares span the same functions as squares of world positions, without
 // cancellation.
 float[kFeatures] featuresOf(Pixel pixel, Bounds bounds) {
   const vec3 w = (pixel.position - bounds.centre) * bounds.scale;
@@ -126,7 +126,7 @@ float[kFeatures] noiseOf(uint index) {
   return noise;
 }
 
-// A pixel without a surface or without a finite sample is a row of zeros: it has no say in the fit.
+// A pixel without a surface or without a finite sample becomes a row of zeros, which does not change the fit.
 float[kColumns] rowOf(Pixel pixel, uint index, Bounds bounds) {
   float row[kColumns];
   [[unroll]] for (int j = 0; j < kColumns; ++j) row[j] = 0.0;
@@ -158,14 +158,14 @@ vec3 synthesis(Pixel pixel, Bounds bounds) {
 
 vec3 clampedColour(vec3 colour) { return clamp(colour, vec3(0.0), vec3(kLargestHalf)); }
 
-// Pixels without a surface keep what they had.
+// A pixel without a surface gets the pass-through.
 vec3 fittedColour(Pixel pixel, Bounds bounds) {
   if (!pixel.surface) return isFinite(pixel.colour) ? pixel.colour : vec3(0.0);
   return clampedColour(synthesis(pixel, bounds));
 }
 
 #ifdef VIEW
-// Features that the block's fit leaves out because earlier ones explain them.
+// Number of features that the block's fit leaves out because earlier ones explain them.
 float featuresLeftOut() {
   float count = 0.0;
   for (int k = 0; k < kFeatures; ++k) count += triangle[k][k] == 0.0 ? 1.0 : 0.0;

@@ -1,5 +1,6 @@
-// Converts one texture from a host's conventions to the project's, and the result back. Compiled once for each texture. A
-// host's texture may be larger than what is denoised.
+// Converts one texture from a host's conventions to the project's, or the result back to the host's. It is compiled
+// once for each kind of texture (DEPTH, NORMAL, MOTION, EXPOSURE, NUMBERS, COPY). A host's texture may be larger than
+// the rectangle that is denoised.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -15,10 +16,10 @@ uniform texture2D source;
 #endif
 #ifdef DEPTH
 layout(r32f) uniform writeonly image2D target;
-layout(constant_id = 0) const bool kDevice = false;    // Device depth.
-layout(constant_id = 1) const bool kNegative = false;  // The view's z, which is negative.
+layout(constant_id = 0) const bool kDevice = false;    // From device depth.
+layout(constant_id = 1) const bool kNegative = false;  // From z of view space, which is negative.
 #elif defined(MOTION)
-// In pictures, motion is too small for halves.
+// Single precision: halves are too coarse for motion in units of the image's size (UV).
 layout(rgba32f) uniform writeonly image2D target;
 #elif !defined(NUMBERS)
 layout(rgba16f) uniform writeonly image2D target;
@@ -31,7 +32,7 @@ const bool kBack = false;
 #endif
 
 #ifdef DEPTH
-// What is infinitely far is sky, as is what no perspective can have made.
+// Infinite depth is sky, and so is a depth that no perspective projection gives.
 vec4 convert(vec4 value) {
   if (!kDevice) return vec4(kNegative ? -value.x : value.x);
   const float divisor = value.x + host.depthFromDevice.y;
@@ -42,11 +43,11 @@ vec4 convert(vec4 value) {
 #endif
 
 #ifdef NORMAL
-layout(constant_id = 0) const bool kUnsigned = false;    // 0..1 stands for -1..1.
+layout(constant_id = 0) const bool kUnsigned = false;    // From 0..1 to -1..1.
 layout(constant_id = 1) const bool kOctahedral = false;  // Two channels, pole on +z (Cigolle et al. 2014).
 
 vec4 convert(vec4 value) {
-  // Sky. In an octahedral map zero is a direction; there depth alone tells sky.
+  // Zero is sky. In an octahedral map zero is a direction, and only depth tells sky.
   if (!kOctahedral && all(equal(value.xyz, vec3(0.0)))) return vec4(0.0);
   vec3 n = kUnsigned ? 2.0 * value.xyz - 1.0 : value.xyz;
   if (kOctahedral) {

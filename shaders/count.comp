@@ -1,5 +1,5 @@
-// Sums of a view's components, which count something at each pixel, over the picture. CLEAR: zeros all counters before
-// the first of them is summed.
+// Sums the components of a view, which hold counts, over all pixels. CLEAR: sets all counters to zero before the first
+// sum.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require

@@ -1,5 +1,6 @@
-// FLR, last stage (Salmi et al. 2024): coefficients, upsampled, applied to the guides at full resolution. A view (VIEW)
-// does the same and writes something found on the way.
+// FLR, last stage (Salmi et al. 2024): interpolates the coefficients of the cells and evaluates them with the guides at
+// full resolution.
+// VIEW: does the same work and writes one of its intermediate values instead of the result.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -24,7 +25,7 @@ layout(rgba16f) uniform writeonly image2D outFiltered;
 #endif
 #include "include/flr_guides.glsl"
 
-// Share of a cell in a pixel `t` cells away along one axis.
+// Interpolation weight of a cell at a pixel `t` cells away along one axis.
 float cellWeight(float t) {
   const float d = abs(t);
   if (kUpsampling == 0u) return d < 0.5 ? 1.0 : 0.0;
@@ -40,8 +41,7 @@ vec3 evaluate(Coefficients k, float x[kFeatures]) {
   return colour;
 }
 
-// Interpolated prediction of the cells around pixel `p` that have a fit.
-// Alpha: 0 where no cell has any.
+// Weighted mean of the predictions of the cells around pixel `p` that have a fit. Alpha: 1; 0 if no cell has a fit.
 vec4 predict(ivec2 p, float x[kFeatures]) {
   const vec2 position = (vec2(p) + 0.5) / float(constants.factor) - 0.5;
   const int reach = kUpsampling == 2u ? 2 : 1;
@@ -87,7 +87,7 @@ void main() {
     return;
   }
   const vec4 predicted = predict(p, guidesAt(p, z));
-  // Below 0: no light is known.
+  // Alpha below 0: there is no light.
   imageStore(outFiltered, p, vec4(clampedColour(predicted.rgb), predicted.a > 0.0 ? 1.0 : -1.0));
 #endif
 }

@@ -1,4 +1,5 @@
-// FLR, second stage (Salmi et al. 2024): the horizontal half of the separable Gaussian over the cells' outer products.
+// FLR, second stage (Salmi et al. 2024): the horizontal pass of the separable Gaussian over the outer products of
+// cells.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "constants/flr.h"

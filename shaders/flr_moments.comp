@@ -1,4 +1,4 @@
-// FLR, first stage (Salmi et al. 2024): outer products of guides and colour, downsampled to one sum per cell.
+// FLR, first stage (Salmi et al. 2024): sums the outer products of guides and colour over the pixels of each cell.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -28,7 +28,7 @@ void main() {
       const float z = unpackDepth(texelFetch(depth, p, 0).x);
       const vec4 sampleHere = texelFetch(lighting, p, 0);
       const vec3 colour = sampleHere.rgb;
-      // Sky, pixels without a diffuse lobe and pixels without a finite sample have no say.
+      // Sky, pixels without a diffuse lobe and pixels without a finite sample do not count.
       if (z == 0.0 || !isFinite(colour) || (kAlphaIsSampleCount && sampleHere.a == 0.0)) continue;
       add(sum, 1.0, outerProducts(guidesAt(p, z), clamp(colour, 0.0, kLargestHalf)));
     }

@@ -1,5 +1,6 @@
-// FLR, third stage (Salmi et al. 2024): the vertical half of the Gaussian, then the weighted least squares of every
-// cell. A view (VIEW) does the same and writes something found on the way to the cell's pixels.
+// FLR, third stage (Salmi et al. 2024): the vertical pass of the Gaussian, then the weighted least squares of every
+// cell.
+// VIEW: does the same work and writes one of its intermediate values to all pixels of the cell.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "constants/flr.h"
@@ -18,9 +19,9 @@ layout(rgba32f) uniform writeonly image2D outView;
 layout(std430) writeonly buffer outCoefficients { Coefficients outCells[]; };
 #endif
 
-// Solving the constant first leaves the system of the covariances, so that the ridge holds the slopes and not the mean:
-// on the constant it would darken the fit. Inverse depth is not of order 1 as the other guides are; its ridge is
-// relative.
+// The normal equations about the means, that is, with the constant solved first: the ridge then restrains the slopes
+// only, where on the constant it would darken the fit. Inverse depth is not of order 1 as the other guides are; its
+// ridge is relative to its squared mean.
 struct NormalEquations {
   vec3 y;  // Mean colour.
   float x[kFeatures];
@@ -29,7 +30,7 @@ struct NormalEquations {
   vec3 yx[kFeatures];
 };
 
-// Of at least one sample.
+// Needs at least one sample.
 NormalEquations normalEquations(OuterProducts p) {
   const float scale = 1.0 / productAt(p, 0);
   NormalEquations e;
@@ -50,7 +51,7 @@ NormalEquations normalEquations(OuterProducts p) {
 }
 
 #ifdef VIEW
-// The smallest pivot without its ridge, in units of the ridge; how many of them the ridge outweighs.
+// The smallest pivot without its ridge, in units of the ridge; the number of pivots below their ridge.
 vec2 pivotsOf(NormalEquations e) {
   float smallest = 3.0e38, outweighed = 0.0;
   for (int i = 0; i < kFeatures; ++i) {

@@ -1,6 +1,6 @@
-// Weighted linear regression over a full window (REFWLR, Meunier & Harada 2022, 6): every pixel of the window with the
-// smallest edge-stopping weight on the straight line to it. What WALR's a-trous averages approximate, at many times
-// their cost; one dispatch does one tile of the image.
+// REFWLR (Meunier & Harada 2022, 6): weighted linear regression over every pixel of a full window. The weight of a
+// pixel is the smallest edge-stopping weight on the straight line to it. WALR's a-trous averages approximate this at a
+// small part of its cost. One dispatch does one tile of the image.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -20,7 +20,7 @@ uniform utexture2D depth;
 uniform utexture2D planeNormal;
 uniform utexture2D shadingNormal;
 uniform texture2D accumulated;
-layout(rgba16f) uniform image2D outFiltered;  // Pixels without a surface stay as they are.
+layout(rgba16f) uniform image2D outFiltered;  // Pixels without a surface hold the pass-through.
 layout(push_constant) uniform PushConstants { FullWindowConstants constants; };
 
 #include "include/edge_weight.glsl"
@@ -29,11 +29,12 @@ vec2 featuresAt(ivec2 q) { return unpackFeatures(texelFetch(shadingNormal, q, 0)
 Moments sampleAt(ivec2 q) { return momentsOf(featuresAt(q), texelFetch(accumulated, q, 0)); }
 float weightAt(Plane plane, ivec2 q) { return edgeWeight(plane, q, texelFetch(depth, q, 0).x); }
 
-// Smallest edge weight on the line from `p` to a pixel inside the image, `p` itself left out. The far end comes first,
-// since most discarded pixels are discarded there. Between, Bresenham's algorithm visits one pixel per step of the longer
-// axis, the nearest to the line, and of two the farther from `p`: alike in all mirror images. Steps go by eight, of which
-// the last may stand still: their reads overlap, and Mesa's llvmpipe, which ends all loops of an invocation after 65535
-// rounds in total, gets through the largest window.
+// Smallest edge-stopping weight on the line from `p`, exclusive, to a pixel inside the image. The far end comes first,
+// because most rejected pixels are rejected there. In between, Bresenham's algorithm visits one pixel per step along
+// the longer axis, the nearest to the line, and of two equally near ones the farther from `p`, so that mirrored images
+// give mirrored results. The loop takes eight steps at a time, of which the last may repeat a pixel: their reads
+// overlap, and the largest window stays below the limit of Mesa's llvmpipe, which ends all loops of an invocation after
+// 65535 rounds in total.
 float traceLine(Plane plane, ivec2 p, ivec2 offset) {
   float weight = weightAt(plane, p + offset);
   const ivec2 way = abs(offset);
@@ -63,7 +64,7 @@ void main() {
   const Moments centre = sampleAt(p);
   const ivec2 first = max(p - kRadius, ivec2(0));
   const ivec2 last = min(p + kRadius, textureSize(depth, 0) - 1);
-  // Row by row, so that rounding grows with the side of the window instead of with its area.
+  // Summed row by row, so that rounding grows with the side of the window and not with its area.
   MomentSum sum = startSum(centre);
   for (int y = first.y; y <= last.y; ++y) {
     MomentSum row = startSum(centre);

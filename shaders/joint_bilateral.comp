@@ -1,5 +1,6 @@
-// Joint bilateral filter of one noisy frame (Wang 2024, 2): every pixel of a square window, weighted by a
-// Gaussian of its distance in the image, in colour, in normal and from the tangent plane.
+// Joint bilateral filter of one noisy frame (Wang 2024, 2): the mean over a square window, weighted by Gaussians of the
+// distance in the image, the difference in colour, the angle between normals and the angle to the tangent plane.
+// VIEW: does the same work and writes one of its intermediate values instead of the result.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -49,17 +50,17 @@ Surface surfaceAt(ivec2 q) {
   return s;
 }
 
-// Angle between unit vectors, by their chord: the arc cosine loses all precision at small angles.
+// Angle between unit vectors, from their chord: the arc cosine loses all precision at small angles.
 float angleBetween(vec3 a, vec3 b) { return 2.0 * asin(min(0.5 * length(a - b), 1.0)); }
 
-// Sine of the angle between the plane of `centre` and the way to `position`; 0 for the centre itself.
+// Sine of the angle between the plane of `centre` and the vector to `position`; 0 for the centre itself.
 float planeSine(Surface centre, vec3 position) {
   const vec3 way = position - centre.position;
   const float distance = length(way);
   return distance > 0.0 ? dot(centre.geometricNormal, way) / distance : 0.0;
 }
 
-// Mean luminance over 9x9 pixels spread over the window: the unit of colour distances, so that their sigma does not
+// Mean luminance of 9 x 9 pixels spread over the window: the unit of colour differences, so that their sigma does not
 // depend on exposure.
 float windowLuminance(ivec2 p) {
   const ivec2 last = textureSize(depth, 0) - 1;
@@ -81,7 +82,7 @@ struct Filtered {
 };
 
 Filtered filterAround(ivec2 p, Surface centre) {
-  // Colours that nothing sampled, or in the dark, are all alike: the least unit keeps the quotient finite.
+  // Without samples and in the dark all colours are alike: the smallest unit keeps the quotient finite.
   const float unit = constants.colour > 0.0 ? max(windowLuminance(p), 1e-6) : 1.0;
   const float colourFalloff = centre.valid ? constants.colour / (unit * unit) : 0.0;
   const ivec2 begin = max(p - kRadius, ivec2(0)), end = min(p + kRadius, textureSize(depth, 0) - 1);
@@ -125,7 +126,7 @@ void main() {
     return;
   }
   const Filtered filtered = filterAround(p, surfaceAt(p));
-  // Without a sample in the whole window there is no light to hand on.
+  // Alpha below 0: the window has no sample, so there is no light.
   const bool known = filtered.weightSum > 0.0;
   imageStore(outFiltered, p, known ? vec4(filtered.sum / filtered.weightSum, 1.0) : vec4(vec3(0.0), -1.0));
 #endif

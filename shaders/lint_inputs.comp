@@ -1,5 +1,5 @@
-// Counts what looks wrong in a host's inputs, and which other convention would explain it. See constants/lint.h for what
-// is counted, and lint_findings.cpp for what is made of it.
+// Counts what looks wrong in a host's inputs, and which other convention would explain it. constants/lint.h says what
+// is counted; passes/lint_*.cpp draw the conclusions.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -48,7 +48,7 @@ void countValues(vec3 light, float z) {
 }
 
 void countSurfaceValues(vec3 n, vec2 xy, vec3 diffuse) {
-  // Eight bits a component round a unit vector's length by sqrt(3) / 255 at most, a third of this.
+  // Rounding to eight bits per component changes the length of a unit vector by at most sqrt(3) / 255, a third of this.
   const float kUnitTolerance = 0.02;
   const bool zero = all(equal(n, vec3(0.0)));
   count(kLintNormalNotFinite, !isFinite(n));
@@ -61,7 +61,7 @@ void countSurfaceValues(vec3 n, vec2 xy, vec3 diffuse) {
   count(kLintDiffuse, isFinite(diffuse) && any(greaterThanEqual(diffuse, vec3(kAlbedoLeast))));
 }
 
-// Whether `given` is `scale` times what is expected, to a quarter.
+// Whether `given` is `scale` times `expected`, within a quarter.
 bool isTimes(float given, float scale, float expected) {
   return abs(given - scale * expected) < 0.25 * abs(scale * expected);
 }
@@ -74,23 +74,23 @@ void countReading(uint base, float given, float expected, float size) {
     if (isTimes(given, scales[i], expected)) reading = kReadingAsStated + 2u * i;
     if (isTimes(given, -scales[i], expected)) reading = kReadingAsStated + 2u * i + 1u;
   }
-  // What is smaller than any of these.
+  // Smaller than under any of these readings.
   if (abs(given) * size < 0.25 * abs(expected)) reading = kReadingNone;
   count(base + reading, reading < kReadings);
 }
 
-// `given` as a host says that it is: pixels, y down.
+// `given`: the host's motion by its stated convention, in pixels, y down.
 void countMotion(ivec2 p, float z, vec2 given, float givenDepth) {
   const vec3 before = previousPosition(frame.previousViewFromView, rayThrough(frame.rayFromPixel, pixelCentre(p)) * z);
   if (!(before.z < 0.0) || !isFinite(given)) return;
-  // Between the jittered images, as both rays are.
+  // Motion between the jittered images, because both rays are jittered.
   const vec2 betweenImages = pixelOf(frame.previousRayFromPixel, before) - pixelCentre(p);
   const vec2 still = betweenImages - frame.jitterDelta;
   const vec2 expected = kMotionJittered ? betweenImages : still;
   const vec2 residual = given - expected;
   const float jitter = length(frame.jitterDelta);
 
-  const float kLeastMotion = 0.25;  // Pixels: where a quarter of it is more than roundoff, and than a sample's place.
+  const float kLeastMotion = 0.25;  // Pixels. A quarter of it exceeds rounding and a sample's offset in its pixel.
   if (abs(still.x) > kLeastMotion + 4.0 * jitter)
     countReading(kLintMotionX, given.x, expected.x, float(textureSize(depth, 0).x));
   if (abs(still.y) > kLeastMotion + 4.0 * jitter)
@@ -116,7 +116,7 @@ void countMotion(ivec2 p, float z, vec2 given, float givenDepth) {
   }
 }
 
-// View depth behind what the host wrote, by hypothesis and up to a factor, which no slope depends on.
+// View depth from what the host wrote, under a hypothesis, up to a constant factor that does not change slopes.
 float assumedDepth(uint hypothesis, float z, vec3 ray) {
   switch (hypothesis) {
     case kHypothesisInverseDepth: return 1.0 / z;
@@ -131,7 +131,7 @@ vec3 assumedPosition(uint hypothesis, ivec2 p) {
   return ray * assumedDepth(hypothesis, depthAt(p), ray);
 }
 
-// Normal of the surface that depth shows, by hypothesis.
+// Normal of the surface that depth shows, under a hypothesis.
 vec3 slopeNormal(uint hypothesis, ivec2 p) {
   return normalize(cross(assumedPosition(hypothesis, p + ivec2(0, 1)) - assumedPosition(hypothesis, p - ivec2(0, 1)),
                          assumedPosition(hypothesis, p + ivec2(1, 0)) - assumedPosition(hypothesis, p - ivec2(1, 0))));
@@ -165,7 +165,8 @@ void countNormals(ivec2 p, float z, vec3 n) {
 }
 
 void countOrder(uint base, float light) {
-  const float order = light > 0.0 ? clamp(floor(log2(light)) + float(kLintUnitOrder), 1.0, float(kLintOrders) - 1.0) : 0.0;
+  const float order =
+      light > 0.0 ? clamp(floor(log2(light)) + float(kLintUnitOrder), 1.0, float(kLintOrders) - 1.0) : 0.0;
   count(base + uint(order), true);
 }
 

@@ -1,5 +1,5 @@
-// Keeps the host's object numbers for the next frame: number + 1 where there is a surface to denoise, else 0. So a
-// history that holds nothing yet shows no object, and a host's 0xffffffff stands for none.
+// Keeps the host's object ids for the next frame: id + 1 where there is a surface to denoise, else 0. A history that
+// holds nothing yet is thus without objects, and the host's 0xffffffff, no object, becomes 0.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require

@@ -1,4 +1,4 @@
-// Hands the lighting on as it is, what is not finite as 0.
+// Copies the lighting; values that are not finite become 0.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require

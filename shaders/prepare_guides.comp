@@ -1,8 +1,11 @@
-// Converts the host's G-buffer into the guides that every later pass reads: view depth (0 where there is nothing to
-// denoise), the two octahedral features of the shading normal, and, with GEOMETRIC_NORMAL, the geometric normal that
-// spans the planes. kDiffuseMask treats pixels without a diffuse lobe like sky. With OCCLUSION, for filters over blocks or
-// cells, ambient occlusion shares a texel with the shading normal, and the geometric normal is a short one. Occluders are
-// all that the host's depth shows: a mirror, too, which is not denoised.
+// Converts the host's G-buffer into the guides that every later pass reads (passes/WALR.md, 1): view depth (0 where
+// there is nothing to denoise) and the shading normal in octahedral form, whose two coordinates are features of the
+// regression over pixels.
+// GEOMETRIC_NORMAL: also the geometric normal, which spans planes.
+// OCCLUSION, for filters over blocks or cells: ambient occlusion shares a texel with the shading normal, and the
+// geometric normal is packed in 16 bits. Everything in the host's depth occludes, even a mirror, which is not denoised
+// itself.
+// VIEW: writes why pixels are not denoised, or which inputs are not finite, instead of guides.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -15,12 +18,12 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 0) const bool kNormalsInWorldSpace = false;
-layout(constant_id = 1) const bool kSky = true;  // Some pixels show none but the sky.
+layout(constant_id = 1) const bool kSky = true;  // Some pixels show the sky.
 
 layout(std140) uniform frameConstants { FrameConstants frame; };
 uniform texture2D depth;
 uniform texture2D normal;
-layout(constant_id = 3) const bool kDiffuseMask = true;
+layout(constant_id = 3) const bool kDiffuseMask = true;  // Treat pixels without a diffuse lobe like sky.
 uniform texture2D albedo;
 #ifdef VIEW
 layout(constant_id = 8) const uint kView = 0;  // Which quantity; numbered in viewOf.
@@ -46,7 +49,7 @@ layout(push_constant) uniform PushConstants { PrepareGuidesConstants constants; 
 bool isSurfaceDepth(float z, float skyDepth) { return isFinite(z) && z > 0.0 && (!kSky || z < skyDepth); }
 
 #if defined(GEOMETRIC_NORMAL) || defined(OCCLUSION)
-// 0 outside the image and on sky.
+// View depth; 0 outside the image and on sky.
 float surfaceDepthAt(ivec2 p, float skyDepth) {
   const ivec2 inside = clamp(p, ivec2(0), textureSize(depth, 0) - 1);
   const float z = texelFetch(depth, inside, 0).x;
@@ -64,8 +67,9 @@ float inverseDepthAt(ivec2 p) {
   return z > 0.0 ? 1.0 / z : 0.0;
 }
 
-// One-sided difference of position along `axis`, from the side whose two pixels extrapolate best to this one: across an
-// edge the other side does not. On an object one pixel wide neither does, and both may miss alike.
+// One-sided difference of position along `axis`. It takes the side whose two pixels extrapolate better to the inverse
+// depth of this one: across an edge the extrapolation fails. On an object one pixel wide it fails on both sides,
+// perhaps by the same amount.
 vec3 tangent(ivec2 p, ivec2 axis, float inverseDepth, out bool found) {
   const vec3 centre = rayThrough(frame.rayFromPixel, pixelCentre(p)) / inverseDepth;
   float bestError = constants.tangentTolerance * inverseDepth;
@@ -86,8 +90,8 @@ vec3 tangent(ivec2 p, ivec2 axis, float inverseDepth, out bool found) {
   return best;
 }
 
-// The normal of the visible surface, without normal mapping. What depth does not tell of it comes from the shading normal:
-// on an object one pixel wide, all but that it is perpendicular to the one tangent.
+// The normal of the visible surface, without normal mapping. What depth does not determine comes from the shading
+// normal: on an object one pixel wide, depth says only that the normal is perpendicular to the one tangent.
 vec3 geometricNormal(ivec2 p, float inverseDepth, vec3 shadingNormal) {
   bool foundX, foundY;
   const vec3 alongX = tangent(p, ivec2(1, 0), inverseDepth, foundX);
@@ -112,10 +116,10 @@ uint packGeometricNormal(vec3 n) {
 }
 #endif
 
-// The surface's albedo; 1 where it is left unread.
+// Diffuse albedo; 1 if it is not read.
 vec3 albedoAt(ivec2 p) { return kDiffuseMask ? texelFetch(albedo, p, 0).xyz : vec3(1.0); }
 
-// Whether something shows that diffuse light leaves.
+// Whether the pixel reflects diffuse light.
 bool hasDiffuseLobe(vec3 diffuse) {
   return isFinite(diffuse) && any(greaterThanEqual(diffuse, vec3(constants.albedoThreshold)));
 }

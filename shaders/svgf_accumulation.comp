@@ -1,7 +1,8 @@
-// SVGF, temporal filtering: colour and luminance moments are averaged along the motion. The colour's history is the
-// last frame's result of an early a-trous iteration. Moments are kept centred, as mean and standard deviation, because
-// the difference of raw moments drowns in the rounding of half precision. A view (VIEW) does the same and writes something
-// found on the way.
+// SVGF, temporal accumulation (Schied et al. 2017, 4.1 and 4.2): averages colour and luminance moments along the
+// motion. The history of the colour is the previous frame's accumulated colour, or the result of one of its a-trous
+// iterations. Moments are kept centred, as mean and standard deviation: the difference of raw moments would drown in
+// the rounding of halves.
+// VIEW: does the same work and writes one of its intermediate values instead of the result.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -71,7 +72,7 @@ TemporalMoments sampleHistory(HistoryTaps taps) {
   return history;
 }
 
-// Weighted mean and variance with one more sample of weight `alpha`.
+// Adds a sample to running mean and variance, with weight `alpha` for the colour and `momentAlpha` for the moments.
 void addSample(inout TemporalMoments m, vec3 radiance, float alpha, float momentAlpha) {
   const float offset = luminance(radiance) - m.mean;
   m.colour = mix(m.colour, radiance, alpha);
@@ -81,7 +82,7 @@ void addSample(inout TemporalMoments m, vec3 radiance, float alpha, float moment
 
 vec3 clampedRadiance(vec3 noisy) { return clamp(noisy, vec3(0.0), vec3(kLargestHalf)); }
 
-// The history with this frame's sample. A sample that is not finite is no sample: the moments stay as they were.
+// The history with this frame's sample. A sample that is not finite does not count: the moments stay as they were.
 TemporalMoments momentsWith(TemporalMoments m, vec3 noisy) {
   if (!isFinite(noisy)) return m;
   m.samples = min(m.samples + 1.0, constants.maxHistory);

@@ -1,6 +1,7 @@
-// SVGF, one edge-avoiding a-trous iteration (Fu 2022): a binomial kernel, its taps 2^i pixels apart, weighted by
-// plane distance, normal and luminance; the variance that guides the luminance weight is filtered along. With a Gaussian
-// instead of the binomial kernel it is the bilateral filter that the iterations approximate.
+// SVGF, one edge-avoiding a-trous iteration (Schied et al. 2017, 4.3 and 4.4; Fu 2022): a binomial kernel with taps 2^i
+// pixels apart, weighted by plane distance (W_Z), normal (W_N) and luminance (W_L). It also filters the variance that
+// guides W_L. With a Gaussian kernel in place of the binomial one it is the bilateral filter that the iterations
+// approximate.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -25,7 +26,7 @@ layout(push_constant) uniform PushConstants { SvgfFilterConstants constants; };
 
 #include "include/svgf.glsl"
 
-// Standard deviation at `p`, its variance smoothed by a 3x3 Gaussian over the pixels that have one.
+// Standard deviation at `p` from the variance smoothed by a 3 x 3 Gaussian over the pixels that have one.
 float smoothDeviation(ivec2 p) {
   const ivec2 last = textureSize(colour, 0) - 1;
   float sum = 0.0, weightSum = 0.0;
@@ -41,15 +42,15 @@ float smoothDeviation(ivec2 p) {
   return sqrt(sum / weightSum);
 }
 
-// W_L = exp(-|l_p - l_q| * falloff); 0 weighs all luminances alike.
+// The falloff in W_L = exp(-|l_p - l_q| * falloff); 0 gives all luminances the same weight.
 float luminanceFalloff(ivec2 p, vec4 centre) {
   if (!kLuminanceWeight || centre.a < 0.0) return 0.0;
-  // Luminances that differ by no more than the rounding of a half do not differ.
+  // Luminances that differ by less than the rounding of halves count as equal.
   const float rounding = luminance(centre.rgb) * 1e-3 + 1e-7;
   return 1.0 / (constants.sigmaLuminance * smoothDeviation(p) + rounding);
 }
 
-// The binomial row of order 2r, walked tap by tap; its sum is 1. Of order 4 it is the B3 spline 1 4 6 4 1.
+// The binomial row of order 2r, computed tap by tap; its sum is 1. Order 4 is the B3 spline 1 4 6 4 1.
 float firstTap() { return pow(0.25, float(kRadius)); }
 float nextTap(float tap, int offset) { return tap * float(kRadius - offset) / float(kRadius + offset + 1); }
 

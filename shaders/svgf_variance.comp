@@ -1,6 +1,7 @@
-// SVGF, variance estimation: the temporal variance of a pixel's luminance, or, while its history is too short to tell,
-// the variance over 7x7 pixels of the same surface. A single frame (kSingleFrame) has no temporal variance at all. A
-// view (VIEW) does the same and writes something found on the way.
+// SVGF, variance estimation (Schied et al. 2017, 4.2): the temporal variance of a pixel's luminance, or the spatial
+// variance over 7 x 7 pixels of the same surface while the history is short. A single frame (kSingleFrame) has no
+// temporal variance.
+// VIEW: does the same work and writes one of its intermediate values instead of the result.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -46,7 +47,8 @@ Estimate estimateAt(ivec2 q) {
   return Estimate(bounded, luminance(bounded), 0.0, 1.0);
 }
 
-// Standard deviation of the luminance over the pixels of one surface, by the variances of each and their spread.
+// Standard deviation of the luminance over the pixels of one surface, from the variance of each and the spread of their
+// means.
 float deviationAround(ivec2 p, float z, float origin) {
   const Surface surface = surfaceAt(p, z);
   float sum = 0.0, squares = 0.0, weightSum = 0.0;
@@ -68,13 +70,13 @@ float deviationAround(ivec2 p, float z, float origin) {
   return sqrt(max(squares / weightSum - mean * mean, 0.0));
 }
 
-// Whether the spread over the surface stands in for that over time.
+// Whether the spatial estimate is used in place of the temporal one.
 bool isEstimatedAround(Estimate e) { return e.samples > 0.0 && e.samples < constants.minHistory; }
 
 float deviationOf(ivec2 p, float z, Estimate e) {
   if (e.samples <= 0.0) return kNoSample;
   if (!isEstimatedAround(e)) return e.deviation;
-  // Few samples tell little of their spread, which is rather taken too large than too small.
+  // A few samples estimate their variance badly: the boost makes it rather too large than too small.
   const float boost = sqrt(constants.minHistory / e.samples);
   return min(boost * deviationAround(p, z, e.mean), kLargestHalf);
 }

@@ -1,11 +1,15 @@
-// WALR preprocessing (Meunier & Harada 2022, 4.2): reproject, reject, then a cumulative mean that turns exponential
-// after a fixed number of samples. Each of the four history pixels around the position is tested on its own
-// (reprojection.glsl). KEEP_TAPS also writes which of them passed, so that later stages can read their histories in
-// the same way without testing again (Meunier & Harada 2022, 4.4; Koskela et al. 2019, 3.5), and which light passes
-// through where there is no surface. kStill: every pixel shows what it showed before. ANTILAG shortens history
-// by the factor of antilag.comp, and writes what that factor is computed from. PACKED: the history is packed
-// (packed_light.glsl), without the light of pixels that show no surface. A view (VIEW) does the same and writes
-// something found on the way; whether it applies antilag is specialized (kAntilag).
+// Temporal accumulation (passes/WALR.md, 2; Meunier & Harada 2022, 4.2): reprojects the pixel, tests the four history
+// taps one by one (reprojection.glsl), and adds this frame's sample to the mean of the accepted ones. The cumulative
+// mean turns exponential at `maxHistory`.
+// KEEP_TAPS: also writes motion and accepted taps, so that later stages read their histories without testing again
+// (Meunier & Harada 2022, 4.4; Koskela et al. 2019, 3.5), and at pixels without a surface a mark or the pass-through
+// (history_taps.glsl).
+// ANTILAG: shortens history by the antilag factor of the previous frame, and writes the sums for the next one
+// (antilag.comp).
+// PACKED: the mean is packed light (packed_light.glsl) and holds nothing at pixels without a surface.
+// VIEW: does the same work and writes one of its intermediate values instead of the result; kAntilag says whether
+// antilag is on.
+// kStill: nothing moves, so that the history of a pixel is the pixel itself.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -43,7 +47,7 @@ layout(r32ui) uniform writeonly uimage2D outAccumulated;
 layout(rgba16f) uniform writeonly image2D outAccumulated;
 #endif
 #ifdef KEEP_TAPS
-layout(constant_id = 3) const bool kKeepPassThrough = false;  // Where there is no surface; else kNoSurfaceTaps.
+layout(constant_id = 3) const bool kKeepPassThrough = false;  // At pixels without a surface; else kNoSurfaceTaps.
 layout(r32ui) uniform writeonly uimage2D outTaps;
 #endif
 #if defined(ANTILAG) || defined(VIEW)
@@ -72,11 +76,11 @@ vec4 unpackHistory(uint packed) { return unpackAccumulated(packed); }
 #include "include/bicubic.glsl"
 #include "include/reprojection.glsl"
 
-// Mean and length, length 0 where there is none; where it was in the picture before; how many history pixels were rejected.
+// The history of a pixel.
 struct ReprojectedHistory {
-  vec4 mean;
-  vec2 pixel;
-  int rejected;
+  vec4 mean;     // rgb: mean light; a: history length, 0: none.
+  vec2 pixel;    // Position in pixels of the previous frame.
+  int rejected;  // Number of history taps that were rejected.
 };
 
 ReprojectedHistory readHistory(ivec2 p, float z) {
@@ -100,7 +104,7 @@ ReprojectedHistory historyWithAntilag(ivec2 p, float z) {
   return found;
 }
 
-// A sample that is not finite is no sample: the mean stays as it was.
+// History length with this frame's sample. A sample that is not finite does not count: the mean stays as it was.
 float samplesWith(vec4 history, bool sampleIsFinite) {
   return min(history.a + (sampleIsFinite ? 1.0 : 0.0), constants.maxHistory);
 }
@@ -147,7 +151,8 @@ void storeMean(ivec2 p, vec4 mean) { imageStore(outAccumulated, p, nearestHalf(m
 void storeNoSurface(ivec2 p, vec3 light) { imageStore(outAccumulated, p, vec4(light, 0.0)); }
 #endif
 
-// By how much the luminance of this frame's light differs from that of history; 0 where one of them is missing.
+// Accumulates one pixel. Returns the difference for antilag: the luminance of this frame's sample less that of history;
+// 0 if one of them is missing.
 float accumulate(ivec2 p) {
   const vec3 noisy = texelFetch(lighting, p, 0).rgb;
   const bool sampleIsFinite = isFinite(noisy);

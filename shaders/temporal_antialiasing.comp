@@ -1,10 +1,12 @@
-// WALR postprocessing (Meunier & Harada 2022, 4.4): reproject the filtered history with a bicubic filter, pull it
-// into the variance of the current neighbourhood, then a cumulative mean that turns exponential after a fixed number
-// of frames. With KEPT_TAPS the reprojection is what the accumulation kept of its own; else it is done anew, or,
-// with kStill, every pixel shows what it showed before. PACKED: what it reads and keeps is packed
-// (packed_light.glsl), and light is known of every surface and of nothing else; the picture it writes is not rounded
-// so. The light that passes through where there is no surface comes from the kept taps, or from the host. A view
-// (VIEW) does the same and writes something found on the way.
+// Temporal anti-aliasing (passes/WALR.md, 9; Meunier & Harada 2022, 4.4): reads the history with a bicubic filter,
+// clips it to the variance of the current neighbourhood, and adds the current frame. The cumulative mean turns
+// exponential at `maxHistory`.
+// KEPT_TAPS: reprojection comes from the taps that accumulation kept (history_taps.glsl). Otherwise it is done here, or
+// with kStill, nothing moves and the history of a pixel is the pixel itself.
+// PACKED: the filtered light and the history are packed light (packed_light.glsl); every surface has filtered light,
+// and no other pixel has. The pass-through comes from the kept taps or from the host's lighting. The result is not
+// packed.
+// VIEW: does the same work and writes one of its intermediate values instead of the result.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -13,16 +15,16 @@
 #include "constants/temporal_antialiasing.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(constant_id = 2) const int kClipRadius = 1;  // Half the neighbourhood of the variance clipping, pixels.
+layout(constant_id = 2) const int kClipRadius = 1;  // Half the width of the neighbourhood for variance clipping, pixels.
 #ifdef KEPT_TAPS
-layout(constant_id = 3) const bool kRejectHistory = true;  // Leave out taps that the accumulation did not accept.
+layout(constant_id = 3) const bool kRejectHistory = true;  // Leave out taps that accumulation rejected.
 #endif
 
 #ifdef PACKED
 uniform utexture2D filtered;
 uniform utexture2D previousResolved;  // rgb: mean; a: history length.
 #else
-uniform texture2D filtered;  // a: below 0 where no light is known.
+uniform texture2D filtered;  // a: below 0 where the filter found no sample.
 uniform texture2D previousResolved;  // rgb: mean; a: history length.
 #endif
 #ifdef VIEW
@@ -99,7 +101,7 @@ vec4 historyOf(ivec2 p, out int rejected) {
   return bicubicOfTaps(previousResolved, taps);
 }
 
-// Of a pixel with its filtered colour.
+// Whether a pixel shows a surface. `colour`: its filtered colour.
 #ifdef PACKED
 bool hasSurface(ivec2 q, vec4 colour) { return colour.a >= 0.0; }
 #elif defined(KEPT_TAPS)
@@ -113,22 +115,22 @@ vec3 toYCoCg(vec3 c) {
 }
 vec3 fromYCoCg(vec3 c) { return vec3(c.x + c.y - c.z, c.x + c.z, c.x - c.y - c.z); }
 
-// Half size of the smallest clipping box around a mean: what rounds a history and a neighbourhood. Where chroma hardly
-// varies, a smaller box would let that rounding decide how much history of the luma is kept.
+// Smallest half size of the clipping box around a mean: the rounding of history and neighbourhood. In a smaller box,
+// where chroma hardly varies, that rounding would decide how much of the history's luma is kept.
 #ifdef PACKED
 float smallestHalfSize(vec3 mean) {
   const vec3 colour = fromYCoCg(mean);
   const float brightest = max(max(colour.r, colour.g), colour.b);
-  return brightest / 128.0;  // A step of the history at most. Those of nine filtered colours are smaller, and average.
+  return brightest / 128.0;  // At most one rounding step of the history; that of nine filtered colours is smaller.
 }
 #else
-float smallestHalfSize(vec3 mean) { return 4.0 / 2048.0 * mean.x; }  // The rounding of four halves.
+float smallestHalfSize(vec3 mean) { return 4.0 / 2048.0 * mean.x; }  // Rounding of four halves.
 #endif
 
-// A colour pulled towards the mean until it is inside the box of `gamma` standard deviations (Salvi 2016).
+// A colour moved towards the mean until it is inside the box of half size `deviation` (Salvi 2016).
 struct Clipped {
   vec3 colour;
-  float outside;  // Distance from the mean, before, in units of the box's half size along the way; above 1: clipped.
+  float outside;  // Distance from the mean before clipping, in units of the box's half size; above 1: clipped.
 };
 
 Clipped varianceClip(vec3 colour, vec3 mean, vec3 deviation) {
@@ -138,8 +140,8 @@ Clipped varianceClip(vec3 colour, vec3 mean, vec3 deviation) {
   return Clipped(outside > 1.0 ? mean + offset / outside : colour, outside);
 }
 
-// Mean and deviation of the surfaces around a pixel, in YCoCg and relative to the pixel itself, so that the variance of a
-// flat neighbourhood does not drown in rounding.
+// Mean and standard deviation of the surfaces around a pixel, in YCoCg and relative to the pixel's own colour, so that
+// the variance of a flat neighbourhood is not lost in rounding.
 struct Neighbourhood {
   vec3 mean;
   vec3 deviation;
@@ -163,7 +165,7 @@ Neighbourhood neighbourhoodOf(ivec2 p, vec3 centre) {
   return Neighbourhood(mean, sqrt(max(squares / count - mean * mean, vec3(0.0))));
 }
 
-// History, in YCoCg, inside the variance of what is around the pixel now.
+// The history in YCoCg, clipped to the neighbourhood of the pixel.
 Clipped clippedHistory(ivec2 p, vec3 current, vec3 history) {
   const vec3 centre = toYCoCg(current);
   const Neighbourhood n = neighbourhoodOf(p, centre);
@@ -171,9 +173,9 @@ Clipped clippedHistory(ivec2 p, vec3 current, vec3 history) {
   return varianceClip(toYCoCg(history), centre + n.mean, halfSize);
 }
 
-// The running mean with its length.
+// The new running mean and its history length.
 vec4 resolve(ivec2 p, vec4 current, vec4 history) {
-  // Where no light is known what was known before stands.
+  // Without a sample in this frame the history stays as it is.
   if (current.a < 0.0) return history;
   if (history.a == 0.0) return vec4(current.rgb, 1.0);
   const vec3 clipped = clippedHistory(p, current.rgb, history.rgb).colour;

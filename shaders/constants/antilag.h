@@ -5,12 +5,12 @@
 namespace walr {
 #endif
 
-const int kAntilagTile = 8;  // Pixels per axis: a workgroup of the accumulation.
+const int kAntilagTile = 8;  // Pixels per axis: a workgroup of temporal accumulation.
 
 struct AntilagConstants {
-  int radius;       // Of the window, tiles.
-  float scoreLow;   // Change over its standard error up to which history counts in full.
-  float scoreHigh;  // That from which it counts as one sample.
+  int radius;       // Of the window around a tile, tiles.
+  float scoreLow;   // Score up to which history counts in full, standard errors.
+  float scoreHigh;  // Score from which history counts as one sample, standard errors.
 };
 
 #ifdef __cplusplus

@@ -5,19 +5,20 @@
 namespace walr {
 #endif
 
+// As BlockRegressionSettings (passes/block_regression.h), except that the unit of coarseSigma is cells.
 struct BlockRegressionConstants {
-  float planeNear;              // Plane distance over depth up to which the weight is 1 (d0).
-  float planeFar;               // Plane distance over depth from which the weight is 0 (d1).
-  float sdfFraction;            // Share of the stored edge distance that edge tracing dares to step.
-  float ridge;                  // Added to the diagonal of the feature covariance.
-  float growthErrors;           // Standard errors of difference up to which a block's window grows in full.
-  float coarseSigma;            // Standard deviation of the coarse fit's Gaussian window at one path a pixel, cells.
-  float coarseNarrowing;        // Power of the paths a pixel by which that window narrows.
-  float coarseReach;            // Where that window ends, standard deviations.
-  float coarseGrowthErrors;     // As growthErrors, of a cell's window without occlusion.
-  float coarseGrowthOcclusion;  // Times ambient occlusion, and 1: what divides these errors.
-  float coarseSamples;          // Paths that the coarse fit counts for.
-  float coarseLeastShare;  // Share of the mixture at which it is left out; it counts in full from twice as much on.
+  float planeNear;     // Plane distance over depth up to which the weight is 1 (d0).
+  float planeFar;      // Plane distance over depth from which the weight is 0 (d1).
+  float sdfFraction;   // Share of the stored edge distance that edge tracing steps at once.
+  float ridge;         // Added to the diagonal of the feature covariance.
+  float growthErrors;  // Standard errors up to which a block's window takes in another block in full.
+  float coarseSigma;   // Standard deviation of the coarse window at 1 sample per pixel, cells (setting: of the height).
+  float coarseNarrowing;        // That window narrows with this power of the samples per pixel.
+  float coarseReach;            // Distance at which that window ends, standard deviations.
+  float coarseGrowthErrors;     // As growthErrors, for the window of a cell without occlusion.
+  float coarseGrowthOcclusion;  // These errors are divided by 1 + this x ambient occlusion.
+  float coarseSamples;          // S: samples that the coarse fit counts for in the mixture.
+  float coarseLeastShare;       // Share of the mixture below which the coarse fit is left out; from twice it on, full.
 };
 
 #ifdef __cplusplus

@@ -6,10 +6,10 @@ namespace walr {
 #endif
 
 struct BmfrFitConstants {
-  float noiseAmplitude;  // Half width of the uniform noise on every feature but the constant.
-  float rankTolerance;   // Root mean square of a feature's part that no earlier feature explains, at or below which it
-                         // is left out.
-  float extentFloor;     // Smallest half extent a position axis is scaled by, in units of the block's largest.
+  float noiseAmplitude;  // Half width of the uniform noise on each feature except the constant.
+  float rankTolerance;   // A feature is left out if the root mean square of what earlier features do not explain of it
+                         // is at most this.
+  float extentFloor;     // Smallest half extent that scales a position axis, in units of the block's largest.
 };
 
 struct BmfrAccumulationConstants {

@@ -5,10 +5,10 @@
 namespace walr {
 #endif
 
-const uint kCounterWords = 256;  // Of the buffer that receives all counters of a frame.
+const uint kCounterWords = 256;  // Size of the buffer that receives all counters of a frame.
 
 struct CountConstants {
-  uint word;  // First of the three that receive the sums of the view's components.
+  uint word;  // First of the three words that receive the sums of the view's components.
 };
 
 #ifdef __cplusplus

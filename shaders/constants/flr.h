@@ -8,7 +8,7 @@ namespace walr {
 struct FlrConstants {
   ivec2 cells;  // Size of the grid of downsampled moments.
   int factor;   // Pixels per cell and axis.
-  int radius;   // Reach of the Gaussian, cells.
+  int radius;   // Distance at which the Gaussian ends, cells.
   float sigma;  // Standard deviation of the Gaussian, cells.
   float ridge;  // Added to the diagonal of the feature covariance; see flr_solve.comp.
 };

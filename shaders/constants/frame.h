@@ -1,4 +1,4 @@
-// What changes from frame to frame and is the same for every pass: one uniform block, written by the host.
+// The uniform block of a frame, which all passes read and the host writes.
 // C++ makes it with `walr::frameConstants` (passes/frame.h).
 #ifndef WALR_SHADERS_CONSTANTS_FRAME_H
 #define WALR_SHADERS_CONSTANTS_FRAME_H
@@ -10,14 +10,14 @@ namespace walr {
 struct FrameConstants {
   mat4 viewFromWorld;           // World to view space of this frame.
   mat4 previousViewFromView;    // View space of this frame to view space of the previous one, for still surfaces.
-  vec4 rayFromPixel;            // Ray (x, y, -1) = (pixel * xy + zw, -1): its product with view depth is the position.
-  vec4 previousRayFromPixel;    // The same for the previous frame, of whose picture `pixel` is the same part.
-  vec2 motionScale;             // Multiplies motion.xy; the result is pixels, previous = current + motion, y down.
+  vec4 rayFromPixel;            // View ray with z = -1: (pixel * xy + zw, -1). Times view depth it is the position.
+  vec4 previousRayFromPixel;    // The same for the previous camera, in pixels of this frame's size.
+  vec2 motionScale;             // Converts motion.xy to pixels: previous = current + motion, y down.
   vec2 jitterDelta;             // Pixels: this frame's jitter minus the previous frame's, y down.
-  vec2 previousPixelFromPixel;  // Size of the previous picture over that of this one: 1 unless it changed.
-  vec2 pixelFromPreviousPixel;  // Takes that back.
-  uint frameIndex;              // Counts frames; seeds random picks and roundings.
-  float skyDepth;               // Scene units: what is deeper is sky.
+  vec2 previousPixelFromPixel;  // Size of the previous frame over the size of this one: 1 unless it changed.
+  vec2 pixelFromPreviousPixel;  // The inverse.
+  uint frameIndex;              // Counts frames; seeds random choices and stochastic rounding.
+  float skyDepth;               // Scene units: from this view depth on there is sky.
 };
 
 #ifdef __cplusplus

@@ -1,4 +1,4 @@
-// What changes from frame to frame in how a host writes its textures: one uniform block, for convert_input.comp.
+// The uniform block of convert_input.comp: conventions of a host's textures that change from frame to frame.
 // C++ makes it with `walr::hostConstants` (passes/convert_inputs.h).
 #ifndef WALR_SHADERS_CONSTANTS_HOST_H
 #define WALR_SHADERS_CONSTANTS_HOST_H
@@ -9,9 +9,9 @@ namespace walr {
 
 struct HostConstants {
   vec2 depthFromDevice;   // View depth = x / (device depth + y).
-  float exposure;         // That the host multiplied radiance by.
-  float inverseExposure;  // Takes that away.
-  ivec2 offset;           // Pixels: first of the host's textures that is denoised; y down.
+  float exposure;         // The factor by which the host multiplied radiance.
+  float inverseExposure;  // 1 / exposure.
+  ivec2 offset;           // First pixel of the host's textures that is denoised; y down.
 };
 
 #ifdef __cplusplus

@@ -5,12 +5,12 @@
 namespace walr {
 #endif
 
-// 1 / (2 sigma^2) of the four terms; 0 switches a term off.
+// Falloff 1 / (2 sigma^2) of the four terms; 0 switches a term off.
 struct JointBilateralConstants {
-  float position;  // Over squared pixels.
-  float colour;    // Over squared units of the mean luminance of the window.
-  float normal;    // Over squared radians.
-  float plane;     // Over the squared sine of the angle to the tangent plane.
+  float position;  // Per squared pixel.
+  float colour;    // Per squared mean luminance of the window.
+  float normal;    // Per squared radian.
+  float plane;     // Per squared sine of the angle to the tangent plane.
 };
 
 #ifdef __cplusplus

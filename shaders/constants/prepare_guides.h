@@ -6,10 +6,10 @@ namespace walr {
 #endif
 
 struct PrepareGuidesConstants {
-  float albedoThreshold;   // Below it in every channel a pixel has no diffuse lobe.
-  float tangentTolerance;  // Largest misfit of extrapolated inverse depth, in units of inverse depth.
-  float normalAgreement;   // Cosine to the shading normal below which a geometric normal is not believed.
-  float occlusionRadius;   // Pixels that the search for occluders reaches.
+  float albedoThreshold;   // A pixel whose albedo is below it in every channel has no diffuse lobe.
+  float tangentTolerance;  // Largest error of extrapolated inverse depth, relative to inverse depth.
+  float normalAgreement;   // Cosine to the shading normal below which the geometric normal is rejected.
+  float occlusionRadius;   // Search radius for occluders, pixels.
 };
 
 #ifdef __cplusplus

@@ -7,10 +7,10 @@ namespace walr {
 
 // The edge-stopping functions that the variance estimate and the a-trous iterations share.
 struct SvgfFilterConstants {
-  float inverseSigmaDepth;  // Over units of the pixel's depth.
+  float inverseSigmaDepth;  // Per unit of the pixel's depth.
   float sigmaNormal;        // Exponent of the cosine between normals.
   float sigmaLuminance;     // Standard deviations.
-  float minHistory;         // Samples below which the variance is estimated over the neighbourhood.
+  float minHistory;         // History length below which the variance is estimated over the neighbourhood.
 };
 
 #ifdef __cplusplus

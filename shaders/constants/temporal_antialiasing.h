@@ -7,7 +7,7 @@ namespace walr {
 
 struct TemporalAntialiasingConstants {
   float maxHistory;       // History length at which the cumulative mean turns exponential.
-  float clipGamma;        // Half size of the clipping box in standard deviations of the 3x3 neighbourhood.
+  float clipGamma;        // Half size of the clipping box, standard deviations of the neighbourhood.
   float planeTolerance;   // Largest plane distance of a history tap, in units of its depth.
   float normalThreshold;  // Smallest cosine between geometric normals.
 };

@@ -1,5 +1,5 @@
-// Scalar, vector and matrix names of GLSL for headers that C++ and shaders share. Members are ordered so that std140,
-// std430 and C++ lay them out alike; a static_assert beside each struct and the reflected block size hold that true.
+// GLSL's scalar, vector and matrix names, for headers that C++ and shaders share. Members are ordered so that std140,
+// std430 and C++ give the same layout; a static_assert at each struct and the reflected block size check it.
 #ifndef WALR_SHADERS_CONSTANTS_TYPES_H
 #define WALR_SHADERS_CONSTANTS_TYPES_H
 #ifdef __cplusplus

@@ -1,10 +1,11 @@
-// What temporal accumulation does for and with antilag (antilag.comp).
+// The part of antilag in temporal accumulation: it reads the antilag factor of the last frame and writes the sums from
+// which antilag.comp computes the next.
 // Needs: `previousAntilag`; unless VIEW, `outTiles` and workgroups of kAntilagTile squared.
 #ifndef WALR_ANTILAG_GLSL
 #define WALR_ANTILAG_GLSL
 #include "constants/antilag.h"
 
-// Bilinear at a position in pixels of the frame before; the borders go on.
+// The antilag factor at a position in pixels of the previous frame, bilinear, clamped at the borders.
 float antilagAt(vec2 pixel) {
   const vec2 position = pixel / float(kAntilagTile) - 0.5;
   const ivec2 base = ivec2(floor(position));
@@ -19,14 +20,14 @@ float antilagAt(vec2 pixel) {
   return sum;
 }
 
-// As long as history may count: less where the antilag factor is high, down to one sample.
+// The maximum history length at a position: `maxHistory` at factor 0, one sample at factor 1.
 float longestHistory(vec2 pixel, float maxHistory) { return mix(maxHistory, 1.0, antilagAt(pixel)); }
 
 #ifndef VIEW
 const uint kTileThreads = uint(kAntilagTile * kAntilagTile);
 shared vec2 tileSums[kTileThreads];
 
-// All threads of the workgroup must come here.
+// Writes the sums of the tile of this workgroup. All threads of the workgroup must call it.
 void sumOverTile(float difference) {
   const uint thread = gl_LocalInvocationIndex;
   tileSums[thread] = vec2(difference, difference * difference);

@@ -1,17 +1,18 @@
-// Catmull-Rom reading of a history texture.
+// Reads a history texture with a Catmull-Rom filter.
 #ifndef WALR_BICUBIC_GLSL
 #define WALR_BICUBIC_GLSL
 #include "history_taps.glsl"
 
-// Weights of the four pixels around a position `f` past the second.
+// Weights of the four pixels around a position, which lies `f` pixels past the second.
 vec4 catmullRom(float f) {
   return vec4(f * (-0.5 + f * (1.0 - 0.5 * f)), 1.0 + f * f * (1.5 * f - 2.5), f * (0.5 + f * (2.0 - 1.5 * f)),
               f * f * (0.5 * f - 0.5));
 }
 
-// Radiance is bicubic where all four inner pixels show the surface and none of the outer ones is sky or otherwise
-// without history (length 0), whose light would ring into the surface; else the mean of the inner ones that show it.
-// Alpha, the history length, is that mean in either case.
+// Mean radiance and history length at the position of the history taps. Radiance is bicubic if all four history taps
+// are accepted and none of the twelve pixels around them is without history (length 0), as sky is: the filter would
+// ring its light into the surface. Otherwise radiance is the mean of the accepted taps. Alpha, the history length,
+// always is.
 vec4 bicubicOfTaps(HISTORY_TEXTURE history, HistoryTaps taps) {
   const vec4 wx = catmullRom(taps.fraction.x), wy = catmullRom(taps.fraction.y);
   const vec4 weights = tapWeights(taps);

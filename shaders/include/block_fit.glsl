@@ -1,11 +1,12 @@
-// Weighted linear regression from a block's moments, and its fit in memory: twenty-four halves.
+// The regression of WALR over blocks (passes/WALR.md, 5): it solves the normal equations of a block's moments, and
+// stores the fit in twenty-four halves.
 // Needs: `constants` (BlockRegressionConstants).
 #ifndef WALR_BLOCK_FIT_GLSL
 #define WALR_BLOCK_FIT_GLSL
 #include "block_storage.glsl"
 #include "cholesky.glsl"
 
-// Colour = colour at the origin + sum of slope times feature less its origin.
+// f(X) = colour + sum over features i of slope[i] (X[i] - origin[i]).
 struct BlockFit {
   vec3 colour;
   float origin[kFeatures];
@@ -13,19 +14,20 @@ struct BlockFit {
   float samples;  // 0: no fit.
 };
 
-// Halves leave each covariance uncertain by 2^-11 of what it can be at most, the root of both variances' product: so large
-// a share of its diagonal keeps every matrix positive whose rows are of kFeatures such entries (Gershgorin).
+// Rounding moments to halves changes each covariance by at most 2^-11 of the root of the product of both variances. A
+// ridge of this share of the diagonal keeps every matrix with kFeatures such entries per row positive definite
+// (Gershgorin).
 const float kRoundingRidge = float(kFeatures) * exp2(-11.0);
 
-// On the diagonal of the features' covariance. Centred moments leave the constant out of it, so that the ridge holds the
-// slopes and not the mean.
+// The ridge of each feature, to be added to the diagonal of the covariance matrix. The moments are centred, so that the
+// ridge restrains the slopes and not the mean.
 float[kFeatures] ridgeOf(BlockMoments m) {
   float ridge[kFeatures];
   for (int i = 0; i < kFeatures; ++i) ridge[i] = constants.ridge + kRoundingRidge * max(m.xx[triangleEntry(i, i)], 0.0);
   return ridge;
 }
 
-// Factor of that covariance with its ridge.
+// Cholesky factor of the covariance matrix with its ridge.
 float[kCovariances] factorOf(BlockMoments m) {
   const float ridge[kFeatures] = ridgeOf(m);
   return choleskyFactor(m.xx, ridge, ridge);
@@ -37,7 +39,8 @@ BlockFit fitOf(BlockMoments m) {
   BlockFit fit;
   fit.samples = m.samples;
   fit.slope = slopesOf(m);
-  // About the means, as halves hold them, so that rounding in memory is small against the colour, not the slopes.
+  // The origin is the mean as a half holds it, so that rounding in memory is small relative to the colour and not to
+  // slope times mean.
   fit.colour = m.y;
   for (int i = 0; i < kFeatures; ++i) {
     fit.origin[i] = unpackHalf2x16(packHalves(m.x[i], 0.0)).x;

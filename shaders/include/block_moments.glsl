@@ -1,6 +1,7 @@
-// Moments of square blocks of pixels with five features: the shading normal, the block's depth over the sample's less
-// 1, and ambient occlusion. Inverse depth is linear over the image of a plane; relative to the block's own depth it
-// keeps halves precise at any scale, and merging another block's moments rescales it.
+// Moments of blocks (passes/WALR.md, 4) with five features X: the shading normal, the depth feature and ambient
+// occlusion. The depth feature is the depth of the block over that of the sample, less 1: an inverse depth, which is
+// linear over the image of a plane. Relative to the block's own depth, halves hold it precisely at any scale; before a
+// merge, the other block's moments are rescaled.
 #ifndef WALR_BLOCK_MOMENTS_GLSL
 #define WALR_BLOCK_MOMENTS_GLSL
 #include "finite.glsl"
@@ -19,7 +20,7 @@ struct BlockMoments {
   float xx[kCovariances];   // Covariances of the features: the upper triangle, row by row.
   vec3 yx[kFeatures];       // Covariances of the colour with each feature.
   float yy;                 // Variance of the colour's luminance.
-  float samples;            // W: sum of the weights of the paths behind the samples.
+  float samples;            // W: sum of weight times history length over the pixels.
 };
 
 float[kFeatures] featuresOf(NormalAndOcclusion s, float relativeDepth) {
@@ -39,16 +40,16 @@ BlockMoments noSamples() {
   return m;
 }
 
-// Of a pixel whose light is the mean of so many paths.
-BlockMoments onePixel(float x[kFeatures], vec3 colour, float paths) {
+// Moments of one pixel whose light is the mean of `samples` samples.
+BlockMoments onePixel(float x[kFeatures], vec3 colour, float samples) {
   BlockMoments m = noSamples();
   m.x = x;
   m.y = colour;
-  m.samples = paths;
+  m.samples = samples;
   return m;
 }
 
-// The same moments with the depth feature relative to `scale` times the depth that it was relative to.
+// The same moments with the depth feature relative to `scale` times its former reference depth.
 BlockMoments rescaleDepth(BlockMoments m, float scale) {
   m.x[kDepthFeature] = scale * (m.x[kDepthFeature] + 1.0) - 1.0;
   m.yx[kDepthFeature] *= scale;
@@ -57,7 +58,7 @@ BlockMoments rescaleDepth(BlockMoments m, float scale) {
   return m;
 }
 
-// Weighted merge of centred moments about the first ones merged; see moments.glsl.
+// Weighted merge of centred moments. Means are taken relative to the first moments added, as in moments.glsl.
 struct BlockMomentSum {
   float originX[kFeatures];
   vec3 originY;

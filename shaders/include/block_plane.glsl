@@ -1,13 +1,14 @@
-// Edge-stopping function between blocks and pixels (Meunier & Harada 2022, 4.3). Needs: `constants`
-// (BlockRegressionConstants).
+// The edge-stopping function between blocks and pixels (Meunier & Harada 2022, 4.3; passes/WALR.md, 4).
+// Needs: `constants` (BlockRegressionConstants).
 #ifndef WALR_BLOCK_PLANE_GLSL
 #define WALR_BLOCK_PLANE_GLSL
 
-// 1 near the plane, 0 away from it.
+// e(distance): 1 up to planeNear, 0 from planeFar on, linear between. `distance` is in units of depth.
 float onPlane(float distance) {
   return clamp((constants.planeFar - distance) / (constants.planeFar - constants.planeNear), 0.0, 1.0);
 }
 
+// Cosine between two normals, 0 where they face away from each other.
 float facing(vec3 a, vec3 b) { return clamp(dot(a, b), 0.0, 1.0); }
 
 #endif

@@ -1,5 +1,5 @@
-// How blocks lie in memory: forty halves of moments in five RGBA32_UINT textures, and the pixel that stands for
-// the block.
+// Storage of blocks: forty halves of moments in five RGBA32_UINT textures, and the depth and normal of the
+// representative pixel.
 #ifndef WALR_BLOCK_STORAGE_GLSL
 #define WALR_BLOCK_STORAGE_GLSL
 #include "block_moments.glsl"
@@ -13,11 +13,11 @@ struct PackedBlock {
   uvec4 word[5];
 };
 
-// Means of the features and the colour, covariances, sample count, covariances with the colour, standard deviation of
-// luminance, which scales with the light and so has the light's range.
+// In this order: means of the features and the colour, covariances of the features, W, covariances with the colour, and
+// the standard deviation of luminance, whose range is that of the light where a variance would overflow.
 const int kHalves = 40;
 
-// Of W: a window's paths may be more than halves can count.
+// W is stored in units of this many samples, because a window may hold more samples than the largest half.
 const float kSampleCountUnit = 64.0;
 
 PackedBlock packBlock(BlockMoments m) {
@@ -54,8 +54,8 @@ BlockMoments unpackBlock(PackedBlock p) {
   return m;
 }
 
-// One of a block's pixels stands for it. Its depth lies in memory as a pixel's does (surface.glsl), its geometric
-// normal with the pixel's number in the block.
+// The representative pixel: the block stores its depth as pixels do (surface.glsl), and its geometric normal together
+// with its index in the block.
 uint packBlockNormal(uint shortNormal, uint pixel) { return shortNormal | pixel << 16; }
 vec3 blockNormal(uint packed) { return unpackShortNormal(packed); }
 ivec2 representativePixel(ivec2 block, int blockSize, uint packedNormal) {
@@ -63,8 +63,8 @@ ivec2 representativePixel(ivec2 block, int blockSize, uint packedNormal) {
   return blockSize * block + ivec2(pixel % blockSize, pixel / blockSize);
 }
 
-// A fit's depth, and whether the fit holds so many paths that the coarse one has nothing to say beside it
-// (coarse_share.glsl), where moments have the distance to an edge.
+// Depth of a fit and whether the fit has converged, that is, holds so many samples that the coarse fit gets no share
+// (coarse_share.glsl). The flag takes the bits in which moments have the distance to an edge.
 uint packFitDepth(float depth, bool converged) { return packDepthSdf(depth, uint(converged)); }
 bool hasConverged(uint packedDepth) { return unpackSdf(packedDepth) != 0u; }
 

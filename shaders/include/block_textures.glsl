@@ -1,5 +1,8 @@
-// The textures of blocks: BLOCK_MOMENTS_IN reads moments and depth, BLOCK_MOMENTS_OUT writes them, CELL_MOMENTS_OUT writes
-// those of cells, BLOCK_FIT_OUT writes fits, and depth where that is not known from before.
+// Bindings of the textures of blocks, and their loads and stores.
+// BLOCK_MOMENTS_IN: reads moments and depth of blocks (or cells).
+// BLOCK_MOMENTS_OUT: writes them.
+// CELL_MOMENTS_OUT: writes moments and depth of cells, beside those of blocks.
+// BLOCK_FIT_OUT: writes fits, and their depth unless it is that of the moments.
 #ifndef WALR_BLOCK_TEXTURES_GLSL
 #define WALR_BLOCK_TEXTURES_GLSL
 #include "block_storage.glsl"

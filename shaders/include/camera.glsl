@@ -7,12 +7,12 @@ vec3 rayThrough(vec4 rayFromPixel, vec2 pixel) { return vec3(pixel * rayFromPixe
 
 vec2 pixelCentre(ivec2 p) { return vec2(p) + 0.5; }
 
-// Pixel position that shows a view-space position.
+// Position in pixels that shows a view-space position.
 vec2 pixelOf(vec4 rayFromPixel, vec3 position) {
   return (position.xy / -position.z - rayFromPixel.zw) / rayFromPixel.xy;
 }
 
-// A view-space position of a still surface in the view space of the previous camera.
+// Position of a still surface in the view space of the previous camera, from its position in this view space.
 vec3 previousPosition(mat4 previousViewFromView, vec3 position) {
   return (previousViewFromView * vec4(position, 1.0)).xyz;
 }

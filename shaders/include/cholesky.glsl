@@ -1,11 +1,11 @@
-// Cholesky decomposition of a regression's covariances, and its slopes.
-// Needs: `kFeatures` and `kCovariances`, the entries of one triangle of their matrix.
+// Cholesky decomposition of the covariance matrix of the features, and the solution for the slopes.
+// Needs: `kFeatures` and `kCovariances`, the number of entries of one triangle of the matrix.
 #ifndef WALR_CHOLESKY_GLSL
 #define WALR_CHOLESKY_GLSL
 #include "triangle.glsl"
 
-// Lower factor of the covariances with `ridge` added to the diagonal. Rounding may leave a variance or a pivot below
-// what it can be: the one is raised to 0, the other to `least`.
+// Lower factor of the covariance matrix with `ridge` added to its diagonal. Rounding may make a variance negative or a
+// pivot too small: variances are raised to 0, pivots to `least`.
 float[kCovariances] choleskyFactor(float covariances[kCovariances], float ridge[kFeatures], float least[kFeatures]) {
   float l[kCovariances];
   for (int j = 0; j < kFeatures; ++j) {
@@ -22,7 +22,7 @@ float[kCovariances] choleskyFactor(float covariances[kCovariances], float ridge[
   return l;
 }
 
-// Slopes of a colour over the features from its covariances with them: forward, then back substitution.
+// Slopes of the colour over the features: solves L L^T x = yx by forward, then back substitution.
 vec3[kFeatures] choleskySolve(float l[kCovariances], vec3 yx[kFeatures]) {
   vec3 x[kFeatures];
   for (int i = 0; i < kFeatures; ++i) {

@@ -1,7 +1,8 @@
-// The eight taps of an a-trous iteration: edge tracing along axes and diagonals (Meunier & Harada 2022, 3.3 and 5.2),
-// and what takes the place of a tap behind an edge. Needs: `frame` (FrameConstants), `depth`, `planeNormal`
-// (utexture2D), `constants` (AtrousConstants), and atrous.comp's specialization constants. FIRST: of the first
-// iteration, whose taps are the very next pixels.
+// The eight taps of an a-trous iteration over pixels: edge tracing along axes and diagonals (Meunier & Harada 2022, 3.3
+// and 5.2), and the replacement of taps behind an edge.
+// Needs: `frame` (FrameConstants), `depth`, `planeNormal` (utexture2D), `constants` (AtrousConstants), and the
+// specialization constants of atrous.comp.
+// FIRST: of the first iteration, whose taps are the very next pixels.
 #ifndef WALR_EDGE_TRACING_GLSL
 #define WALR_EDGE_TRACING_GLSL
 #include "hash.glsl"
@@ -10,7 +11,7 @@
 
 // Values of kReplacement (TapReplacement).
 const uint kNoReplacement = 0;
-const uint kUniformReplacement = 1;  // Any pixel before the edge, the centre among them.
+const uint kUniformReplacement = 1;  // Any pixel before the edge, or the centre.
 const uint kNearReplacement = 2;     // One of the last third before the edge.
 
 // The pixel that is filtered.
@@ -18,19 +19,19 @@ struct Centre {
   ivec2 pixel;
   ivec2 size;  // Of the image.
   Plane plane;
-  float scale;  // Of the fall of the edge weight from planeNear to planeFar.
-  uint sdf;
+  float scale;  // 1 / (planeFar - planeNear).
+  uint sdf;     // Distance to the nearest edge that the previous iteration found, steps.
 };
 
 // What the traces to all eight taps found.
 struct TraceSummary {
-  int nearestEdge;
-  int replaced;
-  int lost;
-  int centred;  // Replaced by the centre.
+  int nearestEdge;  // Step of the nearest edge; kSpacing + 1: none.
+  int replaced;     // Taps that another pixel replaced.
+  int lost;         // Taps behind an edge that none replaced.
+  int centred;      // Taps that the centre replaced.
 };
 
-// Where a tap is taken and what it weighs; nowhere where that is 0.
+// Where a tap is taken, and its weight. At weight 0 it is not read.
 struct Tap {
   ivec2 pixel;
   float weight;
@@ -39,9 +40,9 @@ struct Tap {
 // A straight line of pixels away from the centre.
 struct Line {
   ivec2 direction;
-  int inside;    // Steps up to the border of the image.
-  float offset;  // Product of the plane's normal with the centre's ray, over the centre's depth.
-  float slope;   // How much that grows from step to step: rays of a line of pixels lie evenly on a line.
+  int inside;    // Number of steps to the border of the image.
+  float offset;  // dot(normal of the centre's plane, ray of the centre) / depth of the centre.
+  float slope;   // Change of `offset` per step: the rays of evenly spaced pixels are evenly spaced.
 };
 
 Line lineFrom(Centre centre, ivec2 direction) {
@@ -52,10 +53,10 @@ Line lineFrom(Centre centre, ivec2 direction) {
   return Line(direction, min(inside.x, inside.y), plane.offset * plane.inverseDepth, slope * plane.inverseDepth);
 }
 
-// What the edge-stopping function (Meunier & Harada 2022, 4.3) makes of one pixel.
+// The edge-stopping function at one pixel (Meunier & Harada 2022, 4.3).
 struct TracedPixel {
-  float weight;  // 1 or more near the plane; 0 or less at an edge.
-  bool surface;  // None outside the image.
+  float weight;  // Not clamped: 1 or more near the plane, 0 or less at an edge.
+  bool surface;  // False outside the image.
   uint sdf;
 };
 
@@ -68,25 +69,25 @@ TracedPixel tracePixel(Centre centre, Line line, int step) {
   return TracedPixel(z > 0.0 ? weight : 0.0, z > 0.0, unpackSdf(packedDepth));
 }
 
-// Step of the pixel that stands in for a tap which met its edge at step `edge`.
+// Step of the pixel that replaces a tap whose trace met its edge at step `edge`.
 int replacementStep(ivec2 p, int tap, int edge) {
-  const uvec4 key = uvec4(p, frame.frameIndex, kIteration * 9u + uint(tap));
-  return kReplacement == kNearReplacement ? edge - 1 - int(hashBelow(key, uint(edge + 2) / 3u))
-                                          : int(hashBelow(key, uint(edge)));
+  const uvec4 seed = uvec4(p, frame.frameIndex, kIteration * 9u + uint(tap));
+  return kReplacement == kNearReplacement ? edge - 1 - int(hashBelow(seed, uint(edge + 2) / 3u))
+                                          : int(hashBelow(seed, uint(edge)));
 }
 
-// Tap number `tap` of 0 to 8, `direction` being (tap % 3, tap / 3) - 1, with the smallest edge weight on the way to it.
-// Each pixel's signed distance says how far the next edge lay in the last iteration; the walk steps by a fraction of it.
-// Without edge tracing only the far end is looked at.
+// Finds tap number `tap` of 0 to 8, in `direction` = (tap % 3, tap / 3) - 1. Its weight is the smallest edge-stopping
+// weight on the way to it. The trace steps by a fraction of the distance to the nearest edge that the previous
+// iteration stored for the pixel. Without edge tracing only the far end is tested.
 //
-// A tap behind an edge gives way to a random one before it, so that no seam follows the tap pattern. The way there is
-// walked in the same loop, side by side with invocations that are still on their first.
+// A tap behind an edge is replaced by a random pixel before the edge, so that no seam shows the pattern of the taps.
+// The same loop traces the way to the replacement, so that invocations of a subgroup do not wait for each other.
 Tap findTap(Centre centre, int tap, ivec2 direction, inout TraceSummary summary) {
   const Line line = lineFrom(centre, direction);
-  int edge = kSpacing + 1;  // Step of the first edge.
+  int edge = kSpacing + 1;  // Step of the first edge; kSpacing + 1: none.
   int reach = kSpacing;
   float weight = 1.0;
-  bool surface = false;  // At the edge.
+  bool surface = false;  // The edge is a surface, not sky or the border of the image.
 #ifdef FIRST
   const TracedPixel traced = tracePixel(centre, line, 1);
   weight = min(traced.weight, 1.0);
@@ -124,7 +125,7 @@ Tap findTap(Centre centre, int tap, ivec2 direction, inout TraceSummary summary)
       if (weight <= 0.0) ++summary.centred;
     }
     if (isolated && surface && kEdgeLeak > 0.0) {
-      // A pixel that shares its surface with few around it takes a little from beyond its edges.
+      // A pixel with few neighbours on its surface takes a little light from beyond its edges.
       leak = true;
       reach = 1;
       weight = kEdgeLeak;

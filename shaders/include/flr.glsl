@@ -1,9 +1,10 @@
-// The guides of Fast Local Regression (Salmi et al. 2024), their outer products and the grid these live on.
-// Needs: `constants` (FlrConstants). OCCLUSION: ambient occlusion is a guide too.
+// FLR (Salmi et al. 2024): the guides of the regression, their outer products, and the grid of cells.
+// Needs: `constants` (FlrConstants). OCCLUSION: ambient occlusion is a guide, too.
 #ifndef WALR_FLR_GLSL
 #define WALR_FLR_GLSL
 
-// Shading normal, inverse depth, which is linear over the image of a plane, and ambient occlusion; the constant apart.
+// The guides besides the constant: shading normal, inverse depth, which is linear over the image of a plane, and
+// ambient occlusion.
 const int kInverseDepth = 3;
 #ifdef OCCLUSION
 const int kFeatures = 5;
@@ -13,8 +14,8 @@ const int kFeatures = 4;
 const int kCovariances = kFeatures * (kFeatures + 1) / 2;
 #include "triangle.glsl"
 
-// Sums over samples of the distinct entries of (1, x)(1, x)^T, row by row, then of (1, x) y^T, x the guides, y the
-// colour. The first is the number of samples.
+// Sums over samples of the distinct entries of (1, x)(1, x)^T, row by row, then of (1, x) y^T, where x are the guides
+// and y is the colour. The first sum is the number of samples.
 const int kMeanX = 1;
 const int kSquares = kMeanX + kFeatures;
 const int kMeanY = kSquares + kCovariances;
@@ -26,7 +27,7 @@ struct OuterProducts {
 };
 
 float productAt(OuterProducts p, int k) { return p.v[k / 4][k % 4]; }
-// Colour, or colour times guide `i`, where `i` counts from 1.
+// Sum of the colour (`i` = 0), or of the colour times guide `i`, where guides count from 1.
 vec3 colourProductAt(OuterProducts p, int i) {
   const int k = kMeanY + 3 * i;
   return vec3(productAt(p, k), productAt(p, k + 1), productAt(p, k + 2));

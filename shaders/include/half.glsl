@@ -1,10 +1,11 @@
-// Rounding to half precision in the shader's own hands.
+// Rounding to half precision in the shader itself.
 #ifndef WALR_HALF_GLSL
 #define WALR_HALF_GLSL
 #include "finite.glsl"
 
-// The nearest finite half of each value, ties to even. Image stores may round either way (Vulkan, "Floating-Point Format
-// Conversions"); a running mean that is stored anew every frame would darken by half a percent where they truncate.
+// The nearest finite half of each value, ties to even. Image stores may round up or down (Vulkan, "Floating-Point
+// Format Conversions"). Where they truncate, a running mean that is stored in every frame would darken by half a
+// percent.
 vec4 nearestHalf(vec4 v) {
   v = clamp(v, vec4(-kLargestHalf), vec4(kLargestHalf));
   const uvec4 bits = floatBitsToUint(v);

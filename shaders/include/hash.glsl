@@ -1,4 +1,4 @@
-// Integer hash pcg4d (Jarzynski and Olano 2020).
+// The integer hash pcg4d (Jarzynski & Olano 2020).
 #ifndef WALR_HASH_GLSL
 #define WALR_HASH_GLSL
 
@@ -16,10 +16,10 @@ uvec4 pcg4d(uvec4 v) {
   return v;
 }
 
-// Uniform in 0 .. count - 1.
-uint hashBelow(uvec4 key, uint count) {
+// Uniformly distributed in 0 .. count - 1.
+uint hashBelow(uvec4 seed, uint count) {
   uint high, low;
-  umulExtended(pcg4d(key).x, count, high, low);
+  umulExtended(pcg4d(seed).x, count, high, low);
   return high;
 }
 

@@ -1,5 +1,6 @@
-// The four history pixels around a reprojected position, each tested on its own.
-// With PACKED, histories are packed (utexture2D) as `unpackHistory` knows.
+// History taps: the four history pixels around a reprojected position. Each is tested on its own and accepted if it
+// shows the same surface.
+// PACKED: histories are packed light (utexture2D), which the includer's `unpackHistory` unpacks.
 #ifndef WALR_HISTORY_TAPS_GLSL
 #define WALR_HISTORY_TAPS_GLSL
 
@@ -12,9 +13,9 @@ vec4 historyTexel(texture2D history, ivec2 q) { return texelFetch(history, q, 0)
 #endif
 
 struct HistoryTaps {
-  ivec2 base;      // The upper left one.
-  vec2 fraction;   // Position past its centre, in [0, 1).
-  uint accepted;   // Bit i says that tap i, in the order of `historyTap`, shows the surface.
+  ivec2 base;      // The upper left tap.
+  vec2 fraction;   // Offset of the position from that tap's centre, in [0, 1).
+  uint accepted;   // Bit i: tap i, in the order of `historyTap`, is accepted.
 };
 const uint kAllTaps = 15u;
 
@@ -23,14 +24,14 @@ int tapsRejected(HistoryTaps taps) { return 4 - bitCount(taps.accepted); }
 ivec2 tapOffset(int i) { return ivec2(i & 1, i >> 1); }
 ivec2 historyTap(HistoryTaps taps, int i) { return taps.base + tapOffset(i); }
 
-// Bilinear weights of the taps that show the surface, 0 of the others.
+// Bilinear weights of the accepted taps; 0 for the others.
 vec4 tapWeights(HistoryTaps taps) {
   const vec2 f = taps.fraction, g = 1.0 - taps.fraction;
   const vec4 bilinear = vec4(g.x * g.y, f.x * g.y, g.x * f.y, f.x * f.y);
   return bilinear * vec4((uvec4(taps.accepted) >> uvec4(0u, 1u, 2u, 3u)) & 1u);
 }
 
-// Taps that sum to less say next to nothing about the position between them.
+// If the weights sum to less, the taps tell next to nothing about the position between them.
 const float kLeastTapWeight = 0.01;
 
 struct TapMean {
@@ -46,8 +47,8 @@ void add(inout TapMean mean, float weight, vec4 texel) {
 
 vec4 meanOf(TapMean mean) { return mean.weights > kLeastTapWeight ? mean.sum / mean.weights : vec4(0.0); }
 
-// Mean over the taps that show the surface and hold a sample: alpha is the number of samples behind a history pixel,
-// and one without any holds no light rather than black. 0 where there is no history at all.
+// Bilinear mean of the accepted taps that have a history; 0 if there is none. Alpha is the history length: a pixel of
+// length 0 is without light, not black, and does not count.
 vec4 meanOfTaps(HISTORY_TEXTURE history, HistoryTaps taps) {
   const vec4 weights = tapWeights(taps);
   TapMean mean = TapMean(vec4(0.0), 0.0);
@@ -56,20 +57,20 @@ vec4 meanOfTaps(HISTORY_TEXTURE history, HistoryTaps taps) {
   return meanOf(mean);
 }
 
-// Kept taps let later stages read histories of their own where accumulation has read its history. A pixel's texel, one
-// R32_UINT, is one of three things:
-//   where there is a surface   its motion and which taps show it (packTaps)
-//   where there is none        kNoSurfaceTaps, for readers that find so from this texel
-//                              or the light that passes through (packPassThrough of packed_light.glsl), for packed
-//                              anti-aliasing, which finds so from its filter's result (kFilteredNoSurface)
-// The second and the third are told apart by what is asked of the accumulation, not by the texel.
-// The motion is two halves whose two lowest mantissa bits make room for the accept bits, which leaves it a relative
-// rounding of 2^-9: 1/64 of a pixel where a surface moves by 8 to 16.
+// Kept taps: temporal accumulation keeps what its reprojection found in a texture, R32_UINT, so that later stages read
+// histories of their own without testing again. A texel is one of three things:
+//   where there is a surface   motion and accept bits (packTaps)
+//   where there is none        kNoSurfaceTaps, for readers that learn it from this texel
+//                              or the pass-through (packPassThrough of packed_light.glsl), for packed
+//                              anti-aliasing, which learns it from the filter's result (kFilteredNoSurface)
+// The texel does not tell the second from the third; the reader knows which of them accumulation was asked for.
+// Motion is stored as two halves. The accept bits take the two lowest mantissa bits of each, which leaves motion a
+// relative rounding error of 2^-9: 1/64 of a pixel where a surface moves by 8 to 16.
 const uint kNoSurfaceTaps = 0xffffffffu;
 const uint kMotionBits = 0xfffcfffcu;
 
-// The nearest motion that can be kept, ties to even. What the taps are tested at must be this very motion, lest rounding
-// shift the taps under their accept bits.
+// Rounds motion to what kept taps can hold, ties to even. Taps must be tested at this very motion: rounding after the
+// test could shift the taps under their accept bits.
 vec2 keepableMotion(vec2 motion) {
   motion = clamp(motion, vec2(-32768.0), vec2(32768.0));
   const uvec2 bits = floatBitsToUint(motion);
@@ -77,8 +78,9 @@ vec2 keepableMotion(vec2 motion) {
   return mix(rounded, vec2(0.0), lessThan(abs(motion), vec2(6.103515625e-5)));
 }
 
-// The four around where a pixel was, in a previous picture of another size: see FrameConstants. Precise, lest stages that
-// keep taps and stages that read them round to different sides of a pixel's centre.
+// The history taps of pixel `p`, none of them accepted yet. The previous frame may have another size (see
+// FrameConstants). `precise`, so that stages that keep taps and stages that read them never round to different sides of
+// a pixel's centre.
 HistoryTaps tapsAround(ivec2 p, vec2 motion, vec2 previousPixelFromPixel) {
   precise const vec2 position =
       (vec2(p) + motion) * previousPixelFromPixel + (0.5 * previousPixelFromPixel - 0.5);
@@ -86,7 +88,7 @@ HistoryTaps tapsAround(ivec2 p, vec2 motion, vec2 previousPixelFromPixel) {
   return HistoryTaps(ivec2(base), position - base, 0u);
 }
 
-// Those of the four that lie in a picture of the given size.
+// Accept bits of the taps that lie inside an image of the given size.
 uint tapsInside(HistoryTaps taps, ivec2 size) {
   uint inside = 0u;
   for (int i = 0; i < 4; ++i) {
@@ -96,13 +98,13 @@ uint tapsInside(HistoryTaps taps, ivec2 size) {
   return inside;
 }
 
-// `motion` must be keepable.
+// `motion`: a result of keepableMotion.
 uint packTaps(vec2 motion, uint accepted) {
   const uint bits = (accepted & 3u) | (accepted & 12u) << 14;
   return (packHalf2x16(motion) & kMotionBits) | bits;
 }
 
-// Of a pixel with a surface.
+// `kept`: texel of a pixel with a surface.
 HistoryTaps unpackTaps(ivec2 p, uint kept, vec2 previousPixelFromPixel) {
   HistoryTaps taps = tapsAround(p, unpackHalf2x16(kept & kMotionBits), previousPixelFromPixel);
   taps.accepted = (kept & 3u) | (kept >> 14 & 12u);

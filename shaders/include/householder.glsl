@@ -1,11 +1,11 @@
-// Least squares by Householder QR over one work group (Koskela et al. 2019, 3.4 and 6.1): a matrix of kRows x kColumns
-// values, of which the first kFeatures columns are features and the rest right-hand sides. Each thread keeps its rows
-// in registers; shared memory carries the sums and R only. Needs: kThreads, kRowsPerThread, kFeatures, kColumns,
-// `threadIndex` (uint).
+// Least squares by Householder QR over one work group (Koskela et al. 2019, 3.4 and 6.1). The matrix has kColumns
+// columns: first kFeatures features, then the right-hand sides. Each thread keeps kRowsPerThread rows in registers;
+// shared memory holds only the sums and R.
+// Needs: kThreads, kRowsPerThread, kFeatures, kColumns, `threadIndex` (uint).
 #ifndef WALR_HOUSEHOLDER_GLSL
 #define WALR_HOUSEHOLDER_GLSL
 
-const uint kLanes = 16u;  // Threads that share the sum of one column.
+const uint kLanes = 16u;  // Threads that add up one column.
 const int kColours = kColumns - kFeatures;
 
 shared float partialSums[kColumns][kThreads];
@@ -17,7 +17,7 @@ shared float coefficients[kFeatures][kColours];
 
 float combine(float a, float b, bool largest) { return largest ? max(a, b) : a + b; }
 
-// Sum, or largest, of every column over the work group, from `partialSums` into `totals`.
+// Sum, or maximum, of every column over the work group, from `partialSums` into `totals`.
 void reduceColumns(int firstColumn, bool largest) {
   barrier();
   const int column = firstColumn + int(threadIndex / kLanes);
@@ -37,10 +37,10 @@ void reduceColumns(int firstColumn, bool largest) {
   barrier();
 }
 
-// Triangularise `rows` in place and solve for the coefficients of every right-hand side.
+// Triangularises `rows` in place and solves for the coefficients of every right-hand side.
 //
-// A column of which no more than `tolerance` (root mean square over the rows in use) is left, once earlier columns are
-// taken out, is dependent on them: it gets coefficient 0 and no reflection, and its pivot row goes to the next column.
+// A column depends on earlier columns if at most `tolerance` (root mean square over the rows in use) of it is left
+// without them. It gets coefficient 0 and no reflection, and its pivot row goes to the next column.
 void solveLeastSquares(inout float rows[kRowsPerThread][kColumns], float rowsInUse, float tolerance) {
   uint rank = 0u;
   [[unroll]] for (int k = 0; k < kFeatures; ++k) {

@@ -1,9 +1,10 @@
-// The light that a spatial filter reads: its mean over time, or a host's frame as it comes.
-// Needs: `accumulated` (texture2D; with PACKED utexture2D, which is always a mean). Else takes constant_id 20.
+// The light that a spatial filter reads: the accumulated mean, or the host's lighting of one frame.
+// Needs: `accumulated`: texture2D, or with PACKED utexture2D, which is always an accumulated mean. Without PACKED it
+// takes constant_id 20.
 #ifndef WALR_LIGHT_GLSL
 #define WALR_LIGHT_GLSL
 
-// Alpha: number of samples behind the light. Of a host's frame there is one where the light is finite.
+// Alpha: number of samples in the mean. For the lighting of one frame it is 1 where the light is finite, else 0.
 #ifdef PACKED
 #include "packed_light.glsl"
 

@@ -1,6 +1,6 @@
-// The averages that the regression needs, kept centred: means of the features X and the colour Y, covariances XX and XY.
-// Centred moments lose nothing to cancellation in half precision, where raw ones lose everything once features hardly
-// vary.
+// Moments of WALR over pixels: what regression needs to know of a window. Means of the features X and the colour Y, and
+// their covariances XX and XY. Centred moments lose nothing to cancellation in half precision; raw moments lose all
+// precision where features hardly vary.
 #ifndef WALR_MOMENTS_GLSL
 #define WALR_MOMENTS_GLSL
 #include "luminance.glsl"
@@ -14,14 +14,15 @@ struct Moments {
   float samples;   // W: sum of the sample weights.
 };
 
-// One pixel: no spread yet, and no weight where nothing was sampled (history length 0: all samples were NaN or infinite).
+// Moments of one pixel: covariances are 0. It weighs nothing without a sample (history length 0: all of its samples
+// were NaN or infinite).
 Moments momentsOf(vec2 features, vec4 accumulated) {
   const float l = luminance(accumulated.rgb);
   return Moments(features, accumulated.rgb, vec3(0.0), vec3(0.0), vec3(0.0), l * l, accumulated.a > 0.0 ? 1.0 : 0.0);
 }
 
-// Weighted merge of centred moments, C = sum w (C_i + (m_i - M)(m_i - M)^T) / sum w, in one pass: means are taken
-// relative to the first moments merged, which is the window's centre and so already near M.
+// Weighted merge of centred moments in one pass, C = sum w (C_i + (m_i - M)(m_i - M)^T) / sum w. Means are taken
+// relative to the first moments, those of the window's centre, which are near M.
 struct MomentSum {
   vec2 originX;
   vec3 originY;
@@ -49,7 +50,7 @@ void add(inout MomentSum s, float edgeWeight, Moments m) {
   s.sum.samples += w;
 }
 
-// Add a sum about the same origin.
+// Adds a sum with the same origin.
 void join(inout MomentSum s, MomentSum part) {
   s.sum.x += part.sum.x;
   s.sum.y += part.sum.y;
@@ -60,7 +61,7 @@ void join(inout MomentSum s, MomentSum part) {
   s.sum.samples += part.sum.samples;
 }
 
-// Without any sample: those of the centre, of weight 0.
+// The merged moments; those of the centre with weight 0 if there is no sample.
 Moments finish(MomentSum s) {
   const float scale = s.sum.samples > 0.0 ? 1.0 / s.sum.samples : 0.0;
   const vec2 dx = s.sum.x * scale;

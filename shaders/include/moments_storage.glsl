@@ -1,10 +1,10 @@
-// How moments lie in memory between two iterations. One of the macros CENTRED16, RAW16, RAW11 and RAW32 chooses:
+// Storage of moments between two iterations. One of four macros chooses the format:
 //   CENTRED16  means and covariances as halves, with the sample count and the root of the mean squared luminance
 //   RAW16      raw moments as halves (Meunier & Harada 2022, 5.2, RGBA16_FLOAT)
 //   RAW11      raw moments as unsigned 11- and 10-bit floats (Meunier & Harada 2022, 5.2, R11G11B10_FLOAT)
-//   RAW32      raw moments in single precision, to tell storage from arithmetic
-// Raw formats hold the averages of products that the paper stores; they drop the sample count as it does. Features that
-// are 0 in the mean tell pixels without a sample: no normal that faces the camera lies in that corner of the map.
+//   RAW32      raw moments in single precision, to study the effect of storage alone
+// Raw formats hold averages of products and, like the paper, no sample count. Both mean features are 0 where a pixel
+// has no sample: no normal that faces the camera lies in that corner of the octahedral map.
 #ifndef WALR_MOMENTS_STORAGE_GLSL
 #define WALR_MOMENTS_STORAGE_GLSL
 #include "finite.glsl"
@@ -85,7 +85,7 @@ uint packUnsignedFloat(float x, int mantissaBits) {
   const int drop = 23 - mantissaBits;
   const uint largest = (30u << mantissaBits) | ((1u << mantissaBits) - 1u);
   if (!(x > 0.0)) return 0u;
-  if (x < 6.103515625e-5) return uint(roundEven(x * exp2(float(14 + mantissaBits))));  // Denormals.
+  if (x < 6.103515625e-5) return uint(roundEven(x * exp2(float(14 + mantissaBits))));  // Subnormal.
   const uint rounded = floatBitsToUint(x) + (1u << (drop - 1)) - 1u + ((floatBitsToUint(x) >> drop) & 1u);
   return min((rounded >> drop) - (112u << mantissaBits), largest);
 }
@@ -104,7 +104,7 @@ vec3 unpackTriple(uint v) {
 }
 #endif
 
-// The fourteen averages of products: X, XX, Y, YX.
+// The fourteen raw moments: averages of X, XX, Y and YX.
 struct RawMoments {
   vec2 x;
   vec3 xx;
@@ -174,8 +174,8 @@ Moments unpackMoments(PackedMoments p) {
 
 #endif
 
-// A pixel without a surface has no moments. Their place keeps the light that such a pixel came with, bit by bit, so that
-// the last iteration need not read it from where the first did.
+// Where a pixel has no surface, its texel holds the pass-through instead of moments, so that the last iteration need
+// not read the input.
 #ifdef FIRST
 uvec2 packedPassThrough(ivec2 p) {
   const vec3 light = passThroughLight(accumulated, p);

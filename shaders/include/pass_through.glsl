@@ -1,4 +1,5 @@
-// Light of a pixel without a surface, which passes through as it is but for what is not finite.
+// Pass-through: the light of a pixel without a surface. It is not changed, except that values that are not finite
+// become 0.
 #ifndef WALR_PASS_THROUGH_GLSL
 #define WALR_PASS_THROUGH_GLSL
 #include "finite.glsl"

@@ -1,4 +1,4 @@
-// The tangent plane at the filtered pixel. Distances from it are taken in units of the pixel's depth.
+// The tangent plane at a pixel, for edge-stopping. Distances from it are in units of the pixel's depth.
 // Needs: `frame` (FrameConstants).
 #ifndef WALR_PLANE_GLSL
 #define WALR_PLANE_GLSL
@@ -14,7 +14,8 @@ Plane planeAt(ivec2 p, float z, vec3 normal) {
   return Plane(normal, dot(normal, rayThrough(frame.rayFromPixel, pixelCentre(p))), 1.0 / z);
 }
 
-// Distance of the surface that pixel `q` shows at depth `z`.
+// Distance from the plane, over the depth of its pixel, of the surface that pixel `q` shows at depth `z`: delta in
+// passes/WALR.md, 4.
 float planeDistance(Plane plane, ivec2 q, float z) {
   const vec3 ray = rayThrough(frame.rayFromPixel, pixelCentre(q));
   return abs(z * plane.inverseDepth * dot(plane.normal, ray) - plane.offset);

@@ -1,5 +1,5 @@
-// Weighted linear regression from its moments (Meunier & Harada 2022, 3.1): solve for the coefficients, then
-// reconstruct.
+// Weighted linear regression on two features from its moments (Meunier & Harada 2022, 3.1): solve for the coefficients,
+// then reconstruct the colour.
 #ifndef WALR_REGRESSION_GLSL
 #define WALR_REGRESSION_GLSL
 #include "finite.glsl"
@@ -15,16 +15,16 @@ float relativeVariance(Moments m) {
   return mean > 0.0 ? max(m.luma2 / (mean * mean) - 1.0, 0.0) : 0.0;
 }
 
-// Cholesky factor of the covariance of the features. With the constant as first feature the decomposition is that of the
-// centred system, so only its 2x2 block is left to do.
+// Cholesky factor of the covariance of the features. Solving the constant first leaves the centred system, so that only
+// its 2 x 2 block has to be decomposed.
 struct Factor {
   float l[kCovariances];
   float smallestPivot;   // Before regularisation.
   float regularisation;  // The ridge or the floor.
 };
 
-// Either pivots no smaller than the floor `ridge` (algorithm 1's epsilon), or a ridge on the diagonal that grows with the
-// noise of the mean, because a slope that the samples do not support is worse than none.
+// Regularises with a floor under the pivots (`ridge`: epsilon of algorithm 1), or with a ridge on the diagonal that
+// grows with the noise of the mean: a slope that the samples do not support is worse than none.
 Factor factorOf(Moments m, bool pivotFloor, float ridge, float noiseRidge) {
   const bool noisy = !pivotFloor && m.samples > 0.0;
   const float lambda = ridge + (noisy ? noiseRidge * relativeVariance(m) / m.samples : 0.0);
@@ -36,7 +36,7 @@ Factor factorOf(Moments m, bool pivotFloor, float ridge, float noiseRidge) {
   return c;
 }
 
-// Coefficients of the two features (algorithm 2).
+// Coefficients of the two features (Meunier & Harada 2022, algorithm 2).
 struct Slopes {
   vec3 u, v;
 };
@@ -51,7 +51,7 @@ vec3 fitted(Moments m, Slopes slopes, vec2 features) {
   return m.y + slopes.u * d.x + slopes.v * d.y;
 }
 
-// The fitted colour, no less than 0 and no larger than a half can be.
+// The fitted colour, clamped to 0 and the largest half.
 vec3 reconstruct(Moments m, vec2 features, bool pivotFloor, float ridge, float noiseRidge) {
   const Slopes slopes = slopesOf(m, factorOf(m, pivotFloor, ridge, noiseRidge));
   return clamp(fitted(m, slopes, features), vec3(0.0), vec3(kLargestHalf));

@@ -1,10 +1,13 @@
-// Where a surface was in the previous frame, and whether a history pixel shows it.
-// Needs: `frame` (FrameConstants), `depth`, `motion`, `previousDepth`, `previousGeometricNormal`, HISTORY, which is the name
-// of a texture of the previous picture's size, and, with OBJECTS, `objects` and `previousObjects`. What is specialized away
-// is never read: `motion` where nothing but the camera moves (kMotionFromCamera), the others where the test is not made that
-// reads them (kRejectByPlane, kRejectByDepth, kRejectByObject). Without any test every pixel of the picture is accepted.
-// KEEP_TAPS: the motion is rounded to what kept taps hold; a view (VIEW) is told whether it is. Takes constant_id 0, 1 and
-// 10 to 15.
+// Reprojection: where a surface was in the previous frame, and which history taps show it.
+// Needs: `frame` (FrameConstants), `depth`, `motion`, `previousDepth`, `previousGeometricNormal`, and the macro
+// HISTORY, the name of a texture of the previous frame's size.
+// OBJECTS: also tests object ids; needs `objects` and `previousObjects`.
+// KEEP_TAPS: motion is rounded to what kept taps can hold (history_taps.glsl); with VIEW, kKeepableMotion says whether
+// it is.
+// A texture is not read if no specialization constant asks for it: `motion` with kMotionFromCamera (nothing but the
+// camera moves), the others without the test that reads them (kRejectByPlane, kRejectByDepth, kRejectByObject). Without
+// any test, every pixel inside the image is accepted.
+// Takes constant_id 0, 1 and 10 to 15.
 #ifndef WALR_REPROJECTION_GLSL
 #define WALR_REPROJECTION_GLSL
 #include "camera.glsl"
@@ -33,12 +36,13 @@ struct Reprojection {
   vec2 motion;     // To the previous frame, pixels of this one.
   vec3 position;   // The surface in the previous frame's view space.
 #ifdef OBJECTS
-  uint object;     // Whose surface it is; 0: nobody's. Only with kRejectByObject.
+  uint object;     // Object id of the surface plus 1; 0: none. Only with kRejectByObject.
 #endif
   bool valid;
 };
 
-// The pixel of the 3x3 neighbourhood that is nearest to the camera: along silhouettes it carries the occluder's motion.
+// The pixel of the 3 x 3 neighbourhood that is nearest to the camera. Along silhouettes it is one of the occluder,
+// whose motion the history follows.
 ivec2 nearestPixel(ivec2 p, float z) {
   ivec2 nearest = p;
   for (int i = 0; i < 9; ++i) {
@@ -52,7 +56,7 @@ ivec2 nearestPixel(ivec2 p, float z) {
   return nearest;
 }
 
-// Where the previous camera has the still surface that pixel `p` shows at depth `z`, in its view space.
+// Position of pixel `p` at depth `z` in the view space of the previous camera, if its surface did not move.
 vec3 previousPositionAt(ivec2 p, float z) {
   return previousPosition(frame.previousViewFromView, rayThrough(frame.rayFromPixel, pixelCentre(p)) * z);
 }
@@ -71,7 +75,7 @@ Reprojection reproject(ivec2 p, float z) {
   Reprojection r;
   vec2 exact = motionAt(kDilateMotion ? nearestPixel(p, z) : p);
   if (kJitter) exact -= frame.jitterDelta;
-  // What is not finite leads out of any picture.
+  // Motion that is not finite leads outside any image.
   r.motion = isFinite(exact) ? exact : vec2(kLargestHalf);
   if (kKeepableMotion) r.motion = keepableMotion(r.motion);
   const vec2 pixel = pixelCentre(p) + r.motion;
@@ -86,9 +90,9 @@ Reprojection reproject(ivec2 p, float z) {
   return r;
 }
 
-// True where the history pixel `q` shows the reprojected surface, by kRejectByPlane within a plane distance relative to
-// depth and with a geometric normal that agrees, by kRejectByDepth within a distance relative to depth, by kRejectByObject
-// of the same object.
+// Whether the history pixel `q` shows the reprojected surface. kRejectByPlane: it is within `tolerance` x depth of the
+// surface's plane, and its geometric normal agrees. kRejectByDepth: its depth is within `tolerance` x depth.
+// kRejectByObject: it shows the same object.
 bool historyMatches(Reprojection r, vec3 normal, ivec2 q, float tolerance, float normalThreshold) {
   if (any(lessThan(q, ivec2(0))) || any(greaterThanEqual(q, textureSize(HISTORY, 0)))) return false;
 #ifdef OBJECTS
@@ -105,7 +109,7 @@ bool historyMatches(Reprojection r, vec3 normal, ivec2 q, float tolerance, float
          dot(normal, normalThere) >= normalThreshold;
 }
 
-// `normal` is the geometric normal of pixel `p`, which only kRejectByPlane looks at.
+// The history taps of pixel `p`. `normal`: its geometric normal, used only by kRejectByPlane.
 HistoryTaps historyTaps(ivec2 p, Reprojection r, vec3 normal, float tolerance, float normalThreshold) {
   HistoryTaps taps = tapsAround(p, r.motion, frame.previousPixelFromPixel);
   if (!r.valid) return taps;

@@ -1,9 +1,11 @@
-// The guides of one pixel: linear view depth with the distance to the nearest edge, shading and geometric normal.
+// Storage of the guides of one pixel: view depth with the distance to the nearest edge, shading and geometric normal,
+// ambient occlusion.
 #ifndef WALR_SURFACE_GLSL
 #define WALR_SURFACE_GLSL
 
-// Depth and signed distance field share one R32_UINT: the distance takes the five lowest mantissa bits, which leaves
-// depth a relative rounding of 2^-19. Depth 0 marks a pixel without a surface to denoise.
+// Depth and edge distance share one R32_UINT. The distance takes the five lowest mantissa bits, which leaves depth a
+// relative rounding error of 2^-19. Depth 0 marks a pixel without a surface to denoise. The distance is called signed
+// distance field, SDF, as in the paper (Meunier & Harada 2022, 5.2).
 const uint kSdfMask = 31u;
 
 uint packDepthSdf(float depth, uint sdf) {
@@ -13,8 +15,8 @@ uint packDepthSdf(float depth, uint sdf) {
 float unpackDepth(uint packed) { return uintBitsToFloat(packed & ~kSdfMask); }
 uint unpackSdf(uint packed) { return packed & kSdfMask; }
 
-// Octahedral map of a unit vector with the pole on +Z, the view axis, so that normals that face the camera do not wrap
-// (Cigolle et al. 2014; Meunier & Harada 2022, 5.2). Result in [0, 1].
+// Octahedral map of a unit vector with its pole on +Z, the view axis: normals that face the camera do not wrap around
+// (Cigolle et al. 2014; Meunier & Harada 2022, 5.2). The result is in [0, 1].
 vec2 octahedralEncode(vec3 n) {
   n /= abs(n.x) + abs(n.y) + abs(n.z);
   const vec2 fold = (1.0 - abs(n.yx)) * vec2(n.x < 0.0 ? -1.0 : 1.0, n.y < 0.0 ? -1.0 : 1.0);
@@ -28,11 +30,12 @@ vec3 octahedralDecode(vec2 uv) {
   return normalize(vec3(z < 0.0 ? fold : e, z));
 }
 
-// The two halves of the map in whole steps.
+// The two coordinates of the map, quantised to `steps` steps.
 uvec2 octahedralSteps(vec3 n, float steps) { return uvec2(round(clamp(octahedralEncode(n), 0.0, 1.0) * steps)); }
 
-// A normal in one R32_UINT. Of the shading normal the two halves, in [0, 1], are the regression's features. The second is
-// never 0, which tells it from a short one.
+// A normal in one R32_UINT: two 16-bit coordinates of the octahedral map. Those of the shading normal, in [0, 1], are
+// the features of the regression over pixels. The second coordinate is never 0, which tells this format from a short
+// normal.
 const uint kShortNormalEnd = 1u << 16;
 
 uint packNormal(vec3 n) {
@@ -41,8 +44,8 @@ uint packNormal(vec3 n) {
 }
 vec2 unpackFeatures(uint packed) { return unpackUnorm2x16(packed); }
 
-// A normal in one R16_UINT, to within a degree: what spans the plane of few pixels needs no more. The steps are even in
-// number, so that what faces the camera does so exactly.
+// A short normal: R16_UINT, accurate to a degree, which suffices for the plane of a block. The number of steps is even,
+// so that a normal along the view axis is exact.
 const float kShortNormalSteps = 254.0;
 
 uint packShortNormal(vec3 n) {
@@ -53,12 +56,12 @@ vec3 unpackShortNormal(uint packed) {
   return octahedralDecode(vec2(packed & 0xffu, packed >> 8 & 0xffu) / kShortNormalSteps);
 }
 
-// Of either kind.
+// Unpacks a normal of either format.
 vec3 unpackNormal(uint packed) {
   return packed < kShortNormalEnd ? unpackShortNormal(packed) : octahedralDecode(unpackUnorm2x16(packed));
 }
 
-// The shading normal, twice twelve bits, and ambient occlusion, in [0, 1], eight bits, in one R32_UINT.
+// Shading normal (two coordinates of 12 bits) and ambient occlusion in [0, 1] (8 bits) in one R32_UINT.
 struct NormalAndOcclusion {
   vec3 normal;
   float occlusion;

@@ -1,5 +1,5 @@
-// What the passes of SVGF share: the form in which colour and variance travel, and the edge-stopping functions that need
-// no colour (Fu 2022, W_Z and W_N).
+// Shared by the passes of SVGF: how colour and variance are stored, and the edge-stopping functions W_Z and W_N, which
+// need no colour (Fu 2022).
 // Needs: `frame` (FrameConstants), `depth`, `shadingNormal`, `geometricNormal` (utexture2D), `constants`
 // (SvgfFilterConstants).
 #ifndef WALR_SVGF_GLSL
@@ -7,8 +7,8 @@
 #include "plane.glsl"
 #include "surface.glsl"
 
-// Alpha carries the standard deviation of the luminance, because a variance would overflow a half from 256 on. Below 0
-// no sample has been seen yet: such a pixel lends nothing to its neighbours and takes its value from them.
+// Alpha holds the standard deviation of luminance: the variance would overflow a half from 256 on. Below 0 the pixel
+// has no sample yet: its neighbours do not use it, and it takes its value from them.
 const float kNoSample = -1.0;
 
 struct Surface {
@@ -21,8 +21,8 @@ Surface surfaceAt(ivec2 p, float z) {
                  unpackNormal(texelFetch(shadingNormal, p, 0).x));
 }
 
-// W_Z W_N of pixel `q`; 0 outside the image and where there is nothing to denoise. The depth term measures the distance
-// from the tangent plane, which is what depth differs by beyond its gradient, so that it is 1 on any plane.
+// W_Z W_N of pixel `q`; 0 outside the image and where there is nothing to denoise. W_Z uses the distance from the
+// tangent plane, which is the difference in depth beyond the depth gradient: it is 1 everywhere on a plane.
 float surfaceWeight(Surface surface, ivec2 q) {
   if (any(lessThan(q, ivec2(0))) || any(greaterThanEqual(q, textureSize(depth, 0)))) return 0.0;
   const float z = unpackDepth(texelFetch(depth, q, 0).x);

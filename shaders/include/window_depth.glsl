@@ -1,5 +1,5 @@
-// The depth to which the features of a window that no edge stops are relative: the harmonic mean bounds them, because
-// their mean is then 0.
+// The reference depth of a window that no edge ends. It is the harmonic mean of the depths, which bounds the depth
+// feature: the mean of the feature is then 0.
 #ifndef WALR_WINDOW_DEPTH_GLSL
 #define WALR_WINDOW_DEPTH_GLSL
 
