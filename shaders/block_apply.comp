@@ -6,8 +6,8 @@
 // The result is a mixture of both. The fewer samples the windows of the fine fits hold, the larger is the share of the
 // coarse prediction (coarse_share.glsl). The cells are not read where that share is 0.
 // A pixel without a surface (depth 0) is not filtered: its pass-through is copied to the result.
-// PACKED: the result is packed light (packed_light.glsl). A pixel without a surface gets the mark kFilteredNoSurface, and
-// anti-aliasing outputs the pass-through.
+// PACKED: the result is packed light (packed_light.glsl). A pixel without a surface gets the mark kFilteredNoSurface,
+// and anti-aliasing outputs the pass-through.
 // VIEW: writes an intermediate value instead of the result, and black where there is no surface. The cells are always
 // read. With VIEW, PACKED means that `accumulated` is packed.
 #version 460
@@ -160,8 +160,8 @@ Prediction predictFine(ivec2 p, float z, NormalAndOcclusion guides) {
     const uint packedNormal = texelFetch(fitNormal, block, 0).x;
     const vec3 normal = blockNormal(packedNormal);
     const Plane plane = planeAt(representativePixel(block, kBlockSize, packedNormal), blockZ, normal);
-    // Edge-stopping function of the distance (relative to blockZ), and cosine between the normals.
-    const float weight = bilinear * onPlane(planeDistance(plane, p, z)) * facing(normal, guides.normal);
+    // u of passes/WALR.md; the distance is in units of blockZ.
+    const float weight = bilinear * edgeStopping(planeDistance(plane, p, z)) * normalCosine(normal, guides.normal);
     add(sum, weight, loadFine(block), featuresOf(guides, blockZ / z - 1.0));
   }
   return sum;
