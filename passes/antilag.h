@@ -7,8 +7,8 @@
 
 namespace walr {
 
-/// Settings of antilag: temporal accumulation shortens its history where light changes and no motion vector tells: a
-/// lamp goes out, a door opens, a light or a caster of shadows moves.
+/// Settings of antilag: it shortens the history of temporal accumulation where the light changes although no surface
+/// moves: a lamp goes out, a door opens, a light or an object that casts a shadow moves.
 struct AntilagSettings {
   bool enabled = false;
   std::uint32_t radius = 2;
@@ -16,37 +16,37 @@ struct AntilagSettings {
   float scoreHigh = 4.0F;
 
   void visit(SettingVisitor& v) {
-    v.visit({"accumulation.antilag",
-             "Shorten history where the light of a window differs from it by more than noise explains", "", 0, 1,
-             "measured"},
+    v.visit({"accumulation.antilag", "Shorten history where the light has changed by more than noise explains", "", 0,
+             1, "measured"},
             enabled);
-    v.visit({"accumulation.antilag-radius", "Reach of that window around a tile of 8 x 8 pixels", "tiles", 0, 8,
+    v.visit({"accumulation.antilag-radius",
+             "Radius of the window of tiles, 8 x 8 pixels each, over which the change is measured", "tiles", 0, 8,
              "measured"},
             radius);
-    v.visit({"accumulation.antilag-low", "Difference up to which history counts in full; below antilag-high",
+    v.visit({"accumulation.antilag-low", "Change of the light up to which history counts in full; below antilag-high",
              "standard errors", 0.0, 100.0, "measured"},
             scoreLow);
-    v.visit({"accumulation.antilag-high", "Difference from which history counts as one sample", "standard errors", 0.0,
-             100.0, "measured"},
+    v.visit({"accumulation.antilag-high", "Change of the light from which history counts as one sample",
+             "standard errors", 0.0, 100.0, "measured"},
             scoreHigh);
   }
 };
 
-/// What temporal accumulation and antilag hand each other: by tiles of 8 x 8 pixels.
+/// Textures that temporal accumulation and antilag exchange: a texel for each tile of 8 x 8 pixels.
 struct Antilag {
   fg::History factor;  ///< R32_SFLOAT: 0 where history counts in full, 1 where it counts as one sample.
-  /// R32G32_SFLOAT: over a tile, the sum of the luminance of this frame's samples less that of history, and the sum of
-  /// its squares.
+  /// R32G32_SFLOAT: sums over a tile of d and d^2, where d is the luminance of this frame's sample less that of
+  /// history.
   fg::Texture tiles;
 };
 
 /// Declare the textures.
-/// @param pixels the picture's extent
+/// @param pixels the image's extent
 Antilag declareAntilag(fg::Graph& graph, fg::Extent pixels);
 
-/// Find where the light has changed, for the next frame.
-/// @param antilag as the accumulation of this frame left it
-/// @throws std::invalid_argument where the settings contradict each other
+/// Add the pass that computes the antilag factor for the next frame.
+/// @param antilag as the accumulation of this frame wrote it
+/// @throws std::invalid_argument if antilag-low is not below antilag-high
 void addAntilag(fg::Graph& graph, const Antilag& antilag, const AntilagSettings& settings);
 
 }  // namespace walr

@@ -14,13 +14,13 @@
 namespace walr {
 namespace {
 
-/// What the passes share.
+/// Shared by all passes: the grids of blocks and cells, and the constants of the shaders.
 struct BlockGrid {
   StageGraph graph;
   fg::Buffer frame;
   fg::Extent pixels;
   fg::Extent blocks;
-  fg::Extent cells;          // Of the coarse fit.
+  fg::Extent cells;          // Size of the grid of the coarse fit.
   std::uint32_t size;        // Pixels per axis of a block.
   std::uint32_t cellBlocks;  // Blocks per axis of a cell.
   std::uint32_t cellSize;    // Pixels per axis of a cell.
@@ -33,7 +33,8 @@ struct BlockAverages {
   fg::Texture depth;
 };
 
-/// Cells are merged by workgroups, whose sides they divide.
+/// Side of a cell in blocks: the largest power of two with at most `cellPixels` and 8 pixels. A workgroup merges the
+/// cells of its blocks, so that the side of a cell must divide the workgroup's.
 std::uint32_t cellBlocksFor(float cellPixels, std::uint32_t blockSize) {
   constexpr float kMostPixels = 8.0F;
   std::uint32_t blocks = 1;
@@ -41,7 +42,7 @@ std::uint32_t cellBlocksFor(float cellPixels, std::uint32_t blockSize) {
   return blocks;
 }
 
-/// Also the unit of `coarseSigma` becomes that of the shaders: cells in place of the share of the picture's height.
+/// Converts the unit of `coarseSigma` from the setting's, the fraction of the image's height, to the shaders', cells.
 BlockGrid gridOf(StageGraph graph, fg::Buffer frame, fg::Extent pixels, const BlockRegressionSettings& s) {
   const fg::Extent blocks = gridExtent(pixels, s.size);
   const float sigma = s.coarseSigma * static_cast<float>(pixels.height);
@@ -82,7 +83,7 @@ BlockAverages writeAverages(const BlockGrid& grid, fg::PassBuilder& pass, fg::Ex
   return averages;
 }
 
-/// All of them but their depth.
+/// Write fits; their depth is left to the caller.
 FitTextures writeFits(const BlockGrid& grid, fg::PassBuilder& pass, fg::Extent extent, const std::string& name) {
   const auto store = [&](const char* binding, const char* part) {
     return pass.store(binding, grid.graph->texture(name + part, {VK_FORMAT_R32G32B32A32_UINT, extent}));
@@ -90,8 +91,8 @@ FitTextures writeFits(const BlockGrid& grid, fg::PassBuilder& pass, fg::Extent e
   return {.a = store("outFitA", " a"), .b = store("outFitB", " b"), .c = store("outFitC", " c"), .depth = {}};
 }
 
-/// The fit of a Gaussian window around every cell, regardless of edges, grown where the light is the same and the
-/// blocks' fits, whose depth this reads, want samples.
+/// The fit of a Gaussian window around every cell, regardless of edges. The window grows where the light is the same
+/// and where a block has not converged, which `fitDepth`, that of the fine fits, says.
 FitTextures addCoarseFit(const BlockGrid& grid, const BlockAverages& averages, fg::Texture fitDepth) {
   const auto declare = [&](const std::string& name, const fg::Shader& shader, const BlockAverages& read) {
     fg::PassBuilder pass = grid.graph->compute(name, shader);
@@ -112,7 +113,7 @@ FitTextures addCoarseFit(const BlockGrid& grid, const BlockAverages& averages, f
   return fits;
 }
 
-/// In the order of `kView` of block_atrous.comp. Names of what the regression over pixels has, too, are the same.
+/// In the order of `kView` of block_atrous.comp. Views that the regression over pixels also has share its names.
 const std::vector<ViewInfo>& iterationViews() {
   static const std::vector<ViewInfo> kViews{
       {"edges",
@@ -202,7 +203,7 @@ FitTextures addFineFit(const BlockGrid& grid, BlockAverages averages, fg::Textur
   }
 }
 
-/// What gathers the blocks' samples and what fits them to the pixels again read the same pixels.
+/// A pass that reads the features of pixels: both the moments of blocks and the reconstruction do.
 fg::PassBuilder readPixels(const BlockGrid& grid, const Guides& guides, const std::string& name,
                            const fg::Shader& shader) {
   fg::PassBuilder pass = grid.graph->compute(name, shader);

@@ -11,7 +11,7 @@
 
 namespace walr {
 
-/// Settings of the regression over blocks of pixels.
+/// Settings of the regression over blocks of pixels (passes/WALR.md, 4 to 8).
 struct BlockRegressionSettings {
   std::uint32_t size = 8;
   std::uint32_t iterations = 4;
@@ -43,14 +43,13 @@ struct BlockRegressionSettings {
     v.visit({"blocks.sdf-fraction", "Share of the distance to the nearest edge that edge tracing steps at once", "",
              0.0, 1.0, "Meunier & Harada 2022, 5.2"},
             sdfFraction);
-    v.visit(
-        {"blocks.ridge", "Ridge on the diagonal of the covariance of the features, which are of the order of 1 or less",
-         "", 1e-9, 1.0, "measured"},
-        ridge);
+    v.visit({"blocks.ridge", "Ridge on the diagonal of the covariance of the features, which are of order 1 or less",
+             "", 1e-9, 1.0, "measured"},
+            ridge);
     v.visit(
         {"blocks.growth-errors",
-         "Up to how many standard errors of difference in luminance a block joins another's window in full; at twice "
-         "as many it does not at all. The error is that of means of samples of their pixels' variance",
+         "Growth of fine fits: a block joins another's window in full up to this difference of their mean luminances, "
+         "and not at all from twice as much on. The errors are those of means of W samples with the pixels' variance",
          "standard errors", 0.001, 1e6, "measured"},
         growthErrors);
     v.visit(
@@ -58,61 +57,62 @@ struct BlockRegressionSettings {
          "Standard deviation of the Gaussian window of the coarse fit, which no edge stops, at one sample per pixel",
          "fraction of the image's height", 0.001, 0.2, "measured"},
         coarseSigma);
-    v.visit({"blocks.coarse-narrowing", "Power of the samples per pixel by which that window narrows", "", 0.0, 1.0,
-             "measured"},
-            coarseNarrowing);
-    v.visit({"blocks.coarse-reach", "Distance at which that window ends", "sigma", 1.0, 6.0, "measured"}, coarseReach);
     v.visit(
-        {"blocks.coarse-resolution",
-         "Cells of the coarse fit's grid that this standard deviation spans at least, if of one block at least and of "
-         "8 x 8 pixels at most; a cell's side is of 1, 2 or 4 blocks",
-         "cells", 0.5, 100.0, "measured"},
-        coarseResolution);
+        {"blocks.coarse-narrowing", "The coarse window narrows with this power of the samples per pixel; 0: not at all",
+         "", 0.0, 1.0, "measured"},
+        coarseNarrowing);
+    v.visit({"blocks.coarse-reach", "Distance at which the coarse window ends", "sigma", 1.0, 6.0, "measured"},
+            coarseReach);
+    v.visit({"blocks.coarse-resolution",
+             "Least number of cells that coarse-sigma spans. Cells are as large as it allows: 1, 2 or 4 blocks a side, "
+             "at most 8 pixels if more than one",
+             "cells", 0.5, 100.0, "measured"},
+            coarseResolution);
+    v.visit({"blocks.coarse-growth-errors",
+             "Growth of coarse fits: a window joins that of a cell in full up to this error of the cell's fit at the "
+             "window's mean, and not at all from twice as much on",
+             "standard errors", 0.001, 1e6, "measured"},
+            coarseGrowthErrors);
     v.visit(
-        {"blocks.coarse-growth-errors",
-         "Up to how many standard errors a cell's fit may miss the mean of a window around it that joins its own in "
-         "full; at twice as many that does not at all",
-         "standard errors", 0.001, 1e6, "measured"},
-        coarseGrowthErrors);
-    v.visit({"blocks.coarse-growth-occlusion",
-             "How much fewer these errors are where occluders are near: by 1 + this x ambient occlusion", "", 0.0,
-             100.0, "measured"},
-            coarseGrowthOcclusion);
-    v.visit({"blocks.coarse-samples", "Samples that the coarse fit counts for beside those in a block's window",
-             "samples", 0.0, 1e6, "measured"},
-            coarseSamples);
+        {"blocks.coarse-growth-occlusion",
+         "Near occluders coarse-growth-errors is divided by 1 + this x ambient occlusion", "", 0.0, 100.0, "measured"},
+        coarseGrowthOcclusion);
     v.visit(
-        {"blocks.coarse-least-share",
-         "Share of the mixture at which the coarse fit is left out, which saves time; from twice as much on it counts "
-         "in full",
-         "", 1e-6, 0.5, "measured"},
-        coarseLeastShare);
+        {"blocks.coarse-samples", "Samples that the coarse fit counts for in the mixture with a fine fit of W samples",
+         "samples", 0.0, 1e6, "measured"},
+        coarseSamples);
+    v.visit({"blocks.coarse-least-share",
+             "The coarse fit is left out, to save time, where its share of the mixture is below this; from twice as "
+             "much on it counts in full",
+             "", 1e-6, 0.5, "measured"},
+            coarseLeastShare);
   }
 };
 
-/// What blocks are regressed over, and how.
+/// The light that the regression over blocks fits, and the storage of its result.
 struct BlockLight {
-  fg::Texture accumulated;    ///< RGBA16F, or packed: radiance; a value that is not finite is no sample.
-  LightingAlpha alpha;        ///< What the alpha channel of `accumulated` says; a pixel with no sample has no say.
-  fg::Texture lighting = {};  ///< The host's; of need where `accumulated` is packed and the result is not.
-  LightStorage result = LightStorage::Half;  ///< Packed: the light of pixels without a surface is not passed on.
+  fg::Texture accumulated;    ///< RGBA16F, or packed: radiance; values that are not finite do not count.
+  LightingAlpha alpha;        ///< What the alpha channel of `accumulated` holds; pixels without samples do not count.
+  fg::Texture lighting = {};  ///< The host's; needed only if `accumulated` is packed and the result is not.
+  LightStorage result = LightStorage::Half;  ///< Packed: holds no pass-through; see packed_light.glsl.
 };
 
 /// The fit of every block or cell, and the depth that its depth feature is relative to (block_storage.glsl).
 struct FitTextures {
   fg::Texture a, b, c;  ///< R32G32B32A32_UINT: coefficients and sample count.
-  fg::Texture depth;    ///< R32_UINT; of a block also whether its fit holds samples enough.
+  fg::Texture depth;    ///< R32_UINT; for blocks also whether the fit has converged.
 };
 
-/// What the regression leaves to the reconstruction.
+/// The fits of a frame, which the reconstruction reads.
 struct BlockFits {
-  FitTextures fine;    ///< A texel a block.
-  FitTextures coarse;  ///< A texel a cell of the coarse fit's grid.
-  fg::Texture normal;  ///< R32_UINT: of every block, its plane's normal and the pixel that stands for it.
+  FitTextures fine;    ///< One texel per block.
+  FitTextures coarse;  ///< One texel per cell.
+  fg::Texture normal;  ///< R32_UINT: normal of each block's plane, and its representative pixel.
 };
 
 /// Weighted linear regression of the lighting on {1, normal, inverse depth, ambient occlusion} over blocks of pixels:
-/// edge-aware a-trous averages, and a coarse fit where they hold few samples. Offers the views of every iteration.
+/// fine fits from edge-aware a-trous averages, and coarse fits where fine ones have few samples. Offers the views of
+/// every iteration.
 /// @param frame  upload of `FrameConstants`
 /// @param guides with `features`
 /// @throws std::invalid_argument for settings outside their range
@@ -121,9 +121,9 @@ BlockFits addBlockRegression(StageGraph graph, fg::Buffer frame, const BlockLigh
 
 /// Reconstruct every pixel from the fits around it and its own features.
 /// @param frame    upload of `FrameConstants`
-/// @param light    what the fits are of
+/// @param light    as given to `addBlockRegression`
 /// @param settings of the regression
-/// @returns as `light.result` says: filtered radiance; RGBA16F: sky and pixels without a diffuse lobe as they were
+/// @returns filtered radiance in the storage `light.result`; RGBA16F also holds the pass-through
 fg::Texture addBlockReconstruction(StageGraph graph, fg::Buffer frame, const BlockLight& light, const Guides& guides,
                                    const BlockFits& fits, const BlockRegressionSettings& settings = {});
 

@@ -32,9 +32,9 @@ struct BmfrSettings {
   }
 };
 
-/// The defaults: half as long a mean of fitted frames as published, for the anti-aliasing after it averages, too.
+/// The defaults. Fitted frames are averaged half as long as published, because anti-aliasing averages them, too.
 BmfrSettings tunedBmfr();
-/// As published: a fitted frame counts for 10 % (Koskela et al. 2019, 3.5).
+/// As published: a new fitted frame has a weight of 10 % (Koskela et al. 2019, 3.5).
 BmfrSettings paperBmfr();
 
 /// Blockwise Multi-Order Feature Regression (Koskela et al. 2019, figure 2): accumulation, feature fitting, a second

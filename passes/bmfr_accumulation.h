@@ -17,11 +17,11 @@ struct BmfrAccumulationSettings {
   }
 };
 
-/// Average the fitted frames over time along the taps that the first accumulation accepted.
+/// Average the fitted frames over time with the history taps that the first accumulation accepted.
 /// @param frame  upload of `FrameConstants`
 /// @param fitted RGBA16F: the current fit
 /// @param taps   R32_UINT: `AccumulationWithTaps::taps`
-/// @returns RGBA16F: mean; alpha: number of frames behind it, 0 where there is nothing to denoise
+/// @returns RGBA16F: mean; alpha: history length, 0 where there is nothing to denoise
 fg::Texture addBmfrAccumulation(fg::Graph& graph, fg::Buffer frame, fg::Texture fitted, fg::Texture taps,
                                 const BmfrAccumulationSettings& settings = {});
 

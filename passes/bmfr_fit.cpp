@@ -11,8 +11,8 @@ namespace {
 
 constexpr std::uint32_t kBlockSize = 32;
 
-/// With noise only a block with fewer samples than features is still short of rank, and what is left of a column then
-/// is rounding: well above single precision's, well below the noise.
+/// Rank tolerance with noise: only a block with fewer samples than features is short of rank, and its dependent columns
+/// hold rounding errors. The tolerance is well above those of single precision and well below the noise.
 constexpr float kRoundingTolerance = 1e-4F;
 
 /// In the order of `kView` of bmfr_fit.comp.

@@ -12,7 +12,7 @@
 
 namespace walr {
 
-/// What is done about features that depend on each other within a block, such as the positions on a single plane.
+/// How features that depend on each other within a block are handled, such as the positions on a single plane.
 enum class RankHandling : std::uint8_t {
   Stochastic,     ///< Noise makes the features independent (Koskela et al. 2019, 3.4).
   Deterministic,  ///< No noise: a feature that earlier ones explain is left out of its block's fit.
@@ -46,10 +46,10 @@ struct BmfrFitSettings {
 
 /// Fit the lighting of every block of 32x32 pixels by ten features of first and second order.
 /// @param frame    upload of `FrameConstants`; its frame index picks one of 16 displacements of the block grid
-/// @param lighting RGBA16F: radiance to fit; a pixel that is not finite has no say in the fit
-/// @param alpha    what the alpha channel of `lighting` says; a pixel with no sample has no say in the fit
+/// @param lighting RGBA16F: radiance to fit; pixels that are not finite do not count
+/// @param alpha    what the alpha channel of `lighting` holds; pixels without samples do not count
 /// @param output   RGBA16F texture to write the fit to
-/// @returns the output's new version; sky and pixels without a diffuse lobe as they were
+/// @returns the output's new version; sky and pixels without a diffuse lobe hold the pass-through
 fg::Texture addBmfrFit(StageGraph graph, fg::Buffer frame, fg::Texture lighting, LightingAlpha alpha,
                        const Guides& guides, fg::Texture output, const BmfrFitSettings& settings = {});
 

@@ -10,8 +10,8 @@
 
 namespace walr {
 
-/// How a host writes its textures, where that is not what `DenoiserInputs` says. What differs costs one pass a texture,
-/// what does not costs nothing.
+/// How a host writes its textures, if not as `DenoiserInputs` says. Each texture that differs costs one pass; the
+/// others cost nothing.
 struct HostConventions {
   enum class Depth : std::uint8_t {
     Linear,          ///< Linear view depth, positive.
@@ -29,14 +29,15 @@ struct HostConventions {
   Depth depth = Depth::Linear;
   Normal normal = Normal::Signed;
   bool motionDepthReversed = false;  ///< motion.z is current minus previous view depth.
-  bool preExposed = false;  ///< Lighting is multiplied by an exposure that changes, and the result is to be, too.
-  /// Textures, the result's among them, may be larger than what is denoised, which starts at `HostConstants::offset`.
+  bool preExposed = false;           ///< Lighting is multiplied by a changing exposure, and so is the result.
+  /// Textures, also the result's, may be larger than the rectangle that is denoised, which starts at
+  /// `HostConstants::offset`.
   bool rectangle = false;
 
   [[nodiscard]] bool octahedral() const {
     return normal == Normal::OctahedralSigned || normal == Normal::OctahedralUnsigned;
   }
-  /// Whether anything is converted.
+  /// Whether any input is converted.
   [[nodiscard]] bool convertsInputs() const {
     return depth != Depth::Linear || normal != Normal::Signed || motionDepthReversed || convertsResult();
   }
@@ -44,16 +45,16 @@ struct HostConventions {
 };
 
 /// The uniform block of the conversion.
-/// @param projection view to clip space with the z row of the host's device depth
-/// @param exposure   more than 0
+/// @param projection view to clip space, with the z row that makes the host's device depth
+/// @param exposure   above 0
 /// @param offset     see `HostConventions::rectangle`
-/// @throws std::invalid_argument for another exposure
+/// @throws std::invalid_argument if the exposure is not above 0
 HostConstants hostConstants(const glm::mat4& projection, float exposure, glm::ivec2 offset = {});
 
-/// Convert what differs.
+/// Convert the inputs that differ from the project's conventions.
 /// @param inputs as the host writes them
-/// @param host   upload of `HostConstants`; not used where `convertsInputs` says so
-/// @returns inputs as the project takes them
+/// @param host   upload of `HostConstants`; not used if `convertsInputs()` is false
+/// @returns inputs by the project's conventions
 DenoiserInputs addConvertInputs(fg::Graph& graph, DenoiserInputs inputs, const HostConventions& conventions,
                                 fg::Buffer host);
 

@@ -40,14 +40,14 @@ template <>
 constexpr std::array kPresets<SvgfSettings>{Preset<SvgfSettings>{"tuned", tunedSvgf},
                                             Preset<SvgfSettings>{"paper", paperSvgf}};
 
-/// What a method without such a preset says of the presets that it had once.
+/// What to add to the message when a method has no such preset, for presets that it once had.
 template <typename Settings>
 constexpr std::string_view kFormerPresets{};
 template <>
 constexpr std::string_view kFormerPresets<WalrSettings> =
     "; walr is what its preset blocks was, and its presets robust and paper are those of the method walr_paper";
 
-/// What two descriptions of one scene leave of it.
+/// The scene that satisfies both descriptions.
 SceneDescription common(const SceneDescription& a, const SceneDescription& b) {
   return {.cameraMotion = a.cameraMotion && b.cameraMotion,
           .objectMotion = a.objectMotion && b.objectMotion,
@@ -145,7 +145,7 @@ const Method& findMethod(std::string_view name) {
 }  // namespace
 
 std::vector<ViewInfo> Denoiser::views() {
-  // What the stages offer when they are recorded on a graph that is thrown away.
+  // The views that the stages offer when recorded on a graph that is then discarded.
   constexpr fg::Extent kExtent{1920, 1080};
   const fg::TextureDesc colour{VK_FORMAT_R16G16B16A16_SFLOAT, kExtent};
   fg::Graph graph;

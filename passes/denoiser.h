@@ -15,18 +15,18 @@ namespace walr {
 /// A whole denoising method with its settings.
 class Denoiser : public Configurable {
  public:
-  /// Names of the presets that `usePreset` takes; the first holds the defaults. Empty where there is but one way.
+  /// Names of the presets that `usePreset` takes; the first holds the defaults. Empty if the method has none.
   [[nodiscard]] virtual std::vector<std::string> presets() const = 0;
   /// Replace all settings.
   /// @throws std::invalid_argument naming the unknown preset and the known ones
   virtual void usePreset(std::string_view name) = 0;
   /// Add the method's passes to a graph.
-  /// @param graph   the host's graph, with the views and counters to write of the method's inner workings, if any
-  /// @param inputs  the host's textures, and what scene and host bring along; settings may leave out more of it
+  /// @param graph   the host's graph, with the views and counters that the caller wants, if any
+  /// @param inputs  the host's textures and scene description; settings may leave out more of the scene
   /// @param output  RGBA16F texture of the inputs' extent that the result is written to
   /// @returns the output's new version: denoised demodulated diffuse indirect radiance; sky and pixels without a
   ///          diffuse lobe hold the input unchanged, or, where light is packed, rounded (`antialiasing.storage`)
-  /// @throws std::invalid_argument naming a setting outside its range, or a view that there is not
+  /// @throws std::invalid_argument naming a setting outside its range, or a view that does not exist
   virtual fg::Texture add(StageGraph graph, const DenoiserInputs& inputs, fg::Texture output) = 0;
   /// The views that `add` takes with the present settings.
   /// @throws std::invalid_argument naming a setting outside its range

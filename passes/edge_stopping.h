@@ -39,7 +39,7 @@ struct EdgeStoppingSettings {
     return planeNormal == PlaneNormal::Shading ? guides.shadingNormal : guides.geometricNormal;
   }
 
-  /// @throws std::invalid_argument where the ramp between the two distances is empty
+  /// @throws std::invalid_argument if planeNear is not below planeFar
   void check() const {
     if (!(planeNear < planeFar)) {
       throw std::invalid_argument("setting regression.plane-near must be below regression.plane-far");

@@ -29,8 +29,8 @@ struct FlrSettings {
     occlusion.visit(v);
     regression.visit(v);
     v.visit({"regression.single-frame-sigma",
-             "Standard deviation of the Gaussian window where spatial-only takes the place of regression.sigma",
-             "pixels", 0.1, 256.0, "measured"},
+             "Standard deviation of the Gaussian window with spatial-only, in place of regression.sigma", "pixels", 0.1,
+             256.0, "measured"},
             singleFrameSigma);
     antialiasing.visit(v);
   }

@@ -11,7 +11,7 @@
 namespace walr {
 namespace {
 
-/// Bytes of a cell in the buffers, which differ with the number of guides.
+/// Bytes of a cell in the buffers; they depend on the number of guides.
 struct CellBytes {
   std::uint64_t products;      ///< `OuterProducts` of flr.glsl, std430.
   std::uint64_t coefficients;  ///< `Coefficients` of flr.glsl, std430.
@@ -79,7 +79,7 @@ fg::Texture addFlrRegression(StageGraph graph, fg::Texture lighting, LightingAlp
   constants.sigma = sigma;
   constants.ridge = settings.ridge;
 
-  // What sums the products and what applies the fit read the same pixels.
+  // The pass that sums the products and the pass that applies the fit read the same pixels.
   const auto readPixels = [&](const std::string& name, const fg::Shader& shader) {
     fg::PassBuilder pass = graph->compute(name, shader);
     pass.sample("lighting", lighting).sample("depth", guides.depth).constants(constants);

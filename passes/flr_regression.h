@@ -12,9 +12,9 @@
 
 namespace walr {
 
-/// How the coefficients of the coarse grid reach the pixels.
+/// How the coefficients of cells are interpolated at pixels.
 enum class FlrUpsampling : std::uint32_t {
-  Nearest,   ///< Those of a pixel's own cell.
+  Nearest,   ///< Of the pixel's own cell.
   Bilinear,  ///< Of the four cells around it.
   Bspline,   ///< Of the sixteen around it, by the cubic B-spline.
 };
@@ -35,12 +35,10 @@ struct FlrRegressionSettings {
             factor);
     v.visit({"regression.sigma", "Standard deviation of the Gaussian window", "pixels", 0.1, 256.0, "measured"}, sigma);
     v.visit({"regression.reach", "Distance at which the Gaussian window ends", "sigma", 1.0, 6.0, "measured"}, reach);
-    v.visit(
-        {"regression.ridge",
-         "Added to the diagonal of the covariance of normal and occlusion, and relative to its squared mean to that "
-         "of the inverse depth",
-         "", 1e-6, 1.0, "measured"},
-        ridge);
+    v.visit({"regression.ridge",
+             "Ridge on the diagonal of the covariance of the guides; for inverse depth relative to its squared mean",
+             "", 1e-6, 1.0, "measured"},
+            ridge);
     v.visitEnum(
         {"regression.upsampling", "How the cells' coefficients are interpolated at a pixel", "", 0, 1, "measured"},
         kUpsamplings, upsampling);
@@ -53,12 +51,12 @@ struct FlrRegressionSettings {
 /// Weighted least squares of the lighting on {1, normal, inverse depth, ambient occlusion} in a Gaussian window around
 /// every cell of a coarse grid; the coefficients, interpolated, are applied to the guides of every pixel
 /// (Salmi et al. 2024).
-/// @param lighting  RGBA16F: radiance to filter; a pixel that is not finite has no say in the fit
-/// @param alpha     what the alpha channel of `lighting` says; a pixel with no sample has no say in the fit
+/// @param lighting  RGBA16F: radiance to filter; pixels that are not finite do not count
+/// @param alpha     what the alpha channel of `lighting` holds; pixels without samples do not count
 /// @param guides    with `features` where `settings.occlusionGuide` is set
 /// @param output    RGBA16F texture to write the result to
-/// @returns the output's new version; sky and pixels without a diffuse lobe as they were
-/// @throws std::invalid_argument where the moments of so many cells do not fit a storage buffer
+/// @returns the output's new version; sky and pixels without a diffuse lobe hold the pass-through
+/// @throws std::invalid_argument if the moments of all cells do not fit one storage buffer
 fg::Texture addFlrRegression(StageGraph graph, fg::Texture lighting, LightingAlpha alpha, const Guides& guides,
                              fg::Texture output, const FlrRegressionSettings& settings = {});
 

@@ -31,7 +31,7 @@ FrameConstants frameConstants(const FrameDescription& frame, fg::Extent extent) 
     throw std::invalid_argument("the view matrix is singular; pass the camera's world-to-view matrix");
   }
   const glm::dvec4 ray = rayFromPixel(glm::dmat4(frame.projection), frame.jitter, extent);
-  // The previous picture in pixels of this one.
+  // The previous frame's jitter and rays, in pixels of this frame.
   const glm::dvec2 size(extent.width, extent.height);
   const fg::Extent previousExtent = frame.previousExtent.value_or(extent);
   const glm::dvec2 previousSize(previousExtent.width, previousExtent.height);

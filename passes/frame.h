@@ -21,17 +21,17 @@ struct FrameDescription {
   glm::vec2 previousJitter{0.0F};      ///< The previous frame's.
   /// Multiplies the motion texture's xy; the result must be pixels, previous = current + motion, x right, y down.
   glm::vec2 motionScale{1.0F};
-  /// Counts frames; any start. Seeds random picks and the rounding of packed light, which is exact on average only if
-  /// every frame has another.
+  /// Counts frames from any start. It seeds random choices and the stochastic rounding of packed light, which is exact
+  /// on average only if the index changes every frame.
   std::uint32_t frameIndex = 0;
-  /// Size of the previous frame's picture, where it is another; none for the same. Motion is in pixels of this frame
-  /// all the same, each jitter in those of its own.
+  /// Size of the previous frame if it differs from this one's. Motion is in pixels of this frame even then; each jitter
+  /// is in pixels of its own frame.
   std::optional<fg::Extent> previousExtent = std::nullopt;
   float skyDepth = 1e9F;  ///< Scene units: a linear view depth from here on is sky.
 };
 
 /// The uniform block that the passes read, computed in double precision.
-/// @param extent the picture's size
+/// @param extent the image's size
 /// @throws std::invalid_argument when the view matrix is singular or the projection is not a perspective one
 FrameConstants frameConstants(const FrameDescription& frame, fg::Extent extent);
 

@@ -29,7 +29,7 @@ fg::Texture addFullWindowRegression(fg::Graph& graph, fg::Buffer frame, fg::Text
   }
   const fg::Extent extent = graph.textureDesc(accumulated).extent;
   const std::uint32_t tile = fullWindowTile(settings.window);
-  // Tiles write in place, over what stays of the input: pixels without a surface.
+  // Tiles write in place over a copy of the input, so that pixels without a surface keep the pass-through.
   fg::Texture filtered = addPassThrough(graph, accumulated, output);
   for (std::uint32_t y = 0; y < extent.height; y += tile) {
     for (std::uint32_t x = 0; x < extent.width; x += tile) {

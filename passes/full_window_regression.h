@@ -23,23 +23,22 @@ struct FullWindowSettings {
   }
 };
 
-/// The most edge-stopping weights that one dispatch works out. At some 40 operations each, a GPU of 1 TFLOP/s takes a
-/// third of a second for them; the shortest usual watchdog waits for two.
+/// The largest number of edge-stopping weights that one dispatch computes. At about 40 operations each, a GPU of 1
+/// TFLOP/s takes a third of a second; the shortest usual watchdog waits two seconds.
 inline constexpr std::uint64_t kMostWeightsPerDispatch = std::uint64_t{1} << 33;
 
-/// Side of the square tiles, pixels, a multiple of a work group's 8: at least 8, and otherwise so large that a dispatch
-/// stays within `kMostWeightsPerDispatch` where no line meets an edge.
+/// Side of the square tiles in pixels, a multiple of 8, the workgroup's. It is 8 or the largest side whose dispatch
+/// stays within `kMostWeightsPerDispatch` even if no line meets an edge.
 std::uint32_t fullWindowTile(std::uint32_t window);
 
-/// Weighted linear regression of the lighting on the normal over every pixel of a window, edges traced from its centre
-/// to each of them: REFWLR's filter, which WALR's approximates. No a-trous averages and no replacement. One dispatch a
-/// tile.
+/// REFWLR's filter, which WALR's approximates: weighted linear regression of the lighting on the normal over every
+/// pixel of a window, with edges traced from the window's centre to each pixel. No a-trous averages and no replacement
+/// of taps. One dispatch per tile.
 /// @param frame       upload of `FrameConstants`
-/// @param accumulated RGBA16F: radiance to filter; alpha: samples behind it, 0: the pixel weighs nothing
+/// @param accumulated RGBA16F: radiance to filter; alpha: history length, 0: the pixel has no weight
 /// @param output      RGBA16F texture to write the result to
-/// @returns the output's new version: filtered radiance; sky and pixels without a diffuse lobe as they were; black
-/// where
-///          the window holds no sample at all
+/// @returns the output's new version: filtered radiance; the pass-through at sky and pixels without a diffuse lobe;
+/// black where the window holds no sample
 /// @throws std::invalid_argument for settings outside their range
 fg::Texture addFullWindowRegression(fg::Graph& graph, fg::Buffer frame, fg::Texture accumulated, const Guides& guides,
                                     fg::Texture output, const FullWindowSettings& settings = {});

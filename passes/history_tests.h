@@ -7,25 +7,26 @@
 
 namespace walr {
 
-/// How a pixel of the last frame is told to show the surface whose history is sought (reprojection.glsl).
+/// How a stage decides whether a history pixel shows the same surface (reprojection.glsl).
 enum class HistoryRejection : std::uint32_t {
   Plane,  ///< By its distance from the surface's plane and by its geometric normal.
-  Depth,  ///< By its depth, against that which motion and `motion.z` lead to (Meunier & Harada 2022, 4.2).
-  None,   ///< Not at all: every pixel with a history does.
+  Depth,  ///< By its depth, compared with the depth that motion predicts (Meunier & Harada 2022, 4.2).
+  None,   ///< Not tested: every pixel with a history is accepted.
 };
 
-/// Visit the way in which a stage with a history tests its history pixels.
+/// Visit the setting that chooses how a stage tests its history pixels.
 inline void visitRejection(SettingVisitor& v, std::string_view name, HistoryRejection& rejection) {
   static constexpr std::string_view kRejections[] = {"plane", "depth", "none"};
   v.visitEnum(
-      {name, "What tells history of the surface from that of another", "", 0, 1, "Meunier & Harada 2022, 4.2 and 4.4"},
+      {name, "Test whether a history pixel shows the same surface", "", 0, 1, "Meunier & Harada 2022, 4.2 and 4.4"},
       kRejections, rejection);
 }
 
-/// Visit the two limits that every stage with a history tests its history pixels by (reprojection.glsl).
+/// Visit the two thresholds of these tests.
 inline void visitHistoryTests(SettingVisitor& v, std::string_view planeToleranceName, float& planeTolerance,
                               std::string_view normalThresholdName, float& normalThreshold) {
-  v.visit({planeToleranceName, "Largest distance of a history pixel from the surface's plane, or from its depth",
+  v.visit({planeToleranceName,
+           "Largest distance of a history pixel from the surface's plane or, with rejection depth, from its depth",
            "fraction of depth", 0.0, 1.0, "measured"},
           planeTolerance);
   v.visit({normalThresholdName, "Smallest cosine between geometric normals of surface and history pixel", "", -1.0, 1.0,

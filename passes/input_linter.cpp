@@ -12,7 +12,7 @@
 namespace walr {
 namespace {
 
-/// Where the projection's centre is in the picture, pixels.
+/// Position of the projection's centre in the image, pixels.
 glm::dvec2 centreOf(const glm::mat4& projection, fg::Extent extent) {
   return {-0.5 * double(projection[2][0]) * extent.width, 0.5 * double(projection[2][1]) * extent.height};
 }
@@ -33,8 +33,8 @@ std::string LintFinding::text() const {
 void InputLinter::add(const FrameDescription& frame, fg::Extent extent) {
   ++cameras_;
   const glm::dvec2 shift = centreOf(frame.projection, extent) - centreOf(frame.previousProjection, extent);
-  // A jitter moves the centre by less than two pixels between frames; shifts of lenses are slower or farther. A
-  // hundredth of a pixel is above the roundoff of matrices in single precision.
+  // Jitter moves the centre by less than two pixels between frames; lens shifts move it more slowly or farther. A
+  // hundredth of a pixel is above the rounding of single-precision matrices.
   constexpr double kLeast = 0.01;
   constexpr double kMost = 2.0;
   if (!sameFocalLength(frame.projection, frame.previousProjection)) return;

@@ -5,9 +5,9 @@
 
 namespace walr {
 
-/// How a host's inputs differ from the project's conventions: normals in view space, where the camera looks down -Z and
-/// y is up; motion between jittered pictures whose y is down, with the change of view depth as its third channel.
-/// Stated once; the first stage converts.
+/// How a host's inputs differ from the project's conventions. These are: normals in view space, where the camera looks
+/// down -Z and y is up; motion between jittered images whose y is down, with the change of view depth as its third
+/// channel. The first stage converts.
 struct InputConventions {
   enum class Space { View, World };
   /// Where motion.z (previous minus current view depth, scene units) comes from.
@@ -17,7 +17,7 @@ struct InputConventions {
   };
   Space normal = Space::View;
   MotionDepth motionDepth = MotionDepth::Given;
-  /// Whether motion.xy is between the jittered images, as measured from pixel centre to pixel centre. Else it is what
+  /// Whether motion.xy is between the jittered images, from pixel centre to pixel centre. If not, it is the motion that
   /// cameras without jitter would show.
   bool motionJittered = true;
 };
@@ -29,8 +29,8 @@ struct DenoiserInputs {
   fg::Texture normal;    ///< RGBA16F: unit shading normal; zero on sky.
   fg::Texture motion;    ///< RGBA16F: motion to the previous frame; see `FrameDescription::motionScale`.
   fg::Texture albedo;    ///< RGBA16F: diffuse albedo; below 0.01 in all channels a pixel has no diffuse lobe.
-  /// R32_UINT, or another format of unsigned integers: number of the object that the pixel shows, the same from frame
-  /// to frame; 0xffffffff: none. Where it is there, histories of two objects are told apart by it.
+  /// R32_UINT, or another format of unsigned integers: id of the object that the pixel shows, constant from frame to
+  /// frame; 0xffffffff: none. If present, it tells the histories of different objects apart.
   fg::Texture objectId = {};
   fg::Buffer frame;  ///< Upload of `FrameConstants` (passes/frame.h).
   InputConventions conventions;

@@ -10,19 +10,18 @@
 #include "framegraph/declare/graph.h"
 #include "shaders/constants/count.h"
 
-/// Looking into a method while it runs: views, which are pictures of what happens inside a stage, and counters, which
-/// say how often something happened in a frame. Each view has a pass of its own that does its stage's work again and
-/// writes what it finds on the way; what nobody asks for has no pass, no texture and no branch in any shader.
+/// Inspecting a method while it runs: views, which are images of intermediate values of a stage, and counters, which
+/// say how often something happened in a frame. Each view has a pass of its own, which repeats its stage's work and
+/// writes the intermediate value. A view that is not wanted has no pass, no texture and no branch in any shader.
 namespace walr {
 
-/// How often something happens in a frame: components of a view that hold a count at each pixel, summed over all
-/// pixels.
+/// A counter: components of a view that hold a count at each pixel, summed over all pixels.
 struct CounterInfo {
   std::string_view name;
   std::string_view components;  ///< Which of "XYZ" are summed.
 };
 
-/// A picture of what happens inside a stage.
+/// A view: an image of what happens inside a stage.
 struct ViewInfo {
   std::string_view name;
   std::string_view description;  ///< One line: what X, Y and Z hold.
@@ -43,9 +42,9 @@ inline constexpr VkFormat kViewFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
 /// Bytes of the buffer that receives counters.
 inline constexpr std::uint64_t kCounterBytes = kCounterWords * sizeof(std::uint32_t);
 
-/// A counter of the graph at hand.
+/// A counter of a recorded graph.
 struct Counter {
-  std::string name;  ///< With ".T" of iteration T behind it, where every iteration is counted.
+  std::string name;  ///< Followed by ".T" for iteration T if every iteration is counted.
   std::vector<std::uint32_t> words;
 
   /// Its value in a frame.
@@ -60,7 +59,7 @@ struct StageIteration {
   [[nodiscard]] bool last() const { return index + 1 >= count; }
 };
 
-/// What a caller wants to see of a method, for `Denoiser::add`, and what it gets.
+/// The views and counters that a caller wants of a method, for `Denoiser::add`, and those that it gets.
 class Inspection {
  public:
   /// Have a view written.
@@ -78,13 +77,13 @@ class Inspection {
 
   /// Declares the pass of a view: all but the view's number and texture.
   using DeclareView = std::function<fg::PassBuilder(const std::string& passName)>;
-  /// Called by a stage: add a pass for each of its views that is wanted.
+  /// Called by a stage: add a pass for each of its wanted views.
   /// @param views   in the order of `kView` of the stage's shader, which writes `outView`
   /// @param extent  of the inputs
   void offer(fg::Graph& graph, std::span<const ViewInfo> views, fg::Extent extent, const DeclareView& declare,
              StageIteration iteration = {});
 
-  /// @throws std::invalid_argument naming a view that no stage has written, and those that there are
+  /// @throws std::invalid_argument naming a wanted view that no stage has written, and the known ones
   void requireViews() const;
 
  private:

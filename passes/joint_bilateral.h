@@ -14,9 +14,9 @@ struct JointBilateralSettings {
   bool spatialOnly = false;
   PrepareGuidesSettings guides;
   JointBilateralFilterSettings filter;
-  /// Accumulation of the filtered frames (Wang 2024, 4): alpha 0.2, clamped to the 7x7 neighbourhood, within
-  /// a number of deviations that the text leaves open. Filtered pixels are much alike: a tight clamp takes the frame
-  /// before for an outlier where it differs by its noise alone.
+  /// Accumulation of the filtered frames (Wang 2024, 4): alpha 0.2, clamped to the 7x7 neighbourhood. The text leaves
+  /// open to how many standard deviations. Filtered pixels vary little: a tight clamp would reject the previous frame
+  /// for its noise alone.
   TemporalAntialiasingSettings accumulation{.maxHistory = 5.0F, .clipGamma = 8.0F, .clipRadius = 3, .objectIds = true};
 
   void visit(SettingVisitor& v) {

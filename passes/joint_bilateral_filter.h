@@ -22,7 +22,7 @@ struct JointBilateralFilterSettings {
 
   void visit(SettingVisitor& v) {
     const auto infinity = static_cast<double>(kInfinity);
-    v.visit({"bilateral.radius", "Half the window's width; 16 is a window of 33x33", "pixels", 1, 64, "Wang 2024, 2"},
+    v.visit({"bilateral.radius", "Radius of the window; 16 is a window of 33x33", "pixels", 1, 64, "Wang 2024, 2"},
             radius);
     v.visit({"bilateral.sigma-position", "Standard deviation of the Gaussian of the distance in the image", "pixels",
              0.1, infinity, "measured"},

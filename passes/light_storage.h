@@ -8,10 +8,10 @@
 
 namespace walr {
 
-/// How light lies in a texture between passes.
+/// How light is stored in a texture between passes.
 enum class LightStorage : std::uint32_t {
   Half,    ///< RGBA16F.
-  Packed,  ///< R32_UINT: shared exponent, unbiased rounding (packed_light.glsl), nothing of pixels without a surface.
+  Packed,  ///< R32_UINT: shared exponent, stochastic rounding (packed_light.glsl); surfaces only.
 };
 
 inline constexpr std::array<std::string_view, 2> kLightStorages{"half", "packed"};

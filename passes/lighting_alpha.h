@@ -4,10 +4,10 @@
 
 namespace walr {
 
-/// What the alpha channel of a lighting texture says.
+/// What the alpha channel of a lighting texture holds.
 enum class LightingAlpha : std::uint8_t {
-  Unused,       ///< Nothing, as in what a host hands over.
-  SampleCount,  ///< Number of samples behind the colour, as accumulation leaves it; 0: there is none yet.
+  Unused,       ///< Nothing, as in the host's lighting.
+  SampleCount,  ///< History length of the colour, as accumulation writes it; 0: no sample yet.
 };
 
 }  // namespace walr

@@ -1,4 +1,4 @@
-// Lighting beside albedo.
+// Lighting compared with albedo.
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -8,7 +8,7 @@
 namespace walr {
 namespace {
 
-/// Mean of the light whose orders are counted from a word on, and how far it may be off, relatively.
+/// Mean of the light in a histogram that starts at a word, and the relative variance of that mean.
 struct MeanLight {
   MeanLight(const LintCounts& counts, std::uint32_t base, std::uint64_t samples) {
     double sum = 0.0;
@@ -37,7 +37,8 @@ void LintJudge::judgeAlbedo() {
   if (!(less.mean > 0.0 && dividedLess.mean > 0.0)) return;
   const double ratio = more.mean / less.mean;
   const double divided = dividedMore.mean / dividedLess.mean;
-  // Chance is left out at four standard errors; what is real, dark joints that are also deep, at half the contrast.
+  // Four standard errors leave noise out. A division by albedo that increases the contrast shows that the difference in
+  // light is real, as in dark joints that are also deep.
   const double error = std::sqrt(more.relativeVariance + less.relativeVariance);
   if (std::log(ratio) < 4.0 * error || std::abs(std::log(divided)) > std::log(ratio)) return;
   std::array<char, 128> figures{};

@@ -8,11 +8,11 @@ namespace walr {
 /// Something that looks wrong in a host's inputs.
 struct LintFinding {
   std::string_view name;    ///< For programs: "motion-x-direction".
-  std::string what;         ///< What was found, with figures.
-  std::string_view cause;   ///< What it most likely comes from.
-  std::string_view wayOut;  ///< What to do about it.
+  std::string what;         ///< What was found, with numbers.
+  std::string_view cause;   ///< Its most likely cause.
+  std::string_view wayOut;  ///< How to correct it.
 
-  /// All of it in a paragraph.
+  /// The finding as one paragraph.
   [[nodiscard]] std::string text() const;
 };
 

@@ -10,8 +10,8 @@
 
 namespace walr {
 
-/// Add a pass that looks at a host's inputs and counts what is wrong with them, or would be right by another
-/// convention. It changes nothing; `InputLinter` says in words what its counts mean.
+/// Add a pass that counts what is wrong in a host's inputs, and what another convention would explain. It changes
+/// nothing; `InputLinter` turns the counts into text.
 /// @param counters of `kCounterBytes` (passes/inspection.h); overwritten
 /// @returns its new version, whose words are those of shaders/constants/lint.h
 fg::Buffer addLintInputs(fg::Graph& graph, const DenoiserInputs& inputs, fg::Buffer counters);
@@ -20,8 +20,8 @@ fg::Buffer addLintInputs(fg::Graph& graph, const DenoiserInputs& inputs, fg::Buf
 class LintCounts {
  public:
   /// Add a frame.
-  /// @param words        of the buffer
-  /// @param afterAnother whether a frame went before it, to which motion leads
+  /// @param words        words of the buffer
+  /// @param afterAnother whether motion leads to a previous frame
   void add(std::span<const std::uint32_t> words, bool afterAnother);
   [[nodiscard]] std::uint64_t operator[](std::uint32_t word) const { return sums_[word]; }
 

@@ -12,7 +12,7 @@
 
 namespace walr {
 
-/// The findings of one look at what `addLintInputs` has counted. Each kind of input has a source file of its own.
+/// Draws findings from the counts of `addLintInputs`. Each kind of input has a source file of its own.
 class LintJudge {
  public:
   /// Both must outlive the judge.
@@ -39,18 +39,18 @@ class LintJudge {
   std::vector<LintFinding> found_;
 };
 
-/// Fewer pixels or pairs say nothing.
+/// With fewer pixels or pairs than this there is no finding.
 inline constexpr std::uint64_t kLeastLintSample = 100;
 
 /// "12.3 % of 4567 pixels".
 std::string share(std::uint64_t part, std::uint64_t whole, const std::string& of);
 
-/// More than half, of enough to tell.
+/// More than half, of a large enough sample.
 inline bool isMost(std::uint64_t part, std::uint64_t whole) {
   return whole >= kLeastLintSample && 2 * part > whole;
 }
 
-/// More than a hundredth: what is wrong with single pixels, and not with how they are read, stays below.
+/// More than a hundredth: errors of single pixels, as opposed to wrong conventions, stay below.
 inline bool isMany(std::uint64_t part, std::uint64_t whole) {
   return part > 0 && 100 * part > whole;
 }

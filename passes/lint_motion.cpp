@@ -1,4 +1,4 @@
-// Motion beside that of the cameras.
+// Motion compared with that of the cameras.
 #include <array>
 
 #include "passes/lint_judge.h"
@@ -19,8 +19,8 @@ void LintJudge::judgeAxis(std::string_view axis, std::uint32_t base) {
       Reading{kReadingOpposite, "direction", "the opposite of the camera's",
               "motion leads from the last frame to this one (current minus previous), or its y is up",
               "negate this axis of motion_scale"},
-      Reading{kReadingUv, "unit", "the camera's in units of the picture",
-              "motion is in pictures (\"UV\"), not pixels", "state so (WALR_MOTION_PICTURES)"},
+      Reading{kReadingUv, "unit", "the camera's in units of the picture", "motion is in pictures (\"UV\"), not pixels",
+              "state so (WALR_MOTION_PICTURES)"},
       Reading{kReadingUvOpposite, "unit", "the opposite of the camera's in units of the picture",
               "motion is in pictures (\"UV\"), not pixels, and current minus previous or with y up",
               "state so (WALR_MOTION_PICTURES) and negate this axis of motion_scale"},
@@ -96,7 +96,7 @@ void LintJudge::judgeMotion() {
   judgeAxis("y", kLintMotionY);
   judgeMotionDepth();
   judgeJitter();
-  // Objects may fill most of a picture, but hardly all of it.
+  // Objects may fill most of an image, but hardly all of it.
   const std::uint64_t tested = counts_[kLintStillTested];
   if (tested >= kLeastLintSample && 10 * counts_[kLintStillMoves] > 9 * tested) {
     add({"camera-still",

@@ -1,12 +1,12 @@
-// Normals beside the slope of depth.
+// Normals compared with the slope of depth.
 #include <array>
 
 #include "passes/lint_judge.h"
 
 namespace walr {
 
-/// Whether a hypothesis fits better on three times as many pixels as it fits worse on, and on a tenth of all: where
-/// both fit alike, as floors do when the camera only turns about the vertical, neither is said to be better.
+/// Whether a hypothesis fits better on at least a tenth of all pixels and on three times as many as it fits worse on.
+/// Where both fit alike, as on floors while the camera only turns about the vertical, neither counts as better.
 bool LintJudge::explains(std::uint32_t hypothesis) const {
   const std::uint64_t better = counts_[kLintHypotheses + 2 * hypothesis];
   const std::uint64_t worse = counts_[kLintHypotheses + 2 * hypothesis + 1];
@@ -30,7 +30,7 @@ void LintJudge::judgeNormals() {
       {"depth-distance", "depth is the distance from the camera, as a ray's length, not along the view axis",
        "multiply it by the cosine of ray and view axis"},
   }};
-  if (isMost(counts_[kLintNormalNotUnit], counts_[kLintSurfaces])) return;  // What they say is not what is meant.
+  if (isMost(counts_[kLintNormalNotUnit], counts_[kLintSurfaces])) return;  // A wrong encoding explains them.
   const std::uint64_t tested = counts_[kLintNormalTested];
   std::uint32_t best = kHypothesisCount;
   for (std::uint32_t h = 0; h < kHypothesisCount; ++h) {

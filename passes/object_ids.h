@@ -6,15 +6,14 @@
 
 namespace walr {
 
-/// Which object every pixel shows, to tell the histories of two by (Wang 2024, 3): R32_UINT, the host's
-/// number
-/// + 1, and 0 where there is none.
+/// The object that every pixel shows, to tell the histories of different objects apart (Wang 2024, 3). R32_UINT: the
+/// host's object id + 1, or 0 where there is none.
 struct ObjectIds {
   fg::Texture current;
   fg::Texture previous;  ///< One frame ago; 0 while there is no history.
 };
 
-/// Keep the host's object numbers for the next frame; `inputs.objectId` must be there.
+/// Keep the host's object ids for the next frame; `inputs.objectId` must be valid.
 ObjectIds addObjectIds(fg::Graph& graph, const DenoiserInputs& inputs, const Guides& guides);
 
 }  // namespace walr

@@ -4,7 +4,7 @@
 
 namespace walr {
 
-/// Copy an RGBA16F texture to the output as it is; alpha becomes 1.
+/// Copy an RGBA16F texture to the output; values that are not finite become 0, alpha becomes 1.
 /// @returns the output's new version
 fg::Texture addPassThrough(fg::Graph& graph, fg::Texture lighting, fg::Texture output);
 

@@ -10,12 +10,12 @@
 namespace walr {
 namespace {
 
-/// Whether pixels without a diffuse lobe are told apart.
+/// Whether pixels without a diffuse lobe are treated like sky.
 bool isMasked(const PrepareGuidesSettings& settings) {
   return settings.albedoThreshold > 0.0F;
 }
 
-/// A guide to be written, and last frame's where it is kept.
+/// A guide to write, and the previous frame's if it is kept.
 struct GuideTexture {
   fg::Texture current;
   fg::Texture previous;

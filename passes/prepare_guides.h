@@ -23,12 +23,12 @@ struct PrepareGuidesSettings {
              "", 0.0, 1.0, "measured"},
             albedoThreshold);
     v.visit({"guides.tangent-tolerance",
-             "How far the two pixels beside one may miss its inverse depth, extrapolated, and still show its surface",
+             "Largest error of inverse depth extrapolated from two neighbours that still show the pixel's surface",
              "fraction of inverse depth", 0.0, 1e3, "measured"},
             tangentTolerance);
     v.visit({"guides.normal-agreement",
-             "Cosine between the normal computed from depth and the shading normal below which the latter stands in",
-             "", -1.0, 1.0, "measured"},
+             "Cosine between shading normal and normal from depth below which the shading normal is used for both", "",
+             -1.0, 1.0, "measured"},
             normalAgreement);
   }
 };
@@ -48,10 +48,10 @@ struct AmbientOcclusionSettings {
   }
 };
 
-/// The noise-free guides of this frame and the last. What is not needed is not there.
+/// The noise-free guides of this frame and the previous one. A guide that is not needed is not valid.
 struct Guides {
   fg::Texture depth;          ///< R32_UINT: view depth and edge distance packed (surface.glsl); 0: nothing to denoise.
-  fg::Texture shadingNormal;  ///< R32_UINT: octahedral map of the shading normal; not there where `features` is.
+  fg::Texture shadingNormal;  ///< R32_UINT: octahedral map of the shading normal; not valid if `features` is.
   fg::Texture features;       ///< R32_UINT: the shading normal, and ambient occlusion, 0 (open) to 1 (surface.glsl).
   fg::Texture geometricNormal;          ///< R32_UINT: that of the geometric normal, which spans planes; with `features`
                                         ///< R16_UINT, where planes are of few dozen pixels.
@@ -59,14 +59,14 @@ struct Guides {
   fg::Texture previousGeometricNormal;  ///< Geometric normal one frame ago; zero while there is no history.
 };
 
-/// Which guides later stages read; the others are not made.
+/// The guides that later stages read; others are not made.
 struct GuideNeeds {
   bool geometricNormal = true;
   bool history = true;  ///< Last frame's depth, and geometric normal where there is one.
   std::optional<AmbientOcclusionSettings> occlusion = {};  ///< Given, for filters over blocks or cells: see `Guides`.
 };
 
-/// Convert the host's G-buffer once into what all later stages read.
+/// Convert the host's G-buffer once into the guides that all later stages read.
 Guides addPrepareGuides(StageGraph graph, const DenoiserInputs& inputs, const PrepareGuidesSettings& settings = {},
                         const GuideNeeds& needs = {});
 

@@ -9,7 +9,7 @@
 namespace walr {
 namespace {
 
-/// With all that the two methods share.
+/// REFWLR with the settings that it shares with walr_paper.
 RefwlrSettings likeWalr(const WalrPaperSettings& walr) {
   RefwlrSettings settings;
   settings.guides = walr.guides;

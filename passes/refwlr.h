@@ -29,14 +29,14 @@ struct RefwlrSettings {
   }
 };
 
-/// What the preset "robust" of `walr_paper` approximates: the same stages and weights.
+/// The reference for preset "robust" of `walr_paper`: the same stages and weights.
 RefwlrSettings robustRefwlr();
 
-/// The same of its preset "paper".
+/// The reference for its preset "paper".
 RefwlrSettings paperRefwlr();
 
 /// Reference Weighted Linear Regression (Meunier & Harada 2022, 6): WALR with a full window in place of a-trous
-/// averages, to tell what those cost in quality. Takes seconds a frame.
+/// averages. It shows what these cost in quality. It takes seconds per frame.
 /// @param output RGBA16F texture to write the result to
 /// @returns the output's new version
 fg::Texture addRefwlr(StageGraph graph, const DenoiserInputs& inputs, fg::Texture output,

@@ -4,15 +4,15 @@
 
 namespace walr {
 
-/// What scene and host bring along. What they never bring need not be in the graph: a description that leaves something
-/// out makes passes, textures and shader branches disappear.
+/// What a scene can contain and what its host does. Passes, textures and shader branches that a description makes
+/// unnecessary are left out of the graph.
 struct SceneDescription {
   bool cameraMotion = true;       ///< The camera moves.
-  bool objectMotion = true;       ///< Anything but the camera moves. Without, the host's motion texture is not read.
-  bool jitter = true;             ///< Pixels are sampled off their centres, differently from frame to frame.
+  bool objectMotion = true;       ///< Something but the camera moves. If not, the host's motion texture is not read.
+  bool jitter = true;             ///< Sample positions differ from pixel centres, and from frame to frame.
   bool sky = true;                ///< Some pixels show no surface, at `FrameDescription::skyDepth` and beyond.
   bool hostAntialiasing = false;  ///< The host has a temporal anti-aliasing of its own.
-  bool resizing = false;          ///< Pictures may change their size and keep their history.
+  bool resizing = false;          ///< Frames may change their size and keep their history.
 
   /// Every pixel shows the same surface in every frame until the history is reset: nothing has to be reprojected.
   [[nodiscard]] bool still() const { return !cameraMotion && !objectMotion && !jitter && !resizing; }

@@ -40,11 +40,11 @@ void checkRange(const SettingInfo& info, Number value) {
   if (!inRange(info, value)) reject(info, number(value), rangeText(info));
 }
 
-/// A setting that went by another name, or that there is no more.
+/// A setting that was renamed or removed.
 struct FormerSetting {
   std::string_view name;
-  std::string_view now;     ///< Its name now; empty where there is none.
-  std::string_view wayOut;  ///< What to do in its place, where there is none.
+  std::string_view now;     ///< Its new name; empty if it was removed.
+  std::string_view wayOut;  ///< What to do instead, if it was removed.
 };
 
 constexpr std::array kFormerSettings{
@@ -60,7 +60,7 @@ constexpr std::array kFormerSettings{
     FormerSetting{"blocks.sort-tiles", {}, "tiles are no longer sorted; leave it out"},
 };
 
-/// Number of letters to insert, to delete or to replace that makes one text the other.
+/// Number of letters to insert, delete or replace to turn one text into the other.
 std::size_t editDistance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});
@@ -76,7 +76,7 @@ std::size_t editDistance(std::string_view a, std::string_view b) {
   return row.back();
 }
 
-/// Of a name "stage.setting", the stage; empty where there is none.
+/// The stage of a name "stage.setting"; empty if it has none.
 std::string_view stageOf(std::string_view name) {
   const std::size_t dot = name.find('.');
   return dot == std::string_view::npos ? std::string_view() : name.substr(0, dot);
@@ -85,8 +85,8 @@ std::string_view withoutStage(std::string_view name) {
   return name.substr(name.find('.') + 1);
 }
 
-/// The names that a mistaken one may have meant, the likeliest first: spelt alike, of the same stage, or the same of
-/// another stage.
+/// Known names that a mistaken one may have meant, likeliest first: similar spelling, the same stage, or the same
+/// setting of another stage.
 std::vector<std::string_view> nearNames(std::string_view name, const std::vector<std::string_view>& known) {
   constexpr std::size_t kMost = 6;
   const auto isNear = [&](std::string_view other) {

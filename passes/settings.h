@@ -8,7 +8,7 @@
 
 namespace walr {
 
-/// What a user must know of one setting. Its default is what a default-constructed settings struct holds.
+/// Description of one setting. Its default is the value in a default-constructed settings struct.
 struct SettingInfo {
   std::string_view name;         ///< As `--set` takes it.
   std::string_view description;  ///< One line.
@@ -18,7 +18,7 @@ struct SettingInfo {
   std::string_view source;       ///< Paper and section, or "measured".
 };
 
-/// Walks over the settings of a denoiser: every settings struct has a `visit(SettingVisitor&)` that names its members.
+/// Visits the settings of a denoiser: every settings struct has a `visit(SettingVisitor&)` that names its members.
 class SettingVisitor {
  public:
   virtual ~SettingVisitor() = default;

@@ -7,8 +7,8 @@
 
 namespace walr {
 
-/// The graph that a stage adds its passes to, with what a caller wants to see of the stage's inner workings. Made of a
-/// graph alone where nobody looks. Refers to both, which must outlive it.
+/// The graph that a stage adds its passes to, and optionally the views and counters that a caller wants of it. Refers
+/// to both, which must outlive it.
 class StageGraph {
  public:
   StageGraph(fg::Graph& graph) : graph_(&graph) {}
@@ -17,7 +17,7 @@ class StageGraph {
   fg::Graph* operator->() const { return graph_; }
   operator fg::Graph&() const { return *graph_; }
 
-  /// Offer a stage's views: see `Inspection::offer`. Adds nothing where nobody looks.
+  /// Offer a stage's views: see `Inspection::offer`. Adds nothing without an `Inspection`.
   void offer(std::span<const ViewInfo> views, fg::Extent extent, const Inspection::DeclareView& declare,
              StageIteration iteration = {}) const {
     if (inspection_ != nullptr) inspection_->offer(*graph_, views, extent, declare, iteration);

@@ -27,8 +27,8 @@ struct SvgfSettings {
   }
 };
 
-/// The defaults: what serves best on one noisy path a pixel. The history is the accumulated light itself, for feeding
-/// back filtered light smears what one path a pixel leaves of gradients; the normal's exponent spares normal maps.
+/// The defaults, tuned for 1 sample per pixel. The history is the accumulated light itself, because feeding back
+/// filtered light would blur gradients; the lower exponent of the normal suits normal maps.
 SvgfSettings tunedSvgf();
 /// As published (Schied et al. 2017, 4.2 to 4.4; figure 1).
 SvgfSettings paperSvgf();

@@ -28,9 +28,9 @@ struct SvgfAccumulationSettings {
   }
 };
 
-/// What SVGF's temporal filtering knows of every pixel.
+/// The result of SVGF's temporal accumulation.
 struct SvgfAccumulated {
-  fg::Texture colour;   ///< RGBA16F: mean radiance; sky and pixels without a diffuse lobe as they were.
+  fg::Texture colour;   ///< RGBA16F: mean radiance; sky and pixels without a diffuse lobe hold the pass-through.
   fg::Texture moments;  ///< RGBA16F: mean of the luminance, its standard deviation, history length; 0 where none.
 };
 

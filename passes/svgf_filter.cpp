@@ -42,7 +42,7 @@ const std::vector<ViewInfo>& varianceViews() {
   return kViews;
 }
 
-/// Largest distance of a tap that a full window takes.
+/// Largest radius of the full window.
 constexpr std::uint32_t kFullestRadius = 64;
 
 /// One pass of the filter.
@@ -60,7 +60,7 @@ std::vector<Kernel> kernelsOf(const SvgfFilterSettings& settings) {
     const std::uint32_t spacing = 1U << i;
     kernels.push_back({settings.radius, spacing, 0.0F});
     reach += settings.radius * spacing;
-    // That of a binomial row of order 2r is r / 2.
+    // A binomial row of order 2r has the variance r / 2.
     variance += 0.5F * static_cast<float>(settings.radius * spacing * spacing);
   }
   if (settings.window == SvgfWindow::Atrous) return kernels;

@@ -12,10 +12,10 @@
 
 namespace walr {
 
-/// What filters the colour.
+/// The spatial filter.
 enum class SvgfWindow : std::uint32_t {
-  Atrous,  ///< Iterations with ever wider holes.
-  Full,    ///< One bilateral filter over every pixel that the iterations reach, its Gaussian as wide as they are.
+  Atrous,  ///< A-trous iterations.
+  Full,    ///< One bilateral filter over the iterations' whole reach, with a Gaussian of equal variance.
 };
 
 /// Settings of SVGF's variance estimation and a-trous iterations.
@@ -63,20 +63,21 @@ struct SvgfFilterSettings {
   }
 };
 
-/// Put the standard deviation of the luminance beside the colour.
-/// @returns RGBA16F: radiance; alpha: standard deviation, negative where no sample has been seen
+/// Add the standard deviation of the luminance to the colour.
+/// @returns RGBA16F: radiance; alpha: standard deviation, negative where there is no sample
 fg::Texture addSvgfVariance(StageGraph graph, fg::Buffer frame, const SvgfAccumulated& accumulated,
                             const Guides& guides, const SvgfFilterSettings& settings = {});
 
-/// The same from a single frame, by the spatial estimate alone.
+/// The same for a single frame, from the spatial estimate alone.
 /// @param lighting RGBA16F: noisy radiance
 fg::Texture addSvgfSingleFrameVariance(StageGraph graph, fg::Buffer frame, fg::Texture lighting, const Guides& guides,
                                        const SvgfFilterSettings& settings = {});
 
-/// Edge-avoiding a-trous iterations guided by variance, or the one filter that they approximate.
+/// Edge-avoiding a-trous iterations guided by variance, or the bilateral filter that they approximate.
 /// @param colour   RGBA16F: radiance and standard deviation, from one of the above
-/// @param feedback RGBA16F texture that the iteration which `settings.feedback` counts writes to
-/// @returns RGBA16F: filtered radiance and its standard deviation; sky and pixels without a diffuse lobe as they were
+/// @param feedback RGBA16F texture for the result of iteration number `settings.feedback`, counted from 1
+/// @returns RGBA16F: filtered radiance and its standard deviation; sky and pixels without a diffuse lobe hold the
+/// pass-through
 /// @throws std::invalid_argument where `settings.feedback` exceeds the number of iterations, or where the iterations
 ///         reach too far for a full window
 fg::Texture addSvgfAtrous(fg::Graph& graph, fg::Buffer frame, fg::Texture colour, const Guides& guides,

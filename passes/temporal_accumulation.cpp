@@ -14,7 +14,7 @@ namespace walr {
 
 namespace {
 
-/// What a pass is there for.
+/// The variants of the pass.
 enum class Role : std::uint8_t { Mean, MeanAndTaps, View };
 
 const fg::Shader& shaderFor(Role role, bool antilag, LightStorage storage) {
@@ -23,7 +23,7 @@ const fg::Shader& shaderFor(Role role, bool antilag, LightStorage storage) {
   return shaders::temporalAccumulation({.taps = role == Role::MeanAndTaps, .antilag = antilag, .packed = packed});
 }
 
-/// The stage in a graph.
+/// The stage with what it works on.
 struct Stage {
   StageGraph graph;
   const DenoiserInputs& inputs;
@@ -76,7 +76,7 @@ void offerViews(const Stage& stage) {
                     [&](const std::string& name) { return declarePass(stage, name, Role::View); });
 }
 
-/// The pass with its mean; antilag goes by what it leaves.
+/// Add the pass, its output `mean`, and antilag if the stage has it.
 fg::PassBuilder accumulate(const Stage& stage, Role role, fg::Texture& mean) {
   fg::PassBuilder pass = declarePass(stage, "temporal accumulation", role);
   mean = pass.store("outAccumulated", stage.accumulated.current);

@@ -15,7 +15,7 @@
 
 namespace walr {
 
-/// How a history texture is read between its pixels.
+/// The filter that reads a history texture between pixels.
 enum class HistoryFilter : std::uint32_t { Bilinear, Bicubic };
 
 /// Settings of the preprocessing accumulation (Meunier & Harada 2022, 4.2).
@@ -45,7 +45,7 @@ struct TemporalAccumulationSettings {
             dilateMotion);
     antilag.visit(v);
   }
-  /// For methods and stages whose filter reads either storage.
+  /// For methods and stages whose filter can read both storages.
   void visitStorage(SettingVisitor& v) {
     v.visitEnum(
         {"accumulation.storage",
@@ -61,24 +61,25 @@ struct TemporalAccumulationSettings {
 std::span<const ViewInfo> accumulationViews(bool withAntilag);
 
 /// Average the noisy lighting over time along its motion.
-/// @returns as `settings.storage` says: mean radiance; alpha: number of samples behind it, 0 where there is nothing to
-///          denoise.
+/// @returns in the storage `settings.storage`: mean radiance; alpha: history length, 0 where there is nothing to
+/// denoise.
 fg::Texture addTemporalAccumulation(StageGraph graph, const DenoiserInputs& inputs, const Guides& guides,
                                     const TemporalAccumulationSettings& settings = {});
 
-/// What temporal accumulation leaves for a later stage that reads its own history along the same motion.
+/// Accumulated light, and the kept history taps with which later stages read their own histories along the same motion.
 struct AccumulationWithTaps {
   fg::Texture mean;  ///< As `addTemporalAccumulation` returns it.
-  /// R32_UINT: where the surface was and which history pixels show it. Where there is no surface: a mark, or the light
-  /// that passes through, as `addTemporalAccumulationWithTaps` was asked (history_taps.glsl has all three). That light
-  /// is rounded to the nearest of 9 bits, by 0.2 % of its brightest channel at most, and clamped to 0 to 65408; it is 0
-  /// where it is not finite.
+  /// R32_UINT: motion of the surface and the history taps that show it. Where there is no surface: a mark or the
+  /// pass-through, whichever `addTemporalAccumulationWithTaps` was asked for (history_taps.glsl). The pass-through is
+  /// rounded to 9 bits, by 0.2 % of its brightest channel at most, and clamped to 0 to 65408; it is 0 where it is not
+  /// finite.
   fg::Texture taps;
 };
 
-/// The same, keeping what the reprojection and its tests found (Meunier & Harada 2022, 4.4; Koskela et al. 2019, 3.5).
-/// @param antialiasing storage of the anti-aliasing that reads the taps. Packed: taps hold light where there is no
-///                     surface, which the filter's result then says. Half, and for other readers: they hold a mark.
+/// The same, and keep what reprojection and its tests found (Meunier & Harada 2022, 4.4; Koskela et al. 2019, 3.5).
+/// @param antialiasing storage of the anti-aliasing that reads the taps. Packed: taps hold the pass-through where there
+/// is no surface, because anti-aliasing learns that from the filter's result. Half, and for other readers: they hold a
+/// mark.
 AccumulationWithTaps addTemporalAccumulationWithTaps(StageGraph graph, const DenoiserInputs& inputs,
                                                      const Guides& guides,
                                                      const TemporalAccumulationSettings& settings = {},

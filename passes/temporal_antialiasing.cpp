@@ -25,11 +25,11 @@ const std::vector<ViewInfo>& antialiasingViews() {
   return kViews;
 }
 
-/// Reads what a pass looks for its history with, and what passes through where the filter leaves no light.
+/// Declares what a pass reads for reprojection and for the pass-through.
 using ReadHistory = std::function<void(fg::PassBuilder& pass, bool view)>;
 
-/// The stage, whose reprojection comes from wherever `read` says.
-/// @param kept from the taps that accumulation has kept
+/// Add the stage; `read` declares its reprojection.
+/// @param kept whether that comes from the taps that accumulation kept
 fg::Texture addStage(StageGraph graph, bool kept, const ReadHistory& read, fg::Texture filtered, fg::Texture output,
                      const TemporalAntialiasingSettings& settings) {
   const fg::Extent extent = graph->textureDesc(filtered).extent;
@@ -66,7 +66,7 @@ fg::Texture addTemporalAntialiasing(StageGraph graph, const DenoiserInputs& inpu
   const bool objects = !still && settings.objectIds && inputs.objectId.valid();
   const ObjectIds ids = objects ? addObjectIds(graph, inputs, guides) : ObjectIds{};
   const auto read = [&](fg::PassBuilder& pass, bool view) {
-    // A view shows nothing of the light that passes through, and so does not read it.
+    // A view does not show the pass-through, and so does not read it.
     const fg::Texture light = view ? fg::Texture{} : inputs.lighting;
     const StandIns standIns = {.colour = packed ? light : filtered, .number = packed ? filtered : guides.depth};
     pass.uniform("frameConstants", inputs.frame)

@@ -36,7 +36,7 @@ struct TemporalAntialiasingSettings {
     v.visit({"antialiasing.clip-gamma", "Half size of the variance-clipping box", "standard deviations", 0.0, 1e6,
              "Meunier & Harada 2022, 4.4"},
             clipGamma);
-    v.visit({"antialiasing.clip-radius", "Half the neighbourhood of the variance clipping; 1 is 3x3", "pixels", 1, 8,
+    v.visit({"antialiasing.clip-radius", "Radius of the neighbourhood for variance clipping; 1 is 3x3", "pixels", 1, 8,
              "Meunier & Harada 2022, 4.4"},
             clipRadius);
     visitRejection(v, "antialiasing.rejection", rejection);
@@ -49,7 +49,7 @@ struct TemporalAntialiasingSettings {
              "Meunier & Harada 2022, 4.2"},
             dilateMotion);
   }
-  /// For methods and stages whose filter writes either storage.
+  /// For methods and stages whose filter can write both storages.
   void visitStorage(SettingVisitor& v) {
     v.visitEnum(
         {"antialiasing.storage",
@@ -61,19 +61,19 @@ struct TemporalAntialiasingSettings {
   }
 };
 
-/// Remove what flicker and aliasing the spatial filter leaves: bicubic history, variance clipping, moving average.
-/// @param filtered the current frame as `settings.storage` says; RGBA16F: alpha below 0 where no light is known
-/// @param output   RGBA16F: texture to write the result to
+/// Remove the flicker and aliasing that the spatial filter leaves: bicubic history, variance clipping, moving average.
+/// @param filtered the current frame in the storage `settings.storage`; RGBA16F: alpha below 0 where there is no sample
+/// @param output   RGBA16F texture to write the result to
 /// @returns the output's new version
 fg::Texture addTemporalAntialiasing(StageGraph graph, const DenoiserInputs& inputs, const Guides& guides,
                                     fg::Texture filtered, fg::Texture output,
                                     const TemporalAntialiasingSettings& settings = {});
 
-/// Whether anti-aliasing with these settings looks for its history just where accumulation has looked for its own.
+/// Whether anti-aliasing with these settings would find the same history taps as accumulation.
 bool sharesReprojection(const TemporalAntialiasingSettings& antialiasing,
                         const TemporalAccumulationSettings& accumulation);
 
-/// The same with the reprojection that accumulation has kept; `sharesReprojection` must hold.
+/// The same with the history taps that accumulation kept; `sharesReprojection` must hold.
 /// @param frame upload of `FrameConstants`
 /// @param taps  R32_UINT: `AccumulationWithTaps::taps` for `settings.storage`
 fg::Texture addTemporalAntialiasingWithTaps(StageGraph graph, fg::Buffer frame, fg::Texture taps, fg::Texture filtered,

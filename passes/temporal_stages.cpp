@@ -5,7 +5,7 @@
 namespace walr {
 namespace {
 
-/// Guides that tell which of the history's pixels show the same surface.
+/// Guides for the tests of history taps.
 GuideNeeds guidesOf(const TemporalPlan& plan) {
   const auto uses = [&](HistoryRejection rejection) {
     return plan.accumulation.rejection == rejection || (plan.antialiases && plan.antialiasing.rejection == rejection);

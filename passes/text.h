@@ -4,7 +4,7 @@
 
 namespace walr {
 
-/// Names in a row, parted by commas, for messages and listings.
+/// Names separated by commas, for messages and listings.
 template <typename Names>
 std::string join(const Names& names) {
   std::string text;

@@ -11,7 +11,7 @@ namespace {
 BlockRegressionSettings fittedBlocks(const WalrSettings& settings, std::uint32_t height) {
   BlockRegressionSettings blocks = settings.blocks;
   if (!settings.fitWindow) return blocks;
-  // Growth stops at light that differs, so that no picture is too small for a window of enough samples.
+  // Growth ends a window where the light differs, so that even small images can have wide windows.
   constexpr std::uint32_t kLeastIterations = 2;
   blocks.size = std::min(blocks.size, fittingBlockSize(height));
   const std::uint32_t fitting = std::max(fittingIterations(height, blocks.size), kLeastIterations);

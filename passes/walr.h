@@ -41,7 +41,7 @@ struct WalrSettings {
 };
 
 /// The project's own method: Weighted A-Trous Linear Regression (Meunier & Harada 2022, figure 6) over blocks of
-/// pixels in place of pixels, which leaves room for features that know depth and occlusion.
+/// pixels instead of pixels, which leaves room for depth and occlusion as features. See passes/WALR.md.
 /// @param output     RGBA16F texture to write the result to
 /// @returns the output's new version
 /// @throws std::invalid_argument for settings outside their range

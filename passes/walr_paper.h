@@ -12,7 +12,7 @@ namespace walr {
 
 /// Settings of all stages of `walr_paper`. The defaults are faithful to the publication: raw half-precision moments
 /// without sample counts, floored pivots, the shading normal's plane, bicubic history, dilated motion, depth rejection,
-/// variance clipping alone after the filter, every surface taken for a diffuse one.
+/// only variance clipping after the filter, every surface treated as diffuse.
 struct WalrPaperSettings {
   bool spatialOnly = false;
   PrepareGuidesSettings guides{.albedoThreshold = 0.0F};
@@ -46,7 +46,7 @@ struct WalrPaperSettings {
 /// The defaults, as published.
 WalrPaperSettings paperWalr();
 
-/// The paper's shape and bandwidth with what measurements condemn mended.
+/// The paper's method with those parts replaced that measurements showed to fail.
 WalrPaperSettings robustWalr();
 
 /// Weighted A-Trous Linear Regression as published, over pixels (Meunier & Harada 2022, figure 6).

@@ -11,7 +11,7 @@
 namespace walr {
 namespace {
 
-/// What an iteration is there for.
+/// The variants of the pass.
 enum class Role : std::size_t { Averages, Filter, View };
 
 /// Shaders of one storage: [first][role].
@@ -94,14 +94,13 @@ struct Iteration {
   Averages averages;          ///< Of the iteration before.
 };
 
-/// The ridge falls with the number of samples. Where their count is dropped, each tap stands for those of the pixels
-/// between taps.
+/// The noise ridge is over the sample count. Without sample counts each tap represents the pixels between taps.
 float noiseRidge(const WeightedRegressionSettings& settings, std::uint32_t spacing) {
   const float samplesPerTap = settings.keepSampleCount ? 1.0F : static_cast<float>(spacing * spacing);
   return settings.regularisation.noiseRidge / samplesPerTap;
 }
 
-/// A pass that does an iteration, but for what it writes.
+/// The pass of an iteration, without its outputs.
 fg::PassBuilder declareIteration(fg::Graph& graph, const std::string& name, Role role, const Iteration& iteration,
                                  fg::Buffer frame, fg::Texture accumulated, LightingAlpha alpha, const Guides& guides,
                                  const WeightedRegressionSettings& settings) {

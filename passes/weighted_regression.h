@@ -20,7 +20,7 @@ enum class MomentStorage : std::uint32_t {
   Raw32,      ///< Raw averages in single precision, 56 bytes; for study.
 };
 
-/// What takes the place of a tap behind an edge (Meunier & Harada 2022, 3.3).
+/// What replaces a tap behind an edge (Meunier & Harada 2022, 3.3).
 enum class TapReplacement : std::uint32_t {
   Off,      ///< Nothing.
   Uniform,  ///< Any pixel before the edge, picked at random.
@@ -63,8 +63,8 @@ struct WeightedRegressionSettings {
              "Meunier & Harada 2022, 3.3"},
             repeatCentre);
     v.visit({"regression.edge-leak",
-             "Weight of the very next pixel where it is an edge, for pixels with few of their surface around them", "",
-             0.0, 1.0, "measured"},
+             "Weight of an adjacent pixel that is an edge, for pixels with few neighbours on their surface", "", 0.0,
+             1.0, "measured"},
             edgeLeak);
     v.visitEnum({"regression.moments", "Storage of the averages between two iterations", "", 0, 1,
                  "Meunier & Harada 2022, 5.2"},
@@ -78,11 +78,11 @@ struct WeightedRegressionSettings {
 
 /// Weighted linear regression of the lighting on the normal over edge-aware a-trous averages.
 /// @param frame       upload of `FrameConstants`
-/// @param accumulated RGBA16F: radiance to filter; a value that is not finite is no sample
-/// @param alpha       what the alpha channel of `accumulated` says; a pixel with no sample has no say
+/// @param accumulated RGBA16F: radiance to filter; values that are not finite do not count
+/// @param alpha       what the alpha channel of `accumulated` holds; pixels without samples do not count
 /// @param output      RGBA16F texture to write the result to
-/// @returns the output's new version: filtered radiance, alpha below 0 where no sample was in reach; sky and pixels
-/// without a diffuse lobe as they were
+/// @returns the output's new version: filtered radiance, alpha below 0 where the window has no sample; the
+///          pass-through at sky and pixels without a diffuse lobe
 /// @throws std::invalid_argument for settings outside their range
 fg::Texture addWeightedRegression(StageGraph graph, fg::Buffer frame, fg::Texture accumulated, LightingAlpha alpha,
                                   const Guides& guides, fg::Texture output,

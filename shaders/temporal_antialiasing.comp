@@ -15,7 +15,7 @@
 #include "constants/temporal_antialiasing.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(constant_id = 2) const int kClipRadius = 1;  // Half the width of the neighbourhood for variance clipping, pixels.
+layout(constant_id = 2) const int kClipRadius = 1;  // Radius of the clipping neighbourhood, pixels.
 #ifdef KEPT_TAPS
 layout(constant_id = 3) const bool kRejectHistory = true;  // Leave out taps that accumulation rejected.
 #endif

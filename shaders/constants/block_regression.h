@@ -5,14 +5,15 @@
 namespace walr {
 #endif
 
-// As BlockRegressionSettings (passes/block_regression.h), except that the unit of coarseSigma is cells.
+// As BlockRegressionSettings (passes/block_regression.h), except that coarseSigma is in cells
+// where the setting is a fraction of the image's height.
 struct BlockRegressionConstants {
-  float planeNear;     // Plane distance over depth up to which the weight is 1 (d0).
-  float planeFar;      // Plane distance over depth from which the weight is 0 (d1).
-  float sdfFraction;   // Share of the stored edge distance that edge tracing steps at once.
-  float ridge;         // Added to the diagonal of the feature covariance.
-  float growthErrors;  // Standard errors up to which a block's window takes in another block in full.
-  float coarseSigma;   // Standard deviation of the coarse window at 1 sample per pixel, cells (setting: of the height).
+  float planeNear;              // Plane distance over depth up to which the weight is 1 (d0).
+  float planeFar;               // Plane distance over depth from which the weight is 0 (d1).
+  float sdfFraction;            // Share of the stored edge distance that edge tracing steps at once.
+  float ridge;                  // Added to the diagonal of the feature covariance.
+  float growthErrors;           // Standard errors up to which a block's window takes in another block in full.
+  float coarseSigma;            // Standard deviation of the coarse window at 1 sample per pixel, cells.
   float coarseNarrowing;        // That window narrows with this power of the samples per pixel.
   float coarseReach;            // Distance at which that window ends, standard deviations.
   float coarseGrowthErrors;     // As growthErrors, for the window of a cell without occlusion.

@@ -1,4 +1,4 @@
-// What light becomes when it is packed and unpacked, for tests of the packing.
+// Packs and unpacks light, for tests of the packing.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -17,7 +17,7 @@ vec4 rounded(vec4 light, vec4 random) {
     case kFilteredSeed: return vec4(1.0, 1.0, 1.0, light.a) * unpackFiltered(packFiltered(light.rgb, random.rgb));
     case kResolvedSeed: return unpackResolved(packResolved(light, float(kLongest), random), float(kLongest));
   }
-  return vec4(unpackPassThrough(packPassThrough(light.rgb)), light.a);  // Of no texture, as it is not rounded by chance.
+  return vec4(unpackPassThrough(packPassThrough(light.rgb)), light.a);  // Rounded to nearest.
 }
 
 void main() {
