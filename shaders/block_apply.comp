@@ -1,13 +1,15 @@
-// WALR, reconstruction (passes/WALR.md, 8): the light of every pixel, predicted from the pixel's own features by the
+// WALR, reconstruction (passes/WALR.md, 8): predicts the light of every pixel from the pixel's own features, with the
 // fits around it.
-// Fine: the fits of the four blocks around the pixel, with bilinear weights times the edge-stopping function of each
-// block's plane. Coarse: the fits of the four cells around it, with bilinear weights. The share of the coarse fits is
-// large where the windows of the fine fits have few samples (coarse_share.glsl).
-// A pixel without a surface gets the pass-through.
-// PACKED: the result is packed light (packed_light.glsl). A pixel without a surface then gets a mark, and the reader of
-// the result writes the pass-through.
-// VIEW: does the same work and writes one of its intermediate values instead of the result. With VIEW, PACKED says that
-// `accumulated` is packed.
+// Fine prediction: the mean over the fits of the four nearest blocks, weighted by bilinear weight times edge-stopping
+// function of the block's plane times cosine between block normal and shading normal.
+// Coarse prediction: the mean over the fits of the four nearest cells, with bilinear weights alone.
+// The result is a mixture of both. The fewer samples the windows of the fine fits hold, the larger is the share of the
+// coarse prediction (coarse_share.glsl). The cells are not read where that share is 0.
+// A pixel without a surface (depth 0) is not filtered: its pass-through is copied to the result.
+// PACKED: the result is packed light (packed_light.glsl). A pixel without a surface gets the mark kFilteredNoSurface,
+// and anti-aliasing outputs the pass-through.
+// VIEW: writes an intermediate value instead of the result, and black where there is no surface. The cells are always
+// read. With VIEW, PACKED means that `accumulated` is packed.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -21,16 +23,18 @@ layout(constant_id = 2) const int kCellSize = 8;   // Pixels per axis.
 
 layout(std140) uniform frameConstants { FrameConstants frame; };
 uniform utexture2D depth;
-uniform utexture2D features;
+uniform utexture2D features;  // Shading normal and ambient occlusion.
+// Fits of blocks: 24 halves in three textures (block_fit.glsl).
 uniform utexture2D fitA;
 uniform utexture2D fitB;
 uniform utexture2D fitC;
-uniform utexture2D fitDepth;
-uniform utexture2D fitNormal;
+uniform utexture2D fitDepth;   // Of the representative pixel; 0: the block shows no surface.
+uniform utexture2D fitNormal;  // Geometric normal of the representative pixel, and that pixel's number in the block.
+// Fits of cells.
 uniform utexture2D coarseA;
 uniform utexture2D coarseB;
 uniform utexture2D coarseC;
-uniform utexture2D coarseDepth;
+uniform utexture2D coarseDepth;  // Depth that the cell's depth feature is relative to; 0: no surface in its window.
 #ifdef VIEW
 layout(constant_id = 8) const uint kView = 0;  // Which quantity; numbered in viewOf.
 layout(rgba32f) uniform writeonly image2D outView;
@@ -59,13 +63,14 @@ layout(push_constant) uniform PushConstants { BlockRegressionConstants constants
 #include "include/pass_through.glsl"
 #endif
 
+// Sums over the four fits, before division by `weight`.
 struct Prediction {
-  vec3 colour;    // Weighted sum.
-  float samples;  // Weighted sum.
-  float weight;
+  vec3 colour;    // Sum of weight times predicted colour.
+  float samples;  // Sum of weight times W, the sample count of the fit's window.
+  float weight;   // Sum of weights; 0: no fit is usable.
 #ifdef VIEW
-  vec3 slope[kFeatures];  // Weighted sums.
-  bvec3 negative;         // Whether a fit is below 0, by channel.
+  vec3 slope[kFeatures];  // Sums of weight times slope.
+  bvec3 negative;         // Whether any of the fits predicts less than 0, by channel.
 #endif
 };
 
@@ -81,6 +86,7 @@ Prediction noPrediction() {
   return sum;
 }
 
+// Adds the prediction of one fit for features `x`. A fit without samples is left out.
 void add(inout Prediction sum, float weight, BlockFit fit, float x[kFeatures]) {
   if (weight <= 0.0 || fit.samples <= 0.0) return;
   sum.colour += weight * max(evaluate(fit, x), vec3(0.0));
@@ -96,23 +102,23 @@ void add(inout Prediction sum, float weight, BlockFit fit, float x[kFeatures]) {
 BlockFit loadFine(ivec2 block) {
   return unpackFit(PackedFit(texelFetch(fitA, block, 0), texelFetch(fitB, block, 0), texelFetch(fitC, block, 0)));
 }
-BlockFit loadCoarse(ivec2 block) {
-  return unpackFit(
-      PackedFit(texelFetch(coarseA, block, 0), texelFetch(coarseB, block, 0), texelFetch(coarseC, block, 0)));
+BlockFit loadCoarse(ivec2 cell) {
+  return unpackFit(PackedFit(texelFetch(coarseA, cell, 0), texelFetch(coarseB, cell, 0), texelFetch(coarseC, cell, 0)));
 }
 
-// Mean sample count W of the fine fits.
-float fineSamples(Prediction fine) { return fine.weight > 0.0 ? fine.samples / fine.weight : 0.0; }
+// Mean sample count of the windows of the fine fits; 0 if no fine fit is usable.
+float meanSamples(Prediction fine) { return fine.weight > 0.0 ? fine.samples / fine.weight : 0.0; }
 
-// Share of the coarse fits if any of them has samples: 1 where no fine fit has any.
-float coarseShare(Prediction fine) { return fine.weight > 0.0 ? coarseShare(fineSamples(fine)) : 1.0; }
+// Share of the coarse prediction, provided that a coarse fit is usable: 1 if no fine fit is, for instance because the
+// pixel lies on no block's plane.
+float shareOfCoarse(Prediction fine) { return fine.weight > 0.0 ? coarseShare(meanSamples(fine)) : 1.0; }
 
-vec3 colourOf(Prediction sum) { return sum.weight > 0.0 ? sum.colour / sum.weight : vec3(0.0); }
+vec3 meanColour(Prediction sum) { return sum.weight > 0.0 ? sum.colour / sum.weight : vec3(0.0); }
 
-// The four texels around a pixel on a grid whose texels are `size` pixels a side.
+// The four texels nearest to a pixel on a grid whose texels are `size` pixels a side.
 struct BilinearTexels {
-  ivec2 base;
-  vec2 f;
+  ivec2 base;     // The upper left one.
+  vec2 fraction;  // Position past its centre, in texels.
 };
 
 BilinearTexels bilinearTexels(ivec2 p, int size) {
@@ -120,16 +126,16 @@ BilinearTexels bilinearTexels(ivec2 p, int size) {
   return BilinearTexels(ivec2(floor(position)), fract(position));
 }
 
-// Weight of texel `i` of the four; 0 outside the grid.
-float bilinearWeight(BilinearTexels a, int i, ivec2 grid, out ivec2 texel) {
+// Weight of texel `i` of the four, 0 if it lies outside the grid.
+float bilinearWeight(BilinearTexels texels, int i, ivec2 grid, out ivec2 texel) {
   const ivec2 offset = ivec2(i & 1, i >> 1);
-  texel = a.base + offset;
+  texel = texels.base + offset;
   if (any(lessThan(texel, ivec2(0))) || any(greaterThanEqual(texel, grid))) return 0.0;
-  const vec2 axisWeight = mix(1.0 - a.f, a.f, vec2(offset));
+  const vec2 axisWeight = mix(1.0 - texels.fraction, texels.fraction, vec2(offset));
   return axisWeight.x * axisWeight.y;
 }
 
-Prediction predictCoarse(ivec2 p, float z, NormalAndOcclusion shading) {
+Prediction predictCoarse(ivec2 p, float z, NormalAndOcclusion guides) {
   Prediction sum = noPrediction();
   const BilinearTexels cells = bilinearTexels(p, kCellSize);
   [[unroll]] for (int i = 0; i < 4; ++i) {
@@ -137,12 +143,12 @@ Prediction predictCoarse(ivec2 p, float z, NormalAndOcclusion shading) {
     const float weight = bilinearWeight(cells, i, textureSize(coarseDepth, 0), cell);
     if (weight <= 0.0) continue;
     const float cellZ = unpackDepth(texelFetch(coarseDepth, cell, 0).x);
-    if (cellZ > 0.0) add(sum, weight, loadCoarse(cell), featuresOf(shading, cellZ / z - 1.0));
+    if (cellZ > 0.0) add(sum, weight, loadCoarse(cell), featuresOf(guides, cellZ / z - 1.0));
   }
   return sum;
 }
 
-Prediction predictFine(ivec2 p, float z, NormalAndOcclusion shading) {
+Prediction predictFine(ivec2 p, float z, NormalAndOcclusion guides) {
   Prediction sum = noPrediction();
   const BilinearTexels blocks = bilinearTexels(p, kBlockSize);
   [[unroll]] for (int i = 0; i < 4; ++i) {
@@ -154,30 +160,32 @@ Prediction predictFine(ivec2 p, float z, NormalAndOcclusion shading) {
     const uint packedNormal = texelFetch(fitNormal, block, 0).x;
     const vec3 normal = blockNormal(packedNormal);
     const Plane plane = planeAt(representativePixel(block, kBlockSize, packedNormal), blockZ, normal);
-    const float weight = bilinear * onPlane(planeDistance(plane, p, z)) * facing(normal, shading.normal);
-    add(sum, weight, loadFine(block), featuresOf(shading, blockZ / z - 1.0));
+    // u of passes/WALR.md; the distance is in units of blockZ.
+    const float weight = bilinear * edgeStopping(planeDistance(plane, p, z)) * normalCosine(normal, guides.normal);
+    add(sum, weight, loadFine(block), featuresOf(guides, blockZ / z - 1.0));
   }
   return sum;
 }
 
 #ifdef VIEW
-const float kCoefficients = float(kFeatures + 1);  // Of the fit of one channel.
+const float kCoefficients = float(kFeatures + 1);  // Of one channel: a constant and the slopes.
 
-vec3 slopeOf(Prediction sum, uint feature) {
-  return sum.weight > 0.0 ? sum.slope[feature] / sum.weight : vec3(0.0);
-}
-vec3 viewOf(ivec2 p, Prediction fine, Prediction coarse, float share, float occluded) {
-  const bool known = fine.weight > 0.0 || coarse.weight > 0.0;
+vec3 meanSlope(Prediction sum, uint feature) { return sum.weight > 0.0 ? sum.slope[feature] / sum.weight : vec3(0.0); }
+
+// In the order of reconstructionViews() in passes/block_regression.cpp, which describes each value.
+vec3 viewOf(ivec2 p, Prediction fine, Prediction coarse, float share, float occlusion) {
+  const bool usable = fine.weight > 0.0 || coarse.weight > 0.0;
   switch (kView) {
-    case 0u: return vec3(fineSamples(fine), share, !known);
-    case 1u: return vec3(occluded, fine.weight, fine.weight <= 0.0 && coarse.weight > 0.0);
-    case 2u: return colourOf(fine);
-    case 3u: return colourOf(coarse);
-    case 4u: return vec3(fine.negative);
-    case 5u: return vec3(coarse.negative);
-    case 16u: return vec3(fineSamples(fine) < kCoefficients, share > 0.5, lightAt(p).a == 0.0);
+    case 0u: return vec3(meanSamples(fine), share, !usable);                                     // samples
+    case 1u: return vec3(occlusion, fine.weight, fine.weight <= 0.0 && coarse.weight > 0.0);     // occlusion
+    case 2u: return meanColour(fine);                                                            // fine-fit
+    case 3u: return meanColour(coarse);                                                          // coarse-fit
+    case 4u: return vec3(fine.negative);                                                         // clamped
+    case 5u: return vec3(coarse.negative);                                                       // coarse-clamped
+    case 16u: return vec3(meanSamples(fine) < kCoefficients, share > 0.5, lightAt(p).a == 0.0);  // few-samples
   }
-  return kView < 11u ? slopeOf(fine, kView - 6u) : slopeOf(coarse, kView - 11u);
+  // 6 to 10 are slope-x to slope-occlusion; 11 to 15 are coarse-slope-x to coarse-slope-occlusion.
+  return kView < 11u ? meanSlope(fine, kView - 6u) : meanSlope(coarse, kView - 11u);
 }
 #endif
 
@@ -202,20 +210,21 @@ void main() {
     storeNoSurface(p);
     return;
   }
-  const NormalAndOcclusion shading = unpackNormalAndOcclusion(texelFetch(features, p, 0).x);
-  const Prediction fine = predictFine(p, z, shading);
-  const float shareIfAny = coarseShare(fine);
+  const NormalAndOcclusion guides = unpackNormalAndOcclusion(texelFetch(features, p, 0).x);
+  const Prediction fine = predictFine(p, z, guides);
+  const float shareIfUsable = shareOfCoarse(fine);
 #ifdef VIEW
-  const Prediction coarse = predictCoarse(p, z, shading);
+  const Prediction coarse = predictCoarse(p, z, guides);
 #else
   Prediction coarse = noPrediction();
-  if (shareIfAny > 0.0) coarse = predictCoarse(p, z, shading);
+  if (shareIfUsable > 0.0) coarse = predictCoarse(p, z, guides);
 #endif
-  const float share = coarse.weight > 0.0 ? shareIfAny : 0.0;
+  const float share = coarse.weight > 0.0 ? shareIfUsable : 0.0;
 #ifdef VIEW
-  imageStore(outView, p, vec4(viewOf(p, fine, coarse, share, shading.occlusion), 1.0));
+  imageStore(outView, p, vec4(viewOf(p, fine, coarse, share, guides.occlusion), 1.0));
 #else
-  // 0 where no fit has samples. The pixel itself has none then: its cell would otherwise have a coarse fit.
-  store(p, mix(colourOf(fine), colourOf(coarse), share));
+  // Black if no fit is usable. That happens only where light was never finite: a pixel with a sample gives a fit to
+  // its own cell, which is one of the four.
+  store(p, mix(meanColour(fine), meanColour(coarse), share));
 #endif
 }

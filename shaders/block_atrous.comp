@@ -41,7 +41,7 @@ float edgeWeight(Plane plane, ivec2 block, out uint packedDepth) {
   packedDepth = texelFetch(depth, block, 0).x;
   const float z = unpackDepth(packedDepth);
   if (z == 0.0) return 0.0;
-  return onPlane(planeDistance(plane, representativePixel(block, kBlockSize, texelFetch(normal, block, 0).x), z));
+  return edgeStopping(planeDistance(plane, representativePixel(block, kBlockSize, texelFetch(normal, block, 0).x), z));
 }
 
 struct Trace {
@@ -165,7 +165,7 @@ void main() {
       continue;
     }
     const ivec2 q = block + kSpacing * direction;
-    const float weight = trace.weight * facing(n, blockNormal(texelFetch(normal, q, 0).x));
+    const float weight = trace.weight * normalCosine(n, blockNormal(texelFetch(normal, q, 0).x));
     if (weight <= 0.0) continue;
     const BlockMoments tapped = loadMoments(q);
     if (tapped.samples <= 0.0) continue;

@@ -85,7 +85,7 @@ CellPart momentsOfBlock(ivec2 block) {
     if (zp == 0.0 || mean.a == 0.0) continue;
     const NormalAndOcclusion shading = unpackNormalAndOcclusion(texelFetch(features, p, 0).x);
     const BlockMoments sampled = onePixel(featuresOf(shading, z / zp - 1.0), mean.rgb, mean.a);
-    const float weight = onPlane(planeDistance(plane, p, zp)) * facing(normal, shading.normal);
+    const float weight = edgeStopping(planeDistance(plane, p, zp)) * normalCosine(normal, shading.normal);
     if (weight > 0.0) add(onItsPlane, weight, sampled);
     add(all, 1.0, sampled);
   }

@@ -4,11 +4,11 @@
 #define WALR_BLOCK_PLANE_GLSL
 
 // e(distance): 1 up to planeNear, 0 from planeFar on, linear between. `distance` is in units of depth.
-float onPlane(float distance) {
+float edgeStopping(float distance) {
   return clamp((constants.planeFar - distance) / (constants.planeFar - constants.planeNear), 0.0, 1.0);
 }
 
 // Cosine between two normals, 0 where they face away from each other.
-float facing(vec3 a, vec3 b) { return clamp(dot(a, b), 0.0, 1.0); }
+float normalCosine(vec3 a, vec3 b) { return clamp(dot(a, b), 0.0, 1.0); }
 
 #endif

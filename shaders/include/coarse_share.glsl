@@ -2,8 +2,8 @@
 #ifndef WALR_COARSE_SHARE_GLSL
 #define WALR_COARSE_SHARE_GLSL
 
-// s = S / (W + S), faded to 0 between twice coarseLeastShare and coarseLeastShare: where the coarse fits would count
-// for little, they are not read. `samples`: W of the fine fits; S: coarseSamples.
+// Share s of the coarse prediction where the windows of the fine fits hold `samples` (W) in the mean. To save work it
+// fades out between twice coarseLeastShare and coarseLeastShare; where it is 0, the coarse fits are not read.
 float coarseShare(float samples) {
   const float share = constants.coarseSamples / (samples + constants.coarseSamples);
   return share * clamp(share / constants.coarseLeastShare - 1.0, 0.0, 1.0);
