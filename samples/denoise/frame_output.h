@@ -29,8 +29,8 @@ struct DenoisedFrame {
 
 struct OutputOptions {
   std::filesystem::path directory;
-  bool composite =
-      false;  ///< Write the lit image, albedo * (direct + indirect) + emission, instead of the indirect light.
+  /// Write the lit image, albedo * (direct + indirect) + emission, instead of the indirect light.
+  bool composite = false;
   /// Take the direct light of lit images from the reference, if there is one, so that only the indirect light differs.
   bool referenceDirect = false;
   bool png = false;               ///< Also write tone-mapped images as PNG.

@@ -215,7 +215,7 @@ void timesPanel(const FrameFacts& facts, bool softwareDevice) {
 
 void memoryPanel(const fg::GraphDesc& graph, const fg::Plan& plan) {
   const fg::MemoryReport& memory = plan.memory;
-  ImGui::Text("Transient %.1f MiB (%.1f without aliasing), persistent %.1f MiB",
+  ImGui::Text("Transient %.1f MiB (%.1f unshared), persistent %.1f MiB",
               static_cast<double>(memory.transientPeakBytes) / kMegabyte,
               static_cast<double>(memory.transientUnaliasedBytes) / kMegabyte,
               static_cast<double>(memory.persistentBytes) / kMegabyte);
