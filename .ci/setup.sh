@@ -1,5 +1,5 @@
-# Sourced by tests/run.sh and samples/run.sh: installs what the project builds with, on Debian 12 and Ubuntu 24.04.
-# Says what it installs, asks nothing, and does nothing where everything is there.
+# Sourced by tests/run.sh and samples/run.sh. Installs the packages that the project needs, on Debian 12 and Ubuntu
+# 24.04: prints their names, asks no questions, and does nothing if all packages are installed.
 
 walr_packages=(
   # Build tools
@@ -9,7 +9,7 @@ walr_packages=(
   # Libraries
   libcli11-dev libembree-dev libglm-dev libimath-dev libopenexr-dev libpng-dev libstb-dev libtinygltf-dev
   nlohmann-json3-dev
-  # The sample host's window, which is optional
+  # The window of walr-host (optional)
   libglfw3-dev libimgui-dev
   # Tests and benchmarks
   clang doxygen graphviz libbenchmark-dev libgtest-dev libplacebo-dev libxml2-utils libxtst6 python3 python3-jsonschema
@@ -29,7 +29,7 @@ walr_setup() {
   fi
   if [ "$(id -u)" -ne 0 ]; then
     if ! command -v sudo >/dev/null; then
-      echo "These packages are missing, and there is neither root nor sudo to install them: ${missing[*]}" >&2
+      echo "These packages are missing and cannot be installed without root or sudo: ${missing[*]}" >&2
       return 1
     fi
     as_root=(sudo)
@@ -39,7 +39,7 @@ walr_setup() {
   "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install --quiet --quiet --yes --no-install-recommends "${missing[@]}"
 }
 
-# walr_build [TARGET...]: configures and builds; everything, or the targets given.
+# walr_build [TARGET...]: configures, and builds the given targets or, without any, everything.
 walr_build() {
   cmake --preset ci
   cmake --build --preset ci ${1:+--target "$@"}

@@ -4,7 +4,7 @@
 
 namespace walr {
 
-/// Input that cannot be used as it is. The message names the file, what is wrong with it and the way out.
+/// Input that cannot be used. The message names the file, the fault and the remedy.
 class InputError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

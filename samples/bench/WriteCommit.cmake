@@ -1,5 +1,5 @@
 # cmake -DGIT=<git> -DSOURCE=<folder> -DHEADER=<file> -P WriteCommit.cmake
-# Writes a header with the commit that a build is made from, and touches it only where that has changed.
+# Writes a header with the commit of the source tree. The file is touched only if the commit has changed.
 set(commit "unknown")
 if(GIT)
   execute_process(COMMAND "${GIT}" describe --always --abbrev=12 --dirty --exclude=* WORKING_DIRECTORY "${SOURCE}"

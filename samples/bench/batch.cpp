@@ -20,14 +20,14 @@
 namespace walr {
 namespace {
 
-/// One variant on its way through the sequence.
+/// The state of one variant while it runs over the sequence.
 struct Lane {
   GpuDenoiser denoiser;
   RunRecord record;
   std::optional<DisplayedPair> previous;
-  std::vector<std::uint64_t> results;  ///< Fingerprints of the first pass, by frame.
+  std::vector<std::uint64_t> results;  ///< Fingerprints of the first pass's results, by frame.
   FrameTimes times;
-  std::unique_ptr<Clip> clip;  ///< Of the first pass, for VMAF.
+  std::unique_ptr<Clip> clip;  ///< Results of the first pass, for VMAF.
 };
 
 std::uint64_t fingerprintOf(const Image& image) {
@@ -184,7 +184,7 @@ class Batch {
       const std::vector<double> scores =
           options_.vmaf->scores(lane.clip->finished(), reference_->finished(), sequence_.extent());
       if (scores.size() != scored_.size()) {
-        throw OutputError("VMAF of " + lane.record.variant + " has " + std::to_string(scores.size()) + " scores for " +
+        throw OutputError("VMAF of " + lane.record.variant + ": got " + std::to_string(scores.size()) + " scores for " +
                           std::to_string(scored_.size()) + " frames. Choose another program with --ffmpeg");
       }
       for (std::size_t i = 0; i < scored_.size(); ++i) lane.record.frames[scored_[i]].vmaf = scores[i];

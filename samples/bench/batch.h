@@ -16,20 +16,20 @@ namespace walr {
 
 struct BatchOptions {
   std::size_t repetitions = 3;              ///< Timed passes over the sequence; at least 1.
-  std::vector<int> pictureFrames;           ///< Frames whose pictures and error maps are kept.
-  std::filesystem::path pictures;           ///< Folder for them; exists.
-  const VmafTool* vmaf = nullptr;           ///< Computes VMAF, by way of clips in the same folder.
+  std::vector<int> pictureFrames;           ///< Frames whose images and error maps are kept.
+  std::filesystem::path pictures;           ///< Existing folder for these images.
+  const VmafTool* vmaf = nullptr;           ///< Computes VMAF from clips in the same folder; null: no VMAF.
   std::function<void()> frameDone = [] {};  ///< Called after each frame of each pass over the sequence.
 };
 
-/// Run variants on the same frames beside each other: every frame goes through all of them before the next one, and
-/// who is first moves on from frame to frame, so that whatever drifts hits all alike.
+/// Run variants on the same frames in alternation: all variants denoise a frame before the next frame, and the order of
+/// the variants rotates from frame to frame, so that drift of the machine affects all variants alike.
 ///
-/// A first pass over the sequence warms up and measures errors; its times are dropped. The repetitions after it are
-/// timed, and their results compared with the first pass bit by bit.
+/// A first pass over the sequence warms up and measures errors; its times are discarded. The repetitions after it are
+/// timed, and their results are compared with those of the first pass bit by bit.
 ///
-/// @param variants the first one is the baseline that ratios are against
-/// @returns one record a variant
+/// @param variants  the first one is the baseline that time ratios refer to
+/// @returns one record per variant
 /// @throws InputError, OutputError, fg::vk::Error
 std::vector<RunRecord> runBatch(const GpuDevice& device, const Sequence& sequence, std::span<const Variant> variants,
                                 const BatchOptions& options);

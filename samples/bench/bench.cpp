@@ -19,14 +19,14 @@ namespace {
 constexpr std::array kCommonExtents = {fg::Extent{1280, 720}, fg::Extent{1920, 1080}, fg::Extent{2560, 1440},
                                        fg::Extent{3840, 2160}};
 
-/// What all runs are made from: program, device, repetitions.
+/// Key of what all runs depend on: program, device, repetitions.
 std::string setupKey(const GpuDevice& device, const BenchOptions& options) {
   Fingerprint key;
   key.addFile("/proc/self/exe").add(device.name()).add(device.driver()).add(std::to_string(options.repetitions));
   return key.text();
 }
 
-/// What all runs on a sequence are made from: the set-up, what computes VMAF, the sequence.
+/// Key of what all runs on a sequence depend on: the setup, the VMAF program, the sequence.
 std::string sequenceKey(const std::string& setup, const NamedSequence& sequence, const BenchOptions& options) {
   Fingerprint key;
   key.add(setup).add(options.vmaf ? options.vmaf->description() : std::string());
@@ -34,7 +34,7 @@ std::string sequenceKey(const std::string& setup, const NamedSequence& sequence,
     key.addFile(entry.file);
     if (!entry.reference.empty()) key.addFile(entry.reference);
     key.add(entry.resetHistory ? "reset" : "carried");
-    // Of cameras.json, the part that matters.
+    // The part of cameras.json that affects results.
     for (const glm::mat4* matrix : {&entry.camera.view, &entry.camera.previousView, &entry.camera.projection}) {
       key.add(std::as_bytes(std::span(matrix, 1)));
     }
@@ -42,7 +42,7 @@ std::string sequenceKey(const std::string& setup, const NamedSequence& sequence,
   return key.text();
 }
 
-/// @param base key of all else that the run is made from
+/// @param base  key of everything else that the run depends on
 std::string runKey(const std::string& base, const Variant& variant) {
   Fingerprint key;
   key.add(base).add(variant.method);
@@ -50,7 +50,7 @@ std::string runKey(const std::string& base, const Variant& variant) {
   return key.text();
 }
 
-/// The runs of one sequence that are still to be made.
+/// The missing runs of one sequence.
 struct Work {
   const NamedSequence* sequence;
   std::string key;
@@ -87,7 +87,7 @@ std::map<std::string, std::vector<PlanCosts>> allCosts(const std::vector<NamedSe
     for (std::size_t i = 0; i < extents.size(); ++i) {
       try {
         costs[variant.name].push_back(planCosts(variant, extents[i], conventions));
-      } catch (const std::invalid_argument&) {  // Settings may be too fine for the largest pictures.
+      } catch (const std::invalid_argument&) {  // Some settings do not support the largest images.
         if (i < required) throw;
       }
     }
@@ -95,10 +95,10 @@ std::map<std::string, std::vector<PlanCosts>> allCosts(const std::vector<NamedSe
   return costs;
 }
 
-/// The sizes of which some variants are still to be timed.
+/// The missing runs of one size.
 struct SizeWork {
   fg::Extent extent;
-  std::string name;  ///< In the store; no sequence's has a slash.
+  std::string name;  ///< Name in the store. It contains a slash, which sequence names do not.
   std::vector<std::vector<Variant>> batches;
 };
 
@@ -116,7 +116,7 @@ std::vector<SizeWork> sizeWork(const std::string& setup, const RunStore& store, 
   return work;
 }
 
-/// Time what is missing at a size, and tell all.
+/// Time the missing variants at a size, and return the times of all variants.
 SizeTimes timeSize(const GpuDevice& device, const std::string& setup, const RunStore& store, const SizeWork& todo,
                    const BenchOptions& options, const std::function<void()>& frameDone) {
   std::map<std::string, std::string> whyNot;
@@ -149,13 +149,14 @@ std::vector<NamedSequence> openSequences(const std::vector<std::filesystem::path
     const std::filesystem::path whole = std::filesystem::weakly_canonical(folder);
     NamedSequence named{whole.filename().string(), folder, Sequence(folder, options)};
     if (std::ranges::all_of(named.sequence.entries(), [](const auto& entry) { return entry.reference.empty(); })) {
-      throw InputError(folder.string() +
-                       ": no frame has a reference (ref_FFFF.exr), and without one there is no error to report. "
-                       "Render one for some of the frames; 'walr denoise --json' tells times without");
+      throw InputError(
+          folder.string() +
+          ": no frame has a reference (ref_FFFF.exr), so no errors can be measured. "
+          "Render references for some frames, or use 'walr denoise --json', which reports times without them");
     }
     if (std::ranges::find(sequences, named.name, &NamedSequence::name) != sequences.end()) {
-      throw InputError("two sequences are called '" + named.name +
-                       "': the report goes by the folders' names, so rename one");
+      throw InputError("two sequences have the name '" + named.name +
+                       "': the report identifies sequences by the names of their folders, so rename one");
     }
     sequences.push_back(std::move(named));
   }

@@ -24,7 +24,7 @@
 
 namespace walr {
 
-/// A sequence under the name of its folder.
+/// A sequence and its name, which is that of its folder.
 struct NamedSequence {
   std::string name;
   std::filesystem::path folder;
@@ -38,20 +38,20 @@ std::vector<NamedSequence> openSequences(const std::vector<std::filesystem::path
 
 struct BenchOptions {
   std::vector<Variant> variants;  ///< The baseline first (`withBaseline`).
-  std::filesystem::path output;   ///< Finished runs are kept and found again in it.
+  std::filesystem::path output;   ///< Folder in which finished runs are stored, and found again.
   std::size_t repetitions = 3;    ///< Timed passes over each sequence.
   std::vector<fg::Extent> sizes;  ///< Also time all variants on synthetic frames of these sizes (`sizeTimes`).
-  /// Variants that run beside each other. More need more device memory at once, and lose more when interrupted. The
-  /// baseline runs in every batch.
+  /// Number of variants that run in alternation, including the baseline, which runs in every batch. More variants need
+  /// more device memory and lose more work when interrupted.
   std::size_t batch = 10;
-  std::optional<VmafTool> vmaf;  ///< Computes VMAF where there is one.
-  std::string whyNoVmaf;         ///< In words, where there is none.
+  std::optional<VmafTool> vmaf;  ///< Computes VMAF; absent: no VMAF.
+  std::string whyNoVmaf;         ///< Why there is no VMAF, as text.
   bool hardCases = false;        ///< Also run the hard cases of the arithmetic (`numerics`, `methodHardCases`).
-  bool content = false;          ///< Also time all variants by what the picture holds (`contentTimes`).
+  bool content = false;          ///< Also time all variants on different image content (`contentTimes`).
   bool response = false;         ///< Also run all variants on the synthetic scenes (`responses`).
 };
 
-/// What came of one sequence.
+/// Results of one sequence.
 struct SequenceReport {
   std::string name;
   std::string layout;
@@ -61,33 +61,34 @@ struct SequenceReport {
   std::vector<RunRecord> runs;  ///< In the order of the variants.
 };
 
-/// All that a benchmark found.
+/// All results of a benchmark.
 struct BenchReport {
   BuildInfo build;
   DeviceFacts device;
   std::size_t repetitions = 0;
-  std::string vmaf;       ///< What computed VMAF; empty where nothing did.
-  std::string whyNoVmaf;  ///< In words, where nothing did.
+  std::string vmaf;       ///< Program and model that computed VMAF; empty without VMAF.
+  std::string whyNoVmaf;  ///< Why there is no VMAF, as text.
   std::vector<Variant> variants;
-  std::map<std::string, std::vector<SettingValue>> settings;  ///< All settings of every variant, by its name.
-  std::map<std::string, std::vector<PlanCosts>> costs;        ///< At the sequences' sizes and 720p to 4K, by variant.
+  std::map<std::string, std::vector<SettingValue>> settings;  ///< All settings of every variant, by variant name.
+  std::map<std::string, std::vector<PlanCosts>>
+      costs;  ///< At the sequences' sizes, `--sizes` and 720p to 4K; by variant name.
   std::vector<SequenceReport> sequences;
   std::vector<SizeTimes> sizes;
-  std::vector<ContentTimes> contents;  ///< Of all variants, or empty.
-  std::vector<Response> responses;     ///< Of all variants, or empty.
+  std::vector<ContentTimes> contents;  ///< One per variant, or empty.
+  std::vector<Response> responses;     ///< One per variant, or empty.
   std::vector<NumericsResult> numerics;
   std::vector<MethodHardCase> methodHardCases;
 };
 
-/// Run what has not been run yet, and report on all.
-/// @param log  takes notes and progress
+/// Run all variants that have no stored run, and report on all variants.
+/// @param log  receives notes and progress
 /// @param terminal  whether `log` is a terminal
 /// @throws InputError, OutputError, fg::vk::Error
 BenchReport bench(const GpuDevice& device, const std::vector<NamedSequence>& sequences, const BenchOptions& options,
                   std::ostream& log, bool terminal);
 
-/// Where `bench` leaves the pictures of a sequence: `VARIANT_FFFF.npy`, `VARIANT.errors_FFFF.npy` (RMSE, SSIM, FLIP),
-/// `VARIANT.change_FFFF.npy` (`errorChange`, where the frame before has a reference, too), `_reference_FFFF.npy` and
+/// The folder with the images of a sequence: `VARIANT_FFFF.npy`, `VARIANT.errors_FFFF.npy` (RMSE, SSIM, FLIP),
+/// `VARIANT.change_FFFF.npy` (`errorChange`, if the previous frame also has a reference), `_reference_FFFF.npy` and
 /// `_noisy_FFFF.npy`.
 std::filesystem::path pictureFolder(const std::filesystem::path& output, const std::string& sequence);
 

@@ -12,7 +12,7 @@
 namespace walr {
 namespace {
 
-/// Depth in the frame before, minus depth, of a surface point that stands still.
+/// Change of depth of a static surface point: depth in the previous frame minus depth in this one.
 float depthChangeOfStill(const Frame& frame, int x, int y) {
   const Camera& camera = frame.camera;
   const float depth = frame.depth.at(x, y, 0);
@@ -26,7 +26,7 @@ float depthChangeOfStill(const Frame& frame, int x, int y) {
 }
 
 VisibleSurfaces visibleSurfaces(const Frame& frame, const Layout& layout) {
-  // Where there is no reference, nothing of it is left out.
+  // Without a reference, no pixel is left out.
   const Image& reference = frame.reference ? frame.reference->indirect : frame.albedo;
   VisibleSurfaces surfaces{frame.depth, frame.normal, frame.motion,
                            diffuseMask(frame.albedo, frame.normal, frame.depth, kSkyDepth, reference)};

@@ -11,7 +11,7 @@
 
 namespace walr {
 
-/// A frame with all that its measurement needs.
+/// A frame with the data that its measurements need.
 struct BenchFrame {
   PackedFrame packed;
   VisibleSurfaces surfaces;
@@ -21,22 +21,22 @@ struct BenchFrame {
 /// @throws InputError
 BenchFrame readBenchFrame(const Sequence& sequence, std::size_t index);
 
-/// What is known of a frame before any method has run.
+/// Properties of a frame that do not depend on the method.
 struct FrameFacts {
   int number = 0;
   bool resetHistory = false;
   bool hasReference = true;
-  std::optional<double> disoccluded;     ///< Share of the pixels that were not visible in the frame before.
+  std::optional<double> disoccluded;     ///< Share of the pixels that were not visible in the previous frame.
   std::optional<double> referenceNoise;  ///< See `referenceNoise`.
 };
 
-/// Facts of all frames.
+/// Properties of all frames.
 /// @throws InputError
 std::vector<FrameFacts> survey(const Sequence& sequence);
 
-/// The frames whose pictures are kept, chosen by the input alone among those that have a reference: the last one, and
-/// the one with the largest disocclusion after history has built up.
-/// @param facts  at least one of a frame with a reference
+/// Numbers of the frames whose images are kept: of those with a reference the last one, and the one with the largest
+/// disocclusion after history has built up. The choice depends on the input alone, so that it favours no method.
+/// @param facts  must contain a frame with a reference
 std::vector<int> pictureFrames(const std::vector<FrameFacts>& facts);
 
 }  // namespace walr

@@ -233,8 +233,8 @@ std::string benchJson(const BenchReport& report, const std::string& command) {
 void printSummary(std::ostream& stream, const BenchReport& report) {
   for (const SequenceReport& sequence : report.sequences) printSequence(stream, sequence);
   if (report.sequences.empty()) return;
-  stream << "\nMeans over the frames after the first " << kWarmUpFrames << "; time x: median of the time over "
-         << kBaseline << "'s on the same frame" << (report.device.software ? ", a processor's, not a GPU's" : "")
+  stream << "\nMeans over the frames after the first " << kWarmUpFrames << "; time x: median ratio of the time to "
+         << kBaseline << "'s on the same frame" << (report.device.software ? ", CPU times, not those of a GPU" : "")
          << ".\n";
 }
 

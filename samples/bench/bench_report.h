@@ -7,11 +7,11 @@
 
 namespace walr {
 
-/// The whole report as JSON, as samples/bench/bench.schema.json describes it.
-/// @param command  the command line that made it
+/// The whole report as JSON, in the format of samples/bench/bench.schema.json.
+/// @param command  the command line of the run
 std::string benchJson(const BenchReport& report, const std::string& command);
 
-/// For the console: a table a sequence, of a few errors and of times. `report.html` and `bench.csv` hold the rest.
+/// Print one table per sequence with some errors and times. `report.html` and `bench.csv` contain the rest.
 void printSummary(std::ostream& stream, const BenchReport& report);
 
 }  // namespace walr

@@ -4,11 +4,11 @@
 
 namespace walr {
 
-/// Where a program comes from.
+/// Commit, compiler and build type of this program.
 struct BuildInfo {
-  std::string commit;     ///< "1be0131c...", with "-dirty" where files were changed; "unknown" outside of a repository.
-  std::string compiler;   ///< "GNU 12.2.0".
-  std::string buildType;  ///< "RelWithDebInfo".
+  std::string commit;     ///< "1be0131c...", with "-dirty" if files were changed; "unknown" outside of a repository.
+  std::string compiler;   ///< For example "GNU 12.2.0".
+  std::string buildType;  ///< For example "RelWithDebInfo".
 };
 
 BuildInfo buildInfo();

@@ -10,7 +10,7 @@
 namespace walr {
 namespace {
 
-/// Where a program's output and input are led, for `posix_spawnp`.
+/// Redirections of a program's output and input, for `posix_spawnp`.
 class FileActions {
  public:
   FileActions() {

@@ -5,17 +5,17 @@
 
 namespace walr {
 
-/// How a program that was run ended.
+/// Result of a child process.
 struct ChildResult {
-  int exitCode = -1;   ///< -1 where it could not be run, or a signal ended it.
-  std::string output;  ///< What it printed, where that was asked for.
+  int exitCode = -1;   ///< -1 if the program could not be run, or a signal ended it.
+  std::string output;  ///< Its output, if captured.
 };
 
-/// Where the output of a program goes.
+/// What happens to the output of a child process.
 enum class ChildOutput { Inherited, Captured };
 
-/// Run a program to its end, with nothing to read.
-/// @param arguments the program, looked for along PATH, and what it is given
+/// Run a program with empty standard input, and wait for its end.
+/// @param arguments  the program, which is searched along PATH, and its arguments
 ChildResult runChild(std::vector<std::string> arguments, ChildOutput output);
 
 }  // namespace walr

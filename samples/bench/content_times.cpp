@@ -14,7 +14,7 @@ void clear(Image& image, std::size_t pixel, float value = 0.0F) {
   for (float& component : image.pixel(pixel)) component = value;
 }
 
-/// The upper rows show sky.
+/// A frame whose upper rows show sky.
 PackedFrame underSky(fg::Extent extent, int number, double share) {
   Frame frame = slabFrame(extent, number).packed.frame;
   const auto rows = static_cast<std::size_t>(share * extent.height);
@@ -41,7 +41,8 @@ PackedFrame dark(fg::Extent extent, int number) {
   return packFrame(std::move(frame));
 }
 
-/// Every second frame is three times as far away.
+/// A frame at one of two distances. Consecutive frames differ by a factor of 3 in depth, so that no history is
+/// accepted.
 PackedFrame afterCut(fg::Extent extent, int number) {
   Frame frame = slabFrame(extent, number).packed.frame;
   const float scale = number % 2 == 0 ? 1.0F : 3.0F;
@@ -50,16 +51,17 @@ PackedFrame afterCut(fg::Extent extent, int number) {
 }
 
 constexpr std::array kContents = {
-    Content{"wall", "a wall and a slab that moves before it",
+    Content{"wall", "a wall and a slab that moves in front of it",
             [](fg::Extent extent, int frame) { return slabFrame(extent, frame).packed; }},
-    Content{"fence", "the same with bars of one pixel, eight pixels apart, halfway before it", behindFence},
-    Content{"cuts", "the wall three times as far away in every second frame, so that no history holds", afterCut},
-    Content{"dark", "the same without light", dark},
-    Content{"half sky", "the same with sky in the upper half",
+    Content{"fence", "the same with bars of one pixel, eight pixels apart, in front of it", behindFence},
+    Content{"cuts", "wall and slab three times as far away in every second frame, so that no history is accepted",
+            afterCut},
+    Content{"dark", "wall and slab without light", dark},
+    Content{"half sky", "wall and slab with sky in the upper half",
             [](fg::Extent extent, int frame) { return underSky(extent, frame, 0.5); }},
-    Content{"mostly sky", "sky but for the lowest tenth",
+    Content{"mostly sky", "sky except in the lowest tenth",
             [](fg::Extent extent, int frame) { return underSky(extent, frame, 0.9); }},
-    Content{"sky", "nothing but sky", [](fg::Extent extent, int frame) { return underSky(extent, frame, 1.0); }},
+    Content{"sky", "sky only", [](fg::Extent extent, int frame) { return underSky(extent, frame, 1.0); }},
 };
 
 }  // namespace

@@ -13,27 +13,27 @@
 
 namespace walr {
 
-/// A kind of picture: what it holds that may cost a method more or less.
+/// A kind of image content that may make a method faster or slower.
 struct Content {
   std::string_view name;
   std::string_view description;
-  /// Frame of a size; frames follow each other.
+  /// Makes a frame of a size; `frame` is its number.
   PackedFrame (*frame)(fg::Extent extent, int frame);
 };
 
-/// The first is what the others are compared with.
+/// All contents. Times are relative to those of the first one.
 std::span<const Content> contents();
 
 /// Times of one variant by content.
 struct ContentTimes {
   std::string variant;
-  std::vector<Timing> timings;  ///< In the order of `contents`; ratios are to the first on the same repetition.
+  std::vector<Timing> timings;  ///< In the order of `contents`; ratios are to the first content in the same repetition.
 };
 
-/// Size of picture at which `walr bench` compares contents.
+/// Image size at which `walr bench` compares contents.
 inline constexpr fg::Extent kContentExtent{640, 360};
 
-/// Time each variant on all contents beside each other, after one repetition that warms up.
+/// Time each variant on all contents in alternation, after one repetition that warms up.
 /// @param frameDone  called after each frame of all contents
 /// @throws fg::vk::Error when the device fails
 std::vector<ContentTimes> contentTimes(const GpuDevice& device, std::span<const Variant> variants, fg::Extent extent,

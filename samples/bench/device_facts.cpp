@@ -15,7 +15,7 @@ constexpr std::uint64_t kCopyBytes = 64ULL << 20U;
 constexpr int kWarmUps = 2;
 constexpr int kMeasurements = 9;
 
-/// A frame that fills a buffer, copies it to another one, and then does nothing.
+/// A frame with three passes: fill a buffer, copy it to another one, and an empty pass.
 fg::Graph probe(const fg::vk::DeviceContext& device) {
   fg::Graph graph;
   const fg::Buffer source = graph.buffer("source", {kCopyBytes});

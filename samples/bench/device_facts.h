@@ -8,17 +8,17 @@
 
 namespace walr {
 
-/// The device that times were taken on, and what its clock and memory can do.
+/// The device of the measurements, with the properties of its timer and memory.
 struct DeviceFacts {
   std::string name;
   std::string driver;
-  bool software = false;                     ///< A processor plays the GPU: times say nothing about one.
-  double timestampNanoseconds = 0.0;         ///< The timer's resolution.
-  std::optional<Spread> timerMilliseconds;   ///< What it shows for a pass that does nothing; absent without a timer.
-  std::optional<double> copyBytesPerSecond;  ///< Bytes read and written by buffer copies of 64 MiB, median.
+  bool software = false;  ///< The device is a CPU implementation of Vulkan: its times do not predict those of a GPU.
+  double timestampNanoseconds = 0.0;         ///< Resolution of the timer.
+  std::optional<Spread> timerMilliseconds;   ///< Measured time of an empty pass; absent without a timer.
+  std::optional<double> copyBytesPerSecond;  ///< Bytes read plus written by buffer copies of 64 MiB, median.
 };
 
-/// Measures in well under a second.
+/// Measure these properties. Takes well under a second.
 /// @throws fg::vk::Error when the device fails
 DeviceFacts deviceFacts(const GpuDevice& device);
 

@@ -8,18 +8,18 @@
 
 namespace walr {
 
-/// A running 64-bit hash of bytes (FNV-1a), to tell whether something is what it was. Not safe against malice.
+/// A running 64-bit hash of bytes (FNV-1a) that detects whether inputs have changed. Not cryptographic.
 class Fingerprint {
  public:
   Fingerprint& add(std::span<const std::byte> bytes);
-  /// A text with its length, so that neighbours cannot run together.
+  /// Add a text and its length, so that two texts hash differently from their concatenation.
   Fingerprint& add(std::string_view text);
-  /// A file's contents.
-  /// @throws InputError where it cannot be read
+  /// Add the contents of a file.
+  /// @throws InputError if the file cannot be read
   Fingerprint& addFile(const std::filesystem::path& path);
 
   [[nodiscard]] std::uint64_t value() const { return value_; }
-  /// 16 hexadecimal digits.
+  /// The hash as 16 hexadecimal digits.
   [[nodiscard]] std::string text() const;
 
  private:

@@ -8,10 +8,10 @@
 
 namespace walr {
 
-/// What a frame's result is off by. A figure is absent where it has no value.
+/// Errors of a frame's result. A value is absent where it is undefined, for instance without a reference.
 struct FrameErrors {
   int frame = 0;
-  bool resetHistory = false;  ///< First frame, or a camera cut: no temporal figures.
+  bool resetHistory = false;  ///< First frame, or a camera cut: no temporal errors.
   std::optional<double> rmse;
   std::optional<double> psnr;
   std::optional<double> ssim;
@@ -21,10 +21,10 @@ struct FrameErrors {
   std::optional<double> luminanceChange;
   std::optional<double> referenceLuminanceChange;
   std::optional<double> vmaf;
-  std::size_t nonFinite = 0;  ///< Values of the result that are not finite.
+  std::size_t nonFinite = 0;  ///< Number of non-finite values in the result.
 };
 
-/// A figure of `FrameErrors` by its name in files.
+/// A member of `FrameErrors` and its name in files.
 struct Metric {
   enum class Better { Lower, Higher, AsReference };
   std::string_view name;
@@ -43,21 +43,21 @@ inline constexpr std::array kMetrics = {
     Metric{"relative_mse", &FrameErrors::relativeMse, Metric::Better::Lower,
            "mean of (x - r)^2 / (r^2 + 0.01) in linear radiance"},
     Metric{"flicker", &FrameErrors::flicker, Metric::Better::Lower,
-           "change of the error along motion, disocclusions masked; white noise of deviation s gives s"},
+           "change of the error along motion, without disocclusions; white noise of standard deviation s gives s"},
     Metric{"luminance_change", &FrameErrors::luminanceChange, Metric::Better::AsReference,
            "mean change of luminance from frame to frame at fixed pixels"},
     Metric{"reference_luminance_change", &FrameErrors::referenceLuminanceChange, Metric::Better::AsReference,
-           "the reference's own"},
+           "the same of the reference"},
     Metric{"vmaf", &FrameErrors::vmaf, Metric::Better::Higher,
-           "VMAF (Li et al. 2016) by libvmaf, 0 to 100, after the tone map, 8 bits; hardly sees fine noise"},
+           "VMAF (Li et al. 2016) by libvmaf, 0 to 100, after the tone map, 8 bits; insensitive to fine noise"},
 };
 
-/// Mean of a figure over the frames that have it.
+/// Mean of a metric over the frames that have it.
 std::optional<double> meanOf(const std::vector<FrameErrors>& frames, const Metric& metric);
-/// The worst figure of all frames; nothing for figures that have no better or worse.
+/// The worst value of all frames; nullopt for metrics without better and worse.
 std::optional<double> worstOf(const std::vector<FrameErrors>& frames, const Metric& metric);
 
-/// Without the frames in which history builds up (`kWarmUpFrames`): those at the start of a sequence.
+/// The frames without the first `kWarmUpFrames`, in which history builds up.
 std::vector<FrameErrors> afterWarmUp(const std::vector<FrameErrors>& frames);
 
 }  // namespace walr

@@ -14,7 +14,7 @@ namespace walr {
 namespace {
 
 constexpr int kSize = static_cast<int>(kHardCaseExtent.width);
-constexpr float kHalfTangent = 0.57735F;  // Of a field of view of 60 degrees.
+constexpr float kHalfTangent = 0.57735F;  // For a field of view of 60 degrees.
 constexpr float kDepth = 4.0F;
 
 struct Point {
@@ -23,7 +23,7 @@ struct Point {
   float level = 1.0F;  ///< Multiplies radiance.
 };
 
-/// Uniform in -1..1, the same on every machine: `std::uniform_real_distribution` is not.
+/// Uniform random numbers in -1..1 that are the same on every platform, unlike `std::uniform_real_distribution`.
 class Random {
  public:
   float operator()() { return static_cast<float>(engine_()) * 0x1p-31F - 1.0F; }
@@ -56,7 +56,7 @@ Point sphere(int x, int y, Random& /*random*/) {
   return squared < 0.98F ? Point{.normal = glm::normalize(glm::vec3(p.x, -p.y, std::sqrt(1.0F - squared)))} : sky();
 }
 
-/// A plane that turns away from the camera by 85 degrees; sky above its horizon.
+/// A plane whose normal is at 85 degrees to the direction of view; sky above its horizon.
 Point grazing(int /*x*/, int y, Random& /*random*/) {
   const glm::vec3 normal = {0.0F, std::sin(1.4835F), std::cos(1.4835F)};
   const glm::vec3 ray = {0.0F, kHalfTangent * (1.0F - 2.0F * (static_cast<float>(y) + 0.5F) / kSize), -1.0F};
@@ -104,7 +104,7 @@ HardCase make(std::string name, const Scene& scene) {
   return made;
 }
 
-/// A wall with one sample of its middle replaced.
+/// A wall whose central sample is replaced.
 HardCase withSample(std::string name, float value) {
   HardCase made = make(std::move(name), lit(1.0F));
   for (int c = 0; c < 3; ++c) made.packed.frame.indirect.at(kSize / 2, kSize / 2, c) = value;

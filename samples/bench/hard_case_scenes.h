@@ -9,22 +9,23 @@
 
 namespace walr {
 
-/// One frame that strains the arithmetic of a regression on the normal, with the answer.
+/// One frame on which a regression with the normal as features is numerically hard, with the known truth.
 struct HardCase {
   std::string name;
-  PackedFrame packed;  ///< In the project's own layout; history starts with it.
-  /// 3 components: noise-free radiance, linear in the normal, so that an exact regression has no bias.
+  PackedFrame packed;  ///< In the project's own layout, and without history.
+  /// 3 components: noise-free radiance. It is linear in the normal, so that an exact regression has no bias.
   Image truth;
-  std::vector<std::uint8_t> counted;  ///< Pixels whose error counts: those with something to denoise.
+  std::vector<std::uint8_t> counted;  ///< Nonzero for pixels whose error counts: those with something to denoise.
 };
 
 /// Size of all hard cases.
 inline constexpr fg::Extent kHardCaseExtent{64, 64};
 
-/// Small but nonzero variance of the features, collinear features, isolated pixels, fireflies, values that are not
-/// finite, extremes of radiance and depth, a grazing plane, normals on the octahedral fold and off the unit sphere.
-/// Noise is exponential: a sample's deviation is its mean. The hard cases of tests/passes are others on purpose: they
-/// are compared with a reference in double precision, need no known answer, and have smooth surfaces over two frames.
+/// All hard cases: small but nonzero variance of the features, collinear features, isolated pixels, fireflies,
+/// non-finite values, extremes of radiance and depth, a grazing plane, normals on the octahedral fold and off the unit
+/// sphere. Noise is exponential: the standard deviation of a sample is its mean. The hard cases of tests/passes differ
+/// on purpose: they are compared with a reference in double precision, so that they need no known truth, and show
+/// smooth surfaces in two frames.
 std::vector<HardCase> hardCases();
 
 }  // namespace walr

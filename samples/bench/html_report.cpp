@@ -17,7 +17,7 @@ std::string writeHtmlReport(const std::filesystem::path& output, const std::stri
   if (code == 0) return {};
   return "no report.html: '" + python + " " + script.string() + " " + output.string() + "' " +
          (code < 0 ? "cannot be run" : "failed") +
-         ". It needs Python 3 with matplotlib (Debian: python3-matplotlib); --python names another interpreter";
+         ". It needs Python 3 with matplotlib (Debian: python3-matplotlib); --python can name another interpreter";
 }
 
 }  // namespace walr

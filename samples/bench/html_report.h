@@ -5,9 +5,9 @@
 
 namespace walr {
 
-/// Write `report.py` and what it imports beside a benchmark's `bench.json` and run it, which makes `report.html`.
-/// @param python  a Python 3 interpreter that has matplotlib
-/// @returns nothing, or why there is no report, and the way out
+/// Write `report.py` and the modules that it imports to the folder of `bench.json`, and run it to make `report.html`.
+/// @param python  a Python 3 interpreter with matplotlib
+/// @returns an empty text, or why there is no report and how to get one
 std::string writeHtmlReport(const std::filesystem::path& output, const std::string& python);
 
 }  // namespace walr

@@ -12,10 +12,10 @@
 namespace walr {
 
 void writeNpy(const std::filesystem::path& path, const Image& image) {
-  static_assert(std::endian::native == std::endian::little, "the header says so");
+  static_assert(std::endian::native == std::endian::little, "the header declares little-endian data");
   std::string header = "{'descr': '<f2', 'fortran_order': False, 'shape': (" + std::to_string(image.height()) + ", " +
                        std::to_string(image.width()) + ", " + std::to_string(image.components()) + "), }";
-  // Magic, version and the length of the header take 10 bytes; data start at a multiple of 64.
+  // Magic number, version and header length take 10 bytes; the data start at a multiple of 64 bytes.
   constexpr std::size_t kPreamble = 10;
   constexpr std::size_t kAlignment = 64;
   header.append(kAlignment - (kPreamble + header.size() + 1) % kAlignment, ' ');

@@ -6,8 +6,8 @@
 
 namespace walr {
 
-/// Write an image as a NumPy array of shape (height, width, components) of half floats, whole or not at all (NumPy
-/// Enhancement Proposal 1, version 1.0).
+/// Write an image as a NumPy array of half floats with shape (height, width, components), completely or not at all
+/// (NumPy Enhancement Proposal 1, version 1.0).
 /// @throws OutputError
 void writeNpy(const std::filesystem::path& path, const Image& image);
 

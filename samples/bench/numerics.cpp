@@ -18,7 +18,7 @@ constexpr std::array kEpsilons = {"1e-6", "1e-5", "1e-4", "1e-3", "1e-2"};
 Variant spatialOnly(const NumericsSetting& setting) {
   Variant variant;
   variant.method = "walr_paper";
-  variant.preset = "robust";  // The regression that offers the choice of storage and of solving.
+  variant.preset = "robust";  // Its regression supports every storage and solver.
   variant.settings = {{"walr_paper.fit-window", "off"},
                       {"regression.iterations", "3"},
                       {"accumulation.max-history", "1"},
@@ -55,8 +55,8 @@ HardCaseErrors judge(DenoisedPicture picture, const HardCase& hardCase) {
   return judged;
 }
 
-/// A denoiser of hard cases that counts.
-GpuDenoiser makeDenoiser(const GpuDevice& device, const Variant& variant) {
+/// A denoiser for the size of the hard cases, with counters.
+GpuDenoiser makeGpuDenoiser(const GpuDevice& device, const Variant& variant) {
   return {device, *makeVariant(variant), kHardCaseExtent, projectLayout(), {.views = {}, .counters = true}};
 }
 
@@ -76,7 +76,7 @@ std::vector<NumericsResult> numerics(const GpuDevice& device, std::span<const Nu
   const std::vector<HardCase> cases = hardCases();
   std::vector<NumericsResult> results;
   for (const NumericsSetting& setting : settings) {
-    GpuDenoiser denoiser = makeDenoiser(device, spatialOnly(setting));
+    GpuDenoiser denoiser = makeGpuDenoiser(device, spatialOnly(setting));
     for (const HardCase& hardCase : cases) {
       results.push_back({judge(denoiser.run(hardCase.packed), hardCase), setting});
     }
@@ -88,7 +88,7 @@ std::vector<MethodHardCase> methodHardCases(const GpuDevice& device, std::span<c
   const std::vector<HardCase> cases = hardCases();
   std::vector<MethodHardCase> results;
   for (const Variant& variant : variants) {
-    GpuDenoiser denoiser = makeDenoiser(device, variant);
+    GpuDenoiser denoiser = makeGpuDenoiser(device, variant);
     for (const HardCase& hardCase : cases) {
       results.push_back({judge(denoiser.run(hardCase.packed), hardCase), variant.name});
     }

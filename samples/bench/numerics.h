@@ -11,46 +11,45 @@
 
 namespace walr {
 
-/// One way of storing and solving.
+/// One way of storing moments and solving the regression.
 struct NumericsSetting {
-  std::string storage;         ///< As `regression.moments` takes it.
-  std::string regularisation;  ///< As `regression.regularisation` takes it.
-  std::string epsilon;         ///< As `regression.ridge` takes it: the ridge or the floor.
+  std::string storage;         ///< Value of `regression.moments`.
+  std::string regularisation;  ///< Value of `regression.regularisation`.
+  std::string epsilon;         ///< Value of `regression.ridge`: the ridge, or the floor of the pivots.
 };
 
-/// Every storage, both ways of solving, a range of epsilons.
+/// All combinations of storage, regularisation and a range of epsilons.
 std::vector<NumericsSetting> numericsSettings();
 
-/// What was made of a hard case.
+/// Errors of a method's result for a hard case.
 struct HardCaseErrors {
   std::string hardCase;
-  /// Root mean square error over the root mean square of the truth, linear, one frame without history; the error itself
-  /// where the truth is 0. Values that are not finite are left out and counted.
+  /// Root mean square error divided by the root mean square of the truth, in linear radiance, for one frame without
+  /// history. If the truth is 0, the error itself. Non-finite values are left out, and counted below.
   double error = 0.0;
-  std::size_t nonFiniteIn = 0;   ///< Values of the noisy light that are not finite.
-  std::size_t nonFiniteOut = 0;  ///< The result's.
-  std::size_t negativeOut = 0;   ///< Values of the result below 0.
-  /// What the method counted: values that are not finite and how they were met, samples and fits that were missing,
-  /// regularised or clamped. By the names that `walr denoise --counters` prints.
+  std::size_t nonFiniteIn = 0;   ///< Number of non-finite values in the noisy light.
+  std::size_t nonFiniteOut = 0;  ///< Number of non-finite values in the result.
+  std::size_t negativeOut = 0;   ///< Number of values below 0 in the result.
+  /// Counters of the method, under the names that `walr denoise --counters` prints.
   std::vector<CounterValue> counters;
 };
 
-/// By one way of storing and solving.
+/// Errors with one way of storing and solving.
 struct NumericsResult : HardCaseErrors {
   NumericsSetting setting;
 };
 
-/// By a method.
+/// Errors of one variant.
 struct MethodHardCase : HardCaseErrors {
   std::string variant;
 };
 
-/// Every hard case (`hardCases`) through WALR's regression, 27 x 27 pixels, with every setting. The temporal stages
-/// keep no history.
+/// Run every hard case (`hardCases`) through the regression of `walr_paper` with every setting. The window is 27 x 27
+/// pixels, and the temporal stages keep no history.
 /// @throws fg::vk::Error when the device fails
 std::vector<NumericsResult> numerics(const GpuDevice& device, std::span<const NumericsSetting> settings);
 
-/// Every hard case through every method as it is, first frame of a history.
+/// Run every hard case through every variant with its own settings, as the first frame of a history.
 /// @throws fg::vk::Error when the device fails
 std::vector<MethodHardCase> methodHardCases(const GpuDevice& device, std::span<const Variant> variants);
 

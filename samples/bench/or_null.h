@@ -6,7 +6,7 @@
 
 namespace walr {
 
-/// A value as JSON, null where there is none.
+/// An optional value as JSON; null if absent.
 template <typename T>
 nlohmann::ordered_json orNull(const std::optional<T>& value) {
   return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json();

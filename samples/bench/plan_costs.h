@@ -9,20 +9,20 @@
 
 namespace walr {
 
-/// What a method costs on any device, from its frame-graph plan. Memory is that of tightly packed texels.
+/// Costs of a method from its frame-graph plan, which hold on any device. Memory assumes tightly packed texels.
 struct PlanCosts {
   fg::Extent extent;
-  /// Every texel of every texture that a pass touches, counted once a pass and direction: the traffic of perfect
-  /// caches.
+  /// Every texel of every texture that a pass reads or writes, counted once per pass and direction: the memory traffic
+  /// with perfect caches.
   double bytesReadPerPixel = 0.0;
   double bytesWrittenPerPixel = 0.0;
   std::optional<double> tapsPerPixel;         ///< See `tapsPerPixel`.
-  std::uint64_t persistentBytes = 0;          ///< Histories, both slots.
-  std::uint64_t transientUnaliasedBytes = 0;  ///< Textures within a frame, were none to share memory.
-  std::uint64_t transientPeakBytes = 0;       ///< The same as the plan shares it.
+  std::uint64_t persistentBytes = 0;          ///< Histories: both textures of each.
+  std::uint64_t transientUnaliasedBytes = 0;  ///< Transient textures, if none were aliased.
+  std::uint64_t transientPeakBytes = 0;       ///< Transient textures, with the plan's aliasing.
 };
 
-/// @throws std::invalid_argument naming a setting out of range
+/// @throws std::invalid_argument naming a setting that is out of range
 PlanCosts planCosts(const Variant& variant, fg::Extent extent, const InputConventions& conventions);
 
 }  // namespace walr

@@ -3,9 +3,9 @@
 
     report.py FOLDER    reads FOLDER/bench.json and FOLDER/pictures, writes report.html, bench.csv and pareto.svg into FOLDER
 
-`walr bench` leaves a copy of this script beside what it measured and runs it. Needs matplotlib (Debian:
-python3-matplotlib, and with it Pillow). The page is self-contained: plots are inlined as SVG, pictures as
-WebP, those of results without loss.
+`walr bench` writes a copy of this script to the folder of bench.json and runs it. Needs matplotlib (Debian:
+python3-matplotlib, which depends on Pillow). The page is self-contained: plots are inlined as SVG, images as WebP;
+images of results are lossless.
 """
 import base64
 import csv
@@ -22,7 +22,7 @@ from report_plots import (conditioning_figure, frames_figure, hard_cases_figure,
 
 
 def image(pixels, **options):
-    """An image element of RGB values in 0..1. Lossless unless the options of WebP say otherwise."""
+    """An HTML image of RGB values in 0..1. Lossless, unless the WebP options select otherwise."""
     data = (np.clip(pixels, 0, 1) * 255 + 0.5).astype(np.uint8)
     buffer = io.BytesIO()
     Image.fromarray(data).save(buffer, format="WEBP", **(options or {"lossless": True}))
@@ -31,13 +31,13 @@ def image(pixels, **options):
 
 
 def exposure(reference):
-    """The power of two that brings a picture's bright parts near 1."""
+    """The power of two that scales an image's bright parts (the 90 % quantile) to about 1."""
     bright = np.percentile(reference, 90)
     return 2.0 ** round(-math.log2(bright)) if bright > 0 else 1.0
 
 
 def displayed(linear, exposed=1.0):
-    """Exposure, tone map x/(1+x), then sRGB. What is not finite shows as magenta."""
+    """Exposure, tone map x/(1+x), then sRGB. Non-finite pixels become magenta."""
     bad = ~np.isfinite(linear).all(axis=2)
     value = exposed * np.nan_to_num(np.maximum(linear, 0), nan=0.0, posinf=1e30)
     value = value / (1 + value)
@@ -47,7 +47,7 @@ def displayed(linear, exposed=1.0):
 
 
 def shrunk(pixels, widest=640):
-    """Averages whole blocks of pixels until the picture fits."""
+    """The image, reduced by an integer factor to at most this width in pixels, by averaging."""
     factor = max(1, math.ceil(pixels.shape[1] / widest))
     h, w = (n // factor * factor for n in pixels.shape[:2])
     return pixels[:h, :w].reshape(h // factor, factor, w // factor, factor, -1).mean(axis=(1, 3))
@@ -82,15 +82,15 @@ def methods_table(bench, sequence):
             row += [number(bench.milliseconds(sequence, name), 3), number(bench.bandwidth_share(sequence, name), 2)]
         row += [f"{bench.bytes_per_pixel(sequence, name):.0f}", number(bench.cost(sequence, name)["taps_per_pixel"], 0)]
         rows.append(row)
-    header = ["method"] + [label for _, label, _ in TABLE] + (["worst RMSE", "not finite"] if sequence else [])
-    times = ["time ratio (5 to 95 %)"] + (["ms", "of bandwidth"] if bench.absolute and sequence else [])
+    header = ["method"] + [label for _, label, _ in TABLE] + (["worst RMSE", "non-finite"] if sequence else [])
+    times = ["time ratio (5 to 95 %)"] + (["ms", "share of bandwidth"] if bench.absolute and sequence else [])
     return table(header + times + ["bytes/pixel", "taps/pixel"], rows,
                  f"{html.escape(sequence or 'Mean over the sequences')}: means over frames after the fourth; "
-                 "best filter in bold")
+                 "bold: the best method with a spatial filter")
 
 
 def against_baseline(bench):
-    """The baseline against every other filter: by how much, and in how many frames, it is better or worse."""
+    """The baseline against every other method: difference of the means, and in how many frames the baseline is better."""
     rows = []
     for name in bench.methods:
         if name == bench.baseline or bench.variants[name]["method"] == "none":
@@ -113,11 +113,11 @@ def against_baseline(bench):
             rows.append(row)
     return table(["against", "sequence"] + [label for _, label, _ in TABLE], rows,
                  f"{bench.baseline} against the others: difference of the means, and in how many frames "
-                 f"{bench.baseline} is better. Frames of a sequence are not independent")
+                 f"{bench.baseline} is better. The frames of a sequence are correlated")
 
 
 def hardest_places(bench, sequence, frame, count=3):
-    """Corners and size of the squares in which the filters' mean FLIP is largest; squares do not overlap."""
+    """Top left corners, and the size, of the non-overlapping squares in which the filters' mean FLIP is largest."""
     flip = np.mean([bench.picture(sequence, n + ".errors", frame)[:, :, 2] for n in bench.filters], axis=0)
     size = max(8, flip.shape[0] // 5)
     total = np.pad(np.nan_to_num(flip).cumsum(0).cumsum(1), ((1, 0), (1, 0)))
@@ -135,7 +135,7 @@ def figure_element(pixels, caption, **options):
 
 
 def crops_table(pictures, places, size, shown):
-    """The places side by side, a row each, in every picture, as `shown` makes colours of it."""
+    """One row per place and one column per picture; `shown` maps values to colours."""
     rows = ["<tr><th></th>" + "".join(f"<th>{html.escape(n)}</th>" for n, _ in pictures) + "</tr>"]
     for index, (x, y) in enumerate(places):
         rows.append(f"<tr><td>{index + 1}</td>" + "".join(
@@ -144,17 +144,17 @@ def crops_table(pictures, places, size, shown):
 
 
 def signed_colours(values, top):
-    """Red above 0, blue below, grey where there is no number."""
+    """Red above 0, blue below 0, grey for NaN."""
     coloured = plt.get_cmap("RdBu_r")(np.clip(0.5 + 0.5 * np.nan_to_num(values) / top, 0, 1))[:, :, :3]
     coloured[np.isnan(values)] = 0.5
     return coloured
 
 
 def change_crops(changes, places, size, top):
-    """The places in the change of every method's error along motion."""
-    return ("<p>The same places in the change of the error in luminance from the frame before along motion, over the square root of "
-            f"2: red brighter, blue darker, full at {top:.2g}; grey where nothing was there before. Flicker, trails and seams that "
-            "do not stay with their surface show here.</p>" +
+    """The places in the images of the change of every method's error along motion."""
+    return ("<p>The same places: change of the error in luminance from the previous frame along motion, divided by the square root of "
+            f"2. Red: brighter. Blue: darker. Full colour at {top:.2g}. Grey: not visible in the previous frame. Flicker, trails and "
+            "seams that do not stay with their surface show here.</p>" +
             crops_table(changes.items(), places, size, lambda values: signed_colours(values, top)))
 
 
@@ -168,13 +168,13 @@ def with_squares(pixels, places, size):
 
 
 def pictures_section(bench, sequence, frame):
-    """The hardest places enlarged, then every method's picture beside its error maps."""
+    """The places with the largest errors, enlarged; then every method's image next to its error maps."""
     reference, noisy = (bench.picture(sequence, n, frame) for n in ("_reference", "_noisy"))
     exposed = exposure(reference)
     places, size = hardest_places(bench, sequence, frame)
     results = {n: bench.picture(sequence, n, frame) for n in bench.filters}
     errors = {n: np.nan_to_num(bench.picture(sequence, n + ".errors", frame), nan=1.0) for n in bench.filters}
-    # One scale for all methods, so that brightness compares; SSIM shows what it lacks to 1.
+    # One scale for all methods, so that their maps are comparable. SSIM is shown as 1 - SSIM.
     maps = [("RMSE", {n: e[:, :, 0] for n, e in errors.items()}), ("1 - SSIM", {n: 1 - e[:, :, 1] for n, e in errors.items()}),
             ("FLIP", {n: e[:, :, 2] for n, e in errors.items()})]
     tops = {label: max(float(np.percentile(list(m.values()), 99.5)), 1e-6) for label, m in maps}
@@ -187,7 +187,7 @@ def pictures_section(bench, sequence, frame):
         top = max(float(np.nanpercentile(np.abs(list(changes.values())), 99.5)), 1e-6)
         parts.append(change_crops(changes, places, size, top))
     parts += ["<div class=cards>", figure_element(with_squares(displayed(reference, exposed), places, size),
-                                                 "reference, with the hardest places"),
+                                                 "reference, with the places of largest error"),
              figure_element(displayed(noisy, exposed), "noisy"), "</div>"]
     for name, result in results.items():
         figures = next(f for f in bench.runs[sequence, name]["frames"] if f["frame"] == frame)
@@ -220,11 +220,11 @@ def sweep_section(bench, sweep):
     for sequence in bench.sequences:
         header += [f"{html.escape(sequence)} RMSE", "SSIM", "FLIP", "flicker", "time ratio"]
     return f"<h3>{html.escape(sweep)}</h3>" + svg(sweep_figure(bench, names, labels), sweep) + table(header + ["bytes/pixel"], rows,
-                                                                         "circled: the default")
+                                                                         "(default) and circles mark the default value")
 
 
 def response_section(bench):
-    """How methods answer to change, on synthetic scenes."""
+    """How methods respond to change, on synthetic scenes."""
     never = "not by the end"
     rows = [[html.escape(r["variant"]), number(r["first_frame_rmse"], 4), number(r["settled_rmse"], 4),
              number(r["settled_flicker"], 5), never if r["light_frames"] is None else r["light_frames"],
@@ -232,24 +232,26 @@ def response_section(bench):
              number(r["trail_by_age"][0], 3), number(r["cut"]["left"], 3), number(r["untold_cut"]["left"], 3)]
             for r in bench.json["responses"]]
     return svg(response_figure(bench), "response") + table(
-        ["method", "first frame RMSE", "settled RMSE", "settled flicker", "light gone, frames", "light lags, frames",
-         "recovered, frames", "trail on the first frame", "left by a cut", "by one not told"], rows,
-        "a still wall, whose light goes down to a tenth, or moves over it; a slab that moves before it; another wall after "
-        "a camera cut. Gone: no more than a tenth of the light is left. Lags: the age of the truth that is nearest. "
-        "Recovered: the error is within a quarter of the wall's that nothing hid. Left: share of the picture before")
+        ["method", "first frame RMSE", "settled RMSE", "settled flicker", "light gone, frames", "light lag, frames",
+         "recovered, frames", "trail in the first frame", "left after a cut", "left after an unreported cut"], rows,
+        "Static wall whose light is dimmed to a tenth, or moves over it; slab that moves in front of the wall; another wall "
+        "after a camera cut. Settled: history has reached its full length. Light gone: at most a tenth of the removed light "
+        "remains. Light lag: age of the truth that is nearest to the result. Recovered: the error after a disocclusion "
+        "exceeds that of never hidden pixels by at most a quarter. Trail: share of the slab's light that remains. Left: "
+        "share of the previous image that remains")
 
 
-# Of the counters of hard cases, those that stand in the tables.
+# The counters that the tables of hard cases show, and their labels.
 SHOWN_COUNTERS = {"regularised-fits": "helped", "clamped-channels": "clamped"}
 
 
 def hard_case_cell(r):
-    """An error with the values that should not be, and how many fits needed help; what else was counted, on hovering."""
+    """An error with the number of invalid values and of stabilised fits. All counters are in the tooltip."""
     text = "-" if r["error"] is None else f"{r['error']:.3g}"
-    text += f' <b class="bad">{r["non_finite_out"]} not finite</b>' if r["non_finite_out"] else ""
+    text += f' <b class="bad">{r["non_finite_out"]} non-finite</b>' if r["non_finite_out"] else ""
     text += f" <small>{r['negative_out']} below 0</small>" if r["negative_out"] else ""
     counted = {name: value for name, value in r["counters"].items() if value}
-    # Iterations count apart.
+    # Each iteration has a counter of its own.
     total = {kind: sum(v for n, v in counted.items() if n.startswith(kind)) for kind in SHOWN_COUNTERS}
     text += "".join(f" <small>{total[kind]} {label}</small>" for kind, label in SHOWN_COUNTERS.items() if total[kind])
     listed = html.escape(", ".join(f"{name} {value}" for name, value in counted.items()) or "nothing counted")
@@ -262,13 +264,13 @@ def method_hard_cases_table(bench):
     cases, variants = (list(dict.fromkeys(k[i] for k in results)) for i in range(2))
     rows = [[html.escape(case)] + [hard_case_cell(results[case, v]) for v in variants] for case in cases]
     return table(["case"] + [html.escape(v) for v in variants], rows,
-                 "every method as it is, first frame of a history: relative root mean square error, linear; absolute "
-                 "where there is no light; fits of 4096 that were regularised, channels that were clamped at 0. All "
-                 "that was counted shows on hovering")
+                 "Every method with its own settings, first frame of a history: relative root mean square error in linear "
+                 "radiance; absolute error if there is no light. Helped: number of fits, of 4096, that were regularised. "
+                 "Clamped: number of channels that were clamped at 0. The tooltip shows all counters")
 
 
 def hard_cases_section(bench):
-    """Error by epsilon where features vary by little, and every case at every storage's usual settings."""
+    """Error by epsilon for features that vary little, and all cases with the usual settings of every storage."""
     results = {(r["case"], r["storage"], r["regularisation"], r["epsilon"]): r for r in bench.json["hard_cases"]}
     cases, storages, solvers, epsilons = (list(dict.fromkeys(k[i] for k in results)) for i in range(4))
     usual = {"centred16": ("ridge", "1e-3"), "raw16": ("floor", "1e-3"), "raw11": ("floor", "1e-2"), "raw32": ("floor", "1e-5")}
@@ -279,12 +281,13 @@ def hard_cases_section(bench):
             row.append(hard_case_cell(results[(case, storage) + usual[storage]]))
         row.append(results[(case, storages[0]) + usual[storages[0]]]["non_finite_in"])
         rows.append(row)
-    return ("<p>Signals that are linear in the normal, so that an exact regression has no bias; exponential noise; one frame "
-            "without history; 27 x 27 pixels.</p>" + svg(conditioning_figure(results, cases, storages, usual), "conditioning")
+    return ("<p>The signal is linear in the normal, so that an exact regression has no bias. Noise is exponential. One frame "
+            "without history, a window of 27 x 27 pixels.</p>" + svg(conditioning_figure(results, cases, storages, usual), "conditioning")
             + svg(hard_cases_figure(results, cases, storages, solvers, epsilons), "hard cases")
-            + table(["case"] + [f"{s}, {usual[s][0]} {usual[s][1]}" for s in storages] + ["not finite in"], rows,
-                    "relative root mean square error, linear; absolute where there is no light; fits of 4096 whose pivots "
-                    "were raised, channels that were clamped at 0. All that was counted shows on hovering")
+            + table(["case"] + [f"{s}, {usual[s][0]} {usual[s][1]}" for s in storages] + ["non-finite in the input"], rows,
+                    "Relative root mean square error in linear radiance; absolute error if there is no light. Helped: number "
+                    "of fits, of 4096, whose pivots were raised. Clamped: number of channels that were clamped at 0. The "
+                    "tooltip shows all counters")
             + method_hard_cases_table(bench))
 
 
@@ -302,8 +305,8 @@ def costs_section(bench):
                        f"<small>(of {cost['transient_unaliased_bytes'] / 1e6:.0f}) MB</small>")
         rows.append(row)
     return table(["method"] + [f"{w} x {h}" for w, h in sizes], rows,
-                 "bytes moved per pixel with perfect caches; memory that persists + shared transient memory "
-                 "(of what it would be unshared), all from the plan, without the host's own textures")
+                 "B/px: bytes read and written per pixel with perfect caches. MB: memory of histories + transient memory with "
+                 "aliasing (without aliasing). All from the plan, without the host's own textures")
 
 
 STYLE = """
@@ -320,17 +323,17 @@ small { color: #777 } .warning { background: #fff3cd; padding: .6em 1em; border-
 
 
 def sequences_sections(bench, names):
-    """What was measured on the sequences: errors, costs, plots over frames and by pass."""
+    """Measurements on the sequences: errors, costs, plots over frames and by pass."""
     out = ["<h2>Errors and costs</h2>"]
     for sequence in ([None] if len(names) > 1 else []) + names:
         out.append(methods_table(bench, sequence))
     out.append(f"<h2>{html.escape(bench.baseline)} against the others</h2>" + against_baseline(bench))
-    out.append("<h2>Error against cost</h2><p>Filled: on the Pareto front, beaten by none in both. Bars: 5 to 95 % of the "
-               "time ratios.</p>")
+    out.append("<h2>Error against cost</h2><p>Filled: on the Pareto front (no other method is better in both). Bars: 5 to "
+               "95 % quantile of the time ratios.</p>")
     for sequence in ([None] if len(names) > 1 else []) + names:
         out.append(svg(pareto_figure(bench, sequence), f"pareto {sequence}"))
-    out.append("<h2>Over the frames</h2><p>All on a logarithmic scale. The change of luminance is best where it is the "
-               "reference's own: below it lags, above it flickers.</p>")
+    out.append("<h2>Over the frames</h2><p>Logarithmic scales. The change of luminance should equal that of the "
+               "reference: a smaller one is lag, a larger one is flicker.</p>")
     for sequence in names:
         out.append(f"<h3>{html.escape(sequence)}</h3>" + svg(frames_figure(bench, sequence), f"frames {sequence}"))
     out.append("<h2>Time by pass</h2>")
@@ -341,7 +344,7 @@ def sequences_sections(bench, names):
 
 
 def size_section(bench, size):
-    """Times at one size of picture."""
+    """Times at one image size."""
     timings = {t["variant"]: t for t in size["timings"]}
     pixels = size["width"] * size["height"]
     rows = []
@@ -356,15 +359,15 @@ def size_section(bench, size):
             row.append(number(bench.share_of_bandwidth(cost, pixels, time and time["median"]), 2))
         row.append("-" if cost is None else f"{cost['bytes_read_per_pixel'] + cost['bytes_written_per_pixel']:.0f}")
         rows.append(row)
-    header = ["method", "time ratio (5 to 95 %)"] + (["ms", "of bandwidth"] if bench.absolute else []) + ["bytes/pixel"]
+    header = ["method", "time ratio (5 to 95 %)"] + (["ms", "share of bandwidth"] if bench.absolute else []) + ["bytes/pixel"]
     title = f"{size['width']} x {size['height']}"
     figure = phases_figure(bench, timings)
-    return (f"<h3>{title}</h3>" + table(header, rows, "two frames of a wall and a slab before it, in turn")
+    return (f"<h3>{title}</h3>" + table(header, rows, "two alternating frames of a wall and a slab in front of it")
             + (svg(figure, f"phases {title}") if figure else ""))
 
 
 def content_section(bench):
-    """Times by what the picture holds, relative to the first content."""
+    """Times by image content, relative to the first content."""
     contents = bench.json["contents"]
     names = [t["content"] for t in contents[0]["timings"]]
     rows = []
@@ -374,12 +377,13 @@ def content_section(bench):
                     [f"{r['median']:.2f} <small>({r['p5']:.2f} to {r['p95']:.2f})</small>" if r else "no timer"
                      for r in ratios])
     return table(["method"] + names, rows, "Median ratio (5 to 95 %) to the same method's time on the first content. "
-                 "A wall and a slab that moves before it; the same with bars of one pixel, eight pixels apart, before it; "
-                 "without light; with the upper half, nine tenths, and all of it sky.")
+                 "wall: a wall and a slab that moves in front of it. fence: the same behind bars of one pixel, eight pixels "
+                 "apart. cuts: a camera cut in every frame. dark: no light. The others: sky in the upper half, in nine tenths, "
+                 "and in all of the image.")
 
 
 def vmaf_note(vmaf):
-    """Who computed VMAF, or why nobody did."""
+    """The program that computed VMAF, or why there is no VMAF."""
     return html.escape(f"VMAF by {vmaf['by']}." if vmaf["by"] else f"No VMAF: {vmaf['missing_because']}.")
 
 
@@ -391,18 +395,18 @@ def page(bench):
     empty = device["empty_pass_ms"]
     out.append("<p>" + html.escape(
         f"{device['name']}, driver {device['driver']}. Commit {data['commit']}, {data['compiler']}, {data['build_type']}. "
-        + (f"Timer: steps of {device['timestamp_ns']:g} ns, an empty pass shows {1e3 * empty['median']:.1f} us. " if empty
+        + (f"Timer: resolution {device['timestamp_ns']:g} ns, an empty pass takes {1e3 * empty['median']:.1f} us. " if empty
            else "The device has no timer. ")
-        + (f"Copies move {bandwidth / 1e9:.1f} GB/s (read and written). " if bandwidth else "")
+        + (f"Bandwidth of copies: {bandwidth / 1e9:.1f} GB/s (read plus written). " if bandwidth else "")
         + f"Tone map {data['tone_map']}. {data['repetitions']} timed repetitions after one that warms up.") + "</p>"
         f"<p><code>{html.escape(data['command'])}</code></p>")
     if device["software"]:
-        out.append("<p class=warning>A processor plays the GPU here. Times are given only as ratios to "
-                   f"{bench.baseline} within this run, and they say nothing about a GPU; bytes and memory come from the "
+        out.append("<p class=warning>The device is a CPU implementation of Vulkan. Times are given only as ratios to "
+                   f"{bench.baseline} within this run, and do not predict those of a GPU. Bytes and memory come from the "
                    "plan and hold on any device.</p>")
     odd = [f"{v} on {s}" for (s, v), r in bench.runs.items() if not r["reproducible"]]
     if odd:
-        out.append(f"<p class=warning>Not the same bits in every repetition: {html.escape(', '.join(odd))}.</p>")
+        out.append(f"<p class=warning>Repetitions are not bit-identical: {html.escape(', '.join(odd))}.</p>")
     names = list(bench.sequences)
     if names:
         out += sequences_sections(bench, names)
@@ -419,20 +423,20 @@ def page(bench):
     if sweeps:
         out.append("<h2>Sweeps</h2>" + "".join(sweep_section(bench, sweep) for sweep in sweeps))
     if names:
-        out.append("<h2>Pictures</h2><p>Indirect light, chosen by the input alone: the frame with the largest disocclusion, "
-                   "and the last one.</p>")
+        out.append("<h2>Pictures</h2><p>Indirect light in the frame with the largest disocclusion, and in the last one. "
+                   "This choice depends on the input alone.</p>")
     for sequence in names:
         for frame in bench.sequences[sequence]["picture_frames"]:
             out.append(pictures_section(bench, sequence, frame))
-    out.append("<h2>What the figures are</h2><dl>" + "".join(
+    out.append("<h2>Metrics</h2><dl>" + "".join(
         f"<dt>{html.escape(m['name'])}</dt><dd>{html.escape(m['description'])}</dd>" for m in data["metrics"]) + "</dl>"
-        "<p>Errors are those of the demodulated diffuse indirect light, over pixels with a diffuse lobe. Values that are not "
-        "finite count as the worst and show as magenta. " + vmaf_note(data["vmaf"]) + "</p></html>")
+        "<p>Errors are those of the demodulated diffuse indirect light, over pixels with a diffuse lobe. Non-finite "
+        "values count as the largest possible error and are shown in magenta. " + vmaf_note(data["vmaf"]) + "</p></html>")
     return "\n".join(out)
 
 
 def csv_table(bench):
-    """Means, worst figures, times and costs: a header, then one row a sequence and variant."""
+    """Means, worst values, times and costs: a header, then one row per sequence and variant."""
     metrics = [m["name"] for m in bench.json["metrics"]]
     costs = ("taps_per_pixel", "persistent_bytes", "transient_unaliased_bytes", "transient_peak_bytes")
     yield ["sequence", "variant", "sweep", *(n for m in metrics for n in (m, "worst_" + m)), "non_finite", "time_ratio_median",

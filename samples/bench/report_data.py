@@ -1,11 +1,11 @@
-"""What a benchmark found, by name: bench.json and the pictures beside it, for report.py."""
+"""The results of a benchmark for report.py: bench.json and the images next to it."""
 import json
 import math
 import pathlib
 
 import numpy as np
 
-# Okabe and Ito's colours, which the colour-blind tell apart; the baseline is black.
+# Okabe and Ito's palette, which colour-blind readers can distinguish. The baseline is black.
 COLOURS = {"walr": "#000000", "walr_paper": "#666666", "bmfr": "#0072B2", "svgf": "#D55E00", "flr": "#009E73",
            "joint_bilateral": "#CC79A7", "accumulate": "#E69F00", "none": "#999999"}
 SPARE_COLOURS = ["#56B4E9", "#8C6D31", "#7F3C8D", "#B2182B", "#4D9221"]
@@ -15,7 +15,7 @@ TABLE = [("rmse", "RMSE", 4), ("psnr", "PSNR", 2), ("ssim", "SSIM", 4), ("flip",
 
 
 class Bench:
-    """A benchmark's figures by name."""
+    """A benchmark's results, indexed by name."""
 
     def __init__(self, folder):
         self.folder = pathlib.Path(folder)
@@ -24,15 +24,15 @@ class Bench:
         self.sequences = {s["name"]: s for s in self.json["sequences"]}
         self.runs = {(s["name"], r["variant"]): r for s in self.json["sequences"] for r in s["runs"]}
         self.methods = [v["name"] for v in self.json["variants"] if not v["sweep"]]
-        # Without a spatial filter, methods would stretch every scale.
+        # Methods without a spatial filter have so large errors that they would stretch every scale.
         self.filters = [n for n in self.methods if self.variants[n]["method"] not in ("none", "accumulate")]
         self.baseline = self.json["baseline"]
-        # A processor's times are shown as ratios only.
+        # Times of a CPU device are shown as ratios only.
         self.absolute = not self.json["device"]["software"]
         self.better = {m["name"]: m["better"] for m in self.json["metrics"]}
 
     def mean(self, sequence, variant, metric):
-        """Mean after the warm-up; over all sequences where `sequence` is None."""
+        """Mean after the warm-up; over all sequences if `sequence` is None."""
         if sequence is None:
             values = [self.mean(s, variant, metric) for s in self.sequences]
             return None if None in values else sum(values) / len(values)
@@ -43,7 +43,7 @@ class Bench:
         return 1 - value if metric == "ssim" and value is not None else value
 
     def ratio(self, sequence, variant):
-        """Median, 5 % and 95 % of the time over the baseline's; geometric means where `sequence` is None."""
+        """Median, 5 % and 95 % quantile of the time ratio to the baseline; geometric means if `sequence` is None."""
         if sequence is None:
             all_ratios = [self.ratio(s, variant) for s in self.sequences]
             if None in all_ratios:
@@ -57,7 +57,7 @@ class Bench:
         return time and time["median"]
 
     def share_of_bandwidth(self, cost, pixels, milliseconds):
-        """Bytes that the plan moves, over those that copies would move in the same time."""
+        """Bytes that the method moves according to its plan, divided by those that copies would move in the same time."""
         copied = self.json["device"]["copy_bytes_per_second"]
         if not (cost and milliseconds and copied):
             return None
@@ -70,11 +70,11 @@ class Bench:
                                        self.milliseconds(sequence, variant))
 
     def cost_at(self, variant, width, height):
-        """The plan's costs at a size; None where they are not known."""
+        """The plan's costs at a size; None if they are not known."""
         return next((c for c in self.variants[variant]["costs"] if (c["width"], c["height"]) == (width, height)), None)
 
     def cost(self, sequence, variant):
-        """The plan's costs at the sequence's size, or at the first one's."""
+        """The plan's costs at the size of the sequence, or of the first sequence if `sequence` is None."""
         s = self.sequences[sequence] if sequence else next(iter(self.sequences.values()))
         return self.cost_at(variant, s["width"], s["height"])
 
@@ -83,7 +83,7 @@ class Bench:
         return cost["bytes_read_per_pixel"] + cost["bytes_written_per_pixel"]
 
     def floor(self, sequence):
-        """Noise of the reference as an RMSE, mean over frames; None where it is not known."""
+        """Noise of the reference as an RMSE, mean over frames; None if it is not known."""
         if sequence is None:
             floors = [self.floor(s) for s in self.sequences]
             return None if None in floors else sum(floors) / len(floors)
@@ -95,7 +95,7 @@ class Bench:
         return np.load(path).astype(np.float32)
 
     def change(self, sequence, name, frame):
-        """Change of a variant's error along motion; nothing where the frame before has no reference."""
+        """Change of a variant's error along motion; None if the previous frame has no reference."""
         path = self.folder / "pictures" / sequence / f"{name}.change_{frame:04d}.npy"
         return np.load(path).astype(np.float32) if path.exists() else None
 
@@ -113,7 +113,7 @@ class Bench:
 
 
 def pareto(points):
-    """Names of the points that none beats in both coordinates; smaller is better."""
+    """Names of the points that are not dominated by another one; smaller coordinates are better."""
     return [name for name, (x, y) in points.items()
             if not any(a <= x and b <= y and (a, b) != (x, y) for a, b in points.values())]
 

@@ -16,7 +16,7 @@ plt.rcParams.update({"font.size": 9, "axes.spines.top": False, "axes.spines.righ
 
 
 def svg(figure, salt):
-    """The figure as an inline SVG element. The salt keeps ids of several figures on a page apart."""
+    """The figure as an inline SVG element. The salt makes the ids of several figures on one page distinct."""
     buffer = io.StringIO()
     with plt.rc_context({"svg.hashsalt": salt}):
         figure.savefig(buffer, format="svg", bbox_inches="tight", metadata={"Date": None})
@@ -31,7 +31,7 @@ def plain(value, _=None):
 
 
 def place_labels(axes, points, colour):
-    """Names beside their points, moved up where one would lie on another name or on another point."""
+    """Names next to their points, moved up where one would cover another name or point."""
     taken = [axes.transData.transform(p) for p in points.values()]
     for name, (x, y) in sorted(points.items(), key=lambda item: item[1][1]):
         px, py = axes.transData.transform((x, y))
@@ -45,10 +45,11 @@ def place_labels(axes, points, colour):
 
 
 def error_axes(axes, points, colour, marker, widen, spreads=None):
-    """Error against cost: a point a method, filled where none is better in both, which a line joins.
+    """Error against cost: one point per method. Points on the Pareto front are filled and joined by a line.
 
-    points: cost and error by name; colour, marker: functions of the name, the latter giving an index; widen: by what factor the
-    axis goes on behind the last point, for names; spreads: cost's 5 and 95 % by name."""
+    points: cost and error by name; colour, marker: functions of the name, of which the latter returns an index; widen: factor
+    by which the cost axis extends beyond the last point, to leave room for names; spreads: 5 and 95 % quantile of the cost by
+    name."""
     front = sorted(pareto(points), key=points.get)
     axes.set_xscale("log")
     axes.xaxis.set_major_locator(matplotlib.ticker.LogLocator(subs=(1, 2, 5)))
@@ -105,7 +106,7 @@ def pareto_figure(bench, sequence, metrics=("rmse", "flip")):
 
 
 def frames_figure(bench, sequence):
-    """Errors over frames, and the change of luminance beside the reference's own."""
+    """Errors over frames, and the change of luminance together with that of the reference."""
     figure, axes = plt.subplots(3, 2, figsize=(11, 8.4))
     figure.subplots_adjust(hspace=0.42, wspace=0.2)
     panels = ERRORS + [("luminance_change", "luminance change")]
@@ -128,7 +129,7 @@ def frames_figure(bench, sequence):
             points = [(f["frame"], f["reference_luminance_change"]) for f in frames
                       if f["reference_luminance_change"] is not None]
             if points:
-                axis.plot(*zip(*points), color="#999999", ls=":", lw=2, label="the reference's own")
+                axis.plot(*zip(*points), color="#999999", ls=":", lw=2, label="reference")
         for fact in bench.sequences[sequence]["frames"][1:]:
             if fact["history_reset"]:
                 axis.axvline(fact["frame"], color="#dddddd", lw=3, zorder=0)
@@ -150,12 +151,12 @@ def frames_figure(bench, sequence):
 
 
 def kind(pass_name):
-    """What passes of several iterations have in common."""
+    """The name that the passes of several iterations share."""
     return pass_name.rstrip("0123456789 ")
 
 
 def phases_figure(bench, timings):
-    """Stacked bars of the median time of every pass, by variant; of what has been timed."""
+    """Stacked bars of the median time of every pass, by variant, of the timed variants."""
     names = [n for n in bench.methods if n in timings and timings[n]["passes"]]
     if bench.baseline not in names:
         return None
@@ -165,7 +166,7 @@ def phases_figure(bench, timings):
     figure, axes = plt.subplots(figsize=(11, 0.45 * len(names) + 1.2))
     kinds = list(dict.fromkeys(kind(p["name"]) for n in names for p in timings[n]["passes"]))
     shades = plt.get_cmap("tab20").colors
-    shades = shades[1::2] + shades[::2]  # The light ones first: they carry labels.
+    shades = shades[1::2] + shades[::2]  # The light ones first, because labels are drawn on them.
     limit = 1.25 * max(t for n, t in totals.items() if t <= 3 * totals[bench.baseline])
     for row, name in enumerate(names):
         left = 0.0
@@ -191,7 +192,7 @@ def phases_figure(bench, timings):
 
 
 def sweep_figure(bench, names, labels):
-    """Each figure over the values of a sweep; the default is circled."""
+    """Each metric over the values of a sweep; the default is circled."""
     panels = [("rmse", "RMSE"), ("ssim", "1 - SSIM"), ("flip", "FLIP"), ("flicker", "flicker"), ("time", "time ratio"),
               ("bytes", "bytes/pixel")]
     figure, axes = plt.subplots(1, len(panels), figsize=(13, 2.3))
@@ -218,19 +219,19 @@ def sweep_figure(bench, names, labels):
 
 
 def response_figure(bench):
-    """What is left of a light, the error and the trail of a slab, by frames since."""
+    """Remaining light after dimming, and error and trail after a disocclusion, by frames since the change."""
     responses = [r for r in bench.json["responses"] if r["variant"] in bench.filters]
     figure, axes = plt.subplots(1, 3, figsize=(13, 3.6))
     figure.subplots_adjust(wspace=0.25)
     for axis, (key, title, label) in zip(axes, (
-            ("light_left", "a light goes down", "share of it left"),
+            ("light_left", "a light is dimmed", "share that remains"),
             ("error_by_age", "disocclusion", "relative RMSE"),
-            ("trail_by_age", "trail behind a bright slab", "share of its light left"))):
+            ("trail_by_age", "trail behind a bright slab", "share of its light that remains"))):
         for r in responses:
             axis.plot(range(len(r[key])), r[key], color=bench.colour(r["variant"]), ls=bench.dash(r["variant"]),
                       lw=2 if r["variant"] == bench.baseline else 1.1, label=r["variant"])
         axis.set_title(title, loc="left", fontsize=9, fontweight="bold")
-        axis.set_xlabel("frames since")
+        axis.set_xlabel("frames since the change")
         axis.set_ylabel(label)
     axes[0].axhline(0.1, color="#999999", ls=":", lw=1)
     axes[0].legend(fontsize=7.5)
@@ -238,12 +239,12 @@ def response_figure(bench):
 
 
 def conditioning_figure(results, cases, storages, usual):
-    """Error by how much the features vary: the smaller, the worse conditioned the fit."""
+    """Error over the variation of the features. The smaller it is, the worse the condition of the fit."""
     prefix = "normals vary by "
     amplitudes = sorted((float(c.removeprefix(prefix)), c) for c in cases if c.startswith(prefix))
     figure, axes = plt.subplots(1, 2, figsize=(11, 3.4), sharey=True)
     figure.subplots_adjust(wspace=0.08)
-    # One way of solving for all shows which storages need more.
+    # The same solver for all shows which storages need a larger epsilon.
     for axis, setting, title in ((axes[0], usual.__getitem__, "each storage's usual epsilon"),
                                  (axes[1], lambda storage: (usual[storage][0], "1e-5"), "epsilon of 1e-5 for all")):
         for index, storage in enumerate(storages):
@@ -257,7 +258,7 @@ def conditioning_figure(results, cases, storages, usual):
 
 
 def hard_cases_figure(results, cases, storages, solvers, epsilons):
-    """Error by epsilon for features that vary by little: a row a way of solving, a line a storage."""
+    """Error over epsilon for features that vary little: one row per solver, one line per storage."""
     shown = [c for c in cases if c.startswith(("normals vary", "normals of a sphere"))]
     figure, axes = plt.subplots(len(solvers), len(shown), figsize=(14, 4.6), sharex=True, sharey=True, squeeze=False)
     figure.subplots_adjust(wspace=0.08, hspace=0.12)

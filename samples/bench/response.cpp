@@ -20,7 +20,7 @@ constexpr int kSettledFrom = 16;
 constexpr double kLightGone = 0.1;
 constexpr double kRecovered = 1.25;
 
-/// A mean under way.
+/// Accumulates a mean.
 struct Mean {
   double sum = 0.0;
   double count = 0.0;
@@ -93,12 +93,12 @@ void answerToDisocclusion(const GpuDevice& device, const Variant& variant, Respo
       const double error = luminance(pair.test.pixel(pixel)) - truth;
       const double light = luminance(frame.truth.pixel(pixel));
       (age < 0 ? slab : wall).add(light);
-      // Noise goes with the light, so that only relative errors compare between places.
+      // Noise is proportional to the light, so only relative errors are comparable between places.
       const double relative = error / truth;
       if (age == kAlwaysInView) undisturbed.add(relative * relative);
       if (age < 0 || age >= kResponseAges) continue;
       squares.at(static_cast<std::size_t>(age)).add(relative * relative);
-      // Linear: the mean of what a tone map bends is not that of the light.
+      // In linear radiance, because the mean of tone-mapped noise is not the tone-mapped mean.
       bias.at(static_cast<std::size_t>(age)).add(luminance(result.pixel(pixel)) - light);
     }
     slabOverWall.add(slab.value() - wall.value());
@@ -123,7 +123,7 @@ double squaredDistance(const std::vector<double>& a, const std::vector<double>& 
                                [](double x, double y) { return (x - y) * (x - y); });
 }
 
-/// Where a parabola through three neighbours is least, from the middle one.
+/// Offset of a parabola's minimum from the middle one of three neighbouring values.
 double vertex(double before, double middle, double after) {
   const double curvature = before - 2.0 * middle + after;
   return curvature > 0.0 ? 0.5 * (before - after) / curvature : 0.0;
@@ -132,7 +132,7 @@ double vertex(double before, double middle, double after) {
 void answerToMovingLight(const GpuDevice& device, const Variant& variant, Response& response) {
   constexpr int kFirstMeasured = 24;
   constexpr int kOldest = 40;
-  constexpr int kNewest = -2;  // Ahead of its time only by noise.
+  constexpr int kNewest = -2;  // Negative: a result can be nearest to a future truth only because of noise.
   std::map<int, std::vector<double>> truths;
   for (int frame = kFirstMeasured - kOldest; frame < kMovingLightFrames - kNewest; ++frame) {
     truths[frame] = luminances(movingLightFrame(kExtent, frame).truth);

@@ -11,38 +11,38 @@
 
 namespace walr {
 
-/// What the first frame after a camera cut is like.
+/// Errors of the first frame after a camera cut.
 struct CutResponse {
   double rmse = 0.0;
-  double left = 0.0;  ///< Share of the old picture that is still there, in linear luminance: 1 is all of it.
+  double left = 0.0;  ///< Share of the image before the cut that remains, in linear luminance: 0 to 1.
 };
 
-/// How a method answers to change, on synthetic scenes with a known answer (response_scene.h). Errors are after the
-/// tone map x / (1 + x).
+/// How a method responds to change, on synthetic scenes with known truth (response_scene.h). Errors are after the tone
+/// map x / (1 + x).
 struct Response {
   std::string variant;
   double firstFrame = 0.0;      ///< RMSE of the first frame.
-  double settled = 0.0;         ///< RMSE of a still scene in steady light, mean over frames 16 to 23.
+  double settled = 0.0;         ///< RMSE of a static scene in constant light, mean over frames 16 to 23.
   double settledFlicker = 0.0;  ///< Flicker (`flicker`) of the same frames.
-  /// Share of the light that is still there but should not be, by frames since the light went down: 1 is all of it.
+  /// Share of the removed light that remains, by the number of frames since the light was dimmed: 1 is all of it.
   std::vector<double> lightLeft;
-  std::optional<int> lightFrames;  ///< Frames until no more than a tenth is left; absent where that is never.
-  /// RMSE, relative to the truth's luminance, of the wall behind the slab, by frames since the slab uncovered it, after
-  /// the first eight frames.
+  std::optional<int> lightFrames;  ///< Frames until at most a tenth remains; absent if that is never reached.
+  /// RMSE of the wall behind the slab, relative to the truth's luminance, by the number of frames since the slab
+  /// uncovered it. The first eight frames are left out.
   std::vector<double> errorByAge;
-  /// Share of the slab's light, in linear luminance, that is left on the wall, by the same: a ghost's trail.
+  /// Trail: share of the slab's light that remains on the wall, in linear luminance, by the same number of frames.
   std::vector<double> trailByAge;
-  /// Frames since disocclusion until the error is within a quarter of the wall's that nothing ever hid; absent where
-  /// that is never.
+  /// Frames from disocclusion until the error exceeds that of wall pixels that were never hidden by at most a quarter;
+  /// absent if that is never reached.
   std::optional<int> recoveryFrames;
-  /// How many frames ago light that moves over a still wall lay as the result shows it: the age whose truth is nearest
-  /// to the result, mean over 24 frames.
+  /// Lag in frames of light that moves over a static wall: the age of the truth that is nearest to the result, mean
+  /// over 24 frames.
   double lightLag = 0.0;
-  CutResponse cut;        ///< Of the camera, told to the method.
-  CutResponse untoldCut;  ///< The same, and nobody said so: what rejection by surface saves.
+  CutResponse cut;        ///< A camera cut that the frame reports to the method.
+  CutResponse untoldCut;  ///< A camera cut that the frame does not report: history is rejected by surface only.
 };
 
-/// Ages up to which `Response::errorByAge` and `trailByAge` reach.
+/// Number of ages in `Response::errorByAge` and `trailByAge`.
 inline constexpr int kResponseAges = 16;
 
 /// @throws fg::vk::Error when the device fails

@@ -18,7 +18,7 @@ constexpr int kSlabSpeed = 4;
 constexpr float kDimmed = 0.1F;
 constexpr float kAlbedo = 0.5F;
 
-/// To [0, 1), different for every pixel, frame and use (hash of Jarzynski and Olano 2020, PCG).
+/// A random number in [0, 1) for a pixel, frame and use (PCG hash of Jarzynski and Olano 2020).
 float uniform(std::uint32_t pixel, int frame, std::uint32_t use) {
   std::uint32_t state = (pixel * 4U + use) * 747796405U + static_cast<std::uint32_t>(frame) * 2891336453U;
   state = state * 747796405U + 2891336453U;
@@ -42,7 +42,7 @@ Surface wall(int x, int y) {
   return {kWallDepth, normal, light * glm::vec3(1.0F, 0.9F, 0.8F), 0.0F};
 }
 
-/// Another wall, of other bumps and other light.
+/// The wall after the cut, with other bumps and other light.
 Surface secondWall(int x, int y) {
   Surface surface = wall(2 * y + 7, x + 11);
   surface.depth = kSecondWallDepth;
@@ -50,7 +50,7 @@ Surface secondWall(int x, int y) {
   return surface;
 }
 
-/// Left edge of the slab, which enters from the left border.
+/// Left edge of the slab in a frame; the slab enters at the left border of the image.
 int slabLeft(fg::Extent extent, int frame) {
   return kSlabSpeed * frame - static_cast<int>(extent.width) / 4;
 }
@@ -69,7 +69,7 @@ Frame emptyFrame(fg::Extent extent, int number) {
   frame.resetHistory = number == 0;
   for (Image* image : {&frame.indirect, &frame.albedo, &frame.normal, &frame.motion}) *image = Image(width, height, 3);
   frame.depth = Image(width, height, 1);
-  // 60 degrees across the height.
+  // A vertical field of view of 60 degrees.
   const float scale = std::sqrt(3.0F);
   frame.camera.projection = glm::mat4(0.0F);
   frame.camera.projection[0][0] = scale * static_cast<float>(height) / static_cast<float>(width);

@@ -13,26 +13,26 @@
 
 namespace walr {
 
-/// What came of one variant on one sequence.
+/// Results of one variant on one sequence.
 struct RunRecord {
   std::string variant;
   std::vector<FrameErrors> frames;
-  bool reproducible = true;  ///< Every repetition gave the same bits.
+  bool reproducible = true;  ///< All repetitions gave bit-identical results.
   Timing timing;
 };
 
-/// @throws nlohmann::json::exception from `recordFromJson` where something is missing
+/// @throws nlohmann::json::exception from `recordFromJson` if a member is missing
 nlohmann::ordered_json toJson(const RunRecord& record);
 RunRecord recordFromJson(const nlohmann::ordered_json& json);
 
-/// Finished runs on disk, each with a key that says what it was made from: an interrupted benchmark goes on where it
-/// was, and a run whose key has changed is made again.
+/// Finished runs on disk, so that an interrupted benchmark can be resumed. Each has a key of everything that it depends
+/// on; a run whose key has changed is repeated.
 class RunStore {
  public:
-  /// @param folder  made when the first run is written
+  /// @param folder  created when the first run is written
   explicit RunStore(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
-  /// The run, if it is there with this key. Files that cannot be understood count as missing.
+  /// The stored run with this key, if there is one. Unreadable files count as missing.
   [[nodiscard]] std::optional<RunRecord> find(const std::string& sequence, const std::string& variant,
                                               const std::string& key) const;
   /// @throws OutputError

@@ -34,7 +34,7 @@ SizeTimes sizeTimes(const GpuDevice& device, std::span<const Variant> variants, 
     SizeTiming& result = sized.timings[i];
     result.variant = variants[i].name;
     if (i > 0 && lanes.empty()) {
-      result.whyNot = variants.front().name + ", which times are ratios to, does not run at this size";
+      result.whyNot = variants.front().name + ", the baseline of time ratios, does not run at this size";
       continue;
     }
     if (auto denoiser = tryToMake(device, variants[i], extent, result.whyNot)) {

@@ -11,24 +11,24 @@
 
 namespace walr {
 
-/// How long a variant takes at one size of picture.
+/// Times of a variant at one image size.
 struct SizeTiming {
   std::string variant;
   Timing timing;
-  std::string whyNot;  ///< In words, where it does not run at that size.
+  std::string whyNot;  ///< Why the variant does not run at this size, as text; empty if it does.
 };
 
-/// All variants at one size.
+/// Times of all variants at one image size.
 struct SizeTimes {
   fg::Extent extent;
   std::vector<SizeTiming> timings;
 };
 
-/// Time variants beside each other on two frames of a synthetic scene in turn (`slabFrame`), after one repetition that
-/// warms up. Where settings do not go with a size, or the device's memory does not hold it, that is said.
-/// @param variants   the first one is the baseline that ratios are against
-/// @param frameDone  called after each frame, `kFramesPerRepetition` times (1 + repetitions) times
-/// @throws fg::vk::Error where the baseline fails while it runs
+/// Time variants in alternation on two frames of a synthetic scene (`slabFrame`), after one repetition that warms up. A
+/// variant whose settings do not support the size, or that exceeds device memory, is reported in `SizeTiming::whyNot`.
+/// @param variants   the first one is the baseline that time ratios refer to
+/// @param frameDone  called after each frame: `kFramesPerRepetition` x (1 + repetitions) times
+/// @throws fg::vk::Error if the baseline fails while it runs
 SizeTimes sizeTimes(const GpuDevice& device, std::span<const Variant> variants, fg::Extent extent,
                     std::size_t repetitions, const std::function<void()>& frameDone);
 

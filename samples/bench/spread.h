@@ -4,11 +4,11 @@
 
 namespace walr {
 
-/// How measured values lie.
+/// Median and quantiles of measured values.
 struct Spread {
   double median = 0.0;
-  double p5 = 0.0;   ///< 5 % lie below.
-  double p95 = 0.0;  ///< 5 % lie above.
+  double p5 = 0.0;   ///< 5 % of the values lie below it.
+  double p95 = 0.0;  ///< 5 % of the values lie above it.
 };
 
 /// Quantiles with linear interpolation between order statistics (Hyndman and Fan 1996, type 7).

@@ -8,14 +8,14 @@
 namespace walr {
 namespace {
 
-/// What a sweep's settings are changes to.
+/// The method and preset whose settings a sweep changes.
 struct Base {
   std::string_view method;
   std::string_view preset;
 };
 
 constexpr Base kDefault{kBaseline, {}};
-/// The preset that regresses at every pixel, with the settings regression.*.
+/// Regression at every pixel, with the settings regression.*.
 constexpr Base kPerPixel{"walr_paper", "robust"};
 constexpr Base kFlr{"flr", {}};
 constexpr Base kSvgf{"svgf", {}};
@@ -35,11 +35,13 @@ Sweep over(Base base, std::string_view name, std::string_view question, std::str
 }
 
 std::vector<Sweep> walrSweeps() {
-  Sweep iterations = over(kPerPixel, "iterations", "How many a-trous iterations, at 3^n pixels of window?",
-                          "regression.iterations", {"1", "2", "3", "4", "5"});
+  Sweep iterations =
+      over(kPerPixel, "iterations", "How many a-trous iterations? n iterations have a window of 3^n pixels",
+           "regression.iterations", {"1", "2", "3", "4", "5"});
   iterations.held = {{"walr_paper.fit-window", "off"}};
   const SettingValue kDropped = {"regression.keep-sample-count", "off"};
-  Sweep remap = of(kPerPixel, "edge-range", "How far from the plane does an edge begin and end?", {});
+  Sweep remap = of(kPerPixel, "edge-range",
+                   "At which distances from the plane does the edge-stopping weight begin and cease to fall?", {});
   for (const auto& [label, near, far] : {std::tuple{"quarter", "0.000375", "0.00375"},
                                          {"half", "0.00075", "0.0075"},
                                          {"default", "0.0015", "0.015"},
@@ -49,7 +51,7 @@ std::vector<Sweep> walrSweeps() {
   }
   return {
       iterations,
-      of(kPerPixel, "parts", "What does each part of the preset `robust` buy?",
+      of(kPerPixel, "parts", "How much does each part of the preset `robust` contribute?",
          {{"whole", {}},
           {"no-replacement", {{"regression.replace-taps", "off"}}},
           {"no-tracing", {{"regression.trace-edges", "off"}}},
@@ -63,69 +65,70 @@ std::vector<Sweep> walrSweeps() {
           {"bicubic-history", {{"accumulation.history-filter", "bicubic"}}},
           {"no-diffuse-mask", {{"guides.albedo-threshold", "0"}}},
           {"no-late-history", {{"antialiasing.enabled", "off"}}}}),
-      of(kPerPixel, "storage", "How must the moments be stored between iterations?",
+      of(kPerPixel, "storage", "In which format are moments stored between iterations?",
          {{"centred16", {{"regression.moments", "centred16"}}},
           {"raw16", {{"regression.moments", "raw16"}, kDropped}},
           {"raw11", {{"regression.moments", "raw11"}, kDropped}},
           {"raw32", {{"regression.moments", "raw32"}, kDropped}}}),
-      of(kPerPixel, "edges", "What does edge tracing buy, and its distance field save?",
+      of(kPerPixel, "edges", "How much does edge tracing improve, and how much time does its distance field save?",
          {{"traced", {{"regression.trace-edges", "on"}}},
           {"traced-without-sdf", {{"regression.trace-edges", "on"}, {"regression.sdf-fraction", "0"}}},
           {"untraced", {{"regression.trace-edges", "off"}}}}),
-      over(kPerPixel, "replacement", "Replace taps behind edges?", "regression.replace-taps",
+      over(kPerPixel, "replacement", "Are taps behind edges replaced?", "regression.replace-taps",
            {"uniform", "near", "off"}),
-      over(kPerPixel, "sample-count", "Carry the sample count W through the iterations?",
+      over(kPerPixel, "sample-count", "Is the sample count W kept through the iterations?",
            "regression.keep-sample-count", {"on", "off"}),
-      over(kPerPixel, "regularisation", "A ridge, or floored pivots?", "regression.regularisation", {"ridge", "floor"}),
+      over(kPerPixel, "regularisation", "Is the solution stabilised by a ridge or by a floor of the pivots?",
+           "regression.regularisation", {"ridge", "floor"}),
       over(kPerPixel, "epsilon", "How large a ridge?", "regression.ridge",
            {"1e-6", "1e-5", "1e-4", "1e-3", "1e-2", "1e-1"}),
-      over(kPerPixel, "noise-ridge", "How much further ridge for noise?", "regression.noise-ridge",
+      over(kPerPixel, "noise-ridge", "How large an additional ridge for noise?", "regression.noise-ridge",
            {"0", "0.3", "1", "3", "10", "30"}),
-      over(kDefault, "history", "How many samples before the filter?", "accumulation.max-history",
+      over(kDefault, "history", "How many frames of history before the filter?", "accumulation.max-history",
            {"1", "4", "8", "16", "32", "64"}),
-      over(kDefault, "change-response", "Shorten history where the light changes?", "accumulation.antilag",
+      over(kDefault, "change-response", "Is history shortened where the light changes?", "accumulation.antilag",
            {"on", "off"}),
-      of(kDefault, "change-score", "From how many standard errors of change on is history shortened?",
+      of(kDefault, "change-score", "At how many standard errors of change is history shortened?",
          {{"2-4", {{"accumulation.antilag-low", "2"}, {"accumulation.antilag-high", "4"}}},
           {"3-6", {{"accumulation.antilag-low", "3"}, {"accumulation.antilag-high", "6"}}},
           {"4-8", {{"accumulation.antilag-low", "4"}, {"accumulation.antilag-high", "8"}}}}),
-      over(kDefault, "late-history", "How many frames after the filter?", "antialiasing.max-history",
+      over(kDefault, "late-history", "How many frames of history after the filter?", "antialiasing.max-history",
            {"1", "3", "5", "8", "16", "32"}),
-      over(kDefault, "clipping", "How tight a box of variance clipping?", "antialiasing.clip-gamma",
-           {"1", "2", "3", "5", "8"}),
-      over(kDefault, "history-filter", "How is history read between pixels?", "accumulation.history-filter",
+      over(kDefault, "clipping", "At how many standard deviations from the mean is history clipped?",
+           "antialiasing.clip-gamma", {"1", "2", "3", "5", "8"}),
+      over(kDefault, "history-filter", "How is history interpolated between pixels?", "accumulation.history-filter",
            {"bilinear", "bicubic"}),
       remap,
-      over(kPerPixel, "plane-normal", "Which normal spans the plane of an edge?", "regression.plane-normal",
+      over(kPerPixel, "plane-normal", "Which normal defines the plane for edge-stopping?", "regression.plane-normal",
            {"geometric", "shading"}),
-      over(kDefault, "coarse-samples", "How much does the coarse fit count beside a block's own?",
+      over(kDefault, "coarse-samples", "How many samples does the coarse fit count as beside the fine fit?",
            "blocks.coarse-samples", {"0", "300", "1000", "3200", "10000", "1000000"}),
-      over(kDefault, "coarse-least-share", "From which share on is the coarse fit mixed in?",
-           "blocks.coarse-least-share", {"0.000001", "0.1", "0.15", "0.2", "0.3"}),
+      over(kDefault, "coarse-least-share", "From which share is the coarse fit mixed in?", "blocks.coarse-least-share",
+           {"0.000001", "0.1", "0.15", "0.2", "0.3"}),
       over(kDefault, "coarse-sigma", "How wide a window for the coarse fit?", "blocks.coarse-sigma",
            {"0.011", "0.016", "0.0224", "0.032", "0.045"}),
       over(kDefault, "coarse-resolution", "How fine a grid for the coarse fit?", "blocks.coarse-resolution",
            {"0.55", "1.1", "2.2", "4.4"}),
-      over(kDefault, "coarse-narrowing", "How fast must it narrow with the paths a pixel?", "blocks.coarse-narrowing",
-           {"0", "0.15", "0.3", "0.45"}),
-      over(kDefault, "coarse-growth", "How much may light differ that the coarse fit's windows grow over?",
+      over(kDefault, "coarse-narrowing", "How fast does the coarse fit's window narrow with the samples per pixel?",
+           "blocks.coarse-narrowing", {"0", "0.15", "0.3", "0.45"}),
+      over(kDefault, "coarse-growth", "Up to which difference in light do windows of the coarse fit grow?",
            "blocks.coarse-growth-errors", {"0.001", "1", "1.6", "2", "3", "1000000"}),
-      over(kDefault, "coarse-growth-occlusion", "How much less do they grow near occluders?",
+      over(kDefault, "coarse-growth-occlusion", "How much less do windows of the coarse fit grow near occluders?",
            "blocks.coarse-growth-occlusion", {"0", "2", "4", "8"}),
-      over(kDefault, "growth", "How much may light differ that blocks' windows grow over?", "blocks.growth-errors",
+      over(kDefault, "growth", "Up to which difference in light do windows of blocks grow?", "blocks.growth-errors",
            {"0.001", "4", "8.5", "17", "1000000"}),
-      over(kDefault, "block-size", "How large may blocks be, where the picture is not too small for them?",
-           "blocks.size", {"2", "3", "4", "5", "6", "8"}),
-      over(kDefault, "occlusion", "How far does ambient occlusion look?", "occlusion.radius",
+      over(kDefault, "block-size", "How large may blocks be? Small images have smaller blocks", "blocks.size",
+           {"2", "3", "4", "5", "6", "8"}),
+      over(kDefault, "occlusion", "How far does ambient occlusion reach?", "occlusion.radius",
            {"0.02", "0.04", "0.075", "0.15", "0.3"}),
-      over(kDefault, "occlusion-steps", "In how many steps does it look?", "occlusion.steps",
+      over(kDefault, "occlusion-steps", "How many steps does ambient occlusion take?", "occlusion.steps",
            {"3", "4", "5", "6", "8"}),
   };
 }
 
-/// The parameters that the baselines' papers leave open, and the comparisons that Fu 2022 makes.
+/// Sweeps over the parameters that the papers of the other methods leave open, and over those that Fu 2022 compares.
 std::vector<Sweep> baselineSweeps() {
-  Sweep singleFrame = over(kFlr, "flr-single-frame", "How wide a window for FLR where it filters single frames?",
+  Sweep singleFrame = over(kFlr, "flr-single-frame", "How wide a window for FLR if it filters frames separately?",
                            "regression.single-frame-sigma", {"8", "10", "12", "15"});
   singleFrame.held = {{"spatial-only", "on"}};
   return {
@@ -133,25 +136,27 @@ std::vector<Sweep> baselineSweeps() {
            {"1", "2", "4", "8", "16"}),
       over(kFlr, "flr-sigma", "How wide a Gaussian window for FLR, in pixels?", "regression.sigma",
            {"3", "4", "5", "6", "7", "8", "12"}),
-      over(kFlr, "flr-window", "Where does FLR's window end, in sigmas?", "regression.reach", {"1", "2", "3", "4"}),
+      over(kFlr, "flr-window", "At how many sigmas does FLR's window end?", "regression.reach", {"1", "2", "3", "4"}),
       over(kFlr, "flr-ridge", "How large a ridge for FLR?", "regression.ridge",
            {"1e-6", "1e-5", "1e-4", "1e-3", "1e-2"}),
       over(kFlr, "flr-upsampling", "How are FLR's coefficients upsampled?", "regression.upsampling",
            {"nearest", "bilinear", "bspline"}),
-      of(kFlr, "flr-occlusion", "What does ambient occlusion buy FLR, and how far must it look?",
+      of(kFlr, "flr-occlusion", "How much does ambient occlusion improve FLR, and how far does it reach?",
          {{"off", {{"regression.occlusion-guide", "off"}}},
           {"0.02", {{"occlusion.radius", "0.02"}}},
           {"0.04", {{"occlusion.radius", "0.04"}}},
           {"0.075", {{"occlusion.radius", "0.075"}}},
           {"0.15", {{"occlusion.radius", "0.15"}}}}),
       singleFrame,
-      over(kFlr, "flr-history", "How many samples before FLR?", "accumulation.max-history", {"4", "8", "16", "32"}),
-      of(kSvgf, "svgf-kernel", "How large a kernel for SVGF's iterations? 3, 5, 7 or 9 taps an axis.",
+      over(kFlr, "flr-history", "How many frames of history before FLR?", "accumulation.max-history",
+           {"4", "8", "16", "32"}),
+      of(kSvgf, "svgf-kernel", "How many taps per axis for the kernel of SVGF's iterations?",
          {{"3x3", {{"svgf.radius", "1"}}},
           {"5x5", {{"svgf.radius", "2"}}},
           {"7x7", {{"svgf.radius", "3"}}},
           {"9x9", {{"svgf.radius", "4"}}}}),
-      of(kSvgf, "svgf-window", "A-trous iterations, the full filter that they approximate, or a small one at once?",
+      of(kSvgf, "svgf-window",
+         "SVGF's filter: a-trous iterations, the full filter that they approximate, or one small filter?",
          {{"atrous-5x5-4", {}},
           {"full-61x61", {{"svgf.window", "full"}}},
           {"plain-9x9", {{"svgf.radius", "4"}, {"svgf.iterations", "1"}}}}),
@@ -164,30 +169,31 @@ std::vector<Sweep> baselineSweeps() {
       over(kSvgf, "svgf-iterations", "How many iterations for SVGF?", "svgf.iterations", {"2", "3", "4", "5"}),
       over(kSvgf, "svgf-normal", "How sharp a normal weight for SVGF?", "svgf.sigma-normal",
            {"8", "16", "24", "32", "64", "128"}),
-      over(kSvgf, "svgf-depth", "How far from the plane does SVGF reach?", "svgf.sigma-depth",
+      over(kSvgf, "svgf-depth", "How far from the plane of the surface does SVGF reach?", "svgf.sigma-depth",
            {"0.005", "0.01", "0.02", "0.04", "0.08"}),
-      over(kSvgf, "svgf-history", "How many samples before SVGF's filter?", "accumulation.max-history",
+      over(kSvgf, "svgf-history", "How many frames of history before SVGF's filter?", "accumulation.max-history",
            {"5", "8", "16", "32"}),
-      over(kBmfr, "bmfr-rank", "Noise, or features left out, where features depend on each other?", "fit.rank-handling",
-           {"stochastic", "deterministic"}),
+      over(kBmfr, "bmfr-rank", "Are linearly dependent features handled by added noise or by leaving features out?",
+           "fit.rank-handling", {"stochastic", "deterministic"}),
       over(kBmfr, "bmfr-noise", "How much noise on BMFR's features?", "fit.noise-amplitude",
            {"0.001", "0.003", "0.01", "0.03", "0.1"}),
-      over(kBmfr, "bmfr-history", "How many samples before BMFR's fit?", "accumulation.max-history",
+      over(kBmfr, "bmfr-history", "How many frames of history before BMFR's fit?", "accumulation.max-history",
            {"3", "5", "8", "16"}),
       over(kBmfr, "bmfr-late-history", "How many fitted frames does BMFR average?", "fitted.max-history",
            {"5", "10", "20"}),
       over(kBilateral, "bilateral-radius", "How large a window for the joint bilateral filter?", "bilateral.radius",
            {"8", "12", "16", "24"}),
-      over(kBilateral, "bilateral-position", "How wide a Gaussian in the image for it?", "bilateral.sigma-position",
-           {"3", "4", "5", "6", "8"}),
-      over(kBilateral, "bilateral-normal", "How sharp a normal term for it?", "bilateral.sigma-normal",
-           {"0.1", "0.2", "0.4", "0.8"}),
-      over(kBilateral, "bilateral-plane", "How sharp a plane term for it?", "bilateral.sigma-plane",
-           {"0.05", "0.1", "0.2", "0.4"}),
-      over(kBilateral, "bilateral-colour", "How sharp a colour term for it?", "bilateral.sigma-colour",
-           {"4", "10", "30", "inf"}),
-      over(kBilateral, "bilateral-clipping", "How tight a clamp of its history?", "antialiasing.clip-gamma",
-           {"1", "2", "4", "8", "16"}),
+      over(kBilateral, "bilateral-position", "How wide a spatial Gaussian for the joint bilateral filter?",
+           "bilateral.sigma-position", {"3", "4", "5", "6", "8"}),
+      over(kBilateral, "bilateral-normal", "How sharp a normal weight for the joint bilateral filter?",
+           "bilateral.sigma-normal", {"0.1", "0.2", "0.4", "0.8"}),
+      over(kBilateral, "bilateral-plane", "How sharp a plane weight for the joint bilateral filter?",
+           "bilateral.sigma-plane", {"0.05", "0.1", "0.2", "0.4"}),
+      over(kBilateral, "bilateral-colour", "How sharp a colour weight for the joint bilateral filter?",
+           "bilateral.sigma-colour", {"4", "10", "30", "inf"}),
+      over(kBilateral, "bilateral-clipping",
+           "At how many standard deviations is the joint bilateral filter's history clipped?",
+           "antialiasing.clip-gamma", {"1", "2", "4", "8", "16"}),
   };
 }
 
@@ -197,7 +203,7 @@ std::vector<Sweep> makeSweeps() {
   return all;
 }
 
-/// Nothing where there is no such sweep.
+/// The sweep of this name; null if there is none.
 const Sweep* find(std::string_view name) {
   const auto found = std::ranges::find(sweeps(), name, &Sweep::name);
   return found == sweeps().end() ? nullptr : &*found;

@@ -9,31 +9,31 @@
 
 namespace walr {
 
-/// One value on a sweep.
+/// One point of a sweep: a label and its settings.
 struct SweepPoint {
   std::string_view label;
   std::vector<SettingValue> settings;
 };
 
-/// A question about a method's settings, and the settings that answer it. Its variants are named "SWEEP=LABEL".
+/// A question about a method's settings, and the values to measure for it. Its variants are named "SWEEP=LABEL".
 struct Sweep {
   std::string_view name;
   std::string_view question;
   std::string_view method;
-  std::string_view preset;         ///< That the settings are changes to; empty: the default.
-  std::vector<SettingValue> held;  ///< Further settings that all points share, and with them the default.
-  std::vector<SweepPoint> points;  ///< The default is one of them.
+  std::string_view preset;         ///< Preset that the settings change; empty: the method's first.
+  std::vector<SettingValue> held;  ///< Settings that all points share, including the default.
+  std::vector<SweepPoint> points;  ///< One of them is the default.
 };
 
-/// All sweeps. A new one is a line here.
+/// All sweeps.
 std::span<const Sweep> sweeps();
 
 /// The variants of a sweep.
-/// @throws std::invalid_argument naming the unknown sweep and the known ones
+/// @throws std::invalid_argument if there is no such sweep; the message lists all sweeps
 std::vector<Variant> sweepVariants(std::string_view name);
 
-/// Whether a variant is its method with its preset and nothing else, whatever it is called; for a variant of a sweep,
-/// besides what the sweep holds.
+/// Whether all settings of a variant have the values of its method and preset; for a variant of a sweep, apart from the
+/// settings that the sweep holds.
 /// @throws std::invalid_argument as `makeVariant`
 bool isDefault(const Variant& variant);
 

@@ -20,8 +20,8 @@ constexpr double kBicubic = 16.0;
 /// A compute pass of a plan.
 struct Stage {
   const fg::ComputeDispatch& work;
-  fg::Extent extent;   ///< The image's.
-  double share = 1.0;  ///< Texels of what it writes over the image's pixels.
+  fg::Extent extent;   ///< Size of the image.
+  double share = 1.0;  ///< Texels that the pass writes per pixel of the image.
 };
 
 std::uint32_t specializationOf(const Stage& stage, std::string_view name) {
@@ -37,7 +37,7 @@ Constants constantsOf(const Stage& stage) {
   return constants;
 }
 
-/// 1 where it writes buffers.
+/// Texels that a pass writes per pixel of the image; 1 if it writes buffers only.
 double shareOf(const fg::GraphDesc& graph, const fg::PassDecl& pass, fg::Extent extent) {
   for (const fg::AccessDecl& access : pass.accesses) {
     const auto* texture = std::get_if<fg::TextureDesc>(&graph.resources[access.resource].desc);
@@ -51,7 +51,7 @@ double window(std::uint32_t radius) {
   return (2.0 * radius + 1.0) * (2.0 * radius + 1.0);
 }
 
-/// Cells of FLR's grid as a share of the image's pixels.
+/// Cells of FLR's grid per pixel of the image.
 double flrCells(const Stage& stage) {
   const FlrConstants constants = constantsOf<FlrConstants>(stage);
   return static_cast<double>(constants.cells.x) * constants.cells.y / stage.extent.width / stage.extent.height;
@@ -78,7 +78,7 @@ double coarseLine(const Stage& stage) {
   return (2.0 * std::ceil(constants.coarseReach * constants.coarseSigma) + 1.0) * stage.share;
 }
 
-/// Taps a pixel of a shader by the stem of its name.
+/// Taps per pixel of each shader, by the first part of the shader's name.
 struct ShaderTaps {
   std::string_view shader;
   double (*taps)(const Stage& stage);
@@ -100,7 +100,7 @@ constexpr std::array kShaders = {
     ShaderTaps{"atrous", [](const Stage&) { return 9.0; }},
     ShaderTaps{"svgf_accumulation", [](const Stage&) { return 1.0 + 2.0 * kBilinear; }},
     ShaderTaps{"svgf_variance", [](const Stage&) { return window(3); }},
-    // A 3 x 3 blur of the variance beside the window.
+    // The window, and a 3 x 3 blur of the variance.
     ShaderTaps{"svgf_atrous", [](const Stage& stage) { return 9.0 + window(specializationOf(stage, "kRadius")); }},
     ShaderTaps{"bmfr_fit", [](const Stage&) { return 1.0; }},
     ShaderTaps{"bmfr_accumulation", [](const Stage&) { return 1.0 + kBilinear; }},
@@ -109,11 +109,11 @@ constexpr std::array kShaders = {
     ShaderTaps{"flr_solve", flrLine},
     ShaderTaps{"flr_apply", flrUpsampling},
     ShaderTaps{"block_moments", [](const Stage&) { return 1.0; }},
-    // At one path a pixel; with more of them it is narrower.
+    // At one sample per pixel; with more samples the window is narrower.
     ShaderTaps{"block_coarse", coarseLine},
     ShaderTaps{"block_coarse_growth", [](const Stage& stage) { return window(2) * stage.share; }},
     ShaderTaps{"block_atrous", [](const Stage& stage) { return 9.0 * stage.share; }},
-    // The pixel itself, and the four blocks and four cells about it.
+    // The pixel itself, and the four blocks and four cells around it.
     ShaderTaps{"block_apply", [](const Stage&) { return 1.0 + 2.0 * kBilinear; }},
     ShaderTaps{"joint_bilateral", [](const Stage& stage) { return window(specializationOf(stage, "kRadius")); }},
 };

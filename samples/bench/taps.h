@@ -7,10 +7,10 @@
 
 namespace walr {
 
-/// Values of light that a method gathers a pixel: how often its passes fetch a texel or cell of the light itself, of
-/// its history, or of averages that hold it, without guides, and without what edge tracing walks over. Passes on a
-/// coarser grid count by their share of the pixels.
-/// @returns nothing where the plan holds a shader that this does not know
+/// Number of taps of light that a method takes per pixel: fetches of a texel or cell of the light itself, of its
+/// history, or of averages of it. Fetches of guides and those of edge tracing do not count. A pass on a coarser grid
+/// counts by the number of its texels per pixel.
+/// @returns nullopt if the plan contains a shader whose taps are not known here
 std::optional<double> tapsPerPixel(const fg::GraphDesc& graph, const fg::Plan& plan, fg::Extent extent);
 
 }  // namespace walr

@@ -21,47 +21,47 @@ struct PassSpread {
   Spread milliseconds;
 };
 
-/// How long a variant takes.
+/// Times of a variant.
 struct Timing {
-  std::size_t frames = 0;              ///< Behind the times, over all repetitions.
+  std::size_t frames = 0;              ///< Number of timed frames, over all repetitions.
   std::optional<Spread> milliseconds;  ///< All passes of a frame; absent without a timer.
-  /// Time over the baseline's on the same frame of the same repetition; absent without a timer.
+  /// Ratio to the baseline's time on the same frame of the same repetition; absent without a timer.
   std::optional<Spread> ratio;
   std::vector<PassSpread> passes;  ///< In the order of execution.
 };
 
-/// Times of a variant's passes, frame after frame.
+/// Collects the times of a variant's passes over frames.
 class FrameTimes {
  public:
-  /// Nothing where the device has no timer.
+  /// Has no effect if the device has no timer.
   void add(const DenoisedPicture& picture);
-  /// @param baseline  of the same frames
+  /// @param baseline  times of the baseline on the same frames
   [[nodiscard]] Timing timing(const FrameTimes& baseline) const;
 
  private:
-  std::vector<double> milliseconds_;         ///< By frame.
-  std::vector<std::string> names_;           ///< By pass.
-  std::vector<std::vector<double>> passes_;  ///< By pass, then by frame.
+  std::vector<double> milliseconds_;         ///< Indexed by frame.
+  std::vector<std::string> names_;           ///< Indexed by pass.
+  std::vector<std::vector<double>> passes_;  ///< Indexed by pass, then by frame.
 };
 
-/// A denoiser that is timed on two frames in turn.
+/// A denoiser that is timed on two alternating frames.
 struct TimedLane {
   GpuDenoiser denoiser;
   const std::array<PackedFrame, 2>* frames;
   FrameTimes times = {};
 };
 
-/// Frames of which each repetition of `timeBeside` consists.
+/// Number of frames in each repetition of `timeBeside`.
 inline constexpr std::size_t kFramesPerRepetition = 8;
 
-/// Time denoisers beside each other, after one repetition that warms up. Who is first moves on from frame to frame, so
-/// that drift hits all alike.
-/// @param frameDone  called after each frame of all, `kFramesPerRepetition` times (1 + repetitions) times
+/// Time denoisers in alternation, after one repetition that warms up. Their order rotates from frame to frame, so that
+/// drift of the machine affects all alike.
+/// @param frameDone  called after all denoisers have run a frame: `kFramesPerRepetition` x (1 + repetitions) times
 /// @throws fg::vk::Error when the device fails
 void timeBeside(std::vector<TimedLane>& lanes, std::size_t repetitions, const std::function<void()>& frameDone);
 
-/// `timed_frames`, `milliseconds`, `ratio` and `passes` into an object, and back.
-/// @throws nlohmann::json::exception from `timingFromJson` where something is missing
+/// Write `timed_frames`, `milliseconds`, `ratio` and `passes` to a JSON object, and read them back.
+/// @throws nlohmann::json::exception from `timingFromJson` if a member is missing
 void addTiming(nlohmann::ordered_json& object, const Timing& timing);
 Timing timingFromJson(const nlohmann::ordered_json& object);
 nlohmann::ordered_json toJson(const Spread& spread);

@@ -1,13 +1,13 @@
 #!/usr/bin/python3
-"""Puts the figures of `walr bench` into the project's documents.
+"""Writes the measurements of `walr bench` into the project's documents.
 
     update_results.py methods FOLDER    takes the comparison of methods from FOLDER/bench.json, and its pictures
     update_results.py scenes FOLDER     takes the rendered scenes and the times by content from FOLDER/bench.json
-    update_results.py                   writes the documents anew from the figures that were taken
-    update_results.py --check           fails where a document is not what those figures give
+    update_results.py                   writes the documents again from results.json
+    update_results.py --check           fails if a document differs from what results.json gives
 
-What the documents show is kept in results.json beside this script. From it are written: the marked part of README.md,
-samples/bench/RESULTS.md, samples/bench/SCENES.md and the plot samples/images/pareto.png. Pictures need matplotlib.
+The values in the documents are stored in results.json next to this script. From it, the script writes the marked part of
+README.md, samples/bench/RESULTS.md, samples/bench/SCENES.md and the plot samples/images/pareto.png. Images need matplotlib.
 """
 import json
 import math
@@ -30,7 +30,7 @@ UNFILTERED = ("accumulate", "none")
 CROPPED = ("walr", "walr_paper", "bmfr", "svgf", "flr", "joint_bilateral")
 
 
-# What is kept of a benchmark.
+# The values of a benchmark that are stored.
 
 def mean(values):
     values = list(values)
@@ -42,7 +42,7 @@ def rounded(value, decimals=6):
 
 
 def origin(data):
-    """Where figures come from."""
+    """Commit, command and device of the measurements."""
     return {"commit": data["commit"][:12], "compiler": f"{data['compiler']}, {data['build_type']}", "command": data["command"],
             "device": data["device"]["name"], "driver": data["device"]["driver"], "software": data["device"]["software"]}
 
@@ -54,7 +54,7 @@ def costs_at_1080p(variant):
 
 
 def keep_methods(data):
-    """What the pages show of a comparison of methods."""
+    """The values of a comparison of methods that the documents show."""
     kept = {**origin(data), "vmaf": data["vmaf"]["by"], "noise": {}, "methods": {}}
     for variant in data["variants"]:
         if not variant["sweep"]:
@@ -75,7 +75,7 @@ def keep_methods(data):
 
 
 def keep_scenes(data):
-    """What the page shows of the rendered scenes and of the times by content."""
+    """The values of the rendered scenes, and the times by content, that SCENES.md shows."""
     kept = {**origin(data), "sequences": {}, "contents": {}}
     methods = [v["name"] for v in data["variants"] if v["name"] in (v["method"], f"{v['method']}:{v['preset']}")]
     for sequence in data["sequences"]:
@@ -113,7 +113,7 @@ def listed(words):
 
 
 def times(method):
-    """Median, 5 % and 95 % of a method's time over the baseline's, mean over the sequences; None where there is no timer."""
+    """Median, 5 % and 95 % quantile of a method's time ratio to the baseline, mean over the sequences; None without a timer."""
     ratios = [s["time"] for s in method["sequences"].values()]
     return None if None in ratios else [mean(r[i] for r in ratios) for i in range(3)]
 
@@ -127,7 +127,7 @@ def processor_note(kept):
 
 
 def headline(kept):
-    """The methods of README.md: each once, with its default preset."""
+    """The methods of README.md, each with its default preset."""
     return {n: m for n, m in kept["methods"].items() if ":" not in n and n != "accumulate"}
 
 
@@ -164,7 +164,7 @@ def best_method(values, figure):
 
 
 def standing(runs, baseline, figures):
-    """In which figures the baseline is the best of the methods that filter, and how far it is behind in the others."""
+    """States in which metrics the baseline is best, and how far it is behind in the others; only methods with a spatial filter count."""
     ahead, others = [], []
     for figure in figures:
         label = "RMSE" if figure == "clean_rmse" else LABELS[figure]
@@ -206,10 +206,12 @@ def response_section(kept):
         ["method", "first frame, RMSE", "settled, RMSE", "settled, flicker", "light goes down, frames", "light moves, frames",
          "disocclusion, frames", "trail, share"], rows) + """
 * **First frame**: there is no history. **Settled**: the history is as long as it gets.
-* **Light goes down**: a light drops to a tenth; frames until no more than a tenth of the difference is left.
-* **Light moves**: a light moves over a still wall; the result is nearest to the truth of so many frames ago.
-* **Disocclusion**: a slab moves and uncovers a wall; frames until the wall's error there is within a quarter of its error elsewhere.
-* **Trail**: share of the slab's light that is left on the wall in the first frame after. `none` shows what noise alone gives.
+* **Light goes down**: a light is dimmed to a tenth; frames until at most a tenth of the difference remains.
+* **Light moves**: lag of a light that moves over a static wall; the result is nearest to the truth of so many frames ago.
+* **Disocclusion**: a slab moves and uncovers a wall; frames until the wall's error there exceeds
+  its error elsewhere by at most a quarter.
+* **Trail**: share of the slab's light that remains on the wall in the first frame after the disocclusion. The value of `none` is
+  that of noise alone.
 """
 
 
@@ -220,28 +222,29 @@ def results_page(kept):
     vmaf = ""
     if kept["vmaf"]:
         program, model = kept["vmaf"].rsplit(", ", 1)
-        vmaf = ("\n## VMAF\n\nA video metric, 0 to 100; higher is better. It hardly sees fine noise, so no method should be judged by it "
+        vmaf = ("\n## VMAF\n\nA video metric, 0 to 100; higher is better. It is insensitive to fine noise, so no method should be judged by it "
                 f"alone. {' '.join(program.split()[:3])}, {model}.\n\n" +
                 table(["method", *(f"`{s}`" for s in kept["noise"])],
                       [[f"`{n}`", *(f"{s['vmaf']:.1f}" for s in m["sequences"].values())] for n, m in kept["methods"].items()]))
     return f"""# Speed against error
 
 Written by `samples/bench/update_results.py` from `results.json`. Two sequences rendered with Blender Cycles, 384 x 216, 1 sample per
-pixel, moving camera; references of 1,400 to 2,100 samples per pixel. Figures are means over the frames after the fourth, over pixels
-with a diffuse lobe. A method's name stands for its default preset; `METHOD:PRESET` names another one.
+pixel, moving camera; references of 1,400 to 2,100 samples per pixel. Values are means over the frames after the fourth, over pixels
+with a diffuse lobe. A method's name means its default preset; `METHOD:PRESET` names another one.
 
 {methods_table(kept)}
 * **RMSE**, **SSIM** (structural similarity, Wang et al. 2004; higher is better) and **FLIP** (Andersson et al. 2020, 67 pixels per
   degree) are taken after the tone map x / (1 + x). **Flicker** is the root mean square change of the error in luminance along
-  motion, without disocclusions, over the square root of 2: white noise of deviation s has flicker s.
+  motion, without disocclusions, over the square root of 2: white noise of standard deviation s has flicker s.
+  RMSE and flicker are in units of the tone-mapped value, 0 to 1; SSIM and FLIP have no unit.
 * **Relative time**: time of a frame over that of `walr` on the same frame in the same run; median, and in brackets the 5th to the 95th
   percentile; mean over both sequences.{processor_note(kept)}
 * **Bytes**, **taps** and **memory** are those of the compiled graph at 1920 x 1080 and hold on any device. Bytes: every texel that a
-  pass reads or writes, once. Taps: fetches of light, of its history and of averages of it. Memory: histories, and the memory that
-  textures of one frame share, without the images of the host.
+  pass reads or writes, once. Taps: fetches of light, of its history and of averages of it. Memory: histories and
+  transient textures, which alias each other, without the textures of the host.
 * The references have noise of their own. As an RMSE it is {noise}.
 {standings}
-![the hardest places](../images/crops.png)
+![the places of largest error](../images/crops.png)
 
 *The two places of each sequence's last frame in which the methods' mean FLIP is largest. Below each: change of the error in luminance
 from the frame before, along motion. Red: brighter. Blue: darker. Grey: the surface was not visible in the frame before. Flicker,
@@ -256,7 +259,7 @@ At commit {kept['commit']} ({kept['compiler']}) on {kept['device']}, {kept['driv
 
 
 def renamed_note(kept):
-    """Names that were changed by hand in results.json, where they were."""
+    """A note on names that were changed by hand in results.json, if any."""
     return f"\n{kept['renamed']}\n" if "renamed" in kept else ""
 
 
@@ -271,14 +274,14 @@ Written by `samples/bench/update_results.py` from `results.json`. The built-in s
 N is 1, 4 and 16, so that every size has the same number of pixels with a reference. `box_270` has references of 512 samples per pixel
 in frames 12 to 15. A reference is the mean over the area of the pixel, which anti-aliasing tends to.
 
-* Figures are means over the frames with a reference. Bold: the best of a column.
+* Values are means over the frames with a reference. Bold: the best of a column.
 * **RMSE** is without the noise of the references: the root of (measured RMSE)^2 - (noise)^2. The noise is estimated from the two
-  halves of the reference's samples. This estimate is a few per cent too low, since the tone map flattens the halves, so that RMSE is
-  somewhat too high, by the same square for all methods.
+  halves of the reference's samples. This estimate is a few per cent too low, because the tone map compresses the
+  noise of the halves. So RMSE is somewhat too high; its square is too high by the same amount for all methods.
 * **RMSE with noise**, SSIM, FLIP and flicker contain the noise of the references, which is the same for all methods.
-* SSIM and FLIP take pixels without a reference for correct. Both look better than they are, for all methods alike.
+* SSIM and FLIP treat pixels without a reference as correct. Both are therefore too good, for all methods alike.
 * **Relative time**: time of a frame over that of `walr` on the same frame in the same run, median.{processor}
-  Other programs were running.
+  Other programs were running at the time.
 """
 
 
@@ -309,7 +312,7 @@ def content_section(contents):
 
 Median time of a frame of 640 x 360 over the same method's time on `wall`, a plain wall with a slab before it. `fence`: bars of one pixel,
 eight pixels apart, before the wall. `cuts`: a camera cut in every frame, so that there is never a history. `dark`: no light. The others: sky
-in the upper half, in nine tenths, and in all of the picture. On this device a pixel that ends early costs what its neighbours cost.
+in the upper half, in nine tenths, and in all of the picture. On this device, a pixel whose shader ends early costs as much as its neighbours.
 
 """ + table(["method", *names], rows)
 
@@ -346,7 +349,7 @@ def draw_plot(kept):
 
 
 def draw_crops(folder):
-    """The hardest places of each sequence's last frame that was kept, and how errors change there along motion."""
+    """The places of largest error in each sequence's last stored frame, and the change of the error there along motion."""
     import numpy as np
     from report import displayed, exposure, hardest_places, signed_colours
     from report_data import Bench
@@ -378,7 +381,7 @@ def draw_crops(folder):
 
 
 def save(kept):
-    """One line a method or sequence, so that a change can be read."""
+    """One line per method or sequence, so that differences between versions are readable."""
     parts = []
     for name, part in kept.items():
         lines = []

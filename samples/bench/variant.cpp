@@ -15,7 +15,7 @@ std::vector<std::string> split(const std::string& text, char separator) {
   return parts;
 }
 
-/// Parts at the first separator; the second is empty where there is none.
+/// Splits at the first separator. Without a separator, the second part is empty.
 std::pair<std::string, std::string> splitOnce(const std::string& text, char separator) {
   const std::size_t at = text.find(separator);
   return {text.substr(0, at), at == std::string::npos ? "" : text.substr(at + 1)};
@@ -57,7 +57,7 @@ Variant parseVariant(const std::string& text) {
   const auto [name, rest] = splitOnce(text, '=');
   if (!isFileName(name) || rest.empty()) {
     throw std::invalid_argument(
-        "'" + text + "': give NAME=METHOD[:PRESET][,SETTING=VALUE]..., the name of letters, digits and . : - _");
+        "'" + text + "': give NAME=METHOD[:PRESET][,SETTING=VALUE]...; NAME consists of letters, digits and . : - _");
   }
   const std::vector<std::string> parts = split(rest, ',');
   Variant variant = methodVariant(parts.front());
@@ -89,9 +89,10 @@ std::vector<Variant> withBaseline(std::vector<Variant> variants) {
     for (std::size_t j = 0; j < i; ++j) {
       if (variants[i].name != variants[j].name) continue;
       if (variants[i] != variants[j]) {
-        throw std::invalid_argument("the name '" + variants[i].name + "' stands for two things; choose another");
+        throw std::invalid_argument("the name '" + variants[i].name +
+                                    "' is used for two different variants; choose another");
       }
-      throw std::invalid_argument("'" + variants[i].name + "' is asked for twice");
+      throw std::invalid_argument("'" + variants[i].name + "' is given twice");
     }
   }
   return variants;

@@ -10,35 +10,35 @@
 
 namespace walr {
 
-/// Name and value of a setting, as `Configurable::set` takes them.
+/// Name and value of a setting, as for `Configurable::set`.
 using SettingValue = std::pair<std::string, std::string>;
 
-/// A method with its settings under a name: one line of the report.
+/// A method with settings, under a name: one row of the report's tables.
 struct Variant {
-  std::string name;  ///< Letters, digits and . : = - _ only; it is part of file names.
+  std::string name;  ///< Letters, digits and . : = - _ only, because it is part of file names.
   std::string method;
   std::string preset;                  ///< Empty: the method's first.
-  std::vector<SettingValue> settings;  ///< On top of the preset.
-  std::string sweep;                   ///< The sweep it belongs to; empty for the methods.
+  std::vector<SettingValue> settings;  ///< Changes to the preset.
+  std::string sweep;                   ///< The sweep that it belongs to; empty: none.
 
   friend bool operator==(const Variant&, const Variant&) = default;
 };
 
-/// The variant against which all times are given: WALR with its defaults.
+/// The variant that all time ratios refer to: `walr` with its defaults.
 inline constexpr std::string_view kBaseline = "walr";
 
 /// Every method with each of its presets: "walr", "walr_paper", "walr_paper:robust", "bmfr", ...
 std::vector<Variant> allMethods();
 
-/// A list of METHOD or METHOD:PRESET, parted by commas, or "all".
+/// Parse a list of METHOD or METHOD:PRESET, separated by commas, or "all".
 /// @throws std::invalid_argument naming the unknown method or preset
 std::vector<Variant> parseMethods(const std::string& list);
 
-/// "NAME=METHOD[:PRESET][,SETTING=VALUE]...": settings under a name of one's own.
-/// @throws std::invalid_argument naming what is wrong with it
+/// Parse "NAME=METHOD[:PRESET][,SETTING=VALUE]...": a method and settings under a chosen name.
+/// @throws std::invalid_argument naming the fault
 Variant parseVariant(const std::string& text);
 
-/// Make the method with the variant's settings.
+/// Create the method with the variant's settings.
 /// @throws std::invalid_argument naming the unknown method, preset or setting
 std::unique_ptr<Denoiser> makeVariant(const Variant& variant);
 
@@ -46,8 +46,8 @@ std::unique_ptr<Denoiser> makeVariant(const Variant& variant);
 /// @throws std::invalid_argument as `makeVariant`
 std::vector<SettingValue> settingsOf(const Variant& variant);
 
-/// Put the baseline first, adding it where it is missing.
-/// @throws std::invalid_argument naming a name that stands for two things
+/// Move the baseline to the front; add it if it is missing.
+/// @throws std::invalid_argument if two variants have the same name
 std::vector<Variant> withBaseline(std::vector<Variant> variants);
 
 }  // namespace walr

@@ -17,8 +17,8 @@
 namespace walr {
 namespace {
 
-/// Backslashes before what ends a value, first among a filter's options, then among a graph's filters (ffmpeg-filters,
-/// "Notes on filtergraph escaping").
+/// Escapes the characters that end a value by backslashes: first those of filter options, then those of filter graphs
+/// (ffmpeg-filters, "Notes on filtergraph escaping").
 std::string escaped(std::string_view value) {
   std::string result(value);
   for (const std::string_view special : {"\\':", "\\'[],;"}) {
@@ -41,27 +41,28 @@ std::string firstLine(const std::string& text) {
   return text.substr(0, text.find('\n'));
 }
 
+/// Runs a filter on two videos.
 /// @param inputs  options of ffmpeg that open the test and the reference
 ChildResult runFilter(const std::string& ffmpeg, const std::vector<std::string>& inputs, const std::string& filter) {
   std::vector<std::string> arguments = {ffmpeg, "-hide_banner", "-nostdin", "-loglevel", "error"};
   arguments.insert(arguments.end(), inputs.begin(), inputs.end());
-  // VMAF looks at luma alone; with chroma of full size, any size of picture will do.
+  // VMAF uses luma only. Chroma without subsampling allows any image size.
   arguments.insert(arguments.end(),
                    {"-lavfi", "[0:v]format=yuv444p[t];[1:v]format=yuv444p[r];[t][r]" + filter, "-f", "null", "-"});
   return runChild(std::move(arguments), ChildOutput::Captured);
 }
 
-/// The filter with its model.
-/// @param help  what ffmpeg tells of libvmaf's options
+/// The filter with the option that selects the model.
+/// @param help  ffmpeg's help text on libvmaf
 std::string filterWith(const std::string& help, const std::filesystem::path& model) {
   if (model.empty()) return "libvmaf=log_fmt=json";
-  // Since libvmaf 2 a model is itself a list of options, under another name.
+  // Since libvmaf 2 the option is called `model`, and its value is a list of options.
   const bool list = std::regex_search(help, std::regex("\n +model +<string>"));
   return "libvmaf=log_fmt=json:" +
          (list ? "model=" + escaped("path=" + model.string()) : "model_path=" + escaped(model.string()));
 }
 
-/// Options that read a clip (`Clip`).
+/// Options of ffmpeg that read a `Clip`.
 std::vector<std::string> clipInput(const std::filesystem::path& file, fg::Extent extent) {
   return {"-f",       "rawvideo",
           "-pix_fmt", "rgb24",
@@ -75,11 +76,11 @@ std::optional<VmafTool> VmafTool::find(const std::string& ffmpeg, const std::fil
                                        std::string& whyNot) {
   const ChildResult help = runChild({ffmpeg, "-hide_banner", "-h", "filter=libvmaf"}, ChildOutput::Captured);
   if (help.exitCode != 0) {
-    whyNot = "'" + ffmpeg + "' cannot be run; --ffmpeg names one with the filter libvmaf";
+    whyNot = "'" + ffmpeg + "' cannot be run; --ffmpeg can name an ffmpeg with the filter libvmaf";
     return std::nullopt;
   }
   if (help.output.find("libvmaf AVOptions") == std::string::npos) {
-    whyNot = "'" + ffmpeg + "' has no filter libvmaf; --ffmpeg names one that has";
+    whyNot = "'" + ffmpeg + "' has no filter libvmaf; --ffmpeg can name an ffmpeg that has it";
     return std::nullopt;
   }
   VmafTool tool;
@@ -90,7 +91,7 @@ std::optional<VmafTool> VmafTool::find(const std::string& ffmpeg, const std::fil
   inputs.insert(inputs.end(), grey.begin(), grey.end());
   const ChildResult trial = runFilter(ffmpeg, inputs, tool.filter_);
   if (trial.exitCode != 0) {
-    whyNot = "libvmaf of '" + ffmpeg + "' fails: " + lastLine(trial.output) + "; --vmaf-model names a model's file";
+    whyNot = "libvmaf of '" + ffmpeg + "' fails: " + lastLine(trial.output) + "; --vmaf-model can name a model file";
     return std::nullopt;
   }
   const std::string version = firstLine(runChild({ffmpeg, "-version"}, ChildOutput::Captured).output);
@@ -112,7 +113,7 @@ std::vector<double> VmafTool::scores(const std::filesystem::path& test, const st
   std::filesystem::remove(log, ignored);
   if (result.exitCode != 0 || !json.contains("frames")) {
     throw OutputError("VMAF cannot be computed: '" + ffmpeg_ + "' says: " + lastLine(result.output) +
-                      ". Choose another one with --ffmpeg, or do without: --ffmpeg ''");
+                      ". Choose another one with --ffmpeg, or skip VMAF with --ffmpeg ''");
   }
   std::vector<double> scores;
   for (const nlohmann::json& frame : json["frames"]) scores.push_back(frame.at("metrics").at("vmaf"));
@@ -146,7 +147,7 @@ const std::filesystem::path& Clip::finished() {
 
 void Clip::requireGood() const {
   if (!stream_) {
-    throw OutputError("cannot write " + file_.string() + ", which VMAF needs; with --ffmpeg '' it is left out");
+    throw OutputError("cannot write " + file_.string() + ", which VMAF needs; --ffmpeg '' skips VMAF");
   }
 }
 

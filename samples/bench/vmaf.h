@@ -12,33 +12,33 @@
 namespace walr {
 
 /// An ffmpeg whose filter libvmaf computes VMAF (Li et al., "Toward a practical perceptual video quality metric",
-/// 2016). It hardly sees fine noise, so that it is no judge of that.
+/// 2016). VMAF is insensitive to fine noise, so do not judge noise by it.
 class VmafTool {
  public:
-  /// @param ffmpeg  the program, looked for along PATH
-  /// @param model   a model's file; empty for the one that libvmaf brings
-  /// @param whyNot  receives, in words, why there is none, and the way out
+  /// Find and test the program.
+  /// @param ffmpeg  the program, which is searched along PATH
+  /// @param model   model file; empty: libvmaf's own model
+  /// @param whyNot  receives, if there is none, the reason and the remedy as text
   static std::optional<VmafTool> find(const std::string& ffmpeg, const std::filesystem::path& model,
                                       std::string& whyNot);
 
-  /// Program and model, for reports.
+  /// Names of program and model, for reports.
   [[nodiscard]] const std::string& description() const { return description_; }
 
-  /// VMAF of each frame of a clip, 0 to 100. Identical frames have a little less than 100, and the first, which has no
-  /// motion yet, less than the others.
-  /// @param test, reference  files of a `Clip`
-  /// @throws OutputError where ffmpeg fails
+  /// VMAF of each frame of a clip, 0 to 100. Identical frames have a little less than 100. The first frame has less
+  /// than the others, because it has no motion.
+  /// @param test, reference  files written by `Clip`
+  /// @throws OutputError if ffmpeg fails
   [[nodiscard]] std::vector<double> scores(const std::filesystem::path& test, const std::filesystem::path& reference,
                                            fg::Extent extent) const;
 
  private:
   std::string ffmpeg_;
-  std::string filter_;  ///< As a filter graph takes it, without the log's path.
+  std::string filter_;  ///< Filter with its options for a filter graph, without the path of the log.
   std::string description_;
 };
 
-/// Pictures as a display shows them, uncompressed in a file: 3 bytes a pixel, sRGB. The file is removed with
-/// the clip.
+/// A file of uncompressed images in display values: sRGB, 3 bytes per pixel. The destructor removes the file.
 class Clip {
  public:
   /// @throws OutputError
@@ -47,10 +47,10 @@ class Clip {
   Clip(const Clip&) = delete;
   Clip& operator=(const Clip&) = delete;
 
-  /// @param picture  3 components, linear in 0..1, as of `DisplayedPair`
+  /// @param picture  3 components, linear in 0..1, as in `DisplayedPair`
   /// @throws OutputError
   void append(const Image& picture);
-  /// The file with all pictures so far.
+  /// The file with all images so far.
   /// @throws OutputError
   const std::filesystem::path& finished();
 

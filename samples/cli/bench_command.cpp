@@ -58,7 +58,7 @@ void refuseOutputIntoInput(const BenchArguments& arguments) {
   for (const std::filesystem::path& sequence : arguments.sequences) {
     std::error_code ignored;
     if (std::filesystem::equivalent(sequence, arguments.bench.output, ignored)) {
-      throw UsageError("--output is the folder of a sequence; choose another one.");
+      throw UsageError("--output is the folder of a sequence; choose another folder");
     }
   }
 }
@@ -99,12 +99,12 @@ void runBench(BenchArguments& arguments, const std::string& command) {
 }
 
 std::string sweepHelp() {
-  std::string text = "Also run this sweep over settings of a method; may be given several times, or 'all'. Sweeps:";
+  std::string text = "Also run a sweep over values of a method's settings; repeatable; 'all' for all of them. Sweeps:";
   for (const Sweep& sweep : sweeps()) text += "\n  " + std::string(sweep.name) + ": " + std::string(sweep.question);
   return text;
 }
 
-/// As it could be typed again.
+/// The command line, so that a user can repeat the run.
 std::string commandLine(const CLI::App& program, const CLI::App& command) {
   std::string text = program.get_name() + " " + command.get_name();
   for (const CLI::Option* option : command.get_options()) {
@@ -120,68 +120,71 @@ std::string commandLine(const CLI::App& program, const CLI::App& command) {
 void registerBench(CLI::App& program) {
   const auto arguments = std::make_shared<BenchArguments>();
   CLI::App* command = program.add_subcommand(
-      "bench", "Measure speed against error: every method and setting on the same frames, beside each other");
+      "bench", "Measure speed against error: methods and settings on the same frames, in alternation");
   command
       ->add_option("--sequences", arguments->sequences,
-                   "Folders of frames with references (samples/README.md), one report section each; may be left out "
-                   "with --sizes, --content, --response or --hard-cases")
+                   "Folders of frames with references (samples/docs/sequences.md); optional with --sizes, --content, "
+                   "--response or --hard-cases")
       ->type_name("DIR...");
   command
-      ->add_option("-o,--output", arguments->bench.output,
-                   "Folder for bench.json, report.html, bench.csv and all that they are made from; run again, it goes "
-                   "on where it was, and runs anew only what has changed")
+      ->add_option(
+          "-o,--output", arguments->bench.output,
+          "Folder for bench.json, report.html, bench.csv and their data. If it holds finished runs, only missing "
+          "and changed ones are run")
       ->required()
       ->type_name("DIR");
   command
       ->add_option("--methods", arguments->methods,
-                   "METHOD or METHOD:PRESET, parted by commas, or all of them. walr is always among them: times are "
-                   "ratios to it")
+                   "METHOD or METHOD:PRESET, separated by commas, or 'all'. walr is always included, because times are "
+                   "given as ratios to it")
       ->type_name("LIST|all")
       ->capture_default_str();
   command
-      ->add_option("--variant", arguments->variants, "A method with settings under a name; may be given several times")
+      ->add_option("--variant", arguments->variants,
+                   "Also run a method with these settings under this name; repeatable")
       ->allow_extra_args(false)
       ->type_name("NAME=METHOD[:PRESET][,SETTING=VALUE]...");
   command->add_option("--sweep", arguments->sweeps, sweepHelp())->type_name("NAME");
-  command->add_option("--frames", arguments->frames, "Frame numbers, both included; default: all")->type_name("A-B");
+  command->add_option("--frames", arguments->frames, "First and last frame; default: all")->type_name("A-B");
   command
-      ->add_option("--sizes", arguments->sizes,
-                   "Also time every variant on synthetic frames of these sizes, pass by pass, parted by commas; what "
-                   "the device's memory does not hold is said to be missing")
+      ->add_option(
+          "--sizes", arguments->sizes,
+          "Also time every variant, pass by pass, on synthetic frames of these sizes, separated by commas. If a "
+          "size does not fit into device memory, the report says so")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->type_name("WIDTHxHEIGHT,...");
-  command->add_flag("--content", arguments->bench.content,
-                    "Also time every variant by what the picture holds: a wall, a fence, no light, more and more sky");
   command->add_flag(
-      "--hard-cases", arguments->bench.hardCases,
-      "Also run every method, and walr with every storage of the moments and way of solving, on frames that "
-      "strain the arithmetic: error against the known answer, values that are not finite");
+      "--content", arguments->bench.content,
+      "Also time every variant on images with different content: a wall, a fence, no light, more and more "
+      "sky");
+  command->add_flag("--hard-cases", arguments->bench.hardCases,
+                    "Also run every method, and the regression of walr_paper with every storage of moments and every "
+                    "solver, on frames that are numerically hard: error against the known truth, non-finite values");
   command->add_flag("--response", arguments->bench.response,
-                    "Also measure how each variant answers to change, on synthetic scenes with a known answer: first "
-                    "frame, settled error and flicker, a light that goes down or moves, disocclusion, a camera cut");
+                    "Also measure how each variant responds to change, on synthetic scenes with known truth: first "
+                    "frame, settled error and flicker, a light that dims or moves, disocclusion, a camera cut");
   command
       ->add_option("--repeat", arguments->bench.repetitions,
-                   "Timed passes over each sequence, after one that warms up and measures errors")
+                   "Number of timed passes over each sequence, after one that warms up and measures errors")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   command
       ->add_option("--batch", arguments->bench.batch,
-                   "Variants that run beside each other; fewer need less device memory at once")
+                   "Number of variants that run in alternation; fewer need less device memory")
       ->check(CLI::Range(2, 1000))
       ->capture_default_str();
-  addDeviceOptions(*command, arguments->gpu, "Times are then worthless");
+  addDeviceOptions(*command, arguments->gpu, "Times are then not meaningful");
   command->add_flag("--no-html", arguments->noHtml, "Do not draw report.html");
   command->add_option("--python", arguments->python, "Python 3 with matplotlib, which draws report.html")
       ->type_name("FILE")
       ->capture_default_str();
   command
       ->add_option("--ffmpeg", arguments->ffmpeg,
-                   "An ffmpeg with the filter libvmaf, for VMAF; without one the report says that it is missing")
+                   "An ffmpeg with the filter libvmaf, which computes VMAF; without one, there is no VMAF")
       ->type_name("FILE")
       ->capture_default_str();
-  command
-      ->add_option("--vmaf-model", arguments->vmafModel, "A model's file for libvmaf; default: the one that it brings")
+  command->add_option("--vmaf-model", arguments->vmafModel, "Model file for libvmaf; default: libvmaf's own model")
       ->check(CLI::ExistingFile)
       ->type_name("FILE");
   command->footer(kExitCodeHelp);

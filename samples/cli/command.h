@@ -6,8 +6,8 @@
 
 namespace walr {
 
-/// Adds one subcommand to the program: its options, and a callback that runs it. Errors are exceptions; `exitCode`
-/// turns them into exit codes.
+/// Adds one subcommand to the program: its options, and a callback that runs it. The callback reports errors as
+/// exceptions, which `exitCode` maps to exit codes.
 using RegisterCommand = void (*)(CLI::App& program);
 
 void registerBench(CLI::App& program);
@@ -16,7 +16,7 @@ void registerGraph(CLI::App& program);
 void registerLint(CLI::App& program);
 void registerRender(CLI::App& program);
 
-/// All subcommands of `walr`. A new one is a line here.
+/// All subcommands of `walr`. A new subcommand needs one line here.
 inline constexpr std::array<RegisterCommand, 5> kCommands = {
     registerBench, registerDenoise, registerGraph, registerLint, registerRender,
 };

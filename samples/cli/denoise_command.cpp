@@ -33,7 +33,7 @@
 namespace walr {
 namespace {
 
-/// One for the device to work on while the next is recorded and the last one taken over.
+/// The device works on one frame while the CPU records the next one and reads back the previous one.
 constexpr std::uint32_t kFramesInFlight = 2;
 
 struct DenoiseOptions {
@@ -71,7 +71,7 @@ void describeInput(std::ostream& stream, const std::filesystem::path& input, con
 void noteNonFinite(Progress& progress, const Frame& frame) {
   for (const NonFiniteChannel& channel : frame.nonFinite) {
     progress.note("frame " + std::to_string(frame.number) + ": replaced " + std::to_string(channel.count) +
-                  " value(s) that are not finite in " + channel.channel + " of " + channel.file.filename().string());
+                  " non-finite value(s) in " + channel.channel + " of " + channel.file.filename().string());
   }
 }
 
@@ -79,12 +79,12 @@ void refuseOutputIntoInput(const DenoiseOptions& options) {
   std::error_code ignored;
   if (std::filesystem::equivalent(options.input, options.output.directory, ignored)) {
     throw UsageError(
-        "--output is the input folder; results there would be taken for frames of the sequence. Choose "
+        "--output is the input folder; results there would count as frames of the sequence. Choose "
         "another folder.");
   }
 }
 
-/// One line a view that the method has with its settings.
+/// One line for each view that the method has with its settings.
 std::string viewList(const std::vector<ViewInfo>& views) {
   std::string text;
   for (const ViewInfo& view : views) {
@@ -113,7 +113,7 @@ void refuseUnknownViews(const DenoiseOptions& options, Denoiser& method) {
   }
 }
 
-/// @returns stops; nothing where they shall be chosen from the pictures
+/// @returns exposure in stops; nullopt: automatic
 std::optional<float> parseExposure(const std::string& text) {
   if (text == "auto") return std::nullopt;
   float stops = 0.0F;
@@ -124,7 +124,7 @@ std::optional<float> parseExposure(const std::string& text) {
   return stops;
 }
 
-/// @throws UsageError naming a view of an iteration that there is not at the pictures' size, or settings at odds
+/// @throws UsageError naming a view of an iteration that does not exist at this image size, or contradictory settings
 GpuDenoiser makeGpuDenoiser(const DenoiseOptions& options, const GpuDevice& device, Denoiser& method,
                             const Sequence& sequence) {
   try {
@@ -187,7 +187,7 @@ void denoise(DenoiseOptions& options) {
           noteNonFinite(progress, frame.frame);
           if (const std::size_t count = report.frames.back().nonFiniteOutput; count > 0) {
             progress.note("warning: frame " + std::to_string(frame.frame.number) + ": " + std::to_string(count) +
-                          " value(s) of the result are not finite");
+                          " non-finite value(s) in the result");
           }
           progress.advance(Progress::Clock::now());
         });
@@ -211,69 +211,67 @@ void registerDenoise(CLI::App& program) {
   const auto options = std::make_shared<DenoiseOptions>();
   CLI::App* command =
       program.add_subcommand("denoise", "Denoise a sequence of multi-layer EXR frames on a Vulkan device");
-  CLI::Option* input = command->add_option(
-      "INPUT", options->input,
-      "Folder of frames, Blender Cycles' multi-layer EXR with cameras.json or walr's own layout (samples/README.md); "
-      "files that start with 'ref' are references");
+  CLI::Option* input =
+      command->add_option("INPUT", options->input,
+                          "Folder of frames: Blender Cycles' multi-layer EXR with cameras.json, or walr's own layout "
+                          "(samples/docs/sequences.md); files whose names start with 'ref' are references");
   input->type_name("DIR");
   CLI::Option* output = command->add_option(
       "-o,--output", options->output.directory,
-      "Folder for denoised_FFFF.exr: half float, Indirect.{R,G,B}, demodulated; made if it is not there");
+      "Folder for denoised_FFFF.exr: half float, Indirect.{R,G,B}, demodulated; created if missing");
   output->type_name("DIR");
   addMethodOptions(*command, options->method);
-  command->add_option("--frames", options->frames, "Frame numbers to denoise, both included; default: all")
-      ->type_name("A-B");
+  command->add_option("--frames", options->frames, "First and last frame to denoise; default: all")->type_name("A-B");
   addDeviceOptions(*command, options->gpu);
-  command->add_flag("--list-devices", options->listDevices, "List the Vulkan devices and stop");
+  command->add_flag("--list-devices", options->listDevices, "List the Vulkan devices and exit");
   command
       ->add_option("--json", options->json,
                    "Write device, driver, times (ms) and errors of every frame and their means to this file")
       ->type_name("FILE");
   command
-      ->add_option(
-          "--view", options->views,
-          "Also write a view of the method's inner workings, view_NAME_FFFF.exr, channels X, Y, Z; may be given "
-          "several times. NAME.T looks into iteration T (0 is the first) instead of the last")
+      ->add_option("--view", options->views,
+                   "Also write a view of a quantity inside the method: view_NAME_FFFF.exr, channels X, Y, Z; "
+                   "repeatable. NAME.T shows iteration T (0 is the first) instead of the last one")
       ->allow_extra_args(false)
       ->type_name("NAME");
-  command->add_flag("--list-views", options->listViews, "List the views of the method with its settings, and stop");
-  command->add_flag(
-      "--counters", options->counters,
-      "Count what happens inside the method in every frame - values that are not finite, history rejected, "
-      "taps replaced, fits regularised and clamped, and more - and print it; with --json, write it. Times "
-      "then include the counting");
+  command->add_flag("--list-views", options->listViews, "List the views of the method with its settings and exit");
+  command->add_flag("--counters", options->counters,
+                    "Count events inside the method in every frame (non-finite values, rejected history, replaced "
+                    "taps, regularised and clamped fits, and more) and print the counts; with --json, also write "
+                    "them. Times then include the counting");
   command->add_flag("--composite", options->output.composite,
-                    "Write the lit picture albedo * (direct + indirect) + emission as R,G,B; needs those channels. "
-                    "Errors are measured on the indirect light all the same");
+                    "Write the lit image, albedo * (direct + indirect) + emission, as R,G,B; needs those channels. "
+                    "Errors are still those of the indirect light");
   command
       ->add_option("--direct-light", options->directLight,
-                   "Direct light of lit pictures: that of the frame, or that of its reference where there is one. An "
-                   "engine has its direct light by other means; without its noise only the denoised light differs")
+                   "Direct light of lit images: from the frame, or from its reference if there is one. Engines compute "
+                   "direct light by other means; without its noise, images differ in the denoised light only")
       ->check(CLI::IsMember({"frame", "reference"}))
       ->type_name("")
       ->capture_default_str();
   command->add_flag("--png", options->output.png,
                     "Also write denoised_FFFF.png and comparison_FFFF.png (noisy | denoised | reference), tone-mapped "
-                    "by x/(1+x), then sRGB; with --composite the lit picture and beside or below it the light alone");
+                    "by x/(1+x), then sRGB; with --composite the lit image, and beside or below it the light alone");
   command
-      ->add_option("--exposure", options->exposure,
-                   "Of the PNGs, in stops: a number, or auto, which brings the log-average luminance to middle grey "
-                   "(Reinhard et al. 2002), chosen at the first frame and after each camera cut")
+      ->add_option(
+          "--exposure", options->exposure,
+          "Exposure of the PNGs in stops: a number, or auto, which maps the log-average luminance to middle grey "
+          "(Reinhard et al. 2002) at the first frame and after each camera cut")
       ->type_name("auto|EV")
       ->capture_default_str();
   command
       ->add_option("--non-finite", options->nonFinite,
-                   "What to do with NaN and infinity in the input: fail, or replace them before they enter any average")
+                   "Non-finite values in the input: fail, or replace them before they enter an average")
       ->check(CLI::IsMember({"fail", "replace"}))
       ->type_name("")
       ->capture_default_str();
   command
       ->add_option("--cut", options->sequence.cuts,
-                   "Frame number after a camera cut: history is reset there; may be given several times. Cuts that "
-                   "the cameras tell are found without it")
+                   "Number of the first frame after a camera cut: history is reset there; repeatable. Cuts that follow "
+                   "from the cameras are detected without it")
       ->allow_extra_args(false)
       ->type_name("N");
-  command->add_option("--view-layer", options->sequence.viewLayer, "View layer to take where the files hold several")
+  command->add_option("--view-layer", options->sequence.viewLayer, "View layer to read if the files hold several")
       ->type_name("NAME");
   command->footer(kExitCodeHelp);
   command->callback([=] {

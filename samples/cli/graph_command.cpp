@@ -35,8 +35,8 @@ struct GraphOptions {
   bool listPasses = false;
 };
 
-/// Answer `--why`.
-/// @throws UsageError naming what the method does not have
+/// The answer to `--why`.
+/// @throws UsageError naming a pass, texture or buffer that the method does not have
 std::string explain(const std::vector<std::string>& names, const fg::GraphDesc& graph, const fg::Plan& plan) {
   const auto require = [](const auto& declared, const std::string& name, const char* kind) {
     const auto sameName = [&](const auto& decl) { return decl.name == name; };
@@ -52,7 +52,7 @@ std::string explain(const std::vector<std::string>& names, const fg::GraphDesc& 
   return fg::whyNotAliased(graph, plan, names[0], names[1]) + "\n";
 }
 
-/// What of scene and host the plan is made for.
+/// The properties of scene and host that the plan is compiled for.
 std::string sceneText(Denoiser& method) {
   constexpr std::string_view kPrefix = "scene.";
   std::string text;
@@ -63,7 +63,7 @@ std::string sceneText(Denoiser& method) {
   return text + "\n";
 }
 
-/// What the options ask of a compiled graph.
+/// The output that the options request for a compiled graph.
 std::string describe(const GraphOptions& options, Denoiser& method, const fg::GraphDesc& graph, const fg::Plan& plan,
                      fg::Extent extent) {
   if (options.json) return fg::toJson(graph, plan) + "\n";
@@ -117,30 +117,29 @@ void registerGraph(CLI::App& program) {
       "graph", "Print a method's frame-graph plan: passes in order, textures with format and lifetime, memory");
   addMethodOptions(*command, options->method);
   command
-      ->add_option(
-          "--size", options->size,
-          "Size of the picture in pixels, 1 to 16384 each. Memory is computed from a table of formats, so that "
-          "no device is needed")
+      ->add_option("--size", options->size,
+                   "Size of the image in pixels, 1 to 16384 each. Memory is computed from a table of formats, so no "
+                   "device is needed")
       ->type_name("WIDTHxHEIGHT")
       ->capture_default_str();
-  CLI::Option_group* format = command->add_option_group("Format", "In place of text");
+  CLI::Option_group* format = command->add_option_group("Format", "Instead of text");
   format->add_flag("--json", options->json,
                    "The whole plan as JSON: passes, textures, buffers, barriers, heaps, memory and traffic");
-  format->add_flag("--dot", options->dot, "Passes and versions of textures in the language of Graphviz");
-  format->add_flag("--svg", options->svg, "A picture of shared memory over passes");
+  format->add_flag("--dot", options->dot, "Passes and versions of textures as a Graphviz graph");
+  format->add_flag("--svg", options->svg, "A chart of memory over passes");
   format
       ->add_option("--why", options->why,
-                   "With a pass: why it is culled, or why each of its barriers is there. With two textures or buffers: "
+                   "With a pass: why it is culled, or why each of its barriers exists. With two textures or buffers: "
                    "why they do or do not share memory")
       ->expected(1, 2)
       ->type_name("NAME");
   format->require_option(0, 1);
-  command->add_option("--output", options->output, "Write to a file, in place of the standard output")
-      ->type_name("FILE");
+  command->add_option("--output", options->output, "Write to a file instead of standard output")->type_name("FILE");
   command->add_flag("--list-settings", options->listSettings,
-                    "List the method's settings with value, range, unit and source instead");
-  command->add_flag("--list-passes", options->listPasses,
-                    "List all pass types that a host can create by name, with ports, settings and passes, instead");
+                    "Instead of a plan, list the method's settings with value, range, unit and source");
+  command->add_flag(
+      "--list-passes", options->listPasses,
+      "Instead of a plan, list all pass types that a host can create by name, with ports, settings and passes");
   command->footer(kExitCodeHelp);
   command->callback([options] { printGraph(*options); });
 }

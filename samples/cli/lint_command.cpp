@@ -54,15 +54,14 @@ void lint(LintOptions& options) {
 
 void registerLint(CLI::App& program) {
   const auto options = std::make_shared<LintOptions>();
-  CLI::App* command = program.add_subcommand("lint",
-                                             "Say in words what looks wrong in the frames of a sequence: values, "
-                                             "normals, depth, motion, jitter, albedo left in "
-                                             "the lighting; exit code 3 where something does");
+  CLI::App* command = program.add_subcommand(
+      "lint",
+      "Check the frames of a sequence for likely errors in values, normals, depth, motion and jitter, "
+      "and for albedo left in the lighting; exit code 3 if something looks wrong");
   command->add_option("INPUT", options->input, "Folder of frames, as for walr denoise")->required()->type_name("DIR");
-  command->add_option("--frames", options->frames, "Frame numbers to look at, both included; default: all")
-      ->type_name("A-B");
+  command->add_option("--frames", options->frames, "First and last frame to check; default: all")->type_name("A-B");
   addDeviceOptions(*command, options->gpu);
-  command->add_option("--view-layer", options->sequence.viewLayer, "View layer to take where the files hold several")
+  command->add_option("--view-layer", options->sequence.viewLayer, "View layer to read if the files hold several")
       ->type_name("NAME");
   command->footer(kExitCodeHelp);
   command->callback([options] { lint(*options); });

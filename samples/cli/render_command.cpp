@@ -57,12 +57,12 @@ void registerRender(CLI::App& program) {
       "render", "Path-trace frames of a glTF scene's camera animation on the CPU, noisy and as references");
   command->add_option("SCENE", options.scene, "glTF 2.0 file, .gltf or .glb")->required();
   command
-      ->add_option("-o,--output", options.output,
-                   "Folder for noisy_FFFF.exr and ref_FFFF.exr (samples/README.md); frames that are there already are "
-                   "kept, so that an interrupted run goes on")
+      ->add_option(
+          "-o,--output", options.output,
+          "Folder for noisy_FFFF.exr and ref_FFFF.exr (samples/docs/sequences.md). Existing frames are kept, so "
+          "an interrupted run can be resumed")
       ->required();
-  command->add_option("--frames", arguments->frames, "A-B: frame numbers to render, both included")
-      ->capture_default_str();
+  command->add_option("--frames", arguments->frames, "A-B: first and last frame to render")->capture_default_str();
   command->add_option("--size", arguments->size, "WIDTHxHEIGHT in pixels")->capture_default_str();
   constexpr std::uint32_t kMostSamples = 1U << 20U;
   command->add_option("--spp", options.samples, "Samples per pixel of the noisy frames")
@@ -72,47 +72,51 @@ void registerRender(CLI::App& program) {
       ->check(CLI::Range(0U, kMostSamples))
       ->capture_default_str();
   command->add_option("--reference-frames", arguments->referenceFrames,
-                      "A-B: the frames of them that get a reference, both included; default: all");
+                      "A-B: first and last frame that get a reference; default: all");
   command
-      ->add_option("--reference-pixel", options.referenceCoverage.wholePixel,
-                   "What a pixel of the references is: point (light at the frame's sample position; default) or area "
-                   "(the mean over the pixel, as anti-aliasing tends to)")
+      ->add_option(
+          "--reference-pixel", options.referenceCoverage.wholePixel,
+          "Value of a reference pixel: point (light at the frame's sample position; default) or area (mean over "
+          "the pixel, which anti-aliasing converges to)")
       ->transform(CLI::CheckedTransformer(std::map<std::string, bool>{{"point", false}, {"area", true}}));
   constexpr std::uint32_t kFewestSquares = 4096;
   command
-      ->add_option("--reference-one-square-in", options.referenceCoverage.oneSquareIn,
-                   "Reference of one in so many squares of 64 x 64 pixels, evenly spread; errors leave out the rest")
+      ->add_option(
+          "--reference-one-square-in", options.referenceCoverage.oneSquareIn,
+          "Render the reference of one in N squares of 64 x 64 pixels, evenly spread; errors leave out the rest")
       ->check(CLI::Range(1U, kFewestSquares))
       ->capture_default_str();
   constexpr std::uint32_t kMostBounces = 1024;
-  command->add_option("--bounces", options.bounces, "Surfaces after the first that reflect light")
+  command->add_option("--bounces", options.bounces, "Largest number of surfaces after the first that reflect light")
       ->check(CLI::Range(0U, kMostBounces))
       ->capture_default_str();
-  command->add_option("--seed", options.seed, "Number of the random sequence")->capture_default_str();
+  command->add_option("--seed", options.seed, "Seed of the random numbers")->capture_default_str();
   constexpr double kSlowest = 1e-3;
   constexpr double kFastest = 1e6;
-  command->add_option("--fps", options.framesPerSecond, "Frames a second of the animation")
+  command->add_option("--fps", options.framesPerSecond, "Frames per second of the animation")
       ->check(CLI::Range(kSlowest, kFastest))
       ->capture_default_str();
   command->add_option("--camera", options.camera, "Name of the camera or of its node; default: the first");
-  command->add_option("--sky", options.sky,
-                      "Equirectangular sky in place of the scene's: an EXR file, R,G,B, its middle along -Z");
-  command->add_flag("--jitter", options.jitter, "Sample off the pixel centre: 16 Halton points, one a frame");
+  command->add_option(
+      "--sky", options.sky,
+      "Equirectangular sky that replaces the scene's: an EXR file with R,G,B; its centre lies along -Z");
+  command->add_flag("--jitter", options.jitter,
+                    "Jitter the sample position within the pixel: 16 Halton points, one per frame");
   command
       ->add_option("--sampler", options.sampler,
-                   "Random numbers: blue-noise (spread over the pixels of a frame; default; several samples per pixel "
-                   "take sobol), "
-                   "sobol (Owen-scrambled Sobol points over the samples of a pixel) or independent")
+                   "Random numbers: blue-noise (spread over the pixels of a frame; default; with several samples per "
+                   "pixel, sobol is used instead), sobol (Owen-scrambled Sobol points over the samples of a pixel) "
+                   "or independent")
       ->transform(CLI::CheckedTransformer(
           std::map<std::string, render::Sampler::Kind>{{"blue-noise", render::Sampler::Kind::BlueNoise},
                                                        {"sobol", render::Sampler::Kind::Sobol},
                                                        {"independent", render::Sampler::Kind::Independent}}));
   command
       ->add_option("--diffuse", options.diffuseModel,
-                   "Diffuse lobe of all materials: lambert (default), or disney, that of Blender's Principled BSDF")
+                   "Diffuse lobe of all materials: lambert (default), or disney, the one of Blender's Principled BSDF")
       ->transform(CLI::CheckedTransformer(std::map<std::string, render::DiffuseModel>{
           {"lambert", render::DiffuseModel::Lambert}, {"disney", render::DiffuseModel::Disney}}));
-  command->add_option("--threads", options.threads, "Threads; 0: one for every core")->capture_default_str();
+  command->add_option("--threads", options.threads, "Number of threads; 0: one per core")->capture_default_str();
   command->footer(kExitCodeHelp);
   command->callback([=] { renderFrames(*arguments); });
 }

@@ -17,7 +17,7 @@ std::optional<int> parseNumber(std::string_view text) {
   return whole && value >= 0 ? std::optional(value) : std::nullopt;
 }
 
-/// Two numbers with a separator between them; without the separator the same number twice.
+/// Two numbers with a separator between them. A single number counts as both.
 std::optional<std::pair<int, int>> parsePair(std::string_view text, char separator) {
   const std::size_t split = text.find(separator);
   const std::optional<int> first = parseNumber(text.substr(0, split));

@@ -7,11 +7,11 @@
 
 namespace walr {
 
-/// "A-B" or "A": frame numbers, both ends included.
+/// Parse "A-B" (first and last frame number) or "A" (one frame).
 /// @throws UsageError
 FrameRange parseFrameRange(const std::string& text, const std::string& option = "--frames");
 
-/// "WIDTHxHEIGHT" in pixels, 1 to 16384 each.
+/// Parse "WIDTHxHEIGHT" in pixels, 1 to 16384 each.
 /// @throws UsageError
 fg::Extent parseSize(const std::string& text);
 

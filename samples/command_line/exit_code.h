@@ -7,10 +7,10 @@ namespace walr {
 /// Exit codes of `walr`, for scripts.
 enum class ExitCode {
   Success = 0,
-  Internal = 1,  ///< Anything that no other code fits.
+  Internal = 1,  ///< Any error without a code of its own.
   Usage = 2,     ///< The command line is wrong.
   Input = 3,     ///< Input is missing, damaged or inconsistent.
-  Device = 4,    ///< No Vulkan device, or one that lacks something, runs out of memory or fails.
+  Device = 4,    ///< No Vulkan device, or the device lacks a feature, runs out of memory or fails.
   Output = 5,    ///< Output cannot be written.
 };
 

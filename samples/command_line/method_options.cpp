@@ -11,7 +11,7 @@ namespace walr {
 namespace {
 
 std::string presetHelp() {
-  std::string text = "Named settings of the method; --set changes them further.";
+  std::string text = "A named choice of values for the method's settings; --set then changes single ones.";
   for (const std::string& method : denoiserNames()) {
     const std::vector<std::string> presets = makeDenoiser(method)->presets();
     for (std::size_t i = 0; i < presets.size(); ++i) {
@@ -22,7 +22,7 @@ std::string presetHelp() {
   return text;
 }
 
-/// Calls a function of the method, whose complaints are about the option.
+/// Calls `apply` and reports its std::invalid_argument as an error of the option.
 template <typename Function>
 void applyOption(const std::string& option, Function apply) {
   try {
@@ -41,10 +41,10 @@ void addMethodOptions(CLI::App& command, MethodOptions& options) {
       ->capture_default_str();
   command.add_option("--preset", options.preset, presetHelp())->type_name("NAME");
   command.add_flag("--spatial-only", options.spatialOnly,
-                   "Filter each frame by itself, without temporal stages: short for --set spatial-only=on");
+                   "Filter each frame separately, without temporal stages: same as --set spatial-only=on");
   command
       .add_option("--set", options.settings,
-                  "Change one setting of the method; may be given several times. 'walr graph "
+                  "Change one setting of the method; repeatable. 'walr graph "
                   "--list-settings' lists them with unit, range and default")
       ->allow_extra_args(false)
       ->type_name("NAME=VALUE");

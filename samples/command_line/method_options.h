@@ -16,19 +16,19 @@ namespace walr {
 struct MethodOptions {
   std::string name = "walr";
   std::string preset;                 ///< Empty: the method's first.
-  bool spatialOnly = false;           ///< Each frame by itself.
-  std::vector<std::string> settings;  ///< "name=value" each.
+  bool spatialOnly = false;           ///< Filter each frame separately.
+  std::vector<std::string> settings;  ///< Each is "name=value".
 };
 
 /// Adds `--method`, `--preset`, `--spatial-only` and `--set` to a subcommand.
 void addMethodOptions(CLI::App& command, MethodOptions& options);
 
-/// Make the method.
-/// @throws UsageError naming the unknown preset, or the setting that is unknown, out of range or not of the form
+/// Create the method with its preset and settings.
+/// @throws UsageError naming an unknown preset, or a setting that is unknown, out of range or not of the form
 /// name=value
 std::unique_ptr<Denoiser> makeMethod(const MethodOptions& options);
 
-/// The preset whose settings a method has now, all of them. Nothing where there is none.
+/// The preset whose values all settings of a method have now; nullopt if there is none.
 std::optional<std::string> presetInUse(std::string_view methodName, Denoiser& method);
 
 }  // namespace walr

@@ -8,7 +8,7 @@
 namespace walr {
 
 int runProgram(CLI::App& program, int argc, char** argv) {
-  // A file size limit shall be an error of the write like a full disk, not the end of the process.
+  // Exceeding a file size limit must fail the write, as a full disk does, instead of ending the process.
   std::signal(SIGXFSZ, SIG_IGN);
   program.footer(kExitCodeHelp);
   try {

@@ -4,8 +4,8 @@
 
 namespace walr {
 
-/// Parse the command line, run its callbacks and turn what they throw into a message and an exit code. The program's
-/// name stands before every message.
+/// Parse the command line and run its callbacks. An exception becomes a message, preceded by the program's name, and an
+/// exit code.
 int runProgram(CLI::App& program, int argc, char** argv);
 
 }  // namespace walr

@@ -15,7 +15,7 @@ class BoundedQueue {
  public:
   explicit BoundedQueue(std::size_t capacity) : capacity_(capacity) {}
 
-  /// Wait for room, then add. Returns false, with the element dropped, once the queue is closed.
+  /// Wait for a free place, then add the element. Once the queue is closed, drops the element and returns false.
   bool push(T element) {
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [this] { return closed_ || elements_.size() < capacity_; });
@@ -27,7 +27,7 @@ class BoundedQueue {
     return true;
   }
 
-  /// Wait for an element. Nothing once the queue is closed and empty.
+  /// Wait for an element and take it. Returns nullopt once the queue is closed and empty.
   std::optional<T> pop() {
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [this] { return closed_ || !elements_.empty(); });
@@ -40,14 +40,14 @@ class BoundedQueue {
     return element;
   }
 
-  /// No more elements will be added; those inside can still be taken.
+  /// Accept no more elements. Those in the queue can still be taken.
   void close() {
     const std::lock_guard lock(mutex_);
     closed_ = true;
     changed_.notify_all();
   }
 
-  /// Close and drop what is inside.
+  /// Close, and drop the elements in the queue.
   void abandon() {
     const std::lock_guard lock(mutex_);
     closed_ = true;

@@ -45,7 +45,7 @@ ReadbackGraph::Index ReadbackGraph::readBack(fg::Buffer buffer) {
 }
 
 fg::vk::Frame ReadbackGraph::begin() {
-  if (full()) throw std::logic_error("as many frames are on the device as may be: finish one first");
+  if (full()) throw std::logic_error("the largest number of frames is in flight: finish one first");
   return queue_.begin();
 }
 

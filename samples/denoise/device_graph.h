@@ -21,10 +21,10 @@ namespace walr {
 /// A frame graph on a device: its plan, and the executor that runs it.
 class DeviceGraph {
  public:
-  /// Times of passes are measured where the device can. Pipelines come from the device's cache.
+  /// Measures the times of passes if the device has timestamps. Takes pipelines from the device's cache.
   /// @param gpu          must outlive this
-  /// @param predecessor  a graph whose histories and pipelines are taken over where it may precede
-  ///                     (`fg::vk::ExecutorOptions::predecessor`, which says how long it must live); may be null
+  /// @param predecessor  graph whose histories and pipelines are taken over where they fit; may be null. See
+  ///                     `fg::vk::ExecutorOptions::predecessor`, also for how long it must live
   /// @throws see `compileFor` and `fg::vk::Executor`
   DeviceGraph(const GpuDevice& gpu, const fg::Graph& graph, std::uint32_t framesInFlight,
               DeviceGraph* predecessor = nullptr);
@@ -37,11 +37,10 @@ class DeviceGraph {
   fg::vk::Executor executor_;
 };
 
-/// A graph that runs without a window: some frames are on the device at once, and what they leave in some textures and
-/// buffers is read back.
+/// A graph that runs without a window, with several frames in flight, and reads back some textures and buffers.
 class ReadbackGraph {
  public:
-  /// Names something that is read back.
+  /// Identifies a texture or buffer that is read back.
   using Index = std::size_t;
 
   /// @param gpu, graph  must outlive this
@@ -54,16 +53,16 @@ class ReadbackGraph {
 
   [[nodiscard]] fg::vk::Executor& executor() { return graph_.executor(); }
   [[nodiscard]] const fg::Plan& plan() const { return graph_.plan(); }
-  /// Start a frame. @throws std::logic_error when as many frames as may be are in flight
+  /// Start a frame. @throws std::logic_error if `framesInFlight` frames are in flight already
   fg::vk::Frame begin();
-  /// Record the graph and the copies for reading back, and send the frame to the device.
+  /// Record the graph and the copies for reading back, and submit the frame to the device.
   void submit(const fg::vk::Frame& frame);
   [[nodiscard]] bool full() const { return inFlight_.size() == framesInFlight_; }
   [[nodiscard]] bool empty() const { return inFlight_.empty(); }
-  /// Wait for the oldest frame in flight, of which there must be one, and take it out of flight.
-  /// @returns its slot, whose texels stay until `framesInFlight` further frames have begun
+  /// Wait for the oldest frame in flight; there must be one.
+  /// @returns its slot. The slot's data stay valid until `framesInFlight` further frames have begun
   std::uint32_t finish();
-  /// What a finished frame left: rows of texels without padding, or the bytes of a buffer.
+  /// Contents after a finished frame: rows of texels without padding, or the bytes of a buffer.
   template <typename T>
   [[nodiscard]] std::vector<T> read(Index index, std::uint32_t slot) const;
 

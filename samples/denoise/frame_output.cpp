@@ -14,7 +14,7 @@
 namespace walr {
 namespace {
 
-// Places in FrameWriter::Versions.
+// Indices into FrameWriter::Versions.
 constexpr std::size_t kDenoised = 1;
 constexpr std::size_t kReference = 2;
 

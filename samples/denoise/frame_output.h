@@ -12,7 +12,7 @@
 
 namespace walr {
 
-/// A view of the method's inner workings.
+/// A view of a quantity inside the method.
 struct ViewPicture {
   std::string name;
   Image image;  ///< 3 components.
@@ -29,35 +29,36 @@ struct DenoisedFrame {
 
 struct OutputOptions {
   std::filesystem::path directory;
-  bool composite = false;  ///< Write the lit picture, albedo * (direct + indirect) + emission, not the indirect light.
-  /// Light pictures with the reference's direct light where there is one, so that only the indirect light differs.
+  /// Write the lit image, albedo * (direct + indirect) + emission, instead of the indirect light.
+  bool composite = false;
+  /// Take the direct light of lit images from the reference, if there is one, so that only the indirect light differs.
   bool referenceDirect = false;
-  bool png = false;               ///< Also write tone-mapped pictures.
-  std::optional<float> exposure;  ///< Of the PNGs, in stops; absent: chosen from the pictures, see `FrameWriter`.
+  bool png = false;               ///< Also write tone-mapped images as PNG.
+  std::optional<float> exposure;  ///< Exposure of the PNGs in stops; absent: automatic, see `FrameWriter::write`.
 };
 
-/// The lit picture without specular light: albedo * (direct + indirect) + emission. Values of albedo, direct light or
-/// emission that are not finite count as 0.
+/// The lit image without specular light: albedo * (direct + indirect) + emission. Non-finite values of albedo, direct
+/// light and emission count as 0.
 Image composite(const Image& indirect, const Image& direct, const Image& albedo, const Image& emission);
 
-/// Writes the files of one frame after another.
+/// Writes the output files of frames.
 class FrameWriter {
  public:
   explicit FrameWriter(OutputOptions options) : options_(std::move(options)) {}
 
-  /// Write `denoised_FFFF.exr`. Views go to `view_NAME_FFFF.exr`, in single precision.
+  /// Write `denoised_FFFF.exr`, and views as `view_NAME_FFFF.exr` in single precision.
   ///
   /// With PNGs also `denoised_FFFF.png`, and `comparison_FFFF.png`: noisy | denoised | reference at one exposure. With
-  /// composites the lit picture comes first in both and the light alone beside it or in a row below.
+  /// composites both show the lit image first, and the light alone beside it (denoised) or in a row below (comparison).
   ///
-  /// Where no exposure is given, it is that of `autoExposure` for the lit picture and another for the light alone, from
-  /// the reference or else the result of the first frame and of each frame after a camera cut. It stays in between, so
-  /// that frames can be compared.
-  /// @throws OutputError; every file is whole or absent
+  /// If no exposure is given, it is chosen by `autoExposure`, separately for the lit image and for the light alone,
+  /// from the reference or, without one, from the result. It is chosen at the first frame and at each camera cut, and
+  /// is constant in between so that frames can be compared.
+  /// @throws OutputError; every file is either complete or absent
   void write(const DenoisedFrame& denoised);
 
  private:
-  /// The same frame noisy, denoised and, where there is one, as its reference.
+  /// One frame in its versions: noisy, denoised and, if there is one, the reference.
   using Versions = std::vector<Image>;
   void writePngs(const DenoisedFrame& denoised, const Versions& light, const Versions& lit);
 

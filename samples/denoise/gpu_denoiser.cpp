@@ -15,7 +15,7 @@
 namespace walr {
 namespace {
 
-/// A picture on its way to the device: the graph's texture and the image behind it.
+/// An input texture of the graph, with its image and the staging buffers of its uploads.
 class UploadedTexture {
  public:
   UploadedTexture(const fg::vk::DeviceContext& device, const fg::Graph& graph, fg::vk::Executor& executor,
@@ -36,7 +36,7 @@ class UploadedTexture {
   fg::vk::StagedImage image_;
 };
 
-/// The usual formats, and that of the object numbers where there are some.
+/// Formats of the host's inputs; the object numbers are undefined if frames have none.
 std::array<VkFormat, kHostInputs.size()> formatsOf(bool objectIds) {
   std::array<VkFormat, kHostInputs.size()> formats{};
   std::ranges::transform(kHostInputs, formats.begin(), [&](const HostInput& input) {
@@ -97,7 +97,7 @@ struct GpuDenoiser::State {
   std::vector<ReadbackGraph::Index> views;
   std::optional<ReadbackGraph::Index> counters;
   std::optional<ReadbackGraph::Index> lint;
-  std::deque<Frame> frames;  ///< In flight, but for that of `run`.
+  std::deque<Frame> frames;  ///< Frames in flight, except that of `run`.
 };
 
 std::optional<double> DenoisedPicture::milliseconds() const {

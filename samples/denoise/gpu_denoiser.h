@@ -16,23 +16,23 @@
 
 namespace walr {
 
-/// What a method made of a frame.
+/// The output of a method for one frame.
 struct DenoisedPicture {
   Image indirect;  ///< 3 components: denoised demodulated diffuse indirect radiance.
-  /// Times by GPU timestamps, in the order of execution; empty where the queue has none.
+  /// Times of the passes from GPU timestamps, in the order of execution; empty if the queue has no timestamps.
   std::vector<fg::vk::PassTime> passes;
   std::vector<ViewPicture> views;
   std::vector<CounterValue> counters;
-  std::vector<std::uint32_t> lint;  ///< Words of `addLintInputs`, where `InspectionWish::lint` asks for them.
+  std::vector<std::uint32_t> lint;  ///< Words of `addLintInputs`, if `InspectionWish::lint` requests them.
 
-  /// Time of all passes; the copies to and from the device are not among them.
+  /// Time of all passes, without the copies to and from the device; nullopt without timestamps.
   [[nodiscard]] std::optional<double> milliseconds() const;
 };
 
-/// Runs a method on a Vulkan device, frame after frame: textures go up, the passes run, the result comes back. All of
-/// it is one frame graph, compiled once. Several may live on one device, one running at a time.
+/// Runs a method on a Vulkan device, frame after frame: uploads the inputs, runs the passes, reads back the result, all
+/// in one frame graph that is compiled once. Several denoisers may exist on one device; only one may run at a time.
 ///
-/// Either frame by frame with `run`, or with a few frames on the device at once:
+/// Call `run` for each frame, or keep a few frames in flight:
 ///
 ///     if (denoiser.full()) use(*denoiser.finish());
 ///     denoiser.submit(std::move(frame));
@@ -41,33 +41,33 @@ struct DenoisedPicture {
 class GpuDenoiser {
  public:
   /// @param device  must outlive this
-  /// @param method  declares its passes here; not needed afterwards
-  /// @param layout  how the frames differ from the project's conventions; must outlive this
-  /// @param wanted  views of the method, and whether its counters, to read back with every frame
-  /// @param framesInFlight  frames that may be on the device at once, at least 1
+  /// @param method  declares its passes during this call; not needed afterwards
+  /// @param layout  conventions of the frames; must outlive this
+  /// @param wanted  views, counters and lint words to read back with every frame
+  /// @param framesInFlight  largest number of frames on the device at once, at least 1
   /// @param objectIds  whether all frames have object numbers
-  /// @throws fg::vk::Error where the device will not do
-  /// @throws std::invalid_argument naming a setting of the method that is out of range, or a view that there is not
+  /// @throws fg::vk::Error if the device lacks something that the graph needs
+  /// @throws std::invalid_argument naming a setting of the method that is out of range, or a view that does not exist
   GpuDenoiser(const GpuDevice& device, Denoiser& method, fg::Extent extent, const Layout& layout,
               const InspectionWish& wanted = {}, std::uint32_t framesInFlight = 1, bool objectIds = false);
   ~GpuDenoiser();
   GpuDenoiser(GpuDenoiser&&) noexcept;
   GpuDenoiser& operator=(GpuDenoiser&&) noexcept;
 
-  /// Send the next frame to the device. Its history is dropped first where the frame says so.
-  /// @throws std::logic_error when as many frames as may be are in flight; InputError naming a frame whose camera makes
-  ///         no sense; fg::vk::Error when the device fails
+  /// Submit the next frame to the device. If the frame requests it, histories are reset first.
+  /// @throws std::logic_error if `framesInFlight` frames are in flight already; InputError naming a frame whose camera
+  ///         is not usable; fg::vk::Error when the device fails
   void submit(PackedFrame packed);
   /// Whether `finish` must come before the next `submit`.
   [[nodiscard]] bool full() const;
-  /// Wait for the oldest frame in flight, and for none after it. Nothing where there is none.
+  /// Wait for the oldest frame in flight only. Returns nullopt if there is none.
   /// @throws fg::vk::Error when the device fails
   std::optional<DenoisedFrame> finish();
 
-  /// Denoise the next frame and wait for it, with no other in flight.
+  /// Denoise the next frame and wait for it. No other frame may be in flight.
   /// @throws as `submit`
   DenoisedPicture run(const PackedFrame& packed);
-  /// The same, with the frame kept beside its result.
+  /// The same; also returns the frame itself.
   DenoisedFrame denoise(PackedFrame packed);
 
  private:

@@ -36,7 +36,7 @@ GpuDevice::GpuDevice(const Options& options)
       device_(instance_, physical_, options.deviceExtensions) {
   if (!options.keepPipelines) return;
   const std::filesystem::path file = pipelineCacheFile(device_.context());
-  std::error_code ignored;  // As with any that cannot be written.
+  std::error_code ignored;  // Without the folder, saving fails, which the destructor ignores.
   if (!file.empty()) std::filesystem::create_directories(file.parent_path(), ignored);
   pipelineCache_ = std::make_unique<fg::vk::PipelineCache>(device_.context(), file);
 }
@@ -46,7 +46,7 @@ GpuDevice::~GpuDevice() {
   try {
     pipelineCache_->save();
   } catch (const std::exception&) {
-    // See the declaration.
+    // Without the file, the next start is only slower.
   }
 }
 
@@ -61,7 +61,7 @@ void GpuDevice::refuseMessages() {
 std::filesystem::path pipelineCacheFile(const fg::vk::DeviceContext& device) {
   const auto folderOf = [](const char* variable, const char* below) -> std::filesystem::path {
     const char* const value = std::getenv(variable);
-    // The specification wants paths that are not absolute ignored.
+    // The specification requires that relative paths are ignored.
     if (value == nullptr || !std::filesystem::path(value).is_absolute()) return {};
     return std::filesystem::path(value) / below;
   };

@@ -15,21 +15,21 @@
 
 namespace walr {
 
-/// A Vulkan device chosen by the user, of a Vulkan instance of its own.
+/// A Vulkan device chosen by the user, with its own Vulkan instance.
 class GpuDevice {
  public:
   struct Options {
-    std::string device;       ///< Number or part of a name; empty for the most capable one.
+    std::string device;       ///< Number or part of the name; empty: the most capable device.
     bool validation = false;  ///< Run under the Khronos validation layer with synchronization validation.
-    std::vector<const char*> instanceExtensions = {};  ///< Enabled besides, for instance for windows.
+    std::vector<const char*> instanceExtensions = {};  ///< Further ones to enable, for instance for windows.
     std::vector<const char*> deviceExtensions = {};
-    bool keepPipelines = false;  ///< Keep compiled pipelines from run to run, see `pipelineCacheFile`.
+    bool keepPipelines = false;  ///< Store compiled pipelines in a file, see `pipelineCacheFile`.
   };
 
-  /// @throws fg::vk::Error where there is no device, or none that will do
+  /// @throws fg::vk::Error if there is no device, or none that meets the requirements
   explicit GpuDevice(const Options& options);
-  /// Writes the pipelines that were added, if they are kept. A file that cannot be written only costs the next start
-  /// time, and is passed over.
+  /// Stores newly compiled pipelines, if requested. Errors are ignored: without the file, the next start is only
+  /// slower.
   ~GpuDevice();
   GpuDevice(const GpuDevice&) = delete;
   GpuDevice& operator=(const GpuDevice&) = delete;
@@ -37,18 +37,18 @@ class GpuDevice {
   [[nodiscard]] const std::string& name() const { return physical_.name; }
   /// Driver and its version.
   [[nodiscard]] const std::string& driver() const { return physical_.driver; }
-  /// Whether the device is a processor that plays a GPU.
+  /// Whether the device is a CPU implementation of Vulkan.
   [[nodiscard]] bool isSoftware() const { return physical_.type == VK_PHYSICAL_DEVICE_TYPE_CPU; }
 
   [[nodiscard]] const fg::vk::PhysicalDevice& physical() const { return physical_; }
   [[nodiscard]] const fg::vk::Device& device() const { return device_; }
   [[nodiscard]] VkInstance instance() const { return instance_.handle(); }
-  /// Where executors take compiled pipelines from and leave new ones; null unless they are kept.
+  /// The cache of compiled pipelines that executors read and extend; null unless pipelines are stored.
   [[nodiscard]] fg::vk::PipelineCache* pipelineCache() const { return pipelineCache_.get(); }
 
-  /// What the validation layer said since the last call.
+  /// Messages of the validation layer since the last call.
   std::vector<fg::vk::Message> takeMessages() { return log_.take(); }
-  /// @throws std::runtime_error with the first thing that the validation layer said, if it said anything
+  /// @throws std::runtime_error with the first message of the validation layer, if there is one
   void refuseMessages();
 
  private:
@@ -59,13 +59,13 @@ class GpuDevice {
   std::unique_ptr<fg::vk::PipelineCache> pipelineCache_;
 };
 
-/// The file that holds a device's compiled pipelines: in `$XDG_CACHE_HOME/walr`, else `~/.cache/walr` (XDG Base
-/// Directory Specification), with the device's pipeline cache UUID and the driver's version in its name. Empty where
-/// the user has no such folder.
+/// The file with a device's compiled pipelines. It lies in `$XDG_CACHE_HOME/walr`, or else in `~/.cache/walr` (XDG Base
+/// Directory Specification), and its name contains the device's pipeline cache UUID and the driver's version. Empty if
+/// neither variable is set to an absolute path.
 std::filesystem::path pipelineCacheFile(const fg::vk::DeviceContext& device);
 
-/// Compile a graph for a device, after a check that names every format use that the device lacks.
-/// @throws std::runtime_error with all that is wrong with the graph; fg::vk::Error for what the device lacks
+/// Check that the device supports all uses of formats, then compile the graph for it.
+/// @throws std::runtime_error with all errors of the graph; fg::vk::Error naming the format uses that the device lacks
 fg::Plan compileFor(const GpuDevice& device, const fg::Graph& graph);
 
 }  // namespace walr

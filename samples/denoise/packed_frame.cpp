@@ -32,7 +32,7 @@ Image unpackRgb(const std::vector<Rgba16>& texels, int width, int height) {
 
 namespace {
 
-/// Object numbers as textures hold them.
+/// Object numbers in the format of their texture.
 std::vector<std::uint32_t> packNumbers(const Image& image) {
   constexpr std::uint32_t kNone = 0xffffffff;
   std::vector<std::uint32_t> numbers;

@@ -9,20 +9,21 @@
 
 namespace walr {
 
-/// Four half floats by their bits: a texel of RGBA16F.
+/// The bits of four half floats: a texel of RGBA16F.
 using Rgba16 = std::array<std::uint16_t, 4>;
 
-/// A frame with its pictures in the formats of the denoiser's textures (`DenoiserInputs`).
+/// A frame with its images in the formats of the denoiser's textures (`DenoiserInputs`).
 struct PackedFrame {
   Frame frame;
   std::vector<Rgba16> lighting;
   std::vector<Rgba16> normal;
   std::vector<Rgba16> motion;
   std::vector<Rgba16> albedo;
-  std::vector<std::uint32_t> objectId;  ///< 0xffffffff: none; empty where the frame has no object numbers.
+  std::vector<std::uint32_t> objectId;  ///< 0xffffffff: no object; empty if the frame has no object numbers.
 };
 
-/// Texels of an image of at most four components; the others are 0. Finite values beyond half floats saturate.
+/// Texels of an image of at most four components; missing components are 0. Finite values beyond the range of half
+/// floats saturate.
 std::vector<Rgba16> packRgba16(const Image& image);
 
 /// The first three components of texels as an image.
@@ -30,13 +31,13 @@ Image unpackRgb(const std::vector<Rgba16>& texels, int width, int height);
 
 PackedFrame packFrame(Frame frame);
 
-/// A frame's camera as the passes know it.
+/// A frame's camera in the form that the passes use.
 /// @param motionScale  see `FrameDescription::motionScale`
 FrameDescription frameDescriptionOf(const Frame& frame, glm::vec2 motionScale);
 
 /// The uniform block of a frame's camera.
 /// @param motionScale  see `FrameDescription::motionScale`
-/// @throws InputError naming a frame whose camera makes no sense
+/// @throws InputError naming a frame whose camera is not usable
 FrameConstants frameConstantsOf(const Frame& frame, glm::vec2 motionScale);
 
 }  // namespace walr

@@ -12,17 +12,18 @@
 
 namespace walr {
 
-/// Elements that may wait between two stages: enough to hide a slow one now and then, and few enough that memory stays
-/// small whatever the length of the job.
+/// Number of elements that may wait between two stages. A few are enough to hide an occasional slow element, and memory
+/// does not grow with the length of the job.
 inline constexpr std::size_t kPipelineDepth = 2;
 
-/// Run three stages side by side on three threads, in order, for the elements 0 to `count` - 1. `process` and `drain`
+/// Run three stages concurrently on three threads for the elements 0 to `count` - 1, in order. `process` and `drain`
 /// run on the calling thread.
 /// @param read     std::size_t -> Input
-/// @param process  Input -> std::optional<Output>: takes an element, and gives one that is done where there is one
-/// @param drain    () -> std::optional<Output>: after the last element, what `process` still holds, until there is none
+/// @param process  Input -> std::optional<Output>: takes an element, and returns a finished one if there is one
+/// @param drain    () -> std::optional<Output>: after the last element, returns those that `process` still holds, then
+///                 nullopt
 /// @param write    Output -> void
-/// @throws whatever a stage threw first; the others stop after the element they are at
+/// @throws the first exception of a stage; the other stages stop after their current element
 template <typename Read, typename Process, typename Drain, typename Write>
 void runPipeline(std::size_t count, Read read, Process process, Drain drain, Write write) {
   using Input = std::invoke_result_t<Read, std::size_t>;

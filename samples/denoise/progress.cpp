@@ -82,7 +82,7 @@ void Progress::draw() {
     constexpr std::size_t kBarWidth = 30;
     const double share = work_ > 0.0 ? std::min(workDone_ / work_, 1.0) : 1.0;
     const auto filled = static_cast<std::size_t>(share * kBarWidth);
-    // Return to the start of the line, and clear what a longer text before left behind.
+    // Return to the start of the line, and clear the rest of a longer previous text.
     stream_ << "\r[" << std::string(filled, '#') << std::string(kBarWidth - filled, '.') << "] " << text.str()
             << "\x1b[K" << std::flush;
   } else {

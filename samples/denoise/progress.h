@@ -8,30 +8,30 @@
 
 namespace walr {
 
-/// Minutes and seconds ("2:05"), with hours where there are any ("1:02:05").
+/// Minutes and seconds ("2:05"), with hours if the duration has any ("1:02:05").
 std::string formatDuration(std::chrono::seconds duration);
 
-/// Progress of a job of known length: a bar that redraws itself on a terminal, plain lines elsewhere. Bar and remaining
-/// time go by the work done, which need not be the same for all elements that are counted.
+/// Progress of a job of known length: a bar on a terminal, plain lines elsewhere. Bar and remaining time follow from
+/// the work done; elements may differ in their work.
 class Progress {
  public:
   using Clock = std::chrono::steady_clock;
 
   /// @param terminal  whether the stream is a terminal
-  /// @param unit      what is counted, in the singular: "frame"
-  /// @param work      of the whole job, in any unit, for `worked`; absent: every element is one
+  /// @param unit      name of an element, in the singular: "frame"
+  /// @param work      work of the whole job, in any unit, of which `worked` reports parts; absent: 1 for every element
   Progress(std::ostream& stream, bool terminal, std::string unit, std::size_t total, Clock::time_point start,
            std::optional<double> work = std::nullopt);
-  /// Leaves the terminal on a fresh line.
+  /// Ends the line of the bar on a terminal.
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// One more is done. Where every element is the same work, that is done, too.
+  /// Count one more element as done and, without `work` in the constructor, its work as well.
   void advance(Clock::time_point now);
-  /// Some of the work is done. Elsewhere than on a terminal a line says so where the last one is half a minute old.
+  /// Count some work as done. Without a terminal, this prints a line if the last one is at least half a minute old.
   void worked(double work, Clock::time_point now);
-  /// Some of the work need not be done.
+  /// Remove work that need not be done from the total.
   void skipped(double work) { work_ -= work; }
   /// Write a line of text without disturbing the bar.
   void note(const std::string& line);
@@ -45,7 +45,7 @@ class Progress {
   std::string unit_;
   std::size_t total_;
   std::size_t done_ = 0;
-  bool sameWork_;  // For every element.
+  bool sameWork_;  // Every element has the same work.
   double work_;
   double workDone_ = 0.0;
   Clock::time_point start_;

@@ -60,12 +60,12 @@ void printRow(std::ostream& stream, const std::string& name, const FrameReport& 
   stream << (frame.resetHistory ? "  history reset" : "") << '\n';
 }
 
-/// One line a counter: its mean, and its largest value with the frame that has it.
+/// One line per counter: its mean, and its largest value with the frame of that value.
 void printCounters(std::ostream& stream, const std::vector<FrameReport>& frames) {
   if (frames.empty() || frames.front().counters.empty()) return;
   constexpr int kNameWidth = 28;
   constexpr int kWidth = 14;
-  stream << std::left << std::setw(kNameWidth) << "counter" << std::right << std::setw(kWidth) << "mean a frame"
+  stream << std::left << std::setw(kNameWidth) << "counter" << std::right << std::setw(kWidth) << "mean per frame"
          << std::setw(kWidth) << "most"
          << "  in frame\n";
   for (std::size_t i = 0; i < frames.front().counters.size(); ++i) {
@@ -146,7 +146,7 @@ void printReport(std::ostream& stream, const DenoiseReport& report) {
     columns();
     stream << "  |";
     columns();
-    stream << "  (the noisy input's)";
+    stream << "  (of the noisy input)";
   }
   stream << '\n';
   for (const FrameReport& frame : report.frames) {
@@ -158,15 +158,15 @@ void printReport(std::ostream& stream, const DenoiseReport& report) {
              withErrors);
   }
   if (withErrors) {
-    stream << "Errors after the tone map x/(1+x), over pixels with diffuse albedo of at least 0.01 that are not sky; "
+    stream << "Errors are after the tone map x/(1+x), over pixels of surfaces with a diffuse albedo of at least 0.01; "
               "PSNR in dB against a peak of 1; SSIM with an 11x11 Gaussian window.\n";
   }
   if (const std::optional<double> noise = meanReport(report.frames, 0).referenceNoise) {
-    stream << "The references' own noise: RMSE " << cell(noise, 5, 0) << ", which is part of every error above.\n";
+    stream << "Noise of the references: RMSE " << cell(noise, 5, 0) << ", which is part of every error above.\n";
   }
   printCounters(stream, report.frames);
   if (report.softwareDevice) {
-    stream << report.device << " is a software device: its times are a processor's and say nothing about a GPU.\n";
+    stream << report.device << " is a software device: its times are CPU times and do not predict those of a GPU.\n";
   }
 }
 

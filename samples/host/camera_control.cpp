@@ -18,7 +18,7 @@ FreeCamera::FreeCamera(const glm::mat4& view, float targetDistance) : distance_(
 }
 
 void FreeCamera::turn(const glm::vec2& angles) {
-  // Straight up and down would leave no direction to the right.
+  // A camera that looks straight up or down has no defined right direction.
   constexpr float kSteepest = 0.499F * std::numbers::pi_v<float>;
   yaw_ -= angles.x;
   pitch_ = glm::clamp(pitch_ - angles.y, -kSteepest, kSteepest);

@@ -6,20 +6,20 @@
 
 namespace walr::host {
 
-/// What mouse and keyboard ask of a camera in one step.
+/// Camera movement that mouse and keyboard request in one step.
 struct CameraInput {
   glm::vec2 turn{0.0F};  ///< Radians: x turns to the right, y down.
-  glm::vec2 pan{0.0F};   ///< Of the picture's height: x to the right, y down. Orbit only.
-  float zoom = 0.0F;     ///< Steps: each goes an eighth of the way to the target. Orbit only.
+  glm::vec2 pan{0.0F};   ///< In image heights: x to the right, y down. Orbit only.
+  float zoom = 0.0F;     ///< In steps; each moves an eighth of the way to the target. Orbit only.
   glm::vec3 move{0.0F};  ///< Scene units: right, up, forward. Fly only.
 };
 
 /// A camera without roll, +Y up, that turns around a point or flies.
 class FreeCamera {
  public:
-  /// From where another camera stands. Its roll is lost.
+  /// Start at the pose of another camera, without its roll.
   /// @param view            world to view space, rigid
-  /// @param targetDistance  to the point that `orbit` turns around, ahead; scene units, above 0
+  /// @param targetDistance  distance to the point ahead that `orbit` turns around; scene units, above 0
   FreeCamera(const glm::mat4& view, float targetDistance);
 
   void orbit(const CameraInput& input);

@@ -10,14 +10,15 @@
 
 namespace walr::host {
 
-/// Calls `use` for every frame of an animation, rendered, in order. The next frame is traced while the device works.
-/// @param request  what to trace; number and place in the animation are those of the frames
+/// Renders the frames of an animation in order and calls `use` for each. The next frame is traced while the device
+/// works.
+/// @param request  what to trace; its frame number and animation frame are replaced by those of each frame
 void renderFrames(Tracer& tracer, Renderer& renderer, const FrameRange& frames, Tracer::Request request,
                   const std::function<void(const RenderedFrame&)>& use);
 
-/// Write `frame_FFFF.png`, what is shown, and where the composite was read back `frame_FFFF.exr`, the linear lit
-/// picture.
-/// @throws OutputError; every file is whole or absent
+/// Write `frame_FFFF.png`, the displayed image, and, if the composite was read back, `frame_FFFF.exr`, the linear lit
+/// image.
+/// @throws OutputError; every file is either complete or absent
 void writeRenderedFrame(const RenderedFrame& frame, fg::Extent extent, const std::filesystem::path& directory);
 
 }  // namespace walr::host

@@ -6,9 +6,9 @@
 
 namespace walr::host {
 
-/// A traced frame with its pictures in the formats of the host's textures.
+/// A traced frame with its images in the formats of the host's textures.
 struct HostFrame {
-  PackedFrame inputs;  ///< What the denoiser takes; `inputs.frame.number` seeds it.
+  PackedFrame inputs;  ///< Inputs of the denoiser; `inputs.frame.number` is its random seed.
   std::vector<Rgba16> direct;
   std::vector<Rgba16> emission;
   std::vector<Rgba16> referenceDirect;  ///< For the split view; empty otherwise.

@@ -24,7 +24,8 @@ void exportTarget(fg::Graph& graph, fg::Texture texture, const std::optional<Hos
   }
 }
 
-/// Can be sampled: not the last frame's contents, which have a name of their own, and written or brought by the host.
+/// Whether a view can sample this resource: a texture with one layer that a pass or the host fills. The previous
+/// frame's contents of a history, which are a resource of their own, are left out.
 bool isViewable(const fg::ResourceDecl& resource) {
   const auto* texture = std::get_if<fg::TextureDesc>(&resource.desc);
   const bool filled = resource.versions > 0 || resource.lifetime == fg::Lifetime::Imported;
@@ -32,7 +33,7 @@ bool isViewable(const fg::ResourceDecl& resource) {
          resource.lifetime != fg::Lifetime::HistoryPrevious;
 }
 
-/// The last version of the texture with a name.
+/// The last version of the texture of this name.
 fg::Texture findTexture(const fg::GraphDesc& graph, const std::string& name) {
   for (std::uint32_t i = 0; i < graph.resources.size(); ++i) {
     if (graph.resources[i].name == name && isViewable(graph.resources[i])) {
@@ -43,7 +44,7 @@ fg::Texture findTexture(const fg::GraphDesc& graph, const std::string& name) {
   for (const std::string& texture : viewableTextures(graph)) {
     known += (known.empty() ? "'" : ", '") + texture + "'";
   }
-  throw UsageError("there is no texture '" + name + "' in the frame; there are " + known);
+  throw UsageError("the frame has no texture '" + name + "'; it has " + known);
 }
 
 void declareInputs(HostGraph& host, fg::Extent extent, const HostView& view, const fg::vk::DeviceContext& device) {
@@ -69,7 +70,7 @@ void declareInputs(HostGraph& host, fg::Extent extent, const HostView& view, con
   host.frameConstants = graph.upload("frame constants", sizeof(FrameConstants));
 }
 
-/// The picture with the light of one of the sources, beside the composite that is there anyway.
+/// The lit image of another light source than the denoiser. The composite of the denoised light exists in any case.
 fg::Texture litBy(HostGraph& host, HostView::Kind source) {
   if (source == HostView::Kind::Denoised) {
     return host.composite;
@@ -122,7 +123,6 @@ HostGraph declareHostGraph(const fg::vk::DeviceContext& device, Denoiser& method
   host.composite =
       addComposite(graph, "composite", host.denoised, {host.direct.texture, host.albedo.texture, host.emission.texture},
                    declareTarget(graph, "lit", colour, targets.composite));
-  // Declared after all that can be viewed, so that it is not among it.
   host.display = declareTarget(graph, "display", {.format = kDisplayFormat, .extent = extent}, targets.display);
   addView(host, view);
 

@@ -12,19 +12,19 @@
 
 namespace walr::host {
 
-/// What the picture shows.
+/// What is displayed.
 struct HostView {
   enum class Kind {
-    Denoised,   ///< The lit picture with the denoised light.
-    Noisy,      ///< The lit picture with the light as it was traced.
-    Reference,  ///< The lit picture with the reference's light.
+    Denoised,   ///< The lit image with the denoised light.
+    Noisy,      ///< The lit image with the traced, noisy light.
+    Reference,  ///< The lit image with the light of the reference.
     Split,      ///< Noisy, denoised and reference side by side.
-    Texture,    ///< A texture of the graph as it is.
+    Texture,    ///< The values of one texture of the graph.
   };
   Kind kind = Kind::Denoised;
-  std::string texture = {};  ///< Its name, for `Kind::Texture`.
+  std::string texture = {};  ///< Name of the texture, for `Kind::Texture`.
 
-  /// Whether frames need their reference.
+  /// Whether this view needs frames with a reference.
   [[nodiscard]] bool needsReference() const { return kind == Kind::Reference || kind == Kind::Split; }
   friend bool operator==(const HostView&, const HostView&) = default;
 };
@@ -43,13 +43,14 @@ struct HostGraph {
   std::optional<UploadedPicture> referenceIndirect;
   std::optional<UploadedPicture> referenceDirect;
   fg::Buffer frameConstants;
-  std::optional<fg::Buffer> viewConstants;  ///< Only for views that take them.
-  fg::Texture denoised;                     ///< RGBA16F: what the method returned.
-  fg::Texture composite;                    ///< RGBA16F: the lit picture with the denoised light.
-  fg::Texture display;                      ///< RGBA8: what is shown.
+  std::optional<fg::Buffer> viewConstants;  ///< Only for views that use them.
+  fg::Texture denoised;                     ///< RGBA16F: the output of the method.
+  fg::Texture composite;                    ///< RGBA16F: the lit image with the denoised light.
+  fg::Texture display;                      ///< RGBA8: the displayed image.
 };
 
-/// The textures that the host owns: states in which they come and go. Those that are absent stay inside the graph.
+/// The textures that the host owns, each with its state before and after the graph. An absent one is a transient of the
+/// graph.
 struct HostTargets {
   struct Target {
     fg::ExternalState before;
@@ -62,9 +63,10 @@ struct HostTargets {
 
 /// Declare the frame.
 /// @param device   must outlive the graph
-/// @param present  adds what comes after the picture, for instance a pass that brings it to a window; may be empty
+/// @param present  adds passes that follow the displayed image, for instance one that copies it to a window; may be
+///         empty
 /// @throws std::invalid_argument naming a setting of the method that is out of range
-/// @throws UsageError naming a texture to view that the graph does not have, and those that it has
+/// @throws UsageError if the graph lacks the texture to view; the message lists the graph's textures
 HostGraph declareHostGraph(const fg::vk::DeviceContext& device, Denoiser& method, fg::Extent extent,
                            const HostView& view, const HostTargets& targets,
                            const std::function<void(fg::Graph&, fg::Texture display)>& present = {});

@@ -11,22 +11,21 @@ void addHostOptions(CLI::App& program, HostOptions& options) {
   Tracer::Options& tracer = options.tracer;
   program.add_option("SCENE", tracer.scene, "glTF 2.0 file, .gltf or .glb")->required();
   program.add_flag("--headless", options.headless,
-                   "Open no window; write --frames to --output. So it is, too, where there is no display");
-  program.add_option("-o,--output", options.output, "Without a window: folder for frame_FFFF.png; made if need be")
+                   "Open no window; write --frames to --output. The same happens if there is no display");
+  program.add_option("-o,--output", options.output, "Without a window: folder for frame_FFFF.png; created if missing")
       ->type_name("DIR");
-  program.add_flag("--exr", options.exr, "Also write frame_FFFF.exr, the linear lit picture in half floats");
-  program.add_option("--frames", options.frames, "Frames of the scene's animation, both included")
+  program.add_flag("--exr", options.exr, "Also write frame_FFFF.exr, the linear lit image in half floats");
+  program.add_option("--frames", options.frames, "First and last frame of the scene's animation")
       ->type_name("A-B")
       ->capture_default_str();
   program.add_flag("--once", options.once, "In a window: stop after the last frame instead of starting again");
-  program.add_option("--size", options.size, "Size of the picture in pixels, 1 to 16384 each")
+  program.add_option("--size", options.size, "Size of the image in pixels, 1 to 16384 each")
       ->type_name("WIDTHxHEIGHT")
       ->capture_default_str();
   program
-      .add_option(
-          "--view", options.view,
-          "What is shown: denoised, noisy, reference, split (these three beside one another) or the name of a texture "
-          "of the frame")
+      .add_option("--view", options.view,
+                  "What is shown: denoised, noisy, reference, split (noisy, denoised and reference side by side) or "
+                  "the name of a texture of the frame")
       ->type_name("VIEW")
       ->capture_default_str();
   addMethodOptions(program, options.method);
@@ -37,36 +36,39 @@ void addHostOptions(CLI::App& program, HostOptions& options) {
       ->capture_default_str();
   program
       .add_option("--reference-spp", tracer.referenceSamples,
-                  "Samples per pixel of a reference, for the views that show one; they add up while nothing moves")
+                  "Samples per pixel that a frame adds to the reference, for views that show it; samples accumulate "
+                  "while nothing moves")
       ->check(CLI::Range(1U, kMostSamples))
       ->capture_default_str();
   constexpr std::uint32_t kMostBounces = 1024;
-  program.add_option("--bounces", tracer.bounces, "Surfaces after the first that reflect light")
+  program.add_option("--bounces", tracer.bounces, "Largest number of surfaces after the first that reflect light")
       ->check(CLI::Range(0U, kMostBounces))
       ->capture_default_str();
-  program.add_option("--seed", tracer.seed, "Number of the random sequence")->capture_default_str();
+  program.add_option("--seed", tracer.seed, "Seed of the random numbers")->capture_default_str();
   constexpr double kSlowest = 1e-3;
   constexpr double kFastest = 1e6;
-  program.add_option("--fps", tracer.framesPerSecond, "Frames a second of the animation")
+  program.add_option("--fps", tracer.framesPerSecond, "Frames per second of the animation")
       ->check(CLI::Range(kSlowest, kFastest))
       ->capture_default_str();
   program.add_option("--camera", tracer.camera, "Name of the camera or of its node; default: the first");
   program.add_option("--sky", tracer.sky,
-                     "Equirectangular sky in place of the scene's: an EXR file, R,G,B, its middle along -Z");
-  program.add_flag("--jitter", tracer.jitter, "Sample off the pixel centre: 16 Halton points, one a frame");
+                     "Equirectangular sky that replaces the scene's: an EXR file with R,G,B; its centre lies along -Z");
+  program.add_flag("--jitter", tracer.jitter,
+                   "Jitter the sample position within the pixel: 16 Halton points, one per frame");
   program.add_flag(
       "--denoise-direct", tracer.denoiseDirect,
-      "Denoise the direct light with the indirect: for lamps and skies that one sample per pixel finds badly");
+      "Denoise the direct light together with the indirect light: for lamps and skies that are noisy at one sample per "
+      "pixel");
   program
       .add_option(
           "--gbuffer", tracer.gbuffer,
-          "first-hit: depth, normal and albedo of the first surface; metals show no light. material: in mirrors "
-          "those of what they show, on glossy metals albedos mixed (Fu 2022)")
+          "first-hit: depth, normal and albedo of the first surface; metals have no light. material: a mirror takes "
+          "them from the surface that it reflects, a glossy metal only the albedo (Fu 2022)")
       ->transform(CLI::CheckedTransformer(std::map<std::string, render::GBufferMode>{
           {"first-hit", render::GBufferMode::FirstHit}, {"material", render::GBufferMode::Material}}))
       ->type_name("")
       ->default_str("first-hit");
-  program.add_option("--threads", tracer.threads, "Threads that trace; 0: one for every core")->capture_default_str();
+  program.add_option("--threads", tracer.threads, "Threads for path tracing; 0: one per core")->capture_default_str();
 }
 
 HostView parseView(const std::string& text) {

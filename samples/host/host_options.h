@@ -28,7 +28,7 @@ struct HostOptions {
 
 void addHostOptions(CLI::App& program, HostOptions& options);
 
-/// The view that `--view` names: denoised, noisy, reference, split, or a texture of the frame.
+/// The view of a `--view` argument: denoised, noisy, reference, split, or the name of a texture of the frame.
 HostView parseView(const std::string& text);
 
 }  // namespace walr::host

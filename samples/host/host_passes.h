@@ -6,42 +6,42 @@
 #include "framegraph/declare/graph.h"
 #include "framegraph/vulkan/device_context.h"
 
-/// The host's own passes: what an engine has in its frame around a denoiser.
+/// The host's own passes: those that an engine runs before and after a denoiser.
 namespace walr::host {
 
-/// A picture that comes from the processor every frame.
+/// An image that the CPU uploads every frame.
 struct UploadedPicture {
-  fg::Buffer bytes;  ///< Upload; rows of texels without padding.
+  fg::Buffer bytes;  ///< Upload buffer: rows of texels without padding.
   fg::Texture texture;
 };
 
-/// Declare a picture that `addUploads` will fill.
+/// Declare an image that `addUploads` fills.
 UploadedPicture declarePicture(fg::Graph& graph, const std::string& name, VkFormat format, fg::Extent extent);
 
-/// One pass that copies pictures into their textures, whose handles it moves on.
+/// Add one pass that copies images into their textures. It replaces their texture handles by the written versions.
 /// @param device  must outlive the graph
 void addUploads(fg::Graph& graph, const fg::vk::DeviceContext& device, const std::vector<UploadedPicture*>& pictures);
 
-/// What a composite is made of beside the indirect light. RGBA16F.
+/// The inputs of a composite other than the indirect light; all RGBA16F.
 struct Shading {
   fg::Texture direct;
   fg::Texture albedo;
   fg::Texture emission;
 };
 
-/// The lit picture albedo * (direct + indirect) + emission, into `output` (RGBA16F).
+/// Write the lit image, albedo * (direct + indirect) + emission, to `output` (RGBA16F).
 fg::Texture addComposite(fg::Graph& graph, const std::string& name, fg::Texture indirect, const Shading& shading,
                          fg::Texture output);
 
-/// The lit picture for the screen: tone map and sRGB, into `display` (RGBA8).
+/// Apply tone map and sRGB to the lit image; write the result to `display` (RGBA8).
 fg::Texture addToneMap(fg::Graph& graph, fg::Texture lit, fg::Texture display);
 
-/// Three lit pictures beside one another, column by column; see `ViewConstants`.
+/// The same for three lit images, each of which fills a range of columns; see `ViewConstants`.
 fg::Texture addSplitToneMap(fg::Graph& graph, fg::Texture left, fg::Texture middle, fg::Texture right,
                             fg::Buffer viewConstants, fg::Texture display);
 
-/// Show any texture of the graph with one layer. Textures of floats are scaled by `ViewConstants::gain` and `bias`,
-/// those of integers show the bytes of their first word.
+/// Show a texture of the graph that has one layer. Float textures are scaled by `ViewConstants::gain` and `bias`. Of
+/// integer textures the bytes of the first component are shown.
 fg::Texture addInspection(fg::Graph& graph, fg::Texture inspected, fg::Buffer viewConstants, fg::Texture display);
 
 }  // namespace walr::host

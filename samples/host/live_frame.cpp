@@ -44,7 +44,7 @@ bool LiveFrame::update(Denoiser& method, const HostView& view) {
 }
 
 void LiveFrame::declare(Denoiser& method, const HostView& view, Start start) {
-  // A graph that has recorded nothing has nothing to hand on but what it was to take over itself.
+  // A graph that has recorded no frame has no histories of its own: the new graph takes over those of its predecessor.
   const bool recorded = declared() && running_->frames > 0;
   Running* const before = recorded ? running_.get() : predecessor_.get();
   HostGraph host = declareHost(method, view);
@@ -56,7 +56,7 @@ void LiveFrame::declare(Denoiser& method, const HostView& view, Start start) {
 }
 
 void LiveFrame::record(const fg::vk::Frame& recorded, const HostFrame& frame, const ViewConstants& view) {
-  // Whoever records with a slot has waited for the frame recorded with it before, and so for all frames up to that.
+  // The caller has waited for the last frame recorded with this slot, and so for all frames up to that one.
   std::erase_if(retired_, [&](const Retired& retired) { return retired.until <= frames_; });
   uploadFrame(running_->device.executor(), running_->host, frame, view);
   running_->device.executor().record(recorded.commandBuffer, recorded.slot);

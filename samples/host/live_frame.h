@@ -15,11 +15,11 @@
 
 namespace walr::host {
 
-/// State of `ShownPicture` while it is shown.
+/// State of `ShownPicture` between the frames that write it.
 inline constexpr fg::ExternalState kShown{VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_READ_BIT,
                                           VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL};
 
-/// The picture in the window: frames write it when they are traced, the window reads it as often as it is drawn.
+/// The image in the window. Each traced frame writes it; the window reads it each time it is drawn.
 class ShownPicture {
  public:
   ShownPicture(const GpuDevice& device, fg::Extent extent);
@@ -33,30 +33,29 @@ class ShownPicture {
   fg::vk::MemoryArena memory_;
 };
 
-/// The host's frame for a window: a graph that ends in the shown picture, and that may change between frames.
+/// The host's frame for a window: a graph that writes a `ShownPicture`, and that may change between frames.
 class LiveFrame {
  public:
   /// Where the next frame's histories come from.
   enum class Start { FromHistory, Anew };
 
   /// @param device, picture  must outlive this
-  /// @param framesInFlight   frames recorded with one slot must be this many frames apart
+  /// @param framesInFlight   frames recorded with the same slot must be this many frames apart
   LiveFrame(const GpuDevice& device, const ShownPicture& picture, std::uint32_t framesInFlight);
-  /// The device must have finished.
+  /// The device must have finished all frames.
   ~LiveFrame() = default;
   LiveFrame(const LiveFrame&) = delete;
   LiveFrame& operator=(const LiveFrame&) = delete;
 
-  /// Take over new values of the method's settings where nothing but constants has changed since `declare`: for the
-  /// next frame, with all histories, and without making anything on the device but a pipeline for new specialization
-  /// constants.
-  /// @returns whether that was so; otherwise nothing has happened
+  /// Apply new values of the method's settings to the next frame and keep all histories. This works if only constants
+  /// have changed since `declare`. On the device it creates at most pipelines for new specialization constants.
+  /// @returns false, without any effect, if more than constants has changed
   bool update(Denoiser& method, const HostView& view);
 
-  /// Declare the graph of a method and a view, and make what it needs, while frames of the graph before may be in
-  /// flight.
-  /// @param start  `FromHistory` goes on from the histories of the graph before, where these fit
-  /// @throws see `declareHostGraph` and `DeviceGraph`; the graph before stays
+  /// Declare the graph of a method and a view, and create its device objects. Frames of the previous graph may still be
+  /// in flight.
+  /// @param start  `FromHistory` takes over the histories of the previous graph where they fit
+  /// @throws see `declareHostGraph` and `DeviceGraph`; the previous graph then stays in use
   void declare(Denoiser& method, const HostView& view, Start start);
   [[nodiscard]] bool declared() const { return running_ != nullptr; }
 
@@ -64,10 +63,10 @@ class LiveFrame {
 
   [[nodiscard]] const fg::Graph& graph() const { return running_->host.graph; }
   [[nodiscard]] const fg::Plan& plan() const { return running_->device.plan(); }
-  /// What the next frame will find of the method's histories, in the order of the graph's.
+  /// State of the method's histories before the next frame, in the order of `fg::GraphDesc::histories`.
   [[nodiscard]] std::vector<fg::vk::HistoryStatus> histories();
-  /// Times of the frame last recorded with a slot, which the device must have finished; none where another graph
-  /// recorded it.
+  /// Times of the frame last recorded with a slot, which the device must have finished. Empty if a previous graph
+  /// recorded that frame.
   std::span<const fg::vk::PassTime> passTimes(std::uint32_t slot) {
     return running_->device.executor().passTimes(slot);
   }
@@ -76,11 +75,11 @@ class LiveFrame {
   struct Running {
     HostGraph host;
     DeviceGraph device;
-    std::uint32_t frames = 0;  ///< Recorded.
+    std::uint32_t frames = 0;  ///< Number of recorded frames.
   };
   struct Retired {
     std::unique_ptr<Running> graph;
-    std::uint64_t until;  ///< Number of the frame before whose recording the device has finished with it.
+    std::uint64_t until;  ///< Once this many frames are recorded, the device no longer uses the graph.
   };
 
   [[nodiscard]] HostGraph declareHost(Denoiser& method, const HostView& view) const;
@@ -88,9 +87,9 @@ class LiveFrame {
   const GpuDevice& device_;
   const ShownPicture& picture_;
   std::uint32_t framesInFlight_;
-  std::uint64_t frames_ = 0;  // Recorded, of all graphs.
+  std::uint64_t frames_ = 0;  // Number of recorded frames, of all graphs.
   std::unique_ptr<Running> running_;
-  std::unique_ptr<Running> predecessor_;  // Until `running_` has recorded a frame.
+  std::unique_ptr<Running> predecessor_;  // Kept until `running_` has recorded a frame.
   std::vector<Retired> retired_;
 };
 

@@ -29,7 +29,7 @@ ViewConstants viewConstantsOf(fg::Extent extent) {
 
 void runHeadless(const HostOptions& options, Tracer& tracer, GpuDevice& gpu, Denoiser& method) {
   if (options.output.empty()) {
-    throw UsageError("without a window the frames go to a folder: give --output DIR");
+    throw UsageError("without a window, frames are written to a folder: give --output DIR");
   }
   const FrameRange frames = parseFrameRange(options.frames);
   const fg::Extent extent = options.tracer.extent;
@@ -49,7 +49,7 @@ void runHeadless(const HostOptions& options, Tracer& tracer, GpuDevice& gpu, Den
   });
 }
 
-/// Whether a window can be and shall be opened.
+/// Whether to open a window: the user has not chosen `--headless`, and windows are available.
 bool opensWindow(const HostOptions& options) {
 #ifdef WALR_HOST_WINDOW
   if (!options.headless && !Window::available()) {
@@ -101,9 +101,8 @@ void run(HostOptions& options) {
 }  // namespace walr::host
 
 int main(int argc, char** argv) {
-  CLI::App program(
-      "walr-host: path-traces a glTF scene, denoises it in the same frame graph as it composites and tone-maps in",
-      "walr-host");
+  CLI::App program("walr-host: path-traces a glTF scene; denoises, composites and tone-maps it in one frame graph",
+                   "walr-host");
   program.set_version_flag("--version", WALR_VERSION);
   walr::host::HostOptions options;
   walr::host::addHostOptions(program, options);

@@ -13,17 +13,17 @@
 
 namespace walr::host {
 
-/// What comes back of a frame.
+/// The images of a frame that are read back.
 struct RenderedFrame {
   int number = 0;
   std::vector<std::uint32_t> display;  ///< RGBA8, red in the lowest byte, rows from the top.
-  Image composite;                     ///< 3 components; empty unless asked for.
-  Image denoised;                      ///< 3 components; empty unless asked for.
+  Image composite;                     ///< 3 components; empty unless requested.
+  Image denoised;                      ///< 3 components; empty unless requested.
   std::vector<fg::vk::PassTime> passTimes;
 };
 
-/// Runs the host's frame on a device without a window: one graph, compiled once, executed every frame, with a few
-/// frames on the device at once.
+/// Runs the host's frame on a device without a window: one graph, compiled once and executed every frame, with a few
+/// frames in flight.
 class Renderer {
  public:
   struct Options {
@@ -35,15 +35,15 @@ class Renderer {
   };
 
   /// @param gpu     must outlive the renderer
-  /// @param method  declares its passes here; not needed afterwards
+  /// @param method  declares its passes during this call; not needed afterwards
   /// @throws see `declareHostGraph` and `compileFor`
   Renderer(const GpuDevice& gpu, Denoiser& method, fg::Extent extent, const Options& options);
 
-  /// Send a frame to the device. Its history is dropped first where the frame says so.
-  /// @throws std::logic_error when as many frames as may be are in flight
+  /// Submit a frame to the device. If the frame requests it, histories are reset first.
+  /// @throws std::logic_error if `framesInFlight` frames are in flight already
   void submit(const HostFrame& frame);
   [[nodiscard]] bool full() const { return graph_.full(); }
-  /// Wait for the oldest frame in flight. Nothing where there is none.
+  /// Wait for the oldest frame in flight. Returns nullopt if there is none.
   std::optional<RenderedFrame> finish();
 
   [[nodiscard]] const fg::Graph& graph() const { return host_.graph; }
@@ -57,10 +57,10 @@ class Renderer {
   ReadbackGraph::Index display_;
   std::optional<ReadbackGraph::Index> composite_;
   std::optional<ReadbackGraph::Index> denoised_;
-  std::deque<int> numbers_;  // Of the frames in flight.
+  std::deque<int> numbers_;  // Frame numbers of the frames in flight.
 };
 
-/// Hand a frame's pictures and constants to an executor of the graph, for the frame recorded next.
+/// Upload a frame's images and constants to an executor of the graph, for the frame that is recorded next.
 void uploadFrame(fg::vk::Executor& executor, const HostGraph& graph, const HostFrame& frame, const ViewConstants& view);
 
 }  // namespace walr::host

@@ -26,7 +26,7 @@ std::optional<Tracer::Request> Session::nextRequest(bool evenFrozen) {
   const bool ended = once_ && started_ && animationFrame_ == frames_.last;
   if (ended && !paused) {
     frozen = true;
-    once_ = false;  // Whoever goes on sees the animation again.
+    once_ = false;  // If the user resumes, the animation plays again.
   }
   if (frozen && !evenFrozen) {
     return std::nullopt;
@@ -82,7 +82,7 @@ void Session::chooseCamera(CameraMode mode) {
   } else if (!camera_) {
     const glm::mat4 view = tracer_.sceneCamera(animationFrame_);
     const glm::vec4 bounds = tracer_.bounds();
-    // Turn around what lies ahead as deep as the scene's middle, or near by where that is behind.
+    // Orbit around the point ahead at the depth of the scene's centre, or around a near one if the centre is behind.
     const float ahead = -(view * glm::vec4(glm::vec3(bounds), 1.0F)).z;
     camera_.emplace(view, glm::max(ahead, 0.1F * bounds.w));
   }

@@ -13,25 +13,25 @@
 
 namespace walr::host {
 
-/// What of the graph must follow what the user has chosen.
+/// How the graph must change after a choice of the user.
 enum class GraphChange {
   None,
-  Settings,  ///< Of the method, or the view: the next frame goes on from the histories there are.
-  Method,    ///< Another method or preset: the next frame starts anew, so that methods can be compared.
+  Settings,  ///< Settings of the method, or the view: the next frame continues from the existing histories.
+  Method,    ///< Another method or preset: the next frame starts without history, so that methods can be compared.
 };
 
-/// Who moves the camera.
+/// What moves the camera: the scene's animation, or the user in one of two ways.
 enum class CameraMode { Scene, Orbit, Fly };
 
-/// All that the user of a window has chosen, without the window.
+/// The choices of a window's user. Independent of the window itself.
 class Session {
  public:
   /// @param once  stop after the last frame; otherwise the animation starts again
   Session(const Tracer& tracer, std::string methodName, std::unique_ptr<Denoiser> method, const HostView& view,
           const ViewConstants& viewConstants, const FrameRange& frames, bool once);
 
-  /// What to trace next; nothing while the session is frozen. Moves the animation on, unless it is paused or frozen.
-  /// @param evenFrozen  the frame is needed all the same
+  /// What to trace next; nullopt while the session is frozen. Advances the animation unless it is paused or frozen.
+  /// @param evenFrozen  request a frame although the session is frozen
   std::optional<Tracer::Request> nextRequest(bool evenFrozen = false);
 
   void chooseMethod(const std::string& name);
@@ -40,13 +40,13 @@ class Session {
   void chooseCamera(CameraMode mode);
   /// Move the free camera.
   void moveCamera(const CameraInput& input);
-  /// A setting of the method has changed.
+  /// To be called after a setting of the method has changed.
   void settingsChanged();
-  /// Jump half the animation ahead, or, with a free camera, to where the scene's camera stands.
+  /// Jump ahead by half the animation or, with a free camera, to the pose of the scene's camera.
   void cutCamera();
   void resetHistory() { reset_ = true; }
 
-  /// What has changed since the last call.
+  /// The largest change since the last call.
   GraphChange takeGraphChange();
 
   [[nodiscard]] const std::string& methodName() const { return methodName_; }
@@ -54,16 +54,16 @@ class Session {
   /// See `presetInUse`.
   [[nodiscard]] const std::optional<std::string>& preset() const { return preset_; }
   [[nodiscard]] const HostView& view() const { return view_; }
-  /// Of the flying camera, scene units a second.
+  /// Speed of the flying camera in scene units per second.
   [[nodiscard]] float flySpeed() const;
   [[nodiscard]] CameraMode cameraMode() const { return cameraMode_; }
   [[nodiscard]] int animationFrame() const { return animationFrame_; }
   [[nodiscard]] const FrameRange& frames() const { return frames_; }
 
   ViewConstants viewConstants;
-  bool paused = false;  ///< The animation stands still; tracing goes on.
+  bool paused = false;  ///< The animation stands still; tracing continues.
   bool frozen = false;  ///< Nothing is traced.
-  /// The user is dragging a setting: what takes time to make waits until it is let go.
+  /// The user is dragging a slider. Changes that need a new graph wait until the slider is released.
   bool dragging = false;
 
  private:

@@ -19,7 +19,7 @@ bool sameCamera(const render::View& a, const render::View& b) {
   return a.viewFromWorld == b.viewFromWorld && a.jitter == b.jitter;
 }
 
-/// Adds the direct light to the indirect, and leaves none.
+/// Adds the direct light to the indirect light and sets the direct light to 0.
 void moveDirect(Image& direct, Image& indirect) {
   std::ranges::transform(indirect.values(), direct.values(), indirect.values().begin(), std::plus<>());
   std::ranges::fill(direct.values(), 0.0F);
@@ -111,7 +111,7 @@ Reference Tracer::traceReference(const Request& request, const render::View& vie
   sampling.samples = options_.referenceSamples;
   sampling.bounces = options_.bounces;
   sampling.gbuffer = options_.gbuffer;
-  // Never the random numbers of the noisy frames: their seeds differ in the lowest bit.
+  // The lowest bit of the seed keeps the reference's random numbers apart from those of the noisy frames.
   sampling.seed = options_.seed * 2 + 1;
   sampling.firstSample = reference_.steps * options_.referenceSamples;
   sampling.threads = options_.threads;

@@ -18,53 +18,54 @@
 
 namespace walr::host {
 
-/// Makes the host's frames: a scene, its animation and a path tracer.
+/// Produces the host's frames from a scene, its animation and a path tracer.
 class Tracer {
  public:
   struct Options {
     std::filesystem::path scene;
-    std::filesystem::path sky;  ///< Equirectangular sky in place of the scene's; may be empty.
+    std::filesystem::path sky;  ///< Equirectangular sky that replaces the scene's; may be empty.
     fg::Extent extent;
     std::uint32_t samples = 1;           ///< Samples per pixel.
-    std::uint32_t referenceSamples = 1;  ///< Samples per pixel of one step of a reference.
+    std::uint32_t referenceSamples = 1;  ///< Samples per pixel that each frame adds to the reference.
     std::uint32_t bounces = 4;
     std::uint32_t seed = 0;
     double framesPerSecond = 24.0;
     std::string camera;   ///< Name of the camera or of its node; empty: the first.
-    bool jitter = false;  ///< Sample off the pixel centre, by `render::haltonJitter`.
+    bool jitter = false;  ///< Offset the sample position from the pixel centre by `render::haltonJitter`.
     render::GBufferMode gbuffer = render::GBufferMode::FirstHit;
-    bool denoiseDirect = false;  ///< Count the direct light among what is denoised, and leave none beside it.
+    /// Add the direct light to the indirect light, so that both are denoised. The direct light is then 0.
+    bool denoiseDirect = false;
     unsigned int threads = 0;
   };
 
   /// What to trace.
   struct Request {
-    int number = 0;               ///< Counts frames: picks the random numbers and the jitter.
-    double animationFrame = 0.0;  ///< Where the animation stands, in frames.
-    /// The camera, world to view space; nothing: the scene's.
+    int number = 0;               ///< Frame number: selects the random numbers and the jitter.
+    double animationFrame = 0.0;  ///< Time of the animation, in frames.
+    /// The camera, world to view space; nullopt: the scene's.
     std::optional<glm::mat4> view = std::nullopt;
-    bool cut = false;           ///< The camera jumps: nothing is carried over from the frame before.
-    bool resetHistory = false;  ///< Nothing is carried over, though the camera does not jump.
-    bool reference = false;     ///< With a reference: the mean of all since the picture last changed.
+    bool cut = false;           ///< Camera cut: nothing is carried over from the previous frame.
+    bool resetHistory = false;  ///< Nothing is carried over from the previous frame, without a camera cut.
+    bool reference = false;     ///< Add a reference: the mean of all samples since the image last changed.
   };
 
   /// @throws render::SceneError for a scene that cannot be rendered
   explicit Tracer(const Options& options);
 
-  /// What of the scene is not supported or had to be replaced.
+  /// See `render::Scene::warnings`.
   [[nodiscard]] const std::vector<std::string>& warnings() const { return scene_.warnings; }
-  /// Where the scene's camera stands in a frame of the animation: world to view space.
+  /// Pose of the scene's camera in a frame of the animation: world to view space.
   [[nodiscard]] glm::mat4 sceneCamera(double animationFrame) const;
-  /// Number of the animation's last frame; 0 for a scene that stands still.
+  /// Number of the animation's last frame; 0 for a static scene.
   [[nodiscard]] double lastAnimationFrame() const;
-  /// Centre and radius of a sphere around everything.
+  /// Centre (x, y, z) and radius (w) of a bounding sphere of the scene, in scene units.
   [[nodiscard]] glm::vec4 bounds() const;
 
-  /// Trace a frame. The frame before it is the one traced by the call before.
+  /// Trace a frame. Its previous frame is that of the previous call.
   Frame trace(const Request& request);
 
  private:
-  /// Sum of the references of one picture.
+  /// Sum of the reference samples of one image.
   struct Accumulation {
     double animationFrame = 0.0;
     render::View view;

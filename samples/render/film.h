@@ -18,10 +18,10 @@ struct SamplingSettings {
   std::uint32_t samples = 1;      ///< Samples per pixel, at least 1.
   std::uint32_t bounces = 4;      ///< See `tracePath`.
   std::uint32_t seed = 0;         ///< Frames of different seeds are independent.
-  std::uint32_t firstSample = 0;  ///< Number of the first path in each pixel's sequence; goes on from frame to frame.
+  std::uint32_t firstSample = 0;  ///< Index of the first path in each pixel's sequence, which continues over frames.
   Sampler::Kind sampler = Sampler::Kind::Sobol;
   GBufferMode gbuffer = GBufferMode::FirstHit;
-  unsigned int threads = 0;  ///< 0: one for every core. The result does not depend on it.
+  unsigned int threads = 0;  ///< Number of threads; 0: one per core. The result does not depend on it.
   /// See `forEachTile`.
   std::function<void(std::uint64_t)> pixelsDone = [](std::uint64_t) {};
 };

@@ -27,9 +27,9 @@ struct GBufferPixel {
 
 /// Which surface the G-buffer describes.
 enum class GBufferMode : std::uint8_t {
-  FirstHit,  ///< The first surface. Metals show no light.
-  /// Blended by material (Fu 2022): in a mirror the image of what it shows, as if that stood behind it; of a
-  /// glossy metal its own depth and normal, its albedo mixed with those of what it shows.
+  FirstHit,  ///< The first surface. Metals have no light.
+  /// Blended by material (Fu 2022). A mirror is replaced by the virtual image of the surface that it reflects. A glossy
+  /// metal keeps its own depth and normal, and its albedo is the mean of the albedos that it reflects.
   Material,
 };
 

@@ -9,7 +9,7 @@
 #include "samples/render/surface.h"
 #include "samples/render/world.h"
 
-/// What metals show: the classes of materials in Fu 2022, told by glTF's metallic and roughness.
+/// What metals show: the classes of materials in Fu 2022, which follow from glTF's metallic and roughness.
 namespace walr::render {
 
 /// The classes of surfaces that `GBufferMode::Material` distinguishes.

@@ -85,15 +85,15 @@ std::string describeWork(const std::string& file, double seconds, std::uint64_t 
   return text.str();
 }
 
-// One file of a frame: skipped where it is there already.
-// @param paths   that it takes
+// Renders one file of a frame, unless it exists.
+// @param paths   number of paths that the file needs, for the observer
 // @param render  writes the file; returns the number of rays it traced
 void renderFile(const fs::path& file, double paths, const RenderObserver& observer,
                 const std::function<std::uint64_t()>& render) {
   const std::string name = file.filename().string();
   if (fs::exists(file)) {
     observer.skipped(paths);
-    observer.fileDone(name + ": is there already");
+    observer.fileDone(name + ": already exists, skipped");
     return;
   }
   const auto start = std::chrono::steady_clock::now();

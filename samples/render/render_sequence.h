@@ -25,7 +25,7 @@ struct RenderOptions {
   std::uint32_t height = 180;
   std::uint32_t samples = 1;           ///< Samples per pixel of the noisy frames.
   std::uint32_t referenceSamples = 0;  ///< Samples per pixel of the references; 0: no references.
-  /// Frames that get a reference; nothing: all. The rest of them is left out.
+  /// Frames that get a reference; nullopt: all frames.
   std::optional<FrameRange> referenceFrames = {};
   ReferenceCoverage referenceCoverage = {};
   std::uint32_t bounces = 4;  ///< Surfaces after the first that reflect light.
@@ -34,34 +34,34 @@ struct RenderOptions {
   std::string camera;                                ///< Name of the camera or of its node; empty: the first camera.
   bool jitter = false;                               ///< Offset sample positions by `haltonJitter`.
   Sampler::Kind sampler = Sampler::Kind::BlueNoise;  ///< BlueNoise: Sobol if there are several samples per pixel.
-  unsigned int threads = 0;                          ///< 0: one for every core.
+  unsigned int threads = 0;                          ///< Number of threads; 0: one per core.
   DiffuseModel diffuseModel = DiffuseModel::Lambert;
 
   /// Whether a frame gets a reference.
   [[nodiscard]] bool hasReference(int frame) const;
   /// Number of files that are rendered.
   [[nodiscard]] std::size_t files() const;
-  /// Paths to trace for a noisy frame, whose G-buffer counts as one a pixel, for a reference, and for all files.
+  /// Paths to trace for a noisy frame, whose G-buffer counts as one per pixel; for a reference; and for all files.
   [[nodiscard]] double noisyPaths() const;
   [[nodiscard]] double referencePaths() const;
   [[nodiscard]] double paths() const;
 };
 
-/// What is told while rendering goes on.
+/// Callbacks that report the progress of rendering.
 struct RenderObserver {
-  /// Paths were traced since the last call; or need not be, because the file is there already. By one thread at a time.
+  /// Number of paths traced since the last call. Called by one thread at a time.
   std::function<void(double)> traced = [](double) {};
+  /// Number of paths that need not be traced, because their file exists already.
   std::function<void(double)> skipped = [](double) {};
-  /// A file of a frame is there, rendered or found; with one line about it. Called `RenderOptions::files` times.
+  /// A file was rendered, or exists already; with one line about it. Called `RenderOptions::files` times.
   std::function<void(const std::string&)> fileDone = [](const std::string&) {};
-  /// What of the scene is not supported or had to be replaced.
+  /// See `Scene::warnings`.
   std::function<void(const std::string&)> warning = [](const std::string&) {};
 };
 
 /// Render frames of a scene's camera animation to `output` in the project's layout (samples/docs/sequences.md):
-/// noisy_FFFF.exr and, where asked for, ref_FFFF.exr; frame F shows the time F / framesPerSecond. Files that are there
-/// already are skipped, so that an interrupted run goes on where it was; the settings are kept in `render.json` beside
-/// them.
+/// noisy_FFFF.exr and, if requested, ref_FFFF.exr. Frame F shows the time F / framesPerSecond. Existing files are
+/// skipped, so that an interrupted run can be resumed. The settings are stored in `render.json` in the same folder.
 /// @throws SceneError  if the scene cannot be rendered
 /// @throws InputError  if `output` holds frames of other settings
 /// @throws OutputError if a file cannot be written

@@ -11,7 +11,7 @@ namespace walr::render {
 
 void forEachTile(std::uint32_t width, std::uint32_t height, unsigned int threads,
                  const std::function<void(const Tile&)>& work, const std::function<void(std::uint64_t)>& pixelsDone) {
-  // Small enough to share out evenly, large enough to be worth the hand-over.
+  // Small enough to balance the load of threads, large enough to make the cost of scheduling negligible.
   constexpr std::uint32_t kSide = 16;
   const std::uint32_t columns = (width + kSide - 1) / kSide;
   const std::uint32_t rows = (height + kSide - 1) / kSide;

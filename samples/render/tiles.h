@@ -13,10 +13,10 @@ struct Tile {
   std::uint32_t y1 = 0;
 };
 
-/// Cut an image into tiles and call `work` for every one, on several threads at once. Returns when all are done; the
-/// first exception that `work` throws ends the work and is thrown on.
-/// @param threads     0: one for every core
-/// @param pixelsDone  told after every tile how many pixels it has; by one thread at a time
+/// Divide an image into tiles and call `work` for every tile, on several threads. Returns when all tiles are done. The
+/// first exception of `work` stops the work and is rethrown.
+/// @param threads     number of threads; 0: one per core
+/// @param pixelsDone  called after every tile with its number of pixels, by one thread at a time
 void forEachTile(std::uint32_t width, std::uint32_t height, unsigned int threads,
                  const std::function<void(const Tile&)>& work, const std::function<void(std::uint64_t)>& pixelsDone);
 

@@ -64,11 +64,11 @@ void requireChannels(const ExrReader& file, const RecognizedLayout& layout, bool
 /// The same for a reference, which must hold the indirect light only.
 void requireReferenceChannels(const ExrReader& file, const RecognizedLayout& layout);
 
-/// Read the planes needed into the frame's images, and list the channels with values that are not finite.
+/// Read the required planes into the frame's images; add channels with non-finite values to `Frame::nonFinite`.
 void readFrame(ExrReader& file, const RecognizedLayout& layout, bool composite, Frame& frame);
 
-/// Read a reference; adds to `nonFinite`. Its half is the indirect light's plane with an A after its name, where the
-/// file has it: `DiffIndA.{R,G,B}` or `IndirectA.{R,G,B}`.
+/// Read a reference, and add its channels with non-finite values to `nonFinite`. The mean of one half of the samples is
+/// optional: `DiffIndA.{R,G,B}` or `IndirectA.{R,G,B}`.
 Reference readReference(ExrReader& file, const RecognizedLayout& layout, bool composite,
                         std::vector<NonFiniteChannel>& nonFinite);
 

@@ -117,7 +117,7 @@ TEST(RenderSequence, ResumesAnInterruptedRun) {
   const std::vector<std::string> lines = render(options);
   int skipped = 0;
   for (const std::string& line : lines) {
-    skipped += line.find("is there already") != std::string::npos ? 1 : 0;
+    skipped += line.find("already exists") != std::string::npos ? 1 : 0;
   }
   EXPECT_EQ(skipped, 3);
   EXPECT_EQ(fs::last_write_time(kept), before);

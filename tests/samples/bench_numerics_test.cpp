@@ -24,7 +24,7 @@ TEST(HardCases, NoiseHasTheTruthAsItsMean) {
       difference += sample - truth;
       truthSquared += truth * truth;
     }
-    // A sample's deviation is its mean; five of them. Fireflies are out of the ordinary on purpose.
+    // The standard deviation of a sample is its mean; the tolerance is five of them. Fireflies are outliers on purpose.
     if (finite && hardCase.name.find("firefly") == std::string::npos) {
       EXPECT_LE(std::abs(difference), 5.0 * std::sqrt(truthSquared));
     }
@@ -42,8 +42,8 @@ TEST(Numerics, TellStableFromUnstableArithmetic) {
       return result.setting.storage == storage && result.hardCase == hardCase;
     });
   };
-  // A mean over all of 27 x 27 samples would leave 1 / 27 of the noise; at the borders, half or a quarter of them
-  // remain.
+  // A mean over all 27 x 27 samples would leave 1 / 27 of the noise. At the borders the window contains only a half or
+  // a quarter of the samples.
   for (const char* name : {"flat wall", "normals vary by 0.001", "radiance of 10,000", "depth of 1,000,000"}) {
     EXPECT_GT(find("centred16", name).error, 1.0 / 27.0) << name;
     EXPECT_LT(find("centred16", name).error, 4.0 / 27.0) << name;
@@ -65,7 +65,7 @@ TEST(Numerics, TellStableFromUnstableArithmetic) {
   constexpr std::uint64_t kPixels = std::uint64_t{kHardCaseExtent.width} * kHardCaseExtent.height;
   EXPECT_EQ(counted("centred16", "flat wall", "regularised-fits"), kPixels) << "features that do not vary";
   EXPECT_EQ(counted("centred16", "normals vary by 0.3", "regularised-fits"), 0U);
-  // Eleven bits hold E[xx] - E[x]^2 of such normals no better than to a few of its own size.
+  // With eleven bits, the error of E[xx] - E[x]^2 for such normals is a few times its value.
   EXPECT_GT(find("raw11", "normals vary by 0.1").error, 100.0);
   EXPECT_TRUE(device.takeMessages().empty());
   BenchReport report;
@@ -73,9 +73,9 @@ TEST(Numerics, TellStableFromUnstableArithmetic) {
   EXPECT_EQ(test::schemaTroubles(report), "");
 }
 
-/// A denoiser may leave noise, but must not make errors that were not there, nor values that are no light.
-// A pixel alone in the sky comes out as it went in, but that `walr` packs light: the mean over time errs by less than a
-// step of 7 bits, that is, 2^-6 of the brightest channel, and the filtered colour by one of 9.
+/// A denoiser may leave noise, but must not add errors or produce values that are no light.
+// A pixel alone in the sky must be returned unchanged, except that `walr` stores packed light: the mean over time
+// differs by less than one step of 7 bits (2^-6 of the brightest channel), and the filtered colour by one of 9 bits.
 constexpr double kPackedRoundoff = 0x1p-6 + 0x1p-8;
 
 TEST(MethodHardCases, NothingComesOutWorseThanItWentIn) {
@@ -93,7 +93,7 @@ TEST(MethodHardCases, NothingComesOutWorseThanItWentIn) {
     if (result.variant == "none") continue;
     EXPECT_EQ(result.nonFiniteOut, 0U);
     EXPECT_EQ(result.negativeOut, 0U);
-    // Relative to the truth, beside which the noisy light is at most 1 and its own error.
+    // Errors are relative to the truth, so the noisy light is at most 1 plus its own error.
     const double rounding = result.variant == "walr" ? kPackedRoundoff * (1.0 + noisy.error) : 0.0;
     EXPECT_LE(result.error, noisy.error + rounding);
   }

@@ -27,8 +27,8 @@ class BenchProgramTest : public testing::Test {
     test::SyntheticSequence(input, 40, 32).write(0, 5);
   }
 
-  /// `walr bench` under the validation layer, with one repetition where the arguments do not ask for more, and without
-  /// a page where they do not ask for one.
+  /// Run `walr bench` under the validation layer: with one repetition unless the arguments set another number, and
+  /// without report.html unless requested.
   [[nodiscard]] ProcessResult bench(const fs::path& output, std::vector<std::string> more, bool page = false) const {
     std::vector<std::string> arguments = {WALR_PROGRAM, "bench",         "--sequences", input.string(),
                                           "--output",   output.string(), "--validate"};
@@ -70,9 +70,9 @@ TEST_F(BenchProgramTest, MeasuresMethodsBesideEachOther) {
   EXPECT_FALSE(data["device"]["driver"].get<std::string>().empty());
   EXPECT_GT(data["device"]["copy_bytes_per_second"], 0.0);
   EXPECT_EQ(data["vmaf"]["missing_because"].is_null(), data["vmaf"]["by"].is_string());
-  ASSERT_EQ(data["variants"].size(), 6U);  // walr, two methods, three ways of replacement.
+  ASSERT_EQ(data["variants"].size(), 6U);  // walr, two methods, and three values of the sweep `replacement`.
   EXPECT_EQ(data["variants"][0]["name"], "walr");
-  // The sweep is one over the preset `robust`, whose own choice is the default.
+  // The sweep changes the preset `robust`, whose own value is the default.
   EXPECT_EQ(data["variants"][3]["name"], "replacement=uniform");
   for (const std::size_t i : {3, 4, 5}) EXPECT_EQ(data["variants"][i]["is_default"], i == 3) << i;
   const json walr = run(data, "walr");
@@ -81,7 +81,7 @@ TEST_F(BenchProgramTest, MeasuresMethodsBesideEachOther) {
   EXPECT_EQ(walr["ratio"]["median"], 1.0);
   ASSERT_EQ(walr["frames"].size(), 6U);
   EXPECT_TRUE(walr["frames"][0]["flicker"].is_null()) << "the first frame has none before it";
-  // The reference is a constant, which a denoiser finds far better than one path a pixel does.
+  // The reference is constant, so a denoiser's error must be far below that of one sample per pixel.
   EXPECT_LT(walr["mean_after_4"]["rmse"].get<double>(), 0.25 * run(data, "none")["mean_after_4"]["rmse"].get<double>());
   EXPECT_LT(walr["mean_after_4"]["flicker"].get<double>(), run(data, "none")["mean_after_4"]["flicker"].get<double>());
   EXPECT_GT(walr["passes"].size(), 3U);
@@ -165,7 +165,7 @@ TEST_F(BenchProgramTest, TimesByContent) {
   EXPECT_NE(test::readText(first / "report.html").find("Time by content"), std::string::npos);
 }
 
-/// References are dear: frames without one are run all the same, and have no errors.
+/// References are expensive. Frames without one are run as well, but have no errors.
 TEST_F(BenchProgramTest, MeasuresTheFramesThatHaveAReference) {
   expectSuccess(bench(first, {"--methods", "accumulate"}));
   const json whole = run(report(first), "accumulate");
@@ -184,7 +184,7 @@ TEST_F(BenchProgramTest, MeasuresTheFramesThatHaveAReference) {
   EXPECT_TRUE(fs::exists(second / "report.html"));
 }
 
-/// The same method under two names differs from itself by less than the spread that is reported.
+/// The times of one method under two names differ by less than the reported spread.
 TEST_F(BenchProgramTest, AMethodIsAsFastAsItself) {
   expectSuccess(bench(first, {"--methods", "walr", "--variant", "again=walr", "--repeat", "5"}));
   const json data = report(first);
@@ -194,8 +194,8 @@ TEST_F(BenchProgramTest, AMethodIsAsFastAsItself) {
   EXPECT_LE(std::abs(ratio["median"].get<double>() - 1.0), ratio["p95"].get<double>() - ratio["p5"].get<double>());
 }
 
-/// Two runs do not contradict each other: no pair of methods whose spreads lie apart changes places, and medians tell
-/// a part of a method from the whole.
+/// Two runs agree: methods whose spreads do not overlap have the same order in both, and the median of a part of a
+/// method is below that of the whole.
 TEST_F(BenchProgramTest, TwoRunsAgreeInRanking) {
   const std::vector<std::string> methods = {"none", "accumulate", "walr", "joint_bilateral", "svgf", "flr"};
   std::string list;

@@ -27,7 +27,8 @@ TEST(ResponseScene, NoiseHasTheTruthAsItsMean) {
     truth += frame.truth.pixel(i)[0];
     truthSquared += std::pow(frame.truth.pixel(i)[0], 2);
   }
-  // A sample of mean 1 is 4 (1/2 + u) with a probability of 1/4: its variance is 4 (1 + 1/12) - 1. Five deviations.
+  // A sample of mean 1 is 4 (1/2 + u) with a probability of 1/4: its variance is 4 (1 + 1/12) - 1. The tolerance is
+  // five standard deviations.
   EXPECT_NEAR(noisy, truth, 5.0 * std::sqrt(truthSquared * (4.0 * 13.0 / 12.0 - 1.0)));
 }
 
@@ -68,12 +69,12 @@ TEST(Contents, HoldWhatTheirNamesSay) {
   const auto cuts = std::ranges::find(contents(), std::string_view("cuts"), &Content::name);
   const Image before = cuts->frame(kPicture, 8).frame.depth;
   const Image after = cuts->frame(kPicture, 9).frame.depth;
-  // Even where the slab, at half the wall's depth, leaves or comes.
+  // This holds even where the slab, at half the wall's depth, arrives or leaves.
   for (std::size_t i = 0; i < before.pixelCount(); ++i) EXPECT_GT(after.pixel(i)[0], 1.2F * before.pixel(i)[0]);
 }
 
-/// Age of a moving Gaussian that is nearest to an exponential mean over it. The squared distance is least where the
-/// product is largest, which is that of two Gaussians, by ages.
+/// The age at which a moving Gaussian is nearest to its exponential mean over time. The squared distance is smallest
+/// where the product of the two is largest; the product is a sum over ages of products of two Gaussians.
 double lagOfExponentialMean(double frames) {
   double best = 0.0;
   double largest = 0.0;
@@ -103,7 +104,7 @@ TEST(ResponseScene, ACutShowsAnotherPlaceAndSaysSoIfAsked) {
   }
 }
 
-/// What is measured of methods whose answer is known.
+/// Measurements of methods whose response is known.
 TEST(ResponseTest, OfMethodsWithAKnownAnswer) {
   GpuDevice device({.device = {}, .validation = true});
   const std::vector<Variant> variants = {parseVariant("none=none"),
@@ -112,7 +113,8 @@ TEST(ResponseTest, OfMethodsWithAKnownAnswer) {
                                                       "accumulation.antilag=on")};
   const std::vector<Response> found = responses(device, variants);
   ASSERT_EQ(found.size(), 3U);
-  // Without a memory nothing is left of the light, and every age has the same error; five deviations of the mean noise.
+  // Without history no old light remains, and every age has the same error. The tolerance is five standard deviations
+  // of the mean noise.
   const Response& none = found[0];
   EXPECT_NEAR(none.lightLeft.front(), 0.0, 0.05);
   EXPECT_EQ(none.lightFrames, 0);
@@ -130,20 +132,21 @@ TEST(ResponseTest, OfMethodsWithAKnownAnswer) {
   EXPECT_GT(mean.recoveryFrames.value(), 1);
   EXPECT_NEAR(none.lightLag, 0.0, 0.3);
   EXPECT_NEAR(mean.lightLag, lagOfExponentialMean(8.0), 0.3);
-  // Nothing of the old picture is left: it is void, or another surface. Without a memory, none can be; noise remains.
+  // Nothing of the old image remains: its history is reset, or rejected as another surface. Without history only noise
+  // remains.
   for (const Response* response : {&none, &mean}) {
     EXPECT_NEAR(response->cut.left, 0.0, 0.05);
     EXPECT_NEAR(response->untoldCut.left, 0.0, 0.05);
   }
   EXPECT_DOUBLE_EQ(mean.cut.rmse, none.cut.rmse) << "one sample is its own mean";
-  // A fall to a tenth is beyond doubt: from the second frame on, history counts as one sample, and half of what is left
-  // goes with each frame.
+  // A fall to a tenth sets the antilag factor to 1: from the second frame on, history counts as one sample, so each
+  // frame halves the remaining light.
   const Response& alert = found[2];
   EXPECT_NEAR(alert.lightLeft[0], 7.0 / 8.0, 0.02);
   EXPECT_NEAR(alert.lightLeft[1], 7.0 / 16.0, 0.05);
   EXPECT_LE(alert.lightFrames.value(), 5);
   EXPECT_LT(alert.lightLag, 0.6 * mean.lightLag);
-  EXPECT_NEAR(alert.settled, mean.settled, 0.05 * mean.settled) << "steady light is not doubted";
+  EXPECT_NEAR(alert.settled, mean.settled, 0.05 * mean.settled) << "antilag must not shorten history in constant light";
   EXPECT_TRUE(device.takeMessages().empty());
   BenchReport report;
   report.responses = found;

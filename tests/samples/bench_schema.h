@@ -9,7 +9,7 @@
 
 namespace walr::test {
 
-/// What the schema of `bench.json` finds wrong with a report; empty where nothing.
+/// Violations of the schema of `bench.json` in a report; empty if there are none.
 inline std::string schemaTroubles(BenchReport report) {
   report.repetitions = 1;
   const TemporaryDirectory directory;

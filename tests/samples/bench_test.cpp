@@ -142,7 +142,7 @@ TEST(Sweeps, HoldSettingsThatExist) {
     for (const Variant& variant : sweepVariants(sweep.name)) {
       SCOPED_TRACE(variant.name);
       EXPECT_TRUE(names.insert(variant.name).second);
-      // Declares and compiles the whole graph, so that combinations of settings that cannot be are found, too.
+      // Declares and compiles the whole graph, so that invalid combinations of settings are found, too.
       EXPECT_GT(planCosts(variant, {64, 48}, {}).bytesReadPerPixel, 0.0);
     }
   }
@@ -162,7 +162,7 @@ TEST(Sweeps, TellTheDefaultFromOtherSettings) {
 }
 
 TEST(PlanCostsTest, OfACopyAreItsTexels) {
-  // Reads and writes one RGBA16F texel a pixel, and keeps nothing.
+  // Reads and writes one RGBA16F texel per pixel, and has no history.
   const PlanCosts costs = planCosts(parseMethods("none").front(), {64, 48}, {});
   EXPECT_EQ(costs.bytesReadPerPixel, 8.0);
   EXPECT_EQ(costs.bytesWrittenPerPixel, 8.0);
@@ -176,7 +176,7 @@ TEST(PlanCostsTest, TapsAreTheWindowsOfTheStages) {
   constexpr double kAntialiasing = 16 + 1 + 3 * 3;  // Bicubic history, the pixel itself, the clipping's neighbourhood.
   EXPECT_EQ(taps("none"), 1.0);
   EXPECT_EQ(taps("accumulate"), 1.0 + 4.0 + 1.0);  // Sample, bilinear history, copy.
-  // 33 x 33 of its default radius; 7 x 7 of its clipping.
+  // 33 x 33 for its default radius, 7 x 7 for its clipping.
   EXPECT_EQ(taps("joint_bilateral"), 33.0 * 33.0 + 16 + 1 + 7 * 7);
   EXPECT_EQ(taps("bmfr"), 5.0 + 1.0 + 5.0 + kAntialiasing);
   // An iteration of WALR is 3 x 3 taps (Meunier & Harada 2022, 3.2).
@@ -273,7 +273,7 @@ TEST(SizeTimesTest, SaysWhatDoesNotRun) {
   const GpuDevice device({.device = {}, .validation = true});
   const std::vector<Variant> variants = {parseVariant("none=none"), parseVariant("fine=flr,regression.factor=1")};
   int frames = 0;
-  // A cell a pixel takes 128 bytes in a buffer, of which Vulkan guarantees 2^27.
+  // One cell per pixel takes 128 bytes in a buffer; Vulkan guarantees buffers of 2^27 bytes only.
   const SizeTimes times = sizeTimes(device, variants, {1025, 1024}, 1, [&] { ++frames; });
   EXPECT_EQ(frames, 2 * static_cast<int>(kFramesPerRepetition));
   ASSERT_EQ(times.timings.size(), 2U);

@@ -24,8 +24,8 @@ std::string readText(const fs::path& file) {
 
 class VmafTest : public testing::Test {
  protected:
-  /// A program that stands in for ffmpeg: tells the options that it is given, keeps what it is called with, and leaves
-  /// a log of two frames at the path that a script's escapes of `log_path` give.
+  /// A substitute for ffmpeg. It prints the given help text, records its arguments, and writes a log of two frames to
+  /// the path that results from the escaped `log_path`.
   [[nodiscard]] std::string standIn(const std::string& modelOption) const {
     const fs::path program = folder.path() / "stand-in";
     std::ofstream(program)
@@ -79,7 +79,8 @@ TEST_F(VmafTest, AFailureIsNamed) {
   }
 }
 
-/// The option changed its name and kind with libvmaf 2; a path may hold what parts options and filters.
+/// The option changed its name and format with libvmaf 2. A path may contain characters that separate options or
+/// filters.
 TEST_F(VmafTest, NamesTheModelAsTheVersionWants) {
   ASSERT_TRUE(VmafTool::find(standIn("model_path"), "a:b,c", whyNot)) << whyNot;
   EXPECT_NE(calls().find(R"(:model_path=a\\:b\,c )"), std::string::npos) << calls();
@@ -103,15 +104,15 @@ TEST_F(VmafTest, ClipsHoldWhatADisplayShows) {
   EXPECT_FALSE(fs::exists(file)) << "a clip's file goes with it";
 }
 
-/// Figures of the real one: nothing lost scores almost 100, a blur loses more than half of it (a blur of one pixel's
-/// deviation 42 on natural clips by libvmaf 3), and noise of a tenth hardly anything.
+/// Scores of the real libvmaf: identical clips score almost 100, a blurred clip less than half of that (42 on natural
+/// clips with a blur of one pixel's standard deviation, libvmaf 3), and noise of 0.1 changes the score little.
 TEST_F(VmafTest, ScoresAsLibvmafDoes) {
   const char* program = std::getenv("WALR_FFMPEG");
   std::optional<VmafTool> tool;
   for (const fs::path& model : {fs::path(), fs::path(WALR_SHARED_DATA) / "vmaf" / "vmaf_v0.6.1.pkl"}) {
     if (!tool) tool = VmafTool::find(program == nullptr ? "ffmpeg" : program, model, whyNot);
   }
-  if (!tool) GTEST_SKIP() << whyNot << " (WALR_FFMPEG names one for this test)";
+  if (!tool) GTEST_SKIP() << whyNot << " (set WALR_FFMPEG to a program for this test)";
   const auto frame = [](int number, int blur, double noise) {
     Image image(kExtent.width, kExtent.height, 3);
     std::uint32_t state = 1;

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Fails where a JSON file is not what a schema says, or where the schema would let an unknown field pass.
+"""Fails if a JSON file does not conform to a schema, or if the schema would accept an unknown member.
 
     check_json.py SCHEMA FILE
 
@@ -14,7 +14,7 @@ from jsonschema import Draft202012Validator
 
 
 def undocumented(schema, where=""):
-    """Fields without a description, numbers without a unit."""
+    """Members of the schema without a description, and numbers without a unit."""
     if isinstance(schema, list):
         for item in schema:
             yield from undocumented(item, where)
@@ -33,7 +33,7 @@ def undocumented(schema, where=""):
 
 
 def objects(document, where=()):
-    """Path of one object of every kind; lists of the same kind count once."""
+    """Path of one object of every kind; of a list, only one element counts."""
     if isinstance(document, dict):
         yield where
         for key, value in document.items():

@@ -48,7 +48,7 @@ TEST(PackedFrame, ComponentsThatAnImageLacksAreZero) {
 TEST(PackedFrame, ObjectNumbersAreNoneBelowZeroAndWhereTheyAreNoNumbers) {
   Frame frame;
   EXPECT_TRUE(packFrame(frame).objectId.empty());
-  constexpr float kMost = 16777216.0F;  // The largest whole number that a float tells from those around.
+  constexpr float kMost = 16777216.0F;  // Up to this number, floats represent all whole numbers.
   constexpr std::uint32_t kNone = 0xffffffff;
   frame.objectId = Image(5, 1, 1);
   std::ranges::copy(std::array{0.0F, kMost, -1.0F, kNan, std::numeric_limits<float>::infinity()},
@@ -139,7 +139,7 @@ TEST_F(FrameOutputTest, LightsPicturesByTheReferenceWhenAsked) {
 TEST_F(FrameOutputTest, ExposesPicturesAlikeUntilACameraCut) {
   options.png = true;
   FrameWriter writer(options);
-  // Brightness of the result as it is shown, for light that is so many times that of the first frame.
+  // Displayed brightness of the result, for light that is a multiple of that of the first frame.
   const auto shown = [&](int number, float scale, bool cut) {
     denoised.frame.number = number;
     denoised.frame.resetHistory = cut;
@@ -285,7 +285,7 @@ TEST(Progress, TellsTheRemainingTimeByWork) {
   progress.skipped(40.0);
   progress.advance(start + 20s);
   progress.worked(90.0, start + 50s);
-  // The last file ends it, however the work was estimated.
+  // The last file completes the bar, whatever the estimate of the work was.
   progress.advance(start + 60s);
   EXPECT_EQ(stream.str(),
             "file 1 of 3, 4:00 left\nfile 2 of 3, 6:40 left\nfile 2 of 3, 0:55 left\nfile 3 of 3, 0:00 left\n");

@@ -1,4 +1,4 @@
-// Frames on a device, one at a time and several at once.
+// `GpuDenoiser` with one and with several frames in flight, and the file of compiled pipelines.
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
@@ -31,7 +31,7 @@ class GpuDenoiserTest : public testing::Test {
   GpuDevice gpu{{.device = {}, .validation = true}};
 };
 
-/// The wall under light that is another in each frame, with a camera cut among them.
+/// Frames of the wall, each with different light, one of them after a camera cut.
 std::vector<PackedFrame> frames() {
   std::vector<PackedFrame> frames;
   for (int number = 0; number < 7; ++number) {
@@ -150,7 +150,7 @@ TEST(PipelineCacheFile, IsWrittenWhereAskedForAndReadAtTheNextStart) {
   EXPECT_GT(loadedBytes(), 0U);
 }
 
-// A cache that cannot be written is no reason to fail.
+// A cache that cannot be written must not be an error.
 TEST(PipelineCacheFile, MayBeImpossible) {
   const Environment xdg("XDG_CACHE_HOME", "/dev/null/no/folder");
   const GpuDevice gpu({.device = {}, .validation = false, .keepPipelines = true});

@@ -17,7 +17,7 @@
 #include "tests/samples/process.h"
 #include "tests/samples/temporary_directory.h"
 
-/// `walr graph`: what it prints is read back, by programs that are not ours where there are any.
+/// Reads back the output of `walr graph`, with independent programs where they exist.
 namespace walr {
 namespace {
 
@@ -66,7 +66,7 @@ TEST(GraphCommand, JsonIsReadBackAsThePlan) {
   }
 }
 
-/// Memory figures computed once more from the listed textures and buffers, by their definitions.
+/// Recomputes the memory totals from the listed textures and buffers by their definitions.
 TEST(GraphCommand, JsonReportsItsMemoryRightly) {
   for (const std::string& method : denoiserNames()) {
     const json plan = json::parse(printed({"--json", "--method", method}));
@@ -105,7 +105,7 @@ TEST(GraphCommand, JsonReportsItsMemoryRightly) {
 }
 
 TEST(GraphCommand, JsonReportsItsTrafficRightly) {
-  // Input and output of eight bytes a pixel each.
+  // Input and output have eight bytes per pixel each.
   EXPECT_EQ(json::parse(printed({"--json", "--method", "none"}))["traffic"]["bytes_per_pixel"], 16.0);
   const json plan = json::parse(printed({"--json"}));
   const json& traffic = plan["traffic"];

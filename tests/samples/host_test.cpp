@@ -1,4 +1,5 @@
-// The sample host without a window: its frame on a device under synchronization validation, against the processor.
+// The sample host without a window: runs its frame on a device under synchronization validation, and compares the
+// result with that of the CPU.
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
@@ -33,7 +34,7 @@ namespace walr::host {
 namespace {
 
 constexpr fg::Extent kExtent{72, 40};
-// The camera sets off in frame 4; the picture's objects stand still.
+// The camera starts to move in frame 4; the visible objects stand still.
 constexpr FrameRange kFrames{2, 7};
 
 Tracer::Options tracing(const std::string& scene = "box.gltf") {
@@ -69,7 +70,7 @@ Renderer::Options readAll() {
   return options;
 }
 
-// The frames as the tracer makes them, in the precision of the textures.
+// The traced frames in the precision of the textures.
 std::map<int, Frame> tracedFrames() {
   Tracer tracer(tracing());
   std::map<int, Frame> frames;
@@ -88,7 +89,8 @@ std::map<int, Frame> tracedFrames() {
   return frames;
 }
 
-// One unit in the last place of a half float: what storing may round by, in whichever direction the device rounds.
+// One unit in the last place of a half float: the largest rounding error of a store, whatever the device's rounding
+// mode.
 float halfStep(float value) {
   constexpr float kSmallest = 0x1p-24F;
   return std::max(std::abs(value) * 0x1p-10F, kSmallest);
@@ -102,7 +104,7 @@ void expectToneMapped(const RenderedFrame& frame, const Image& lit) {
   for (std::size_t i = 0; i < frame.display.size(); ++i) {
     for (int c = 0; c < 3; ++c) {
       const float expected = 255.0F * encodeSrgb(toneMap(lit.pixel(i)[static_cast<std::size_t>(c)]));
-      // Rounding to a byte, and half a step where the device's power function is a little off.
+      // The error of rounding to a byte, and half a step for an imprecise power function of the device.
       ASSERT_NEAR(static_cast<float>(channel(frame.display[i], c)), expected, 1.0F) << "pixel " << i;
     }
   }
@@ -212,7 +214,7 @@ TEST_F(HostTest, TextureViewShowsValuesScaledAndShifted) {
     for (std::size_t i = 0; i < frame.display.size(); ++i) {
       for (int c = 0; c < 3; ++c) {
         const float expected = 255.0F * (0.5F * traced.normal.pixel(i)[static_cast<std::size_t>(c)] + 0.5F);
-        // Rounding to a byte, and that of the normal to a half float.
+        // The errors of rounding to a byte, and of rounding the normal to a half float.
         ASSERT_NEAR(static_cast<float>(channel(frame.display[i], c)), expected, 0.6F);
       }
     }
@@ -229,7 +231,7 @@ TEST_F(HostTest, UnknownTextureIsNamedWithThoseThereAre) {
   }
 }
 
-/// A window's frame without the window.
+/// Runs a window's frame without the window.
 class LiveFrameTest : public HostTest {
  protected:
   void record() {
@@ -260,7 +262,7 @@ TEST_F(LiveFrameTest, AConstantChangesWithoutAnythingMadeAndHistoryGrows) {
   for (int i = 0; i < 3; ++i) record();
   ASSERT_FALSE(ages().empty());
   EXPECT_EQ(ages(), all(3));
-  // The device's functions may be counted: nothing but the tests writes to the table.
+  // The function table may be replaced by one that counts calls, because only tests write to it.
   auto& context = const_cast<fg::vk::DeviceContext&>(gpu.device().context());
   const fg::vk::DeviceFunctions real = context.functions;
   fg::test::hookCreation(context);
@@ -275,7 +277,7 @@ TEST_F(LiveFrameTest, AConstantChangesWithoutAnythingMadeAndHistoryGrows) {
   EXPECT_EQ(ages(), all(6));
 }
 
-// Frames of the graph before are in flight all the while.
+// Frames of the previous graph are in flight at every change.
 TEST_F(LiveFrameTest, AnotherGraphTakesOverBetweenFrames) {
   const std::unique_ptr<Denoiser> method = makeDenoiser("walr");
   live.declare(*method, {}, LiveFrame::Start::FromHistory);
@@ -283,7 +285,7 @@ TEST_F(LiveFrameTest, AnotherGraphTakesOverBetweenFrames) {
     for (int i = 0; i < 2; ++i) record();
     const HostView view{HostView::Kind::Texture, texture};
     EXPECT_FALSE(live.update(*method, view));
-    // The second finds a graph that has recorded nothing.
+    // The second call replaces a graph that has recorded no frame.
     live.declare(*method, {HostView::Kind::Noisy}, LiveFrame::Start::FromHistory);
     live.declare(*method, view, LiveFrame::Start::FromHistory);
   }
@@ -335,8 +337,9 @@ TEST(Tracer, ReferencesAddUpWhileNothingMoves) {
   for (request.number = 1; request.number < 16; ++request.number) {
     frame = tracer.trace(request);
   }
-  // One path against sixteen, each beside the noise of 64: (1 + 1/64) / (1/16 + 1/64) = 13 for independent numbers,
-  // more for Sobol points. The relative spread of two such means is below a third.
+  // Ratio of the variance of one sample to that of sixteen, each compared with a reference of 64 samples:
+  // (1 + 1/64) / (1/16 + 1/64) = 13 for independent random numbers, more for Sobol points. The relative spread of two
+  // such means is below a third.
   EXPECT_GT(first / meanSquaredDifference(frame.reference->indirect, converged), 8.0);
   request.animationFrame = 9.0;
   const double moved = meanSquaredDifference(tracer.trace(request).reference->indirect, converged);
@@ -390,7 +393,7 @@ std::filesystem::path boxWithMetal(const test::TemporaryDirectory& folder, const
   return file;
 }
 
-/// Root mean square error, tone-mapped, of the light that the masked pixels show.
+/// Root mean square error after the tone map over the masked pixels.
 double shownError(const Image& indirect, const Frame& frame, const std::vector<bool>& mask) {
   double sum = 0.0;
   int count = 0;
@@ -409,7 +412,7 @@ double shownError(const Image& indirect, const Frame& frame, const std::vector<b
   return std::sqrt(sum / count);
 }
 
-/// Pixels of a metal that show something else.
+/// Pixels of a metal in which another surface is reflected.
 std::vector<bool> metalMask(const Frame& own, const Frame& shown) {
   std::vector<bool> metal(shown.albedo.pixelCount());
   for (std::size_t i = 0; i < metal.size(); ++i) {
@@ -418,7 +421,7 @@ std::vector<bool> metalMask(const Frame& own, const Frame& shown) {
   return metal;
 }
 
-/// What SVGF makes of some frames by material, and the last of these.
+/// SVGF's result for some frames with a G-buffer by material, and the last of these frames.
 struct DenoisedMetal {
   Frame own;
   Frame shown;
@@ -441,8 +444,8 @@ DenoisedMetal denoiseMetal(const GpuDevice& gpu, Tracer::Options options) {
   return result;
 }
 
-// Behind a mirror the denoiser gets depth and albedo of what it shows, which lies farther than the mirror, and takes
-// the noise away there, too: half of it is what four paths a pixel would leave.
+// In a mirror the denoiser gets depth and albedo of the reflected surface, which lies farther away than the mirror, and
+// must remove noise there, too: half of the noise is what four samples per pixel would leave.
 TEST_F(HostTest, WhatAMirrorShowsIsDenoised) {
   const test::TemporaryDirectory folder;
   Tracer::Options options = tracing();
@@ -459,7 +462,7 @@ TEST_F(HostTest, WhatAMirrorShowsIsDenoised) {
             0.5 * shownError(result.shown.indirect, result.shown, mirror));
 }
 
-// A glossy metal keeps its own guides; its light is that of what it shows, over the albedos of that.
+// A glossy metal keeps its own guides. Its light is the reflected radiance divided by the reflected albedos.
 TEST_F(HostTest, AGlossyMetalIsDenoisedOverTheAlbedosThatItShows) {
   const test::TemporaryDirectory folder;
   Tracer::Options options = tracing();
@@ -497,7 +500,7 @@ TEST(FreeCamera, OrbitKeepsItsTargetInTheMiddle) {
   EXPECT_GT(glm::distance(camera.position(), glm::vec3(0, 1, 5)), 1.0F);
   camera.orbit({.zoom = 1.0F});
   EXPECT_NEAR(glm::distance(camera.position(), target), 5.0F * 7.0F / 8.0F, 1e-5F);
-  // However far it turns, up stays up.
+  // The camera never turns upside down, however far it is turned.
   camera.orbit({.turn = {0.0F, 10.0F}});
   EXPECT_GT(glm::inverse(camera.view())[1].y, 0.0F);
 }

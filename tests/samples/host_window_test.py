@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Opens walr-host's window on a virtual screen, works it with mouse and keys, and looks at what the screen shows.
+"""Opens walr-host's window on a virtual screen, operates it by mouse and keyboard, and checks the pixels of the screen.
 
     host_window_test.py SCENARIO WALR_HOST SCENES SCREENSHOT.png
 
@@ -24,7 +24,7 @@ PANEL_WIDTH = 420
 
 
 def find_picture(screen, picture):
-    """Where the whole picture stands in the screen, pixels; nothing where it does not."""
+    """Position of the whole image on the screen in pixels; None if it is not there."""
     for y in range(len(screen) - len(picture) + 1):
         position = screen[y].find(picture[0])
         while position >= 0:
@@ -36,12 +36,12 @@ def find_picture(screen, picture):
 
 
 def distance(a, b):
-    """Mean difference of two pictures, levels of 255."""
+    """Mean difference of two images, in levels of 255."""
     return sum(abs(x - y) for row, other in zip(a, b) for x, y in zip(row, other)) / (3 * WIDTH * HEIGHT)
 
 
 class Host:
-    """The program: without a window for what is expected, with one for what is shown."""
+    """The program: without a window it writes the expected images, with one it shows them."""
 
     def __init__(self, program, scene, folder, screenshot):
         self.program, self.scene, self.folder, self.screenshot = program, scene, folder, screenshot
@@ -50,14 +50,14 @@ class Host:
         return [self.program, self.scene, "--frames", frames, "--size", f"{WIDTH}x{HEIGHT}", *options]
 
     def pictures(self, frames, *options):
-        """The frames' pictures, by number."""
+        """Images of the frames, by frame number."""
         with tempfile.TemporaryDirectory(dir=self.folder) as folder:
             subprocess.run([*self.command(frames, options), "--headless", "--output", folder], check=True,
                            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
             return {int(file.stem[-4:]): read_png(file) for file in pathlib.Path(folder).glob("*.png")}
 
     def known(self, option, *more):
-        """The names that an option takes, as the program itself tells those who give another."""
+        """The names that an option accepts, from the program's message about an unknown name."""
         run = subprocess.run([*self.command("0-0", [option, "?", *more]), "--headless", "--output", self.folder / "none"],
                              capture_output=True, text=True, check=False)
         listed = re.search(r"\{(.*)\}|known presets: (.*)", run.stderr)
@@ -67,11 +67,11 @@ class Host:
 
     @contextlib.contextmanager
     def window(self, screen, frames, *options):
-        """The window, once it shows the last of the frames and stands still there."""
+        """The window, after it has reached the last frame and stopped there."""
         last = int(frames.split("-")[1])
         expected = self.pictures(frames, *options)[last]
         if len({bytes(row) for row in expected}) < HEIGHT // 2:
-            sys.exit("the picture to look for has too little in it")
+            sys.exit("the expected image has too few distinct rows to be found")
         process = subprocess.Popen([*self.command(frames, options), "--once", "--validate"],
                                    env={**os.environ, "DISPLAY": screen.display}, stdout=subprocess.DEVNULL,
                                    stderr=subprocess.PIPE, text=True)
@@ -103,7 +103,7 @@ class Host:
 
 
 class Window:
-    """The window on the screen. Places are those of Dear ImGui's default font and style."""
+    """The window on the screen. Positions hold for Dear ImGui's default font and style."""
 
     LINE = 23  # From one widget to that below it.
     ITEM = 17  # From one item of a list to that below it.
@@ -129,7 +129,7 @@ class Window:
         self.hands.click(*self.at(186, 18))
 
     def reset_history(self):
-        """The picture may be looked at as soon as this returns."""
+        """Returns without waiting for the effect, so that the first image after the reset can be read."""
         self.hands.move(*self.at(280, 18))
         self.hands.press(True)
         self.hands.release_now()
@@ -218,7 +218,7 @@ class Window:
 
 
 def start(host, screen, *options):
-    """What is shown at the start is what was asked for, and the panel is there."""
+    """The first image is the requested one, and the panel is visible."""
     with host.window(screen, "0-3", *options) as window:
         window.check_panel()
         write_png(host.screenshot, screen.rows())
@@ -237,7 +237,7 @@ def texture(host, screen):
 
 
 def methods(host, screen):
-    """Every method and every preset of one can be chosen, and gives what it gives without a window."""
+    """Every method, and every preset of one method, can be chosen and gives the same image as without a window."""
     with host.window(screen, "0-3", "--denoise-direct") as window:
         # What is chosen anew starts with the frame at hand; in the box, nothing moves in frames 0 to 3.
         def expect(what, *options):
@@ -257,7 +257,7 @@ def methods(host, screen):
 
 
 def views(host, screen):
-    """Every view can be chosen, and of the textures the first, the last and some between."""
+    """Every view can be chosen, and of the textures the first, the last and some in between."""
     preset = ("--method", "walr_paper", "--preset", "robust")  # Its list of textures needs no scrolling.
     with host.window(screen, "0-3", *preset) as window:
         window.choose_view("texture")
@@ -290,7 +290,7 @@ def views(host, screen):
 
 
 def play(host, screen):
-    """Pause, camera cut, history reset, and a camera moved by hand."""
+    """Pause, camera cut, history reset, and a camera moved by the user."""
     albedo = host.pictures("0-11", "--view", "albedo")
     with host.window(screen, "0-11", "--view", "albedo") as window:
         window.pause()

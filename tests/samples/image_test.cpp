@@ -140,7 +140,7 @@ TEST(ToneMap, FollowsReinhardAndSrgb) {
   EXPECT_EQ(std::lround(255.0F * encodeSrgb(0.5F)), 188);
 }
 
-TEST(Png, ShowsPicturesSideBySideToneMapped) {
+TEST(Png, ToneMapsImagesSideBySide) {
   const TemporaryDirectory directory;
   const auto file = directory.path() / "a.png";
   Image left(2, 1, 3);
@@ -161,7 +161,7 @@ TEST(Png, ShowsPicturesSideBySideToneMapped) {
   EXPECT_EQ(bytes, (std::vector<std::uint8_t>{188, 0, 0, 0, 0, 0, 255, 0, 255, 0, 0, 255}));
 }
 
-TEST(Png, ExposesEachPictureByItselfAndSetsRowsBelowOneAnother) {
+TEST(Png, ExposesEachImageSeparatelyAndStacksRows) {
   const TemporaryDirectory directory;
   const auto file = directory.path() / "a.png";
   Image one(1, 1, 3);
@@ -189,7 +189,7 @@ TEST(Exposure, BringsTheLogAverageLuminanceToMiddleGrey) {
   EXPECT_FALSE(autoExposure(picture).has_value());
   fill(0, 0.36F);
   EXPECT_NEAR(autoExposure(picture).value(), -1.0F, 1e-4F);
-  // Their logarithms have the same mean; what is black or no number does not count.
+  // The mean of the logarithms of 0.72 and 0.18 is that of 0.36. Non-finite pixels do not count.
   fill(1, 0.72F);
   fill(2, 0.18F);
   fill(3, std::numeric_limits<float>::infinity());

@@ -1,4 +1,4 @@
-// The linter of inputs on real path-traced frames, where they are at hand: good as they are, and spoiled.
+// The linter of inputs on path-traced sequences, if they are available: on the unchanged frames, and on spoiled ones.
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -13,7 +13,7 @@
 namespace walr {
 namespace {
 
-/// What is found in a sequence whose frames are changed first.
+/// Findings of the linter in a sequence after a change to its frames.
 std::vector<std::string> findings(const Sequence& sequence, const std::function<void(Frame&)>& change) {
   const Layout& layout = *sequence.layout().layout;
   const GpuDevice device({.device = {}, .validation = false});
@@ -50,7 +50,8 @@ TEST_P(LintOnSequence, NothingLooksWrong) {
 
 INSTANTIATE_TEST_SUITE_P(Sequences, LintOnSequence, testing::Values("cornell_fence", "sponza"));
 
-// In one path a pixel the contrast of an albedo drowns, and must be found all the same.
+// At one sample per pixel, noise hides the contrast of an albedo left in the light; the linter must find it
+// nevertheless.
 TEST(LintOnNoise, FindsAlbedoAndMotion) {
   const std::filesystem::path folder = std::filesystem::path(WALR_SEQUENCES) / "sponza";
   if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is not here: nothing to look at";

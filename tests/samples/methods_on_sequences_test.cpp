@@ -1,4 +1,4 @@
-// Every method on real path-traced frames, where they are at hand: what each must be to be worth comparing with.
+// Every method on path-traced sequences, if they are available: minimum quality that makes a method worth comparing.
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -15,12 +15,12 @@ namespace {
 
 struct Frames {
   const char* sequence;
-  FrameRange range;  ///< Under a moving camera.
+  FrameRange range;  ///< Frames with a moving camera.
 };
 
 class MethodOnSequence : public testing::TestWithParam<std::tuple<const char*, Frames>> {};
 
-/// Errors of the last frame, given that one and some before it.
+/// Errors of the last frame of a range.
 ErrorFigures errorsOf(const GpuDevice& device, const Sequence& sequence, Denoiser& method, std::size_t frames) {
   GpuDenoiser denoiser(device, method, sequence.extent(), *sequence.layout().layout);
   ErrorFigures errors;
@@ -56,7 +56,7 @@ TEST_P(MethodOnSequence, BeatsItsInputAndAccumulationAlone) {
   }
   EXPECT_LT(*whole.rmse, *accumulated.rmse);
   EXPECT_GT(*whole.ssim, *accumulated.ssim);
-  // Clearly better than the input: half its error is what four paths a pixel would leave.
+  // Clearly better than the input: half of its error is what four samples per pixel would leave.
   EXPECT_LT(*spatial.rmse, 0.5 * *noisy.rmse);
   EXPECT_GT(*spatial.ssim, *noisy.ssim);
   EXPECT_LT(*whole.rmse, *spatial.rmse);

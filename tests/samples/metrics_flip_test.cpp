@@ -58,8 +58,8 @@ TEST(Flip, IsOneBetweenGreenAndBlue) {
   }
 }
 
-/// The error between black and white has a closed form: they differ by 100 in L* only. The largest distance is that of
-/// green and blue, L*a*b* (87.74, -86.18, 83.18) and (32.30, 79.19, -107.86), with the Hunt effect.
+/// The error between black and white has a closed form: they differ only in L*, by 100. The largest distance is that
+/// between green and blue, L*a*b* (87.74, -86.18, 83.18) and (32.30, 79.19, -107.86), with the Hunt effect.
 TEST(Flip, BetweenBlackAndWhiteFollowsFromTheirLightness) {
   const double greenToBlue = (87.7347 - 32.2970) + std::hypot(0.877347 * -86.1827 - 0.322970 * 79.1875,
                                                               0.877347 * 83.1793 - 0.322970 * -107.8602);

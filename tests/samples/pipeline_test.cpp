@@ -19,7 +19,7 @@ namespace {
 
 constexpr auto kIdentity = [](auto element) { return element; };
 constexpr auto kAtOnce = [](auto element) { return std::optional(element); };
-/// Nothing is held back.
+/// A `drain` for stages that hold no elements.
 template <typename Output>
 std::optional<Output> noMore() {
   return std::nullopt;
@@ -70,10 +70,10 @@ TEST(Pipeline, HoldsFewElementsHoweverLongTheJob) {
       --alive;
     });
   };
-  // The slowest stage last, so that everything before it piles up as far as it may.
+  // The slowest stage is the last, so that the queues before it fill up.
   runPipeline(200, make, kAtOnce, noMore<std::shared_ptr<int>>,
               [](const std::shared_ptr<int>&) { std::this_thread::sleep_for(std::chrono::microseconds(200)); });
-  // Two queues, and one element in the hands of each of the three stages.
+  // Two queues, and one element in each of the three stages.
   EXPECT_LE(most, 2 * static_cast<int>(kPipelineDepth) + 3);
   EXPECT_EQ(alive, 0);
 }
@@ -88,7 +88,7 @@ TEST(Pipeline, StagesOverlap) {
   runPipeline(
       20, slow, [&](std::size_t element) { return std::optional(slow(element)); }, noMore<std::size_t>,
       [&](std::size_t element) { slow(element); });
-  // One after the other they would take 600 ms, side by side 220 ms.
+  // In sequence the stages would take 600 ms, concurrently 220 ms.
   EXPECT_LT(std::chrono::steady_clock::now() - start, 500ms);
 }
 

@@ -41,7 +41,8 @@ std::string readAll(int file) {
   }
   std::vector<char*> list;
   for (const std::string& argument : arguments) {
-    list.push_back(const_cast<char*>(argument.c_str()));  // execv takes them as C once did; it does not write.
+    // execv takes pointers to non-const for historical reasons; it does not write.
+    list.push_back(const_cast<char*>(argument.c_str()));
   }
   list.push_back(nullptr);
   execv(list[0], list.data());

@@ -8,15 +8,15 @@
 
 namespace walr::test {
 
-/// How a program ended and what it said.
+/// Exit code and output of a program.
 struct ProcessResult {
-  int exitCode = -1;  ///< -1 where a signal ended it.
+  int exitCode = -1;  ///< -1 if a signal ended the program.
   std::string out;
   std::string err;
 };
 
 struct ProcessOptions {
-  std::map<std::string, std::string> environment;  ///< Set on top of the own one.
+  std::map<std::string, std::string> environment;  ///< Added to the environment of this process.
   std::optional<std::uint64_t> largestFileBytes;   ///< RLIMIT_FSIZE.
 };
 

@@ -7,8 +7,8 @@
 
 namespace walr::test {
 
-/// What a JSON Schema of the project finds wrong with a file (check_json.py); empty where nothing.
-/// @param schema  its path within the project
+/// Violations of one of the project's JSON Schemas in a file, found by check_json.py; empty if there are none.
+/// @param schema  path of the schema within the project
 inline std::string schemaTroubles(const std::string& schema, const std::filesystem::path& file) {
   const std::string project = WALR_PROJECT "/";
   const ProcessResult result =

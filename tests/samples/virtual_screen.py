@@ -1,4 +1,4 @@
-"""A virtual screen (Xvfb) to run programs with windows on: what it shows, and a mouse and keys to work them."""
+"""A virtual screen (Xvfb) for programs with windows: reads its pixels, and simulates mouse and keyboard."""
 
 import contextlib
 import ctypes
@@ -10,11 +10,11 @@ import sys
 import time
 import zlib
 
-PATIENCE = 120.0  # Seconds; a software device beside other tests is slow.
+PATIENCE = 120.0  # Seconds. A software device is slow while other tests run.
 
 
 def wait_for(condition, what):
-    """The first result of `condition` that is true."""
+    """Waits until `condition` returns a true value, and returns it."""
     end = time.monotonic() + PATIENCE
     while time.monotonic() < end:
         result = condition()
@@ -61,7 +61,7 @@ def write_png(path, rows):
 
 
 class Screen:
-    """A screen of 1280 x 800 pixels. Rows are bytes, three a pixel: red, green, blue."""
+    """A screen of 1280 x 800 pixels. A row is bytes: red, green and blue of each pixel."""
 
     def __init__(self, display, buffer):
         self.display, self.buffer = display, buffer
@@ -73,7 +73,7 @@ class Screen:
         self.start = size + 12 * colours
 
     def rows(self, x=0, y=0, width=None, height=None):
-        """What a rectangle shows; all, where none is given."""
+        """The pixels of a rectangle; without one, of the whole screen."""
         width, height = width or self.width, height or self.height
         rows = []
         with open(self.buffer, "rb") as file:
@@ -103,7 +103,7 @@ def virtual_screen(folder):
 
 
 class Hands:
-    """A mouse and keys on a virtual screen, by the XTEST extension."""
+    """Simulated mouse and keyboard of a virtual screen, through the XTEST extension."""
 
     def __init__(self, screen):
         self.x11, self.test = ctypes.CDLL("libX11.so.6"), ctypes.CDLL("libXtst.so.6")
@@ -111,7 +111,7 @@ class Hands:
         self.display = ctypes.c_void_p(self.x11.XOpenDisplay(screen.display.encode()))
 
     def settle(self):
-        """Until the program has drawn with what was done: a press and its release in one drawing are none."""
+        """Waits until the program has drawn a frame: it would miss a press and its release within one frame."""
         self.x11.XFlush(self.display)
         time.sleep(0.3)
 
@@ -129,7 +129,7 @@ class Hands:
         self.press(False)
 
     def release_now(self):
-        """Let the button go, and do not wait for what comes of it."""
+        """Releases the button without waiting for the effect."""
         self.test.XTestFakeButtonEvent(self.display, 1, 0, 0)
         self.x11.XFlush(self.display)
 

@@ -133,7 +133,7 @@ TEST_F(ProgramTest, DenoisesAndMeasures) {
   ASSERT_EQ(report["frames"].size(), 6U);
   EXPECT_EQ(report["frames"][5]["frame"], 5);
   EXPECT_GT(report["frames"][5]["gpu_ms"], 0.0);
-  // The reference is a constant, which a denoiser finds far better than one path a pixel does.
+  // The reference is constant, so a denoiser's error must be far below that of one sample per pixel.
   EXPECT_LT(report["frames"][5]["rmse"].get<double>(), 0.25 * report["frames"][5]["noisy"]["rmse"].get<double>());
   expectFinite(readIndirect(output / "denoised_0005.exr"));
 }
@@ -147,7 +147,7 @@ TEST_F(ProgramTest, ListsViews) {
   EXPECT_NE(walr({"denoise", "--list-views", "--method", "none"}).out.find("no views"), std::string::npos);
 }
 
-// At this height the window is that of one iteration, 3x3 samples at most.
+// At this image height the filter has one iteration, so a window has at most 3 x 3 samples.
 TEST_F(ProgramTest, WritesViewsBesideTheResult) {
   files.write(0, 1);
   expectSuccess(denoise({"--method", "walr_paper", "--preset", "robust", "--view", "samples", "--view", "edges.0"}));
@@ -344,7 +344,7 @@ TEST_F(ProgramTest, AnOutputThatCannotBeMadeIsNamed) {
 
 TEST_F(ProgramTest, AFullOutputLeavesNoPartialFile) {
   files.write(0, 1);
-  // A limit on file sizes fails in the middle of a write, as a full disk does.
+  // A limit on file sizes makes a write fail midway, as a full disk does.
   expectFailure(denoise({}, {{}, 200}), kOutput, {"denoised_0000.exr", "File too large"});
   EXPECT_TRUE(outputFiles().empty());
 }

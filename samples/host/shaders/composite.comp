@@ -1,5 +1,5 @@
-// The lit picture without specular light: albedo * (direct + indirect) + emission. Values of albedo, direct light or
-// emission that are not finite count as 0, as in walr::composite.
+// The lit image without specular light: albedo * (direct + indirect) + emission. Non-finite values of albedo, direct
+// light and emission count as 0, as in walr::composite.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require

@@ -1,4 +1,4 @@
-// Linear light to what a screen shows: the tone map x / (1 + x), then the sRGB transfer function, as walr::writePng.
+// Converts linear light to display values as walr::writePng does: tone map x / (1 + x), then sRGB transfer function.
 #ifndef WALR_HOST_DISPLAY_GLSL
 #define WALR_HOST_DISPLAY_GLSL
 #include "include/finite.glsl"

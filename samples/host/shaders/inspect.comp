@@ -1,5 +1,5 @@
-// Shows one texture of the graph, stretched over the picture. UINT: texels of bit fields, shown by the bytes of their
-// first word.
+// Shows one texture of the graph, scaled to the size of the displayed image. UINT: a texture of bit fields, of whose
+// first component the bytes are shown.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require

@@ -1,5 +1,4 @@
-// Makes a lit picture ready for the screen. SPLIT: shows three pictures of the same pixels side by side, with a line
-// between them.
+// Tone-maps a lit image for the display. SPLIT: three images, each in a range of columns, with lines between them.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require

@@ -1,4 +1,4 @@
-// What of the view changes from frame to frame: one uniform block.
+// Parameters of the view that may change from frame to frame: one uniform block.
 #ifndef WALR_HOST_VIEW_CONSTANTS_H
 #define WALR_HOST_VIEW_CONSTANTS_H
 #ifdef __cplusplus
@@ -6,10 +6,10 @@ namespace walr::host {
 #endif
 
 struct ViewConstants {
-  int leftEdge;   // Split view, pixels: columns before it show the noisy picture.
-  int rightEdge;  // Split view, pixels: columns from it on show the reference.
+  int leftEdge;   // Split view, pixels: columns to the left of it show the noisy image.
+  int rightEdge;  // Split view, pixels: this column and those to the right show the reference.
   float gain;     // Texture view: values are multiplied by it.
-  float bias;     // Texture view: and this is added.
+  float bias;     // Texture view: added to the scaled values.
 };
 
 #ifdef __cplusplus

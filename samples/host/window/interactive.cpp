@@ -22,7 +22,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::uint32_t kFramesInFlight = 2;
-// How often the window is drawn while nothing new is traced.
+// Interval at which the window is redrawn while no new frame has been traced.
 constexpr std::chrono::milliseconds kRefresh(16);
 
 volatile std::sig_atomic_t interrupted = 0;
@@ -36,7 +36,7 @@ struct Traced {
   double seconds = 0.0;
 };
 
-/// A window with everything that draws in it.
+/// The main loop of a window: traces frames on another thread, denoises them and draws the window.
 class Show {
  public:
   Show(Tracer& tracer, const GpuDevice& device, Session& session, const Window& window, const Surface& surface,
@@ -102,17 +102,17 @@ class Show {
     presenter_.emplace(device_, surface_.handle(), window_.size(), picture_, kFramesInFlight, Interface::draw);
   }
 
-  /// Make the graph what the session has chosen.
+  /// Bring the graph up to date with the choices of the session.
   void follow() {
     if (change_ == GraphChange::Settings && live_.update(session_.method(), session_.view())) {
-      again_ = session_.frozen;  // One more frame shows it, with the history there is.
+      again_ = session_.frozen;  // One more frame shows the new settings, with the existing history.
       change_ = GraphChange::None;
       return;
     }
     if (session_.dragging) {
       return;
     }
-    // While nothing is traced, the frame at hand is all that there is, and no history goes before it.
+    // While the session is frozen, only the current frame is available: it is denoised again, without history.
     const bool anew = change_ == GraphChange::Method || session_.frozen;
     live_.declare(session_.method(), session_.view(), anew ? LiveFrame::Start::Anew : LiveFrame::Start::FromHistory);
     change_ = GraphChange::None;
@@ -137,7 +137,7 @@ class Show {
   }
 
   void step() {
-    // Every frame is denoised: one that waits for its turn is not replaced.
+    // Every traced frame is denoised: a new one is taken only after the current one has been recorded.
     if (!fresh_) {
       waitForFrame();
     }
@@ -152,8 +152,8 @@ class Show {
       makePresenter();
       return;
     }
-    // The device has finished what was last recorded with this slot. While nothing new comes, that of the last frame
-    // stays.
+    // The device has finished the last frame recorded with this slot. Until a new frame is traced, the times of the
+    // last one stay on display.
     if (lastSlot_ && (fresh_ || recorded.slot == *lastSlot_)) {
       const auto times = live_.passTimes(recorded.slot);
       facts_.passTimes.assign(times.begin(), times.end());
@@ -187,13 +187,13 @@ class Show {
   fg::vk::FrameQueue queue_;
   Interface interface_;
   std::optional<Presenter> presenter_;
-  std::optional<std::uint32_t> lastSlot_;  // Of the last frame that `live_` recorded.
+  std::optional<std::uint32_t> lastSlot_;  // Slot of the last frame that `live_` recorded.
   std::future<Traced> next_;
   HostFrame frame_;
   FrameFacts facts_;
-  bool fresh_ = false;                        // The frame at hand is not in the picture yet.
-  bool again_ = false;                        // One more frame is to be traced, even if the session is frozen.
-  GraphChange change_ = GraphChange::Method;  // What the graph has not followed yet.
+  bool fresh_ = false;                        // `frame_` has not been recorded yet.
+  bool again_ = false;                        // Trace one more frame, even if the session is frozen.
+  GraphChange change_ = GraphChange::Method;  // Change of the session that the graph does not contain yet.
 };
 
 }  // namespace

@@ -10,11 +10,11 @@
 
 namespace walr::host {
 
-/// Options for a device that can show pictures in windows.
+/// Add the extensions to `options` that a device needs to present to windows.
 GpuDevice::Options withWindows(GpuDevice::Options options);
 
-/// Show the session in a window until the user closes it or ends the program.
-/// @param extent  size of the picture, which is that of the tracer
+/// Show the session in a window until the user closes it or interrupts the program.
+/// @param extent  size of the image, the same as that of the tracer
 void runWindow(Tracer& tracer, GpuDevice& device, Session& session, fg::Extent extent);
 
 }  // namespace walr::host

@@ -25,7 +25,7 @@ Interface::Interface(const GpuDevice& device, const Window& window, std::uint32_
     : device_(device), window_(window), framesInFlight_(framesInFlight) {
   IMGUI_CHECKVERSION();
   ImGui::CreateContext();
-  ImGui::GetIO().IniFilename = nullptr;  // Leaves no file behind.
+  ImGui::GetIO().IniFilename = nullptr;  // Without this, ImGui would write a settings file.
   ImGui::StyleColorsDark();
   ImGui_ImplGlfw_InitForVulkan(window.handle(), true);
 

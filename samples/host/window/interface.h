@@ -17,30 +17,30 @@
 
 namespace walr::host {
 
-/// What the panels tell of the last frame.
+/// Measurements of the last frame that the panels show.
 struct FrameFacts {
   std::vector<fg::vk::PassTime> passTimes;
   double tracingSeconds = 0.0;
 };
 
-/// The user interface over the picture, by Dear ImGui.
+/// The user interface beside the image, drawn with Dear ImGui.
 class Interface {
  public:
-  /// Width of the panel at the right, pixels.
+  /// Width of the panel at the right, in pixels.
   static constexpr int kPanelWidth = 420;
 
   /// @param window  must outlive this
   Interface(const GpuDevice& device, const Window& window, std::uint32_t framesInFlight);
-  /// The device must have finished.
+  /// The device must have finished all frames.
   ~Interface();
   Interface(const Interface&) = delete;
   Interface& operator=(const Interface&) = delete;
 
-  /// Make what draws; once, with the first presenter.
+  /// Create the device objects for drawing. Call once, with the render pass of the first presenter.
   void prepare(VkRenderPass renderPass, fg::vk::FrameQueue& queue);
   /// Lay out the panels and take the user's input.
   void update(Session& session, const fg::Graph& graph, const fg::Plan& plan, const FrameFacts& facts);
-  /// Draw what `update` laid out.
+  /// Draw the panels that `update` laid out.
   static void draw(VkCommandBuffer commandBuffer);
 
  private:

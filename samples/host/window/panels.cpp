@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kMegabyte = 1024.0 * 1024.0;
 
-/// A chooser among names. Nothing while none is chosen anew.
+/// A combo box. Returns the index of a newly chosen name; nullopt if the choice has not changed.
 std::optional<std::size_t> choose(const char* label, std::span<const std::string> names, const std::string& current) {
   std::optional<std::size_t> chosen;
   if (ImGui::BeginCombo(label, current.c_str(), ImGuiComboFlags_HeightLargest)) {
@@ -30,7 +30,7 @@ std::optional<std::size_t> choose(const char* label, std::span<const std::string
   return chosen;
 }
 
-/// Makes a widget for each setting; notes whether one has a new value.
+/// Makes a widget for each setting, and records whether a value has changed.
 class SettingWidgets : public SettingVisitor {
  public:
   void visit(const SettingInfo& info, float& value) override {
@@ -71,7 +71,7 @@ class SettingWidgets : public SettingVisitor {
   [[nodiscard]] bool dragging() const { return dragging_; }
 
  private:
-  // A number to type, since a slider needs an end, beside a button for infinity, which cannot be typed.
+  // A slider needs an upper end, so an unbounded setting has a number field, and a button for infinity.
   void visitUnbounded(const SettingInfo& info, float& value) {
     const float spacing = ImGui::GetStyle().ItemInnerSpacing.x;
     const float button = ImGui::CalcTextSize("inf").x + 2.0F * ImGui::GetStyle().FramePadding.x;
@@ -113,7 +113,7 @@ class SettingWidgets : public SettingVisitor {
 };
 
 ImU32 colourOf(std::size_t index) {
-  // Hues a golden angle apart differ well, however many there are.
+  // Hues that differ by the golden angle are easy to tell apart, whatever their number.
   constexpr float kGoldenAngle = 0.381966F;
   const float hue = std::fmod(static_cast<float>(index) * kGoldenAngle, 1.0F);
   return ImGui::GetColorU32(static_cast<ImVec4>(ImColor::HSV(hue, 0.55F, 0.8F)));

@@ -52,7 +52,7 @@ Presenter::~Presenter() {
 fg::Graph Presenter::declare(const ShownPicture& picture) {
   fg::Graph graph;
   picture_ = graph.import("shown picture", picture.desc(), kShown);
-  // The swapchain's image comes when its semaphore is signalled, on which transfers wait.
+  // The swapchain's image is available once its semaphore is signalled, and transfers wait for that.
   window_ = graph.import("window", swapchain_.desc(),
                          {VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_NONE, VK_IMAGE_LAYOUT_UNDEFINED});
   const fg::Texture source = picture_;

@@ -14,7 +14,7 @@
 
 namespace walr::host {
 
-/// A rectangle of a window, pixels, y down.
+/// A rectangle of a window, in pixels, y down.
 struct Rectangle {
   int x = 0;
   int y = 0;
@@ -22,17 +22,18 @@ struct Rectangle {
   int height = 0;
 };
 
-/// The largest place for a picture within an area, in its middle: a whole multiple of its size, or less than once.
+/// The largest centred rectangle for an image within an area: an integer multiple of the image's size, or, in an area
+/// smaller than the image, a fraction of it.
 Rectangle fitPicture(fg::Extent picture, const Rectangle& area);
 
-/// Brings the shown picture and the user interface to a window, as a graph of its own that runs as often as the window
-/// is drawn, however long a frame takes to trace.
+/// Draws the shown picture and the user interface to a window. It has a frame graph of its own, so that the window is
+/// redrawn at its own rate, however long a frame takes to trace.
 class Presenter {
  public:
   /// @param drawInterface  draws over the window within a render pass compatible with `renderPass`
   Presenter(const GpuDevice& device, VkSurfaceKHR surface, fg::Extent window, const ShownPicture& picture,
             std::uint32_t framesInFlight, std::function<void(VkCommandBuffer)> drawInterface);
-  /// The device must have finished.
+  /// The device must have finished all frames.
   ~Presenter();
   Presenter(const Presenter&) = delete;
   Presenter& operator=(const Presenter&) = delete;
@@ -40,8 +41,8 @@ class Presenter {
   [[nodiscard]] Swapchain& swapchain() { return swapchain_; }
   [[nodiscard]] VkRenderPass renderPass() const { return renderPass_; }
   /// Record the drawing of the window.
-  /// @param image  as taken from the swapchain
-  /// @param place  of the picture
+  /// @param image  index of the swapchain's image
+  /// @param place  rectangle of the window that shows the picture
   void record(const fg::vk::Frame& recorded, std::uint32_t image, const Rectangle& place);
 
  private:
@@ -61,7 +62,7 @@ class Presenter {
   fg::Extent pictureExtent_;
   fg::Graph graph_;
   fg::vk::Executor executor_;
-  std::uint32_t image_ = 0;  // Of the frame being recorded.
+  std::uint32_t image_ = 0;  // Index of the swapchain's image for the frame being recorded.
   Rectangle place_;
 };
 

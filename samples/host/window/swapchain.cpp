@@ -27,17 +27,17 @@ Swapchain::Swapchain(const GpuDevice& device, VkSurfaceKHR surface, fg::Extent w
       queue_(device.device().queue()) {
   VkBool32 supported = VK_FALSE;
   const std::uint32_t family = device.device().context().view.queueFamily;
-  check(vkGetPhysicalDeviceSurfaceSupportKHR(physical_, family, surface, &supported), "asking for window support");
+  check(vkGetPhysicalDeviceSurfaceSupportKHR(physical_, family, surface, &supported), "querying presentation support");
   if (supported == VK_FALSE) {
     throw fg::vk::Unsupported("device '" + device.name() +
-                              "' cannot show pictures in this window: choose another with --device, or run --headless");
+                              "' cannot present to this window: choose another with --device, or run with --headless");
   }
   chooseFormat(surface);
   create(surface, wanted);
   std::uint32_t count = 0;
-  check(vkGetSwapchainImagesKHR(device_, handle_, &count, nullptr), "asking for a swapchain's images");
+  check(vkGetSwapchainImagesKHR(device_, handle_, &count, nullptr), "querying a swapchain's images");
   images_.resize(count);
-  check(vkGetSwapchainImagesKHR(device_, handle_, &count, images_.data()), "asking for a swapchain's images");
+  check(vkGetSwapchainImagesKHR(device_, handle_, &count, images_.data()), "querying a swapchain's images");
   for (VkImage image : images_) {
     VkImageViewCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO;
@@ -56,7 +56,7 @@ Swapchain::Swapchain(const GpuDevice& device, VkSurfaceKHR surface, fg::Extent w
 }
 
 Swapchain::~Swapchain() {
-  // A frame's fence tells of its work, not of its presentation, which waits for a semaphore.
+  // A frame's fence covers its command buffers, but not its presentation, which waits for a semaphore.
   vkQueueWaitIdle(queue_);
   for (VkImageView view : views_) {
     vkDestroyImageView(device_, view, nullptr);
@@ -71,23 +71,23 @@ Swapchain::~Swapchain() {
 
 void Swapchain::chooseFormat(VkSurfaceKHR surface) {
   std::uint32_t count = 0;
-  check(vkGetPhysicalDeviceSurfaceFormatsKHR(physical_, surface, &count, nullptr), "asking for a window's formats");
+  check(vkGetPhysicalDeviceSurfaceFormatsKHR(physical_, surface, &count, nullptr), "querying a window's formats");
   std::vector<VkSurfaceFormatKHR> formats(count);
   check(vkGetPhysicalDeviceSurfaceFormatsKHR(physical_, surface, &count, formats.data()),
-        "asking for a window's formats");
-  // Values are encoded already: no format that encodes them again.
+        "querying a window's formats");
+  // Values are sRGB-encoded already, so an sRGB format would encode them twice.
   constexpr std::array kWanted = {VK_FORMAT_B8G8R8A8_UNORM, VK_FORMAT_R8G8B8A8_UNORM};
   const auto found = std::ranges::find_first_of(
       formats, kWanted, [](const VkSurfaceFormatKHR& have, VkFormat want) { return have.format == want; });
   if (found == formats.end()) {
-    throw fg::vk::Unsupported("the window takes neither B8G8R8A8_UNORM nor R8G8B8A8_UNORM: run --headless");
+    throw fg::vk::Unsupported("the window supports neither B8G8R8A8_UNORM nor R8G8B8A8_UNORM: run with --headless");
   }
   format_ = *found;
 }
 
 void Swapchain::create(VkSurfaceKHR surface, fg::Extent wanted) {
   VkSurfaceCapabilitiesKHR capabilities{};
-  check(vkGetPhysicalDeviceSurfaceCapabilitiesKHR(physical_, surface, &capabilities), "asking for a window's size");
+  check(vkGetPhysicalDeviceSurfaceCapabilitiesKHR(physical_, surface, &capabilities), "querying a window's size");
   constexpr std::uint32_t kProgramChooses = std::numeric_limits<std::uint32_t>::max();
   VkExtent2D extent = capabilities.currentExtent;
   if (extent.width == kProgramChooses) {
@@ -124,7 +124,7 @@ std::optional<std::uint32_t> Swapchain::acquire(std::uint32_t slot) {
     return std::nullopt;
   }
   if (result != VK_SUBOPTIMAL_KHR) {
-    check(result, "taking an image of the window");
+    check(result, "acquiring an image of the window");
   }
   return image;
 }
@@ -141,7 +141,7 @@ bool Swapchain::present(std::uint32_t image) {
   if (result == VK_ERROR_OUT_OF_DATE_KHR || result == VK_SUBOPTIMAL_KHR) {
     return false;
   }
-  check(result, "showing a picture");
+  check(result, "presenting an image");
   return true;
 }
 

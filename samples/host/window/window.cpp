@@ -14,7 +14,7 @@ namespace {
   const char* complaint = nullptr;
   glfwGetError(&complaint);
   throw std::runtime_error(action + ": " + (complaint != nullptr ? complaint : "unknown error") +
-                           ". Run with --headless where there is no display.");
+                           ". Without a display, run with --headless.");
 }
 
 }  // namespace

@@ -14,21 +14,21 @@ namespace walr::host {
 /// A window on the screen, through GLFW.
 class Window {
  public:
-  /// Whether there is a screen to open a window on.
+  /// Whether there is a display to open a window on.
   static bool available();
   /// Instance extensions that a window's surface needs.
   static std::vector<const char*> instanceExtensions();
 
-  /// @throws std::runtime_error with GLFW's complaint
+  /// @throws std::runtime_error with GLFW's message
   Window(const std::string& title, fg::Extent size);
   ~Window();
   Window(const Window&) = delete;
   Window& operator=(const Window&) = delete;
 
   [[nodiscard]] GLFWwindow* handle() const { return handle_; }
-  /// Whether the user has closed it.
+  /// Whether the user has closed the window.
   [[nodiscard]] bool closed() const;
-  /// Size in pixels; 0 x 0 while it is minimised.
+  /// Size in pixels; 0 x 0 while the window is minimised.
   [[nodiscard]] fg::Extent size() const;
   /// Whether a key is down.
   /// @param key  GLFW_KEY_...
@@ -38,11 +38,11 @@ class Window {
   GLFWwindow* handle_ = nullptr;
 };
 
-/// What a window shows pictures through.
+/// The Vulkan surface of a window.
 class Surface {
  public:
-  /// @param instance  made with `Window::instanceExtensions`; must outlive the surface
-  /// @throws std::runtime_error with GLFW's complaint
+  /// @param instance  created with `Window::instanceExtensions`; must outlive the surface
+  /// @throws std::runtime_error with GLFW's message
   Surface(const Window& window, VkInstance instance);
   ~Surface();
   Surface(const Surface&) = delete;

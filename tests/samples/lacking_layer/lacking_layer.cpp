@@ -1,4 +1,4 @@
-// A Vulkan layer that makes any device look poorer, so that a program's words for a poor device can be tested.
+// A Vulkan layer that hides capabilities of a device, to test the messages of programs on a less capable device.
 //
 // Environment variable WALR_TEST_LACKS: "synchronization2" hides that feature, "storage images" the use of RGBA16F as
 // storage image.
@@ -14,8 +14,8 @@
 
 namespace {
 
-/// The functions below this layer, taken when the instance is made: later the loader would answer with this layer's
-/// own.
+/// The functions of the next layer, queried when the instance is created: later the loader would return those of this
+/// layer.
 struct Next {
   PFN_vkGetInstanceProcAddr getInstanceProcAddr = nullptr;
   PFN_vkGetPhysicalDeviceFeatures2 getFeatures = nullptr;
@@ -35,7 +35,7 @@ bool lacks(std::string_view what) {
 
 VKAPI_ATTR VkResult VKAPI_CALL createInstance(const VkInstanceCreateInfo* info, const VkAllocationCallbacks* allocator,
                                               VkInstance* instance) {
-  // The loader hands the chain of layers down in a struct that each layer advances.
+  // The loader passes the chain of layers in a struct that each layer advances.
   auto* link = static_cast<VkLayerInstanceCreateInfo*>(const_cast<void*>(info->pNext));
   while (link != nullptr &&
          (link->sType != VK_STRUCTURE_TYPE_LOADER_INSTANCE_CREATE_INFO || link->function != VK_LAYER_LINK_INFO)) {
@@ -95,7 +95,7 @@ VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL getInstanceProcAddr(VkInstance instance
 WALR_EXPORT VKAPI_ATTR VkResult VKAPI_CALL vkNegotiateLoaderLayerInterfaceVersion(VkNegotiateLayerInterface* version) {
   version->loaderLayerInterfaceVersion = 2;
   version->pfnGetInstanceProcAddr = &getInstanceProcAddr;
-  version->pfnGetDeviceProcAddr = nullptr;  // Not in the way of any device function.
+  version->pfnGetDeviceProcAddr = nullptr;  // This layer intercepts no device functions.
   version->pfnGetPhysicalDeviceProcAddr = nullptr;
   return VK_SUCCESS;
 }
