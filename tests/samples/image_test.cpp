@@ -31,11 +31,6 @@ Image ramp(int width, int height, int components) {
   return image;
 }
 
-std::size_t filesIn(const std::filesystem::path& folder) {
-  return static_cast<std::size_t>(
-      std::distance(std::filesystem::directory_iterator(folder), std::filesystem::directory_iterator()));
-}
-
 TEST(Exr, KeepsValuesTypesAndAttributes) {
   const TemporaryDirectory directory;
   const auto file = directory.path() / "a.exr";
@@ -104,10 +99,10 @@ TEST(FileOutput, AFailedWriteKeepsTheOldFileAndLeavesNoOther) {
   const std::string text = "new";
   // A file cannot replace a directory, so that the final rename fails.
   EXPECT_THROW(writeFileAtomically(directory.path() / "taken", std::as_bytes(std::span(text))), OutputError);
-  EXPECT_EQ(filesIn(directory.path()), 2U);
+  EXPECT_EQ(test::namesIn(directory.path()).size(), 2U);
   writeFileAtomically(file, std::as_bytes(std::span(text)));
   EXPECT_EQ(test::readText(file), "new");
-  EXPECT_EQ(filesIn(directory.path()), 2U);
+  EXPECT_EQ(test::namesIn(directory.path()).size(), 2U);
 }
 
 TEST(FileOutput, AnOutputDirectoryThatCannotBeCreatedIsNamed) {
@@ -121,7 +116,7 @@ TEST(FileOutput, AnOutputDirectoryThatCannotBeCreatedIsNamed) {
 TEST(FileOutput, PreparingADirectoryLeavesItEmpty) {
   const TemporaryDirectory directory;
   prepareOutputDirectory(directory.path() / "a" / "b");
-  EXPECT_EQ(filesIn(directory.path() / "a" / "b"), 0U);
+  EXPECT_EQ(test::namesIn(directory.path() / "a" / "b").size(), 0U);
 }
 
 TEST(ToneMap, FollowsReinhardAndSrgb) {
