@@ -12,6 +12,7 @@
 
 #include "framegraph/compile/compile.h"
 #include "integration/denoise_graph.h"
+#include "tests/error_text.h"
 
 namespace walr {
 namespace {
@@ -26,12 +27,7 @@ DenoiseGraph declare(const std::string& method, const std::string& preset, const
 
 /// The error of a method and preset for a view; empty if it exists.
 std::string rejection(const std::string& method, const std::string& preset, const std::string& view) {
-  try {
-    (void)declare(method, preset, {.views = {&view, 1}});
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return {};
+  return fg::test::errorText([&] { (void)declare(method, preset, {.views = {&view, 1}}); });
 }
 
 TEST(Inspection, ErrorsNameTheKnownViews) {

@@ -6,6 +6,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "tests/error_text.h"
 #include "tests/passes/block_filter.h"
 #include "tests/passes/comparison.h"
 #include "tests/passes/filter_run.h"
@@ -291,13 +292,9 @@ TEST_F(BlockRegression, PixelsWithoutASampleAreIgnored) {
 TEST(BlockRegressionSettings, AnEmptyPlaneRampIsRejected) {
   fg::Graph graph;
   const fg::Texture lighting = graph.texture("lighting", {VK_FORMAT_R16G16B16A16_SFLOAT, {64, 64}});
-  try {
-    (void)addBlockRegression(graph, {}, {lighting, LightingAlpha::SampleCount}, {},
-                             {.planeNear = 0.1F, .planeFar = 0.1F});
-    FAIL() << "accepted";
-  } catch (const std::invalid_argument& error) {
-    EXPECT_NE(std::string(error.what()).find("blocks.plane-near"), std::string::npos) << error.what();
-  }
+  const BlockRegressionSettings settings{.planeNear = 0.1F, .planeFar = 0.1F};
+  const auto add = [&] { addBlockRegression(graph, {}, {lighting, LightingAlpha::SampleCount}, {}, settings); };
+  fg::test::expectError(add, {"blocks.plane-near"});
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "tests/error_text.h"
 #include "tests/passes/comparison.h"
 #include "tests/passes/filter_run.h"
 #include "tests/passes/reference/flr.h"
@@ -143,12 +144,8 @@ TEST_F(Flr, ASignalLinearInTheGuidesIsReproduced) {
 TEST(FlrSettings, TooManyCellsAreRejectedWithTheSetting) {
   fg::Graph graph;
   const fg::Texture lighting = graph.texture("lighting", {VK_FORMAT_R16G16B16A16_SFLOAT, {3840, 2160}});
-  try {
-    (void)addFlrRegression(graph, lighting, LightingAlpha::Unused, {}, lighting, {.factor = 1});
-    FAIL() << "accepted";
-  } catch (const std::invalid_argument& error) {
-    EXPECT_NE(std::string(error.what()).find("regression.factor"), std::string::npos) << error.what();
-  }
+  const auto add = [&] { addFlrRegression(graph, lighting, LightingAlpha::Unused, {}, lighting, {.factor = 1}); };
+  fg::test::expectError(add, {"regression.factor"});
 }
 
 }  // namespace

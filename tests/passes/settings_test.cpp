@@ -8,20 +8,12 @@
 #include <gtest/gtest.h>
 
 #include "passes/denoiser.h"
+#include "tests/error_text.h"
 
 namespace walr {
 namespace {
 
-/// The message of the std::invalid_argument that `action` throws; empty where it throws none.
-template <typename Action>
-std::string rejection(Action action) {
-  try {
-    action();
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return {};
-}
+using fg::test::errorText;
 
 std::string valueOf(Denoiser& denoiser, const std::string& name) {
   const std::vector<SettingText> settings = denoiser.settings();
@@ -43,7 +35,7 @@ TEST(Settings, EveryKindIsSetFromText) {
 
 /// The error message of a method for an unknown name.
 std::string unknown(const std::string& method, const std::string& name) {
-  return rejection([&] { makeDenoiser(method)->set(name, "3"); });
+  return errorText([&] { makeDenoiser(method)->set(name, "3"); });
 }
 
 TEST(Settings, AnUnknownNameIsRejectedWithTheNearOnes) {
@@ -99,17 +91,17 @@ TEST(Settings, FormerNamesAreRejectedWithTheReplacement) {
 TEST(Settings, AValueOutsideTheRangeIsRejectedWithTheRange) {
   const auto walr = makeDenoiser("walr_paper");
   for (const char* value : {"0", "6", "-1", "3.5", "many", "", "nan", "3 "}) {
-    const std::string message = rejection([&] { walr->set("regression.iterations", value); });
+    const std::string message = errorText([&] { walr->set("regression.iterations", value); });
     EXPECT_NE(message.find("regression.iterations"), std::string::npos) << value;
     EXPECT_NE(message.find("1..5"), std::string::npos) << value;
   }
-  EXPECT_NE(rejection([&] { walr->set("regression.plane-far", "nan"); }), "");
+  EXPECT_NE(errorText([&] { walr->set("regression.plane-far", "nan"); }), "");
   EXPECT_EQ(valueOf(*walr, "regression.iterations"), "4");
 }
 
 TEST(Settings, AnUnknownChoiceIsRejectedWithTheChoices) {
   const auto walr = makeDenoiser("walr_paper");
-  const std::string message = rejection([&] { walr->set("regression.moments", "raw64"); });
+  const std::string message = errorText([&] { walr->set("regression.moments", "raw64"); });
   EXPECT_NE(message.find("centred16, raw16, raw11, raw32"), std::string::npos) << message;
 }
 
@@ -154,7 +146,7 @@ TEST(Settings, BothEndsOfARangeCanBeSet) {
 }
 
 TEST(Settings, AnUnknownMethodIsRejectedWithTheKnownOnes) {
-  const std::string message = rejection([] { (void)makeDenoiser("wlar"); });
+  const std::string message = errorText([] { (void)makeDenoiser("wlar"); });
   EXPECT_NE(message.find("\"wlar\""), std::string::npos) << message;
   for (const std::string& method : denoiserNames()) EXPECT_NE(message.find(method), std::string::npos) << message;
 }
@@ -183,13 +175,13 @@ TEST(Presets, TheFirstOneHasTheDefaults) {
 }
 
 TEST(Presets, AnUnknownOneIsRejectedWithTheKnownOnes) {
-  const std::string message = rejection([] { makeDenoiser("walr_paper")->usePreset("best"); });
+  const std::string message = errorText([] { makeDenoiser("walr_paper")->usePreset("best"); });
   EXPECT_NE(message.find("paper, robust"), std::string::npos) << message;
 }
 
 TEST(Presets, FormerPresetsOfWalrAreRejectedWithTheMethodToUse) {
   for (const char* preset : {"blocks", "robust", "paper"}) {
-    const std::string message = rejection([&] { makeDenoiser("walr")->usePreset(preset); });
+    const std::string message = errorText([&] { makeDenoiser("walr")->usePreset(preset); });
     EXPECT_NE(message.find("\"" + std::string(preset) + "\""), std::string::npos) << message;
     EXPECT_NE(message.find("walr is what its preset blocks was"), std::string::npos) << message;
     EXPECT_NE(message.find("robust and paper are those of the method walr_paper"), std::string::npos) << message;

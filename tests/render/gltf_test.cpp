@@ -18,6 +18,7 @@
 #include "samples/render/load_scene.h"
 #include "samples/render/scene_error.h"
 #include "samples/render/view.h"
+#include "tests/error_text.h"
 #include "tests/render/small_jpeg.h"
 #include "tests/samples/temporary_directory.h"
 
@@ -43,13 +44,7 @@ class Gltf : public testing::Test {
 
   /// Expects that loading fails with a message that contains the file's name and `text`.
   static void expectError(const fs::path& file, const std::string& text) {
-    try {
-      loadScene(file);
-      ADD_FAILURE() << "loaded without the expected error: " << text;
-    } catch (const SceneError& error) {
-      EXPECT_NE(std::string(error.what()).find(text), std::string::npos) << error.what();
-      EXPECT_NE(std::string(error.what()).find(file.string()), std::string::npos) << error.what();
-    }
+    fg::test::expectError<SceneError>([&] { loadScene(file); }, {text, file.string()});
   }
 
   static void expectWarning(const fs::path& file, const std::string& text) {
@@ -309,12 +304,7 @@ TEST_F(Gltf, CameraIsFoundByNameOrRefused) {
   for (const char* const name : {"fence", "tiled wall", "window"}) {
     EXPECT_NE(findCamera(scene, ""), findCamera(scene, name));
   }
-  try {
-    findCamera(scene, "other");
-    FAIL();
-  } catch (const SceneError& error) {
-    EXPECT_NE(std::string(error.what()).find("'camera'"), std::string::npos) << error.what();
-  }
+  fg::test::expectError<SceneError>([&] { findCamera(scene, "other"); }, {"'camera'"});
   const Scene blind = loadScene(boxWith([](Json& json) {
     for (Json& node : json["nodes"]) {
       node.erase("camera");

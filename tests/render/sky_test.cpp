@@ -19,6 +19,7 @@
 #include "samples/render/load_sky.h"
 #include "samples/render/path_tracer.h"
 #include "samples/render/sky.h"
+#include "tests/error_text.h"
 #include "tests/render/scene_builder.h"
 #include "tests/render/statistics.h"
 #include "tests/samples/temporary_directory.h"
@@ -174,13 +175,7 @@ class SkyFile : public testing::Test {
     return folder.path() / "sky.exr";
   }
   static void expectError(const std::filesystem::path& file, const std::string& text) {
-    try {
-      loadSky(file);
-      ADD_FAILURE() << "loaded without the expected error: " << text;
-    } catch (const InputError& error) {
-      EXPECT_NE(std::string(error.what()).find(text), std::string::npos) << error.what();
-      EXPECT_NE(std::string(error.what()).find(file.string()), std::string::npos) << error.what();
-    }
+    fg::test::expectError<InputError>([&] { loadSky(file); }, {text, file.string()});
   }
 
   walr::test::TemporaryDirectory folder;

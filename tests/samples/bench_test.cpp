@@ -19,26 +19,17 @@
 #include "samples/bench/sweep.h"
 #include "samples/bench/variant.h"
 #include "samples/errors.h"
+#include "tests/error_text.h"
 #include "tests/samples/synthetic_sequence.h"
 #include "tests/samples/temporary_directory.h"
 
 namespace walr {
 namespace {
 
+using fg::test::expectError;
 using test::Channels;
 using test::SyntheticSequence;
 using test::TemporaryDirectory;
-
-/// The message of the exception that a call throws.
-template <typename Function>
-std::string messageOf(Function function) {
-  try {
-    function();
-  } catch (const std::exception& error) {
-    return error.what();
-  }
-  return "nothing was thrown";
-}
 
 TEST(Spread, IsThatOfNumPy) {
   // numpy.percentile([15, 20, 35, 40, 50], [50, 5, 95]) and of one value.
@@ -115,16 +106,13 @@ TEST(Variants, TakeSettingsUnderAName) {
 }
 
 TEST(Variants, NameWhatIsWrong) {
-  EXPECT_NE(messageOf([] { parseMethods("walr,magic"); }).find("magic"), std::string::npos);
-  EXPECT_NE(messageOf([] { parseMethods("walr:fancy"); }).find("fancy"), std::string::npos);
-  EXPECT_NE(messageOf([] { parseVariant("x=walr,nothing=1"); }).find("nothing"), std::string::npos);
-  EXPECT_NE(messageOf([] { parseVariant("walr"); }).find("NAME=METHOD"), std::string::npos);
-  EXPECT_NE(messageOf([] { parseVariant("../x=walr"); }).find("NAME=METHOD"), std::string::npos);
-  EXPECT_NE(messageOf([] {
-              withBaseline({parseVariant("a=walr"), parseVariant("a=bmfr")});
-            }).find("'a'"),
-            std::string::npos);
-  EXPECT_NE(messageOf([] { withBaseline(parseMethods("flr,flr")); }).find("'flr'"), std::string::npos);
+  expectError<std::exception>([] { parseMethods("walr,magic"); }, {"magic"});
+  expectError<std::exception>([] { parseMethods("walr:fancy"); }, {"fancy"});
+  expectError<std::exception>([] { parseVariant("x=walr,nothing=1"); }, {"nothing"});
+  expectError<std::exception>([] { parseVariant("walr"); }, {"NAME=METHOD"});
+  expectError<std::exception>([] { parseVariant("../x=walr"); }, {"NAME=METHOD"});
+  expectError<std::exception>([] { withBaseline({parseVariant("a=walr"), parseVariant("a=bmfr")}); }, {"'a'"});
+  expectError<std::exception>([] { withBaseline(parseMethods("flr,flr")); }, {"'flr'"});
 }
 
 TEST(Variants, BeginWithTheBaseline) {
@@ -146,7 +134,7 @@ TEST(Sweeps, HoldSettingsThatExist) {
       EXPECT_GT(planCosts(variant, {64, 48}, {}).bytesReadPerPixel, 0.0);
     }
   }
-  EXPECT_NE(messageOf([] { sweepVariants("magic"); }).find("known sweeps: iterations"), std::string::npos);
+  expectError<std::exception>([] { sweepVariants("magic"); }, {"known sweeps: iterations"});
 }
 
 TEST(Sweeps, HoldTheDefaultOnce) {

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "samples/errors.h"
+#include "tests/error_text.h"
 #include "tests/samples/temporary_directory.h"
 
 namespace walr {
@@ -71,12 +72,8 @@ TEST_F(VmafTest, AFailureIsNamed) {
   const std::optional<VmafTool> tool = VmafTool::find(standIn("model_path"), {}, whyNot);
   ASSERT_TRUE(tool) << whyNot;
   std::ofstream(folder.path() / "stand-in") << "#!/bin/sh\necho first; echo no such clip >&2; exit 1\n";
-  try {
-    static_cast<void>(tool->scores(folder.path() / "a.rgb", folder.path() / "b.rgb", {40, 32}));
-    FAIL() << "a program that fails has no scores";
-  } catch (const OutputError& error) {
-    EXPECT_NE(std::string(error.what()).find("says: no such clip"), std::string::npos) << error.what();
-  }
+  const auto scores = [&] { (void)tool->scores(folder.path() / "a.rgb", folder.path() / "b.rgb", {40, 32}); };
+  fg::test::expectError<OutputError>(scores, {"says: no such clip"});
 }
 
 /// The option changed its name and format with libvmaf 2. A path may contain characters that separate options or

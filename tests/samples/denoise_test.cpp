@@ -82,14 +82,7 @@ class FrameOutputTest : public testing::Test {
     denoised.indirect = denoised.frame.indirect;
     options.directory = directory.path();
   }
-  [[nodiscard]] std::vector<std::string> writtenFiles() const {
-    std::vector<std::string> names;
-    for (const auto& file : std::filesystem::directory_iterator(directory.path())) {
-      names.push_back(file.path().filename().string());
-    }
-    std::ranges::sort(names);
-    return names;
-  }
+  [[nodiscard]] std::vector<std::string> writtenFiles() const { return test::namesIn(directory.path()); }
 
   test::TemporaryDirectory directory;
   DenoisedFrame denoised;

@@ -26,14 +26,7 @@ class HostProgramTest : public testing::Test {
     arguments.insert(arguments.end(), more.begin(), more.end());
     return test::runProcess(arguments);
   }
-  [[nodiscard]] std::vector<std::string> outputFiles() const {
-    std::vector<std::string> names;
-    for (const auto& file : fs::directory_iterator(output)) {
-      names.push_back(file.path().filename().string());
-    }
-    std::ranges::sort(names);
-    return names;
-  }
+  [[nodiscard]] std::vector<std::string> outputFiles() const { return test::namesIn(output); }
 
   test::TemporaryDirectory folder;
   fs::path output = folder.path() / "out";
@@ -60,9 +53,7 @@ TEST_F(HostProgramTest, NamesThePresetInUse) {
 
 TEST_F(HostProgramTest, RefusesCommandLinesWithoutMeaning) {
   const auto expectUsage = [&](const std::vector<std::string>& arguments, const std::string& named) {
-    const test::ProcessResult result = host(arguments);
-    EXPECT_EQ(result.exitCode, kUsage) << result.err;
-    EXPECT_NE(result.err.find(named), std::string::npos) << result.err;
+    test::expectFailure(host(arguments), kUsage, {named});
   };
   expectUsage({}, "SCENE");
   expectUsage({scene}, "--output");
@@ -75,16 +66,12 @@ TEST_F(HostProgramTest, RefusesCommandLinesWithoutMeaning) {
 TEST_F(HostProgramTest, NamesTheSceneThatCannotBeRead) {
   const fs::path broken = folder.path() / "broken.glb";
   test::writeText(broken, "glTF");
-  const test::ProcessResult result = host({broken.string(), "-o", output.string()});
-  EXPECT_EQ(result.exitCode, kInput) << result.err;
-  EXPECT_NE(result.err.find(broken.string()), std::string::npos) << result.err;
+  test::expectFailure(host({broken.string(), "-o", output.string()}), kInput, {broken.string()});
 }
 
 TEST_F(HostProgramTest, NamesAFolderThatCannotBeMade) {
   test::writeText(output, "a file");
-  const test::ProcessResult result = host({scene, "-o", output.string()});
-  EXPECT_EQ(result.exitCode, kOutput) << result.err;
-  EXPECT_NE(result.err.find(output.string()), std::string::npos) << result.err;
+  test::expectFailure(host({scene, "-o", output.string()}), kOutput, {output.string()});
 }
 
 }  // namespace

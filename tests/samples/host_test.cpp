@@ -27,6 +27,7 @@
 #include "samples/image/exr.h"
 #include "samples/image/half.h"
 #include "samples/image/tone_map.h"
+#include "tests/error_text.h"
 #include "tests/samples/temporary_directory.h"
 #include "tests/vulkan/function_hooks.h"
 
@@ -222,13 +223,11 @@ TEST_F(HostTest, TextureViewShowsValuesScaledAndShifted) {
 }
 
 TEST_F(HostTest, UnknownTextureIsNamedWithThoseThereAre) {
-  try {
-    render({.view = {HostView::Kind::Texture, "nothing"}});
-    FAIL() << "a view of a texture that is not there";
-  } catch (const UsageError& error) {
-    EXPECT_NE(std::string(error.what()).find("'nothing'"), std::string::npos) << error.what();
-    EXPECT_NE(std::string(error.what()).find("'albedo'"), std::string::npos) << error.what();
-  }
+  fg::test::expectError<UsageError>(
+      [&] {
+        render({.view = {HostView::Kind::Texture, "nothing"}});
+      },
+      {"'nothing'", "'albedo'"});
 }
 
 /// Runs a window's frame without the window.

@@ -12,6 +12,7 @@
 #include "samples/image/file_output.h"
 #include "samples/image/png.h"
 #include "samples/image/tone_map.h"
+#include "tests/error_text.h"
 #include "tests/samples/synthetic_sequence.h"
 #include "tests/samples/temporary_directory.h"
 
@@ -28,11 +29,6 @@ Image ramp(int width, int height, int components) {
     value += 0.25F;
   }
   return image;
-}
-
-std::size_t filesIn(const std::filesystem::path& folder) {
-  return static_cast<std::size_t>(
-      std::distance(std::filesystem::directory_iterator(folder), std::filesystem::directory_iterator()));
 }
 
 TEST(Exr, KeepsValuesTypesAndAttributes) {
@@ -85,14 +81,13 @@ TEST(Exr, TruncationAtAnyLengthGivesAnErrorThatNamesTheFile) {
   const std::string whole = test::readText(file);
   for (std::size_t length = 0; length < whole.size(); length += 1 + whole.size() / 40) {
     std::ofstream(file, std::ios::binary) << whole.substr(0, length);
-    try {
+    const auto readWhole = [&] {
       ExrReader reader(file);
       Image read(reader.width(), reader.height(), 1);
       reader.read(std::vector<ExrReader::Target>{{"Y", &read, 0}});
-      FAIL() << "read " << length << " of " << whole.size() << " bytes";
-    } catch (const InputError& error) {
-      EXPECT_NE(std::string(error.what()).find("cut.exr"), std::string::npos) << error.what();
-    }
+    };
+    SCOPED_TRACE(std::to_string(length) + " of " + std::to_string(whole.size()) + " bytes");
+    fg::test::expectError<InputError>(readWhole, {"cut.exr"});
   }
 }
 
@@ -104,29 +99,24 @@ TEST(FileOutput, AFailedWriteKeepsTheOldFileAndLeavesNoOther) {
   const std::string text = "new";
   // A file cannot replace a directory, so that the final rename fails.
   EXPECT_THROW(writeFileAtomically(directory.path() / "taken", std::as_bytes(std::span(text))), OutputError);
-  EXPECT_EQ(filesIn(directory.path()), 2U);
+  EXPECT_EQ(test::namesIn(directory.path()).size(), 2U);
   writeFileAtomically(file, std::as_bytes(std::span(text)));
   EXPECT_EQ(test::readText(file), "new");
-  EXPECT_EQ(filesIn(directory.path()), 2U);
+  EXPECT_EQ(test::namesIn(directory.path()).size(), 2U);
 }
 
 TEST(FileOutput, AnOutputDirectoryThatCannotBeCreatedIsNamed) {
   const TemporaryDirectory directory;
   test::writeText(directory.path() / "file", "");
   for (const auto& path : {directory.path() / "file", directory.path() / "file" / "below"}) {
-    try {
-      prepareOutputDirectory(path);
-      FAIL();
-    } catch (const OutputError& error) {
-      EXPECT_NE(std::string(error.what()).find(path.string()), std::string::npos) << error.what();
-    }
+    fg::test::expectError<OutputError>([&] { prepareOutputDirectory(path); }, {path.string()});
   }
 }
 
 TEST(FileOutput, PreparingADirectoryLeavesItEmpty) {
   const TemporaryDirectory directory;
   prepareOutputDirectory(directory.path() / "a" / "b");
-  EXPECT_EQ(filesIn(directory.path() / "a" / "b"), 0U);
+  EXPECT_EQ(test::namesIn(directory.path() / "a" / "b").size(), 0U);
 }
 
 TEST(ToneMap, FollowsReinhardAndSrgb) {

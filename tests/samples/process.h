@@ -1,10 +1,16 @@
 #pragma once
 
 #include <cstdint>
+#include <initializer_list>
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
+
+#include <gtest/gtest.h>
+
+#include "tests/error_text.h"
 
 namespace walr::test {
 
@@ -22,5 +28,14 @@ struct ProcessOptions {
 
 /// Run a program to its end.
 ProcessResult runProcess(const std::vector<std::string>& arguments, const ProcessOptions& options = {});
+
+inline void expectSuccess(const ProcessResult& result) {
+  EXPECT_EQ(result.exitCode, 0) << result.out << result.err;
+}
+/// A program must have failed with a code, and its message must hold these parts.
+inline void expectFailure(const ProcessResult& result, int code, std::initializer_list<std::string_view> parts) {
+  EXPECT_EQ(result.exitCode, code) << result.err;
+  fg::test::expectContains(result.err, parts);
+}
 
 }  // namespace walr::test

@@ -11,6 +11,7 @@
 
 #include "samples/errors.h"
 #include "samples/sequence/writer.h"
+#include "tests/error_text.h"
 #include "tests/samples/synthetic_sequence.h"
 #include "tests/samples/temporary_directory.h"
 
@@ -20,24 +21,11 @@ namespace {
 using test::Channels;
 using test::SyntheticSequence;
 
-/// Expects an InputError whose message contains all of the given parts.
-template <typename Action>
-void expectInputError(Action action, std::initializer_list<const char*> parts) {
-  try {
-    action();
-    ADD_FAILURE() << "no error";
-  } catch (const InputError& error) {
-    for (const char* part : parts) {
-      EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << "'" << part << "' in: " << error.what();
-    }
-  }
-}
-
 class SequenceTest : public testing::Test {
  protected:
   [[nodiscard]] Sequence open(SequenceOptions options = {}) const { return {files.folder(), std::move(options)}; }
-  void expectRefused(std::initializer_list<const char*> parts, const SequenceOptions& options = {}) const {
-    expectInputError([&] { static_cast<void>(open(options)); }, parts);
+  void expectRefused(std::initializer_list<std::string_view> parts, const SequenceOptions& options = {}) const {
+    fg::test::expectError<InputError>([&] { static_cast<void>(open(options)); }, parts);
   }
   void editCameras(const std::function<void(nlohmann::json&)>& edit) const {
     const auto path = files.folder() / "cameras.json";
@@ -146,7 +134,7 @@ TEST_F(SequenceTest, ReferencesMayHavePixelsThatAreNanInAllChannels) {
 
   reference.indirect.pixel(9)[1] = kNone;
   writeReference(directory.path(), 7, reference);
-  expectInputError([&] { static_cast<void>(open().read(0)); }, {"Indirect.G has 1 value(s)"});
+  fg::test::expectError<InputError>([&] { static_cast<void>(open().read(0)); }, {"Indirect.G has 1 value(s)"});
 }
 
 TEST_F(SequenceTest, ObjectNumbersMustBeInAllFramesOrInNone) {
@@ -237,7 +225,7 @@ TEST_F(SequenceTest, TwoFilesOfOneFrameAreRefused) {
 
 TEST_F(SequenceTest, AnEmptyOrMissingFolderIsRefused) {
   expectRefused({directory.path().c_str(), "no frames"});
-  expectInputError([&] { Sequence(directory.path() / "nowhere", {}); }, {"nowhere", "not a folder"});
+  fg::test::expectError<InputError>([&] { Sequence(directory.path() / "nowhere", {}); }, {"nowhere", "not a folder"});
 }
 
 TEST_F(SequenceTest, MissingCamerasAreNamed) {
@@ -251,7 +239,7 @@ TEST_F(SequenceTest, MissingCamerasAreNamed) {
 TEST_F(SequenceTest, BadCameraFilesAreNamed) {
   files.write(0, 1);
   const auto expectBad = [&](const std::function<void(nlohmann::json&)>& edit,
-                             std::initializer_list<const char*> parts) {
+                             std::initializer_list<std::string_view> parts) {
     files.writeCameras(0, 1);
     editCameras(edit);
     expectRefused(parts);
@@ -319,8 +307,8 @@ TEST_P(NonFiniteTest, IsRefusedWithPositionAndCountOrAcceptedOnRequest) {
   });
   SequenceOptions options;
   options.composite = true;
-  expectInputError([&] { static_cast<void>(open(options).read(0)); },
-                   {"noisy_0000.exr", GetParam(), "2 value(s)", "(4, 1)", "--non-finite replace"});
+  fg::test::expectError<InputError>([&] { static_cast<void>(open(options).read(0)); },
+                                    {"noisy_0000.exr", GetParam(), "2 value(s)", "(4, 1)", "--non-finite replace"});
   options.nonFinite = NonFinitePolicy::Replace;
   const Frame frame = open(options).read(0);
   ASSERT_EQ(frame.nonFinite.size(), 1U);

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace walr::test {
 
@@ -29,5 +31,13 @@ class TemporaryDirectory {
  private:
   std::filesystem::path path_;
 };
+
+/// Names of what lies in a folder, sorted.
+inline std::vector<std::string> namesIn(const std::filesystem::path& folder) {
+  std::vector<std::string> names;
+  for (const auto& file : std::filesystem::directory_iterator(folder)) names.push_back(file.path().filename().string());
+  std::ranges::sort(names);
+  return names;
+}
 
 }  // namespace walr::test

@@ -1,4 +1,7 @@
-"""A virtual screen (Xvfb) for programs with windows: reads its pixels, and simulates mouse and keyboard."""
+"""A virtual screen (Xvfb) for programs with windows: reads its pixels, and simulates mouse and keyboard.
+
+Needs Pillow, which comes with Debian's python3-matplotlib.
+"""
 
 import contextlib
 import ctypes
@@ -8,7 +11,8 @@ import struct
 import subprocess
 import sys
 import time
-import zlib
+
+from PIL import Image
 
 PATIENCE = 120.0  # Seconds. A software device is slow while other tests run.
 
@@ -26,38 +30,14 @@ def wait_for(condition, what):
 
 def read_png(path):
     """An 8-bit RGB PNG as rows of bytes."""
-    data = path.read_bytes()
-    assert data[:8] == b"\x89PNG\r\n\x1a\n", path
-    position, packed = 8, b""
-    while position < len(data):
-        length, kind = struct.unpack(">I4s", data[position:position + 8])
-        body = data[position + 8:position + 8 + length]
-        if kind == b"IHDR":
-            width, height, depth, colour = struct.unpack(">IIBB", body[:10])
-            assert (depth, colour) == (8, 2), (depth, colour)
-        elif kind == b"IDAT":
-            packed += body
-        position += 12 + length
-    raw, rows, stride = zlib.decompress(packed), [], 3 * width
-    above = bytearray(stride)
-    for y in range(height):
-        kind, line = raw[y * (stride + 1)], bytearray(raw[y * (stride + 1) + 1:(y + 1) * (stride + 1)])
-        for i in range(stride):
-            left, up, corner = (line[i - 3] if i >= 3 else 0), above[i], (above[i - 3] if i >= 3 else 0)
-            nearest = min((abs(up - corner), 0, left), (abs(left - corner), 1, up), (abs(left + up - 2 * corner), 2, corner))
-            line[i] = (line[i] + (0, left, up, (left + up) // 2, nearest[2])[kind]) & 0xFF
-        rows.append(bytes(line))
-        above = line
-    return rows
+    picture = Image.open(path)
+    assert picture.mode == "RGB", path
+    data, stride = picture.tobytes(), 3 * picture.width
+    return [data[at:at + stride] for at in range(0, len(data), stride)]
 
 
 def write_png(path, rows):
-    def chunk(kind, data):
-        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
-
-    header = struct.pack(">IIBBBBB", len(rows[0]) // 3, len(rows), 8, 2, 0, 0, 0)
-    packed = zlib.compress(b"".join(b"\0" + row for row in rows))
-    path.write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", packed) + chunk(b"IEND", b""))
+    Image.frombytes("RGB", (len(rows[0]) // 3, len(rows)), b"".join(rows)).save(path)
 
 
 class Screen:

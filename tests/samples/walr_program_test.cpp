@@ -21,6 +21,8 @@ namespace {
 
 namespace fs = std::filesystem;
 using test::Channels;
+using test::expectFailure;
+using test::expectSuccess;
 using test::ProcessOptions;
 using test::ProcessResult;
 using test::SyntheticSequence;
@@ -56,21 +58,7 @@ class ProgramTest : public testing::Test {
     arguments.insert(arguments.end(), more.begin(), more.end());
     return walr(arguments, options);
   }
-  [[nodiscard]] std::vector<std::string> outputFiles() const {
-    std::vector<std::string> names;
-    for (const auto& file : fs::directory_iterator(output)) {
-      names.push_back(file.path().filename().string());
-    }
-    std::ranges::sort(names);
-    return names;
-  }
-  static void expectFailure(const ProcessResult& result, int code, std::initializer_list<std::string> parts) {
-    EXPECT_EQ(result.exitCode, code) << result.err;
-    for (const std::string& part : parts) {
-      EXPECT_NE(result.err.find(part), std::string::npos) << "'" << part << "' in: " << result.err;
-    }
-  }
-  static void expectSuccess(const ProcessResult& result) { EXPECT_EQ(result.exitCode, 0) << result.out << result.err; }
+  [[nodiscard]] std::vector<std::string> outputFiles() const { return test::namesIn(output); }
 
   test::TemporaryDirectory directory;
   fs::path input = directory.path() / "in";
@@ -261,7 +249,7 @@ INSTANTIATE_TEST_SUITE_P(TinyAndOdd, MethodAndSize,
                                           testing::Values(1, 5)));
 
 TEST_F(ProgramTest, BadInputIsNamedBeforeAnythingIsWritten) {
-  const auto expectBad = [&](std::initializer_list<std::string> parts) {
+  const auto expectBad = [&](std::initializer_list<std::string_view> parts) {
     expectFailure(denoise(), kInput, parts);
     EXPECT_FALSE(fs::exists(output));
   };

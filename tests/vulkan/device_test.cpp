@@ -4,6 +4,7 @@
 
 #include "framegraph/vulkan/driver_memory_model.h"
 #include "framegraph/vulkan/error.h"
+#include "tests/error_text.h"
 #include "tests/vulkan/gpu_fixture.h"
 #include "tests/vulkan/graph_run.h"
 #include "tests/vulkan/test_graphs.h"
@@ -13,28 +14,13 @@ namespace {
 
 using DeviceTest = GpuTest;
 
-/// The message of the Unsupported error that `action` must throw.
-template <typename Action>
-std::string unsupportedMessage(Action action) {
-  try {
-    action();
-  } catch (const vk::Unsupported& error) {
-    return error.what();
-  }
-  return "nothing was thrown";
-}
-
-void expectContains(const std::string& text, std::string_view part) {
-  EXPECT_NE(text.find(part), std::string::npos) << "'" << part << "' is missing in: " << text;
-}
-
 TEST_F(DeviceTest, ListingNamesDeviceAndDriver) {
   const auto devices = vk::physicalDevices(instance());
   const std::string text = vk::listing(devices);
   for (const vk::PhysicalDevice& device : devices) {
-    expectContains(text, std::to_string(device.index) + ": " + device.name);
+    expectContains(text, {std::to_string(device.index) + ": " + device.name});
     EXPECT_FALSE(device.driver.empty());
-    expectContains(text, device.driver);
+    expectContains(text, {device.driver});
   }
 }
 
@@ -62,10 +48,10 @@ TEST(ChooseDevice, ByIndexByPartOfTheNameAndByType) {
   EXPECT_EQ(vk::choose(devices, "0").index, 0u);
   EXPECT_EQ(vk::choose(devices, "LLVM").index, 0u);
   EXPECT_EQ(vk::choose(devices, "thing").index, 1u);
-  const std::string message = unsupportedMessage([&] { (void)vk::choose(devices, "radeon"); });
-  expectContains(message, "no Vulkan device 'radeon'");
-  expectContains(message, "1: Integrated Thing");
-  expectContains(unsupportedMessage([&] { (void)vk::choose(devices, "3"); }), "no Vulkan device '3'");
+  const std::string message = errorText<vk::Unsupported>([&] { (void)vk::choose(devices, "radeon"); });
+  expectContains(message, {"no Vulkan device 'radeon'"});
+  expectContains(message, {"1: Integrated Thing"});
+  expectError<vk::Unsupported>([&] { (void)vk::choose(devices, "3"); }, {"no Vulkan device '3'"});
 }
 
 TEST(RequireDevice, NamesEveryMissingFeatureAndFormat) {
@@ -77,11 +63,11 @@ TEST(RequireDevice, NamesEveryMissingFeatureAndFormat) {
   device.synchronization2 = false;
   device.features.shaderStorageImageExtendedFormats = VK_FALSE;
   device.formatFeatures = [](VkFormat) { return VkFormatFeatureFlags{VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT}; };
-  const std::string message = unsupportedMessage([&] { vk::require(device, uses); });
-  expectContains(message, "'Old Thing' (fake 1.0)");
-  expectContains(message, "synchronization2 (Vulkan 1.3 or VK_KHR_synchronization2): update the driver");
-  expectContains(message, "shaderStorageImageExtendedFormats");
-  expectContains(message, "of 'moments' as storage image");
+  const std::string message = errorText<vk::Unsupported>([&] { vk::require(device, uses); });
+  expectContains(message, {"'Old Thing' (fake 1.0)"});
+  expectContains(message, {"synchronization2 (Vulkan 1.3 or VK_KHR_synchronization2): update the driver"});
+  expectContains(message, {"shaderStorageImageExtendedFormats"});
+  expectContains(message, {"of 'moments' as storage image"});
 
   device.apiVersion = VK_API_VERSION_1_0;
   device.computeQueueFamily = kNone;
@@ -101,13 +87,13 @@ TEST(NoDriver, MessageNamesTheRemedy) {
   // CTest runs each test in a process of its own. Without CTest, later tests need the environment restored.
   const char* names[] = {"VK_DRIVER_FILES", "VK_ICD_FILENAMES"};
   for (const char* name : names) setenv(name, "/nowhere/at/all.json", 1);
-  const std::string message = unsupportedMessage([] {
+  const std::string message = errorText<vk::Unsupported>([] {
     const vk::Instance instance;
     (void)vk::physicalDevices(instance);
   });
   for (const char* name : names) unsetenv(name);
-  expectContains(message, "no Vulkan d");
-  expectContains(message, "mesa-vulkan-drivers");
+  expectContains(message, {"no Vulkan d"});
+  expectContains(message, {"mesa-vulkan-drivers"});
 }
 
 TEST(NoLayer, MessageNamesTheRemedy) {
@@ -119,12 +105,13 @@ TEST(NoLayer, MessageNamesTheRemedy) {
     };
     return reinterpret_cast<PFN_vkVoidFunction>(none);
   };
-  const std::string message = unsupportedMessage([&] {
+  const std::string message = errorText<vk::Unsupported>([&] {
     vk::InstanceOptions options;
     options.validation = true;
     const vk::Instance instance(options, entry);
   });
-  expectContains(message, "VK_LAYER_KHRONOS_validation is not installed: install the package vulkan-validationlayers");
+  expectContains(message,
+                 {"VK_LAYER_KHRONOS_validation is not installed: install the package vulkan-validationlayers"});
 }
 
 TEST_F(DeviceTest, MissingFunctionIsNamed) {
@@ -133,10 +120,10 @@ TEST_F(DeviceTest, MissingFunctionIsNamed) {
   const PFN_vkGetDeviceProcAddr withoutSynchronization2 = [](VkDevice handle, const char* name) -> PFN_vkVoidFunction {
     return std::string_view(name).starts_with("vkCmdPipelineBarrier2") ? nullptr : real(handle, name);
   };
-  const std::string message =
-      unsupportedMessage([&] { (void)vk::DeviceFunctions::load(context().view.device, withoutSynchronization2); });
-  expectContains(message, "vkCmdPipelineBarrier2 is missing");
-  expectContains(message, "VK_KHR_synchronization2");
+  const std::string message = errorText<vk::Unsupported>(
+      [&] { (void)vk::DeviceFunctions::load(context().view.device, withoutSynchronization2); });
+  expectContains(message, {"vkCmdPipelineBarrier2 is missing"});
+  expectContains(message, {"VK_KHR_synchronization2"});
 }
 
 TEST_F(DeviceTest, ExtensionFunctionsReplaceMissingCoreFunctions) {

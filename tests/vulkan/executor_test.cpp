@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "framegraph/vulkan/error.h"
+#include "tests/error_text.h"
 #include "tests/vulkan/gpu_fixture.h"
 #include "tests/vulkan/graph_run.h"
 #include "tests/vulkan/test_graphs.h"
@@ -140,12 +141,8 @@ TEST_F(ExecutorTest, UploadedBytesStayUntilTheNextUpload) {
 TEST_F(ExecutorTest, UploadOfAnotherSizeIsRefusedByName) {
   UniformGraph uniform(1);
   GraphRun run(device(), uniform.graph);
-  try {
-    run.executor().upload(uniform.frame, std::uint32_t{1});
-    FAIL() << "an upload of 4 bytes into a buffer of 8 was accepted";
-  } catch (const std::invalid_argument& error) {
-    EXPECT_STREQ(error.what(), "upload of 4 bytes into 'frame', which has 8");
-  }
+  EXPECT_EQ(errorText([&] { run.executor().upload(uniform.frame, std::uint32_t{1}); }),
+            "upload of 4 bytes into 'frame', which has 8");
 }
 
 TEST_F(ExecutorTest, IndirectDispatchReadsItsGroupCountsOnTheGpu) {
@@ -190,12 +187,8 @@ TEST_F(ExecutorTest, ImportWithoutImageIsRefusedByName) {
   vk::Executor executor(context(), graph.desc(), compileFor(context(), graph));
   vk::FrameQueue queue(context(), device().queue());
   const vk::Frame frame = queue.begin();
-  try {
-    executor.record(frame.commandBuffer, frame.slot);
-    FAIL() << "recorded without an image for 'out'";
-  } catch (const vk::Error& error) {
-    EXPECT_STREQ(error.what(), "nothing is bound to import 'out': call Executor::bind before recording");
-  }
+  EXPECT_EQ(errorText<vk::Error>([&] { executor.record(frame.commandBuffer, frame.slot); }),
+            "nothing is bound to import 'out': call Executor::bind before recording");
   EXPECT_THROW(executor.bind(out, {}), std::invalid_argument);
   EXPECT_THROW(executor.record(frame.commandBuffer, 2), std::out_of_range);
 }
@@ -282,13 +275,8 @@ TEST_F(ExecutorTest, PlanOfAnotherDeviceIsRefusedByName) {
   chain(graph, 0, 3);
   Plan plan = compileFor(context(), graph);
   for (PlannedResource& resource : plan.resources) resource.size /= 2;
-  try {
-    const vk::Executor executor(context(), graph.desc(), plan);
-    FAIL() << "a plan with half the bytes was accepted";
-  } catch (const vk::Error& error) {
-    EXPECT_NE(std::string(error.what()).find("'link0' does not fit where the plan puts it"), std::string::npos)
-        << error.what();
-  }
+  expectError<vk::Error>([&] { const vk::Executor executor(context(), graph.desc(), plan); },
+                         {"'link0' does not fit where the plan puts it"});
 }
 
 class PipelineCacheTest : public GpuTest {
@@ -350,12 +338,7 @@ TEST_F(PipelineCacheTest, UnwritableFileIsNamed) {
   const std::filesystem::path nowhere = file_ / "no" / "such" / "folder";
   vk::PipelineCache cache(context(), nowhere);
   runWith(cache);
-  try {
-    cache.save();
-    FAIL() << "saved into a folder that does not exist";
-  } catch (const std::filesystem::filesystem_error& error) {
-    EXPECT_NE(std::string(error.what()).find(nowhere.string()), std::string::npos) << error.what();
-  }
+  expectError<std::filesystem::filesystem_error>([&] { cache.save(); }, {nowhere.string()});
 }
 
 }  // namespace

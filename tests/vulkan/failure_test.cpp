@@ -1,6 +1,7 @@
 #include <optional>
 
 #include "framegraph/vulkan/error.h"
+#include "tests/error_text.h"
 #include "tests/vulkan/function_hooks.h"
 #include "tests/vulkan/gpu_fixture.h"
 #include "tests/vulkan/graph_run.h"
@@ -60,13 +61,8 @@ TEST_F(FailureTest, PipelineFailureNamesTheShader) {
   const Plan plan = compileFor(context(), graph);
   hook<&vk::DeviceFunctions::vkCreateComputePipelines>(tampered_);
   hookState = {.calls = 0, .failAt = 1, .failure = VK_ERROR_INITIALIZATION_FAILED};
-  try {
-    const vk::Executor executor(tampered_, graph.desc(), plan);
-    FAIL() << "the failure of the second pipeline was not reported";
-  } catch (const vk::PipelineFailed& error) {
-    EXPECT_STREQ(error.what(),
-                 "creating the pipeline of shader 'add': VK_ERROR_INITIALIZATION_FAILED; update the driver");
-  }
+  EXPECT_EQ(errorText<vk::PipelineFailed>([&] { const vk::Executor executor(tampered_, graph.desc(), plan); }),
+            "creating the pipeline of shader 'add': VK_ERROR_INITIALIZATION_FAILED; update the driver");
   hookState = {};
   GraphRun run({tampered_, device().queue()}, graph, plan);
   run.frame();
