@@ -12,5 +12,7 @@ namespace walr {
 /// coarser grid count by their share of the pixels.
 /// @returns nothing where the plan holds a shader that this does not know
 std::optional<double> tapsPerPixel(const fg::GraphDesc& graph, const fg::Plan& plan, fg::Extent extent);
+/// The same of one pass of the plan.
+std::optional<double> tapsPerPixel(const fg::GraphDesc& graph, const fg::PlannedPass& planned, fg::Extent extent);
 
 }  // namespace walr
