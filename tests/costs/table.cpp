@@ -1,8 +1,11 @@
 #include "tests/costs/table.h"
 
 #include <algorithm>
+#include <array>
 #include <iomanip>
+#include <optional>
 #include <sstream>
+#include <string_view>
 
 namespace walr::costs {
 namespace {
@@ -10,6 +13,12 @@ namespace {
 using Row = std::vector<std::string>;
 
 constexpr const char* kUnknown = "-";
+
+// As `rowOf` fills them in.
+constexpr std::array<std::string_view, 21> kColumns = {
+    "pass",           "shader",       "threads",        "groups",   "VGPRs",   "LDS",         "spills",
+    "scratch",        "waves",        "instructions",   "branches", "fetches", "ACO cycles",  "vector a wave",
+    "fetches a wave", "waits a wave", "cycles a pixel", "MB",       "taps",    "ESTIMATE us", "bound by"};
 
 std::string fixed(double value, int digits) {
   std::ostringstream text;
@@ -75,22 +84,22 @@ Row sumsOf(const MethodCosts& method, const Machine& machine) {
     add(taps, pass.taps);
     add(estimate, bounds ? std::optional(bounds->largest()) : std::nullopt);
   }
-  Row row(21);
-  row[0] = "**sum**";
-  row[16] = fixed(method.cyclesPerPixel(), 1);
-  row[17] = fixed(bytes * 1e-6, 1);
-  row[18] = fixed(taps, 1);
-  row[19] = fixed(estimate, 1);
+  Row row(kColumns.size());
+  const auto set = [&row](std::string_view column, const std::string& text) {
+    row[static_cast<std::size_t>(std::ranges::find(kColumns, column) - kColumns.begin())] = text;
+  };
+  set("pass", "**sum**");
+  set("cycles a pixel", fixed(method.cyclesPerPixel(), 1));
+  set("MB", fixed(bytes * 1e-6, 1));
+  set("taps", fixed(taps, 1));
+  set("ESTIMATE us", fixed(estimate, 1));
   return row;
 }
 
 }  // namespace
 
 std::string costTable(const MethodCosts& costs, const Machine& machine) {
-  std::vector<Row> rows = {
-      {"pass",           "shader",       "threads",        "groups",   "VGPRs",   "LDS",         "spills",
-       "scratch",        "waves",        "instructions",   "branches", "fetches", "ACO cycles",  "vector a wave",
-       "fetches a wave", "waits a wave", "cycles a pixel", "MB",       "taps",    "ESTIMATE us", "bound by"}};
+  std::vector<Row> rows = {Row(kColumns.begin(), kColumns.end())};
   for (const PassCosts& pass : costs.passes) rows.push_back(rowOf(pass, costs, machine));
   rows.push_back(sumsOf(costs, machine));
 
