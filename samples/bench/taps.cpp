@@ -120,16 +120,22 @@ constexpr std::array kShaders = {
 
 }  // namespace
 
+std::optional<double> tapsPerPixel(const fg::GraphDesc& graph, const fg::PlannedPass& planned, fg::Extent extent) {
+  const fg::PassDecl& pass = graph.passes[planned.pass];
+  const auto* work = std::get_if<fg::ComputeDispatch>(&pass.work);
+  if (work == nullptr || work->shader == nullptr) return std::nullopt;
+  const std::string_view name = work->shader->name.substr(0, work->shader->name.find('.'));
+  const auto found = std::ranges::find(kShaders, name, &ShaderTaps::shader);
+  if (found == kShaders.end()) return std::nullopt;
+  return found->taps({*work, extent, shareOf(graph, pass, extent)});
+}
+
 std::optional<double> tapsPerPixel(const fg::GraphDesc& graph, const fg::Plan& plan, fg::Extent extent) {
   double taps = 0.0;
   for (const fg::PlannedPass& planned : plan.passes) {
-    const fg::PassDecl& pass = graph.passes[planned.pass];
-    const auto* work = std::get_if<fg::ComputeDispatch>(&pass.work);
-    if (work == nullptr || work->shader == nullptr) return std::nullopt;
-    const std::string_view name = work->shader->name.substr(0, work->shader->name.find('.'));
-    const auto found = std::ranges::find(kShaders, name, &ShaderTaps::shader);
-    if (found == kShaders.end()) return std::nullopt;
-    taps += found->taps({*work, extent, shareOf(graph, pass, extent)});
+    const auto ofPass = tapsPerPixel(graph, planned, extent);
+    if (!ofPass) return std::nullopt;
+    taps += *ofPass;
   }
   return taps;
 }

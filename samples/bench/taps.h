@@ -12,5 +12,7 @@ namespace walr {
 /// counts by the number of its texels per pixel.
 /// @returns nullopt if the plan contains a shader whose taps are not known here
 std::optional<double> tapsPerPixel(const fg::GraphDesc& graph, const fg::Plan& plan, fg::Extent extent);
+/// The same of one pass of the plan.
+std::optional<double> tapsPerPixel(const fg::GraphDesc& graph, const fg::PlannedPass& planned, fg::Extent extent);
 
 }  // namespace walr

@@ -1,0 +1,85 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+/// What a wave executes of a shader, counted in the listing that AMD's compiler ACO prints of it.
+namespace walr::costs {
+
+/// One instruction of a listing.
+struct Instruction {
+  std::string name;
+  std::string operands;
+};
+
+/// Instructions that run one after the other, with a label in front of them.
+struct BasicBlock {
+  std::size_t label = 0;  ///< "BB7" is 7. Labels ascend; not every number occurs.
+  std::vector<Instruction> instructions;
+};
+
+/// A loop: consecutive blocks of which one jumps back to the first.
+struct Loop {
+  std::size_t first = 0;  ///< Index of the block.
+  std::size_t last = 0;   ///< Inclusive.
+};
+
+/// The machine code of one shader.
+class Listing {
+ public:
+  /// @param assembly the internal representation "Assembly" of RADV
+  /// @throws std::runtime_error naming a jump to a label that there is not
+  explicit Listing(std::string_view assembly);
+
+  [[nodiscard]] std::span<const BasicBlock> blocks() const { return blocks_; }
+  /// In the order of their first blocks: an outer loop comes before those inside it.
+  [[nodiscard]] std::span<const Loop> loops() const { return loops_; }
+  /// Index of the block that an instruction jumps to; nothing where it does not jump.
+  [[nodiscard]] std::optional<std::size_t> target(const Instruction& instruction) const;
+
+ private:
+  std::vector<BasicBlock> blocks_;
+  std::vector<Loop> loops_;
+};
+
+/// What no compiler knows of a shader's loops.
+struct LoopCounts {
+  std::vector<double> rounds;  ///< Of each loop.
+  /// Share of a loop's rounds in which a wave does not jump over a side of a divergent branch inside the loop.
+  double divergent = 1.0;
+};
+
+/// How often a wave runs each block of a listing, on average.
+///
+/// A wave with surface in all its threads is looked at. Both sides of a divergent branch run, for some threads of the
+/// wave take the one and some the other; inside loops, in a share of the rounds. A uniform branch with two sides runs
+/// each of them half of the time: this counts a tree of branches that stands for an array's index as its depth. One
+/// with one side runs it. Loops end when their rounds are over, and never before.
+/// @param loops one entry of `rounds` per loop, indexed like `Listing::loops`
+/// @throws std::invalid_argument if there is another number of them
+std::vector<double> blockFrequencies(const Listing& listing, const LoopCounts& loops);
+
+/// What one wave executes.
+struct WaveCounts {
+  double vector = 0.0;  ///< Vector instructions.
+  double multiplications =
+      0.0;  ///< Those of them that are integer multiplications of 32 bits, at a quarter of the rate.
+  double transcendentals = 0.0;  ///< Those of them that run on the pipe of roots, reciprocals, exponentials and sines.
+  double fetches = 0.0;          ///< Loads, samples and stores of textures and buffers.
+  double waits = 0.0;            ///< Waits for fetches; those for the same fetches count once.
+};
+
+/// @param frequencies of the blocks
+WaveCounts countWave(const Listing& listing, std::span<const double> frequencies);
+
+/// Fetches in the listing, each counted once.
+std::size_t fetchInstructions(const Listing& listing);
+
+/// Jumps in the listing.
+std::size_t branchInstructions(const Listing& listing);
+
+}  // namespace walr::costs

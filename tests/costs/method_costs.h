@@ -1,0 +1,65 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "framegraph/declare/graph.h"
+#include "tests/costs/listing.h"
+#include "tests/costs/null_device.h"
+#include "tests/costs/trip_counts.h"
+
+namespace walr::costs {
+
+/// A method with one of its presets.
+struct MethodName {
+  std::string method;
+  std::string preset;  ///< Empty if the method has none.
+
+  /// "walr_paper:robust", "flr".
+  [[nodiscard]] std::string text() const { return preset.empty() ? method : method + ":" + preset; }
+};
+
+/// All methods, each with all its presets.
+std::vector<MethodName> allMethods();
+
+/// "METHOD", which stands for all its presets, or "METHOD:PRESET".
+/// @throws std::invalid_argument naming the unknown method or preset and the known ones
+std::vector<MethodName> methodsNamed(const std::string& text);
+
+/// What one pass of a plan costs. Passes one after the other that run the same pipeline, as the tiles of a picture do,
+/// are one.
+struct PassCosts {
+  std::string pass;
+  std::string shader;
+  CompiledShader compiled;  ///< Without its assembly.
+  std::uint64_t branches = 0;
+  std::uint64_t fetchInstructions = 0;
+  std::uint64_t groups = 0;
+  std::uint64_t threads = 0;
+  std::uint64_t bytes = 0;     ///< Of the plan: each texel that the pass accesses once.
+  std::optional<double> taps;  ///< A pixel of the picture; nothing where the taps of a shader are not known.
+  std::size_t loops = 0;
+  std::optional<WaveCounts> wave;  ///< Nothing where the trip counts of the shader's loops are not known.
+
+  /// Of a SIMD of Navi 21 for one wave, weighed by trip counts; nothing where these are not known.
+  [[nodiscard]] std::optional<double> cyclesPerWave() const;
+};
+
+/// Costs of a method in the order of its plan.
+struct MethodCosts {
+  MethodName name;
+  fg::Extent extent;
+  std::vector<PassCosts> passes;
+
+  [[nodiscard]] double pixels() const { return static_cast<double>(extent.width) * extent.height; }
+  /// Cycles of SIMDs of Navi 21 a pixel of the picture.
+  [[nodiscard]] std::optional<double> cyclesPerPixel(const PassCosts& pass) const;
+  [[nodiscard]] std::optional<double> cyclesPerPixel() const;
+};
+
+/// @throws std::runtime_error naming what does not compile
+MethodCosts methodCosts(const MethodName& name, fg::Extent extent, const NullDevice& device, const TripCounts& trips);
+
+}  // namespace walr::costs
