@@ -1,10 +1,10 @@
 // WALR, reconstruction (passes/WALR.md, 8): predicts the light of every pixel from the pixel's own features, with the
 // fits around it.
-// Fine prediction: the mean over the fits of the four nearest blocks, weighted by bilinear weight times edge-stopping
-// function of the block's plane times cosine between block normal and shading normal.
-// Coarse prediction: the mean over the fits of the four nearest cells, with bilinear weights alone.
-// The result is a mixture of both. The fewer samples the windows of the fine fits hold, the larger is the share of the
-// coarse prediction (coarse_share.glsl). The cells are not read where that share is 0.
+// Fine prediction: the mean of what the fits of the four nearest blocks predict, at least 0, weighted by bilinear
+// weight times edge-stopping function of the block's plane times cosine between block normal and shading normal.
+// Coarse prediction: the same of the four nearest cells, with bilinear weights alone.
+// The result is a mixture of both. The share of the coarse prediction falls with the mean sample count of the fine
+// windows (coarse_share.glsl). Above a limit it is 0, and the cells are not read. It is 1 if no fine fit is usable.
 // A pixel without a surface (depth 0) is not filtered: its pass-through is copied to the result.
 // PACKED: the result is packed light (packed_light.glsl). A pixel without a surface gets the mark kFilteredNoSurface,
 // and anti-aliasing outputs the pass-through.
@@ -223,8 +223,8 @@ void main() {
 #ifdef VIEW
   imageStore(outView, p, vec4(viewOf(p, fine, coarse, share, guides.occlusion), 1.0));
 #else
-  // Black if no fit is usable. That happens only where light was never finite: a pixel with a sample gives a fit to
-  // its own cell, which is one of the four.
+  // Black if no fit is usable. That happens only if the pixel's history holds no finite sample: any other pixel gives a
+  // fit to its own cell, which is one of the four.
   store(p, mix(meanColour(fine), meanColour(coarse), share));
 #endif
 }
