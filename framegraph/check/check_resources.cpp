@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <bit>
+#include <cstdint>
 
 #include "framegraph/check/checks.h"
 #include "framegraph/declare/access.h"
@@ -39,9 +41,19 @@ void checkNames(const Topology& topology, Findings& findings) {
   }
 }
 
+// No device has larger limits. Within them, no sum of sizes overflows 64 bits.
+constexpr std::uint32_t kLargestSide = 1U << 16;
+constexpr std::uint32_t kMostLayers = 1U << 12;
+constexpr std::uint64_t kLargestBuffer = std::uint64_t{1} << 46;
+
 void checkSize(const ResourceDecl& resource, Findings& findings) {
   if (const auto* buffer = std::get_if<BufferDesc>(&resource.desc)) {
     if (buffer->size == 0) findings.error(code::kEmptyExtent, resource, "buffer '" + resource.name + "' has no bytes");
+    if (buffer->size > kLargestBuffer) {
+      findings.error(code::kTooLarge, resource,
+                     "buffer '" + resource.name + "' has " + std::to_string(buffer->size) + " bytes; the limit is " +
+                         std::to_string(kLargestBuffer));
+    }
     return;
   }
   const auto& texture = std::get<TextureDesc>(resource.desc);
@@ -51,6 +63,14 @@ void checkSize(const ResourceDecl& resource, Findings& findings) {
                    "texture '" + resource.name + "' is empty: " + std::to_string(extent.width) + "x" +
                        std::to_string(extent.height) + ", " + std::to_string(texture.mipLevels) + " mip levels, " +
                        std::to_string(texture.arrayLayers) + " layers");
+    return;
+  }
+  if (std::max(extent.width, extent.height) > kLargestSide || texture.arrayLayers > kMostLayers) {
+    findings.error(code::kTooLarge, resource,
+                   "texture '" + resource.name + "' has " + std::to_string(extent.width) + "x" +
+                       std::to_string(extent.height) + " texels and " + std::to_string(texture.arrayLayers) +
+                       " layers; the limits are " + std::to_string(kLargestSide) + " texels a side and " +
+                       std::to_string(kMostLayers) + " layers");
     return;
   }
   const auto levels = static_cast<std::uint32_t>(std::bit_width(std::max(extent.width, extent.height)));

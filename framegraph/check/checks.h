@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -33,6 +34,9 @@ class Findings {
   void add(std::string_view code, Severity severity, std::string pass, std::string resource, std::string message,
            SourceLocation where) {
     list_.push_back({std::string(code), severity, std::move(pass), std::move(resource), std::move(message), where});
+  }
+  [[nodiscard]] bool has(std::string_view code) const {
+    return std::ranges::find(list_, code, &Diagnostic::code) != list_.end();
   }
   [[nodiscard]] std::vector<Diagnostic> take() { return std::move(list_); }
   /// Empty for invalid handles.

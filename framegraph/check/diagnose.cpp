@@ -16,7 +16,8 @@ std::vector<Diagnostic> diagnose(const Topology& topology, const MemoryModel& me
   Findings findings(topology.graph());
   checkResources(topology, memory, findings);
   checkPasses(topology, findings);
-  checkVersions(topology, findings);
+  // It keeps a mark per mip level and layer, which it cannot for a resource without bounds.
+  if (!findings.has(code::kTooLarge)) checkVersions(topology, findings);
   checkOrder(topology, findings);
   checkShaders(topology, findings);
   std::vector<Diagnostic> list = findings.take();

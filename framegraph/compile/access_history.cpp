@@ -12,10 +12,9 @@ bool isHistory(const ResourceDecl& resource) {
   return resource.lifetime == Lifetime::HistoryPrevious || resource.lifetime == Lifetime::HistoryCurrent;
 }
 
-/// True if the access belongs to the group: a further read in the same layout, or an access by the same pass.
-bool continues(const AccessGroup& group, const AccessInfo& info, VkImageLayout layout, std::uint32_t position) {
-  return group.layout == layout &&
-         (group.position == position || (group.writeMask == VK_ACCESS_2_NONE && !info.writes()));
+/// True if the access belongs to the group: a further read in the same layout, or an access in the same batch.
+bool continues(const AccessGroup& group, const AccessInfo& info, VkImageLayout layout, std::uint32_t batch) {
+  return group.layout == layout && (group.batch == batch || (group.writeMask == VK_ACCESS_2_NONE && !info.writes()));
 }
 
 BarrierReason reasonFor(const SubresourceState& state, const AccessGroup& next) {
@@ -35,8 +34,8 @@ AccessHistory::AccessHistory(const GraphDesc& graph, const Plan& plan)
     first_[i + 1] = first_[i] + (isHistory(resource) ? 1 : all.mipCount * all.layerCount);
   }
   groups_.resize(first_.back());
-  for (std::uint32_t position = 0; position < plan.passes.size(); ++position) {
-    for (const AccessDecl& access : graph.passes[plan.passes[position].pass].accesses) add(position, access);
+  for (const PlannedPass& planned : plan.passes) {
+    for (const AccessDecl& access : graph.passes[planned.pass].accesses) add(planned.batch, access);
   }
 }
 
@@ -51,12 +50,12 @@ std::uint32_t AccessHistory::lastUnreadWrite(std::uint32_t resource) const {
   for (std::uint32_t i = 0; i < subresourceCount(resource); ++i) {
     const std::span<const AccessGroup> all = groups(resource, i);
     if (all.empty() || all.back().writeMask == VK_ACCESS_2_NONE) continue;
-    last = last == kNone ? all.back().position : std::max(last, all.back().position);
+    last = last == kNone ? all.back().batch : std::max(last, all.back().batch);
   }
   return last;
 }
 
-void AccessHistory::add(std::uint32_t position, const AccessDecl& access) {
+void AccessHistory::add(std::uint32_t batch, const AccessDecl& access) {
   const AccessInfo& info = accessInfo(access.access);
   const ResourceDecl& resource = graph_->resources[access.resource];
   const bool isTexture = std::holds_alternative<TextureDesc>(resource.desc);
@@ -67,9 +66,9 @@ void AccessHistory::add(std::uint32_t position, const AccessDecl& access) {
   for (std::uint32_t mip = part.baseMip; mip < part.baseMip + part.mipCount; ++mip) {
     for (std::uint32_t layer = part.baseLayer; layer < part.baseLayer + part.layerCount; ++layer) {
       auto& groups = groups_[first_[access.resource] + mip * layers + layer];
-      if (groups.empty() || !continues(groups.back(), info, layout, position)) {
+      if (groups.empty() || !continues(groups.back(), info, layout, batch)) {
         groups.emplace_back();
-        groups.back().position = position;
+        groups.back().batch = batch;
         groups.back().layout = layout;
       }
       groups.back().stage |= info.stage;

@@ -12,7 +12,7 @@ namespace fg {
 /// Consecutive accesses to one subresource that need no barrier among themselves: one write, or any number of reads in
 /// one layout. One barrier before the first access is enough for all of them.
 struct AccessGroup {
-  std::uint32_t position = 0;  ///< Position in `Plan::passes` of the first access.
+  std::uint32_t batch = 0;  ///< Batch of the first access.
   VkPipelineStageFlags2 stage = VK_PIPELINE_STAGE_2_NONE;
   VkAccessFlags2 readMask = VK_ACCESS_2_NONE;
   VkAccessFlags2 writeMask = VK_ACCESS_2_NONE;
@@ -33,13 +33,13 @@ class AccessHistory {
   [[nodiscard]] std::span<const AccessGroup> groups(std::uint32_t resource, std::uint32_t subresource) const {
     return groups_[first_[resource] + subresource];
   }
-  /// Position of the last pass whose write to some subresource no later pass reads; kNone if there is none.
+  /// Batch of the last write to some subresource that no later pass reads; kNone if there is none.
   [[nodiscard]] std::uint32_t lastUnreadWrite(std::uint32_t resource) const;
   /// Mip level and layer of a subresource; the whole resource if it has only one.
   [[nodiscard]] SubresourceRange range(std::uint32_t resource, std::uint32_t subresource) const;
 
  private:
-  void add(std::uint32_t position, const AccessDecl& access);
+  void add(std::uint32_t batch, const AccessDecl& access);
 
   const GraphDesc* graph_;
   std::vector<std::uint32_t> first_;

@@ -28,13 +28,13 @@ class Placement {
         plan_(plan),
         transients_(std::move(transients)),
         page_(pageSize(granularity, !histories.empty())),
-        heaps_(members(histories), static_cast<std::uint32_t>(plan.passes.size())) {
+        heaps_(members(histories), batchCount(plan)) {
     for (const std::uint32_t resource : transients_) {
       const PlannedResource& planned = plan.resources[resource];
       heldUntil_.push_back(heldUntil(accesses, plan, resource));
-      used_.push_back({planned.size, planned.alignment, planned.firstUse, planned.lastUse});
-      held_.push_back(
-          {roundUp(planned.size, page_), std::max(planned.alignment, page_), planned.firstUse, heldUntil_.back()});
+      const std::uint32_t first = batchOf(planned.firstUse);
+      used_.push_back({planned.size, planned.alignment, first, batchOf(planned.lastUse)});
+      held_.push_back({roundUp(planned.size, page_), std::max(planned.alignment, page_), first, heldUntil_.back()});
     }
   }
 
@@ -65,10 +65,12 @@ class Placement {
     plan_.memory.transientPeakBytes += packing.size - own;
   }
 
-  /// Indexed by position: a lower bound of the bytes of transients that do not fit into the histories' heaps.
+  /// Indexed by batch: a lower bound of the bytes of transients that do not fit into the histories' heaps.
   [[nodiscard]] std::vector<std::uint64_t> excess() const { return heaps_.excess(used_, heldUntil_); }
 
  private:
+  [[nodiscard]] std::uint32_t batchOf(std::uint32_t position) const { return plan_.passes[position].batch; }
+
   /// Unit of offsets and sizes in a heap. Buffers and optimally tiled images must not share a page of `granularity`
   /// bytes, so that a heap with both consists of whole pages; in other heaps a page is one byte.
   [[nodiscard]] std::uint64_t pageSize(std::uint64_t granularity, bool hasHistories) const {
@@ -83,8 +85,8 @@ class Placement {
     for (const std::uint32_t index : histories) {
       const HistoryDecl& history = graph_.histories[index];
       const PlannedResource& current = plan_.resources[history.current];
-      members.push_back({index, roundUp(current.size, page_), std::max(current.alignment, page_), current.firstUse,
-                         plan_.resources[history.previous].lastUse});
+      members.push_back({index, roundUp(current.size, page_), std::max(current.alignment, page_),
+                         batchOf(current.firstUse), batchOf(plan_.resources[history.previous].lastUse)});
     }
     return members;
   }
@@ -155,15 +157,14 @@ std::map<std::uint32_t, MemoryClass> memoryClasses(const Topology& topology, con
 }  // namespace
 
 std::uint32_t heldUntil(const AccessHistory& accesses, const Plan& plan, std::uint32_t resource) {
-  const std::uint32_t lastUse = plan.resources[resource].lastUse;
+  const std::uint32_t lastUse = plan.passes[plan.resources[resource].lastUse].batch;
   const std::uint32_t unread = accesses.lastUnreadWrite(resource);
-  const auto lastPass = static_cast<std::uint32_t>(plan.passes.size()) - 1;
-  return unread == kNone ? lastUse : std::max(lastUse, std::min(unread + 1, lastPass));
+  return unread == kNone ? lastUse : std::max(lastUse, std::min(unread + 1, batchCount(plan) - 1));
 }
 
 void placeTransients(const Topology& topology, const AccessHistory& accesses, std::uint64_t bufferImageGranularity,
                      bool aliasHistories, Plan& plan) {
-  std::vector<std::uint64_t> excess(plan.passes.size());
+  std::vector<std::uint64_t> excess(batchCount(plan));
   for (auto& [memoryTypeBits, members] : memoryClasses(topology, plan, aliasHistories)) {
     Placement placement(topology, accesses, bufferImageGranularity, members.transients, members.histories, plan);
     placement.run(memoryTypeBits);

@@ -55,15 +55,17 @@ CompileResult compile(const GraphDesc& graph, const MemoryModel& memory, const C
   // Ask the memory model for the size of every remaining resource: the order of passes depends on sizes.
   plan.resources = requirements(graph, culling, memory);
 
-  // Order the passes so that few transient bytes are alive at any time. The number of a pass in this order is its
-  // position, the unit of time from here on.
-  const std::vector<std::uint32_t> order = schedule(topology, culling, plan.resources);
-  for (const std::uint32_t pass : order) plan.passes.push_back({pass, {}});
+  // Order the passes in as few batches as their dependencies allow, so that few transient bytes are alive at any time.
+  // The number of a batch is the unit of time from here on.
+  std::uint32_t batch = 0;
+  for (const std::vector<std::uint32_t>& passes : schedule(topology, culling, plan.resources)) {
+    for (const std::uint32_t pass : passes) plan.passes.push_back({pass, batch, {}});
+    ++batch;
+  }
   plan.culled = std::move(culling.culled);
 
-  // Find the first and last position at which each resource is used. Resources whose intervals do not overlap may
-  // share bytes.
-  findLifetimes(graph, order, plan.resources);
+  // Find the first and last pass that uses each resource. Resources that are used in different batches may share bytes.
+  findLifetimes(graph, plan.passes, plan.resources);
 
   // Group accesses that need no barrier among themselves. Placement needs this before synchronization does, because a
   // write that nobody reads holds its bytes until a barrier has made it available.

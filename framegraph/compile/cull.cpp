@@ -12,7 +12,10 @@ class Marker {
 
   std::vector<bool> run() {
     const GraphDesc& graph = topology_.graph();
-    for (const ExportDecl& exported : graph.exports) need(exported.resource.resource, exported.resource.version);
+    for (const ExportDecl& exported : graph.exports) {
+      need(exported.resource.resource, exported.resource.version);
+      needHistory(exported.resource.resource);
+    }
     for (std::uint32_t i = 0; i < graph.passes.size(); ++i) {
       if (graph.passes[i].sideEffects) keep(i);
     }
@@ -37,17 +40,21 @@ class Marker {
   }
 
   void needInputs(const AccessDecl& access) {
-    const GraphDesc& graph = topology_.graph();
-    const ResourceDecl& resource = graph.resources[access.resource];
     if (access.readVersion != kNone) need(access.resource, access.readVersion);
     if (access.writeVersion != kNone) {
       const VersionUses& made = topology_.uses(access.resource, access.writeVersion);
       if (made.keepsPredecessor) need(access.resource, made.predecessor);
     }
-    if (resource.lifetime == Lifetime::HistoryPrevious) {
-      const std::uint32_t current = graph.histories[resource.history].current;
-      need(current, topology_.versionCount(current) - 1);
-    }
+    needHistory(access.resource);
+  }
+
+  /// Last frame's image holds what this frame's writer makes.
+  void needHistory(std::uint32_t index) {
+    const GraphDesc& graph = topology_.graph();
+    const ResourceDecl& resource = graph.resources[index];
+    if (resource.lifetime != Lifetime::HistoryPrevious) return;
+    const std::uint32_t current = graph.histories[resource.history].current;
+    need(current, topology_.versionCount(current) - 1);
   }
 
   const Topology& topology_;

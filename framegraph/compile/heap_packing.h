@@ -6,7 +6,7 @@
 
 namespace fg {
 
-/// A block of memory that is needed during an interval of positions.
+/// A block of memory that is needed during an interval of positions, the numbers of batches.
 struct HeapRequest {
   std::uint64_t size = 0;
   std::uint64_t alignment = 1;

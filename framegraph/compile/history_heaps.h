@@ -9,9 +9,10 @@
 
 namespace fg {
 
-/// The two heaps of some histories, and the times in a frame at which each image holds nothing: `current` before it is
-/// first written, `previous` after it is last read. The heap `incoming` holds every history's `current`, and the heap
-/// `outgoing` holds every `previous` at the same offset. The heaps swap roles every frame.
+/// The two heaps of some histories, and the positions (numbers of batches) in a frame at which each image holds
+/// nothing: `current` before it is first written, `previous` after it is last read. The heap `incoming` holds every
+/// history's `current`, and the heap `outgoing` holds every `previous` at the same offset. The heaps swap roles every
+/// frame.
 class HistoryHeaps {
  public:
   struct Member {
@@ -24,7 +25,7 @@ class HistoryHeaps {
 
   /// Lay histories out in the order of their last reads, so that the bytes which are free at a position form one gap.
   /// @param members in an order that does not depend on registration
-  /// @param positions number of passes
+  /// @param positions number of batches
   HistoryHeaps(std::vector<Member> members, std::uint32_t positions);
 
   [[nodiscard]] std::span<const Member> members() const { return members_; }

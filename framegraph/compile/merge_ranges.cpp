@@ -45,7 +45,7 @@ void absorb(std::vector<Placed>& barriers, Continues continues, Grow grow) {
 void mergeRanges(const ResourceDecl& resource, std::vector<Placed>& barriers) {
   absorb(barriers, nextLayers, [](SubresourceRange& a, const SubresourceRange& b) { a.layerCount += b.layerCount; });
   absorb(barriers, nextMips, [](SubresourceRange& a, const SubresourceRange& b) { a.mipCount += b.mipCount; });
-  for (auto& [position, barrier] : barriers) {
+  for (auto& [batch, barrier] : barriers) {
     if (coversAll(resource, barrier.range)) barrier.range = {};
   }
 }

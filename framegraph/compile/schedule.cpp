@@ -1,10 +1,13 @@
 #include "framegraph/compile/schedule.h"
 
 #include <algorithm>
-#include <queue>
+#include <optional>
+#include <span>
+#include <tuple>
 #include <utility>
 
 #include "framegraph/compile/requirements.h"
+#include "framegraph/declare/access.h"
 #include "framegraph/declare/dependencies.h"
 
 namespace fg {
@@ -32,12 +35,19 @@ class Lists {
 
 using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
-/// The passes to order, numbered in the order of their names, and the transients that they use.
+/// A texture and the layout in which a pass uses it.
+struct TextureUse {
+  std::uint32_t resource = kNone;
+  VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
+};
+
+/// The passes to order, numbered in the order of their names, and the textures and transients that they use.
 struct Problem {
-  std::vector<std::uint32_t> passes;  ///< Indexed by pass number: index into `GraphDesc::passes`.
-  std::vector<std::uint64_t> bytes;   ///< Size of every transient.
-  Lists touched;                      ///< Transients of each pass.
-  Lists touching;                     ///< Passes of each transient.
+  std::vector<std::uint32_t> passes;              ///< Indexed by pass number: index into `GraphDesc::passes`.
+  std::vector<std::vector<TextureUse>> textures;  ///< Of each pass.
+  std::vector<std::uint64_t> bytes;               ///< Indexed by resource: size of every transient.
+  Lists touched;                                  ///< Transients of each pass.
+  Lists touching;                                 ///< Passes of each transient.
   Lists successors;
   Lists predecessors;
 };
@@ -54,8 +64,12 @@ Problem makeProblem(const Topology& topology, const Culling& culling, const std:
   const std::vector<bool> shared = aliasable(graph);
   std::vector<std::uint64_t> bytes(resources.size());
   Pairs touched;
+  std::vector<std::vector<TextureUse>> textures(passes.size());
   for (std::uint32_t i = 0; i < passes.size(); ++i) {
     for (const AccessDecl& access : graph.passes[passes[i]].accesses) {
+      if (std::holds_alternative<TextureDesc>(graph.resources[access.resource].desc)) {
+        textures[i].push_back({access.resource, accessInfo(access.access).layout});
+      }
       if (!shared[access.resource]) continue;
       bytes[access.resource] = resources[access.resource].size;
       touched.emplace_back(i, access.resource);
@@ -74,24 +88,86 @@ Problem makeProblem(const Topology& topology, const Culling& culling, const std:
     return pairs;
   };
   const std::size_t count = passes.size();
-  return {std::move(passes),     std::move(bytes),
-          Lists(count, touched), Lists(resources.size(), swapped(touched)),
-          Lists(count, edges),   Lists(count, swapped(edges))};
+  return {std::move(passes),
+          std::move(textures),
+          std::move(bytes),
+          Lists(count, touched),
+          Lists(resources.size(), swapped(touched)),
+          Lists(count, edges),
+          Lists(count, swapped(edges))};
 }
+
+/// Passes of each batch.
+using Batches = std::vector<std::vector<std::uint32_t>>;
+
+/// Indexed by pass: number of passes in the longest chain of dependencies that ends before the pass.
+std::vector<std::uint32_t> chainLengths(const Lists& before, const Lists& after, std::size_t passes) {
+  std::vector<std::uint32_t> length(passes);
+  std::vector<std::uint32_t> waiting(passes);
+  std::vector<std::uint32_t> ready;
+  for (std::uint32_t pass = 0; pass < passes; ++pass) {
+    waiting[pass] = static_cast<std::uint32_t>(before[pass].size());
+    if (waiting[pass] == 0) ready.push_back(pass);
+  }
+  while (!ready.empty()) {
+    const std::uint32_t pass = ready.back();
+    ready.pop_back();
+    for (const std::uint32_t next : after[pass]) {
+      length[next] = std::max(length[next], length[pass] + 1);
+      if (--waiting[next] == 0) ready.push_back(next);
+    }
+  }
+  return length;
+}
+
+/// The layouts in which the passes of one batch use textures.
+class BatchLayouts {
+ public:
+  explicit BatchLayouts(std::size_t resources) : layout_(resources) {}
+
+  /// True if all passes added use the pass's textures in the layouts of the pass, or not at all.
+  [[nodiscard]] bool agreeWith(std::span<const TextureUse> uses) const {
+    return std::ranges::all_of(
+        uses, [&](const TextureUse& use) { return !layout_[use.resource] || layout_[use.resource] == use.layout; });
+  }
+  void add(std::span<const TextureUse> uses) {
+    for (const TextureUse& use : uses) {
+      std::optional<VkImageLayout>& layout = layout_[use.resource];
+      if (!layout) used_.push_back(use.resource);
+      layout = layout.value_or(use.layout) == use.layout ? use.layout : kSeveral;
+    }
+  }
+  void clear() {
+    for (const std::uint32_t resource : used_) layout_[resource].reset();
+    used_.clear();
+  }
+
+ private:
+  /// One pass uses parts of the texture in several layouts.
+  static constexpr VkImageLayout kSeveral = VK_IMAGE_LAYOUT_MAX_ENUM;
+
+  std::vector<std::optional<VkImageLayout>> layout_;  ///< Indexed by resource.
+  std::vector<std::uint32_t> used_;
+};
 
 /// A list schedule in one direction of time.
 ///
 /// A pass starts the lifetime of the transients that no taken pass uses, and ends it for those that no pass uses after
-/// it. Its cost is the bytes that it starts less those that it ends.
+/// it. Its cost is the bytes that it starts less those that it ends. A batch takes the passes that the longest chain
+/// does not let wait, and those others that do not add to the live bytes.
 class ListSchedule {
  public:
   ListSchedule(const Problem& problem, const Lists& before, const Lists& after)
       : problem_(problem),
         after_(after),
         waiting_(problem.passes.size()),
+        latest_(chainLengths(after, before, problem.passes.size())),
         cost_(problem.passes.size()),
         remaining_(problem.bytes.size()),
-        started_(problem.bytes.size()) {
+        started_(problem.bytes.size()),
+        layouts_(problem.bytes.size()) {
+    const std::uint32_t longest = latest_.empty() ? 0 : std::ranges::max(latest_);
+    for (std::uint32_t& batch : latest_) batch = longest - batch;
     for (std::size_t i = 0; i < remaining_.size(); ++i) {
       remaining_[i] = static_cast<std::uint32_t>(problem.touching[i].size());
     }
@@ -100,27 +176,46 @@ class ListSchedule {
       for (const std::uint32_t transient : problem.touched[pass]) {
         if (remaining_[transient] > 1) cost_[pass] += signedBytes(transient);
       }
-      if (waiting_[pass] == 0) ready_.emplace(cost_[pass], pass);
+      if (waiting_[pass] == 0) ready_.push_back(pass);
     }
   }
 
-  std::vector<std::uint32_t> run() {
-    std::vector<std::uint32_t> order;
-    order.reserve(waiting_.size());
-    while (!ready_.empty()) {
-      const auto [cost, pass] = ready_.top();
-      ready_.pop();
-      if (waiting_[pass] == kNone || cost != cost_[pass]) continue;
-      waiting_[pass] = kNone;
-      order.push_back(pass);
-      take(pass);
-    }
-    return order;
+  Batches run() {
+    Batches batches;
+    while (!ready_.empty()) batches.push_back(takeBatch(static_cast<std::uint32_t>(batches.size())));
+    return batches;
   }
 
  private:
   [[nodiscard]] std::int64_t signedBytes(std::uint32_t transient) const {
     return static_cast<std::int64_t>(problem_.bytes[transient]);
+  }
+
+  std::vector<std::uint32_t> takeBatch(std::uint32_t number) {
+    const auto urgencyThenCost = [&](std::uint32_t pass) {
+      return std::tuple(latest_[pass] > number, cost_[pass], pass);
+    };
+    std::ranges::sort(ready_, {}, urgencyThenCost);
+    std::vector<std::uint32_t> taken;
+    std::vector<std::uint32_t> left;
+    layouts_.clear();
+    for (const std::uint32_t pass : ready_) {
+      const bool mayWait = latest_[pass] > number && cost_[pass] > 0;
+      if (mayWait || !layouts_.agreeWith(problem_.textures[pass])) {
+        left.push_back(pass);
+        continue;
+      }
+      layouts_.add(problem_.textures[pass]);
+      taken.push_back(pass);
+      take(pass);
+    }
+    ready_ = std::move(left);
+    for (const std::uint32_t pass : taken) {
+      for (const std::uint32_t next : after_[pass]) {
+        if (--waiting_[next] == 0) ready_.push_back(next);
+      }
+    }
+    return taken;
   }
 
   void take(std::uint32_t pass) {
@@ -131,57 +226,63 @@ class ListSchedule {
       // Once it is alive, its bytes no longer count as a cost. The last pass that uses it gets them deducted.
       if (starts || remaining_[transient] == 1) reduceCosts(transient, starts);
     }
-    for (const std::uint32_t next : after_[pass]) {
-      if (--waiting_[next] == 0) ready_.emplace(cost_[next], next);
-    }
   }
 
   void reduceCosts(std::uint32_t transient, bool starts) {
     const std::int64_t bytes = signedBytes(transient);
     for (const std::uint32_t other : problem_.touching[transient]) {
-      if (waiting_[other] == kNone) continue;
       cost_[other] -= (starts ? bytes : 0) + (remaining_[transient] == 1 ? bytes : 0);
-      if (waiting_[other] == 0) ready_.emplace(cost_[other], other);
     }
   }
 
   const Problem& problem_;
   const Lists& after_;
-  std::vector<std::uint32_t> waiting_;  ///< Number of passes that must come first; kNone once taken.
+  std::vector<std::uint32_t> waiting_;  ///< Number of passes that must come first.
+  std::vector<std::uint32_t> latest_;   ///< Last batch that leaves room for all passes that depend on the pass.
   std::vector<std::int64_t> cost_;      ///< Change of the live bytes when the pass is taken.
   std::vector<std::uint32_t> remaining_;
   std::vector<bool> started_;
-  using Entry = std::pair<std::int64_t, std::uint32_t>;
-  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> ready_;
+  BatchLayouts layouts_;
+  std::vector<std::uint32_t> ready_;
 };
 
-std::uint64_t peakBytes(const Problem& problem, std::span<const std::uint32_t> order) {
-  std::vector<std::uint32_t> remaining(problem.bytes.size());
+std::uint64_t peakBytes(const Problem& problem, const Batches& batches) {
+  std::vector<std::uint32_t> used(problem.bytes.size());
   std::uint64_t live = 0;
   std::uint64_t peak = 0;
-  for (const std::uint32_t pass : order) {
-    for (const std::uint32_t transient : problem.touched[pass]) {
-      if (remaining[transient]++ == 0) live += problem.bytes[transient];
-    }
+  const auto forEachUse = [&](const std::vector<std::uint32_t>& batch, const auto& visit) {
+    for (const std::uint32_t pass : batch) std::ranges::for_each(problem.touched[pass], visit);
+  };
+  for (const std::vector<std::uint32_t>& batch : batches) {
+    forEachUse(batch, [&](std::uint32_t transient) {
+      if (used[transient]++ == 0) live += problem.bytes[transient];
+    });
     peak = std::max(peak, live);
-    for (const std::uint32_t transient : problem.touched[pass]) {
-      if (remaining[transient] == problem.touching[transient].size()) live -= problem.bytes[transient];
-    }
+    forEachUse(batch, [&](std::uint32_t transient) {
+      if (used[transient] != problem.touching[transient].size()) return;
+      used[transient] = kNone;  // Several passes of the batch may be its last.
+      live -= problem.bytes[transient];
+    });
   }
   return peak;
 }
 
 }  // namespace
 
-std::vector<std::uint32_t> schedule(const Topology& topology, const Culling& culling,
-                                    const std::vector<PlannedResource>& resources) {
+std::vector<std::vector<std::uint32_t>> schedule(const Topology& topology, const Culling& culling,
+                                                 const std::vector<PlannedResource>& resources) {
   const Problem problem = makeProblem(topology, culling, resources);
-  std::vector<std::uint32_t> order = ListSchedule(problem, problem.predecessors, problem.successors).run();
-  std::vector<std::uint32_t> backward = ListSchedule(problem, problem.successors, problem.predecessors).run();
+  Batches batches = ListSchedule(problem, problem.predecessors, problem.successors).run();
+  Batches backward = ListSchedule(problem, problem.successors, problem.predecessors).run();
   std::ranges::reverse(backward);
-  if (peakBytes(problem, backward) < peakBytes(problem, order)) order = std::move(backward);
-  for (std::uint32_t& pass : order) pass = problem.passes[pass];
-  return order;
+  if (std::tuple(backward.size(), peakBytes(problem, backward)) <
+      std::tuple(batches.size(), peakBytes(problem, batches))) {
+    batches = std::move(backward);
+  }
+  for (std::vector<std::uint32_t>& batch : batches) {
+    for (std::uint32_t& pass : batch) pass = problem.passes[pass];
+  }
+  return batches;
 }
 
 }  // namespace fg

@@ -19,8 +19,8 @@ struct Beginning {
   std::uint32_t aliasOf = kNone;
 };
 
-/// Position of releases: they come after all passes.
-constexpr std::uint32_t kAfterLastPass = kNone;
+/// Batch of releases: they come after all passes.
+constexpr std::uint32_t kAfterLastBatch = kNone;
 
 class Synchronizer {
  public:
@@ -77,7 +77,7 @@ class Synchronizer {
   /// visible to it. In that case the next frame needs a barrier of its own on the stages of this one.
   static std::optional<PlannedBarrier> release(SubresourceState& state, const ExternalState& to) {
     AccessGroup group;
-    group.position = kAfterLastPass;
+    group.batch = kAfterLastBatch;
     group.stage = to.stage;
     group.readMask = to.access & ~kWriteAccesses;
     group.writeMask = to.access & kWriteAccesses;
@@ -158,8 +158,14 @@ class Synchronizer {
            owners_[resource] != std::vector{resource};
   }
 
-  [[nodiscard]] std::uint32_t nextPosition(std::uint32_t position) const {
-    return position + 1 < plan_.passes.size() ? position + 1 : kAfterLastPass;
+  [[nodiscard]] std::uint32_t nextBatch(std::uint32_t batch) const {
+    return batch + 1 < batchCount(plan_) ? batch + 1 : kAfterLastBatch;
+  }
+
+  /// The list of barriers before a batch.
+  [[nodiscard]] std::vector<PlannedBarrier>& barriersOf(std::uint32_t batch) {
+    if (batch == kAfterLastBatch) return plan_.releases;
+    return std::ranges::lower_bound(plan_.passes, batch, {}, &PlannedPass::batch)->barriers;
   }
 
   /// A barrier that makes a write available which nobody reads. A later wait for the writing stage includes it.
@@ -179,9 +185,9 @@ class Synchronizer {
     std::vector<std::pair<std::uint32_t, PlannedBarrier>> barriers;
     for (std::uint32_t i = 0; i < history_.subresourceCount(resource); ++i) {
       SubresourceState state = begin.states[i];
-      const auto add = [&](std::uint32_t position, const std::optional<PlannedBarrier>& barrier) {
+      const auto add = [&](std::uint32_t batch, const std::optional<PlannedBarrier>& barrier) {
         if (!barrier) return;
-        barriers.emplace_back(position, *barrier);
+        barriers.emplace_back(batch, *barrier);
         barriers.back().second.resource = resource;
         barriers.back().second.range = history_.range(resource, i);
       };
@@ -192,33 +198,32 @@ class Synchronizer {
           barrier->reason = begin.reason;
           barrier->aliasOf = begin.aliasOf;
         }
-        add(group.position, barrier);
+        add(group.batch, barrier);
       }
-      if (const auto to = finalState(resource, state)) add(kAfterLastPass, release(state, *to));
+      if (const auto to = finalState(resource, state)) add(kAfterLastBatch, release(state, *to));
       if (sharesMemory(resource) && state.pendingWrite != VK_ACCESS_2_NONE) {
-        add(nextPosition(groups.back().position), retire(state));
+        add(nextBatch(groups.back().batch), retire(state));
       }
     }
     if (history_.subresourceCount(resource) > 1) mergeRanges(graph_.resources[resource], barriers);
-    for (const auto& [position, barrier] : barriers) {
-      (position == kAfterLastPass ? plan_.releases : plan_.passes[position].barriers).push_back(barrier);
-    }
+    for (const auto& [batch, barrier] : barriers) barriersOf(batch).push_back(barrier);
   }
 
   /// The state in which the host gets a resource back. Imports that are not exported return to the state in which they
-  /// arrived, because the next frame expects that state again.
+  /// arrived, because the next frame expects that state again. A layout of UNDEFINED is no state to return to, so that
+  /// the layout is kept.
   [[nodiscard]] std::optional<ExternalState> finalState(std::uint32_t resource, const SubresourceState& state) const {
     if (releases_[resource]) return releases_[resource];
     if (!graph_.resources[resource].acquire) return std::nullopt;
-    const ExternalState acquire = hostState(resource, *graph_.resources[resource].acquire);
+    ExternalState acquire = hostState(resource, *graph_.resources[resource].acquire);
+    if (acquire.layout == VK_IMAGE_LAYOUT_UNDEFINED) acquire.layout = state.layout;
     // A barrier that starts from the import's state waits for its stages only, and makes its writes available only.
     const bool hostWrites = (acquire.access & kWriteAccesses) != VK_ACCESS_2_NONE;
     const bool readable =
         (acquire.stage & ~state.visibleStage) == 0 && (acquire.access & ~state.visibleAccess) == VK_ACCESS_2_NONE;
     const bool covered = (state.stage & ~acquire.stage) == 0 && (state.pendingWrite & ~acquire.access) == 0;
     const bool asItCame = state.layout == acquire.layout && covered && (hostWrites || readable);
-    const bool unknown = acquire.layout == VK_IMAGE_LAYOUT_UNDEFINED && state.layout != VK_IMAGE_LAYOUT_UNDEFINED;
-    return asItCame || unknown ? std::nullopt : std::optional(acquire);
+    return asItCame ? std::nullopt : std::optional(acquire);
   }
 
   const Topology& topology_;

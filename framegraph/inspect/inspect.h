@@ -9,7 +9,8 @@
 /// does not depend on the order of registration.
 namespace fg {
 
-/// The plan as lines of text: memory, resources with their places, passes with their barriers, releases, culled passes.
+/// The plan as lines of text: memory, resources with their places, batches with their barriers and passes, releases,
+/// culled passes.
 std::string toText(const GraphDesc& graph, const Plan& plan);
 
 /// One barrier as text, without the resource's name.
@@ -36,7 +37,7 @@ std::string toSvg(const GraphDesc& graph, const Plan& plan);
 /// Explains why a pass is culled, or states that it is executed.
 std::string whyCulled(const GraphDesc& graph, const Plan& plan, std::string_view pass);
 
-/// Explains every barrier before a pass by the declarations that cause it.
+/// Explains every barrier that a pass needs by the declarations that cause it. It is recorded before the pass's batch.
 std::string whyBarriers(const GraphDesc& graph, const Plan& plan, std::string_view pass);
 
 /// Explains why two resources do not share memory, or states that they do.

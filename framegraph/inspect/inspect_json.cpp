@@ -55,7 +55,8 @@ class JsonWriter {
                        {"bytes_written", traffic.bytesWritten},
                        {"pixels", traffic.pixels},
                        {"bytes_per_pixel", traffic.bytesPerPixel()}};
-    return json.dump(2);
+    // Names may be anything that a host passes, also bytes that are not UTF-8.
+    return json.dump(2, ' ', false, Json::error_handler_t::replace);
   }
 
  private:
@@ -81,6 +82,7 @@ class JsonWriter {
       }
       const auto* work = std::get_if<ComputeDispatch>(&pass.work);
       list.push_back({{"name", pass.name},
+                      {"batch", planned.batch},
                       {"shader", work != nullptr && work->shader != nullptr ? Json(work->shader->name) : Json()},
                       {"accesses", std::move(accesses)}});
     }
@@ -174,7 +176,9 @@ class JsonReader {
     Plan plan;
     plan.resources.resize(graph_.resources.size());
     plan.histories.resize(graph_.histories.size());
-    for (const Json& pass : json.at("passes")) plan.passes.push_back({find(graph_.passes, pass.at("name")), {}});
+    for (const Json& pass : json.at("passes")) {
+      plan.passes.push_back({find(graph_.passes, pass.at("name")), pass.at("batch"), {}});
+    }
     for (const char* kind : {"textures", "buffers"}) {
       for (const Json& resource : json.at(kind)) readResource(resource, plan);
     }

@@ -68,8 +68,9 @@ class TextWriter {
   void writePass(std::uint32_t position) {
     const PlannedPass& planned = plan_.passes[position];
     const PassDecl& pass = graph_.passes[planned.pass];
-    out_ << "pass " << position << " " << pass.name << "\n";
+    if (position == 0 || planned.batch != plan_.passes[position - 1].batch) out_ << "batch " << planned.batch << "\n";
     for (const PlannedBarrier& barrier : planned.barriers) writeBarrier(barrier);
+    out_ << "pass " << position << " " << pass.name << "\n";
     for (const AccessDecl& access : pass.accesses) {
       out_ << "  " << accessInfo(access.access).name << " " << graph_.resources[access.resource].name;
       if (access.readVersion != kNone) out_ << " v" << access.readVersion;

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <span>
 
 #include "framegraph/compile/access_history.h"
 #include "framegraph/compile/alias.h"
@@ -39,30 +40,36 @@ std::string whyAlone(const GraphDesc& graph, const Plan& plan, std::uint32_t ind
          "histories is off";
 }
 
-/// The passes during which a resource holds its bytes.
+/// The batches during which a resource holds its bytes.
 class Held {
  public:
-  Held(const GraphDesc& graph, const Plan& plan, std::uint32_t index)
-      : occupied_(occupied(graph, plan, index)), last_(occupied_.last) {
+  Held(const GraphDesc& graph, const Plan& plan, std::uint32_t index) {
+    const PassSpan passes = occupied(graph, plan, index);
+    first_ = plan.passes[passes.first].batch;
+    lastUse_ = plan.passes[passes.last].batch;
+    last_ = lastUse_;
     if (graph.resources[index].lifetime == Lifetime::Transient) {
       last_ = heldUntil(AccessHistory(graph, plan), plan, index);
     }
   }
 
-  [[nodiscard]] bool meets(const Held& other) const {
-    return occupied_.first <= other.last_ && other.occupied_.first <= last_;
-  }
+  [[nodiscard]] bool meets(const Held& other) const { return first_ <= other.last_ && other.first_ <= last_; }
   [[nodiscard]] std::string text() const {
-    return "passes " + std::to_string(occupied_.first) + " to " + std::to_string(last_) +
-           (last_ == occupied_.last ? ""
-                                    : " (nobody reads the last write, so that a barrier in pass " +
-                                          std::to_string(last_) + " makes it available)");
+    return "batches " + std::to_string(first_) + " to " + std::to_string(last_) +
+           (last_ == lastUse_ ? ""
+                              : " (nobody reads the last write, so that a barrier before batch " +
+                                    std::to_string(last_) + " makes it available)");
   }
 
  private:
-  PassSpan occupied_;
+  std::uint32_t first_;
+  std::uint32_t lastUse_;
   std::uint32_t last_;
 };
+
+bool uses(const PassDecl& pass, std::uint32_t resource) {
+  return std::ranges::find(pass.accesses, resource, &AccessDecl::resource) != pass.accesses.end();
+}
 
 }  // namespace
 
@@ -80,15 +87,30 @@ std::string whyBarriers(const GraphDesc& graph, const Plan& plan, std::string_vi
   if (index == kNone) return unknown(pass);
   const auto planned = std::ranges::find(plan.passes, index, &PlannedPass::pass);
   if (planned == plan.passes.end()) return whyCulled(graph, plan, pass);
+  // The barriers that concern a pass are recorded before its batch. Those that concern no pass of the batch count as
+  // the first one's.
+  const auto first = std::ranges::lower_bound(plan.passes, planned->batch, {}, &PlannedPass::batch);
+  const auto end = std::ranges::upper_bound(plan.passes, planned->batch, {}, &PlannedPass::batch);
+  const std::span batch(first, end);
+  const auto concerns = [&](const PlannedBarrier& barrier) {
+    if (uses(graph.passes[index], barrier.resource)) return true;
+    return planned == first && std::ranges::none_of(batch, [&](const PlannedPass& other) {
+             return uses(graph.passes[other.pass], barrier.resource);
+           });
+  };
   std::string text;
-  for (const PlannedBarrier& barrier : planned->barriers) {
+  for (const PlannedBarrier& barrier : batch.front().barriers) {
+    if (!concerns(barrier)) continue;
     text += "'" + graph.resources[barrier.resource].name + "': " + toText(graph, barrier);
     for (const AccessDecl& access : graph.passes[index].accesses) {
       if (access.resource == barrier.resource) text += "; declared at " + place(access.where);
     }
     text += "\n";
   }
-  return text.empty() ? "'" + std::string(pass) + "' needs no barrier\n" : text;
+  if (text.empty()) return "'" + std::string(pass) + "' needs no barrier\n";
+  if (planned == first) return text;
+  return "recorded before '" + graph.passes[batch.front().pass].name + "', the first pass of batch " +
+         std::to_string(planned->batch) + ":\n" + text;
 }
 
 std::string whyNotAliased(const GraphDesc& graph, const Plan& plan, std::string_view first, std::string_view second) {

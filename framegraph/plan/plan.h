@@ -8,6 +8,9 @@
 
 /// The result of compiling a graph. A plan is a plain value; the executor records a frame by walking through it.
 ///
+/// Passes form batches, which are executed one after the other. The passes of one batch need nothing from each other:
+/// the GPU may execute them side by side. All barriers of a batch are recorded together before its first pass.
+///
 /// Every frame replays the same plan on one queue. Frames are executed in the order in which they are submitted, and
 /// share the heaps even while several are in flight:
 /// - A transient's first use waits for the last owner of its bytes, which may be in the previous frame, and starts from
@@ -21,7 +24,7 @@
 /// - Upload buffers have one copy per frame in flight and need no barrier: submission makes host writes visible.
 /// - Imports arrive in their declared state. Stage NONE means that the host has waited by other means, for instance a
 ///   semaphore. Exports are released into their declared state. Imports that are not exported are returned in the state
-///   in which they arrived. Exported resources never share memory.
+///   in which they arrived, except that a layout of UNDEFINED does not return. Exported resources never share memory.
 ///
 /// Indices refer to `GraphDesc`. Lists that have no order of their own are ordered by name. Hence two graphs that
 /// differ only in the order of registration have the same plan except for these indices. `toText` and `toJson`
@@ -57,10 +60,11 @@ struct PlannedBarrier {
   friend bool operator==(const PlannedBarrier&, const PlannedBarrier&) = default;
 };
 
-/// One pass in execution order, with the batch of barriers that is recorded before it.
+/// One pass in execution order.
 struct PlannedPass {
   std::uint32_t pass = kNone;  ///< Index into `GraphDesc::passes`.
-  std::vector<PlannedBarrier> barriers;
+  std::uint32_t batch = 0;     ///< Number of its batch: 0 for the first pass, the same or one more for the next.
+  std::vector<PlannedBarrier> barriers;  ///< Recorded before the pass: those of its batch if it is the first in it.
   friend bool operator==(const PlannedPass&, const PlannedPass&) = default;
 };
 
@@ -119,7 +123,7 @@ struct MemoryReport {
   std::uint64_t persistentBytes = 0;          ///< Both images of every history, and exported transients.
   std::uint64_t transientUnaliasedBytes = 0;  ///< Sum over all transients.
   std::uint64_t transientPeakBytes = 0;       ///< Sum of the heaps that hold only transients.
-  /// Lower bound of `transientPeakBytes`: most bytes alive at one pass that do not fit into the memory of histories.
+  /// Lower bound of `transientPeakBytes`: most bytes alive in one batch that do not fit into the memory of histories.
   std::uint64_t transientLowerBoundBytes = 0;
   friend bool operator==(const MemoryReport&, const MemoryReport&) = default;
 };
@@ -147,5 +151,9 @@ struct Plan {
   TrafficReport traffic;
   friend bool operator==(const Plan&, const Plan&) = default;
 };
+
+inline std::uint32_t batchCount(const Plan& plan) {
+  return plan.passes.empty() ? 0 : plan.passes.back().batch + 1;
+}
 
 }  // namespace fg

@@ -248,17 +248,17 @@ class Replay {
     if (decl.lifetime != Lifetime::Imported) return;
     const ExternalState& state = *decl.acquire;
     const bool isTexture = texture(resource) != nullptr;
-    if (isTexture && state.layout == VK_IMAGE_LAYOUT_UNDEFINED) return;
     for (std::uint32_t i = 0; i < cellCount(resource); ++i)
       checkReturnedImport(firstCell(resource) + i, state, isTexture);
   }
 
-  /// Check that an import is back in the state in which it arrived: it has the same layout; all accesses happen in or
-  /// before the stages of the state; all writes are available, except those that the state names; and it is readable
-  /// if the state only reads.
+  /// Check that an import is back in the state in which it arrived: it has the same layout, unless that was UNDEFINED;
+  /// all accesses happen in or before the stages of the state; all writes are available, except those that the state
+  /// names; and it is readable if the state only reads.
   void checkReturnedImport(std::uint32_t index, const ExternalState& state, bool isTexture) {
     const Cell cell = device_.cell(index);
-    const VkImageLayout layout = isTexture ? state.layout : VK_IMAGE_LAYOUT_UNDEFINED;
+    const bool anyLayout = isTexture && state.layout == VK_IMAGE_LAYOUT_UNDEFINED;
+    const VkImageLayout layout = anyLayout ? cell.layout : isTexture ? state.layout : VK_IMAGE_LAYOUT_UNDEFINED;
     const auto wrong = [&] {
       device_.complain("import '" + cell.name + "' is not returned in the state in which it arrived");
     };

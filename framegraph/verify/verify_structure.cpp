@@ -42,8 +42,21 @@ class Structure {
         faults_.push_back("pass '" + graph_.passes[pass.pass].name + "' has side effects, but is culled");
       }
     }
+    for (std::size_t i = 0; i < plan_.passes.size(); ++i) checkBatch(i);
     if (std::ranges::any_of(seen, [](int count) { return count != 1; })) {
       faults_.emplace_back("some pass is neither executed nor culled, or appears twice");
+    }
+  }
+
+  /// Batches are numbered from 0 in the order of execution. Only the first pass of a batch has barriers.
+  void checkBatch(std::size_t position) {
+    const PlannedPass& pass = plan_.passes[position];
+    const std::uint32_t before = position == 0 ? kNone : plan_.passes[position - 1].batch;
+    if (pass.batch == before && !pass.barriers.empty()) {
+      faults_.push_back("pass " + std::to_string(position) + " has barriers inside its batch");
+    }
+    if (pass.batch != before && pass.batch != before + 1) {  // kNone + 1 is 0.
+      faults_.push_back("pass " + std::to_string(position) + " is in a batch that does not follow the one before");
     }
   }
 

@@ -6,6 +6,7 @@
 #include <vulkan/vulkan_core.h>
 
 #include "framegraph/vulkan/functions.h"
+#include "framegraph/vulkan/memory_source.h"
 
 namespace fg::vk {
 
@@ -18,7 +19,8 @@ struct DeviceView {
   VkDevice device = VK_NULL_HANDLE;
   PFN_vkGetInstanceProcAddr getInstanceProcAddr = nullptr;
   std::uint32_t queueFamily = 0;  ///< Family of the queue to which frames are submitted; must support compute.
-  const VkAllocationCallbacks* allocator = nullptr;  ///< Optional.
+  const VkAllocationCallbacks* allocator = nullptr;  ///< For memory of the processor; optional.
+  MemorySource* memorySource = nullptr;              ///< For device memory; optional.
 };
 
 /// A device with its functions and those of its properties that are needed often. Loaded once.

@@ -11,8 +11,6 @@ namespace fg::vk {
 template <typename Handle>
 inline constexpr auto kDestroy = nullptr;
 template <>
-inline constexpr auto kDestroy<VkDeviceMemory> = &DeviceFunctions::vkFreeMemory;
-template <>
 inline constexpr auto kDestroy<VkImage> = &DeviceFunctions::vkDestroyImage;
 template <>
 inline constexpr auto kDestroy<VkImageView> = &DeviceFunctions::vkDestroyImageView;

@@ -8,6 +8,27 @@
 
 namespace fg::vk {
 
+std::uint64_t requiredBytes(const DeviceContext& device, const GraphDesc& graph, const Plan& plan,
+                            std::uint32_t slots) {
+  std::uint64_t bytes = 0;
+  for (const PlannedHeap& heap : plan.heaps) bytes += blockBytes(device, heap.size);
+  ArenaLayout persistent(device);
+  ArenaLayout uploads(device);
+  for (std::size_t i = 0; i < graph.resources.size(); ++i) {
+    const PlannedResource& planned = plan.resources[i];
+    const Lifetime lifetime = graph.resources[i].lifetime;
+    // The images of both histories are counted with the current one.
+    if (!planned.used || lifetime == Lifetime::Imported || lifetime == Lifetime::HistoryPrevious) continue;
+    const bool upload = lifetime == Lifetime::Upload;
+    if (!upload && planned.heap != kNone) continue;
+    const std::uint32_t copies = upload ? slots : lifetime == Lifetime::HistoryCurrent ? kParities : 1;
+    for (std::uint32_t copy = 0; copy < copies; ++copy) {
+      (upload ? uploads : persistent).add({planned.size, planned.alignment, planned.memoryTypeBits});
+    }
+  }
+  return bytes + persistent.bytes() + uploads.bytes();
+}
+
 Resources::Resources(const DeviceContext& device, const GraphDesc& graph, const Plan& plan, std::uint32_t slots,
                      bool poison)
     : device_(&device),
@@ -43,14 +64,22 @@ void Resources::import(std::uint32_t resource, VkBuffer buffer) {
 
 std::uint64_t Resources::allocatedBytes() const {
   std::uint64_t bytes = persistent_.size() + uploads_.size();
-  for (const PlannedHeap& heap : plan_->heaps) bytes += heap.size;
+  for (const DeviceMemory& heap : heaps_) bytes += heap.size();
   return bytes;
 }
 
 void Resources::allocateHeaps() {
-  for (const PlannedHeap& heap : plan_->heaps) {
-    heaps_.push_back(allocateMemory(*device_, heap.size, heap.memoryTypeBits, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT,
-                                    "resources that share memory"));
+  std::vector<MemoryRequirements> heaps;
+  for (const PlannedHeap& heap : plan_->heaps) heaps.push_back({heap.size, 1, heap.memoryTypeBits});
+  for (const PlannedResource& planned : plan_->resources) {
+    if (planned.heap == kNone) continue;
+    for (std::uint32_t parity = 0; parity < kParities; ++parity) {
+      std::uint64_t& alignment = heaps[allocationOf(plan_->heaps, planned.heap, parity)].alignment;
+      alignment = std::max(alignment, planned.alignment);
+    }
+  }
+  for (const MemoryRequirements& heap : heaps) {
+    heaps_.emplace_back(*device_, heap, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, "resources that share memory");
   }
 }
 
@@ -74,8 +103,9 @@ void Resources::makeTexture(std::uint32_t resource, const TextureDesc& desc, boo
       continue;
     }
     checkPlacement(resource, memoryRequirements(*device_, images[parity]));
-    check(device_->functions.vkBindImageMemory(device_->view.device, images[parity], heapOf(planned, parity),
-                                               planned.offset),
+    const DeviceMemory& heap = heapOf(planned, parity);
+    check(device_->functions.vkBindImageMemory(device_->view.device, images[parity], heap.handle(),
+                                               heap.offset() + planned.offset),
           "binding memory of image '" + decl.name + "'");
   }
   std::fill(images + count, images + kParities, images[0]);
@@ -107,8 +137,9 @@ void Resources::makeBuffer(std::uint32_t resource, const BufferDesc& desc, bool 
       continue;
     }
     checkPlacement(resource, memoryRequirements(*device_, made[parity]));
-    check(device_->functions.vkBindBufferMemory(device_->view.device, made[parity], heapOf(planned, parity),
-                                                planned.offset),
+    const DeviceMemory& heap = heapOf(planned, parity);
+    check(device_->functions.vkBindBufferMemory(device_->view.device, made[parity], heap.handle(),
+                                                heap.offset() + planned.offset),
           "binding memory of buffer '" + decl.name + "'");
   }
   std::fill(made.begin() + copies(planned), made.end(), made[0]);

@@ -11,6 +11,10 @@
 
 namespace fg::vk {
 
+/// Bytes of device memory that `Resources` allocates for a plan. Nothing is created to find out.
+/// @param plan compiled with the DriverMemoryModel of the device
+std::uint64_t requiredBytes(const DeviceContext& device, const GraphDesc& graph, const Plan& plan, std::uint32_t slots);
+
 /// Every image and buffer that a plan uses, created or imported. Indexed by resource and frame.
 class Resources {
  public:
@@ -42,9 +46,9 @@ class Resources {
   VkImage addImage(std::uint32_t resource, const TextureDesc& desc, VkImageUsageFlags usage);
   VkBuffer addBuffer(std::uint32_t resource, const BufferDesc& desc, VkBufferUsageFlags usage);
   void allocateHeaps();
-  /// The allocation of a resource's heap in frames of one parity.
-  [[nodiscard]] VkDeviceMemory heapOf(const PlannedResource& planned, std::uint32_t parity) const {
-    return heaps_[allocationOf(plan_->heaps, planned.heap, parity)].get();
+  /// The memory of a resource's heap in frames of one parity.
+  [[nodiscard]] const DeviceMemory& heapOf(const PlannedResource& planned, std::uint32_t parity) const {
+    return heaps_[allocationOf(plan_->heaps, planned.heap, parity)];
   }
   /// Number of copies of a resource: two if its heap is another allocation in odd frames.
   [[nodiscard]] std::uint32_t copies(const PlannedResource& planned) const {
@@ -57,7 +61,7 @@ class Resources {
   const GraphDesc* graph_;
   const Plan* plan_;
   std::uint32_t slots_;
-  std::vector<Owned<VkDeviceMemory>> heaps_;
+  std::vector<DeviceMemory> heaps_;
   MemoryArena persistent_;
   MemoryArena uploads_;
   std::vector<Owned<VkImage>> ownedImages_;

@@ -19,16 +19,24 @@ class StagedBuffer {
   StagedBuffer(const DeviceContext& device, const BufferDesc& desc, VkBufferUsageFlags usage, std::uint32_t slots,
                const std::string& name);
 
+  /// Bytes of device memory that a StagedBuffer allocates. Nothing is allocated to find out.
+  static std::uint64_t requiredBytes(const DeviceContext& device, const BufferDesc& desc, VkBufferUsageFlags usage,
+                                     std::uint32_t slots);
+  [[nodiscard]] std::uint64_t allocatedBytes() const { return memory_.size() + stagingMemory_.size(); }
+
   [[nodiscard]] VkBuffer handle() const { return buffer_.get(); }
   /// Contents to read after the frame of `recordReadback` has finished, until the slot is used again.
   [[nodiscard]] std::span<const std::byte> staging(std::uint32_t slot) const;
+  /// Set the contents of `staging` to zero, so that they tell whether a frame was executed after it was recorded.
+  /// Call it only when no frame in flight uses the slot.
+  void clearStaging(std::uint32_t slot);
   void recordReadback(VkCommandBuffer commandBuffer, std::uint32_t slot) const;
 
  private:
   const DeviceContext* device_;
   std::uint64_t size_;
-  Owned<VkBuffer> buffer_;
   MemoryArena memory_;
+  Owned<VkBuffer> buffer_;
   MemoryArena stagingMemory_;
   std::vector<Owned<VkBuffer>> stagingBuffers_;
   std::vector<std::byte*> mapped_;

@@ -2,6 +2,13 @@
 
 namespace fg::vk {
 
+double millisecondsBetween(const DeviceContext& device, std::uint64_t firstTick, std::uint64_t lastTick) {
+  const std::uint64_t mask = device.timestampBits >= 64 ? ~0ull : (1ull << device.timestampBits) - 1;
+  constexpr double kMillisecondsPerNanosecond = 1e-6;
+  return static_cast<double>((lastTick - firstTick) & mask) *
+         static_cast<double>(device.properties.limits.timestampPeriod) * kMillisecondsPerNanosecond;
+}
+
 Timestamps::Timestamps(const DeviceContext& device, const GraphDesc& graph, const Plan& plan, std::uint32_t slots)
     : device_(&device),
       queryCount_(static_cast<std::uint32_t>(plan.passes.size()) + 1),
@@ -45,12 +52,8 @@ std::span<const PassTime> Timestamps::read(std::uint32_t slot) {
       sizeof(std::uint64_t), VK_QUERY_RESULT_64_BIT);
   if (result == VK_NOT_READY) return {};
   check(result, "reading timestamps");
-  const std::uint64_t mask = device_->timestampBits >= 64 ? ~0ull : (1ull << device_->timestampBits) - 1;
-  constexpr double kMillisecondsPerNanosecond = 1e-6;
   for (std::size_t i = 0; i < times_.size(); ++i) {
-    const auto ticks = static_cast<double>((ticks_[i + 1] - ticks_[i]) & mask);
-    times_[i].milliseconds =
-        ticks * static_cast<double>(device_->properties.limits.timestampPeriod) * kMillisecondsPerNanosecond;
+    times_[i].milliseconds = millisecondsBetween(*device_, ticks_[i], ticks_[i + 1]);
   }
   return times_;
 }

@@ -13,8 +13,13 @@ namespace fg::vk {
 /// GPU time of one pass.
 struct PassTime {
   std::string name;
-  double milliseconds = 0.0;  ///< Measured from the end of the previous pass, so it includes the barriers.
+  /// Measured from the end of the previous pass, so it includes the barriers. Passes of one batch
+  /// (`PlannedPass::batch`) may overlap: the sum of their times is right, its parts are not.
+  double milliseconds = 0.0;
 };
+
+/// Time between two timestamps of a device's queue family.
+double millisecondsBetween(const DeviceContext& device, std::uint64_t firstTick, std::uint64_t lastTick);
 
 /// GPU timestamps between the passes, for every frame slot.
 class Timestamps {

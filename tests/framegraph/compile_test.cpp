@@ -54,7 +54,8 @@ TEST(Compile, WhatAPassLeavesUnreadCostsNothing) {
   EXPECT_EQ(bound.plan.traffic.bytesRead, 64U * 32 * 8);
 }
 
-/// Passes "a" to "d", each of which writes a texture of its own; nobody reads what "a" writes.
+/// Passes "a" to "d", each of which writes a texture of its own, and "d" a second one; nobody reads what "a" writes.
+/// "a" and "b" form a batch. The textures of "d" need the memory of both.
 class UnreadWriteTest : public ::testing::Test {
  protected:
   UnreadWriteTest() {
@@ -64,6 +65,7 @@ class UnreadWriteTest : public ::testing::Test {
       auto pass = graph_.callback(name, recordNothing).sideEffects();
       if (value.valid()) pass.sample("in", value);
       value = pass.store("out", graph_.texture(std::string("of ") + name, kColor));
+      if (name == std::string("d")) (void)pass.store("second", graph_.texture("second of d", kColor));
     }
     CompileResult result = compile(graph_.desc(), TableMemoryModel());
     EXPECT_TRUE(result.ok()) << result.text();
@@ -80,12 +82,53 @@ class UnreadWriteTest : public ::testing::Test {
   Plan plan_;
 };
 
+TEST(Culling, KeepsTheWriterOfAHistoryWhosePreviousImageIsOnlyExported) {
+  Graph graph;
+  const History history = graph.history("past", kColor);
+  (void)graph.callback("write", recordNothing).store("out", history.current);
+  graph.exported(history.previous, test::kSampled);
+  const CompileResult result = compile(graph.desc(), TableMemoryModel());
+  ASSERT_TRUE(result.ok()) << result.text();
+  EXPECT_EQ(result.plan.passes.size(), 1U);
+  EXPECT_EQ(verify(graph.desc(), result.plan), std::vector<std::string>{}) << toText(graph.desc(), result.plan);
+}
+
+// The host's next work on the image waits for its own stage only, so the plan leads from the write to this stage. There
+// is no layout to return to.
+TEST(Synchronize, GivesBackAnOverwrittenImportToItsStage) {
+  constexpr VkPipelineStageFlags2 kHostStage = VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT;
+  Graph graph;
+  auto pass = graph.callback("write", recordNothing).sideEffects();
+  (void)pass.store("out", graph.import("scratch", kColor, {kHostStage, VK_ACCESS_2_NONE, VK_IMAGE_LAYOUT_UNDEFINED}));
+  CompileResult result = compile(graph.desc(), TableMemoryModel());
+  ASSERT_TRUE(result.ok()) << result.text();
+  EXPECT_EQ(verify(graph.desc(), result.plan), std::vector<std::string>{});
+  ASSERT_EQ(result.plan.releases.size(), 1U);
+  const PlannedBarrier& release = result.plan.releases.front();
+  EXPECT_EQ(release.srcStage, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT);
+  EXPECT_EQ(release.srcAccess, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
+  EXPECT_EQ(release.dstStage, kHostStage);
+  EXPECT_EQ(release.newLayout, release.oldLayout);
+
+  result.plan.releases.clear();
+  EXPECT_FALSE(verify(graph.desc(), result.plan).empty());
+}
+
+TEST(Inspect, WritesNamesThatAreNotUtf8) {
+  Graph graph;
+  graph.exported(graph.callback("a\xff", recordNothing).store("out", graph.texture("b\xc3", kColor)), test::kSampled);
+  const CompileResult result = compile(graph.desc(), TableMemoryModel());
+  EXPECT_NE(toJson(graph.desc(), result.plan).find("a\xef\xbf\xbd"), std::string::npos);
+}
+
 TEST_F(UnreadWriteTest, IsMadeAvailableAfterItsPassAndHoldsItsMemoryUntilThen) {
-  const std::uint32_t unread = plan_.resources[0].firstUse;
-  ASSERT_LT(unread + 1, plan_.passes.size());
-  EXPECT_EQ(positionOf(plan_, BarrierReason::Retire), unread + 1);
-  EXPECT_EQ(plan_.memory.transientUnaliasedBytes, 4 * 64 * 32 * 8);
-  EXPECT_EQ(plan_.memory.transientPeakBytes, 2 * 64 * 32 * 8);
+  const std::uint32_t unread = plan_.passes[plan_.resources[0].firstUse].batch;
+  ASSERT_LT(unread + 1, batchCount(plan_));
+  const std::uint32_t retired = positionOf(plan_, BarrierReason::Retire);
+  ASSERT_NE(retired, kNone);
+  EXPECT_EQ(plan_.passes[retired].batch, unread + 1);
+  EXPECT_EQ(plan_.memory.transientUnaliasedBytes, 5 * 64 * 32 * 8);
+  EXPECT_EQ(plan_.memory.transientPeakBytes, 3 * 64 * 32 * 8);
   EXPECT_TRUE(verify(graph_.desc(), plan_).empty());
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
+#include <vector>
 
 #include "framegraph/check/diagnostic_codes.h"
 #include "framegraph/compile/compile.h"
@@ -320,6 +322,25 @@ TEST_F(DiagnosticsTest, DuplicateResourceName) {
 TEST_F(DiagnosticsTest, EmptyExtent) {
   (void)graph.texture("flat", {VK_FORMAT_R32_SFLOAT, {64, 0}});
   expect(code::kEmptyExtent, "", "flat");
+}
+
+TEST_F(DiagnosticsTest, SizesThatNoDeviceHas) {
+  constexpr std::uint32_t kMost = std::numeric_limits<std::uint32_t>::max();
+  const std::vector<TextureDesc> textures{
+      {VK_FORMAT_R16G16B16A16_SFLOAT, {1U << 31, 1U << 31}},
+      {VK_FORMAT_R8_UNORM, {3'037'000'500, 3'037'000'500}},
+      {.format = VK_FORMAT_R8_UNORM, .extent = {4, 4}, .arrayLayers = kMost},
+  };
+  for (const TextureDesc& texture : textures) {
+    graph = Graph();
+    const Texture huge = graph.texture("huge", texture);
+    const auto line = __LINE__ - 1;
+    graph.exported(graph.callback("write", recordNothing).store("o", huge), kSampled);
+    expect(code::kTooLarge, "", "huge", line);
+  }
+  graph = Graph();
+  (void)graph.buffer("huge", {std::numeric_limits<std::uint64_t>::max()});
+  expect(code::kTooLarge, "", "huge");
 }
 
 TEST_F(DiagnosticsTest, EmptyDispatch) {

@@ -60,14 +60,15 @@ struct Ratios {
 };
 
 /// The lower bound of memory that a packing can reach: it includes that a write that no pass reads holds its bytes for
-/// one more pass.
+/// one more batch.
 std::uint64_t lowerBoundOfHeld(const GraphDesc& graph, const Plan& plan) {
   const AccessHistory accesses(graph, plan);
   std::vector<HeapRequest> requests;
   for (std::uint32_t i = 0; i < plan.resources.size(); ++i) {
     const PlannedResource& resource = plan.resources[i];
     if (resource.heap == kNone) continue;
-    requests.push_back({resource.size, resource.alignment, resource.firstUse, heldUntil(accesses, plan, i)});
+    const std::uint32_t first = plan.passes[resource.firstUse].batch;
+    requests.push_back({resource.size, resource.alignment, first, heldUntil(accesses, plan, i)});
   }
   return lowerBound(requests);
 }
@@ -128,7 +129,7 @@ class Mutator {
 
   /// Damage the plan at random. Returns the kind of damage; empty if the plan has nothing to damage in this way.
   std::string run() {
-    switch (random_() % 8) {
+    switch (random_() % 10) {
       case 0:
         return dropBarrier();
       case 1:
@@ -143,6 +144,10 @@ class Mutator {
         return random_() % 2 == 0 ? moveOffset() : shortenLifetime();
       case 6:
         return moveToPartner();
+      case 7:
+        return joinBatches();
+      case 8:
+        return moveOntoNeighbour();
       default:
         return swapPasses();
     }
@@ -246,6 +251,39 @@ class Mutator {
     return "partner";
   }
 
+  /// Execute two batches as one, with the barriers of both before it.
+  std::string joinBatches() {
+    if (batchCount(plan_) < 2) return {};
+    const std::uint32_t later = 1 + static_cast<std::uint32_t>(random_() % (batchCount(plan_) - 1));
+    const auto first = [&](std::uint32_t batch) {
+      return std::ranges::lower_bound(plan_.passes, batch, {}, &PlannedPass::batch);
+    };
+    std::vector<PlannedBarrier>& barriers = first(later)->barriers;
+    std::ranges::move(barriers, std::back_inserter(first(later - 1)->barriers));
+    barriers.clear();
+    for (PlannedPass& pass : plan_.passes) pass.batch -= pass.batch >= later ? 1 : 0;
+    return "joined batches";
+  }
+
+  /// Place a transient on the bytes of another that is used last in the batch in which the first is used first.
+  std::string moveOntoNeighbour() {
+    const auto batch = [&](std::uint32_t position) { return plan_.passes[position].batch; };
+    std::vector<std::pair<PlannedResource*, PlannedResource*>> pairs;
+    for (std::size_t i = 0; i < plan_.resources.size(); ++i) {
+      PlannedResource& a = plan_.resources[i];
+      if (a.heap == kNone || graph_.resources[i].lifetime != Lifetime::Transient) continue;
+      for (PlannedResource& b : plan_.resources) {
+        const bool meet = a.heap == b.heap && b.lastUse < a.firstUse && batch(b.lastUse) == batch(a.firstUse);
+        const bool fits = b.offset % a.alignment == 0 && b.offset + a.size <= plan_.heaps[a.heap].size;
+        if (meet && fits) pairs.emplace_back(&a, &b);
+      }
+    }
+    if (pairs.empty()) return {};
+    const auto& [moved, onto] = pairs[random_() % pairs.size()];
+    moved->offset = onto->offset;
+    return "bytes of a batch";
+  }
+
   std::string shortenLifetime() {
     std::vector<PlannedResource*> candidates;
     for (PlannedResource& resource : plan_.resources) {
@@ -271,7 +309,7 @@ class Mutator {
     }
     if (candidates.empty()) return {};
     const std::size_t i = candidates[random_() % candidates.size()];
-    std::swap(plan_.passes[i - 1], plan_.passes[i]);
+    std::swap(plan_.passes[i - 1].pass, plan_.passes[i].pass);
     return "order";
   }
 
@@ -281,7 +319,8 @@ class Mutator {
 };
 
 /// Kinds of damage that change only the order of accesses, not contents, layouts or places.
-const std::set<std::string> kAboutOrder = {"drop barrier", "source stage", "destination stage", "access"};
+const std::set<std::string> kAboutOrder = {"drop barrier", "source stage", "destination stage", "access",
+                                           "joined batches"};
 
 /// The verifier must reject a damaged plan, unless the damage is proved harmless: a search must then find a chain of
 /// dependencies for every pair of conflicting accesses. Hence a plan in which a chain is missing must be rejected.

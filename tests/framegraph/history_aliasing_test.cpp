@@ -139,7 +139,7 @@ TEST_F(HistoryAliasingTest, InspectionNamesTheAliasedHistory) {
   EXPECT_NE(toJson(desc, plan_).find("\"aliases\": [\n        \"history.previous\""), std::string::npos);
   EXPECT_NE(whyBarriers(desc, plan_, "b").find("AliasHandOver of history.previous"), std::string::npos);
   EXPECT_NE(whyNotAliased(desc, plan_, "across", "history.previous").find("share memory"), std::string::npos);
-  EXPECT_NE(whyNotAliased(desc, plan_, "across", "history.current").find("alive at the same time: passes 1 to 2 and"),
+  EXPECT_NE(whyNotAliased(desc, plan_, "across", "history.current").find("alive at the same time: batches 1 to 2 and"),
             std::string::npos);
   EXPECT_NE(whyNotAliased(desc, plan_, "history.current", "history.previous").find("only transients alias"),
             std::string::npos);

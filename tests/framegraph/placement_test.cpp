@@ -49,8 +49,10 @@ std::vector<Placed> placed(const GraphDesc& graph, const Plan& plan) {
   return result;
 }
 
-bool aliveTogether(const PlannedResource& a, const PlannedResource& b) {
-  return a.firstUse <= b.lastUse && b.firstUse <= a.lastUse;
+/// True if some batch lies in the lifetimes of both.
+bool aliveTogether(const Plan& plan, const PlannedResource& a, const PlannedResource& b) {
+  const auto batch = [&](std::uint32_t position) { return plan.passes[position].batch; };
+  return batch(a.firstUse) <= batch(b.lastUse) && batch(b.firstUse) <= batch(a.lastUse);
 }
 
 /// True if two blocks overlap the same page.
@@ -74,7 +76,7 @@ TEST(Placement, KeepsToAlignmentMemoryClassAndGranularity) {
       EXPECT_LE(x.offset + x.size, result.plan.heaps[x.heap].size);
       for (const Placed& b : all) {
         const PlannedResource& y = *b.resource;
-        if (a.resource == b.resource || x.heap != y.heap || !aliveTogether(x, y)) continue;
+        if (a.resource == b.resource || x.heap != y.heap || !aliveTogether(result.plan, x, y)) continue;
         const std::uint64_t page = a.isBuffer == b.isBuffer ? 1 : AwkwardModel::kGranularity;
         mixedPairs += page != 1 ? 1 : 0;
         EXPECT_FALSE(sharePage(x, y, page)) << "seed " << seed << " on pages of " << page << " bytes";
