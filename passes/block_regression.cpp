@@ -8,7 +8,9 @@
 #include <vector>
 
 #include "passes/grid_extent.h"
+#include "shaders/constants/accumulated_share.h"
 #include "shaders/constants/block_regression.h"
+#include "shaders/constants/stored_fit.h"
 #include "shaders/shaders.h"
 
 namespace walr {
@@ -33,8 +35,11 @@ struct BlockAverages {
   fg::Texture depth;
 };
 
+/// Threads of block_moments.comp for a block, one beside the other.
+constexpr std::uint32_t kThreadsPerBlock = 4;
+
 /// Side of a cell in blocks: the largest power of two with at most `cellPixels` and 8 pixels. A workgroup merges the
-/// cells of its blocks, so that the side of a cell must divide the workgroup's.
+/// cells of its 4 x 4 blocks, so that the side of a cell must divide 4.
 std::uint32_t cellBlocksFor(float cellPixels, std::uint32_t blockSize) {
   constexpr float kMostPixels = 8.0F;
   std::uint32_t blocks = 1;
@@ -42,15 +47,16 @@ std::uint32_t cellBlocksFor(float cellPixels, std::uint32_t blockSize) {
   return blocks;
 }
 
-/// Converts the unit of `coarseSigma` from the setting's, the fraction of the image's height, to the shaders', cells.
+/// Converts the unit of `coarseSigma` from the setting's, the fraction of the image's height, to the shaders', cells,
+/// and `planeNear` and `planeFar` to a linear function.
 BlockGrid gridOf(StageGraph graph, fg::Buffer frame, fg::Extent pixels, const BlockRegressionSettings& s) {
   const fg::Extent blocks = gridExtent(pixels, s.size);
   const float sigma = s.coarseSigma * static_cast<float>(pixels.height);
   const std::uint32_t cellBlocks = cellBlocksFor(sigma / s.coarseResolution, s.size);
   const std::uint32_t cellSize = cellBlocks * s.size;
   BlockRegressionConstants constants{};
-  constants.planeNear = s.planeNear;
-  constants.planeFar = s.planeFar;
+  constants.planeScale = 1.0F / (s.planeFar - s.planeNear);
+  constants.planeOffset = constants.planeScale * s.planeFar;
   constants.sdfFraction = s.sdfFraction;
   constants.ridge = s.ridge;
   constants.growthErrors = s.growthErrors;
@@ -61,6 +67,7 @@ BlockGrid gridOf(StageGraph graph, fg::Buffer frame, fg::Extent pixels, const Bl
   constants.coarseGrowthOcclusion = s.coarseGrowthOcclusion;
   constants.coarseSamples = s.coarseSamples;
   constants.coarseLeastShare = s.coarseLeastShare;
+  constants.residualLeastShare = s.residualLeastShare;
   return {graph, frame, pixels, blocks, gridExtent(pixels, cellSize), s.size, cellBlocks, cellSize, constants};
 }
 
@@ -83,17 +90,15 @@ BlockAverages writeAverages(const BlockGrid& grid, fg::PassBuilder& pass, fg::Ex
   return averages;
 }
 
-/// Write fits; their depth is left to the caller.
-FitTextures writeFits(const BlockGrid& grid, fg::PassBuilder& pass, fg::Extent extent, const std::string& name) {
-  const auto store = [&](const char* binding, const char* part) {
-    return pass.store(binding, grid.graph->texture(name + part, {VK_FORMAT_R32G32B32A32_UINT, extent}));
-  };
-  return {.a = store("outFitA", " a"), .b = store("outFitB", " b"), .c = store("outFitC", " c"), .depth = {}};
+/// Write the fit of every block or cell.
+fg::Buffer writeFits(const BlockGrid& grid, fg::PassBuilder& pass, fg::Extent extent, std::uint64_t fitBytes,
+                     const std::string& name) {
+  return pass.store("outFits", grid.graph->buffer(name, {fitBytes * extent.width * extent.height}));
 }
 
 /// The fit of a Gaussian window around every cell, regardless of edges. The window grows where the light is the same
 /// and where a block has not converged, which `fitDepth`, that of the fine fits, says.
-FitTextures addCoarseFit(const BlockGrid& grid, const BlockAverages& averages, fg::Texture fitDepth) {
+fg::Buffer addCoarseFit(const BlockGrid& grid, const BlockAverages& averages, fg::Texture fitDepth) {
   const auto declare = [&](const std::string& name, const fg::Shader& shader, const BlockAverages& read) {
     fg::PassBuilder pass = grid.graph->compute(name, shader);
     readAverages(pass, read);
@@ -108,9 +113,7 @@ FitTextures addCoarseFit(const BlockGrid& grid, const BlockAverages& averages, f
   const BlockAverages windows = writeAverages(grid, down, grid.cells, " blurred");
   fg::PassBuilder growth = declare("coarse fit, growth", shaders::blockCoarseGrowth, windows);
   growth.sample("fitDepth", fitDepth).specialize("kCellBlocks", grid.cellBlocks);
-  FitTextures fits = writeFits(grid, growth, grid.cells, "coarse fit");
-  fits.depth = windows.depth;
-  return fits;
+  return writeFits(grid, growth, grid.cells, sizeof(StoredFit), "coarse fits");
 }
 
 /// In the order of `kView` of block_atrous.comp. Views that the regression over pixels also has share its names.
@@ -173,8 +176,14 @@ const std::vector<ViewInfo>& reconstructionViews() {
   return kViews;
 }
 
+/// The fits of blocks.
+struct FineFit {
+  fg::Buffer fits;
+  fg::Texture depth;  ///< R32_UINT: depth of each block, and whether its fit has converged (block_storage.glsl).
+};
+
 /// The fit of an edge-aware window around every block (Meunier & Harada 2022, 3.2).
-FitTextures addFineFit(const BlockGrid& grid, BlockAverages averages, fg::Texture normal, std::uint32_t iterations) {
+FineFit addFineFit(const BlockGrid& grid, BlockAverages averages, fg::Texture normal, std::uint32_t iterations) {
   std::uint32_t spacing = 1;
   for (std::uint32_t t = 0;; ++t, spacing *= 3) {
     const auto declare = [&](const std::string& name, const fg::Shader& shader) {
@@ -195,9 +204,9 @@ FitTextures addFineFit(const BlockGrid& grid, BlockAverages averages, fg::Textur
     const std::string suffix = " " + std::to_string(t);
     fg::PassBuilder pass = declare("block a-trous" + suffix, last ? shaders::blockAtrousLast : shaders::blockAtrous);
     if (last) {
-      FitTextures fits = writeFits(grid, pass, grid.blocks, "block fit");
-      fits.depth = pass.store("outDepth", grid.graph->texture("block fit depth", {VK_FORMAT_R32_UINT, grid.blocks}));
-      return fits;
+      return {
+          .fits = writeFits(grid, pass, grid.blocks, sizeof(StoredBlockFit), "block fits"),
+          .depth = pass.store("outDepth", grid.graph->texture("block fit depth", {VK_FORMAT_R32_UINT, grid.blocks}))};
     }
     averages = writeAverages(grid, pass, grid.blocks, suffix);
   }
@@ -215,6 +224,29 @@ fg::PassBuilder readPixels(const BlockGrid& grid, const Guides& guides, const st
   return pass;
 }
 
+/// Pixels of the first block interval that lie before the image, per axis.
+std::uint32_t pixelsBeforeImage(const BlockGrid& grid) {
+  return (grid.size + 1) / 2;
+}
+
+/// Pixels per axis that a work group of the reconstruction takes.
+std::uint32_t tileSizeOf(const BlockGrid& grid, const fg::Shader& shader) {
+  return shader.localSize[0] / grid.size * grid.size;
+}
+
+/// Work groups of the reconstruction.
+fg::Extent tilesOf(const BlockGrid& grid, const fg::Shader& shader) {
+  const std::uint32_t before = pixelsBeforeImage(grid);
+  return gridExtent({grid.pixels.width + before, grid.pixels.height + before}, tileSizeOf(grid, shader));
+}
+
+/// Threads of the reconstruction: each of its work groups takes whole intervals between the centres of blocks, of which
+/// the first begins half a block before the image (block_apply.comp).
+fg::Extent reconstructionThreads(const BlockGrid& grid, const fg::Shader& shader) {
+  const fg::Extent tiles = tilesOf(grid, shader);
+  return {shader.localSize[0] * tiles.width, shader.localSize[1] * tiles.height};
+}
+
 bool isPacked(const BlockGrid& grid, fg::Texture texture) {
   return lightStorageOf(grid.graph->textureDesc(texture).format) == LightStorage::Packed;
 }
@@ -225,6 +257,37 @@ void readLight(const BlockGrid& grid, const BlockLight& light, fg::PassBuilder& 
     pass.specialize("kAlphaIsSampleCount", light.alpha == LightingAlpha::SampleCount);
 }
 
+/// Whether the result takes in accumulated light: it must have a history beside this frame's light.
+bool addsResidual(const BlockLight& light, const BlockRegressionSettings& settings) {
+  return settings.residual && light.alpha == LightingAlpha::SampleCount && light.lighting.valid();
+}
+
+/// Let the reconstruction mix its result with the accumulated light (accumulated_share.glsl), and add the pass that
+/// measures for the next frame how far.
+void mixWithAccumulated(const BlockGrid& grid, fg::PassBuilder& apply, const fg::Shader& shader,
+                        const BlockLight& light, const Guides& guides, const BlockRegressionSettings& settings) {
+  const bool packed = isPacked(grid, light.accumulated);
+  const fg::Extent tiles = tilesOf(grid, shader);
+  const fg::History statistics = grid.graph->history("residual statistics", {VK_FORMAT_R32G32B32A32_SFLOAT, tiles});
+  apply.specialize("kPackedMean", packed)
+      .sampleIf(packed, "accumulatedPacked", light.accumulated, guides.depth)
+      .sampleIf(!packed, "accumulatedHalf", light.accumulated, light.lighting)
+      .sample("lighting", light.lighting)
+      .sample("previousStatistics", statistics.previous);
+  const fg::Texture sums =
+      apply.store("outResidualSums", grid.graph->texture("residual sums", {VK_FORMAT_R32G32B32A32_SFLOAT, tiles}));
+  fg::PassBuilder pass = grid.graph->compute("residual statistics", shaders::residualStatistics);
+  pass.uniform("frameConstants", grid.frame)
+      .sample("depth", guides.depth)
+      .sample("sums", sums)
+      .sample("previousStatistics", statistics.previous)
+      .constants(ResidualStatisticsConstants{
+          static_cast<std::int32_t>(tileSizeOf(grid, shader)), static_cast<std::int32_t>(pixelsBeforeImage(grid)),
+          static_cast<std::int32_t>(settings.residualRadius), settings.residualFrames})
+      .dispatch(tiles);
+  static_cast<void>(pass.store("outStatistics", statistics.current));
+}
+
 }  // namespace
 
 BlockFits addBlockRegression(StageGraph graph, fg::Buffer frame, const BlockLight& light, const Guides& guides,
@@ -233,20 +296,25 @@ BlockFits addBlockRegression(StageGraph graph, fg::Buffer frame, const BlockLigh
     throw std::invalid_argument("setting blocks.plane-near must be below blocks.plane-far");
   }
   const BlockGrid grid = gridOf(graph, frame, graph->textureDesc(light.accumulated).extent, settings);
+  if (sizeof(StoredBlockFit) * grid.blocks.width * grid.blocks.height > kLargestBuffer) {
+    throw std::invalid_argument(
+        "setting blocks.size of " + std::to_string(grid.size) + " makes " + std::to_string(grid.blocks.width) + " x " +
+        std::to_string(grid.blocks.height) +
+        " blocks, whose fits are too many for one buffer; take larger blocks or a smaller image");
+  }
   fg::PassBuilder gather =
       readPixels(grid, guides, "block moments",
                  isPacked(grid, light.accumulated) ? shaders::blockMomentsPacked : shaders::blockMoments);
   readLight(grid, light, gather);
   gather.sample("geometricNormal", guides.geometricNormal)
       .specialize("kCellBlocks", grid.cellBlocks)
-      .dispatch(grid.blocks);
+      .dispatch({kThreadsPerBlock * grid.blocks.width, grid.blocks.height});
   const BlockAverages blocks = writeAverages(grid, gather, grid.blocks, "");
   const BlockAverages cells = writeAverages(grid, gather, grid.cells, " of cells", "outCell");
-  BlockFits fits;
-  fits.normal = gather.store("outNormal", graph->texture("block normal", {VK_FORMAT_R32_UINT, grid.blocks}));
-  fits.fine = addFineFit(grid, blocks, fits.normal, settings.iterations);
-  fits.coarse = addCoarseFit(grid, cells, fits.fine.depth);
-  return fits;
+  const fg::Texture normal =
+      gather.store("outNormal", graph->texture("block normal", {VK_FORMAT_R32_UINT, grid.blocks}));
+  const FineFit fine = addFineFit(grid, blocks, normal, settings.iterations);
+  return {.fine = fine.fits, .coarse = addCoarseFit(grid, cells, fine.depth)};
 }
 
 fg::Texture addBlockReconstruction(StageGraph graph, fg::Buffer frame, const BlockLight& light, const Guides& guides,
@@ -256,17 +324,10 @@ fg::Texture addBlockReconstruction(StageGraph graph, fg::Buffer frame, const Blo
   const bool writesPacked = light.result == LightStorage::Packed;
   const auto reconstruct = [&](const std::string& name, const fg::Shader& shader) {
     fg::PassBuilder pass = readPixels(grid, guides, name, shader);
-    pass.sample("fitA", fits.fine.a)
-        .sample("fitB", fits.fine.b)
-        .sample("fitC", fits.fine.c)
-        .sample("fitDepth", fits.fine.depth)
-        .sample("fitNormal", fits.normal)
-        .sample("coarseA", fits.coarse.a)
-        .sample("coarseB", fits.coarse.b)
-        .sample("coarseC", fits.coarse.c)
-        .sample("coarseDepth", fits.coarse.depth)
+    pass.load("fineFits", fits.fine)
+        .load("coarseFits", fits.coarse)
         .specialize("kCellSize", grid.cellSize)
-        .dispatch(grid.pixels);
+        .dispatch(reconstructionThreads(grid, shader));
     return pass;
   };
   graph.offer(reconstructionViews(), grid.pixels, [&](const std::string& name) {
@@ -275,8 +336,12 @@ fg::Texture addBlockReconstruction(StageGraph graph, fg::Buffer frame, const Blo
     return pass;
   });
 
-  fg::PassBuilder pass = reconstruct("block apply", writesPacked ? shaders::blockApplyPacked : shaders::blockApply);
+  const bool residual = addsResidual(light, settings);
+  const fg::Shader& shader = residual ? (writesPacked ? shaders::blockApplyResidualPacked : shaders::blockApplyResidual)
+                                      : (writesPacked ? shaders::blockApplyPacked : shaders::blockApply);
+  fg::PassBuilder pass = reconstruct("block apply", shader);
   if (!writesPacked) pass.sample("passThrough", readsPacked ? light.lighting : light.accumulated);
+  if (residual) mixWithAccumulated(grid, pass, shader, light, guides, settings);
   return pass.store("outFiltered", graph->texture("filtered", {formatOf(light.result), grid.pixels}));
 }
 

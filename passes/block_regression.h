@@ -28,6 +28,10 @@ struct BlockRegressionSettings {
   float coarseGrowthOcclusion = 4.0F;
   float coarseSamples = 3200.0F;
   float coarseLeastShare = 0.15F;
+  bool residual = false;
+  float residualFrames = 8.0F;
+  std::uint32_t residualRadius = 2;
+  float residualLeastShare = 0.05F;
 
   void visit(SettingVisitor& v) {
     v.visit({"blocks.size", "Side of the blocks whose moments are averaged", "pixels", 2, 8, "measured"}, size);
@@ -86,6 +90,21 @@ struct BlockRegressionSettings {
              "much on it counts in full",
              "", 1e-6, 0.5, "measured"},
             coarseLeastShare);
+    v.visit({"blocks.residual",
+             "Mix accumulated light into the result as far as two halves of its samples agree that the fits miss "
+             "something",
+             "", 0, 1, "measured"},
+            residual);
+    v.visit(
+        {"blocks.residual-frames", "Frames over which this agreement is measured", "frames", 1.0, 255.0, "measured"},
+        residualFrames);
+    v.visit({"blocks.residual-radius",
+             "Radius of the window of tiles over which it is measured; a tile is as many blocks as fit into 8 pixels",
+             "tiles", 0, 8, "measured"},
+            residualRadius);
+    v.visit({"blocks.residual-least-share", "Share of the accumulated light below which it is left out", "", 0.0, 0.5,
+             "measured"},
+            residualLeastShare);
   }
 };
 
@@ -93,21 +112,15 @@ struct BlockRegressionSettings {
 struct BlockLight {
   fg::Texture accumulated;    ///< RGBA16F, or packed: radiance; values that are not finite do not count.
   LightingAlpha alpha;        ///< What the alpha channel of `accumulated` holds; pixels without samples do not count.
-  fg::Texture lighting = {};  ///< The host's; needed only if `accumulated` is packed and the result is not.
+  fg::Texture lighting = {};  ///< The host's; needed if `accumulated` is packed and the result is not, and for
+                              ///< `BlockRegressionSettings::residual`, which has no effect without it.
   LightStorage result = LightStorage::Half;  ///< Packed: holds no pass-through; see packed_light.glsl.
 };
 
-/// The fit of every block or cell, and the depth that its depth feature is relative to (block_storage.glsl).
-struct FitTextures {
-  fg::Texture a, b, c;  ///< R32G32B32A32_UINT: coefficients and sample count.
-  fg::Texture depth;    ///< R32_UINT; for blocks also whether the fit has converged.
-};
-
-/// The fits of a frame, which the reconstruction reads.
+/// The fits of a frame, which the reconstruction reads (shaders/constants/stored_fit.h).
 struct BlockFits {
-  FitTextures fine;    ///< One texel per block.
-  FitTextures coarse;  ///< One texel per cell.
-  fg::Texture normal;  ///< R32_UINT: normal of each block's plane, and its representative pixel.
+  fg::Buffer fine;    ///< One `StoredBlockFit` per block, row by row.
+  fg::Buffer coarse;  ///< One `StoredFit` per cell, row by row.
 };
 
 /// Weighted linear regression of the lighting on {1, normal, inverse depth, ambient occlusion} over blocks of pixels:
@@ -115,7 +128,8 @@ struct BlockFits {
 /// every iteration.
 /// @param frame  upload of `FrameConstants`
 /// @param guides with `features`
-/// @throws std::invalid_argument for settings outside their range
+/// @throws std::invalid_argument for settings outside their range, or if the fits of all blocks need a larger buffer
+/// than every device has
 BlockFits addBlockRegression(StageGraph graph, fg::Buffer frame, const BlockLight& light, const Guides& guides,
                              const BlockRegressionSettings& settings = {});
 

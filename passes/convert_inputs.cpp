@@ -44,6 +44,17 @@ fg::Texture convertMotion(fg::Graph& graph, fg::Texture motion, bool reversed, f
   return pass.store("target", converted(graph, "motion", VK_FORMAT_R32G32B32A32_SFLOAT, motion));
 }
 
+const fg::Shader& resultShader(VkFormat format) {
+  switch (format) {
+    case VK_FORMAT_R32G32B32A32_SFLOAT:
+      return shaders::convertInputExposureSingle;
+    case VK_FORMAT_B10G11R11_UFLOAT_PACK32:
+      return shaders::convertInputExposurePacked;
+    default:
+      return shaders::convertInputExposure;
+  }
+}
+
 }  // namespace
 
 HostConstants hostConstants(const glm::mat4& projection, float exposure, glm::ivec2 offset) {
@@ -86,7 +97,7 @@ DenoiserInputs addConvertInputs(fg::Graph& graph, DenoiserInputs inputs, const H
 }
 
 fg::Texture addConvertResult(fg::Graph& graph, fg::Texture denoised, fg::Texture output, fg::Buffer host) {
-  fg::PassBuilder pass = convert(graph, "result", shaders::convertInputExposure, denoised, host);
+  fg::PassBuilder pass = convert(graph, "result", resultShader(graph.textureDesc(output).format), denoised, host);
   return pass.specialize("kBack", true).store("target", output);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include <glm/mat4x4.hpp>
@@ -9,6 +10,10 @@
 #include "shaders/constants/host.h"
 
 namespace walr {
+
+/// Formats of a result that a host may choose; methods write the first.
+inline constexpr std::array kResultFormats{VK_FORMAT_R16G16B16A16_SFLOAT, VK_FORMAT_B10G11R11_UFLOAT_PACK32,
+                                           VK_FORMAT_R32G32B32A32_SFLOAT};
 
 /// How a host writes its textures, if not as `DenoiserInputs` says. Each texture that differs costs one pass; the
 /// others cost nothing.
@@ -33,6 +38,8 @@ struct HostConventions {
   /// Textures, also the result's, may be larger than the rectangle that is denoised, which starts at
   /// `HostConstants::offset`.
   bool rectangle = false;
+  /// Of the result's texture: one of `kResultFormats`.
+  VkFormat result = kResultFormats.front();
 
   [[nodiscard]] bool octahedral() const {
     return normal == Normal::OctahedralSigned || normal == Normal::OctahedralUnsigned;
@@ -41,7 +48,7 @@ struct HostConventions {
   [[nodiscard]] bool convertsInputs() const {
     return depth != Depth::Linear || normal != Normal::Signed || motionDepthReversed || convertsResult();
   }
-  [[nodiscard]] bool convertsResult() const { return preExposed || rectangle; }
+  [[nodiscard]] bool convertsResult() const { return preExposed || rectangle || result != kResultFormats.front(); }
 };
 
 /// The uniform block of the conversion.
@@ -58,9 +65,10 @@ HostConstants hostConstants(const glm::mat4& projection, float exposure, glm::iv
 DenoiserInputs addConvertInputs(fg::Graph& graph, DenoiserInputs inputs, const HostConventions& conventions,
                                 fg::Buffer host);
 
-/// Multiply the result by the exposure of the frame and write it to its place.
+/// Multiply the result by the exposure of the frame and write it to its place, rounded to the nearest value of its
+/// format.
 /// @param denoised RGBA16F
-/// @param output   RGBA16F texture to write to
+/// @param output   texture to write to, of one of `kResultFormats`
 /// @returns the output's new version
 fg::Texture addConvertResult(fg::Graph& graph, fg::Texture denoised, fg::Texture output, fg::Buffer host);
 

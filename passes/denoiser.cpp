@@ -12,7 +12,7 @@
 #include "passes/refwlr.h"
 #include "passes/svgf.h"
 #include "passes/text.h"
-#include "passes/walr.h"
+#include "passes/walr_method.h"
 #include "passes/walr_paper.h"
 #include "shaders/constants/frame.h"
 

@@ -13,9 +13,12 @@ namespace {
 
 /// Bytes of a cell in the buffers; they depend on the number of guides.
 struct CellBytes {
-  std::uint64_t products;      ///< `OuterProducts` of flr.glsl, std430.
-  std::uint64_t coefficients;  ///< `Coefficients` of flr.glsl, std430.
+  std::uint64_t products;      ///< `OuterProducts` of flr.glsl.
+  std::uint64_t coefficients;  ///< `Coefficients` of flr.glsl.
 };
+
+/// Bytes of one of the vectors that a cell consists of, `vec4` in flr.glsl.
+constexpr std::uint64_t kVectorBytes = 16;
 
 CellBytes cellBytesOf(bool occlusion) {
   return occlusion ? CellBytes{160, 80} : CellBytes{128, 64};
@@ -47,9 +50,6 @@ const std::vector<ViewInfo>& applyViews() {
   };
   return kViews;
 }
-
-/// The least `maxStorageBufferRange` that Vulkan guarantees.
-constexpr std::uint64_t kLargestBuffer = std::uint64_t{1} << 27;
 
 /// Cells that cover `pixels` when each takes `factor` pixels per axis.
 fg::Extent gridOf(fg::Extent pixels, std::uint32_t factor, std::uint64_t cellBytes) {
@@ -97,7 +97,8 @@ fg::Texture addFlrRegression(StageGraph graph, fg::Texture lighting, LightingAlp
   const fg::Buffer moments = downsample.store("outMoments", productBuffer("outer products"));
 
   fg::PassBuilder blur = graph->compute("flr blur", shaders::flrBlur({.occlusion = occlusion}));
-  blur.load("moments", moments).constants(constants).dispatch(cells);
+  blur.load("moments", moments).constants(constants);
+  blur.dispatch(cells, static_cast<std::uint32_t>(bytes.products / kVectorBytes));
   const fg::Buffer blurred = blur.store("outBlurred", productBuffer("blurred products"));
 
   const auto declareSolve = [&](const std::string& name, const fg::Shader& shader) {

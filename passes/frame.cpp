@@ -1,9 +1,8 @@
 #include "passes/frame.h"
 
-#include <cmath>
-#include <stdexcept>
-
 #include <glm/gtc/matrix_inverse.hpp>
+
+#include "passes/camera_check.h"
 
 namespace walr {
 namespace {
@@ -11,11 +10,6 @@ namespace {
 /// Scale and bias of `ray.xy = pixel * scale + bias` for a pixel position that the given jitter displaces.
 glm::dvec4 rayFromPixel(const glm::dmat4& projection, glm::dvec2 jitter, fg::Extent extent) {
   const glm::dvec2 focal(projection[0][0], projection[1][1]);
-  const bool perspective = projection[2][3] != 0.0 && projection[3][3] == 0.0;
-  if (!perspective || focal.x == 0.0 || focal.y == 0.0) {
-    throw std::invalid_argument(
-        "the projection matrix is not a perspective projection; pass the camera's unjittered view-to-clip matrix");
-  }
   // ndc.x = 2 x / width - 1, ndc.y = 1 - 2 y / height, and clip.w = -view.z.
   const glm::dvec2 offCentre(projection[2][0], projection[2][1]);
   const glm::dvec2 scale = glm::dvec2(2.0 / extent.width, -2.0 / extent.height) / focal;
@@ -26,10 +20,8 @@ glm::dvec4 rayFromPixel(const glm::dmat4& projection, glm::dvec2 jitter, fg::Ext
 }  // namespace
 
 FrameConstants frameConstants(const FrameDescription& frame, fg::Extent extent) {
-  const glm::dmat4 view(frame.view);
-  if (std::abs(glm::determinant(view)) < 1e-30) {
-    throw std::invalid_argument("the view matrix is singular; pass the camera's world-to-view matrix");
-  }
+  for (const glm::mat4& view : {frame.view, frame.previousView}) checkView(view);
+  for (const glm::mat4& projection : {frame.projection, frame.previousProjection}) checkProjection(projection);
   const glm::dvec4 ray = rayFromPixel(glm::dmat4(frame.projection), frame.jitter, extent);
   // The previous frame's jitter and rays, in pixels of this frame.
   const glm::dvec2 size(extent.width, extent.height);
@@ -41,7 +33,7 @@ FrameConstants frameConstants(const FrameDescription& frame, fg::Extent extent) 
 
   FrameConstants constants{};
   constants.viewFromWorld = frame.view;
-  constants.previousViewFromView = glm::mat4(glm::dmat4(frame.previousView) * glm::inverse(view));
+  constants.previousViewFromView = glm::mat4(glm::dmat4(frame.previousView) * glm::inverse(glm::dmat4(frame.view)));
   constants.rayFromPixel = glm::vec4(ray);
   constants.previousRayFromPixel = glm::vec4(previousRay);
   constants.motionScale = frame.motionScale;

@@ -32,7 +32,7 @@ struct FrameDescription {
 
 /// The uniform block that the passes read, computed in double precision.
 /// @param extent the image's size
-/// @throws std::invalid_argument when the view matrix is singular or the projection is not a perspective one
+/// @throws std::invalid_argument as `checkView` and `checkProjection` do (camera_check.h)
 FrameConstants frameConstants(const FrameDescription& frame, fg::Extent extent);
 
 }  // namespace walr

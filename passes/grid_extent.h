@@ -11,4 +11,7 @@ inline fg::Extent gridExtent(fg::Extent pixels, std::uint32_t size) {
   return {(pixels.width + size - 1) / size, (pixels.height + size - 1) / size};
 }
 
+/// The least `maxStorageBufferRange` that Vulkan guarantees: bytes of the largest buffer that every device takes.
+constexpr std::uint64_t kLargestBuffer = std::uint64_t{1} << 27;
+
 }  // namespace walr

@@ -28,9 +28,12 @@ fg::Buffer addLintInputs(fg::Graph& graph, const DenoiserInputs& inputs, fg::Buf
 }
 
 void LintCounts::add(std::span<const std::uint32_t> words, bool afterAnother) {
+  const bool moves = 10 * std::uint64_t(words[kLintStillMoves]) > words[kLintStillTested];
   for (std::uint32_t word = 0; word < kLintWords; ++word) {
     const bool aboutMotion = word >= kLintMotionX && word < kLintNormalTested;
-    if (afterAnother || !aboutMotion) sums_[word] += words[word];
+    const bool aboutStillness = word >= kLintStillTested && word <= kLintStillMovesAlike;
+    if ((aboutMotion && !afterAnother) || (aboutStillness && !moves)) continue;
+    sums_[word] += words[word];
   }
 }
 

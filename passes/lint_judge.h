@@ -32,6 +32,7 @@ class LintJudge {
   void judgeAxis(std::string_view axis, std::uint32_t base);
   void judgeMotionDepth();
   void judgeJitter();
+  void judgeStillness();
   [[nodiscard]] bool explains(std::uint32_t hypothesis) const;
 
   const LintCounts& counts_;

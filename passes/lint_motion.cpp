@@ -91,20 +91,29 @@ void LintJudge::judgeJitter() {
   }
 }
 
+void LintJudge::judgeStillness() {
+  // Objects may fill most of an image, but hardly all of it.
+  const std::uint64_t tested = counts_[kLintStillTested];
+  const std::uint64_t moves = counts_[kLintStillMoves];
+  if (tested < kLeastLintSample || 10 * moves <= 9 * tested) return;
+  const std::string what =
+      "everything moves on " + share(moves, tested, "pixels") + " where the cameras say that nothing but objects would";
+  if (10 * counts_[kLintStillMovesAlike] > 9 * moves) {
+    add({"jitter-missing", what + ", all of it alike and by no more than jitter differs from frame to frame",
+         "motion holds the jitter of the images, but no jitter is handed over",
+         "hand over the jitter, and state whether motion holds it (motion_jittered)"});
+  } else {
+    add({"camera-still", what, "the previous camera that is handed over is this frame's",
+         "keep the matrices of the last frame, or leave the previous camera to the library"});
+  }
+}
+
 void LintJudge::judgeMotion() {
   judgeAxis("x", kLintMotionX);
   judgeAxis("y", kLintMotionY);
   judgeMotionDepth();
   judgeJitter();
-  // Objects may fill most of an image, but hardly all of it.
-  const std::uint64_t tested = counts_[kLintStillTested];
-  if (tested >= kLeastLintSample && 10 * counts_[kLintStillMoves] > 9 * tested) {
-    add({"camera-still",
-         "everything moves on " + share(counts_[kLintStillMoves], tested, "pixels") +
-             " where the cameras say that nothing but objects would",
-         "the previous camera that is handed over is this frame's",
-         "keep the matrices of the last frame, or leave the previous camera to the library"});
-  }
+  judgeStillness();
 }
 
 }  // namespace walr

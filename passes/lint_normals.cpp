@@ -29,6 +29,8 @@ void LintJudge::judgeNormals() {
        "state device depth and its projection (WALR_DEPTH_DEVICE), or make it linear"},
       {"depth-distance", "depth is the distance from the camera, as a ray's length, not along the view axis",
        "multiply it by the cosine of ray and view axis"},
+      {"view-inverted", "the view matrix that is handed over is its inverse, which leads from view to world space",
+       "hand over the matrix from world to view space"},
   }};
   if (isMost(counts_[kLintNormalNotUnit], counts_[kLintSurfaces])) return;  // A wrong encoding explains them.
   const std::uint64_t tested = counts_[kLintNormalTested];
@@ -36,6 +38,13 @@ void LintJudge::judgeNormals() {
   for (std::uint32_t h = 0; h < kHypothesisCount; ++h) {
     if (!explains(h)) continue;
     if (best == kHypothesisCount || counts_[kLintHypotheses + 2 * h] > counts_[kLintHypotheses + 2 * best]) best = h;
+  }
+  // Turned back and forth by the inverse matrix, world-space normals lie closer to the truth if they are not turned at
+  // all: both readings are better then, but only one is right.
+  const auto better = [&](std::uint32_t h) { return counts_[kLintHypotheses + 2 * h]; };
+  if (best == kHypothesisOtherSpace && explains(kHypothesisInverseView) &&
+      20 * better(kHypothesisInverseView) >= 19 * better(kHypothesisOtherSpace)) {
+    best = kHypothesisInverseView;
   }
   if (best < kHypothesisCount) {
     add({kHypotheses.at(best).name,

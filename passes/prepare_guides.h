@@ -36,7 +36,7 @@ struct PrepareGuidesSettings {
 /// Settings of the ambient occlusion that serves as a feature.
 struct AmbientOcclusionSettings {
   float radius = 0.075F;
-  std::uint32_t steps = 5;
+  std::uint32_t steps = 3;
 
   void visit(SettingVisitor& v) {
     v.visit({"occlusion.radius", "Distance that the search for occluders reaches", "fraction of the image's height",

@@ -22,6 +22,8 @@ struct ReprojectionSettings {
   MotionSource motion = MotionSource::Texture;
   HistoryRejection rejection = HistoryRejection::Plane;
   bool dilateMotion = false;  ///< Follow the nearest surface of the 3x3 neighbourhood (Meunier & Harada 2022, 4.2).
+  /// The pass prepares the guides of its frame itself (GUIDES in reprojection.glsl), and does not dilate motion.
+  bool preparesGuides = false;
 };
 
 /// The reprojection for a scene.
@@ -38,8 +40,8 @@ struct StandIns {
 };
 
 /// Declare what a pass reads for reprojection.glsl, and specialize its shader. The pass itself declares
-/// `frameConstants` and `depth`.
-void readReprojection(fg::PassBuilder& pass, const DenoiserInputs& inputs, const Guides& guides,
+/// `frameConstants` and, unless it prepares the guides, `depth`.
+void readReprojection(const fg::Graph& graph, fg::PassBuilder& pass, const DenoiserInputs& inputs, const Guides& guides,
                       const ReprojectionSettings& settings, const StandIns& standIns);
 
 /// Declare what a shader with OBJECTS reads in addition.

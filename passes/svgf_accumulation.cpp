@@ -18,7 +18,7 @@ SvgfAccumulated addSvgfAccumulation(StageGraph graph, const DenoiserInputs& inpu
   const auto declare = [&](const std::string& name, const fg::Shader& shader) {
     fg::PassBuilder pass = graph->compute(name, shader);
     pass.uniform("frameConstants", inputs.frame).sample("depth", guides.depth);
-    readReprojection(pass, inputs, guides, {MotionSource::Texture, HistoryRejection::Plane},
+    readReprojection(graph, pass, inputs, guides, {MotionSource::Texture, HistoryRejection::Plane},
                      {.colour = inputs.lighting, .number = guides.depth});
     pass.sample("lighting", inputs.lighting)
         .sample("previousColour", previousColour)

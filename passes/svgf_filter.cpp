@@ -1,9 +1,11 @@
 #include "passes/svgf_filter.h"
 
+#include <algorithm>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "passes/grid_extent.h"
 #include "shaders/constants/svgf_filter.h"
 #include "shaders/shaders.h"
 
@@ -23,6 +25,16 @@ fg::PassBuilder filterPass(fg::Graph& graph, std::string name, const fg::Shader&
                                      settings.minHistory})
       .dispatch(graph.textureDesc(colour).extent);
   return pass;
+}
+
+/// Largest radius whose taps fit in 16 KiB of shared memory, which every device has (svgf_taps.glsl).
+constexpr std::uint32_t kLargestTiledRadius = 2;
+
+/// Threads that cover all pixels with the interleaved groups of svgf_taps.glsl: 8 quads of pixels per axis, as far
+/// apart as taps.
+fg::Extent tileThreads(fg::Extent pixels, std::uint32_t spacing) {
+  const std::uint32_t area = 8 * std::max(spacing, 2U);
+  return {gridExtent(pixels, area).width * area, gridExtent(pixels, area).height * area};
 }
 
 fg::Texture colourTexture(fg::Graph& graph, fg::Texture like, std::string name) {
@@ -51,6 +63,10 @@ struct Kernel {
   std::uint32_t spacing;  ///< Pixels between taps.
   float gaussianFalloff;  ///< exp(-falloff d^2) at a distance of d pixels; 0: binomial.
 };
+
+bool fitsTile(const Kernel& kernel) {
+  return kernel.radius <= kLargestTiledRadius && kernel.gaussianFalloff == 0.0F;
+}
 
 std::vector<Kernel> kernelsOf(const SvgfFilterSettings& settings) {
   std::vector<Kernel> kernels;
@@ -111,12 +127,19 @@ fg::Texture addSvgfAtrous(fg::Graph& graph, fg::Buffer frame, fg::Texture colour
   }
   for (std::size_t i = 0; i < kernels.size(); ++i) {
     const std::string number = std::to_string(i);
+    const Kernel& kernel = kernels[i];
+    const bool tiled = fitsTile(kernel);
     fg::PassBuilder pass =
-        filterPass(graph, "svgf a-trous " + number, shaders::svgfAtrous, frame, colour, guides, settings);
-    pass.specialize("kRadius", kernels[i].radius)
-        .specialize("kSpacing", kernels[i].spacing)
-        .specialize("kLuminanceWeight", settings.luminanceWeight)
-        .specialize("kGaussianFalloff", kernels[i].gaussianFalloff);
+        filterPass(graph, "svgf a-trous " + number, tiled ? shaders::svgfAtrous : shaders::svgfAtrousWindow, frame,
+                   colour, guides, settings);
+    pass.specialize("kRadius", kernel.radius)
+        .specialize("kSpacing", kernel.spacing)
+        .specialize("kLuminanceWeight", settings.luminanceWeight);
+    if (tiled) {
+      pass.dispatch(tileThreads(graph.textureDesc(colour).extent, kernel.spacing));
+    } else {
+      pass.specialize("kGaussianFalloff", kernel.gaussianFalloff);
+    }
     const bool feedsBack = i + 1 == settings.feedback && feedback.valid();
     colour = pass.store("outColour", feedsBack ? feedback : colourTexture(graph, colour, "svgf.filtered " + number));
   }

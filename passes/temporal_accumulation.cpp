@@ -3,10 +3,13 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "passes/guide_pass.h"
 #include "passes/reprojection.h"
+#include "shaders/constants/guides_and_accumulation.h"
 #include "shaders/constants/temporal_accumulation.h"
 #include "shaders/shaders.h"
 
@@ -15,11 +18,12 @@ namespace walr {
 namespace {
 
 /// The variants of the pass.
-enum class Role : std::uint8_t { Mean, MeanAndTaps, View };
+enum class Role : std::uint8_t { Mean, MeanAndTaps, GuidesMeanAndTaps, View };
 
 const fg::Shader& shaderFor(Role role, bool antilag, LightStorage storage) {
   const bool packed = storage == LightStorage::Packed;
   if (role == Role::View) return shaders::temporalAccumulationView({.packed = packed});
+  if (role == Role::GuidesMeanAndTaps) return shaders::temporalAccumulationGuides;
   return shaders::temporalAccumulation({.taps = role == Role::MeanAndTaps, .antilag = antilag, .packed = packed});
 }
 
@@ -27,7 +31,7 @@ const fg::Shader& shaderFor(Role role, bool antilag, LightStorage storage) {
 struct Stage {
   StageGraph graph;
   const DenoiserInputs& inputs;
-  const Guides& guides;
+  Guides guides;
   const TemporalAccumulationSettings& settings;
   bool keepTaps;
   fg::History accumulated;
@@ -44,19 +48,26 @@ Stage stageOf(StageGraph graph, const DenoiserInputs& inputs, const Guides& guid
   return stage;
 }
 
-/// A pass without its outputs; the first of them is the current texture of `accumulated`.
-fg::PassBuilder declarePass(const Stage& stage, const std::string& name, Role role) {
+fg::PassBuilder newPass(const Stage& stage, const std::string& name, Role role) {
+  return stage.graph->compute(name, shaderFor(role, stage.antilag.has_value(), stage.settings.storage));
+}
+
+TemporalAccumulationConstants constantsOf(const TemporalAccumulationSettings& settings) {
+  return {settings.maxHistory, settings.planeTolerance, settings.normalThreshold};
+}
+
+/// Declare what a pass reads besides guides of its own frame, and specialize its shader.
+void readInputs(const Stage& stage, fg::PassBuilder& pass, Role role) {
   const TemporalAccumulationSettings& settings = stage.settings;
   const bool antilag = stage.antilag.has_value();
-  const ReprojectionSettings reprojection =
+  ReprojectionSettings reprojection =
       reprojectionOf(stage.inputs.scene, !stage.keepTaps, settings.rejection, settings.dilateMotion);
-  fg::PassBuilder pass = stage.graph->compute(name, shaderFor(role, antilag, settings.storage));
+  reprojection.preparesGuides = role == Role::GuidesMeanAndTaps;
   pass.uniform("frameConstants", stage.inputs.frame)
-      .sample("depth", stage.guides.depth)
       .specialize("kBicubicHistory", settings.historyFilter == HistoryFilter::Bicubic);
-  readReprojection(pass, stage.inputs, stage.guides, reprojection,
+  readReprojection(stage.graph, pass, stage.inputs, stage.guides, reprojection,
                    {.colour = stage.inputs.lighting, .number = stage.guides.depth});
-  if (role != Role::MeanAndTaps) pass.specialize("kStill", reprojection.motion == MotionSource::None);
+  if (!stage.keepTaps || role == Role::View) pass.specialize("kStill", reprojection.motion == MotionSource::None);
   if (role == Role::View) pass.specialize("kKeepableMotion", stage.keepTaps).specialize("kAntilag", antilag);
   if (antilag) {
     pass.sample("previousAntilag", stage.antilag->factor.previous);
@@ -65,8 +76,14 @@ fg::PassBuilder declarePass(const Stage& stage, const std::string& name, Role ro
   }
   pass.sample("lighting", stage.inputs.lighting)
       .sample("previousAccumulated", stage.accumulated.previous)
-      .constants(TemporalAccumulationConstants{settings.maxHistory, settings.planeTolerance, settings.normalThreshold})
       .dispatch(stage.graph->textureDesc(stage.inputs.lighting).extent);
+}
+
+/// A pass without its outputs; the first of them is the current texture of `accumulated`.
+fg::PassBuilder declarePass(const Stage& stage, const std::string& name, Role role) {
+  fg::PassBuilder pass = newPass(stage, name, role);
+  pass.sample("depth", stage.guides.depth).constants(constantsOf(stage.settings));
+  readInputs(stage, pass, role);
   return pass;
 }
 
@@ -76,16 +93,26 @@ void offerViews(const Stage& stage) {
                     [&](const std::string& name) { return declarePass(stage, name, Role::View); });
 }
 
-/// Add the pass, its output `mean`, and antilag if the stage has it.
-fg::PassBuilder accumulate(const Stage& stage, Role role, fg::Texture& mean) {
-  fg::PassBuilder pass = declarePass(stage, "temporal accumulation", role);
-  mean = pass.store("outAccumulated", stage.accumulated.current);
+/// Add a pass's output, and antilag if the stage has it.
+fg::Texture storeMean(const Stage& stage, fg::PassBuilder& pass) {
+  const fg::Texture mean = pass.store("outAccumulated", stage.accumulated.current);
   if (stage.antilag) {
     Antilag antilag = *stage.antilag;
     antilag.tiles = pass.store("outTiles", antilag.tiles);
     addAntilag(stage.graph, antilag, stage.settings.antilag);
   }
-  return pass;
+  return mean;
+}
+
+/// The same for a pass that keeps taps.
+/// @param antialiasing see `addTemporalAccumulationWithTaps`
+AccumulationWithTaps storeMeanAndTaps(const Stage& stage, fg::PassBuilder& pass, LightStorage antialiasing) {
+  AccumulationWithTaps result;
+  result.mean = storeMean(stage, pass);
+  pass.specialize("kKeepPassThrough", antialiasing == LightStorage::Packed);
+  const fg::Extent extent = stage.graph->textureDesc(stage.inputs.lighting).extent;
+  result.taps = pass.store("outTaps", stage.graph->texture("history taps", {VK_FORMAT_R32_UINT, extent}));
+  return result;
 }
 
 }  // namespace
@@ -111,9 +138,8 @@ fg::Texture addTemporalAccumulation(StageGraph graph, const DenoiserInputs& inpu
                                     const TemporalAccumulationSettings& settings) {
   const Stage stage = stageOf(graph, inputs, guides, settings, false);
   offerViews(stage);
-  fg::Texture mean;
-  accumulate(stage, Role::Mean, mean);
-  return mean;
+  fg::PassBuilder pass = declarePass(stage, "temporal accumulation", Role::Mean);
+  return storeMean(stage, pass);
 }
 
 AccumulationWithTaps addTemporalAccumulationWithTaps(StageGraph graph, const DenoiserInputs& inputs,
@@ -121,12 +147,34 @@ AccumulationWithTaps addTemporalAccumulationWithTaps(StageGraph graph, const Den
                                                      LightStorage antialiasing) {
   const Stage stage = stageOf(graph, inputs, guides, settings, true);
   offerViews(stage);
-  AccumulationWithTaps result;
-  fg::PassBuilder pass = accumulate(stage, Role::MeanAndTaps, result.mean);
-  pass.specialize("kKeepPassThrough", antialiasing == LightStorage::Packed);
-  const fg::Extent extent = graph->textureDesc(inputs.lighting).extent;
-  result.taps = pass.store("outTaps", graph->texture("history taps", {VK_FORMAT_R32_UINT, extent}));
-  return result;
+  fg::PassBuilder pass = declarePass(stage, "temporal accumulation", Role::MeanAndTaps);
+  return storeMeanAndTaps(stage, pass, antialiasing);
+}
+
+bool canJoinGuides(const TemporalAccumulationSettings& settings) {
+  return settings.rejection == HistoryRejection::Plane && !settings.dilateMotion && settings.antilag.enabled &&
+         settings.storage == LightStorage::Packed;
+}
+
+GuidesAndAccumulation addGuidesAndAccumulation(StageGraph graph, const DenoiserInputs& inputs,
+                                               const PrepareGuidesSettings& guideSettings, const GuideNeeds& needs,
+                                               const TemporalAccumulationSettings& settings,
+                                               LightStorage antialiasing) {
+  if (!canJoinGuides(settings) || !needs.geometricNormal || !needs.history || !needs.occlusion) {
+    throw std::invalid_argument(
+        "guides and accumulation share a pass only with antilag, packed storage, history taps "
+        "tested by plane, no dilated motion, and if all guides are needed; add two passes");
+  }
+  offerGuideViews(graph, inputs, guideSettings);
+  Stage stage = stageOf(graph, inputs, {}, settings, true);
+  fg::PassBuilder pass = newPass(stage, "guides and accumulation", Role::GuidesMeanAndTaps);
+  readGBuffer(pass, inputs, guideSettings);
+  pass.constants(
+      GuidesAndAccumulationConstants{guideConstants(graph, inputs, guideSettings, needs), constantsOf(settings)});
+  stage.guides = writeGuides(graph, pass, graph->textureDesc(inputs.depth).extent, needs);
+  readInputs(stage, pass, Role::GuidesMeanAndTaps);
+  offerViews(stage);
+  return {.guides = stage.guides, .accumulated = storeMeanAndTaps(stage, pass, antialiasing)};
 }
 
 }  // namespace walr

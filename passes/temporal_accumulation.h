@@ -85,4 +85,21 @@ AccumulationWithTaps addTemporalAccumulationWithTaps(StageGraph graph, const Den
                                                      const TemporalAccumulationSettings& settings = {},
                                                      LightStorage antialiasing = LightStorage::Half);
 
+/// Guides, and light accumulated with them.
+struct GuidesAndAccumulation {
+  Guides guides;
+  AccumulationWithTaps accumulated;
+};
+
+/// Whether `addGuidesAndAccumulation` can stand in for two passes. Its shader has no variants: it has antilag and
+/// packed storage, and tests history taps by plane, without dilated motion.
+bool canJoinGuides(const TemporalAccumulationSettings& settings);
+
+/// `addPrepareGuides` and `addTemporalAccumulationWithTaps` as one pass, which need not read the guides back.
+/// @param needs must ask for all guides
+/// @throws std::invalid_argument unless `canJoinGuides`
+GuidesAndAccumulation addGuidesAndAccumulation(StageGraph graph, const DenoiserInputs& inputs,
+                                               const PrepareGuidesSettings& guideSettings, const GuideNeeds& needs,
+                                               const TemporalAccumulationSettings& settings, LightStorage antialiasing);
+
 }  // namespace walr

@@ -28,6 +28,9 @@ const std::vector<ViewInfo>& antialiasingViews() {
 /// Declares what a pass reads for reprojection and for the pass-through.
 using ReadHistory = std::function<void(fg::PassBuilder& pass, bool view)>;
 
+/// The length that the highest level of a packed history length would stand for (packed_light.glsl).
+constexpr float kHighestLevel = 64.0F;
+
 /// Add the stage; `read` declares its reprojection.
 /// @param kept whether that comes from the taps that accumulation kept
 fg::Texture addStage(StageGraph graph, bool kept, const ReadHistory& read, fg::Texture filtered, fg::Texture output,
@@ -46,6 +49,7 @@ fg::Texture addStage(StageGraph graph, bool kept, const ReadHistory& read, fg::T
         .constants(TemporalAntialiasingConstants{settings.maxHistory, settings.clipGamma, settings.planeTolerance,
                                                  settings.normalThreshold})
         .dispatch(extent);
+    if (packed) pass.specialize("kBeyondLevels", settings.maxHistory > kHighestLevel);
     return pass;
   };
   graph.offer(antialiasingViews(), extent, [&](const std::string& name) { return declare(name, true); });
@@ -72,7 +76,7 @@ fg::Texture addTemporalAntialiasing(StageGraph graph, const DenoiserInputs& inpu
     pass.uniform("frameConstants", inputs.frame)
         .sampleIf(!still || !packed, "depth", guides.depth, standIns.number)
         .specialize("kStill", still);
-    readReprojection(pass, inputs, guides, reprojection, standIns);
+    readReprojection(graph, pass, inputs, guides, reprojection, standIns);
     readObjectIds(pass, ids, standIns);
     if (view) pass.specialize("kKeepableMotion", false);
     if (packed && !view) pass.sample("passThrough", inputs.lighting);

@@ -14,6 +14,15 @@ GuideNeeds guidesOf(const TemporalPlan& plan) {
   return {.geometricNormal = byPlane, .history = byPlane || uses(HistoryRejection::Depth)};
 }
 
+/// Storage of the anti-aliasing that reads the kept taps.
+LightStorage tapsReader(const TemporalPlan& plan) {
+  return plan.sharesTaps ? plan.antialiasing.storage : LightStorage::Half;
+}
+
+Accumulated withTaps(const AccumulationWithTaps& accumulated) {
+  return {.lighting = accumulated.mean, .alpha = LightingAlpha::SampleCount, .taps = accumulated.taps};
+}
+
 }  // namespace
 
 TemporalPlan planTemporalStages(const DenoiserInputs& inputs, const TemporalStages& stages) {
@@ -39,9 +48,20 @@ Accumulated addAccumulation(StageGraph graph, const DenoiserInputs& inputs, cons
     return {.lighting = addTemporalAccumulation(graph, inputs, guides, plan.accumulation),
             .alpha = LightingAlpha::SampleCount};
   }
-  const LightStorage reader = plan.sharesTaps ? plan.antialiasing.storage : LightStorage::Half;
-  const auto [mean, taps] = addTemporalAccumulationWithTaps(graph, inputs, guides, plan.accumulation, reader);
-  return {.lighting = mean, .alpha = LightingAlpha::SampleCount, .taps = taps};
+  return withTaps(addTemporalAccumulationWithTaps(graph, inputs, guides, plan.accumulation, tapsReader(plan)));
+}
+
+GuidedInput addGuidesWithAccumulation(StageGraph graph, const DenoiserInputs& inputs,
+                                      const PrepareGuidesSettings& settings, const GuideNeeds& needs,
+                                      const TemporalPlan& plan) {
+  const bool allGuides = needs.geometricNormal && needs.history && needs.occlusion.has_value();
+  if (plan.accumulates && plan.keepsTaps && allGuides && canJoinGuides(plan.accumulation)) {
+    const auto [guides, accumulated] =
+        addGuidesAndAccumulation(graph, inputs, settings, needs, plan.accumulation, tapsReader(plan));
+    return {guides, withTaps(accumulated)};
+  }
+  const Guides guides = addPrepareGuides(graph, inputs, settings, needs);
+  return {guides, addAccumulation(graph, inputs, guides, plan)};
 }
 
 fg::Texture filterTarget(fg::Graph& graph, const TemporalPlan& plan, fg::Texture output) {

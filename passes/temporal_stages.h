@@ -49,6 +49,17 @@ struct Accumulated {
 Accumulated addAccumulation(StageGraph graph, const DenoiserInputs& inputs, const Guides& guides,
                             const TemporalPlan& plan);
 
+/// The input of a spatial filter, and the guides beside it.
+struct GuidedInput {
+  Guides guides;
+  Accumulated accumulated;
+};
+
+/// Add guides and temporal accumulation: as one pass where `canJoinGuides` says so and `needs` asks for all guides.
+GuidedInput addGuidesWithAccumulation(StageGraph graph, const DenoiserInputs& inputs,
+                                      const PrepareGuidesSettings& settings, const GuideNeeds& needs,
+                                      const TemporalPlan& plan);
+
 /// The RGBA16F texture for a filter to write to: the method's output if no stage follows, else a new one.
 fg::Texture filterTarget(fg::Graph& graph, const TemporalPlan& plan, fg::Texture output);
 

@@ -130,7 +130,7 @@ void main() {
     writePassThrough(p);
     return;
   }
-  const Plane plane = planeAt(p, z, unpackNormal(texelFetch(planeNormal, p, 0).x));
+  const Plane plane = planeAt(p, z, unpackLongNormal(texelFetch(planeNormal, p, 0).x));
   const Centre centre =
       Centre(p, size, plane, 1.0 / (constants.planeFar - constants.planeNear), unpackSdf(packedDepth));
 

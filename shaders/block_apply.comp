@@ -8,6 +8,7 @@
 // A pixel without a surface (depth 0) is not filtered: its pass-through is copied to the result.
 // PACKED: the result is packed light (packed_light.glsl). A pixel without a surface gets the mark kFilteredNoSurface,
 // and anti-aliasing outputs the pass-through.
+// RESIDUAL: mixes the result with the accumulated light (accumulated_share.glsl).
 // VIEW: writes an intermediate value instead of the result, and black where there is no surface. The cells are always
 // read. With VIEW, PACKED means that `accumulated` is packed.
 #version 460
@@ -16,6 +17,7 @@
 #extension GL_EXT_control_flow_attributes : require
 #include "constants/block_regression.h"
 #include "constants/frame.h"
+#include "constants/stored_fit.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 0) const int kBlockSize = 4;  // Pixels per axis.
@@ -24,17 +26,8 @@ layout(constant_id = 2) const int kCellSize = 8;   // Pixels per axis.
 layout(std140) uniform frameConstants { FrameConstants frame; };
 uniform utexture2D depth;
 uniform utexture2D features;  // Shading normal and ambient occlusion.
-// Fits of blocks: 24 halves in three textures (block_fit.glsl).
-uniform utexture2D fitA;
-uniform utexture2D fitB;
-uniform utexture2D fitC;
-uniform utexture2D fitDepth;   // Of the representative pixel; 0: the block shows no surface.
-uniform utexture2D fitNormal;  // Geometric normal of the representative pixel, and that pixel's number in the block.
-// Fits of cells.
-uniform utexture2D coarseA;
-uniform utexture2D coarseB;
-uniform utexture2D coarseC;
-uniform utexture2D coarseDepth;  // Depth that the cell's depth feature is relative to; 0: no surface in its window.
+layout(std430) readonly buffer fineFits { StoredBlockFit blocks[]; };
+layout(std430) readonly buffer coarseFits { StoredFit cells[]; };
 #ifdef VIEW
 layout(constant_id = 8) const uint kView = 0;  // Which quantity; numbered in viewOf.
 layout(rgba32f) uniform writeonly image2D outView;
@@ -50,10 +43,10 @@ uniform texture2D passThrough;
 layout(rgba16f) uniform writeonly image2D outFiltered;
 #endif
 layout(push_constant) uniform PushConstants { BlockRegressionConstants constants; };
-#include "include/block_fit.glsl"
 #include "include/block_plane.glsl"
+#include "include/camera.glsl"
 #include "include/coarse_share.glsl"
-#include "include/plane.glsl"
+#include "include/stored_fit.glsl"
 #ifdef VIEW
 #include "include/light.glsl"
 #elif defined(PACKED)
@@ -62,11 +55,14 @@ layout(push_constant) uniform PushConstants { BlockRegressionConstants constants
 #include "include/half.glsl"
 #include "include/pass_through.glsl"
 #endif
+#ifdef RESIDUAL
+#include "include/accumulated_share.glsl"
+#endif
 
 // Sums over the four fits, before division by `weight`.
 struct Prediction {
-  vec3 colour;    // Sum of weight times predicted colour.
-  float samples;  // Sum of weight times W, the sample count of the fit's window.
+  vec3 colour;    // Sum of weight times predicted colour, in units of kLightUnit.
+  float samples;  // Sum of weight times W, the sample count of the fit's window, in units of kSampleCountUnit.
   float weight;   // Sum of weights; 0: no fit is usable.
 #ifdef VIEW
   vec3 slope[kFeatures];  // Sums of weight times slope.
@@ -86,83 +82,78 @@ Prediction noPrediction() {
   return sum;
 }
 
-// Adds the prediction of one fit for features `x`. A fit without samples is left out.
-void add(inout Prediction sum, float weight, BlockFit fit, float x[kFeatures]) {
-  if (weight <= 0.0 || fit.samples <= 0.0) return;
-  sum.colour += weight * max(evaluate(fit, x), vec3(0.0));
-  sum.samples += weight * fit.samples;
+// Adds the prediction of one fit.
+void add(inout Prediction sum, float weight, StoredFit fit, ScaledFeatures pixel) {
+  const vec3 colour = evaluate(fit, pixel);
+  sum.colour += weight * clamp(colour, 0.0, 1.0);
+  sum.samples += weight * samplesOf(fit);
   sum.weight += weight;
 #ifdef VIEW
-  for (int i = 0; i < kFeatures; ++i) sum.slope[i] += weight * fit.slope[i];
-  const bvec3 below = lessThan(evaluate(fit, x), vec3(0.0));
-  sum.negative = bvec3(sum.negative.r || below.r, sum.negative.g || below.g, sum.negative.b || below.b);
+  for (int i = 0; i < kFeatures; ++i) sum.slope[i] += weight * slopeOf(fit, i);
+  for (int c = 0; c < 3; ++c) sum.negative[c] = sum.negative[c] || (weight > 0.0 && colour[c] < 0.0);
 #endif
 }
 
-BlockFit loadFine(ivec2 block) {
-  return unpackFit(PackedFit(texelFetch(fitA, block, 0), texelFetch(fitB, block, 0), texelFetch(fitC, block, 0)));
-}
-BlockFit loadCoarse(ivec2 cell) {
-  return unpackFit(PackedFit(texelFetch(coarseA, cell, 0), texelFetch(coarseB, cell, 0), texelFetch(coarseC, cell, 0)));
-}
+// A divisor in place of a sum of weights: where they are all 0, the sum that it divides is 0, too.
+float divisor(float weight) { return max(weight, 1e-30); }
 
 // Mean sample count of the windows of the fine fits; 0 if no fine fit is usable.
-float meanSamples(Prediction fine) { return fine.weight > 0.0 ? fine.samples / fine.weight : 0.0; }
+float meanSamples(Prediction fine) { return kSampleCountUnit * fine.samples / divisor(fine.weight); }
 
 // Share of the coarse prediction, provided that a coarse fit is usable: 1 if no fine fit is, for instance because the
 // pixel lies on no block's plane.
-float shareOfCoarse(Prediction fine) { return fine.weight > 0.0 ? coarseShare(meanSamples(fine)) : 1.0; }
+float shareOfCoarse(Prediction fine) {
+  // coarseShare of meanSamples, with both of its terms times the weight: one division.
+  const float coarse = divisor(constants.coarseSamples * fine.weight);
+  const float share = fadedShare(coarse / (kSampleCountUnit * fine.samples + coarse));
+  return fine.weight > 0.0 ? share : 1.0;
+}
 
-vec3 meanColour(Prediction sum) { return sum.weight > 0.0 ? sum.colour / sum.weight : vec3(0.0); }
+// `share` times the mean predicted colour; 0 if no fit is usable.
+vec3 meanColour(Prediction sum, float share) { return share * kLightUnit / divisor(sum.weight) * sum.colour; }
 
-// The four texels nearest to a pixel on a grid whose texels are `size` pixels a side.
+// The four texels nearest to a pixel on a grid of blocks or cells.
 struct BilinearTexels {
-  ivec2 base;     // The upper left one.
+  ivec2 first;    // The upper left one.
   vec2 fraction;  // Position past its centre, in texels.
 };
 
 BilinearTexels bilinearTexels(ivec2 p, int size) {
-  const vec2 position = (vec2(p) + 0.5) / float(size) - 0.5;
+  const vec2 position = pixelCentre(p) / float(size) - 0.5;
   return BilinearTexels(ivec2(floor(position)), fract(position));
 }
 
-// Weight of texel `i` of the four, 0 if it lies outside the grid.
-float bilinearWeight(BilinearTexels texels, int i, ivec2 grid, out ivec2 texel) {
-  const ivec2 offset = ivec2(i & 1, i >> 1);
-  texel = texels.base + offset;
-  if (any(lessThan(texel, ivec2(0))) || any(greaterThanEqual(texel, grid))) return 0.0;
-  const vec2 axisWeight = mix(1.0 - texels.fraction, texels.fraction, vec2(offset));
-  return axisWeight.x * axisWeight.y;
+float[4] weightsOf(BilinearTexels texels) {
+  const vec2 b = texels.fraction;
+  const vec2 a = 1.0 - b;
+  return float[](a.x * a.y, b.x * a.y, a.x * b.y, b.x * b.y);
 }
 
-Prediction predictCoarse(ivec2 p, float z, NormalAndOcclusion guides) {
+// Index of texel `i` of the four in the buffer of a grid with `size` pixels a texel. In place of a texel outside the
+// grid, the one beside it counts twice. That does not change a mean: both texels inside gain the same factor.
+uint indexOf(BilinearTexels texels, int i, int size) {
+  const ivec2 grid = (textureSize(depth, 0) + size - 1) / size;
+  return gridIndex(clamp(texels.first + ivec2(i & 1, i >> 1), ivec2(0), grid - 1), grid);
+}
+
+Prediction predictCoarse(BilinearTexels texels, ScaledFeatures pixel) {
   Prediction sum = noPrediction();
-  const BilinearTexels cells = bilinearTexels(p, kCellSize);
+  const float bilinear[4] = weightsOf(texels);
   [[unroll]] for (int i = 0; i < 4; ++i) {
-    ivec2 cell;
-    const float weight = bilinearWeight(cells, i, textureSize(coarseDepth, 0), cell);
-    if (weight <= 0.0) continue;
-    const float cellZ = unpackDepth(texelFetch(coarseDepth, cell, 0).x);
-    if (cellZ > 0.0) add(sum, weight, loadCoarse(cell), featuresOf(guides, cellZ / z - 1.0));
+    const StoredFit fit = cells[indexOf(texels, i, kCellSize)];
+    add(sum, hasSamples(fit) ? bilinear[i] : 0.0, fit, pixel);
   }
   return sum;
 }
 
-Prediction predictFine(ivec2 p, float z, NormalAndOcclusion guides) {
+Prediction predictFine(BilinearTexels texels, vec3 ray, float z, vec3 normal, ScaledFeatures pixel) {
   Prediction sum = noPrediction();
-  const BilinearTexels blocks = bilinearTexels(p, kBlockSize);
+  const float bilinear[4] = weightsOf(texels);
   [[unroll]] for (int i = 0; i < 4; ++i) {
-    ivec2 block;
-    const float bilinear = bilinearWeight(blocks, i, textureSize(fitDepth, 0), block);
-    if (bilinear <= 0.0) continue;
-    const float blockZ = unpackDepth(texelFetch(fitDepth, block, 0).x);
-    if (blockZ == 0.0) continue;
-    const uint packedNormal = texelFetch(fitNormal, block, 0).x;
-    const vec3 normal = blockNormal(packedNormal);
-    const Plane plane = planeAt(representativePixel(block, kBlockSize, packedNormal), blockZ, normal);
-    // u of passes/WALR.md; the distance is in units of blockZ.
-    const float weight = bilinear * edgeStopping(planeDistance(plane, p, z)) * normalCosine(normal, guides.normal);
-    add(sum, weight, loadFine(block), featuresOf(guides, blockZ / z - 1.0));
+    const StoredBlockFit block = blocks[indexOf(texels, i, kBlockSize)];
+    // u of passes/WALR.md.
+    const float weight = bilinear[i] * edgeStopping(planeDistance(block, ray, z)) * planeCosine(block, normal);
+    add(sum, weight, block.fit, pixel);
   }
   return sum;
 }
@@ -170,7 +161,7 @@ Prediction predictFine(ivec2 p, float z, NormalAndOcclusion guides) {
 #ifdef VIEW
 const float kCoefficients = float(kFeatures + 1);  // Of one channel: a constant and the slopes.
 
-vec3 meanSlope(Prediction sum, uint feature) { return sum.weight > 0.0 ? sum.slope[feature] / sum.weight : vec3(0.0); }
+vec3 meanSlope(Prediction sum, uint feature) { return sum.slope[feature] / divisor(sum.weight); }
 
 // In the order of reconstructionViews() in passes/block_regression.cpp, which describes each value.
 vec3 viewOf(ivec2 p, Prediction fine, Prediction coarse, float share, float occlusion) {
@@ -178,8 +169,8 @@ vec3 viewOf(ivec2 p, Prediction fine, Prediction coarse, float share, float occl
   switch (kView) {
     case 0u: return vec3(meanSamples(fine), share, !usable);                                     // samples
     case 1u: return vec3(occlusion, fine.weight, fine.weight <= 0.0 && coarse.weight > 0.0);     // occlusion
-    case 2u: return meanColour(fine);                                                            // fine-fit
-    case 3u: return meanColour(coarse);                                                          // coarse-fit
+    case 2u: return meanColour(fine, 1.0);                                                          // fine-fit
+    case 3u: return meanColour(coarse, 1.0);                                                        // coarse-fit
     case 4u: return vec3(fine.negative);                                                         // clamped
     case 5u: return vec3(coarse.negative);                                                       // coarse-clamped
     case 16u: return vec3(meanSamples(fine) < kCoefficients, share > 0.5, lightAt(p).a == 0.0);  // few-samples
@@ -191,40 +182,77 @@ vec3 viewOf(ivec2 p, Prediction fine, Prediction coarse, float share, float occl
 
 #ifdef VIEW
 void storeNoSurface(ivec2 p) { imageStore(outView, p, vec4(vec3(0.0), 1.0)); }
+void store(ivec2 p, vec3 view) { imageStore(outView, p, vec4(view, 1.0)); }
 #elif defined(PACKED)
 void storeNoSurface(ivec2 p) { imageStore(outFiltered, p, uvec4(kFilteredNoSurface)); }
 void store(ivec2 p, vec3 colour) {
-  const vec3 random = randomNumbers(p, frame.frameIndex, kFilteredSeed).rgb;
-  imageStore(outFiltered, p, uvec4(packFiltered(colour, random)));
+  imageStore(outFiltered, p, uvec4(packFiltered(colour, ditherNumber(p, frame.frameIndex))));
 }
 #else
 void storeNoSurface(ivec2 p) { imageStore(outFiltered, p, vec4(passThroughLight(passThrough, p), 1.0)); }
 void store(ivec2 p, vec3 colour) { imageStore(outFiltered, p, nearestHalf(vec4(colour, 1.0))); }
 #endif
 
-void main() {
-  const ivec2 p = ivec2(gl_GlobalInvocationID.xy);
-  if (any(greaterThanEqual(p, textureSize(depth, 0)))) return;
+// The predicted light of a pixel, or its view; false if it shows no surface.
+bool predict(ivec2 p, BilinearTexels nearBlocks, out vec3 position, out vec3 predicted) {
   const float z = unpackDepth(texelFetch(depth, p, 0).x);
-  if (z == 0.0) {
-    storeNoSurface(p);
-    return;
-  }
+  if (z == 0.0) return false;
+  const BilinearTexels nearCells = kCellSize == kBlockSize ? nearBlocks : bilinearTexels(p, kCellSize);
+
   const NormalAndOcclusion guides = unpackNormalAndOcclusion(texelFetch(features, p, 0).x);
-  const Prediction fine = predictFine(p, z, guides);
+  const ScaledFeatures pixel = scaledFeatures(guides, z);
+  const vec3 ray = rayThrough(frame.rayFromPixel, pixelCentre(p));
+  position = z * ray;
+  const Prediction fine = predictFine(nearBlocks, ray, z, guides.normal, pixel);
   const float shareIfUsable = shareOfCoarse(fine);
 #ifdef VIEW
-  const Prediction coarse = predictCoarse(p, z, guides);
+  const Prediction coarse = predictCoarse(nearCells, pixel);
 #else
   Prediction coarse = noPrediction();
-  if (shareIfUsable > 0.0) coarse = predictCoarse(p, z, guides);
+  if (shareIfUsable > 0.0) coarse = predictCoarse(nearCells, pixel);
 #endif
   const float share = coarse.weight > 0.0 ? shareIfUsable : 0.0;
 #ifdef VIEW
-  imageStore(outView, p, vec4(viewOf(p, fine, coarse, share, guides.occlusion), 1.0));
+  predicted = viewOf(p, fine, coarse, share, guides.occlusion);
 #else
   // Black if no fit is usable. That happens only if the pixel's history holds no finite sample: any other pixel gives a
   // fit to its own cell, which is one of the four.
-  store(p, mix(meanColour(fine), meanColour(coarse), share));
+  predicted = meanColour(fine, 1.0 - share) + meanColour(coarse, share);
+#endif
+  return true;
+}
+
+void main() {
+  // All pixels of a work group lie between the centres of the same four blocks. So the group reads four fits, from
+  // addresses that all its threads share. If blocks are small, it covers kIntervals intervals between centres an axis.
+  const int kIntervals = int(gl_WorkGroupSize.x) / kBlockSize;
+  const int kThreads = kIntervals * kBlockSize;  // That have a pixel, per axis.
+  const ivec2 thread = ivec2(gl_LocalInvocationID.xy);
+  const ivec2 group = kIntervals * ivec2(gl_WorkGroupID.xy);
+  const ivec2 p = kBlockSize * group - (kBlockSize + 1) / 2 + thread;
+  const bool hasPixel = all(lessThan(thread, ivec2(kThreads))) &&
+                        all(lessThan(uvec2(p), uvec2(textureSize(depth, 0))));  // Negative ones are large, too.
+  const ivec2 interval = kIntervals == 1 ? ivec2(0) : thread / kBlockSize;
+  // Centres of blocks with an odd side are centres of pixels, where a fraction could round to that of another block.
+  const vec2 fraction = kBlockSize % 2 == 0 ? fract(pixelCentre(p) / float(kBlockSize) - 0.5)
+                                            : vec2(thread - kBlockSize * interval) / float(kBlockSize);
+#ifdef RESIDUAL
+  Residuals residuals = noResiduals();
+#endif
+  if (hasPixel) {
+    vec3 position, colour;
+    if (predict(p, BilinearTexels(group + interval - 1, fraction), position, colour)) {
+#ifdef RESIDUAL
+      const vec4 mean = accumulatedAt(p);
+      residuals = residualsOf(p, mean, luminance(colour));
+      if (mean.a > 0.0) colour = mix(colour, mean.rgb, accumulatedShare(previousStatisticsAt(position)));
+#endif
+      store(p, colour);
+    } else {
+      storeNoSurface(p);
+    }
+  }
+#ifdef RESIDUAL
+  sumResiduals(residuals);
 #endif
 }

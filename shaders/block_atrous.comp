@@ -5,6 +5,7 @@
 // LAST: the last iteration. It solves the regression and writes fits instead of moments.
 // VIEW: does the same work and writes one of its intermediate values of each block to all pixels of the block.
 #version 460
+#extension GL_EXT_control_flow_attributes : require
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
 #include "constants/block_regression.h"
@@ -25,7 +26,6 @@ layout(push_constant) uniform PushConstants { BlockRegressionConstants constants
 #define BLOCK_MOMENTS_IN
 #if defined(LAST)
 #include "include/coarse_share.glsl"
-#define BLOCK_FIT_OUT
 #elif !defined(VIEW)
 #define BLOCK_MOMENTS_OUT
 #endif
@@ -33,6 +33,10 @@ layout(push_constant) uniform PushConstants { BlockRegressionConstants constants
 #include "include/block_textures.glsl"
 #include "include/plane.glsl"
 #include "include/block_plane.glsl"
+#ifdef LAST
+layout(r32ui) uniform writeonly uimage2D outDepth;
+layout(std430) writeonly buffer outFits { StoredBlockFit fits[]; };
+#endif
 
 // Edge-stopping weight of a block; 0 outside the image and where the block shows no surface.
 float edgeWeight(Plane plane, ivec2 block, out uint packedDepth) {
@@ -119,7 +123,7 @@ vec3 viewOf(TraceSummary summary, BlockMoments m) {
 }
 #endif
 
-void writeResult(ivec2 block, float z, TraceSummary summary, BlockMoments m) {
+void writeResult(ivec2 block, float z, Plane plane, TraceSummary summary, BlockMoments m) {
 #ifdef VIEW
   const vec3 value = z > 0.0 ? viewOf(summary, m) : vec3(0.0);
   for (int i = 0; i < kBlockSize * kBlockSize; ++i) {
@@ -128,10 +132,11 @@ void writeResult(ivec2 block, float z, TraceSummary summary, BlockMoments m) {
   }
 #else
 #ifdef LAST
-  storeFit(block, fitOf(m));
+  const vec4 storedPlane = m.samples > 0.0 ? vec4(plane.inverseDepth * plane.normal, plane.offset) : vec4(0.0);
+  fits[gridIndex(block, textureSize(depth, 0))] = StoredBlockFit(fitOf(m, z), storedPlane);
   const uint packedDepth = packFitDepth(z, converges(m.samples));
 #else
-  storeMoments(block, m);
+  storeMoments(block, packBlock(m));
   const uint packedDepth = packDepthSdf(z, uint(summary.nearestEdge));
 #endif
   imageStore(outDepth, block, uvec4(z > 0.0 ? packedDepth : 0u));
@@ -144,7 +149,7 @@ void main() {
   const uint packedDepth = texelFetch(depth, block, 0).x;
   const float z = unpackDepth(packedDepth);
   if (z == 0.0) {
-    writeResult(block, 0.0, TraceSummary(0, 0), noSamples());
+    writeResult(block, 0.0, Plane(vec3(0.0), 0.0, 0.0), TraceSummary(0, 0), noSamples());
     return;
   }
   const uint packedNormal = texelFetch(normal, block, 0).x;
@@ -152,7 +157,7 @@ void main() {
   const Plane plane = planeAt(representativePixel(block, kBlockSize, packedNormal), z, n);
 
   const BlockMoments own = loadMoments(block);
-  BlockMomentSum sum = emptySum();
+  BlockMomentSum sum = emptySum(own);
   add(sum, 1.0, own);
   TraceSummary summary = TraceSummary(kSpacing + 1, 0);
   for (int tap = 0; tap < 9; ++tap) {
@@ -172,5 +177,5 @@ void main() {
     const float same = own.samples > 0.0 ? sameLight(own, tapped) : 1.0;
     if (same > 0.0) add(sum, weight * same, rescaleDepth(tapped, z / trace.depth));
   }
-  writeResult(block, z, summary, finish(sum));
+  writeResult(block, z, plane, summary, finish(sum));
 }

@@ -24,7 +24,8 @@ void main() {
   const ivec2 cell = ivec2(gl_GlobalInvocationID.xy);
   if (!insideGrid(cell)) return;
   const ivec2 axis = kVertical ? ivec2(0, 1) : ivec2(1, 0);
-  const float sigma = coarseSigma(samplesPerPixel(loadMoments(cell).samples));
+  const BlockMoments own = loadMoments(cell);
+  const float sigma = coarseSigma(samplesPerPixel(own.samples));
   const int radius = int(ceil(constants.coarseReach * sigma));
   WindowDepth window = WindowDepth(0.0, 0.0);
   float weights = 0.0;
@@ -36,7 +37,7 @@ void main() {
   }
   const uint packedDepth = packDepthSdf(harmonicMean(window), 0u);
   const float z = unpackDepth(packedDepth);
-  BlockMomentSum sum = emptySum();
+  BlockMomentSum sum = emptySum(own);
   for (int i = -radius; i <= radius; ++i) {
     const ivec2 q = cell + i * axis;
     if (!insideGrid(q)) continue;
@@ -45,6 +46,6 @@ void main() {
     const BlockMoments tap = loadMoments(q);
     if (tap.samples > 0.0) add(sum, gaussian(i, sigma) / weights, rescaleDepth(tap, z / tapZ));
   }
-  storeMoments(cell, finish(sum));
+  storeMoments(cell, packBlock(finish(sum)));
   imageStore(outDepth, cell, uvec4(packedDepth));
 }

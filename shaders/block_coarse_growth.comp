@@ -3,6 +3,7 @@
 // errors of the means. Cells that only converged blocks would read do not grow: these blocks give the coarse fit no
 // share.
 #version 460
+#extension GL_EXT_control_flow_attributes : require
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
 #include "constants/block_regression.h"
@@ -13,12 +14,12 @@ layout(push_constant) uniform PushConstants { BlockRegressionConstants constants
 #include "include/block_fit.glsl"
 #include "include/block_growth.glsl"
 #define BLOCK_MOMENTS_IN
-#define BLOCK_FIT_OUT
 #include "include/block_textures.glsl"
 #include "include/coarse_window.glsl"
 
 layout(constant_id = 3) const int kCellBlocks = 1;  // Per axis.
 uniform utexture2D fitDepth;
+layout(std430) writeonly buffer outFits { StoredFit fits[]; };
 
 const int kGrowthTaps = 5;          // Per axis, the cell itself among them.
 const int kGrowthSpacing = 3;    // Cells.
@@ -80,7 +81,7 @@ bool isRead(ivec2 cell) {
 
 BlockMoments grow(ivec2 cell, float z, BlockMoments own) {
   const Window window = windowOf(own);
-  BlockMomentSum sum = emptySum();
+  BlockMomentSum sum = emptySum(own);
   add(sum, 1.0, own);
   for (int i = 0; i < kGrowthTaps * kGrowthTaps; ++i) {
     const ivec2 tap = ivec2(i % kGrowthTaps, i / kGrowthTaps) - kGrowthTaps / 2;
@@ -99,6 +100,7 @@ void main() {
   const ivec2 cell = ivec2(gl_GlobalInvocationID.xy);
   if (!insideGrid(cell)) return;
   BlockMoments m = loadMoments(cell);
-  if (m.samples > 0.0 && isRead(cell)) m = grow(cell, unpackDepth(texelFetch(depth, cell, 0).x), m);
-  storeFit(cell, fitOf(m));
+  const float z = unpackDepth(texelFetch(depth, cell, 0).x);
+  if (m.samples > 0.0 && isRead(cell)) m = grow(cell, z, m);
+  fits[gridIndex(cell, textureSize(depth, 0))] = fitOf(m, z);
 }

@@ -3,18 +3,25 @@
 // pixel's plane, and the cosine between the normals.
 // The moments of cells, the grid of the coarse fit, count every pixel by its number of samples alone, whichever its
 // surface.
+// A block has four threads. Each sums over two columns of its pixels, so that neighbouring threads read neighbouring
+// texels.
 // PACKED: `accumulated` is packed light (packed_light.glsl).
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 #extension GL_EXT_samplerless_texture_functions : require
 #include "constants/block_regression.h"
 #include "constants/frame.h"
 #include "include/block_storage.glsl"
 #include "include/hash.glsl"
 
-layout(local_size_x = 8, local_size_y = 8) in;
-layout(constant_id = 0) const int kBlockSize = 4;   // Pixels per axis.
-layout(constant_id = 1) const int kCellBlocks = 2;  // Blocks per axis: a power of two, at most 8.
+layout(local_size_x = 16, local_size_y = 4) in;     // Four threads a block, 4 x 4 blocks.
+layout(constant_id = 0) const int kBlockSize = 4;   // Pixels per axis, at most 8.
+layout(constant_id = 1) const int kCellBlocks = 2;  // Blocks per axis: 1, 2 or 4.
+const int kBlockThreads = 4;
+const int kGroupBlocks = 4;  // Blocks of a workgroup per axis.
+const int kBlocks = kGroupBlocks * kGroupBlocks;
+const int kThreads = kBlockThreads * kBlocks;
 
 layout(std140) uniform frameConstants { FrameConstants frame; };
 uniform utexture2D depth;
@@ -33,95 +40,225 @@ layout(push_constant) uniform PushConstants { BlockRegressionConstants constants
 #include "include/plane.glsl"
 #include "include/block_plane.glsl"
 #include "include/light.glsl"
+#include "include/set_bits.glsl"
 #include "include/window_depth.glsl"
 
-// Chooses a random one of the block's pixels with a surface; false if there is none. Each of the surfaces is equally
-// likely (reservoir sampling).
-bool chooseRepresentative(ivec2 block, out int pixel) {
+// The place of a thread in its block, and that of the first thread of its block in the workgroup.
+struct Place {
+  ivec2 block;
+  int thread;
+  int first;
+};
+
+// A thread's pixels in a block are numbered from 0 to 15. Those outside a block that is smaller than 8 x 8 pixels show
+// no surface.
+const int kPixels = 16;
+ivec2 pixelInBlock(int thread, int i) { return ivec2(thread + kBlockThreads * (i / 8), i % 8); }
+
+// The thread's pixels that show a surface, one bit each: eight bits a column.
+uint surfacesOf(Place place) {
+  const ivec2 last = textureSize(depth, 0) - 1;
   uint surfaces = 0u;
-  for (int i = 0; i < kBlockSize * kBlockSize; ++i) {
-    const ivec2 p = kBlockSize * block + ivec2(i % kBlockSize, i / kBlockSize);
-    if (any(greaterThanEqual(p, textureSize(depth, 0))) || unpackDepth(texelFetch(depth, p, 0).x) == 0.0) continue;
-    ++surfaces;
-    if (hashBelow(uvec4(block, frame.frameIndex, i), surfaces) == 0u) pixel = i;
+  [[unroll]] for (int i = 0; i < kPixels; ++i) {
+    const ivec2 inBlock = pixelInBlock(place.thread, i);
+    const ivec2 p = kBlockSize * place.block + inBlock;
+    const float z = unpackDepth(texelFetch(depth, min(p, last), 0).x);
+    const bool inside = all(lessThan(inBlock, ivec2(kBlockSize))) && all(lessThanEqual(p, last));
+    surfaces |= inside && z != 0.0 ? 1u << i : 0u;
   }
-  return surfaces > 0u;
+  return surfaces;
 }
 
-// What a block contributes to its cell: moments with their depth, and the depths of all of its pixels.
-struct CellPart {
-  BlockMoments moments;
-  float depth;
+shared uint threadSurfaces[kThreads];
+
+// A random one of the block's pixels with a surface, each of them equally likely; false if there is none.
+bool chooseRepresentative(Place place, uint surfaces, out ivec2 pixel) {
+  threadSurfaces[place.first + place.thread] = surfaces;
+  barrier();
+  uvec2 block = uvec2(0u);  // Eight bits a column.
+  [[unroll]] for (int i = 0; i < kBlockThreads; ++i) {
+    const uint columns = threadSurfaces[place.first + i];
+    block |= uvec2(columns & 0xffu, columns >> 8) << 8 * i;
+  }
+  const uint count = uint(bitCount(block.x) + bitCount(block.y));
+  const int bit = setBit(block, hashBelow(uvec4(place.block, frame.frameIndex, 0), count));
+  pixel = ivec2(bit / 8, bit % 8);
+  return count > 0u;
+}
+
+// A block's representative pixel; without a surface its depth is 0.
+struct Representative {
+  float z;
+  uint packedNormal;
+  Plane plane;
+  float x[kFeatures];  // Features, with a depth feature of 0.
+  vec3 y;              // Light.
+};
+
+Representative representativeOf(Place place, uint surfaces) {
+  Representative r = Representative(0.0, 0u, Plane(vec3(0.0), 0.0, 0.0), noSamples().x, vec3(0.0));
+  ivec2 pixel;
+  if (!chooseRepresentative(place, surfaces, pixel)) return r;
+  const ivec2 p = kBlockSize * place.block + pixel;
+  const uint shortNormal = packShortNormal(unpackNormal(texelFetch(geometricNormal, p, 0).x));
+  r.z = unpackDepth(texelFetch(depth, p, 0).x);
+  r.packedNormal = packBlockNormal(shortNormal, uint(pixel.y * kBlockSize + pixel.x));
+  r.plane = planeAt(p, r.z, unpackShortNormal(shortNormal));
+  r.x = featuresOf(unpackNormalAndOcclusion(texelFetch(features, p, 0).x), 0.0);
+  r.y = lightAt(p).rgb;
+  return r;
+}
+
+// Sums of moments over pixels on the plane of the representative pixel and over all pixels, and the depths of these.
+struct Sums {
+  BlockMomentSum onItsPlane;
+  BlockMomentSum all;
   WindowDepth window;
 };
-const int kSide = int(gl_WorkGroupSize.x);
-shared CellPart parts[kSide * kSide];
 
-void storeBlock(ivec2 block, BlockMoments m, uint packedDepth, uint packedNormal) {
-  storeMoments(block, m);
-  imageStore(outDepth, block, uvec4(packedDepth));
-  imageStore(outNormal, block, uvec4(packedNormal));
-}
-
-CellPart momentsOfBlock(ivec2 block) {
-  CellPart part = CellPart(noSamples(), 0.0, WindowDepth(0.0, 0.0));
-  int pixel;
-  if (!chooseRepresentative(block, pixel)) {
-    storeBlock(block, noSamples(), 0u, 0u);
-    return part;
-  }
-  const ivec2 centre = kBlockSize * block + ivec2(pixel % kBlockSize, pixel / kBlockSize);
-  const uint shortNormal = packShortNormal(unpackNormal(texelFetch(geometricNormal, centre, 0).x));
-  const vec3 normal = unpackShortNormal(shortNormal);
-  const float z = unpackDepth(texelFetch(depth, centre, 0).x);
-  const Plane plane = planeAt(centre, z, normal);
-  BlockMomentSum onItsPlane = emptySum(), all = emptySum();
-  for (int i = 0; i < kBlockSize * kBlockSize; ++i) {
-    const ivec2 p = kBlockSize * block + ivec2(i % kBlockSize, i / kBlockSize);
-    if (any(greaterThanEqual(p, textureSize(depth, 0)))) continue;
-    const float zp = unpackDepth(texelFetch(depth, p, 0).x);
-    add(part.window, 1.0, zp);
-    const vec4 mean = lightAt(p);
-    if (zp == 0.0 || mean.a == 0.0) continue;
+Sums sumsOf(Place place, uint surfaces, Representative r) {
+  Sums sums = Sums(emptySum(r.x, r.y), emptySum(r.x, r.y), WindowDepth(float(bitCount(surfaces)), 0.0));
+  for (int i = 0; i < kPixels; ++i) {
+    if ((surfaces >> i & 1u) == 0u) continue;
+    const ivec2 p = kBlockSize * place.block + pixelInBlock(place.thread, i);
+    const float z = unpackDepth(texelFetch(depth, p, 0).x);
     const NormalAndOcclusion shading = unpackNormalAndOcclusion(texelFetch(features, p, 0).x);
-    const BlockMoments sampled = onePixel(featuresOf(shading, z / zp - 1.0), mean.rgb, mean.a);
-    const float weight = edgeStopping(planeDistance(plane, p, zp)) * normalCosine(normal, shading.normal);
-    if (weight > 0.0) add(onItsPlane, weight, sampled);
-    add(all, 1.0, sampled);
+    const vec4 mean = lightAt(p);
+    sums.window.inverse += 1.0 / z;
+    if (mean.a == 0.0) continue;
+    const float x[kFeatures] = featuresOf(shading, r.z / z - 1.0);
+    const float weight = edgeStopping(planeDistance(r.plane, p, z)) * normalCosine(r.plane.normal, shading.normal);
+    // Depths that are almost 0 have infinite features, which no weight of 0 would leave out.
+    if (weight > 0.0) addPixel(sums.onItsPlane, weight * mean.a, x, mean.rgb);
+    addPixel(sums.all, mean.a, x, mean.rgb);
   }
-  storeBlock(block, finish(onItsPlane), packDepthSdf(z, 0u), packBlockNormal(shortNormal, uint(pixel)));
-  part.moments = finish(all);
-  part.depth = z;
-  return part;
+  return sums;
 }
 
-// `first`: the upper left block of the cell in the workgroup.
-void storeCell(ivec2 cell, ivec2 first) {
+// A thread's sums as vectors. One round adds up as many of them as a block has threads.
+const int kSumVectors = kMoments / 4;
+const int kRounds = (2 * kSumVectors + 1 + kBlockThreads - 1) / kBlockThreads;
+const int kVectors = kBlockThreads * kRounds;
+
+vec4[kVectors] vectorsOf(Sums sums) {
+  const float onItsPlane[kMoments] = numbersOf(sums.onItsPlane.sum);
+  const float all[kMoments] = numbersOf(sums.all.sum);
+  vec4 vectors[kVectors];
+  [[unroll]] for (int i = 0; i < kMoments; ++i) {
+    vectors[i / 4][i % 4] = onItsPlane[i];
+    vectors[kSumVectors + i / 4][i % 4] = all[i];
+  }
+  [[unroll]] for (int i = 2 * kSumVectors; i < kVectors; ++i) vectors[i] = vec4(0.0);
+  vectors[2 * kSumVectors].xy = vec2(sums.window.weights, sums.window.inverse);
+  return vectors;
+}
+
+shared vec4 exchange[kVectors * kBlocks];
+
+// Adds up the vectors of a block's threads: in each round every thread adds up one vector of all of them.
+void addThreads(Place place, vec4 vectors[kVectors]) {
+  vec4 totals[kRounds];
+  [[unroll]] for (int round = 0; round < kRounds; ++round) {
+    [[unroll]] for (int i = 0; i < kBlockThreads; ++i) {
+      exchange[kThreads * i + place.first + place.thread] = vectors[kBlockThreads * round + i];
+    }
+    barrier();
+    totals[round] = vec4(0.0);
+    // Every thread starts with itself, because the vectors of one thread all lie in the same banks.
+    const int own = kThreads * place.thread + place.first;
+    [[unroll]] for (int i = 0; i < kBlockThreads; ++i) totals[round] += exchange[own + (place.thread ^ i)];
+    barrier();
+  }
+  [[unroll]] for (int round = 0; round < kRounds; ++round) {
+    exchange[kBlocks * (kBlockThreads * round + place.thread) + place.first / kBlockThreads] = totals[round];
+  }
+  barrier();
+}
+
+// One of the vectors that addThreads left.
+vec4 total(Place place, int vector) { return exchange[kBlocks * vector + place.first / kBlockThreads]; }
+
+// Moments of the block from one of its sums, of which `first` is the first vector.
+BlockMoments momentsOfBlock(Place place, int first, Representative r) {
+  float numbers[kMoments];
+  [[unroll]] for (int i = 0; i < kSumVectors; ++i) {
+    const vec4 vector = total(place, first + i);
+    [[unroll]] for (int c = 0; c < 4; ++c) numbers[4 * i + c] = vector[c];
+  }
+  return finish(BlockMomentSum(r.x, r.y, momentsOf(numbers)));
+}
+
+// What a block contributes to a cell of several blocks.
+struct CellPart {
+  BlockMoments moments;
+  float z;  // What their depth feature is relative to.
+  WindowDepth window;
+};
+shared CellPart parts[kCellBlocks > 1 ? kBlocks : 1];
+
+int partOf(ivec2 block) {
+  const ivec2 inGroup = block % kGroupBlocks;
+  return kGroupBlocks * inGroup.y + inGroup.x;
+}
+
+WindowDepth windowOfCell(ivec2 cell) {
   WindowDepth window = WindowDepth(0.0, 0.0);
   for (int i = 0; i < kCellBlocks * kCellBlocks; ++i) {
-    const ivec2 block = first + ivec2(i % kCellBlocks, i / kCellBlocks);
-    const WindowDepth w = parts[block.y * kSide + block.x].window;
+    const WindowDepth w = parts[partOf(kCellBlocks * cell + ivec2(i % kCellBlocks, i / kCellBlocks))].window;
     window.weights += w.weights;
     window.inverse += w.inverse;
   }
-  const uint packedDepth = packDepthSdf(harmonicMean(window), 0u);
-  const float z = unpackDepth(packedDepth);
-  BlockMomentSum sum = emptySum();
+  return window;
+}
+
+BlockMoments momentsOfCell(ivec2 cell, float z) {
+  BlockMomentSum sum = emptySum(parts[partOf(kCellBlocks * cell)].moments);
   for (int i = 0; i < kCellBlocks * kCellBlocks; ++i) {
-    const ivec2 block = first + ivec2(i % kCellBlocks, i / kCellBlocks);
-    const CellPart part = parts[block.y * kSide + block.x];
-    if (part.moments.samples > 0.0) add(sum, 1.0, rescaleDepth(part.moments, z / part.depth));
+    const CellPart part = parts[partOf(kCellBlocks * cell + ivec2(i % kCellBlocks, i / kCellBlocks))];
+    if (part.moments.samples > 0.0) add(sum, 1.0, rescaleDepth(part.moments, z / part.z));
   }
-  storeCellMoments(cell, finish(sum));
-  imageStore(outCellDepth, cell, uvec4(packedDepth));
+  return finish(sum);
 }
 
 void main() {
-  const ivec2 block = ivec2(gl_GlobalInvocationID.xy);
-  const bool inside = all(lessThan(kBlockSize * block, textureSize(depth, 0)));
-  CellPart part = CellPart(noSamples(), 0.0, WindowDepth(0.0, 0.0));
-  if (inside) part = momentsOfBlock(block);
-  parts[gl_LocalInvocationIndex] = part;
-  barrier();
-  if (inside && block % kCellBlocks == ivec2(0)) storeCell(block / kCellBlocks, ivec2(gl_LocalInvocationID.xy));
+  Place place;
+  place.block = ivec2(gl_GlobalInvocationID.x / kBlockThreads, gl_GlobalInvocationID.y);
+  place.thread = int(gl_LocalInvocationID.x) % kBlockThreads;
+  place.first = int(gl_LocalInvocationIndex) - place.thread;
+  const uint surfaces = surfacesOf(place);
+  const Representative r = representativeOf(place, surfaces);
+  addThreads(place, vectorsOf(sumsOf(place, surfaces, r)));
+
+  // The first thread of a block finishes the block, the second its cell.
+  const bool forCell = place.thread == 1;
+  BlockMoments m = momentsOfBlock(place, forCell ? kSumVectors : 0, r);
+  WindowDepth window = WindowDepth(total(place, 2 * kSumVectors).x, total(place, 2 * kSumVectors).y);
+  const ivec2 cell = place.block / kCellBlocks;
+  if (kCellBlocks > 1) {
+    if (forCell) parts[partOf(place.block)] = CellPart(m, r.z, window);
+    barrier();
+    if (forCell) window = windowOfCell(cell);
+  }
+  const bool inside = all(lessThan(kBlockSize * place.block, textureSize(depth, 0)));
+  const bool isFirstOfCell = all(equal(place.block, kCellBlocks * cell));
+  if (!inside || place.thread > 1 || (forCell && !isFirstOfCell)) return;
+
+  const uint packedDepth = packDepthSdf(forCell ? harmonicMean(window) : r.z, 0u);
+  if (forCell) {
+    const float z = unpackDepth(packedDepth);
+    if (kCellBlocks > 1) {
+      m = momentsOfCell(cell, z);
+    } else if (m.samples > 0.0) {
+      m = rescaleDepth(m, z / r.z);
+    }
+  }
+  const PackedBlock moments = packBlock(m);
+  if (forCell) {
+    storeCellMoments(cell, moments);
+    imageStore(outCellDepth, cell, uvec4(packedDepth));
+  } else {
+    storeMoments(place.block, moments);
+    imageStore(outDepth, place.block, uvec4(packedDepth));
+    imageStore(outNormal, place.block, uvec4(r.packedNormal));
+  }
 }

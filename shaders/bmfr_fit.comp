@@ -42,11 +42,18 @@ const ivec2 kBlockOffsets[16] = ivec2[16](
     ivec2(-10, 0), ivec2(12, 14), ivec2(-8, -16), ivec2(6, 6), ivec2(-2, -2), ivec2(6, -14), ivec2(-16, 12),
     ivec2(14, -4), ivec2(-6, 4));
 
-// The coordinate mirrored at the borders of the image as often as needed.
+// The coordinate mirrored at the borders of the image as often as needed. In floats, which hold these numbers exactly:
+// GPUs divide integers slowly. The half keeps the quotient away from integers.
 int mirrored(int x, int size) {
-  const int period = 2 * size;
-  const int m = ((x % period) + period) % period;
-  return min(m, period - 1 - m);
+  const float period = 2.0 * float(size);
+  const int m = int(float(x) - period * floor((float(x) + 0.5) / period));
+  return min(m, 2 * size - 1 - m);
+}
+
+// Position in the block of row `s` of this thread. The rows of a thread are pixels above each other.
+ivec2 placeOf(int s) {
+  const uvec2 first = uvec2(threadIndex % uint(kBlockSize), threadIndex / uint(kBlockSize));
+  return ivec2(first) + ivec2(0, s * int(kThreads) / kBlockSize);
 }
 
 // One pixel of the block.
@@ -59,16 +66,16 @@ struct Pixel {
   bool sampled;   // The colour is a sample.
 };
 
-Pixel readPixel(uint index) {
+Pixel readPixel(int s) {
   const ivec2 size = textureSize(depth, 0);
   const ivec2 block = ivec2(gl_WorkGroupID.xy) * kBlockSize - kBlockSize / 2 + kBlockOffsets[frame.frameIndex % 16u];
   Pixel pixel;
-  pixel.p = block + ivec2(index % uint(kBlockSize), index / uint(kBlockSize));
+  pixel.p = block + placeOf(s);
   const ivec2 q = ivec2(mirrored(pixel.p.x, size.x), mirrored(pixel.p.y, size.y));
   const float z = unpackDepth(texelFetch(depth, q, 0).x);
   const mat3 worldFromView = transpose(mat3(frame.viewFromWorld));
   pixel.surface = z > 0.0;
-  pixel.normal = worldFromView * unpackNormal(texelFetch(shadingNormal, q, 0).x);
+  pixel.normal = worldFromView * unpackLongNormal(texelFetch(shadingNormal, q, 0).x);
   pixel.position = worldFromView * (rayThrough(frame.rayFromPixel, pixelCentre(q)) * z);
   const vec4 sampleHere = texelFetch(lighting, q, 0);
   pixel.colour = sampleHere.rgb;
@@ -151,7 +158,7 @@ float rowsInUse(float rows[kRowsPerThread][kColumns]) {
 vec3 synthesis(Pixel pixel, Bounds bounds) {
   const float features[kFeatures] = featuresOf(pixel, bounds);
   vec3 colour = vec3(0.0);
-  for (int j = 0; j < kFeatures; ++j)
+  [[unroll]] for (int j = 0; j < kFeatures; ++j)
     colour += features[j] * vec3(coefficients[j][0], coefficients[j][1], coefficients[j][2]);
   return colour;
 }
@@ -186,7 +193,7 @@ vec3 viewOf(Pixel pixel, Bounds bounds, float samples) {
 
 void main() {
   Pixel pixels[kRowsPerThread];
-  [[unroll]] for (int s = 0; s < kRowsPerThread; ++s) pixels[s] = readPixel(threadIndex + uint(s) * kThreads);
+  [[unroll]] for (int s = 0; s < kRowsPerThread; ++s) pixels[s] = readPixel(s);
   const Bounds bounds = blockBounds(pixels);
 
   float rows[kRowsPerThread][kColumns];

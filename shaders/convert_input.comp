@@ -1,6 +1,7 @@
 // Converts one texture from a host's conventions to the project's, or the result back to the host's. It is compiled
 // once for each kind of texture (DEPTH, NORMAL, MOTION, EXPOSURE, NUMBERS, COPY). A host's texture may be larger than
 // the rectangle that is denoised.
+// SINGLE, PACKED: EXPOSURE that stores RGBA32F or B10G11R11 instead of RGBA16F.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -21,6 +22,10 @@ layout(constant_id = 1) const bool kNegative = false;  // From z of view space, 
 #elif defined(MOTION)
 // Single precision: halves are too coarse for motion in units of the image's size (UV).
 layout(rgba32f) uniform writeonly image2D target;
+#elif defined(SINGLE)
+layout(rgba32f) uniform writeonly image2D target;
+#elif defined(PACKED)
+layout(r11f_g11f_b10f) uniform writeonly image2D target;
 #elif !defined(NUMBERS)
 layout(rgba16f) uniform writeonly image2D target;
 #endif
@@ -65,8 +70,15 @@ layout(constant_id = 0) const bool kReversed = false;  // The third channel is c
 vec4 convert(vec4 value) { return vec4(value.xy, kReversed ? -value.z : value.z, 0.0); }
 #endif
 
+#ifdef PACKED
+#include "include/small_float.glsl"
+vec4 stored(vec4 value) { return vec4(nearestSmallFloats(value.rgb), 1.0); }
+#else
+vec4 stored(vec4 value) { return value; }
+#endif
+
 #ifdef EXPOSURE
-vec4 convert(vec4 value) { return vec4(value.rgb * (kBack ? host.exposure : host.inverseExposure), value.a); }
+vec4 convert(vec4 value) { return stored(vec4(value.rgb * (kBack ? host.exposure : host.inverseExposure), value.a)); }
 #endif
 
 #ifdef NUMBERS

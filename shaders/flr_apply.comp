@@ -15,7 +15,7 @@ layout(push_constant) uniform PushConstants { FlrConstants constants; };
 
 uniform texture2D lighting;
 uniform utexture2D depth;
-layout(std430) readonly buffer coefficients { Coefficients cells[]; };
+layout(std430) readonly buffer coefficients { vec4 cells[]; };
 #ifdef VIEW
 layout(constant_id = 8) const uint kView = 0;  // Which quantity; numbered in viewOf.
 layout(constant_id = 1) const bool kAlphaIsSampleCount = false;
@@ -32,6 +32,13 @@ float cellWeight(float t) {
   if (kUpsampling == 1u) return max(1.0 - d, 0.0);
   const float rest = max(2.0 - d, 0.0);  // The cubic B-spline, which has no negative lobes.
   return d < 1.0 ? (4.0 + d * d * (3.0 * d - 6.0)) / 6.0 : rest * rest * rest / 6.0;
+}
+
+Coefficients coefficientsOf(ivec2 cell) {
+  Coefficients k;
+  k.constant = cells[vectorIndex(cell, 0)];
+  for (int i = 0; i < kSlopeVectors; ++i) k.slope[i] = cells[vectorIndex(cell, 1 + i)];
+  return k;
 }
 
 vec3 evaluate(Coefficients k, float x[kFeatures]) {
@@ -54,7 +61,7 @@ vec4 predict(ivec2 p, float x[kFeatures]) {
     const vec2 away = position - vec2(cell);
     const float axes = cellWeight(away.x) * cellWeight(away.y);
     if (axes == 0.0) continue;
-    const Coefficients k = cells[cellIndex(cell)];
+    const Coefficients k = coefficientsOf(cell);
     sum += axes * k.constant.a * evaluate(k, x);
     weightSum += axes * k.constant.a;
   }
@@ -66,7 +73,7 @@ vec3 clampedColour(vec3 colour) { return clamp(colour, vec3(0.0), vec3(kLargestH
 #ifdef VIEW
 vec3 viewOf(ivec2 p, float z) {
   if (z == 0.0) return vec3(0.0);
-  const vec4 predicted = predict(p, guidesAt(p, z));
+  const vec4 predicted = predict(p, unpackGuides(packedGuides(p), z));
   if (kView == 0u) return vec3(notEqual(clampedColour(predicted.rgb), predicted.rgb));
   const vec4 light = texelFetch(lighting, p, 0);
   const bool sampled = isFinite(light.rgb) && (!kAlphaIsSampleCount || light.a > 0.0);
@@ -86,7 +93,7 @@ void main() {
     imageStore(outFiltered, p, vec4(isFinite(colour) ? colour : vec3(0.0), 1.0));
     return;
   }
-  const vec4 predicted = predict(p, guidesAt(p, z));
+  const vec4 predicted = predict(p, unpackGuides(packedGuides(p), z));
   // Alpha below 0: there is no light.
   imageStore(outFiltered, p, vec4(clampedColour(predicted.rgb), predicted.a > 0.0 ? 1.0 : -1.0));
 #endif

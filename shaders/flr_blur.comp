@@ -1,5 +1,5 @@
 // FLR, second stage (Salmi et al. 2024): the horizontal pass of the separable Gaussian over the outer products of
-// cells.
+// cells. Each thread blurs one vector of one cell: vectors are the layers of the dispatch.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "constants/flr.h"
@@ -9,16 +9,15 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(push_constant) uniform PushConstants { FlrConstants constants; };
 #include "include/flr.glsl"
 
-layout(std430) readonly buffer moments { OuterProducts cells[]; };
-layout(std430) writeonly buffer outBlurred { OuterProducts outCells[]; };
+layout(std430) readonly buffer moments { vec4 cells[]; };
+layout(std430) writeonly buffer outBlurred { vec4 outCells[]; };
 
 void main() {
   const ivec2 cell = ivec2(gl_GlobalInvocationID.xy);
   if (!insideGrid(cell)) return;
-  OuterProducts sum = noSamples();
-  for (int i = -constants.radius; i <= constants.radius; ++i) {
-    const ivec2 tap = cell + ivec2(i, 0);
-    if (insideGrid(tap)) add(sum, gaussian(i), cells[cellIndex(tap)]);
-  }
-  outCells[cellIndex(cell)] = sum;
+  const int vector = int(gl_GlobalInvocationID.z);
+  vec4 sum = vec4(0.0);
+  const int first = max(cell.x - constants.radius, 0), last = min(cell.x + constants.radius, constants.cells.x - 1);
+  for (int x = first; x <= last; ++x) sum += gaussian(x - cell.x) * cells[vectorIndex(ivec2(x, cell.y), vector)];
+  outCells[vectorIndex(cell, vector)] = sum;
 }

@@ -13,7 +13,7 @@ layout(push_constant) uniform PushConstants { FlrConstants constants; };
 
 uniform texture2D lighting;
 uniform utexture2D depth;
-layout(std430) writeonly buffer outMoments { OuterProducts outCells[]; };
+layout(std430) writeonly buffer outMoments { vec4 outCells[]; };
 #include "include/flr_guides.glsl"
 
 void main() {
@@ -25,13 +25,15 @@ void main() {
   for (int y = first.y; y < end.y; ++y) {
     for (int x = first.x; x < end.x; ++x) {
       const ivec2 p = ivec2(x, y);
+      // All fetches come before the first test, so that they overlap.
       const float z = unpackDepth(texelFetch(depth, p, 0).x);
       const vec4 sampleHere = texelFetch(lighting, p, 0);
+      const uint guides = packedGuides(p);
       const vec3 colour = sampleHere.rgb;
       // Sky, pixels without a diffuse lobe and pixels without a finite sample do not count.
       if (z == 0.0 || !isFinite(colour) || (kAlphaIsSampleCount && sampleHere.a == 0.0)) continue;
-      add(sum, 1.0, outerProducts(guidesAt(p, z), clamp(colour, 0.0, kLargestHalf)));
+      add(sum, 1.0, outerProducts(unpackGuides(guides, z), clamp(colour, 0.0, kLargestHalf)));
     }
   }
-  outCells[cellIndex(cell)] = sum;
+  for (int k = 0; k < kProductVectors; ++k) outCells[vectorIndex(cell, k)] = sum.v[k];
 }

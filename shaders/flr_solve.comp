@@ -2,6 +2,7 @@
 // cell.
 // VIEW: does the same work and writes one of its intermediate values to all pixels of the cell.
 #version 460
+#extension GL_EXT_control_flow_attributes : require
 #extension GL_GOOGLE_include_directive : require
 #include "constants/flr.h"
 
@@ -11,12 +12,12 @@ layout(push_constant) uniform PushConstants { FlrConstants constants; };
 #include "include/flr.glsl"
 #include "include/cholesky.glsl"
 
-layout(std430) readonly buffer blurred { OuterProducts cells[]; };
+layout(std430) readonly buffer blurred { vec4 cells[]; };
 #ifdef VIEW
 layout(constant_id = 8) const uint kView = 0;  // Which quantity; numbered in viewOf.
 layout(rgba32f) uniform writeonly image2D outView;
 #else
-layout(std430) writeonly buffer outCoefficients { Coefficients outCells[]; };
+layout(std430) writeonly buffer outCoefficients { vec4 outCells[]; };
 #endif
 
 // The normal equations about the means, that is, with the constant solved first: the ridge then restrains the slopes
@@ -36,11 +37,11 @@ NormalEquations normalEquations(OuterProducts p) {
   NormalEquations e;
   e.y = scale * colourProductAt(p, 0);
   float covariances[kCovariances];
-  for (int i = 0; i < kFeatures; ++i) e.x[i] = scale * productAt(p, kMeanX + i);
-  for (int i = 0; i < kFeatures; ++i) {
+  [[unroll]] for (int i = 0; i < kFeatures; ++i) e.x[i] = scale * productAt(p, kMeanX + i);
+  [[unroll]] for (int i = 0; i < kFeatures; ++i) {
     e.ridge[i] = constants.ridge * (i == kInverseDepth ? e.x[i] * e.x[i] : 1.0);
     e.yx[i] = scale * colourProductAt(p, i + 1) - e.y * e.x[i];
-    for (int j = 0; j < kFeatures; ++j) {
+    [[unroll]] for (int j = 0; j < kFeatures; ++j) {
       if (j < i) continue;
       const int k = triangleEntry(j, i);
       covariances[k] = scale * productAt(p, kSquares + k) - e.x[i] * e.x[j];
@@ -95,16 +96,24 @@ Coefficients solve(OuterProducts p) {
   return result;
 }
 
-void write(ivec2 cell, OuterProducts p) { outCells[cellIndex(cell)] = solve(p); }
+void write(ivec2 cell, OuterProducts p) {
+  const Coefficients result = solve(p);
+  outCells[vectorIndex(cell, 0)] = result.constant;
+  for (int k = 0; k < kSlopeVectors; ++k) outCells[vectorIndex(cell, 1 + k)] = result.slope[k];
+}
 #endif
+
+OuterProducts productsOf(ivec2 cell) {
+  OuterProducts p;
+  for (int k = 0; k < kProductVectors; ++k) p.v[k] = cells[vectorIndex(cell, k)];
+  return p;
+}
 
 void main() {
   const ivec2 cell = ivec2(gl_GlobalInvocationID.xy);
   if (!insideGrid(cell)) return;
   OuterProducts sum = noSamples();
-  for (int i = -constants.radius; i <= constants.radius; ++i) {
-    const ivec2 tap = cell + ivec2(0, i);
-    if (insideGrid(tap)) add(sum, gaussian(i), cells[cellIndex(tap)]);
-  }
+  const int first = max(cell.y - constants.radius, 0), last = min(cell.y + constants.radius, constants.cells.y - 1);
+  for (int y = first; y <= last; ++y) add(sum, gaussian(y - cell.y), productsOf(ivec2(cell.x, y)));
   write(cell, sum);
 }

@@ -59,7 +59,7 @@ void main() {
   const float z = unpackDepth(texelFetch(depth, p, 0).x);
   if (z == 0.0) return;
 
-  const vec3 normal = unpackNormal(texelFetch(planeNormal, p, 0).x);
+  const vec3 normal = unpackLongNormal(texelFetch(planeNormal, p, 0).x);
   const Plane plane = planeAt(p, z, normal);
   const Moments centre = sampleAt(p);
   const ivec2 first = max(p - kRadius, ivec2(0));
@@ -72,7 +72,7 @@ void main() {
       const ivec2 q = ivec2(x, y);
       float weight = traceLine(plane, p, q - p);
       if (weight <= 0.0) continue;
-      if (kNormalFactor) weight *= clamp(dot(normal, unpackNormal(texelFetch(planeNormal, q, 0).x)), 0.0, 1.0);
+      if (kNormalFactor) weight *= clamp(dot(normal, unpackLongNormal(texelFetch(planeNormal, q, 0).x)), 0.0, 1.0);
       add(row, weight, sampleAt(q));
     }
     join(sum, row);

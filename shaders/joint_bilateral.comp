@@ -39,13 +39,16 @@ vec3 positionAt(ivec2 p, float z) { return rayThrough(frame.rayFromPixel, pixelC
 
 Surface surfaceAt(ivec2 q) {
   Surface s = Surface(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), false);
+  // All fetches come before the first test, so that they overlap.
   const float z = unpackDepth(texelFetch(depth, q, 0).x);
-  if (z == 0.0) return s;
   const vec3 radiance = texelFetch(lighting, q, 0).rgb;
+  const uint shading = texelFetch(shadingNormal, q, 0).x;
+  const uint geometric = texelFetch(geometricNormal, q, 0).x;
+  if (z == 0.0) return s;
   s.valid = isFinite(radiance);
   s.position = positionAt(q, z);
-  s.normal = unpackNormal(texelFetch(shadingNormal, q, 0).x);
-  s.geometricNormal = unpackNormal(texelFetch(geometricNormal, q, 0).x);
+  s.normal = unpackLongNormal(shading);
+  s.geometricNormal = unpackLongNormal(geometric);
   if (s.valid) s.radiance = clamp(radiance, vec3(0.0), vec3(kLargestHalf));
   return s;
 }

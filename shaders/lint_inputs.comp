@@ -98,6 +98,12 @@ void countMotion(ivec2 p, float z, vec2 given, float givenDepth) {
   if (length(still) < 0.05) {
     count(kLintStillTested, true);
     count(kLintStillMoves, length(residual) > 0.5 + 2.0 * jitter);
+    const float kMostJitter = 1.5;  // Pixels: jitter within a pixel differs by at most sqrt(2) from frame to frame.
+    const float kRounding = 0.01;   // Pixels: motion below two pixels is off by a thousandth as a half.
+    const vec2 inTheMiddle = texelFetch(motion, textureSize(depth, 0) / 2, 0).xy * frame.motionScale;
+    count(kLintStillMovesAlike, length(residual) > 0.5 + 2.0 * jitter &&
+                                    length(residual) < kMostJitter + 2.0 * jitter &&
+                                    length(given - inTheMiddle) < kRounding);
   }
   if (jitter > 0.125) {
     const vec2 included = kMotionJittered ? -frame.jitterDelta : frame.jitterDelta;
@@ -157,6 +163,7 @@ void countNormals(ivec2 p, float z, vec3 n) {
     vec3 assumed = stated;
     if (h == kHypothesisOtherSpace) assumed = inViewSpace(n, !kNormalsInWorldSpace);
     if (h == kHypothesisFlippedY) assumed = inViewSpace(n * vec3(1.0, -1.0, 1.0), kNormalsInWorldSpace);
+    if (h == kHypothesisInverseView && kNormalsInWorldSpace) assumed = normalize(n * mat3(frame.viewFromWorld));
     const float otherFit = abs(dot(assumed, slopeNormal(h, p)));
     const float kMargin = 0.02;
     count(kLintHypotheses + 2u * h, otherFit > fit + kMargin);

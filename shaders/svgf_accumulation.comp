@@ -18,8 +18,8 @@ uniform texture2D lighting;
 uniform texture2D motion;
 uniform utexture2D depth;
 uniform utexture2D geometricNormal;
-uniform utexture2D previousDepth;
-uniform utexture2D previousGeometricNormal;
+uniform usampler2D previousDepth;
+uniform usampler2D previousGeometricNormal;
 uniform texture2D previousColour;
 uniform texture2D previousMoments;  // Mean luminance, its deviation, history length.
 #ifdef VIEW
@@ -42,8 +42,7 @@ struct TemporalMoments {
 };
 
 HistoryTaps tapsOf(ivec2 p, float z) {
-  const vec3 normal = unpackNormal(texelFetch(geometricNormal, p, 0).x);
-  return historyTaps(p, reproject(p, z), normal, constants.planeTolerance, constants.normalThreshold);
+  return historyTaps(p, reproject(p, z), constants.planeTolerance, constants.normalThreshold);
 }
 
 TemporalMoments sampleHistory(HistoryTaps taps) {

@@ -50,13 +50,18 @@ Estimate estimateAt(ivec2 q) {
 // Standard deviation of the luminance over the pixels of one surface, from the variance of each and the spread of their
 // means.
 float deviationAround(ivec2 p, float z, float origin) {
-  const Surface surface = surfaceAt(p, z);
+  const ivec2 last = textureSize(depth, 0) - 1;
+  const Surface surface = surfaceOf(p, z, unpackLongNormal(texelFetch(geometricNormal, p, 0).x),
+                                    unpackLongNormal(texelFetch(shadingNormal, p, 0).x));
   float sum = 0.0, squares = 0.0, weightSum = 0.0;
   for (int y = -3; y <= 3; ++y) {
     for (int x = -3; x <= 3; ++x) {
       const ivec2 q = p + ivec2(x, y);
-      const float weight = surfaceWeight(surface, q);
-      if (weight <= 0.0) continue;
+      if (any(lessThan(q, ivec2(0))) || any(greaterThan(q, last))) continue;
+      const float zThere = unpackDepth(texelFetch(depth, q, 0).x);
+      const uint normalThere = texelFetch(shadingNormal, q, 0).x;
+      if (zThere == 0.0) continue;
+      const float weight = exp2(surfaceExponent(surface, vec2(x, y), zThere, unpackLongNormal(normalThere)));
       const Estimate e = estimateAt(q);
       if (e.samples <= 0.0) continue;
       const float offset = e.mean - origin;

@@ -9,26 +9,33 @@
 // PACKED: the mean is packed light (packed_light.glsl) and holds nothing at pixels without a surface.
 // VIEW: does the same work and writes one of its intermediate values instead of the result; kAntilag says whether
 // antilag is on.
+// GUIDES: prepares the pixel's guides first (guides.glsl), which saves a pass and reading them back.
 // kStill: nothing moves, so that the history of a pixel is the pixel itself.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
 #extension GL_EXT_control_flow_attributes : require
 #include "constants/frame.h"
+#ifdef GUIDES
+#include "constants/guides_and_accumulation.h"
+#else
 #include "constants/temporal_accumulation.h"
+#endif
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(std140) uniform frameConstants { FrameConstants frame; };
 uniform texture2D lighting;
 uniform texture2D motion;
+uniform usampler2D previousDepth;
+#ifndef GUIDES
 uniform utexture2D depth;
-uniform utexture2D previousDepth;
 uniform utexture2D geometricNormal;
-uniform utexture2D previousGeometricNormal;
+#endif
+uniform usampler2D previousGeometricNormal;
 // rgb: mean; a: history length.
 #ifdef PACKED
-uniform utexture2D previousAccumulated;
+uniform usampler2D previousAccumulated;
 #else
 uniform texture2D previousAccumulated;
 #endif
@@ -51,7 +58,7 @@ layout(constant_id = 3) const bool kKeepPassThrough = false;  // At pixels witho
 layout(r32ui) uniform writeonly uimage2D outTaps;
 #endif
 #if defined(ANTILAG) || defined(VIEW)
-uniform texture2D previousAntilag;
+uniform sampler2D previousAntilag;
 #endif
 #ifdef ANTILAG
 const bool kAntilag = true;
@@ -59,11 +66,20 @@ layout(rg32f) uniform writeonly image2D outTiles;
 #elif defined(VIEW)
 layout(constant_id = 5) const bool kAntilag = false;
 #endif
+#ifdef GUIDES
+layout(push_constant) uniform PushConstants { GuidesAndAccumulationConstants pushed; };
+#define constants pushed.accumulation
+#define guideConstants pushed.guides
+#include "include/store_guides.glsl"
+#else
 layout(push_constant) uniform PushConstants { TemporalAccumulationConstants constants; };
+#endif
 
 #include "include/packed_light.glsl"
 #ifdef PACKED
+const int kHistoryBits = kAccumulatedBits;
 vec4 unpackHistory(uint packed) { return unpackAccumulated(packed); }
+float unpackHistoryLength(uint packed) { return unpackHistory(packed).a; }
 #endif
 #include "include/half.glsl"
 #include "include/history_taps.glsl"
@@ -78,28 +94,26 @@ vec4 unpackHistory(uint packed) { return unpackAccumulated(packed); }
 
 // The history of a pixel.
 struct ReprojectedHistory {
-  vec4 mean;     // rgb: mean light; a: history length, 0: none.
-  vec2 pixel;    // Position in pixels of the previous frame.
-  int rejected;  // Number of history taps that were rejected.
+  vec4 mean;      // rgb: mean light; a: history length, 0: none.
+  vec2 position;  // In pixels of the previous frame, from the centre of its first.
+  int rejected;   // Number of history taps that were rejected.
 };
 
 ReprojectedHistory readHistory(ivec2 p, float z) {
-  if (kStill) return ReprojectedHistory(historyTexel(previousAccumulated, p), vec2(p) + 0.5, 0);
-  vec3 normal = vec3(0.0);
-  if (kRejectByPlane) normal = unpackNormal(texelFetch(geometricNormal, p, 0).x);
+  if (kStill) return ReprojectedHistory(historyTexel(previousAccumulated, p), vec2(p), 0);
   const Reprojection r = reproject(p, z);
-  const HistoryTaps taps = historyTaps(p, r, normal, constants.planeTolerance, constants.normalThreshold);
+  const HistoryTaps taps = historyTaps(p, r, constants.planeTolerance, constants.normalThreshold);
 #ifdef KEEP_TAPS
   imageStore(outTaps, p, uvec4(packTaps(r.motion, taps.accepted)));
 #endif
   const vec4 mean = kBicubicHistory ? bicubicOfTaps(previousAccumulated, taps) : meanOfTaps(previousAccumulated, taps);
-  return ReprojectedHistory(mean, (pixelCentre(p) + r.motion) * frame.previousPixelFromPixel, tapsRejected(taps));
+  return ReprojectedHistory(mean, tapPosition(taps), tapsRejected(taps));
 }
 
 ReprojectedHistory historyWithAntilag(ivec2 p, float z) {
   ReprojectedHistory found = readHistory(p, z);
 #if defined(ANTILAG) || defined(VIEW)
-  if (kAntilag) found.mean.a = min(found.mean.a, longestHistory(found.pixel, constants.maxHistory));
+  if (kAntilag) found.mean.a = min(found.mean.a, longestHistory(found.position, constants.maxHistory));
 #endif
   return found;
 }
@@ -126,8 +140,8 @@ vec3 viewOf(ivec2 p, float z, vec3 noisy) {
     case 2u: {
       if (!surface || !kAntilag) return vec3(0.0);
       const ReprojectedHistory found = readHistory(p, z);
-      const float longest = longestHistory(found.pixel, constants.maxHistory);
-      return vec3(antilagAt(found.pixel), longest, found.mean.a > longest);
+      const float longest = longestHistory(found.position, constants.maxHistory);
+      return vec3(antilagAt(found.position), longest, found.mean.a > longest);
     }
   }
   return vec3(0.0);
@@ -156,7 +170,7 @@ void storeNoSurface(ivec2 p, vec3 light) { imageStore(outAccumulated, p, vec4(li
 float accumulate(ivec2 p) {
   const vec3 noisy = texelFetch(lighting, p, 0).rgb;
   const bool sampleIsFinite = isFinite(noisy);
-  const float z = unpackDepth(texelFetch(depth, p, 0).x);
+  const float z = unpackDepth(packedDepthAt(p));
   if (z == 0.0) {
     const vec3 passed = passThroughLight(noisy);
     storeNoSurface(p, passed);
@@ -181,6 +195,10 @@ float accumulate(ivec2 p) {
 void main() {
   const ivec2 p = ivec2(gl_GlobalInvocationID.xy);
   const bool inside = all(lessThan(p, textureSize(lighting, 0)));
+#ifdef GUIDES
+  ownGuides = guidesOfPixel();
+  if (inside) storeGuides(p, ownGuides);
+#endif
   const float difference = inside ? accumulate(p) : 0.0;
 #ifdef ANTILAG
   sumOverTile(difference);

@@ -14,15 +14,18 @@
 #include "constants/frame.h"
 #include "constants/temporal_antialiasing.h"
 
-layout(local_size_x = 8, local_size_y = 8) in;
-layout(constant_id = 2) const int kClipRadius = 1;  // Radius of the clipping neighbourhood, pixels.
+layout(local_size_x = 16, local_size_y = 8) in;
+layout(constant_id = 2) const uint kClipRadius = 1;  // Radius of the clipping neighbourhood, pixels.
 #ifdef KEPT_TAPS
 layout(constant_id = 3) const bool kRejectHistory = true;  // Leave out taps that accumulation rejected.
+#endif
+#ifdef PACKED
+layout(constant_id = 5) const bool kBeyondLevels = false;  // maxHistory is above all levels of packed lengths.
 #endif
 
 #ifdef PACKED
 uniform utexture2D filtered;
-uniform utexture2D previousResolved;  // rgb: mean; a: history length.
+uniform usampler2D previousResolved;  // rgb: mean; a: history length.
 #else
 uniform texture2D filtered;  // a: below 0 where the filter found no sample.
 uniform texture2D previousResolved;  // rgb: mean; a: history length.
@@ -48,26 +51,38 @@ uniform utexture2D keptTaps;
 layout(constant_id = 4) const bool kStill = false;
 uniform texture2D motion;
 uniform utexture2D depth;
-uniform utexture2D previousDepth;
+uniform usampler2D previousDepth;
 uniform utexture2D geometricNormal;
-uniform utexture2D previousGeometricNormal;
+uniform usampler2D previousGeometricNormal;
 uniform utexture2D objects;
-uniform utexture2D previousObjects;
+uniform usampler2D previousObjects;
 #endif
 layout(push_constant) uniform PushConstants { TemporalAntialiasingConstants constants; };
 
 #ifdef PACKED
 #include "include/packed_light.glsl"
-vec4 unpackHistory(uint packed) { return unpackResolved(packed, constants.maxHistory); }
+const int kHistoryBits = kResolvedBits;
+PackedLength longestLength() { return PackedLength(constants.maxHistory, kBeyondLevels); }
+vec4 unpackHistory(uint packed) { return unpackResolved(packed, longestLength()); }
+float unpackHistoryLength(uint packed) { return unpackLength(packed >> 29, longestLength()); }
 vec4 filteredAt(ivec2 q) { return unpackFiltered(texelFetch(filtered, q, 0).x); }
 #ifdef KEPT_TAPS
-vec3 passThroughAt(ivec2 p) { return unpackPassThrough(texelFetch(keptTaps, p, 0).x); }
+// Both of them are packed in the same way.
+vec4 filteredOrPassThroughAt(ivec2 p) {
+  const uint light = texelFetch(filtered, p, 0).x;
+  const bool surface = light != kFilteredNoSurface;
+  return vec4(unpackPassThrough(surface ? light : texelFetch(keptTaps, p, 0).x), surface ? 1.0 : -1.0);
+}
 #elif !defined(VIEW)
 #include "include/pass_through.glsl"
-vec3 passThroughAt(ivec2 p) { return passThroughLight(passThrough, p); }
+vec4 filteredOrPassThroughAt(ivec2 p) {
+  const vec4 light = filteredAt(p);
+  return light.a >= 0.0 ? light : vec4(passThroughLight(passThrough, p), -1.0);
+}
 #endif
 #else
 vec4 filteredAt(ivec2 q) { return texelFetch(filtered, q, 0); }
+vec4 filteredOrPassThroughAt(ivec2 p) { return filteredAt(p); }
 #endif
 #include "include/bicubic.glsl"
 #include "include/half.glsl"
@@ -86,10 +101,8 @@ HistoryTaps tapsOf(ivec2 p) {
 #include "include/reprojection.glsl"
 
 HistoryTaps tapsOf(ivec2 p) {
-  vec3 normal = vec3(0.0);
-  if (kRejectByPlane) normal = unpackNormal(texelFetch(geometricNormal, p, 0).x);
   const Reprojection r = reproject(p, unpackDepth(texelFetch(depth, p, 0).x));
-  return historyTaps(p, r, normal, constants.planeTolerance, constants.normalThreshold);
+  return historyTaps(p, r, constants.planeTolerance, constants.normalThreshold);
 }
 #endif
 
@@ -111,12 +124,55 @@ bool hasSurface(ivec2 q, vec4 colour) { return unpackDepth(texelFetch(depth, q, 
 #endif
 
 vec3 toYCoCg(vec3 c) {
-  return vec3(0.25 * c.r + 0.5 * c.g + 0.25 * c.b, 0.5 * (c.r - c.b), -0.25 * c.r + 0.5 * c.g - 0.25 * c.b);
+  const float notGreen = 0.5 * (c.r + c.b);
+  return vec3(0.5 * (c.g + notGreen), 0.5 * (c.r - c.b), 0.5 * (c.g - notGreen));
 }
-vec3 fromYCoCg(vec3 c) { return vec3(c.x + c.y - c.z, c.x + c.z, c.x - c.y - c.z); }
+vec3 fromYCoCg(vec3 c) {
+  const float notGreen = c.x - c.z;
+  return vec3(notGreen + c.y, c.x + c.z, notGreen - c.y);
+}
 
-// Smallest half size of the clipping box around a mean: the rounding of history and neighbourhood. In a smaller box,
-// where chroma hardly varies, that rounding would decide how much of the history's luma is kept.
+// The filtered colours in and around the pixels of a work group. rgb: YCoCg of a surface's colour; a: 1. Other pixels
+// are 0.
+const uint kTileWidth = gl_WorkGroupSize.x + 2u * kClipRadius;
+const uint kTileHeight = gl_WorkGroupSize.y + 2u * kClipRadius;
+shared vec4 tile[kTileWidth * kTileHeight];
+
+uint tileIndex(uvec2 texel) { return (texel.y & 0xffu) * kTileWidth + texel.x; }
+
+vec4 tileTexel(ivec2 q, vec4 colour) {
+  return colour.a >= 0.0 && hasSurface(q, colour) ? vec4(toYCoCg(colour.rgb), 1.0) : vec4(0.0);
+}
+
+// Texel `i` of the tile beyond the work group's sides: above and below first, then left and right.
+uvec2 tileBorder(uint i) {
+  const uint rows = 2u * kClipRadius * kTileWidth;
+  // i / kTileWidth. GPUs multiply 24 bits fast.
+  const uint row = (i & 0xfffu) * ((65535u + kTileWidth) / kTileWidth) >> 16;
+  const uint j = i - rows, rowBeside = j / (2u * kClipRadius);
+  const uvec2 above = uvec2(i - row * kTileWidth, row < kClipRadius ? row : row + gl_WorkGroupSize.y);
+  const uint column = j - rowBeside * 2u * kClipRadius;
+  const uvec2 beside = uvec2(column < kClipRadius ? column : column + gl_WorkGroupSize.x, rowBeside + kClipRadius);
+  return i < rows ? above : beside;
+}
+
+// Fills the tile. `own` is the colour of this thread's pixel, `q` that pixel; outside the image, of its border.
+void fillTile(ivec2 q, vec4 own) {
+  tile[tileIndex(gl_LocalInvocationID.xy + kClipRadius)] = tileTexel(q, own);
+  const uint threads = gl_WorkGroupSize.x * gl_WorkGroupSize.y;
+  const uint thread = gl_LocalInvocationID.y * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
+  const ivec2 first = ivec2(gl_WorkGroupID.xy * gl_WorkGroupSize.xy) - int(kClipRadius);
+  const ivec2 last = textureSize(filtered, 0) - 1;
+  for (uint i = thread; i < kTileWidth * kTileHeight - threads; i += threads) {
+    const uvec2 texel = tileBorder(i);
+    const ivec2 beyond = clamp(first + ivec2(texel), ivec2(0), last);
+    tile[tileIndex(texel)] = tileTexel(beyond, filteredAt(beyond));
+  }
+  barrier();
+}
+
+// Smallest half size of the clipping box around a mean: the rounding of history and neighbourhood. In a smaller
+// box, where chroma hardly varies, that rounding would decide how much of the history's luma is kept.
 #ifdef PACKED
 float smallestHalfSize(vec3 mean) {
   const vec3 colour = fromYCoCg(mean);
@@ -127,60 +183,55 @@ float smallestHalfSize(vec3 mean) {
 float smallestHalfSize(vec3 mean) { return 4.0 / 2048.0 * mean.x; }  // Rounding of four halves.
 #endif
 
-// A colour moved towards the mean until it is inside the box of half size `deviation` (Salvi 2016).
-struct Clipped {
-  vec3 colour;
-  float outside;  // Distance from the mean before clipping, in units of the box's half size; above 1: clipped.
-};
-
-Clipped varianceClip(vec3 colour, vec3 mean, vec3 deviation) {
-  const vec3 offset = colour - mean;
-  const vec3 ratio = abs(offset) / max(deviation, vec3(1e-12));
-  const float outside = max(max(ratio.x, ratio.y), ratio.z);
-  return Clipped(outside > 1.0 ? mean + offset / outside : colour, outside);
-}
-
-// Mean and standard deviation of the surfaces around a pixel, in YCoCg and relative to the pixel's own colour, so that
-// the variance of a flat neighbourhood is not lost in rounding.
-struct Neighbourhood {
+// The box into which the history of a pixel is clipped: around the mean of the surfaces near it, in YCoCg.
+struct ClippingBox {
   vec3 mean;
-  vec3 deviation;
+  vec3 squaredHalfSize;
 };
 
-Neighbourhood neighbourhoodOf(ivec2 p, vec3 centre) {
-  vec3 sum = vec3(0.0), squares = vec3(0.0);
-  float count = 0.0;
-  const ivec2 last = textureSize(filtered, 0) - 1;
-  const int width = 2 * kClipRadius + 1;
-  for (int i = 0; i < width * width; ++i) {
-    const ivec2 q = clamp(p + ivec2(i % width, i / width) - kClipRadius, ivec2(0), last);
-    const vec4 colour = filteredAt(q);
-    if (colour.a < 0.0 || !hasSurface(q, colour)) continue;
-    const vec3 difference = toYCoCg(colour.rgb) - centre;
-    sum += difference;
-    squares += difference * difference;
-    count += 1.0;
+ClippingBox clippingBox() {
+  vec4 sum = vec4(0.0);  // a: number of surfaces.
+  vec3 squares = vec3(0.0);
+  const uint first = tileIndex(gl_LocalInvocationID.xy);
+  for (uint y = 0u; y <= 2u * kClipRadius; ++y) {
+    for (uint x = 0u; x <= 2u * kClipRadius; ++x) {
+      const vec4 colour = tile[first + tileIndex(uvec2(x, y))];
+      sum += colour;
+      squares += colour.rgb * colour.rgb;
+    }
   }
-  const vec3 mean = sum / count;
-  return Neighbourhood(mean, sqrt(max(squares / count - mean * mean, vec3(0.0))));
+  const float share = 1.0 / sum.a;
+  const vec3 mean = sum.rgb * share;
+  // A difference of sums as large as these errs: by a thousandth of the mean at most, once it is a deviation.
+  const vec3 squaredDeviation = (squares - sum.rgb * mean) * (constants.clipGamma * constants.clipGamma * share);
+  const float smallest = max(smallestHalfSize(mean), 1e-12);
+  return ClippingBox(mean, max(squaredDeviation, vec3(smallest * smallest)));
 }
 
-// The history in YCoCg, clipped to the neighbourhood of the pixel.
-Clipped clippedHistory(ivec2 p, vec3 current, vec3 history) {
-  const vec3 centre = toYCoCg(current);
-  const Neighbourhood n = neighbourhoodOf(p, centre);
-  const vec3 halfSize = max(constants.clipGamma * n.deviation, vec3(smallestHalfSize(centre + n.mean)));
-  return varianceClip(toYCoCg(history), centre + n.mean, halfSize);
+// A colour moved towards the mean until it is inside the clipping box (Salvi 2016).
+struct Clipped {
+  vec3 colour;    // Linear RGB.
+  vec3 offset;    // From the mean before clipping, in YCoCg.
+  float outside;  // The same in units of the box's half size, its largest component; above 1: clipped.
+};
+
+Clipped clippedHistory(vec3 history) {
+  const ClippingBox box = clippingBox();
+  const vec3 mean = fromYCoCg(box.mean);
+  const vec3 offset = toYCoCg(history - mean);
+  const vec3 ratios = offset * offset / box.squaredHalfSize;
+  const float squared = max(max(ratios.x, ratios.y), ratios.z);
+  return Clipped(mean + (history - mean) * min(inversesqrt(squared), 1.0), offset, sqrt(squared));
 }
 
-// The new running mean and its history length.
-vec4 resolve(ivec2 p, vec4 current, vec4 history) {
+// The new running mean and its history length. The filter of history may make it negative.
+vec4 resolve(vec4 current, vec4 history) {
   // Without a sample in this frame the history stays as it is.
   if (current.a < 0.0) return history;
   if (history.a == 0.0) return vec4(current.rgb, 1.0);
-  const vec3 clipped = clippedHistory(p, current.rgb, history.rgb).colour;
+  const vec3 clipped = clippedHistory(history.rgb).colour;
   const float samples = min(history.a + 1.0, constants.maxHistory);
-  return vec4(max(mix(fromYCoCg(clipped), current.rgb, 1.0 / samples), vec3(0.0)), samples);
+  return vec4(mix(clipped, current.rgb, 1.0 / samples), samples);
 }
 
 #ifdef VIEW
@@ -190,11 +241,11 @@ vec3 viewOf(ivec2 p, vec4 current) {
   switch (kView) {
     case 0u: {
       if (current.a < 0.0 || history.a == 0.0) return vec3(0.0);
-      const Clipped clipped = clippedHistory(p, current.rgb, history.rgb);
-      const float outside = max(clipped.outside, 1.0);
-      return vec3(distance(clipped.colour, toYCoCg(history.rgb)), 1.0 - 1.0 / outside, outside > 1.0);
+      const Clipped clipped = clippedHistory(history.rgb);
+      const float share = 1.0 - 1.0 / max(clipped.outside, 1.0);
+      return vec3(share * length(clipped.offset), share, clipped.outside > 1.0);
     }
-    case 1u: return vec3(resolve(p, current, history).a, rejected, history.a == 0.0);
+    case 1u: return vec3(resolve(current, history).a, rejected, history.a == 0.0);
   }
   return vec3(0.0);
 }
@@ -202,31 +253,39 @@ vec3 viewOf(ivec2 p, vec4 current) {
 
 void main() {
   const ivec2 p = ivec2(gl_GlobalInvocationID.xy);
-  if (any(greaterThanEqual(p, textureSize(filtered, 0)))) return;
+  const ivec2 q = min(p, textureSize(filtered, 0) - 1);
+#ifdef VIEW
+  const vec4 current = filteredAt(q);
+#else
+  const vec4 current = filteredOrPassThroughAt(q);
+#endif
+  fillTile(q, current);
+  if (p != q) return;
 
-  const vec4 current = filteredAt(p);
 #ifdef VIEW
   imageStore(outView, p, vec4(hasSurface(p, current) ? viewOf(p, current) : vec3(0.0), 1.0));
 #else
   if (!hasSurface(p, current)) {
 #ifdef PACKED
     imageStore(outResolved, p, uvec4(0u));
-    imageStore(outImage, p, vec4(passThroughAt(p), 1.0));
 #else
     imageStore(outResolved, p, vec4(current.rgb, 0.0));
-    imageStore(outImage, p, vec4(current.rgb, 1.0));
 #endif
+    imageStore(outImage, p, vec4(current.rgb, 1.0));
     return;
   }
   int rejected;
-  const vec4 resolved = resolve(p, current, historyOf(p, rejected));
-  const vec4 rounded = nearestHalf(resolved);
+  const vec4 resolved = resolve(current, historyOf(p, rejected));
 #ifdef PACKED
   const vec4 random = randomNumbers(p, frame.frameIndex, kResolvedSeed);
-  imageStore(outResolved, p, uvec4(packResolved(resolved, constants.maxHistory, random)));
+  const vec3 light = clamp(resolved.rgb, vec3(0.0), vec3(largestPacked(kResolvedBits)));
+  imageStore(outResolved, p, uvec4(packResolved(vec4(light, resolved.a), longestLength(), random)));
+  // No mean is made of the output, so that it does not matter how the store rounds.
+  imageStore(outImage, p, vec4(light, 1.0));
 #else
+  const vec4 rounded = nearestHalf(max(resolved, vec4(0.0)));
   imageStore(outResolved, p, rounded);
-#endif
   imageStore(outImage, p, vec4(rounded.rgb, 1.0));
+#endif
 #endif
 }

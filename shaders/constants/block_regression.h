@@ -5,11 +5,11 @@
 namespace walr {
 #endif
 
-// As BlockRegressionSettings (passes/block_regression.h), except that coarseSigma is in cells
-// where the setting is a fraction of the image's height.
+// As BlockRegressionSettings (passes/block_regression.h), except that two constants stand for planeNear and planeFar,
+// and that coarseSigma is in cells where the setting is a fraction of the image's height.
 struct BlockRegressionConstants {
-  float planeNear;              // Plane distance over depth up to which the weight is 1 (d0).
-  float planeFar;               // Plane distance over depth from which the weight is 0 (d1).
+  float planeOffset;            // The edge-stopping function e of a plane distance over depth d is
+  float planeScale;             // planeOffset - planeScale * d, clamped to 0..1: 1 at planeNear, 0 at planeFar.
   float sdfFraction;            // Share of the stored edge distance that edge tracing steps at once.
   float ridge;                  // Added to the diagonal of the feature covariance.
   float growthErrors;           // Standard errors up to which a block's window takes in another block in full.
@@ -20,10 +20,11 @@ struct BlockRegressionConstants {
   float coarseGrowthOcclusion;  // These errors are divided by 1 + this x ambient occlusion.
   float coarseSamples;          // S: samples that the coarse fit counts for in the mixture.
   float coarseLeastShare;       // Share of the mixture below which the coarse fit is left out; from twice it on, full.
+  float residualLeastShare;     // Share of the accumulated light below which it is left out.
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(BlockRegressionConstants) == 48);
+static_assert(sizeof(BlockRegressionConstants) == 52);
 }  // namespace walr
 #endif
 #endif

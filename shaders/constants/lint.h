@@ -42,40 +42,43 @@ const uint kReadings = 10;
 // The same for motion.z, if it is given, with the first three readings and kReadingNone only.
 const uint kLintMotionZ = 34;
 
-// Motion where, by the cameras, a still surface does not move.
+// Motion where, by the cameras, a still surface does not move. A sum over frames holds only those frames in which more
+// than a tenth of these pixels moves (LintCounts): frames in which nothing moves say nothing about the cameras.
 const uint kLintStillTested = 44;
 const uint kLintStillMoves = 45;
+const uint kLintStillMovesAlike = 46;  // As the pixel in the middle does, and no farther than jitter can differ.
 
 // Jitter in the motion, where the jitter differs from the previous frame's.
-const uint kLintJitterTested = 46;
-const uint kLintJitterAsStated = 47;
-const uint kLintJitterOther = 48;     // Motion holds it though stated not to, or the reverse.
-const uint kLintJitterOpposite = 49;  // Motion holds it with the other sign.
+const uint kLintJitterTested = 47;
+const uint kLintJitterAsStated = 48;
+const uint kLintJitterOther = 49;     // Motion holds it though stated not to, or the reverse.
+const uint kLintJitterOpposite = 50;  // Motion holds it with the other sign.
 
 // Shading normals compared with the slope of depth, two words per hypothesis: pixels that fit better with it than
 // without, and pixels that fit worse.
-const uint kLintNormalTested = 50;
-const uint kLintHypotheses = 51;
+const uint kLintNormalTested = 51;
+const uint kLintHypotheses = 52;
 const uint kHypothesisOtherSpace = 0;  // Normals are in world space though stated to be in view space, or the reverse.
 const uint kHypothesisFlippedY = 1;    // Normals' y is down.
 const uint kHypothesisInverseDepth = 2;  // Depth is that of a reversed projection.
 const uint kHypothesisDeviceDepth = 3;   // Depth is that of a projection with a far plane far away.
 const uint kHypothesisDistance = 4;      // Depth is the distance from the camera.
-const uint kHypothesisCount = 5;
-const uint kLintNormalFits = 61;  // Normals fit as stated; see kFittingCosine.
+const uint kHypothesisInverseView = 5;   // The view matrix leads from view to world space.
+const uint kHypothesisCount = 6;
+const uint kLintNormalFits = 64;  // Normals fit as stated; see kFittingCosine.
 
 // Albedo left in the lighting: pairs of neighbours on one surface, one with at least kAlbedoContrast times the albedo
 // of the other. Histograms of the light by order of magnitude, for the pixel with more albedo and the one with less, as
 // given and divided by albedo. Order 0 is no light; order k is from 2^(k - kLintUnitOrder) to twice that.
-const uint kLintPairs = 62;
-const uint kLintLightMore = 63;
-const uint kLintLightLess = 95;
-const uint kLintDividedMore = 127;
-const uint kLintDividedLess = 159;
+const uint kLintPairs = 65;
+const uint kLintLightMore = 66;
+const uint kLintLightLess = 98;
+const uint kLintDividedMore = 130;
+const uint kLintDividedLess = 162;
 const uint kLintOrders = 32;
 const uint kLintUnitOrder = 17;
 
-const uint kLintWords = 191;
+const uint kLintWords = 194;
 
 // A random normal that faces the camera has a cosine above c with any direction with probability 1 - c.
 const float kFittingCosine = 0.8;

@@ -5,15 +5,18 @@
 namespace walr {
 #endif
 
+const uint kMaxOcclusionSteps = 16u;
+
 struct PrepareGuidesConstants {
   float albedoThreshold;   // A pixel whose albedo is below it in every channel has no diffuse lobe.
   float tangentTolerance;  // Largest error of extrapolated inverse depth, relative to inverse depth.
   float normalAgreement;   // Cosine to the shading normal below which the geometric normal is rejected.
   float occlusionRadius;   // Search radius for occluders, pixels.
+  float occlusionDistances[kMaxOcclusionSteps];  // Of the steps of the search from its pixel, pixels; whole numbers.
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(PrepareGuidesConstants) == 16);
+static_assert(sizeof(PrepareGuidesConstants) == 80);
 }  // namespace walr
 #endif
 #endif

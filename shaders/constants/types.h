@@ -11,6 +11,7 @@ using uint = glm::uint;
 using glm::ivec2;
 using glm::mat4;
 using glm::uvec2;
+using glm::uvec4;
 using glm::vec2;
 using glm::vec4;
 }  // namespace walr

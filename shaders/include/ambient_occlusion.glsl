@@ -1,38 +1,43 @@
 // Ambient occlusion from the depth buffer (passes/WALR.md, 1; after Bavoil et al. 2008): the mean over eight directions
 // of the sine of the horizon above the tangent plane. Each occluder fades out towards the search radius. The pattern is
 // the same at every pixel and not random: a noisy feature of the regression would print its noise into the result.
-// Needs: `frame` (FrameConstants), `surfaceDepthAt(ivec2 p, float skyDepth)`: view depth, 0 outside the image and on
-// sky.
+// Needs: `frame`, `guideConstants`, `hostDepth`, `Surface`, `kOcclusionSteps`.
 #ifndef WALR_AMBIENT_OCCLUSION_GLSL
 #define WALR_AMBIENT_OCCLUSION_GLSL
-#include "camera.glsl"
 
-// Ambient occlusion, 0 (open) to 1, of a surface at depth `z` whose unit normal `normal` faces the camera.
-// `radius`: search radius, pixels. `steps`: pixels looked at per direction; their distances grow with the square of the
-// step.
-float ambientOcclusion(ivec2 p, float z, vec3 normal, float radius, int steps) {
-  const vec3 ray = rayThrough(frame.rayFromPixel, pixelCentre(p));
-  // Lengths are in units of the pixel's depth, so that no scale of the scene over- or underflows.
-  const float inverseDepth = 1.0 / z;
-  const float reach = radius * abs(frame.rayFromPixel.x);
-  const float falloff = 1.0 / (reach * reach);
-  // Copied once: Mesa's llvmpipe would load them at every tap, a tenth of the time.
+// Ambient occlusion of the surface that a pixel shows, 0 (open) to 1.
+float ambientOcclusion(ivec2 p, Surface surface, uint depthEnd) {
+  const vec3 ray = surface.ray;
   const vec2 pixel = frame.rayFromPixel.xy;
-  const float skyDepth = frame.skyDepth;
+  const float raySquared = dot(ray, ray);
+  const float reach = guideConstants.occlusionRadius * abs(pixel.x);
+  const float falloff = 1.0 / (reach * reach);
+  // Depths that are much nearer are out of reach and would overflow.
+  const uint nearest = floatBitsToUint(surface.depth * 1e-6);
+  const uvec2 last = uvec2(textureSize(hostDepth, 0) - 1);
+
   // All directions in the inner loop, so that their fetches overlap.
   float horizon[9] = float[](0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
-  for (int step = 1; step <= steps; ++step) {
-    const float share = float(step) / float(steps);
-    const int distance = max(int(radius * share * share), step);
+  [[unroll]] for (int step = 0; step < kOcclusionSteps; ++step) {
+    const float distance = guideConstants.occlusionDistances[step];
+    const float inverseDistance = 1.0 / distance;
+    const float fadeScale = distance * distance * falloff;
+    const float scaledDepth = surface.depth * inverseDistance;
     [[unroll]] for (int i = 0; i < 9; ++i) {
       if (i != 4) {
         const ivec2 direction = ivec2(i % 3, i / 3) - 1;
-        const float zq = surfaceDepthAt(p + distance * direction, skyDepth);
-        const vec2 offset = float(distance) * vec2(direction) * pixel;  // From this ray to the tap's.
-        const vec3 v = zq * inverseDepth * (ray + vec3(offset, 0.0)) - ray;
-        const float squared = max(dot(v, v), 1e-12);
-        const float sine = max(1.0 - squared * falloff, 0.0) * dot(normal, v) * inversesqrt(squared);
-        horizon[i] = max(horizon[i], zq > 0.0 ? sine : 0.0);
+        const uvec2 q = uvec2(p + int(distance) * direction);  // Larger than any image where it is negative.
+        const float z = texelFetch(hostDepth, ivec2(min(q, last)), 0).x;
+        const bool inside = all(lessThanEqual(q, last));
+        const bool occludes = floatBitsToUint(z) - nearest < depthEnd - nearest;
+        // The vector to the tap is distance * z * (offset + slope * ray). What does not depend on z is the same for all
+        // steps.
+        const vec2 offset = vec2(direction) * pixel;
+        const float slope = inverseDistance - scaledDepth / z;
+        const float squared = dot(offset, offset) + slope * (2.0 * dot(offset, ray.xy) + slope * raySquared);
+        const float fade = clamp(1.0 - fadeScale * squared, 0.0, 1.0);
+        const float sine = (dot(offset, surface.normal.xy) + slope * surface.facing) * inversesqrt(squared);
+        horizon[i] = max(horizon[i], inside && occludes ? fade * sine : 0.0);
       }
     }
   }

@@ -5,35 +5,35 @@
 #define WALR_ANTILAG_GLSL
 #include "constants/antilag.h"
 
-// The antilag factor at a position in pixels of the previous frame, bilinear, clamped at the borders.
-float antilagAt(vec2 pixel) {
-  const vec2 position = pixel / float(kAntilagTile) - 0.5;
-  const ivec2 base = ivec2(floor(position));
-  const vec2 f = fract(position);
-  const ivec2 last = textureSize(previousAntilag, 0) - 1;
-  float sum = 0.0;
-  for (int i = 0; i < 4; ++i) {
-    const ivec2 offset = ivec2(i & 1, i >> 1);
-    const vec2 weight = mix(1.0 - f, f, vec2(offset));
-    sum += weight.x * weight.y * texelFetch(previousAntilag, clamp(base + offset, ivec2(0), last), 0).x;
-  }
-  return sum;
+// The antilag factor at a position in the previous frame, bilinear, clamped at the borders. `position`: in pixels from
+// the centre of the first pixel.
+float antilagAt(vec2 position) {
+  const vec2 tile = position / float(kAntilagTile) + (0.5 / float(kAntilagTile) - 0.5);  // From the first one's centre.
+  const vec2 base = floor(tile), f = tile - base;
+  const vec4 factors = textureGather(previousAntilag, (base + 1.0) / vec2(textureSize(previousAntilag, 0))).wzxy;
+  const vec2 rows = mix(factors.xz, factors.yw, f.x);
+  return mix(rows.x, rows.y, f.y);
 }
 
 // The maximum history length at a position: `maxHistory` at factor 0, one sample at factor 1.
-float longestHistory(vec2 pixel, float maxHistory) { return mix(maxHistory, 1.0, antilagAt(pixel)); }
+float longestHistory(vec2 position, float maxHistory) { return mix(maxHistory, 1.0, antilagAt(position)); }
 
 #ifndef VIEW
 const uint kTileThreads = uint(kAntilagTile * kAntilagTile);
 shared vec2 tileSums[kTileThreads];
 
-// Writes the sums of the tile of this workgroup. All threads of the workgroup must call it.
+// Writes the sums of the tile of this workgroup. All threads of the workgroup must call it. Each round leaves a quarter
+// of the sums.
 void sumOverTile(float difference) {
   const uint thread = gl_LocalInvocationIndex;
   tileSums[thread] = vec2(difference, difference * difference);
   barrier();
-  for (uint n = kTileThreads / 2u; n > 0u; n /= 2u) {
-    if (thread < n) tileSums[thread] += tileSums[thread + n];
+  [[unroll]] for (int round = 0; round < 3; ++round) {
+    const uint n = kTileThreads >> (2 * round + 2);
+    if (thread < n) {
+      tileSums[thread] = (tileSums[thread] + tileSums[thread + 2u * n]) +
+                         (tileSums[thread + n] + tileSums[thread + 3u * n]);
+    }
     barrier();
   }
   if (thread == 0u) imageStore(outTiles, ivec2(gl_WorkGroupID.xy), vec4(tileSums[0], 0.0, 0.0));

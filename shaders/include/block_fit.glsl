@@ -1,18 +1,11 @@
-// The regression of WALR over blocks (passes/WALR.md, 5): it solves the normal equations of a block's moments, and
-// stores the fit in twenty-four halves.
+// The regression of WALR over blocks (passes/WALR.md, 5): it solves the normal equations of a block's moments
+// and makes the fit that is stored.
 // Needs: `constants` (BlockRegressionConstants).
 #ifndef WALR_BLOCK_FIT_GLSL
 #define WALR_BLOCK_FIT_GLSL
-#include "block_storage.glsl"
+#include "block_moments.glsl"
 #include "cholesky.glsl"
-
-// f(X) = colour + sum over features i of slope[i] (X[i] - origin[i]).
-struct BlockFit {
-  vec3 colour;
-  float origin[kFeatures];
-  vec3 slope[kFeatures];
-  float samples;  // 0: no fit.
-};
+#include "stored_fit.glsl"
 
 // Rounding moments to halves changes each covariance by at most 2^-11 of the root of the product of both variances. A
 // ridge of this share of the diagonal keeps every matrix with kFeatures such entries per row positive definite
@@ -35,50 +28,20 @@ float[kCovariances] factorOf(BlockMoments m) {
 
 vec3[kFeatures] slopesOf(BlockMoments m) { return choleskySolve(factorOf(m), m.yx); }
 
-BlockFit fitOf(BlockMoments m) {
-  BlockFit fit;
-  fit.samples = m.samples;
-  fit.slope = slopesOf(m);
-  // The origin is the mean as a half holds it, so that rounding in memory is small relative to the colour and not to
-  // slope times mean.
-  fit.colour = m.y;
-  for (int i = 0; i < kFeatures; ++i) {
-    fit.origin[i] = unpackHalf2x16(packHalves(m.x[i], 0.0)).x;
-    fit.colour += fit.slope[i] * (fit.origin[i] - m.x[i]);
-  }
+// The fit of a block or cell, `depth` being that of its depth feature. The constant makes up for the rounding of the
+// slopes to halves at the means of the features.
+StoredFit fitOf(BlockMoments m, float depth) {
+  const vec3 slope[kFeatures] = slopesOf(m);
+  StoredFit fit;
+  float h[16];
+  for (int i = 0; i < kFeatures; ++i)
+    for (int c = 0; c < 3; ++c) h[3 * i + c] = slope[i][c];
+  h[15] = m.samples / kSampleCountUnit;
+  for (int i = 0; i < 8; ++i) fit.slope[i / 4][i % 4] = packHalves(h[2 * i], h[2 * i + 1]);
+  vec3 constant = m.y;
+  for (int i = 0; i < kFeatures; ++i) constant -= slopeOf(fit, i) * m.x[i];
+  fit.constant = vec4(constant / kLightUnit, depth);
   return fit;
-}
-
-vec3 evaluate(BlockFit fit, float x[kFeatures]) {
-  vec3 colour = fit.colour;
-  for (int i = 0; i < kFeatures; ++i) colour += fit.slope[i] * (x[i] - fit.origin[i]);
-  return colour;
-}
-
-struct PackedFit {
-  uvec4 a, b, c;
-};
-
-PackedFit packFit(BlockFit f) {
-  return PackedFit(uvec4(packHalves(f.colour.r, f.colour.g), packHalves(f.colour.b, f.samples / kSampleCountUnit),
-                         packHalves(f.slope[0].r, f.slope[0].g), packHalves(f.slope[0].b, f.slope[1].r)),
-                   uvec4(packHalves(f.slope[1].g, f.slope[1].b), packHalves(f.slope[2].r, f.slope[2].g),
-                         packHalves(f.slope[2].b, f.slope[3].r), packHalves(f.slope[3].g, f.slope[3].b)),
-                   uvec4(packHalves(f.slope[4].r, f.slope[4].g), packHalves(f.slope[4].b, f.origin[0]),
-                         packHalves(f.origin[1], f.origin[2]), packHalves(f.origin[3], f.origin[4])));
-}
-
-BlockFit unpackFit(PackedFit p) {
-  const vec2 a1 = unpackHalf2x16(p.a.y), a3 = unpackHalf2x16(p.a.w), b0 = unpackHalf2x16(p.b.x),
-             b2 = unpackHalf2x16(p.b.z), c1 = unpackHalf2x16(p.c.y), c2 = unpackHalf2x16(p.c.z),
-             c3 = unpackHalf2x16(p.c.w);
-  BlockFit f;
-  f.colour = vec3(unpackHalf2x16(p.a.x), a1.x);
-  f.samples = kSampleCountUnit * a1.y;
-  f.slope = vec3[](vec3(unpackHalf2x16(p.a.z), a3.x), vec3(a3.y, b0), vec3(unpackHalf2x16(p.b.y), b2.x),
-                   vec3(b2.y, unpackHalf2x16(p.b.w)), vec3(unpackHalf2x16(p.c.x), c1.x));
-  f.origin = float[](c1.y, c2.x, c2.y, c3.x, c3.y);
-  return f;
 }
 
 #endif

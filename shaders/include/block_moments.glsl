@@ -40,15 +40,6 @@ BlockMoments noSamples() {
   return m;
 }
 
-// Moments of one pixel whose light is the mean of `samples` samples.
-BlockMoments onePixel(float x[kFeatures], vec3 colour, float samples) {
-  BlockMoments m = noSamples();
-  m.x = x;
-  m.y = colour;
-  m.samples = samples;
-  return m;
-}
-
 // The same moments with the depth feature relative to `scale` times its former reference depth.
 BlockMoments rescaleDepth(BlockMoments m, float scale) {
   m.x[kDepthFeature] = scale * (m.x[kDepthFeature] + 1.0) - 1.0;
@@ -58,7 +49,8 @@ BlockMoments rescaleDepth(BlockMoments m, float scale) {
   return m;
 }
 
-// Weighted merge of centred moments. Means are taken relative to the first moments added, as in moments.glsl.
+// Weighted merge of centred moments. Means are taken relative to an origin close to them, so that little is lost to
+// rounding where a variance is small.
 struct BlockMomentSum {
   float originX[kFeatures];
   vec3 originY;
@@ -66,10 +58,6 @@ struct BlockMomentSum {
 };
 
 void add(inout BlockMomentSum s, float weight, BlockMoments m) {
-  if (s.sum.samples == 0.0) {
-    s.originX = m.x;
-    s.originY = m.y;
-  }
   const float w = weight * m.samples;
   const vec3 dy = m.y - s.originY;
   for (int i = 0; i < kFeatures; ++i) {
@@ -88,13 +76,30 @@ void add(inout BlockMomentSum s, float weight, BlockMoments m) {
   s.sum.samples += w;
 }
 
-BlockMomentSum emptySum() {
-  BlockMomentSum s;
-  s.sum = noSamples();
-  s.originX = s.sum.x;
-  s.originY = s.sum.y;
-  return s;
+// Adds one pixel, whose own moments are its features and its light.
+void addPixel(inout BlockMomentSum s, float weight, float x[kFeatures], vec3 y) {
+  const vec3 dy = y - s.originY;
+  for (int i = 0; i < kFeatures; ++i) {
+    const float wx = weight * (x[i] - s.originX[i]);
+    s.sum.x[i] += wx;
+    s.sum.yx[i] += wx * dy;
+    for (int j = 0; j < kFeatures; ++j) {
+      if (j < i) continue;
+      s.sum.xx[triangleEntry(j, i)] += wx * (x[j] - s.originX[j]);
+    }
+  }
+  const float dl = luminance(dy);
+  s.sum.yy += weight * dl * dl;
+  s.sum.y += weight * dy;
+  s.sum.samples += weight;
 }
+
+BlockMomentSum emptySum(float originX[kFeatures], vec3 originY) {
+  return BlockMomentSum(originX, originY, noSamples());
+}
+
+// About the means of these moments.
+BlockMomentSum emptySum(BlockMoments origin) { return emptySum(origin.x, origin.y); }
 
 BlockMoments finish(BlockMomentSum s) {
   if (s.sum.samples <= 0.0) return noSamples();

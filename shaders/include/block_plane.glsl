@@ -3,9 +3,9 @@
 #ifndef WALR_BLOCK_PLANE_GLSL
 #define WALR_BLOCK_PLANE_GLSL
 
-// e(distance): 1 up to planeNear, 0 from planeFar on, linear between. `distance` is in units of depth.
+// e(distance): 1 up to plane-near, 0 from plane-far on, linear between. `distance` is in units of depth.
 float edgeStopping(float distance) {
-  return clamp((constants.planeFar - distance) / (constants.planeFar - constants.planeNear), 0.0, 1.0);
+  return clamp(constants.planeOffset - constants.planeScale * distance, 0.0, 1.0);
 }
 
 // Cosine between two normals, 0 where they face away from each other.

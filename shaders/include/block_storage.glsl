@@ -13,44 +13,60 @@ struct PackedBlock {
   uvec4 word[5];
 };
 
+// Moments are this many numbers.
+const int kMoments = 40;
+
 // In this order: means of the features and the colour, covariances of the features, W, covariances with the colour, and
-// the standard deviation of luminance, whose range is that of the light where a variance would overflow.
-const int kHalves = 40;
+// the variance of luminance.
+float[kMoments] numbersOf(BlockMoments m) {
+  float numbers[kMoments];
+  for (int i = 0; i < kFeatures; ++i) {
+    numbers[i] = m.x[i];
+    for (int c = 0; c < 3; ++c) numbers[24 + 3 * i + c] = m.yx[i][c];
+  }
+  for (int c = 0; c < 3; ++c) numbers[5 + c] = m.y[c];
+  for (int k = 0; k < kCovariances; ++k) numbers[8 + k] = m.xx[k];
+  numbers[23] = m.samples;
+  numbers[39] = m.yy;
+  return numbers;
+}
+
+BlockMoments momentsOf(float numbers[kMoments]) {
+  BlockMoments m;
+  for (int i = 0; i < kFeatures; ++i) {
+    m.x[i] = numbers[i];
+    m.yx[i] = vec3(numbers[24 + 3 * i], numbers[25 + 3 * i], numbers[26 + 3 * i]);
+  }
+  m.y = vec3(numbers[5], numbers[6], numbers[7]);
+  for (int k = 0; k < kCovariances; ++k) m.xx[k] = numbers[8 + k];
+  m.samples = numbers[23];
+  m.yy = numbers[39];
+  return m;
+}
 
 // W is stored in units of this many samples, because a window may hold more samples than the largest half.
 const float kSampleCountUnit = 64.0;
 
+// As a variance may overflow halves, they hold the standard deviation of luminance.
 PackedBlock packBlock(BlockMoments m) {
-  float h[kHalves];
-  for (int i = 0; i < kFeatures; ++i) {
-    h[i] = m.x[i];
-    for (int c = 0; c < 3; ++c) h[24 + 3 * i + c] = m.yx[i][c];
-  }
-  for (int c = 0; c < 3; ++c) h[5 + c] = m.y[c];
-  for (int k = 0; k < kCovariances; ++k) h[8 + k] = m.xx[k];
-  h[23] = m.samples / kSampleCountUnit;
-  h[39] = sqrt(m.yy);
+  m.samples /= kSampleCountUnit;
+  m.yy = sqrt(m.yy);
+  const float h[kMoments] = numbersOf(m);
   PackedBlock p;
-  for (int i = 0; i < kHalves / 2; ++i) p.word[i / 4][i % 4] = packHalves(h[2 * i], h[2 * i + 1]);
+  for (int i = 0; i < kMoments / 2; ++i) p.word[i / 4][i % 4] = packHalves(h[2 * i], h[2 * i + 1]);
   return p;
 }
 
 BlockMoments unpackBlock(PackedBlock p) {
-  float h[kHalves];
-  for (int i = 0; i < kHalves / 2; ++i) {
+  float h[kMoments];
+  for (int i = 0; i < kMoments / 2; ++i) {
     const vec2 pair = unpackHalf2x16(p.word[i / 4][i % 4]);
     h[2 * i] = pair.x;
     h[2 * i + 1] = pair.y;
   }
-  BlockMoments m;
-  for (int i = 0; i < kFeatures; ++i) {
-    m.x[i] = h[i];
-    m.yx[i] = vec3(h[24 + 3 * i], h[25 + 3 * i], h[26 + 3 * i]);
-  }
-  m.y = vec3(h[5], h[6], h[7]);
-  for (int k = 0; k < kCovariances; ++k) m.xx[k] = h[8 + k];
-  m.samples = kSampleCountUnit * h[23];
-  m.yy = h[39] * h[39];
+  BlockMoments m = momentsOf(h);
+  m.samples *= kSampleCountUnit;
+  m.yy *= m.yy;
   return m;
 }
 

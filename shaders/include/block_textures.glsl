@@ -1,8 +1,7 @@
-// Bindings of the textures of blocks, and their loads and stores.
+// Bindings of the moments of blocks, and their loads and stores.
 // BLOCK_MOMENTS_IN: reads moments and depth of blocks (or cells).
 // BLOCK_MOMENTS_OUT: writes them.
 // CELL_MOMENTS_OUT: writes moments and depth of cells, beside those of blocks.
-// BLOCK_FIT_OUT: writes fits, and their depth unless it is that of the moments.
 #ifndef WALR_BLOCK_TEXTURES_GLSL
 #define WALR_BLOCK_TEXTURES_GLSL
 #include "block_storage.glsl"
@@ -35,8 +34,7 @@ layout(rgba32ui) uniform writeonly uimage2D outMoments3;
 layout(rgba32ui) uniform writeonly uimage2D outMoments4;
 layout(r32ui) uniform writeonly uimage2D outDepth;
 
-void storeMoments(ivec2 block, BlockMoments m) {
-  const PackedBlock p = packBlock(m);
+void storeMoments(ivec2 block, PackedBlock p) {
   imageStore(outMoments0, block, p.word[0]);
   imageStore(outMoments1, block, p.word[1]);
   imageStore(outMoments2, block, p.word[2]);
@@ -53,27 +51,12 @@ layout(rgba32ui) uniform writeonly uimage2D outCellMoments3;
 layout(rgba32ui) uniform writeonly uimage2D outCellMoments4;
 layout(r32ui) uniform writeonly uimage2D outCellDepth;
 
-void storeCellMoments(ivec2 cell, BlockMoments m) {
-  const PackedBlock p = packBlock(m);
+void storeCellMoments(ivec2 cell, PackedBlock p) {
   imageStore(outCellMoments0, cell, p.word[0]);
   imageStore(outCellMoments1, cell, p.word[1]);
   imageStore(outCellMoments2, cell, p.word[2]);
   imageStore(outCellMoments3, cell, p.word[3]);
   imageStore(outCellMoments4, cell, p.word[4]);
-}
-#endif
-
-#ifdef BLOCK_FIT_OUT
-layout(rgba32ui) uniform writeonly uimage2D outFitA;
-layout(rgba32ui) uniform writeonly uimage2D outFitB;
-layout(rgba32ui) uniform writeonly uimage2D outFitC;
-layout(r32ui) uniform writeonly uimage2D outDepth;
-
-void storeFit(ivec2 block, BlockFit fit) {
-  const PackedFit p = packFit(fit);
-  imageStore(outFitA, block, p.a);
-  imageStore(outFitB, block, p.b);
-  imageStore(outFitC, block, p.c);
 }
 #endif
 

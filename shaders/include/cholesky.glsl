@@ -1,19 +1,23 @@
 // Cholesky decomposition of the covariance matrix of the features, and the solution for the slopes.
-// Needs: `kFeatures` and `kCovariances`, the number of entries of one triangle of the matrix.
+// Needs: `kFeatures` and `kCovariances`, the number of entries of one triangle of the matrix;
+// GL_EXT_control_flow_attributes.
 #ifndef WALR_CHOLESKY_GLSL
 #define WALR_CHOLESKY_GLSL
 #include "triangle.glsl"
+
+// The loops are marked [[unroll]], because some drivers unroll loops of this size only on request. An array whose index
+// is not a constant turns into a tree of branches, one for each entry.
 
 // Lower factor of the covariance matrix with `ridge` added to its diagonal. Rounding may make a variance negative or a
 // pivot too small: variances are raised to 0, pivots to `least`.
 float[kCovariances] choleskyFactor(float covariances[kCovariances], float ridge[kFeatures], float least[kFeatures]) {
   float l[kCovariances];
-  for (int j = 0; j < kFeatures; ++j) {
-    for (int i = 0; i < kFeatures; ++i) {
+  [[unroll]] for (int j = 0; j < kFeatures; ++j) {
+    [[unroll]] for (int i = 0; i < kFeatures; ++i) {
       if (i < j) continue;
       float value = covariances[triangleEntry(i, j)];
       if (i == j) value = max(value, 0.0) + ridge[i];
-      for (int c = 0; c < kFeatures; ++c) {
+      [[unroll]] for (int c = 0; c < kFeatures; ++c) {
         if (c < j) value -= l[triangleEntry(i, c)] * l[triangleEntry(j, c)];
       }
       l[triangleEntry(i, j)] = i == j ? sqrt(max(value, least[i])) : value / l[triangleEntry(j, j)];
@@ -25,16 +29,16 @@ float[kCovariances] choleskyFactor(float covariances[kCovariances], float ridge[
 // Slopes of the colour over the features: solves L L^T x = yx by forward, then back substitution.
 vec3[kFeatures] choleskySolve(float l[kCovariances], vec3 yx[kFeatures]) {
   vec3 x[kFeatures];
-  for (int i = 0; i < kFeatures; ++i) {
+  [[unroll]] for (int i = 0; i < kFeatures; ++i) {
     vec3 value = yx[i];
-    for (int c = 0; c < kFeatures; ++c) {
+    [[unroll]] for (int c = 0; c < kFeatures; ++c) {
       if (c < i) value -= l[triangleEntry(i, c)] * x[c];
     }
     x[i] = value / l[triangleEntry(i, i)];
   }
-  for (int i = kFeatures - 1; i >= 0; --i) {
+  [[unroll]] for (int i = kFeatures - 1; i >= 0; --i) {
     vec3 value = x[i];
-    for (int c = 0; c < kFeatures; ++c) {
+    [[unroll]] for (int c = 0; c < kFeatures; ++c) {
       if (c > i) value -= l[triangleEntry(c, i)] * x[c];
     }
     x[i] = value / l[triangleEntry(i, i)];

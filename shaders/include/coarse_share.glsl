@@ -2,11 +2,13 @@
 #ifndef WALR_COARSE_SHARE_GLSL
 #define WALR_COARSE_SHARE_GLSL
 
-// Share s of the coarse prediction where the windows of the fine fits hold `samples` (W) in the mean. To save work it
-// fades out between twice coarseLeastShare and coarseLeastShare; where it is 0, the coarse fits are not read.
+// A share s_0 of the coarse prediction, cut: to save work it fades out between twice coarseLeastShare and
+// coarseLeastShare; where it is 0, the coarse fits are not read.
+float fadedShare(float share) { return share * clamp(share / constants.coarseLeastShare - 1.0, 0.0, 1.0); }
+
+// Share s of the coarse prediction where the windows of the fine fits hold `samples` (W) in the mean.
 float coarseShare(float samples) {
-  const float share = constants.coarseSamples / (samples + constants.coarseSamples);
-  return share * clamp(share / constants.coarseLeastShare - 1.0, 0.0, 1.0);
+  return fadedShare(constants.coarseSamples / (samples + constants.coarseSamples));
 }
 
 // Whether a fit with this W has converged: the share is 0 for every mean of such fits, whose W halves round by 2^-11.

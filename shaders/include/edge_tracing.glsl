@@ -53,10 +53,10 @@ Line lineFrom(Centre centre, ivec2 direction) {
   return Line(direction, min(inside.x, inside.y), plane.offset * plane.inverseDepth, slope * plane.inverseDepth);
 }
 
-// The edge-stopping function at one pixel (Meunier & Harada 2022, 4.3).
+// What the edge-stopping function needs of one pixel.
 struct TracedPixel {
-  float weight;  // Not clamped: 1 or more near the plane, 0 or less at an edge.
-  bool surface;  // False outside the image.
+  float distance;  // From the centre's plane. planeFar where there is no surface.
+  bool surface;    // False outside the image.
   uint sdf;
 };
 
@@ -65,9 +65,12 @@ TracedPixel tracePixel(Centre centre, Line line, int step) {
   if (step > line.inside) packedDepth = 0u;
   const float z = unpackDepth(packedDepth);
   const float distance = abs(z * (line.offset + float(step) * line.slope) - centre.plane.offset);
-  const float weight = (constants.planeFar - distance) * centre.scale;
-  return TracedPixel(z > 0.0 ? weight : 0.0, z > 0.0, unpackSdf(packedDepth));
+  return TracedPixel(z > 0.0 ? distance : constants.planeFar, z > 0.0, unpackSdf(packedDepth));
 }
+
+// The smallest value of the edge-stopping function on the way to a tap (Meunier & Harada 2022, 4.3), from the largest
+// distance on it; 0 or less at an edge.
+float traceWeight(Centre centre, float distance) { return min((constants.planeFar - distance) * centre.scale, 1.0); }
 
 // Step of the pixel that replaces a tap whose trace met its edge at step `edge`.
 int replacementStep(ivec2 p, int tap, int edge) {
@@ -86,22 +89,22 @@ Tap findTap(Centre centre, int tap, ivec2 direction, inout TraceSummary summary)
   const Line line = lineFrom(centre, direction);
   int edge = kSpacing + 1;  // Step of the first edge; kSpacing + 1: none.
   int reach = kSpacing;
-  float weight = 1.0;
+  float distance = 0.0;  // The largest on the way.
   bool surface = false;  // The edge is a surface, not sky or the border of the image.
 #ifdef FIRST
   const TracedPixel traced = tracePixel(centre, line, 1);
-  weight = min(traced.weight, 1.0);
+  distance = traced.distance;
   surface = traced.surface;
-  if (weight <= 0.0) edge = 1;
+  if (distance >= constants.planeFar) edge = 1;
 #else
   int step = 0;
   uint sdf = centre.sdf;
   while (step < reach) {
     step = kTraceEdges ? min(step + max(int(constants.sdfFraction * float(sdf)), 1), reach) : reach;
     const TracedPixel traced = tracePixel(centre, line, step);
-    weight = min(weight, traced.weight);
+    distance = max(distance, traced.distance);
     sdf = traced.sdf;
-    if (weight <= 0.0) {
+    if (distance >= constants.planeFar) {
       if (edge <= kSpacing) break;
       edge = step;
       surface = traced.surface;
@@ -109,10 +112,11 @@ Tap findTap(Centre centre, int tap, ivec2 direction, inout TraceSummary summary)
       reach = replacementStep(centre.pixel, tap, edge);
       step = 0;
       sdf = centre.sdf;
-      weight = 1.0;
+      distance = 0.0;
     }
   }
 #endif
+  float weight = traceWeight(centre, distance);
   summary.nearestEdge = min(summary.nearestEdge, edge);
   bool leak = false;
   if (edge <= kSpacing) {
@@ -133,7 +137,7 @@ Tap findTap(Centre centre, int tap, ivec2 direction, inout TraceSummary summary)
   }
   const ivec2 q = centre.pixel + reach * direction;
   if (kNormalFactor && weight > 0.0 && !leak)
-    weight *= clamp(dot(centre.plane.normal, unpackNormal(texelFetch(planeNormal, q, 0).x)), 0.0, 1.0);
+    weight *= clamp(dot(centre.plane.normal, unpackLongNormal(texelFetch(planeNormal, q, 0).x)), 0.0, 1.0);
   return Tap(q, weight);
 }
 

@@ -68,7 +68,7 @@ float gaussian(int distance) {
   return exp(-0.5 * d * d);
 }
 
-// Colour = constant + slope^T x.
+// Colour = constant + slope^T x. In a buffer the constant is vector 0.
 const int kSlopeVectors = (3 * kFeatures + 3) / 4;
 struct Coefficients {
   vec4 constant;              // rgb; 1 where there is a fit, else 0.
@@ -76,6 +76,11 @@ struct Coefficients {
 };
 
 bool insideGrid(ivec2 cell) { return all(greaterThanEqual(cell, ivec2(0))) && all(lessThan(cell, constants.cells)); }
-uint cellIndex(ivec2 cell) { return uint(cell.y * constants.cells.x + cell.x); }
+
+// A buffer holds the first vectors of all cells, then the second ones, and so on: neighbouring threads access
+// neighbouring addresses.
+uint vectorIndex(ivec2 cell, int vector) {
+  return uint(cell.y * constants.cells.x + cell.x) + uint(vector) * uint(constants.cells.x * constants.cells.y);
+}
 
 #endif

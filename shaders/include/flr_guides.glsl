@@ -1,5 +1,5 @@
-// The guides of one pixel.
-// With OCCLUSION they come from `features`, else from `shadingNormal`.
+// The guides of one pixel: depth, and what `packedGuides` fetches. With OCCLUSION that comes from `features`, else from
+// `shadingNormal`.
 #ifndef WALR_FLR_GUIDES_GLSL
 #define WALR_FLR_GUIDES_GLSL
 #include "flr.glsl"
@@ -8,15 +8,19 @@
 #ifdef OCCLUSION
 uniform utexture2D features;
 
-float[kFeatures] guidesAt(ivec2 p, float z) {
-  const NormalAndOcclusion s = unpackNormalAndOcclusion(texelFetch(features, p, 0).x);
+uint packedGuides(ivec2 p) { return texelFetch(features, p, 0).x; }
+
+float[kFeatures] unpackGuides(uint packed, float z) {
+  const NormalAndOcclusion s = unpackNormalAndOcclusion(packed);
   return float[](s.normal.x, s.normal.y, s.normal.z, 1.0 / z, s.occlusion);
 }
 #else
 uniform utexture2D shadingNormal;
 
-float[kFeatures] guidesAt(ivec2 p, float z) {
-  const vec3 n = unpackNormal(texelFetch(shadingNormal, p, 0).x);
+uint packedGuides(ivec2 p) { return texelFetch(shadingNormal, p, 0).x; }
+
+float[kFeatures] unpackGuides(uint packed, float z) {
+  const vec3 n = unpackLongNormal(packed);
   return float[](n.x, n.y, n.z, 1.0 / z);
 }
 #endif

@@ -1,12 +1,12 @@
 // History taps: the four history pixels around a reprojected position. Each is tested on its own and accepted if it
 // shows the same surface.
-// PACKED: histories are packed light (utexture2D), which the includer's `unpackHistory` unpacks.
+// PACKED: histories are packed light (usampler2D), which the includer's `unpackHistory` unpacks.
 #ifndef WALR_HISTORY_TAPS_GLSL
 #define WALR_HISTORY_TAPS_GLSL
 
 #ifdef PACKED
-#define HISTORY_TEXTURE utexture2D
-vec4 historyTexel(utexture2D history, ivec2 q) { return unpackHistory(texelFetch(history, q, 0).x); }
+#define HISTORY_TEXTURE usampler2D
+vec4 historyTexel(usampler2D history, ivec2 q) { return unpackHistory(texelFetch(history, q, 0).x); }
 #else
 #define HISTORY_TEXTURE texture2D
 vec4 historyTexel(texture2D history, ivec2 q) { return texelFetch(history, q, 0); }
@@ -15,46 +15,91 @@ vec4 historyTexel(texture2D history, ivec2 q) { return texelFetch(history, q, 0)
 struct HistoryTaps {
   ivec2 base;      // The upper left tap.
   vec2 fraction;   // Offset of the position from that tap's centre, in [0, 1).
-  uint accepted;   // Bit i: tap i, in the order of `historyTap`, is accepted.
+  bvec4 accepted;  // Which taps are accepted, in the order of `historyTap`.
 };
-const uint kAllTaps = 15u;
+const bvec4 kAllTaps = bvec4(true);
 
-int tapsRejected(HistoryTaps taps) { return 4 - bitCount(taps.accepted); }
+int tapsRejected(HistoryTaps taps) { return 4 - int(dot(vec4(taps.accepted), vec4(1.0))); }
+
+// The position itself, in pixels from the centre of the first pixel.
+vec2 tapPosition(HistoryTaps taps) { return vec2(taps.base) + taps.fraction; }
 
 ivec2 tapOffset(int i) { return ivec2(i & 1, i >> 1); }
 ivec2 historyTap(HistoryTaps taps, int i) { return taps.base + tapOffset(i); }
+
+// Which taps lie inside an image of the given size. As unsigned numbers, negative coordinates are above any size.
+bvec4 tapsInside(HistoryTaps taps, ivec2 size) {
+  const bvec2 first = lessThan(uvec2(taps.base), uvec2(size)), second = lessThan(uvec2(taps.base + 1), uvec2(size));
+  return bvec4(first.x && first.y, second.x && first.y, first.x && second.y, second.x && second.y);
+}
+
+// The corner that the four taps share, in texture coordinates of an image of the given size. `textureGather` would only
+// choose other texels half a pixel away, so that rounding does not matter.
+vec2 sharedCorner(HistoryTaps taps, ivec2 size) { return (vec2(taps.base) + 1.0) / vec2(size); }
+
+// The texels of the taps in an image of one channel, in the order of `historyTap`. Outside of it, texels of its border.
+uvec4 gatherTaps(usampler2D image, vec2 corner) { return textureGather(image, corner).wzxy; }
+
+// The texels of the taps in a history. All are fetched at once, accepted or not, so that their latencies overlap.
+#ifdef PACKED
+// A sum of weight times colour over texels is in units of kUnit.
+const float kUnit = 1.0 / float(1 << kExponentBias + kHistoryBits);
+void addColour(inout vec3 sum, float weight, uint texel) {
+  // Adding the texel's exponent to the weight's own multiplies them. A weight of 0 stays next to 0.
+  const float scaled = uintBitsToFloat(floatBitsToUint(weight) + (exponentBits(texel, kHistoryBits) << 23));
+  sum += scaled * mantissasOf(texel, kHistoryBits);
+}
+// The length is in the highest bits.
+bool hasLength(uint texel) { return texel >= 1u << 3 * kHistoryBits + 5; }
+
+#define TAP_TEXELS uvec4
+uvec4 tapTexels(usampler2D history, HistoryTaps taps) {
+  return gatherTaps(history, sharedCorner(taps, textureSize(history, 0)));
+}
+#else
+#define TAP_TEXELS vec4[4]
+vec4[4] tapTexels(texture2D history, HistoryTaps taps) {
+  const ivec2 last = textureSize(history, 0) - 1;
+  vec4 texels[4];
+  for (int i = 0; i < 4; ++i) texels[i] = historyTexel(history, clamp(historyTap(taps, i), ivec2(0), last));
+  return texels;
+}
+#endif
 
 // Bilinear weights of the accepted taps; 0 for the others.
 vec4 tapWeights(HistoryTaps taps) {
   const vec2 f = taps.fraction, g = 1.0 - taps.fraction;
   const vec4 bilinear = vec4(g.x * g.y, f.x * g.y, g.x * f.y, f.x * f.y);
-  return bilinear * vec4((uvec4(taps.accepted) >> uvec4(0u, 1u, 2u, 3u)) & 1u);
+  return mix(vec4(0.0), bilinear, taps.accepted);
 }
 
 // If the weights sum to less, the taps tell next to nothing about the position between them.
 const float kLeastTapWeight = 0.01;
 
-struct TapMean {
-  vec4 sum;
-  float weights;
-};
-
-void add(inout TapMean mean, float weight, vec4 texel) {
-  if (weight <= 0.0 || texel.a == 0.0) return;
-  mean.sum += weight * texel;
-  mean.weights += weight;
-}
-
-vec4 meanOf(TapMean mean) { return mean.weights > kLeastTapWeight ? mean.sum / mean.weights : vec4(0.0); }
-
 // Bilinear mean of the accepted taps that have a history; 0 if there is none. Alpha is the history length: a pixel of
 // length 0 is without light, not black, and does not count.
 vec4 meanOfTaps(HISTORY_TEXTURE history, HistoryTaps taps) {
-  const vec4 weights = tapWeights(taps);
-  TapMean mean = TapMean(vec4(0.0), 0.0);
-  for (int i = 0; i < 4; ++i)
-    if (weights[i] > 0.0) add(mean, weights[i], historyTexel(history, historyTap(taps, i)));
-  return meanOf(mean);
+  const vec4 bilinear = tapWeights(taps);
+  const TAP_TEXELS texels = tapTexels(history, taps);
+  vec4 sum = vec4(0.0);
+  float weights = 0.0;
+  for (int i = 0; i < 4; ++i) {
+#ifdef PACKED
+    const float weight = hasLength(texels[i]) ? bilinear[i] : 0.0;
+    addColour(sum.rgb, weight, texels[i]);
+    sum.a += weight * unpackHistoryLength(texels[i]);
+#else
+    const vec4 texel = texels[i];
+    const float weight = texel.a > 0.0 ? bilinear[i] : 0.0;
+    // Light without a length may be infinite in halves, so that weight 0 would not do.
+    sum += texel.a > 0.0 ? weight * texel : vec4(0.0);
+#endif
+    weights += weight;
+  }
+#ifdef PACKED
+  sum.rgb *= kUnit;
+#endif
+  return weights > kLeastTapWeight ? sum / weights : vec4(0.0);
 }
 
 // Kept taps: temporal accumulation keeps what its reprojection found in a texture, R32_UINT, so that later stages read
@@ -74,7 +119,7 @@ const uint kMotionBits = 0xfffcfffcu;
 vec2 keepableMotion(vec2 motion) {
   motion = clamp(motion, vec2(-32768.0), vec2(32768.0));
   const uvec2 bits = floatBitsToUint(motion);
-  const vec2 rounded = uintBitsToFloat((bits + 0x3fffu + ((bits >> 15) & 1u)) & ~0x7fffu);
+  const vec2 rounded = uintBitsToFloat((bits + 0x3fffu + bitfieldExtract(bits, 15, 1)) & ~0x7fffu);
   return mix(rounded, vec2(0.0), lessThan(abs(motion), vec2(6.103515625e-5)));
 }
 
@@ -82,32 +127,25 @@ vec2 keepableMotion(vec2 motion) {
 // FrameConstants). `precise`, so that stages that keep taps and stages that read them never round to different sides of
 // a pixel's centre.
 HistoryTaps tapsAround(ivec2 p, vec2 motion, vec2 previousPixelFromPixel) {
-  precise const vec2 position =
-      (vec2(p) + motion) * previousPixelFromPixel + (0.5 * previousPixelFromPixel - 0.5);
+  precise const vec2 moved = vec2(p) + 0.5 + motion;
+  precise const vec2 position = fma(moved, previousPixelFromPixel, vec2(-0.5));
   const vec2 base = floor(position);
-  return HistoryTaps(ivec2(base), position - base, 0u);
+  return HistoryTaps(ivec2(base), position - base, bvec4(false));
 }
 
-// Accept bits of the taps that lie inside an image of the given size.
-uint tapsInside(HistoryTaps taps, ivec2 size) {
-  uint inside = 0u;
-  for (int i = 0; i < 4; ++i) {
-    const ivec2 q = historyTap(taps, i);
-    if (all(greaterThanEqual(q, ivec2(0))) && all(lessThan(q, size))) inside |= 1u << i;
-  }
-  return inside;
-}
+// The accept bits of the four taps in a texel.
+const uvec4 kAcceptBits = uvec4(1u, 2u, 1u << 16, 1u << 17);
 
 // `motion`: a result of keepableMotion.
-uint packTaps(vec2 motion, uint accepted) {
-  const uint bits = (accepted & 3u) | (accepted & 12u) << 14;
-  return (packHalf2x16(motion) & kMotionBits) | bits;
+uint packTaps(vec2 motion, bvec4 accepted) {
+  const uvec4 bits = mix(uvec4(0u), kAcceptBits, accepted);
+  return (packHalf2x16(motion) & kMotionBits) | bits.x | bits.y | bits.z | bits.w;
 }
 
 // `kept`: texel of a pixel with a surface.
 HistoryTaps unpackTaps(ivec2 p, uint kept, vec2 previousPixelFromPixel) {
   HistoryTaps taps = tapsAround(p, unpackHalf2x16(kept & kMotionBits), previousPixelFromPixel);
-  taps.accepted = (kept & 3u) | (kept >> 14 & 12u);
+  taps.accepted = notEqual(kept & kAcceptBits, uvec4(0u));
   return taps;
 }
 

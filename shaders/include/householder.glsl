@@ -1,17 +1,21 @@
 // Least squares by Householder QR over one work group (Koskela et al. 2019, 3.4 and 6.1). The matrix has kColumns
 // columns: first kFeatures features, then the right-hand sides. Each thread keeps kRowsPerThread rows in registers;
 // shared memory holds only the sums and R.
-// Needs: kThreads, kRowsPerThread, kFeatures, kColumns, `threadIndex` (uint).
+// Needs: kThreads, kRowsPerThread, kFeatures, kColumns, `threadIndex` (uint); GL_EXT_control_flow_attributes.
+//
+// Loops run between constants and are marked [[unroll]]: with constant indices the rows stay in registers.
 #ifndef WALR_HOUSEHOLDER_GLSL
 #define WALR_HOUSEHOLDER_GLSL
 
 const uint kLanes = 16u;  // Threads that add up one column.
+const uint kParts = kThreads / kLanes;
 const int kColours = kColumns - kFeatures;
 
-shared float partialSums[kColumns][kThreads];
+// The gap after each column moves the next one to other banks of shared memory.
+shared float partialSums[kColumns][kThreads + kLanes];
 shared float laneSums[kColumns][kLanes];
 shared float totals[kColumns];
-shared float pivotRow[kColumns];
+shared float pivotRow[2][kColumns];  // Of this and of the previous column.
 shared float triangle[kFeatures][kColumns];  // R, then the transformed right-hand sides.
 shared float coefficients[kFeatures][kColours];
 
@@ -24,33 +28,53 @@ void reduceColumns(int firstColumn, bool largest) {
   const uint lane = threadIndex % kLanes;
   if (column < kColumns) {
     float value = partialSums[column][lane];
-    for (uint i = lane + kLanes; i < kThreads; i += kLanes) value = combine(value, partialSums[column][i], largest);
+    [[unroll]] for (uint i = 1u; i < kParts; ++i)
+      value = combine(value, partialSums[column][lane + i * kLanes], largest);
     laneSums[column][lane] = value;
   }
   barrier();
   if (threadIndex < uint(kColumns - firstColumn)) {
     const int c = firstColumn + int(threadIndex);
     float value = laneSums[c][0];
-    for (uint i = 1u; i < kLanes; ++i) value = combine(value, laneSums[c][i], largest);
+    [[unroll]] for (uint i = 1u; i < kLanes; ++i) value = combine(value, laneSums[c][i], largest);
     totals[c] = value;
   }
   barrier();
 }
 
-// Triangularises `rows` in place and solves for the coefficients of every right-hand side.
+// Back substitution for right-hand side `c`. Features that depend on earlier ones get 0.
+void solveTriangle(int c) {
+  float solution[kFeatures];
+  [[unroll]] for (int k = kFeatures - 1; k >= 0; --k) {
+    float value = triangle[k][kFeatures + c];
+    [[unroll]] for (int j = 0; j < kFeatures; ++j)
+      if (j > k) value -= triangle[k][j] * solution[j];
+    solution[k] = triangle[k][k] == 0.0 ? 0.0 : value / triangle[k][k];
+    coefficients[k][c] = solution[k];
+  }
+}
+
+// Triangularises `rows` in place and solves for the coefficients of every right-hand side. Row `s` of a thread is row
+// threadIndex + s kThreads of the matrix, so that the first kFeatures rows, the pivots, are first rows of threads.
 //
 // A column depends on earlier columns if at most `tolerance` (root mean square over the rows in use) of it is left
 // without them. It gets coefficient 0 and no reflection, and its pivot row goes to the next column.
 void solveLeastSquares(inout float rows[kRowsPerThread][kColumns], float rowsInUse, float tolerance) {
   uint rank = 0u;
   [[unroll]] for (int k = 0; k < kFeatures; ++k) {
-    // One reduction gives the length of column k and its products with all later columns.
-    [[unroll]] for (int j = k; j < kColumns; ++j) {
+    // Column k from the pivot row down.
+    float x[kRowsPerThread];
+    [[unroll]] for (int s = 0; s < kRowsPerThread; ++s) x[s] = s > 0 || threadIndex >= rank ? rows[s][k] : 0.0;
+    // One reduction gives its length and its products with all later columns.
+    [[unroll]] for (int j = 0; j < kColumns; ++j) {
+      if (j < k) continue;
       float sum = 0.0;
-      [[unroll]] for (int s = 0; s < kRowsPerThread; ++s)
-        if (threadIndex + uint(s) * kThreads >= rank) sum += rows[s][k] * rows[s][j];
+      [[unroll]] for (int s = 0; s < kRowsPerThread; ++s) sum += x[s] * rows[s][j];
       partialSums[j][threadIndex] = sum;
-      if (threadIndex == rank) pivotRow[j] = rows[0][j];
+    }
+    if (threadIndex == rank) {
+      [[unroll]] for (int j = 0; j < kColumns; ++j)
+        if (j >= k) pivotRow[k % 2][j] = rows[0][j];
     }
     reduceColumns(k, false);
 
@@ -58,33 +82,27 @@ void solveLeastSquares(inout float rows[kRowsPerThread][kColumns], float rowsInU
     const bool independent = squaredLength > tolerance * tolerance * rowsInUse;
     if (threadIndex == 0u) triangle[k][k] = 0.0;
     if (independent) {
-      // Reflect column k, x, onto the pivot axis: u = x - r e with r of the sign that cancels nothing, u.u / 2 = scale.
-      const float pivot = pivotRow[k];
+      // Reflect x onto the pivot axis: u = x - r e with r of the sign that cancels nothing, u.u / 2 = 1 / scale.
+      const float pivot = pivotRow[k % 2][k];
       const float r = pivot < 0.0 ? sqrt(squaredLength) : -sqrt(squaredLength);
       const float scale = 1.0 / (squaredLength + abs(pivot * r));
       if (threadIndex == 0u) triangle[k][k] = r;
-      [[unroll]] for (int j = k + 1; j < kColumns; ++j) {
-        const float factor = (totals[j] - r * pivotRow[j]) * scale;
-        [[unroll]] for (int s = 0; s < kRowsPerThread; ++s) {
-          const uint row = threadIndex + uint(s) * kThreads;
-          if (row >= rank) rows[s][j] -= factor * (rows[s][k] - (row == rank ? r : 0.0));
-        }
-        if (threadIndex == rank) triangle[k][j] = rows[0][j];
+      if (threadIndex == rank) x[0] -= r;
+      [[unroll]] for (int j = 0; j < kColumns; ++j) {
+        if (j <= k) continue;
+        const float factor = (totals[j] - r * pivotRow[k % 2][j]) * scale;
+        [[unroll]] for (int s = 0; s < kRowsPerThread; ++s) rows[s][j] -= factor * x[s];
+      }
+      if (threadIndex == rank) {
+        [[unroll]] for (int j = 0; j < kColumns; ++j)
+          if (j > k) triangle[k][j] = rows[0][j];
       }
       ++rank;
     }
-    barrier();
   }
+  barrier();
 
-  if (threadIndex < uint(kColours)) {
-    for (int k = kFeatures - 1; k >= 0; --k) {
-      coefficients[k][threadIndex] = 0.0;
-      if (triangle[k][k] == 0.0) continue;
-      float value = triangle[k][kFeatures + int(threadIndex)];
-      for (int j = k + 1; j < kFeatures; ++j) value -= triangle[k][j] * coefficients[j][threadIndex];
-      coefficients[k][threadIndex] = value / triangle[k][k];
-    }
-  }
+  if (threadIndex < uint(kColours)) solveTriangle(int(threadIndex));
   barrier();
 }
 

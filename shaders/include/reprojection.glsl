@@ -1,13 +1,15 @@
 // Reprojection: where a surface was in the previous frame, and which history taps show it.
-// Needs: `frame` (FrameConstants), `depth`, `motion`, `previousDepth`, `previousGeometricNormal`, and the macro
-// HISTORY, the name of a texture of the previous frame's size.
-// OBJECTS: also tests object ids; needs `objects` and `previousObjects`.
+// Needs: `frame` (FrameConstants), `depth`, `geometricNormal`, `motion`, the usampler2D `previousDepth` and
+// `previousGeometricNormal`, and the macro HISTORY, the name of a texture of the previous frame's size.
+// OBJECTS: also tests object ids; needs `objects` and `previousObjects`, a usampler2D.
+// GUIDES: `ownGuides` (guides.glsl) are the guides of this thread's pixel, in place of `depth` and `geometricNormal`;
+// without kDilateMotion.
 // KEEP_TAPS: motion is rounded to what kept taps can hold (history_taps.glsl); with VIEW, kKeepableMotion says whether
 // it is.
 // A texture is not read if no specialization constant asks for it: `motion` with kMotionFromCamera (nothing but the
 // camera moves), the others without the test that reads them (kRejectByPlane, kRejectByDepth, kRejectByObject). Without
 // any test, every pixel inside the image is accepted.
-// Takes constant_id 0, 1 and 10 to 15.
+// Takes constant_id 0, 1 and 10 to 16.
 #ifndef WALR_REPROJECTION_GLSL
 #define WALR_REPROJECTION_GLSL
 #include "camera.glsl"
@@ -22,6 +24,7 @@ layout(constant_id = 14) const bool kRejectByDepth = false;
 #ifdef OBJECTS
 layout(constant_id = 15) const bool kRejectByObject = false;
 #endif
+layout(constant_id = 16) const bool kShortNormals = false;  // Geometric normals are short ones (surface.glsl).
 layout(constant_id = 10) const bool kJitter = true;
 #if defined(KEEP_TAPS)
 const bool kKeepableMotion = true;
@@ -30,16 +33,29 @@ layout(constant_id = 11) const bool kKeepableMotion = false;
 #else
 const bool kKeepableMotion = false;
 #endif
-layout(constant_id = 1) const bool kDilateMotion = false;  // Follow the nearest surface of the 3x3 neighbourhood.
+
+#ifdef GUIDES
+PackedGuides ownGuides;
+uint packedDepthAt(ivec2 p) { return ownGuides.depth; }
+uint packedGeometricNormalAt(ivec2 p) { return ownGuides.geometricNormal; }
+#else
+uint packedDepthAt(ivec2 p) { return texelFetch(depth, p, 0).x; }
+uint packedGeometricNormalAt(ivec2 p) { return texelFetch(geometricNormal, p, 0).x; }
+#endif
 
 struct Reprojection {
-  vec2 motion;     // To the previous frame, pixels of this one.
-  vec3 position;   // The surface in the previous frame's view space.
+  vec2 motion;  // To the previous frame, pixels of this one.
+  float depth;  // Of the surface in the previous frame.
 #ifdef OBJECTS
-  uint object;     // Object id of the surface plus 1; 0: none. Only with kRejectByObject.
+  uint object;  // Object id of the surface plus 1; 0: none. Only with kRejectByObject.
 #endif
-  bool valid;
+  bool valid;  // Whether `depth` is finite and above 0.
 };
+
+#ifdef GUIDES
+ivec2 pixelToFollow(ivec2 p, float z) { return p; }
+#else
+layout(constant_id = 1) const bool kDilateMotion = false;  // Follow the nearest surface of the 3x3 neighbourhood.
 
 // The pixel of the 3 x 3 neighbourhood that is nearest to the camera. Along silhouettes it is one of the occluder,
 // whose motion the history follows.
@@ -47,7 +63,7 @@ ivec2 nearestPixel(ivec2 p, float z) {
   ivec2 nearest = p;
   for (int i = 0; i < 9; ++i) {
     const ivec2 q = clamp(p + ivec2(i % 3, i / 3) - 1, ivec2(0), textureSize(depth, 0) - 1);
-    const float candidate = unpackDepth(texelFetch(depth, q, 0).x);
+    const float candidate = unpackDepth(packedDepthAt(q));
     if (candidate > 0.0 && candidate < z) {
       z = candidate;
       nearest = q;
@@ -56,6 +72,9 @@ ivec2 nearestPixel(ivec2 p, float z) {
   return nearest;
 }
 
+ivec2 pixelToFollow(ivec2 p, float z) { return kDilateMotion ? nearestPixel(p, z) : p; }
+#endif
+
 // Position of pixel `p` at depth `z` in the view space of the previous camera, if its surface did not move.
 vec3 previousPositionAt(ivec2 p, float z) {
   return previousPosition(frame.previousViewFromView, rayThrough(frame.rayFromPixel, pixelCentre(p)) * z);
@@ -63,7 +82,7 @@ vec3 previousPositionAt(ivec2 p, float z) {
 
 vec2 motionAt(ivec2 p) {
   if (!kMotionFromCamera) return texelFetch(motion, p, 0).xy * frame.motionScale;
-  const vec3 before = previousPositionAt(p, unpackDepth(texelFetch(depth, p, 0).x));
+  const vec3 before = previousPositionAt(p, unpackDepth(packedDepthAt(p)));
   return pixelOf(frame.previousRayFromPixel, before) - pixelCentre(p);
 }
 float previousDepthOf(ivec2 p, float z) {
@@ -73,49 +92,85 @@ float previousDepthOf(ivec2 p, float z) {
 
 Reprojection reproject(ivec2 p, float z) {
   Reprojection r;
-  vec2 exact = motionAt(kDilateMotion ? nearestPixel(p, z) : p);
+  vec2 exact = motionAt(pixelToFollow(p, z));
   if (kJitter) exact -= frame.jitterDelta;
-  // Motion that is not finite leads outside any image.
+  // Motion that is not finite leads outside any image, and none leads further.
   r.motion = isFinite(exact) ? exact : vec2(kLargestHalf);
-  if (kKeepableMotion) r.motion = keepableMotion(r.motion);
-  const vec2 pixel = pixelCentre(p) + r.motion;
-  const float previousDepthHere = previousDepthOf(p, z);
-  r.position = rayThrough(frame.previousRayFromPixel, pixel) * previousDepthHere;
+  r.motion = kKeepableMotion ? keepableMotion(r.motion) : clamp(r.motion, vec2(-kLargestHalf), vec2(kLargestHalf));
+  r.depth = previousDepthOf(p, z);
 #ifdef OBJECTS
   r.object = kRejectByObject ? texelFetch(objects, p, 0).x : 0u;
 #endif
-  const vec2 size = vec2(textureSize(depth, 0));
-  r.valid = all(greaterThan(pixel, vec2(-1.0))) && all(lessThan(pixel, size + 1.0)) && isFinite(previousDepthHere) &&
-            previousDepthHere > 0.0;
+  r.valid = isFinite(r.depth) && r.depth > 0.0;
   return r;
 }
 
-// Whether the history pixel `q` shows the reprojected surface. kRejectByPlane: it is within `tolerance` x depth of the
-// surface's plane, and its geometric normal agrees. kRejectByDepth: its depth is within `tolerance` x depth.
-// kRejectByObject: it shows the same object.
-bool historyMatches(Reprojection r, vec3 normal, ivec2 q, float tolerance, float normalThreshold) {
-  if (any(lessThan(q, ivec2(0))) || any(greaterThanEqual(q, textureSize(HISTORY, 0)))) return false;
-#ifdef OBJECTS
-  if (kRejectByObject && (r.object == 0u || texelFetch(previousObjects, q, 0).x != r.object)) return false;
-#endif
-  if (!kRejectByPlane && !kRejectByDepth) return true;
-  const float depthThere = unpackDepth(texelFetch(previousDepth, q, 0).x);
-  if (depthThere == 0.0) return false;
-  if (kRejectByDepth) return abs(depthThere + r.position.z) <= tolerance * -r.position.z;
-  const vec2 pixel = pixelCentre(q) * frame.pixelFromPreviousPixel;
-  const vec3 position = rayThrough(frame.previousRayFromPixel, pixel) * depthThere;
-  const vec3 normalThere = unpackNormal(texelFetch(previousGeometricNormal, q, 0).x);
-  return abs(dot(normal, position - r.position)) <= tolerance * -r.position.z &&
-         dot(normal, normalThere) >= normalThreshold;
+// The direction of a geometric normal. Not normalised.
+vec3 geometricDirection(uint packed) {
+  return kShortNormals ? shortNormalDirection(packed) : longNormalDirection(packed);
 }
 
-// The history taps of pixel `p`. `normal`: its geometric normal, used only by kRejectByPlane.
-HistoryTaps historyTaps(ivec2 p, Reprojection r, vec3 normal, float tolerance, float normalThreshold) {
+// The geometric normal of pixel `p` in the previous view space.
+vec3 previousNormalAt(ivec2 p) {
+  const vec3 normal = normalize(geometricDirection(packedGeometricNormalAt(p)));
+  return mat3(frame.previousViewFromView) * normal;
+}
+
+// Which taps, of the given depths, are within `tolerance` x depth of the surface.
+bvec4 tapsNear(Reprojection r, vec4 depths, float tolerance) {
+  return lessThanEqual(abs(depths - r.depth), vec4(tolerance * r.depth));
+}
+
+// Which taps, of the given depths, are within `tolerance` x depth of the surface's plane. The product of its normal and
+// the view ray is linear over the image: it is computed at the first tap, and the others follow by its slope.
+bvec4 tapsOnPlane(HistoryTaps taps, Reprojection r, vec3 normal, vec4 depths, float tolerance) {
+  const vec2 firstPixel = (vec2(taps.base) + 0.5) * frame.pixelFromPreviousPixel;
+  const float first = dot(normal, rayThrough(frame.previousRayFromPixel, firstPixel));
+  const vec2 slope = normal.xy * frame.previousRayFromPixel.xy * frame.pixelFromPreviousPixel;
+  const vec4 products = first + vec4(0.0, slope.x, slope.y, slope.x + slope.y);
+  const float surface = r.depth * (first + dot(slope, taps.fraction));
+  return lessThanEqual(abs(depths * products - surface), vec4(tolerance * r.depth));
+}
+
+// Which taps, of the given packed geometric normals, have at least the cosine `threshold` with `normal`.
+bvec4 tapsFacing(uvec4 packed, vec3 normal, float threshold) {
+  vec4 cosines;
+  for (int i = 0; i < 4; ++i) {
+    const vec3 direction = geometricDirection(packed[i]);
+    cosines[i] = dot(normal, direction) * inversesqrt(dot(direction, direction));
+  }
+  return greaterThanEqual(cosines, vec4(threshold));
+}
+
+bvec4 both(bvec4 a, bvec4 b) { return mix(bvec4(false), a, b); }
+
+// The history taps of pixel `p`, accepted where they show the reprojected surface. kRejectByPlane: they are within
+// `tolerance` x depth of the surface's plane, and the cosine of their geometric normals with its own is at least
+// `normalThreshold`. kRejectByDepth: their depths are within `tolerance` x depth. kRejectByObject: they show the same
+// object.
+HistoryTaps historyTaps(ivec2 p, Reprojection r, float tolerance, float normalThreshold) {
   HistoryTaps taps = tapsAround(p, r.motion, frame.previousPixelFromPixel);
-  if (!r.valid) return taps;
-  const vec3 normalBefore = mat3(frame.previousViewFromView) * normal;
-  for (int i = 0; i < 4; ++i)
-    if (historyMatches(r, normalBefore, historyTap(taps, i), tolerance, normalThreshold)) taps.accepted |= 1u << i;
+  const ivec2 size = textureSize(HISTORY, 0);
+  const vec2 corner = sharedCorner(taps, size);
+  bvec4 accepted = both(tapsInside(taps, size), bvec4(r.valid));
+#ifdef OBJECTS
+  if (kRejectByObject) {
+    const bvec4 same = equal(gatherTaps(previousObjects, corner), uvec4(r.object));
+    accepted = both(accepted, both(same, bvec4(r.object != 0u)));
+  }
+#endif
+  if (kRejectByPlane || kRejectByDepth) {
+    const vec4 depths = unpackDepth(gatherTaps(previousDepth, corner));
+    accepted = both(accepted, greaterThan(depths, vec4(0.0)));
+    if (kRejectByDepth) {
+      accepted = both(accepted, tapsNear(r, depths, tolerance));
+    } else {
+      const vec3 normal = previousNormalAt(p);
+      accepted = both(accepted, tapsOnPlane(taps, r, normal, depths, tolerance));
+      accepted = both(accepted, tapsFacing(gatherTaps(previousGeometricNormal, corner), normal, normalThreshold));
+    }
+  }
+  taps.accepted = accepted;
   return taps;
 }
 

@@ -13,25 +13,32 @@ uint packDepthSdf(float depth, uint sdf) {
   return rounded | min(sdf, kSdfMask);
 }
 float unpackDepth(uint packed) { return uintBitsToFloat(packed & ~kSdfMask); }
+vec4 unpackDepth(uvec4 packed) { return uintBitsToFloat(packed & ~kSdfMask); }
 uint unpackSdf(uint packed) { return packed & kSdfMask; }
 
-// Octahedral map of a unit vector with its pole on +Z, the view axis: normals that face the camera do not wrap around
-// (Cigolle et al. 2014; Meunier & Harada 2022, 5.2). The result is in [0, 1].
-vec2 octahedralEncode(vec3 n) {
+// Octahedral map of a direction with its pole on +Z, the view axis: normals that face the camera do not wrap around
+// (Cigolle et al. 2014; Meunier & Harada 2022, 5.2). The result is in [-1, 1].
+vec2 octahedralPoint(vec3 n) {
   n /= abs(n.x) + abs(n.y) + abs(n.z);
-  const vec2 fold = (1.0 - abs(n.yx)) * vec2(n.x < 0.0 ? -1.0 : 1.0, n.y < 0.0 ? -1.0 : 1.0);
-  return (n.z < 0.0 ? fold : n.xy) * 0.5 + 0.5;
+  // The lower half is folded outwards.
+  const uint fold = floatBitsToUint(max(-n.z, 0.0));
+  return n.xy + uintBitsToFloat(fold | (floatBitsToUint(n.xy) & 0x80000000u));
 }
+vec2 octahedralEncode(vec3 n) { return octahedralPoint(n) * 0.5 + 0.5; }  // In [0, 1].
 
-vec3 octahedralDecode(vec2 uv) {
-  const vec2 e = uv * 2.0 - 1.0;
-  const float z = 1.0 - abs(e.x) - abs(e.y);
-  const vec2 fold = (1.0 - abs(e.yx)) * vec2(e.x < 0.0 ? -1.0 : 1.0, e.y < 0.0 ? -1.0 : 1.0);
-  return normalize(vec3(z < 0.0 ? fold : e, z));
+// The direction, not normalised, of a point of the map. Its coordinates run from -`scale` to `scale`; where they sum to
+// more than `scale`, the map is folded over and z is negative.
+vec3 octahedralDirection(vec2 e, float scale) {
+  const float z = scale - abs(e.x) - abs(e.y);
+  const uint fold = floatBitsToUint(max(-z, 0.0)), sign = 0x80000000u;
+  return vec3(e - uintBitsToFloat((floatBitsToUint(e) & sign) | fold), z);
 }
+vec3 octahedralDecode(vec2 uv) { return normalize(octahedralDirection(uv * 2.0 - 1.0, 1.0)); }
 
 // The two coordinates of the map, quantised to `steps` steps.
-uvec2 octahedralSteps(vec3 n, float steps) { return uvec2(round(clamp(octahedralEncode(n), 0.0, 1.0) * steps)); }
+uvec2 octahedralSteps(vec3 n, float steps) {
+  return uvec2(octahedralPoint(n) * (0.5 * steps) + (0.5 * steps + 0.5));
+}
 
 // A normal in one R32_UINT: two 16-bit coordinates of the octahedral map. Those of the shading normal, in [0, 1], are
 // the features of the regression over pixels. The second coordinate is never 0, which tells this format from a short
@@ -43,6 +50,8 @@ uint packNormal(vec3 n) {
   return packed < kShortNormalEnd ? packed | kShortNormalEnd : packed;
 }
 vec2 unpackFeatures(uint packed) { return unpackUnorm2x16(packed); }
+vec3 longNormalDirection(uint packed) { return octahedralDirection(unpackFeatures(packed) * 2.0 - 1.0, 1.0); }
+vec3 unpackLongNormal(uint packed) { return normalize(longNormalDirection(packed)); }
 
 // A short normal: R16_UINT, accurate to a degree, which suffices for the plane of a block. The number of steps is even,
 // so that a normal along the view axis is exact.
@@ -52,13 +61,15 @@ uint packShortNormal(vec3 n) {
   const uvec2 steps = octahedralSteps(n, kShortNormalSteps);
   return steps.x | steps.y << 8;
 }
-vec3 unpackShortNormal(uint packed) {
-  return octahedralDecode(vec2(packed & 0xffu, packed >> 8 & 0xffu) / kShortNormalSteps);
+vec3 shortNormalDirection(uint packed) {
+  const float centre = 0.5 * kShortNormalSteps;
+  return octahedralDirection(vec2(packed & 0xffu, packed >> 8 & 0xffu) - centre, centre);
 }
+vec3 unpackShortNormal(uint packed) { return normalize(shortNormalDirection(packed)); }
 
 // Unpacks a normal of either format.
 vec3 unpackNormal(uint packed) {
-  return packed < kShortNormalEnd ? unpackShortNormal(packed) : octahedralDecode(unpackUnorm2x16(packed));
+  return packed < kShortNormalEnd ? unpackShortNormal(packed) : unpackLongNormal(packed);
 }
 
 // Shading normal (two coordinates of 12 bits) and ambient occlusion in [0, 1] (8 bits) in one R32_UINT.
@@ -68,10 +79,10 @@ struct NormalAndOcclusion {
 };
 uint packNormalAndOcclusion(NormalAndOcclusion s) {
   const uvec2 normal = octahedralSteps(s.normal, 4095.0);
-  return normal.x | (normal.y << 12) | (uint(round(clamp(s.occlusion, 0.0, 1.0) * 255.0)) << 24);
+  return normal.x | (normal.y << 12) | (uint(clamp(s.occlusion, 0.0, 1.0) * 255.0 + 0.5) << 24);
 }
 NormalAndOcclusion unpackNormalAndOcclusion(uint packed) {
-  const uvec2 normal = uvec2(packed, packed >> 12) & 0xfffu;
+  const uvec2 normal = uvec2(bitfieldExtract(packed, 0, 12), bitfieldExtract(packed, 12, 12));
   return NormalAndOcclusion(octahedralDecode(vec2(normal) / 4095.0), float(packed >> 24) / 255.0);
 }
 

@@ -1,7 +1,6 @@
 // Shared by the passes of SVGF: how colour and variance are stored, and the edge-stopping functions W_Z and W_N, which
 // need no colour (Fu 2022).
-// Needs: `frame` (FrameConstants), `depth`, `shadingNormal`, `geometricNormal` (utexture2D), `constants`
-// (SvgfFilterConstants).
+// Needs: `frame` (FrameConstants), `constants` (SvgfFilterConstants).
 #ifndef WALR_SVGF_GLSL
 #define WALR_SVGF_GLSL
 #include "plane.glsl"
@@ -11,25 +10,32 @@
 // has no sample yet: its neighbours do not use it, and it takes its value from them.
 const float kNoSample = -1.0;
 
+// The pixel at which W_Z and W_N are 1. Let the pixel `d` away show depth z. The distance of that point from the
+// tangent plane is |z (perDepth + dot(slope, d)) - offset|, in the unit of distance over which W_Z falls by half.
 struct Surface {
-  Plane plane;
   vec3 normal;  // Shading normal.
+  float offset;
+  float perDepth;
+  vec2 slope;  // The rays of evenly spaced pixels are evenly spaced.
 };
 
-Surface surfaceAt(ivec2 p, float z) {
-  return Surface(planeAt(p, z, unpackNormal(texelFetch(geometricNormal, p, 0).x)),
-                 unpackNormal(texelFetch(shadingNormal, p, 0).x));
+const float kLog2OfE = 1.44269504;
+
+Surface surfaceOf(ivec2 p, float z, vec3 geometricNormal, vec3 shadingNormal) {
+  const Plane plane = planeAt(p, z, geometricNormal);
+  const float scale = constants.inverseSigmaDepth * kLog2OfE;
+  const float offset = plane.offset * scale;
+  return Surface(shadingNormal, offset, offset * plane.inverseDepth,
+                 geometricNormal.xy * frame.rayFromPixel.xy * (plane.inverseDepth * scale));
 }
 
-// W_Z W_N of pixel `q`; 0 outside the image and where there is nothing to denoise. W_Z uses the distance from the
-// tangent plane, which is the difference in depth beyond the depth gradient: it is 1 everywhere on a plane.
-float surfaceWeight(Surface surface, ivec2 q) {
-  if (any(lessThan(q, ivec2(0))) || any(greaterThanEqual(q, textureSize(depth, 0)))) return 0.0;
-  const float z = unpackDepth(texelFetch(depth, q, 0).x);
-  if (z == 0.0) return 0.0;
-  const vec3 normal = unpackNormal(texelFetch(shadingNormal, q, 0).x);
+// log2(W_Z W_N) of the pixel `d` away. As sums of exponents, all weights of a tap take one exponential. W_Z uses the
+// distance from the tangent plane, which is the difference in depth beyond the depth gradient: it is 1 everywhere on a
+// plane.
+float surfaceExponent(Surface surface, vec2 d, float z, vec3 normal) {
+  const float distance = abs(z * (surface.perDepth + surface.slope.y * d.y + surface.slope.x * d.x) - surface.offset);
   const float cosine = clamp(dot(surface.normal, normal), 1e-6, 1.0);
-  return exp(-planeDistance(surface.plane, q, z) * constants.inverseSigmaDepth) * pow(cosine, constants.sigmaNormal);
+  return constants.sigmaNormal * log2(cosine) - distance;
 }
 
 #endif

@@ -2,7 +2,7 @@
 
 #include <variant>
 
-#include "passes/walr.h"
+#include "passes/walr_method.h"
 #include "passes/walr_paper.h"
 
 namespace walr::test {

@@ -255,7 +255,7 @@ TEST_F(BlockRegression, ASignalLinearInTheFeaturesIsReproduced) {
   double squares = 0.0;
   reference::forEachPixel(kSize, [&](glm::ivec2 p) { squares += std::pow(actual[p].x - signal[p].x, 2.0); });
   const double slopeLength = glm::length(glm::dvec4(slope, occlusionSlope));
-  const double rounding = 4.0 * reference::kHalfRoundoff * largest;  // Signal, constant and result are halves.
+  const double rounding = 4.0 * reference::kHalfRoundoff * largest;  // Signal, moments and result are halves.
   EXPECT_LE(std::sqrt(squares / double(signal.pixels().size())), 0.5 * std::sqrt(kRidge) * slopeLength + rounding);
 }
 
@@ -295,6 +295,13 @@ TEST(BlockRegressionSettings, AnEmptyPlaneRampIsRejected) {
   const BlockRegressionSettings settings{.planeNear = 0.1F, .planeFar = 0.1F};
   const auto add = [&] { addBlockRegression(graph, {}, {lighting, LightingAlpha::SampleCount}, {}, settings); };
   fg::test::expectError(add, {"blocks.plane-near"});
+}
+
+TEST(BlockRegressionSettings, TooManyBlocksAreRejectedWithTheSetting) {
+  fg::Graph graph;
+  const fg::Texture lighting = graph.texture("lighting", {VK_FORMAT_R16G16B16A16_SFLOAT, {4096, 2160}});
+  const auto add = [&] { addBlockRegression(graph, {}, {lighting, LightingAlpha::SampleCount}, {}, {.size = 2}); };
+  fg::test::expectError(add, {"blocks.size"});
 }
 
 }  // namespace

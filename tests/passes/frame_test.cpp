@@ -1,6 +1,9 @@
 #include "passes/frame.h"
 
+#include <functional>
+#include <limits>
 #include <stdexcept>
+#include <string>
 
 #include <gtest/gtest.h>
 #include <glm/gtc/matrix_transform.hpp>
@@ -69,16 +72,90 @@ TEST(FrameConstants, AStillPointLandsWhereThePreviousCameraSawIt) {
   for (int i = 0; i < 3; ++i) EXPECT_NEAR(actual[i], expected[i], 1e-5F);  // A few roundings of coordinates near 8.
 }
 
-TEST(FrameConstants, MatricesThatCannotBeACameraAreRejected) {
-  FrameDescription singular = movingCamera();
-  singular.view = glm::mat4(0.0F);
-  EXPECT_THROW((void)frameConstants(singular, kExtent), std::invalid_argument);
-  FrameDescription orthographic = movingCamera();
-  orthographic.projection = glm::ortho(-1.0F, 1.0F, -1.0F, 1.0F);
-  EXPECT_THROW((void)frameConstants(orthographic, kExtent), std::invalid_argument);
-  FrameDescription flat = movingCamera();
-  flat.projection[0][0] = 0.0F;
-  EXPECT_THROW((void)frameConstants(flat, kExtent), std::invalid_argument);
+/// A change to the matrices of a camera, and words of the message that refuses it.
+struct WrongMatrix {
+  const char* name;
+  std::function<void(FrameDescription&)> spoil;
+  const char* message;
+};
+
+void PrintTo(const WrongMatrix& wrong, std::ostream* out) {
+  *out << wrong.name;
+}
+
+class WrongMatrices : public testing::TestWithParam<WrongMatrix> {};
+
+TEST_P(WrongMatrices, AreRefusedWithTheLikelyCause) {
+  FrameDescription frame = movingCamera();
+  GetParam().spoil(frame);
+  try {
+    (void)frameConstants(frame, kExtent);
+    ADD_FAILURE() << "accepted";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find(GetParam().message), std::string::npos) << error.what();
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    FrameConstants, WrongMatrices,
+    testing::Values(
+        WrongMatrix{"singular view", [](FrameDescription& f) { f.view = glm::scale(f.view, glm::vec3(1, 1, 0)); },
+                    "view matrix is singular"},
+        WrongMatrix{"transposed view", [](FrameDescription& f) { f.view = glm::transpose(f.view); },
+                    "view matrix is transposed"},
+        WrongMatrix{"view times projection", [](FrameDescription& f) { f.view = f.projection * f.view; },
+                    "view matrix is not affine"},
+        WrongMatrix{"view in other units", [](FrameDescription& f) { f.view = glm::scale(f.view, glm::vec3(100)); },
+                    "view matrix scales"},
+        WrongMatrix{"left-handed view",
+                    [](FrameDescription& f) { f.view = glm::scale(glm::mat4(1), glm::vec3(1, 1, -1)) * f.view; },
+                    "view matrix mirrors"},
+        WrongMatrix{"sheared view", [](FrameDescription& f) { f.view[1] += 0.2F * f.view[0]; },
+                    "view matrix is sheared"},
+        WrongMatrix{"previous view in other units",
+                    [](FrameDescription& f) { f.previousView = glm::scale(f.previousView, glm::vec3(0.01F)); },
+                    "view matrix scales"},
+        WrongMatrix{"view that is not finite",
+                    [](FrameDescription& f) { f.view[3][0] = std::numeric_limits<float>::infinity(); },
+                    "view matrix is not finite"},
+        WrongMatrix{"orthographic", [](FrameDescription& f) { f.projection = glm::ortho(-1.0F, 1.0F, -1.0F, 1.0F); },
+                    "orthographic"},
+        WrongMatrix{"transposed projection", [](FrameDescription& f) { f.projection = glm::transpose(f.projection); },
+                    "projection matrix is transposed"},
+        WrongMatrix{"inverted projection", [](FrameDescription& f) { f.projection = glm::inverse(f.projection); },
+                    "inverse matrix"},
+        WrongMatrix{"view-projection", [](FrameDescription& f) { f.projection = f.projection * f.view; },
+                    "a product with the view matrix"},
+        WrongMatrix{"left-handed projection",
+                    [](FrameDescription& f) { f.projection = glm::perspectiveLH(0.9F, 1.5F, 0.1F, 100.0F); },
+                    "left-handed"},
+        WrongMatrix{"y down", [](FrameDescription& f) { f.projection[1][1] *= -1.0F; }, "has y down"},
+        WrongMatrix{"previous projection with y down", [](FrameDescription& f) { f.previousProjection[1][1] *= -1.0F; },
+                    "has y down"},
+        WrongMatrix{"x mirrored", [](FrameDescription& f) { f.projection[0][0] *= -1.0F; }, "mirrors x"},
+        WrongMatrix{"no focal length", [](FrameDescription& f) { f.projection[0][0] = 0.0F; }, "focal length"},
+        WrongMatrix{"rotated image",
+                    [](FrameDescription& f) {
+                      f.projection = glm::rotate(glm::mat4(1), 1.5707963F, glm::vec3(0, 0, 1)) * f.projection;
+                    },
+                    "rotates or shears"},
+        WrongMatrix{"offset of an eye", [](FrameDescription& f) { f.projection[3][0] = 0.05F; }, "stereo"}));
+
+TEST(FrameConstants, ProjectionsOfAllUsualKindsAreAccepted) {
+  FrameDescription frame = movingCamera();
+  // Reversed z with a far plane at infinity: row z is (0, 0, 0, near).
+  frame.projection[2][2] = 0.0F;
+  frame.projection[3][2] = 0.1F;
+  EXPECT_NO_THROW((void)frameConstants(frame, kExtent));
+  frame.projection[3][2] = 1.0F;  // A near plane at 1 makes the last column that of a transposed matrix.
+  EXPECT_NO_THROW((void)frameConstants(frame, kExtent));
+  frame.projection = glm::perspectiveRH_ZO(1.2F, 1.0F, 0.5F, 1e4F);
+  EXPECT_NO_THROW((void)frameConstants(frame, kExtent));
+  frame.projection = glm::frustum(-0.1F, 0.2F, -0.05F, 0.08F, 0.1F, 50.0F);
+  EXPECT_NO_THROW((void)frameConstants(frame, kExtent));
+  // Camera matrices of engines are products of rotations in single precision.
+  for (int i = 0; i < 1000; ++i) frame.view = glm::rotate(frame.view, 0.1F, glm::normalize(glm::vec3(1, i % 7, 2)));
+  EXPECT_NO_THROW((void)frameConstants(frame, kExtent));
 }
 
 }  // namespace

@@ -58,6 +58,7 @@ struct Case {
   bool jittered = false;
   bool still = false;
   InputConventions conventions = {};
+  std::uint32_t stillFrames = 0;  ///< The camera stands still in so many frames before the others.
 };
 
 void PrintTo(const Case& c, std::ostream* out) {
@@ -65,7 +66,8 @@ void PrintTo(const Case& c, std::ostream* out) {
 }
 
 HostInput render(std::uint32_t index, const Case& c) {
-  HostInput host{{}, camera(index, c.jittered, c.still)};
+  const bool still = c.still || index < c.stillFrames;
+  HostInput host{{}, camera(still ? index : index - c.stillFrames, c.jittered, still)};
   host.frame = renderFrame(sphere(), host.camera, kSize);
   forEachPixel(kSize, [&](glm::ivec2 p) {
     glm::dvec3& normal = host.frame.normal[p];
@@ -95,7 +97,7 @@ class Lint : public fg::test::GpuTest, public testing::WithParamInterface<Case> 
     graph.exported(counters, fg::vk::kReadable);
     fg::test::GraphRun run(device(), graph);
     InputLinter linter(c.conventions);
-    for (std::uint32_t i = 0; i < kFrames; ++i) {
+    for (std::uint32_t i = 0; i < c.stillFrames + kFrames; ++i) {
       HostInput host = render(i, c);
       c.spoil(host);
       upload(run, inputs, host.frame);
@@ -206,6 +208,35 @@ std::vector<Case> cases() {
          h.camera.previousView = h.camera.view;
          h.frame.constants = frameConstants(h.camera, kExtent);
        }},
+      {"previous camera is this one, after frames in which the camera stood still",
+       {"camera-still"},
+       [](HostInput& h) {
+         h.camera.previousView = h.camera.view;
+         h.frame.constants = frameConstants(h.camera, kExtent);
+       },
+       false,
+       false,
+       {},
+       8},
+      {"jitter is handed over as zero, but motion holds it",
+       {"jitter-missing"},
+       [](HostInput& h) {
+         h.camera.jitter = h.camera.previousJitter = {};
+         h.frame.constants = frameConstants(h.camera, kExtent);
+       },
+       true,
+       true},
+      {"view matrix inverted",
+       {"view-inverted"},
+       [toWorld](HostInput& h) {
+         toWorld(h);
+         h.camera.view = glm::inverse(h.camera.view);
+         h.camera.previousView = glm::inverse(h.camera.previousView);
+         h.frame.constants = frameConstants(h.camera, kExtent);
+       },
+       false,
+       true,
+       {.normal = kWorld}},
       {"jitter in the motion", {"motion-jitter"}, [](HostInput&) {}, true, false, {.motionJittered = false}},
       {"jitter not in the motion",
        {"motion-jitter"},

@@ -1,6 +1,7 @@
 // Packed light in 32 bits: the precision of the packing, the mean of its rounding, and its use by the stages.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -35,6 +36,9 @@ constexpr Packing kFiltered{"filtered", 0x101, reference::kFilteredBits};
 constexpr Packing kResolved{"resolved", 0x102, reference::kResolvedBits};
 constexpr Packing kPassThrough{"pass-through", 0, reference::kPassThroughBits};
 
+/// Number of values that a random number of a shader has.
+constexpr int kLevels = 256;
+
 /// Number of pixels that round the same light, each with a random number of its own.
 constexpr int kRandomNumbers = 4096;
 
@@ -51,26 +55,11 @@ class PackedLight : public fg::test::GpuTest {
   [[nodiscard]] std::vector<Rounded> round(const Packing& packing, const std::vector<glm::dvec4>& lights,
                                            std::uint32_t longest = 3, std::uint32_t frame = 0) const {
     const fg::Extent extent{kRandomNumbers, static_cast<std::uint32_t>(lights.size())};
-    const fg::TextureDesc floats{VK_FORMAT_R32G32B32A32_SFLOAT, extent};
-    fg::Graph graph;
-    const fg::Texture source = graph.import("source", floats, fg::vk::kUploaded);
-    fg::Texture target = graph.import("target", floats, fg::vk::kOverwritable);
-    fg::PassBuilder pass = graph.compute("round", shaders::roundLight);
-    pass.sample("source", source)
-        .specialize("kKey", packing.key)
-        .specialize("kFrame", frame)
-        .specialize("kLongest", longest)
-        .dispatch(extent);
-    target = pass.store("target", target);
-    graph.exported(target, fg::vk::kReadable);
-    fg::test::GraphRun run(device(), graph);
     std::vector<float> texels;
     for (const glm::dvec4& light : lights)
       for (int i = 0; i < kRandomNumbers; ++i)
         for (int c = 0; c < 4; ++c) texels.push_back(static_cast<float>(light[c]));
-    run.fill(source, texels);
-    run.frame();
-    const std::vector<float> result = run.texels<float>(target);
+    const std::vector<float> result = run(extent, texels, {packing.key, frame, longest, false});
     std::vector<Rounded> rounded(lights.size());
     for (std::size_t i = 0; i < result.size() / 4; ++i) {
       const glm::dvec4 v(result[4 * i], result[4 * i + 1], result[4 * i + 2], result[4 * i + 3]);
@@ -80,6 +69,51 @@ class PackedLight : public fg::test::GpuTest {
       r.mean += v / double(kRandomNumbers);
     }
     return rounded;
+  }
+
+  /// The four random numbers of every pixel of an image, less their mean 1/2 and in units of their standard deviation.
+  [[nodiscard]] std::vector<glm::dvec4> standardizedNumbers(int size, std::uint32_t key, std::uint32_t frame) const {
+    const fg::Extent extent{static_cast<std::uint32_t>(size), static_cast<std::uint32_t>(size)};
+    const std::vector<float> texels(std::size_t(4) * size * size);
+    const std::vector<float> numbers = run(extent, texels, {key, frame, 1, true});
+    const double deviation = std::sqrt((1.0 - 1.0 / (kLevels * kLevels)) / 12.0);
+    std::vector<glm::dvec4> standardized;
+    for (std::size_t i = 0; i < numbers.size(); i += 4) {
+      const glm::dvec4 v(numbers[i], numbers[i + 1], numbers[i + 2], numbers[i + 3]);
+      standardized.push_back((v - 0.5) / deviation);
+    }
+    return standardized;
+  }
+
+ private:
+  /// Specialization constants of round_light.comp.
+  struct Constants {
+    std::uint32_t key;
+    std::uint32_t frame;
+    std::uint32_t longest;
+    bool numbers;
+  };
+
+  /// Run round_light.comp on RGBA texels.
+  [[nodiscard]] std::vector<float> run(fg::Extent extent, const std::vector<float>& texels,
+                                       const Constants& constants) const {
+    const fg::TextureDesc floats{VK_FORMAT_R32G32B32A32_SFLOAT, extent};
+    fg::Graph graph;
+    const fg::Texture source = graph.import("source", floats, fg::vk::kUploaded);
+    fg::Texture target = graph.import("target", floats, fg::vk::kOverwritable);
+    fg::PassBuilder pass = graph.compute("round", shaders::roundLight);
+    pass.sample("source", source)
+        .specialize("kKey", constants.key)
+        .specialize("kFrame", constants.frame)
+        .specialize("kLongest", constants.longest)
+        .specialize("kNumbers", constants.numbers)
+        .dispatch(extent);
+    target = pass.store("target", target);
+    graph.exported(target, fg::vk::kReadable);
+    fg::test::GraphRun graphRun(device(), graph);
+    graphRun.fill(source, texels);
+    graphRun.frame();
+    return graphRun.texels<float>(target);
   }
 };
 
@@ -104,13 +138,13 @@ std::vector<glm::dvec4> lightsOfAllMagnitudes() {
 }
 
 /// Expects stochastic rounding: every result is `low` or `low + step`, and their mean is `value` within five standard
-/// deviations of a mean of so many trials, plus the resolution of the random numbers.
+/// deviations of a mean of so many trials, plus half the distance between random numbers.
 void expectStochasticRounding(const Rounded& actual, int channel, double value, double low, double step) {
   const double share = (value - low) / step;
   const double deviation = step * std::sqrt(std::max(share * (1.0 - share), 0.0) / kRandomNumbers);
   EXPECT_GE(actual.least[channel], low);
   EXPECT_LE(actual.most[channel], share == 0.0 ? low : low + step);
-  EXPECT_NEAR(actual.mean[channel], value, 5.0 * deviation + 0x1p-23 * step + kRandomNumbers * 0x1p-52 * value);
+  EXPECT_NEAR(actual.mean[channel], value, 5.0 * deviation + 0.5 / kLevels * step + kRandomNumbers * 0x1p-52 * value);
 }
 
 TEST_F(PackedLight, ColoursAreRoundedToNeighboursWithoutBias) {
@@ -158,7 +192,7 @@ TEST_F(PackedLight, RoundedValuesAreRoundedToThemselves) {
       lights.emplace_back(most * step, 0.0, step, 2.0);
       lights.emplace_back((most / 2 + 1) * step, 3.0 * step, (most / 2) * step, 1.0);
     }
-    lights.emplace_back(0.0);
+    lights.emplace_back(0.0, 0.0, 0.0, 1.0);
     const std::vector<Rounded> rounded = round(packing, lights);
     for (std::size_t i = 0; i < lights.size(); ++i) {
       EXPECT_EQ(rounded[i].least, lights[i]) << packing.name << ' ' << i;
@@ -167,24 +201,23 @@ TEST_F(PackedLight, RoundedValuesAreRoundedToThemselves) {
   }
 }
 
+// Filtered and anti-aliased light are within the format before they are packed.
 TEST_F(PackedLight, ValuesBeyondTheFormatAreClamped) {
-  for (const Packing& packing : {kAccumulated, kFiltered, kResolved}) {
-    SCOPED_TRACE(packing.name);
-    const double largest = reference::largestPacked(packing.mantissaBits);
-    const double smallest = std::ldexp(1.0, -15 - packing.mantissaBits);
-    const std::vector<Rounded> rounded =
-        round(packing, {{largest, largest, 1.0, 1.0},
-                        {reference::kLargestHalf, 1e30, std::numeric_limits<double>::infinity(), 1.0},
-                        {-1.0, -0.0, -1e30, 1.0},
-                        {0x1p-140, 0x1p-126, 0.5 * smallest, 1.0}});
-    EXPECT_EQ(glm::dvec2(rounded[0].least), glm::dvec2(largest));
-    EXPECT_EQ(glm::dvec3(rounded[1].least), glm::dvec3(largest));
-    EXPECT_EQ(glm::dvec3(rounded[1].most), glm::dvec3(largest));
-    EXPECT_EQ(glm::dvec3(rounded[2].least), glm::dvec3(0.0));
-    EXPECT_EQ(glm::dvec3(rounded[2].most), glm::dvec3(0.0));
-    EXPECT_EQ(glm::dvec2(rounded[3].most), glm::dvec2(0.0));
-    expectStochasticRounding(rounded[3], 2, 0.5 * smallest, 0.0, smallest);
-  }
+  const Packing& packing = kAccumulated;
+  const double largest = reference::largestPacked(packing.mantissaBits);
+  const double smallest = std::ldexp(1.0, -15 - packing.mantissaBits);
+  const std::vector<Rounded> rounded =
+      round(packing, {{largest, largest, 1.0, 1.0},
+                      {reference::kLargestHalf, 1e30, std::numeric_limits<double>::infinity(), 1.0},
+                      {-1.0, -0.0, -1e30, 1.0},
+                      {0x1p-140, 0x1p-126, 0.5 * smallest, 1.0}});
+  EXPECT_EQ(glm::dvec2(rounded[0].least), glm::dvec2(largest));
+  EXPECT_EQ(glm::dvec3(rounded[1].least), glm::dvec3(largest));
+  EXPECT_EQ(glm::dvec3(rounded[1].most), glm::dvec3(largest));
+  EXPECT_EQ(glm::dvec3(rounded[2].least), glm::dvec3(0.0));
+  EXPECT_EQ(glm::dvec3(rounded[2].most), glm::dvec3(0.0));
+  EXPECT_EQ(glm::dvec2(rounded[3].most), glm::dvec2(0.0));
+  expectStochasticRounding(rounded[3], 2, 0.5 * smallest, 0.0, smallest);
 }
 
 TEST_F(PackedLight, HistoryLengthsOfAccumulationAreRoundedToNeighboursWithoutBias) {
@@ -204,28 +237,111 @@ TEST_F(PackedLight, HistoryLengthsOfAntialiasingAreRoundedToNeighboursWithoutBia
   for (const std::uint32_t longest : {1U, 2U, 3U, 7U, 64U, 255U}) {
     std::vector<glm::dvec4> lights;
     for (double length = 1.0; length < longest; length *= 1.083) lights.emplace_back(1.0, 1.0, 1.0, single(length));
-    lights.emplace_back(1.0, 1.0, 1.0, 0.0);
     lights.emplace_back(1.0, 1.0, 1.0, longest);
     const std::vector<Rounded> rounded = round(kResolved, lights, longest);
-    for (std::size_t i = 0; i + 2 < lights.size(); ++i) {
+    for (std::size_t i = 0; i + 1 < lights.size(); ++i) {
       const double length = lights[i].a;
       SCOPED_TRACE(std::to_string(length) + " of " + std::to_string(longest));
       const double low = std::min(std::exp2(std::floor(std::log2(length))), 32.0);
       expectStochasticRounding(rounded[i], 3, length, low, reference::packedLengthStep(length, longest));
     }
-    for (std::size_t i = lights.size() - 2; i < lights.size(); ++i) {
-      EXPECT_EQ(rounded[i].least.a, lights[i].a) << longest;
-      EXPECT_EQ(rounded[i].most.a, lights[i].a) << longest;
+    EXPECT_EQ(rounded.back().least.a, longest);
+    EXPECT_EQ(rounded.back().most.a, longest);
+  }
+}
+
+// Random numbers repeat for the same frame.
+TEST_F(PackedLight, AFrameHasTheSameRandomNumbersAgain) {
+  EXPECT_EQ(standardizedNumbers(16, kResolved.key, 5), standardizedNumbers(16, kResolved.key, 5));
+}
+
+// Of n numbers, each of the 256 levels occurs n / 256 times. The sum of squared deviations from that, divided by
+// n / 256, has a mean of 255 and a variance of 2 x 255 (chi-squared distribution).
+TEST_F(PackedLight, RandomNumbersAreUniform) {
+  constexpr int kSide = 256;
+  const double deviation = std::sqrt((1.0 - 1.0 / (kLevels * kLevels)) / 12.0);
+  for (const Packing& packing : {kAccumulated, kResolved}) {
+    const std::vector<glm::dvec4> numbers = standardizedNumbers(kSide, packing.key, 7);
+    for (int c = 0; c < 4; ++c) {
+      SCOPED_TRACE(std::string(packing.name) + ' ' + std::to_string(c));
+      std::vector<double> counts(kLevels);
+      for (const glm::dvec4& v : numbers) {
+        const double level = (v[c] * deviation + 0.5) * kLevels - 0.5;
+        ASSERT_NEAR(level, std::round(level), 1e-9);
+        counts.at(static_cast<std::size_t>(std::lround(level))) += 1.0;
+      }
+      const double expected = double(kSide) * kSide / kLevels;
+      double chiSquared = 0.0;
+      for (const double count : counts) chiSquared += (count - expected) * (count - expected) / expected;
+      EXPECT_NEAR(chiSquared, kLevels - 1.0, 5.0 * std::sqrt(2.0 * (kLevels - 1.0)));
     }
   }
 }
 
-// Random numbers differ between successive frames and repeat for the same frame.
-TEST_F(PackedLight, EveryFrameHasItsOwnRandomNumbers) {
-  const std::vector<glm::dvec4> lights(8, glm::dvec4(0.7001, 0.3337, 0.1003, 1.0));
-  const auto meanOfRow = [&](std::uint32_t frame) { return round(kResolved, lights, 3, frame)[0].mean; };
-  EXPECT_EQ(meanOfRow(5), meanOfRow(5));
-  EXPECT_NE(meanOfRow(5), meanOfRow(6));
+// Between any two of the random numbers of pixels up to four apart, in the same frame or the next one, of the same
+// texture or another, there is no correlation. That of n pairs of independent numbers has a standard deviation of
+// 1 / sqrt(n); 10,000 of them stay within 6 with a probability of 1 - 2e-5.
+TEST_F(PackedLight, RandomNumbersAreUncorrelated) {
+  constexpr int kSide = 96;
+  constexpr int kReach = 4;
+  /// All random numbers of a channel of a texture in a frame.
+  using Plane = std::vector<double>;
+  std::array<std::vector<Plane>, 2> frames;
+  for (std::uint32_t frame = 0; frame < 2; ++frame) {
+    for (const Packing& packing : {kAccumulated, kResolved}) {
+      const std::vector<glm::dvec4> numbers = standardizedNumbers(kSide, packing.key, 11 + frame);
+      for (int c = 0; c < 4; ++c) {
+        Plane& plane = frames.at(frame).emplace_back();
+        for (const glm::dvec4& v : numbers) plane.push_back(v[c]);
+      }
+    }
+  }
+  const auto correlation = [&](const Plane& a, const Plane& b, glm::ivec2 offset) {
+    double sum = 0.0;
+    for (int y = std::max(0, -offset.y); y < kSide - std::max(0, offset.y); ++y)
+      for (int x = std::max(0, -offset.x); x < kSide - std::max(0, offset.x); ++x)
+        sum += a[y * kSide + x] * b[(y + offset.y) * kSide + x + offset.x];
+    return sum / double((kSide - std::abs(offset.x)) * (kSide - std::abs(offset.y)));
+  };
+  for (std::size_t i = 0; i < frames[0].size(); ++i) {
+    for (std::size_t j = 0; j < frames[0].size(); ++j) {
+      for (int y = -kReach; y <= kReach; ++y) {
+        for (int x = -kReach; x <= kReach; ++x) {
+          const glm::ivec2 offset(x, y);
+          const double tolerance = 6.0 / std::sqrt(double((kSide - std::abs(x)) * (kSide - std::abs(y))));
+          const std::string pair = std::to_string(i) + ", " + std::to_string(j);
+          const bool itself = i == j && offset == glm::ivec2(0);
+          EXPECT_NEAR(correlation(frames[0][i], frames[0][j], offset), itself ? 1.0 : 0.0, tolerance) << pair;
+          EXPECT_NEAR(correlation(frames[0][i], frames[1][j], offset), 0.0, tolerance) << pair << " in the next frame";
+        }
+      }
+    }
+  }
+}
+
+// Filtered light is dithered instead: one number for all channels. Those of a pixel in n frames are multiples of the
+// golden ratio modulo 1, whose largest gap is at most (1 + 2 / sqrt(5)) / n. A float of a coordinate below 64 holds a
+// number to 2^-18.
+TEST_F(PackedLight, DitherIsEvenOverTheFramesOfAPixel) {
+  constexpr int kSide = 48;
+  constexpr std::uint32_t kFrames = 24;
+  const double deviation = std::sqrt((1.0 - 1.0 / (kLevels * kLevels)) / 12.0);
+  std::vector<std::vector<double>> ofPixel(std::size_t(kSide) * kSide);
+  for (std::uint32_t frame = 0; frame < kFrames; ++frame) {
+    const std::vector<glm::dvec4> numbers = standardizedNumbers(kSide, kFiltered.key, 1000 + frame);
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+      EXPECT_EQ(numbers[i], glm::dvec4(numbers[i].x));
+      ofPixel[i].push_back(numbers[i].x * deviation + 0.5);
+    }
+  }
+  const double largestGap = (1.0 + 2.0 / std::sqrt(5.0)) / kFrames + 0x1p-16;
+  for (std::vector<double>& numbers : ofPixel) {
+    std::ranges::sort(numbers);
+    EXPECT_GE(numbers.front(), 0.0);
+    EXPECT_LT(numbers.back(), 1.0);
+    EXPECT_LE(numbers.front() + 1.0 - numbers.back(), largestGap);
+    for (std::size_t i = 1; i < numbers.size(); ++i) EXPECT_LE(numbers[i] - numbers[i - 1], largestGap);
+  }
 }
 
 constexpr glm::ivec2 kSize(64, 48);

@@ -90,15 +90,14 @@ Image<Block> representBlocks(const Inputs& inputs) {
   forEachPixel(blocks.size(), [&](glm::ivec2 b) {
     Block& block = blocks[b];
     block.window.assign(inputs.guides.pixels().size(), 0.0);
-    std::uint32_t surfaces = 0;
+    std::vector<glm::ivec2> surfaces;  // Column by column.
     for (int i = 0; i < size * size; ++i) {
-      const glm::ivec2 p = size * b + glm::ivec2(i % size, i / size);
-      if (!inputs.guides.contains(p) || inputs.guides[p].depth == 0.0) continue;
-      ++surfaces;
-      const glm::uvec4 key(b, inputs.frame.constants.frameIndex, i);
-      if (hashBelow(key, surfaces) == 0) block.pixel = p;
+      const glm::ivec2 p = size * b + glm::ivec2(i / size, i % size);
+      if (inputs.guides.contains(p) && inputs.guides[p].depth != 0.0) surfaces.push_back(p);
     }
-    if (surfaces == 0) return;
+    if (surfaces.empty()) return;
+    const glm::uvec4 key(b, inputs.frame.constants.frameIndex, 0);
+    block.pixel = surfaces[hashBelow(key, static_cast<std::uint32_t>(surfaces.size()))];
     const Guide& chosen = inputs.guides[block.pixel];
     block.surface = true;
     block.depth = chosen.depth;

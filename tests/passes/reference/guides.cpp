@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
@@ -17,6 +16,8 @@ namespace {
 constexpr double kInverseError = 5.0 * kFloatRoundoff;
 /// Relative error of a position: two roundings in the ray, the inverse depth and one division.
 constexpr double kPositionError = 2.0 * kFloatRoundoff + 2.0 * kInverseError;
+/// Error of a shading normal: a rotation to view space, a sum of three squares and an inverse square root.
+constexpr double kShadingNormalError = 16.0 * kFloatRoundoff;
 
 bool isFinite(glm::dvec3 v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
@@ -29,12 +30,12 @@ double inverseDepthAt(const HostFrame& frame, glm::ivec2 p) {
   return std::isfinite(z) && z > 0.0 && z < double(frame.constants.skyDepth) ? 1.0 / z : 0.0;
 }
 
-/// One-sided difference of position between a pixel and its neighbour along an axis.
+/// A vector in the surface along an axis of the image.
 struct Tangent {
   glm::dvec3 value;
-  double misfit;  ///< How far the extrapolation from the two pixels on this side misses the centre's inverse depth.
-  double misfitError;  ///< Bound of what single precision adds to `misfit`.
-  double error;        ///< Absolute error of `value` in single precision.
+  double error;              ///< Absolute error of `value` in single precision.
+  double misfit = 0.0;       ///< How far the extrapolation from two pixels misses the centre's inverse depth.
+  double misfitError = 0.0;  ///< Bound of what single precision adds to `misfit`.
 };
 
 /// Drop the second of two tangents where rounding cannot make it the better one.
@@ -44,9 +45,19 @@ void keepUndecided(std::vector<Tangent>& candidates) {
   if (gap > candidates[0].misfitError + candidates[1].misfitError) candidates.pop_back();
 }
 
-/// The tangent along an axis with the smallest misfit, or nothing where both sides exceed the tolerance. The first
-/// entry is the exact answer; the others are those that rounding may choose instead.
-std::vector<std::optional<Tangent>> tangents(const HostFrame& frame, glm::ivec2 p, glm::ivec2 axis, double tolerance) {
+/// The direction along an axis of the image in the plane of the shading normal.
+Tangent shadingTangent(const HostFrame& frame, glm::ivec2 p, glm::ivec2 axis, glm::dvec3 shadingNormal) {
+  const glm::dvec3 ray = rayThrough(frame.constants.rayFromPixel, pixelCentre(p));
+  const glm::dvec3 step = rayThrough(frame.constants.rayFromPixel, pixelCentre(p + axis)) - ray;
+  const glm::dvec3 value = ray * glm::dot(shadingNormal, step) - step * glm::dot(shadingNormal, ray);
+  return {value, 2.0 * kShadingNormalError * glm::length(ray) * glm::length(step)};
+}
+
+/// The difference of positions along an axis, on the side with the smallest misfit. Where both sides exceed the
+/// tolerance, the direction in the plane of the shading normal. The first entry is the exact answer; the others are
+/// those that rounding may choose instead.
+std::vector<Tangent> tangents(const HostFrame& frame, glm::ivec2 p, glm::ivec2 axis, glm::dvec3 shadingNormal,
+                              double tolerance) {
   const double centreInverse = inverseDepthAt(frame, p);
   const glm::dvec3 centre = rayThrough(frame.constants.rayFromPixel, pixelCentre(p)) / centreInverse;
   const double largestMisfit = tolerance * centreInverse;
@@ -59,40 +70,33 @@ std::vector<std::optional<Tangent>> tangents(const HostFrame& frame, glm::ivec2 
     const glm::dvec3 position = rayThrough(frame.constants.rayFromPixel, pixelCentre(q)) / near;
     Tangent t{};
     t.value = double(side) * (position - centre);
-    t.misfit = far > 0.0 ? std::abs(2.0 * near - far - centreInverse) : std::abs(near - centreInverse);
-    t.misfitError = (kInverseError + 2.0 * kFloatRoundoff) * (2.0 * near + far + centreInverse);
+    t.misfit = std::abs(2.0 * near - far - centreInverse);
+    t.misfitError = (kInverseError + 3.0 * kFloatRoundoff) * (2.0 * near + far + centreInverse);
     t.error = kPositionError * (glm::length(position) + glm::length(centre));
     if (t.misfit <= largestMisfit + t.misfitError) found.push_back(t);
   }
   std::stable_sort(found.begin(), found.end(), [](const Tangent& a, const Tangent& b) { return a.misfit < b.misfit; });
   keepUndecided(found);
-  std::vector<std::optional<Tangent>> options(found.begin(), found.end());
+  const Tangent fallback = shadingTangent(frame, p, axis, shadingNormal);
   if (found.empty() || found.front().misfit > largestMisfit) {
-    options.insert(options.begin(), std::nullopt);
+    found.insert(found.begin(), fallback);
   } else if (found.front().misfit > largestMisfit - found.front().misfitError) {
-    options.emplace_back(std::nullopt);
+    found.push_back(fallback);
   }
-  return options;
+  return found;
 }
 
-/// The cross product of two tangents or, with only one, the shading normal made perpendicular to it. Not normalised.
+/// The cross product of two tangents, not normalised.
 struct SpannedNormal {
   glm::dvec3 value{0.0};
   double error = 0.0;  ///< Absolute error in single precision.
 };
 
-SpannedNormal spannedNormal(const std::optional<Tangent>& x, const std::optional<Tangent>& y,
-                            glm::dvec3 shadingNormal) {
-  if (x && y) {
-    const double sides = glm::length(x->value) + glm::length(y->value);
-    return {glm::cross(y->value, x->value),
-            std::max(x->error, y->error) * sides + 8.0 * kFloatRoundoff * sides * sides};
-  }
-  if (!x && !y) return {};
-  const Tangent& only = x ? *x : *y;
-  const double length = glm::length(only.value);
-  return {shadingNormal * (length * length) - only.value * glm::dot(only.value, shadingNormal),
-          4.0 * length * only.error + 16.0 * kFloatRoundoff * length * length};
+SpannedNormal spannedNormal(const Tangent& x, const Tangent& y) {
+  const double lengthX = glm::length(x.value);
+  const double lengthY = glm::length(y.value);
+  return {glm::cross(y.value, x.value),
+          x.error * lengthY + y.error * lengthX + 16.0 * kFloatRoundoff * lengthX * lengthY};
 }
 
 }  // namespace
@@ -115,13 +119,14 @@ Surface surfaceAt(const HostFrame& frame, glm::ivec2 p, const PrepareGuidesSetti
 
 std::vector<NormalCandidate> geometricNormals(const HostFrame& frame, glm::ivec2 p, const Surface& surface,
                                               const PrepareGuidesSettings& settings) {
-  const auto alongX = tangents(frame, p, {1, 0}, double(settings.tangentTolerance));
-  const auto alongY = tangents(frame, p, {0, 1}, double(settings.tangentTolerance));
-  const NormalCandidate shading{surface.shadingNormal, 8.0 * kFloatRoundoff};
+  const auto tolerance = double(settings.tangentTolerance);
+  const std::vector<Tangent> alongX = tangents(frame, p, {1, 0}, surface.shadingNormal, tolerance);
+  const std::vector<Tangent> alongY = tangents(frame, p, {0, 1}, surface.shadingNormal, tolerance);
+  const NormalCandidate shading{surface.shadingNormal, kShadingNormalError};
   std::vector<NormalCandidate> candidates;
-  for (const auto& x : alongX) {
-    for (const auto& y : alongY) {
-      const auto [n, absoluteError] = spannedNormal(x, y, surface.shadingNormal);
+  for (const Tangent& x : alongX) {
+    for (const Tangent& y : alongY) {
+      const auto [n, absoluteError] = spannedNormal(x, y);
       const double area = glm::length(n);
       if (!(area > 0.0)) {
         candidates.push_back(shading);
@@ -149,14 +154,15 @@ double ambientOcclusion(const HostFrame& frame, glm::ivec2 p, const Surface& sur
     if (direction == glm::ivec2(0)) continue;
     double horizon = 0.0;
     for (std::uint32_t step = 1; step <= settings.steps; ++step) {
-      const double share = double(step) / settings.steps;
+      const double share = double(step) / (settings.steps + 1);
       const int distance = std::max(static_cast<int>(radius * share * share), static_cast<int>(step));
       const glm::ivec2 q = p + distance * direction;
       const double inverseDepth = inverseDepthAt(frame, q);
       if (inverseDepth == 0.0) continue;
-      const glm::dvec3 v = rayAt(q) / (inverseDepth * surface.depth) - rayAt(p);
+      const glm::dvec3 v = rayAt(q) / inverseDepth - rayAt(p) * surface.depth;
       const double length = glm::length(v);
-      const double fade = std::max(1.0 - length * length / (reach * reach), 0.0);
+      const double searched = reach / inverseDepth;
+      const double fade = std::max(1.0 - length * length / (searched * searched), 0.0);
       horizon = std::max(horizon, fade * glm::dot(surface.shadingNormal, v) / length);
     }
     sum += horizon;

@@ -34,10 +34,9 @@ struct Surface {
 Surface surfaceAt(const HostFrame& frame, glm::ivec2 p, const PrepareGuidesSettings& settings);
 
 /// The geometric normal of a surface (passes/WALR.md, 1), from differences of positions. Along each axis it takes the
-/// side whose two pixels extrapolate best to this one. Where neither side does along one axis, the result is the
-/// shading normal made perpendicular to the tangent along the other axis.
-/// The first entry is the exact answer. Further ones follow where a decision (which side, whether the shading normal
-/// agrees) is closer than single precision can resolve.
+/// side whose two pixels extrapolate best to this one. Where neither side does along an axis, the plane has the slope
+/// of the shading normal's plane along this axis. The first entry is the exact answer. Further ones follow where a
+/// decision (which side, whether the shading normal agrees) is closer than single precision can resolve.
 std::vector<NormalCandidate> geometricNormals(const HostFrame& frame, glm::ivec2 p, const Surface& surface,
                                               const PrepareGuidesSettings& settings);
 

@@ -38,28 +38,40 @@ HistorySample sampleBilinear(const Reprojection& r, const std::array<HistoryTap,
   return history;
 }
 
-/// Bicubic colour of the 4x4 pixels around the position; border pixels repeat outside the image. Not found where one of
-/// the pixels has no history.
+/// Bicubic colour of the 4x4 pixels around the position; border pixels repeat outside the image. The corners are not
+/// read: each continues the plane of its three neighbours. Not found where one of the pixels has no history.
 HistorySample sampleBicubic(const Reprojection& r, const Image<glm::dvec4>& previous) {
   const glm::dvec2 base = glm::floor(r.pixel - 0.5);
   const glm::dvec2 f = r.pixel - 0.5 - base;
   const std::array<double, 4> wx = catmullRom(f.x);
   const std::array<double, 4> wy = catmullRom(f.y);
-  glm::dvec4 sum(0.0);
+  const auto isOuter = [](int i) { return i == 0 || i == 3; };
+  std::array<std::array<glm::dvec4, 4>, 4> values;
   glm::dvec4 least(1e300);
   glm::dvec4 most(0.0);
   for (int j = 0; j < 4; ++j) {
     for (int i = 0; i < 4; ++i) {
+      if (isOuter(i) && isOuter(j)) continue;
       const glm::ivec2 q = glm::clamp(glm::ivec2(base) + glm::ivec2(i - 1, j - 1), glm::ivec2(0), previous.size() - 1);
-      sum += wx[i] * wy[j] * previous[q];
+      values[j][i] = previous[q];
       least = glm::min(least, previous[q]);
       most = glm::max(most, previous[q]);
     }
   }
+  for (const int j : {0, 3}) {
+    for (const int i : {0, 3}) {
+      const int inI = i == 0 ? 1 : 2;
+      const int inJ = j == 0 ? 1 : 2;
+      values[j][i] = values[j][inI] + values[inJ][i] - values[inJ][inI];
+    }
+  }
+  glm::dvec4 sum(0.0);
+  for (int j = 0; j < 4; ++j)
+    for (int i = 0; i < 4; ++i) sum += wx[i] * wy[j] * values[j][i];
   HistorySample history;
   history.found = least.w > 0.0;
   history.value = glm::max(sum, 0.0);
-  // A Catmull-Rom weight changes by at most 1.5 per pixel and axis, and the sixteen products sum to 1.6 at most.
+  // A Catmull-Rom weight changes by at most 1.5 per pixel and axis, and the products of the weights sum to 1.6 at most.
   history.error = 24.0 * r.error * (most - least) + 48.0 * kFloatRoundoff * most;
   return history;
 }

@@ -43,13 +43,13 @@ Neighbourhood neighbourhoodOf(const Image<Guide>& guides, const Image<glm::dvec4
   glm::dvec3 size(0.0);
   for (const glm::dvec3& c : colours) {
     variance += (c - n.mean) * (c - n.mean) / count;
-    size += (c - centre) * (c - centre) / count;
+    size += c * c / count;
   }
   const glm::dvec3 deviation = glm::sqrt(variance);
   const double least = leastReach(n.mean, settings.storage);
   n.reach = glm::max(gamma * deviation, least);
   // The variance is a difference of two averages of at most `size`, each with about one rounding per pixel. The colour
-  // transform rounds the differences themselves by a few roundoffs of the colour.
+  // transform rounds the colours themselves by a few roundoffs.
   const glm::dvec3 transformError(4.0 * kFloatRoundoff *
                                   (std::abs(centre.x) + std::abs(centre.y) + std::abs(centre.z)));
   for (int i = 0; i < 3; ++i) {

@@ -1,4 +1,4 @@
-// Packs and unpacks light, for tests of the packing.
+// Packs and unpacks light, or writes its random numbers, for tests of the packing.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -8,14 +8,20 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 0) const uint kKey = 0;  // Key of the texture; 0 for the pass-through.
 layout(constant_id = 1) const uint kFrame = 0;
 layout(constant_id = 2) const uint kLongest = 1;  // Longest history length of the resolved texture.
+layout(constant_id = 3) const bool kNumbers = false;  // Writes the random numbers.
 layout(set = 0, binding = 0) uniform texture2D source;
 layout(set = 0, binding = 1, rgba32f) uniform writeonly image2D target;
+
+const uint kFilteredKey = 0x101u;
 
 vec4 rounded(vec4 light, vec4 random) {
   switch (kKey) {
     case kAccumulatedSeed: return unpackAccumulated(packAccumulated(light, random));
-    case kFilteredSeed: return vec4(1.0, 1.0, 1.0, light.a) * unpackFiltered(packFiltered(light.rgb, random.rgb));
-    case kResolvedSeed: return unpackResolved(packResolved(light, float(kLongest), random), float(kLongest));
+    case kFilteredKey: return vec4(1.0, 1.0, 1.0, light.a) * unpackFiltered(packFiltered(light.rgb, random.r));
+    case kResolvedSeed: {
+      const PackedLength most = PackedLength(float(kLongest), kLongest > 64u);
+      return unpackResolved(packResolved(light, most, random), most);
+    }
   }
   return vec4(unpackPassThrough(packPassThrough(light.rgb)), light.a);  // Rounded to nearest.
 }
@@ -23,5 +29,6 @@ vec4 rounded(vec4 light, vec4 random) {
 void main() {
   const ivec2 p = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(p, textureSize(source, 0)))) return;
-  imageStore(target, p, rounded(texelFetch(source, p, 0), randomNumbers(p, kFrame, kKey)));
+  const vec4 random = kKey == kFilteredKey ? vec4(ditherNumber(p, kFrame)) : randomNumbers(p, kFrame, kKey);
+  imageStore(target, p, kNumbers ? random : rounded(texelFetch(source, p, 0), random));
 }

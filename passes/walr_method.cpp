@@ -1,4 +1,4 @@
-#include "passes/walr.h"
+#include "passes/walr_method.h"
 
 #include <algorithm>
 
@@ -28,8 +28,7 @@ fg::Texture addWalr(StageGraph graph, const DenoiserInputs& inputs, fg::Texture 
   GuideNeeds needs = plan.guides;
   needs.geometricNormal = true;
   needs.occlusion = settings.occlusion;
-  const Guides guides = addPrepareGuides(graph, inputs, settings.guides, needs);
-  const Accumulated accumulated = addAccumulation(graph, inputs, guides, plan);
+  const auto [guides, accumulated] = addGuidesWithAccumulation(graph, inputs, settings.guides, needs, plan);
   const BlockLight light{.accumulated = accumulated.lighting,
                          .alpha = accumulated.alpha,
                          .lighting = inputs.lighting,

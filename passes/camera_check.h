@@ -1,0 +1,17 @@
+#pragma once
+
+#include <glm/mat4x4.hpp>
+
+namespace walr {
+
+/// Refuse a matrix that is not the projection of a pinhole camera in the project's conventions: clip.w = -view.z, y up,
+/// axes of the image parallel to those of view space. Row z, which holds depth, may be anything.
+/// @throws std::invalid_argument naming the most likely cause: transposed, left-handed, y down, orthographic,
+///         inverted, sheared
+void checkProjection(const glm::mat4& projection);
+
+/// Refuse a matrix that is not a rotation and a translation.
+/// @throws std::invalid_argument naming the most likely cause: transposed, mirrored (left-handed), scaled, sheared
+void checkView(const glm::mat4& view);
+
+}  // namespace walr

@@ -1,0 +1,104 @@
+#include "passes/guide_pass.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "shaders/shaders.h"
+
+namespace walr {
+namespace {
+
+/// Whether pixels without a diffuse lobe are treated like sky.
+bool isMasked(const PrepareGuidesSettings& settings) {
+  return settings.albedoThreshold > 0.0F;
+}
+
+/// A guide to write, and the previous frame's if it is kept.
+struct GuideTexture {
+  fg::Texture current;
+  fg::Texture previous;
+};
+
+GuideTexture guideTexture(fg::Graph& graph, const std::string& name, const fg::TextureDesc& desc, bool keep) {
+  if (!keep) return {graph.texture(name, desc), {}};
+  const fg::History history = graph.history(name, desc);
+  return {history.current, history.previous};
+}
+
+/// In the order of `kView` of prepare_guides.comp.
+const std::vector<ViewInfo>& guideViews() {
+  static const std::vector<ViewInfo> kViews{
+      {"no-surface",
+       "1 where nothing is denoised: for its depth (sky), else for its normal, else for want of a diffuse lobe",
+       {{"sky", "X"}, {"unusable-normals", "Y"}, {"no-diffuse-lobe", "Z"}}},
+      {"broken-guides",
+       "1 where depth, normal, albedo are not finite",
+       {{"non-finite-depth", "X"}, {"non-finite-normals", "Y"}, {"non-finite-albedo", "Z"}}},
+  };
+  return kViews;
+}
+
+}  // namespace
+
+void offerGuideViews(StageGraph graph, const DenoiserInputs& inputs, const PrepareGuidesSettings& settings) {
+  const fg::Extent extent = graph->textureDesc(inputs.depth).extent;
+  graph.offer(guideViews(), extent, [&](const std::string& name) {
+    fg::PassBuilder pass = graph->compute(name, shaders::prepareGuidesView);
+    readGBuffer(pass, inputs, settings);
+    pass.uniform("frameConstants", inputs.frame)
+        .constants(guideConstants(graph, inputs, settings, {}))
+        .texels(extent)
+        .dispatch(extent);
+    return pass;
+  });
+}
+
+PrepareGuidesConstants guideConstants(const fg::Graph& graph, const DenoiserInputs& inputs,
+                                      const PrepareGuidesSettings& settings, const GuideNeeds& needs) {
+  const AmbientOcclusionSettings occlusion = needs.occlusion.value_or(AmbientOcclusionSettings{});
+  const fg::Extent extent = graph.textureDesc(inputs.depth).extent;
+  const float radius = std::max(occlusion.radius * static_cast<float>(extent.height), 1.0F);
+  PrepareGuidesConstants constants{
+      settings.albedoThreshold, settings.tangentTolerance, settings.normalAgreement, radius, {}};
+  // Distances grow with the square of the step. The first that is not taken would be the radius, where nothing counts.
+  const std::uint32_t steps = std::min(occlusion.steps, kMaxOcclusionSteps);
+  for (std::uint32_t step = 1; step <= steps; ++step) {
+    const float share = static_cast<float>(step) / static_cast<float>(steps + 1);
+    constants.occlusionDistances[step - 1] = std::max(std::floor(radius * share * share), static_cast<float>(step));
+  }
+  return constants;
+}
+
+void readGBuffer(fg::PassBuilder& pass, const DenoiserInputs& inputs, const PrepareGuidesSettings& settings) {
+  pass.sample("hostDepth", inputs.depth)
+      .sample("normal", inputs.normal)
+      .specialize("kNormalsInWorldSpace", inputs.conventions.normal == InputConventions::Space::World)
+      .specialize("kSky", inputs.scene.sky)
+      .specialize("kDiffuseMask", isMasked(settings))
+      .sampleIf(isMasked(settings), "albedo", inputs.albedo, inputs.normal);
+}
+
+Guides writeGuides(fg::Graph& graph, fg::PassBuilder& pass, fg::Extent extent, const GuideNeeds& needs) {
+  Guides guides;
+  const fg::TextureDesc word{VK_FORMAT_R32_UINT, extent};
+  const GuideTexture depth = guideTexture(graph, "guides.depth", word, needs.history);
+  guides.depth = pass.store("outDepth", depth.current);
+  guides.previousDepth = depth.previous;
+  if (needs.occlusion) {
+    pass.specialize("kOcclusionSteps", needs.occlusion->steps);
+    guides.features = pass.store("outFeatures", guideTexture(graph, "guides.features", word, false).current);
+  } else {
+    const GuideTexture shadingNormal = guideTexture(graph, "guides.shading normal", word, false);
+    guides.shadingNormal = pass.store("outShadingNormal", shadingNormal.current);
+  }
+  if (!needs.geometricNormal) return guides;
+  const fg::TextureDesc normalDesc{needs.occlusion ? VK_FORMAT_R16_UINT : VK_FORMAT_R32_UINT, extent};
+  const GuideTexture geometricNormal = guideTexture(graph, "guides.geometric normal", normalDesc, needs.history);
+  guides.geometricNormal = pass.store("outGeometricNormal", geometricNormal.current);
+  guides.previousGeometricNormal = geometricNormal.previous;
+  return guides;
+}
+
+}  // namespace walr

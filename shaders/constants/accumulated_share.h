@@ -1,0 +1,22 @@
+// Constants of the share of the accumulated light in the reconstruction: include/accumulated_share.glsl and
+// residual_statistics.comp.
+#ifndef WALR_SHADERS_CONSTANTS_ACCUMULATED_SHARE_H
+#define WALR_SHADERS_CONSTANTS_ACCUMULATED_SHARE_H
+#include "types.h"
+#ifdef __cplusplus
+namespace walr {
+#endif
+
+// Of residual_statistics.comp.
+struct ResidualStatisticsConstants {
+  int tileSize;      // Pixels per axis.
+  int tileOffset;    // Pixels of the first tile that lie before the image, per axis.
+  int radius;        // Of the window of tiles.
+  float mostFrames;  // In the running means.
+};
+
+#ifdef __cplusplus
+static_assert(sizeof(ResidualStatisticsConstants) == 16);
+}  // namespace walr
+#endif
+#endif
