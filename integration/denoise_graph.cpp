@@ -50,9 +50,10 @@ DenoiseGraph declareDenoiseGraph(Denoiser& method, fg::Extent extent, const Inpu
   DenoiseGraph declared;
   fg::Graph& graph = declared.graph;
   const fg::TextureDesc result{.format = kOutputFormat, .extent = extent};
+  const fg::TextureDesc hostResult{.format = host.result, .extent = extent};
   declared.inputs = importInputs(graph, extent, conventions, states.inputs, formats, host);
   if (host.convertsInputs()) declared.host = graph.upload(std::string(kHostName), sizeof(HostConstants));
-  declared.output = graph.import(std::string(kOutputName), result, states.outputBefore);
+  declared.output = graph.import(std::string(kOutputName), hostResult, states.outputBefore);
 
   const DenoiserInputs inputs = addConvertInputs(graph, declared.inputs, host, declared.host);
   const fg::Texture target = host.convertsResult() ? graph.texture("result to convert", result) : declared.output;

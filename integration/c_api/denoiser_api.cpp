@@ -1,5 +1,3 @@
-#include <algorithm>
-
 #include <walr/walr.h>
 
 #include "integration/c_api/handles.h"
@@ -11,7 +9,8 @@ using namespace walr::api;
 namespace {
 
 HandleTable<WalrDenoiser, HostedDenoiser>& denoisers() {
-  static HandleTable<WalrDenoiser, HostedDenoiser> table("WalrDenoiser");
+  // Never destroyed: at exit, a host may have destroyed its device before objects that it forgot.
+  static auto& table = *new HandleTable<WalrDenoiser, HostedDenoiser>("WalrDenoiser");
   return table;
 }
 
@@ -100,24 +99,42 @@ WalrResult walr_get_memory(WalrDenoiser denoiser, WalrMemory* memory) {
                           [&](HostedDenoiser& object) { writeStruct(memory, object.memory(), "WalrMemory"); });
 }
 
+WalrResult walr_query_memory(const WalrDenoiserInfo* info, WalrMemory* memory) {
+  return guarded([&] {
+    HostedDenoiser planned(readStruct(info, "WalrDenoiserInfo"));
+    writeStruct(memory, planned.requiredMemory(), "WalrMemory");
+  });
+}
+
 WalrResult walr_get_timings(WalrDenoiser denoiser, uint32_t* count, WalrPassTime* times) {
   return denoisers().call(denoiser, [&](HostedDenoiser& object) {
-    const auto measured = object.timings();
-    uint32_t& room = required(count, "the count's address");
-    const std::size_t written = times == nullptr ? 0 : std::min<std::size_t>(room, measured.size());
-    room = static_cast<uint32_t>(measured.size());
-    for (std::size_t i = 0; i < written; ++i) times[i] = {measured[i].name.c_str(), measured[i].milliseconds};
+    copyElements(object.timings(), times, count, [](const fg::vk::PassTime& time) -> WalrPassTime {
+      return {time.name.c_str(), time.milliseconds};
+    });
+  });
+}
+
+WalrResult walr_get_views(WalrDenoiser denoiser, uint32_t* count, WalrView* views) {
+  return denoisers().call(denoiser, [&](HostedDenoiser& object) {
+    copyElements(object.views(), views, count, [](const walr::ViewInfo& view) -> WalrView {
+      return {view.name.data(), view.description.data()};
+    });
+  });
+}
+
+WalrResult walr_set_view(WalrDenoiser denoiser, const char* name) {
+  return denoisers().call(denoiser, [&](HostedDenoiser& object) {
+    object.setView(name == nullptr ? std::nullopt : std::optional<std::string>(name));
+  });
+}
+
+WalrResult walr_get_counters(WalrDenoiser denoiser, uint32_t* count, WalrCounter* counters) {
+  return denoisers().call(denoiser, [&](HostedDenoiser& object) {
+    copyElements(object.counters(), counters, count, [](const WalrCounter& counter) { return counter; });
   });
 }
 
 WalrResult walr_get_findings(WalrDenoiser denoiser, uint32_t* count, WalrFinding* findings) {
-  return denoisers().call(denoiser, [&](HostedDenoiser& object) {
-    const auto found = object.findings();
-    uint32_t& room = required(count, "the count's address");
-    const std::size_t written = findings == nullptr ? 0 : std::min<std::size_t>(room, found.size());
-    room = static_cast<uint32_t>(found.size());
-    for (std::size_t i = 0; i < written; ++i) {
-      findings[i] = {found[i].name.data(), found[i].what.c_str(), found[i].cause.data(), found[i].wayOut.data()};
-    }
-  });
+  return denoisers().call(denoiser,
+                          [&](HostedDenoiser& object) { copyElements(object.findings(), findings, count, toC); });
 }

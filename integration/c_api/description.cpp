@@ -7,6 +7,7 @@
 
 #include <glm/gtc/type_ptr.hpp>
 
+#include "framegraph/declare/format.h"
 #include "integration/c_api/structs.h"
 
 namespace walr::api {
@@ -32,12 +33,16 @@ WalrConventions checkedConventions(const WalrConventions* given) {
   return conventions;
 }
 
-HostConventions hostConventions(const WalrConventions& conventions) {
-  return {.depth = static_cast<HostConventions::Depth>(conventions.depth),
-          .normal = static_cast<HostConventions::Normal>(conventions.normals),
-          .motionDepthReversed = conventions.motion_depth == WALR_MOTION_DEPTH_REVERSED,
-          .preExposed = conventions.pre_exposed == VK_TRUE,
-          .rectangle = conventions.rectangle == VK_TRUE};
+VkFormat checkedResultFormat(VkFormat format) {
+  if (format == VK_FORMAT_UNDEFINED) return kResultFormats.front();
+  std::string known;
+  for (const VkFormat each : kResultFormats) {
+    if (format == each) return format;
+    known.append(known.empty() ? "" : " or ").append(fg::formatInfo(each).name);
+  }
+  throw Error(WALR_ERROR_INVALID_ARGUMENT, "WalrDenoiserInfo::denoised_format is " +
+                                               std::string(fg::formatInfo(format).name) + " (" +
+                                               std::to_string(format) + "): it must be " + known);
 }
 
 fg::Extent checkedExtent(std::uint32_t width, std::uint32_t height) {
@@ -89,40 +94,50 @@ Description::Description(const WalrDenoiserInfo& info, Of of)
       conventions_(checkedConventions(info.conventions)),
       formats_{formatOr(info.lighting_format, 0), formatOr(info.depth_format, 1),  formatOr(info.normal_format, 2),
                formatOr(info.motion_format, 3),   formatOr(info.albedo_format, 4), formatOr(info.object_id_format, 5)},
+      resultFormat_(checkedResultFormat(info.denoised_format)),
       slots_(checkedSlots(info.frames_in_flight)) {
   if (info.preset != nullptr) usePreset(info.preset);
   // Refuse wrong formats here and not when the first frame is recorded.
   fg::Graph scratch;
-  (void)importInputs(scratch, extent_, inputConventions(), kInnerStates.inputs, formats_,
-                     hostConventions(conventions_));
+  (void)importInputs(scratch, extent_, inputConventions(), kInnerStates.inputs, formats_, hostConventions());
 }
 
 void Description::resize(std::uint32_t width, std::uint32_t height) {
   extent_ = checkedExtent(width, height);
 }
 
-DenoiseGraph Description::declare(bool lint) const {
-  return declareDenoiseGraph(*method_, extent_, inputConventions(), kInnerStates, formats_,
-                             hostConventions(conventions_), {.lint = lint});
+DenoiseGraph Description::declare(const InspectionWish& wanted) const {
+  return declareDenoiseGraph(*method_, extent_, inputConventions(), kInnerStates, formats_, hostConventions(), wanted);
 }
 
-ListedGraph Description::list(std::span<const WalrPortFormat> ports) const {
+ListedGraph Description::list(std::span<const WalrPortFormat> ports, const InspectionWish& wanted) const {
+  if (stage_ != nullptr && (wanted.lint || wanted.counters)) {
+    throw Error(WALR_ERROR_INVALID_ARGUMENT, "stage '" + methodName_ +
+                                                 "' cannot check inputs or count: set WalrDenoiserInfo::lint and "
+                                                 "WalrDenoiserInfo::counters for a whole method");
+  }
   if (stage_ != nullptr) return listStage(ports);
   if (!ports.empty()) {
     throw Error(WALR_ERROR_INVALID_ARGUMENT, "'" + methodName_ +
                                                  "' is a whole method: its images' formats are in WalrDenoiserInfo, "
                                                  "WalrPassesInfo::ports are those of a single stage");
   }
-  DenoiseGraph declared = declare();
-  return {.graph = std::move(declared.graph), .frame = declared.inputs.frame, .host = declared.host, .ports = {}};
+  DenoiseGraph declared = declare(wanted);
+  return {.graph = std::move(declared.graph),
+          .frame = declared.inputs.frame,
+          .host = declared.host,
+          .ports = {},
+          .lint = declared.lint,
+          .inspection = std::move(declared.inspection)};
 }
 
 ListedGraph Description::listStage(std::span<const WalrPortFormat> ports) const {
-  if (hostConventions(conventions_).convertsInputs()) {
-    throw Error(WALR_ERROR_INVALID_ARGUMENT,
-                "stage '" + methodName_ +
-                    "' takes linear depth, signed normals, motion_depth as given or of a static scene, no pre-exposure "
-                    "and no rectangle: convert the images before, or use a whole method");
+  if (hostConventions().convertsInputs()) {
+    throw Error(
+        WALR_ERROR_INVALID_ARGUMENT,
+        "stage '" + methodName_ +
+            "' takes linear depth, signed normals, motion_depth as given or of a static scene, no pre-exposure, "
+            "no rectangle and no denoised_format: convert the images yourself, or use a whole method");
   }
   PortFormats formats;
   for (const Port& port : stage_->ports()) {
@@ -139,7 +154,12 @@ ListedGraph Description::listStage(std::span<const WalrPortFormat> ports) const 
   }
   stage_->setConventions(inputConventions());
   SingleStage declared = declareSingleStage(*stage_, extent_, kInnerStates, formats);
-  return {.graph = std::move(declared.graph), .frame = declared.frame, .host = {}, .ports = std::move(declared.ports)};
+  return {.graph = std::move(declared.graph),
+          .frame = declared.frame,
+          .host = {},
+          .ports = std::move(declared.ports),
+          .lint = {},
+          .inspection = {}};
 }
 
 Configurable& Description::settings() const {
@@ -152,6 +172,15 @@ void Description::usePreset(std::string_view name) {
   } else {
     method_->usePreset(name);
   }
+}
+
+HostConventions Description::hostConventions() const {
+  return {.depth = static_cast<HostConventions::Depth>(conventions_.depth),
+          .normal = static_cast<HostConventions::Normal>(conventions_.normals),
+          .motionDepthReversed = conventions_.motion_depth == WALR_MOTION_DEPTH_REVERSED,
+          .preExposed = conventions_.pre_exposed == VK_TRUE,
+          .rectangle = conventions_.rectangle == VK_TRUE,
+          .result = resultFormat_};
 }
 
 InputConventions Description::inputConventions() const {
@@ -178,7 +207,7 @@ Constants Description::constants(const FrameStatement& frame) const {
                                .jitter = glm::make_vec2(now.jitter),
                                .previousJitter = glm::make_vec2(previous.jitter),
                                .motionScale = scale,
-                               .frameIndex = static_cast<std::uint32_t>(frames_),
+                               .frameIndex = frame.index.value_or(static_cast<std::uint32_t>(frames_)),
                                .previousExtent = lastExtent_};
   if (!(frame.skyDepth >= 0.0F)) throw Error(WALR_ERROR_INVALID_ARGUMENT, "sky_depth is negative or NaN");
   if (frame.skyDepth > 0.0F) description.skyDepth = frame.skyDepth;

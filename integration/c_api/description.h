@@ -35,7 +35,13 @@ struct FrameStatement {
   float skyDepth = 0.0F;
   float preExposure = 0.0F;
   glm::uvec2 offset{0};
+  std::optional<std::uint32_t> index;  ///< Nothing means the number of frames before.
 };
+
+/// The frame index of a host that gives one.
+inline std::optional<std::uint32_t> givenIndex(std::uint32_t flags, std::uint32_t index) {
+  return (flags & WALR_FRAME_INDEX_GIVEN) != 0 ? std::optional(index) : std::nullopt;
+}
 
 /// A graph that holds one method or stage between the host's images.
 struct ListedGraph {
@@ -43,6 +49,8 @@ struct ListedGraph {
   fg::Buffer frame;              ///< Upload of `Constants::frame`; invalid if nothing reads it.
   fg::Buffer host;               ///< Upload of `Constants::host`; invalid if nothing reads it.
   std::vector<StagePort> ports;  ///< Of a single stage.
+  fg::Buffer lint;               ///< Import that receives the linter's counts; invalid without lint.
+  Inspection inspection;         ///< With counters: in an import that receives them.
 };
 
 /// A method or single stage and the host's images: the checked contents of a WalrDenoiserInfo.
@@ -56,12 +64,17 @@ class Description {
 
   /// A graph of the method between the host's images, which have `kInnerStates` before and after it.
   /// @throws std::invalid_argument naming settings that contradict each other
-  /// @param lint also count likely faults in the images
-  [[nodiscard]] DenoiseGraph declare(bool lint = false) const;
+  /// @throws also naming a view that does not exist
+  /// @param wanted further outputs, for debugging
+  [[nodiscard]] DenoiseGraph declare(const InspectionWish& wanted = {}) const;
+  /// Views of the method with its current settings.
+  /// @throws std::invalid_argument naming settings that contradict each other
+  [[nodiscard]] std::vector<ViewInfo> views() const { return method_->views(); }
   /// A graph of the method or the stage between the host's images.
-  /// @param ports formats of the images that are connected to a stage's other inputs; empty for a method
+  /// @param ports  formats of the images that are connected to a stage's other inputs; empty for a method
+  /// @param wanted further outputs of a method, for debugging; no views
   /// @throws as `declare` does; also naming an unknown port, or conventions that a stage does not accept
-  [[nodiscard]] ListedGraph list(std::span<const WalrPortFormat> ports) const;
+  [[nodiscard]] ListedGraph list(std::span<const WalrPortFormat> ports, const InspectionWish& wanted) const;
   [[nodiscard]] InputConventions inputConventions() const;
 
   /// Constants of the next frame.
@@ -80,6 +93,8 @@ class Description {
   [[nodiscard]] fg::Extent extent() const { return extent_; }
   /// Whether only a rectangle of the images is denoised.
   [[nodiscard]] bool rectangle() const { return conventions_.rectangle == VK_TRUE; }
+  /// Format of the result's image.
+  [[nodiscard]] VkFormat resultFormat() const { return resultFormat_; }
   [[nodiscard]] std::uint32_t slots() const { return slots_; }
   /// Frames recorded so far.
   [[nodiscard]] std::uint64_t frames() const { return frames_; }
@@ -88,6 +103,7 @@ class Description {
 
  private:
   [[nodiscard]] ListedGraph listStage(std::span<const WalrPortFormat> ports) const;
+  [[nodiscard]] HostConventions hostConventions() const;
   [[nodiscard]] glm::ivec2 checkedOffset(glm::uvec2 offset) const;
 
   std::string methodName_;
@@ -96,6 +112,7 @@ class Description {
   fg::Extent extent_;
   WalrConventions conventions_;
   std::array<VkFormat, std::tuple_size_v<decltype(kHostInputs)>> formats_;
+  VkFormat resultFormat_;
   std::uint32_t slots_;
   std::uint64_t frames_ = 0;
   std::optional<WalrCamera> lastCamera_;

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "framegraph/declare/format.h"
 #include "framegraph/vulkan/error.h"
 #include "integration/c_api/structs.h"
 
@@ -32,21 +33,74 @@ void requireCompute(const fg::vk::DeviceContext& context) {
                                           " does not support compute: use a queue of another family");
 }
 
+/// The structure of a type in a chain of `pNext`; null if the chain has none.
+template <typename Struct>
+const Struct* findInChain(const void* chain, VkStructureType type) {
+  for (const auto* link = static_cast<const VkBaseInStructure*>(chain); link != nullptr; link = link->pNext) {
+    if (link->sType == type) return reinterpret_cast<const Struct*>(link);
+  }
+  return nullptr;
+}
+
+/// @throws Unsupported naming the features that a device was created without
+void requireEnabled(const VkDeviceCreateInfo& info) {
+  std::string lacks;
+  const auto* vulkan13 =
+      findInChain<VkPhysicalDeviceVulkan13Features>(info.pNext, VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES);
+  const auto* extension = findInChain<VkPhysicalDeviceSynchronization2Features>(
+      info.pNext, VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SYNCHRONIZATION_2_FEATURES);
+  const bool synchronization2 = (vulkan13 != nullptr && vulkan13->synchronization2 == VK_TRUE) ||
+                                (extension != nullptr && extension->synchronization2 == VK_TRUE);
+  if (!synchronization2) {
+    lacks +=
+        "\n  feature synchronization2: chain VkPhysicalDeviceVulkan13Features or "
+        "VkPhysicalDeviceSynchronization2Features to VkDeviceCreateInfo";
+  }
+  const auto* features2 =
+      findInChain<VkPhysicalDeviceFeatures2>(info.pNext, VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2);
+  const VkPhysicalDeviceFeatures* features = features2 != nullptr ? &features2->features : info.pEnabledFeatures;
+  if (features == nullptr || features->shaderStorageImageExtendedFormats != VK_TRUE) {
+    lacks += "\n  feature shaderStorageImageExtendedFormats: set it in VkPhysicalDeviceFeatures";
+  }
+  if (!lacks.empty()) {
+    throw fg::vk::Unsupported("the device was created without" + lacks, VK_ERROR_FEATURE_NOT_PRESENT);
+  }
+}
+
 }  // namespace
 
 HostDevice::HostDevice(const WalrDevice* device) : HostDevice(checkedDevice(device)) {}
 
 HostDevice::HostDevice(const WalrDevice& device) {
   if (device.allocator != nullptr) allocator_ = *device.allocator;
+  if (device.device_memory != nullptr) memory_.emplace(*device.device_memory);
   context_ = fg::vk::DeviceContext({.instance = device.instance,
                                     .physicalDevice = device.physical_device,
                                     .device = device.device,
                                     .getInstanceProcAddr = device.get_instance_proc_addr,
                                     .queueFamily = device.queue_family,
-                                    .allocator = allocator_ ? &*allocator_ : nullptr});
+                                    .allocator = allocator_ ? &*allocator_ : nullptr,
+                                    .memorySource = memory_ ? &*memory_ : nullptr});
   physical_ = fg::vk::physicalDevice(context_.instance, device.physical_device);
   fg::vk::require(physical_);
   requireCompute(context_);
+  if (device.create_info != nullptr) requireEnabled(*device.create_info);
+}
+
+void HostDevice::requireResultFormat(VkFormat format) const {
+  if ((physical_.formatFeatures(format) & VK_FORMAT_FEATURE_STORAGE_IMAGE_BIT) != 0) return;
+  throw Error(WALR_ERROR_UNSUPPORTED,
+              "device '" + physical_.name + "' has no storage images of WalrDenoiserInfo::denoised_format, " +
+                  std::string(fg::formatInfo(format).name) + ": use R16G16B16A16_SFLOAT, which every device has");
+}
+
+bool measuresTimes(const WalrDenoiserInfo& info, const HostDevice& device) {
+  const fg::vk::DeviceContext& context = device.context();
+  if (info.timestamps != VK_TRUE || context.timestampBits > 0) return info.timestamps == VK_TRUE;
+  const std::string text = "queue family " + std::to_string(context.view.queueFamily) +
+                           " has no timestamps: no times are measured; use a queue of another family for them";
+  if (info.log != nullptr) info.log(info.log_user, WALR_LOG_WARNING, text.c_str());
+  return false;
 }
 
 }  // namespace walr::api

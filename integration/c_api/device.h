@@ -6,6 +6,7 @@
 
 #include "framegraph/vulkan/device_context.h"
 #include "framegraph/vulkan/physical_device.h"
+#include "integration/c_api/host_memory.h"
 
 namespace walr::api {
 
@@ -17,6 +18,9 @@ class HostDevice {
   HostDevice(const HostDevice&) = delete;
   HostDevice& operator=(const HostDevice&) = delete;
 
+  /// @throws Error naming the format if the device cannot write images of it in shaders
+  void requireResultFormat(VkFormat format) const;
+
   [[nodiscard]] const fg::vk::DeviceContext& context() const { return context_; }
   [[nodiscard]] const fg::vk::PhysicalDevice& physical() const { return physical_; }
 
@@ -24,8 +28,13 @@ class HostDevice {
   explicit HostDevice(const WalrDevice& device);
 
   std::optional<VkAllocationCallbacks> allocator_;
+  std::optional<HostMemory> memory_;
   fg::vk::DeviceContext context_;
   fg::vk::PhysicalDevice physical_;
 };
+
+/// Whether to measure GPU times, as the host wishes. If the queue family has no timestamps, the host is warned: times
+/// are for its developers, and without them nothing else is missing.
+bool measuresTimes(const WalrDenoiserInfo& info, const HostDevice& device);
 
 }  // namespace walr::api

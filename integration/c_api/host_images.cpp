@@ -19,7 +19,7 @@ struct InnerUse {
 };
 
 InnerUse innerUse(std::size_t index) {
-  if (index == kOutputImage) return {VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT, kOutputLayout};
+  if (isWritten(index)) return {VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT, kOutputLayout};
   return {VK_ACCESS_2_SHADER_SAMPLED_READ_BIT, kInputLayout};
 }
 
@@ -44,7 +44,7 @@ void fillRelease(std::size_t index, WalrImage& image) {
   if (image.release.layout != VK_IMAGE_LAYOUT_UNDEFINED) return;
   image.release = {.stage = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
                    .access = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT,
-                   .layout = index == kOutputImage ? kOutputLayout : image.acquire.layout,
+                   .layout = isWritten(index) ? kOutputLayout : image.acquire.layout,
                    .reserved = 0};
 }
 
@@ -83,6 +83,7 @@ const HostStates kInnerStates{
 };
 
 std::string_view imageName(std::size_t index) {
+  if (index == kViewImage) return "view";
   return index == kOutputImage ? kOutputName : kHostInputs.at(index).name;
 }
 
@@ -123,7 +124,7 @@ FrameImage checkedImage(std::size_t index, const WalrImage* given, const ImageNe
                       ", but commands are recorded for family " + std::to_string(queueFamily) +
                       ": transfer its ownership first");
   }
-  if (index != kOutputImage && !isStateLayout(image.acquire.layout)) {
+  if (!isWritten(index) && !isStateLayout(image.acquire.layout)) {
     reject(index, "is acquired in layout " + std::to_string(image.acquire.layout) +
                       ", which has no contents: state in WalrImage::acquire how it was written");
   }

@@ -15,9 +15,15 @@
 /// The host's images of one frame, and the barriers between the host's work and the denoiser's.
 namespace walr::api {
 
-/// Arrays of images are ordered like `kHostInputs`, followed by the output.
-inline constexpr std::size_t kImageCount = std::tuple_size_v<decltype(kHostInputs)> + 1;
-inline constexpr std::size_t kOutputImage = kImageCount - 1;
+/// Arrays of images are ordered like `kHostInputs`, followed by the output and the view.
+inline constexpr std::size_t kOutputImage = std::tuple_size_v<decltype(kHostInputs)>;
+inline constexpr std::size_t kViewImage = kOutputImage + 1;
+inline constexpr std::size_t kImageCount = kViewImage + 1;
+
+/// Whether the denoiser writes an image.
+constexpr bool isWritten(std::size_t index) {
+  return index >= kOutputImage;
+}
 
 /// Name of an image in the C API.
 std::string_view imageName(std::size_t index);

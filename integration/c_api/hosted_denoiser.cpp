@@ -9,20 +9,36 @@
 #include "framegraph/declare/same_topology.h"
 #include "framegraph/vulkan/driver_memory_model.h"
 #include "framegraph/vulkan/physical_device.h"
+#include "framegraph/vulkan/resources.h"
 #include "integration/c_api/structs.h"
 #include "integration/setting_info.h"
 
 namespace walr::api {
+namespace {
+
+WalrMemory memoryOf(const fg::MemoryReport& report, std::uint64_t allocated) {
+  return {.struct_size = 0,
+          .reserved = 0,
+          .allocated = allocated,
+          .persistent = report.persistentBytes,
+          .transient = report.transientPeakBytes,
+          .transient_unaliased = report.transientUnaliasedBytes,
+          .transient_least = report.transientLowerBoundBytes,
+          .retired = 0};
+}
+
+}  // namespace
 
 HostedDenoiser::HostedDenoiser(const WalrDenoiserInfo& info)
     : device_(info.device),
       description_(info),
-      timestamps_(info.timestamps == VK_TRUE && device_.context().timestampBits > 0),
+      timestamps_(measuresTimes(info, device_)),
       lint_(info.lint == VK_TRUE),
+      counters_(info.counters == VK_TRUE),
       pipelineCache_(info.pipeline_cache),
       log_(info.log),
       logUser_(info.log_user) {
-  if (info.timestamps == VK_TRUE && !timestamps_) log(WALR_LOG_WARNING, "the queue family has no timestamps");
+  device_.requireResultFormat(description_.resultFormat());
 }
 
 void HostedDenoiser::log(WalrLogLevel level, const std::string& text) const {
@@ -52,9 +68,20 @@ std::string HostedDenoiser::setting(std::string_view name) {
               "method '" + description_.methodName() + "' has no setting \"" + std::string(name) + "\"");
 }
 
+void HostedDenoiser::setView(std::optional<std::string> name) {
+  if (name) (void)declareGraph(name);
+  view_ = std::move(name);
+  stale_ = true;
+}
+
+DenoiseGraph HostedDenoiser::declareGraph(const std::optional<std::string>& view) const {
+  const std::span views = view ? std::span(&*view, 1) : std::span<const std::string>();
+  return description_.declare({.views = views, .counters = counters_, .lint = lint_});
+}
+
 const HostedDenoiser::Declared& HostedDenoiser::declare() {
   if (!stale_) return *declared_;
-  DenoiseGraph graph = description_.declare(lint_);
+  DenoiseGraph graph = declareGraph(view_);
   if (declared_ && fg::sameTopology(declared_->graph.graph.desc(), graph.graph.desc())) {
     declared_->graph = std::move(graph);
     updates_ = true;
@@ -79,6 +106,8 @@ HostedDenoiser::Declared HostedDenoiser::compile(DenoiseGraph graph) const {
     declared.images[i] = declared.graph.inputs.*kHostInputs[i].texture;
   }
   declared.images[kOutputImage] = declared.graph.output;
+  const auto& views = declared.graph.inspection.views();
+  if (!views.empty()) declared.images[kViewImage] = views.front().texture;
   for (std::size_t i = 0; i < kImageCount; ++i) {
     if (!declared.images[i].valid()) continue;  // The host has none.
     const fg::PlannedResource& planned = declared.plan.resources[declared.images[i].resource];
@@ -111,6 +140,7 @@ void HostedDenoiser::makeExecutor() {
                                         .inheritHistories = inherits};
   Built made{.executor = std::make_unique<fg::vk::Executor>(device_.context(), declared_->graph.graph.desc(),
                                                             declared_->plan, options),
+             .counters = nullptr,
              .lint = nullptr,
              .memory = declared_->plan.memory,
              .extent = extent,
@@ -121,12 +151,18 @@ void HostedDenoiser::makeExecutor() {
     made.lint = inherits ? before->lint
                          : std::make_shared<HostedLint>(device_.context(), made.executor->usage(counters),
                                                         description_.inputConventions(), description_.slots());
-    made.executor->bind(counters, made.lint->counters());
+    made.executor->bind(counters, made.lint->buffer().handle());
+  }
+  if (const Inspection& inspection = declared_->graph.inspection; !inspection.counters().empty()) {
+    const fg::Buffer buffer = inspection.counterBuffer();
+    made.counters = std::make_unique<HostedCounters>(device_.context(), made.executor->usage(buffer),
+                                                     inspection.counters(), description_.slots());
+    made.executor->bind(buffer, made.counters->buffer().handle());
   }
   built_ = std::move(made);
   log(WALR_LOG_INFO, description_.methodName() + " at " + std::to_string(extent.width) + " x " +
                          std::to_string(extent.height) + ": " + std::to_string(declared_->plan.passes.size()) +
-                         " passes, " + std::to_string(built_->executor->allocatedBytes()) + " bytes of device memory");
+                         " passes, " + std::to_string(built_->allocatedBytes()) + " bytes of device memory");
 }
 
 void HostedDenoiser::prepare() {
@@ -166,18 +202,22 @@ WalrImageRequirements HostedDenoiser::requirements(std::string_view image) {
 }
 
 FrameImages HostedDenoiser::checkedImages(const WalrFrame& frame) const {
-  const std::array<const WalrImage*, kImageCount> given{frame.lighting, frame.depth,     frame.normal,  frame.motion,
-                                                        frame.albedo,   frame.object_id, frame.denoised};
+  const std::array<const WalrImage*, kImageCount> given{frame.lighting, frame.depth,     frame.normal,   frame.motion,
+                                                        frame.albedo,   frame.object_id, frame.denoised, frame.view};
   FrameImages images{};
   for (std::size_t i = 0; i < kImageCount; ++i) {
     ImageNeeds needs = declared_->needs[i];
-    if (description_.rectangle()) needs.offset = {frame.offset[0], frame.offset[1]};
+    if (description_.rectangle() && i != kViewImage) needs.offset = {frame.offset[0], frame.offset[1]};
     images[i] = checkedImage(i, given[i], needs, device_.context().view.queueFamily);
   }
-  for (std::size_t i = 0; i < kOutputImage; ++i) {
-    if (images[i].given && images[i].image.image == images[kOutputImage].image.image) {
-      throw Error(WALR_ERROR_INVALID_ARGUMENT,
-                  "image '" + std::string(imageName(i)) + "' is also the output: use another image for the output");
+  for (std::size_t i = 0; i < kImageCount; ++i) {
+    for (std::size_t written = kOutputImage; written < kImageCount; ++written) {
+      const bool same =
+          images[i].given && images[written].given && images[i].image.image == images[written].image.image;
+      if (i == written || !same) continue;
+      throw Error(WALR_ERROR_INVALID_ARGUMENT, "image '" + std::string(imageName(i)) + "' is also the output '" +
+                                                   std::string(imageName(written)) +
+                                                   "': use another image for the output");
     }
   }
   return images;
@@ -196,14 +236,13 @@ void HostedDenoiser::uploadIfUsed(fg::Buffer buffer, std::span<const std::byte> 
 
 void HostedDenoiser::record(VkCommandBuffer commandBuffer, const WalrFrame& frame) {
   if (commandBuffer == VK_NULL_HANDLE) throw Error(WALR_ERROR_INVALID_ARGUMENT, "the command buffer is null");
-  if ((frame.flags & ~static_cast<std::uint32_t>(WALR_FRAME_RESET_HISTORY)) != 0) {
-    throw Error(WALR_ERROR_INVALID_ARGUMENT, "WalrFrame::flags has unknown bits: " + std::to_string(frame.flags));
-  }
+  checkFlags(frame.flags, WALR_FRAME_RESET_HISTORY | WALR_FRAME_INDEX_GIVEN, "WalrFrame::flags");
   const Constants constants = description_.constants({.camera = frame.camera,
                                                       .previousCamera = frame.previous_camera,
                                                       .skyDepth = frame.sky_depth,
                                                       .preExposure = frame.pre_exposure,
-                                                      .offset = glm::make_vec2(frame.offset)});
+                                                      .offset = glm::make_vec2(frame.offset),
+                                                      .index = givenIndex(frame.flags, frame.frame_index)});
   declare();
   const FrameImages images = checkedImages(frame);
   dropFinished();
@@ -214,15 +253,9 @@ void HostedDenoiser::record(VkCommandBuffer commandBuffer, const WalrFrame& fram
   uploadIfUsed(declared_->graph.host, std::as_bytes(std::span(&constants.host, 1)));
   const bool reset = resetRequested_ || (frame.flags & WALR_FRAME_RESET_HISTORY) != 0;
   if (reset) built_->executor->resetAllHistory();
-  collectFindings();
+  collectCounts();
   recordAcquire(device_.context(), commandBuffer, images);
-  if (lint_) built_->lint->recordBefore(commandBuffer);
-  built_->executor->record(commandBuffer, description_.slot());
-  if (lint_) {
-    const bool first = reset || !(built_->lastFrame || built_->inherits);
-    built_->lint->recordAfter(commandBuffer, description_.slot(),
-                              first ? std::nullopt : std::optional(constants.camera), description_.extent());
-  }
+  recordGraph(commandBuffer, constants.camera, reset);
   recordRelease(device_.context(), commandBuffer, images);
 
   if (Built* const before = predecessor()) before->lastFrame = description_.frames();
@@ -232,8 +265,20 @@ void HostedDenoiser::record(VkCommandBuffer commandBuffer, const WalrFrame& fram
   description_.advance(*frame.camera);
 }
 
+void HostedDenoiser::recordGraph(VkCommandBuffer commandBuffer, const FrameDescription& camera, bool reset) {
+  const std::uint32_t slot = description_.slot();
+  if (built_->counters) built_->counters->buffer().recordBefore(commandBuffer);
+  if (lint_) built_->lint->buffer().recordBefore(commandBuffer);
+  built_->executor->record(commandBuffer, slot);
+  if (built_->counters) built_->counters->recordAfter(commandBuffer, slot);
+  if (!lint_) return;
+  const bool first = reset || !(built_->lastFrame || built_->inherits);
+  built_->lint->recordAfter(commandBuffer, slot, first ? std::nullopt : std::optional(camera), description_.extent());
+}
+
 /// Read the counts of the frame that used the slot of the next one: the host has waited for it.
-void HostedDenoiser::collectFindings() {
+void HostedDenoiser::collectCounts() {
+  if (built_->counters) built_->counters->collect(description_.slot());
   if (!lint_) return;
   for (const LintFinding& finding : built_->lint->collect(description_.slot())) {
     log(WALR_LOG_WARNING, finding.text());
@@ -245,6 +290,17 @@ std::span<const LintFinding> HostedDenoiser::findings() const {
     throw Error(WALR_ERROR_WRONG_ORDER, "inputs are not checked: create the denoiser with WalrDenoiserInfo::lint");
   }
   return built_ ? std::span(built_->lint->findings()) : std::span<const LintFinding>();
+}
+
+std::vector<WalrCounter> HostedDenoiser::counters() const {
+  if (!counters_ && !lint_) {
+    throw Error(WALR_ERROR_WRONG_ORDER,
+                "nothing is counted: create the denoiser with WalrDenoiserInfo::counters or WalrDenoiserInfo::lint");
+  }
+  std::vector<WalrCounter> counters;
+  if (built_ && built_->counters) counters = built_->counters->values();
+  if (built_ && lint_) counters.insert(counters.end(), built_->lint->counts().begin(), built_->lint->counts().end());
+  return counters;
 }
 
 void HostedDenoiser::forget(VkImage image, std::uint64_t identity) {
@@ -259,16 +315,29 @@ WalrImageState HostedDenoiser::releaseState(std::string_view image) const {
   throw Error(WALR_ERROR_WRONG_ORDER, "no frame has used image '" + std::string(image) + "' yet");
 }
 
+std::uint64_t HostedDenoiser::Built::allocatedBytes(bool withLint) const {
+  return executor->allocatedBytes() + (counters != nullptr ? counters->buffer().allocatedBytes() : 0) +
+         (withLint && lint != nullptr ? lint->buffer().allocatedBytes() : 0);
+}
+
 WalrMemory HostedDenoiser::memory() const {
   if (!built_) throw Error(WALR_ERROR_WRONG_ORDER, "no memory is allocated yet: call walr_prepare before");
-  WalrMemory memory{};
-  memory.allocated = built_->executor->allocatedBytes();
-  memory.persistent = built_->memory.persistentBytes;
-  memory.transient = built_->memory.transientPeakBytes;
-  memory.transient_unaliased = built_->memory.transientUnaliasedBytes;
-  memory.transient_least = built_->memory.transientLowerBoundBytes;
-  for (const Built& built : retired_) memory.retired += built.executor->allocatedBytes();
+  WalrMemory memory = memoryOf(built_->memory, built_->allocatedBytes());
+  for (const Built& built : retired_) memory.retired += built.allocatedBytes(built.lint != built_->lint);
   return memory;
+}
+
+WalrMemory HostedDenoiser::requiredMemory() {
+  const Declared& declared = declare();
+  const fg::GraphDesc& graph = declared.graph.graph.desc();
+  std::uint64_t bytes = fg::vk::requiredBytes(device_.context(), graph, declared.plan, description_.slots());
+  const auto addCounts = [&](fg::Buffer counts) {
+    const fg::PlannedResource& planned = declared.plan.resources[counts.resource];
+    bytes += CountBuffer::requiredBytes(device_.context(), planned.bufferUsage, description_.slots());
+  };
+  if (lint_) addCounts(declared.graph.lint);
+  if (!declared.graph.inspection.counters().empty()) addCounts(declared.graph.inspection.counterBuffer());
+  return memoryOf(declared.plan.memory, bytes);
 }
 
 std::span<const fg::vk::PassTime> HostedDenoiser::timings() {

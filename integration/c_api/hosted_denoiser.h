@@ -13,6 +13,7 @@
 #include "integration/c_api/description.h"
 #include "integration/c_api/device.h"
 #include "integration/c_api/host_images.h"
+#include "integration/c_api/hosted_counters.h"
 #include "integration/c_api/hosted_lint.h"
 
 namespace walr::api {
@@ -34,8 +35,15 @@ class HostedDenoiser {
   void forget(VkImage image, std::uint64_t identity);
   [[nodiscard]] WalrImageState releaseState(std::string_view image) const;
   [[nodiscard]] WalrMemory memory() const;
+  /// What `memory` will be after `prepare`.
+  [[nodiscard]] WalrMemory requiredMemory();
   [[nodiscard]] std::span<const fg::vk::PassTime> timings();
   [[nodiscard]] std::span<const LintFinding> findings() const;
+  [[nodiscard]] std::vector<ViewInfo> views() const { return description_.views(); }
+  /// @throws std::invalid_argument naming a view that does not exist, and the known ones
+  void setView(std::optional<std::string> name);
+  /// @throws Error if nothing is counted
+  [[nodiscard]] std::vector<WalrCounter> counters() const;
 
  private:
   /// The graph for given settings and size, with its plan. It needs no Vulkan object.
@@ -48,15 +56,19 @@ class HostedDenoiser {
   /// The Vulkan objects for a `Declared`.
   struct Built {
     std::unique_ptr<fg::vk::Executor> executor;
-    std::shared_ptr<HostedLint> lint;  ///< Null without lint; shared among executors if the history is kept.
+    std::unique_ptr<HostedCounters> counters;  ///< Null without counters.
+    std::shared_ptr<HostedLint> lint;          ///< Null without lint; shared among executors if the history is kept.
     fg::MemoryReport memory;
     fg::Extent extent;
     bool inherits = false;  ///< Its first frame reads the histories of the `Built` that was retired last.
     std::optional<std::uint64_t> lastFrame;  ///< Number of the last frame that uses it.
+
+    [[nodiscard]] std::uint64_t allocatedBytes(bool withLint = true) const;
   };
 
   /// The graph for the current settings and size. If only constants differ from the last one, its plan is kept.
   const Declared& declare();
+  [[nodiscard]] DenoiseGraph declareGraph(const std::optional<std::string>& view) const;
   Declared compile(DenoiseGraph graph) const;
   void build();
   void makeExecutor();
@@ -65,7 +77,8 @@ class HostedDenoiser {
   void dropFinished();
   [[nodiscard]] FrameImages checkedImages(const WalrFrame& frame) const;
   void bind(const FrameImages& images);
-  void collectFindings();
+  void collectCounts();
+  void recordGraph(VkCommandBuffer commandBuffer, const FrameDescription& camera, bool reset);
   void uploadIfUsed(fg::Buffer buffer, std::span<const std::byte> bytes);
   void log(WalrLogLevel level, const std::string& text) const;
 
@@ -73,10 +86,12 @@ class HostedDenoiser {
   Description description_;
   bool timestamps_;
   bool lint_;
+  bool counters_;
   VkPipelineCache pipelineCache_;
   WalrLog log_;
   void* logUser_;
 
+  std::optional<std::string> view_;   ///< Written to the host's image.
   std::optional<Declared> declared_;  ///< The latest.
   bool stale_ = true;                 ///< Settings or size may have changed since.
   bool updates_ = false;              ///< The executor does not have the constants of `declared_` yet.

@@ -6,11 +6,17 @@
 #include <string_view>
 #include <vector>
 
-#include "framegraph/vulkan/executor.h"
-#include "framegraph/vulkan/staged_buffer.h"
+#include <walr/walr.h>
+
+#include "integration/c_api/count_buffer.h"
 #include "passes/input_linter.h"
 
 namespace walr::api {
+
+/// A finding for the caller. Its texts are valid as long as `finding`.
+inline WalrFinding toC(const LintFinding& finding) {
+  return {finding.name.data(), finding.what.c_str(), finding.cause.data(), finding.wayOut.data()};
+}
 
 /// The check of a host's inputs while it renders: reads the counts of each frame once the GPU has finished it.
 class HostedLint {
@@ -21,19 +27,19 @@ class HostedLint {
              std::uint32_t slots);
 
   /// The buffer that receives the counts.
-  [[nodiscard]] VkBuffer counters() const { return counters_.handle(); }
+  [[nodiscard]] const CountBuffer& buffer() const { return buffer_; }
 
   /// Evaluate the counts of the frame recorded last with a slot. The GPU must have finished it.
   /// @returns findings with names that were not found before
   std::vector<LintFinding> collect(std::uint32_t slot);
-  /// Record before the graph.
-  void recordBefore(VkCommandBuffer commandBuffer) const;
-  /// Record after the graph.
+  /// Record after the graph, or after the pass that counts.
   /// @param camera nothing for a frame without a previous frame
   void recordAfter(VkCommandBuffer commandBuffer, std::uint32_t slot, const std::optional<FrameDescription>& camera,
                    fg::Extent extent);
 
   [[nodiscard]] const std::vector<LintFinding>& findings() const { return findings_; }
+  /// Counts of the frame that was evaluated last; empty if none was.
+  [[nodiscard]] const std::vector<WalrCounter>& counts() const { return counts_; }
 
  private:
   struct Pending {
@@ -41,11 +47,11 @@ class HostedLint {
     fg::Extent extent;
   };
 
-  const fg::vk::DeviceContext* device_;
-  fg::vk::StagedBuffer counters_;
+  CountBuffer buffer_;
   InputLinter linter_;
   std::vector<std::optional<Pending>> pending_;  ///< By slot.
   std::vector<LintFinding> findings_;
+  std::vector<WalrCounter> counts_;
   std::set<std::string_view> known_;
 };
 

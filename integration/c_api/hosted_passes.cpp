@@ -1,5 +1,6 @@
 #include "integration/c_api/hosted_passes.h"
 
+#include <algorithm>
 #include <string>
 
 #include <glm/gtc/type_ptr.hpp>
@@ -18,18 +19,36 @@ HostedPasses::HostedPasses(const WalrDenoiserInfo& info, std::span<const WalrSet
                                 requireText(setting.value, "WalrSettingValue::value"));
   }
   if (info.device != nullptr) device_ = std::make_unique<HostDevice>(info.device);
-  graph_ = description_.list(ports);
+  graph_ = description_.list(ports, {.counters = info.counters == VK_TRUE, .lint = info.lint == VK_TRUE});
   // A host creates one image for each resource and swaps only those of histories, so transients cannot alias histories.
   constexpr fg::CompileOptions kOneImageEach = {.aliasHistories = false};
   plan_ = compilePlan(graph_.graph, fg::TableMemoryModel(), kOneImageEach);
   if (device_) {
+    device_->requireResultFormat(description_.resultFormat());
     fg::vk::require(device_->physical(), fg::vk::formatUses(graph_.graph.desc(), plan_));
     plan_ = compilePlan(graph_.graph, fg::vk::DriverMemoryModel(device_->context()), kOneImageEach);
   }
-  list_.emplace(graph_.graph.desc(), plan_, graph_.ports);
-  if (device_) {
-    recording_.emplace(device_->context(), graph_.graph.desc(), plan_, list_->list(), description_.slots(),
-                       info.pipeline_cache);
+  PassList::Options options{.heaps = device_ != nullptr};
+  for (const fg::Buffer counts : {graph_.lint, graph_.inspection.counterBuffer()}) {
+    if (counts.valid()) options.libraryBuffers.push_back(counts.resource);
+  }
+  list_.emplace(graph_.graph.desc(), plan_, graph_.ports, options);
+  if (!device_) return;
+  recording_.emplace(device_->context(), graph_.graph.desc(), plan_, list_->list(), description_.slots(),
+                     info.pipeline_cache);
+  if (measuresTimes(info, *device_)) timestamps_.emplace(device_->context(), list_->list(), description_.slots());
+  makeCounts();
+}
+
+void HostedPasses::makeCounts() {
+  const auto usage = [&](fg::Buffer counts) { return plan_.resources[counts.resource].bufferUsage; };
+  if (const fg::Buffer counts = graph_.lint; counts.valid()) {
+    lint_.emplace(device_->context(), usage(counts), description_.inputConventions(), description_.slots());
+    recording_->bindLibraryBuffer(counts.resource, lint_->buffer().handle());
+  }
+  if (const fg::Buffer counts = graph_.inspection.counterBuffer(); !graph_.inspection.counters().empty()) {
+    counters_.emplace(device_->context(), usage(counts), graph_.inspection.counters(), description_.slots());
+    recording_->bindLibraryBuffer(counts.resource, counters_->buffer().handle());
   }
 }
 
@@ -56,13 +75,19 @@ void HostedPasses::continueFrom(const HostedPasses& last) {
 }
 
 void HostedPasses::beginFrame(const WalrPassFrame& frame) {
+  checkFlags(frame.flags, WALR_FRAME_INDEX_GIVEN, "WalrPassFrame::flags");
   constants_ = description_.constants({.camera = frame.camera,
                                        .previousCamera = frame.previous_camera,
                                        .skyDepth = frame.sky_depth,
                                        .preExposure = frame.pre_exposure,
-                                       .offset = glm::make_vec2(frame.offset)});
+                                       .offset = glm::make_vec2(frame.offset),
+                                       .index = givenIndex(frame.flags, frame.frame_index)});
   if (recording_) {
     recording_->begin(description_.frames());
+    if (timestamps_) timestamps_->beginFrame(recording_->slot());
+    if (lint_) lint_->collect(recording_->slot());
+    if (counters_) counters_->collect(recording_->slot());
+    afterAnother_ = description_.frames() > 0;
     for (const std::uint32_t resource : recording_->uploads()) recording_->upload(resource, frameConstants(resource));
   }
   description_.advance(*frame.camera);
@@ -86,7 +111,72 @@ void HostedPasses::record(std::uint32_t pass, VkCommandBuffer commandBuffer,
     throw Error(WALR_ERROR_INVALID_ARGUMENT,
                 "there is no pass " + std::to_string(pass) + ", there are " + std::to_string(list().pass_count));
   }
+  recording_->requireRecordable(pass, resources);
+  const CountUse ofLint = lint_ ? useOf(pass, graph_.lint) : CountUse::None;
+  const CountUse ofCounters = counters_ ? useOf(pass, graph_.inspection.counterBuffer()) : CountUse::None;
+  const auto recordBarrier = [&](const CountBuffer& buffer, CountUse use) {
+    if (use == CountUse::Clear) {
+      buffer.recordBefore(commandBuffer);
+    } else {
+      buffer.recordBetween(commandBuffer);
+    }
+  };
+  if (ofLint != CountUse::None) recordBarrier(lint_->buffer(), ofLint);
+  if (ofCounters != CountUse::None) recordBarrier(counters_->buffer(), ofCounters);
+  if (timestamps_) timestamps_->beginPass(commandBuffer, recording_->slot(), pass);
   recording_->record(pass, commandBuffer, resources);
+  if (timestamps_) timestamps_->endPass(commandBuffer, recording_->slot(), pass);
+  if (ofCounters == CountUse::CountLast) counters_->recordAfter(commandBuffer, recording_->slot());
+  if (ofLint == CountUse::CountLast) {
+    lint_->recordAfter(commandBuffer, recording_->slot(),
+                       afterAnother_ ? std::optional(constants_->camera) : std::nullopt, description_.extent());
+  }
+}
+
+/// The binding of a buffer of counts in a pass; null if it has none.
+const WalrBinding* HostedPasses::bindingOf(std::uint32_t pass, fg::Buffer counts) const {
+  const std::span bindings(list().passes[pass]->bindings, list().passes[pass]->binding_count);
+  const auto found = std::ranges::find(bindings, counts.resource, &WalrBinding::resource);
+  return found == bindings.end() ? nullptr : *found;
+}
+
+HostedPasses::CountUse HostedPasses::useOf(std::uint32_t pass, fg::Buffer counts) const {
+  const WalrBinding* binding = bindingOf(pass, counts);
+  if (binding == nullptr) return CountUse::None;
+  if ((binding->access & VK_ACCESS_2_SHADER_STORAGE_READ_BIT) == 0) return CountUse::Clear;
+  for (std::uint32_t later = pass + 1; later < list().pass_count; ++later) {
+    if (bindingOf(later, counts) != nullptr) return CountUse::Count;
+  }
+  return CountUse::CountLast;
+}
+
+std::vector<WalrPassTime> HostedPasses::timings() const {
+  if (!timestamps_) return {};
+  const std::uint64_t begun = std::min<std::uint64_t>(description_.frames(), description_.slots());
+  for (std::uint64_t back = 1; back <= begun; ++back) {
+    const std::uint64_t slot = (description_.frames() - back) % description_.slots();
+    std::vector<WalrPassTime> times = timestamps_->read(static_cast<std::uint32_t>(slot));
+    if (!times.empty()) return times;
+  }
+  return {};
+}
+
+std::span<const LintFinding> HostedPasses::findings() const {
+  if (lint_) return lint_->findings();
+  throw Error(WALR_ERROR_WRONG_ORDER,
+              "inputs are not checked: create the passes with WalrDenoiserInfo::lint and a device");
+}
+
+std::vector<WalrCounter> HostedPasses::counters() const {
+  if (!recording_ || !(graph_.lint.valid() || graph_.inspection.counterBuffer().valid())) {
+    throw Error(WALR_ERROR_WRONG_ORDER,
+                "nothing is counted: create the passes with WalrDenoiserInfo::counters or WalrDenoiserInfo::lint, and "
+                "a device");
+  }
+  std::vector<WalrCounter> counters;
+  if (counters_) counters = counters_->values();
+  if (lint_) counters.insert(counters.end(), lint_->counts().begin(), lint_->counts().end());
+  return counters;
 }
 
 void HostedPasses::forget(VkImage image, std::uint64_t identity) {

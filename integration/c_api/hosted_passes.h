@@ -9,8 +9,11 @@
 
 #include "integration/c_api/description.h"
 #include "integration/c_api/device.h"
+#include "integration/c_api/hosted_counters.h"
+#include "integration/c_api/hosted_lint.h"
 #include "integration/c_api/pass_list.h"
 #include "integration/c_api/pass_recording.h"
+#include "integration/c_api/pass_timestamps.h"
 
 namespace walr::api {
 
@@ -33,8 +36,21 @@ class HostedPasses {
   [[nodiscard]] std::span<const std::byte> frameConstants(std::uint32_t resource) const;
   void record(std::uint32_t pass, VkCommandBuffer commandBuffer, std::span<const WalrPassResource> resources);
   void forget(VkImage image, std::uint64_t identity);
+  /// Times of the last frame that the GPU has finished; empty without timestamps.
+  [[nodiscard]] std::vector<WalrPassTime> timings() const;
+  /// @throws Error if the passes were created without lint
+  [[nodiscard]] std::span<const LintFinding> findings() const;
+  /// @throws Error if nothing is counted
+  [[nodiscard]] std::vector<WalrCounter> counters() const;
 
  private:
+  /// What a pass does with a buffer of counts. One pass clears it, later ones count.
+  enum class CountUse : std::uint8_t { None, Clear, Count, CountLast };
+
+  void makeCounts();
+  [[nodiscard]] const WalrBinding* bindingOf(std::uint32_t pass, fg::Buffer counts) const;
+  [[nodiscard]] CountUse useOf(std::uint32_t pass, fg::Buffer counts) const;
+
   Description description_;
   std::unique_ptr<HostDevice> device_;  ///< Null where passes are only listed.
   ListedGraph graph_;
@@ -42,6 +58,10 @@ class HostedPasses {
   std::optional<PassList> list_;
   std::optional<PassRecording> recording_;
   std::optional<Constants> constants_;
+  bool afterAnother_ = false;  ///< The frame begun last has a frame before it.
+  std::optional<PassTimestamps> timestamps_;
+  std::optional<HostedLint> lint_;
+  std::optional<HostedCounters> counters_;
 };
 
 }  // namespace walr::api

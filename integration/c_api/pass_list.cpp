@@ -35,10 +35,14 @@ std::uint32_t partnerOf(const fg::GraphDesc& graph, std::uint32_t index) {
 
 }  // namespace
 
-PassList::PassList(const fg::GraphDesc& graph, const fg::Plan& plan, std::span<const StagePort> ports) {
+PassList::PassList(const fg::GraphDesc& graph, const fg::Plan& plan, std::span<const StagePort> ports,
+                   const Options& options)
+    : options_(options) {
   for (std::uint32_t i = 0; i < graph.resources.size(); ++i) addResource(graph, plan, i);
   for (const fg::PlannedPass& planned : plan.passes) addPass(graph, planned);
-  for (const fg::PlannedHeap& heap : plan.heaps) heaps_.push_back({heap.size, heap.memoryTypeBits, 0});
+  if (options_.heaps) {
+    for (const fg::PlannedHeap& heap : plan.heaps) heaps_.push_back({heap.size, heap.memoryTypeBits, 0});
+  }
   for (const WalrResource& resource : resources_) resourceList_.push_back(&resource);
   for (const WalrDispatch& dispatch : dispatches_) dispatchList_.push_back(&dispatch);
   list_.struct_size = sizeof(list_);
@@ -46,8 +50,9 @@ PassList::PassList(const fg::GraphDesc& graph, const fg::Plan& plan, std::span<c
   list_.resources = resourceList_.data();
   list_.passes = dispatchList_.data();
   list_.pass_count = static_cast<std::uint32_t>(dispatchList_.size());
-  list_.releases = addBarriers(plan.releases);
-  list_.release_count = static_cast<std::uint32_t>(plan.releases.size());
+  const std::span<const WalrBarrier> releases = addBarriers(plan.releases);
+  list_.releases = releases.data();
+  list_.release_count = static_cast<std::uint32_t>(releases.size());
   list_.heaps = heaps_.data();
   list_.heap_count = static_cast<std::uint32_t>(heaps_.size());
   for (const StagePort& port : ports) {
@@ -57,12 +62,16 @@ PassList::PassList(const fg::GraphDesc& graph, const fg::Plan& plan, std::span<c
   list_.port_count = static_cast<std::uint32_t>(ports_.size());
 }
 
+bool PassList::ofLibrary(std::uint32_t resource) const {
+  return std::ranges::find(options_.libraryBuffers, resource) != options_.libraryBuffers.end();
+}
+
 void PassList::addResource(const fg::GraphDesc& graph, const fg::Plan& plan, std::uint32_t index) {
   const fg::ResourceDecl& decl = graph.resources[index];
   const fg::PlannedResource& planned = plan.resources[index];
   WalrResource& resource = resources_.emplace_back();
   resource.struct_size = sizeof(resource);
-  resource.kind = kindOf(decl.lifetime);
+  resource.kind = ofLibrary(index) ? WALR_RESOURCE_LIBRARY : kindOf(decl.lifetime);
   resource.name = decl.name.c_str();
   resource.used = planned.used ? VK_TRUE : VK_FALSE;
   if (const auto* texture = std::get_if<fg::TextureDesc>(&decl.desc)) {
@@ -77,15 +86,16 @@ void PassList::addResource(const fg::GraphDesc& graph, const fg::Plan& plan, std
   }
   resource.partner = partnerOf(graph, index);
   resource.memory_size = planned.size;
-  resource.heap = planned.heap;
-  resource.heap_offset = planned.offset;
+  resource.heap = options_.heaps ? planned.heap : WALR_NONE;
+  resource.heap_offset = options_.heaps ? planned.offset : 0;
 }
 
-const WalrBarrier* PassList::addBarriers(const std::vector<fg::PlannedBarrier>& planned) {
+std::span<const WalrBarrier> PassList::addBarriers(const std::vector<fg::PlannedBarrier>& planned) {
   auto& barriers = barriers_.emplace_back();
   for (const fg::PlannedBarrier& barrier : planned) {
+    if (ofLibrary(barrier.resource)) continue;
     barriers.push_back({.resource = barrier.resource,
-                        .alias_of = barrier.aliasOf,
+                        .alias_of = options_.heaps ? barrier.aliasOf : WALR_NONE,
                         .src_stage = barrier.srcStage,
                         .src_access = barrier.srcAccess,
                         .dst_stage = barrier.dstStage,
@@ -93,7 +103,7 @@ const WalrBarrier* PassList::addBarriers(const std::vector<fg::PlannedBarrier>& 
                         .old_layout = barrier.oldLayout,
                         .new_layout = barrier.newLayout});
   }
-  return barriers.data();
+  return barriers;
 }
 
 const WalrBinding* const* PassList::addBindings(const fg::PassDecl& pass, const fg::Shader& shader) {
@@ -157,8 +167,9 @@ void PassList::addPass(const fg::GraphDesc& graph, const fg::PlannedPass& planne
   dispatch.push_constant_size = static_cast<std::uint32_t>(work->constants.size());
   dispatch.history_ages = ages.data();
   dispatch.history_age_count = static_cast<std::uint32_t>(ages.size());
-  dispatch.barriers = addBarriers(planned.barriers);
-  dispatch.barrier_count = static_cast<std::uint32_t>(planned.barriers.size());
+  const std::span<const WalrBarrier> barriers = addBarriers(planned.barriers);
+  dispatch.barriers = barriers.data();
+  dispatch.barrier_count = static_cast<std::uint32_t>(barriers.size());
   std::ranges::copy(work->groups, dispatch.group_count);
   dispatch.indirect = work->indirect.resource;
   dispatch.indirect_offset = work->indirectOffset;

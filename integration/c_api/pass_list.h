@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <deque>
 #include <span>
 #include <string>
@@ -16,20 +17,29 @@ namespace walr::api {
 /// unchanged.
 class PassList {
  public:
+  struct Options {
+    /// Whether resources get places in heaps. Offsets of a plan that no driver has measured are not those of any
+    /// device.
+    bool heaps = true;
+    std::vector<std::uint32_t> libraryBuffers = {};  ///< Resources of the library, which have no barriers in the list.
+  };
+
   /// @param ports of a single stage; they must also outlive the list
   /// @throws Error if the graph has a pass that is not a compute dispatch
-  PassList(const fg::GraphDesc& graph, const fg::Plan& plan, std::span<const StagePort> ports);
+  PassList(const fg::GraphDesc& graph, const fg::Plan& plan, std::span<const StagePort> ports, const Options& options);
   PassList(const PassList&) = delete;
   PassList& operator=(const PassList&) = delete;
 
   [[nodiscard]] const WalrPassList& list() const { return list_; }
 
  private:
+  [[nodiscard]] bool ofLibrary(std::uint32_t resource) const;
   void addResource(const fg::GraphDesc& graph, const fg::Plan& plan, std::uint32_t index);
   void addPass(const fg::GraphDesc& graph, const fg::PlannedPass& planned);
-  const WalrBarrier* addBarriers(const std::vector<fg::PlannedBarrier>& planned);
+  std::span<const WalrBarrier> addBarriers(const std::vector<fg::PlannedBarrier>& planned);
   const WalrBinding* const* addBindings(const fg::PassDecl& pass, const fg::Shader& shader);
 
+  Options options_;
   // Deques never move their elements, which `list_` points to.
   std::deque<std::string> texts_;
   std::deque<WalrResource> resources_;

@@ -116,7 +116,7 @@ void PassRecording::requireResources(const WalrDispatch& pass, std::span<const W
   for (std::size_t i = 0; i < resources.size(); ++i) {
     const WalrResource& resource = *list_->resources[pass.bindings[i]->resource];
     const WalrPassResource& given = resources[i];
-    if (resource.kind == WALR_RESOURCE_UPLOAD) continue;
+    if (resource.kind == WALR_RESOURCE_UPLOAD || resource.kind == WALR_RESOURCE_LIBRARY) continue;
     if (resource.buffer == VK_TRUE) {
       if (given.buffer == VK_NULL_HANDLE) reject(pass, resource, "is a buffer, and the VkBuffer is null");
       continue;
@@ -183,8 +183,8 @@ VkImageView PassRecording::zeros(const WalrDispatch& pass, std::uint32_t resourc
     const fg::ResourceDecl& decl = graph_->resources[resource];
     const auto& desc = std::get<fg::TextureDesc>(decl.desc);
     const VkImageUsageFlags usage = list_->resources[resource]->image_usage | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
-    Zeros made{.image = fg::vk::createImage(*device_, desc, usage, decl.name + " (none)"),
-               .memory = {*device_, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, "zeros for a history"},
+    Zeros made{.memory = {*device_, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, "zeros for a history"},
+               .image = fg::vk::createImage(*device_, desc, usage, decl.name + " (none)"),
                .view = {}};
     made.memory.add(made.image.get());
     made.memory.allocate();
@@ -201,9 +201,10 @@ PassRecording::Descriptor PassRecording::describe(const WalrDispatch& pass, cons
   Descriptor descriptor;
   const WalrResource& resource = *list_->resources[binding.resource];
   if (resource.buffer == VK_TRUE) {
-    const bool upload = resource.kind == WALR_RESOURCE_UPLOAD;
-    descriptor.buffer = {upload ? uploads_.at(binding.resource)[slot()].buffer.get() : given.buffer, 0,
-                         resource.buffer_size};
+    VkBuffer buffer = given.buffer;
+    if (resource.kind == WALR_RESOURCE_UPLOAD) buffer = uploads_.at(binding.resource)[slot()].buffer.get();
+    if (resource.kind == WALR_RESOURCE_LIBRARY) buffer = libraryBuffers_.at(binding.resource);
+    descriptor.buffer = {buffer, 0, resource.buffer_size};
     return descriptor;
   }
   const bool none = given.image == VK_NULL_HANDLE;
@@ -245,14 +246,18 @@ void PassRecording::noteAge(const WalrBinding& binding, const WalrPassResource& 
   frame = frame_;
 }
 
-void PassRecording::record(std::uint32_t index, VkCommandBuffer commandBuffer,
-                           std::span<const WalrPassResource> resources) {
+void PassRecording::requireRecordable(std::uint32_t index, std::span<const WalrPassResource> resources) const {
   const WalrDispatch& pass = *list_->passes[index];
   requireResources(pass, resources);
   if (recordedFrame_[index] == frame_ + 1) {
     throw Error(WALR_ERROR_WRONG_ORDER,
                 "pass '" + std::string(pass.name) + "' is recorded twice in a frame: call walr_begin_frame between");
   }
+}
+
+void PassRecording::record(std::uint32_t index, VkCommandBuffer commandBuffer,
+                           std::span<const WalrPassResource> resources) {
+  const WalrDispatch& pass = *list_->passes[index];
   const fg::vk::Label label(*device_, commandBuffer, pass.name);
   const VkDescriptorSet set = sets_->get(index, slot());
   writeSet(set, pass, resources, commandBuffer);

@@ -28,21 +28,27 @@ class PassRecording {
 
   /// Take over the ages of histories from other passes.
   void continueFrom(const PassRecording& last, std::span<const fg::vk::InheritedHistory> inherited);
+  /// Give the buffer behind a WALR_RESOURCE_LIBRARY.
+  void bindLibraryBuffer(std::uint32_t resource, VkBuffer buffer) { libraryBuffers_[resource] = buffer; }
   /// Begin a frame. The GPU must have finished the last frame with the same slot.
   void begin(std::uint64_t frame);
   /// Indices of the upload buffers that passes read.
   [[nodiscard]] std::vector<std::uint32_t> uploads() const;
   /// Set an upload buffer's contents for the frame.
   void upload(std::uint32_t resource, std::span<const std::byte> bytes);
-  /// @throws Error naming the pass and what is wrong with its resources
+  /// Slot (among the frames in flight) of the frame begun last.
+  [[nodiscard]] std::uint32_t slot() const { return static_cast<std::uint32_t>(frame_ % slots_); }
+  /// @throws Error naming the pass and what is wrong with its resources, or if the frame has the pass already
+  void requireRecordable(std::uint32_t pass, std::span<const WalrPassResource> resources) const;
+  /// Record a pass that is recordable.
   void record(std::uint32_t pass, VkCommandBuffer commandBuffer, std::span<const WalrPassResource> resources);
   void forget(std::uint64_t identity);
 
  private:
   /// An image of zeros in place of a history that the host does not have.
   struct Zeros {
-    fg::vk::Owned<VkImage> image;
     fg::vk::MemoryArena memory;
+    fg::vk::Owned<VkImage> image;
     fg::vk::Owned<VkImageView> view;
     std::uint64_t lastFrame = 0;
   };
@@ -55,10 +61,8 @@ class PassRecording {
     VkDescriptorBufferInfo buffer{};
   };
 
-  [[nodiscard]] std::uint32_t slot() const { return static_cast<std::uint32_t>(frame_ % slots_); }
   void makeUploads(const WalrPassList& list);
   void makeSets();
-  /// Check all resources before anything is recorded.
   /// @throws Error naming a resource that is missing or in a wrong layout
   void requireResources(const WalrDispatch& pass, std::span<const WalrPassResource> resources) const;
   VkImageView view(std::uint32_t resource, const WalrPassResource& given);
@@ -75,6 +79,7 @@ class PassRecording {
   const WalrPassList* list_;
   std::uint32_t slots_;
   std::uint64_t frame_ = 0;
+  std::map<std::uint32_t, VkBuffer> libraryBuffers_;  ///< By resource.
   fg::vk::Pipelines pipelines_;
   std::vector<fg::vk::ComputePipeline> passPipelines_;  ///< By pass.
   fg::vk::Owned<VkSampler> nearest_;

@@ -11,7 +11,8 @@ using namespace walr::api;
 namespace {
 
 HandleTable<WalrPasses, HostedPasses>& allPasses() {
-  static HandleTable<WalrPasses, HostedPasses> table("WalrPasses");
+  // Never destroyed: at exit, a host may have destroyed its device before objects that it forgot.
+  static auto& table = *new HandleTable<WalrPasses, HostedPasses>("WalrPasses");
   return table;
 }
 
@@ -65,4 +66,20 @@ WalrResult walr_record_pass(WalrPasses passes, uint32_t pass, VkCommandBuffer co
 
 WalrResult walr_forget_pass_image(WalrPasses passes, VkImage image, uint64_t identity) {
   return allPasses().call(passes, [&](HostedPasses& object) { object.forget(image, identity); });
+}
+
+WalrResult walr_get_pass_timings(WalrPasses passes, uint32_t* count, WalrPassTime* times) {
+  return allPasses().call(passes, [&](HostedPasses& object) {
+    copyElements(object.timings(), times, count, [](const WalrPassTime& time) { return time; });
+  });
+}
+
+WalrResult walr_get_pass_counters(WalrPasses passes, uint32_t* count, WalrCounter* counters) {
+  return allPasses().call(passes, [&](HostedPasses& object) {
+    copyElements(object.counters(), counters, count, [](const WalrCounter& counter) { return counter; });
+  });
+}
+
+WalrResult walr_get_pass_findings(WalrPasses passes, uint32_t* count, WalrFinding* findings) {
+  return allPasses().call(passes, [&](HostedPasses& object) { copyElements(object.findings(), findings, count, toC); });
 }

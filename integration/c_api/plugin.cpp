@@ -36,6 +36,13 @@ constexpr WalrApi kApi{
     .forget_pass_image = walr_forget_pass_image,
     .get_findings = walr_get_findings,
     .continue_passes = walr_continue_passes,
+    .get_pass_timings = walr_get_pass_timings,
+    .get_pass_findings = walr_get_pass_findings,
+    .query_memory = walr_query_memory,
+    .get_views = walr_get_views,
+    .set_view = walr_set_view,
+    .get_counters = walr_get_counters,
+    .get_pass_counters = walr_get_pass_counters,
 };
 
 }  // namespace

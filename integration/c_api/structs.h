@@ -26,6 +26,8 @@ inline constexpr std::uint32_t kLeastSize<WalrConventions> = offsetof(WalrConven
 template <>
 inline constexpr std::uint32_t kLeastSize<WalrPassesInfo> = offsetof(WalrPassesInfo, ports);
 template <>
+inline constexpr std::uint32_t kLeastSize<WalrDevice> = offsetof(WalrDevice, create_info);
+template <>
 inline constexpr std::uint32_t kLeastSize<WalrPassFrame> = offsetof(WalrPassFrame, offset);
 
 /// Larger than any structure will ever be. A larger `struct_size` is an uninitialized one.
@@ -82,6 +84,12 @@ Enum checkedEnum(Enum value, Enum last, const char* name) {
                                                std::to_string(static_cast<std::int64_t>(last)));
 }
 
+/// @throws Error if flags other than those of `known` are set
+inline void checkFlags(std::uint32_t flags, std::uint32_t known, const char* name) {
+  if ((flags & ~known) == 0) return;
+  throw Error(WALR_ERROR_INVALID_ARGUMENT, std::string(name) + " has unknown bits: " + std::to_string(flags));
+}
+
 /// @throws Error if a string is null
 inline std::string_view requireText(const char* text, const char* name) {
   if (text == nullptr) throw Error(WALR_ERROR_INVALID_ARGUMENT, std::string(name) + " is null");
@@ -93,6 +101,16 @@ template <typename T>
 T& required(T* pointer, const char* name) {
   if (pointer == nullptr) throw Error(WALR_ERROR_INVALID_ARGUMENT, std::string(name) + " is null");
   return *pointer;
+}
+
+/// Copy as many elements to the caller as there is room for.
+/// @param count in: room at `target`; out: number of elements
+template <typename Element, typename Target, typename Convert>
+void copyElements(const Element& elements, Target* target, std::uint32_t* count, Convert convert) {
+  std::uint32_t& room = required(count, "the count's address");
+  const std::size_t written = target == nullptr ? 0 : std::min<std::size_t>(room, elements.size());
+  room = static_cast<std::uint32_t>(elements.size());
+  std::transform(elements.begin(), elements.begin() + static_cast<std::ptrdiff_t>(written), target, convert);
 }
 
 /// Copy bytes to the caller.

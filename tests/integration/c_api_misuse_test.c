@@ -135,6 +135,20 @@ static void test_device(const Host* host) {
   device = device_of(host);
   device.queue_family = 99;
   EXPECT(walr_check_device(&device), WALR_ERROR_UNSUPPORTED, "queue family 99 does not exist");
+
+  VkDeviceCreateInfo created = {.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, .pNext = &host->features};
+  device = device_of(host);
+  device.create_info = &created;
+  EXPECT_OK(walr_check_device(&device));
+  created.pNext = NULL;
+  EXPECT(walr_check_device(&device), WALR_ERROR_UNSUPPORTED, "created without\n  feature synchronization2");
+  EXPECT(walr_check_device(&device), WALR_ERROR_UNSUPPORTED, "feature shaderStorageImageExtendedFormats");
+  const VkPhysicalDeviceSynchronization2Features synchronization2 = {
+      .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SYNCHRONIZATION_2_FEATURES, .synchronization2 = VK_TRUE};
+  const VkPhysicalDeviceFeatures features = {.shaderStorageImageExtendedFormats = VK_TRUE};
+  created.pNext = &synchronization2;
+  created.pEnabledFeatures = &features;
+  EXPECT_OK(walr_check_device(&device));
 }
 
 static void test_create(const WalrDevice* device) {
@@ -272,6 +286,9 @@ static void test_handles(const WalrDevice* device) {
     EXPECT(walr_get_memory(wrong[i], &memory), WALR_ERROR_INVALID_HANDLE, text);
     EXPECT(walr_get_timings(wrong[i], &count, NULL), WALR_ERROR_INVALID_HANDLE, text);
     EXPECT(walr_get_findings(wrong[i], &count, NULL), WALR_ERROR_INVALID_HANDLE, text);
+    EXPECT(walr_get_views(wrong[i], &count, NULL), WALR_ERROR_INVALID_HANDLE, text);
+    EXPECT(walr_set_view(wrong[i], NULL), WALR_ERROR_INVALID_HANDLE, text);
+    EXPECT(walr_get_counters(wrong[i], &count, NULL), WALR_ERROR_INVALID_HANDLE, text);
   }
 }
 
@@ -317,6 +334,9 @@ static void test_frames(Host* host, WalrDenoiser denoiser) {
   camera = kCamera;
   memset(camera.view, 0, sizeof(camera.view));
   EXPECT(walr_record(denoiser, commands, &frame), WALR_ERROR_INVALID_ARGUMENT, "singular");
+  camera = kCamera;
+  camera.projection[5] *= -1;
+  EXPECT(walr_record(denoiser, commands, &frame), WALR_ERROR_INVALID_ARGUMENT, "projection matrix has y down");
   camera = kCamera;
   memcpy(camera.projection, kCamera.view, sizeof(camera.projection));
   EXPECT(walr_record(denoiser, commands, &frame), WALR_ERROR_INVALID_ARGUMENT, "perspective");
@@ -437,6 +457,28 @@ typedef struct Intruder {
   int calls;
 } Intruder;
 
+/* A finding of a denoiser whose recorded frames were partly never submitted would be made of numbers that no frame
+ * counted. */
+static void test_dropped_frames(Host* host, const WalrDevice* device) {
+  WalrDenoiserInfo info = info_of(device);
+  info.lint = VK_TRUE;
+  WalrDenoiser denoiser = NULL;
+  EXPECT_OK(walr_create_denoiser(&info, &denoiser));
+  Images images = make_images(host, denoiser);
+  for (int i = 0; i < 4; ++i) {
+    const VkCommandBuffer commands = host_begin(host);
+    const WalrFrame frame = frame_of(&images);
+    EXPECT_OK(walr_record(denoiser, commands, &frame));
+    EXPECT_TRUE(vkEndCommandBuffer(commands) == VK_SUCCESS);
+    vkFreeCommandBuffers(host->device, host->command_pool, 1, &commands);
+  }
+  uint32_t count = 1;
+  EXPECT_OK(walr_get_findings(denoiser, &count, NULL));
+  EXPECT_TRUE(count == 0);
+  EXPECT_OK(walr_destroy_denoiser(denoiser));
+  for (int i = 0; i < 6; ++i) host_destroy_image(host, &images.host[i]);
+}
+
 static int intrude(void* user) {
   Intruder* intruder = user;
   intruder->prepare = walr_prepare(intruder->denoiser);
@@ -490,6 +532,7 @@ int main(void) {
   test_frames(&host, denoiser);
   EXPECT_OK(walr_destroy_denoiser(denoiser));
   test_rectangle(&host, &device);
+  test_dropped_frames(&host, &device);
   test_threads(&device);
   const int messages = host_close(&host);
   if (failures + messages > 0) fprintf(stderr, "%d failures, %d validation messages\n", failures, messages);

@@ -33,6 +33,18 @@ WalrCamera cameraOf(const glm::mat4& view, const glm::mat4& projection, glm::vec
   return camera;
 }
 
+WalrDevice hostDevice(const fg::vk::Device& device) {
+  const fg::vk::DeviceView& view = device.context().view;
+  WalrDevice host{};
+  host.struct_size = sizeof(host);
+  host.queue_family = view.queueFamily;
+  host.instance = view.instance;
+  host.physical_device = view.physicalDevice;
+  host.device = view.device;
+  host.get_instance_proc_addr = view.getInstanceProcAddr;
+  return host;
+}
+
 HostedRun::HostedRun(const fg::vk::Device& device, const char* method, glm::ivec2 size, const Options& options)
     : device_(&device),
       framesInFlight_(options.framesInFlight),
@@ -41,15 +53,9 @@ HostedRun::HostedRun(const fg::vk::Device& device, const char* method, glm::ivec
       offset_(options.offset),
       margin_(options.margin),
       queue_(device.context(), device.queue(), options.framesInFlight) {
-  const fg::vk::DeviceView& view = device.context().view;
-  WalrDevice host{};
-  host.struct_size = sizeof(host);
-  host.queue_family = view.queueFamily;
-  host.instance = view.instance;
-  host.physical_device = view.physicalDevice;
-  host.device = view.device;
-  const bool own = options.getInstanceProcAddr != nullptr;
-  host.get_instance_proc_addr = own ? options.getInstanceProcAddr : view.getInstanceProcAddr;
+  WalrDevice host = hostDevice(device);
+  if (options.getInstanceProcAddr != nullptr) host.get_instance_proc_addr = options.getInstanceProcAddr;
+  host.device_memory = options.deviceMemory;
   WalrConventions conventions = options.conventions;
   conventions.struct_size = sizeof(conventions);
   conventions.rectangle = margin_ != glm::ivec2(0) ? VK_TRUE : VK_FALSE;
@@ -66,7 +72,9 @@ HostedRun::HostedRun(const fg::vk::Device& device, const char* method, glm::ivec
   info.normal_format = options.formats[2];
   info.motion_format = options.formats[3];
   info.albedo_format = options.formats[4];
+  info.denoised_format = options.denoisedFormat;
   if (objectIds_) info.object_id_format = VK_FORMAT_R32_UINT;
+  info.counters = options.counters ? VK_TRUE : VK_FALSE;
   info.lint = options.lint ? VK_TRUE : VK_FALSE;
   info.log = options.log;
   info.log_user = options.logUser;
@@ -105,6 +113,28 @@ void HostedRun::makeImages(glm::ivec2 size) {
   }
   firstIdentity_ = nextIdentity_;
   nextIdentity_ += kImages.size();
+}
+
+void HostedRun::chooseView(const char* name) {
+  queue_.waitAll();
+  if (view_) require(walr_forget_image(denoiser_, view_->external().image, viewIdentity_));
+  view_.reset();
+  require(walr_set_view(denoiser_, name));
+  if (name == nullptr) return;
+  viewNeeds_ = {};
+  viewNeeds_.struct_size = sizeof(viewNeeds_);
+  require(walr_get_image_requirements(denoiser_, "view", &viewNeeds_));
+  view_ = std::make_unique<fg::vk::StagedImage>(
+      device_->context(), fg::TextureDesc{.format = viewNeeds_.format, .extent = {viewNeeds_.width, viewNeeds_.height}},
+      viewNeeds_.usage, fg::vk::StagedImage::Direction::Readback, framesInFlight_, "view");
+  viewIdentity_ = nextIdentity_++;
+}
+
+std::vector<glm::vec4> HostedRun::view() const {
+  const auto bytes = view_->staging(lastSlot_);
+  std::vector<glm::vec4> texels(bytes.size() / sizeof(glm::vec4));
+  std::memcpy(texels.data(), bytes.data(), bytes.size());
+  return texels;
 }
 
 void HostedRun::resize(glm::ivec2 size) {
@@ -148,6 +178,17 @@ WalrImage HostedRun::describe(std::size_t index) const {
   return image;
 }
 
+WalrImage HostedRun::describeView() const {
+  WalrImage image = describe(kOutput);
+  image.image = view_->external().image;
+  image.identity = viewIdentity_;
+  image.format = viewNeeds_.format;
+  image.usage = viewNeeds_.usage;
+  image.width = viewNeeds_.width;
+  image.height = viewNeeds_.height;
+  return image;
+}
+
 std::uint32_t HostedRun::submit(const FrameDescription& camera, std::uint32_t flags, float preExposure) {
   const fg::vk::Frame recorded = queue_.begin();
   for (std::size_t i = 0; i < texels_.size(); ++i) {
@@ -173,18 +214,26 @@ std::uint32_t HostedRun::submit(const FrameDescription& camera, std::uint32_t fl
   frame.albedo = &images[4];
   frame.object_id = objectIds_ ? &images[kObjectIds] : nullptr;
   frame.denoised = &images[kOutput];
+  const WalrImage view = view_ ? describeView() : WalrImage{};
+  frame.view = view_ ? &view : nullptr;
   frame.camera = &now;
   frame.previous_camera = rememberedCamera_ ? nullptr : &before;
   require(walr_record(denoiser_, recorded.commandBuffer, &frame));
+  if (view_) view_->recordReadback(recorded.commandBuffer, recorded.slot);
   output().recordReadback(recorded.commandBuffer, recorded.slot);
   queue_.submit(recorded);
   return recorded.slot;
 }
 
+std::vector<std::byte> HostedRun::frameBytes(const FrameDescription& camera, std::uint32_t flags, float preExposure) {
+  lastSlot_ = submit(camera, flags, preExposure);
+  queue_.wait(lastSlot_);
+  const auto bytes = output().staging(lastSlot_);
+  return {bytes.begin(), bytes.end()};
+}
+
 std::vector<std::uint16_t> HostedRun::frame(const FrameDescription& camera, std::uint32_t flags, float preExposure) {
-  const std::uint32_t slot = submit(camera, flags, preExposure);
-  queue_.wait(slot);
-  const auto bytes = output().staging(slot);
+  const std::vector<std::byte> bytes = frameBytes(camera, flags, preExposure);
   std::vector<std::uint16_t> texels(bytes.size() / sizeof(std::uint16_t));
   std::memcpy(texels.data(), bytes.data(), bytes.size());
   return texels;

@@ -25,8 +25,10 @@ class HostedRun {
   struct Options {
     WalrConventions conventions{};
     std::array<VkFormat, 5> formats{};  ///< As in WalrDenoiserInfo, in the order of its members.
-    bool rememberedCamera = false;      ///< Let the library remember the previous camera.
+    VkFormat denoisedFormat = VK_FORMAT_UNDEFINED;
+    bool rememberedCamera = false;  ///< Let the library remember the previous camera.
     bool lint = false;
+    bool counters = false;
     bool objectIds = false;  ///< Give an image "object_id".
     std::uint32_t framesInFlight = 2;
     glm::ivec2 offset{0};  ///< Of the rectangle in images that are larger by `margin`.
@@ -35,6 +37,7 @@ class HostedRun {
     void* logUser = nullptr;
     PFN_vkGetInstanceProcAddr getInstanceProcAddr = nullptr;  ///< Instead of the device's.
     VkPipelineCache pipelineCache = VK_NULL_HANDLE;
+    const WalrMemoryCallbacks* deviceMemory = nullptr;
   };
 
   HostedRun(const fg::vk::Device& device, const char* method, glm::ivec2 size) : HostedRun(device, method, size, {}) {}
@@ -46,6 +49,10 @@ class HostedRun {
   [[nodiscard]] WalrDenoiser denoiser() const { return denoiser_; }
   /// Change the size: create new images and forget the views of the old ones.
   void resize(glm::ivec2 size);
+  /// Choose the view that the next frames write, or none for null.
+  void chooseView(const char* name);
+  /// Texels of the view of the frame returned last.
+  [[nodiscard]] std::vector<glm::vec4> view() const;
   /// Change the rectangle that is denoised and keep the images.
   void moveRectangle(glm::ivec2 size, glm::ivec2 offset);
   /// Size of the images.
@@ -54,6 +61,8 @@ class HostedRun {
   void fill(const std::string& image, std::vector<std::byte> texels);
   /// Record and submit a frame with the texels uploaded last, and return the result's texels, four halves each.
   std::vector<std::uint16_t> frame(const FrameDescription& camera, std::uint32_t flags = 0, float preExposure = 0.0F);
+  /// The same with the bytes of the result.
+  std::vector<std::byte> frameBytes(const FrameDescription& camera, std::uint32_t flags = 0, float preExposure = 0.0F);
   /// The same without waiting for it.
   /// @returns the frame's slot
   std::uint32_t submit(const FrameDescription& camera, std::uint32_t flags = 0, float preExposure = 0.0F);
@@ -61,6 +70,7 @@ class HostedRun {
  private:
   void makeImages(glm::ivec2 size);
   [[nodiscard]] WalrImage describe(std::size_t index) const;
+  [[nodiscard]] WalrImage describeView() const;
   [[nodiscard]] fg::vk::StagedImage& output() const { return *images_.back(); }
 
   const fg::vk::Device* device_;
@@ -73,6 +83,10 @@ class HostedRun {
   std::vector<WalrImageRequirements> needs_;
   std::vector<std::unique_ptr<fg::vk::StagedImage>> images_;  ///< Null for images that the host does not have.
   std::array<std::vector<std::byte>, 6> texels_;
+  WalrImageRequirements viewNeeds_{};
+  std::unique_ptr<fg::vk::StagedImage> view_;  ///< Null without a view.
+  std::uint64_t viewIdentity_ = 0;
+  std::uint32_t lastSlot_ = 0;
   fg::vk::FrameQueue queue_;
   std::uint64_t nextIdentity_ = 1;
   std::uint64_t firstIdentity_ = 1;
@@ -94,6 +108,9 @@ std::vector<std::byte> placed(const std::vector<Texel>& picture, glm::ivec2 size
 
 /// Throws std::runtime_error with the library's text if a call fails.
 void require(WalrResult result);
+
+/// A device for the C API.
+WalrDevice hostDevice(const fg::vk::Device& device);
 
 /// The camera of a frame for the C API.
 WalrCamera cameraOf(const glm::mat4& view, const glm::mat4& projection, glm::vec2 jitter);

@@ -15,6 +15,7 @@ Player::Player(Host& host, const WalrApi& api, WalrPasses passes) : host_(&host)
   if (api.get_pass_list(passes, &list_) != WALR_SUCCESS) throw std::runtime_error(api.last_error());
   VkSamplerCreateInfo sampler{};
   sampler.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO;
+  sampler.addressModeU = sampler.addressModeV = sampler.addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
   check(vkCreateSampler(host.device, &sampler, nullptr, &sampler_));
   makeHeaps();
   behind_.resize(list_->resource_count);

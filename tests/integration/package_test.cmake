@@ -21,9 +21,27 @@ list(LENGTH guides count)
 if(NOT count EQUAL 2)
   message(FATAL_ERROR "the guides are not installed with the library: ${guides}")
 endif()
+
+# A host may name a header of the C API without its folder, so no other installed header has such a name.
+file(GLOB api_headers "${STAGING}/usr/include/walr/*.h")
+foreach(header IN LISTS api_headers)
+  cmake_path(GET header FILENAME name)
+  file(GLOB_RECURSE namesakes "${STAGING}/usr/include/${name}")
+  if(NOT namesakes STREQUAL header)
+    message(FATAL_ERROR "these headers have one name: ${namesakes}")
+  endif()
+endforeach()
+
 run(COMMAND "${CMAKE_COMMAND}" -S "${SOURCE}" -B "${STAGING}/build" -G Ninja "-DCMAKE_PREFIX_PATH=${STAGING}/usr"
   "-DWALR_EMBEDDING=${EMBEDDING}")
 run(COMMAND "${CMAKE_COMMAND}" --build "${STAGING}/build")
+
+# A host that opens the Vulkan loader by itself has Vulkan's headers, but no library to link to.
+run(COMMAND "${CMAKE_COMMAND}" -S "${SOURCE}/without_loader" -B "${STAGING}/without_loader" -G Ninja
+  "-DCMAKE_PREFIX_PATH=${STAGING}/usr" -DCMAKE_DISABLE_FIND_PACKAGE_Vulkan=ON)
+run(COMMAND "${CMAKE_COMMAND}" --build "${STAGING}/without_loader")
+run(COMMAND "${STAGING}/without_loader/version")
+run(COMMAND "${STAGING}/without_loader/types")
 
 set(ENV{VK_INSTANCE_LAYERS} VK_LAYER_KHRONOS_validation)
 set(ENV{VK_LAYER_ENABLES} VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT)
@@ -42,6 +60,11 @@ cmake_path(GET pc PARENT_PATH pc_dir)
 set(ENV{PKG_CONFIG_PATH} "${pc_dir}")
 run(COMMAND "${PKG_CONFIG}" --cflags --libs walr OUTPUT flags)
 separate_arguments(flags UNIX_COMMAND "${flags}")
+run(COMMAND "${PKG_CONFIG}" --variable=plugin walr OUTPUT plugin)
+string(STRIP "${plugin}" plugin)
+if(NOT EXISTS "${plugin}")
+  message(FATAL_ERROR "pkg-config tells a plug-in that is not there: ${plugin}")
+endif()
 run(COMMAND cc -std=c11 "${EMBEDDING}" ${flags} -lvulkan -o "${STAGING}/c_pkg_config")
 cmake_path(GET pc_dir PARENT_PATH lib_dir)
 run(COMMAND "${CMAKE_COMMAND}" -E env "LD_LIBRARY_PATH=${lib_dir}" "${STAGING}/c_pkg_config")
@@ -50,7 +73,7 @@ run(COMMAND "${CMAKE_COMMAND}" -E env "LD_LIBRARY_PATH=${lib_dir}" "${STAGING}/c
 foreach(guide IN ITEMS README.md ADAPTERS.md)
   set(folder "${STAGING}/usr/share/doc/walr/integration")
   file(READ "${folder}/${guide}" text)
-  string(REGEX MATCHALL "\\([^()`:# ]+\\.(md|c)\\)" links "${text}")
+  string(REGEX MATCHALL "\\([^()`:# ]+\\.(md|c|cpp)\\)" links "${text}")
   if(guide STREQUAL README.md AND NOT links)
     message(FATAL_ERROR "${guide} has no links")
   endif()

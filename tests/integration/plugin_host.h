@@ -190,7 +190,8 @@ class Opaque {
     makeImages();
   }
 
-  void frame(const WalrCamera& camera, std::uint32_t flags) {
+  /// @param index with WALR_FRAME_INDEX_GIVEN
+  void frame(const WalrCamera& camera, std::uint32_t flags, std::uint32_t index = 0) {
     std::vector<WalrImage> images;
     for (const HostImage& image : images_) {
       WalrImage& given = images.emplace_back();
@@ -203,7 +204,8 @@ class Opaque {
       given.height = image.height;
       given.acquire = {image.stage, image.access, image.layout, 0};
     }
-    const WalrFrame frame = frameOf(images, camera, flags);
+    WalrFrame frame = frameOf(images, camera, flags);
+    frame.frame_index = index;
     const VkCommandBuffer commands = host_begin(host_);
     if (api_->record(denoiser_, commands, &frame) != WALR_SUCCESS) throw std::runtime_error(api_->last_error());
     host_submit_and_wait(host_, commands);

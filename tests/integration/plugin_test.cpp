@@ -1,6 +1,7 @@
 // The plug-in in hosts of different kinds. They denoise the same frames with one opaque call, pass by pass in the
 // host's own graph, and with a dispatch list.
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdio>
 #include <fstream>
@@ -147,6 +148,119 @@ TEST_F(PluginTest, PassesContinueOnlyFromPassesOfTheSameMethod) {
   EXPECT_EQ(api().continue_passes(large, small), WALR_SUCCESS);
   for (const WalrPasses passes : {small, large, whole, other}) EXPECT_EQ(api().destroy_passes(passes), WALR_SUCCESS);
   refused(large, small, WALR_ERROR_INVALID_HANDLE, "destroyed");
+}
+
+TEST_F(PluginTest, ChecksInputsAndMeasuresTimesPassByPass) {
+  constexpr Size kSize{61, 43};
+  WalrConventions conventions{};
+  conventions.struct_size = sizeof(conventions);
+  conventions.motion_scale[0] = conventions.motion_scale[1] = -1.0F;  // Wrong.
+  WalrDenoiserInfo checked = info("walr", kSize);
+  checked.conventions = &conventions;
+  checked.lint = checked.timestamps = checked.counters = VK_TRUE;
+  Opaque opaque(host, api(), checked);
+  const WalrPasses passes = makePasses(checked);
+  const WalrPassList* list = nullptr;
+  ASSERT_EQ(api().get_pass_list(passes, &list), WALR_SUCCESS);
+  {
+    tiny_host::Graph graph(host, api(), passes);
+    for (std::uint32_t frame = 0; frame < 6; ++frame) {
+      const WalrCamera camera = cameraAt(float(frame) * kStep);
+      uploadFrame(host, kSize, frame, [&](std::size_t i) { return &opaque.image(i); });
+      uploadFrame(host, kSize, frame, [&](std::size_t i) { return &graph.image(kInputs[i]); });
+      opaque.frame(camera, 0);
+      graph.frame(passFrame(camera));
+      EXPECT_EQ(download(host, graph.image("denoised")), download(host, opaque.output()));
+    }
+  }
+  std::array<WalrFinding, 16> expected{};
+  std::array<WalrFinding, 16> found{};
+  std::uint32_t expectedCount = 16;
+  std::uint32_t foundCount = 16;
+  ASSERT_EQ(api().get_findings(opaque.denoiser(), &expectedCount, expected.data()), WALR_SUCCESS);
+  ASSERT_EQ(api().get_pass_findings(passes, &foundCount, found.data()), WALR_SUCCESS);
+  ASSERT_GT(foundCount, 0U);
+  ASSERT_EQ(foundCount, expectedCount);
+  for (std::uint32_t i = 0; i < foundCount; ++i) EXPECT_STREQ(found.at(i).what, expected.at(i).what);
+  std::array<WalrCounter, 64> expectedCounters{};
+  std::array<WalrCounter, 64> counters{};
+  expectedCount = foundCount = 64;
+  ASSERT_EQ(api().get_counters(opaque.denoiser(), &expectedCount, expectedCounters.data()), WALR_SUCCESS);
+  ASSERT_EQ(api().get_pass_counters(passes, &foundCount, counters.data()), WALR_SUCCESS);
+  ASSERT_GT(foundCount, 0U);
+  ASSERT_EQ(foundCount, expectedCount);
+  EXPECT_STREQ(counters[0].name, "sky");
+  EXPECT_TRUE(std::ranges::any_of(counters, [](const WalrCounter& counter) {
+    return counter.name != nullptr && std::string(counter.name) == "lint-pixels" && counter.value > 0;
+  }));
+  for (std::uint32_t i = 0; i < foundCount; ++i) {
+    EXPECT_STREQ(counters.at(i).name, expectedCounters.at(i).name);
+    EXPECT_EQ(counters.at(i).value, expectedCounters.at(i).value) << counters.at(i).name;
+  }
+  std::vector<WalrPassTime> times(list->pass_count);
+  std::uint32_t timeCount = list->pass_count;
+  ASSERT_EQ(api().get_pass_timings(passes, &timeCount, times.data()), WALR_SUCCESS);
+  ASSERT_EQ(timeCount, list->pass_count);
+  for (std::uint32_t i = 0; i < timeCount; ++i) {
+    EXPECT_STREQ(times[i].name, list->passes[i]->name);
+    EXPECT_GE(times[i].milliseconds, 0.0);
+  }
+  EXPECT_EQ(api().destroy_passes(passes), WALR_SUCCESS);
+
+  // Without lint there are no findings to return, and a single stage cannot have it.
+  const WalrPasses unchecked = makePasses("walr", kSize);
+  EXPECT_EQ(api().get_pass_findings(unchecked, &foundCount, nullptr), WALR_ERROR_WRONG_ORDER);
+  EXPECT_EQ(api().destroy_passes(unchecked), WALR_SUCCESS);
+  WalrPasses stage = nullptr;
+  checked.method = "pass_through";
+  checked.conventions = nullptr;
+  WalrPassesInfo stageInfo{};
+  stageInfo.struct_size = sizeof(stageInfo);
+  stageInfo.denoiser = &checked;
+  EXPECT_EQ(api().create_passes(&stageInfo, &stage), WALR_ERROR_INVALID_ARGUMENT);
+  EXPECT_NE(std::string(api().last_error()).find("whole method"), std::string::npos) << api().last_error();
+}
+
+TEST_F(PluginTest, HasHeapsOnlyWithADevice) {
+  for (const bool withDevice : {true, false}) {
+    WalrDenoiserInfo listed = info("walr", {64, 48});
+    if (!withDevice) listed.device = nullptr;
+    const WalrPasses passes = makePasses(listed);
+    const WalrPassList* list = nullptr;
+    ASSERT_EQ(api().get_pass_list(passes, &list), WALR_SUCCESS);
+    EXPECT_EQ(list->heap_count > 0, withDevice);
+    std::uint32_t placed = 0;
+    std::uint32_t aliases = 0;
+    for (std::uint32_t i = 0; i < list->resource_count; ++i) placed += list->resources[i]->heap != WALR_NONE ? 1 : 0;
+    for (std::uint32_t p = 0; p < list->pass_count; ++p) {
+      for (std::uint32_t b = 0; b < list->passes[p]->barrier_count; ++b) {
+        aliases += list->passes[p]->barriers[b].alias_of != WALR_NONE ? 1 : 0;
+      }
+    }
+    EXPECT_EQ(placed > 0, withDevice);
+    EXPECT_EQ(aliases > 0, withDevice);
+    EXPECT_EQ(api().destroy_passes(passes), WALR_SUCCESS);
+  }
+}
+
+TEST_F(PluginTest, AFramesIndexSeedsItsRandomNumbers) {
+  constexpr Size kSize{61, 43};
+  Opaque counted(host, api(), info("walr", kSize));
+  Opaque given(host, api(), info("walr", kSize));
+  Opaque other(host, api(), info("walr", kSize));
+  bool differs = false;
+  for (std::uint32_t frame = 0; frame < 4; ++frame) {
+    const WalrCamera camera = cameraAt(float(frame) * kStep);
+    for (Opaque* opaque : {&counted, &given, &other}) {
+      uploadFrame(host, kSize, frame, [&](std::size_t i) { return &opaque->image(i); });
+    }
+    counted.frame(camera, 0);
+    given.frame(camera, WALR_FRAME_INDEX_GIVEN, frame);
+    other.frame(camera, WALR_FRAME_INDEX_GIVEN, 1000 + frame);
+    EXPECT_EQ(download(host, given.output()), download(host, counted.output()));
+    differs = differs || download(host, other.output()) != download(host, counted.output());
+  }
+  EXPECT_TRUE(differs);
 }
 
 TEST_F(PluginTest, EveryMethodGivesTheSamePixelsAsADispatchListWithItsHeapsAndBarriers) {

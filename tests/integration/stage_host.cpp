@@ -23,7 +23,10 @@ bool isHostImage(const std::string& port) {
 }  // namespace
 
 Chain::~Chain() {
-  for (const Stage& stage : stages_) api_->destroy_passes(stage.passes);
+  for (Stage& stage : stages_) {
+    api_->destroy_passes(stage.passes);
+    for (auto& [resource, buffer] : stage.buffers) host_destroy_buffer(host_, &buffer);
+  }
   for (auto& [name, images] : images_) {
     for (HostImage& image : images) host_destroy_image(host_, &image);
   }
@@ -73,7 +76,11 @@ void Chain::add(WalrDenoiserInfo info, const std::vector<WalrSettingValue>& sett
   for (std::uint32_t i = 0; i < list.resource_count; ++i) {
     const WalrResource& resource = *list.resources[i];
     if (resource.kind == WALR_RESOURCE_UPLOAD || resource.kind == WALR_RESOURCE_HISTORY_PREVIOUS) continue;
-    if (resource.buffer == VK_TRUE) throw std::runtime_error("this host makes no buffers");
+    if (resource.buffer == VK_TRUE) {
+      if (resource.kind != WALR_RESOURCE_TRANSIENT) throw std::runtime_error("this host connects images only");
+      stage.buffers[i] = host_make_buffer(host_, resource.buffer_size, resource.buffer_usage, 0);
+      continue;
+    }
     const auto made = sourceOf(resource.name);
     if (resource.kind == WALR_RESOURCE_HOST && made != outputs_.end()) {
       stage.images[i] = made->second.image;
@@ -111,6 +118,11 @@ void Chain::record(const Stage& stage, std::uint32_t index, VkCommandBuffer comm
     const std::uint32_t resource = pass.bindings[b]->resource;
     const WalrResourceKind kind = stage.list->resources[resource]->kind;
     if (kind == WALR_RESOURCE_UPLOAD || (kind == WALR_RESOURCE_HISTORY_PREVIOUS && frames_ == 0)) continue;
+    const auto buffer = stage.buffers.find(resource);
+    if (buffer != stage.buffers.end()) {
+      resources[b].buffer = buffer->second.buffer;
+      continue;
+    }
     resources[b].image = behind(stage, resource).image;
     resources[b].layout = VK_IMAGE_LAYOUT_GENERAL;
   }

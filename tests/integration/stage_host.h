@@ -10,8 +10,8 @@
 
 #include "host/vulkan_host.h"
 
-/// A host that builds a method out of single stages, which it connects by the names of their ports. It keeps all images
-/// in one layout and records a full barrier between passes.
+/// A host that builds a method out of single stages, which it connects by the names of their ports. Only images connect
+/// stages. It keeps all images in one layout and records a full barrier between passes.
 namespace stage_host {
 
 class Chain {
@@ -40,8 +40,9 @@ class Chain {
   struct Stage {
     WalrPasses passes = nullptr;
     const WalrPassList* list = nullptr;
-    std::vector<std::string> images;  ///< By resource: name of its image; empty if it has none.
-    std::vector<bool> swapped;        ///< By resource: whether it is the previous frame's image.
+    std::vector<std::string> images;              ///< By resource: name of its image; empty if it has none.
+    std::vector<bool> swapped;                    ///< By resource: whether it is the previous frame's image.
+    std::map<std::uint32_t, HostBuffer> buffers;  ///< By resource: buffers within the stage.
   };
   /// The image of an output, and whether it is the previous frame's.
   struct Output {

@@ -34,7 +34,8 @@ Graph::~Graph() {
 }
 
 void Graph::makeResource(const WalrResource& resource) {
-  if (resource.kind == WALR_RESOURCE_UPLOAD || resource.kind == WALR_RESOURCE_HISTORY_PREVIOUS) return;
+  const bool ours = resource.kind != WALR_RESOURCE_UPLOAD && resource.kind != WALR_RESOURCE_LIBRARY;
+  if (!ours || resource.kind == WALR_RESOURCE_HISTORY_PREVIOUS) return;
   if (resource.buffer == VK_TRUE) {
     HostBuffer& buffer = buffers_[resource.name].own;
     buffer = host_make_buffer(host_, resource.buffer_size, resource.buffer_usage, 0);
@@ -69,7 +70,7 @@ HostImage* Graph::behind(std::uint32_t index) {
 
 void Graph::transition(VkCommandBuffer commands, const WalrBinding& binding) {
   const WalrResource& resource = *list_->resources[binding.resource];
-  if (resource.kind == WALR_RESOURCE_UPLOAD) return;
+  if (resource.kind == WALR_RESOURCE_UPLOAD || resource.kind == WALR_RESOURCE_LIBRARY) return;
   if (resource.buffer == VK_TRUE) {
     NamedBuffer& buffer = buffers_.at(resource.name);
     VkBufferMemoryBarrier2 barrier{};
@@ -134,7 +135,7 @@ void Graph::recordPass(std::uint32_t index, VkCommandBuffer commands) {
   for (std::uint32_t b = 0; b < pass.binding_count; ++b) {
     const WalrBinding& binding = *pass.bindings[b];
     const WalrResource& resource = *list_->resources[binding.resource];
-    if (resource.kind == WALR_RESOURCE_UPLOAD) continue;
+    if (resource.kind == WALR_RESOURCE_UPLOAD || resource.kind == WALR_RESOURCE_LIBRARY) continue;
     if (resource.buffer == VK_TRUE) {
       resources[b].buffer = buffers_.at(resource.name).own.buffer;
       continue;

@@ -2,8 +2,8 @@
  * walr: a real-time denoiser for diffuse indirect light. C11 and C++.
  *
  * "The host" is the engine that calls this library. A denoiser records its passes into a command buffer of the host. It
- * allocates its own memory and places the barriers between its passes. The host states the layout and the last access
- * of its images before the denoiser, and what they must be ready for afterwards.
+ * allocates its own memory, or takes it from the host, and places the barriers between its passes. The host states the
+ * layout and the last access of its images before the denoiser, and what they must be ready for afterwards.
  *
  * Rules that hold everywhere:
  * - Every function that can fail returns a WalrResult. walr_last_error() then returns a text that tells what is wrong
@@ -123,10 +123,48 @@ WALR_API const WalrPassType* walr_pass_type(uint32_t index);
 
 /* ---- The device ------------------------------------------------------------------------------------------------ */
 
+/* A block of device memory that the library needs. Fields may be added at the end. */
+typedef struct WalrMemoryRequest {
+  uint32_t struct_size;      /* Size in the library. */
+  uint32_t memory_type_bits; /* Allowed memory types: bit i for VkPhysicalDeviceMemoryProperties::memoryTypes[i]. */
+  uint64_t size;             /* Bytes, above 0; a multiple of bufferImageGranularity. */
+  /* Of the offset: a multiple of bufferImageGranularity, so that blocks share no page with the host's resources. */
+  uint64_t alignment;
+  VkMemoryPropertyFlags required;  /* With HOST_VISIBLE the host maps the block, see WalrMemoryBlock::mapped. */
+  VkMemoryPropertyFlags preferred; /* Use other memory if no allowed type has these. */
+  const char* user;                /* What uses it, for messages and captures. Valid during the call. */
+} WalrMemoryRequest;
+
+/* A block of device memory of the host: a whole VkDeviceMemory or a part of one. */
+typedef struct WalrMemoryBlock {
+  VkDeviceMemory memory;
+  uint64_t offset; /* Bytes from the start of `memory`. */
+  void* mapped;    /* Address of the block's first byte until it is freed; null unless HOST_VISIBLE is required. */
+  void* token;     /* The host's own, for instance a VmaAllocation. */
+} WalrMemoryBlock;
+
+/* Both are called on the thread that calls the library, and must not call it. With several threads they may be called
+ * at the same time, for different denoisers.
+ * WalrAllocateMemory: `block` is zero before. Any result but VK_SUCCESS makes the library's function fail with
+ * WALR_ERROR_OUT_OF_MEMORY; what it has allocated until then is freed.
+ * WalrFreeMemory: `block` is what was allocated. Images and buffers in it are destroyed already. */
+typedef VkResult (*WalrAllocateMemory)(void* user, const WalrMemoryRequest* request, WalrMemoryBlock* block);
+typedef void (*WalrFreeMemory)(void* user, const WalrMemoryBlock* block);
+
+/* The host's allocator of device memory. */
+typedef struct WalrMemoryCallbacks {
+  uint32_t struct_size;
+  uint32_t reserved;
+  void* user; /* Handed to both. It must outlive the objects that are created with it. */
+  WalrAllocateMemory allocate;
+  WalrFreeMemory free;
+} WalrMemoryCallbacks;
+
 /*
  * The host's device. It must have been created with the features synchronization2 (Vulkan 1.3, or
  * VK_KHR_synchronization2) and shaderStorageImageExtendedFormats. The library does not link to the Vulkan loader: it
- * gets all Vulkan functions from `get_instance_proc_addr`.
+ * gets all Vulkan functions from `get_instance_proc_addr`. Vulkan does not tell which features of a device are enabled,
+ * so the library can check this only if it gets `create_info`.
  */
 typedef struct WalrDevice {
   uint32_t struct_size;
@@ -135,10 +173,16 @@ typedef struct WalrDevice {
   VkPhysicalDevice physical_device;
   VkDevice device;
   PFN_vkGetInstanceProcAddr get_instance_proc_addr;
-  const VkAllocationCallbacks* allocator; /* For host memory; optional. The struct is copied. */
+  const VkAllocationCallbacks* allocator; /* For memory of the processor; optional. The struct is copied. */
+  /* What `device` was created with; optional. It is read during the call only. */
+  const VkDeviceCreateInfo* create_info;
+  /* For all device memory; optional. The struct is copied. Null: the library calls vkAllocateMemory. */
+  const WalrMemoryCallbacks* device_memory;
 } WalrDevice;
 
-/* WALR_ERROR_UNSUPPORTED if the device lacks something; the error text lists everything that is missing. */
+/* WALR_ERROR_UNSUPPORTED if the device lacks something; the error text lists everything that is missing. Checks what
+ * the physical device supports, and with WalrDevice::create_info also what is enabled. All functions that take a
+ * WalrDevice check the same. */
 WALR_API WalrResult walr_check_device(const WalrDevice* device);
 
 /* ---- A denoiser ------------------------------------------------------------------------------------------------ */
@@ -225,14 +269,19 @@ typedef struct WalrDenoiserInfo {
   VkFormat normal_format;
   VkFormat motion_format;
   VkFormat albedo_format;
-  VkBool32 timestamps; /* Measure the GPU time of every pass, if the queue family supports it. */
-  WalrLog log;         /* Optional. */
+  VkBool32
+      timestamps; /* Measure the GPU time of every pass. A warning is logged if the queue family has no timestamps. */
+  WalrLog log;    /* Optional. */
   void* log_user;
   VkFormat object_id_format; /* Of WalrFrame::object_id, unsigned integers; VK_FORMAT_UNDEFINED: no such image. */
   VkBool32 lint;             /* Check the inputs of every frame, see walr_get_findings. For debugging: costs a pass. */
   /* Used for all pipelines; optional. It must outlive the object that is created with it. To avoid compilation at the
    * next start, save the result of vkGetPipelineCacheData and create the cache from it. */
   VkPipelineCache pipeline_cache;
+  /* Format of the result: VK_FORMAT_R16G16B16A16_SFLOAT (or VK_FORMAT_UNDEFINED), VK_FORMAT_B10G11R11_UFLOAT_PACK32 or
+   * VK_FORMAT_R32G32B32A32_SFLOAT. The last two cost a small pass, which rounds to the nearest value. */
+  VkFormat denoised_format;
+  VkBool32 counters; /* Count what the method does, see walr_get_counters. For debugging: costs passes. */
 } WalrDenoiserInfo;
 
 /* Creates no Vulkan object; see walr_prepare. */
@@ -275,8 +324,8 @@ typedef struct WalrImageRequirements {
   uint32_t height;
 } WalrImageRequirements;
 
-/* port: "lighting", "depth", "normal", "motion", "albedo", "object_id" or "denoised". Needs no image and no
- * walr_prepare. */
+/* port: "lighting", "depth", "normal", "motion", "albedo", "object_id", "denoised", or "view" (see walr_set_view).
+ * Needs no image and no walr_prepare. */
 WALR_API WalrResult walr_get_image_requirements(WalrDenoiser denoiser, const char* port,
                                                 WalrImageRequirements* requirements);
 
@@ -323,6 +372,7 @@ typedef struct WalrCamera {
 
 typedef enum WalrFrameFlags {
   WALR_FRAME_RESET_HISTORY = 1, /* Camera cut, or motion does not lead to the frame recorded last. */
+  WALR_FRAME_INDEX_GIVEN = 2,   /* `frame_index` is set. */
   WALR_FRAME_FLAGS_MAX = 0x7fffffff
 } WalrFrameFlags;
 
@@ -341,6 +391,11 @@ typedef struct WalrFrame {
   float pre_exposure;                /* With WalrConventions::pre_exposed; 0 means 1. */
   const WalrImage* object_id;        /* Optional, see WalrDenoiserInfo::object_id_format. */
   uint32_t offset[2]; /* With WalrConventions::rectangle: its first pixel, y down, the same in all images. */
+  /* With WALR_FRAME_INDEX_GIVEN: seed of the frame's random numbers, so that a replay of the same frames has the same
+   * result. It must differ from frame to frame. Without the flag it is the number of frames recorded before. */
+  uint32_t frame_index;
+  uint32_t reserved;
+  const WalrImage* view; /* Receives the view that walr_set_view has chosen. Null if there is none. */
 } WalrFrame;
 
 /*
@@ -362,7 +417,7 @@ WALR_API WalrResult walr_reset_history(WalrDenoiser denoiser);
 typedef struct WalrMemory {
   uint32_t struct_size;
   uint32_t reserved;
-  uint64_t allocated;           /* Bytes of device memory allocated from the driver. */
+  uint64_t allocated;           /* Bytes of device memory, from the driver or WalrDevice::device_memory. */
   uint64_t persistent;          /* Histories. */
   uint64_t transient;           /* Further memory for transients, which alias each other and histories. */
   uint64_t transient_unaliased; /* The same without aliasing. */
@@ -372,6 +427,10 @@ typedef struct WalrMemory {
 
 /* Call walr_prepare or walr_record before. */
 WALR_API WalrResult walr_get_memory(WalrDenoiser denoiser, WalrMemory* memory);
+
+/* The memory that a denoiser with this description will allocate, before there is one: the result of walr_get_memory
+ * after walr_prepare. It allocates no device memory. */
+WALR_API WalrResult walr_query_memory(const WalrDenoiserInfo* info, WalrMemory* memory);
 
 typedef struct WalrPassTime {
   const char* name; /* Valid until settings or size change. */
@@ -395,6 +454,37 @@ typedef struct WalrFinding {
  * WalrConventions::rectangle is set.
  * count: in: room at `findings`; out: number of findings. `findings` may be null. */
 WALR_API WalrResult walr_get_findings(WalrDenoiser denoiser, uint32_t* count, WalrFinding* findings);
+
+/* ---- Views and counters ---------------------------------------------------------------------------------------- */
+
+/* An image of an intermediate value of the method. */
+typedef struct WalrView {
+  const char* name;        /* As walr_set_view takes it. */
+  const char* description; /* One line: what red, green and blue hold. */
+} WalrView;
+
+/* The views that the method has with its current settings. The texts are valid while the library is loaded.
+ * count: in: room at `views`; out: number of views. `views` may be null. */
+WALR_API WalrResult walr_get_views(WalrDenoiser denoiser, uint32_t* count, WalrView* views);
+
+/* Choose the view that the next frames write to WalrFrame::view: an RGBA32F image of exactly the denoised size. It
+ * costs a pass that repeats the work of its stage, and takes effect like a setting that changes passes: the history is
+ * kept. If a later setting removes the view, walr_record fails until another is chosen. name: of walr_get_views;
+ * "NAME.T" is the view of iteration T where its stage iterates, and "NAME" that of the last. Null: none, the default.
+ */
+WALR_API WalrResult walr_set_view(WalrDenoiser denoiser, const char* name);
+
+/* How often something happened in a frame, for instance in how many pixels. */
+typedef struct WalrCounter {
+  const char* name; /* Valid until settings or size change. */
+  uint64_t value;
+} WalrCounter;
+
+/* Counters of the last frame that was evaluated: those of the method with WalrDenoiserInfo::counters, and those of the
+ * inputs ("lint-...") with WalrDenoiserInfo::lint. A frame is evaluated when the one `frames_in_flight` after it is
+ * recorded. There are none before, and after a change of settings or size that changes passes.
+ * count: in: room at `counters`; out: number of counters. `counters` may be null. */
+WALR_API WalrResult walr_get_counters(WalrDenoiser denoiser, uint32_t* count, WalrCounter* counters);
 
 #ifdef __cplusplus
 }

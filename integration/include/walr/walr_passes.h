@@ -6,8 +6,9 @@
  * - Pass by pass: each pass becomes a pass of the host's graph. The host creates all resources of the list, orders the
  *   passes, places barriers and swaps histories. It calls walr_record_pass for each pass, which only binds and
  *   dispatches.
- * - A dispatch list: the host also creates the pipelines, from the SPIR-V and constants in the list. It need not give a
- *   device. It may use the list's order, barriers and heap offsets as they are.
+ * - A dispatch list: the host also creates the pipelines, from the SPIR-V and constants in the list. It may use the
+ *   list's order, barriers and heap offsets as they are. It need not give a device, but then there are no heaps,
+ * because only a driver knows the sizes of images: the host gives every resource memory of its own.
  */
 #ifndef WALR_WALR_PASSES_H
 #define WALR_WALR_PASSES_H
@@ -25,7 +26,8 @@ typedef enum WalrResourceKind {
   WALR_RESOURCE_TRANSIENT = 1,        /* Lives within the frame. */
   WALR_RESOURCE_HISTORY_PREVIOUS = 2, /* What the last frame wrote into `partner`. Null in the first frame. */
   WALR_RESOURCE_HISTORY_CURRENT = 3,  /* Kept for the next frame, which reads it as `partner`. */
-  WALR_RESOURCE_UPLOAD = 4, /* A uniform buffer with new contents in every frame, see walr_get_frame_constants. */
+  WALR_RESOURCE_UPLOAD = 4,  /* A uniform buffer with new contents in every frame, see walr_get_frame_constants. */
+  WALR_RESOURCE_LIBRARY = 5, /* A buffer of the library, which also places its barriers: the host binds nothing. */
   WALR_RESOURCE_KIND_MAX = 0x7fffffff
 } WalrResourceKind;
 
@@ -45,7 +47,7 @@ typedef struct WalrResource {
   uint32_t partner;     /* Index of the other resource of a history; WALR_NONE if it is none. */
   uint64_t buffer_size; /* Bytes; buffers only. */
   uint64_t memory_size; /* Bytes that the driver requires; without a device, bytes of the texels. */
-  uint32_t heap;        /* Index of the heap, for transients that alias; WALR_NONE otherwise. */
+  uint32_t heap;        /* Index of the heap, for transients that alias; WALR_NONE otherwise, and without a device. */
   uint32_t reserved;
   uint64_t heap_offset; /* Bytes. */
 } WalrResource;
@@ -100,7 +102,8 @@ typedef struct WalrDispatch {
   const WalrSpecialization* specializations;
   const void* push_constants;
   const WalrHistoryAge* history_ages;
-  const WalrBarrier* barriers; /* To record before the dispatch, if the list's order and heaps are used. */
+  const WalrBarrier* barriers; /* To record before the dispatch, if the list's order and heaps are used. A dispatch without
+                                   barriers may overlap with the one before it. */
   uint32_t specialization_count;
   uint32_t push_constant_size; /* Bytes. */
   uint32_t history_age_count;
@@ -199,8 +202,10 @@ typedef struct WalrPassFrame {
   const WalrCamera* camera;
   const WalrCamera* previous_camera; /* Null means the camera of the frame before. */
   float pre_exposure;                /* As in WalrFrame. */
+  uint32_t flags;                    /* 0 or WALR_FRAME_INDEX_GIVEN. */
+  uint32_t offset[2];                /* As in WalrFrame. */
+  uint32_t frame_index;              /* As in WalrFrame. */
   uint32_t reserved;
-  uint32_t offset[2]; /* As in WalrFrame. */
 } WalrPassFrame;
 
 /* Begin a frame. Call it once before the passes of the frame are recorded. The GPU must have finished the frame that
@@ -215,7 +220,7 @@ WALR_API WalrResult walr_get_frame_constants(WalrPasses passes, uint32_t resourc
 /* A resource that the host binds. */
 typedef struct WalrPassResource {
   VkImage image;     /* Null for a previous history that does not exist: the pass reads zeros. */
-  VkBuffer buffer;   /* For buffers, except uploads: the library binds its own. */
+  VkBuffer buffer;   /* For buffers, except WALR_RESOURCE_UPLOAD and _LIBRARY: the library binds its own. */
   uint64_t identity; /* As in WalrImage. */
   VkImageLayout layout;
   uint32_t reserved;
@@ -224,15 +229,27 @@ typedef struct WalrPassResource {
 /*
  * Bind and dispatch a pass. Passes of a frame may be recorded in any order and into different command buffers, also
  * secondary ones, if the GPU executes them in the list's order or another valid one. The call records no barrier,
- * except to clear the zeros that stand in for a null history: all resources must be in the given layout and visible to
- * the binding's stage and access, and must stay so until the pass has finished. resources: one for each binding of the
- * pass, in the order of WalrDispatch::bindings
+ * except to clear the zeros that stand in for a null history and for buffers of the library: all resources must be in
+ * the given layout and visible to the binding's stage and access, and must stay so until the pass has finished.
+ * resources: one for each binding of the pass, in the order of WalrDispatch::bindings
  */
 WALR_API WalrResult walr_record_pass(WalrPasses passes, uint32_t pass, VkCommandBuffer command_buffer,
                                      const WalrPassResource* resources, uint32_t resource_count);
 
 /* Destroy the views of an image; see walr_forget_image. */
 WALR_API WalrResult walr_forget_pass_image(WalrPasses passes, VkImage image, uint64_t identity);
+
+/* As walr_get_timings: GPU times of the passes of the last frame that the GPU has finished, each from the end of the
+ * commands before it. Valid as long as the passes. */
+WALR_API WalrResult walr_get_pass_timings(WalrPasses passes, uint32_t* count, WalrPassTime* times);
+/* As walr_get_findings, for passes of a whole method. With WalrDenoiserInfo::lint, the list has two more passes; a
+ * frame in which they are not recorded is not checked, as none should be that follows a camera cut. A new finding is
+ * not logged. */
+WALR_API WalrResult walr_get_pass_findings(WalrPasses passes, uint32_t* count, WalrFinding* findings);
+
+/* As walr_get_counters, for passes of a whole method. With WalrDenoiserInfo::counters, the list has more passes; a
+ * frame in which they are not recorded is not counted. */
+WALR_API WalrResult walr_get_pass_counters(WalrPasses passes, uint32_t* count, WalrCounter* counters);
 
 #ifdef __cplusplus
 }

@@ -46,6 +46,13 @@ typedef struct WalrApi {
   WalrResult (*forget_pass_image)(WalrPasses passes, VkImage image, uint64_t identity);
   WalrResult (*get_findings)(WalrDenoiser denoiser, uint32_t* count, WalrFinding* findings);
   WalrResult (*continue_passes)(WalrPasses passes, WalrPasses last);
+  WalrResult (*get_pass_timings)(WalrPasses passes, uint32_t* count, WalrPassTime* times);
+  WalrResult (*get_pass_findings)(WalrPasses passes, uint32_t* count, WalrFinding* findings);
+  WalrResult (*query_memory)(const WalrDenoiserInfo* info, WalrMemory* memory);
+  WalrResult (*get_views)(WalrDenoiser denoiser, uint32_t* count, WalrView* views);
+  WalrResult (*set_view)(WalrDenoiser denoiser, const char* name);
+  WalrResult (*get_counters)(WalrDenoiser denoiser, uint32_t* count, WalrCounter* counters);
+  WalrResult (*get_pass_counters)(WalrPasses passes, uint32_t* count, WalrCounter* counters);
 } WalrApi;
 
 /* Callbacks of the host. If one returns false, the registration ends with an error. */

@@ -1,0 +1,41 @@
+# Configures the preset `library` with every package hidden that only samples and tests need. With INSTALL=ON, also builds
+# and installs it with the reference, which takes minutes, and checks what is installed.
+# cmake -DSOURCE=... -DSTAGING=... [-DINSTALL=ON] -P library_preset_test.cmake
+cmake_policy(VERSION 3.25)
+function(run)
+  execute_process(COMMAND ${ARGV} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output
+    WORKING_DIRECTORY "${SOURCE}")
+  if(NOT result EQUAL 0)
+    message(FATAL_ERROR "${ARGV}: ${result}\n${output}")
+  endif()
+endfunction()
+
+# CMake refuses to find a package that is hidden, even if it is required.
+set(hidden "")
+foreach(package IN ITEMS benchmark CLI11 Embree glfw3 GTest ImGui Imath OpenEXR PkgConfig PNG Python3 Qt6 Stb TinyGLTF)
+  list(APPEND hidden "-DCMAKE_DISABLE_FIND_PACKAGE_${package}=ON")
+endforeach()
+run("${CMAKE_COMMAND}" --preset library -B "${STAGING}/build" ${hidden})
+if(NOT INSTALL)
+  return()
+endif()
+
+run("${CMAKE_COMMAND}" --build "${STAGING}/build" --target all docs)
+file(REMOVE_RECURSE "${STAGING}/installed")
+run("${CMAKE_COMMAND}" --install "${STAGING}/build" --prefix "${STAGING}/installed")
+file(GLOB_RECURSE files LIST_DIRECTORIES OFF "${STAGING}/installed/*")
+set(total 0)
+foreach(file IN LISTS files)
+  file(STRINGS "${file}" paths REGEX "${SOURCE}/")
+  if(paths)
+    message(FATAL_ERROR "${file} holds paths of the building machine: ${paths}")
+  endif()
+  if(NOT IS_SYMLINK "${file}")
+    file(SIZE "${file}" size)
+    math(EXPR total "${total} + ${size}")
+  endif()
+endforeach()
+message("installed: ${total} bytes")
+if(total GREATER 12000000)
+  message(FATAL_ERROR "more than 12 MB are installed")
+endif()

@@ -1,0 +1,155 @@
+#include "tests/integration/random_arguments.h"
+
+#include <cmath>
+#include <limits>
+
+namespace walr::test {
+namespace {
+
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+constexpr WalrCamera kCamera = {.view = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1},
+                                .projection = {1.5F, 0, 0, 0, 0, 2, 0, 0, 0, 0, -1, -1, 0, 0, -0.1F, 0},
+                                .jitter = {0, 0}};
+
+/// A value of an enumeration, seldom one that it does not have.
+template <typename Enum>
+Enum choose(Dice& dice, Expectation& expected, Enum last) {
+  const auto count = static_cast<std::uint32_t>(last) + 1;
+  if (!dice.oneIn(60)) return static_cast<Enum>(dice.below(count));
+  expected.fails(WALR_ERROR_INVALID_ARGUMENT);
+  return static_cast<Enum>(count + dice.below(1000));
+}
+
+std::string validValue(Dice& dice, Expectation& expected, const WalrSetting& setting) {
+  if (dice.oneIn(2)) return setting.default_value;
+  expected.mayFail();  // Some settings exclude each other.
+  if (setting.choice_count > 0) return setting.choices[dice.below(setting.choice_count)];
+  const double value = setting.least + (setting.most - setting.least) * dice.below(101) / 100.0;
+  return setting.kind == WALR_SETTING_INTEGER ? std::to_string(std::llround(value)) : std::to_string(value);
+}
+
+}  // namespace
+
+RandomInfo::RandomInfo(Dice& dice, Expectation& expected, const std::vector<const WalrPassType*>& types,
+                       const WalrDevice* device) {
+  chooseSize(dice, expected, info_);
+  chooseMethod(dice, expected, types);
+  chooseImages(dice, expected);
+  chooseConventions(dice, expected);
+  chooseDevice(dice, expected, device);
+  info_.value.timestamps = dice.below(2);
+  if (dice.oneIn(8)) {
+    info_.value.lint = VK_TRUE;
+    expected.mayFail();  // A stage cannot check inputs.
+  }
+}
+
+void RandomInfo::chooseMethod(Dice& dice, Expectation& expected, const std::vector<const WalrPassType*>& types) {
+  static const std::string kLong(5000, 'm');
+  if (dice.oneIn(12)) {
+    info_.value.method = dice.of({"", "magic", "WALR", kLong.c_str()});
+    expected.fails();
+    return;
+  }
+  type_ = types[dice.below(types.size())];
+  info_.value.method = type_->name;
+  if (dice.oneIn(12)) {
+    info_.value.preset = dice.of({"", "magic", kLong.c_str()});
+    expected.fails();
+  } else if (type_->preset_count > 0 && dice.oneIn(4)) {
+    info_.value.preset = type_->presets[dice.below(type_->preset_count)];
+    expected.mayFail();  // A setting's usual value may be at odds with the preset.
+  }
+}
+
+void RandomInfo::chooseImages(Dice& dice, Expectation& expected) {
+  info_.value.width = randomLength(dice, expected);
+  info_.value.height = randomLength(dice, expected);
+  info_.value.frames_in_flight = dice.below(17);
+  if (dice.oneIn(24)) {
+    info_.value.frames_in_flight = dice.of({17U, 0xffffffffU});
+    expected.fails();
+  }
+  if (!dice.oneIn(6)) return;
+  expected.mayFail();
+  VkFormat* const formats[] = {&info_.value.lighting_format, &info_.value.depth_format,  &info_.value.normal_format,
+                               &info_.value.motion_format,   &info_.value.albedo_format, &info_.value.object_id_format};
+  *formats[dice.below(6)] = dice.of({VK_FORMAT_R16G16B16A16_SFLOAT, VK_FORMAT_R32_SFLOAT, VK_FORMAT_R32_UINT,
+                                     VK_FORMAT_D32_SFLOAT_S8_UINT, VK_FORMAT_BC7_SRGB_BLOCK, VK_FORMAT_R16_UINT,
+                                     VK_FORMAT_G8_B8R8_2PLANE_420_UNORM, static_cast<VkFormat>(123456)});
+}
+
+void RandomInfo::chooseConventions(Dice& dice, Expectation& expected) {
+  if (dice.oneIn(2)) return;
+  WalrConventions& conventions = conventions_.value;
+  info_.value.conventions = &conventions;
+  chooseSize(dice, expected, conventions_);
+  expected.mayFail();  // Stages take the images as they are.
+  conventions.normal_space = choose(dice, expected, WALR_SPACE_WORLD);
+  conventions.motion_unit = choose(dice, expected, WALR_MOTION_PICTURES);
+  conventions.motion_depth = choose(dice, expected, WALR_MOTION_DEPTH_REVERSED);
+  conventions.depth = choose(dice, expected, WALR_DEPTH_DEVICE);
+  conventions.normals = choose(dice, expected, WALR_NORMALS_OCTAHEDRAL_UNSIGNED);
+  conventions.pre_exposed = dice.below(2);
+  conventions.motion_jittered = dice.below(2);
+  conventions.rectangle = dice.oneIn(3) ? VK_TRUE : VK_FALSE;
+  if (!dice.oneIn(24)) return;
+  conventions.motion_scale[dice.below(2)] = dice.of({kNan, INFINITY});
+  expected.fails();
+}
+
+void RandomInfo::chooseDevice(Dice& dice, Expectation& expected, const WalrDevice* device) {
+  if (device != nullptr) {
+    device_.value = *device;
+    info_.value.device = &device_.value;
+  }
+  if (!dice.oneIn(16)) return;
+  info_.value.device = &device_.value;
+  if (device != nullptr && dice.oneIn(2)) {
+    chooseSize(dice, expected, device_);
+    return;
+  }
+  // Without a device all of its members are null already.
+  device_.value.struct_size = sizeof(WalrDevice);
+  device_.value.device = VK_NULL_HANDLE;
+  expected.fails();
+}
+
+std::uint32_t randomLength(Dice& dice, Expectation& expected) {
+  if (!dice.oneIn(24)) return dice.of({1U, 2U, 7U, 16U, 33U, 64U});
+  expected.fails(WALR_ERROR_INVALID_ARGUMENT);
+  return dice.of({0U, 16385U, 0xffffffffU});
+}
+
+WalrSettingValue randomSetting(Dice& dice, Expectation& expected, const WalrPassType* type, std::string& storage) {
+  if (type == nullptr || type->setting_count == 0 || dice.oneIn(8)) {
+    expected.fails(WALR_ERROR_INVALID_ARGUMENT);
+    return {dice.of({static_cast<const char*>(nullptr), "", "magic", "walr.filter"}), "1"};
+  }
+  const WalrSetting& setting = *type->settings[dice.below(type->setting_count)];
+  if (dice.oneIn(6)) {
+    expected.fails(WALR_ERROR_INVALID_ARGUMENT);
+    return {setting.name, dice.of({static_cast<const char*>(nullptr), "", "nan", "1e999", "-1e30", "0x10", "on off"})};
+  }
+  storage = validValue(dice, expected, setting);
+  return {setting.name, storage.c_str()};
+}
+
+const WalrCamera* randomCamera(Dice& dice, Expectation& expected, WalrCamera& storage) {
+  if (dice.oneIn(24)) {
+    expected.fails(WALR_ERROR_INVALID_ARGUMENT);
+    return nullptr;
+  }
+  storage = kCamera;
+  storage.jitter[0] = static_cast<float>(dice.below(5)) / 8.0F;
+  if (dice.oneIn(12)) {
+    storage.view[dice.below(16)] = dice.of({kNan, INFINITY});
+    expected.fails(WALR_ERROR_INVALID_ARGUMENT);
+  } else if (dice.oneIn(8)) {
+    storage.view[dice.below(16)] = dice.of({0.0F, -1.0F, 1e30F, 1e-30F});
+    expected.mayFail();
+  }
+  return &storage;
+}
+
+}  // namespace walr::test
