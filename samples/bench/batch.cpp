@@ -196,7 +196,7 @@ class Batch {
   void time(Lane& lane, const PackedFrame& frame, std::size_t index) {
     const DenoisedPicture picture = lane.denoiser.run(frame);
     lane.record.reproducible = lane.record.reproducible && fingerprintOf(picture.indirect) == lane.results[index];
-    lane.times.add(picture);
+    lane.times.add(picture.passes);
   }
 
   void keepGroundTruth(const BenchFrame& input) const {

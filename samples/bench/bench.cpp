@@ -1,7 +1,6 @@
 #include "samples/bench/bench.h"
 
 #include <algorithm>
-#include <array>
 #include <functional>
 #include <map>
 #include <ostream>
@@ -15,9 +14,6 @@
 
 namespace walr {
 namespace {
-
-constexpr std::array kCommonExtents = {fg::Extent{1280, 720}, fg::Extent{1920, 1080}, fg::Extent{2560, 1440},
-                                       fg::Extent{3840, 2160}};
 
 /// Key of what all runs depend on: program, device, repetitions.
 std::string setupKey(const GpuDevice& device, const BenchOptions& options) {

@@ -10,6 +10,8 @@
 #include "samples/bench/or_null.h"
 #include "samples/bench/sweep.h"
 #include "samples/denoise/report.h"
+#include "samples/estimate/machine.h"
+#include "samples/estimate/shader_figures.h"
 
 namespace walr {
 namespace {
@@ -33,7 +35,8 @@ Json costsJson(const std::vector<PlanCosts>& costs) {
                     {"taps_per_pixel", orNull(cost.tapsPerPixel)},
                     {"persistent_bytes", cost.persistentBytes},
                     {"transient_unaliased_bytes", cost.transientUnaliasedBytes},
-                    {"transient_peak_bytes", cost.transientPeakBytes}});
+                    {"transient_peak_bytes", cost.transientPeakBytes},
+                    {"estimated_microseconds", orNull(cost.estimatedMicroseconds)}});
   }
   return list;
 }
@@ -200,6 +203,10 @@ std::string benchJson(const BenchReport& report, const std::string& command) {
                         {"timestamp_ns", device.timestampNanoseconds},
                         {"empty_pass_ms", device.timerMilliseconds ? toJson(*device.timerMilliseconds) : Json()},
                         {"copy_bytes_per_second", orNull(device.copyBytesPerSecond)}};
+  const FigureTable& figures = shaderFigures();
+  const Machine& machine = machineNamed(kDefaultMachine);
+  document["estimate"] = {
+      {"machine", machine.name}, {"gpu", machine.gpu}, {"compiler", figures.driver}, {"family", figures.family}};
   document["tone_map"] = "x/(1+x), exposure 1";
   document["vmaf"] = {{"by", report.vmaf.empty() ? Json() : Json(report.vmaf)},
                       {"missing_because", report.vmaf.empty() ? Json(report.whyNoVmaf) : Json()}};

@@ -5,6 +5,7 @@
 #include "framegraph/compile/compile.h"
 #include "integration/denoise_graph.h"
 #include "samples/bench/taps.h"
+#include "samples/bench/variant_estimate.h"
 
 namespace walr {
 
@@ -16,13 +17,15 @@ PlanCosts planCosts(const Variant& variant, fg::Extent extent, const InputConven
   }
   const auto pixels = static_cast<double>(extent.width) * static_cast<double>(extent.height);
   const fg::MemoryReport& memory = result.plan.memory;
-  return {.extent = extent,
-          .bytesReadPerPixel = static_cast<double>(result.plan.traffic.bytesRead) / pixels,
-          .bytesWrittenPerPixel = static_cast<double>(result.plan.traffic.bytesWritten) / pixels,
-          .tapsPerPixel = tapsPerPixel(declared.graph.desc(), result.plan, extent),
-          .persistentBytes = memory.persistentBytes,
-          .transientUnaliasedBytes = memory.transientUnaliasedBytes,
-          .transientPeakBytes = memory.transientPeakBytes};
+  return {
+      .extent = extent,
+      .bytesReadPerPixel = static_cast<double>(result.plan.traffic.bytesRead) / pixels,
+      .bytesWrittenPerPixel = static_cast<double>(result.plan.traffic.bytesWritten) / pixels,
+      .tapsPerPixel = tapsPerPixel(declared.graph.desc(), result.plan, extent),
+      .persistentBytes = memory.persistentBytes,
+      .transientUnaliasedBytes = memory.transientUnaliasedBytes,
+      .transientPeakBytes = memory.transientPeakBytes,
+      .estimatedMicroseconds = estimatedMicroseconds(variant, extent, shaderFigures(), machineNamed(kDefaultMachine))};
 }
 
 }  // namespace walr

@@ -80,11 +80,12 @@ def methods_table(bench, sequence):
         row.append(f"{ratio[0]:.2f} <small>({ratio[1]:.2f} to {ratio[2]:.2f})</small>" if ratio else "-")
         if bench.absolute and sequence:
             row += [number(bench.milliseconds(sequence, name), 3), number(bench.bandwidth_share(sequence, name), 2)]
-        row += [f"{bench.bytes_per_pixel(sequence, name):.0f}", number(bench.cost(sequence, name)["taps_per_pixel"], 0)]
+        row += [f"{bench.bytes_per_pixel(sequence, name):.0f}", number(bench.cost(sequence, name)["taps_per_pixel"], 0),
+                number(bench.estimate(name), 0)]
         rows.append(row)
     header = ["method"] + [label for _, label, _ in TABLE] + (["worst RMSE", "non-finite"] if sequence else [])
     times = ["time ratio (5 to 95 %)"] + (["ms", "share of bandwidth"] if bench.absolute and sequence else [])
-    return table(header + times + ["bytes/pixel", "taps/pixel"], rows,
+    return table(header + times + ["bytes/pixel", "taps/pixel", "ESTIMATED GPU us"], rows,
                  f"{html.escape(sequence or 'Mean over the sequences')}: means over frames after the fourth; "
                  "bold: the best method with a spatial filter")
 
@@ -322,11 +323,19 @@ small { color: #777 } .warning { background: #fff3cd; padding: .6em 1em; border-
 """
 
 
+def estimate_note(estimate):
+    """What an estimated GPU time is."""
+    return html.escape(
+        f"ESTIMATED GPU us: microseconds of a frame of 1920 x 1080 on {estimate['gpu']}, by a static model from the shaders that "
+        f"{estimate['compiler']} compiles for {estimate['family']} and from the GPU's peak rates. It is an estimate, and no measurement.")
+
+
 def sequences_sections(bench, names):
     """Measurements on the sequences: errors, costs, plots over frames and by pass."""
     out = ["<h2>Errors and costs</h2>"]
     for sequence in ([None] if len(names) > 1 else []) + names:
         out.append(methods_table(bench, sequence))
+    out.append(f"<p>{estimate_note(bench.json['estimate'])}</p>")
     out.append(f"<h2>{html.escape(bench.baseline)} against the others</h2>" + against_baseline(bench))
     out.append("<h2>Error against cost</h2><p>Filled: on the Pareto front (no other method is better in both). Bars: 5 to "
                "95 % quantile of the time ratios.</p>")
@@ -440,13 +449,13 @@ def csv_table(bench):
     metrics = [m["name"] for m in bench.json["metrics"]]
     costs = ("taps_per_pixel", "persistent_bytes", "transient_unaliased_bytes", "transient_peak_bytes")
     yield ["sequence", "variant", "sweep", *(n for m in metrics for n in (m, "worst_" + m)), "non_finite", "time_ratio_median",
-           "time_ratio_p5", "time_ratio_p95", "bytes_per_pixel", *costs]
+           "time_ratio_p5", "time_ratio_p95", "bytes_per_pixel", *costs, "estimated_microseconds_1080p"]
     for (sequence, variant), run in bench.runs.items():
         cost = bench.cost(sequence, variant)
         yield [sequence, variant, bench.variants[variant]["sweep"],
                *(run[kind][m] for m in metrics for kind in ("mean_after_4", "worst_after_4")),
                sum(f["non_finite"] for f in run["frames"]), *(bench.ratio(sequence, variant) or [None] * 3),
-               bench.bytes_per_pixel(sequence, variant), *(cost[c] for c in costs)]
+               bench.bytes_per_pixel(sequence, variant), *(cost[c] for c in costs), bench.estimate(variant)]
 
 
 def main():

@@ -74,8 +74,8 @@ def error_axes(axes, points, colour, marker, widen, spreads=None):
 def pareto_axes(axes, bench, sequence, metric, title, against):
     """One plot of error against cost."""
     ratios = {n: bench.ratio(sequence, n) for n in bench.filters}
-    costs = {n: r and r[0] for n, r in ratios.items()} if against == "time" else {
-        n: bench.bytes_per_pixel(sequence, n) for n in bench.filters}
+    costs = {n: {"time": ratios[n] and ratios[n][0], "bytes": bench.bytes_per_pixel(sequence, n), "estimate": bench.estimate(n)}[against]
+             for n in bench.filters}
     points = {n: (cost, bench.error(sequence, n, metric)) for n, cost in costs.items()}
     points = {n: p for n, p in points.items() if None not in p}
     if not points:
@@ -89,18 +89,20 @@ def pareto_axes(axes, bench, sequence, metric, title, against):
         axes.axhline(floor, color="#999999", ls=":", lw=1)
         axes.text(axes.get_xlim()[0] * 1.05, floor, "noise of the reference", fontsize=7, color="#777777", va="bottom")
     axes.set_title(title, loc="left", fontsize=9, fontweight="bold")
-    axes.set_xlabel(f"time over {bench.baseline}'s" + (" (processor)" if bench.json["device"]["software"] else "")
-                    if against == "time" else "bytes moved per pixel, from the plan")
+    axes.set_xlabel({"time": f"time over {bench.baseline}'s" + (" (processor)" if bench.json["device"]["software"] else ""),
+                     "bytes": "bytes moved per pixel, from the plan",
+                     "estimate": f"ESTIMATED us at 1080p, {bench.json['estimate']['machine']}; no measurement"}[against])
     axes.set_ylabel(dict(ERRORS)[metric])
 
 
 def pareto_figure(bench, sequence, metrics=("rmse", "flip")):
     title = sequence or "mean over the sequences"
-    figure, axes = plt.subplots(len(metrics), 2, figsize=(11, 3.6 * len(metrics)), squeeze=False)
+    figure, axes = plt.subplots(len(metrics), 3, figsize=(15, 3.6 * len(metrics)), squeeze=False)
     figure.subplots_adjust(hspace=0.38, wspace=0.22)
     for row, metric in enumerate(metrics):
-        for column, against in enumerate(("time", "bytes")):
-            pareto_axes(axes[row][column], bench, sequence, metric, f"{title}: {dict(ERRORS)[metric]} against {against}",
+        for column, against in enumerate(("time", "bytes", "estimate")):
+            pareto_axes(axes[row][column], bench, sequence, metric, f"{title}: {dict(ERRORS)[metric]} against {against}" if column < 2 else
+                        "against estimated GPU time",
                         against)
     return figure
 

@@ -122,7 +122,7 @@ std::vector<Sweep> walrSweeps() {
       over(kDefault, "occlusion", "How far does ambient occlusion reach?", "occlusion.radius",
            {"0.02", "0.04", "0.075", "0.15", "0.3"}),
       over(kDefault, "occlusion-steps", "How many steps does ambient occlusion take?", "occlusion.steps",
-           {"3", "4", "5", "6", "8"}),
+           {"2", "3", "4", "5", "8"}),
   };
 }
 

@@ -21,7 +21,7 @@ constexpr double kBicubic = 16.0;
 struct Stage {
   const fg::ComputeDispatch& work;
   fg::Extent extent;   ///< Size of the image.
-  double share = 1.0;  ///< Texels that the pass writes per pixel of the image.
+  double share = 1.0;  ///< Texels that the pass writes per pixel of the image; its threads if it writes buffers only.
 };
 
 std::uint32_t specializationOf(const Stage& stage, std::string_view name) {
@@ -37,14 +37,16 @@ Constants constantsOf(const Stage& stage) {
   return constants;
 }
 
-/// Texels that a pass writes per pixel of the image; 1 if it writes buffers only.
-double shareOf(const fg::GraphDesc& graph, const fg::PassDecl& pass, fg::Extent extent) {
+double shareOf(const fg::GraphDesc& graph, const fg::PassDecl& pass, const fg::ComputeDispatch& work,
+               fg::Extent extent) {
   for (const fg::AccessDecl& access : pass.accesses) {
     const auto* texture = std::get_if<fg::TextureDesc>(&graph.resources[access.resource].desc);
     if (access.writeVersion == fg::kNone || texture == nullptr) continue;
     return static_cast<double>(texture->extent.width) * texture->extent.height / extent.width / extent.height;
   }
-  return 1.0;
+  double threads = 1.0;
+  for (int axis = 0; axis < 3; ++axis) threads *= static_cast<double>(work.groups[axis]) * work.shader->localSize[axis];
+  return threads / extent.width / extent.height;
 }
 
 double window(std::uint32_t radius) {
@@ -127,7 +129,7 @@ std::optional<double> tapsPerPixel(const fg::GraphDesc& graph, const fg::Planned
   const std::string_view name = work->shader->name.substr(0, work->shader->name.find('.'));
   const auto found = std::ranges::find(kShaders, name, &ShaderTaps::shader);
   if (found == kShaders.end()) return std::nullopt;
-  return found->taps({*work, extent, shareOf(graph, pass, extent)});
+  return found->taps({*work, extent, shareOf(graph, pass, *work, extent)});
 }
 
 std::optional<double> tapsPerPixel(const fg::GraphDesc& graph, const fg::Plan& plan, fg::Extent extent) {

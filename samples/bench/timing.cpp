@@ -18,27 +18,35 @@ std::optional<Spread> readSpread(const Json& json) {
 
 }  // namespace
 
-void FrameTimes::add(const DenoisedPicture& picture) {
-  if (picture.passes.empty()) return;
-  milliseconds_.push_back(*picture.milliseconds());
-  names_.resize(picture.passes.size());
-  passes_.resize(picture.passes.size());
-  for (std::size_t pass = 0; pass < picture.passes.size(); ++pass) {
-    names_[pass] = picture.passes[pass].name;
-    passes_[pass].push_back(picture.passes[pass].milliseconds);
+void FrameTimes::add(std::span<const fg::vk::PassTime> passes) {
+  if (passes.empty()) return;
+  names_.resize(passes.size());
+  passes_.resize(passes.size());
+  double sum = 0.0;
+  for (std::size_t pass = 0; pass < passes.size(); ++pass) {
+    names_[pass] = passes[pass].name;
+    passes_[pass].push_back(passes[pass].milliseconds);
+    sum += passes[pass].milliseconds;
   }
+  milliseconds_.push_back(sum);
 }
 
 Timing FrameTimes::timing(const FrameTimes& baseline) const {
-  Timing timing;
-  timing.frames = milliseconds_.size();
-  if (milliseconds_.empty()) return timing;
-  timing.milliseconds = spread(milliseconds_);
+  Timing all = timing();
+  if (milliseconds_.empty()) return all;
   std::vector<double> ratios;
   for (std::size_t i = 0; i < milliseconds_.size(); ++i) {
     ratios.push_back(milliseconds_[i] / baseline.milliseconds_[i]);
   }
-  timing.ratio = spread(ratios);
+  all.ratio = spread(ratios);
+  return all;
+}
+
+Timing FrameTimes::timing() const {
+  Timing timing;
+  timing.frames = milliseconds_.size();
+  if (milliseconds_.empty()) return timing;
+  timing.milliseconds = spread(milliseconds_);
   for (std::size_t pass = 0; pass < passes_.size(); ++pass) {
     timing.passes.push_back({names_[pass], spread(passes_[pass])});
   }
@@ -54,7 +62,7 @@ void timeBeside(std::vector<TimedLane>& lanes, std::size_t repetitions, const st
     for (std::size_t lane = 0; lane < lanes.size(); ++lane) {
       TimedLane& now = lanes[(i + lane) % lanes.size()];
       const DenoisedPicture picture = now.denoiser.run((*now.frames)[i % now.frames->size()]);
-      if (i >= kFramesPerRepetition) now.times.add(picture);
+      if (i >= kFramesPerRepetition) now.times.add(picture.passes);
     }
     frameDone();
   }

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -33,10 +34,12 @@ struct Timing {
 /// Collects the times of a variant's passes over frames.
 class FrameTimes {
  public:
-  /// Has no effect if the device has no timer.
-  void add(const DenoisedPicture& picture);
+  /// Add a frame. No passes, as of a device without a timer, have no effect.
+  void add(std::span<const fg::vk::PassTime> passes);
   /// @param baseline  times of the baseline on the same frames
   [[nodiscard]] Timing timing(const FrameTimes& baseline) const;
+  /// Without ratios.
+  [[nodiscard]] Timing timing() const;
 
  private:
   std::vector<double> milliseconds_;         ///< Indexed by frame.

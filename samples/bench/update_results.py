@@ -8,6 +8,7 @@
 
 The values in the documents are stored in results.json next to this script. From it, the script writes the marked part of
 README.md, samples/bench/RESULTS.md, samples/bench/SCENES.md and the plot samples/images/pareto.png. Images need matplotlib.
+Estimated GPU times come from samples/estimate/shader_figures.json, which `cmake --build build --target update_costs` writes.
 """
 import json
 import math
@@ -17,6 +18,8 @@ import sys
 HERE = pathlib.Path(__file__).resolve().parent
 PROJECT = HERE.parent.parent
 KEPT = HERE / "results.json"
+FIGURES_FILE = PROJECT / "samples" / "estimate" / "shader_figures.json"
+MACHINES_FILE = PROJECT / "samples" / "estimate" / "machines.json"
 IMAGES = PROJECT / "samples" / "images"
 BEGIN = "<!-- Written by samples/bench/update_results.py: begin -->\n"
 END = "<!-- Written by samples/bench/update_results.py: end -->\n"
@@ -178,7 +181,21 @@ def standing(runs, baseline, figures):
     return "; ".join(([f"`{baseline}` has the best {listed(ahead)} of all methods"] if ahead else []) + others)
 
 
-def methods_table(kept):
+def estimated_times(static):
+    """Estimated GPU time in us by method, from the shaders' static figures."""
+    return {e["variant"]: e["microseconds"] for e in static["estimates"]}
+
+
+def estimate_term(static):
+    gpu = next(m["gpu"] for m in json.loads(MACHINES_FILE.read_text())["machines"] if m["name"] == static["machine"])
+    return f"""* **Estimated GPU time**: microseconds of a frame of {static['width']} x {static['height']} on one GPU, {gpu}.
+  It is an estimate by a static model, and no measurement: for each pass the largest of what the plan's bytes, the instructions and
+  the fetches of the compiled shader, and its waits take at the GPU's peak rates (see `tests/costs/README.md`). It is that of
+  the shaders of this commit, also where the other columns were measured at an earlier one."""
+
+
+def methods_table(kept, static):
+    estimates = estimated_times(static)
     header = ["method"]
     for sequence in kept["noise"]:
         header += [f"`{sequence}`: RMSE", *list(LABELS.values())[1:]]
@@ -186,9 +203,10 @@ def methods_table(kept):
     for name, method in kept["methods"].items():
         time = times(method)
         rows.append([f"`{name}`", *(number(s[f], DECIMALS[f]) for s in method["sequences"].values() for f in LABELS),
-                     "-" if time is None else f"{time[0]:.2f} ({time[1]:.2f} to {time[2]:.2f})", f"{method['bytes']:.0f}",
+                     "-" if time is None else f"{time[0]:.2f} ({time[1]:.2f} to {time[2]:.2f})", number(estimates.get(name), 0),
+                     f"{method['bytes']:.0f}",
                      "-" if method["taps"] is None else f"{method['taps']:.0f}", f"{method['megabytes']:.0f}"])
-    return table(header + ["relative time", "bytes per pixel", "taps per pixel", "memory, MB"], rows)
+    return table(header + ["relative time", "estimated GPU time, us", "bytes per pixel", "taps per pixel", "memory, MB"], rows)
 
 
 def response_section(kept):
@@ -215,7 +233,7 @@ def response_section(kept):
 """
 
 
-def results_page(kept):
+def results_page(kept, static):
     noise = listed(f"{number(v, 4)} on `{s}`" for s, v in kept["noise"].items() if v is not None)
     standings = "".join(f"* On `{s}` " + standing({n: m["sequences"][s] for n, m in kept["methods"].items()}, "walr", list(LABELS)) + ".\n"
                         for s in kept["noise"])
@@ -232,13 +250,14 @@ Written by `samples/bench/update_results.py` from `results.json`. Two sequences 
 pixel, moving camera; references of 1,400 to 2,100 samples per pixel. Values are means over the frames after the fourth, over pixels
 with a diffuse lobe. A method's name means its default preset; `METHOD:PRESET` names another one.
 
-{methods_table(kept)}
+{methods_table(kept, static)}
 * **RMSE**, **SSIM** (structural similarity, Wang et al. 2004; higher is better) and **FLIP** (Andersson et al. 2020, 67 pixels per
   degree) are taken after the tone map x / (1 + x). **Flicker** is the root mean square change of the error in luminance along
   motion, without disocclusions, over the square root of 2: white noise of standard deviation s has flicker s.
   RMSE and flicker are in units of the tone-mapped value, 0 to 1; SSIM and FLIP have no unit.
 * **Relative time**: time of a frame over that of `walr` on the same frame in the same run; median, and in brackets the 5th to the 95th
   percentile; mean over both sequences.{processor_note(kept)}
+{estimate_term(static)}
 * **Bytes**, **taps** and **memory** are those of the compiled graph at 1920 x 1080 and hold on any device. Bytes: every texel that a
   pass reads or writes, once. Taps: fetches of light, of its history and of averages of it. Memory: histories and
   transient textures, which alias each other, without the textures of the host.
@@ -331,8 +350,9 @@ def replaced(readme, text):
 def documents(kept):
     """Text of every document by its file."""
     readme = PROJECT / "README.md"
+    static = json.loads(FIGURES_FILE.read_text())
     return {readme: replaced(readme.read_text(encoding="utf-8"), readme_part(kept["methods"])),
-            HERE / "RESULTS.md": results_page(kept["methods"]), HERE / "SCENES.md": scenes_page(kept["scenes"])}
+            HERE / "RESULTS.md": results_page(kept["methods"], static), HERE / "SCENES.md": scenes_page(kept["scenes"])}
 
 
 # Pictures.

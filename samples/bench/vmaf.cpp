@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <iterator>
-#include <regex>
+#include <sstream>
 #include <string_view>
 #include <utility>
 
@@ -57,7 +57,15 @@ ChildResult runFilter(const std::string& ffmpeg, const std::vector<std::string>&
 std::string filterWith(const std::string& help, const std::filesystem::path& model) {
   if (model.empty()) return "libvmaf=log_fmt=json";
   // Since libvmaf 2 the option is called `model`, and its value is a list of options.
-  const bool list = std::regex_search(help, std::regex("\n +model +<string>"));
+  std::istringstream lines(help);
+  bool list = false;
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream words(line);
+    std::string name;
+    std::string type;
+    words >> name >> type;
+    list = list || (name == "model" && type == "<string>");
+  }
   return "libvmaf=log_fmt=json:" +
          (list ? "model=" + escaped("path=" + model.string()) : "model_path=" + escaped(model.string()));
 }

@@ -16,6 +16,7 @@
 #include "samples/bench/sweep.h"
 #include "samples/bench/variant.h"
 #include "samples/cli/command.h"
+#include "samples/cli/command_line.h"
 #include "samples/command_line/arguments.h"
 #include "samples/command_line/device_options.h"
 #include "samples/command_line/exit_code.h"
@@ -101,17 +102,6 @@ void runBench(BenchArguments& arguments, const std::string& command) {
 std::string sweepHelp() {
   std::string text = "Also run a sweep over values of a method's settings; repeatable; 'all' for all of them. Sweeps:";
   for (const Sweep& sweep : sweeps()) text += "\n  " + std::string(sweep.name) + ": " + std::string(sweep.question);
-  return text;
-}
-
-/// The command line, so that a user can repeat the run.
-std::string commandLine(const CLI::App& program, const CLI::App& command) {
-  std::string text = program.get_name() + " " + command.get_name();
-  for (const CLI::Option* option : command.get_options()) {
-    for (const std::string& value : option->results()) {
-      text += " --" + option->get_single_name() + (option->get_expected_max() > 0 ? " " + value : "");
-    }
-  }
   return text;
 }
 

@@ -12,13 +12,14 @@ using RegisterCommand = void (*)(CLI::App& program);
 
 void registerBench(CLI::App& program);
 void registerDenoise(CLI::App& program);
+void registerGpuReport(CLI::App& program);
 void registerGraph(CLI::App& program);
 void registerLint(CLI::App& program);
 void registerRender(CLI::App& program);
 
 /// All subcommands of `walr`. A new subcommand needs one line here.
-inline constexpr std::array<RegisterCommand, 5> kCommands = {
-    registerBench, registerDenoise, registerGraph, registerLint, registerRender,
+inline constexpr std::array<RegisterCommand, 6> kCommands = {
+    registerBench, registerDenoise, registerGpuReport, registerGraph, registerLint, registerRender,
 };
 
 }  // namespace walr

@@ -94,7 +94,7 @@ void registerRender(CLI::App& program) {
   constexpr double kSlowest = 1e-3;
   constexpr double kFastest = 1e6;
   command->add_option("--fps", options.framesPerSecond, "Frames per second of the animation")
-      ->check(CLI::Range(kSlowest, kFastest))
+      ->check(numberFrom(kSlowest, kFastest))
       ->capture_default_str();
   command->add_option("--camera", options.camera, "Name of the camera or of its node; default: the first");
   command->add_option(

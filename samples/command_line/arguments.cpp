@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <optional>
+#include <sstream>
 #include <string_view>
 #include <utility>
 
@@ -33,6 +34,19 @@ FrameRange parseFrameRange(const std::string& text, const std::string& option) {
     throw UsageError(option + " " + text + ": give a first and a last frame number, as in " + option + " 0-31");
   }
   return {pair->first, pair->second};
+}
+
+CLI::Validator numberFrom(double least, double most) {
+  std::ostringstream range;
+  range << "in [" << least << " - " << most << "]";
+  return {[=, text = range.str()](std::string& given) {
+            double value = 0.0;
+            const char* const end = given.data() + given.size();
+            const auto [rest, error] = std::from_chars(given.data(), end, value);
+            const bool isNumber = error == std::errc() && rest == end;
+            return isNumber && value >= least && value <= most ? std::string() : given + " is not a number " + text;
+          },
+          "FLOAT:FLOAT " + range.str()};
 }
 
 fg::Extent parseSize(const std::string& text) {

@@ -2,6 +2,8 @@
 
 #include <string>
 
+#include <CLI/CLI.hpp>
+
 #include "framegraph/declare/graph.h"
 #include "samples/sequence/sequence.h"
 
@@ -13,6 +15,9 @@ FrameRange parseFrameRange(const std::string& text, const std::string& option = 
 
 /// Parse "WIDTHxHEIGHT" in pixels, 1 to 16384 each.
 /// @throws UsageError
+/// A check that an option's number lies in a range. Unlike CLI::Range it refuses NaN.
+CLI::Validator numberFrom(double least, double most);
+
 fg::Extent parseSize(const std::string& text);
 
 }  // namespace walr

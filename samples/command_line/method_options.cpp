@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "integration/denoise_graph.h"
 #include "samples/command_line/usage_error.h"
 
 namespace walr {
@@ -63,6 +64,11 @@ std::unique_ptr<Denoiser> makeMethod(const MethodOptions& options) {
     }
     applyOption("--set " + setting, [&] { method->set(setting.substr(0, split), setting.substr(split + 1)); });
   }
+  // Settings that contradict each other are found when the method is declared. The size does not matter for that.
+  applyOption("--method " + options.name, [&] {
+    constexpr fg::Extent kAnySize{64, 64};
+    (void)declareDenoiseGraph(*method, kAnySize, InputConventions{}, kComputeHost);
+  });
   return method;
 }
 

@@ -7,6 +7,18 @@
 
 namespace walr {
 
+namespace {
+
+/// What a program ends with after it has written its text: a full device may take it only at the end.
+int endOf(const CLI::App& program, int code) {
+  std::cout.flush();
+  if (code != 0 || std::cout.good()) return code;
+  std::cerr << program.get_name() << ": cannot write to standard output\n";
+  return static_cast<int>(ExitCode::Output);
+}
+
+}  // namespace
+
 int runProgram(CLI::App& program, int argc, char** argv) {
   // Exceeding a file size limit must fail the write, as a full disk does, instead of ending the process.
   std::signal(SIGXFSZ, SIG_IGN);
@@ -14,13 +26,13 @@ int runProgram(CLI::App& program, int argc, char** argv) {
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return program.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::Usage);
+    return endOf(program, program.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::Usage));
   } catch (const std::exception& error) {
     std::cout.flush();
     std::cerr << program.get_name() << ": " << error.what() << '\n';
     return static_cast<int>(exitCode(error));
   }
-  return 0;
+  return endOf(program, 0);
 }
 
 }  // namespace walr

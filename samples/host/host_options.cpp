@@ -3,6 +3,7 @@
 #include <map>
 #include <string>
 
+#include "samples/command_line/arguments.h"
 #include "samples/command_line/device_options.h"
 
 namespace walr::host {
@@ -48,7 +49,7 @@ void addHostOptions(CLI::App& program, HostOptions& options) {
   constexpr double kSlowest = 1e-3;
   constexpr double kFastest = 1e6;
   program.add_option("--fps", tracer.framesPerSecond, "Frames per second of the animation")
-      ->check(CLI::Range(kSlowest, kFastest))
+      ->check(numberFrom(kSlowest, kFastest))
       ->capture_default_str();
   program.add_option("--camera", tracer.camera, "Name of the camera or of its node; default: the first");
   program.add_option("--sky", tracer.sky,

@@ -1,7 +1,9 @@
 #include "samples/image/exr.h"
 
+#include <cstdint>
 #include <cstring>
 #include <sstream>
+#include <stdexcept>
 #include <utility>
 
 #include <OpenEXR/ImfChannelList.h>
@@ -23,8 +25,10 @@
 namespace walr {
 namespace {
 
-// The largest image dimension of common Vulkan devices. Also keeps a damaged header from requesting terabytes.
+// The largest image dimension of common Vulkan devices.
 constexpr int kLargestDimension = 16384;
+// Twice as many as a picture of 8K has. Keeps a small file of high compression from requesting hundreds of gigabytes.
+constexpr std::int64_t kMostPixels = std::int64_t{8192} * 8192;
 
 /// A slice over a buffer of interleaved values whose first value belongs to the corner of the data window.
 template <typename T>
@@ -35,7 +39,81 @@ Imf::Slice makeSlice(Imf::PixelType type, T* values, int component, int componen
                           window.max.y - window.min.y + 1, stride, rowStride);
 }
 
+InputError damaged(const std::filesystem::path& path, const std::exception& error) {
+  return InputError("cannot read the pixels of " + path.string() + ", it is truncated or damaged: " + error.what());
+}
+
+/// Scan lines that a compression stores together.
+int linesInBlock(Imf::Compression compression) {
+  switch (compression) {
+    case Imf::ZIP_COMPRESSION:
+    case Imf::PXR24_COMPRESSION:
+      return 16;
+    case Imf::PIZ_COMPRESSION:
+    case Imf::B44_COMPRESSION:
+    case Imf::B44A_COMPRESSION:
+    case Imf::DWAA_COMPRESSION:
+      return 32;
+    case Imf::DWAB_COMPRESSION:
+      return 256;
+    default:
+      return 1;
+  }
+}
+
+/// Bytes of a line without compression; 0 if it has subsampled channels, which not all lines have.
+std::int64_t bytesOfLine(const Imf::Header& header) {
+  const Imath::Box2i& window = header.dataWindow();
+  std::int64_t bytes = 0;
+  const Imf::ChannelList& list = header.channels();
+  for (auto channel = list.begin(); channel != list.end(); ++channel) {
+    if (channel.channel().xSampling != 1 || channel.channel().ySampling != 1) return 0;
+    const std::int64_t size = channel.channel().type == Imf::HALF ? 2 : 4;
+    bytes += size * (std::int64_t{window.max.x} - window.min.x + 1);
+  }
+  return bytes;
+}
+
+/// Reads every block of scan lines without decompressing it.
+void readBlocks(Imf::InputFile& file) {
+  const Imf::Header& header = file.header();
+  const Imath::Box2i& window = header.dataWindow();
+  const std::int64_t line = header.compression() == Imf::NO_COMPRESSION ? bytesOfLine(header) : 0;
+  for (int y = window.min.y; y <= window.max.y; y += linesInBlock(header.compression())) {
+    const char* block = nullptr;
+    int bytes = 0;
+    file.rawPixelData(y, block, bytes);
+    // OpenEXR takes what a line lacks for zeros.
+    if (line != 0 && bytes != line) {
+      throw std::runtime_error("a line has " + std::to_string(bytes) + " bytes, the header claims " +
+                               std::to_string(line));
+    }
+  }
+}
+
 }  // namespace
+
+void requireRegularFile(const std::filesystem::path& path) {
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(path, error);
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
+    throw InputError("cannot read " + path.string() + ": it is not a regular file");
+  }
+}
+
+bool isCompleteExr(const std::filesystem::path& path) {
+  try {
+    requireRegularFile(path);
+    Imf::InputFile file(path.c_str());
+    // A file may be cut off within its last block, which the table of blocks does not tell.
+    const char* block = nullptr;
+    int bytes = 0;
+    file.rawPixelData(file.header().dataWindow().max.y, block, bytes);
+    return file.isComplete();
+  } catch (const std::exception&) {
+    return false;
+  }
+}
 
 struct ExrReader::File {
   explicit File(const std::string& name) : input(name.c_str()) {}
@@ -48,6 +126,7 @@ struct ExrReader::File {
 };
 
 ExrReader::ExrReader(std::filesystem::path path) : path_(std::move(path)) {
+  requireRegularFile(path_);
   try {
     file_ = std::make_unique<File>(path_.string());
   } catch (const std::exception& error) {
@@ -56,6 +135,10 @@ ExrReader::ExrReader(std::filesystem::path path) : path_(std::move(path)) {
   if (width() > kLargestDimension || height() > kLargestDimension) {
     throw InputError(path_.string() + ": " + std::to_string(width()) + " x " + std::to_string(height()) +
                      " pixels exceed the limit of " + std::to_string(kLargestDimension) + " pixels a side");
+  }
+  if (std::int64_t{width()} * height() > kMostPixels) {
+    throw InputError(path_.string() + ": " + std::to_string(width()) + " x " + std::to_string(height()) +
+                     " pixels exceed the limit of " + std::to_string(kMostPixels) + " pixels");
   }
 }
 
@@ -97,6 +180,19 @@ std::optional<int> ExrReader::integer(const std::string& name) const {
   return attribute != nullptr ? std::optional(attribute->value()) : std::nullopt;
 }
 
+void ExrReader::requireBlocks() {
+  try {
+    // Blocks of tiles cannot be read without decompressing them.
+    if (file_->input.header().hasTileDescription()) {
+      if (!file_->input.isComplete()) throw std::runtime_error("tiles are missing");
+    } else {
+      readBlocks(file_->input);
+    }
+  } catch (const std::exception& error) {
+    throw damaged(path_, error);
+  }
+}
+
 void ExrReader::read(std::span<const Target> targets) {
   const Imf::Header& header = file_->input.header();
   const Imath::Box2i& window = header.dataWindow();
@@ -116,7 +212,7 @@ void ExrReader::read(std::span<const Target> targets) {
     file_->input.setFrameBuffer(buffer);
     file_->input.readPixels(window.min.y, window.max.y);
   } catch (const std::exception& error) {
-    throw InputError("cannot read the pixels of " + path_.string() + ", it is truncated or damaged: " + error.what());
+    throw damaged(path_, error);
   }
 }
 

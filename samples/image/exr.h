@@ -16,6 +16,13 @@
 
 namespace walr {
 
+/// Refuse a path that exists and is no file: reading a pipe would wait for a writer, perhaps for good.
+/// @throws InputError naming the path
+void requireRegularFile(const std::filesystem::path& path);
+
+/// Whether a file is an OpenEXR image with all of its pixels. False if it cannot be read.
+bool isCompleteExr(const std::filesystem::path& path);
+
 /// An OpenEXR file (scan lines or tiles, first part) opened for reading. Opening reads the header only.
 class ExrReader {
  public:
@@ -44,6 +51,11 @@ class ExrReader {
   [[nodiscard]] std::optional<glm::vec2> vector(const std::string& name) const;
   /// Header attribute of type int.
   [[nodiscard]] std::optional<int> integer(const std::string& name) const;
+
+  /// Check that the file holds a block of pixels for all that its header claims. Call it before memory for the pixels
+  /// is allocated: a damaged header may claim gigabytes.
+  /// @throws InputError when the data are truncated or damaged
+  void requireBlocks();
 
   /// Read channels of any type as floats, in one pass over the file.
   /// @throws InputError when a channel is missing or subsampled, or when the data are truncated or damaged

@@ -16,6 +16,36 @@ std::string reason(int error) {
   return std::generic_category().message(error);
 }
 
+void writeAll(int file, std::span<const std::byte> bytes, const std::filesystem::path& target) {
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(file, bytes.data(), bytes.size());
+    if (written < 0 && errno == EINTR) {
+      continue;
+    }
+    if (written < 0) {
+      throw OutputError("cannot write " + target.string() + ": " + reason(errno));
+    }
+    bytes = bytes.subspan(static_cast<std::size_t>(written));
+  }
+}
+
+/// Write to what is there already: a device, a pipe, or a link to nothing yet. Renaming would put a file in its place.
+void writeInPlace(const std::filesystem::path& target, std::span<const std::byte> bytes) {
+  const int file = open(target.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
+  if (file < 0) {
+    throw OutputError("cannot open " + target.string() + ": " + reason(errno));
+  }
+  try {
+    writeAll(file, bytes, target);
+  } catch (const OutputError&) {
+    close(file);
+    throw;
+  }
+  if (close(file) != 0) {
+    throw OutputError("cannot write " + target.string() + ": " + reason(errno));
+  }
+}
+
 /// A temporary file in the directory of its final name; removed unless it is committed.
 class TemporaryFile {
  public:
@@ -38,20 +68,13 @@ class TemporaryFile {
     }
   }
 
-  void write(std::span<const std::byte> bytes) {
-    while (!bytes.empty()) {
-      const ssize_t written = ::write(file_, bytes.data(), bytes.size());
-      if (written < 0 && errno == EINTR) {
-        continue;
-      }
-      if (written < 0) {
-        fail("cannot write", errno);
-      }
-      bytes = bytes.subspan(static_cast<std::size_t>(written));
-    }
-  }
+  void write(std::span<const std::byte> bytes) { writeAll(file_, bytes, target_); }
 
   void commit() {
+    // Without this, a power failure after the renaming could leave an empty file under the final name.
+    if (fdatasync(file_) != 0) {
+      fail("cannot write", errno);
+    }
     const int closed = close(file_);
     file_ = -1;
     if (closed != 0) {
@@ -89,7 +112,15 @@ void prepareOutputDirectory(const std::filesystem::path& directory) {
 }
 
 void writeFileAtomically(const std::filesystem::path& path, std::span<const std::byte> bytes) {
-  TemporaryFile file(path);
+  namespace fs = std::filesystem;
+  std::error_code error;
+  const bool isLink = fs::is_symlink(fs::symlink_status(path, error));
+  const fs::file_status status = fs::status(path, error);
+  if (fs::exists(status) ? !fs::is_regular_file(status) : isLink) {
+    writeInPlace(path, bytes);
+    return;
+  }
+  TemporaryFile file(isLink ? fs::canonical(path) : path);
   file.write(bytes);
   file.commit();
 }

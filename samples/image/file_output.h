@@ -11,7 +11,8 @@ namespace walr {
 void prepareOutputDirectory(const std::filesystem::path& directory);
 
 /// Write a file completely or not at all: the bytes go to a temporary file in the same directory, which is then
-/// renamed. An existing file is replaced.
+/// renamed. An existing file is replaced, also where the path is a symbolic link to it. What is no regular file, such
+/// as a pipe or /dev/stdout, is written to directly.
 /// @throws OutputError; the temporary file is removed
 void writeFileAtomically(const std::filesystem::path& path, std::span<const std::byte> bytes);
 

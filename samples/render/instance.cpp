@@ -1,5 +1,6 @@
 #include "samples/render/instance.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <glm/geometric.hpp>
@@ -26,6 +27,33 @@ bool isUsable(const glm::mat4& m) {
     }
   }
   return true;
+}
+
+// The matrix itself, or if it has no inverse, which ray casting needs, a matrix close to it that has one: an object
+// that is flattened along an axis gets a millionth of its size there.
+glm::mat4 invertible(glm::mat4 m) {
+  constexpr float kLeastScale = 1e-9F;
+  constexpr float kThickness = 1e-6F;
+  float size = kLeastScale;
+  for (int axis = 0; axis < 3; ++axis) size = std::max(size, glm::length(glm::vec3(m[axis])));
+  glm::mat3 directions(0.0F);  // Of the axes so far, perpendicular to each other.
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto outside = [&](glm::vec3 v) {
+      for (int before = 0; before < axis; ++before) v -= directions[before] * glm::dot(directions[before], v);
+      return v;
+    };
+    glm::vec3 own = outside(glm::vec3(m[axis]));
+    if (glm::length(own) < kThickness * size) {
+      for (const glm::vec3 candidate : {glm::vec3(1, 0, 0), glm::vec3(0, 1, 0), glm::vec3(0, 0, 1)}) {
+        own = outside(candidate);
+        if (glm::length(own) > 0.5F) break;  // One of three perpendicular directions always is.
+      }
+      own = kThickness * size * glm::normalize(own);
+      m[axis] = glm::vec4(own, 0.0F);
+    }
+    directions[axis] = glm::normalize(own);
+  }
+  return m;
 }
 
 }  // namespace
@@ -56,6 +84,8 @@ void placeInstances(const Scene& scene, const std::vector<glm::mat4>& current, c
       throw SceneError("node '" + scene.nodes[instance.node].name +
                        "': its transform is not finite or exceeds 1e6 scene units");
     }
+    instance.worldFromObject = invertible(instance.worldFromObject);
+    instance.previousWorldFromObject = invertible(instance.previousWorldFromObject);
     const glm::mat3 linear(instance.worldFromObject);
     instance.normalFromObject = cofactors(linear);
     instance.mirrored = glm::determinant(linear) < 0.0F;

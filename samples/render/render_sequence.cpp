@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "samples/errors.h"
+#include "samples/image/exr.h"
 #include "samples/image/file_output.h"
 #include "samples/render/film.h"
 #include "samples/render/load_scene.h"
@@ -85,13 +86,13 @@ std::string describeWork(const std::string& file, double seconds, std::uint64_t 
   return text.str();
 }
 
-// Renders one file of a frame, unless it exists.
+// Renders one file of a frame, unless it exists and is complete.
 // @param paths   number of paths that the file needs, for the observer
 // @param render  writes the file; returns the number of rays it traced
 void renderFile(const fs::path& file, double paths, const RenderObserver& observer,
                 const std::function<std::uint64_t()>& render) {
   const std::string name = file.filename().string();
-  if (fs::exists(file)) {
+  if (isCompleteExr(file)) {
     observer.skipped(paths);
     observer.fileDone(name + ": already exists, skipped");
     return;

@@ -50,6 +50,12 @@ std::uint32_t findCamera(const Scene& scene, const std::string& name) {
 }
 
 glm::mat4 viewFromNode(const glm::mat4& worldFromNode, const std::string& name) {
+  constexpr float kFarthest = 1e6F;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!(std::abs(worldFromNode[3][axis]) <= kFarthest)) {
+      throw SceneError("camera node '" + name + "': its position is not finite or exceeds 1e6 scene units");
+    }
+  }
   const glm::vec3 back(worldFromNode[2]);
   const glm::vec3 right = glm::cross(glm::vec3(worldFromNode[1]), back);
   if (!(glm::length(back) > 0.0F) || !(glm::length(right) > 0.0F)) {

@@ -1,7 +1,9 @@
 #include "samples/sequence/cameras.h"
 
 #include <cmath>
+#include <cstdint>
 #include <fstream>
+#include <limits>
 #include <string>
 
 #include <glm/gtc/type_ptr.hpp>
@@ -14,12 +16,26 @@ namespace {
 
 using Json = nlohmann::json;
 
-void requireFinite(const glm::mat4& matrix, const std::string& what) {
-  for (int i = 0; i < 16; ++i) {
-    if (!std::isfinite(glm::value_ptr(matrix)[i])) {
+void requireFinite(const float* values, std::size_t count, const std::string& what) {
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!std::isfinite(values[i])) {
       throw InputError(what + " holds a value that is not finite");
     }
   }
+}
+
+/// The number of a frame in `cameras.json`.
+int readFrameNumber(const Json& entry, const std::string& file) {
+  const auto number = entry.is_object() ? entry.find("frame") : entry.end();
+  if (number == entry.end() || !number->is_number_integer()) {
+    throw InputError(file + ": an entry of \"frames\" lacks the integer \"frame\"");
+  }
+  // As a double, because unsigned numbers of 64 bits have no signed type that holds them.
+  const double value = number->get<double>();
+  if (value < 0.0 || value > std::numeric_limits<int>::max()) {
+    throw InputError(file + ": frame " + number->dump() + " is out of range");
+  }
+  return number->get<int>();
 }
 
 /// Copies the array `key` of `count` numbers to `values`.
@@ -37,18 +53,19 @@ void readNumbers(const Json& object, const char* key, const std::string& where, 
     }
     values[i] = (*entry)[i].get<float>();
   }
+  requireFinite(values, count, where + ": \"" + key + "\"");
 }
 
 glm::mat4 readMatrix(const Json& object, const char* key, const std::string& where) {
   glm::mat4 matrix(1.0F);
   readNumbers(object, key, where, glm::value_ptr(matrix), 16);
-  requireFinite(matrix, where + ": \"" + key + "\"");
   return matrix;
 }
 
 }  // namespace
 
 std::map<int, Camera> readCameraFile(const std::filesystem::path& path) {
+  requireRegularFile(path);
   std::ifstream stream(path);
   if (!stream) {
     throw InputError("cannot read " + path.string() +
@@ -58,7 +75,7 @@ std::map<int, Camera> readCameraFile(const std::filesystem::path& path) {
   Json document;
   try {
     document = Json::parse(stream);
-  } catch (const Json::parse_error& error) {
+  } catch (const Json::exception& error) {  // Also of numbers that no double holds.
     throw InputError(path.string() + " is not valid JSON: " + error.what());
   }
   if (!document.is_object() || !document.contains("frames") || !document["frames"].is_array()) {
@@ -66,10 +83,7 @@ std::map<int, Camera> readCameraFile(const std::filesystem::path& path) {
   }
   std::map<int, Camera> cameras;
   for (const Json& entry : document["frames"]) {
-    if (!entry.is_object() || !entry.contains("frame") || !entry["frame"].is_number_integer()) {
-      throw InputError(path.string() + ": an entry of \"frames\" lacks the integer \"frame\"");
-    }
-    const int number = entry["frame"].get<int>();
+    const int number = readFrameNumber(entry, path.string());
     const std::string where = path.string() + ": frame " + std::to_string(number);
     Camera camera;
     camera.view = readMatrix(entry, "view", where);
@@ -97,7 +111,7 @@ Camera readCameraAttributes(const ExrReader& file) {
     if (!matrix) {
       throw InputError(file.path().string() + ": no camera, the header attribute " + name + " (M44f) is missing");
     }
-    requireFinite(*matrix, file.path().string() + ": header attribute " + name);
+    requireFinite(glm::value_ptr(*matrix), 16, file.path().string() + ": header attribute " + name);
     return *matrix;
   };
   Camera camera;
@@ -105,6 +119,7 @@ Camera readCameraAttributes(const ExrReader& file) {
   camera.previousView = require(kPreviousViewAttribute);
   camera.projection = require(kProjectionAttribute);
   camera.jitter = file.vector(kJitterAttribute).value_or(glm::vec2(0.0F));
+  requireFinite(glm::value_ptr(camera.jitter), 2, file.path().string() + ": header attribute " + kJitterAttribute);
   camera.cut = file.integer(kCutAttribute).value_or(0) != 0;
   return camera;
 }

@@ -225,6 +225,7 @@ void requireReferenceChannels(const ExrReader& file, const RecognizedLayout& lay
 }
 
 void readFrame(ExrReader& file, const RecognizedLayout& layout, bool composite, Frame& frame) {
+  file.requireBlocks();
   std::vector<ExrReader::Target> targets;
   for (const Plane& plane : layout.layout->planes) {
     if (composite || !plane.compositeOnly) {
@@ -248,6 +249,7 @@ void readFrame(ExrReader& file, const RecognizedLayout& layout, bool composite, 
 
 Reference readReference(ExrReader& file, const RecognizedLayout& layout, bool composite,
                         std::vector<NonFiniteChannel>& nonFinite) {
+  file.requireBlocks();
   Reference reference;
   std::vector<ExrReader::Target> targets;
   addTargets(targets, layout, planeOf(*layout.layout, Role::Indirect), reference.indirect, file);

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "tests/costs/json_file.h"
+#include "samples/estimate/json_file.h"
 
 namespace walr::costs {
 namespace {

@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "samples/estimate/wave_counts.h"
+
 /// What a wave executes of a shader, counted in the listing that AMD's compiler ACO prints of it.
 namespace walr::costs {
 
@@ -64,15 +66,6 @@ struct LoopCounts {
 std::vector<double> blockFrequencies(const Listing& listing, const LoopCounts& loops);
 
 /// What one wave executes.
-struct WaveCounts {
-  double vector = 0.0;  ///< Vector instructions.
-  double multiplications =
-      0.0;  ///< Those of them that are integer multiplications of 32 bits, at a quarter of the rate.
-  double transcendentals = 0.0;  ///< Those of them that run on the pipe of roots, reciprocals, exponentials and sines.
-  double fetches = 0.0;          ///< Loads, samples and stores of textures and buffers.
-  double waits = 0.0;            ///< Waits for fetches; those for the same fetches count once.
-};
-
 /// @param frequencies of the blocks
 WaveCounts countWave(const Listing& listing, std::span<const double> frequencies);
 

@@ -8,7 +8,10 @@
 
 #include "samples/command_line/arguments.h"
 #include "samples/command_line/program.h"
+#include "samples/command_line/usage_error.h"
+#include "samples/image/file_output.h"
 #include "tests/costs/budget.h"
+#include "tests/costs/figures.h"
 #include "tests/costs/table.h"
 
 namespace walr::costs {
@@ -19,13 +22,18 @@ constexpr int kSkipped = 77;
 struct Options {
   std::vector<std::string> methods;
   std::string size = "1920x1080";
-  std::string machine = "w6800";
+  std::string machine = std::string(kDefaultMachine);
   std::string check;
   std::string update;
+  std::string figures;
 };
 
-std::vector<MethodCosts> costsOf(const std::vector<std::string>& names, fg::Extent extent, const NullDevice& device) {
-  const TripCounts trips(WALR_COSTS "/trip_counts.json");
+TripCounts tripCounts() {
+  return TripCounts(WALR_COSTS "/trip_counts.json");
+}
+
+std::vector<MethodCosts> costsOf(const std::vector<std::string>& names, fg::Extent extent, NullDevice& device) {
+  const TripCounts trips = tripCounts();
   std::vector<MethodCosts> costs;
   const auto add = [&](const std::vector<MethodName>& methods) {
     for (const MethodName& method : methods) costs.push_back(methodCosts(method, extent, device, trips));
@@ -36,7 +44,7 @@ std::vector<MethodCosts> costsOf(const std::vector<std::string>& names, fg::Exte
 }
 
 void print(const std::vector<MethodCosts>& methods, const std::string& machineName, const NullDevice& device) {
-  const Machine machine = readMachine(WALR_COSTS "/machines.json", machineName);
+  const Machine& machine = machineNamed(machineName);
   std::cout << "Compiled by " << device.driver() << " for " << device.family()
             << "; nothing was run. ESTIMATE is no measured time: the largest of four bounds on " << machine.name << " ("
             << machine.gpu << ").\n";
@@ -53,8 +61,23 @@ void print(const std::vector<MethodCosts>& methods, const std::string& machineNa
 }
 
 /// @returns the exit code
-int check(const Budget& budget, const std::vector<MethodCosts>& methods, const NullDevice& device) {
-  const auto found = violations(budget, methods, device.driver());
+int check(const Options& options, NullDevice& device) {
+  const Budget budget = readBudget(options.check);
+  if (device.family() != budget.family) {
+    throw std::runtime_error(options.check + " is a budget for " + budget.family + ", not " + device.family() +
+                             ": unset RADV_FORCE_FAMILY");
+  }
+  const auto methods = costsOf(options.methods, budget.extent, device);
+  auto found = violations(budget, methods, device.driver());
+  if (!options.figures.empty()) {
+    const FigureTable committed = readFigures(options.figures);
+    if (committed.driver == device.driver()) {
+      for (const std::string& line :
+           differences(committed, figuresOf(methods, device, tripCounts(), machineNamed(committed.machine)))) {
+        found.push_back(line + "; build the target update_costs");
+      }
+    }
+  }
   for (const std::string& violation : found) std::cout << violation << '\n';
   std::cout << (found.empty() ? "Within the budget" : "Not within the budget") << " of " << budget.driver << " for "
             << budget.family;
@@ -67,19 +90,15 @@ int check(const Budget& budget, const std::vector<MethodCosts>& methods, const N
 }
 
 int run(const Options& options) {
+  if (!options.figures.empty() && options.check.empty() && options.update.empty()) {
+    throw UsageError("--figures needs --check or --update");
+  }
   if (!selectRadv()) {
     std::cout << "Skipped: Mesa's driver for AMD GPUs is not installed (package mesa-vulkan-drivers).\n";
     return kSkipped;
   }
-  const NullDevice device;
-  if (!options.check.empty()) {
-    const Budget budget = readBudget(options.check);
-    if (device.family() != budget.family) {
-      throw std::runtime_error(options.check + " is a budget for " + budget.family + ", not " + device.family() +
-                               ": unset RADV_FORCE_FAMILY");
-    }
-    return check(budget, costsOf(options.methods, budget.extent, device), device);
-  }
+  NullDevice device;
+  if (!options.check.empty()) return check(options, device);
   const auto methods = costsOf(options.methods, parseSize(options.size), device);
   if (options.update.empty()) {
     print(methods, options.machine, device);
@@ -87,6 +106,10 @@ int run(const Options& options) {
   }
   const Budget former = std::filesystem::exists(options.update) ? readBudget(options.update) : Budget();
   writeBudget(budgetOf(methods, device, former), options.update);
+  if (!options.figures.empty()) {
+    const std::string json = figuresJson(figuresOf(methods, device, tripCounts(), machineNamed(kDefaultMachine)));
+    writeFileAtomically(options.figures, std::as_bytes(std::span(json)));
+  }
   return 0;
 }
 
@@ -113,6 +136,11 @@ int main(int argc, char** argv) {
       ->type_name("FILE")
       ->excludes(methods);
   task->require_option(0, 1);
+  program
+      .add_option("--figures", options.figures,
+                  "Also hold samples/estimate/shader_figures.json against the shaders, or write it")
+      ->type_name("FILE")
+      ->excludes(methods);
   program.callback([&] { result = walr::costs::run(options); });
   const int error = walr::runProgram(program, argc, argv);
   return error != 0 ? error : result;

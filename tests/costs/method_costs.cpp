@@ -5,30 +5,25 @@
 #include <stdexcept>
 
 #include "framegraph/compile/compile.h"
-#include "framegraph/compile/report.h"
 #include "integration/denoise_graph.h"
 #include "passes/denoiser.h"
 #include "samples/bench/taps.h"
-#include "tests/costs/machine.h"
+#include "samples/estimate/frame_estimate.h"
+#include "samples/estimate/plan_work.h"
 
 namespace walr::costs {
 namespace {
 
-/// Traffic of one pass, as `fg::compile` counts it for a whole plan.
-std::uint64_t passBytes(const fg::GraphDesc& graph, const fg::PlannedPass& pass) {
-  fg::Plan alone;
-  alone.passes = {pass};
-  alone.resources.resize(graph.resources.size());
-  fg::report(graph, alone);
-  return alone.traffic.bytesRead + alone.traffic.bytesWritten;
-}
-
-PassCosts compiledCosts(const std::string& pass, const fg::ComputeDispatch& work, const NullDevice& device,
-                        const TripCounts& trips) {
+PassCosts costsOf(const PassWork& work, NullDevice& device, const TripCounts& trips) {
   PassCosts costs;
-  costs.pass = pass;
-  costs.shader = work.shader->name;
-  costs.compiled = device.compile(work);
+  costs.pass = work.pass;
+  costs.batch = work.batch;
+  costs.shader = work.dispatch->shader->name;
+  costs.specialization = work.dispatch->specialization;
+  costs.groups = work.groups;
+  costs.threads = work.threads;
+  costs.bytes = work.bytes;
+  costs.compiled = device.compile(*work.dispatch);
   const Listing listing(costs.compiled.assembly);
   costs.compiled.assembly.clear();
   costs.branches = branchInstructions(listing);
@@ -66,6 +61,12 @@ std::optional<double> PassCosts::cyclesPerWave() const {
   return wave ? std::optional(simdCycles(*wave)) : std::nullopt;
 }
 
+std::optional<Bounds> PassCosts::boundsOn(const Machine& machine) const {
+  if (!wave) return std::nullopt;
+  return walr::boundsOn(machine, *wave, static_cast<double>(threads), static_cast<double>(compiled.waves),
+                        static_cast<double>(bytes));
+}
+
 std::optional<double> MethodCosts::cyclesPerPixel(const PassCosts& pass) const {
   const auto cycles = pass.cyclesPerWave();
   if (!cycles) return std::nullopt;
@@ -82,7 +83,13 @@ std::optional<double> MethodCosts::cyclesPerPixel() const {
   return sum;
 }
 
-MethodCosts methodCosts(const MethodName& name, fg::Extent extent, const NullDevice& device, const TripCounts& trips) {
+std::optional<double> MethodCosts::microseconds(const Machine& machine) const {
+  FrameEstimate estimate;
+  for (const PassCosts& pass : passes) estimate.add(pass.batch, pass.boundsOn(machine));
+  return estimate.microseconds();
+}
+
+MethodCosts methodCosts(const MethodName& name, fg::Extent extent, NullDevice& device, const TripCounts& trips) {
   const auto method = makeDenoiser(name.method);
   if (!name.preset.empty()) method->usePreset(name.preset);
   const DenoiseGraph declared = declareDenoiseGraph(*method, extent, InputConventions{}, kComputeHost);
@@ -92,25 +99,13 @@ MethodCosts methodCosts(const MethodName& name, fg::Extent extent, const NullDev
     throw std::runtime_error("the frame graph of " + name.text() + " does not compile:\n" + result.text());
 
   MethodCosts costs = {name, extent, {}};
-  const fg::ComputeDispatch* previous = nullptr;
-  for (const fg::PlannedPass& planned : result.plan.passes) {
-    const fg::PassDecl& pass = graph.passes[planned.pass];
-    const auto* work = std::get_if<fg::ComputeDispatch>(&pass.work);
-    if (work == nullptr) throw std::runtime_error("pass '" + pass.name + "' is no dispatch of a compute shader");
-    if (work->indirect.valid()) throw std::runtime_error("pass '" + pass.name + "' has no known number of work groups");
-    const bool same =
-        previous != nullptr && previous->shader == work->shader && previous->specialization == work->specialization;
-    if (!same) costs.passes.push_back(compiledCosts(pass.name, *work, device, trips));
-    previous = work;
-    PassCosts& row = costs.passes.back();
-    if (same) row.pass = row.pass.substr(0, row.pass.find(" to ")) + " to " + pass.name;
-    const std::uint64_t groups = std::uint64_t{work->groups[0]} * work->groups[1] * work->groups[2];
-    const auto& local = work->shader->localSize;
-    row.groups += groups;
-    row.threads += groups * local[0] * local[1] * local[2];
-    row.bytes += passBytes(graph, planned);
-    const auto taps = tapsPerPixel(graph, planned, extent);
-    row.taps = taps && (!same || row.taps) ? std::optional(row.taps.value_or(0.0) + *taps) : std::nullopt;
+  for (const PassWork& work : workOf(graph, result.plan)) {
+    PassCosts& pass = costs.passes.emplace_back(costsOf(work, device, trips));
+    pass.taps = 0.0;
+    for (const std::size_t planned : work.planned) {
+      const auto taps = tapsPerPixel(graph, result.plan.passes[planned], extent);
+      pass.taps = pass.taps && taps ? std::optional(*pass.taps + *taps) : std::nullopt;
+    }
   }
   return costs;
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "framegraph/declare/graph.h"
+#include "samples/estimate/machine.h"
 #include "tests/costs/listing.h"
 #include "tests/costs/null_device.h"
 #include "tests/costs/trip_counts.h"
@@ -32,7 +33,9 @@ std::vector<MethodName> methodsNamed(const std::string& text);
 /// are one.
 struct PassCosts {
   std::string pass;
+  std::uint32_t batch = 0;  ///< Passes of one batch of the plan may run side by side. That of the first pass.
   std::string shader;
+  std::vector<std::uint32_t> specialization;
   CompiledShader compiled;  ///< Without its assembly.
   std::uint64_t branches = 0;
   std::uint64_t fetchInstructions = 0;
@@ -45,6 +48,8 @@ struct PassCosts {
 
   /// Of a SIMD of Navi 21 for one wave, weighed by trip counts; nothing where these are not known.
   [[nodiscard]] std::optional<double> cyclesPerWave() const;
+  /// ESTIMATED bounds of the pass's time on a machine; nothing where trip counts are not known.
+  [[nodiscard]] std::optional<Bounds> boundsOn(const Machine& machine) const;
 };
 
 /// Costs of a method in the order of its plan.
@@ -57,9 +62,11 @@ struct MethodCosts {
   /// Cycles of SIMDs of Navi 21 a pixel of the picture.
   [[nodiscard]] std::optional<double> cyclesPerPixel(const PassCosts& pass) const;
   [[nodiscard]] std::optional<double> cyclesPerPixel() const;
+  /// ESTIMATED time on a machine: see `FrameEstimate`.
+  [[nodiscard]] std::optional<double> microseconds(const Machine& machine) const;
 };
 
 /// @throws std::runtime_error naming what does not compile
-MethodCosts methodCosts(const MethodName& name, fg::Extent extent, const NullDevice& device, const TripCounts& trips);
+MethodCosts methodCosts(const MethodName& name, fg::Extent extent, NullDevice& device, const TripCounts& trips);
 
 }  // namespace walr::costs

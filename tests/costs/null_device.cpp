@@ -154,7 +154,13 @@ NullDevice::~NullDevice() {
   vkDestroyInstance(instance_, nullptr);
 }
 
-CompiledShader NullDevice::compile(const fg::ComputeDispatch& dispatch) const {
+const CompiledShader& NullDevice::compile(const fg::ComputeDispatch& dispatch) {
+  const std::pair key(dispatch.shader, dispatch.specialization);
+  const auto known = compiled_.find(key);
+  return known != compiled_.end() ? known->second : compiled_.emplace(key, compileNew(dispatch)).first->second;
+}
+
+CompiledShader NullDevice::compileNew(const fg::ComputeDispatch& dispatch) const {
   const fg::Shader& shader = *dispatch.shader;
   const std::string name(shader.name);
 

@@ -1,8 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <vulkan/vulkan_core.h>
 
@@ -41,9 +44,11 @@ class NullDevice {
   /// "NAVI21".
   [[nodiscard]] const std::string& family() const { return family_; }
   /// @throws std::runtime_error naming the shader and the call that failed, or a pipeline of several executables
-  [[nodiscard]] CompiledShader compile(const fg::ComputeDispatch& dispatch) const;
+  /// A pipeline that was compiled before is not compiled again.
+  [[nodiscard]] const CompiledShader& compile(const fg::ComputeDispatch& dispatch);
 
  private:
+  [[nodiscard]] CompiledShader compileNew(const fg::ComputeDispatch& dispatch) const;
   [[nodiscard]] CompiledShader describe(VkPipeline pipeline, const std::string& shader) const;
 
   VkInstance instance_ = VK_NULL_HANDLE;
@@ -51,6 +56,7 @@ class NullDevice {
   std::uint64_t smallestWave_ = 0;  ///< Threads: RADV counts in waves of so many.
   std::string driver_;
   std::string family_;
+  std::map<std::pair<const fg::Shader*, std::vector<std::uint32_t>>, CompiledShader> compiled_;
 };
 
 }  // namespace walr::costs

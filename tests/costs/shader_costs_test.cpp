@@ -1,11 +1,13 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
 #include <stdexcept>
 #include <string>
 
+#include "samples/bench/variant_estimate.h"
 #include "tests/costs/budget.h"
-#include "tests/costs/machine.h"
+#include "tests/costs/figures.h"
 
 namespace walr::costs {
 namespace {
@@ -23,7 +25,7 @@ TEST(TripCounts, AreFoundByTheLongestNameAndTheNumberOfLoops) {
 }
 
 TEST(Machine, TakesTheLargestBoundAsItsEstimate) {
-  const Machine machine = readMachine(WALR_COSTS "/machines.json", "w6800");
+  const Machine machine = machineNamed("w6800");
   const WaveCounts wave = {
       .vector = 1000.0, .multiplications = 100.0, .transcendentals = 50.0, .fetches = 20.0, .waits = 10.0};
   // 60 processors of two SIMDs at 2.3 GHz: 276e9 cycles a second, and 552e9 texels.
@@ -38,13 +40,20 @@ TEST(Machine, TakesTheLargestBoundAsItsEstimate) {
 
 TEST(Machine, UnknownOnesAreNamedBesideTheKnown) {
   try {
-    readMachine(WALR_COSTS "/machines.json", "abacus");
+    machineNamed("abacus");
     FAIL() << "the machine is taken";
-  } catch (const std::runtime_error& error) {
+  } catch (const std::invalid_argument& error) {
     for (const char* name : {"'abacus'", "w6800", "h200"}) {
       EXPECT_NE(std::string(error.what()).find(name), std::string::npos) << error.what();
     }
   }
+}
+
+TEST(Machine, IsFoundByTheNameOfAVulkanDevice) {
+  ASSERT_NE(machineOfDevice("AMD Radeon PRO W6800 (RADV NAVI21)"), nullptr);
+  EXPECT_EQ(machineOfDevice("AMD Radeon PRO W6800 (RADV NAVI21)")->name, "w6800");
+  EXPECT_EQ(machineOfDevice("NVIDIA H200")->name, "h200");
+  EXPECT_EQ(machineOfDevice("llvmpipe (LLVM 15.0.6, 256 bits)"), nullptr);
 }
 
 /// The default method's costs, measured once.
@@ -53,7 +62,7 @@ class ShaderCostsOfTheDefault : public ::testing::Test {
   void SetUp() override {
     if (!selectRadv()) GTEST_SKIP() << "Mesa's driver for AMD GPUs is not installed";
     device_.emplace();
-    costs_ = methodCosts({"walr", ""}, kExtent, *device_, TripCounts(WALR_COSTS "/trip_counts.json"));
+    costs_ = methodCosts({"walr", ""}, kExtent, *device_, trips_);
     budget_ = budgetOf({costs_}, *device_, Budget());
   }
 
@@ -62,6 +71,7 @@ class ShaderCostsOfTheDefault : public ::testing::Test {
   }
 
   std::optional<NullDevice> device_;
+  TripCounts trips_{WALR_COSTS "/trip_counts.json"};
   MethodCosts costs_;
   Budget budget_;
 };
@@ -95,8 +105,44 @@ TEST_F(ShaderCostsOfTheDefault, CoverThePlan) {
   }
 }
 
+TEST_F(ShaderCostsOfTheDefault, GiveTheEstimatesThatProgramsComputeFromTheFigures) {
+  const FigureTable table = figuresOf({costs_}, *device_, trips_, machineNamed("w6800"));
+  const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "figures.json";
+  std::ofstream(file) << figuresJson(table);
+  const FigureTable read = readFigures(file);
+  std::filesystem::remove(file);
+  EXPECT_TRUE(differences(read, table).empty()) << ::testing::PrintToString(differences(read, table));
+
+  const Variant walr = parseMethods("walr").at(0);
+  for (const char* machine : {"w6800", "h200"}) {
+    const auto estimated = estimatedMicroseconds(walr, kExtent, read, machineNamed(machine));
+    ASSERT_TRUE(estimated.has_value());
+    EXPECT_NEAR(*estimated, costs_.microseconds(machineNamed(machine)).value(), 1e-6);
+  }
+  // At this size, the method has more passes.
+  EXPECT_GT(estimatedMicroseconds(walr, {3840, 2160}, read, machineNamed("w6800")).value(),
+            3.0 * costs_.microseconds(machineNamed("w6800")).value());
+  EXPECT_FALSE(
+      estimatedMicroseconds(parseVariant("mine=walr,blocks.size=4"), kExtent, read, machineNamed("w6800")).has_value())
+      << "settings that the figures do not hold for";
+}
+
+TEST_F(ShaderCostsOfTheDefault, NameWhatAStaleTableOfFiguresLacks) {
+  const FigureTable now = figuresOf({costs_}, *device_, trips_, machineNamed("w6800"));
+  FigureTable stale = now;
+  stale.shaders.at(0).wave->vector += 1.0;
+  stale.shaders.at(1).shader = "retired";
+  stale.estimates.at(0).microseconds = 1.0;
+  const auto found = differences(stale, now);
+  ASSERT_EQ(found.size(), 4U) << ::testing::PrintToString(found);
+  EXPECT_NE(found[0].find("'" + now.shaders[0].shader + "'"), std::string::npos) << found[0];
+  EXPECT_NE(found[1].find("'" + now.shaders[1].shader + "'"), std::string::npos) << found[1];
+  EXPECT_NE(found[2].find("'retired'"), std::string::npos) << found[2];
+  EXPECT_NE(found[3].find("the estimate of walr"), std::string::npos) << found[3];
+}
+
 TEST_F(ShaderCostsOfTheDefault, AreTheSameEveryTime) {
-  const auto again = methodCosts({"walr", ""}, kExtent, *device_, TripCounts(WALR_COSTS "/trip_counts.json"));
+  const auto again = methodCosts({"walr", ""}, kExtent, *device_, trips_);
   ASSERT_EQ(again.passes.size(), costs_.passes.size());
   for (std::size_t i = 0; i < again.passes.size(); ++i) {
     EXPECT_EQ(again.passes[i].compiled.instructions, costs_.passes[i].compiled.instructions);

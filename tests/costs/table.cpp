@@ -15,10 +15,11 @@ using Row = std::vector<std::string>;
 constexpr const char* kUnknown = "-";
 
 // As `rowOf` fills them in.
-constexpr std::array<std::string_view, 21> kColumns = {
-    "pass",           "shader",       "threads",        "groups",   "VGPRs",   "LDS",         "spills",
-    "scratch",        "waves",        "instructions",   "branches", "fetches", "ACO cycles",  "vector a wave",
-    "fetches a wave", "waits a wave", "cycles a pixel", "MB",       "taps",    "ESTIMATE us", "bound by"};
+constexpr std::array<std::string_view, 22> kColumns = {
+    "pass",    "batch",      "shader",        "threads",        "groups",       "VGPRs",
+    "LDS",     "spills",     "scratch",       "waves",          "instructions", "branches",
+    "fetches", "ACO cycles", "vector a wave", "fetches a wave", "waits a wave", "cycles a pixel",
+    "MB",      "taps",       "ESTIMATE us",   "bound by"};
 
 std::string fixed(double value, int digits) {
   std::ostringstream text;
@@ -30,25 +31,14 @@ std::string fixed(const std::optional<double>& value, int digits) {
   return value ? fixed(*value, digits) : kUnknown;
 }
 
-std::optional<Bounds> boundsOf(const PassCosts& pass, const Machine& machine) {
-  if (!pass.wave) return std::nullopt;
-  return boundsOn(machine, *pass.wave, static_cast<double>(pass.threads), static_cast<double>(pass.compiled.waves),
-                  static_cast<double>(pass.bytes));
-}
-
-std::string boundName(const Bounds& bounds) {
-  if (bounds.largest() == bounds.bytes) return "bytes";
-  if (bounds.largest() == bounds.instructions) return "instructions";
-  return bounds.largest() == bounds.fetches ? "fetches" : "latency";
-}
-
 Row rowOf(const PassCosts& pass, const MethodCosts& method, const Machine& machine) {
   const auto count = [](std::uint64_t value) { return std::to_string(value); };
   const auto weighed = [&](double WaveCounts::*figure) {
     return pass.wave ? fixed((*pass.wave).*figure, 0) : kUnknown;
   };
-  const auto bounds = boundsOf(pass, machine);
+  const auto bounds = pass.boundsOn(machine);
   return {pass.pass,
+          count(pass.batch),
           pass.shader,
           count(pass.threads),
           count(pass.groups),
@@ -68,21 +58,18 @@ Row rowOf(const PassCosts& pass, const MethodCosts& method, const Machine& machi
           fixed(static_cast<double>(pass.bytes) * 1e-6, 1),
           fixed(pass.taps, 1),
           bounds ? fixed(bounds->largest(), 1) : kUnknown,
-          bounds ? boundName(*bounds) : kUnknown};
+          bounds ? std::string(bounds->nameOfLargest()) : kUnknown};
 }
 
 Row sumsOf(const MethodCosts& method, const Machine& machine) {
   double bytes = 0.0;
   std::optional<double> taps = 0.0;
-  std::optional<double> estimate = 0.0;
   const auto add = [](std::optional<double>& sum, const std::optional<double>& value) {
     sum = sum && value ? std::optional(*sum + *value) : std::nullopt;
   };
   for (const PassCosts& pass : method.passes) {
-    const auto bounds = boundsOf(pass, machine);
     bytes += static_cast<double>(pass.bytes);
     add(taps, pass.taps);
-    add(estimate, bounds ? std::optional(bounds->largest()) : std::nullopt);
   }
   Row row(kColumns.size());
   const auto set = [&row](std::string_view column, const std::string& text) {
@@ -92,7 +79,7 @@ Row sumsOf(const MethodCosts& method, const Machine& machine) {
   set("cycles a pixel", fixed(method.cyclesPerPixel(), 1));
   set("MB", fixed(bytes * 1e-6, 1));
   set("taps", fixed(taps, 1));
-  set("ESTIMATE us", fixed(estimate, 1));
+  set("ESTIMATE us", fixed(method.microseconds(machine), 1));
   return row;
 }
 
@@ -108,7 +95,7 @@ std::string costTable(const MethodCosts& costs, const Machine& machine) {
     for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
   }
   std::ostringstream text;
-  const auto isText = [&](std::size_t column) { return column < 2 || column + 1 == widths.size(); };
+  const auto isText = [&](std::size_t column) { return column == 0 || column == 2 || column + 1 == widths.size(); };
   const auto write = [&](const Row& row) {
     for (std::size_t i = 0; i < row.size(); ++i) {
       text << "| " << (isText(i) ? std::left : std::right) << std::setw(static_cast<int>(widths[i])) << row[i] << ' ';

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/costs/machine.h"
+#include "samples/estimate/machine.h"
 #include "tests/costs/method_costs.h"
 
 namespace walr::costs {

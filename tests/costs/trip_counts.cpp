@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "tests/costs/json_file.h"
+#include "samples/estimate/json_file.h"
 
 namespace walr::costs {
 namespace {

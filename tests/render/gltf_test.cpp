@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -11,10 +12,12 @@
 #include <span>
 #include <string>
 
+#include <glm/matrix.hpp>
 #include <nlohmann/json.hpp>
 
 #include "samples/render/film.h"
 #include "samples/render/image_decode.h"
+#include "samples/render/instance.h"
 #include "samples/render/load_scene.h"
 #include "samples/render/scene_error.h"
 #include "samples/render/view.h"
@@ -297,6 +300,37 @@ TEST_F(Gltf, RefusesInvalidNumbers) {
   const fs::path far = boxWith([](Json& json) { json["nodes"][0]["translation"] = {1e30, 0.0, 0.0}; });
   const Scene scene = loadScene(far);
   EXPECT_THROW(World{scene}, SceneError);
+}
+
+TEST_F(Gltf, RefusesACameraBeyondTheWorld) {
+  const Scene scene = loadScene(boxWith([](Json& json) {
+    for (Json& node : json["nodes"]) {
+      if (node.contains("camera")) node["translation"] = {2e18, 0.0, 0.0};
+    }
+    json.erase("animations");  // One of them moves the camera.
+  }));
+  World world(scene);
+  fg::test::expectError<SceneError>(
+      [&] { viewFrom(world, findCamera(scene, ""), 4, 3, glm::vec2(0.0F), glm::vec2(0.0F)); }, {"camera", "1e6"});
+}
+
+// Ray casting inverts the transforms of objects, also of those that an animation has flattened or shrunk away.
+TEST_F(Gltf, RendersObjectsWithoutThickness) {
+  for (const auto& scale : {std::array{0.0, 1.0, 1.0}, std::array{1.0, 0.0, 0.0}, std::array{0.0, 0.0, 0.0},
+                            std::array{1e-20, 1e-20, 1e-20}, std::array{1.0, 1.0, -1e-30}}) {
+    const Scene scene = loadScene(boxWith([&](Json& json) {
+      for (Json& node : json["nodes"]) {
+        if (node.contains("mesh")) node["scale"] = scale;
+      }
+    }));
+    World world(scene);
+    world.moveTo(0.5, 0.45);
+    const View view = viewFrom(world, findCamera(scene, ""), 8, 6, glm::vec2(0.0F), glm::vec2(0.0F));
+    renderFilm(world, view, {});
+    for (const Instance& instance : world.instances()) {
+      EXPECT_NE(glm::determinant(glm::dmat4(instance.worldFromObject)), 0.0);
+    }
+  }
 }
 
 TEST_F(Gltf, CameraIsFoundByNameOrRefused) {

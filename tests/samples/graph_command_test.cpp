@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <memory>
 #include <sstream>
 #include <string>
@@ -158,11 +159,18 @@ TEST(GraphCommand, SvgIsWellFormedWithARectangleForEveryTransient) {
 
 TEST(GraphCommand, SaysWhy) {
   const json plan = json::parse(printed({"--json"}));
+  // Barriers are recorded before the first pass of a batch. Each is explained to the passes of the batch that need it.
+  std::map<std::uint64_t, std::string> whys;
+  std::map<std::string, std::uint64_t> batches;
+  for (const json& pass : plan["passes"]) {
+    batches[pass["name"]] = pass["batch"];
+    whys[pass["batch"]] += printed({"--why", pass["name"]});
+  }
   for (const json& barrier : plan["barriers"]) {
     if (barrier["before"].is_null()) continue;
     const std::string line = "'" + barrier["resource"].get<std::string>() +
                              "': " + barrier["description"].get<std::string>() + "; declared at ";
-    const std::string why = printed({"--why", barrier["before"]});
+    const std::string& why = whys.at(batches.at(barrier["before"]));
     EXPECT_NE(why.find(line), std::string::npos) << why;
   }
 }
@@ -175,8 +183,11 @@ TEST(GraphCommand, SaysWhyMemoryIsShared) {
   }
   ASSERT_GE(transients.size(), 2U);
   const auto number = [](const json& transient, const char* field) { return transient[field].get<std::uint64_t>(); };
+  const auto batch = [&](const json& transient, const char* use) {
+    return plan["passes"][number(transient, use)]["batch"].get<std::uint64_t>();
+  };
   const auto alive = [&](const json& a, const json& b) {
-    return number(a, "first_use") <= number(b, "last_use") && number(b, "first_use") <= number(a, "last_use");
+    return batch(a, "first_use") <= batch(b, "last_use") && batch(b, "first_use") <= batch(a, "last_use");
   };
   const auto overlap = [&](const json& a, const json& b) {
     return a["heap"] == b["heap"] && number(a, "offset") < number(b, "offset") + number(b, "bytes") &&

@@ -181,13 +181,13 @@ class Window:
         return self.screen.rows(self.panel, 0, PANEL_WIDTH, 720)
 
     def settled_rows(self):
-        """The panel, once nothing in it changes."""
+        """The panel, once nothing in it has changed for two seconds: a frame may take that long on a processor."""
         rows = [self.rows()]
 
         def same():
             time.sleep(0.5)
             rows.append(self.rows())
-            return rows[-1] == rows[-2] and rows[-1]
+            return len(rows) > 4 and all(row == rows[-1] for row in rows[-5:]) and rows[-1]
 
         return wait_for(same, "the panel to come to rest")
 

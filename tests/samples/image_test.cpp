@@ -1,10 +1,22 @@
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <string>
+#include <vector>
 
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfOutputFile.h>
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <png.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include "samples/errors.h"
 #include "samples/image/exposure.h"
@@ -91,6 +103,68 @@ TEST(Exr, TruncationAtAnyLengthGivesAnErrorThatNamesTheFile) {
   }
 }
 
+/// Rewrites the last column and line of a file's data window in its header.
+void widen(const std::filesystem::path& file, std::int32_t lastColumn, std::int32_t lastLine) {
+  std::string bytes = test::readText(file);
+  const std::string name("dataWindow\0box2i\0", 17);
+  const std::size_t window = bytes.find(name) + name.size() + sizeof(std::int32_t);
+  std::memcpy(bytes.data() + window + 2 * sizeof(std::int32_t), &lastColumn, sizeof(lastColumn));
+  std::memcpy(bytes.data() + window + 3 * sizeof(std::int32_t), &lastLine, sizeof(lastLine));
+  std::ofstream(file, std::ios::binary) << bytes;
+}
+
+void writeOfCompression(const std::filesystem::path& file, Imf::Compression compression) {
+  constexpr int kSide = 64;
+  Imf::Header header(kSide, kSide);
+  header.compression() = compression;
+  header.channels().insert("Y", Imf::Channel(Imf::FLOAT));
+  std::vector<float> values(kSide * kSide);
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<float>(i);
+  Imf::FrameBuffer buffer;
+  buffer.insert("Y",
+                Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(values.data()), sizeof(float), kSide * sizeof(float)));
+  Imf::OutputFile output(file.c_str(), header);
+  output.setFrameBuffer(buffer);
+  output.writePixels(kSide);
+}
+
+TEST(Exr, AHeaderThatClaimsMoreThanTheFileHoldsIsRefusedBeforeMemoryIsAllocated) {
+  const TemporaryDirectory directory;
+  const auto file = directory.path() / "widened.exr";
+  for (int compression = Imf::NO_COMPRESSION; compression < Imf::NUM_COMPRESSION_METHODS; ++compression) {
+    SCOPED_TRACE(compression);
+    writeOfCompression(file, static_cast<Imf::Compression>(compression));
+    ExrReader(file).requireBlocks();
+    widen(file, 8191, 4095);
+    fg::test::expectError<InputError>([&] { ExrReader(file).requireBlocks(); }, {"widened.exr"});
+  }
+  writeOfCompression(file, Imf::NO_COMPRESSION);
+  widen(file, 127, 63);
+  fg::test::expectError<InputError>([&] { ExrReader(file).requireBlocks(); },
+                                    {"widened.exr", "256 bytes", "claims 512"});
+  // With room for a table of 16384 blocks, which is read at once.
+  widen(file, 16383, 16383);
+  std::ofstream(file, std::ios::binary | std::ios::app) << std::string(16384 * sizeof(std::uint64_t), '\0');
+  fg::test::expectError<InputError>([&] { ExrReader{file}; }, {"widened.exr", "67108864 pixels"});
+}
+
+TEST(Exr, OnlyAWholeImageIsComplete) {
+  const TemporaryDirectory directory;
+  const auto file = directory.path() / "a.exr";
+  Image image(16, 9, 1);
+  writeExr(file, std::vector<ExrChannel>{{"Y", &image, 0, ExrType::Half}}, {});
+  EXPECT_TRUE(isCompleteExr(file));
+  const std::string whole = test::readText(file);
+  for (const std::size_t length : {std::size_t(0), whole.size() / 2, whole.size() - 1}) {
+    test::writeText(file, whole.substr(0, length));
+    EXPECT_FALSE(isCompleteExr(file)) << length;
+  }
+  EXPECT_FALSE(isCompleteExr(directory.path() / "none.exr"));
+  ASSERT_EQ(mkfifo((directory.path() / "pipe.exr").c_str(), 0600), 0);
+  EXPECT_FALSE(isCompleteExr(directory.path() / "pipe.exr"));
+  fg::test::expectError<InputError>([&] { ExrReader(directory.path() / "pipe.exr"); }, {"not a regular file"});
+}
+
 TEST(FileOutput, AFailedWriteKeepsTheOldFileAndLeavesNoOther) {
   const TemporaryDirectory directory;
   const auto file = directory.path() / "a";
@@ -103,6 +177,36 @@ TEST(FileOutput, AFailedWriteKeepsTheOldFileAndLeavesNoOther) {
   writeFileAtomically(file, std::as_bytes(std::span(text)));
   EXPECT_EQ(test::readText(file), "new");
   EXPECT_EQ(test::namesIn(directory.path()).size(), 2U);
+}
+
+TEST(FileOutput, FollowsLinksAndWritesToWhatIsNoFileInPlace) {
+  namespace fs = std::filesystem;
+  const TemporaryDirectory directory;
+  const std::string text = "new";
+  const auto write = [&](const fs::path& path) { writeFileAtomically(path, std::as_bytes(std::span(text))); };
+  test::writeText(directory.path() / "file", "old");
+  fs::create_symlink("file", directory.path() / "link");
+  fs::create_symlink("later", directory.path() / "dangling");
+  write(directory.path() / "link");
+  write(directory.path() / "dangling");
+  EXPECT_TRUE(fs::is_symlink(directory.path() / "link") && fs::is_symlink(directory.path() / "dangling"));
+  EXPECT_EQ(test::readText(directory.path() / "file"), "new");
+  EXPECT_EQ(test::readText(directory.path() / "later"), "new");
+
+  const fs::path pipe = directory.path() / "pipe";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  const int reader = open(pipe.c_str(), O_RDONLY | O_NONBLOCK);
+  ASSERT_GE(reader, 0);
+  write(pipe);
+  std::array<char, 16> received{};
+  EXPECT_EQ(read(reader, received.data(), received.size()), 3);
+  close(reader);
+  EXPECT_EQ(std::string(received.data()), "new");
+  EXPECT_TRUE(fs::is_fifo(pipe));
+  EXPECT_EQ(test::namesIn(directory.path()).size(), 5U);
+
+  fs::create_symlink("/dev/full", directory.path() / "full");
+  EXPECT_THROW(write(directory.path() / "full"), OutputError);
 }
 
 TEST(FileOutput, AnOutputDirectoryThatCannotBeCreatedIsNamed) {

@@ -7,9 +7,12 @@
 #include <string>
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <nlohmann/json.hpp>
 
 #include "samples/errors.h"
+#include "samples/image/exr.h"
+#include "samples/sequence/cameras.h"
 #include "samples/sequence/writer.h"
 #include "tests/error_text.h"
 #include "tests/samples/synthetic_sequence.h"
@@ -248,21 +251,48 @@ TEST_F(SequenceTest, BadCameraFilesAreNamed) {
   expectBad([](auto& frames) { frames[1]["view"].erase(3); }, {"frame 1", "view", "16"});
   expectBad([](auto& frames) { frames[1]["view"][3] = "x"; }, {"frame 1", "view", "16"});
   expectBad([](auto& frames) { frames[1]["projection"][3] = 1e300; }, {"frame 1", "projection", "not finite"});
+  expectBad([](auto& frames) { frames[1]["jitter"] = {0.0, 1e39}; }, {"frame 1", "jitter", "not finite"});
+  expectBad([](auto& frames) { frames[1]["frame"] = 4294967296; }, {"frame 4294967296", "out of range"});
+  expectBad([](auto& frames) { frames[1]["frame"] = 18446744073709551615U; }, {"frame 18446744073709551615", "range"});
+  expectBad([](auto& frames) { frames[1]["frame"] = -1; }, {"frame -1", "out of range"});
   expectBad([](auto& frames) { frames[1]["frame"] = 0; }, {"frame 0", "twice"});
   expectBad([](auto& frames) { frames[1].erase("frame"); }, {"frame"});
   expectBad([](auto& frames) { frames = 3; }, {"frames"});
   test::writeText(directory.path() / "cameras.json", "{\"frames\": [");
   expectRefused({"cameras.json", "JSON"});
+  test::writeText(directory.path() / "cameras.json", R"({"frames": [{"frame": 0, "view": [1e999]}]})");
+  expectRefused({"cameras.json", "JSON", "1e999"});
+  std::filesystem::remove(directory.path() / "cameras.json");
+  ASSERT_EQ(mkfifo((directory.path() / "cameras.json").c_str(), 0600), 0);
+  expectRefused({"cameras.json", "not a regular file"});
 }
 
-TEST_F(SequenceTest, AMissingCameraAttributeIsNamed) {
+/// All channels of the project's own layout, each with the same values.
+Channels projectChannels() {
   const Frame frame = test::projectFrame(0, 6, 4);
   Channels channels;
   for (const char* name : {"Indirect.R", "Indirect.G", "Indirect.B", "Albedo.R", "Albedo.G", "Albedo.B", "Normal.X",
                            "Normal.Y", "Normal.Z", "Depth.Z", "Motion.X", "Motion.Y", "Motion.Z"}) {
     channels[name] = frame.depth;
   }
-  test::writeChannels(files.frameFile(0), channels);
+  return channels;
+}
+
+TEST_F(SequenceTest, AJitterThatIsNotFiniteIsNamed) {
+  const Channels channels = projectChannels();
+  std::vector<ExrChannel> stored;
+  for (const auto& [name, image] : channels) stored.push_back({name, &image, 0, ExrType::Float});
+  const glm::mat4 matrix(1.0F);
+  const std::vector<ExrAttribute> attributes{{kViewAttribute, matrix},
+                                             {kPreviousViewAttribute, matrix},
+                                             {kProjectionAttribute, matrix},
+                                             {kJitterAttribute, glm::vec2(0.0F, std::nanf(""))}};
+  writeExr(files.frameFile(0), stored, attributes);
+  expectRefused({"noisy_0000.exr", "jitter", "not finite"});
+}
+
+TEST_F(SequenceTest, AMissingCameraAttributeIsNamed) {
+  test::writeChannels(files.frameFile(0), projectChannels());
   expectRefused({"noisy_0000.exr", "worldToCamera"});
 }
 

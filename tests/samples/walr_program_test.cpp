@@ -337,6 +337,23 @@ TEST_F(ProgramTest, AFullOutputLeavesNoPartialFile) {
   EXPECT_TRUE(outputFiles().empty());
 }
 
+TEST_F(ProgramTest, AFullStandardOutputIsSaid) {
+  for (const char* command : {"graph --json", "denoise --list-devices", "graph --list-passes", "--help"}) {
+    const std::string line = std::string(WALR_PROGRAM) + " " + command + " > /dev/full";
+    expectFailure(test::runProcess({"/bin/sh", "-c", line}), kOutput, {"standard output"});
+  }
+}
+
+TEST_F(ProgramTest, SettingsAtOddsAreAnErrorOfTheCommandLine) {
+  expectFailure(walr({"graph", "--set", "accumulation.antilag-high=0"}), kUsage, {"--method walr", "antilag"});
+}
+
+TEST_F(ProgramTest, ANumberThatIsNoneIsRefused) {
+  for (const char* speed : {"nan", "inf", "0", "-1", "24x"}) {
+    expectFailure(walr({"render", WALR_SCENES "/box.gltf", "--output", output, "--fps", speed}), kUsage, {"--fps"});
+  }
+}
+
 TEST_F(ProgramTest, AReportThatCannotBeWrittenIsNamed) {
   files.write(0, 0);
   expectFailure(denoise({"--json", (directory.path() / "nowhere" / "a.json").string()}), kOutput, {"a.json"});

@@ -1,8 +1,9 @@
 // A Vulkan layer that hides capabilities of a device, to test the messages of programs on a less capable device.
 //
 // Environment variable WALR_TEST_LACKS: "synchronization2" hides that feature, "storage images" the use of RGBA16F as
-// storage image.
+// storage image, "timestamps" those of all queues.
 
+#include <cstdint>
 #include <cstdlib>
 #include <cstring>
 #include <string_view>
@@ -20,6 +21,7 @@ struct Next {
   PFN_vkGetInstanceProcAddr getInstanceProcAddr = nullptr;
   PFN_vkGetPhysicalDeviceFeatures2 getFeatures = nullptr;
   PFN_vkGetPhysicalDeviceFormatProperties getFormatProperties = nullptr;
+  PFN_vkGetPhysicalDeviceQueueFamilyProperties getQueueFamilies = nullptr;
 };
 Next next;
 
@@ -52,6 +54,7 @@ VKAPI_ATTR VkResult VKAPI_CALL createInstance(const VkInstanceCreateInfo* info, 
   if (result == VK_SUCCESS) {
     load(next.getFeatures, *instance, "vkGetPhysicalDeviceFeatures2");
     load(next.getFormatProperties, *instance, "vkGetPhysicalDeviceFormatProperties");
+    load(next.getQueueFamilies, *instance, "vkGetPhysicalDeviceQueueFamilyProperties");
   }
   return result;
 }
@@ -73,6 +76,13 @@ VKAPI_ATTR void VKAPI_CALL getFormatProperties(VkPhysicalDevice device, VkFormat
   }
 }
 
+VKAPI_ATTR void VKAPI_CALL getQueueFamilies(VkPhysicalDevice device, std::uint32_t* count,
+                                            VkQueueFamilyProperties* families) {
+  next.getQueueFamilies(device, count, families);
+  if (families == nullptr || !lacks("timestamps")) return;
+  for (std::uint32_t i = 0; i < *count; ++i) families[i].timestampValidBits = 0;
+}
+
 VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL getInstanceProcAddr(VkInstance instance, const char* name) {
   const std::string_view wanted = name;
   if (wanted == "vkCreateInstance") {
@@ -83,6 +93,9 @@ VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL getInstanceProcAddr(VkInstance instance
   }
   if (wanted == "vkGetPhysicalDeviceFormatProperties") {
     return reinterpret_cast<PFN_vkVoidFunction>(&getFormatProperties);
+  }
+  if (wanted == "vkGetPhysicalDeviceQueueFamilyProperties") {
+    return reinterpret_cast<PFN_vkVoidFunction>(&getQueueFamilies);
   }
   if (wanted == "vkGetInstanceProcAddr") {
     return reinterpret_cast<PFN_vkVoidFunction>(&getInstanceProcAddr);

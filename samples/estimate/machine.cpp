@@ -1,12 +1,13 @@
-#include "tests/costs/machine.h"
+#include "samples/estimate/machine.h"
 
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
-#include "tests/costs/json_file.h"
+#include "samples/estimate/embedded_files.h"
+#include "samples/estimate/json_file.h"
 
-namespace walr::costs {
+namespace walr {
 namespace {
 
 constexpr double kMicroseconds = 1e6;
@@ -16,6 +17,7 @@ Machine machineOf(const nlohmann::json& json) {
   const double clock = json.at("clock_ghz").get<double>() * 1e9;
   return {.name = json.at("name"),
           .gpu = json.at("gpu"),
+          .deviceName = json.at("device_name"),
           .simds = processors * json.at("simds_per_processor").get<double>(),
           .threadsPerWave = json.at("threads_per_wave"),
           .cyclesPerSecond = clock,
@@ -33,41 +35,66 @@ double instructionCycles(const WaveCounts& wave, double instruction, double mult
 
 }  // namespace
 
-Machine readMachine(const std::filesystem::path& file, std::string_view name) {
+const std::vector<Machine>& machines() {
+  static const std::vector<Machine> kMachines = [] {
+    std::vector<Machine> read;
+    readJsonText("machines.json", kMachinesJson, [&](const nlohmann::json& json) {
+      for (const nlohmann::json& entry : json.at("machines")) read.push_back(machineOf(entry));
+    });
+    return read;
+  }();
+  return kMachines;
+}
+
+const Machine& machineNamed(std::string_view name) {
+  const auto found = std::ranges::find(machines(), name, &Machine::name);
+  if (found != machines().end()) return *found;
   std::string known;
-  Machine found;
-  readJson(file, [&](const nlohmann::json& json) {
-    for (const nlohmann::json& entry : json.at("machines")) {
-      const Machine machine = machineOf(entry);
-      known += (known.empty() ? "" : ", ") + machine.name;
-      if (machine.name == name) found = machine;
-    }
+  for (const Machine& machine : machines()) known += (known.empty() ? "" : ", ") + machine.name;
+  throw std::invalid_argument("there is no machine '" + std::string(name) +
+                              "' in samples/estimate/machines.json; there are: " + known);
+}
+
+const Machine* machineOfDevice(std::string_view vulkanName) {
+  const auto found = std::ranges::find_if(machines(), [&](const Machine& machine) {
+    return vulkanName.find(machine.deviceName) != std::string_view::npos;
   });
-  if (found.name.empty()) {
-    throw std::runtime_error("there is no machine '" + std::string(name) + "' in " + file.string() +
-                             "; there are: " + known);
-  }
-  return found;
+  return found == machines().end() ? nullptr : &*found;
 }
 
 double Bounds::largest() const {
-  return std::max({bytes, instructions, fetches, latency});
+  return std::max({bytes, instructions, fetches, latency, slots});
+}
+
+std::string_view Bounds::nameOfLargest() const {
+  if (largest() == bytes) return "bytes";
+  if (largest() == instructions) return "instructions";
+  return largest() == fetches ? "fetches" : "latency";
 }
 
 Bounds boundsOn(const Machine& machine, const WaveCounts& wave, double threads, double waves, double bytes) {
   const double cycles = instructionCycles(wave, machine.cyclesPerInstruction, machine.cyclesPerMultiplication);
   const double machineWaves = threads / machine.threadsPerWave;
-  const double rounds = std::ceil(machineWaves / (machine.simds * waves));
+  const double rounds = machineWaves / (machine.simds * waves);
   const double alone =
       wave.waits * machine.fetchLatency + machine.latencyCyclesPerInstruction * wave.vector / machine.cyclesPerSecond;
   return {.bytes = kMicroseconds * bytes / machine.bytesPerSecond,
           .instructions = kMicroseconds * cycles * machineWaves / (machine.simds * machine.cyclesPerSecond),
           .fetches = kMicroseconds * wave.fetches * threads / machine.texelsPerSecond,
-          .latency = kMicroseconds * alone * rounds};
+          .latency = kMicroseconds * alone * std::ceil(rounds),
+          .slots = kMicroseconds * alone * rounds};
+}
+
+Bounds sideBySide(const Bounds& a, const Bounds& b) {
+  return {.bytes = a.bytes + b.bytes,
+          .instructions = a.instructions + b.instructions,
+          .fetches = a.fetches + b.fetches,
+          .latency = std::max(a.latency, b.latency),
+          .slots = a.slots + b.slots};
 }
 
 double simdCycles(const WaveCounts& wave) {
   return std::max(instructionCycles(wave, 2.0, 8.0), 8.0 * wave.transcendentals);
 }
 
-}  // namespace walr::costs
+}  // namespace walr

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "samples/bench/timing.h"
+#include "samples/bench/variant.h"
+#include "samples/denoise/gpu_device.h"
+#include "samples/estimate/machine.h"
+#include "samples/gpu_report/frame_loop.h"
+#include "samples/gpu_report/timed_content.h"
+
+namespace walr {
+
+/// What the static model says of a pass: estimates, and no measurements.
+struct PassModel {
+  std::uint32_t batch = 0;
+  double bytes = 0.0;                ///< Of the plan.
+  std::optional<Bounds> peak;        ///< At the machine's peak rates.
+  std::optional<Bounds> attainable;  ///< The same with the measured rates of copies and of cached fetches.
+};
+
+/// Times of one method on one content.
+struct MethodTimes {
+  std::string variant;
+  std::size_t warmUpFrames = 0;
+  Timing timing;                  ///< Without ratios.
+  std::vector<PassModel> models;  ///< One per pass of `timing`.
+  std::string whyNot;             ///< Why there are no times; empty if there are.
+
+  /// Estimate of a frame at peak rates (`FrameEstimate`) in microseconds; nothing if a pass has none.
+  [[nodiscard]] std::optional<double> estimatedMicroseconds() const;
+};
+
+/// Times of all methods on one content.
+struct ContentMethodTimes {
+  std::string content;
+  std::string description;
+  fg::Extent extent;
+  std::vector<MethodTimes> methods;
+};
+
+/// The machine of the estimates, with its peak rates and with those that were measured.
+struct ModelMachines {
+  Machine peak;
+  Machine attainable;
+};
+
+/// How long each method warms up and is timed.
+struct TimingEffort {
+  LoopLength warmUp;
+  LoopLength timed;
+};
+
+/// Whether a method with its input frames fits into the largest heap of the device's own memory, by the plan's sizes.
+/// @returns an empty text, or what does not fit
+/// @throws std::invalid_argument naming a setting of the method that does not support the size
+std::string whyTooLarge(const GpuDevice& device, const Variant& variant, fg::Extent extent);
+
+/// Time a method. What keeps it from running, such as a size that does not fit into memory, is reported in `whyNot`.
+/// @param machines nothing: no estimates
+/// @throws fg::vk::DeviceLost
+MethodTimes timeMethod(const GpuDevice& device, const Variant& variant, const TimedContent& content,
+                       const std::optional<ModelMachines>& machines, const TimingEffort& effort);
+
+}  // namespace walr
