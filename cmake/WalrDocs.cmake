@@ -1,11 +1,10 @@
-# The target docs builds the Doxygen site in build/docs/html. Any warning is an error. The target exists only if doxygen
-# is found.
+# The target docs builds the Doxygen site in build/docs/html: of everything or, if the C++ libraries are not built, of the
+# C API. Any warning is an error. The target exists only if doxygen is found.
 find_package(Doxygen OPTIONAL_COMPONENTS dot QUIET)
 if(DOXYGEN_FOUND)
   set(DOXYGEN_PROJECT_NAME walr)
   set(DOXYGEN_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/docs")
-  set(DOXYGEN_USE_MDFILE_AS_MAINPAGE "${PROJECT_SOURCE_DIR}/README.md")
-  set(DOXYGEN_FILE_PATTERNS *.h *.md)
+  set(DOXYGEN_FILE_PATTERNS *.h *.hpp *.md)
   set(DOXYGEN_EXCLUDE_PATTERNS */build*/* */tests/*)
   set(DOXYGEN_STRIP_FROM_PATH "${PROJECT_SOURCE_DIR}")
   set(DOXYGEN_EXTRACT_ALL YES)
@@ -22,7 +21,12 @@ if(DOXYGEN_FOUND)
   set(DOXYGEN_MACRO_EXPANSION YES)
   set(DOXYGEN_EXPAND_ONLY_PREDEF YES)
   set(DOXYGEN_PREDEFINED __cplusplus WALR_API=)
-  doxygen_add_docs(docs "${PROJECT_SOURCE_DIR}/README.md" "${PROJECT_SOURCE_DIR}/CHANGELOG.md"
-    "${PROJECT_SOURCE_DIR}/framegraph" "${PROJECT_SOURCE_DIR}/passes" "${PROJECT_SOURCE_DIR}/shaders/constants"
-    "${PROJECT_SOURCE_DIR}/integration" "${PROJECT_SOURCE_DIR}/samples" WORKING_DIRECTORY "${PROJECT_SOURCE_DIR}")
+  if(WALR_STATIC_LIBRARIES)
+    set(DOXYGEN_USE_MDFILE_AS_MAINPAGE "${PROJECT_SOURCE_DIR}/README.md")
+    set(documented README.md CHANGELOG.md framegraph passes shaders/constants integration samples)
+  else()
+    set(documented integration/include)
+  endif()
+  list(TRANSFORM documented PREPEND "${PROJECT_SOURCE_DIR}/")
+  doxygen_add_docs(docs ${documented} WORKING_DIRECTORY "${PROJECT_SOURCE_DIR}")
 endif()

@@ -1,33 +1,38 @@
 # Install rules. Components: runtime (shared library, plug-in), dev (headers, static library,
 # CMake and pkg-config files, guides), cpp (the C++ libraries with their headers), and tools (the program walr). `cpack`
-# makes Debian packages of them.
+# makes Debian packages of them. `cpack -G TGZ` makes an archive of the component bundle (WalrBundle.cmake).
 include(CMakePackageConfigHelpers)
 
 set(package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/walr")
 
 install(TARGETS walr_shared EXPORT walr-shared
   LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT runtime NAMELINK_COMPONENT dev)
-install(TARGETS walr_static EXPORT walr-static ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT dev)
 install(TARGETS walr_plugin LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}/walr" COMPONENT runtime)
 install(DIRECTORY integration/include/walr DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" COMPONENT dev)
 
-install(TARGETS walr_framegraph walr_framegraph_vulkan walr_shaders walr_passes walr_integration
-  EXPORT walr-cpp ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT cpp)
-foreach(folder IN ITEMS framegraph/declare framegraph/plan framegraph/check framegraph/compile framegraph/verify
-    framegraph/inspect framegraph/vulkan passes shaders/constants integration)
-  file(GLOB headers CONFIGURE_DEPENDS "${folder}/*.h")
-  install(FILES ${headers} DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/walr/${folder}" COMPONENT cpp)
-endforeach()
+set(parts shared)
+if(WALR_STATIC_LIBRARIES)
+  list(APPEND parts static cpp)
+  install(TARGETS walr_static EXPORT walr-static ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT dev)
+  install(TARGETS walr_framegraph walr_framegraph_vulkan walr_shaders walr_passes walr_integration
+    EXPORT walr-cpp ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT cpp)
+  foreach(folder IN ITEMS framegraph/declare framegraph/plan framegraph/check framegraph/compile framegraph/verify
+      framegraph/inspect framegraph/vulkan passes shaders/constants integration)
+    file(GLOB headers CONFIGURE_DEPENDS "${folder}/*.h")
+    install(FILES ${headers} DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/walr/${folder}" COMPONENT cpp)
+  endforeach()
+endif()
 
-foreach(part IN ITEMS shared static cpp)
+foreach(part IN LISTS parts)
   set(component dev)
   if(part STREQUAL "cpp")
     set(component cpp)
   endif()
   install(EXPORT walr-${part} NAMESPACE walr:: DESTINATION "${package_dir}" COMPONENT ${component})
 endforeach()
+set(WALR_PLUGIN_PATH "${CMAKE_INSTALL_LIBDIR}/walr/walr_plugin.so")
 configure_package_config_file(cmake/walrConfig.cmake.in "${CMAKE_CURRENT_BINARY_DIR}/walrConfig.cmake"
-  INSTALL_DESTINATION "${package_dir}")
+  INSTALL_DESTINATION "${package_dir}" PATH_VARS WALR_PLUGIN_PATH)
 write_basic_package_version_file("${CMAKE_CURRENT_BINARY_DIR}/walrConfigVersion.cmake"
   COMPATIBILITY SameMinorVersion)
 file(RELATIVE_PATH WALR_PC_PREFIX "/${CMAKE_INSTALL_LIBDIR}/pkgconfig" "/")
@@ -36,25 +41,36 @@ install(FILES "${CMAKE_CURRENT_BINARY_DIR}/walrConfig.cmake" "${CMAKE_CURRENT_BI
   DESTINATION "${package_dir}" COMPONENT dev)
 install(FILES "${CMAKE_CURRENT_BINARY_DIR}/walr.pc" DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig" COMPONENT dev)
 install(FILES LICENSE DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT runtime)
-# The guides are installed in the folders of the source tree, so that links between them work. The documentation of the
-# headers is installed if the target docs has been built.
-install(FILES integration/README.md integration/ADAPTERS.md DESTINATION "${CMAKE_INSTALL_DOCDIR}/integration" COMPONENT dev)
-install(FILES passes/WALR.md passes/WALR_EXPERIMENTS.md passes/GLOSSARY.md passes/BIBLIOGRAPHY.md
-  DESTINATION "${CMAKE_INSTALL_DOCDIR}/passes" COMPONENT dev)
-install(FILES passes/images/walr.svg DESTINATION "${CMAKE_INSTALL_DOCDIR}/passes/images" COMPONENT dev)
-install(FILES samples/embedding/embedding.c DESTINATION "${CMAKE_INSTALL_DOCDIR}/samples/embedding" COMPONENT dev)
-install(FILES samples/README.md DESTINATION "${CMAKE_INSTALL_DOCDIR}/samples" COMPONENT dev)
-install(DIRECTORY samples/docs DESTINATION "${CMAKE_INSTALL_DOCDIR}/samples" COMPONENT dev FILES_MATCHING PATTERN "*.md")
+# walr_install_guides(<folder> <component> [EXCLUDE_FROM_ALL]): installs the guides in the folders of the source tree, so
+# that links between them work.
+function(walr_install_guides folder component)
+  set(options COMPONENT ${component} ${ARGN})
+  install(FILES integration/README.md integration/ADAPTERS.md DESTINATION "${folder}/integration" ${options})
+  install(FILES passes/WALR.md passes/WALR_EXPERIMENTS.md passes/GLOSSARY.md passes/BIBLIOGRAPHY.md
+    DESTINATION "${folder}/passes" ${options})
+  install(FILES passes/images/walr.svg DESTINATION "${folder}/passes/images" ${options})
+  install(FILES samples/embedding/embedding.c samples/embedding/sequence.cpp DESTINATION "${folder}/samples/embedding" ${options})
+  install(FILES samples/README.md DESTINATION "${folder}/samples" ${options})
+  install(DIRECTORY samples/docs DESTINATION "${folder}/samples" ${options} FILES_MATCHING PATTERN "*.md")
+endfunction()
+walr_install_guides("${CMAKE_INSTALL_DOCDIR}" dev)
+# The documentation of the headers is installed if the target docs has been built.
 install(DIRECTORY "${CMAKE_BINARY_DIR}/docs/html" DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT dev OPTIONAL)
 if(TARGET walr)
   install(TARGETS walr RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT tools)
+  include(WalrBundle)
 endif()
 
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_CONTACT "walr")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
-set(CPACK_COMPONENTS_ALL runtime dev cpp)
+string(TOLOWER "${CMAKE_SYSTEM_NAME}-${CMAKE_SYSTEM_PROCESSOR}" CPACK_SYSTEM_NAME)
+set(CPACK_PROJECT_CONFIG_FILE "${CMAKE_CURRENT_SOURCE_DIR}/cmake/cpack_generators.cmake")
+set(CPACK_COMPONENTS_ALL runtime dev)
+if(WALR_STATIC_LIBRARIES)
+  list(APPEND CPACK_COMPONENTS_ALL cpp)
+endif()
 if(TARGET walr)
   list(APPEND CPACK_COMPONENTS_ALL tools)
 endif()
