@@ -1,4 +1,4 @@
-// The share of the accumulated light in the reconstruction (passes/WALR.md, 8). What the fits leave of it, the
+// The share of the accumulated light in the reconstruction (passes/WALR_EXPERIMENTS.md). What the fits leave of it, the
 // residual, is noise where the fits are right, and light that no feature explains where they are not. Two halves of the
 // light with independent noise tell which: this frame's light y and the history h. Where only noise parts them from the
 // prediction, the product of their residuals is 0 in the mean.

@@ -1,4 +1,4 @@
-// The share of the accumulated light in the result of walr (passes/WALR.md, 8): against a calculation in double
+// The share of accumulated light in the result (passes/WALR_EXPERIMENTS.md): against a calculation in double
 // precision, and by what it is for.
 
 #include <algorithm>
