@@ -1,5 +1,6 @@
-// WALR, share of the accumulated light (passes/WALR_EXPERIMENTS.md): running means of the residuals around a tile, relative to the
-// square of the light. x: product of the residuals of both halves; y: square of the residual; z: frames in these means.
+// WALR, share of the accumulated light (passes/WALR_EXPERIMENTS.md): running means of the residuals around a tile,
+// relative to the square of the light. x: product of the residuals of both halves; y: square of the residual; z: frames
+// in these means.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
