@@ -66,7 +66,7 @@ BlockGrid gridOf(StageGraph graph, fg::Buffer frame, fg::Extent pixels, const Bl
   constants.coarseGrowthErrors = s.coarseGrowthErrors;
   constants.coarseGrowthOcclusion = s.coarseGrowthOcclusion;
   constants.coarseSamples = s.coarseSamples;
-  constants.coarseLeastShare = s.coarseLeastShare;
+  constants.inverseCoarseLeastShare = 1.0F / s.coarseLeastShare;
   constants.residualLeastShare = s.residualLeastShare;
   return {graph, frame, pixels, blocks, gridExtent(pixels, cellSize), s.size, cellBlocks, cellSize, constants};
 }

@@ -40,6 +40,8 @@ FrameConstants frameConstants(const FrameDescription& frame, fg::Extent extent) 
   constants.jitterDelta = glm::vec2(glm::dvec2(frame.jitter) - previousJitter);
   constants.previousPixelFromPixel = glm::vec2(previousSize / size);
   constants.pixelFromPreviousPixel = glm::vec2(pixelFromPreviousPixel);
+  constants.previousTexel = glm::vec2(1.0 / previousSize);
+  constants.pixelFromRay = glm::vec2(1.0 / ray.x, 1.0 / ray.y);
   constants.frameIndex = frame.frameIndex;
   constants.skyDepth = frame.skyDepth;
   return constants;

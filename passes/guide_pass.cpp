@@ -61,12 +61,15 @@ PrepareGuidesConstants guideConstants(const fg::Graph& graph, const DenoiserInpu
   const fg::Extent extent = graph.textureDesc(inputs.depth).extent;
   const float radius = std::max(occlusion.radius * static_cast<float>(extent.height), 1.0F);
   PrepareGuidesConstants constants{
-      settings.albedoThreshold, settings.tangentTolerance, settings.normalAgreement, radius, {}};
-  // Distances grow with the square of the step. The first that is not taken would be the radius, where nothing counts.
-  const std::uint32_t steps = std::min(occlusion.steps, kMaxOcclusionSteps);
-  for (std::uint32_t step = 1; step <= steps; ++step) {
-    const float share = static_cast<float>(step) / static_cast<float>(steps + 1);
-    constants.occlusionDistances[step - 1] = std::max(std::floor(radius * share * share), static_cast<float>(step));
+      settings.albedoThreshold, settings.tangentTolerance, settings.normalAgreement, 1.0F / radius, {}, {}};
+  // Distances grow with the square of the ring's number and end before the radius, where nothing counts.
+  const std::uint32_t rings = std::min(occlusion.rings, kMaxOcclusionRings);
+  for (std::uint32_t ring = 0; ring < rings; ++ring) {
+    const float share = (static_cast<float>(ring) + 1.5F) / (static_cast<float>(rings) + 1.5F);
+    const auto nearest = static_cast<float>(ring / 2 + 1);
+    const float distance = std::max(std::floor(radius * share * share), nearest);
+    constants.occlusionDistances[ring] = distance;
+    constants.inverseOcclusionDistances[ring] = 1.0F / distance;
   }
   return constants;
 }
@@ -87,7 +90,7 @@ Guides writeGuides(fg::Graph& graph, fg::PassBuilder& pass, fg::Extent extent, c
   guides.depth = pass.store("outDepth", depth.current);
   guides.previousDepth = depth.previous;
   if (needs.occlusion) {
-    pass.specialize("kOcclusionSteps", needs.occlusion->steps);
+    pass.specialize("kOcclusionRings", needs.occlusion->rings);
     guides.features = pass.store("outFeatures", guideTexture(graph, "guides.features", word, false).current);
   } else {
     const GuideTexture shadingNormal = guideTexture(graph, "guides.shading normal", word, false);

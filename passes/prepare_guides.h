@@ -36,15 +36,16 @@ struct PrepareGuidesSettings {
 /// Settings of the ambient occlusion that serves as a feature.
 struct AmbientOcclusionSettings {
   float radius = 0.075F;
-  std::uint32_t steps = 3;
+  std::uint32_t rings = 4;
 
   void visit(SettingVisitor& v) {
     v.visit({"occlusion.radius", "Distance that the search for occluders reaches", "fraction of the image's height",
              0.002, 0.5, "measured"},
             radius);
     v.visit(
-        {"occlusion.steps", "Pixels that the search looks at in each of its eight directions", "", 1, 16, "measured"},
-        steps);
+        {"occlusion.rings", "Rings of four pixels that the search looks at, on the axes and on the diagonals in turn",
+         "", 1, 8, "measured"},
+        rings);
   }
 };
 

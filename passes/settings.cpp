@@ -57,6 +57,7 @@ constexpr std::array kFormerSettings{
     FormerSetting{"accumulation.change-low", "accumulation.antilag-low", {}},
     FormerSetting{"accumulation.change-high", "accumulation.antilag-high", {}},
     FormerSetting{"walr.filter", {}, "method walr regresses over blocks of pixels, method walr_paper over pixels"},
+    FormerSetting{"occlusion.steps", {}, "occlusion.rings counts rings of four pixels, two for a former step"},
     FormerSetting{"blocks.sort-tiles", {}, "tiles are no longer sorted; leave it out"},
 };
 

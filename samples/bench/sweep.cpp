@@ -121,7 +121,7 @@ std::vector<Sweep> walrSweeps() {
            {"2", "3", "4", "5", "6", "8"}),
       over(kDefault, "occlusion", "How far does ambient occlusion reach?", "occlusion.radius",
            {"0.02", "0.04", "0.075", "0.15", "0.3"}),
-      over(kDefault, "occlusion-steps", "How many steps does ambient occlusion take?", "occlusion.steps",
+      over(kDefault, "occlusion-rings", "How many rings of pixels does ambient occlusion look at?", "occlusion.rings",
            {"2", "3", "4", "5", "8"}),
   };
 }

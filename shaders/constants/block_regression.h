@@ -8,19 +8,20 @@ namespace walr {
 // As BlockRegressionSettings (passes/block_regression.h), except that two constants stand for planeNear and planeFar,
 // and that coarseSigma is in cells where the setting is a fraction of the image's height.
 struct BlockRegressionConstants {
-  float planeOffset;            // The edge-stopping function e of a plane distance over depth d is
-  float planeScale;             // planeOffset - planeScale * d, clamped to 0..1: 1 at planeNear, 0 at planeFar.
-  float sdfFraction;            // Share of the stored edge distance that edge tracing steps at once.
-  float ridge;                  // Added to the diagonal of the feature covariance.
-  float growthErrors;           // Standard errors up to which a block's window takes in another block in full.
-  float coarseSigma;            // Standard deviation of the coarse window at 1 sample per pixel, cells.
-  float coarseNarrowing;        // That window narrows with this power of the samples per pixel.
-  float coarseReach;            // Distance at which that window ends, standard deviations.
-  float coarseGrowthErrors;     // As growthErrors, for the window of a cell without occlusion.
-  float coarseGrowthOcclusion;  // These errors are divided by 1 + this x ambient occlusion.
-  float coarseSamples;          // S: samples that the coarse fit counts for in the mixture.
-  float coarseLeastShare;       // Share of the mixture below which the coarse fit is left out; from twice it on, full.
-  float residualLeastShare;     // Share of the accumulated light below which it is left out.
+  float planeOffset;              // The edge-stopping function e of a plane distance over depth d is
+  float planeScale;               // planeOffset - planeScale * d, clamped to 0..1: 1 at planeNear, 0 at planeFar.
+  float sdfFraction;              // Share of the stored edge distance that edge tracing steps at once.
+  float ridge;                    // Added to the diagonal of the feature covariance.
+  float growthErrors;             // Standard errors up to which a block's window takes in another block in full.
+  float coarseSigma;              // Standard deviation of the coarse window at 1 sample per pixel, cells.
+  float coarseNarrowing;          // That window narrows with this power of the samples per pixel.
+  float coarseReach;              // Distance at which that window ends, standard deviations.
+  float coarseGrowthErrors;       // As growthErrors, for the window of a cell without occlusion.
+  float coarseGrowthOcclusion;    // These errors are divided by 1 + this x ambient occlusion.
+  float coarseSamples;            // S: samples that the coarse fit counts for in the mixture.
+  float inverseCoarseLeastShare;  // 1 over the share of the mixture below which the coarse fit is left out; from twice
+                                  // that share on, it is mixed in full.
+  float residualLeastShare;       // Share of the accumulated light below which it is left out.
 };
 
 #ifdef __cplusplus

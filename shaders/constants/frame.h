@@ -16,12 +16,14 @@ struct FrameConstants {
   vec2 jitterDelta;             // Pixels: this frame's jitter minus the previous frame's, y down.
   vec2 previousPixelFromPixel;  // Size of the previous frame over the size of this one: 1 unless it changed.
   vec2 pixelFromPreviousPixel;  // The inverse.
+  vec2 previousTexel;           // 1 over the size of the previous frame, pixels.
+  vec2 pixelFromRay;            // 1 over rayFromPixel.xy.
   uint frameIndex;              // Counts frames; seeds random choices and stochastic rounding.
   float skyDepth;               // Scene units: from this view depth on there is sky.
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(FrameConstants) == 2 * 64 + 2 * 16 + 4 * 8 + 2 * 4);
+static_assert(sizeof(FrameConstants) == 2 * 64 + 2 * 16 + 6 * 8 + 2 * 4);
 }  // namespace walr
 #endif
 #endif

@@ -2,9 +2,9 @@
 #ifndef WALR_COARSE_SHARE_GLSL
 #define WALR_COARSE_SHARE_GLSL
 
-// A share s_0 of the coarse prediction, cut: to save work it fades out between twice coarseLeastShare and
-// coarseLeastShare; where it is 0, the coarse fits are not read.
-float fadedShare(float share) { return share * clamp(share / constants.coarseLeastShare - 1.0, 0.0, 1.0); }
+// A share s_0 of the coarse prediction, cut: to save work it falls to 0 between twice `blocks.coarse-least-share`
+// and that share. Where it is 0, the coarse fits are not read.
+float fadedShare(float share) { return share * clamp(share * constants.inverseCoarseLeastShare - 1.0, 0.0, 1.0); }
 
 // Share s of the coarse prediction where the windows of the fine fits hold `samples` (W) in the mean.
 float coarseShare(float samples) {

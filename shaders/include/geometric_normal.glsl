@@ -36,7 +36,7 @@ Slope slopeOfInverseDepth(float z, int stride) {
 vec3 geometricNormalOf(Surface surface) {
   const Slope alongX = slopeOfInverseDepth(surface.depth, 1);
   const Slope alongY = slopeOfInverseDepth(surface.depth, int(kInverseDepthRow));
-  const vec2 scale = surface.facing / frame.rayFromPixel.xy;
+  const vec2 scale = surface.facing * frame.pixelFromRay;
   const float x = alongX.found ? alongX.value * scale.x : surface.normal.x;
   const float y = alongY.found ? alongY.value * scale.y : surface.normal.y;
   const vec3 n = vec3(x, y, x * surface.ray.x + y * surface.ray.y - surface.facing);

@@ -14,7 +14,7 @@
 layout(constant_id = 20) const bool kNormalsInWorldSpace = false;
 layout(constant_id = 21) const bool kSky = true;  // Some pixels show the sky.
 #ifdef OCCLUSION
-layout(constant_id = 22) const int kOcclusionSteps = 3;
+layout(constant_id = 22) const int kOcclusionRings = 4;
 #endif
 layout(constant_id = 23) const bool kDiffuseMask = true;  // Treat pixels without a diffuse lobe like sky.
 

@@ -1,6 +1,7 @@
 // History taps: the four history pixels around a reprojected position. Each is tested on its own and accepted if it
 // shows the same surface.
-// PACKED: histories are packed light (usampler2D), which the includer's `unpackHistory` unpacks.
+// PACKED: histories are packed light (usampler2D), which the includer's `unpackHistory` unpacks. Needs `frame`
+// (FrameConstants).
 #ifndef WALR_HISTORY_TAPS_GLSL
 #define WALR_HISTORY_TAPS_GLSL
 
@@ -33,9 +34,9 @@ bvec4 tapsInside(HistoryTaps taps, ivec2 size) {
   return bvec4(first.x && first.y, second.x && first.y, first.x && second.y, second.x && second.y);
 }
 
-// The corner that the four taps share, in texture coordinates of an image of the given size. `textureGather` would only
-// choose other texels half a pixel away, so that rounding does not matter.
-vec2 sharedCorner(HistoryTaps taps, ivec2 size) { return (vec2(taps.base) + 1.0) / vec2(size); }
+// The corner that the four taps share, in texture coordinates of an image whose texels have the size `texel` in them.
+// `textureGather` would only choose other texels half a pixel away, so that rounding does not matter.
+vec2 sharedCorner(HistoryTaps taps, vec2 texel) { return (vec2(taps.base) + 1.0) * texel; }
 
 // The texels of the taps in an image of one channel, in the order of `historyTap`. Outside of it, texels of its border.
 uvec4 gatherTaps(usampler2D image, vec2 corner) { return textureGather(image, corner).wzxy; }
@@ -54,7 +55,7 @@ bool hasLength(uint texel) { return texel >= 1u << 3 * kHistoryBits + 5; }
 
 #define TAP_TEXELS uvec4
 uvec4 tapTexels(usampler2D history, HistoryTaps taps) {
-  return gatherTaps(history, sharedCorner(taps, textureSize(history, 0)));
+  return gatherTaps(history, sharedCorner(taps, frame.previousTexel));
 }
 #else
 #define TAP_TEXELS vec4[4]
@@ -96,10 +97,15 @@ vec4 meanOfTaps(HISTORY_TEXTURE history, HistoryTaps taps) {
 #endif
     weights += weight;
   }
+  // An infinite divisor makes the mean 0. A division, and no product with 1 / weights: where all taps are the same, the
+  // mean has to be as well, or antilag would take the rounding of light without noise for a change.
+  const float divisor = weights > kLeastTapWeight ? weights : uintBitsToFloat(0x7f800000u);
+  const vec4 mean = sum / divisor;
 #ifdef PACKED
-  sum.rgb *= kUnit;
+  return vec4(kUnit * mean.rgb, mean.a);
+#else
+  return mean;
 #endif
-  return weights > kLeastTapWeight ? sum / weights : vec4(0.0);
 }
 
 // Kept taps: temporal accumulation keeps what its reprojection found in a texture, R32_UINT, so that later stages read

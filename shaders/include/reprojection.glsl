@@ -151,7 +151,7 @@ bvec4 both(bvec4 a, bvec4 b) { return mix(bvec4(false), a, b); }
 HistoryTaps historyTaps(ivec2 p, Reprojection r, float tolerance, float normalThreshold) {
   HistoryTaps taps = tapsAround(p, r.motion, frame.previousPixelFromPixel);
   const ivec2 size = textureSize(HISTORY, 0);
-  const vec2 corner = sharedCorner(taps, size);
+  const vec2 corner = sharedCorner(taps, frame.previousTexel);
   bvec4 accepted = both(tapsInside(taps, size), bvec4(r.valid));
 #ifdef OBJECTS
   if (kRejectByObject) {

@@ -19,7 +19,7 @@ constexpr glm::ivec2 kSize(45, 34);
 /// The default settings, with a radius as wide as the scenes are in so small an image.
 WalrSettings searchingWidely() {
   WalrSettings settings;
-  settings.occlusion = {.radius = 0.25F, .steps = 7};
+  settings.occlusion = {.radius = 0.25F, .rings = 7};
   return settings;
 }
 

@@ -18,7 +18,7 @@ fg::Texture importObjectIds(fg::Graph& graph, glm::ivec2 size);
 void upload(fg::test::GraphRun& run, const DenoiserInputs& inputs, const reference::HostFrame& frame);
 
 /// Ambient occlusion with a radius that suits the small images of the tests.
-inline constexpr AmbientOcclusionSettings kOcclusionInSmallImages{.radius = 0.25F, .steps = 8};
+inline constexpr AmbientOcclusionSettings kOcclusionInSmallImages{.radius = 0.25F, .rings = 8};
 /// Import guides of this frame and the previous one, in place of those that `prepare guides` would write.
 Guides importGuides(fg::Graph& graph, glm::ivec2 size);
 /// Upload this frame's guides before the next frame runs. Their values must be exact in the packed form that is read.

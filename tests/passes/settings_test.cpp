@@ -57,7 +57,7 @@ TEST(Settings, SettingsOfOtherMethodsAreRejected) {
             "there is no setting \"blocks.iterations\" here; near ones: regression.iterations");
   EXPECT_EQ(unknown("walr_paper", "walr.fit-window"),
             "there is no setting \"walr.fit-window\" here; near ones: walr_paper.fit-window");
-  for (const char* name : {"occlusion.steps", "accumulation.storage", "antialiasing.storage", "blocks.size"}) {
+  for (const char* name : {"occlusion.rings", "accumulation.storage", "antialiasing.storage", "blocks.size"}) {
     EXPECT_NE(unknown("walr_paper", name).find("there is no setting"), std::string::npos) << name;
     EXPECT_EQ(unknown("walr", name).find("there is no setting"), std::string::npos) << name;
   }

@@ -153,9 +153,10 @@ double ambientOcclusion(const HostFrame& frame, glm::ivec2 p, const Surface& sur
     const glm::ivec2 direction = glm::ivec2(i % 3, i / 3) - 1;
     if (direction == glm::ivec2(0)) continue;
     double horizon = 0.0;
-    for (std::uint32_t step = 1; step <= settings.steps; ++step) {
-      const double share = double(step) / (settings.steps + 1);
-      const int distance = std::max(static_cast<int>(radius * share * share), static_cast<int>(step));
+    const bool diagonal = direction.x != 0 && direction.y != 0;
+    for (std::uint32_t ring = diagonal ? 1 : 0; ring < settings.rings; ring += 2) {
+      const double share = (ring + 1.5) / (settings.rings + 1.5);
+      const int distance = std::max(static_cast<int>(radius * share * share), static_cast<int>(ring / 2) + 1);
       const glm::ivec2 q = p + distance * direction;
       const double inverseDepth = inverseDepthAt(frame, q);
       if (inverseDepth == 0.0) continue;
