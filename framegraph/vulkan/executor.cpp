@@ -8,6 +8,7 @@
 
 #include "framegraph/declare/same_topology.h"
 #include "framegraph/vulkan/barriers.h"
+#include "framegraph/vulkan/completions.h"
 #include "framegraph/vulkan/error.h"
 #include "framegraph/vulkan/inherited_histories.h"
 #include "framegraph/vulkan/pass_recorder.h"
@@ -58,13 +59,14 @@ struct Executor::State {
         histories(graph, plan),
         releases(graph, plan.releases),
         timestamps(makeTimestamps(device, graph, plan, options)),
+        completions(device, slots),
         bound(graph.resources.size()) {
     if (before != nullptr && options.inheritHistories) inheritHistories(*before);
   }
 
   /// Let the first frame read the histories that the last frame of `before` wrote.
   void inheritHistories(const State& before) {
-    if (!before.recorded) return;
+    if (before.frames == 0) return;
     std::vector<InheritedHistory> taken = inheritedHistories(graph, plan, before.graph, before.plan);
     std::erase_if(taken, [&](const InheritedHistory& each) { return !before.histories.status(each.before).valid; });
     for (const InheritedHistory& each : taken) {
@@ -121,7 +123,7 @@ struct Executor::State {
   const std::uint32_t slots;
   FrameIndex frame;  ///< The frame recorded last.
   std::uint32_t nextParity = 0;
-  bool recorded = false;  ///< Whether any frame was.
+  std::uint64_t frames = 0;  ///< Recorded so far.
   Resources resources;
   Uploads uploads;
   Views views;
@@ -130,6 +132,7 @@ struct Executor::State {
   HistoryStates histories;
   BarrierBatch releases;
   std::optional<Timestamps> timestamps;
+  Completions completions;
   std::vector<Bound> bound;  ///< By resource.
   struct Inherited {
     std::uint32_t previous = kNone;
@@ -187,13 +190,14 @@ void Executor::update(const GraphDesc& graph) {
   for (std::size_t i = 0; i < graph.passes.size(); ++i) state_->graph.passes[i].work = graph.passes[i].work;
 }
 
-void Executor::record(VkCommandBuffer commandBuffer, std::uint32_t slot) {
+void Executor::record(VkCommandBuffer commandBuffer, std::uint32_t slot, const TimelinePoint& finished) {
   State& state = *state_;
   if (slot >= state.slots) {
     throw std::out_of_range("frame slot " + std::to_string(slot) + " of " + std::to_string(state.slots));
   }
   state.requireBound();
-  const bool first = !state.recorded;
+  state.completions.require(slot, state.frames, finished);
+  const bool first = state.frames == 0;
   if (!first) state.dropInherited();
   state.frame = {slot, state.nextParity};
   state.uploads.copyTo(state.resources, slot);
@@ -204,7 +208,8 @@ void Executor::record(VkCommandBuffer commandBuffer, std::uint32_t slot) {
   state.releases.record(state.device, commandBuffer, state.resources, state.frame);
   state.histories.advance();
   state.nextParity = 1 - state.nextParity;
-  state.recorded = true;
+  state.completions.note(slot, state.frames, finished);
+  ++state.frames;
 }
 
 void Executor::resetHistory(const History& history) {

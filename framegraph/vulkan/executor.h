@@ -11,6 +11,7 @@
 #include "framegraph/vulkan/device_context.h"
 #include "framegraph/vulkan/history_state.h"
 #include "framegraph/vulkan/pipelines.h"
+#include "framegraph/vulkan/timeline_point.h"
 #include "framegraph/vulkan/timestamps.h"
 
 namespace fg::vk {
@@ -93,8 +94,10 @@ class Executor {
   /// Record one frame.
   /// @param commandBuffer in the recording state, outside of a render pass
   /// @param slot 0 to framesInFlight - 1; the GPU must have finished the frame last recorded with it
+  /// @param finished what the submission of this frame signals; optional. It must live until the slot is used again.
   /// @throws Error naming an import that nothing is bound to, or std::out_of_range for the slot
-  void record(VkCommandBuffer commandBuffer, std::uint32_t slot);
+  /// @throws also as `Completions::require` does; then nothing is recorded
+  void record(VkCommandBuffer commandBuffer, std::uint32_t slot, const TimelinePoint& finished = {});
 
   /// Drop the contents of a history: the next frame reads zeros and age 0. For camera cuts.
   void resetHistory(const History& history);

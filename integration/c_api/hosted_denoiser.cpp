@@ -32,6 +32,7 @@ WalrMemory memoryOf(const fg::MemoryReport& report, std::uint64_t allocated) {
 HostedDenoiser::HostedDenoiser(const WalrDenoiserInfo& info)
     : device_(info.device),
       description_(info),
+      completions_(device_.context(), description_.slots()),
       timestamps_(measuresTimes(info, device_)),
       lint_(info.lint == VK_TRUE),
       counters_(info.counters == VK_TRUE),
@@ -245,6 +246,8 @@ void HostedDenoiser::record(VkCommandBuffer commandBuffer, const WalrFrame& fram
                                                       .index = givenIndex(frame.flags, frame.frame_index)});
   declare();
   const FrameImages images = checkedImages(frame);
+  const fg::vk::TimelinePoint finished = device_.finishedPoint(frame.finished, frame.finished_value);
+  completions_.require(description_.slot(), description_.frames(), finished);
   dropFinished();
   build();
   bind(images);
@@ -262,6 +265,7 @@ void HostedDenoiser::record(VkCommandBuffer commandBuffer, const WalrFrame& fram
   resetRequested_ = false;
   lastImages_ = images;
   built_->lastFrame = description_.frames();
+  completions_.note(description_.slot(), description_.frames(), finished);
   description_.advance(*frame.camera);
 }
 

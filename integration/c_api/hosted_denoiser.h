@@ -9,6 +9,7 @@
 
 #include <walr/walr.h>
 
+#include "framegraph/vulkan/completions.h"
 #include "framegraph/vulkan/executor.h"
 #include "integration/c_api/description.h"
 #include "integration/c_api/device.h"
@@ -84,6 +85,7 @@ class HostedDenoiser {
 
   HostDevice device_;
   Description description_;
+  fg::vk::Completions completions_;
   bool timestamps_;
   bool lint_;
   bool counters_;

@@ -396,13 +396,20 @@ typedef struct WalrFrame {
   uint32_t frame_index;
   uint32_t reserved;
   const WalrImage* view; /* Receives the view that walr_set_view has chosen. Null if there is none. */
+  /* Optional: a timeline semaphore that reaches `finished_value` when the GPU has finished this frame. When the frame's
+   * slot is used again, walr_record reads it without waiting, and returns WALR_ERROR_WRONG_ORDER instead of a corrupted
+   * picture if the GPU is not done. The device needs the feature timelineSemaphore. The semaphore must live until then,
+   * or until the denoiser is destroyed. */
+  VkSemaphore finished;
+  uint64_t finished_value; /* Above 0, and never below that of the frame before with the same semaphore. */
 } WalrFrame;
 
 /*
  * Record one frame.
  *
  * Recorded frames must be submitted in the order of recording, all to one queue. Before a frame is recorded, the GPU
- * must have finished the one recorded `frames_in_flight` frames earlier. If an error is returned, nothing is recorded.
+ * must have finished the one recorded `frames_in_flight` frames earlier: see WalrFrame::finished. If an error is
+ * returned, nothing is recorded.
  *
  * command_buffer: in the recording state, outside of a render pass. Its bound compute pipeline, descriptor set 0 and
  * push constants are changed.
