@@ -11,6 +11,7 @@
 #include "framegraph/vulkan/completions.h"
 #include "framegraph/vulkan/error.h"
 #include "framegraph/vulkan/inherited_histories.h"
+#include "framegraph/vulkan/memory_barrier.h"
 #include "framegraph/vulkan/pass_recorder.h"
 #include "framegraph/vulkan/uploads.h"
 
@@ -26,6 +27,13 @@ std::optional<Timestamps> makeTimestamps(const DeviceContext& device, const Grap
                                          const ExecutorOptions& options) {
   if (!options.timestamps) return std::nullopt;
   return Timestamps(device, graph, plan, options.framesInFlight);
+}
+
+std::shared_ptr<Pipelines> makePipelines(const DeviceContext& device, const ExecutorOptions& options,
+                                         const std::shared_ptr<Pipelines>& before) {
+  const std::shared_ptr<SharedObjects>& shared = options.shared.objects;
+  if (shared != nullptr) return {shared, &shared->pipelines()};
+  return before != nullptr ? before : std::make_shared<Pipelines>(device, options.pipelineCache);
 }
 
 /// A host's image or buffer that is bound to an import.
@@ -50,10 +58,10 @@ struct Executor::State {
         graph(std::move(declared)),
         plan(std::move(compiled)),
         slots(checkedSlots(options)),
-        resources(device, graph, plan, slots, options.poison),
+        resources(device, graph, plan, slots, options.poison, options.shared),
         uploads(graph, plan, slots),
         views(device, graph, resources),
-        pipelines(before != nullptr ? before->pipelines : std::make_shared<Pipelines>(device, options.pipelineCache)),
+        pipelines(makePipelines(device, options, before != nullptr ? before->pipelines : nullptr)),
         passes(device, graph, plan, resources, views, *pipelines, slots,
                {.poison = options.poison, .inheritsHistories = before != nullptr && options.inheritHistories}),
         histories(graph, plan),
@@ -88,6 +96,14 @@ struct Executor::State {
     }
     inherited.clear();
     passes.invalidateImages();
+  }
+
+  /// The frames before, of other executors, may have used the memory of this one's transients. Each transient starts
+  /// from UNDEFINED, so that only their writes must be over.
+  void recordMemoryHandOver(VkCommandBuffer commandBuffer) const {
+    recordMemoryBarrier(
+        device, commandBuffer, {VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_WRITE_BIT},
+        {VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT});
   }
 
   void requireImport(ResourceVersion handle) const {
@@ -203,6 +219,7 @@ void Executor::record(VkCommandBuffer commandBuffer, std::uint32_t slot, const T
   state.uploads.copyTo(state.resources, slot);
   if (state.timestamps) state.timestamps->begin(commandBuffer, slot);
   if (first) state.takeOver.record(state.device, commandBuffer, state.resources, state.frame);
+  if (state.resources.sharedBytes() > 0) state.recordMemoryHandOver(commandBuffer);
   state.histories.recordClears(state.device, commandBuffer, state.resources, state.frame);
   state.passes.record(commandBuffer, state.frame, state.histories, state.timestamps ? &*state.timestamps : nullptr);
   state.releases.record(state.device, commandBuffer, state.resources, state.frame);
@@ -239,6 +256,10 @@ std::span<const PassTime> Executor::passTimes(std::uint32_t slot) {
 
 std::uint64_t Executor::allocatedBytes() const {
   return state_->resources.allocatedBytes();
+}
+
+std::uint64_t Executor::sharedBytes() const {
+  return state_->resources.sharedBytes();
 }
 
 }  // namespace fg::vk

@@ -10,7 +10,7 @@
 #include "framegraph/plan/plan.h"
 #include "framegraph/vulkan/device_context.h"
 #include "framegraph/vulkan/history_state.h"
-#include "framegraph/vulkan/pipelines.h"
+#include "framegraph/vulkan/resources.h"
 #include "framegraph/vulkan/timeline_point.h"
 #include "framegraph/vulkan/timestamps.h"
 
@@ -27,6 +27,9 @@ struct ExecutorOptions {
   /// Used to create pipelines, for instance `PipelineCache::handle`; optional. Must outlive the executor and those that
   /// name it as their predecessor.
   VkPipelineCache pipelineCache = VK_NULL_HANDLE;
+  /// What this executor shares with others whose frames come before and after its own on one queue; optional. Its
+  /// pipelines count, and not `pipelineCache`.
+  Membership shared = {};
   /// An executor of the same device that this one replaces, of any graph. Pipelines are shared, so only those for
   /// new shaders and specialization constants are created, in the predecessor's `pipelineCache`. The first frame of
   /// this executor may read the histories of the predecessor: see `inheritHistories`. The predecessor must not record
@@ -112,8 +115,10 @@ class Executor {
   /// GPU times of the frame last recorded with a slot, which the GPU must have finished. Valid until the next call;
   /// empty without `ExecutorOptions::timestamps`.
   [[nodiscard]] std::span<const PassTime> passTimes(std::uint32_t slot);
-  /// Device memory allocated, in bytes.
+  /// Device memory allocated, in bytes, with that which is shared.
   [[nodiscard]] std::uint64_t allocatedBytes() const;
+  /// Bytes of it that other executors use now, too.
+  [[nodiscard]] std::uint64_t sharedBytes() const;
 
  private:
   struct State;

@@ -14,6 +14,11 @@ namespace walr::api {
 HostedPasses::HostedPasses(const WalrDenoiserInfo& info, std::span<const WalrSettingValue> settings,
                            std::span<const WalrPortFormat> ports)
     : description_(info, Description::Of::MethodsAndStages) {
+  if (info.shared_with != nullptr) {
+    throw Error(WALR_ERROR_INVALID_ARGUMENT,
+                "WalrDenoiserInfo::shared_with is for walr_create_denoiser: pass by pass, share memory and a pipeline "
+                "cache yourself");
+  }
   for (const WalrSettingValue& setting : settings) {
     description_.settings().set(requireText(setting.name, "WalrSettingValue::name"),
                                 requireText(setting.value, "WalrSettingValue::value"));

@@ -87,6 +87,7 @@ HostedRun::HostedRun(const fg::vk::Device& device, const char* method, glm::ivec
   info.log = options.log;
   info.log_user = options.logUser;
   info.pipeline_cache = options.pipelineCache;
+  info.shared_with = options.sharedWith;
   require(walr_create_denoiser(&info, &denoiser_));
   makeImages(size);
 }
@@ -207,6 +208,13 @@ WalrImage HostedRun::describeView() const {
 std::uint32_t HostedRun::submit(const FrameDescription& camera, std::uint32_t flags, float preExposure,
                                 const fg::vk::FrameSemaphores& semaphores) {
   const fg::vk::Frame recorded = queue_.begin();
+  record(recorded, camera, flags, preExposure, semaphores.finished);
+  queue_.submit(recorded, semaphores);
+  return recorded.slot;
+}
+
+void HostedRun::record(const fg::vk::Frame& recorded, const FrameDescription& camera, std::uint32_t flags,
+                       float preExposure, const fg::vk::TimelinePoint& finished) {
   for (std::size_t i = 0; i < texels_.size(); ++i) {
     if (!images_[i]) continue;
     std::ranges::copy(texels_[i], images_[i]->staging(recorded.slot).begin());
@@ -234,20 +242,22 @@ std::uint32_t HostedRun::submit(const FrameDescription& camera, std::uint32_t fl
   frame.view = view_ ? &view : nullptr;
   frame.camera = &now;
   frame.previous_camera = rememberedCamera_ ? nullptr : &before;
-  frame.finished = semaphores.finished.semaphore;
-  frame.finished_value = semaphores.finished.value;
+  frame.finished = finished.semaphore;
+  frame.finished_value = finished.value;
   require(walr_record(denoiser_, recorded.commandBuffer, &frame));
   if (view_) view_->recordReadback(recorded.commandBuffer, recorded.slot);
   output().recordReadback(recorded.commandBuffer, recorded.slot);
-  queue_.submit(recorded, semaphores);
-  return recorded.slot;
+}
+
+std::vector<std::byte> HostedRun::resultOf(std::uint32_t slot) const {
+  const auto bytes = output().staging(slot);
+  return {bytes.begin(), bytes.end()};
 }
 
 std::vector<std::byte> HostedRun::frameBytes(const FrameDescription& camera, std::uint32_t flags, float preExposure) {
   lastSlot_ = submit(camera, flags, preExposure);
   queue_.wait(lastSlot_);
-  const auto bytes = output().staging(lastSlot_);
-  return {bytes.begin(), bytes.end()};
+  return resultOf(lastSlot_);
 }
 
 std::vector<std::uint16_t> HostedRun::frame(const FrameDescription& camera, std::uint32_t flags, float preExposure) {

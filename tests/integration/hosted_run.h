@@ -32,13 +32,14 @@ class HostedRun {
     bool objectIds = false;  ///< Give an image "object_id".
     std::uint32_t framesInFlight = 2;
     std::uint32_t hostSlots = 0;  ///< Frames that the host itself has in flight; 0 means `framesInFlight`.
-    glm::ivec2 offset{0};  ///< Of the rectangle in images that are larger by `margin`.
+    glm::ivec2 offset{0};         ///< Of the rectangle in images that are larger by `margin`.
     glm::ivec2 margin{0};
     WalrLog log = nullptr;
     void* logUser = nullptr;
     PFN_vkGetInstanceProcAddr getInstanceProcAddr = nullptr;  ///< Instead of the device's.
     VkPipelineCache pipelineCache = VK_NULL_HANDLE;
     const WalrMemoryCallbacks* deviceMemory = nullptr;
+    WalrDenoiser sharedWith = nullptr;
   };
 
   HostedRun(const fg::vk::Device& device, const char* method, glm::ivec2 size) : HostedRun(device, method, size, {}) {}
@@ -71,6 +72,11 @@ class HostedRun {
   /// @returns the frame's slot
   std::uint32_t submit(const FrameDescription& camera, std::uint32_t flags = 0, float preExposure = 0.0F,
                        const fg::vk::FrameSemaphores& semaphores = {});
+  /// The same into a command buffer that the caller submits.
+  void record(const fg::vk::Frame& frame, const FrameDescription& camera, std::uint32_t flags = 0,
+              float preExposure = 0.0F, const fg::vk::TimelinePoint& finished = {});
+  /// The result's bytes of the frame that was recorded last with a slot, and that the GPU has finished.
+  [[nodiscard]] std::vector<std::byte> resultOf(std::uint32_t slot) const;
 
  private:
   void makeImages(glm::ivec2 size);

@@ -282,6 +282,11 @@ typedef struct WalrDenoiserInfo {
    * VK_FORMAT_R32G32B32A32_SFLOAT. The last two cost a small pass, which rounds to the nearest value. */
   VkFormat denoised_format;
   VkBool32 counters; /* Count what the method does, see walr_get_counters. For debugging: costs passes. */
+  /* Another denoiser, for several views a frame (eyes, split screens, cube faces); optional. Both share shader modules,
+   * pipelines and the memory of transients; each has its own histories, size and settings. Use its device; its
+   * allocators and pipeline cache serve both. Frames of both must be submitted in the order of recording, to one queue,
+   * and only one thread at a time may use either. Both may be destroyed in any order. */
+  WalrDenoiser shared_with;
 } WalrDenoiserInfo;
 
 /* Creates no Vulkan object; see walr_prepare. */
@@ -430,13 +435,14 @@ typedef struct WalrMemory {
   uint64_t transient_unaliased; /* The same without aliasing. */
   uint64_t transient_least;     /* Lower bound of `transient`. */
   uint64_t retired;             /* Replaced, but still in use by frames in flight. */
+  uint64_t shared; /* Bytes of `allocated` that other denoisers count, too: see WalrDenoiserInfo::shared_with. */
 } WalrMemory;
 
 /* Call walr_prepare or walr_record before. */
 WALR_API WalrResult walr_get_memory(WalrDenoiser denoiser, WalrMemory* memory);
 
 /* The memory that a denoiser with this description will allocate, before there is one: the result of walr_get_memory
- * after walr_prepare. It allocates no device memory. */
+ * after walr_prepare, where nothing is shared. It allocates no device memory. */
 WALR_API WalrResult walr_query_memory(const WalrDenoiserInfo* info, WalrMemory* memory);
 
 typedef struct WalrPassTime {
