@@ -43,6 +43,7 @@ AT(WalrConventions, depth, 24);
 AT(WalrConventions, motion_scale, 16);
 AT(WalrConventions, motion_jittered, 36);
 AT(WalrConventions, rectangle, 40);
+AT(WalrConventions, orthographic, 44);
 SIZE(WalrDenoiserInfo, 120);
 AT(WalrDenoiserInfo, device, 8);
 AT(WalrDenoiserInfo, width, 32);

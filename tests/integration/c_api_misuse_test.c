@@ -339,7 +339,7 @@ static void test_frames(Host* host, WalrDenoiser denoiser) {
   EXPECT(walr_record(denoiser, commands, &frame), WALR_ERROR_INVALID_ARGUMENT, "projection matrix has y down");
   camera = kCamera;
   memcpy(camera.projection, kCamera.view, sizeof(camera.projection));
-  EXPECT(walr_record(denoiser, commands, &frame), WALR_ERROR_INVALID_ARGUMENT, "perspective");
+  EXPECT(walr_record(denoiser, commands, &frame), WALR_ERROR_INVALID_ARGUMENT, "WalrConventions::orthographic");
   frame = good;
   frame.sky_depth = -1;
   EXPECT(walr_record(denoiser, commands, &frame), WALR_ERROR_INVALID_ARGUMENT, "sky_depth");

@@ -240,7 +240,9 @@ typedef struct WalrConventions {
    * relative position in the rectangle has no motion, even if the size has changed. Jitter is in pixels of the
    * rectangle of its own frame. */
   VkBool32 rectangle;
-  uint32_t reserved;
+  /* The cameras are orthographic. Motion must have its third channel, and WalrDenoiserInfo::lint is refused. If a zoom
+   * doubles or halves the height of the view, the history may restart once. */
+  VkBool32 orthographic;
 } WalrConventions;
 
 typedef enum WalrLogLevel {
@@ -370,8 +372,8 @@ WALR_API WalrResult walr_forget_image(WalrDenoiser denoiser, VkImage image, uint
 
 typedef struct WalrCamera {
   float view[16];       /* World to view space. */
-  float projection[16]; /* View to clip space, perspective, without jitter, x right, y up. Row z is used with
-                         * WALR_DEPTH_DEVICE only. */
+  float projection[16]; /* View to clip space, without jitter, x right, y up; perspective, but see
+                         * WalrConventions::orthographic. Row z is used with WALR_DEPTH_DEVICE only. */
   float jitter[2];      /* Pixels, y down: sample position minus pixel centre. */
 } WalrCamera;
 
