@@ -206,6 +206,11 @@ void Executor::update(const GraphDesc& graph) {
   for (std::size_t i = 0; i < graph.passes.size(); ++i) state_->graph.passes[i].work = graph.passes[i].work;
 }
 
+void Executor::replaceCode(const Shader& shader, std::vector<std::uint32_t> code) {
+  state_->pipelines->replaceCode(shader, std::move(code));
+  state_->passes.update(state_->graph);
+}
+
 void Executor::record(VkCommandBuffer commandBuffer, std::uint32_t slot, const TimelinePoint& finished) {
   State& state = *state_;
   if (slot >= state.slots) {

@@ -5,12 +5,13 @@
 #include <memory>
 #include <span>
 #include <type_traits>
+#include <vector>
 
 #include "framegraph/declare/graph.h"
 #include "framegraph/plan/plan.h"
 #include "framegraph/vulkan/device_context.h"
 #include "framegraph/vulkan/history_state.h"
-#include "framegraph/vulkan/resources.h"
+#include "framegraph/vulkan/shared_objects.h"
 #include "framegraph/vulkan/timeline_point.h"
 #include "framegraph/vulkan/timestamps.h"
 
@@ -93,6 +94,12 @@ class Executor {
   /// @throws std::invalid_argument if the topology differs: compile the graph and create an executor for it;
   ///         PipelineFailed, OutOfMemory or Unsupported, and the executor is unchanged
   void update(const GraphDesc& graph);
+
+  /// Use other SPIR-V for a shader in the frames recorded from now on, also in those of executors that share its
+  /// pipelines once they are updated. For programs that reload shaders while they run. Histories are kept.
+  /// @param code with the shader's bindings, constants and work group size
+  /// @throws PipelineFailed or OutOfMemory, and nothing has changed
+  void replaceCode(const Shader& shader, std::vector<std::uint32_t> code);
 
   /// Record one frame.
   /// @param commandBuffer in the recording state, outside of a render pass

@@ -17,12 +17,6 @@ namespace fg::vk {
 /// @param plan compiled with the DriverMemoryModel of the device
 std::uint64_t requiredBytes(const DeviceContext& device, const GraphDesc& graph, const Plan& plan, std::uint32_t slots);
 
-/// A member of executors that share objects.
-struct Membership {
-  std::shared_ptr<SharedObjects> objects = nullptr;  ///< Null: nothing is shared.
-  std::uint32_t member = 0;                          ///< Of `SharedObjects::addMember`.
-};
-
 /// Every image and buffer that a plan uses, created or imported. Indexed by resource and frame.
 class Resources {
  public:

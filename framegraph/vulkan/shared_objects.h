@@ -43,4 +43,10 @@ class SharedObjects {
   std::vector<Block> blocks_;
 };
 
+/// A member of executors that share objects.
+struct Membership {
+  std::shared_ptr<SharedObjects> objects = nullptr;  ///< Null: nothing is shared.
+  std::uint32_t member = 0;                          ///< Of `SharedObjects::addMember`.
+};
+
 }  // namespace fg::vk
