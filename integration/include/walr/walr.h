@@ -13,7 +13,7 @@
  *   unless they are zero. Zero is the default of every field. Structures without `struct_size` never change.
  * - Handles are never reused: using a destroyed one is always an error.
  * - Only one thread at a time may use a denoiser. A call during another thread's call returns
- *   WALR_ERROR_CONCURRENT_USE and does nothing. Different denoisers are independent.
+ *   WALR_ERROR_CONCURRENT_USE and does nothing. Different denoisers are independent, unless they share objects.
  * - Matrices are column-major and multiply column vectors. View space is right-handed, the camera looks down -Z.
  *   Image coordinates have x to the right and y down, in pixels. Pixel centres are at .5.
  */
