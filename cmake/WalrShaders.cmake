@@ -18,6 +18,8 @@
 # Bindings must be in descriptor set 0. A binding has the name of its variable, or of its block if the block has no instance
 # name. Unused bindings are left out. The compiler numbers bindings that have no number. See framegraph/tools/reflect.h.
 # Only debug builds embed names in the SPIR-V, for validation messages.
+# With WALR_RELOAD_SHADERS, the property WALR_SHADER_COMMANDS of the library is a file with a line for every shader: its name,
+# its SPIR-V and the words of the command that compiles it, but for the output, all separated by tabs.
 find_program(GLSLANG_VALIDATOR NAMES glslangValidator glslang REQUIRED
   DOC "glslang's compiler (Debian package glslang-tools)")
 
@@ -82,6 +84,7 @@ function(walr_add_shaders name)
   set(choosers "")
   set(all "")
   set(sources "")
+  set(command_lines "")
   foreach(shader IN LISTS ARG_SHADERS)
     separate_arguments(words UNIX_COMMAND "${shader}")
     list(POP_FRONT words file)
@@ -113,9 +116,11 @@ function(walr_add_shaders name)
 
       set(spirv "${generated}/${shader_name}.spv")
       set(source "${generated}/${shader_name}.cpp")
+      set(command "${GLSLANG_VALIDATOR}" -V --target-env vulkan1.1 --auto-map-bindings ${includes} ${defines} ${combined})
+      list(JOIN command "\t" words)
+      string(APPEND command_lines "${shader_name}\t${spirv}\t${words}\t${CMAKE_CURRENT_SOURCE_DIR}/${file}\n")
       add_custom_command(OUTPUT "${spirv}"
-        COMMAND "${GLSLANG_VALIDATOR}" -V --target-env vulkan1.1 --auto-map-bindings ${includes} ${defines} ${combined}
-          --depfile "${spirv}.d" -o "${spirv}" "${CMAKE_CURRENT_SOURCE_DIR}/${file}"
+        COMMAND ${command} --depfile "${spirv}.d" -o "${spirv}" "${CMAKE_CURRENT_SOURCE_DIR}/${file}"
         DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/${file}" DEPFILE "${spirv}.d"
         COMMENT "Compiling shader ${shader_name}" VERBATIM)
       add_custom_command(OUTPUT "${source}"
@@ -149,6 +154,10 @@ inline constexpr const fg::Shader* kAll[] = {@all@};
 }  // namespace @ARG_NAMESPACE@
 ]])
   walr_library(${name} SOURCES ${sources} "${header}")
+  if(WALR_RELOAD_SHADERS)
+    file(CONFIGURE OUTPUT "${generated}/commands.txt" CONTENT "${command_lines}" @ONLY)
+    set_target_properties(walr_${name} PROPERTIES WALR_SHADER_COMMANDS "${generated}/commands.txt")
+  endif()
   target_include_directories(walr_${name} PUBLIC $<BUILD_INTERFACE:${generated}/include>)
   target_link_libraries(walr_${name} PUBLIC walr::framegraph)
 endfunction()

@@ -1,5 +1,6 @@
 #include "integration/denoise_graph.h"
 
+#include <stdexcept>
 #include <string>
 
 #include "passes/lint_inputs.h"
@@ -44,9 +45,24 @@ DenoiserInputs importInputs(fg::Graph& graph, fg::Extent extent, const InputConv
   return inputs;
 }
 
+void checkOrthographic(const InputConventions& conventions, const HostConventions& host, bool lint) {
+  if (!host.orthographic) return;
+  if (conventions.motionDepth == InputConventions::MotionDepth::StaticScene) {
+    throw std::invalid_argument(
+        "an orthographic camera needs the third channel of motion: motion depth of a static scene is computed for "
+        "perspective cameras only");
+  }
+  if (lint) {
+    throw std::invalid_argument(
+        "the linter checks inputs of perspective cameras only: check them with a perspective camera, and switch lint "
+        "off for the orthographic one");
+  }
+}
+
 DenoiseGraph declareDenoiseGraph(Denoiser& method, fg::Extent extent, const InputConventions& conventions,
                                  const HostStates& states, std::span<const VkFormat> formats,
                                  const HostConventions& host, const InspectionWish& wanted) {
+  checkOrthographic(conventions, host, wanted.lint);
   DenoiseGraph declared;
   fg::Graph& graph = declared.graph;
   const fg::TextureDesc result{.format = kOutputFormat, .extent = extent};

@@ -47,6 +47,9 @@ DenoiserInputs importInputs(fg::Graph& graph, fg::Extent extent, const InputConv
                             const fg::ExternalState& state, std::span<const VkFormat> formats = {},
                             const HostConventions& host = {});
 
+/// @throws std::invalid_argument naming what an orthographic camera does not allow
+void checkOrthographic(const InputConventions& conventions, const HostConventions& host, bool lint);
+
 /// Declare a method between the host's textures.
 /// @param formats see `importInputs`
 /// @param host    conventions of the textures; what differs from `DenoiserInputs` is converted first

@@ -37,14 +37,47 @@ bool isAffine(const glm::dmat4& m) {
   return isNear(m[0][3], 0.0) && isNear(m[1][3], 0.0) && isNear(m[2][3], 0.0) && isNear(m[3][3], 1.0);
 }
 
+constexpr const char* kEye =
+    "moves the image by a share of inverse depth, as the eyes of a stereo camera do; put that offset into the view "
+    "matrix";
+constexpr const char* kOblique =
+    "moves the image by a share of depth, as oblique projections do; point the camera along its rays instead";
+
+/// Refuse a projection whose axes are not those of the image.
+/// @param shift   how the image moves with depth; must be 0
+/// @param shifted what to say if it is not
+template <typename Reject>
+void checkAxes(const glm::dmat4& p, glm::dvec2 shift, const char* shifted, const Reject& reject) {
+  if (!isNear(p[1][0], 0.0) || !isNear(p[0][1], 0.0)) {
+    reject("rotates or shears the image; pass it without the rotation of the display");
+  }
+  if (!isNear(shift.x, 0.0) || !isNear(shift.y, 0.0)) reject(shifted);
+  if (p[0][0] == 0.0 || p[1][1] == 0.0) reject("is singular: a focal length is 0");
+  if (p[0][0] < 0.0) reject("mirrors x: its element in column 0, row 0 is negative; pass the unmirrored matrix");
+  if (p[1][1] < 0.0) {
+    reject(
+        "has y down, as is usual for Vulkan (its element in column 1, row 1 is negative); clip space has y up here: "
+        "negate row y of the matrix that is passed (the images stay as they are)");
+  }
+}
+
 }  // namespace
 
-void checkProjection(const glm::mat4& projection) {
+void checkProjection(const glm::mat4& projection, bool orthographic) {
   const auto reject = [](const std::string& cause) { refuse("projection", cause); };
   const glm::dmat4 p(projection);
   if (!isFinite(p)) reject("is not finite");
+  const bool lastRowIsOrthographic = isNear(p[0][3], 0.0) && isNear(p[1][3], 0.0) && p[2][3] == 0.0 && p[3][3] == 1.0;
+  if (orthographic && !lastRowIsOrthographic) {
+    reject(
+        "does not give clip.w = 1, so it is not that of an orthographic camera, which is what the conventions state; "
+        "use another denoiser for frames with a perspective camera");
+  }
+  if (orthographic) return checkAxes(p, glm::dvec2(p[2][0], p[2][1]), kOblique, reject);
   if (isNear(p[2][3], 0.0) && isNear(p[3][3], 1.0)) {
-    reject("is orthographic; only perspective cameras are supported");
+    reject(
+        "is orthographic; state it when the denoiser is created: WalrConventions::orthographic, or in C++ "
+        "HostConventions::orthographic and FrameDescription::orthographic");
   }
   const bool lastRowIsPerspective =
       isNear(p[0][3], 0.0) && isNear(p[1][3], 0.0) && isNear(p[3][3], 0.0) && isNear(std::abs(p[2][3]), 1.0);
@@ -61,21 +94,7 @@ void checkProjection(const glm::mat4& projection) {
         "is left-handed (clip.w = view.z); view space is right-handed with the camera looking down -z: negate row z "
         "of the view matrix and column z of the projection");
   }
-  if (!isNear(p[1][0], 0.0) || !isNear(p[0][1], 0.0)) {
-    reject("rotates or shears the image; pass it without the rotation of the display");
-  }
-  if (!isNear(p[3][0], 0.0) || !isNear(p[3][1], 0.0)) {
-    reject(
-        "moves the image by a share of inverse depth, as the eyes of a stereo camera do; put that offset into the "
-        "view matrix");
-  }
-  if (p[0][0] == 0.0 || p[1][1] == 0.0) reject("is singular: a focal length is 0");
-  if (p[0][0] < 0.0) reject("mirrors x: its element in column 0, row 0 is negative; pass the unmirrored matrix");
-  if (p[1][1] < 0.0) {
-    reject(
-        "has y down, as is usual for Vulkan (its element in column 1, row 1 is negative); clip space has y up here: "
-        "negate row y of the matrix that is passed (the images stay as they are)");
-  }
+  checkAxes(p, glm::dvec2(p[3][0], p[3][1]), kEye, reject);
 }
 
 void checkView(const glm::mat4& view) {

@@ -4,11 +4,13 @@
 
 namespace walr {
 
-/// Refuse a matrix that is not the projection of a pinhole camera in the project's conventions: clip.w = -view.z, y up,
-/// axes of the image parallel to those of view space. Row z, which holds depth, may be anything.
-/// @throws std::invalid_argument naming the most likely cause: transposed, left-handed, y down, orthographic,
-///         inverted, sheared
-void checkProjection(const glm::mat4& projection);
+/// Refuse a matrix that is not the projection of a camera in the project's conventions: clip.w = -view.z, or 1 for an
+/// orthographic camera, y up, axes of the image parallel to those of view space. Row z, which holds depth, may be
+/// anything.
+/// @param orthographic whether the camera is stated to be orthographic
+/// @throws std::invalid_argument naming the most likely cause: transposed, left-handed, y down, inverted, sheared, or
+///         of the other kind than stated
+void checkProjection(const glm::mat4& projection, bool orthographic = false);
 
 /// Refuse a matrix that is not a rotation and a translation.
 /// @throws std::invalid_argument naming the most likely cause: transposed, mirrored (left-handed), scaled, sheared

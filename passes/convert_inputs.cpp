@@ -3,6 +3,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "passes/orthographic.h"
 #include "shaders/shaders.h"
 
 namespace walr {
@@ -22,10 +23,12 @@ fg::Texture converted(fg::Graph& graph, const std::string& what, VkFormat format
   return graph.texture("converted " + what, {format, graph.textureDesc(source).extent});
 }
 
-fg::Texture convertDepth(fg::Graph& graph, fg::Texture depth, HostConventions::Depth kind, fg::Buffer host) {
+fg::Texture convertDepth(fg::Graph& graph, fg::Texture depth, const HostConventions& conventions, fg::Buffer host) {
+  const HostConventions::Depth kind = conventions.depth;
   fg::PassBuilder pass = convert(graph, "depth", shaders::convertInputDepth, depth, host);
   pass.specialize("kDevice", kind == HostConventions::Depth::Device)
-      .specialize("kNegative", kind == HostConventions::Depth::NegativeLinear);
+      .specialize("kNegative", kind == HostConventions::Depth::NegativeLinear)
+      .specialize("kOrthographic", conventions.orthographic);
   return pass.store("target", converted(graph, "depth", VK_FORMAT_R32_SFLOAT, depth));
 }
 
@@ -61,18 +64,22 @@ HostConstants hostConstants(const glm::mat4& projection, float exposure, glm::iv
   if (!(exposure > 0.0F && 1.0F / exposure > 0.0F)) {
     throw std::invalid_argument("the exposure is " + std::to_string(exposure) + ": it must be more than 0");
   }
+  const bool orthographic = isOrthographic(projection);
+  const glm::vec2 zRow(projection[3][2], projection[2][2]);
   // Device depth = (z row * view position).z / depth, where z of view space is -depth: -[2][2] + [3][2] / depth.
-  return {.depthFromDevice = {projection[3][2], projection[2][2]},
+  // An orthographic camera's is [3][2] - [2][2] * depth.
+  return {.depthFromDevice = orthographic ? glm::vec2(zRow.x / zRow.y, -1.0F / zRow.y) : zRow,
           .exposure = exposure,
           .inverseExposure = 1.0F / exposure,
-          .offset = offset};
+          .offset = offset,
+          .standOff = orthographic ? static_cast<float>(standOff(projection)) : 0.0F};
 }
 
 DenoiserInputs addConvertInputs(fg::Graph& graph, DenoiserInputs inputs, const HostConventions& conventions,
                                 fg::Buffer host) {
   const bool all = conventions.rectangle;
-  if (all || conventions.depth != HostConventions::Depth::Linear) {
-    inputs.depth = convertDepth(graph, inputs.depth, conventions.depth, host);
+  if (all || conventions.orthographic || conventions.depth != HostConventions::Depth::Linear) {
+    inputs.depth = convertDepth(graph, inputs.depth, conventions, host);
   }
   if (all || conventions.normal != HostConventions::Normal::Signed) {
     inputs.normal = convertNormal(graph, inputs.normal, conventions, host);

@@ -38,6 +38,9 @@ struct HostConventions {
   /// Textures, also the result's, may be larger than the rectangle that is denoised, which starts at
   /// `HostConstants::offset`.
   bool rectangle = false;
+  /// The camera is orthographic (orthographic.h): depth is moved to that of the stand-in. Such a host must give motion
+  /// with its third channel, and its inputs cannot be checked for faults.
+  bool orthographic = false;
   /// Of the result's texture: one of `kResultFormats`.
   VkFormat result = kResultFormats.front();
 
@@ -46,13 +49,14 @@ struct HostConventions {
   }
   /// Whether any input is converted.
   [[nodiscard]] bool convertsInputs() const {
-    return depth != Depth::Linear || normal != Normal::Signed || motionDepthReversed || convertsResult();
+    return depth != Depth::Linear || normal != Normal::Signed || motionDepthReversed || orthographic ||
+           convertsResult();
   }
   [[nodiscard]] bool convertsResult() const { return preExposed || rectangle || result != kResultFormats.front(); }
 };
 
 /// The uniform block of the conversion.
-/// @param projection view to clip space, with the z row that makes the host's device depth
+/// @param projection view to clip space, with the z row that makes the host's device depth; it may be orthographic
 /// @param exposure   above 0
 /// @param offset     see `HostConventions::rectangle`
 /// @throws std::invalid_argument if the exposure is not above 0

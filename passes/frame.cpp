@@ -3,6 +3,7 @@
 #include <glm/gtc/matrix_inverse.hpp>
 
 #include "passes/camera_check.h"
+#include "passes/orthographic.h"
 
 namespace walr {
 namespace {
@@ -17,23 +18,38 @@ glm::dvec4 rayFromPixel(const glm::dmat4& projection, glm::dvec2 jitter, fg::Ext
   return {scale, bias};
 }
 
+/// A perspective camera: the host's, or the stand-in for an orthographic one.
+struct Camera {
+  glm::dmat4 view;
+  glm::dmat4 projection;
+};
+
+Camera cameraOf(const glm::mat4& view, const glm::mat4& projection, bool orthographic) {
+  if (!orthographic) return {glm::dmat4(view), glm::dmat4(projection)};
+  return {standInView(view, projection), standInProjection(projection)};
+}
+
 }  // namespace
 
 FrameConstants frameConstants(const FrameDescription& frame, fg::Extent extent) {
   for (const glm::mat4& view : {frame.view, frame.previousView}) checkView(view);
-  for (const glm::mat4& projection : {frame.projection, frame.previousProjection}) checkProjection(projection);
-  const glm::dvec4 ray = rayFromPixel(glm::dmat4(frame.projection), frame.jitter, extent);
+  for (const glm::mat4& projection : {frame.projection, frame.previousProjection}) {
+    checkProjection(projection, frame.orthographic);
+  }
+  const Camera now = cameraOf(frame.view, frame.projection, frame.orthographic);
+  const Camera previous = cameraOf(frame.previousView, frame.previousProjection, frame.orthographic);
+  const glm::dvec4 ray = rayFromPixel(now.projection, frame.jitter, extent);
   // The previous frame's jitter and rays, in pixels of this frame.
   const glm::dvec2 size(extent.width, extent.height);
   const fg::Extent previousExtent = frame.previousExtent.value_or(extent);
   const glm::dvec2 previousSize(previousExtent.width, previousExtent.height);
   const glm::dvec2 pixelFromPreviousPixel = size / previousSize;
   const glm::dvec2 previousJitter = glm::dvec2(frame.previousJitter) * pixelFromPreviousPixel;
-  const glm::dvec4 previousRay = rayFromPixel(glm::dmat4(frame.previousProjection), previousJitter, extent);
+  const glm::dvec4 previousRay = rayFromPixel(previous.projection, previousJitter, extent);
 
   FrameConstants constants{};
-  constants.viewFromWorld = frame.view;
-  constants.previousViewFromView = glm::mat4(glm::dmat4(frame.previousView) * glm::inverse(glm::dmat4(frame.view)));
+  constants.viewFromWorld = glm::mat4(now.view);
+  constants.previousViewFromView = glm::mat4(previous.view * glm::inverse(now.view));
   constants.rayFromPixel = glm::vec4(ray);
   constants.previousRayFromPixel = glm::vec4(previousRay);
   constants.motionScale = frame.motionScale;
@@ -43,7 +59,8 @@ FrameConstants frameConstants(const FrameDescription& frame, fg::Extent extent) 
   constants.previousTexel = glm::vec2(1.0 / previousSize);
   constants.pixelFromRay = glm::vec2(1.0 / ray.x, 1.0 / ray.y);
   constants.frameIndex = frame.frameIndex;
-  constants.skyDepth = frame.skyDepth;
+  constants.skyDepth =
+      frame.orthographic ? static_cast<float>(frame.skyDepth + standOff(frame.projection)) : frame.skyDepth;
   return constants;
 }
 

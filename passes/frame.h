@@ -28,6 +28,8 @@ struct FrameDescription {
   /// is in pixels of its own frame.
   std::optional<fg::Extent> previousExtent = std::nullopt;
   float skyDepth = 1e9F;  ///< Scene units: a linear view depth from here on is sky.
+  /// Both projections are orthographic, and the depth texture is converted: see `HostConventions::orthographic`.
+  bool orthographic = false;
 };
 
 /// The uniform block that the passes read, computed in double precision.

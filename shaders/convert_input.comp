@@ -37,8 +37,16 @@ const bool kBack = false;
 #endif
 
 #ifdef DEPTH
+layout(constant_id = 2) const bool kOrthographic = false;  // To the view depth of the stand-in.
+
+float orthographicDepth(float value) {
+  const float depth = kDevice ? host.depthFromDevice.x + host.depthFromDevice.y * value : kNegative ? -value : value;
+  return depth > 0.0 ? depth + host.standOff : depth;
+}
+
 // Infinite depth is sky, and so is a depth that no perspective projection gives.
 vec4 convert(vec4 value) {
+  if (kOrthographic) return vec4(orthographicDepth(value.x));
   if (!kDevice) return vec4(kNegative ? -value.x : value.x);
   const float divisor = value.x + host.depthFromDevice.y;
   const float depth = host.depthFromDevice.x / divisor;

@@ -28,9 +28,13 @@ VkDevice createDevice(const Instance& instance, const PhysicalDevice& physicalDe
   VkPhysicalDeviceMaintenance4Features maintenance4{};
   maintenance4.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_4_FEATURES;
   maintenance4.maintenance4 = VK_TRUE;
+  VkPhysicalDeviceTimelineSemaphoreFeatures timeline{};
+  timeline.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_TIMELINE_SEMAPHORE_FEATURES;
+  timeline.pNext = physicalDevice.maintenance4 ? &maintenance4 : nullptr;
+  timeline.timelineSemaphore = physicalDevice.timelineSemaphore ? VK_TRUE : VK_FALSE;
   VkPhysicalDeviceSynchronization2Features synchronization2{};
   synchronization2.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SYNCHRONIZATION_2_FEATURES;
-  synchronization2.pNext = physicalDevice.maintenance4 ? &maintenance4 : nullptr;
+  synchronization2.pNext = physicalDevice.timelineSemaphore ? &timeline : timeline.pNext;
   synchronization2.synchronization2 = VK_TRUE;
   VkPhysicalDeviceFeatures2 features{};
   features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
@@ -43,6 +47,9 @@ VkDevice createDevice(const Instance& instance, const PhysicalDevice& physicalDe
   if (physicalDevice.apiVersion < VK_API_VERSION_1_3) {
     extensions.push_back(VK_KHR_SYNCHRONIZATION_2_EXTENSION_NAME);
     if (physicalDevice.maintenance4) extensions.push_back(VK_KHR_MAINTENANCE_4_EXTENSION_NAME);
+  }
+  if (physicalDevice.apiVersion < VK_API_VERSION_1_2 && physicalDevice.timelineSemaphore) {
+    extensions.push_back(VK_KHR_TIMELINE_SEMAPHORE_EXTENSION_NAME);
   }
 
   VkDeviceCreateInfo info{};

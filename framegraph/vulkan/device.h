@@ -10,7 +10,7 @@ namespace fg::vk {
 /// A logical device with one queue, for programs that have none of their own.
 ///
 /// It enables synchronization2 and shaderStorageImageExtendedFormats, which are required. It also enables maintenance4,
-/// shaderStorageImageWriteWithoutFormat and shaderInt16 if the physical device has them.
+/// timelineSemaphore, shaderStorageImageWriteWithoutFormat and shaderInt16 if the physical device has them.
 class Device {
  public:
   /// @param extensions to enable in addition, for instance VK_KHR_swapchain

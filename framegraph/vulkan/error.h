@@ -33,6 +33,11 @@ class PipelineFailed final : public Error {
   using Error::Error;
 };
 
+/// A frame was to be recorded before the GPU had finished the one that used its slot before. Nothing was recorded.
+class FrameInFlight final : public Error {
+  using Error::Error;
+};
+
 /// There is no Vulkan, no device, or a device that lacks something required.
 class Unsupported final : public Error {
   using Error::Error;

@@ -8,8 +8,10 @@
 
 #include "framegraph/declare/same_topology.h"
 #include "framegraph/vulkan/barriers.h"
+#include "framegraph/vulkan/completions.h"
 #include "framegraph/vulkan/error.h"
 #include "framegraph/vulkan/inherited_histories.h"
+#include "framegraph/vulkan/memory_barrier.h"
 #include "framegraph/vulkan/pass_recorder.h"
 #include "framegraph/vulkan/uploads.h"
 
@@ -25,6 +27,13 @@ std::optional<Timestamps> makeTimestamps(const DeviceContext& device, const Grap
                                          const ExecutorOptions& options) {
   if (!options.timestamps) return std::nullopt;
   return Timestamps(device, graph, plan, options.framesInFlight);
+}
+
+std::shared_ptr<Pipelines> makePipelines(const DeviceContext& device, const ExecutorOptions& options,
+                                         const std::shared_ptr<Pipelines>& before) {
+  const std::shared_ptr<SharedObjects>& shared = options.shared.objects;
+  if (shared != nullptr) return {shared, &shared->pipelines()};
+  return before != nullptr ? before : std::make_shared<Pipelines>(device, options.pipelineCache);
 }
 
 /// A host's image or buffer that is bound to an import.
@@ -49,22 +58,23 @@ struct Executor::State {
         graph(std::move(declared)),
         plan(std::move(compiled)),
         slots(checkedSlots(options)),
-        resources(device, graph, plan, slots, options.poison),
+        resources(device, graph, plan, slots, options.poison, options.shared),
         uploads(graph, plan, slots),
         views(device, graph, resources),
-        pipelines(before != nullptr ? before->pipelines : std::make_shared<Pipelines>(device, options.pipelineCache)),
+        pipelines(makePipelines(device, options, before != nullptr ? before->pipelines : nullptr)),
         passes(device, graph, plan, resources, views, *pipelines, slots,
                {.poison = options.poison, .inheritsHistories = before != nullptr && options.inheritHistories}),
         histories(graph, plan),
         releases(graph, plan.releases),
         timestamps(makeTimestamps(device, graph, plan, options)),
+        completions(device, slots),
         bound(graph.resources.size()) {
     if (before != nullptr && options.inheritHistories) inheritHistories(*before);
   }
 
   /// Let the first frame read the histories that the last frame of `before` wrote.
   void inheritHistories(const State& before) {
-    if (!before.recorded) return;
+    if (before.frames == 0) return;
     std::vector<InheritedHistory> taken = inheritedHistories(graph, plan, before.graph, before.plan);
     std::erase_if(taken, [&](const InheritedHistory& each) { return !before.histories.status(each.before).valid; });
     for (const InheritedHistory& each : taken) {
@@ -86,6 +96,14 @@ struct Executor::State {
     }
     inherited.clear();
     passes.invalidateImages();
+  }
+
+  /// The frames before, of other executors, may have used the memory of this one's transients. Each transient starts
+  /// from UNDEFINED, so that only their writes must be over.
+  void recordMemoryHandOver(VkCommandBuffer commandBuffer) const {
+    recordMemoryBarrier(
+        device, commandBuffer, {VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_WRITE_BIT},
+        {VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT});
   }
 
   void requireImport(ResourceVersion handle) const {
@@ -121,7 +139,7 @@ struct Executor::State {
   const std::uint32_t slots;
   FrameIndex frame;  ///< The frame recorded last.
   std::uint32_t nextParity = 0;
-  bool recorded = false;  ///< Whether any frame was.
+  std::uint64_t frames = 0;  ///< Recorded so far.
   Resources resources;
   Uploads uploads;
   Views views;
@@ -130,6 +148,7 @@ struct Executor::State {
   HistoryStates histories;
   BarrierBatch releases;
   std::optional<Timestamps> timestamps;
+  Completions completions;
   std::vector<Bound> bound;  ///< By resource.
   struct Inherited {
     std::uint32_t previous = kNone;
@@ -187,24 +206,32 @@ void Executor::update(const GraphDesc& graph) {
   for (std::size_t i = 0; i < graph.passes.size(); ++i) state_->graph.passes[i].work = graph.passes[i].work;
 }
 
-void Executor::record(VkCommandBuffer commandBuffer, std::uint32_t slot) {
+void Executor::replaceCode(const Shader& shader, std::vector<std::uint32_t> code) {
+  state_->pipelines->replaceCode(shader, std::move(code));
+  state_->passes.update(state_->graph);
+}
+
+void Executor::record(VkCommandBuffer commandBuffer, std::uint32_t slot, const TimelinePoint& finished) {
   State& state = *state_;
   if (slot >= state.slots) {
     throw std::out_of_range("frame slot " + std::to_string(slot) + " of " + std::to_string(state.slots));
   }
   state.requireBound();
-  const bool first = !state.recorded;
+  state.completions.require(slot, state.frames, finished);
+  const bool first = state.frames == 0;
   if (!first) state.dropInherited();
   state.frame = {slot, state.nextParity};
   state.uploads.copyTo(state.resources, slot);
   if (state.timestamps) state.timestamps->begin(commandBuffer, slot);
   if (first) state.takeOver.record(state.device, commandBuffer, state.resources, state.frame);
+  if (state.resources.sharedBytes() > 0) state.recordMemoryHandOver(commandBuffer);
   state.histories.recordClears(state.device, commandBuffer, state.resources, state.frame);
   state.passes.record(commandBuffer, state.frame, state.histories, state.timestamps ? &*state.timestamps : nullptr);
   state.releases.record(state.device, commandBuffer, state.resources, state.frame);
   state.histories.advance();
   state.nextParity = 1 - state.nextParity;
-  state.recorded = true;
+  state.completions.note(slot, state.frames, finished);
+  ++state.frames;
 }
 
 void Executor::resetHistory(const History& history) {
@@ -234,6 +261,10 @@ std::span<const PassTime> Executor::passTimes(std::uint32_t slot) {
 
 std::uint64_t Executor::allocatedBytes() const {
   return state_->resources.allocatedBytes();
+}
+
+std::uint64_t Executor::sharedBytes() const {
+  return state_->resources.sharedBytes();
 }
 
 }  // namespace fg::vk

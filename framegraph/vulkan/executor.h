@@ -5,12 +5,14 @@
 #include <memory>
 #include <span>
 #include <type_traits>
+#include <vector>
 
 #include "framegraph/declare/graph.h"
 #include "framegraph/plan/plan.h"
 #include "framegraph/vulkan/device_context.h"
 #include "framegraph/vulkan/history_state.h"
-#include "framegraph/vulkan/pipelines.h"
+#include "framegraph/vulkan/shared_objects.h"
+#include "framegraph/vulkan/timeline_point.h"
 #include "framegraph/vulkan/timestamps.h"
 
 namespace fg::vk {
@@ -26,6 +28,9 @@ struct ExecutorOptions {
   /// Used to create pipelines, for instance `PipelineCache::handle`; optional. Must outlive the executor and those that
   /// name it as their predecessor.
   VkPipelineCache pipelineCache = VK_NULL_HANDLE;
+  /// What this executor shares with others whose frames come before and after its own on one queue; optional. Its
+  /// pipelines count, and not `pipelineCache`.
+  Membership shared = {};
   /// An executor of the same device that this one replaces, of any graph. Pipelines are shared, so only those for
   /// new shaders and specialization constants are created, in the predecessor's `pipelineCache`. The first frame of
   /// this executor may read the histories of the predecessor: see `inheritHistories`. The predecessor must not record
@@ -90,11 +95,19 @@ class Executor {
   ///         PipelineFailed, OutOfMemory or Unsupported, and the executor is unchanged
   void update(const GraphDesc& graph);
 
+  /// Use other SPIR-V for a shader in the frames recorded from now on, also in those of executors that share its
+  /// pipelines once they are updated. For programs that reload shaders while they run. Histories are kept.
+  /// @param code with the shader's bindings, constants and work group size
+  /// @throws PipelineFailed or OutOfMemory, and nothing has changed
+  void replaceCode(const Shader& shader, std::vector<std::uint32_t> code);
+
   /// Record one frame.
   /// @param commandBuffer in the recording state, outside of a render pass
   /// @param slot 0 to framesInFlight - 1; the GPU must have finished the frame last recorded with it
+  /// @param finished what the submission of this frame signals; optional. It must live until the slot is used again.
   /// @throws Error naming an import that nothing is bound to, or std::out_of_range for the slot
-  void record(VkCommandBuffer commandBuffer, std::uint32_t slot);
+  /// @throws also as `Completions::require` does; then nothing is recorded
+  void record(VkCommandBuffer commandBuffer, std::uint32_t slot, const TimelinePoint& finished = {});
 
   /// Drop the contents of a history: the next frame reads zeros and age 0. For camera cuts.
   void resetHistory(const History& history);
@@ -109,8 +122,10 @@ class Executor {
   /// GPU times of the frame last recorded with a slot, which the GPU must have finished. Valid until the next call;
   /// empty without `ExecutorOptions::timestamps`.
   [[nodiscard]] std::span<const PassTime> passTimes(std::uint32_t slot);
-  /// Device memory allocated, in bytes.
+  /// Device memory allocated, in bytes, with that which is shared.
   [[nodiscard]] std::uint64_t allocatedBytes() const;
+  /// Bytes of it that other executors use now, too.
+  [[nodiscard]] std::uint64_t sharedBytes() const;
 
  private:
   struct State;

@@ -1,8 +1,28 @@
 #include "framegraph/vulkan/frame_queue.h"
 
+#include <array>
 #include <limits>
 
 namespace fg::vk {
+namespace {
+
+/// Semaphores of one submission. Values of binary ones are ignored.
+struct SemaphoreList {
+  std::array<VkSemaphore, 2> semaphores{};
+  std::array<std::uint64_t, 2> values{};
+  std::array<VkPipelineStageFlags, 2> stages{};
+  std::uint32_t count = 0;
+
+  void add(VkSemaphore semaphore, std::uint64_t value, VkPipelineStageFlags stage = 0) {
+    if (semaphore == VK_NULL_HANDLE) return;
+    semaphores[count] = semaphore;
+    values[count] = value;
+    stages[count] = stage;
+    ++count;
+  }
+};
+
+}  // namespace
 
 FrameQueue::FrameQueue(const DeviceContext& device, VkQueue queue, std::uint32_t framesInFlight)
     : device_(&device), queue_(queue), slots_(framesInFlight) {
@@ -45,15 +65,29 @@ Frame FrameQueue::begin() {
 void FrameQueue::submit(const Frame& frame, const FrameSemaphores& semaphores) {
   Slot& slot = slots_[frame.slot];
   check(device_->functions.vkEndCommandBuffer(frame.commandBuffer), "ending a command buffer");
+  SemaphoreList waits;
+  waits.add(semaphores.wait, 0, semaphores.waitStage);
+  waits.add(semaphores.after.semaphore, semaphores.after.value, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT);
+  SemaphoreList signals;
+  signals.add(semaphores.signal, 0);
+  signals.add(semaphores.finished.semaphore, semaphores.finished.value);
+  VkTimelineSemaphoreSubmitInfo values{};
+  values.sType = VK_STRUCTURE_TYPE_TIMELINE_SEMAPHORE_SUBMIT_INFO;
+  values.waitSemaphoreValueCount = waits.count;
+  values.pWaitSemaphoreValues = waits.values.data();
+  values.signalSemaphoreValueCount = signals.count;
+  values.pSignalSemaphoreValues = signals.values.data();
+  const bool timeline = semaphores.after.semaphore != VK_NULL_HANDLE || semaphores.finished.semaphore != VK_NULL_HANDLE;
   VkSubmitInfo info{};
   info.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO;
+  info.pNext = timeline ? &values : nullptr;
   info.commandBufferCount = 1;
   info.pCommandBuffers = &frame.commandBuffer;
-  info.waitSemaphoreCount = semaphores.wait != VK_NULL_HANDLE ? 1 : 0;
-  info.pWaitSemaphores = &semaphores.wait;
-  info.pWaitDstStageMask = &semaphores.waitStage;
-  info.signalSemaphoreCount = semaphores.signal != VK_NULL_HANDLE ? 1 : 0;
-  info.pSignalSemaphores = &semaphores.signal;
+  info.waitSemaphoreCount = waits.count;
+  info.pWaitSemaphores = waits.semaphores.data();
+  info.pWaitDstStageMask = waits.stages.data();
+  info.signalSemaphoreCount = signals.count;
+  info.pSignalSemaphores = signals.semaphores.data();
   check(device_->functions.vkQueueSubmit(queue_, 1, &info, slot.fence.get()), "submitting a frame");
   slot.pending = true;
   next_ = (frame.slot + 1) % static_cast<std::uint32_t>(slots_.size());

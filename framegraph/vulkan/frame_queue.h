@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "framegraph/vulkan/owned.h"
+#include "framegraph/vulkan/timeline_point.h"
 
 namespace fg::vk {
 
@@ -18,6 +19,8 @@ struct FrameSemaphores {
   VkSemaphore wait = VK_NULL_HANDLE;
   VkPipelineStageFlags waitStage = 0;  ///< First stage of the frame that waits.
   VkSemaphore signal = VK_NULL_HANDLE;
+  TimelinePoint after = {};     ///< The whole frame waits for it.
+  TimelinePoint finished = {};  ///< Signalled; see `Executor::record`.
 };
 
 /// Command buffers and fences for a program that submits one command buffer per frame to one queue, with a few frames

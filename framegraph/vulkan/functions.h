@@ -93,10 +93,12 @@ namespace fg::vk {
   X(vkCmdPipelineBarrier2)                  \
   X(vkCmdWriteTimestamp2)
 
-// Core in Vulkan 1.3; before that in VK_KHR_maintenance4. Optional.
-#define FG_VK_OPTIONAL_FUNCTIONS(X)     \
-  X(vkGetDeviceImageMemoryRequirements) \
-  X(vkGetDeviceBufferMemoryRequirements)
+// Optional: core in Vulkan 1.3, before that in VK_KHR_maintenance4; the last one core in Vulkan 1.2, before that in
+// VK_KHR_timeline_semaphore.
+#define FG_VK_OPTIONAL_FUNCTIONS(X)      \
+  X(vkGetDeviceImageMemoryRequirements)  \
+  X(vkGetDeviceBufferMemoryRequirements) \
+  X(vkGetSemaphoreCounterValue)
 
 #define FG_VK_DECLARE(name) PFN_##name name = nullptr;
 

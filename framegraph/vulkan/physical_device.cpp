@@ -55,13 +55,13 @@ bool hasExtension(const PhysicalDevice& device, std::string_view name) {
   return std::ranges::find(device.extensions, name) != device.extensions.end();
 }
 
-/// Query a feature struct. All features are off if the device has neither Vulkan 1.3 nor the extension.
+/// Query a feature struct. All features are off if the device has neither the version nor the extension.
 template <typename Features>
 Features queryFeature(const InstanceFunctions& functions, const PhysicalDevice& device, VkStructureType type,
-                      std::string_view extension) {
+                      std::string_view extension, std::uint32_t version = VK_API_VERSION_1_3) {
   Features features{};
   features.sType = type;
-  if (device.apiVersion < VK_API_VERSION_1_3 && !hasExtension(device, extension)) return features;
+  if (device.apiVersion < version && !hasExtension(device, extension)) return features;
   VkPhysicalDeviceFeatures2 all{};
   all.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
   all.pNext = &features;
@@ -82,6 +82,10 @@ void queryFeatures(const InstanceFunctions& functions, PhysicalDevice& device) {
                             functions, device, VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_4_FEATURES,
                             VK_KHR_MAINTENANCE_4_EXTENSION_NAME)
                             .maintenance4 == VK_TRUE;
+  device.timelineSemaphore = queryFeature<VkPhysicalDeviceTimelineSemaphoreFeatures>(
+                                 functions, device, VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_TIMELINE_SEMAPHORE_FEATURES,
+                                 VK_KHR_TIMELINE_SEMAPHORE_EXTENSION_NAME, VK_API_VERSION_1_2)
+                                 .timelineSemaphore == VK_TRUE;
 }
 
 std::string_view typeName(VkPhysicalDeviceType type) {

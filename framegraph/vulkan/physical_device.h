@@ -23,6 +23,7 @@ struct PhysicalDevice {
   std::uint32_t computeQueueFamily = kNone;  ///< A family that also supports graphics if there is one.
   bool synchronization2 = false;             ///< As core feature of Vulkan 1.3 or as extension.
   bool maintenance4 = false;
+  bool timelineSemaphore = false;  ///< As core feature of Vulkan 1.2 or as extension.
   VkPhysicalDeviceFeatures features{};
   std::vector<std::string> extensions;
   /// Features of optimally tiled images of a format.

@@ -51,13 +51,13 @@ const Pipelines::Layouts& Pipelines::layouts(const Shader& shader) {
   return layouts_.emplace(&shader, std::move(made)).first->second;
 }
 
-Owned<VkPipeline> Pipelines::makePipeline(const Shader& shader, const std::vector<std::uint32_t>& specialization,
-                                          VkPipelineLayout layout) {
+Owned<VkPipeline> Pipelines::makePipeline(const Shader& shader, std::span<const std::uint32_t> code,
+                                          const std::vector<std::uint32_t>& specialization, VkPipelineLayout layout) {
   const std::string name(shader.name);
   VkShaderModuleCreateInfo moduleInfo{};
   moduleInfo.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
-  moduleInfo.codeSize = shader.code.size_bytes();
-  moduleInfo.pCode = shader.code.data();
+  moduleInfo.codeSize = code.size_bytes();
+  moduleInfo.pCode = code.data();
   const auto module = create<VkShaderModule>(*device_, device_->functions.vkCreateShaderModule, moduleInfo,
                                              "loading shader '" + name + "'");
 
@@ -91,10 +91,27 @@ ComputePipeline Pipelines::get(const Shader& shader, const std::vector<std::uint
   const Layouts& used = layouts(shader);
   auto entry = pipelines_.find({&shader, specialization});
   if (entry == pipelines_.end()) {
-    auto pipeline = makePipeline(shader, specialization, used.pipeline.get());
+    const auto replaced = replacedCode_.find(&shader);
+    const std::span<const std::uint32_t> code = replaced != replacedCode_.end() ? replaced->second : shader.code;
+    auto pipeline = makePipeline(shader, code, specialization, used.pipeline.get());
     entry = pipelines_.emplace(std::pair(&shader, specialization), std::move(pipeline)).first;
   }
   return {entry->second.get(), used.pipeline.get(), used.set.get()};
+}
+
+void Pipelines::replaceCode(const Shader& shader, std::vector<std::uint32_t> code) {
+  std::map<std::vector<std::uint32_t>, Owned<VkPipeline>> made;
+  for (const auto& [key, old] : pipelines_) {
+    const auto& [known, specialization] = key;
+    if (known != &shader) continue;
+    made.emplace(specialization, makePipeline(shader, code, specialization, layouts(shader).pipeline.get()));
+  }
+  for (auto& [specialization, pipeline] : made) {
+    Owned<VkPipeline>& used = pipelines_.at({&shader, specialization});
+    std::swap(used, pipeline);
+    oldPipelines_.push_back(std::move(pipeline));
+  }
+  replacedCode_[&shader] = std::move(code);
 }
 
 }  // namespace fg::vk

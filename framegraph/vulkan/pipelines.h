@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <map>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -46,6 +47,11 @@ class Pipelines {
 
   /// @throws PipelineFailed naming the shader, or OutOfMemory
   ComputePipeline get(const Shader& shader, const std::vector<std::uint32_t>& specialization);
+  /// Use other SPIR-V for a shader from now on. Pipelines of the old code live as long as this, because frames in
+  /// flight may use them.
+  /// @param code with the shader's bindings, constants and work group size
+  /// @throws as `get` does, and nothing has changed
+  void replaceCode(const Shader& shader, std::vector<std::uint32_t> code);
 
  private:
   struct Layouts {
@@ -53,13 +59,15 @@ class Pipelines {
     Owned<VkPipelineLayout> pipeline;
   };
   const Layouts& layouts(const Shader& shader);
-  Owned<VkPipeline> makePipeline(const Shader& shader, const std::vector<std::uint32_t>& specialization,
-                                 VkPipelineLayout layout);
+  Owned<VkPipeline> makePipeline(const Shader& shader, std::span<const std::uint32_t> code,
+                                 const std::vector<std::uint32_t>& specialization, VkPipelineLayout layout);
 
   const DeviceContext* device_;
   VkPipelineCache cache_;
+  std::map<const Shader*, std::vector<std::uint32_t>> replacedCode_;
   std::map<const Shader*, Layouts> layouts_;
   std::map<std::pair<const Shader*, std::vector<std::uint32_t>>, Owned<VkPipeline>> pipelines_;
+  std::vector<Owned<VkPipeline>> oldPipelines_;  ///< Of replaced code.
 };
 
 }  // namespace fg::vk

@@ -30,7 +30,7 @@ std::uint64_t requiredBytes(const DeviceContext& device, const GraphDesc& graph,
 }
 
 Resources::Resources(const DeviceContext& device, const GraphDesc& graph, const Plan& plan, std::uint32_t slots,
-                     bool poison)
+                     bool poison, const Membership& membership)
     : device_(&device),
       graph_(&graph),
       plan_(&plan),
@@ -40,7 +40,7 @@ Resources::Resources(const DeviceContext& device, const GraphDesc& graph, const 
       images_(graph.resources.size() * kParities),
       buffers_(graph.resources.size() * slots * kParities),
       mapped_(graph.resources.size() * slots) {
-  allocateHeaps();
+  allocateHeaps(membership);
   for (std::uint32_t i = 0; i < graph.resources.size(); ++i) {
     const ResourceDecl& decl = graph.resources[i];
     if (!plan.resources[i].used || decl.lifetime == Lifetime::Imported) continue;
@@ -64,11 +64,17 @@ void Resources::import(std::uint32_t resource, VkBuffer buffer) {
 
 std::uint64_t Resources::allocatedBytes() const {
   std::uint64_t bytes = persistent_.size() + uploads_.size();
-  for (const DeviceMemory& heap : heaps_) bytes += heap.size();
+  for (const auto& heap : heaps_) bytes += heap->size();
   return bytes;
 }
 
-void Resources::allocateHeaps() {
+std::uint64_t Resources::sharedBytes() const {
+  std::uint64_t bytes = 0;
+  for (const auto& heap : heaps_) bytes += heap.use_count() > 1 ? heap->size() : 0;
+  return bytes;
+}
+
+void Resources::allocateHeaps(const Membership& membership) {
   std::vector<MemoryRequirements> heaps;
   for (const PlannedHeap& heap : plan_->heaps) heaps.push_back({heap.size, 1, heap.memoryTypeBits});
   for (const PlannedResource& planned : plan_->resources) {
@@ -78,8 +84,12 @@ void Resources::allocateHeaps() {
       alignment = std::max(alignment, planned.alignment);
     }
   }
-  for (const MemoryRequirements& heap : heaps) {
-    heaps_.emplace_back(*device_, heap, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, "resources that share memory");
+  for (std::size_t i = 0; i < heaps.size(); ++i) {
+    const bool onlyTransients = plan_->heaps[i].partner == kNone;
+    heaps_.push_back(onlyTransients && membership.objects != nullptr
+                         ? membership.objects->transientMemory(heaps[i], membership.member)
+                         : std::make_shared<DeviceMemory>(*device_, heaps[i], VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT,
+                                                          "resources that share memory"));
   }
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -8,6 +9,7 @@
 #include "framegraph/plan/plan.h"
 #include "framegraph/vulkan/frame_index.h"
 #include "framegraph/vulkan/memory.h"
+#include "framegraph/vulkan/shared_objects.h"
 
 namespace fg::vk {
 
@@ -19,7 +21,8 @@ std::uint64_t requiredBytes(const DeviceContext& device, const GraphDesc& graph,
 class Resources {
  public:
   /// @throws OutOfMemory, or Error if the plan was compiled for another device
-  Resources(const DeviceContext& device, const GraphDesc& graph, const Plan& plan, std::uint32_t slots, bool poison);
+  Resources(const DeviceContext& device, const GraphDesc& graph, const Plan& plan, std::uint32_t slots, bool poison,
+            const Membership& membership = {});
 
   [[nodiscard]] VkImage image(std::uint32_t resource, FrameIndex frame) const {
     return images_[resource * kParities + frame.parity];
@@ -37,18 +40,20 @@ class Resources {
   }
   void import(std::uint32_t resource, VkImage image);
   void import(std::uint32_t resource, VkBuffer buffer);
-  /// Sum of all allocated bytes.
+  /// Sum of all allocated bytes, shared ones included.
   [[nodiscard]] std::uint64_t allocatedBytes() const;
+  /// Bytes that other members use now, too.
+  [[nodiscard]] std::uint64_t sharedBytes() const;
 
  private:
   void makeTexture(std::uint32_t resource, const TextureDesc& desc, bool poison);
   void makeBuffer(std::uint32_t resource, const BufferDesc& desc, bool poison);
   VkImage addImage(std::uint32_t resource, const TextureDesc& desc, VkImageUsageFlags usage);
   VkBuffer addBuffer(std::uint32_t resource, const BufferDesc& desc, VkBufferUsageFlags usage);
-  void allocateHeaps();
+  void allocateHeaps(const Membership& membership);
   /// The memory of a resource's heap in frames of one parity.
   [[nodiscard]] const DeviceMemory& heapOf(const PlannedResource& planned, std::uint32_t parity) const {
-    return heaps_[allocationOf(plan_->heaps, planned.heap, parity)];
+    return *heaps_[allocationOf(plan_->heaps, planned.heap, parity)];
   }
   /// Number of copies of a resource: two if its heap is another allocation in odd frames.
   [[nodiscard]] std::uint32_t copies(const PlannedResource& planned) const {
@@ -61,7 +66,7 @@ class Resources {
   const GraphDesc* graph_;
   const Plan* plan_;
   std::uint32_t slots_;
-  std::vector<DeviceMemory> heaps_;
+  std::vector<std::shared_ptr<DeviceMemory>> heaps_;
   MemoryArena persistent_;
   MemoryArena uploads_;
   std::vector<Owned<VkImage>> ownedImages_;

@@ -35,7 +35,15 @@ WalrResult walr_check_device(const WalrDevice* device) {
 WalrResult walr_create_denoiser(const WalrDenoiserInfo* info, WalrDenoiser* denoiser) {
   return guarded([&] {
     required(denoiser, "the result's address") = nullptr;
-    *denoiser = denoisers().add(std::make_unique<HostedDenoiser>(readStruct(info, "WalrDenoiserInfo")));
+    const WalrDenoiserInfo given = readStruct(info, "WalrDenoiserInfo");
+    std::unique_ptr<HostedDenoiser> made;
+    if (given.shared_with == nullptr) {
+      made = std::make_unique<HostedDenoiser>(given);
+    } else {
+      denoisers().use(given.shared_with,
+                      [&](const HostedDenoiser& other) { made = std::make_unique<HostedDenoiser>(given, &other); });
+    }
+    *denoiser = denoisers().add(std::move(made), given.shared_with);
   });
 }
 

@@ -97,6 +97,7 @@ Description::Description(const WalrDenoiserInfo& info, Of of)
       resultFormat_(checkedResultFormat(info.denoised_format)),
       slots_(checkedSlots(info.frames_in_flight)) {
   if (info.preset != nullptr) usePreset(info.preset);
+  checkOrthographic(inputConventions(), hostConventions(), info.lint == VK_TRUE);
   // Refuse wrong formats here and not when the first frame is recorded.
   fg::Graph scratch;
   (void)importInputs(scratch, extent_, inputConventions(), kInnerStates.inputs, formats_, hostConventions());
@@ -137,7 +138,8 @@ ListedGraph Description::listStage(std::span<const WalrPortFormat> ports) const 
         WALR_ERROR_INVALID_ARGUMENT,
         "stage '" + methodName_ +
             "' takes linear depth, signed normals, motion_depth as given or of a static scene, no pre-exposure, "
-            "no rectangle and no denoised_format: convert the images yourself, or use a whole method");
+            "no rectangle, no orthographic camera and no denoised_format: convert the images yourself, or use a whole "
+            "method");
   }
   PortFormats formats;
   for (const Port& port : stage_->ports()) {
@@ -180,6 +182,7 @@ HostConventions Description::hostConventions() const {
           .motionDepthReversed = conventions_.motion_depth == WALR_MOTION_DEPTH_REVERSED,
           .preExposed = conventions_.pre_exposed == VK_TRUE,
           .rectangle = conventions_.rectangle == VK_TRUE,
+          .orthographic = conventions_.orthographic == VK_TRUE,
           .result = resultFormat_};
 }
 
@@ -208,7 +211,8 @@ Constants Description::constants(const FrameStatement& frame) const {
                                .previousJitter = glm::make_vec2(previous.jitter),
                                .motionScale = scale,
                                .frameIndex = frame.index.value_or(static_cast<std::uint32_t>(frames_)),
-                               .previousExtent = lastExtent_};
+                               .previousExtent = lastExtent_,
+                               .orthographic = conventions_.orthographic == VK_TRUE};
   if (!(frame.skyDepth >= 0.0F)) throw Error(WALR_ERROR_INVALID_ARGUMENT, "sky_depth is negative or NaN");
   if (frame.skyDepth > 0.0F) description.skyDepth = frame.skyDepth;
   return {.camera = description,

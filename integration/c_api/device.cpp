@@ -42,6 +42,15 @@ const Struct* findInChain(const void* chain, VkStructureType type) {
   return nullptr;
 }
 
+bool enablesTimelineSemaphores(const VkDeviceCreateInfo& info) {
+  const auto* vulkan12 =
+      findInChain<VkPhysicalDeviceVulkan12Features>(info.pNext, VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES);
+  const auto* extension = findInChain<VkPhysicalDeviceTimelineSemaphoreFeatures>(
+      info.pNext, VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_TIMELINE_SEMAPHORE_FEATURES);
+  return (vulkan12 != nullptr && vulkan12->timelineSemaphore == VK_TRUE) ||
+         (extension != nullptr && extension->timelineSemaphore == VK_TRUE);
+}
+
 /// @throws Unsupported naming the features that a device was created without
 void requireEnabled(const VkDeviceCreateInfo& info) {
   std::string lacks;
@@ -84,7 +93,9 @@ HostDevice::HostDevice(const WalrDevice& device) {
   physical_ = fg::vk::physicalDevice(context_.instance, device.physical_device);
   fg::vk::require(physical_);
   requireCompute(context_);
-  if (device.create_info != nullptr) requireEnabled(*device.create_info);
+  if (device.create_info == nullptr) return;
+  requireEnabled(*device.create_info);
+  withoutTimelineSemaphores_ = !enablesTimelineSemaphores(*device.create_info);
 }
 
 void HostDevice::requireResultFormat(VkFormat format) const {
@@ -92,6 +103,19 @@ void HostDevice::requireResultFormat(VkFormat format) const {
   throw Error(WALR_ERROR_UNSUPPORTED,
               "device '" + physical_.name + "' has no storage images of WalrDenoiserInfo::denoised_format, " +
                   std::string(fg::formatInfo(format).name) + ": use R16G16B16A16_SFLOAT, which every device has");
+}
+
+fg::vk::TimelinePoint HostDevice::finishedPoint(VkSemaphore semaphore, std::uint64_t value) const {
+  if (semaphore == VK_NULL_HANDLE && value != 0) {
+    throw Error(WALR_ERROR_INVALID_ARGUMENT,
+                "finished_value is " + std::to_string(value) + ", but the semaphore `finished` is null");
+  }
+  if (semaphore == VK_NULL_HANDLE || !withoutTimelineSemaphores_) return {semaphore, value};
+  throw fg::vk::Unsupported(
+      "the frame tells with a timeline semaphore when it is finished, but the device was created without\n  feature "
+      "timelineSemaphore: chain VkPhysicalDeviceVulkan12Features or VkPhysicalDeviceTimelineSemaphoreFeatures to "
+      "VkDeviceCreateInfo",
+      VK_ERROR_FEATURE_NOT_PRESENT);
 }
 
 bool measuresTimes(const WalrDenoiserInfo& info, const HostDevice& device) {

@@ -6,6 +6,7 @@
 
 #include "framegraph/vulkan/device_context.h"
 #include "framegraph/vulkan/physical_device.h"
+#include "framegraph/vulkan/timeline_point.h"
 #include "integration/c_api/host_memory.h"
 
 namespace walr::api {
@@ -20,6 +21,9 @@ class HostDevice {
 
   /// @throws Error naming the format if the device cannot write images of it in shaders
   void requireResultFormat(VkFormat format) const;
+  /// What tells that a frame is finished, from WalrFrame::finished and finished_value.
+  /// @throws Error for a value alone; Unsupported if WalrDevice::create_info enables no timeline semaphores
+  [[nodiscard]] fg::vk::TimelinePoint finishedPoint(VkSemaphore semaphore, std::uint64_t value) const;
 
   [[nodiscard]] const fg::vk::DeviceContext& context() const { return context_; }
   [[nodiscard]] const fg::vk::PhysicalDevice& physical() const { return physical_; }
@@ -31,6 +35,7 @@ class HostDevice {
   std::optional<HostMemory> memory_;
   fg::vk::DeviceContext context_;
   fg::vk::PhysicalDevice physical_;
+  bool withoutTimelineSemaphores_ = false;  ///< Known from WalrDevice::create_info.
 };
 
 /// Whether to measure GPU times, as the host wishes. If the queue family has no timestamps, the host is warned: times

@@ -18,10 +18,13 @@ class HandleTable {
  public:
   explicit HandleTable(const char* kind) : kind_(kind) {}
 
-  Handle add(std::unique_ptr<Object> object) {
+  /// @param partner handle of an object that may not be used while this one is; null for none
+  /// @throws Error for an invalid partner
+  Handle add(std::unique_ptr<Object> object, Handle partner = nullptr) {
+    auto busy = partner == nullptr ? std::make_shared<std::atomic<bool>>(false) : find(partner)->busy;
     const std::lock_guard lock(mutex_);
     const std::uintptr_t number = next_++;
-    entries_.emplace(number, std::make_shared<Entry>(std::move(object)));
+    entries_.emplace(number, std::make_shared<Entry>(std::move(object), std::move(busy)));
     return reinterpret_cast<Handle>(number);
   }
 
@@ -54,21 +57,22 @@ class HandleTable {
 
  private:
   struct Entry {
-    explicit Entry(std::unique_ptr<Object> given) : object(std::move(given)) {}
-    std::atomic<bool> busy = false;
-    std::unique_ptr<Object> object;  ///< Null once destroyed.
+    Entry(std::unique_ptr<Object> given, std::shared_ptr<std::atomic<bool>> ofPartners)
+        : object(std::move(given)), busy(std::move(ofPartners)) {}
+    std::unique_ptr<Object> object;           ///< Null once destroyed.
+    std::shared_ptr<std::atomic<bool>> busy;  ///< Whether a call is using this object or a partner.
   };
 
   /// Claims an entry, or throws.
   class Use {
    public:
     Use(const HandleTable& table, Entry& entry) : entry_(&entry) {
-      if (entry.busy.exchange(true, std::memory_order_acquire)) table.rejectBusy();
+      if (entry.busy->exchange(true, std::memory_order_acquire)) table.rejectBusy();
       if (entry.object != nullptr) return;
-      entry.busy.store(false, std::memory_order_release);
+      entry.busy->store(false, std::memory_order_release);
       table.rejectDead();
     }
-    ~Use() { entry_->busy.store(false, std::memory_order_release); }
+    ~Use() { entry_->busy->store(false, std::memory_order_release); }
     Use(const Use&) = delete;
     Use& operator=(const Use&) = delete;
 

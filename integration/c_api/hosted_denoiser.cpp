@@ -24,21 +24,36 @@ WalrMemory memoryOf(const fg::MemoryReport& report, std::uint64_t allocated) {
           .transient = report.transientPeakBytes,
           .transient_unaliased = report.transientUnaliasedBytes,
           .transient_least = report.transientLowerBoundBytes,
-          .retired = 0};
+          .retired = 0,
+          .shared = 0};
 }
 
 }  // namespace
 
-HostedDenoiser::HostedDenoiser(const WalrDenoiserInfo& info)
-    : device_(info.device),
+std::shared_ptr<HostedDenoiser::Shared> HostedDenoiser::sharedObjects(const WalrDenoiserInfo& info,
+                                                                      const HostedDenoiser* sharedWith) {
+  if (sharedWith == nullptr) return std::make_shared<Shared>(info.device, info.pipeline_cache);
+  const WalrDevice given = readStruct(info.device, "WalrDevice");
+  const fg::vk::DeviceView& view = sharedWith->device().context().view;
+  if (given.device != view.device || given.queue_family != view.queueFamily) {
+    throw Error(WALR_ERROR_INVALID_ARGUMENT,
+                "WalrDenoiserInfo::shared_with has another device or queue family: denoisers share objects on one "
+                "device only");
+  }
+  return sharedWith->shared_;
+}
+
+HostedDenoiser::HostedDenoiser(const WalrDenoiserInfo& info, const HostedDenoiser* sharedWith)
+    : shared_(sharedObjects(info, sharedWith)),
+      member_(shared_->objects.addMember()),
       description_(info),
-      timestamps_(measuresTimes(info, device_)),
+      completions_(device().context(), description_.slots()),
+      timestamps_(measuresTimes(info, device())),
       lint_(info.lint == VK_TRUE),
       counters_(info.counters == VK_TRUE),
-      pipelineCache_(info.pipeline_cache),
       log_(info.log),
       logUser_(info.log_user) {
-  device_.requireResultFormat(description_.resultFormat());
+  device().requireResultFormat(description_.resultFormat());
 }
 
 void HostedDenoiser::log(WalrLogLevel level, const std::string& text) const {
@@ -99,8 +114,8 @@ HostedDenoiser::Declared HostedDenoiser::compile(DenoiseGraph graph) const {
   declared.graph = std::move(graph);
   // Report all formats that the device lacks at once, before memory requirements are queried.
   const fg::Plan portable = compilePlan(declared.graph.graph, fg::TableMemoryModel());
-  fg::vk::require(device_.physical(), fg::vk::formatUses(declared.graph.graph.desc(), portable));
-  declared.plan = compilePlan(declared.graph.graph, fg::vk::DriverMemoryModel(device_.context()));
+  fg::vk::require(device().physical(), fg::vk::formatUses(declared.graph.graph.desc(), portable));
+  declared.plan = compilePlan(declared.graph.graph, fg::vk::DriverMemoryModel(device().context()));
 
   for (std::size_t i = 0; i < kHostInputs.size(); ++i) {
     declared.images[i] = declared.graph.inputs.*kHostInputs[i].texture;
@@ -133,12 +148,13 @@ void HostedDenoiser::makeExecutor() {
   const fg::Extent extent = description_.extent();
   const Built* const before = predecessor();
   const bool inherits = before != nullptr && (description_.rectangle() || before->extent == extent);
-  const fg::vk::ExecutorOptions options{.framesInFlight = description_.slots(),
-                                        .timestamps = timestamps_,
-                                        .pipelineCache = pipelineCache_,
-                                        .predecessor = before != nullptr ? before->executor.get() : nullptr,
-                                        .inheritHistories = inherits};
-  Built made{.executor = std::make_unique<fg::vk::Executor>(device_.context(), declared_->graph.graph.desc(),
+  const fg::vk::ExecutorOptions options{
+      .framesInFlight = description_.slots(),
+      .timestamps = timestamps_,
+      .shared = {std::shared_ptr<fg::vk::SharedObjects>(shared_, &shared_->objects), member_},
+      .predecessor = before != nullptr ? before->executor.get() : nullptr,
+      .inheritHistories = inherits};
+  Built made{.executor = std::make_unique<fg::vk::Executor>(device().context(), declared_->graph.graph.desc(),
                                                             declared_->plan, options),
              .counters = nullptr,
              .lint = nullptr,
@@ -149,13 +165,13 @@ void HostedDenoiser::makeExecutor() {
   if (lint_) {
     const fg::Buffer counters = declared_->graph.lint;
     made.lint = inherits ? before->lint
-                         : std::make_shared<HostedLint>(device_.context(), made.executor->usage(counters),
+                         : std::make_shared<HostedLint>(device().context(), made.executor->usage(counters),
                                                         description_.inputConventions(), description_.slots());
     made.executor->bind(counters, made.lint->buffer().handle());
   }
   if (const Inspection& inspection = declared_->graph.inspection; !inspection.counters().empty()) {
     const fg::Buffer buffer = inspection.counterBuffer();
-    made.counters = std::make_unique<HostedCounters>(device_.context(), made.executor->usage(buffer),
+    made.counters = std::make_unique<HostedCounters>(device().context(), made.executor->usage(buffer),
                                                      inspection.counters(), description_.slots());
     made.executor->bind(buffer, made.counters->buffer().handle());
   }
@@ -208,7 +224,7 @@ FrameImages HostedDenoiser::checkedImages(const WalrFrame& frame) const {
   for (std::size_t i = 0; i < kImageCount; ++i) {
     ImageNeeds needs = declared_->needs[i];
     if (description_.rectangle() && i != kViewImage) needs.offset = {frame.offset[0], frame.offset[1]};
-    images[i] = checkedImage(i, given[i], needs, device_.context().view.queueFamily);
+    images[i] = checkedImage(i, given[i], needs, device().context().view.queueFamily);
   }
   for (std::size_t i = 0; i < kImageCount; ++i) {
     for (std::size_t written = kOutputImage; written < kImageCount; ++written) {
@@ -245,6 +261,8 @@ void HostedDenoiser::record(VkCommandBuffer commandBuffer, const WalrFrame& fram
                                                       .index = givenIndex(frame.flags, frame.frame_index)});
   declare();
   const FrameImages images = checkedImages(frame);
+  const fg::vk::TimelinePoint finished = device().finishedPoint(frame.finished, frame.finished_value);
+  completions_.require(description_.slot(), description_.frames(), finished);
   dropFinished();
   build();
   bind(images);
@@ -254,14 +272,15 @@ void HostedDenoiser::record(VkCommandBuffer commandBuffer, const WalrFrame& fram
   const bool reset = resetRequested_ || (frame.flags & WALR_FRAME_RESET_HISTORY) != 0;
   if (reset) built_->executor->resetAllHistory();
   collectCounts();
-  recordAcquire(device_.context(), commandBuffer, images);
+  recordAcquire(device().context(), commandBuffer, images);
   recordGraph(commandBuffer, constants.camera, reset);
-  recordRelease(device_.context(), commandBuffer, images);
+  recordRelease(device().context(), commandBuffer, images);
 
   if (Built* const before = predecessor()) before->lastFrame = description_.frames();
   resetRequested_ = false;
   lastImages_ = images;
   built_->lastFrame = description_.frames();
+  completions_.note(description_.slot(), description_.frames(), finished);
   description_.advance(*frame.camera);
 }
 
@@ -323,6 +342,7 @@ std::uint64_t HostedDenoiser::Built::allocatedBytes(bool withLint) const {
 WalrMemory HostedDenoiser::memory() const {
   if (!built_) throw Error(WALR_ERROR_WRONG_ORDER, "no memory is allocated yet: call walr_prepare before");
   WalrMemory memory = memoryOf(built_->memory, built_->allocatedBytes());
+  memory.shared = built_->executor->sharedBytes();
   for (const Built& built : retired_) memory.retired += built.allocatedBytes(built.lint != built_->lint);
   return memory;
 }
@@ -330,10 +350,10 @@ WalrMemory HostedDenoiser::memory() const {
 WalrMemory HostedDenoiser::requiredMemory() {
   const Declared& declared = declare();
   const fg::GraphDesc& graph = declared.graph.graph.desc();
-  std::uint64_t bytes = fg::vk::requiredBytes(device_.context(), graph, declared.plan, description_.slots());
+  std::uint64_t bytes = fg::vk::requiredBytes(device().context(), graph, declared.plan, description_.slots());
   const auto addCounts = [&](fg::Buffer counts) {
     const fg::PlannedResource& planned = declared.plan.resources[counts.resource];
-    bytes += CountBuffer::requiredBytes(device_.context(), planned.bufferUsage, description_.slots());
+    bytes += CountBuffer::requiredBytes(device().context(), planned.bufferUsage, description_.slots());
   };
   if (lint_) addCounts(declared.graph.lint);
   if (!declared.graph.inspection.counters().empty()) addCounts(declared.graph.inspection.counterBuffer());

@@ -9,6 +9,7 @@
 
 #include <walr/walr.h>
 
+#include "framegraph/vulkan/completions.h"
 #include "framegraph/vulkan/executor.h"
 #include "integration/c_api/description.h"
 #include "integration/c_api/device.h"
@@ -21,8 +22,9 @@ namespace walr::api {
 /// The object behind a WalrDenoiser: a denoiser that records into a host's command buffers.
 class HostedDenoiser {
  public:
-  /// @throws as `Description` does
-  explicit HostedDenoiser(const WalrDenoiserInfo& info);
+  /// @param sharedWith a denoiser of the same device whose objects it shares; null for none
+  /// @throws as `Description` does; Error for another device
+  explicit HostedDenoiser(const WalrDenoiserInfo& info, const HostedDenoiser* sharedWith = nullptr);
 
   void resize(std::uint32_t width, std::uint32_t height);
   void set(std::string_view name, std::string_view value);
@@ -82,12 +84,22 @@ class HostedDenoiser {
   void uploadIfUsed(fg::Buffer buffer, std::span<const std::byte> bytes);
   void log(WalrLogLevel level, const std::string& text) const;
 
-  HostDevice device_;
+  /// The device and what several denoisers share on it.
+  struct Shared {
+    Shared(const WalrDevice* given, VkPipelineCache cache) : device(given), objects(device.context(), cache) {}
+    HostDevice device;
+    fg::vk::SharedObjects objects;
+  };
+  static std::shared_ptr<Shared> sharedObjects(const WalrDenoiserInfo& info, const HostedDenoiser* sharedWith);
+  [[nodiscard]] const HostDevice& device() const { return shared_->device; }
+
+  std::shared_ptr<Shared> shared_;
+  std::uint32_t member_;  ///< In `Shared::objects`.
   Description description_;
+  fg::vk::Completions completions_;
   bool timestamps_;
   bool lint_;
   bool counters_;
-  VkPipelineCache pipelineCache_;
   WalrLog log_;
   void* logUser_;
 

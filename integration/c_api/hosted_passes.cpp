@@ -14,6 +14,11 @@ namespace walr::api {
 HostedPasses::HostedPasses(const WalrDenoiserInfo& info, std::span<const WalrSettingValue> settings,
                            std::span<const WalrPortFormat> ports)
     : description_(info, Description::Of::MethodsAndStages) {
+  if (info.shared_with != nullptr) {
+    throw Error(WALR_ERROR_INVALID_ARGUMENT,
+                "WalrDenoiserInfo::shared_with is for walr_create_denoiser: pass by pass, share memory and a pipeline "
+                "cache yourself");
+  }
   for (const WalrSettingValue& setting : settings) {
     description_.settings().set(requireText(setting.name, "WalrSettingValue::name"),
                                 requireText(setting.value, "WalrSettingValue::value"));
@@ -36,6 +41,7 @@ HostedPasses::HostedPasses(const WalrDenoiserInfo& info, std::span<const WalrSet
   if (!device_) return;
   recording_.emplace(device_->context(), graph_.graph.desc(), plan_, list_->list(), description_.slots(),
                      info.pipeline_cache);
+  completions_.emplace(device_->context(), description_.slots());
   if (measuresTimes(info, *device_)) timestamps_.emplace(device_->context(), list_->list(), description_.slots());
   makeCounts();
 }
@@ -76,12 +82,18 @@ void HostedPasses::continueFrom(const HostedPasses& last) {
 
 void HostedPasses::beginFrame(const WalrPassFrame& frame) {
   checkFlags(frame.flags, WALR_FRAME_INDEX_GIVEN, "WalrPassFrame::flags");
-  constants_ = description_.constants({.camera = frame.camera,
-                                       .previousCamera = frame.previous_camera,
-                                       .skyDepth = frame.sky_depth,
-                                       .preExposure = frame.pre_exposure,
-                                       .offset = glm::make_vec2(frame.offset),
-                                       .index = givenIndex(frame.flags, frame.frame_index)});
+  const Constants constants = description_.constants({.camera = frame.camera,
+                                                      .previousCamera = frame.previous_camera,
+                                                      .skyDepth = frame.sky_depth,
+                                                      .preExposure = frame.pre_exposure,
+                                                      .offset = glm::make_vec2(frame.offset),
+                                                      .index = givenIndex(frame.flags, frame.frame_index)});
+  if (recording_) {
+    const fg::vk::TimelinePoint finished = device_->finishedPoint(frame.finished, frame.finished_value);
+    completions_->require(description_.slot(), description_.frames(), finished);
+    completions_->note(description_.slot(), description_.frames(), finished);
+  }
+  constants_ = constants;
   if (recording_) {
     recording_->begin(description_.frames());
     if (timestamps_) timestamps_->beginFrame(recording_->slot());

@@ -7,6 +7,7 @@
 
 #include <walr/walr_passes.h>
 
+#include "framegraph/vulkan/completions.h"
 #include "integration/c_api/description.h"
 #include "integration/c_api/device.h"
 #include "integration/c_api/hosted_counters.h"
@@ -57,6 +58,7 @@ class HostedPasses {
   fg::Plan plan_;
   std::optional<PassList> list_;
   std::optional<PassRecording> recording_;
+  std::optional<fg::vk::Completions> completions_;
   std::optional<Constants> constants_;
   bool afterAnother_ = false;  ///< The frame begun last has a frame before it.
   std::optional<PassTimestamps> timestamps_;

@@ -30,6 +30,9 @@ inline constexpr std::uint32_t kLeastSize<WalrDevice> = offsetof(WalrDevice, cre
 template <>
 inline constexpr std::uint32_t kLeastSize<WalrPassFrame> = offsetof(WalrPassFrame, offset);
 
+template <>
+inline constexpr std::uint32_t kLeastSize<WalrMemory> = offsetof(WalrMemory, shared);
+
 /// Larger than any structure will ever be. A larger `struct_size` is an uninitialized one.
 inline constexpr std::uint32_t kMostSize = 1U << 16;
 

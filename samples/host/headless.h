@@ -10,6 +10,9 @@
 
 namespace walr::host {
 
+/// Reloads shaders of a graph whose sources have changed. Returns the number of shaders that the executor got.
+using ReloadShaders = std::function<std::size_t(const fg::GraphDesc&, fg::vk::Executor&)>;
+
 /// Renders the frames of an animation in order and calls `use` for each. The next frame is traced while the device
 /// works.
 /// @param request  what to trace; its frame number and animation frame are replaced by those of each frame

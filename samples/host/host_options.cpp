@@ -29,6 +29,10 @@ void addHostOptions(CLI::App& program, HostOptions& options) {
                   "the name of a texture of the frame")
       ->type_name("VIEW")
       ->capture_default_str();
+#ifdef WALR_SHADER_COMMANDS
+  program.add_flag("--reload-shaders", options.reloadShaders,
+                   "Watch the sources of the denoiser's shaders, compile what changes and use it in the next frame");
+#endif
   addMethodOptions(program, options.method);
   addDeviceOptions(program, options.gpu);
   constexpr std::uint32_t kMostSamples = 1U << 16U;

@@ -24,6 +24,7 @@ struct HostOptions {
   bool headless = false;
   bool exr = false;
   bool once = false;
+  bool reloadShaders = false;  ///< Only with the CMake option WALR_RELOAD_SHADERS.
 };
 
 void addHostOptions(CLI::App& program, HostOptions& options);

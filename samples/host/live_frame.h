@@ -61,6 +61,7 @@ class LiveFrame {
 
   void record(const fg::vk::Frame& recorded, const HostFrame& frame, const ViewConstants& view);
 
+  [[nodiscard]] fg::vk::Executor& executor() { return running_->device.executor(); }
   [[nodiscard]] const fg::Graph& graph() const { return running_->host.graph; }
   [[nodiscard]] const fg::Plan& plan() const { return running_->device.plan(); }
   /// State of the method's histories before the next frame, in the order of `fg::GraphDesc::histories`.

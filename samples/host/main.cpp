@@ -14,6 +14,9 @@
 #include "samples/denoise/progress.h"
 #include "samples/host/headless.h"
 #include "samples/host/host_options.h"
+#ifdef WALR_SHADER_COMMANDS
+#include "samples/host/shader_reloader.h"
+#endif
 #include "samples/image/file_output.h"
 #ifdef WALR_HOST_WINDOW
 #include "samples/host/window/interactive.h"
@@ -25,6 +28,19 @@ namespace {
 ViewConstants viewConstantsOf(fg::Extent extent) {
   const auto width = static_cast<int>(extent.width);
   return {.leftEdge = width / 3, .rightEdge = width - width / 3, .gain = 1.0F, .bias = 0.0F};
+}
+
+/// What reloads shaders between frames; empty if the user does not ask for it.
+ReloadShaders shaderReload(const HostOptions& options) {
+#ifdef WALR_SHADER_COMMANDS
+  if (!options.reloadShaders) return {};
+  const auto reloader =
+      std::make_shared<ShaderReloader>(WALR_SHADER_COMMANDS, WALR_SHADER_SOURCES, WALR_SHADER_SOURCES, std::cerr);
+  return [reloader](const fg::GraphDesc& graph, fg::vk::Executor& executor) { return reloader->poll(graph, executor); };
+#else
+  (void)options;
+  return {};
+#endif
 }
 
 void runHeadless(const HostOptions& options, Tracer& tracer, GpuDevice& gpu, Denoiser& method) {
@@ -43,7 +59,9 @@ void runHeadless(const HostOptions& options, Tracer& tracer, GpuDevice& gpu, Den
   request.reference = rendering.view.needsReference();
   Progress progress(std::cerr, isatty(STDERR_FILENO) != 0, "frame",
                     static_cast<std::size_t>(frames.last - frames.first + 1), Progress::Clock::now());
+  const ReloadShaders reload = shaderReload(options);
   renderFrames(tracer, renderer, frames, request, [&](const RenderedFrame& frame) {
+    if (reload) reload(renderer.graph().desc(), renderer.executor());
     writeRenderedFrame(frame, extent, options.output);
     progress.advance(Progress::Clock::now());
   });
@@ -91,7 +109,7 @@ void run(HostOptions& options) {
   if (window) {
     Session session(tracer, options.method.name, std::move(method), parseView(options.view),
                     viewConstantsOf(options.tracer.extent), parseFrameRange(options.frames), options.once);
-    runWindow(tracer, gpu, session, options.tracer.extent);
+    runWindow(tracer, gpu, session, options.tracer.extent, shaderReload(options));
   }
 #endif
   gpu.refuseMessages();

@@ -46,6 +46,7 @@ class Renderer {
   /// Wait for the oldest frame in flight. Returns nullopt if there is none.
   std::optional<RenderedFrame> finish();
 
+  [[nodiscard]] fg::vk::Executor& executor() { return graph_.executor(); }
   [[nodiscard]] const fg::Graph& graph() const { return host_.graph; }
   [[nodiscard]] const fg::Plan& plan() const { return graph_.plan(); }
 

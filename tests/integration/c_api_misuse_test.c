@@ -339,7 +339,7 @@ static void test_frames(Host* host, WalrDenoiser denoiser) {
   EXPECT(walr_record(denoiser, commands, &frame), WALR_ERROR_INVALID_ARGUMENT, "projection matrix has y down");
   camera = kCamera;
   memcpy(camera.projection, kCamera.view, sizeof(camera.projection));
-  EXPECT(walr_record(denoiser, commands, &frame), WALR_ERROR_INVALID_ARGUMENT, "perspective");
+  EXPECT(walr_record(denoiser, commands, &frame), WALR_ERROR_INVALID_ARGUMENT, "WalrConventions::orthographic");
   frame = good;
   frame.sky_depth = -1;
   EXPECT(walr_record(denoiser, commands, &frame), WALR_ERROR_INVALID_ARGUMENT, "sky_depth");
@@ -457,6 +457,46 @@ typedef struct Intruder {
   int calls;
 } Intruder;
 
+/* A frame tells with a timeline semaphore when it is finished, although the device was created without the feature. */
+static void test_completion(Host* host) {
+  const VkPhysicalDeviceSynchronization2Features synchronization2 = {
+      .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SYNCHRONIZATION_2_FEATURES, .synchronization2 = VK_TRUE};
+  const VkPhysicalDeviceFeatures features = {.shaderStorageImageExtendedFormats = VK_TRUE};
+  const VkDeviceCreateInfo created = {
+      .sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, .pNext = &synchronization2, .pEnabledFeatures = &features};
+  WalrDevice device = device_of(host);
+  device.create_info = &created;
+  const WalrDenoiserInfo info = info_of(&device);
+  WalrDenoiser denoiser = NULL;
+  EXPECT_OK(walr_create_denoiser(&info, &denoiser));
+  Images images = make_images(host, denoiser);
+  const VkSemaphoreTypeCreateInfo type = {.sType = VK_STRUCTURE_TYPE_SEMAPHORE_TYPE_CREATE_INFO,
+                                          .semaphoreType = VK_SEMAPHORE_TYPE_TIMELINE};
+  const VkSemaphoreCreateInfo timeline = {.sType = VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO, .pNext = &type};
+  VkSemaphore finished = VK_NULL_HANDLE;
+  EXPECT_TRUE(vkCreateSemaphore(host->device, &timeline, NULL, &finished) == VK_SUCCESS);
+  const VkCommandBuffer commands = host_begin(host);
+  WalrFrame frame = frame_of(&images);
+  frame.finished_value = 1;
+  EXPECT(walr_record(denoiser, commands, &frame), WALR_ERROR_INVALID_ARGUMENT, "`finished` is null");
+  frame.finished = finished;
+  EXPECT(walr_record(denoiser, commands, &frame), WALR_ERROR_UNSUPPORTED, "without\n  feature timelineSemaphore");
+  EXPECT_TRUE(vkEndCommandBuffer(commands) == VK_SUCCESS);
+  EXPECT_OK(walr_destroy_denoiser(denoiser));
+
+  device.create_info = &(VkDeviceCreateInfo){.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, .pNext = &host->features};
+  EXPECT_OK(walr_create_denoiser(&info, &denoiser));
+  const VkCommandBuffer again = host_begin(host);
+  frame.finished_value = 0;
+  EXPECT(walr_record(denoiser, again, &frame), WALR_ERROR_INVALID_ARGUMENT, "is 0, which no submission signals");
+  frame.finished_value = 1;
+  EXPECT_OK(walr_record(denoiser, again, &frame));
+  host_submit_between(host, again, finished, 0, 1);
+  EXPECT_OK(walr_destroy_denoiser(denoiser));
+  vkDestroySemaphore(host->device, finished, NULL);
+  for (int i = 0; i < 6; ++i) host_destroy_image(host, &images.host[i]);
+}
+
 /* A finding of a denoiser whose recorded frames were partly never submitted would be made of numbers that no frame
  * counted. */
 static void test_dropped_frames(Host* host, const WalrDevice* device) {
@@ -532,6 +572,7 @@ int main(void) {
   test_frames(&host, denoiser);
   EXPECT_OK(walr_destroy_denoiser(denoiser));
   test_rectangle(&host, &device);
+  test_completion(&host);
   test_dropped_frames(&host, &device);
   test_threads(&device);
   const int messages = host_close(&host);

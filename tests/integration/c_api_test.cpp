@@ -30,14 +30,6 @@ std::vector<std::byte> bytesOf(const auto& texels) {
   return bytes;
 }
 
-void fill(HostedRun& run, const HostFrame& frame) {
-  run.fill("lighting", bytesOf(encodeHalves(frame.lighting)));
-  run.fill("depth", bytesOf(encodeFloats(frame.depth)));
-  run.fill("normal", bytesOf(encodeHalves(frame.normal)));
-  run.fill("motion", bytesOf(encodeHalves(frame.motion)));
-  run.fill("albedo", bytesOf(encodeHalves(frame.albedo)));
-}
-
 /// Number of pixels that differ in any channel.
 int differing(const Image<glm::dvec4>& a, const Image<glm::dvec4>& b) {
   int count = 0;
@@ -67,7 +59,7 @@ TEST_P(CApiMethod, GivesThePixelsOfOurOwnExecutorThroughResetAndResize) {
     }
     const FrameDescription camera = walkingCamera(i, size);
     const HostFrame frame = renderFrame(sphere(), camera, size);
-    fill(hosted, frame);
+    hosted.fill(frame);
     const Image<glm::dvec4> result = decodeHalves(hosted.frame(camera, flags), size);
     EXPECT_EQ(differing(result, own->frame(frame)), 0);
   }
@@ -80,14 +72,14 @@ TEST_F(CApi, ResetDropsTheHistoryAndNewSettingsKeepIt) {
   const HostFrame second = renderFrame(flatWall(), cameraAt({}, {}, kSize, 7), kSize);
   const auto secondAfterFirst = [&](auto&& between) {
     HostedRun run(device(), "accumulate", kSize);
-    fill(run, first);
+    run.fill(first);
     run.frame(camera);
     between(run.denoiser());
-    fill(run, second);
+    run.fill(second);
     return run.frame(camera);
   };
   HostedRun fresh(device(), "accumulate", kSize);
-  fill(fresh, second);
+  fresh.fill(second);
   const std::vector<std::uint16_t> alone = fresh.frame(camera);
   const std::vector<std::uint16_t> both = secondAfterFirst([](WalrDenoiser) {});
   EXPECT_NE(both, alone);
@@ -113,8 +105,8 @@ TEST_F(CApi, AcceptsOtherFormatsAndRemembersTheCamera) {
   for (std::uint32_t i = 0; i < 3; ++i) {
     const FrameDescription camera = walkingCamera(i, kSize);
     const HostFrame frame = renderFrame(thinBars(), camera, kSize);
-    fill(usual, frame);
-    fill(other, frame);
+    usual.fill(frame);
+    other.fill(frame);
     other.fill("lighting", floats(frame.lighting));
     other.fill("normal", floats(frame.normal));
     other.fill("motion", floats(frame.motion));
@@ -154,7 +146,7 @@ TEST_F(CApi, LogsEachFindingOnce) {
     EXPECT_EQ(findingsOf(run.denoiser()), Names{});
     for (std::uint32_t i = 0; i < kFrames; ++i) {
       const FrameDescription camera = walkingCamera(i, kSize);
-      fill(run, renderFrame(sphere(), camera, kSize));
+      run.fill(renderFrame(sphere(), camera, kSize));
       run.frame(camera);
     }
     EXPECT_EQ(findingsOf(run.denoiser()), good ? Names{} : Names{"motion-x-direction"});

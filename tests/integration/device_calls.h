@@ -14,8 +14,8 @@
 namespace walr::test {
 
 struct DeviceCalls {
-  std::uint32_t objects = 0;         ///< Created or bound to memory, except pipelines.
-  std::uint32_t pipelines = 0;       ///< Created.
+  std::uint32_t objects = 0;         ///< Created or bound to memory, except `pipelines`.
+  std::uint32_t pipelines = 0;       ///< Created, with their shader modules and layouts.
   std::uint32_t waits = 0;           ///< For a queue, the device or a fence.
   std::uint64_t bytes = 0;           ///< Device memory allocated.
   std::set<VkPipelineCache> caches;  ///< That pipelines were created with.
@@ -54,6 +54,7 @@ inline PFN_vkGetDeviceProcAddr realDeviceProcAddr = nullptr;
 
 inline PFN_vkVoidFunction deviceProcAddr(VkDevice device, const char* name) {
   constexpr auto kObjects = &DeviceCalls::objects;
+  constexpr auto kPipelines = &DeviceCalls::pipelines;
   constexpr auto kWaits = &DeviceCalls::waits;
   static const std::map<std::string_view, PFN_vkVoidFunction (*)(PFN_vkVoidFunction)> kCounted{
       {"vkAllocateMemory", Counted<PFN_vkAllocateMemory, kObjects>::wrap},
@@ -63,11 +64,11 @@ inline PFN_vkVoidFunction deviceProcAddr(VkDevice device, const char* name) {
       {"vkCreateImageView", Counted<PFN_vkCreateImageView, kObjects>::wrap},
       {"vkCreateBuffer", Counted<PFN_vkCreateBuffer, kObjects>::wrap},
       {"vkCreateSampler", Counted<PFN_vkCreateSampler, kObjects>::wrap},
-      {"vkCreateShaderModule", Counted<PFN_vkCreateShaderModule, kObjects>::wrap},
-      {"vkCreatePipelineLayout", Counted<PFN_vkCreatePipelineLayout, kObjects>::wrap},
-      {"vkCreateComputePipelines", Counted<PFN_vkCreateComputePipelines, &DeviceCalls::pipelines>::wrap},
+      {"vkCreateShaderModule", Counted<PFN_vkCreateShaderModule, kPipelines>::wrap},
+      {"vkCreatePipelineLayout", Counted<PFN_vkCreatePipelineLayout, kPipelines>::wrap},
+      {"vkCreateComputePipelines", Counted<PFN_vkCreateComputePipelines, kPipelines>::wrap},
       {"vkCreatePipelineCache", Counted<PFN_vkCreatePipelineCache, kObjects>::wrap},
-      {"vkCreateDescriptorSetLayout", Counted<PFN_vkCreateDescriptorSetLayout, kObjects>::wrap},
+      {"vkCreateDescriptorSetLayout", Counted<PFN_vkCreateDescriptorSetLayout, kPipelines>::wrap},
       {"vkCreateDescriptorPool", Counted<PFN_vkCreateDescriptorPool, kObjects>::wrap},
       {"vkAllocateDescriptorSets", Counted<PFN_vkAllocateDescriptorSets, kObjects>::wrap},
       {"vkCreateQueryPool", Counted<PFN_vkCreateQueryPool, kObjects>::wrap},

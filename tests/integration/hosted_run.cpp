@@ -6,6 +6,8 @@
 
 #include <glm/gtc/type_ptr.hpp>
 
+#include "tests/passes/texel_codec.h"
+
 namespace walr::test {
 namespace {
 
@@ -16,6 +18,12 @@ constexpr std::size_t kOutput = 6;
 
 WalrImageState stateOf(const fg::ExternalState& state) {
   return {.stage = state.stage, .access = state.access, .layout = state.layout, .reserved = 0};
+}
+
+std::vector<std::byte> bytesOf(const auto& texels) {
+  std::vector<std::byte> bytes(texels.size() * sizeof(texels[0]));
+  std::memcpy(bytes.data(), texels.data(), bytes.size());
+  return bytes;
 }
 
 }  // namespace
@@ -47,12 +55,12 @@ WalrDevice hostDevice(const fg::vk::Device& device) {
 
 HostedRun::HostedRun(const fg::vk::Device& device, const char* method, glm::ivec2 size, const Options& options)
     : device_(&device),
-      framesInFlight_(options.framesInFlight),
+      hostSlots_(options.hostSlots != 0 ? options.hostSlots : options.framesInFlight),
       rememberedCamera_(options.rememberedCamera),
       objectIds_(options.objectIds),
       offset_(options.offset),
       margin_(options.margin),
-      queue_(device.context(), device.queue(), options.framesInFlight) {
+      queue_(device.context(), device.queue(), hostSlots_) {
   WalrDevice host = hostDevice(device);
   if (options.getInstanceProcAddr != nullptr) host.get_instance_proc_addr = options.getInstanceProcAddr;
   host.device_memory = options.deviceMemory;
@@ -61,7 +69,7 @@ HostedRun::HostedRun(const fg::vk::Device& device, const char* method, glm::ivec
   conventions.rectangle = margin_ != glm::ivec2(0) ? VK_TRUE : VK_FALSE;
   WalrDenoiserInfo info{};
   info.struct_size = sizeof(info);
-  info.frames_in_flight = framesInFlight_;
+  info.frames_in_flight = options.framesInFlight;
   info.device = &host;
   info.method = method;
   info.width = static_cast<std::uint32_t>(size.x);
@@ -79,6 +87,7 @@ HostedRun::HostedRun(const fg::vk::Device& device, const char* method, glm::ivec
   info.log = options.log;
   info.log_user = options.logUser;
   info.pipeline_cache = options.pipelineCache;
+  info.shared_with = options.sharedWith;
   require(walr_create_denoiser(&info, &denoiser_));
   makeImages(size);
 }
@@ -107,8 +116,7 @@ void HostedRun::makeImages(glm::ivec2 size) {
     const bool output = images_.size() == kOutput;
     images_.push_back(std::make_unique<fg::vk::StagedImage>(
         device_->context(), fg::TextureDesc{.format = needs.format, .extent = {needs.width, needs.height}}, needs.usage,
-        output ? fg::vk::StagedImage::Direction::Readback : fg::vk::StagedImage::Direction::Upload, framesInFlight_,
-        name));
+        output ? fg::vk::StagedImage::Direction::Readback : fg::vk::StagedImage::Direction::Upload, hostSlots_, name));
     needs_.push_back(needs);
   }
   firstIdentity_ = nextIdentity_;
@@ -126,7 +134,7 @@ void HostedRun::chooseView(const char* name) {
   require(walr_get_image_requirements(denoiser_, "view", &viewNeeds_));
   view_ = std::make_unique<fg::vk::StagedImage>(
       device_->context(), fg::TextureDesc{.format = viewNeeds_.format, .extent = {viewNeeds_.width, viewNeeds_.height}},
-      viewNeeds_.usage, fg::vk::StagedImage::Direction::Readback, framesInFlight_, "view");
+      viewNeeds_.usage, fg::vk::StagedImage::Direction::Readback, hostSlots_, "view");
   viewIdentity_ = nextIdentity_++;
 }
 
@@ -156,6 +164,14 @@ void HostedRun::moveRectangle(glm::ivec2 size, glm::ivec2 offset) {
 void HostedRun::fill(const std::string& image, std::vector<std::byte> texels) {
   const auto index = static_cast<std::size_t>(std::ranges::find(kImages, image) - kImages.begin());
   texels_.at(index) = std::move(texels);
+}
+
+void HostedRun::fill(const reference::HostFrame& frame) {
+  fill("lighting", bytesOf(encodeHalves(frame.lighting)));
+  fill("depth", bytesOf(encodeFloats(frame.depth)));
+  fill("normal", bytesOf(encodeHalves(frame.normal)));
+  fill("motion", bytesOf(encodeHalves(frame.motion)));
+  fill("albedo", bytesOf(encodeHalves(frame.albedo)));
 }
 
 WalrImage HostedRun::describe(std::size_t index) const {
@@ -189,8 +205,16 @@ WalrImage HostedRun::describeView() const {
   return image;
 }
 
-std::uint32_t HostedRun::submit(const FrameDescription& camera, std::uint32_t flags, float preExposure) {
+std::uint32_t HostedRun::submit(const FrameDescription& camera, std::uint32_t flags, float preExposure,
+                                const fg::vk::FrameSemaphores& semaphores) {
   const fg::vk::Frame recorded = queue_.begin();
+  record(recorded, camera, flags, preExposure, semaphores.finished);
+  queue_.submit(recorded, semaphores);
+  return recorded.slot;
+}
+
+void HostedRun::record(const fg::vk::Frame& recorded, const FrameDescription& camera, std::uint32_t flags,
+                       float preExposure, const fg::vk::TimelinePoint& finished) {
   for (std::size_t i = 0; i < texels_.size(); ++i) {
     if (!images_[i]) continue;
     std::ranges::copy(texels_[i], images_[i]->staging(recorded.slot).begin());
@@ -218,18 +242,22 @@ std::uint32_t HostedRun::submit(const FrameDescription& camera, std::uint32_t fl
   frame.view = view_ ? &view : nullptr;
   frame.camera = &now;
   frame.previous_camera = rememberedCamera_ ? nullptr : &before;
+  frame.finished = finished.semaphore;
+  frame.finished_value = finished.value;
   require(walr_record(denoiser_, recorded.commandBuffer, &frame));
   if (view_) view_->recordReadback(recorded.commandBuffer, recorded.slot);
   output().recordReadback(recorded.commandBuffer, recorded.slot);
-  queue_.submit(recorded);
-  return recorded.slot;
+}
+
+std::vector<std::byte> HostedRun::resultOf(std::uint32_t slot) const {
+  const auto bytes = output().staging(slot);
+  return {bytes.begin(), bytes.end()};
 }
 
 std::vector<std::byte> HostedRun::frameBytes(const FrameDescription& camera, std::uint32_t flags, float preExposure) {
   lastSlot_ = submit(camera, flags, preExposure);
   queue_.wait(lastSlot_);
-  const auto bytes = output().staging(lastSlot_);
-  return {bytes.begin(), bytes.end()};
+  return resultOf(lastSlot_);
 }
 
 std::vector<std::uint16_t> HostedRun::frame(const FrameDescription& camera, std::uint32_t flags, float preExposure) {

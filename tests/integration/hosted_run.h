@@ -31,13 +31,15 @@ class HostedRun {
     bool counters = false;
     bool objectIds = false;  ///< Give an image "object_id".
     std::uint32_t framesInFlight = 2;
-    glm::ivec2 offset{0};  ///< Of the rectangle in images that are larger by `margin`.
+    std::uint32_t hostSlots = 0;  ///< Frames that the host itself has in flight; 0 means `framesInFlight`.
+    glm::ivec2 offset{0};         ///< Of the rectangle in images that are larger by `margin`.
     glm::ivec2 margin{0};
     WalrLog log = nullptr;
     void* logUser = nullptr;
     PFN_vkGetInstanceProcAddr getInstanceProcAddr = nullptr;  ///< Instead of the device's.
     VkPipelineCache pipelineCache = VK_NULL_HANDLE;
     const WalrMemoryCallbacks* deviceMemory = nullptr;
+    WalrDenoiser sharedWith = nullptr;
   };
 
   HostedRun(const fg::vk::Device& device, const char* method, glm::ivec2 size) : HostedRun(device, method, size, {}) {}
@@ -59,13 +61,22 @@ class HostedRun {
   [[nodiscard]] glm::ivec2 imageSize() const { return glm::ivec2(needs_[0].width, needs_[0].height); }
   /// Upload texels of an image ("lighting", ...) in its format.
   void fill(const std::string& image, std::vector<std::byte> texels);
+  /// Upload all images of a frame except object ids, in the usual formats.
+  void fill(const reference::HostFrame& frame);
   /// Record and submit a frame with the texels uploaded last, and return the result's texels, four halves each.
   std::vector<std::uint16_t> frame(const FrameDescription& camera, std::uint32_t flags = 0, float preExposure = 0.0F);
   /// The same with the bytes of the result.
   std::vector<std::byte> frameBytes(const FrameDescription& camera, std::uint32_t flags = 0, float preExposure = 0.0F);
   /// The same without waiting for it.
+  /// @param semaphores the library is told of `finished`
   /// @returns the frame's slot
-  std::uint32_t submit(const FrameDescription& camera, std::uint32_t flags = 0, float preExposure = 0.0F);
+  std::uint32_t submit(const FrameDescription& camera, std::uint32_t flags = 0, float preExposure = 0.0F,
+                       const fg::vk::FrameSemaphores& semaphores = {});
+  /// The same into a command buffer that the caller submits.
+  void record(const fg::vk::Frame& frame, const FrameDescription& camera, std::uint32_t flags = 0,
+              float preExposure = 0.0F, const fg::vk::TimelinePoint& finished = {});
+  /// The result's bytes of the frame that was recorded last with a slot, and that the GPU has finished.
+  [[nodiscard]] std::vector<std::byte> resultOf(std::uint32_t slot) const;
 
  private:
   void makeImages(glm::ivec2 size);
@@ -74,7 +85,7 @@ class HostedRun {
   [[nodiscard]] fg::vk::StagedImage& output() const { return *images_.back(); }
 
   const fg::vk::Device* device_;
-  std::uint32_t framesInFlight_;
+  std::uint32_t hostSlots_;
   bool rememberedCamera_;
   bool objectIds_;
   glm::ivec2 offset_;

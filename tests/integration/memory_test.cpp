@@ -15,7 +15,6 @@
 #include "tests/integration/device_calls.h"
 #include "tests/integration/hosted_run.h"
 #include "tests/passes/synthetic_scene.h"
-#include "tests/passes/texel_codec.h"
 #include "tests/vulkan/gpu_fixture.h"
 
 namespace walr::test {
@@ -89,12 +88,6 @@ class Suballocator {
   std::map<std::pair<VkDeviceMemory, std::uint64_t>, std::uint64_t> sizes_;  ///< By memory and offset.
 };
 
-std::vector<std::byte> bytesOf(const auto& texels) {
-  std::vector<std::byte> bytes(texels.size() * sizeof(texels[0]));
-  std::memcpy(bytes.data(), texels.data(), bytes.size());
-  return bytes;
-}
-
 /// Results of frames with a new size and a setting that needs other textures between.
 std::vector<std::vector<std::uint16_t>> walk(HostedRun& run) {
   std::vector<std::vector<std::uint16_t>> results;
@@ -108,11 +101,7 @@ std::vector<std::vector<std::uint16_t>> walk(HostedRun& run) {
     const glm::dvec3 step(0.06, 0.02, -0.03);
     const FrameDescription camera = cameraAt(double(i) * step, (double(i) - 1.0) * step, size, i);
     const reference::HostFrame frame = renderFrame(sphere(), camera, size);
-    run.fill("lighting", bytesOf(encodeHalves(frame.lighting)));
-    run.fill("depth", bytesOf(encodeFloats(frame.depth)));
-    run.fill("normal", bytesOf(encodeHalves(frame.normal)));
-    run.fill("motion", bytesOf(encodeHalves(frame.motion)));
-    run.fill("albedo", bytesOf(encodeHalves(frame.albedo)));
+    run.fill(frame);
     results.push_back(run.frame(camera));
   }
   return results;

@@ -13,7 +13,6 @@
 #include "tests/integration/hosted_run.h"
 #include "tests/integration/replaced_function.h"
 #include "tests/passes/synthetic_scene.h"
-#include "tests/passes/texel_codec.h"
 #include "tests/vulkan/gpu_fixture.h"
 
 namespace walr::test {
@@ -21,12 +20,6 @@ namespace {
 
 constexpr glm::ivec2 kSize(53, 37);
 constexpr std::uint32_t kFrames = 3;
-
-std::vector<std::byte> bytesOf(const auto& texels) {
-  std::vector<std::byte> bytes(texels.size() * sizeof(texels[0]));
-  std::memcpy(bytes.data(), texels.data(), bytes.size());
-  return bytes;
-}
 
 template <typename Texel>
 std::vector<Texel> texelsOf(const std::vector<std::byte>& bytes) {
@@ -73,11 +66,7 @@ class OutputFormat : public fg::test::GpuTest {
       // Light from far below the smallest normal value of the formats to near the largest value.
       reference::forEachPixel(
           kSize, [&](glm::ivec2 p) { frame.lighting[p] *= std::exp2(double(p.x) / 2.0 - 22.0) * double(exposure); });
-      run.fill("lighting", bytesOf(encodeHalves(frame.lighting)));
-      run.fill("depth", bytesOf(encodeFloats(frame.depth)));
-      run.fill("normal", bytesOf(encodeHalves(frame.normal)));
-      run.fill("motion", bytesOf(encodeHalves(frame.motion)));
-      run.fill("albedo", bytesOf(encodeHalves(frame.albedo)));
+      run.fill(frame);
       result = run.frameBytes(camera, 0, exposure);
     }
     return decoded(format, result);

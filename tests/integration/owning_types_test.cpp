@@ -96,6 +96,21 @@ TEST_F(OwningTypes, ReturnWhatTheCFunctionsWrite) {
   EXPECT_NE(cpp::passTypes().front(), nullptr);
 }
 
+TEST_F(OwningTypes, ShareObjectsAndAreDestroyedInAnyOrder) {
+  WalrDenoiserInfo described = info();
+  cpp::Denoiser first(described);
+  first.prepare();
+  EXPECT_EQ(first.memory().shared, 0U);
+  described.shared_with = first.get();
+  cpp::Denoiser second(described);
+  second.prepare();
+  EXPECT_GT(second.memory().shared, 0U);
+  EXPECT_EQ(first.memory().shared, second.memory().shared);
+  first = cpp::Denoiser();
+  EXPECT_EQ(second.memory().shared, 0U);
+  second.prepare();
+}
+
 TEST_F(OwningTypes, HoldPassesToo) {
   WalrDenoiserInfo described = info();
   described.lint = VK_TRUE;

@@ -414,13 +414,19 @@ TEST_F(PluginTest, MemoryInTheGuideIsWhatTheDriverRequires) {
   std::ifstream file(WALR_GUIDE);
   const std::string guide{std::istreambuf_iterator<char>(file), {}};
   for (const Size size : {Size{1920, 1080}, Size{2560, 1440}, Size{3840, 2160}}) {
-    const WalrDenoiserInfo whole = info("walr", size);
+    WalrDenoiserInfo whole = info("walr", size);
     WalrDenoiser denoiser = nullptr;
+    WalrDenoiser further = nullptr;
     require(api().create_denoiser(&whole, &denoiser));
-    require(api().prepare(denoiser));
+    whole.shared_with = denoiser;
+    require(api().create_denoiser(&whole, &further));
     WalrMemory memory{};
     memory.struct_size = sizeof(memory);
-    require(api().get_memory(denoiser, &memory));
+    for (const WalrDenoiser each : {denoiser, further}) {
+      require(api().prepare(each));
+      require(api().get_memory(each, &memory));
+    }
+    require(api().destroy_denoiser(further));
     require(api().destroy_denoiser(denoiser));
     const WalrPasses passes = makePasses("walr", size);
     {
@@ -429,8 +435,9 @@ TEST_F(PluginTest, MemoryInTheGuideIsWhatTheDriverRequires) {
       EXPECT_EQ(graph.listedBytes(), memory.persistent + memory.transient_unaliased);
       EXPECT_LT(memory.allocated, graph.bytes());
       char row[128];
-      std::snprintf(row, sizeof(row), "| %u x %u | %.1f | %.1f |\n", size.width, size.height,
-                    double(memory.allocated) / kMebibyte, double(graph.bytes()) / kMebibyte);
+      std::snprintf(row, sizeof(row), "| %u x %u | %.1f | %.1f | %.1f |\n", size.width, size.height,
+                    double(memory.allocated) / kMebibyte, double(memory.allocated - memory.shared) / kMebibyte,
+                    double(graph.bytes()) / kMebibyte);
       EXPECT_NE(guide.find(row), std::string::npos) << "integration/README.md should say " << row;
     }
     EXPECT_EQ(api().destroy_passes(passes), WALR_SUCCESS);

@@ -1,6 +1,5 @@
 // Settings and sizes that change between two frames: when they take effect, what is created, and whether history is
 // kept.
-#include <cstring>
 #include <functional>
 
 #include "framegraph/vulkan/pipelines.h"
@@ -27,24 +26,11 @@ void set(WalrDenoiser denoiser, const char* name, const char* value) {
   require(walr_set_setting(denoiser, name, value));
 }
 
-void fill(HostedRun& run, const HostFrame& frame) {
-  const auto hand = [&](const char* name, const auto& texels) {
-    std::vector<std::byte> bytes(texels.size() * sizeof(texels[0]));
-    std::memcpy(bytes.data(), texels.data(), bytes.size());
-    run.fill(name, std::move(bytes));
-  };
-  hand("lighting", encodeHalves(frame.lighting));
-  hand("depth", encodeFloats(frame.depth));
-  hand("normal", encodeHalves(frame.normal));
-  hand("motion", encodeHalves(frame.motion));
-  hand("albedo", encodeHalves(frame.albedo));
-}
-
 /// A frame of a sequence in which a camera moves past a sphere.
 Texels walk(HostedRun& run, std::uint32_t frame, glm::ivec2 size = kSize) {
   const glm::dvec3 step(0.06, 0.02, -0.03);
   const FrameDescription camera = cameraAt(double(frame) * step, (double(frame) - 1.0) * step, size, frame);
-  fill(run, renderFrame(sphere(), camera, size));
+  run.fill(renderFrame(sphere(), camera, size));
   return run.frame(camera);
 }
 
@@ -143,7 +129,7 @@ class HistoryLength : public Settings {
       if (i > 0) change(run, i);
       const FrameDescription camera = cameraAt({}, {}, kSize, i);
       const Light light = [i](glm::dvec3, glm::dvec3) { return glm::dvec3(i < kLast ? 1.0 : kAfter); };
-      fill(run, renderFrame(flatWall(), camera, kSize, light, Noise::None));
+      run.fill(renderFrame(flatWall(), camera, kSize, light, Noise::None));
       last = run.frame(camera);
     }
     return last;

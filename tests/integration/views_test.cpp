@@ -12,7 +12,6 @@
 #include "passes/denoiser.h"
 #include "tests/integration/hosted_run.h"
 #include "tests/passes/synthetic_scene.h"
-#include "tests/passes/texel_codec.h"
 #include "tests/vulkan/gpu_fixture.h"
 
 namespace walr::test {
@@ -22,25 +21,13 @@ using reference::HostFrame;
 
 constexpr glm::ivec2 kSize(53, 37);
 
-std::vector<std::byte> bytesOf(const auto& texels) {
-  std::vector<std::byte> bytes(texels.size() * sizeof(texels[0]));
-  std::memcpy(bytes.data(), texels.data(), bytes.size());
-  return bytes;
-}
-
 /// A frame of a camera that moves beside a surface with sky around it.
 struct Take {
   explicit Take(std::uint32_t index)
       : camera(cameraAt({0.06 * index, 0.0, 0.0}, {0.06 * (index - 1.0), 0.0, 0.0}, kSize, index)),
         frame(renderFrame(skyBesideSurface(), camera, kSize)) {}
 
-  void fill(HostedRun& run) const {
-    run.fill("lighting", bytesOf(encodeHalves(frame.lighting)));
-    run.fill("depth", bytesOf(encodeFloats(frame.depth)));
-    run.fill("normal", bytesOf(encodeHalves(frame.normal)));
-    run.fill("motion", bytesOf(encodeHalves(frame.motion)));
-    run.fill("albedo", bytesOf(encodeHalves(frame.albedo)));
-  }
+  void fill(HostedRun& run) const { run.fill(frame); }
   [[nodiscard]] bool sky(glm::ivec2 p) const { return frame.depth[p] >= 1e9; }
   [[nodiscard]] std::uint64_t skyPixels() const {
     std::uint64_t count = 0;

@@ -1,4 +1,5 @@
 #include "passes/frame.h"
+#include "passes/orthographic.h"
 
 #include <functional>
 #include <limits>
@@ -46,6 +47,33 @@ TEST(FrameConstants, ARayProjectsToItsPixel) {
     const glm::dvec2 projected = project(frame.projection, unproject(constants.rayFromPixel, pixel, 7.0F));
     EXPECT_NEAR(projected.x, pixel.x, kPixelTolerance);
     EXPECT_NEAR(projected.y, pixel.y, kPixelTolerance);
+  }
+}
+
+TEST(FrameConstants, ARayOfAnOrthographicCamerasStandInProjectsToItsPixel) {
+  for (const float height : {0.01F, 3.0F, 3.3F, 700.0F}) {
+    FrameDescription frame = movingCamera();
+    frame.orthographic = true;
+    frame.projection = frame.previousProjection =
+        glm::ortho(-0.3F * height, 0.7F * height, -0.25F * height, 0.75F * height);
+    const double away = standOff(frame.projection);
+    EXPECT_EQ(std::exp2(std::round(std::log2(away))), away);
+    EXPECT_GE(away, 2.5 * double(height) * (1.0 - 1e-6));
+    EXPECT_LE(away, 5.0 * double(height) * (1.0 + 1e-6));
+    const FrameConstants constants = frameConstants(frame, kExtent);
+    EXPECT_FLOAT_EQ(constants.skyDepth, frame.skyDepth + float(away));
+    // The stand-in shows the same image of the plane through the camera.
+    const glm::vec2 pixel(100.5F, 300.25F);
+    const glm::vec3 position = unproject(constants.rayFromPixel, pixel, float(away));
+    const glm::dvec2 projected = project(frame.projection, position);
+    EXPECT_NEAR(projected.x, pixel.x, kPixelTolerance);
+    EXPECT_NEAR(projected.y, pixel.y, kPixelTolerance);
+    // It is as far behind its own camera's previous place as the camera itself is.
+    const glm::vec4 world(0.3F, 1.2F, -3.0F, 1.0F);
+    const glm::vec4 behind(0.0F, 0.0F, float(away), 0.0F);
+    const glm::vec4 actual = constants.previousViewFromView * (frame.view * world - behind);
+    const glm::vec4 expected = frame.previousView * world - behind;
+    for (int i = 0; i < 3; ++i) EXPECT_NEAR(actual[i], expected[i], 1e-6F * float(away) + 1e-5F);
   }
 }
 

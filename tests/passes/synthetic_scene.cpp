@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 
+#include "passes/orthographic.h"
 #include "tests/passes/reference/hash.h"
 #include "tests/passes/reference/storage.h"
 
@@ -170,6 +171,22 @@ FrameDescription cameraAt(glm::dvec3 position, glm::dvec3 previousPosition, glm:
   return camera;
 }
 
+FrameDescription orthographicCameraAt(glm::dvec3 position, glm::dvec3 previousPosition, glm::ivec2 size,
+                                      std::uint32_t frameIndex, double height) {
+  FrameDescription camera = cameraAt(position, previousPosition, size, frameIndex);
+  constexpr float kFar = 100.0F;
+  glm::mat4 projection(0.0F);
+  projection[0][0] = static_cast<float>(2.0 / height * size.y / size.x);
+  projection[1][1] = static_cast<float>(2.0 / height);
+  // Device depth from 1 at the camera to 0.
+  projection[2][2] = 1.0F / kFar;
+  projection[3][2] = 1.0F;
+  projection[3][3] = 1.0F;
+  camera.projection = camera.previousProjection = projection;
+  camera.orthographic = true;
+  return camera;
+}
+
 HostFrame renderFrame(const Scene& scene, const FrameDescription& camera, glm::ivec2 size, const Light& light,
                       Noise noise) {
   HostFrame frame;
@@ -182,14 +199,19 @@ HostFrame renderFrame(const Scene& scene, const FrameDescription& camera, glm::i
   const glm::dmat4 world = glm::inverse(view);
   const glm::dvec3 eye(world[3]);
   const glm::dvec4 previousRay(frame.constants.previousRayFromPixel);
+  // Rays of an orthographic camera are parallel; those of the constants are its stand-in's.
+  const bool orthographic = camera.orthographic;
+  const double away = orthographic ? standOff(camera.projection) : 0.0;
   reference::forEachPixel(size, [&](glm::ivec2 p) {
     const glm::dvec3 ray = reference::rayThrough(frame.constants.rayFromPixel, reference::pixelCentre(p));
-    const std::optional<SceneHit> hit = scene(eye, glm::dmat3(world) * ray);
+    const glm::dvec3 origin = orthographic ? eye + glm::dmat3(world) * glm::dvec3(glm::dvec2(ray) * away, 0.0) : eye;
+    const glm::dvec3 direction = glm::dmat3(world) * (orthographic ? glm::dvec3(0.0, 0.0, -1.0) : ray);
+    const std::optional<SceneHit> hit = scene(origin, direction);
     if (!hit) {
       frame.lighting[p] = roundToHalf({0.3, 0.5, 0.9});
       return;
     }
-    const glm::dvec3 point = eye + hit->distance * (glm::dmat3(world) * ray);
+    const glm::dvec3 point = origin + hit->distance * direction;
     frame.depth[p] = reference::roundToFloat(hit->distance);
     frame.normal[p] = roundToHalf(glm::dmat3(view) * hit->shadingNormal);
     frame.albedo[p] = roundToHalf(hit->diffuse ? glm::dvec3(0.6, 0.5, 0.4) : glm::dvec3(0.0));
@@ -198,7 +220,8 @@ HostFrame renderFrame(const Scene& scene, const FrameDescription& camera, glm::i
 
     const glm::dvec3 before(glm::dmat4(camera.previousView) * glm::dvec4(point - hit->moved, 1.0));
     const glm::dvec2 previousPixel =
-        (glm::dvec2(before) / -before.z - glm::dvec2(previousRay.z, previousRay.w)) / glm::dvec2(previousRay);
+        (glm::dvec2(before) / (orthographic ? away : -before.z) - glm::dvec2(previousRay.z, previousRay.w)) /
+        glm::dvec2(previousRay);
     frame.motion[p] = roundToHalf(glm::dvec3(previousPixel - reference::pixelCentre(p), -before.z - hit->distance));
 
     glm::dvec3 radiance = hit->diffuse ? light(point, glm::normalize(hit->shadingNormal)) : glm::dvec3(0.0);

@@ -65,6 +65,10 @@ enum class Noise {
 /// A camera at `position` that looks down -Z; field of view 53 degrees across the height.
 FrameDescription cameraAt(glm::dvec3 position, glm::dvec3 previousPosition, glm::ivec2 size, std::uint32_t frameIndex);
 
+/// The same with an orthographic camera whose image is `height` scene units high.
+FrameDescription orthographicCameraAt(glm::dvec3 position, glm::dvec3 previousPosition, glm::ivec2 size,
+                                      std::uint32_t frameIndex, double height);
+
 /// Render a frame; every value is rounded to the format of its texture.
 reference::HostFrame renderFrame(const Scene& scene, const FrameDescription& camera, glm::ivec2 size,
                                  const Light& light = smoothLight, Noise noise = Noise::Exponential);

@@ -69,7 +69,7 @@ class SteadyStateTest : public GpuTest {
   vk::DeviceContext tampered_;
 };
 
-constexpr vk::ExecutorOptions kEverything{.timestamps = true, .poison = true};
+const vk::ExecutorOptions kEverything{.timestamps = true, .poison = true};
 
 TEST_F(SteadyStateTest, FramesCreateNoVulkanObjects) {
   BusyGraph busy;

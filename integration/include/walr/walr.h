@@ -13,7 +13,7 @@
  *   unless they are zero. Zero is the default of every field. Structures without `struct_size` never change.
  * - Handles are never reused: using a destroyed one is always an error.
  * - Only one thread at a time may use a denoiser. A call during another thread's call returns
- *   WALR_ERROR_CONCURRENT_USE and does nothing. Different denoisers are independent.
+ *   WALR_ERROR_CONCURRENT_USE and does nothing. Different denoisers are independent, unless they share objects.
  * - Matrices are column-major and multiply column vectors. View space is right-handed, the camera looks down -Z.
  *   Image coordinates have x to the right and y down, in pixels. Pixel centres are at .5.
  */
@@ -240,7 +240,9 @@ typedef struct WalrConventions {
    * relative position in the rectangle has no motion, even if the size has changed. Jitter is in pixels of the
    * rectangle of its own frame. */
   VkBool32 rectangle;
-  uint32_t reserved;
+  /* The cameras are orthographic. Motion must have its third channel, and WalrDenoiserInfo::lint is refused. If a zoom
+   * doubles or halves the height of the view, the history may restart once. */
+  VkBool32 orthographic;
 } WalrConventions;
 
 typedef enum WalrLogLevel {
@@ -282,6 +284,11 @@ typedef struct WalrDenoiserInfo {
    * VK_FORMAT_R32G32B32A32_SFLOAT. The last two cost a small pass, which rounds to the nearest value. */
   VkFormat denoised_format;
   VkBool32 counters; /* Count what the method does, see walr_get_counters. For debugging: costs passes. */
+  /* Another denoiser, for several views a frame (eyes, split screens, cube faces); optional. Both share shader modules,
+   * pipelines and the memory of transients; each has its own histories, size and settings. Use its device; its
+   * allocators and pipeline cache serve both. Frames of both must be submitted in the order of recording, to one queue,
+   * and only one thread at a time may use either. Both may be destroyed in any order. */
+  WalrDenoiser shared_with;
 } WalrDenoiserInfo;
 
 /* Creates no Vulkan object; see walr_prepare. */
@@ -365,8 +372,8 @@ WALR_API WalrResult walr_forget_image(WalrDenoiser denoiser, VkImage image, uint
 
 typedef struct WalrCamera {
   float view[16];       /* World to view space. */
-  float projection[16]; /* View to clip space, perspective, without jitter, x right, y up. Row z is used with
-                         * WALR_DEPTH_DEVICE only. */
+  float projection[16]; /* View to clip space, without jitter, x right, y up; perspective, but see
+                         * WalrConventions::orthographic. Row z is used with WALR_DEPTH_DEVICE only. */
   float jitter[2];      /* Pixels, y down: sample position minus pixel centre. */
 } WalrCamera;
 
@@ -396,13 +403,20 @@ typedef struct WalrFrame {
   uint32_t frame_index;
   uint32_t reserved;
   const WalrImage* view; /* Receives the view that walr_set_view has chosen. Null if there is none. */
+  /* Optional: a timeline semaphore that reaches `finished_value` when the GPU has finished this frame. When the frame's
+   * slot is used again, walr_record reads it without waiting, and returns WALR_ERROR_WRONG_ORDER instead of a corrupted
+   * picture if the GPU is not done. The device needs the feature timelineSemaphore. The semaphore must live until then,
+   * or until the denoiser is destroyed. */
+  VkSemaphore finished;
+  uint64_t finished_value; /* Above 0, and never below that of the frame before with the same semaphore. */
 } WalrFrame;
 
 /*
  * Record one frame.
  *
  * Recorded frames must be submitted in the order of recording, all to one queue. Before a frame is recorded, the GPU
- * must have finished the one recorded `frames_in_flight` frames earlier. If an error is returned, nothing is recorded.
+ * must have finished the one recorded `frames_in_flight` frames earlier: see WalrFrame::finished. If an error is
+ * returned, nothing is recorded.
  *
  * command_buffer: in the recording state, outside of a render pass. Its bound compute pipeline, descriptor set 0 and
  * push constants are changed.
@@ -423,13 +437,14 @@ typedef struct WalrMemory {
   uint64_t transient_unaliased; /* The same without aliasing. */
   uint64_t transient_least;     /* Lower bound of `transient`. */
   uint64_t retired;             /* Replaced, but still in use by frames in flight. */
+  uint64_t shared; /* Bytes of `allocated` that other denoisers count, too: see WalrDenoiserInfo::shared_with. */
 } WalrMemory;
 
 /* Call walr_prepare or walr_record before. */
 WALR_API WalrResult walr_get_memory(WalrDenoiser denoiser, WalrMemory* memory);
 
 /* The memory that a denoiser with this description will allocate, before there is one: the result of walr_get_memory
- * after walr_prepare. It allocates no device memory. */
+ * after walr_prepare, where nothing is shared. It allocates no device memory. */
 WALR_API WalrResult walr_query_memory(const WalrDenoiserInfo* info, WalrMemory* memory);
 
 typedef struct WalrPassTime {

@@ -206,6 +206,8 @@ typedef struct WalrPassFrame {
   uint32_t offset[2];                /* As in WalrFrame. */
   uint32_t frame_index;              /* As in WalrFrame. */
   uint32_t reserved;
+  VkSemaphore finished; /* As in WalrFrame, checked by walr_begin_frame. Not used by passes without a device. */
+  uint64_t finished_value;
 } WalrPassFrame;
 
 /* Begin a frame. Call it once before the passes of the frame are recorded. The GPU must have finished the frame that

@@ -40,10 +40,11 @@ struct Traced {
 class Show {
  public:
   Show(Tracer& tracer, const GpuDevice& device, Session& session, const Window& window, const Surface& surface,
-       fg::Extent extent)
+       fg::Extent extent, const ReloadShaders& reload)
       : tracer_(tracer),
         device_(device),
         session_(session),
+        reload_(reload),
         window_(window),
         surface_(surface),
         picture_(device, extent),
@@ -145,6 +146,8 @@ class Show {
     if (change_ != GraphChange::None && frameFits()) {
       follow();
     }
+    // One more frame shows the new shaders in a session that is frozen.
+    if (reload_ && reload_(live_.graph().desc(), live_.executor()) > 0) again_ = session_.frozen;
     interface_.update(session_, live_.graph(), live_.plan(), facts_);
     const fg::vk::Frame recorded = queue_.begin();
     const std::optional<std::uint32_t> image = presenter_->swapchain().acquire(recorded.slot);
@@ -180,6 +183,7 @@ class Show {
   Tracer& tracer_;
   const GpuDevice& device_;
   Session& session_;
+  const ReloadShaders& reload_;
   const Window& window_;
   const Surface& surface_;
   ShownPicture picture_;
@@ -204,14 +208,14 @@ GpuDevice::Options withWindows(GpuDevice::Options options) {
   return options;
 }
 
-void runWindow(Tracer& tracer, GpuDevice& device, Session& session, fg::Extent extent) {
+void runWindow(Tracer& tracer, GpuDevice& device, Session& session, fg::Extent extent, const ReloadShaders& reload) {
   std::signal(SIGINT, interrupt);
   std::signal(SIGTERM, interrupt);
   constexpr std::uint32_t kLeastHeight = 720;
   const Window window("walr-host", {extent.width + static_cast<std::uint32_t>(Interface::kPanelWidth),
                                     std::max(extent.height, kLeastHeight)});
   const Surface surface(window, device.instance());
-  Show(tracer, device, session, window, surface, extent).run();
+  Show(tracer, device, session, window, surface, extent, reload).run();
 }
 
 }  // namespace walr::host

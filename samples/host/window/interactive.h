@@ -4,6 +4,7 @@
 #include <string>
 
 #include "samples/denoise/gpu_device.h"
+#include "samples/host/headless.h"
 #include "samples/host/session.h"
 #include "samples/host/tracer.h"
 #include "samples/host/window/window.h"
@@ -15,6 +16,7 @@ GpuDevice::Options withWindows(GpuDevice::Options options);
 
 /// Show the session in a window until the user closes it or interrupts the program.
 /// @param extent  size of the image, the same as that of the tracer
-void runWindow(Tracer& tracer, GpuDevice& device, Session& session, fg::Extent extent);
+/// @param reload  called before every frame; may be empty
+void runWindow(Tracer& tracer, GpuDevice& device, Session& session, fg::Extent extent, const ReloadShaders& reload);
 
 }  // namespace walr::host

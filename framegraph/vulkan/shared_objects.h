@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "framegraph/vulkan/memory.h"
+#include "framegraph/vulkan/pipelines.h"
+
+namespace fg::vk {
+
+/// What executors of one device share, for instance those of several views of a scene: shader modules, pipelines and
+/// their layouts, and the memory of transients. Histories are never shared.
+///
+/// Frames of all of them are recorded one after the other, and submitted in this order to one queue. Not thread-safe.
+class SharedObjects {
+ public:
+  /// @param device must outlive this and every executor that shares it
+  /// @param cache  see ExecutorOptions::pipelineCache
+  explicit SharedObjects(const DeviceContext& device, VkPipelineCache cache = VK_NULL_HANDLE)
+      : device_(&device), pipelines_(device, cache) {}
+  SharedObjects(const SharedObjects&) = delete;
+  SharedObjects& operator=(const SharedObjects&) = delete;
+
+  [[nodiscard]] Pipelines& pipelines() { return pipelines_; }
+  /// Number of a further member. Executors of one member replace one another and never share memory, so that an
+  /// allocation of the member's last executor can be freed.
+  std::uint32_t addMember() { return members_++; }
+  /// Memory for transients: a block of another member that is large enough, or else a new one.
+  /// @throws as DeviceMemory does
+  std::shared_ptr<DeviceMemory> transientMemory(const MemoryRequirements& requirements, std::uint32_t member);
+
+ private:
+  struct Block {
+    std::weak_ptr<DeviceMemory> memory;
+    MemoryRequirements requirements;
+    std::uint32_t member = 0;  ///< That allocated it.
+  };
+
+  const DeviceContext* device_;
+  Pipelines pipelines_;
+  std::uint32_t members_ = 0;
+  std::vector<Block> blocks_;
+};
+
+/// A member of executors that share objects.
+struct Membership {
+  std::shared_ptr<SharedObjects> objects = nullptr;  ///< Null: nothing is shared.
+  std::uint32_t member = 0;                          ///< Of `SharedObjects::addMember`.
+};
+
+}  // namespace fg::vk
