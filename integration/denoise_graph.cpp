@@ -18,7 +18,7 @@ namespace {
 
 /// The number of channels of an input that are read.
 std::uint32_t channelsRead(const HostInput& input, const InputConventions& conventions, const HostConventions& host) {
-  const bool flatMotion = conventions.motionDepth == InputConventions::MotionDepth::StaticScene;
+  const bool flatMotion = conventions.motionDepth != InputConventions::MotionDepth::Given;
   const bool twoChannels = (input.texture == &DenoiserInputs::motion && flatMotion) ||
                            (input.texture == &DenoiserInputs::normal && host.octahedral());
   return twoChannels ? 2 : input.channels;

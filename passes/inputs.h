@@ -14,6 +14,9 @@ struct InputConventions {
   enum class MotionDepth {
     Given,        ///< The motion texture's third channel.
     StaticScene,  ///< Computed from depth and the two view matrices; right where only the camera moves.
+    /// Taken from the history pixel that motion.xy leads to and that is nearest to where a still surface would be, if
+    /// it is near enough (reprojection.glsl). Methods need a test of history (`HistoryRejection`) for it.
+    Found,
   };
   Space normal = Space::View;
   MotionDepth motionDepth = MotionDepth::Given;

@@ -16,6 +16,8 @@ void readReprojection(const fg::Graph& graph, fg::PassBuilder& pass, const Denoi
   pass.specialize("kJitter", inputs.scene.jitter && (!fromTexture || inputs.conventions.motionJittered))
       .specialize("kMotionFromCamera", !fromTexture)
       .specialize("kMotionDepthGiven", inputs.conventions.motionDepth == InputConventions::MotionDepth::Given)
+      .specialize("kMotionDepthFound",
+                  fromTexture && inputs.conventions.motionDepth == InputConventions::MotionDepth::Found)
       .specialize("kRejectByPlane", byPlane)
       .specialize("kRejectByDepth", byDepth)
       .specialize("kShortNormals", byPlane && graph.textureDesc(guides.geometricNormal).format == VK_FORMAT_R16_UINT)

@@ -21,7 +21,7 @@ WalrConventions checkedConventions(const WalrConventions* given) {
   WalrConventions conventions = readOptional(given, "WalrConventions");
   checkedEnum(conventions.normal_space, WALR_SPACE_WORLD, "WalrConventions::normal_space");
   checkedEnum(conventions.motion_unit, WALR_MOTION_PICTURES, "WalrConventions::motion_unit");
-  checkedEnum(conventions.motion_depth, WALR_MOTION_DEPTH_REVERSED, "WalrConventions::motion_depth");
+  checkedEnum(conventions.motion_depth, WALR_MOTION_DEPTH_FOUND, "WalrConventions::motion_depth");
   checkedEnum(conventions.depth, WALR_DEPTH_DEVICE, "WalrConventions::depth");
   checkedEnum(conventions.normals, WALR_NORMALS_OCTAHEDRAL_UNSIGNED, "WalrConventions::normals");
   for (float& scale : conventions.motion_scale) {
@@ -136,7 +136,7 @@ ListedGraph Description::listStage(std::span<const WalrPortFormat> ports) const 
     throw Error(
         WALR_ERROR_INVALID_ARGUMENT,
         "stage '" + methodName_ +
-            "' takes linear depth, signed normals, motion_depth as given or of a static scene, no pre-exposure, "
+            "' takes linear depth, signed normals, motion_depth as given, found or of a static scene, no pre-exposure, "
             "no rectangle and no denoised_format: convert the images yourself, or use a whole method");
   }
   PortFormats formats;
@@ -184,11 +184,13 @@ HostConventions Description::hostConventions() const {
 }
 
 InputConventions Description::inputConventions() const {
+  using MotionDepth = InputConventions::MotionDepth;
+  const WalrMotionDepth motionDepth = conventions_.motion_depth;
   return {.normal = conventions_.normal_space == WALR_SPACE_WORLD ? InputConventions::Space::World
                                                                   : InputConventions::Space::View,
-          .motionDepth = conventions_.motion_depth == WALR_MOTION_DEPTH_STATIC_SCENE
-                             ? InputConventions::MotionDepth::StaticScene
-                             : InputConventions::MotionDepth::Given,
+          .motionDepth = motionDepth == WALR_MOTION_DEPTH_STATIC_SCENE ? MotionDepth::StaticScene
+                         : motionDepth == WALR_MOTION_DEPTH_FOUND      ? MotionDepth::Found
+                                                                       : MotionDepth::Given,
           .motionJittered = conventions_.motion_jittered == VK_TRUE};
 }
 

@@ -87,7 +87,7 @@ void RandomInfo::chooseConventions(Dice& dice, Expectation& expected) {
   expected.mayFail();  // Stages take the images as they are.
   conventions.normal_space = choose(dice, expected, WALR_SPACE_WORLD);
   conventions.motion_unit = choose(dice, expected, WALR_MOTION_PICTURES);
-  conventions.motion_depth = choose(dice, expected, WALR_MOTION_DEPTH_REVERSED);
+  conventions.motion_depth = choose(dice, expected, WALR_MOTION_DEPTH_FOUND);
   conventions.depth = choose(dice, expected, WALR_DEPTH_DEVICE);
   conventions.normals = choose(dice, expected, WALR_NORMALS_OCTAHEDRAL_UNSIGNED);
   conventions.pre_exposed = dice.below(2);

@@ -201,6 +201,9 @@ typedef enum WalrMotionDepth {
   WALR_MOTION_DEPTH_GIVEN = 0,        /* The motion image's third channel: previous minus current view depth. */
   WALR_MOTION_DEPTH_STATIC_SCENE = 1, /* Computed from the cameras; right where only the camera moves. */
   WALR_MOTION_DEPTH_REVERSED = 2,     /* The third channel, as current minus previous view depth. */
+  /* No third channel, and objects move: found among the depths of the last frame that motion.xy leads to. The depth of
+   * a surface may change by a tenth of it from one frame to the next, besides what the camera changes. */
+  WALR_MOTION_DEPTH_FOUND = 3,
   WALR_MOTION_DEPTH_MAX = 0x7fffffff
 } WalrMotionDepth;
 

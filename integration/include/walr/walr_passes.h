@@ -179,7 +179,7 @@ typedef struct WalrPassesInfo {
  * - An output that is a previous history ("guides.previous-depth") holds what the last frame wrote into its partner. In
  *   the first frame and after a camera cut, give later stages an image of zeros for it.
  * - A stage takes images in walr's own conventions. Of WalrConventions it accepts only normal_space, motion_unit,
- *   motion_scale, motion_jittered, and WALR_MOTION_DEPTH_STATIC_SCENE.
+ *   motion_scale, motion_jittered, WALR_MOTION_DEPTH_STATIC_SCENE and WALR_MOTION_DEPTH_FOUND.
  * - Begin each frame of every stage with the same camera.
  */
 WALR_API WalrResult walr_create_passes(const WalrPassesInfo* info, WalrPasses* passes);
