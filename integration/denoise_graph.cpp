@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "passes/history_length.h"
 #include "passes/lint_inputs.h"
 #include "shaders/constants/frame.h"
 
@@ -62,6 +63,11 @@ DenoiseGraph declareDenoiseGraph(Denoiser& method, fg::Extent extent, const Inpu
     inspection.want(view,
                     graph.import("view of " + view, {.format = kViewFormat, .extent = extent}, states.outputBefore));
   }
+  if (wanted.historyLength) {
+    declared.historyLength = graph.import(std::string(kHistoryLengthName),
+                                          {.format = kHistoryLengthFormat, .extent = extent}, states.outputBefore);
+    inspection.wantHistoryLength(declared.historyLength);
+  }
   if (wanted.counters) {
     inspection.wantCounters(graph.import("counters", fg::BufferDesc{kCounterBytes}, states.outputBefore));
   }
@@ -72,6 +78,7 @@ DenoiseGraph declareDenoiseGraph(Denoiser& method, fg::Extent extent, const Inpu
   }
   fg::Texture denoised = method.add({graph, inspection}, inputs, target);
   for (const DebugView& view : inspection.views()) graph.exported(view.texture, states.outputAfter);
+  if (wanted.historyLength) graph.exported(inspection.historyLength(), states.outputAfter);
   if (!inspection.counters().empty()) graph.exported(inspection.counterBuffer(), states.outputAfter);
   if (host.convertsResult()) denoised = addConvertResult(graph, denoised, declared.output, declared.host);
   graph.exported(denoised, states.outputAfter);

@@ -25,7 +25,7 @@ struct InputConventions {
   bool motionJittered = true;
 };
 
-/// The textures that every denoiser takes, all of one extent; `objectId` may be left out.
+/// The textures that every denoiser takes, all of one extent; `objectId` and `confidence` may be left out.
 struct DenoiserInputs {
   fg::Texture lighting;  ///< RGBA16F: demodulated diffuse indirect radiance, linear, 1 sample per pixel. Alpha unused.
   fg::Texture depth;     ///< R32F: linear view depth (-z of view space), scene units; sky at or beyond `skyDepth`.
@@ -35,6 +35,9 @@ struct DenoiserInputs {
   /// R32_UINT, or another format of unsigned integers: id of the object that the pixel shows, constant from frame to
   /// frame; 0xffffffff: none. If present, it tells the histories of different objects apart.
   fg::Texture objectId = {};
+  /// R8_UNORM, or another format of floats: how much of its history a pixel may use, 0 to 1. If present, it scales the
+  /// longest history of light; NaN counts as 1.
+  fg::Texture confidence = {};
   fg::Buffer frame;  ///< Upload of `FrameConstants` (passes/frame.h).
   InputConventions conventions;
   SceneDescription scene = {};

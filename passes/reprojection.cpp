@@ -30,6 +30,13 @@ void readReprojection(const fg::Graph& graph, fg::PassBuilder& pass, const Denoi
       .sampleIf(byPlane, "geometricNormal", guides.geometricNormal, standIns.number);
 }
 
+void readConfidence(fg::PassBuilder& pass, fg::Texture confidence, const DenoiserInputs& inputs,
+                    const StandIns& standIns) {
+  const bool known = confidence.valid();
+  pass.specialize("kConfidence", known)
+      .sampleIf(known || !standIns.colour.valid(), "confidence", known ? confidence : inputs.lighting, standIns.colour);
+}
+
 void readObjectIds(fg::PassBuilder& pass, const ObjectIds& objects, const StandIns& standIns) {
   const bool known = objects.current.valid();
   pass.specialize("kRejectByObject", known)

@@ -31,6 +31,7 @@ layout(rgba16f) uniform writeonly image2D outMoments;
 #endif
 layout(push_constant) uniform PushConstants { SvgfAccumulationConstants constants; };
 
+#include "include/confidence.glsl"
 #define HISTORY previousColour
 #include "include/reprojection.glsl"
 
@@ -45,7 +46,7 @@ HistoryTaps tapsOf(ivec2 p, float z) {
   return historyTaps(p, reproject(p, z), constants.planeTolerance, constants.normalThreshold);
 }
 
-TemporalMoments sampleHistory(HistoryTaps taps) {
+TemporalMoments meanOfHistory(HistoryTaps taps) {
   const vec4 weights = tapWeights(taps);
   TemporalMoments history = TemporalMoments(vec3(0.0), 0.0, 0.0, 0.0);
   vec3 moments[4];
@@ -68,6 +69,12 @@ TemporalMoments sampleHistory(HistoryTaps taps) {
     const float offset = moments[i].x - history.mean;
     history.variance += weights[i] / weightSum * (moments[i].y * moments[i].y + offset * offset);
   }
+  return history;
+}
+
+TemporalMoments sampleHistory(ivec2 p, HistoryTaps taps) {
+  TemporalMoments history = meanOfHistory(taps);
+  history.samples = confidentLength(p, history.samples, constants.maxHistory);
   return history;
 }
 
@@ -100,7 +107,7 @@ vec3 viewOf(ivec2 p, float z, vec3 noisy) {
   }
   if (!surface) return vec3(0.0);
   const HistoryTaps taps = tapsOf(p, z);
-  const TemporalMoments history = sampleHistory(taps);
+  const TemporalMoments history = sampleHistory(p, taps);
   return vec3(momentsWith(history, noisy).samples, tapsRejected(taps), history.samples == 0.0);
 }
 #endif
@@ -119,7 +126,7 @@ void main() {
     imageStore(outMoments, p, vec4(0.0));
     return;
   }
-  const TemporalMoments m = momentsWith(sampleHistory(tapsOf(p, z)), noisy);
+  const TemporalMoments m = momentsWith(sampleHistory(p, tapsOf(p, z)), noisy);
   imageStore(outColour, p, nearestHalf(vec4(m.colour, 1.0)));
   imageStore(outMoments, p, nearestHalf(vec4(m.mean, sqrt(m.variance), m.samples, 0.0)));
 #endif

@@ -92,9 +92,11 @@ Description::Description(const WalrDenoiserInfo& info, Of of)
       method_(stage_ != nullptr ? nullptr : makeDenoiser(methodName_)),
       extent_(checkedExtent(info.width, info.height)),
       conventions_(checkedConventions(info.conventions)),
-      formats_{formatOr(info.lighting_format, 0), formatOr(info.depth_format, 1),  formatOr(info.normal_format, 2),
-               formatOr(info.motion_format, 3),   formatOr(info.albedo_format, 4), formatOr(info.object_id_format, 5)},
+      formats_{formatOr(info.lighting_format, 0),  formatOr(info.depth_format, 1),  formatOr(info.normal_format, 2),
+               formatOr(info.motion_format, 3),    formatOr(info.albedo_format, 4), formatOr(info.object_id_format, 5),
+               formatOr(info.confidence_format, 6)},
       resultFormat_(checkedResultFormat(info.denoised_format)),
+      historyLength_(info.history_length == VK_TRUE),
       slots_(checkedSlots(info.frames_in_flight)) {
   if (info.preset != nullptr) usePreset(info.preset);
   // Refuse wrong formats here and not when the first frame is recorded.
@@ -107,7 +109,9 @@ void Description::resize(std::uint32_t width, std::uint32_t height) {
 }
 
 DenoiseGraph Description::declare(const InspectionWish& wanted) const {
-  return declareDenoiseGraph(*method_, extent_, inputConventions(), kInnerStates, formats_, hostConventions(), wanted);
+  InspectionWish all = wanted;
+  all.historyLength = historyLength_;
+  return declareDenoiseGraph(*method_, extent_, inputConventions(), kInnerStates, formats_, hostConventions(), all);
 }
 
 ListedGraph Description::list(std::span<const WalrPortFormat> ports, const InspectionWish& wanted) const {
@@ -115,6 +119,11 @@ ListedGraph Description::list(std::span<const WalrPortFormat> ports, const Inspe
     throw Error(WALR_ERROR_INVALID_ARGUMENT, "stage '" + methodName_ +
                                                  "' cannot check inputs or count: set WalrDenoiserInfo::lint and "
                                                  "WalrDenoiserInfo::counters for a whole method");
+  }
+  if (stage_ != nullptr && historyLength_) {
+    throw Error(WALR_ERROR_INVALID_ARGUMENT, "stage '" + methodName_ +
+                                                 "' has no output 'history_length': set "
+                                                 "WalrDenoiserInfo::history_length for a whole method");
   }
   if (stage_ != nullptr) return listStage(ports);
   if (!ports.empty()) {

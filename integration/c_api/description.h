@@ -113,6 +113,7 @@ class Description {
   WalrConventions conventions_;
   std::array<VkFormat, std::tuple_size_v<decltype(kHostInputs)>> formats_;
   VkFormat resultFormat_;
+  bool historyLength_;
   std::uint32_t slots_;
   std::uint64_t frames_ = 0;
   std::optional<WalrCamera> lastCamera_;

@@ -108,6 +108,7 @@ HostedDenoiser::Declared HostedDenoiser::compile(DenoiseGraph graph) const {
   declared.images[kOutputImage] = declared.graph.output;
   const auto& views = declared.graph.inspection.views();
   if (!views.empty()) declared.images[kViewImage] = views.front().texture;
+  declared.images[kHistoryLengthImage] = declared.graph.historyLength;
   for (std::size_t i = 0; i < kImageCount; ++i) {
     if (!declared.images[i].valid()) continue;  // The host has none.
     const fg::PlannedResource& planned = declared.plan.resources[declared.images[i].resource];
@@ -202,12 +203,13 @@ WalrImageRequirements HostedDenoiser::requirements(std::string_view image) {
 }
 
 FrameImages HostedDenoiser::checkedImages(const WalrFrame& frame) const {
-  const std::array<const WalrImage*, kImageCount> given{frame.lighting, frame.depth,     frame.normal,   frame.motion,
-                                                        frame.albedo,   frame.object_id, frame.denoised, frame.view};
+  const std::array<const WalrImage*, kImageCount> given{
+      frame.lighting,  frame.depth,      frame.normal,   frame.motion, frame.albedo,
+      frame.object_id, frame.confidence, frame.denoised, frame.view,   frame.history_length};
   FrameImages images{};
   for (std::size_t i = 0; i < kImageCount; ++i) {
     ImageNeeds needs = declared_->needs[i];
-    if (description_.rectangle() && i != kViewImage) needs.offset = {frame.offset[0], frame.offset[1]};
+    if (description_.rectangle() && i <= kOutputImage) needs.offset = {frame.offset[0], frame.offset[1]};
     images[i] = checkedImage(i, given[i], needs, device_.context().view.queueFamily);
   }
   for (std::size_t i = 0; i < kImageCount; ++i) {

@@ -8,8 +8,8 @@
 namespace walr::test {
 namespace {
 
-constexpr std::array<const char*, 7> kPorts = {"lighting", "depth",     "normal",  "motion",
-                                               "albedo",   "object_id", "denoised"};
+constexpr std::array<const char*, 9> kPorts = {"lighting",  "depth",      "normal",   "motion",        "albedo",
+                                               "object_id", "confidence", "denoised", "history_length"};
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
 /// Makes one of the image's members wrong.
@@ -118,7 +118,9 @@ void RandomFrames::record(Dice& dice, CallCheck& check, const ModelledDenoiser& 
   frame.motion = given[3];
   frame.albedo = given[4];
   frame.object_id = given[5];
-  frame.denoised = given[6];
+  frame.confidence = given[6];
+  frame.denoised = given[7];
+  frame.history_length = given[8];
   frame.camera = randomCamera(dice, expected, camera);
   frame.flags = dice.oneIn(6) ? static_cast<std::uint32_t>(WALR_FRAME_RESET_HISTORY) : 0U;
   expected.mayFail();  // The camera of the frame before may not fit.

@@ -285,6 +285,8 @@ typedef struct WalrDenoiserInfo {
    * VK_FORMAT_R32G32B32A32_SFLOAT. The last two cost a small pass, which rounds to the nearest value. */
   VkFormat denoised_format;
   VkBool32 counters; /* Count what the method does, see walr_get_counters. For debugging: costs passes. */
+  VkFormat confidence_format; /* Of WalrFrame::confidence, sampled as floats; VK_FORMAT_UNDEFINED: no such image. */
+  VkBool32 history_length;    /* Write WalrFrame::history_length. It costs a small pass. */
 } WalrDenoiserInfo;
 
 /* Creates no Vulkan object; see walr_prepare. */
@@ -327,7 +329,8 @@ typedef struct WalrImageRequirements {
   uint32_t height;
 } WalrImageRequirements;
 
-/* port: "lighting", "depth", "normal", "motion", "albedo", "object_id", "denoised", or "view" (see walr_set_view).
+/* port: "lighting", "depth", "normal", "motion", "albedo", "object_id", "confidence", "denoised",
+ * "view" (see walr_set_view) or "history_length".
  * Needs no image and no walr_prepare. */
 WALR_API WalrResult walr_get_image_requirements(WalrDenoiser denoiser, const char* port,
                                                 WalrImageRequirements* requirements);
@@ -399,6 +402,13 @@ typedef struct WalrFrame {
   uint32_t frame_index;
   uint32_t reserved;
   const WalrImage* view; /* Receives the view that walr_set_view has chosen. Null if there is none. */
+  /* Optional, see WalrDenoiserInfo::confidence_format: how much of its history of light a pixel may use, 0 to 1. The
+   * longest history is multiplied by it. 0: none; 1, or NaN: as without the image. It does not concern
+   * anti-aliasing, which clips its history. */
+  const WalrImage* confidence;
+  /* With WalrDenoiserInfo::history_length: an R16F image of exactly the denoised size that receives the number of
+   * frames, with this one, in the mean of each pixel's light; 0 where there is nothing to denoise. */
+  const WalrImage* history_length;
 } WalrFrame;
 
 /*
