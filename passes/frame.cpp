@@ -1,6 +1,7 @@
 #include "passes/frame.h"
 
 #include <glm/gtc/matrix_inverse.hpp>
+#include <glm/gtc/matrix_transform.hpp>
 
 #include "passes/camera_check.h"
 
@@ -22,6 +23,7 @@ glm::dvec4 rayFromPixel(const glm::dmat4& projection, glm::dvec2 jitter, fg::Ext
 FrameConstants frameConstants(const FrameDescription& frame, fg::Extent extent) {
   for (const glm::mat4& view : {frame.view, frame.previousView}) checkView(view);
   for (const glm::mat4& projection : {frame.projection, frame.previousProjection}) checkProjection(projection);
+  for (const glm::dvec3& origin : {frame.origin, frame.previousOrigin}) checkOrigin(origin);
   const glm::dvec4 ray = rayFromPixel(glm::dmat4(frame.projection), frame.jitter, extent);
   // The previous frame's jitter and rays, in pixels of this frame.
   const glm::dvec2 size(extent.width, extent.height);
@@ -33,7 +35,10 @@ FrameConstants frameConstants(const FrameDescription& frame, fg::Extent extent) 
 
   FrameConstants constants{};
   constants.viewFromWorld = frame.view;
-  constants.previousViewFromView = glm::mat4(glm::dmat4(frame.previousView) * glm::inverse(glm::dmat4(frame.view)));
+  // A point relative to the previous origin is the same point relative to this one plus their difference.
+  const glm::dmat4 previousFromNow = glm::translate(glm::dmat4(1.0), frame.origin - frame.previousOrigin);
+  constants.previousViewFromView =
+      glm::mat4(glm::dmat4(frame.previousView) * previousFromNow * glm::inverse(glm::dmat4(frame.view)));
   constants.rayFromPixel = glm::vec4(ray);
   constants.previousRayFromPixel = glm::vec4(previousRay);
   constants.motionScale = frame.motionScale;

@@ -219,7 +219,11 @@ Constants Description::constants(const FrameStatement& frame) const {
                                .previousJitter = glm::make_vec2(previous.jitter),
                                .motionScale = scale,
                                .frameIndex = frame.index.value_or(static_cast<std::uint32_t>(frames_)),
-                               .previousExtent = lastExtent_};
+                               .previousExtent = lastExtent_,
+                               .origin = frame.origin,
+                               .previousOrigin = frame.previousCamera != nullptr ? frame.previousOrigin
+                                                 : lastCamera_                   ? lastOrigin_
+                                                                                 : frame.origin};
   if (!(frame.skyDepth >= 0.0F)) throw Error(WALR_ERROR_INVALID_ARGUMENT, "sky_depth is negative or NaN");
   if (frame.skyDepth > 0.0F) description.skyDepth = frame.skyDepth;
   return {.camera = description,
@@ -243,12 +247,14 @@ glm::ivec2 Description::checkedOffset(glm::uvec2 offset) const {
 
 void Description::continueFrom(const Description& last) {
   lastCamera_ = last.lastCamera_;
+  lastOrigin_ = last.lastOrigin_;
   lastExtent_ = last.lastExtent_;
   frames_ = std::max(frames_, last.frames_);
 }
 
-void Description::advance(const WalrCamera& camera) {
-  lastCamera_ = camera;
+void Description::advance(const FrameStatement& frame) {
+  lastCamera_ = *frame.camera;
+  lastOrigin_ = frame.origin;
   lastExtent_ = extent_;
   ++frames_;
 }

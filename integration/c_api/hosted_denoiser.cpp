@@ -239,12 +239,8 @@ void HostedDenoiser::uploadIfUsed(fg::Buffer buffer, std::span<const std::byte> 
 void HostedDenoiser::record(VkCommandBuffer commandBuffer, const WalrFrame& frame) {
   if (commandBuffer == VK_NULL_HANDLE) throw Error(WALR_ERROR_INVALID_ARGUMENT, "the command buffer is null");
   checkFlags(frame.flags, WALR_FRAME_RESET_HISTORY | WALR_FRAME_INDEX_GIVEN, "WalrFrame::flags");
-  const Constants constants = description_.constants({.camera = frame.camera,
-                                                      .previousCamera = frame.previous_camera,
-                                                      .skyDepth = frame.sky_depth,
-                                                      .preExposure = frame.pre_exposure,
-                                                      .offset = glm::make_vec2(frame.offset),
-                                                      .index = givenIndex(frame.flags, frame.frame_index)});
+  const FrameStatement statement = statementOf(frame);
+  const Constants constants = description_.constants(statement);
   declare();
   const FrameImages images = checkedImages(frame);
   dropFinished();
@@ -264,7 +260,7 @@ void HostedDenoiser::record(VkCommandBuffer commandBuffer, const WalrFrame& fram
   resetRequested_ = false;
   lastImages_ = images;
   built_->lastFrame = description_.frames();
-  description_.advance(*frame.camera);
+  description_.advance(statement);
 }
 
 void HostedDenoiser::recordGraph(VkCommandBuffer commandBuffer, const FrameDescription& camera, bool reset) {

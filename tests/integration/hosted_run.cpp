@@ -261,6 +261,10 @@ std::uint32_t HostedRun::submit(const FrameDescription& camera, std::uint32_t fl
   const WalrImage historyLength = historyLength_ ? describeHistoryLength() : WalrImage{};
   frame.history_length = historyLength_ ? &historyLength : nullptr;
   frame.camera = &now;
+  for (int axis = 0; axis < 3; ++axis) {
+    frame.origin[axis] = camera.origin[axis];
+    frame.previous_origin[axis] = camera.previousOrigin[axis];
+  }
   frame.previous_camera = rememberedCamera_ ? nullptr : &before;
   require(walr_record(denoiser_, recorded.commandBuffer, &frame));
   if (view_) view_->recordReadback(recorded.commandBuffer, recorded.slot);

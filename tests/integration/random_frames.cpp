@@ -40,7 +40,7 @@ void spoil(Dice& dice, WalrImage& image) {
 
 /// Makes one of the frame's members wrong.
 void spoil(Dice& dice, WalrFrame& frame) {
-  switch (dice.below(6)) {
+  switch (dice.below(7)) {
     case 0:
       frame.struct_size = dice.of({0U, 4U, 1U << 20});
       break;
@@ -55,6 +55,9 @@ void spoil(Dice& dice, WalrFrame& frame) {
       break;
     case 4:
       frame.pre_exposure = -1.0F;
+      break;
+    case 5:
+      frame.origin[1] = kNan;
       break;
     default:
       frame.offset[0] = 20'000;
@@ -133,8 +136,8 @@ void RandomFrames::record(Dice& dice, CallCheck& check, const ModelledDenoiser& 
   if (withoutCommands) expected.fails();
   const WalrResult result =
       check("walr_record", expected,
-            {"WalrFrame", "WalrImage", "WalrCamera", "camera", "matrix", "image '", "sky_depth", "exposure", "offset",
-             "command buffer", "setting", "regression", "svgf."},
+            {"WalrFrame", "WalrImage", "WalrCamera", "camera", "matrix", "image '", "origin", "sky_depth", "exposure",
+             "offset", "command buffer", "setting", "regression", "svgf."},
             [&] { return walr_record(denoiser.handle, withoutCommands ? VK_NULL_HANDLE : commands, &frame); });
   recorded_ += result == WALR_SUCCESS;
   host_submit_and_wait(host_, commands);

@@ -409,6 +409,11 @@ typedef struct WalrFrame {
   /* With WalrDenoiserInfo::history_length: an R16F image of exactly the denoised size that receives the number of
    * frames, with this one, in the mean of each pixel's light; 0 where there is nothing to denoise. */
   const WalrImage* history_length;
+  /* Large worlds: the position in the world, scene units, that `camera` is relative to (its view matrix takes positions
+   * minus the origin), and the same of `previous_camera`, which is not used if that is null. Any origin near the camera
+   * will do, and it may change in every frame. At most 2^29 along each axis. */
+  double origin[3];
+  double previous_origin[3];
 } WalrFrame;
 
 /*

@@ -206,6 +206,8 @@ typedef struct WalrPassFrame {
   uint32_t offset[2];                /* As in WalrFrame. */
   uint32_t frame_index;              /* As in WalrFrame. */
   uint32_t reserved;
+  double origin[3]; /* As in WalrFrame. */
+  double previous_origin[3];
 } WalrPassFrame;
 
 /* Begin a frame. Call it once before the passes of the frame are recorded. The GPU must have finished the frame that
