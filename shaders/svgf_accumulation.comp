@@ -46,7 +46,7 @@ HistoryTaps tapsOf(ivec2 p, float z) {
   return historyTaps(p, reproject(p, z), constants.planeTolerance, constants.normalThreshold);
 }
 
-TemporalMoments meanOfHistory(HistoryTaps taps) {
+TemporalMoments sampleHistory(HistoryTaps taps) {
   const vec4 weights = tapWeights(taps);
   TemporalMoments history = TemporalMoments(vec3(0.0), 0.0, 0.0, 0.0);
   vec3 moments[4];
@@ -72,12 +72,6 @@ TemporalMoments meanOfHistory(HistoryTaps taps) {
   return history;
 }
 
-TemporalMoments sampleHistory(ivec2 p, HistoryTaps taps) {
-  TemporalMoments history = meanOfHistory(taps);
-  history.samples = confidentLength(p, history.samples, constants.maxHistory);
-  return history;
-}
-
 // Adds a sample to running mean and variance, with weight `alpha` for the colour and `momentAlpha` for the moments.
 void addSample(inout TemporalMoments m, vec3 radiance, float alpha, float momentAlpha) {
   const float offset = luminance(radiance) - m.mean;
@@ -89,7 +83,8 @@ void addSample(inout TemporalMoments m, vec3 radiance, float alpha, float moment
 vec3 clampedRadiance(vec3 noisy) { return clamp(noisy, vec3(0.0), vec3(kLargestHalf)); }
 
 // The history with this frame's sample. A sample that is not finite does not count: the moments stay as they were.
-TemporalMoments momentsWith(TemporalMoments m, vec3 noisy) {
+TemporalMoments momentsWith(ivec2 p, TemporalMoments m, vec3 noisy) {
+  m.samples = confidentLength(p, m.samples, constants.maxHistory);
   if (!isFinite(noisy)) return m;
   m.samples = min(m.samples + 1.0, constants.maxHistory);
   const float momentSamples = min(m.samples, constants.maxMomentHistory);
@@ -107,8 +102,8 @@ vec3 viewOf(ivec2 p, float z, vec3 noisy) {
   }
   if (!surface) return vec3(0.0);
   const HistoryTaps taps = tapsOf(p, z);
-  const TemporalMoments history = sampleHistory(p, taps);
-  return vec3(momentsWith(history, noisy).samples, tapsRejected(taps), history.samples == 0.0);
+  const TemporalMoments history = sampleHistory(taps);
+  return vec3(momentsWith(p, history, noisy).samples, tapsRejected(taps), history.samples == 0.0);
 }
 #endif
 
@@ -126,7 +121,7 @@ void main() {
     imageStore(outMoments, p, vec4(0.0));
     return;
   }
-  const TemporalMoments m = momentsWith(sampleHistory(p, tapsOf(p, z)), noisy);
+  const TemporalMoments m = momentsWith(p, sampleHistory(tapsOf(p, z)), noisy);
   imageStore(outColour, p, nearestHalf(vec4(m.colour, 1.0)));
   imageStore(outMoments, p, nearestHalf(vec4(m.mean, sqrt(m.variance), m.samples, 0.0)));
 #endif

@@ -138,15 +138,16 @@ float nearestTap(vec4 values, bvec4 candidates, float still, float tolerance) {
   return nearest;
 }
 
-// Which candidates, of the given depths, are within `tolerance` x depth of the surface.
+// Which taps, of the given depths, are within `tolerance` x depth of the surface. Candidates may tell its depth.
 bvec4 tapsNear(Reprojection r, bvec4 candidates, vec4 depths, float tolerance) {
   tolerance *= r.depth;
   const float surface = kMotionDepthFound ? nearestTap(depths, candidates, r.depth, tolerance) : r.depth;
-  return both(candidates, lessThanEqual(abs(depths - surface), vec4(tolerance)));
+  return lessThanEqual(abs(depths - surface), vec4(tolerance));
 }
 
-// Which candidates, of the given depths, are within `tolerance` x depth of the surface's plane. The product of its
-// normal and the view ray is linear over the image: it is computed at the first tap, and the others follow by its slope.
+// Which taps, of the given depths, are within `tolerance` x depth of the surface's plane. The product of its normal and
+// the view ray is linear over the image: it is computed at the first tap, and the others follow by its slope.
+// Candidates may tell the surface's depth.
 bvec4 tapsOnPlane(HistoryTaps taps, Reprojection r, bvec4 candidates, vec3 normal, vec4 depths, float tolerance) {
   const vec2 firstPixel = (vec2(taps.base) + 0.5) * frame.pixelFromPreviousPixel;
   const float first = dot(normal, rayThrough(frame.previousRayFromPixel, firstPixel));
@@ -155,7 +156,7 @@ bvec4 tapsOnPlane(HistoryTaps taps, Reprojection r, bvec4 candidates, vec3 norma
   tolerance *= r.depth;
   float surface = r.depth * (first + dot(slope, taps.fraction));
   if (kMotionDepthFound) surface = nearestTap(depths * products, candidates, surface, tolerance);
-  return both(candidates, lessThanEqual(abs(depths * products - surface), vec4(tolerance)));
+  return lessThanEqual(abs(depths * products - surface), vec4(tolerance));
 }
 
 // Which taps, of the given packed geometric normals, have at least the cosine `threshold` with `normal`.
@@ -187,11 +188,14 @@ HistoryTaps historyTaps(ivec2 p, Reprojection r, float tolerance, float normalTh
     const vec4 depths = unpackDepth(gatherTaps(previousDepth, corner));
     accepted = both(accepted, greaterThan(depths, vec4(0.0)));
     if (kRejectByDepth) {
-      accepted = tapsNear(r, accepted, depths, tolerance);
+      accepted = both(accepted, tapsNear(r, accepted, depths, tolerance));
     } else {
       const vec3 normal = previousNormalAt(p);
+      // Depth is found among the taps that face the surface. Without that, this order takes fewer registers.
+      if (!kMotionDepthFound)
+        accepted = both(accepted, tapsOnPlane(taps, r, accepted, normal, depths, tolerance));
       accepted = both(accepted, tapsFacing(gatherTaps(previousGeometricNormal, corner), normal, normalThreshold));
-      accepted = tapsOnPlane(taps, r, accepted, normal, depths, tolerance);
+      if (kMotionDepthFound) accepted = both(accepted, tapsOnPlane(taps, r, accepted, normal, depths, tolerance));
     }
   }
   taps.accepted = accepted;
