@@ -1,4 +1,6 @@
 // History lengths out of a denoiser, and the host's confidence in its history.
+#include <algorithm>
+#include <cstdint>
 #include <cstring>
 #include <limits>
 #include <string>
@@ -6,6 +8,8 @@
 
 #include <gtest/gtest.h>
 #include <glm/gtc/packing.hpp>
+
+#include <walr/walr_passes.h>
 
 #include "tests/integration/hosted_run.h"
 #include "tests/passes/synthetic_scene.h"
@@ -168,6 +172,42 @@ TEST_F(History, ConfidenceIsReadInItsRectangle) {
     (void)run.frame(cameraOf(i));
     expectLengths(run, frame, [&](glm::ivec2 p) { return isLeft(p) ? 1.0F : float(i) + 1.0F; });
   }
+}
+
+/// Names of the host's images in a list of passes.
+std::vector<std::string> hostImages(const WalrDenoiserInfo& info) {
+  WalrPassesInfo wanted{};
+  wanted.struct_size = sizeof(wanted);
+  wanted.denoiser = &info;
+  WalrPasses passes = nullptr;
+  require(walr_create_passes(&wanted, &passes));
+  const WalrPassList* list = nullptr;
+  require(walr_get_pass_list(passes, &list));
+  std::vector<std::string> names;
+  for (std::uint32_t i = 0; i < list->resource_count; ++i)
+    if (list->resources[i]->kind == WALR_RESOURCE_HOST) names.emplace_back(list->resources[i]->name);
+  require(walr_destroy_passes(passes));
+  return names;
+}
+
+TEST(HistoryPassByPass, BothImagesAreTheHosts) {
+  WalrDenoiserInfo info{};
+  info.struct_size = sizeof(info);
+  info.width = static_cast<std::uint32_t>(kSize.x);
+  info.height = static_cast<std::uint32_t>(kSize.y);
+  const auto has = [&](const char* name) { return std::ranges::count(hostImages(info), std::string(name)) == 1; };
+  EXPECT_FALSE(has("confidence"));
+  EXPECT_FALSE(has("history_length"));
+  info.confidence_format = VK_FORMAT_R8_UNORM;
+  info.history_length = VK_TRUE;
+  EXPECT_TRUE(has("confidence"));
+  EXPECT_TRUE(has("history_length"));
+  info.method = "temporal_accumulation";
+  EXPECT_THROW(hostImages(info), std::runtime_error);
+  info.history_length = VK_FALSE;
+  EXPECT_TRUE(has("confidence"));
+  info.confidence_format = VK_FORMAT_R32_UINT;
+  EXPECT_THROW(hostImages(info), std::runtime_error);
 }
 
 TEST_F(History, AMethodWithoutItSaysSo) {

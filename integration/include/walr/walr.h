@@ -404,7 +404,7 @@ typedef struct WalrFrame {
   const WalrImage* view; /* Receives the view that walr_set_view has chosen. Null if there is none. */
   /* Optional, see WalrDenoiserInfo::confidence_format: how much of its history of light a pixel may use, 0 to 1. The
    * longest history is multiplied by it. 0: none; 1, or NaN: as without the image. It does not concern
-   * anti-aliasing, which clips its history. */
+   * what is averaged after a filter: anti-aliasing, which clips its history, and the second accumulation of bmfr. */
   const WalrImage* confidence;
   /* With WalrDenoiserInfo::history_length: an R16F image of exactly the denoised size that receives the number of
    * frames, with this one, in the mean of each pixel's light; 0 where there is nothing to denoise. */
