@@ -3,6 +3,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "passes/history_length.h"
 #include "passes/lint_inputs.h"
 #include "shaders/constants/frame.h"
 
@@ -19,7 +20,7 @@ namespace {
 
 /// The number of channels of an input that are read.
 std::uint32_t channelsRead(const HostInput& input, const InputConventions& conventions, const HostConventions& host) {
-  const bool flatMotion = conventions.motionDepth == InputConventions::MotionDepth::StaticScene;
+  const bool flatMotion = conventions.motionDepth != InputConventions::MotionDepth::Given;
   const bool twoChannels = (input.texture == &DenoiserInputs::motion && flatMotion) ||
                            (input.texture == &DenoiserInputs::normal && host.octahedral());
   return twoChannels ? 2 : input.channels;
@@ -78,6 +79,11 @@ DenoiseGraph declareDenoiseGraph(Denoiser& method, fg::Extent extent, const Inpu
     inspection.want(view,
                     graph.import("view of " + view, {.format = kViewFormat, .extent = extent}, states.outputBefore));
   }
+  if (wanted.historyLength) {
+    declared.historyLength = graph.import(std::string(kHistoryLengthName),
+                                          {.format = kHistoryLengthFormat, .extent = extent}, states.outputBefore);
+    inspection.wantHistoryLength(declared.historyLength);
+  }
   if (wanted.counters) {
     inspection.wantCounters(graph.import("counters", fg::BufferDesc{kCounterBytes}, states.outputBefore));
   }
@@ -88,6 +94,7 @@ DenoiseGraph declareDenoiseGraph(Denoiser& method, fg::Extent extent, const Inpu
   }
   fg::Texture denoised = method.add({graph, inspection}, inputs, target);
   for (const DebugView& view : inspection.views()) graph.exported(view.texture, states.outputAfter);
+  if (wanted.historyLength) graph.exported(inspection.historyLength(), states.outputAfter);
   if (!inspection.counters().empty()) graph.exported(inspection.counterBuffer(), states.outputAfter);
   if (host.convertsResult()) denoised = addConvertResult(graph, denoised, declared.output, declared.host);
   graph.exported(denoised, states.outputAfter);

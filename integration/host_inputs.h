@@ -20,15 +20,17 @@ struct HostInput {
 };
 
 /// The textures of `DenoiserInputs`.
-extern const std::array<HostInput, 6> kHostInputs;
+extern const std::array<HostInput, 7> kHostInputs;
 
 /// The input with a name; null if there is none.
 const HostInput* hostInputNamed(std::string_view name);
 
-/// Names of the upload buffer `DenoiserInputs::frame`, of the one with `HostConstants`, and of the result's texture.
+/// Names of the upload buffer `DenoiserInputs::frame`, of the one with `HostConstants`, of the result's texture,
+/// and of that with history lengths.
 inline constexpr std::string_view kFrameName = "frame";
 inline constexpr std::string_view kHostName = "host";
 inline constexpr std::string_view kOutputName = "denoised";
+inline constexpr std::string_view kHistoryLengthName = "history_length";
 inline constexpr VkFormat kOutputFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
 
 /// Check that a host's texture can be used as an input.

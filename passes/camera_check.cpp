@@ -97,6 +97,17 @@ void checkProjection(const glm::mat4& projection, bool orthographic) {
   checkAxes(p, glm::dvec2(p[3][0], p[3][1]), kEye, reject);
 }
 
+void checkOrigin(const glm::dvec3& origin) {
+  // Doubles of this size are rounded by 2^-24, as floats of size 1.
+  constexpr double kFarthest = 0x1p29;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (std::abs(origin[axis]) <= kFarthest) continue;
+    throw std::invalid_argument("the camera's origin is " + std::to_string(origin[axis]) +
+                                " along an axis: it must be finite and at most 2^29 units from the world's, which is " +
+                                "as far as double precision suffices; take an origin nearer to the camera");
+  }
+}
+
 void checkView(const glm::mat4& view) {
   const auto reject = [](const std::string& cause) { refuse("view", cause); };
   const glm::dmat4 v(view);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
 
 namespace walr {
 
@@ -15,5 +16,10 @@ void checkProjection(const glm::mat4& projection, bool orthographic = false);
 /// Refuse a matrix that is not a rotation and a translation.
 /// @throws std::invalid_argument naming the most likely cause: transposed, mirrored (left-handed), scaled, sheared
 void checkView(const glm::mat4& view);
+
+/// Refuse an origin that is not finite, or so far away that doubles do not hold it to the precision that floats have
+/// near the camera.
+/// @throws std::invalid_argument
+void checkOrigin(const glm::dvec3& origin);
 
 }  // namespace walr

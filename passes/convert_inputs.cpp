@@ -41,20 +41,40 @@ fg::Texture convertNormal(fg::Graph& graph, fg::Texture normal, const HostConven
   return pass.store("target", converted(graph, "normal", kColour, normal));
 }
 
+/// What a conversion does to the values of a texture.
+struct ValueChange {
+  bool back = false;  ///< To the host's texture, not from it.
+  bool exposed = false;
+  bool reversed = false;
+};
+
+fg::PassBuilder convertValues(fg::Graph& graph, const std::string& what, const fg::Shader& shader, fg::Texture source,
+                              fg::Buffer host, const ValueChange& change) {
+  fg::PassBuilder pass = convert(graph, what, shader, source, host);
+  pass.specialize("kBack", change.back).specialize("kExposed", change.exposed).specialize("kReversed", change.reversed);
+  return pass;
+}
+
 fg::Texture convertMotion(fg::Graph& graph, fg::Texture motion, bool reversed, fg::Buffer host) {
-  fg::PassBuilder pass = convert(graph, "motion", shaders::convertInputMotion, motion, host);
-  pass.specialize("kReversed", reversed);
-  return pass.store("target", converted(graph, "motion", VK_FORMAT_R32G32B32A32_SFLOAT, motion));
+  // Single precision: halves are too coarse for motion in units of the image's size (UV).
+  return convertValues(graph, "motion", shaders::convertInputValuesSingle, motion, host, {.reversed = reversed})
+      .store("target", converted(graph, "motion", VK_FORMAT_R32G32B32A32_SFLOAT, motion));
+}
+
+fg::Texture convertColour(fg::Graph& graph, const std::string& what, fg::Texture source, bool exposed,
+                          fg::Buffer host) {
+  return convertValues(graph, what, shaders::convertInputValues, source, host, {.exposed = exposed})
+      .store("target", converted(graph, what, kColour, source));
 }
 
 const fg::Shader& resultShader(VkFormat format) {
   switch (format) {
     case VK_FORMAT_R32G32B32A32_SFLOAT:
-      return shaders::convertInputExposureSingle;
+      return shaders::convertInputValuesSingle;
     case VK_FORMAT_B10G11R11_UFLOAT_PACK32:
-      return shaders::convertInputExposurePacked;
+      return shaders::convertInputValuesPacked;
     default:
-      return shaders::convertInputExposure;
+      return shaders::convertInputValues;
   }
 }
 
@@ -88,13 +108,11 @@ DenoiserInputs addConvertInputs(fg::Graph& graph, DenoiserInputs inputs, const H
     inputs.motion = convertMotion(graph, inputs.motion, conventions.motionDepthReversed, host);
   }
   if (all || conventions.preExposed) {
-    fg::PassBuilder pass = convert(graph, "lighting", shaders::convertInputExposure, inputs.lighting, host);
-    inputs.lighting =
-        pass.specialize("kBack", false).store("target", converted(graph, "lighting", kColour, inputs.lighting));
+    inputs.lighting = convertColour(graph, "lighting", inputs.lighting, true, host);
   }
-  if (all) {
-    inputs.albedo = convert(graph, "albedo", shaders::convertInputCopy, inputs.albedo, host)
-                        .store("target", converted(graph, "albedo", kColour, inputs.albedo));
+  if (all) inputs.albedo = convertColour(graph, "albedo", inputs.albedo, false, host);
+  if (all && inputs.confidence.valid()) {
+    inputs.confidence = convertColour(graph, "confidence", inputs.confidence, false, host);
   }
   if (all && inputs.objectId.valid()) {
     inputs.objectId = convert(graph, "object numbers", shaders::convertInputNumbers, inputs.objectId, host)
@@ -104,8 +122,9 @@ DenoiserInputs addConvertInputs(fg::Graph& graph, DenoiserInputs inputs, const H
 }
 
 fg::Texture addConvertResult(fg::Graph& graph, fg::Texture denoised, fg::Texture output, fg::Buffer host) {
-  fg::PassBuilder pass = convert(graph, "result", resultShader(graph.textureDesc(output).format), denoised, host);
-  return pass.specialize("kBack", true).store("target", output);
+  return convertValues(graph, "result", resultShader(graph.textureDesc(output).format), denoised, host,
+                       {.back = true, .exposed = true})
+      .store("target", output);
 }
 
 }  // namespace walr

@@ -89,7 +89,7 @@ class DenoiserOf final : public Denoiser {
     DenoiserInputs described = inputs;
     described.scene = common(inputs.scene, scene_);
     const fg::Texture denoised = kAdd(graph, described, output, settings_);
-    graph.requireViews();
+    graph.requireOutputs();
     return denoised;
   }
 

@@ -1,6 +1,7 @@
 #include "passes/frame.h"
 
 #include <glm/gtc/matrix_inverse.hpp>
+#include <glm/gtc/matrix_transform.hpp>
 
 #include "passes/camera_check.h"
 #include "passes/orthographic.h"
@@ -36,6 +37,7 @@ FrameConstants frameConstants(const FrameDescription& frame, fg::Extent extent) 
   for (const glm::mat4& projection : {frame.projection, frame.previousProjection}) {
     checkProjection(projection, frame.orthographic);
   }
+  for (const glm::dvec3& origin : {frame.origin, frame.previousOrigin}) checkOrigin(origin);
   const Camera now = cameraOf(frame.view, frame.projection, frame.orthographic);
   const Camera previous = cameraOf(frame.previousView, frame.previousProjection, frame.orthographic);
   const glm::dvec4 ray = rayFromPixel(now.projection, frame.jitter, extent);
@@ -49,7 +51,9 @@ FrameConstants frameConstants(const FrameDescription& frame, fg::Extent extent) 
 
   FrameConstants constants{};
   constants.viewFromWorld = glm::mat4(now.view);
-  constants.previousViewFromView = glm::mat4(previous.view * glm::inverse(now.view));
+  // A point relative to the previous origin is the same point relative to this one plus their difference.
+  const glm::dmat4 previousFromNow = glm::translate(glm::dmat4(1.0), frame.origin - frame.previousOrigin);
+  constants.previousViewFromView = glm::mat4(previous.view * previousFromNow * glm::inverse(now.view));
   constants.rayFromPixel = glm::vec4(ray);
   constants.previousRayFromPixel = glm::vec4(previousRay);
   constants.motionScale = frame.motionScale;

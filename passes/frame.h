@@ -5,6 +5,7 @@
 
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 
 #include "framegraph/declare/graph.h"
 #include "shaders/constants/frame.h"
@@ -27,6 +28,10 @@ struct FrameDescription {
   /// Size of the previous frame if it differs from this one's. Motion is in pixels of this frame even then; each jitter
   /// is in pixels of its own frame.
   std::optional<fg::Extent> previousExtent = std::nullopt;
+  /// The position in the world, scene units, that `view` is relative to, and that of the previous frame. In large
+  /// worlds it lies near the camera and moves with it, so that single-precision matrices are exact enough.
+  glm::dvec3 origin{0.0};
+  glm::dvec3 previousOrigin{0.0};
   float skyDepth = 1e9F;  ///< Scene units: a linear view depth from here on is sky.
   /// Both projections are orthographic, and the depth texture is converted: see `HostConventions::orthographic`.
   bool orthographic = false;
@@ -34,7 +39,7 @@ struct FrameDescription {
 
 /// The uniform block that the passes read, computed in double precision.
 /// @param extent the image's size
-/// @throws std::invalid_argument as `checkView` and `checkProjection` do (camera_check.h)
+/// @throws std::invalid_argument as `checkView`, `checkProjection` and `checkOrigin` do (camera_check.h)
 FrameConstants frameConstants(const FrameDescription& frame, fg::Extent extent);
 
 }  // namespace walr

@@ -53,6 +53,7 @@ std::vector<LintFinding> InputLinter::findings() const {
                "jitter was left in the projection matrix",
                "hand over the projection without jitter, and the jitter by itself"});
   }
+  judge.judgeOrigin();
   judge.judgeDepth();
   judge.judgeValues();
   judge.judgeNormals();

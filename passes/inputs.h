@@ -14,6 +14,9 @@ struct InputConventions {
   enum class MotionDepth {
     Given,        ///< The motion texture's third channel.
     StaticScene,  ///< Computed from depth and the two view matrices; right where only the camera moves.
+    /// Taken from the history pixel that motion.xy leads to and that is nearest to where a still surface would be, if
+    /// it is near enough (reprojection.glsl). Methods need a test of history (`HistoryRejection`) for it.
+    Found,
   };
   Space normal = Space::View;
   MotionDepth motionDepth = MotionDepth::Given;
@@ -22,7 +25,7 @@ struct InputConventions {
   bool motionJittered = true;
 };
 
-/// The textures that every denoiser takes, all of one extent; `objectId` may be left out.
+/// The textures that every denoiser takes, all of one extent; `objectId` and `confidence` may be left out.
 struct DenoiserInputs {
   fg::Texture lighting;  ///< RGBA16F: demodulated diffuse indirect radiance, linear, 1 sample per pixel. Alpha unused.
   fg::Texture depth;     ///< R32F: linear view depth (-z of view space), scene units; sky at or beyond `skyDepth`.
@@ -32,6 +35,9 @@ struct DenoiserInputs {
   /// R32_UINT, or another format of unsigned integers: id of the object that the pixel shows, constant from frame to
   /// frame; 0xffffffff: none. If present, it tells the histories of different objects apart.
   fg::Texture objectId = {};
+  /// R8_UNORM, or another format of floats: how much of its history a pixel may use, 0 to 1. If present, it scales the
+  /// longest history of light; NaN counts as 1.
+  fg::Texture confidence = {};
   fg::Buffer frame;  ///< Upload of `FrameConstants` (passes/frame.h).
   InputConventions conventions;
   SceneDescription scene = {};

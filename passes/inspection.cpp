@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "passes/history_length.h"
 #include "passes/text.h"
 #include "shaders/shaders.h"
 
@@ -71,6 +72,18 @@ void Inspection::count(fg::Graph& graph, const ViewInfo& view, const std::string
     counters_.push_back(std::move(counter));
   }
   words_ += static_cast<std::uint32_t>(kComponents.size());
+}
+
+void Inspection::offerHistoryLength(fg::Graph& graph, fg::Texture accumulated, std::uint32_t channel) {
+  if (!historyLength_.valid()) return;
+  historyLength_ = addHistoryLength(graph, accumulated, channel, historyLength_);
+  historyLengthWritten_ = true;
+}
+
+void Inspection::requireHistoryLength() const {
+  if (!historyLength_.valid() || historyLengthWritten_) return;
+  throw std::invalid_argument(
+      "there is no history length: with these settings the method does not accumulate light over time (spatial-only)");
 }
 
 void Inspection::requireViews() const {

@@ -10,9 +10,10 @@
 #include "framegraph/declare/graph.h"
 #include "shaders/constants/count.h"
 
-/// Inspecting a method while it runs: views, which are images of intermediate values of a stage, and counters, which
-/// say how often something happened in a frame. Each view has a pass of its own, which repeats its stage's work and
-/// writes the intermediate value. A view that is not wanted has no pass, no texture and no branch in any shader.
+/// Inspecting a method while it runs: the history length of every pixel; views, which are images of intermediate values
+/// of a stage, and counters, which say how often something happened in a frame. Each view has a pass of its own, which
+/// repeats its stage's work and writes the intermediate value. A view that is not wanted has no pass, no texture and no
+/// branch in any shader.
 namespace walr {
 
 /// A counter: components of a view that hold a count at each pixel, summed over all pixels.
@@ -68,6 +69,13 @@ class Inspection {
   /// @param buffer of `kCounterBytes`
   void wantCounters(fg::Buffer buffer) { buffer_ = buffer; }
 
+  /// Have the history length of every pixel written: the number of frames, with the present one, in the mean of its
+  /// light; 0 where there is nothing to denoise.
+  /// @param texture of `kHistoryLengthFormat` and the inputs' extent
+  void wantHistoryLength(fg::Texture texture) { historyLength_ = texture; }
+
+  /// The texture of history lengths as the last pass leaves it; not valid if nobody wants it.
+  [[nodiscard]] fg::Texture historyLength() const { return historyLength_; }
   [[nodiscard]] const std::vector<DebugView>& views() const { return views_; }
   /// The counters' buffer as the last pass leaves it.
   [[nodiscard]] fg::Buffer counterBuffer() const { return buffer_; }
@@ -83,6 +91,12 @@ class Inspection {
   void offer(fg::Graph& graph, std::span<const ViewInfo> views, fg::Extent extent, const DeclareView& declare,
              StageIteration iteration = {});
 
+  /// Called by the stage that accumulates light: write the history length, if it is wanted.
+  /// @param channel see `addHistoryLength`
+  void offerHistoryLength(fg::Graph& graph, fg::Texture accumulated, std::uint32_t channel);
+
+  /// @throws std::invalid_argument if the history length is wanted and no stage has it
+  void requireHistoryLength() const;
   /// @throws std::invalid_argument naming a wanted view that no stage has written, and the known ones
   void requireViews() const;
 
@@ -90,6 +104,8 @@ class Inspection {
   void count(fg::Graph& graph, const ViewInfo& view, const std::string& suffix, fg::Texture texture);
 
   std::vector<DebugView> views_;
+  fg::Texture historyLength_;
+  bool historyLengthWritten_ = false;
   fg::Buffer buffer_;
   std::vector<Counter> counters_;
   std::vector<ViewInfo> known_;

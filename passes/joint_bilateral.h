@@ -17,7 +17,8 @@ struct JointBilateralSettings {
   /// Accumulation of the filtered frames (Wang 2024, 4): alpha 0.2, clamped to the 7x7 neighbourhood. The text leaves
   /// open to how many standard deviations. Filtered pixels vary little: a tight clamp would reject the previous frame
   /// for its noise alone.
-  TemporalAntialiasingSettings accumulation{.maxHistory = 5.0F, .clipGamma = 8.0F, .clipRadius = 3, .objectIds = true};
+  TemporalAntialiasingSettings accumulation{
+      .maxHistory = 5.0F, .clipGamma = 8.0F, .clipRadius = 3, .objectIds = true, .accumulates = true};
 
   void visit(SettingVisitor& v) {
     v.visit({"spatial-only", "Filter each frame by itself, without temporal stages", "", 0, 1, "Wang 2024"},

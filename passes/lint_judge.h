@@ -22,6 +22,7 @@ class LintJudge {
   std::vector<LintFinding> take() { return std::move(found_); }
   void add(LintFinding finding) { found_.push_back(std::move(finding)); }
 
+  void judgeOrigin();   ///< lint_values.cpp
   void judgeDepth();    ///< lint_values.cpp
   void judgeValues();   ///< lint_values.cpp
   void judgeNormals();  ///< lint_normals.cpp

@@ -66,7 +66,8 @@ void LintJudge::judgeMotionDepth() {
          "motion.z is zero on " + share(counts_[kLintMotionZ + kReadingNone], tested, "pixels") +
              " whose depth the camera changes",
          "motion has no third channel",
-         "write previous minus current view depth, or state that there is none (WALR_MOTION_DEPTH_STATIC_SCENE)"});
+         "write previous minus current view depth, or state that there is none (WALR_MOTION_DEPTH_FOUND, or "
+         "WALR_MOTION_DEPTH_STATIC_SCENE where only the camera moves)"});
   }
 }
 

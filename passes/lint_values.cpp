@@ -12,6 +12,19 @@ std::string share(std::uint64_t part, std::uint64_t whole, const std::string& of
   return std::string(percent.data()) + " of " + std::to_string(whole) + " " + of;
 }
 
+void LintJudge::judgeOrigin() {
+  const std::uint64_t surfaces = counts_[kLintSurfaces];
+  const std::uint64_t rounded = counts_[kLintRounded];
+  if (!isMost(rounded, surfaces)) return;
+  add({"origin-far",
+       "the camera is so far from the origin that the rounding of its view matrix may move a surface by more than a "
+       "tenth of a pixel, on " +
+           share(rounded, surfaces, "surfaces"),
+       "the view matrix holds a position in a large world, in single precision",
+       "make the matrices relative to an origin near the camera, and hand over the origin (WalrFrame::origin, "
+       "FrameDescription::origin)"});
+}
+
 void LintJudge::judgeDepth() {
   const std::uint64_t pixels = counts_[kLintPixels];
   if (isMany(counts_[kLintDepthNegative], pixels)) {

@@ -16,6 +16,8 @@ void readReprojection(const fg::Graph& graph, fg::PassBuilder& pass, const Denoi
   pass.specialize("kJitter", inputs.scene.jitter && (!fromTexture || inputs.conventions.motionJittered))
       .specialize("kMotionFromCamera", !fromTexture)
       .specialize("kMotionDepthGiven", inputs.conventions.motionDepth == InputConventions::MotionDepth::Given)
+      .specialize("kMotionDepthFound",
+                  fromTexture && inputs.conventions.motionDepth == InputConventions::MotionDepth::Found)
       .specialize("kRejectByPlane", byPlane)
       .specialize("kRejectByDepth", byDepth)
       .specialize("kShortNormals", byPlane && graph.textureDesc(guides.geometricNormal).format == VK_FORMAT_R16_UINT)
@@ -26,6 +28,13 @@ void readReprojection(const fg::Graph& graph, fg::PassBuilder& pass, const Denoi
   if (settings.preparesGuides) return;
   pass.specialize("kDilateMotion", settings.dilateMotion)
       .sampleIf(byPlane, "geometricNormal", guides.geometricNormal, standIns.number);
+}
+
+void readConfidence(fg::PassBuilder& pass, fg::Texture confidence, const DenoiserInputs& inputs,
+                    const StandIns& standIns) {
+  const bool known = confidence.valid();
+  pass.specialize("kConfidence", known)
+      .sampleIf(known || !standIns.colour.valid(), "confidence", known ? confidence : inputs.lighting, standIns.colour);
 }
 
 void readObjectIds(fg::PassBuilder& pass, const ObjectIds& objects, const StandIns& standIns) {

@@ -44,6 +44,11 @@ struct StandIns {
 void readReprojection(const fg::Graph& graph, fg::PassBuilder& pass, const DenoiserInputs& inputs, const Guides& guides,
                       const ReprojectionSettings& settings, const StandIns& standIns);
 
+/// Declare what a shader with confidence.glsl reads.
+/// @param confidence not valid if the host has none, or the pass leaves it unread
+void readConfidence(fg::PassBuilder& pass, fg::Texture confidence, const DenoiserInputs& inputs,
+                    const StandIns& standIns);
+
 /// Declare what a shader with OBJECTS reads in addition.
 /// @param objects not valid if objects are not told apart
 void readObjectIds(fg::PassBuilder& pass, const ObjectIds& objects, const StandIns& standIns);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <span>
 
 #include "framegraph/declare/graph.h"
@@ -22,9 +23,15 @@ class StageGraph {
              StageIteration iteration = {}) const {
     if (inspection_ != nullptr) inspection_->offer(*graph_, views, extent, declare, iteration);
   }
-  /// @throws std::invalid_argument naming a wanted view that no stage has offered
-  void requireViews() const {
-    if (inspection_ != nullptr) inspection_->requireViews();
+  /// Offer the mean over time of the method's light: see `Inspection::offerHistoryLength`.
+  void offerHistoryLength(fg::Texture accumulated, std::uint32_t channel = 3) const {
+    if (inspection_ != nullptr) inspection_->offerHistoryLength(*graph_, accumulated, channel);
+  }
+  /// @throws std::invalid_argument naming a wanted view that no stage has offered, or saying that no stage has history
+  void requireOutputs() const {
+    if (inspection_ == nullptr) return;
+    inspection_->requireViews();
+    inspection_->requireHistoryLength();
   }
 
  private:

@@ -18,8 +18,9 @@ SvgfAccumulated addSvgfAccumulation(StageGraph graph, const DenoiserInputs& inpu
   const auto declare = [&](const std::string& name, const fg::Shader& shader) {
     fg::PassBuilder pass = graph->compute(name, shader);
     pass.uniform("frameConstants", inputs.frame).sample("depth", guides.depth);
-    readReprojection(graph, pass, inputs, guides, {MotionSource::Texture, HistoryRejection::Plane},
-                     {.colour = inputs.lighting, .number = guides.depth});
+    const StandIns standIns{.colour = inputs.lighting, .number = guides.depth};
+    readReprojection(graph, pass, inputs, guides, {MotionSource::Texture, HistoryRejection::Plane}, standIns);
+    readConfidence(pass, inputs.confidence, inputs, standIns);
     pass.sample("lighting", inputs.lighting)
         .sample("previousColour", previousColour)
         .sample("previousMoments", moments.previous)
@@ -37,6 +38,7 @@ SvgfAccumulated addSvgfAccumulation(StageGraph graph, const DenoiserInputs& inpu
   SvgfAccumulated accumulated;
   accumulated.colour = pass.store("outColour", colour);
   accumulated.moments = pass.store("outMoments", moments.current);
+  graph.offerHistoryLength(accumulated.moments, 2);
   return accumulated;
 }
 

@@ -65,8 +65,9 @@ void readInputs(const Stage& stage, fg::PassBuilder& pass, Role role) {
   reprojection.preparesGuides = role == Role::GuidesMeanAndTaps;
   pass.uniform("frameConstants", stage.inputs.frame)
       .specialize("kBicubicHistory", settings.historyFilter == HistoryFilter::Bicubic);
-  readReprojection(stage.graph, pass, stage.inputs, stage.guides, reprojection,
-                   {.colour = stage.inputs.lighting, .number = stage.guides.depth});
+  const StandIns standIns{.colour = stage.inputs.lighting, .number = stage.guides.depth};
+  readReprojection(stage.graph, pass, stage.inputs, stage.guides, reprojection, standIns);
+  readConfidence(pass, stage.inputs.confidence, stage.inputs, standIns);
   if (!stage.keepTaps || role == Role::View) pass.specialize("kStill", reprojection.motion == MotionSource::None);
   if (role == Role::View) pass.specialize("kKeepableMotion", stage.keepTaps).specialize("kAntilag", antilag);
   if (antilag) {
@@ -96,6 +97,7 @@ void offerViews(const Stage& stage) {
 /// Add a pass's output, and antilag if the stage has it.
 fg::Texture storeMean(const Stage& stage, fg::PassBuilder& pass) {
   const fg::Texture mean = pass.store("outAccumulated", stage.accumulated.current);
+  stage.graph.offerHistoryLength(mean);
   if (stage.antilag) {
     Antilag antilag = *stage.antilag;
     antilag.tiles = pass.store("outTiles", antilag.tiles);

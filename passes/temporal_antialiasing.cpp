@@ -54,8 +54,10 @@ fg::Texture addStage(StageGraph graph, bool kept, const ReadHistory& read, fg::T
   };
   graph.offer(antialiasingViews(), extent, [&](const std::string& name) { return declare(name, true); });
   fg::PassBuilder pass = declare("temporal anti-aliasing", false);
-  (void)pass.store("outResolved", resolved.current);
-  return pass.store("outImage", output);
+  const fg::Texture mean = pass.store("outResolved", resolved.current);
+  const fg::Texture image = pass.store("outImage", output);
+  if (settings.accumulates) graph.offerHistoryLength(mean);
+  return image;
 }
 
 }  // namespace
@@ -77,6 +79,7 @@ fg::Texture addTemporalAntialiasing(StageGraph graph, const DenoiserInputs& inpu
         .sampleIf(!still || !packed, "depth", guides.depth, standIns.number)
         .specialize("kStill", still);
     readReprojection(graph, pass, inputs, guides, reprojection, standIns);
+    readConfidence(pass, settings.accumulates ? inputs.confidence : fg::Texture{}, inputs, standIns);
     readObjectIds(pass, ids, standIns);
     if (view) pass.specialize("kKeepableMotion", false);
     if (packed && !view) pass.sample("passThrough", inputs.lighting);

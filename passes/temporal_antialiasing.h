@@ -25,6 +25,9 @@ struct TemporalAntialiasingSettings {
   bool objectIds = false;
   bool dilateMotion = false;
   LightStorage storage = LightStorage::Half;
+  /// The method's only accumulation of light: its history length is the method's, and the host's confidence holds for
+  /// it. Not a setting; needs the storage `LightStorage::Half`.
+  bool accumulates = false;
 
   void visit(SettingVisitor& v) {
     v.visit({"antialiasing.enabled", "Off leaves temporal anti-aliasing to the host", "", 0, 1,

@@ -1,7 +1,7 @@
 // Converts one texture from a host's conventions to the project's, or the result back to the host's. It is compiled
-// once for each kind of texture (DEPTH, NORMAL, MOTION, EXPOSURE, NUMBERS, COPY). A host's texture may be larger than
+// once for each kind of texture (DEPTH, NORMAL, VALUES, NUMBERS). A host's texture may be larger than
 // the rectangle that is denoised.
-// SINGLE, PACKED: EXPOSURE that stores RGBA32F or B10G11R11 instead of RGBA16F.
+// SINGLE, PACKED: VALUES that are stored as RGBA32F or B10G11R11 instead of RGBA16F.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -19,9 +19,6 @@ uniform texture2D source;
 layout(r32f) uniform writeonly image2D target;
 layout(constant_id = 0) const bool kDevice = false;    // From device depth.
 layout(constant_id = 1) const bool kNegative = false;  // From z of view space, which is negative.
-#elif defined(MOTION)
-// Single precision: halves are too coarse for motion in units of the image's size (UV).
-layout(rgba32f) uniform writeonly image2D target;
 #elif defined(SINGLE)
 layout(rgba32f) uniform writeonly image2D target;
 #elif defined(PACKED)
@@ -30,8 +27,10 @@ layout(r11f_g11f_b10f) uniform writeonly image2D target;
 layout(rgba16f) uniform writeonly image2D target;
 #endif
 layout(std140) uniform hostConstants { HostConstants host; };
-#ifdef EXPOSURE
-layout(constant_id = 2) const bool kBack = false;  // From the result to the host's texture.
+#ifdef VALUES
+layout(constant_id = 2) const bool kBack = false;      // From the result to the host's texture.
+layout(constant_id = 3) const bool kExposed = false;   // Light, to multiply by an exposure.
+layout(constant_id = 4) const bool kReversed = false;  // Motion whose third channel is current - previous view depth.
 #else
 const bool kBack = false;
 #endif
@@ -72,12 +71,6 @@ vec4 convert(vec4 value) {
 }
 #endif
 
-#ifdef MOTION
-layout(constant_id = 0) const bool kReversed = false;  // The third channel is current - previous view depth.
-
-vec4 convert(vec4 value) { return vec4(value.xy, kReversed ? -value.z : value.z, 0.0); }
-#endif
-
 #ifdef PACKED
 #include "include/small_float.glsl"
 vec4 stored(vec4 value) { return vec4(nearestSmallFloats(value.rgb), 1.0); }
@@ -85,16 +78,16 @@ vec4 stored(vec4 value) { return vec4(nearestSmallFloats(value.rgb), 1.0); }
 vec4 stored(vec4 value) { return value; }
 #endif
 
-#ifdef EXPOSURE
-vec4 convert(vec4 value) { return stored(vec4(value.rgb * (kBack ? host.exposure : host.inverseExposure), value.a)); }
+#ifdef VALUES
+vec4 convert(vec4 value) {
+  if (kExposed) value.rgb *= kBack ? host.exposure : host.inverseExposure;
+  if (kReversed) value.z = -value.z;
+  return stored(value);
+}
 #endif
 
 #ifdef NUMBERS
 uvec4 convert(uvec4 value) { return value; }
-#endif
-
-#ifdef COPY
-vec4 convert(vec4 value) { return value; }
 #endif
 
 void main() {

@@ -204,6 +204,9 @@ void countPixel(ivec2 p) {
   const vec3 given = texelFetch(motion, p, 0).xyz;
   const vec3 diffuse = albedoAt(p);
   countSurfaceValues(n, given.xy, diffuse);
+  // Each component of the translation is off by half a unit in the last place, in this frame and in the previous one.
+  const float rounding = length(frame.viewFromWorld[3].xyz) * exp2(-24.0) * 2.0;
+  count(kLintRounded, rounding > kMostRounding * z * abs(frame.rayFromPixel.x));
   countMotion(p, z, given.xy * frame.motionScale, given.z);
   countNormals(p, z, n);
   countPair(p, p + ivec2(1, 0), z, n, light, diffuse);

@@ -31,6 +31,7 @@ layout(rgba16f) uniform writeonly image2D outMoments;
 #endif
 layout(push_constant) uniform PushConstants { SvgfAccumulationConstants constants; };
 
+#include "include/confidence.glsl"
 #define HISTORY previousColour
 #include "include/reprojection.glsl"
 
@@ -82,7 +83,8 @@ void addSample(inout TemporalMoments m, vec3 radiance, float alpha, float moment
 vec3 clampedRadiance(vec3 noisy) { return clamp(noisy, vec3(0.0), vec3(kLargestHalf)); }
 
 // The history with this frame's sample. A sample that is not finite does not count: the moments stay as they were.
-TemporalMoments momentsWith(TemporalMoments m, vec3 noisy) {
+TemporalMoments momentsWith(ivec2 p, TemporalMoments m, vec3 noisy) {
+  m.samples = confidentLength(p, m.samples, constants.maxHistory);
   if (!isFinite(noisy)) return m;
   m.samples = min(m.samples + 1.0, constants.maxHistory);
   const float momentSamples = min(m.samples, constants.maxMomentHistory);
@@ -101,7 +103,7 @@ vec3 viewOf(ivec2 p, float z, vec3 noisy) {
   if (!surface) return vec3(0.0);
   const HistoryTaps taps = tapsOf(p, z);
   const TemporalMoments history = sampleHistory(taps);
-  return vec3(momentsWith(history, noisy).samples, tapsRejected(taps), history.samples == 0.0);
+  return vec3(momentsWith(p, history, noisy).samples, tapsRejected(taps), history.samples == 0.0);
 }
 #endif
 
@@ -119,7 +121,7 @@ void main() {
     imageStore(outMoments, p, vec4(0.0));
     return;
   }
-  const TemporalMoments m = momentsWith(sampleHistory(tapsOf(p, z)), noisy);
+  const TemporalMoments m = momentsWith(p, sampleHistory(tapsOf(p, z)), noisy);
   imageStore(outColour, p, nearestHalf(vec4(m.colour, 1.0)));
   imageStore(outMoments, p, nearestHalf(vec4(m.mean, sqrt(m.variance), m.samples, 0.0)));
 #endif

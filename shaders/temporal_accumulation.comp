@@ -88,6 +88,7 @@ float unpackHistoryLength(uint packed) { return unpackHistory(packed).a; }
 #include "include/antilag.glsl"
 #include "include/luminance.glsl"
 #endif
+#include "include/confidence.glsl"
 #define HISTORY previousAccumulated
 #include "include/bicubic.glsl"
 #include "include/reprojection.glsl"
@@ -115,6 +116,7 @@ ReprojectedHistory historyWithAntilag(ivec2 p, float z) {
 #if defined(ANTILAG) || defined(VIEW)
   if (kAntilag) found.mean.a = min(found.mean.a, longestHistory(found.position, constants.maxHistory));
 #endif
+  found.mean.a = confidentLength(p, found.mean.a, constants.maxHistory);
   return found;
 }
 

@@ -89,6 +89,7 @@ vec4 filteredOrPassThroughAt(ivec2 p) { return filteredAt(p); }
 
 #ifdef KEPT_TAPS
 const bool kStill = false;
+float confidentLength(ivec2 p, float samples, float most) { return samples; }
 
 HistoryTaps tapsOf(ivec2 p) {
   HistoryTaps taps = unpackTaps(p, texelFetch(keptTaps, p, 0).x, frame.previousPixelFromPixel);
@@ -96,6 +97,7 @@ HistoryTaps tapsOf(ivec2 p) {
   return taps;
 }
 #else
+#include "include/confidence.glsl"
 #define HISTORY previousResolved
 #define OBJECTS
 #include "include/reprojection.glsl"
@@ -108,10 +110,16 @@ HistoryTaps tapsOf(ivec2 p) {
 
 vec4 historyOf(ivec2 p, out int rejected) {
   rejected = 0;
-  if (kStill) return historyTexel(previousResolved, p);
-  const HistoryTaps taps = tapsOf(p);
-  rejected = tapsRejected(taps);
-  return bicubicOfTaps(previousResolved, taps);
+  vec4 history;
+  if (kStill) {
+    history = historyTexel(previousResolved, p);
+  } else {
+    const HistoryTaps taps = tapsOf(p);
+    rejected = tapsRejected(taps);
+    history = bicubicOfTaps(previousResolved, taps);
+  }
+  history.a = confidentLength(p, history.a, constants.maxHistory);
+  return history;
 }
 
 // Whether a pixel shows a surface. `colour`: its filtered colour.

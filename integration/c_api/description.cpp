@@ -21,7 +21,7 @@ WalrConventions checkedConventions(const WalrConventions* given) {
   WalrConventions conventions = readOptional(given, "WalrConventions");
   checkedEnum(conventions.normal_space, WALR_SPACE_WORLD, "WalrConventions::normal_space");
   checkedEnum(conventions.motion_unit, WALR_MOTION_PICTURES, "WalrConventions::motion_unit");
-  checkedEnum(conventions.motion_depth, WALR_MOTION_DEPTH_REVERSED, "WalrConventions::motion_depth");
+  checkedEnum(conventions.motion_depth, WALR_MOTION_DEPTH_FOUND, "WalrConventions::motion_depth");
   checkedEnum(conventions.depth, WALR_DEPTH_DEVICE, "WalrConventions::depth");
   checkedEnum(conventions.normals, WALR_NORMALS_OCTAHEDRAL_UNSIGNED, "WalrConventions::normals");
   for (float& scale : conventions.motion_scale) {
@@ -92,9 +92,11 @@ Description::Description(const WalrDenoiserInfo& info, Of of)
       method_(stage_ != nullptr ? nullptr : makeDenoiser(methodName_)),
       extent_(checkedExtent(info.width, info.height)),
       conventions_(checkedConventions(info.conventions)),
-      formats_{formatOr(info.lighting_format, 0), formatOr(info.depth_format, 1),  formatOr(info.normal_format, 2),
-               formatOr(info.motion_format, 3),   formatOr(info.albedo_format, 4), formatOr(info.object_id_format, 5)},
+      formats_{formatOr(info.lighting_format, 0),  formatOr(info.depth_format, 1),  formatOr(info.normal_format, 2),
+               formatOr(info.motion_format, 3),    formatOr(info.albedo_format, 4), formatOr(info.object_id_format, 5),
+               formatOr(info.confidence_format, 6)},
       resultFormat_(checkedResultFormat(info.denoised_format)),
+      historyLength_(info.history_length == VK_TRUE),
       slots_(checkedSlots(info.frames_in_flight)) {
   if (info.preset != nullptr) usePreset(info.preset);
   checkOrthographic(inputConventions(), hostConventions(), info.lint == VK_TRUE);
@@ -108,7 +110,9 @@ void Description::resize(std::uint32_t width, std::uint32_t height) {
 }
 
 DenoiseGraph Description::declare(const InspectionWish& wanted) const {
-  return declareDenoiseGraph(*method_, extent_, inputConventions(), kInnerStates, formats_, hostConventions(), wanted);
+  InspectionWish all = wanted;
+  all.historyLength = historyLength_;
+  return declareDenoiseGraph(*method_, extent_, inputConventions(), kInnerStates, formats_, hostConventions(), all);
 }
 
 ListedGraph Description::list(std::span<const WalrPortFormat> ports, const InspectionWish& wanted) const {
@@ -116,6 +120,11 @@ ListedGraph Description::list(std::span<const WalrPortFormat> ports, const Inspe
     throw Error(WALR_ERROR_INVALID_ARGUMENT, "stage '" + methodName_ +
                                                  "' cannot check inputs or count: set WalrDenoiserInfo::lint and "
                                                  "WalrDenoiserInfo::counters for a whole method");
+  }
+  if (stage_ != nullptr && historyLength_) {
+    throw Error(WALR_ERROR_INVALID_ARGUMENT, "stage '" + methodName_ +
+                                                 "' has no output 'history_length': set "
+                                                 "WalrDenoiserInfo::history_length for a whole method");
   }
   if (stage_ != nullptr) return listStage(ports);
   if (!ports.empty()) {
@@ -137,7 +146,7 @@ ListedGraph Description::listStage(std::span<const WalrPortFormat> ports) const 
     throw Error(
         WALR_ERROR_INVALID_ARGUMENT,
         "stage '" + methodName_ +
-            "' takes linear depth, signed normals, motion_depth as given or of a static scene, no pre-exposure, "
+            "' takes linear depth, signed normals, motion_depth as given, found or of a static scene, no pre-exposure, "
             "no rectangle, no orthographic camera and no denoised_format: convert the images yourself, or use a whole "
             "method");
   }
@@ -187,11 +196,13 @@ HostConventions Description::hostConventions() const {
 }
 
 InputConventions Description::inputConventions() const {
+  using MotionDepth = InputConventions::MotionDepth;
+  const WalrMotionDepth motionDepth = conventions_.motion_depth;
   return {.normal = conventions_.normal_space == WALR_SPACE_WORLD ? InputConventions::Space::World
                                                                   : InputConventions::Space::View,
-          .motionDepth = conventions_.motion_depth == WALR_MOTION_DEPTH_STATIC_SCENE
-                             ? InputConventions::MotionDepth::StaticScene
-                             : InputConventions::MotionDepth::Given,
+          .motionDepth = motionDepth == WALR_MOTION_DEPTH_STATIC_SCENE ? MotionDepth::StaticScene
+                         : motionDepth == WALR_MOTION_DEPTH_FOUND      ? MotionDepth::Found
+                                                                       : MotionDepth::Given,
           .motionJittered = conventions_.motion_jittered == VK_TRUE};
 }
 
@@ -212,6 +223,10 @@ Constants Description::constants(const FrameStatement& frame) const {
                                .motionScale = scale,
                                .frameIndex = frame.index.value_or(static_cast<std::uint32_t>(frames_)),
                                .previousExtent = lastExtent_,
+                               .origin = frame.origin,
+                               .previousOrigin = frame.previousCamera != nullptr ? frame.previousOrigin
+                                                 : lastCamera_                   ? lastOrigin_
+                                                                                 : frame.origin,
                                .orthographic = conventions_.orthographic == VK_TRUE};
   if (!(frame.skyDepth >= 0.0F)) throw Error(WALR_ERROR_INVALID_ARGUMENT, "sky_depth is negative or NaN");
   if (frame.skyDepth > 0.0F) description.skyDepth = frame.skyDepth;
@@ -236,12 +251,14 @@ glm::ivec2 Description::checkedOffset(glm::uvec2 offset) const {
 
 void Description::continueFrom(const Description& last) {
   lastCamera_ = last.lastCamera_;
+  lastOrigin_ = last.lastOrigin_;
   lastExtent_ = last.lastExtent_;
   frames_ = std::max(frames_, last.frames_);
 }
 
-void Description::advance(const WalrCamera& camera) {
-  lastCamera_ = camera;
+void Description::advance(const FrameStatement& frame) {
+  lastCamera_ = *frame.camera;
+  lastOrigin_ = frame.origin;
   lastExtent_ = extent_;
   ++frames_;
 }

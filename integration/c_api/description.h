@@ -10,7 +10,9 @@
 #include <vector>
 
 #include <walr/walr_passes.h>
+#include <glm/gtc/type_ptr.hpp>
 #include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 
 #include "framegraph/compile/compile.h"
 #include "framegraph/plan/plan.h"
@@ -32,15 +34,27 @@ struct Constants {
 struct FrameStatement {
   const WalrCamera* camera = nullptr;
   const WalrCamera* previousCamera = nullptr;  ///< Null means the camera of the frame before.
+  glm::dvec3 origin{0.0};
+  glm::dvec3 previousOrigin{0.0};  ///< Of `previousCamera`; not used if that is null.
   float skyDepth = 0.0F;
   float preExposure = 0.0F;
   glm::uvec2 offset{0};
   std::optional<std::uint32_t> index;  ///< Nothing means the number of frames before.
 };
 
-/// The frame index of a host that gives one.
-inline std::optional<std::uint32_t> givenIndex(std::uint32_t flags, std::uint32_t index) {
-  return (flags & WALR_FRAME_INDEX_GIVEN) != 0 ? std::optional(index) : std::nullopt;
+/// What the host says about a frame.
+/// @param frame WalrFrame or WalrPassFrame; must outlive the result
+template <typename Frame>
+FrameStatement statementOf(const Frame& frame) {
+  const bool givesIndex = (frame.flags & WALR_FRAME_INDEX_GIVEN) != 0;
+  return {.camera = frame.camera,
+          .previousCamera = frame.previous_camera,
+          .origin = glm::make_vec3(frame.origin),
+          .previousOrigin = glm::make_vec3(frame.previous_origin),
+          .skyDepth = frame.sky_depth,
+          .preExposure = frame.pre_exposure,
+          .offset = glm::make_vec2(frame.offset),
+          .index = givesIndex ? std::optional(frame.frame_index) : std::nullopt};
 }
 
 /// A graph that holds one method or stage between the host's images.
@@ -82,8 +96,8 @@ class Description {
   [[nodiscard]] Constants constants(const FrameStatement& frame) const;
   /// Take over camera, size and frame number of the frame that was recorded last with another description.
   void continueFrom(const Description& last);
-  /// Note that a frame with this camera was recorded.
-  void advance(const WalrCamera& camera);
+  /// Note that a frame was recorded.
+  void advance(const FrameStatement& frame);
 
   [[nodiscard]] Configurable& settings() const;
   /// @throws std::invalid_argument naming the unknown preset and the known ones
@@ -113,9 +127,11 @@ class Description {
   WalrConventions conventions_;
   std::array<VkFormat, std::tuple_size_v<decltype(kHostInputs)>> formats_;
   VkFormat resultFormat_;
+  bool historyLength_;
   std::uint32_t slots_;
   std::uint64_t frames_ = 0;
   std::optional<WalrCamera> lastCamera_;
+  glm::dvec3 lastOrigin_{0.0};  ///< Of `lastCamera_`.
   std::optional<fg::Extent> lastExtent_;
 };
 

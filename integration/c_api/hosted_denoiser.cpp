@@ -123,6 +123,7 @@ HostedDenoiser::Declared HostedDenoiser::compile(DenoiseGraph graph) const {
   declared.images[kOutputImage] = declared.graph.output;
   const auto& views = declared.graph.inspection.views();
   if (!views.empty()) declared.images[kViewImage] = views.front().texture;
+  declared.images[kHistoryLengthImage] = declared.graph.historyLength;
   for (std::size_t i = 0; i < kImageCount; ++i) {
     if (!declared.images[i].valid()) continue;  // The host has none.
     const fg::PlannedResource& planned = declared.plan.resources[declared.images[i].resource];
@@ -218,12 +219,13 @@ WalrImageRequirements HostedDenoiser::requirements(std::string_view image) {
 }
 
 FrameImages HostedDenoiser::checkedImages(const WalrFrame& frame) const {
-  const std::array<const WalrImage*, kImageCount> given{frame.lighting, frame.depth,     frame.normal,   frame.motion,
-                                                        frame.albedo,   frame.object_id, frame.denoised, frame.view};
+  const std::array<const WalrImage*, kImageCount> given{
+      frame.lighting,  frame.depth,      frame.normal,   frame.motion, frame.albedo,
+      frame.object_id, frame.confidence, frame.denoised, frame.view,   frame.history_length};
   FrameImages images{};
   for (std::size_t i = 0; i < kImageCount; ++i) {
     ImageNeeds needs = declared_->needs[i];
-    if (description_.rectangle() && i != kViewImage) needs.offset = {frame.offset[0], frame.offset[1]};
+    if (description_.rectangle() && i <= kOutputImage) needs.offset = {frame.offset[0], frame.offset[1]};
     images[i] = checkedImage(i, given[i], needs, device().context().view.queueFamily);
   }
   for (std::size_t i = 0; i < kImageCount; ++i) {
@@ -253,12 +255,8 @@ void HostedDenoiser::uploadIfUsed(fg::Buffer buffer, std::span<const std::byte> 
 void HostedDenoiser::record(VkCommandBuffer commandBuffer, const WalrFrame& frame) {
   if (commandBuffer == VK_NULL_HANDLE) throw Error(WALR_ERROR_INVALID_ARGUMENT, "the command buffer is null");
   checkFlags(frame.flags, WALR_FRAME_RESET_HISTORY | WALR_FRAME_INDEX_GIVEN, "WalrFrame::flags");
-  const Constants constants = description_.constants({.camera = frame.camera,
-                                                      .previousCamera = frame.previous_camera,
-                                                      .skyDepth = frame.sky_depth,
-                                                      .preExposure = frame.pre_exposure,
-                                                      .offset = glm::make_vec2(frame.offset),
-                                                      .index = givenIndex(frame.flags, frame.frame_index)});
+  const FrameStatement statement = statementOf(frame);
+  const Constants constants = description_.constants(statement);
   declare();
   const FrameImages images = checkedImages(frame);
   const fg::vk::TimelinePoint finished = device().finishedPoint(frame.finished, frame.finished_value);
@@ -281,7 +279,7 @@ void HostedDenoiser::record(VkCommandBuffer commandBuffer, const WalrFrame& fram
   lastImages_ = images;
   built_->lastFrame = description_.frames();
   completions_.note(description_.slot(), description_.frames(), finished);
-  description_.advance(*frame.camera);
+  description_.advance(statement);
 }
 
 void HostedDenoiser::recordGraph(VkCommandBuffer commandBuffer, const FrameDescription& camera, bool reset) {

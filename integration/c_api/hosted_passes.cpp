@@ -82,12 +82,8 @@ void HostedPasses::continueFrom(const HostedPasses& last) {
 
 void HostedPasses::beginFrame(const WalrPassFrame& frame) {
   checkFlags(frame.flags, WALR_FRAME_INDEX_GIVEN, "WalrPassFrame::flags");
-  const Constants constants = description_.constants({.camera = frame.camera,
-                                                      .previousCamera = frame.previous_camera,
-                                                      .skyDepth = frame.sky_depth,
-                                                      .preExposure = frame.pre_exposure,
-                                                      .offset = glm::make_vec2(frame.offset),
-                                                      .index = givenIndex(frame.flags, frame.frame_index)});
+  const FrameStatement statement = statementOf(frame);
+  const Constants constants = description_.constants(statement);
   if (recording_) {
     const fg::vk::TimelinePoint finished = device_->finishedPoint(frame.finished, frame.finished_value);
     completions_->require(description_.slot(), description_.frames(), finished);
@@ -102,7 +98,7 @@ void HostedPasses::beginFrame(const WalrPassFrame& frame) {
     afterAnother_ = description_.frames() > 0;
     for (const std::uint32_t resource : recording_->uploads()) recording_->upload(resource, frameConstants(resource));
   }
-  description_.advance(*frame.camera);
+  description_.advance(statement);
 }
 
 std::span<const std::byte> HostedPasses::frameConstants(std::uint32_t resource) const {

@@ -40,7 +40,8 @@ class UploadedTexture {
 std::array<VkFormat, kHostInputs.size()> formatsOf(bool objectIds) {
   std::array<VkFormat, kHostInputs.size()> formats{};
   std::ranges::transform(kHostInputs, formats.begin(), [&](const HostInput& input) {
-    return input.optional && !objectIds ? VK_FORMAT_UNDEFINED : input.format;
+    const bool given = !input.optional || (objectIds && input.texture == &DenoiserInputs::objectId);
+    return given ? input.format : VK_FORMAT_UNDEFINED;
   });
   return formats;
 }

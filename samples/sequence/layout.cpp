@@ -169,6 +169,16 @@ const Layout& projectLayout() {
   return layout;
 }
 
+Layout withMotionDepth(const Layout& layout, InputConventions::MotionDepth source) {
+  if (source == InputConventions::MotionDepth::Given && planeOf(layout, Role::Motion).components.size() < 3) {
+    throw InputError("the change of depth is not given: the motion of layout '" + std::string(layout.name) +
+                     "' has no third component; it can be found, or computed for a still scene");
+  }
+  Layout changed = layout;
+  changed.conventions.motionDepth = source;
+  return changed;
+}
+
 std::string RecognizedLayout::channel(std::string_view plane, char component) const {
   return (viewLayer.empty() ? "" : viewLayer + ".") + std::string(plane) + "." + component;
 }

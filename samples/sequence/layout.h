@@ -42,6 +42,10 @@ struct Layout {
 const Layout& cyclesLayout();
 const Layout& projectLayout();
 
+/// A layout whose change of depth has another source than the layout says.
+/// @throws InputError if it is to be given, and the layout's motion has no third component
+Layout withMotionDepth(const Layout& layout, InputConventions::MotionDepth source);
+
 /// The layout of a file, with the file's view layer.
 struct RecognizedLayout {
   const Layout* layout = nullptr;

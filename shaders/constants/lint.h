@@ -78,10 +78,15 @@ const uint kLintDividedLess = 162;
 const uint kLintOrders = 32;
 const uint kLintUnitOrder = 17;
 
-const uint kLintWords = 194;
+// Surfaces that the rounding of the view matrix moves by more than kMostRounding, because the camera is far from the
+// origin of its matrices.
+const uint kLintRounded = 194;
+
+const uint kLintWords = 195;
 
 // A random normal that faces the camera has a cosine above c with any direction with probability 1 - c.
 const float kFittingCosine = 0.8;
+const float kMostRounding = 0.1;  // Pixels, as much as the errors of a matrix that is accepted (camera_check.cpp).
 const float kAlbedoContrast = 2.0;
 const float kAlbedoLeast = 0.01;  // Below, a pixel has no diffuse lobe.
 

@@ -9,7 +9,7 @@
 // A texture is not read if no specialization constant asks for it: `motion` with kMotionFromCamera (nothing but the
 // camera moves), the others without the test that reads them (kRejectByPlane, kRejectByDepth, kRejectByObject). Without
 // any test, every pixel inside the image is accepted.
-// Takes constant_id 0, 1 and 10 to 16.
+// Takes constant_id 0, 1 and 10 to 17.
 #ifndef WALR_REPROJECTION_GLSL
 #define WALR_REPROJECTION_GLSL
 #include "camera.glsl"
@@ -18,6 +18,7 @@
 #include "surface.glsl"
 
 layout(constant_id = 0) const bool kMotionDepthGiven = true;
+layout(constant_id = 17) const bool kMotionDepthFound = false;  // Instead, by the taps (nearestTap).
 layout(constant_id = 12) const bool kMotionFromCamera = false;
 layout(constant_id = 13) const bool kRejectByPlane = true;
 layout(constant_id = 14) const bool kRejectByDepth = false;
@@ -45,7 +46,7 @@ uint packedGeometricNormalAt(ivec2 p) { return texelFetch(geometricNormal, p, 0)
 
 struct Reprojection {
   vec2 motion;  // To the previous frame, pixels of this one.
-  float depth;  // Of the surface in the previous frame.
+  float depth;  // Of the surface in the previous frame; with kMotionDepthFound, if it did not move.
 #ifdef OBJECTS
   uint object;  // Object id of the surface plus 1; 0: none. Only with kRejectByObject.
 #endif
@@ -116,20 +117,46 @@ vec3 previousNormalAt(ivec2 p) {
   return mat3(frame.previousViewFromView) * normal;
 }
 
-// Which taps, of the given depths, are within `tolerance` x depth of the surface.
-bvec4 tapsNear(Reprojection r, vec4 depths, float tolerance) {
-  return lessThanEqual(abs(depths - r.depth), vec4(tolerance * r.depth));
+bvec4 both(bvec4 a, bvec4 b) { return mix(bvec4(false), a, b); }
+
+// If depth is found, a surface may change its depth from one frame to the next by this share of it, besides the change
+// that the camera makes (integration/README.md, "Motion without depth").
+const float kMostDepthChange = 0.1;
+const float kNoTap = 3.4e38;
+
+// The value of the candidate that is nearest to that of a still surface, kNoTap if none is near enough. Values are
+// depths or, all of one direction, proportional to depths.
+float nearestTap(vec4 values, bvec4 candidates, float still, float tolerance) {
+  float most = max(kMostDepthChange * abs(still), tolerance);
+  float nearest = kNoTap;
+  for (int i = 0; i < 4; ++i) {
+    const float distance = abs(values[i] - still);
+    if (!candidates[i] || distance > most) continue;
+    nearest = values[i];
+    most = distance;
+  }
+  return nearest;
+}
+
+// Which taps, of the given depths, are within `tolerance` x depth of the surface. Candidates may tell its depth.
+bvec4 tapsNear(Reprojection r, bvec4 candidates, vec4 depths, float tolerance) {
+  tolerance *= r.depth;
+  const float surface = kMotionDepthFound ? nearestTap(depths, candidates, r.depth, tolerance) : r.depth;
+  return lessThanEqual(abs(depths - surface), vec4(tolerance));
 }
 
 // Which taps, of the given depths, are within `tolerance` x depth of the surface's plane. The product of its normal and
 // the view ray is linear over the image: it is computed at the first tap, and the others follow by its slope.
-bvec4 tapsOnPlane(HistoryTaps taps, Reprojection r, vec3 normal, vec4 depths, float tolerance) {
+// Candidates may tell the surface's depth.
+bvec4 tapsOnPlane(HistoryTaps taps, Reprojection r, bvec4 candidates, vec3 normal, vec4 depths, float tolerance) {
   const vec2 firstPixel = (vec2(taps.base) + 0.5) * frame.pixelFromPreviousPixel;
   const float first = dot(normal, rayThrough(frame.previousRayFromPixel, firstPixel));
   const vec2 slope = normal.xy * frame.previousRayFromPixel.xy * frame.pixelFromPreviousPixel;
   const vec4 products = first + vec4(0.0, slope.x, slope.y, slope.x + slope.y);
-  const float surface = r.depth * (first + dot(slope, taps.fraction));
-  return lessThanEqual(abs(depths * products - surface), vec4(tolerance * r.depth));
+  tolerance *= r.depth;
+  float surface = r.depth * (first + dot(slope, taps.fraction));
+  if (kMotionDepthFound) surface = nearestTap(depths * products, candidates, surface, tolerance);
+  return lessThanEqual(abs(depths * products - surface), vec4(tolerance));
 }
 
 // Which taps, of the given packed geometric normals, have at least the cosine `threshold` with `normal`.
@@ -141,8 +168,6 @@ bvec4 tapsFacing(uvec4 packed, vec3 normal, float threshold) {
   }
   return greaterThanEqual(cosines, vec4(threshold));
 }
-
-bvec4 both(bvec4 a, bvec4 b) { return mix(bvec4(false), a, b); }
 
 // The history taps of pixel `p`, accepted where they show the reprojected surface. kRejectByPlane: they are within
 // `tolerance` x depth of the surface's plane, and the cosine of their geometric normals with its own is at least
@@ -163,11 +188,14 @@ HistoryTaps historyTaps(ivec2 p, Reprojection r, float tolerance, float normalTh
     const vec4 depths = unpackDepth(gatherTaps(previousDepth, corner));
     accepted = both(accepted, greaterThan(depths, vec4(0.0)));
     if (kRejectByDepth) {
-      accepted = both(accepted, tapsNear(r, depths, tolerance));
+      accepted = both(accepted, tapsNear(r, accepted, depths, tolerance));
     } else {
       const vec3 normal = previousNormalAt(p);
-      accepted = both(accepted, tapsOnPlane(taps, r, normal, depths, tolerance));
+      // Depth is found among the taps that face the surface. Without that, this order takes fewer registers.
+      if (!kMotionDepthFound)
+        accepted = both(accepted, tapsOnPlane(taps, r, accepted, normal, depths, tolerance));
       accepted = both(accepted, tapsFacing(gatherTaps(previousGeometricNormal, corner), normal, normalThreshold));
+      if (kMotionDepthFound) accepted = both(accepted, tapsOnPlane(taps, r, accepted, normal, depths, tolerance));
     }
   }
   taps.accepted = accepted;

@@ -45,7 +45,8 @@ struct Host {
   bool motionForward = false;  ///< Motion is current - previous.
   bool motionUp = false;       ///< Motion has y up.
   bool motionDepthReversed = false;
-  bool motionJittered = false;  ///< Motion includes the jitter of both frames.
+  bool motionDepthFound = false;  ///< Motion has two channels.
+  bool motionJittered = false;    ///< Motion includes the jitter of both frames.
   bool preExposed = false;
   bool rectangle = false;   ///< Only a rectangle of the images is denoised.
   bool remembered = false;  ///< The library remembers the previous camera.
@@ -70,8 +71,8 @@ std::string nameOf(const Host& h) {
          std::to_string(h.depth) + (h.reversedInfinite ? " reversed" : "") + ", normals " + std::to_string(h.normals) +
          (h.world ? " world" : "") + (h.pictures ? ", pictures" : "") + (h.motionForward ? ", forward" : "") +
          (h.motionUp ? ", up" : "") + (h.motionDepthReversed ? ", z reversed" : "") +
-         (h.motionJittered ? ", motion jittered" : "") + (h.preExposed ? ", exposed" : "") +
-         (h.rectangle ? ", rectangle" : "") + (h.remembered ? ", remembered" : "");
+         (h.motionDepthFound ? ", z found" : "") + (h.motionJittered ? ", motion jittered" : "") +
+         (h.preExposed ? ", exposed" : "") + (h.rectangle ? ", rectangle" : "") + (h.remembered ? ", remembered" : "");
 }
 
 float exposureOf(const Host& host, std::uint32_t frame) {
@@ -136,7 +137,9 @@ HostedRun::Options optionsOf(const Host& host) {
   c.normals = host.normals;
   c.normal_space = host.world ? WALR_SPACE_WORLD : WALR_SPACE_VIEW;
   c.motion_unit = host.pictures ? WALR_MOTION_PICTURES : WALR_MOTION_PIXELS;
-  c.motion_depth = host.motionDepthReversed ? WALR_MOTION_DEPTH_REVERSED : WALR_MOTION_DEPTH_GIVEN;
+  c.motion_depth = host.motionDepthFound      ? WALR_MOTION_DEPTH_FOUND
+                   : host.motionDepthReversed ? WALR_MOTION_DEPTH_REVERSED
+                                              : WALR_MOTION_DEPTH_GIVEN;
   c.motion_scale[0] = host.motionForward ? -1.0F : 1.0F;
   c.motion_scale[1] = c.motion_scale[0] * (host.motionUp ? -1.0F : 1.0F);
   c.pre_exposed = host.preExposed ? VK_TRUE : VK_FALSE;
@@ -149,6 +152,7 @@ HostedRun::Options optionsOf(const Host& host) {
   // 32-bit floats, so that the test compares conversions and not the host's rounding.
   constexpr VkFormat kFloats = VK_FORMAT_R32G32B32A32_SFLOAT;
   options.formats = {kFloats, VK_FORMAT_R32_SFLOAT, kFloats, kFloats, kFloats};
+  if (host.motionDepthFound) options.formats[3] = VK_FORMAT_R32G32_SFLOAT;
   return options;
 }
 
@@ -176,7 +180,11 @@ void fill(HostedRun& run, const HostFrame& frame, const Host& host, const FrameD
   hand("lighting", lighting);
   hand("depth", depth);
   hand("normal", normal);
-  hand("motion", motion);
+  if (host.motionDepthFound) {
+    hand("motion", std::vector<glm::vec2>(motion.begin(), motion.end()));
+  } else {
+    hand("motion", motion);
+  }
   hand("albedo", albedo);
 }
 
@@ -225,6 +233,8 @@ std::vector<Host> hosts() {
       {.motionForward = true},
       {.motionUp = true},
       {.motionDepthReversed = true},
+      {.motionDepthFound = true},
+      {.pictures = true, .motionDepthFound = true, .rectangle = true},
       {.preExposed = true},
       {.rectangle = true},
       {.remembered = true},

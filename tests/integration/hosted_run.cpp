@@ -11,10 +11,11 @@
 namespace walr::test {
 namespace {
 
-constexpr std::array<const char*, 7> kImages{"lighting", "depth",     "normal",  "motion",
-                                             "albedo",   "object_id", "denoised"};
+constexpr std::array<const char*, 8> kImages{"lighting", "depth",     "normal",     "motion",
+                                             "albedo",   "object_id", "confidence", "denoised"};
 constexpr std::size_t kObjectIds = 5;
-constexpr std::size_t kOutput = 6;
+constexpr std::size_t kConfidence = 6;
+constexpr std::size_t kOutput = 7;
 
 WalrImageState stateOf(const fg::ExternalState& state) {
   return {.stage = state.stage, .access = state.access, .layout = state.layout, .reserved = 0};
@@ -58,6 +59,8 @@ HostedRun::HostedRun(const fg::vk::Device& device, const char* method, glm::ivec
       hostSlots_(options.hostSlots != 0 ? options.hostSlots : options.framesInFlight),
       rememberedCamera_(options.rememberedCamera),
       objectIds_(options.objectIds),
+      confidence_(options.confidenceFormat != VK_FORMAT_UNDEFINED),
+      hasHistoryLength_(options.historyLength),
       offset_(options.offset),
       margin_(options.margin),
       queue_(device.context(), device.queue(), hostSlots_) {
@@ -82,6 +85,8 @@ HostedRun::HostedRun(const fg::vk::Device& device, const char* method, glm::ivec
   info.albedo_format = options.formats[4];
   info.denoised_format = options.denoisedFormat;
   if (objectIds_) info.object_id_format = VK_FORMAT_R32_UINT;
+  info.confidence_format = options.confidenceFormat;
+  info.history_length = options.historyLength ? VK_TRUE : VK_FALSE;
   info.counters = options.counters ? VK_TRUE : VK_FALSE;
   info.lint = options.lint ? VK_TRUE : VK_FALSE;
   info.log = options.log;
@@ -100,7 +105,7 @@ HostedRun::~HostedRun() {
 void HostedRun::makeImages(glm::ivec2 size) {
   needs_.clear();
   for (const char* name : kImages) {
-    if (images_.size() == kObjectIds && !objectIds_) {
+    if (!isGiven(images_.size())) {
       images_.push_back(nullptr);
       needs_.emplace_back();
       continue;
@@ -121,6 +126,27 @@ void HostedRun::makeImages(glm::ivec2 size) {
   }
   firstIdentity_ = nextIdentity_;
   nextIdentity_ += kImages.size();
+  if (!hasHistoryLength_) return;
+  historyLengthNeeds_ = {};
+  historyLengthNeeds_.struct_size = sizeof(historyLengthNeeds_);
+  require(walr_get_image_requirements(denoiser_, "history_length", &historyLengthNeeds_));
+  historyLength_ = std::make_unique<fg::vk::StagedImage>(
+      device_->context(),
+      fg::TextureDesc{.format = historyLengthNeeds_.format,
+                      .extent = {historyLengthNeeds_.width, historyLengthNeeds_.height}},
+      historyLengthNeeds_.usage, fg::vk::StagedImage::Direction::Readback, framesInFlight_, "history_length");
+  historyLengthIdentity_ = nextIdentity_++;
+}
+
+bool HostedRun::isGiven(std::size_t index) const {
+  return (index != kObjectIds || objectIds_) && (index != kConfidence || confidence_);
+}
+
+std::vector<std::uint16_t> HostedRun::historyLength() const {
+  const auto bytes = historyLength_->staging(lastSlot_);
+  std::vector<std::uint16_t> texels(bytes.size() / sizeof(std::uint16_t));
+  std::memcpy(texels.data(), bytes.data(), bytes.size());
+  return texels;
 }
 
 void HostedRun::chooseView(const char* name) {
@@ -152,6 +178,10 @@ void HostedRun::resize(glm::ivec2 size) {
     require(walr_forget_image(denoiser_, images_[i]->external().image, firstIdentity_ + i));
   }
   images_.clear();
+  if (historyLength_) {
+    require(walr_forget_image(denoiser_, historyLength_->external().image, historyLengthIdentity_));
+    historyLength_.reset();
+  }
   require(walr_resize(denoiser_, static_cast<std::uint32_t>(size.x), static_cast<std::uint32_t>(size.y)));
   makeImages(size);
 }
@@ -205,6 +235,17 @@ WalrImage HostedRun::describeView() const {
   return image;
 }
 
+WalrImage HostedRun::describeHistoryLength() const {
+  WalrImage image = describe(kOutput);
+  image.image = historyLength_->external().image;
+  image.identity = historyLengthIdentity_;
+  image.format = historyLengthNeeds_.format;
+  image.usage = historyLengthNeeds_.usage;
+  image.width = historyLengthNeeds_.width;
+  image.height = historyLengthNeeds_.height;
+  return image;
+}
+
 std::uint32_t HostedRun::submit(const FrameDescription& camera, std::uint32_t flags, float preExposure,
                                 const fg::vk::FrameSemaphores& semaphores) {
   const fg::vk::Frame recorded = queue_.begin();
@@ -237,15 +278,23 @@ void HostedRun::record(const fg::vk::Frame& recorded, const FrameDescription& ca
   frame.motion = &images[3];
   frame.albedo = &images[4];
   frame.object_id = objectIds_ ? &images[kObjectIds] : nullptr;
+  frame.confidence = confidence_ ? &images[kConfidence] : nullptr;
   frame.denoised = &images[kOutput];
   const WalrImage view = view_ ? describeView() : WalrImage{};
   frame.view = view_ ? &view : nullptr;
+  const WalrImage historyLength = historyLength_ ? describeHistoryLength() : WalrImage{};
+  frame.history_length = historyLength_ ? &historyLength : nullptr;
   frame.camera = &now;
+  for (int axis = 0; axis < 3; ++axis) {
+    frame.origin[axis] = camera.origin[axis];
+    frame.previous_origin[axis] = camera.previousOrigin[axis];
+  }
   frame.previous_camera = rememberedCamera_ ? nullptr : &before;
   frame.finished = finished.semaphore;
   frame.finished_value = finished.value;
   require(walr_record(denoiser_, recorded.commandBuffer, &frame));
   if (view_) view_->recordReadback(recorded.commandBuffer, recorded.slot);
+  if (historyLength_) historyLength_->recordReadback(recorded.commandBuffer, recorded.slot);
   output().recordReadback(recorded.commandBuffer, recorded.slot);
 }
 

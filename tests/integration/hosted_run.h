@@ -29,7 +29,9 @@ class HostedRun {
     bool rememberedCamera = false;  ///< Let the library remember the previous camera.
     bool lint = false;
     bool counters = false;
-    bool objectIds = false;  ///< Give an image "object_id".
+    bool objectIds = false;                           ///< Give an image "object_id".
+    VkFormat confidenceFormat = VK_FORMAT_UNDEFINED;  ///< Give an image "confidence".
+    bool historyLength = false;
     std::uint32_t framesInFlight = 2;
     std::uint32_t hostSlots = 0;  ///< Frames that the host itself has in flight; 0 means `framesInFlight`.
     glm::ivec2 offset{0};         ///< Of the rectangle in images that are larger by `margin`.
@@ -55,6 +57,8 @@ class HostedRun {
   void chooseView(const char* name);
   /// Texels of the view of the frame returned last.
   [[nodiscard]] std::vector<glm::vec4> view() const;
+  /// History lengths of the frame returned last, halves.
+  [[nodiscard]] std::vector<std::uint16_t> historyLength() const;
   /// Change the rectangle that is denoised and keep the images.
   void moveRectangle(glm::ivec2 size, glm::ivec2 offset);
   /// Size of the images.
@@ -82,21 +86,28 @@ class HostedRun {
   void makeImages(glm::ivec2 size);
   [[nodiscard]] WalrImage describe(std::size_t index) const;
   [[nodiscard]] WalrImage describeView() const;
+  [[nodiscard]] WalrImage describeHistoryLength() const;
+  [[nodiscard]] bool isGiven(std::size_t index) const;
   [[nodiscard]] fg::vk::StagedImage& output() const { return *images_.back(); }
 
   const fg::vk::Device* device_;
   std::uint32_t hostSlots_;
   bool rememberedCamera_;
   bool objectIds_;
+  bool confidence_;
+  bool hasHistoryLength_;
   glm::ivec2 offset_;
   glm::ivec2 margin_;
   WalrDenoiser denoiser_ = nullptr;
   std::vector<WalrImageRequirements> needs_;
   std::vector<std::unique_ptr<fg::vk::StagedImage>> images_;  ///< Null for images that the host does not have.
-  std::array<std::vector<std::byte>, 6> texels_;
+  std::array<std::vector<std::byte>, 7> texels_;
   WalrImageRequirements viewNeeds_{};
   std::unique_ptr<fg::vk::StagedImage> view_;  ///< Null without a view.
   std::uint64_t viewIdentity_ = 0;
+  WalrImageRequirements historyLengthNeeds_{};
+  std::unique_ptr<fg::vk::StagedImage> historyLength_;  ///< Null without.
+  std::uint64_t historyLengthIdentity_ = 0;
   std::uint32_t lastSlot_ = 0;
   fg::vk::FrameQueue queue_;
   std::uint64_t nextIdentity_ = 1;

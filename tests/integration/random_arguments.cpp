@@ -72,9 +72,11 @@ void RandomInfo::chooseImages(Dice& dice, Expectation& expected) {
   }
   if (!dice.oneIn(6)) return;
   expected.mayFail();
-  VkFormat* const formats[] = {&info_.value.lighting_format, &info_.value.depth_format,  &info_.value.normal_format,
-                               &info_.value.motion_format,   &info_.value.albedo_format, &info_.value.object_id_format};
-  *formats[dice.below(6)] = dice.of({VK_FORMAT_R16G16B16A16_SFLOAT, VK_FORMAT_R32_SFLOAT, VK_FORMAT_R32_UINT,
+  VkFormat* const formats[] = {&info_.value.lighting_format,  &info_.value.depth_format,  &info_.value.normal_format,
+                               &info_.value.motion_format,    &info_.value.albedo_format, &info_.value.object_id_format,
+                               &info_.value.confidence_format};
+  info_.value.history_length = dice.below(2);  // A method may have none, and a stage has none.
+  *formats[dice.below(7)] = dice.of({VK_FORMAT_R16G16B16A16_SFLOAT, VK_FORMAT_R32_SFLOAT, VK_FORMAT_R32_UINT,
                                      VK_FORMAT_D32_SFLOAT_S8_UINT, VK_FORMAT_BC7_SRGB_BLOCK, VK_FORMAT_R16_UINT,
                                      VK_FORMAT_G8_B8R8_2PLANE_420_UNORM, static_cast<VkFormat>(123456)});
 }
@@ -87,7 +89,7 @@ void RandomInfo::chooseConventions(Dice& dice, Expectation& expected) {
   expected.mayFail();  // Stages take the images as they are.
   conventions.normal_space = choose(dice, expected, WALR_SPACE_WORLD);
   conventions.motion_unit = choose(dice, expected, WALR_MOTION_PICTURES);
-  conventions.motion_depth = choose(dice, expected, WALR_MOTION_DEPTH_REVERSED);
+  conventions.motion_depth = choose(dice, expected, WALR_MOTION_DEPTH_FOUND);
   conventions.depth = choose(dice, expected, WALR_DEPTH_DEVICE);
   conventions.normals = choose(dice, expected, WALR_NORMALS_OCTAHEDRAL_UNSIGNED);
   conventions.pre_exposed = dice.below(2);

@@ -452,8 +452,8 @@ void RandomCalls::requirements() {
     needs.value.struct_size = dice_.of({0U, 4U, 1U << 20});
     expected.fails();
   }
-  const char* const port = dice_.of({"lighting", "depth", "normal", "motion", "albedo", "object_id", "denoised",
-                                     "magic", "", static_cast<const char*>(nullptr)});
+  const char* const port = dice_.of({"lighting", "depth", "normal", "motion", "albedo", "object_id", "confidence",
+                                     "history_length", "denoised", "magic", "", static_cast<const char*>(nullptr)});
   if (port == nullptr || *port == '\0' || std::strcmp(port, "magic") == 0) expected.fails();
   if (picked.model != nullptr && picked.model->changed) expected.mayFail();
   if (dice_.oneIn(2)) {

@@ -8,8 +8,8 @@
 namespace walr::test {
 namespace {
 
-constexpr std::array<const char*, 7> kPorts = {"lighting", "depth",     "normal",  "motion",
-                                               "albedo",   "object_id", "denoised"};
+constexpr std::array<const char*, 9> kPorts = {"lighting",  "depth",      "normal",   "motion",        "albedo",
+                                               "object_id", "confidence", "denoised", "history_length"};
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
 /// Makes one of the image's members wrong.
@@ -40,7 +40,7 @@ void spoil(Dice& dice, WalrImage& image) {
 
 /// Makes one of the frame's members wrong.
 void spoil(Dice& dice, WalrFrame& frame) {
-  switch (dice.below(7)) {
+  switch (dice.below(8)) {
     case 0:
       frame.struct_size = dice.of({0U, 4U, 1U << 20});
       break;
@@ -58,6 +58,9 @@ void spoil(Dice& dice, WalrFrame& frame) {
       break;
     case 5:
       frame.finished_value = 1;
+      break;
+    case 6:
+      frame.origin[1] = kNan;
       break;
     default:
       frame.offset[0] = 20'000;
@@ -121,7 +124,9 @@ void RandomFrames::record(Dice& dice, CallCheck& check, const ModelledDenoiser& 
   frame.motion = given[3];
   frame.albedo = given[4];
   frame.object_id = given[5];
-  frame.denoised = given[6];
+  frame.confidence = given[6];
+  frame.denoised = given[7];
+  frame.history_length = given[8];
   frame.camera = randomCamera(dice, expected, camera);
   frame.flags = dice.oneIn(6) ? static_cast<std::uint32_t>(WALR_FRAME_RESET_HISTORY) : 0U;
   expected.mayFail();  // The camera of the frame before may not fit.
@@ -134,8 +139,8 @@ void RandomFrames::record(Dice& dice, CallCheck& check, const ModelledDenoiser& 
   if (withoutCommands) expected.fails();
   const WalrResult result =
       check("walr_record", expected,
-            {"WalrFrame", "WalrImage", "WalrCamera", "camera", "matrix", "image '", "sky_depth", "exposure", "offset",
-             "command buffer", "finished_value", "setting", "regression", "svgf."},
+            {"WalrFrame", "WalrImage", "WalrCamera", "camera", "matrix", "image '", "origin", "sky_depth", "exposure",
+             "offset", "command buffer", "finished_value", "setting", "regression", "svgf."},
             [&] { return walr_record(denoiser.handle, withoutCommands ? VK_NULL_HANDLE : commands, &frame); });
   recorded_ += result == WALR_SUCCESS;
   host_submit_and_wait(host_, commands);

@@ -1,6 +1,8 @@
 #include "passes/frame.h"
 #include "passes/orthographic.h"
 
+#include <algorithm>
+#include <cmath>
 #include <functional>
 #include <limits>
 #include <stdexcept>
@@ -75,6 +77,41 @@ TEST(FrameConstants, ARayOfAnOrthographicCamerasStandInProjectsToItsPixel) {
     const glm::vec4 expected = frame.previousView * world - behind;
     for (int i = 0; i < 3; ++i) EXPECT_NEAR(actual[i], expected[i], 1e-6F * float(away) + 1e-5F);
   }
+}
+
+/// Largest difference of the elements of two matrices.
+double largestDifference(const glm::mat4& a, const glm::mat4& b) {
+  double largest = 0.0;
+  for (int column = 0; column < 4; ++column)
+    for (int row = 0; row < 4; ++row) largest = std::max(largest, std::abs(double(a[column][row]) - b[column][row]));
+  return largest;
+}
+
+// With an origin that moves along, a camera in a large world is as exact as near the world's origin.
+TEST(FrameConstants, AnOriginKeepsLargeWorldsExact) {
+  const FrameDescription near = movingCamera();
+  const glm::mat4 expected = frameConstants(near, kExtent).previousViewFromView;
+  const glm::dvec3 place(1e6, -3e5, 2e6);
+  FrameDescription far = near;
+  far.origin = place + glm::dvec3(0.7, 2.3, 3.1);
+  far.previousOrigin = place;
+  const glm::dvec3 moved = far.origin - far.previousOrigin;
+  far.view = glm::mat4(glm::translate(glm::dmat4(near.view), moved));
+  // Floats round each element of the view matrix, and that of the result.
+  constexpr double kRoundoff = 8.0 * 0x1p-24 * 4.0;
+  EXPECT_LE(largestDifference(frameConstants(far, kExtent).previousViewFromView, expected), kRoundoff);
+  far.previousOrigin += glm::dvec3(0.01, 0.0, 0.0);
+  EXPECT_GT(largestDifference(frameConstants(far, kExtent).previousViewFromView, expected), 0.005);
+}
+
+TEST(FrameConstants, AnOriginBeyondDoublePrecisionIsRefused) {
+  FrameDescription frame = movingCamera();
+  frame.origin.x = 1e9;
+  EXPECT_THROW(frameConstants(frame, kExtent), std::invalid_argument);
+  frame.origin.x = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(frameConstants(frame, kExtent), std::invalid_argument);
+  frame.origin.x = 1e8;
+  EXPECT_NO_THROW(frameConstants(frame, kExtent));
 }
 
 TEST(FrameConstants, AJitteredRayPassesThroughTheDisplacedSample) {

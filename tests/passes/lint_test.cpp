@@ -110,6 +110,15 @@ class Lint : public fg::test::GpuTest, public testing::WithParamInterface<Case> 
   }
 };
 
+/// Move camera and scene so far away that floats hold a position of the camera to a sixty-fourth of a unit only.
+void moveAway(HostInput& host, bool statesOrigin) {
+  const glm::dvec3 far(0x1p18 + 1.0 / 3.0, 0.0, 0x1p17 + 1.0 / 3.0);
+  for (glm::mat4* view : {&host.camera.view, &host.camera.previousView})
+    if (!statesOrigin) *view = glm::mat4(glm::translate(glm::dmat4(*view), -far));
+  if (statesOrigin) host.camera.origin = host.camera.previousOrigin = far;
+  host.frame.constants = frameConstants(host.camera, kExtent);
+}
+
 std::vector<Case> cases() {
   constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   constexpr auto kWorld = InputConventions::Space::World;
@@ -201,6 +210,12 @@ std::vector<Case> cases() {
        [](HostInput& h) { h.frame.constants.motionScale = glm::vec2(kSize); }},
       {"motion missing", {"motion-x-missing", "motion-y-missing"}, scaledMotion({0.0, 0.0, 1.0})},
       {"motion.z reversed", {"motion-z-direction"}, scaledMotion({1.0, 1.0, -1.0})},
+      {"good, motion of two channels, stated as such",
+       {},
+       scaledMotion({1.0, 1.0, 0.0}),
+       false,
+       false,
+       {.motionDepth = InputConventions::MotionDepth::Found}},
       {"motion.z missing", {"motion-z-missing"}, scaledMotion({1.0, 1.0, 0.0})},
       {"previous camera is this one",
        {"camera-still"},
@@ -237,6 +252,8 @@ std::vector<Case> cases() {
        false,
        true,
        {.normal = kWorld}},
+      {"a camera far from the origin", {"origin-far"}, [](HostInput& h) { moveAway(h, false); }},
+      {"good, far from the world's origin with an origin of its own", {}, [](HostInput& h) { moveAway(h, true); }},
       {"jitter in the motion", {"motion-jitter"}, [](HostInput&) {}, true, false, {.motionJittered = false}},
       {"jitter not in the motion",
        {"motion-jitter"},

@@ -144,6 +144,19 @@ Scene slidingPanel(std::uint32_t frame) {
   };
 }
 
+Scene approachingPanel(std::uint32_t frame, double step) {
+  return [frame, step, wall = flatWall()](glm::dvec3 origin, glm::dvec3 direction) -> std::optional<SceneHit> {
+    const double z = -4.0 * std::pow(1.0 - step, frame);
+    const auto t = hitPlane(origin, direction, {0.0, 0.0, z}, kBackNormal);
+    const glm::dvec3 p = t ? origin + *t * direction : glm::dvec3(0.0);
+    if (!t || std::abs(p.x) > 0.9 || std::abs(p.y) > 0.7) return wall(origin, direction);
+    SceneHit hit{*t, kBackNormal};
+    hit.object = 1;
+    hit.moved.z = z - z / (1.0 - step);
+    return hit;
+  };
+}
+
 std::vector<NamedScene> allScenes() {
   return {{"flat wall", flatWall()},  {"bumpy wall", bumpyWall(0.1)}, {"sphere", sphere()},
           {"thin bars", thinBars()},  {"sky", skyBesideSurface()},    {"stairs", stairs()},

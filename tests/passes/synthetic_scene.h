@@ -44,6 +44,9 @@ Scene grazingFloor();
 Scene slidingPanel(std::uint32_t frame);
 inline constexpr double kPanelStep = 0.5;
 
+/// A panel that faces the camera in front of a wall, and comes nearer by the share `step` of its distance per frame.
+Scene approachingPanel(std::uint32_t frame, double step);
+
 /// All of the scenes above that stand still, with their names.
 struct NamedScene {
   const char* name;

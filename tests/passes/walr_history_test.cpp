@@ -168,6 +168,65 @@ TEST_F(WalrHistoryTest, StagesAgreeWithTheReferenceWithMotionFromTheCameraAlone)
   }
 }
 
+/// Frames in which a panel comes nearer while the camera moves.
+std::vector<HostFrame> approaching(double step, InputConventions::MotionDepth motionDepth) {
+  std::vector<HostFrame> frames;
+  for (std::uint32_t i = 0; i < 3; ++i) {
+    frames.push_back(movingFrame(approachingPanel(i, step), i, i - 1.0, i));
+    frames.back().conventions.motionDepth = motionDepth;
+    if (motionDepth == InputConventions::MotionDepth::Given) continue;
+    for (glm::dvec3& motion : frames.back().motion.pixels()) motion.z = std::numeric_limits<double>::quiet_NaN();
+  }
+  return frames;
+}
+
+TEST_F(WalrHistoryTest, StagesAgreeWithTheReferenceWhereDepthIsFound) {
+  std::vector<WalrPaperSettings> all = responsiveSettings();
+  // Curved surfaces differ from their planes by more than this, so that the tap of which depth is taken decides.
+  all.push_back(all.front());
+  all.back().accumulation.planeTolerance = all.back().antialiasing.planeTolerance = 1e-4F;
+  for (const WalrPaperSettings& settings : all) {
+    SCOPED_TRACE("rejection " + std::to_string(int(settings.accumulation.rejection)) + ", radius " +
+                 std::to_string(settings.accumulation.antilag.radius));
+    for (const double step : {0.04, 0.2})
+      expectSequence(device(), approaching(step, InputConventions::MotionDepth::Found), settings);
+    std::vector<HostFrame> still;
+    for (std::uint32_t i = 0; i < 3; ++i) {
+      still.push_back(movingFrame(sphere(), i, i - 1.0, i));
+      still.back().conventions.motionDepth = InputConventions::MotionDepth::Found;
+    }
+    expectSequence(device(), still, settings);
+  }
+}
+
+/// Mean history length on the panel in the third frame.
+double historyOnPanel(const fg::vk::Device& device, double step, InputConventions::MotionDepth motionDepth) {
+  const std::vector<HostFrame> frames = approaching(step, motionDepth);
+  WalrRun run(device, kSize, robustWalr(), frames.front().conventions);
+  WalrStages stages;
+  for (const HostFrame& frame : frames) stages = run.frame(frame);
+  double sum = 0.0;
+  int pixels = 0;
+  reference::forEachPixel(kSize, [&](glm::ivec2 p) {
+    if (frames.back().objectId[p] != 1) return;
+    sum += stages.accumulated[p].w;
+    ++pixels;
+  });
+  return sum / pixels;
+}
+
+// A panel that comes nearer by more than the plane tolerance keeps its history if its depth is found, unless it comes
+// nearer by more than a tenth a frame, and has none if it is taken for a still surface.
+TEST_F(WalrHistoryTest, FoundDepthKeepsTheHistoryOfWhatComesNearer) {
+  using enum InputConventions::MotionDepth;
+  const double given = historyOnPanel(device(), 0.05, Given);
+  EXPECT_GT(given, 2.9);
+  EXPECT_EQ(historyOnPanel(device(), 0.05, Found), given);
+  EXPECT_EQ(historyOnPanel(device(), 0.05, StaticScene), 1.0);
+  EXPECT_EQ(historyOnPanel(device(), 0.2, Found), 1.0);
+  EXPECT_EQ(historyOnPanel(device(), 0.2, Given), historyOnPanel(device(), 0.05, Given));
+}
+
 TEST_F(WalrHistoryTest, StagesAgreeWithTheReferenceInAStillImage) {
   for (const Scene& scene : {skyBesideSurface(), thinBars()}) {
     std::vector<HostFrame> frames;

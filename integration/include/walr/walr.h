@@ -201,6 +201,9 @@ typedef enum WalrMotionDepth {
   WALR_MOTION_DEPTH_GIVEN = 0,        /* The motion image's third channel: previous minus current view depth. */
   WALR_MOTION_DEPTH_STATIC_SCENE = 1, /* Computed from the cameras; right where only the camera moves. */
   WALR_MOTION_DEPTH_REVERSED = 2,     /* The third channel, as current minus previous view depth. */
+  /* No third channel, and objects move: found among the depths of the last frame that motion.xy leads to. The depth of
+   * a surface may change by a tenth of it from one frame to the next, besides what the camera changes. */
+  WALR_MOTION_DEPTH_FOUND = 3,
   WALR_MOTION_DEPTH_MAX = 0x7fffffff
 } WalrMotionDepth;
 
@@ -283,7 +286,9 @@ typedef struct WalrDenoiserInfo {
   /* Format of the result: VK_FORMAT_R16G16B16A16_SFLOAT (or VK_FORMAT_UNDEFINED), VK_FORMAT_B10G11R11_UFLOAT_PACK32 or
    * VK_FORMAT_R32G32B32A32_SFLOAT. The last two cost a small pass, which rounds to the nearest value. */
   VkFormat denoised_format;
-  VkBool32 counters; /* Count what the method does, see walr_get_counters. For debugging: costs passes. */
+  VkBool32 counters;          /* Count what the method does, see walr_get_counters. For debugging: costs passes. */
+  VkFormat confidence_format; /* Of WalrFrame::confidence, sampled as floats; VK_FORMAT_UNDEFINED: no such image. */
+  VkBool32 history_length;    /* Write WalrFrame::history_length. It costs a small pass. */
   /* Another denoiser, for several views a frame (eyes, split screens, cube faces); optional. Both share shader modules,
    * pipelines and the memory of transients; each has its own histories, size and settings. Use its device; its
    * allocators and pipeline cache serve both. Frames of both must be submitted in the order of recording, to one queue,
@@ -331,7 +336,8 @@ typedef struct WalrImageRequirements {
   uint32_t height;
 } WalrImageRequirements;
 
-/* port: "lighting", "depth", "normal", "motion", "albedo", "object_id", "denoised", or "view" (see walr_set_view).
+/* port: "lighting", "depth", "normal", "motion", "albedo", "object_id", "confidence", "denoised",
+ * "view" (see walr_set_view) or "history_length".
  * Needs no image and no walr_prepare. */
 WALR_API WalrResult walr_get_image_requirements(WalrDenoiser denoiser, const char* port,
                                                 WalrImageRequirements* requirements);
@@ -403,6 +409,18 @@ typedef struct WalrFrame {
   uint32_t frame_index;
   uint32_t reserved;
   const WalrImage* view; /* Receives the view that walr_set_view has chosen. Null if there is none. */
+  /* Optional, see WalrDenoiserInfo::confidence_format: how much of its history of light a pixel may use, 0 to 1. The
+   * longest history is multiplied by it. 0: none; 1, or NaN: as without the image. It does not concern
+   * what is averaged after a filter: anti-aliasing, which clips its history, and the second accumulation of bmfr. */
+  const WalrImage* confidence;
+  /* With WalrDenoiserInfo::history_length: an R16F image of exactly the denoised size that receives the number of
+   * frames, with this one, in the mean of each pixel's light; 0 where there is nothing to denoise. */
+  const WalrImage* history_length;
+  /* Large worlds: the position in the world, scene units, that `camera` is relative to (its view matrix takes positions
+   * minus the origin), and the same of `previous_camera`, which is not used if that is null. Any origin near the camera
+   * will do, and it may change in every frame. At most 2^29 along each axis. */
+  double origin[3];
+  double previous_origin[3];
   /* Optional: a timeline semaphore that reaches `finished_value` when the GPU has finished this frame. When the frame's
    * slot is used again, walr_record reads it without waiting, and returns WALR_ERROR_WRONG_ORDER instead of a corrupted
    * picture if the GPU is not done. The device needs the feature timelineSemaphore. The semaphore must live until then,

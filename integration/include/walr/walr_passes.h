@@ -102,8 +102,8 @@ typedef struct WalrDispatch {
   const WalrSpecialization* specializations;
   const void* push_constants;
   const WalrHistoryAge* history_ages;
-  const WalrBarrier* barriers; /* To record before the dispatch, if the list's order and heaps are used. A dispatch without
-                                   barriers may overlap with the one before it. */
+  const WalrBarrier* barriers; /* To record before the dispatch, if the list's order and heaps are used. A dispatch
+                                  without barriers may overlap with the one before it. */
   uint32_t specialization_count;
   uint32_t push_constant_size; /* Bytes. */
   uint32_t history_age_count;
@@ -179,7 +179,7 @@ typedef struct WalrPassesInfo {
  * - An output that is a previous history ("guides.previous-depth") holds what the last frame wrote into its partner. In
  *   the first frame and after a camera cut, give later stages an image of zeros for it.
  * - A stage takes images in walr's own conventions. Of WalrConventions it accepts only normal_space, motion_unit,
- *   motion_scale, motion_jittered, and WALR_MOTION_DEPTH_STATIC_SCENE.
+ *   motion_scale, motion_jittered, WALR_MOTION_DEPTH_STATIC_SCENE and WALR_MOTION_DEPTH_FOUND.
  * - Begin each frame of every stage with the same camera.
  */
 WALR_API WalrResult walr_create_passes(const WalrPassesInfo* info, WalrPasses* passes);
@@ -206,6 +206,8 @@ typedef struct WalrPassFrame {
   uint32_t offset[2];                /* As in WalrFrame. */
   uint32_t frame_index;              /* As in WalrFrame. */
   uint32_t reserved;
+  double origin[3]; /* As in WalrFrame. */
+  double previous_origin[3];
   VkSemaphore finished; /* As in WalrFrame, checked by walr_begin_frame. Not used by passes without a device. */
   uint64_t finished_value;
 } WalrPassFrame;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
@@ -80,17 +81,58 @@ Reprojection reproject(const HostFrame& frame, const Image<Guide>& guides, glm::
     r.error += 4.0 * kFloatRoundoff * reach;
   }
   double previousDepth = guides[p].depth + frame.motion[p].z;
-  if (fromCamera || frame.conventions.motionDepth == InputConventions::MotionDepth::StaticScene) {
+  if (fromCamera || frame.conventions.motionDepth != InputConventions::MotionDepth::Given) {
     previousDepth = -positionBefore(p).z;
   }
   r.position = rayThrough(constants.previousRayFromPixel, there) * previousDepth;
   r.normal = glm::dmat3(previousFromCurrent) * guides[p].normal;
   r.object = guides[p].object;
+  r.findsDepth = !fromCamera && frame.conventions.motionDepth == InputConventions::MotionDepth::Found;
   const glm::dvec2 size(frame.size());
   r.valid = there.x > -1.0 && there.y > -1.0 && there.x < size.x + 1.0 && there.y < size.y + 1.0 &&
             std::isfinite(previousDepth) && previousDepth > 0.0;
   return r;
 }
+
+namespace {
+
+/// What the tests of a history tap measure.
+struct Measured {
+  double value = 0.0;      ///< Distance from the previous camera along the surface's normal or, by depth, view axis.
+  double error = 0.0;      ///< Bound of what single precision adds to its difference from the surface's.
+  bool candidate = false;  ///< The tap passes all other tests.
+};
+
+/// A surface's own value of `Measured`.
+struct OwnValue {
+  double value = 0.0;
+  bool found = true;
+  bool undecided = false;  ///< Rounding may decide which tap it is taken from.
+};
+
+/// The value of the candidate nearest to that of a still surface, if it is within a tenth of it, or the tolerance.
+OwnValue nearestTap(std::span<const Measured> taps, double still, double tolerance) {
+  constexpr double kMostDepthChange = 0.1;
+  const double most = std::max(kMostDepthChange * std::abs(still), tolerance);
+  OwnValue nearest{.found = false};
+  double least = most;
+  for (const Measured& tap : taps) {
+    const double distance = std::abs(tap.value - still);
+    if (!tap.candidate) continue;
+    nearest.undecided |= std::abs(distance - most) <= tap.error;
+    if (distance > least) continue;
+    nearest = {.value = tap.value, .found = true, .undecided = nearest.undecided};
+    least = distance;
+  }
+  // Of two taps equally near, on either side, rounding decides.
+  for (const Measured& tap : taps) {
+    const bool other = tap.candidate && std::abs(tap.value - nearest.value) > 2.0 * tap.error;
+    nearest.undecided |= nearest.found && other && std::abs(tap.value - still) <= least + 2.0 * tap.error;
+  }
+  return nearest;
+}
+
+}  // namespace
 
 std::array<HistoryTap, 4> historyTaps(const HostFrame& frame, const Reprojection& r, const Image<Guide>& previousGuides,
                                       const HistoryTests& tests) {
@@ -98,6 +140,9 @@ std::array<HistoryTap, 4> historyTaps(const HostFrame& frame, const Reprojection
   if (!r.valid) return taps;
   const glm::dvec2 base = glm::floor(r.pixel - 0.5);
   const glm::dvec2 f = r.pixel - 0.5 - base;
+  const bool byPlane = tests.rejection == HistoryRejection::Plane;
+  const auto valueOf = [&](glm::dvec3 position) { return byPlane ? glm::dot(r.normal, position) : -position.z; };
+  std::array<Measured, 4> measured;
   for (int i = 0; i < 4; ++i) {
     const glm::ivec2 offset(i % 2, i / 2);
     HistoryTap& tap = taps[i];
@@ -111,21 +156,33 @@ std::array<HistoryTap, 4> historyTaps(const HostFrame& frame, const Reprojection
     const Guide& guide = previousGuides[tap.pixel];
     const glm::dvec2 pixel = pixelCentre(tap.pixel) * glm::dvec2(frame.constants.pixelFromPreviousPixel);
     const glm::dvec3 position = rayThrough(frame.constants.previousRayFromPixel, pixel) * guide.depth;
-    const bool byPlane = tests.rejection == HistoryRejection::Plane;
-    const double distance =
-        byPlane ? std::abs(glm::dot(r.normal, position - r.position)) : std::abs(position.z - r.position.z);
-    const double tolerance = tests.planeTolerance * -r.position.z;
+    measured[i].value = valueOf(position);
     // About sixteen roundings, of terms no larger than the two positions and of unit vectors.
-    const double distanceError = 16.0 * kFloatRoundoff * (glm::length(position) + glm::length(r.position)) +
-                                 r.error * std::abs(r.position.z) *
-                                     std::max(std::abs(double(frame.constants.previousRayFromPixel.x)),
-                                              std::abs(double(frame.constants.previousRayFromPixel.y)));
-    tap.matches = distance <= tolerance;
-    tap.undecided |= std::abs(distance - tolerance) <= distanceError;
-    if (!byPlane) continue;
-    const double cosine = glm::dot(r.normal, guide.normal);
-    tap.matches = tap.matches && cosine >= tests.normalThreshold;
-    tap.undecided |= std::abs(cosine - tests.normalThreshold) <= 32.0 * kFloatRoundoff;
+    measured[i].error = 16.0 * kFloatRoundoff * (glm::length(position) + glm::length(r.position)) +
+                        r.error * std::abs(r.position.z) *
+                            std::max(std::abs(double(frame.constants.previousRayFromPixel.x)),
+                                     std::abs(double(frame.constants.previousRayFromPixel.y)));
+    if (byPlane) {
+      const double cosine = glm::dot(r.normal, guide.normal);
+      tap.matches = cosine >= tests.normalThreshold;
+      tap.undecided |= std::abs(cosine - tests.normalThreshold) <= 32.0 * kFloatRoundoff;
+    }
+    measured[i].candidate = tap.matches;
+  }
+  if (tests.rejection == HistoryRejection::None) return taps;
+  const double tolerance = tests.planeTolerance * -r.position.z;
+  OwnValue surface{.value = valueOf(r.position)};
+  if (r.findsDepth) {
+    // Whether a tap is a candidate decides for the others, too.
+    const bool undecided = std::ranges::any_of(taps, &HistoryTap::undecided);
+    surface = nearestTap(measured, surface.value, tolerance);
+    for (HistoryTap& tap : taps) tap.undecided |= undecided || surface.undecided;
+  }
+  for (int i = 0; i < 4; ++i) {
+    if (!taps[i].matches && !taps[i].undecided) continue;
+    const double distance = std::abs(measured[i].value - surface.value);
+    taps[i].matches = taps[i].matches && surface.found && distance <= tolerance;
+    taps[i].undecided |= surface.found && std::abs(distance - tolerance) <= measured[i].error;
   }
   return taps;
 }

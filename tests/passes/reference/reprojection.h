@@ -13,6 +13,7 @@ struct Reprojection {
   glm::dvec3 position{0.0};  ///< In the previous frame's view space.
   glm::dvec3 normal{0.0};    ///< Geometric normal in the previous frame's view space.
   std::uint32_t object = 0;  ///< Object of the surface, numbered as in `Guide`.
+  bool findsDepth = false;   ///< Depth is found among the history taps; `position` is that of a still surface.
   bool valid = false;        ///< False where motion leaves the image or is not finite.
   bool undecided = false;    ///< Rounding may change to which of two values the motion is rounded.
   double error = 0.0;        ///< Bound of what single precision adds to `pixel`, pixels.

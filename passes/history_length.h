@@ -1,0 +1,20 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "framegraph/declare/graph.h"
+
+namespace walr {
+
+/// Format of a texture that receives history lengths: frames, exact for every length that a method may have.
+inline constexpr VkFormat kHistoryLengthFormat = VK_FORMAT_R16_SFLOAT;
+
+/// Add a pass that writes the history length of every pixel.
+/// @param accumulated a mean over time with its history length: RGBA16F, or packed light (R32_UINT) of accumulation
+/// @param channel     of RGBA16F: the one that holds the length
+/// @param target      of `kHistoryLengthFormat` and the extent of `accumulated`
+/// @returns the target's new version
+fg::Texture addHistoryLength(fg::Graph& graph, fg::Texture accumulated, std::uint32_t channel, fg::Texture target);
+
+}  // namespace walr

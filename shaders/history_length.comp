@@ -1,0 +1,23 @@
+// Writes the history length of every pixel for the host: frames, with this one's sample.
+// PACKED: accumulated light is packed (packed_light.glsl).
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_samplerless_texture_functions : require
+
+layout(local_size_x = 8, local_size_y = 8) in;
+
+layout(r16f) uniform writeonly image2D historyLength;
+#ifdef PACKED
+#include "include/packed_light.glsl"
+uniform utexture2D accumulated;
+float lengthAt(ivec2 p) { return unpackAccumulated(texelFetch(accumulated, p, 0).x).a; }
+#else
+uniform texture2D accumulated;
+layout(constant_id = 0) const uint kChannel = 3;  // That holds the length.
+float lengthAt(ivec2 p) { return texelFetch(accumulated, p, 0)[kChannel]; }
+#endif
+
+void main() {
+  const ivec2 p = ivec2(gl_GlobalInvocationID.xy);
+  if (all(lessThan(p, imageSize(historyLength)))) imageStore(historyLength, p, vec4(lengthAt(p), 0.0, 0.0, 1.0));
+}

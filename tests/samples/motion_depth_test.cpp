@@ -1,0 +1,131 @@
+// The table "Motion without depth" of the integration guide: what it costs to find or to leave out the change of depth
+// of moving objects, measured on the built-in scene `turntable`.
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "samples/denoise/gpu_denoiser.h"
+#include "samples/errors.h"
+#include "samples/metrics/metrics.h"
+#include "samples/render/render_sequence.h"
+#include "samples/sequence/sequence.h"
+#include "tests/samples/temporary_directory.h"
+
+namespace walr::test {
+namespace {
+
+using MotionDepth = InputConventions::MotionDepth;
+
+constexpr int kFrames = 20;
+constexpr std::size_t kBuiltUp = 4;  // Frames until history has built up.
+
+/// What a source of the change of depth gives, over the frames after the fourth.
+struct Result {
+  double withoutHistory = 0.0;  ///< Pixels that start without history, a frame.
+  std::vector<Image> pictures;
+};
+
+double counterOf(const DenoisedPicture& picture, std::string_view name) {
+  for (const CounterValue& counter : picture.counters)
+    if (counter.name == name) return double(counter.value);
+  ADD_FAILURE() << "no counter " << name;
+  return 0.0;
+}
+
+Result denoised(const GpuDevice& device, const Sequence& sequence, MotionDepth source) {
+  const Layout layout = withMotionDepth(*sequence.layout().layout, source);
+  const auto method = makeDenoiser("walr");
+  GpuDenoiser denoiser(device, *method, sequence.extent(), layout, {.counters = true});
+  Result result;
+  for (std::size_t i = 0; i < sequence.entries().size(); ++i) {
+    PackedFrame frame = packFrame(sequence.read(i));
+    if (source != MotionDepth::Given)
+      for (Rgba16& motion : frame.motion) motion[2] = 0x7e00;
+    DenoisedPicture picture = denoiser.run(frame);
+    if (i < kBuiltUp) continue;
+    result.withoutHistory += counterOf(picture, "no-history") / double(kFrames - kBuiltUp);
+    result.pictures.push_back(std::move(picture.indirect));
+  }
+  return result;
+}
+
+/// Root mean square difference after the tone map x / (1 + x).
+double difference(const Result& a, const Result& b) {
+  double sum = 0.0;
+  double values = 0.0;
+  for (std::size_t i = 0; i < a.pictures.size(); ++i) {
+    for (std::size_t j = 0; j < a.pictures[i].values().size(); ++j) {
+      const double x = a.pictures[i].values()[j];
+      const double y = b.pictures[i].values()[j];
+      sum += std::pow(x / (1.0 + x) - y / (1.0 + y), 2.0);
+      values += 1.0;
+    }
+  }
+  return std::sqrt(sum / values);
+}
+
+std::string textOf(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// The numbers of the row of the guide's table that begins with a text.
+std::array<double, 5> rowOf(const std::string& guide, const std::string& start) {
+  std::array<double, 5> row{};
+  const std::size_t at = guide.find(start);
+  if (at == std::string::npos) return row;
+  std::sscanf(guide.c_str() + at + start.size(), " %lf | %lf | %lf | %lf | %lf |", row.data(), &row[1], &row[2],
+              &row[3], &row[4]);
+  return row;
+}
+
+TEST(MotionDepth, TheGuideTellsWhatFindingItCosts) {
+  const TemporaryDirectory folder;
+  GpuDevice device({.device = {}, .validation = true});
+  const std::string guide = textOf(WALR_GUIDE);
+  for (const int framesPerSecond : {24, 6}) {
+    render::RenderOptions options;
+    options.scene = WALR_SCENES "/turntable.gltf";
+    options.output = folder.path() / std::to_string(framesPerSecond);
+    options.lastFrame = kFrames - 1;
+    options.framesPerSecond = framesPerSecond;
+    renderSequence(options, {});
+    const Sequence sequence(options.output, {});
+    const Result given = denoised(device, sequence, MotionDepth::Given);
+    const Result still = denoised(device, sequence, MotionDepth::StaticScene);
+    const Result found = denoised(device, sequence, MotionDepth::Found);
+    // Finding depth is off by no more than a tenth of what it is for.
+    EXPECT_NEAR(found.withoutHistory, given.withoutHistory, 0.1 * (still.withoutHistory - given.withoutHistory));
+
+    const std::array measured{given.withoutHistory, still.withoutHistory, found.withoutHistory,
+                              1e5 * difference(still, given), 1e5 * difference(found, given)};
+    const std::string start = "| " + std::to_string(framesPerSecond) + " |";
+    const std::array<double, 5> documented = rowOf(guide, start);
+    std::array<char, 128> row{};
+    std::snprintf(row.data(), row.size(), "%s %.0f | %.0f | %.0f | %.1f | %.1f |", start.c_str(), measured[0],
+                  measured[1], measured[2], measured[3], measured[4]);
+    for (std::size_t i = 0; i < measured.size(); ++i) {
+      // Another compiler may round a path's vertices otherwise, which moves single pixels across an edge.
+      EXPECT_NEAR(documented.at(i), measured.at(i), 0.02 * measured.at(i) + 0.5)
+          << "integration/README.md should say " << row.data();
+    }
+  }
+  device.refuseMessages();
+}
+
+TEST(MotionDepth, ALayoutWithoutItCannotGiveIt) {
+  EXPECT_THROW(withMotionDepth(cyclesLayout(), MotionDepth::Given), InputError);
+  EXPECT_EQ(withMotionDepth(cyclesLayout(), MotionDepth::Found).conventions.motionDepth, MotionDepth::Found);
+  EXPECT_EQ(withMotionDepth(projectLayout(), MotionDepth::Given).conventions.motionDepth, MotionDepth::Given);
+}
+
+}  // namespace
+}  // namespace walr::test
