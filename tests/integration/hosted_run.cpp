@@ -6,6 +6,8 @@
 
 #include <glm/gtc/type_ptr.hpp>
 
+#include "tests/passes/texel_codec.h"
+
 namespace walr::test {
 namespace {
 
@@ -186,6 +188,14 @@ void HostedRun::moveRectangle(glm::ivec2 size, glm::ivec2 offset) {
 void HostedRun::fill(const std::string& image, std::vector<std::byte> texels) {
   const auto index = static_cast<std::size_t>(std::ranges::find(kImages, image) - kImages.begin());
   texels_.at(index) = std::move(texels);
+}
+
+void HostedRun::fill(const reference::HostFrame& frame) {
+  fill("lighting", texelBytes(encodeHalves(frame.lighting)));
+  fill("depth", texelBytes(encodeFloats(frame.depth)));
+  fill("normal", texelBytes(encodeHalves(frame.normal)));
+  fill("motion", texelBytes(encodeHalves(frame.motion)));
+  fill("albedo", texelBytes(encodeHalves(frame.albedo)));
 }
 
 WalrImage HostedRun::describe(std::size_t index) const {
