@@ -26,12 +26,6 @@ constexpr glm::ivec2 kSize(53, 37);
 constexpr const char* kMethods[] = {"walr", "walr_paper", "bmfr", "svgf", "flr", "joint_bilateral", "accumulate"};
 constexpr std::uint8_t kAll = 255;
 
-std::vector<std::byte> bytesOf(const auto& texels) {
-  std::vector<std::byte> bytes(texels.size() * sizeof(texels[0]));
-  std::memcpy(bytes.data(), texels.data(), bytes.size());
-  return bytes;
-}
-
 bool isLeft(glm::ivec2 p) {
   return p.x < kSize.x / 2;
 }
@@ -45,13 +39,6 @@ class History : public fg::test::GpuTest {
   }
   static FrameDescription cameraOf(std::uint32_t index, double step = 0.0) {
     return cameraAt({step * index, 0.0, 0.0}, {step * (index - 1.0), 0.0, 0.0}, kSize, index);
-  }
-  static void fill(HostedRun& run, const HostFrame& frame) {
-    run.fill("lighting", bytesOf(encodeHalves(frame.lighting)));
-    run.fill("depth", bytesOf(encodeFloats(frame.depth)));
-    run.fill("normal", bytesOf(encodeHalves(frame.normal)));
-    run.fill("motion", bytesOf(encodeHalves(frame.motion)));
-    run.fill("albedo", bytesOf(encodeHalves(frame.albedo)));
   }
   static HostedRun::Options options(VkFormat confidence) {
     HostedRun::Options options;
@@ -80,7 +67,7 @@ TEST_F(History, LengthCountsFrames) {
     HostedRun run(device(), method, kSize, options(VK_FORMAT_UNDEFINED));
     for (std::uint32_t i = 0; i < 4; ++i) {
       const HostFrame frame = frameAt(i);
-      fill(run, frame);
+      run.fill(frame);
       (void)run.frame(cameraOf(i), i == 3 ? WALR_FRAME_RESET_HISTORY : 0);
       expectLengths(run, frame, [&](glm::ivec2) { return i == 3 ? 1.0F : float(i) + 1.0F; });
     }
@@ -98,8 +85,8 @@ TEST_F(History, ConfidenceScalesTheLongestHistory) {
     forEachPixel(kSize, [&](glm::ivec2 p) { confidence[std::size_t(p.y) * kSize.x + p.x] = isLeft(p) ? 0.0F : 0.5F; });
     for (std::uint32_t i = 0; i < 6; ++i) {
       const HostFrame frame = frameAt(i);
-      fill(run, frame);
-      run.fill("confidence", bytesOf(confidence));
+      run.fill(frame);
+      run.fill("confidence", texelBytes(confidence));
       (void)run.frame(cameraOf(i));
       // Half of four frames, and this one.
       expectLengths(run, frame, [&](glm::ivec2 p) { return isLeft(p) ? 1.0F : std::min(float(i) + 1.0F, 3.0F); });
@@ -122,9 +109,9 @@ std::vector<std::vector<std::uint16_t>> resultsOf(HostedRun& run, const std::vec
 TEST_F(History, FullConfidenceChangesNothing) {
   constexpr double kStep = 0.06;
   const std::size_t pixels = std::size_t(kSize.x) * kSize.y;
-  const auto notANumber = bytesOf(std::vector<float>(pixels, std::numeric_limits<float>::quiet_NaN()));
-  const auto beyond = bytesOf(std::vector<float>(pixels, std::numeric_limits<float>::infinity()));
-  const auto below = bytesOf(std::vector<float>(pixels, -2.0F));
+  const auto notANumber = texelBytes(std::vector<float>(pixels, std::numeric_limits<float>::quiet_NaN()));
+  const auto beyond = texelBytes(std::vector<float>(pixels, std::numeric_limits<float>::infinity()));
+  const auto below = texelBytes(std::vector<float>(pixels, -2.0F));
   for (const char* method : kMethods) {
     SCOPED_TRACE(method);
     const auto results = [&](VkFormat format, const std::vector<std::byte>& confidence) {
@@ -132,7 +119,7 @@ TEST_F(History, FullConfidenceChangesNothing) {
       given.historyLength = false;
       HostedRun run(device(), method, kSize, given);
       return resultsOf(
-          run, confidence, [&](std::uint32_t i) { fill(run, frameAt(i, kStep)); },
+          run, confidence, [&](std::uint32_t i) { run.fill(frameAt(i, kStep)); },
           [&](std::uint32_t i) { return cameraOf(i, kStep); });
     };
     const auto without = results(VK_FORMAT_UNDEFINED, {});

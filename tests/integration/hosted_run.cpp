@@ -21,12 +21,6 @@ WalrImageState stateOf(const fg::ExternalState& state) {
   return {.stage = state.stage, .access = state.access, .layout = state.layout, .reserved = 0};
 }
 
-std::vector<std::byte> bytesOf(const auto& texels) {
-  std::vector<std::byte> bytes(texels.size() * sizeof(texels[0]));
-  std::memcpy(bytes.data(), texels.data(), bytes.size());
-  return bytes;
-}
-
 }  // namespace
 
 void require(WalrResult result) {
@@ -134,7 +128,7 @@ void HostedRun::makeImages(glm::ivec2 size) {
       device_->context(),
       fg::TextureDesc{.format = historyLengthNeeds_.format,
                       .extent = {historyLengthNeeds_.width, historyLengthNeeds_.height}},
-      historyLengthNeeds_.usage, fg::vk::StagedImage::Direction::Readback, framesInFlight_, "history_length");
+      historyLengthNeeds_.usage, fg::vk::StagedImage::Direction::Readback, hostSlots_, "history_length");
   historyLengthIdentity_ = nextIdentity_++;
 }
 
@@ -197,11 +191,11 @@ void HostedRun::fill(const std::string& image, std::vector<std::byte> texels) {
 }
 
 void HostedRun::fill(const reference::HostFrame& frame) {
-  fill("lighting", bytesOf(encodeHalves(frame.lighting)));
-  fill("depth", bytesOf(encodeFloats(frame.depth)));
-  fill("normal", bytesOf(encodeHalves(frame.normal)));
-  fill("motion", bytesOf(encodeHalves(frame.motion)));
-  fill("albedo", bytesOf(encodeHalves(frame.albedo)));
+  fill("lighting", texelBytes(encodeHalves(frame.lighting)));
+  fill("depth", texelBytes(encodeFloats(frame.depth)));
+  fill("normal", texelBytes(encodeHalves(frame.normal)));
+  fill("motion", texelBytes(encodeHalves(frame.motion)));
+  fill("albedo", texelBytes(encodeHalves(frame.albedo)));
 }
 
 WalrImage HostedRun::describe(std::size_t index) const {

@@ -65,7 +65,7 @@ class HostedRun {
   [[nodiscard]] glm::ivec2 imageSize() const { return glm::ivec2(needs_[0].width, needs_[0].height); }
   /// Upload texels of an image ("lighting", ...) in its format.
   void fill(const std::string& image, std::vector<std::byte> texels);
-  /// Upload all images of a frame except object ids, in the usual formats.
+  /// Upload all images of a frame in the usual formats, without object ids.
   void fill(const reference::HostFrame& frame);
   /// Record and submit a frame with the texels uploaded last, and return the result's texels, four halves each.
   std::vector<std::uint16_t> frame(const FrameDescription& camera, std::uint32_t flags = 0, float preExposure = 0.0F);
@@ -113,6 +113,14 @@ class HostedRun {
   std::uint64_t nextIdentity_ = 1;
   std::uint64_t firstIdentity_ = 1;
 };
+
+/// The bytes of texels.
+template <typename Texel>
+std::vector<std::byte> texelBytes(const std::vector<Texel>& texels) {
+  std::vector<std::byte> bytes(texels.size() * sizeof(Texel));
+  std::memcpy(bytes.data(), texels.data(), bytes.size());
+  return bytes;
+}
 
 /// The bytes of an image with a smaller one copied into it.
 template <typename Texel>

@@ -1,7 +1,6 @@
 // Cameras far from the world's origin, with an origin of their own in every frame.
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <limits>
 #include <string>
 #include <vector>
@@ -24,12 +23,6 @@ constexpr glm::ivec2 kSize(64, 48);
 constexpr std::uint32_t kFrames = 8;
 const glm::dvec3 kNear(0.0);
 const glm::dvec3 kFar(1e6, 2e5, -5e5);  // Metres: more than 1,000 km away.
-
-std::vector<std::byte> bytesOf(const auto& texels) {
-  std::vector<std::byte> bytes(texels.size() * sizeof(texels[0]));
-  std::memcpy(bytes.data(), texels.data(), bytes.size());
-  return bytes;
-}
 
 /// The camera's rotation, which the scene does not know of: its world is rotated with it.
 const glm::dmat4 kTurn = glm::rotate(glm::dmat4(1.0), 0.7, glm::normalize(glm::dvec3(1.0, 2.0, 0.5)));
@@ -73,11 +66,7 @@ class LargeWorld : public fg::test::GpuTest {
     for (std::uint32_t i = 0; i < kFrames; ++i) {
       const auto at = [](double time) { return time * glm::dvec3(0.05, 0.03, -0.04); };
       const HostFrame frame = renderFrame(sphere(), cameraAt(at(i), at(i > 0 ? i - 1.0 : 0.0), kSize, i), kSize);
-      run.fill("lighting", bytesOf(encodeHalves(frame.lighting)));
-      run.fill("depth", bytesOf(encodeFloats(frame.depth)));
-      run.fill("normal", bytesOf(encodeHalves(frame.normal)));
-      run.fill("motion", bytesOf(encodeHalves(frame.motion)));
-      run.fill("albedo", bytesOf(encodeHalves(frame.albedo)));
+      run.fill(frame);
       texels = run.frame(cameraOf(i, place, stated));
     }
     Outcome outcome{decodeHalves(texels, kSize), {}};
