@@ -50,6 +50,8 @@ reference::HostFrame mapFrame(const Symmetry& symmetry, const reference::HostFra
   if (symmetry.transpose) {
     mapped.constants.rayFromPixel = transposeRay(frame.constants.rayFromPixel);
     mapped.constants.previousRayFromPixel = transposeRay(frame.constants.previousRayFromPixel);
+    mapped.constants.pixelFromRay = 1.0F / glm::vec2(mapped.constants.rayFromPixel);
+    std::swap(mapped.constants.previousTexel.x, mapped.constants.previousTexel.y);
   }
   return mapped;
 }

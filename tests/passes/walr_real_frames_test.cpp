@@ -43,6 +43,7 @@ HostFrame cropOf(const Frame& frame, const Layout& layout, glm::ivec2 origin) {
     ray->z += static_cast<float>(origin.x) * ray->x;
     ray->w += static_cast<float>(origin.y) * ray->y;
   }
+  crop.constants.previousTexel = 1.0F / glm::vec2(kCrop);
   crop.lighting = crop.normal = crop.motion = crop.albedo = reference::Image<glm::dvec3>(kCrop);
   crop.depth = reference::Image<double>(kCrop);
   reference::forEachPixel(kCrop, [&](glm::ivec2 p) {
