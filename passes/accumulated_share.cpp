@@ -39,6 +39,8 @@ void addAccumulatedShare(StageGraph graph, fg::PassBuilder& apply, const Accumul
   const fg::Texture edgeSums = storeSums("outEdgeSums", "residual sums at edges");
   const fg::Texture innovationSums = storeSums("outInnovationSums", "innovation sums");
 
+  // Noise alone gives the slope -1 / (2 N) (residual_statistics.comp).
+  const float bias = 0.5F * settings.innovationBias / history.maxHistory;
   fg::PassBuilder pass = graph->compute("residual statistics", shaders::residualStatistics);
   pass.uniform("frameConstants", inputs.frame)
       .sample("depth", inputs.guides.depth)
@@ -51,7 +53,7 @@ void addAccumulatedShare(StageGraph graph, fg::PassBuilder& apply, const Accumul
       .constants(ResidualStatisticsConstants{static_cast<std::int32_t>(inputs.tileSize),
                                              static_cast<std::int32_t>(inputs.tileOffset),
                                              static_cast<std::int32_t>(settings.radius), 1.0F - 1.0F / settings.frames,
-                                             history.maxHistory, settings.innovationGain, settings.innovationBias})
+                                             history.maxHistory, settings.innovationGain, bias})
       // A tile of antilag is no smaller than one of the reconstruction, so that there are no more of them.
       .dispatch(inputs.tiles);
   static_cast<void>(pass.store("outStatistics", statistics.current));

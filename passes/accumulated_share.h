@@ -17,8 +17,8 @@ struct AccumulatedShareSettings {
   float frames = 8.0F;
   std::uint32_t radius = 4;
   float leastShare = 0.05F;
-  float innovationGain = 0.3F;
-  float innovationBias = 0.08F;
+  float innovationGain = 1.5F;
+  float innovationBias = 1.28F;
 
   void visit(SettingVisitor& v) {
     v.visit({"blocks.residual",
@@ -40,12 +40,12 @@ struct AccumulatedShareSettings {
         {"blocks.innovation-gain",
          "How fast the share of a new sample in the history follows the correlation of innovations, the differences "
          "of new samples from history; 0: not at all",
-         "", 0.0, 2.0, "Mehra 1970"},
+         "", 0.0, 4.0, "Mehra 1970"},
         innovationGain);
     v.visit({"blocks.innovation-bias",
-             "Correlation of innovations, with a minus, at which this share stays as it is; up to half of 1 / "
-             "max-history noise alone shortens no history",
-             "", -0.5, 0.5, "measured"},
+             "Correlation of innovations at which this share stays as it is, in units of what noise alone gives at the "
+             "longest history; above 1 history is shorter than that",
+             "", 0.0, 100.0, "measured"},
             innovationBias);
   }
 };

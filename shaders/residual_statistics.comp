@@ -1,5 +1,5 @@
-// WALR, share of the accumulated light (passes/WALR_EXPERIMENTS.md): sums of the residuals in a window of tiles, in which
-// a frame fades as it ages. From the innovations in this window follows how long history may be in the next frame.
+// WALR, share of the accumulated light (passes/WALR_EXPERIMENTS.md): sums of the residuals in a window of tiles, where
+// a frame fades as it ages. The innovations in this window tell how long history may be in the next frame.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -76,16 +76,17 @@ float innovationSlope(Window window) {
   return sum.y > 0.0 ? sum.x / sum.y : 0.0;
 }
 
-// Moves the share 1 / N of a new sample, for a tile of antilag, and stores the antilag factor with which history has
+// Changes the share 1 / N of a new sample, for a tile of antilag, and stores the antilag factor with which history has
 // this length.
 void storeLeastAntilag(ivec2 tile) {
   const int middle = kAntilagTile / 2 + constants.tileOffset;
   const Window window = windowAround((kAntilagTile * tile + middle) / constants.tileSize);
   const float longest = constants.maxHistory, shortest = 1.0;
   const float history = mix(longest, shortest, texelFetch(previousLeastAntilag, tile, 0).x);
-  const float moved = constants.innovationGain * (innovationSlope(window) + constants.innovationBias);
-  const float share = clamp(1.0 / (history + 1.0) + moved, 1.0 / longest, 1.0 / (shortest + 1.0));
-  imageStore(outLeastAntilag, tile, vec4(clamp((longest - (1.0 / share - 1.0)) / max(longest - shortest, 1.0), 0.0, 1.0)));
+  const float growth = 1.0 + constants.innovationGain * (innovationSlope(window) + constants.innovationBias);
+  const float share = clamp(growth / (history + 1.0), 1.0 / longest, 1.0 / (shortest + 1.0));
+  const float factor = (longest - (1.0 / share - 1.0)) / max(longest - shortest, 1.0);
+  imageStore(outLeastAntilag, tile, vec4(clamp(factor, 0.0, 1.0)));
 }
 
 void main() {

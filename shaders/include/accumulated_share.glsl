@@ -157,8 +157,8 @@ vec4 sumOverGroup(vec4 value) {
   return groupSums[0];
 }
 
-// Writes what this workgroup adds to the statistics, relative to the square of its mean light, so that a bright one does
-// not outweigh its neighbours. `light`: predicted luminance of a pixel with statistics and 1; else 0.
+// Writes what this workgroup adds to the statistics, relative to the square of its mean light, so that a bright one
+// does not outweigh its neighbours. `light`: predicted luminance of a pixel with statistics and 1; else 0.
 void storeSums(vec2 light, vec4 statistics, bool edge, vec2 innovation) {
   const vec4 first = sumOverGroup(vec4(light, innovation));
   const vec4 interior = sumOverGroup(edge ? vec4(0.0) : statistics);
