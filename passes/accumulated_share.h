@@ -17,7 +17,7 @@ struct AccumulatedShareSettings {
   float frames = 8.0F;
   std::uint32_t radius = 4;
   float leastShare = 0.05F;
-  float innovationGain = 1.5F;
+  float innovationGain = 3.0F;
   float innovationBias = 1.28F;
 
   void visit(SettingVisitor& v) {
@@ -40,7 +40,7 @@ struct AccumulatedShareSettings {
         {"blocks.innovation-gain",
          "How fast the share of a new sample in the history follows the correlation of innovations, the differences "
          "of new samples from history; 0: not at all",
-         "", 0.0, 4.0, "Mehra 1970"},
+         "", 0.0, 8.0, "Mehra 1970"},
         innovationGain);
     v.visit({"blocks.innovation-bias",
              "Correlation of innovations at which this share stays as it is, in units of what noise alone gives at the "

@@ -194,6 +194,14 @@ void storeNoSurface(ivec2 p) { imageStore(outFiltered, p, vec4(passThroughLight(
 void store(ivec2 p, vec3 colour) { imageStore(outFiltered, p, nearestHalf(vec4(colour, 1.0))); }
 #endif
 
+void storeResult(ivec2 p, bool surface, vec3 colour) {
+  if (surface) {
+    store(p, colour);
+  } else {
+    storeNoSurface(p);
+  }
+}
+
 // The predicted light of a pixel, or its view; false if it shows no surface.
 bool predict(ivec2 p, BilinearTexels nearBlocks, out vec3 position, out vec3 normal, out vec3 predicted) {
   const float z = unpackDepth(texelFetch(depth, p, 0).x);
@@ -239,17 +247,19 @@ void main() {
   const vec2 fraction = kBlockSize % 2 == 0 ? fract(pixelCentre(p) / float(kBlockSize) - 0.5)
                                             : vec2(thread - kBlockSize * interval) / float(kBlockSize);
   const BilinearTexels nearBlocks = BilinearTexels(group + interval - 1, fraction);
-  vec3 position, normal, colour;
-  const bool surface = hasPixel && predict(p, nearBlocks, position, normal, colour);
 #ifdef RESIDUAL
   Shown shown = Shown(false, vec3(0.0), vec3(0.0), vec3(0.0));
-  if (surface) shown = Shown(true, position, normal, colour);
-  colour = withAccumulated(p, hasPixel, shown);
-#endif
-  if (!hasPixel) return;
-  if (surface) {
-    store(p, colour);
-  } else {
-    storeNoSurface(p);
+  if (hasPixel) {
+    vec3 position, normal, colour;
+    if (predict(p, nearBlocks, position, normal, colour)) shown = Shown(true, position, normal, colour);
   }
+  const vec3 mixed = withAccumulated(p, hasPixel, shown);
+  if (hasPixel) storeResult(p, shown.surface, mixed);
+#else
+  if (hasPixel) {
+    vec3 position, normal, colour;
+    const bool surface = predict(p, nearBlocks, position, normal, colour);
+    storeResult(p, surface, colour);
+  }
+#endif
 }

@@ -113,12 +113,11 @@ Residual meanAround(Shown shown, out bool edge) {
   float weights = 0.0;
   edge = false;
   [[unroll]] for (int i = 0; i < 9; ++i) {
-    const ivec2 t = thread + ivec2(i % 3, i / 3) - 1;
-    if (any(lessThan(t, ivec2(0))) || any(greaterThanEqual(t, ivec2(kGroupSize)))) continue;
-    const uint q = uint(t.y * kGroupSize + t.x);
-    if (groupNormals[q].a == 0.0) continue;
-    const float same = sameSurface(shown, q);
-    edge = edge || same < 0.5;
+    const ivec2 t = thread + ivec2(i % 3, i / 3) - 1, inside = clamp(t, ivec2(0), ivec2(kGroupSize - 1));
+    const uint q = uint(inside.y * kGroupSize + inside.x);
+    const bool hasPixel = t == inside && groupNormals[q].a > 0.0;
+    const float same = hasPixel ? sameSurface(shown, q) : 0.0;
+    edge = edge || (hasPixel && same < 0.5);
     const float weight = same * groupHistories[q].y;
     sum.mean += weight * groupResiduals[q].rgb;
     sum.noisy += weight * groupResiduals[q].a;
