@@ -17,7 +17,7 @@ struct AccumulatedShareSettings {
   float frames = 8.0F;
   std::uint32_t radius = 4;
   float leastShare = 0.05F;
-  float innovationGain = 3.0F;
+  float innovationGain = 1.5F;
   float innovationBias = 1.28F;
 
   void visit(SettingVisitor& v) {
@@ -38,15 +38,16 @@ struct AccumulatedShareSettings {
             leastShare);
     v.visit(
         {"blocks.innovation-gain",
-         "How fast the share of a new sample in the history follows the correlation of innovations, the differences "
-         "of new samples from history; 0: not at all",
-         "", 0.0, 8.0, "Mehra 1970"},
+         "How fast the length of history follows the correlation of innovations, the differences of new samples from "
+         "history; 0: not at all",
+         "", 0.0, 4.0, "Mehra 1970"},
         innovationGain);
-    v.visit({"blocks.innovation-bias",
-             "Correlation of innovations at which this share stays as it is, in units of what noise alone gives at the "
-             "longest history; above 1 history is shorter than that",
-             "", 0.0, 100.0, "measured"},
-            innovationBias);
+    v.visit(
+        {"blocks.innovation-bias",
+         "Correlation of innovations at which this length stays as it is, in units of what noise alone gives at the "
+         "longest history; above 1 history is shorter than that",
+         "", 0.0, 100.0, "measured"},
+        innovationBias);
   }
 };
 

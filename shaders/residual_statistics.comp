@@ -76,16 +76,16 @@ float innovationSlope(Window window) {
   return sum.y > 0.0 ? sum.x / sum.y : 0.0;
 }
 
-// Changes the share 1 / N of a new sample, for a tile of antilag, and stores the antilag factor with which history has
-// this length.
+// Changes the history length N of accumulation, for a tile of antilag, and stores the antilag factor with which history
+// has this length.
 void storeLeastAntilag(ivec2 tile) {
   const int middle = kAntilagTile / 2 + constants.tileOffset;
   const Window window = windowAround((kAntilagTile * tile + middle) / constants.tileSize);
-  const float longest = constants.maxHistory, shortest = 1.0;
-  const float history = mix(longest, shortest, texelFetch(previousLeastAntilag, tile, 0).x);
-  const float growth = 1.0 + constants.innovationGain * (innovationSlope(window) + constants.innovationBias);
-  const float share = clamp(growth / (history + 1.0), 1.0 / longest, 1.0 / (shortest + 1.0));
-  const float factor = (longest - (1.0 / share - 1.0)) / max(longest - shortest, 1.0);
+  const float longest = constants.maxHistory, shortest = 2.0;  // An antilag factor of 1 leaves one frame and this one.
+  const float before = mix(longest, shortest - 1.0, texelFetch(previousLeastAntilag, tile, 0).x) + 1.0;
+  const float change = constants.innovationGain * (innovationSlope(window) + constants.innovationBias);
+  const float frames = clamp(before * (1.0 - change), shortest, max(longest, shortest));
+  const float factor = (longest - (frames - 1.0)) / max(longest - (shortest - 1.0), 1.0);
   imageStore(outLeastAntilag, tile, vec4(clamp(factor, 0.0, 1.0)));
 }
 

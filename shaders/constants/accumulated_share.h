@@ -14,8 +14,8 @@ struct ResidualStatisticsConstants {
   int radius;            // Of the window of tiles.
   float kept;            // Share of the sums that is left after a frame.
   float maxHistory;      // Frames: the longest history of accumulation.
-  float innovationGain;  // The share of a new sample grows by this x (slope of innovations + innovationBias).
-  float innovationBias;  // Minus the slope at which that share stays as it is.
+  float innovationGain;  // History shrinks by its length x this x (slope of innovations + innovationBias).
+  float innovationBias;  // Minus the slope at which history stays as long as it is.
 };
 
 #ifdef __cplusplus
