@@ -67,10 +67,10 @@ struct AccumulatedShareInputs {
   fg::Texture accumulated;  ///< Radiance; alpha: history length. RGBA16F or packed.
   fg::Texture lighting;     ///< This frame's noisy light.
   Guides guides;
-  std::uint32_t tileSize;    ///< Pixels per axis of a workgroup of the reconstruction.
-  std::uint32_t tileOffset;  ///< Pixels of the first one that lie before the image, per axis.
-  fg::Extent tiles;          ///< Number of these workgroups.
-  std::optional<SteeredHistory> history;
+  std::uint32_t tileSize;                 ///< Pixels per axis of a workgroup of the reconstruction.
+  std::uint32_t tileOffset;               ///< Pixels of the first one that lie before the image, per axis.
+  fg::Extent tiles;                       ///< Number of these workgroups.
+  std::optional<SteeredHistory> history;  ///< Without it, the length that suits the noise is measured for nobody.
 };
 
 /// Let the reconstruction `apply` (a variant RESIDUAL of block_apply.comp) mix its result with the accumulated light,
