@@ -8,11 +8,14 @@
 
 namespace walr {
 
-Antilag declareAntilag(fg::Graph& graph, fg::Extent pixels) {
-  constexpr auto kTile = static_cast<std::uint32_t>(kAntilagTile);
-  const fg::Extent tiles = gridExtent(pixels, kTile);
+fg::Extent antilagTiles(fg::Extent pixels) {
+  return gridExtent(pixels, static_cast<std::uint32_t>(kAntilagTile));
+}
+
+Antilag declareAntilag(fg::Graph& graph, fg::Extent pixels, fg::Texture least) {
+  const fg::Extent tiles = antilagTiles(pixels);
   return {graph.history("antilag.factor", {VK_FORMAT_R32_SFLOAT, tiles}),
-          graph.texture("antilag.tiles", {VK_FORMAT_R32G32_SFLOAT, tiles})};
+          graph.texture("antilag.tiles", {VK_FORMAT_R32G32_SFLOAT, tiles}), least};
 }
 
 void addAntilag(fg::Graph& graph, const Antilag& antilag, const AntilagSettings& settings) {
@@ -21,7 +24,11 @@ void addAntilag(fg::Graph& graph, const Antilag& antilag, const AntilagSettings&
   }
   const AntilagConstants constants{static_cast<std::int32_t>(settings.radius), settings.scoreLow, settings.scoreHigh};
   fg::PassBuilder pass = graph.compute("antilag", shaders::antilag);
-  pass.sample("tiles", antilag.tiles).constants(constants).dispatch(graph.textureDesc(antilag.tiles).extent);
+  pass.sample("tiles", antilag.tiles)
+      .specialize("kHasLeast", antilag.least.valid())
+      .sampleIf(antilag.least.valid(), "least", antilag.least, antilag.tiles)
+      .constants(constants)
+      .dispatch(graph.textureDesc(antilag.tiles).extent);
   static_cast<void>(pass.store("outFactor", antilag.factor.current));
 }
 

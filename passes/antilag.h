@@ -38,11 +38,18 @@ struct Antilag {
   /// R32G32_SFLOAT: sums over a tile of d and d^2, where d is the luminance of this frame's sample less that of
   /// history.
   fg::Texture tiles;
+  /// R32_SFLOAT, a texel for each tile, or invalid: the least factor that the last frame's measurements of the noise
+  /// allow (`SteeredHistory`).
+  fg::Texture least;
 };
 
 /// Declare the textures.
 /// @param pixels the image's extent
-Antilag declareAntilag(fg::Graph& graph, fg::Extent pixels);
+/// @param least  `Antilag::least`
+Antilag declareAntilag(fg::Graph& graph, fg::Extent pixels, fg::Texture least = {});
+
+/// Tiles of an image.
+fg::Extent antilagTiles(fg::Extent pixels);
 
 /// Add the pass that computes the antilag factor for the next frame.
 /// @param antilag as the accumulation of this frame wrote it

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "passes/grid_extent.h"
-#include "shaders/constants/accumulated_share.h"
 #include "shaders/constants/block_regression.h"
 #include "shaders/constants/stored_fit.h"
 #include "shaders/shaders.h"
@@ -67,7 +66,7 @@ BlockGrid gridOf(StageGraph graph, fg::Buffer frame, fg::Extent pixels, const Bl
   constants.coarseGrowthOcclusion = s.coarseGrowthOcclusion;
   constants.coarseSamples = s.coarseSamples;
   constants.inverseCoarseLeastShare = 1.0F / s.coarseLeastShare;
-  constants.residualLeastShare = s.residualLeastShare;
+  constants.residualLeastShare = s.share.leastShare;
   return {graph, frame, pixels, blocks, gridExtent(pixels, cellSize), s.size, cellBlocks, cellSize, constants};
 }
 
@@ -259,33 +258,7 @@ void readLight(const BlockGrid& grid, const BlockLight& light, fg::PassBuilder& 
 
 /// Whether the result takes in accumulated light: it must have a history beside this frame's light.
 bool addsResidual(const BlockLight& light, const BlockRegressionSettings& settings) {
-  return settings.residual && light.alpha == LightingAlpha::SampleCount && light.lighting.valid();
-}
-
-/// Let the reconstruction mix its result with the accumulated light (accumulated_share.glsl), and add the pass that
-/// measures for the next frame how far.
-void mixWithAccumulated(const BlockGrid& grid, fg::PassBuilder& apply, const fg::Shader& shader,
-                        const BlockLight& light, const Guides& guides, const BlockRegressionSettings& settings) {
-  const bool packed = isPacked(grid, light.accumulated);
-  const fg::Extent tiles = tilesOf(grid, shader);
-  const fg::History statistics = grid.graph->history("residual statistics", {VK_FORMAT_R32G32B32A32_SFLOAT, tiles});
-  apply.specialize("kPackedMean", packed)
-      .sampleIf(packed, "accumulatedPacked", light.accumulated, guides.depth)
-      .sampleIf(!packed, "accumulatedHalf", light.accumulated, light.lighting)
-      .sample("lighting", light.lighting)
-      .sample("previousStatistics", statistics.previous);
-  const fg::Texture sums =
-      apply.store("outResidualSums", grid.graph->texture("residual sums", {VK_FORMAT_R32G32B32A32_SFLOAT, tiles}));
-  fg::PassBuilder pass = grid.graph->compute("residual statistics", shaders::residualStatistics);
-  pass.uniform("frameConstants", grid.frame)
-      .sample("depth", guides.depth)
-      .sample("sums", sums)
-      .sample("previousStatistics", statistics.previous)
-      .constants(ResidualStatisticsConstants{
-          static_cast<std::int32_t>(tileSizeOf(grid, shader)), static_cast<std::int32_t>(pixelsBeforeImage(grid)),
-          static_cast<std::int32_t>(settings.residualRadius), settings.residualFrames})
-      .dispatch(tiles);
-  static_cast<void>(pass.store("outStatistics", statistics.current));
+  return settings.share.enabled && light.alpha == LightingAlpha::SampleCount && light.lighting.valid();
 }
 
 }  // namespace
@@ -341,7 +314,18 @@ fg::Texture addBlockReconstruction(StageGraph graph, fg::Buffer frame, const Blo
                                       : (writesPacked ? shaders::blockApplyPacked : shaders::blockApply);
   fg::PassBuilder pass = reconstruct("block apply", shader);
   if (!writesPacked) pass.sample("passThrough", readsPacked ? light.lighting : light.accumulated);
-  if (residual) mixWithAccumulated(grid, pass, shader, light, guides, settings);
+  if (residual) {
+    addAccumulatedShare(graph, pass,
+                        {.frame = frame,
+                         .accumulated = light.accumulated,
+                         .lighting = light.lighting,
+                         .guides = guides,
+                         .tileSize = tileSizeOf(grid, shader),
+                         .tileOffset = pixelsBeforeImage(grid),
+                         .tiles = tilesOf(grid, shader),
+                         .history = light.history},
+                        settings.share);
+  }
   return pass.store("outFiltered", graph->texture("filtered", {formatOf(light.result), grid.pixels}));
 }
 

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "framegraph/declare/graph.h"
+#include "passes/accumulated_share.h"
 #include "passes/light_storage.h"
 #include "passes/lighting_alpha.h"
 #include "passes/prepare_guides.h"
@@ -28,10 +30,7 @@ struct BlockRegressionSettings {
   float coarseGrowthOcclusion = 4.0F;
   float coarseSamples = 3200.0F;
   float coarseLeastShare = 0.15F;
-  bool residual = false;
-  float residualFrames = 8.0F;
-  std::uint32_t residualRadius = 2;
-  float residualLeastShare = 0.05F;
+  AccumulatedShareSettings share = {};
 
   void visit(SettingVisitor& v) {
     v.visit({"blocks.size", "Side of the blocks whose moments are averaged", "pixels", 2, 8, "measured"}, size);
@@ -90,21 +89,7 @@ struct BlockRegressionSettings {
              "much on it counts in full",
              "", 1e-6, 0.5, "measured"},
             coarseLeastShare);
-    v.visit({"blocks.residual",
-             "Mix accumulated light into the result as far as two halves of its samples agree that the fits miss "
-             "something",
-             "", 0, 1, "measured"},
-            residual);
-    v.visit(
-        {"blocks.residual-frames", "Frames over which this agreement is measured", "frames", 1.0, 255.0, "measured"},
-        residualFrames);
-    v.visit({"blocks.residual-radius",
-             "Radius of the window of tiles over which it is measured; a tile is as many blocks as fit into 8 pixels",
-             "tiles", 0, 8, "measured"},
-            residualRadius);
-    v.visit({"blocks.residual-least-share", "Share of the accumulated light below which it is left out", "", 0.0, 0.5,
-             "measured"},
-            residualLeastShare);
+    share.visit(v);
   }
 };
 
@@ -113,8 +98,9 @@ struct BlockLight {
   fg::Texture accumulated;    ///< RGBA16F, or packed: radiance; values that are not finite do not count.
   LightingAlpha alpha;        ///< What the alpha channel of `accumulated` holds; pixels without samples do not count.
   fg::Texture lighting = {};  ///< The host's; needed if `accumulated` is packed and the result is not, and for
-                              ///< `BlockRegressionSettings::residual`, which has no effect without it.
-  LightStorage result = LightStorage::Half;  ///< Packed: holds no pass-through; see packed_light.glsl.
+                              ///< `BlockRegressionSettings::share`, which has no effect without it.
+  std::optional<SteeredHistory> history = std::nullopt;  ///< Of `accumulated`, if `AccumulatedShareSettings` steers it.
+  LightStorage result = LightStorage::Half;              ///< Packed: holds no pass-through; see packed_light.glsl.
 };
 
 /// The fits of a frame, which the reconstruction reads (shaders/constants/stored_fit.h).

@@ -28,6 +28,9 @@ struct Preset {
 template <typename Settings>
 constexpr std::array<Preset<Settings>, 0> kPresets{};
 template <>
+constexpr std::array kPresets<WalrSettings>{Preset<WalrSettings>{"one-sample", [] { return WalrSettings{}; }},
+                                            Preset<WalrSettings>{"many-samples", manySamplesWalr}};
+template <>
 constexpr std::array kPresets<WalrPaperSettings>{Preset<WalrPaperSettings>{"paper", paperWalr},
                                                  Preset<WalrPaperSettings>{"robust", robustWalr}};
 template <>

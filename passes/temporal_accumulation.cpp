@@ -39,12 +39,12 @@ struct Stage {
 };
 
 Stage stageOf(StageGraph graph, const DenoiserInputs& inputs, const Guides& guides,
-              const TemporalAccumulationSettings& settings, bool keepTaps) {
+              const TemporalAccumulationSettings& settings, bool keepTaps, fg::Texture leastAntilag = {}) {
   const fg::Extent extent = graph->textureDesc(inputs.lighting).extent;
   Stage stage{graph,       inputs,   guides,
               settings,    keepTaps, graph->history("accumulated", {formatOf(settings.storage), extent}),
               std::nullopt};
-  if (settings.antilag.enabled) stage.antilag = declareAntilag(graph, extent);
+  if (settings.antilag.enabled) stage.antilag = declareAntilag(graph, extent, leastAntilag);
   return stage;
 }
 
@@ -137,8 +137,8 @@ std::span<const ViewInfo> accumulationViews(bool withAntilag) {
 }
 
 fg::Texture addTemporalAccumulation(StageGraph graph, const DenoiserInputs& inputs, const Guides& guides,
-                                    const TemporalAccumulationSettings& settings) {
-  const Stage stage = stageOf(graph, inputs, guides, settings, false);
+                                    const TemporalAccumulationSettings& settings, fg::Texture leastAntilag) {
+  const Stage stage = stageOf(graph, inputs, guides, settings, false, leastAntilag);
   offerViews(stage);
   fg::PassBuilder pass = declarePass(stage, "temporal accumulation", Role::Mean);
   return storeMean(stage, pass);
@@ -146,8 +146,8 @@ fg::Texture addTemporalAccumulation(StageGraph graph, const DenoiserInputs& inpu
 
 AccumulationWithTaps addTemporalAccumulationWithTaps(StageGraph graph, const DenoiserInputs& inputs,
                                                      const Guides& guides, const TemporalAccumulationSettings& settings,
-                                                     LightStorage antialiasing) {
-  const Stage stage = stageOf(graph, inputs, guides, settings, true);
+                                                     LightStorage antialiasing, fg::Texture leastAntilag) {
+  const Stage stage = stageOf(graph, inputs, guides, settings, true, leastAntilag);
   offerViews(stage);
   fg::PassBuilder pass = declarePass(stage, "temporal accumulation", Role::MeanAndTaps);
   return storeMeanAndTaps(stage, pass, antialiasing);
@@ -160,15 +160,15 @@ bool canJoinGuides(const TemporalAccumulationSettings& settings) {
 
 GuidesAndAccumulation addGuidesAndAccumulation(StageGraph graph, const DenoiserInputs& inputs,
                                                const PrepareGuidesSettings& guideSettings, const GuideNeeds& needs,
-                                               const TemporalAccumulationSettings& settings,
-                                               LightStorage antialiasing) {
+                                               const TemporalAccumulationSettings& settings, LightStorage antialiasing,
+                                               fg::Texture leastAntilag) {
   if (!canJoinGuides(settings) || !needs.geometricNormal || !needs.history || !needs.occlusion) {
     throw std::invalid_argument(
         "guides and accumulation share a pass only with antilag, packed storage, history taps "
         "tested by plane, no dilated motion, and if all guides are needed; add two passes");
   }
   offerGuideViews(graph, inputs, guideSettings);
-  Stage stage = stageOf(graph, inputs, {}, settings, true);
+  Stage stage = stageOf(graph, inputs, {}, settings, true, leastAntilag);
   fg::PassBuilder pass = newPass(stage, "guides and accumulation", Role::GuidesMeanAndTaps);
   readGBuffer(pass, inputs, guideSettings);
   pass.constants(

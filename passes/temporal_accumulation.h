@@ -64,7 +64,7 @@ std::span<const ViewInfo> accumulationViews(bool withAntilag);
 /// @returns in the storage `settings.storage`: mean radiance; alpha: history length, 0 where there is nothing to
 /// denoise.
 fg::Texture addTemporalAccumulation(StageGraph graph, const DenoiserInputs& inputs, const Guides& guides,
-                                    const TemporalAccumulationSettings& settings = {});
+                                    const TemporalAccumulationSettings& settings = {}, fg::Texture leastAntilag = {});
 
 /// Accumulated light, and the kept history taps with which later stages read their own histories along the same motion.
 struct AccumulationWithTaps {
@@ -83,7 +83,8 @@ struct AccumulationWithTaps {
 AccumulationWithTaps addTemporalAccumulationWithTaps(StageGraph graph, const DenoiserInputs& inputs,
                                                      const Guides& guides,
                                                      const TemporalAccumulationSettings& settings = {},
-                                                     LightStorage antialiasing = LightStorage::Half);
+                                                     LightStorage antialiasing = LightStorage::Half,
+                                                     fg::Texture leastAntilag = {});
 
 /// Guides, and light accumulated with them.
 struct GuidesAndAccumulation {
@@ -100,6 +101,7 @@ bool canJoinGuides(const TemporalAccumulationSettings& settings);
 /// @throws std::invalid_argument unless `canJoinGuides`
 GuidesAndAccumulation addGuidesAndAccumulation(StageGraph graph, const DenoiserInputs& inputs,
                                                const PrepareGuidesSettings& guideSettings, const GuideNeeds& needs,
-                                               const TemporalAccumulationSettings& settings, LightStorage antialiasing);
+                                               const TemporalAccumulationSettings& settings, LightStorage antialiasing,
+                                               fg::Texture leastAntilag = {});
 
 }  // namespace walr

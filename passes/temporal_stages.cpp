@@ -45,10 +45,11 @@ Accumulated addAccumulation(StageGraph graph, const DenoiserInputs& inputs, cons
                             const TemporalPlan& plan) {
   if (!plan.accumulates) return {.lighting = inputs.lighting};
   if (!plan.keepsTaps) {
-    return {.lighting = addTemporalAccumulation(graph, inputs, guides, plan.accumulation),
+    return {.lighting = addTemporalAccumulation(graph, inputs, guides, plan.accumulation, plan.leastAntilag),
             .alpha = LightingAlpha::SampleCount};
   }
-  return withTaps(addTemporalAccumulationWithTaps(graph, inputs, guides, plan.accumulation, tapsReader(plan)));
+  return withTaps(
+      addTemporalAccumulationWithTaps(graph, inputs, guides, plan.accumulation, tapsReader(plan), plan.leastAntilag));
 }
 
 GuidedInput addGuidesWithAccumulation(StageGraph graph, const DenoiserInputs& inputs,
@@ -56,8 +57,8 @@ GuidedInput addGuidesWithAccumulation(StageGraph graph, const DenoiserInputs& in
                                       const TemporalPlan& plan) {
   const bool allGuides = needs.geometricNormal && needs.history && needs.occlusion.has_value();
   if (plan.accumulates && plan.keepsTaps && allGuides && canJoinGuides(plan.accumulation)) {
-    const auto [guides, accumulated] =
-        addGuidesAndAccumulation(graph, inputs, settings, needs, plan.accumulation, tapsReader(plan));
+    const auto [guides, accumulated] = addGuidesAndAccumulation(graph, inputs, settings, needs, plan.accumulation,
+                                                                tapsReader(plan), plan.leastAntilag);
     return {guides, withTaps(accumulated)};
   }
   const Guides guides = addPrepareGuides(graph, inputs, settings, needs);

@@ -32,6 +32,7 @@ struct TemporalPlan {
   bool sharesTaps = false;                     ///< Anti-aliasing reads them instead of reprojecting.
   GuideNeeds guides;                           ///< Guides that these stages read. A filter may need more.
   LightStorage filtered = LightStorage::Half;  ///< Storage of the filter's result.
+  fg::Texture leastAntilag = {};               ///< `Antilag::least`, which the filter measures, or invalid.
 };
 
 /// Decide what the temporal stages do. Accumulation keeps its history taps if anti-aliasing would find the same ones,

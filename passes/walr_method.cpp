@@ -1,6 +1,7 @@
 #include "passes/walr_method.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "passes/temporal_stages.h"
 #include "passes/window_fit.h"
@@ -22,9 +23,16 @@ BlockRegressionSettings fittedBlocks(const WalrSettings& settings, std::uint32_t
 }  // namespace
 
 fg::Texture addWalr(StageGraph graph, const DenoiserInputs& inputs, fg::Texture output, const WalrSettings& settings) {
-  const TemporalPlan plan = planTemporalStages(inputs, {.accumulation = settings.accumulation,
-                                                        .antialiasing = settings.antialiasing,
-                                                        .spatialOnly = settings.spatialOnly});
+  TemporalPlan plan = planTemporalStages(inputs, {.accumulation = settings.accumulation,
+                                                  .antialiasing = settings.antialiasing,
+                                                  .spatialOnly = settings.spatialOnly});
+  const BlockRegressionSettings blocks = fittedBlocks(settings, graph->textureDesc(inputs.lighting).extent.height);
+  std::optional<SteeredHistory> history;
+  if (blocks.share.enabled && plan.accumulates && settings.accumulation.antilag.enabled) {
+    history =
+        declareSteeredHistory(graph, graph->textureDesc(inputs.lighting).extent, settings.accumulation.maxHistory);
+    plan.leastAntilag = history->leastAntilag.previous;
+  }
   GuideNeeds needs = plan.guides;
   needs.geometricNormal = true;
   needs.occlusion = settings.occlusion;
@@ -32,11 +40,18 @@ fg::Texture addWalr(StageGraph graph, const DenoiserInputs& inputs, fg::Texture 
   const BlockLight light{.accumulated = accumulated.lighting,
                          .alpha = accumulated.alpha,
                          .lighting = inputs.lighting,
+                         .history = history,
                          .result = plan.filtered};
-  const BlockRegressionSettings blocks = fittedBlocks(settings, graph->textureDesc(inputs.lighting).extent.height);
   const BlockFits fits = addBlockRegression(graph, inputs.frame, light, guides, blocks);
   const fg::Texture filtered = addBlockReconstruction(graph, inputs.frame, light, guides, fits, blocks);
   return addAntialiasing(graph, inputs, guides, plan, accumulated, filtered, output);
+}
+
+WalrSettings manySamplesWalr() {
+  WalrSettings settings;
+  settings.blocks.share.enabled = true;
+  settings.antialiasing.maxHistory = 2.0F;
+  return settings;
 }
 
 }  // namespace walr

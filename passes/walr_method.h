@@ -40,6 +40,10 @@ struct WalrSettings {
   }
 };
 
+/// For light with four samples a pixel or more, or from an estimator as good (ReSTIR): the result takes in accumulated
+/// light as far as it can be trusted, and histories are shorter.
+WalrSettings manySamplesWalr();
+
 /// The project's own method: Weighted A-Trous Linear Regression (Meunier & Harada 2022, figure 6) over blocks of
 /// pixels instead of pixels, which leaves room for depth and occlusion as features. See passes/WALR.md.
 /// @param output     RGBA16F texture to write the result to

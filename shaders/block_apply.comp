@@ -8,7 +8,8 @@
 // A pixel without a surface (depth 0) is not filtered: its pass-through is copied to the result.
 // PACKED: the result is packed light (packed_light.glsl). A pixel without a surface gets the mark kFilteredNoSurface,
 // and anti-aliasing outputs the pass-through.
-// RESIDUAL: mixes the result with the accumulated light (accumulated_share.glsl).
+// RESIDUAL: mixes the result with the accumulated light (accumulated_share.glsl), and measures how well the length of
+// history suits the noise (innovation.glsl).
 // VIEW: writes an intermediate value instead of the result, and black where there is no surface. The cells are always
 // read. With VIEW, PACKED means that `accumulated` is packed.
 #version 460
@@ -193,14 +194,23 @@ void storeNoSurface(ivec2 p) { imageStore(outFiltered, p, vec4(passThroughLight(
 void store(ivec2 p, vec3 colour) { imageStore(outFiltered, p, nearestHalf(vec4(colour, 1.0))); }
 #endif
 
+void storeResult(ivec2 p, bool surface, vec3 colour) {
+  if (surface) {
+    store(p, colour);
+  } else {
+    storeNoSurface(p);
+  }
+}
+
 // The predicted light of a pixel, or its view; false if it shows no surface.
-bool predict(ivec2 p, BilinearTexels nearBlocks, out vec3 position, out vec3 predicted) {
+bool predict(ivec2 p, BilinearTexels nearBlocks, out vec3 position, out vec3 normal, out vec3 predicted) {
   const float z = unpackDepth(texelFetch(depth, p, 0).x);
   if (z == 0.0) return false;
   const BilinearTexels nearCells = kCellSize == kBlockSize ? nearBlocks : bilinearTexels(p, kCellSize);
 
   const NormalAndOcclusion guides = unpackNormalAndOcclusion(texelFetch(features, p, 0).x);
   const ScaledFeatures pixel = scaledFeatures(guides, z);
+  normal = guides.normal;
   const vec3 ray = rayThrough(frame.rayFromPixel, pixelCentre(p));
   position = z * ray;
   const Prediction fine = predictFine(nearBlocks, ray, z, guides.normal, pixel);
@@ -236,23 +246,20 @@ void main() {
   // Centres of blocks with an odd side are centres of pixels, where a fraction could round to that of another block.
   const vec2 fraction = kBlockSize % 2 == 0 ? fract(pixelCentre(p) / float(kBlockSize) - 0.5)
                                             : vec2(thread - kBlockSize * interval) / float(kBlockSize);
+  const BilinearTexels nearBlocks = BilinearTexels(group + interval - 1, fraction);
 #ifdef RESIDUAL
-  Residuals residuals = noResiduals();
-#endif
+  Shown shown = Shown(false, vec3(0.0), vec3(0.0), vec3(0.0));
   if (hasPixel) {
-    vec3 position, colour;
-    if (predict(p, BilinearTexels(group + interval - 1, fraction), position, colour)) {
-#ifdef RESIDUAL
-      const vec4 mean = accumulatedAt(p);
-      residuals = residualsOf(p, mean, luminance(colour));
-      if (mean.a > 0.0) colour = mix(colour, mean.rgb, accumulatedShare(previousStatisticsAt(position)));
-#endif
-      store(p, colour);
-    } else {
-      storeNoSurface(p);
-    }
+    vec3 position, normal, colour;
+    if (predict(p, nearBlocks, position, normal, colour)) shown = Shown(true, position, normal, colour);
   }
-#ifdef RESIDUAL
-  sumResiduals(residuals);
+  const vec3 mixed = withAccumulated(p, hasPixel, shown);
+  if (hasPixel) storeResult(p, shown.surface, mixed);
+#else
+  if (hasPixel) {
+    vec3 position, normal, colour;
+    const bool surface = predict(p, nearBlocks, position, normal, colour);
+    storeResult(p, surface, colour);
+  }
 #endif
 }

@@ -1,10 +1,10 @@
-// WALR, share of the accumulated light (passes/WALR_EXPERIMENTS.md): running means of the residuals around a tile,
-// relative to the square of the light. x: product of the residuals of both halves; y: square of the residual; z: frames
-// in these means.
+// WALR, share of the accumulated light (passes/WALR_EXPERIMENTS.md): sums of the residuals in a window of tiles, where
+// a frame fades as it ages. The innovations in this window tell how long history may be in the next frame.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
 #include "constants/accumulated_share.h"
+#include "constants/antilag.h"
 #include "constants/frame.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -12,8 +12,14 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(std140) uniform frameConstants { FrameConstants frame; };
 uniform utexture2D depth;
 uniform texture2D sums;  // Of each tile: include/accumulated_share.glsl.
+uniform texture2D edgeSums;
+uniform texture2D innovationSums;  // include/innovation.glsl.
 uniform texture2D previousStatistics;
+uniform texture2D previousEdgeStatistics;
+uniform texture2D previousLeastAntilag;
 layout(rgba32f) uniform writeonly image2D outStatistics;
+layout(rgba32f) uniform writeonly image2D outEdgeStatistics;
+layout(r32f) uniform writeonly image2D outLeastAntilag;
 layout(push_constant) uniform PushConstants { ResidualStatisticsConstants constants; };
 #include "include/camera.glsl"
 #include "include/surface.glsl"
@@ -31,27 +37,60 @@ ivec2 previousTile(ivec2 tile) {
   return ivec2(floor((pixel + float(constants.tileOffset)) / float(constants.tileSize)));
 }
 
-void main() {
-  const ivec2 tile = ivec2(gl_GlobalInvocationID.xy);
-  const ivec2 size = textureSize(sums, 0);
-  if (any(greaterThanEqual(tile, size))) return;
+// The window of tiles around one of them, inside the image.
+struct Window {
+  ivec2 first;
+  ivec2 last;
+};
 
-  vec3 statistics = vec3(0.0);
+Window windowAround(ivec2 tile) {
+  return Window(max(tile - constants.radius, ivec2(0)), min(tile + constants.radius, textureSize(sums, 0) - 1));
+}
+
+void storeStatistics(ivec2 tile) {
+  const ivec2 size = textureSize(sums, 0);
+  vec4 interior = vec4(0.0), edge = vec4(0.0);
   const ivec2 before = previousTile(tile);
   if (all(greaterThanEqual(before, ivec2(0))) && all(lessThan(before, size))) {
-    statistics = texelFetch(previousStatistics, before, 0).xyz;
+    interior = constants.kept * texelFetch(previousStatistics, before, 0);
+    edge = constants.kept * texelFetch(previousEdgeStatistics, before, 0);
   }
-  const ivec2 first = max(tile - constants.radius, ivec2(0));
-  const ivec2 last = min(tile + constants.radius, size - 1);
-  vec3 sum = vec3(0.0);  // z: pixels.
-  for (int y = first.y; y <= last.y; ++y) {
-    for (int x = first.x; x <= last.x; ++x) {
-      sum += texelFetch(sums, ivec2(x, y), 0).xyz;
+  const Window window = windowAround(tile);
+  for (int y = window.first.y; y <= window.last.y; ++y) {
+    for (int x = window.first.x; x <= window.last.x; ++x) {
+      interior += texelFetch(sums, ivec2(x, y), 0);
+      edge += texelFetch(edgeSums, ivec2(x, y), 0);
     }
   }
-  if (sum.z > 0.0) {
-    statistics.z = min(statistics.z + 1.0, constants.mostFrames);
-    statistics.xy = mix(statistics.xy, sum.xy / sum.z, 1.0 / statistics.z);
+  imageStore(outStatistics, tile, interior);
+  imageStore(outEdgeStatistics, tile, edge);
+}
+
+// Slope of the regression of innovations on those of the frame before. Without noise it is how much more the last frame
+// should have counted. If only noise parts light and history, it is minus half of the share with which it counted.
+float innovationSlope(Window window) {
+  vec2 sum = vec2(0.0);
+  for (int y = window.first.y; y <= window.last.y; ++y) {
+    for (int x = window.first.x; x <= window.last.x; ++x) sum += texelFetch(innovationSums, ivec2(x, y), 0).xy;
   }
-  imageStore(outStatistics, tile, vec4(statistics, 0.0));
+  return sum.y > 0.0 ? sum.x / sum.y : 0.0;
+}
+
+// Changes the history length N of accumulation, for a tile of antilag, and stores the antilag factor with which history
+// has this length.
+void storeLeastAntilag(ivec2 tile) {
+  const int middle = kAntilagTile / 2 + constants.tileOffset;
+  const Window window = windowAround((kAntilagTile * tile + middle) / constants.tileSize);
+  const float longest = constants.maxHistory, shortest = 2.0;  // An antilag factor of 1 leaves one frame and this one.
+  const float before = mix(longest, shortest - 1.0, texelFetch(previousLeastAntilag, tile, 0).x) + 1.0;
+  const float change = constants.innovationGain * (innovationSlope(window) + constants.innovationBias);
+  const float frames = clamp(before * (1.0 - change), shortest, max(longest, shortest));
+  const float factor = (longest - (frames - 1.0)) / max(longest - (shortest - 1.0), 1.0);
+  imageStore(outLeastAntilag, tile, vec4(clamp(factor, 0.0, 1.0)));
+}
+
+void main() {
+  const ivec2 tile = ivec2(gl_GlobalInvocationID.xy);
+  if (all(lessThan(tile, textureSize(sums, 0)))) storeStatistics(tile);
+  if (all(lessThan(tile, textureSize(previousLeastAntilag, 0)))) storeLeastAntilag(tile);
 }

@@ -13,8 +13,8 @@ import subprocess
 import sys
 import tempfile
 
-METHODS = ("walr,walr_paper,walr_paper:robust,refwlr,refwlr:paper,bmfr,bmfr:paper,svgf,svgf:paper,flr,joint_bilateral,"
-           "accumulate,none")
+METHODS = ("walr,walr:many-samples,walr_paper,walr_paper:robust,refwlr,refwlr:paper,bmfr,bmfr:paper,svgf,svgf:paper,flr,"
+           "joint_bilateral,accumulate,none")
 
 
 def denoised_hash(walr, sequence, frames, method, preset, output):

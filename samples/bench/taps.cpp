@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "passes/flr_regression.h"
+#include "shaders/constants/accumulated_share.h"
 #include "shaders/constants/antilag.h"
 #include "shaders/constants/block_regression.h"
 #include "shaders/constants/flr.h"
@@ -117,6 +118,12 @@ constexpr std::array kShaders = {
     ShaderTaps{"block_atrous", [](const Stage& stage) { return 9.0 * stage.share; }},
     // The pixel itself, and the four blocks and four cells around it.
     ShaderTaps{"block_apply", [](const Stage&) { return 1.0 + 2.0 * kBilinear; }},
+    // Windows of three sums of tiles.
+    ShaderTaps{"residual_statistics",
+               [](const Stage& stage) {
+                 const auto radius = constantsOf<ResidualStatisticsConstants>(stage).radius;
+                 return 3.0 * window(static_cast<std::uint32_t>(radius)) * stage.share;
+               }},
     ShaderTaps{"joint_bilateral", [](const Stage& stage) { return window(specializationOf(stage, "kRadius")); }},
 };
 

@@ -9,14 +9,17 @@ namespace walr {
 
 // Of residual_statistics.comp.
 struct ResidualStatisticsConstants {
-  int tileSize;      // Pixels per axis.
-  int tileOffset;    // Pixels of the first tile that lie before the image, per axis.
-  int radius;        // Of the window of tiles.
-  float mostFrames;  // In the running means.
+  int tileSize;          // Pixels per axis.
+  int tileOffset;        // Pixels of the first tile that lie before the image, per axis.
+  int radius;            // Of the window of tiles.
+  float kept;            // Share of the sums that is left after a frame.
+  float maxHistory;      // Frames: the longest history of accumulation.
+  float innovationGain;  // History shrinks by its length x this x (slope of innovations + innovationBias).
+  float innovationBias;  // Minus the slope at which history stays as long as it is.
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(ResidualStatisticsConstants) == 16);
+static_assert(sizeof(ResidualStatisticsConstants) == 28);
 }  // namespace walr
 #endif
 #endif

@@ -1,12 +1,16 @@
 // The share of the accumulated light in the reconstruction (passes/WALR_EXPERIMENTS.md). What the fits leave of it, the
 // residual, is noise where the fits are right, and light that no feature explains where they are not. Two halves of the
 // light with independent noise tell which: this frame's light y and the history h. Where only noise parts them from the
-// prediction, the product of their residuals is 0 in the mean.
-// Needs: `frame` (FrameConstants), `constants` (BlockRegressionConstants), kBlockSize, workgroups of kSumThreads.
+// prediction p, the product of their residuals is 0 in the mean.
+// The residual is split into two levels: its mean over the pixels around on the same surface, and what the pixel's own
+// differs from that. Each level has its own share. So have pixels beside an edge, where the fits miss most.
+// Needs: `frame` (FrameConstants), `constants` (BlockRegressionConstants), kBlockSize, workgroups of 8 x 8, and
+// block_plane.glsl.
 #ifndef WALR_ACCUMULATED_SHARE_GLSL
 #define WALR_ACCUMULATED_SHARE_GLSL
 #include "camera.glsl"
 #include "finite.glsl"
+#include "innovation.glsl"
 #include "luminance.glsl"
 #include "packed_light.glsl"
 
@@ -14,92 +18,190 @@ layout(constant_id = 3) const bool kPackedMean = true;  // The accumulated light
 uniform utexture2D accumulatedPacked;
 uniform texture2D accumulatedHalf;
 uniform texture2D lighting;
-uniform sampler2D previousStatistics;  // residual_statistics.comp.
+uniform texture2D previousStatistics;      // residual_statistics.comp.
+uniform texture2D previousEdgeStatistics;  // The same of pixels beside an edge.
 layout(rgba32f) uniform writeonly image2D outResidualSums;
+layout(rgba32f) uniform writeonly image2D outEdgeSums;
 
 vec4 accumulatedAt(ivec2 p) {
   return kPackedMean ? unpackAccumulated(texelFetch(accumulatedPacked, p, 0).x) : texelFetch(accumulatedHalf, p, 0);
 }
 
-// Means over the surroundings in the previous frame. x: product of the residuals of both halves; y: square of the
-// residual. Both are relative to the square of the light.
-vec2 previousStatisticsAt(vec3 position) {
-  const vec3 before = previousPosition(frame.previousViewFromView, position);
-  if (before.z >= 0.0) return vec2(0.0);
+// Sums over pixels. xy: of the mean around a pixel; zw: of what the pixel's own residual differs from it. x and z:
+// product of the residuals of y and h, which is the square of what the fits miss; y and w: square of the noise of one
+// sample. `before`: the position in the previous camera's view space.
+vec4 previousStatisticsAt(vec3 before, bool edge) {
+  if (before.z >= 0.0) return vec4(0.0);
   const int tileSize = int(gl_WorkGroupSize.x) / kBlockSize * kBlockSize;
   const vec2 tile = (pixelOf(frame.previousRayFromPixel, before) + float((kBlockSize + 1) / 2)) / float(tileSize) - 0.5;
-  const vec2 base = floor(tile), f = tile - base;
-  const vec2 corner = (base + 1.0) / vec2(textureSize(previousStatistics, 0));
-  const vec4 weights = vec4((1.0 - f.x) * f.y, f.x * f.y, f.x * (1.0 - f.y), (1.0 - f.x) * (1.0 - f.y));
-  return vec2(dot(weights, textureGather(previousStatistics, corner, 0)),
-              dot(weights, textureGather(previousStatistics, corner, 1)));
-}
-
-// The share that makes the expected square of the error least, if the residual consists of what the fits miss, whose
-// square is `statistics.x`, and of noise. The means have errors of their own, so that a small share is none.
-float accumulatedShare(vec2 statistics) {
-  const float share = statistics.x / max(statistics.y, 1e-30);
-  return clamp((share - constants.residualLeastShare) / (1.0 - constants.residualLeastShare), 0.0, 1.0);
-}
-
-// The residuals of a pixel, and its prediction; luminances. `counts` is 0 where the pixel has no finite y or no h.
-struct Residuals {
-  float product;  // Of the residuals of y and h.
-  float square;   // Of the residual of the mean of both.
-  float predicted;
-  float counts;
-};
-
-Residuals noResiduals() { return Residuals(0.0, 0.0, 0.0, 0.0); }
-
-// `mean`: rgb: m = h + (y - h) / N; alpha: N.
-Residuals residualsOf(ivec2 p, vec4 mean, float predicted) {
-  const float fewest = 1.5;  // Below, rounding of N leaves nothing of h.
-  const vec3 noisy = texelFetch(lighting, p, 0).rgb;
-  if (mean.a < fewest || !isFinite(noisy)) return noResiduals();
-  const float y = luminance(clamp(noisy, vec3(0.0), vec3(kLargestHalf)));
-  const float m = luminance(mean.rgb);
-  const float h = (mean.a * m - y) / (mean.a - 1.0);
-  return Residuals((y - predicted) * (h - predicted), (m - predicted) * (m - predicted), predicted, 1.0);
-}
-
-const uint kSumThreads = 64u;
-const float kLeastLight = 1e-12;  // Far below what halves can hold: squares of its inverse are finite,
-const float kMostSquare = 1e30;   // and so are sums over tiles of these.
-shared vec2 residualSums[kSumThreads];
-
-// Sum over the workgroup, for all its threads. Each round leaves a quarter of the sums.
-vec2 sumOverGroup(vec2 value) {
-  const uint thread = gl_LocalInvocationIndex;
-  residualSums[thread] = value;
-  barrier();
-  [[unroll]] for (int round = 0; round < 3; ++round) {
-    const uint n = kSumThreads >> (2 * round + 2);
-    if (thread < n) {
-      residualSums[thread] = (residualSums[thread] + residualSums[thread + 2u * n]) +
-                             (residualSums[thread + n] + residualSums[thread + 3u * n]);
-    }
-    barrier();
+  const ivec2 last = textureSize(previousStatistics, 0) - 1;
+  const vec2 base = clamp(floor(tile), vec2(-1.0), vec2(last)), f = tile - floor(tile);
+  vec4 sum = vec4(0.0);
+  [[unroll]] for (int i = 0; i < 4; ++i) {
+    const ivec2 corner = ivec2(i & 1, i >> 1);
+    const ivec2 q = clamp(ivec2(base) + corner, ivec2(0), last);
+    const vec2 weight = mix(1.0 - f, f, vec2(corner));
+    sum += weight.x * weight.y *
+           (edge ? texelFetch(previousEdgeStatistics, q, 0) : texelFetch(previousStatistics, q, 0));
   }
-  const vec2 sum = residualSums[0];
-  barrier();
   return sum;
 }
 
-// Writes what the pixels of this workgroup add to the statistics: product, square, and the number of pixels. Both are
-// relative to the square of the mean light of the workgroup, so that a bright one does not outweigh its neighbours. All
-// threads of the workgroup must call it.
-void sumResiduals(Residuals r) {
-  const vec2 light = sumOverGroup(vec2(r.predicted, r.counts));
-  const vec2 sums = sumOverGroup(vec2(r.product, r.square));
-  if (gl_LocalInvocationIndex == 0u) {
-    vec3 result = vec3(0.0);
-    if (light.x > kLeastLight) {
-      const float perLight = light.y / light.x;
-      result = vec3(clamp(perLight * perLight * sums, -kMostSquare, kMostSquare), light.y);
-    }
-    imageStore(outResidualSums, ivec2(gl_WorkGroupID.xy), vec4(result, 0.0));
+// The share that makes the expected square of the error least where the residual is a mean of `samples` samples. The
+// statistics have errors of their own, so that a small share is none.
+float accumulatedShare(vec2 statistics, float samples) {
+  const float missed = max(statistics.x, 0.0), noise = max(statistics.y, 0.0) / samples;
+  const float share = missed / max(missed + noise, 1e-30);
+  return clamp((share - constants.residualLeastShare) / (1.0 - constants.residualLeastShare), 0.0, 1.0);
+}
+
+// The residuals of a pixel, or their means over pixels.
+struct Residual {
+  vec3 mean;      // m - p, where m = h + (y - h) / N.
+  float noisy;    // Luminance of y - p.
+  float history;  // Luminance of h - p.
+  float samples;  // N; 0 where there is no finite y or no h. The luminances are 0, too.
+};
+
+// `mean`: rgb: m; alpha: N.
+Residual residualOf(ivec2 p, vec4 mean, vec3 predicted) {
+  const float fewest = 1.5;  // Below, rounding of N leaves nothing of h.
+  const vec3 noisy = texelFetch(lighting, p, 0).rgb;
+  const vec3 residual = mean.rgb - predicted;
+  if (mean.a < fewest || !isFinite(noisy)) return Residual(residual, 0.0, 0.0, 0.0);
+  const float y = luminance(clamp(noisy, vec3(0.0), vec3(kLargestHalf)) - predicted);
+  const float h = (mean.a * luminance(residual) - y) / (mean.a - 1.0);
+  return Residual(residual, y, h, mean.a);
+}
+
+// What a pixel shows.
+struct Shown {
+  bool surface;
+  vec3 position;
+  vec3 normal;
+  vec3 predicted;
+};
+
+const int kGroupSize = 8;
+const uint kGroupThreads = uint(kGroupSize * kGroupSize);
+shared vec4 groupResiduals[kGroupThreads];  // rgb: mean; a: noisy.
+shared vec2 groupHistories[kGroupThreads];  // x: history; y: samples.
+shared vec4 groupNormals[kGroupThreads];    // rgb: 0 without a surface; a: 1 if the thread has a pixel.
+shared vec3 groupPositions[kGroupThreads];
+
+void shareResidual(bool hasPixel, Shown shown, Residual residual) {
+  const uint thread = gl_LocalInvocationIndex;
+  groupResiduals[thread] = vec4(residual.mean, residual.noisy);
+  groupHistories[thread] = vec2(residual.history, residual.samples);
+  groupNormals[thread] = vec4(shown.normal, hasPixel ? 1.0 : 0.0);
+  groupPositions[thread] = shown.position;
+  barrier();
+}
+
+// How far pixel `thread` shows the same surface: edge-stopping function of the plane through the pixel, and agreement
+// of the shading normals, which ends at an angle of 37 degrees.
+float sameSurface(Shown shown, uint thread) {
+  const float distance = abs(dot(shown.normal, groupPositions[thread] - shown.position)) / -shown.position.z;
+  return edgeStopping(distance) * clamp(5.0 * dot(shown.normal, groupNormals[thread].xyz) - 4.0, 0.0, 1.0);
+}
+
+// Mean residual over the 3 x 3 pixels, as far as this workgroup has them. `edge`: whether one of them shows another
+// surface or none.
+Residual meanAround(Shown shown, out bool edge) {
+  const ivec2 thread = ivec2(gl_LocalInvocationID.xy);
+  Residual sum = Residual(vec3(0.0), 0.0, 0.0, 0.0);
+  float weights = 0.0;
+  edge = false;
+  [[unroll]] for (int i = 0; i < 9; ++i) {
+    const ivec2 t = thread + ivec2(i % 3, i / 3) - 1, inside = clamp(t, ivec2(0), ivec2(kGroupSize - 1));
+    const uint q = uint(inside.y * kGroupSize + inside.x);
+    const bool hasPixel = t == inside && groupNormals[q].a > 0.0;
+    const float same = hasPixel ? sameSurface(shown, q) : 0.0;
+    edge = edge || (hasPixel && same < 0.5);
+    const float weight = same * groupHistories[q].y;
+    sum.mean += weight * groupResiduals[q].rgb;
+    sum.noisy += weight * groupResiduals[q].a;
+    sum.history += weight * groupHistories[q].x;
+    sum.samples += weight * groupHistories[q].y;
+    weights += weight;
   }
+  const float scale = weights > 0.0 ? 1.0 / weights : 0.0;
+  return Residual(scale * sum.mean, scale * sum.noisy, scale * sum.history, scale * sum.samples);
+}
+
+// What a residual adds to the sums of its level (previousStatisticsAt).
+vec2 statisticsOf(float noisy, float history, float mean, float samples) {
+  const float missed = noisy * history;
+  return vec2(missed, samples * (mean * mean - missed));
+}
+
+const float kLeastLight = 1e-12;  // Far below what halves can hold: squares of its inverse are finite,
+const float kMostSquare = 1e30;   // and so are sums over tiles of these.
+shared vec4 groupSums[kGroupThreads];
+
+// Sum over the workgroup, for all its threads. Each round leaves a quarter of the sums.
+vec4 sumOverGroup(vec4 value) {
+  const uint thread = gl_LocalInvocationIndex;
+  barrier();
+  groupSums[thread] = value;
+  barrier();
+  [[unroll]] for (int round = 0; round < 3; ++round) {
+    const uint n = kGroupThreads >> (2 * round + 2);
+    if (thread < n) {
+      groupSums[thread] = (groupSums[thread] + groupSums[thread + 2u * n]) +
+                          (groupSums[thread + n] + groupSums[thread + 3u * n]);
+    }
+    barrier();
+  }
+  return groupSums[0];
+}
+
+// Writes what this workgroup adds to the statistics, relative to the square of its mean light, so that a bright one
+// does not outweigh its neighbours. `light`: predicted luminance of a pixel with statistics and 1; else 0.
+void storeSums(vec2 light, vec4 statistics, bool edge, vec2 innovation) {
+  const vec4 first = sumOverGroup(vec4(light, innovation));
+  const vec4 interior = sumOverGroup(edge ? vec4(0.0) : statistics);
+  const vec4 edges = sumOverGroup(edge ? statistics : vec4(0.0));
+  if (gl_LocalInvocationIndex != 0u) return;
+  const float perLight = first.x > kLeastLight ? first.y / first.x : 0.0;
+  const float scale = perLight * perLight;
+  const vec4 most = vec4(kMostSquare);
+  const ivec2 tile = ivec2(gl_WorkGroupID.xy);
+  imageStore(outResidualSums, tile, clamp(scale * interior, -most, most));
+  imageStore(outEdgeSums, tile, clamp(scale * edges, -most, most));
+  imageStore(outInnovationSums, tile, clamp(scale * vec4(first.zw, 0.0, 0.0), -most, most));
+}
+
+// The prediction of a pixel mixed with its accumulated light. All threads of the workgroup must call it.
+vec3 withAccumulated(ivec2 p, bool hasPixel, Shown shown) {
+  const vec4 mean = shown.surface ? accumulatedAt(p) : vec4(0.0);
+  Residual own = Residual(vec3(0.0), 0.0, 0.0, 0.0);
+  if (mean.a > 0.0) own = residualOf(p, mean, shown.predicted);
+  shareResidual(hasPixel, shown, own);
+
+  vec3 result = shown.predicted;
+  vec4 statistics = vec4(0.0);
+  vec2 light = vec2(0.0), ofInnovation = vec2(0.0);
+  bool edge = false;
+  float innovation = 0.0;
+  if (mean.a > 0.0) {
+    const vec3 before = previousPosition(frame.previousViewFromView, shown.position);
+    const Residual around = meanAround(shown, edge);
+    const vec4 known = previousStatisticsAt(before, edge);
+    const vec3 detail = own.mean - around.mean;
+    result += accumulatedShare(known.xy, around.samples) * around.mean;
+    result += accumulatedShare(known.zw, mean.a) * detail;
+    if (own.samples > 0.0) {
+      light = vec2(luminance(shown.predicted), 1.0);
+      statistics.xy = statisticsOf(around.noisy, around.history, luminance(around.mean), around.samples);
+      statistics.zw = statisticsOf(own.noisy - around.noisy, own.history - around.history, luminance(detail), mean.a);
+      innovation = own.noisy - own.history;
+      ofInnovation = innovationTerms(innovation, before);
+    }
+  }
+  if (hasPixel) storeInnovation(p, innovation);
+  storeSums(light, statistics, edge, ofInnovation);
+  return max(result, vec3(0.0));
 }
 
 #endif

@@ -5,11 +5,14 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include "tests/passes/block_filter.h"
 #include "tests/passes/filter_run.h"
+#include "tests/passes/reference/octahedral.h"
 #include "tests/passes/reference/storage.h"
 #include "tests/passes/synthetic_scene.h"
 #include "tests/vulkan/gpu_fixture.h"
@@ -61,18 +64,26 @@ Light stripedLight(double stripes, double noise) {
   return light;
 }
 
-class FilterOfWall {
+class FilterOf {
  public:
-  FilterOfWall(const fg::vk::Device& device, bool residual)
-      : frame_(renderStill(flatWall(), kSize)),
+  FilterOf(const fg::vk::Device& device, const Scene& scene, bool share)
+      : frame_(renderStill(scene, kSize)),
         guides_(reference::prepareGuides(frame_, reference::Storage::Quantised, {}, kOcclusionInSmallImages)),
         run_(device, kSize, 2, [&](fg::Graph& graph, fg::Buffer frame, const Guides& guides, const auto& inputs) {
           const BlockLight light{.accumulated = inputs[0], .alpha = LightingAlpha::SampleCount, .lighting = inputs[1]};
-          return addBlockFilter(graph, frame, light, guides,
-                                {.size = kBlock, .iterations = 2, .coarseSigma = 0.15F, .residual = residual});
+          BlockRegressionSettings settings{.size = kBlock, .iterations = 2, .coarseSigma = 0.15F};
+          settings.share.enabled = share;
+          return addBlockFilter(graph, frame, light, guides, settings);
         }) {}
 
   Image<glm::dvec4> filter(const Light& light) { return run_.run(frame_, guides_, {light.mean, light.lighting}); }
+  /// The result once the statistics are those of this light.
+  Image<glm::dvec4> settled(const Light& light) {
+    static_cast<void>(filter(light));
+    return filter(light);
+  }
+  [[nodiscard]] const Image<reference::Guide>& guides() const { return guides_; }
+  [[nodiscard]] const FrameConstants& constants() const { return frame_.constants; }
 
  private:
   reference::HostFrame frame_;
@@ -80,59 +91,135 @@ class FilterOfWall {
   FilterRun run_;
 };
 
-/// What a tile adds to the statistics: product and square of the residuals, over the square of the light, and pixels.
-struct Tile {
-  double product = 0.0, square = 0.0, pixels = 0.0;
+/// Residuals of a pixel or their means over pixels: luminances of y - p, h - p and m - p.
+struct Residual {
+  double noisy = 0.0, history = 0.0, mean = 0.0;
 };
+Residual operator-(const Residual& a, const Residual& b) {
+  return {a.noisy - b.noisy, a.history - b.history, a.mean - b.mean};
+}
 
-/// The shares of all pixels under a still camera, if every frame so far had this light and this prediction.
-Image<double> sharesOf(const Light& light, const Image<glm::dvec4>& predicted,
-                       const BlockRegressionSettings& settings) {
-  const auto tileOf = [](int pixel) { return (pixel + kBefore) / kTile; };
-  const glm::ivec2 grid(tileOf(kSize.x - 1) + 1, tileOf(kSize.y - 1) + 1);
-  Image<Tile> tiles(grid);
-  Image<double> lights(grid);
-  reference::forEachPixel(kSize, [&](glm::ivec2 p) {
-    const double y = luminanceOf(light.lighting[p]), m = luminanceOf(light.mean[p]), x = luminanceOf(predicted[p]);
-    const double h = (kSamples * m - y) / (kSamples - 1.0);
-    const glm::ivec2 t(tileOf(p.x), tileOf(p.y));
-    tiles[t].product += (y - x) * (h - x);
-    tiles[t].square += (m - x) * (m - x);
-    tiles[t].pixels += 1.0;
-    lights[t] += x;
-  });
-  const int radius = static_cast<int>(settings.residualRadius);
-  Image<double> product(grid), square(grid);
-  reference::forEachPixel(grid, [&](glm::ivec2 t) {
-    double pixels = 0.0;
-    for (int y = std::max(t.y - radius, 0); y <= std::min(t.y + radius, grid.y - 1); ++y) {
-      for (int x = std::max(t.x - radius, 0); x <= std::min(t.x + radius, grid.x - 1); ++x) {
-        const glm::ivec2 q(x, y);
-        const double perLight = tiles[q].pixels / lights[q];
-        product[t] += perLight * perLight * tiles[q].product;
-        square[t] += perLight * perLight * tiles[q].square;
-        pixels += tiles[q].pixels;
-      }
-    }
-    product[t] /= pixels;
-    square[t] /= pixels;
-  });
-  Image<double> shares(kSize);
-  reference::forEachPixel(kSize, [&](glm::ivec2 p) {
+/// Sums of a level: what the fits miss, and the noise of one sample, both squared.
+struct Level {
+  double missed = 0.0, noise = 0.0;
+  void add(const Level& other, double weight) {
+    missed += weight * other.missed;
+    noise += weight * other.noise;
+  }
+};
+Level levelOf(const Residual& r) {
+  const double missed = r.noisy * r.history;
+  return {missed, kSamples * (r.mean * r.mean - missed)};
+}
+
+/// The mean around the pixel, then the pixel's difference from it.
+using Levels = std::array<Level, 2>;
+/// Pixels with the same surface all around, then pixels beside an edge.
+using Classes = std::array<Levels, 2>;
+
+/// What the result is, in double precision, if the camera stands still, all pixels have kSamples samples, and every
+/// frame so far had this light and this prediction.
+class ExpectedResult {
+ public:
+  ExpectedResult(const FilterOf& filter, const Light& light, const Image<glm::dvec4>& predicted)
+      : guides_(filter.guides()), constants_(filter.constants()), statistics_(grid_) {
+    reference::forEachPixel(kSize, [&](glm::ivec2 p) {
+      const double y = luminanceOf(light.lighting[p]), m = luminanceOf(light.mean[p]), x = luminanceOf(predicted[p]);
+      const double h = (kSamples * m - y) / (kSamples - 1.0);
+      own_[p] = {y - x, h - x, m - x};
+    });
+    reference::forEachPixel(kSize, [&](glm::ivec2 p) { lookAround(p); });
+    sumOverWindows(predicted);
+  }
+
+  /// Luminance that the result has more than the prediction, by level.
+  [[nodiscard]] std::array<double, 2> added(glm::ivec2 p) const {
     const glm::dvec2 at = (glm::dvec2(p) + 0.5 + double(kBefore)) / double(kTile) - 0.5;
     const glm::dvec2 base = glm::floor(at), f = at - base;
-    const auto bilinear = [&](const Image<double>& image) {
-      const auto texel = [&](int x, int y) {
-        return image[glm::clamp(glm::ivec2(base) + glm::ivec2(x, y), glm::ivec2(0), grid - 1)];
-      };
-      return (1.0 - f.y) * ((1.0 - f.x) * texel(0, 0) + f.x * texel(1, 0)) +
-             f.y * ((1.0 - f.x) * texel(0, 1) + f.x * texel(1, 1));
-    };
-    const double least = settings.residualLeastShare;
-    shares[p] = std::clamp((bilinear(product) / bilinear(square) - least) / (1.0 - least), 0.0, 1.0);
-  });
-  return shares;
-}
+    Levels known;
+    for (int i = 0; i < 4; ++i) {
+      const glm::ivec2 corner(i & 1, i >> 1);
+      const double weight = (corner.x == 1 ? f.x : 1.0 - f.x) * (corner.y == 1 ? f.y : 1.0 - f.y);
+      const Classes& tile = statistics_[glm::clamp(glm::ivec2(base) + corner, glm::ivec2(0), grid_ - 1)];
+      for (int level = 0; level < 2; ++level) known[level].add(tile[edges_[p]][level], weight);
+    }
+    return {shareOf(known[0]) * around_[p].mean, shareOf(known[1]) * (own_[p] - around_[p]).mean};
+  }
+  [[nodiscard]] bool besideEdge(glm::ivec2 p) const { return edges_[p] != 0; }
+
+ private:
+  static glm::ivec2 tileOf(glm::ivec2 p) { return (p + kBefore) / kTile; }
+
+  static double shareOf(const Level& level) {
+    const double missed = std::max(level.missed, 0.0), noise = std::max(level.noise, 0.0) / kSamples;
+    const double least = AccumulatedShareSettings{}.leastShare;
+    return std::clamp((missed / std::max(missed + noise, 1e-30) - least) / (1.0 - least), 0.0, 1.0);
+  }
+
+  [[nodiscard]] glm::dvec3 positionOf(glm::ivec2 p) const {
+    return guides_[p].depth * reference::rayThrough(constants_.rayFromPixel, reference::pixelCentre(p));
+  }
+
+  /// How far q shows the surface of p.
+  [[nodiscard]] double same(glm::ivec2 p, glm::ivec2 q) const {
+    if (guides_[q].depth == 0.0) return 0.0;
+    const BlockRegressionSettings planes;
+    const glm::dvec3 n = reference::octahedralDecode(guides_[p].features);
+    const double distance = std::abs(dot(n, positionOf(q) - positionOf(p))) / guides_[p].depth;
+    const double onPlane = (planes.planeFar - distance) / (planes.planeFar - planes.planeNear);
+    const double facing = 5.0 * dot(n, reference::octahedralDecode(guides_[q].features)) - 4.0;
+    return std::clamp(onPlane, 0.0, 1.0) * std::clamp(facing, 0.0, 1.0);
+  }
+
+  void lookAround(glm::ivec2 p) {
+    double weights = 0.0;
+    for (int i = 0; i < 9; ++i) {
+      const glm::ivec2 q = p + glm::ivec2(i % 3, i / 3) - 1;
+      const bool inside = q.x >= 0 && q.y >= 0 && q.x < kSize.x && q.y < kSize.y;
+      if (!inside || tileOf(q) != tileOf(p)) continue;
+      const double weight = same(p, q);
+      if (weight < 0.5) edges_[p] = 1;
+      around_[p].noisy += weight * own_[q].noisy;
+      around_[p].history += weight * own_[q].history;
+      around_[p].mean += weight * own_[q].mean;
+      weights += weight;
+    }
+    around_[p] = {around_[p].noisy / weights, around_[p].history / weights, around_[p].mean / weights};
+  }
+
+  void sumOverWindows(const Image<glm::dvec4>& predicted) {
+    Image<Classes> tiles(grid_);
+    Image<double> light(grid_), pixels(grid_);
+    reference::forEachPixel(kSize, [&](glm::ivec2 p) {
+      const glm::ivec2 t = tileOf(p);
+      Levels& sums = tiles[t][edges_[p]];
+      sums[0].add(levelOf(around_[p]), 1.0);
+      sums[1].add(levelOf(own_[p] - around_[p]), 1.0);
+      light[t] += luminanceOf(predicted[p]);
+      pixels[t] += 1.0;
+    });
+    const int radius = static_cast<int>(AccumulatedShareSettings{}.radius);
+    reference::forEachPixel(grid_, [&](glm::ivec2 t) {
+      for (int y = std::max(t.y - radius, 0); y <= std::min(t.y + radius, grid_.y - 1); ++y) {
+        for (int x = std::max(t.x - radius, 0); x <= std::min(t.x + radius, grid_.x - 1); ++x) {
+          const glm::ivec2 q(x, y);
+          const double perLight = pixels[q] / light[q];
+          for (int c = 0; c < 2; ++c) {
+            for (int level = 0; level < 2; ++level)
+              statistics_[t][c][level].add(tiles[q][c][level], perLight * perLight);
+          }
+        }
+      }
+    });
+  }
+
+  const Image<reference::Guide>& guides_;
+  FrameConstants constants_;
+  glm::ivec2 grid_ = tileOf(kSize - 1) + 1;
+  Image<Residual> own_{kSize}, around_{kSize};
+  Image<int> edges_{kSize};
+  Image<Classes> statistics_;
+};
 
 double rmsError(const Image<glm::dvec4>& image, const Image<glm::dvec4>& truth) {
   double squares = 0.0;
@@ -144,30 +231,37 @@ class AccumulatedShare : public fg::test::GpuTest {};
 
 TEST_F(AccumulatedShare, AgreesWithDoublePrecision) {
   const Light light = stripedLight(0.5, 1.0);
-  const Image<glm::dvec4> predicted = FilterOfWall(device(), false).filter(light);
-  const Image<double> shares = sharesOf(light, predicted, {});
-  FilterOfWall filter(device(), true);
-  // The first frame has no statistics.
-  const Image<glm::dvec4> first = filter.filter(light);
-  reference::forEachPixel(kSize, [&](glm::ivec2 p) { EXPECT_EQ(first[p], predicted[p]); });
-  for (int frame = 1; frame < 4; ++frame) {
-    const Image<glm::dvec4> actual = filter.filter(light);
-    reference::forEachPixel(kSize, [&](glm::ivec2 p) {
-      const double x = predicted[p].g, m = light.mean[p].g;
-      // The prediction and the result are rounded to halves. The statistics are of predictions that are not, so that
-      // residuals differ by 2^-11 of the light, and means of their squares, whose roots are above half of the light, by
-      // less than 2^-9; the share is a ratio of two such means over 1 - least share.
-      const double tolerance = 2.0 * std::exp2(-11.0) * std::max(x, m) + std::exp2(-7.0) * std::abs(m - x);
-      EXPECT_NEAR(actual[p].g, x + shares[p] * (m - x), tolerance) << p.x << ", " << p.y << ", frame " << frame;
-    });
+  for (const auto& [scene, hasEdges] : {std::pair{flatWall(), false}, std::pair{thinBars(), true}}) {
+    const Image<glm::dvec4> predicted = FilterOf(device(), scene, false).filter(light);
+    FilterOf filter(device(), scene, true);
+    const ExpectedResult expected(filter, light, predicted);
+    // The first frame has no statistics.
+    const Image<glm::dvec4> first = filter.filter(light);
+    reference::forEachPixel(kSize, [&](glm::ivec2 p) { EXPECT_EQ(first[p], predicted[p]); });
+    for (int frame = 1; frame < 4; ++frame) {
+      const Image<glm::dvec4> actual = filter.filter(light);
+      bool edges = false;
+      reference::forEachPixel(kSize, [&](glm::ivec2 p) {
+        edges = edges || expected.besideEdge(p);
+        const auto [around, detail] = expected.added(p);
+        const double x = predicted[p].g;
+        // The prediction and the result are rounded to halves. The statistics are of predictions that are not, so that
+        // residuals differ by 2^-11 of the light, and means of their squares, whose roots are above half of the light,
+        // by less than 2^-9; the share is a ratio of two such means over 1 - least share.
+        const double tolerance = 2.0 * std::exp2(-11.0) * std::max(x, light.mean[p].g) +
+                                 std::exp2(-7.0) * (std::abs(around) + std::abs(detail));
+        EXPECT_NEAR(actual[p].g, std::max(x + around + detail, 0.0), tolerance)
+            << p.x << ", " << p.y << ", frame " << frame;
+      });
+      EXPECT_EQ(edges, hasEdges);
+    }
   }
 }
 
 TEST_F(AccumulatedShare, IsWholeWhereNothingIsNoise) {
   const Light light = stripedLight(0.5, 0.0);
-  FilterOfWall filter(device(), true);
-  static_cast<void>(filter.filter(light));
-  const Image<glm::dvec4> result = filter.filter(light);
+  FilterOf filter(device(), flatWall(), true);
+  const Image<glm::dvec4> result = filter.settled(light);
   reference::forEachPixel(kSize, [&](glm::ivec2 p) {
     // The half of the history is (8 m - y) / 7, so that the rounding of m to halves counts 8/7 times.
     EXPECT_NEAR(result[p].g, light.truth[p].g, 4.0 * std::exp2(-11.0) * light.truth[p].g) << p.x << ", " << p.y;
@@ -176,7 +270,7 @@ TEST_F(AccumulatedShare, IsWholeWhereNothingIsNoise) {
 
 TEST_F(AccumulatedShare, ErrsLessThanPredictionAndMeanWhereBothErr) {
   const Light light = stripedLight(0.3, 1.0);
-  FilterOfWall filter(device(), true);
+  FilterOf filter(device(), flatWall(), true);
   const double predicted = rmsError(filter.filter(light), light.truth);
   const double mixed = rmsError(filter.filter(light), light.truth);
   const double mean = rmsError(light.mean, light.truth);
@@ -189,7 +283,7 @@ TEST_F(AccumulatedShare, ErrsLessThanPredictionAndMeanWhereBothErr) {
 TEST_F(AccumulatedShare, IsNothingWhereOnlyNoiseIsLeft) {
   for (const double noise : {0.5, 3.0}) {
     const Light light = stripedLight(0.0, noise);
-    FilterOfWall filter(device(), true);
+    FilterOf filter(device(), flatWall(), true);
     const double predicted = rmsError(filter.filter(light), light.truth);
     const double mixed = rmsError(filter.filter(light), light.truth);
     // Statistics of one frame over 40 x 40 pixels err by 1 / 40 of the square of the noise, times some 3 for the
@@ -210,7 +304,7 @@ TEST_F(AccumulatedShare, StaysFiniteWithBrokenAndExtremeLight) {
       }
       if (p.y % 5 == 2) light.mean[p].a = 0.0;
     });
-    FilterOfWall filter(device(), true);
+    FilterOf filter(device(), flatWall(), true);
     for (int frame = 0; frame < 3; ++frame) {
       const Image<glm::dvec4> result = filter.filter(light);
       reference::forEachPixel(kSize, [&](glm::ivec2 p) {

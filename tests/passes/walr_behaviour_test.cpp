@@ -92,6 +92,7 @@ TEST_F(WalrBehaviourTest, ConstantLightComesBackUnchanged) {
   };
   expectUnchanged(allScenes(), robustWalr());
   expectUnchanged(allScenes(), WalrSettings{});
+  expectUnchanged(allScenes(), manySamplesWalr());
   expectUnchanged(allScenes(), blocksInHalves());
   // The preset paper reads history with a bicubic filter and does not clip it, which takes in sky beside a surface.
   // These scenes have none.
@@ -247,6 +248,7 @@ TEST_F(WalrBehaviourTest, BrokenInputStaysFiniteAndDoesNotSpread) {
   const std::pair<AnyWalr, Scene> cases[] = {{robustWalr(), bumpyWall(0.1)},
                                              {WalrSettings{}, bumpyWall(0.1)},
                                              {blocksInHalves(), bumpyWall(0.1)},
+                                             {manySamplesWalr(), bumpyWall(0.1)},
                                              {paperWalr(), flatWall()}};
   for (const auto& [settings, scene] : cases) {
     WalrRun run = makeRun(kSmall, settings);

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "framegraph/declare/graph.h"
+#include "passes/prepare_guides.h"
+#include "passes/settings.h"
+#include "passes/stage_graph.h"
+
+namespace walr {
+
+/// Settings of the share of the accumulated light in the reconstruction: what the fits over blocks miss is taken from
+/// it, as far as two halves of its samples agree (passes/WALR_EXPERIMENTS.md).
+struct AccumulatedShareSettings {
+  bool enabled = false;
+  float frames = 8.0F;
+  std::uint32_t radius = 4;
+  float leastShare = 0.05F;
+  float innovationGain = 1.5F;
+  float innovationBias = 1.28F;
+
+  void visit(SettingVisitor& v) {
+    v.visit({"blocks.residual",
+             "Mix accumulated light into the result as far as two halves of its samples agree that the fits miss "
+             "something, and shorten history where it blurs more than noise needs",
+             "", 0, 1, "measured"},
+            enabled);
+    v.visit(
+        {"blocks.residual-frames", "Frames over which this agreement is measured", "frames", 1.0, 255.0, "measured"},
+        frames);
+    v.visit({"blocks.residual-radius",
+             "Radius of the window of tiles over which it is measured; a tile is as many blocks as fit into 8 pixels",
+             "tiles", 0, 8, "measured"},
+            radius);
+    v.visit({"blocks.residual-least-share", "Share of the accumulated light below which it is left out", "", 0.0, 0.5,
+             "measured"},
+            leastShare);
+    v.visit(
+        {"blocks.innovation-gain",
+         "How fast the length of history follows the correlation of innovations, the differences of new samples from "
+         "history; 0: not at all",
+         "", 0.0, 4.0, "Mehra 1970"},
+        innovationGain);
+    v.visit(
+        {"blocks.innovation-bias",
+         "Correlation of innovations at which this length stays as it is, in units of what noise alone gives at the "
+         "longest history; above 1 history is shorter than that",
+         "", 0.0, 100.0, "measured"},
+        innovationBias);
+  }
+};
+
+/// How long the history of accumulation may be, which the share measures for the next frame.
+struct SteeredHistory {
+  fg::History leastAntilag;  ///< `Antilag::least`.
+  float maxHistory;          ///< Frames: `TemporalAccumulationSettings::maxHistory`.
+};
+
+/// Declare it before accumulation, which reads `leastAntilag.previous`.
+/// @param pixels the image's extent
+SteeredHistory declareSteeredHistory(fg::Graph& graph, fg::Extent pixels, float maxHistory);
+
+/// What the share is measured on.
+struct AccumulatedShareInputs {
+  fg::Buffer frame;         ///< Upload of `FrameConstants`.
+  fg::Texture accumulated;  ///< Radiance; alpha: history length. RGBA16F or packed.
+  fg::Texture lighting;     ///< This frame's noisy light.
+  Guides guides;
+  std::uint32_t tileSize;                 ///< Pixels per axis of a workgroup of the reconstruction.
+  std::uint32_t tileOffset;               ///< Pixels of the first one that lie before the image, per axis.
+  fg::Extent tiles;                       ///< Number of these workgroups.
+  std::optional<SteeredHistory> history;  ///< Without it, the length that suits the noise is measured for nobody.
+};
+
+/// Let the reconstruction `apply` (a variant RESIDUAL of block_apply.comp) mix its result with the accumulated light,
+/// and add the pass that measures for the next frame how far.
+void addAccumulatedShare(StageGraph graph, fg::PassBuilder& apply, const AccumulatedShareInputs& inputs,
+                         const AccumulatedShareSettings& settings);
+
+}  // namespace walr
