@@ -164,7 +164,7 @@ static void test_create(const WalrDevice* device) {
   info = info_of(device);
   info.preset = "magic";
   EXPECT(walr_create_denoiser(&info, &denoiser), WALR_ERROR_INVALID_ARGUMENT,
-         "known presets: none; walr is what its preset blocks was");
+         "known presets: one-sample, many-samples; walr is what its preset blocks was");
   info = info_of(device);
   info.width = 0;
   EXPECT(walr_create_denoiser(&info, &denoiser), WALR_ERROR_INVALID_ARGUMENT, "0 x 48");
