@@ -40,8 +40,8 @@ struct WalrSettings {
   }
 };
 
-/// For light with four samples a pixel or more, or from an estimator as good (ReSTIR): the result takes in accumulated
-/// light as far as it can be trusted, and histories are shorter.
+/// For light with four samples a pixel or more, independent from frame to frame: the result takes in accumulated light as
+/// far as it can be trusted, and histories are shorter. Reservoirs with temporal reuse (ReSTIR) are not independent.
 WalrSettings manySamplesWalr();
 
 /// The project's own method: Weighted A-Trous Linear Regression (Meunier & Harada 2022, figure 6) over blocks of
