@@ -235,7 +235,7 @@ def response_section(kept):
 
 def results_page(kept, static):
     noise = listed(f"{number(v, 4)} on `{s}`" for s, v in kept["noise"].items() if v is not None)
-    standings = "".join(f"* On `{s}` " + standing({n: m["sequences"][s] for n, m in kept["methods"].items()}, "walr", list(LABELS)) + ".\n"
+    standings = "".join(f"* On `{s}` " + standing({n: m["sequences"][s] for n, m in kept["methods"].items() if not n.startswith("walr:")}, "walr", list(LABELS)) + ".\n"
                         for s in kept["noise"])
     vmaf = ""
     if kept["vmaf"]:
