@@ -26,8 +26,8 @@ class Borders {
     if (!plan_.resources[resource].used) return border;
     for (std::uint32_t i = 0; i < accesses_.subresourceCount(resource); ++i) {
       const std::span<const AccessGroup> groups = accesses_.groups(resource, i);
-      border.entry.push_back(groups.empty() ? ExternalState{} : entry(resource, i, groups.front()));
-      border.exit.push_back(groups.empty() ? ExternalState{} : exit(resource, i, groups.back()));
+      border.entry.push_back(groups.empty() ? unusedEntry(resource, i) : entry(resource, i, groups.front()));
+      border.exit.push_back(groups.empty() ? unusedExit(resource, i) : exit(resource, i, groups.back()));
     }
     return border;
   }
@@ -45,8 +45,7 @@ class Borders {
   [[nodiscard]] ExternalState entry(std::uint32_t resource, std::uint32_t subresource, const AccessGroup& first) const {
     for (const PlannedPass& pass : plan_.passes) {
       if (pass.batch > first.batch) break;
-      const PlannedBarrier* barrier = find(pass.barriers, resource, subresource);
-      if (barrier != nullptr) return {barrier->srcStage, barrier->srcAccess, barrier->oldLayout};
+      if (const PlannedBarrier* barrier = find(pass.barriers, resource, subresource)) return before(*barrier);
     }
     return {first.stage, first.readMask | first.writeMask, first.layout};
   }
@@ -63,6 +62,21 @@ class Borders {
     return {last.stage, last.writeMask, last.layout};
   }
 
+  // A mip level or layer of an import that no pass uses is released all the same.
+
+  [[nodiscard]] ExternalState unusedEntry(std::uint32_t resource, std::uint32_t subresource) const {
+    const PlannedBarrier* barrier = find(plan_.releases, resource, subresource);
+    return barrier != nullptr ? before(*barrier) : graph_.resources[resource].acquire.value_or(ExternalState{});
+  }
+
+  [[nodiscard]] ExternalState unusedExit(std::uint32_t resource, std::uint32_t subresource) const {
+    const PlannedBarrier* barrier = find(plan_.releases, resource, subresource);
+    return barrier != nullptr ? after(*barrier) : graph_.resources[resource].acquire.value_or(ExternalState{});
+  }
+
+  static ExternalState before(const PlannedBarrier& barrier) {
+    return {barrier.srcStage, barrier.srcAccess, barrier.oldLayout};
+  }
   static ExternalState after(const PlannedBarrier& barrier) {
     return {barrier.dstStage, barrier.dstAccess, barrier.newLayout};
   }

@@ -123,28 +123,26 @@ TEST_F(DispatchListTest, ValidationReportsAWrongState) {
   };
   struct Case {
     const char* name;
-    const char* method;
     WalrResourceKind kind;
     WalrImageState WalrResource::*border;
     void (*change)(WalrImageState&);
   };
   const Case cases[] = {
-      {"the layout in which a previous history enters", "walr", WALR_RESOURCE_HISTORY_PREVIOUS, &WalrResource::entry,
+      {"the layout in which a previous history enters", WALR_RESOURCE_HISTORY_PREVIOUS, &WalrResource::entry,
        kOtherLayout},
-      {"the stage in which a previous history enters", "walr", WALR_RESOURCE_HISTORY_PREVIOUS, &WalrResource::entry,
+      {"the stage in which a previous history enters", WALR_RESOURCE_HISTORY_PREVIOUS, &WalrResource::entry,
        kOtherStage},
-      {"the layout in which a current history leaves", "walr", WALR_RESOURCE_HISTORY_CURRENT, &WalrResource::exit,
+      {"the layout in which a current history leaves", WALR_RESOURCE_HISTORY_CURRENT, &WalrResource::exit,
        kOtherLayout},
-      {"the layout in which the host's images enter", "walr", WALR_RESOURCE_HOST, &WalrResource::entry, kOtherLayout},
-      {"the stage in which the host's images enter", "walr", WALR_RESOURCE_HOST, &WalrResource::entry, kOtherStage},
-      {"the layout in which the host's images leave", "walr", WALR_RESOURCE_HOST, &WalrResource::exit, kOtherLayout},
-      // One pass, so that no barrier of other images orders the two frames.
-      {"the stage in which the host's images leave", "none", WALR_RESOURCE_HOST, &WalrResource::exit, kOtherStage},
+      {"the layout in which the host's images enter", WALR_RESOURCE_HOST, &WalrResource::entry, kOtherLayout},
+      {"the stage in which the host's images enter", WALR_RESOURCE_HOST, &WalrResource::entry, kOtherStage},
+      {"the layout in which the host's images leave", WALR_RESOURCE_HOST, &WalrResource::exit, kOtherLayout},
+      {"the stage in which the host's images leave", WALR_RESOURCE_HOST, &WalrResource::exit, kOtherStage},
   };
   constexpr Size kSize{61, 43};
   const WalrCamera camera = cameraAt(0);
   for (const Case& each : cases) {
-    const WalrPasses passes = makePasses(each.method, kSize);
+    const WalrPasses passes = makePasses("walr", kSize);
     {
       list_host::Player player(host, api(), passes);
       player.falsify(each.kind, each.border, each.change);

@@ -395,6 +395,12 @@ void Player::frames(std::span<const WalrPassFrame> frames) {
     barriers(commands, list_->releases, list_->release_count);
     leave();
   }
+  // The host copies from its images next. The change of layout shows validation whether it waits for the list.
+  for (auto& [name, image] : hostImages_) {
+    if (image.layout == VK_IMAGE_LAYOUT_UNDEFINED) continue;  // Neither written nor used.
+    transition(commands, image,
+               {VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_READ_BIT, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, 0});
+  }
   host_submit_and_wait(host_, commands);
 }
 
