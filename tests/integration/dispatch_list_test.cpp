@@ -209,6 +209,8 @@ TEST_F(DispatchListTest, EntryAndExitFitTheBarriersWithEveryPreset) {
           EXPECT_EQ(resource.entry.stage, partner.exit.stage);
           EXPECT_EQ(resource.entry.access, partner.exit.access);
           EXPECT_EQ(resource.entry.layout, partner.exit.layout);
+          EXPECT_NE(resource.image_usage & VK_IMAGE_USAGE_TRANSFER_DST_BIT, 0);  // It can be cleared.
+          EXPECT_NE(partner.image_usage & VK_IMAGE_USAGE_TRANSFER_DST_BIT, 0);
           ++histories;
         }
         // The method that only copies has no history.
