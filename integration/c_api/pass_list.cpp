@@ -33,12 +33,20 @@ std::uint32_t partnerOf(const fg::GraphDesc& graph, std::uint32_t index) {
   return decl.previous == index ? decl.current : decl.previous;
 }
 
+/// The state of a resource, which has one mip level and layer as all of walr's have; zero if it is not used.
+WalrImageState onlyState(const std::vector<fg::ExternalState>& states) {
+  if (states.empty()) return {};
+  if (states.size() > 1) throw Error(WALR_ERROR_INTERNAL, "a resource of a pass list has several mip levels or layers");
+  return {states.front().stage, states.front().access, states.front().layout, 0};
+}
+
 }  // namespace
 
 PassList::PassList(const fg::GraphDesc& graph, const fg::Plan& plan, std::span<const StagePort> ports,
                    const Options& options)
     : options_(options) {
-  for (std::uint32_t i = 0; i < graph.resources.size(); ++i) addResource(graph, plan, i);
+  const std::vector<fg::FrameBorder> borders = fg::frameBorders(graph, plan);
+  for (std::uint32_t i = 0; i < graph.resources.size(); ++i) addResource(graph, plan, borders[i], i);
   for (const fg::PlannedPass& planned : plan.passes) addPass(graph, planned);
   if (options_.heaps) {
     for (const fg::PlannedHeap& heap : plan.heaps) heaps_.push_back({heap.size, heap.memoryTypeBits, 0});
@@ -66,7 +74,8 @@ bool PassList::ofLibrary(std::uint32_t resource) const {
   return std::ranges::find(options_.libraryBuffers, resource) != options_.libraryBuffers.end();
 }
 
-void PassList::addResource(const fg::GraphDesc& graph, const fg::Plan& plan, std::uint32_t index) {
+void PassList::addResource(const fg::GraphDesc& graph, const fg::Plan& plan, const fg::FrameBorder& border,
+                           std::uint32_t index) {
   const fg::ResourceDecl& decl = graph.resources[index];
   const fg::PlannedResource& planned = plan.resources[index];
   WalrResource& resource = resources_.emplace_back();
@@ -88,6 +97,9 @@ void PassList::addResource(const fg::GraphDesc& graph, const fg::Plan& plan, std
   resource.memory_size = planned.size;
   resource.heap = options_.heaps ? planned.heap : WALR_NONE;
   resource.heap_offset = options_.heaps ? planned.offset : 0;
+  if (resource.kind == WALR_RESOURCE_LIBRARY) return;
+  resource.entry = onlyState(border.entry);
+  resource.exit = onlyState(border.exit);
 }
 
 std::span<const WalrBarrier> PassList::addBarriers(const std::vector<fg::PlannedBarrier>& planned) {

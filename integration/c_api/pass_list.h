@@ -8,6 +8,7 @@
 
 #include <walr/walr_passes.h>
 
+#include "framegraph/compile/frame_border.h"
 #include "framegraph/plan/plan.h"
 #include "integration/single_stage.h"
 
@@ -34,7 +35,8 @@ class PassList {
 
  private:
   [[nodiscard]] bool ofLibrary(std::uint32_t resource) const;
-  void addResource(const fg::GraphDesc& graph, const fg::Plan& plan, std::uint32_t index);
+  void addResource(const fg::GraphDesc& graph, const fg::Plan& plan, const fg::FrameBorder& border,
+                   std::uint32_t index);
   void addPass(const fg::GraphDesc& graph, const fg::PlannedPass& planned);
   std::span<const WalrBarrier> addBarriers(const std::vector<fg::PlannedBarrier>& planned);
   const WalrBinding* const* addBindings(const fg::PassDecl& pass, const fg::Shader& shader);

@@ -1,5 +1,5 @@
-// The plug-in in hosts of different kinds. They denoise the same frames with one opaque call, pass by pass in the
-// host's own graph, and with a dispatch list.
+// The plug-in in hosts of different kinds. They denoise the same frames with one opaque call and pass by pass in the
+// host's own graph.
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -11,7 +11,6 @@
 #include <string>
 #include <vector>
 
-#include "list_host.h"
 #include "plugin_host.h"
 #include "stage_host.h"
 #include "tiny_host.h"
@@ -221,28 +220,6 @@ TEST_F(PluginTest, ChecksInputsAndMeasuresTimesPassByPass) {
   EXPECT_NE(std::string(api().last_error()).find("whole method"), std::string::npos) << api().last_error();
 }
 
-TEST_F(PluginTest, HasHeapsOnlyWithADevice) {
-  for (const bool withDevice : {true, false}) {
-    WalrDenoiserInfo listed = info("walr", {64, 48});
-    if (!withDevice) listed.device = nullptr;
-    const WalrPasses passes = makePasses(listed);
-    const WalrPassList* list = nullptr;
-    ASSERT_EQ(api().get_pass_list(passes, &list), WALR_SUCCESS);
-    EXPECT_EQ(list->heap_count > 0, withDevice);
-    std::uint32_t placed = 0;
-    std::uint32_t aliases = 0;
-    for (std::uint32_t i = 0; i < list->resource_count; ++i) placed += list->resources[i]->heap != WALR_NONE ? 1 : 0;
-    for (std::uint32_t p = 0; p < list->pass_count; ++p) {
-      for (std::uint32_t b = 0; b < list->passes[p]->barrier_count; ++b) {
-        aliases += list->passes[p]->barriers[b].alias_of != WALR_NONE ? 1 : 0;
-      }
-    }
-    EXPECT_EQ(placed > 0, withDevice);
-    EXPECT_EQ(aliases > 0, withDevice);
-    EXPECT_EQ(api().destroy_passes(passes), WALR_SUCCESS);
-  }
-}
-
 TEST_F(PluginTest, AFramesIndexSeedsItsRandomNumbers) {
   constexpr Size kSize{61, 43};
   Opaque counted(host, api(), info("walr", kSize));
@@ -261,28 +238,6 @@ TEST_F(PluginTest, AFramesIndexSeedsItsRandomNumbers) {
     differs = differs || download(host, other.output()) != download(host, counted.output());
   }
   EXPECT_TRUE(differs);
-}
-
-TEST_F(PluginTest, EveryMethodGivesTheSamePixelsAsADispatchListWithItsHeapsAndBarriers) {
-  constexpr Size kSize{61, 43};
-  for (const WalrPassType* type : registered.types) {
-    if (type->method == VK_FALSE) continue;
-    Opaque opaque(host, api(), info(type->name, kSize));
-    const WalrPasses passes = makePasses(type->name, kSize);
-    {
-      list_host::Player player(host, api(), passes);
-      for (std::uint32_t frame = 0; frame < 4; ++frame) {
-        SCOPED_TRACE(std::string(type->name) + ", frame " + std::to_string(frame));
-        uploadFrame(host, kSize, frame, [&](std::size_t i) { return &opaque.image(i); });
-        uploadFrame(host, kSize, frame, [&](std::size_t i) { return &player.image(kInputs[i]); });
-        const WalrCamera camera = cameraAt(float(frame) * kStep);
-        opaque.frame(camera, 0);
-        player.frame(passFrame(camera));
-        EXPECT_EQ(download(host, player.image("denoised")), download(host, opaque.output()));
-      }
-    }
-    EXPECT_EQ(api().destroy_passes(passes), WALR_SUCCESS);
-  }
 }
 
 /// A stage of a chain with its settings.

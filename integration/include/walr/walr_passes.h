@@ -50,6 +50,22 @@ typedef struct WalrResource {
   uint32_t heap;        /* Index of the heap, for transients that alias; WALR_NONE otherwise, and without a device. */
   uint32_t reserved;
   uint64_t heap_offset; /* Bytes. */
+  /* For hosts that execute the list themselves: the states in which a frame must find the resource, before its first
+   * barrier, and in which it leaves it, after `releases`. A barrier into `entry` has it as its destination (stage,
+   * access and new layout), a barrier out of `exit` as its source. Buffers have no layout. Both are zero if the
+   * resource is not used, and for WALR_RESOURCE_LIBRARY.
+   * - WALR_RESOURCE_HOST: `entry` is the first use, to which all writes of the host must be visible.
+   * - WALR_RESOURCE_UPLOAD: likewise. What the CPU writes before the submission is visible.
+   * - WALR_RESOURCE_HISTORY_PREVIOUS: `entry` equals the `exit` of the partner, in which the last frame left the image.
+   *   If there is no last frame, or its history is dropped, wait for `entry`, fill the image with zeros and bring it
+   *   into `entry`; its usage flags allow a clear. After walr_continue_passes the image comes from the other list:
+   *   bring it from the `exit` of that list's current history into this `entry` if the two differ. Fill a history that
+   *   the other list does not have with zeros.
+   * - WALR_RESOURCE_HISTORY_CURRENT and WALR_RESOURCE_TRANSIENT: the layout of `entry` is UNDEFINED, because the
+   *   contents are discarded. Its stage and access are the last use of the memory, also by other resources and in the
+   *   frame before. Hosts that submit frames in order to one queue have nothing to do, not even in the first frame. */
+  WalrImageState entry;
+  WalrImageState exit;
 } WalrResource;
 
 /* One binding of a shader. All are in descriptor set 0. */
