@@ -44,6 +44,7 @@ class Replay {
       }
       device_.setPlace(at("end"));
       record(plan_.releases);
+      listReleased();
       for (std::uint32_t i = 0; i < graph_.resources.size(); ++i) end(i);
     }
     return device_.takeComplaints();
@@ -199,6 +200,15 @@ class Replay {
     // Buffers have no layout transition. The first write of a new owner is checked in their case (Device::access).
   }
 
+  /// List the cells whose layout the releases of this frame change.
+  void listReleased() {
+    released_.assign(device_.cellCount(), false);
+    for (const PlannedBarrier& barrier : plan_.releases) {
+      if (barrier.oldLayout == barrier.newLayout) continue;
+      for (const std::uint32_t cell : cellsOf(barrier.resource, barrier.range)) released_[cell] = true;
+    }
+  }
+
   void touch(const AccessDecl& access) {
     Use use = useOf(access.access, texture(access.resource) != nullptr);
     use.stage = expanded(use.stage);
@@ -221,7 +231,7 @@ class Replay {
 
   /// Check that an import is back in the state in which it arrived: it has the same layout, unless that was UNDEFINED;
   /// all accesses happen in or before the stages of the state; all writes are available, except those that the state
-  /// names; and it is readable if the state only reads.
+  /// names. If the state only reads, or a release has changed the layout, the host can use the import at once.
   void checkReturnedImport(std::uint32_t index, const ExternalState& state, bool isTexture) {
     const Cell& cell = device_.cell(index);
     Use use = hostUse(state, isTexture);
@@ -232,7 +242,7 @@ class Replay {
     if (cell.layout != use.layout) return wrong();
     if (use.stage == VK_PIPELINE_STAGE_2_NONE) return;
     device_.checkFinished(index, use.stage);
-    if (use.writes == VK_ACCESS_2_NONE) {
+    if (use.writes == VK_ACCESS_2_NONE || released_[index]) {
       const Contents contents = cell.contents;
       device_.access(index, use, contents, contents);
     } else if ((cell.writeAccess & ~(use.reads | use.writes)) != VK_ACCESS_2_NONE) {
@@ -265,6 +275,7 @@ class Replay {
   /// Indexed by frame parity and resource: the first cell.
   std::array<std::vector<std::uint32_t>, 2> first_;
   std::uint32_t frame_ = 0;
+  std::vector<bool> released_;  ///< By cell: a release of this frame changes its layout.
 };
 
 }  // namespace
