@@ -3,10 +3,15 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <ctime>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "framegraph/compile/compile.h"
 #include "framegraph/inspect/inspect.h"
+#include "framegraph/verify/verify_memory.h"
 #include "framegraph/verify/verify_rules.h"
 #include "tests/framegraph/chain_graph.h"
 #include "tests/framegraph/test_shaders.h"
@@ -120,6 +125,7 @@ TEST(Verify, RefusesAReleaseOfAHistoryThatItsUseAsPreviousDoesNotWaitFor) {
 TEST(Verify, RefusesAnImportThatIsReturnedToSomeOfItsStagesOnly) {
   const HostImages images(kAnyCommand);
   Plan plan = planOf(images.graph);
+  EXPECT_EQ(faultsOf(images.graph, plan), "");
   releaseOf(plan, images.input).dstStage = VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT;
   EXPECT_NE(faultsOf(images.graph, plan), "");
 }
@@ -139,8 +145,37 @@ double timeToVerify(std::int64_t passes) {
 }
 
 TEST(Verify, TakesTimeInProportionToThePasses) {
-  // Four times the passes take 4 times as long in linear and 16 times in quadratic time. The limit lies between them.
-  EXPECT_LT(timeToVerify(8'000), 10 * timeToVerify(2'000));
+  // 16 times the passes take 16 times as long in linear and 256 times in quadratic time. The limit is the mean ratio of
+  // the two.
+  EXPECT_LT(timeToVerify(16'000), 64 * timeToVerify(1'000));
+}
+
+using Blocks = std::vector<std::uint32_t>;
+
+TEST(SharedMemory, ForgetsTheOthersOnceAllCellsOfABlockHaveChanged) {
+  check::SharedMemory memory;
+  const std::uint32_t one = memory.add({.allocation = 0, .begin = 0, .end = 100, .firstCell = 0, .cellCount = 1});
+  const std::uint32_t two = memory.add({.allocation = 0, .begin = 50, .end = 150, .firstCell = 1, .cellCount = 2});
+  memory.change(one, 0, 1);
+  EXPECT_EQ(memory.others(two), Blocks{one});
+  memory.change(two, 1, 2);
+  EXPECT_EQ(memory.others(two), Blocks{one});  // The other cell may change without waiting for `one`.
+  EXPECT_EQ(memory.others(one), Blocks{two});
+  memory.change(two, 2, 3);
+  EXPECT_EQ(memory.others(two), Blocks{});
+  EXPECT_EQ(memory.others(one), Blocks{two});
+}
+
+TEST(SharedMemory, KeepsBlocksThatChangeAtTheSameTime) {
+  check::SharedMemory memory;
+  const std::uint32_t one = memory.add({.allocation = 0, .begin = 0, .end = 100, .firstCell = 0, .cellCount = 1});
+  const std::uint32_t two = memory.add({.allocation = 0, .begin = 0, .end = 100, .firstCell = 1, .cellCount = 1});
+  const std::uint32_t elsewhere = memory.add({.allocation = 1, .begin = 0, .end = 100, .firstCell = 2, .cellCount = 1});
+  memory.change(one, 0, 1);
+  memory.change(two, 1, 1);
+  memory.change(elsewhere, 2, 1);
+  EXPECT_EQ(memory.others(two), Blocks{one});
+  EXPECT_EQ(memory.others(one), Blocks{two});
 }
 
 }  // namespace
