@@ -24,17 +24,13 @@ class Replay {
  public:
   Replay(const GraphDesc& graph, const Plan& plan) : graph_(graph), plan_(plan), exports_(graph.resources.size()) {
     for (const ExportDecl& exported : graph.exports) exports_[exported.resource.resource] = &exported;
-    for (const PassDecl& pass : graph.passes) {
-      for (const AccessDecl& access : pass.accesses) {
-        if (access.writeVersion != kNone) writes_.push_back(&access);
-      }
-    }
     for (std::uint32_t i = 0; i < graph.resources.size(); ++i) addCells(i);
     for (const HistoryDecl& history : graph.histories) {
       first_[1][history.previous] = first_[0][history.current];
       first_[0][history.previous] = first_[1][history.current];
     }
-    findPeers();
+    placeBlocks();
+    listWrites();
   }
 
   std::vector<std::string> run() {
@@ -48,6 +44,7 @@ class Replay {
       }
       device_.setPlace(at("end"));
       record(plan_.releases);
+      listReleased();
       for (std::uint32_t i = 0; i < graph_.resources.size(); ++i) end(i);
     }
     return device_.takeComplaints();
@@ -92,42 +89,31 @@ class Replay {
     }
   }
 
-  /// The bytes of an allocation that a resource uses in frames of one parity.
-  struct Block {
-    std::uint32_t resource;
-    std::uint32_t firstCell;
-    std::uint32_t allocation;
-  };
-
-  [[nodiscard]] std::vector<Block> blocks() const {
-    std::vector<Block> result;
+  /// Tell the device which images and buffers lie in shared memory. The images of a history are listed as `current`.
+  void placeBlocks() {
     for (std::uint32_t i = 0; i < plan_.resources.size(); ++i) {
-      const std::uint32_t heap = plan_.resources[i].heap;
-      if (heap == kNone || graph_.resources[i].lifetime == Lifetime::HistoryPrevious) continue;
-      const std::uint32_t partner = plan_.heaps[heap].partner;
-      result.push_back({i, first_[0][i], heap});
-      if (partner != kNone) result.push_back({i, first_[1][i], partner});
+      const PlannedResource& planned = plan_.resources[i];
+      if (planned.heap == kNone || planned.size == 0) continue;
+      if (graph_.resources[i].lifetime == Lifetime::HistoryPrevious) continue;
+      const std::uint64_t end = planned.offset + planned.size;
+      const std::uint32_t partner = plan_.heaps[planned.heap].partner;
+      device_.place({planned.heap, planned.offset, end, first_[0][i], cellCount(i)});
+      if (partner != kNone) device_.place({partner, planned.offset, end, first_[1][i], cellCount(i)});
     }
-    return result;
   }
 
-  void findPeers() {
-    const std::vector<Block> all = blocks();
-    const auto meet = [&](const Block& x, const Block& y) {
-      const PlannedResource& a = plan_.resources[x.resource];
-      const PlannedResource& b = plan_.resources[y.resource];
-      return x.allocation == y.allocation && a.offset < b.offset + b.size && b.offset < a.offset + a.size;
-    };
-    for (const Block& block : all) {
-      for (const Block& other : all) {
-        if (block.firstCell == other.firstCell || !meet(block, other)) continue;
-        for (std::uint32_t cell = 0; cell < cellCount(block.resource); ++cell) {
-          for (std::uint32_t peer = 0; peer < cellCount(other.resource); ++peer) {
-            device_.cell(block.firstCell + cell).peers.push_back(other.firstCell + peer);
-          }
+  /// List the versions that write each cell, in ascending order. Cells are those of even frames.
+  void listWrites() {
+    versions_.resize(device_.cellCount());
+    for (const PassDecl& pass : graph_.passes) {
+      for (const AccessDecl& access : pass.accesses) {
+        if (access.writeVersion == kNone) continue;
+        for (const std::uint32_t cell : cellsOf(access.resource, access.range)) {
+          versions_[cell].push_back(access.writeVersion);
         }
       }
     }
+    for (std::vector<std::uint32_t>& versions : versions_) std::ranges::sort(versions);
   }
 
   /// The cells of a range. Mip levels and layers that the texture lacks are left out.
@@ -135,10 +121,12 @@ class Replay {
     const TextureDesc* desc = texture(resource);
     if (desc == nullptr) return {firstCell(resource)};
     std::vector<std::uint32_t> cells;
-    for (std::uint32_t mip = 0; mip < desc->mipLevels; ++mip) {
-      for (std::uint32_t layer = 0; layer < desc->arrayLayers; ++layer) {
-        if (mip < range.baseMip || mip - range.baseMip >= range.mipCount) continue;
-        if (layer < range.baseLayer || layer - range.baseLayer >= range.layerCount) continue;
+    const auto end = [](std::uint32_t base, std::uint32_t count, std::uint32_t size) {
+      return base < size ? base + std::min(count, size - base) : base;
+    };
+    for (std::uint32_t mip = range.baseMip; mip < end(range.baseMip, range.mipCount, desc->mipLevels); ++mip) {
+      const std::uint32_t layers = end(range.baseLayer, range.layerCount, desc->arrayLayers);
+      for (std::uint32_t layer = range.baseLayer; layer < layers; ++layer) {
         cells.push_back(firstCell(resource) + mip * desc->arrayLayers + layer);
       }
     }
@@ -148,14 +136,9 @@ class Replay {
   /// The contents of a cell at a version: those of the last write up to this version that covers the cell.
   [[nodiscard]] Contents contentsAt(std::uint32_t resource, std::uint32_t version, std::uint32_t cell) const {
     const ResourceDecl& decl = graph_.resources[resource];
-    std::uint32_t made = 0;
-    for (const AccessDecl* write : writes_) {
-      if (write->resource != resource || write->writeVersion > version || write->writeVersion < made) continue;
-      const std::vector<std::uint32_t> covered = cellsOf(resource, write->range);
-      if (std::ranges::find(covered, cell) != covered.end()) {
-        made = write->writeVersion;
-      }
-    }
+    const std::vector<std::uint32_t>& versions = versions_[cell - firstCell(resource) + first_[0][resource]];
+    const auto later = std::ranges::upper_bound(versions, version);
+    const std::uint32_t made = later == versions.begin() ? 0 : *std::prev(later);
     if (made != 0 || decl.lifetime != Lifetime::HistoryPrevious) return {resource, made, frame_};
     const std::uint32_t current = graph_.histories[decl.history].current;
     if (resetsHistories(frame_)) return {current, kCleared, frame_};
@@ -169,33 +152,19 @@ class Replay {
     if (!host) return;
     const ExternalState state = decl.acquire.value_or(ExternalState{});
     const bool empty = texture(resource) != nullptr && state.layout == VK_IMAGE_LAYOUT_UNDEFINED;
+    const Use use = hostUse(state, texture(resource) != nullptr);
     for (std::uint32_t i = 0; i < cellCount(resource); ++i) {
-      Cell& cell = device_.cell(firstCell(resource) + i);
-      putIntoState(cell, state, texture(resource) != nullptr);
-      cell.contents = empty ? Contents{} : Contents{resource, 0, frame_};
+      const std::uint32_t index = firstCell(resource) + i;
+      device_.putIntoState(index, use);
+      device_.cell(index).contents = empty ? Contents{} : Contents{resource, 0, frame_};
     }
   }
 
-  /// Put a cell into the state in which the host leaves it.
-  static void putIntoState(Cell& cell, const ExternalState& state, bool isTexture) {
-    const VkPipelineStageFlags2 stage = expanded(state.stage);
-    const VkAccessFlags2 writes = writesOf(state.access);
-    cell.layout = isTexture ? state.layout : VK_IMAGE_LAYOUT_UNDEFINED;
-    cell.written = state.stage != VK_PIPELINE_STAGE_2_NONE;  // Otherwise the host has waited for everything.
-    cell.available = writes == 0;
-    cell.writeAccess = writes;
-    cell.reads.clear();
-    cell.visible.clear();
-    cell.availableTo = VK_PIPELINE_STAGE_2_NONE;
-    if (!cell.written) return;
-    if (writes != 0) {
-      cell.write = {stage, VK_PIPELINE_STAGE_2_NONE};
-    } else {
-      cell.write = {VK_PIPELINE_STAGE_2_NONE, stage};
-      cell.availableTo = stage;
-      cell.visible.push_back({stage, state.access});
-      cell.reads.push_back({stage, VK_PIPELINE_STAGE_2_NONE});
-    }
+  /// The host's use of a resource in a state.
+  static Use hostUse(const ExternalState& state, bool isTexture) {
+    const VkAccessFlags2 access = expandedAccess(state.access);
+    return {expanded(state.stage), access & ~writesOf(access), writesOf(access),
+            isTexture ? state.layout : VK_IMAGE_LAYOUT_UNDEFINED, 0};
   }
 
   /// Do what the executor does with an invalid history: wait for its last use, clear it, and leave it in the planned
@@ -205,15 +174,12 @@ class Replay {
     const ExternalState& carry = plan_.histories[history].carry;
     const HistoryDecl& decl = graph_.histories[history];
     constexpr VkPipelineStageFlags2 kClear = VK_PIPELINE_STAGE_2_CLEAR_BIT;
-    Dependency before{expanded(carry.stage),
-                      carry.access,
-                      kClear,
-                      VK_ACCESS_2_TRANSFER_WRITE_BIT,
-                      VK_IMAGE_LAYOUT_UNDEFINED,
-                      VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
-                      cellsOf(decl.previous, {})};
-    Dependency after{kClear,       VK_ACCESS_2_TRANSFER_WRITE_BIT,       expanded(carry.stage),
-                     carry.access, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, carry.layout,
+    Dependency before{
+        expanded(carry.stage),          expandedAccess(carry.access), kClear,
+        VK_ACCESS_2_TRANSFER_WRITE_BIT, VK_IMAGE_LAYOUT_UNDEFINED,    VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+        cellsOf(decl.previous, {})};
+    Dependency after{kClear,           VK_ACCESS_2_TRANSFER_WRITE_BIT,       before.srcStage,
+                     before.srcAccess, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, carry.layout,
                      before.cells};
     device_.barrier({before});
     const Use use{kClear, VK_ACCESS_2_NONE, VK_ACCESS_2_TRANSFER_WRITE_BIT, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 0};
@@ -226,15 +192,26 @@ class Replay {
   void record(const std::vector<PlannedBarrier>& barriers) {
     std::vector<Dependency> batch;
     for (const PlannedBarrier& barrier : barriers) {
-      batch.push_back({expanded(barrier.srcStage), barrier.srcAccess, expanded(barrier.dstStage), barrier.dstAccess,
-                       barrier.oldLayout, barrier.newLayout, cellsOf(barrier.resource, barrier.range)});
+      batch.push_back({expanded(barrier.srcStage), expandedAccess(barrier.srcAccess), expanded(barrier.dstStage),
+                       expandedAccess(barrier.dstAccess), barrier.oldLayout, barrier.newLayout,
+                       cellsOf(barrier.resource, barrier.range)});
     }
     device_.barrier(batch);
     // Buffers have no layout transition. The first write of a new owner is checked in their case (Device::access).
   }
 
+  /// List the cells whose layout the releases of this frame change.
+  void listReleased() {
+    released_.assign(device_.cellCount(), false);
+    for (const PlannedBarrier& barrier : plan_.releases) {
+      if (barrier.oldLayout == barrier.newLayout) continue;
+      for (const std::uint32_t cell : cellsOf(barrier.resource, barrier.range)) released_[cell] = true;
+    }
+  }
+
   void touch(const AccessDecl& access) {
-    const Use use = useOf(access.access, texture(access.resource) != nullptr);
+    Use use = useOf(access.access, texture(access.resource) != nullptr);
+    use.stage = expanded(use.stage);
     for (const std::uint32_t cell : cellsOf(access.resource, access.range)) {
       const Contents expected =
           access.readVersion != kNone ? contentsAt(access.resource, access.readVersion, cell) : Contents{};
@@ -254,51 +231,51 @@ class Replay {
 
   /// Check that an import is back in the state in which it arrived: it has the same layout, unless that was UNDEFINED;
   /// all accesses happen in or before the stages of the state; all writes are available, except those that the state
-  /// names; and it is readable if the state only reads.
+  /// names. If the state only reads, or a release has changed the layout, the host can use the import at once.
   void checkReturnedImport(std::uint32_t index, const ExternalState& state, bool isTexture) {
-    const Cell cell = device_.cell(index);
-    const bool anyLayout = isTexture && state.layout == VK_IMAGE_LAYOUT_UNDEFINED;
-    const VkImageLayout layout = anyLayout ? cell.layout : isTexture ? state.layout : VK_IMAGE_LAYOUT_UNDEFINED;
+    const Cell& cell = device_.cell(index);
+    Use use = hostUse(state, isTexture);
+    if (isTexture && state.layout == VK_IMAGE_LAYOUT_UNDEFINED) use.layout = cell.layout;
     const auto wrong = [&] {
       device_.complain("import '" + cell.name + "' is not returned in the state in which it arrived");
     };
-    if (cell.layout != layout) return wrong();
-    if (state.stage == VK_PIPELINE_STAGE_2_NONE) return;
-    device_.checkFinished(index, state.stage);
-    if (writesOf(state.access) == VK_ACCESS_2_NONE) {
-      device_.access(index, {state.stage, state.access, VK_ACCESS_2_NONE, layout, 0}, cell.contents, cell.contents);
-    } else if (cell.written && (cell.writeAccess & ~state.access) != VK_ACCESS_2_NONE) {
-      if (!cell.available || (cell.availableTo & expanded(state.stage)) == VK_PIPELINE_STAGE_2_NONE) wrong();
+    if (cell.layout != use.layout) return wrong();
+    if (use.stage == VK_PIPELINE_STAGE_2_NONE) return;
+    device_.checkFinished(index, use.stage);
+    if (use.writes == VK_ACCESS_2_NONE || released_[index]) {
+      const Contents contents = cell.contents;
+      device_.access(index, use, contents, contents);
+    } else if ((cell.writeAccess & ~(use.reads | use.writes)) != VK_ACCESS_2_NONE) {
+      if (!device_.findsAvailable(use.stage, cell)) wrong();
     }
   }
 
   void checkExport(std::uint32_t resource, const ExportDecl& exported) {
     const ExternalState& state = exported.release;
-    const bool isTexture = texture(resource) != nullptr;
+    const Use use = hostUse(state, texture(resource) != nullptr);
     for (std::uint32_t i = 0; i < cellCount(resource); ++i) {
       const std::uint32_t index = firstCell(resource) + i;
-      Cell& cell = device_.cell(index);
+      const Cell& cell = device_.cell(index);
       const Contents expected = contentsAt(resource, exported.resource.version, index);
       if (cell.contents != expected) device_.complain("export '" + cell.name + "' does not hold what was declared");
-      const VkImageLayout layout = isTexture ? state.layout : VK_IMAGE_LAYOUT_UNDEFINED;
-      if (state.stage == VK_PIPELINE_STAGE_2_NONE) {
-        if (cell.layout != layout) device_.complain("export '" + cell.name + "' is not in the declared layout");
+      if (use.stage == VK_PIPELINE_STAGE_2_NONE) {
+        if (cell.layout != use.layout) device_.complain("export '" + cell.name + "' is not in the declared layout");
         continue;
       }
-      device_.checkFinished(index, state.stage);
-      const VkAccessFlags2 writes = writesOf(state.access);
-      device_.access(index, {state.stage, state.access & ~writes, writes, layout, 0}, expected, expected);
+      device_.checkFinished(index, use.stage);
+      device_.access(index, use, expected, expected);
     }
   }
 
   const GraphDesc& graph_;
   const Plan& plan_;
   std::vector<const ExportDecl*> exports_;
-  std::vector<const AccessDecl*> writes_;
+  std::vector<std::vector<std::uint32_t>> versions_;  ///< By cell: the versions that write it.
   Device device_;
   /// Indexed by frame parity and resource: the first cell.
   std::array<std::vector<std::uint32_t>, 2> first_;
   std::uint32_t frame_ = 0;
+  std::vector<bool> released_;  ///< By cell: a release of this frame changes its layout.
 };
 
 }  // namespace

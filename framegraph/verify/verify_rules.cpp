@@ -1,5 +1,8 @@
 #include "framegraph/verify/verify_rules.h"
 
+#include <array>
+#include <span>
+
 namespace fg::check {
 
 Use useOf(Access access, bool texture) {
@@ -87,18 +90,72 @@ VkImageUsageFlags usageInLayout(VkImageLayout layout) {
   }
 }
 
+namespace {
+
+/// A flag and the flags that it stands for.
+struct Meta {
+  VkFlags64 flag;
+  VkFlags64 parts;
+};
+
+constexpr VkFlags64 replaced(VkFlags64 flags, std::span<const Meta> table) {
+  VkFlags64 result = flags;
+  for (const Meta& meta : table) {
+    if ((flags & meta.flag) != 0) result = (result & ~meta.flag) | meta.parts;
+  }
+  return result;
+}
+
+constexpr VkPipelineStageFlags2 kTransfers = VK_PIPELINE_STAGE_2_COPY_BIT | VK_PIPELINE_STAGE_2_BLIT_BIT |
+                                             VK_PIPELINE_STAGE_2_RESOLVE_BIT | VK_PIPELINE_STAGE_2_CLEAR_BIT;
+constexpr VkPipelineStageFlags2 kVertexInput =
+    VK_PIPELINE_STAGE_2_INDEX_INPUT_BIT | VK_PIPELINE_STAGE_2_VERTEX_ATTRIBUTE_INPUT_BIT;
+constexpr VkPipelineStageFlags2 kPreRasterization =
+    VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_2_TESSELLATION_CONTROL_SHADER_BIT |
+    VK_PIPELINE_STAGE_2_TESSELLATION_EVALUATION_SHADER_BIT | VK_PIPELINE_STAGE_2_GEOMETRY_SHADER_BIT |
+    VK_PIPELINE_STAGE_2_TASK_SHADER_BIT_EXT | VK_PIPELINE_STAGE_2_MESH_SHADER_BIT_EXT;
+constexpr VkPipelineStageFlags2 kGraphics =
+    VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT | kVertexInput | kPreRasterization | VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT |
+    VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT |
+    VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT | VK_PIPELINE_STAGE_2_CONDITIONAL_RENDERING_BIT_EXT |
+    VK_PIPELINE_STAGE_2_TRANSFORM_FEEDBACK_BIT_EXT | VK_PIPELINE_STAGE_2_FRAGMENT_SHADING_RATE_ATTACHMENT_BIT_KHR |
+    VK_PIPELINE_STAGE_2_FRAGMENT_DENSITY_PROCESS_BIT_EXT;
+/// The host's own stage is not among them: it is no command of a queue.
+constexpr VkPipelineStageFlags2 kCommands = kGraphics | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | kTransfers |
+                                            VK_PIPELINE_STAGE_2_ACCELERATION_STRUCTURE_BUILD_BIT_KHR |
+                                            VK_PIPELINE_STAGE_2_ACCELERATION_STRUCTURE_COPY_BIT_KHR |
+                                            VK_PIPELINE_STAGE_2_RAY_TRACING_SHADER_BIT_KHR;
+constexpr std::array kMetaStages = {
+    Meta{VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, kCommands}, Meta{VK_PIPELINE_STAGE_2_ALL_GRAPHICS_BIT, kGraphics},
+    Meta{VK_PIPELINE_STAGE_2_PRE_RASTERIZATION_SHADERS_BIT, kPreRasterization},
+    Meta{VK_PIPELINE_STAGE_2_VERTEX_INPUT_BIT, kVertexInput}, Meta{VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, kTransfers}};
+
+constexpr VkAccessFlags2 kShaderReads = VK_ACCESS_2_SHADER_SAMPLED_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_READ_BIT;
+constexpr VkAccessFlags2 kReads = kShaderReads | VK_ACCESS_2_UNIFORM_READ_BIT | VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT |
+                                  VK_ACCESS_2_INDEX_READ_BIT | VK_ACCESS_2_VERTEX_ATTRIBUTE_READ_BIT |
+                                  VK_ACCESS_2_INPUT_ATTACHMENT_READ_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT |
+                                  VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_2_TRANSFER_READ_BIT |
+                                  VK_ACCESS_2_HOST_READ_BIT | VK_ACCESS_2_ACCELERATION_STRUCTURE_READ_BIT_KHR;
+constexpr VkAccessFlags2 kWrites = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT |
+                                   VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT | VK_ACCESS_2_TRANSFER_WRITE_BIT |
+                                   VK_ACCESS_2_HOST_WRITE_BIT | VK_ACCESS_2_ACCELERATION_STRUCTURE_WRITE_BIT_KHR;
+constexpr std::array kMetaAccesses = {Meta{VK_ACCESS_2_MEMORY_READ_BIT, kReads},
+                                      Meta{VK_ACCESS_2_MEMORY_WRITE_BIT, kWrites},
+                                      Meta{VK_ACCESS_2_SHADER_READ_BIT, kShaderReads},
+                                      Meta{VK_ACCESS_2_SHADER_WRITE_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT}};
+
+}  // namespace
+
 VkPipelineStageFlags2 expanded(VkPipelineStageFlags2 stages) {
-  constexpr VkPipelineStageFlags2 kTransfers = VK_PIPELINE_STAGE_2_COPY_BIT | VK_PIPELINE_STAGE_2_BLIT_BIT |
-                                               VK_PIPELINE_STAGE_2_RESOLVE_BIT | VK_PIPELINE_STAGE_2_CLEAR_BIT;
-  const bool all = (stages & VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT) != 0;
-  return all ? (stages & ~VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT) | kTransfers : stages;
+  return replaced(stages, kMetaStages);
+}
+
+VkAccessFlags2 expandedAccess(VkAccessFlags2 accesses) {
+  return replaced(accesses, kMetaAccesses);
 }
 
 VkAccessFlags2 writesOf(VkAccessFlags2 accesses) {
-  return accesses &
-         (VK_ACCESS_2_SHADER_WRITE_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT |
-          VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT | VK_ACCESS_2_TRANSFER_WRITE_BIT | VK_ACCESS_2_HOST_WRITE_BIT |
-          VK_ACCESS_2_MEMORY_WRITE_BIT | VK_ACCESS_2_ACCELERATION_STRUCTURE_WRITE_BIT_KHR);
+  return expandedAccess(accesses) & kWrites;
 }
 
 }  // namespace fg::check

@@ -22,10 +22,15 @@ Use useOf(Access access, bool texture);
 /// Usage flags that an image needs to be in a layout; 0 for layouts that need none.
 VkImageUsageFlags usageInLayout(VkImageLayout layout);
 
-/// The stages, with ALL_TRANSFER replaced by the stages that it consists of.
+/// The stages, with every stage that stands for several (ALL_COMMANDS, ALL_GRAPHICS, PRE_RASTERIZATION_SHADERS,
+/// VERTEX_INPUT, ALL_TRANSFER) replaced by those.
 VkPipelineStageFlags2 expanded(VkPipelineStageFlags2 stages);
 
-/// Those of the accesses that write.
+/// The accesses, with every access that stands for several (MEMORY_READ, MEMORY_WRITE, SHADER_READ, SHADER_WRITE)
+/// replaced by those.
+VkAccessFlags2 expandedAccess(VkAccessFlags2 accesses);
+
+/// Those of the accesses that write, expanded.
 VkAccessFlags2 writesOf(VkAccessFlags2 accesses);
 
 }  // namespace fg::check

@@ -18,6 +18,7 @@ class Structure {
     checkPasses();
     if (!faults_.empty()) return std::move(faults_);
     checkHeaps();
+    collectUses();
     for (std::uint32_t i = 0; i < plan_.resources.size(); ++i) checkResource(i);
     for (const HistoryDecl& history : graph_.histories) checkHistory(history);
     for (const PlannedPass& pass : plan_.passes) checkBarriers(pass.barriers);
@@ -60,34 +61,43 @@ class Structure {
     }
   }
 
+  /// What the passes of the plan and the exports do with a resource.
+  struct ResourceUses {
+    std::uint32_t first = kNone;  ///< Position of the first pass.
+    std::uint32_t last = kNone;
+    VkFlags usage = 0;
+    const ExportDecl* exported = nullptr;
+  };
+
+  void collectUses() {
+    uses_.resize(graph_.resources.size());
+    for (std::uint32_t position = 0; position < plan_.passes.size(); ++position) {
+      for (const AccessDecl& access : graph_.passes[plan_.passes[position].pass].accesses) {
+        ResourceUses& uses = uses_[access.resource];
+        if (uses.first == kNone) uses.first = position;
+        uses.last = position;
+        const bool texture = std::holds_alternative<TextureDesc>(graph_.resources[access.resource].desc);
+        uses.usage |= useOf(access.access, texture).usage;
+      }
+    }
+    for (const ExportDecl& exported : graph_.exports) uses_[exported.resource.resource].exported = &exported;
+  }
+
   void checkResource(std::uint32_t index) {
     const ResourceDecl& decl = graph_.resources[index];
     const PlannedResource& planned = plan_.resources[index];
-    std::uint32_t first = kNone;
-    std::uint32_t last = kNone;
-    VkFlags usage = 0;
+    const auto& [first, last, usage, exported] = uses_[index];
     const bool texture = std::holds_alternative<TextureDesc>(decl.desc);
-    for (std::uint32_t position = 0; position < plan_.passes.size(); ++position) {
-      for (const AccessDecl& access : graph_.passes[plan_.passes[position].pass].accesses) {
-        if (access.resource != index) continue;
-        if (first == kNone) first = position;
-        last = position;
-        usage |= useOf(access.access, texture).usage;
-      }
-    }
     if (planned.firstUse != first || planned.lastUse != last) fault(decl, "has a lifetime that differs from its uses");
     if (((texture ? planned.imageUsage : planned.bufferUsage) & usage) != usage) fault(decl, "lacks usage flags");
-    bool exported = false;
-    for (const ExportDecl& other : graph_.exports) {
-      if (other.resource.resource != index) continue;
-      exported = true;
-      const VkFlags needed = texture ? usageInLayout(other.release.layout) : 0;
+    if (exported != nullptr) {
+      const VkFlags needed = texture ? usageInLayout(exported->release.layout) : 0;
       if ((planned.imageUsage & needed) != needed)
         fault(decl, "lacks usage flags of the layout in which it is released");
     }
     if (first != kNone && !planned.used) fault(decl, "is used, but marked unused");
     const bool transient = decl.lifetime == Lifetime::Transient;
-    const bool shares = (transient || decl.history != kNone) && !exported;
+    const bool shares = (transient || decl.history != kNone) && exported == nullptr;
     if (!shares && planned.heap != kNone) fault(decl, "must not share memory");
     if (shares && first != kNone && (transient || planned.heap != kNone)) checkPlace(decl, planned);
   }
@@ -133,9 +143,6 @@ class Structure {
         continue;
       }
       const ResourceDecl& decl = graph_.resources[barrier.resource];
-      if (((barrier.srcStage | barrier.dstStage) & VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT) != 0) {
-        fault(decl, "has a barrier on ALL_COMMANDS");
-      }
       const bool texture = std::holds_alternative<TextureDesc>(decl.desc);
       if (texture == (barrier.newLayout == VK_IMAGE_LAYOUT_UNDEFINED))
         fault(decl, "has a barrier with the wrong new layout");
@@ -149,6 +156,7 @@ class Structure {
 
   const GraphDesc& graph_;
   const Plan& plan_;
+  std::vector<ResourceUses> uses_;
   std::vector<std::string> faults_;
 };
 

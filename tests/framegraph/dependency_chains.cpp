@@ -160,9 +160,9 @@ class Timeline {
   void batch(const std::vector<PlannedBarrier>& barriers) {
     std::vector<Dependency> dependencies;
     for (const PlannedBarrier& barrier : barriers) {
-      dependencies.push_back({check::expanded(barrier.srcStage), barrier.srcAccess, check::expanded(barrier.dstStage),
-                              barrier.dstAccess, barrier.oldLayout != barrier.newLayout,
-                              cellsOf(barrier.resource, barrier.range)});
+      dependencies.push_back({check::expanded(barrier.srcStage), check::expandedAccess(barrier.srcAccess),
+                              check::expanded(barrier.dstStage), check::expandedAccess(barrier.dstAccess),
+                              barrier.oldLayout != barrier.newLayout, cellsOf(barrier.resource, barrier.range)});
     }
     batch(std::move(dependencies));
   }
@@ -188,16 +188,17 @@ class Timeline {
     if (decl.lifetime != Lifetime::Imported) return;
     const ExternalState& state = *decl.acquire;
     const Stages stage = check::expanded(state.stage);
-    const Accesses writes = check::writesOf(state.access);
+    const Accesses access = check::expandedAccess(state.access);
+    const Accesses writes = check::writesOf(access);
     for (const std::uint32_t cell : cellsOf(resource, {})) {
       since_[cell] = time_;  // Earlier accesses do not count: the host has ordered them.
       if (stage == VK_PIPELINE_STAGE_2_NONE) continue;
-      Operation operation{time_, cell, stage, state.access & ~writes, writes, std::nullopt, "host on " + decl.name};
+      Operation operation{time_, cell, stage, access & ~writes, writes, std::nullopt, "host on " + decl.name};
       if (writes == 0) {
         Operation readable = operation;
         readable.stage = 0;
         readable.reads = 0;
-        readable.transition = Dependency{0, 0, stage, state.access, true, {cell}};
+        readable.transition = Dependency{0, 0, stage, access, true, {cell}};
         operations_.push_back(readable);
         operationsOf_[cell].push_back(operations_.size() - 1);
       }
@@ -210,12 +211,13 @@ class Timeline {
   void clear(std::uint32_t previous, const ExternalState& carry) {
     const std::vector<std::uint32_t> cells = cellsOf(previous, {});
     const Stages stage = check::expanded(carry.stage);
+    const Accesses access = check::expandedAccess(carry.access);
     constexpr Stages kClear = VK_PIPELINE_STAGE_2_CLEAR_BIT;
     constexpr Accesses kWrite = VK_ACCESS_2_TRANSFER_WRITE_BIT;
-    batch(std::vector<Dependency>{{stage, carry.access, kClear, kWrite, true, cells}});
+    batch(std::vector<Dependency>{{stage, access, kClear, kWrite, true, cells}});
     operate(cells, {kClear, 0, kWrite}, "clear");
     ++time_;
-    batch(std::vector<Dependency>{{kClear, kWrite, stage, carry.access, true, cells}});
+    batch(std::vector<Dependency>{{kClear, kWrite, stage, access, true, cells}});
   }
 
   void end(std::uint32_t resource) {
@@ -228,26 +230,33 @@ class Timeline {
     if (state.stage == VK_PIPELINE_STAGE_2_NONE) return;
     if (!isExport && texture(resource) != nullptr && state.layout == VK_IMAGE_LAYOUT_UNDEFINED) return;
     const Stages stage = check::expanded(state.stage);
-    const Accesses writes = check::writesOf(state.access);
+    const Accesses access = check::expandedAccess(state.access);
+    const Accesses writes = check::writesOf(access);
     for (const std::uint32_t cell : cellsOf(resource, {})) {
       for (const std::size_t before : operationsOf_[cell]) {
         if (operations_[before].time >= since_[cell] && !precedes(operations_[before], stage, time_)) {
           fault(operations_[before], "the host that takes " + decl.name);
         }
       }
-      if (isExport || writes == 0) {
-        add({time_, cell, stage, state.access & ~writes, writes, std::nullopt, "host on " + decl.name});
+      if (isExport || writes == 0 || isReleased(cell)) {
+        add({time_, cell, stage, access & ~writes, writes, std::nullopt, "host on " + decl.name});
       } else {
-        checkPending(cell, state, decl.name);
+        checkPending(cell, access, decl.name);
       }
     }
   }
 
+  /// True if a release of this frame has changed the layout of the cell.
+  [[nodiscard]] bool isReleased(std::uint32_t cell) const {
+    const Operation* change = lastChange(cell);
+    return change != nullptr && change->transition && change->time == time_ - 1;
+  }
+
   /// An import that returns to the state in which it arrived may have unavailable writes, if the state names them.
-  void checkPending(std::uint32_t cell, const ExternalState& state, const std::string& name) {
+  void checkPending(std::uint32_t cell, Accesses access, const std::string& name) {
     const Operation* write = lastChange(cell);
-    if (write == nullptr || write->writes == 0 || (write->writes & ~state.access) == 0) return;
-    if (afterAvailable(*write, time_).stages == 0) fault(*write, "the host that gets back " + name);
+    if (write == nullptr || write->writes == 0 || (write->writes & ~access) == 0) return;
+    if (afterAvailable(*write, time_) == 0) fault(*write, "the host that gets back " + name);
   }
 
   [[nodiscard]] const Operation* lastChange(std::uint32_t cell) const {
@@ -263,46 +272,36 @@ class Timeline {
     return std::ranges::find(dependency.cells, cell) != dependency.cells.end();
   }
 
-  /// The work that is ordered after an operation.
-  struct Reached {
-    Stages stages = 0;         ///< Work of later commands in these stages.
-    bool transitions = false;  ///< Later layout transitions of the same image, which are in submission order.
-  };
-
-  /// Follow the dependencies between two times.
+  /// Follow the dependencies between two times. Vulkan also executes the layout transitions of a queue in their order;
+  /// a plan must not depend on it.
+  /// @param reached stages of the work that is ordered after the first operation
   /// @param direct true for dependencies that wait for the first operation itself
+  /// @return stages of the later work that is ordered after the first operation
   template <typename Direct>
-  [[nodiscard]] Reached follow(std::size_t begin, std::size_t end, std::uint32_t image, Reached reached,
-                               Direct direct) const {
+  [[nodiscard]] Stages follow(std::size_t begin, std::size_t end, Stages reached, Direct direct) const {
     for (std::size_t time = begin; time < end && time < batches_.size(); ++time) {
-      Reached next = reached;
+      Stages next = reached;
       for (const Dependency& dependency : batches_[time]) {
-        const bool ofImage = dependency.transition && covers(dependency, image);
-        const bool waits = (reached.stages & dependency.srcStage) != 0 || direct(dependency);
-        if (!waits && !(ofImage && reached.transitions)) continue;
-        next.stages |= dependency.dstStage;
-        next.transitions = next.transitions || ofImage;
+        if ((reached & dependency.srcStage) != 0 || direct(dependency)) next |= dependency.dstStage;
       }
       reached = next;
     }
     return reached;
   }
 
-  /// The work that is ordered after one stage of an operation.
-  /// @param image the cell whose layout transitions count
-  [[nodiscard]] Reached after(const Operation& operation, Stages bit, std::size_t until, std::uint32_t image) const {
+  /// Stages of the work that is ordered after one stage of an operation.
+  [[nodiscard]] Stages after(const Operation& operation, Stages bit, std::size_t until) const {
     const std::size_t begin = operation.time + 1;
     if (operation.transition) {
-      const Reached start{operation.transition->dstStage, operation.cell == image};
-      return follow(begin, until, image, start, [](const Dependency&) { return false; });
+      return follow(begin, until, operation.transition->dstStage, [](const Dependency&) { return false; });
     }
-    return follow(begin, until, image, {}, [&](const Dependency& d) { return (d.srcStage & bit) != 0; });
+    return follow(begin, until, 0, [&](const Dependency& d) { return (d.srcStage & bit) != 0; });
   }
 
-  /// The work that is ordered after a write has become available; none if it has not.
-  [[nodiscard]] Reached afterAvailable(const Operation& write, std::size_t until) const {
-    if (write.transition) return after(write, 0, until, write.cell);
-    return follow(write.time + 1, until, write.cell, {}, [&](const Dependency& d) { return makesAvailable(d, write); });
+  /// Stages of the work that is ordered after a write has become available; none if it has not.
+  [[nodiscard]] Stages afterAvailable(const Operation& write, std::size_t until) const {
+    if (write.transition) return after(write, 0, until);
+    return follow(write.time + 1, until, 0, [&](const Dependency& d) { return makesAvailable(d, write); });
   }
 
   template <typename Check>
@@ -316,17 +315,16 @@ class Timeline {
 
   /// True if work that waits for any of these stages, at this time, comes after the operation.
   [[nodiscard]] bool precedes(const Operation& operation, Stages stages, std::size_t time) const {
-    return forEachBit(operation.stage, [&](Stages bit) {
-      return (bit & stages) != 0 || (after(operation, bit, time, operation.cell).stages & stages) != 0;
-    });
+    return forEachBit(operation.stage,
+                      [&](Stages bit) { return (bit & stages) != 0 || (after(operation, bit, time) & stages) != 0; });
   }
 
   /// True if a chain of dependencies leads from one operation to another.
   [[nodiscard]] bool ordered(const Operation& first, const Operation& second) const {
     return forEachBit(first.stage, [&](Stages bit) {
-      const Reached reached = after(first, bit, second.time, second.cell);
-      if (!second.transition) return (second.stage & ~reached.stages) == 0;
-      return reached.transitions || ((reached.stages | bit) & second.transition->srcStage) != 0;
+      const Stages reached = after(first, bit, second.time);
+      if (!second.transition) return (second.stage & ~reached) == 0;
+      return ((reached | bit) & second.transition->srcStage) != 0;
     });
   }
 
@@ -345,7 +343,7 @@ class Timeline {
       };
       if (write.transition && publishes(*write.transition)) return true;
       for (std::size_t time = write.time + 1; time < access.time && time < batches_.size(); ++time) {
-        const Stages available = afterAvailable(write, time).stages;
+        const Stages available = afterAvailable(write, time);
         for (const Dependency& dependency : batches_[time]) {
           if (!covers(dependency, write.cell) || !publishes(dependency)) continue;
           if ((available & dependency.srcStage) != 0) return true;
@@ -377,13 +375,12 @@ class Timeline {
     const bool sameImage = cell == operation.cell;
     bool safe = true;
     if (operation.transition) {
-      const Reached available = afterAvailable(*write, operation.time);
-      safe = (available.stages & operation.transition->srcStage) != 0 ||
-             (sameImage && (available.transitions || makesAvailable(*operation.transition, *write)));
+      safe = (afterAvailable(*write, operation.time) & operation.transition->srcStage) != 0 ||
+             (sameImage && makesAvailable(*operation.transition, *write));
     } else if (sameImage) {
       safe = visible(*write, operation, operation.reads) && visible(*write, operation, operation.writes);
     } else {
-      safe = (operation.stage & ~afterAvailable(*write, operation.time).stages) == 0;
+      safe = (operation.stage & ~afterAvailable(*write, operation.time)) == 0;
     }
     if (!safe) fault(*write, operation.name);
   }

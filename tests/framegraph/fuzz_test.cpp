@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cstdlib>
 #include <iostream>
 #include <map>
@@ -14,6 +16,7 @@
 #include "framegraph/inspect/inspect.h"
 #include "framegraph/plan/memory_places.h"
 #include "framegraph/verify/verify.h"
+#include "framegraph/verify/verify_rules.h"
 #include "tests/framegraph/dependency_chains.h"
 #include "tests/framegraph/random_graph.h"
 
@@ -352,6 +355,78 @@ TEST(Fuzz, TheVerifierRejectsDamagedPlans) {
     std::cout << mutation << ": " << score.rejected << " rejected, " << score.proved << " proved harmless\n";
     EXPECT_GT(score.rejected, 0U) << mutation;
   }
+}
+
+/// One stage mask of a barrier, set wrongly.
+struct WrongStages {
+  std::string kind;
+  PlannedBarrier* barrier = nullptr;
+  VkPipelineStageFlags2 PlannedBarrier::*stages = nullptr;
+};
+
+/// Set a stage mask of a plan wrongly at random, in half of the cases that of a release.
+/// @return no kind if the plan has no barrier or the mask stays the same
+WrongStages setWrongStages(Plan& plan, std::mt19937_64& random) {
+  std::vector<PlannedBarrier*> barriers;
+  for (PlannedPass& pass : plan.passes) {
+    for (PlannedBarrier& barrier : pass.barriers) barriers.push_back(&barrier);
+  }
+  const bool release = !plan.releases.empty() && random() % 2 == 0;
+  if (!release && barriers.empty()) return {};
+  WrongStages wrong;
+  wrong.barrier = release ? &plan.releases[random() % plan.releases.size()] : barriers[random() % barriers.size()];
+  wrong.stages = random() % 2 == 0 ? &PlannedBarrier::srcStage : &PlannedBarrier::dstStage;
+  VkPipelineStageFlags2& stages = wrong.barrier->*wrong.stages;
+  const VkPipelineStageFlags2 right = check::expanded(stages);
+  constexpr std::array<VkPipelineStageFlags2, 6> kStages = {
+      VK_PIPELINE_STAGE_2_NONE,     VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT,
+      VK_PIPELINE_STAGE_2_COPY_BIT, VK_PIPELINE_STAGE_2_INDEX_INPUT_BIT,    VK_PIPELINE_STAGE_2_ALL_GRAPHICS_BIT};
+  if (random() % 2 == 0) {
+    stages = kStages[random() % kStages.size()];
+  } else if (right != 0) {  // Take one of the stages away.
+    VkPipelineStageFlags2 rest = right;
+    for (auto skip = random() % static_cast<unsigned>(std::popcount(right)); skip > 0; --skip) rest &= rest - 1;
+    stages = right & ~(rest & ~(rest - 1));
+  }
+  if ((right & ~check::expanded(stages)) == 0) return {};
+  wrong.kind = std::string(release ? "release" : "barrier") +
+               (wrong.stages == &PlannedBarrier::srcStage ? ", source stages" : ", destination stages");
+  return wrong;
+}
+
+TEST(Fuzz, TheVerifierMissesNoWrongStages) {
+  const Seeds seeds;
+  const std::uint64_t wanted = seeds.count / 10;
+  std::map<std::string, std::uint64_t> rejected;
+  std::uint64_t mutations = 0;
+  std::uint64_t harmless = 0;
+  std::uint64_t missed = 0;
+  std::uint64_t seed = seeds.first;
+  for (; mutations < wanted; ++seed) {
+    const Graph graph = randomGraph(seed, limitsOf(seed));
+    CompileResult result = compile(graph.desc(), TableMemoryModel());
+    std::mt19937_64 random(seed);
+    const WrongStages wrong = setWrongStages(result.plan, random);
+    if (wrong.kind.empty()) continue;
+    ++mutations;
+    if (!verify(graph.desc(), result.plan).empty()) {
+      ++rejected[wrong.kind];
+    } else if (const std::vector<std::string> unordered = unorderedAccesses(graph.desc(), result.plan);
+               unordered.empty()) {
+      ++harmless;
+    } else {
+      ++missed;
+      ADD_FAILURE() << "seed " << seed << ": " << wrong.kind << " of "
+                    << graph.desc().resources[wrong.barrier->resource].name << "\n"
+                    << joined(unordered) << toText(graph.desc(), result.plan);
+    }
+  }
+  std::cout << mutations << " mutations of seeds " << seeds.first << " to " << seed - 1 << ": " << harmless
+            << " proved harmless, " << missed << " missed";
+  for (const auto& [kind, count] : rejected) std::cout << "; " << kind << ": " << count << " rejected";
+  std::cout << "\n";
+  EXPECT_EQ(missed, 0U);
+  EXPECT_EQ(rejected.size(), 4U);
 }
 
 TEST(Fuzz, EveryPairOfConflictingAccessesHasAChainOfDependencies) {

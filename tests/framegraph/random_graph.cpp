@@ -20,7 +20,15 @@ constexpr ExternalState kFragmentSampled = {VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_
 constexpr ExternalState kWaitedFor = {VK_PIPELINE_STAGE_2_NONE, VK_ACCESS_2_NONE, VK_IMAGE_LAYOUT_GENERAL};
 constexpr ExternalState kCopied = {VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_READ_BIT,
                                    VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL};
-constexpr std::array kStates = {kComputeWritten, kComputeSampled, kFragmentSampled, kWaitedFor, kCopied};
+/// The C API's default release.
+constexpr ExternalState kAnyCommand = {VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+                                       VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT,
+                                       VK_IMAGE_LAYOUT_GENERAL};
+constexpr ExternalState kSampledAnywhere = {
+    VK_PIPELINE_STAGE_2_ALL_GRAPHICS_BIT | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_READ_BIT,
+    VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+constexpr std::array kStates = {kComputeWritten, kComputeSampled, kFragmentSampled, kWaitedFor,
+                                kCopied,         kAnyCommand,     kSampledAnywhere};
 
 class Generator {
  public:
@@ -191,7 +199,8 @@ class Generator {
   }
 
   void exportSome() {
-    constexpr std::array kReleases = {kComputeSampled, kFragmentSampled, kWaitedFor, kCopied};
+    constexpr std::array kReleases = {kComputeSampled, kFragmentSampled, kWaitedFor,
+                                      kCopied,         kAnyCommand,      kSampledAnywhere};
     for (const TextureState& state : readable_) {
       if (chance(35)) graph_.exported(state.handle, kReleases[below(kReleases.size())]);
     }
