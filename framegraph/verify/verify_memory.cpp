@@ -22,8 +22,7 @@ std::vector<std::uint32_t> SharedMemory::others(std::uint32_t block) const {
     }
   }
   std::ranges::sort(result);
-  const auto repeated = std::ranges::unique(result);
-  result.erase(repeated.begin(), repeated.end());
+  result.erase(std::unique(result.begin(), result.end()), result.end());
   return result;
 }
 

@@ -32,8 +32,7 @@ OperationOrder::Handle OperationOrder::find(Handle handle) const {
 
 void OperationOrder::barrier(std::vector<ExecutionDependency> batch) {
   std::ranges::sort(batch);
-  const auto repeated = std::ranges::unique(batch);
-  batch.erase(repeated.begin(), repeated.end());
+  batch.erase(std::unique(batch.begin(), batch.end()), batch.end());
   std::map<Key, Handle> after;
   for (const auto& [key, handle] : distinct_) {
     Operation& operation = states_[handle];
