@@ -10,6 +10,8 @@
 #define WALR_ACCUMULATED_SHARE_GLSL
 #include "camera.glsl"
 #include "finite.glsl"
+#define GROUP_SUM vec4
+#include "group_sum.glsl"
 #include "innovation.glsl"
 #include "luminance.glsl"
 #include "packed_light.glsl"
@@ -83,7 +85,6 @@ struct Shown {
 };
 
 const int kGroupSize = 8;
-const uint kGroupThreads = uint(kGroupSize * kGroupSize);
 shared vec4 groupResiduals[kGroupThreads];  // rgb: mean; a: noisy.
 shared vec2 groupHistories[kGroupThreads];  // x: history; y: samples.
 shared vec4 groupNormals[kGroupThreads];    // rgb: 0 without a surface; a: 1 if the thread has a pixel.
@@ -137,30 +138,14 @@ vec2 statisticsOf(float noisy, float history, float mean, float samples) {
 
 const float kLeastLight = 1e-12;  // Far below what halves can hold: squares of its inverse are finite,
 const float kMostSquare = 1e30;   // and so are sums over tiles of these.
-shared vec4 groupSums[kGroupThreads];
-
-// Sum over the workgroup, for all its threads. Each round leaves a quarter of the sums.
-vec4 sumOverGroup(vec4 value) {
-  const uint thread = gl_LocalInvocationIndex;
-  barrier();
-  groupSums[thread] = value;
-  barrier();
-  [[unroll]] for (int round = 0; round < 3; ++round) {
-    const uint n = kGroupThreads >> (2 * round + 2);
-    if (thread < n) {
-      groupSums[thread] = (groupSums[thread] + groupSums[thread + 2u * n]) +
-                          (groupSums[thread + n] + groupSums[thread + 3u * n]);
-    }
-    barrier();
-  }
-  return groupSums[0];
-}
 
 // Writes what this workgroup adds to the statistics, relative to the square of its mean light, so that a bright one
 // does not outweigh its neighbours. `light`: predicted luminance of a pixel with statistics and 1; else 0.
 void storeSums(vec2 light, vec4 statistics, bool edge, vec2 innovation) {
   const vec4 first = sumOverGroup(vec4(light, innovation));
+  barrier();
   const vec4 interior = sumOverGroup(edge ? vec4(0.0) : statistics);
+  barrier();
   const vec4 edges = sumOverGroup(edge ? statistics : vec4(0.0));
   if (gl_LocalInvocationIndex != 0u) return;
   const float perLight = first.x > kLeastLight ? first.y / first.x : 0.0;

@@ -19,24 +19,13 @@ float antilagAt(vec2 position) {
 float longestHistory(vec2 position, float maxHistory) { return mix(maxHistory, 1.0, antilagAt(position)); }
 
 #ifndef VIEW
-const uint kTileThreads = uint(kAntilagTile * kAntilagTile);
-shared vec2 tileSums[kTileThreads];
+#define GROUP_SUM vec2
+#include "group_sum.glsl"
 
-// Writes the sums of the tile of this workgroup. All threads of the workgroup must call it. Each round leaves a quarter
-// of the sums.
+// Writes the sums of the tile of this workgroup. All threads of the workgroup must call it.
 void sumOverTile(float difference) {
-  const uint thread = gl_LocalInvocationIndex;
-  tileSums[thread] = vec2(difference, difference * difference);
-  barrier();
-  [[unroll]] for (int round = 0; round < 3; ++round) {
-    const uint n = kTileThreads >> (2 * round + 2);
-    if (thread < n) {
-      tileSums[thread] = (tileSums[thread] + tileSums[thread + 2u * n]) +
-                         (tileSums[thread + n] + tileSums[thread + 3u * n]);
-    }
-    barrier();
-  }
-  if (thread == 0u) imageStore(outTiles, ivec2(gl_WorkGroupID.xy), vec4(tileSums[0], 0.0, 0.0));
+  const vec2 sum = sumOverGroup(vec2(difference, difference * difference));
+  if (gl_LocalInvocationIndex == 0u) imageStore(outTiles, ivec2(gl_WorkGroupID.xy), vec4(sum, 0.0, 0.0));
 }
 #endif
 
