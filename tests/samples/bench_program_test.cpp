@@ -216,8 +216,8 @@ TEST_F(BenchProgramTest, TwoRunsAgreeInRanking) {
 }
 
 TEST_F(BenchProgramTest, WhatIsWrongIsNamedBeforeAnythingIsWritten) {
-  constexpr int kUsage = 2;
-  constexpr int kInput = 3;
+  using test::kInput;
+  using test::kUsage;
   expectFailure(bench(first, {"--methods", "magic"}), kUsage, {"magic"});
   expectFailure(bench(first, {"--sweep", "magic"}), kUsage, {"known sweeps"});
   expectFailure(bench(first, {"--variant", "x=walr,magic=1"}), kUsage, {"magic"});

@@ -21,9 +21,9 @@ using test::expectFailure;
 using test::expectSuccess;
 using test::ProcessResult;
 
-constexpr int kUsage = 2;
-constexpr int kInput = 3;
-constexpr int kDevice = 4;
+using test::kDevice;
+using test::kInput;
+using test::kUsage;
 
 class GpuReportProgramTest : public testing::Test {
  protected:

@@ -207,12 +207,13 @@ TEST(GraphCommand, SaysWhyMemoryIsShared) {
 }
 
 TEST(GraphCommand, RefusesTwoFormatsAndUnknownNames) {
-  test::expectFailure(graph({"--json", "--dot"}), 2, {"--json"});
-  test::expectFailure(graph({"--why", "magic"}), 2, {"no pass 'magic'"});
+  test::expectFailure(graph({"--json", "--dot"}), test::kUsage, {"--json"});
+  test::expectFailure(graph({"--why", "magic"}), test::kUsage, {"no pass 'magic'"});
 }
 
 TEST(GraphCommand, NamesAFileThatCannotBeWritten) {
-  test::expectFailure(graph({"--json", "--output", "/nonexistent/plan.json"}), 5, {"/nonexistent/plan.json"});
+  test::expectFailure(graph({"--json", "--output", "/nonexistent/plan.json"}), test::kOutput,
+                      {"/nonexistent/plan.json"});
 }
 
 }  // namespace

@@ -15,9 +15,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kUsage = 2;
-constexpr int kInput = 3;
-constexpr int kOutput = 5;
+using test::kInput;
+using test::kOutput;
+using test::kUsage;
 
 class HostProgramTest : public testing::Test {
  protected:

@@ -21,6 +21,12 @@ struct ProcessResult {
   std::string err;
 };
 
+/// Exit codes that the programs promise (samples/README.md).
+inline constexpr int kUsage = 2;
+inline constexpr int kInput = 3;
+inline constexpr int kDevice = 4;
+inline constexpr int kOutput = 5;
+
 struct ProcessOptions {
   std::map<std::string, std::string> environment;  ///< Added to the environment of this process.
   std::optional<std::uint64_t> largestFileBytes;   ///< RLIMIT_FSIZE.

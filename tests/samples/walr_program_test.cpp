@@ -27,10 +27,10 @@ using test::ProcessOptions;
 using test::ProcessResult;
 using test::SyntheticSequence;
 
-constexpr int kUsage = 2;
-constexpr int kInput = 3;
-constexpr int kDevice = 4;
-constexpr int kOutput = 5;
+using test::kDevice;
+using test::kInput;
+using test::kOutput;
+using test::kUsage;
 
 Image readIndirect(const fs::path& file, const std::string& plane = "Indirect") {
   ExrReader reader(file);

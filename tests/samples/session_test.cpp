@@ -1,0 +1,162 @@
+// What the user of the sample host does between frames: the camera, playback, and which changes need another graph. No
+// device is needed.
+#include <optional>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "passes/denoiser.h"
+#include "samples/host/camera_control.h"
+#include "samples/host/session.h"
+#include "samples/host/tracer.h"
+
+namespace walr::host {
+namespace {
+
+float aheadOf(const glm::mat4& view, const glm::vec3& point) {
+  return -(view * glm::vec4(point, 1.0F)).z;
+}
+
+TEST(FreeCamera, StartsWhereTheOtherStands) {
+  const glm::mat4 view = glm::lookAt(glm::vec3(3.0F, 2.0F, -1.0F), glm::vec3(0.5F, -1.0F, 4.0F), glm::vec3(0, 1, 0));
+  const FreeCamera camera(view, 2.0F);
+  for (int column = 0; column < 4; ++column) {
+    for (int row = 0; row < 4; ++row) {
+      EXPECT_NEAR(camera.view()[column][row], view[column][row], 1e-5F);
+    }
+  }
+  EXPECT_NEAR(aheadOf(view, camera.target()), 2.0F, 1e-5F);
+}
+
+TEST(FreeCamera, OrbitKeepsItsTargetInTheMiddle) {
+  FreeCamera camera(glm::lookAt(glm::vec3(0, 1, 5), glm::vec3(0, 1, 0), glm::vec3(0, 1, 0)), 5.0F);
+  const glm::vec3 target = camera.target();
+  camera.orbit({.turn = {0.7F, 0.4F}});
+  EXPECT_LT(glm::distance(camera.target(), target), 1e-5F);
+  EXPECT_NEAR(glm::distance(camera.position(), target), 5.0F, 1e-5F);
+  EXPECT_GT(glm::distance(camera.position(), glm::vec3(0, 1, 5)), 1.0F);
+  camera.orbit({.zoom = 1.0F});
+  EXPECT_NEAR(glm::distance(camera.position(), target), 5.0F * 7.0F / 8.0F, 1e-5F);
+  // The camera never turns upside down, however far it is turned.
+  camera.orbit({.turn = {0.0F, 10.0F}});
+  EXPECT_GT(glm::inverse(camera.view())[1].y, 0.0F);
+}
+
+TEST(FreeCamera, FliesAlongItsAxes) {
+  FreeCamera camera(glm::mat4(1.0F), 1.0F);
+  camera.fly({.move = {1.0F, 2.0F, 3.0F}});
+  EXPECT_LT(glm::distance(camera.position(), glm::vec3(1.0F, 2.0F, -3.0F)), 1e-5F);
+  constexpr float kQuarter = 1.5707963F;
+  camera.fly({.turn = {kQuarter, 0.0F}, .move = {0.0F, 0.0F, 1.0F}});
+  EXPECT_LT(glm::distance(camera.position(), glm::vec3(2.0F, 2.0F, -3.0F)), 1e-5F);
+}
+
+class SessionTest : public testing::Test {
+ protected:
+  Session make(const FrameRange& frames, bool once) {
+    return Session(tracer, "walr", makeDenoiser("walr"), {}, {}, frames, once);
+  }
+  static Tracer::Options boxScene() {
+    Tracer::Options options;
+    options.scene = WALR_SCENES "/box.gltf";
+    options.extent = {72, 40};
+    return options;
+  }
+  Tracer tracer{boxScene()};
+};
+
+TEST_F(SessionTest, PlaysOnceOrAgain) {
+  Session once = make({2, 4}, true);
+  for (const int frame : {2, 3, 4}) {
+    EXPECT_EQ(once.nextRequest()->animationFrame, frame);
+  }
+  EXPECT_FALSE(once.nextRequest().has_value());
+  EXPECT_TRUE(once.frozen);
+  EXPECT_EQ(once.nextRequest(true)->animationFrame, 4);
+  Session loop = make({2, 3}, false);
+  for (const int frame : {2, 3, 2, 3, 2}) {
+    const Tracer::Request request = loop.nextRequest().value();
+    EXPECT_EQ(request.animationFrame, frame);
+    EXPECT_EQ(request.cut, frame == 2 && request.number > 2);
+  }
+}
+
+TEST_F(SessionTest, PauseHoldsTheAnimationAndGoesOnSampling) {
+  Session session = make({0, 9}, false);
+  session.nextRequest();
+  session.paused = true;
+  const Tracer::Request first = session.nextRequest().value();
+  const Tracer::Request second = session.nextRequest().value();
+  EXPECT_EQ(first.animationFrame, 0.0);
+  EXPECT_EQ(second.animationFrame, 0.0);
+  EXPECT_NE(first.number, second.number);
+}
+
+TEST_F(SessionTest, CutsAndResetsAreAskedOnce) {
+  Session session = make({0, 9}, false);
+  session.nextRequest();
+  session.cutCamera();
+  const Tracer::Request cut = session.nextRequest().value();
+  EXPECT_TRUE(cut.cut);
+  EXPECT_EQ(cut.animationFrame, 6.0);
+  session.resetHistory();
+  const Tracer::Request reset = session.nextRequest().value();
+  EXPECT_FALSE(reset.cut);
+  EXPECT_TRUE(reset.resetHistory);
+  EXPECT_FALSE(session.nextRequest()->resetHistory);
+}
+
+TEST_F(SessionTest, OnlyWhatChangesTheGraphAsksForAnother) {
+  Session session = make({0, 9}, false);
+  EXPECT_EQ(session.takeGraphChange(), GraphChange::None);
+  session.chooseView({});
+  EXPECT_EQ(session.takeGraphChange(), GraphChange::None);
+  session.chooseView({HostView::Kind::Split});
+  EXPECT_EQ(session.takeGraphChange(), GraphChange::Settings);
+  EXPECT_EQ(session.takeGraphChange(), GraphChange::None);
+  EXPECT_TRUE(session.nextRequest()->reference);
+  session.chooseMethod("svgf");
+  EXPECT_EQ(session.methodName(), "svgf");
+  session.chooseView({});
+  EXPECT_EQ(session.takeGraphChange(), GraphChange::Method);
+  session.choosePreset("paper");
+  EXPECT_EQ(session.takeGraphChange(), GraphChange::Method);
+  session.settingsChanged();
+  EXPECT_EQ(session.takeGraphChange(), GraphChange::Settings);
+}
+
+TEST_F(SessionTest, TellsThePresetInUse) {
+  Session session = make({0, 9}, false);
+  EXPECT_EQ(session.preset(), "one-sample");
+  session.chooseMethod("walr_paper");
+  EXPECT_EQ(session.preset(), "paper");
+  session.choosePreset("robust");
+  EXPECT_EQ(session.preset(), "robust");
+  session.method().set("accumulation.max-history", "5");
+  session.settingsChanged();
+  EXPECT_EQ(session.preset(), std::nullopt);
+  session.chooseMethod("svgf");
+  EXPECT_EQ(session.preset(), "tuned");
+  session.chooseMethod("none");
+  EXPECT_EQ(session.preset(), std::nullopt);
+}
+
+TEST_F(SessionTest, FreeCameraStartsFromTheScenes) {
+  Session session = make({0, 9}, false);
+  EXPECT_FALSE(session.nextRequest()->view.has_value());
+  session.chooseCamera(CameraMode::Orbit);
+  session.paused = true;
+  const glm::mat4 view = session.nextRequest()->view.value();
+  for (int column = 0; column < 4; ++column) {
+    EXPECT_LT(glm::distance(view[column], tracer.sceneCamera(0.0)[column]), 1e-4F);
+  }
+  session.moveCamera({.turn = {0.2F, 0.0F}});
+  EXPECT_GT(glm::distance(session.nextRequest()->view.value()[3], view[3]), 0.01F);
+  session.chooseCamera(CameraMode::Scene);
+  EXPECT_FALSE(session.nextRequest()->view.has_value());
+}
+
+}  // namespace
+}  // namespace walr::host
