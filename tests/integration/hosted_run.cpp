@@ -120,16 +120,24 @@ void HostedRun::makeImages(glm::ivec2 size) {
   }
   firstIdentity_ = nextIdentity_;
   nextIdentity_ += kImages.size();
-  if (!hasHistoryLength_) return;
-  historyLengthNeeds_ = {};
-  historyLengthNeeds_.struct_size = sizeof(historyLengthNeeds_);
-  require(walr_get_image_requirements(denoiser_, "history_length", &historyLengthNeeds_));
-  historyLength_ = std::make_unique<fg::vk::StagedImage>(
+  if (hasHistoryLength_) historyLength_ = makeOutput("history_length");
+}
+
+HostedRun::FurtherOutput HostedRun::makeOutput(const char* name) {
+  FurtherOutput output;
+  output.needs.struct_size = sizeof(output.needs);
+  require(walr_get_image_requirements(denoiser_, name, &output.needs));
+  output.image = std::make_unique<fg::vk::StagedImage>(
       device_->context(),
-      fg::TextureDesc{.format = historyLengthNeeds_.format,
-                      .extent = {historyLengthNeeds_.width, historyLengthNeeds_.height}},
-      historyLengthNeeds_.usage, fg::vk::StagedImage::Direction::Readback, hostSlots_, "history_length");
-  historyLengthIdentity_ = nextIdentity_++;
+      fg::TextureDesc{.format = output.needs.format, .extent = {output.needs.width, output.needs.height}},
+      output.needs.usage, fg::vk::StagedImage::Direction::Readback, hostSlots_, name);
+  output.identity = nextIdentity_++;
+  return output;
+}
+
+void HostedRun::forget(std::optional<FurtherOutput>& output) {
+  if (output) require(walr_forget_image(denoiser_, output->image->external().image, output->identity));
+  output.reset();
 }
 
 bool HostedRun::isGiven(std::size_t index) const {
@@ -137,7 +145,7 @@ bool HostedRun::isGiven(std::size_t index) const {
 }
 
 std::vector<std::uint16_t> HostedRun::historyLength() const {
-  const auto bytes = historyLength_->staging(lastSlot_);
+  const auto bytes = historyLength_->image->staging(lastSlot_);
   std::vector<std::uint16_t> texels(bytes.size() / sizeof(std::uint16_t));
   std::memcpy(texels.data(), bytes.data(), bytes.size());
   return texels;
@@ -145,21 +153,14 @@ std::vector<std::uint16_t> HostedRun::historyLength() const {
 
 void HostedRun::chooseView(const char* name) {
   queue_.waitAll();
-  if (view_) require(walr_forget_image(denoiser_, view_->external().image, viewIdentity_));
-  view_.reset();
+  forget(view_);
   require(walr_set_view(denoiser_, name));
   if (name == nullptr) return;
-  viewNeeds_ = {};
-  viewNeeds_.struct_size = sizeof(viewNeeds_);
-  require(walr_get_image_requirements(denoiser_, "view", &viewNeeds_));
-  view_ = std::make_unique<fg::vk::StagedImage>(
-      device_->context(), fg::TextureDesc{.format = viewNeeds_.format, .extent = {viewNeeds_.width, viewNeeds_.height}},
-      viewNeeds_.usage, fg::vk::StagedImage::Direction::Readback, hostSlots_, "view");
-  viewIdentity_ = nextIdentity_++;
+  view_ = makeOutput("view");
 }
 
 std::vector<glm::vec4> HostedRun::view() const {
-  const auto bytes = view_->staging(lastSlot_);
+  const auto bytes = view_->image->staging(lastSlot_);
   std::vector<glm::vec4> texels(bytes.size() / sizeof(glm::vec4));
   std::memcpy(texels.data(), bytes.data(), bytes.size());
   return texels;
@@ -172,10 +173,7 @@ void HostedRun::resize(glm::ivec2 size) {
     require(walr_forget_image(denoiser_, images_[i]->external().image, firstIdentity_ + i));
   }
   images_.clear();
-  if (historyLength_) {
-    require(walr_forget_image(denoiser_, historyLength_->external().image, historyLengthIdentity_));
-    historyLength_.reset();
-  }
+  forget(historyLength_);
   require(walr_resize(denoiser_, static_cast<std::uint32_t>(size.x), static_cast<std::uint32_t>(size.y)));
   makeImages(size);
 }
@@ -218,25 +216,14 @@ WalrImage HostedRun::describe(std::size_t index) const {
   return image;
 }
 
-WalrImage HostedRun::describeView() const {
+WalrImage HostedRun::describe(const FurtherOutput& output) const {
   WalrImage image = describe(kOutput);
-  image.image = view_->external().image;
-  image.identity = viewIdentity_;
-  image.format = viewNeeds_.format;
-  image.usage = viewNeeds_.usage;
-  image.width = viewNeeds_.width;
-  image.height = viewNeeds_.height;
-  return image;
-}
-
-WalrImage HostedRun::describeHistoryLength() const {
-  WalrImage image = describe(kOutput);
-  image.image = historyLength_->external().image;
-  image.identity = historyLengthIdentity_;
-  image.format = historyLengthNeeds_.format;
-  image.usage = historyLengthNeeds_.usage;
-  image.width = historyLengthNeeds_.width;
-  image.height = historyLengthNeeds_.height;
+  image.image = output.image->external().image;
+  image.identity = output.identity;
+  image.format = output.needs.format;
+  image.usage = output.needs.usage;
+  image.width = output.needs.width;
+  image.height = output.needs.height;
   return image;
 }
 
@@ -274,9 +261,9 @@ void HostedRun::record(const fg::vk::Frame& recorded, const FrameDescription& ca
   frame.object_id = objectIds_ ? &images[kObjectIds] : nullptr;
   frame.confidence = confidence_ ? &images[kConfidence] : nullptr;
   frame.denoised = &images[kOutput];
-  const WalrImage view = view_ ? describeView() : WalrImage{};
+  const WalrImage view = view_ ? describe(*view_) : WalrImage{};
   frame.view = view_ ? &view : nullptr;
-  const WalrImage historyLength = historyLength_ ? describeHistoryLength() : WalrImage{};
+  const WalrImage historyLength = historyLength_ ? describe(*historyLength_) : WalrImage{};
   frame.history_length = historyLength_ ? &historyLength : nullptr;
   frame.camera = &now;
   for (int axis = 0; axis < 3; ++axis) {
@@ -287,8 +274,8 @@ void HostedRun::record(const fg::vk::Frame& recorded, const FrameDescription& ca
   frame.finished = finished.semaphore;
   frame.finished_value = finished.value;
   require(walr_record(denoiser_, recorded.commandBuffer, &frame));
-  if (view_) view_->recordReadback(recorded.commandBuffer, recorded.slot);
-  if (historyLength_) historyLength_->recordReadback(recorded.commandBuffer, recorded.slot);
+  if (view_) view_->image->recordReadback(recorded.commandBuffer, recorded.slot);
+  if (historyLength_) historyLength_->image->recordReadback(recorded.commandBuffer, recorded.slot);
   output().recordReadback(recorded.commandBuffer, recorded.slot);
 }
 

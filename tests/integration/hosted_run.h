@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <cstring>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -83,10 +84,18 @@ class HostedRun {
   [[nodiscard]] std::vector<std::byte> resultOf(std::uint32_t slot) const;
 
  private:
+  /// An image beside the result that the denoiser writes.
+  struct FurtherOutput {
+    WalrImageRequirements needs{};
+    std::unique_ptr<fg::vk::StagedImage> image;
+    std::uint64_t identity = 0;
+  };
+
   void makeImages(glm::ivec2 size);
   [[nodiscard]] WalrImage describe(std::size_t index) const;
-  [[nodiscard]] WalrImage describeView() const;
-  [[nodiscard]] WalrImage describeHistoryLength() const;
+  [[nodiscard]] FurtherOutput makeOutput(const char* name);
+  [[nodiscard]] WalrImage describe(const FurtherOutput& output) const;
+  void forget(std::optional<FurtherOutput>& output);
   [[nodiscard]] bool isGiven(std::size_t index) const;
   [[nodiscard]] fg::vk::StagedImage& output() const { return *images_.back(); }
 
@@ -102,12 +111,8 @@ class HostedRun {
   std::vector<WalrImageRequirements> needs_;
   std::vector<std::unique_ptr<fg::vk::StagedImage>> images_;  ///< Null for images that the host does not have.
   std::array<std::vector<std::byte>, 7> texels_;
-  WalrImageRequirements viewNeeds_{};
-  std::unique_ptr<fg::vk::StagedImage> view_;  ///< Null without a view.
-  std::uint64_t viewIdentity_ = 0;
-  WalrImageRequirements historyLengthNeeds_{};
-  std::unique_ptr<fg::vk::StagedImage> historyLength_;  ///< Null without.
-  std::uint64_t historyLengthIdentity_ = 0;
+  std::optional<FurtherOutput> view_;
+  std::optional<FurtherOutput> historyLength_;
   std::uint32_t lastSlot_ = 0;
   fg::vk::FrameQueue queue_;
   std::uint64_t nextIdentity_ = 1;
