@@ -138,7 +138,8 @@ float nearestTap(vec4 values, bvec4 candidates, float still, float tolerance) {
   return nearest;
 }
 
-// Which taps, of the given depths, are within `tolerance` x depth of the surface. Candidates may tell its depth.
+// Which taps, of the given depths, are within `tolerance` x depth of the surface. If depth is found, it is that of a
+// candidate.
 bvec4 tapsNear(Reprojection r, bvec4 candidates, vec4 depths, float tolerance) {
   tolerance *= r.depth;
   const float surface = kMotionDepthFound ? nearestTap(depths, candidates, r.depth, tolerance) : r.depth;
@@ -147,7 +148,7 @@ bvec4 tapsNear(Reprojection r, bvec4 candidates, vec4 depths, float tolerance) {
 
 // Which taps, of the given depths, are within `tolerance` x depth of the surface's plane. The product of its normal and
 // the view ray is linear over the image: it is computed at the first tap, and the others follow by its slope.
-// Candidates may tell the surface's depth.
+// If depth is found, it is that of a candidate.
 bvec4 tapsOnPlane(HistoryTaps taps, Reprojection r, bvec4 candidates, vec3 normal, vec4 depths, float tolerance) {
   const vec2 firstPixel = (vec2(taps.base) + 0.5) * frame.pixelFromPreviousPixel;
   const float first = dot(normal, rayThrough(frame.previousRayFromPixel, firstPixel));
