@@ -18,9 +18,20 @@ const HostStates kComputeHost{
 
 namespace {
 
+/// @throws std::invalid_argument naming a pattern of light that is out of range or that a host cannot have
+void checkLight(const LightPattern& light, const HostConventions& host) {
+  checkLightPattern(light);
+  if (host.rectangle && !light.fullSize()) {
+    throw std::invalid_argument(
+        "a rectangle of the images is denoised, and texels of light stand for several pixels: only one of the two is "
+        "possible; use light of the images' size with a mask");
+  }
+}
+
 /// The number of channels of an input that are read.
 std::uint32_t channelsRead(const HostInput& input, const InputConventions& conventions, const HostConventions& host) {
   const bool flatMotion = conventions.motionDepth != InputConventions::MotionDepth::Given;
+  if (input.texture == &DenoiserInputs::lighting && conventions.light.masked) return 4;
   const bool twoChannels = (input.texture == &DenoiserInputs::motion && flatMotion) ||
                            (input.texture == &DenoiserInputs::normal && host.octahedral());
   return twoChannels ? 2 : input.channels;
@@ -31,6 +42,7 @@ std::uint32_t channelsRead(const HostInput& input, const InputConventions& conve
 DenoiserInputs importInputs(fg::Graph& graph, fg::Extent extent, const InputConventions& conventions,
                             const fg::ExternalState& state, std::span<const VkFormat> formats,
                             const HostConventions& host) {
+  checkLight(conventions.light, host);
   DenoiserInputs inputs;
   for (std::size_t i = 0; i < kHostInputs.size(); ++i) {
     const HostInput& input = kHostInputs[i];
@@ -38,7 +50,9 @@ DenoiserInputs importInputs(fg::Graph& graph, fg::Extent extent, const InputConv
     const VkFormat format = formats.empty() ? usual : formats[i];
     if (input.optional && format == VK_FORMAT_UNDEFINED) continue;
     requireInputFormat(input, format, channelsRead(input, conventions, host));
-    inputs.*input.texture = graph.import(std::string(input.name), {.format = format, .extent = extent}, state);
+    const bool isLight = input.texture == &DenoiserInputs::lighting;
+    const fg::Extent size = isLight ? conventions.light.lightingExtent(extent) : extent;
+    inputs.*input.texture = graph.import(std::string(input.name), {.format = format, .extent = size}, state);
   }
   inputs.frame = graph.upload(std::string(kFrameName), sizeof(FrameConstants));
   inputs.conventions = conventions;

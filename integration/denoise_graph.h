@@ -41,10 +41,13 @@ struct HostStates {
 extern const HostStates kComputeHost;
 
 /// Declare a host's textures as imports of a graph.
+/// @param extent  of the image; the lighting may be smaller (`LightPattern`)
 /// @param formats one per entry of `kHostInputs`, VK_FORMAT_UNDEFINED for an optional one that the host does not have;
 ///                empty: the usual formats, without the optional inputs
 /// @param host    determines how many channels are read
-/// @throws std::invalid_argument naming an input whose format cannot be used
+/// @throws std::invalid_argument naming an input whose format cannot be used, or a pattern of light that is out of
+/// range
+///         or that a host with a rectangle cannot have
 DenoiserInputs importInputs(fg::Graph& graph, fg::Extent extent, const InputConventions& conventions,
                             const fg::ExternalState& state, std::span<const VkFormat> formats = {},
                             const HostConventions& host = {});

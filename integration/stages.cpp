@@ -210,7 +210,7 @@ class MethodStage final : public Stage {
   void usePreset(std::string_view name) override { method_->usePreset(name); }
   void declare(StagePorts& ports) override {
     const DenoiserInputs inputs = ports.hostInputs();
-    const fg::Texture target = targetLike(ports, kOutputName, inputs.lighting);
+    const fg::Texture target = ports.target(kOutputName, kColour, inputs.extent(ports.graph()));
     ports.setOutput(kOutputName, method_->add(ports.graph(), inputs, target));
   }
 

@@ -313,7 +313,11 @@ fg::Texture addBlockReconstruction(StageGraph graph, fg::Buffer frame, const Blo
   const fg::Shader& shader = residual ? (writesPacked ? shaders::blockApplyResidualPacked : shaders::blockApplyResidual)
                                       : (writesPacked ? shaders::blockApplyPacked : shaders::blockApply);
   fg::PassBuilder pass = reconstruct("block apply", shader);
-  if (!writesPacked) pass.sample("passThrough", readsPacked ? light.lighting : light.accumulated);
+  if (!writesPacked) {
+    // Accumulated light has a texel for every pixel, and 0 where a pixel without a surface has no sample.
+    pass.sample("passThrough", readsPacked ? light.lighting : light.accumulated);
+    specializeLight(pass, readsPacked ? light.pattern : LightPattern{});
+  }
   if (residual) {
     addAccumulatedShare(graph, pass,
                         {.frame = frame,

@@ -5,6 +5,7 @@
 
 #include "framegraph/declare/graph.h"
 #include "passes/accumulated_share.h"
+#include "passes/light_pattern.h"
 #include "passes/light_storage.h"
 #include "passes/lighting_alpha.h"
 #include "passes/prepare_guides.h"
@@ -99,6 +100,7 @@ struct BlockLight {
   LightingAlpha alpha;        ///< What the alpha channel of `accumulated` holds; pixels without samples do not count.
   fg::Texture lighting = {};  ///< The host's; needed if `accumulated` is packed and the result is not, and for
                               ///< `BlockRegressionSettings::share`, which has no effect without it.
+  LightPattern pattern = {};  ///< Of `lighting`.
   std::optional<SteeredHistory> history = std::nullopt;  ///< Of `accumulated`, if `AccumulatedShareSettings` steers it.
   LightStorage result = LightStorage::Half;              ///< Packed: holds no pass-through; see packed_light.glsl.
 };

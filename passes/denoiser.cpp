@@ -60,10 +60,22 @@ SceneDescription common(const SceneDescription& a, const SceneDescription& b) {
           .resizing = a.resizing || b.resizing};
 }
 
+struct Method {
+  std::string_view name;
+  std::string_view description;
+  std::unique_ptr<Denoiser> (*make)(const Method& method);
+  bool takesSparseLight = false;
+};
+
+/// @throws std::invalid_argument if a method needs light at every pixel and not every pixel has it
+void checkLight(const Method& method, const LightPattern& light);
+
 /// A method made of a settings struct and the function that adds its passes.
 template <typename Settings, auto kAdd>
 class DenoiserOf final : public Denoiser {
  public:
+  explicit DenoiserOf(const Method& method) : method_(method) {}
+
   void visitSettings(SettingVisitor& visitor) override {
     settings_.visit(visitor);
     scene_.visit(visitor);
@@ -89,6 +101,7 @@ class DenoiserOf final : public Denoiser {
 
   fg::Texture add(StageGraph graph, const DenoiserInputs& inputs, fg::Texture output) override {
     checkSettings();
+    checkLight(method_, inputs.conventions.light);
     DenoiserInputs described = inputs;
     described.scene = common(inputs.scene, scene_);
     const fg::Texture denoised = kAdd(graph, described, output, settings_);
@@ -97,13 +110,14 @@ class DenoiserOf final : public Denoiser {
   }
 
  private:
+  const Method& method_;
   Settings settings_{};
   SceneDescription scene_;
 };
 
 template <typename Settings, auto kAdd>
-std::unique_ptr<Denoiser> make() {
-  return std::make_unique<DenoiserOf<Settings, kAdd>>();
+std::unique_ptr<Denoiser> make(const Method& method) {
+  return std::make_unique<DenoiserOf<Settings, kAdd>>(method);
 }
 
 struct NoSettings {
@@ -114,25 +128,19 @@ fg::Texture addNone(StageGraph graph, const DenoiserInputs& inputs, fg::Texture 
   return addPassThrough(graph, inputs.lighting, output);
 }
 
-struct Method {
-  std::string_view name;
-  std::string_view description;
-  std::unique_ptr<Denoiser> (*make)();
-};
-
 constexpr std::array kMethods{
     Method{"walr", "Weighted A-Trous Linear Regression over blocks of pixels: the project's own method",
-           make<WalrSettings, addWalr>},
+           make<WalrSettings, addWalr>, true},
     Method{"walr_paper", "Weighted A-Trous Linear Regression over pixels, as published",
-           make<WalrPaperSettings, addWalrPaper>},
+           make<WalrPaperSettings, addWalrPaper>, true},
     Method{"refwlr", "The reference of walr_paper: regression over the full window, seconds a frame",
            make<RefwlrSettings, addRefwlr>},
-    Method{"bmfr", "Blockwise Multi-Order Feature Regression", make<BmfrSettings, addBmfr>},
+    Method{"bmfr", "Blockwise Multi-Order Feature Regression", make<BmfrSettings, addBmfr>, true},
     Method{"svgf", "Spatiotemporal Variance-Guided Filtering", make<SvgfSettings, addSvgf>},
-    Method{"flr", "Fast Local Regression over downsampled moments", make<FlrSettings, addFlr>},
+    Method{"flr", "Fast Local Regression over downsampled moments", make<FlrSettings, addFlr>, true},
     Method{"joint_bilateral", "Joint bilateral filter with temporal accumulation",
            make<JointBilateralSettings, addJointBilateral>},
-    Method{"accumulate", "Temporal accumulation alone", make<AccumulateSettings, addAccumulate>},
+    Method{"accumulate", "Temporal accumulation alone", make<AccumulateSettings, addAccumulate>, true},
     Method{"none", "The input as it is", make<NoSettings, addNone>},
 };
 
@@ -143,6 +151,18 @@ const Method& findMethod(std::string_view name) {
                                 "\"; known methods: " + join(denoiserNames()));
   }
   return *found;
+}
+
+void checkLight(const Method& method, const LightPattern& light) {
+  checkLightPattern(light);
+  if (light.everyPixel() || method.takesSparseLight) return;
+  std::vector<std::string> names;
+  for (const Method& each : kMethods) {
+    if (each.takesSparseLight) names.emplace_back(each.name);
+  }
+  throw std::invalid_argument(
+      "method '" + std::string(method.name) +
+      "' needs a sample of light at every pixel; methods that take sparse light: " + join(names));
 }
 
 }  // namespace
@@ -175,7 +195,8 @@ std::string_view denoiserDescription(std::string_view method) {
 }
 
 std::unique_ptr<Denoiser> makeDenoiser(std::string_view method) {
-  return findMethod(method).make();
+  const Method& found = findMethod(method);
+  return found.make(found);
 }
 
 }  // namespace walr

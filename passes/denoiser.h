@@ -26,7 +26,8 @@ class Denoiser : public Configurable {
   /// @param output  RGBA16F texture of the inputs' extent that the result is written to
   /// @returns the output's new version: denoised demodulated diffuse indirect radiance; sky and pixels without a
   ///          diffuse lobe hold the input unchanged, or, where light is packed, rounded (`antialiasing.storage`)
-  /// @throws std::invalid_argument naming a setting outside its range, or a view that does not exist
+  /// @throws std::invalid_argument naming a setting outside its range, or a view that does not exist, or the method
+  ///         or setting that needs a sample of light at every pixel (`LightPattern`) where there is none
   virtual fg::Texture add(StageGraph graph, const DenoiserInputs& inputs, fg::Texture output) = 0;
   /// The views that `add` takes with the present settings.
   /// @throws std::invalid_argument naming a setting outside its range

@@ -63,6 +63,7 @@ FrameConstants frameConstants(const FrameDescription& frame, fg::Extent extent) 
   constants.previousTexel = glm::vec2(1.0 / previousSize);
   constants.pixelFromRay = glm::vec2(1.0 / ray.x, 1.0 / ray.y);
   constants.frameIndex = frame.frameIndex;
+  constants.lightOffset = frame.lightOffset;
   constants.skyDepth =
       frame.orthographic ? static_cast<float>(frame.skyDepth + standOff(frame.projection)) : frame.skyDepth;
   return constants;

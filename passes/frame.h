@@ -33,6 +33,8 @@ struct FrameDescription {
   glm::dvec3 origin{0.0};
   glm::dvec3 previousOrigin{0.0};
   float skyDepth = 1e9F;  ///< Scene units: a linear view depth from here on is sky.
+  /// With sparse light, the pixel of its group that a texel of light belongs to: see `LightPattern`. Pixels, y down.
+  glm::ivec2 lightOffset{0};
   /// Both projections are orthographic, and the depth texture is converted: see `HostConventions::orthographic`.
   bool orthographic = false;
 };

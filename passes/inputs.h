@@ -1,6 +1,7 @@
 #pragma once
 
 #include "framegraph/declare/graph.h"
+#include "passes/light_pattern.h"
 #include "passes/scene_description.h"
 
 namespace walr {
@@ -23,11 +24,14 @@ struct InputConventions {
   /// Whether motion.xy is between the jittered images, from pixel centre to pixel centre. If not, it is the motion that
   /// cameras without jitter would show.
   bool motionJittered = true;
+  LightPattern light = {};
 };
 
-/// The textures that every denoiser takes, all of one extent; `objectId` and `confidence` may be left out.
+/// The textures that every denoiser takes; `objectId` and `confidence` may be left out. All have the extent of the
+/// image, but see `LightPattern` for that of the lighting.
 struct DenoiserInputs {
-  fg::Texture lighting;  ///< RGBA16F: demodulated diffuse indirect radiance, linear, 1 sample per pixel. Alpha unused.
+  fg::Texture lighting;  ///< RGBA16F: demodulated diffuse indirect radiance, linear, 1 sample per texel. Alpha: see
+                         ///< `LightPattern::masked`.
   fg::Texture depth;     ///< R32F: linear view depth (-z of view space), scene units; sky at or beyond `skyDepth`.
   fg::Texture normal;    ///< RGBA16F: unit shading normal; zero on sky.
   fg::Texture motion;    ///< RGBA16F: motion to the previous frame; see `FrameDescription::motionScale`.
@@ -41,6 +45,11 @@ struct DenoiserInputs {
   fg::Buffer frame;  ///< Upload of `FrameConstants` (passes/frame.h).
   InputConventions conventions;
   SceneDescription scene = {};
+
+  /// Extent of the image.
+  [[nodiscard]] fg::Extent extent(const fg::Graph& graph) const {
+    return graph.textureDesc(conventions.light.fullSize() ? lighting : depth).extent;
+  }
 };
 
 }  // namespace walr

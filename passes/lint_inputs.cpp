@@ -24,6 +24,7 @@ fg::Buffer addLintInputs(fg::Graph& graph, const DenoiserInputs& inputs, fg::Buf
       .specialize("kMotionJittered", inputs.conventions.motionJittered)
       .texels(extent)
       .dispatch(extent);
+  specializeLight(pass, inputs.conventions.light);
   return pass.update("counters", counters);
 }
 

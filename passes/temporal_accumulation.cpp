@@ -34,15 +34,20 @@ struct Stage {
   Guides guides;
   const TemporalAccumulationSettings& settings;
   bool keepTaps;
+  fg::Extent extent;  ///< Of the image.
   fg::History accumulated;
   std::optional<Antilag> antilag;  ///< Where the stage has it.
 };
 
-Stage stageOf(StageGraph graph, const DenoiserInputs& inputs, const Guides& guides,
-              const TemporalAccumulationSettings& settings, bool keepTaps, fg::Texture leastAntilag = {}) {
-  const fg::Extent extent = graph->textureDesc(inputs.lighting).extent;
-  Stage stage{graph,       inputs,   guides,
-              settings,    keepTaps, graph->history("accumulated", {formatOf(settings.storage), extent}),
+Stage stageOf(StageGraph graph, fg::Extent extent, const DenoiserInputs& inputs, const Guides& guides,
+              const TemporalAccumulationSettings& settings, bool keepTaps, fg::Texture leastAntilag) {
+  Stage stage{graph,
+              inputs,
+              guides,
+              settings,
+              keepTaps,
+              extent,
+              graph->history("accumulated", {formatOf(settings.storage), extent}),
               std::nullopt};
   if (settings.antilag.enabled) stage.antilag = declareAntilag(graph, extent, leastAntilag);
   return stage;
@@ -75,9 +80,10 @@ void readInputs(const Stage& stage, fg::PassBuilder& pass, Role role) {
   } else if (role == Role::View) {
     pass.unread("previousAntilag", stage.inputs.lighting);
   }
+  specializeLight(pass, stage.inputs.conventions.light);
   pass.sample("lighting", stage.inputs.lighting)
       .sample("previousAccumulated", stage.accumulated.previous)
-      .dispatch(stage.graph->textureDesc(stage.inputs.lighting).extent);
+      .dispatch(stage.extent);
 }
 
 /// A pass without its outputs; the first of them is the current texture of `accumulated`.
@@ -89,8 +95,7 @@ fg::PassBuilder declarePass(const Stage& stage, const std::string& name, Role ro
 }
 
 void offerViews(const Stage& stage) {
-  stage.graph.offer(accumulationViews(stage.antilag.has_value()),
-                    stage.graph->textureDesc(stage.inputs.lighting).extent,
+  stage.graph.offer(accumulationViews(stage.antilag.has_value()), stage.extent,
                     [&](const std::string& name) { return declarePass(stage, name, Role::View); });
 }
 
@@ -112,8 +117,7 @@ AccumulationWithTaps storeMeanAndTaps(const Stage& stage, fg::PassBuilder& pass,
   AccumulationWithTaps result;
   result.mean = storeMean(stage, pass);
   pass.specialize("kKeepPassThrough", antialiasing == LightStorage::Packed);
-  const fg::Extent extent = stage.graph->textureDesc(stage.inputs.lighting).extent;
-  result.taps = pass.store("outTaps", stage.graph->texture("history taps", {VK_FORMAT_R32_UINT, extent}));
+  result.taps = pass.store("outTaps", stage.graph->texture("history taps", {VK_FORMAT_R32_UINT, stage.extent}));
   return result;
 }
 
@@ -138,7 +142,8 @@ std::span<const ViewInfo> accumulationViews(bool withAntilag) {
 
 fg::Texture addTemporalAccumulation(StageGraph graph, const DenoiserInputs& inputs, const Guides& guides,
                                     const TemporalAccumulationSettings& settings, fg::Texture leastAntilag) {
-  const Stage stage = stageOf(graph, inputs, guides, settings, false, leastAntilag);
+  const Stage stage =
+      stageOf(graph, graph->textureDesc(guides.depth).extent, inputs, guides, settings, false, leastAntilag);
   offerViews(stage);
   fg::PassBuilder pass = declarePass(stage, "temporal accumulation", Role::Mean);
   return storeMean(stage, pass);
@@ -147,7 +152,8 @@ fg::Texture addTemporalAccumulation(StageGraph graph, const DenoiserInputs& inpu
 AccumulationWithTaps addTemporalAccumulationWithTaps(StageGraph graph, const DenoiserInputs& inputs,
                                                      const Guides& guides, const TemporalAccumulationSettings& settings,
                                                      LightStorage antialiasing, fg::Texture leastAntilag) {
-  const Stage stage = stageOf(graph, inputs, guides, settings, true, leastAntilag);
+  const Stage stage =
+      stageOf(graph, graph->textureDesc(guides.depth).extent, inputs, guides, settings, true, leastAntilag);
   offerViews(stage);
   fg::PassBuilder pass = declarePass(stage, "temporal accumulation", Role::MeanAndTaps);
   return storeMeanAndTaps(stage, pass, antialiasing);
@@ -168,12 +174,13 @@ GuidesAndAccumulation addGuidesAndAccumulation(StageGraph graph, const DenoiserI
         "tested by plane, no dilated motion, and if all guides are needed; add two passes");
   }
   offerGuideViews(graph, inputs, guideSettings);
-  Stage stage = stageOf(graph, inputs, {}, settings, true, leastAntilag);
+  const fg::Extent extent = graph->textureDesc(inputs.depth).extent;
+  Stage stage = stageOf(graph, extent, inputs, {}, settings, true, leastAntilag);
   fg::PassBuilder pass = newPass(stage, "guides and accumulation", Role::GuidesMeanAndTaps);
   readGBuffer(pass, inputs, guideSettings);
   pass.constants(
       GuidesAndAccumulationConstants{guideConstants(graph, inputs, guideSettings, needs), constantsOf(settings)});
-  stage.guides = writeGuides(graph, pass, graph->textureDesc(inputs.depth).extent, needs);
+  stage.guides = writeGuides(graph, pass, extent, needs);
   readInputs(stage, pass, Role::GuidesMeanAndTaps);
   offerViews(stage);
   return {.guides = stage.guides, .accumulated = storeMeanAndTaps(stage, pass, antialiasing)};

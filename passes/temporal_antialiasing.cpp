@@ -82,7 +82,10 @@ fg::Texture addTemporalAntialiasing(StageGraph graph, const DenoiserInputs& inpu
     readConfidence(pass, settings.accumulates ? inputs.confidence : fg::Texture{}, inputs, standIns);
     readObjectIds(pass, ids, standIns);
     if (view) pass.specialize("kKeepableMotion", false);
-    if (packed && !view) pass.sample("passThrough", inputs.lighting);
+    if (packed && !view) {
+      pass.sample("passThrough", inputs.lighting);
+      specializeLight(pass, inputs.conventions.light);
+    }
   };
   return addStage(graph, false, read, filtered, output, settings);
 }

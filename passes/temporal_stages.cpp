@@ -1,5 +1,7 @@
 #include "passes/temporal_stages.h"
 
+#include <stdexcept>
+
 #include "passes/pass_through.h"
 
 namespace walr {
@@ -26,6 +28,10 @@ Accumulated withTaps(const AccumulationWithTaps& accumulated) {
 }  // namespace
 
 TemporalPlan planTemporalStages(const DenoiserInputs& inputs, const TemporalStages& stages) {
+  if (stages.spatialOnly && !inputs.conventions.light.everyPixel()) {
+    throw std::invalid_argument(
+        "setting spatial-only needs a sample of light at every pixel: sparse light is accumulated first");
+  }
   TemporalPlan plan{.accumulation = stages.accumulation,
                     .antialiasing = stages.antialiasing,
                     .accumulates = !stages.spatialOnly,

@@ -37,6 +37,7 @@ struct TemporalPlan {
 
 /// Decide what the temporal stages do. Accumulation keeps its history taps if anti-aliasing would find the same ones,
 /// or if the filter reads a history of its own.
+/// @throws std::invalid_argument if frames are filtered by themselves and not every pixel has a sample of light
 TemporalPlan planTemporalStages(const DenoiserInputs& inputs, const TemporalStages& stages);
 
 /// The input of a spatial filter.

@@ -1,7 +1,9 @@
 #include "passes/walr_method.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
+#include <stdexcept>
 
 #include "passes/temporal_stages.h"
 #include "passes/window_fit.h"
@@ -9,9 +11,19 @@
 namespace walr {
 namespace {
 
-BlockRegressionSettings fittedBlocks(const WalrSettings& settings, std::uint32_t height) {
+/// How much wider windows are if a texel of light stands for several pixels. With n samples, a local linear regression
+/// over a plane errs least if its windows' width is in proportion to n^(-1/6) (Ruppert and Wand 1994).
+float wideningOf(const LightPattern& light) {
+  return std::pow(static_cast<float>(light.columns * light.rows), 1.0F / 6.0F);
+}
+
+BlockRegressionSettings fittedBlocks(const WalrSettings& settings, std::uint32_t imageHeight,
+                                     const LightPattern& light) {
   BlockRegressionSettings blocks = settings.blocks;
   if (!settings.fitWindow) return blocks;
+  const float widening = wideningOf(light);
+  const auto height = static_cast<std::uint32_t>(widening * static_cast<float>(imageHeight));
+  blocks.coarseSigma *= widening;
   // Growth ends a window where the light differs, so that even small images can have wide windows.
   constexpr std::uint32_t kLeastIterations = 2;
   blocks.size = std::min(blocks.size, fittingBlockSize(height));
@@ -26,11 +38,13 @@ fg::Texture addWalr(StageGraph graph, const DenoiserInputs& inputs, fg::Texture 
   TemporalPlan plan = planTemporalStages(inputs, {.accumulation = settings.accumulation,
                                                   .antialiasing = settings.antialiasing,
                                                   .spatialOnly = settings.spatialOnly});
-  const BlockRegressionSettings blocks = fittedBlocks(settings, graph->textureDesc(inputs.lighting).extent.height);
+  const BlockRegressionSettings blocks = fittedBlocks(settings, inputs.extent(graph).height, inputs.conventions.light);
+  if (blocks.share.enabled && !inputs.conventions.light.everyPixel()) {
+    throw std::invalid_argument("setting blocks.residual needs a sample of light at every pixel");
+  }
   std::optional<SteeredHistory> history;
   if (blocks.share.enabled && plan.accumulates && settings.accumulation.antilag.enabled) {
-    history =
-        declareSteeredHistory(graph, graph->textureDesc(inputs.lighting).extent, settings.accumulation.maxHistory);
+    history = declareSteeredHistory(graph, inputs.extent(graph), settings.accumulation.maxHistory);
     plan.leastAntilag = history->leastAntilag.previous;
   }
   GuideNeeds needs = plan.guides;
@@ -40,6 +54,7 @@ fg::Texture addWalr(StageGraph graph, const DenoiserInputs& inputs, fg::Texture 
   const BlockLight light{.accumulated = accumulated.lighting,
                          .alpha = accumulated.alpha,
                          .lighting = inputs.lighting,
+                         .pattern = inputs.conventions.light,
                          .history = history,
                          .result = plan.filtered};
   const BlockFits fits = addBlockRegression(graph, inputs.frame, light, guides, blocks);

@@ -30,7 +30,8 @@ struct WalrSettings {
     accumulation.visitStorage(v);
     v.visit({"walr.fit-window",
              "Leave out the last iterations where their window would span far more than a tenth of the image's "
-             "height, and make blocks no larger than a 43rd of it, but at least of 4 pixels",
+             "height, and make blocks no larger than a 43rd of it, but at least of 4 pixels; widen windows where a "
+             "sample of light stands for several pixels",
              "", 0, 1, "measured"},
             fitWindow);
     occlusion.visit(v);
@@ -40,8 +41,8 @@ struct WalrSettings {
   }
 };
 
-/// For light with four samples a pixel or more, independent from frame to frame: the result takes in accumulated light as
-/// far as it can be trusted, and histories are shorter. Reservoirs with temporal reuse (ReSTIR) are not independent.
+/// For light with four samples a pixel or more, independent from frame to frame: the result takes in accumulated light
+/// as far as it can be trusted, and histories are shorter. Reservoirs with temporal reuse (ReSTIR) are not independent.
 WalrSettings manySamplesWalr();
 
 /// The project's own method: Weighted A-Trous Linear Regression (Meunier & Harada 2022, figure 6) over blocks of

@@ -33,8 +33,7 @@ fg::Texture addWalrPaper(StageGraph graph, const DenoiserInputs& inputs, fg::Tex
   if (settings.regression.edgeStopping.planeNormal == PlaneNormal::Geometric) needs.geometricNormal = true;
   const Guides guides = addPrepareGuides(graph, inputs, settings.guides, needs);
   const Accumulated accumulated = addAccumulation(graph, inputs, guides, plan);
-  const WeightedRegressionSettings regression =
-      fittedRegression(settings, graph->textureDesc(inputs.lighting).extent.height);
+  const WeightedRegressionSettings regression = fittedRegression(settings, inputs.extent(graph).height);
   const fg::Texture filtered = addWeightedRegression(graph, inputs.frame, accumulated.lighting, accumulated.alpha,
                                                      guides, filterTarget(graph, plan, output), regression);
   return addAntialiasing(graph, inputs, guides, plan, accumulated, filtered, output);

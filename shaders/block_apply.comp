@@ -54,6 +54,7 @@ layout(push_constant) uniform PushConstants { BlockRegressionConstants constants
 #include "include/packed_light.glsl"
 #else
 #include "include/half.glsl"
+#include "include/light_sample.glsl"
 #include "include/pass_through.glsl"
 #endif
 #ifdef RESIDUAL
@@ -190,7 +191,7 @@ void store(ivec2 p, vec3 colour) {
   imageStore(outFiltered, p, uvec4(packFiltered(colour, ditherNumber(p, frame.frameIndex))));
 }
 #else
-void storeNoSurface(ivec2 p) { imageStore(outFiltered, p, vec4(passThroughLight(passThrough, p), 1.0)); }
+void storeNoSurface(ivec2 p) { imageStore(outFiltered, p, vec4(passThroughLight(lightSampleAt(passThrough, p).radiance), 1.0)); }
 void store(ivec2 p, vec3 colour) { imageStore(outFiltered, p, nearestHalf(vec4(colour, 1.0))); }
 #endif
 

@@ -21,6 +21,7 @@ uniform texture2D normal;
 uniform texture2D motion;
 uniform texture2D albedo;
 layout(std430) buffer counters { uint words[]; };
+#include "include/light_sample.glsl"
 
 shared uint partial[kLintWords];
 
@@ -177,28 +178,32 @@ void countOrder(uint base, float light) {
   count(base + uint(order), true);
 }
 
-void countPair(ivec2 p, ivec2 q, float z, vec3 n, vec3 light, vec3 diffuse) {
+void countPair(ivec2 p, ivec2 q, float z, vec3 n, LightSample here, vec3 diffuse) {
   if (!inside(q)) return;
   const float otherDepth = depthAt(q);
   const vec3 otherNormal = normalAt(q);
-  const vec3 otherLight = texelFetch(lighting, q, 0).rgb;
+  const LightSample there = lightSampleAt(lighting, q);
   const vec3 otherDiffuse = albedoAt(q);
+  if (!here.exists || !there.exists) return;
+  const vec3 light = here.radiance, otherLight = there.radiance;
   if (!isUsable(n) || !isUsable(otherNormal) || !isFinite(light) || !isFinite(otherLight)) return;
   if (!isSurfaceDepth(otherDepth) || abs(otherDepth - z) > 0.02 * z) return;
   if (dot(n, otherNormal) < 0.99 * length(n) * length(otherNormal)) return;
-  const float here = luminance(diffuse), there = luminance(otherDiffuse);
-  if (!(min(here, there) >= kAlbedoLeast) || max(here, there) < kAlbedoContrast * min(here, there)) return;
+  const float share = luminance(diffuse), otherShare = luminance(otherDiffuse);
+  if (!(min(share, otherShare) >= kAlbedoLeast)) return;
+  if (max(share, otherShare) < kAlbedoContrast * min(share, otherShare)) return;
+  const bool more = share > otherShare;
   count(kLintPairs, true);
-  countOrder(here > there ? kLintLightMore : kLintLightLess, luminance(light));
-  countOrder(here > there ? kLintLightLess : kLintLightMore, luminance(otherLight));
-  countOrder(here > there ? kLintDividedMore : kLintDividedLess, luminance(light) / here);
-  countOrder(here > there ? kLintDividedLess : kLintDividedMore, luminance(otherLight) / there);
+  countOrder(more ? kLintLightMore : kLintLightLess, luminance(light));
+  countOrder(more ? kLintLightLess : kLintLightMore, luminance(otherLight));
+  countOrder(more ? kLintDividedMore : kLintDividedLess, luminance(light) / share);
+  countOrder(more ? kLintDividedLess : kLintDividedMore, luminance(otherLight) / otherShare);
 }
 
 void countPixel(ivec2 p) {
-  const vec3 light = texelFetch(lighting, p, 0).rgb;
+  const LightSample light = lightSampleAt(lighting, p);
   const float z = depthAt(p);
-  countValues(light, z);
+  countValues(light.radiance, z);
   if (!isSurfaceDepth(z)) return;
   const vec3 n = normalAt(p);
   const vec3 given = texelFetch(motion, p, 0).xyz;

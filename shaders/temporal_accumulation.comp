@@ -83,6 +83,7 @@ float unpackHistoryLength(uint packed) { return unpackHistory(packed).a; }
 #endif
 #include "include/half.glsl"
 #include "include/history_taps.glsl"
+#include "include/light_sample.glsl"
 #include "include/pass_through.glsl"
 #if defined(ANTILAG) || defined(VIEW)
 #include "include/antilag.glsl"
@@ -120,24 +121,28 @@ ReprojectedHistory historyWithAntilag(ivec2 p, float z) {
   return found;
 }
 
-// History length with this frame's sample. A sample that is not finite does not count: the mean stays as it was.
-float samplesWith(vec4 history, bool sampleIsFinite) {
-  return min(history.a + (sampleIsFinite ? 1.0 : 0.0), constants.maxHistory);
+// Whether a sample counts. Where it is not finite, or missing, the mean stays as it was.
+bool isUsable(LightSample noisy) { return noisy.exists && isFinite(noisy.radiance); }
+
+// History length with this frame's sample.
+float samplesWith(vec4 history, bool sampleIsUsable) {
+  return min(history.a + (sampleIsUsable ? 1.0 : 0.0), constants.maxHistory);
 }
 vec3 clampedRadiance(vec3 noisy) { return clamp(noisy, vec3(0.0), vec3(kLargestHalf)); }
 
 #ifdef VIEW
-vec3 viewOf(ivec2 p, float z, vec3 noisy) {
+vec3 viewOf(ivec2 p, float z, LightSample noisy) {
   const bool surface = z > 0.0;
-  const bool sampleIsFinite = isFinite(noisy);
+  const bool sampleIsUsable = isUsable(noisy);
   switch (kView) {
     case 0u: {
       if (!surface) return vec3(0.0);
       const ReprojectedHistory found = historyWithAntilag(p, z);
-      return vec3(samplesWith(found.mean, sampleIsFinite), found.rejected, found.mean.a == 0.0);
+      return vec3(samplesWith(found.mean, sampleIsUsable), found.rejected, found.mean.a == 0.0);
     }
     case 1u:
-      return vec3(!sampleIsFinite, surface && sampleIsFinite && clampedRadiance(noisy) != noisy,
+      return vec3(noisy.exists && !sampleIsUsable,
+                  surface && sampleIsUsable && clampedRadiance(noisy.radiance) != noisy.radiance,
                   surface && !kStill && !isFinite(motionAt(p)));
     case 2u: {
       if (!surface || !kAntilag) return vec3(0.0);
@@ -151,9 +156,9 @@ vec3 viewOf(ivec2 p, float z, vec3 noisy) {
 
 void main() {
   const ivec2 p = ivec2(gl_GlobalInvocationID.xy);
-  if (any(greaterThanEqual(p, textureSize(lighting, 0)))) return;
+  if (any(greaterThanEqual(p, textureSize(depth, 0)))) return;
   const float z = unpackDepth(texelFetch(depth, p, 0).x);
-  imageStore(outView, p, vec4(viewOf(p, z, texelFetch(lighting, p, 0).rgb), 1.0));
+  imageStore(outView, p, vec4(viewOf(p, z, lightSampleAt(lighting, p)), 1.0));
 }
 #else
 #ifdef PACKED
@@ -170,11 +175,11 @@ void storeNoSurface(ivec2 p, vec3 light) { imageStore(outAccumulated, p, vec4(li
 // Accumulates one pixel. Returns the difference for antilag: the luminance of this frame's sample less that of history;
 // 0 if one of them is missing.
 float accumulate(ivec2 p) {
-  const vec3 noisy = texelFetch(lighting, p, 0).rgb;
-  const bool sampleIsFinite = isFinite(noisy);
+  const LightSample noisy = lightSampleAt(lighting, p);
+  const bool sampleIsUsable = isUsable(noisy);
   const float z = unpackDepth(packedDepthAt(p));
   if (z == 0.0) {
-    const vec3 passed = passThroughLight(noisy);
+    const vec3 passed = passThroughLight(noisy.radiance);
     storeNoSurface(p, passed);
 #ifdef KEEP_TAPS
     imageStore(outTaps, p, uvec4(kKeepPassThrough ? packPassThrough(passed) : kNoSurfaceTaps));
@@ -183,12 +188,12 @@ float accumulate(ivec2 p) {
   }
 
   const vec4 history = historyWithAntilag(p, z).mean;
-  const float samples = samplesWith(history, sampleIsFinite);
-  const vec3 radiance = clampedRadiance(noisy);
-  const vec3 mean = sampleIsFinite ? mix(history.rgb, radiance, 1.0 / max(samples, 1.0)) : history.rgb;
+  const float samples = samplesWith(history, sampleIsUsable);
+  const vec3 radiance = clampedRadiance(noisy.radiance);
+  const vec3 mean = sampleIsUsable ? mix(history.rgb, radiance, 1.0 / max(samples, 1.0)) : history.rgb;
   storeMean(p, vec4(mean, samples));
 #ifdef ANTILAG
-  return sampleIsFinite && history.a > 0.0 ? luminance(radiance - history.rgb) : 0.0;
+  return sampleIsUsable && history.a > 0.0 ? luminance(radiance - history.rgb) : 0.0;
 #else
   return 0.0;
 #endif
@@ -196,10 +201,12 @@ float accumulate(ivec2 p) {
 
 void main() {
   const ivec2 p = ivec2(gl_GlobalInvocationID.xy);
-  const bool inside = all(lessThan(p, textureSize(lighting, 0)));
 #ifdef GUIDES
+  const bool inside = all(lessThan(p, textureSize(hostDepth, 0)));
   ownGuides = guidesOfPixel();
   if (inside) storeGuides(p, ownGuides);
+#else
+  const bool inside = all(lessThan(p, textureSize(depth, 0)));
 #endif
   const float difference = inside ? accumulate(p) : 0.0;
 #ifdef ANTILAG

@@ -74,10 +74,11 @@ vec4 filteredOrPassThroughAt(ivec2 p) {
   return vec4(unpackPassThrough(surface ? light : texelFetch(keptTaps, p, 0).x), surface ? 1.0 : -1.0);
 }
 #elif !defined(VIEW)
+#include "include/light_sample.glsl"
 #include "include/pass_through.glsl"
 vec4 filteredOrPassThroughAt(ivec2 p) {
   const vec4 light = filteredAt(p);
-  return light.a >= 0.0 ? light : vec4(passThroughLight(passThrough, p), -1.0);
+  return light.a >= 0.0 ? light : vec4(passThroughLight(lightSampleAt(passThrough, p).radiance), -1.0);
 }
 #endif
 #else

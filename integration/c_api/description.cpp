@@ -30,6 +30,14 @@ WalrConventions checkedConventions(const WalrConventions* given) {
     }
     if (scale == 0.0F) scale = 1.0F;
   }
+  for (std::uint32_t& side : conventions.light_group) {
+    if (side > kMostPerLightTexel) {
+      throw Error(WALR_ERROR_INVALID_ARGUMENT, "WalrConventions::light_group is " + std::to_string(side) +
+                                                   " pixels wide or high: it must be at most " +
+                                                   std::to_string(kMostPerLightTexel));
+    }
+    side = std::max(side, 1U);
+  }
   return conventions;
 }
 
@@ -142,13 +150,14 @@ ListedGraph Description::list(std::span<const WalrPortFormat> ports, const Inspe
 }
 
 ListedGraph Description::listStage(std::span<const WalrPortFormat> ports) const {
-  if (hostConventions().convertsInputs()) {
+  if (hostConventions().convertsInputs() || !inputConventions().light.everyPixel()) {
     throw Error(
         WALR_ERROR_INVALID_ARGUMENT,
         "stage '" + methodName_ +
             "' takes linear depth, signed normals, motion_depth as given, found or of a static scene, no pre-exposure, "
-            "no rectangle, no orthographic camera and no denoised_format: convert the images yourself, or use a whole "
-            "method");
+            "no rectangle, no orthographic camera, no sparse light and no denoised_format: convert the images "
+            "yourself, or "
+            "use a whole method");
   }
   PortFormats formats;
   for (const Port& port : stage_->ports()) {
@@ -203,7 +212,10 @@ InputConventions Description::inputConventions() const {
           .motionDepth = motionDepth == WALR_MOTION_DEPTH_STATIC_SCENE ? MotionDepth::StaticScene
                          : motionDepth == WALR_MOTION_DEPTH_FOUND      ? MotionDepth::Found
                                                                        : MotionDepth::Given,
-          .motionJittered = conventions_.motion_jittered == VK_TRUE};
+          .motionJittered = conventions_.motion_jittered == VK_TRUE,
+          .light = {.columns = conventions_.light_group[0],
+                    .rows = conventions_.light_group[1],
+                    .masked = conventions_.light_masked == VK_TRUE}};
 }
 
 Constants Description::constants(const FrameStatement& frame) const {
@@ -227,6 +239,7 @@ Constants Description::constants(const FrameStatement& frame) const {
                                .previousOrigin = frame.previousCamera != nullptr ? frame.previousOrigin
                                                  : lastCamera_                   ? lastOrigin_
                                                                                  : frame.origin,
+                               .lightOffset = checkedLightOffset(frame.lightOffset),
                                .orthographic = conventions_.orthographic == VK_TRUE};
   if (!(frame.skyDepth >= 0.0F)) throw Error(WALR_ERROR_INVALID_ARGUMENT, "sky_depth is negative or NaN");
   if (frame.skyDepth > 0.0F) description.skyDepth = frame.skyDepth;
@@ -247,6 +260,15 @@ glm::ivec2 Description::checkedOffset(glm::uvec2 offset) const {
                                                  std::to_string(kLargestExtent));
   }
   return glm::ivec2(offset);
+}
+
+glm::ivec2 Description::checkedLightOffset(glm::uvec2 offset) const {
+  const std::span<const std::uint32_t, 2> group = conventions_.light_group;
+  if (offset.x < group[0] && offset.y < group[1]) return glm::ivec2(offset);
+  throw Error(WALR_ERROR_INVALID_ARGUMENT, "WalrFrame::light_offset is (" + std::to_string(offset.x) + ", " +
+                                               std::to_string(offset.y) +
+                                               "): it must lie in WalrConventions::light_group, " +
+                                               std::to_string(group[0]) + " x " + std::to_string(group[1]) + " pixels");
 }
 
 void Description::continueFrom(const Description& last) {

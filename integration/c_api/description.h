@@ -39,6 +39,7 @@ struct FrameStatement {
   float skyDepth = 0.0F;
   float preExposure = 0.0F;
   glm::uvec2 offset{0};
+  glm::uvec2 lightOffset{0};
   std::optional<std::uint32_t> index;  ///< Nothing means the number of frames before.
 };
 
@@ -54,6 +55,7 @@ FrameStatement statementOf(const Frame& frame) {
           .skyDepth = frame.sky_depth,
           .preExposure = frame.pre_exposure,
           .offset = glm::make_vec2(frame.offset),
+          .lightOffset = glm::make_vec2(frame.light_offset),
           .index = givesIndex ? std::optional(frame.frame_index) : std::nullopt};
 }
 
@@ -119,6 +121,7 @@ class Description {
   [[nodiscard]] ListedGraph listStage(std::span<const WalrPortFormat> ports) const;
   [[nodiscard]] HostConventions hostConventions() const;
   [[nodiscard]] glm::ivec2 checkedOffset(glm::uvec2 offset) const;
+  [[nodiscard]] glm::ivec2 checkedLightOffset(glm::uvec2 offset) const;
 
   std::string methodName_;
   std::unique_ptr<PassNode> stage_;   ///< Null for a method.

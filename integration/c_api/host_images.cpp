@@ -74,6 +74,10 @@ void record(const fg::vk::DeviceContext& device, VkCommandBuffer commandBuffer, 
   if (count > 0) device.functions.vkCmdPipelineBarrier2(commandBuffer, &info);
 }
 
+bool isLighting(std::size_t index) {
+  return index < kHostInputs.size() && kHostInputs.at(index).texture == &DenoiserInputs::lighting;
+}
+
 }  // namespace
 
 const HostStates kInnerStates{
@@ -114,7 +118,7 @@ FrameImage checkedImage(std::size_t index, const WalrImage* given, const ImageNe
   }
   if (const fg::Extent extent{image.width, image.height}; !needs.offset && extent != needs.extent) {
     reject(index, "is " + sizeText(extent) + " pixels, but the denoiser is for " + sizeText(needs.extent) +
-                      ": call walr_resize");
+                      ": call walr_resize" + (isLighting(index) ? ", or see WalrConventions::light_group" : ""));
   }
   if ((image.usage & needs.usage) != needs.usage) {
     reject(index, "lacks usage flags " + std::to_string(needs.usage & ~image.usage) +

@@ -130,7 +130,7 @@ HostedDenoiser::Declared HostedDenoiser::compile(DenoiseGraph graph) const {
     declared.needs[i] = {.used = planned.used,
                          .format = declared.graph.graph.textureDesc(declared.images[i]).format,
                          .usage = planned.imageUsage,
-                         .extent = description_.extent()};
+                         .extent = declared.graph.graph.textureDesc(declared.images[i]).extent};
   }
   return declared;
 }

@@ -31,8 +31,9 @@ void lint(LintOptions& options) {
   const Sequence sequence(options.input, options.sequence);
   const Layout& layout = *sequence.layout().layout;
   GpuDevice device(options.gpu);
-  const std::unique_ptr<Denoiser> none = makeDenoiser("none");
-  GpuDenoiser runner(device, *none, sequence.extent(), layout, {.lint = true});
+  // The linter runs beside a method; this is the cheapest that takes the light.
+  const std::unique_ptr<Denoiser> method = makeDenoiser(layout.conventions.light.everyPixel() ? "none" : "accumulate");
+  GpuDenoiser runner(device, *method, sequence.extent(), layout, {.lint = true});
   InputLinter linter(layout.conventions);
   for (std::size_t i = 0; i < sequence.entries().size(); ++i) {
     const PackedFrame frame = packFrame(sequence.read(i));

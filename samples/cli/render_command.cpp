@@ -21,7 +21,15 @@ struct RenderArguments {
   std::string frames = "0-11";
   std::string referenceFrames;
   std::string size = "320x180";
+  std::string lightRate = "1";
 };
+
+/// Values of --light-rate.
+const std::map<std::string, LightPattern>& lightRates() {
+  static const std::map<std::string, LightPattern> kRates{
+      {"1", {}}, {"1/2", {.columns = 2}}, {"1/4", {.columns = 2, .rows = 2}}, {"1/9", {.columns = 3, .rows = 3}}};
+  return kRates;
+}
 
 void renderFrames(RenderArguments& arguments) {
   render::RenderOptions& options = arguments.options;
@@ -34,6 +42,7 @@ void renderFrames(RenderArguments& arguments) {
   }
   options.width = extent.width;
   options.height = extent.height;
+  options.light = lightRates().at(arguments.lightRate);
 
   Progress progress(std::cerr, isatty(STDERR_FILENO) != 0, "file", options.files(), Progress::Clock::now(),
                     options.paths());
@@ -67,6 +76,14 @@ void registerRender(CLI::App& program) {
   constexpr std::uint32_t kMostSamples = 1U << 20U;
   command->add_option("--spp", options.samples, "Samples per pixel of the noisy frames")
       ->check(CLI::Range(1U, kMostSamples))
+      ->capture_default_str();
+  command
+      ->add_option("--light-rate", arguments->lightRate,
+                   "Share of the pixels of a noisy frame that have indirect light: 1, 1/2 (a checkerboard), "
+                   "1/4 (one of 2 x 2) or 1/9 (one of 3 x 3). Which pixels these are changes from frame to frame. "
+                   "References have light at every pixel")
+      ->check(CLI::IsMember(lightRates()))
+      ->type_name("")
       ->capture_default_str();
   command->add_option("--reference-spp", options.referenceSamples, "Samples per pixel of the references; 0: none")
       ->check(CLI::Range(0U, kMostSamples))

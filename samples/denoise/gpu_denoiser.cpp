@@ -111,6 +111,9 @@ std::optional<double> DenoisedPicture::milliseconds() const {
 
 void GpuDenoiser::State::submit(const PackedFrame& packed) {
   const Frame& frame = packed.frame;
+  if (frame.light != layout.conventions.light) {
+    throw std::logic_error("GpuDenoiser::submit: other pixels of the frame have light than the layout says");
+  }
   const FrameConstants constants = frameConstantsOf(frame, layout.motionScale);
   const fg::vk::Frame recorded = graph.begin();
   graph.executor().upload(declared.inputs.frame, constants);

@@ -1,5 +1,6 @@
 #include "samples/denoise/packed_frame.h"
 
+#include <algorithm>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -32,6 +33,22 @@ Image unpackRgb(const std::vector<Rgba16>& texels, int width, int height) {
 
 namespace {
 
+/// The texels of the lighting: the pixels that have a sample. Those of samples outside the image are 0.
+std::vector<Rgba16> packLight(const Frame& frame) {
+  if (frame.light.everyPixel()) return packRgba16(frame.indirect);
+  const fg::Extent extent = frame.light.lightingExtent(
+      {static_cast<std::uint32_t>(frame.indirect.width()), static_cast<std::uint32_t>(frame.indirect.height())});
+  Image light(static_cast<int>(extent.width), static_cast<int>(extent.height), frame.indirect.components());
+  for (int y = 0; y < light.height(); ++y) {
+    for (int x = 0; x < light.width(); ++x) {
+      const glm::ivec2 p = frame.light.pixelOf({x, y}, frame.lightOffset);
+      if (p.x >= frame.indirect.width() || p.y >= frame.indirect.height()) continue;
+      for (int c = 0; c < light.components(); ++c) light.at(x, y, c) = frame.indirect.at(p.x, p.y, c);
+    }
+  }
+  return packRgba16(light);
+}
+
 /// Object numbers in the format of their texture.
 std::vector<std::uint32_t> packNumbers(const Image& image) {
   constexpr std::uint32_t kNone = 0xffffffff;
@@ -48,7 +65,7 @@ std::vector<std::uint32_t> packNumbers(const Image& image) {
 
 PackedFrame packFrame(Frame frame) {
   PackedFrame packed;
-  packed.lighting = packRgba16(frame.indirect);
+  packed.lighting = packLight(frame);
   packed.normal = packRgba16(frame.normal);
   packed.motion = packRgba16(frame.motion);
   packed.albedo = packRgba16(frame.albedo);
@@ -66,7 +83,8 @@ FrameDescription frameDescriptionOf(const Frame& frame, glm::vec2 motionScale) {
           .previousJitter = frame.previousJitter,
           .motionScale = motionScale,
           .frameIndex = static_cast<std::uint32_t>(frame.number),
-          .skyDepth = kSkyDepth};
+          .skyDepth = kSkyDepth,
+          .lightOffset = frame.lightOffset};
 }
 
 FrameConstants frameConstantsOf(const Frame& frame, glm::vec2 motionScale) {

@@ -15,7 +15,7 @@ using Rgba16 = std::array<std::uint16_t, 4>;
 /// A frame with its images in the formats of the denoiser's textures (`DenoiserInputs`).
 struct PackedFrame {
   Frame frame;
-  std::vector<Rgba16> lighting;
+  std::vector<Rgba16> lighting;  ///< Of the extent `LightPattern::lightingExtent`.
   std::vector<Rgba16> normal;
   std::vector<Rgba16> motion;
   std::vector<Rgba16> albedo;

@@ -21,14 +21,14 @@ struct PixelLight {
 
 class PixelTracer {
  public:
-  PixelTracer(const World& world, const SamplingSettings& settings, std::uint32_t pixel)
-      : world_(world), settings_(settings), pixel_(pixel) {}
+  PixelTracer(const World& world, const SamplingSettings& settings, std::uint32_t bounces, std::uint32_t pixel)
+      : world_(world), settings_(settings), bounces_(bounces), pixel_(pixel) {}
 
   PixelLight diffuse(const Surface& surface) const {
     PixelLight light;
     for (std::uint32_t s = 0; s < settings_.samples; ++s) {
       Sampler sampler = samplerOf(s);
-      const PathSample path = tracePath(world_, surface, settings_.bounces, sampler);
+      const PathSample path = tracePath(world_, surface, bounces_, sampler);
       light.direct += path.direct;
       light.indirect += path.indirect;
       light.rays += path.rays;
@@ -51,7 +51,7 @@ class PixelTracer {
     albedo = hit.tint * shown;
     for (std::uint32_t s = 0; s < settings_.samples; ++s) {
       Sampler sampler = samplerOf(s);
-      const GlossySample sample = traceGlossy(world_, *hit.surface, settings_.bounces, sampler, true);
+      const GlossySample sample = traceGlossy(world_, *hit.surface, bounces_, sampler, true);
       for (int c = 0; c < 3; ++c) {
         light.indirect[c] += shown[c] > 0.0F ? sample.radiance[c] / shown[c] : 0.0;
       }
@@ -75,8 +75,13 @@ class PixelTracer {
 
   const World& world_;
   const SamplingSettings& settings_;
+  std::uint32_t bounces_;
   std::uint32_t pixel_;
 };
+
+std::uint32_t seedOf(glm::ivec2 pixel) {
+  return (static_cast<std::uint32_t>(pixel.y) << 16U) | static_cast<std::uint32_t>(pixel.x);
+}
 
 }  // namespace
 
@@ -104,11 +109,15 @@ Film renderFilm(const World& world, const View& view, const SamplingSettings& se
             if (!hit.surface || (!glossy && hit.pixel.albedo == glm::vec3(0.0F))) {
               continue;
             }
-            const PixelTracer tracer(world, settings, (y << 16U) | x);
+            const glm::ivec2 pixel(x, y);
+            const glm::ivec2 texel = pixel / glm::ivec2(settings.light.columns, settings.light.rows);
+            const bool sampled = settings.light.pixelOf(texel, settings.lightOffset) == pixel;
+            const PixelTracer tracer(world, settings, sampled ? settings.bounces : 0,
+                                     sampled ? seedOf(texel) : seedOf(pixel));
             const PixelLight light =
                 glossy ? tracer.glossy(hit, film.gbuffer[index].albedo) : tracer.diffuse(*hit.surface);
             film.direct[index] = glm::vec3(light.direct);
-            film.indirect[index] = glm::vec3(light.indirect);
+            if (sampled) film.indirect[index] = glm::vec3(light.indirect);
             tileRays += light.rays;
           }
         }

@@ -6,6 +6,7 @@
 
 #include <glm/vec3.hpp>
 
+#include "passes/light_pattern.h"
 #include "samples/render/gbuffer.h"
 #include "samples/render/sampler.h"
 #include "samples/render/view.h"
@@ -21,7 +22,11 @@ struct SamplingSettings {
   std::uint32_t firstSample = 0;  ///< Index of the first path in each pixel's sequence, which continues over frames.
   Sampler::Kind sampler = Sampler::Kind::Sobol;
   GBufferMode gbuffer = GBufferMode::FirstHit;
-  unsigned int threads = 0;  ///< Number of threads; 0: one per core. The result does not depend on it.
+  /// Pixels without a sample get direct light only. The random numbers of the others are spread over the texels of the
+  /// pattern.
+  LightPattern light = {};
+  glm::ivec2 lightOffset{0};  ///< See `FrameDescription::lightOffset`.
+  unsigned int threads = 0;   ///< Number of threads; 0: one per core. The result does not depend on it.
   /// See `forEachTile`.
   std::function<void(std::uint64_t)> pixelsDone = [](std::uint64_t) {};
 };

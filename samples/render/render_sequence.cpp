@@ -55,6 +55,7 @@ nlohmann::json describe(const RenderOptions& options) {
       {"jitter", options.jitter},
       {"diffuse", options.diffuseModel == DiffuseModel::Lambert ? "lambert" : "disney"},
       {"sampler", nameOf(options.sampler)},
+      {"light_group", {options.light.columns, options.light.rows}},
   };
 }
 
@@ -166,8 +167,14 @@ void renderSequence(const RenderOptions& options, const RenderObserver& observer
       return settings;
     };
     renderFile(options.output / frameFileName("noisy", number, "exr"), options.noisyPaths(), observer, [&] {
-      const Film film = renderFilm(world, view, sampling(options.samples, options.noisyPaths(), 0));
-      writeFrame(options.output, toFrame(film, view, number));
+      SamplingSettings settings = sampling(options.samples, options.noisyPaths(), 0);
+      settings.light = options.light;
+      settings.lightOffset = lightOffsetOfFrame(options.light, static_cast<std::uint32_t>(number));
+      const Film film = renderFilm(world, view, settings);
+      Frame frame = toFrame(film, view, number);
+      frame.light = settings.light;
+      frame.lightOffset = settings.lightOffset;
+      writeFrame(options.output, frame);
       return film.rays;
     });
     if (!options.hasReference(number)) continue;

@@ -34,6 +34,7 @@ struct RenderOptions {
   std::string camera;                                ///< Name of the camera or of its node; empty: the first camera.
   bool jitter = false;                               ///< Offset sample positions by `haltonJitter`.
   Sampler::Kind sampler = Sampler::Kind::BlueNoise;  ///< BlueNoise: Sobol if there are several samples per pixel.
+  LightPattern light = {};                           ///< Which pixels of the noisy frames have indirect light.
   unsigned int threads = 0;                          ///< Number of threads; 0: one per core.
   DiffuseModel diffuseModel = DiffuseModel::Lambert;
 

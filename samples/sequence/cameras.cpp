@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <fstream>
 #include <limits>
+#include <stdexcept>
 #include <string>
 
 #include <glm/gtc/type_ptr.hpp>
@@ -62,6 +63,16 @@ glm::mat4 readMatrix(const Json& object, const char* key, const std::string& whe
   return matrix;
 }
 
+/// @throws std::invalid_argument naming the attribute if a component is no whole number or is far out of range
+glm::uvec2 wholeNumbers(glm::vec2 value, const char* attribute) {
+  constexpr float kMost = 1000.0F;
+  for (int c = 0; c < 2; ++c) {
+    const bool whole = value[c] >= 0.0F && value[c] <= kMost && value[c] == std::floor(value[c]);
+    if (!whole) throw std::invalid_argument(std::string("header attribute ") + attribute + " holds no whole numbers");
+  }
+  return glm::uvec2(value);
+}
+
 }  // namespace
 
 std::map<int, Camera> readCameraFile(const std::filesystem::path& path) {
@@ -103,6 +114,23 @@ std::map<int, Camera> readCameraFile(const std::filesystem::path& path) {
     }
   }
   return cameras;
+}
+
+SparseLight readLightAttributes(const ExrReader& file) {
+  const std::optional<glm::vec2> group = file.vector(kLightGroupAttribute);
+  const std::optional<glm::vec2> offset = file.vector(kLightOffsetAttribute);
+  SparseLight light;
+  if (!group && !offset) return light;
+  try {
+    const glm::uvec2 size = wholeNumbers(group.value_or(glm::vec2(1.0F)), kLightGroupAttribute);
+    light.pattern = {.columns = size.x, .rows = size.y};
+    checkLightPattern(light.pattern);
+    light.offset = glm::ivec2(wholeNumbers(offset.value_or(glm::vec2(0.0F)), kLightOffsetAttribute));
+    checkLightOffset(light.pattern, light.offset);
+  } catch (const std::invalid_argument& error) {
+    throw InputError(file.path().string() + ": " + error.what());
+  }
+  return light;
 }
 
 Camera readCameraAttributes(const ExrReader& file) {

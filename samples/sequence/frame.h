@@ -9,6 +9,7 @@
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 
+#include "passes/light_pattern.h"
 #include "samples/image/image.h"
 
 namespace walr {
@@ -47,11 +48,15 @@ struct NonFiniteChannel {
 /// the `Layout`.
 struct Frame {
   int number = 0;
-  Image indirect;  ///< 3 components: demodulated diffuse indirect radiance, linear, 1 sample per pixel.
-  Image direct;    ///< 3 components: demodulated diffuse direct radiance; empty unless requested.
-  Image albedo;    ///< 3 components: diffuse albedo; 0 where there is no diffuse lobe.
-  Image normal;    ///< 3 components: unit shading normal towards the camera; 0 on sky.
-  Image depth;     ///< 1 component: linear view depth, scene units; `kBackgroundDepth` on sky.
+  /// 3 components: demodulated diffuse indirect radiance, linear, 1 sample per pixel; without meaning at pixels that
+  /// `light` leaves without a sample.
+  Image indirect;
+  LightPattern light;         ///< Which pixels of `indirect` have a sample.
+  glm::ivec2 lightOffset{0};  ///< See `FrameDescription::lightOffset`.
+  Image direct;               ///< 3 components: demodulated diffuse direct radiance; empty unless requested.
+  Image albedo;               ///< 3 components: diffuse albedo; 0 where there is no diffuse lobe.
+  Image normal;               ///< 3 components: unit shading normal towards the camera; 0 on sky.
+  Image depth;                ///< 1 component: linear view depth, scene units; `kBackgroundDepth` on sky.
   Image motion;    ///< 3 components: motion to the previous frame; z = previous minus current view depth, if given.
   Image emission;  ///< 3 components: radiance of visible lamps and sky; empty unless requested.
   Image objectId;  ///< 1 component: number of the object in the pixel, below 0 where there is none; may be empty.

@@ -183,6 +183,14 @@ std::string RecognizedLayout::channel(std::string_view plane, char component) co
   return (viewLayer.empty() ? "" : viewLayer + ".") + std::string(plane) + "." + component;
 }
 
+void RecognizedLayout::setLight(const LightPattern& light) {
+  if (light.everyPixel()) return;
+  Layout sparse = *layout;
+  sparse.conventions.light = light;
+  owned = std::make_shared<const Layout>(sparse);
+  layout = owned.get();
+}
+
 RecognizedLayout recognizeLayout(const ExrReader& file, std::string_view viewLayer) {
   const std::vector<std::string> channels = file.channels();
   for (const Layout* layout : {&cyclesLayout(), &projectLayout()}) {
@@ -202,7 +210,8 @@ RecognizedLayout recognizeLayout(const ExrReader& file, std::string_view viewLay
       throw InputError(file.path().string() + ": several view layers (" + join({layers.begin(), layers.end()}) +
                        "); choose one with --view-layer NAME");
     }
-    RecognizedLayout recognized{layout, viewLayer.empty() ? *layers.begin() : std::string(viewLayer)};
+    RecognizedLayout recognized{
+        .layout = layout, .owned = {}, .viewLayer = viewLayer.empty() ? *layers.begin() : std::string(viewLayer)};
     recognized.objectIds = hasPlane(file, recognized, layout->objectId);
     return recognized;
   }

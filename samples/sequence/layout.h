@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -49,11 +50,14 @@ Layout withMotionDepth(const Layout& layout, InputConventions::MotionDepth sourc
 /// The layout of a file, with the file's view layer.
 struct RecognizedLayout {
   const Layout* layout = nullptr;
-  std::string viewLayer;   ///< Empty if the channels have no view-layer prefix.
-  bool objectIds = false;  ///< The file has `Layout::objectId`.
+  std::shared_ptr<const Layout> owned;  ///< `layout`, where light is sparse.
+  std::string viewLayer;                ///< Empty if the channels have no view-layer prefix.
+  bool objectIds = false;               ///< The file has `Layout::objectId`.
 
   /// Full name of a channel.
   [[nodiscard]] std::string channel(std::string_view plane, char component) const;
+  /// Let only some pixels have a sample of light.
+  void setLight(const LightPattern& light);
 };
 
 /// Recognise the layout of a file by its channel names.

@@ -140,6 +140,7 @@ void Sequence::checkHeaders() {
     }
     if (layout_.layout->cameras == CameraSource::HeaderAttributes) {
       entry.camera = readCameraAttributes(file);
+      readLight(file, entry);
     } else if (const auto camera = cameras.find(entry.number); camera != cameras.end()) {
       entry.camera = camera->second;
     } else {
@@ -147,6 +148,17 @@ void Sequence::checkHeaders() {
                        std::to_string(entry.number) + " (" + entry.file.filename().string() + ")");
     }
   }
+}
+
+void Sequence::readLight(const ExrReader& file, Entry& entry) {
+  const SparseLight light = readLightAttributes(file);
+  if (&entry == &entries_.front()) layout_.setLight(light.pattern);
+  if (light.pattern != layout_.layout->conventions.light) {
+    throw InputError(file.path().string() + ": its header attribute " + kLightGroupAttribute +
+                     " differs from that of " + entries_.front().file.filename().string() +
+                     ". All frames must have the same pixels per sample of light.");
+  }
+  entry.lightOffset = light.offset;
 }
 
 void Sequence::checkSize(const ExrReader& file) const {
@@ -181,6 +193,8 @@ Frame Sequence::read(std::size_t index) const {
   frame.number = entry.number;
   frame.camera = entry.camera;
   frame.resetHistory = entry.resetHistory;
+  frame.light = layout_.layout->conventions.light;
+  frame.lightOffset = entry.lightOffset;
   const Camera& previous = entries_[index > 0 ? index - 1 : 0].camera;
   frame.previousProjection = previous.projection;
   frame.previousJitter = previous.jitter;

@@ -41,6 +41,7 @@ class Sequence {
     std::filesystem::path file;
     std::filesystem::path reference;  ///< Empty if there is none.
     Camera camera;
+    glm::ivec2 lightOffset{0};  ///< See `FrameDescription::lightOffset`.
     bool resetHistory = false;  ///< First frame, or a camera cut.
   };
 
@@ -61,6 +62,7 @@ class Sequence {
   void scan();
   void checkHeaders();
   void checkSize(const ExrReader& file) const;
+  void readLight(const ExrReader& file, Entry& entry);
   void markCuts();
 
   std::filesystem::path folder_;

@@ -31,13 +31,17 @@ void writeFrame(const std::filesystem::path& directory, const Frame& frame) {
   if (!frame.objectId.empty()) {
     appendChannels(channels, "ObjectId", "Y", frame.objectId, ExrType::Float);
   }
-  const std::vector<ExrAttribute> attributes = {
+  std::vector<ExrAttribute> attributes = {
       {kViewAttribute, frame.camera.view},
       {kPreviousViewAttribute, frame.camera.previousView},
       {kProjectionAttribute, frame.camera.projection},
       {kJitterAttribute, frame.camera.jitter},
       {kCutAttribute, frame.camera.cut ? 1 : 0},
   };
+  if (!frame.light.everyPixel()) {
+    attributes.emplace_back(kLightGroupAttribute, glm::vec2(frame.light.columns, frame.light.rows));
+    attributes.emplace_back(kLightOffsetAttribute, glm::vec2(frame.lightOffset));
+  }
   writeExr(directory / frameFileName("noisy", frame.number, "exr"), channels, attributes);
 }
 

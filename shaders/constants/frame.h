@@ -20,10 +20,11 @@ struct FrameConstants {
   vec2 pixelFromRay;            // 1 over rayFromPixel.xy.
   uint frameIndex;              // Counts frames; seeds random choices and stochastic rounding.
   float skyDepth;               // Scene units: from this view depth on there is sky.
+  ivec2 lightOffset;            // Pixels: the pixel of its group that a texel of light belongs to (light_sample.glsl).
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(FrameConstants) == 2 * 64 + 2 * 16 + 6 * 8 + 2 * 4);
+static_assert(sizeof(FrameConstants) == 2 * 64 + 2 * 16 + 6 * 8 + 2 * 4 + 8);
 }  // namespace walr
 #endif
 #endif

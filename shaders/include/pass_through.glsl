@@ -1,5 +1,5 @@
-// Pass-through: the light of a pixel without a surface. It is not changed, except that values that are not finite
-// become 0.
+// Pass-through: the light of a pixel without a surface. It is not changed, except that values that are not finite, and
+// missing samples, become 0.
 #ifndef WALR_PASS_THROUGH_GLSL
 #define WALR_PASS_THROUGH_GLSL
 #include "finite.glsl"

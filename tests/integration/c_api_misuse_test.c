@@ -186,6 +186,13 @@ static void test_create(const WalrDevice* device) {
   EXPECT(walr_create_denoiser(&info, &denoiser), WALR_ERROR_INVALID_ARGUMENT, "motion_unit is 7");
   conventions = (WalrConventions){.struct_size = sizeof(conventions), .motion_scale = {NAN, 1}};
   EXPECT(walr_create_denoiser(&info, &denoiser), WALR_ERROR_INVALID_ARGUMENT, "motion_scale");
+  conventions = (WalrConventions){.struct_size = sizeof(conventions), .light_group = {2, 4}};
+  EXPECT(walr_create_denoiser(&info, &denoiser), WALR_ERROR_INVALID_ARGUMENT, "light_group is 4 pixels");
+  conventions = (WalrConventions){.struct_size = sizeof(conventions), .light_group = {2, 2}, .rectangle = VK_TRUE};
+  EXPECT(walr_create_denoiser(&info, &denoiser), WALR_ERROR_INVALID_ARGUMENT, "only one of the two");
+  conventions = (WalrConventions){.struct_size = sizeof(conventions), .light_masked = VK_TRUE};
+  info.lighting_format = VK_FORMAT_B10G11R11_UFLOAT_PACK32;
+  EXPECT(walr_create_denoiser(&info, &denoiser), WALR_ERROR_INVALID_ARGUMENT, "4 channels");
   EXPECT_TRUE(denoiser == NULL);
 
   /* A caller with a newer header works as long as it sets no field that this version does not know. */
@@ -197,6 +204,26 @@ static void test_create(const WalrDevice* device) {
   EXPECT(walr_create_denoiser(&larger.info, &denoiser), WALR_ERROR_STRUCT_SIZE, "does not know");
   larger.later = 0;
   EXPECT_OK(walr_create_denoiser(&larger.info, &denoiser));
+  EXPECT_OK(walr_destroy_denoiser(denoiser));
+}
+
+/* A texel of sparse light stands for several pixels. Methods that need all samples refuse it by name. */
+static void test_sparse_light(const WalrDevice* device) {
+  const WalrConventions conventions = {.struct_size = sizeof(conventions), .light_group = {3, 2}};
+  WalrDenoiserInfo info = info_of(device);
+  info.conventions = &conventions;
+  WalrDenoiser denoiser;
+  EXPECT_OK(walr_create_denoiser(&info, &denoiser));
+  WalrImageRequirements light = {.struct_size = sizeof(light)};
+  WalrImageRequirements depth = {.struct_size = sizeof(depth)};
+  EXPECT_OK(walr_get_image_requirements(denoiser, "lighting", &light));
+  EXPECT_OK(walr_get_image_requirements(denoiser, "depth", &depth));
+  EXPECT_TRUE(light.width == (kWidth + 2) / 3 && light.height == (kHeight + 1) / 2);
+  EXPECT_TRUE(depth.width == kWidth && depth.height == kHeight);
+  EXPECT_OK(walr_destroy_denoiser(denoiser));
+  info.method = "svgf";
+  EXPECT_OK(walr_create_denoiser(&info, &denoiser));
+  EXPECT(walr_prepare(denoiser), WALR_ERROR_INVALID_ARGUMENT, "method 'svgf' needs a sample of light at every pixel");
   EXPECT_OK(walr_destroy_denoiser(denoiser));
 }
 
@@ -349,6 +376,9 @@ static void test_frames(Host* host, WalrDenoiser denoiser) {
   frame = good;
   frame.offset[1] = 1;
   EXPECT(walr_record(denoiser, commands, &frame), WALR_ERROR_INVALID_ARGUMENT, "WalrConventions::rectangle");
+  frame = good;
+  frame.light_offset[0] = 1;
+  EXPECT(walr_record(denoiser, commands, &frame), WALR_ERROR_INVALID_ARGUMENT, "WalrConventions::light_group, 1 x 1");
   frame = good;
   frame.motion = NULL;
   EXPECT(walr_record(denoiser, commands, &frame), WALR_ERROR_INVALID_ARGUMENT, "image 'motion' is null");
@@ -561,6 +591,7 @@ int main(void) {
   test_listing();
   test_device(&host);
   test_create(&device);
+  test_sparse_light(&device);
   test_object_ids(&device);
   test_object_id_frames(&host, &device);
   test_handles(&device);

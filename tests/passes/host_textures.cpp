@@ -52,7 +52,8 @@ void uploadDepthAndGeometry(fg::test::GraphRun& run, fg::Texture depth, fg::Text
 
 DenoiserInputs importInputs(fg::Graph& graph, glm::ivec2 size, const InputConventions& conventions) {
   DenoiserInputs inputs;
-  inputs.lighting = importHalves(graph, "lighting", size);
+  const fg::Extent lightExtent = conventions.light.lightingExtent(extentOf(size));
+  inputs.lighting = importHalves(graph, "lighting", glm::ivec2(lightExtent.width, lightExtent.height));
   inputs.depth = import(graph, "depth", VK_FORMAT_R32_SFLOAT, size);
   inputs.normal = importHalves(graph, "normal", size);
   inputs.motion = importHalves(graph, "motion", size);
@@ -67,7 +68,7 @@ fg::Texture importObjectIds(fg::Graph& graph, glm::ivec2 size) {
 }
 
 void upload(fg::test::GraphRun& run, const DenoiserInputs& inputs, const reference::HostFrame& frame) {
-  run.fill(inputs.lighting, encodeHalves(frame.lighting));
+  run.fill(inputs.lighting, encodeLighting(frame));
   run.fill(inputs.normal, encodeHalves(frame.normal));
   run.fill(inputs.motion, encodeHalves(frame.motion));
   run.fill(inputs.albedo, encodeHalves(frame.albedo));

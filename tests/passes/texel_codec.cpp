@@ -127,6 +127,26 @@ std::vector<std::uint16_t> encodeHalves(const reference::Image<glm::dvec3>& imag
   return texels;
 }
 
+std::vector<std::uint16_t> encodeLighting(const reference::HostFrame& frame) {
+  const LightPattern& light = frame.conventions.light;
+  if (light.everyPixel()) return encodeHalves(frame.lighting);
+  const auto texelsAlong = [](int pixels, std::uint32_t each) {
+    return static_cast<std::size_t>(std::ceil(double(pixels) / each));
+  };
+  const std::size_t columns = texelsAlong(frame.size().x, light.columns);
+  const std::size_t rows = texelsAlong(frame.size().y, light.rows);
+  constexpr std::uint16_t kNaN = 0x7fff;
+  std::vector<std::uint16_t> texels(4 * columns * rows, kNaN);
+  reference::forEachPixel(frame.size(), [&](glm::ivec2 p) {
+    if (!reference::hasLightTexel(frame, p)) return;
+    const double alpha = frame.lightAlpha.pixels().empty() ? 1.0 : frame.lightAlpha[p];
+    const glm::vec4 texel(glm::vec3(frame.lighting[p]), static_cast<float>(alpha));
+    const std::size_t at = (p.y / light.rows) * columns + p.x / light.columns;
+    for (int c = 0; c < 4; ++c) texels[4 * at + static_cast<std::size_t>(c)] = glm::packHalf1x16(texel[c]);
+  });
+  return texels;
+}
+
 reference::Image<glm::dvec4> decodeHalves(const std::vector<std::uint16_t>& texels, glm::ivec2 size) {
   reference::Image<glm::dvec4> image(size);
   for (std::size_t i = 0; i < texels.size(); ++i)

@@ -65,7 +65,8 @@ WalrRun::WalrRun(const fg::vk::Device& device, glm::ivec2 size, AnyWalr settings
   const fg::Extent extent = extentOf(size);
   const fg::TextureDesc halves{VK_FORMAT_R16G16B16A16_SFLOAT, extent};
   fg::Graph graph;
-  inputs_.lighting = graph.import("lighting", halves, kUploaded);
+  const fg::Extent lightExtent = conventions.light.lightingExtent(extent);
+  inputs_.lighting = graph.import("lighting", {halves.format, lightExtent}, kUploaded);
   inputs_.depth = graph.import("depth", {VK_FORMAT_R32_SFLOAT, extent}, kUploaded);
   inputs_.normal = graph.import("normal", halves, kUploaded);
   inputs_.motion = graph.import("motion", halves, kUploaded);
@@ -133,7 +134,7 @@ fg::Texture WalrRun::tap(fg::Graph& graph, fg::Texture texture) {
 }
 
 WalrStages WalrRun::frame(const reference::HostFrame& frame) {
-  run_->fill(inputs_.lighting, encodeHalves(frame.lighting));
+  run_->fill(inputs_.lighting, encodeLighting(frame));
   run_->fill(inputs_.depth, encodeFloats(frame.depth));
   run_->fill(inputs_.normal, encodeHalves(frame.normal));
   run_->fill(inputs_.motion, encodeHalves(frame.motion));

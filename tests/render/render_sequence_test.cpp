@@ -84,6 +84,44 @@ TEST(RenderSequence, IsReadBackInTheProjectsConventions) {
   EXPECT_TRUE(frame.nonFinite.empty());
 }
 
+// Pixels without a sample have no indirect light; guides and direct light do not change.
+TEST(RenderSequence, WritesSparseLight) {
+  const walr::test::TemporaryDirectory full;
+  const walr::test::TemporaryDirectory sparse;
+  RenderOptions options = smallBox(full.path());
+  options.sampler = Sampler::Kind::Independent;
+  options.referenceSamples = 0;
+  render(options);
+  options.output = sparse.path();
+  options.light = {.columns = 3, .rows = 3};
+  render(options);
+  SequenceOptions composite;
+  composite.composite = true;
+  const Sequence before(full.path(), composite);
+  const Sequence sequence(sparse.path(), composite);
+  std::set<std::pair<int, int>> offsets;
+  for (std::size_t i = 0; i < sequence.entries().size(); ++i) {
+    const Frame frame = sequence.read(i);
+    EXPECT_EQ(frame.light, options.light);
+    offsets.emplace(frame.lightOffset.x, frame.lightOffset.y);
+    int lit = 0;
+    for (int y = 0; y < frame.indirect.height(); ++y) {
+      for (int x = 0; x < frame.indirect.width(); ++x) {
+        const bool isLit = frame.indirect.at(x, y, 0) > 0.0F;
+        const bool hasSample = x % 3 == frame.lightOffset.x && y % 3 == frame.lightOffset.y;
+        ASSERT_FALSE(isLit && !hasSample) << x << ", " << y;
+        lit += isLit ? 1 : 0;
+      }
+    }
+    EXPECT_GT(lit, 0);
+    EXPECT_TRUE(std::ranges::equal(frame.depth.values(), before.read(i).depth.values()));
+    double direct = 0.0;
+    for (const float value : frame.direct.values()) direct += value > 0.0F ? 1.0 : 0.0;
+    EXPECT_GT(direct, 0.5 * static_cast<double>(frame.direct.values().size()));
+  }
+  EXPECT_EQ(offsets.size(), sequence.entries().size());
+}
+
 TEST(RenderSequence, WritesTheObjectOfEveryPixel) {
   const walr::test::TemporaryDirectory folder;
   render(smallBox(folder.path()));

@@ -127,6 +127,37 @@ TEST_F(SequenceTest, TheProjectsOwnLayoutRoundTrips) {
   EXPECT_EQ(read.reference->indirect.at(5, 3, 2), 2.0F);
 }
 
+TEST_F(SequenceTest, ReadsSparseLight) {
+  for (const int number : {0, 1}) {
+    Frame frame = test::projectFrame(number, 6, 4);
+    frame.light = {.columns = 2, .rows = 3};
+    frame.lightOffset = {number, 2};
+    writeFrame(directory.path(), frame);
+  }
+  const Sequence sequence = open();
+  EXPECT_EQ(sequence.layout().layout->conventions.light, (LightPattern{2, 3}));
+  EXPECT_EQ(sequence.read(0).light, (LightPattern{2, 3}));
+  EXPECT_EQ(sequence.read(1).lightOffset, glm::ivec2(1, 2));
+}
+
+TEST_F(SequenceTest, WrongSparseLightIsNamedWithItsFile) {
+  const auto writeWith = [&](int number, LightPattern light, glm::ivec2 offset) {
+    Frame frame = test::projectFrame(number, 6, 4);
+    frame.light = light;
+    frame.lightOffset = offset;
+    writeFrame(directory.path(), frame);
+  };
+  writeWith(0, {2, 2}, {0, 0});
+  writeWith(1, {2, 2}, {2, 0});
+  expectRefused({"noisy_0001.exr", "light offset of (2, 0)", "2 x 2"});
+  writeWith(1, {2, 2}, {0, -1});
+  expectRefused({"noisy_0001.exr", "lightOffset holds no whole numbers"});
+  writeWith(1, {2, 5}, {0, 0});
+  expectRefused({"noisy_0001.exr", "2 x 5 pixels", "1 to 3"});
+  writeWith(1, {2, 1}, {0, 0});
+  expectRefused({"noisy_0001.exr", "lightGroup", "noisy_0000.exr"});
+}
+
 TEST_F(SequenceTest, ReferencesMayHavePixelsThatAreNanInAllChannels) {
   constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
   writeFrame(directory.path(), test::projectFrame(7, 6, 4));

@@ -246,6 +246,16 @@ typedef struct WalrConventions {
   /* The cameras are orthographic. Motion must have its third channel, and WalrDenoiserInfo::lint is refused. If a zoom
    * doubles or halves the height of the view, the history may restart once. */
   VkBool32 orthographic;
+  /* Sparse light: not every pixel of a frame has a sample. Methods that need all samples are refused. All other images
+   * have the full size.
+   * A texel of the lighting belongs to one pixel of a group of this width and height: 1 to 3, zero means 1. The
+   * lighting is as large as the image divided by it, rounded up. Texel (i, j) is the sample of the pixel
+   * (i * width, j * height) + WalrFrame::light_offset. If the height is 1, offsets in x move on by one pixel, modulo
+   * the width, with every row: 2 x 1 is a checkerboard. A texel whose pixel lies outside the image is not read.
+   * Not with `rectangle`. */
+  uint32_t light_group[2];
+  VkBool32 light_masked; /* The lighting has alpha. A texel whose alpha is not above 0 is no sample. */
+  uint32_t reserved;
 } WalrConventions;
 
 typedef enum WalrLogLevel {
@@ -332,7 +342,8 @@ typedef struct WalrImageRequirements {
   VkBool32 required; /* Whether the denoiser uses it with its current settings. */
   VkFormat format;
   VkImageUsageFlags usage; /* Union over all passes. */
-  uint32_t width;          /* Exact size; with WalrConventions::rectangle the least size. */
+  uint32_t width;          /* Exact size; with WalrConventions::rectangle the least size. That of the lighting is
+                              smaller with WalrConventions::light_group. */
   uint32_t height;
 } WalrImageRequirements;
 
@@ -427,6 +438,9 @@ typedef struct WalrFrame {
    * or until the denoiser is destroyed. */
   VkSemaphore finished;
   uint64_t finished_value; /* Above 0, and never below that of the frame before with the same semaphore. */
+  /* With WalrConventions::light_group: the pixel of each group that has the sample, y down. It should change from frame
+   * to frame so that every pixel has its turn: x = frame % width, y = (frame / width + x) % height. */
+  uint32_t light_offset[2];
 } WalrFrame;
 
 /*

@@ -226,6 +226,7 @@ typedef struct WalrPassFrame {
   double previous_origin[3];
   VkSemaphore finished; /* As in WalrFrame, checked by walr_begin_frame. Not used by passes without a device. */
   uint64_t finished_value;
+  uint32_t light_offset[2]; /* As in WalrFrame. */
 } WalrPassFrame;
 
 /* Begin a frame. Call it once before the passes of the frame are recorded. The GPU must have finished the frame that

@@ -20,11 +20,28 @@ struct HostFrame {
   Image<glm::dvec3> motion;
   Image<glm::dvec3> albedo;
   Image<std::uint32_t> objectId;  ///< May be empty; 0xffffffff: none.
+  Image<double> lightAlpha;       ///< Alpha of the light where it is masked; may be empty: 1.
   FrameConstants constants{};
   InputConventions conventions;
   SceneDescription scene;
   [[nodiscard]] glm::ivec2 size() const { return depth.size(); }
 };
+
+/// Whether a texel of the lighting belongs to a pixel (walr.h, WalrConventions::light_group).
+inline bool hasLightTexel(const HostFrame& frame, glm::ivec2 p) {
+  const LightPattern& light = frame.conventions.light;
+  const int columns = static_cast<int>(light.columns);
+  const int rows = static_cast<int>(light.rows);
+  const int shift = rows == 1 ? p.y : 0;
+  return p.x % columns == (frame.constants.lightOffset.x + shift) % columns &&
+         p.y % rows == frame.constants.lightOffset.y;
+}
+
+/// Whether that texel is a sample (WalrConventions::light_masked).
+inline bool hasSample(const HostFrame& frame, glm::ivec2 p) {
+  const bool masked = frame.conventions.light.masked && !frame.lightAlpha.pixels().empty();
+  return hasLightTexel(frame, p) && (!masked || frame.lightAlpha[p] > 0.0);
+}
 
 /// Position of the pixel's centre, pixels.
 inline glm::dvec2 pixelCentre(glm::ivec2 p) {

@@ -29,7 +29,8 @@ Image<Accumulated> accumulate(const HostFrame& frame, const Image<Guide>& guides
                               Storage storage, const TemporalAccumulationSettings& settings, bool keepTaps) {
   Image<Accumulated> result(frame.size());
   forEachPixel(frame.size(), [&](glm::ivec2 p) {
-    const glm::dvec3 noisy = frame.lighting[p];
+    const bool sampled = hasSample(frame, p);
+    const glm::dvec3 noisy = sampled ? frame.lighting[p] : glm::dvec3(0.0);
     Accumulated& out = result[p];
     if (guides[p].depth == 0.0) {
       if (settings.storage == LightStorage::Half && isFinite(noisy)) out.mean = noisy;
@@ -45,7 +46,7 @@ Image<Accumulated> accumulate(const HostFrame& frame, const Image<Guide>& guides
     const glm::dvec3 pastMean(past.value);
     out.undecided = past.undecided;
     out.samplesError = past.error.w + 2.0 * kFloatRoundoff * past.value.w;
-    if (isFinite(noisy)) {
+    if (sampled && isFinite(noisy)) {
       const glm::dvec3 radiance = glm::clamp(noisy, 0.0, kLargestHalf);
       out.samples = std::min(past.value.w + 1.0, double(settings.maxHistory));
       const double newest = 1.0 / std::max(out.samples, 1.0);

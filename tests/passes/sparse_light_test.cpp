@@ -1,0 +1,222 @@
+// Light with samples at some of the pixels only.
+
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <glm/geometric.hpp>
+
+#include "tests/error_text.h"
+#include "tests/passes/denoiser_run.h"
+#include "tests/passes/stage_checks.h"
+#include "tests/passes/synthetic_scene.h"
+#include "tests/vulkan/gpu_fixture.h"
+
+namespace walr::test {
+namespace {
+
+using reference::forEachPixel;
+using reference::HostFrame;
+using reference::Image;
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+/// No multiple of any group's side.
+constexpr glm::ivec2 kSize(49, 35);
+
+const std::vector<LightPattern> kPatterns{{2, 1}, {1, 2}, {2, 2}, {3, 3}, {1, 1, true}, {2, 2, true}};
+
+std::string nameOf(const LightPattern& pattern) {
+  return std::to_string(pattern.columns) + " x " + std::to_string(pattern.rows) + (pattern.masked ? ", masked" : "");
+}
+
+/// Let a frame have light by a pattern; a mask leaves out three of eight pixels. What stands in gaps is NaN.
+HostFrame sparse(HostFrame frame, const LightPattern& pattern, std::uint32_t index) {
+  frame.conventions.light = pattern;
+  frame.constants.lightOffset = lightOffsetOfFrame(pattern, index);
+  if (pattern.masked) {
+    frame.lightAlpha = Image<double>(frame.size());
+    forEachPixel(frame.size(), [&](glm::ivec2 p) { frame.lightAlpha[p] = (3 * p.x + 5 * p.y + int(index)) % 8 < 5; });
+  }
+  forEachPixel(frame.size(), [&](glm::ivec2 p) {
+    if (!reference::hasSample(frame, p)) frame.lighting[p] = glm::dvec3(kNaN);
+  });
+  return frame;
+}
+
+/// The same frame with light of the image's size, and NaN in the gaps.
+HostFrame withNaN(HostFrame frame) {
+  frame.conventions.light = {};
+  frame.constants.lightOffset = {};
+  return frame;
+}
+
+/// Frames of a camera that moves by about a pixel and a half.
+std::vector<HostFrame> movingFrames(const Scene& scene, std::uint32_t count, const LightPattern& pattern,
+                                    Noise noise = Noise::Exponential, const Light& light = smoothLight) {
+  const auto at = [](double i) { return glm::dvec3(0.09 * i, 0.04 * i, -0.03 * i); };
+  std::vector<HostFrame> frames;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const FrameDescription camera = cameraAt(at(i), at(i - 1.0), kSize, i);
+    frames.push_back(sparse(renderFrame(scene, camera, kSize, light, noise), pattern, i));
+  }
+  return frames;
+}
+
+InputConventions conventionsOf(const LightPattern& pattern) {
+  InputConventions conventions;
+  conventions.light = pattern;
+  return conventions;
+}
+
+/// A method with sparse light, run frame by frame.
+DenoiserRun runOf(const fg::vk::Device& device, Denoiser& method, const LightPattern& pattern) {
+  return {device, method, kSize, conventionsOf(pattern)};
+}
+
+class SparseLight : public fg::test::GpuTest {};
+
+// NaN is no sample either, and the tests of the stages compare that with the double-precision reference. So a method
+// must write the same bits for sparse light as for light of the image's size whose gaps are NaN.
+TEST_F(SparseLight, EqualsLightWithNaNInTheGapsToTheBit) {
+  struct Variant {
+    const char* method;
+    std::vector<std::pair<const char*, const char*>> settings = {};
+  };
+  // Without fitted windows, which sparse light widens. Without shared taps and without anti-aliasing, other passes read
+  // the light of pixels without a surface.
+  const std::pair<const char*, const char*> fixed{"walr.fit-window", "off"};
+  for (const Variant& variant : {Variant{"walr", {fixed}}, Variant{"walr", {fixed, {"antialiasing.enabled", "off"}}},
+                                 Variant{"walr", {fixed, {"antialiasing.plane-tolerance", "0.02"}}},
+                                 Variant{"walr_paper"}, Variant{"flr"}, Variant{"bmfr"}, Variant{"accumulate"}}) {
+    // The patterns differ in one place, which all methods share.
+    const bool first = variant.settings.size() == 1;
+    for (const LightPattern& pattern : first ? kPatterns : std::vector<LightPattern>{{3, 3}, {2, 2, true}}) {
+      SCOPED_TRACE(nameOf(pattern));
+      const std::unique_ptr<Denoiser> method = makeDenoiser(variant.method);
+      std::string trace = variant.method;
+      for (const auto& [name, value] : variant.settings) {
+        method->set(name, value);
+        trace.append(", ").append(name);
+      }
+      SCOPED_TRACE(trace);
+      DenoiserRun run = runOf(device(), *method, pattern);
+      DenoiserRun full = runOf(device(), *method, {});
+      for (const HostFrame& frame : movingFrames(skyBesideSurface(), 3, pattern)) {
+        const Image<glm::dvec4> output = run.frame(frame);
+        EXPECT_TRUE(output.pixels() == full.frame(withNaN(frame)).pixels());
+      }
+    }
+  }
+}
+
+// The stages of accumulation and anti-aliasing, in both storages.
+TEST_F(SparseLight, StagesAgreeWithTheReference) {
+  WalrPaperSettings halves = robustWalr();
+  halves.regression.iterations = 2;
+  for (const LightPattern& pattern : kPatterns) {
+    SCOPED_TRACE(nameOf(pattern));
+    for (const AnyWalr& settings : {AnyWalr(halves), AnyWalr(WalrSettings{})}) {
+      WalrRun run(device(), kSize, settings, conventionsOf(pattern));
+      expectSequence(run, movingFrames(stairs(), 4, pattern), settings);
+    }
+  }
+}
+
+// Light without noise and of one value stays so, from the first frame on: no pixel is a hole, and none is dark.
+// Packed light holds this value exactly. Moments and slopes are halves, whose rounding a slope of up to a few units
+// carries to features far from the mean: the tolerance is eight roundings of a half.
+TEST_F(SparseLight, ConstantLightStaysConstantFromTheFirstFrameOn) {
+  constexpr double kLight = 0.75;
+  const Light constant = [](glm::dvec3, glm::dvec3) { return glm::dvec3(kLight); };
+  for (const LightPattern& pattern : kPatterns) {
+    SCOPED_TRACE(nameOf(pattern));
+    const std::unique_ptr<Denoiser> method = makeDenoiser("walr");
+    DenoiserRun run = runOf(device(), *method, pattern);
+    for (const HostFrame& frame : movingFrames(thinBars(), 4, pattern, Noise::None, constant)) {
+      const Image<glm::dvec4> output = run.frame(frame);
+      double worst = 0.0;
+      forEachPixel(kSize, [&](glm::ivec2 p) {
+        for (int c = 0; c < 3; ++c) worst = std::max(worst, std::abs(output[p][c] - kLight));
+        ASSERT_TRUE(std::isfinite(output[p].r + output[p].g + output[p].b));
+      });
+      EXPECT_LE(worst, kLight / 256.0);
+    }
+  }
+}
+
+// Over many frames the mean of the result is that of the light: the exponential noise of a frame has a relative
+// standard deviation of 1. With 1/9 of 1715 pixels in 72 frames, of which the first 8 are left out, the mean of all
+// samples has one of 0.9 %, so the light is compared with the mean of the very samples that the method got.
+TEST_F(SparseLight, KeepsTheEnergyOfItsSamples) {
+  for (const LightPattern& pattern : {LightPattern{2, 2}, LightPattern{3, 3}}) {
+    SCOPED_TRACE(nameOf(pattern));
+    const std::unique_ptr<Denoiser> method = makeDenoiser("walr");
+    DenoiserRun run = runOf(device(), *method, pattern);
+    double sampled = 0.0;
+    double samples = 0.0;
+    double shown = 0.0;
+    double pixels = 0.0;
+    constexpr std::uint32_t kFrames = 144;
+    for (std::uint32_t i = 0; i < kFrames; ++i) {
+      HostFrame frame = renderStill(flatWall(), kSize, i);
+      forEachPixel(kSize, [&](glm::ivec2 p) { frame.lighting[p] = frame.lighting[p] / 2.0; });
+      const HostFrame gaps = sparse(frame, pattern, i);
+      const Image<glm::dvec4> output = run.frame(gaps);
+      forEachPixel(kSize, [&](glm::ivec2 p) {
+        shown += output[p].g;
+        pixels += 1.0;
+        if (!reference::hasSample(gaps, p)) return;
+        sampled += frame.lighting[p].g;
+        samples += 1.0;
+      });
+    }
+    EXPECT_NEAR(shown / pixels / (sampled / samples), 1.0, 0.005);
+  }
+}
+
+// A method that needs all samples says so, and so does a setting.
+TEST_F(SparseLight, IsRefusedByNameWhereAllSamplesAreNeeded) {
+  for (const char* name : {"svgf", "refwlr", "joint_bilateral", "none"}) {
+    const std::unique_ptr<Denoiser> method = makeDenoiser(name);
+    fg::test::expectError(
+        [&] {
+          runOf(device(), *method, {2, 2});
+        },
+        {"method '" + std::string(name) + "'", "walr, walr_paper, bmfr, flr, accumulate"});
+  }
+  for (const char* setting : {"spatial-only", "blocks.residual"}) {
+    const std::unique_ptr<Denoiser> method = makeDenoiser("walr");
+    method->set(setting, "on");
+    fg::test::expectError([&] { runOf(device(), *method, {1, 1, true}); }, {"setting " + std::string(setting)});
+  }
+}
+
+// A light that goes out is as dark after a few frames as with light at every pixel, for which antilag is tuned: the
+// gaps are no change, and do not hide one.
+TEST_F(SparseLight, FollowsAChangeOfTheLight) {
+  for (const LightPattern& pattern : {LightPattern{2, 1}, LightPattern{2, 2}, LightPattern{3, 3}}) {
+    SCOPED_TRACE(nameOf(pattern));
+    const std::unique_ptr<Denoiser> method = makeDenoiser("walr");
+    DenoiserRun run = runOf(device(), *method, pattern);
+    double before = 0.0;
+    double after = 0.0;
+    constexpr std::uint32_t kChange = 40;
+    const std::uint32_t settled = kChange + 4 * pattern.columns * pattern.rows;
+    for (std::uint32_t i = 0; i <= settled; ++i) {
+      HostFrame frame = renderStill(flatWall(), kSize, i);
+      if (i >= kChange) forEachPixel(kSize, [&](glm::ivec2 p) { frame.lighting[p] *= 0.1; });
+      const Image<glm::dvec4> output = run.frame(sparse(frame, pattern, i));
+      double mean = 0.0;
+      for (const glm::dvec4& pixel : output.pixels()) mean += pixel.g / double(output.pixels().size());
+      if (i + 1 == kChange) before = mean;
+      if (i == settled) after = mean;
+    }
+    EXPECT_LT(after, 0.25 * before);
+  }
+}
+
+}  // namespace
+}  // namespace walr::test
