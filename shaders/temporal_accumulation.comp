@@ -82,8 +82,9 @@ vec4 unpackHistory(uint packed) { return unpackAccumulated(packed); }
 float unpackHistoryLength(uint packed) { return unpackHistory(packed).a; }
 #endif
 #include "include/half.glsl"
-#include "include/history_taps.glsl"
 #include "include/light_sample.glsl"
+#define COUNT_EMPTY_TAPS kSparseLight
+#include "include/history_taps.glsl"
 #include "include/pass_through.glsl"
 #if defined(ANTILAG) || defined(VIEW)
 #include "include/antilag.glsl"

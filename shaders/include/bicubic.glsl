@@ -81,12 +81,14 @@ vec4 bicubicOfTaps(HISTORY_TEXTURE history, HistoryTaps taps) {
   for (int i = 0; i < 4; ++i) shortest = shorter(shortest, inner[i]);
   const bool bicubic = taps.accepted == kAllTaps && hasLength(shortest);
 
-  vec4 weights = tapWeights(taps);
+  const vec4 bilinear = tapWeights(taps);
+  vec4 weights = bilinear;
   for (int i = 0; i < 4; ++i) weights[i] = hasLength(inner[i]) ? weights[i] : 0.0;
   const float sum = dot(weights, vec4(1.0));
   weights *= sum > kLeastTapWeight ? 1.0 / sum : 0.0;
   float frames = 0.0;
   for (int i = 0; i < 4; ++i) frames += weights[i] * lengthOf(inner[i]);
+  frames *= shareOfKnownTaps(sum, bilinear);
   if (!bicubic) colour = vec3(0.0);
   for (int i = 0; i < 4; ++i) addColour(colour, bicubic ? cubicInner[i] : weights[i], finiteTexel(inner[i]));
   return vec4(max(colour, vec3(0.0)) * kUnit, frames);

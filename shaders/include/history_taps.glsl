@@ -77,6 +77,18 @@ vec4 tapWeights(HistoryTaps taps) {
 // If the weights sum to less, the taps tell next to nothing about the position between them.
 const float kLeastTapWeight = 0.01;
 
+// COUNT_EMPTY_TAPS: whether taps without history count as of length 0 in the mean of lengths. With sparse light, a sample
+// would otherwise spread to the empty pixels around it and count as many.
+#ifndef COUNT_EMPTY_TAPS
+#define COUNT_EMPTY_TAPS false
+#endif
+
+// Factor of a mean length over the taps with history.
+// `known`: sum of their weights; `bilinear`: weights of all accepted taps.
+float shareOfKnownTaps(float known, vec4 bilinear) {
+  return COUNT_EMPTY_TAPS ? known / max(dot(bilinear, vec4(1.0)), kLeastTapWeight) : 1.0;
+}
+
 // Bilinear mean of the accepted taps that have a history; 0 if there is none. Alpha is the history length: a pixel of
 // length 0 is without light, not black, and does not count.
 vec4 meanOfTaps(HISTORY_TEXTURE history, HistoryTaps taps) {
@@ -100,7 +112,8 @@ vec4 meanOfTaps(HISTORY_TEXTURE history, HistoryTaps taps) {
   // An infinite divisor makes the mean 0. A division, and no product with 1 / weights: where all taps are the same, the
   // mean has to be as well, or antilag would take the rounding of light without noise for a change.
   const float divisor = weights > kLeastTapWeight ? weights : uintBitsToFloat(0x7f800000u);
-  const vec4 mean = sum / divisor;
+  vec4 mean = sum / divisor;
+  mean.a *= shareOfKnownTaps(weights, bilinear);
 #ifdef PACKED
   return vec4(kUnit * mean.rgb, mean.a);
 #else

@@ -8,6 +8,8 @@ layout(constant_id = 30) const int kLightColumns = 1;
 layout(constant_id = 31) const int kLightRows = 1;
 layout(constant_id = 32) const bool kLightMasked = false;  // Where alpha is 0 there is no sample.
 
+const bool kSparseLight = kLightColumns > 1 || kLightRows > 1 || kLightMasked;
+
 struct LightSample {
   vec3 radiance;  // As the host wrote it, which may be NaN; 0 without a sample.
   bool exists;

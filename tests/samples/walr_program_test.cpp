@@ -191,6 +191,16 @@ TEST_F(ProgramTest, LintsWhatItRendered) {
   EXPECT_NE(result.out.find("4 frames, nothing looks wrong"), std::string::npos) << result.out;
 }
 
+TEST_F(ProgramTest, RendersLintsAndDenoisesSparseLight) {
+  const std::string scene = std::string(WALR_SCENES) + "/box.gltf";
+  expectSuccess(walr({"render", scene, "--output", input.string(), "--frames", "4-7", "--size", "97x55", "--jitter",
+                      "--light-rate", "1/4"}));
+  expectSuccess(walr({"lint", input.string()}));
+  expectSuccess(walr({"denoise", input.string(), "--output", output.string()}));
+  expectFailure(walr({"denoise", input.string(), "--output", output.string(), "--method", "svgf"}), kUsage,
+                {"method 'svgf' needs a sample of light at every pixel"});
+}
+
 TEST_F(ProgramTest, MethodNoneGivesTheInputBack) {
   files.write(0, 1);
   expectSuccess(denoise({"--method", "none"}));

@@ -13,15 +13,18 @@ constexpr double kLeastWeight = 0.01;
 
 /// Bilinear mean of the accepted taps that hold a sample, with their weights normalised.
 HistorySample sampleBilinear(const Reprojection& r, const std::array<HistoryTap, 4>& taps,
-                             const Image<glm::dvec4>& previous) {
+                             const Image<glm::dvec4>& previous, bool countEmptyTaps) {
   glm::dvec4 sum(0.0);
   glm::dvec4 least(1e300);
   glm::dvec4 most(-1e300);
   double weightSum = 0.0;
+  double accepted = 0.0;
   HistorySample history;
   for (const HistoryTap& tap : taps) {
     history.undecided |= tap.undecided;
-    if (!tap.matches || previous[tap.pixel].w == 0.0) continue;
+    if (!tap.matches) continue;
+    accepted += tap.weight;
+    if (previous[tap.pixel].w == 0.0) continue;
     const glm::dvec4 value = previous[tap.pixel];
     sum += tap.weight * value;
     weightSum += tap.weight;
@@ -35,6 +38,10 @@ HistorySample sampleBilinear(const Reprojection& r, const std::array<HistoryTap,
   // Each weight may err by twice the position's error. In the normalised mean that counts by the taps' differences.
   history.error =
       8.0 * r.error / weightSum * (most - least) + 16.0 * kFloatRoundoff * glm::max(glm::abs(most), glm::abs(least));
+  if (countEmptyTaps) {
+    history.value.w *= weightSum / accepted;
+    history.error.w += 8.0 * r.error / accepted * most.w;
+  }
   return history;
 }
 
@@ -86,9 +93,9 @@ std::array<double, 4> catmullRom(double f) {
 }
 
 HistorySample sampleHistory(const Reprojection& r, const std::array<HistoryTap, 4>& taps,
-                            const Image<glm::dvec4>& previous, HistoryFilter filter) {
+                            const Image<glm::dvec4>& previous, HistoryFilter filter, bool countEmptyTaps) {
   if (!r.valid) return {};
-  HistorySample history = sampleBilinear(r, taps, previous);
+  HistorySample history = sampleBilinear(r, taps, previous, countEmptyTaps);
   if (filter == HistoryFilter::Bilinear || !history.found) return history;
   // The position decides which four pixels are tested.
   const glm::dvec2 fraction = glm::fract(r.pixel - 0.5);

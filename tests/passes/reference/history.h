@@ -20,7 +20,8 @@ std::array<double, 4> catmullRom(double f);
 /// Read a history texture at a reprojected position (Meunier & Harada 2022, 4.2; passes/WALR.md, 2 and 9). A bicubic
 /// read needs all four taps accepted and a history in all twelve pixels; otherwise it falls back to the bilinear mean
 /// of the accepted taps. The history length is always read bilinearly.
+/// @param countEmptyTaps whether accepted taps without history count as of length 0 in the history length
 HistorySample sampleHistory(const Reprojection& r, const std::array<HistoryTap, 4>& taps,
-                            const Image<glm::dvec4>& previous, HistoryFilter filter);
+                            const Image<glm::dvec4>& previous, HistoryFilter filter, bool countEmptyTaps = false);
 
 }  // namespace walr::reference

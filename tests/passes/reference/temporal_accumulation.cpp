@@ -40,7 +40,7 @@ Image<Accumulated> accumulate(const HostFrame& frame, const Image<Guide>& guides
     if (!previous.guides.pixels().empty()) {
       const Reprojection r = reproject(frame, guides, p, {settings.dilateMotion, keepTaps});
       past = sampleHistory(r, historyTaps(frame, r, previous.guides, historyTestsOf(settings)), previous.accumulated,
-                           settings.historyFilter);
+                           settings.historyFilter, !frame.conventions.light.everyPixel());
       if (past.found && !previous.antilag.pixels().empty()) shorten(past, previous.antilag, r, settings.maxHistory);
     }
     const glm::dvec3 pastMean(past.value);
