@@ -90,6 +90,13 @@ void registerRender(CLI::App& program) {
   command->add_option("--bounces", options.bounces, "Largest number of surfaces after the first that reflect light")
       ->check(CLI::Range(0U, kMostBounces))
       ->capture_default_str();
+  constexpr std::uint32_t kMostResampledFrames = 1000;
+  command
+      ->add_option("--resampled-frames", options.resampledFrames,
+                   "Resample the indirect light of noisy frames from as many earlier frames, as in ReSTIR GI without "
+                   "spatial reuse (Ouyang et al. 2021); engines take 20 to 30; 0: plain paths")
+      ->check(CLI::Range(0U, kMostResampledFrames))
+      ->capture_default_str();
   command->add_option("--seed", options.seed, "Seed of the random numbers")->capture_default_str();
   constexpr double kSlowest = 1e-3;
   constexpr double kFastest = 1e6;

@@ -7,6 +7,7 @@
 #include <glm/vec3.hpp>
 
 #include "samples/render/gbuffer.h"
+#include "samples/render/resampling.h"
 #include "samples/render/sampler.h"
 #include "samples/render/view.h"
 #include "samples/render/world.h"
@@ -21,6 +22,9 @@ struct SamplingSettings {
   std::uint32_t firstSample = 0;  ///< Index of the first path in each pixel's sequence, which continues over frames.
   Sampler::Kind sampler = Sampler::Kind::Sobol;
   GBufferMode gbuffer = GBufferMode::FirstHit;
+  /// Resample indirect light from frame to frame (`resample`); null: do not. Of the view's size. Glossy metals do not
+  /// take part.
+  Reservoirs* reservoirs = nullptr;
   unsigned int threads = 0;  ///< Number of threads; 0: one per core. The result does not depend on it.
   /// See `forEachTile`.
   std::function<void(std::uint64_t)> pixelsDone = [](std::uint64_t) {};

@@ -125,6 +125,26 @@ TEST(RenderSequence, ResumesAnInterruptedRun) {
   EXPECT_TRUE(fs::exists(lost));
 }
 
+// Resampled light depends on the frames before, the existing ones among them.
+TEST(RenderSequence, ResumesAResampledSequence) {
+  const walr::test::TemporaryDirectory folder;
+  RenderOptions options = smallBox(folder.path());
+  options.referenceSamples = 0;
+  options.resampledFrames = 20;
+  render(options);
+  const auto lastLight = [&] {
+    const Frame frame = Sequence(folder.path(), {}).read(2);
+    return std::vector<float>(frame.indirect.values().begin(), frame.indirect.values().end());
+  };
+  const std::vector<float> whole = lastLight();
+  fs::remove(folder.path() / frameFileName("noisy", 5, "exr"));
+  render(options);
+  EXPECT_EQ(lastLight(), whole);
+
+  options.resampledFrames = 0;
+  fg::test::expectError<InputError>([&] { render(options); }, {"'resampled_frames'"});
+}
+
 TEST(RenderSequence, RendersReferencesOfTheSelectedFrames) {
   const walr::test::TemporaryDirectory folder;
   RenderOptions options = smallBox(folder.path());
