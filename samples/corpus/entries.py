@@ -157,7 +157,7 @@ def costs(entries, methods):
     """For every entry the seconds of noisy frames, of references that no earlier entry has, and of the benchmark."""
     known, rows = set(), []
     for entry in entries:
-        references = key(entry.reference_settings(), "")
+        references = (entry.scene, entry.size, entry.judged, entry.one_square_in, entry.reference_samples, entry.camera)
         rows.append((entry, entry.noisy_paths() / PATHS_PER_SECOND,
                      0.0 if references in known else entry.reference_paths() / PATHS_PER_SECOND, bench_seconds(entry, methods)))
         known.add(references)
