@@ -25,11 +25,13 @@ import pages
 import places
 import rendering
 import results
+from PIL import Image
 
 HERE = pathlib.Path(__file__).resolve().parent
 BASELINE = "walr"
 KEPT = HERE / "results.json"
 PAGE = HERE / "RESULTS.md"
+OVERVIEW = "places.webp"
 
 
 def default_cache():
@@ -154,12 +156,15 @@ def run(arguments):
         kept[name] = results.summary([all_sums[n] for n in members], names, BASELINE) if members else {}
     (output / "results.json").write_text(pages.as_text(kept))
     (output / "RESULTS.md").write_text(pages.page(kept), encoding="utf-8")
+    sheets = [Image.open(output / place["file"]) for place in pages.shown_places(kept)]
+    places.overview(sheets).save(output / OVERVIEW, quality=85)
     print(f"{output}: results.json, RESULTS.md, and pictures of the worst places")
 
 
 def write_page(arguments):
     if arguments.folder:
-        shutil.copy(pathlib.Path(arguments.folder) / "results.json", KEPT)
+        for name in (KEPT.name, OVERVIEW):
+            shutil.copy(pathlib.Path(arguments.folder) / name, HERE / name)
     text = pages.page(json.loads(KEPT.read_text()))
     if not arguments.check:
         PAGE.write_text(text, encoding="utf-8")

@@ -91,13 +91,22 @@ def kept_variants(kept):
     return [v.split("=", 1)[0] for v in kept["variants"]]
 
 
-def places_table(kept, count=10):
+def shown_places(kept, count=10):
+    """The worst places, each once: sequences of one scene and size that differ in samples per pixel share theirs."""
+    shown = {}
+    for place in kept["places"]:
+        entry = kept["entries"][place["entry"]]
+        shown.setdefault((entry["scene"], tuple(entry["size"]), place["frame"], place["x"], place["y"]), place)
+    return list(shown.values())[:count]
+
+
+def places_table(kept):
     rows = []
-    for place in kept["places"][:count]:
+    for number, place in enumerate(shown_places(kept), 1):
         other = place["best_other"]
-        rows.append([f"`{place['entry']}`", f"{place['frame']}: {place['x']}, {place['y']}", small(place["rmse"][kept["baseline"]]),
+        rows.append([str(number), f"`{place['entry']}`", f"{place['frame']}: {place['x']}, {place['y']}", small(place["rmse"][kept["baseline"]]),
                      f"`{other}` {small(place['rmse'][other])}" if other else "-", place["edge"], place["noise"], place["age"], place["darkness"]])
-    return table(["sequence", "frame: x, y", f"RMSE of `{kept['baseline']}`", "best other method", "pixels to an edge", "noise", "age", "luminance"], rows)
+    return table(["", "sequence", "frame: x, y", f"RMSE of `{kept['baseline']}`", "best other method", "pixels to an edge", "noise", "age", "luminance"], rows)
 
 
 def page(kept):
@@ -123,6 +132,6 @@ Measured at commit {kept['commit']}: the {kept['part']} part, seed {kept['seed']
     parts.append("\n## Where the error is\n")
     for split in SPLIT_NAMES:
         parts.append("\n" + splits_table(kept, split))
-    parts.append("\n## The worst places\n\nTiles of 32 x 32 pixels in the middle judged frame of each sequence. Pictures of them are in the output folder of a "
-                 "run.\n\n" + places_table(kept))
+    parts.append("\n## The worst places\n\nTiles of 32 x 32 pixels in the middle judged frame of each sequence. The picture shows them in the order of the "
+                 "table, five in a column.\n\n" + places_table(kept) + "\n![the worst places](places.webp)\n")
     return "".join(parts)

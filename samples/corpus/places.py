@@ -77,6 +77,16 @@ def picture(truth, pictures, place, baseline):
     return sheet
 
 
+def overview(sheets, rows=5):
+    """The pictures of several places in columns of `rows`."""
+    width, height = max(s.width for s in sheets) + 10, max(s.height for s in sheets) + 6
+    columns = -(-len(sheets) // rows)
+    whole = Image.new("RGB", (columns * width, min(rows, len(sheets)) * height), "white")
+    for index, sheet in enumerate(sheets):
+        whole.paste(sheet, (index // rows * width, index % rows * height))
+    return whole
+
+
 def worst_places(sequence, pictures, frames, methods, baseline, rivals, count):
     """The worst places of a sequence by the baseline's error in its middle judged frame, described, with their pictures.
 
