@@ -95,9 +95,8 @@ class Batch {
     for (std::size_t i = 0; i < frames; ++i) {
       BenchFrame frame = readBenchFrame(sequence_, i);
       const bool reset = frame.packed.frame.resetHistory;
-      const std::vector<std::uint32_t> seenBefore =
-          reset ? std::vector<std::uint32_t>(frame.judged.size(), kNoPixel)
-                : previousPixels(frame.surfaces, previous.surfaces);
+      const std::vector<std::uint32_t> seenBefore = reset ? std::vector<std::uint32_t>(frame.judged.size(), kNoPixel)
+                                                          : previousPixels(frame.surfaces, previous.surfaces);
       ages = surfaceAges(seenBefore, ages);
       keepGroundTruth(frame, ages);
       const std::vector<std::uint32_t> before =

@@ -90,7 +90,8 @@ BenchReport bench(const GpuDevice& device, const std::vector<NamedSequence>& seq
 
 /// The folder with the images of a sequence: `VARIANT_FFFF.npy`, `VARIANT.errors_FFFF.npy` (RMSE, SSIM, FLIP),
 /// `VARIANT.change_FFFF.npy` (`errorChange`, if the previous frame also has a reference), `_reference_FFFF.npy`,
-/// `_noisy_FFFF.npy` and `_age_FFFF.npy` (for how many earlier frames the pixel's surface has been visible without a gap).
+/// `_noisy_FFFF.npy` and `_age_FFFF.npy` (for how many earlier frames the pixel's surface has been visible without a
+/// gap).
 std::filesystem::path pictureFolder(const std::filesystem::path& output, const std::string& sequence);
 
 }  // namespace walr

@@ -80,8 +80,8 @@ std::vector<FrameFacts> survey(const Sequence& sequence) {
     fact.resetHistory = frame.packed.frame.resetHistory;
     fact.hasReference = frame.packed.frame.reference.has_value();
     if (!fact.resetHistory) {
-      fact.disoccluded = disoccludedShare(
-          judgedPairs(previousPixels(frame.surfaces, previous.surfaces), mask, previous.judged), mask);
+      fact.disoccluded =
+          disoccludedShare(judgedPairs(previousPixels(frame.surfaces, previous.surfaces), mask, previous.judged), mask);
     }
     if (const auto& reference = frame.packed.frame.reference; reference && !reference->indirectHalf.empty()) {
       fact.referenceNoise = referenceNoise(reference->indirect, reference->indirectHalf, mask);

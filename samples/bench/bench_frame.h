@@ -39,8 +39,9 @@ struct FrameFacts {
 /// @throws InputError
 std::vector<FrameFacts> survey(const Sequence& sequence);
 
-/// Numbers of the frames whose images are kept by default: of those with a reference the last one, and the one with the largest
-/// disocclusion after history has built up. The choice depends on the input alone, so that it favours no method.
+/// Numbers of the frames whose images are kept by default: of those with a reference the last one, and the one with the
+/// largest disocclusion after history has built up. The choice depends on the input alone, so that it favours no
+/// method.
 /// @param facts  must contain a frame with a reference
 std::vector<int> pictureFrames(const std::vector<FrameFacts>& facts);
 
