@@ -136,7 +136,8 @@ TEST_F(BenchProgramTest, KeepsThePicturesOfAllFramesWithReferencesIfAsked) {
 
   // The camera of the sequence moves, so that the first frame is new everywhere, and later ones are mostly old.
   const auto ages = [&](int frame) {
-    const std::string bytes = test::readText(first / "pictures" / "wall" / ("_age_000" + std::to_string(frame) + ".npy"));
+    const std::string bytes =
+        test::readText(first / "pictures" / "wall" / ("_age_000" + std::to_string(frame) + ".npy"));
     std::vector<std::uint16_t> halves(std::size_t{40} * 32);
     std::memcpy(halves.data(), bytes.data() + bytes.size() - 2 * halves.size(), 2 * halves.size());
     return halves;
