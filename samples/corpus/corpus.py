@@ -142,7 +142,8 @@ def run(arguments):
         print(f"{entry.name}: judged; {remaining.text()} left", flush=True)
         kept["entries"][entry.name] = {
             "scene": entry.scene.stem, "size": list(entry.size), "samples": entry.samples, "judged": list(entry.judged),
-            "reference_samples": entry.reference_samples, "held_back": entry.held_back, "reference_noise": results.rounded(facts["noise"] ** 0.5),
+            "reference_samples": entry.reference_samples, "held_back": entry.held_back,
+            "reference_noise": results.rounded(facts["noise"] ** 0.5),
             **results.entry_results(all_sums[entry.name], names, BASELINE)}
         for index, place in enumerate(facts["places"]):
             kept["places"].append({"entry": entry.name, "file": f"{entry.name}_{index}.png",
@@ -199,7 +200,8 @@ def parse(arguments):
         command.add_argument("--seed", type=int, default=0, help="seed of the noisy frames; references are shared")
     command.add_argument("--output", required=True, help="folder for results.json, RESULTS.md and pictures")
     command.add_argument("--cache", default=default_cache(), help="folder for frames and judgements; default: %(default)s")
-    command.add_argument("--walr", type=lambda file: pathlib.Path(file).resolve(), default=table.PROJECT / "build" / "bin" / "walr", help="the program; default: %(default)s")
+    command.add_argument("--walr", type=lambda file: pathlib.Path(file).resolve(), help="the program; default: %(default)s",
+                         default=table.PROJECT / "build" / "bin" / "walr")
     command.add_argument("--render-only", action="store_true", help="only render")
     command.add_argument("--keep-pictures", action="store_true", help="keep every result in the cache, about 3 GB for 1920 x 1080")
     command = commands.add_parser("page")

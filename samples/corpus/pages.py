@@ -84,7 +84,8 @@ def splits_table(kept, split):
                     ahead.setdefault(method, []).append(f"`{entry}` {ratio[0]:.2f}")
         better = "; ".join(f"`{m}`: {', '.join(e)}" for m, e in ahead.items())
         rows.append([name, f"{100 * share:.0f} %", small(sum(errors) / len(errors)) if errors else "-", better or "none"])
-    return table([SPLIT_NAMES[split], "share of pixels", f"RMSE of `{kept['baseline']}`", f"better than `{kept['baseline']}`, ratio of RMSE"], rows)
+    baseline = kept["baseline"]
+    return table([SPLIT_NAMES[split], "share of pixels", f"RMSE of `{baseline}`", f"better than `{baseline}`, ratio of RMSE"], rows)
 
 
 def kept_variants(kept):
@@ -105,8 +106,10 @@ def places_table(kept):
     for number, place in enumerate(shown_places(kept), 1):
         other = place["best_other"]
         rows.append([str(number), f"`{place['entry']}`", f"{place['frame']}: {place['x']}, {place['y']}", small(place["rmse"][kept["baseline"]]),
-                     f"`{other}` {small(place['rmse'][other])}" if other else "-", place["edge"], place["noise"], place["age"], place["darkness"]])
-    return table(["", "sequence", "frame: x, y", f"RMSE of `{kept['baseline']}`", "best other method", "pixels to an edge", "noise", "age", "luminance"], rows)
+                     f"`{other}` {small(place['rmse'][other])}" if other else "-",
+                     *(place[split] for split in SPLIT_NAMES)])
+    return table(["", "sequence", "frame: x, y", f"RMSE of `{kept['baseline']}`", "best other method", "pixels to an edge", "noise", "age",
+                  "luminance"], rows)
 
 
 def page(kept):
@@ -127,11 +130,11 @@ Measured at commit {kept['commit']}: the {kept['part']} part, seed {kept['seed']
         parts.append("\n## Methods\n\nGeometric means over the sequences.\n\n" + summary_table(kept, kept["summary"], open_entries))
     if held:
         parts.append("\n## Methods, on the sequences held back\n\n" + summary_table(kept, kept["held_back_summary"], held))
-    parts.append("\n## RMSE by sequence\n\n&lt;: better than `" + kept["baseline"] + "` beyond the interval of the difference; &gt;: worse; ~: "
-                 "undecided. -: not above the noise of the reference.\n\n" + entries_table(kept))
+    parts.append(f"\n## RMSE by sequence\n\n&lt;: better than `{kept['baseline']}` beyond the interval of the difference; &gt;: worse; "
+                 "~: undecided. -: not above the noise of the reference.\n\n" + entries_table(kept))
     parts.append("\n## Where the error is\n")
     for split in SPLIT_NAMES:
         parts.append("\n" + splits_table(kept, split))
-    parts.append("\n## The worst places\n\nTiles of 32 x 32 pixels in the middle judged frame of each sequence. The picture shows them in the order of the "
-                 "table, five in a column.\n\n" + places_table(kept) + "\n![the worst places](places.webp)\n")
+    parts.append("\n## The worst places\n\nTiles of 32 x 32 pixels in the middle judged frame of each sequence. The picture shows them in "
+                 "the order of the table, five in a column.\n\n" + places_table(kept) + "\n![the worst places](places.webp)\n")
     return "".join(parts)

@@ -48,7 +48,8 @@ def describe(truth, pictures, frame, methods, rivals, corner):
         result = np.load(pictures / f"{method}_{frame:04d}.npy").astype(float)[tile]
         square = clean_square(result, truth.reference[tile], truth.half[tile])[judged].mean()
         errors[method] = float(np.sqrt(max(square, 0.0)))
-    common = {split: names[int(np.bincount(truth.classes[split][tile][judged]).argmax())] for split, names in CLASSES.items() if split != "all"}
+    common = {split: names[int(np.bincount(truth.classes[split][tile][judged]).argmax())]
+              for split, names in CLASSES.items() if split != "all"}
     return {"frame": frame, "x": x, "y": y, "rmse": errors, "best_other": min(rivals, key=errors.get, default=None), **common}
 
 

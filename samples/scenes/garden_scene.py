@@ -92,7 +92,8 @@ def make_garden():
     ring = scene.shape("link", link(), scene.material("steel", (0.45, 0.45, 0.48)))
     for x in (-0.3, 0.3):
         for i in range(33):
-            scene.place("link", ring, swing, translation=[x, round(-0.04 - 0.0415 * i, 4), 0.0], rotation=turn((0.0, 1.0, 0.0), 90.0 * (i % 2)))
+            scene.place("link", ring, swing, translation=[x, round(-0.04 - 0.0415 * i, 4), 0.0],
+                        rotation=turn((0.0, 1.0, 0.0), 90.0 * (i % 2)))
     scene.mesh("seat", Mesh().block((0.0, -1.43, 0.0), (0.7, 0.03, 0.24)), scene.material("red", (0.65, 0.1, 0.08)), parent=swing)
     frames = range(48)
     scene.animate(swing, "rotation", [turn((1.0, 0.0, 0.0), round(18.0 * math.sin(2 * math.pi * i / 40), 6)) for i in frames])

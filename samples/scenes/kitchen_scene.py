@@ -95,13 +95,15 @@ def furniture(scene, wood, metal):
 
 def crockery(scene, metal):
     white = scene.material("china", (0.8, 0.8, 0.77))
-    pot = scene.shape("pot", Mesh().lathe((0, 0, 0), POT, 20).block((0.16, 0.12, 0), (0.09, 0.012, 0.02)).block((-0.16, 0.12, 0), (0.09, 0.012, 0.02)), metal)
+    with_handles = Mesh().lathe((0, 0, 0), POT, 20).block((0.16, 0.12, 0), (0.09, 0.012, 0.02)).block((-0.16, 0.12, 0), (0.09, 0.012, 0.02))
+    pot = scene.shape("pot", with_handles, metal)
     copper = scene.shape("copper pot", Mesh().lathe((0, 0, 0), POT, 20), scene.material("copper", (0.72, 0.35, 0.2)))
     cup, plate, bowl = (scene.shape(n, Mesh().lathe((0, 0, 0), p, 14), white) for n, p in (("cup", CUP), ("plate", PLATE), ("bowl", BOWL)))
     bottle = scene.shape("bottle", Mesh().lathe((0, 0, 0), BOTTLE, 14), scene.material("green glass", (0.12, 0.3, 0.14)))
-    places = [(pot, -1.1, 0.91, -1.6, 1.0), (copper, -0.7, 0.91, -1.7, 0.8), (pot, 0.2, 0.91, -1.65, 1.25), (copper, 0.75, 0.91, -1.55, 0.7),
-              (bowl, -0.35, 0.91, -1.55, 1.3), (bottle, 1.1, 0.91, -1.75, 1.0), (bottle, 1.22, 0.91, -1.65, 0.9), (bowl, 0.05, 0.78, -0.12, 1.5),
-              (pot, 0.45, 0.78, -0.15, 0.9), (bottle, -0.12, 0.78, -0.3, 1.0)]
+    places = [(pot, -1.1, 0.91, -1.6, 1.0), (copper, -0.7, 0.91, -1.7, 0.8), (pot, 0.2, 0.91, -1.65, 1.25),
+              (copper, 0.75, 0.91, -1.55, 0.7), (bowl, -0.35, 0.91, -1.55, 1.3), (bottle, 1.1, 0.91, -1.75, 1.0),
+              (bottle, 1.22, 0.91, -1.65, 0.9), (bowl, 0.05, 0.78, -0.12, 1.5), (pot, 0.45, 0.78, -0.15, 0.9),
+              (bottle, -0.12, 0.78, -0.3, 1.0)]
     places += [(plate, x, 0.783, z, 1.0) for x, z in ((-0.5, 0.05), (0.5, 0.22), (-0.45, -0.28))]
     places += [(cup, -0.25 + 0.17 * i, 1.515 + 0.33 * (i % 2), -1.87, 1.0) for i in range(9)]
     places += [(cup, 0.22, 0.78, 0.1, 1.0), (cup, -0.66, 0.78, -0.1, 1.0)]

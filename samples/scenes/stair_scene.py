@@ -18,18 +18,15 @@ def stair():
     return mesh
 
 
-def beam(mesh, start, end, thickness, z):
-    """A beam in a plane of constant z: a prism with a rhombic cross-section along the line from `start` to `end`."""
-    dx, dy = end[0] - start[0], end[1] - start[1]
-    for low, normal in ((0.0, -1.0), (1.0, 1.0)):
-        corner = (start[0], start[1] + thickness * low, z - thickness / 2)
-        u, v = (dx, dy, 0.0), (0.0, 0.0, thickness)
-        if normal < 0:
-            mesh.quad(corner, u, v)
-        else:
-            mesh.quad((corner[0], corner[1], z + thickness / 2), u, (0.0, 0.0, -thickness))
-    mesh.quad((start[0], start[1], z + thickness / 2), (dx, dy, 0.0), (0.0, thickness, 0.0))
-    mesh.quad((end[0], end[1], z - thickness / 2), (-dx, -dy, 0.0), (0.0, thickness, 0.0))
+def beam(mesh, start, end, size, z):
+    """A beam without end faces along the line from `start` to `end` in the plane of this z; `size`: its extent along Y and Z. The
+    end has the larger X."""
+    along = (end[0] - start[0], end[1] - start[1], 0.0)
+    back = tuple(-c for c in along)
+    mesh.quad((*start, z - size / 2), along, (0.0, 0.0, size))
+    mesh.quad((start[0], start[1] + size, z + size / 2), along, (0.0, 0.0, -size))
+    mesh.quad((*start, z + size / 2), along, (0.0, size, 0.0))
+    mesh.quad((*end, z - size / 2), back, (0.0, size, 0.0))
 
 
 def make_stair():
@@ -50,10 +47,9 @@ def make_stair():
     wood = scene.material("pine", (0.6, 0.42, 0.24))
     scene.mesh("steps and balusters", stair(), wood)
     beams = Mesh()
-    foot, top = (1.75, 0.05), (-1.5, 2.33)
-    beam(beams, foot, top, 0.08, -1.2)
-    beam(beams, foot, top, 0.08, -0.22)
-    beam(beams, (foot[0], foot[1] + 1.0), (top[0], top[1] + 1.0), 0.05, -0.22)
+    beam(beams, (-1.5, 2.33), (1.75, 0.05), 0.08, -1.2)
+    beam(beams, (-1.5, 2.33), (1.75, 0.05), 0.08, -0.22)
+    beam(beams, (-1.5, 3.33), (1.75, 1.05), 0.05, -0.22)
     scene.mesh("stringers and rail", beams, wood)
     crates = Mesh().block((-1.75, 0.25, -1.0), (0.5, 0.5, 0.5), 12.0).block((-1.1, 0.2, -1.1), (0.4, 0.4, 0.4), -20.0)
     crates.block((-1.7, 0.68, -1.0), (0.36, 0.36, 0.36), 35.0)
@@ -62,8 +58,8 @@ def make_stair():
     scene.mesh("broom", broom, scene.material("blue", (0.2, 0.34, 0.7)))
     bucket = Mesh().lathe((-0.4, 0.0, -0.6), [(0.0, 0.0), (0.11, 0.0), (0.15, 0.28), (0.14, 0.28), (0.1, 0.012), (0.0, 0.012)], 20)
     scene.mesh("bucket", bucket, scene.material("zinc", (0.5, 0.52, 0.55)))
-    bottle = scene.shape("bottle", Mesh().lathe((0, 0, 0), [(0.0, 0.0), (0.037, 0.0), (0.037, 0.17), (0.014, 0.23), (0.014, 0.3), (0.0, 0.3)], 14),
-                         scene.material("green glass", (0.13, 0.36, 0.16)))
+    profile = [(0.0, 0.0), (0.037, 0.0), (0.037, 0.17), (0.014, 0.23), (0.014, 0.3), (0.0, 0.3)]
+    bottle = scene.shape("bottle", Mesh().lathe((0, 0, 0), profile, 14), scene.material("green glass", (0.13, 0.36, 0.16)))
     for i in range(6):
         scene.place(f"bottle {i + 1}", bottle, translation=[round(-1.35 + 0.11 * i, 6), 0.0, round(-0.62 - 0.06 * (i % 2), 6)])
 
@@ -71,8 +67,8 @@ def make_stair():
     lamp = scene.node({"name": "lamp", "translation": [-0.75, 1.6, -0.75], "rotation": [0.0, 0.0, 0.0, 1.0]})
     shade = Mesh().block((0, -0.2, 0), (0.006, 0.4, 0.006)).lathe((0, -0.5, 0), [(0.09, 0.0), (0.03, 0.1), (0.0, 0.1)], 16)
     scene.mesh("cord and shade", shade, scene.material("enamel", (0.3, 0.08, 0.06)), parent=lamp)
-    bulb = scene.mesh("bulb", Mesh().block((0, 0, 0), (0.05, 0.05, 0.05)), scene.material("bulb", (0.0, 0.0, 0.0), emission=(150.0, 105.0, 60.0)),
-                      parent=lamp, translation=[0.0, -0.47, 0.0])
+    glow = scene.material("bulb", (0.0, 0.0, 0.0), emission=(150.0, 105.0, 60.0))
+    bulb = scene.mesh("bulb", Mesh().block((0, 0, 0), (0.05, 0.05, 0.05)), glow, parent=lamp, translation=[0.0, -0.47, 0.0])
     frames = range(48)
     scene.animate(lamp, "rotation", [turn((0.0, 0.0, 1.0), round(24.0 * math.sin(2 * math.pi * i / 32), 6)) for i in frames])
     scene.animate(bulb, "scale", [(1.0, 1.0, 1.0) if i < OFF else (0.0, 0.0, 0.0) for i in frames])

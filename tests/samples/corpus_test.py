@@ -100,7 +100,8 @@ class Intervals(unittest.TestCase):
     def test_a_difference_of_zero_is_called_one_in_five_per_cent_of_trials(self):
         trials = 2000
         for count, spread in ((11, 1.0), (21, 0.5), (21, 1.5)):
-            called = sum(intervals.verdict(intervals.log_ratio_interval([self.blocks(count, spread)])) != "undecided" for _ in range(trials))
+            found = [intervals.log_ratio_interval([self.blocks(count, spread)]) for _ in range(trials)]
+            called = sum(intervals.verdict(f) != "undecided" for f in found)
             # The standard deviation of the share is 0.5 %.
             self.assertTrue(0.03 < called / trials < 0.07, (count, spread, called / trials))
 
@@ -212,7 +213,8 @@ class EndToEnd(unittest.TestCase):
         cls.folder = pathlib.Path(cls.holder.name)
         cls.table, entries.corpus = entries.corpus, lambda: {"tiny": TINY}
         cls.square, judging.SQUARE = judging.SQUARE, 12
-        cls.options = ["run", "--walr", WALR, "--cache", cls.folder / "cache", "--methods", "bmfr,none", "--variant", "same=walr", "--keep-pictures"]
+        cls.options = ["run", "--walr", WALR, "--cache", cls.folder / "cache", "--methods", "bmfr,none", "--variant", "same=walr",
+                       "--keep-pictures"]
         cls.log = run(*cls.options, "--output", cls.folder / "first")
         cls.kept = json.loads((cls.folder / "first" / "results.json").read_text())
 
@@ -287,8 +289,8 @@ class Page(unittest.TestCase):
         self.assertEqual(corpus.PAGE.read_text(encoding="utf-8"), pages.page(json.loads(corpus.KEPT.read_text())))
 
     def test_the_list_names_every_entry(self):
-        text = subprocess.run([sys.executable, str(corpus.HERE / "corpus.py"), "list", "--part", "nightly", "--held-back"], capture_output=True,
-                              text=True, check=True).stdout
+        command = [sys.executable, str(corpus.HERE / "corpus.py"), "list", "--part", "nightly", "--held-back"]
+        text = subprocess.run(command, capture_output=True, text=True, check=True).stdout
         for name, entry in entries.corpus().items():
             if entry.scene.exists():
                 self.assertIn(name, text)
