@@ -26,6 +26,7 @@ std::string setupKey(const GpuDevice& device, const BenchOptions& options) {
 std::string sequenceKey(const std::string& setup, const NamedSequence& sequence, const BenchOptions& options) {
   Fingerprint key;
   key.add(setup).add(options.vmaf ? options.vmaf->description() : std::string());
+  key.add(options.allPictures ? "all pictures" : "few pictures");
   for (const Sequence::Entry& entry : sequence.sequence.entries()) {
     key.addFile(entry.file);
     if (!entry.reference.empty()) key.addFile(entry.reference);
@@ -205,7 +206,7 @@ BenchReport bench(const GpuDevice& device, const std::vector<NamedSequence>& seq
     result.layout = sequence.layout().layout->name;
     result.extent = sequence.extent();
     result.frames = survey(sequence);
-    result.pictureFrames = pictureFrames(result.frames);
+    result.pictureFrames = options.allPictures ? judgedFrames(result.frames) : pictureFrames(result.frames);
     BatchOptions batch{.repetitions = options.repetitions,
                        .pictureFrames = result.pictureFrames,
                        .pictures = pictureFolder(options.output, result.name),

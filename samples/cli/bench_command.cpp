@@ -73,6 +73,10 @@ void runBench(BenchArguments& arguments, const std::string& command) {
       !arguments.bench.hardCases) {
     throw UsageError("nothing to measure: give --sequences DIR..., --sizes, --content, --response or --hard-cases");
   }
+  if (arguments.bench.repetitions == 0 && (!arguments.sizes.empty() || arguments.bench.content)) {
+    throw UsageError(
+        "--repeat 0 measures errors only, but --sizes and --content measure times: give --repeat 1 or more");
+  }
   for (const std::string& size : arguments.sizes) arguments.bench.sizes.push_back(parseSize(size));
   arguments.bench.variants = chosenVariants(arguments);
   refuseOutputIntoInput(arguments);
@@ -154,10 +158,15 @@ void registerBench(CLI::App& program) {
   command->add_flag("--response", arguments->bench.response,
                     "Also measure how each variant responds to change, on synthetic scenes with known truth: first "
                     "frame, settled error and flicker, a light that dims or moves, disocclusion, a camera cut");
+  command->add_flag(
+      "--all-pictures", arguments->bench.allPictures,
+      "Keep the images and error maps of every frame with a reference, for analysis elsewhere; default: of "
+      "the last one and the one with the largest disocclusion");
   command
-      ->add_option("--repeat", arguments->bench.repetitions,
-                   "Number of timed passes over each sequence, after one that warms up and measures errors")
-      ->check(CLI::Range(1, 1000))
+      ->add_option(
+          "--repeat", arguments->bench.repetitions,
+          "Number of timed passes over each sequence, after one that warms up and measures errors; 0: no times")
+      ->check(CLI::Range(0, 1000))
       ->capture_default_str();
   command
       ->add_option("--batch", arguments->bench.batch,
