@@ -46,9 +46,9 @@ std::vector<std::uint32_t> packNumbers(const Image& image) {
 
 }  // namespace
 
-PackedFrame packFrame(Frame frame) {
+PackedFrame packFrame(Frame frame, Light light) {
   PackedFrame packed;
-  packed.lighting = packRgba16(frame.indirect);
+  packed.lighting = packRgba16(light == Light::Indirect ? frame.indirect : frame.direct);
   packed.normal = packRgba16(frame.normal);
   packed.motion = packRgba16(frame.motion);
   packed.albedo = packRgba16(frame.albedo);

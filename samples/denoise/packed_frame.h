@@ -15,7 +15,7 @@ using Rgba16 = std::array<std::uint16_t, 4>;
 /// A frame with its images in the formats of the denoiser's textures (`DenoiserInputs`).
 struct PackedFrame {
   Frame frame;
-  std::vector<Rgba16> lighting;
+  std::vector<Rgba16> lighting;  ///< Of the light that `packFrame` was asked for.
   std::vector<Rgba16> normal;
   std::vector<Rgba16> motion;
   std::vector<Rgba16> albedo;
@@ -29,7 +29,8 @@ std::vector<Rgba16> packRgba16(const Image& image);
 /// The first three components of texels as an image.
 Image unpackRgb(const std::vector<Rgba16>& texels, int width, int height);
 
-PackedFrame packFrame(Frame frame);
+/// @param light  the light to denoise
+PackedFrame packFrame(Frame frame, Light light = Light::Indirect);
 
 /// A frame's camera in the form that the passes use.
 /// @param motionScale  see `FrameDescription::motionScale`

@@ -131,11 +131,11 @@ void Sequence::checkHeaders() {
         cameras = readCameraFile(folder_ / "cameras.json");
       }
     }
-    requireChannels(file, layout_, options_.composite);
+    requireChannels(file, layout_, options_.light);
     checkSize(file);
     if (!entry.reference.empty()) {
       const ExrReader reference(entry.reference);
-      requireReferenceChannels(reference, layout_);
+      requireReferenceChannels(reference, layout_, options_.light);
       checkSize(reference);
     }
     if (layout_.layout->cameras == CameraSource::HeaderAttributes) {
@@ -187,11 +187,11 @@ Frame Sequence::read(std::size_t index) const {
 
   ExrReader file(entry.file);
   checkSize(file);
-  readFrame(file, layout_, options_.composite, frame);
+  readFrame(file, layout_, options_.light, frame);
   if (!entry.reference.empty()) {
     ExrReader reference(entry.reference);
     checkSize(reference);
-    frame.reference = readReference(reference, layout_, options_.composite, frame.nonFinite);
+    frame.reference = readReference(reference, layout_, options_.light, frame.nonFinite);
   }
   if (options_.nonFinite == NonFinitePolicy::Fail) {
     refuseNonFinite(frame.nonFinite);

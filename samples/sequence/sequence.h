@@ -25,7 +25,7 @@ enum class NonFinitePolicy {
 
 struct SequenceOptions {
   std::optional<FrameRange> frames;  ///< Absent: all frames.
-  bool composite = false;            ///< Also read direct light and emission.
+  LightWish light;                   ///< The light to read.
   std::string viewLayer;             ///< See `recognizeLayout`.
   std::vector<int> cuts;             ///< Frames that follow a camera cut, in addition to those that the cameras show.
   NonFinitePolicy nonFinite = NonFinitePolicy::Fail;
