@@ -57,9 +57,6 @@ class Cache:
         noisy = [f"noisy_{i:04d}.exr" for i in range(first, last + 1)]
         return noisy + [f"ref_{i:04d}.exr" for i in range(entry.judged[0], entry.judged[1] + 1)]
 
-    def is_rendered(self, entry):
-        return all((self.sequence(entry) / name).exists() for name in self.files(entry))
-
     def work(self, entry, file):
         """Paths of one file of an entry."""
         paths = entry.reference_paths() if file.startswith("ref") else entry.noisy_paths()
