@@ -30,9 +30,9 @@ struct PackedLights {
 /// pipelines and the memory of transients. The order of calls is that of `GpuDenoiser`.
 class LightDenoisers {
  public:
+  /// For errors and for the other parameters see `GpuDenoiser`.
   /// @param lights  the lights to denoise: one, or the indirect and the direct light. The views and counters are those
   ///                of the first
-  /// For the other parameters and for errors see `GpuDenoiser`.
   LightDenoisers(const GpuDevice& device, std::span<const LightMethod> lights, fg::Extent extent, const Layout& layout,
                  const InspectionWish& wanted, std::uint32_t framesInFlight, bool objectIds);
 

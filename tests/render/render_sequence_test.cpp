@@ -52,7 +52,7 @@ TEST(RenderSequence, IsReadBackInTheProjectsConventions) {
   const walr::test::TemporaryDirectory folder;
   render(smallBox(folder.path()));
   SequenceOptions options;
-  options.composite = true;
+  options.light = kWholePicture;
   const Sequence sequence(folder.path(), options);
   ASSERT_EQ(sequence.entries().size(), 3U);
   EXPECT_TRUE(sequence.hasReferences());
