@@ -5,7 +5,6 @@
 #include <cmath>
 #include <filesystem>
 #include <iostream>
-#include <map>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -22,6 +21,7 @@
 #include "samples/command_line/device_options.h"
 #include "samples/command_line/exit_code.h"
 #include "samples/command_line/method_options.h"
+#include "samples/command_line/motion_depth.h"
 #include "samples/command_line/usage_error.h"
 #include "samples/denoise/frame_output.h"
 #include "samples/denoise/gpu_denoiser.h"
@@ -48,7 +48,6 @@ struct DenoiseOptions {
   std::string nonFinite = "fail";
   std::string exposure = "auto";
   std::string directLight = "frame";
-  std::optional<InputConventions::MotionDepth> motionDepth;  ///< Nothing: as the layout says.
   std::vector<std::string> views;
   bool listViews = false;
   bool counters = false;
@@ -128,12 +127,12 @@ std::optional<float> parseExposure(const std::string& text) {
 
 /// @throws UsageError naming a view of an iteration that does not exist at this image size, or contradictory settings
 GpuDenoiser makeGpuDenoiser(const DenoiseOptions& options, const GpuDevice& device, Denoiser& method,
-                            const Sequence& sequence, const Layout& layout) {
+                            const Sequence& sequence) {
   try {
     return {device,
             method,
             sequence.extent(),
-            layout,
+            sequence.denoiserLayout(),
             {.views = options.views, .counters = options.counters},
             kFramesInFlight,
             sequence.layout().objectIds};
@@ -157,10 +156,8 @@ void denoise(DenoiseOptions& options) {
   prepareOutputDirectory(options.output.directory);
   describeInput(std::cout, options.input, sequence);
 
-  Layout layout = *sequence.layout().layout;
-  if (options.motionDepth) layout = withMotionDepth(layout, *options.motionDepth);
   GpuDevice device(options.gpu);
-  GpuDenoiser denoiser = makeGpuDenoiser(options, device, *method, sequence, layout);
+  GpuDenoiser denoiser = makeGpuDenoiser(options, device, *method, sequence);
   DenoiseReport report;
   report.method = options.method.name;
   for (const SettingText& setting : method->settings()) {
@@ -169,7 +166,7 @@ void denoise(DenoiseOptions& options) {
   report.device = device.name();
   report.driver = device.driver();
   report.softwareDevice = device.isSoftware();
-  report.layout = layout.name;
+  report.layout = sequence.layout().layout->name;
   report.extent = sequence.extent();
   std::cout << "method: " << report.method << "\ndevice: " << report.device << ", driver " << report.driver
             << (report.softwareDevice ? " (software)" : "") << std::endl;
@@ -275,16 +272,7 @@ void registerDenoise(CLI::App& program) {
                    "from the cameras are detected without it")
       ->allow_extra_args(false)
       ->type_name("N");
-  command
-      ->add_option("--motion-depth", options->motionDepth,
-                   "Change of a surface's depth since the last frame: given by the third channel of motion, that of a "
-                   "still scene, or found in the last frame's depths; default: given if the layout has that channel, "
-                   "else still")
-      ->transform(CLI::CheckedTransformer(
-          std::map<std::string, InputConventions::MotionDepth>{{"given", InputConventions::MotionDepth::Given},
-                                                               {"still", InputConventions::MotionDepth::StaticScene},
-                                                               {"found", InputConventions::MotionDepth::Found}}))
-      ->option_text("given|still|found");
+  addMotionDepth(*command, options->sequence);
   command->add_option("--view-layer", options->sequence.viewLayer, "View layer to read if the files hold several")
       ->type_name("NAME");
   command->footer(kExitCodeHelp);
