@@ -251,5 +251,20 @@ TEST_F(SkaarjFrameGraph, EveryMethodGivesTheSamePixels) {
   }
 }
 
+TEST_F(SkaarjFrameGraph, HistoryConfidenceAndLengthsAreTheSame) {
+  constexpr Size kSize{61, 43};
+  for (const char* method : methodsWithHistory()) {
+    SCOPED_TRACE(method);
+    const WalrDenoiserInfo whole = infoWithHistory(method, kSize);
+    Opaque opaque(host, api(), whole);
+    const WalrPasses passes = makePasses(whole);
+    {
+      Engine engine(host, api(), passes);
+      expectSameHistory(host, opaque, engine, kSize);
+    }
+    EXPECT_EQ(api().destroy_passes(passes), WALR_SUCCESS);
+  }
+}
+
 }  // namespace
 }  // namespace plugin_host

@@ -151,6 +151,7 @@ void host_destroy_buffer(Host* host, HostBuffer* buffer) {
 static uint32_t texel_size_of(VkFormat format) {
   switch (format) {
     case VK_FORMAT_R16_UINT:
+    case VK_FORMAT_R16_SFLOAT:
       return 2;
     case VK_FORMAT_R32_SFLOAT:
     case VK_FORMAT_R32_UINT:
