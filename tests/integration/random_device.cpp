@@ -126,7 +126,8 @@ void RandomDevice::spoil(Dice& dice, Expectation& expected) {
       break;
     case 5:
       device_.value.queue_family = dice.of({77U, 0xffffffffU});
-      break;
+      expected.fails(WALR_ERROR_UNSUPPORTED);
+      return;
     case 6:
       device_.value.device_memory = &memory_.value;
       memory_.value.struct_size = sizeof(WalrMemoryCallbacks);

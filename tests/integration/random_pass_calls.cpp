@@ -190,6 +190,10 @@ void RandomCalls::beginFrame() {
     frame.value.flags = WALR_FRAME_RESET_HISTORY;  // Pass by pass, the host drops histories.
     expected.fails();
   }
+  if (dice_.oneIn(16)) {
+    frame.value.offset[dice_.below(2)] = 1;
+    expected.mayFail();
+  }
   chooseFrame(dice_, expected, frame.value);
   const bool orthographic = picked.model != nullptr && picked.model->orthographic;
   WalrCamera camera;
@@ -206,10 +210,6 @@ void RandomCalls::beginFrame() {
   if (dice_.oneIn(32)) {
     frame.value.finished_value = 1;  // Of no semaphore. Passes that are only listed do not look at it.
     if (picked.model == nullptr || picked.model->recordable) expected.fails();
-  }
-  if (dice_.oneIn(16)) {
-    frame.value.offset[dice_.below(2)] = 1;
-    expected.mayFail();
   }
   const WalrResult result = check_("walr_begin_frame", expected,
                                    {"WalrPasses", "WalrPassFrame", "WalrFrame", "WalrCamera", "camera", "matrix",
