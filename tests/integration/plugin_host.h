@@ -2,8 +2,10 @@
 
 #include <dlfcn.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <iterator>
 #include <span>
 #include <stdexcept>
@@ -216,6 +218,13 @@ class Opaque {
 
   /// @param index with WALR_FRAME_INDEX_GIVEN
   void frame(const WalrCamera& camera, std::uint32_t flags, std::uint32_t index = 0) {
+    WalrPassFrame frame{};
+    frame.camera = &camera;
+    frame.frame_index = index;
+    this->frame(frame, flags);
+  }
+  /// @param like what a frame has in common with one pass by pass
+  void frame(const WalrPassFrame& like, std::uint32_t flags) {
     std::vector<WalrImage> images;
     for (const HostImage& image : images_) {
       WalrImage& given = images.emplace_back();
@@ -228,8 +237,9 @@ class Opaque {
       given.height = image.height;
       given.acquire = {image.stage, image.access, image.layout, 0};
     }
-    WalrFrame frame = frameOf(images, camera, flags);
-    frame.frame_index = index;
+    WalrFrame frame = frameOf(images, *like.camera, flags);
+    frame.frame_index = like.frame_index;
+    std::ranges::copy(like.origin, frame.origin);
     for (std::size_t i = 6; i < names_.size(); ++i) {
       (names_[i] == "confidence" ? frame.confidence : frame.history_length) = &images[i];
     }
@@ -320,6 +330,75 @@ void expectSameHistory(Host& host, Opaque& opaque, Way& way, Size size) {
     const std::vector<std::uint16_t> lengths = download(host, way.image("history_length"));
     EXPECT_EQ(lengths, download(host, opaque.further("history_length")));
     if (number == 4) expectLengthsByConfidence(lengths, size);
+  }
+}
+
+/// Something that a host states beside the usual.
+struct Statement {
+  const char* name;
+  void (*state)(WalrDenoiserInfo& info, WalrConventions& conventions);
+  bool farAway = false;  ///< The cameras are relative to an origin that moves.
+};
+
+inline constexpr Statement kStatements[] = {
+    {"motion of two channels, depth found",
+     [](WalrDenoiserInfo& info, WalrConventions& conventions) {
+       info.motion_format = VK_FORMAT_R32G32_SFLOAT;
+       conventions.motion_depth = WALR_MOTION_DEPTH_FOUND;
+     }},
+    {"orthographic camera",
+     [](WalrDenoiserInfo&, WalrConventions& conventions) { conventions.orthographic = VK_TRUE; }},
+    {"result in 32 bits",
+     [](WalrDenoiserInfo& info, WalrConventions&) { info.denoised_format = VK_FORMAT_B10G11R11_UFLOAT_PACK32; }},
+    {"result in floats",
+     [](WalrDenoiserInfo& info, WalrConventions&) { info.denoised_format = VK_FORMAT_R32G32B32A32_SFLOAT; }},
+    {"large world", [](WalrDenoiserInfo&, WalrConventions&) {}, true},
+};
+
+/// The texels of motion without its third and fourth channel.
+inline std::vector<float> flatMotion(Size size, std::uint32_t frame) {
+  const std::vector<float> whole = texels("motion", size, frame);
+  std::vector<float> flat;
+  for (std::size_t i = 0; i < whole.size(); i += 4) flat.insert(flat.end(), {whole[i], whole[i + 1]});
+  return flat;
+}
+
+/// Compare four frames of the opaque call and of another way to run the same passes, for each of `kStatements`.
+/// @param usual   the usual description
+/// @param makeWay creates the other way from a description and hands it to its second argument
+template <typename MakeWay>
+void expectSameStatements(Host& host, const WalrApi& api, const WalrDenoiserInfo& usual, Size size, MakeWay makeWay) {
+  for (const Statement& statement : kStatements) {
+    SCOPED_TRACE(statement.name);
+    WalrConventions conventions{};
+    conventions.struct_size = sizeof(conventions);
+    WalrDenoiserInfo stated = usual;
+    stated.conventions = &conventions;
+    statement.state(stated, conventions);
+    Opaque opaque(host, api, stated);
+    makeWay(stated, [&](auto& way) {
+      for (std::uint32_t number = 0; number < 4; ++number) {
+        for (const auto& imageOf : {std::function([&](std::size_t i) { return &opaque.image(i); }),
+                                    std::function([&](std::size_t i) { return &way.image(kInputs[i]); })}) {
+          uploadFrame(host, size, number, imageOf);
+          if (stated.motion_format != usual.motion_format) {
+            host_upload(&host, imageOf(3), flatMotion(size, number).data());
+          }
+        }
+        WalrCamera camera = cameraAt(statement.farAway ? 0.0F : float(number) * kStep);
+        if (conventions.orthographic == VK_TRUE) {
+          constexpr float kParallel[16] = {0.5F, 0, 0, 0, 0, 0.5F, 0, 0, 0, 0, -0.01F, 0, 0, 0, 0, 1};
+          std::ranges::copy(kParallel, camera.projection);
+        }
+        WalrPassFrame frame = passFrame(camera);
+        if (statement.farAway) frame.origin[0] = 1e6 + double(number) * double(kStep);
+        opaque.frame(frame, 0);
+        way.frame(frame);
+        const std::vector<std::uint16_t> result = download(host, way.image("denoised"));
+        EXPECT_EQ(result, download(host, opaque.output())) << "frame " << number;
+        EXPECT_GT(std::ranges::count_if(result, [](std::uint16_t bits) { return bits != 0; }), result.size() / 2);
+      }
+    });
   }
 }
 

@@ -86,6 +86,21 @@ TEST_F(PluginTest, HistoryConfidenceAndLengthsAreTheSamePassByPass) {
   }
 }
 
+TEST_F(PluginTest, WhatAHostStatesGivesTheSamePixelsPassByPass) {
+  constexpr Size kSize{61, 43};
+  for (const char* method : {"walr", "svgf"}) {
+    SCOPED_TRACE(method);
+    expectSameStatements(host, api(), info(method, kSize), kSize, [&](const WalrDenoiserInfo& stated, auto compare) {
+      const WalrPasses passes = makePasses(stated);
+      {
+        tiny_host::Graph way(host, api(), passes);
+        compare(way);
+      }
+      EXPECT_EQ(api().destroy_passes(passes), WALR_SUCCESS);
+    });
+  }
+}
+
 /// Passes of a size, in a host's graph.
 struct SizedGraph {
   WalrPasses passes;

@@ -266,5 +266,20 @@ TEST_F(SkaarjFrameGraph, HistoryConfidenceAndLengthsAreTheSame) {
   }
 }
 
+TEST_F(SkaarjFrameGraph, WhatAHostStatesGivesTheSamePixels) {
+  constexpr Size kSize{61, 43};
+  for (const char* method : {"walr", "svgf"}) {
+    SCOPED_TRACE(method);
+    expectSameStatements(host, api(), info(method, kSize), kSize, [&](const WalrDenoiserInfo& stated, auto compare) {
+      const WalrPasses passes = makePasses(stated);
+      {
+        Engine way(host, api(), passes);
+        compare(way);
+      }
+      EXPECT_EQ(api().destroy_passes(passes), WALR_SUCCESS);
+    });
+  }
+}
+
 }  // namespace
 }  // namespace plugin_host
