@@ -77,7 +77,7 @@ class Batch {
     for (const Variant& variant : variants) {
       RunRecord record;
       record.variant = variant.name;
-      lanes_.push_back({GpuDenoiser(device, *makeVariant(variant), sequence.extent(), *sequence.layout().layout, {}, 1,
+      lanes_.push_back({GpuDenoiser(device, *makeVariant(variant), sequence.extent(), sequence.denoiserLayout(), {}, 1,
                                     sequence.layout().objectIds),
                         std::move(record),
                         {},

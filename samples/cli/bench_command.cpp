@@ -20,6 +20,7 @@
 #include "samples/command_line/arguments.h"
 #include "samples/command_line/device_options.h"
 #include "samples/command_line/exit_code.h"
+#include "samples/command_line/motion_depth.h"
 #include "samples/command_line/usage_error.h"
 #include "samples/image/file_output.h"
 
@@ -32,6 +33,7 @@ struct BenchArguments {
   std::vector<std::string> variants;
   std::vector<std::string> sweeps;
   std::string frames;
+  SequenceOptions sequence;
   std::vector<std::string> sizes;
   GpuDevice::Options gpu;
   BenchOptions bench;
@@ -80,10 +82,9 @@ void runBench(BenchArguments& arguments, const std::string& command) {
   for (const std::string& size : arguments.sizes) arguments.bench.sizes.push_back(parseSize(size));
   arguments.bench.variants = chosenVariants(arguments);
   refuseOutputIntoInput(arguments);
-  SequenceOptions options;
-  options.nonFinite = NonFinitePolicy::Replace;
-  if (!arguments.frames.empty()) options.frames = parseFrameRange(arguments.frames);
-  const std::vector<NamedSequence> sequences = openSequences(arguments.sequences, options);
+  arguments.sequence.nonFinite = NonFinitePolicy::Replace;
+  if (!arguments.frames.empty()) arguments.sequence.frames = parseFrameRange(arguments.frames);
+  const std::vector<NamedSequence> sequences = openSequences(arguments.sequences, arguments.sequence);
   arguments.bench.vmaf = VmafTool::find(arguments.ffmpeg, arguments.vmafModel, arguments.bench.whyNoVmaf);
   const std::filesystem::path& output = arguments.bench.output;
   prepareOutputDirectory(output);
@@ -140,6 +141,7 @@ void registerBench(CLI::App& program) {
       ->type_name("NAME=METHOD[:PRESET][,SETTING=VALUE]...");
   command->add_option("--sweep", arguments->sweeps, sweepHelp())->type_name("NAME");
   command->add_option("--frames", arguments->frames, "First and last frame; default: all")->type_name("A-B");
+  addMotionDepth(*command, arguments->sequence);
   command
       ->add_option(
           "--sizes", arguments->sizes,

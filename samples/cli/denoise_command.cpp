@@ -5,7 +5,6 @@
 #include <cmath>
 #include <filesystem>
 #include <iostream>
-#include <map>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -22,6 +21,7 @@
 #include "samples/command_line/device_options.h"
 #include "samples/command_line/exit_code.h"
 #include "samples/command_line/method_options.h"
+#include "samples/command_line/motion_depth.h"
 #include "samples/command_line/usage_error.h"
 #include "samples/denoise/frame_output.h"
 #include "samples/denoise/light_denoisers.h"
@@ -49,7 +49,6 @@ struct DenoiseOptions {
   std::string exposure = "auto";
   std::string light;  ///< Empty: see `chosenLight`.
   std::string directLight = "frame";
-  std::optional<InputConventions::MotionDepth> motionDepth;  ///< Nothing: as the layout says.
   std::vector<std::string> views;
   bool listViews = false;
   bool counters = false;
@@ -185,12 +184,12 @@ void describeComposite(std::ostream& stream, const RecognizedLayout& layout, std
 
 /// @throws UsageError naming a view of an iteration that does not exist at this image size, or contradictory settings
 LightDenoisers makeDenoisers(const DenoiseOptions& options, const GpuDevice& device,
-                             std::span<const LightMethod> lights, const Sequence& sequence, const Layout& layout) {
+                             std::span<const LightMethod> lights, const Sequence& sequence) {
   try {
     return {device,
             lights,
             sequence.extent(),
-            layout,
+            sequence.denoiserLayout(),
             {.views = options.views, .counters = options.counters},
             kFramesInFlight,
             sequence.layout().objectIds};
@@ -237,10 +236,8 @@ void denoise(DenoiseOptions& options) {
     options.output.directPlane = sequence.layout().plane(Light::Direct);
   }
 
-  Layout layout = *sequence.layout().layout;
-  if (options.motionDepth) layout = withMotionDepth(layout, *options.motionDepth);
   GpuDevice device(options.gpu);
-  LightDenoisers denoiser = makeDenoisers(options, device, methods, sequence, layout);
+  LightDenoisers denoiser = makeDenoisers(options, device, methods, sequence);
   DenoiseReport report = newReport(options, light, methods, device, sequence);
   std::cout << "method: " << report.method << ", light: " << light << "\ndevice: " << report.device << ", driver "
             << report.driver << (report.softwareDevice ? " (software)" : "") << std::endl;
@@ -354,16 +351,7 @@ void registerDenoise(CLI::App& program) {
                    "from the cameras are detected without it")
       ->allow_extra_args(false)
       ->type_name("N");
-  command
-      ->add_option("--motion-depth", options->motionDepth,
-                   "Change of a surface's depth since the last frame: given by the third channel of motion, that of a "
-                   "still scene, or found in the last frame's depths; default: given if the layout has that channel, "
-                   "else still")
-      ->transform(CLI::CheckedTransformer(
-          std::map<std::string, InputConventions::MotionDepth>{{"given", InputConventions::MotionDepth::Given},
-                                                               {"still", InputConventions::MotionDepth::StaticScene},
-                                                               {"found", InputConventions::MotionDepth::Found}}))
-      ->option_text("given|still|found");
+  addMotionDepth(*command, options->sequence);
   command->add_option("--view-layer", options->sequence.viewLayer, "View layer to read if the files hold several")
       ->type_name("NAME");
   command->footer(kExitCodeHelp);

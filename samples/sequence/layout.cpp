@@ -242,9 +242,10 @@ const Layout& projectLayout() {
   return layout;
 }
 
-Layout withMotionDepth(const Layout& layout, InputConventions::MotionDepth source) {
+Layout withMotionDepth(const Layout& layout, InputConventions::MotionDepth source, const std::filesystem::path& file) {
   if (source == InputConventions::MotionDepth::Given && planeOf(layout, Role::Motion).components.size() < 3) {
-    throw InputError("the change of depth is not given: the motion of layout '" + std::string(layout.name) +
+    throw InputError(file.string() + ": the change of depth is not given: the motion of layout '" +
+                     std::string(layout.name) +
                      "' has no third component; it can be found, or computed for a still scene");
   }
   Layout changed = layout;

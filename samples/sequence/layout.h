@@ -61,8 +61,9 @@ const Layout& cyclesLayout5();
 const Layout& projectLayout();
 
 /// A layout whose change of depth has another source than the layout says.
+/// @param file  a file with the layout, for the error
 /// @throws InputError if it is to be given, and the layout's motion has no third component
-Layout withMotionDepth(const Layout& layout, InputConventions::MotionDepth source);
+Layout withMotionDepth(const Layout& layout, InputConventions::MotionDepth source, const std::filesystem::path& file);
 
 /// The layout of a file, with the file's view layer.
 struct RecognizedLayout {

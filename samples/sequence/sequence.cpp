@@ -126,6 +126,8 @@ void Sequence::checkHeaders() {
     const ExrReader file(entry.file);
     if (layout_.layout == nullptr) {
       layout_ = recognizeLayout(file, options_.viewLayer);
+      denoiserLayout_ =
+          options_.motionDepth ? withMotionDepth(*layout_.layout, *options_.motionDepth, entry.file) : *layout_.layout;
       extent_ = {static_cast<std::uint32_t>(file.width()), static_cast<std::uint32_t>(file.height())};
       if (layout_.layout->cameras == CameraSource::JsonFile) {
         cameras = readCameraFile(folder_ / "cameras.json");

@@ -29,6 +29,7 @@ struct SequenceOptions {
   std::string viewLayer;             ///< See `recognizeLayout`.
   std::vector<int> cuts;             ///< Frames that follow a camera cut, in addition to those that the cameras show.
   NonFinitePolicy nonFinite = NonFinitePolicy::Fail;
+  std::optional<InputConventions::MotionDepth> motionDepth;  ///< Absent: as the layout says.
 };
 
 /// A folder of frames. The constructor checks names, numbers, channels, sizes and cameras of all frames before any
@@ -49,7 +50,10 @@ class Sequence {
   Sequence(std::filesystem::path folder, SequenceOptions options);
 
   [[nodiscard]] const std::vector<Entry>& entries() const { return entries_; }
+  /// What the files hold.
   [[nodiscard]] const RecognizedLayout& layout() const { return layout_; }
+  /// What a denoiser is told of the frames: the files' layout with `SequenceOptions::motionDepth`.
+  [[nodiscard]] const Layout& denoiserLayout() const { return denoiserLayout_; }
   [[nodiscard]] fg::Extent extent() const { return extent_; }
   [[nodiscard]] bool hasReferences() const;
 
@@ -67,6 +71,7 @@ class Sequence {
   SequenceOptions options_;
   std::vector<Entry> entries_;
   RecognizedLayout layout_;
+  Layout denoiserLayout_;
   fg::Extent extent_;
 };
 

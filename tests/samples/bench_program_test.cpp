@@ -167,6 +167,9 @@ TEST_F(BenchProgramTest, RunsOnlyWhatIsMissingOrHasChanged) {
   });
   const ProcessResult changed = bench(first, {"--methods", "accumulate"});
   EXPECT_NE(changed.err.find("0 of 2 variants"), std::string::npos) << changed.err;
+  const ProcessResult found = bench(first, {"--methods", "accumulate", "--motion-depth", "found"});
+  expectSuccess(found);
+  EXPECT_NE(found.err.find("0 of 2 variants"), std::string::npos) << found.err;
 }
 
 TEST_F(BenchProgramTest, TimesAtOtherSizes) {

@@ -130,6 +130,27 @@ TEST_F(SequenceTest, TheProjectsOwnLayoutRoundTrips) {
   EXPECT_EQ(read.reference->indirect.at(5, 3, 2), 2.0F);
 }
 
+TEST_F(SequenceTest, TheChangeOfDepthMayHaveAnotherSource) {
+  using enum InputConventions::MotionDepth;
+  writeFrame(directory.path(), test::projectFrame(7, 6, 4));
+  EXPECT_EQ(open().denoiserLayout().conventions.motionDepth, Given);
+  SequenceOptions options;
+  options.motionDepth = Found;
+  EXPECT_EQ(open(options).denoiserLayout().conventions.motionDepth, Found);
+  EXPECT_EQ(open(options).layout().layout, &projectLayout()) << "the files are what they are";
+}
+
+TEST_F(SequenceTest, MotionOfTwoChannelsCannotGiveTheChangeOfDepth) {
+  using enum InputConventions::MotionDepth;
+  files.write(3, 5);
+  EXPECT_EQ(open().denoiserLayout().conventions.motionDepth, StaticScene);
+  SequenceOptions options;
+  options.motionDepth = Found;
+  EXPECT_EQ(open(options).denoiserLayout().conventions.motionDepth, Found);
+  options.motionDepth = Given;
+  expectRefused({"noisy_0003.exr", "no third component"}, options);
+}
+
 TEST_F(SequenceTest, ReferencesMayHavePixelsThatAreNanInAllChannels) {
   constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
   writeFrame(directory.path(), test::projectFrame(7, 6, 4));

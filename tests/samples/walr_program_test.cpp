@@ -12,6 +12,8 @@
 
 #include "passes/denoiser.h"
 #include "samples/image/exr.h"
+#include "samples/sequence/sequence.h"
+#include "samples/sequence/writer.h"
 #include "tests/samples/process.h"
 #include "tests/samples/schema_check.h"
 #include "tests/samples/synthetic_sequence.h"
@@ -192,6 +194,24 @@ TEST_F(ProgramTest, LintsWhatItRendered) {
   const ProcessResult result = walr({"lint", input.string(), "--validate"});
   expectSuccess(result);
   EXPECT_NE(result.out.find("4 frames, nothing looks wrong"), std::string::npos) << result.out;
+}
+
+TEST_F(ProgramTest, TellsTheLinterAndTheDenoiserThatMotionHasNoDepth) {
+  const std::string scene = std::string(WALR_SCENES) + "/box.gltf";
+  expectSuccess(walr(
+      {"render", scene, "--output", input.string(), "--frames", "8-11", "--size", "96x54", "--reference-spp", "0"}));
+  const Sequence sequence(input, {});
+  for (std::size_t i = 0; i < sequence.entries().size(); ++i) {
+    Frame frame = sequence.read(i);
+    for (std::size_t pixel = 0; pixel < frame.motion.pixelCount(); ++pixel) frame.motion.pixel(pixel)[2] = 0.0F;
+    writeFrame(input, frame);
+  }
+  const ProcessResult given = walr({"lint", input.string(), "--motion-depth", "given"});
+  expectFailure(given, kInput, {"1 thing looks wrong"});
+  EXPECT_NE(given.out.find("motion-z-missing"), std::string::npos) << given.out;
+  expectSuccess(walr({"lint", input.string(), "--motion-depth", "found", "--validate"}));
+  expectSuccess(denoise({"--motion-depth", "found"}));
+  expectFailure(walr({"lint", input.string(), "--motion-depth", "guessed"}), kUsage, {"--motion-depth"});
 }
 
 TEST_F(ProgramTest, MethodNoneGivesTheInputBack) {
