@@ -17,8 +17,8 @@ namespace walr {
 ///
 /// A wrong convention shows on most pixels, an accident of a scene on few. Another reading of the inputs is therefore
 /// preferred to the stated one only if it explains more than half of the pixels that distinguish the two. Albedo in the
-/// lighting is found from pairs of neighbours with different albedo: on one surface both receive the same light on
-/// average.
+/// lighting is found from pairs of pixels with different albedo: on one surface both receive the same light on average.
+/// So it is found only where surfaces have textures.
 class InputLinter {
  public:
   explicit InputLinter(const InputConventions& conventions) : conventions_(conventions) {}

@@ -1,52 +1,38 @@
 // Lighting compared with albedo.
-#include <array>
 #include <cmath>
-#include <cstdio>
 
 #include "passes/lint_judge.h"
 
 namespace walr {
-namespace {
 
-/// Mean of the light in a histogram that starts at a word, and the relative variance of that mean.
-struct MeanLight {
-  MeanLight(const LintCounts& counts, std::uint32_t base, std::uint64_t samples) {
-    double sum = 0.0;
-    double squares = 0.0;
-    for (std::uint32_t order = 1; order < kLintOrders; ++order) {
-      const double light = std::exp2(double(order) - double(kLintUnitOrder));
-      sum += double(counts[base + order]) * light;
-      squares += double(counts[base + order]) * light * light;
-    }
-    mean = sum / double(samples);
-    relativeVariance = sum > 0.0 ? squares / (sum * sum) : 0.0;
-  }
-  double mean = 0.0;
-  double relativeVariance = 0.0;  ///< Of the mean, by its standard error.
-};
-
-}  // namespace
-
+/// Of two pixels on one surface, the light is as likely larger on the one as on the other. If it holds albedo, that is
+/// so after a division by albedo. Half-way between, after a division by the square root, pairs lie mostly on one side:
+/// which one tells the two apart. Only the signs of differences count, so that the rare large samples of one sample per
+/// pixel do not hide them.
 void LintJudge::judgeAlbedo() {
-  const std::uint64_t pairs = counts_[kLintPairs];
-  if (pairs < kLeastLintSample) return;
-  const MeanLight more(counts_, kLintLightMore, pairs);
-  const MeanLight less(counts_, kLintLightLess, pairs);
-  const MeanLight dividedMore(counts_, kLintDividedMore, pairs);
-  const MeanLight dividedLess(counts_, kLintDividedLess, pairs);
-  if (!(less.mean > 0.0 && dividedLess.mean > 0.0)) return;
-  const double ratio = more.mean / less.mean;
-  const double divided = dividedMore.mean / dividedLess.mean;
-  // Four standard errors leave noise out. A division by albedo that increases the contrast shows that the difference in
-  // light is real, as in dark joints that are also deep.
-  const double error = std::sqrt(more.relativeVariance + less.relativeVariance);
-  if (std::log(ratio) < 4.0 * error || std::abs(std::log(divided)) > std::log(ratio)) return;
-  std::array<char, 128> figures{};
-  std::snprintf(figures.data(), figures.size(), "%.2f times the light, and %.2f times after a division by albedo",
-                ratio, divided);
+  std::uint64_t follow = 0;
+  std::uint64_t pairs = 0;
+  double balance = 0.0;
+  double variance = 0.0;
+  for (std::uint32_t contrast = 0; contrast < kAlbedoContrasts; ++contrast) {
+    const std::uint64_t follows = counts_[kLintFollowsAlbedo + contrast];
+    const std::uint64_t ignores = counts_[kLintIgnoresAlbedo + contrast];
+    // A small share of light tells pairs of little contrast apart, so these weigh less.
+    const double weight = contrast + 1.0;
+    balance += weight * (double(follows) - double(ignores));
+    variance += weight * weight * double(follows + ignores);
+    follow += follows;
+    pairs += follows + ignores;
+  }
+  // Measured at one sample per pixel on path-traced scenes of 192 x 108 pixels, in standard errors: right light lies at
+  // -1 to -8 after one frame and at -2 to -13 after four, light with albedo in it at 3 to 7 and at 5 to 14 where
+  // surfaces have textures. Pairs share pixels, so that the error is up to 1.6 of these standard errors, which are
+  // those of independent pairs.
+  constexpr double kStandardErrors = 4.0;
+  if (pairs < kLeastLintSample || balance < kStandardErrors * std::sqrt(variance)) return;
   add({"albedo-in-lighting",
-       "of " + std::to_string(pairs) +
-           " pairs of neighbours on one surface, those with at least twice the albedo have " + figures.data(),
+       "the light's contrast is nearer to that of albedo than to none on " +
+           share(follow, pairs, "pairs of pixels on one surface whose albedo differs"),
        "albedo was left in the lighting", "divide it out before the denoiser, and multiply it in after"});
 }
 

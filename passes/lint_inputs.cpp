@@ -22,8 +22,8 @@ fg::Buffer addLintInputs(fg::Graph& graph, const DenoiserInputs& inputs, fg::Buf
       .specialize("kNormalsInWorldSpace", inputs.conventions.normal == InputConventions::Space::World)
       .specialize("kMotionDepthGiven", inputs.conventions.motionDepth == InputConventions::MotionDepth::Given)
       .specialize("kMotionJittered", inputs.conventions.motionJittered)
-      .texels(extent)
       .dispatch(extent);
+  if (inputs.conventions.light.fullSize()) pass.texels(extent);
   specializeLight(pass, inputs.conventions.light);
   return pass.update("counters", counters);
 }

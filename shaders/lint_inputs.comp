@@ -7,7 +7,6 @@
 #include "constants/lint.h"
 #include "include/camera.glsl"
 #include "include/finite.glsl"
-#include "include/luminance.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 0) const bool kNormalsInWorldSpace = false;
@@ -172,12 +171,6 @@ void countNormals(ivec2 p, float z, vec3 n) {
   }
 }
 
-void countOrder(uint base, float light) {
-  const float order =
-      light > 0.0 ? clamp(floor(log2(light)) + float(kLintUnitOrder), 1.0, float(kLintOrders) - 1.0) : 0.0;
-  count(base + uint(order), true);
-}
-
 void countPair(ivec2 p, ivec2 q, float z, vec3 n, LightSample here, vec3 diffuse) {
   if (!inside(q)) return;
   const float otherDepth = depthAt(q);
@@ -189,15 +182,21 @@ void countPair(ivec2 p, ivec2 q, float z, vec3 n, LightSample here, vec3 diffuse
   if (!isUsable(n) || !isUsable(otherNormal) || !isFinite(light) || !isFinite(otherLight)) return;
   if (!isSurfaceDepth(otherDepth) || abs(otherDepth - z) > 0.02 * z) return;
   if (dot(n, otherNormal) < 0.99 * length(n) * length(otherNormal)) return;
-  const float share = luminance(diffuse), otherShare = luminance(otherDiffuse);
-  if (!(min(share, otherShare) >= kAlbedoLeast)) return;
-  if (max(share, otherShare) < kAlbedoContrast * min(share, otherShare)) return;
-  const bool more = share > otherShare;
-  count(kLintPairs, true);
-  countOrder(more ? kLintLightMore : kLintLightLess, luminance(light));
-  countOrder(more ? kLintLightLess : kLintLightMore, luminance(otherLight));
-  countOrder(more ? kLintDividedMore : kLintDividedLess, luminance(light) / share);
-  countOrder(more ? kLintDividedLess : kLintDividedMore, luminance(otherLight) / otherShare);
+  // The channel in which their albedo differs most.
+  float ofAlbedo = 0.0, ofLight = 0.0;  // Octaves.
+  for (int c = 0; c < 3; ++c) {
+    if (!(min(diffuse[c], otherDiffuse[c]) >= kAlbedoLeast && min(light[c], otherLight[c]) > 0.0)) continue;
+    const float contrast = log2(diffuse[c] / otherDiffuse[c]);
+    if (!(abs(contrast) > abs(ofAlbedo))) continue;
+    ofAlbedo = contrast;
+    ofLight = log2(light[c] / otherLight[c]);
+  }
+  const float steps = abs(ofAlbedo) / kAlbedoContrastStep;
+  if (steps < 1.0) return;
+  const uint contrastClass = min(uint(steps), kAlbedoContrasts) - 1u;
+  // Light that ignores albedo lies on either side of none at random, light that holds it on either side of albedo's.
+  const bool follows = ofLight * sign(ofAlbedo) > 0.5 * abs(ofAlbedo);
+  count((follows ? kLintFollowsAlbedo : kLintIgnoresAlbedo) + contrastClass, true);
 }
 
 void countPixel(ivec2 p) {
@@ -214,8 +213,11 @@ void countPixel(ivec2 p) {
   count(kLintRounded, rounding > kMostRounding * z * abs(frame.rayFromPixel.x));
   countMotion(p, z, given.xy * frame.motionScale, given.z);
   countNormals(p, z, n);
-  countPair(p, p + ivec2(1, 0), z, n, light, diffuse);
-  countPair(p, p + ivec2(0, 1), z, n, light, diffuse);
+  // Textures have edges at several scales.
+  for (int distance = 1; distance <= kAlbedoFarthest; distance *= 2) {
+    countPair(p, p + ivec2(distance, 0), z, n, light, diffuse);
+    countPair(p, p + ivec2(0, distance), z, n, light, diffuse);
+  }
 }
 
 void main() {

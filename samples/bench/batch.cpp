@@ -30,6 +30,15 @@ struct Lane {
   std::unique_ptr<Clip> clip;  ///< Results of the first pass, for VMAF.
 };
 
+/// For how many frames before this one each pixel's surface has been visible without a gap.
+std::vector<float> surfaceAges(const std::vector<std::uint32_t>& previousPixels, const std::vector<float>& before) {
+  std::vector<float> ages(previousPixels.size(), 0.0F);
+  for (std::size_t i = 0; i < ages.size(); ++i) {
+    if (previousPixels[i] != kNoPixel) ages[i] = before[previousPixels[i]] + 1.0F;
+  }
+  return ages;
+}
+
 std::uint64_t fingerprintOf(const Image& image) {
   return Fingerprint().add(std::as_bytes(image.values())).value();
 }
@@ -68,7 +77,7 @@ class Batch {
     for (const Variant& variant : variants) {
       RunRecord record;
       record.variant = variant.name;
-      lanes_.push_back({GpuDenoiser(device, *makeVariant(variant), sequence.extent(), *sequence.layout().layout, {}, 1,
+      lanes_.push_back({GpuDenoiser(device, *makeVariant(variant), sequence.extent(), sequence.denoiserLayout(), {}, 1,
                                     sequence.layout().objectIds),
                         std::move(record),
                         {},
@@ -81,14 +90,19 @@ class Batch {
 
   std::vector<RunRecord> run() {
     const std::size_t frames = sequence_.entries().size();
-    VisibleSurfaces previous;
+    BenchFrame previous;
+    std::vector<float> ages;
     for (std::size_t i = 0; i < frames; ++i) {
       BenchFrame frame = readBenchFrame(sequence_, i);
-      keepGroundTruth(frame);
+      const bool reset = frame.packed.frame.resetHistory;
+      const std::vector<std::uint32_t> seenBefore = reset ? std::vector<std::uint32_t>(frame.judged.size(), kNoPixel)
+                                                          : previousPixels(frame.surfaces, previous.surfaces);
+      ages = surfaceAges(seenBefore, ages);
+      keepGroundTruth(frame, ages);
       const std::vector<std::uint32_t> before =
-          frame.packed.frame.resetHistory ? std::vector<std::uint32_t>() : previousPixels(frame.surfaces, previous);
-      forEachLane(i, [&](Lane& lane) { measure(lane, frame, before, previous.mask); });
-      previous = std::move(frame.surfaces);
+          reset ? std::vector<std::uint32_t>() : judgedPairs(seenBefore, frame.judged, previous.judged);
+      forEachLane(i, [&](Lane& lane) { measure(lane, frame, before, previous.judged); });
+      previous = std::move(frame);
       options_.frameDone();
     }
     scoreClips();
@@ -123,10 +137,10 @@ class Batch {
     errors.resetHistory = frame.resetHistory;
     errors.nonFinite = countNonFinite(result);
     if (frame.reference) {
-      DisplayedPair pair = display(result, frame.reference->indirect, input.surfaces.mask);
+      DisplayedPair pair = display(result, frame.reference->indirect, input.judged);
       judge(lane, input, result, pair);
       if (!frame.resetHistory && lane.previous) {
-        judgeChange(lane, pair, input.surfaces.mask, before, previousMask);
+        judgeChange(lane, pair, input.judged, before, previousMask);
       }
       lane.previous = std::move(pair);
     } else {
@@ -135,7 +149,7 @@ class Batch {
   }
 
   void judge(Lane& lane, const BenchFrame& input, const Image& result, const DisplayedPair& pair) {
-    const PixelMask& mask = input.surfaces.mask;
+    const PixelMask& mask = input.judged;
     FrameErrors& errors = lane.record.frames.back();
     const ErrorFigures figures = compare(pair, mask);
     const std::vector<double> flip = flipMap(pair);
@@ -199,11 +213,14 @@ class Batch {
     lane.times.add(picture.passes);
   }
 
-  void keepGroundTruth(const BenchFrame& input) const {
+  void keepGroundTruth(const BenchFrame& input, const std::vector<float>& ages) const {
     const Frame& frame = input.packed.frame;
     if (!isKept(frame.number)) return;
     writeNpy(picture("_reference", frame.number), frame.reference->indirect);
     writeNpy(picture("_noisy", frame.number), frame.indirect);
+    Image age(frame.depth.width(), frame.depth.height(), 1);
+    std::ranges::copy(ages, age.values().begin());
+    writeNpy(picture("_age", frame.number), age);
   }
 
   [[nodiscard]] bool isKept(int frame) const {

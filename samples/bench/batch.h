@@ -15,7 +15,7 @@
 namespace walr {
 
 struct BatchOptions {
-  std::size_t repetitions = 3;              ///< Timed passes over the sequence; at least 1.
+  std::size_t repetitions = 3;              ///< Timed passes over the sequence; 0: errors only.
   std::vector<int> pictureFrames;           ///< Frames whose images and error maps are kept.
   std::filesystem::path pictures;           ///< Existing folder for these images.
   const VmafTool* vmaf = nullptr;           ///< Computes VMAF from clips in the same folder; null: no VMAF.

@@ -26,6 +26,8 @@ std::string setupKey(const GpuDevice& device, const BenchOptions& options) {
 std::string sequenceKey(const std::string& setup, const NamedSequence& sequence, const BenchOptions& options) {
   Fingerprint key;
   key.add(setup).add(options.vmaf ? options.vmaf->description() : std::string());
+  key.add(options.allPictures ? "all pictures" : "few pictures");
+  key.add(std::to_string(static_cast<int>(sequence.sequence.denoiserLayout().conventions.motionDepth)));
   for (const Sequence::Entry& entry : sequence.sequence.entries()) {
     key.addFile(entry.file);
     if (!entry.reference.empty()) key.addFile(entry.reference);
@@ -77,7 +79,7 @@ std::map<std::string, std::vector<PlanCosts>> allCosts(const std::vector<NamedSe
   std::ranges::for_each(sizes, addOnce);
   std::ranges::for_each(kCommonExtents, addOnce);
   const InputConventions conventions =
-      sequences.empty() ? InputConventions{} : sequences.front().sequence.layout().layout->conventions;
+      sequences.empty() ? InputConventions{} : sequences.front().sequence.denoiserLayout().conventions;
   std::map<std::string, std::vector<PlanCosts>> costs;
   for (const Variant& variant : variants) {
     for (std::size_t i = 0; i < extents.size(); ++i) {
@@ -205,7 +207,7 @@ BenchReport bench(const GpuDevice& device, const std::vector<NamedSequence>& seq
     result.layout = sequence.layout().layout->name;
     result.extent = sequence.extent();
     result.frames = survey(sequence);
-    result.pictureFrames = pictureFrames(result.frames);
+    result.pictureFrames = options.allPictures ? judgedFrames(result.frames) : pictureFrames(result.frames);
     BatchOptions batch{.repetitions = options.repetitions,
                        .pictureFrames = result.pictureFrames,
                        .pictures = pictureFolder(options.output, result.name),

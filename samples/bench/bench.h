@@ -39,7 +39,7 @@ std::vector<NamedSequence> openSequences(const std::vector<std::filesystem::path
 struct BenchOptions {
   std::vector<Variant> variants;  ///< The baseline first (`withBaseline`).
   std::filesystem::path output;   ///< Folder in which finished runs are stored, and found again.
-  std::size_t repetitions = 3;    ///< Timed passes over each sequence.
+  std::size_t repetitions = 3;    ///< Timed passes over each sequence; 0: no times.
   std::vector<fg::Extent> sizes;  ///< Also time all variants on synthetic frames of these sizes (`sizeTimes`).
   /// Number of variants that run in alternation, including the baseline, which runs in every batch. More variants need
   /// more device memory and lose more work when interrupted.
@@ -48,6 +48,7 @@ struct BenchOptions {
   std::string whyNoVmaf;         ///< Why there is no VMAF, as text.
   bool hardCases = false;        ///< Also run the hard cases of the arithmetic (`numerics`, `methodHardCases`).
   bool content = false;          ///< Also time all variants on different image content (`contentTimes`).
+  bool allPictures = false;      ///< Keep the images of all frames with a reference, not of `pictureFrames` only.
   bool response = false;         ///< Also run all variants on the synthetic scenes (`responses`).
 };
 
@@ -88,8 +89,9 @@ BenchReport bench(const GpuDevice& device, const std::vector<NamedSequence>& seq
                   std::ostream& log, bool terminal);
 
 /// The folder with the images of a sequence: `VARIANT_FFFF.npy`, `VARIANT.errors_FFFF.npy` (RMSE, SSIM, FLIP),
-/// `VARIANT.change_FFFF.npy` (`errorChange`, if the previous frame also has a reference), `_reference_FFFF.npy` and
-/// `_noisy_FFFF.npy`.
+/// `VARIANT.change_FFFF.npy` (`errorChange`, if the previous frame also has a reference), `_reference_FFFF.npy`,
+/// `_noisy_FFFF.npy` and `_age_FFFF.npy` (for how many earlier frames the pixel's surface has been visible without a
+/// gap).
 std::filesystem::path pictureFolder(const std::filesystem::path& output, const std::string& sequence);
 
 }  // namespace walr

@@ -26,10 +26,9 @@ float depthChangeOfStill(const Frame& frame, int x, int y) {
 }
 
 VisibleSurfaces visibleSurfaces(const Frame& frame, const Layout& layout) {
-  // Without a reference, no pixel is left out.
-  const Image& reference = frame.reference ? frame.reference->indirect : frame.albedo;
+  // The albedo is finite everywhere, so that the mask leaves out no pixel for lack of a reference.
   VisibleSurfaces surfaces{frame.depth, frame.normal, frame.motion,
-                           diffuseMask(frame.albedo, frame.normal, frame.depth, kSkyDepth, reference)};
+                           diffuseMask(frame.albedo, frame.normal, frame.depth, kSkyDepth, frame.albedo)};
   const glm::mat3 toWorld = glm::transpose(glm::mat3(frame.camera.view));
   const bool inView = layout.conventions.normal == InputConventions::Space::View;
   const bool still = layout.conventions.motionDepth == InputConventions::MotionDepth::StaticScene;
@@ -53,25 +52,41 @@ VisibleSurfaces visibleSurfaces(const Frame& frame, const Layout& layout) {
 BenchFrame readBenchFrame(const Sequence& sequence, std::size_t index) {
   BenchFrame result;
   result.packed = packFrame(sequence.read(index));
-  result.surfaces = visibleSurfaces(result.packed.frame, *sequence.layout().layout);
+  const Frame& frame = result.packed.frame;
+  result.surfaces = visibleSurfaces(frame, *sequence.layout().layout);
+  result.judged = frame.reference
+                      ? diffuseMask(frame.albedo, frame.normal, frame.depth, kSkyDepth, frame.reference->indirect)
+                      : result.surfaces.mask;
   return result;
+}
+
+std::vector<std::uint32_t> judgedPairs(std::vector<std::uint32_t> previousPixels, const PixelMask& judged,
+                                       const PixelMask& previousJudged) {
+  for (std::size_t i = 0; i < previousPixels.size(); ++i) {
+    std::uint32_t& previous = previousPixels[i];
+    if (previous != kNoPixel && (judged[i] == 0 || previousJudged[previous] == 0)) previous = kNoPixel;
+  }
+  return previousPixels;
 }
 
 std::vector<FrameFacts> survey(const Sequence& sequence) {
   std::vector<FrameFacts> facts;
-  VisibleSurfaces previous;
+  BenchFrame previous;
   for (std::size_t i = 0; i < sequence.entries().size(); ++i) {
     BenchFrame frame = readBenchFrame(sequence, i);
-    const PixelMask& mask = frame.surfaces.mask;
+    const PixelMask& mask = frame.judged;
     FrameFacts fact;
     fact.number = frame.packed.frame.number;
     fact.resetHistory = frame.packed.frame.resetHistory;
     fact.hasReference = frame.packed.frame.reference.has_value();
-    if (!fact.resetHistory) fact.disoccluded = disoccludedShare(previousPixels(frame.surfaces, previous), mask);
+    if (!fact.resetHistory) {
+      fact.disoccluded =
+          disoccludedShare(judgedPairs(previousPixels(frame.surfaces, previous.surfaces), mask, previous.judged), mask);
+    }
     if (const auto& reference = frame.packed.frame.reference; reference && !reference->indirectHalf.empty()) {
       fact.referenceNoise = referenceNoise(reference->indirect, reference->indirectHalf, mask);
     }
-    previous = std::move(frame.surfaces);
+    previous = std::move(frame);
     facts.push_back(fact);
   }
   return facts;
@@ -89,6 +104,14 @@ std::vector<int> pictureFrames(const std::vector<FrameFacts>& facts) {
       std::ranges::max_element(candidates, {}, [](const FrameFacts& fact) { return fact.disoccluded.value_or(0.0); });
   if (hardest == candidates.end() || hardest->disoccluded.value_or(0.0) == 0.0) return {last};
   return {hardest->number, last};
+}
+
+std::vector<int> judgedFrames(const std::vector<FrameFacts>& facts) {
+  std::vector<int> frames;
+  for (const FrameFacts& fact : facts) {
+    if (fact.hasReference) frames.push_back(fact.number);
+  }
+  return frames;
 }
 
 }  // namespace walr

@@ -14,8 +14,13 @@ namespace walr {
 /// A frame with the data that its measurements need.
 struct BenchFrame {
   PackedFrame packed;
-  VisibleSurfaces surfaces;
+  VisibleSurfaces surfaces;  ///< Its mask holds every pixel with a diffuse lobe.
+  PixelMask judged;          ///< The pixels of this mask that have a reference; all of them in a frame without one.
 };
+
+/// `previousPixels` without the pairs of which a pixel is outside its frame's `judged`.
+std::vector<std::uint32_t> judgedPairs(std::vector<std::uint32_t> previousPixels, const PixelMask& judged,
+                                       const PixelMask& previousJudged);
 
 /// Read a frame.
 /// @throws InputError
@@ -34,9 +39,13 @@ struct FrameFacts {
 /// @throws InputError
 std::vector<FrameFacts> survey(const Sequence& sequence);
 
-/// Numbers of the frames whose images are kept: of those with a reference the last one, and the one with the largest
-/// disocclusion after history has built up. The choice depends on the input alone, so that it favours no method.
+/// Numbers of the frames whose images are kept by default: of those with a reference the last one, and the one with the
+/// largest disocclusion after history has built up. The choice depends on the input alone, so that it favours no
+/// method.
 /// @param facts  must contain a frame with a reference
 std::vector<int> pictureFrames(const std::vector<FrameFacts>& facts);
+
+/// Numbers of all frames with a reference.
+std::vector<int> judgedFrames(const std::vector<FrameFacts>& facts);
 
 }  // namespace walr

@@ -5,9 +5,9 @@
 
 writes to DIR, in the layout of samples/docs/sequences.md ("Blender Cycles"):
 
-    noisy_FFFF.exr   1 sample per pixel (--spp), with the passes that the denoiser needs
+    noisy_FFFF.exr   1 sample per pixel (--spp), with the passes that the denoiser needs and those of whole pictures
     ref_FFFF.exr     the same frame with M samples per pixel (--reference-spp)
-    cameras.json     the camera of every frame
+    cameras.json     the camera of every frame; those of frames from earlier runs are kept
 
 Pixels are sampled at their centres: the pixel filter is 0.01 pixel wide. Each frame has its own random seed, and
 references never share a seed with noisy frames. Clamping, denoising and adaptive sampling are turned off. Existing
@@ -15,12 +15,17 @@ files are kept, so that an interrupted run can be resumed. The scene file itself
 
 Blender's vectors hold the motion of the camera and of objects in the image, but no change of depth. `walr denoise`
 computes the change of depth from the camera alone, which is wrong for moving objects: the script prints their names.
+
+After each file the script prints the remaining time, and at the end the `walr denoise` command for the frames.
 """
 
 import argparse
 import json
+import math
 import pathlib
+import shlex
 import sys
+import time
 
 import bpy
 
@@ -29,6 +34,12 @@ FILTER = "GAUSSIAN"
 FILTER_WIDTH = 0.01
 REFERENCE_SEED = 1000003
 MOST_SAMPLES = 1 << 24
+# Passes of Cycles by the names of their settings. All but the guides add up to the combined pass.
+PASSES = [
+    "combined", "z", "normal", "vector", "diffuse_direct", "diffuse_indirect", "diffuse_color", "glossy_direct",
+    "glossy_indirect", "glossy_color", "transmission_direct", "transmission_indirect", "transmission_color",
+    "volume_direct", "volume_indirect", "emit", "environment"
+]
 
 
 def fail(message):
@@ -103,6 +114,11 @@ def set_up(scene, size):
     # With motion blur Cycles writes no vectors.
     render.use_motion_blur = False
     render.film_transparent = False
+    # Blender 5 asks for the kind of image before the format, and makes every pass a part of its own by default.
+    if hasattr(render.image_settings, "media_type"):
+        render.image_settings.media_type = "MULTI_LAYER_IMAGE"
+    if hasattr(render.image_settings, "use_exr_interleave"):
+        render.image_settings.use_exr_interleave = True
     render.image_settings.file_format = "OPEN_EXR_MULTILAYER"
     render.image_settings.color_depth = "32"
     render.image_settings.exr_codec = "ZIP"
@@ -119,20 +135,20 @@ def set_up(scene, size):
     cycles.time_limit = 0.0
 
     layers = [layer for layer in scene.view_layers if layer.use]
-    if len(layers) > 1:
-        names = ", ".join(layer.name for layer in layers)
-        print(f"warning: the scene has several view layers ({names}): choose one with walr denoise --view-layer NAME")
     for layer in layers:
-        layer.use_pass_z = True
-        layer.use_pass_normal = True
-        layer.use_pass_vector = True
-        layer.use_pass_diffuse_direct = True
-        layer.use_pass_diffuse_indirect = True
-        layer.use_pass_diffuse_color = True
-        layer.use_pass_emit = True
-        # The sky is in this pass; the emission pass holds only surfaces.
-        layer.use_pass_environment = True
+        for name in PASSES:
+            ask_for_pass(layer, f"use_pass_{name}")
         layer.cycles.denoising_store_passes = False
+    return [layer.name for layer in layers]
+
+
+def ask_for_pass(layer, setting):
+    # The settings of passes that only Cycles has are its own.
+    owners = [owner for owner in (layer, layer.cycles) if hasattr(owner, setting)]
+    if not owners:
+        print(f"warning: this version of Blender has no {setting}: composites will lack that pass")
+    for owner in owners:
+        setattr(owner, setting, True)
 
 
 def numbers(matrix):
@@ -167,13 +183,23 @@ def name_moving_objects(scene, frames):
     moving = sorted(name for name in first if name in last and first[name] != last[name])
     if moving:
         print(f"warning: objects move ({', '.join(moving[:8])}{', ...' if len(moving) > 8 else ''}): walr denoise uses "
-              "their motion in the image, but not their change of depth")
+              "their motion in the image; let it find their change of depth with --motion-depth found")
+    return bool(moving)
+
+
+def write_cameras(file, scene, frames):
+    known = json.loads(file.read_text(encoding="utf-8"))["frames"] if file.exists() else []
+    cameras = {camera["frame"]: camera for camera in known}
+    cameras.update((frame, describe_camera(scene, frame)) for frame in frames)
+    document = {
+        "convention": "column-major; view = world to camera, camera looks down -Z, +Y up; OpenGL clip space (z in -1..1); "
+                      "world = Blender's; prev_view = view of the frame before",
+        "frames": [cameras[frame] for frame in sorted(cameras)],
+    }
+    file.write_text(json.dumps(document, indent=1) + "\n", encoding="utf-8")
 
 
 def render(scene, file, sample_count, seed):
-    if file.exists():
-        print(f"{file.name}: already exists, skipped")
-        return
     scene.cycles.samples = sample_count
     scene.cycles.seed = seed
     # A temporary name until the file is complete. It ends with .exr because Blender would append that otherwise.
@@ -183,28 +209,77 @@ def render(scene, file, sample_count, seed):
     if not unfinished.exists():
         fail(f"Blender wrote no {unfinished}")
     unfinished.replace(file)
-    print(f"{file.name}: rendered")
+
+
+class RemainingTime:
+    """Estimates the time until all files are rendered, from the mean time of the finished ones.
+
+    Files with more samples take longer, so each number of samples has its own mean. Until one of them is finished, its
+    mean follows from another one's in proportion to the samples.
+    """
+
+    def __init__(self, sample_counts):
+        self.waiting = {count: sample_counts.count(count) for count in set(sample_counts)}
+        self.times = {count: [] for count in self.waiting}
+
+    def finished(self, sample_count, seconds):
+        self.waiting[sample_count] -= 1
+        self.times[sample_count].append(seconds)
+
+    def mean(self, sample_count):
+        known = {count: sum(times) / len(times) for count, times in self.times.items() if times}
+        nearest = min(known, key=lambda count: abs(math.log(count / sample_count)))
+        return known[nearest] * sample_count / nearest
+
+    def text(self):
+        seconds = math.ceil(sum(count * self.mean(samples) for samples, count in self.waiting.items() if count))
+        minutes, seconds = divmod(seconds, 60)
+        hours, minutes = divmod(minutes, 60)
+        return f"{hours}:{minutes:02d}:{seconds:02d}" if hours else f"{minutes}:{seconds:02d}"
+
+
+def render_all(scene, output, arguments):
+    jobs = []
+    for frame in arguments.frames:
+        jobs.append((frame, output / f"noisy_{frame:04d}.exr", arguments.spp, frame + 1))
+        if arguments.reference_spp:
+            jobs.append((frame, output / f"ref_{frame:04d}.exr", arguments.reference_spp, REFERENCE_SEED + frame))
+    existing = [file for _, file, _, _ in jobs if file.exists()]
+    for file in existing:
+        print(f"{file.name}: already exists, skipped")
+    jobs = [job for job in jobs if job[1] not in existing]
+    remaining = RemainingTime([sample_count for _, _, sample_count, _ in jobs])
+    for number, (frame, file, sample_count, seed) in enumerate(jobs, 1):
+        start = time.monotonic()
+        scene.frame_set(frame)
+        render(scene, file, sample_count, seed)
+        remaining.finished(sample_count, time.monotonic() - start)
+        print(f"{file.name}: rendered, {number} of {len(jobs)}, {remaining.text()} left", flush=True)
+
+
+def denoise_command(output, layers, moving):
+    command = ["walr", "denoise", str(output), "--output", f"{output}-denoised", "--composite", "--png"]
+    if moving:
+        command += ["--motion-depth", "found"]
+    if len(layers) > 1:
+        command += ["--view-layer", layers[0]]
+    return shlex.join(command)
 
 
 def main():
     arguments = parse_arguments()
     scene = bpy.context.scene
     choose_camera(scene, arguments.camera)
-    set_up(scene, arguments.size)
+    layers = set_up(scene, arguments.size)
+    if len(layers) > 1:
+        print(f"warning: the scene has several view layers ({', '.join(layers)}): walr denoise reads one at a time, "
+              "which --view-layer names")
     output = arguments.output.resolve()
     output.mkdir(parents=True, exist_ok=True)
-    name_moving_objects(scene, arguments.frames)
-    cameras = {
-        "convention": "column-major; view = world to camera, camera looks down -Z, +Y up; OpenGL clip space (z in -1..1); "
-                      "world = Blender's; prev_view = view of the frame before",
-        "frames": [describe_camera(scene, frame) for frame in arguments.frames],
-    }
-    (output / "cameras.json").write_text(json.dumps(cameras, indent=1) + "\n", encoding="utf-8")
-    for frame in arguments.frames:
-        scene.frame_set(frame)
-        render(scene, output / f"noisy_{frame:04d}.exr", arguments.spp, frame + 1)
-        if arguments.reference_spp:
-            render(scene, output / f"ref_{frame:04d}.exr", arguments.reference_spp, REFERENCE_SEED + frame)
+    moving = name_moving_objects(scene, arguments.frames)
+    write_cameras(output / "cameras.json", scene, arguments.frames)
+    render_all(scene, output, arguments)
+    print(f"Finished. Denoise the frames with\n    {denoise_command(output, layers, moving)}", flush=True)
 
 
 main()

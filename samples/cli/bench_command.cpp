@@ -20,6 +20,7 @@
 #include "samples/command_line/arguments.h"
 #include "samples/command_line/device_options.h"
 #include "samples/command_line/exit_code.h"
+#include "samples/command_line/motion_depth.h"
 #include "samples/command_line/usage_error.h"
 #include "samples/image/file_output.h"
 
@@ -32,6 +33,7 @@ struct BenchArguments {
   std::vector<std::string> variants;
   std::vector<std::string> sweeps;
   std::string frames;
+  SequenceOptions sequence;
   std::vector<std::string> sizes;
   GpuDevice::Options gpu;
   BenchOptions bench;
@@ -73,13 +75,16 @@ void runBench(BenchArguments& arguments, const std::string& command) {
       !arguments.bench.hardCases) {
     throw UsageError("nothing to measure: give --sequences DIR..., --sizes, --content, --response or --hard-cases");
   }
+  if (arguments.bench.repetitions == 0 && (!arguments.sizes.empty() || arguments.bench.content)) {
+    throw UsageError(
+        "--repeat 0 measures errors only, but --sizes and --content measure times: give --repeat 1 or more");
+  }
   for (const std::string& size : arguments.sizes) arguments.bench.sizes.push_back(parseSize(size));
   arguments.bench.variants = chosenVariants(arguments);
   refuseOutputIntoInput(arguments);
-  SequenceOptions options;
-  options.nonFinite = NonFinitePolicy::Replace;
-  if (!arguments.frames.empty()) options.frames = parseFrameRange(arguments.frames);
-  const std::vector<NamedSequence> sequences = openSequences(arguments.sequences, options);
+  arguments.sequence.nonFinite = NonFinitePolicy::Replace;
+  if (!arguments.frames.empty()) arguments.sequence.frames = parseFrameRange(arguments.frames);
+  const std::vector<NamedSequence> sequences = openSequences(arguments.sequences, arguments.sequence);
   arguments.bench.vmaf = VmafTool::find(arguments.ffmpeg, arguments.vmafModel, arguments.bench.whyNoVmaf);
   const std::filesystem::path& output = arguments.bench.output;
   prepareOutputDirectory(output);
@@ -136,6 +141,7 @@ void registerBench(CLI::App& program) {
       ->type_name("NAME=METHOD[:PRESET][,SETTING=VALUE]...");
   command->add_option("--sweep", arguments->sweeps, sweepHelp())->type_name("NAME");
   command->add_option("--frames", arguments->frames, "First and last frame; default: all")->type_name("A-B");
+  addMotionDepth(*command, arguments->sequence);
   command
       ->add_option(
           "--sizes", arguments->sizes,
@@ -154,10 +160,15 @@ void registerBench(CLI::App& program) {
   command->add_flag("--response", arguments->bench.response,
                     "Also measure how each variant responds to change, on synthetic scenes with known truth: first "
                     "frame, settled error and flicker, a light that dims or moves, disocclusion, a camera cut");
+  command->add_flag(
+      "--all-pictures", arguments->bench.allPictures,
+      "Keep the images and error maps of every frame with a reference, for analysis elsewhere; default: of "
+      "the last one and the one with the largest disocclusion");
   command
-      ->add_option("--repeat", arguments->bench.repetitions,
-                   "Number of timed passes over each sequence, after one that warms up and measures errors")
-      ->check(CLI::Range(1, 1000))
+      ->add_option(
+          "--repeat", arguments->bench.repetitions,
+          "Number of timed passes over each sequence, after one that warms up and measures errors; 0: no times")
+      ->check(CLI::Range(0, 1000))
       ->capture_default_str();
   command
       ->add_option("--batch", arguments->bench.batch,

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <filesystem>
 #include <iostream>
-#include <map>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -22,9 +21,10 @@
 #include "samples/command_line/device_options.h"
 #include "samples/command_line/exit_code.h"
 #include "samples/command_line/method_options.h"
+#include "samples/command_line/motion_depth.h"
 #include "samples/command_line/usage_error.h"
 #include "samples/denoise/frame_output.h"
-#include "samples/denoise/gpu_denoiser.h"
+#include "samples/denoise/light_denoisers.h"
 #include "samples/denoise/pipeline.h"
 #include "samples/denoise/progress.h"
 #include "samples/denoise/report.h"
@@ -47,8 +47,8 @@ struct DenoiseOptions {
   std::filesystem::path json;
   std::string nonFinite = "fail";
   std::string exposure = "auto";
+  std::string light;  ///< Empty: see `chosenLight`.
   std::string directLight = "frame";
-  std::optional<InputConventions::MotionDepth> motionDepth;  ///< Nothing: as the layout says.
   std::vector<std::string> views;
   bool listViews = false;
   bool counters = false;
@@ -126,14 +126,70 @@ std::optional<float> parseExposure(const std::string& text) {
   return stops;
 }
 
+/// The value of --light, or its default.
+std::string chosenLight(const DenoiseOptions& options) {
+  const bool directIsReference = options.directLight == "reference";
+  if (options.light.empty()) return options.output.composite && !directIsReference ? "both" : "indirect";
+  if (directIsReference && options.light != "indirect") {
+    throw UsageError("--direct-light reference takes the direct light of lit images from the reference, and --light " +
+                     options.light + " denoises that of the frames: leave out one of them");
+  }
+  return options.light;
+}
+
+/// The lights that a value of --light names.
+std::vector<Light> lightsOf(const std::string& light) {
+  std::vector<Light> lights;
+  if (light != "direct") lights.push_back(Light::Indirect);
+  if (light != "indirect") lights.push_back(Light::Direct);
+  return lights;
+}
+
+/// The methods of the lights, with their settings.
+std::vector<LightMethod> methodsOf(const MethodOptions& options, std::span<const Light> lights) {
+  std::vector<LightMethod> methods;
+  for (const Light light : lights) {
+    MethodOptions chosen = options;
+    // Shadows of direct light have more detail than the fits follow. This preset takes it from the accumulated light.
+    if (light == Light::Direct && chosen.name == "walr" && chosen.preset.empty()) chosen.preset = "many-samples";
+    methods.push_back({light, makeMethod(chosen)});
+  }
+  return methods;
+}
+
+SettingsText settingsOf(Denoiser& method) {
+  SettingsText settings;
+  for (const SettingText& setting : method.settings()) settings.emplace_back(setting.name, setting.value);
+  return settings;
+}
+
+/// What must be read to denoise these lights and to write what was asked for.
+LightWish lightsToRead(const OutputOptions& output, std::span<const Light> denoised) {
+  if (output.composite) return kWholePicture;
+  const auto isDenoised = [&](Light light) { return std::ranges::find(denoised, light) != denoised.end(); };
+  return {.indirect = isDenoised(Light::Indirect), .direct = isDenoised(Light::Direct)};
+}
+
+/// Says once what a composite consists of beside the denoised lights.
+void describeComposite(std::ostream& stream, const RecognizedLayout& layout, std::vector<Light> denoised,
+                       bool referenceDirect) {
+  if (referenceDirect) {
+    stream << "composite: direct light is that of the reference, where there is one\n";
+    denoised.push_back(Light::Direct);
+  }
+  stream << "composite: added as they are, without denoising: " << describeUndenoised(layout, denoised) << '\n';
+  const std::string missing = describeMissing(layout);
+  if (!missing.empty()) stream << "composite: the frames have no " << missing << '\n';
+}
+
 /// @throws UsageError naming a view of an iteration that does not exist at this image size, or contradictory settings
-GpuDenoiser makeGpuDenoiser(const DenoiseOptions& options, const GpuDevice& device, Denoiser& method,
-                            const Sequence& sequence, const Layout& layout) {
+LightDenoisers makeDenoisers(const DenoiseOptions& options, const GpuDevice& device,
+                             std::span<const LightMethod> lights, const Sequence& sequence) {
   try {
     return {device,
-            method,
+            lights,
             sequence.extent(),
-            layout,
+            sequence.denoiserLayout(),
             {.views = options.views, .counters = options.counters},
             kFramesInFlight,
             sequence.layout().objectIds};
@@ -142,44 +198,56 @@ GpuDenoiser makeGpuDenoiser(const DenoiseOptions& options, const GpuDevice& devi
   }
 }
 
+/// The report of a run, without frames.
+DenoiseReport newReport(const DenoiseOptions& options, const std::string& light, std::span<const LightMethod> methods,
+                        const GpuDevice& device, const Sequence& sequence) {
+  DenoiseReport report;
+  report.method = options.method.name;
+  report.settings = settingsOf(*methods.front().method);
+  if (methods.size() > 1) report.directSettings = settingsOf(*methods.back().method);
+  report.device = device.name();
+  report.driver = device.driver();
+  report.softwareDevice = device.isSoftware();
+  report.layout = sequence.layout().layout->name;
+  report.light = light;
+  report.extent = sequence.extent();
+  return report;
+}
+
 void denoise(DenoiseOptions& options) {
-  options.sequence.composite = options.output.composite;
+  const std::string light = chosenLight(options);
+  const std::vector<Light> lights = lightsOf(light);
+  options.sequence.light = lightsToRead(options.output, lights);
   options.output.referenceDirect = options.directLight == "reference";
   options.output.exposure = parseExposure(options.exposure);
   options.sequence.nonFinite = options.nonFinite == "replace" ? NonFinitePolicy::Replace : NonFinitePolicy::Fail;
   if (!options.frames.empty()) {
     options.sequence.frames = parseFrameRange(options.frames);
   }
-  const std::unique_ptr<Denoiser> method = makeMethod(options.method);
-  refuseUnknownViews(options, *method);
+  const std::vector<LightMethod> methods = methodsOf(options.method, lights);
+  refuseUnknownViews(options, *methods.front().method);
   refuseOutputIntoInput(options);
   const Sequence sequence(options.input, options.sequence);
   prepareOutputDirectory(options.output.directory);
   describeInput(std::cout, options.input, sequence);
-
-  Layout layout = *sequence.layout().layout;
-  if (options.motionDepth) layout = withMotionDepth(layout, *options.motionDepth);
-  GpuDevice device(options.gpu);
-  GpuDenoiser denoiser = makeGpuDenoiser(options, device, *method, sequence, layout);
-  DenoiseReport report;
-  report.method = options.method.name;
-  for (const SettingText& setting : method->settings()) {
-    report.settings.emplace_back(setting.name, setting.value);
+  if (options.output.composite) {
+    describeComposite(std::cout, sequence.layout(), lights, options.output.referenceDirect);
+    options.output.indirectPlane = sequence.layout().plane(Light::Indirect);
+    options.output.directPlane = sequence.layout().plane(Light::Direct);
   }
-  report.device = device.name();
-  report.driver = device.driver();
-  report.softwareDevice = device.isSoftware();
-  report.layout = layout.name;
-  report.extent = sequence.extent();
-  std::cout << "method: " << report.method << "\ndevice: " << report.device << ", driver " << report.driver
-            << (report.softwareDevice ? " (software)" : "") << std::endl;
+
+  GpuDevice device(options.gpu);
+  LightDenoisers denoiser = makeDenoisers(options, device, methods, sequence);
+  DenoiseReport report = newReport(options, light, methods, device, sequence);
+  std::cout << "method: " << report.method << ", light: " << light << "\ndevice: " << report.device << ", driver "
+            << report.driver << (report.softwareDevice ? " (software)" : "") << std::endl;
   {
     FrameWriter writer(options.output);
     Progress progress(std::cerr, isatty(STDERR_FILENO) != 0, "frame", sequence.entries().size(),
                       Progress::Clock::now());
     runPipeline(
-        sequence.entries().size(), [&](std::size_t index) { return packFrame(sequence.read(index)); },
-        [&](PackedFrame frame) {
+        sequence.entries().size(), [&](std::size_t index) { return denoiser.pack(sequence.read(index)); },
+        [&](PackedLights frame) {
           std::optional<DenoisedFrame> done = denoiser.full() ? denoiser.finish() : std::nullopt;
           denoiser.submit(std::move(frame));
           return done;
@@ -222,7 +290,7 @@ void registerDenoise(CLI::App& program) {
   input->type_name("DIR");
   CLI::Option* output = command->add_option(
       "-o,--output", options->output.directory,
-      "Folder for denoised_FFFF.exr: half float, Indirect.{R,G,B}, demodulated; created if missing");
+      "Folder for denoised_FFFF.exr: half float, Indirect.{R,G,B} and Direct.{R,G,B}, demodulated; created if missing");
   output->type_name("DIR");
   addMethodOptions(*command, options->method);
   command->add_option("--frames", options->frames, "First and last frame to denoise; default: all")->type_name("A-B");
@@ -243,19 +311,27 @@ void registerDenoise(CLI::App& program) {
                     "Count events inside the method in every frame (non-finite values, rejected history, replaced "
                     "taps, regularised and clamped fits, and more) and print the counts; with --json, also write "
                     "them. Times then include the counting");
-  command->add_flag("--composite", options->output.composite,
-                    "Write the lit image, albedo * (direct + indirect) + emission, as R,G,B; needs those channels. "
-                    "Errors are still those of the indirect light");
+  command
+      ->add_option("--light", options->light,
+                   "Diffuse light to denoise: indirect, direct, or both, each by itself; default: indirect, and both "
+                   "with --composite. Views and counters are those of the indirect light, if it is denoised")
+      ->check(CLI::IsMember({"indirect", "direct", "both"}))
+      ->option_text("indirect|direct|both");
+  command->add_flag(
+      "--composite", options->output.composite,
+      "Also write the lit image as R,G,B: albedo * (direct + indirect), emission, and the light that is "
+      "not diffuse, as it is. The denoised lights then have the names that they have in the frames, which "
+      "Blender's compositor knows");
   command
       ->add_option("--direct-light", options->directLight,
-                   "Direct light of lit images: from the frame, or from its reference if there is one. Engines compute "
-                   "direct light by other means; without its noise, images differ in the denoised light only")
+                   "Direct light of lit images: that of the frame (denoised if --light says so), or not denoised and "
+                   "from the reference if there is one, so that images differ in the denoised indirect light only")
       ->check(CLI::IsMember({"frame", "reference"}))
       ->type_name("")
       ->capture_default_str();
   command->add_flag("--png", options->output.png,
                     "Also write denoised_FFFF.png and comparison_FFFF.png (noisy | denoised | reference), tone-mapped "
-                    "by x/(1+x), then sRGB; with --composite the lit image, and beside or below it the light alone");
+                    "by x/(1+x), then sRGB; with --composite the lit image, and beside or below it each light alone");
   command
       ->add_option(
           "--exposure", options->exposure,
@@ -275,16 +351,7 @@ void registerDenoise(CLI::App& program) {
                    "from the cameras are detected without it")
       ->allow_extra_args(false)
       ->type_name("N");
-  command
-      ->add_option("--motion-depth", options->motionDepth,
-                   "Change of a surface's depth since the last frame: given by the third channel of motion, that of a "
-                   "still scene, or found in the last frame's depths; default: given if the layout has that channel, "
-                   "else still")
-      ->transform(CLI::CheckedTransformer(
-          std::map<std::string, InputConventions::MotionDepth>{{"given", InputConventions::MotionDepth::Given},
-                                                               {"still", InputConventions::MotionDepth::StaticScene},
-                                                               {"found", InputConventions::MotionDepth::Found}}))
-      ->option_text("given|still|found");
+  addMotionDepth(*command, options->sequence);
   command->add_option("--view-layer", options->sequence.viewLayer, "View layer to read if the files hold several")
       ->type_name("NAME");
   command->footer(kExitCodeHelp);

@@ -11,6 +11,7 @@
 #include "samples/command_line/arguments.h"
 #include "samples/command_line/device_options.h"
 #include "samples/command_line/exit_code.h"
+#include "samples/command_line/motion_depth.h"
 #include "samples/denoise/gpu_denoiser.h"
 #include "samples/errors.h"
 #include "samples/sequence/sequence.h"
@@ -29,7 +30,7 @@ void lint(LintOptions& options) {
   if (!options.frames.empty()) options.sequence.frames = parseFrameRange(options.frames);
   options.sequence.nonFinite = NonFinitePolicy::Replace;
   const Sequence sequence(options.input, options.sequence);
-  const Layout& layout = *sequence.layout().layout;
+  const Layout& layout = sequence.denoiserLayout();
   GpuDevice device(options.gpu);
   // The linter runs beside a method; this is the cheapest that takes the light.
   const std::unique_ptr<Denoiser> method = makeDenoiser(layout.conventions.light.everyPixel() ? "none" : "accumulate");
@@ -62,6 +63,7 @@ void registerLint(CLI::App& program) {
   command->add_option("INPUT", options->input, "Folder of frames, as for walr denoise")->required()->type_name("DIR");
   command->add_option("--frames", options->frames, "First and last frame to check; default: all")->type_name("A-B");
   addDeviceOptions(*command, options->gpu);
+  addMotionDepth(*command, options->sequence);
   command->add_option("--view-layer", options->sequence.viewLayer, "View layer to read if the files hold several")
       ->type_name("NAME");
   command->footer(kExitCodeHelp);

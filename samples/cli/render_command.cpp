@@ -10,6 +10,7 @@
 #include "samples/cli/command.h"
 #include "samples/command_line/arguments.h"
 #include "samples/command_line/exit_code.h"
+#include "samples/command_line/usage_error.h"
 #include "samples/denoise/progress.h"
 #include "samples/render/render_sequence.h"
 
@@ -43,6 +44,9 @@ void renderFrames(RenderArguments& arguments) {
   options.width = extent.width;
   options.height = extent.height;
   options.light = lightRates().at(arguments.lightRate);
+  if (!options.light.everyPixel() && options.resampledFrames > 0) {
+    throw UsageError("--light-rate and --resampled-frames: only light at every pixel can be resampled");
+  }
 
   Progress progress(std::cerr, isatty(STDERR_FILENO) != 0, "file", options.files(), Progress::Clock::now(),
                     options.paths());
@@ -106,6 +110,13 @@ void registerRender(CLI::App& program) {
   constexpr std::uint32_t kMostBounces = 1024;
   command->add_option("--bounces", options.bounces, "Largest number of surfaces after the first that reflect light")
       ->check(CLI::Range(0U, kMostBounces))
+      ->capture_default_str();
+  constexpr std::uint32_t kMostResampledFrames = 1000;
+  command
+      ->add_option("--resampled-frames", options.resampledFrames,
+                   "Resample the indirect light of noisy frames from as many earlier frames, as in ReSTIR GI without "
+                   "spatial reuse (Ouyang et al. 2021); engines take 20 to 30; 0: plain paths")
+      ->check(CLI::Range(0U, kMostResampledFrames))
       ->capture_default_str();
   command->add_option("--seed", options.seed, "Seed of the random numbers")->capture_default_str();
   constexpr double kSlowest = 1e-3;

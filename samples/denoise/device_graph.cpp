@@ -5,25 +5,28 @@
 namespace walr {
 namespace {
 
-fg::vk::ExecutorOptions optionsOf(const GpuDevice& gpu, std::uint32_t framesInFlight, DeviceGraph* predecessor) {
+fg::vk::ExecutorOptions optionsOf(const GpuDevice& gpu, std::uint32_t framesInFlight, DeviceGraph* predecessor,
+                                  const fg::vk::Membership& shared) {
   return {.framesInFlight = framesInFlight,
           .timestamps = gpu.device().context().timestampBits > 0,
           .pipelineCache = gpu.pipelineCache() != nullptr ? gpu.pipelineCache()->handle() : VK_NULL_HANDLE,
+          .shared = shared,
           .predecessor = predecessor != nullptr ? &predecessor->executor() : nullptr};
 }
 
 }  // namespace
 
 DeviceGraph::DeviceGraph(const GpuDevice& gpu, const fg::Graph& graph, std::uint32_t framesInFlight,
-                         DeviceGraph* predecessor)
+                         DeviceGraph* predecessor, const fg::vk::Membership& shared)
     : plan_(compileFor(gpu, graph)),
-      executor_(gpu.device().context(), graph.desc(), plan_, optionsOf(gpu, framesInFlight, predecessor)) {}
+      executor_(gpu.device().context(), graph.desc(), plan_, optionsOf(gpu, framesInFlight, predecessor, shared)) {}
 
-ReadbackGraph::ReadbackGraph(const GpuDevice& gpu, const fg::Graph& graph, std::uint32_t framesInFlight)
+ReadbackGraph::ReadbackGraph(const GpuDevice& gpu, const fg::Graph& graph, std::uint32_t framesInFlight,
+                             const fg::vk::Membership& shared)
     : gpu_(gpu),
       declared_(graph),
       framesInFlight_(framesInFlight),
-      graph_(gpu, graph, framesInFlight),
+      graph_(gpu, graph, framesInFlight, nullptr, shared),
       queue_(gpu.device().context(), gpu.device().queue(), framesInFlight) {}
 
 ReadbackGraph::Index ReadbackGraph::readBack(fg::Texture texture) {

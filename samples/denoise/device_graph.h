@@ -25,9 +25,10 @@ class DeviceGraph {
   /// @param gpu          must outlive this
   /// @param predecessor  graph whose histories and pipelines are taken over where they fit; may be null. See
   ///                     `fg::vk::ExecutorOptions::predecessor`, also for how long it must live
+  /// @param shared       what this graph shares with others on the device, see `fg::vk::ExecutorOptions::shared`
   /// @throws see `compileFor` and `fg::vk::Executor`
   DeviceGraph(const GpuDevice& gpu, const fg::Graph& graph, std::uint32_t framesInFlight,
-              DeviceGraph* predecessor = nullptr);
+              DeviceGraph* predecessor = nullptr, const fg::vk::Membership& shared = {});
 
   [[nodiscard]] const fg::Plan& plan() const { return plan_; }
   [[nodiscard]] fg::vk::Executor& executor() { return executor_; }
@@ -44,7 +45,9 @@ class ReadbackGraph {
   using Index = std::size_t;
 
   /// @param gpu, graph  must outlive this
-  ReadbackGraph(const GpuDevice& gpu, const fg::Graph& graph, std::uint32_t framesInFlight);
+  /// @param shared      see `DeviceGraph`
+  ReadbackGraph(const GpuDevice& gpu, const fg::Graph& graph, std::uint32_t framesInFlight,
+                const fg::vk::Membership& shared = {});
 
   /// Read back a texture that the graph imports as `fg::vk::kOverwritable` and exports as `fg::vk::kReadable`.
   Index readBack(fg::Texture texture);

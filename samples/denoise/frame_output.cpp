@@ -1,7 +1,9 @@
 #include "samples/denoise/frame_output.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -14,67 +16,116 @@
 namespace walr {
 namespace {
 
-// Indices into FrameWriter::Versions.
+// Index into FrameWriter::Versions.
 constexpr std::size_t kDenoised = 1;
-constexpr std::size_t kReference = 2;
+
+float finiteOrZero(float value) {
+  return std::isfinite(value) ? value : 0.0F;
+}
+
+/// The first image that is not empty.
+const Image& firstOf(const Image& image, const Image& otherwise) {
+  return image.empty() ? otherwise : image;
+}
+
+/// The reference of a frame, or one without images.
+const Reference& referenceOf(const Frame& frame) {
+  static const Reference none;
+  return frame.reference ? *frame.reference : none;
+}
+
+/// Errors of a light.
+/// @param half  mean of half of the samples of `reference`; may be empty
+LightErrors errorsOf(const Image& denoised, const Image& noisy, const Image& reference, const Image& half,
+                     const Frame& frame) {
+  LightErrors errors;
+  if (denoised.empty() || reference.empty()) return errors;
+  const PixelMask mask = diffuseMask(frame.albedo, frame.normal, frame.depth, kSkyDepth, reference);
+  errors.denoised = compare(denoised, reference, mask);
+  errors.noisy = compare(noisy, reference, mask);
+  if (!half.empty()) errors.referenceNoise = referenceNoise(reference, half, mask);
+  return errors;
+}
 
 }  // namespace
 
 Image composite(const Image& indirect, const Image& direct, const Image& albedo, const Image& emission) {
-  const auto known = [](float value) { return std::isfinite(value) ? value : 0.0F; };
   Image lit(indirect.width(), indirect.height(), 3);
   for (std::size_t i = 0; i < lit.values().size(); ++i) {
-    lit.values()[i] =
-        known(albedo.values()[i]) * (known(direct.values()[i]) + indirect.values()[i]) + known(emission.values()[i]);
+    lit.values()[i] = finiteOrZero(albedo.values()[i]) * (finiteOrZero(direct.values()[i]) + indirect.values()[i]) +
+                      finiteOrZero(emission.values()[i]);
   }
+  return lit;
+}
+
+std::vector<Image> FrameWriter::litImages(const DenoisedFrame& denoised) const {
+  const Frame& frame = denoised.frame;
+  const Reference& reference = referenceOf(frame);
+  Image input = frame.indirect;
+  std::ranges::transform(input.values(), input.values().begin(), finiteOrZero);
+  const Image& indirect = firstOf(denoised.indirect, input);
+  const Image& direct = firstOf(denoised.direct, frame.direct);
+  const auto light = [&](const Image& someIndirect, const Image& someDirect) {
+    const Image& chosen = options_.referenceDirect ? firstOf(reference.direct, someDirect) : someDirect;
+    Image lit = composite(someIndirect, chosen, frame.albedo, frame.emission);
+    for (std::size_t i = 0; i < frame.nonDiffuse.values().size(); ++i) lit.values()[i] += frame.nonDiffuse.values()[i];
+    return lit;
+  };
+  std::vector<Image> lit{light(frame.indirect, frame.direct), light(indirect, direct)};
+  if (frame.reference) lit.push_back(light(firstOf(reference.indirect, indirect), firstOf(reference.direct, direct)));
   return lit;
 }
 
 void FrameWriter::write(const DenoisedFrame& denoised) {
   const Frame& frame = denoised.frame;
-  Versions light = {frame.indirect, denoised.indirect};
-  if (frame.reference) light.push_back(frame.reference->indirect);
-  Versions lit;
-  if (options_.composite) {
-    const bool hasDirect = frame.reference && !frame.reference->direct.empty();
-    for (std::size_t i = 0; i < light.size(); ++i) {
-      const bool takesReference = hasDirect && (options_.referenceDirect || i == kReference);
-      const Image& direct = takesReference ? frame.reference->direct : frame.direct;
-      lit.push_back(composite(light[i], direct, frame.albedo, frame.emission));
-    }
+  std::vector<ExrChannel> channels;
+  std::vector<Versions> rows;
+  const std::vector<Image> lit = options_.composite ? litImages(denoised) : std::vector<Image>{};
+  if (!lit.empty()) {
+    appendChannels(channels, "", "RGB", lit[kDenoised]);
+    Versions& versions = rows.emplace_back();
+    for (const Image& image : lit) versions.push_back(&image);
   }
+  const auto addLight = [&](const std::string& plane, const Image& noisy, const Image& result, const Image& reference) {
+    if (result.empty()) return;
+    appendChannels(channels, plane, "RGB", result);
+    Versions& versions = rows.emplace_back(Versions{&noisy, &result});
+    if (!reference.empty()) versions.push_back(&reference);
+  };
+  addLight(options_.indirectPlane, frame.indirect, denoised.indirect, referenceOf(frame).indirect);
+  addLight(options_.directPlane, frame.direct, denoised.direct, referenceOf(frame).direct);
+
   const auto path = [&](const std::string& prefix) {
     return options_.directory / frameFileName(prefix.c_str(), frame.number, "exr");
   };
-  std::vector<ExrChannel> channels;
-  appendChannels(channels, options_.composite ? "" : "Indirect", "RGB",
-                 options_.composite ? lit[kDenoised] : light[kDenoised]);
   writeExr(path("denoised"), channels);
   for (const ViewPicture& view : denoised.views) {
     std::vector<ExrChannel> components;
     appendChannels(components, "", "XYZ", view.image, ExrType::Float);
     writeExr(path("view_" + view.name), components);
   }
-  if (options_.png) writePngs(denoised, light, lit);
+  if (options_.png) writePngs(frame, rows);
 }
 
-void FrameWriter::writePngs(const DenoisedFrame& denoised, const Versions& light, const Versions& lit) {
+void FrameWriter::writePngs(const Frame& frame, const std::vector<Versions>& rows) {
   PictureGrid result(1);
   PictureGrid comparison;
-  const auto add = [&](const Versions& versions, std::optional<float>& exposure) {
-    if (!exposure || denoised.frame.resetHistory) {
-      exposure = options_.exposure ? options_.exposure : autoExposure(versions.back());
+  exposures_.resize(rows.size());
+  // All rows have the same length: without the reference of some light, no reference is shown.
+  const auto count = [](const Versions& versions) { return versions.size(); };
+  const std::size_t shown = std::ranges::min_element(rows, {}, count)->size();
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const std::span<const Image* const> versions = std::span(rows[i]).first(shown);
+    std::optional<float>& exposure = exposures_[i];
+    if (!exposure || frame.resetHistory) {
+      exposure = options_.exposure ? options_.exposure : autoExposure(*versions.back());
     }
     const float stops = exposure.value_or(0.0F);
-    result.front().push_back({&versions[kDenoised], stops});
+    result.front().push_back({versions[kDenoised], stops});
     std::vector<ExposedPicture>& row = comparison.emplace_back();
-    for (const Image& version : versions) row.push_back({&version, stops});
-  };
-  if (!lit.empty()) add(lit, litExposure_);
-  add(light, lightExposure_);
-  const auto path = [&](const char* prefix) {
-    return options_.directory / frameFileName(prefix, denoised.frame.number, "png");
-  };
+    for (const Image* const version : versions) row.push_back({version, stops});
+  }
+  const auto path = [&](const char* prefix) { return options_.directory / frameFileName(prefix, frame.number, "png"); };
   writePng(path("denoised"), result);
   writePng(path("comparison"), comparison);
 }
@@ -85,16 +136,11 @@ FrameReport measure(const DenoisedFrame& denoised) {
   report.frame = frame.number;
   report.resetHistory = frame.resetHistory;
   report.gpuMilliseconds = denoised.gpuMilliseconds;
-  report.nonFiniteOutput = countNonFinite(denoised.indirect);
+  report.nonFiniteOutput = countNonFinite(denoised.indirect) + countNonFinite(denoised.direct);
   report.counters = denoised.counters;
-  if (frame.reference) {
-    const Image& reference = frame.reference->indirect;
-    const PixelMask mask = diffuseMask(frame.albedo, frame.normal, frame.depth, kSkyDepth, reference);
-    report.denoised = compare(denoised.indirect, reference, mask);
-    report.noisy = compare(frame.indirect, reference, mask);
-    const Image& half = frame.reference->indirectHalf;
-    if (!half.empty()) report.referenceNoise = referenceNoise(reference, half, mask);
-  }
+  const Reference& reference = referenceOf(frame);
+  report.indirect = errorsOf(denoised.indirect, frame.indirect, reference.indirect, reference.indirectHalf, frame);
+  report.direct = errorsOf(denoised.direct, frame.direct, reference.direct, {}, frame);
   return report;
 }
 

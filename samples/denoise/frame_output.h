@@ -21,7 +21,8 @@ struct ViewPicture {
 /// A frame with its result.
 struct DenoisedFrame {
   Frame frame;
-  Image indirect;  ///< 3 components: denoised demodulated diffuse indirect radiance.
+  Image indirect;  ///< 3 components: denoised demodulated diffuse indirect radiance; empty if it is not denoised.
+  Image direct;    ///< The same of direct radiance.
   std::optional<double> gpuMilliseconds;
   std::vector<ViewPicture> views;
   std::vector<CounterValue> counters;
@@ -29,16 +30,18 @@ struct DenoisedFrame {
 
 struct OutputOptions {
   std::filesystem::path directory;
-  /// Write the lit image, albedo * (direct + indirect) + emission, instead of the indirect light.
+  /// Write the lit image, albedo * (direct + indirect) + emission + light that is not diffuse, beside the lights.
   bool composite = false;
+  std::string indirectPlane = "Indirect";  ///< Names of the planes with the denoised lights.
+  std::string directPlane = "Direct";
   /// Take the direct light of lit images from the reference, if there is one, so that only the indirect light differs.
   bool referenceDirect = false;
   bool png = false;               ///< Also write tone-mapped images as PNG.
   std::optional<float> exposure;  ///< Exposure of the PNGs in stops; absent: automatic, see `FrameWriter::write`.
 };
 
-/// The lit image without specular light: albedo * (direct + indirect) + emission. Non-finite values of albedo, direct
-/// light and emission count as 0.
+/// The lit image without light that is not diffuse: albedo * (direct + indirect) + emission. Non-finite values of
+/// albedo, direct light and emission count as 0.
 Image composite(const Image& indirect, const Image& direct, const Image& albedo, const Image& emission);
 
 /// Writes the output files of frames.
@@ -46,25 +49,29 @@ class FrameWriter {
  public:
   explicit FrameWriter(OutputOptions options) : options_(std::move(options)) {}
 
-  /// Write `denoised_FFFF.exr`, and views as `view_NAME_FFFF.exr` in single precision.
+  /// Write `denoised_FFFF.exr` with the denoised lights and, if requested, the lit image as R,G,B; and views as
+  /// `view_NAME_FFFF.exr` in single precision.
   ///
   /// With PNGs also `denoised_FFFF.png`, and `comparison_FFFF.png`: noisy | denoised | reference at one exposure. With
-  /// composites both show the lit image first, and the light alone beside it (denoised) or in a row below (comparison).
+  /// composites both show the lit image first. Each denoised light alone is beside it (denoised) or in a row below
+  /// (comparison).
   ///
-  /// If no exposure is given, it is chosen by `autoExposure`, separately for the lit image and for the light alone,
-  /// from the reference or, without one, from the result. It is chosen at the first frame and at each camera cut, and
-  /// is constant in between so that frames can be compared.
+  /// If no exposure is given, it is chosen by `autoExposure`, separately for the lit image and for each light, from the
+  /// reference or, without one, from the result. It is chosen at the first frame and at each camera cut, and is
+  /// constant in between so that frames can be compared.
   /// @throws OutputError; every file is either complete or absent
   void write(const DenoisedFrame& denoised);
 
  private:
-  /// One frame in its versions: noisy, denoised and, if there is one, the reference.
-  using Versions = std::vector<Image>;
-  void writePngs(const DenoisedFrame& denoised, const Versions& light, const Versions& lit);
+  /// A picture of a frame: noisy, denoised and, if there is one, the reference.
+  using Versions = std::vector<const Image*>;
+  /// The lit image in its versions.
+  [[nodiscard]] std::vector<Image> litImages(const DenoisedFrame& denoised) const;
+  /// @param rows  the pictures of the frame, the same in all frames
+  void writePngs(const Frame& frame, const std::vector<Versions>& rows);
 
   OutputOptions options_;
-  std::optional<float> litExposure_;
-  std::optional<float> lightExposure_;
+  std::vector<std::optional<float>> exposures_;  // Of the rows.
 };
 
 /// Measure a result against the frame's reference, if it has one.

@@ -57,13 +57,13 @@ Image viewImage(std::span<const std::array<float, 4>> texels, int width, int hei
 
 struct GpuDenoiser::State {
   State(const GpuDevice& gpu, Denoiser& method, fg::Extent extent, const Layout& frameLayout,
-        const InspectionWish& wanted, std::uint32_t framesInFlight, bool objectIds)
+        const InspectionWish& wanted, std::uint32_t framesInFlight, bool objectIds, const fg::vk::Membership& shared)
       : layout(frameLayout),
         declared(declareDenoiseGraph(
             method, extent, layout.conventions,
             {.inputs = fg::vk::kUploaded, .outputBefore = fg::vk::kOverwritable, .outputAfter = fg::vk::kReadable},
             formatsOf(objectIds), {}, wanted)),
-        graph(gpu, declared.graph, framesInFlight),
+        graph(gpu, declared.graph, framesInFlight, shared),
         lighting(makeUpload(gpu, declared.inputs.lighting, framesInFlight)),
         depth(makeUpload(gpu, declared.inputs.depth, framesInFlight)),
         normal(makeUpload(gpu, declared.inputs.normal, framesInFlight)),
@@ -81,7 +81,7 @@ struct GpuDenoiser::State {
   }
 
   /// Record and submit a frame.
-  void submit(const PackedFrame& packed);
+  void submit(const PackedFrame& packed, const std::vector<Rgba16>& light);
   /// Wait for the oldest frame and read it back.
   DenoisedPicture finish();
 
@@ -109,7 +109,7 @@ std::optional<double> DenoisedPicture::milliseconds() const {
                          [](double sum, const fg::vk::PassTime& time) { return sum + time.milliseconds; });
 }
 
-void GpuDenoiser::State::submit(const PackedFrame& packed) {
+void GpuDenoiser::State::submit(const PackedFrame& packed, const std::vector<Rgba16>& light) {
   const Frame& frame = packed.frame;
   if (frame.light != layout.conventions.light) {
     throw std::logic_error("GpuDenoiser::submit: other pixels of the frame have light than the layout says");
@@ -120,7 +120,7 @@ void GpuDenoiser::State::submit(const PackedFrame& packed) {
   if (frame.resetHistory) {
     graph.executor().resetAllHistory();
   }
-  lighting.upload(recorded, packed.lighting);
+  lighting.upload(recorded, light);
   depth.upload(recorded, frame.depth.values());
   normal.upload(recorded, packed.normal);
   motion.upload(recorded, packed.motion);
@@ -151,8 +151,9 @@ DenoisedPicture GpuDenoiser::State::finish() {
 }
 
 GpuDenoiser::GpuDenoiser(const GpuDevice& device, Denoiser& method, fg::Extent extent, const Layout& layout,
-                         const InspectionWish& wanted, std::uint32_t framesInFlight, bool objectIds)
-    : state_(std::make_unique<State>(device, method, extent, layout, wanted, framesInFlight, objectIds)) {}
+                         const InspectionWish& wanted, std::uint32_t framesInFlight, bool objectIds,
+                         const fg::vk::Membership& shared)
+    : state_(std::make_unique<State>(device, method, extent, layout, wanted, framesInFlight, objectIds, shared)) {}
 GpuDenoiser::~GpuDenoiser() = default;
 GpuDenoiser::GpuDenoiser(GpuDenoiser&&) noexcept = default;
 GpuDenoiser& GpuDenoiser::operator=(GpuDenoiser&&) noexcept = default;
@@ -162,7 +163,7 @@ bool GpuDenoiser::full() const {
 }
 
 void GpuDenoiser::submit(PackedFrame packed) {
-  state_->submit(packed);
+  state_->submit(packed, packed.lighting);
   state_->frames.push_back(std::move(packed.frame));
 }
 
@@ -179,9 +180,17 @@ std::optional<DenoisedFrame> GpuDenoiser::finish() {
   return denoised;
 }
 
+void GpuDenoiser::submit(const PackedFrame& packed, const std::vector<Rgba16>& lighting) {
+  state_->submit(packed, lighting);
+}
+
+DenoisedPicture GpuDenoiser::finishPicture() {
+  return state_->finish();
+}
+
 DenoisedPicture GpuDenoiser::run(const PackedFrame& packed) {
   if (!state_->frames.empty()) throw std::logic_error("GpuDenoiser::run: finish the frames in flight first");
-  state_->submit(packed);
+  state_->submit(packed, packed.lighting);
   return state_->finish();
 }
 

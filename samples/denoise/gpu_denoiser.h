@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "framegraph/declare/graph.h"
+#include "framegraph/vulkan/shared_objects.h"
 #include "framegraph/vulkan/timestamps.h"
 #include "integration/denoise_graph.h"
 #include "passes/denoiser.h"
@@ -18,7 +19,8 @@ namespace walr {
 
 /// The output of a method for one frame.
 struct DenoisedPicture {
-  Image indirect;  ///< 3 components: denoised demodulated diffuse indirect radiance.
+  Image
+      indirect;  ///< 3 components: denoised demodulated diffuse radiance, of the indirect light if not said otherwise.
   /// Times of the passes from GPU timestamps, in the order of execution; empty if the queue has no timestamps.
   std::vector<fg::vk::PassTime> passes;
   std::vector<ViewPicture> views;
@@ -46,10 +48,13 @@ class GpuDenoiser {
   /// @param wanted  views, counters and lint words to read back with every frame
   /// @param framesInFlight  largest number of frames on the device at once, at least 1
   /// @param objectIds  whether all frames have object numbers
+  /// @param shared  what this denoiser shares with others on the device; see `fg::vk::SharedObjects` for the order of
+  ///                their frames
   /// @throws fg::vk::Error if the device lacks something that the graph needs
   /// @throws std::invalid_argument naming a setting of the method that is out of range, or a view that does not exist
   GpuDenoiser(const GpuDevice& device, Denoiser& method, fg::Extent extent, const Layout& layout,
-              const InspectionWish& wanted = {}, std::uint32_t framesInFlight = 1, bool objectIds = false);
+              const InspectionWish& wanted = {}, std::uint32_t framesInFlight = 1, bool objectIds = false,
+              const fg::vk::Membership& shared = {});
   ~GpuDenoiser();
   GpuDenoiser(GpuDenoiser&&) noexcept;
   GpuDenoiser& operator=(GpuDenoiser&&) noexcept;
@@ -63,6 +68,14 @@ class GpuDenoiser {
   /// Wait for the oldest frame in flight only. Returns nullopt if there is none.
   /// @throws fg::vk::Error when the device fails
   std::optional<DenoisedFrame> finish();
+
+  /// Submit the next frame, of which the caller keeps the images that are not uploaded, with other lighting. Each such
+  /// frame is finished by `finishPicture`.
+  /// @throws as `submit`
+  void submit(const PackedFrame& packed, const std::vector<Rgba16>& lighting);
+  /// Wait for the oldest frame in flight, which must exist.
+  /// @throws fg::vk::Error when the device fails
+  DenoisedPicture finishPicture();
 
   /// Denoise the next frame and wait for it. No other frame may be in flight.
   /// @throws as `submit`

@@ -33,22 +33,6 @@ Image unpackRgb(const std::vector<Rgba16>& texels, int width, int height) {
 
 namespace {
 
-/// The texels of the lighting: the pixels that have a sample. Those of samples outside the image are 0.
-std::vector<Rgba16> packLight(const Frame& frame) {
-  if (frame.light.everyPixel()) return packRgba16(frame.indirect);
-  const fg::Extent extent = frame.light.lightingExtent(
-      {static_cast<std::uint32_t>(frame.indirect.width()), static_cast<std::uint32_t>(frame.indirect.height())});
-  Image light(static_cast<int>(extent.width), static_cast<int>(extent.height), frame.indirect.components());
-  for (int y = 0; y < light.height(); ++y) {
-    for (int x = 0; x < light.width(); ++x) {
-      const glm::ivec2 p = frame.light.pixelOf({x, y}, frame.lightOffset);
-      if (p.x >= frame.indirect.width() || p.y >= frame.indirect.height()) continue;
-      for (int c = 0; c < light.components(); ++c) light.at(x, y, c) = frame.indirect.at(p.x, p.y, c);
-    }
-  }
-  return packRgba16(light);
-}
-
 /// Object numbers in the format of their texture.
 std::vector<std::uint32_t> packNumbers(const Image& image) {
   constexpr std::uint32_t kNone = 0xffffffff;
@@ -63,9 +47,25 @@ std::vector<std::uint32_t> packNumbers(const Image& image) {
 
 }  // namespace
 
-PackedFrame packFrame(Frame frame) {
+std::vector<Rgba16> packLight(const Frame& frame, Light light) {
+  const Image& full = light == Light::Indirect ? frame.indirect : frame.direct;
+  if (frame.light.everyPixel()) return packRgba16(full);
+  const fg::Extent extent =
+      frame.light.lightingExtent({static_cast<std::uint32_t>(full.width()), static_cast<std::uint32_t>(full.height())});
+  Image texels(static_cast<int>(extent.width), static_cast<int>(extent.height), full.components());
+  for (int y = 0; y < texels.height(); ++y) {
+    for (int x = 0; x < texels.width(); ++x) {
+      const glm::ivec2 p = frame.light.pixelOf({x, y}, frame.lightOffset);
+      if (p.x >= full.width() || p.y >= full.height()) continue;
+      for (int c = 0; c < texels.components(); ++c) texels.at(x, y, c) = full.at(p.x, p.y, c);
+    }
+  }
+  return packRgba16(texels);
+}
+
+PackedFrame packFrame(Frame frame, Light light) {
   PackedFrame packed;
-  packed.lighting = packLight(frame);
+  packed.lighting = packLight(frame, light);
   packed.normal = packRgba16(frame.normal);
   packed.motion = packRgba16(frame.motion);
   packed.albedo = packRgba16(frame.albedo);

@@ -15,7 +15,8 @@ using Rgba16 = std::array<std::uint16_t, 4>;
 /// A frame with its images in the formats of the denoiser's textures (`DenoiserInputs`).
 struct PackedFrame {
   Frame frame;
-  std::vector<Rgba16> lighting;  ///< Of the extent `LightPattern::lightingExtent`.
+  /// Of the light that `packFrame` was asked for, with the extent `LightPattern::lightingExtent`.
+  std::vector<Rgba16> lighting;
   std::vector<Rgba16> normal;
   std::vector<Rgba16> motion;
   std::vector<Rgba16> albedo;
@@ -29,7 +30,11 @@ std::vector<Rgba16> packRgba16(const Image& image);
 /// The first three components of texels as an image.
 Image unpackRgb(const std::vector<Rgba16>& texels, int width, int height);
 
-PackedFrame packFrame(Frame frame);
+/// @param light  the light to denoise
+PackedFrame packFrame(Frame frame, Light light = Light::Indirect);
+
+/// The texels of one light of a frame: of the pixels that have a sample. Those of samples outside the image are 0.
+std::vector<Rgba16> packLight(const Frame& frame, Light light);
 
 /// A frame's camera in the form that the passes use.
 /// @param motionScale  see `FrameDescription::motionScale`

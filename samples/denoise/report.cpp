@@ -4,6 +4,7 @@
 #include <iomanip>
 #include <limits>
 #include <sstream>
+#include <string_view>
 
 #include <nlohmann/json.hpp>
 
@@ -22,11 +23,22 @@ void addFigures(Json& object, const ErrorFigures& figures) {
   object["ssim"] = number(figures.ssim);
 }
 
+void addErrors(Json& object, const LightErrors& errors) {
+  addFigures(object, errors.denoised);
+  addFigures(object["noisy"], errors.noisy);
+  object["reference_noise"] = number(errors.referenceNoise);
+}
+
 void addMeasurements(Json& object, const FrameReport& frame) {
   object["gpu_ms"] = number(frame.gpuMilliseconds);
-  addFigures(object, frame.denoised);
-  addFigures(object["noisy"], frame.noisy);
-  object["reference_noise"] = number(frame.referenceNoise);
+  addErrors(object, frame.indirect);
+  addErrors(object["direct"], frame.direct);
+}
+
+Json settingsJson(const SettingsText& settings) {
+  Json object = Json::object();
+  for (const auto& [name, value] : settings) object[name] = value;
+  return object;
 }
 
 Json meanJson(const FrameReport& mean) {
@@ -50,14 +62,70 @@ void printFigures(std::ostream& stream, const ErrorFigures& figures) {
   stream << cell(figures.rmse, 5, 10) << cell(figures.psnr, 2, 8) << cell(figures.ssim, 4, 8);
 }
 
-void printRow(std::ostream& stream, const std::string& name, const FrameReport& frame, bool withErrors) {
+/// The lights whose errors are known.
+struct MeasuredLight {
+  std::string_view name;
+  LightErrors FrameReport::*errors;
+};
+
+std::vector<MeasuredLight> measuredLights(const std::vector<FrameReport>& frames) {
+  std::vector<MeasuredLight> lights{{"indirect light", &FrameReport::indirect}, {"direct light", &FrameReport::direct}};
+  std::erase_if(lights, [&](const MeasuredLight& light) {
+    return std::ranges::none_of(
+        frames, [&](const FrameReport& frame) { return (frame.*light.errors).denoised.rmse.has_value(); });
+  });
+  return lights;
+}
+
+/// Means over the frames from index `first` on, each value over the frames that have it.
+LightErrors meanErrors(const std::vector<FrameReport>& frames, std::size_t first, LightErrors FrameReport::*light) {
+  MeanFigures denoised;
+  MeanFigures noisy;
+  double referenceNoise = 0.0;
+  std::size_t halved = 0;
+  for (std::size_t i = first; i < frames.size(); ++i) {
+    const LightErrors& errors = frames[i].*light;
+    denoised.add(errors.denoised);
+    noisy.add(errors.noisy);
+    referenceNoise += errors.referenceNoise.value_or(0.0);
+    halved += errors.referenceNoise ? 1 : 0;
+  }
+  LightErrors mean{denoised.mean(), noisy.mean(), {}};
+  if (halved > 0) mean.referenceNoise = referenceNoise / static_cast<double>(halved);
+  return mean;
+}
+
+/// @param light  whose errors are printed; null: none
+void printRow(std::ostream& stream, const std::string& name, const FrameReport& frame,
+              LightErrors FrameReport::*light) {
   stream << std::left << std::setw(12) << name << std::right << cell(frame.gpuMilliseconds, 2, 10);
-  if (withErrors) {
-    printFigures(stream, frame.denoised);
+  if (light != nullptr) {
+    printFigures(stream, (frame.*light).denoised);
     stream << "  |";
-    printFigures(stream, frame.noisy);
+    printFigures(stream, (frame.*light).noisy);
   }
   stream << (frame.resetHistory ? "  history reset" : "") << '\n';
+}
+
+/// Times of all frames, and errors of a light, which may be null.
+void printTable(std::ostream& stream, const DenoiseReport& report, LightErrors FrameReport::*light) {
+  stream << std::left << std::setw(12) << "frame" << std::right << std::setw(10)
+         << (report.softwareDevice ? "ms (CPU)" : "gpu ms");
+  if (light != nullptr) {
+    const auto columns = [&] { stream << std::setw(10) << "RMSE" << std::setw(8) << "PSNR" << std::setw(8) << "SSIM"; };
+    columns();
+    stream << "  |";
+    columns();
+    stream << "  (of the noisy input)";
+  }
+  stream << '\n';
+  for (const FrameReport& frame : report.frames) {
+    printRow(stream, std::to_string(frame.frame), frame, light);
+  }
+  printRow(stream, "mean", meanReport(report.frames, 0), light);
+  if (report.frames.size() > kWarmUpFrames) {
+    printRow(stream, "mean after " + std::to_string(kWarmUpFrames), meanReport(report.frames, kWarmUpFrames), light);
+  }
 }
 
 /// One line per counter: its mean, and its largest value with the frame of that value.
@@ -82,42 +150,32 @@ void printCounters(std::ostream& stream, const std::vector<FrameReport>& frames)
 }  // namespace
 
 FrameReport meanReport(const std::vector<FrameReport>& frames, std::size_t first) {
-  MeanFigures denoised;
-  MeanFigures noisy;
   double milliseconds = 0.0;
   std::size_t timed = 0;
-  double referenceNoise = 0.0;
-  std::size_t halved = 0;
   FrameReport mean;
   for (std::size_t i = first; i < frames.size(); ++i) {
-    denoised.add(frames[i].denoised);
-    noisy.add(frames[i].noisy);
     milliseconds += frames[i].gpuMilliseconds.value_or(0.0);
     timed += frames[i].gpuMilliseconds ? 1 : 0;
-    referenceNoise += frames[i].referenceNoise.value_or(0.0);
-    halved += frames[i].referenceNoise ? 1 : 0;
     mean.nonFiniteOutput += frames[i].nonFiniteOutput;
   }
-  mean.denoised = denoised.mean();
-  mean.noisy = noisy.mean();
+  mean.indirect = meanErrors(frames, first, &FrameReport::indirect);
+  mean.direct = meanErrors(frames, first, &FrameReport::direct);
   if (timed > 0) {
     mean.gpuMilliseconds = milliseconds / static_cast<double>(timed);
   }
-  if (halved > 0) mean.referenceNoise = referenceNoise / static_cast<double>(halved);
   return mean;
 }
 
 std::string reportJson(const DenoiseReport& report) {
   Json document;
   document["method"] = report.method;
-  document["settings"] = Json::object();
-  for (const auto& [name, value] : report.settings) {
-    document["settings"][name] = value;
-  }
+  document["settings"] = settingsJson(report.settings);
+  if (!report.directSettings.empty()) document["direct_settings"] = settingsJson(report.directSettings);
   document["device"] = report.device;
   document["driver"] = report.driver;
   document["software_device"] = report.softwareDevice;
   document["layout"] = report.layout;
+  document["light"] = report.light;
   document["width"] = report.extent.width;
   document["height"] = report.extent.height;
   document["tone_map"] = "x/(1+x)";
@@ -137,32 +195,18 @@ std::string reportJson(const DenoiseReport& report) {
 }
 
 void printReport(std::ostream& stream, const DenoiseReport& report) {
-  const bool withErrors =
-      std::ranges::any_of(report.frames, [](const FrameReport& frame) { return frame.denoised.rmse.has_value(); });
-  stream << std::left << std::setw(12) << "frame" << std::right << std::setw(10)
-         << (report.softwareDevice ? "ms (CPU)" : "gpu ms");
-  if (withErrors) {
-    const auto columns = [&] { stream << std::setw(10) << "RMSE" << std::setw(8) << "PSNR" << std::setw(8) << "SSIM"; };
-    columns();
-    stream << "  |";
-    columns();
-    stream << "  (of the noisy input)";
+  const std::vector<MeasuredLight> lights = measuredLights(report.frames);
+  if (lights.empty()) printTable(stream, report, nullptr);
+  for (const MeasuredLight& light : lights) {
+    stream << "Errors of the " << light.name << ":\n";
+    printTable(stream, report, light.errors);
+    if (const std::optional<double> noise = (meanReport(report.frames, 0).*light.errors).referenceNoise) {
+      stream << "Noise of the references: RMSE " << cell(noise, 5, 0) << ", which is part of every error above.\n";
+    }
   }
-  stream << '\n';
-  for (const FrameReport& frame : report.frames) {
-    printRow(stream, std::to_string(frame.frame), frame, withErrors);
-  }
-  printRow(stream, "mean", meanReport(report.frames, 0), withErrors);
-  if (report.frames.size() > kWarmUpFrames) {
-    printRow(stream, "mean after " + std::to_string(kWarmUpFrames), meanReport(report.frames, kWarmUpFrames),
-             withErrors);
-  }
-  if (withErrors) {
+  if (!lights.empty()) {
     stream << "Errors are after the tone map x/(1+x), over pixels of surfaces with a diffuse albedo of at least 0.01; "
               "PSNR in dB against a peak of 1; SSIM with an 11x11 Gaussian window.\n";
-  }
-  if (const std::optional<double> noise = meanReport(report.frames, 0).referenceNoise) {
-    stream << "Noise of the references: RMSE " << cell(noise, 5, 0) << ", which is part of every error above.\n";
   }
   printCounters(stream, report.frames);
   if (report.softwareDevice) {

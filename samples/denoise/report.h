@@ -19,30 +19,41 @@ struct CounterValue {
   std::uint64_t value = 0;
 };
 
+/// Errors of a light; absent if it is not denoised or has no reference.
+struct LightErrors {
+  ErrorFigures denoised;  ///< Of the result.
+  ErrorFigures noisy;     ///< Of the noisy input.
+  /// RMSE that the noise of the reference itself adds to every result; absent if the file of the reference does not
+  /// hold the mean of half of its samples.
+  std::optional<double> referenceNoise;
+};
+
 /// Measurements of one frame.
 struct FrameReport {
   int frame = 0;
   bool resetHistory = false;
   std::optional<double> gpuMilliseconds;  ///< All passes, from timestamps; absent if the queue has no timestamps.
-  ErrorFigures denoised;                  ///< Errors of the result; absent without a reference.
-  ErrorFigures noisy;                     ///< Errors of the noisy input.
-  /// RMSE that the noise of the reference itself adds to every result; absent if the file of the reference does not
-  /// hold the mean of half of its samples.
-  std::optional<double> referenceNoise;
+  LightErrors indirect;
+  LightErrors direct;
   std::size_t nonFiniteOutput = 0;     ///< Number of non-finite values in the result.
   std::vector<CounterValue> counters;  ///< The same names in every frame; empty unless counters were requested.
 };
 
+/// Name and value of every setting of a method.
+using SettingsText = std::vector<std::pair<std::string, std::string>>;
+
 /// A run's method, device, input and measurements.
 struct DenoiseReport {
   std::string method;
-  std::vector<std::pair<std::string, std::string>> settings;  ///< Name and value of every setting of the method.
+  SettingsText settings;  ///< Of the indirect light, or of the direct light if only that is denoised.
   std::string device;
   std::string driver;
   bool softwareDevice = false;
   std::string layout;
+  std::string light = "indirect";  ///< Which light is denoised: indirect, direct or both.
   fg::Extent extent;
   std::vector<FrameReport> frames;
+  SettingsText directSettings = {};  ///< Of the direct light, if both are denoised.
 };
 
 /// Number of frames at the start of a sequence in which history builds up. A second mean leaves them out.

@@ -12,9 +12,11 @@
 #include <OpenEXR/ImfInputFile.h>
 #include <OpenEXR/ImfIntAttribute.h>
 #include <OpenEXR/ImfMatrixAttribute.h>
+#include <OpenEXR/ImfMultiPartInputFile.h>
 #include <OpenEXR/ImfOutputFile.h>
 #include <OpenEXR/ImfStdIO.h>
 #include <OpenEXR/ImfStringAttribute.h>
+#include <OpenEXR/ImfTestFile.h>
 #include <OpenEXR/ImfVecAttribute.h>
 #include <glm/gtc/type_ptr.hpp>
 
@@ -127,10 +129,17 @@ struct ExrReader::File {
 
 ExrReader::ExrReader(std::filesystem::path path) : path_(std::move(path)) {
   requireRegularFile(path_);
+  int parts = 1;
   try {
     file_ = std::make_unique<File>(path_.string());
+    if (Imf::isMultiPartOpenExrFile(path_.c_str())) parts = Imf::MultiPartInputFile(path_.c_str()).parts();
   } catch (const std::exception& error) {
     throw InputError("cannot read " + path_.string() + " as OpenEXR: " + error.what());
+  }
+  if (parts > 1) {
+    throw InputError(path_.string() + " has " + std::to_string(parts) +
+                     " parts; only files of one part are read. In Blender 5 turn on Interleave in the output's "
+                     "settings, or render with export_frames.py.");
   }
   if (width() > kLargestDimension || height() > kLargestDimension) {
     throw InputError(path_.string() + ": " + std::to_string(width()) + " x " + std::to_string(height()) +

@@ -26,14 +26,26 @@ class PixelTracer {
 
   PixelLight diffuse(const Surface& surface) const {
     PixelLight light;
-    for (std::uint32_t s = 0; s < settings_.samples; ++s) {
-      Sampler sampler = samplerOf(s);
-      const PathSample path = tracePath(world_, surface, bounces_, sampler);
-      light.direct += path.direct;
-      light.indirect += path.indirect;
-      light.rays += path.rays;
-    }
+    for (std::uint32_t s = 0; s < settings_.samples; ++s) add(light, trace(surface, s));
     return mean(light);
+  }
+
+  // The same with indirect light that is resampled from these paths and from the previous frame.
+  PixelLight resampled(const PrimaryHit& hit, Reservoirs& reservoirs) const {
+    const std::uint32_t x = pixel_ & 0xffffU;
+    const std::uint32_t y = pixel_ >> 16U;
+    std::vector<PathSample> paths;
+    PixelLight light;
+    for (std::uint32_t s = 0; s < settings_.samples; ++s) add(light, paths.emplace_back(trace(*hit.surface, s)));
+    light = mean(light);
+
+    Sampler sampler(Sampler::Kind::Independent, settings_.seed ^ kChoiceSeed, pixel_, settings_.firstSample);
+    const ResampledLight chosen =
+        resample(world_, hit, paths, reservoirs.previous(x, y, hit), reservoirs.mostFrames(), sampler);
+    reservoirs.current(x, y) = chosen.reservoir;
+    light.indirect = chosen.indirect;
+    light.rays += chosen.rays;
+    return light;
   }
 
   // The light of a glossy metal, all of it counted as indirect, divided by the mean of the albedos that it reflects.
@@ -63,9 +75,19 @@ class PixelTracer {
  private:
   static constexpr std::uint32_t kAlbedoSamples = 16;
   static constexpr std::uint32_t kAlbedoSeed = 0xa1bed0U;
+  static constexpr std::uint32_t kChoiceSeed = 0xc401ceU;
 
   [[nodiscard]] Sampler samplerOf(std::uint32_t sample) const {
     return {settings_.sampler, settings_.seed, pixel_, settings_.firstSample + sample};
+  }
+  [[nodiscard]] PathSample trace(const Surface& surface, std::uint32_t sample) const {
+    Sampler sampler = samplerOf(sample);
+    return tracePath(world_, surface, bounces_, sampler);
+  }
+  static void add(PixelLight& light, const PathSample& path) {
+    light.direct += path.direct;
+    light.indirect += path.indirect;
+    light.rays += path.rays;
   }
   [[nodiscard]] PixelLight mean(PixelLight sum) const {
     sum.direct /= static_cast<double>(settings_.samples);
@@ -114,8 +136,9 @@ Film renderFilm(const World& world, const View& view, const SamplingSettings& se
             const bool sampled = settings.light.pixelOf(texel, settings.lightOffset) == pixel;
             const PixelTracer tracer(world, settings, sampled ? settings.bounces : 0,
                                      sampled ? seedOf(texel) : seedOf(pixel));
-            const PixelLight light =
-                glossy ? tracer.glossy(hit, film.gbuffer[index].albedo) : tracer.diffuse(*hit.surface);
+            const PixelLight light = glossy                ? tracer.glossy(hit, film.gbuffer[index].albedo)
+                                     : settings.reservoirs ? tracer.resampled(hit, *settings.reservoirs)
+                                                           : tracer.diffuse(*hit.surface);
             film.direct[index] = glm::vec3(light.direct);
             if (sampled) film.indirect[index] = glm::vec3(light.indirect);
             tileRays += light.rays;
@@ -124,6 +147,7 @@ Film renderFilm(const World& world, const View& view, const SamplingSettings& se
         rays += tileRays;
       },
       settings.pixelsDone);
+  if (settings.reservoirs) settings.reservoirs->nextFrame();
   film.rays = rays;
   return film;
 }

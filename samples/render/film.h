@@ -8,6 +8,7 @@
 
 #include "passes/light_pattern.h"
 #include "samples/render/gbuffer.h"
+#include "samples/render/resampling.h"
 #include "samples/render/sampler.h"
 #include "samples/render/view.h"
 #include "samples/render/world.h"
@@ -26,7 +27,10 @@ struct SamplingSettings {
   /// pattern.
   LightPattern light = {};
   glm::ivec2 lightOffset{0};  ///< See `FrameDescription::lightOffset`.
-  unsigned int threads = 0;   ///< Number of threads; 0: one per core. The result does not depend on it.
+  /// Resample indirect light from frame to frame (`resample`); null: do not. Of the view's size. Glossy metals do not
+  /// take part.
+  Reservoirs* reservoirs = nullptr;
+  unsigned int threads = 0;  ///< Number of threads; 0: one per core. The result does not depend on it.
   /// See `forEachTile`.
   std::function<void(std::uint64_t)> pixelsDone = [](std::uint64_t) {};
 };

@@ -173,13 +173,15 @@ PathSample tracePath(const World& world, const Surface& first, std::uint32_t bou
   result.direct = lights.fromEveryPunctual(first) + lights.fromEmitters(first) + lights.fromSky(first);
   glm::vec3 throughput(1.0F);
   Surface surface = first;
+  float firstLobe = 1.0F;
   std::uint32_t pathRays = 0;
   for (std::uint32_t bounce = 0;; ++bounce) {
     const glm::vec3 direction = cosineDirection(surface.shadingNormal, sampler.next2D());
     if (lightCosine(surface, direction) <= 0.0F) {
       break;
     }
-    throughput *= lobe(world.scene().diffuseModel, surface, direction);
+    const float value = lobe(world.scene().diffuseModel, surface, direction);
+    throughput *= value;
     glm::vec3& bin = bounce == 0 ? result.direct : result.indirect;
     ++pathRays;
     const std::optional<Hit> hit = world.rays().closest({rayOrigin(surface, direction), direction});
@@ -192,6 +194,10 @@ PathSample tracePath(const World& world, const Surface& first, std::uint32_t bou
       bin += throughput * next.emission * cosineWeight(world, surface, direction, *hit, next);
     }
     throughput *= next.albedo;
+    if (bounce == 0) {
+      firstLobe = value;
+      result.source = IndirectSource{next.position, next.geometricNormal, glm::vec3(0.0F)};
+    }
     if (bounce == bounces || throughput == glm::vec3(0.0F)) {
       break;
     }
@@ -199,8 +205,18 @@ PathSample tracePath(const World& world, const Surface& first, std::uint32_t bou
     result.indirect +=
         throughput * (lights.fromOnePunctual(surface) + lights.fromEmitters(surface) + lights.fromSky(surface));
   }
+  if (result.source && firstLobe > 0.0F) {
+    result.source->radiance = result.indirect / firstLobe;
+  }
   result.rays = pathRays + lights.rays();
   return result;
+}
+
+glm::vec3 contribution(const World& world, const Surface& surface, const IndirectSource& source) {
+  const glm::vec3 direction = glm::normalize(source.position - surface.position);
+  const float cosine = lightCosine(surface, direction);
+  return cosine > 0.0F ? source.radiance * (lobe(world.scene().diffuseModel, surface, direction) * cosine / kPi)
+                       : glm::vec3(0.0F);
 }
 
 }  // namespace walr::render

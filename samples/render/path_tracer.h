@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include <glm/vec3.hpp>
 
@@ -10,6 +11,13 @@
 
 namespace walr::render {
 
+/// A path's second vertex, as the source of indirect light at its first.
+struct IndirectSource {
+  glm::vec3 position{0.0F};
+  glm::vec3 normal{0.0F};    ///< Of the triangle, unit, towards the first vertex.
+  glm::vec3 radiance{0.0F};  ///< Reflected towards the first vertex, without emission.
+};
+
 /// The light that one path brings to a diffuse surface point, demodulated: irradiance / pi, so that albedo times this
 /// value is the radiance.
 struct PathSample {
@@ -17,6 +25,8 @@ struct PathSample {
   glm::vec3 direct{0.0F};
   /// Light that was reflected by at least one other surface.
   glm::vec3 indirect{0.0F};
+  /// Where `indirect` comes from; nothing if the path met no surface after the first.
+  std::optional<IndirectSource> source;
   /// Rays traced.
   std::uint32_t rays = 0;
 };
@@ -31,5 +41,9 @@ struct PathSample {
 /// meets are direct light.
 /// @param bounces  number of surfaces after the first that reflect light; 0 gives no indirect light
 PathSample tracePath(const World& world, const Surface& first, std::uint32_t bounces, Sampler& sampler);
+
+/// What a source contributes to the demodulated indirect light of a surface, per solid angle: radiance x lobe x cosine
+/// / pi. Whether the surface sees the source is not tested.
+glm::vec3 contribution(const World& world, const Surface& surface, const IndirectSource& source);
 
 }  // namespace walr::render

@@ -49,6 +49,7 @@ nlohmann::json describe(const RenderOptions& options) {
       {"reference_pixel", options.referenceCoverage.wholePixel ? "area" : "point"},
       {"reference_one_square_in", options.referenceCoverage.oneSquareIn},
       {"bounces", options.bounces},
+      {"resampled_frames", options.resampledFrames},
       {"seed", options.seed},
       {"fps", options.framesPerSecond},
       {"camera", options.camera},
@@ -104,6 +105,13 @@ void renderFile(const fs::path& file, double paths, const RenderObserver& observ
   observer.fileDone(describeWork(name, seconds.count(), rays));
 }
 
+// The last noisy frame that is not complete; the one before the first frame if all are.
+int lastIncompleteFrame(const RenderOptions& options) {
+  int frame = options.lastFrame;
+  while (frame >= options.firstFrame && isCompleteExr(options.output / frameFileName("noisy", frame, "exr"))) --frame;
+  return frame;
+}
+
 }  // namespace
 
 bool RenderOptions::hasReference(int frame) const {
@@ -144,6 +152,11 @@ void renderSequence(const RenderOptions& options, const RenderObserver& observer
   matchSettings(options);
 
   World world(scene);
+  std::optional<Reservoirs> reservoirs;
+  if (options.resampledFrames > 0) {
+    reservoirs.emplace(options.width, options.height, static_cast<float>(options.resampledFrames));
+  }
+  const int lastIncomplete = lastIncompleteFrame(options);
   for (int number = options.firstFrame; number <= options.lastFrame; ++number) {
     world.moveTo(number / options.framesPerSecond, (number - 1) / options.framesPerSecond);
     const auto jitter = [&](int frame) { return options.jitter ? haltonJitter(frame) : glm::vec2(0.0F); };
@@ -166,14 +179,22 @@ void renderSequence(const RenderOptions& options, const RenderObserver& observer
       };
       return settings;
     };
-    renderFile(options.output / frameFileName("noisy", number, "exr"), options.noisyPaths(), observer, [&] {
-      SamplingSettings settings = sampling(options.samples, options.noisyPaths(), 0);
-      settings.light = options.light;
-      settings.lightOffset = lightOffsetOfFrame(options.light, static_cast<std::uint32_t>(number));
-      const Film film = renderFilm(world, view, settings);
+    SamplingSettings noisy = sampling(options.samples, options.noisyPaths(), 0);
+    noisy.light = options.light;
+    noisy.lightOffset = lightOffsetOfFrame(options.light, static_cast<std::uint32_t>(number));
+    noisy.reservoirs = reservoirs ? &*reservoirs : nullptr;
+    const fs::path noisyFile = options.output / frameFileName("noisy", number, "exr");
+    if (reservoirs && number < lastIncomplete && isCompleteExr(noisyFile)) {
+      // Later frames need its reservoirs. Its paths are counted as skipped.
+      SamplingSettings again = noisy;
+      again.pixelsDone = [](std::uint64_t) {};
+      renderFilm(world, view, again);
+    }
+    renderFile(noisyFile, options.noisyPaths(), observer, [&] {
+      const Film film = renderFilm(world, view, noisy);
       Frame frame = toFrame(film, view, number);
-      frame.light = settings.light;
-      frame.lightOffset = settings.lightOffset;
+      frame.light = noisy.light;
+      frame.lightOffset = noisy.lightOffset;
       writeFrame(options.output, frame);
       return film.rays;
     });

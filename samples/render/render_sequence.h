@@ -29,6 +29,8 @@ struct RenderOptions {
   std::optional<FrameRange> referenceFrames = {};
   ReferenceCoverage referenceCoverage = {};
   std::uint32_t bounces = 4;  ///< Surfaces after the first that reflect light.
+  /// Indirect light of noisy frames is resampled from as many earlier frames (`resample`); 0: from none.
+  std::uint32_t resampledFrames = 0;
   std::uint32_t seed = 0;
   double framesPerSecond = 24.0;
   std::string camera;                                ///< Name of the camera or of its node; empty: the first camera.
@@ -62,7 +64,8 @@ struct RenderObserver {
 
 /// Render frames of a scene's camera animation to `output` in the project's layout (samples/docs/sequences.md):
 /// noisy_FFFF.exr and, if requested, ref_FFFF.exr. Frame F shows the time F / framesPerSecond. Existing files are
-/// skipped, so that an interrupted run can be resumed. The settings are stored in `render.json` in the same folder.
+/// skipped, so that an interrupted run can be resumed. With resampling, existing frames before a missing one are traced
+/// again but not written, because it depends on them. The settings are stored in `render.json` in the same folder.
 /// @throws SceneError  if the scene cannot be rendered
 /// @throws InputError  if `output` holds frames of other settings
 /// @throws OutputError if a file cannot be written

@@ -28,10 +28,16 @@ struct Camera {
   bool cut = false;              ///< This frame follows a camera cut: no history of the frame before is used.
 };
 
+/// The two parts of diffuse light.
+enum class Light {
+  Indirect,  ///< That bounced at least once before it arrived at the surface.
+  Direct,    ///< That arrived from lamps and the sky.
+};
+
 /// The light of a frame with many samples per pixel. A pixel with NaN in all components has no reference.
 struct Reference {
-  Image indirect = {};      ///< 3 components: demodulated diffuse indirect radiance.
-  Image direct = {};        ///< 3 components: demodulated diffuse direct radiance; may be empty.
+  Image indirect = {};  ///< 3 components: demodulated diffuse indirect radiance; may be empty if direct light is read.
+  Image direct = {};    ///< 3 components: demodulated diffuse direct radiance; may be empty.
   Image indirectHalf = {};  ///< 3 components: the mean of one half of the samples of `indirect`; may be empty.
 };
 
@@ -48,10 +54,10 @@ struct NonFiniteChannel {
 /// the `Layout`.
 struct Frame {
   int number = 0;
-  /// 3 components: demodulated diffuse indirect radiance, linear, 1 sample per pixel; without meaning at pixels that
-  /// `light` leaves without a sample.
+  /// 3 components: demodulated diffuse indirect radiance, linear; empty unless requested. Without meaning at pixels
+  /// that `light` leaves without a sample.
   Image indirect;
-  LightPattern light;         ///< Which pixels of `indirect` have a sample.
+  LightPattern light;         ///< Which pixels have a sample of the light that is denoised.
   glm::ivec2 lightOffset{0};  ///< See `FrameDescription::lightOffset`.
   Image direct;               ///< 3 components: demodulated diffuse direct radiance; empty unless requested.
   Image albedo;               ///< 3 components: diffuse albedo; 0 where there is no diffuse lobe.
@@ -59,6 +65,9 @@ struct Frame {
   Image depth;                ///< 1 component: linear view depth, scene units; `kBackgroundDepth` on sky.
   Image motion;    ///< 3 components: motion to the previous frame; z = previous minus current view depth, if given.
   Image emission;  ///< 3 components: radiance of visible lamps and sky; empty unless requested.
+  /// 3 components: radiance of light that is not diffuse (glossy, transmitted, scattered in volumes); empty unless
+  /// requested, and if the files hold none.
+  Image nonDiffuse;
   Image objectId;  ///< 1 component: number of the object in the pixel, below 0 where there is none; may be empty.
   Camera camera;
   /// Projection and jitter of the frame before; for the first frame, those of this frame.

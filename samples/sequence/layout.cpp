@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
+#include <map>
 #include <set>
 
 #include "samples/errors.h"
@@ -11,19 +13,44 @@ namespace walr {
 namespace {
 
 constexpr std::array kCyclesPlanes = {
-    Plane{Role::Indirect, "DiffInd", "RGB"},    Plane{Role::Direct, "DiffDir", "RGB", true},
-    Plane{Role::Albedo, "DiffCol", "RGB"},      Plane{Role::Normal, "Normal", "XYZ"},
-    Plane{Role::Depth, "Depth", "Z"},           Plane{Role::Motion, "Vector", "XY"},
-    Plane{Role::Emission, "Emit", "RGB", true},
+    Plane{Role::Indirect, "DiffInd", "RGB"}, Plane{Role::Direct, "DiffDir", "RGB"},
+    Plane{Role::Albedo, "DiffCol", "RGB"},   Plane{Role::Normal, "Normal", "XYZ"},
+    Plane{Role::Depth, "Depth", "Z"},        Plane{Role::Motion, "Vector", "XY"},
+    Plane{Role::Emission, "Emit", "RGB"},
 };
-constexpr std::array kProjectPlanes = {
-    Plane{Role::Indirect, "Indirect", "RGB"},
-    Plane{Role::Direct, "Direct", "RGB", true},
-    Plane{Role::Albedo, "Albedo", "RGB"},
+constexpr std::array kCyclesPlanes5 = {
+    Plane{Role::Indirect, "Diffuse Indirect", "RGB"},
+    Plane{Role::Direct, "Diffuse Direct", "RGB"},
+    Plane{Role::Albedo, "Diffuse Color", "RGB"},
     Plane{Role::Normal, "Normal", "XYZ"},
     Plane{Role::Depth, "Depth", "Z"},
-    Plane{Role::Motion, "Motion", "XYZ"},
-    Plane{Role::Emission, "Emission", "RGB", true},
+    Plane{Role::Motion, "Vector", "XY"},
+    Plane{Role::Emission, "Emission", "RGB"},
+};
+constexpr std::array kProjectPlanes = {
+    Plane{Role::Indirect, "Indirect", "RGB"}, Plane{Role::Direct, "Direct", "RGB"},
+    Plane{Role::Albedo, "Albedo", "RGB"},     Plane{Role::Normal, "Normal", "XYZ"},
+    Plane{Role::Depth, "Depth", "Z"},         Plane{Role::Motion, "Motion", "XYZ"},
+    Plane{Role::Emission, "Emission", "RGB"},
+};
+// The emission pass of Blender holds only surfaces; the sky has a pass of its own.
+constexpr std::array kCyclesAdded = {
+    AddedLight{&Frame::emission, "Env"},
+    AddedLight{&Frame::nonDiffuse, "GlossDir", "GlossCol"},
+    AddedLight{&Frame::nonDiffuse, "GlossInd", "GlossCol"},
+    AddedLight{&Frame::nonDiffuse, "TransDir", "TransCol"},
+    AddedLight{&Frame::nonDiffuse, "TransInd", "TransCol"},
+    AddedLight{&Frame::nonDiffuse, "VolumeDir"},
+    AddedLight{&Frame::nonDiffuse, "VolumeInd"},
+};
+constexpr std::array kCyclesAdded5 = {
+    AddedLight{&Frame::emission, "Environment"},
+    AddedLight{&Frame::nonDiffuse, "Glossy Direct", "Glossy Color"},
+    AddedLight{&Frame::nonDiffuse, "Glossy Indirect", "Glossy Color"},
+    AddedLight{&Frame::nonDiffuse, "Transmission Direct", "Transmission Color"},
+    AddedLight{&Frame::nonDiffuse, "Transmission Indirect", "Transmission Color"},
+    AddedLight{&Frame::nonDiffuse, "Volume Direct"},
+    AddedLight{&Frame::nonDiffuse, "Volume Indirect"},
 };
 
 const Plane& planeOf(const Layout& layout, Role role) {
@@ -52,6 +79,29 @@ Image& imageOf(Frame& frame, Role role) {
   return frame.objectId;
 }
 
+Role roleOf(Light light) {
+  return light == Light::Indirect ? Role::Indirect : Role::Direct;
+}
+
+/// Whether a plane of a layout is needed.
+bool isWanted(const Plane& plane, const LightWish& wanted) {
+  switch (plane.role) {
+    case Role::Indirect:
+      return wanted.indirect;
+    case Role::Direct:
+      return wanted.direct;
+    case Role::Emission:
+      return wanted.rest;
+    default:
+      return true;
+  }
+}
+
+/// A plane of three colours that has no role.
+Plane colours(std::string_view name) {
+  return {Role::Emission, name, "RGB"};
+}
+
 std::string join(const std::vector<std::string>& names) {
   std::string text;
   for (const std::string& name : names) {
@@ -63,6 +113,18 @@ std::string join(const std::vector<std::string>& names) {
 /// Components of the image that a plane is read into. Motion always gets three, even if the file has no z.
 int imageComponents(const Plane& plane) {
   return plane.role == Role::Motion ? 3 : static_cast<int>(plane.components.size());
+}
+
+/// Add a light, multiplied by its colour, to an image, which may be empty.
+void addLight(const AddedLight& light, const std::map<std::string_view, Image>& planes, Image& image) {
+  const Image& radiance = planes.at(light.name);
+  const Image* const colour = light.colour.empty() ? nullptr : &planes.at(light.colour);
+  if (image.empty()) image = Image(radiance.width(), radiance.height(), 3);
+  for (std::size_t i = 0; i < image.values().size(); ++i) {
+    const float added = radiance.values()[i] * (colour != nullptr ? colour->values()[i] : 1.0F);
+    // What is not finite must not hide the other lights.
+    if (std::isfinite(added)) image.values()[i] += added;
+  }
 }
 
 void addTargets(std::vector<ExrReader::Target>& targets, const RecognizedLayout& layout, const Plane& plane,
@@ -125,14 +187,15 @@ bool hasPlane(const ExrReader& file, const RecognizedLayout& layout, const Plane
   });
 }
 
-void requirePlanes(const ExrReader& file, const RecognizedLayout& layout, std::span<const Plane* const> planes,
+void requirePlanes(const ExrReader& file, const RecognizedLayout& layout, std::span<const Plane> planes,
                    const std::string& wayOut) {
   const std::vector<std::string> present = file.channels();
   std::vector<std::string> missing;
-  for (const Plane* plane : planes) {
-    for (const char component : plane->components) {
-      const std::string name = layout.channel(plane->name, component);
-      if (std::ranges::find(present, name) == present.end()) {
+  for (const Plane& plane : planes) {
+    for (const char component : plane.components) {
+      const std::string name = layout.channel(plane.name, component);
+      // Several lights may have one colour.
+      if (std::ranges::find(present, name) == present.end() && std::ranges::find(missing, name) == missing.end()) {
         missing.push_back(name);
       }
     }
@@ -146,8 +209,7 @@ void requirePlanes(const ExrReader& file, const RecognizedLayout& layout, std::s
 }  // namespace
 
 const Layout& cyclesLayout() {
-  // Blender's vectors point to the previous position with y up, and its normals are in world space. Its emission pass
-  // holds only surfaces; the sky is in the pass "Env".
+  // Blender's vectors point to the previous position with y up, and its normals are in world space.
   static const Layout layout{"Blender Cycles multi-layer",
                              kCyclesPlanes,
                              CameraSource::JsonFile,
@@ -155,7 +217,18 @@ const Layout& cyclesLayout() {
                                               .motionDepth = InputConventions::MotionDepth::StaticScene},
                              glm::vec2(1.0F, -1.0F),
                              {Role::ObjectId, "IndexOB", "X"},
-                             "Env"};
+                             kCyclesAdded};
+  return layout;
+}
+
+const Layout& cyclesLayout5() {
+  static const Layout layout = [] {
+    Layout renamed = cyclesLayout();
+    renamed.planes = kCyclesPlanes5;
+    renamed.objectId.name = "Object Index";
+    renamed.added = kCyclesAdded5;
+    return renamed;
+  }();
   return layout;
 }
 
@@ -169,9 +242,10 @@ const Layout& projectLayout() {
   return layout;
 }
 
-Layout withMotionDepth(const Layout& layout, InputConventions::MotionDepth source) {
+Layout withMotionDepth(const Layout& layout, InputConventions::MotionDepth source, const std::filesystem::path& file) {
   if (source == InputConventions::MotionDepth::Given && planeOf(layout, Role::Motion).components.size() < 3) {
-    throw InputError("the change of depth is not given: the motion of layout '" + std::string(layout.name) +
+    throw InputError(file.string() + ": the change of depth is not given: the motion of layout '" +
+                     std::string(layout.name) +
                      "' has no third component; it can be found, or computed for a still scene");
   }
   Layout changed = layout;
@@ -179,21 +253,21 @@ Layout withMotionDepth(const Layout& layout, InputConventions::MotionDepth sourc
   return changed;
 }
 
-std::string RecognizedLayout::channel(std::string_view plane, char component) const {
-  return (viewLayer.empty() ? "" : viewLayer + ".") + std::string(plane) + "." + component;
+std::string RecognizedLayout::plane(std::string_view name) const {
+  return (viewLayer.empty() ? "" : viewLayer + ".") + std::string(name);
 }
 
-void RecognizedLayout::setLight(const LightPattern& light) {
-  if (light.everyPixel()) return;
-  Layout sparse = *layout;
-  sparse.conventions.light = light;
-  owned = std::make_shared<const Layout>(sparse);
-  layout = owned.get();
+std::string RecognizedLayout::plane(Light light) const {
+  return plane(planeOf(*layout, roleOf(light)).name);
+}
+
+std::string RecognizedLayout::channel(std::string_view plane, char component) const {
+  return this->plane(plane) + "." + component;
 }
 
 RecognizedLayout recognizeLayout(const ExrReader& file, std::string_view viewLayer) {
   const std::vector<std::string> channels = file.channels();
-  for (const Layout* layout : {&cyclesLayout(), &projectLayout()}) {
+  for (const Layout* layout : {&cyclesLayout(), &cyclesLayout5(), &projectLayout()}) {
     std::set<std::string> layers = viewLayersWith(channels, planeOf(*layout, Role::Indirect));
     if (layers.empty()) {
       // A file without light channels is recognised by its albedo, so that the error can name the missing channels.
@@ -210,80 +284,118 @@ RecognizedLayout recognizeLayout(const ExrReader& file, std::string_view viewLay
       throw InputError(file.path().string() + ": several view layers (" + join({layers.begin(), layers.end()}) +
                        "); choose one with --view-layer NAME");
     }
-    RecognizedLayout recognized{
-        .layout = layout, .owned = {}, .viewLayer = viewLayer.empty() ? *layers.begin() : std::string(viewLayer)};
+    RecognizedLayout recognized{layout, viewLayer.empty() ? *layers.begin() : std::string(viewLayer)};
     recognized.objectIds = hasPlane(file, recognized, layout->objectId);
+    std::ranges::copy_if(layout->added, std::back_inserter(recognized.added),
+                         [&](const AddedLight& light) { return hasPlane(file, recognized, colours(light.name)); });
     return recognized;
   }
-  throw InputError(file.path().string() +
-                   ": neither a Blender Cycles frame (channels DiffInd.R, ...) nor a frame in walr's own layout "
-                   "(Indirect.R, ...). Channels found: " +
-                   join(channels));
+  throw InputError(
+      file.path().string() +
+      ": neither a Blender Cycles frame (channels DiffInd.R, ..., or Diffuse Indirect.R, ... since Blender "
+      "5) nor a frame in walr's own layout (Indirect.R, ...). Channels found: " +
+      join(channels));
 }
 
-void requireChannels(const ExrReader& file, const RecognizedLayout& layout, bool composite) {
-  std::vector<const Plane*> planes;
-  for (const Plane& plane : layout.layout->planes) {
-    if (composite || !plane.compositeOnly) {
-      planes.push_back(&plane);
+void requireChannels(const ExrReader& file, const RecognizedLayout& layout, const LightWish& wanted) {
+  std::vector<Plane> planes;
+  std::ranges::copy_if(layout.layout->planes, std::back_inserter(planes),
+                       [&](const Plane& plane) { return isWanted(plane, wanted); });
+  if (layout.objectIds) {
+    planes.push_back(layout.layout->objectId);
+  }
+  if (wanted.rest) {
+    for (const AddedLight& light : layout.added) {
+      planes.push_back(colours(light.name));
+      if (!light.colour.empty()) planes.push_back(colours(light.colour));
     }
   }
-  if (layout.objectIds) {
-    planes.push_back(&layout.layout->objectId);
-  }
   requirePlanes(file, layout, planes,
-                composite ? "Render with these passes, or leave out --composite if only direct light or emission is "
-                            "missing."
-                          : "Render with these passes.");
+                wanted.rest ? "Render with these passes, or leave out --composite: only composites need direct light, "
+                              "emission and light that is not diffuse."
+                            : "Render with these passes.");
 }
 
-void requireReferenceChannels(const ExrReader& file, const RecognizedLayout& layout) {
-  const Plane* const plane = &planeOf(*layout.layout, Role::Indirect);
-  requirePlanes(file, layout, std::span(&plane, 1),
-                "A file whose name starts with 'ref' is a reference; rename it if it is not.");
+void requireReferenceChannels(const ExrReader& file, const RecognizedLayout& layout, const LightWish& wanted) {
+  const Plane& indirect = planeOf(*layout.layout, Role::Indirect);
+  const Plane& direct = planeOf(*layout.layout, Role::Direct);
+  std::vector<Plane> planes;
+  const bool mayHoldDirect = wanted.direct && hasPlane(file, layout, direct);
+  if (mayHoldDirect) planes.push_back(direct);
+  if (!mayHoldDirect || hasPlane(file, layout, indirect)) planes.push_back(indirect);
+  requirePlanes(file, layout, planes, "A file whose name starts with 'ref' is a reference; rename it if it is not.");
 }
 
-void readFrame(ExrReader& file, const RecognizedLayout& layout, bool composite, Frame& frame) {
+void readFrame(ExrReader& file, const RecognizedLayout& layout, const LightWish& wanted, Frame& frame) {
   file.requireBlocks();
   std::vector<ExrReader::Target> targets;
   for (const Plane& plane : layout.layout->planes) {
-    if (composite || !plane.compositeOnly) {
+    if (isWanted(plane, wanted)) {
       addTargets(targets, layout, plane, imageOf(frame, plane.role), file);
     }
   }
   if (layout.objectIds) {
     addTargets(targets, layout, layout.layout->objectId, frame.objectId, file);
   }
-  Image sky;
-  const Plane skyPlane{Role::Emission, layout.layout->sky, "RGB", true};
-  if (composite && hasPlane(file, layout, skyPlane)) {
-    addTargets(targets, layout, skyPlane, sky, file);
+  std::map<std::string_view, Image> added;
+  if (wanted.rest) {
+    for (const AddedLight& light : layout.added) {
+      for (const std::string_view name : {light.name, light.colour}) {
+        if (!name.empty() && !added.contains(name)) addTargets(targets, layout, colours(name), added[name], file);
+      }
+    }
   }
   file.read(targets);
   findNonFinite(file.path(), targets, false, frame.nonFinite);
-  for (std::size_t i = 0; i < sky.values().size(); ++i) {
-    frame.emission.values()[i] += sky.values()[i];
+  if (wanted.rest) {
+    for (const AddedLight& light : layout.added) addLight(light, added, frame.*light.image);
   }
 }
 
-Reference readReference(ExrReader& file, const RecognizedLayout& layout, bool composite,
+Reference readReference(ExrReader& file, const RecognizedLayout& layout, const LightWish& wanted,
                         std::vector<NonFiniteChannel>& nonFinite) {
   file.requireBlocks();
   Reference reference;
   std::vector<ExrReader::Target> targets;
-  addTargets(targets, layout, planeOf(*layout.layout, Role::Indirect), reference.indirect, file);
+  const Plane& indirect = planeOf(*layout.layout, Role::Indirect);
   const Plane& direct = planeOf(*layout.layout, Role::Direct);
-  if (composite && hasPlane(file, layout, direct)) {
-    addTargets(targets, layout, direct, reference.direct, file);
-  }
+  const bool readsIndirect = wanted.indirect && hasPlane(file, layout, indirect);
+  if (readsIndirect) addTargets(targets, layout, indirect, reference.indirect, file);
+  if (wanted.direct && hasPlane(file, layout, direct)) addTargets(targets, layout, direct, reference.direct, file);
   const std::size_t checked = targets.size();
-  Plane half = planeOf(*layout.layout, Role::Indirect);
+  Plane half = indirect;
   const std::string halfName = std::string(half.name) + "A";
   half.name = halfName;
-  if (hasPlane(file, layout, half)) addTargets(targets, layout, half, reference.indirectHalf, file);
-  file.read(targets);
+  if (readsIndirect && hasPlane(file, layout, half)) {
+    addTargets(targets, layout, half, reference.indirectHalf, file);
+  }
+  if (!targets.empty()) file.read(targets);
   findNonFinite(file.path(), std::span(targets).first(checked), true, nonFinite);
   return reference;
+}
+
+std::string describeUndenoised(const RecognizedLayout& layout, std::span<const Light> denoised) {
+  std::vector<std::string> names;
+  const std::string albedo = std::string(planeOf(*layout.layout, Role::Albedo).name);
+  for (const Light light : {Light::Indirect, Light::Direct}) {
+    if (std::ranges::find(denoised, light) != denoised.end()) continue;
+    names.push_back(std::string(planeOf(*layout.layout, roleOf(light)).name) + " x " + albedo);
+  }
+  names.emplace_back(planeOf(*layout.layout, Role::Emission).name);
+  for (const AddedLight& light : layout.added) {
+    names.push_back(std::string(light.name) + (light.colour.empty() ? "" : " x " + std::string(light.colour)));
+  }
+  return join(names);
+}
+
+std::string describeMissing(const RecognizedLayout& layout) {
+  std::vector<std::string> names;
+  for (const AddedLight& light : layout.layout->added) {
+    if (std::ranges::find(layout.added, light.name, &AddedLight::name) == layout.added.end()) {
+      names.emplace_back(light.name);
+    }
+  }
+  return names.empty() ? "" : join(names);
 }
 
 }  // namespace walr

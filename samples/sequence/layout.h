@@ -1,6 +1,5 @@
 #pragma once
 
-#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -22,8 +21,23 @@ struct Plane {
   Role role;
   std::string_view name;
   std::string_view components;
-  bool compositeOnly = false;  ///< Needed only for a composite.
 };
+
+/// Light that a composite adds as it is, if the files hold it.
+struct AddedLight {
+  Image Frame::*image;           ///< To which the light is added.
+  std::string_view name;         ///< Of the plane with the light, RGB.
+  std::string_view colour = {};  ///< Plane by which the light is multiplied, RGB; empty: none.
+};
+
+/// The light to read beside the guides.
+struct LightWish {
+  bool indirect = true;
+  bool direct = false;
+  bool rest = false;  ///< Emission, and the lights that a composite adds.
+};
+/// Everything that a composite consists of.
+inline constexpr LightWish kWholePicture{.indirect = true, .direct = true, .rest = true};
 
 /// Where a layout stores its cameras.
 enum class CameraSource { JsonFile, HeaderAttributes };
@@ -36,28 +50,33 @@ struct Layout {
   InputConventions conventions;
   glm::vec2 motionScale;  ///< See `FrameDescription::motionScale`.
   Plane objectId;         ///< Optional: read in all frames if the first frame has it.
-  /// Name of the plane with the radiance of the sky, which is added to the emission if a file has it; empty: none.
-  std::string_view sky = {};
+  /// Optional: read in all frames if the first frame has the light.
+  std::span<const AddedLight> added = {};
 };
 
+/// Blender up to version 4.
 const Layout& cyclesLayout();
+/// Blender from version 5 on, which gave most passes other names.
+const Layout& cyclesLayout5();
 const Layout& projectLayout();
 
 /// A layout whose change of depth has another source than the layout says.
+/// @param file  a file with the layout, for the error
 /// @throws InputError if it is to be given, and the layout's motion has no third component
-Layout withMotionDepth(const Layout& layout, InputConventions::MotionDepth source);
+Layout withMotionDepth(const Layout& layout, InputConventions::MotionDepth source, const std::filesystem::path& file);
 
 /// The layout of a file, with the file's view layer.
 struct RecognizedLayout {
   const Layout* layout = nullptr;
-  std::shared_ptr<const Layout> owned;  ///< `layout`, where light is sparse.
-  std::string viewLayer;                ///< Empty if the channels have no view-layer prefix.
-  bool objectIds = false;               ///< The file has `Layout::objectId`.
+  std::string viewLayer;               ///< Empty if the channels have no view-layer prefix.
+  bool objectIds = false;              ///< The file has `Layout::objectId`.
+  std::vector<AddedLight> added = {};  ///< Those of `Layout::added` that the file has.
 
-  /// Full name of a channel.
+  /// Full name of a plane, and of one of its channels.
+  [[nodiscard]] std::string plane(std::string_view name) const;
   [[nodiscard]] std::string channel(std::string_view plane, char component) const;
-  /// Let only some pixels have a sample of light.
-  void setLight(const LightPattern& light);
+  /// Full name of the plane that holds a light.
+  [[nodiscard]] std::string plane(Light light) const;
 };
 
 /// Recognise the layout of a file by its channel names.
@@ -67,17 +86,23 @@ RecognizedLayout recognizeLayout(const ExrReader& file, std::string_view viewLay
 
 /// Check that the file has every channel of the planes that are needed.
 /// @throws InputError naming file and channels
-void requireChannels(const ExrReader& file, const RecognizedLayout& layout, bool composite);
+void requireChannels(const ExrReader& file, const RecognizedLayout& layout, const LightWish& wanted);
 
-/// The same for a reference, which must hold the indirect light only.
-void requireReferenceChannels(const ExrReader& file, const RecognizedLayout& layout);
+/// The same for a reference. It must hold the indirect light, or, where direct light is wanted, one of both.
+void requireReferenceChannels(const ExrReader& file, const RecognizedLayout& layout, const LightWish& wanted);
 
 /// Read the required planes into the frame's images; add channels with non-finite values to `Frame::nonFinite`.
-void readFrame(ExrReader& file, const RecognizedLayout& layout, bool composite, Frame& frame);
+void readFrame(ExrReader& file, const RecognizedLayout& layout, const LightWish& wanted, Frame& frame);
 
-/// Read a reference, and add its channels with non-finite values to `nonFinite`. The mean of one half of the samples is
-/// optional: `DiffIndA.{R,G,B}` or `IndirectA.{R,G,B}`.
-Reference readReference(ExrReader& file, const RecognizedLayout& layout, bool composite,
+/// Read the wanted lights that a reference holds, and add its channels with non-finite values to `nonFinite`. The mean
+/// of one half of the samples is optional: the plane of indirect light with an A after its name (`IndirectA`).
+Reference readReference(ExrReader& file, const RecognizedLayout& layout, const LightWish& wanted,
                         std::vector<NonFiniteChannel>& nonFinite);
+
+/// The passes that a composite adds as they are, in words: "Emit, GlossDir x GlossCol".
+/// @param denoised  the lights that are not among them
+std::string describeUndenoised(const RecognizedLayout& layout, std::span<const Light> denoised);
+/// Names of the optional passes of a composite that the files do not hold; empty if they hold all.
+std::string describeMissing(const RecognizedLayout& layout);
 
 }  // namespace walr

@@ -126,16 +126,18 @@ void Sequence::checkHeaders() {
     const ExrReader file(entry.file);
     if (layout_.layout == nullptr) {
       layout_ = recognizeLayout(file, options_.viewLayer);
+      denoiserLayout_ =
+          options_.motionDepth ? withMotionDepth(*layout_.layout, *options_.motionDepth, entry.file) : *layout_.layout;
       extent_ = {static_cast<std::uint32_t>(file.width()), static_cast<std::uint32_t>(file.height())};
       if (layout_.layout->cameras == CameraSource::JsonFile) {
         cameras = readCameraFile(folder_ / "cameras.json");
       }
     }
-    requireChannels(file, layout_, options_.composite);
+    requireChannels(file, layout_, options_.light);
     checkSize(file);
     if (!entry.reference.empty()) {
       const ExrReader reference(entry.reference);
-      requireReferenceChannels(reference, layout_);
+      requireReferenceChannels(reference, layout_, options_.light);
       checkSize(reference);
     }
     if (layout_.layout->cameras == CameraSource::HeaderAttributes) {
@@ -152,8 +154,8 @@ void Sequence::checkHeaders() {
 
 void Sequence::readLight(const ExrReader& file, Entry& entry) {
   const SparseLight light = readLightAttributes(file);
-  if (&entry == &entries_.front()) layout_.setLight(light.pattern);
-  if (light.pattern != layout_.layout->conventions.light) {
+  if (&entry == &entries_.front()) denoiserLayout_.conventions.light = light.pattern;
+  if (light.pattern != denoiserLayout_.conventions.light) {
     throw InputError(file.path().string() + ": its header attribute " + kLightGroupAttribute +
                      " differs from that of " + entries_.front().file.filename().string() +
                      ". All frames must have the same pixels per sample of light.");
@@ -193,7 +195,7 @@ Frame Sequence::read(std::size_t index) const {
   frame.number = entry.number;
   frame.camera = entry.camera;
   frame.resetHistory = entry.resetHistory;
-  frame.light = layout_.layout->conventions.light;
+  frame.light = denoiserLayout_.conventions.light;
   frame.lightOffset = entry.lightOffset;
   const Camera& previous = entries_[index > 0 ? index - 1 : 0].camera;
   frame.previousProjection = previous.projection;
@@ -201,11 +203,11 @@ Frame Sequence::read(std::size_t index) const {
 
   ExrReader file(entry.file);
   checkSize(file);
-  readFrame(file, layout_, options_.composite, frame);
+  readFrame(file, layout_, options_.light, frame);
   if (!entry.reference.empty()) {
     ExrReader reference(entry.reference);
     checkSize(reference);
-    frame.reference = readReference(reference, layout_, options_.composite, frame.nonFinite);
+    frame.reference = readReference(reference, layout_, options_.light, frame.nonFinite);
   }
   if (options_.nonFinite == NonFinitePolicy::Fail) {
     refuseNonFinite(frame.nonFinite);

@@ -25,10 +25,11 @@ enum class NonFinitePolicy {
 
 struct SequenceOptions {
   std::optional<FrameRange> frames;  ///< Absent: all frames.
-  bool composite = false;            ///< Also read direct light and emission.
+  LightWish light;                   ///< The light to read.
   std::string viewLayer;             ///< See `recognizeLayout`.
   std::vector<int> cuts;             ///< Frames that follow a camera cut, in addition to those that the cameras show.
   NonFinitePolicy nonFinite = NonFinitePolicy::Fail;
+  std::optional<InputConventions::MotionDepth> motionDepth;  ///< Absent: as the layout says.
 };
 
 /// A folder of frames. The constructor checks names, numbers, channels, sizes and cameras of all frames before any
@@ -50,7 +51,10 @@ class Sequence {
   Sequence(std::filesystem::path folder, SequenceOptions options);
 
   [[nodiscard]] const std::vector<Entry>& entries() const { return entries_; }
+  /// What the files hold.
   [[nodiscard]] const RecognizedLayout& layout() const { return layout_; }
+  /// What a denoiser is told of the frames: the files' layout with `SequenceOptions::motionDepth`.
+  [[nodiscard]] const Layout& denoiserLayout() const { return denoiserLayout_; }
   [[nodiscard]] fg::Extent extent() const { return extent_; }
   [[nodiscard]] bool hasReferences() const;
 
@@ -69,6 +73,7 @@ class Sequence {
   SequenceOptions options_;
   std::vector<Entry> entries_;
   RecognizedLayout layout_;
+  Layout denoiserLayout_;
   fg::Extent extent_;
 };
 

@@ -67,27 +67,24 @@ const uint kHypothesisInverseView = 5;   // The view matrix leads from view to w
 const uint kHypothesisCount = 6;
 const uint kLintNormalFits = 64;  // Normals fit as stated; see kFittingCosine.
 
-// Albedo left in the lighting: pairs of neighbours on one surface, one with at least kAlbedoContrast times the albedo
-// of the other. Histograms of the light by order of magnitude, for the pixel with more albedo and the one with less, as
-// given and divided by albedo. Order 0 is no light; order k is from 2^(k - kLintUnitOrder) to twice that.
-const uint kLintPairs = 65;
-const uint kLintLightMore = 66;
-const uint kLintLightLess = 98;
-const uint kLintDividedMore = 130;
-const uint kLintDividedLess = 162;
-const uint kLintOrders = 32;
-const uint kLintUnitOrder = 17;
+// Albedo left in the lighting: pairs of pixels on one surface, in a row or column, 1, 2, 4, ... kAlbedoFarthest apart, by
+// the contrast of their albedo in the channel in which it differs most. Class c holds contrasts from c + 1 to c + 2
+// steps, the last class all larger ones.
+const uint kLintFollowsAlbedo = 65;  // The light's contrast is nearer to that of albedo than to none.
+const uint kLintIgnoresAlbedo = 73;  // The reverse.
+const int kAlbedoFarthest = 8;  // Pixels.
+const uint kAlbedoContrasts = 8;
+const float kAlbedoContrastStep = 0.25;  // Octaves.
 
 // Surfaces that the rounding of the view matrix moves by more than kMostRounding, because the camera is far from the
 // origin of its matrices.
-const uint kLintRounded = 194;
+const uint kLintRounded = 81;
 
-const uint kLintWords = 195;
+const uint kLintWords = 82;
 
 // A random normal that faces the camera has a cosine above c with any direction with probability 1 - c.
 const float kFittingCosine = 0.8;
 const float kMostRounding = 0.1;  // Pixels, as much as the errors of a matrix that is accepted (camera_check.cpp).
-const float kAlbedoContrast = 2.0;
 const float kAlbedoLeast = 0.01;  // Below, a pixel has no diffuse lobe.
 
 #ifdef __cplusplus

@@ -18,7 +18,7 @@ void CallCheck::leaveMark() {
 }
 
 void CallCheck::judge(std::string_view function, const Expectation& expected,
-                      std::initializer_list<std::string_view> names, WalrResult result) {
+                      const std::vector<std::string_view>& names, WalrResult result) {
   ++calls_;
   const std::string_view text = walr_last_error();
   const bool failed = result != WALR_SUCCESS;

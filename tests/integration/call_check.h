@@ -41,12 +41,14 @@ class Expectation {
   }
   /// The call may fail: the arguments are valid one by one and perhaps not together.
   void mayFail() { mayFail_ = true; }
+  /// The call allocates with an allocator that fails now and then.
+  void mayRunOutOfMemory() { mayRunOutOfMemory_ = true; }
   /// Another thread may use or destroy the object at the same time.
   void isShared() { shared_ = true; }
 
   [[nodiscard]] bool allows(WalrResult result) const {
-    if (result == WALR_ERROR_INTERNAL || result == WALR_ERROR_DEVICE_LOST || result == WALR_ERROR_OUT_OF_MEMORY)
-      return false;
+    if (result == WALR_ERROR_INTERNAL || result == WALR_ERROR_DEVICE_LOST) return false;
+    if (result == WALR_ERROR_OUT_OF_MEMORY) return mayRunOutOfMemory_;
     if (shared_) return true;
     if (result == WALR_ERROR_CONCURRENT_USE) return false;
     if (result == WALR_SUCCESS) return mayPass_;
@@ -57,6 +59,7 @@ class Expectation {
  private:
   bool mayPass_ = true;
   bool mayFail_ = false;
+  bool mayRunOutOfMemory_ = false;
   bool shared_ = false;
   WalrResult code_ = WALR_SUCCESS;  ///< Of a failure; success means any.
 };
@@ -68,7 +71,7 @@ class CallCheck {
   /// @param names words for the call's arguments; the text of an error must hold one of them
   template <typename Call>
   WalrResult operator()(std::string_view function, const Expectation& expected,
-                        std::initializer_list<std::string_view> names, Call call) {
+                        const std::vector<std::string_view>& names, Call call) {
     leaveMark();
     const WalrResult result = call();
     judge(function, expected, names, result);
@@ -84,7 +87,7 @@ class CallCheck {
  private:
   /// Leaves a known text as the thread's last error, so that a call that fails without a text of its own is noticed.
   static void leaveMark();
-  void judge(std::string_view function, const Expectation& expected, std::initializer_list<std::string_view> names,
+  void judge(std::string_view function, const Expectation& expected, const std::vector<std::string_view>& names,
              WalrResult result);
   [[nodiscard]] std::string history() const;
 

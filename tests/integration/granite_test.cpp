@@ -90,7 +90,7 @@ class Listed {
   Listed(std::vector<std::string> names, std::uint32_t images, const std::vector<std::vector<Access>>& passes)
       : names_(std::move(names)), resources_(images), bindings_(passes.size()), dispatches_(passes.size()) {
     for (std::uint32_t i = 0; i < images; ++i) {
-      imageNames_.push_back("image " + std::to_string(i));
+      imageNames_.push_back(i + 1 == images ? "denoised" : "image " + std::to_string(i));
       WalrResource& resource = resources_[i];
       resource.kind = i + 1 == images ? WALR_RESOURCE_HOST : WALR_RESOURCE_TRANSIENT;
       resource.format = VK_FORMAT_R16G16B16A16_SFLOAT;

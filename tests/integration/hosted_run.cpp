@@ -13,6 +13,8 @@ namespace {
 
 constexpr std::array<const char*, 8> kImages{"lighting", "depth",     "normal",     "motion",
                                              "albedo",   "object_id", "confidence", "denoised"};
+constexpr std::size_t kFirstGuide = 1;
+constexpr std::size_t kLastGuide = 4;
 constexpr std::size_t kObjectIds = 5;
 constexpr std::size_t kConfidence = 6;
 constexpr std::size_t kOutput = 7;
@@ -55,6 +57,7 @@ HostedRun::HostedRun(const fg::vk::Device& device, const char* method, glm::ivec
       objectIds_(options.objectIds),
       confidence_(options.confidenceFormat != VK_FORMAT_UNDEFINED),
       hasHistoryLength_(options.historyLength),
+      guidesOf_(options.guidesOf),
       offset_(options.offset),
       margin_(options.margin),
       queue_(device.context(), device.queue(), hostSlots_) {
@@ -99,7 +102,7 @@ HostedRun::~HostedRun() {
 void HostedRun::makeImages(glm::ivec2 size) {
   needs_.clear();
   for (const char* name : kImages) {
-    if (!isGiven(images_.size())) {
+    if (!isGiven(images_.size()) || isBorrowed(images_.size())) {
       images_.push_back(nullptr);
       needs_.emplace_back();
       continue;
@@ -142,6 +145,10 @@ void HostedRun::forget(std::optional<FurtherOutput>& output) {
 
 bool HostedRun::isGiven(std::size_t index) const {
   return (index != kObjectIds || objectIds_) && (index != kConfidence || confidence_);
+}
+
+bool HostedRun::isBorrowed(std::size_t index) const {
+  return guidesOf_ != nullptr && index >= kFirstGuide && index <= kLastGuide;
 }
 
 std::vector<std::uint16_t> HostedRun::historyLength() const {
@@ -244,6 +251,8 @@ void HostedRun::record(const fg::vk::Frame& recorded, const FrameDescription& ca
   }
   std::array<WalrImage, kImages.size()> images{};
   for (std::size_t i = 0; i < images.size(); ++i) {
+    // Another one's guides are in the state in which its denoiser left them, which is the one before it.
+    if (isBorrowed(i)) images[i] = guidesOf_->describe(i);
     if (images_[i]) images[i] = describe(i);
   }
   const WalrCamera now = cameraOf(camera.view, camera.projection, camera.jitter);

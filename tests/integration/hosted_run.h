@@ -43,6 +43,8 @@ class HostedRun {
     VkPipelineCache pipelineCache = VK_NULL_HANDLE;
     const WalrMemoryCallbacks* deviceMemory = nullptr;
     WalrDenoiser sharedWith = nullptr;
+    /// Whose depth, normal, motion and albedo to use, in frames that are recorded after its own; must outlive this.
+    const HostedRun* guidesOf = nullptr;
   };
 
   HostedRun(const fg::vk::Device& device, const char* method, glm::ivec2 size) : HostedRun(device, method, size, {}) {}
@@ -97,6 +99,8 @@ class HostedRun {
   [[nodiscard]] WalrImage describe(const FurtherOutput& output) const;
   void forget(std::optional<FurtherOutput>& output);
   [[nodiscard]] bool isGiven(std::size_t index) const;
+  /// Whether the image is another one's guide.
+  [[nodiscard]] bool isBorrowed(std::size_t index) const;
   [[nodiscard]] fg::vk::StagedImage& output() const { return *images_.back(); }
 
   const fg::vk::Device* device_;
@@ -105,11 +109,12 @@ class HostedRun {
   bool objectIds_;
   bool confidence_;
   bool hasHistoryLength_;
+  const HostedRun* guidesOf_;
   glm::ivec2 offset_;
   glm::ivec2 margin_;
   WalrDenoiser denoiser_ = nullptr;
   std::vector<WalrImageRequirements> needs_;
-  std::vector<std::unique_ptr<fg::vk::StagedImage>> images_;  ///< Null for images that the host does not have.
+  std::vector<std::unique_ptr<fg::vk::StagedImage>> images_;  ///< Null for images that this does not own.
   std::array<std::vector<std::byte>, 7> texels_;
   std::optional<FurtherOutput> view_;
   std::optional<FurtherOutput> historyLength_;

@@ -78,12 +78,13 @@ class Nvrhi : public PluginTest {
     commands->copyTexture(staging, nvrhi::TextureSlice(), texture, nvrhi::TextureSlice());
     return staging;
   }
-  std::vector<std::uint16_t> read(nvrhi::IStagingTexture* staging, Size size) {
+  /// Texels of `components` halves.
+  std::vector<std::uint16_t> read(nvrhi::IStagingTexture* staging, Size size, std::size_t components = 4) {
     std::size_t pitch = 0;
     const auto* bytes = static_cast<const std::byte*>(
         rhi_->mapStagingTexture(staging, nvrhi::TextureSlice(), nvrhi::CpuAccessMode::Read, &pitch));
-    std::vector<std::uint16_t> values(std::size_t{4} * size.width * size.height);
-    const std::size_t row = std::size_t{4} * size.width * sizeof(std::uint16_t);
+    std::vector<std::uint16_t> values(components * size.width * size.height);
+    const std::size_t row = components * size.width * sizeof(std::uint16_t);
     for (std::uint32_t y = 0; y < size.height; ++y)
       std::memcpy(reinterpret_cast<std::byte*>(values.data()) + y * row, bytes + y * pitch, row);
     rhi_->unmapStagingTexture(staging);
@@ -153,6 +154,48 @@ class Nvrhi : public PluginTest {
 TEST_F(Nvrhi, EveryMethodGivesTheSamePixelsThroughResetAndResize) {
   for (const WalrPassType* type : registered.types)
     if (type->method == VK_TRUE) compare(type->name);
+}
+
+TEST_F(Nvrhi, HistoryConfidenceAndLengthsAreTheSame) {
+  constexpr Size kSize{61, 43};
+  const WalrDenoiserInfo whole = infoWithHistory("walr", kSize);
+  Opaque opaque(host, api(), whole);
+  WalrDenoiser denoiser = nullptr;
+  require(api().create_denoiser(&whole, &denoiser));
+  const walr::adapters::NvrhiDenoiser adapter(denoiser, {api().record, api().forget_image, api().last_error});
+  const Textures textures = makeTextures(kSize);
+  const nvrhi::TextureHandle confidence = make(nvrhi::Format::R32_FLOAT, kSize, false);
+  const nvrhi::TextureHandle lengths = make(nvrhi::Format::R16_FLOAT, kSize, true);
+  for (std::uint32_t number = 0; number < 4; ++number) {
+    SCOPED_TRACE("frame " + std::to_string(number));
+    const std::vector<float> trust = texels("confidence", kSize, number);
+    const WalrCamera camera = cameraAt(float(number) * kStep);
+    uploadFrame(host, kSize, number, [&](std::size_t i) { return &opaque.image(i); });
+    host_upload(&host, &opaque.further("confidence"), trust.data());
+    opaque.frame(camera, 0);
+
+    const nvrhi::CommandListHandle commands = rhi_->createCommandList();
+    commands->open();
+    upload(commands, textures, kSize, number);
+    commands->writeTexture(confidence, 0, 0, trust.data(), kSize.width * sizeof(float));
+    WalrFrame frame{};
+    frame.struct_size = sizeof(frame);
+    frame.camera = &camera;
+    walr::adapters::NvrhiTextures given{textures[0], textures[1], textures[2], textures[3], textures[4], textures[5]};
+    given.confidence = confidence;
+    given.historyLength = lengths;
+    adapter.record(commands, given, frame);
+    const nvrhi::StagingTextureHandle denoised = copyOut(commands, textures.back());
+    const nvrhi::StagingTextureHandle history = copyOut(commands, lengths);
+    submit(commands);
+    EXPECT_EQ(read(denoised, kSize), download(host, opaque.output()));
+    const std::vector<std::uint16_t> found = read(history, kSize, 1);
+    EXPECT_EQ(found, download(host, opaque.further("history_length")));
+    if (number == 3) expectLengthsByConfidence(found, kSize);
+  }
+  for (nvrhi::ITexture* texture : textures) adapter.forget(texture);
+  for (nvrhi::ITexture* texture : {confidence.Get(), lengths.Get()}) adapter.forget(texture);
+  require(api().destroy_denoiser(denoiser));
 }
 
 TEST_F(Nvrhi, GivesTheSamePixelsWithOldBarriers) {

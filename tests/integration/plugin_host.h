@@ -2,8 +2,10 @@
 
 #include <dlfcn.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <iterator>
 #include <span>
 #include <stdexcept>
@@ -106,6 +108,13 @@ class PluginTest : public testing::Test {
     info.lighting_format = info.normal_format = info.motion_format = info.albedo_format = VK_FORMAT_R32G32B32A32_SFLOAT;
     return info;
   }
+  /// The same with the host's confidence in history, and with history lengths.
+  [[nodiscard]] WalrDenoiserInfo infoWithHistory(const char* method, Size size) const {
+    WalrDenoiserInfo result = info(method, size);
+    result.confidence_format = VK_FORMAT_R32_SFLOAT;
+    result.history_length = VK_TRUE;
+    return result;
+  }
   [[nodiscard]] WalrPasses makePasses(const char* method, Size size) const { return makePasses(info(method, size)); }
   [[nodiscard]] WalrPasses makePasses(const WalrDenoiserInfo& denoiser,
                                       std::span<const WalrSettingValue> settings = {}) const {
@@ -122,6 +131,14 @@ class PluginTest : public testing::Test {
   Plugin plugin;
   Host host{};
   WalrDevice device{};
+  /// The methods that keep a history of light.
+  [[nodiscard]] std::vector<const char*> methodsWithHistory() const {
+    std::vector<const char*> names;
+    for (const WalrPassType* type : registered.types)
+      if (type->method == VK_TRUE && std::string(type->name) != "none") names.push_back(type->name);
+    return names;
+  }
+
   Registered registered;
 };
 
@@ -134,6 +151,7 @@ inline WalrCamera cameraAt(float x) {
 inline constexpr float kStep = 0.05F;  ///< The camera's movement to the right per frame, in scene units.
 
 /// Texels of an input: a slanted wall behind a nearer square, seen by a camera that moves to the right, noisy light.
+/// The host trusts history in the right half only.
 inline std::vector<float> texels(const std::string& name, Size size, std::uint32_t frame) {
   std::vector<float> result;
   std::uint32_t random = 12345 + frame * 977;
@@ -143,8 +161,8 @@ inline std::vector<float> texels(const std::string& name, Size size, std::uint32
       const float v = (float(y) + 0.5F) / float(size.height) * 2.0F - 1.0F;
       const bool near = std::abs(u) < 0.4F && std::abs(v) < 0.5F;
       const float depth = near ? 3.0F : 6.0F + 0.5F * v;
-      if (name == "depth") {
-        result.push_back(depth);
+      if (name == "depth" || name == "confidence") {
+        result.push_back(name == "depth" ? depth : u < 0.0F ? 0.0F : 0.75F);
         continue;
       }
       float texel[4] = {0, 0, 0, 0};
@@ -168,6 +186,8 @@ inline std::vector<float> texels(const std::string& name, Size size, std::uint32
 class Opaque {
  public:
   Opaque(Host& host, const WalrApi& api, const WalrDenoiserInfo& info) : host_(&host), api_(&api) {
+    if (info.confidence_format != VK_FORMAT_UNDEFINED) names_.emplace_back("confidence");
+    if (info.history_length == VK_TRUE) names_.emplace_back("history_length");
     if (api.create_denoiser(&info, &denoiser_) != WALR_SUCCESS) throw std::runtime_error(api.last_error());
     makeImages();
   }
@@ -180,7 +200,13 @@ class Opaque {
 
   [[nodiscard]] WalrDenoiser denoiser() const { return denoiser_; }
   HostImage& image(std::size_t index) { return images_[index]; }
-  HostImage& output() { return images_.back(); }
+  HostImage& output() { return images_.at(5); }
+  /// An image after the six: confidence and history lengths, if the denoiser has them.
+  HostImage& further(const std::string& name) {
+    for (std::size_t i = 6; i < names_.size(); ++i)
+      if (names_[i] == name) return images_[i];
+    throw std::out_of_range(name);
+  }
 
   /// Change the size and create images of that size.
   void resize(Size size) {
@@ -192,6 +218,13 @@ class Opaque {
 
   /// @param index with WALR_FRAME_INDEX_GIVEN
   void frame(const WalrCamera& camera, std::uint32_t flags, std::uint32_t index = 0) {
+    WalrPassFrame frame{};
+    frame.camera = &camera;
+    frame.frame_index = index;
+    this->frame(frame, flags);
+  }
+  /// @param like what a frame has in common with one pass by pass
+  void frame(const WalrPassFrame& like, std::uint32_t flags) {
     std::vector<WalrImage> images;
     for (const HostImage& image : images_) {
       WalrImage& given = images.emplace_back();
@@ -204,15 +237,18 @@ class Opaque {
       given.height = image.height;
       given.acquire = {image.stage, image.access, image.layout, 0};
     }
-    WalrFrame frame = frameOf(images, camera, flags);
-    frame.frame_index = index;
+    WalrFrame frame = frameOf(images, *like.camera, flags);
+    frame.frame_index = like.frame_index;
+    std::ranges::copy(like.origin, frame.origin);
+    for (std::size_t i = 6; i < names_.size(); ++i) {
+      (names_[i] == "confidence" ? frame.confidence : frame.history_length) = &images[i];
+    }
     const VkCommandBuffer commands = host_begin(host_);
     if (api_->record(denoiser_, commands, &frame) != WALR_SUCCESS) throw std::runtime_error(api_->last_error());
     host_submit_and_wait(host_, commands);
     for (std::size_t i = 0; i < images_.size(); ++i) {
       WalrImageState state{};
-      const char* name = i < 5 ? kInputs[i] : "denoised";
-      if (api_->get_release_state(denoiser_, name, &state) != WALR_SUCCESS) continue;  // Unused.
+      if (api_->get_release_state(denoiser_, names_[i].c_str(), &state) != WALR_SUCCESS) continue;  // Unused.
       images_[i].stage = state.stage;
       images_[i].access = state.access;
       images_[i].layout = state.layout;
@@ -221,10 +257,10 @@ class Opaque {
 
  private:
   void makeImages() {
-    for (const char* name : {"lighting", "depth", "normal", "motion", "albedo", "denoised"}) {
+    for (const std::string& name : names_) {
       WalrImageRequirements needs{};
       needs.struct_size = sizeof(needs);
-      if (api_->get_image_requirements(denoiser_, name, &needs) != WALR_SUCCESS) {
+      if (api_->get_image_requirements(denoiser_, name.c_str(), &needs) != WALR_SUCCESS) {
         throw std::runtime_error(api_->last_error());
       }
       images_.push_back(
@@ -239,11 +275,13 @@ class Opaque {
   Host* host_;
   const WalrApi* api_;
   WalrDenoiser denoiser_ = nullptr;
+  std::vector<std::string> names_{"lighting", "depth", "normal", "motion", "albedo", "denoised"};  ///< Of the images.
   std::vector<HostImage> images_;
 };
 
+/// All texels of an image of halves.
 inline std::vector<std::uint16_t> download(Host& host, HostImage& image) {
-  std::vector<std::uint16_t> result(std::size_t{4} * image.width * image.height);
+  std::vector<std::uint16_t> result(image.texel_size / sizeof(std::uint16_t) * image.width * image.height);
   host_download(&host, &image, result.data());
   return result;
 }
@@ -261,6 +299,107 @@ inline WalrPassFrame passFrame(const WalrCamera& camera) {
   frame.struct_size = sizeof(frame);
   frame.camera = &camera;
   return frame;
+}
+
+/// Check that history is as long as the host's confidence allows: one frame in the left half, more in the right one.
+inline void expectLengthsByConfidence(const std::vector<std::uint16_t>& lengths, Size size) {
+  constexpr std::uint16_t kOne = 0x3c00;
+  const std::uint32_t row = size.height / 2 * size.width;
+  EXPECT_EQ(lengths[row + 2], kOne);
+  EXPECT_GT(lengths[row + size.width * 3 / 4], kOne);
+}
+
+/// Compare five frames, with a reset, of the opaque call and of another way to run the same passes, both with the
+/// host's confidence in history and with history lengths.
+/// @param way has image(name), resetHistory() and frame(WalrPassFrame)
+template <typename Way>
+void expectSameHistory(Host& host, Opaque& opaque, Way& way, Size size) {
+  for (std::uint32_t number = 0; number < 5; ++number) {
+    SCOPED_TRACE("frame " + std::to_string(number));
+    uploadFrame(host, size, number, [&](std::size_t i) { return &opaque.image(i); });
+    uploadFrame(host, size, number, [&](std::size_t i) { return &way.image(kInputs[i]); });
+    for (HostImage* const image : {&opaque.further("confidence"), &way.image("confidence")}) {
+      host_upload(&host, image, texels("confidence", size, number).data());
+    }
+    const bool reset = number == 2;
+    const WalrCamera camera = cameraAt(float(number) * kStep);
+    opaque.frame(camera, reset ? WALR_FRAME_RESET_HISTORY : 0);
+    if (reset) way.resetHistory();
+    way.frame(passFrame(camera));
+    EXPECT_EQ(download(host, way.image("denoised")), download(host, opaque.output()));
+    const std::vector<std::uint16_t> lengths = download(host, way.image("history_length"));
+    EXPECT_EQ(lengths, download(host, opaque.further("history_length")));
+    if (number == 4) expectLengthsByConfidence(lengths, size);
+  }
+}
+
+/// Something that a host states beside the usual.
+struct Statement {
+  const char* name;
+  void (*state)(WalrDenoiserInfo& info, WalrConventions& conventions);
+  bool farAway = false;  ///< The cameras are relative to an origin that moves.
+};
+
+inline constexpr Statement kStatements[] = {
+    {"motion of two channels, depth found",
+     [](WalrDenoiserInfo& info, WalrConventions& conventions) {
+       info.motion_format = VK_FORMAT_R32G32_SFLOAT;
+       conventions.motion_depth = WALR_MOTION_DEPTH_FOUND;
+     }},
+    {"orthographic camera",
+     [](WalrDenoiserInfo&, WalrConventions& conventions) { conventions.orthographic = VK_TRUE; }},
+    {"result in 32 bits",
+     [](WalrDenoiserInfo& info, WalrConventions&) { info.denoised_format = VK_FORMAT_B10G11R11_UFLOAT_PACK32; }},
+    {"result in floats",
+     [](WalrDenoiserInfo& info, WalrConventions&) { info.denoised_format = VK_FORMAT_R32G32B32A32_SFLOAT; }},
+    {"large world", [](WalrDenoiserInfo&, WalrConventions&) {}, true},
+};
+
+/// The texels of motion without its third and fourth channel.
+inline std::vector<float> flatMotion(Size size, std::uint32_t frame) {
+  const std::vector<float> whole = texels("motion", size, frame);
+  std::vector<float> flat;
+  for (std::size_t i = 0; i < whole.size(); i += 4) flat.insert(flat.end(), {whole[i], whole[i + 1]});
+  return flat;
+}
+
+/// Compare four frames of the opaque call and of another way to run the same passes, for each of `kStatements`.
+/// @param usual   the usual description
+/// @param makeWay creates the other way from a description and hands it to its second argument
+template <typename MakeWay>
+void expectSameStatements(Host& host, const WalrApi& api, const WalrDenoiserInfo& usual, Size size, MakeWay makeWay) {
+  for (const Statement& statement : kStatements) {
+    SCOPED_TRACE(statement.name);
+    WalrConventions conventions{};
+    conventions.struct_size = sizeof(conventions);
+    WalrDenoiserInfo stated = usual;
+    stated.conventions = &conventions;
+    statement.state(stated, conventions);
+    Opaque opaque(host, api, stated);
+    makeWay(stated, [&](auto& way) {
+      for (std::uint32_t number = 0; number < 4; ++number) {
+        for (const auto& imageOf : {std::function([&](std::size_t i) { return &opaque.image(i); }),
+                                    std::function([&](std::size_t i) { return &way.image(kInputs[i]); })}) {
+          uploadFrame(host, size, number, imageOf);
+          if (stated.motion_format != usual.motion_format) {
+            host_upload(&host, imageOf(3), flatMotion(size, number).data());
+          }
+        }
+        WalrCamera camera = cameraAt(statement.farAway ? 0.0F : float(number) * kStep);
+        if (conventions.orthographic == VK_TRUE) {
+          constexpr float kParallel[16] = {0.5F, 0, 0, 0, 0, 0.5F, 0, 0, 0, 0, -0.01F, 0, 0, 0, 0, 1};
+          std::ranges::copy(kParallel, camera.projection);
+        }
+        WalrPassFrame frame = passFrame(camera);
+        if (statement.farAway) frame.origin[0] = 1e6 + double(number) * double(kStep);
+        opaque.frame(frame, 0);
+        way.frame(frame);
+        const std::vector<std::uint16_t> result = download(host, way.image("denoised"));
+        EXPECT_EQ(result, download(host, opaque.output())) << "frame " << number;
+        EXPECT_GT(std::ranges::count_if(result, [](std::uint16_t bits) { return bits != 0; }), result.size() / 2);
+      }
+    });
+  }
 }
 
 }  // namespace plugin_host

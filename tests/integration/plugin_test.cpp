@@ -71,6 +71,36 @@ TEST_F(PluginTest, EveryMethodGivesTheSamePixelsPassByPass) {
   }
 }
 
+TEST_F(PluginTest, HistoryConfidenceAndLengthsAreTheSamePassByPass) {
+  constexpr Size kSize{61, 43};
+  for (const char* method : methodsWithHistory()) {
+    SCOPED_TRACE(method);
+    const WalrDenoiserInfo whole = infoWithHistory(method, kSize);
+    Opaque opaque(host, api(), whole);
+    const WalrPasses passes = makePasses(whole);
+    {
+      tiny_host::Graph graph(host, api(), passes);
+      expectSameHistory(host, opaque, graph, kSize);
+    }
+    EXPECT_EQ(api().destroy_passes(passes), WALR_SUCCESS);
+  }
+}
+
+TEST_F(PluginTest, WhatAHostStatesGivesTheSamePixelsPassByPass) {
+  constexpr Size kSize{61, 43};
+  for (const char* method : {"walr", "svgf"}) {
+    SCOPED_TRACE(method);
+    expectSameStatements(host, api(), info(method, kSize), kSize, [&](const WalrDenoiserInfo& stated, auto compare) {
+      const WalrPasses passes = makePasses(stated);
+      {
+        tiny_host::Graph way(host, api(), passes);
+        compare(way);
+      }
+      EXPECT_EQ(api().destroy_passes(passes), WALR_SUCCESS);
+    });
+  }
+}
+
 /// Passes of a size, in a host's graph.
 struct SizedGraph {
   WalrPasses passes;
@@ -262,12 +292,22 @@ TEST_F(PluginTest, SingleStagesGiveThePixelsOfTheWholeMethod) {
         {"temporal_accumulation_with_taps", with({{"accumulation.max-history", "8"}, {"accumulation.antilag", "on"}})},
         {"block_regression", with({{"blocks.iterations", "2"}})},
         {"temporal_antialiasing_with_taps", {{"antialiasing.clip-gamma", "5"}, {"antialiasing.storage", "packed"}}}}}};
-  for (const auto& [method, links] : chains) {
-    Opaque opaque(host, api(), info(method.c_str(), kSize));
+  const auto compare = [&](const std::string& method, const std::vector<Link>& links, VkFormat confidence) {
+    const auto described = [&](const char* name) {
+      WalrDenoiserInfo result = info(name, kSize);
+      result.confidence_format = confidence;
+      return result;
+    };
+    Opaque opaque(host, api(), described(method.c_str()));
     stage_host::Chain chain(host, api());
-    for (const Link& link : links) chain.add(info(link.stage, kSize), link.settings, link.renamed);
+    for (const Link& link : links) chain.add(described(link.stage), link.settings, link.renamed);
     for (std::uint32_t frame = 0; frame < 4; ++frame) {
       SCOPED_TRACE(method + ", frame " + std::to_string(frame));
+      if (confidence != VK_FORMAT_UNDEFINED) {
+        for (HostImage* const image : {&opaque.further("confidence"), chain.image("confidence")}) {
+          host_upload(&host, image, texels("confidence", kSize, frame).data());
+        }
+      }
       uploadFrame(host, kSize, frame, [&](std::size_t i) { return &opaque.image(i); });
       for (const char* name : kInputs) {
         if (HostImage* image = chain.image(name)) host_upload(&host, image, texels(name, kSize, frame).data());
@@ -277,6 +317,10 @@ TEST_F(PluginTest, SingleStagesGiveThePixelsOfTheWholeMethod) {
       chain.frame(passFrame(camera));
       EXPECT_EQ(download(host, *chain.image("denoised")), download(host, opaque.output()));
     }
+  };
+  for (const auto& [method, links] : chains) {
+    compare(method, links, VK_FORMAT_UNDEFINED);
+    compare(method, links, VK_FORMAT_R32_SFLOAT);
   }
 }
 

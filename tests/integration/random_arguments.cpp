@@ -1,15 +1,25 @@
 #include "tests/integration/random_arguments.h"
 
 #include <cmath>
-#include <limits>
+#include <cstdlib>
+#include <cstring>
 
 namespace walr::test {
 namespace {
 
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 constexpr WalrCamera kCamera = {.view = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1},
                                 .projection = {1.5F, 0, 0, 0, 0, 2, 0, 0, 0, 0, -1, -1, 0, 0, -0.1F, 0},
                                 .jitter = {0, 0}};
+constexpr float kParallelProjection[16] = {0.5F, 0, 0, 0, 0, 0.5F, 0, 0, 0, 0, -0.01F, 0, 0, 0, 0, 1};
+
+/// Address that checkLog expects.
+const int logUser = 0;
+
+/// Receives the library's messages, and ends the program if they do not come as promised.
+void checkLog(void* user, WalrLogLevel level, const char* text) {
+  const bool known = level == WALR_LOG_INFO || level == WALR_LOG_WARNING || level == WALR_LOG_ERROR;
+  if (user != &logUser || !known || text == nullptr || *text == '\0') std::abort();
+}
 
 /// A value of an enumeration, seldom one that it does not have.
 template <typename Enum>
@@ -31,17 +41,39 @@ std::string validValue(Dice& dice, Expectation& expected, const WalrSetting& set
 }  // namespace
 
 RandomInfo::RandomInfo(Dice& dice, Expectation& expected, const std::vector<const WalrPassType*>& types,
-                       const WalrDevice* device) {
+                       const RandomHost& host) {
   chooseSize(dice, expected, info_);
   chooseMethod(dice, expected, types);
   chooseImages(dice, expected);
   chooseConventions(dice, expected);
-  chooseDevice(dice, expected, device);
+  chooseOutputs(dice, expected);
+  chooseDevice(dice, expected, host);
+}
+
+void RandomInfo::chooseOutputs(Dice& dice, Expectation& expected) {
   info_.value.timestamps = dice.below(2);
+  if (dice.oneIn(2)) {
+    info_.value.log = checkLog;
+    info_.value.log_user = const_cast<int*>(&logUser);
+  }
+  // A stage has no such outputs, and some methods have no history length.
   if (dice.oneIn(8)) {
     info_.value.lint = VK_TRUE;
-    expected.mayFail();  // A stage cannot check inputs.
+    expected.mayFail();
   }
+  if (dice.oneIn(8)) {
+    info_.value.counters = VK_TRUE;
+    expected.mayFail();
+  }
+  if (dice.oneIn(8)) {
+    info_.value.history_length = VK_TRUE;
+    expected.mayFail();
+  }
+  if (!dice.oneIn(6)) return;
+  info_.value.denoised_format = dice.of({VK_FORMAT_R16G16B16A16_SFLOAT, VK_FORMAT_B10G11R11_UFLOAT_PACK32,
+                                         VK_FORMAT_R32G32B32A32_SFLOAT, VK_FORMAT_R8G8B8A8_UNORM});
+  expected.mayFail();
+  if (info_.value.denoised_format == VK_FORMAT_R8G8B8A8_UNORM) expected.fails();
 }
 
 void RandomInfo::chooseMethod(Dice& dice, Expectation& expected, const std::vector<const WalrPassType*>& types) {
@@ -75,7 +107,6 @@ void RandomInfo::chooseImages(Dice& dice, Expectation& expected) {
   VkFormat* const formats[] = {&info_.value.lighting_format,  &info_.value.depth_format,  &info_.value.normal_format,
                                &info_.value.motion_format,    &info_.value.albedo_format, &info_.value.object_id_format,
                                &info_.value.confidence_format};
-  info_.value.history_length = dice.below(2);  // A method may have none, and a stage has none.
   *formats[dice.below(7)] = dice.of({VK_FORMAT_R16G16B16A16_SFLOAT, VK_FORMAT_R32_SFLOAT, VK_FORMAT_R32_UINT,
                                      VK_FORMAT_D32_SFLOAT_S8_UINT, VK_FORMAT_BC7_SRGB_BLOCK, VK_FORMAT_R16_UINT,
                                      VK_FORMAT_G8_B8R8_2PLANE_420_UNORM, static_cast<VkFormat>(123456)});
@@ -95,26 +126,19 @@ void RandomInfo::chooseConventions(Dice& dice, Expectation& expected) {
   conventions.pre_exposed = dice.below(2);
   conventions.motion_jittered = dice.below(2);
   conventions.rectangle = dice.oneIn(3) ? VK_TRUE : VK_FALSE;
+  conventions.orthographic = dice.oneIn(4) ? VK_TRUE : VK_FALSE;
+  for (float& scale : conventions.motion_scale) scale = dice.of({0.0F, 1.0F, -1.0F, 0.5F});
   if (!dice.oneIn(24)) return;
-  conventions.motion_scale[dice.below(2)] = dice.of({kNan, INFINITY});
+  conventions.motion_scale[dice.below(2)] = dice.of({kNotANumber, kInfinity});
   expected.fails();
 }
 
-void RandomInfo::chooseDevice(Dice& dice, Expectation& expected, const WalrDevice* device) {
-  if (device != nullptr) {
-    device_.value = *device;
-    info_.value.device = &device_.value;
-  }
-  if (!dice.oneIn(16)) return;
-  info_.value.device = &device_.value;
-  if (device != nullptr && dice.oneIn(2)) {
-    chooseSize(dice, expected, device_);
-    return;
-  }
-  // Without a device all of its members are null already.
-  device_.value.struct_size = sizeof(WalrDevice);
-  device_.value.device = VK_NULL_HANDLE;
-  expected.fails();
+void RandomInfo::chooseDevice(Dice& dice, Expectation& expected, const RandomHost& host) {
+  if (dice.oneIn(2)) info_.value.pipeline_cache = host.pipelineCache;
+  // Passes without a device are only listed.
+  if (host.device == nullptr && !dice.oneIn(16)) return;
+  device_.emplace(dice, expected, host);
+  info_.value.device = device_->get();
 }
 
 std::uint32_t randomLength(Dice& dice, Expectation& expected) {
@@ -137,18 +161,23 @@ WalrSettingValue randomSetting(Dice& dice, Expectation& expected, const WalrPass
   return {setting.name, storage.c_str()};
 }
 
-const WalrCamera* randomCamera(Dice& dice, Expectation& expected, WalrCamera& storage) {
+const WalrCamera* randomCamera(Dice& dice, Expectation& expected, bool orthographic, WalrCamera& storage) {
   if (dice.oneIn(24)) {
     expected.fails(WALR_ERROR_INVALID_ARGUMENT);
     return nullptr;
   }
   storage = kCamera;
+  const bool ofOtherKind = dice.oneIn(48);
+  if (ofOtherKind) expected.fails(WALR_ERROR_INVALID_ARGUMENT);
+  if (orthographic != ofOtherKind) std::memcpy(storage.projection, kParallelProjection, sizeof(kParallelProjection));
   storage.jitter[0] = static_cast<float>(dice.below(5)) / 8.0F;
-  if (dice.oneIn(12)) {
-    storage.view[dice.below(16)] = dice.of({kNan, INFINITY});
+  float* const values = dice.oneIn(2) ? storage.view : storage.projection;
+  if (dice.oneIn(24)) {
+    float& value = dice.oneIn(4) ? storage.jitter[dice.below(2)] : values[dice.below(16)];
+    value = dice.of({kNotANumber, kInfinity});
     expected.fails(WALR_ERROR_INVALID_ARGUMENT);
-  } else if (dice.oneIn(8)) {
-    storage.view[dice.below(16)] = dice.of({0.0F, -1.0F, 1e30F, 1e-30F});
+  } else if (dice.oneIn(12)) {
+    values[dice.below(16)] = dice.of({0.0F, -1.0F, 1e30F, 1e-30F});
     expected.mayFail();
   }
   return &storage;

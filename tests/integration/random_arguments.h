@@ -1,51 +1,39 @@
 #pragma once
 
-#include <array>
-#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <walr/walr_passes.h>
 
 #include "tests/integration/call_check.h"
+#include "tests/integration/random_device.h"
+#include "tests/integration/random_structs.h"
 
 namespace walr::test {
 
-/// A structure of a caller whose header is newer: it has further fields at its end.
-template <typename Struct>
-struct Grown {
-  Struct value{};
-  std::array<std::byte, 16> later{};
-};
+inline constexpr float kNotANumber = std::numeric_limits<float>::quiet_NaN();
+inline constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-/// Sets `struct_size`, mostly rightly.
-template <typename Struct>
-void chooseSize(Dice& dice, Expectation& expected, Grown<Struct>& grown) {
-  static_assert(sizeof(Grown<Struct>) == sizeof(Struct) + 16);
-  grown.value.struct_size = sizeof(Struct);
-  if (!dice.oneIn(12)) return;
-  switch (dice.below(4)) {
-    case 0:
-      grown.value.struct_size = sizeof(grown);
-      break;
-    case 1:
-      grown.value.struct_size = sizeof(grown);
-      grown.later[dice.below(grown.later.size())] = std::byte{1};
-      expected.fails(WALR_ERROR_STRUCT_SIZE);
-      break;
-    default:
-      grown.value.struct_size = dice.of({0U, 4U, 1U << 20});
-      expected.fails(WALR_ERROR_STRUCT_SIZE);
-  }
-}
+/// Words of which the text of an error about a WalrDenoiserInfo holds one.
+inline const std::vector<std::string_view> kInfoNames = {"WalrDenoiserInfo", "WalrDevice",
+                                                         "WalrMemory",       "WalrConventions",
+                                                         "WalrDenoiser",     "method",
+                                                         "preset",           "setting",
+                                                         "image size",       "input",
+                                                         "orthographic",     "queue famil",
+                                                         "created without",  "the result's address",
+                                                         "regression",       "svgf."};
 
 /// All that a WalrDenoiserInfo points to.
 class RandomInfo {
  public:
   /// @param types those whose names are valid
-  /// @param device null: valid only for passes
-  RandomInfo(Dice& dice, Expectation& expected, const std::vector<const WalrPassType*>& types,
-             const WalrDevice* device);
+  /// @param host  without a device the info is valid only for passes
+  RandomInfo(Dice& dice, Expectation& expected, const std::vector<const WalrPassType*>& types, const RandomHost& host);
   RandomInfo(const RandomInfo&) = delete;
   RandomInfo& operator=(const RandomInfo&) = delete;
 
@@ -53,17 +41,28 @@ class RandomInfo {
   /// Null if the name is wrong.
   [[nodiscard]] const WalrPassType* type() const { return type_; }
   [[nodiscard]] bool rectangle() const { return info_.value.conventions != nullptr && conventions_.value.rectangle; }
+  [[nodiscard]] bool orthographic() const {
+    return info_.value.conventions != nullptr && conventions_.value.orthographic;
+  }
+  [[nodiscard]] bool allocates() const {
+    return info_.value.device != nullptr && info_.value.device->device_memory != nullptr;
+  }
+  /// The library reads its members.
+  [[nodiscard]] bool hasRightSize() const { return info_.value.struct_size == sizeof(WalrDenoiserInfo); }
+  /// States another denoiser, for walr_create_denoiser.
+  void shareWith(WalrDenoiser other) { info_.value.shared_with = other; }
 
  private:
   void chooseMethod(Dice& dice, Expectation& expected, const std::vector<const WalrPassType*>& types);
   void chooseImages(Dice& dice, Expectation& expected);
   void chooseConventions(Dice& dice, Expectation& expected);
-  void chooseDevice(Dice& dice, Expectation& expected, const WalrDevice* device);
+  void chooseOutputs(Dice& dice, Expectation& expected);
+  void chooseDevice(Dice& dice, Expectation& expected, const RandomHost& host);
 
   const WalrPassType* type_ = nullptr;
   Grown<WalrDenoiserInfo> info_;
   Grown<WalrConventions> conventions_;
-  Grown<WalrDevice> device_;
+  std::optional<RandomDevice> device_;
 };
 
 /// A width or height.
@@ -74,6 +73,36 @@ std::uint32_t randomLength(Dice& dice, Expectation& expected);
 WalrSettingValue randomSetting(Dice& dice, Expectation& expected, const WalrPassType* type, std::string& storage);
 
 /// A camera, or null.
-const WalrCamera* randomCamera(Dice& dice, Expectation& expected, WalrCamera& storage);
+const WalrCamera* randomCamera(Dice& dice, Expectation& expected, bool orthographic, WalrCamera& storage);
+
+/// What WalrFrame and WalrPassFrame have in common, mostly rightly. Both have members of the same names.
+template <typename Frame>
+void chooseFrame(Dice& dice, Expectation& expected, Frame& frame) {
+  constexpr double kFarthest = 536870912.0;
+  frame.sky_depth = dice.of({0.0F, 100.0F, 1e9F});
+  frame.pre_exposure = dice.of({0.0F, 1.0F, 0.5F});
+  frame.frame_index = dice.of({0U, 7U, 0xffffffffU});
+  for (double* const origin : {frame.origin, frame.previous_origin}) {
+    if (dice.oneIn(4)) origin[dice.below(3)] = dice.of({-1.0, 1e6, kFarthest});
+  }
+  if (!dice.oneIn(16)) return;
+  expected.fails();
+  switch (dice.below(5)) {
+    case 0:
+      frame.flags = dice.of({0x80U, 0xffffffffU});
+      break;
+    case 1:
+      frame.sky_depth = dice.of({-1.0F, kNotANumber});
+      break;
+    case 2:
+      frame.pre_exposure = dice.of({-1.0F, kNotANumber, kInfinity});
+      break;
+    case 3:
+      frame.origin[dice.below(3)] = dice.of({2.0 * kFarthest, double(kInfinity), double(kNotANumber)});
+      break;
+    default:
+      frame.offset[dice.below(2)] = dice.of({16385U, 0xffffffffU});
+  }
+}
 
 }  // namespace walr::test

@@ -8,22 +8,51 @@
 #include <walr/walr_passes.h>
 
 #include "tests/integration/call_check.h"
+#include "tests/integration/random_device.h"
 
 namespace walr::test {
+
+/// A handle that the library never makes: its handles count up from 1.
+template <typename Handle>
+Handle wildHandle(Dice& dice) {
+  return reinterpret_cast<Handle>((std::uintptr_t{1} << 40) + dice.below(1000));
+}
 
 /// A denoiser and what a model of the API knows of it.
 struct ModelledDenoiser {
   WalrDenoiser handle = nullptr;
   const WalrPassType* type = nullptr;
   bool lint = false;
-  bool changed = false;  ///< Its settings may be at odds with each other.
+  bool counters = false;
+  bool rectangle = false;
+  bool orthographic = false;
+  bool allocates = false;  ///< With an allocator that fails now and then.
+  bool changed = false;    ///< Its settings may be at odds with each other, or with its view.
 };
 
-/// Records frames into a real command buffer.
+/// Passes and what a model of the API knows of them.
+struct ModelledPasses {
+  WalrPasses handle = nullptr;
+  const WalrPassList* list = nullptr;
+  std::string method;
+  std::uint32_t width = 0;
+  std::uint32_t height = 0;
+  bool rectangle = false;
+  bool orthographic = false;
+  bool lint = false;
+  bool counters = false;
+  bool recordable = false;  ///< They have a device.
+  bool allocates = false;   ///< With an allocator that fails now and then.
+  bool begun = false;       ///< There are constants of a frame.
+  bool hadFrame = false;
+};
+
+/// Records into a real command buffer.
 class FrameRecorder {
  public:
   virtual ~FrameRecorder() = default;
   virtual void record(Dice& dice, CallCheck& check, const ModelledDenoiser& denoiser) = 0;
+  virtual void recordPass(Dice& dice, CallCheck& check, const ModelledPasses& passes) = 0;
 };
 
 /// Calls functions of the C API in random order, with right and wrong arguments, and compares each result with what a
@@ -31,7 +60,7 @@ class FrameRecorder {
 class RandomCalls {
  public:
   struct Host {
-    const WalrDevice* device = nullptr;  ///< Null: no denoiser can be created, and passes are only listed.
+    RandomHost vulkan;                   ///< Without a device no denoiser can be created, and passes are only listed.
     FrameRecorder* recorder = nullptr;   ///< Null: no frame is recorded.
     std::span<const WalrPasses> shared;  ///< Other threads use and destroy these at the same time.
   };
@@ -46,18 +75,6 @@ class RandomCalls {
   [[nodiscard]] const CallCheck& check() const { return check_; }
 
  private:
-  struct ModelledPasses {
-    WalrPasses handle = nullptr;
-    const WalrPassList* list = nullptr;
-    std::string method;
-    std::uint32_t width = 0;
-    std::uint32_t height = 0;
-    bool rectangle = false;
-    bool lint = false;
-    bool begun = false;  ///< There are constants of a frame.
-    bool hadFrame = false;
-  };
-
   template <typename Handle, typename Model>
   struct Pool {
     std::vector<Model> live;
@@ -74,10 +91,11 @@ class RandomCalls {
 
   template <typename Handle, typename Model>
   Picked<Handle, Model> pick(Pool<Handle, Model>& pool, std::span<const Handle> shared, Expectation& expected);
-  PickedPasses pickPasses(Expectation& expected) { return pick(passes_, host_.shared, expected); }
-  PickedDenoiser pickDenoiser(Expectation& expected) { return pick(denoisers_, {}, expected); }
+  PickedPasses pickPasses(Expectation& expected);
+  PickedDenoiser pickDenoiser(Expectation& expected);
 
   void call();
+  void callNothing();
   void callPasses();
   void callDenoiser();
   void createPasses();
@@ -97,6 +115,8 @@ class RandomCalls {
   void usePreset();
   void requirements();
   void denoiserResults();
+  void denoiserCounts();
+  void chooseView();
   void record();
   void prepare();
   [[nodiscard]] std::string settingOf(WalrDenoiser denoiser, const char* name);

@@ -28,6 +28,7 @@ const std::uint64_t kFirstSeed = fromEnvironment("WALR_SEED", 1);
 const std::uint64_t kSequences = fromEnvironment("WALR_SEQUENCES", 10'000);
 const std::uint64_t kDeviceSequences = fromEnvironment("WALR_DEVICE_SEQUENCES", 12);
 constexpr std::uint32_t kCalls = 16;
+constexpr std::uint32_t kDeviceCalls = 48;  ///< More, because creating pipelines takes most of the time.
 
 struct Totals {
   std::uint64_t calls = 0;
@@ -38,7 +39,7 @@ struct Totals {
 /// Runs a sequence of its own and adds what it found.
 void runSequence(std::uint64_t seed, const RandomCalls::Host& host, Totals& totals) {
   RandomCalls sequence(seed, host);
-  sequence.run(kCalls);
+  sequence.run(host.vulkan.device != nullptr ? kDeviceCalls : kCalls);
   totals.calls += sequence.check().calls();
   totals.failures += sequence.check().failures();
   for (const std::string& fault : sequence.check().faults()) {
@@ -72,15 +73,31 @@ TEST(RandomCalls, WithADeviceAndFrames) {
                           .allocator = nullptr,
                           .create_info = nullptr,
                           .device_memory = nullptr};
+  VkDeviceCreateInfo createInfo{};
+  createInfo.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
+  createInfo.pNext = &host.features;
+  VkPipelineCacheCreateInfo cacheInfo{};
+  cacheInfo.sType = VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO;
+  VkPipelineCache cache = VK_NULL_HANDLE;
+  ASSERT_EQ(vkCreatePipelineCache(host.device, &cacheInfo, nullptr, &cache), VK_SUCCESS);
   Totals totals;
   std::uint64_t frames = 0;
+  std::uint64_t passes = 0;
   for (std::uint64_t i = 0; i < kDeviceSequences && totals.faults.empty(); ++i) {
     RandomFrames recorder(host);
-    runSequence(kFirstSeed + i, {.device = &device, .recorder = &recorder, .shared = {}}, totals);
+    RandomMemory memory(device, kFirstSeed + i);
+    const RandomHost vulkan{.device = &device, .createInfo = &createInfo, .pipelineCache = cache, .memory = &memory};
+    runSequence(kFirstSeed + i, {.vulkan = vulkan, .recorder = &recorder, .shared = {}}, totals);
     frames += recorder.recorded();
+    passes += recorder.recordedPasses();
+    EXPECT_EQ(memory.blocks(), 0U) << "not freed, seed " << kFirstSeed + i;
+    EXPECT_EQ(memory.wronglyFreed(), 0U) << "seed " << kFirstSeed + i;
   }
   report(totals);
+  std::cout << frames << " frames and " << passes << " single passes recorded\n";
   EXPECT_GT(frames, 0U);
+  EXPECT_GT(passes, 0U);
+  vkDestroyPipelineCache(host.device, cache, nullptr);
   EXPECT_EQ(host_close(&host), 0);
 }
 
@@ -96,7 +113,7 @@ TEST(RandomCalls, FromTwoThreads) {
   info.denoiser = &denoiser;
   const auto work = [&](std::uint64_t firstSeed, Totals& totals) {
     for (std::uint64_t i = 0; i < 20; ++i)
-      runSequence(firstSeed + i, {.device = nullptr, .recorder = nullptr, .shared = shared}, totals);
+      runSequence(firstSeed + i, {.vulkan = {}, .recorder = nullptr, .shared = shared}, totals);
   };
   std::array<Totals, 2> totals;
   for (std::uint64_t round = 0; round < kSequences / 200 && totals[0].faults.empty() && totals[1].faults.empty();

@@ -1,16 +1,15 @@
 #include "tests/integration/random_frames.h"
 
 #include <array>
-#include <limits>
 
 #include "tests/integration/random_arguments.h"
 
 namespace walr::test {
 namespace {
 
-constexpr std::array<const char*, 9> kPorts = {"lighting",  "depth",      "normal",   "motion",        "albedo",
-                                               "object_id", "confidence", "denoised", "history_length"};
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+constexpr std::array<const char*, 10> kPorts = {"lighting",  "depth",      "normal",   "motion", "albedo",
+                                                "object_id", "confidence", "denoised", "view",   "history_length"};
+constexpr std::size_t kDenoised = 7;  ///< Index of the last image that may be larger than the rectangle.
 
 /// Makes one of the image's members wrong.
 void spoil(Dice& dice, WalrImage& image) {
@@ -38,64 +37,92 @@ void spoil(Dice& dice, WalrImage& image) {
   }
 }
 
-/// Makes one of the frame's members wrong.
-void spoil(Dice& dice, WalrFrame& frame) {
-  switch (dice.below(8)) {
-    case 0:
-      frame.struct_size = dice.of({0U, 4U, 1U << 20});
-      break;
-    case 1:
-      frame.flags = 0x80;
-      break;
-    case 2:
-      frame.camera = nullptr;
-      break;
-    case 3:
-      frame.sky_depth = kNan;
-      break;
-    case 4:
-      frame.pre_exposure = -1.0F;
-      break;
-    case 5:
-      frame.finished_value = 1;
-      break;
-    case 6:
-      frame.origin[1] = kNan;
-      break;
-    default:
-      frame.offset[0] = 20'000;
-  }
-}
-
 }  // namespace
 
+RandomFrames::RandomFrames(Host& host) : host_(&host) {
+  VkSemaphoreTypeCreateInfo type{};
+  type.sType = VK_STRUCTURE_TYPE_SEMAPHORE_TYPE_CREATE_INFO;
+  type.semaphoreType = VK_SEMAPHORE_TYPE_TIMELINE;
+  VkSemaphoreCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO;
+  info.pNext = &type;
+  vkCreateSemaphore(host.device, &info, nullptr, &timeline_);
+}
+
 RandomFrames::~RandomFrames() {
+  destroyAll();
+  vkDestroySemaphore(host_->device, timeline_, nullptr);
+}
+
+void RandomFrames::destroyAll() {
   for (HostImage& image : images_) host_destroy_image(host_, &image);
+  for (HostBuffer& buffer : buffers_) host_destroy_buffer(host_, &buffer);
+  images_.clear();
+  buffers_.clear();
 }
 
 /// An image in the layout GENERAL. Its contents do not matter: no denoiser may trip over them.
-WalrImage RandomFrames::makeImage(const WalrImageRequirements& needs) {
-  images_.push_back(host_make_image(host_, needs.format, needs.width, needs.height, needs.usage));
+HostImage& RandomFrames::makeImage(VkFormat format, std::uint32_t width, std::uint32_t height,
+                                   VkImageUsageFlags usage) {
+  images_.push_back(host_make_image(host_, format, width, height, usage));
   HostImage& image = images_.back();
-  VkCommandBuffer commands = host_begin(host_);
-  host_transition(commands, &image, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_READ_BIT,
-                  VK_IMAGE_LAYOUT_GENERAL);
+  const VkCommandBuffer commands = host_begin(host_);
+  host_transition(commands, &image, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+                  VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT, VK_IMAGE_LAYOUT_GENERAL);
   host_submit_and_wait(host_, commands);
-  return {.struct_size = sizeof(WalrImage),
-          .queue_family = VK_QUEUE_FAMILY_IGNORED,
-          .image = image.image,
-          .identity = ++lastIdentity_,
-          .format = image.format,
-          .usage = image.usage,
-          .width = image.width,
-          .height = image.height,
-          .acquire = {image.stage, image.access, image.layout, 0},
-          .release = {}};
+  return image;
+}
+
+WalrImage RandomFrames::describe(Dice& dice, const HostImage& image) {
+  WalrImage described{.struct_size = sizeof(WalrImage),
+                      .queue_family = dice.oneIn(2) ? VK_QUEUE_FAMILY_IGNORED : host_->queue_family,
+                      .image = image.image,
+                      .identity = dice.oneIn(4) ? 0 : ++lastIdentity_,
+                      .format = image.format,
+                      .usage = image.usage,
+                      .width = image.width,
+                      .height = image.height,
+                      .acquire = {image.stage, image.access, image.layout, 0},
+                      .release = {}};
+  if (dice.oneIn(4)) {
+    described.release = {VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_READ_BIT,
+                         VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, 0};
+  }
+  return described;
+}
+
+/// A buffer of zeros: some passes read the number of their groups from one.
+VkBuffer RandomFrames::makeBuffer(const WalrResource& resource) {
+  buffers_.push_back(
+      host_make_buffer(host_, resource.buffer_size, resource.buffer_usage | VK_BUFFER_USAGE_TRANSFER_DST_BIT, 0));
+  const VkCommandBuffer commands = host_begin(host_);
+  vkCmdFillBuffer(commands, buffers_.back().buffer, 0, VK_WHOLE_SIZE, 0);
+  host_submit_and_wait(host_, commands);
+  return buffers_.back().buffer;
+}
+
+/// @param finishedValue of the timeline semaphore; 0: it is not signalled
+void RandomFrames::submit(VkCommandBuffer commands, std::uint64_t finishedValue) {
+  if (finishedValue == 0) {
+    host_submit_and_wait(host_, commands);
+    return;
+  }
+  host_submit_between(host_, commands, timeline_, finished_, finishedValue);
+  finished_ = finishedValue;
 }
 
 void RandomFrames::record(Dice& dice, CallCheck& check, const ModelledDenoiser& denoiser) {
   Expectation expected;
   if (denoiser.changed) expected.mayFail();
+  if (denoiser.allocates) expected.mayRunOutOfMemory();
+  WalrFrame frame{};
+  frame.struct_size = dice.oneIn(40) ? dice.of({0U, 4U, 1U << 20}) : sizeof(frame);
+  if (frame.struct_size != sizeof(frame)) expected.fails(WALR_ERROR_STRUCT_SIZE);
+  frame.flags = dice.oneIn(4) ? dice.below(4) : 0U;
+  if (denoiser.rectangle && dice.oneIn(2)) frame.offset[dice.below(2)] = 1 + dice.below(3);
+  const std::array<std::uint32_t, 2> offset{frame.offset[0], frame.offset[1]};
+  chooseFrame(dice, expected, frame);
+
   std::array<WalrImage, kPorts.size()> images{};
   std::array<const WalrImage*, kPorts.size()> given{};
   for (std::size_t i = 0; i < kPorts.size(); ++i) {
@@ -104,8 +131,10 @@ void RandomFrames::record(Dice& dice, CallCheck& check, const ModelledDenoiser& 
     if (walr_get_image_requirements(denoiser.handle, kPorts[i], &needs) != WALR_SUCCESS || needs.required == VK_FALSE)
       continue;
     // The host's barriers are for colour images only.
-    if (needs.format >= VK_FORMAT_D16_UNORM && needs.format <= VK_FORMAT_D32_SFLOAT_S8_UINT) return;
-    images[i] = makeImage(needs);
+    if (needs.format >= VK_FORMAT_D16_UNORM && needs.format <= VK_FORMAT_D32_SFLOAT_S8_UINT) return destroyAll();
+    const bool exact = i > kDenoised;
+    images[i] = describe(dice, makeImage(needs.format, needs.width + (exact ? 0 : offset[0]),
+                                         needs.height + (exact ? 0 : offset[1]), needs.usage));
     given[i] = &images[i];
     if (!dice.oneIn(30)) continue;
     expected.fails();
@@ -115,9 +144,6 @@ void RandomFrames::record(Dice& dice, CallCheck& check, const ModelledDenoiser& 
       spoil(dice, images[i]);
     }
   }
-  WalrCamera camera;
-  WalrFrame frame{};
-  frame.struct_size = sizeof(frame);
   frame.lighting = given[0];
   frame.depth = given[1];
   frame.normal = given[2];
@@ -126,27 +152,106 @@ void RandomFrames::record(Dice& dice, CallCheck& check, const ModelledDenoiser& 
   frame.object_id = given[5];
   frame.confidence = given[6];
   frame.denoised = given[7];
-  frame.history_length = given[8];
-  frame.camera = randomCamera(dice, expected, camera);
-  frame.flags = dice.oneIn(6) ? static_cast<std::uint32_t>(WALR_FRAME_RESET_HISTORY) : 0U;
+  frame.view = given[8];
+  frame.history_length = given[9];
+  if (given[0] != nullptr && given[7] != nullptr && dice.oneIn(30)) {
+    frame.denoised = given[0];  // An input is no output.
+    expected.fails();
+  }
+  WalrCamera camera;
+  WalrCamera previous;
+  frame.camera = randomCamera(dice, expected, denoiser.orthographic, camera);
+  Expectation ofPrevious;
+  if (dice.oneIn(3) && randomCamera(dice, ofPrevious, denoiser.orthographic, previous) != nullptr) {
+    frame.previous_camera = &previous;
+    if (!ofPrevious.allows(WALR_SUCCESS)) expected.fails();
+  }
   expected.mayFail();  // The camera of the frame before may not fit.
-  if (dice.oneIn(8)) {
-    spoil(dice, frame);
+  std::uint64_t finishedValue = 0;
+  if (dice.oneIn(3)) {
+    frame.finished = timeline_;
+    frame.finished_value = finishedValue = finished_ + 1 + dice.below(3);
+  } else if (dice.oneIn(16)) {
+    frame.finished_value = 1;  // Of no semaphore.
     expected.fails();
   }
   const VkCommandBuffer commands = host_begin(host_);
   const bool withoutCommands = dice.oneIn(16);
   if (withoutCommands) expected.fails();
-  const WalrResult result =
-      check("walr_record", expected,
-            {"WalrFrame", "WalrImage", "WalrCamera", "camera", "matrix", "image '", "origin", "sky_depth", "exposure",
-             "offset", "command buffer", "finished_value", "setting", "regression", "svgf."},
-            [&] { return walr_record(denoiser.handle, withoutCommands ? VK_NULL_HANDLE : commands, &frame); });
+  const WalrResult result = check(
+      "walr_record", expected,
+      {"WalrFrame", "WalrImage", "WalrCamera", "WalrMemory", "camera", "matrix", "image '", "origin", "sky_depth",
+       "exposure", "offset", "command buffer", "finished", "created without", "setting", "view", "regression", "svgf."},
+      [&] { return walr_record(denoiser.handle, withoutCommands ? VK_NULL_HANDLE : commands, &frame); });
   recorded_ += result == WALR_SUCCESS;
-  host_submit_and_wait(host_, commands);
+  submit(commands, result == WALR_SUCCESS ? finishedValue : 0);
+  for (const HostImage& image : images_) walr_forget_image(denoiser.handle, image.image, 0);
   for (const WalrImage& image : images) {
     if (image.image != VK_NULL_HANDLE) walr_forget_image(denoiser.handle, image.image, image.identity);
   }
+  destroyAll();
+}
+
+WalrPassResource RandomFrames::resourceFor(Dice& dice, const WalrResource& resource) {
+  if (resource.kind == WALR_RESOURCE_UPLOAD || resource.kind == WALR_RESOURCE_LIBRARY) return {};
+  if (resource.kind == WALR_RESOURCE_HISTORY_PREVIOUS && dice.oneIn(2)) return {};
+  if (resource.buffer == VK_TRUE) return {VK_NULL_HANDLE, makeBuffer(resource), 0, VK_IMAGE_LAYOUT_UNDEFINED, 0};
+  return {makeImage(resource.format, resource.width, resource.height, resource.image_usage).image, VK_NULL_HANDLE,
+          ++lastIdentity_, VK_IMAGE_LAYOUT_GENERAL, 0};
+}
+
+void RandomFrames::recordPass(Dice& dice, CallCheck& check, const ModelledPasses& passes) {
+  Expectation expected;
+  expected.mayFail();  // The pass may have been recorded in this frame.
+  if (!passes.recordable || !passes.begun) expected.fails(WALR_ERROR_WRONG_ORDER);
+  if (passes.allocates) expected.mayRunOutOfMemory();
+  std::uint32_t index = dice.below(passes.list->pass_count);
+  const WalrDispatch& pass = *passes.list->passes[index];
+  std::vector<WalrPassResource> resources;
+  for (std::uint32_t i = 0; i < pass.binding_count; ++i) {
+    const WalrResource& resource = *passes.list->resources[pass.bindings[i]->resource];
+    if (resource.format >= VK_FORMAT_D16_UNORM && resource.format <= VK_FORMAT_D32_SFLOAT_S8_UINT) return destroyAll();
+    resources.push_back(resourceFor(dice, resource));
+  }
+  auto count = static_cast<std::uint32_t>(resources.size());
+  const WalrPassResource* given = resources.data();
+  const VkCommandBuffer commands = host_begin(host_);
+  VkCommandBuffer givenCommands = commands;
+  if (dice.oneIn(6)) {
+    expected.fails();
+    WalrPassResource& spoiled = resources[dice.below(resources.size())];
+    switch (dice.below(6)) {
+      case 0:
+        index = passes.list->pass_count + dice.below(1000);
+        break;
+      case 1:
+        --count;
+        break;
+      case 2:
+        given = nullptr;
+        break;
+      case 3:
+        givenCommands = VK_NULL_HANDLE;
+        break;
+      case 4:
+        spoiled.layout = VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL;
+        if (spoiled.image == VK_NULL_HANDLE) givenCommands = VK_NULL_HANDLE;
+        break;
+      default:
+        count = 0;
+        if (resources.empty()) givenCommands = VK_NULL_HANDLE;
+    }
+  }
+  const WalrResult result = check("walr_record_pass", expected,
+                                  {"WalrPasses", "without a device", "walr_begin_frame", "command buffer",
+                                   "the array of resources", "pass ", "WalrMemory"},
+                                  [&] { return walr_record_pass(passes.handle, index, givenCommands, given, count); });
+  recordedPasses_ += result == WALR_SUCCESS;
+  host_submit_and_wait(host_, commands);
+  for (const WalrPassResource& resource : resources) {
+    if (resource.image != VK_NULL_HANDLE) walr_forget_pass_image(passes.handle, resource.image, resource.identity);
+  }
+  destroyAll();
 }
 
 }  // namespace walr::test

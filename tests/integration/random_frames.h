@@ -11,21 +11,32 @@ namespace walr::test {
 /// Records frames with right and wrong images on a real device, and submits those that are accepted.
 class RandomFrames final : public FrameRecorder {
  public:
-  explicit RandomFrames(Host& host) : host_(&host) {}
+  explicit RandomFrames(Host& host);
   ~RandomFrames() override;
   RandomFrames(const RandomFrames&) = delete;
   RandomFrames& operator=(const RandomFrames&) = delete;
 
   void record(Dice& dice, CallCheck& check, const ModelledDenoiser& denoiser) override;
+  void recordPass(Dice& dice, CallCheck& check, const ModelledPasses& passes) override;
   [[nodiscard]] std::uint64_t recorded() const { return recorded_; }
+  [[nodiscard]] std::uint64_t recordedPasses() const { return recordedPasses_; }
 
  private:
-  WalrImage makeImage(const WalrImageRequirements& needs);
+  HostImage& makeImage(VkFormat format, std::uint32_t width, std::uint32_t height, VkImageUsageFlags usage);
+  WalrImage describe(Dice& dice, const HostImage& image);
+  VkBuffer makeBuffer(const WalrResource& resource);
+  WalrPassResource resourceFor(Dice& dice, const WalrResource& resource);
+  void submit(VkCommandBuffer commands, std::uint64_t finishedValue);
+  void destroyAll();
 
   Host* host_;
+  VkSemaphore timeline_ = VK_NULL_HANDLE;
+  std::uint64_t finished_ = 0;  ///< Value of the semaphore.
   std::vector<HostImage> images_;
+  std::vector<HostBuffer> buffers_;
   std::uint64_t lastIdentity_ = 0;
   std::uint64_t recorded_ = 0;
+  std::uint64_t recordedPasses_ = 0;
 };
 
 }  // namespace walr::test

@@ -27,12 +27,17 @@ constexpr glm::ivec2 kSize(53, 37);
 struct View {
   glm::ivec2 size;
   double beside = 0.0;
+  double brightness = 1.0;  ///< Of its lighting.
 
   [[nodiscard]] FrameDescription camera(std::uint32_t frame) const {
     const auto at = [&](double time) { return glm::dvec3(0.06 * time + beside, 0.02 * time, -0.03 * time); };
     return cameraAt(at(frame), at(double(frame) - 1.0), size, frame);
   }
-  void fill(HostedRun& run, std::uint32_t frame) const { run.fill(renderFrame(sphere(), camera(frame), size)); }
+  void fill(HostedRun& run, std::uint32_t frame) const {
+    reference::HostFrame rendered = renderFrame(sphere(), camera(frame), size);
+    for (glm::dvec3& radiance : rendered.lighting.pixels()) radiance *= brightness;
+    run.fill(rendered);
+  }
 };
 
 WalrMemory memoryOf(const HostedRun& run) {
@@ -93,6 +98,35 @@ TEST_F(SharedObjects, InterleavedViewsGiveThePicturesOfSeparateDenoisers) {
       EXPECT_EQ(results[v][1], expected[kFrames - 1]) << v;
     }
   }
+}
+
+// Direct and indirect light, say, of one view: each has its own lighting, and both read the same guides.
+TEST_F(SharedObjects, TwoLightsOfAViewReadOneSetOfGuides) {
+  constexpr std::uint32_t kFrames = 4;
+  const std::array<View, 2> lights{View{kSize}, View{kSize, 0.0, 0.25}};
+  HostedRun::Options options;
+  const auto first = run(lights[0]);
+  options.sharedWith = first->denoiser();
+  options.guidesOf = first.get();
+  const auto second = std::make_unique<HostedRun>(device(), "walr", kSize, options);
+  const std::array<HostedRun*, 2> runs{first.get(), second.get()};
+  std::array<Bytes, 2> results;
+  {
+    fg::vk::FrameQueue queue(context(), device().queue(), 2);
+    for (std::uint32_t i = 0; i < kFrames; ++i) {
+      const fg::vk::Frame frame = queue.begin();
+      for (std::size_t l = 0; l < lights.size(); ++l) {
+        lights[l].fill(*runs[l], i);
+        runs[l]->record(frame, lights[l].camera(i));
+      }
+      queue.submit(frame);
+      if (i + 1 < kFrames) continue;
+      queue.wait(frame.slot);
+      for (std::size_t l = 0; l < lights.size(); ++l) results[l] = runs[l]->resultOf(frame.slot);
+    }
+  }
+  EXPECT_NE(results[0], results[1]);
+  for (std::size_t l = 0; l < lights.size(); ++l) EXPECT_EQ(results[l], alone(lights[l], kFrames).back()) << l;
 }
 
 TEST_F(SharedObjects, ASecondViewCreatesNoPipelineAndNoMemoryForTransients) {

@@ -17,7 +17,8 @@ const WalrPassType& typeNamed(const WalrApi& api, const std::string& name) {
 }
 
 bool isHostImage(const std::string& port) {
-  return port == "lighting" || port == "depth" || port == "normal" || port == "motion" || port == "albedo";
+  return port == "lighting" || port == "depth" || port == "normal" || port == "motion" || port == "albedo" ||
+         port == "confidence";
 }
 
 }  // namespace

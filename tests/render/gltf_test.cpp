@@ -100,7 +100,7 @@ std::string asGlb(const fs::path& file) {
 }
 
 TEST_F(Gltf, BuiltInScenesLoadWithoutWarnings) {
-  for (const char* name : {"box", "turntable"}) {
+  for (const char* name : {"box", "turntable", "kitchen", "stair", "garden"}) {
     const Scene scene = loadScene(fs::path(WALR_SCENES) / (std::string(name) + ".gltf"));
     EXPECT_TRUE(scene.warnings.empty()) << testing::PrintToString(scene.warnings);
     EXPECT_GT(scene.meshes.size(), 6U);

@@ -52,7 +52,7 @@ TEST(RenderSequence, IsReadBackInTheProjectsConventions) {
   const walr::test::TemporaryDirectory folder;
   render(smallBox(folder.path()));
   SequenceOptions options;
-  options.composite = true;
+  options.light = kWholePicture;
   const Sequence sequence(folder.path(), options);
   ASSERT_EQ(sequence.entries().size(), 3U);
   EXPECT_TRUE(sequence.hasReferences());
@@ -96,7 +96,7 @@ TEST(RenderSequence, WritesSparseLight) {
   options.light = {.columns = 3, .rows = 3};
   render(options);
   SequenceOptions composite;
-  composite.composite = true;
+  composite.light = kWholePicture;
   const Sequence before(full.path(), composite);
   const Sequence sequence(sparse.path(), composite);
   std::set<std::pair<int, int>> offsets;
@@ -161,6 +161,26 @@ TEST(RenderSequence, ResumesAnInterruptedRun) {
   EXPECT_EQ(skipped, 3);
   EXPECT_EQ(fs::last_write_time(kept), before);
   EXPECT_TRUE(fs::exists(lost));
+}
+
+// Resampled light depends on the frames before, the existing ones among them.
+TEST(RenderSequence, ResumesAResampledSequence) {
+  const walr::test::TemporaryDirectory folder;
+  RenderOptions options = smallBox(folder.path());
+  options.referenceSamples = 0;
+  options.resampledFrames = 20;
+  render(options);
+  const auto lastLight = [&] {
+    const Frame frame = Sequence(folder.path(), {}).read(2);
+    return std::vector<float>(frame.indirect.values().begin(), frame.indirect.values().end());
+  };
+  const std::vector<float> whole = lastLight();
+  fs::remove(folder.path() / frameFileName("noisy", 5, "exr"));
+  render(options);
+  EXPECT_EQ(lastLight(), whole);
+
+  options.resampledFrames = 0;
+  fg::test::expectError<InputError>([&] { render(options); }, {"'resampled_frames'"});
 }
 
 TEST(RenderSequence, RendersReferencesOfTheSelectedFrames) {

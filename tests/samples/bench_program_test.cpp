@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -107,6 +109,47 @@ TEST_F(BenchProgramTest, RunsGiveTheSameErrorsAndPictures) {
   }
 }
 
+TEST_F(BenchProgramTest, KeepsThePicturesOfAllFramesWithReferencesIfAsked) {
+  const auto kept = [](const fs::path& output, const std::string& name) {
+    std::size_t count = 0;
+    for (int frame = 0; frame < 6; ++frame) {
+      const std::string file = name + "_000" + std::to_string(frame) + ".npy";
+      count += fs::exists(output / "pictures" / "wall" / file) ? 1 : 0;
+    }
+    return count;
+  };
+  expectSuccess(bench(first, {"--methods", "none"}));
+  for (const char* name : {"none", "_reference", "_age"}) EXPECT_LE(kept(first, name), 2U) << name;
+  // Kept runs lack the pictures, so that they are run again. Errors without times are the same.
+  expectSuccess(bench(first, {"--methods", "none", "--all-pictures"}));
+  expectSuccess(bench(second, {"--methods", "none", "--all-pictures", "--repeat", "0"}));
+  for (const fs::path& output : {first, second}) {
+    for (const char* name : {"none", "none.errors", "walr", "_reference", "_noisy", "_age"}) {
+      EXPECT_EQ(kept(output, name), 6U) << name;
+    }
+  }
+  const json untimed = run(report(second), "none");
+  EXPECT_EQ(untimed["frames"], run(report(first), "none")["frames"]);
+  EXPECT_EQ(untimed["timed_frames"], 0);
+  EXPECT_TRUE(untimed["milliseconds"].is_null());
+  expectFailure(bench(second, {"--content", "--repeat", "0"}), test::kUsage, {"--repeat", "--content"});
+
+  // The camera of the sequence moves, so that the first frame is new everywhere, and later ones are mostly old.
+  const auto ages = [&](int frame) {
+    const std::string bytes =
+        test::readText(first / "pictures" / "wall" / ("_age_000" + std::to_string(frame) + ".npy"));
+    std::vector<std::uint16_t> halves(std::size_t{40} * 32);
+    std::memcpy(halves.data(), bytes.data() + bytes.size() - 2 * halves.size(), 2 * halves.size());
+    return halves;
+  };
+  const std::vector<std::uint16_t> start = ages(0);
+  EXPECT_TRUE(std::ranges::all_of(start, [](std::uint16_t half) { return half == 0; }));
+  constexpr std::uint16_t kThree = 0x4200;  // 3 as a half float.
+  const std::vector<std::uint16_t> fourth = ages(3);
+  EXPECT_GT(std::ranges::count(fourth, kThree), 40 * 32 / 2);
+  EXPECT_TRUE(std::ranges::all_of(fourth, [](std::uint16_t half) { return half <= kThree; }));
+}
+
 TEST_F(BenchProgramTest, RunsOnlyWhatIsMissingOrHasChanged) {
   expectSuccess(bench(first, {"--methods", "accumulate"}));
   const json before = report(first);
@@ -124,6 +167,9 @@ TEST_F(BenchProgramTest, RunsOnlyWhatIsMissingOrHasChanged) {
   });
   const ProcessResult changed = bench(first, {"--methods", "accumulate"});
   EXPECT_NE(changed.err.find("0 of 2 variants"), std::string::npos) << changed.err;
+  const ProcessResult found = bench(first, {"--methods", "accumulate", "--motion-depth", "found"});
+  expectSuccess(found);
+  EXPECT_NE(found.err.find("0 of 2 variants"), std::string::npos) << found.err;
 }
 
 TEST_F(BenchProgramTest, TimesAtOtherSizes) {

@@ -104,10 +104,54 @@ TEST_F(FrameOutputTest, WritesACompositeAndPicturesWhenAsked) {
   EXPECT_EQ(writtenFiles(),
             (std::vector<std::string>{"comparison_0012.png", "denoised_0012.exr", "denoised_0012.png"}));
   ExrReader file(directory.path() / "denoised_0012.exr");
-  EXPECT_EQ(file.channels(), (std::vector<std::string>{"B", "G", "R"}));
+  EXPECT_EQ(file.channels(), (std::vector<std::string>{"B", "G", "Indirect.B", "Indirect.G", "Indirect.R", "R"}));
   Image sky(16, 12, 1);
   file.read(std::vector<ExrReader::Target>{{"R", &sky, 0}});
   EXPECT_EQ(sky.at(3, 0, 0), 2.0F);
+}
+
+TEST_F(FrameOutputTest, CompositesAddLightThatIsNotDiffuse) {
+  options.composite = true;
+  options.indirectPlane = "Layer.DiffInd";
+  options.directPlane = "Layer.DiffDir";
+  Frame& frame = denoised.frame;
+  denoised.direct = Image(16, 12, 3);
+  frame.nonDiffuse = Image(16, 12, 3);
+  for (std::size_t i = 0; i < denoised.direct.values().size(); ++i) {
+    denoised.indirect.values()[i] = 0.5F;
+    denoised.direct.values()[i] = 4.0F;
+    frame.nonDiffuse.values()[i] = static_cast<float>(i % 3);
+  }
+  FrameWriter(options).write(denoised);
+  ExrReader file(directory.path() / "denoised_0012.exr");
+  Image read(16, 12, 3);
+  file.read(
+      std::vector<ExrReader::Target>{{"B", &read, 0}, {"Layer.DiffDir.B", &read, 1}, {"Layer.DiffInd.B", &read, 2}});
+  // On the wall the emission is 0. Twice the unit roundoff of half floats: of the albedo in the file and of the sum.
+  EXPECT_NEAR(read.at(8, 9, 0), frame.albedo.at(8, 9, 2) * 4.5F + 2.0F, 6.0F * 0x1p-10F);
+  EXPECT_EQ(read.at(8, 9, 1), 4.0F);
+  EXPECT_EQ(read.at(8, 9, 2), 0.5F);
+}
+
+TEST_F(FrameOutputTest, DirectLightAloneIsWrittenAndMeasured) {
+  options.png = true;
+  denoised.direct = denoised.frame.direct;
+  denoised.indirect = {};
+  // The frame has a reference of the other light only.
+  denoised.frame.reference = Reference{denoised.frame.indirect, {}};
+  FrameWriter(options).write(denoised);
+  EXPECT_EQ(ExrReader(directory.path() / "denoised_0012.exr").channels(),
+            (std::vector<std::string>{"Direct.B", "Direct.G", "Direct.R"}));
+  EXPECT_FALSE(measure(denoised).direct.denoised.rmse.has_value());
+  denoised.frame.reference = Reference{{}, denoised.frame.direct};
+  denoised.direct.at(8, 9, 0) += 1.0F;
+  denoised.indirect = denoised.frame.indirect;
+  const FrameReport report = measure(denoised);
+  EXPECT_FALSE(report.indirect.denoised.rmse.has_value());
+  EXPECT_GT(report.direct.denoised.rmse.value(), 0.0);
+  EXPECT_EQ(report.direct.noisy.rmse, 0.0);
+  // Both lights in one picture, of which one has a reference: the rows of the comparison are of one length.
+  EXPECT_NO_THROW(FrameWriter(options).write(denoised));
 }
 
 TEST_F(FrameOutputTest, LightsPicturesByTheReferenceWhenAsked) {
@@ -156,16 +200,16 @@ TEST_F(FrameOutputTest, ExposesPicturesAlikeUntilACameraCut) {
 }
 
 TEST_F(FrameOutputTest, TellsTheNoiseOfAReferenceInHalves) {
-  EXPECT_FALSE(measure(denoised).referenceNoise.has_value());
+  EXPECT_FALSE(measure(denoised).indirect.referenceNoise.has_value());
   Image half = denoised.frame.indirect;
   denoised.frame.reference = Reference{denoised.frame.indirect, {}, half};
-  EXPECT_EQ(measure(denoised).referenceNoise, 0.0);
+  EXPECT_EQ(measure(denoised).indirect.referenceNoise, 0.0);
   for (float& value : denoised.frame.reference->indirectHalf.values()) value *= 1.5F;
-  EXPECT_GT(measure(denoised).referenceNoise.value(), 0.0);
+  EXPECT_GT(measure(denoised).indirect.referenceNoise.value(), 0.0);
 }
 
 TEST_F(FrameOutputTest, MeasuresResultAndInput) {
-  EXPECT_FALSE(measure(denoised).denoised.rmse.has_value());
+  EXPECT_FALSE(measure(denoised).indirect.denoised.rmse.has_value());
   Image reference = denoised.frame.indirect;
   for (float& value : reference.values()) {
     value = 1.0F;
@@ -174,21 +218,23 @@ TEST_F(FrameOutputTest, MeasuresResultAndInput) {
   denoised.indirect = reference;
   denoised.gpuMilliseconds = 1.5;
   const FrameReport report = measure(denoised);
-  EXPECT_EQ(report.denoised.rmse, 0.0);
-  EXPECT_GT(report.noisy.rmse.value(), 0.1);
+  EXPECT_EQ(report.indirect.denoised.rmse, 0.0);
+  EXPECT_GT(report.indirect.noisy.rmse.value(), 0.1);
+  EXPECT_FALSE(report.direct.denoised.rmse.has_value());
   EXPECT_EQ(report.frame, 12);
   EXPECT_EQ(report.gpuMilliseconds, 1.5);
   EXPECT_EQ(report.nonFiniteOutput, 0U);
 }
 
 DenoiseReport exampleReport() {
-  DenoiseReport report{"walr", {{"iterations", "4"}}, "Some GPU", "some driver 1.2", false, "walr", {16, 9}, {}};
+  DenoiseReport report{"walr", {{"iterations", "4"}}, "Some GPU", "some driver 1.2", false, "walr", "indirect", {16, 9},
+                       {}};
   for (int i = 0; i < 6; ++i) {
     FrameReport frame;
     frame.frame = 10 + i;
     frame.gpuMilliseconds = i < 4 ? 10.0 : 2.0;
-    frame.denoised = {i < 4 ? 0.5 : 0.25, 6.0, 0.75};
-    frame.noisy = {0.5, std::nullopt, 0.5};
+    frame.indirect.denoised = {i < 4 ? 0.5 : 0.25, 6.0, 0.75};
+    frame.indirect.noisy = {0.5, std::nullopt, 0.5};
     report.frames.push_back(frame);
   }
   return report;
@@ -211,6 +257,24 @@ TEST(Report, JsonHasItsKeys) {
   EXPECT_DOUBLE_EQ(json["mean"]["rmse"], 2.5 / 6.0);
   EXPECT_EQ(json["mean_after_4"]["gpu_ms"], 2.0);
   EXPECT_EQ(json["mean_after_4"]["rmse"], 0.25);
+}
+
+TEST(Report, EachLightHasItsErrors) {
+  DenoiseReport report = exampleReport();
+  EXPECT_TRUE(nlohmann::json::parse(reportJson(report))["mean"]["direct"]["rmse"].is_null());
+  std::ostringstream one;
+  printReport(one, report);
+  EXPECT_EQ(one.str().find("direct light"), one.str().find("indirect light") + 2) << "of the indirect light only";
+  for (FrameReport& frame : report.frames) frame.direct.denoised = {0.125, 7.0, frame.frame == 12 ? 0.0 : 0.5};
+  const auto json = nlohmann::json::parse(reportJson(report));
+  EXPECT_EQ(json["frames"][1]["direct"]["rmse"], 0.125);
+  EXPECT_EQ(json["frames"][1]["rmse"], 0.5);
+  EXPECT_EQ(json["mean"]["direct"]["psnr"], 7.0);
+  EXPECT_DOUBLE_EQ(json["mean"]["direct"]["ssim"], 2.5 / 6.0);
+  std::ostringstream both;
+  printReport(both, report);
+  EXPECT_NE(both.str().find("Errors of the direct light:"), std::string::npos);
+  EXPECT_NE(both.str().find("0.12500"), std::string::npos) << both.str();
 }
 
 TEST(Report, CountersHaveAMeanAndAMaximum) {

@@ -13,7 +13,6 @@
 #include <gtest/gtest.h>
 
 #include "samples/denoise/gpu_denoiser.h"
-#include "samples/errors.h"
 #include "samples/metrics/metrics.h"
 #include "samples/render/render_sequence.h"
 #include "samples/sequence/sequence.h"
@@ -40,10 +39,12 @@ double counterOf(const DenoisedPicture& picture, std::string_view name) {
   return 0.0;
 }
 
-Result denoised(const GpuDevice& device, const Sequence& sequence, MotionDepth source) {
-  const Layout layout = withMotionDepth(*sequence.layout().layout, source);
+Result denoised(const GpuDevice& device, const std::filesystem::path& folder, MotionDepth source) {
+  SequenceOptions options;
+  options.motionDepth = source;
+  const Sequence sequence(folder, options);
   const auto method = makeDenoiser("walr");
-  GpuDenoiser denoiser(device, *method, sequence.extent(), layout, {.counters = true});
+  GpuDenoiser denoiser(device, *method, sequence.extent(), sequence.denoiserLayout(), {.counters = true});
   Result result;
   for (std::size_t i = 0; i < sequence.entries().size(); ++i) {
     PackedFrame frame = packFrame(sequence.read(i));
@@ -98,10 +99,9 @@ TEST(MotionDepth, TheGuideTellsWhatFindingItCosts) {
     options.lastFrame = kFrames - 1;
     options.framesPerSecond = framesPerSecond;
     renderSequence(options, {});
-    const Sequence sequence(options.output, {});
-    const Result given = denoised(device, sequence, MotionDepth::Given);
-    const Result still = denoised(device, sequence, MotionDepth::StaticScene);
-    const Result found = denoised(device, sequence, MotionDepth::Found);
+    const Result given = denoised(device, options.output, MotionDepth::Given);
+    const Result still = denoised(device, options.output, MotionDepth::StaticScene);
+    const Result found = denoised(device, options.output, MotionDepth::Found);
     // Finding depth is off by no more than a tenth of what it is for.
     EXPECT_NEAR(found.withoutHistory, given.withoutHistory, 0.1 * (still.withoutHistory - given.withoutHistory));
 
@@ -119,12 +119,6 @@ TEST(MotionDepth, TheGuideTellsWhatFindingItCosts) {
     }
   }
   device.refuseMessages();
-}
-
-TEST(MotionDepth, ALayoutWithoutItCannotGiveIt) {
-  EXPECT_THROW(withMotionDepth(cyclesLayout(), MotionDepth::Given), InputError);
-  EXPECT_EQ(withMotionDepth(cyclesLayout(), MotionDepth::Found).conventions.motionDepth, MotionDepth::Found);
-  EXPECT_EQ(withMotionDepth(projectLayout(), MotionDepth::Given).conventions.motionDepth, MotionDepth::Given);
 }
 
 }  // namespace

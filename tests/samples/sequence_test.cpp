@@ -1,9 +1,12 @@
 #include "samples/sequence/sequence.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <map>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -111,7 +114,7 @@ TEST_F(SequenceTest, TheProjectsOwnLayoutRoundTrips) {
   writeReference(directory.path(), 7, reference);
 
   SequenceOptions options;
-  options.composite = true;
+  options.light = kWholePicture;
   const Sequence sequence = open(options);
   EXPECT_EQ(sequence.layout().layout, &projectLayout());
   const Frame read = sequence.read(0);
@@ -135,7 +138,7 @@ TEST_F(SequenceTest, ReadsSparseLight) {
     writeFrame(directory.path(), frame);
   }
   const Sequence sequence = open();
-  EXPECT_EQ(sequence.layout().layout->conventions.light, (LightPattern{2, 3}));
+  EXPECT_EQ(sequence.denoiserLayout().conventions.light, (LightPattern{2, 3}));
   EXPECT_EQ(sequence.read(0).light, (LightPattern{2, 3}));
   EXPECT_EQ(sequence.read(1).lightOffset, glm::ivec2(1, 2));
 }
@@ -156,6 +159,27 @@ TEST_F(SequenceTest, WrongSparseLightIsNamedWithItsFile) {
   expectRefused({"noisy_0001.exr", "2 x 5 pixels", "1 to 3"});
   writeWith(1, {2, 1}, {0, 0});
   expectRefused({"noisy_0001.exr", "lightGroup", "noisy_0000.exr"});
+}
+
+TEST_F(SequenceTest, TheChangeOfDepthMayHaveAnotherSource) {
+  using enum InputConventions::MotionDepth;
+  writeFrame(directory.path(), test::projectFrame(7, 6, 4));
+  EXPECT_EQ(open().denoiserLayout().conventions.motionDepth, Given);
+  SequenceOptions options;
+  options.motionDepth = Found;
+  EXPECT_EQ(open(options).denoiserLayout().conventions.motionDepth, Found);
+  EXPECT_EQ(open(options).layout().layout, &projectLayout()) << "the files are what they are";
+}
+
+TEST_F(SequenceTest, MotionOfTwoChannelsCannotGiveTheChangeOfDepth) {
+  using enum InputConventions::MotionDepth;
+  files.write(3, 5);
+  EXPECT_EQ(open().denoiserLayout().conventions.motionDepth, StaticScene);
+  SequenceOptions options;
+  options.motionDepth = Found;
+  EXPECT_EQ(open(options).denoiserLayout().conventions.motionDepth, Found);
+  options.motionDepth = Given;
+  expectRefused({"noisy_0003.exr", "no third component"}, options);
 }
 
 TEST_F(SequenceTest, ReferencesMayHavePixelsThatAreNanInAllChannels) {
@@ -199,7 +223,7 @@ TEST_F(SequenceTest, CompositeChannelsAreNeededForACompositeOnly) {
   });
   EXPECT_NO_THROW((void)open());
   SequenceOptions options;
-  options.composite = true;
+  options.light = kWholePicture;
   expectRefused({"DiffDir.R, Emit.B", "--composite"}, options);
 }
 
@@ -213,10 +237,140 @@ TEST_F(SequenceTest, AddsTheSkyOfBlenderToItsEmission) {
     }
   });
   SequenceOptions options;
-  options.composite = true;
+  options.light = kWholePicture;
   const Frame frame = open(options).read(0);
   EXPECT_TRUE(open().read(0).emission.empty());
   EXPECT_EQ(frame.emission.at(1, 0, 2), frame.emission.at(0, 0, 2) + 3.0F);
+}
+
+/// One value in all pixels of a plane of three colours.
+void addColours(Channels& channels, const std::string& plane, std::array<float, 3> values) {
+  for (std::size_t c = 0; c < 3; ++c) {
+    Image& image = channels[plane + "." + "RGB"[c]] = Image(6, 4, 1);
+    std::ranges::fill(image.values(), values[c]);
+  }
+}
+
+TEST_F(SequenceTest, AddsEveryLightThatIsNotDiffuse) {
+  files.write(0, 0);
+  files.writeFrame(0, [](Channels& channels) {
+    addColours(channels, "GlossDir", {1.0F, 2.0F, 3.0F});
+    addColours(channels, "GlossInd", {0.5F, 0.0F, 1.0F});
+    addColours(channels, "GlossCol", {0.5F, 0.25F, 0.0F});
+    addColours(channels, "TransInd", {8.0F, 8.0F, 8.0F});
+    addColours(channels, "TransCol", {0.125F, 0.25F, 0.5F});
+    addColours(channels, "VolumeDir", {0.0F, 16.0F, 0.0F});
+    addColours(channels, "VolumeInd", {32.0F, 0.0F, 0.0F});
+  });
+  SequenceOptions options;
+  options.light = kWholePicture;
+  const Sequence sequence = open(options);
+  EXPECT_EQ(describeUndenoised(sequence.layout(), std::array{Light::Indirect}),
+            "DiffDir x DiffCol, Emit, GlossDir x GlossCol, GlossInd x GlossCol, TransInd x TransCol, VolumeDir, "
+            "VolumeInd");
+  EXPECT_EQ(describeMissing(sequence.layout()), "Env, TransDir");
+  const Frame frame = sequence.read(0);
+  EXPECT_EQ(frame.nonDiffuse.at(2, 2, 0), 1.5F * 0.5F + 8.0F * 0.125F + 32.0F);
+  EXPECT_EQ(frame.nonDiffuse.at(2, 2, 1), 2.0F * 0.25F + 8.0F * 0.25F + 16.0F);
+  EXPECT_EQ(frame.nonDiffuse.at(2, 2, 2), 8.0F * 0.5F);
+  EXPECT_TRUE(open().read(0).nonDiffuse.empty());
+}
+
+TEST_F(SequenceTest, LightThatIsNotFiniteHidesNoOther) {
+  files.write(0, 0);
+  files.writeFrame(0, [](Channels& channels) {
+    addColours(channels, "VolumeDir", {1.0F, 1.0F, 1.0F});
+    addColours(channels, "VolumeInd", {std::numeric_limits<float>::infinity(), 2.0F, 2.0F});
+  });
+  SequenceOptions options;
+  options.light = kWholePicture;
+  fg::test::expectError<InputError>([&] { static_cast<void>(open(options).read(0)); }, {"VolumeInd.R", "24 value(s)"});
+  options.nonFinite = NonFinitePolicy::Replace;
+  const Frame frame = open(options).read(0);
+  EXPECT_EQ(frame.nonDiffuse.at(2, 2, 0), 1.0F);
+  EXPECT_EQ(frame.nonDiffuse.at(2, 2, 1), 3.0F);
+}
+
+TEST_F(SequenceTest, AddedLightsMustBeWholeAndInAllFrames) {
+  files.write(0, 1);
+  const auto glossy = [](Channels& channels) {
+    addColours(channels, "GlossDir", {1.0F, 1.0F, 1.0F});
+    addColours(channels, "GlossCol", {1.0F, 1.0F, 1.0F});
+  };
+  files.writeFrame(0, glossy);
+  SequenceOptions options;
+  options.light = kWholePicture;
+  expectRefused({"noisy_0001.exr", "GlossDir.R, GlossDir.G, GlossDir.B, GlossCol.R", "--composite"}, options);
+  EXPECT_NO_THROW((void)open());
+  files.writeFrame(1, glossy);
+  EXPECT_NO_THROW((void)open(options));
+  files.writeFrame(0, [&](Channels& channels) {
+    glossy(channels);
+    channels.erase("GlossCol.G");
+  });
+  expectRefused({"noisy_0000.exr", "missing channel GlossCol.G"}, options);
+}
+
+// Blender 5 gave passes the names that its windows show (DNA_layer_types.h, RE_PASSNAME_...).
+TEST_F(SequenceTest, ReadsTheNamesOfBlender5) {
+  files.write(0, 0);
+  const auto rename = [](Channels& channels) {
+    const std::map<std::string, std::string> names{{"DiffInd", "Diffuse Indirect"}, {"DiffDir", "Diffuse Direct"},
+                                                   {"DiffCol", "Diffuse Color"},    {"Emit", "Emission"},
+                                                   {"GlossInd", "Glossy Indirect"}, {"GlossCol", "Glossy Color"},
+                                                   {"Env", "Environment"},          {"IndexOB", "Object Index"}};
+    Channels renamed;
+    for (auto& [channel, image] : channels) {
+      const std::size_t dot = channel.find('.');
+      const auto name = names.find(channel.substr(0, dot));
+      renamed["ViewLayer." + (name == names.end() ? channel : name->second + channel.substr(dot))] = image;
+    }
+    channels = std::move(renamed);
+  };
+  files.writeFrame(0, [&](Channels& channels) {
+    addColours(channels, "GlossInd", {1.0F, 2.0F, 3.0F});
+    addColours(channels, "GlossCol", {2.0F, 2.0F, 2.0F});
+    addColours(channels, "Env", {0.5F, 0.5F, 0.5F});
+    channels["IndexOB.X"] = Image(6, 4, 1);
+    rename(channels);
+  });
+  files.writeReference(0, rename);
+  SequenceOptions options;
+  options.light = kWholePicture;
+  const Sequence sequence = open(options);
+  EXPECT_EQ(sequence.layout().layout, &cyclesLayout5());
+  EXPECT_EQ(sequence.layout().plane(Light::Direct), "ViewLayer.Diffuse Direct");
+  const Frame frame = sequence.read(0);
+  EXPECT_EQ(frame.albedo.at(2, 2, 1), 0.8F);
+  EXPECT_EQ(frame.direct.at(2, 2, 1), 0.25F);
+  EXPECT_EQ(frame.emission.at(2, 2, 1), 0.5F);
+  EXPECT_EQ(frame.nonDiffuse.at(2, 2, 1), 4.0F);
+  EXPECT_FALSE(frame.objectId.empty());
+  EXPECT_EQ(frame.reference->direct.at(2, 2, 0), 0.25F);
+}
+
+TEST_F(SequenceTest, DirectLightAloneNeedsNoIndirectLight) {
+  files.write(0, 0);
+  const auto withoutIndirect = [](Channels& channels) {
+    for (const char* const channel : {"DiffInd.R", "DiffInd.G", "DiffInd.B"}) channels.erase(channel);
+  };
+  files.writeFrame(0, withoutIndirect);
+  files.writeReference(0, withoutIndirect);
+  expectRefused({"noisy_0000.exr", "DiffInd.R"});
+  SequenceOptions options;
+  options.light = {.indirect = false, .direct = true};
+  const Frame frame = open(options).read(0);
+  EXPECT_TRUE(frame.indirect.empty());
+  EXPECT_EQ(frame.direct.at(2, 2, 0), 0.25F);
+  EXPECT_TRUE(frame.reference->indirect.empty());
+  EXPECT_EQ(frame.reference->direct.at(2, 2, 0), 0.25F);
+  // A reference without direct light is no error, but one without any light is.
+  files.writeReference(0, [](Channels& channels) { channels.erase("DiffDir.R"); });
+  expectRefused({"ref_0000.exr", "DiffDir.R"}, options);
+  files.writeReference(0, [](Channels& channels) {
+    for (const char* const channel : {"DiffDir.R", "DiffDir.G", "DiffDir.B"}) channels.erase(channel);
+  });
+  EXPECT_TRUE(open(options).read(0).reference->direct.empty());
 }
 
 TEST_F(SequenceTest, AReferenceWithoutLightIsNamed) {
@@ -367,7 +521,7 @@ TEST_P(NonFiniteTest, IsRefusedWithPositionAndCountOrAcceptedOnRequest) {
     channels.at(GetParam()).at(2, 3, 0) = -std::numeric_limits<float>::infinity();
   });
   SequenceOptions options;
-  options.composite = true;
+  options.light = kWholePicture;
   fg::test::expectError<InputError>([&] { static_cast<void>(open(options).read(0)); },
                                     {"noisy_0000.exr", GetParam(), "2 value(s)", "(4, 1)", "--non-finite replace"});
   options.nonFinite = NonFinitePolicy::Replace;

@@ -2,6 +2,8 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <map>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -10,6 +12,8 @@
 
 #include "passes/denoiser.h"
 #include "samples/image/exr.h"
+#include "samples/sequence/sequence.h"
+#include "samples/sequence/writer.h"
 #include "tests/samples/process.h"
 #include "tests/samples/schema_check.h"
 #include "tests/samples/synthetic_sequence.h"
@@ -101,6 +105,7 @@ TEST_F(ProgramTest, AWrongCommandLineIsAUsageError) {
   expectFailure(denoise({"--view", "?"}), kUsage, {"--list-views"});
   expectFailure(denoise({"--exposure", "bright"}), kUsage, {"--exposure bright", "auto"});
   expectFailure(denoise({"--direct-light", "none"}), kUsage, {"none"});
+  expectFailure(denoise({"--light", "all"}), kUsage, {"--light", "all"});
   expectFailure(walr({"graph", "--size", "10"}), kUsage, {"--size 10"});
 }
 
@@ -201,6 +206,24 @@ TEST_F(ProgramTest, RendersLintsAndDenoisesSparseLight) {
                 {"method 'svgf' needs a sample of light at every pixel"});
 }
 
+TEST_F(ProgramTest, TellsTheLinterAndTheDenoiserThatMotionHasNoDepth) {
+  const std::string scene = std::string(WALR_SCENES) + "/box.gltf";
+  expectSuccess(walr(
+      {"render", scene, "--output", input.string(), "--frames", "8-11", "--size", "96x54", "--reference-spp", "0"}));
+  const Sequence sequence(input, {});
+  for (std::size_t i = 0; i < sequence.entries().size(); ++i) {
+    Frame frame = sequence.read(i);
+    for (std::size_t pixel = 0; pixel < frame.motion.pixelCount(); ++pixel) frame.motion.pixel(pixel)[2] = 0.0F;
+    writeFrame(input, frame);
+  }
+  const ProcessResult given = walr({"lint", input.string(), "--motion-depth", "given"});
+  expectFailure(given, kInput, {"1 thing looks wrong"});
+  EXPECT_NE(given.out.find("motion-z-missing"), std::string::npos) << given.out;
+  expectSuccess(walr({"lint", input.string(), "--motion-depth", "found", "--validate"}));
+  expectSuccess(denoise({"--motion-depth", "found"}));
+  expectFailure(walr({"lint", input.string(), "--motion-depth", "guessed"}), kUsage, {"--motion-depth"});
+}
+
 TEST_F(ProgramTest, MethodNoneGivesTheInputBack) {
   files.write(0, 1);
   expectSuccess(denoise({"--method", "none"}));
@@ -231,8 +254,120 @@ TEST_F(ProgramTest, TwoRunsGiveTheSameBytes) {
 
 TEST_F(ProgramTest, WritesAComposite) {
   files.write(0, 0);
-  expectSuccess(denoise({"--composite"}));
-  EXPECT_EQ(ExrReader(output / "denoised_0000.exr").channels(), (std::vector<std::string>{"B", "G", "R"}));
+  const ProcessResult result = denoise({"--composite"});
+  expectSuccess(result);
+  EXPECT_EQ(ExrReader(output / "denoised_0000.exr").channels(),
+            (std::vector<std::string>{"B", "DiffDir.B", "DiffDir.G", "DiffDir.R", "DiffInd.B", "DiffInd.G", "DiffInd.R",
+                                      "G", "R"}));
+  const std::string said = "added as they are, without denoising: Emit\n";
+  EXPECT_NE(result.out.find(said), std::string::npos) << result.out;
+  EXPECT_EQ(result.out.find(said), result.out.rfind(said)) << "said once";
+  EXPECT_NE(result.out.find("the frames have no Env, GlossDir, GlossInd"), std::string::npos) << result.out;
+}
+
+// Combined is what Blender says it is: the sum of the passes, each light multiplied by its colour.
+TEST_F(ProgramTest, ACompositeThatIsNotDenoisedIsBlendersCombined) {
+  const int width = 5;
+  const int height = 4;
+  const SyntheticSequence small{input, width, height};
+  small.writeCameras(0, 0);
+  std::mt19937 random(7);
+  std::map<std::string, std::vector<double>> combined;
+  small.writeFrame(0, [&](Channels& channels) {
+    const auto fill = [&](const std::string& plane, float largest) {
+      for (const char* const colour : {".R", ".G", ".B"}) {
+        Image& image = channels["ViewLayer." + plane + colour] = Image(width, height, 1);
+        for (float& value : image.values()) value = largest * static_cast<float>(random() % 1024) / 1024.0F;
+      }
+    };
+    for (const char* const guide : {"Normal.X", "Normal.Y", "Normal.Z", "Depth.Z", "Vector.X", "Vector.Y"}) {
+      channels[std::string("ViewLayer.") + guide] = channels.at(guide);
+    }
+    std::erase_if(channels, [](const auto& channel) { return !channel.first.starts_with("ViewLayer."); });
+    for (const char* const colour : {"DiffCol", "GlossCol", "TransCol"}) fill(colour, 1.0F);
+    for (const char* const light : {"DiffDir", "DiffInd", "GlossDir", "GlossInd", "TransDir", "TransInd", "VolumeDir",
+                                    "VolumeInd", "Emit", "Env"}) {
+      fill(light, 8.0F);
+    }
+    for (const char* const colour : {".R", ".G", ".B"}) {
+      const auto value = [&](const char* plane, std::size_t i) {
+        return double{channels.at(std::string("ViewLayer.") + plane + colour).values()[i]};
+      };
+      for (std::size_t i = 0; i < std::size_t{width} * height; ++i) {
+        combined[colour].push_back(value("DiffCol", i) * (value("DiffDir", i) + value("DiffInd", i)) +
+                                   value("GlossCol", i) * (value("GlossDir", i) + value("GlossInd", i)) +
+                                   value("TransCol", i) * (value("TransDir", i) + value("TransInd", i)) +
+                                   value("VolumeDir", i) + value("VolumeInd", i) + value("Emit", i) + value("Env", i));
+      }
+    }
+  });
+  const ProcessResult result = denoise({"--method", "none", "--composite"});
+  expectSuccess(result);
+  EXPECT_EQ(result.out.find("the frames have no"), std::string::npos) << result.out;
+  ExrReader reader(output / "denoised_0000.exr");
+  for (const std::string colour : {"R", "G", "B"}) {
+    Image lit(width, height, 1);
+    reader.read(std::vector<ExrReader::Target>{{colour, &lit, 0}});
+    for (std::size_t i = 0; i < lit.values().size(); ++i) {
+      const double expected = combined["." + colour][i];
+      // Half floats round the two diffuse lights on their way through the device, and the sum: 2^-11 each, relatively.
+      EXPECT_NEAR(lit.values()[i], expected, 2.0 * 0x1p-11 * expected) << colour << i;
+    }
+  }
+}
+
+TEST_F(ProgramTest, DenoisesBothLightsAsEachAlone) {
+  files.write(0, 2);
+  const auto noisyDirect = [](Channels& channels) {
+    for (const char* const colour : {".R", ".G", ".B"}) {
+      channels[std::string("DiffDir") + colour] = channels.at(std::string("DiffInd") + colour);
+      for (float& value : channels[std::string("DiffDir") + colour].values()) value *= 0.5F;
+    }
+  };
+  for (const int frame : {0, 1, 2}) files.writeFrame(frame, noisyDirect);
+  const fs::path json = directory.path() / "report.json";
+  const auto run = [&](const char* light) {
+    expectSuccess(denoise({"--light", light, "--json", json.string(), "--counters", "--view", "history"}));
+    EXPECT_EQ(test::schemaTroubles("samples/denoise/denoise.schema.json", json), "");
+    const auto report = nlohmann::json::parse(test::readText(json));
+    EXPECT_EQ(report["light"], light);
+    // Direct light has the preset of more detail, if the user chose none.
+    const bool alone = std::string(light) == "direct";
+    EXPECT_EQ(report["settings"]["blocks.residual"], alone ? "on" : "off");
+    EXPECT_EQ(report.contains("direct_settings"), std::string(light) == "both");
+    return report["frames"][2];
+  };
+  const auto values = [&](const std::string& plane) {
+    const Image image = readIndirect(output / "denoised_0002.exr", plane);
+    return std::vector<float>(image.values().begin(), image.values().end());
+  };
+  const auto indirect = run("indirect");
+  const std::vector<float> indirectAlone = values("Indirect");
+  EXPECT_EQ(ExrReader(output / "denoised_0002.exr").channels().size(), 3U);
+  const auto direct = run("direct");
+  const std::vector<float> directAlone = values("Direct");
+  EXPECT_EQ(ExrReader(output / "denoised_0002.exr").channels().size(), 3U);
+  EXPECT_NE(directAlone, indirectAlone);
+  const auto both = run("both");
+  EXPECT_EQ(values("Indirect"), indirectAlone);
+  EXPECT_EQ(values("Direct"), directAlone);
+  EXPECT_TRUE(indirect["direct"]["rmse"].is_null());
+  EXPECT_TRUE(direct["rmse"].is_null());
+  EXPECT_EQ(both["rmse"], indirect["rmse"]);
+  EXPECT_EQ(both["direct"], direct["direct"]);
+  EXPECT_LT(both["direct"]["rmse"].get<double>(), both["direct"]["noisy"]["rmse"].get<double>());
+}
+
+TEST_F(ProgramTest, TheReferencesDirectLightIsNotDenoised) {
+  files.write(0, 0);
+  expectFailure(denoise({"--composite", "--direct-light", "reference", "--light", "both"}), kUsage,
+                {"--direct-light reference", "--light both", "leave out one"});
+  const ProcessResult result = denoise({"--composite", "--direct-light", "reference"});
+  expectSuccess(result);
+  EXPECT_NE(result.out.find("light: indirect\n"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("direct light is that of the reference"), std::string::npos) << result.out;
+  EXPECT_EQ(result.out.find("DiffDir x DiffCol"), std::string::npos) << result.out;
+  EXPECT_EQ(ExrReader(output / "denoised_0000.exr").channels().size(), 6U);
 }
 
 TEST_F(ProgramTest, SaysWhereACutIs) {

@@ -299,10 +299,11 @@ typedef struct WalrDenoiserInfo {
   VkBool32 counters;          /* Count what the method does, see walr_get_counters. For debugging: costs passes. */
   VkFormat confidence_format; /* Of WalrFrame::confidence, sampled as floats; VK_FORMAT_UNDEFINED: no such image. */
   VkBool32 history_length;    /* Write WalrFrame::history_length. It costs a small pass. */
-  /* Another denoiser, for several views a frame (eyes, split screens, cube faces); optional. Both share shader modules,
-   * pipelines and the memory of transients; each has its own histories, size and settings. Use its device; its
-   * allocators and pipeline cache serve both. Frames of both must be submitted in the order of recording, to one queue,
-   * and only one thread at a time may use either. Both may be destroyed in any order. */
+  /* Another denoiser, for several views a frame (eyes, split screens, cube faces) or several lights of a view (indirect
+   * and direct); optional. Both share shader modules, pipelines and the memory of transients; each has its own
+   * histories, size and settings. Use its device; its allocators and pipeline cache serve both. Frames of both must be
+   * submitted in the order of recording, to one queue, and only one thread at a time may use either. Both may be
+   * destroyed in any order. */
   WalrDenoiser shared_with;
 } WalrDenoiserInfo;
 

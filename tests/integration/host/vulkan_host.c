@@ -151,9 +151,11 @@ void host_destroy_buffer(Host* host, HostBuffer* buffer) {
 static uint32_t texel_size_of(VkFormat format) {
   switch (format) {
     case VK_FORMAT_R16_UINT:
+    case VK_FORMAT_R16_SFLOAT:
       return 2;
     case VK_FORMAT_R32_SFLOAT:
     case VK_FORMAT_R32_UINT:
+    case VK_FORMAT_B10G11R11_UFLOAT_PACK32:
       return 4;
     case VK_FORMAT_R16G16B16A16_SFLOAT:
     case VK_FORMAT_R32G32_SFLOAT:

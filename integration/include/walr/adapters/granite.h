@@ -40,7 +40,8 @@ class GranitePasses {
   GranitePasses& operator=(const GranitePasses&) = delete;
 
   /// Add the passes to a graph that is not baked yet.
-  /// @param names the graph's names of textures that differ from walr's, by walr's names ("lighting", ..., "denoised")
+  /// @param names the graph's names of textures that differ from walr's, by walr's names ("lighting", ..., "denoised",
+  ///        and those of optional images like "confidence")
   /// @throws std::invalid_argument for a pass or resource that Granite cannot express
   void add(Granite::RenderGraph& graph, const std::map<std::string, std::string>& names = {}) {
     graph_ = &graph;
@@ -57,15 +58,18 @@ class GranitePasses {
     for (std::uint32_t i = 0; i < list_->pass_count; ++i) addPass(i);
   }
 
-  /// Let a pass of the host read the result. Granite culls passes that the back buffer does not depend on in this
-  /// frame. This call also keeps those that only write histories for the next frame.
-  Granite::RenderTextureResource& readBy(Granite::RenderPass& pass) const {
+  /// Let a pass of the host read an image that walr writes. Granite culls passes that the back buffer does not depend
+  /// on in this frame. This call also keeps those that only write histories for the next frame.
+  /// @param output walr's name of the image: "denoised" or "history_length"
+  /// @throws std::invalid_argument if no pass writes it
+  Granite::RenderTextureResource& readBy(Granite::RenderPass& pass, const std::string& output = "denoised") const {
     for (const std::string& name : kept_) pass.add_proxy_input(name, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, 0);
     for (std::uint32_t i = 0; i < list_->resource_count; ++i) {
       const WalrResource& resource = *list_->resources[i];
-      if (resource.kind == WALR_RESOURCE_HOST && states_[i].versions > 0) return pass.add_texture_input(current(i));
+      const bool written = resource.kind == WALR_RESOURCE_HOST && states_[i].versions > 0;
+      if (written && output == resource.name) return pass.add_texture_input(current(i));
     }
-    throw std::invalid_argument("no pass writes a result: add() comes first");
+    throw std::invalid_argument("no pass writes " + output + ": add() comes first");
   }
 
   /// Begin a frame, after the device has begun its frame context.

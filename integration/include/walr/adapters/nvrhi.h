@@ -12,7 +12,8 @@
 
 namespace walr::adapters {
 
-/// The textures of a frame. Inputs are shader resources, `denoised` is created with `isUAV`.
+/// The textures of a frame. Inputs are shader resources; `denoised`, `historyLength` and `view` are created with
+/// `isUAV`.
 struct NvrhiTextures {
   nvrhi::ITexture* lighting = nullptr;
   nvrhi::ITexture* depth = nullptr;
@@ -20,7 +21,11 @@ struct NvrhiTextures {
   nvrhi::ITexture* motion = nullptr;
   nvrhi::ITexture* albedo = nullptr;
   nvrhi::ITexture* denoised = nullptr;
-  nvrhi::ITexture* objectId = nullptr;  ///< Optional.
+  // Optional: see the members of WalrFrame.
+  nvrhi::ITexture* objectId = nullptr;
+  nvrhi::ITexture* confidence = nullptr;
+  nvrhi::ITexture* historyLength = nullptr;
+  nvrhi::ITexture* view = nullptr;
 };
 
 /// Records a denoiser into NVRHI's command lists. NVRHI still tracks the states of the textures.
@@ -41,20 +46,25 @@ class NvrhiDenoiser {
   /// @param frame everything but the images
   /// @throws std::runtime_error with walr's error text
   void record(nvrhi::ICommandList* commands, const NvrhiTextures& textures, WalrFrame frame) const {
-    const Member members[] = {{textures.lighting, &frame.lighting}, {textures.depth, &frame.depth},
-                              {textures.normal, &frame.normal},     {textures.motion, &frame.motion},
-                              {textures.albedo, &frame.albedo},     {textures.denoised, &frame.denoised},
-                              {textures.objectId, &frame.object_id}};
+    const Member members[] = {{textures.lighting, &frame.lighting, false},
+                              {textures.depth, &frame.depth, false},
+                              {textures.normal, &frame.normal, false},
+                              {textures.motion, &frame.motion, false},
+                              {textures.albedo, &frame.albedo, false},
+                              {textures.objectId, &frame.object_id, false},
+                              {textures.confidence, &frame.confidence, false},
+                              {textures.denoised, &frame.denoised, true},
+                              {textures.historyLength, &frame.history_length, true},
+                              {textures.view, &frame.view, true}};
     WalrImage images[std::size(members)] = {};
     for (std::size_t i = 0; i < std::size(members); ++i) {
-      nvrhi::ITexture* texture = members[i].texture;
+      const auto& [texture, image, output] = members[i];
       if (texture == nullptr) continue;  // If it is required, walr reports it.
-      const bool output = texture == textures.denoised;
       commands->setTextureState(
           texture, nvrhi::AllSubresources,
           output ? nvrhi::ResourceStates::UnorderedAccess : nvrhi::ResourceStates::ShaderResource);
       images[i] = describe(texture, output);
-      *members[i].image = &images[i];
+      *image = &images[i];
     }
     commands->commitBarriers();
     const VkCommandBuffer buffer = commands->getNativeObject(nvrhi::ObjectTypes::VK_CommandBuffer);
@@ -74,6 +84,7 @@ class NvrhiDenoiser {
   struct Member {
     nvrhi::ITexture* texture;
     const WalrImage** image;
+    bool output;
   };
 
   /// Acquired and released in the state that NVRHI has put the texture into.

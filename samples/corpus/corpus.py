@@ -1,0 +1,222 @@
+#!/usr/bin/python3
+"""The corpus: renders sequences, runs every method on them, and tells what differs beyond doubt.
+
+    corpus.py list [--part PART]                what belongs to the corpus, and what it costs
+    corpus.py run --output DIR [--part PART]    render what is missing, run the methods, judge; resumes where it was interrupted
+    corpus.py page [--check] [DIR]              write results.json of DIR into the project and RESULTS.md from it
+    corpus.py agree DIR DIR                     whether two runs rank the methods alike
+
+samples/docs/corpus.md describes all of it. Needs numpy and Pillow, which come with Debian's python3-matplotlib.
+"""
+import argparse
+import dataclasses
+import hashlib
+import json
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+
+sys.dont_write_bytecode = True
+import entries as table
+import judging
+import pages
+import places
+import rendering
+import results
+from PIL import Image
+
+HERE = pathlib.Path(__file__).resolve().parent
+BASELINE = "walr"
+KEPT = HERE / "results.json"
+PAGE = HERE / "RESULTS.md"
+OVERVIEW = "places.webp"
+
+
+def default_cache():
+    return pathlib.Path(os.environ.get("XDG_CACHE_HOME") or pathlib.Path.home() / ".cache") / "walr-corpus"
+
+
+def chosen(arguments):
+    """The entries that a command is about."""
+    known = table.corpus()
+    if arguments.entries:
+        names = arguments.entries.split(",")
+        unknown = [n for n in names if n not in known]
+        if unknown:
+            sys.exit(f"there is no entry {', '.join(unknown)}; known: {', '.join(known)}")
+        found = [known[n] for n in names]
+    else:
+        found = [e for e in known.values() if arguments.part == "nightly" or e.part == "daily"]
+        found = [e for e in found if arguments.held_back or not e.held_back]
+    missing = sorted({str(e.scene) for e in found if not e.scene.exists()})
+    if missing:
+        print(f"left out, because there is no file: {', '.join(missing)}", file=sys.stderr)
+    return [dataclasses.replace(e, seed=arguments.seed) for e in found if e.scene.exists()]
+
+
+def variants(arguments):
+    """Names of everything that is compared, and the options of `walr bench` for it."""
+    slow = () if arguments.part == "nightly" else table.SLOW
+    methods = arguments.methods.split(",") if arguments.methods else [m for m in table.METHODS if m not in slow]
+    methods = [BASELINE] + [m for m in methods if m != BASELINE]
+    options = ["--methods", ",".join(methods)]
+    for variant in arguments.variant:
+        options += ["--variant", variant]
+    return methods + [v.split("=", 1)[0] for v in arguments.variant], options
+
+
+def list_entries(arguments):
+    names, _ = variants(arguments)
+    rows = table.costs(chosen(arguments), names)
+    print(f"{'entry':26} {'size':>10} {'spp':>4} {'frames':>7} {'judged':>7} {'squares':>8} {'noisy':>7} {'refs':>7} {'bench':>7}")
+    for entry, noisy, references, bench in rows:
+        squares = round(entry.pixels / judging.SQUARE**2 / entry.one_square_in)
+        print(f"{entry.name:26} {'x'.join(map(str, entry.size)):>10} {entry.samples:4} {'-'.join(map(str, entry.frames)):>7} "
+              f"{'-'.join(map(str, entry.judged)):>7} {squares:8} {noisy:6.0f}s {references:6.0f}s {bench:6.0f}s"
+              f"{'  held back' if entry.held_back else ''}")
+    total = sum(sum(row[1:]) for row in rows) / 3600
+    print(f"all: {total:.2f} h on two idle cores; the limit of the {arguments.part} part is {table.LIMITS[arguments.part]:.2f} h")
+
+
+def bench(arguments, cache, entry, options):
+    """Folder with the results of `walr bench` for an entry; what has been run is not run again."""
+    sequence = cache.sequence(entry)
+    output = cache.folder / "bench" / sequence.name
+    if output.exists() and not (output / "pictures").exists():
+        shutil.rmtree(output)  # Its pictures were removed after an earlier judgement, so that the runs must be repeated.
+    command = [arguments.walr, "bench", "--sequences", sequence, "--output", output, *options, "--batch", "20", "--repeat", "0",
+               "--all-pictures", "--no-html"]
+    done = subprocess.run(list(map(str, command)), capture_output=True, text=True)
+    if done.returncode:
+        raise RuntimeError(f"walr bench of {entry.name} failed:\n{done.stderr[-2000:]}")
+    return output
+
+
+def judged(arguments, cache, entry, names, options):
+    """Sums over blocks, noise of the references and worst places of an entry, from the cache or anew."""
+    sequence = cache.sequence(entry)
+    program = hashlib.sha256(pathlib.Path(arguments.walr).read_bytes()).hexdigest()
+    analysis = [hashlib.sha256((HERE / f).read_bytes()).hexdigest() for f in ("judging.py", "places.py")]
+    folder = cache.folder / "judged" / f"{sequence.name}-{table.key([options, analysis], program)}"
+    if not (folder / "facts.json").exists():
+        output = bench(arguments, cache, entry, options)
+        pictures = output / "pictures" / sequence.name
+        frames = range(entry.judged[0], entry.judged[1] + 1)
+        sums, noise = judging.judge(sequence, pictures, frames, names)
+        folder.mkdir(parents=True, exist_ok=True)
+        results.save_sums(folder / "sums.npz", sums.values)
+        rivals = [m for m in names if m in table.METHODS and m.split(":")[0] not in (BASELINE, *results.UNFILTERED)]
+        found = places.worst_places(sequence, pictures, frames, names, BASELINE, rivals, 3)
+        for index, (_, sheet) in enumerate(found):
+            sheet.save(folder / f"place_{index}.png")
+        (folder / "facts.json").write_text(json.dumps({"noise": noise, "places": [place for place, _ in found]}))
+        if not arguments.keep_pictures:
+            shutil.rmtree(output / "pictures")
+    facts = json.loads((folder / "facts.json").read_text())
+    return folder, results.load_sums(folder / "sums.npz"), facts
+
+
+def commit():
+    done = subprocess.run(["git", "-C", str(HERE), "describe", "--always", "--dirty", "--abbrev=12"], capture_output=True, text=True)
+    return done.stdout.strip() or "unknown"
+
+
+def run(arguments):
+    entries, (names, options) = chosen(arguments), variants(arguments)
+    cache = rendering.Cache(arguments.cache, arguments.walr)
+    rendering.render_all(entries, cache, lambda text: print(text, flush=True))
+    if arguments.render_only:
+        return
+    output = pathlib.Path(arguments.output)
+    output.mkdir(parents=True, exist_ok=True)
+    costs = {entry.name: row for entry, *row in table.costs(entries, names)}
+    remaining = rendering.Remaining(sum(row[2] for row in costs.values()))
+    kept = {"commit": commit(), "baseline": BASELINE, "part": arguments.part, "seed": arguments.seed, "variants": arguments.variant,
+            "entries": {}, "places": []}
+    all_sums = {}
+    for entry in entries:
+        folder, all_sums[entry.name], facts = judged(arguments, cache, entry, names, options)
+        remaining.worked(costs[entry.name][2])
+        print(f"{entry.name}: judged; {remaining.text()} left", flush=True)
+        kept["entries"][entry.name] = {
+            "scene": entry.scene.stem, "size": list(entry.size), "samples": entry.samples, "judged": list(entry.judged),
+            "reference_samples": entry.reference_samples, "held_back": entry.held_back,
+            "reference_noise": results.rounded(facts["noise"] ** 0.5),
+            **results.entry_results(all_sums[entry.name], names, BASELINE)}
+        for index, place in enumerate(facts["places"]):
+            kept["places"].append({"entry": entry.name, "file": f"{entry.name}_{index}.png",
+                                   **{k: results.rounded(v, 3) if isinstance(v, float) else v for k, v in place.items() if k != "rmse"},
+                                   "rmse": {m: results.rounded(v, 3) for m, v in place["rmse"].items()}})
+            shutil.copy(folder / f"place_{index}.png", output / f"{entry.name}_{index}.png")
+    kept["places"].sort(key=lambda place: -place["rmse"][BASELINE])
+    open_entries = [e.name for e in entries if not e.held_back]
+    held = [e.name for e in entries if e.held_back]
+    for name, members in (("summary", open_entries), ("held_back_summary", held)):
+        kept[name] = results.summary([all_sums[n] for n in members], names, BASELINE) if members else {}
+    (output / "results.json").write_text(pages.as_text(kept))
+    (output / "RESULTS.md").write_text(pages.page(kept), encoding="utf-8")
+    sheets = [Image.open(output / place["file"]) for place in pages.shown_places(kept)]
+    places.overview(sheets).save(output / OVERVIEW, quality=85)
+    print(f"{output}: results.json, RESULTS.md, and pictures of the worst places")
+
+
+def write_page(arguments):
+    if arguments.folder:
+        for name in (KEPT.name, OVERVIEW):
+            shutil.copy(pathlib.Path(arguments.folder) / name, HERE / name)
+    text = pages.page(json.loads(KEPT.read_text()))
+    if not arguments.check:
+        PAGE.write_text(text, encoding="utf-8")
+    elif PAGE.read_text(encoding="utf-8") != text:
+        sys.exit(f"{PAGE}: not what results.json gives; run samples/corpus/corpus.py page")
+
+
+def agree(arguments):
+    first, second = (json.loads((pathlib.Path(f) / "results.json").read_text()) for f in (arguments.first, arguments.second))
+    for run_results in (first, second):
+        order, ratios = results.ranking(run_results)
+        print(", ".join("{} {:.3f} ({:.3f} to {:.3f})".format(m, *ratios[m]) for m in order))
+    contradicted = results.disagreements(first, second)
+    for better, worse in contradicted:
+        print(f"{better} is ahead of {worse} in the first run beyond the intervals, and behind it in the second")
+    if contradicted:
+        sys.exit(1)
+    print("the rankings are the same" if results.ranking(first)[0] == results.ranking(second)[0] else
+          "the rankings differ only where intervals overlap")
+
+
+def parse(arguments):
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    commands = parser.add_subparsers(dest="command", required=True)
+    for name in ("list", "run"):
+        command = commands.add_parser(name)
+        command.add_argument("--part", choices=("daily", "nightly"), default="daily", help="nightly is the whole corpus")
+        command.add_argument("--entries", help="names of entries, separated by commas, instead of a part")
+        command.add_argument("--held-back", action="store_true", help="also the entries that no sweep may look at")
+        command.add_argument("--methods", help="METHOD or METHOD:PRESET, separated by commas; default: all, daily without the slowest")
+        command.add_argument("--variant", action="append", default=[], help="NAME=METHOD[:PRESET][,SETTING=VALUE]..., as for walr bench")
+        command.add_argument("--seed", type=int, default=0, help="seed of the noisy frames; references are shared")
+    command.add_argument("--output", required=True, help="folder for results.json, RESULTS.md and pictures")
+    command.add_argument("--cache", default=default_cache(), help="folder for frames and judgements; default: %(default)s")
+    command.add_argument("--walr", type=lambda file: pathlib.Path(file).resolve(), help="the program; default: %(default)s",
+                         default=table.PROJECT / "build" / "bin" / "walr")
+    command.add_argument("--render-only", action="store_true", help="only render")
+    command.add_argument("--keep-pictures", action="store_true", help="keep every result in the cache, about 3 GB for 1920 x 1080")
+    command = commands.add_parser("page")
+    command.add_argument("--check", action="store_true")
+    command.add_argument("folder", nargs="?")
+    command = commands.add_parser("agree")
+    command.add_argument("first")
+    command.add_argument("second")
+    return parser.parse_args(arguments)
+
+
+def main(arguments=None):
+    parsed = parse(arguments)
+    {"list": list_entries, "run": run, "page": write_page, "agree": agree}[parsed.command](parsed)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,164 @@
+"""The corpus: which scenes are rendered at which sizes and numbers of samples, and what that costs."""
+import dataclasses
+import hashlib
+import json
+import pathlib
+import subprocess
+import tempfile
+
+PROJECT = pathlib.Path(__file__).resolve().parents[2]
+BUILT_IN = PROJECT / "samples" / "scenes"
+SHARED = PROJECT.parent / "shared" / "scenes"
+
+PATHS_PER_SECOND = 150e3
+"""Paths that `walr render` traces in a second on two idle cores. Scenes differ by about a factor of two."""
+LIMITS = {"daily": 20 / 60, "nightly": 10.0}
+"""Hours that a part may take on two idle cores."""
+WARM_UP = 8
+"""Frames before the first judged one, in which history builds up: the longest history of `walr` is 8 frames."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Entry:
+    """One sequence of the corpus. Every sequence is jittered, and its references are means over the pixel's area."""
+
+    name: str
+    scene: pathlib.Path
+    size: tuple  # Width and height in pixels.
+    judged: tuple  # First and last frame with a reference.
+    one_square_in: int  # One in so many squares of 64 x 64 pixels has a reference.
+    samples: int = 1  # Per pixel of the noisy frames.
+    reference_samples: int = 256  # Per pixel; half of them is one of two independent halves.
+    part: str = "nightly"  # "daily" or "nightly".
+    held_back: bool = False  # No sweep may look at it; it is reported apart.
+    camera: str = ""  # The first one if empty.
+    seed: int = 0  # Of the noisy frames.
+
+    @property
+    def frames(self):
+        """First and last frame that is rendered."""
+        return max(0, self.judged[0] - WARM_UP), self.judged[1]
+
+    @property
+    def pixels(self):
+        return self.size[0] * self.size[1]
+
+    def reference_settings(self):
+        """What the references depend on. Noisy frames of other seeds and numbers of samples share them."""
+        return {"scene": self.scene.name, "contents": hashlib.sha256(self.scene.read_bytes()).hexdigest(), "size": list(self.size),
+                "judged": list(self.judged), "one_square_in": self.one_square_in, "reference_samples": self.reference_samples,
+                "camera": self.camera}
+
+    def settings(self):
+        """What the frames of the sequence depend on, without the renderer."""
+        return {**self.reference_settings(), "frames": list(self.frames), "samples": self.samples, "seed": self.seed}
+
+    def noisy_paths(self):
+        """Paths for the noisy frames. `walr render` counts a frame's G-buffer as one path per pixel."""
+        return (self.frames[1] - self.frames[0] + 1) * self.pixels * (self.samples + 1)
+
+    def reference_paths(self):
+        return (self.judged[1] - self.judged[0] + 1) * self.pixels * self.reference_samples / self.one_square_in
+
+    def render_options(self):
+        """The options of `walr render`."""
+        width, height = self.size
+        options = ["--frames", "{}-{}".format(*self.frames), "--size", f"{width}x{height}", "--spp", str(self.samples), "--jitter",
+                   "--reference-spp", str(self.reference_samples), "--reference-frames", "{}-{}".format(*self.judged),
+                   "--reference-pixel", "area", "--reference-one-square-in", str(self.one_square_in)]
+        return options + (["--camera", self.camera] if self.camera else []) + (["--seed", str(self.seed)] if self.seed else [])
+
+
+def key(settings, renderer):
+    """The name of the folder for what was rendered with these settings by this renderer."""
+    text = json.dumps([settings, renderer], sort_keys=True)
+    return hashlib.sha256(text.encode()).hexdigest()[:16]
+
+
+def renderer_version(walr, scene, camera=""):
+    """The version of the renderer as far as this scene shows it: a hash of two tiny pictures and a reference of it.
+
+    A change of the program that changes no pixel keeps what has been rendered; one that changes pixels does not."""
+    with tempfile.TemporaryDirectory() as folder:
+        command = [walr, "render", scene, "--output", folder, "--frames", "9-10", "--size", "48x27", "--spp", "2", "--jitter",
+                   "--reference-spp", "2", "--reference-pixel", "area", *(["--camera", camera] if camera else [])]
+        subprocess.run(list(map(str, command)), check=True, capture_output=True)
+        files = sorted(pathlib.Path(folder).glob("*.exr"))
+        return hashlib.sha256(b"".join(file.read_bytes() for file in files)).hexdigest()[:16]
+
+
+VGA, QHD, FULL_HD = (640, 360), (960, 540), (1920, 1080)
+
+
+def built_in(name, scene, *more, **settings):
+    return Entry(name, BUILT_IN / f"{scene}.gltf", *more, **settings)
+
+
+def shared(name, scene, *more, **settings):
+    return Entry(name, SHARED / f"{scene}.glb", *more, **settings)
+
+
+def corpus():
+    """All entries by name. The lamp of `stair` swings until frame 29 and is off from frame 30 on."""
+    quick = {"reference_samples": 128, "part": "daily"}
+    entries = [
+        built_in("kitchen_360", "kitchen", VGA, (8, 10), 5, **quick),
+        built_in("kitchen_360_4spp", "kitchen", VGA, (8, 10), 5, samples=4, **quick),
+        built_in("stair_swing_360", "stair", VGA, (10, 12), 5, **quick),
+        built_in("stair_off_360", "stair", VGA, (31, 33), 5, **quick),
+        built_in("garden_360", "garden", VGA, (8, 10), 5, **quick),
+        built_in("turntable_360", "turntable", VGA, (20, 22), 5, **quick),
+
+        built_in("kitchen_540", "kitchen", QHD, (12, 19), 6),
+        built_in("kitchen_1080", "kitchen", FULL_HD, (12, 19), 24),
+        built_in("kitchen_540_4spp", "kitchen", QHD, (12, 19), 6, samples=4),
+        built_in("kitchen_540_16spp", "kitchen", QHD, (12, 19), 6, samples=16),
+        built_in("stair_swing_540", "stair", QHD, (12, 19), 6),
+        built_in("stair_swing_1080", "stair", FULL_HD, (12, 19), 24, held_back=True),
+        built_in("stair_off_540", "stair", QHD, (28, 37), 6),
+        built_in("stair_off_540_4spp", "stair", QHD, (28, 37), 6, samples=4, held_back=True),
+        built_in("garden_540", "garden", QHD, (12, 19), 6),
+        built_in("garden_1080", "garden", FULL_HD, (12, 19), 24, held_back=True),
+        built_in("turntable_540", "turntable", QHD, (16, 23), 6, held_back=True),
+        built_in("fence_540", "box", QHD, (12, 19), 6, camera="fence"),
+        built_in("window_540", "box", QHD, (12, 19), 6, camera="window", held_back=True),
+        shared("sponza_360", "sponza", VGA, (20, 27), 3),
+        shared("sponza_1080", "sponza", FULL_HD, (20, 27), 24),
+        shared("living_room_540", "living_room", QHD, (20, 27), 6, held_back=True),
+        shared("living_room_1080", "living_room", FULL_HD, (20, 27), 24, held_back=True),
+        shared("cornell_fence_540", "cornell_fence", QHD, (12, 19), 6, held_back=True),
+        shared("cornell_fence_540_16spp", "cornell_fence", QHD, (12, 19), 6, samples=16, held_back=True),
+    ]
+    return {entry.name: entry for entry in entries}
+
+
+METHODS = {
+    "walr": 1.0, "walr:many-samples": 1.3, "walr_paper": 2.6, "bmfr": 1.5, "svgf": 3.7, "flr": 0.9, "accumulate": 0.3, "none": 0.05,
+    "walr_paper:robust": 2.8, "joint_bilateral": 24.0,
+}
+"""The methods that are compared, with their time on two idle cores as a multiple of that of `walr` (samples/bench/SCENES.md)."""
+SLOW = ("walr_paper:robust", "joint_bilateral")
+"""Methods that the daily part leaves out."""
+WALR_PIXELS_PER_SECOND = 1.5e6
+"""Pixels that `walr` denoises in a second on a software device with two idle cores."""
+JUDGED_PIXELS_PER_SECOND = 0.5e6
+"""Pixels of one method's result that are judged in a second: SSIM and FLIP of `walr bench`, and the splits."""
+
+
+def bench_seconds(entry, methods):
+    """Seconds to denoise and judge an entry on two idle cores. Methods that are not in METHODS count as `walr`."""
+    frames = entry.frames[1] - entry.frames[0] + 1
+    judged = entry.judged[1] - entry.judged[0] + 1
+    denoised = sum(METHODS.get(method, 1.0) for method in methods) * frames * entry.pixels / WALR_PIXELS_PER_SECOND
+    return denoised + len(methods) * judged * entry.pixels / JUDGED_PIXELS_PER_SECOND
+
+
+def costs(entries, methods):
+    """For every entry the seconds of noisy frames, of references that no earlier entry has, and of the benchmark."""
+    known, rows = set(), []
+    for entry in entries:
+        references = (entry.scene, entry.size, entry.judged, entry.one_square_in, entry.reference_samples, entry.camera)
+        rows.append((entry, entry.noisy_paths() / PATHS_PER_SECOND,
+                     0.0 if references in known else entry.reference_paths() / PATHS_PER_SECOND, bench_seconds(entry, methods)))
+        known.add(references)
+    return rows

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "framegraph/vulkan/shared_objects.h"
+#include "passes/denoiser.h"
+#include "samples/denoise/frame_output.h"
+#include "samples/denoise/gpu_denoiser.h"
+#include "samples/denoise/packed_frame.h"
+
+namespace walr {
+
+/// A light with the method that denoises it.
+struct LightMethod {
+  Light light = Light::Indirect;
+  std::unique_ptr<Denoiser> method;
+};
+
+/// A frame on its way to `LightDenoisers`.
+struct PackedLights {
+  PackedFrame packed;
+  std::vector<Rgba16> direct;  ///< Direct light, if it is denoised beside the indirect light.
+};
+
+/// Denoises one or both lights of frames. Each light has a `GpuDenoiser` of its own, with its own history; they share
+/// pipelines and the memory of transients. The order of calls is that of `GpuDenoiser`.
+class LightDenoisers {
+ public:
+  /// For errors and for the other parameters see `GpuDenoiser`.
+  /// @param lights  the lights to denoise: one, or the indirect and the direct light. The views and counters are those
+  ///                of the first
+  LightDenoisers(const GpuDevice& device, std::span<const LightMethod> lights, fg::Extent extent, const Layout& layout,
+                 const InspectionWish& wanted, std::uint32_t framesInFlight, bool objectIds);
+
+  /// Convert a frame, which must have the lights. Any thread may call it.
+  [[nodiscard]] PackedLights pack(Frame frame) const;
+  /// Submit the next frame.
+  void submit(PackedLights frame);
+  [[nodiscard]] bool full() const { return first_.full(); }
+  /// Wait for the oldest frame in flight only. Returns nullopt if there is none.
+  std::optional<DenoisedFrame> finish();
+
+ private:
+  fg::vk::Membership member();
+
+  std::shared_ptr<fg::vk::SharedObjects> shared_;
+  Light light_;  // Of `first_`.
+  GpuDenoiser first_;
+  std::optional<GpuDenoiser> direct_;  // Where direct light comes second.
+};
+
+}  // namespace walr
