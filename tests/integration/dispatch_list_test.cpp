@@ -72,33 +72,11 @@ TEST_F(DispatchListTest, EveryMethodGivesThePixelsOfTheOpaqueCall) {
 }
 
 TEST_F(DispatchListTest, HistoryConfidenceAndLengthsAreThoseOfTheOpaqueCall) {
-  constexpr Size kSize{61, 43};
-  for (const char* method : methodsWithHistory()) {
-    SCOPED_TRACE(method);
-    const WalrDenoiserInfo whole = infoWithHistory(method, kSize);
-    Opaque opaque(host, api(), whole);
-    const WalrPasses passes = makePasses(whole);
-    {
-      list_host::Player player(host, api(), passes);
-      expectSameHistory(host, opaque, player, kSize);
-    }
-    EXPECT_EQ(api().destroy_passes(passes), WALR_SUCCESS);
-  }
+  expectTheHistoryOfTheOpaqueCall<list_host::Player>();
 }
 
 TEST_F(DispatchListTest, WhatAHostStatesGivesThePixelsOfTheOpaqueCall) {
-  constexpr Size kSize{61, 43};
-  for (const char* method : {"walr", "svgf"}) {
-    SCOPED_TRACE(method);
-    expectSameStatements(host, api(), info(method, kSize), kSize, [&](const WalrDenoiserInfo& stated, auto compare) {
-      const WalrPasses passes = makePasses(stated);
-      {
-        list_host::Player way(host, api(), passes);
-        compare(way);
-      }
-      EXPECT_EQ(api().destroy_passes(passes), WALR_SUCCESS);
-    });
-  }
+  expectTheStatementsOfTheOpaqueCall<list_host::Player>();
 }
 
 TEST_F(DispatchListTest, AListOfAnotherSizeTakesOverTheHistory) {

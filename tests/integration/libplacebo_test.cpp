@@ -3,6 +3,7 @@
 #include <map>
 
 #include "plugin_host.h"
+#include "tests/integration/host_timeline.h"
 
 extern "C" {
 #include <libplacebo/vulkan.h>
@@ -12,32 +13,6 @@ namespace plugin_host {
 namespace {
 
 constexpr Size kSize{61, 43};
-
-/// A timeline semaphore that each side waits for and signals.
-class Timeline {
- public:
-  explicit Timeline(VkDevice device) : device_(device) {
-    VkSemaphoreTypeCreateInfo type{};
-    type.sType = VK_STRUCTURE_TYPE_SEMAPHORE_TYPE_CREATE_INFO;
-    type.semaphoreType = VK_SEMAPHORE_TYPE_TIMELINE;
-    VkSemaphoreCreateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO;
-    info.pNext = &type;
-    if (vkCreateSemaphore(device, &info, nullptr, &semaphore_) != VK_SUCCESS) throw std::runtime_error("semaphore");
-  }
-  ~Timeline() { vkDestroySemaphore(device_, semaphore_, nullptr); }
-  Timeline(const Timeline&) = delete;
-  Timeline& operator=(const Timeline&) = delete;
-
-  [[nodiscard]] VkSemaphore semaphore() const { return semaphore_; }
-  std::uint64_t raise() { return ++value_; }
-  [[nodiscard]] std::uint64_t value() const { return value_; }
-
- private:
-  VkDevice device_;
-  VkSemaphore semaphore_ = VK_NULL_HANDLE;
-  std::uint64_t value_ = 0;
-};
 
 /// A texture of libplacebo and its image.
 struct Shared {
@@ -112,7 +87,7 @@ TEST_F(LibplaceboTest, SemaphoresHandImagesOverAndBack) {
   WalrDenoiserInfo described = info("walr", kSize);
   WalrDenoiser denoiser = nullptr;
   require(api().create_denoiser(&described, &denoiser));
-  Timeline timeline(host.device);
+  walr::test::HostTimeline timeline(host.device);
   std::vector<Shared> shared;
   for (const char* input : kInputs) shared.push_back(make(std::string(input) == "depth" ? "r32f" : "rgba32f", false));
   shared.push_back(make("rgba16hf", true));

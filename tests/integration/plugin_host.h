@@ -127,10 +127,13 @@ class PluginTest : public testing::Test {
     require(api().create_passes(&passesInfo, &passes));
     return passes;
   }
+  /// Check `expectSameHistory` and `expectSameStatements` for a way to run passes: a class that is made from the host,
+  /// the functions of the C API and passes, and has image(name), resetHistory() and frame(WalrPassFrame).
+  template <typename Way>
+  void expectTheHistoryOfTheOpaqueCall();
+  template <typename Way>
+  void expectTheStatementsOfTheOpaqueCall();
 
-  Plugin plugin;
-  Host host{};
-  WalrDevice device{};
   /// The methods that keep a history of light.
   [[nodiscard]] std::vector<const char*> methodsWithHistory() const {
     std::vector<const char*> names;
@@ -139,7 +142,21 @@ class PluginTest : public testing::Test {
     return names;
   }
 
+  Plugin plugin;
+  Host host{};
+  WalrDevice device{};
   Registered registered;
+
+ private:
+  template <typename Way, typename Use>
+  void withPasses(const WalrDenoiserInfo& denoiser, Use use) {
+    const WalrPasses passes = makePasses(denoiser);
+    {
+      Way way(host, api(), passes);
+      use(way);
+    }
+    EXPECT_EQ(api().destroy_passes(passes), WALR_SUCCESS);
+  }
 };
 
 inline WalrCamera cameraAt(float x) {
@@ -399,6 +416,27 @@ void expectSameStatements(Host& host, const WalrApi& api, const WalrDenoiserInfo
         EXPECT_GT(std::ranges::count_if(result, [](std::uint16_t bits) { return bits != 0; }), result.size() / 2);
       }
     });
+  }
+}
+
+template <typename Way>
+void PluginTest::expectTheHistoryOfTheOpaqueCall() {
+  constexpr Size kSize{61, 43};
+  for (const char* method : methodsWithHistory()) {
+    SCOPED_TRACE(method);
+    const WalrDenoiserInfo whole = infoWithHistory(method, kSize);
+    Opaque opaque(host, api(), whole);
+    withPasses<Way>(whole, [&](Way& way) { expectSameHistory(host, opaque, way, kSize); });
+  }
+}
+
+template <typename Way>
+void PluginTest::expectTheStatementsOfTheOpaqueCall() {
+  constexpr Size kSize{61, 43};
+  for (const char* method : {"walr", "svgf"}) {
+    SCOPED_TRACE(method);
+    expectSameStatements(host, api(), info(method, kSize), kSize,
+                         [&](const WalrDenoiserInfo& stated, auto compare) { withPasses<Way>(stated, compare); });
   }
 }
 

@@ -72,33 +72,11 @@ TEST_F(PluginTest, EveryMethodGivesTheSamePixelsPassByPass) {
 }
 
 TEST_F(PluginTest, HistoryConfidenceAndLengthsAreTheSamePassByPass) {
-  constexpr Size kSize{61, 43};
-  for (const char* method : methodsWithHistory()) {
-    SCOPED_TRACE(method);
-    const WalrDenoiserInfo whole = infoWithHistory(method, kSize);
-    Opaque opaque(host, api(), whole);
-    const WalrPasses passes = makePasses(whole);
-    {
-      tiny_host::Graph graph(host, api(), passes);
-      expectSameHistory(host, opaque, graph, kSize);
-    }
-    EXPECT_EQ(api().destroy_passes(passes), WALR_SUCCESS);
-  }
+  expectTheHistoryOfTheOpaqueCall<tiny_host::Graph>();
 }
 
 TEST_F(PluginTest, WhatAHostStatesGivesTheSamePixelsPassByPass) {
-  constexpr Size kSize{61, 43};
-  for (const char* method : {"walr", "svgf"}) {
-    SCOPED_TRACE(method);
-    expectSameStatements(host, api(), info(method, kSize), kSize, [&](const WalrDenoiserInfo& stated, auto compare) {
-      const WalrPasses passes = makePasses(stated);
-      {
-        tiny_host::Graph way(host, api(), passes);
-        compare(way);
-      }
-      EXPECT_EQ(api().destroy_passes(passes), WALR_SUCCESS);
-    });
-  }
+  expectTheStatementsOfTheOpaqueCall<tiny_host::Graph>();
 }
 
 /// Passes of a size, in a host's graph.

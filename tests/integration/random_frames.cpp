@@ -39,19 +39,10 @@ void spoil(Dice& dice, WalrImage& image) {
 
 }  // namespace
 
-RandomFrames::RandomFrames(Host& host) : host_(&host) {
-  VkSemaphoreTypeCreateInfo type{};
-  type.sType = VK_STRUCTURE_TYPE_SEMAPHORE_TYPE_CREATE_INFO;
-  type.semaphoreType = VK_SEMAPHORE_TYPE_TIMELINE;
-  VkSemaphoreCreateInfo info{};
-  info.sType = VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO;
-  info.pNext = &type;
-  vkCreateSemaphore(host.device, &info, nullptr, &timeline_);
-}
+RandomFrames::RandomFrames(Host& host) : host_(&host), timeline_(host.device) {}
 
 RandomFrames::~RandomFrames() {
   destroyAll();
-  vkDestroySemaphore(host_->device, timeline_, nullptr);
 }
 
 void RandomFrames::destroyAll() {
@@ -107,8 +98,8 @@ void RandomFrames::submit(VkCommandBuffer commands, std::uint64_t finishedValue)
     host_submit_and_wait(host_, commands);
     return;
   }
-  host_submit_between(host_, commands, timeline_, finished_, finishedValue);
-  finished_ = finishedValue;
+  host_submit_between(host_, commands, timeline_.semaphore(), timeline_.value(), finishedValue);
+  timeline_.raiseTo(finishedValue);
 }
 
 void RandomFrames::record(Dice& dice, CallCheck& check, const ModelledDenoiser& denoiser) {
@@ -169,8 +160,8 @@ void RandomFrames::record(Dice& dice, CallCheck& check, const ModelledDenoiser& 
   expected.mayFail();  // The camera of the frame before may not fit.
   std::uint64_t finishedValue = 0;
   if (dice.oneIn(3)) {
-    frame.finished = timeline_;
-    frame.finished_value = finishedValue = finished_ + 1 + dice.below(3);
+    frame.finished = timeline_.semaphore();
+    frame.finished_value = finishedValue = timeline_.value() + 1 + dice.below(3);
   } else if (dice.oneIn(16)) {
     frame.finished_value = 1;  // Of no semaphore.
     expected.fails();

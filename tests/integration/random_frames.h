@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "host/vulkan_host.h"
+#include "tests/integration/host_timeline.h"
 #include "tests/integration/random_calls.h"
 
 namespace walr::test {
@@ -30,8 +31,7 @@ class RandomFrames final : public FrameRecorder {
   void destroyAll();
 
   Host* host_;
-  VkSemaphore timeline_ = VK_NULL_HANDLE;
-  std::uint64_t finished_ = 0;  ///< Value of the semaphore.
+  HostTimeline timeline_;
   std::vector<HostImage> images_;
   std::vector<HostBuffer> buffers_;
   std::uint64_t lastIdentity_ = 0;

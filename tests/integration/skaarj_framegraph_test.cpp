@@ -252,33 +252,11 @@ TEST_F(SkaarjFrameGraph, EveryMethodGivesTheSamePixels) {
 }
 
 TEST_F(SkaarjFrameGraph, HistoryConfidenceAndLengthsAreTheSame) {
-  constexpr Size kSize{61, 43};
-  for (const char* method : methodsWithHistory()) {
-    SCOPED_TRACE(method);
-    const WalrDenoiserInfo whole = infoWithHistory(method, kSize);
-    Opaque opaque(host, api(), whole);
-    const WalrPasses passes = makePasses(whole);
-    {
-      Engine engine(host, api(), passes);
-      expectSameHistory(host, opaque, engine, kSize);
-    }
-    EXPECT_EQ(api().destroy_passes(passes), WALR_SUCCESS);
-  }
+  expectTheHistoryOfTheOpaqueCall<Engine>();
 }
 
 TEST_F(SkaarjFrameGraph, WhatAHostStatesGivesTheSamePixels) {
-  constexpr Size kSize{61, 43};
-  for (const char* method : {"walr", "svgf"}) {
-    SCOPED_TRACE(method);
-    expectSameStatements(host, api(), info(method, kSize), kSize, [&](const WalrDenoiserInfo& stated, auto compare) {
-      const WalrPasses passes = makePasses(stated);
-      {
-        Engine way(host, api(), passes);
-        compare(way);
-      }
-      EXPECT_EQ(api().destroy_passes(passes), WALR_SUCCESS);
-    });
-  }
+  expectTheStatementsOfTheOpaqueCall<Engine>();
 }
 
 }  // namespace
