@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <vector>
 
 #include "tests/passes/comparison.h"
 #include "tests/passes/reference/walr.h"
@@ -295,6 +297,53 @@ TEST_F(WalrHistoryTest, JitterCostsNoHistory) {
 // After a step of the light by 2^8, a mean of n samples keeps (1 - 1/n)^k of the difference after k frames. In a
 // neighbourhood of one colour, variance clipping limits the distance of the anti-aliasing history to the smallest box,
 // 4 / 2048 of the luma. Here the luma is at most 4 times the smallest channel.
+/// A panel in front of a wall, lit differently. Its right edge leans by a pixel in eight rows.
+constexpr double kPanelLight = 1.0;
+constexpr double kWallLight = 0.25;
+constexpr double kLean = 1.0 / 8.0;
+
+std::optional<SceneHit> leaningPanel(glm::dvec3 origin, glm::dvec3 direction) {
+  const glm::dvec3 normal(0.0, 0.0, 1.0);
+  const double toPanel = (-4.0 - origin.z) / direction.z;
+  const glm::dvec3 p = origin + toPanel * direction;
+  const bool panel = p.x < 0.05 + kLean * p.y;
+  return SceneHit{panel ? toPanel : (-6.0 - origin.z) / direction.z, normal};
+}
+glm::dvec3 lightOfPanel(glm::dvec3 point, glm::dvec3 /*normal*/) {
+  return glm::dvec3(point.z > -5.0 ? kPanelLight : kWallLight);
+}
+
+/// Where the panel ends, mean over all rows, in pixels from the image's left side.
+template <typename Pixel>
+double edgeIn(const reference::Image<Pixel>& image) {
+  double sum = 0.0;
+  for (const Pixel& light : image.pixels()) sum += (light[0] - kWallLight) / (kPanelLight - kWallLight);
+  return sum / image.size().y;
+}
+
+// An upscaler that follows needs edges where this frame's jitter puts them. Anti-aliasing leaves them there, because it
+// takes no history of another surface.
+TEST_F(WalrHistoryTest, EdgesMoveWithTheJitter) {
+  for (const bool antialiasing : {false, true}) {
+    SCOPED_TRACE(antialiasing ? "with anti-aliasing" : "without anti-aliasing");
+    WalrSettings settings;
+    settings.antialiasing.enabled = antialiasing;
+    WalrRun run(device(), kSize, settings, {}, false);
+    double first = 0.0;
+    for (std::uint32_t i = 1; i <= 16; ++i) {
+      const HostFrame frame =
+          renderFrame(leaningPanel, jittered(cameraAt({}, {}, kSize, i), i), kSize, lightOfPanel, Noise::None);
+      const double edge = edgeIn(run.frame(frame).output);
+      if (i == 1) first = edge;
+      // A sample further right finds the edge further left, and so does one further down, where the edge leans to. The
+      // edge crosses pixel centres once in eight rows, so that its mean place is known to 1/16 of a pixel in both
+      // frames.
+      const glm::dvec2 moved(jitterAt(i) - jitterAt(1));
+      EXPECT_NEAR(edge - first, -moved.x - kLean * moved.y, 2.0 / 16.0) << "frame " << i;
+    }
+  }
+}
+
 TEST_F(WalrHistoryTest, AStepOfExposureDecaysAsTheMeanDoes) {
   WalrPaperSettings settings = robustWalr();
   settings.accumulation.maxHistory = 4.0F;
