@@ -67,12 +67,12 @@ const uint kHypothesisInverseView = 5;   // The view matrix leads from view to w
 const uint kHypothesisCount = 6;
 const uint kLintNormalFits = 64;  // Normals fit as stated; see kFittingCosine.
 
-// Albedo left in the lighting: pairs of pixels on one surface, in a row or column, 1, 2, 4, ... kAlbedoFarthest apart, by
-// the contrast of their albedo in the channel in which it differs most. Class c holds contrasts from c + 1 to c + 2
+// Albedo left in the lighting: pairs of pixels on one surface, in a row or column, 1, 2, 4, ... kAlbedoFarthest apart,
+// by the contrast of their albedo in the channel in which it differs most. Class c holds contrasts from c + 1 to c + 2
 // steps, the last class all larger ones.
 const uint kLintFollowsAlbedo = 65;  // The light's contrast is nearer to that of albedo than to none.
 const uint kLintIgnoresAlbedo = 73;  // The reverse.
-const int kAlbedoFarthest = 8;  // Pixels.
+const int kAlbedoFarthest = 8;       // Pixels.
 const uint kAlbedoContrasts = 8;
 const float kAlbedoContrastStep = 0.25;  // Octaves.
 
