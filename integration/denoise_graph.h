@@ -46,8 +46,7 @@ extern const HostStates kComputeHost;
 ///                empty: the usual formats, without the optional inputs
 /// @param host    determines how many channels are read
 /// @throws std::invalid_argument naming an input whose format cannot be used, or a pattern of light that is out of
-/// range
-///         or that a host with a rectangle cannot have
+///         range or that a host with a rectangle cannot have
 DenoiserInputs importInputs(fg::Graph& graph, fg::Extent extent, const InputConventions& conventions,
                             const fg::ExternalState& state, std::span<const VkFormat> formats = {},
                             const HostConventions& host = {});

@@ -156,8 +156,7 @@ ListedGraph Description::listStage(std::span<const WalrPortFormat> ports) const 
         "stage '" + methodName_ +
             "' takes linear depth, signed normals, motion_depth as given, found or of a static scene, no pre-exposure, "
             "no rectangle, no orthographic camera, no sparse light and no denoised_format: convert the images "
-            "yourself, or "
-            "use a whole method");
+            "yourself, or use a whole method");
   }
   PortFormats formats;
   for (const Port& port : stage_->ports()) {

@@ -61,9 +61,12 @@ Image composite(const Image& indirect, const Image& direct, const Image& albedo,
 std::vector<Image> FrameWriter::litImages(const DenoisedFrame& denoised) const {
   const Frame& frame = denoised.frame;
   const Reference& reference = referenceOf(frame);
-  Image input = frame.indirect;
-  std::ranges::transform(input.values(), input.values().begin(), finiteOrZero);
-  const Image& indirect = firstOf(denoised.indirect, input);
+  Image undenoised;
+  if (denoised.indirect.empty()) {
+    undenoised = frame.indirect;
+    std::ranges::transform(undenoised.values(), undenoised.values().begin(), finiteOrZero);
+  }
+  const Image& indirect = firstOf(denoised.indirect, undenoised);
   const Image& direct = firstOf(denoised.direct, frame.direct);
   const auto light = [&](const Image& someIndirect, const Image& someDirect) {
     const Image& chosen = options_.referenceDirect ? firstOf(reference.direct, someDirect) : someDirect;

@@ -19,8 +19,7 @@ namespace walr {
 
 /// The output of a method for one frame.
 struct DenoisedPicture {
-  Image
-      indirect;  ///< 3 components: denoised demodulated diffuse radiance, of the indirect light if not said otherwise.
+  Image indirect;  ///< 3 components: denoised demodulated diffuse radiance of the light that was submitted.
   /// Times of the passes from GPU timestamps, in the order of execution; empty if the queue has no timestamps.
   std::vector<fg::vk::PassTime> passes;
   std::vector<ViewPicture> views;

@@ -31,9 +31,7 @@ class PixelTracer {
   }
 
   // The same with indirect light that is resampled from these paths and from the previous frame.
-  PixelLight resampled(const PrimaryHit& hit, Reservoirs& reservoirs) const {
-    const std::uint32_t x = pixel_ & 0xffffU;
-    const std::uint32_t y = pixel_ >> 16U;
+  PixelLight resampled(const PrimaryHit& hit, Reservoirs& reservoirs, std::uint32_t x, std::uint32_t y) const {
     std::vector<PathSample> paths;
     PixelLight light;
     for (std::uint32_t s = 0; s < settings_.samples; ++s) add(light, paths.emplace_back(trace(*hit.surface, s)));
@@ -137,7 +135,7 @@ Film renderFilm(const World& world, const View& view, const SamplingSettings& se
             const PixelTracer tracer(world, settings, sampled ? settings.bounces : 0,
                                      sampled ? seedOf(texel) : seedOf(pixel));
             const PixelLight light = glossy                ? tracer.glossy(hit, film.gbuffer[index].albedo)
-                                     : settings.reservoirs ? tracer.resampled(hit, *settings.reservoirs)
+                                     : settings.reservoirs ? tracer.resampled(hit, *settings.reservoirs, x, y)
                                                            : tracer.diffuse(*hit.surface);
             film.direct[index] = glm::vec3(light.direct);
             if (sampled) film.indirect[index] = glm::vec3(light.indirect);

@@ -40,6 +40,22 @@ bool couldReach(const World& world, const Reservoir& reservoir, const IndirectSo
          sees(world, reservoir.position + reservoir.normal * reservoir.rayOffset, source);
 }
 
+// Weight of the previous reservoir's source at a surface point, counted as `samples` samples; 0 if the point does not
+// see it. Counts rays.
+float weightOfReused(const World& world, const Surface& surface, const Reservoir& previous, float samples,
+                     std::uint32_t& rays) {
+  if (!(previous.weight > 0.0F)) return 0.0F;
+  const float before = solidAngle(previous.source, previous.position);
+  const float target = luminanceOf(contribution(world, surface, previous.source));
+  if (!(before > 0.0F) || !(target > 0.0F)) return 0.0F;
+  ++rays;
+  const glm::vec3 origin = rayOrigin(surface, previous.source.position - surface.position);
+  if (!sees(world, origin, previous.source)) return 0.0F;
+  // The density is per solid angle, which differs between this surface point and the previous one.
+  const float weight = previous.weight * solidAngle(previous.source, surface.position) / before;
+  return samples * target * weight;
+}
+
 // Weighted reservoir sampling: keeps one of the sources offered, with a probability proportional to its weight.
 class Choice {
  public:
@@ -100,20 +116,8 @@ ResampledLight resample(const World& world, const PrimaryHit& hit, std::span<con
   }
   const auto newSamples = static_cast<float>(paths.size());
   const float reusedSamples = std::min(previous.samples, mostFrames * newSamples);
-  bool reused = false;
-  if (previous.weight > 0.0F && reusedSamples > 0.0F) {
-    const float before = solidAngle(previous.source, previous.position);
-    const float target = luminanceOf(contribution(world, surface, previous.source));
-    if (before > 0.0F && target > 0.0F) {
-      ++result.rays;
-      // The density is per solid angle, which differs between this surface point and the previous one.
-      const float weight = previous.weight * solidAngle(previous.source, surface.position) / before;
-      const glm::vec3 direction = previous.source.position - surface.position;
-      if (sees(world, rayOrigin(surface, direction), previous.source)) {
-        reused = choice.offer(previous.source, reusedSamples * target * weight);
-      }
-    }
-  }
+  const float weight = weightOfReused(world, surface, previous, reusedSamples, result.rays);
+  const bool reused = choice.offer(previous.source, weight);
 
   result.reservoir = {surface.position,          surface.geometricNormal, surface.rayOffset,
                       hit.pixel.objectId,        choice.source(),         0.0F,

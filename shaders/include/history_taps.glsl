@@ -77,8 +77,8 @@ vec4 tapWeights(HistoryTaps taps) {
 // If the weights sum to less, the taps tell next to nothing about the position between them.
 const float kLeastTapWeight = 0.01;
 
-// COUNT_EMPTY_TAPS: whether taps without history count as of length 0 in the mean of lengths. With sparse light, a sample
-// would otherwise spread to the empty pixels around it and count as many.
+// COUNT_EMPTY_TAPS: whether taps without history count as of length 0 in the mean of lengths. With sparse light, a
+// sample would otherwise spread to the empty pixels around it and count in each of them.
 #ifndef COUNT_EMPTY_TAPS
 #define COUNT_EMPTY_TAPS false
 #endif
