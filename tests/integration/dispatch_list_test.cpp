@@ -2,7 +2,6 @@
 // resources.
 #include <cstdint>
 #include <iterator>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -82,41 +81,7 @@ TEST_F(DispatchListTest, WhatAHostStatesGivesThePixelsOfTheOpaqueCall) {
 TEST_F(DispatchListTest, AListOfAnotherSizeTakesOverTheHistory) {
   constexpr Size kSizes[] = {{61, 43}, {64, 45}};
   constexpr std::size_t kTurns[] = {0, 0, 1, 1, 0};  // By frame.
-  WalrConventions conventions{};
-  conventions.struct_size = sizeof(conventions);
-  conventions.rectangle = VK_TRUE;
-  for (const WalrPassType* type : registered.types) {
-    if (type->method == VK_FALSE) continue;
-    WalrDenoiserInfo whole = info(type->name, kSizes[0]);
-    whole.conventions = &conventions;
-    Opaque opaque(host, api(), whole);
-    std::vector<WalrPasses> passes;
-    std::vector<std::unique_ptr<list_host::Player>> players;
-    for (const Size size : kSizes) {
-      whole.width = size.width;
-      whole.height = size.height;
-      passes.push_back(makePasses(whole));
-      players.push_back(std::make_unique<list_host::Player>(host, api(), passes.back()));
-    }
-    for (std::uint32_t frame = 0; frame < std::size(kTurns); ++frame) {
-      SCOPED_TRACE(std::string(type->name) + ", frame " + std::to_string(frame));
-      const std::size_t turn = kTurns[frame];
-      if (frame > 0 && turn != kTurns[frame - 1]) {
-        opaque.resize(kSizes[turn]);
-        require(api().continue_passes(passes[turn], passes[kTurns[frame - 1]]));
-        players[turn]->goOnFrom(*players[kTurns[frame - 1]]);
-      }
-      const WalrCamera camera = cameraAt(float(frame) * kStep);
-      uploadFrame(host, kSizes[turn], frame, [&](std::size_t i) { return &opaque.image(i); });
-      uploadFrame(host, kSizes[turn], frame, [&](std::size_t i) { return &players[turn]->image(kInputs[i]); });
-      opaque.frame(camera, 0);
-      players[turn]->frame(passFrame(camera));
-      EXPECT_EQ(download(host, players[turn]->image("denoised")), download(host, opaque.output()));
-    }
-    EXPECT_EQ(host.messages, 0) << type->name;
-    players.clear();
-    for (const WalrPasses each : passes) EXPECT_EQ(api().destroy_passes(each), WALR_SUCCESS);
-  }
+  expectTheOpaqueCallAtSizes<list_host::Player>(kSizes, kTurns);
 }
 
 // A host that takes its states from the list alone shows that each of them is needed.

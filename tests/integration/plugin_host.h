@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <functional>
 #include <iterator>
+#include <memory>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -133,6 +134,10 @@ class PluginTest : public testing::Test {
   void expectTheHistoryOfTheOpaqueCall();
   template <typename Way>
   void expectTheStatementsOfTheOpaqueCall();
+  /// The same while the host alternates between passes of several sizes. The way also has goOnFrom(Way&).
+  /// @param turns by frame: index of its size
+  template <typename Way>
+  void expectTheOpaqueCallAtSizes(std::span<const Size> sizes, std::span<const std::size_t> turns);
 
   /// The methods that keep a history of light.
   [[nodiscard]] std::vector<const char*> methodsWithHistory() const {
@@ -437,6 +442,46 @@ void PluginTest::expectTheStatementsOfTheOpaqueCall() {
     SCOPED_TRACE(method);
     expectSameStatements(host, api(), info(method, kSize), kSize,
                          [&](const WalrDenoiserInfo& stated, auto compare) { withPasses<Way>(stated, compare); });
+  }
+}
+
+template <typename Way>
+void PluginTest::expectTheOpaqueCallAtSizes(std::span<const Size> sizes, std::span<const std::size_t> turns) {
+  WalrConventions conventions{};
+  conventions.struct_size = sizeof(conventions);
+  conventions.rectangle = VK_TRUE;
+  for (const WalrPassType* type : registered.types) {
+    if (type->method == VK_FALSE) continue;
+    WalrDenoiserInfo whole = info(type->name, sizes.front());
+    whole.conventions = &conventions;
+    Opaque opaque(host, api(), whole);
+    std::vector<WalrPasses> passes;
+    std::vector<std::unique_ptr<Way>> ways;
+    for (const Size size : sizes) {
+      whole.width = size.width;
+      whole.height = size.height;
+      passes.push_back(makePasses(whole));
+      ways.push_back(std::make_unique<Way>(host, api(), passes.back()));
+    }
+    for (std::uint32_t frame = 0; frame < turns.size(); ++frame) {
+      SCOPED_TRACE(std::string(type->name) + ", frame " + std::to_string(frame));
+      const std::size_t turn = turns[frame];
+      Way& way = *ways[turn];
+      if (frame > 0 && turn != turns[frame - 1]) {
+        opaque.resize(sizes[turn]);
+        require(api().continue_passes(passes[turn], passes[turns[frame - 1]]));
+        way.goOnFrom(*ways[turns[frame - 1]]);
+      }
+      const WalrCamera camera = cameraAt(float(frame) * kStep);
+      uploadFrame(host, sizes[turn], frame, [&](std::size_t i) { return &opaque.image(i); });
+      uploadFrame(host, sizes[turn], frame, [&](std::size_t i) { return &way.image(kInputs[i]); });
+      opaque.frame(camera, 0);
+      way.frame(passFrame(camera));
+      EXPECT_EQ(download(host, way.image("denoised")), download(host, opaque.output()));
+    }
+    EXPECT_EQ(host.messages, 0) << type->name;
+    ways.clear();
+    for (const WalrPasses each : passes) EXPECT_EQ(api().destroy_passes(each), WALR_SUCCESS);
   }
 }
 

@@ -7,7 +7,6 @@
 #include <fstream>
 #include <iterator>
 #include <map>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -79,51 +78,11 @@ TEST_F(PluginTest, WhatAHostStatesGivesTheSamePixelsPassByPass) {
   expectTheStatementsOfTheOpaqueCall<tiny_host::Graph>();
 }
 
-/// Passes of a size, in a host's graph.
-struct SizedGraph {
-  WalrPasses passes;
-  std::unique_ptr<tiny_host::Graph> graph;
-};
-
 // A host keeps its history while it alternates between passes of different sizes.
 TEST_F(PluginTest, HistoryIsKeptPassByPassAtAnotherSize) {
   constexpr Size kSizes[] = {{61, 43}, {64, 45}, {56, 40}};
   constexpr std::size_t kTurns[] = {0, 0, 1, 1, 0, 2, 0};  // By frame.
-  WalrConventions conventions{};
-  conventions.struct_size = sizeof(conventions);
-  conventions.rectangle = VK_TRUE;
-  for (const WalrPassType* type : registered.types) {
-    if (type->method == VK_FALSE) continue;
-    WalrDenoiserInfo whole = info(type->name, kSizes[0]);
-    whole.conventions = &conventions;
-    Opaque opaque(host, api(), whole);
-    std::vector<SizedGraph> sized;
-    for (const Size size : kSizes) {
-      whole.width = size.width;
-      whole.height = size.height;
-      const WalrPasses passes = makePasses(whole);
-      sized.push_back({passes, std::make_unique<tiny_host::Graph>(host, api(), passes)});
-    }
-    for (std::uint32_t frame = 0; frame < std::size(kTurns); ++frame) {
-      SCOPED_TRACE(std::string(type->name) + ", frame " + std::to_string(frame));
-      const Size size = kSizes[kTurns[frame]];
-      tiny_host::Graph& graph = *sized[kTurns[frame]].graph;
-      if (frame > 0 && kTurns[frame] != kTurns[frame - 1]) {
-        const SizedGraph& last = sized[kTurns[frame - 1]];
-        opaque.resize(size);
-        require(api().continue_passes(sized[kTurns[frame]].passes, last.passes));
-        graph.goOnFrom(*last.graph);
-      }
-      const WalrCamera camera = cameraAt(float(frame) * kStep);
-      uploadFrame(host, size, frame, [&](std::size_t i) { return &opaque.image(i); });
-      uploadFrame(host, size, frame, [&](std::size_t i) { return &graph.image(kInputs[i]); });
-      opaque.frame(camera, 0);
-      graph.frame(passFrame(camera));
-      EXPECT_EQ(download(host, graph.image("denoised")), download(host, opaque.output()));
-    }
-    for (SizedGraph& each : sized) each.graph.reset();
-    for (const SizedGraph& each : sized) EXPECT_EQ(api().destroy_passes(each.passes), WALR_SUCCESS);
-  }
+  expectTheOpaqueCallAtSizes<tiny_host::Graph>(kSizes, kTurns);
 }
 
 TEST_F(PluginTest, PassesContinueOnlyFromPassesOfTheSameMethod) {
