@@ -10,7 +10,7 @@ PROJECT = pathlib.Path(__file__).resolve().parents[2]
 BUILT_IN = PROJECT / "samples" / "scenes"
 SHARED = PROJECT.parent / "shared" / "scenes"
 
-PATHS_PER_SECOND = 150e3
+PATHS_PER_SECOND = 400e3
 """Paths that `walr render` traces in a second on two idle cores. Scenes differ by about a factor of two."""
 LIMITS = {"daily": 20 / 60, "nightly": 10.0}
 """Hours that a part may take on two idle cores."""
