@@ -32,7 +32,7 @@ Enum choose(Dice& dice, Expectation& expected, Enum last) {
 
 /// On with a probability of one in `n`, seldom neither on nor off.
 VkBool32 chooseSwitch(Dice& dice, Expectation& expected, std::uint32_t n) {
-  if (!dice.oneIn(60)) return dice.oneIn(n) ? VK_TRUE : VK_FALSE;
+  if (!dice.oneIn(300)) return dice.oneIn(n) ? VK_TRUE : VK_FALSE;
   expected.fails(WALR_ERROR_INVALID_ARGUMENT);
   return dice.of({2U, 0xffffffffU, 0x100U});
 }
