@@ -81,7 +81,7 @@ def chosen(arguments):
     missing = sorted({str(e.scene) for e in found if not e.scene.exists()})
     if missing:
         print(f"left out, because there is no file: {', '.join(missing)}", file=sys.stderr)
-    return [dataclasses.replace(e, seed=arguments.seed) for e in found if e.scene.exists()]
+    return [e.restricted(arguments.judged, arguments.seed) for e in found if e.scene.exists()]
 
 
 def variants(arguments):
@@ -161,7 +161,8 @@ def run(arguments):
     output.mkdir(parents=True, exist_ok=True)
     costs = {entry.name: row for entry, *row in table.costs(entries, names)}
     remaining = rendering.Remaining(sum(row[2] for row in costs.values()))
-    kept = {"commit": commit(), "baseline": BASELINE, "part": None if arguments.entries else arguments.part, "seed": arguments.seed, "variants": arguments.variant,
+    part = None if arguments.entries or arguments.judged else arguments.part
+    kept = {"commit": commit(), "baseline": BASELINE, "part": part, "seed": arguments.seed, "variants": arguments.variant,
             "entries": {}, "places": []}
     all_sums = {}
     for entry in entries:
@@ -216,6 +217,13 @@ def agree(arguments):
           "the rankings differ only where intervals overlap")
 
 
+def positive(text):
+    number = int(text)
+    if number < 1:
+        raise argparse.ArgumentTypeError("must be at least 1")
+    return number
+
+
 def parse(arguments):
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     commands = parser.add_subparsers(dest="command", required=True)
@@ -226,6 +234,7 @@ def parse(arguments):
         command.add_argument("--held-back", action="store_true", help="also the entries that no sweep may look at")
         command.add_argument("--methods", help="METHOD or METHOD:PRESET, separated by commas; default: all, daily without the slowest")
         command.add_argument("--variant", action="append", default=[], help="NAME=METHOD[:PRESET][,SETTING=VALUE]..., as for walr bench")
+        command.add_argument("--judged", type=positive, metavar="N", help="judge only the first N frames of each sequence")
         command.add_argument("--seed", type=int, default=0, help="seed of the noisy frames; references are shared")
     command.add_argument("--output", required=True, help="folder for results.json, RESULTS.md and pictures")
     command.add_argument("--cache", default=default_cache(), help="folder for frames and judgements; default: %(default)s")

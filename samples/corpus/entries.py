@@ -43,6 +43,11 @@ class Entry:
     def pixels(self):
         return self.size[0] * self.size[1]
 
+    def restricted(self, judged, seed):
+        """The same entry with another seed, and with only the first `judged` frames that have a reference, if that is not None."""
+        first, last = self.judged
+        return dataclasses.replace(self, seed=seed, judged=(first, last if judged is None else min(last, first + judged - 1)))
+
     def reference_settings(self):
         """What the references depend on. Noisy frames of other seeds and numbers of samples share them."""
         return {"scene": self.scene.name, "contents": hashlib.sha256(self.scene.read_bytes()).hexdigest(), "size": list(self.size),

@@ -58,7 +58,7 @@ def entries_table(kept):
     rows = []
     for name, entry in sorted(kept["entries"].items(), key=lambda item: (item[1]["size"][1], item[1]["samples"], item[0])):
         row = [f"`{name}`" + (" (held back)" if entry["held_back"] else ""), str(entry["size"][1]), str(entry["samples"]),
-               str(entry["blocks"]), small(entry["reference_noise"])]
+               str(entry["judged"][1] - entry["judged"][0] + 1), str(entry["blocks"]), small(entry["reference_noise"])]
         for method in methods:
             figures = entry["methods"][method]
             error = figures["rmse"]
@@ -67,7 +67,7 @@ def entries_table(kept):
             else:
                 row.append("-" if error is None else f"{small(error[0])} {mark(figures['ratio']['rmse'])}")
         rows.append(row)
-    return table(["sequence", "lines", "samples", "squares", "noise of reference", *(f"`{m}`" for m in methods)], rows)
+    return table(["sequence", "lines", "samples", "frames", "squares", "noise of reference", *(f"`{m}`" for m in methods)], rows)
 
 
 def splits_table(kept, split):
