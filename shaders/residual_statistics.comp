@@ -30,7 +30,7 @@ layout(push_constant) uniform PushConstants { ResidualStatisticsConstants consta
 ivec2 previousTile(ivec2 tile) {
   const ivec2 first = constants.tileSize * tile - constants.tileOffset;
   const ivec2 p = clamp(first + constants.tileSize / 2, ivec2(0), textureSize(depth, 0) - 1);
-  const float z = unpackDepth(texelFetch(depth, p, 0).x);
+  const float z = unpackDepthBesideNormal(texelFetch(depth, p, 0).x);
   if (z == 0.0) return tile;
   const vec3 before =
       previousPosition(frame.previousViewFromView, z * rayThrough(frame.rayFromPixel, pixelCentre(p)));

@@ -69,12 +69,16 @@ class FilterOf {
   FilterOf(const fg::vk::Device& device, const Scene& scene, bool share)
       : frame_(renderStill(scene, kSize)),
         guides_(reference::prepareGuides(frame_, reference::Storage::Quantised, {}, kOcclusionInSmallImages)),
-        run_(device, kSize, 2, [&](fg::Graph& graph, fg::Buffer frame, const Guides& guides, const auto& inputs) {
-          const BlockLight light{.accumulated = inputs[0], .alpha = LightingAlpha::SampleCount, .lighting = inputs[1]};
-          BlockRegressionSettings settings{.size = kBlock, .iterations = 2, .coarseSigma = 0.15F};
-          settings.share.enabled = share;
-          return addBlockFilter(graph, frame, light, guides, settings);
-        }) {}
+        run_(
+            device, kSize, 2,
+            [&](fg::Graph& graph, fg::Buffer frame, const Guides& guides, const auto& inputs) {
+              const BlockLight light{
+                  .accumulated = inputs[0], .alpha = LightingAlpha::SampleCount, .lighting = inputs[1]};
+              BlockRegressionSettings settings{.size = kBlock, .iterations = 2, .coarseSigma = 0.15F};
+              settings.share.enabled = share;
+              return addBlockFilter(graph, frame, light, guides, settings);
+            },
+            true) {}
 
   Image<glm::dvec4> filter(const Light& light) { return run_.run(frame_, guides_, {light.mean, light.lighting}); }
   /// The result once the statistics are those of this light.
