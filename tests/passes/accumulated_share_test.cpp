@@ -64,6 +64,20 @@ Light stripedLight(double stripes, double noise) {
   return light;
 }
 
+/// The same with noise that light and history share, of standard deviation .4 of the light.
+Light withSharedNoise(Light light) {
+  constexpr double kShape = 1.0 / (0.4 * 0.4);
+  std::mt19937 random(11);
+  std::gamma_distribution<double> factor(kShape, 1.0 / kShape);
+  reference::forEachPixel(kSize, [&](glm::ivec2 p) {
+    const double shared = factor(random);
+    for (Image<glm::dvec4>* image : {&light.lighting, &light.mean}) {
+      for (int c = 0; c < 3; ++c) (*image)[p][c] = reference::roundToHalf(shared * (*image)[p][c]);
+    }
+  });
+  return light;
+}
+
 class FilterOf {
  public:
   FilterOf(const fg::vk::Device& device, const Scene& scene, bool share)
@@ -253,11 +267,9 @@ double rmsError(const Image<glm::dvec4>& image, const Image<glm::dvec4>& truth) 
   return std::sqrt(squares / (kSize.x * kSize.y));
 }
 
-class AccumulatedShare : public fg::test::GpuTest {};
-
-TEST_F(AccumulatedShare, AgreesWithDoublePrecision) {
-  const Light light = stripedLight(0.5, 1.0);
-  for (const auto& [scene, hasEdges] : {std::pair{flatWall(), false}, std::pair{thinBars(), true}}) {
+class AccumulatedShare : public fg::test::GpuTest {
+ protected:
+  void expectAgreement(const Light& light, const Scene& scene, bool hasEdges) const {
     const Image<glm::dvec4> predicted = FilterOf(device(), scene, false).filter(light);
     FilterOf filter(device(), scene, true);
     const ExpectedResult expected(filter, light, predicted);
@@ -273,14 +285,23 @@ TEST_F(AccumulatedShare, AgreesWithDoublePrecision) {
         const double x = predicted[p].g;
         // The prediction and the result are rounded to halves. The statistics are of predictions that are not, so that
         // residuals differ by 2^-11 of the light, and means of their squares, whose roots are above half of the light,
-        // by less than 2^-9; the share is a ratio of two such means over 1 - least share.
+        // by less than 2^-9; the share is a ratio of two such means over 1 - least share, times trust, which is another
+        // such ratio over .2, where it is not 0 or 1.
         const double tolerance = 2.0 * std::exp2(-11.0) * std::max(x, light.mean[p].g) +
-                                 std::exp2(-7.0) * (std::abs(around) + std::abs(detail));
+                                 (std::exp2(-7.0) + 5.0 * std::exp2(-9.0)) * (std::abs(around) + std::abs(detail));
         EXPECT_NEAR(actual[p].g, std::max(x + around + detail, 0.0), tolerance)
             << p.x << ", " << p.y << ", frame " << frame;
       });
       EXPECT_EQ(edges, hasEdges);
     }
+  }
+};
+
+TEST_F(AccumulatedShare, AgreesWithDoublePrecision) {
+  const Light light = stripedLight(0.5, 1.0);
+  for (const auto& [scene, hasEdges] : {std::pair{flatWall(), false}, std::pair{thinBars(), true}}) {
+    expectAgreement(light, scene, hasEdges);
+    expectAgreement(withSharedNoise(light), scene, hasEdges);
   }
 }
 
