@@ -49,13 +49,13 @@ Window windowAround(ivec2 tile) {
   return Window(max(tile - constants.radius, ivec2(0)), min(tile + constants.radius, textureSize(sums, 0) - 1));
 }
 
-// How far the agreement of this frame's residuals with the history's is light that the fits miss, and not noise that both
-// share, as resampled light has. Such noise differs from pixel to pixel: means around a pixel have little of it, and
-// products of residuals two pixels apart almost none. What the fits miss goes on for some pixels, along one axis at
+// How far the agreement of this frame's residuals with the history's is light that the fits miss, and not noise that
+// both share, as resampled light has. Such noise differs from pixel to pixel: means around a pixel have little of it,
+// and products of residuals two pixels apart almost none. What the fits miss goes on for some pixels, along one axis at
 // least. `both`: sums of previousStatisticsAt; `far`: sums of the products two pixels apart, by axis.
 // The limits are measured (passes/WALR_EXPERIMENTS.md).
 float trustIn(vec4 both, vec2 far) {
-  const float kFarWeight = 1.5, kNone = 0.6, kFull = 0.9;
+  const float kFarWeight = 1.25, kNone = 0.75, kFull = 0.95;
   const float continuing = max(both.x, 0.0) + kFarWeight * max(abs(far.x), abs(far.y));
   return clamp((continuing / max(both.x + both.z, 1e-30) - kNone) / (kFull - kNone), 0.0, 1.0);
 }

@@ -145,13 +145,14 @@ Residual meanAround(Shown shown, out bool edge) {
 const int kGroupPixels = kGroupSize / kBlockSize * kBlockSize;
 
 // Product of this frame's residual at a pixel and the history's at the pixel two further along axis `axis`, or two
-// before it at the end of the group, on the same surface. It is free of the noise that y and h of one pixel share.
-float farProduct(Shown shown, Residual own, int axis) {
+// before it at the end of the group, and 1; 0 if that shows another surface. It is free of the noise that y and h of
+// one pixel share.
+vec2 farProduct(Shown shown, Residual own, int axis) {
   ivec2 t = ivec2(gl_LocalInvocationID.xy);
   t[axis] += t[axis] + 2 < kGroupPixels ? 2 : -2;
   const uint q = uint(t.y * kGroupSize + t.x);
-  if (groupNormals[q].a == 0.0 || sameSurface(shown, q) < 0.5) return 0.0;
-  return 0.5 * (own.noisy * groupHistories[q].x + own.history * groupResiduals[q].a);
+  if (groupNormals[q].a == 0.0 || sameSurface(shown, q) < 0.5) return vec2(0.0);
+  return vec2(0.5 * (own.noisy * groupHistories[q].x + own.history * groupResiduals[q].a), 1.0);
 }
 
 // What a residual adds to the sums of its level (previousStatisticsAt).
@@ -165,14 +166,14 @@ const float kMostSquare = 1e30;   // and so are sums over tiles of these.
 
 // Writes what this workgroup adds to the statistics, relative to the square of its mean light, so that a bright one
 // does not outweigh its neighbours. `light`: predicted luminance of a pixel with statistics and 1; else 0.
-void storeSums(vec2 light, vec4 statistics, bool edge, vec2 innovation, vec2 far) {
+void storeSums(vec2 light, vec4 statistics, bool edge, vec2 innovation, vec4 far) {
   const vec4 first = sumOverGroup(vec4(light, innovation));
   barrier();
   const vec4 interior = sumOverGroup(edge ? vec4(0.0) : statistics);
   barrier();
   const vec4 edges = sumOverGroup(edge ? statistics : vec4(0.0));
   barrier();
-  const vec4 distant = sumOverGroup(vec4(far, 0.0, 0.0));
+  const vec4 distant = sumOverGroup(far);
   if (gl_LocalInvocationIndex != 0u) return;
   const float perLight = first.x > kLeastLight ? first.y / first.x : 0.0;
   const float scale = perLight * perLight;
@@ -180,7 +181,10 @@ void storeSums(vec2 light, vec4 statistics, bool edge, vec2 innovation, vec2 far
   const ivec2 tile = ivec2(gl_WorkGroupID.xy);
   imageStore(outResidualSums, tile, clamp(scale * interior, -most, most));
   imageStore(outEdgeSums, tile, clamp(scale * edges, -most, most));
-  imageStore(outInnovationSums, tile, clamp(scale * vec4(first.zw, distant.xy), -most, most));
+  // Products two pixels apart stand for those that are missing beside edges, up to a limit.
+  const vec2 perProduct = min(first.y / max(distant.yw, vec2(1.0)), vec2(4.0));
+  const vec4 others = vec4(first.zw, perProduct * distant.xz);
+  imageStore(outInnovationSums, tile, clamp(scale * others, -most, most));
 }
 
 // The prediction of a pixel mixed with its accumulated light. All threads of the workgroup must call it.
@@ -192,7 +196,8 @@ vec3 withAccumulated(ivec2 p, bool hasPixel, Shown shown) {
 
   vec3 result = shown.predicted;
   vec4 statistics = vec4(0.0);
-  vec2 light = vec2(0.0), ofInnovation = vec2(0.0), far = vec2(0.0);
+  vec2 light = vec2(0.0), ofInnovation = vec2(0.0);
+  vec4 far = vec4(0.0);  // farProduct of both axes.
   bool edge = false;
   float innovation = 0.0;
   if (mean.a > 0.0) {
@@ -208,7 +213,7 @@ vec3 withAccumulated(ivec2 p, bool hasPixel, Shown shown) {
       statistics.zw = statisticsOf(own.noisy - around.noisy, own.history - around.history, luminance(detail), mean.a);
       innovation = own.noisy - own.history;
       ofInnovation = innovationTerms(innovation, before);
-      far = vec2(farProduct(shown, own, 0), farProduct(shown, own, 1));
+      far = vec4(farProduct(shown, own, 0), farProduct(shown, own, 1));
     }
   }
   if (hasPixel) storeInnovation(p, innovation);

@@ -9,7 +9,7 @@
 
 uniform texture2D previousInnovation;
 layout(r16f) uniform writeonly image2D outInnovation;
-layout(rgba32f) uniform writeonly image2D outInnovationSums;
+layout(rgba32f) uniform writeonly image2D outInnovationSums;  // zw: farProduct (accumulated_share.glsl).
 
 // Of the surface at position `before` in the previous camera's view space, bilinear; 0 outside the image.
 float previousInnovationAt(vec3 before) {
