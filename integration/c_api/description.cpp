@@ -105,6 +105,7 @@ Description::Description(const WalrDenoiserInfo& info, Of of)
                formatOr(info.confidence_format, 6)},
       resultFormat_(checkedResultFormat(info.denoised_format)),
       historyLength_(info.history_length == VK_TRUE),
+      lightDirection_(info.light_direction == VK_TRUE),
       slots_(checkedSlots(info.frames_in_flight)) {
   if (info.preset != nullptr) usePreset(info.preset);
   checkOrthographic(inputConventions(), hostConventions(), info.lint == VK_TRUE);
@@ -120,6 +121,7 @@ void Description::resize(std::uint32_t width, std::uint32_t height) {
 DenoiseGraph Description::declare(const InspectionWish& wanted) const {
   InspectionWish all = wanted;
   all.historyLength = historyLength_;
+  all.lightDirection = lightDirection_;
   return declareDenoiseGraph(*method_, extent_, inputConventions(), kInnerStates, formats_, hostConventions(), all);
 }
 
@@ -129,10 +131,10 @@ ListedGraph Description::list(std::span<const WalrPortFormat> ports, const Inspe
                                                  "' cannot check inputs or count: set WalrDenoiserInfo::lint and "
                                                  "WalrDenoiserInfo::counters for a whole method");
   }
-  if (stage_ != nullptr && historyLength_) {
-    throw Error(WALR_ERROR_INVALID_ARGUMENT, "stage '" + methodName_ +
-                                                 "' has no output 'history_length': set "
-                                                 "WalrDenoiserInfo::history_length for a whole method");
+  if (stage_ != nullptr && (historyLength_ || lightDirection_)) {
+    const std::string output(historyLength_ ? kHistoryLengthName : kLightDirectionName);
+    throw Error(WALR_ERROR_INVALID_ARGUMENT, "stage '" + methodName_ + "' has no output '" + output +
+                                                 "': set WalrDenoiserInfo::" + output + " for a whole method");
   }
   if (stage_ != nullptr) return listStage(ports);
   if (!ports.empty()) {
