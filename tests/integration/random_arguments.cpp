@@ -69,7 +69,7 @@ void RandomInfo::chooseOutputs(Dice& dice, Expectation& expected) {
     info_.value.history_length = VK_TRUE;
     expected.mayFail();
   }
-  if (dice.oneIn(8)) {
+  if (dice.oneIn(50)) {  // Most methods refuse it.
     info_.value.light_direction = VK_TRUE;
     expected.mayFail();
   }
