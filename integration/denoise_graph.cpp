@@ -4,6 +4,7 @@
 #include <string>
 
 #include "passes/history_length.h"
+#include "passes/light_direction.h"
 #include "passes/lint_inputs.h"
 #include "shaders/constants/frame.h"
 
@@ -98,6 +99,11 @@ DenoiseGraph declareDenoiseGraph(Denoiser& method, fg::Extent extent, const Inpu
                                           {.format = kHistoryLengthFormat, .extent = extent}, states.outputBefore);
     inspection.wantHistoryLength(declared.historyLength);
   }
+  if (wanted.lightDirection) {
+    declared.lightDirection = graph.import(std::string(kLightDirectionName),
+                                           {.format = kLightDirectionFormat, .extent = extent}, states.outputBefore);
+    inspection.wantLightDirection(declared.lightDirection);
+  }
   if (wanted.counters) {
     inspection.wantCounters(graph.import("counters", fg::BufferDesc{kCounterBytes}, states.outputBefore));
   }
@@ -109,6 +115,7 @@ DenoiseGraph declareDenoiseGraph(Denoiser& method, fg::Extent extent, const Inpu
   fg::Texture denoised = method.add({graph, inspection}, inputs, target);
   for (const DebugView& view : inspection.views()) graph.exported(view.texture, states.outputAfter);
   if (wanted.historyLength) graph.exported(inspection.historyLength(), states.outputAfter);
+  if (wanted.lightDirection) graph.exported(inspection.lightDirection(), states.outputAfter);
   if (!inspection.counters().empty()) graph.exported(inspection.counterBuffer(), states.outputAfter);
   if (host.convertsResult()) denoised = addConvertResult(graph, denoised, declared.output, declared.host);
   graph.exported(denoised, states.outputAfter);

@@ -14,20 +14,22 @@ namespace walr {
 /// A graph that holds one method and nothing else. The host owns its textures.
 struct DenoiseGraph {
   fg::Graph graph;
-  DenoiserInputs inputs;      ///< Imports with the host's conventions; `frame` is an upload.
-  fg::Buffer host;            ///< Upload of `HostConstants`; invalid if no input is converted.
-  fg::Texture output;         ///< Import that receives the result.
-  Inspection inspection;      ///< The requested views and counters, in imports that receive them.
-  fg::Texture historyLength;  ///< Import that receives history lengths; invalid unless requested.
-  fg::Buffer lint;            ///< Import that receives the counts of `addLintInputs`; invalid unless requested.
+  DenoiserInputs inputs;       ///< Imports with the host's conventions; `frame` is an upload.
+  fg::Buffer host;             ///< Upload of `HostConstants`; invalid if no input is converted.
+  fg::Texture output;          ///< Import that receives the result.
+  Inspection inspection;       ///< The requested views and counters, in imports that receive them.
+  fg::Texture historyLength;   ///< Import that receives history lengths; invalid unless requested.
+  fg::Texture lightDirection;  ///< Import that receives slopes of the light over the normal; invalid unless requested.
+  fg::Buffer lint;             ///< Import that receives the counts of `addLintInputs`; invalid unless requested.
 };
 
 /// Further outputs of a graph; views, counters and lint are for debugging.
 struct InspectionWish {
   std::span<const std::string> views = {};  ///< Names of views.
   bool counters = false;
-  bool historyLength = false;  ///< Of every pixel, in `kHistoryLengthFormat`.
-  bool lint = false;           ///< Count likely faults in the inputs: see `InputLinter`.
+  bool historyLength = false;   ///< Of every pixel, in `kHistoryLengthFormat`.
+  bool lightDirection = false;  ///< Of every pixel, in `kLightDirectionFormat`; of the method walr.
+  bool lint = false;            ///< Count likely faults in the inputs: see `InputLinter`.
 };
 
 /// States of the host's textures before the graph, and of the result before and after it.

@@ -26,11 +26,12 @@ extern const std::array<HostInput, 7> kHostInputs;
 const HostInput* hostInputNamed(std::string_view name);
 
 /// Names of the upload buffer `DenoiserInputs::frame`, of the one with `HostConstants`, of the result's texture,
-/// and of that with history lengths.
+/// of that with history lengths, and of that with light directions.
 inline constexpr std::string_view kFrameName = "frame";
 inline constexpr std::string_view kHostName = "host";
 inline constexpr std::string_view kOutputName = "denoised";
 inline constexpr std::string_view kHistoryLengthName = "history_length";
+inline constexpr std::string_view kLightDirectionName = "light_direction";
 inline constexpr VkFormat kOutputFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
 
 /// Check that a host's texture can be used as an input.

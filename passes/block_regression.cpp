@@ -307,6 +307,7 @@ fg::Texture addBlockReconstruction(StageGraph graph, fg::Buffer frame, const Blo
     readLight(grid, light, pass);
     return pass;
   });
+  graph.offerLightDirection([&](const std::string& name) { return reconstruct(name, shaders::blockApplyDirection); });
 
   const bool residual = addsResidual(light, settings);
   const fg::Shader& shader = residual ? (writesPacked ? shaders::blockApplyResidualPacked : shaders::blockApplyResidual)

@@ -86,6 +86,18 @@ void Inspection::requireHistoryLength() const {
       "there is no history length: with these settings the method does not accumulate light over time (spatial-only)");
 }
 
+void Inspection::offerLightDirection(const DeclareView& declare) {
+  if (!lightDirection_.valid()) return;
+  lightDirection_ = declare("light direction").store("outDirection", lightDirection_);
+  lightDirectionWritten_ = true;
+}
+
+void Inspection::requireLightDirection() const {
+  if (!lightDirection_.valid() || lightDirectionWritten_) return;
+  throw std::invalid_argument(
+      "there is no light direction: the method has no slopes of the light over the normal; use the method walr");
+}
+
 void Inspection::requireViews() const {
   for (const DebugView& view : views_) {
     if (view.written) continue;

@@ -10,10 +10,10 @@
 #include "framegraph/declare/graph.h"
 #include "shaders/constants/count.h"
 
-/// Inspecting a method while it runs: the history length of every pixel; views, which are images of intermediate values
-/// of a stage, and counters, which say how often something happened in a frame. Each view has a pass of its own, which
-/// repeats its stage's work and writes the intermediate value. A view that is not wanted has no pass, no texture and no
-/// branch in any shader.
+/// Inspecting a method while it runs: history length and light direction of every pixel; views, which are images of
+/// intermediate values of a stage, and counters, which say how often something happened in a frame. Each view has a
+/// pass of its own, which repeats its stage's work and writes the intermediate value. A view that is not wanted has no
+/// pass, no texture and no branch in any shader.
 namespace walr {
 
 /// A counter: components of a view that hold a count at each pixel, summed over all pixels.
@@ -74,6 +74,12 @@ class Inspection {
   /// @param texture of `kHistoryLengthFormat` and the inputs' extent
   void wantHistoryLength(fg::Texture texture) { historyLength_ = texture; }
 
+  /// Have the slopes of the light over the normal written for every pixel.
+  /// @param texture of `kLightDirectionFormat` and the inputs' extent
+  void wantLightDirection(fg::Texture texture) { lightDirection_ = texture; }
+
+  /// The texture of light directions as the last pass leaves it; not valid if nobody wants it.
+  [[nodiscard]] fg::Texture lightDirection() const { return lightDirection_; }
   /// The texture of history lengths as the last pass leaves it; not valid if nobody wants it.
   [[nodiscard]] fg::Texture historyLength() const { return historyLength_; }
   [[nodiscard]] const std::vector<DebugView>& views() const { return views_; }
@@ -95,6 +101,12 @@ class Inspection {
   /// @param channel see `addHistoryLength`
   void offerHistoryLength(fg::Graph& graph, fg::Texture accumulated, std::uint32_t channel);
 
+  /// Called by the stage that evaluates the light at the normals of pixels: write its slopes, if they are wanted.
+  /// @param declare declares the pass, all but the texture
+  void offerLightDirection(const DeclareView& declare);
+
+  /// @throws std::invalid_argument if the light direction is wanted and no stage has it
+  void requireLightDirection() const;
   /// @throws std::invalid_argument if the history length is wanted and no stage has it
   void requireHistoryLength() const;
   /// @throws std::invalid_argument naming a wanted view that no stage has written, and the known ones
@@ -106,6 +118,8 @@ class Inspection {
   std::vector<DebugView> views_;
   fg::Texture historyLength_;
   bool historyLengthWritten_ = false;
+  fg::Texture lightDirection_;
+  bool lightDirectionWritten_ = false;
   fg::Buffer buffer_;
   std::vector<Counter> counters_;
   std::vector<ViewInfo> known_;

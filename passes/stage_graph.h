@@ -27,11 +27,17 @@ class StageGraph {
   void offerHistoryLength(fg::Texture accumulated, std::uint32_t channel = 3) const {
     if (inspection_ != nullptr) inspection_->offerHistoryLength(*graph_, accumulated, channel);
   }
+  /// Offer the slopes of the method's light over the normal: see `Inspection::offerLightDirection`.
+  void offerLightDirection(const Inspection::DeclareView& declare) const {
+    if (inspection_ != nullptr) inspection_->offerLightDirection(declare);
+  }
   /// @throws std::invalid_argument naming a wanted view that no stage has offered, or saying that no stage has history
+  ///         or a light direction
   void requireOutputs() const {
     if (inspection_ == nullptr) return;
     inspection_->requireViews();
     inspection_->requireHistoryLength();
+    inspection_->requireLightDirection();
   }
 
  private:

@@ -12,6 +12,7 @@
 // history suits the noise (innovation.glsl).
 // VIEW: writes an intermediate value instead of the result, and black where there is no surface. The cells are always
 // read. With VIEW, PACKED means that `accumulated` is packed.
+// DIRECTION: writes the slopes of the prediction over the normal instead of the result (pack_direction.glsl).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -37,6 +38,8 @@ uniform utexture2D accumulated;
 #else
 uniform texture2D accumulated;
 #endif
+#elif defined(DIRECTION)
+layout(rg32ui) uniform writeonly uimage2D outDirection;
 #elif defined(PACKED)
 layout(r32ui) uniform writeonly uimage2D outFiltered;
 #else
@@ -50,6 +53,8 @@ layout(push_constant) uniform PushConstants { BlockRegressionConstants constants
 #include "include/stored_fit.glsl"
 #ifdef VIEW
 #include "include/light.glsl"
+#elif defined(DIRECTION)
+#include "include/pack_direction.glsl"
 #elif defined(PACKED)
 #include "include/packed_light.glsl"
 #else
@@ -61,13 +66,29 @@ layout(push_constant) uniform PushConstants { BlockRegressionConstants constants
 #include "include/accumulated_share.glsl"
 #endif
 
+// Features whose slopes are summed beside the light.
+#ifdef VIEW
+const int kSlopes = kFeatures;
+#elif defined(DIRECTION)
+const int kSlopes = 3;  // The normal's.
+#endif
+
+// What is stored for a pixel.
+#ifdef DIRECTION
+#define Predicted mat3  // Column i: the slope of the normal's component i.
+#else
+#define Predicted vec3
+#endif
+
 // Sums over the four fits, before division by `weight`.
 struct Prediction {
   vec3 colour;    // Sum of weight times predicted colour, in units of kLightUnit.
   float samples;  // Sum of weight times W, the sample count of the fit's window, in units of kSampleCountUnit.
   float weight;   // Sum of weights; 0: no fit is usable.
+#if defined(VIEW) || defined(DIRECTION)
+  vec3 slope[kSlopes];  // Sums of weight times slope.
+#endif
 #ifdef VIEW
-  vec3 slope[kFeatures];  // Sums of weight times slope.
   bvec3 negative;         // Whether any of the fits predicts less than 0, by channel.
 #endif
 };
@@ -77,8 +98,10 @@ Prediction noPrediction() {
   sum.colour = vec3(0.0);
   sum.samples = 0.0;
   sum.weight = 0.0;
+#if defined(VIEW) || defined(DIRECTION)
+  for (int i = 0; i < kSlopes; ++i) sum.slope[i] = vec3(0.0);
+#endif
 #ifdef VIEW
-  for (int i = 0; i < kFeatures; ++i) sum.slope[i] = vec3(0.0);
   sum.negative = bvec3(false);
 #endif
   return sum;
@@ -90,8 +113,10 @@ void add(inout Prediction sum, float weight, StoredFit fit, ScaledFeatures pixel
   sum.colour += weight * clamp(colour, 0.0, 1.0);
   sum.samples += weight * samplesOf(fit);
   sum.weight += weight;
+#if defined(VIEW) || defined(DIRECTION)
+  for (int i = 0; i < kSlopes; ++i) sum.slope[i] += weight * slopeOf(fit, i);
+#endif
 #ifdef VIEW
-  for (int i = 0; i < kFeatures; ++i) sum.slope[i] += weight * slopeOf(fit, i);
   for (int c = 0; c < 3; ++c) sum.negative[c] = sum.negative[c] || (weight > 0.0 && colour[c] < 0.0);
 #endif
 }
@@ -160,10 +185,12 @@ Prediction predictFine(BilinearTexels texels, vec3 ray, float z, vec3 normal, Sc
   return sum;
 }
 
+#if defined(VIEW) || defined(DIRECTION)
+vec3 meanSlope(Prediction sum, uint feature) { return sum.slope[feature] / divisor(sum.weight); }
+#endif
+
 #ifdef VIEW
 const float kCoefficients = float(kFeatures + 1);  // Of one channel: a constant and the slopes.
-
-vec3 meanSlope(Prediction sum, uint feature) { return sum.slope[feature] / divisor(sum.weight); }
 
 // In the order of reconstructionViews() in passes/block_regression.cpp, which describes each value.
 vec3 viewOf(ivec2 p, Prediction fine, Prediction coarse, float share, float occlusion) {
@@ -185,6 +212,9 @@ vec3 viewOf(ivec2 p, Prediction fine, Prediction coarse, float share, float occl
 #ifdef VIEW
 void storeNoSurface(ivec2 p) { imageStore(outView, p, vec4(vec3(0.0), 1.0)); }
 void store(ivec2 p, vec3 view) { imageStore(outView, p, vec4(view, 1.0)); }
+#elif defined(DIRECTION)
+void storeNoSurface(ivec2 p) { imageStore(outDirection, p, uvec4(0u)); }
+void store(ivec2 p, mat3 slopes) { imageStore(outDirection, p, uvec4(packDirection(slopes), 0u, 0u)); }
 #elif defined(PACKED)
 void storeNoSurface(ivec2 p) { imageStore(outFiltered, p, uvec4(kFilteredNoSurface)); }
 void store(ivec2 p, vec3 colour) {
@@ -195,7 +225,7 @@ void storeNoSurface(ivec2 p) { imageStore(outFiltered, p, vec4(passThroughLight(
 void store(ivec2 p, vec3 colour) { imageStore(outFiltered, p, nearestHalf(vec4(colour, 1.0))); }
 #endif
 
-void storeResult(ivec2 p, bool surface, vec3 colour) {
+void storeResult(ivec2 p, bool surface, Predicted colour) {
   if (surface) {
     store(p, colour);
   } else {
@@ -203,8 +233,8 @@ void storeResult(ivec2 p, bool surface, vec3 colour) {
   }
 }
 
-// The predicted light of a pixel, or its view; false if it shows no surface.
-bool predict(ivec2 p, BilinearTexels nearBlocks, out vec3 position, out vec3 normal, out vec3 predicted) {
+// The predicted light of a pixel, or its view, or its slopes; false if it shows no surface.
+bool predict(ivec2 p, BilinearTexels nearBlocks, out vec3 position, out vec3 normal, out Predicted predicted) {
   const float z = unpackDepthBesideNormal(texelFetch(depth, p, 0).x);
   if (z == 0.0) return false;
   const BilinearTexels nearCells = kCellSize == kBlockSize ? nearBlocks : bilinearTexels(p, kCellSize);
@@ -225,6 +255,9 @@ bool predict(ivec2 p, BilinearTexels nearBlocks, out vec3 position, out vec3 nor
   const float share = coarse.weight > 0.0 ? shareIfUsable : 0.0;
 #ifdef VIEW
   predicted = viewOf(p, fine, coarse, share, guides.occlusion);
+#elif defined(DIRECTION)
+  for (int axis = 0; axis < kSlopes; ++axis)
+    predicted[axis] = mix(meanSlope(fine, uint(axis)), meanSlope(coarse, uint(axis)), share);
 #else
   // Black if no fit is usable. That happens only if the pixel's history holds no finite sample: any other pixel gives a
   // fit to its own cell, which is one of the four.
@@ -258,7 +291,8 @@ void main() {
   if (hasPixel) storeResult(p, shown.surface, mixed);
 #else
   if (hasPixel) {
-    vec3 position, normal, colour;
+    vec3 position, normal;
+    Predicted colour;
     const bool surface = predict(p, nearBlocks, position, normal, colour);
     storeResult(p, surface, colour);
   }

@@ -51,6 +51,7 @@ void checkSwitches(const WalrDenoiserInfo& info) {
   checkSwitch(info.lint, "WalrDenoiserInfo::lint");
   checkSwitch(info.counters, "WalrDenoiserInfo::counters");
   checkSwitch(info.history_length, "WalrDenoiserInfo::history_length");
+  checkSwitch(info.light_direction, "WalrDenoiserInfo::light_direction");
 }
 
 VkFormat checkedResultFormat(VkFormat format) {
@@ -117,6 +118,7 @@ Description::Description(const WalrDenoiserInfo& info, Of of)
                formatOr(info.confidence_format, 6)},
       resultFormat_(checkedResultFormat(info.denoised_format)),
       historyLength_(info.history_length == VK_TRUE),
+      lightDirection_(info.light_direction == VK_TRUE),
       slots_(checkedSlots(info.frames_in_flight)) {
   checkSwitches(info);
   if (info.preset != nullptr) usePreset(info.preset);
@@ -133,6 +135,7 @@ void Description::resize(std::uint32_t width, std::uint32_t height) {
 DenoiseGraph Description::declare(const InspectionWish& wanted) const {
   InspectionWish all = wanted;
   all.historyLength = historyLength_;
+  all.lightDirection = lightDirection_;
   return declareDenoiseGraph(*method_, extent_, inputConventions(), kInnerStates, formats_, hostConventions(), all);
 }
 
@@ -142,10 +145,10 @@ ListedGraph Description::list(std::span<const WalrPortFormat> ports, const Inspe
                                                  "' cannot check inputs or count: set WalrDenoiserInfo::lint and "
                                                  "WalrDenoiserInfo::counters for a whole method");
   }
-  if (stage_ != nullptr && historyLength_) {
-    throw Error(WALR_ERROR_INVALID_ARGUMENT, "stage '" + methodName_ +
-                                                 "' has no output 'history_length': set "
-                                                 "WalrDenoiserInfo::history_length for a whole method");
+  if (stage_ != nullptr && (historyLength_ || lightDirection_)) {
+    const std::string output(historyLength_ ? kHistoryLengthName : kLightDirectionName);
+    throw Error(WALR_ERROR_INVALID_ARGUMENT, "stage '" + methodName_ + "' has no output '" + output +
+                                                 "': set WalrDenoiserInfo::" + output + " for a whole method");
   }
   if (stage_ != nullptr) return listStage(ports);
   if (!ports.empty()) {

@@ -131,6 +131,7 @@ class Description {
   std::array<VkFormat, std::tuple_size_v<decltype(kHostInputs)>> formats_;
   VkFormat resultFormat_;
   bool historyLength_;
+  bool lightDirection_;
   std::uint32_t slots_;
   std::uint64_t frames_ = 0;
   std::optional<WalrCamera> lastCamera_;

@@ -89,6 +89,7 @@ const HostStates kInnerStates{
 std::string_view imageName(std::size_t index) {
   if (index == kViewImage) return "view";
   if (index == kHistoryLengthImage) return kHistoryLengthName;
+  if (index == kLightDirectionImage) return kLightDirectionName;
   return index == kOutputImage ? kOutputName : kHostInputs.at(index).name;
 }
 

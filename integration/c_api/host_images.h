@@ -15,11 +15,13 @@
 /// The host's images of one frame, and the barriers between the host's work and the denoiser's.
 namespace walr::api {
 
-/// Arrays of images are ordered like `kHostInputs`, followed by the output, the view and the history length.
+/// Arrays of images are ordered like `kHostInputs`, followed by the output, the view, the history length and the light
+/// direction.
 inline constexpr std::size_t kOutputImage = std::tuple_size_v<decltype(kHostInputs)>;
 inline constexpr std::size_t kViewImage = kOutputImage + 1;
 inline constexpr std::size_t kHistoryLengthImage = kViewImage + 1;
-inline constexpr std::size_t kImageCount = kHistoryLengthImage + 1;
+inline constexpr std::size_t kLightDirectionImage = kHistoryLengthImage + 1;
+inline constexpr std::size_t kImageCount = kLightDirectionImage + 1;
 
 /// Whether the denoiser writes an image.
 constexpr bool isWritten(std::size_t index) {

@@ -124,6 +124,7 @@ HostedDenoiser::Declared HostedDenoiser::compile(DenoiseGraph graph) const {
   const auto& views = declared.graph.inspection.views();
   if (!views.empty()) declared.images[kViewImage] = views.front().texture;
   declared.images[kHistoryLengthImage] = declared.graph.historyLength;
+  declared.images[kLightDirectionImage] = declared.graph.lightDirection;
   for (std::size_t i = 0; i < kImageCount; ++i) {
     if (!declared.images[i].valid()) continue;  // The host has none.
     const fg::PlannedResource& planned = declared.plan.resources[declared.images[i].resource];
@@ -220,8 +221,8 @@ WalrImageRequirements HostedDenoiser::requirements(std::string_view image) {
 
 FrameImages HostedDenoiser::checkedImages(const WalrFrame& frame) const {
   const std::array<const WalrImage*, kImageCount> given{
-      frame.lighting,  frame.depth,      frame.normal,   frame.motion, frame.albedo,
-      frame.object_id, frame.confidence, frame.denoised, frame.view,   frame.history_length};
+      frame.lighting,   frame.depth,    frame.normal, frame.motion,         frame.albedo,         frame.object_id,
+      frame.confidence, frame.denoised, frame.view,   frame.history_length, frame.light_direction};
   FrameImages images{};
   for (std::size_t i = 0; i < kImageCount; ++i) {
     ImageNeeds needs = declared_->needs[i];

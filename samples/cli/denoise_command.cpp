@@ -52,6 +52,7 @@ struct DenoiseOptions {
   std::vector<std::string> views;
   bool listViews = false;
   bool counters = false;
+  bool lightDirection = false;
   SequenceOptions sequence;
 };
 
@@ -190,7 +191,7 @@ LightDenoisers makeDenoisers(const DenoiseOptions& options, const GpuDevice& dev
             lights,
             sequence.extent(),
             sequence.denoiserLayout(),
-            {.views = options.views, .counters = options.counters},
+            {.views = options.views, .counters = options.counters, .lightDirection = options.lightDirection},
             kFramesInFlight,
             sequence.layout().objectIds};
   } catch (const std::invalid_argument& error) {
@@ -311,6 +312,9 @@ void registerDenoise(CLI::App& program) {
                     "Count events inside the method in every frame (non-finite values, rejected history, replaced "
                     "taps, regularised and clamped fits, and more) and print the counts; with --json, also write "
                     "them. Times then include the counting");
+  command->add_flag("--light-direction", options->lightDirection,
+                    "Also write how the light changes with the normal, view space: direction_FFFF.exr, half float, "
+                    "SlopeX.{R,G,B} to SlopeZ.{R,G,B}; method walr. Of the indirect light, if it is denoised");
   command
       ->add_option("--light", options->light,
                    "Diffuse light to denoise: indirect, direct, or both, each by itself; default: indirect, and both "

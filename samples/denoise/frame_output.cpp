@@ -1,6 +1,7 @@
 #include "samples/denoise/frame_output.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <span>
@@ -106,6 +107,13 @@ void FrameWriter::write(const DenoisedFrame& denoised) {
     std::vector<ExrChannel> components;
     appendChannels(components, "", "XYZ", view.image, ExrType::Float);
     writeExr(path("view_" + view.name), components);
+  }
+  if (!denoised.slopes.front().empty()) {
+    std::vector<ExrChannel> components;
+    constexpr std::array kNames{"SlopeX", "SlopeY", "SlopeZ"};
+    for (std::size_t axis = 0; axis < kNames.size(); ++axis)
+      appendChannels(components, kNames.at(axis), "RGB", denoised.slopes.at(axis));
+    writeExr(path("direction"), components);
   }
   if (options_.png) writePngs(frame, rows);
 }

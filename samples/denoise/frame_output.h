@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -18,6 +19,9 @@ struct ViewPicture {
   Image image;  ///< 3 components.
 };
 
+/// How the light changes with x, y and z of the normal, view space: 3 components each; empty if not asked for.
+using LightSlopes = std::array<Image, 3>;
+
 /// A frame with its result.
 struct DenoisedFrame {
   Frame frame;
@@ -26,6 +30,7 @@ struct DenoisedFrame {
   std::optional<double> gpuMilliseconds;
   std::vector<ViewPicture> views;
   std::vector<CounterValue> counters;
+  LightSlopes slopes;
 };
 
 struct OutputOptions {
@@ -49,8 +54,8 @@ class FrameWriter {
  public:
   explicit FrameWriter(OutputOptions options) : options_(std::move(options)) {}
 
-  /// Write `denoised_FFFF.exr` with the denoised lights and, if requested, the lit image as R,G,B; and views as
-  /// `view_NAME_FFFF.exr` in single precision.
+  /// Write `denoised_FFFF.exr` with the denoised lights and, if requested, the lit image as R,G,B; views as
+  /// `view_NAME_FFFF.exr` in single precision; and slopes as `direction_FFFF.exr`.
   ///
   /// With PNGs also `denoised_FFFF.png`, and `comparison_FFFF.png`: noisy | denoised | reference at one exposure. With
   /// composites both show the lit image first. Each denoised light alone is beside it (denoised) or in a row below

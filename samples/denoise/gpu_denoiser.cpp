@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "framegraph/vulkan/staged_image.h"
+#include "passes/light_direction.h"
 #include "samples/denoise/device_graph.h"
 
 namespace walr {
@@ -53,6 +54,18 @@ Image viewImage(std::span<const std::array<float, 4>> texels, int width, int hei
   return image;
 }
 
+LightSlopes slopeImages(std::span<const glm::uvec2> texels, int width, int height) {
+  LightSlopes images;
+  images.fill(Image(width, height, 3));
+  for (std::size_t i = 0; i < texels.size(); ++i) {
+    const glm::mat3 slopes = lightSlopes(texels[i]);
+    for (int axis = 0; axis < 3; ++axis) {
+      for (int c = 0; c < 3; ++c) images.at(axis).pixel(i)[c] = slopes[axis][c];
+    }
+  }
+  return images;
+}
+
 }  // namespace
 
 struct GpuDenoiser::State {
@@ -73,6 +86,7 @@ struct GpuDenoiser::State {
     if (objectIds) objectId.emplace(makeUpload(gpu, declared.inputs.objectId, framesInFlight));
     for (const DebugView& view : declared.inspection.views()) views.push_back(graph.readBack(view.texture));
     if (!declared.inspection.counters().empty()) counters = graph.readBack(declared.inspection.counterBuffer());
+    if (declared.lightDirection.valid()) lightDirection = graph.readBack(declared.inspection.lightDirection());
     if (declared.lint.valid()) lint = graph.readBack(declared.lint);
   }
 
@@ -97,6 +111,7 @@ struct GpuDenoiser::State {
   ReadbackGraph::Index output;
   std::vector<ReadbackGraph::Index> views;
   std::optional<ReadbackGraph::Index> counters;
+  std::optional<ReadbackGraph::Index> lightDirection;
   std::optional<ReadbackGraph::Index> lint;
   std::deque<Frame> frames;  ///< Frames in flight, except that of `run`.
 };
@@ -136,10 +151,13 @@ DenoisedPicture GpuDenoiser::State::finish() {
   const auto height = static_cast<int>(extent.height);
   const std::span<const fg::vk::PassTime> times = graph.executor().passTimes(slot);
   DenoisedPicture picture{
-      unpackRgb(graph.read<Rgba16>(output, slot), width, height), {times.begin(), times.end()}, {}, {}, {}};
+      unpackRgb(graph.read<Rgba16>(output, slot), width, height), {times.begin(), times.end()}, {}, {}, {}, {}};
   for (std::size_t i = 0; i < views.size(); ++i) {
     const auto texels = graph.read<std::array<float, 4>>(views[i], slot);
     picture.views.push_back({declared.inspection.views()[i].name, viewImage(texels, width, height)});
+  }
+  if (lightDirection) {
+    picture.slopes = slopeImages(graph.read<glm::uvec2>(*lightDirection, slot), width, height);
   }
   if (lint) picture.lint = graph.read<std::uint32_t>(*lint, slot);
   if (counters) {
@@ -175,6 +193,7 @@ std::optional<DenoisedFrame> GpuDenoiser::finish() {
   denoised.indirect = std::move(picture.indirect);
   denoised.views = std::move(picture.views);
   denoised.counters = std::move(picture.counters);
+  denoised.slopes = std::move(picture.slopes);
   denoised.frame = std::move(state_->frames.front());
   state_->frames.pop_front();
   return denoised;

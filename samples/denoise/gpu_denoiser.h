@@ -24,6 +24,7 @@ struct DenoisedPicture {
   std::vector<fg::vk::PassTime> passes;
   std::vector<ViewPicture> views;
   std::vector<CounterValue> counters;
+  LightSlopes slopes;
   std::vector<std::uint32_t> lint;  ///< Words of `addLintInputs`, if `InspectionWish::lint` requests them.
 
   /// Time of all passes, without the copies to and from the device; nullopt without timestamps.
@@ -44,7 +45,7 @@ class GpuDenoiser {
   /// @param device  must outlive this
   /// @param method  declares its passes during this call; not needed afterwards
   /// @param layout  conventions of the frames; must outlive this
-  /// @param wanted  views, counters and lint words to read back with every frame
+  /// @param wanted  views, counters, light direction and lint words to read back with every frame
   /// @param framesInFlight  largest number of frames on the device at once, at least 1
   /// @param objectIds  whether all frames have object numbers
   /// @param shared  what this denoiser shares with others on the device; see `fg::vk::SharedObjects` for the order of

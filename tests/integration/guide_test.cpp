@@ -17,6 +17,7 @@
 #include "integration/host_inputs.h"
 #include "passes/history_length.h"
 #include "passes/inspection.h"
+#include "passes/light_direction.h"
 
 namespace walr {
 namespace {
@@ -48,6 +49,7 @@ constexpr VkFormat kCommonFormats[] = {
     VK_FORMAT_R8_UINT,
     VK_FORMAT_R16_UINT,
     VK_FORMAT_R32_UINT,
+    VK_FORMAT_R32G32_UINT,
 };
 
 /// An image of the guide's table.
@@ -97,6 +99,7 @@ std::vector<Column> columns() {
   result.push_back({"`denoised`", kResultFormats.front(),
                     [](VkFormat format) { return std::ranges::find(kResultFormats, format) != kResultFormats.end(); }});
   result.push_back({"`history_length`", kHistoryLengthFormat, one(kHistoryLengthFormat)});
+  result.push_back({"`light_direction`", kLightDirectionFormat, one(kLightDirectionFormat)});
   result.push_back({"`view`", kViewFormat, one(kViewFormat)});
   return result;
 }

@@ -197,6 +197,30 @@ TEST(HistoryPassByPass, BothImagesAreTheHosts) {
   EXPECT_THROW(hostImages(info), std::runtime_error);
 }
 
+TEST(LightDirectionPassByPass, IsTheHostsImageAndOfWalrOnly) {
+  WalrDenoiserInfo info{};
+  info.struct_size = sizeof(info);
+  info.width = static_cast<std::uint32_t>(kSize.x);
+  info.height = static_cast<std::uint32_t>(kSize.y);
+  const auto has = [&] { return std::ranges::count(hostImages(info), std::string("light_direction")) == 1; };
+  EXPECT_FALSE(has());
+  info.light_direction = VK_TRUE;
+  EXPECT_TRUE(has());
+  // A caller with the header before this member.
+  info.struct_size = offsetof(WalrDenoiserInfo, light_direction);
+  EXPECT_FALSE(has());
+  info.struct_size = sizeof(info);
+  for (const char* method : {"flr", "temporal_accumulation"}) {
+    info.method = method;
+    try {
+      (void)hostImages(info);
+      ADD_FAILURE() << method << " took it";
+    } catch (const std::runtime_error& error) {
+      EXPECT_NE(std::string(error.what()).find("light"), std::string::npos) << error.what();
+    }
+  }
+}
+
 TEST_F(History, AMethodWithoutItSaysSo) {
   HostedRun::Options given;
   given.historyLength = true;

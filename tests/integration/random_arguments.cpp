@@ -68,6 +68,10 @@ void RandomInfo::chooseOutputs(Dice& dice, Expectation& expected) {
     *wanted = chooseSwitch(dice, expected, 8);
     if (*wanted == VK_TRUE) expected.mayFail();
   }
+  if (dice.oneIn(50)) {  // Most methods refuse it.
+    info_.value.light_direction = VK_TRUE;
+    expected.mayFail();
+  }
   if (!dice.oneIn(6)) return;
   info_.value.denoised_format = dice.of({VK_FORMAT_R16G16B16A16_SFLOAT, VK_FORMAT_B10G11R11_UFLOAT_PACK32,
                                          VK_FORMAT_R32G32B32A32_SFLOAT, VK_FORMAT_R8G8B8A8_UNORM});

@@ -75,8 +75,8 @@ void RandomCalls::createDenoiser() {
                              .rectangle = info.rectangle(),
                              .orthographic = info.orthographic(),
                              .allocates = allocates,
-                             // Settings without history have no history length.
-                             .changed = info.get()->history_length != 0});
+                             // Settings without history have no history length, most methods no light direction.
+                             .changed = info.get()->history_length != 0 || info.get()->light_direction != 0});
 }
 
 void RandomCalls::destroyDenoiser() {
@@ -163,7 +163,7 @@ void RandomCalls::requirements() {
   }
   const char* const port =
       dice_.of({"lighting", "depth", "normal", "motion", "albedo", "object_id", "confidence", "history_length",
-                "denoised", "view", "magic", "", static_cast<const char*>(nullptr)});
+                "light_direction", "denoised", "view", "magic", "", static_cast<const char*>(nullptr)});
   if (port == nullptr || *port == '\0' || std::strcmp(port, "magic") == 0) expected.fails();
   if (picked.model != nullptr && picked.model->changed) expected.mayFail();
   if (dice_.oneIn(2)) {

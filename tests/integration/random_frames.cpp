@@ -7,8 +7,9 @@
 namespace walr::test {
 namespace {
 
-constexpr std::array<const char*, 10> kPorts = {"lighting",  "depth",      "normal",   "motion", "albedo",
-                                                "object_id", "confidence", "denoised", "view",   "history_length"};
+constexpr std::array<const char*, 11> kPorts = {"lighting", "depth",          "normal",         "motion",
+                                                "albedo",   "object_id",      "confidence",     "denoised",
+                                                "view",     "history_length", "light_direction"};
 constexpr std::size_t kDenoised = 7;  ///< Index of the last image that may be larger than the rectangle.
 
 /// Makes one of the image's members wrong.
@@ -145,6 +146,7 @@ void RandomFrames::record(Dice& dice, CallCheck& check, const ModelledDenoiser& 
   frame.denoised = given[7];
   frame.view = given[8];
   frame.history_length = given[9];
+  frame.light_direction = given[10];
   if (given[0] != nullptr && given[7] != nullptr && dice.oneIn(30)) {
     frame.denoised = given[0];  // An input is no output.
     expected.fails();

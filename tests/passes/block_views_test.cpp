@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "passes/block_regression.h"
+#include "passes/light_direction.h"
 #include "tests/passes/block_filter.h"
 #include "tests/passes/comparison.h"
 #include "tests/passes/host_textures.h"
@@ -34,7 +35,7 @@ constexpr glm::ivec2 kSize(45, 34);  // Not a multiple of the block size.
 class ViewedRegression {
  public:
   ViewedRegression(const fg::vk::Device& device, const BlockRegressionSettings& settings,
-                   const std::vector<std::string>& views)
+                   const std::vector<std::string>& views, bool lightDirection = false)
       : frame_(graph_.upload("frame constants", sizeof(FrameConstants))),
         guides_(importGuides(graph_, kSize, true)),
         accumulated_(importHalves(graph_, "accumulated", kSize)) {
@@ -42,10 +43,17 @@ class ViewedRegression {
     Inspection inspection;
     for (const std::string& view : views)
       inspection.want(view, graph_.import("view of " + view, {kViewFormat, extent}, fg::vk::kOverwritable));
+    if (lightDirection) {
+      inspection.wantLightDirection(
+          graph_.import("light direction", {kLightDirectionFormat, extent}, fg::vk::kOverwritable));
+    }
     output_ = copyOut(
         graph_, "result",
         addBlockFilter({graph_, inspection}, frame_, {accumulated_, LightingAlpha::SampleCount}, guides_, settings));
     inspection.requireViews();
+    inspection.requireLightDirection();
+    direction_ = inspection.lightDirection();
+    if (lightDirection) graph_.exported(direction_, fg::vk::kReadable);
     for (const DebugView& view : inspection.views()) {
       graph_.exported(view.texture, fg::vk::kReadable);
       views_[view.name] = view.texture;
@@ -60,6 +68,14 @@ class ViewedRegression {
     run_->frame();
   }
   [[nodiscard]] Image<glm::dvec4> output() const { return readHalves(*run_, output_, kSize); }
+  /// Slopes of the light over x, y or z of the normal, by light direction.
+  [[nodiscard]] Image<glm::dvec3> slope(int axis) const {
+    const std::vector<std::uint32_t> words = run_->texels<std::uint32_t>(direction_);
+    Image<glm::dvec3> image(kSize);
+    for (std::size_t i = 0; i < image.pixels().size(); ++i)
+      image.pixels()[i] = lightSlopes({words[2 * i], words[2 * i + 1]})[axis];
+    return image;
+  }
   [[nodiscard]] Image<glm::dvec3> view(const std::string& name) const {
     const std::vector<float> texels = run_->texels<float>(views_.at(name));
     Image<glm::dvec3> image(kSize);
@@ -74,6 +90,7 @@ class ViewedRegression {
   Guides guides_;
   fg::Texture accumulated_;
   fg::Texture output_;
+  fg::Texture direction_;
   std::map<std::string, fg::Texture> views_;
   std::unique_ptr<fg::test::GraphRun> run_;
 };
@@ -294,6 +311,51 @@ TEST_F(BlockViewsTest, TheMixtureIsTheOutput) {
     });
     comparison.expect(0.0);
   }
+}
+
+// The light direction holds the slopes of the mixture of fine and coarse fits, rounded to 1/31 of the largest one.
+TEST_F(BlockViewsTest, LightDirectionHoldsTheSlopesOfTheMixture) {
+  constexpr std::array kFine{"slope-x", "slope-y", "slope-z"};
+  constexpr std::array kCoarse{"coarse-slope-x", "coarse-slope-y", "coarse-slope-z"};
+  std::vector<std::string> views{"samples"};
+  views.insert(views.end(), kFine.begin(), kFine.end());
+  views.insert(views.end(), kCoarse.begin(), kCoarse.end());
+  ViewedRegression run(device(), {.size = 2, .iterations = 2}, views, true);
+  double largestOfAll = 0.0;
+  for (const NamedScene& named : allScenes()) {
+    SCOPED_TRACE(named.name);
+    const Inputs in = inputsOf(named.scene);
+    run.filter(in.frame, in.guides, in.accumulated);
+    const Image<glm::dvec3> samples = run.view("samples");
+    std::vector<Image<glm::dvec3>> expected;
+    std::vector<Image<glm::dvec3>> actual;
+    for (int axis = 0; axis < 3; ++axis) {
+      const Image<glm::dvec3> fine = run.view(kFine.at(axis));
+      const Image<glm::dvec3> coarse = run.view(kCoarse.at(axis));
+      expected.emplace_back(kSize);
+      reference::forEachPixel(kSize, [&](glm::ivec2 p) {
+        const double share = samples[p].y;
+        expected.back()[p] = (1.0 - share) * fine[p] + share * coarse[p];
+      });
+      actual.push_back(run.slope(axis));
+    }
+    Comparison comparison("light direction");
+    reference::forEachPixel(kSize, [&](glm::ivec2 p) {
+      comparison.compared();
+      double largest = 0.0;
+      for (const auto& slope : expected) {
+        for (int c = 0; c < 3; ++c) largest = std::max(largest, std::abs(slope[p][c]));
+      }
+      largestOfAll = std::max(largestOfAll, largest);
+      // Half a unit, which is less than 2/31 of the largest slope, and the rounding of the views.
+      const double tolerance = largest * (1.0 / 31.0 + 16.0 * reference::kFloatRoundoff);
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        for (int c = 0; c < 3; ++c) comparison.value(p, "slope", actual[axis][p][c], expected[axis][p][c], tolerance);
+      }
+    });
+    comparison.expect(0.0);
+  }
+  EXPECT_GT(largestOfAll, 0.01) << "no scene has a slope worth comparing";
 }
 
 // On a flat wall without sky, away from the border, one iteration over blocks of 2x2 covers 6x6 samples, whose weights

@@ -11,10 +11,11 @@ namespace walr {
 namespace {
 
 // A choice that only decides which inputs are read is a specialization constant and needs no module of its own; see
-// fg::PassBuilder::unread. When these limits were set there were 87 modules of 2.1 MB, after 220 of 6.8 MB; formats of the
-// result, guides joined with accumulation, and residuals took seven more. Every module costs compile time in every
-// build, bytes in every program that links the library, and an entry in the lists of shaders.
-constexpr std::size_t kMostModules = 94;
+// fg::PassBuilder::unread. When these limits were set there were 87 modules of 2.1 MB, after 220 of 6.8 MB; formats of
+// the result, guides joined with accumulation, and residuals took seven more, light direction one, because it writes an
+// image that the reconstruction does not have. Every module costs compile time in every build, bytes in every program
+// that links the library, and an entry in the lists of shaders.
+constexpr std::size_t kMostModules = 95;
 constexpr std::size_t kMostBytes = 3'000'000;
 
 TEST(ShaderModules, AreFew) {

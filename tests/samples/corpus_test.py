@@ -21,6 +21,9 @@ import intervals
 import judging
 import pages
 import places
+import rate_entries
+import rate_pages
+import rates
 import rendering
 import results
 
@@ -305,6 +308,30 @@ class Page(unittest.TestCase):
         for name, entry in entries.corpus().items():
             if entry.scene.exists():
                 self.assertIn(name, text)
+
+
+class Rates(unittest.TestCase):
+    def test_entries_trace_the_rays_that_their_names_tell(self):
+        for scene in rate_entries.SCENES:
+            found, plain = rate_entries.of_scene(scene)
+            for rate, entry in {**found, **plain}.items():
+                frames = entry.frames[1] - entry.frames[0] + 1
+                share = entry.pixels / (rate_entries.SIZE[0] * rate_entries.SIZE[1])
+                traced = (entry.noisy_paths() / entry.pixels / frames - 1) * share
+                self.assertAlmostEqual(traced, rates.rays(rate), places=12, msg=entry.name)
+            self.assertEqual(len({entries.key(e.settings(), "") for e in (*found.values(), *plain.values())}), len(found) + len(plain))
+            self.assertEqual(len({entries.key(e.reference_settings(), "") for e in found.values()}), 1)
+
+    def test_interpolation_keeps_planes_apart(self):
+        depth = np.where(np.arange(12) < 6, 1.0, 2.0) * np.ones((6, 1))
+        normal = np.zeros((6, 12, 3)) + [0.0, 0.0, 1.0]
+        small = depth[::2, ::2, None] * np.array([1.0, 2.0, 3.0])
+        whole = rates.interpolated(small, (depth[::2, ::2], normal[::2, ::2]), (depth, normal), 2)
+        # A pixel of the other plane weighs exp(-25) at most.
+        np.testing.assert_allclose(whole, depth[:, :, None] * np.array([1.0, 2.0, 3.0]), rtol=1e-9)
+
+    def test_the_committed_page_is_what_the_figures_give(self):
+        rate_pages.write(json.loads(rates.KEPT.read_text()), check=True)
 
 
 if __name__ == "__main__":

@@ -306,6 +306,8 @@ typedef struct WalrDenoiserInfo {
    * submitted in the order of recording, to one queue, and only one thread at a time may use either. Both may be
    * destroyed in any order. */
   WalrDenoiser shared_with;
+  VkBool32 light_direction; /* Write WalrFrame::light_direction. It costs a small pass; method walr only. */
+  uint32_t reserved;
 } WalrDenoiserInfo;
 
 /* Creates no Vulkan object; see walr_prepare. */
@@ -350,7 +352,7 @@ typedef struct WalrImageRequirements {
 } WalrImageRequirements;
 
 /* port: "lighting", "depth", "normal", "motion", "albedo", "object_id", "confidence", "denoised",
- * "view" (see walr_set_view) or "history_length".
+ * "view" (see walr_set_view), "history_length" or "light_direction".
  * Needs no image and no walr_prepare. */
 WALR_API WalrResult walr_get_image_requirements(WalrDenoiser denoiser, const char* port,
                                                 WalrImageRequirements* requirements);
@@ -443,6 +445,9 @@ typedef struct WalrFrame {
   /* With WalrConventions::light_group: the pixel of each group that has the sample, y down. It should change from frame
    * to frame so that every pixel has its turn: x = frame % width, y = (frame / width + x) % height. */
   uint32_t light_offset[2];
+  /* With WalrDenoiserInfo::light_direction: an R32G32_UINT image of exactly the denoised size that receives how each
+   * pixel's light changes with the normal, see walr/light_direction.glsl. 0 where there is nothing to denoise. */
+  const WalrImage* light_direction;
 } WalrFrame;
 
 /*

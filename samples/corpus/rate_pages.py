@@ -1,0 +1,86 @@
+"""RATES.md and rates.png from rates.json."""
+import fractions
+import pathlib
+import sys
+
+HERE = pathlib.Path(__file__).resolve().parent
+PAGE, PLOT = HERE / "RATES.md", HERE / "rates.png"
+COLUMNS = ("walr", "walr:many-samples", "flr", "bmfr", "svgf", "accumulate", "none", "plain")
+HEADINGS = {"none": "input", "walr:many-samples": "many-samples", "plain": "plain alternative"}
+RESAMPLED = "1, resampled"
+EXPLANATION = """# Error against rays per pixel
+
+Written by `samples/corpus/rates.py` from `rates.json`. The same frames of 384 x 216 pixels, jittered, with ever more rays of
+indirect light per pixel; one ray is one path. Below 1 the light is sparse (`walr render --light-rate`), and only methods that take
+sparse light are there. RMSE after the tone map x / (1 + x), free of the references' noise, over two frames in half of the squares of
+64 x 64 pixels; references have 128 samples per pixel over its area. Eight frames of history come before the judged ones; at 16 rays
+three, at 64 rays two, because these cost so much. Method settings are the defaults of one sample per pixel at every rate, but for
+`many-samples`, a preset of `walr`.
+
+* **input**: the noisy frames; **accumulate**: temporal accumulation alone.
+* **plain alternative**: trace at a half or a third of the size on each side, denoise there with `walr`, and interpolate by depth and
+  normal.
+* **1, resampled**: one ray per pixel, with paths reused over up to {resampled} frames as in ReSTIR GI without spatial reuse.
+
+Errors are x 10^4. The ratio is that to `walr` at 1 ray, the geometric mean over the scenes that have the rate, with its interval of
+95 % ([corpus](../docs/corpus.md)). -: not possible, or not run.
+"""
+
+
+def order(rates):
+    return sorted(rates, key=lambda rate: (float(fractions.Fraction(rate.split(",")[0])), rate))
+
+
+def row(cells):
+    return "| " + " | ".join(cells) + " |\n"
+
+
+def header(first):
+    return row([first, *(HEADINGS.get(c, f"`{c}`") for c in COLUMNS)]) + row(["---"] * (len(COLUMNS) + 1))
+
+
+def page(kept):
+    from rate_entries import RESAMPLED_FRAMES
+    text = EXPLANATION.format(resampled=RESAMPLED_FRAMES) + "\n![RMSE against rays per pixel](rates.png)\n\n## Ratios\n\n"
+    text += header("rays per pixel (scenes)")
+    for rate, methods in kept["ratios"].items():
+        cells = [methods.get(c) and "{:.2f} ({:.2f} to {:.2f})".format(*methods[c]) or "-" for c in COLUMNS]
+        text += row([f"{rate} ({methods['scenes']})", *cells])
+    for scene, rates in kept["scenes"].items():
+        text += f"\n## {scene}\n\nRoot mean square of the references' own noise: {1e4 * kept['noise'][scene]:.0f}.\n\n"
+        text += header("rays per pixel")
+        for rate in order(rates):
+            found = rates[rate]
+            values = {c: found[c][0] for c in COLUMNS if found.get(c)}
+            best = min(values.values())
+            shown = [f"{1e4 * values[c]:.1f}" if c in values else "-" for c in COLUMNS]
+            text += row([rate, *(f"**{s}**" if values.get(c) == best else s for c, s in zip(COLUMNS, shown))])
+    return text
+
+
+def plot(kept):
+    import matplotlib
+    matplotlib.use("Agg")
+    from matplotlib import pyplot
+    figure, panels = pyplot.subplots(2, 2, figsize=(10, 7), constrained_layout=True)
+    for panel, (scene, rates) in zip(panels.flat, kept["scenes"].items()):
+        for method in COLUMNS:
+            points = [(float(fractions.Fraction(r)), 1e4 * rates[r][method][0]) for r in order(rates)
+                      if r != RESAMPLED and rates[r].get(method)]
+            style = "--" if method in ("none", "accumulate", "plain") else "-"
+            line, = panel.plot(*zip(*points), style, marker="o", markersize=3, label=HEADINGS.get(method, method))
+            if rates.get(RESAMPLED, {}).get(method):
+                panel.plot(1, 1e4 * rates[RESAMPLED][method][0], marker="x", color=line.get_color())
+        panel.set(title=scene, xscale="log", yscale="log", xlabel="rays per pixel (x: resampled)", ylabel="RMSE x 10^4")
+        panel.grid(alpha=0.3, which="both")
+    panels.flat[0].legend(fontsize=7)
+    figure.savefig(PLOT, dpi=90, metadata={"Software": None})
+
+
+def write(kept, check=False):
+    text = page(kept)
+    if not check:
+        PAGE.write_text(text, encoding="utf-8")
+        plot(kept)
+    elif PAGE.read_text(encoding="utf-8") != text:
+        sys.exit(f"{PAGE}: not what rates.json gives; run samples/corpus/rates.py page")

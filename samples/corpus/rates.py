@@ -1,0 +1,185 @@
+#!/usr/bin/python3
+"""Error against rays per pixel: renders the same frames with 1/9 to 64 rays per pixel, denoises and judges them.
+
+    rates.py run [--cache DIR]      render and denoise what is missing, judge; writes rates.json, RATES.md and rates.png
+    rates.py page [--check]         writes RATES.md and rates.png from rates.json
+
+An interrupted run resumes where it was. It traces 150 million paths, and takes about half an hour of two idle cores. samples/docs/corpus.md
+says how errors and intervals are made. Needs numpy, Pillow and matplotlib (Debian: python3-matplotlib)."""
+import argparse
+import fractions
+import json
+import math
+import pathlib
+import subprocess
+import sys
+
+sys.dont_write_bytecode = True
+import corpus
+import entries as table
+import intervals
+import judging
+import numpy as np
+import rate_entries
+import rate_pages
+import rendering
+import results
+from judging import exr
+
+HERE = pathlib.Path(__file__).resolve().parent
+KEPT = HERE / "rates.json"
+TAKE_SPARSE = ("walr", "flr", "bmfr", "accumulate")
+METHODS = ("walr", "walr:many-samples", "flr", "bmfr", "svgf", "accumulate", "none")
+PLAIN = "plain"
+"""Name of the plain alternative: walr on smaller frames, interpolated."""
+FRAMES = range(rate_entries.JUDGED[0], rate_entries.JUDGED[1] + 1)
+
+
+def rays(rate):
+    return float(fractions.Fraction(rate.split(",")[0]))
+
+
+def bench(walr, cache, entry, methods):
+    """Folder with the results of `walr bench`; what has been run is not run again."""
+    sequence = cache.sequence(entry)
+    output = cache.folder / "rates" / sequence.name
+    pictures = output / "pictures" / sequence.name
+    if all((pictures / f"{m}_{frame:04d}.npy").exists() for m in methods for frame in FRAMES):
+        return pictures
+    command = [walr, "bench", "--sequences", sequence, "--output", output, "--methods", ",".join(methods), "--batch", "20",
+               "--repeat", "0", "--all-pictures", "--no-html"]
+    done = subprocess.run(list(map(str, command)), capture_output=True, text=True)
+    if done.returncode:
+        raise RuntimeError(f"walr bench of {entry.name} failed:\n{done.stderr[-2000:]}")
+    return pictures
+
+
+def layer(images, name, letters):
+    return np.stack([images[f"{name}.{c}"] for c in letters], axis=2).astype(float)
+
+
+def interpolated(small, small_guides, guides, side):
+    """A picture of full size from one that is smaller by `side`: of the 16 nearest pixels those on the same plane, by distance,
+    depth and normal. Guides: (depth, normal)."""
+    depth, normal = guides
+    rows, columns = np.mgrid[:depth.shape[0], :depth.shape[1]]
+    y, x = ((n + 0.5) / side - 0.5 for n in (rows, columns))
+    top, left = np.floor(y).astype(int), np.floor(x).astype(int)
+    total, weights = 0.0, 1e-12
+    for dy in range(-1, 3):
+        for dx in range(-1, 3):
+            place = np.clip(top + dy, 0, small.shape[0] - 1), np.clip(left + dx, 0, small.shape[1] - 1)
+            near = np.clip(1 - np.abs(top + dy - y), 0.001, 1) * np.clip(1 - np.abs(left + dx - x), 0.001, 1)
+            cosine = np.clip((small_guides[1][place] * normal).sum(axis=2), 0, 1)
+            weight = near * cosine**16 * np.exp(-50 * np.abs(small_guides[0][place] / depth - 1)) + 1e-9 * near
+            total, weights = total + weight[:, :, None] * small[place], weights + weight
+    return total / weights[:, :, None]
+
+
+def plain_pictures(walr, cache, entry, side, full):
+    """Results of the plain alternative by frame. full: the sequence with guides of full size."""
+    sequence = cache.sequence(entry)
+    output = cache.folder / "rates" / sequence.name
+    if not all((output / f"denoised_{frame:04d}.exr").exists() for frame in FRAMES):
+        subprocess.run([str(walr), "denoise", str(sequence), "--output", str(output)], check=True, capture_output=True)
+    pictures = {}
+    for frame in FRAMES:
+        small, large = (exr.read(folder / f"noisy_{frame:04d}.exr") for folder in (sequence, full))
+        guides = [(images["Depth.Z"].astype(float), layer(images, "Normal", "XYZ")) for images in (small, large)]
+        light = layer(exr.read(output / f"denoised_{frame:04d}.exr"), "Indirect", "RGB")
+        pictures[frame] = interpolated(light, *guides, side)
+    return pictures
+
+
+class Squares:
+    """Squared errors and numbers of judged pixels of every square of the image, over the judged frames."""
+
+    def __init__(self, sequence, pictures):
+        self.truths = {frame: judging.frame_truth(sequence, pictures, frame) for frame in FRAMES}
+        self.blocks, self.count = judging.block_of_pixels(self.truths[FRAMES[0]].judged.shape)
+
+    def sums(self, image_of, error=judging.clean_square):
+        squares, pixels = np.zeros(self.count), np.zeros(self.count)
+        for frame, truth in self.truths.items():
+            square = error(image_of(frame), truth.reference, truth.half)
+            squares += np.bincount(self.blocks[truth.judged], square[truth.judged], minlength=self.count)
+            pixels += np.bincount(self.blocks[truth.judged], minlength=self.count)
+        return squares, pixels
+
+    def noise(self):
+        def square(_, reference, half):
+            return (judging.half_noise(reference, half) ** 2).mean(axis=2)
+
+        squares, pixels = self.sums(lambda frame: None, square)
+        return math.sqrt(squares.sum() / pixels.sum())
+
+
+def judged(walr, cache, scene, log):
+    """Sums of squares by rate and method, and the noise of the references."""
+    found, plain = rate_entries.of_scene(scene)
+    ready = {rate: e for rate, e in found.items() if all((cache.sequence(e) / f).exists() for f in cache.files(e))}
+    full = cache.sequence(found["1"])
+    squares, sums = None, {}
+    for rate, entry in sorted(ready.items(), key=lambda item: item[0] != "1"):
+        methods = METHODS if rays(rate) >= 1 else TAKE_SPARSE
+        pictures = bench(walr, cache, entry, methods)
+        squares = squares or Squares(full, pictures)
+        sums[rate] = {m: squares.sums(lambda frame: np.load(pictures / f"{m}_{frame:04d}.npy").astype(float)) for m in methods}
+        log(f"{scene}: {rate} judged")
+    for rate, entry in plain.items():
+        pictures = plain_pictures(walr, cache, entry, rate_entries.PLAIN[rate], full)
+        sums[rate][PLAIN] = squares.sums(lambda frame: pictures[frame])
+    return sums, squares.noise()
+
+
+def figures(all_sums):
+    """RMSE by scene, rate and method, and the ratio to walr at 1 ray with its interval: by scene, and over all scenes with that rate."""
+
+    def root(interval):
+        return interval and [results.rounded(math.exp(0.5 * v)) for v in interval]
+
+    scenes = {scene: {rate: {m: root(intervals.log_ratio_interval([p])) for m, p in methods.items()}
+                      for rate, methods in sums.items()} for scene, sums in all_sums.items()}
+    ratios = {}
+    for rate in rate_pages.order({rate for sums in all_sums.values() for rate in sums}):
+        having = [sums for sums in all_sums.values() if rate in sums]
+        ratios[rate] = {"scenes": len(having)}
+        for method in having[0][rate]:
+            pairs = [(sums[rate][method][0], sums["1"]["walr"][0]) for sums in having]
+            ratios[rate][method] = root(intervals.log_ratio_interval(pairs))
+    return scenes, ratios
+
+
+def run(arguments):
+    cache = rendering.Cache(arguments.cache, arguments.walr)
+    groups = [rate_entries.of_scene(scene) for scene in rate_entries.SCENES]
+    wanted = [e for found, plain in groups for e in (*found.values(), *plain.values())]
+    if not arguments.rendered_only:
+        rendering.render_all(sorted(wanted, key=lambda e: e.samples), cache, lambda text: print(text, flush=True))
+    all_sums, noise = {}, {}
+    for scene in rate_entries.SCENES:
+        all_sums[scene], noise[scene] = judged(arguments.walr, cache, scene, lambda text: print(text, flush=True))
+    scenes, ratios = figures(all_sums)
+    KEPT.write_text(json.dumps({"commit": corpus.commit(), "noise": {s: results.rounded(n) for s, n in noise.items()},
+                                "scenes": scenes, "ratios": ratios}, indent=1) + "\n")
+    rate_pages.write(json.loads(KEPT.read_text()))
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    commands = parser.add_subparsers(dest="command", required=True)
+    command = commands.add_parser("run")
+    command.add_argument("--cache", default=corpus.default_cache(), help="folder for frames and results; default: %(default)s")
+    command.add_argument("--walr", type=lambda file: pathlib.Path(file).resolve(), help="the program; default: %(default)s",
+                         default=table.PROJECT / "build" / "bin" / "walr")
+    command.add_argument("--rendered-only", action="store_true", help="judge what has been rendered, and leave out the rest")
+    commands.add_parser("page").add_argument("--check", action="store_true")
+    arguments = parser.parse_args()
+    if arguments.command == "run":
+        run(arguments)
+    else:
+        rate_pages.write(json.loads(KEPT.read_text()), check=arguments.check)
+
+
+if __name__ == "__main__":
+    main()
