@@ -13,7 +13,7 @@ void readReprojection(fg::PassBuilder& pass, const DenoiserInputs& inputs, const
   const bool fromTexture = settings.motion == MotionSource::Texture;
   const bool byPlane = settings.rejection == HistoryRejection::Plane;
   const bool byDepth = settings.rejection == HistoryRejection::Depth;
-  const bool normalBesideDepth = !guides.geometricNormal.valid();
+  const bool normalBesideDepth = !guides.geometricNormal.valid() && (byPlane || guides.features.valid());
   const bool readsNormals = byPlane && !normalBesideDepth;
   pass.specialize("kJitter", inputs.scene.jitter && (!fromTexture || inputs.conventions.motionJittered))
       .specialize("kMotionFromCamera", !fromTexture)

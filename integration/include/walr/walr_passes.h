@@ -167,8 +167,9 @@ typedef struct WalrSettingValue {
   const char* value;
 } WalrSettingValue;
 
-/* Format of the image that is connected to an input of a single stage, if it differs from WalrPort::format. The formats
- * of the host's own images are in WalrDenoiserInfo. */
+/* Format of the image that is connected to an input of a single stage, if it differs from WalrPort::format or the input
+ * is optional: an optional input without an entry is not connected. The formats of the host's own images are in
+ * WalrDenoiserInfo. */
 typedef struct WalrPortFormat {
   const char* port;
   VkFormat format;
