@@ -18,7 +18,6 @@ struct Port {
                           ///< with the current settings or that hosts need not have.
   bool buffer = false;
   VkFormat format = VK_FORMAT_UNDEFINED;  ///< Textures.
-  std::vector<VkFormat> otherFormats;     ///< Inputs: further formats, which some pass types output.
   std::uint64_t size = 0;                 ///< Bytes; buffers.
   std::vector<fg::Access> accesses;       ///< Accesses of all passes, without repetition.
   VkImageUsageFlags imageUsage = 0;       ///< Union of the flags that the accesses need.

@@ -71,13 +71,9 @@ struct Catalogue {
                        .passes = passesOf(*stage, {}, known, {})});
     }
   }
-  /// Make an output known to later types. They accept the formats of all types that have such an output.
+  /// Make an output known to later types.
   void learn(const Port& output) {
-    const fg::TextureDesc desc{.format = output.format, .extent = kListedExtent};
-    const auto [entry, isNew] = known.emplace(output.name, KnownPort{.desc = desc});
-    if (isNew || std::get<fg::TextureDesc>(entry->second.desc).format == output.format) return;
-    std::vector<VkFormat>& others = entry->second.otherFormats;
-    if (std::ranges::find(others, output.format) == others.end()) others.push_back(output.format);
+    known.emplace(output.name, KnownPort{.desc = fg::TextureDesc{.format = output.format, .extent = kListedExtent}});
   }
 
   KnownPorts known;
@@ -129,11 +125,9 @@ class StageNode final : public PassNode {
     const VkFormat format = graph.textureDesc(connected->second).format;
     const HostInput* input = hostInputNamed(port.name);
     if (!port.output && input != nullptr) return requireInputFormat(*input, format);
-    if (format == port.format || std::ranges::find(port.otherFormats, format) != port.otherFormats.end()) return;
-    std::string taken = formatName(port.format);
-    for (const VkFormat other : port.otherFormats) taken += " or " + formatName(other);
-    throw std::invalid_argument("port '" + port.name + "' of pass '" + name_ + "' takes " + taken + ", but " +
-                                formatName(format) + " is connected");
+    if (format == port.format) return;
+    throw std::invalid_argument("port '" + port.name + "' of pass '" + name_ + "' takes " + formatName(port.format) +
+                                ", but " + formatName(format) + " is connected");
   }
   [[noreturn]] void rejectUnconnected(const Port& port) const {
     throw std::invalid_argument("nothing is connected to port '" + port.name + "' of pass '" + name_ + "'" +
@@ -151,7 +145,6 @@ void listPort(std::ostream& out, const Port& port) {
     out << port.size << " bytes";
   } else {
     out << formatName(port.format);
-    for (const VkFormat other : port.otherFormats) out << " or " << formatName(other);
   }
   std::vector<std::string_view> accesses;
   for (const fg::Access access : port.accesses) accesses.push_back(fg::accessInfo(access).name);

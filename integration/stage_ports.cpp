@@ -13,6 +13,12 @@ namespace {
 constexpr fg::ExternalState kAnyState{VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT,
                                       VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
 
+/// Ports of geometric normals. "prepare_guides_with_occlusion" writes them to its depth and has no such ports.
+constexpr std::string_view kGeometricNormal = "guides.geometric-normal";
+constexpr std::string_view kPreviousGeometricNormal = "guides.previous-geometric-normal";
+constexpr std::string_view kNormalsBesideDepth =
+    "from prepare_guides; leave it unconnected if the depth comes from prepare_guides_with_occlusion, which holds it";
+
 template <typename Handle>
 Handle find(const std::map<std::string, Handle, std::less<>>& connections, std::string_view port) {
   const auto found = connections.find(port);
@@ -53,6 +59,10 @@ fg::Texture StagePorts::texture(std::string_view port, VkFormat /*format*/) {
   return texture(port);
 }
 
+fg::Texture StagePorts::textureIfAny(std::string_view port) {
+  return texture(port);
+}
+
 fg::Buffer StagePorts::buffer(std::string_view port) {
   return find(connections_.buffers, port);
 }
@@ -70,25 +80,27 @@ DenoiserInputs StagePorts::hostInputs() {
   return inputs;
 }
 
-Guides StagePorts::guides() {
+Guides StagePorts::guides(bool normalsBesideDepth) {
+  const auto normals = [&](std::string_view port) { return normalsBesideDepth ? textureIfAny(port) : texture(port); };
   return {.depth = texture("guides.depth"),
           .shadingNormal = texture("guides.shading-normal"),
           .features = texture("guides.features"),
-          .geometricNormal = texture("guides.geometric-normal"),
+          .geometricNormal = normals(kGeometricNormal),
           .previousDepth = texture("guides.previous-depth"),
-          .previousGeometricNormal = texture("guides.previous-geometric-normal")};
+          .previousGeometricNormal = normals(kPreviousGeometricNormal)};
 }
 
 void StagePorts::setOutputs(const Guides& guides) {
   setOutput("guides.depth", guides.depth);
   if (guides.shadingNormal.valid()) setOutput("guides.shading-normal", guides.shadingNormal);
   if (guides.features.valid()) setOutput("guides.features", guides.features);
-  setOutput("guides.geometric-normal", guides.geometricNormal);
   setOutput("guides.previous-depth", guides.previousDepth);
-  setOutput("guides.previous-geometric-normal", guides.previousGeometricNormal);
+  if (!guides.geometricNormal.valid()) return;
+  setOutput(kGeometricNormal, guides.geometricNormal);
+  setOutput(kPreviousGeometricNormal, guides.previousGeometricNormal);
 }
 
-fg::ResourceVersion RecordingPorts::ask(std::string_view port, VkFormat format) {
+fg::ResourceVersion RecordingPorts::ask(std::string_view port, VkFormat format, bool optional) {
   const auto known = known_->find(port);
   if (known == known_->end()) {
     throw std::logic_error("no pass type makes what port '" + std::string(port) + "' takes");
@@ -98,9 +110,8 @@ fg::ResourceVersion RecordingPorts::ask(std::string_view port, VkFormat format) 
   std::string name(port);
   if (const auto* texture = std::get_if<fg::TextureDesc>(&known->second.desc)) {
     fg::TextureDesc desc = *texture;
-    const bool anyFormat = format == VK_FORMAT_UNDEFINED;
-    if (!anyFormat) desc.format = format;
-    asked_.push_back({name, graph().import(name, desc, kAnyState), anyFormat});
+    if (format != VK_FORMAT_UNDEFINED) desc.format = format;
+    asked_.push_back({name, graph().import(name, desc, kAnyState), optional});
   } else {
     asked_.push_back({name, graph().import(name, std::get<fg::BufferDesc>(known->second.desc), kAnyState)});
   }
@@ -117,6 +128,10 @@ fg::Texture RecordingPorts::texture(std::string_view port, VkFormat format) {
   return {ask(port, format)};
 }
 
+fg::Texture RecordingPorts::textureIfAny(std::string_view port) {
+  return {ask(port, VK_FORMAT_UNDEFINED, true)};
+}
+
 fg::Buffer RecordingPorts::buffer(std::string_view port) {
   return {ask(port)};
 }
@@ -130,10 +145,10 @@ std::vector<Port> RecordingPorts::takePorts(bool unread) {
   const fg::GraphDesc& desc = graph().desc();
   for (const Asked& asked : asked_) {
     Port port = describe(desc, *known_, asked.port, asked.resource.resource);
-    if (asked.anyFormat) port.otherFormats = known_->at(port.name).otherFormats;
     const HostInput* input = hostInputNamed(port.name);
     const bool isRead = !port.accesses.empty();
-    port.optional = !isRead || (input != nullptr && input->optional);
+    port.optional = !isRead || asked.optional || (input != nullptr && input->optional);
+    if (isRead && asked.optional) port.description = kNormalsBesideDepth;
     if (unread || isRead) ports.push_back(std::move(port));
   }
   for (const auto& [name, texture] : takeOutputs().textures) {

@@ -16,8 +16,7 @@ namespace walr {
 /// Properties of a port that are known before a stage that reads it is recorded.
 struct KnownPort {
   std::variant<fg::TextureDesc, fg::BufferDesc> desc;
-  std::vector<VkFormat> otherFormats = {};  ///< See `Port::otherFormats`.
-  std::string_view description = {};        ///< See `Port::description`.
+  std::string_view description = {};  ///< See `Port::description`.
 };
 using KnownPorts = std::map<std::string, KnownPort, std::less<>>;
 
@@ -37,6 +36,8 @@ class StagePorts {
   virtual fg::Texture texture(std::string_view port);
   /// The same for an input whose format depends on the settings.
   virtual fg::Texture texture(std::string_view port, VkFormat format);
+  /// The same for an input that may be left unconnected.
+  virtual fg::Texture textureIfAny(std::string_view port);
   virtual fg::Buffer buffer(std::string_view port);
   /// The texture to write an output to: the connected one, or a transient of the given format and size.
   virtual fg::Texture target(std::string_view port, VkFormat format, fg::Extent extent);
@@ -47,7 +48,8 @@ class StagePorts {
   /// The textures of the ports of `DenoiserInputs`.
   DenoiserInputs hostInputs();
   /// The textures of the ports that the stages "prepare_guides" and "prepare_guides_with_occlusion" output.
-  Guides guides();
+  /// @param normalsBesideDepth whether the stage also takes guides whose depth holds the geometric normals
+  Guides guides(bool normalsBesideDepth = false);
   void setOutputs(const Guides& guides);
 
   [[nodiscard]] Connections takeOutputs() { return std::move(outputs_); }
@@ -70,6 +72,7 @@ class RecordingPorts final : public StagePorts {
 
   fg::Texture texture(std::string_view port) override;
   fg::Texture texture(std::string_view port, VkFormat format) override;
+  fg::Texture textureIfAny(std::string_view port) override;
   fg::Buffer buffer(std::string_view port) override;
   fg::Texture target(std::string_view port, VkFormat format, fg::Extent extent) override;
 
@@ -81,10 +84,10 @@ class RecordingPorts final : public StagePorts {
   struct Asked {
     std::string port;
     fg::ResourceVersion resource;
-    bool anyFormat = false;  ///< Otherwise its format depends on the settings.
+    bool optional = false;
   };
   /// @param format of a texture; VK_FORMAT_UNDEFINED: that in `known_`
-  fg::ResourceVersion ask(std::string_view port, VkFormat format = VK_FORMAT_UNDEFINED);
+  fg::ResourceVersion ask(std::string_view port, VkFormat format = VK_FORMAT_UNDEFINED, bool optional = false);
 
   const KnownPorts* known_;
   std::function<bool(std::string_view port)> present_;

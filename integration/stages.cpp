@@ -118,12 +118,13 @@ void prepareGuidesWithOcclusion(StagePorts& ports, const OcclusionStageSettings&
 }
 
 void temporalAccumulation(StagePorts& ports, const AccumulationStageSettings& settings) {
-  ports.setOutput("accumulated", addTemporalAccumulation(ports.graph(), ports.hostInputs(), ports.guides(), settings));
+  ports.setOutput("accumulated",
+                  addTemporalAccumulation(ports.graph(), ports.hostInputs(), ports.guides(true), settings));
 }
 
 void temporalAccumulationWithTaps(StagePorts& ports, const AccumulationWithTapsStageSettings& settings) {
-  const AccumulationWithTaps result = addTemporalAccumulationWithTaps(ports.graph(), ports.hostInputs(), ports.guides(),
-                                                                      settings, settings.antialiasing.storage);
+  const AccumulationWithTaps result = addTemporalAccumulationWithTaps(
+      ports.graph(), ports.hostInputs(), ports.guides(true), settings, settings.antialiasing.storage);
   ports.setOutput("accumulated", result.mean);
   ports.setOutput(tapsPort(settings.antialiasing.storage), result.taps);
 }
@@ -184,7 +185,7 @@ void jointBilateralFilter(StagePorts& ports, const JointBilateralFilterSettings&
 void temporalAntialiasing(StagePorts& ports, const AntialiasingStageSettings& settings) {
   const fg::Texture filtered = ports.texture("filtered", formatOf(settings.storage));
   const fg::Texture target = targetLike(ports, kOutputName, filtered);
-  ports.setOutput(kOutputName, addTemporalAntialiasing(ports.graph(), ports.hostInputs(), ports.guides(), filtered,
+  ports.setOutput(kOutputName, addTemporalAntialiasing(ports.graph(), ports.hostInputs(), ports.guides(true), filtered,
                                                        target, settings));
 }
 

@@ -23,6 +23,7 @@ void addAccumulatedShare(StageGraph graph, fg::PassBuilder& apply, const Accumul
   };
   const fg::History statistics = graph->history("residual statistics", ofTiles);
   const fg::History edges = graph->history("residual statistics at edges", ofTiles);
+  const fg::History agreement = graph->history("residual agreement", ofTiles);
   const fg::History innovation = graph->history("innovation", {VK_FORMAT_R16_SFLOAT, pixels});
   const SteeredHistory history =
       inputs.history ? *inputs.history : declareSteeredHistory(graph, pixels, 1.0F);  // Nobody reads it.
@@ -33,6 +34,7 @@ void addAccumulatedShare(StageGraph graph, fg::PassBuilder& apply, const Accumul
       .sample("lighting", inputs.lighting)
       .sample("previousStatistics", statistics.previous)
       .sample("previousEdgeStatistics", edges.previous)
+      .sample("previousAgreement", agreement.previous)
       .sample("previousInnovation", innovation.previous);
   static_cast<void>(apply.store("outInnovation", innovation.current));
   const fg::Texture sums = storeSums("outResidualSums", "residual sums");
@@ -49,6 +51,7 @@ void addAccumulatedShare(StageGraph graph, fg::PassBuilder& apply, const Accumul
       .sample("innovationSums", innovationSums)
       .sample("previousStatistics", statistics.previous)
       .sample("previousEdgeStatistics", edges.previous)
+      .sample("previousAgreement", agreement.previous)
       .sample("previousLeastAntilag", history.leastAntilag.previous)
       .constants(ResidualStatisticsConstants{static_cast<std::int32_t>(inputs.tileSize),
                                              static_cast<std::int32_t>(inputs.tileOffset),
@@ -58,6 +61,7 @@ void addAccumulatedShare(StageGraph graph, fg::PassBuilder& apply, const Accumul
       .dispatch(inputs.tiles);
   static_cast<void>(pass.store("outStatistics", statistics.current));
   static_cast<void>(pass.store("outEdgeStatistics", edges.current));
+  static_cast<void>(pass.store("outAgreement", agreement.current));
   static_cast<void>(pass.store("outLeastAntilag", history.leastAntilag.current));
 }
 

@@ -279,8 +279,7 @@ BlockFits addBlockRegression(StageGraph graph, fg::Buffer frame, const BlockLigh
       readPixels(grid, guides, "block moments",
                  isPacked(grid, light.accumulated) ? shaders::blockMomentsPacked : shaders::blockMoments);
   readLight(grid, light, gather);
-  gather.sample("geometricNormal", guides.geometricNormal)
-      .specialize("kCellBlocks", grid.cellBlocks)
+  gather.specialize("kCellBlocks", grid.cellBlocks)
       .dispatch({kThreadsPerBlock * grid.blocks.width, grid.blocks.height});
   const BlockAverages blocks = writeAverages(grid, gather, grid.blocks, "");
   const BlockAverages cells = writeAverages(grid, gather, grid.cells, " of cells", "outCell");

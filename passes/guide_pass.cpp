@@ -96,9 +96,8 @@ Guides writeGuides(fg::Graph& graph, fg::PassBuilder& pass, fg::Extent extent, c
     const GuideTexture shadingNormal = guideTexture(graph, "guides.shading normal", word, false);
     guides.shadingNormal = pass.store("outShadingNormal", shadingNormal.current);
   }
-  if (!needs.geometricNormal) return guides;
-  const fg::TextureDesc normalDesc{needs.occlusion ? VK_FORMAT_R16_UINT : VK_FORMAT_R32_UINT, extent};
-  const GuideTexture geometricNormal = guideTexture(graph, "guides.geometric normal", normalDesc, needs.history);
+  if (!needs.geometricNormal || needs.occlusion) return guides;
+  const GuideTexture geometricNormal = guideTexture(graph, "guides.geometric normal", word, needs.history);
   guides.geometricNormal = pass.store("outGeometricNormal", geometricNormal.current);
   guides.previousGeometricNormal = geometricNormal.previous;
   return guides;

@@ -51,12 +51,13 @@ struct AmbientOcclusionSettings {
 
 /// The noise-free guides of this frame and the previous one. A guide that is not needed is not valid.
 struct Guides {
-  fg::Texture depth;          ///< R32_UINT: view depth and edge distance packed (surface.glsl); 0: nothing to denoise.
-  fg::Texture shadingNormal;  ///< R32_UINT: octahedral map of the shading normal; not valid if `features` is.
-  fg::Texture features;       ///< R32_UINT: the shading normal, and ambient occlusion, 0 (open) to 1 (surface.glsl).
-  fg::Texture geometricNormal;          ///< R32_UINT: that of the geometric normal, which spans planes; with `features`
-                                        ///< R16_UINT, where planes are of few dozen pixels.
-  fg::Texture previousDepth;            ///< Depth one frame ago; zero while there is no history.
+  fg::Texture depth;            ///< R32_UINT: view depth, and in the bits below it the distance to an edge or, with
+                                ///< `features`, the geometric normal (surface.glsl); 0: nothing to denoise.
+  fg::Texture shadingNormal;    ///< R32_UINT: octahedral map of the shading normal; not valid if `features` is.
+  fg::Texture features;         ///< R32_UINT: the shading normal, and ambient occlusion, 0 (open) to 1 (surface.glsl).
+  fg::Texture geometricNormal;  ///< R32_UINT: that of the geometric normal, which spans planes; if not
+                                ///< valid, `depth` holds it.
+  fg::Texture previousDepth;    ///< Depth one frame ago; zero while there is no history.
   fg::Texture previousGeometricNormal;  ///< Geometric normal one frame ago; zero while there is no history.
 };
 

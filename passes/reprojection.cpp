@@ -8,11 +8,13 @@ ReprojectionSettings reprojectionOf(const SceneDescription& scene, bool still, H
   return {scene.objectMotion ? MotionSource::Texture : MotionSource::Camera, rejection, dilateMotion};
 }
 
-void readReprojection(const fg::Graph& graph, fg::PassBuilder& pass, const DenoiserInputs& inputs, const Guides& guides,
+void readReprojection(fg::PassBuilder& pass, const DenoiserInputs& inputs, const Guides& guides,
                       const ReprojectionSettings& settings, const StandIns& standIns) {
   const bool fromTexture = settings.motion == MotionSource::Texture;
   const bool byPlane = settings.rejection == HistoryRejection::Plane;
   const bool byDepth = settings.rejection == HistoryRejection::Depth;
+  const bool normalBesideDepth = !guides.geometricNormal.valid();
+  const bool readsNormals = byPlane && !normalBesideDepth;
   pass.specialize("kJitter", inputs.scene.jitter && (!fromTexture || inputs.conventions.motionJittered))
       .specialize("kMotionFromCamera", !fromTexture)
       .specialize("kMotionDepthGiven", inputs.conventions.motionDepth == InputConventions::MotionDepth::Given)
@@ -20,14 +22,14 @@ void readReprojection(const fg::Graph& graph, fg::PassBuilder& pass, const Denoi
                   fromTexture && inputs.conventions.motionDepth == InputConventions::MotionDepth::Found)
       .specialize("kRejectByPlane", byPlane)
       .specialize("kRejectByDepth", byDepth)
-      .specialize("kShortNormals", byPlane && graph.textureDesc(guides.geometricNormal).format == VK_FORMAT_R16_UINT)
       .sampleIf(fromTexture || !standIns.colour.valid(), "motion", fromTexture ? inputs.motion : inputs.lighting,
                 standIns.colour)
-      .sampleIf(byPlane || byDepth, "previousDepth", guides.previousDepth, standIns.number)
-      .sampleIf(byPlane, "previousGeometricNormal", guides.previousGeometricNormal, standIns.number);
+      .sampleIf(byPlane || byDepth, "previousDepth", guides.previousDepth, standIns.number);
   if (settings.preparesGuides) return;
   pass.specialize("kDilateMotion", settings.dilateMotion)
-      .sampleIf(byPlane, "geometricNormal", guides.geometricNormal, standIns.number);
+      .specialize("kNormalBesideDepth", normalBesideDepth)
+      .sampleIf(readsNormals, "previousGeometricNormal", guides.previousGeometricNormal, standIns.number)
+      .sampleIf(readsNormals, "geometricNormal", guides.geometricNormal, standIns.number);
 }
 
 void readConfidence(fg::PassBuilder& pass, fg::Texture confidence, const DenoiserInputs& inputs,

@@ -41,7 +41,7 @@ struct StandIns {
 
 /// Declare what a pass reads for reprojection.glsl, and specialize its shader. The pass itself declares
 /// `frameConstants` and, unless it prepares the guides, `depth`.
-void readReprojection(const fg::Graph& graph, fg::PassBuilder& pass, const DenoiserInputs& inputs, const Guides& guides,
+void readReprojection(fg::PassBuilder& pass, const DenoiserInputs& inputs, const Guides& guides,
                       const ReprojectionSettings& settings, const StandIns& standIns);
 
 /// Declare what a shader with confidence.glsl reads.

@@ -19,7 +19,7 @@ SvgfAccumulated addSvgfAccumulation(StageGraph graph, const DenoiserInputs& inpu
     fg::PassBuilder pass = graph->compute(name, shader);
     pass.uniform("frameConstants", inputs.frame).sample("depth", guides.depth);
     const StandIns standIns{.colour = inputs.lighting, .number = guides.depth};
-    readReprojection(graph, pass, inputs, guides, {MotionSource::Texture, HistoryRejection::Plane}, standIns);
+    readReprojection(pass, inputs, guides, {MotionSource::Texture, HistoryRejection::Plane}, standIns);
     readConfidence(pass, inputs.confidence, inputs, standIns);
     pass.sample("lighting", inputs.lighting)
         .sample("previousColour", previousColour)

@@ -71,7 +71,7 @@ void readInputs(const Stage& stage, fg::PassBuilder& pass, Role role) {
   pass.uniform("frameConstants", stage.inputs.frame)
       .specialize("kBicubicHistory", settings.historyFilter == HistoryFilter::Bicubic);
   const StandIns standIns{.colour = stage.inputs.lighting, .number = stage.guides.depth};
-  readReprojection(stage.graph, pass, stage.inputs, stage.guides, reprojection, standIns);
+  readReprojection(pass, stage.inputs, stage.guides, reprojection, standIns);
   readConfidence(pass, stage.inputs.confidence, stage.inputs, standIns);
   if (!stage.keepTaps || role == Role::View) pass.specialize("kStill", reprojection.motion == MotionSource::None);
   if (role == Role::View) pass.specialize("kKeepableMotion", stage.keepTaps).specialize("kAntilag", antilag);

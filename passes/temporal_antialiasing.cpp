@@ -78,7 +78,7 @@ fg::Texture addTemporalAntialiasing(StageGraph graph, const DenoiserInputs& inpu
     pass.uniform("frameConstants", inputs.frame)
         .sampleIf(!still || !packed, "depth", guides.depth, standIns.number)
         .specialize("kStill", still);
-    readReprojection(graph, pass, inputs, guides, reprojection, standIns);
+    readReprojection(pass, inputs, guides, reprojection, standIns);
     readConfidence(pass, settings.accumulates ? inputs.confidence : fg::Texture{}, inputs, standIns);
     readObjectIds(pass, ids, standIns);
     if (view) pass.specialize("kKeepableMotion", false);

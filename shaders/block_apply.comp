@@ -205,7 +205,7 @@ void storeResult(ivec2 p, bool surface, vec3 colour) {
 
 // The predicted light of a pixel, or its view; false if it shows no surface.
 bool predict(ivec2 p, BilinearTexels nearBlocks, out vec3 position, out vec3 normal, out vec3 predicted) {
-  const float z = unpackDepth(texelFetch(depth, p, 0).x);
+  const float z = unpackDepthBesideNormal(texelFetch(depth, p, 0).x);
   if (z == 0.0) return false;
   const BilinearTexels nearCells = kCellSize == kBlockSize ? nearBlocks : bilinearTexels(p, kCellSize);
 

@@ -24,9 +24,8 @@ const int kBlocks = kGroupBlocks * kGroupBlocks;
 const int kThreads = kBlockThreads * kBlocks;
 
 layout(std140) uniform frameConstants { FrameConstants frame; };
-uniform utexture2D depth;
+uniform utexture2D depth;  // And geometric normals.
 uniform utexture2D features;
-uniform utexture2D geometricNormal;
 #ifdef PACKED
 uniform utexture2D accumulated;
 #else
@@ -62,7 +61,7 @@ uint surfacesOf(Place place) {
   [[unroll]] for (int i = 0; i < kPixels; ++i) {
     const ivec2 inBlock = pixelInBlock(place.thread, i);
     const ivec2 p = kBlockSize * place.block + inBlock;
-    const float z = unpackDepth(texelFetch(depth, min(p, last), 0).x);
+    const float z = unpackDepthBesideNormal(texelFetch(depth, min(p, last), 0).x);
     const bool inside = all(lessThan(inBlock, ivec2(kBlockSize))) && all(lessThanEqual(p, last));
     surfaces |= inside && z != 0.0 ? 1u << i : 0u;
   }
@@ -100,10 +99,10 @@ Representative representativeOf(Place place, uint surfaces) {
   ivec2 pixel;
   if (!chooseRepresentative(place, surfaces, pixel)) return r;
   const ivec2 p = kBlockSize * place.block + pixel;
-  const uint shortNormal = packShortNormal(unpackNormal(texelFetch(geometricNormal, p, 0).x));
-  r.z = unpackDepth(texelFetch(depth, p, 0).x);
-  r.packedNormal = packBlockNormal(shortNormal, uint(pixel.y * kBlockSize + pixel.x));
-  r.plane = planeAt(p, r.z, unpackShortNormal(shortNormal));
+  const uint packed = texelFetch(depth, p, 0).x;
+  r.z = unpackDepthBesideNormal(packed);
+  r.packedNormal = packBlockNormal(packed & kShortNormalMask, uint(pixel.y * kBlockSize + pixel.x));
+  r.plane = planeAt(p, r.z, unpackShortNormal(packed));
   r.x = featuresOf(unpackNormalAndOcclusion(texelFetch(features, p, 0).x), 0.0);
   r.y = lightAt(p).rgb;
   return r;
@@ -121,7 +120,7 @@ Sums sumsOf(Place place, uint surfaces, Representative r) {
   for (int i = 0; i < kPixels; ++i) {
     if ((surfaces >> i & 1u) == 0u) continue;
     const ivec2 p = kBlockSize * place.block + pixelInBlock(place.thread, i);
-    const float z = unpackDepth(texelFetch(depth, p, 0).x);
+    const float z = unpackDepthBesideNormal(texelFetch(depth, p, 0).x);
     const NormalAndOcclusion shading = unpackNormalAndOcclusion(texelFetch(features, p, 0).x);
     const vec4 mean = lightAt(p);
     sums.window.inverse += 1.0 / z;

@@ -84,7 +84,7 @@ vec3 viewOf(ivec2 p, float z) {
 void main() {
   const ivec2 p = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(p, textureSize(depth, 0)))) return;
-  const float z = unpackDepth(texelFetch(depth, p, 0).x);
+  const float z = depthAt(p);
 #ifdef VIEW
   imageStore(outView, p, vec4(viewOf(p, z), 1.0));
 #else

@@ -26,7 +26,7 @@ void main() {
     for (int x = first.x; x < end.x; ++x) {
       const ivec2 p = ivec2(x, y);
       // All fetches come before the first test, so that they overlap.
-      const float z = unpackDepth(texelFetch(depth, p, 0).x);
+      const float z = depthAt(p);
       const vec4 sampleHere = texelFetch(lighting, p, 0);
       const uint guides = packedGuides(p);
       const vec3 colour = sampleHere.rgb;

@@ -13,12 +13,14 @@ layout(std140) uniform frameConstants { FrameConstants frame; };
 uniform utexture2D depth;
 uniform texture2D sums;  // Of each tile: include/accumulated_share.glsl.
 uniform texture2D edgeSums;
-uniform texture2D innovationSums;  // include/innovation.glsl.
+uniform texture2D innovationSums;  // xy: include/innovation.glsl; zw: products of residuals two pixels apart, by axis.
 uniform texture2D previousStatistics;
 uniform texture2D previousEdgeStatistics;
+uniform texture2D previousAgreement;
 uniform texture2D previousLeastAntilag;
 layout(rgba32f) uniform writeonly image2D outStatistics;
 layout(rgba32f) uniform writeonly image2D outEdgeStatistics;
+layout(rgba32f) uniform writeonly image2D outAgreement;  // xy: sums of the products two pixels apart; z: trust.
 layout(r32f) uniform writeonly image2D outLeastAntilag;
 layout(push_constant) uniform PushConstants { ResidualStatisticsConstants constants; };
 #include "include/camera.glsl"
@@ -28,7 +30,7 @@ layout(push_constant) uniform PushConstants { ResidualStatisticsConstants consta
 ivec2 previousTile(ivec2 tile) {
   const ivec2 first = constants.tileSize * tile - constants.tileOffset;
   const ivec2 p = clamp(first + constants.tileSize / 2, ivec2(0), textureSize(depth, 0) - 1);
-  const float z = unpackDepth(texelFetch(depth, p, 0).x);
+  const float z = unpackDepthBesideNormal(texelFetch(depth, p, 0).x);
   if (z == 0.0) return tile;
   const vec3 before =
       previousPosition(frame.previousViewFromView, z * rayThrough(frame.rayFromPixel, pixelCentre(p)));
@@ -47,23 +49,38 @@ Window windowAround(ivec2 tile) {
   return Window(max(tile - constants.radius, ivec2(0)), min(tile + constants.radius, textureSize(sums, 0) - 1));
 }
 
+// How far the agreement of this frame's residuals with the history's is light that the fits miss, and not noise that both
+// share, as resampled light has. Such noise differs from pixel to pixel: means around a pixel have little of it, and
+// products of residuals two pixels apart almost none. What the fits miss goes on for some pixels, along one axis at
+// least. `both`: sums of previousStatisticsAt; `far`: sums of the products two pixels apart, by axis.
+// The limits are measured (passes/WALR_EXPERIMENTS.md).
+float trustIn(vec4 both, vec2 far) {
+  const float kFarWeight = 1.5, kNone = 0.6, kFull = 0.9;
+  const float continuing = max(both.x, 0.0) + kFarWeight * max(abs(far.x), abs(far.y));
+  return clamp((continuing / max(both.x + both.z, 1e-30) - kNone) / (kFull - kNone), 0.0, 1.0);
+}
+
 void storeStatistics(ivec2 tile) {
   const ivec2 size = textureSize(sums, 0);
   vec4 interior = vec4(0.0), edge = vec4(0.0);
+  vec2 far = vec2(0.0);
   const ivec2 before = previousTile(tile);
   if (all(greaterThanEqual(before, ivec2(0))) && all(lessThan(before, size))) {
     interior = constants.kept * texelFetch(previousStatistics, before, 0);
     edge = constants.kept * texelFetch(previousEdgeStatistics, before, 0);
+    far = constants.kept * texelFetch(previousAgreement, before, 0).xy;
   }
   const Window window = windowAround(tile);
   for (int y = window.first.y; y <= window.last.y; ++y) {
     for (int x = window.first.x; x <= window.last.x; ++x) {
       interior += texelFetch(sums, ivec2(x, y), 0);
       edge += texelFetch(edgeSums, ivec2(x, y), 0);
+      far += texelFetch(innovationSums, ivec2(x, y), 0).zw;
     }
   }
   imageStore(outStatistics, tile, interior);
   imageStore(outEdgeStatistics, tile, edge);
+  imageStore(outAgreement, tile, vec4(far, trustIn(interior + edge, far), 0.0));
 }
 
 // Slope of the regression of innovations on those of the frame before. Without noise it is how much more the last frame
@@ -80,10 +97,14 @@ float innovationSlope(Window window) {
 // has this length.
 void storeLeastAntilag(ivec2 tile) {
   const int middle = kAntilagTile / 2 + constants.tileOffset;
-  const Window window = windowAround((kAntilagTile * tile + middle) / constants.tileSize);
+  const ivec2 tileOfSums = min((kAntilagTile * tile + middle) / constants.tileSize, textureSize(sums, 0) - 1);
+  const Window window = windowAround(tileOfSums);
   const float longest = constants.maxHistory, shortest = 2.0;  // An antilag factor of 1 leaves one frame and this one.
   const float before = mix(longest, shortest - 1.0, texelFetch(previousLeastAntilag, tile, 0).x) + 1.0;
-  const float change = constants.innovationGain * (innovationSlope(window) + constants.innovationBias);
+  // Noise that successive frames share lets innovations agree, too: history is shortened as far as there is trust.
+  const float excess = innovationSlope(window) + constants.innovationBias;
+  const float trust = texelFetch(previousAgreement, tileOfSums, 0).z;
+  const float change = constants.innovationGain * (excess > 0.0 ? trust * excess : excess);
   const float frames = clamp(before * (1.0 - change), shortest, max(longest, shortest));
   const float factor = (longest - (frames - 1.0)) / max(longest - (shortest - 1.0), 1.0);
   imageStore(outLeastAntilag, tile, vec4(clamp(factor, 0.0, 1.0)));

@@ -31,8 +31,8 @@ uniform usampler2D previousDepth;
 #ifndef GUIDES
 uniform utexture2D depth;
 uniform utexture2D geometricNormal;
-#endif
 uniform usampler2D previousGeometricNormal;
+#endif
 // rgb: mean; a: history length.
 #ifdef PACKED
 uniform usampler2D previousAccumulated;
@@ -158,7 +158,7 @@ vec3 viewOf(ivec2 p, float z, LightSample noisy) {
 void main() {
   const ivec2 p = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(p, textureSize(depth, 0)))) return;
-  const float z = unpackDepth(texelFetch(depth, p, 0).x);
+  const float z = depthAt(p);
   imageStore(outView, p, vec4(viewOf(p, z, lightSampleAt(lighting, p)), 1.0));
 }
 #else
@@ -178,7 +178,7 @@ void storeNoSurface(ivec2 p, vec3 light) { imageStore(outAccumulated, p, vec4(li
 float accumulate(ivec2 p) {
   const LightSample noisy = lightSampleAt(lighting, p);
   const bool sampleIsUsable = isUsable(noisy);
-  const float z = unpackDepth(packedDepthAt(p));
+  const float z = depthAt(p);
   if (z == 0.0) {
     const vec3 passed = passThroughLight(noisy.radiance);
     storeNoSurface(p, passed);

@@ -104,7 +104,7 @@ HistoryTaps tapsOf(ivec2 p) {
 #include "include/reprojection.glsl"
 
 HistoryTaps tapsOf(ivec2 p) {
-  const Reprojection r = reproject(p, unpackDepth(texelFetch(depth, p, 0).x));
+  const Reprojection r = reproject(p, depthAt(p));
   return historyTaps(p, r, constants.planeTolerance, constants.normalThreshold);
 }
 #endif
@@ -129,7 +129,7 @@ bool hasSurface(ivec2 q, vec4 colour) { return colour.a >= 0.0; }
 #elif defined(KEPT_TAPS)
 bool hasSurface(ivec2 q, vec4 colour) { return texelFetch(keptTaps, q, 0).x != kNoSurfaceTaps; }
 #else
-bool hasSurface(ivec2 q, vec4 colour) { return unpackDepth(texelFetch(depth, q, 0).x) > 0.0; }
+bool hasSurface(ivec2 q, vec4 colour) { return depthAt(q) > 0.0; }
 #endif
 
 vec3 toYCoCg(vec3 c) {

@@ -24,6 +24,11 @@ WalrConventions checkedConventions(const WalrConventions* given) {
   checkedEnum(conventions.motion_depth, WALR_MOTION_DEPTH_FOUND, "WalrConventions::motion_depth");
   checkedEnum(conventions.depth, WALR_DEPTH_DEVICE, "WalrConventions::depth");
   checkedEnum(conventions.normals, WALR_NORMALS_OCTAHEDRAL_UNSIGNED, "WalrConventions::normals");
+  checkSwitch(conventions.pre_exposed, "WalrConventions::pre_exposed");
+  checkSwitch(conventions.motion_jittered, "WalrConventions::motion_jittered");
+  checkSwitch(conventions.rectangle, "WalrConventions::rectangle");
+  checkSwitch(conventions.orthographic, "WalrConventions::orthographic");
+  checkSwitch(conventions.light_masked, "WalrConventions::light_masked");
   for (float& scale : conventions.motion_scale) {
     if (!std::isfinite(scale)) {
       throw Error(WALR_ERROR_INVALID_ARGUMENT, "WalrConventions::motion_scale is not finite");
@@ -39,6 +44,13 @@ WalrConventions checkedConventions(const WalrConventions* given) {
     side = std::max(side, 1U);
   }
   return conventions;
+}
+
+void checkSwitches(const WalrDenoiserInfo& info) {
+  checkSwitch(info.timestamps, "WalrDenoiserInfo::timestamps");
+  checkSwitch(info.lint, "WalrDenoiserInfo::lint");
+  checkSwitch(info.counters, "WalrDenoiserInfo::counters");
+  checkSwitch(info.history_length, "WalrDenoiserInfo::history_length");
 }
 
 VkFormat checkedResultFormat(VkFormat format) {
@@ -106,6 +118,7 @@ Description::Description(const WalrDenoiserInfo& info, Of of)
       resultFormat_(checkedResultFormat(info.denoised_format)),
       historyLength_(info.history_length == VK_TRUE),
       slots_(checkedSlots(info.frames_in_flight)) {
+  checkSwitches(info);
   if (info.preset != nullptr) usePreset(info.preset);
   checkOrthographic(inputConventions(), hostConventions(), info.lint == VK_TRUE);
   // Refuse wrong formats here and not when the first frame is recorded.

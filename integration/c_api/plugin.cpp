@@ -59,7 +59,7 @@ WalrResult walr_register_plugin(const WalrRegistryHost* host) {
     }
     for (uint32_t i = 0; given.register_pass_type != nullptr && i < walr_pass_type_count(); ++i) {
       const WalrPassType* type = walr_pass_type(i);
-      if (given.register_pass_type(given.user, type) == VK_TRUE) continue;
+      if (given.register_pass_type(given.user, type) != VK_FALSE) continue;
       throw Error(WALR_ERROR_WRONG_ORDER, "the host refused pass type '" + std::string(type->name) + "'");
     }
   });

@@ -87,6 +87,13 @@ Enum checkedEnum(Enum value, Enum last, const char* name) {
                                                std::to_string(static_cast<std::int64_t>(last)));
 }
 
+/// @throws Error if a switch is neither on nor off
+inline void checkSwitch(VkBool32 value, const char* name) {
+  if (value == VK_FALSE || value == VK_TRUE) return;
+  throw Error(WALR_ERROR_INVALID_ARGUMENT,
+              std::string(name) + " is " + std::to_string(value) + ", neither VK_FALSE nor VK_TRUE");
+}
+
 /// @throws Error if flags other than those of `known` are set
 inline void checkFlags(std::uint32_t flags, std::uint32_t known, const char* name) {
   if ((flags & ~known) == 0) return;

@@ -1,5 +1,7 @@
 #include "samples/command_line/exit_code.h"
 
+#include <new>
+
 #include "framegraph/vulkan/error.h"
 #include "samples/command_line/usage_error.h"
 #include "samples/errors.h"
@@ -16,7 +18,8 @@ ExitCode exitCode(const std::exception& error) {
   if (dynamic_cast<const OutputError*>(&error) != nullptr) {
     return ExitCode::Output;
   }
-  if (dynamic_cast<const fg::vk::Error*>(&error) != nullptr) {
+  // The processor's memory is what a software device and the copies of frames use.
+  if (dynamic_cast<const fg::vk::Error*>(&error) != nullptr || dynamic_cast<const std::bad_alloc*>(&error) != nullptr) {
     return ExitCode::Device;
   }
   return ExitCode::Internal;

@@ -10,7 +10,7 @@ enum class ExitCode {
   Internal = 1,  ///< Any error without a code of its own.
   Usage = 2,     ///< The command line is wrong.
   Input = 3,     ///< Input is missing, damaged or inconsistent.
-  Device = 4,    ///< No Vulkan device, or the device lacks a feature, runs out of memory or fails.
+  Device = 4,    ///< No Vulkan device, or the device lacks a feature or fails; or memory runs out.
   Output = 5,    ///< Output cannot be written.
 };
 

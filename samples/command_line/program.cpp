@@ -2,6 +2,7 @@
 
 #include <csignal>
 #include <iostream>
+#include <new>
 
 #include "samples/command_line/exit_code.h"
 
@@ -28,8 +29,10 @@ int runProgram(CLI::App& program, int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return endOf(program, program.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::Usage));
   } catch (const std::exception& error) {
+    const bool full = dynamic_cast<const std::bad_alloc*>(&error) != nullptr;
     std::cout.flush();
-    std::cerr << program.get_name() << ": " << error.what() << '\n';
+    std::cerr << program.get_name() << ": " << (full ? "out of memory: use smaller or fewer frames" : error.what())
+              << '\n';
     return static_cast<int>(exitCode(error));
   }
   return endOf(program, 0);

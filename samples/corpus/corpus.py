@@ -1,10 +1,10 @@
 #!/usr/bin/python3
 """The corpus: renders sequences, runs every method on them, and tells what differs by more than chance.
 
-    corpus.py list [--part PART]                what belongs to the corpus, and what it costs
-    corpus.py run --output DIR [--part PART]    render what is missing, run the methods, judge; resumes where it was interrupted
-    corpus.py page [--check] [DIR]              write results.json of DIR into the project and RESULTS.md from it
-    corpus.py agree DIR DIR                     whether two runs rank the methods alike
+    corpus.py list [--part PART]                  what belongs to the corpus, and what it costs
+    corpus.py run --output DIR [--part PART]      render what is missing, run the methods, judge; resumes where it was interrupted
+    corpus.py page [--check] [--name NAME] [DIR]  record the run of DIR in the project; without DIR, write its pages anew
+    corpus.py agree DIR DIR                       whether two runs rank the methods alike
 
 samples/docs/corpus.md describes all of it. Needs numpy and Pillow, which come with Debian's python3-matplotlib.
 """
@@ -29,9 +29,37 @@ from PIL import Image
 
 HERE = pathlib.Path(__file__).resolve().parent
 BASELINE = "walr"
-KEPT = HERE / "results.json"
-PAGE = HERE / "RESULTS.md"
 OVERVIEW = "places.webp"
+
+
+@dataclasses.dataclass(frozen=True)
+class Record:
+    """A run that is kept in the project: its figures, its page and the picture of its worst places."""
+
+    name: str  # Part of the files' names; that of the daily part is empty.
+
+    def path(self, stem, suffix):
+        return HERE / (f"{stem}_{self.name}{suffix}" if self.name else stem + suffix)
+
+    @property
+    def figures(self):
+        return self.path("results", ".json")
+
+    @property
+    def page(self):
+        return self.path("RESULTS", ".md")
+
+    @property
+    def overview(self):
+        return self.path("places", ".webp")
+
+    def text(self):
+        """The page that the figures give."""
+        return pages.page(json.loads(self.figures.read_text()), self.figures.name, self.overview.name)
+
+
+def records():
+    return [Record(file.stem.removeprefix("results").removeprefix("_")) for file in sorted(HERE.glob("results*.json"))]
 
 
 def default_cache():
@@ -53,7 +81,7 @@ def chosen(arguments):
     missing = sorted({str(e.scene) for e in found if not e.scene.exists()})
     if missing:
         print(f"left out, because there is no file: {', '.join(missing)}", file=sys.stderr)
-    return [dataclasses.replace(e, seed=arguments.seed) for e in found if e.scene.exists()]
+    return [e.restricted(arguments.judged, arguments.seed) for e in found if e.scene.exists()]
 
 
 def variants(arguments):
@@ -133,7 +161,8 @@ def run(arguments):
     output.mkdir(parents=True, exist_ok=True)
     costs = {entry.name: row for entry, *row in table.costs(entries, names)}
     remaining = rendering.Remaining(sum(row[2] for row in costs.values()))
-    kept = {"commit": commit(), "baseline": BASELINE, "part": arguments.part, "seed": arguments.seed, "variants": arguments.variant,
+    part = None if arguments.entries or arguments.judged else arguments.part
+    kept = {"commit": commit(), "baseline": BASELINE, "part": part, "seed": arguments.seed, "variants": arguments.variant,
             "entries": {}, "places": []}
     all_sums = {}
     for entry in entries:
@@ -156,21 +185,22 @@ def run(arguments):
     for name, members in (("summary", open_entries), ("held_back_summary", held)):
         kept[name] = results.summary([all_sums[n] for n in members], names, BASELINE) if members else {}
     (output / "results.json").write_text(pages.as_text(kept))
-    (output / "RESULTS.md").write_text(pages.page(kept), encoding="utf-8")
+    (output / "RESULTS.md").write_text(pages.page(kept, "results.json", OVERVIEW), encoding="utf-8")
     sheets = [Image.open(output / place["file"]) for place in pages.shown_places(kept)]
     places.overview(sheets).save(output / OVERVIEW, quality=85)
     print(f"{output}: results.json, RESULTS.md, and pictures of the worst places")
 
 
-def write_page(arguments):
+def write_pages(arguments):
     if arguments.folder:
-        for name in (KEPT.name, OVERVIEW):
-            shutil.copy(pathlib.Path(arguments.folder) / name, HERE / name)
-    text = pages.page(json.loads(KEPT.read_text()))
-    if not arguments.check:
-        PAGE.write_text(text, encoding="utf-8")
-    elif PAGE.read_text(encoding="utf-8") != text:
-        sys.exit(f"{PAGE}: not what results.json gives; run samples/corpus/corpus.py page")
+        recorded = Record(arguments.name)
+        shutil.copy(pathlib.Path(arguments.folder) / "results.json", recorded.figures)
+        shutil.copy(pathlib.Path(arguments.folder) / OVERVIEW, recorded.overview)
+    for recorded in records():
+        if not arguments.check:
+            recorded.page.write_text(recorded.text(), encoding="utf-8")
+        elif not recorded.page.exists() or recorded.page.read_text(encoding="utf-8") != recorded.text():
+            sys.exit(f"{recorded.page}: not what {recorded.figures.name} gives; run samples/corpus/corpus.py page")
 
 
 def agree(arguments):
@@ -187,6 +217,13 @@ def agree(arguments):
           "the rankings differ only where intervals overlap")
 
 
+def positive(text):
+    number = int(text)
+    if number < 1:
+        raise argparse.ArgumentTypeError("must be at least 1")
+    return number
+
+
 def parse(arguments):
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     commands = parser.add_subparsers(dest="command", required=True)
@@ -197,6 +234,7 @@ def parse(arguments):
         command.add_argument("--held-back", action="store_true", help="also the entries that no sweep may look at")
         command.add_argument("--methods", help="METHOD or METHOD:PRESET, separated by commas; default: all, daily without the slowest")
         command.add_argument("--variant", action="append", default=[], help="NAME=METHOD[:PRESET][,SETTING=VALUE]..., as for walr bench")
+        command.add_argument("--judged", type=positive, metavar="N", help="judge only the first N frames of each sequence")
         command.add_argument("--seed", type=int, default=0, help="seed of the noisy frames; references are shared")
     command.add_argument("--output", required=True, help="folder for results.json, RESULTS.md and pictures")
     command.add_argument("--cache", default=default_cache(), help="folder for frames and judgements; default: %(default)s")
@@ -205,8 +243,9 @@ def parse(arguments):
     command.add_argument("--render-only", action="store_true", help="only render")
     command.add_argument("--keep-pictures", action="store_true", help="keep every result in the cache, about 3 GB for 1920 x 1080")
     command = commands.add_parser("page")
-    command.add_argument("--check", action="store_true")
-    command.add_argument("folder", nargs="?")
+    command.add_argument("--check", action="store_true", help="write nothing; fail if a page is not what its figures give")
+    command.add_argument("--name", default="", help="part of the record's file names, such as 1080; default: none, for the daily part")
+    command.add_argument("folder", nargs="?", help="output of a run to record")
     command = commands.add_parser("agree")
     command.add_argument("first")
     command.add_argument("second")
@@ -215,7 +254,7 @@ def parse(arguments):
 
 def main(arguments=None):
     parsed = parse(arguments)
-    {"list": list_entries, "run": run, "page": write_page, "agree": agree}[parsed.command](parsed)
+    {"list": list_entries, "run": run, "page": write_pages, "agree": agree}[parsed.command](parsed)
 
 
 if __name__ == "__main__":

@@ -10,7 +10,7 @@ PROJECT = pathlib.Path(__file__).resolve().parents[2]
 BUILT_IN = PROJECT / "samples" / "scenes"
 SHARED = PROJECT.parent / "shared" / "scenes"
 
-PATHS_PER_SECOND = 150e3
+PATHS_PER_SECOND = 400e3
 """Paths that `walr render` traces in a second on two idle cores. Scenes differ by about a factor of two."""
 LIMITS = {"daily": 20 / 60, "nightly": 10.0}
 """Hours that a part may take on two idle cores."""
@@ -42,6 +42,11 @@ class Entry:
     @property
     def pixels(self):
         return self.size[0] * self.size[1]
+
+    def restricted(self, judged, seed):
+        """The same entry with another seed, and with only the first `judged` frames that have a reference, if that is not None."""
+        first, last = self.judged
+        return dataclasses.replace(self, seed=seed, judged=(first, last if judged is None else min(last, first + judged - 1)))
 
     def reference_settings(self):
         """What the references depend on. Noisy frames of other seeds and numbers of samples share them."""

@@ -58,7 +58,7 @@ def entries_table(kept):
     rows = []
     for name, entry in sorted(kept["entries"].items(), key=lambda item: (item[1]["size"][1], item[1]["samples"], item[0])):
         row = [f"`{name}`" + (" (held back)" if entry["held_back"] else ""), str(entry["size"][1]), str(entry["samples"]),
-               str(entry["blocks"]), small(entry["reference_noise"])]
+               str(entry["judged"][1] - entry["judged"][0] + 1), str(entry["blocks"]), small(entry["reference_noise"])]
         for method in methods:
             figures = entry["methods"][method]
             error = figures["rmse"]
@@ -67,7 +67,7 @@ def entries_table(kept):
             else:
                 row.append("-" if error is None else f"{small(error[0])} {mark(figures['ratio']['rmse'])}")
         rows.append(row)
-    return table(["sequence", "lines", "samples", "squares", "noise of reference", *(f"`{m}`" for m in methods)], rows)
+    return table(["sequence", "lines", "samples", "frames", "squares", "noise of reference", *(f"`{m}`" for m in methods)], rows)
 
 
 def splits_table(kept, split):
@@ -112,16 +112,18 @@ def places_table(kept):
                   "luminance"], rows)
 
 
-def page(kept):
+def page(kept, figures, overview):
+    """figures, overview: names of the files with the figures and with the picture of the worst places, beside the page."""
     entries = kept["entries"]
     open_entries = {n: e for n, e in entries.items() if not e["held_back"]}
     held = {n: e for n, e in entries.items() if e["held_back"]}
     variants = "".join(f"* `{v.split('=', 1)[0]}` is `{v.split('=', 1)[1]}`.\n" for v in kept["variants"])
+    scope = f"the {kept['part']} part" if kept["part"] else "chosen sequences"
     parts = [f"""# Errors over the corpus
 
-Written by `samples/corpus/corpus.py` from `results.json`. [The manual](../docs/corpus.md) defines every column.
+Written by `samples/corpus/corpus.py` from `{figures}`. [The manual](../docs/corpus.md) defines every column.
 
-Measured at commit {kept['commit']}: the {kept['part']} part, seed {kept['seed']}.
+Measured at commit {kept['commit']}: {scope}, seed {kept['seed']}.
 
 * A ratio below 1 is better than `{kept['baseline']}`. The interval of 95 % is in brackets. **Bold**: 1 is outside the interval.
 * RMSE and flicker are without the noise of the references. FLIP and SSIM contain it, alike for all methods.
@@ -136,5 +138,5 @@ Measured at commit {kept['commit']}: the {kept['part']} part, seed {kept['seed']
     for split in SPLIT_NAMES:
         parts.append("\n" + splits_table(kept, split))
     parts.append("\n## The worst places\n\nTiles of 32 x 32 pixels in the middle judged frame of each sequence. The picture shows them in "
-                 "the order of the table, five in a column.\n\n" + places_table(kept) + "\n![the worst places](places.webp)\n")
+                 "the order of the table, five in a column.\n\n" + places_table(kept) + f"\n![the worst places]({overview})\n")
     return "".join(parts)

@@ -61,9 +61,10 @@ Lights::Lights(const Scene& scene, const std::vector<Instance>& instances, const
     }
     firstEmitter_[i] = static_cast<std::uint32_t>(emitters_.size());
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-      const float area = 0.5F * glm::length(areaVector(instances[i], worldCorners(scene, instances[i], t)));
+      const std::array<glm::vec3, 3> corners = worldCorners(scene, instances[i], t);
+      const float area = 0.5F * glm::length(areaVector(instances[i], corners));
       total += static_cast<double>(area) * brightness(material.emission) * (material.doubleSided ? 2.0 : 1.0);
-      emitters_.push_back({i, t, area, total, 0.0F});
+      emitters_.push_back({i, t, corners, area, total, 0.0F});
     }
   }
   if (!(total > 0.0)) {
@@ -91,7 +92,7 @@ EmitterSample Lights::sampleEmitters(const Scene& scene, const std::vector<Insta
   // Uniform sampling of a triangle (Pharr et al. 2016, 13.6.5).
   const float root = std::sqrt(point.x);
   const glm::vec2 barycentric(root * (1.0F - point.y), root * point.y);
-  const std::array<glm::vec3, 3> corners = worldCorners(scene, instance, emitter.triangle);
+  const std::array<glm::vec3, 3>& corners = emitter.corners;
   const glm::vec3 twiceArea = areaVector(instance, corners);
   const float length = glm::length(twiceArea);
 

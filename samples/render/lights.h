@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -57,6 +58,7 @@ class Lights {
   struct Emitter {
     std::uint32_t instance = 0;
     std::uint32_t triangle = 0;
+    std::array<glm::vec3, 3> corners{};  // In world space.
     float area = 0.0F;
     double cumulative = 0.0;  // Sum of the probabilities of this emitter and all before it.
     float probability = 0.0F;

@@ -30,23 +30,28 @@ std::uint32_t reverseBits(std::uint32_t x) {
 
 // A permutation in which every bit depends only on the bits below it (Laine and Karras 2011). Between two bit reversals
 // it is an Owen scramble (Burley 2020, 3.2).
-std::uint32_t owenScramble(std::uint32_t x, std::uint32_t seed) {
-  x = reverseBits(x);
+std::uint32_t laineKarras(std::uint32_t x, std::uint32_t seed) {
   x += seed;
   x ^= x * 0x6c50b47cU;
   x ^= x * 0xb82f1e52U;
   x ^= x * 0xc7afe638U;
   x ^= x * 0x8d22f6e6U;
-  return reverseBits(x);
+  return x;
 }
 
-// Second dimension of the Sobol sequence; its generator matrix is Pascal's triangle modulo 2.
-std::uint32_t sobolSecond(std::uint32_t index) {
-  std::uint32_t result = 0;
-  for (std::uint32_t column = 0x80000000U; index != 0; index >>= 1U, column ^= column >> 1U) {
-    result ^= (index & 1U) != 0 ? column : 0U;
-  }
-  return result;
+std::uint32_t owenScramble(std::uint32_t x, std::uint32_t seed) {
+  return reverseBits(laineKarras(reverseBits(x), seed));
+}
+
+// The bits of the Sobol sequence's second dimension in reverse order. Its generator matrix is Pascal's triangle modulo
+// 2, the fifth Kronecker power of a matrix of 2 x 2, so that five steps multiply by it (Ahmed 2024).
+std::uint32_t reversedSobolSecond(std::uint32_t index) {
+  index ^= (index >> 16U) & 0x0000ffffU;
+  index ^= (index >> 8U) & 0x00ff00ffU;
+  index ^= (index >> 4U) & 0x0f0f0f0fU;
+  index ^= (index >> 2U) & 0x33333333U;
+  index ^= (index >> 1U) & 0x55555555U;
+  return index;
 }
 
 // Inserts a zero bit above each of the lower 16 bits.
@@ -88,10 +93,11 @@ float toUnit(std::uint32_t x) {
   return static_cast<float>(x >> 8U) * 0x1p-24F;
 }
 
-// A point of the Sobol sequence; its two dimensions are Owen-scrambled independently.
+// A point of the Sobol sequence; its two dimensions are Owen-scrambled independently. The first dimension is the
+// reversed index, so that the scramble's own reversal restores the index.
 glm::vec2 sobolPoint(std::uint32_t index, std::uint32_t seed) {
-  return {toUnit(owenScramble(reverseBits(index), combine(seed, 1U))),
-          toUnit(owenScramble(sobolSecond(index), combine(seed, 2U)))};
+  return {toUnit(reverseBits(laineKarras(index, combine(seed, 1U)))),
+          toUnit(reverseBits(laineKarras(reversedSobolSecond(index), combine(seed, 2U))))};
 }
 
 }  // namespace

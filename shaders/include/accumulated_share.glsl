@@ -4,6 +4,8 @@
 // prediction p, the product of their residuals is 0 in the mean.
 // The residual is split into two levels: its mean over the pixels around on the same surface, and what the pixel's own
 // differs from that. Each level has its own share. So have pixels beside an edge, where the fits miss most.
+// If the light is resampled, the noise of y and h is not independent (ReSTIR). Then it is still so from pixel to pixel:
+// trust is the part of the shares that is left, and falls if residuals two pixels apart do not agree.
 // Needs: `frame` (FrameConstants), `constants` (BlockRegressionConstants), kBlockSize, workgroups of 8 x 8, and
 // block_plane.glsl.
 #ifndef WALR_ACCUMULATED_SHARE_GLSL
@@ -22,6 +24,7 @@ uniform texture2D accumulatedHalf;
 uniform texture2D lighting;
 uniform texture2D previousStatistics;      // residual_statistics.comp.
 uniform texture2D previousEdgeStatistics;  // The same of pixels beside an edge.
+uniform sampler2D previousAgreement;       // Blue: trust.
 layout(rgba32f) uniform writeonly image2D outResidualSums;
 layout(rgba32f) uniform writeonly image2D outEdgeSums;
 
@@ -31,29 +34,37 @@ vec4 accumulatedAt(ivec2 p) {
 
 // Sums over pixels. xy: of the mean around a pixel; zw: of what the pixel's own residual differs from it. x and z:
 // product of the residuals of y and h, which is the square of what the fits miss; y and w: square of the noise of one
-// sample. `before`: the position in the previous camera's view space.
-vec4 previousStatisticsAt(vec3 before, bool edge) {
-  if (before.z >= 0.0) return vec4(0.0);
+// sample.
+struct Statistics {
+  vec4 sums;
+  float trust;
+};
+
+// `before`: the position in the previous camera's view space.
+Statistics previousStatisticsAt(vec3 before, bool edge) {
+  if (before.z >= 0.0) return Statistics(vec4(0.0), 0.0);
   const int tileSize = int(gl_WorkGroupSize.x) / kBlockSize * kBlockSize;
   const vec2 tile = (pixelOf(frame.previousRayFromPixel, before) + float((kBlockSize + 1) / 2)) / float(tileSize) - 0.5;
   const ivec2 last = textureSize(previousStatistics, 0) - 1;
   const vec2 base = clamp(floor(tile), vec2(-1.0), vec2(last)), f = tile - floor(tile);
-  vec4 sum = vec4(0.0);
+  const vec4 trust = textureGather(previousAgreement, (base + 1.0) / vec2(last + 1), 2).wzxy;
+  Statistics found = Statistics(vec4(0.0), 0.0);
   [[unroll]] for (int i = 0; i < 4; ++i) {
     const ivec2 corner = ivec2(i & 1, i >> 1);
     const ivec2 q = clamp(ivec2(base) + corner, ivec2(0), last);
-    const vec2 weight = mix(1.0 - f, f, vec2(corner));
-    sum += weight.x * weight.y *
-           (edge ? texelFetch(previousEdgeStatistics, q, 0) : texelFetch(previousStatistics, q, 0));
+    const vec2 weights = mix(1.0 - f, f, vec2(corner));
+    const float weight = weights.x * weights.y;
+    found.sums += weight * (edge ? texelFetch(previousEdgeStatistics, q, 0) : texelFetch(previousStatistics, q, 0));
+    found.trust += weight * trust[i];
   }
-  return sum;
+  return found;
 }
 
 // The share that makes the expected square of the error least where the residual is a mean of `samples` samples. The
 // statistics have errors of their own, so that a small share is none.
-float accumulatedShare(vec2 statistics, float samples) {
+float accumulatedShare(vec2 statistics, float samples, float trust) {
   const float missed = max(statistics.x, 0.0), noise = max(statistics.y, 0.0) / samples;
-  const float share = missed / max(missed + noise, 1e-30);
+  const float share = trust * missed / max(missed + noise, 1e-30);
   return clamp((share - constants.residualLeastShare) / (1.0 - constants.residualLeastShare), 0.0, 1.0);
 }
 
@@ -130,6 +141,19 @@ Residual meanAround(Shown shown, out bool edge) {
   return Residual(scale * sum.mean, scale * sum.noisy, scale * sum.history, scale * sum.samples);
 }
 
+// Threads along an axis that have a pixel.
+const int kGroupPixels = kGroupSize / kBlockSize * kBlockSize;
+
+// Product of this frame's residual at a pixel and the history's at the pixel two further along axis `axis`, or two
+// before it at the end of the group, on the same surface. It is free of the noise that y and h of one pixel share.
+float farProduct(Shown shown, Residual own, int axis) {
+  ivec2 t = ivec2(gl_LocalInvocationID.xy);
+  t[axis] += t[axis] + 2 < kGroupPixels ? 2 : -2;
+  const uint q = uint(t.y * kGroupSize + t.x);
+  if (groupNormals[q].a == 0.0 || sameSurface(shown, q) < 0.5) return 0.0;
+  return 0.5 * (own.noisy * groupHistories[q].x + own.history * groupResiduals[q].a);
+}
+
 // What a residual adds to the sums of its level (previousStatisticsAt).
 vec2 statisticsOf(float noisy, float history, float mean, float samples) {
   const float missed = noisy * history;
@@ -141,12 +165,14 @@ const float kMostSquare = 1e30;   // and so are sums over tiles of these.
 
 // Writes what this workgroup adds to the statistics, relative to the square of its mean light, so that a bright one
 // does not outweigh its neighbours. `light`: predicted luminance of a pixel with statistics and 1; else 0.
-void storeSums(vec2 light, vec4 statistics, bool edge, vec2 innovation) {
+void storeSums(vec2 light, vec4 statistics, bool edge, vec2 innovation, vec2 far) {
   const vec4 first = sumOverGroup(vec4(light, innovation));
   barrier();
   const vec4 interior = sumOverGroup(edge ? vec4(0.0) : statistics);
   barrier();
   const vec4 edges = sumOverGroup(edge ? statistics : vec4(0.0));
+  barrier();
+  const vec4 distant = sumOverGroup(vec4(far, 0.0, 0.0));
   if (gl_LocalInvocationIndex != 0u) return;
   const float perLight = first.x > kLeastLight ? first.y / first.x : 0.0;
   const float scale = perLight * perLight;
@@ -154,7 +180,7 @@ void storeSums(vec2 light, vec4 statistics, bool edge, vec2 innovation) {
   const ivec2 tile = ivec2(gl_WorkGroupID.xy);
   imageStore(outResidualSums, tile, clamp(scale * interior, -most, most));
   imageStore(outEdgeSums, tile, clamp(scale * edges, -most, most));
-  imageStore(outInnovationSums, tile, clamp(scale * vec4(first.zw, 0.0, 0.0), -most, most));
+  imageStore(outInnovationSums, tile, clamp(scale * vec4(first.zw, distant.xy), -most, most));
 }
 
 // The prediction of a pixel mixed with its accumulated light. All threads of the workgroup must call it.
@@ -166,26 +192,27 @@ vec3 withAccumulated(ivec2 p, bool hasPixel, Shown shown) {
 
   vec3 result = shown.predicted;
   vec4 statistics = vec4(0.0);
-  vec2 light = vec2(0.0), ofInnovation = vec2(0.0);
+  vec2 light = vec2(0.0), ofInnovation = vec2(0.0), far = vec2(0.0);
   bool edge = false;
   float innovation = 0.0;
   if (mean.a > 0.0) {
     const vec3 before = previousPosition(frame.previousViewFromView, shown.position);
     const Residual around = meanAround(shown, edge);
-    const vec4 known = previousStatisticsAt(before, edge);
+    const Statistics known = previousStatisticsAt(before, edge);
     const vec3 detail = own.mean - around.mean;
-    result += accumulatedShare(known.xy, around.samples) * around.mean;
-    result += accumulatedShare(known.zw, mean.a) * detail;
+    result += accumulatedShare(known.sums.xy, around.samples, known.trust) * around.mean;
+    result += accumulatedShare(known.sums.zw, mean.a, known.trust) * detail;
     if (own.samples > 0.0) {
       light = vec2(luminance(shown.predicted), 1.0);
       statistics.xy = statisticsOf(around.noisy, around.history, luminance(around.mean), around.samples);
       statistics.zw = statisticsOf(own.noisy - around.noisy, own.history - around.history, luminance(detail), mean.a);
       innovation = own.noisy - own.history;
       ofInnovation = innovationTerms(innovation, before);
+      far = vec2(farProduct(shown, own, 0), farProduct(shown, own, 1));
     }
   }
   if (hasPixel) storeInnovation(p, innovation);
-  storeSums(light, statistics, edge, ofInnovation);
+  storeSums(light, statistics, edge, ofInnovation, far);
   return max(result, vec3(0.0));
 }
 

@@ -1,5 +1,5 @@
 // The guides of one pixel: depth, and what `packedGuides` fetches. With OCCLUSION that comes from `features`, else from
-// `shadingNormal`.
+// `shadingNormal`. Needs: `depth`.
 #ifndef WALR_FLR_GUIDES_GLSL
 #define WALR_FLR_GUIDES_GLSL
 #include "flr.glsl"
@@ -9,6 +9,7 @@
 uniform utexture2D features;
 
 uint packedGuides(ivec2 p) { return texelFetch(features, p, 0).x; }
+float depthAt(ivec2 p) { return unpackDepthBesideNormal(texelFetch(depth, p, 0).x); }
 
 float[kFeatures] unpackGuides(uint packed, float z) {
   const NormalAndOcclusion s = unpackNormalAndOcclusion(packed);
@@ -18,6 +19,7 @@ float[kFeatures] unpackGuides(uint packed, float z) {
 uniform utexture2D shadingNormal;
 
 uint packedGuides(ivec2 p) { return texelFetch(shadingNormal, p, 0).x; }
+float depthAt(ivec2 p) { return unpackDepth(texelFetch(depth, p, 0).x); }
 
 float[kFeatures] unpackGuides(uint packed, float z) {
   const vec3 n = unpackLongNormal(packed);

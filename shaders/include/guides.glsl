@@ -43,16 +43,6 @@ struct Surface {
 #include "ambient_occlusion.glsl"
 #endif
 
-#ifdef GEOMETRIC_NORMAL
-uint packGeometricNormal(vec3 n) {
-#ifdef OCCLUSION
-  return packShortNormal(n);
-#else
-  return packNormal(n);
-#endif
-}
-#endif
-
 // Diffuse albedo; 1 if it is not read.
 vec3 albedoAt(ivec2 p) { return kDiffuseMask ? texelFetch(albedo, p, 0).xyz : vec3(1.0); }
 
@@ -82,9 +72,9 @@ Surface surfaceAt(ivec2 p, float z, uint depthEnd) {
 
 // The guides of a pixel as textures hold them (surface.glsl). All of them are 0 without a surface.
 struct PackedGuides {
-  uint depth;
+  uint depth;            // With OCCLUSION and GEOMETRIC_NORMAL also the geometric normal.
   uint features;         // The shading normal, and with OCCLUSION ambient occlusion.
-  uint geometricNormal;  // 0 without GEOMETRIC_NORMAL.
+  uint geometricNormal;  // 0 without GEOMETRIC_NORMAL and with OCCLUSION.
 };
 
 // The guides of this thread's pixel. All threads of a work group must call it, even those outside the image: these
@@ -103,9 +93,15 @@ PackedGuides guidesOfPixel() {
   PackedGuides guides = PackedGuides(0u, 0u, 0u);
   if (surface.depth == 0.0) return guides;
 
+#if defined(OCCLUSION) && defined(GEOMETRIC_NORMAL)
+  guides.depth = packDepthNormal(surface.depth, packShortNormal(geometricNormalOf(surface)));
+#elif defined(OCCLUSION)
+  guides.depth = packDepthNormal(surface.depth, 0u);
+#else
   guides.depth = packDepthSdf(surface.depth, 0u);
 #ifdef GEOMETRIC_NORMAL
-  guides.geometricNormal = packGeometricNormal(geometricNormalOf(surface));
+  guides.geometricNormal = packNormal(geometricNormalOf(surface));
+#endif
 #endif
 #ifdef OCCLUSION
   const float occlusion = ambientOcclusion(p, surface, depthEnd);

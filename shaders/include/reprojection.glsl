@@ -25,7 +25,6 @@ layout(constant_id = 14) const bool kRejectByDepth = false;
 #ifdef OBJECTS
 layout(constant_id = 15) const bool kRejectByObject = false;
 #endif
-layout(constant_id = 16) const bool kShortNormals = false;  // Geometric normals are short ones (surface.glsl).
 layout(constant_id = 10) const bool kJitter = true;
 #if defined(KEEP_TAPS)
 const bool kKeepableMotion = true;
@@ -35,14 +34,28 @@ layout(constant_id = 11) const bool kKeepableMotion = false;
 const bool kKeepableMotion = false;
 #endif
 
+// kNormalBesideDepth: a texel of depth also holds the geometric normal (surface.glsl).
 #ifdef GUIDES
+const bool kNormalBesideDepth = true;
 PackedGuides ownGuides;
 uint packedDepthAt(ivec2 p) { return ownGuides.depth; }
-uint packedGeometricNormalAt(ivec2 p) { return ownGuides.geometricNormal; }
+uint packedGeometricNormalAt(ivec2 p) { return ownGuides.depth; }
+uvec4 gatherNormals(uvec4 packedDepths, vec2 corner) { return packedDepths; }
 #else
+layout(constant_id = 16) const bool kNormalBesideDepth = false;
 uint packedDepthAt(ivec2 p) { return texelFetch(depth, p, 0).x; }
-uint packedGeometricNormalAt(ivec2 p) { return texelFetch(geometricNormal, p, 0).x; }
+uint packedGeometricNormalAt(ivec2 p) {
+  return kNormalBesideDepth ? packedDepthAt(p) : texelFetch(geometricNormal, p, 0).x;
+}
+// Those of the taps whose depths are given.
+uvec4 gatherNormals(uvec4 packedDepths, vec2 corner) {
+  return kNormalBesideDepth ? packedDepths : gatherTaps(previousGeometricNormal, corner);
+}
 #endif
+float depthAt(ivec2 p) {
+  const uint packed = packedDepthAt(p);
+  return kNormalBesideDepth ? unpackDepthBesideNormal(packed) : unpackDepth(packed);
+}
 
 struct Reprojection {
   vec2 motion;  // To the previous frame, pixels of this one.
@@ -64,7 +77,7 @@ ivec2 nearestPixel(ivec2 p, float z) {
   ivec2 nearest = p;
   for (int i = 0; i < 9; ++i) {
     const ivec2 q = clamp(p + ivec2(i % 3, i / 3) - 1, ivec2(0), textureSize(depth, 0) - 1);
-    const float candidate = unpackDepth(packedDepthAt(q));
+    const float candidate = depthAt(q);
     if (candidate > 0.0 && candidate < z) {
       z = candidate;
       nearest = q;
@@ -83,7 +96,7 @@ vec3 previousPositionAt(ivec2 p, float z) {
 
 vec2 motionAt(ivec2 p) {
   if (!kMotionFromCamera) return texelFetch(motion, p, 0).xy * frame.motionScale;
-  const vec3 before = previousPositionAt(p, unpackDepth(packedDepthAt(p)));
+  const vec3 before = previousPositionAt(p, depthAt(p));
   return pixelOf(frame.previousRayFromPixel, before) - pixelCentre(p);
 }
 float previousDepthOf(ivec2 p, float z) {
@@ -106,14 +119,10 @@ Reprojection reproject(ivec2 p, float z) {
   return r;
 }
 
-// The direction of a geometric normal. Not normalised.
-vec3 geometricDirection(uint packed) {
-  return kShortNormals ? shortNormalDirection(packed) : longNormalDirection(packed);
-}
-
 // The geometric normal of pixel `p` in the previous view space.
 vec3 previousNormalAt(ivec2 p) {
-  const vec3 normal = normalize(geometricDirection(packedGeometricNormalAt(p)));
+  const uint packed = packedGeometricNormalAt(p);
+  const vec3 normal = kNormalBesideDepth ? unpackShortNormal(packed) : unpackLongNormal(packed);
   return mat3(frame.previousViewFromView) * normal;
 }
 
@@ -162,12 +171,19 @@ bvec4 tapsOnPlane(HistoryTaps taps, Reprojection r, bvec4 candidates, vec3 norma
 
 // Which taps, of the given packed geometric normals, have at least the cosine `threshold` with `normal`.
 bvec4 tapsFacing(uvec4 packed, vec3 normal, float threshold) {
-  vec4 cosines;
+  vec4 excess;  // At least 0 where the cosine is at least the threshold.
   for (int i = 0; i < 4; ++i) {
-    const vec3 direction = geometricDirection(packed[i]);
-    cosines[i] = dot(normal, direction) * inversesqrt(dot(direction, direction));
+    if (kNormalBesideDepth) {
+      // (cosine - threshold) (1 + e . e), e being the point of the projection.
+      const vec2 e = shortNormalPoint(packed[i]);
+      const vec2 factors = 2.0 * normal.xy - (normal.z + threshold) * e;
+      excess[i] = dot(e, factors) + (normal.z - threshold);
+    } else {
+      const vec3 direction = longNormalDirection(packed[i]);
+      excess[i] = dot(normal, direction) * inversesqrt(dot(direction, direction)) - threshold;
+    }
   }
-  return greaterThanEqual(cosines, vec4(threshold));
+  return greaterThanEqual(excess, vec4(0.0));
 }
 
 // The history taps of pixel `p`, accepted where they show the reprojected surface. kRejectByPlane: they are within
@@ -186,7 +202,8 @@ HistoryTaps historyTaps(ivec2 p, Reprojection r, float tolerance, float normalTh
   }
 #endif
   if (kRejectByPlane || kRejectByDepth) {
-    const vec4 depths = unpackDepth(gatherTaps(previousDepth, corner));
+    const uvec4 packedDepths = gatherTaps(previousDepth, corner);
+    const vec4 depths = kNormalBesideDepth ? unpackDepthBesideNormal(packedDepths) : unpackDepth(packedDepths);
     accepted = both(accepted, greaterThan(depths, vec4(0.0)));
     if (kRejectByDepth) {
       accepted = both(accepted, tapsNear(r, accepted, depths, tolerance));
@@ -195,7 +212,7 @@ HistoryTaps historyTaps(ivec2 p, Reprojection r, float tolerance, float normalTh
       // Depth is found among the taps that face the surface. Without that, this order takes fewer registers.
       if (!kMotionDepthFound)
         accepted = both(accepted, tapsOnPlane(taps, r, accepted, normal, depths, tolerance));
-      accepted = both(accepted, tapsFacing(gatherTaps(previousGeometricNormal, corner), normal, normalThreshold));
+      accepted = both(accepted, tapsFacing(gatherNormals(packedDepths, corner), normal, normalThreshold));
       if (kMotionDepthFound) accepted = both(accepted, tapsOnPlane(taps, r, accepted, normal, depths, tolerance));
     }
   }

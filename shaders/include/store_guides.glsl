@@ -9,12 +9,8 @@ layout(r32ui) uniform writeonly uimage2D outFeatures;
 #else
 layout(r32ui) uniform writeonly uimage2D outShadingNormal;
 #endif
-#ifdef GEOMETRIC_NORMAL
-#ifdef OCCLUSION
-layout(r16ui) uniform writeonly uimage2D outGeometricNormal;
-#else
+#if defined(GEOMETRIC_NORMAL) && !defined(OCCLUSION)
 layout(r32ui) uniform writeonly uimage2D outGeometricNormal;
-#endif
 #endif
 
 void storeGuides(ivec2 p, PackedGuides guides) {
@@ -24,7 +20,7 @@ void storeGuides(ivec2 p, PackedGuides guides) {
 #else
   imageStore(outShadingNormal, p, uvec4(guides.features));
 #endif
-#ifdef GEOMETRIC_NORMAL
+#if defined(GEOMETRIC_NORMAL) && !defined(OCCLUSION)
   imageStore(outGeometricNormal, p, uvec4(guides.geometricNormal));
 #endif
 }

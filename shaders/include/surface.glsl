@@ -41,36 +41,46 @@ uvec2 octahedralSteps(vec3 n, float steps) {
 }
 
 // A normal in one R32_UINT: two 16-bit coordinates of the octahedral map. Those of the shading normal, in [0, 1], are
-// the features of the regression over pixels. The second coordinate is never 0, which tells this format from a short
-// normal.
-const uint kShortNormalEnd = 1u << 16;
-
-uint packNormal(vec3 n) {
-  const uint packed = packUnorm2x16(octahedralEncode(n));
-  return packed < kShortNormalEnd ? packed | kShortNormalEnd : packed;
-}
+// the features of the regression over pixels.
+uint packNormal(vec3 n) { return packUnorm2x16(octahedralEncode(n)); }
 vec2 unpackFeatures(uint packed) { return unpackUnorm2x16(packed); }
 vec3 longNormalDirection(uint packed) { return octahedralDirection(unpackFeatures(packed) * 2.0 - 1.0, 1.0); }
 vec3 unpackLongNormal(uint packed) { return normalize(longNormalDirection(packed)); }
 
-// A short normal: R16_UINT, accurate to a degree, which suffices for the plane of a block. The number of steps is even,
-// so that a normal along the view axis is exact.
-const float kShortNormalSteps = 254.0;
+// A short normal: two coordinates of six bits, which suffices for the plane of a block. They are a stereographic
+// projection, which is n.xy / (1 + n.z) for a unit normal n, in steps of 1/16 from -31/16 to 31/16. It holds normals up
+// to 125 degrees from the view axis to 5 degrees; normals that face the camera lie further away only in corners of a
+// wide image, and get the nearest coordinates. The pole is no step off, so that a normal along the view axis is exact.
+const int kShortNormalBits = 12;
+const uint kShortNormalMask = (1u << kShortNormalBits) - 1u;
+const float kShortNormalSteps = 16.0;   // Per unit of the projection.
+const float kShortNormalCentre = 31.0;  // Step of the pole.
 
+// `n`: not normalised.
 uint packShortNormal(vec3 n) {
-  const uvec2 steps = octahedralSteps(n, kShortNormalSteps);
-  return steps.x | steps.y << 8;
+  const vec2 point = n.xy / max(n.z + length(n), 1e-30);
+  const uvec2 steps = uvec2(clamp(point * kShortNormalSteps + (kShortNormalCentre + 0.5), 0.0, 2.0 * kShortNormalCentre));
+  return steps.x | steps.y << 6;
 }
-vec3 shortNormalDirection(uint packed) {
-  const float centre = 0.5 * kShortNormalSteps;
-  return octahedralDirection(vec2(packed & 0xffu, packed >> 8 & 0xffu) - centre, centre);
+// The point of the projection. Bits above those of the short normal do not matter.
+vec2 shortNormalPoint(uint packed) {
+  const uvec2 steps = uvec2(bitfieldExtract(packed, 0, 6), bitfieldExtract(packed, 6, 6));
+  return vec2(steps) / kShortNormalSteps - kShortNormalCentre / kShortNormalSteps;
 }
-vec3 unpackShortNormal(uint packed) { return normalize(shortNormalDirection(packed)); }
+vec3 unpackShortNormal(uint packed) {
+  const vec2 point = shortNormalPoint(packed);
+  const float squared = dot(point, point);
+  return vec3(2.0 * point, 1.0 - squared) / (1.0 + squared);
+}
 
-// Unpacks a normal of either format.
-vec3 unpackNormal(uint packed) {
-  return packed < kShortNormalEnd ? unpackShortNormal(packed) : unpackLongNormal(packed);
+// Depth and geometric normal share one R32_UINT. The short normal takes the lowest mantissa bits, which leaves depth a
+// relative rounding error of 2^-12. 0 marks a pixel without a surface to denoise.
+uint packDepthNormal(float depth, uint shortNormal) {
+  const uint rounded = (floatBitsToUint(depth) + (kShortNormalMask + 1u) / 2u) & ~kShortNormalMask;
+  return rounded | shortNormal;
 }
+float unpackDepthBesideNormal(uint packed) { return uintBitsToFloat(packed & ~kShortNormalMask); }
+vec4 unpackDepthBesideNormal(uvec4 packed) { return uintBitsToFloat(packed & ~kShortNormalMask); }
 
 // Shading normal (two coordinates of 12 bits) and ambient occlusion in [0, 1] (8 bits) in one R32_UINT.
 struct NormalAndOcclusion {

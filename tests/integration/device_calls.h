@@ -8,8 +8,6 @@
 
 #include <vulkan/vulkan_core.h>
 
-#include "framegraph/vulkan/device_context.h"
-
 /// Counts the library's calls of the driver, through the functions of WalrDevice::get_instance_proc_addr.
 namespace walr::test {
 
@@ -96,9 +94,9 @@ inline PFN_vkVoidFunction instanceProcAddr(VkInstance instance, const char* name
 }  // namespace detail
 
 /// The function for WalrDevice::get_instance_proc_addr that counts calls. Resets `deviceCalls`.
-inline PFN_vkGetInstanceProcAddr countDeviceCalls(const fg::vk::DeviceContext& device) {
+inline PFN_vkGetInstanceProcAddr countDeviceCalls(PFN_vkGetInstanceProcAddr real) {
   deviceCalls = {};
-  detail::realInstanceProcAddr = device.view.getInstanceProcAddr;
+  detail::realInstanceProcAddr = real;
   return detail::instanceProcAddr;
 }
 

@@ -5,14 +5,66 @@
 #include <cstdlib>
 #include <thread>
 
+#include "conformance.h"
 #include "granite/engine.h"
-#include "plugin_host.h"
 
 namespace plugin_host {
 namespace {
 
-class Granite : public PluginTest {
+/// The passes in a graph of their own.
+class GraniteDenoiser : public HostedDenoiser {
+ public:
+  /// @param passes destroyed with this object
+  GraniteDenoiser(Host& host, const WalrApi& api, WalrPasses passes, const WalrDenoiserInfo& info)
+      : host_(&host),
+        api_(&api),
+        passes_(passes),
+        timeline_(host.device),
+        engine_(host),
+        hasLengths_(info.history_length == VK_TRUE) {
+    const WalrPassList* list = nullptr;
+    if (api.get_pass_list(passes, &list) != WALR_SUCCESS) throw std::runtime_error(api.last_error());
+    engine_.build(api, passes, *list, info.width, info.height);
+  }
+  ~GraniteDenoiser() override {
+    engine_.drop();
+    EXPECT_EQ(api_->destroy_passes(passes_), WALR_SUCCESS);
+  }
+
+  void frame(const Inputs& inputs, const WalrPassFrame& frame, bool reset) override {
+    engine_.frame(frame, inputs, reset);
+    shown_ = engine_.read();  // Waits for the GPU.
+    if (frame.finished != VK_NULL_HANDLE) host_signal(host_, timeline_.semaphore(), timeline_.raise());
+  }
+  /// The lower half of what is shown are the history lengths, in its first channel.
+  Texels read(const std::string& name) override {
+    if (!hasLengths_ && name == "denoised") return shown_;
+    const auto middle = shown_.begin() + std::ptrdiff_t(shown_.size() / 2);
+    if (name == "denoised") return {shown_.begin(), middle};
+    Texels lengths;
+    for (auto texel = middle; texel != shown_.end(); texel += 4) lengths.push_back(*texel);
+    return lengths;
+  }
+  std::pair<VkSemaphore, std::uint64_t> nextCompletion() override {
+    return {timeline_.semaphore(), timeline_.value() + 1};
+  }
+  [[nodiscard]] WalrPasses passes() const override { return passes_; }
+
+ private:
+  Host* host_;
+  const WalrApi* api_;
+  WalrPasses passes_;
+  walr::test::HostTimeline timeline_;
+  granite_host::Engine engine_;
+  Texels shown_;
+  bool hasLengths_;
+};
+
+class Granite : public PassByPassTest {
  protected:
+  std::unique_ptr<HostedDenoiser> make(const WalrDenoiserInfo& info, const char* /*view*/) override {
+    return std::make_unique<GraniteDenoiser>(host, api(), makePasses(info), info);
+  }
   /// Granite records every pass into its own command buffer, so hazards occur between submissions.
   void openHost() override {
     setenv("VK_LAYER_ENABLES", "VALIDATION_CHECK_ENABLE_SYNCHRONIZATION_VALIDATION_QUEUE_SUBMIT", 1);
@@ -20,9 +72,9 @@ class Granite : public PluginTest {
     unsetenv("VK_LAYER_ENABLES");
   }
 
-  static std::vector<std::vector<float>> inputs(Size size, std::uint32_t number) {
-    std::vector<std::vector<float>> result;
-    for (const char* input : kInputs) result.push_back(texels(input, size, number));
+  static Inputs inputs(Size size, std::uint32_t number) {
+    Inputs result;
+    for (const char* input : kInputs) result[input] = texels(input, size, number);
     return result;
   }
 
@@ -64,6 +116,13 @@ TEST_F(Granite, EveryMethodGivesTheSamePixelsThroughResetAndResize) {
     for (const Size size : {Size{61, 43}, Size{40, 45}}) compare(engine, type->name, size);
   }
 }
+
+class GraniteFeatures : public Granite, public testing::WithParamInterface<Feature> {};
+
+TEST_P(GraniteFeatures, GiveThePixelsOfAPlainHost) {
+  check(GetParam());
+}
+INSTANTIATE_TEST_SUITE_P(Every, GraniteFeatures, testing::ValuesIn(features()), nameOfFeature);
 
 TEST_F(Granite, FramesInFlightGiveTheSamePixels) {
   constexpr Size kSize{61, 43};
@@ -110,6 +169,7 @@ class Listed {
       }
       for (const WalrBinding& binding : bindings_[i]) bindingPointers_[i].push_back(&binding);
       dispatches_[i].name = names_[i].c_str();
+      dispatches_[i].indirect = WALR_NONE;
       dispatches_[i].bindings = bindingPointers_[i].data();
       dispatches_[i].binding_count = static_cast<std::uint32_t>(bindings_[i].size());
       dispatchPointers_.push_back(&dispatches_[i]);
@@ -167,7 +227,8 @@ TEST_F(Granite, OnlyOneThreadAtATimeCallsWalr) {
   const Listed listed({"a", "b", "c", "finish"}, 4,
                       {{{0, true}}, {{1, true}}, {{2, true}}, {{0, false}, {1, false}, {2, false}, {3, true}}});
   engine.build(slow, nullptr, listed.list(), 8, 8);
-  run(engine, {8, 8}, 0);
+  const WalrCamera camera = cameraAt(0);
+  engine.frame(passFrame(camera), {}, false);
   engine.drop();
   EXPECT_EQ(mostInWalr, 1);
 }

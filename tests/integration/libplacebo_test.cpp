@@ -1,9 +1,6 @@
 // walr with libplacebo as the host: libplacebo creates the images, fills them and reads the result back. Semaphores
 // order its work and walr's.
-#include <map>
-
-#include "plugin_host.h"
-#include "tests/integration/host_timeline.h"
+#include "conformance.h"
 
 extern "C" {
 #include <libplacebo/vulkan.h>
@@ -12,7 +9,8 @@ extern "C" {
 namespace plugin_host {
 namespace {
 
-constexpr Size kSize{61, 43};
+/// libplacebo waits with vkWaitSemaphoresKHR, which a device of Vulkan 1.2 has with this extension only.
+constexpr const char* kExtensions[] = {VK_KHR_TIMELINE_SEMAPHORE_EXTENSION_NAME};
 
 /// A texture of libplacebo and its image.
 struct Shared {
@@ -22,11 +20,125 @@ struct Shared {
   VkImageUsageFlags usage = 0;
 };
 
-class LibplaceboTest : public PluginTest {
+/// libplacebo's name of a format.
+const char* nameOf(VkFormat format) {
+  constexpr std::pair<VkFormat, const char*> kNames[] = {{VK_FORMAT_R16_SFLOAT, "r16hf"},
+                                                         {VK_FORMAT_R32_SFLOAT, "r32f"},
+                                                         {VK_FORMAT_R32G32_SFLOAT, "rg32f"},
+                                                         {VK_FORMAT_R16G16B16A16_SFLOAT, "rgba16hf"},
+                                                         {VK_FORMAT_R32G32B32A32_SFLOAT, "rgba32f"}};
+  const auto* found = std::ranges::find(kNames, format, [](const auto& pair) { return pair.first; });
+  if (found == std::end(kNames)) throw std::runtime_error("libplacebo has no format " + std::to_string(format));
+  return found->second;
+}
+
+/// A denoiser whose images are libplacebo's textures. Semaphores hand them over and back.
+class LibplaceboDenoiser : public HostedCall {
+ public:
+  LibplaceboDenoiser(pl_gpu gpu, Host& host, const WalrApi& api, const WalrDenoiserInfo& info, const char* view)
+      : HostedCall(api, info, view), gpu_(gpu), host_(&host), timeline_(host.device) {
+    for (const NeededImage& image : needed()) shared_.push_back(create(image));
+  }
+  ~LibplaceboDenoiser() override {
+    pl_gpu_finish(gpu_);
+    destroyDenoiser();
+    for (Shared& image : shared_) pl_tex_destroy(gpu_, &image.texture);
+  }
+
+  void frame(const Inputs& inputs, const WalrPassFrame& like, bool reset) override {
+    WalrFrame frame = frameLike(like, reset ? WALR_FRAME_RESET_HISTORY : 0);
+    std::vector<WalrImage> images(shared_.size());
+    for (const auto& [name, values] : inputs) upload(name, values);
+    for (std::size_t i = 0; i < shared_.size(); ++i) {
+      if (!pl_vulkan_hold(gpu_, shared_[i].texture, VK_IMAGE_LAYOUT_GENERAL,
+                          {timeline_.semaphore(), timeline_.raise()})) {
+        throw std::runtime_error("libplacebo holds no " + needed()[i].name);
+      }
+      images[i] = describe(shared_[i], needed()[i].size);
+      imageOf(frame, needed()[i].name) = &images[i];
+    }
+    pl_gpu_flush(gpu_);
+
+    const VkCommandBuffer commands = host_begin(host_);
+    const WalrResult result = api().record(denoiser(), commands, &frame);
+    const std::uint64_t waited = timeline_.value();
+    const std::uint64_t done = timeline_.raise();
+    host_submit_between(host_, commands, timeline_.semaphore(), waited, done);
+
+    for (const Shared& image : shared_) {
+      pl_vulkan_release(gpu_, image.texture, VK_IMAGE_LAYOUT_GENERAL, {timeline_.semaphore(), done});
+    }
+    require(result);
+  }
+
+  Texels read(const std::string& name) override {
+    const Shared& image = shared_.at(indexOf(name));
+    Texels result(image.texture->params.format->texel_size / sizeof(std::uint16_t) *
+                  std::size_t(image.texture->params.w * image.texture->params.h));
+    pl_tex_transfer_params transfer{};
+    transfer.tex = image.texture;
+    transfer.ptr = result.data();
+    if (!pl_tex_download(gpu_, &transfer)) throw std::runtime_error("libplacebo reads no " + name);
+    return result;
+  }
+
+  /// libplacebo raises the semaphore once for each image that it hands over, and the host once after the frame.
+  std::pair<VkSemaphore, std::uint64_t> nextCompletion() override {
+    return {timeline_.semaphore(), timeline_.value() + shared_.size() + 1};
+  }
+
+ private:
+  [[nodiscard]] Shared create(const NeededImage& image) const {
+    pl_tex_params params{};
+    params.w = static_cast<int>(image.size.width);
+    params.h = static_cast<int>(image.size.height);
+    params.format = pl_find_named_fmt(gpu_, nameOf(image.format));
+    params.sampleable = true;
+    params.storable = image.written();
+    params.host_writable = !image.written();
+    params.host_readable = image.written();
+    Shared shared;
+    shared.texture = pl_tex_create(gpu_, &params);
+    if (shared.texture == nullptr) throw std::runtime_error("libplacebo makes no " + image.name);
+    shared.image = pl_vulkan_unwrap(gpu_, shared.texture, &shared.format, &shared.usage);
+    return shared;
+  }
+
+  void upload(const std::string& name, std::vector<float> values) {
+    pl_tex_transfer_params transfer{};
+    transfer.tex = shared_.at(indexOf(name)).texture;
+    transfer.ptr = values.data();
+    if (!pl_tex_upload(gpu_, &transfer)) throw std::runtime_error("libplacebo fills no " + name);
+  }
+
+  static WalrImage describe(const Shared& shared, Size size) {
+    WalrImage image{};
+    image.struct_size = sizeof(image);
+    image.queue_family = VK_QUEUE_FAMILY_IGNORED;
+    image.image = shared.image;
+    image.format = shared.format;
+    image.usage = shared.usage;
+    image.width = size.width;
+    image.height = size.height;
+    // All commands wait for the semaphore, so the first barrier may chain to any stage.
+    image.acquire = {VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_NONE, VK_IMAGE_LAYOUT_GENERAL, 0};
+    return image;
+  }
+
+  pl_gpu gpu_;
+  Host* host_;
+  walr::test::HostTimeline timeline_;
+  std::vector<Shared> shared_;  ///< In the order of `needed()`.
+};
+
+class LibplaceboTest : public ConformanceTest {
  protected:
+  void openHost() override { host_open_with(&host, nullptr, 0, kExtensions, std::size(kExtensions)); }
   void SetUp() override {
     PluginTest::SetUp();
     pl_vulkan_import_params params{};
+    params.extensions = kExtensions;
+    params.num_extensions = std::size(kExtensions);
     params.instance = host.instance;
     params.get_proc_addr = vkGetInstanceProcAddr;
     params.phys_device = host.physical_device;
@@ -45,22 +157,12 @@ class LibplaceboTest : public PluginTest {
     PluginTest::TearDown();
   }
 
-  [[nodiscard]] pl_gpu gpu() const { return vulkan_->gpu; }
+  std::unique_ptr<HostedDenoiser> make(const WalrDenoiserInfo& info, const char* view) override {
+    return std::make_unique<LibplaceboDenoiser>(vulkan_->gpu, host, api(), info, view);
+  }
 
-  Shared make(const char* format, bool output) const {
-    pl_tex_params params{};
-    params.w = static_cast<int>(kSize.width);
-    params.h = static_cast<int>(kSize.height);
-    params.format = pl_find_named_fmt(gpu(), format);
-    params.sampleable = true;
-    params.storable = output;
-    params.host_writable = !output;
-    params.host_readable = output;
-    Shared shared;
-    shared.texture = pl_tex_create(gpu(), &params);
-    if (shared.texture == nullptr) throw std::runtime_error(std::string("libplacebo makes no ") + format);
-    shared.image = pl_vulkan_unwrap(gpu(), shared.texture, &shared.format, &shared.usage);
-    return shared;
+  [[nodiscard]] std::string lacks(std::string_view feature) const override {
+    return feature == "ResultIn32Bits" ? "libplacebo has no format B10G11R11_UFLOAT" : "";
   }
 
  private:
@@ -68,71 +170,12 @@ class LibplaceboTest : public PluginTest {
   int hostMessages_ = 0;
 };
 
-WalrImage describe(const Shared& shared) {
-  WalrImage image{};
-  image.struct_size = sizeof(image);
-  image.queue_family = VK_QUEUE_FAMILY_IGNORED;
-  image.image = shared.image;
-  image.format = shared.format;
-  image.usage = shared.usage;
-  image.width = kSize.width;
-  image.height = kSize.height;
-  // All commands wait for the semaphore, so the first barrier may chain to any stage.
-  image.acquire = {VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_NONE, VK_IMAGE_LAYOUT_GENERAL, 0};
-  return image;
+class LibplaceboFeatures : public LibplaceboTest, public testing::WithParamInterface<Feature> {};
+
+TEST_P(LibplaceboFeatures, GiveThePixelsOfAPlainHost) {
+  check(GetParam());
 }
-
-TEST_F(LibplaceboTest, SemaphoresHandImagesOverAndBack) {
-  Opaque own(host, api(), info("walr", kSize));
-  WalrDenoiserInfo described = info("walr", kSize);
-  WalrDenoiser denoiser = nullptr;
-  require(api().create_denoiser(&described, &denoiser));
-  walr::test::HostTimeline timeline(host.device);
-  std::vector<Shared> shared;
-  for (const char* input : kInputs) shared.push_back(make(std::string(input) == "depth" ? "r32f" : "rgba32f", false));
-  shared.push_back(make("rgba16hf", true));
-
-  for (std::uint32_t number = 0; number < 4; ++number) {
-    const WalrCamera camera = cameraAt(float(number) * kStep);
-    uploadFrame(host, kSize, number, [&](std::size_t i) { return &own.image(i); });
-    own.frame(camera, 0);
-
-    std::vector<WalrImage> images;
-    for (std::size_t i = 0; i < shared.size(); ++i) {
-      if (i < std::size(kInputs)) {
-        std::vector<float> values = texels(kInputs[i], kSize, number);
-        pl_tex_transfer_params transfer{};
-        transfer.tex = shared[i].texture;
-        transfer.ptr = values.data();
-        ASSERT_TRUE(pl_tex_upload(gpu(), &transfer));
-      }
-      ASSERT_TRUE(
-          pl_vulkan_hold(gpu(), shared[i].texture, VK_IMAGE_LAYOUT_GENERAL, {timeline.semaphore(), timeline.raise()}));
-      images.push_back(describe(shared[i]));
-    }
-    pl_gpu_flush(gpu());
-
-    const WalrFrame frame = frameOf(images, camera);
-    const VkCommandBuffer commands = host_begin(&host);
-    require(api().record(denoiser, commands, &frame));
-    const std::uint64_t waited = timeline.value();
-    const std::uint64_t done = timeline.raise();
-    host_submit_between(&host, commands, timeline.semaphore(), waited, done);
-
-    for (const Shared& image : shared) {
-      pl_vulkan_release(gpu(), image.texture, VK_IMAGE_LAYOUT_GENERAL, {timeline.semaphore(), done});
-    }
-    std::vector<std::uint16_t> result(std::size_t{4} * kSize.width * kSize.height);
-    pl_tex_transfer_params transfer{};
-    transfer.tex = shared.back().texture;
-    transfer.ptr = result.data();
-    ASSERT_TRUE(pl_tex_download(gpu(), &transfer));
-    EXPECT_EQ(result, download(host, own.output())) << "frame " << number;
-  }
-  pl_gpu_finish(gpu());
-  require(api().destroy_denoiser(denoiser));
-  for (Shared& image : shared) pl_tex_destroy(gpu(), &image.texture);
-}
+INSTANTIATE_TEST_SUITE_P(Every, LibplaceboFeatures, testing::ValuesIn(features()), nameOfFeature);
 
 }  // namespace
 }  // namespace plugin_host

@@ -137,7 +137,7 @@ TEST_F(CApiMemory, OfAHostThatSuballocatesGivesTheSamePixels) {
     HostedRun hosted(device(), "walr", kSize,
                      {.lint = true,
                       .counters = true,
-                      .getInstanceProcAddr = countDeviceCalls(context()),
+                      .getInstanceProcAddr = countDeviceCalls(context().view.getInstanceProcAddr),
                       .deviceMemory = &callbacks});
     EXPECT_EQ(memory.calls, 0U);
     require(walr_prepare(hosted.denoiser()));
@@ -159,7 +159,7 @@ TEST_F(CApiMemory, OfPassesComesFromTheHost) {
   const WalrMemoryCallbacks callbacks = memory.callbacks();
   WalrDenoiserInfo described = info("walr");
   described.lint = VK_TRUE;
-  device_.get_instance_proc_addr = countDeviceCalls(context());
+  device_.get_instance_proc_addr = countDeviceCalls(context().view.getInstanceProcAddr);
   device_.device_memory = &callbacks;
   WalrPassesInfo listed{};
   listed.struct_size = sizeof(listed);
@@ -243,7 +243,7 @@ TEST_F(CApiMemory, IsKnownBeforeItIsAllocated) {
       described.lint = lint ? VK_TRUE : VK_FALSE;
       described.counters = described.lint;
       described.frames_in_flight = 3;
-      device_.get_instance_proc_addr = countDeviceCalls(context());
+      device_.get_instance_proc_addr = countDeviceCalls(context().view.getInstanceProcAddr);
       WalrMemory known{};
       known.struct_size = sizeof(known);
       require(walr_query_memory(&described, &known));

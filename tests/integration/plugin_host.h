@@ -5,12 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <functional>
 #include <iterator>
 #include <memory>
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -28,19 +29,64 @@ struct Size {
   std::uint32_t height;
 };
 
-/// A frame of six images: the inputs in the order of `kInputs`, then the denoised one.
-inline WalrFrame frameOf(const std::vector<WalrImage>& images, const WalrCamera& camera, std::uint32_t flags = 0) {
+/// The member of a frame for an image with a name.
+inline const WalrImage*& imageOf(WalrFrame& frame, std::string_view name) {
+  constexpr std::pair<std::string_view, const WalrImage * WalrFrame::*> kMembers[] = {
+      {"lighting", &WalrFrame::lighting},
+      {"depth", &WalrFrame::depth},
+      {"normal", &WalrFrame::normal},
+      {"motion", &WalrFrame::motion},
+      {"albedo", &WalrFrame::albedo},
+      {"denoised", &WalrFrame::denoised},
+      {"confidence", &WalrFrame::confidence},
+      {"history_length", &WalrFrame::history_length},
+      {"view", &WalrFrame::view}};
+  const auto* found = std::ranges::find(kMembers, name, [](const auto& member) { return member.first; });
+  if (found == std::end(kMembers)) throw std::out_of_range(std::string(name));
+  return frame.*found->second;
+}
+
+/// A frame of a denoiser that has in common with one pass by pass what both can state.
+inline WalrFrame frameLike(const WalrPassFrame& like, std::uint32_t flags) {
   WalrFrame frame{};
   frame.struct_size = sizeof(frame);
   frame.flags = flags;
-  frame.lighting = &images[0];
-  frame.depth = &images[1];
-  frame.normal = &images[2];
-  frame.motion = &images[3];
-  frame.albedo = &images[4];
-  frame.denoised = &images[5];
-  frame.camera = &camera;
+  frame.camera = like.camera;
+  frame.frame_index = like.frame_index;
+  std::ranges::copy(like.origin, frame.origin);
+  frame.finished = like.finished;
+  frame.finished_value = like.finished_value;
   return frame;
+}
+
+/// An image that a denoiser needs.
+struct NeededImage {
+  std::string name;
+  VkFormat format;
+  VkImageUsageFlags usage;
+  Size size;
+
+  [[nodiscard]] bool written() const { return (usage & VK_IMAGE_USAGE_STORAGE_BIT) != 0; }
+};
+
+/// The images of a denoiser: the five inputs in the order of `kInputs`, the result, and those that it has besides.
+inline std::vector<NeededImage> neededImages(const WalrApi& api, WalrDenoiser denoiser, const WalrDenoiserInfo& info,
+                                             bool view) {
+  std::vector<std::string> names(std::begin(kInputs), std::end(kInputs));
+  names.emplace_back("denoised");
+  if (info.confidence_format != VK_FORMAT_UNDEFINED) names.emplace_back("confidence");
+  if (info.history_length == VK_TRUE) names.emplace_back("history_length");
+  if (view) names.emplace_back("view");
+  std::vector<NeededImage> needed;
+  for (const std::string& name : names) {
+    WalrImageRequirements needs{};
+    needs.struct_size = sizeof(needs);
+    if (api.get_image_requirements(denoiser, name.c_str(), &needs) != WALR_SUCCESS) {
+      throw std::runtime_error(api.last_error());
+    }
+    needed.push_back({name, needs.format, needs.usage, {needs.width, needs.height}});
+  }
+  return needed;
 }
 
 /// What the plug-in registered.
@@ -109,13 +155,6 @@ class PluginTest : public testing::Test {
     info.lighting_format = info.normal_format = info.motion_format = info.albedo_format = VK_FORMAT_R32G32B32A32_SFLOAT;
     return info;
   }
-  /// The same with the host's confidence in history, and with history lengths.
-  [[nodiscard]] WalrDenoiserInfo infoWithHistory(const char* method, Size size) const {
-    WalrDenoiserInfo result = info(method, size);
-    result.confidence_format = VK_FORMAT_R32_SFLOAT;
-    result.history_length = VK_TRUE;
-    return result;
-  }
   [[nodiscard]] WalrPasses makePasses(const char* method, Size size) const { return makePasses(info(method, size)); }
   [[nodiscard]] WalrPasses makePasses(const WalrDenoiserInfo& denoiser,
                                       std::span<const WalrSettingValue> settings = {}) const {
@@ -128,40 +167,17 @@ class PluginTest : public testing::Test {
     require(api().create_passes(&passesInfo, &passes));
     return passes;
   }
-  /// Check `expectSameHistory` and `expectSameStatements` for a way to run passes: a class that is made from the host,
-  /// the functions of the C API and passes, and has image(name), resetHistory() and frame(WalrPassFrame).
-  template <typename Way>
-  void expectTheHistoryOfTheOpaqueCall();
-  template <typename Way>
-  void expectTheStatementsOfTheOpaqueCall();
-  /// The same while the host alternates between passes of several sizes. The way also has goOnFrom(Way&).
+  /// Compare the opaque call with a way to run passes while the host alternates between passes of several sizes. The
+  /// way is a class that is made from the host, the functions of the C API and passes, and has image(name),
+  /// frame(WalrPassFrame) and goOnFrom(Way&).
   /// @param turns by frame: index of its size
   template <typename Way>
   void expectTheOpaqueCallAtSizes(std::span<const Size> sizes, std::span<const std::size_t> turns);
-
-  /// The methods that keep a history of light.
-  [[nodiscard]] std::vector<const char*> methodsWithHistory() const {
-    std::vector<const char*> names;
-    for (const WalrPassType* type : registered.types)
-      if (type->method == VK_TRUE && std::string(type->name) != "none") names.push_back(type->name);
-    return names;
-  }
 
   Plugin plugin;
   Host host{};
   WalrDevice device{};
   Registered registered;
-
- private:
-  template <typename Way, typename Use>
-  void withPasses(const WalrDenoiserInfo& denoiser, Use use) {
-    const WalrPasses passes = makePasses(denoiser);
-    {
-      Way way(host, api(), passes);
-      use(way);
-    }
-    EXPECT_EQ(api().destroy_passes(passes), WALR_SUCCESS);
-  }
 };
 
 inline WalrCamera cameraAt(float x) {
@@ -207,10 +223,11 @@ inline std::vector<float> texels(const std::string& name, Size size, std::uint32
 /// The whole method as one opaque pass in the host's command buffer.
 class Opaque {
  public:
-  Opaque(Host& host, const WalrApi& api, const WalrDenoiserInfo& info) : host_(&host), api_(&api) {
-    if (info.confidence_format != VK_FORMAT_UNDEFINED) names_.emplace_back("confidence");
-    if (info.history_length == VK_TRUE) names_.emplace_back("history_length");
-    if (api.create_denoiser(&info, &denoiser_) != WALR_SUCCESS) throw std::runtime_error(api.last_error());
+  /// @param view see walr_set_view
+  Opaque(Host& host, const WalrApi& api, const WalrDenoiserInfo& info, const char* view = nullptr)
+      : host_(&host), api_(&api), info_(info), hasView_(view != nullptr) {
+    require(api.create_denoiser(&info, &denoiser_));
+    if (hasView_) require(api.set_view(denoiser_, view));
     makeImages();
   }
   ~Opaque() {
@@ -222,19 +239,16 @@ class Opaque {
 
   [[nodiscard]] WalrDenoiser denoiser() const { return denoiser_; }
   HostImage& image(std::size_t index) { return images_[index]; }
-  HostImage& output() { return images_.at(5); }
-  /// An image after the six: confidence and history lengths, if the denoiser has them.
-  HostImage& further(const std::string& name) {
-    for (std::size_t i = 6; i < names_.size(); ++i)
-      if (names_[i] == name) return images_[i];
-    throw std::out_of_range(name);
+  HostImage& image(const std::string& name) {
+    return images_.at(std::size_t(std::ranges::find(needed_, name, &NeededImage::name) - needed_.begin()));
   }
+  HostImage& output() { return images_.at(5); }
 
   /// Change the size and create images of that size.
   void resize(Size size) {
     for (const HostImage& image : images_) api_->forget_image(denoiser_, image.image, 0);
     destroyImages();
-    if (api_->resize(denoiser_, size.width, size.height) != WALR_SUCCESS) throw std::runtime_error(api_->last_error());
+    require(api_->resize(denoiser_, size.width, size.height));
     makeImages();
   }
 
@@ -247,8 +261,11 @@ class Opaque {
   }
   /// @param like what a frame has in common with one pass by pass
   void frame(const WalrPassFrame& like, std::uint32_t flags) {
+    WalrFrame frame = frameLike(like, flags);
     std::vector<WalrImage> images;
-    for (const HostImage& image : images_) {
+    images.reserve(images_.size());
+    for (std::size_t i = 0; i < images_.size(); ++i) {
+      const HostImage& image = images_[i];
       WalrImage& given = images.emplace_back();
       given.struct_size = sizeof(given);
       given.queue_family = VK_QUEUE_FAMILY_IGNORED;
@@ -258,19 +275,14 @@ class Opaque {
       given.width = image.width;
       given.height = image.height;
       given.acquire = {image.stage, image.access, image.layout, 0};
-    }
-    WalrFrame frame = frameOf(images, *like.camera, flags);
-    frame.frame_index = like.frame_index;
-    std::ranges::copy(like.origin, frame.origin);
-    for (std::size_t i = 6; i < names_.size(); ++i) {
-      (names_[i] == "confidence" ? frame.confidence : frame.history_length) = &images[i];
+      imageOf(frame, needed_[i].name) = &given;
     }
     const VkCommandBuffer commands = host_begin(host_);
-    if (api_->record(denoiser_, commands, &frame) != WALR_SUCCESS) throw std::runtime_error(api_->last_error());
+    require(api_->record(denoiser_, commands, &frame));
     host_submit_and_wait(host_, commands);
     for (std::size_t i = 0; i < images_.size(); ++i) {
       WalrImageState state{};
-      if (api_->get_release_state(denoiser_, names_[i].c_str(), &state) != WALR_SUCCESS) continue;  // Unused.
+      if (api_->get_release_state(denoiser_, needed_[i].name.c_str(), &state) != WALR_SUCCESS) continue;  // Unused.
       images_[i].stage = state.stage;
       images_[i].access = state.access;
       images_[i].layout = state.layout;
@@ -278,15 +290,14 @@ class Opaque {
   }
 
  private:
+  void require(WalrResult result) const {
+    if (result != WALR_SUCCESS) throw std::runtime_error(api_->last_error());
+  }
   void makeImages() {
-    for (const std::string& name : names_) {
-      WalrImageRequirements needs{};
-      needs.struct_size = sizeof(needs);
-      if (api_->get_image_requirements(denoiser_, name.c_str(), &needs) != WALR_SUCCESS) {
-        throw std::runtime_error(api_->last_error());
-      }
-      images_.push_back(
-          host_make_image(host_, needs.format, needs.width, needs.height, needs.usage | VK_IMAGE_USAGE_SAMPLED_BIT));
+    needed_ = neededImages(*api_, denoiser_, info_, hasView_);
+    for (const NeededImage& needed : needed_) {
+      images_.push_back(host_make_image(host_, needed.format, needed.size.width, needed.size.height,
+                                        needed.usage | VK_IMAGE_USAGE_SAMPLED_BIT));
     }
   }
   void destroyImages() {
@@ -296,9 +307,11 @@ class Opaque {
 
   Host* host_;
   const WalrApi* api_;
+  WalrDenoiserInfo info_;
+  bool hasView_;
   WalrDenoiser denoiser_ = nullptr;
-  std::vector<std::string> names_{"lighting", "depth", "normal", "motion", "albedo", "denoised"};  ///< Of the images.
-  std::vector<HostImage> images_;
+  std::vector<NeededImage> needed_;
+  std::vector<HostImage> images_;  ///< In the order of `needed_`.
 };
 
 /// All texels of an image of halves.
@@ -321,128 +334,6 @@ inline WalrPassFrame passFrame(const WalrCamera& camera) {
   frame.struct_size = sizeof(frame);
   frame.camera = &camera;
   return frame;
-}
-
-/// Check that history is as long as the host's confidence allows: one frame in the left half, more in the right one.
-inline void expectLengthsByConfidence(const std::vector<std::uint16_t>& lengths, Size size) {
-  constexpr std::uint16_t kOne = 0x3c00;
-  const std::uint32_t row = size.height / 2 * size.width;
-  EXPECT_EQ(lengths[row + 2], kOne);
-  EXPECT_GT(lengths[row + size.width * 3 / 4], kOne);
-}
-
-/// Compare five frames, with a reset, of the opaque call and of another way to run the same passes, both with the
-/// host's confidence in history and with history lengths.
-/// @param way has image(name), resetHistory() and frame(WalrPassFrame)
-template <typename Way>
-void expectSameHistory(Host& host, Opaque& opaque, Way& way, Size size) {
-  for (std::uint32_t number = 0; number < 5; ++number) {
-    SCOPED_TRACE("frame " + std::to_string(number));
-    uploadFrame(host, size, number, [&](std::size_t i) { return &opaque.image(i); });
-    uploadFrame(host, size, number, [&](std::size_t i) { return &way.image(kInputs[i]); });
-    for (HostImage* const image : {&opaque.further("confidence"), &way.image("confidence")}) {
-      host_upload(&host, image, texels("confidence", size, number).data());
-    }
-    const bool reset = number == 2;
-    const WalrCamera camera = cameraAt(float(number) * kStep);
-    opaque.frame(camera, reset ? WALR_FRAME_RESET_HISTORY : 0);
-    if (reset) way.resetHistory();
-    way.frame(passFrame(camera));
-    EXPECT_EQ(download(host, way.image("denoised")), download(host, opaque.output()));
-    const std::vector<std::uint16_t> lengths = download(host, way.image("history_length"));
-    EXPECT_EQ(lengths, download(host, opaque.further("history_length")));
-    if (number == 4) expectLengthsByConfidence(lengths, size);
-  }
-}
-
-/// Something that a host states beside the usual.
-struct Statement {
-  const char* name;
-  void (*state)(WalrDenoiserInfo& info, WalrConventions& conventions);
-  bool farAway = false;  ///< The cameras are relative to an origin that moves.
-};
-
-inline constexpr Statement kStatements[] = {
-    {"motion of two channels, depth found",
-     [](WalrDenoiserInfo& info, WalrConventions& conventions) {
-       info.motion_format = VK_FORMAT_R32G32_SFLOAT;
-       conventions.motion_depth = WALR_MOTION_DEPTH_FOUND;
-     }},
-    {"orthographic camera",
-     [](WalrDenoiserInfo&, WalrConventions& conventions) { conventions.orthographic = VK_TRUE; }},
-    {"result in 32 bits",
-     [](WalrDenoiserInfo& info, WalrConventions&) { info.denoised_format = VK_FORMAT_B10G11R11_UFLOAT_PACK32; }},
-    {"result in floats",
-     [](WalrDenoiserInfo& info, WalrConventions&) { info.denoised_format = VK_FORMAT_R32G32B32A32_SFLOAT; }},
-    {"large world", [](WalrDenoiserInfo&, WalrConventions&) {}, true},
-};
-
-/// The texels of motion without its third and fourth channel.
-inline std::vector<float> flatMotion(Size size, std::uint32_t frame) {
-  const std::vector<float> whole = texels("motion", size, frame);
-  std::vector<float> flat;
-  for (std::size_t i = 0; i < whole.size(); i += 4) flat.insert(flat.end(), {whole[i], whole[i + 1]});
-  return flat;
-}
-
-/// Compare four frames of the opaque call and of another way to run the same passes, for each of `kStatements`.
-/// @param usual   the usual description
-/// @param makeWay creates the other way from a description and hands it to its second argument
-template <typename MakeWay>
-void expectSameStatements(Host& host, const WalrApi& api, const WalrDenoiserInfo& usual, Size size, MakeWay makeWay) {
-  for (const Statement& statement : kStatements) {
-    SCOPED_TRACE(statement.name);
-    WalrConventions conventions{};
-    conventions.struct_size = sizeof(conventions);
-    WalrDenoiserInfo stated = usual;
-    stated.conventions = &conventions;
-    statement.state(stated, conventions);
-    Opaque opaque(host, api, stated);
-    makeWay(stated, [&](auto& way) {
-      for (std::uint32_t number = 0; number < 4; ++number) {
-        for (const auto& imageOf : {std::function([&](std::size_t i) { return &opaque.image(i); }),
-                                    std::function([&](std::size_t i) { return &way.image(kInputs[i]); })}) {
-          uploadFrame(host, size, number, imageOf);
-          if (stated.motion_format != usual.motion_format) {
-            host_upload(&host, imageOf(3), flatMotion(size, number).data());
-          }
-        }
-        WalrCamera camera = cameraAt(statement.farAway ? 0.0F : float(number) * kStep);
-        if (conventions.orthographic == VK_TRUE) {
-          constexpr float kParallel[16] = {0.5F, 0, 0, 0, 0, 0.5F, 0, 0, 0, 0, -0.01F, 0, 0, 0, 0, 1};
-          std::ranges::copy(kParallel, camera.projection);
-        }
-        WalrPassFrame frame = passFrame(camera);
-        if (statement.farAway) frame.origin[0] = 1e6 + double(number) * double(kStep);
-        opaque.frame(frame, 0);
-        way.frame(frame);
-        const std::vector<std::uint16_t> result = download(host, way.image("denoised"));
-        EXPECT_EQ(result, download(host, opaque.output())) << "frame " << number;
-        EXPECT_GT(std::ranges::count_if(result, [](std::uint16_t bits) { return bits != 0; }), result.size() / 2);
-      }
-    });
-  }
-}
-
-template <typename Way>
-void PluginTest::expectTheHistoryOfTheOpaqueCall() {
-  constexpr Size kSize{61, 43};
-  for (const char* method : methodsWithHistory()) {
-    SCOPED_TRACE(method);
-    const WalrDenoiserInfo whole = infoWithHistory(method, kSize);
-    Opaque opaque(host, api(), whole);
-    withPasses<Way>(whole, [&](Way& way) { expectSameHistory(host, opaque, way, kSize); });
-  }
-}
-
-template <typename Way>
-void PluginTest::expectTheStatementsOfTheOpaqueCall() {
-  constexpr Size kSize{61, 43};
-  for (const char* method : {"walr", "svgf"}) {
-    SCOPED_TRACE(method);
-    expectSameStatements(host, api(), info(method, kSize), kSize,
-                         [&](const WalrDenoiserInfo& stated, auto compare) { withPasses<Way>(stated, compare); });
-  }
 }
 
 template <typename Way>

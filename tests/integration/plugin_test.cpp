@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "plugin_host.h"
+#include "conformance.h"
 #include "stage_host.h"
 #include "tiny_host.h"
 
@@ -70,13 +70,12 @@ TEST_F(PluginTest, EveryMethodGivesTheSamePixelsPassByPass) {
   }
 }
 
-TEST_F(PluginTest, HistoryConfidenceAndLengthsAreTheSamePassByPass) {
-  expectTheHistoryOfTheOpaqueCall<tiny_host::Graph>();
-}
+class TinyGraphFeatures : public WayTest<tiny_host::Graph>, public testing::WithParamInterface<Feature> {};
 
-TEST_F(PluginTest, WhatAHostStatesGivesTheSamePixelsPassByPass) {
-  expectTheStatementsOfTheOpaqueCall<tiny_host::Graph>();
+TEST_P(TinyGraphFeatures, GiveThePixelsOfAPlainHost) {
+  check(GetParam());
 }
+INSTANTIATE_TEST_SUITE_P(Every, TinyGraphFeatures, testing::ValuesIn(features()), nameOfFeature);
 
 // A host keeps its history while it alternates between passes of different sizes.
 TEST_F(PluginTest, HistoryIsKeptPassByPassAtAnotherSize) {
@@ -241,7 +240,7 @@ TEST_F(PluginTest, SingleStagesGiveThePixelsOfTheWholeMethod) {
     for (std::uint32_t frame = 0; frame < 4; ++frame) {
       SCOPED_TRACE(method + ", frame " + std::to_string(frame));
       if (confidence != VK_FORMAT_UNDEFINED) {
-        for (HostImage* const image : {&opaque.further("confidence"), chain.image("confidence")}) {
+        for (HostImage* const image : {&opaque.image("confidence"), chain.image("confidence")}) {
           host_upload(&host, image, texels("confidence", kSize, frame).data());
         }
       }

@@ -4,7 +4,7 @@
 
 #include <vulkan/vulkan.h>
 
-#include "plugin_host.h"
+#include "conformance.h"
 
 #include <QtGui/private/qrhi_p.h>
 #include <QtGui/private/qrhivulkan_p.h>
@@ -17,16 +17,156 @@ namespace {
 constexpr VkImageUsageFlags kInputUsage =
     VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
 
-/// A texture of QRhi.
-struct Shared {
-  std::unique_ptr<QRhiTexture> texture;
-  VkFormat format = VK_FORMAT_UNDEFINED;
-  VkImageUsageFlags usage = 0;
+QRhiTexture::Format formatOf(VkFormat format) {
+  switch (format) {
+    case VK_FORMAT_R16_SFLOAT:
+      return QRhiTexture::R16F;
+    case VK_FORMAT_R32_SFLOAT:
+      return QRhiTexture::R32F;
+    case VK_FORMAT_R16G16B16A16_SFLOAT:
+      return QRhiTexture::RGBA16F;
+    case VK_FORMAT_R32G32B32A32_SFLOAT:
+      return QRhiTexture::RGBA32F;
+    default:
+      throw std::runtime_error("QRhi has no format " + std::to_string(format));
+  }
+}
 
-  [[nodiscard]] VkImage image() const { return reinterpret_cast<VkImage>(texture->nativeTexture().object); }
+/// A denoiser whose images are QRhi's textures. It records into QRhi's command buffer, between QRhi's commands. As the
+/// guide says for hosts that track only layouts, the submission ends after the denoiser.
+class QtRhiDenoiser : public HostedCall {
+ public:
+  QtRhiDenoiser(QRhi& rhi, Host& host, const WalrApi& api, const WalrDenoiserInfo& info, const char* view)
+      : HostedCall(api, info, view), rhi_(&rhi), host_(&host), timeline_(host.device) {
+    for (const NeededImage& image : needed()) textures_.push_back(create(image));
+  }
+  ~QtRhiDenoiser() override { destroyDenoiser(); }
+
+  void frame(const Inputs& inputs, const WalrPassFrame& like, bool reset) override {
+    QRhiCommandBuffer* commands = begin();
+    upload(commands, inputs);
+    const WalrResult result = record(commands, frameLike(like, reset ? WALR_FRAME_RESET_HISTORY : 0));
+    rhi_->endOffscreenFrame();
+    require(result);
+    // QRhi tells of its submissions by fences of its own, so the host raises a semaphore after them.
+    if (like.finished != VK_NULL_HANDLE) host_signal(host_, timeline_.semaphore(), timeline_.raise());
+  }
+  Texels read(const std::string& name) override {
+    QRhiReadbackResult result;
+    readBack(begin(), name, result);
+    rhi_->endOffscreenFrame();
+    Texels values(std::size_t(result.data.size()) / sizeof(std::uint16_t));
+    std::memcpy(values.data(), result.data.constData(), values.size() * sizeof(std::uint16_t));
+    return values;
+  }
+  std::pair<VkSemaphore, std::uint64_t> nextCompletion() override {
+    return {timeline_.semaphore(), timeline_.value() + 1};
+  }
+
+  void resize(Size size) {
+    for (const auto& texture : textures_) require(api().forget_image(denoiser(), imageOfTexture(*texture), 0));
+    require(api().resize(denoiser(), size.width, size.height));
+    textures_.clear();
+    for (NeededImage image : needed()) {
+      image.size = size;
+      textures_.push_back(create(image));
+    }
+  }
+
+  QRhiCommandBuffer* begin() {
+    QRhiCommandBuffer* commands = nullptr;
+    if (rhi_->beginOffscreenFrame(&commands) != QRhi::FrameOpSuccess) throw std::runtime_error("QRhi begins no frame");
+    return commands;
+  }
+  void upload(QRhiCommandBuffer* commands, const Inputs& inputs) {
+    QRhiResourceUpdateBatch* batch = rhi_->nextResourceUpdateBatch();
+    for (const auto& [name, values] : inputs) {
+      const QByteArray bytes(reinterpret_cast<const char*>(values.data()), qsizetype(values.size() * sizeof(float)));
+      const QRhiTextureSubresourceUploadDescription whole(bytes);
+      batch->uploadTexture(textures_.at(indexOf(name)).get(), QRhiTextureUploadDescription({0, 0, whole}));
+    }
+    commands->resourceUpdate(batch);
+  }
+  void readBack(QRhiCommandBuffer* commands, const std::string& name, QRhiReadbackResult& result) {
+    QRhiResourceUpdateBatch* batch = rhi_->nextResourceUpdateBatch();
+    batch->readBackTexture(QRhiReadbackDescription(textures_.at(indexOf(name)).get()), &result);
+    commands->resourceUpdate(batch);
+  }
+  /// Record a frame and tell QRhi the resulting layouts.
+  WalrResult record(QRhiCommandBuffer* commands, WalrFrame frame) {
+    std::vector<WalrImage> images(textures_.size());
+    for (std::size_t i = 0; i < textures_.size(); ++i) {
+      images[i] = describe(*textures_[i], needed()[i]);
+      imageOf(frame, needed()[i].name) = &images[i];
+    }
+    WalrResult result = WALR_SUCCESS;
+    external(commands, [&](VkCommandBuffer buffer) { result = api().record(denoiser(), buffer, &frame); });
+    for (std::size_t i = 0; i < textures_.size(); ++i) {
+      WalrImageState state{};
+      if (api().get_release_state(denoiser(), needed()[i].name.c_str(), &state) != WALR_SUCCESS) continue;  // Unused.
+      textures_[i]->setNativeLayout(int(state.layout));
+    }
+    return result;
+  }
+  /// No walr: clear the result, and make it visible to everything.
+  void clear(QRhiCommandBuffer* commands) {
+    QRhiTexture& texture = *textures_.at(indexOf("denoised"));
+    external(commands, [&](VkCommandBuffer buffer) {
+      HostImage image{};
+      image.image = imageOfTexture(texture);
+      host_transition(buffer, &image, VK_PIPELINE_STAGE_2_CLEAR_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
+                      VK_IMAGE_LAYOUT_GENERAL);
+      const VkClearColorValue colour{};
+      const VkImageSubresourceRange range{VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
+      vkCmdClearColorImage(buffer, image.image, VK_IMAGE_LAYOUT_GENERAL, &colour, 1, &range);
+      host_transition(buffer, &image, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+                      VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT, VK_IMAGE_LAYOUT_GENERAL);
+    });
+    texture.setNativeLayout(int(VK_IMAGE_LAYOUT_GENERAL));
+  }
+
+ private:
+  [[nodiscard]] std::unique_ptr<QRhiTexture> create(const NeededImage& image) const {
+    QRhiTexture::Flags flags = QRhiTexture::UsedAsTransferSource;
+    if (image.written()) flags |= QRhiTexture::UsedWithLoadStore;
+    std::unique_ptr<QRhiTexture> made(
+        rhi_->newTexture(formatOf(image.format), QSize(int(image.size.width), int(image.size.height)), 1, flags));
+    if (!made->create()) throw std::runtime_error("QRhi makes no such texture");
+    return made;
+  }
+  static VkImage imageOfTexture(QRhiTexture& texture) {
+    return reinterpret_cast<VkImage>(texture.nativeTexture().object);
+  }
+  static WalrImage describe(QRhiTexture& texture, const NeededImage& needed) {
+    WalrImage image{};
+    image.struct_size = sizeof(image);
+    image.queue_family = VK_QUEUE_FAMILY_IGNORED;
+    image.image = imageOfTexture(texture);
+    image.format = needed.format;
+    image.usage = kInputUsage | (needed.written() ? VK_IMAGE_USAGE_STORAGE_BIT : 0);
+    image.width = std::uint32_t(texture.pixelSize().width());
+    image.height = std::uint32_t(texture.pixelSize().height());
+    // QRhi tracks only the layout.
+    image.acquire = {VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_WRITE_BIT,
+                     static_cast<VkImageLayout>(texture.nativeTexture().layout), 0};
+    return image;
+  }
+  /// Record our own commands between QRhi's.
+  template <typename Record>
+  void external(QRhiCommandBuffer* commands, Record record) {
+    commands->beginExternal();
+    const auto* handles = static_cast<const QRhiVulkanCommandBufferNativeHandles*>(commands->nativeHandles());
+    record(handles->commandBuffer);
+    commands->endExternal();
+  }
+
+  QRhi* rhi_;
+  Host* host_;
+  walr::test::HostTimeline timeline_;
+  std::vector<std::unique_ptr<QRhiTexture>> textures_;  ///< In the order of `needed()`.
 };
 
-class QtRhiTest : public PluginTest {
+class QtRhiTest : public ConformanceTest {
  protected:
   static void SetUpTestSuite() {
     static int count = 1;
@@ -39,7 +179,7 @@ class QtRhiTest : public PluginTest {
   void openHost() override {
     // QRhi queries functions of surfaces although none is created.
     constexpr const char* kExtensions[] = {"VK_KHR_surface", "VK_KHR_xcb_surface"};
-    host_open_with(&host, kExtensions, 2);
+    host_open_with(&host, kExtensions, 2, nullptr, 0);
   }
   void SetUp() override {
     PluginTest::SetUp();
@@ -62,84 +202,23 @@ class QtRhiTest : public PluginTest {
     PluginTest::TearDown();
   }
 
-  std::vector<Shared> makeShared(Size size) {
-    std::vector<Shared> shared;
-    const auto add = [&](QRhiTexture::Format format, VkFormat vulkan, bool output) {
-      QRhiTexture::Flags flags = QRhiTexture::UsedAsTransferSource;
-      if (output) flags |= QRhiTexture::UsedWithLoadStore;
-      Shared& made = shared.emplace_back();
-      made.texture.reset(rhi_->newTexture(format, QSize(int(size.width), int(size.height)), 1, flags));
-      if (!made.texture->create()) throw std::runtime_error("QRhi makes no such texture");
-      made.format = vulkan;
-      made.usage = kInputUsage | (output ? VK_IMAGE_USAGE_STORAGE_BIT : 0);
-    };
-    for (const char* input : kInputs) {
-      const bool depth = std::string(input) == "depth";
-      add(depth ? QRhiTexture::R32F : QRhiTexture::RGBA32F,
-          depth ? VK_FORMAT_R32_SFLOAT : VK_FORMAT_R32G32B32A32_SFLOAT, false);
-    }
-    add(QRhiTexture::RGBA16F, VK_FORMAT_R16G16B16A16_SFLOAT, true);
-    return shared;
+  std::unique_ptr<HostedDenoiser> make(const WalrDenoiserInfo& info, const char* view) override {
+    return hosted(info, view);
   }
-
-  QRhiCommandBuffer* begin() {
-    QRhiCommandBuffer* commands = nullptr;
-    if (rhi_->beginOffscreenFrame(&commands) != QRhi::FrameOpSuccess) throw std::runtime_error("QRhi begins no frame");
-    return commands;
+  [[nodiscard]] std::string lacks(std::string_view feature) const override {
+    return feature == "ResultIn32Bits" ? "QRhi has no texture of B10G11R11_UFLOAT" : "";
   }
-  void end() { rhi_->endOffscreenFrame(); }
+  /// QRhi has no texture of two 32-bit channels.
+  [[nodiscard]] VkFormat motionWithoutDepth() const override { return VK_FORMAT_R32G32B32A32_SFLOAT; }
 
-  void upload(QRhiCommandBuffer* commands, const std::vector<Shared>& shared, Size size, std::uint32_t number) {
-    QRhiResourceUpdateBatch* batch = rhi_->nextResourceUpdateBatch();
-    for (std::size_t i = 0; i < std::size(kInputs); ++i) {
-      const std::vector<float> values = texels(kInputs[i], size, number);
-      const QByteArray bytes(reinterpret_cast<const char*>(values.data()), qsizetype(values.size() * sizeof(float)));
-      const QRhiTextureSubresourceUploadDescription whole(bytes);
-      batch->uploadTexture(shared[i].texture.get(), QRhiTextureUploadDescription({0, 0, whole}));
-    }
-    commands->resourceUpdate(batch);
+  [[nodiscard]] std::unique_ptr<QtRhiDenoiser> hosted(const WalrDenoiserInfo& info, const char* view = nullptr) {
+    return std::make_unique<QtRhiDenoiser>(*rhi_, host, api(), info, view);
   }
-
-  void readBack(QRhiCommandBuffer* commands, const Shared& shared, QRhiReadbackResult& result) {
-    QRhiResourceUpdateBatch* batch = rhi_->nextResourceUpdateBatch();
-    batch->readBackTexture(QRhiReadbackDescription(shared.texture.get()), &result);
-    commands->resourceUpdate(batch);
-  }
-
-  /// Record our own commands between QRhi's.
-  template <typename Record>
-  void external(QRhiCommandBuffer* commands, Record record) {
-    commands->beginExternal();
-    const auto* handles = static_cast<const QRhiVulkanCommandBufferNativeHandles*>(commands->nativeHandles());
-    record(handles->commandBuffer);
-    commands->endExternal();
-  }
-
-  /// Record a frame of a denoiser and tell QRhi the resulting layouts.
-  void denoise(QRhiCommandBuffer* commands, WalrDenoiser denoiser, std::vector<Shared>& shared, Size size,
-               const WalrCamera& camera, std::uint32_t flags) {
-    std::vector<WalrImage> images;
-    for (const Shared& texture : shared) {
-      WalrImage& image = images.emplace_back();
-      image.struct_size = sizeof(image);
-      image.queue_family = VK_QUEUE_FAMILY_IGNORED;
-      image.image = texture.image();
-      image.format = texture.format;
-      image.usage = texture.usage;
-      image.width = size.width;
-      image.height = size.height;
-      // QRhi tracks only the layout.
-      image.acquire = {VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_WRITE_BIT,
-                       static_cast<VkImageLayout>(texture.texture->nativeTexture().layout), 0};
-    }
-    const WalrFrame frame = frameOf(images, camera, flags);
-    external(commands, [&](VkCommandBuffer buffer) { require(api().record(denoiser, buffer, &frame)); });
-    for (std::size_t i = 0; i < shared.size(); ++i) {
-      WalrImageState state{};
-      if (api().get_release_state(denoiser, i < std::size(kInputs) ? kInputs[i] : "denoised", &state) != WALR_SUCCESS)
-        continue;  // Unused.
-      shared[i].texture->setNativeLayout(int(state.layout));
-    }
+  void endFrame() { rhi_->endOffscreenFrame(); }
+  static Inputs inputs(Size size, std::uint32_t number) {
+    Inputs result;
+    for (const char* name : kInputs) result[name] = texels(name, size, number);
+    return result;
   }
 
   static std::unique_ptr<QGuiApplication> application;
@@ -151,49 +230,35 @@ class QtRhiTest : public PluginTest {
 
 std::unique_ptr<QGuiApplication> QtRhiTest::application;
 
-std::vector<std::uint16_t> halves(const QRhiReadbackResult& result) {
-  std::vector<std::uint16_t> values(std::size_t(result.data.size()) / sizeof(std::uint16_t));
-  std::memcpy(values.data(), result.data.constData(), values.size() * sizeof(std::uint16_t));
-  return values;
-}
+class QtRhiFeatures : public QtRhiTest, public testing::WithParamInterface<Feature> {};
 
-// As the guide says for hosts that track only layouts, the submission ends after the denoiser.
-TEST_F(QtRhiTest, RecordsBetweenItsCommandsThroughResetAndResize) {
+TEST_P(QtRhiFeatures, GiveThePixelsOfAPlainHost) {
+  check(GetParam());
+}
+INSTANTIATE_TEST_SUITE_P(Every, QtRhiFeatures, testing::ValuesIn(features()), nameOfFeature);
+
+TEST_F(QtRhiTest, RecordsBetweenItsCommandsThroughANewSize) {
   for (const char* method : {"walr", "svgf", "accumulate"}) {
     Size size{61, 43};
     auto own = std::make_unique<Opaque>(host, api(), info(method, size));
-    const WalrDenoiserInfo described = info(method, size);
-    WalrDenoiser denoiser = nullptr;
-    require(api().create_denoiser(&described, &denoiser));
-    std::vector<Shared> shared = makeShared(size);
-    for (std::uint32_t number = 0; number < 6; ++number) {
+    const auto denoiser = hosted(info(method, size));
+    for (std::uint32_t number = 0; number < 4; ++number) {
       SCOPED_TRACE(std::string(method) + ", frame " + std::to_string(number));
-      if (number == 4) {
-        for (const Shared& image : shared) require(api().forget_image(denoiser, image.image(), 0));
+      const bool resized = number == 2;
+      if (resized) {
         size = {40, 45};
-        require(api().resize(denoiser, size.width, size.height));
-        shared = makeShared(size);
+        denoiser->resize(size);
         // A dropped history does not restart frame numbers or forget the camera.
         own = std::make_unique<Opaque>(host, api(), info(method, size));
         uploadFrame(host, size, number, [&](std::size_t i) { return &own->image(i); });
         for (std::uint32_t before = 0; before < number; ++before) own->frame(cameraAt(float(before) * kStep), 0);
       }
       const WalrCamera camera = cameraAt(float(number) * kStep);
-      constexpr std::uint32_t kReset = WALR_FRAME_RESET_HISTORY;
-      const std::uint32_t flags = number == 2 ? kReset : 0;
       uploadFrame(host, size, number, [&](std::size_t i) { return &own->image(i); });
-      own->frame(camera, number == 4 ? kReset : flags);
-
-      QRhiCommandBuffer* commands = begin();
-      upload(commands, shared, size, number);
-      denoise(commands, denoiser, shared, size, camera, flags);
-      end();
-      QRhiReadbackResult result;
-      readBack(begin(), shared.back(), result);
-      end();
-      EXPECT_EQ(halves(result), download(host, own->output()));
+      own->frame(camera, resized ? WALR_FRAME_RESET_HISTORY : 0);
+      denoiser->frame(inputs(size, number), passFrame(camera), false);
+      EXPECT_EQ(denoiser->read("denoised"), download(host, own->output()));
     }
-    require(api().destroy_denoiser(denoiser));
   }
 }
 
@@ -201,34 +266,19 @@ TEST_F(QtRhiTest, RecordsBetweenItsCommandsThroughResetAndResize) {
 TEST_F(QtRhiTest, MessagesWithinASubmissionAreTheHosts) {
   constexpr Size kSize{61, 43};
   const auto messagesOf = [&](bool ours) {
-    std::vector<Shared> shared = makeShared(kSize);
-    const WalrDenoiserInfo described = info("none", kSize);
-    WalrDenoiser denoiser = nullptr;
-    require(api().create_denoiser(&described, &denoiser));
+    const auto denoiser = hosted(info("none", kSize));
     const int before = host.messages;
-    QRhiCommandBuffer* commands = begin();
-    upload(commands, shared, kSize, 0);
+    QRhiCommandBuffer* commands = denoiser->begin();
+    denoiser->upload(commands, inputs(kSize, 0));
+    const WalrCamera camera = cameraAt(0);
     if (ours) {
-      denoise(commands, denoiser, shared, kSize, cameraAt(0), 0);
+      require(denoiser->record(commands, frameLike(passFrame(camera), 0)));
     } else {
-      // No walr: a clear, made visible to everything.
-      external(commands, [&](VkCommandBuffer buffer) {
-        HostImage image{};
-        image.image = shared.back().image();
-        host_transition(buffer, &image, VK_PIPELINE_STAGE_2_CLEAR_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
-                        VK_IMAGE_LAYOUT_GENERAL);
-        const VkClearColorValue colour{};
-        const VkImageSubresourceRange range{VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
-        vkCmdClearColorImage(buffer, image.image, VK_IMAGE_LAYOUT_GENERAL, &colour, 1, &range);
-        host_transition(buffer, &image, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
-                        VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT, VK_IMAGE_LAYOUT_GENERAL);
-      });
-      shared.back().texture->setNativeLayout(int(VK_IMAGE_LAYOUT_GENERAL));
+      denoiser->clear(commands);
     }
     QRhiReadbackResult result;
-    readBack(commands, shared.back(), result);
-    end();
-    require(api().destroy_denoiser(denoiser));
+    denoiser->readBack(commands, "denoised", result);
+    endFrame();
     return host.messages - before;
   };
   const int without = messagesOf(false);

@@ -30,6 +30,13 @@ Enum choose(Dice& dice, Expectation& expected, Enum last) {
   return static_cast<Enum>(count + dice.below(1000));
 }
 
+/// On with a probability of one in `n`, seldom neither on nor off.
+VkBool32 chooseSwitch(Dice& dice, Expectation& expected, std::uint32_t n) {
+  if (!dice.oneIn(300)) return dice.oneIn(n) ? VK_TRUE : VK_FALSE;
+  expected.fails(WALR_ERROR_INVALID_ARGUMENT);
+  return dice.of({2U, 0xffffffffU, 0x100U});
+}
+
 std::string validValue(Dice& dice, Expectation& expected, const WalrSetting& setting) {
   if (dice.oneIn(2)) return setting.default_value;
   expected.mayFail();  // Some settings exclude each other.
@@ -51,23 +58,15 @@ RandomInfo::RandomInfo(Dice& dice, Expectation& expected, const std::vector<cons
 }
 
 void RandomInfo::chooseOutputs(Dice& dice, Expectation& expected) {
-  info_.value.timestamps = dice.below(2);
+  info_.value.timestamps = chooseSwitch(dice, expected, 2);
   if (dice.oneIn(2)) {
     info_.value.log = checkLog;
     info_.value.log_user = const_cast<int*>(&logUser);
   }
   // A stage has no such outputs, and some methods have no history length.
-  if (dice.oneIn(8)) {
-    info_.value.lint = VK_TRUE;
-    expected.mayFail();
-  }
-  if (dice.oneIn(8)) {
-    info_.value.counters = VK_TRUE;
-    expected.mayFail();
-  }
-  if (dice.oneIn(8)) {
-    info_.value.history_length = VK_TRUE;
-    expected.mayFail();
+  for (VkBool32* const wanted : {&info_.value.lint, &info_.value.counters, &info_.value.history_length}) {
+    *wanted = chooseSwitch(dice, expected, 8);
+    if (*wanted == VK_TRUE) expected.mayFail();
   }
   if (!dice.oneIn(6)) return;
   info_.value.denoised_format = dice.of({VK_FORMAT_R16G16B16A16_SFLOAT, VK_FORMAT_B10G11R11_UFLOAT_PACK32,
@@ -123,10 +122,10 @@ void RandomInfo::chooseConventions(Dice& dice, Expectation& expected) {
   conventions.motion_depth = choose(dice, expected, WALR_MOTION_DEPTH_FOUND);
   conventions.depth = choose(dice, expected, WALR_DEPTH_DEVICE);
   conventions.normals = choose(dice, expected, WALR_NORMALS_OCTAHEDRAL_UNSIGNED);
-  conventions.pre_exposed = dice.below(2);
-  conventions.motion_jittered = dice.below(2);
-  conventions.rectangle = dice.oneIn(3) ? VK_TRUE : VK_FALSE;
-  conventions.orthographic = dice.oneIn(4) ? VK_TRUE : VK_FALSE;
+  conventions.pre_exposed = chooseSwitch(dice, expected, 2);
+  conventions.motion_jittered = chooseSwitch(dice, expected, 2);
+  conventions.rectangle = chooseSwitch(dice, expected, 3);
+  conventions.orthographic = chooseSwitch(dice, expected, 4);
   for (float& scale : conventions.motion_scale) scale = dice.of({0.0F, 1.0F, -1.0F, 0.5F});
   if (!dice.oneIn(24)) return;
   conventions.motion_scale[dice.below(2)] = dice.of({kNotANumber, kInfinity});

@@ -50,7 +50,7 @@ class Settings : public fg::test::GpuTest {
  protected:
   [[nodiscard]] HostedRun::Options counted() const {
     HostedRun::Options options;
-    options.getInstanceProcAddr = countDeviceCalls(context());
+    options.getInstanceProcAddr = countDeviceCalls(context().view.getInstanceProcAddr);
     return options;
   }
   /// The last frame of a sequence. A host makes some change before it.

@@ -131,7 +131,7 @@ TEST_F(SharedObjects, TwoLightsOfAViewReadOneSetOfGuides) {
 
 TEST_F(SharedObjects, ASecondViewCreatesNoPipelineAndNoMemoryForTransients) {
   HostedRun::Options options;
-  options.getInstanceProcAddr = countDeviceCalls(context());
+  options.getInstanceProcAddr = countDeviceCalls(context().view.getInstanceProcAddr);
   HostedRun first(device(), "walr", kSize, options);
   require(walr_prepare(first.denoiser()));
   EXPECT_GT(deviceCalls.pipelines, 0U) << "the calls must be seen";

@@ -5,7 +5,7 @@
 
 #include <walr/adapters/framegraph.h>
 
-#include "plugin_host.h"
+#include "conformance.h"
 
 namespace plugin_host {
 namespace {
@@ -251,13 +251,12 @@ TEST_F(SkaarjFrameGraph, EveryMethodGivesTheSamePixels) {
   }
 }
 
-TEST_F(SkaarjFrameGraph, HistoryConfidenceAndLengthsAreTheSame) {
-  expectTheHistoryOfTheOpaqueCall<Engine>();
-}
+class SkaarjFrameGraphFeatures : public WayTest<Engine>, public testing::WithParamInterface<Feature> {};
 
-TEST_F(SkaarjFrameGraph, WhatAHostStatesGivesTheSamePixels) {
-  expectTheStatementsOfTheOpaqueCall<Engine>();
+TEST_P(SkaarjFrameGraphFeatures, GiveThePixelsOfAPlainHost) {
+  check(GetParam());
 }
+INSTANTIATE_TEST_SUITE_P(Every, SkaarjFrameGraphFeatures, testing::ValuesIn(features()), nameOfFeature);
 
 }  // namespace
 }  // namespace plugin_host

@@ -49,9 +49,12 @@ Inputs inputsOf(const Scene& scene) {
 class RegressionRun {
  public:
   RegressionRun(const fg::vk::Device& device, const BlockRegressionSettings& settings)
-      : run_(device, kSize, 1, [&](fg::Graph& graph, fg::Buffer frame, const walr::Guides& guides, const auto& inputs) {
-          return addBlockFilter(graph, frame, {inputs[0], LightingAlpha::SampleCount}, guides, settings);
-        }) {}
+      : run_(
+            device, kSize, 1,
+            [&](fg::Graph& graph, fg::Buffer frame, const walr::Guides& guides, const auto& inputs) {
+              return addBlockFilter(graph, frame, {inputs[0], LightingAlpha::SampleCount}, guides, settings);
+            },
+            true) {}
 
   Image<glm::dvec4> filter(const Inputs& inputs) { return run_.run(inputs.frame, inputs.guides, {inputs.accumulated}); }
 

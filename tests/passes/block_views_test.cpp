@@ -36,7 +36,7 @@ class ViewedRegression {
   ViewedRegression(const fg::vk::Device& device, const BlockRegressionSettings& settings,
                    const std::vector<std::string>& views)
       : frame_(graph_.upload("frame constants", sizeof(FrameConstants))),
-        guides_(importGuides(graph_, kSize)),
+        guides_(importGuides(graph_, kSize, true)),
         accumulated_(importHalves(graph_, "accumulated", kSize)) {
     const fg::Extent extent{static_cast<std::uint32_t>(kSize.x), static_cast<std::uint32_t>(kSize.y)};
     Inspection inspection;

@@ -4,10 +4,11 @@
 
 namespace walr::test {
 
-FilterRun::FilterRun(const fg::vk::Device& device, glm::ivec2 size, std::size_t inputCount, const Add& add)
+FilterRun::FilterRun(const fg::vk::Device& device, glm::ivec2 size, std::size_t inputCount, const Add& add,
+                     bool occlusion)
     : size_(size),
       frame_(graph_.upload("frame constants", sizeof(FrameConstants))),
-      guides_(importGuides(graph_, size)) {
+      guides_(importGuides(graph_, size, occlusion)) {
   for (std::size_t i = 0; i < inputCount; ++i)
     inputs_.push_back(importHalves(graph_, "input " + std::to_string(i), size));
   output_ = copyOut(graph_, "result", add(graph_, frame_, guides_, inputs_));

@@ -14,7 +14,9 @@ class FilterRun {
   using Add = std::function<fg::Texture(fg::Graph& graph, fg::Buffer frame, const Guides& guides,
                                         const std::vector<fg::Texture>& inputs)>;
 
-  FilterRun(const fg::vk::Device& device, glm::ivec2 size, std::size_t inputCount, const Add& add);
+  /// @param occlusion whether the guides include ambient occlusion
+  FilterRun(const fg::vk::Device& device, glm::ivec2 size, std::size_t inputCount, const Add& add,
+            bool occlusion = false);
 
   /// The result for these guides and inputs. Only the constants of the frame are used.
   reference::Image<glm::dvec4> run(const reference::HostFrame& frame, const reference::Image<reference::Guide>& guides,

@@ -42,10 +42,13 @@ struct Inputs {
 class RegressionRun {
  public:
   RegressionRun(const fg::vk::Device& device, const FlrRegressionSettings& settings)
-      : run_(device, kSize, 1, [&](fg::Graph& graph, fg::Buffer, const Guides& guides, const auto& inputs) {
-          const fg::Texture filtered = graph.texture("filtered", graph.textureDesc(inputs[0]));
-          return addFlrRegression(graph, inputs[0], LightingAlpha::Unused, guides, filtered, settings);
-        }) {}
+      : run_(
+            device, kSize, 1,
+            [&](fg::Graph& graph, fg::Buffer, const Guides& guides, const auto& inputs) {
+              const fg::Texture filtered = graph.texture("filtered", graph.textureDesc(inputs[0]));
+              return addFlrRegression(graph, inputs[0], LightingAlpha::Unused, guides, filtered, settings);
+            },
+            settings.occlusionGuide) {}
 
   Image<glm::dvec4> filter(const Inputs& inputs, const Image<glm::dvec3>& lighting) {
     return run_.run({}, inputs.guides, {withAlpha(lighting)});

@@ -36,16 +36,22 @@ std::uint32_t packFeatures(const reference::Guide& guide) {
 }
 
 /// Upload depths and geometric normals, the guides that have a history.
+/// @param geometricNormal not valid if `depth` holds both
 void uploadDepthAndGeometry(fg::test::GraphRun& run, fg::Texture depth, fg::Texture geometricNormal,
                             const Image<reference::Guide>& values) {
   std::vector<std::uint32_t> depths;
   std::vector<std::uint32_t> normals;
   for (const reference::Guide& guide : values.pixels()) {
-    depths.push_back(std::bit_cast<std::uint32_t>(static_cast<float>(guide.depth)));
-    normals.push_back(guide.depth > 0.0 ? packUnorms(reference::octahedralEncode(guide.normal)) : 0U);
+    const bool surface = guide.depth > 0.0;
+    if (geometricNormal.valid()) {
+      depths.push_back(std::bit_cast<std::uint32_t>(static_cast<float>(guide.depth)));
+      normals.push_back(surface ? packUnorms(reference::octahedralEncode(guide.normal)) : 0U);
+    } else {
+      depths.push_back(surface ? encodeDepthNormal(guide.depth, guide.normal) : 0U);
+    }
   }
   run.fill(depth, depths);
-  run.fill(geometricNormal, normals);
+  if (geometricNormal.valid()) run.fill(geometricNormal, normals);
 }
 
 }  // namespace
@@ -77,13 +83,16 @@ void upload(fg::test::GraphRun& run, const DenoiserInputs& inputs, const referen
   run.executor().upload(inputs.frame, frame.constants);
 }
 
-Guides importGuides(fg::Graph& graph, glm::ivec2 size) {
+Guides importGuides(fg::Graph& graph, glm::ivec2 size, bool occlusion) {
   Guides guides;
   guides.depth = import(graph, "guides.depth", VK_FORMAT_R32_UINT, size);
-  guides.shadingNormal = import(graph, "guides.shading normal", VK_FORMAT_R32_UINT, size);
-  guides.features = import(graph, "guides.features", VK_FORMAT_R32_UINT, size);
-  guides.geometricNormal = import(graph, "guides.geometric normal", VK_FORMAT_R32_UINT, size);
   guides.previousDepth = import(graph, "previous guides.depth", VK_FORMAT_R32_UINT, size);
+  if (occlusion) {
+    guides.features = import(graph, "guides.features", VK_FORMAT_R32_UINT, size);
+    return guides;
+  }
+  guides.shadingNormal = import(graph, "guides.shading normal", VK_FORMAT_R32_UINT, size);
+  guides.geometricNormal = import(graph, "guides.geometric normal", VK_FORMAT_R32_UINT, size);
   guides.previousGeometricNormal = import(graph, "previous guides.geometric normal", VK_FORMAT_R32_UINT, size);
   return guides;
 }
@@ -95,8 +104,8 @@ void upload(fg::test::GraphRun& run, const Guides& guides, const Image<reference
     shadingNormals.push_back(packUnorms(guide.features));
     features.push_back(packFeatures(guide));
   }
-  run.fill(guides.shadingNormal, shadingNormals);
-  run.fill(guides.features, features);
+  if (guides.shadingNormal.valid()) run.fill(guides.shadingNormal, shadingNormals);
+  if (guides.features.valid()) run.fill(guides.features, features);
   uploadDepthAndGeometry(run, guides.depth, guides.geometricNormal, values);
 }
 

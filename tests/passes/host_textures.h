@@ -20,7 +20,8 @@ void upload(fg::test::GraphRun& run, const DenoiserInputs& inputs, const referen
 /// Ambient occlusion with a radius that suits the small images of the tests.
 inline constexpr AmbientOcclusionSettings kOcclusionInSmallImages{.radius = 0.25F, .rings = 8};
 /// Import guides of this frame and the previous one, in place of those that `prepare guides` would write.
-Guides importGuides(fg::Graph& graph, glm::ivec2 size);
+/// @param occlusion whether ambient occlusion is one of them, which decides how all of them are packed
+Guides importGuides(fg::Graph& graph, glm::ivec2 size, bool occlusion = false);
 /// Upload this frame's guides before the next frame runs. Their values must be exact in the packed form that is read.
 void upload(fg::test::GraphRun& run, const Guides& guides, const reference::Image<reference::Guide>& values);
 /// Upload the previous frame's guides, for passes with a history.

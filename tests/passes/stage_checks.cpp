@@ -31,18 +31,30 @@ bool sameDirection(glm::dvec3 actual, glm::dvec3 expected, double error, double 
   return near || glm::length(actual - expected) <= error + std::sqrt(18.0) * step;
 }
 
+/// Whether a short normal is one that a direction rounds to, known to `error` radians. A rotation by `error` moves a
+/// point e of the stereographic projection by (1 + e . e) / 2 times that, and by less than twice this where `error` is
+/// small. Points beyond the format's end become points of its border.
+bool isShortNormalOf(glm::dvec3 actual, glm::dvec3 expected, double error) {
+  constexpr double kEnd = reference::kShortNormalEnd;
+  const glm::dvec2 point = reference::stereographicEncode(expected);
+  const glm::dvec2 difference = glm::abs(reference::stereographicEncode(actual) - glm::clamp(point, -kEnd, kEnd));
+  const double tolerance = 0.5 * reference::kShortNormalStep + (1.0 + glm::dot(point, point)) * error + 1e-6;
+  return std::max(difference.x, difference.y) <= tolerance;
+}
+
 void expectGuides(const DeviceFrame& f, const AnyWalr& walr) {
   const PrepareGuidesSettings& settings = walr.guides();
   const bool occludes = walr.blocks() != nullptr;
   const double shadingStep = occludes ? reference::kUnorm12Step : reference::kUnorm16Step;
-  const double geometricStep = occludes ? 1.0 / reference::kShortNormalSteps : reference::kUnorm16Step;
   constexpr double kShadingError = 16.0 * reference::kFloatRoundoff;
   Comparison comparison("guides");
   reference::forEachPixel(f.frame.size(), [&](glm::ivec2 p) {
     const Guide& actual = f.current.guides[p];
     reference::Surface surface = reference::surfaceAt(f.frame, p, settings);
     comparison.compared();
-    comparison.value(p, "depth", actual.depth, reference::roundDepth(surface.depth), 1e-30);
+    const double depth =
+        occludes ? reference::roundDepthBesideNormal(surface.depth) : reference::roundDepth(surface.depth);
+    comparison.value(p, "depth", actual.depth, depth, 1e-30);
     if (surface.depth == 0.0) return;
     const glm::dvec3 shading = reference::octahedralDecode(actual.features);
     // Rounding decides which way a normal perpendicular to the ray is turned.
@@ -62,7 +74,8 @@ void expectGuides(const DeviceFrame& f, const AnyWalr& walr) {
     if (actual.normal == glm::dvec3(0.0)) return;  // These settings do not use it.
     bool found = false;
     for (const auto& candidate : reference::geometricNormals(f.frame, p, surface, settings))
-      found |= sameDirection(actual.normal, candidate.normal, candidate.error, geometricStep);
+      found |= occludes ? isShortNormalOf(actual.normal, candidate.normal, candidate.error)
+                        : sameDirection(actual.normal, candidate.normal, candidate.error, reference::kUnorm16Step);
     comparison.value(p, "geometric normal", found ? 0.0 : 1.0, 0.0, 0.5);
   });
   comparison.expect(0.0);

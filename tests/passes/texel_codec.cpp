@@ -181,6 +181,11 @@ double decodeDepth(std::uint32_t packed) {
   return double(std::bit_cast<float>(packed & ~kEdgeDistanceMask));
 }
 
+double decodeDepthBesideNormal(std::uint32_t packed) {
+  constexpr std::uint32_t kShortNormalMask = 0xfffU;
+  return double(std::bit_cast<float>(packed & ~kShortNormalMask));
+}
+
 int decodeEdgeDistance(std::uint32_t packed) {
   return static_cast<int>(packed & kEdgeDistanceMask);
 }
@@ -189,25 +194,34 @@ glm::dvec2 decodeUnorms(std::uint32_t packed) {
   return {(packed & 0xffffU) * reference::kUnorm16Step, (packed >> 16U) * reference::kUnorm16Step};
 }
 
-glm::dvec3 decodeNormal(std::uint32_t packed) {
-  const bool isShort = packed < 0x10000U;
-  const glm::dvec2 steps(packed & 0xffU, packed >> 8U);
-  return reference::octahedralDecode(isShort ? steps / reference::kShortNormalSteps : decodeUnorms(packed));
+glm::dvec3 decodeShortNormal(std::uint32_t packed) {
+  const glm::dvec2 steps(packed & 0x3fU, (packed >> 6U) & 0x3fU);
+  return reference::stereographicDecode(steps * reference::kShortNormalStep - reference::kShortNormalEnd);
+}
+
+std::uint32_t encodeDepthNormal(double depth, glm::dvec3 normal) {
+  const glm::dvec2 point = reference::stereographicEncode(reference::roundToShortNormal(normal));
+  const glm::dvec2 steps = glm::round((point + reference::kShortNormalEnd) / reference::kShortNormalStep);
+  return std::bit_cast<std::uint32_t>(static_cast<float>(depth)) | static_cast<std::uint32_t>(steps.x) |
+         (static_cast<std::uint32_t>(steps.y) << 6U);
 }
 
 reference::Image<reference::Guide> decodeGuides(const GuideTexels& texels, glm::ivec2 size) {
   reference::Image<reference::Guide> guides(size);
   for (std::size_t i = 0; i < texels.depth.size(); ++i) {
     reference::Guide& guide = guides.pixels()[i];
-    guide.depth = decodeDepth(texels.depth[i]);
+    const bool besideNormal = !texels.features.empty();
+    guide.depth = besideNormal ? decodeDepthBesideNormal(texels.depth[i]) : decodeDepth(texels.depth[i]);
     if (guide.depth == 0.0) continue;
+    if (besideNormal) guide.normal = decodeShortNormal(texels.depth[i]);
     if (!texels.shadingNormal.empty()) guide.features = decodeUnorms(texels.shadingNormal[i]);
     if (!texels.features.empty()) {
       const std::uint32_t packed = texels.features[i];
       guide.features = glm::dvec2(packed & 0xfffU, (packed >> 12U) & 0xfffU) * reference::kUnorm12Step;
       guide.occlusion = (packed >> 24U) * reference::kUnorm8Step;
     }
-    if (!texels.geometricNormal.empty()) guide.normal = decodeNormal(texels.geometricNormal[i]);
+    if (!texels.geometricNormal.empty())
+      guide.normal = reference::octahedralDecode(decodeUnorms(texels.geometricNormal[i]));
   }
   return guides;
 }

@@ -28,10 +28,13 @@ double decodeDepth(std::uint32_t packed);
 int decodeEdgeDistance(std::uint32_t packed);
 /// Two 16-bit unorms.
 glm::dvec2 decodeUnorms(std::uint32_t packed);
-/// A normal of R32_UINT or R16_UINT.
-glm::dvec3 decodeNormal(std::uint32_t packed);
+/// A depth and a geometric normal that share 32 bits. `depth` must be exact in this form.
+double decodeDepthBesideNormal(std::uint32_t packed);
+glm::dvec3 decodeShortNormal(std::uint32_t packed);
+std::uint32_t encodeDepthNormal(double depth, glm::dvec3 normal);
 
-/// The R32_UINT texels of guides; those that a test does not need are empty.
+/// The R32_UINT texels of guides; those that a test does not need are empty. With `features`, `depth` also holds the
+/// geometric normal.
 struct GuideTexels {
   std::vector<std::uint32_t> depth;
   std::vector<std::uint32_t> shadingNormal = {};

@@ -145,13 +145,6 @@ WalrStages WalrRun::frame(const reference::HostFrame& frame) {
   const auto halves = [&](fg::Texture t) { return decodeHalves(run_->texels<std::uint16_t>(t), size_); };
   const auto words = [&](fg::Texture t) { return run_->texels<std::uint32_t>(t); };
   const auto wordsIfAny = [&](fg::Texture t) { return t.valid() ? words(t) : std::vector<std::uint32_t>(); };
-  // Stored in 16 or 32 bits.
-  const auto normalsIfAny = [&](fg::Texture t) {
-    if (!t.valid()) return std::vector<std::uint32_t>();
-    const std::vector<std::uint16_t> words16 = run_->texels<std::uint16_t>(t);
-    const bool isShort = words16.size() == static_cast<std::size_t>(size_.x) * static_cast<std::size_t>(size_.y);
-    return isShort ? std::vector<std::uint32_t>(words16.begin(), words16.end()) : words(t);
-  };
   WalrStages stages;
   stages.outputBits = run_->texels<std::uint16_t>(output_);
   stages.output = decodeHalves(stages.outputBits, size_);
@@ -165,7 +158,7 @@ WalrStages WalrRun::frame(const reference::HostFrame& frame) {
   stages.guides = decodeGuides({.depth = words(depth_),
                                 .shadingNormal = wordsIfAny(shadingNormal_),
                                 .features = wordsIfAny(features_),
-                                .geometricNormal = normalsIfAny(geometricNormal_)},
+                                .geometricNormal = wordsIfAny(geometricNormal_)},
                                size_);
   const bool packedPictures = settings_.packsAntialiasing();
   const double longest = settings_.antialiasing().maxHistory;

@@ -48,6 +48,14 @@ class Table(unittest.TestCase):
         share = sum(e.held_back for e in every) / len(every)
         self.assertTrue(0.3 < share < 0.37, share)
 
+    def test_a_first_look_judges_fewer_frames_of_the_same_noise(self):
+        entry = dataclasses.replace(TINY, judged=(12, 19))
+        self.assertEqual((entry.restricted(4, 0).judged, entry.restricted(4, 0).frames), ((12, 15), (4, 15)))
+        self.assertEqual(entry.restricted(99, 3), dataclasses.replace(entry, seed=3))
+        self.assertEqual(entry.restricted(None, 0), entry)
+        with self.assertRaises(SystemExit), contextlib.redirect_stderr(io.StringIO()):
+            corpus.main(["list", "--judged", "0"])
+
     def test_costs_are_those_of_the_settings(self):
         # 4 frames of 100 x 10 pixels with 3 samples and a G-buffer; 2 references of 8 samples in a fifth of the pixels.
         entry = entries.Entry("e", TINY.scene, (100, 10), (2, 3), 5, samples=3, reference_samples=8)
@@ -284,8 +292,12 @@ class Ranking(unittest.TestCase):
 
 
 class Page(unittest.TestCase):
-    def test_the_committed_page_is_what_the_figures_give(self):
-        self.assertEqual(corpus.PAGE.read_text(encoding="utf-8"), pages.page(json.loads(corpus.KEPT.read_text())))
+    def test_the_committed_pages_are_what_the_figures_give(self):
+        self.assertIn(corpus.Record(""), corpus.records())
+        for recorded in corpus.records():
+            self.assertEqual(recorded.page.read_text(encoding="utf-8"), recorded.text())
+            self.assertIn(f"({recorded.overview.name})", recorded.text())
+            self.assertTrue(recorded.overview.exists(), recorded.overview)
 
     def test_the_list_names_every_entry(self):
         command = [sys.executable, str(corpus.HERE / "corpus.py"), "list", "--part", "nightly", "--held-back"]

@@ -11,6 +11,7 @@
  * - Structures begin with `struct_size`, which the caller sets to sizeof. If the library is newer than the caller's
  *   header, fields that the caller does not have count as zero. If it is older, it refuses fields that it does not know
  *   unless they are zero. Zero is the default of every field. Structures without `struct_size` never change.
+ * - A VkBool32 must be VK_FALSE or VK_TRUE. Any other value is a WALR_ERROR_INVALID_ARGUMENT that names the field.
  * - Handles are never reused: using a destroyed one is always an error.
  * - Only one thread at a time may use a denoiser. A call during another thread's call returns
  *   WALR_ERROR_CONCURRENT_USE and does nothing. Different denoisers are independent, unless they share objects.

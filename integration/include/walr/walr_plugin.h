@@ -55,7 +55,7 @@ typedef struct WalrApi {
   WalrResult (*get_pass_counters)(WalrPasses passes, uint32_t* count, WalrCounter* counters);
 } WalrApi;
 
-/* Callbacks of the host. If one returns false, the registration ends with an error. */
+/* Callbacks of the host. If one returns VK_FALSE, the registration ends with an error; any other value is success. */
 typedef struct WalrRegistryHost {
   uint32_t struct_size;
   uint32_t reserved;

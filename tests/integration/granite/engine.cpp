@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <optional>
+#include <set>
 #include <stdexcept>
 
 #include <context.hpp>
@@ -18,17 +19,16 @@ namespace {
 constexpr std::uint32_t kVertex[] = {
 #include "full_screen.vert.inc"
 };
-constexpr std::uint32_t kGbuffer[] = {
-#include "gbuffer.frag.inc"
-};
-constexpr std::uint32_t kPresent[] = {
-#include "present.frag.inc"
+constexpr std::uint32_t kCopy[] = {
+#include "copy.frag.inc"
 };
 
-constexpr const char* kInputs[] = {"lighting", "depth", "normal", "motion", "albedo"};
+std::size_t texelSize(VkFormat format) {
+  return format == VK_FORMAT_R32G32B32A32_SFLOAT ? 16 : format == VK_FORMAT_B10G11R11_UFLOAT_PACK32 ? 4 : 8;
+}
 
-VkFormat formatOf(std::size_t input) {
-  return input == 1 ? VK_FORMAT_R32_SFLOAT : VK_FORMAT_R32G32B32A32_SFLOAT;
+bool writes(const WalrBinding& binding) {
+  return (binding.access & VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT) != 0;
 }
 
 /// Lets Granite use the host's instance.
@@ -109,14 +109,14 @@ struct Engine::Parts {
       throw std::runtime_error("Granite does not take the device");
     }
     vulkan.set_context(context);
-    gbuffer = program(kGbuffer, sizeof(kGbuffer));
-    present = program(kPresent, sizeof(kPresent));
+    copy = vulkan.request_program(kVertex, sizeof(kVertex), kCopy, sizeof(kCopy));
   }
 
-  Vulkan::Program* program(const std::uint32_t* fragment, std::size_t size) {
-    return vulkan.request_program(kVertex, sizeof(kVertex), fragment, size);
-  }
-  static void drawFullScreen(Vulkan::CommandBuffer& commands) {
+  /// Draw two textures, one below the other, as far as the target reaches.
+  void draw(Vulkan::CommandBuffer& commands, const Vulkan::ImageView& first, const Vulkan::ImageView& second) const {
+    commands.set_program(copy);
+    commands.set_texture(0, 0, first, Vulkan::StockSampler::NearestClamp);
+    commands.set_texture(0, 1, second, Vulkan::StockSampler::NearestClamp);
     commands.set_opaque_state();
     commands.set_cull_mode(VK_CULL_MODE_NONE);
     commands.set_depth_test(false, false);
@@ -126,19 +126,19 @@ struct Engine::Parts {
 
   void addGbuffer();
   void addPresent();
-  void makeImages(std::uint32_t width, std::uint32_t height);
-  void upload(const std::vector<std::vector<float>>& inputs);
+  void makeImages(const WalrPassList& list, std::uint32_t width, std::uint32_t height);
+  void upload(const std::map<std::string, std::vector<float>>& inputs);
 
   Globals globals;
   Instance instance;
   Device device;
   Vulkan::Context context;
   Vulkan::Device vulkan;
-  Vulkan::Program* gbuffer = nullptr;
-  Vulkan::Program* present = nullptr;
+  Vulkan::Program* copy = nullptr;
   std::optional<walr::adapters::GranitePasses> walr;
-  std::vector<Vulkan::ImageHandle> sources;  ///< Source textures of the G-buffer.
+  std::map<std::string, Vulkan::ImageHandle> sources;  ///< Source textures of the G-buffer.
   Vulkan::ImageHandle backBuffer;
+  bool showsLengths = false;
   Granite::AttachmentInfo backInfo;
   Granite::RenderGraph graph;
 };
@@ -156,45 +156,59 @@ void Engine::drop() {
   parts_->backBuffer.reset();
 }
 
+/// A pass for each image of the G-buffer.
 void Engine::Parts::addGbuffer() {
-  Granite::RenderPass& pass = graph.add_pass("gbuffer", Granite::RENDER_GRAPH_QUEUE_GRAPHICS_BIT);
-  for (std::size_t i = 0; i < std::size(kInputs); ++i) {
-    Granite::AttachmentInfo info = backInfo;
-    info.format = formatOf(i);
-    pass.add_color_output(kInputs[i], info);
+  for (const auto& [name, source] : sources) {
+    Granite::RenderPass& pass = graph.add_pass("draw " + name, Granite::RENDER_GRAPH_QUEUE_GRAPHICS_BIT);
+    Granite::AttachmentInfo info;
+    info.size_class = Granite::SizeClass::Absolute;
+    info.size_x = static_cast<float>(source->get_width());
+    info.size_y = static_cast<float>(source->get_height());
+    info.format = source->get_format();
+    pass.add_color_output(name, info);
+    pass.set_build_render_pass([this, &image = *source](Vulkan::CommandBuffer& commands) {
+      draw(commands, image.get_view(), image.get_view());
+    });
   }
-  pass.set_build_render_pass([this](Vulkan::CommandBuffer& commands) {
-    commands.set_program(gbuffer);
-    for (unsigned i = 0; i < sources.size(); ++i) {
-      commands.set_texture(0, i, sources[i]->get_view(), Vulkan::StockSampler::NearestClamp);
-    }
-    drawFullScreen(commands);
-  });
 }
 
 void Engine::Parts::addPresent() {
   Granite::RenderPass& pass = graph.add_pass("present", Granite::RENDER_GRAPH_QUEUE_GRAPHICS_BIT);
   pass.add_color_output("back buffer", backInfo);
   Granite::RenderTextureResource& denoised = walr->readBy(pass);
-  pass.set_build_render_pass([this, &denoised](Vulkan::CommandBuffer& commands) {
-    commands.set_program(present);
-    commands.set_texture(0, 0, graph.get_physical_texture_resource(denoised), Vulkan::StockSampler::NearestClamp);
-    drawFullScreen(commands);
+  Granite::RenderTextureResource& lengths = showsLengths ? walr->readBy(pass, "history_length") : denoised;
+  pass.set_build_render_pass([this, &denoised, &lengths](Vulkan::CommandBuffer& commands) {
+    draw(commands, graph.get_physical_texture_resource(denoised), graph.get_physical_texture_resource(lengths));
   });
 }
 
 /// Fill an image with explicit commands: Granite's own uploads cause validation messages.
-void Engine::Parts::makeImages(std::uint32_t width, std::uint32_t height) {
-  Vulkan::ImageCreateInfo back = Vulkan::ImageCreateInfo::render_target(width, height, VK_FORMAT_R16G16B16A16_SFLOAT);
+void Engine::Parts::makeImages(const WalrPassList& list, std::uint32_t width, std::uint32_t height) {
+  std::set<std::uint32_t> written;
+  for (std::uint32_t p = 0; p < list.pass_count; ++p) {
+    for (std::uint32_t b = 0; b < list.passes[p]->binding_count; ++b) {
+      if (writes(*list.passes[p]->bindings[b])) written.insert(list.passes[p]->bindings[b]->resource);
+    }
+  }
+  VkFormat shown = VK_FORMAT_UNDEFINED;
+  showsLengths = false;
+  for (std::uint32_t i = 0; i < list.resource_count; ++i) {
+    const WalrResource& resource = *list.resources[i];
+    const std::string name = resource.name;
+    if (resource.kind != WALR_RESOURCE_HOST) continue;
+    if (name == "denoised") shown = resource.format;
+    showsLengths = showsLengths || name == "history_length";
+    if (written.contains(i)) continue;
+    Vulkan::ImageCreateInfo info = Vulkan::ImageCreateInfo::immutable_2d_image(width, height, resource.format);
+    info.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+    info.initial_layout = VK_IMAGE_LAYOUT_UNDEFINED;
+    sources[name] = vulkan.create_image(info);
+  }
+  const std::uint32_t backHeight = showsLengths ? 2 * height : height;
+  Vulkan::ImageCreateInfo back = Vulkan::ImageCreateInfo::render_target(width, backHeight, shown);
   back.usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
   back.initial_layout = VK_IMAGE_LAYOUT_UNDEFINED;
   backBuffer = vulkan.create_image(back);
-  for (std::size_t i = 0; i < std::size(kInputs); ++i) {
-    Vulkan::ImageCreateInfo info = Vulkan::ImageCreateInfo::immutable_2d_image(width, height, formatOf(i));
-    info.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
-    info.initial_layout = VK_IMAGE_LAYOUT_UNDEFINED;
-    sources.push_back(vulkan.create_image(info));
-  }
   Vulkan::CommandBufferHandle commands = vulkan.request_command_buffer();
   commands->image_barrier(*backBuffer, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_ATTACHMENT_OPTIMAL,
                           VK_PIPELINE_STAGE_2_NONE, VK_ACCESS_2_NONE, VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
@@ -202,20 +216,21 @@ void Engine::Parts::makeImages(std::uint32_t width, std::uint32_t height) {
   vulkan.submit(commands);
 }
 
-void Engine::Parts::upload(const std::vector<std::vector<float>>& inputs) {
+void Engine::Parts::upload(const std::map<std::string, std::vector<float>>& inputs) {
   Vulkan::CommandBufferHandle commands = vulkan.request_command_buffer();
-  for (std::size_t i = 0; i < inputs.size(); ++i) {
+  for (const auto& [name, texels] : inputs) {
+    Vulkan::Image& source = *sources.at(name);
     Vulkan::BufferCreateInfo info;
-    info.size = inputs[i].size() * sizeof(float);
+    info.size = texels.size() * sizeof(float);
     info.usage = VK_BUFFER_USAGE_TRANSFER_SRC_BIT;
     info.domain = Vulkan::BufferDomain::Host;
-    const Vulkan::BufferHandle staging = vulkan.create_buffer(info, inputs[i].data());
-    commands->image_barrier(*sources[i], VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+    const Vulkan::BufferHandle staging = vulkan.create_buffer(info, texels.data());
+    commands->image_barrier(source, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
                             VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT, VK_ACCESS_2_NONE, VK_PIPELINE_STAGE_2_COPY_BIT,
                             VK_ACCESS_2_TRANSFER_WRITE_BIT);
-    commands->copy_buffer_to_image(*sources[i], *staging, 0, {}, {sources[i]->get_width(), sources[i]->get_height(), 1},
-                                   0, 0, {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1});
-    commands->image_barrier(*sources[i], VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_READ_ONLY_OPTIMAL,
+    commands->copy_buffer_to_image(source, *staging, 0, {}, {source.get_width(), source.get_height(), 1}, 0, 0,
+                                   {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1});
+    commands->image_barrier(source, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_READ_ONLY_OPTIMAL,
                             VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
                             VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT);
   }
@@ -226,10 +241,10 @@ void Engine::build(const WalrApi& api, WalrPasses passes, const WalrPassList& li
                    std::uint32_t height) {
   drop();
   Parts& p = *parts_;
-  p.makeImages(width, height);
+  p.makeImages(list, width, height);
   Granite::ResourceDimensions dimensions;
-  dimensions.width = width;
-  dimensions.height = height;
+  dimensions.width = p.backBuffer->get_width();
+  dimensions.height = p.backBuffer->get_height();
   dimensions.format = p.backInfo.format = p.backBuffer->get_format();
 
   p.graph.set_device(&p.vulkan);
@@ -247,7 +262,7 @@ unsigned Engine::position(const std::string& pass) const {
   return parts_->graph.find_pass("walr/" + pass)->get_physical_pass_index();
 }
 
-void Engine::frame(const WalrPassFrame& frame, const std::vector<std::vector<float>>& inputs, bool reset) {
+void Engine::frame(const WalrPassFrame& frame, const std::map<std::string, std::vector<float>>& inputs, bool reset) {
   Parts& p = *parts_;
   p.vulkan.next_frame_context();
   p.upload(inputs);
@@ -263,7 +278,7 @@ std::vector<std::uint16_t> Engine::read(bool barrier) {
   Parts& p = *parts_;
   const std::uint32_t width = p.backBuffer->get_width();
   const std::uint32_t height = p.backBuffer->get_height();
-  std::vector<std::uint16_t> texels(std::size_t{4} * width * height);
+  std::vector<std::uint16_t> texels(texelSize(p.backBuffer->get_format()) / sizeof(std::uint16_t) * width * height);
   Vulkan::BufferCreateInfo info;
   info.size = texels.size() * sizeof(texels[0]);
   info.usage = VK_BUFFER_USAGE_TRANSFER_DST_BIT;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -21,7 +22,8 @@ class Engine {
   Engine(const Engine&) = delete;
   Engine& operator=(const Engine&) = delete;
 
-  /// Create a graph for the passes and replace the one before.
+  /// Create a graph for the passes and replace the one before. The back buffer shows the result, and below it the
+  /// history lengths, if the passes write them.
   void build(const WalrApi& api, WalrPasses passes, const WalrPassList& list, std::uint32_t width,
              std::uint32_t height);
   /// Wait for the GPU and destroy the graph.
@@ -31,10 +33,10 @@ class Engine {
   [[nodiscard]] unsigned position(const std::string& pass) const;
 
   /// Run a frame without waiting for it.
-  /// @param inputs texels by channel, in the order of lighting, depth, normal, motion, albedo
-  void frame(const WalrPassFrame& frame, const std::vector<std::vector<float>>& inputs, bool reset);
+  /// @param inputs texels of the images that the passes read, by name
+  void frame(const WalrPassFrame& frame, const std::map<std::string, std::vector<float>>& inputs, bool reset);
   /// @param barrier whether to record the required barrier after drawing
-  /// @returns the back buffer, four halves per pixel
+  /// @returns the back buffer as 16-bit words
   std::vector<std::uint16_t> read(bool barrier = true);
 
  private:

@@ -54,7 +54,7 @@ static void open_instance(Host* host, const char* const* more, uint32_t count) {
   check(create(host->instance, &messenger, NULL, &host->messenger), "creating a messenger");
 }
 
-static void open_device(Host* host) {
+static void open_device(Host* host, const char* const* extensions, uint32_t extension_count) {
   uint32_t count = 1;
   const VkResult found = vkEnumeratePhysicalDevices(host->instance, &count, &host->physical_device);
   if (found != VK_INCOMPLETE) check(found, "looking for a device");
@@ -82,19 +82,22 @@ static void open_device(Host* host) {
   const VkDeviceCreateInfo info = {.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
                                    .pNext = &host->features,
                                    .queueCreateInfoCount = 1,
-                                   .pQueueCreateInfos = &queue};
+                                   .pQueueCreateInfos = &queue,
+                                   .enabledExtensionCount = extension_count,
+                                   .ppEnabledExtensionNames = extensions};
   check(vkCreateDevice(host->physical_device, &info, NULL, &host->device), "creating a device");
   vkGetDeviceQueue(host->device, host->queue_family, 0, &host->queue);
 }
 
 void host_open(Host* host) {
-  host_open_with(host, NULL, 0);
+  host_open_with(host, NULL, 0, NULL, 0);
 }
 
-void host_open_with(Host* host, const char* const* extensions, uint32_t count) {
+void host_open_with(Host* host, const char* const* instance, uint32_t instance_count, const char* const* device,
+                    uint32_t device_count) {
   memset(host, 0, sizeof(*host));
-  open_instance(host, extensions, count);
-  open_device(host);
+  open_instance(host, instance, instance_count);
+  open_device(host, device, device_count);
   const VkCommandPoolCreateInfo pool = {.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
                                         .queueFamilyIndex = host->queue_family};
   check(vkCreateCommandPool(host->device, &pool, NULL, &host->command_pool), "creating a command pool");
@@ -248,6 +251,20 @@ void host_submit_between(Host* host, VkCommandBuffer command_buffer, VkSemaphore
                         .pWaitDstStageMask = &stage,
                         .signalSemaphoreCount = 1,
                         .pSignalSemaphores = &timeline});
+}
+
+void host_signal(Host* host, VkSemaphore timeline, uint64_t value) {
+  const VkTimelineSemaphoreSubmitInfo values = {.sType = VK_STRUCTURE_TYPE_TIMELINE_SEMAPHORE_SUBMIT_INFO,
+                                                .signalSemaphoreValueCount = 1,
+                                                .pSignalSemaphoreValues = &value};
+  const VkSubmitInfo info = {.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO,
+                             .pNext = &values,
+                             .signalSemaphoreCount = 1,
+                             .pSignalSemaphores = &timeline};
+  check(vkQueueSubmit(host->queue, 1, &info, VK_NULL_HANDLE), "submitting a signal");
+  const VkSemaphoreWaitInfo wait = {
+      .sType = VK_STRUCTURE_TYPE_SEMAPHORE_WAIT_INFO, .semaphoreCount = 1, .pSemaphores = &timeline, .pValues = &value};
+  check(vkWaitSemaphores(host->device, &wait, UINT64_MAX), "waiting for a signal");
 }
 
 void host_transition(VkCommandBuffer command_buffer, HostImage* image, VkPipelineStageFlags2 stage,

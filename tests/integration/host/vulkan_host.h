@@ -44,8 +44,9 @@ typedef struct HostImage {
 
 /* Do not move or copy a host after it is opened. If Vulkan fails, the functions end the program with a message. */
 void host_open(Host* host);
-/* The same, with further instance extensions; at most 8. */
-void host_open_with(Host* host, const char* const* extensions, uint32_t count);
+/* The same, with further extensions: at most 8 of the instance, and any of the device. */
+void host_open_with(Host* host, const char* const* instance, uint32_t instance_count, const char* const* device,
+                    uint32_t device_count);
 /* Returns the number of messages, those at destruction included. */
 int host_close(Host* host);
 
@@ -72,6 +73,9 @@ void host_submit_and_wait(Host* host, VkCommandBuffer command_buffer);
 /* The same, but wait for a value of a timeline semaphore before and signal another after. */
 void host_submit_between(Host* host, VkCommandBuffer command_buffer, VkSemaphore timeline, uint64_t before,
                          uint64_t after);
+
+/* Let the queue raise a timeline semaphore to a value after everything submitted so far, and wait for that. */
+void host_signal(Host* host, VkSemaphore timeline, uint64_t value);
 
 /* Record a barrier that brings an image into a state. */
 void host_transition(VkCommandBuffer command_buffer, HostImage* image, VkPipelineStageFlags2 stage,

@@ -183,7 +183,7 @@ Image<Guide> prepareGuides(const HostFrame& frame, Storage storage, const Prepar
     if (occlusion) guide.occlusion = ambientOcclusion(frame, p, surface, *occlusion);
     if (storage == Storage::Quantised) {
       const glm::dvec2 features = guide.features;
-      guide.depth = roundDepth(guide.depth);
+      guide.depth = occlusion ? roundDepthBesideNormal(guide.depth) : roundDepth(guide.depth);
       guide.features = occlusion
                            ? glm::dvec2(roundToUnorm(features.x, kUnorm12Step), roundToUnorm(features.y, kUnorm12Step))
                            : roundToUnorms(features);

@@ -31,15 +31,25 @@ glm::dvec3 octahedralDecode(glm::dvec2 uv) {
 }
 
 glm::dvec2 roundToUnorms(glm::dvec2 encoded) {
-  return {roundToUnorm16(encoded.x), std::max(roundToUnorm16(encoded.y), kUnorm16Step)};
+  return {roundToUnorm16(encoded.x), roundToUnorm16(encoded.y)};
 }
 
 glm::dvec3 roundToNormal(glm::dvec3 direction) {
   return octahedralDecode(roundToUnorms(octahedralEncode(direction)));
 }
 
+glm::dvec2 stereographicEncode(glm::dvec3 direction) {
+  return glm::dvec2(direction) / (1.0 + direction.z);
+}
+
+glm::dvec3 stereographicDecode(glm::dvec2 point) {
+  const double squared = glm::dot(point, point);
+  return glm::dvec3(2.0 * point, 1.0 - squared) / (1.0 + squared);
+}
+
 glm::dvec3 roundToShortNormal(glm::dvec3 direction) {
-  return octahedralDecode(glm::round(octahedralEncode(direction) * kShortNormalSteps) / kShortNormalSteps);
+  const glm::dvec2 inside = glm::clamp(stereographicEncode(direction), -kShortNormalEnd, kShortNormalEnd);
+  return stereographicDecode(kShortNormalStep * glm::round(inside / kShortNormalStep));
 }
 
 }  // namespace walr::reference

@@ -16,6 +16,13 @@ double roundToFormat(double value, int digits, int smallestExponent) {
   return std::ldexp(std::nearbyint(std::ldexp(value, -step)), step);
 }
 
+/// Nearest number with this many significant bits, ties up.
+double roundUp(double value, int bits) {
+  int exponent = 0;
+  (void)std::frexp(value, &exponent);
+  return std::ldexp(std::floor(std::ldexp(value, bits - exponent) + 0.5), exponent - bits);
+}
+
 }  // namespace
 
 double packedStep(double brightest, int mantissaBits) {
@@ -71,9 +78,11 @@ double roundToUnorm16(double value) {
 }
 
 double roundDepth(double depth) {
-  int exponent = 0;
-  (void)std::frexp(depth, &exponent);
-  return std::ldexp(std::floor(std::ldexp(depth, 19 - exponent) + 0.5), exponent - 19);
+  return roundUp(depth, 19);
+}
+
+double roundDepthBesideNormal(double depth) {
+  return roundUp(depth, 12);
 }
 
 }  // namespace walr::reference

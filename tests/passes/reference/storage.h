@@ -17,8 +17,9 @@ inline constexpr double kDepthRoundoff = 0x1p-19;      ///< Largest relative err
 inline constexpr double kUnorm16Step = 1.0 / 65535.0;  ///< Step between 16-bit unorms.
 inline constexpr double kUnorm12Step = 1.0 / 4095.0;   ///< Step between 12-bit unorms.
 inline constexpr double kUnorm8Step = 1.0 / 255.0;     ///< Step between 8-bit unorms.
-inline constexpr double kShortNormalSteps = 254.0;     ///< Steps per axis of a short normal's octahedral map.
-inline constexpr double kFloatRoundoff = 0x1p-24;      ///< Largest relative error of one operation in single precision.
+inline constexpr double kShortNormalStep = 1.0 / 16.0;  ///< Step of a short normal's stereographic projection.
+inline constexpr double kShortNormalEnd = 31.0 / 16.0;  ///< Largest coordinate of this projection.
+inline constexpr double kFloatRoundoff = 0x1p-24;  ///< Largest relative error of one operation in single precision.
 
 /// Bits of mantissa of packed light (packed_light.glsl; passes/WALR.md, Storage).
 inline constexpr int kAccumulatedBits = 7;
@@ -54,5 +55,7 @@ double roundToUnorm16(double value);
 /// Nearest float with 19 significant bits, ties up: the precision of a packed depth, which shares 32 bits with five
 /// bits of edge distance. `depth` is at least 0.
 double roundDepth(double depth);
+/// The same with 12 significant bits: that of a depth that shares 32 bits with a short normal.
+double roundDepthBesideNormal(double depth);
 
 }  // namespace walr::reference

@@ -61,6 +61,10 @@ class FrameGraphPasses {
   FrameGraphResource declare(FrameGraph::Builder& builder, const WalrBinding& binding,
                              FrameGraphResource& current) const {
     const WalrResource& resource = *list_->resources[binding.resource];
+    if (resource.kind == WALR_RESOURCE_LIBRARY) {
+      builder.setSideEffect();  // The library reads it after the frame.
+      return kNone;
+    }
     if (!writes(binding)) return current == kNone ? kNone : builder.read(current, Host::flags(binding));
     if (current == kNone) {
       current = resource.buffer == VK_TRUE

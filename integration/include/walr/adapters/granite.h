@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <map>
 #include <mutex>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -47,6 +48,7 @@ class GranitePasses {
     graph_ = &graph;
     added_.clear();
     kept_.clear();
+    keepers_.clear();
     states_.assign(list_->resource_count, {});
     for (std::uint32_t i = 0; i < list_->resource_count; ++i) {
       const WalrResource& resource = *list_->resources[i];
@@ -62,8 +64,10 @@ class GranitePasses {
   /// on in this frame. This call also keeps those that only write histories for the next frame.
   /// @param output walr's name of the image: "denoised" or "history_length"
   /// @throws std::invalid_argument if no pass writes it
-  Granite::RenderTextureResource& readBy(Granite::RenderPass& pass, const std::string& output = "denoised") const {
-    for (const std::string& name : kept_) pass.add_proxy_input(name, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, 0);
+  Granite::RenderTextureResource& readBy(Granite::RenderPass& pass, const std::string& output = "denoised") {
+    if (keepers_.insert(&pass).second) {  // Granite takes a resource once for each pass.
+      for (const std::string& name : kept_) pass.add_proxy_input(name, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, 0);
+    }
     for (std::uint32_t i = 0; i < list_->resource_count; ++i) {
       const WalrResource& resource = *list_->resources[i];
       const bool written = resource.kind == WALR_RESOURCE_HOST && states_[i].versions > 0;
@@ -93,7 +97,7 @@ class GranitePasses {
   struct State {
     std::string name;
     std::uint32_t versions = 0;                 ///< Writes so far.
-    std::vector<Granite::RenderPass*> readers;  ///< Of the current version.
+    std::vector<Granite::RenderPass*> readers;  ///< Of the current version; of a library's buffer, the last user.
   };
   /// The resource behind a binding; both pointers are null for walr's own upload buffers.
   struct Bound {
@@ -135,11 +139,12 @@ class GranitePasses {
     Granite::RenderPass& pass =
         graph_->add_pass(std::string("walr/") + dispatch.name, Granite::RenderGraph::get_default_compute_queue());
     Added added{&pass, {}};
-    bool keeps = false;
+    bool keeps = false;  // What it writes is read after the frame, or in the next one.
     for (std::uint32_t b = 0; b < dispatch.binding_count; ++b) {
       const WalrBinding& binding = *dispatch.bindings[b];
       const WalrResource& resource = *list_->resources[binding.resource];
-      keeps = keeps || (resource.kind == WALR_RESOURCE_HISTORY_CURRENT && writes(binding));
+      const bool readLater = resource.kind == WALR_RESOURCE_HISTORY_CURRENT || resource.kind == WALR_RESOURCE_LIBRARY;
+      keeps = keeps || (readLater && writes(binding));
       added.bindings.push_back(resource.buffer == VK_TRUE ? declareBuffer(pass, binding) : declareImage(pass, binding));
     }
     if (keeps) {
@@ -170,6 +175,10 @@ class GranitePasses {
     const WalrResource& resource = *list_->resources[binding.resource];
     Bound bound;
     if (resource.kind == WALR_RESOURCE_UPLOAD) return bound;
+    if (resource.kind == WALR_RESOURCE_LIBRARY) {
+      orderAfterLast(pass, binding.resource);
+      return bound;
+    }
     if (resource.kind != WALR_RESOURCE_TRANSIENT) {
       throw std::invalid_argument(std::string(resource.name) + ": Granite has no history of buffers");
     }
@@ -184,6 +193,17 @@ class GranitePasses {
       states_[binding.resource].readers.push_back(&pass);
     }
     return bound;
+  }
+
+  /// The library places the barriers of its own buffers, and Granite only needs the order of the passes.
+  void orderAfterLast(Granite::RenderPass& pass, std::uint32_t resource) {
+    std::vector<Granite::RenderPass*>& last = states_[resource].readers;
+    for (Granite::RenderPass* before : last) {
+      const std::string order = states_[resource].name + " after " + before->get_name();
+      before->add_proxy_output(order, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, 0);
+      pass.add_proxy_input(order, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, 0);
+    }
+    last = {&pass};
   }
 
   /// Names of a resource before and after a pass that writes to it. Granite does not order the pass after the readers
@@ -230,9 +250,10 @@ class GranitePasses {
   const WalrPassList* list_;
   Functions walr_;
   Granite::RenderGraph* graph_ = nullptr;
-  std::vector<State> states_;  ///< By resource.
-  std::vector<Added> added_;   ///< By pass.
-  std::vector<std::string> kept_;
+  std::vector<State> states_;                     ///< By resource.
+  std::vector<Added> added_;                      ///< By pass.
+  std::vector<std::string> kept_;                 ///< Names of the passes' proxies that must be read.
+  std::set<const Granite::RenderPass*> keepers_;  ///< The host's passes that read them.
   mutable std::mutex mutex_;  ///< Granite records passes in parallel; walr allows one thread at a time.
   std::string error_;
   bool reset_ = false;

@@ -1,0 +1,148 @@
+// The table of image formats in the integration guide is written from what the library checks formats with.
+// `cmake --build build --target update_guide` writes it again.
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "framegraph/declare/format.h"
+#include "integration/denoise_graph.h"
+#include "integration/host_inputs.h"
+#include "passes/history_length.h"
+#include "passes/inspection.h"
+
+namespace walr {
+namespace {
+
+/// Formats that engines store such images in.
+constexpr VkFormat kCommonFormats[] = {
+    VK_FORMAT_R8_UNORM,
+    VK_FORMAT_R16_UNORM,
+    VK_FORMAT_R16_SFLOAT,
+    VK_FORMAT_R32_SFLOAT,
+    VK_FORMAT_D16_UNORM,
+    VK_FORMAT_D24_UNORM_S8_UINT,
+    VK_FORMAT_D32_SFLOAT,
+    VK_FORMAT_R8G8_UNORM,
+    VK_FORMAT_R8G8_SNORM,
+    VK_FORMAT_R16G16_UNORM,
+    VK_FORMAT_R16G16_SNORM,
+    VK_FORMAT_R16G16_SFLOAT,
+    VK_FORMAT_R32G32_SFLOAT,
+    VK_FORMAT_B10G11R11_UFLOAT_PACK32,
+    VK_FORMAT_R8G8B8A8_UNORM,
+    VK_FORMAT_R8G8B8A8_SRGB,
+    VK_FORMAT_R8G8B8A8_SNORM,
+    VK_FORMAT_A2B10G10R10_UNORM_PACK32,
+    VK_FORMAT_R16G16B16A16_UNORM,
+    VK_FORMAT_R16G16B16A16_SNORM,
+    VK_FORMAT_R16G16B16A16_SFLOAT,
+    VK_FORMAT_R32G32B32A32_SFLOAT,
+    VK_FORMAT_R8_UINT,
+    VK_FORMAT_R16_UINT,
+    VK_FORMAT_R32_UINT,
+};
+
+/// An image of the guide's table.
+struct Column {
+  std::string name;
+  VkFormat usual;
+  std::function<bool(VkFormat)> takes;
+};
+
+/// Whether an input may have a format: what walr_create_denoiser checks.
+bool accepted(std::string_view name, VkFormat format, const InputConventions& conventions,
+              const HostConventions& host) {
+  std::vector<VkFormat> formats;
+  for (const HostInput& input : kHostInputs) {
+    const VkFormat usual = input.optional ? VK_FORMAT_UNDEFINED : input.format;
+    formats.push_back(input.name == name ? format : usual);
+  }
+  fg::Graph scratch;
+  try {
+    (void)importInputs(scratch, {64, 48}, conventions, kComputeHost.inputs, formats, host);
+  } catch (const std::invalid_argument&) {
+    return false;
+  }
+  return true;
+}
+
+std::vector<Column> columns() {
+  std::vector<Column> result;
+  const auto add = [&](std::string_view name, const std::string& how, const InputConventions& conventions,
+                       const HostConventions& host) {
+    const HostInput& input = *hostInputNamed(name);
+    const auto takes = [=](VkFormat format) { return accepted(input.name, format, conventions, host); };
+    result.push_back(
+        {"`" + std::string(name) + "`" + how, takes(input.format) ? input.format : VK_FORMAT_UNDEFINED, takes});
+  };
+  for (const HostInput& input : kHostInputs) {
+    add(input.name, "", {}, {});
+    if (input.name == "lighting") add(input.name, " masked", {.light = {.masked = true}}, {});
+    if (input.name == "normal")
+      add(input.name, " octahedral", {}, {.normal = HostConventions::Normal::OctahedralSigned});
+    if (input.name == "motion") {
+      // Four channels may be given, but need not.
+      add(input.name, " without depth", {.motionDepth = InputConventions::MotionDepth::Found}, {});
+    }
+  }
+  const auto one = [](VkFormat wanted) { return [wanted](VkFormat format) { return format == wanted; }; };
+  result.push_back({"`denoised`", kResultFormats.front(),
+                    [](VkFormat format) { return std::ranges::find(kResultFormats, format) != kResultFormats.end(); }});
+  result.push_back({"`history_length`", kHistoryLengthFormat, one(kHistoryLengthFormat)});
+  result.push_back({"`view`", kViewFormat, one(kViewFormat)});
+  return result;
+}
+
+std::string formatTable() {
+  const std::vector<Column> images = columns();
+  std::string text = "| |";
+  for (const Column& image : images) text += " " + image.name + " |";
+  text += "\n| --- |";
+  for (std::size_t i = 0; i < images.size(); ++i) text += " --- |";
+  text += "\n";
+  for (const VkFormat format : kCommonFormats) {
+    text += "| " + std::string(fg::formatInfo(format).name) + " |";
+    for (const Column& image : images) {
+      text += format == image.usual ? " usual |" : image.takes(format) ? " yes |" : " |";
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+std::string textOf(const char* path) {
+  std::ifstream file(path);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+TEST(Guide, KnowsTheFormatsOfItsTable) {
+  for (const VkFormat format : kCommonFormats) EXPECT_NE(fg::formatInfo(format).name, "unknown") << format;
+}
+
+TEST(Guide, ImageFormatsAreThoseThatTheLibraryChecks) {
+  const std::string begin = "<!-- Written by update_guide: begin -->\n\n";
+  const std::string end = "<!-- Written by update_guide: end -->";
+  std::string guide = textOf(WALR_GUIDE);
+  const std::size_t from = guide.find(begin);
+  ASSERT_NE(from, std::string::npos);
+  const std::size_t start = from + begin.size();
+  const std::size_t to = guide.find(end, start);
+  ASSERT_NE(to, std::string::npos);
+  const std::string table = formatTable() + "\n";
+  if (std::getenv("WALR_UPDATE_GUIDE") != nullptr) {
+    std::ofstream(WALR_GUIDE) << guide.replace(start, to - start, table);
+    return;
+  }
+  EXPECT_EQ(guide.substr(start, to - start), table) << "build the target update_guide";
+}
+
+}  // namespace
+}  // namespace walr

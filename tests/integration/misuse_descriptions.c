@@ -1,0 +1,191 @@
+/* Wrong descriptions of devices and denoisers. */
+#include <math.h>
+#include <stddef.h>
+
+#include "misuse.h"
+
+static void test_listing(void) {
+  EXPECT_TRUE(walr_pass_type_count() > 7);
+  EXPECT_TRUE(walr_pass_type(walr_pass_type_count()) == NULL);
+  int methods = 0;
+  for (uint32_t i = 0; i < walr_pass_type_count(); ++i) {
+    const WalrPassType* type = walr_pass_type(i);
+    EXPECT_TRUE(type->struct_size == sizeof(WalrPassType) && type->name[0] != '\0' && type->pass_count > 0);
+    methods += type->method != 0;
+    for (uint32_t p = 0; p < type->port_count; ++p) EXPECT_TRUE(type->ports[p]->name[0] != '\0');
+    for (uint32_t s = 0; s < type->setting_count; ++s) {
+      const WalrSetting* setting = type->settings[s];
+      EXPECT_TRUE(setting->description[0] != '\0' && setting->default_value[0] != '\0');
+      EXPECT_TRUE((setting->kind >= WALR_SETTING_SWITCH) == (setting->choice_count > 1));
+    }
+  }
+  EXPECT_TRUE(methods >= 6);
+  EXPECT_TRUE(walr_version()[0] != '\0');
+}
+
+static void test_device(const Host* host) {
+  WalrDevice device = device_of(host);
+  EXPECT_OK(walr_check_device(&device));
+  EXPECT(walr_check_device(NULL), WALR_ERROR_INVALID_ARGUMENT, "WalrDevice is null");
+  device.struct_size = 0;
+  EXPECT(walr_check_device(&device), WALR_ERROR_STRUCT_SIZE, "sizeof(WalrDevice)");
+  device = device_of(host);
+  device.get_instance_proc_addr = NULL;
+  EXPECT(walr_check_device(&device), WALR_ERROR_INVALID_ARGUMENT, "get_instance_proc_addr is null");
+  device = device_of(host);
+  device.device = VK_NULL_HANDLE;
+  EXPECT(walr_check_device(&device), WALR_ERROR_INVALID_ARGUMENT, "device is null");
+  device = device_of(host);
+  device.queue_family = 99;
+  EXPECT(walr_check_device(&device), WALR_ERROR_UNSUPPORTED, "queue family 99 does not exist");
+
+  VkDeviceCreateInfo created = {.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, .pNext = &host->features};
+  device = device_of(host);
+  device.create_info = &created;
+  EXPECT_OK(walr_check_device(&device));
+  created.pNext = NULL;
+  EXPECT(walr_check_device(&device), WALR_ERROR_UNSUPPORTED, "created without\n  feature synchronization2");
+  EXPECT(walr_check_device(&device), WALR_ERROR_UNSUPPORTED, "feature shaderStorageImageExtendedFormats");
+  const VkPhysicalDeviceSynchronization2Features synchronization2 = {
+      .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SYNCHRONIZATION_2_FEATURES, .synchronization2 = VK_TRUE};
+  const VkPhysicalDeviceFeatures features = {.shaderStorageImageExtendedFormats = VK_TRUE};
+  created.pNext = &synchronization2;
+  created.pEnabledFeatures = &features;
+  EXPECT_OK(walr_check_device(&device));
+}
+
+static void test_create(const WalrDevice* device) {
+  WalrDenoiser denoiser = NULL;
+  WalrDenoiserInfo info = info_of(device);
+  EXPECT(walr_create_denoiser(NULL, &denoiser), WALR_ERROR_INVALID_ARGUMENT, "WalrDenoiserInfo is null");
+  EXPECT(walr_create_denoiser(&info, NULL), WALR_ERROR_INVALID_ARGUMENT, "null");
+  info.device = NULL;
+  EXPECT(walr_create_denoiser(&info, &denoiser), WALR_ERROR_INVALID_ARGUMENT, "WalrDevice is null");
+  info = info_of(device);
+  info.method = "magic";
+  EXPECT(walr_create_denoiser(&info, &denoiser), WALR_ERROR_INVALID_ARGUMENT, "known methods: walr");
+  info = info_of(device);
+  info.preset = "magic";
+  EXPECT(walr_create_denoiser(&info, &denoiser), WALR_ERROR_INVALID_ARGUMENT,
+         "known presets: one-sample, many-samples; walr is what its preset blocks was");
+  info = info_of(device);
+  info.width = 0;
+  EXPECT(walr_create_denoiser(&info, &denoiser), WALR_ERROR_INVALID_ARGUMENT, "0 x 48");
+  info = info_of(device);
+  info.height = 1U << 20;
+  EXPECT(walr_create_denoiser(&info, &denoiser), WALR_ERROR_INVALID_ARGUMENT, "16384");
+  info = info_of(device);
+  info.frames_in_flight = 1000;
+  EXPECT(walr_create_denoiser(&info, &denoiser), WALR_ERROR_INVALID_ARGUMENT, "frames_in_flight");
+  info = info_of(device);
+  info.depth_format = VK_FORMAT_R32_UINT;
+  EXPECT(walr_create_denoiser(&info, &denoiser), WALR_ERROR_INVALID_ARGUMENT, "'depth' cannot be of format R32_UINT");
+  info = info_of(device);
+  info.normal_format = VK_FORMAT_R16G16_SFLOAT;
+  EXPECT(walr_create_denoiser(&info, &denoiser), WALR_ERROR_INVALID_ARGUMENT, "3 channels");
+  info = info_of(device);
+  WalrConventions conventions = {.struct_size = sizeof(conventions), .motion_unit = (WalrMotionUnit)7};
+  info.conventions = &conventions;
+  EXPECT(walr_create_denoiser(&info, &denoiser), WALR_ERROR_INVALID_ARGUMENT, "motion_unit is 7");
+  conventions = (WalrConventions){.struct_size = sizeof(conventions), .motion_scale = {NAN, 1}};
+  EXPECT(walr_create_denoiser(&info, &denoiser), WALR_ERROR_INVALID_ARGUMENT, "motion_scale");
+  conventions = (WalrConventions){.struct_size = sizeof(conventions), .light_group = {2, 4}};
+  EXPECT(walr_create_denoiser(&info, &denoiser), WALR_ERROR_INVALID_ARGUMENT, "light_group is 4 pixels");
+  conventions = (WalrConventions){.struct_size = sizeof(conventions), .light_group = {2, 2}, .rectangle = VK_TRUE};
+  EXPECT(walr_create_denoiser(&info, &denoiser), WALR_ERROR_INVALID_ARGUMENT, "only one of the two");
+  conventions = (WalrConventions){.struct_size = sizeof(conventions), .light_masked = VK_TRUE};
+  info.lighting_format = VK_FORMAT_B10G11R11_UFLOAT_PACK32;
+  EXPECT(walr_create_denoiser(&info, &denoiser), WALR_ERROR_INVALID_ARGUMENT, "4 channels");
+  EXPECT_TRUE(denoiser == NULL);
+
+  /* A caller with a newer header works as long as it sets no field that this version does not know. */
+  struct {
+    WalrDenoiserInfo info;
+    uint64_t later;
+  } larger = {.info = info_of(device), .later = 1};
+  larger.info.struct_size = sizeof(larger);
+  EXPECT(walr_create_denoiser(&larger.info, &denoiser), WALR_ERROR_STRUCT_SIZE, "does not know");
+  larger.later = 0;
+  EXPECT_OK(walr_create_denoiser(&larger.info, &denoiser));
+  EXPECT_OK(walr_destroy_denoiser(denoiser));
+}
+
+/* A switch is on or off. What was never set is found by its value. */
+static void test_switches(const WalrDevice* device) {
+  WalrDenoiser denoiser = NULL;
+  WalrDenoiserInfo info = info_of(device);
+  VkBool32* const of_info[] = {&info.timestamps, &info.lint, &info.counters, &info.history_length};
+  const char* const names[] = {"WalrDenoiserInfo::timestamps is 2", "WalrDenoiserInfo::lint is 2",
+                               "WalrDenoiserInfo::counters is 2", "WalrDenoiserInfo::history_length is 2"};
+  for (int i = 0; i < 4; ++i) {
+    *of_info[i] = 2;
+    EXPECT(walr_create_denoiser(&info, &denoiser), WALR_ERROR_INVALID_ARGUMENT, names[i]);
+    *of_info[i] = VK_FALSE;
+  }
+  WalrConventions conventions = {.struct_size = sizeof(conventions)};
+  info.conventions = &conventions;
+  VkBool32* const of_conventions[] = {&conventions.pre_exposed, &conventions.motion_jittered, &conventions.rectangle,
+                                      &conventions.orthographic, &conventions.light_masked};
+  const char* const fields[] = {"::pre_exposed is 4294967295", "::motion_jittered is 4294967295",
+                                "::rectangle is 4294967295", "::orthographic is 4294967295",
+                                "::light_masked is 4294967295, neither VK_FALSE nor VK_TRUE"};
+  for (int i = 0; i < 5; ++i) {
+    *of_conventions[i] = UINT32_MAX;
+    EXPECT(walr_create_denoiser(&info, &denoiser), WALR_ERROR_INVALID_ARGUMENT, fields[i]);
+    *of_conventions[i] = VK_FALSE;
+  }
+  EXPECT_TRUE(denoiser == NULL);
+}
+
+/* A texel of sparse light stands for several pixels. Methods that need all samples refuse it by name. */
+static void test_sparse_light(const WalrDevice* device) {
+  const WalrConventions conventions = {.struct_size = sizeof(conventions), .light_group = {3, 2}};
+  WalrDenoiserInfo info = info_of(device);
+  info.conventions = &conventions;
+  WalrDenoiser denoiser;
+  EXPECT_OK(walr_create_denoiser(&info, &denoiser));
+  WalrImageRequirements light = {.struct_size = sizeof(light)};
+  WalrImageRequirements depth = {.struct_size = sizeof(depth)};
+  EXPECT_OK(walr_get_image_requirements(denoiser, "lighting", &light));
+  EXPECT_OK(walr_get_image_requirements(denoiser, "depth", &depth));
+  EXPECT_TRUE(light.width == (kWidth + 2) / 3 && light.height == (kHeight + 1) / 2);
+  EXPECT_TRUE(depth.width == kWidth && depth.height == kHeight);
+  EXPECT_OK(walr_destroy_denoiser(denoiser));
+  info.method = "svgf";
+  EXPECT_OK(walr_create_denoiser(&info, &denoiser));
+  EXPECT(walr_prepare(denoiser), WALR_ERROR_INVALID_ARGUMENT, "method 'svgf' needs a sample of light at every pixel");
+  EXPECT_OK(walr_destroy_denoiser(denoiser));
+}
+
+/* Object ids exist if their format is given, and are required if the method reads them. A caller with an older header
+ * has none. */
+static void test_object_ids(const WalrDevice* device) {
+  for (int given = 0; given < 2; ++given) {
+    for (int reads = 0; reads < 2; ++reads) {
+      WalrDenoiser denoiser;
+      WalrDenoiserInfo info = info_of(device);
+      info.method = reads ? "joint_bilateral" : "walr";
+      info.object_id_format = given ? VK_FORMAT_R16_UINT : VK_FORMAT_R32_SFLOAT;
+      if (!given) info.struct_size = offsetof(WalrDenoiserInfo, object_id_format);
+      EXPECT_OK(walr_create_denoiser(&info, &denoiser));
+      WalrImageRequirements needs = {.struct_size = sizeof(needs)};
+      EXPECT_OK(walr_get_image_requirements(denoiser, "object_id", &needs));
+      EXPECT_TRUE(needs.required == (given && reads));
+      EXPECT_TRUE(needs.format == (given ? VK_FORMAT_R16_UINT : VK_FORMAT_UNDEFINED));
+      EXPECT_OK(walr_destroy_denoiser(denoiser));
+    }
+  }
+  WalrDenoiser denoiser;
+  WalrDenoiserInfo info = info_of(device);
+  info.object_id_format = VK_FORMAT_R32_SFLOAT;
+  EXPECT(walr_create_denoiser(&info, &denoiser), WALR_ERROR_INVALID_ARGUMENT, "'object_id' cannot be of format");
+}
+
+void test_descriptions(Host* host, const WalrDevice* device) {
+  test_listing();
+  test_device(host);
+  test_create(device);
+  test_switches(device);
+  test_sparse_light(device);
+  test_object_ids(device);
+}

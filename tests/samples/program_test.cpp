@@ -1,0 +1,41 @@
+// What a program ends with when a command throws.
+#include "samples/command_line/program.h"
+
+#include <functional>
+#include <new>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include <gtest/gtest.h>
+
+#include "samples/command_line/exit_code.h"
+
+namespace walr {
+namespace {
+
+int endOf(std::function<void()> command, std::string& text) {
+  CLI::App program("a program", "name");
+  program.callback(std::move(command));
+  std::string name = "name";
+  char* arguments[] = {name.data(), nullptr};
+  testing::internal::CaptureStderr();
+  const int code = runProgram(program, 1, arguments);
+  text = testing::internal::GetCapturedStderr();
+  return code;
+}
+
+TEST(Program, EndsWithTheCodeOfADeviceWhenMemoryRunsOut) {
+  std::string text;
+  EXPECT_EQ(endOf([] { throw std::bad_alloc(); }, text), static_cast<int>(ExitCode::Device));
+  EXPECT_NE(text.find("name: out of memory"), std::string::npos) << text;
+}
+
+TEST(Program, EndsWithTheFirstCodeForAnyOtherError) {
+  std::string text;
+  EXPECT_EQ(endOf([] { throw std::logic_error("a reason"); }, text), static_cast<int>(ExitCode::Internal));
+  EXPECT_EQ(text, "name: a reason\n");
+}
+
+}  // namespace
+}  // namespace walr
