@@ -37,8 +37,8 @@ struct BlockAverages {
 /// Threads of block_moments.comp for one block. They lie in a row.
 constexpr std::uint32_t kThreadsPerBlock = 4;
 
-/// Side of a cell in blocks: the largest power of two whose pixels exceed neither `cellPixels` nor 8; at least 1. A workgroup merges the
-/// cells of its 4 x 4 blocks, so that the side of a cell must divide 4.
+/// Side of a cell in blocks: the largest power of two whose pixels exceed neither `cellPixels` nor 8; at least 1. A
+/// workgroup merges the cells of its 4 x 4 blocks, so that the side of a cell must divide 4.
 std::uint32_t cellBlocksFor(float cellPixels, std::uint32_t blockSize) {
   constexpr float kMostPixels = 8.0F;
   std::uint32_t blocks = 1;

@@ -430,8 +430,8 @@ typedef struct WalrFrame {
    * frames, with this one, in the mean of each pixel's light; 0 where there is nothing to denoise. */
   const WalrImage* history_length;
   /* Large worlds: the position in the world, scene units, that `camera` is relative to (its view matrix takes positions
-   * minus the origin), and the same of `previous_camera`; without that, `previous_origin` is not used. Any origin near the camera
-   * will do, and it may change in every frame. At most 2^29 along each axis. */
+   * minus the origin), and the same of `previous_camera`; without that, `previous_origin` is not used. Any origin near
+   * the camera will do, and it may change in every frame. At most 2^29 along each axis. */
   double origin[3];
   double previous_origin[3];
   /* Optional: a timeline semaphore that reaches `finished_value` when the GPU has finished this frame. When the frame's
@@ -531,7 +531,8 @@ typedef struct WalrCounter {
 
 /* Counters of the last frame that was evaluated: those of the method with WalrDenoiserInfo::counters, and those of the
  * inputs ("lint-...") with WalrDenoiserInfo::lint. A frame is evaluated when the one `frames_in_flight` after it is
- * recorded. There are none until then, nor after a change of settings or size that changes passes, until the next evaluation.
+ * recorded. There are none until then. A change of settings or size that changes passes drops them until the next
+ * evaluation.
  * count: in: room at `counters`; out: number of counters. `counters` may be null. */
 WALR_API WalrResult walr_get_counters(WalrDenoiser denoiser, uint32_t* count, WalrCounter* counters);
 
