@@ -10,8 +10,8 @@
 
 namespace walr {
 
-/// Settings of the share of the accumulated light in the reconstruction: what the fits over blocks miss is taken from
-/// it, as far as two halves of its samples agree (passes/WALR_EXPERIMENTS.md).
+/// Settings of the accumulated light's share in the reconstruction. Accumulated light supplies the detail that the fits
+/// over blocks miss, as far as two halves of its samples agree on it (passes/WALR_EXPERIMENTS.md).
 struct AccumulatedShareSettings {
   bool enabled = false;
   float frames = 8.0F;
@@ -51,7 +51,7 @@ struct AccumulatedShareSettings {
   }
 };
 
-/// How long the history of accumulation may be, which the share measures for the next frame.
+/// The history length that accumulation may use. The passes of the share measure it for the next frame.
 struct SteeredHistory {
   fg::History leastAntilag;  ///< `Antilag::least`.
   float maxHistory;          ///< Frames: `TemporalAccumulationSettings::maxHistory`.
@@ -70,11 +70,11 @@ struct AccumulatedShareInputs {
   std::uint32_t tileSize;                 ///< Pixels per axis of a workgroup of the reconstruction.
   std::uint32_t tileOffset;               ///< Pixels of the first one that lie before the image, per axis.
   fg::Extent tiles;                       ///< Number of these workgroups.
-  std::optional<SteeredHistory> history;  ///< Without it, the length that suits the noise is measured for nobody.
+  std::optional<SteeredHistory> history;  ///< Without it, no pass reads the measured length.
 };
 
 /// Let the reconstruction `apply` (a variant RESIDUAL of block_apply.comp) mix its result with the accumulated light,
-/// and add the pass that measures for the next frame how far.
+/// and add the pass that measures the share for the next frame.
 void addAccumulatedShare(StageGraph graph, fg::PassBuilder& apply, const AccumulatedShareInputs& inputs,
                          const AccumulatedShareSettings& settings);
 

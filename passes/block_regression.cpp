@@ -34,11 +34,11 @@ struct BlockAverages {
   fg::Texture depth;
 };
 
-/// Threads of block_moments.comp for a block, one beside the other.
+/// Threads of block_moments.comp for one block. They lie in a row.
 constexpr std::uint32_t kThreadsPerBlock = 4;
 
-/// Side of a cell in blocks: the largest power of two with at most `cellPixels` and 8 pixels. A workgroup merges the
-/// cells of its 4 x 4 blocks, so that the side of a cell must divide 4.
+/// Side of a cell in blocks: the largest power of two whose pixels exceed neither `cellPixels` nor 8; at least 1. A
+/// workgroup merges the cells of its 4 x 4 blocks, so that the side of a cell must divide 4.
 std::uint32_t cellBlocksFor(float cellPixels, std::uint32_t blockSize) {
   constexpr float kMostPixels = 8.0F;
   std::uint32_t blocks = 1;
@@ -46,8 +46,8 @@ std::uint32_t cellBlocksFor(float cellPixels, std::uint32_t blockSize) {
   return blocks;
 }
 
-/// Converts the unit of `coarseSigma` from the setting's, the fraction of the image's height, to the shaders', cells,
-/// and `planeNear` and `planeFar` to a linear function.
+/// Converts `coarseSigma` from a fraction of the image's height to cells, and `planeNear` and `planeFar` to the
+/// coefficients of a linear function.
 BlockGrid gridOf(StageGraph graph, fg::Buffer frame, fg::Extent pixels, const BlockRegressionSettings& s) {
   const fg::Extent blocks = gridExtent(pixels, s.size);
   const float sigma = s.coarseSigma * static_cast<float>(pixels.height);
@@ -89,14 +89,14 @@ BlockAverages writeAverages(const BlockGrid& grid, fg::PassBuilder& pass, fg::Ex
   return averages;
 }
 
-/// Write the fit of every block or cell.
+/// Lets a pass write the fit of every block or cell.
 fg::Buffer writeFits(const BlockGrid& grid, fg::PassBuilder& pass, fg::Extent extent, std::uint64_t fitBytes,
                      const std::string& name) {
   return pass.store("outFits", grid.graph->buffer(name, {fitBytes * extent.width * extent.height}));
 }
 
-/// The fit of a Gaussian window around every cell, regardless of edges. The window grows where the light is the same
-/// and where a block has not converged, which `fitDepth`, that of the fine fits, says.
+/// The fit of a Gaussian window around every cell, regardless of edges. The window grows where the light is the same,
+/// unless all blocks that share pixels with the cell have converged. `fitDepth` is `FineFit::depth`, which tells that.
 fg::Buffer addCoarseFit(const BlockGrid& grid, const BlockAverages& averages, fg::Texture fitDepth) {
   const auto declare = [&](const std::string& name, const fg::Shader& shader, const BlockAverages& read) {
     fg::PassBuilder pass = grid.graph->compute(name, shader);
@@ -256,7 +256,7 @@ void readLight(const BlockGrid& grid, const BlockLight& light, fg::PassBuilder& 
     pass.specialize("kAlphaIsSampleCount", light.alpha == LightingAlpha::SampleCount);
 }
 
-/// Whether the result takes in accumulated light: it must have a history beside this frame's light.
+/// Whether accumulated light is mixed into the result. That takes both a history and this frame's light.
 bool addsResidual(const BlockLight& light, const BlockRegressionSettings& settings) {
   return settings.share.enabled && light.alpha == LightingAlpha::SampleCount && light.lighting.valid();
 }
@@ -314,7 +314,8 @@ fg::Texture addBlockReconstruction(StageGraph graph, fg::Buffer frame, const Blo
                                       : (writesPacked ? shaders::blockApplyPacked : shaders::blockApply);
   fg::PassBuilder pass = reconstruct("block apply", shader);
   if (!writesPacked) {
-    // Accumulated light has a texel for every pixel, and 0 where a pixel without a surface has no sample.
+    // Accumulated light is never sparse: it has a texel for every pixel, which is 0 where a pixel without a surface has
+    // no sample.
     pass.sample("passThrough", readsPacked ? light.lighting : light.accumulated);
     specializeLight(pass, readsPacked ? light.pattern : LightPattern{});
   }

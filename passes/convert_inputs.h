@@ -35,8 +35,7 @@ struct HostConventions {
   Normal normal = Normal::Signed;
   bool motionDepthReversed = false;  ///< motion.z is current minus previous view depth.
   bool preExposed = false;           ///< Lighting is multiplied by a changing exposure, and so is the result.
-  /// Textures, also the result's, may be larger than the rectangle that is denoised, which starts at
-  /// `HostConstants::offset`.
+  /// Only a rectangle of the textures, the result's included, is denoised. It starts at `HostConstants::offset`.
   bool rectangle = false;
   /// The camera is orthographic (orthographic.h): depth is moved to that of the stand-in. Such a host must give motion
   /// with its third channel, and its inputs cannot be checked for faults.

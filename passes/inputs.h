@@ -15,8 +15,8 @@ struct InputConventions {
   enum class MotionDepth {
     Given,        ///< The motion texture's third channel.
     StaticScene,  ///< Computed from depth and the two view matrices; right where only the camera moves.
-    /// Taken from the history pixel that motion.xy leads to and that is nearest to where a still surface would be, if
-    /// it is near enough (reprojection.glsl). Methods need a test of history (`HistoryRejection`) for it.
+    /// Found among the history pixels that motion.xy leads to: the depth nearest to that of a still surface, if it is
+    /// near enough (reprojection.glsl). Only for methods that test history (`HistoryRejection`).
     Found,
   };
   Space normal = Space::View;

@@ -5,10 +5,11 @@
 
 namespace walr {
 
-/// Of two pixels on one surface, the light is as likely larger on the one as on the other. If it holds albedo, that is
-/// so after a division by albedo. Half-way between, after a division by the square root, pairs lie mostly on one side:
-/// which one tells the two apart. Only the signs of differences count, so that the rare large samples of one sample per
-/// pixel do not hide them.
+/// Compares two pixels on one surface with different albedo. If the lighting holds no albedo, either pixel is equally
+/// likely to be the brighter one. If it holds albedo, that is true of the lighting divided by albedo. The test lies
+/// half way between: it divides by the square root of albedo. Then the pixel with the larger albedo is mostly the
+/// darker one in the first case and mostly the brighter one in the second. Only signs of differences count, so that
+/// rare bright samples do not hide them.
 void LintJudge::judgeAlbedo() {
   std::uint64_t follow = 0;
   std::uint64_t pairs = 0;

@@ -5,7 +5,7 @@
 
 namespace walr {
 
-/// Whether a hypothesis fits better on at least a tenth of all pixels and on three times as many as it fits worse on.
+/// Whether a hypothesis fits better on at least a tenth of all pixels, and better on three times as many as worse.
 /// Where both fit alike, as on floors while the camera only turns about the vertical, neither counts as better.
 bool LintJudge::explains(std::uint32_t hypothesis) const {
   const std::uint64_t better = counts_[kLintHypotheses + 2 * hypothesis];
@@ -39,8 +39,9 @@ void LintJudge::judgeNormals() {
     if (!explains(h)) continue;
     if (best == kHypothesisCount || counts_[kLintHypotheses + 2 * h] > counts_[kLintHypotheses + 2 * best]) best = h;
   }
-  // Turned back and forth by the inverse matrix, world-space normals lie closer to the truth if they are not turned at
-  // all: both readings are better then, but only one is right.
+  // An inverted view matrix rotates world-space normals the wrong way. Not rotating them at all, as the hypothesis of
+  // the other space does, is then closer to the truth, too. So prefer the inverted matrix if it explains nearly as
+  // much.
   const auto better = [&](std::uint32_t h) { return counts_[kLintHypotheses + 2 * h]; };
   if (best == kHypothesisOtherSpace && explains(kHypothesisInverseView) &&
       20 * better(kHypothesisInverseView) >= 19 * better(kHypothesisOtherSpace)) {

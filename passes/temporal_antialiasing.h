@@ -25,8 +25,8 @@ struct TemporalAntialiasingSettings {
   bool objectIds = false;
   bool dilateMotion = false;
   LightStorage storage = LightStorage::Half;
-  /// The method's only accumulation of light: its history length is the method's, and the host's confidence holds for
-  /// it. Not a setting; needs the storage `LightStorage::Half`.
+  /// Whether this is the method's only accumulation of light. Its history length is then that of the method, and the
+  /// host's confidence limits it. Not a setting; needs the storage `LightStorage::Half`.
   bool accumulates = false;
 
   void visit(SettingVisitor& v) {

@@ -16,7 +16,7 @@ std::vector<Diagnostic> diagnose(const Topology& topology, const MemoryModel& me
   Findings findings(topology.graph());
   checkResources(topology, memory, findings);
   checkPasses(topology, findings);
-  // It keeps a mark per mip level and layer, which it cannot for a resource without bounds.
+  // checkVersions allocates a mark for each mip level and layer: too many if a resource exceeds the limits.
   if (!findings.has(code::kTooLarge)) checkVersions(topology, findings);
   checkOrder(topology, findings);
   checkShaders(topology, findings);

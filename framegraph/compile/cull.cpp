@@ -48,7 +48,7 @@ class Marker {
     needHistory(access.resource);
   }
 
-  /// Last frame's image holds what this frame's writer makes.
+  /// Who reads a history's `previous` needs the pass that writes `current`: it wrote `previous` in the last frame.
   void needHistory(std::uint32_t index) {
     const GraphDesc& graph = topology_.graph();
     const ResourceDecl& resource = graph.resources[index];

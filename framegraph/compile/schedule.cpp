@@ -13,10 +13,10 @@
 namespace fg {
 namespace {
 
-/// A list of numbers for each of the numbers 0 to count - 1, all in one allocation.
+/// `count` lists of numbers, all in one allocation.
 class Lists {
  public:
-  /// @param pairs (list, element) in any order; the elements of one list keep theirs
+  /// @param pairs (list, element) in any order; the elements of a list keep their order
   Lists(std::size_t count, const std::vector<std::pair<std::uint32_t, std::uint32_t>>& pairs)
       : begin_(count + 1), elements_(pairs.size()) {
     for (const auto& [list, element] : pairs) ++begin_[list + 1];

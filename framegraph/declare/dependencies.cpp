@@ -22,8 +22,8 @@ class Finder {
   }
 
  private:
-  /// The writer of a version waits for all passes that still need the version that it replaces. A version whose writer
-  /// is culled has no readers left, so that the writer replaces the one before it instead.
+  /// The writer of a version waits for all passes that still need the version that it replaces. If the writer of
+  /// the replaced version is culled, that version has no readers left, and the one before it is replaced instead.
   void followReplaced(std::uint32_t resource, std::uint32_t version) {
     const std::uint32_t writer = topology_.uses(resource, version).writer;
     std::uint32_t replaced = topology_.uses(resource, version).predecessor;

@@ -15,9 +15,9 @@ struct Block {
   std::uint32_t cellCount = 1;
 };
 
-/// The blocks that have changed each byte of the allocations. A block forgets the others in its bytes once all its
-/// cells have changed after them: each of these changes was checked against the others, so that what comes after it
-/// comes after them too.
+/// The blocks that have changed each byte of the allocations. Once all cells of a block have changed after the other
+/// blocks in its bytes, the others are forgotten: each change was checked to come after them, so that whatever comes
+/// after it comes after them, too.
 class SharedMemory {
  public:
   /// @return the index of the block

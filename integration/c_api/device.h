@@ -38,8 +38,8 @@ class HostDevice {
   bool withoutTimelineSemaphores_ = false;  ///< Known from WalrDevice::create_info.
 };
 
-/// Whether to measure GPU times, as the host wishes. If the queue family has no timestamps, the host is warned: times
-/// are for its developers, and without them nothing else is missing.
+/// Whether to measure GPU times: if the host asks for them and the queue family has timestamps. Without timestamps the
+/// host gets a warning and no error, because everything else works.
 bool measuresTimes(const WalrDenoiserInfo& info, const HostDevice& device);
 
 }  // namespace walr::api

@@ -22,8 +22,8 @@ struct BatchOptions {
   std::function<void()> frameDone = [] {};  ///< Called after each frame of each pass over the sequence.
 };
 
-/// Run variants on the same frames in alternation: all variants denoise a frame before the next frame, and the order of
-/// the variants rotates from frame to frame, so that drift of the machine affects all variants alike.
+/// Run variants on the same frames in alternation: all variants denoise a frame before any of them denoises the next.
+/// Their order rotates from frame to frame, so that drift of the machine affects all variants alike.
 ///
 /// A first pass over the sequence warms up and measures errors; its times are discarded. The repetitions after it are
 /// timed, and their results are compared with those of the first pass bit by bit.

@@ -32,8 +32,8 @@ struct Response {
   std::vector<double> errorByAge;
   /// Trail: share of the slab's light that remains on the wall, in linear luminance, by the same number of frames.
   std::vector<double> trailByAge;
-  /// Frames from disocclusion until the error exceeds that of wall pixels that were never hidden by at most a quarter;
-  /// absent if that is never reached.
+  /// Frames from disocclusion until the error is at most 5/4 of that of wall pixels that were never hidden; absent if
+  /// that is never reached.
   std::optional<int> recoveryFrames;
   /// Lag in frames of light that moves over a static wall: the age of the truth that is nearest to the result, mean
   /// over 24 frames.

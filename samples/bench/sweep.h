@@ -32,8 +32,8 @@ std::span<const Sweep> sweeps();
 /// @throws std::invalid_argument if there is no such sweep; the message lists all sweeps
 std::vector<Variant> sweepVariants(std::string_view name);
 
-/// Whether all settings of a variant have the values of its method and preset; for a variant of a sweep, apart from the
-/// settings that the sweep holds.
+/// Whether all settings of a variant have the values of its method and preset. Settings that a sweep fixes for all its
+/// variants are not compared.
 /// @throws std::invalid_argument as `makeVariant`
 bool isDefault(const Variant& variant);
 

@@ -144,18 +144,18 @@ def readme_part(kept):
                      number(over_sequences(method, "flip"), 3), number(over_sequences(method, "flicker"), 4), f"{method['bytes']:.0f}",
                      "-" if time is None else f"{time[0]:.2f}"])
     return (table(["method", *(f"RMSE, `{s}`" for s in sequences), "FLIP", "flicker", "bytes per pixel", "relative time"], rows) + f"""
-* **Method**: every one with its default settings, on the same frames. `none` is the noisy input.
-* **RMSE**: root mean square error against the reference after the tone map x / (1 + x); lower is better.
+* **Method**: each with its default settings, on the same frames. `none` is the noisy input.
+* **RMSE**: root mean square error of the light without albedo, after the tone map x / (1 + x); lower is better.
 * **FLIP**: difference that a person would see (Andersson et al. 2020), 0 to 1; lower is better. Mean over both sequences.
 * **Flicker**: how much the error changes from one frame to the next on the same surface point; lower is better. Mean over both
   sequences.
 * **Bytes per pixel**: what the passes of one frame read and write at 1920 x 1080, counted from the compiled graph. It holds on any
-  device. A texel counts once a pass, so that the wide window of `joint_bilateral` looks cheap here.
+  device. A texel counts once a pass, so the wide window of `joint_bilateral` looks cheap here.
 * **Relative time**: time of a frame over that of `walr` on the same frame, median.{processor_note(kept)}
 
 ![RMSE against bytes per pixel](samples/images/pareto.png)
 
-*Lower left is better. Grey line: no method below it on both axes. RMSE is the mean over both sequences.*
+*Lower left is better. Grey line: Pareto front. RMSE is the mean over both sequences.*
 
 All figures, presets and pictures of the hardest places: [samples/bench/RESULTS.md](samples/bench/RESULTS.md). Larger pictures and
 moving objects: [samples/bench/SCENES.md](samples/bench/SCENES.md).

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""The corpus: renders sequences, runs every method on them, and tells what differs beyond doubt.
+"""The corpus: renders sequences, runs every method on them, and tells what differs by more than chance.
 
     corpus.py list [--part PART]                  what belongs to the corpus, and what it costs
     corpus.py run --output DIR [--part PART]      render what is missing, run the methods, judge; resumes where it was interrupted

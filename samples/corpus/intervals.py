@@ -17,8 +17,8 @@ def log_ratio_interval(pairs):
     the log of its RMSE; with q the squared errors of another method on the same blocks, it is the log of the ratio of the two.
 
     The standard error is the jackknife's (Efron and Tibshirani 1993, 11.5), which leaves out one block at a time. It is multiplied
-    by Student's quantile for as many degrees of freedom as there are blocks that matter, less one: with shares w of the sums, that
-    is 1 / sum(w^2). Error is so unevenly spread that a few blocks may hold most of it; with the number of all blocks, or with
+    by Student's quantile. Its degrees of freedom are the effective number of blocks, less one: 1 / sum(w^2), with the shares w of the
+    blocks in the sums. Error is so unevenly spread that a few blocks may hold most of it; with the number of all blocks, or with
     quantiles of a bootstrap, a difference of zero would be taken for one in up to 20 % of cases.
     Returns (estimate, lower, upper), or None if a sum is not above 0 or a sequence has fewer than 5 blocks.
     """

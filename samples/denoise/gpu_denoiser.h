@@ -69,8 +69,8 @@ class GpuDenoiser {
   /// @throws fg::vk::Error when the device fails
   std::optional<DenoisedFrame> finish();
 
-  /// Submit the next frame, of which the caller keeps the images that are not uploaded, with other lighting. Each such
-  /// frame is finished by `finishPicture`.
+  /// Submit the next frame with `lighting` in place of its own. The frame remains the caller's, so that only a picture
+  /// comes back: call `finishPicture`, not `finish`.
   /// @throws as `submit`
   void submit(const PackedFrame& packed, const std::vector<Rgba16>& lighting);
   /// Wait for the oldest frame in flight, which must exist.

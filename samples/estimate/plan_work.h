@@ -9,8 +9,8 @@
 
 namespace walr {
 
-/// The work of one pass of a plan. Passes one after the other that run the same pipeline, as the tiles of a picture do,
-/// are one.
+/// The work of one pass of a plan. Consecutive passes that run the same pipeline, such as the tiles of a picture,
+/// count as one.
 struct PassWork {
   std::string pass;                       ///< "a-trous 0"; "first to last" of several passes.
   std::uint32_t batch = 0;                ///< Of the first of them: see `fg::PlannedPass::batch`.

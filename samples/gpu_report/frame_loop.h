@@ -30,7 +30,7 @@ class FrameLoop {
   FrameLoop& operator=(FrameLoop&&) noexcept;
 
   /// Run frames; the histories go on from the last call.
-  /// @param times receives the passes' times of every frame, unless null. Passes one after the other that run the same
+  /// @param times receives the passes' times of every frame, unless null. Consecutive passes that run the same
   ///        pipeline are one (`PassWork`)
   /// @returns the number of frames
   /// @throws fg::vk::Error when the device fails

@@ -52,7 +52,7 @@ class ExrReader {
   /// Header attribute of type int.
   [[nodiscard]] std::optional<int> integer(const std::string& name) const;
 
-  /// Check that the file holds a block of pixels for all that its header claims. Call it before memory for the pixels
+  /// Check that the file holds all blocks of pixels that its header claims. Call it before memory for the pixels
   /// is allocated: a damaged header may claim gigabytes.
   /// @throws InputError when the data are truncated or damaged
   void requireBlocks();

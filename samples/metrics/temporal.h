@@ -35,7 +35,7 @@ struct LuminanceChange {
   double reference = 0.0;  ///< The same mean for the reference.
 };
 
-/// Luminance change at fixed pixel positions, as an eye sees it that does not follow motion, over the pixels in both
+/// Luminance change at fixed pixel positions, as seen by an eye that does not follow motion, over the pixels in both
 /// masks. Compare it with the change of the reference, which is not zero either when the camera or objects move.
 /// @returns nullopt if no pixel is in both masks
 std::optional<LuminanceChange> luminanceChange(const DisplayedPair& current, const DisplayedPair& previous,

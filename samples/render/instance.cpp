@@ -29,7 +29,7 @@ bool isUsable(const glm::mat4& m) {
   return true;
 }
 
-// The matrix itself, or if it has no inverse, which ray casting needs, a matrix close to it that has one: an object
+// Ray casting needs the inverse of the matrix. If there is none, returns a matrix close to it that has one: an object
 // that is flattened along an axis gets a millionth of its size there.
 glm::mat4 invertible(glm::mat4 m) {
   constexpr float kLeastScale = 1e-9F;

@@ -54,8 +54,8 @@ struct NonFiniteChannel {
 /// the `Layout`.
 struct Frame {
   int number = 0;
-  /// 3 components: demodulated diffuse indirect radiance, linear; empty unless requested. Without meaning at pixels
-  /// that `light` leaves without a sample.
+  /// 3 components: demodulated diffuse indirect radiance, linear; empty unless requested. Undefined at pixels that
+  /// have no sample by `light`.
   Image indirect;
   LightPattern light;         ///< Which pixels have a sample of the light that is denoised.
   glm::ivec2 lightOffset{0};  ///< See `FrameDescription::lightOffset`.

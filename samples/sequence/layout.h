@@ -60,9 +60,9 @@ const Layout& cyclesLayout();
 const Layout& cyclesLayout5();
 const Layout& projectLayout();
 
-/// A layout whose change of depth has another source than the layout says.
+/// The same layout with another source of the change of depth.
 /// @param file  a file with the layout, for the error
-/// @throws InputError if it is to be given, and the layout's motion has no third component
+/// @throws InputError if the source is `Given` and the layout's motion has no third component
 Layout withMotionDepth(const Layout& layout, InputConventions::MotionDepth source, const std::filesystem::path& file);
 
 /// The layout of a file, with the file's view layer.

@@ -47,7 +47,7 @@ Budget budgetOf(const std::vector<MethodCosts>& methods, const NullDevice& devic
 /// and there are at most a tenth more branches than in the budget. With the budget's own version, registers, LDS,
 /// instructions and cycles lie at most 3 % above it, and loops have trip counts where they had them.
 /// @param driver that compiled, for the family of the budget
-/// @returns one line per violation, naming method, pass, figure and limit; also for passes that only one of both has
+/// @returns one line per violation, naming method, pass, figure and limit; also for passes that only one of the two has
 std::vector<std::string> violations(const Budget& budget, const std::vector<MethodCosts>& methods,
                                     const std::string& driver);
 

@@ -57,9 +57,9 @@ struct LoopCounts {
 
 /// How often a wave runs each block of a listing, on average.
 ///
-/// A wave with surface in all its threads is looked at. Both sides of a divergent branch run, for some threads of the
-/// wave take the one and some the other; inside loops, in a share of the rounds. A uniform branch with two sides runs
-/// each of them half of the time: this counts a tree of branches that stands for an array's index as its depth. One
+/// The wave shows a surface in all its threads. A divergent branch runs both sides, because some threads of the wave
+/// take each of them; inside loops it does so in a share of the rounds. A uniform branch with two sides runs each half
+/// of the time, so that a tree of branches in place of an array's index counts as much as its depth. A uniform branch
 /// with one side runs it. Loops end when their rounds are over, and never before.
 /// @param loops one entry of `rounds` per loop, indexed like `Listing::loops`
 /// @throws std::invalid_argument if there is another number of them

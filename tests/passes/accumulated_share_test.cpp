@@ -298,10 +298,10 @@ class AccumulatedShare : public fg::test::GpuTest {
         edges = edges || expected.besideEdge(p);
         const auto [around, detail] = expected.added(p);
         const double x = predicted[p].g;
-        // The prediction and the result are rounded to halves. The statistics are of predictions that are not, so that
-        // residuals differ by 2^-11 of the light, and means of their squares, whose roots are above half of the light,
-        // by less than 2^-9; the share is a ratio of two such means over 1 - least share, times trust, which is another
-        // such ratio over .2, where it is not 0 or 1.
+        // The prediction and the result are rounded to halves. The device measures its statistics before this rounding,
+        // so that its residuals differ from the test's by 2^-11 of the light. Root mean squares of residuals are above
+        // half of the light here, so that mean squares differ by less than 2^-9. The share is a ratio of two such
+        // means, divided by 1 - least share. Trust, where it is between 0 and 1, is another such ratio, divided by .2.
         const double tolerance = 2.0 * std::exp2(-11.0) * std::max(x, light.mean[p].g) +
                                  (std::exp2(-7.0) + 5.0 * std::exp2(-9.0)) * (std::abs(around) + std::abs(detail));
         EXPECT_NEAR(actual[p].g, std::max(x + around + detail, 0.0), tolerance)
@@ -348,9 +348,9 @@ TEST_F(AccumulatedShare, IsNothingWhereOnlyNoiseIsLeft) {
     FilterOf filter(device(), flatWall(), true);
     const double predicted = rmsError(filter.filter(light), light.truth);
     const double mixed = rmsError(filter.filter(light), light.truth);
-    // Statistics of one frame over 40 x 40 pixels err by 1 / 40 of the square of the noise, times some 3 for the
-    // product of two halves of unlike length. So a share of .05 is exceeded by .03 here and there, and .03 of the
-    // mean's noise is added.
+    // The statistics are means over 40 x 40 pixels of one frame: they err by 1 / 40 of the squared noise, times about
+    // 3, because the two halves differ in their number of samples. Here and there, the share is therefore up to .03
+    // above the least share of .05, which adds .03 of the mean's noise.
     EXPECT_LT(mixed, predicted + 0.03 * noise / std::sqrt(kSamples)) << noise;
   }
 }

@@ -114,8 +114,9 @@ TEST_F(ManySamples, MakeTheErrorSmaller) {
   const auto frames = walk(1, detailedLight);
   const double one = lastError(frames, preset());
   EXPECT_LT(one, lastError(frames, defaults()));
-  // What this project asks for: each four times as many samples leave .8 of the error, or .6 after twice that. Only the
-  // noise, which falls to a half each time, follows them; detail that no guide shows has to be bought with noise.
+  // This project's requirement: at most .8 of the error with four times as many samples, and .6 with sixteen times.
+  // Only the noise halves with each factor of four. Detail that no guide shows costs noise, so that the error falls
+  // less.
   EXPECT_LT(lastError(walk(4, detailedLight), preset()), 0.8 * one);
   EXPECT_LT(lastError(walk(16, detailedLight), preset()), 0.6 * one);
 }
@@ -156,9 +157,9 @@ TEST_F(ManySamples, ErrorsFallForAsLongAsTheCameraStandsStill) {
     const double mixed = mixture.error(frame), accumulated = mean.error(frame), predicted = fits.error(frame);
     if (i < 15 || (i & (i + 1)) != 0) continue;
     const double best = accumulated * predicted / std::hypot(accumulated, predicted);
-    // Shares follow statistics of eight frames of 3072 pixels; the product of residuals errs by the noise of a sample,
-    // 1, times that of the history, .2 or less, over the root of this number, .0013, against .03 for the square of what
-    // fits miss: by 5 %. The smallest shares of 5 % are none.
+    // Shares follow statistics of eight frames of 3072 pixels. The mean product of residuals errs by .0013: the noise
+    // of a sample (1) times that of the history (at most .2) over the root of the number of pixels. What the fits miss
+    // has a mean square of .03, so that this is 5 %. Shares below 5 % become 0.
     EXPECT_LT(mixed, 1.1 * best) << "frame " << i;
     EXPECT_LT(mixed, accumulated) << "frame " << i;
   }

@@ -44,7 +44,7 @@ typedef enum WalrResult {
   WALR_SUCCESS = 0,
   WALR_ERROR_INVALID_ARGUMENT = -1, /* Null, out of range, or wrong size, format, usage or queue family. */
   WALR_ERROR_INVALID_HANDLE = -2,   /* Null, destroyed, or never created. */
-  WALR_ERROR_STRUCT_SIZE = -3,      /* struct_size not set, or a newer header has fields set. */
+  WALR_ERROR_STRUCT_SIZE = -3,      /* struct_size not set, or fields set that the library is too old for. */
   WALR_ERROR_CONCURRENT_USE = -4,   /* Another thread is using the object. */
   WALR_ERROR_WRONG_ORDER = -5,      /* Another call must come first; the text names it. */
   WALR_ERROR_UNSUPPORTED = -6,      /* The device lacks something; the text lists it. */
@@ -58,7 +58,7 @@ typedef enum WalrResult {
 WALR_API const char* walr_version(void);
 /* Name of a result, for instance "WALR_ERROR_INVALID_HANDLE". */
 WALR_API const char* walr_result_name(WalrResult result);
-/* Text of the last error on this thread. Valid until the next call on it fails. Never null. */
+/* Text of the last error on this thread. Valid until the next call on this thread fails. Never null. */
 WALR_API const char* walr_last_error(void);
 
 /* ---- Pass types and settings ----------------------------------------------------------------------------------- */
@@ -432,8 +432,8 @@ typedef struct WalrFrame {
    * frames, with this one, in the mean of each pixel's light; 0 where there is nothing to denoise. */
   const WalrImage* history_length;
   /* Large worlds: the position in the world, scene units, that `camera` is relative to (its view matrix takes positions
-   * minus the origin), and the same of `previous_camera`, which is not used if that is null. Any origin near the camera
-   * will do, and it may change in every frame. At most 2^29 along each axis. */
+   * minus the origin), and the same of `previous_camera`; without that, `previous_origin` is not used. Any origin near
+   * the camera will do, and it may change in every frame. At most 2^29 along each axis. */
   double origin[3];
   double previous_origin[3];
   /* Optional: a timeline semaphore that reaches `finished_value` when the GPU has finished this frame. When the frame's
@@ -536,7 +536,8 @@ typedef struct WalrCounter {
 
 /* Counters of the last frame that was evaluated: those of the method with WalrDenoiserInfo::counters, and those of the
  * inputs ("lint-...") with WalrDenoiserInfo::lint. A frame is evaluated when the one `frames_in_flight` after it is
- * recorded. There are none before, and after a change of settings or size that changes passes.
+ * recorded. There are none until then. A change of settings or size that changes passes drops them until the next
+ * evaluation.
  * count: in: room at `counters`; out: number of counters. `counters` may be null. */
 WALR_API WalrResult walr_get_counters(WalrDenoiser denoiser, uint32_t* count, WalrCounter* counters);
 
