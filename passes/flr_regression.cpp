@@ -47,6 +47,9 @@ const std::vector<ViewInfo>& applyViews() {
       {"unfitted",
        "1 where no cell around has a fit, where the pixel has no sample, where the fit is not finite",
        {{"unfitted-pixels", "X"}, {"unsampled-pixels", "Y"}, {"non-finite-fits", "Z"}}},
+      {"light", "Light that is fitted; 0 where the pixel has no sample"},
+      {"guide-normal", "Shading normal in view space, as it is a guide"},
+      {"guide-depth", "Guides inverse depth and ambient occlusion, samples in the light; 0 where there are none"},
   };
   return kViews;
 }
