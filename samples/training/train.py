@@ -6,7 +6,9 @@
 The state holds weights, optimiser and curve, and is written after every round: the command goes on where an earlier call ended.
 Loss: squared error relative to the prediction's own magnitude, whose minimum is the mean also where targets are noisy (Lehtinen et
 al. 2018), plus the absolute error after the tone map x / (1 + x), in which the project is judged. Light is relative to the frame's
-mean, as the network sees it.
+mean, as the network sees it. In the first tenth of the training, each guide is also drawn to one channel of the target after the
+tone map, as a start; no longer, because guides that are best by themselves let noise through, which the regression amplifies. A
+penalty keeps guides from the ends of their sigmoid, where nothing moves them any more.
 """
 import argparse
 import json
@@ -24,11 +26,15 @@ from network import PRESETS, SIGMA, GuideNetwork, Means, features, regression
 
 CROP, BATCH, STEPS = 96, 4, 50
 """Pixels of a crop's side, crops of a step, steps of a round."""
-BRIGHT = 10.0
+BRIGHT = 4.0
 """Targets beyond so many times prediction plus mean count as that: a path of a noisy target must not outweigh a crop."""
 ABSOLUTE = 0.2
 """Share of the absolute error in the loss."""
-RATE, LAST_RATE = 2e-3, 5e-5
+DIRECT, DIRECT_SHARE = 0.5, 0.1
+"""Weight of the guides' own squared errors at the start, and the share of the training in which it falls to 0."""
+ENDS, LARGEST_LOGIT = 1e-2, 4.0
+"""Weight of the squared excess of the sigmoid's inputs over the largest one that is free."""
+RATE, LAST_RATE = 1e-3, 5e-5
 """Of Adam, from first to last step, as a half cosine."""
 
 
@@ -41,6 +47,13 @@ def loss_of(prediction, target, surface, mean):
     count = 3 * surface.sum().clamp(min=1)
     loss = ((1 - ABSOLUTE) * squared + ABSOLUTE * mapped.abs()) * surface
     return loss.sum() / count
+
+
+def direct_loss_of(learned, target, surface, mean):
+    """The squared error of the first three guides as channels of the light after the tone map."""
+    target = target / mean
+    count = 3 * surface.sum().clamp(min=1)
+    return (((learned[:, :3] - target / (1 + target)) ** 2) * surface).sum() / count
 
 
 def error_of(prediction, frame, weight, mean):
@@ -75,9 +88,15 @@ def batch_of(frames, rng):
     return joined, Means(torch.cat([m.light for m in means]), torch.cat([m.inverse_depth for m in means]))
 
 
+def ends_loss_of(learned):
+    """The squared excess of the sigmoid's inputs."""
+    return ((torch.logit(learned, 1e-6).abs() - LARGEST_LOGIT).clamp(min=0) ** 2).mean()
+
+
 def filtered(network, frame, means, kind):
+    """The filtered light, and the learned guides or None."""
     learned = network(features(frame, means)) if network else None
-    return regression(frame, learned, network.replaces if network else False, SIGMA[kind])
+    return regression(frame, learned, network.replaces if network else False, SIGMA[kind]), learned
 
 
 def evaluate(network, frames):
@@ -88,9 +107,9 @@ def evaluate(network, frames):
             ours, plain = 0.0, 0.0
             for frame, means in some:
                 mean = means.light.clamp(min=1e-30)
-                flr = filtered(None, frame, means, kind)
+                flr, _ = filtered(None, frame, means, kind)
                 weight = (frame["inverse_depth"] > 0) / (1 + flr / mean) ** 4
-                ours += error_of(filtered(network, frame, means, kind), frame, weight, mean)
+                ours += error_of(filtered(network, frame, means, kind)[0], frame, weight, mean)
                 plain += error_of(flr, frame, weight, mean)
             errors[kind] = ours / max(len(some), 1), plain / max(len(some), 1)
     return errors
@@ -126,10 +145,15 @@ class Training:
         kind = self.rng.choice(["accumulated", "single"])
         frame, means = batch_of(frames[kind], self.rng)
         surface = (frame["inverse_depth"] > 0).float()
-        loss = loss_of(filtered(self.network, frame, means, kind), frame["target"], surface, means.light.clamp(min=1e-30))
+        mean = means.light.clamp(min=1e-30)
+        light, learned = filtered(self.network, frame, means, kind)
+        loss = loss_of(light, frame["target"], surface, mean) + ENDS * ends_loss_of(learned)
+        direct = DIRECT * max(0.0, 1 - share / DIRECT_SHARE)
+        if direct > 0:
+            loss = loss + direct * direct_loss_of(learned, frame["target"], surface, mean)
         self.optimiser.zero_grad()
         loss.backward()
-        torch.nn.utils.clip_grad_norm_(self.network.parameters(), 1.0)
+        torch.nn.utils.clip_grad_norm_(self.network.parameters(), 0.3)
         self.optimiser.step()
         self.steps += 1
         return float(loss)
@@ -143,7 +167,6 @@ def main():
     parser.add_argument("--minutes", type=float, default=120, help="length of the whole training, all calls together (default: %(default)s)")
     parser.add_argument("--seed", type=int, default=1)
     options = parser.parse_args()
-    torch.set_num_threads(max(torch.get_num_threads(), 1))
     training_files, held_out_files = scenes(options.cache)
     frames, held_out = with_means(load(training_files)), with_means(load(held_out_files))
     training = Training(options)
