@@ -80,7 +80,7 @@ vec3 viewOf(ivec2 p, float z) {
   if (kView == 3u) return vec3(x[0], x[1], x[2]);
   if (kView == 4u) {
     const float samples = kAlphaIsSampleCount ? light.a : 1.0;
-    return vec3(x[kInverseDepth], kFeatures > 4 ? x[kFeatures - 1] : 0.0, sampled ? samples : 0.0);
+    return vec3(x[kInverseDepth], kFeatures > kOcclusion ? x[kOcclusion % kFeatures] : 0.0, sampled ? samples : 0.0);
   }
   const vec4 predicted = predict(p, x);
   if (kView == 0u) return vec3(notEqual(clampedColour(predicted.rgb), predicted.rgb));
