@@ -6,6 +6,7 @@
 
 #include "passes/accumulate.h"
 #include "passes/bmfr.h"
+#include "passes/flnr.h"
 #include "passes/flr.h"
 #include "passes/joint_bilateral.h"
 #include "passes/pass_through.h"
@@ -42,6 +43,8 @@ constexpr std::array kPresets<BmfrSettings>{Preset<BmfrSettings>{"tuned", tunedB
 template <>
 constexpr std::array kPresets<SvgfSettings>{Preset<SvgfSettings>{"tuned", tunedSvgf},
                                             Preset<SvgfSettings>{"paper", paperSvgf}};
+template <>
+constexpr std::array kPresets<FlnrSettings>{Preset<FlnrSettings>{"small", [] { return FlnrSettings{}; }}};
 
 /// What to add to the message when a method has no such preset, for presets that it once had.
 template <typename Settings>
@@ -138,6 +141,7 @@ constexpr std::array kMethods{
     Method{"bmfr", "Blockwise Multi-Order Feature Regression", make<BmfrSettings, addBmfr>, true},
     Method{"svgf", "Spatiotemporal Variance-Guided Filtering", make<SvgfSettings, addSvgf>},
     Method{"flr", "Fast Local Regression over downsampled moments", make<FlrSettings, addFlr>, true},
+    Method{"flnr", "FLR with more guides, from a small network: experimental", make<FlnrSettings, addFlnr>},
     Method{"joint_bilateral", "Joint bilateral filter with temporal accumulation",
            make<JointBilateralSettings, addJointBilateral>},
     Method{"accumulate", "Temporal accumulation alone", make<AccumulateSettings, addAccumulate>, true},

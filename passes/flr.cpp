@@ -3,8 +3,11 @@
 #include "passes/temporal_stages.h"
 
 namespace walr {
+namespace {
 
-fg::Texture addFlr(StageGraph graph, const DenoiserInputs& inputs, fg::Texture output, const FlrSettings& settings) {
+/// @param network null: there are no learned guides
+fg::Texture addStages(StageGraph graph, const DenoiserInputs& inputs, fg::Texture output, const FlrSettings& settings,
+                      const GuideNetwork* network) {
   const TemporalPlan plan = planTemporalStages(inputs, {.accumulation = settings.accumulation,
                                                         .antialiasing = settings.antialiasing,
                                                         .spatialOnly = settings.spatialOnly});
@@ -15,9 +18,22 @@ fg::Texture addFlr(StageGraph graph, const DenoiserInputs& inputs, fg::Texture o
 
   const Guides guides = addPrepareGuides(graph, inputs, settings.guides, needs);
   const Accumulated accumulated = addAccumulation(graph, inputs, guides, plan);
+  fg::Texture learned;
+  if (network != nullptr) learned = addGuideNetwork(graph, accumulated.lighting, accumulated.alpha, guides, *network);
   const fg::Texture filtered = addFlrRegression(graph, accumulated.lighting, accumulated.alpha, guides,
-                                                filterTarget(graph, plan, output), regression);
+                                                filterTarget(graph, plan, output), regression, learned);
   return addAntialiasing(graph, inputs, guides, plan, accumulated, filtered, output);
+}
+
+}  // namespace
+
+fg::Texture addFlr(StageGraph graph, const DenoiserInputs& inputs, fg::Texture output, const FlrSettings& settings) {
+  return addStages(graph, inputs, output, settings, nullptr);
+}
+
+fg::Texture addFlrWithNetwork(StageGraph graph, const DenoiserInputs& inputs, fg::Texture output,
+                              const FlrSettings& settings, const GuideNetwork& network) {
+  return addStages(graph, inputs, output, settings, &network);
 }
 
 }  // namespace walr

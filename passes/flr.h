@@ -2,6 +2,7 @@
 
 #include "framegraph/declare/graph.h"
 #include "passes/flr_regression.h"
+#include "passes/guide_network.h"
 #include "passes/inputs.h"
 #include "passes/prepare_guides.h"
 #include "passes/stage_graph.h"
@@ -21,13 +22,21 @@ struct FlrSettings {
   TemporalAntialiasingSettings antialiasing;
 
   void visit(SettingVisitor& v) {
+    visitBefore(v);
+    regression.visit(v);
+    visitAfter(v);
+  }
+  /// Settings of the stages up to the regression.
+  void visitBefore(SettingVisitor& v) {
     v.visit({"spatial-only", "Filter each frame on its own, as published, without the temporal stages", "", 0, 1,
              "Salmi et al. 2024"},
             spatialOnly);
     guides.visit(v);
     accumulation.visit(v);
     occlusion.visit(v);
-    regression.visit(v);
+  }
+  /// Settings of the window of single frames, and of the stages after the regression.
+  void visitAfter(SettingVisitor& v) {
     v.visit({"regression.single-frame-sigma",
              "Standard deviation of the Gaussian window with spatial-only, in place of regression.sigma", "pixels", 0.1,
              256.0, "measured"},
@@ -41,5 +50,11 @@ struct FlrSettings {
 /// @returns the output's new version
 fg::Texture addFlr(StageGraph graph, const DenoiserInputs& inputs, fg::Texture output,
                    const FlrSettings& settings = {});
+
+/// The same with more guides.
+/// @param settings with the occlusion guide
+/// @param network  makes the guides from the geometric ones and the light
+fg::Texture addFlrWithNetwork(StageGraph graph, const DenoiserInputs& inputs, fg::Texture output,
+                              const FlrSettings& settings, const GuideNetwork& network);
 
 }  // namespace walr

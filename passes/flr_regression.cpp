@@ -1,5 +1,6 @@
 #include "passes/flr_regression.h"
 
+#include <array>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -13,15 +14,42 @@ namespace {
 
 /// Bytes of a cell in the buffers; they depend on the number of guides.
 struct CellBytes {
-  std::uint64_t products;      ///< `OuterProducts` of flr.glsl.
+  std::uint64_t products;      ///< `OuterProducts` of flr.glsl, but for `moreProducts`.
   std::uint64_t coefficients;  ///< `Coefficients` of flr.glsl.
+  std::uint64_t moreProducts;  ///< Those in a second buffer; 0: there is none.
 };
 
 /// Bytes of one of the vectors that a cell consists of, `vec4` in flr.glsl.
 constexpr std::uint64_t kVectorBytes = 16;
 
-CellBytes cellBytesOf(bool occlusion) {
-  return occlusion ? CellBytes{160, 80} : CellBytes{128, 64};
+/// The shaders for a choice of guides.
+struct GuideShaders {
+  const fg::Shader& moments;
+  const fg::Shader& blur;
+  const fg::Shader& solve;
+  const fg::Shader& solveView;
+  const fg::Shader& apply;
+  const fg::Shader& applyView;
+  CellBytes bytes;
+};
+
+GuideShaders shadersFor(bool occlusion, bool learned) {
+  if (learned) {
+    return {shaders::flrMomentsLearned,
+            shaders::flrBlurLearned,
+            shaders::flrSolveLearned,
+            shaders::flrSolveLearnedView,
+            shaders::flrApplyLearned,
+            shaders::flrApplyLearnedView,
+            {224, 112, 64}};
+  }
+  return {shaders::flrMoments({.occlusion = occlusion}),
+          shaders::flrBlur,
+          shaders::flrSolve({.occlusion = occlusion}),
+          shaders::flrSolveView({.occlusion = occlusion}),
+          shaders::flrApply({.occlusion = occlusion}),
+          shaders::flrApplyView({.occlusion = occlusion}),
+          occlusion ? CellBytes{160, 80, 0} : CellBytes{128, 64, 0}};
 }
 
 /// In the order of `kView` of flr_solve.comp. Names of what WALR's regression has, too, are the same.
@@ -47,6 +75,9 @@ const std::vector<ViewInfo>& applyViews() {
       {"unfitted",
        "1 where no cell around has a fit, where the pixel has no sample, where the fit is not finite",
        {{"unfitted-pixels", "X"}, {"unsampled-pixels", "Y"}, {"non-finite-fits", "Z"}}},
+      {"light", "Light that is fitted; 0 where the pixel has no sample"},
+      {"guide-normal", "Shading normal in view space, as it is a guide"},
+      {"guide-depth", "Guides inverse depth and ambient occlusion, samples in the light; 0 where there are none"},
   };
   return kViews;
 }
@@ -65,9 +96,14 @@ fg::Extent gridOf(fg::Extent pixels, std::uint32_t factor, std::uint64_t cellByt
 }  // namespace
 
 fg::Texture addFlrRegression(StageGraph graph, fg::Texture lighting, LightingAlpha alpha, const Guides& guides,
-                             fg::Texture output, const FlrRegressionSettings& settings) {
+                             fg::Texture output, const FlrRegressionSettings& settings, fg::Texture learned) {
   const bool occlusion = settings.occlusionGuide;
-  const CellBytes bytes = cellBytesOf(occlusion);
+  if (learned.valid() && !occlusion) {
+    throw std::invalid_argument(
+        "learned guides need ambient occlusion beside them: set regression.occlusion-guide to on");
+  }
+  const GuideShaders stages = shadersFor(occlusion, learned.valid());
+  const CellBytes bytes = stages.bytes;
   const fg::Extent extent = graph->textureDesc(lighting).extent;
   const fg::Extent cells = gridOf(extent, settings.factor, bytes.products);
   const std::uint64_t cellCount = std::uint64_t{cells.width} * cells.height;
@@ -88,25 +124,40 @@ fg::Texture addFlrRegression(StageGraph graph, fg::Texture lighting, LightingAlp
     } else {
       pass.sample("shadingNormal", guides.shadingNormal);
     }
+    if (learned.valid()) pass.sample("learned", learned);
     return pass;
   };
-  const auto productBuffer = [&](const char* name) { return graph->buffer(name, {cellCount * bytes.products}); };
+  const std::array productBytes{bytes.products, bytes.moreProducts};
+  const std::size_t buffers = bytes.moreProducts > 0 ? 2 : 1;
 
-  fg::PassBuilder downsample = readPixels("flr outer products", shaders::flrMoments({.occlusion = occlusion}));
+  fg::PassBuilder downsample = readPixels("flr outer products", stages.moments);
   downsample.specialize("kAlphaIsSampleCount", alpha == LightingAlpha::SampleCount ? 1U : 0U).dispatch(cells);
-  const fg::Buffer moments = downsample.store("outMoments", productBuffer("outer products"));
-
-  fg::PassBuilder blur = graph->compute("flr blur", shaders::flrBlur({.occlusion = occlusion}));
-  blur.load("moments", moments).constants(constants);
-  blur.dispatch(cells, static_cast<std::uint32_t>(bytes.products / kVectorBytes));
-  const fg::Buffer blurred = blur.store("outBlurred", productBuffer("blurred products"));
+  constexpr std::array kMoments{"outMoments", "outMoreMoments"};
+  constexpr std::array kToBlur{"moments", "moreMoments"};
+  constexpr std::array kOutBlurred{"outBlurred", "outMoreBlurred"};
+  constexpr std::array kBlurred{"blurred", "moreBlurred"};
+  constexpr std::array kMomentNames{"outer products", "more outer products"};
+  constexpr std::array kBlurredNames{"blurred products", "more blurred products"};
+  std::array<fg::Buffer, 2> moments;
+  for (std::size_t i = 0; i < buffers; ++i) {
+    moments[i] = downsample.store(kMoments[i], graph->buffer(kMomentNames[i], {cellCount * productBytes[i]}));
+  }
+  fg::PassBuilder blur = graph->compute("flr blur", stages.blur);
+  blur.constants(constants);
+  blur.dispatch(cells, static_cast<std::uint32_t>((bytes.products + bytes.moreProducts) / kVectorBytes));
+  std::array<fg::Buffer, 2> blurred;
+  for (std::size_t i = 0; i < buffers; ++i) {
+    blur.load(kToBlur[i], moments[i]);
+    blurred[i] = blur.store(kOutBlurred[i], graph->buffer(kBlurredNames[i], {cellCount * productBytes[i]}));
+  }
 
   const auto declareSolve = [&](const std::string& name, const fg::Shader& shader) {
     fg::PassBuilder pass = graph->compute(name, shader);
-    pass.load("blurred", blurred).constants(constants).dispatch(cells);
+    for (std::size_t i = 0; i < buffers; ++i) pass.load(kBlurred[i], blurred[i]);
+    pass.constants(constants).dispatch(cells);
     return pass;
   };
-  fg::PassBuilder solve = declareSolve("flr solve", shaders::flrSolve({.occlusion = occlusion}));
+  fg::PassBuilder solve = declareSolve("flr solve", stages.solve);
   const fg::Buffer coefficients =
       solve.store("outCoefficients", graph->buffer("coefficients", {cellCount * bytes.coefficients}));
 
@@ -117,15 +168,13 @@ fg::Texture addFlrRegression(StageGraph graph, fg::Texture lighting, LightingAlp
         .dispatch(extent);
     return pass;
   };
-  graph.offer(solveViews(), extent, [&](const std::string& name) {
-    return declareSolve(name, shaders::flrSolveView({.occlusion = occlusion}));
-  });
+  graph.offer(solveViews(), extent, [&](const std::string& name) { return declareSolve(name, stages.solveView); });
   graph.offer(applyViews(), extent, [&](const std::string& name) {
-    fg::PassBuilder pass = declareApply(name, shaders::flrApplyView({.occlusion = occlusion}));
+    fg::PassBuilder pass = declareApply(name, stages.applyView);
     pass.specialize("kAlphaIsSampleCount", alpha == LightingAlpha::SampleCount);
     return pass;
   });
-  fg::PassBuilder apply = declareApply("flr apply", shaders::flrApply({.occlusion = occlusion}));
+  fg::PassBuilder apply = declareApply("flr apply", stages.apply);
   return apply.store("outFiltered", output);
 }
 

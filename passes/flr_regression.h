@@ -29,6 +29,13 @@ struct FlrRegressionSettings {
   bool occlusionGuide = true;
 
   void visit(SettingVisitor& v) {
+    visitFit(v);
+    v.visit({"regression.occlusion-guide", "Take ambient occlusion among the guides", "", 0, 1,
+             "Salmi et al. 2024: optional"},
+            occlusionGuide);
+  }
+  /// All but the choice of guides.
+  void visitFit(SettingVisitor& v) {
     static constexpr std::array<std::string_view, 3> kUpsamplings{"nearest", "bilinear", "bspline"};
     v.visit({"regression.factor", "Pixels per axis whose outer products are summed into one cell", "pixels", 1, 32,
              "measured"},
@@ -42,9 +49,6 @@ struct FlrRegressionSettings {
     v.visitEnum(
         {"regression.upsampling", "How the cells' coefficients are interpolated at a pixel", "", 0, 1, "measured"},
         kUpsamplings, upsampling);
-    v.visit({"regression.occlusion-guide", "Take ambient occlusion among the guides", "", 0, 1,
-             "Salmi et al. 2024: optional"},
-            occlusionGuide);
   }
 };
 
@@ -55,9 +59,10 @@ struct FlrRegressionSettings {
 /// @param alpha     what the alpha channel of `lighting` holds; pixels without samples do not count
 /// @param guides    with `features` where `settings.occlusionGuide` is set
 /// @param output    RGBA16F texture to write the result to
+/// @param learned   RGBA16F: three more guides in 0..1 (`addGuideNetwork`), beside ambient occlusion; or not valid
 /// @returns the output's new version; sky and pixels without a diffuse lobe hold the pass-through
 /// @throws std::invalid_argument if the moments of all cells do not fit one storage buffer
 fg::Texture addFlrRegression(StageGraph graph, fg::Texture lighting, LightingAlpha alpha, const Guides& guides,
-                             fg::Texture output, const FlrRegressionSettings& settings = {});
+                             fg::Texture output, const FlrRegressionSettings& settings = {}, fg::Texture learned = {});
 
 }  // namespace walr

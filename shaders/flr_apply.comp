@@ -73,10 +73,17 @@ vec3 clampedColour(vec3 colour) { return clamp(colour, vec3(0.0), vec3(kLargestH
 #ifdef VIEW
 vec3 viewOf(ivec2 p, float z) {
   if (z == 0.0) return vec3(0.0);
-  const vec4 predicted = predict(p, unpackGuides(packedGuides(p), z));
-  if (kView == 0u) return vec3(notEqual(clampedColour(predicted.rgb), predicted.rgb));
+  const float x[kFeatures] = unpackGuides(packedGuides(p), z);
   const vec4 light = texelFetch(lighting, p, 0);
   const bool sampled = isFinite(light.rgb) && (!kAlphaIsSampleCount || light.a > 0.0);
+  if (kView == 2u) return sampled ? clampedColour(light.rgb) : vec3(0.0);
+  if (kView == 3u) return vec3(x[0], x[1], x[2]);
+  if (kView == 4u) {
+    const float samples = kAlphaIsSampleCount ? light.a : 1.0;
+    return vec3(x[kInverseDepth], kFeatures > kOcclusion ? x[kOcclusion % kFeatures] : 0.0, sampled ? samples : 0.0);
+  }
+  const vec4 predicted = predict(p, x);
+  if (kView == 0u) return vec3(notEqual(clampedColour(predicted.rgb), predicted.rgb));
   return vec3(predicted.a == 0.0, !sampled, !isFinite(predicted.rgb));
 }
 #endif

@@ -11,6 +11,17 @@ layout(push_constant) uniform PushConstants { FlrConstants constants; };
 
 layout(std430) readonly buffer moments { vec4 cells[]; };
 layout(std430) writeonly buffer outBlurred { vec4 outCells[]; };
+#ifdef LEARNED
+layout(std430) readonly buffer moreMoments { vec4 moreCells[]; };
+layout(std430) writeonly buffer outMoreBlurred { vec4 outMoreCells[]; };
+#endif
+
+vec4 momentsAt(ivec2 cell, int vector) {
+#ifdef LEARNED
+  if (vector >= kFirstVectors) return moreCells[vectorIndex(cell, vector - kFirstVectors)];
+#endif
+  return cells[vectorIndex(cell, vector)];
+}
 
 void main() {
   const ivec2 cell = ivec2(gl_GlobalInvocationID.xy);
@@ -18,6 +29,12 @@ void main() {
   const int vector = int(gl_GlobalInvocationID.z);
   vec4 sum = vec4(0.0);
   const int first = max(cell.x - constants.radius, 0), last = min(cell.x + constants.radius, constants.cells.x - 1);
-  for (int x = first; x <= last; ++x) sum += gaussian(x - cell.x) * cells[vectorIndex(ivec2(x, cell.y), vector)];
+  for (int x = first; x <= last; ++x) sum += gaussian(x - cell.x) * momentsAt(ivec2(x, cell.y), vector);
+#ifdef LEARNED
+  if (vector >= kFirstVectors) {
+    outMoreCells[vectorIndex(cell, vector - kFirstVectors)] = sum;
+    return;
+  }
+#endif
   outCells[vectorIndex(cell, vector)] = sum;
 }

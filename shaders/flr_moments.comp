@@ -14,6 +14,9 @@ layout(push_constant) uniform PushConstants { FlrConstants constants; };
 uniform texture2D lighting;
 uniform utexture2D depth;
 layout(std430) writeonly buffer outMoments { vec4 outCells[]; };
+#ifdef LEARNED
+layout(std430) writeonly buffer outMoreMoments { vec4 outMoreCells[]; };
+#endif
 #include "include/flr_guides.glsl"
 
 void main() {
@@ -28,12 +31,16 @@ void main() {
       // All fetches come before the first test, so that they overlap.
       const float z = depthAt(p);
       const vec4 sampleHere = texelFetch(lighting, p, 0);
-      const uint guides = packedGuides(p);
+      const PackedGuides guides = packedGuides(p);
       const vec3 colour = sampleHere.rgb;
       // Sky, pixels without a diffuse lobe and pixels without a finite sample do not count.
       if (z == 0.0 || !isFinite(colour) || (kAlphaIsSampleCount && sampleHere.a == 0.0)) continue;
       add(sum, 1.0, outerProducts(unpackGuides(guides, z), clamp(colour, 0.0, kLargestHalf)));
     }
   }
-  for (int k = 0; k < kProductVectors; ++k) outCells[vectorIndex(cell, k)] = sum.v[k];
+  for (int k = 0; k < kFirstVectors; ++k) outCells[vectorIndex(cell, k)] = sum.v[k];
+#ifdef LEARNED
+  for (int k = kFirstVectors; k < kProductVectors; ++k)
+    outMoreCells[vectorIndex(cell, k - kFirstVectors)] = sum.v[k];
+#endif
 }

@@ -13,6 +13,9 @@ layout(push_constant) uniform PushConstants { FlrConstants constants; };
 #include "include/cholesky.glsl"
 
 layout(std430) readonly buffer blurred { vec4 cells[]; };
+#ifdef LEARNED
+layout(std430) readonly buffer moreBlurred { vec4 moreCells[]; };
+#endif
 #ifdef VIEW
 layout(constant_id = 8) const uint kView = 0;  // Which quantity; numbered in viewOf.
 layout(rgba32f) uniform writeonly image2D outView;
@@ -105,7 +108,10 @@ void write(ivec2 cell, OuterProducts p) {
 
 OuterProducts productsOf(ivec2 cell) {
   OuterProducts p;
-  for (int k = 0; k < kProductVectors; ++k) p.v[k] = cells[vectorIndex(cell, k)];
+  for (int k = 0; k < kFirstVectors; ++k) p.v[k] = cells[vectorIndex(cell, k)];
+#ifdef LEARNED
+  for (int k = kFirstVectors; k < kProductVectors; ++k) p.v[k] = moreCells[vectorIndex(cell, k - kFirstVectors)];
+#endif
   return p;
 }
 

@@ -190,6 +190,12 @@ Buffer Graph::upload(std::string name, std::uint64_t size, Where where) {
       {declare({.name = std::move(name), .desc = BufferDesc{size}, .lifetime = Lifetime::Upload, .where = where}), 0}};
 }
 
+Buffer Graph::upload(std::string name, std::span<const std::byte> contents, Where where) {
+  const Buffer buffer = upload(std::move(name), contents.size(), where);
+  desc_.resources[buffer.resource].contents = contents;
+  return buffer;
+}
+
 Texture Graph::import(std::string name, const TextureDesc& desc, const ExternalState& acquire, Where where) {
   return {
       {declare(

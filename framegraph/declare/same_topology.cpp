@@ -9,8 +9,9 @@ namespace {
 
 /// The parts of a declaration that a plan, its diagnostics or an executor's objects depend on.
 auto essence(const ResourceDecl& resource) {
-  return std::tie(resource.name, resource.desc, resource.lifetime, resource.acquire, resource.history,
-                  resource.versions);
+  return std::tuple_cat(
+      std::tie(resource.name, resource.desc, resource.lifetime, resource.acquire, resource.history, resource.versions),
+      std::tuple(resource.contents.data(), resource.contents.size()));
 }
 auto essence(const AccessDecl& access) {
   return std::tie(access.resource, access.readVersion, access.writeVersion, access.replacesVersion, access.access,

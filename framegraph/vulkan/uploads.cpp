@@ -13,7 +13,9 @@ Uploads::Uploads(const GraphDesc& graph, const Plan& plan, std::uint32_t slots)
     if (decl.lifetime != Lifetime::Upload) continue;
     entryOf_[i] = static_cast<std::uint32_t>(entries_.size());
     const std::uint64_t size = std::get<BufferDesc>(decl.desc).size;
-    entries_.push_back({i, std::vector<std::byte>(size), std::vector<bool>(slots, plan.resources[i].used)});
+    std::vector<std::byte> bytes(decl.contents.begin(), decl.contents.end());
+    bytes.resize(size);
+    entries_.push_back({i, std::move(bytes), std::vector<bool>(slots, plan.resources[i].used)});
   }
 }
 

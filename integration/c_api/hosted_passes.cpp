@@ -96,7 +96,8 @@ void HostedPasses::beginFrame(const WalrPassFrame& frame) {
     if (lint_) lint_->collect(recording_->slot());
     if (counters_) counters_->collect(recording_->slot());
     afterAnother_ = description_.frames() > 0;
-    for (const std::uint32_t resource : recording_->uploads()) recording_->upload(resource, frameConstants(resource));
+    for (const std::uint32_t resource : recording_->frameUploads())
+      recording_->upload(resource, frameConstants(resource));
   }
   description_.advance(statement);
 }
@@ -105,6 +106,8 @@ std::span<const std::byte> HostedPasses::frameConstants(std::uint32_t resource) 
   if (!constants_) throw Error(WALR_ERROR_WRONG_ORDER, "there is no frame yet: call walr_begin_frame before");
   if (graph_.frame.valid() && resource == graph_.frame.resource) return std::as_bytes(std::span(&constants_->frame, 1));
   if (graph_.host.valid() && resource == graph_.host.resource) return std::as_bytes(std::span(&constants_->host, 1));
+  const std::vector<fg::ResourceDecl>& resources = graph_.graph.desc().resources;
+  if (resource < resources.size() && !resources[resource].contents.empty()) return resources[resource].contents;
   throw Error(WALR_ERROR_INVALID_ARGUMENT, "resource " + std::to_string(resource) + " is not an upload");
 }
 

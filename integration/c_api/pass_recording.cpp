@@ -64,6 +64,7 @@ void PassRecording::makeUploads(const WalrPassList& list) {
     const WalrResource& resource = *list.resources[i];
     if (resource.kind != WALR_RESOURCE_UPLOAD || resource.used == VK_FALSE) continue;
     std::vector<Upload>& copies = uploads_[i];
+    if (graph_->resources[i].contents.empty()) frameUploads_.push_back(i);
     copies.resize(slots_);
     for (Upload& copy : copies) {
       copy.buffer = fg::vk::createBuffer(*device_, {resource.buffer_size}, resource.buffer_usage, resource.name);
@@ -71,6 +72,9 @@ void PassRecording::makeUploads(const WalrPassList& list) {
     }
   }
   uploadMemory_.allocate();
+  for (const auto& [resource, copies] : uploads_) {
+    for (const Upload& copy : copies) std::ranges::copy(graph_->resources[resource].contents, copy.mapped);
+  }
 }
 
 void PassRecording::makeSets() {
@@ -95,12 +99,6 @@ void PassRecording::continueFrom(const PassRecording& last, std::span<const fg::
 void PassRecording::begin(std::uint64_t frame) {
   frame_ = frame;
   std::erase_if(zeros_, [&](const auto& entry) { return entry.second.lastFrame + slots_ <= frame_; });
-}
-
-std::vector<std::uint32_t> PassRecording::uploads() const {
-  std::vector<std::uint32_t> resources;
-  for (const auto& [resource, copies] : uploads_) resources.push_back(resource);
-  return resources;
 }
 
 void PassRecording::upload(std::uint32_t resource, std::span<const std::byte> bytes) {

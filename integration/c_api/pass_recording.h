@@ -32,8 +32,8 @@ class PassRecording {
   void bindLibraryBuffer(std::uint32_t resource, VkBuffer buffer) { libraryBuffers_[resource] = buffer; }
   /// Begin a frame. The GPU must have finished the last frame with the same slot.
   void begin(std::uint64_t frame);
-  /// Indices of the upload buffers that passes read.
-  [[nodiscard]] std::vector<std::uint32_t> uploads() const;
+  /// Indices of the upload buffers that passes read and that have new contents in every frame.
+  [[nodiscard]] const std::vector<std::uint32_t>& frameUploads() const { return frameUploads_; }
   /// Set an upload buffer's contents for the frame.
   void upload(std::uint32_t resource, std::span<const std::byte> bytes);
   /// Slot (among the frames in flight) of the frame begun last.
@@ -91,6 +91,7 @@ class PassRecording {
   std::map<std::uint32_t, std::pair<std::uint32_t, std::uint64_t>> ages_;  ///< By resource: age and its frame.
   fg::vk::MemoryArena uploadMemory_;
   std::map<std::uint32_t, std::vector<Upload>> uploads_;  ///< By resource and slot.
+  std::vector<std::uint32_t> frameUploads_;
 };
 
 }  // namespace walr::api

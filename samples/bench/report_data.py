@@ -6,9 +6,9 @@ import pathlib
 import numpy as np
 
 # Okabe and Ito's palette, which colour-blind readers can distinguish. The baseline is black.
-COLOURS = {"walr": "#000000", "walr_paper": "#666666", "bmfr": "#0072B2", "svgf": "#D55E00", "flr": "#009E73",
+COLOURS = {"walr": "#000000", "walr_paper": "#666666", "bmfr": "#0072B2", "svgf": "#D55E00", "flr": "#009E73", "flnr": "#56B4E9",
            "joint_bilateral": "#CC79A7", "accumulate": "#E69F00", "none": "#999999"}
-SPARE_COLOURS = ["#56B4E9", "#8C6D31", "#7F3C8D", "#B2182B", "#4D9221"]
+SPARE_COLOURS = ["#8C6D31", "#7F3C8D", "#B2182B", "#4D9221"]
 ERRORS = [("rmse", "RMSE"), ("flip", "FLIP"), ("ssim", "1 - SSIM"), ("flicker", "flicker")]
 TABLE = [("rmse", "RMSE", 4), ("psnr", "PSNR", 2), ("ssim", "SSIM", 4), ("flip", "FLIP", 4),
          ("relative_mse", "relMSE", 4), ("flicker", "flicker", 5), ("vmaf", "VMAF", 1)]

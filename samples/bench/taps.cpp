@@ -11,6 +11,7 @@
 #include "shaders/constants/antilag.h"
 #include "shaders/constants/block_regression.h"
 #include "shaders/constants/flr.h"
+#include "shaders/constants/guide_network.h"
 
 namespace walr {
 namespace {
@@ -76,6 +77,13 @@ double flrUpsampling(const Stage& stage) {
   return kBicubic;
 }
 
+/// Groups of four channels of a texel that a layer of a network reads, over the pixels of the image.
+double layerTaps(const Stage& stage, double tapsOfTexel, std::uint32_t channels) {
+  const LayerConstants constants = constantsOf<LayerConstants>(stage);
+  const double texels = static_cast<double>(constants.extent.x) * constants.extent.y;
+  return tapsOfTexel * channels / 4.0 * texels / stage.extent.width / stage.extent.height;
+}
+
 double coarseLine(const Stage& stage) {
   const auto constants = constantsOf<BlockRegressionConstants>(stage);
   return (2.0 * std::ceil(constants.coarseReach * constants.coarseSigma) + 1.0) * stage.share;
@@ -111,6 +119,16 @@ constexpr std::array kShaders = {
     ShaderTaps{"flr_blur", flrLine},
     ShaderTaps{"flr_solve", flrLine},
     ShaderTaps{"flr_apply", flrUpsampling},
+    ShaderTaps{"flnr_means", [](const Stage&) { return 1.0; }},
+    ShaderTaps{"flnr_encode", [](const Stage&) { return 1.0; }},
+    ShaderTaps{"convolution",
+               [](const Stage& stage) {
+                 const auto channels =
+                     specializationOf(stage, "kFirstChannels") + specializationOf(stage, "kSecondChannels");
+                 return layerTaps(stage, window(1), channels);
+               }},
+    ShaderTaps{"flnr_head",
+               [](const Stage& stage) { return layerTaps(stage, 1.0, specializationOf(stage, "kChannels")); }},
     ShaderTaps{"block_moments", [](const Stage&) { return 1.0; }},
     // At one sample per pixel; with more samples the window is narrower.
     ShaderTaps{"block_coarse", coarseLine},

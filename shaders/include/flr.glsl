@@ -1,12 +1,14 @@
 // FLR (Salmi et al. 2024): the guides of the regression, their outer products, and the grid of cells.
-// Needs: `constants` (FlrConstants). OCCLUSION: ambient occlusion is a guide, too.
+// Needs: `constants` (FlrConstants). OCCLUSION: ambient occlusion is a guide, too. LEARNED: so are three of a network.
 #ifndef WALR_FLR_GLSL
 #define WALR_FLR_GLSL
 
-// The guides besides the constant: shading normal, inverse depth, which is linear over the image of a plane, and
-// ambient occlusion.
-const int kInverseDepth = 3;
-#ifdef OCCLUSION
+// The guides besides the constant: shading normal, inverse depth, which is linear over the image of a plane, ambient
+// occlusion, and those of a network.
+const int kInverseDepth = 3, kOcclusion = 4;
+#ifdef LEARNED
+const int kFeatures = 8;
+#elif defined(OCCLUSION)
 const int kFeatures = 5;
 #else
 const int kFeatures = 4;
@@ -21,6 +23,15 @@ const int kSquares = kMeanX + kFeatures;
 const int kMeanY = kSquares + kCovariances;
 const int kProducts = kMeanY + 3 * (kFeatures + 1);
 const int kProductVectors = (kProducts + 3) / 4;
+
+// Vectors of a cell that the first buffer of products holds. With LEARNED there is a second one, because every device
+// takes only buffers of 128 MiB, which those of a picture of 3840 x 2160 would not fit as one. With cells of 4 x 4 pixels
+// the first one is as large as what a frame keeps of the last one's light and surfaces, and can take their memory.
+#ifdef LEARNED
+const int kFirstVectors = 14;
+#else
+const int kFirstVectors = kProductVectors;
+#endif
 
 struct OuterProducts {
   vec4 v[kProductVectors];

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <functional>
 #include <vector>
 
@@ -88,6 +89,10 @@ TEST(SameTopology, SeesEveryChangeOfADescription) {
       },
       [](GraphDesc& graph) {
         return !graph.passes.empty() && (graph.passes.back().extent = {{8, 8}}, true);
+      },
+      [](GraphDesc& graph) {
+        static constexpr std::array<std::byte, 4> kContents{};
+        return !graph.resources.empty() && (graph.resources.back().contents = kContents, true);
       },
       [](GraphDesc& graph) { return !graph.histories.empty() && (graph.histories.back().name += "x", true); },
   };

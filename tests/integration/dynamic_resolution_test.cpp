@@ -313,6 +313,7 @@ void boundWindows(const Playback& playback, const std::string& method) {
 
 TEST_P(DynamicResolutionMethod, ReadsTheHistoryAtTheRightPosition) {
   if (GetParam() == "walr") GTEST_SKIP() << "its windows grow with noise and history; walr_paper's do not";
+  if (GetParam() == "flnr") GTEST_SKIP() << "its network sees the length of the history; flr does not";
   constexpr std::uint32_t kFrames = 11;
   const Take take = slidingAlongLinearLight();
   Playback playback(device(), GetParam(), take, changing);

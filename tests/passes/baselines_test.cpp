@@ -134,12 +134,14 @@ TEST_P(BaselineTest, BeatsAccumulationAlone) {
 INSTANTIATE_TEST_SUITE_P(Methods, DenoiserTest,
                          testing::Values(Case{"svgf"}, Case{"svgf", true}, Case{"joint_bilateral"},
                                          Case{"joint_bilateral", true}, Case{"bmfr"}, Case{"bmfr", true}, Case{"flr"},
-                                         Case{"flr", true}, Case{"walr"}, Case{"walr", true}, Case{"accumulate"}),
+                                         Case{"flr", true}, Case{"flnr"}, Case{"flnr", true}, Case{"walr"},
+                                         Case{"walr", true}, Case{"accumulate"}),
                          caseName);
 INSTANTIATE_TEST_SUITE_P(Methods, BaselineTest,
                          testing::Values(Case{"svgf"}, Case{"svgf", true}, Case{"joint_bilateral"},
                                          Case{"joint_bilateral", true}, Case{"bmfr"}, Case{"bmfr", true}, Case{"flr"},
-                                         Case{"flr", true}, Case{"walr"}, Case{"walr", true}),
+                                         Case{"flr", true}, Case{"flnr"}, Case{"flnr", true}, Case{"walr"},
+                                         Case{"walr", true}),
                          caseName);
 
 }  // namespace

@@ -79,7 +79,7 @@ TEST_P(RegressionRobustness, ExtremeValuesStayFinite) {
 
 INSTANTIATE_TEST_SUITE_P(Methods, RegressionRobustness,
                          testing::Values(Method{"bmfr", "off"}, Method{"bmfr", "on"}, Method{"flr", "off"},
-                                         Method{"flr", "on"}),
+                                         Method{"flr", "on"}, Method{"flnr", "off"}, Method{"flnr", "on"}),
                          testName);
 
 }  // namespace

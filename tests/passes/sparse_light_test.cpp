@@ -181,7 +181,7 @@ TEST_F(SparseLight, KeepsTheEnergyOfItsSamples) {
 
 // A method that needs all samples says so, and so does a setting.
 TEST_F(SparseLight, IsRefusedByNameWhereAllSamplesAreNeeded) {
-  for (const char* name : {"svgf", "refwlr", "joint_bilateral", "none"}) {
+  for (const char* name : {"svgf", "refwlr", "flnr", "joint_bilateral", "none"}) {
     const std::unique_ptr<Denoiser> method = makeDenoiser(name);
     fg::test::expectError(
         [&] {

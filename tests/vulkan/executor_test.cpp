@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <fstream>
 #include <numeric>
+#include <span>
 #include <stdexcept>
 
 #include "framegraph/vulkan/error.h"
@@ -96,9 +97,9 @@ TEST_F(ExecutorTest, OwnsExportedTransients) {
 }
 
 struct UniformGraph {
-  explicit UniformGraph(std::uint32_t factor) {
+  explicit UniformGraph(std::uint32_t factor, std::span<const std::byte> contents = {}) {
     const Texture target = importOutput(graph, "out");
-    frame = graph.upload("frame", sizeof(Frame));
+    frame = contents.empty() ? graph.upload("frame", sizeof(Frame)) : graph.upload("frame", contents);
     auto pass = graph.compute("write", shaders::writeUniform).uniform("frame", frame).specialize("factor", factor);
     out = pass.store("target", target);
     pass.dispatch(kTexture.extent);
@@ -136,6 +137,19 @@ TEST_F(ExecutorTest, UploadedBytesStayUntilTheNextUpload) {
     run.frame();
     EXPECT_EQ(run.texels<std::uint32_t>(uniform.out), constant(77));
   }
+}
+
+TEST_F(ExecutorTest, UploadHoldsItsContentsUntilTheFirstUpload) {
+  const UniformGraph::Frame contents{0, 55};
+  UniformGraph uniform(1, std::as_bytes(std::span(&contents, 1)));
+  GraphRun run(device(), uniform.graph);
+  for (int i = 0; i < 3; ++i) {
+    run.frame();
+    EXPECT_EQ(run.texels<std::uint32_t>(uniform.out), constant(55));
+  }
+  run.executor().upload(uniform.frame, UniformGraph::Frame{0, 56});
+  run.frame();
+  EXPECT_EQ(run.texels<std::uint32_t>(uniform.out), constant(56));
 }
 
 TEST_F(ExecutorTest, UploadOfAnotherSizeIsRefusedByName) {

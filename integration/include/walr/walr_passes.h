@@ -26,7 +26,9 @@ typedef enum WalrResourceKind {
   WALR_RESOURCE_TRANSIENT = 1,        /* Lives within the frame. */
   WALR_RESOURCE_HISTORY_PREVIOUS = 2, /* What the last frame wrote into `partner`. Null in the first frame. */
   WALR_RESOURCE_HISTORY_CURRENT = 3,  /* Kept for the next frame, which reads it as `partner`. */
-  WALR_RESOURCE_UPLOAD = 4,  /* A uniform buffer with new contents in every frame, see walr_get_frame_constants. */
+  /* A uniform buffer with new contents in every frame, or a storage buffer with a network's weights, which are the same
+   * in all frames; see walr_get_frame_constants. */
+  WALR_RESOURCE_UPLOAD = 4,
   WALR_RESOURCE_LIBRARY = 5, /* A buffer of the library, which also places its barriers: the host binds nothing. */
   WALR_RESOURCE_KIND_MAX = 0x7fffffff
 } WalrResourceKind;

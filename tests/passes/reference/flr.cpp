@@ -12,8 +12,8 @@
 namespace walr::reference {
 namespace {
 
-/// Guides: normal, inverse depth, ambient occlusion.
-constexpr std::size_t kGuides = 5;
+/// Guides: normal, inverse depth, ambient occlusion, three of a network.
+constexpr std::size_t kGuides = 8;
 constexpr std::size_t kInverseDepth = 3;
 using GuideVector = Vector<kGuides>;
 
@@ -46,11 +46,14 @@ struct Inputs {
   const Image<Guide>& guides;
   const Image<glm::dvec3>& lighting;
   const FlrRegressionSettings& settings;
+  const Image<glm::dvec3>* learned;
 
   /// Guides of a pixel. One that is 0 everywhere gets a slope of 0.
   [[nodiscard]] GuideVector guidesAt(glm::ivec2 p) const {
     const glm::dvec3 n = octahedralDecode(guides[p].features);
-    return {n.x, n.y, n.z, 1.0 / guides[p].depth, settings.occlusionGuide ? guides[p].occlusion : 0.0};
+    const glm::dvec3 more = learned != nullptr ? (*learned)[p] : glm::dvec3(0.0);
+    const double occlusion = settings.occlusionGuide ? guides[p].occlusion : 0.0;
+    return {n.x, n.y, n.z, 1.0 / guides[p].depth, occlusion, more.x, more.y, more.z};
   }
 };
 
@@ -157,8 +160,8 @@ double cellWeight(double t, FlrUpsampling upsampling) {
 }  // namespace
 
 Image<FlrResult> flrRegression(const Image<Guide>& guides, const Image<glm::dvec3>& lighting,
-                               const FlrRegressionSettings& settings) {
-  const Inputs in{guides, lighting, settings};
+                               const FlrRegressionSettings& settings, const Image<glm::dvec3>* learned) {
+  const Inputs in{guides, lighting, settings, learned};
   const int factor = int(settings.factor);
   Image<Fit> fits((guides.size() + factor - 1) / factor);
   forEachPixel(fits.size(), [&](glm::ivec2 cell) { fits[cell] = fitCell(windowOf(in, cell), settings); });

@@ -13,7 +13,8 @@ struct FlrResult {
 
 /// Fast Local Regression (Salmi et al. 2024: the weighted least-squares solution A*) without its shortcuts: the sums of
 /// each cell go over all pixels of its window, in double precision and about the mean, and the matrix is inverted.
+/// @param learned three more guides; null: there are none
 Image<FlrResult> flrRegression(const Image<Guide>& guides, const Image<glm::dvec3>& lighting,
-                               const FlrRegressionSettings& settings = {});
+                               const FlrRegressionSettings& settings = {}, const Image<glm::dvec3>* learned = nullptr);
 
 }  // namespace walr::reference

@@ -1,0 +1,150 @@
+#include "passes/guide_network.h"
+
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "passes/grid_extent.h"
+#include "shaders/constants/guide_network.h"
+#include "shaders/shaders.h"
+
+namespace walr {
+namespace {
+
+static_assert(static_cast<std::uint32_t>(LayerInput::Pooled) == kInputPooled);
+static_assert(static_cast<std::uint32_t>(LayerInput::Grown) == kInputGrown);
+
+/// Pixels per axis that become one texel of the network.
+constexpr std::uint32_t kShrink = 2;
+/// Channels of the network's input: eight features of each of those pixels (flnr_encode.comp).
+constexpr std::uint32_t kInputChannels = 8 * kShrink * kShrink;
+/// Channels of its result: three guides of each of them.
+constexpr std::uint32_t kResultChannels = 3 * kShrink * kShrink;
+constexpr std::uint64_t kHalfBytes = 2;
+/// Bytes of the shaders' unit, four halves.
+constexpr std::uint64_t kGroupBytes = 4 * kHalfBytes;
+constexpr std::uint32_t kThreadTexels = 2;  ///< Texels per axis that a thread of convolution.comp makes.
+
+std::uint64_t convolutionBytes(std::uint32_t inputs, std::uint32_t outputs, std::uint32_t taps) {
+  return kHalfBytes * outputs * (std::uint64_t{inputs} * taps + 1);
+}
+
+fg::Extent halved(fg::Extent extent) {
+  return gridExtent(extent, 2);
+}
+
+Channels channels(fg::Graph& graph, const std::string& name, fg::Extent extent, std::uint32_t count) {
+  const std::uint64_t bytes = kHalfBytes * count * extent.width * extent.height;
+  if (bytes > kLargestBuffer) {
+    throw std::invalid_argument("method flnr needs " + std::to_string(bytes) + " bytes for '" + name +
+                                "', more than the " + std::to_string(kLargestBuffer) +
+                                " of a buffer that every device takes: denoise a smaller picture");
+  }
+  return {graph.buffer(name, {bytes}), extent, count};
+}
+
+LayerConstants constantsOf(fg::Extent extent, fg::Extent first, std::uint64_t offset) {
+  const auto size = [](fg::Extent e) { return glm::ivec2(e.width, e.height); };
+  return {size(extent), size(first), static_cast<glm::uint>(offset / kGroupBytes)};
+}
+
+/// The features of the pixels, as the network's first layer reads them.
+Channels addEncoder(StageGraph graph, fg::Texture lighting, LightingAlpha alpha, const Guides& guides) {
+  const fg::Extent extent = graph->textureDesc(lighting).extent;
+  const bool counted = alpha == LightingAlpha::SampleCount;
+  const fg::Extent tiles = gridExtent(extent, kMeansTile);
+  fg::PassBuilder means = graph->compute("flnr means", shaders::flnrMeans);
+  means.sample("lighting", lighting).sample("depth", guides.depth).specialize("kAlphaIsSampleCount", counted);
+  means.dispatch({8 * tiles.width, 8 * tiles.height});
+  const fg::Buffer sums = means.store(
+      "outSums", graph->buffer("sums of tiles", {std::uint64_t{tiles.width} * tiles.height * sizeof(glm::vec4)}));
+
+  Channels encoded = channels(graph, "encoded guides", gridExtent(extent, kShrink), kInputChannels);
+  fg::PassBuilder encode = graph->compute("flnr encode", shaders::flnrEncode);
+  encode.sample("lighting", lighting).sample("depth", guides.depth).sample("features", guides.features);
+  encode.load("sums", sums).specialize("kAlphaIsSampleCount", counted).dispatch(encoded.extent);
+  encoded.buffer = encode.store("outEncoded", encoded.buffer);
+  return encoded;
+}
+
+/// The last layer, whose result are the guides.
+fg::Texture addHead(StageGraph graph, const Channels& input, fg::Extent picture, fg::Buffer weights,
+                    std::uint64_t offset) {
+  fg::PassBuilder head = graph->compute("flnr head", shaders::flnrHead);
+  head.load("firstInput", input.buffer).load("weights", weights).specialize("kChannels", input.count);
+  head.constants(constantsOf(input.extent, input.extent, offset)).dispatch(input.extent);
+  return head.store("outLearned", graph->texture("learned guides", {VK_FORMAT_R16G16B16A16_SFLOAT, picture}));
+}
+
+}  // namespace
+
+std::uint64_t weightBytesOf(const std::array<std::uint32_t, 4>& widths) {
+  constexpr std::uint32_t kTaps = 9;
+  std::uint64_t bytes = convolutionBytes(widths.front(), kResultChannels, 1);
+  for (std::size_t i = 0; i < widths.size(); ++i) {
+    bytes += convolutionBytes(i == 0 ? kInputChannels : widths[i - 1], widths[i], kTaps);
+    bytes += convolutionBytes(widths[i], widths[i], kTaps);
+    if (i + 1 == widths.size()) continue;
+    bytes += convolutionBytes(widths[i + 1] + widths[i], widths[i], kTaps);
+    bytes += convolutionBytes(widths[i], widths[i], kTaps);
+  }
+  return bytes;
+}
+
+Channels addConvolution(StageGraph graph, const char* name, const Convolution& layer, fg::Buffer weights,
+                        std::uint64_t& offset) {
+  Channels result = channels(graph, name, layer.extent, layer.count);
+  const bool joins = layer.second.buffer.valid();
+  fg::PassBuilder pass = graph->compute(name, shaders::convolution);
+  pass.load("firstInput", layer.first.buffer)
+      .load("secondInput", joins ? layer.second.buffer : layer.first.buffer)
+      .load("weights", weights)
+      .specialize("kFirstChannels", layer.first.count)
+      .specialize("kSecondChannels", layer.second.count)
+      .specialize("kFirstInput", static_cast<std::uint32_t>(layer.input))
+      .constants(constantsOf(layer.extent, layer.first.extent, offset))
+      .dispatch(gridExtent(layer.extent, kThreadTexels), layer.count / 8);
+  result.buffer = pass.store("outResult", result.buffer);
+  offset += convolutionBytes(layer.first.count + layer.second.count, layer.count, 9);
+  return result;
+}
+
+fg::Texture addGuideNetwork(StageGraph graph, fg::Texture lighting, LightingAlpha alpha, const Guides& guides,
+                            const GuideNetwork& network) {
+  const std::uint64_t bytes = weightBytesOf(network.widths);
+  if (network.weights.size() != bytes) {
+    throw std::invalid_argument("the weights of the network have " + std::to_string(network.weights.size()) +
+                                " bytes, but its widths need " + std::to_string(bytes));
+  }
+  const fg::Buffer weights = graph->upload("weights", network.weights);
+  std::uint64_t offset = 0;
+  const auto convolve = [&](const std::string& name, const Convolution& layer) {
+    return addConvolution(graph, name.c_str(), layer, weights, offset);
+  };
+  const auto block = [&](const std::string& name, const Convolution& layer) {
+    const Channels inner = convolve(name + ", first", layer);
+    return convolve(name + ", second", {.first = inner, .extent = layer.extent, .count = layer.count});
+  };
+
+  std::vector<Channels> skips;
+  Channels last = addEncoder(graph, lighting, alpha, guides);
+  for (const std::uint32_t width : network.widths) {
+    const bool first = skips.empty();
+    last =
+        block("encoder " + std::to_string(skips.size() + 1), {.first = last,
+                                                              .input = first ? LayerInput::AsItIs : LayerInput::Pooled,
+                                                              .extent = first ? last.extent : halved(last.extent),
+                                                              .count = width});
+    skips.push_back(last);
+  }
+  skips.pop_back();
+  for (; !skips.empty(); skips.pop_back()) {
+    const Channels& skip = skips.back();
+    last =
+        block("decoder " + std::to_string(skips.size()),
+              {.first = last, .input = LayerInput::Grown, .second = skip, .extent = skip.extent, .count = skip.count});
+  }
+  return addHead(graph, last, graph->textureDesc(lighting).extent, weights, offset);
+}
+
+}  // namespace walr

@@ -1,0 +1,113 @@
+#!/usr/bin/env python3
+"""Writes the weights of a trained network as the shaders read them, and a record of the training beside them.
+
+    export_weights.py --state FILE --cache DIR --output passes/weights/flnr_small.f16 --fixture tests/passes/fixtures/flnr_small.txt
+
+The fixture is a small frame and the guides that PyTorch makes of it with these weights, for the tests of the shaders.
+"""
+import argparse
+import json
+import math
+import pathlib
+import random
+import subprocess
+import sys
+
+import torch
+
+sys.dont_write_bytecode = True
+from dataset import scenes
+from network import PRESETS, GuideNetwork, Means, features
+
+
+def convolution(layer):
+    """convolution.comp: of every eight results, for every four inputs and each tap, for each input the first and last four results;
+    then the biases."""
+    outputs, inputs = layer.weight.shape[:2]
+    weights = layer.weight.reshape(outputs // 8, 2, 4, inputs // 4, 4, 9)
+    return torch.cat([weights.permute(0, 3, 5, 4, 1, 2).reshape(-1), layer.bias])
+
+
+def head(layer):
+    """flnr_head.comp: for each input, for each guide, its pixels; then the biases."""
+    return torch.cat([layer.weight[:, :, 0, 0].t().reshape(-1), layer.bias])
+
+
+def halves(network):
+    """All weights in the order of the layers."""
+    blocks = [*network.encoder, *network.decoder]
+    parts = [convolution(layer) for block in blocks for layer in block.layers] + [head(network.head)]
+    return torch.cat(parts).detach().to(torch.float16).numpy()
+
+
+def commit():
+    return subprocess.run(["git", "-C", pathlib.Path(__file__).parent, "rev-parse", "HEAD"], capture_output=True, text=True,
+                          check=True).stdout.strip()
+
+
+def decoded(steps):
+    """The normal of two 12-bit steps of the octahedral map (surface.glsl)."""
+    x, y = (2 * s / 4095 - 1 for s in steps)
+    z = 1 - abs(x) - abs(y)
+    fold = max(-z, 0.0)
+    x, y = x - math.copysign(fold, x), y - math.copysign(fold, y)
+    length = math.sqrt(x * x + y * y + z * z)
+    return x / length, y / length, z / length
+
+
+def fixture(network, width=21, height=17):
+    """Lines of a frame: width and height; then of each pixel the steps of its normal, depth (0: no surface), occlusion in steps, light,
+    samples, and the learned guides. All inputs are exact in the formats of the pipeline."""
+    rng = random.Random(5)
+    rows, frame = [], {name: torch.zeros(1, count, height, width) for name, count in
+                       (("normal", 3), ("inverse_depth", 1), ("occlusion", 1), ("light", 3), ("samples", 1))}
+    for y in range(height):
+        for x in range(width):
+            steps = rng.randrange(900, 3200), rng.randrange(900, 3200)
+            depth = 0.0 if rng.random() < 0.05 else round(256 * (2 + 0.1 * x + rng.random())) / 256
+            occlusion, samples = rng.randrange(256), rng.randrange(9)
+            light = [float(torch.tensor(math.exp(rng.gauss(-1, 1.5))).half()) for _ in range(3)]
+            if depth > 0:
+                frame["normal"][0, :, y, x] = torch.tensor(decoded(steps))
+                frame["inverse_depth"][0, 0, y, x] = 1 / depth
+                frame["occlusion"][0, 0, y, x] = occlusion / 255
+                if samples:
+                    frame["light"][0, :, y, x] = torch.tensor(light)
+                    frame["samples"][0, 0, y, x] = samples
+            rows.append([*steps, depth, occlusion, *light, samples])
+    rounded = GuideNetwork(**PRESETS["small"])
+    rounded.load_state_dict({name: values.half().float() for name, values in network.state_dict().items()})
+    with torch.no_grad():
+        learned = rounded(features(frame, Means.of(frame)))[0].permute(1, 2, 0).reshape(-1, 3).tolist()
+    lines = [" ".join(f"{v:.9g}" for v in [*row, *guides]) for row, guides in zip(rows, learned)]
+    return "\n".join([f"{width} {height}", *lines]) + "\n"
+
+
+def seeds(files):
+    return [int(file.parent.name) for file in files]
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--state", type=pathlib.Path, required=True, help="file of train.py")
+    parser.add_argument("--cache", type=pathlib.Path, required=True, help="folder of make_data.py")
+    parser.add_argument("--output", type=pathlib.Path, required=True)
+    parser.add_argument("--fixture", type=pathlib.Path, required=True)
+    options = parser.parse_args()
+    state = torch.load(options.state)
+    network = GuideNetwork(**PRESETS[state["preset"]])
+    network.load_state_dict(state["network"])
+    options.output.parent.mkdir(exist_ok=True)
+    halves(network).tofile(options.output)
+    options.fixture.parent.mkdir(exist_ok=True)
+    options.fixture.write_text(fixture(network), encoding="utf-8")
+    trained, held_out = scenes(options.cache)
+    record = {"preset": state["preset"], "commit": commit(), "steps": state["steps"], "seconds": round(state["seconds"]),
+              "training_seeds": seeds(trained), "held_out_seeds": seeds(held_out), "curve": state["curve"]}
+    lines = ",\n".join(f" {json.dumps(key)}: " + ("[\n  " + ",\n  ".join(map(json.dumps, value)) + "\n ]" if key == "curve" else
+                                                  json.dumps(value)) for key, value in record.items())
+    options.output.with_suffix(".json").write_text("{\n" + lines + "\n}\n", encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,188 @@
+#!/usr/bin/env python3
+"""Trains a network that makes guides for FLR, on frames of make_data.py.
+
+    train.py --cache DIR --state FILE --preset small --minutes 120
+
+The state holds weights, optimiser and curve, and is written after every round: the command goes on where an earlier call ended.
+Loss: squared error relative to the prediction's own magnitude, whose minimum is the mean also where targets are noisy (Lehtinen et
+al. 2018), plus the absolute error after the tone map x / (1 + x), in which the project is judged. Light is relative to the frame's
+mean, as the network sees it. In the first tenth of the training, each guide is also drawn to one channel of the target after the
+tone map, as a start; no longer, because guides that are best by themselves let noise through, which the regression amplifies. A
+penalty keeps guides from the ends of their sigmoid, where nothing moves them any more.
+"""
+import argparse
+import json
+import math
+import pathlib
+import random
+import sys
+import time
+
+import torch
+
+sys.dont_write_bytecode = True
+from dataset import load, scenes
+from network import PRESETS, SIGMA, GuideNetwork, Means, features, regression
+
+CROP, BATCH, STEPS = 96, 4, 50
+"""Pixels of a crop's side, crops of a step, steps of a round."""
+BRIGHT = 4.0
+"""Targets beyond so many times prediction plus mean count as that: a path of a noisy target must not outweigh a crop."""
+ABSOLUTE = 0.2
+"""Share of the absolute error in the loss."""
+DIRECT, DIRECT_SHARE = 0.5, 0.1
+"""Weight of the guides' own squared errors at the start, and the share of the training in which it falls to 0."""
+ENDS, LARGEST_LOGIT = 1e-2, 4.0
+"""Weight of the squared excess of the sigmoid's inputs over the largest one that is free."""
+RATE, LAST_RATE = 1e-3, 5e-5
+"""Of Adam, from first to last step, as a half cosine."""
+
+
+def loss_of(prediction, target, surface, mean):
+    prediction, target = prediction / mean, target / mean
+    own = prediction.detach()
+    target = torch.minimum(target, BRIGHT * (own + 1))
+    squared = ((prediction - target) / (own + 0.5)) ** 2
+    mapped = prediction / (1 + prediction) - target / (1 + target)
+    count = 3 * surface.sum().clamp(min=1)
+    loss = ((1 - ABSOLUTE) * squared + ABSOLUTE * mapped.abs()) * surface
+    return loss.sum() / count
+
+
+def direct_loss_of(learned, target, surface, mean):
+    """The squared error of the first three guides as channels of the light after the tone map."""
+    target = target / mean
+    count = 3 * surface.sum().clamp(min=1)
+    return (((learned[:, :3] - target / (1 + target)) ** 2) * surface).sum() / count
+
+
+def error_of(prediction, frame, weight, mean):
+    """Squared error after the tone map, without the noise of the target: the two halves of its samples err independently, so
+    that the product of the errors against both has the mean of the squared error against the truth. `weight`: the tone map's
+    squared slope, from a prediction that does not depend on the target."""
+    first, second = frame["half_target"] / mean, (2 * frame["target"] - frame["half_target"]) / mean
+    own = prediction / mean
+    return float((weight * (own - first) * (own - second)).sum() / weight.gt(0).sum().clamp(min=1))
+
+
+def crop_of(frame, means, rng):
+    """A random crop, perhaps mirrored, with its channels of light in a random order, and the means of the whole frame."""
+    height, width = frame["target"].shape[2:]
+    x, y = 8 * rng.randrange((width - CROP) // 8 + 1), 8 * rng.randrange((height - CROP) // 8 + 1)
+    crop = {name: values[:, :, y:y + CROP, x:x + CROP] for name, values in frame.items()}
+    order = rng.sample(range(3), 3)
+    crop["light"], crop["target"] = crop["light"][:, order], crop["target"][:, order]
+    if rng.random() < 0.5:
+        crop = {name: values.flip(3) for name, values in crop.items()}
+        crop["normal"] = crop["normal"] * torch.tensor([-1.0, 1.0, 1.0]).view(1, 3, 1, 1)
+    return crop, means
+
+
+def with_means(frames):
+    return {kind: [(frame, Means.of(frame)) for frame in some] for kind, some in frames.items()}
+
+
+def batch_of(frames, rng):
+    crops, means = zip(*(crop_of(*rng.choice(frames), rng) for _ in range(BATCH)))
+    joined = {name: torch.cat([c[name] for c in crops]) for name in crops[0]}
+    return joined, Means(torch.cat([m.light for m in means]), torch.cat([m.inverse_depth for m in means]))
+
+
+def ends_loss_of(learned):
+    """The squared excess of the sigmoid's inputs."""
+    return ((torch.logit(learned, 1e-6).abs() - LARGEST_LOGIT).clamp(min=0) ** 2).mean()
+
+
+def filtered(network, frame, means, kind):
+    """The filtered light, and the learned guides or None."""
+    learned = network(features(frame, means)) if network else None
+    return regression(frame, learned, network.replaces if network else False, SIGMA[kind]), learned
+
+
+def evaluate(network, frames):
+    """Mean squared error over held-out frames and that of FLR, by kind of light."""
+    errors = {}
+    with torch.no_grad():
+        for kind, some in frames.items():
+            ours, plain = 0.0, 0.0
+            for frame, means in some:
+                mean = means.light.clamp(min=1e-30)
+                flr, _ = filtered(None, frame, means, kind)
+                weight = (frame["inverse_depth"] > 0) / (1 + flr / mean) ** 4
+                ours += error_of(filtered(network, frame, means, kind)[0], frame, weight, mean)
+                plain += error_of(flr, frame, weight, mean)
+            errors[kind] = ours / max(len(some), 1), plain / max(len(some), 1)
+    return errors
+
+
+class Training:
+    def __init__(self, options):
+        self.file, self.preset = options.state, options.preset
+        torch.manual_seed(options.seed)
+        self.rng = random.Random(options.seed)
+        self.network = GuideNetwork(**PRESETS[options.preset])
+        self.optimiser = torch.optim.Adam(self.network.parameters(), RATE)
+        self.curve, self.steps, self.seconds = [], 0, 0.0
+        if self.file.exists():
+            state = torch.load(self.file)
+            if state["preset"] != options.preset:
+                raise SystemExit(f"{self.file}: holds preset {state['preset']}; give another --state for {options.preset}")
+            self.network.load_state_dict(state["network"])
+            self.optimiser.load_state_dict(state["optimiser"])
+            self.curve, self.steps, self.seconds = state["curve"], state["steps"], state["seconds"]
+            self.rng = random.Random(options.seed + self.steps)
+
+    def save(self):
+        partial = self.file.with_suffix(".partial")
+        torch.save({"preset": self.preset, "network": self.network.state_dict(), "optimiser": self.optimiser.state_dict(),
+                    "curve": self.curve, "steps": self.steps, "seconds": self.seconds}, partial)
+        partial.rename(self.file)
+
+    def step(self, frames, share):
+        """One step at a share of the whole time."""
+        for group in self.optimiser.param_groups:
+            group["lr"] = LAST_RATE + (RATE - LAST_RATE) * 0.5 * (1 + math.cos(math.pi * min(share, 1.0)))
+        kind = self.rng.choice(["accumulated", "single"])
+        frame, means = batch_of(frames[kind], self.rng)
+        surface = (frame["inverse_depth"] > 0).float()
+        mean = means.light.clamp(min=1e-30)
+        light, learned = filtered(self.network, frame, means, kind)
+        loss = loss_of(light, frame["target"], surface, mean) + ENDS * ends_loss_of(learned)
+        direct = DIRECT * max(0.0, 1 - share / DIRECT_SHARE)
+        if direct > 0:
+            loss = loss + direct * direct_loss_of(learned, frame["target"], surface, mean)
+        self.optimiser.zero_grad()
+        loss.backward()
+        torch.nn.utils.clip_grad_norm_(self.network.parameters(), 0.3)
+        self.optimiser.step()
+        self.steps += 1
+        return float(loss)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--cache", type=pathlib.Path, required=True, help="folder of make_data.py")
+    parser.add_argument("--state", type=pathlib.Path, required=True, help="file that the training is kept in")
+    parser.add_argument("--preset", choices=PRESETS, default="small")
+    parser.add_argument("--minutes", type=float, default=120, help="length of the whole training, all calls together (default: %(default)s)")
+    parser.add_argument("--seed", type=int, default=1)
+    options = parser.parse_args()
+    training_files, held_out_files = scenes(options.cache)
+    frames, held_out = with_means(load(training_files)), with_means(load(held_out_files))
+    training = Training(options)
+    print(f"{len(training_files)} scenes, {len(held_out_files)} held out; "
+          f"{sum(p.numel() for p in training.network.parameters())} parameters", flush=True)
+    while training.seconds < 60 * options.minutes:
+        start = time.monotonic()
+        losses = [training.step(frames, training.seconds / (60 * options.minutes)) for _ in range(STEPS)]
+        training.seconds += time.monotonic() - start
+        errors = evaluate(training.network, held_out) if (training.steps // STEPS) % 5 == 0 else None
+        entry = {"steps": training.steps, "seconds": round(training.seconds), "loss": round(sum(losses) / STEPS, 5),
+                 **({"held_out_mse": {k: [round(e, 7) for e in both] for k, both in errors.items()}} if errors else {})}
+        training.curve.append(entry)
+        training.save()
+        print(json.dumps(entry), flush=True)
+
+
+if __name__ == "__main__":
+    main()

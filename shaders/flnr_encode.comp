@@ -1,0 +1,57 @@
+// What the network sees (samples/training/network.py, `features`): normal x and y, depth, ambient occlusion, light relative
+// to the picture's mean, samples in the light; all 0 where there is no surface. Each 2 x 2 pixels become one texel with a
+// group of four channels for each of these.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_samplerless_texture_functions : require
+#include "constants/guide_network.h"
+#include "include/halves.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(constant_id = 0) const bool kAlphaIsSampleCount = false;
+
+#include "include/surface.glsl"
+#include "include/sum_of_group.glsl"
+
+uniform texture2D lighting;
+uniform utexture2D depth;
+uniform utexture2D features;
+layout(std430) readonly buffer sums { vec4 tiles[]; };  // Of flnr_means.comp.
+layout(std430) writeonly buffer outEncoded { uvec2 encoded[]; };
+
+const int kFeatures = 8;
+const float kSamplesScale = 1.0 / 16.0;
+
+// Mean light of pixels that have some, mean inverse depth of surfaces.
+vec2 meansOfPicture() {
+  const ivec2 grid = (textureSize(depth, 0) + kMeansTile - 1) / kMeansTile;
+  vec4 sum = vec4(0.0);
+  for (int i = int(gl_LocalInvocationIndex); i < grid.x * grid.y; i += 64) sum += tiles[i];
+  sum = sumOfGroup(sum);
+  return sum.xz / max(sum.yw, vec2(1.0));
+}
+
+float[kFeatures] featuresOf(ivec2 p, vec2 means) {
+  const float nothing[kFeatures] = float[](0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
+  if (any(greaterThanEqual(p, textureSize(depth, 0)))) return nothing;
+  const float z = unpackDepthBesideNormal(texelFetch(depth, p, 0).x);
+  if (z == 0.0) return nothing;
+  const NormalAndOcclusion surface = unpackNormalAndOcclusion(texelFetch(features, p, 0).x);
+  const vec4 here = texelFetch(lighting, p, 0);
+  const bool sampled = isFinite(here.rgb) && (!kAlphaIsSampleCount || here.a > 0.0);
+  const vec3 light = sampled ? clamp(here.rgb, 0.0, kLargestHalf) : vec3(0.0);
+  const vec3 relative = log(1.0 + light / max(means.x, 1e-30));
+  const float samples = sampled ? (kAlphaIsSampleCount ? here.a : 1.0) : 0.0;
+  return float[](surface.normal.x, surface.normal.y, 1.0 / (1.0 + z * means.y), surface.occlusion, relative.r, relative.g,
+                 relative.b, samples * kSamplesScale);
+}
+
+void main() {
+  const vec2 means = meansOfPicture();
+  const ivec2 p = ivec2(gl_GlobalInvocationID.xy), extent = (textureSize(depth, 0) + 1) / 2;
+  if (any(greaterThanEqual(p, extent))) return;
+  float values[4][kFeatures];
+  for (int i = 0; i < 4; ++i) values[i] = featuresOf(2 * p + ivec2(i % 2, i / 2), means);
+  for (int f = 0; f < kFeatures; ++f)
+    encoded[halvesIndex(p, f, extent)] = packHalves(vec4(values[0][f], values[1][f], values[2][f], values[3][f]));
+}

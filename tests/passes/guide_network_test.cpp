@@ -1,0 +1,299 @@
+// The network of FLNR: each layer and the whole against double precision, and against what PyTorch computes.
+#include "passes/guide_network.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <string>
+
+#include <glm/gtc/packing.hpp>
+
+#include "passes/flr_regression.h"
+#include "passes/network_weights.h"
+#include "tests/error_text.h"
+#include "tests/passes/comparison.h"
+#include "tests/passes/filter_run.h"
+#include "tests/passes/reference/flr.h"
+#include "tests/passes/reference/guide_network.h"
+#include "tests/passes/reference/hash.h"
+#include "tests/passes/shaders.h"
+#include "tests/passes/synthetic_scene.h"
+#include "tests/vulkan/gpu_fixture.h"
+
+namespace walr::test {
+namespace {
+
+using reference::ChannelImage;
+using reference::forEachPixel;
+using reference::Guide;
+using reference::Image;
+using reference::Storage;
+
+const GuideNetwork& smallNetwork() {
+  static const GuideNetwork kNetwork{kSmallFlnrWidths, smallFlnrWeights()};
+  return kNetwork;
+}
+
+fg::Extent extentOf(glm::ivec2 size) {
+  return {std::uint32_t(size.x), std::uint32_t(size.y)};
+}
+
+/// Uniform in -1..1, exact as a half.
+double randomHalf(int index, std::uint32_t stream) {
+  const std::uint32_t word = reference::pcg4d({std::uint32_t(index), std::uint32_t(index) / 1000U, stream, 0U}).x;
+  return reference::roundToHalf(double(word) * 0x1p-31 - 1.0);
+}
+
+ChannelImage randomImage(glm::ivec2 size, std::uint32_t count, std::uint32_t stream) {
+  ChannelImage image(size, count);
+  for (std::size_t i = 0; i < image.values.size(); ++i) image.values[i] = randomHalf(int(i), stream);
+  return image;
+}
+
+/// Halves in the order of halves.glsl.
+std::vector<std::uint16_t> packed(const ChannelImage& image) {
+  std::vector<std::uint16_t> halves;
+  for (std::size_t group = 0; group < image.count / 4; ++group) {
+    forEachPixel(image.size, [&](glm::ivec2 p) {
+      for (std::size_t c = 0; c < 4; ++c) halves.push_back(glm::packHalf1x16(float(image.at(4 * group + c, p))));
+    });
+  }
+  return halves;
+}
+
+struct LayerCase {
+  glm::ivec2 size;
+  std::uint32_t first;
+  LayerInput input;
+  std::uint32_t second;
+  std::uint32_t count;
+};
+
+class GuideNetworkLayers : public fg::test::GpuTest {
+ protected:
+  /// A layer's result on the device, in the order of halves.glsl.
+  std::vector<std::uint16_t> run(const LayerCase& layer, const ChannelImage& first, const ChannelImage& second,
+                                 const std::vector<std::uint16_t>& weights) {
+    const std::vector<std::uint16_t> firstHalves = packed(first);
+    const std::vector<std::uint16_t> secondHalves = packed(second);
+    fg::Graph graph;
+    Convolution convolution{
+        .first = {graph.upload("first", std::as_bytes(std::span(firstHalves))), extentOf(first.size), layer.first},
+        .input = layer.input,
+        .extent = extentOf(layer.size),
+        .count = layer.count};
+    if (layer.second > 0) {
+      convolution.second = {graph.upload("second", std::as_bytes(std::span(secondHalves))), extentOf(second.size),
+                            layer.second};
+    }
+    const fg::Buffer bound = graph.upload("weights", std::as_bytes(std::span(weights)));
+    std::uint64_t offset = 0;
+    const Channels result = addConvolution(graph, "layer", convolution, bound, offset);
+    EXPECT_EQ(offset, weights.size() * sizeof(std::uint16_t));
+    const std::uint32_t words = layer.count * std::uint32_t(layer.size.x * layer.size.y) / 2;
+    const fg::Buffer target = graph.import("result", fg::BufferDesc{words * 4ULL}, fg::vk::kOverwritable);
+    fg::PassBuilder copy = graph.compute("copy", shaders::copyWords);
+    copy.load("source", result.buffer).constants(words).dispatch({8 * ((words + 63) / 64), 8});
+    graph.exported(copy.store("target", target), fg::vk::kReadable);
+    fg::test::GraphRun graphRun(device(), graph);
+    const std::uint32_t slot = graphRun.submitFrame();
+    graphRun.finish();
+    return graphRun.elements<std::uint16_t>(target, slot);
+  }
+};
+
+/// Rounding: each term rounds in the product and in at most as many additions as there are terms; the result is a half.
+TEST_F(GuideNetworkLayers, AgreeWithDoublePrecision) {
+  for (const LayerCase& layer :
+       {LayerCase{{17, 13}, 32, LayerInput::AsItIs, 0, 16}, LayerCase{{1, 1}, 16, LayerInput::AsItIs, 0, 8},
+        LayerCase{{9, 7}, 16, LayerInput::Pooled, 0, 24}, LayerCase{{1, 1}, 8, LayerInput::Pooled, 0, 8},
+        LayerCase{{17, 13}, 24, LayerInput::Grown, 16, 16}, LayerCase{{40, 33}, 8, LayerInput::AsItIs, 8, 8}}) {
+    const std::string name = std::to_string(layer.size.x) + " x " + std::to_string(layer.size.y) + ", " +
+                             std::to_string(layer.first) + " + " + std::to_string(layer.second) + " channels";
+    SCOPED_TRACE(name);
+    const glm::ivec2 odd = glm::max(2 * layer.size - 1, 1);
+    const glm::ivec2 firstSize = layer.input == LayerInput::Pooled  ? odd
+                                 : layer.input == LayerInput::Grown ? (layer.size + 1) / 2
+                                                                    : layer.size;
+    const ChannelImage first = randomImage(firstSize, layer.first, 1);
+    const ChannelImage second = randomImage(layer.size, layer.second, 2);
+    const std::uint32_t inputs = layer.first + layer.second;
+    std::vector<double> weights(layer.count * (9 * inputs + 1));
+    for (std::size_t i = 0; i < weights.size(); ++i) weights[i] = randomHalf(int(i), 3);
+    const ChannelImage seen = layer.input == LayerInput::Pooled  ? reference::pooled(first)
+                              : layer.input == LayerInput::Grown ? reference::grown(first, layer.size)
+                                                                 : first;
+    const reference::LayerResult expected =
+        reference::convolution(reference::joined(seen, second), weights, layer.count);
+    const std::vector<std::uint16_t> actual =
+        run(layer, first, second, reference::packConvolution(weights, inputs, layer.count));
+
+    Comparison comparison(name);
+    std::size_t i = 0;
+    for (std::size_t group = 0; group < layer.count / 4; ++group) {
+      forEachPixel(layer.size, [&](glm::ivec2 p) {
+        comparison.compared();
+        for (std::size_t c = 4 * group; c < 4 * group + 4; ++c) {
+          const double error = (9.0 * inputs + 1.0) * reference::kFloatRoundoff * expected.magnitudes.at(c, p);
+          const double value = expected.values.at(c, p);
+          comparison.value(p, "channel", double(glm::unpackHalf1x16(actual[i++])), value, halfTolerance(value, error));
+        }
+      });
+    }
+    comparison.expect(0.0);
+  }
+}
+
+/// What the network sees, and what PyTorch makes of it with the committed weights: samples/training/export_weights.py.
+struct Fixture {
+  Image<Guide> guides;
+  Image<glm::dvec4> lighting;  ///< Alpha: samples.
+  Image<glm::dvec3> learned;
+};
+
+Fixture readFixture() {
+  const std::string file = WALR_PASS_FIXTURES "/flnr_small.txt";
+  std::ifstream in(file);
+  glm::ivec2 size(0);
+  in >> size.x >> size.y;
+  if (!in) throw std::runtime_error(file + ": cannot be read");
+  Fixture fixture{Image<Guide>(size), Image<glm::dvec4>(size), Image<glm::dvec3>(size)};
+  forEachPixel(size, [&](glm::ivec2 p) {
+    glm::dvec2 steps(0.0);
+    double occlusion = 0.0;
+    glm::dvec4& light = fixture.lighting[p];
+    glm::dvec3& learned = fixture.learned[p];
+    in >> steps.x >> steps.y >> fixture.guides[p].depth >> occlusion >> light.x >> light.y >> light.z >> light.w >>
+        learned.x >> learned.y >> learned.z;
+    fixture.guides[p].features = steps * reference::kUnorm12Step;
+    fixture.guides[p].occlusion = occlusion * reference::kUnorm8Step;
+  });
+  if (!in) throw std::runtime_error(file + ": ends early");
+  return fixture;
+}
+
+/// Guides and light of a scene, of which some pixels have no sample.
+Fixture sceneFixture(glm::ivec2 size) {
+  const reference::HostFrame frame = renderStill(stairs(), size);
+  Fixture fixture{
+      reference::prepareGuides(frame, Storage::Quantised, {}, kOcclusionInSmallImages), withAlpha(frame.lighting), {}};
+  forEachPixel(size, [&](glm::ivec2 p) {
+    fixture.lighting[p].w = (p.x + 2 * p.y) % 5;
+    if ((p.x + p.y) % 7 == 3) fixture.lighting[p].y = NAN;
+  });
+  return fixture;
+}
+
+Image<glm::dvec3> expectedGuides(const Fixture& fixture, Storage storage) {
+  return reference::guideNetwork(fixture.guides, fixture.lighting, kSmallFlnrWidths, smallFlnrWeights(), storage);
+}
+
+double largestDifference(const Image<glm::dvec3>& a, const Image<glm::dvec3>& b) {
+  double largest = 0.0;
+  forEachPixel(a.size(), [&](glm::ivec2 p) {
+    for (int c = 0; c < 3; ++c) largest = std::max(largest, std::abs(a[p][c] - b[p][c]));
+  });
+  return largest;
+}
+
+class WholeGuideNetwork : public fg::test::GpuTest {
+ protected:
+  Image<glm::dvec4> run(const Fixture& fixture) {
+    FilterRun filter(device(), fixture.guides.size(), 1,
+                     [&](fg::Graph& graph, fg::Buffer, const Guides& guides, const auto& inputs) {
+                       return addGuideNetwork(graph, inputs[0], LightingAlpha::SampleCount, guides, smallNetwork());
+                     });
+    return filter.run({}, fixture.guides, {fixture.lighting});
+  }
+  /// The results of layers are halves. What that changes is measured in double precision; the device rounds other
+  /// values up and down, so that it may err as much in the other direction.
+  void expectGuides(const Fixture& fixture, const Image<glm::dvec3>& expected, double further) {
+    const double rounding =
+        2.0 * largestDifference(expectedGuides(fixture, Storage::Quantised), expectedGuides(fixture, Storage::Exact));
+    const Image<glm::dvec4> actual = run(fixture);
+    Comparison comparison("learned guides");
+    forEachPixel(expected.size(), [&](glm::ivec2 p) {
+      comparison.compared();
+      for (int c = 0; c < 3; ++c)
+        comparison.value(p, "guide", actual[p][c], expected[p][c], halfTolerance(expected[p][c], rounding + further));
+    });
+    comparison.expect(0.0);
+  }
+};
+
+TEST_F(WholeGuideNetwork, AgreesWithDoublePrecision) {
+  for (const glm::ivec2 size : {glm::ivec2(1, 1), glm::ivec2(2, 3), glm::ivec2(45, 34), glm::ivec2(70, 9)}) {
+    SCOPED_TRACE(std::to_string(size.x) + " x " + std::to_string(size.y));
+    const Fixture fixture = sceneFixture(size);
+    expectGuides(fixture, expectedGuides(fixture, Storage::Exact), 0.0);
+  }
+}
+
+/// PyTorch computes in single precision. Fifteen layers of up to 721 terms, whose roundings are independent, err by
+/// less than this.
+constexpr double kSinglePrecision = 1e-4;
+
+TEST_F(WholeGuideNetwork, AgreesWithPyTorch) {
+  const Fixture fixture = readFixture();
+  expectGuides(fixture, fixture.learned, kSinglePrecision);
+}
+
+TEST(GuideNetworkReference, AgreesWithPyTorch) {
+  const Fixture fixture = readFixture();
+  EXPECT_LE(largestDifference(expectedGuides(fixture, Storage::Exact), fixture.learned), kSinglePrecision);
+}
+
+TEST_F(WholeGuideNetwork, GivesTheSameBitsInEveryRun) {
+  const Fixture fixture = sceneFixture({45, 34});
+  const Image<glm::dvec4> first = run(fixture);
+  EXPECT_EQ(run(fixture).pixels(), first.pixels());
+}
+
+class FlrOnLearnedGuides : public fg::test::GpuTest {};
+
+TEST_F(FlrOnLearnedGuides, AgreesWithTheReference) {
+  constexpr glm::ivec2 kSize(45, 34);
+  const FlrRegressionSettings settings;
+  FilterRun run(device(), kSize, 2, [&](fg::Graph& graph, fg::Buffer, const Guides& guides, const auto& inputs) {
+    const fg::Texture filtered = graph.texture("filtered", graph.textureDesc(inputs[0]));
+    return addFlrRegression(graph, inputs[0], LightingAlpha::Unused, guides, filtered, settings, inputs[1]);
+  });
+  for (const NamedScene& scene : allScenes()) {
+    const reference::HostFrame frame = renderStill(scene.scene, kSize);
+    const Image<Guide> guides = reference::prepareGuides(frame, Storage::Quantised, {}, kOcclusionInSmallImages);
+    Image<glm::dvec3> learned(kSize);
+    forEachPixel(kSize, [&](glm::ivec2 p) {
+      for (int c = 0; c < 3; ++c) learned[p][c] = 0.5 + 0.5 * randomHalf(p.x + 50 * p.y, std::uint32_t(10 + c));
+      for (int c = 0; c < 3; ++c) learned[p][c] = reference::roundToHalf(learned[p][c]);
+    });
+    const auto expected = reference::flrRegression(guides, frame.lighting, settings, &learned);
+    const Image<glm::dvec4> actual = run.run({}, guides, {withAlpha(frame.lighting), withAlpha(learned)});
+    Comparison comparison(scene.name);
+    forEachPixel(kSize, [&](glm::ivec2 p) {
+      comparison.compared();
+      for (int c = 0; c < 3; ++c) {
+        comparison.value(p, "colour", actual[p][c], expected[p].colour[c],
+                         halfTolerance(expected[p].colour[c], expected[p].error[c]));
+      }
+    });
+    comparison.expect(0.0);
+  }
+}
+
+TEST(GuideNetworkSettings, WeightsOfOtherWidthsAreRefused) {
+  fg::Graph graph;
+  const fg::Texture lighting = graph.texture("lighting", {VK_FORMAT_R16G16B16A16_SFLOAT, {64, 64}});
+  const GuideNetwork wide{{32, 24, 32, 48}, smallFlnrWeights()};
+  fg::test::expectError([&] { addGuideNetwork(graph, lighting, LightingAlpha::Unused, {}, wide); },
+                        {"weights", std::to_string(smallFlnrWeights().size()), "widths"});
+}
+
+TEST(GuideNetworkSettings, APictureTooLargeForABufferIsRefused) {
+  fg::Graph graph;
+  const fg::Texture lighting = graph.texture("lighting", {VK_FORMAT_R16G16B16A16_SFLOAT, {7680, 4320}});
+  fg::test::expectError([&] { addGuideNetwork(graph, lighting, LightingAlpha::Unused, {}, smallNetwork()); },
+                        {"encoded guides", "smaller picture"});
+}
+
+}  // namespace
+}  // namespace walr::test
