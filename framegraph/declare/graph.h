@@ -277,8 +277,8 @@ class Graph {
   Buffer buffer(std::string name, const BufferDesc& desc, Where where = Where::current());
   /// Declare a buffer that the host writes every frame (see `Executor::upload`).
   Buffer upload(std::string name, std::uint64_t size, Where where = Where::current());
-  /// Declare an upload that holds these bytes from the start, such as the weights of a network, so that the host need not
-  /// write it. The graph refers to them: they must live as long as it and its executors.
+  /// Declare an upload that holds these bytes from the start, such as the weights of a network, so that the host need
+  /// not write it. The graph refers to them: they must live as long as it and its executors.
   Buffer upload(std::string name, std::span<const std::byte> contents, Where where = Where::current());
   /// Declare a resource that the host owns.
   /// @param acquire its state before the graph

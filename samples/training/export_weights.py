@@ -95,7 +95,9 @@ def main():
     parser.add_argument("--fixture", type=pathlib.Path, required=True)
     options = parser.parse_args()
     state = torch.load(options.state)
-    network = GuideNetwork(**PRESETS[state["preset"]])
+    if state["preset"] != "small":
+        raise SystemExit(f"{options.state}: holds preset {state['preset']}; there are passes for small only")
+    network = GuideNetwork(**PRESETS["small"])
     network.load_state_dict(state["network"])
     options.output.parent.mkdir(exist_ok=True)
     halves(network).tofile(options.output)

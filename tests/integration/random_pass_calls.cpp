@@ -1,6 +1,8 @@
 // The part of RandomCalls that calls functions of passes.
+#include <algorithm>
 #include <array>
 #include <string>
+#include <vector>
 
 #include "tests/integration/random_arguments.h"
 #include "tests/integration/random_calls.h"
@@ -224,6 +226,7 @@ void RandomCalls::frameConstants() {
   Expectation expected;
   const PickedPasses picked = pickPasses(expected);
   std::uint32_t resource = dice_.of({0U, 1U, 1000U, WALR_NONE});
+  std::vector<std::byte> bytes(1024);
   if (picked.model != nullptr) {
     if (!picked.model->begun) expected.fails(WALR_ERROR_WRONG_ORDER);
     const WalrPassList* const list = picked.model->list;
@@ -231,8 +234,8 @@ void RandomCalls::frameConstants() {
     const bool known = list != nullptr && resource < list->resource_count;
     if (known && list->resources[resource]->kind != WALR_RESOURCE_UPLOAD) expected.fails(WALR_ERROR_INVALID_ARGUMENT);
     if (!known) expected.mayFail();
+    if (known) bytes.resize(std::max(bytes.size(), std::size_t(list->resources[resource]->buffer_size)));
   }
-  std::array<std::byte, 1024> bytes{};
   std::size_t size = dice_.of({std::size_t{0}, std::size_t{3}, bytes.size()});
   const bool withoutRoom = dice_.oneIn(4);
   const bool withoutSize = dice_.oneIn(16);
