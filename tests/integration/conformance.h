@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <ostream>
 #include <span>
 #include <string>
 #include <string_view>
@@ -47,6 +48,9 @@ struct Feature {
   void (ConformanceTest::*check)();
 };
 std::span<const Feature> features();
+inline void PrintTo(const Feature& feature, std::ostream* out) {
+  *out << feature.name;
+}
 /// The name of a parameter, for INSTANTIATE_TEST_SUITE_P.
 inline std::string nameOfFeature(const testing::TestParamInfo<Feature>& info) {
   return info.param.name;

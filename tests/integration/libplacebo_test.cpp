@@ -20,6 +20,30 @@ struct Shared {
   VkImageUsageFlags usage = 0;
 };
 
+/// A buffer for transfers. Of a caller's address, libplacebo 4.208 imports the pages if they are many, by a function of
+/// VK_EXT_external_memory_host, which it calls even if the device was created without it.
+class Buffer {
+ public:
+  /// @param contents null: none yet
+  Buffer(pl_gpu gpu, std::size_t size, const void* contents) : gpu_(gpu) {
+    pl_buf_params params{};
+    params.size = size;
+    params.host_readable = contents == nullptr;
+    params.initial_data = contents;
+    buffer_ = pl_buf_create(gpu, &params);
+    if (buffer_ == nullptr) throw std::runtime_error("libplacebo makes no buffer");
+  }
+  ~Buffer() { pl_buf_destroy(gpu_, &buffer_); }
+  Buffer(const Buffer&) = delete;
+  Buffer& operator=(const Buffer&) = delete;
+
+  [[nodiscard]] pl_buf get() const { return buffer_; }
+
+ private:
+  pl_gpu gpu_;
+  pl_buf buffer_ = nullptr;
+};
+
 /// libplacebo's name of a format.
 const char* nameOf(VkFormat format) {
   constexpr std::pair<VkFormat, const char*> kNames[] = {{VK_FORMAT_R16_SFLOAT, "r16hf"},
@@ -75,10 +99,14 @@ class LibplaceboDenoiser : public HostedCall {
     const Shared& image = shared_.at(indexOf(name));
     Texels result(image.texture->params.format->texel_size / sizeof(std::uint16_t) *
                   std::size_t(image.texture->params.w * image.texture->params.h));
+    const std::size_t bytes = result.size() * sizeof(result[0]);
+    const Buffer buffer(gpu_, bytes, nullptr);
     pl_tex_transfer_params transfer{};
     transfer.tex = image.texture;
-    transfer.ptr = result.data();
-    if (!pl_tex_download(gpu_, &transfer)) throw std::runtime_error("libplacebo reads no " + name);
+    transfer.buf = buffer.get();
+    if (!pl_tex_download(gpu_, &transfer) || !pl_buf_read(gpu_, buffer.get(), 0, result.data(), bytes)) {
+      throw std::runtime_error("libplacebo reads no " + name);
+    }
     return result;
   }
 
@@ -104,10 +132,11 @@ class LibplaceboDenoiser : public HostedCall {
     return shared;
   }
 
-  void upload(const std::string& name, std::vector<float> values) {
+  void upload(const std::string& name, const std::vector<float>& values) {
+    const Buffer buffer(gpu_, values.size() * sizeof(float), values.data());
     pl_tex_transfer_params transfer{};
     transfer.tex = shared_.at(indexOf(name)).texture;
-    transfer.ptr = values.data();
+    transfer.buf = buffer.get();
     if (!pl_tex_upload(gpu_, &transfer)) throw std::runtime_error("libplacebo fills no " + name);
   }
 
