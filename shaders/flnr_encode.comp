@@ -2,6 +2,7 @@
 // to the picture's mean, samples in the light; all 0 where there is no surface. Each 2 x 2 pixels become one texel with a
 // group of four channels for each of these.
 #version 460
+#extension GL_EXT_control_flow_attributes : require
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
 #include "constants/guide_network.h"
@@ -11,7 +12,8 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 0) const bool kAlphaIsSampleCount = false;
 
 #include "include/surface.glsl"
-#include "include/sum_of_group.glsl"
+#define GROUP_SUM vec4
+#include "include/group_sum.glsl"
 
 uniform texture2D lighting;
 uniform utexture2D depth;
@@ -27,7 +29,7 @@ vec2 meansOfPicture() {
   const ivec2 grid = (textureSize(depth, 0) + kMeansTile - 1) / kMeansTile;
   vec4 sum = vec4(0.0);
   for (int i = int(gl_LocalInvocationIndex); i < grid.x * grid.y; i += 64) sum += tiles[i];
-  sum = sumOfGroup(sum);
+  sum = sumOverGroup(sum);
   return sum.xz / max(sum.yw, vec2(1.0));
 }
 

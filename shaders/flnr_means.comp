@@ -1,5 +1,6 @@
 // What the network's inputs are relative to (flnr_encode.comp): sums over tiles of the picture, always in the same order.
 #version 460
+#extension GL_EXT_control_flow_attributes : require
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
 #include "constants/guide_network.h"
@@ -13,7 +14,8 @@ uniform texture2D lighting;
 uniform utexture2D depth;
 layout(std430) writeonly buffer outSums { vec4 sums[]; };  // Of a tile: light, pixels with light, inverse depth, surfaces.
 
-#include "include/sum_of_group.glsl"
+#define GROUP_SUM vec4
+#include "include/group_sum.glsl"
 
 void main() {
   const ivec2 extent = textureSize(depth, 0);
@@ -29,6 +31,6 @@ void main() {
     if (!isFinite(light.rgb) || (kAlphaIsSampleCount && light.a == 0.0)) continue;
     sum.xy += vec2(dot(clamp(light.rgb, 0.0, kLargestHalf), vec3(1.0 / 3.0)), 1.0);
   }
-  sum = sumOfGroup(sum);
+  sum = sumOverGroup(sum);
   if (gl_LocalInvocationIndex == 0u) sums[gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x] = sum;
 }
