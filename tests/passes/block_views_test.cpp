@@ -229,9 +229,10 @@ double blockDepth(const Inputs& in, glm::ivec2 block) {
   return in.guides[2 * block + glm::ivec2(pixel / 2, pixel % 2)].depth;
 }
 
-/// The flat wall with all five features varying over it.
+/// A flat wall with all five features varying over it. Its geometric normal is one that the guides store exactly, so
+/// that all of the wall lies on the plane of each of its blocks.
 Inputs wallOfManyFeatures() {
-  Inputs in = inputsOf(flatWall());
+  Inputs in = inputsOf(wallFacing(reference::roundToShortNormal(glm::normalize(glm::dvec3(0.3, 0.2, 1.0)))));
   reference::forEachPixel(kSize, [&](glm::ivec2 p) {
     const double tilt = 0.6 + 0.5 * std::sin(1.3 * p.x + 2.1 * p.y);
     const double turn = 2.9 * p.x + 1.7 * p.y;

@@ -199,10 +199,12 @@ double largestDifference(const Image<glm::dvec3>& a, const Image<glm::dvec3>& b)
 class WholeGuideNetwork : public fg::test::GpuTest {
  protected:
   Image<glm::dvec4> run(const Fixture& fixture) {
-    FilterRun filter(device(), fixture.guides.size(), 1,
-                     [&](fg::Graph& graph, fg::Buffer, const Guides& guides, const auto& inputs) {
-                       return addGuideNetwork(graph, inputs[0], LightingAlpha::SampleCount, guides, smallNetwork());
-                     });
+    FilterRun filter(
+        device(), fixture.guides.size(), 1,
+        [&](fg::Graph& graph, fg::Buffer, const Guides& guides, const auto& inputs) {
+          return addGuideNetwork(graph, inputs[0], LightingAlpha::SampleCount, guides, smallNetwork());
+        },
+        true);
     return filter.run({}, fixture.guides, {fixture.lighting});
   }
   /// The results of layers are halves. What that changes is measured in double precision; the device rounds other
@@ -233,9 +235,17 @@ TEST_F(WholeGuideNetwork, AgreesWithDoublePrecision) {
 /// less than this.
 constexpr double kSinglePrecision = 1e-4;
 
+// The device reads depths of fewer bits than PyTorch did. What that changes is measured in double precision.
 TEST_F(WholeGuideNetwork, AgreesWithPyTorch) {
   const Fixture fixture = readFixture();
-  expectGuides(fixture, fixture.learned, kSinglePrecision);
+  Fixture stored = fixture;
+  forEachPixel(stored.guides.size(), [&](glm::ivec2 p) {
+    stored.guides[p].depth = reference::roundDepthBesideNormal(stored.guides[p].depth);
+  });
+  const double byDepth =
+      largestDifference(expectedGuides(stored, Storage::Exact), expectedGuides(fixture, Storage::Exact));
+  EXPECT_LT(byDepth, 0.01);
+  expectGuides(stored, fixture.learned, kSinglePrecision + byDepth);
 }
 
 TEST(GuideNetworkReference, AgreesWithPyTorch) {
@@ -254,10 +264,13 @@ class FlrOnLearnedGuides : public fg::test::GpuTest {};
 TEST_F(FlrOnLearnedGuides, AgreesWithTheReference) {
   constexpr glm::ivec2 kSize(45, 34);
   const FlrRegressionSettings settings;
-  FilterRun run(device(), kSize, 2, [&](fg::Graph& graph, fg::Buffer, const Guides& guides, const auto& inputs) {
-    const fg::Texture filtered = graph.texture("filtered", graph.textureDesc(inputs[0]));
-    return addFlrRegression(graph, inputs[0], LightingAlpha::Unused, guides, filtered, settings, inputs[1]);
-  });
+  FilterRun run(
+      device(), kSize, 2,
+      [&](fg::Graph& graph, fg::Buffer, const Guides& guides, const auto& inputs) {
+        const fg::Texture filtered = graph.texture("filtered", graph.textureDesc(inputs[0]));
+        return addFlrRegression(graph, inputs[0], LightingAlpha::Unused, guides, filtered, settings, inputs[1]);
+      },
+      true);
   for (const NamedScene& scene : allScenes()) {
     const reference::HostFrame frame = renderStill(scene.scene, kSize);
     const Image<Guide> guides = reference::prepareGuides(frame, Storage::Quantised, {}, kOcclusionInSmallImages);

@@ -414,9 +414,11 @@ TEST_F(PackedLight, TemporalStagesAgreeWithTheReferenceForEveryReprojection) {
 TEST_F(PackedLight, BlocksGiveTheSameResultAsForHalves) {
   const WalrSettings settings{};
   FilterRun inHalves(
-      device(), kSize, 1, [&](fg::Graph& graph, fg::Buffer frame, const walr::Guides& guides, const auto& inputs) {
+      device(), kSize, 1,
+      [&](fg::Graph& graph, fg::Buffer frame, const walr::Guides& guides, const auto& inputs) {
         return addBlockFilter(graph, frame, {inputs[0], LightingAlpha::SampleCount}, guides, settings.blocks);
-      });
+      },
+      true);
   for (const NamedScene& named : allScenes()) {
     WalrRun run(device(), kSize, settings);
     WalrStages stages;

@@ -53,6 +53,14 @@ Scene flatWall() {
   return bumpyWall(0.0);
 }
 
+Scene wallFacing(glm::dvec3 normal) {
+  return [normal](glm::dvec3 origin, glm::dvec3 direction) -> std::optional<SceneHit> {
+    const auto t = hitPlane(origin, direction, kWallPoint, normal);
+    if (!t) return std::nullopt;
+    return SceneHit{*t, normal};
+  };
+}
+
 Scene bumpyWall(double amplitude) {
   return [amplitude](glm::dvec3 origin, glm::dvec3 direction) -> std::optional<SceneHit> {
     const auto t = hitPlane(origin, direction, kWallPoint, kWallNormal);

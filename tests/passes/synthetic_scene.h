@@ -27,6 +27,8 @@ using Scene = std::function<std::optional<SceneHit>(glm::dvec3 origin, glm::dvec
 
 /// A tilted wall.
 Scene flatWall();
+/// A wall with this unit normal.
+Scene wallFacing(glm::dvec3 normal);
 /// The same wall with shading normals that vary by the given amplitude.
 Scene bumpyWall(double amplitude);
 /// A sphere in front of a wall.
