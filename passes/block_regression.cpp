@@ -64,7 +64,7 @@ BlockGrid gridOf(StageGraph graph, fg::Buffer frame, fg::Extent pixels, const Bl
   constants.coarseReach = s.coarseReach;
   constants.coarseGrowthErrors = s.coarseGrowthErrors;
   constants.coarseGrowthOcclusion = s.coarseGrowthOcclusion;
-  constants.coarseSamples = s.coarseSamples;
+  constants.coarseSamples = coarseSamplesAt(pixels.height, s.coarseSamples);
   constants.inverseCoarseLeastShare = 1.0F / s.coarseLeastShare;
   constants.residualLeastShare = s.share.leastShare;
   return {graph, frame, pixels, blocks, gridExtent(pixels, cellSize), s.size, cellBlocks, cellSize, constants};
@@ -262,6 +262,12 @@ bool addsResidual(const BlockLight& light, const BlockRegressionSettings& settin
 }
 
 }  // namespace
+
+float coarseSamplesAt(std::uint32_t height, float coarseSamples) {
+  constexpr float kLargestUnscaled = 360.0F;
+  const float larger = std::max(static_cast<float>(height) / kLargestUnscaled, 1.0F);
+  return coarseSamples / (larger * larger);
+}
 
 BlockFits addBlockRegression(StageGraph graph, fg::Buffer frame, const BlockLight& light, const Guides& guides,
                              const BlockRegressionSettings& settings) {

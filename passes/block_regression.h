@@ -82,7 +82,9 @@ struct BlockRegressionSettings {
          "Near occluders coarse-growth-errors is divided by 1 + this x ambient occlusion", "", 0.0, 100.0, "measured"},
         coarseGrowthOcclusion);
     v.visit(
-        {"blocks.coarse-samples", "Samples that the coarse fit counts for in the mixture with a fine fit of W samples",
+        {"blocks.coarse-samples",
+         "Samples that the coarse fit counts for in the mixture with a fine fit of W samples, up to a height of 360 "
+         "pixels; in larger pictures fewer, see coarseSamplesAt",
          "samples", 0.0, 1e6, "measured"},
         coarseSamples);
     v.visit({"blocks.coarse-least-share",
@@ -93,6 +95,11 @@ struct BlockRegressionSettings {
     share.visit(v);
   }
 };
+
+/// `BlockRegressionSettings::coarseSamples` in a picture of this height, in pixels: divided by the square of the height
+/// over 360 where that is more than 1. A fine window has a number of pixels, so that it shows the less of the scene the
+/// larger the picture is, and misses the less; the coarse window is a share of the picture.
+float coarseSamplesAt(std::uint32_t height, float coarseSamples);
 
 /// The light that the regression over blocks fits, and the storage of its result.
 struct BlockLight {
