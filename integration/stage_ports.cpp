@@ -59,7 +59,7 @@ fg::Texture StagePorts::texture(std::string_view port, VkFormat /*format*/) {
   return texture(port);
 }
 
-fg::Texture StagePorts::textureIfAny(std::string_view port) {
+fg::Texture StagePorts::optionalTexture(std::string_view port, std::string_view /*description*/) {
   return texture(port);
 }
 
@@ -81,7 +81,9 @@ DenoiserInputs StagePorts::hostInputs() {
 }
 
 Guides StagePorts::guides(bool normalsBesideDepth) {
-  const auto normals = [&](std::string_view port) { return normalsBesideDepth ? textureIfAny(port) : texture(port); };
+  const auto normals = [&](std::string_view port) {
+    return normalsBesideDepth ? optionalTexture(port, kNormalsBesideDepth) : texture(port);
+  };
   return {.depth = texture("guides.depth"),
           .shadingNormal = texture("guides.shading-normal"),
           .features = texture("guides.features"),
@@ -100,7 +102,7 @@ void StagePorts::setOutputs(const Guides& guides) {
   setOutput(kPreviousGeometricNormal, guides.previousGeometricNormal);
 }
 
-fg::ResourceVersion RecordingPorts::ask(std::string_view port, VkFormat format, bool optional) {
+fg::ResourceVersion RecordingPorts::ask(std::string_view port, VkFormat format, std::string_view optional) {
   const auto known = known_->find(port);
   if (known == known_->end()) {
     throw std::logic_error("no pass type makes what port '" + std::string(port) + "' takes");
@@ -128,8 +130,8 @@ fg::Texture RecordingPorts::texture(std::string_view port, VkFormat format) {
   return {ask(port, format)};
 }
 
-fg::Texture RecordingPorts::textureIfAny(std::string_view port) {
-  return {ask(port, VK_FORMAT_UNDEFINED, true)};
+fg::Texture RecordingPorts::optionalTexture(std::string_view port, std::string_view description) {
+  return {ask(port, VK_FORMAT_UNDEFINED, description)};
 }
 
 fg::Buffer RecordingPorts::buffer(std::string_view port) {
@@ -147,8 +149,8 @@ std::vector<Port> RecordingPorts::takePorts(bool unread) {
     Port port = describe(desc, *known_, asked.port, asked.resource.resource);
     const HostInput* input = hostInputNamed(port.name);
     const bool isRead = !port.accesses.empty();
-    port.optional = !isRead || asked.optional || (input != nullptr && input->optional);
-    if (isRead && asked.optional) port.description = kNormalsBesideDepth;
+    port.optional = !isRead || !asked.optional.empty() || (input != nullptr && input->optional);
+    if (isRead && !asked.optional.empty()) port.description = asked.optional;
     if (unread || isRead) ports.push_back(std::move(port));
   }
   for (const auto& [name, texture] : takeOutputs().textures) {

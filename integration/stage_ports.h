@@ -37,7 +37,8 @@ class StagePorts {
   /// The same for an input whose format depends on the settings.
   virtual fg::Texture texture(std::string_view port, VkFormat format);
   /// The same for an input that may be left unconnected.
-  virtual fg::Texture textureIfAny(std::string_view port);
+  /// @param description tells hosts when (`Port::description`); not empty
+  virtual fg::Texture optionalTexture(std::string_view port, std::string_view description);
   virtual fg::Buffer buffer(std::string_view port);
   /// The texture to write an output to: the connected one, or a transient of the given format and size.
   virtual fg::Texture target(std::string_view port, VkFormat format, fg::Extent extent);
@@ -72,7 +73,7 @@ class RecordingPorts final : public StagePorts {
 
   fg::Texture texture(std::string_view port) override;
   fg::Texture texture(std::string_view port, VkFormat format) override;
-  fg::Texture textureIfAny(std::string_view port) override;
+  fg::Texture optionalTexture(std::string_view port, std::string_view description) override;
   fg::Buffer buffer(std::string_view port) override;
   fg::Texture target(std::string_view port, VkFormat format, fg::Extent extent) override;
 
@@ -84,10 +85,10 @@ class RecordingPorts final : public StagePorts {
   struct Asked {
     std::string port;
     fg::ResourceVersion resource;
-    bool optional = false;
+    std::string_view optional = {};  ///< Description of an optional input; empty: it must be connected.
   };
   /// @param format of a texture; VK_FORMAT_UNDEFINED: that in `known_`
-  fg::ResourceVersion ask(std::string_view port, VkFormat format = VK_FORMAT_UNDEFINED, bool optional = false);
+  fg::ResourceVersion ask(std::string_view port, VkFormat format = VK_FORMAT_UNDEFINED, std::string_view optional = {});
 
   const KnownPorts* known_;
   std::function<bool(std::string_view port)> present_;

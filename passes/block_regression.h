@@ -96,9 +96,10 @@ struct BlockRegressionSettings {
   }
 };
 
-/// `BlockRegressionSettings::coarseSamples` in a picture of this height, in pixels: divided by the square of the height
-/// over 360 where that is more than 1. A fine window has a number of pixels, so that it shows the less of the scene the
-/// larger the picture is, and misses the less; the coarse window is a share of the picture.
+/// Samples that the coarse fit counts for in a picture of this height in pixels. Up to 360 it is the setting
+/// `BlockRegressionSettings::coarseSamples`; above, that is divided by the square of height / 360. Fine windows have a
+/// fixed size in pixels, so that they show less of the scene in a larger picture, and miss less of its light. Coarse
+/// windows are a fixed share of the picture.
 float coarseSamplesAt(std::uint32_t height, float coarseSamples);
 
 /// The light that the regression over blocks fits, and the storage of its result.

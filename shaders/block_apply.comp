@@ -4,7 +4,8 @@
 // weight times edge-stopping function of the block's plane times cosine between block normal and shading normal.
 // Coarse prediction: the same of the four nearest cells, with bilinear weights alone.
 // The result is a mixture of both. The share of the coarse prediction falls with the mean sample count of the fine
-// windows (coarse_share.glsl). Above a limit it is 0, and the cells are not read. It is 1 if no fine fit is usable.
+// windows (coarse_share.glsl). Where the count is large, it is 0 and the cells are not read. It is 1 if no fine fit is
+// usable.
 // A pixel without a surface (depth 0) is not filtered: its pass-through is copied to the result.
 // PACKED: the result is packed light (packed_light.glsl). A pixel without a surface gets the mark kFilteredNoSurface,
 // and anti-aliasing outputs the pass-through.

@@ -108,17 +108,22 @@ def list_entries(arguments):
     print(f"all: {total:.2f} h on two idle cores; the limit of the {arguments.part} part is {table.LIMITS[arguments.part]:.2f} h")
 
 
+def run_bench(walr, sequence, output, options):
+    """Runs `walr bench` without timing, and keeps every picture in `output`. options: what is compared."""
+    command = [walr, "bench", "--sequences", sequence, "--output", output, *options, "--batch", "20", "--repeat", "0",
+               "--all-pictures", "--no-html"]
+    done = subprocess.run(list(map(str, command)), capture_output=True, text=True)
+    if done.returncode:
+        raise RuntimeError(f"walr bench of {sequence.name} failed:\n{done.stderr[-2000:]}")
+
+
 def bench(arguments, cache, entry, options):
     """Folder with the results of `walr bench` for an entry; what has been run is not run again."""
     sequence = cache.sequence(entry)
     output = cache.folder / "bench" / sequence.name
     if output.exists() and not (output / "pictures").exists():
         shutil.rmtree(output)  # Its pictures were removed after an earlier judgement, so that the runs must be repeated.
-    command = [arguments.walr, "bench", "--sequences", sequence, "--output", output, *options, "--batch", "20", "--repeat", "0",
-               "--all-pictures", "--no-html"]
-    done = subprocess.run(list(map(str, command)), capture_output=True, text=True)
-    if done.returncode:
-        raise RuntimeError(f"walr bench of {entry.name} failed:\n{done.stderr[-2000:]}")
+    run_bench(arguments.walr, sequence, output, options)
     return output
 
 

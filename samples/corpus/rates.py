@@ -46,11 +46,7 @@ def bench(walr, cache, entry, methods):
     pictures = output / "pictures" / sequence.name
     if all((pictures / f"{m}_{frame:04d}.npy").exists() for m in methods for frame in FRAMES):
         return pictures
-    command = [walr, "bench", "--sequences", sequence, "--output", output, "--methods", ",".join(methods), "--batch", "20",
-               "--repeat", "0", "--all-pictures", "--no-html"]
-    done = subprocess.run(list(map(str, command)), capture_output=True, text=True)
-    if done.returncode:
-        raise RuntimeError(f"walr bench of {entry.name} failed:\n{done.stderr[-2000:]}")
+    corpus.run_bench(walr, sequence, output, ["--methods", ",".join(methods)])
     return pictures
 
 

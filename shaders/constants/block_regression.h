@@ -18,7 +18,7 @@ struct BlockRegressionConstants {
   float coarseReach;              // Distance at which that window ends, standard deviations.
   float coarseGrowthErrors;       // As growthErrors, for the window of a cell without occlusion.
   float coarseGrowthOcclusion;    // These errors are divided by 1 + this x ambient occlusion.
-  float coarseSamples;            // S: samples that the coarse fit counts for in the mixture.
+  float coarseSamples;            // W_0 of passes/WALR.md: samples that the coarse fit counts for.
   float inverseCoarseLeastShare;  // 1 over the share of the mixture below which the coarse fit is left out; from twice
                                   // that share on, it is mixed in full.
   float residualLeastShare;       // Share of the accumulated light below which it is left out.

@@ -4,8 +4,8 @@
 // prediction p, the product of their residuals is 0 in the mean.
 // The residual is split into two levels: its mean over the pixels around on the same surface, and what the pixel's own
 // differs from that. Each level has its own share. So have pixels beside an edge, where the fits miss most.
-// If the light is resampled, the noise of y and h is not independent (ReSTIR). Then it is still so from pixel to pixel:
-// trust is the part of the shares that is left, and falls if residuals two pixels apart do not agree.
+// In resampled light (ReSTIR) the noise of y depends on that of h, and their product is not 0. The noise of different
+// pixels is still independent. Trust, 0 to 1, multiplies the shares; it falls if residuals two pixels apart do not agree.
 // Needs: `frame` (FrameConstants), `constants` (BlockRegressionConstants), kBlockSize, workgroups of 8 x 8, and
 // block_plane.glsl.
 #ifndef WALR_ACCUMULATED_SHARE_GLSL
