@@ -1,18 +1,18 @@
 // WALR, reconstruction (passes/WALR.md, 8): predicts the light of every pixel from the pixel's own features, with the
 // fits around it.
-// Fine prediction: the mean of what the fits of the four nearest blocks predict, at least 0, weighted by bilinear
-// weight times edge-stopping function of the block's plane times cosine between block normal and shading normal.
-// Coarse prediction: the same of the four nearest cells, with bilinear weights alone.
-// The result is a mixture of both. The share of the coarse prediction falls with the mean sample count of the fine
-// windows (coarse_share.glsl). Where the count is large, it is 0 and the cells are not read. It is 1 if no fine fit is
-// usable.
+// Fine prediction: the weighted mean of the predictions of the four nearest blocks' fits. Negative predictions count
+// as 0. A fit's weight is the product of its bilinear weight, the edge-stopping function of the distance to the block's
+// plane, and the cosine between the block's normal and the shading normal.
+// Coarse prediction: the mean of the predictions of the four nearest cells' fits, with bilinear weights alone.
+// The result mixes both predictions. The share of the coarse prediction falls as the mean sample count of the fine
+// windows grows (coarse_share.glsl). Once the share is 0, the cells are not read. The share is 1 if no fine fit is usable.
 // A pixel without a surface (depth 0) is not filtered: its pass-through is copied to the result.
 // PACKED: the result is packed light (packed_light.glsl). A pixel without a surface gets the mark kFilteredNoSurface,
 // and anti-aliasing outputs the pass-through.
-// RESIDUAL: mixes the result with the accumulated light (accumulated_share.glsl), and measures how well the length of
-// history suits the noise (innovation.glsl).
+// RESIDUAL: mixes the result with the accumulated light (accumulated_share.glsl), and stores the innovations to which the
+// length of history adapts (innovation.glsl).
 // VIEW: writes an intermediate value instead of the result, and black where there is no surface. The cells are always
-// read. With VIEW, PACKED means that `accumulated` is packed.
+// read. If PACKED is defined as well, the input `accumulated` is packed light.
 // DIRECTION: writes the slopes of the prediction over the normal instead of the result (pack_direction.glsl).
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -122,7 +122,7 @@ void add(inout Prediction sum, float weight, StoredFit fit, ScaledFeatures pixel
 #endif
 }
 
-// A divisor in place of a sum of weights: where they are all 0, the sum that it divides is 0, too.
+// Replaces a sum of weights as divisor. If all weights are 0, the weighted sum is 0, too, and so is the quotient.
 float divisor(float weight) { return max(weight, 1e-30); }
 
 // Mean sample count of the windows of the fine fits; 0 if no fine fit is usable.
@@ -131,7 +131,8 @@ float meanSamples(Prediction fine) { return kSampleCountUnit * fine.samples / di
 // Share of the coarse prediction, provided that a coarse fit is usable: 1 if no fine fit is, for instance because the
 // pixel lies on no block's plane.
 float shareOfCoarse(Prediction fine) {
-  // coarseShare of meanSamples, with both of its terms times the weight: one division.
+  // This is coarseShare(meanSamples(fine)). Both terms of its fraction are multiplied by the weight, which saves a
+  // division.
   const float coarse = divisor(constants.coarseSamples * fine.weight);
   const float share = fadedShare(coarse / (kSampleCountUnit * fine.samples + coarse));
   return fine.weight > 0.0 ? share : 1.0;
@@ -234,7 +235,8 @@ void storeResult(ivec2 p, bool surface, Predicted colour) {
   }
 }
 
-// The predicted light of a pixel, or its view, or its slopes; false if it shows no surface.
+// Predicts the light of a pixel; with VIEW the value to display, with DIRECTION the slopes. Returns false if the pixel
+// shows no surface.
 bool predict(ivec2 p, BilinearTexels nearBlocks, out vec3 position, out vec3 normal, out Predicted predicted) {
   const float z = unpackDepthBesideNormal(texelFetch(depth, p, 0).x);
   if (z == 0.0) return false;

@@ -1,5 +1,6 @@
-// Converts the host's G-buffer into the guides that every later pass reads (guides.glsl). The two coordinates of the
-// shading normal are features of the regression over pixels; the geometric normal spans planes.
+// Converts the host's G-buffer into the guides that every later pass reads (guides.glsl). The shading normal's two
+// coordinates are features of the regression over pixels. The geometric normal and the position define each pixel's
+// plane.
 // VIEW: writes why pixels are not denoised, or which inputs are not finite, instead of guides.
 #version 460
 #extension GL_GOOGLE_include_directive : require

@@ -211,7 +211,7 @@ ClippingBox clippingBox() {
   }
   const float share = 1.0 / sum.a;
   const vec3 mean = sum.rgb * share;
-  // A difference of sums as large as these errs: by a thousandth of the mean at most, once it is a deviation.
+  // The difference of two large sums has a rounding error. Its square root is a thousandth of the mean at most.
   const vec3 squaredDeviation = (squares - sum.rgb * mean) * (constants.clipGamma * constants.clipGamma * share);
   const float smallest = max(smallestHalfSize(mean), 1e-12);
   return ClippingBox(mean, max(squaredDeviation, vec3(smallest * smallest)));

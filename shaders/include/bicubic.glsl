@@ -51,14 +51,14 @@ void addColour(inout vec3 sum, float weight, vec4 texel) { sum += weight * texel
 bool hasLength(vec4 texel) { return texel.a > 0.0; }
 vec4 shorter(vec4 a, vec4 b) { return vec4(min(a.a, b.a)); }
 float lengthOf(vec4 texel) { return texel.a; }
-// The light of a texel without history may be infinite in halves, so that weight 0 would not do.
+// The light of a texel without history may be infinite in half precision, and 0 times infinity is NaN.
 vec4 finiteTexel(vec4 texel) { return hasLength(texel) ? texel : vec4(0.0); }
 #endif
 
 // Mean radiance and history length at the position of the history taps. Radiance is bicubic if all four history taps
-// are accepted and none of the eight pixels beside them is without history (length 0), as sky is: the filter would
-// ring its light into the surface. Otherwise radiance is the mean of the accepted taps. Alpha, the history length,
-// always is.
+// are accepted and each of the eight pixels beside them has history. Sky has none (length 0), and the filter would ring
+// its light into the surface. Otherwise radiance is the mean of the accepted taps. Alpha, the history length, is their
+// mean in both cases.
 // The bicubic filter takes the four corners of the 4 x 4 pixels, whose weights sum to 1/64 at most, from the plane
 // through the three pixels next to them.
 vec4 bicubicOfTaps(HISTORY_TEXTURE history, HistoryTaps taps) {

@@ -2,7 +2,7 @@
 // and 5.2), and the replacement of taps behind an edge.
 // Needs: `frame` (FrameConstants), `depth`, `planeNormal` (utexture2D), `constants` (AtrousConstants), and the
 // specialization constants of atrous.comp.
-// FIRST: of the first iteration, whose taps are the very next pixels.
+// FIRST: this is the first iteration, whose taps are the adjacent pixels.
 #ifndef WALR_EDGE_TRACING_GLSL
 #define WALR_EDGE_TRACING_GLSL
 #include "hash.glsl"

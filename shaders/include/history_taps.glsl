@@ -104,13 +104,13 @@ vec4 meanOfTaps(HISTORY_TEXTURE history, HistoryTaps taps) {
 #else
     const vec4 texel = texels[i];
     const float weight = texel.a > 0.0 ? bilinear[i] : 0.0;
-    // Light without a length may be infinite in halves, so that weight 0 would not do.
+    // Light without history may be infinite in half precision, and 0 times infinity is NaN.
     sum += texel.a > 0.0 ? weight * texel : vec4(0.0);
 #endif
     weights += weight;
   }
-  // An infinite divisor makes the mean 0. A division, and no product with 1 / weights: where all taps are the same, the
-  // mean has to be as well, or antilag would take the rounding of light without noise for a change.
+  // An infinite divisor makes the mean 0. A product with 1 / weights would be cheaper than the division, but it rounds:
+  // the mean of equal taps would differ from them, and antilag would take that for a change of light without noise.
   const float divisor = weights > kLeastTapWeight ? weights : uintBitsToFloat(0x7f800000u);
   vec4 mean = sum / divisor;
   mean.a *= shareOfKnownTaps(weights, bilinear);

@@ -1,6 +1,6 @@
-// The innovation of a pixel: this frame's light less its history, as luminance. Where the history has the length that
-// suits the noise, innovations of successive frames are not correlated (Mehra 1970): if they are, the last frame should
-// have counted for more. That holds for light that changes and for detail that reprojection blurs.
+// The innovation of a pixel is the luminance of this frame's light minus that of its history. If the length of the
+// history suits the noise, innovations of successive frames are uncorrelated (Mehra 1970). A positive correlation means
+// that the history is too long: the light changes, or reprojection blurs its detail.
 // Needs: `frame` (FrameConstants).
 #ifndef WALR_INNOVATION_GLSL
 #define WALR_INNOVATION_GLSL

@@ -1,5 +1,5 @@
-// The noisy light of one frame, which not every pixel need have a sample of (passes/light_pattern.h). Pixels share
-// texels of the lighting in groups of kLightColumns x kLightRows. Each texel is the sample of one pixel of its group.
+// The noisy light of one frame. It may be sparse: not every pixel has a sample (passes/light_pattern.h). A group of
+// kLightColumns x kLightRows pixels has one texel of the lighting. The texel is the sample of one pixel of the group.
 // Needs: `frame` (FrameConstants). Takes constant_id 30 to 32.
 #ifndef WALR_LIGHT_SAMPLE_GLSL
 #define WALR_LIGHT_SAMPLE_GLSL
