@@ -1,10 +1,7 @@
 // The table of image formats in the integration guide is written from what the library checks formats with.
 // `cmake --build build --target update_guide` writes it again.
 #include <algorithm>
-#include <cstdlib>
-#include <fstream>
 #include <functional>
-#include <iterator>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -18,6 +15,7 @@
 #include "passes/history_length.h"
 #include "passes/inspection.h"
 #include "passes/light_direction.h"
+#include "tests/guide_table.h"
 
 namespace walr {
 namespace {
@@ -121,30 +119,14 @@ std::string formatTable() {
   return text;
 }
 
-std::string textOf(const char* path) {
-  std::ifstream file(path);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
 TEST(Guide, KnowsTheFormatsOfItsTable) {
   for (const VkFormat format : kCommonFormats) EXPECT_NE(fg::formatInfo(format).name, "unknown") << format;
 }
 
 TEST(Guide, ImageFormatsAreThoseThatTheLibraryChecks) {
-  const std::string begin = "<!-- Written by update_guide: begin -->\n\n";
-  const std::string end = "<!-- Written by update_guide: end -->";
-  std::string guide = textOf(WALR_GUIDE);
-  const std::size_t from = guide.find(begin);
-  ASSERT_NE(from, std::string::npos);
-  const std::size_t start = from + begin.size();
-  const std::size_t to = guide.find(end, start);
-  ASSERT_NE(to, std::string::npos);
-  const std::string table = formatTable() + "\n";
-  if (std::getenv("WALR_UPDATE_GUIDE") != nullptr) {
-    std::ofstream(WALR_GUIDE) << guide.replace(start, to - start, table);
-    return;
-  }
-  EXPECT_EQ(guide.substr(start, to - start), table) << "build the target update_guide";
+  const test::GuideTable guide(WALR_GUIDE, "Image formats");
+  if (test::GuideTable::writing()) return guide.write(formatTable());
+  EXPECT_EQ(guide.text(), formatTable()) << "build the target update_guide";
 }
 
 }  // namespace

@@ -1,11 +1,11 @@
 // The table "Motion without depth" of the integration guide: what it costs to find or to leave out the change of depth
 // of moving objects, measured on the built-in scene `turntable`.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,6 +16,7 @@
 #include "samples/metrics/metrics.h"
 #include "samples/render/render_sequence.h"
 #include "samples/sequence/sequence.h"
+#include "tests/guide_table.h"
 #include "tests/samples/temporary_directory.h"
 
 namespace walr::test {
@@ -73,25 +74,36 @@ double difference(const Result& a, const Result& b) {
   return std::sqrt(sum / values);
 }
 
-std::string textOf(const std::filesystem::path& path) {
-  std::ifstream file(path);
-  return {std::istreambuf_iterator<char>(file), {}};
+const std::string kHeading =
+    "| frames per second | pixels without history: given | still scene | found | difference: still scene | found |\n"
+    "| --- | --- | --- | --- | --- | --- |\n";
+
+using Row = std::array<double, 6>;  ///< The numbers of a row of the guide's table.
+
+std::string textOf(const Row& row) {
+  std::array<char, 128> text{};
+  std::snprintf(text.data(), text.size(), "| %.0f | %.0f | %.0f | %.0f | %.1f | %.1f |\n", row[0], row[1], row[2],
+                row[3], row[4], row[5]);
+  return text.data();
 }
 
-/// The numbers of the row of the guide's table that begins with a text.
-std::array<double, 5> rowOf(const std::string& guide, const std::string& start) {
-  std::array<double, 5> row{};
-  const std::size_t at = guide.find(start);
-  if (at == std::string::npos) return row;
-  std::sscanf(guide.c_str() + at + start.size(), " %lf | %lf | %lf | %lf | %lf |", row.data(), &row[1], &row[2],
-              &row[3], &row[4]);
-  return row;
+/// The rows of a table with this heading. A number that cannot be read is 0.
+std::vector<Row> rowsOf(const std::string& table) {
+  EXPECT_EQ(table.substr(0, kHeading.size()), kHeading);
+  std::istringstream lines(table.substr(std::min(kHeading.size(), table.size())));
+  std::vector<Row> rows;
+  for (std::string line; std::getline(lines, line);) {
+    Row& row = rows.emplace_back();
+    std::sscanf(line.c_str(), "| %lf | %lf | %lf | %lf | %lf | %lf |", row.data(), &row[1], &row[2], &row[3], &row[4],
+                &row[5]);
+  }
+  return rows;
 }
 
 TEST(MotionDepth, TheGuideTellsWhatFindingItCosts) {
   const TemporaryDirectory folder;
   GpuDevice device({.device = {}, .validation = true});
-  const std::string guide = textOf(WALR_GUIDE);
+  std::vector<Row> measured;
   for (const int framesPerSecond : {24, 6}) {
     render::RenderOptions options;
     options.scene = WALR_SCENES "/turntable.gltf";
@@ -104,21 +116,26 @@ TEST(MotionDepth, TheGuideTellsWhatFindingItCosts) {
     const Result found = denoised(device, options.output, MotionDepth::Found);
     // Finding depth is off by no more than a tenth of what it is for.
     EXPECT_NEAR(found.withoutHistory, given.withoutHistory, 0.1 * (still.withoutHistory - given.withoutHistory));
-
-    const std::array measured{given.withoutHistory, still.withoutHistory, found.withoutHistory,
-                              1e5 * difference(still, given), 1e5 * difference(found, given)};
-    const std::string start = "| " + std::to_string(framesPerSecond) + " |";
-    const std::array<double, 5> documented = rowOf(guide, start);
-    std::array<char, 128> row{};
-    std::snprintf(row.data(), row.size(), "%s %.0f | %.0f | %.0f | %.1f | %.1f |", start.c_str(), measured[0],
-                  measured[1], measured[2], measured[3], measured[4]);
-    for (std::size_t i = 0; i < measured.size(); ++i) {
-      // Another compiler may round a path's vertices otherwise, which moves single pixels across an edge.
-      EXPECT_NEAR(documented.at(i), measured.at(i), 0.02 * measured.at(i) + 0.5)
-          << "integration/README.md should say " << row.data();
-    }
+    measured.push_back({double(framesPerSecond), given.withoutHistory, still.withoutHistory, found.withoutHistory,
+                        1e5 * difference(still, given), 1e5 * difference(found, given)});
   }
   device.refuseMessages();
+
+  const GuideTable guide(WALR_GUIDE, "Motion without depth");
+  if (GuideTable::writing()) {
+    std::string table = kHeading;
+    for (const Row& row : measured) table += textOf(row);
+    return guide.write(table);
+  }
+  const std::vector<Row> documented = rowsOf(guide.text());
+  ASSERT_EQ(documented.size(), measured.size()) << "build the target update_guide";
+  for (std::size_t row = 0; row < measured.size(); ++row) {
+    for (std::size_t i = 0; i < measured[row].size(); ++i) {
+      // Another compiler may round a path's vertices otherwise, which moves single pixels across an edge.
+      EXPECT_NEAR(documented[row].at(i), measured[row].at(i), 0.02 * measured[row].at(i) + 0.5)
+          << "build the target update_guide, which writes " << textOf(measured[row]);
+    }
+  }
 }
 
 }  // namespace
