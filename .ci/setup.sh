@@ -8,7 +8,7 @@ walr_packages=(
   libvulkan-dev glslang-tools libspirv-cross-c-shared-dev vulkan-validationlayers mesa-vulkan-drivers
   # Libraries
   libcli11-dev libembree-dev libglm-dev libimath-dev libopenexr-dev libpng-dev libstb-dev libtinygltf-dev
-  nlohmann-json3-dev
+  libwebp-dev nlohmann-json3-dev
   # The window of walr-host (optional)
   libglfw3-dev libimgui-dev
   # Tests and benchmarks

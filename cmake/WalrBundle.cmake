@@ -54,7 +54,7 @@ install(SCRIPT cmake/bundle_contents.cmake COMPONENT bundle EXCLUDE_FROM_ALL)
 
 install(FILES samples/bundle/README.md LICENSE CHANGELOG.md DESTINATION . COMPONENT bundle EXCLUDE_FROM_ALL)
 install(PROGRAMS samples/bundle/try.sh DESTINATION . COMPONENT bundle EXCLUDE_FROM_ALL)
-install(FILES samples/scenes/box.gltf samples/scenes/turntable.gltf DESTINATION samples/scenes
+install(FILES samples/scenes/box.gltf samples/scenes/kitchen.gltf samples/scenes/turntable.gltf DESTINATION samples/scenes
   COMPONENT bundle EXCLUDE_FROM_ALL)
 install(PROGRAMS samples/blender/export_frames.py DESTINATION samples/blender COMPONENT bundle EXCLUDE_FROM_ALL)
 walr_install_guides(doc bundle EXCLUDE_FROM_ALL)

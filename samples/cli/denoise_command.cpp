@@ -1,8 +1,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -114,17 +112,6 @@ void refuseUnknownViews(const DenoiseOptions& options, Denoiser& method) {
                      (views.empty() ? " has no views" : " has no such view with these settings; it has") +
                      viewList(views));
   }
-}
-
-/// @returns exposure in stops; nullopt: automatic
-std::optional<float> parseExposure(const std::string& text) {
-  if (text == "auto") return std::nullopt;
-  float stops = 0.0F;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), stops);
-  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(stops)) {
-    throw UsageError("--exposure " + text + ": give auto or a number of stops, as in --exposure 1.5");
-  }
-  return stops;
 }
 
 /// The value of --light, or its default.

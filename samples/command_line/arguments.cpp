@@ -1,6 +1,7 @@
 #include "samples/command_line/arguments.h"
 
 #include <charconv>
+#include <cmath>
 #include <optional>
 #include <sstream>
 #include <string_view>
@@ -56,6 +57,16 @@ fg::Extent parseSize(const std::string& text) {
     throw UsageError("--size " + text + ": give width x height in pixels, 1 to 16384 each, as in --size 1920x1080");
   }
   return {static_cast<std::uint32_t>(pair->first), static_cast<std::uint32_t>(pair->second)};
+}
+
+std::optional<float> parseExposure(const std::string& text) {
+  if (text == "auto") return std::nullopt;
+  float stops = 0.0F;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), stops);
+  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(stops)) {
+    throw UsageError("--exposure " + text + ": give auto or a number of stops, as in --exposure 1.5");
+  }
+  return stops;
 }
 
 }  // namespace walr

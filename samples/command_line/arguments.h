@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include <CLI/CLI.hpp>
@@ -13,11 +14,16 @@ namespace walr {
 /// @throws UsageError
 FrameRange parseFrameRange(const std::string& text, const std::string& option = "--frames");
 
-/// Parse "WIDTHxHEIGHT" in pixels, 1 to 16384 each.
-/// @throws UsageError
 /// A check that an option's number lies in a range. Unlike CLI::Range it refuses NaN.
 CLI::Validator numberFrom(double least, double most);
 
+/// Parse "WIDTHxHEIGHT" in pixels, 1 to 16384 each.
+/// @throws UsageError
 fg::Extent parseSize(const std::string& text);
+
+/// Parse the value of `--exposure`: "auto" or a finite number of stops.
+/// @returns exposure in stops; nullopt: automatic
+/// @throws UsageError
+std::optional<float> parseExposure(const std::string& text);
 
 }  // namespace walr

@@ -86,18 +86,16 @@ fg::Texture litBy(HostGraph& host, HostView::Kind source) {
 
 void addView(HostGraph& host, const HostView& view) {
   fg::Graph& graph = host.graph;
-  const bool takesConstants = view.kind == HostView::Kind::Split || view.kind == HostView::Kind::Texture;
-  if (takesConstants) {
-    host.viewConstants = graph.upload("view constants", sizeof(ViewConstants));
-  }
+  const fg::Buffer constants = graph.upload("view constants", sizeof(ViewConstants));
+  host.viewConstants = constants;
   if (view.kind == HostView::Kind::Texture) {
-    host.display = addInspection(graph, findTexture(graph.desc(), view.texture), *host.viewConstants, host.display);
+    host.display = addInspection(graph, findTexture(graph.desc(), view.texture), constants, host.display);
   } else if (view.kind == HostView::Kind::Split) {
     const fg::Texture noisy = litBy(host, HostView::Kind::Noisy);
     const fg::Texture reference = litBy(host, HostView::Kind::Reference);
-    host.display = addSplitToneMap(graph, noisy, host.composite, reference, *host.viewConstants, host.display);
+    host.display = addSplitToneMap(graph, noisy, host.composite, reference, constants, host.display);
   } else {
-    host.display = addToneMap(graph, litBy(host, view.kind), host.display);
+    host.display = addToneMap(graph, litBy(host, view.kind), constants, host.display);
   }
 }
 

@@ -43,10 +43,10 @@ struct HostGraph {
   std::optional<UploadedPicture> referenceIndirect;
   std::optional<UploadedPicture> referenceDirect;
   fg::Buffer frameConstants;
-  std::optional<fg::Buffer> viewConstants;  ///< Only for views that use them.
-  fg::Texture denoised;                     ///< RGBA16F: the output of the method.
-  fg::Texture composite;                    ///< RGBA16F: the lit image with the denoised light.
-  fg::Texture display;                      ///< RGBA8: the displayed image.
+  fg::Buffer viewConstants;
+  fg::Texture denoised;   ///< RGBA16F: the output of the method.
+  fg::Texture composite;  ///< RGBA16F: the lit image with the denoised light.
+  fg::Texture display;    ///< RGBA8: the displayed image.
 };
 
 /// The textures that the host owns, each with its state before and after the graph. An absent one is a transient of the

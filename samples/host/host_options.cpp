@@ -5,20 +5,26 @@
 
 #include "samples/command_line/arguments.h"
 #include "samples/command_line/device_options.h"
+#include "samples/command_line/usage_error.h"
 
 namespace walr::host {
 
 void addHostOptions(CLI::App& program, HostOptions& options) {
   Tracer::Options& tracer = options.tracer;
-  program.add_option("SCENE", tracer.scene, "glTF 2.0 file, .gltf or .glb")->required();
+  program.add_option("SCENE", tracer.scene, "glTF 2.0 file, .gltf or .glb; default: a kitchen that comes with walr");
   program.add_flag("--headless", options.headless,
                    "Open no window; write --frames to --output. The same happens if there is no display");
   program.add_option("-o,--output", options.output, "Without a window: folder for frame_FFFF.png; created if missing")
       ->type_name("DIR");
+  program
+      .add_option("--record", options.record,
+                  "Open no window; write the frames as one animation in WebP, which browsers play")
+      ->type_name("FILE.webp");
   program.add_flag("--exr", options.exr, "Also write frame_FFFF.exr, the linear lit image in half floats");
-  program.add_option("--frames", options.frames, "First and last frame of the scene's animation")
-      ->type_name("A-B")
-      ->capture_default_str();
+  program
+      .add_option("--frames", options.frames,
+                  "First and last frame of the scene's animation; default: in a window all of it, otherwise 0-11")
+      ->type_name("A-B");
   program.add_flag("--once", options.once, "In a window: stop after the last frame instead of starting again");
   program.add_option("--size", options.size, "Size of the image in pixels, 1 to 16384 each")
       ->type_name("WIDTHxHEIGHT")
@@ -28,6 +34,12 @@ void addHostOptions(CLI::App& program, HostOptions& options) {
                   "What is shown: denoised, noisy, reference, split (noisy, denoised and reference side by side) or "
                   "the name of a texture of the frame")
       ->type_name("VIEW")
+      ->capture_default_str();
+  program
+      .add_option("--exposure", options.exposure,
+                  "Exposure of the lit image in stops: a number, or auto, which maps the log-average luminance of the "
+                  "first frame to middle grey (Reinhard et al. 2002)")
+      ->type_name("auto|EV")
       ->capture_default_str();
 #ifdef WALR_SHADER_COMMANDS
   program.add_flag("--reload-shaders", options.reloadShaders,
@@ -60,10 +72,13 @@ void addHostOptions(CLI::App& program, HostOptions& options) {
                      "Equirectangular sky that replaces the scene's: an EXR file with R,G,B; its centre lies along -Z");
   program.add_flag("--jitter", tracer.jitter,
                    "Jitter the sample position within the pixel: 16 Halton points, one per frame");
-  program.add_flag(
-      "--denoise-direct", tracer.denoiseDirect,
-      "Denoise the direct light together with the indirect light: for lamps and skies that are noisy at one sample per "
-      "pixel");
+  program
+      .add_option("--direct", tracer.denoiseDirect,
+                  "Direct light: denoised together with the indirect light, or noisy as it was traced. Lamps and skies "
+                  "are noisy at one sample per pixel")
+      ->transform(CLI::CheckedTransformer(std::map<std::string, bool>{{"denoised", true}, {"noisy", false}}))
+      ->type_name("")
+      ->default_str("denoised");
   program
       .add_option(
           "--gbuffer", tracer.gbuffer,
@@ -74,6 +89,19 @@ void addHostOptions(CLI::App& program, HostOptions& options) {
       ->type_name("")
       ->default_str("first-hit");
   program.add_option("--threads", tracer.threads, "Threads for path tracing; 0: one per core")->capture_default_str();
+}
+
+std::filesystem::path builtInScene() {
+  const std::filesystem::path folder = std::filesystem::canonical("/proc/self/exe").parent_path();
+  // From build/bin in the source tree, or from libexec in the bundle.
+  for (const char* const root : {"../..", ".."}) {
+    const std::filesystem::path scene = (folder / root / "samples/scenes/kitchen.gltf").lexically_normal();
+    if (std::filesystem::exists(scene)) return scene;
+  }
+  throw UsageError(
+      "samples/scenes/kitchen.gltf, which comes with walr, was not found from the program's folder: name a scene, as "
+      "in "
+      "walr-host SCENE.glb");
 }
 
 HostView parseView(const std::string& text) {

@@ -17,10 +17,12 @@ struct HostOptions {
   Tracer::Options tracer;
   MethodOptions method;
   GpuDevice::Options gpu;
-  std::string frames = "0-11";
+  std::string frames;  ///< Empty: in a window the whole animation, otherwise frames 0 to 11.
   std::string size = "640x360";
   std::string view = "denoised";
   std::filesystem::path output;
+  std::filesystem::path record;  ///< File of an animation; empty: none.
+  std::string exposure = "auto";
   bool headless = false;
   bool exr = false;
   bool once = false;
@@ -28,6 +30,10 @@ struct HostOptions {
 };
 
 void addHostOptions(CLI::App& program, HostOptions& options);
+
+/// The scene that is shown if the user names none. It comes with the program.
+/// @throws UsageError if the program's files lie in other places than where they were built or unpacked
+std::filesystem::path builtInScene();
 
 /// The view of a `--view` argument: denoised, noisy, reference, split, or the name of a texture of the frame.
 HostView parseView(const std::string& text);

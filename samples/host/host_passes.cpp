@@ -61,9 +61,9 @@ fg::Texture addComposite(fg::Graph& graph, const std::string& name, fg::Texture 
   return pass.store("outLit", output);
 }
 
-fg::Texture addToneMap(fg::Graph& graph, fg::Texture lit, fg::Texture display) {
+fg::Texture addToneMap(fg::Graph& graph, fg::Texture lit, fg::Buffer viewConstants, fg::Texture display) {
   fg::PassBuilder pass = graph.compute("tone map", shaders::toneMap);
-  pass.sample("lit", lit).dispatch(graph.textureDesc(lit).extent);
+  pass.sample("lit", lit).uniform("View", viewConstants).dispatch(graph.textureDesc(lit).extent);
   return pass.store("outDisplay", display);
 }
 

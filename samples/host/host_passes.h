@@ -33,8 +33,8 @@ struct Shading {
 fg::Texture addComposite(fg::Graph& graph, const std::string& name, fg::Texture indirect, const Shading& shading,
                          fg::Texture output);
 
-/// Apply tone map and sRGB to the lit image; write the result to `display` (RGBA8).
-fg::Texture addToneMap(fg::Graph& graph, fg::Texture lit, fg::Texture display);
+/// Apply exposure (`ViewConstants::stops`), tone map and sRGB to the lit image; write the result to `display` (RGBA8).
+fg::Texture addToneMap(fg::Graph& graph, fg::Texture lit, fg::Buffer viewConstants, fg::Texture display);
 
 /// The same for three lit images, each of which fills a range of columns; see `ViewConstants`.
 fg::Texture addSplitToneMap(fg::Graph& graph, fg::Texture left, fg::Texture middle, fg::Texture right,

@@ -1,5 +1,6 @@
 #include <unistd.h>
 
+#include <algorithm>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -18,6 +19,7 @@
 #include "samples/host/shader_reloader.h"
 #endif
 #include "samples/image/file_output.h"
+#include "samples/image/webp_animation.h"
 #ifdef WALR_HOST_WINDOW
 #include "samples/host/window/interactive.h"
 #endif
@@ -25,9 +27,11 @@
 namespace walr::host {
 namespace {
 
-ViewConstants viewConstantsOf(fg::Extent extent) {
+constexpr int kLastFrame = 11;  // Of the frames that are rendered without a window if the user chooses none.
+
+ViewConstants viewConstantsOf(fg::Extent extent, float stops) {
   const auto width = static_cast<int>(extent.width);
-  return {.leftEdge = width / 3, .rightEdge = width - width / 3, .gain = 1.0F, .bias = 0.0F};
+  return {.leftEdge = width / 3, .rightEdge = width - width / 3, .gain = 1.0F, .bias = 0.0F, .stops = stops};
 }
 
 /// What reloads shaders between frames; empty if the user does not ask for it.
@@ -43,18 +47,24 @@ ReloadShaders shaderReload(const HostOptions& options) {
 #endif
 }
 
-void runHeadless(const HostOptions& options, Tracer& tracer, GpuDevice& gpu, Denoiser& method) {
-  if (options.output.empty()) {
-    throw UsageError("without a window, frames are written to a folder: give --output DIR");
+void runHeadless(const HostOptions& options, float stops, Tracer& tracer, GpuDevice& gpu, Denoiser& method) {
+  if (options.output.empty() && options.record.empty()) {
+    throw UsageError(
+        "without a window, frames are written to a folder or a file: give --output DIR or --record FILE.webp");
   }
   const FrameRange frames = parseFrameRange(options.frames);
   const fg::Extent extent = options.tracer.extent;
+  std::optional<WebpAnimation> animation;
+  if (!options.record.empty()) {
+    if (options.record.has_parent_path()) prepareOutputDirectory(options.record.parent_path());
+    animation.emplace(static_cast<int>(extent.width), static_cast<int>(extent.height), options.tracer.framesPerSecond);
+  }
   Renderer::Options rendering;
   rendering.view = parseView(options.view);
-  rendering.viewConstants = viewConstantsOf(extent);
+  rendering.viewConstants = viewConstantsOf(extent, stops);
   rendering.readComposite = options.exr;
   Renderer renderer(gpu, method, extent, rendering);
-  prepareOutputDirectory(options.output);
+  if (!options.output.empty()) prepareOutputDirectory(options.output);
   Tracer::Request request;
   request.reference = rendering.view.needsReference();
   Progress progress(std::cerr, isatty(STDERR_FILENO) != 0, "frame",
@@ -62,35 +72,43 @@ void runHeadless(const HostOptions& options, Tracer& tracer, GpuDevice& gpu, Den
   const ReloadShaders reload = shaderReload(options);
   renderFrames(tracer, renderer, frames, request, [&](const RenderedFrame& frame) {
     if (reload) reload(renderer.graph().desc(), renderer.executor());
-    writeRenderedFrame(frame, extent, options.output);
+    if (!options.output.empty()) writeRenderedFrame(frame, extent, options.output);
+    if (animation) animation->add(frame.display);
     progress.advance(Progress::Clock::now());
   });
+  if (animation) animation->write(options.record);
 }
 
-/// Whether to open a window: the user has not chosen `--headless`, and windows are available.
+/// Whether to open a window: the user has chosen neither `--headless` nor `--record`, and windows are available.
 bool opensWindow(const HostOptions& options) {
+  if (options.headless || !options.record.empty()) return false;
 #ifdef WALR_HOST_WINDOW
-  if (!options.headless && !Window::available()) {
-    std::cerr << "no display: running as with --headless\n";
-    return false;
-  }
-  return !options.headless;
+  if (Window::available()) return true;
+  std::cerr << "no display: running as with --headless\n";
 #else
-  if (!options.headless) {
-    std::cerr << "built without windows (GLFW and Dear ImGui were not found): running as with --headless\n";
-  }
-  return false;
+  std::cerr << "built without windows (GLFW and Dear ImGui were not found): running as with --headless\n";
 #endif
+  return false;
 }
 
 void run(HostOptions& options) {
   options.tracer.extent = parseSize(options.size);
+  const std::optional<float> exposure = parseExposure(options.exposure);
+  if (!options.record.empty() && options.record.extension() != ".webp") {
+    throw UsageError("--record " + options.record.string() + ": give a file that ends in .webp");
+  }
+  if (options.tracer.scene.empty()) options.tracer.scene = builtInScene();
   std::unique_ptr<Denoiser> method = makeMethod(options.method);
   const bool window = opensWindow(options);
   Tracer tracer(options.tracer);
   for (const std::string& warning : tracer.warnings()) {
     std::cerr << "warning: " << warning << '\n';
   }
+  if (options.frames.empty()) {
+    const int last = window ? std::max(kLastFrame, static_cast<int>(tracer.lastAnimationFrame())) : kLastFrame;
+    options.frames = "0-" + std::to_string(last);
+  }
+  const float stops = exposure ? *exposure : tracer.exposure(parseFrameRange(options.frames).first);
 #ifdef WALR_HOST_WINDOW
   if (window) {
     options.gpu = withWindows(options.gpu);
@@ -103,12 +121,12 @@ void run(HostOptions& options) {
   }
   std::cout << "\ndevice: " << gpu.name() << ", driver " << gpu.driver() << std::endl;
   if (!window) {
-    runHeadless(options, tracer, gpu, *method);
+    runHeadless(options, stops, tracer, gpu, *method);
   }
 #ifdef WALR_HOST_WINDOW
   if (window) {
     Session session(tracer, options.method.name, std::move(method), parseView(options.view),
-                    viewConstantsOf(options.tracer.extent), parseFrameRange(options.frames), options.once);
+                    viewConstantsOf(options.tracer.extent, stops), parseFrameRange(options.frames), options.once);
     runWindow(tracer, gpu, session, options.tracer.extent, shaderReload(options));
   }
 #endif

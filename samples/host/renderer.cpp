@@ -77,9 +77,7 @@ void uploadFrame(fg::vk::Executor& executor, const HostGraph& graph, const HostF
     upload(*graph.referenceDirect, std::span(frame.referenceDirect));
   }
   executor.upload(graph.frameConstants, frameConstantsOf(inputs.frame, glm::vec2(1.0F)));
-  if (graph.viewConstants) {
-    executor.upload(*graph.viewConstants, view);
-  }
+  executor.upload(graph.viewConstants, view);
   if (inputs.frame.resetHistory) {
     executor.resetAllHistory();
   }

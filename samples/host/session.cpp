@@ -1,6 +1,7 @@
 #include "samples/host/session.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include <glm/geometric.hpp>
@@ -94,6 +95,27 @@ void Session::moveCamera(const CameraInput& input) {
   } else if (cameraMode_ == CameraMode::Fly) {
     camera_->fly(input);
   }
+}
+
+bool Session::grabEdge(float column, float reach) {
+  heldEdge_ = nullptr;
+  if (view_.kind != HostView::Kind::Split) return false;
+  for (int* const edge : {&viewConstants.leftEdge, &viewConstants.rightEdge}) {
+    const float distance = std::abs(column - static_cast<float>(*edge));
+    if (distance > reach) continue;
+    reach = distance;
+    heldEdge_ = edge;
+  }
+  return heldEdge_ != nullptr;
+}
+
+void Session::moveEdge(float column) {
+  if (heldEdge_ == nullptr) return;
+  const bool left = heldEdge_ == &viewConstants.leftEdge;
+  const int least = left ? 0 : viewConstants.leftEdge;
+  const int most = left ? viewConstants.rightEdge : static_cast<int>(tracer_.extent().width);
+  const float whole = std::round(column);
+  *heldEdge_ = whole > static_cast<float>(least) ? static_cast<int>(std::min(whole, static_cast<float>(most))) : least;
 }
 
 float Session::flySpeed() const {

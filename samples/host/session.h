@@ -29,6 +29,9 @@ class Session {
   /// @param once  stop after the last frame; otherwise the animation starts again
   Session(const Tracer& tracer, std::string methodName, std::unique_ptr<Denoiser> method, const HostView& view,
           const ViewConstants& viewConstants, const FrameRange& frames, bool once);
+  ~Session() = default;
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
 
   /// What to trace next; nullopt while the session is frozen. Advances the animation unless it is paused or frozen.
   /// @param evenFrozen  request a frame although the session is frozen
@@ -40,6 +43,16 @@ class Session {
   void chooseCamera(CameraMode mode);
   /// Move the free camera.
   void moveCamera(const CameraInput& input);
+  /// In the split view, take hold of the edge that is nearest to a column of the picture.
+  /// @param column  in pixels of the picture
+  /// @param reach   largest distance from the edge, in the same unit
+  /// @returns whether an edge is held
+  bool grabEdge(float column, float reach);
+  /// Move the held edge to a column. The edges stay in the picture and do not pass each other. Without a held edge this
+  /// has no effect.
+  void moveEdge(float column);
+  void releaseEdge() { heldEdge_ = nullptr; }
+  [[nodiscard]] bool holdsEdge() const { return heldEdge_ != nullptr; }
   /// To be called after a setting of the method has changed.
   void settingsChanged();
   /// Jump ahead by half the animation or, with a free camera, to the pose of the scene's camera.
@@ -49,6 +62,7 @@ class Session {
   /// The largest change since the last call.
   GraphChange takeGraphChange();
 
+  [[nodiscard]] const Tracer& tracer() const { return tracer_; }
   [[nodiscard]] const std::string& methodName() const { return methodName_; }
   [[nodiscard]] Denoiser& method() { return *method_; }
   /// See `presetInUse`.
@@ -82,6 +96,7 @@ class Session {
   bool cut_ = false;
   bool reset_ = false;
   GraphChange graphChange_ = GraphChange::None;
+  int* heldEdge_ = nullptr;  // One of the edges in `viewConstants`; null: the user drags none.
 };
 
 }  // namespace walr::host

@@ -7,6 +7,8 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "samples/denoise/frame_output.h"
+#include "samples/image/exposure.h"
 #include "samples/render/animation.h"
 #include "samples/render/load_scene.h"
 #include "samples/render/sequence_frame.h"
@@ -57,6 +59,20 @@ glm::vec4 Tracer::bounds() const {
     }
   }
   return {0.5F * (low + high), 0.5F * glm::distance(low, high)};
+}
+
+float Tracer::exposure(double animationFrame) {
+  // Noise lowers the mean of logarithms, so few pixels with many samples are better than the reverse.
+  constexpr std::uint32_t kRows = 36;
+  constexpr std::uint32_t kSamples = 64;
+  const double seconds = animationFrame / options_.framesPerSecond;
+  world_.moveTo(seconds, seconds);
+  const std::uint32_t columns = std::max(1U, kRows * options_.extent.width / options_.extent.height);
+  const render::View view = render::viewFrom(world_, camera_, columns, kRows, {}, {});
+  const Frame frame = render::toFrame(
+      render::renderFilm(world_, view, {.samples = kSamples, .bounces = options_.bounces, .threads = options_.threads}),
+      view, 0);
+  return autoExposure(composite(frame.indirect, frame.direct, frame.albedo, frame.emission)).value_or(0.0F);
 }
 
 render::View Tracer::viewOf(const Request& request) const {

@@ -33,8 +33,9 @@ class Tracer {
     std::string camera;   ///< Name of the camera or of its node; empty: the first.
     bool jitter = false;  ///< Offset the sample position from the pixel centre by `render::haltonJitter`.
     render::GBufferMode gbuffer = render::GBufferMode::FirstHit;
-    /// Add the direct light to the indirect light, so that both are denoised. The direct light is then 0.
-    bool denoiseDirect = false;
+    /// Add the direct light to the indirect light, so that both are denoised. The direct light is then 0. Otherwise the
+    /// direct light is shown as it was traced: one sample per pixel of a lamp or of the sky is noisy.
+    bool denoiseDirect = true;
     unsigned int threads = 0;
   };
 
@@ -52,6 +53,8 @@ class Tracer {
   /// @throws render::SceneError for a scene that cannot be rendered
   explicit Tracer(const Options& options);
 
+  [[nodiscard]] fg::Extent extent() const { return options_.extent; }
+  [[nodiscard]] bool denoisesDirect() const { return options_.denoiseDirect; }
   /// See `render::Scene::warnings`.
   [[nodiscard]] const std::vector<std::string>& warnings() const { return scene_.warnings; }
   /// Pose of the scene's camera in a frame of the animation: world to view space.
@@ -60,6 +63,10 @@ class Tracer {
   [[nodiscard]] double lastAnimationFrame() const;
   /// Centre (x, y, z) and radius (w) of a bounding sphere of the scene, in scene units.
   [[nodiscard]] glm::vec4 bounds() const;
+
+  /// Exposure in stops for what the scene's camera shows in a frame of the animation: `autoExposure` of a small
+  /// picture; 0 if that is black.
+  [[nodiscard]] float exposure(double animationFrame);
 
   /// Trace a frame. Its previous frame is that of the previous call.
   Frame trace(const Request& request);

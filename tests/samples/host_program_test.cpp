@@ -55,12 +55,26 @@ TEST_F(HostProgramTest, RefusesCommandLinesWithoutMeaning) {
   const auto expectUsage = [&](const std::vector<std::string>& arguments, const std::string& named) {
     test::expectFailure(host(arguments), kUsage, {named});
   };
-  expectUsage({}, "SCENE");
+  expectUsage({scene, "--record", output.string() + "/host.gif"}, ".webp");
+  expectUsage({scene, "-o", output.string(), "--exposure", "bright"}, "--exposure bright");
   expectUsage({scene}, "--output");
   expectUsage({scene, "-o", output.string(), "--frames", "3-1"}, "--frames 3-1");
   expectUsage({scene, "-o", output.string(), "--set", "nothing=1"}, "nothing");
   expectUsage({scene, "-o", output.string(), "--view", "nothing"}, "'guides.depth.current'");
   EXPECT_FALSE(fs::exists(output));
+}
+
+TEST_F(HostProgramTest, RecordsTheSceneThatComesWithItAsAnAnimation) {
+  const fs::path file = output / "host.webp";
+  const test::ProcessResult result = host({"--record", file.string(), "--frames", "0-2"});
+  ASSERT_EQ(result.exitCode, 0) << result.err;
+  EXPECT_EQ(outputFiles(), std::vector<std::string>{"host.webp"});
+  const std::string contents = test::readText(file);
+  EXPECT_EQ(contents.substr(0, 4) + contents.substr(8, 4), "RIFFWEBP");
+  // The chunk of an animation's frame occurs once for each of them: the camera moves in every frame.
+  std::size_t frames = 0;
+  for (std::size_t at = contents.find("ANMF"); at != std::string::npos; at = contents.find("ANMF", at + 4)) ++frames;
+  EXPECT_EQ(frames, 3U);
 }
 
 TEST_F(HostProgramTest, NamesTheSceneThatCannotBeRead) {

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,7 @@
 #include "samples/host/live_frame.h"
 #include "samples/host/renderer.h"
 #include "samples/host/tracer.h"
+#include "samples/image/exposure.h"
 #include "samples/image/exr.h"
 #include "samples/image/half.h"
 #include "samples/image/tone_map.h"
@@ -39,6 +41,7 @@ Tracer::Options tracing(const std::string& scene = "box.gltf") {
   Tracer::Options options;
   options.scene = std::string(WALR_SCENES "/") + scene;
   options.extent = kExtent;
+  options.denoiseDirect = false;  // So that the composite has both lights.
   return options;
 }
 
@@ -176,7 +179,7 @@ TEST_F(HostTest, SplitViewShowsNoisyDenoisedAndReference) {
   const auto noisy = show(HostView::Kind::Noisy);
   const auto denoised = show(HostView::Kind::Denoised);
   const auto reference = show(HostView::Kind::Reference);
-  options.viewConstants = {.leftEdge = 20, .rightEdge = 50, .gain = 1.0F, .bias = 0.0F};
+  options.viewConstants = {.leftEdge = 20, .rightEdge = 50, .gain = 1.0F, .bias = 0.0F, .stops = 0.0F};
   const auto split = show(HostView::Kind::Split);
   EXPECT_NE(noisy, denoised);
   EXPECT_NE(denoised, reference);
@@ -204,7 +207,7 @@ TEST_F(HostTest, EveryTextureCanBeViewed) {
 TEST_F(HostTest, TextureViewShowsValuesScaledAndShifted) {
   Renderer::Options options;
   options.view = {HostView::Kind::Texture, "normal"};
-  options.viewConstants = {.leftEdge = 0, .rightEdge = 0, .gain = 0.5F, .bias = 0.5F};
+  options.viewConstants = {.leftEdge = 0, .rightEdge = 0, .gain = 0.5F, .bias = 0.5F, .stops = 0.0F};
   const std::vector<RenderedFrame> frames = render(options, "none");
   Tracer tracer(tracing());
   for (const RenderedFrame& frame : frames) {
@@ -217,6 +220,31 @@ TEST_F(HostTest, TextureViewShowsValuesScaledAndShifted) {
       }
     }
   }
+}
+
+TEST_F(HostTest, ExposureScalesTheLitImageBeforeTheToneMap) {
+  Renderer::Options options = readAll();
+  options.viewConstants.stops = 1.5F;
+  for (const RenderedFrame& frame : render(options)) {
+    Image brighter = frame.composite;
+    for (float& value : brighter.values()) value *= std::exp2(options.viewConstants.stops);
+    expectToneMapped(frame, brighter);
+  }
+}
+
+TEST(Tracer, ExposureMapsTheScenesLuminanceToMiddleGrey) {
+  Tracer::Options options = tracing();
+  Tracer tracer(options);
+  const float stops = tracer.exposure(0.0);
+  options.referenceSamples = 512;
+  Tracer fine(options);
+  const Frame frame = fine.trace({.reference = true});
+  const std::optional<float> expected =
+      autoExposure(composite(frame.reference->indirect, frame.reference->direct, frame.albedo, frame.emission));
+  ASSERT_TRUE(expected.has_value());
+  // Luminances of this picture spread by about 2 stops, and the small picture has 64 x 36 pixels: 2 / 48 = .04 stops.
+  // Noise of relative variance v lowers a mean of logarithms by about .7 v stops: .05 for the 64 samples.
+  EXPECT_NEAR(stops, *expected, 0.1);
 }
 
 TEST_F(HostTest, UnknownTextureIsNamedWithThoseThereAre) {

@@ -225,7 +225,7 @@ def start(host, screen, *options):
 
 
 def denoised(host, screen):
-    start(host, screen, "--denoise-direct")
+    start(host, screen)
 
 
 def split(host, screen):
@@ -238,10 +238,10 @@ def texture(host, screen):
 
 def methods(host, screen):
     """Every method, and every preset of one method, can be chosen and gives the same image as without a window."""
-    with host.window(screen, "0-3", "--denoise-direct") as window:
+    with host.window(screen, "0-3") as window:
         # What is chosen anew starts with the frame at hand; in the box, nothing moves in frames 0 to 3.
         def expect(what, *options):
-            window.must_show(host.pictures("3-3", "--denoise-direct", *options)[3], what)
+            window.must_show(host.pictures("3-3", *options)[3], what)
 
         names = host.known("--method")
         for index, name in [*enumerate(names)][1:] + [(0, names[0])]:

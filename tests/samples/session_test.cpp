@@ -158,5 +158,37 @@ TEST_F(SessionTest, FreeCameraStartsFromTheScenes) {
   EXPECT_FALSE(session.nextRequest()->view.has_value());
 }
 
+TEST_F(SessionTest, EdgesOfTheSplitViewFollowTheMouse) {
+  Session session = make({0, 9}, false);
+  const auto width = static_cast<int>(tracer.extent().width);
+  session.viewConstants.leftEdge = width / 3;
+  session.viewConstants.rightEdge = 2 * width / 3;
+  const auto left = static_cast<float>(session.viewConstants.leftEdge);
+  const auto right = static_cast<float>(session.viewConstants.rightEdge);
+  EXPECT_FALSE(session.grabEdge(left, 4.0F)) << "another view has no edges";
+  session.chooseView({HostView::Kind::Split, ""});
+  EXPECT_FALSE(session.grabEdge(left - 5.0F, 4.0F));
+  session.moveEdge(0.0F);
+  EXPECT_EQ(session.viewConstants.leftEdge, width / 3) << "no edge is held";
+
+  EXPECT_TRUE(session.grabEdge(left + 2.0F, 4.0F));
+  session.moveEdge(left + 3.4F);
+  EXPECT_EQ(session.viewConstants.leftEdge, width / 3 + 3);
+  session.moveEdge(-100.0F);
+  EXPECT_EQ(session.viewConstants.leftEdge, 0);
+  session.moveEdge(right + 10.0F);
+  EXPECT_EQ(session.viewConstants.leftEdge, 2 * width / 3) << "edges do not pass each other";
+  session.moveEdge(left);
+  session.releaseEdge();
+  session.moveEdge(0.0F);
+  EXPECT_EQ(session.viewConstants.leftEdge, width / 3);
+
+  EXPECT_TRUE(session.grabEdge(right, 4.0F));
+  session.moveEdge(1e6F);
+  EXPECT_EQ(session.viewConstants.rightEdge, width);
+  session.moveEdge(0.0F);
+  EXPECT_EQ(session.viewConstants.rightEdge, width / 3);
+}
+
 }  // namespace
 }  // namespace walr::host

@@ -8,11 +8,13 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 0) uniform texture2D lit;
 layout(set = 0, binding = 1, rgba8) uniform writeonly image2D outDisplay;
+layout(set = 0, binding = 2, std140) uniform View { ViewConstants view; };
 #ifdef SPLIT
-layout(set = 0, binding = 2) uniform texture2D left;
-layout(set = 0, binding = 3) uniform texture2D right;
-layout(set = 0, binding = 4, std140) uniform View { ViewConstants view; };
+layout(set = 0, binding = 3) uniform texture2D left;
+layout(set = 0, binding = 4) uniform texture2D right;
 #endif
+
+vec3 exposedDisplay(vec3 linear) { return display(linear * exp2(view.stops)); }
 
 void main() {
   const ivec2 p = ivec2(gl_GlobalInvocationID.xy);
@@ -22,9 +24,9 @@ void main() {
   if (p.x < view.leftEdge) linear = texelFetch(left, p, 0).rgb;
   if (p.x >= view.rightEdge) linear = texelFetch(right, p, 0).rgb;
   const bool line = p.x == view.leftEdge || p.x == view.rightEdge;
-  const vec3 colour = line ? vec3(1.0) : display(linear);
+  const vec3 colour = line ? vec3(1.0) : exposedDisplay(linear);
 #else
-  const vec3 colour = display(texelFetch(lit, p, 0).rgb);
+  const vec3 colour = exposedDisplay(texelFetch(lit, p, 0).rgb);
 #endif
   imageStore(outDisplay, p, vec4(colour, 1.0));
 }

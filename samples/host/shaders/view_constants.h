@@ -10,6 +10,7 @@ struct ViewConstants {
   int rightEdge;  // Split view, pixels: this column and those to the right show the reference.
   float gain;     // Texture view: values are multiplied by it.
   float bias;     // Texture view: added to the scaled values.
+  float stops;    // Exposure of lit images: they are multiplied by 2 to this power before the tone map.
 };
 
 #ifdef __cplusplus

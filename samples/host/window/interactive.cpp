@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <csignal>
+#include <deque>
 #include <future>
 #include <optional>
 #include <thread>
@@ -35,6 +36,13 @@ struct Traced {
   HostFrame frame;
   double seconds = 0.0;
 };
+
+/// Appends the time of a frame and drops the oldest one of more than a few seconds' worth.
+void remember(std::deque<float>& times, double milliseconds) {
+  constexpr std::size_t kFrames = 240;
+  times.push_back(static_cast<float>(milliseconds));
+  if (times.size() > kFrames) times.pop_front();
+}
 
 /// The main loop of a window: traces frames on another thread, denoises them and draws the window.
 class Show {
@@ -93,6 +101,8 @@ class Show {
   void take(Traced traced) {
     frame_ = std::move(traced.frame);
     facts_.tracingSeconds = traced.seconds;
+    constexpr double kMilliseconds = 1000.0;
+    remember(facts_.tracingHistory, kMilliseconds * traced.seconds);
     fresh_ = true;
     startTracing();
   }
@@ -148,7 +158,7 @@ class Show {
     }
     // One more frame shows the new shaders in a session that is frozen.
     if (reload_ && reload_(live_.graph().desc(), live_.executor()) > 0) again_ = session_.frozen;
-    interface_.update(session_, live_.graph(), live_.plan(), facts_);
+    interface_.update(session_, live_.graph(), live_.plan(), facts_, place());
     const fg::vk::Frame recorded = queue_.begin();
     const std::optional<std::uint32_t> image = presenter_->swapchain().acquire(recorded.slot);
     if (!image) {
@@ -160,6 +170,9 @@ class Show {
     if (lastSlot_ && (fresh_ || recorded.slot == *lastSlot_)) {
       const auto times = live_.passTimes(recorded.slot);
       facts_.passTimes.assign(times.begin(), times.end());
+      double sum = 0.0;
+      for (const fg::vk::PassTime& pass : times) sum += pass.milliseconds;
+      if (fresh_) remember(facts_.deviceHistory, sum);
     }
     if (std::exchange(fresh_, false)) {
       lastSlot_ = recorded.slot;

@@ -75,7 +75,8 @@ void Interface::prepare(VkRenderPass renderPass, fg::vk::FrameQueue& queue) {
 #endif
 }
 
-void Interface::update(Session& session, const fg::Graph& graph, const fg::Plan& plan, const FrameFacts& facts) {
+void Interface::update(Session& session, const fg::Graph& graph, const fg::Plan& plan, const FrameFacts& facts,
+                       const Rectangle& place) {
   ImGui_ImplVulkan_NewFrame();
   ImGui_ImplGlfw_NewFrame();
   ImGui::NewFrame();
@@ -90,7 +91,7 @@ void Interface::update(Session& session, const fg::Graph& graph, const fg::Plan&
   viewPanel(session, viewableTextures(graph.desc()));
   methodPanel(session);
   if (ImGui::CollapsingHeader("Times", ImGuiTreeNodeFlags_DefaultOpen)) {
-    timesPanel(facts, device_.isSoftware());
+    timesPanel(facts, session.tracer().denoisesDirect(), device_.isSoftware());
   }
   if (ImGui::CollapsingHeader("Memory", ImGuiTreeNodeFlags_DefaultOpen)) {
     memoryPanel(graph.desc(), plan);
@@ -99,8 +100,22 @@ void Interface::update(Session& session, const fg::Graph& graph, const fg::Plan&
     settingsPanel(session);
   }
   ImGui::End();
-  takeCameraInput(session);
+  takeEdgeInput(session, place);
+  if (!session.holdsEdge()) takeCameraInput(session);
   ImGui::Render();
+}
+
+void Interface::takeEdgeInput(Session& session, const Rectangle& place) const {
+  const ImGuiIO& io = ImGui::GetIO();
+  if (!ImGui::IsMouseDown(ImGuiMouseButton_Left) || place.width == 0) {
+    session.releaseEdge();
+    return;
+  }
+  constexpr float kReach = 8.0F;  // Pixels of the window.
+  const float scale = static_cast<float>(session.tracer().extent().width) / static_cast<float>(place.width);
+  const float column = (io.MousePos.x - static_cast<float>(place.x)) * scale;
+  if (ImGui::IsMouseClicked(ImGuiMouseButton_Left) && !io.WantCaptureMouse) session.grabEdge(column, kReach * scale);
+  session.moveEdge(column);
 }
 
 void Interface::takeCameraInput(Session& session) const {

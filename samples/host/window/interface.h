@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <span>
 #include <string>
 #include <vector>
@@ -21,6 +22,9 @@ namespace walr::host {
 struct FrameFacts {
   std::vector<fg::vk::PassTime> passTimes;
   double tracingSeconds = 0.0;
+  /// Times of the last frames in milliseconds, oldest first.
+  std::deque<float> tracingHistory;
+  std::deque<float> deviceHistory;
 };
 
 /// The user interface beside the image, drawn with Dear ImGui.
@@ -39,12 +43,15 @@ class Interface {
   /// Create the device objects for drawing. Call once, with the render pass of the first presenter.
   void prepare(VkRenderPass renderPass, fg::vk::FrameQueue& queue);
   /// Lay out the panels and take the user's input.
-  void update(Session& session, const fg::Graph& graph, const fg::Plan& plan, const FrameFacts& facts);
+  /// @param place  rectangle of the window that shows the picture
+  void update(Session& session, const fg::Graph& graph, const fg::Plan& plan, const FrameFacts& facts,
+              const Rectangle& place);
   /// Draw the panels that `update` laid out.
   static void draw(VkCommandBuffer commandBuffer);
 
  private:
   void takeCameraInput(Session& session) const;
+  void takeEdgeInput(Session& session, const Rectangle& place) const;
 
   const GpuDevice& device_;
   const Window& window_;

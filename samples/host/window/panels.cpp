@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
+#include <deque>
 #include <limits>
 #include <span>
 
@@ -112,6 +114,18 @@ class SettingWidgets : public SettingVisitor {
   bool dragging_ = false;
 };
 
+/// A chart of times in milliseconds, from 0 to the largest, which stands in it.
+void chart(const char* label, const std::deque<float>& times) {
+  if (times.empty()) return;
+  const std::vector<float> values(times.begin(), times.end());
+  const float largest = std::ranges::max(values);
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "up to %.1f ms", static_cast<double>(largest));
+  constexpr float kHeight = 30.0F;
+  ImGui::PlotLines(label, values.data(), static_cast<int>(values.size()), 0, text.data(), 0.0F, largest,
+                   {ImGui::GetContentRegionAvail().x, kHeight});
+}
+
 ImU32 colourOf(std::size_t index) {
   // Hues that differ by the golden angle are easy to tell apart, whatever their number.
   constexpr float kGoldenAngle = 0.381966F;
@@ -195,14 +209,17 @@ void settingsPanel(Session& session) {
   }
 }
 
-void timesPanel(const FrameFacts& facts, bool softwareDevice) {
+void timesPanel(const FrameFacts& facts, bool denoisesDirect, bool softwareDevice) {
   constexpr double kMilliseconds = 1000.0;
-  ImGui::Text("Tracing %.0f ms", facts.tracingSeconds * kMilliseconds);
+  ImGui::Text("Tracing %.0f ms; the direct light is %s", facts.tracingSeconds * kMilliseconds,
+              denoisesDirect ? "denoised" : "noisy");
+  chart("##tracing", facts.tracingHistory);
   double sum = 0.0;
   for (const fg::vk::PassTime& pass : facts.passTimes) {
     sum += pass.milliseconds;
   }
   ImGui::Text("Device %.2f ms%s", sum, softwareDevice ? " (software device)" : "");
+  chart("##device", facts.deviceHistory);
   for (const fg::vk::PassTime& pass : facts.passTimes) {
     const auto share = static_cast<float>(sum > 0.0 ? pass.milliseconds / sum : 0.0);
     std::array<char, 32> text{};
