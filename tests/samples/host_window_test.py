@@ -161,20 +161,27 @@ class Window:
     def choose(self, y, index, count):
         """Open the chooser whose middle is at a height, and take an item from its list; frozen, or times change too."""
         self.hands.move(*self.at(100, y))
-        before = self.settled_rows()
-        self.hands.click(*self.at(100, y))
-
-        def list_top():
-            after = self.rows()
-            changed = [i for i, (a, b) in enumerate(zip(before, after)) if a != b and abs(i - y) > 10]
-            # Items lie 4 pixels apart, with 8 around all of them; an edge may lie under the mouse's own light.
-            high = changed and changed[-1] + 1 - changed[0]
-            return changed and abs(high - (16 - 4 + count * self.ITEM)) <= 3 and changed[0]
-
-        top = wait_for(list_top, f"a list of {count} items to open at {y}")
+        top = wait_for(lambda: self.opened_list(y, count), f"a list of {count} items to open at {y}")
         border = self.rows()[top]
         self.hands.click(*self.at(100, top + 8 + 6 + index * self.ITEM))
         wait_for(lambda: self.rows()[top] != border, f"the list at {y} to close")
+
+    def opened_list(self, y, count):
+        """Click at the chooser and return the first row of its list. A frame that ended meanwhile changes other rows, too:
+        then the list is closed again, and the result is None."""
+        before = self.settled_rows()
+        self.hands.click(*self.at(100, y))
+        end = time.monotonic() + 10.0
+        while time.monotonic() < end:
+            after = self.rows()
+            changed = [i for i, (a, b) in enumerate(zip(before, after)) if a != b and abs(i - y) > 10]
+            # Items lie 4 pixels apart, with 8 around all of them; an edge may lie under the mouse's own light.
+            high = changed[-1] + 1 - changed[0] if changed else 0
+            if abs(high - (16 - 4 + count * self.ITEM)) <= 3:
+                return changed[0]
+            time.sleep(0.02)
+        self.hands.click(*self.at(100, y))
+        return None
 
     def rows(self):
         """The panel."""
