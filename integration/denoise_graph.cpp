@@ -6,6 +6,7 @@
 #include "passes/history_length.h"
 #include "passes/light_direction.h"
 #include "passes/lint_inputs.h"
+#include "passes/shared_guides.h"
 #include "shaders/constants/frame.h"
 
 namespace walr {
@@ -75,34 +76,80 @@ void checkOrthographic(const InputConventions& conventions, const HostConvention
   }
 }
 
+namespace {
+
+/// A texture of the host that receives a result.
+fg::Texture importResult(fg::Graph& graph, std::string_view name, VkFormat format, fg::Extent extent,
+                         const HostStates& states) {
+  return graph.import(std::string(name), {.format = format, .extent = extent}, states.outputBefore);
+}
+
+SecondLight importSecond(fg::Graph& graph, const DenoiserInputs& first, fg::Texture firstOutput,
+                         const HostStates& states, const SecondMethod& wanted) {
+  const fg::TextureDesc result = graph.textureDesc(firstOutput);
+  SecondLight second;
+  second.lighting = graph.import(std::string(kSecondLightingName), graph.textureDesc(first.lighting), states.inputs);
+  if (first.confidence.valid()) {
+    second.confidence =
+        graph.import(std::string(kSecondConfidenceName), graph.textureDesc(first.confidence), states.inputs);
+  }
+  second.output = importResult(graph, kSecondOutputName, result.format, result.extent, states);
+  if (wanted.historyLength) {
+    second.historyLength = importResult(graph, kSecondHistoryLengthName, kHistoryLengthFormat, result.extent, states);
+  }
+  if (wanted.lightDirection) {
+    second.lightDirection =
+        importResult(graph, kSecondLightDirectionName, kLightDirectionFormat, result.extent, states);
+  }
+  return second;
+}
+
+/// What `addLight` works on beside the light.
+struct LightTarget {
+  fg::Texture output;
+  fg::Texture historyLength;   ///< Invalid unless requested.
+  fg::Texture lightDirection;  ///< Invalid unless requested.
+};
+
+/// Add the passes of a light from its converted inputs to the host's results.
+void addLight(DenoiseGraph& declared, Denoiser& method, const DenoiserInputs& inputs, const LightTarget& to,
+              Inspection& inspection, const SharedLight& light, const HostStates& states, const HostConventions& host) {
+  fg::Graph& graph = declared.graph;
+  const fg::TextureDesc result{.format = kOutputFormat, .extent = graph.textureDesc(to.output).extent};
+  const StageGraph stages(graph, inspection, light);
+  const fg::Texture target = host.convertsResult() ? stages.texture("result to convert", result) : to.output;
+  if (to.historyLength.valid()) inspection.wantHistoryLength(to.historyLength);
+  if (to.lightDirection.valid()) inspection.wantLightDirection(to.lightDirection);
+  fg::Texture denoised = method.add(stages, inputs, target);
+  if (to.historyLength.valid()) graph.exported(inspection.historyLength(), states.outputAfter);
+  if (to.lightDirection.valid()) graph.exported(inspection.lightDirection(), states.outputAfter);
+  if (host.convertsResult()) denoised = addConvertResult(stages, denoised, to.output, declared.host);
+  graph.exported(denoised, states.outputAfter);
+}
+
+}  // namespace
+
 DenoiseGraph declareDenoiseGraph(Denoiser& method, fg::Extent extent, const InputConventions& conventions,
                                  const HostStates& states, std::span<const VkFormat> formats,
-                                 const HostConventions& host, const InspectionWish& wanted) {
+                                 const HostConventions& host, const InspectionWish& wanted,
+                                 const SecondMethod& second) {
   checkOrthographic(conventions, host, wanted.lint);
   DenoiseGraph declared;
   fg::Graph& graph = declared.graph;
-  const fg::TextureDesc result{.format = kOutputFormat, .extent = extent};
-  const fg::TextureDesc hostResult{.format = host.result, .extent = extent};
   declared.inputs = importInputs(graph, extent, conventions, states.inputs, formats, host);
   if (host.convertsInputs()) declared.host = graph.upload(std::string(kHostName), sizeof(HostConstants));
-  declared.output = graph.import(std::string(kOutputName), hostResult, states.outputBefore);
-
+  declared.output = importResult(graph, kOutputName, host.result, extent, states);
   const DenoiserInputs inputs = addConvertInputs(graph, declared.inputs, host, declared.host);
-  const fg::Texture target = host.convertsResult() ? graph.texture("result to convert", result) : declared.output;
+
   Inspection& inspection = declared.inspection;
   for (const std::string& view : wanted.views) {
-    inspection.want(view,
-                    graph.import("view of " + view, {.format = kViewFormat, .extent = extent}, states.outputBefore));
+    inspection.want(view, importResult(graph, "view of " + view, kViewFormat, extent, states));
   }
   if (wanted.historyLength) {
-    declared.historyLength = graph.import(std::string(kHistoryLengthName),
-                                          {.format = kHistoryLengthFormat, .extent = extent}, states.outputBefore);
-    inspection.wantHistoryLength(declared.historyLength);
+    declared.historyLength = importResult(graph, kHistoryLengthName, kHistoryLengthFormat, extent, states);
   }
   if (wanted.lightDirection) {
-    declared.lightDirection = graph.import(std::string(kLightDirectionName),
-                                           {.format = kLightDirectionFormat, .extent = extent}, states.outputBefore);
-    inspection.wantLightDirection(declared.lightDirection);
+    declared.lightDirection = importResult(graph, kLightDirectionName, kLightDirectionFormat, extent, states);
   }
   if (wanted.counters) {
     inspection.wantCounters(graph.import("counters", fg::BufferDesc{kCounterBytes}, states.outputBefore));
@@ -112,13 +159,24 @@ DenoiseGraph declareDenoiseGraph(Denoiser& method, fg::Extent extent, const Inpu
     declared.lint = addLintInputs(graph, inputs, counts);
     graph.exported(declared.lint, states.outputAfter);
   }
-  fg::Texture denoised = method.add({graph, inspection}, inputs, target);
+
+  SharedGuides guides;
+  addLight(declared, method, inputs, {declared.output, declared.historyLength, declared.lightDirection}, inspection,
+           {.guides = second.method != nullptr ? &guides : nullptr}, states, host);
   for (const DebugView& view : inspection.views()) graph.exported(view.texture, states.outputAfter);
-  if (wanted.historyLength) graph.exported(inspection.historyLength(), states.outputAfter);
-  if (wanted.lightDirection) graph.exported(inspection.lightDirection(), states.outputAfter);
   if (!inspection.counters().empty()) graph.exported(inspection.counterBuffer(), states.outputAfter);
-  if (host.convertsResult()) denoised = addConvertResult(graph, denoised, declared.output, declared.host);
-  graph.exported(denoised, states.outputAfter);
+  if (second.method == nullptr) return declared;
+
+  declared.second = importSecond(graph, declared.inputs, declared.output, states, second);
+  Inspection secondInspection;
+  const SharedLight light{.guides = &guides, .prefix = kSecondPrefix};
+  DenoiserInputs secondInputs = inputs;
+  secondInputs.lighting = declared.second.lighting;
+  secondInputs.confidence = declared.second.confidence;
+  secondInputs = addConvertLight({graph, secondInspection, light}, secondInputs, host, declared.host);
+  addLight(declared, *second.method, secondInputs,
+           {declared.second.output, declared.second.historyLength, declared.second.lightDirection}, secondInspection,
+           light, states, host);
   return declared;
 }
 

@@ -11,7 +11,19 @@
 
 namespace walr {
 
-/// A graph that holds one method and nothing else. The host owns its textures.
+/// Imports of the second of two lights. They correspond to those of the first.
+struct SecondLight {
+  fg::Texture lighting;
+  fg::Texture confidence;  ///< Invalid if the host has none.
+  fg::Texture output;
+  fg::Texture historyLength;   ///< Invalid unless requested.
+  fg::Texture lightDirection;  ///< Invalid unless requested.
+};
+
+/// What the names of the second light's passes and textures begin with.
+inline constexpr std::string_view kSecondPrefix = "second light: ";
+
+/// A graph that denoises one light, or two that share their guides, and nothing else. The host owns its textures.
 struct DenoiseGraph {
   fg::Graph graph;
   DenoiserInputs inputs;       ///< Imports with the host's conventions; `frame` is an upload.
@@ -21,15 +33,23 @@ struct DenoiseGraph {
   fg::Texture historyLength;   ///< Import that receives history lengths; invalid unless requested.
   fg::Texture lightDirection;  ///< Import that receives slopes of the light over the normal; invalid unless requested.
   fg::Buffer lint;             ///< Import that receives the counts of `addLintInputs`; invalid unless requested.
+  SecondLight second;          ///< All invalid if there is one light.
 };
 
-/// Further outputs of a graph; views, counters and lint are for debugging.
+/// Further outputs of a graph; views, counters and lint are for debugging. Of two lights, all are those of the first.
 struct InspectionWish {
   std::span<const std::string> views = {};  ///< Names of views.
   bool counters = false;
   bool historyLength = false;   ///< Of every pixel, in `kHistoryLengthFormat`.
   bool lightDirection = false;  ///< Of every pixel, in `kLightDirectionFormat`; of the method walr.
   bool lint = false;            ///< Count likely faults in the inputs: see `InputLinter`.
+};
+
+/// The second of two lights of a view, which share their guides.
+struct SecondMethod {
+  Denoiser* method = nullptr;   ///< With its own settings; null if there is one light.
+  bool historyLength = false;   ///< As `InspectionWish::historyLength`.
+  bool lightDirection = false;  ///< As `InspectionWish::lightDirection`.
 };
 
 /// States of the host's textures before the graph, and of the result before and after it.
@@ -60,10 +80,13 @@ void checkOrthographic(const InputConventions& conventions, const HostConvention
 /// @param formats see `importInputs`
 /// @param host    conventions of the textures; what differs from `DenoiserInputs` is converted first
 /// @param wanted  further outputs, in imports with the states of the result
+/// @param second  of two lights. The guides are prepared once. All else is the second light's own, and its names begin
+///                with `kSecondPrefix`. Its textures have the formats of the first one's
 /// @throws std::invalid_argument naming a setting of the method that is out of range, an input whose format cannot be
-///         used, or an unknown view
+///         used, or an unknown view, or saying why the lights cannot share guides
 DenoiseGraph declareDenoiseGraph(Denoiser& method, fg::Extent extent, const InputConventions& conventions,
                                  const HostStates& states, std::span<const VkFormat> formats = {},
-                                 const HostConventions& host = {}, const InspectionWish& wanted = {});
+                                 const HostConventions& host = {}, const InspectionWish& wanted = {},
+                                 const SecondMethod& second = {});
 
 }  // namespace walr

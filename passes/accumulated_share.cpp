@@ -9,7 +9,7 @@
 
 namespace walr {
 
-SteeredHistory declareSteeredHistory(fg::Graph& graph, fg::Extent pixels, float maxHistory) {
+SteeredHistory declareSteeredHistory(StageGraph graph, fg::Extent pixels, float maxHistory) {
   return {graph.history("least antilag factor", {VK_FORMAT_R32_SFLOAT, antilagTiles(pixels)}), maxHistory};
 }
 

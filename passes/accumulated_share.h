@@ -59,7 +59,7 @@ struct SteeredHistory {
 
 /// Declare it before accumulation, which reads `leastAntilag.previous`.
 /// @param pixels the image's extent
-SteeredHistory declareSteeredHistory(fg::Graph& graph, fg::Extent pixels, float maxHistory);
+SteeredHistory declareSteeredHistory(StageGraph graph, fg::Extent pixels, float maxHistory);
 
 /// What the share is measured on.
 struct AccumulatedShareInputs {

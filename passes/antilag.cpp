@@ -12,13 +12,13 @@ fg::Extent antilagTiles(fg::Extent pixels) {
   return gridExtent(pixels, static_cast<std::uint32_t>(kAntilagTile));
 }
 
-Antilag declareAntilag(fg::Graph& graph, fg::Extent pixels, fg::Texture least) {
+Antilag declareAntilag(StageGraph graph, fg::Extent pixels, fg::Texture least) {
   const fg::Extent tiles = antilagTiles(pixels);
   return {graph.history("antilag.factor", {VK_FORMAT_R32_SFLOAT, tiles}),
           graph.texture("antilag.tiles", {VK_FORMAT_R32G32_SFLOAT, tiles}), least};
 }
 
-void addAntilag(fg::Graph& graph, const Antilag& antilag, const AntilagSettings& settings) {
+void addAntilag(StageGraph graph, const Antilag& antilag, const AntilagSettings& settings) {
   if (!(settings.scoreLow < settings.scoreHigh)) {
     throw std::invalid_argument("setting accumulation.antilag-low must be below accumulation.antilag-high");
   }

@@ -4,6 +4,7 @@
 
 #include "framegraph/declare/graph.h"
 #include "passes/settings.h"
+#include "passes/stage_graph.h"
 
 namespace walr {
 
@@ -46,7 +47,7 @@ struct Antilag {
 /// Declare the textures.
 /// @param pixels the image's extent
 /// @param least  `Antilag::least`
-Antilag declareAntilag(fg::Graph& graph, fg::Extent pixels, fg::Texture least = {});
+Antilag declareAntilag(StageGraph graph, fg::Extent pixels, fg::Texture least = {});
 
 /// Tiles of an image.
 fg::Extent antilagTiles(fg::Extent pixels);
@@ -54,6 +55,6 @@ fg::Extent antilagTiles(fg::Extent pixels);
 /// Add the pass that computes the antilag factor for the next frame.
 /// @param antilag as the accumulation of this frame wrote it
 /// @throws std::invalid_argument if antilag-low is not below antilag-high
-void addAntilag(fg::Graph& graph, const Antilag& antilag, const AntilagSettings& settings);
+void addAntilag(StageGraph graph, const Antilag& antilag, const AntilagSettings& settings);
 
 }  // namespace walr

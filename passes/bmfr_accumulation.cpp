@@ -5,7 +5,7 @@
 
 namespace walr {
 
-fg::Texture addBmfrAccumulation(fg::Graph& graph, fg::Buffer frame, fg::Texture fitted, fg::Texture taps,
+fg::Texture addBmfrAccumulation(StageGraph graph, fg::Buffer frame, fg::Texture fitted, fg::Texture taps,
                                 const BmfrAccumulationSettings& settings) {
   const fg::Extent extent = graph.textureDesc(fitted).extent;
   const fg::History accumulated = graph.history("accumulated fit", {VK_FORMAT_R16G16B16A16_SFLOAT, extent});

@@ -2,6 +2,7 @@
 
 #include "framegraph/declare/graph.h"
 #include "passes/settings.h"
+#include "passes/stage_graph.h"
 #include "passes/temporal_accumulation.h"
 
 namespace walr {
@@ -22,7 +23,7 @@ struct BmfrAccumulationSettings {
 /// @param fitted RGBA16F: the current fit
 /// @param taps   R32_UINT: `AccumulationWithTaps::taps`
 /// @returns RGBA16F: mean; alpha: history length, 0 where there is nothing to denoise
-fg::Texture addBmfrAccumulation(fg::Graph& graph, fg::Buffer frame, fg::Texture fitted, fg::Texture taps,
+fg::Texture addBmfrAccumulation(StageGraph graph, fg::Buffer frame, fg::Texture fitted, fg::Texture taps,
                                 const BmfrAccumulationSettings& settings = {});
 
 }  // namespace walr

@@ -12,18 +12,18 @@ namespace {
 constexpr VkFormat kColour = VK_FORMAT_R16G16B16A16_SFLOAT;
 
 /// A conversion without its output.
-fg::PassBuilder convert(fg::Graph& graph, const std::string& what, const fg::Shader& shader, fg::Texture source,
+fg::PassBuilder convert(StageGraph graph, const std::string& what, const fg::Shader& shader, fg::Texture source,
                         fg::Buffer host) {
   fg::PassBuilder pass = graph.compute("convert " + what, shader);
   pass.sample("source", source).uniform("hostConstants", host).dispatch(graph.textureDesc(source).extent);
   return pass;
 }
 
-fg::Texture converted(fg::Graph& graph, const std::string& what, VkFormat format, fg::Texture source) {
+fg::Texture converted(StageGraph graph, const std::string& what, VkFormat format, fg::Texture source) {
   return graph.texture("converted " + what, {format, graph.textureDesc(source).extent});
 }
 
-fg::Texture convertDepth(fg::Graph& graph, fg::Texture depth, const HostConventions& conventions, fg::Buffer host) {
+fg::Texture convertDepth(StageGraph graph, fg::Texture depth, const HostConventions& conventions, fg::Buffer host) {
   const HostConventions::Depth kind = conventions.depth;
   fg::PassBuilder pass = convert(graph, "depth", shaders::convertInputDepth, depth, host);
   pass.specialize("kDevice", kind == HostConventions::Depth::Device)
@@ -32,7 +32,7 @@ fg::Texture convertDepth(fg::Graph& graph, fg::Texture depth, const HostConventi
   return pass.store("target", converted(graph, "depth", VK_FORMAT_R32_SFLOAT, depth));
 }
 
-fg::Texture convertNormal(fg::Graph& graph, fg::Texture normal, const HostConventions& conventions, fg::Buffer host) {
+fg::Texture convertNormal(StageGraph graph, fg::Texture normal, const HostConventions& conventions, fg::Buffer host) {
   using Normal = HostConventions::Normal;
   const Normal kind = conventions.normal;
   fg::PassBuilder pass = convert(graph, "normal", shaders::convertInputNormal, normal, host);
@@ -48,20 +48,20 @@ struct ValueChange {
   bool reversed = false;
 };
 
-fg::PassBuilder convertValues(fg::Graph& graph, const std::string& what, const fg::Shader& shader, fg::Texture source,
+fg::PassBuilder convertValues(StageGraph graph, const std::string& what, const fg::Shader& shader, fg::Texture source,
                               fg::Buffer host, const ValueChange& change) {
   fg::PassBuilder pass = convert(graph, what, shader, source, host);
   pass.specialize("kBack", change.back).specialize("kExposed", change.exposed).specialize("kReversed", change.reversed);
   return pass;
 }
 
-fg::Texture convertMotion(fg::Graph& graph, fg::Texture motion, bool reversed, fg::Buffer host) {
+fg::Texture convertMotion(StageGraph graph, fg::Texture motion, bool reversed, fg::Buffer host) {
   // Single precision: halves are too coarse for motion in units of the image's size (UV).
   return convertValues(graph, "motion", shaders::convertInputValuesSingle, motion, host, {.reversed = reversed})
       .store("target", converted(graph, "motion", VK_FORMAT_R32G32B32A32_SFLOAT, motion));
 }
 
-fg::Texture convertColour(fg::Graph& graph, const std::string& what, fg::Texture source, bool exposed,
+fg::Texture convertColour(StageGraph graph, const std::string& what, fg::Texture source, bool exposed,
                           fg::Buffer host) {
   return convertValues(graph, what, shaders::convertInputValues, source, host, {.exposed = exposed})
       .store("target", converted(graph, what, kColour, source));
@@ -95,7 +95,7 @@ HostConstants hostConstants(const glm::mat4& projection, float exposure, glm::iv
           .standOff = orthographic ? static_cast<float>(standOff(projection)) : 0.0F};
 }
 
-DenoiserInputs addConvertInputs(fg::Graph& graph, DenoiserInputs inputs, const HostConventions& conventions,
+DenoiserInputs addConvertInputs(StageGraph graph, DenoiserInputs inputs, const HostConventions& conventions,
                                 fg::Buffer host) {
   const bool all = conventions.rectangle;
   if (all || conventions.orthographic || conventions.depth != HostConventions::Depth::Linear) {
@@ -107,13 +107,8 @@ DenoiserInputs addConvertInputs(fg::Graph& graph, DenoiserInputs inputs, const H
   if (all || conventions.motionDepthReversed) {
     inputs.motion = convertMotion(graph, inputs.motion, conventions.motionDepthReversed, host);
   }
-  if (all || conventions.preExposed) {
-    inputs.lighting = convertColour(graph, "lighting", inputs.lighting, true, host);
-  }
+  inputs = addConvertLight(graph, inputs, conventions, host);
   if (all) inputs.albedo = convertColour(graph, "albedo", inputs.albedo, false, host);
-  if (all && inputs.confidence.valid()) {
-    inputs.confidence = convertColour(graph, "confidence", inputs.confidence, false, host);
-  }
   if (all && inputs.objectId.valid()) {
     inputs.objectId = convert(graph, "object numbers", shaders::convertInputNumbers, inputs.objectId, host)
                           .store("target", converted(graph, "object numbers", VK_FORMAT_R32_UINT, inputs.objectId));
@@ -121,7 +116,18 @@ DenoiserInputs addConvertInputs(fg::Graph& graph, DenoiserInputs inputs, const H
   return inputs;
 }
 
-fg::Texture addConvertResult(fg::Graph& graph, fg::Texture denoised, fg::Texture output, fg::Buffer host) {
+DenoiserInputs addConvertLight(StageGraph graph, DenoiserInputs inputs, const HostConventions& conventions,
+                               fg::Buffer host) {
+  if (conventions.rectangle || conventions.preExposed) {
+    inputs.lighting = convertColour(graph, "lighting", inputs.lighting, true, host);
+  }
+  if (conventions.rectangle && inputs.confidence.valid()) {
+    inputs.confidence = convertColour(graph, "confidence", inputs.confidence, false, host);
+  }
+  return inputs;
+}
+
+fg::Texture addConvertResult(StageGraph graph, fg::Texture denoised, fg::Texture output, fg::Buffer host) {
   return convertValues(graph, "result", resultShader(graph.textureDesc(output).format), denoised, host,
                        {.back = true, .exposed = true})
       .store("target", output);

@@ -7,6 +7,7 @@
 
 #include "framegraph/declare/graph.h"
 #include "passes/inputs.h"
+#include "passes/stage_graph.h"
 #include "shaders/constants/host.h"
 
 namespace walr {
@@ -65,14 +66,19 @@ HostConstants hostConstants(const glm::mat4& projection, float exposure, glm::iv
 /// @param inputs as the host writes them
 /// @param host   upload of `HostConstants`; not used if `convertsInputs()` is false
 /// @returns inputs by the project's conventions
-DenoiserInputs addConvertInputs(fg::Graph& graph, DenoiserInputs inputs, const HostConventions& conventions,
+DenoiserInputs addConvertInputs(StageGraph graph, DenoiserInputs inputs, const HostConventions& conventions,
                                 fg::Buffer host);
+
+/// The same for a light that has the guides in common with another: convert its lighting and confidence only.
+/// @param inputs the other light's converted inputs, with this light's lighting and confidence
+DenoiserInputs addConvertLight(StageGraph graph, DenoiserInputs inputs, const HostConventions& conventions,
+                               fg::Buffer host);
 
 /// Multiply the result by the exposure of the frame and write it to its place, rounded to the nearest value of its
 /// format.
 /// @param denoised RGBA16F
 /// @param output   texture to write to, of one of `kResultFormats`
 /// @returns the output's new version
-fg::Texture addConvertResult(fg::Graph& graph, fg::Texture denoised, fg::Texture output, fg::Buffer host);
+fg::Texture addConvertResult(StageGraph graph, fg::Texture denoised, fg::Texture output, fg::Buffer host);
 
 }  // namespace walr

@@ -68,6 +68,7 @@ struct Method {
   std::string_view description;
   std::unique_ptr<Denoiser> (*make)(const Method& method);
   bool takesSparseLight = false;
+  bool sharesGuides = true;
 };
 
 /// @throws std::invalid_argument if a method needs light at every pixel and not every pixel has it
@@ -102,9 +103,15 @@ class DenoiserOf final : public Denoiser {
                                 std::string(kFormerPresets<Settings>));
   }
 
+  [[nodiscard]] bool sharesGuides() const override { return method_.sharesGuides; }
+
   fg::Texture add(StageGraph graph, const DenoiserInputs& inputs, fg::Texture output) override {
     checkSettings();
     checkLight(method_, inputs.conventions.light);
+    if (graph.shared() != nullptr && !method_.sharesGuides) {
+      throw std::invalid_argument("method '" + std::string(method_.name) +
+                                  "' has no guides that lights could share: make a denoiser for each light");
+    }
     DenoiserInputs described = inputs;
     described.scene = common(inputs.scene, scene_);
     const fg::Texture denoised = kAdd(graph, described, output, settings_);
@@ -145,7 +152,7 @@ constexpr std::array kMethods{
     Method{"joint_bilateral", "Joint bilateral filter with temporal accumulation",
            make<JointBilateralSettings, addJointBilateral>},
     Method{"accumulate", "Temporal accumulation alone", make<AccumulateSettings, addAccumulate>, true},
-    Method{"none", "The input as it is", make<NoSettings, addNone>},
+    Method{"none", "The input as it is", make<NoSettings, addNone>, false, false},
 };
 
 const Method& findMethod(std::string_view name) {

@@ -20,7 +20,7 @@ std::uint32_t fullWindowTile(std::uint32_t window) {
   return std::max(static_cast<std::uint32_t>(std::min(side, kLargestTile)) / 8 * 8, 8U);
 }
 
-fg::Texture addFullWindowRegression(fg::Graph& graph, fg::Buffer frame, fg::Texture accumulated, const Guides& guides,
+fg::Texture addFullWindowRegression(StageGraph graph, fg::Buffer frame, fg::Texture accumulated, const Guides& guides,
                                     fg::Texture output, const FullWindowSettings& settings) {
   settings.edgeStopping.check();
   if (settings.window % 2 == 0) {

@@ -7,6 +7,7 @@
 #include "passes/prepare_guides.h"
 #include "passes/regularisation.h"
 #include "passes/settings.h"
+#include "passes/stage_graph.h"
 
 namespace walr {
 
@@ -40,7 +41,7 @@ std::uint32_t fullWindowTile(std::uint32_t window);
 /// @returns the output's new version: filtered radiance; the pass-through at sky and pixels without a diffuse lobe;
 /// black where the window holds no sample
 /// @throws std::invalid_argument for settings outside their range
-fg::Texture addFullWindowRegression(fg::Graph& graph, fg::Buffer frame, fg::Texture accumulated, const Guides& guides,
+fg::Texture addFullWindowRegression(StageGraph graph, fg::Buffer frame, fg::Texture accumulated, const Guides& guides,
                                     fg::Texture output, const FullWindowSettings& settings = {});
 
 }  // namespace walr

@@ -33,7 +33,7 @@ fg::Extent halved(fg::Extent extent) {
   return gridExtent(extent, 2);
 }
 
-Channels channels(fg::Graph& graph, const std::string& name, fg::Extent extent, std::uint32_t count) {
+Channels channels(StageGraph graph, const std::string& name, fg::Extent extent, std::uint32_t count) {
   const std::uint64_t bytes = kHalfBytes * count * extent.width * extent.height;
   if (bytes > kLargestBuffer) {
     throw std::invalid_argument("method flnr needs " + std::to_string(bytes) + " bytes for '" + name +

@@ -21,7 +21,7 @@ struct GuideTexture {
   fg::Texture previous;
 };
 
-GuideTexture guideTexture(fg::Graph& graph, const std::string& name, const fg::TextureDesc& desc, bool keep) {
+GuideTexture guideTexture(StageGraph graph, const std::string& name, const fg::TextureDesc& desc, bool keep) {
   if (!keep) return {graph.texture(name, desc), {}};
   const fg::History history = graph.history(name, desc);
   return {history.current, history.previous};
@@ -83,7 +83,7 @@ void readGBuffer(fg::PassBuilder& pass, const DenoiserInputs& inputs, const Prep
       .sampleIf(isMasked(settings), "albedo", inputs.albedo, inputs.normal);
 }
 
-Guides writeGuides(fg::Graph& graph, fg::PassBuilder& pass, fg::Extent extent, const GuideNeeds& needs) {
+Guides writeGuides(StageGraph graph, fg::PassBuilder& pass, fg::Extent extent, const GuideNeeds& needs) {
   Guides guides;
   const fg::TextureDesc word{VK_FORMAT_R32_UINT, extent};
   const GuideTexture depth = guideTexture(graph, "guides.depth", word, needs.history);

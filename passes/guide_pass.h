@@ -1,6 +1,7 @@
 #pragma once
 
 #include "passes/prepare_guides.h"
+#include "passes/stage_graph.h"
 #include "shaders/constants/prepare_guides.h"
 
 /// The parts of a pass that prepares guides (guides.glsl), alone or before other work on the same pixels.
@@ -17,6 +18,6 @@ PrepareGuidesConstants guideConstants(const fg::Graph& graph, const DenoiserInpu
 void readGBuffer(fg::PassBuilder& pass, const DenoiserInputs& inputs, const PrepareGuidesSettings& settings);
 
 /// Declare what store_guides.glsl writes, and specialize what only guides need that are written.
-Guides writeGuides(fg::Graph& graph, fg::PassBuilder& pass, fg::Extent extent, const GuideNeeds& needs);
+Guides writeGuides(StageGraph graph, fg::PassBuilder& pass, fg::Extent extent, const GuideNeeds& needs);
 
 }  // namespace walr

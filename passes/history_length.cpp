@@ -4,7 +4,7 @@
 
 namespace walr {
 
-fg::Texture addHistoryLength(fg::Graph& graph, fg::Texture accumulated, std::uint32_t channel, fg::Texture target) {
+fg::Texture addHistoryLength(StageGraph graph, fg::Texture accumulated, std::uint32_t channel, fg::Texture target) {
   const bool packed = graph.textureDesc(accumulated).format == VK_FORMAT_R32_UINT;
   fg::PassBuilder pass = graph.compute("history length", shaders::historyLength({.packed = packed}));
   pass.sample("accumulated", accumulated).dispatch(graph.textureDesc(accumulated).extent);

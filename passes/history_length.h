@@ -4,6 +4,7 @@
 #include <string>
 
 #include "framegraph/declare/graph.h"
+#include "passes/stage_graph.h"
 
 namespace walr {
 
@@ -15,6 +16,6 @@ inline constexpr VkFormat kHistoryLengthFormat = VK_FORMAT_R16_SFLOAT;
 /// @param channel     of RGBA16F: the one that holds the length
 /// @param target      of `kHistoryLengthFormat` and the extent of `accumulated`
 /// @returns the target's new version
-fg::Texture addHistoryLength(fg::Graph& graph, fg::Texture accumulated, std::uint32_t channel, fg::Texture target);
+fg::Texture addHistoryLength(StageGraph graph, fg::Texture accumulated, std::uint32_t channel, fg::Texture target);
 
 }  // namespace walr

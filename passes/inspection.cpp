@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "passes/history_length.h"
+#include "passes/stage_graph.h"
 #include "passes/text.h"
 #include "shaders/shaders.h"
 
@@ -28,7 +29,7 @@ std::uint64_t Counter::value(std::span<const std::uint32_t> buffer) const {
   return sum;
 }
 
-void Inspection::offer(fg::Graph& graph, std::span<const ViewInfo> views, fg::Extent extent, const DeclareView& declare,
+void Inspection::offer(StageGraph graph, std::span<const ViewInfo> views, fg::Extent extent, const DeclareView& declare,
                        StageIteration iteration) {
   for (std::uint32_t i = 0; i < views.size(); ++i) {
     const ViewInfo& info = views[i];
@@ -55,7 +56,7 @@ void Inspection::offer(fg::Graph& graph, std::span<const ViewInfo> views, fg::Ex
   }
 }
 
-void Inspection::count(fg::Graph& graph, const ViewInfo& view, const std::string& suffix, fg::Texture texture) {
+void Inspection::count(StageGraph graph, const ViewInfo& view, const std::string& suffix, fg::Texture texture) {
   if (words_ + kComponents.size() > kCounterWords) throw std::logic_error("too many counters for their buffer");
   if (words_ == 0) {
     fg::PassBuilder clear = graph.compute("clear counters", shaders::countClear);
@@ -74,7 +75,7 @@ void Inspection::count(fg::Graph& graph, const ViewInfo& view, const std::string
   words_ += static_cast<std::uint32_t>(kComponents.size());
 }
 
-void Inspection::offerHistoryLength(fg::Graph& graph, fg::Texture accumulated, std::uint32_t channel) {
+void Inspection::offerHistoryLength(StageGraph graph, fg::Texture accumulated, std::uint32_t channel) {
   if (!historyLength_.valid()) return;
   historyLength_ = addHistoryLength(graph, accumulated, channel, historyLength_);
   historyLengthWritten_ = true;

@@ -16,6 +16,8 @@
 /// pass, no texture and no branch in any shader.
 namespace walr {
 
+class StageGraph;
+
 /// A counter: components of a view that hold a count at each pixel, summed over all pixels.
 struct CounterInfo {
   std::string_view name;
@@ -94,12 +96,12 @@ class Inspection {
   /// Called by a stage: add a pass for each of its wanted views.
   /// @param views   in the order of `kView` of the stage's shader, which writes `outView`
   /// @param extent  of the inputs
-  void offer(fg::Graph& graph, std::span<const ViewInfo> views, fg::Extent extent, const DeclareView& declare,
+  void offer(StageGraph graph, std::span<const ViewInfo> views, fg::Extent extent, const DeclareView& declare,
              StageIteration iteration = {});
 
   /// Called by the stage that accumulates light: write the history length, if it is wanted.
   /// @param channel see `addHistoryLength`
-  void offerHistoryLength(fg::Graph& graph, fg::Texture accumulated, std::uint32_t channel);
+  void offerHistoryLength(StageGraph graph, fg::Texture accumulated, std::uint32_t channel);
 
   /// Called by the stage that evaluates the light at the normals of pixels: write its slopes, if they are wanted.
   /// @param declare declares the pass, all but the texture
@@ -113,7 +115,7 @@ class Inspection {
   void requireViews() const;
 
  private:
-  void count(fg::Graph& graph, const ViewInfo& view, const std::string& suffix, fg::Texture texture);
+  void count(StageGraph graph, const ViewInfo& view, const std::string& suffix, fg::Texture texture);
 
   std::vector<DebugView> views_;
   fg::Texture historyLength_;

@@ -4,7 +4,7 @@
 
 namespace walr {
 
-ObjectIds addObjectIds(fg::Graph& graph, const DenoiserInputs& inputs, const Guides& guides) {
+ObjectIds addObjectIds(StageGraph graph, const DenoiserInputs& inputs, const Guides& guides) {
   const fg::Extent extent = graph.textureDesc(inputs.objectId).extent;
   const fg::History objects = graph.history("objects", {VK_FORMAT_R32_UINT, extent});
   fg::PassBuilder pass = graph.compute("keep object ids", shaders::objectIds);

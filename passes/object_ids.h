@@ -3,6 +3,7 @@
 #include "framegraph/declare/graph.h"
 #include "passes/inputs.h"
 #include "passes/prepare_guides.h"
+#include "passes/stage_graph.h"
 
 namespace walr {
 
@@ -14,6 +15,6 @@ struct ObjectIds {
 };
 
 /// Keep the host's object ids for the next frame; `inputs.objectId` must be valid.
-ObjectIds addObjectIds(fg::Graph& graph, const DenoiserInputs& inputs, const Guides& guides);
+ObjectIds addObjectIds(StageGraph graph, const DenoiserInputs& inputs, const Guides& guides);
 
 }  // namespace walr

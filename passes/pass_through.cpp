@@ -4,7 +4,7 @@
 
 namespace walr {
 
-fg::Texture addPassThrough(fg::Graph& graph, fg::Texture lighting, fg::Texture output) {
+fg::Texture addPassThrough(StageGraph graph, fg::Texture lighting, fg::Texture output) {
   fg::PassBuilder pass = graph.compute("pass through", shaders::passThrough);
   pass.sample("lighting", lighting).dispatch(graph.textureDesc(lighting).extent);
   return pass.store("outImage", output);

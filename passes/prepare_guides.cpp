@@ -1,12 +1,15 @@
 #include "passes/prepare_guides.h"
 
 #include "passes/guide_pass.h"
+#include "passes/shared_guides.h"
 #include "shaders/shaders.h"
 
 namespace walr {
 
 Guides addPrepareGuides(StageGraph graph, const DenoiserInputs& inputs, const PrepareGuidesSettings& settings,
                         const GuideNeeds& needs) {
+  if (graph.shared() != nullptr && graph.shared()->prepared())
+    return graph.shared()->guidesFor({settings, needs, inputs.scene});
   offerGuideViews(graph, inputs, settings);
   const fg::Extent extent = graph->textureDesc(inputs.depth).extent;
   fg::PassBuilder pass = graph->compute(
@@ -17,7 +20,9 @@ Guides addPrepareGuides(StageGraph graph, const DenoiserInputs& inputs, const Pr
       .constants(guideConstants(graph, inputs, settings, needs))
       .texels(extent)
       .dispatch(extent);
-  return writeGuides(graph, pass, extent, needs);
+  const Guides guides = writeGuides(graph, pass, extent, needs);
+  if (graph.shared() != nullptr) graph.shared()->keep({settings, needs, inputs.scene}, guides);
+  return guides;
 }
 
 }  // namespace walr

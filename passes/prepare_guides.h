@@ -16,6 +16,8 @@ struct PrepareGuidesSettings {
   float tangentTolerance = 0.25F;
   float normalAgreement = 0.3F;
 
+  friend bool operator==(const PrepareGuidesSettings&, const PrepareGuidesSettings&) = default;
+
   void visit(SettingVisitor& v) {
     v.visit({"guides.albedo-threshold",
              "Albedo below which, in every channel, a pixel has no diffuse lobe and is treated like sky; 0 leaves the "
@@ -37,6 +39,8 @@ struct PrepareGuidesSettings {
 struct AmbientOcclusionSettings {
   float radius = 0.075F;
   std::uint32_t rings = 4;
+
+  friend bool operator==(const AmbientOcclusionSettings&, const AmbientOcclusionSettings&) = default;
 
   void visit(SettingVisitor& v) {
     v.visit({"occlusion.radius", "Distance that the search for occluders reaches", "fraction of the image's height",
@@ -66,9 +70,13 @@ struct GuideNeeds {
   bool geometricNormal = true;
   bool history = true;  ///< Last frame's depth, and geometric normal where there is one.
   std::optional<AmbientOcclusionSettings> occlusion = {};  ///< Given, for filters over blocks or cells: see `Guides`.
+
+  friend bool operator==(const GuideNeeds&, const GuideNeeds&) = default;
 };
 
-/// Convert the host's G-buffer once into the guides that all later stages read.
+/// Convert the host's G-buffer once into the guides that all later stages read. Where lights share guides
+/// (`SharedGuides`), only the first one's are made.
+/// @throws std::invalid_argument if the guides of the first light were made with other settings
 Guides addPrepareGuides(StageGraph graph, const DenoiserInputs& inputs, const PrepareGuidesSettings& settings = {},
                         const GuideNeeds& needs = {});
 

@@ -17,6 +17,8 @@ struct SceneDescription {
   /// Every pixel shows the same surface in every frame until the history is reset: nothing has to be reprojected.
   [[nodiscard]] bool still() const { return !cameraMotion && !objectMotion && !jitter && !resizing; }
 
+  friend bool operator==(const SceneDescription&, const SceneDescription&) = default;
+
   void visit(SettingVisitor& v) {
     v.visit({"scene.camera-motion", "The camera moves", "", 0, 1, "scene"}, cameraMotion);
     v.visit({"scene.object-motion", "Anything but the camera moves; off leaves the motion texture unread", "", 0, 1,

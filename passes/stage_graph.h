@@ -1,31 +1,69 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
+#include <string_view>
 
 #include "framegraph/declare/graph.h"
 #include "passes/inspection.h"
 
 namespace walr {
 
-/// The graph that a stage adds its passes to, and optionally the views and counters that a caller wants of it. Refers
-/// to both, which must outlive it.
+class SharedGuides;
+
+/// One light of several in a graph.
+struct SharedLight {
+  SharedGuides* guides = nullptr;  ///< What the lights share; null if there is one light.
+  /// What the names of its passes, textures and histories begin with, so that no two lights have the same. Empty for
+  /// the first light. It must outlive the `StageGraph`.
+  std::string_view prefix = {};
+};
+
+/// The graph that a stage adds its passes to, and optionally the views and counters that a caller wants of it, and what
+/// several lights share. Refers to all of them, which must outlive it.
 class StageGraph {
  public:
-  StageGraph(fg::Graph& graph) : graph_(&graph) {}
-  StageGraph(fg::Graph& graph, Inspection& inspection) : graph_(&graph), inspection_(&inspection) {}
+  using Where = fg::SourceLocation;
 
-  fg::Graph* operator->() const { return graph_; }
-  operator fg::Graph&() const { return *graph_; }
+  StageGraph(fg::Graph& graph) : graph_(&graph) {}
+  StageGraph(fg::Graph& graph, Inspection& inspection, const SharedLight& light = {})
+      : graph_(&graph), inspection_(&inspection), light_(light) {}
+
+  const StageGraph* operator->() const { return this; }
+  operator const fg::Graph&() const { return *graph_; }
+
+  /// What the lights of a view share; null if there is one light.
+  [[nodiscard]] SharedGuides* shared() const { return light_.guides; }
+
+  /// As the functions of `fg::Graph`, with the light's prefix before the name.
+  fg::Texture texture(const std::string& name, const fg::TextureDesc& desc, Where where = Where::current()) const {
+    return graph_->texture(named(name), desc, where);
+  }
+  fg::Buffer buffer(const std::string& name, const fg::BufferDesc& desc, Where where = Where::current()) const {
+    return graph_->buffer(named(name), desc, where);
+  }
+  fg::Buffer upload(const std::string& name, std::span<const std::byte> contents,
+                    Where where = Where::current()) const {
+    return graph_->upload(named(name), contents, where);
+  }
+  fg::History history(const std::string& name, const fg::TextureDesc& desc, Where where = Where::current()) const {
+    return graph_->history(named(name), desc, where);
+  }
+  fg::PassBuilder compute(const std::string& name, const fg::Shader& shader, Where where = Where::current()) const {
+    return graph_->compute(named(name), shader, where);
+  }
+  [[nodiscard]] const fg::TextureDesc& textureDesc(fg::Texture texture) const { return graph_->textureDesc(texture); }
 
   /// Offer a stage's views: see `Inspection::offer`. Adds nothing without an `Inspection`.
   void offer(std::span<const ViewInfo> views, fg::Extent extent, const Inspection::DeclareView& declare,
              StageIteration iteration = {}) const {
-    if (inspection_ != nullptr) inspection_->offer(*graph_, views, extent, declare, iteration);
+    if (inspection_ != nullptr) inspection_->offer(*this, views, extent, declare, iteration);
   }
   /// Offer the mean over time of the method's light: see `Inspection::offerHistoryLength`.
   void offerHistoryLength(fg::Texture accumulated, std::uint32_t channel = 3) const {
-    if (inspection_ != nullptr) inspection_->offerHistoryLength(*graph_, accumulated, channel);
+    if (inspection_ != nullptr) inspection_->offerHistoryLength(*this, accumulated, channel);
   }
   /// Offer the slopes of the method's light over the normal: see `Inspection::offerLightDirection`.
   void offerLightDirection(const Inspection::DeclareView& declare) const {
@@ -41,8 +79,11 @@ class StageGraph {
   }
 
  private:
+  [[nodiscard]] std::string named(const std::string& name) const { return std::string(light_.prefix) + name; }
+
   fg::Graph* graph_;
   Inspection* inspection_ = nullptr;
+  SharedLight light_;
 };
 
 }  // namespace walr

@@ -13,7 +13,7 @@ namespace walr {
 namespace {
 
 /// Declare what every pass of the filter reads.
-fg::PassBuilder filterPass(fg::Graph& graph, std::string name, const fg::Shader& shader, fg::Buffer frame,
+fg::PassBuilder filterPass(StageGraph graph, std::string name, const fg::Shader& shader, fg::Buffer frame,
                            fg::Texture colour, const Guides& guides, const SvgfFilterSettings& settings) {
   fg::PassBuilder pass = graph.compute(std::move(name), shader);
   pass.uniform("frameConstants", frame)
@@ -37,7 +37,7 @@ fg::Extent tileThreads(fg::Extent pixels, std::uint32_t spacing) {
   return {gridExtent(pixels, area).width * area, gridExtent(pixels, area).height * area};
 }
 
-fg::Texture colourTexture(fg::Graph& graph, fg::Texture like, std::string name) {
+fg::Texture colourTexture(StageGraph graph, fg::Texture like, std::string name) {
   return graph.texture(std::move(name), {VK_FORMAT_R16G16B16A16_SFLOAT, graph.textureDesc(like).extent});
 }
 
@@ -118,7 +118,7 @@ fg::Texture addSvgfSingleFrameVariance(StageGraph graph, fg::Buffer frame, fg::T
   return pass.store("outColour", colourTexture(graph, lighting, "svgf.variance"));
 }
 
-fg::Texture addSvgfAtrous(fg::Graph& graph, fg::Buffer frame, fg::Texture colour, const Guides& guides,
+fg::Texture addSvgfAtrous(StageGraph graph, fg::Buffer frame, fg::Texture colour, const Guides& guides,
                           fg::Texture feedback, const SvgfFilterSettings& settings) {
   const std::vector<Kernel> kernels = kernelsOf(settings);
   if (settings.feedback > kernels.size()) {

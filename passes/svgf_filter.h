@@ -80,7 +80,7 @@ fg::Texture addSvgfSingleFrameVariance(StageGraph graph, fg::Buffer frame, fg::T
 /// pass-through
 /// @throws std::invalid_argument where `settings.feedback` exceeds the number of iterations, or where the iterations
 ///         reach too far for a full window
-fg::Texture addSvgfAtrous(fg::Graph& graph, fg::Buffer frame, fg::Texture colour, const Guides& guides,
+fg::Texture addSvgfAtrous(StageGraph graph, fg::Buffer frame, fg::Texture colour, const Guides& guides,
                           fg::Texture feedback, const SvgfFilterSettings& settings = {});
 
 }  // namespace walr

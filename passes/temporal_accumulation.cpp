@@ -9,6 +9,7 @@
 
 #include "passes/guide_pass.h"
 #include "passes/reprojection.h"
+#include "passes/shared_guides.h"
 #include "shaders/constants/guides_and_accumulation.h"
 #include "shaders/constants/temporal_accumulation.h"
 #include "shaders/shaders.h"
@@ -37,6 +38,7 @@ struct Stage {
   fg::Extent extent;  ///< Of the image.
   fg::History accumulated;
   std::optional<Antilag> antilag;  ///< Where the stage has it.
+  fg::Texture givenTaps = {};      ///< Taps that another light has kept; not valid if the stage finds them itself.
 };
 
 Stage stageOf(StageGraph graph, fg::Extent extent, const DenoiserInputs& inputs, const Guides& guides,
@@ -57,6 +59,10 @@ fg::PassBuilder newPass(const Stage& stage, const std::string& name, Role role) 
   return stage.graph->compute(name, shaderFor(role, stage.antilag.has_value(), stage.settings.storage));
 }
 
+TapTests tapTests(const TemporalAccumulationSettings& settings) {
+  return {settings.rejection, settings.planeTolerance, settings.normalThreshold, settings.dilateMotion};
+}
+
 TemporalAccumulationConstants constantsOf(const TemporalAccumulationSettings& settings) {
   return {settings.maxHistory, settings.planeTolerance, settings.normalThreshold};
 }
@@ -71,6 +77,11 @@ void readInputs(const Stage& stage, fg::PassBuilder& pass, Role role) {
   pass.uniform("frameConstants", stage.inputs.frame)
       .specialize("kBicubicHistory", settings.historyFilter == HistoryFilter::Bicubic);
   const StandIns standIns{.colour = stage.inputs.lighting, .number = stage.guides.depth};
+  if (role == Role::MeanAndTaps) {
+    const bool given = stage.givenTaps.valid();
+    if (given) reprojection = {MotionSource::Camera, HistoryRejection::None, false};  // Reads nothing.
+    pass.specialize("kTapsGiven", given).sampleIf(given, "givenTaps", stage.givenTaps, standIns.number);
+  }
   readReprojection(pass, stage.inputs, stage.guides, reprojection, standIns);
   readConfidence(pass, stage.inputs.confidence, stage.inputs, standIns);
   if (!stage.keepTaps || role == Role::View) pass.specialize("kStill", reprojection.motion == MotionSource::None);
@@ -118,6 +129,9 @@ AccumulationWithTaps storeMeanAndTaps(const Stage& stage, fg::PassBuilder& pass,
   result.mean = storeMean(stage, pass);
   pass.specialize("kKeepPassThrough", antialiasing == LightStorage::Packed);
   result.taps = pass.store("outTaps", stage.graph->texture("history taps", {VK_FORMAT_R32_UINT, stage.extent}));
+  if (stage.graph.shared() != nullptr && !stage.givenTaps.valid()) {
+    stage.graph.shared()->keepTaps(tapTests(stage.settings), result.taps);
+  }
   return result;
 }
 
@@ -152,8 +166,8 @@ fg::Texture addTemporalAccumulation(StageGraph graph, const DenoiserInputs& inpu
 AccumulationWithTaps addTemporalAccumulationWithTaps(StageGraph graph, const DenoiserInputs& inputs,
                                                      const Guides& guides, const TemporalAccumulationSettings& settings,
                                                      LightStorage antialiasing, fg::Texture leastAntilag) {
-  const Stage stage =
-      stageOf(graph, graph->textureDesc(guides.depth).extent, inputs, guides, settings, true, leastAntilag);
+  Stage stage = stageOf(graph, graph->textureDesc(guides.depth).extent, inputs, guides, settings, true, leastAntilag);
+  if (graph.shared() != nullptr) stage.givenTaps = graph.shared()->tapsFor(tapTests(settings));
   offerViews(stage);
   fg::PassBuilder pass = declarePass(stage, "temporal accumulation", Role::MeanAndTaps);
   return storeMeanAndTaps(stage, pass, antialiasing);
@@ -181,6 +195,7 @@ GuidesAndAccumulation addGuidesAndAccumulation(StageGraph graph, const DenoiserI
   pass.constants(
       GuidesAndAccumulationConstants{guideConstants(graph, inputs, guideSettings, needs), constantsOf(settings)});
   stage.guides = writeGuides(graph, pass, extent, needs);
+  if (graph.shared() != nullptr) graph.shared()->keep({guideSettings, needs, inputs.scene}, stage.guides);
   readInputs(stage, pass, Role::GuidesMeanAndTaps);
   offerViews(stage);
   return {.guides = stage.guides, .accumulated = storeMeanAndTaps(stage, pass, antialiasing)};

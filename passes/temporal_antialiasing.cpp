@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "passes/reprojection.h"
+#include "passes/shared_guides.h"
 #include "shaders/constants/temporal_antialiasing.h"
 #include "shaders/shaders.h"
 
@@ -23,6 +24,13 @@ const std::vector<ViewInfo>& antialiasingViews() {
        {{"no-resolved-history", "Z"}}},
   };
   return kViews;
+}
+
+/// The object of every pixel: what another light has kept, if there is one.
+ObjectIds objectsOf(StageGraph graph, const DenoiserInputs& inputs, const Guides& guides) {
+  if (graph.shared() == nullptr) return addObjectIds(graph, inputs, guides);
+  if (!graph.shared()->objects()) graph.shared()->keepObjects(addObjectIds(graph, inputs, guides));
+  return *graph.shared()->objects();
 }
 
 /// Declares what a pass reads for reprojection and for the pass-through.
@@ -70,7 +78,7 @@ fg::Texture addTemporalAntialiasing(StageGraph graph, const DenoiserInputs& inpu
       reprojectionOf(inputs.scene, true, settings.rejection, settings.dilateMotion);
   const bool still = reprojection.motion == MotionSource::None;
   const bool objects = !still && settings.objectIds && inputs.objectId.valid();
-  const ObjectIds ids = objects ? addObjectIds(graph, inputs, guides) : ObjectIds{};
+  const ObjectIds ids = objects ? objectsOf(graph, inputs, guides) : ObjectIds{};
   const auto read = [&](fg::PassBuilder& pass, bool view) {
     // A view does not show the pass-through, and so does not read it.
     const fg::Texture light = view ? fg::Texture{} : inputs.lighting;

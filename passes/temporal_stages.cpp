@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include "passes/pass_through.h"
+#include "passes/shared_guides.h"
 
 namespace walr {
 namespace {
@@ -62,7 +63,8 @@ GuidedInput addGuidesWithAccumulation(StageGraph graph, const DenoiserInputs& in
                                       const PrepareGuidesSettings& settings, const GuideNeeds& needs,
                                       const TemporalPlan& plan) {
   const bool allGuides = needs.geometricNormal && needs.history && needs.occlusion.has_value();
-  if (plan.accumulates && plan.keepsTaps && allGuides && canJoinGuides(plan.accumulation)) {
+  const bool haveGuides = graph.shared() != nullptr && graph.shared()->prepared();
+  if (!haveGuides && plan.accumulates && plan.keepsTaps && allGuides && canJoinGuides(plan.accumulation)) {
     const auto [guides, accumulated] = addGuidesAndAccumulation(graph, inputs, settings, needs, plan.accumulation,
                                                                 tapsReader(plan), plan.leastAntilag);
     return {guides, withTaps(accumulated)};
@@ -71,7 +73,7 @@ GuidedInput addGuidesWithAccumulation(StageGraph graph, const DenoiserInputs& in
   return {guides, addAccumulation(graph, inputs, guides, plan)};
 }
 
-fg::Texture filterTarget(fg::Graph& graph, const TemporalPlan& plan, fg::Texture output) {
+fg::Texture filterTarget(StageGraph graph, const TemporalPlan& plan, fg::Texture output) {
   if (!plan.antialiases) return output;
   return graph.texture("filtered", {VK_FORMAT_R16G16B16A16_SFLOAT, graph.textureDesc(output).extent});
 }

@@ -57,13 +57,14 @@ struct GuidedInput {
   Accumulated accumulated;
 };
 
-/// Add guides and temporal accumulation: as one pass where `canJoinGuides` says so and `needs` asks for all guides.
+/// Add guides and temporal accumulation: as one pass where `canJoinGuides` says so, `needs` asks for all guides, and no
+/// other light has made them (`SharedGuides`).
 GuidedInput addGuidesWithAccumulation(StageGraph graph, const DenoiserInputs& inputs,
                                       const PrepareGuidesSettings& settings, const GuideNeeds& needs,
                                       const TemporalPlan& plan);
 
 /// The RGBA16F texture for a filter to write to: the method's output if no stage follows, else a new one.
-fg::Texture filterTarget(fg::Graph& graph, const TemporalPlan& plan, fg::Texture output);
+fg::Texture filterTarget(StageGraph graph, const TemporalPlan& plan, fg::Texture output);
 
 /// Add temporal anti-aliasing, if the plan has it. Otherwise copy the filter's result to the output, unless it is
 /// there.

@@ -101,7 +101,7 @@ float noiseRidge(const WeightedRegressionSettings& settings, std::uint32_t spaci
 }
 
 /// The pass of an iteration, without its outputs.
-fg::PassBuilder declareIteration(fg::Graph& graph, const std::string& name, Role role, const Iteration& iteration,
+fg::PassBuilder declareIteration(StageGraph graph, const std::string& name, Role role, const Iteration& iteration,
                                  fg::Buffer frame, fg::Texture accumulated, LightingAlpha alpha, const Guides& guides,
                                  const WeightedRegressionSettings& settings) {
   static constexpr std::array kBindings{"momentsA", "momentsB", "momentsC", "momentsD"};
@@ -136,7 +136,7 @@ fg::PassBuilder declareIteration(fg::Graph& graph, const std::string& name, Role
 }
 
 /// Write the averages of this iteration into textures of their own.
-Averages writeAverages(fg::Graph& graph, fg::PassBuilder& pass, const StorageLayout& layout, fg::Extent extent,
+Averages writeAverages(StageGraph graph, fg::PassBuilder& pass, const StorageLayout& layout, fg::Extent extent,
                        const std::string& suffix) {
   static constexpr std::array kBindings{"outMomentsA", "outMomentsB", "outMomentsC", "outMomentsD"};
   static constexpr std::array kNames{"moments a", "moments b", "moments c", "moments d"};

@@ -10,6 +10,7 @@
 // VIEW: does the same work and writes one of its intermediate values instead of the result; kAntilag says whether
 // antilag is on.
 // GUIDES: prepares the pixel's guides first (guides.glsl), which saves a pass and reading them back.
+// kTapsGiven: takes motion and accepted taps that another light of the same view has kept.
 // kStill: nothing moves, so that the history of a pixel is the pixel itself.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -57,6 +58,10 @@ layout(rgba16f) uniform writeonly image2D outAccumulated;
 layout(constant_id = 3) const bool kKeepPassThrough = false;  // At pixels without a surface; else kNoSurfaceTaps.
 layout(r32ui) uniform writeonly uimage2D outTaps;
 #endif
+#if defined(KEEP_TAPS) && !defined(GUIDES)
+layout(constant_id = 6) const bool kTapsGiven = false;  // Another light of the frame has found and kept the taps.
+uniform utexture2D givenTaps;
+#endif
 #if defined(ANTILAG) || defined(VIEW)
 uniform sampler2D previousAntilag;
 #endif
@@ -102,13 +107,26 @@ struct ReprojectedHistory {
   int rejected;   // Number of history taps that were rejected.
 };
 
-ReprojectedHistory readHistory(ivec2 p, float z) {
-  if (kStill) return ReprojectedHistory(historyTexel(previousAccumulated, p), vec2(p), 0);
+// The history taps of a pixel at depth `z`, which KEEP_TAPS also keeps.
+HistoryTaps findTaps(ivec2 p, float z) {
+#if defined(KEEP_TAPS) && !defined(GUIDES)
+  if (kTapsGiven) {
+    const uint given = texelFetch(givenTaps, p, 0).x;
+    imageStore(outTaps, p, uvec4(given));
+    return unpackTaps(p, given, frame.previousPixelFromPixel);
+  }
+#endif
   const Reprojection r = reproject(p, z);
   const HistoryTaps taps = historyTaps(p, r, constants.planeTolerance, constants.normalThreshold);
 #ifdef KEEP_TAPS
   imageStore(outTaps, p, uvec4(packTaps(r.motion, taps.accepted)));
 #endif
+  return taps;
+}
+
+ReprojectedHistory readHistory(ivec2 p, float z) {
+  if (kStill) return ReprojectedHistory(historyTexel(previousAccumulated, p), vec2(p), 0);
+  const HistoryTaps taps = findTaps(p, z);
   const vec4 mean = kBicubicHistory ? bicubicOfTaps(previousAccumulated, taps) : meanOfTaps(previousAccumulated, taps);
   return ReprojectedHistory(mean, tapPosition(taps), tapsRejected(taps));
 }

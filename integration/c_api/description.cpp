@@ -9,6 +9,7 @@
 
 #include "framegraph/declare/format.h"
 #include "integration/c_api/structs.h"
+#include "integration/setting_info.h"
 
 namespace walr::api {
 namespace {
@@ -88,6 +89,33 @@ std::unique_ptr<PassNode> stageNamed(std::string_view name) {
   return found != passTypes().end() && found->composition ? nullptr : makePass(name);
 }
 
+/// The method of the second light; null if there is one light.
+/// @param first the method of the first light; null for a stage
+std::unique_ptr<Denoiser> secondMethod(const WalrDenoiserInfo& info, const std::string& name, const Denoiser* first) {
+  if (info.light_count > 2) {
+    throw Error(WALR_ERROR_INVALID_ARGUMENT, "WalrDenoiserInfo::light_count is " + std::to_string(info.light_count) +
+                                                 ": lights share guides two at a time; make a further denoiser, see "
+                                                 "WalrDenoiserInfo::shared_with");
+  }
+  if (info.light_count < 2) {
+    if (info.second_preset == nullptr) return nullptr;
+    throw Error(WALR_ERROR_INVALID_ARGUMENT,
+                "WalrDenoiserInfo::second_preset is given, but there is one light: set light_count to 2");
+  }
+  if (first == nullptr) {
+    throw Error(WALR_ERROR_INVALID_ARGUMENT, "stage '" + name +
+                                                 "' has one light: set WalrDenoiserInfo::light_count "
+                                                 "for a whole method");
+  }
+  if (!first->sharesGuides()) {
+    throw Error(WALR_ERROR_INVALID_ARGUMENT,
+                "method '" + name +
+                    "' has no guides that lights could share: leave "
+                    "WalrDenoiserInfo::light_count at 1 and make a denoiser for each light");
+  }
+  return makeDenoiser(name);
+}
+
 VkFormat formatOr(VkFormat format, std::size_t input) {
   const bool usual = format == VK_FORMAT_UNDEFINED && !kHostInputs.at(input).optional;
   return usual ? kHostInputs.at(input).format : format;
@@ -111,6 +139,7 @@ Description::Description(const WalrDenoiserInfo& info, Of of)
     : methodName_(info.method == nullptr ? "walr" : info.method),
       stage_(of == Of::MethodsAndStages ? stageNamed(methodName_) : nullptr),
       method_(stage_ != nullptr ? nullptr : makeDenoiser(methodName_)),
+      second_(secondMethod(info, methodName_, method_.get())),
       extent_(checkedExtent(info.width, info.height)),
       conventions_(checkedConventions(info.conventions)),
       formats_{formatOr(info.lighting_format, 0),  formatOr(info.depth_format, 1),  formatOr(info.normal_format, 2),
@@ -122,6 +151,7 @@ Description::Description(const WalrDenoiserInfo& info, Of of)
       slots_(checkedSlots(info.frames_in_flight)) {
   checkSwitches(info);
   if (info.preset != nullptr) usePreset(info.preset);
+  if (info.second_preset != nullptr) second_->usePreset(info.second_preset);
   checkOrthographic(inputConventions(), hostConventions(), info.lint == VK_TRUE);
   // Refuse wrong formats here and not when the first frame is recorded.
   fg::Graph scratch;
@@ -136,7 +166,9 @@ DenoiseGraph Description::declare(const InspectionWish& wanted) const {
   InspectionWish all = wanted;
   all.historyLength = historyLength_;
   all.lightDirection = lightDirection_;
-  return declareDenoiseGraph(*method_, extent_, inputConventions(), kInnerStates, formats_, hostConventions(), all);
+  return declareDenoiseGraph(
+      *method_, extent_, inputConventions(), kInnerStates, formats_, hostConventions(), all,
+      {.method = second_.get(), .historyLength = historyLength_, .lightDirection = lightDirection_});
 }
 
 ListedGraph Description::list(std::span<const WalrPortFormat> ports, const InspectionWish& wanted) const {
@@ -197,15 +229,38 @@ ListedGraph Description::listStage(std::span<const WalrPortFormat> ports) const 
           .inspection = {}};
 }
 
-Configurable& Description::settings() const {
-  return stage_ != nullptr ? static_cast<Configurable&>(*stage_) : *method_;
+bool Description::namesSecond(std::string_view name) const {
+  return second_ != nullptr && name.starts_with(kSecondLight);
+}
+
+Description::Named Description::named(std::string_view name) const {
+  if (namesSecond(name)) return {second_.get(), name.substr(kSecondLight.size())};
+  return {stage_ != nullptr ? static_cast<Configurable*>(stage_.get()) : method_.get(), name};
+}
+
+void Description::set(std::string_view name, std::string_view value) {
+  const Named target = named(name);
+  target.settings->set(target.name, value);
+  if (second_ != nullptr && target.settings != second_.get()) second_->set(name, value);
+}
+
+std::string Description::setting(std::string_view name) const {
+  const Named target = named(name);
+  for (SettingDescription& setting : describeSettings(*target.settings)) {
+    if (setting.name == target.name) return std::move(setting.value);
+  }
+  throw Error(WALR_ERROR_INVALID_ARGUMENT,
+              "method '" + methodName_ + "' has no setting \"" + std::string(target.name) + "\"");
 }
 
 void Description::usePreset(std::string_view name) {
-  if (stage_ != nullptr) {
+  if (namesSecond(name)) {
+    second_->usePreset(name.substr(kSecondLight.size()));
+  } else if (stage_ != nullptr) {
     stage_->usePreset(name);
   } else {
     method_->usePreset(name);
+    if (second_ != nullptr) second_->usePreset(name);
   }
 }
 

@@ -23,6 +23,9 @@
 
 namespace walr::api {
 
+/// What names of settings and presets of the second light alone begin with.
+inline constexpr std::string_view kSecondLight = "second.";
+
 /// Contents of the upload buffers of one frame.
 struct Constants {
   FrameDescription camera;  ///< Source of `frame`.
@@ -101,9 +104,17 @@ class Description {
   /// Note that a frame was recorded.
   void advance(const FrameStatement& frame);
 
-  [[nodiscard]] Configurable& settings() const;
+  /// Change a setting of all lights, or of the second alone (`kSecondLight`).
+  /// @throws as `Configurable::set` does
+  void set(std::string_view name, std::string_view value);
+  /// Value of a setting of the first light, or of the second.
+  /// @throws Error naming an unknown setting
+  [[nodiscard]] std::string setting(std::string_view name) const;
+  /// Use a preset for all lights, or for the second alone.
   /// @throws std::invalid_argument naming the unknown preset and the known ones
   void usePreset(std::string_view name);
+  /// Whether there are two lights.
+  [[nodiscard]] bool twoLights() const { return second_ != nullptr; }
   /// Name of the method or the stage.
   [[nodiscard]] const std::string& methodName() const { return methodName_; }
   [[nodiscard]] fg::Extent extent() const { return extent_; }
@@ -118,6 +129,13 @@ class Description {
   [[nodiscard]] std::uint32_t slot() const { return static_cast<std::uint32_t>(frames_ % slots_); }
 
  private:
+  /// The settings that a name is about, without `kSecondLight` before it.
+  struct Named {
+    Configurable* settings;
+    std::string_view name;
+  };
+  [[nodiscard]] Named named(std::string_view name) const;
+  [[nodiscard]] bool namesSecond(std::string_view name) const;
   [[nodiscard]] ListedGraph listStage(std::span<const WalrPortFormat> ports) const;
   [[nodiscard]] HostConventions hostConventions() const;
   [[nodiscard]] glm::ivec2 checkedOffset(glm::uvec2 offset) const;
@@ -126,6 +144,7 @@ class Description {
   std::string methodName_;
   std::unique_ptr<PassNode> stage_;   ///< Null for a method.
   std::unique_ptr<Denoiser> method_;  ///< Null for a stage.
+  std::unique_ptr<Denoiser> second_;  ///< The method of the second light; null if there is one light.
   fg::Extent extent_;
   WalrConventions conventions_;
   std::array<VkFormat, std::tuple_size_v<decltype(kHostInputs)>> formats_;

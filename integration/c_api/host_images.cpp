@@ -75,6 +75,7 @@ void record(const fg::vk::DeviceContext& device, VkCommandBuffer commandBuffer, 
 }
 
 bool isLighting(std::size_t index) {
+  if (index == kSecondLightingImage) return true;
   return index < kHostInputs.size() && kHostInputs.at(index).texture == &DenoiserInputs::lighting;
 }
 
@@ -87,10 +88,16 @@ const HostStates kInnerStates{
 };
 
 std::string_view imageName(std::size_t index) {
-  if (index == kViewImage) return "view";
-  if (index == kHistoryLengthImage) return kHistoryLengthName;
-  if (index == kLightDirectionImage) return kLightDirectionName;
-  return index == kOutputImage ? kOutputName : kHostInputs.at(index).name;
+  constexpr std::array<std::string_view, kImageCount - kSecondLightingImage> kBesideInputs{kSecondLightingName,
+                                                                                           kSecondConfidenceName,
+                                                                                           kOutputName,
+                                                                                           kSecondOutputName,
+                                                                                           "view",
+                                                                                           kHistoryLengthName,
+                                                                                           kLightDirectionName,
+                                                                                           kSecondHistoryLengthName,
+                                                                                           kSecondLightDirectionName};
+  return index < kHostInputs.size() ? kHostInputs.at(index).name : kBesideInputs.at(index - kSecondLightingImage);
 }
 
 std::size_t imageIndex(std::string_view name) {

@@ -15,17 +15,27 @@
 /// The host's images of one frame, and the barriers between the host's work and the denoiser's.
 namespace walr::api {
 
-/// Arrays of images are ordered like `kHostInputs`, followed by the output, the view, the history length and the light
-/// direction.
-inline constexpr std::size_t kOutputImage = std::tuple_size_v<decltype(kHostInputs)>;
-inline constexpr std::size_t kViewImage = kOutputImage + 1;
+/// Arrays of images are ordered like `kHostInputs`, followed by the inputs of a second light, the outputs of both
+/// lights, the view, and the history lengths and light directions of both lights.
+inline constexpr std::size_t kSecondLightingImage = std::tuple_size_v<decltype(kHostInputs)>;
+inline constexpr std::size_t kSecondConfidenceImage = kSecondLightingImage + 1;
+inline constexpr std::size_t kOutputImage = kSecondConfidenceImage + 1;
+inline constexpr std::size_t kSecondOutputImage = kOutputImage + 1;
+inline constexpr std::size_t kViewImage = kSecondOutputImage + 1;
 inline constexpr std::size_t kHistoryLengthImage = kViewImage + 1;
 inline constexpr std::size_t kLightDirectionImage = kHistoryLengthImage + 1;
-inline constexpr std::size_t kImageCount = kLightDirectionImage + 1;
+inline constexpr std::size_t kSecondHistoryLengthImage = kLightDirectionImage + 1;
+inline constexpr std::size_t kSecondLightDirectionImage = kSecondHistoryLengthImage + 1;
+inline constexpr std::size_t kImageCount = kSecondLightDirectionImage + 1;
 
 /// Whether the denoiser writes an image.
 constexpr bool isWritten(std::size_t index) {
   return index >= kOutputImage;
+}
+
+/// Whether an image with a rectangle may be larger than it; the others are exactly as large.
+constexpr bool mayHoldRectangle(std::size_t index) {
+  return index <= kSecondOutputImage;
 }
 
 /// Name of an image in the C API.

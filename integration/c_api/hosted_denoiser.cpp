@@ -11,7 +11,6 @@
 #include "framegraph/vulkan/physical_device.h"
 #include "framegraph/vulkan/resources.h"
 #include "integration/c_api/structs.h"
-#include "integration/setting_info.h"
 
 namespace walr::api {
 namespace {
@@ -66,21 +65,13 @@ void HostedDenoiser::resize(std::uint32_t width, std::uint32_t height) {
 }
 
 void HostedDenoiser::set(std::string_view name, std::string_view value) {
-  description_.settings().set(name, value);
+  description_.set(name, value);
   stale_ = true;
 }
 
 void HostedDenoiser::usePreset(std::string_view name) {
   description_.usePreset(name);
   stale_ = true;
-}
-
-std::string HostedDenoiser::setting(std::string_view name) {
-  for (SettingDescription& setting : describeSettings(description_.settings())) {
-    if (setting.name == name) return std::move(setting.value);
-  }
-  throw Error(WALR_ERROR_INVALID_ARGUMENT,
-              "method '" + description_.methodName() + "' has no setting \"" + std::string(name) + "\"");
 }
 
 void HostedDenoiser::setView(std::optional<std::string> name) {
@@ -125,6 +116,12 @@ HostedDenoiser::Declared HostedDenoiser::compile(DenoiseGraph graph) const {
   if (!views.empty()) declared.images[kViewImage] = views.front().texture;
   declared.images[kHistoryLengthImage] = declared.graph.historyLength;
   declared.images[kLightDirectionImage] = declared.graph.lightDirection;
+  const SecondLight& second = declared.graph.second;
+  declared.images[kSecondLightingImage] = second.lighting;
+  declared.images[kSecondConfidenceImage] = second.confidence;
+  declared.images[kSecondOutputImage] = second.output;
+  declared.images[kSecondHistoryLengthImage] = second.historyLength;
+  declared.images[kSecondLightDirectionImage] = second.lightDirection;
   for (std::size_t i = 0; i < kImageCount; ++i) {
     if (!declared.images[i].valid()) continue;  // The host has none.
     const fg::PlannedResource& planned = declared.plan.resources[declared.images[i].resource];
@@ -220,13 +217,31 @@ WalrImageRequirements HostedDenoiser::requirements(std::string_view image) {
 }
 
 FrameImages HostedDenoiser::checkedImages(const WalrFrame& frame) const {
-  const std::array<const WalrImage*, kImageCount> given{
-      frame.lighting,   frame.depth,    frame.normal, frame.motion,         frame.albedo,         frame.object_id,
-      frame.confidence, frame.denoised, frame.view,   frame.history_length, frame.light_direction};
+  const std::array<const WalrImage*, kImageCount> given{frame.lighting,
+                                                        frame.depth,
+                                                        frame.normal,
+                                                        frame.motion,
+                                                        frame.albedo,
+                                                        frame.object_id,
+                                                        frame.confidence,
+                                                        frame.second_lighting,
+                                                        frame.second_confidence,
+                                                        frame.denoised,
+                                                        frame.second_denoised,
+                                                        frame.view,
+                                                        frame.history_length,
+                                                        frame.light_direction,
+                                                        frame.second_history_length,
+                                                        frame.second_light_direction};
+  if (!description_.twoLights() && (frame.second_lighting != nullptr || frame.second_denoised != nullptr)) {
+    throw Error(WALR_ERROR_INVALID_ARGUMENT,
+                "WalrFrame has a second light, but the denoiser is for one: create it with "
+                "WalrDenoiserInfo::light_count of 2");
+  }
   FrameImages images{};
   for (std::size_t i = 0; i < kImageCount; ++i) {
     ImageNeeds needs = declared_->needs[i];
-    if (description_.rectangle() && i <= kOutputImage) needs.offset = {frame.offset[0], frame.offset[1]};
+    if (description_.rectangle() && mayHoldRectangle(i)) needs.offset = {frame.offset[0], frame.offset[1]};
     images[i] = checkedImage(i, given[i], needs, device().context().view.queueFamily);
   }
   for (std::size_t i = 0; i < kImageCount; ++i) {

@@ -29,7 +29,7 @@ class HostedDenoiser {
   void resize(std::uint32_t width, std::uint32_t height);
   void set(std::string_view name, std::string_view value);
   void usePreset(std::string_view name);
-  [[nodiscard]] std::string setting(std::string_view name);
+  [[nodiscard]] std::string setting(std::string_view name) const { return description_.setting(name); }
   void prepare();
   [[nodiscard]] WalrImageRequirements requirements(std::string_view image);
   void record(VkCommandBuffer commandBuffer, const WalrFrame& frame);

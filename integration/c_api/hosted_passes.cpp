@@ -20,8 +20,8 @@ HostedPasses::HostedPasses(const WalrDenoiserInfo& info, std::span<const WalrSet
                 "cache yourself");
   }
   for (const WalrSettingValue& setting : settings) {
-    description_.settings().set(requireText(setting.name, "WalrSettingValue::name"),
-                                requireText(setting.value, "WalrSettingValue::value"));
+    description_.set(requireText(setting.name, "WalrSettingValue::name"),
+                     requireText(setting.value, "WalrSettingValue::value"));
   }
   if (info.device != nullptr) device_ = std::make_unique<HostDevice>(info.device);
   graph_ = description_.list(ports, {.counters = info.counters == VK_TRUE, .lint = info.lint == VK_TRUE});

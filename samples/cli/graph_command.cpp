@@ -25,6 +25,7 @@ namespace {
 
 struct GraphOptions {
   MethodOptions method;
+  std::string secondPreset;  ///< Empty: there is one light.
   std::string size = "1920x1080";
   bool json = false;
   bool dot = false;
@@ -90,6 +91,19 @@ void listSettings(Denoiser& method) {
   }
 }
 
+/// The method of the second light; null if there is one light.
+/// @throws UsageError if the method has no guides that lights could share
+std::unique_ptr<Denoiser> makeSecond(const GraphOptions& options) {
+  if (options.secondPreset.empty()) return nullptr;
+  MethodOptions chosen = options.method;
+  chosen.preset = options.secondPreset;
+  std::unique_ptr<Denoiser> second = makeMethod(chosen);
+  if (!second->sharesGuides()) {
+    throw UsageError("--second-preset: method " + options.method.name + " has no guides that lights could share");
+  }
+  return second;
+}
+
 void printGraph(const GraphOptions& options) {
   if (options.listPasses) {
     std::cout << passListing();
@@ -101,7 +115,9 @@ void printGraph(const GraphOptions& options) {
     listSettings(*method);
     return;
   }
-  const DenoiseGraph declared = declareDenoiseGraph(*method, extent, InputConventions{}, kComputeHost);
+  const std::unique_ptr<Denoiser> second = makeSecond(options);
+  const DenoiseGraph declared =
+      declareDenoiseGraph(*method, extent, InputConventions{}, kComputeHost, {}, {}, {}, {.method = second.get()});
   const fg::CompileResult result = fg::compile(declared.graph.desc(), fg::TableMemoryModel());
   if (!result.ok()) {
     throw std::runtime_error("the method's frame graph does not compile:\n" + result.text());
@@ -116,6 +132,10 @@ void registerGraph(CLI::App& program) {
   CLI::App* command = program.add_subcommand(
       "graph", "Print a method's frame-graph plan: passes in order, textures with format and lifetime, memory");
   addMethodOptions(*command, options->method);
+  command
+      ->add_option("--second-preset", options->secondPreset,
+                   "Two lights that share their guides: the preset of the second. Settings count for both")
+      ->type_name("NAME");
   command
       ->add_option("--size", options->size,
                    "Size of the image in pixels, 1 to 16384 each. Memory is computed from a table of formats, so no "

@@ -70,12 +70,13 @@ LightSlopes slopeImages(std::span<const glm::uvec2> texels, int width, int heigh
 
 struct GpuDenoiser::State {
   State(const GpuDevice& gpu, Denoiser& method, fg::Extent extent, const Layout& frameLayout,
-        const InspectionWish& wanted, std::uint32_t framesInFlight, bool objectIds, const fg::vk::Membership& shared)
+        const InspectionWish& wanted, std::uint32_t framesInFlight, bool objectIds, const fg::vk::Membership& shared,
+        Denoiser* second)
       : layout(frameLayout),
         declared(declareDenoiseGraph(
             method, extent, layout.conventions,
             {.inputs = fg::vk::kUploaded, .outputBefore = fg::vk::kOverwritable, .outputAfter = fg::vk::kReadable},
-            formatsOf(objectIds), {}, wanted)),
+            formatsOf(objectIds), {}, wanted, {.method = second})),
         graph(gpu, declared.graph, framesInFlight, shared),
         lighting(makeUpload(gpu, declared.inputs.lighting, framesInFlight)),
         depth(makeUpload(gpu, declared.inputs.depth, framesInFlight)),
@@ -83,6 +84,10 @@ struct GpuDenoiser::State {
         motion(makeUpload(gpu, declared.inputs.motion, framesInFlight)),
         albedo(makeUpload(gpu, declared.inputs.albedo, framesInFlight)),
         output(graph.readBack(declared.output)) {
+    if (second != nullptr) {
+      secondLighting.emplace(makeUpload(gpu, declared.second.lighting, framesInFlight));
+      secondOutput = graph.readBack(declared.second.output);
+    }
     if (objectIds) objectId.emplace(makeUpload(gpu, declared.inputs.objectId, framesInFlight));
     for (const DebugView& view : declared.inspection.views()) views.push_back(graph.readBack(view.texture));
     if (!declared.inspection.counters().empty()) counters = graph.readBack(declared.inspection.counterBuffer());
@@ -95,7 +100,8 @@ struct GpuDenoiser::State {
   }
 
   /// Record and submit a frame.
-  void submit(const PackedFrame& packed, const std::vector<Rgba16>& light);
+  /// @param second the second light; null if there is one
+  void submit(const PackedFrame& packed, const std::vector<Rgba16>& light, const std::vector<Rgba16>* second = nullptr);
   /// Wait for the oldest frame and read it back.
   DenoisedPicture finish();
 
@@ -109,6 +115,8 @@ struct GpuDenoiser::State {
   UploadedTexture albedo;
   std::optional<UploadedTexture> objectId;
   ReadbackGraph::Index output;
+  std::optional<UploadedTexture> secondLighting;
+  std::optional<ReadbackGraph::Index> secondOutput;
   std::vector<ReadbackGraph::Index> views;
   std::optional<ReadbackGraph::Index> counters;
   std::optional<ReadbackGraph::Index> lightDirection;
@@ -124,8 +132,12 @@ std::optional<double> DenoisedPicture::milliseconds() const {
                          [](double sum, const fg::vk::PassTime& time) { return sum + time.milliseconds; });
 }
 
-void GpuDenoiser::State::submit(const PackedFrame& packed, const std::vector<Rgba16>& light) {
+void GpuDenoiser::State::submit(const PackedFrame& packed, const std::vector<Rgba16>& light,
+                                const std::vector<Rgba16>* second) {
   const Frame& frame = packed.frame;
+  if ((second != nullptr) != secondLighting.has_value()) {
+    throw std::logic_error("GpuDenoiser::submit: a denoiser of two lights takes two, and one of one light takes one");
+  }
   if (frame.light != layout.conventions.light) {
     throw std::logic_error("GpuDenoiser::submit: other pixels of the frame have light than the layout says");
   }
@@ -136,6 +148,7 @@ void GpuDenoiser::State::submit(const PackedFrame& packed, const std::vector<Rgb
     graph.executor().resetAllHistory();
   }
   lighting.upload(recorded, light);
+  if (second != nullptr) secondLighting->upload(recorded, *second);
   depth.upload(recorded, frame.depth.values());
   normal.upload(recorded, packed.normal);
   motion.upload(recorded, packed.motion);
@@ -151,7 +164,8 @@ DenoisedPicture GpuDenoiser::State::finish() {
   const auto height = static_cast<int>(extent.height);
   const std::span<const fg::vk::PassTime> times = graph.executor().passTimes(slot);
   DenoisedPicture picture{
-      unpackRgb(graph.read<Rgba16>(output, slot), width, height), {times.begin(), times.end()}, {}, {}, {}, {}};
+      unpackRgb(graph.read<Rgba16>(output, slot), width, height), {}, {times.begin(), times.end()}, {}, {}, {}, {}};
+  if (secondOutput) picture.second = unpackRgb(graph.read<Rgba16>(*secondOutput, slot), width, height);
   for (std::size_t i = 0; i < views.size(); ++i) {
     const auto texels = graph.read<std::array<float, 4>>(views[i], slot);
     picture.views.push_back({declared.inspection.views()[i].name, viewImage(texels, width, height)});
@@ -170,8 +184,9 @@ DenoisedPicture GpuDenoiser::State::finish() {
 
 GpuDenoiser::GpuDenoiser(const GpuDevice& device, Denoiser& method, fg::Extent extent, const Layout& layout,
                          const InspectionWish& wanted, std::uint32_t framesInFlight, bool objectIds,
-                         const fg::vk::Membership& shared)
-    : state_(std::make_unique<State>(device, method, extent, layout, wanted, framesInFlight, objectIds, shared)) {}
+                         const fg::vk::Membership& shared, Denoiser* second)
+    : state_(
+          std::make_unique<State>(device, method, extent, layout, wanted, framesInFlight, objectIds, shared, second)) {}
 GpuDenoiser::~GpuDenoiser() = default;
 GpuDenoiser::GpuDenoiser(GpuDenoiser&&) noexcept = default;
 GpuDenoiser& GpuDenoiser::operator=(GpuDenoiser&&) noexcept = default;
@@ -185,12 +200,18 @@ void GpuDenoiser::submit(PackedFrame packed) {
   state_->frames.push_back(std::move(packed.frame));
 }
 
+void GpuDenoiser::submit(PackedFrame packed, const std::vector<Rgba16>& second) {
+  state_->submit(packed, packed.lighting, &second);
+  state_->frames.push_back(std::move(packed.frame));
+}
+
 std::optional<DenoisedFrame> GpuDenoiser::finish() {
   if (state_->frames.empty()) return std::nullopt;
   DenoisedPicture picture = state_->finish();
   DenoisedFrame denoised;
   denoised.gpuMilliseconds = picture.milliseconds();
   denoised.indirect = std::move(picture.indirect);
+  denoised.direct = std::move(picture.second);
   denoised.views = std::move(picture.views);
   denoised.counters = std::move(picture.counters);
   denoised.slopes = std::move(picture.slopes);
@@ -199,7 +220,7 @@ std::optional<DenoisedFrame> GpuDenoiser::finish() {
   return denoised;
 }
 
-void GpuDenoiser::submit(const PackedFrame& packed, const std::vector<Rgba16>& lighting) {
+void GpuDenoiser::submitLight(const PackedFrame& packed, const std::vector<Rgba16>& lighting) {
   state_->submit(packed, lighting);
 }
 

@@ -20,6 +20,7 @@ namespace walr {
 /// The output of a method for one frame.
 struct DenoisedPicture {
   Image indirect;  ///< 3 components: denoised demodulated diffuse radiance of the light that was submitted.
+  Image second;    ///< The same of the second light; empty if there is one light.
   /// Times of the passes from GPU timestamps, in the order of execution; empty if the queue has no timestamps.
   std::vector<fg::vk::PassTime> passes;
   std::vector<ViewPicture> views;
@@ -50,11 +51,14 @@ class GpuDenoiser {
   /// @param objectIds  whether all frames have object numbers
   /// @param shared  what this denoiser shares with others on the device; see `fg::vk::SharedObjects` for the order of
   ///                their frames
+  /// @param second  the method of a second light that shares the guides of the first; null if there is one light. As
+  ///                with `method`, only this call needs it
   /// @throws fg::vk::Error if the device lacks something that the graph needs
-  /// @throws std::invalid_argument naming a setting of the method that is out of range, or a view that does not exist
+  /// @throws std::invalid_argument naming a setting of the method that is out of range, or a view that does not exist,
+  ///         or saying why lights cannot share guides
   GpuDenoiser(const GpuDevice& device, Denoiser& method, fg::Extent extent, const Layout& layout,
               const InspectionWish& wanted = {}, std::uint32_t framesInFlight = 1, bool objectIds = false,
-              const fg::vk::Membership& shared = {});
+              const fg::vk::Membership& shared = {}, Denoiser* second = nullptr);
   ~GpuDenoiser();
   GpuDenoiser(GpuDenoiser&&) noexcept;
   GpuDenoiser& operator=(GpuDenoiser&&) noexcept;
@@ -63,6 +67,8 @@ class GpuDenoiser {
   /// @throws std::logic_error if `framesInFlight` frames are in flight already; InputError naming a frame whose camera
   ///         is not usable; fg::vk::Error when the device fails
   void submit(PackedFrame packed);
+  /// The same with a second light, for a denoiser of two. `finish` returns it as the frame's direct light.
+  void submit(PackedFrame packed, const std::vector<Rgba16>& second);
   /// Whether `finish` must come before the next `submit`.
   [[nodiscard]] bool full() const;
   /// Wait for the oldest frame in flight only. Returns nullopt if there is none.
@@ -72,7 +78,7 @@ class GpuDenoiser {
   /// Submit the next frame with `lighting` in place of its own. The frame remains the caller's, so that only a picture
   /// comes back: call `finishPicture`, not `finish`.
   /// @throws as `submit`
-  void submit(const PackedFrame& packed, const std::vector<Rgba16>& lighting);
+  void submitLight(const PackedFrame& packed, const std::vector<Rgba16>& lighting);
   /// Wait for the oldest frame in flight, which must exist.
   /// @throws fg::vk::Error when the device fails
   DenoisedPicture finishPicture();

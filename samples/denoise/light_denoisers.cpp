@@ -11,8 +11,10 @@ LightDenoisers::LightDenoisers(const GpuDevice& device, std::span<const LightMet
                                                                                      ? device.pipelineCache()->handle()
                                                                                      : VK_NULL_HANDLE)),
       light_(lights.front().light),
-      first_(device, *lights.front().method, extent, layout, wanted, framesInFlight, objectIds, member()) {
-  if (lights.size() > 1) {
+      together_(lights.size() > 1 && lights[1].method->sharesGuides()),
+      first_(device, *lights.front().method, extent, layout, wanted, framesInFlight, objectIds, member(),
+             together_ ? lights[1].method.get() : nullptr) {
+  if (lights.size() > 1 && !together_) {
     const InspectionWish nothing;
     direct_.emplace(device, *lights[1].method, extent, layout, nothing, framesInFlight, objectIds, member());
   }
@@ -24,12 +26,13 @@ fg::vk::Membership LightDenoisers::member() {
 
 PackedLights LightDenoisers::pack(Frame frame) const {
   PackedLights lights{packFrame(std::move(frame), light_), {}};
-  if (direct_) lights.direct = packLight(lights.packed.frame, Light::Direct);
+  if (direct_ || together_) lights.direct = packLight(lights.packed.frame, Light::Direct);
   return lights;
 }
 
 void LightDenoisers::submit(PackedLights frame) {
-  if (direct_) direct_->submit(frame.packed, frame.direct);
+  if (together_) return first_.submit(std::move(frame.packed), frame.direct);
+  if (direct_) direct_->submitLight(frame.packed, frame.direct);
   first_.submit(std::move(frame.packed));
 }
 

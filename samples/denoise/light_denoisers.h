@@ -26,8 +26,9 @@ struct PackedLights {
   std::vector<Rgba16> direct;  ///< Direct light, if it is denoised beside the indirect light.
 };
 
-/// Denoises one or both lights of frames. Each light has a `GpuDenoiser` of its own, with its own history; they share
-/// pipelines and the memory of transients. The order of calls is that of `GpuDenoiser`.
+/// Denoises one or both lights of frames. Both lights share the guides, which one `GpuDenoiser` prepares once. A method
+/// without guides has a `GpuDenoiser` for each light; they share pipelines and the memory of transients. The pictures
+/// are the same. The order of calls is that of `GpuDenoiser`.
 class LightDenoisers {
  public:
   /// For errors and for the other parameters see `GpuDenoiser`.
@@ -48,9 +49,10 @@ class LightDenoisers {
   fg::vk::Membership member();
 
   std::shared_ptr<fg::vk::SharedObjects> shared_;
-  Light light_;  // Of `first_`.
+  Light light_;    // The first.
+  bool together_;  // `first_` denoises the direct light, too.
   GpuDenoiser first_;
-  std::optional<GpuDenoiser> direct_;  // Where direct light comes second.
+  std::optional<GpuDenoiser> direct_;  // Where direct light comes second and is denoised by itself.
 };
 
 }  // namespace walr

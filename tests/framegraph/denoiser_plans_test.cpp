@@ -6,7 +6,9 @@
 #include <fstream>
 #include <memory>
 #include <set>
+#include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -127,6 +129,46 @@ TEST_P(DenoiserPlansTest, CompilesForEverySceneAndHost) {
     const fg::CompileResult result = fg::compile(declared.graph.desc(), fg::TableMemoryModel());
     EXPECT_TRUE(result.diagnostics.empty()) << choice.front().first << ": " << result.text();
   }
+}
+
+/// Number of passes whose name holds a text.
+std::size_t passesNamed(const fg::GraphDesc& graph, std::string_view text) {
+  return static_cast<std::size_t>(std::ranges::count_if(
+      graph.passes, [&](const fg::PassDecl& pass) { return pass.name.find(text) != std::string::npos; }));
+}
+
+// The second light has the passes of the first but those that prepare guides, under names of their own.
+TEST_P(DenoiserPlansTest, TwoLightsShareTheGuides) {
+  const std::unique_ptr<Denoiser> first = makeDenoiser(GetParam().method);
+  const std::unique_ptr<Denoiser> second = makeDenoiser(GetParam().method);
+  if (!GetParam().preset.empty()) first->usePreset(GetParam().preset);
+  if (!GetParam().preset.empty()) second->usePreset(GetParam().preset);
+  const auto declare = [&] {
+    return declareDenoiseGraph(*first, kExtent, InputConventions{}, kComputeHost, {}, {}, {}, {.method = second.get()});
+  };
+  if (!first->sharesGuides()) {
+    EXPECT_EQ(GetParam().method, "none");
+    EXPECT_THROW((void)declare(), std::invalid_argument);
+    return;
+  }
+  const DenoiseGraph both = declare();
+  const fg::GraphDesc& graph = both.graph.desc();
+  const fg::CompileResult result = fg::compile(graph, fg::TableMemoryModel());
+  ASSERT_TRUE(result.diagnostics.empty()) << result.text();
+  const std::vector<std::string> faults = fg::verify(graph, result.plan);
+  EXPECT_TRUE(faults.empty()) << faults.front();
+  EXPECT_EQ(passesNamed(graph, "guides"), 1U);
+  std::set<std::string> passes;
+  std::set<std::string> resources;
+  for (const fg::PassDecl& pass : graph.passes) EXPECT_TRUE(passes.insert(pass.name).second) << pass.name;
+  for (const fg::ResourceDecl& resource : graph.resources)
+    EXPECT_TRUE(resources.insert(resource.name).second) << resource.name;
+  const fg::MemoryReport& alone = plan().memory;
+  const fg::MemoryReport& together = result.plan.memory;
+  // What a light has to itself is less than what it has alone, at least by a guide of four bytes a pixel.
+  constexpr std::uint64_t kGuide = 4ULL * kExtent.width * kExtent.height;
+  EXPECT_LE(together.persistentBytes + together.transientPeakBytes + kGuide,
+            2 * (alone.persistentBytes + alone.transientPeakBytes));
 }
 
 INSTANTIATE_TEST_SUITE_P(Denoisers, DenoiserPlansTest, testing::ValuesIn(variants()), [](const auto& instance) {

@@ -22,6 +22,7 @@ constexpr Feature kFeatures[] = {
     {"Counters", &ConformanceTest::hasCounters},
     {"HistoryConfidenceAndLengths", &ConformanceTest::hasHistoryConfidenceAndLengths},
     {"SeveralViewsOnSharedPipelines", &ConformanceTest::hasSeveralViewsOnSharedPipelines},
+    {"TwoLightsOnSharedGuides", &ConformanceTest::hasTwoLightsOnSharedGuides},
     {"OrthographicCamera", &ConformanceTest::hasOrthographicCameras},
     {"CompletionByASemaphore", &ConformanceTest::hasCompletionByASemaphore},
 };
@@ -45,6 +46,7 @@ Inputs inputsOf(const WalrDenoiserInfo& info, std::uint32_t number, bool motionH
   for (const char* name : kInputs) inputs[name] = texels(name, size, number);
   if (!motionHasDepth) inputs["motion"] = motionWithoutDepth(inputs["motion"], info.motion_format);
   if (info.confidence_format != VK_FORMAT_UNDEFINED) inputs["confidence"] = texels("confidence", size, number);
+  if (info.light_count == 2) inputs["second_lighting"] = texels("lighting", size, number + 100);
   return inputs;
 }
 
@@ -289,6 +291,17 @@ void ConformanceTest::hasSeveralViewsOnSharedPipelines() {
       EXPECT_EQ(eye.hosted->read("denoised"), download(host, eye.alone->output()));
     }
   }
+}
+
+void ConformanceTest::hasTwoLightsOnSharedGuides() {
+  compare({.state =
+               [](WalrDenoiserInfo& info, WalrConventions&) {
+                 info.light_count = 2;
+                 if (std::string_view(info.method) == "walr") info.second_preset = "many-samples";
+               },
+           .frames = 5,
+           .resetAt = 3,
+           .outputs = {"denoised", "second_denoised"}});
 }
 
 void ConformanceTest::hasOrthographicCameras() {

@@ -70,6 +70,7 @@ class ConformanceTest : public PluginTest {
   void hasCounters();
   void hasHistoryConfidenceAndLengths();
   void hasSeveralViewsOnSharedPipelines();
+  void hasTwoLightsOnSharedGuides();
   void hasOrthographicCameras();
   void hasCompletionByASemaphore();
 

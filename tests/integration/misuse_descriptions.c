@@ -2,6 +2,8 @@
 #include <math.h>
 #include <stddef.h>
 
+#include <walr/walr_passes.h>
+
 #include "misuse.h"
 
 static void test_listing(void) {
@@ -157,6 +159,47 @@ static void test_sparse_light(const WalrDevice* device) {
   EXPECT_OK(walr_destroy_denoiser(denoiser));
 }
 
+/* Lights share guides two at a time, and only where there are guides. */
+static void test_lights(const WalrDevice* device) {
+  WalrDenoiserInfo info = info_of(device);
+  WalrDenoiser denoiser = NULL;
+  info.light_count = 3;
+  EXPECT(walr_create_denoiser(&info, &denoiser), WALR_ERROR_INVALID_ARGUMENT, "light_count is 3");
+  info.light_count = 2;
+  info.second_preset = "magic";
+  EXPECT(walr_create_denoiser(&info, &denoiser), WALR_ERROR_INVALID_ARGUMENT, "no preset \"magic\"");
+  info.second_preset = "many-samples";
+  info.light_count = 1;
+  EXPECT(walr_create_denoiser(&info, &denoiser), WALR_ERROR_INVALID_ARGUMENT, "set light_count to 2");
+  info.second_preset = NULL;
+  info.light_count = 2;
+  info.method = "none";
+  EXPECT(walr_create_denoiser(&info, &denoiser), WALR_ERROR_INVALID_ARGUMENT, "make a denoiser for each light");
+  const WalrPassesInfo listed = {.struct_size = sizeof(listed), .denoiser = &info};
+  WalrPasses passes = NULL;
+  info.method = "prepare_guides";
+  info.device = NULL;
+  EXPECT(walr_create_passes(&listed, &passes), WALR_ERROR_INVALID_ARGUMENT, "stage 'prepare_guides' has one light");
+
+  info = info_of(device);
+  EXPECT_OK(walr_create_denoiser(&info, &denoiser));
+  EXPECT(walr_set_setting(denoiser, "second.blocks.size", "5"), WALR_ERROR_INVALID_ARGUMENT, "second.blocks.size");
+  EXPECT(walr_use_preset(denoiser, "second.one-sample"), WALR_ERROR_INVALID_ARGUMENT, "second.one-sample");
+  WalrImageRequirements needs = {.struct_size = sizeof(needs)};
+  EXPECT_OK(walr_get_image_requirements(denoiser, "second_lighting", &needs));
+  EXPECT_TRUE(!needs.required);
+  EXPECT_OK(walr_destroy_denoiser(denoiser));
+  info.light_count = 2;
+  EXPECT_OK(walr_create_denoiser(&info, &denoiser));
+  EXPECT(walr_set_setting(denoiser, "second.magic", "5"), WALR_ERROR_INVALID_ARGUMENT, "\"magic\"");
+  EXPECT(walr_set_setting(denoiser, "second.blocks.size", "99"), WALR_ERROR_INVALID_ARGUMENT, "blocks.size");
+  EXPECT_OK(walr_get_image_requirements(denoiser, "second_lighting", &needs));
+  EXPECT_TRUE(needs.required && needs.width == kWidth && needs.height == kHeight);
+  EXPECT_OK(walr_get_image_requirements(denoiser, "second_denoised", &needs));
+  EXPECT_TRUE(needs.required);
+  EXPECT_OK(walr_destroy_denoiser(denoiser));
+}
+
 /* Object ids exist if their format is given, and are required if the method reads them. A caller with an older header
  * has none. */
 static void test_object_ids(const WalrDevice* device) {
@@ -187,5 +230,6 @@ void test_descriptions(Host* host, const WalrDevice* device) {
   test_create(device);
   test_switches(device);
   test_sparse_light(device);
+  test_lights(device);
   test_object_ids(device);
 }

@@ -245,10 +245,44 @@ static void test_object_id_frames(Host* host, const WalrDevice* device) {
   destroy_images(host, &images);
 }
 
+/* Frames of two lights, and of a caller who has forgotten the second. */
+static void test_second_lights(Host* host, const WalrDevice* device) {
+  WalrDenoiserInfo info = info_of(device);
+  WalrDenoiser one = NULL;
+  WalrDenoiser both = NULL;
+  EXPECT_OK(walr_create_denoiser(&info, &one));
+  info.light_count = 2;
+  EXPECT_OK(walr_create_denoiser(&info, &both));
+  Images images = make_images(host, one);
+  Images second = make_images(host, both);
+  const VkCommandBuffer commands = host_begin(host);
+  WalrFrame frame = frame_of(&images);
+  EXPECT(walr_record(both, commands, &frame), WALR_ERROR_INVALID_ARGUMENT, "image 'second_lighting' is null");
+  frame.second_lighting = &second.image[0];
+  EXPECT(walr_record(both, commands, &frame), WALR_ERROR_INVALID_ARGUMENT, "image 'second_denoised' is null");
+  EXPECT(walr_record(one, commands, &frame), WALR_ERROR_INVALID_ARGUMENT, "light_count of 2");
+  frame.second_denoised = &images.image[5];
+  EXPECT(walr_record(both, commands, &frame), WALR_ERROR_INVALID_ARGUMENT, "'denoised' is also the output");
+  frame.second_denoised = &second.image[5];
+  frame.struct_size = offsetof(WalrFrame, second_lighting);
+  EXPECT(walr_record(both, commands, &frame), WALR_ERROR_INVALID_ARGUMENT, "image 'second_lighting' is null");
+  frame.struct_size = sizeof(frame);
+  EXPECT_OK(walr_record(both, commands, &frame));
+  host_submit_and_wait(host, commands);
+  WalrImageState state;
+  EXPECT_OK(walr_get_release_state(both, "second_denoised", &state));
+  EXPECT_TRUE(state.layout == VK_IMAGE_LAYOUT_GENERAL);
+  EXPECT_OK(walr_destroy_denoiser(both));
+  EXPECT_OK(walr_destroy_denoiser(one));
+  destroy_images(host, &images);
+  destroy_images(host, &second);
+}
+
 void test_frames(Host* host, const WalrDevice* device) {
   test_images(host, device);
   test_object_id_frames(host, device);
   test_rectangle(host, device);
+  test_second_lights(host, device);
   test_completion(host);
   test_dropped_frames(host, device);
 }

@@ -119,6 +119,8 @@ class NvrhiDenoised : public HostedCall {
     if (textures_.contains("confidence")) given.confidence = textures_.at("confidence");
     if (textures_.contains("history_length")) given.historyLength = textures_.at("history_length");
     if (textures_.contains("view")) given.view = textures_.at("view");
+    if (textures_.contains("second_lighting")) given.secondLighting = textures_.at("second_lighting");
+    if (textures_.contains("second_denoised")) given.secondDenoised = textures_.at("second_denoised");
     adapter_.record(commands, given, frame);
   }
   void copyOut(nvrhi::ICommandList* commands) {

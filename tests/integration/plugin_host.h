@@ -40,7 +40,13 @@ inline const WalrImage*& imageOf(WalrFrame& frame, std::string_view name) {
       {"denoised", &WalrFrame::denoised},
       {"confidence", &WalrFrame::confidence},
       {"history_length", &WalrFrame::history_length},
-      {"view", &WalrFrame::view}};
+      {"view", &WalrFrame::view},
+      {"second_lighting", &WalrFrame::second_lighting},
+      {"second_denoised", &WalrFrame::second_denoised},
+      {"second_confidence", &WalrFrame::second_confidence},
+      {"second_history_length", &WalrFrame::second_history_length},
+      {"second_light_direction", &WalrFrame::second_light_direction},
+      {"light_direction", &WalrFrame::light_direction}};
   const auto* found = std::ranges::find(kMembers, name, [](const auto& member) { return member.first; });
   if (found == std::end(kMembers)) throw std::out_of_range(std::string(name));
   return frame.*found->second;
@@ -76,7 +82,14 @@ inline std::vector<NeededImage> neededImages(const WalrApi& api, WalrDenoiser de
   names.emplace_back("denoised");
   if (info.confidence_format != VK_FORMAT_UNDEFINED) names.emplace_back("confidence");
   if (info.history_length == VK_TRUE) names.emplace_back("history_length");
+  if (info.light_direction == VK_TRUE) names.emplace_back("light_direction");
   if (view) names.emplace_back("view");
+  if (info.light_count == 2) {
+    names.insert(names.end(), {"second_lighting", "second_denoised"});
+    if (info.confidence_format != VK_FORMAT_UNDEFINED) names.emplace_back("second_confidence");
+    if (info.history_length == VK_TRUE) names.emplace_back("second_history_length");
+    if (info.light_direction == VK_TRUE) names.emplace_back("second_light_direction");
+  }
   std::vector<NeededImage> needed;
   for (const std::string& name : names) {
     WalrImageRequirements needs{};

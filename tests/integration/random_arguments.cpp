@@ -54,6 +54,7 @@ RandomInfo::RandomInfo(Dice& dice, Expectation& expected, const std::vector<cons
   chooseImages(dice, expected);
   chooseConventions(dice, expected);
   chooseOutputs(dice, expected);
+  if (dice.oneIn(8)) chooseLights(dice, expected);
   chooseDevice(dice, expected, host);
 }
 
@@ -77,6 +78,19 @@ void RandomInfo::chooseOutputs(Dice& dice, Expectation& expected) {
                                          VK_FORMAT_R32G32B32A32_SFLOAT, VK_FORMAT_R8G8B8A8_UNORM});
   expected.mayFail();
   if (info_.value.denoised_format == VK_FORMAT_R8G8B8A8_UNORM) expected.fails();
+}
+
+/// After the method: stages and methods without guides have one light.
+void RandomInfo::chooseLights(Dice& dice, Expectation& expected) {
+  info_.value.light_count = dice.of({1U, 2U, 2U, 2U, 3U});
+  const bool two = info_.value.light_count == 2;
+  const bool shares = type_ == nullptr || (type_->method == VK_TRUE && std::strcmp(type_->name, "none") != 0);
+  if (info_.value.light_count > 2 || (two && !shares)) expected.fails(WALR_ERROR_INVALID_ARGUMENT);
+  if (two) expected.mayFail();  // Presets may need other guides.
+  if (!dice.oneIn(3)) return;
+  const bool right = type_ != nullptr && type_->preset_count > 0 && !dice.oneIn(4);
+  info_.value.second_preset = right ? type_->presets[dice.below(type_->preset_count)] : "magic";
+  if (!right || !two) expected.fails(WALR_ERROR_INVALID_ARGUMENT);
 }
 
 void RandomInfo::chooseMethod(Dice& dice, Expectation& expected, const std::vector<const WalrPassType*>& types) {

@@ -57,6 +57,7 @@ class RandomInfo {
   void chooseImages(Dice& dice, Expectation& expected);
   void chooseConventions(Dice& dice, Expectation& expected);
   void chooseOutputs(Dice& dice, Expectation& expected);
+  void chooseLights(Dice& dice, Expectation& expected);
   void chooseDevice(Dice& dice, Expectation& expected, const RandomHost& host);
 
   const WalrPassType* type_ = nullptr;

@@ -74,9 +74,12 @@ void RandomCalls::createDenoiser() {
                              .counters = info.get()->counters != 0,
                              .rectangle = info.rectangle(),
                              .orthographic = info.orthographic(),
+                             .twoLights = info.get()->light_count == 2,
                              .allocates = allocates,
-                             // Settings without history have no history length, most methods no light direction.
-                             .changed = info.get()->history_length != 0 || info.get()->light_direction != 0});
+                             // Settings without history have no history length, most methods no light direction, and
+                             // presets of two lights may need other guides.
+                             .changed = info.get()->history_length != 0 || info.get()->light_direction != 0 ||
+                                        info.get()->second_preset != nullptr});
 }
 
 void RandomCalls::destroyDenoiser() {
@@ -99,8 +102,14 @@ void RandomCalls::changeSetting() {
   Expectation expected;
   const PickedDenoiser picked = pickDenoiser(expected);
   std::string storage;
-  const WalrSettingValue setting =
+  WalrSettingValue setting =
       randomSetting(dice_, expected, picked.model != nullptr ? picked.model->type : nullptr, storage);
+  std::string ofSecond;
+  if (setting.name != nullptr && picked.model != nullptr && dice_.oneIn(4)) {
+    ofSecond = std::string("second.") + setting.name;
+    setting.name = ofSecond.c_str();
+    if (!picked.model->twoLights) expected.fails(WALR_ERROR_INVALID_ARGUMENT);
+  }
   const bool known = picked.model != nullptr && setting.name != nullptr;
   const std::string before = known ? settingOf(picked.handle, setting.name) : "";
   const WalrResult result = check_("walr_set_setting", expected, {"WalrDenoiser", "setting"},
@@ -161,9 +170,9 @@ void RandomCalls::requirements() {
     needs.value.struct_size = dice_.of({0U, 4U, 1U << 20});
     expected.fails();
   }
-  const char* const port =
-      dice_.of({"lighting", "depth", "normal", "motion", "albedo", "object_id", "confidence", "history_length",
-                "light_direction", "denoised", "view", "magic", "", static_cast<const char*>(nullptr)});
+  const char* const port = dice_.of({"lighting", "depth", "normal", "motion", "albedo", "object_id", "confidence",
+                                     "history_length", "light_direction", "second_lighting", "second_denoised",
+                                     "denoised", "view", "magic", "", static_cast<const char*>(nullptr)});
   if (port == nullptr || *port == '\0' || std::strcmp(port, "magic") == 0) expected.fails();
   if (picked.model != nullptr && picked.model->changed) expected.mayFail();
   if (dice_.oneIn(2)) {

@@ -7,10 +7,28 @@
 namespace walr::test {
 namespace {
 
-constexpr std::array<const char*, 11> kPorts = {"lighting", "depth",          "normal",         "motion",
-                                                "albedo",   "object_id",      "confidence",     "denoised",
-                                                "view",     "history_length", "light_direction"};
-constexpr std::size_t kDenoised = 7;  ///< Index of the last image that may be larger than the rectangle.
+/// An image of a frame and the member that holds it.
+struct Port {
+  const char* name;
+  const WalrImage* WalrFrame::*member;
+};
+constexpr std::array kPorts = {Port{"lighting", &WalrFrame::lighting},
+                               Port{"depth", &WalrFrame::depth},
+                               Port{"normal", &WalrFrame::normal},
+                               Port{"motion", &WalrFrame::motion},
+                               Port{"albedo", &WalrFrame::albedo},
+                               Port{"object_id", &WalrFrame::object_id},
+                               Port{"confidence", &WalrFrame::confidence},
+                               Port{"second_lighting", &WalrFrame::second_lighting},
+                               Port{"second_confidence", &WalrFrame::second_confidence},
+                               Port{"denoised", &WalrFrame::denoised},
+                               Port{"second_denoised", &WalrFrame::second_denoised},
+                               Port{"view", &WalrFrame::view},
+                               Port{"history_length", &WalrFrame::history_length},
+                               Port{"light_direction", &WalrFrame::light_direction},
+                               Port{"second_history_length", &WalrFrame::second_history_length},
+                               Port{"second_light_direction", &WalrFrame::second_light_direction}};
+constexpr std::size_t kLastHolding = 10;  ///< Index of the last image that may be larger than the rectangle.
 
 /// Makes one of the image's members wrong.
 void spoil(Dice& dice, WalrImage& image) {
@@ -120,11 +138,12 @@ void RandomFrames::record(Dice& dice, CallCheck& check, const ModelledDenoiser& 
   for (std::size_t i = 0; i < kPorts.size(); ++i) {
     WalrImageRequirements needs{};
     needs.struct_size = sizeof(needs);
-    if (walr_get_image_requirements(denoiser.handle, kPorts[i], &needs) != WALR_SUCCESS || needs.required == VK_FALSE)
+    if (walr_get_image_requirements(denoiser.handle, kPorts[i].name, &needs) != WALR_SUCCESS ||
+        needs.required == VK_FALSE)
       continue;
     // The host's barriers are for colour images only.
     if (needs.format >= VK_FORMAT_D16_UNORM && needs.format <= VK_FORMAT_D32_SFLOAT_S8_UINT) return destroyAll();
-    const bool exact = i > kDenoised;
+    const bool exact = i > kLastHolding;
     images[i] = describe(dice, makeImage(needs.format, needs.width + (exact ? 0 : offset[0]),
                                          needs.height + (exact ? 0 : offset[1]), needs.usage));
     given[i] = &images[i];
@@ -136,19 +155,13 @@ void RandomFrames::record(Dice& dice, CallCheck& check, const ModelledDenoiser& 
       spoil(dice, images[i]);
     }
   }
-  frame.lighting = given[0];
-  frame.depth = given[1];
-  frame.normal = given[2];
-  frame.motion = given[3];
-  frame.albedo = given[4];
-  frame.object_id = given[5];
-  frame.confidence = given[6];
-  frame.denoised = given[7];
-  frame.view = given[8];
-  frame.history_length = given[9];
-  frame.light_direction = given[10];
-  if (given[0] != nullptr && given[7] != nullptr && dice.oneIn(30)) {
-    frame.denoised = given[0];  // An input is no output.
+  for (std::size_t i = 0; i < kPorts.size(); ++i) frame.*kPorts[i].member = given[i];
+  if (frame.lighting != nullptr && frame.denoised != nullptr && dice.oneIn(30)) {
+    frame.denoised = frame.lighting;  // An input is no output.
+    expected.fails();
+  }
+  if (!denoiser.twoLights && frame.lighting != nullptr && dice.oneIn(30)) {
+    frame.second_lighting = frame.lighting;
     expected.fails();
   }
   WalrCamera camera;

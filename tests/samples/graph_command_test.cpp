@@ -114,6 +114,19 @@ TEST(GraphCommand, JsonReportsItsTrafficRightly) {
   EXPECT_DOUBLE_EQ(traffic["bytes_per_pixel"].get<double>(), bytes / (kExtent.width * kExtent.height));
 }
 
+TEST(GraphCommand, PrintsTheTrafficOfTwoLights) {
+  const auto bytesPerPixel = [](const std::vector<std::string>& arguments) {
+    return json::parse(printed(arguments))["traffic"]["bytes_per_pixel"].get<double>();
+  };
+  const double one = bytesPerPixel({"--json"});
+  const double both = bytesPerPixel({"--json", "--second-preset", "one-sample"});
+  EXPECT_GT(both, one);
+  // The second light reads no depth, normal and albedo of the host (20 bytes a pixel), and writes no guides (8).
+  EXPECT_LT(both, 2 * one - 20 - 8 + 4);  // It reads the guides' depth instead (4).
+  test::expectFailure(graph({"--second-preset", "magic"}), test::kUsage, {"magic", "known presets"});
+  test::expectFailure(graph({"--method", "none", "--second-preset", "magic"}), test::kUsage, {"magic"});
+}
+
 TEST(GraphCommand, JsonListsBarriersWithWordsAndPlace) {
   const json plan = json::parse(printed({"--json"}));
   ASSERT_FALSE(plan["barriers"].empty());

@@ -300,14 +300,21 @@ typedef struct WalrDenoiserInfo {
   VkBool32 counters;          /* Count what the method does, see walr_get_counters. For debugging: costs passes. */
   VkFormat confidence_format; /* Of WalrFrame::confidence, sampled as floats; VK_FORMAT_UNDEFINED: no such image. */
   VkBool32 history_length;    /* Write WalrFrame::history_length. It costs a small pass. */
-  /* Another denoiser, for several views a frame (eyes, split screens, cube faces) or several lights of a view (indirect
-   * and direct); optional. Both share shader modules, pipelines and the memory of transients; each has its own
-   * histories, size and settings. Use its device; its allocators and pipeline cache serve both. Frames of both must be
-   * submitted in the order of recording, to one queue, and only one thread at a time may use either. Both may be
-   * destroyed in any order. */
+  /* Another denoiser, for several views a frame (eyes, split screens, cube faces), or for lights of a view that
+   * `light_count` does not allow to share guides; optional. Both share shader modules, pipelines and the memory of
+   * transients; each has its own histories, size and settings. Use its device; its allocators and pipeline cache serve
+   * both. Frames of both must be submitted in the order of recording, to one queue, and only one thread at a time may
+   * use either. Both may be destroyed in any order. */
   WalrDenoiser shared_with;
   VkBool32 light_direction; /* Write WalrFrame::light_direction. It costs a small pass; method walr only. */
-  uint32_t reserved;
+  /* Lights of one view (indirect and direct): 1 or 2; 0 means 1. Two lights share depth, normals, motion and albedo,
+   * which are prepared once, and the search for their history. Each has its own histories and settings. The results are
+   * those of two denoisers, to the bit. The images of the second light are WalrFrame::second_lighting and those after
+   * it; their formats are those of the first. View, counters and lint are those of the first light. Settings that
+   * decide which guides are made ("guides.*", "occlusion.*", "scene.*") must be the same for both. Methods without
+   * guides and single stages have one light. */
+  uint32_t light_count;
+  const char* second_preset; /* With two lights: the preset of the second. Null means `preset`. */
 } WalrDenoiserInfo;
 
 /* Creates no Vulkan object; see walr_prepare. */
@@ -327,11 +334,13 @@ WALR_API WalrResult walr_destroy_denoiser(WalrDenoiser denoiser);
  *   set, and dropped otherwise.
  */
 WALR_API WalrResult walr_resize(WalrDenoiser denoiser, uint32_t width, uint32_t height);
+/* With two lights: sets both, or the second one alone if the name begins with "second.": "second.blocks.residual". */
 WALR_API WalrResult walr_set_setting(WalrDenoiser denoiser, const char* name, const char* value);
-/* Replaces all settings. */
+/* Replaces all settings. With two lights: of both, or of the second alone: "second.many-samples". */
 WALR_API WalrResult walr_use_preset(WalrDenoiser denoiser, const char* name);
 
-/* Current value of a setting as text, with its terminating zero.
+/* Current value of a setting as text, with its terminating zero. With two lights: that of the first, or with "second."
+ * before the name that of the second.
  * size: in: bytes at `value`; out: bytes needed. `value` may be null. */
 WALR_API WalrResult walr_get_setting(WalrDenoiser denoiser, const char* name, char* value, size_t* size);
 
@@ -352,7 +361,8 @@ typedef struct WalrImageRequirements {
 } WalrImageRequirements;
 
 /* port: "lighting", "depth", "normal", "motion", "albedo", "object_id", "confidence", "denoised",
- * "view" (see walr_set_view), "history_length" or "light_direction".
+ * "view" (see walr_set_view), "history_length" or "light_direction"; with two lights also "second_lighting",
+ * "second_confidence", "second_denoised", "second_history_length" or "second_light_direction".
  * Needs no image and no walr_prepare. */
 WALR_API WalrResult walr_get_image_requirements(WalrDenoiser denoiser, const char* port,
                                                 WalrImageRequirements* requirements);
@@ -448,6 +458,13 @@ typedef struct WalrFrame {
   /* With WalrDenoiserInfo::light_direction: an R32G32_UINT image of exactly the denoised size that receives how each
    * pixel's light changes with the normal, see walr/light_direction.glsl. 0 where there is nothing to denoise. */
   const WalrImage* light_direction;
+  /* With WalrDenoiserInfo::light_count of 2: the images of the second light. `second_lighting` and `second_denoised`
+   * are required. The others are required where those of the first light are. */
+  const WalrImage* second_lighting;
+  const WalrImage* second_denoised;
+  const WalrImage* second_confidence;
+  const WalrImage* second_history_length;
+  const WalrImage* second_light_direction;
 } WalrFrame;
 
 /*

@@ -20,7 +20,8 @@ extern "C" {
 #endif
 
 typedef enum WalrResourceKind {
-  /* An image of the host: "lighting", ..., "denoised". Of a single stage also its other inputs, named like the ports.
+  /* An image of the host: "lighting", ..., "denoised", and with two lights "second_lighting", "second_denoised". Of a
+   * single stage also its other inputs, named like the ports.
    */
   WALR_RESOURCE_HOST = 0,
   WALR_RESOURCE_TRANSIENT = 1,        /* Lives within the frame. */

@@ -1,0 +1,188 @@
+// Two lights of a view in one denoiser, which share their guides: the results are those of two denoisers, to the bit.
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "plugin_host.h"
+
+namespace plugin_host {
+namespace {
+
+constexpr Size kSize{61, 43};
+constexpr std::uint32_t kFrames = 5;
+constexpr std::uint32_t kReset = 3;  ///< The frame that drops the history.
+constexpr std::array kOutputs{"denoised", "history_length", "light_direction"};
+
+class TwoLights : public PluginTest {
+ protected:
+  /// Inputs of a frame by name; the lights differ in lighting and confidence. Normals vary, so that light has a slope.
+  static std::vector<float> inputOf(const std::string& name, std::uint32_t number, bool second) {
+    std::vector<float> values = texels(name, kSize, number + (second ? 100 : 0));
+    for (std::size_t i = 0; name == "normal" && i < values.size(); i += 4) {
+      values[i] = 0.06F * float(i / 4 % 11) - 0.3F;
+      values[i + 2] = std::sqrt(1.0F - values[i] * values[i]);
+    }
+    if (name == "confidence" && second) {
+      for (float& value : values) value = 1.0F - value;
+    }
+    return values;
+  }
+
+  /// A description with whatever a light can have.
+  [[nodiscard]] WalrDenoiserInfo described(const char* method) const {
+    WalrDenoiserInfo whole = info(method, kSize);
+    const bool isWalr = std::string(method) == "walr";
+    whole.confidence_format = VK_FORMAT_R32_SFLOAT;
+    whole.history_length = VK_TRUE;
+    whole.light_direction = isWalr ? VK_TRUE : VK_FALSE;
+    return whole;
+  }
+
+  /// Compare the lights of `both` with denoisers of their own.
+  void compare(const WalrDenoiserInfo& both, const WalrDenoiserInfo& one, const WalrDenoiserInfo& other) {
+    Opaque together(host, api(), both);
+    Opaque first(host, api(), one);
+    Opaque second(host, api(), other);
+    for (std::uint32_t number = 0; number < kFrames; ++number) {
+      SCOPED_TRACE(std::string(both.method) + ", frame " + std::to_string(number));
+      for (const char* name : kInputs) fill(together, first, second, name, number);
+      fill(together, first, second, "confidence", number);
+      const WalrCamera camera = cameraAt(float(number) * kStep);
+      const std::uint32_t flags = number == kReset ? WALR_FRAME_RESET_HISTORY : 0;
+      for (Opaque* each : {&together, &first, &second}) each->frame(camera, flags);
+      for (const std::string output : kOutputs) {
+        if (output == "light_direction" && both.light_direction == VK_FALSE) continue;
+        const auto ofFirst = download(host, together.image(output));
+        const auto ofSecond = download(host, together.image("second_" + output));
+        EXPECT_EQ(ofFirst, download(host, first.image(output))) << output;
+        EXPECT_EQ(ofSecond, download(host, second.image(output))) << output;
+        if (output == "history_length") continue;  // It may be the same.
+        EXPECT_NE(ofFirst, ofSecond) << output;
+      }
+    }
+  }
+
+ private:
+  void fill(Opaque& together, Opaque& first, Opaque& second, const std::string& name, std::uint32_t number) {
+    const bool ofLight = name == "lighting" || name == "confidence";
+    host_upload(&host, &together.image(name), inputOf(name, number, false).data());
+    host_upload(&host, &first.image(name), inputOf(name, number, false).data());
+    host_upload(&host, &second.image(name), inputOf(name, number, ofLight).data());
+    if (ofLight) host_upload(&host, &together.image("second_" + name), inputOf(name, number, true).data());
+  }
+};
+
+TEST_F(TwoLights, AreThoseOfTwoDenoisers) {
+  for (const WalrPassType* type : registered.types) {
+    if (type->method == VK_FALSE || std::string(type->name) == "none") continue;
+    const WalrDenoiserInfo one = described(type->name);
+    WalrDenoiserInfo both = one;
+    both.light_count = 2;
+    compare(both, one, one);
+  }
+}
+
+TEST_F(TwoLights, HavePresetsAndConventionsOfAHost) {
+  WalrConventions conventions{};
+  conventions.struct_size = sizeof(conventions);
+  conventions.pre_exposed = VK_TRUE;
+  conventions.rectangle = VK_TRUE;
+  WalrDenoiserInfo one = described("walr");
+  one.conventions = &conventions;
+  one.denoised_format = VK_FORMAT_R32G32B32A32_SFLOAT;
+  WalrDenoiserInfo other = one;
+  other.preset = "many-samples";
+  WalrDenoiserInfo both = one;
+  both.light_count = 2;
+  both.second_preset = "many-samples";
+  compare(both, one, other);
+}
+
+TEST_F(TwoLights, HaveSettingsOfTheirOwn) {
+  WalrDenoiserInfo both = info("walr", kSize);
+  both.light_count = 2;
+  WalrDenoiser denoiser = nullptr;
+  require(api().create_denoiser(&both, &denoiser));
+  const auto setting = [&](const char* name) {
+    std::array<char, 32> text{};
+    std::size_t size = text.size();
+    require(api().get_setting(denoiser, name, text.data(), &size));
+    return std::string(text.data());
+  };
+  require(api().set_setting(denoiser, "accumulation.max-history", "5"));
+  EXPECT_EQ(setting("accumulation.max-history"), setting("second.accumulation.max-history"));
+  require(api().set_setting(denoiser, "second.accumulation.max-history", "7"));
+  EXPECT_EQ(setting("accumulation.max-history"), "5");
+  EXPECT_EQ(setting("second.accumulation.max-history"), "7");
+  require(api().use_preset(denoiser, "second.many-samples"));
+  EXPECT_EQ(setting("blocks.residual"), "off");
+  EXPECT_EQ(setting("second.blocks.residual"), "on");
+  require(api().use_preset(denoiser, "one-sample"));
+  EXPECT_EQ(setting("second.blocks.residual"), "off");
+  require(api().prepare(denoiser));
+  // Lights with other guides cannot share them.
+  require(api().set_setting(denoiser, "second.occlusion.rings", "3"));
+  EXPECT_EQ(api().prepare(denoiser), WALR_ERROR_INVALID_ARGUMENT);
+  EXPECT_NE(std::string(api().last_error()).find("make a denoiser for each light"), std::string::npos);
+  require(api().set_setting(denoiser, "occlusion.rings", "3"));
+  require(api().prepare(denoiser));
+  EXPECT_EQ(api().destroy_denoiser(denoiser), WALR_SUCCESS);
+}
+
+/// The memory that denoisers allocate.
+std::uint64_t allocated(const WalrApi& api, const WalrDenoiserInfo& info) {
+  WalrMemory memory{};
+  memory.struct_size = sizeof(memory);
+  EXPECT_EQ(api.query_memory(&info, &memory), WALR_SUCCESS) << api.last_error();
+  return memory.allocated;
+}
+
+TEST_F(TwoLights, TakeLessMemoryThanTwoDenoisersThatShareObjects) {
+  constexpr Size kFullHd{1920, 1080};
+  const WalrDenoiserInfo one = info("walr", kFullHd);
+  WalrDenoiserInfo both = one;
+  both.light_count = 2;
+  WalrDenoiser first = nullptr;
+  WalrDenoiser second = nullptr;
+  require(api().create_denoiser(&one, &first));
+  require(api().prepare(first));
+  WalrDenoiserInfo other = one;
+  other.shared_with = first;
+  require(api().create_denoiser(&other, &second));
+  require(api().prepare(second));
+  WalrMemory memory{};
+  memory.struct_size = sizeof(memory);
+  require(api().get_memory(second, &memory));
+  const std::uint64_t separate = allocated(api(), one) + memory.allocated - memory.shared;
+  const std::uint64_t together = allocated(api(), both);
+  RecordProperty("separate", std::to_string(separate));
+  RecordProperty("together", std::to_string(together));
+  EXPECT_LT(together, separate);
+  EXPECT_EQ(api().destroy_denoiser(second), WALR_SUCCESS);
+  EXPECT_EQ(api().destroy_denoiser(first), WALR_SUCCESS);
+}
+
+// Every guide is made once, and every other pass once for each light.
+TEST_F(TwoLights, HavePassesOfTheirOwnBehindTheGuides) {
+  WalrDenoiserInfo both = info("walr", kSize);
+  both.light_count = 2;
+  const WalrPasses passes = makePasses(both);
+  const WalrPassList* list = nullptr;
+  require(api().get_pass_list(passes, &list));
+  std::map<std::string, int> count;
+  for (std::uint32_t i = 0; i < list->pass_count; ++i) ++count[list->passes[i]->name];
+  for (const auto& [name, times] : count) EXPECT_EQ(times, 1) << name;
+  EXPECT_TRUE(count.contains("guides and accumulation"));
+  EXPECT_TRUE(count.contains("second light: temporal accumulation"));
+  EXPECT_TRUE(count.contains("temporal anti-aliasing"));
+  EXPECT_TRUE(count.contains("second light: temporal anti-aliasing"));
+  EXPECT_FALSE(count.contains("second light: prepare guides"));
+  EXPECT_EQ(api().destroy_passes(passes), WALR_SUCCESS);
+}
+
+}  // namespace
+}  // namespace plugin_host
