@@ -1,6 +1,7 @@
 # walr_add_shaders(<name>
 #   NAMESPACE <namespace>       C++ namespace of the variables, for instance walr::shaders
 #   HEADER <path>               how the header is included, for instance shaders/shaders.h
+#   [TARGET <environment>]      of the SPIR-V, if it is not vulkan1.1
 #   [INCLUDE_DIRS <dir>...]     searched by #include, after the including file's own folder
 #   SHADERS <shader>...)
 #
@@ -14,7 +15,8 @@
 # The names in fg::Shader::name are "atrous" and "edge_trace.raw16". AXES compiles a shader for every combination of the
 # words, with the define of each, and generates a function that chooses one: fit({.packed = true}) returns "fit.packed". A
 # switch that only decides which inputs are read needs no axis: see PassBuilder::unread. A shader is rebuilt when it or an
-# included file changes. SPIR-V targets Vulkan 1.1, the oldest version on which a host can have synchronization2.
+# included file changes. SPIR-V targets Vulkan 1.1, the oldest version on which a host can have synchronization2, unless
+# TARGET says otherwise.
 # Bindings must be in descriptor set 0. A binding has the name of its variable, or of its block if the block has no instance
 # name. Unused bindings are left out. The compiler numbers bindings that have no number. See framegraph/tools/reflect.h.
 # Only debug builds embed names in the SPIR-V, for validation messages.
@@ -75,9 +77,12 @@ inline const fg::Shader& ${identifier}(${type} variant) {
 endfunction()
 
 function(walr_add_shaders name)
-  cmake_parse_arguments(ARG "" "NAMESPACE;HEADER" "INCLUDE_DIRS;SHADERS" ${ARGN})
+  cmake_parse_arguments(ARG "" "NAMESPACE;HEADER;TARGET" "INCLUDE_DIRS;SHADERS" ${ARGN})
   set(generated "${CMAKE_CURRENT_BINARY_DIR}/${name}")
   list(TRANSFORM ARG_INCLUDE_DIRS PREPEND "-I" OUTPUT_VARIABLE includes)
+  if(NOT ARG_TARGET)
+    set(ARG_TARGET vulkan1.1)
+  endif()
 
   set(variables "")
   set(modules "")
@@ -116,7 +121,7 @@ function(walr_add_shaders name)
 
       set(spirv "${generated}/${shader_name}.spv")
       set(source "${generated}/${shader_name}.cpp")
-      set(command "${GLSLANG_VALIDATOR}" -V --target-env vulkan1.1 --auto-map-bindings ${includes} ${defines} ${combined})
+      set(command "${GLSLANG_VALIDATOR}" -V --target-env ${ARG_TARGET} --auto-map-bindings ${includes} ${defines} ${combined})
       list(JOIN command "\t" words)
       string(APPEND command_lines "${shader_name}\t${spirv}\t${words}\t${CMAKE_CURRENT_SOURCE_DIR}/${file}\n")
       add_custom_command(OUTPUT "${spirv}"

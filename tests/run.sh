@@ -3,7 +3,9 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 source .ci/setup.sh
+source .ci/ray_query_driver.sh
 
 walr_setup
+walr_ray_query_driver
 walr_build
 ctest --preset ci --parallel "$(nproc)"

@@ -9,7 +9,7 @@ namespace fg::vk {
 namespace {
 
 VkDevice createDevice(const Instance& instance, const PhysicalDevice& physicalDevice,
-                      std::span<const char* const> wanted) {
+                      std::span<const char* const> wanted, const void* wantedFeatures) {
   require(physicalDevice);
   for (const char* const extension : wanted) {
     if (std::ranges::find(physicalDevice.extensions, extension) == physicalDevice.extensions.end()) {
@@ -27,10 +27,11 @@ VkDevice createDevice(const Instance& instance, const PhysicalDevice& physicalDe
 
   VkPhysicalDeviceMaintenance4Features maintenance4{};
   maintenance4.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_4_FEATURES;
+  maintenance4.pNext = const_cast<void*>(wantedFeatures);  // Read only, but Vulkan's struct also serves queries.
   maintenance4.maintenance4 = VK_TRUE;
   VkPhysicalDeviceTimelineSemaphoreFeatures timeline{};
   timeline.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_TIMELINE_SEMAPHORE_FEATURES;
-  timeline.pNext = physicalDevice.maintenance4 ? &maintenance4 : nullptr;
+  timeline.pNext = physicalDevice.maintenance4 ? &maintenance4 : maintenance4.pNext;
   timeline.timelineSemaphore = physicalDevice.timelineSemaphore ? VK_TRUE : VK_FALSE;
   VkPhysicalDeviceSynchronization2Features synchronization2{};
   synchronization2.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SYNCHRONIZATION_2_FEATURES;
@@ -67,10 +68,11 @@ VkDevice createDevice(const Instance& instance, const PhysicalDevice& physicalDe
 
 }  // namespace
 
-Device::Device(const Instance& instance, const PhysicalDevice& physicalDevice, std::span<const char* const> extensions)
+Device::Device(const Instance& instance, const PhysicalDevice& physicalDevice, std::span<const char* const> extensions,
+               const void* features)
     : context_(DeviceView{.instance = instance.handle(),
                           .physicalDevice = physicalDevice.handle,
-                          .device = createDevice(instance, physicalDevice, extensions),
+                          .device = createDevice(instance, physicalDevice, extensions, features),
                           .getInstanceProcAddr = instance.functions().vkGetInstanceProcAddr,
                           .queueFamily = physicalDevice.computeQueueFamily,
                           .allocator = nullptr}) {

@@ -14,8 +14,11 @@ namespace fg::vk {
 class Device {
  public:
   /// @param extensions to enable in addition, for instance VK_KHR_swapchain
+  /// @param features   feature structs of those extensions to enable, as a chain for `VkDeviceCreateInfo::pNext`;
+  ///                   optional
   /// @throws Unsupported with a message that names what the device lacks
-  Device(const Instance& instance, const PhysicalDevice& physicalDevice, std::span<const char* const> extensions = {});
+  Device(const Instance& instance, const PhysicalDevice& physicalDevice, std::span<const char* const> extensions = {},
+         const void* features = nullptr);
   ~Device();
   Device(const Device&) = delete;
   Device& operator=(const Device&) = delete;

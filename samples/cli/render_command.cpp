@@ -7,11 +7,16 @@
 
 #include <CLI/CLI.hpp>
 
+#include "framegraph/vulkan/error.h"
 #include "samples/cli/command.h"
 #include "samples/command_line/arguments.h"
+#include "samples/command_line/device_options.h"
 #include "samples/command_line/exit_code.h"
+#include "samples/command_line/tracer_option.h"
 #include "samples/command_line/usage_error.h"
+#include "samples/denoise/gpu_device.h"
 #include "samples/denoise/progress.h"
+#include "samples/gpu_render/film_tracer.h"
 #include "samples/render/render_sequence.h"
 
 namespace walr {
@@ -23,6 +28,8 @@ struct RenderArguments {
   std::string referenceFrames;
   std::string size = "320x180";
   std::string lightRate = "1";
+  TracerChoice tracer = TracerChoice::Cpu;
+  GpuDevice::Options gpu;
 };
 
 /// Values of --light-rate.
@@ -30,6 +37,23 @@ const std::map<std::string, LightPattern>& lightRates() {
   static const std::map<std::string, LightPattern> kRates{
       {"1", {}}, {"1/2", {.columns = 2}}, {"1/4", {.columns = 2, .rows = 2}}, {"1/9", {.columns = 3, .rows = 3}}};
   return kRates;
+}
+
+/// The device to trace on; null for the processor. Says on the terminal which of the two it is, if that was a choice.
+std::unique_ptr<GpuDevice> tracingDevice(const RenderArguments& arguments) {
+  if (!mayTraceOnGpu(arguments.tracer)) return nullptr;
+  GpuDevice::Options options = arguments.gpu;
+  options.rayQueries = true;
+  try {
+    auto gpu = std::make_unique<GpuDevice>(options);
+    const TracerDecision decision = decideTracer(arguments.tracer, *gpu);
+    std::cerr << "tracer: " << decision.text << ", device " << gpu->name() << ", driver " << gpu->driver() << '\n';
+    if (decision.onGpu) return gpu;
+  } catch (const fg::vk::Unsupported& error) {
+    if (arguments.tracer == TracerChoice::Gpu) throw;
+    std::cerr << "tracer: CPU (Embree), because there is no suitable Vulkan device: " << error.what() << '\n';
+  }
+  return nullptr;
 }
 
 void renderFrames(RenderArguments& arguments) {
@@ -48,6 +72,15 @@ void renderFrames(RenderArguments& arguments) {
     throw UsageError("--light-rate and --resampled-frames: only light at every pixel can be resampled");
   }
 
+  const std::unique_ptr<GpuDevice> gpu = tracingDevice(arguments);
+  if (gpu) {
+    if (options.resampledFrames > 0) {
+      throw UsageError("--resampled-frames: the path tracer on the GPU does not resample: use --tracer cpu");
+    }
+    options.otherTracer = [&gpu](const render::World& world) {
+      return std::make_unique<gpu_render::FilmTracer>(*gpu, world);
+    };
+  }
   Progress progress(std::cerr, isatty(STDERR_FILENO) != 0, "file", options.files(), Progress::Clock::now(),
                     options.paths());
   render::RenderObserver observer;
@@ -59,6 +92,7 @@ void renderFrames(RenderArguments& arguments) {
     progress.advance(Progress::Clock::now());
   };
   renderSequence(options, observer);
+  if (gpu) gpu->refuseMessages();
 }
 
 }  // namespace
@@ -66,8 +100,8 @@ void renderFrames(RenderArguments& arguments) {
 void registerRender(CLI::App& program) {
   const auto arguments = std::make_shared<RenderArguments>();
   render::RenderOptions& options = arguments->options;
-  CLI::App* command = program.add_subcommand(
-      "render", "Path-trace frames of a glTF scene's camera animation on the CPU, noisy and as references");
+  CLI::App* command =
+      program.add_subcommand("render", "Path-trace frames of a glTF scene's camera animation, noisy and as references");
   command->add_option("SCENE", options.scene, "glTF 2.0 file, .gltf or .glb")->required();
   command
       ->add_option(
@@ -144,7 +178,10 @@ void registerRender(CLI::App& program) {
                    "Diffuse lobe of all materials: lambert (default), or disney, the one of Blender's Principled BSDF")
       ->transform(CLI::CheckedTransformer(std::map<std::string, render::DiffuseModel>{
           {"lambert", render::DiffuseModel::Lambert}, {"disney", render::DiffuseModel::Disney}}));
-  command->add_option("--threads", options.threads, "Number of threads; 0: one per core")->capture_default_str();
+  command->add_option("--threads", options.threads, "Number of threads for --tracer cpu; 0: one per core")
+      ->capture_default_str();
+  addTracerOption(*command, arguments->tracer);
+  addDeviceOptions(*command, arguments->gpu);
   command->footer(kExitCodeHelp);
   command->callback([=] { renderFrames(*arguments); });
 }

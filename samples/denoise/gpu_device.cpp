@@ -10,6 +10,7 @@
 
 #include "framegraph/compile/compile.h"
 #include "framegraph/vulkan/driver_memory_model.h"
+#include "samples/denoise/ray_queries.h"
 
 namespace walr {
 namespace {
@@ -18,6 +19,16 @@ fg::vk::PhysicalDevice chooseDevice(const fg::vk::Instance& instance, const std:
   fg::vk::PhysicalDevice device = fg::vk::choose(fg::vk::physicalDevices(instance), choice);
   fg::vk::require(device);
   return device;
+}
+
+std::string missingFor(const fg::vk::Instance& instance, const fg::vk::PhysicalDevice& device, bool rayQueries) {
+  return rayQueries ? walr::missingForRayQueries(instance.functions(), device)
+                    : "the option GpuDevice::Options::rayQueries";
+}
+
+std::vector<const char*> extensionsFor(std::vector<const char*> extensions, bool rayQueries) {
+  if (rayQueries) extensions.insert(extensions.end(), kRayQueryExtensions.begin(), kRayQueryExtensions.end());
+  return extensions;
 }
 
 fg::Plan compilePlan(const fg::Graph& graph, const fg::MemoryModel& memory) {
@@ -33,7 +44,9 @@ fg::Plan compilePlan(const fg::Graph& graph, const fg::MemoryModel& memory) {
 GpuDevice::GpuDevice(const Options& options)
     : instance_({.validation = options.validation, .sink = log_.sink(), .extensions = options.instanceExtensions}),
       physical_(chooseDevice(instance_, options.device)),
-      device_(instance_, physical_, options.deviceExtensions) {
+      missingForRayQueries_(missingFor(instance_, physical_, options.rayQueries)),
+      device_(instance_, physical_, extensionsFor(options.deviceExtensions, missingForRayQueries_.empty()),
+              missingForRayQueries_.empty() ? RayQueryFeatures().chain() : nullptr) {
   if (!options.keepPipelines) return;
   const std::filesystem::path file = pipelineCacheFile(device_.context());
   std::error_code ignored;  // Without the folder, saving fails, which the destructor ignores.

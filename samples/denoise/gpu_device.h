@@ -23,6 +23,7 @@ class GpuDevice {
     bool validation = false;  ///< Run under the Khronos validation layer with synchronization validation.
     std::vector<const char*> instanceExtensions = {};  ///< Further ones to enable, for instance for windows.
     std::vector<const char*> deviceExtensions = {};
+    bool rayQueries = false;     ///< Enable ray queries if the device has what `missingForRayQueries` asks for.
     bool keepPipelines = false;  ///< Store compiled pipelines in a file, see `pipelineCacheFile`.
   };
 
@@ -46,6 +47,9 @@ class GpuDevice {
   /// The cache of compiled pipelines that executors read and extend; null unless pipelines are stored.
   [[nodiscard]] fg::vk::PipelineCache* pipelineCache() const { return pipelineCache_.get(); }
 
+  /// What the device lacks for ray queries; empty if they are enabled.
+  [[nodiscard]] const std::string& missingForRayQueries() const { return missingForRayQueries_; }
+
   /// Messages of the validation layer since the last call.
   std::vector<fg::vk::Message> takeMessages() { return log_.take(); }
   /// @throws std::runtime_error with the first message of the validation layer, if there is one
@@ -55,6 +59,7 @@ class GpuDevice {
   fg::vk::MessageLog log_;
   fg::vk::Instance instance_;
   fg::vk::PhysicalDevice physical_;
+  std::string missingForRayQueries_;
   fg::vk::Device device_;
   std::unique_ptr<fg::vk::PipelineCache> pipelineCache_;
 };

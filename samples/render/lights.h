@@ -36,6 +36,16 @@ struct EmitterSample {
   float density = 0.0F;  ///< Probability density per area.
 };
 
+/// An emissive triangle.
+struct Emitter {
+  std::uint32_t instance = 0;
+  std::uint32_t triangle = 0;
+  std::array<glm::vec3, 3> corners{};  ///< In world space.
+  float area = 0.0F;
+  double cumulative = 0.0;  ///< Sum of the probabilities of this emitter and all before it.
+  float probability = 0.0F;
+};
+
 /// The punctual lights and emissive triangles of a scene at one time. The sky is separate (see `Sky`).
 class Lights {
  public:
@@ -44,6 +54,9 @@ class Lights {
 
   [[nodiscard]] const std::vector<PlacedLight>& punctual() const { return punctual_; }
   [[nodiscard]] bool hasEmitters() const { return !emitters_.empty(); }
+  [[nodiscard]] const std::vector<Emitter>& emitters() const { return emitters_; }
+  /// For every instance that emits, the index of its first triangle in `emitters`, where its triangles are consecutive.
+  [[nodiscard]] const std::vector<std::optional<std::uint32_t>>& firstEmitters() const { return firstEmitter_; }
 
   /// Sample a point on the emissive triangles. Triangles are chosen in proportion to area times emission.
   /// @param choice  uniform in [0, 1): picks the triangle
@@ -55,18 +68,8 @@ class Lights {
   [[nodiscard]] float emitterDensity(std::uint32_t instance, std::uint32_t triangle) const;
 
  private:
-  struct Emitter {
-    std::uint32_t instance = 0;
-    std::uint32_t triangle = 0;
-    std::array<glm::vec3, 3> corners{};  // In world space.
-    float area = 0.0F;
-    double cumulative = 0.0;  // Sum of the probabilities of this emitter and all before it.
-    float probability = 0.0F;
-  };
-
   std::vector<PlacedLight> punctual_;
   std::vector<Emitter> emitters_;
-  // For every instance that emits, the index of its first triangle in `emitters_`, where its triangles are consecutive.
   std::vector<std::optional<std::uint32_t>> firstEmitter_;
 };
 

@@ -48,6 +48,24 @@ class LightSampling {
  public:
   LightSampling(const World& world, Sampler& sampler) : world_(world), sampler_(sampler) {}
 
+  // Irradiance / pi at a path's first vertex. The order in which the kinds of lights take random numbers is fixed here,
+  // because C++ does not fix it for the operands of a sum.
+  glm::vec3 atFirst(const Surface& surface) {
+    const glm::vec3 sky = fromSky(surface);
+    const glm::vec3 emitters = fromEmitters(surface);
+    return fromEveryPunctual(surface) + emitters + sky;
+  }
+
+  // The same at later vertices.
+  glm::vec3 atLater(const Surface& surface) {
+    const glm::vec3 sky = fromSky(surface);
+    const glm::vec3 emitters = fromEmitters(surface);
+    return fromOnePunctual(surface) + emitters + sky;
+  }
+
+  [[nodiscard]] std::uint32_t rays() const { return rays_; }
+
+ private:
   // Irradiance / pi from all punctual lights.
   glm::vec3 fromEveryPunctual(const Surface& surface) {
     glm::vec3 sum(0.0F);
@@ -117,9 +135,6 @@ class LightSampling {
                              (light.density + cosineDensity));
   }
 
-  [[nodiscard]] std::uint32_t rays() const { return rays_; }
-
- private:
   bool occluded(const Ray& ray) {
     ++rays_;
     return world_.rays().occluded(ray);
@@ -170,7 +185,7 @@ glm::vec3 metSky(const Sky& sky, const Surface& from, const glm::vec3& direction
 PathSample tracePath(const World& world, const Surface& first, std::uint32_t bounces, Sampler& sampler) {
   LightSampling lights(world, sampler);
   PathSample result;
-  result.direct = lights.fromEveryPunctual(first) + lights.fromEmitters(first) + lights.fromSky(first);
+  result.direct = lights.atFirst(first);
   glm::vec3 throughput(1.0F);
   Surface surface = first;
   float firstLobe = 1.0F;
@@ -202,8 +217,7 @@ PathSample tracePath(const World& world, const Surface& first, std::uint32_t bou
       break;
     }
     surface = next;
-    result.indirect +=
-        throughput * (lights.fromOnePunctual(surface) + lights.fromEmitters(surface) + lights.fromSky(surface));
+    result.indirect += throughput * lights.atLater(surface);
   }
   if (result.source && firstLobe > 0.0F) {
     result.source->radiance = result.indirect / firstLobe;

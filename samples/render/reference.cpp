@@ -29,14 +29,6 @@ bool diffuse(const PrimaryHit& hit) {
   return hit.surface && hit.pixel.albedo != glm::vec3(0.0F);
 }
 
-// Each row of squares is shifted by the golden ratio of the period, so that the chosen squares do not form columns.
-bool covered(std::uint32_t x, std::uint32_t y, std::uint32_t oneSquareIn) {
-  constexpr std::uint32_t kSide = 64;
-  constexpr double kGolden = 0.6180339887498949;
-  const auto shift = static_cast<std::uint32_t>(std::lround(kGolden * oneSquareIn));
-  return (x / kSide + shift * (y / kSide)) % oneSquareIn == 0;
-}
-
 class ReferenceTracer {
  public:
   ReferenceTracer(const World& world, const View& view, const SamplingSettings& settings, bool wholePixel)
@@ -52,7 +44,7 @@ class ReferenceTracer {
       if (!diffuse(hit)) return sum;
     }
     for (std::uint32_t s = 0; s < paths; ++s) {
-      Sampler sampler(settings_.sampler, half == 0 ? settings_.seed : ~settings_.seed ^ 1U, (y << 16U) | x,
+      Sampler sampler(settings_.sampler, half == 0 ? settings_.seed : seedOfSecondHalf(settings_.seed), (y << 16U) | x,
                       settings_.firstSample + s);
       if (wholePixel_) {
         View view = view_;
@@ -83,6 +75,16 @@ void set(walr::Image& image, std::size_t index, const glm::dvec3& value) {
 
 }  // namespace
 
+std::uint32_t ReferenceCoverage::rowShift() const {
+  constexpr double kGolden = 0.6180339887498949;
+  return static_cast<std::uint32_t>(std::lround(kGolden * oneSquareIn));
+}
+
+bool ReferenceCoverage::covers(std::uint32_t x, std::uint32_t y) const {
+  constexpr std::uint32_t kSide = 64;
+  return (x / kSide + rowShift() * (y / kSide)) % oneSquareIn == 0;
+}
+
 walr::Reference renderReference(const World& world, const View& view, const SamplingSettings& settings,
                                 const ReferenceCoverage& coverage, std::uint64_t& rays) {
   const auto image = [&] { return walr::Image(static_cast<int>(view.width), static_cast<int>(view.height), 3); };
@@ -97,7 +99,7 @@ walr::Reference renderReference(const World& world, const View& view, const Samp
         for (std::uint32_t y = tile.y0; y < tile.y1; ++y) {
           for (std::uint32_t x = tile.x0; x < tile.x1; ++x) {
             const std::size_t index = static_cast<std::size_t>(y) * view.width + x;
-            if (!covered(x, y, coverage.oneSquareIn)) {
+            if (!coverage.covers(x, y)) {
               const glm::dvec3 nothing(std::numeric_limits<double>::quiet_NaN());
               set(reference.direct, index, nothing);
               set(reference.indirect, index, nothing);

@@ -17,7 +17,17 @@ struct ReferenceCoverage {
   /// Render one of this many squares of 64 x 64 pixels, spread evenly and the same in every frame. The others are
   /// filled with NaN, and error metrics leave them out. This limits the cost of references for large images.
   std::uint32_t oneSquareIn = 1;
+
+  /// Each row of squares is shifted by the golden ratio of the period, so that the chosen squares do not form columns.
+  [[nodiscard]] std::uint32_t rowShift() const;
+  /// Whether a pixel lies in a square that is rendered.
+  [[nodiscard]] bool covers(std::uint32_t x, std::uint32_t y) const;
 };
+
+/// The seed of the second half of a reference's samples.
+inline std::uint32_t seedOfSecondHalf(std::uint32_t seed) {
+  return ~seed ^ 1U;
+}
 
 /// Render a reference: the mean of many samples per pixel, 0 where no sample starts on a diffuse surface. If the number
 /// of samples is even, they form two independent halves. The mean of the first half is stored, too, so that the

@@ -36,9 +36,12 @@ const char* nameOf(Sampler::Kind kind) {
   return "independent";
 }
 
+// Only in the settings of the tracer on the GPU, whose frames differ from the processor's by rounding.
+constexpr const char* kTracerKey = "tracer";
+
 // All settings that pixels depend on. The range of frames is left out, because more frames may be added later.
 nlohmann::json describe(const RenderOptions& options) {
-  return {
+  nlohmann::json settings = {
       {"scene", options.scene.filename().string()},
       {"scene_bytes", fs::file_size(options.scene)},
       {"sky", options.sky.filename().string()},
@@ -58,6 +61,8 @@ nlohmann::json describe(const RenderOptions& options) {
       {"sampler", nameOf(options.sampler)},
       {"light_group", {options.light.columns, options.light.rows}},
   };
+  if (options.otherTracer) settings[kTracerKey] = "gpu";
+  return settings;
 }
 
 // Ensures that all frames of a folder have the same settings: writes them, or compares them with those in the folder.
@@ -72,13 +77,15 @@ void matchSettings(const RenderOptions& options) {
   }
   std::ifstream stream(file);
   const nlohmann::json before = nlohmann::json::parse(stream, nullptr, false);
+  const auto refuse = [&](const std::string& key) {
+    throw InputError(file.string() + ": the frames in this folder were rendered with a different '" + key +
+                     "'; use another --output or remove the folder");
+  };
   for (const auto& [key, value] : settings.items()) {
     const bool same = before.is_object() && before.contains(key) && before[key] == value;
-    if (!same) {
-      throw InputError(file.string() + ": the frames in this folder were rendered with a different '" + key +
-                       "'; use another --output or remove the folder");
-    }
+    if (!same) refuse(key);
   }
+  if (before.contains(kTracerKey) && !settings.contains(kTracerKey)) refuse(kTracerKey);
 }
 
 std::string describeWork(const std::string& file, double seconds, std::uint64_t rays) {
@@ -151,7 +158,9 @@ void renderSequence(const RenderOptions& options, const RenderObserver& observer
   prepareOutputDirectory(options.output);
   matchSettings(options);
 
-  World world(scene);
+  World world(scene, options.otherTracer ? RayCasting::None : RayCasting::Embree);
+  const std::unique_ptr<FrameTracer> tracer =
+      options.otherTracer ? options.otherTracer(world) : std::make_unique<ProcessorTracer>(world);
   std::optional<Reservoirs> reservoirs;
   if (options.resampledFrames > 0) {
     reservoirs.emplace(options.width, options.height, static_cast<float>(options.resampledFrames));
@@ -188,10 +197,10 @@ void renderSequence(const RenderOptions& options, const RenderObserver& observer
       // Later frames need its reservoirs. Its paths are counted as skipped.
       SamplingSettings again = noisy;
       again.pixelsDone = [](std::uint64_t) {};
-      renderFilm(world, view, again);
+      tracer->film(view, again);
     }
     renderFile(noisyFile, options.noisyPaths(), observer, [&] {
-      const Film film = renderFilm(world, view, noisy);
+      const Film film = tracer->film(view, noisy);
       Frame frame = toFrame(film, view, number);
       frame.light = noisy.light;
       frame.lightOffset = noisy.lightOffset;
@@ -202,7 +211,7 @@ void renderSequence(const RenderOptions& options, const RenderObserver& observer
     renderFile(options.output / frameFileName("ref", number, "exr"), options.referencePaths(), observer, [&] {
       std::uint64_t rays = 0;
       const SamplingSettings settings = sampling(options.referenceSamples, options.referencePaths(), 1);
-      writeReference(options.output, number, renderReference(world, view, settings, options.referenceCoverage, rays));
+      writeReference(options.output, number, tracer->reference(view, settings, options.referenceCoverage, rays));
       return rays;
     });
   }

@@ -4,9 +4,11 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 
+#include "samples/render/frame_tracer.h"
 #include "samples/render/reference.h"
 #include "samples/render/sampler.h"
 #include "samples/render/scene.h"
@@ -39,6 +41,8 @@ struct RenderOptions {
   LightPattern light = {};                           ///< Which pixels of the noisy frames have indirect light.
   unsigned int threads = 0;                          ///< Number of threads; 0: one per core.
   DiffuseModel diffuseModel = DiffuseModel::Lambert;
+  /// Makes another path tracer than that on the processor; empty: the processor's.
+  std::function<std::unique_ptr<FrameTracer>(const World&)> otherTracer = {};
 
   /// Whether a frame gets a reference.
   [[nodiscard]] bool hasReference(int frame) const;

@@ -25,9 +25,20 @@ walr::Image toImage(const Film& film, glm::vec3 GBufferPixel::*member) {
 
 }  // namespace
 
-walr::Frame toFrame(const Film& film, const View& view, int number) {
+walr::Frame frameOfView(const View& view, int number) {
   walr::Frame frame;
   frame.number = number;
+  frame.camera.view = view.viewFromWorld;
+  frame.camera.previousView = view.previousViewFromWorld;
+  frame.camera.projection = view.projection;
+  frame.camera.jitter = view.jitter;
+  frame.previousProjection = view.projection;
+  frame.previousJitter = view.previousJitter;
+  return frame;
+}
+
+walr::Frame toFrame(const Film& film, const View& view, int number) {
+  walr::Frame frame = frameOfView(view, number);
   frame.indirect = toImage(film, film.indirect);
   frame.direct = toImage(film, film.direct);
   frame.albedo = toImage(film, &GBufferPixel::albedo);
@@ -42,12 +53,6 @@ walr::Frame toFrame(const Film& film, const View& view, int number) {
     const std::uint32_t id = film.gbuffer[i].objectId;
     return id == GBufferPixel::kSky ? -1.0F : static_cast<float>(id);
   });
-  frame.camera.view = view.viewFromWorld;
-  frame.camera.previousView = view.previousViewFromWorld;
-  frame.camera.projection = view.projection;
-  frame.camera.jitter = view.jitter;
-  frame.previousProjection = view.projection;
-  frame.previousJitter = view.previousJitter;
   return frame;
 }
 

@@ -6,6 +6,9 @@
 
 namespace walr::render {
 
+/// The camera of a view as a frame without images.
+walr::Frame frameOfView(const View& view, int number);
+
 /// Convert a film to a frame in the project's conventions, with direct light and emission.
 walr::Frame toFrame(const Film& film, const View& view, int number);
 

@@ -27,6 +27,10 @@ class Sky {
   [[nodiscard]] glm::vec3 radiance(const glm::vec3& direction) const;
   /// Whether `sample` may be called: there is a map that is not black.
   [[nodiscard]] bool isSampled() const { return !rows_.empty(); }
+  /// The cumulative probabilities that `sample` inverts: of rows, and of columns within each row. Empty unless
+  /// `isSampled`.
+  [[nodiscard]] const std::vector<float>& rows() const { return rows_; }
+  [[nodiscard]] const std::vector<float>& columns() const { return columns_; }
   /// Sample a direction; texels are chosen in proportion to their light (Pharr et al. 2016, 14.2.4).
   /// @param random  uniform in the unit square
   [[nodiscard]] SkySample sample(const glm::vec2& random) const;

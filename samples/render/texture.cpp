@@ -11,21 +11,9 @@ namespace {
 
 using ByteTable = std::array<float, 256>;
 
-// IEC 61966-2-1.
-ByteTable makeSrgbTable() {
+ByteTable makeTable(ColorSpace space) {
   ByteTable table{};
-  for (std::size_t i = 0; i < table.size(); ++i) {
-    const float encoded = static_cast<float>(i) / 255.0F;
-    table[i] = encoded <= 0.04045F ? encoded / 12.92F : std::pow((encoded + 0.055F) / 1.055F, 2.4F);
-  }
-  return table;
-}
-
-ByteTable makeLinearTable() {
-  ByteTable table{};
-  for (std::size_t i = 0; i < table.size(); ++i) {
-    table[i] = static_cast<float>(i) / 255.0F;
-  }
+  for (std::uint32_t i = 0; i < table.size(); ++i) table.at(i) = valueOfByte(i, space);
   return table;
 }
 
@@ -67,9 +55,16 @@ Neighbors findNeighbors(float coordinate, std::uint32_t size, const Texture& tex
 
 }  // namespace
 
+float valueOfByte(std::uint32_t byte, ColorSpace space) {
+  const float encoded = static_cast<float>(byte) / 255.0F;
+  if (space == ColorSpace::Linear) return encoded;
+  // IEC 61966-2-1.
+  return encoded <= 0.04045F ? encoded / 12.92F : std::pow((encoded + 0.055F) / 1.055F, 2.4F);
+}
+
 glm::vec4 sampleTexture(const Image& image, const Texture& texture, glm::vec2 uv, ColorSpace space) {
-  static const ByteTable srgb = makeSrgbTable();
-  static const ByteTable linear = makeLinearTable();
+  static const ByteTable srgb = makeTable(ColorSpace::Srgb);
+  static const ByteTable linear = makeTable(ColorSpace::Linear);
   const ByteTable& color = space == ColorSpace::Srgb ? srgb : linear;
 
   const Neighbors x = findNeighbors(uv.x, image.width, texture, texture.wrapU);

@@ -31,6 +31,9 @@ struct Texture {
 /// The encoding of the red, green and blue bytes of a texture; alpha is always linear.
 enum class ColorSpace : std::uint8_t { Srgb, Linear };
 
+/// The linear value of a byte of a texture.
+float valueOfByte(std::uint32_t byte, ColorSpace space);
+
 /// Value of a texture at `uv` (v points down, as in glTF). Texels are converted to linear values and interpolated
 /// bilinearly; there are no mipmaps. A coordinate that is not finite counts as 0.
 glm::vec4 sampleTexture(const Image& image, const Texture& texture, glm::vec2 uv, ColorSpace space);

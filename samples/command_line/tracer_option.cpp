@@ -1,0 +1,38 @@
+#include "samples/command_line/tracer_option.h"
+
+#include <map>
+
+#include "framegraph/vulkan/error.h"
+
+namespace walr {
+
+void addTracerOption(CLI::App& command, TracerChoice& choice) {
+  static const std::map<std::string, TracerChoice> kNames{
+      {"cpu", TracerChoice::Cpu}, {"gpu", TracerChoice::Gpu}, {"auto", TracerChoice::Auto}};
+  std::string initial;
+  for (const auto& [name, value] : kNames) {
+    if (value == choice) initial = name;
+  }
+  command
+      .add_option("--tracer", choice,
+                  "Where paths are traced: cpu (Embree), gpu (a Vulkan device with ray queries) or auto (gpu if the "
+                  "device has ray queries and is no software driver, otherwise cpu)")
+      ->transform(CLI::CheckedTransformer(kNames))
+      ->type_name("")
+      ->default_str(initial);
+}
+
+TracerDecision decideTracer(TracerChoice choice, const GpuDevice& gpu) {
+  if (choice == TracerChoice::Cpu) return {false, "CPU (Embree)"};
+  const std::string& missing = gpu.missingForRayQueries();
+  if (choice == TracerChoice::Gpu) {
+    if (missing.empty()) return {true, "GPU (ray queries)"};
+    throw fg::vk::Unsupported("--tracer gpu: the device '" + gpu.name() + "' lacks " + missing +
+                              "; use --tracer cpu, or another --device");
+  }
+  if (!missing.empty()) return {false, "CPU (Embree), because the device lacks " + missing};
+  if (gpu.isSoftware()) return {false, "CPU (Embree), because the device is a software driver"};
+  return {true, "GPU (ray queries)"};
+}
+
+}  // namespace walr
