@@ -53,6 +53,7 @@ void runHeadless(const HostOptions& options, Tracer& tracer, GpuDevice& gpu, Den
   rendering.view = parseView(options.view);
   rendering.viewConstants = viewConstantsOf(extent);
   rendering.readComposite = options.exr;
+  rendering.scene = tracer.gpuScene();
   Renderer renderer(gpu, method, extent, rendering);
   prepareOutputDirectory(options.output);
   Tracer::Request request;
@@ -87,21 +88,23 @@ void run(HostOptions& options) {
   options.tracer.extent = parseSize(options.size);
   std::unique_ptr<Denoiser> method = makeMethod(options.method);
   const bool window = opensWindow(options);
-  Tracer tracer(options.tracer);
-  for (const std::string& warning : tracer.warnings()) {
-    std::cerr << "warning: " << warning << '\n';
-  }
 #ifdef WALR_HOST_WINDOW
   if (window) {
     options.gpu = withWindows(options.gpu);
   }
 #endif
+  options.gpu.rayQueries = mayTraceOnGpu(options.tracerChoice);
   GpuDevice gpu(options.gpu);
+  const TracerDecision decision = decideTracer(options.tracerChoice, gpu);
+  Tracer tracer(options.tracer, decision.onGpu ? &gpu : nullptr);
+  for (const std::string& warning : tracer.warnings()) {
+    std::cerr << "warning: " << warning << '\n';
+  }
   std::cout << "method: " << options.method.name;
   if (const std::optional<std::string> preset = presetInUse(options.method.name, *method)) {
     std::cout << ", preset " << *preset;
   }
-  std::cout << "\ndevice: " << gpu.name() << ", driver " << gpu.driver() << std::endl;
+  std::cout << "\ndevice: " << gpu.name() << ", driver " << gpu.driver() << "\ntracer: " << decision.text << std::endl;
   if (!window) {
     runHeadless(options, tracer, gpu, *method);
   }
