@@ -15,7 +15,7 @@ void renderFrames(Tracer& tracer, Renderer& renderer, const FrameRange& frames, 
   const auto traceFrame = [&](int number) {
     request.number = number;
     request.animationFrame = number;
-    return packHostFrame(tracer.trace(request));
+    return tracer.hostFrame(request);
   };
   HostFrame frame = traceFrame(frames.first);
   for (int number = frames.first; number <= frames.last; ++number) {

@@ -13,8 +13,8 @@ namespace walr::host {
 /// Reloads shaders of a graph whose sources have changed. Returns the number of shaders that the executor got.
 using ReloadShaders = std::function<std::size_t(const fg::GraphDesc&, fg::vk::Executor&)>;
 
-/// Renders the frames of an animation in order and calls `use` for each. The next frame is traced while the device
-/// works.
+/// Renders the frames of an animation in order and calls `use` for each. The next frame is traced, or prepared for
+/// tracing, while the device works.
 /// @param request  what to trace; its frame number and animation frame are replaced by those of each frame
 void renderFrames(Tracer& tracer, Renderer& renderer, const FrameRange& frames, Tracer::Request request,
                   const std::function<void(const RenderedFrame&)>& use);

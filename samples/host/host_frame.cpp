@@ -12,8 +12,18 @@ HostFrame packHostFrame(Frame frame) {
     packed.referenceDirect = packRgba16(frame.reference->direct);
     packed.referenceIndirect = packRgba16(frame.reference->indirect);
   }
+  packed.constants = frameConstantsOf(frame, glm::vec2(1.0F));
   packed.inputs = packFrame(std::move(frame));
   return packed;
+}
+
+HostFrame hostFrameToTrace(Frame frame, gpu_render::TraceData trace) {
+  HostFrame host;
+  host.constants =
+      frameConstants(frameDescriptionOf(frame, glm::vec2(1.0F)), {trace.constants.size.x, trace.constants.size.y});
+  host.inputs.frame = std::move(frame);
+  host.trace = std::move(trace);
+  return host;
 }
 
 }  // namespace walr::host

@@ -1,14 +1,19 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "samples/denoise/packed_frame.h"
+#include "samples/gpu_render/trace_pass.h"
 
 namespace walr::host {
 
-/// A traced frame with its images in the formats of the host's textures.
+/// A frame with its images in the formats of the host's textures, or what the device needs to trace it.
 struct HostFrame {
   PackedFrame inputs;  ///< Inputs of the denoiser; `inputs.frame.number` is its random seed.
+  FrameConstants constants{};
+  /// For a graph that traces (`HostGraph::trace`). All images are then empty.
+  std::optional<gpu_render::TraceData> trace;
   std::vector<Rgba16> direct;
   std::vector<Rgba16> emission;
   std::vector<Rgba16> referenceDirect;  ///< For the split view; empty otherwise.
@@ -16,5 +21,9 @@ struct HostFrame {
 };
 
 HostFrame packHostFrame(Frame frame);
+
+/// A frame that the device traces.
+/// @param frame  without images
+HostFrame hostFrameToTrace(Frame frame, gpu_render::TraceData trace);
 
 }  // namespace walr::host

@@ -67,7 +67,34 @@ void declareInputs(HostGraph& host, fg::Extent extent, const HostView& view, con
     picture(host.referenceDirect.emplace(), "reference direct light", kColourFormat);
   }
   addUploads(graph, device, uploads);
-  host.frameConstants = graph.upload("frame constants", sizeof(FrameConstants));
+}
+
+/// The same inputs, traced on the device.
+void declareTracedInputs(HostGraph& host, fg::Extent extent, const HostView& view, const gpu_render::GpuScene& scene) {
+  if (view.needsReference()) {
+    throw UsageError("views with a reference need the path tracer on the processor: use --tracer cpu, or another view");
+  }
+  fg::Graph& graph = host.graph;
+  const auto color = [&](const char* name) { return graph.texture(name, {.format = kColourFormat, .extent = extent}); };
+  gpu_render::TracedTextures traced{
+      .direct = color("direct light"),
+      .indirect = color("lighting"),
+      .normal = color("normal"),
+      .albedo = color("albedo"),
+      .emission = color("emission"),
+      .motion = color("motion"),
+      .depth = graph.texture("depth", {.format = kDepthFormat, .extent = extent}),
+      .objectId = graph.texture("object id", {.format = VK_FORMAT_R32_UINT, .extent = extent})};
+  host.trace = gpu_render::declareTraceInputs(graph, scene);
+  gpu_render::addTrace(graph, scene, gpu_render::Precision::Half, *host.trace, traced);
+  host.direct.texture = traced.direct;
+  host.lighting.texture = traced.indirect;
+  host.normal.texture = traced.normal;
+  host.albedo.texture = traced.albedo;
+  host.emission.texture = traced.emission;
+  host.motion.texture = traced.motion;
+  host.depth.texture = traced.depth;
+  host.objectId.texture = traced.objectId;
 }
 
 /// The lit image of another light source than the denoiser. The composite of the denoised light exists in any case.
@@ -103,10 +130,16 @@ void addView(HostGraph& host, const HostView& view) {
 
 HostGraph declareHostGraph(const fg::vk::DeviceContext& device, Denoiser& method, fg::Extent extent,
                            const HostView& view, const HostTargets& targets,
-                           const std::function<void(fg::Graph&, fg::Texture display)>& present) {
+                           const std::function<void(fg::Graph&, fg::Texture display)>& present,
+                           const gpu_render::GpuScene* scene) {
   HostGraph host;
   fg::Graph& graph = host.graph;
-  declareInputs(host, extent, view, device);
+  if (scene != nullptr) {
+    declareTracedInputs(host, extent, view, *scene);
+  } else {
+    declareInputs(host, extent, view, device);
+  }
+  host.frameConstants = graph.upload("frame constants", sizeof(FrameConstants));
 
   const fg::TextureDesc colour{.format = kColourFormat, .extent = extent};
   const DenoiserInputs inputs{.lighting = host.lighting.texture,

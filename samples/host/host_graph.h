@@ -8,6 +8,8 @@
 #include "framegraph/declare/graph.h"
 #include "framegraph/vulkan/device_context.h"
 #include "passes/denoiser.h"
+#include "samples/gpu_render/gpu_scene.h"
+#include "samples/gpu_render/trace_pass.h"
 #include "samples/host/host_passes.h"
 
 namespace walr::host {
@@ -29,9 +31,11 @@ struct HostView {
   friend bool operator==(const HostView&, const HostView&) = default;
 };
 
-/// A host's whole frame as one graph: uploads, the method's passes, composite, tone map.
+/// A host's whole frame as one graph: uploads or the path tracer, the method's passes, composite, tone map.
 struct HostGraph {
   fg::Graph graph;
+  /// If the device traces: what the tracer's pass needs. The pictures below then have no bytes to upload.
+  std::optional<gpu_render::TraceInputs> trace;
   UploadedPicture lighting;
   UploadedPicture depth;
   UploadedPicture normal;
@@ -65,11 +69,15 @@ struct HostTargets {
 /// @param device   must outlive the graph
 /// @param present  adds passes that follow the displayed image, for instance one that copies it to a window; may be
 ///         empty
+/// @param scene    what the device traces, must outlive the graph; null: the processor traces, and its pictures are
+///         uploaded
 /// @throws std::invalid_argument naming a setting of the method that is out of range
-/// @throws UsageError if the graph lacks the texture to view; the message lists the graph's textures
+/// @throws UsageError if the device traces and the view needs a reference; or if the graph lacks the texture to view;
+/// the message lists the graph's textures
 HostGraph declareHostGraph(const fg::vk::DeviceContext& device, Denoiser& method, fg::Extent extent,
                            const HostView& view, const HostTargets& targets,
-                           const std::function<void(fg::Graph&, fg::Texture display)>& present = {});
+                           const std::function<void(fg::Graph&, fg::Texture display)>& present = {},
+                           const gpu_render::GpuScene* scene = nullptr);
 
 /// Names of the textures that can be viewed.
 std::vector<std::string> viewableTextures(const fg::GraphDesc& graph);

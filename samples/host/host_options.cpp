@@ -88,7 +88,8 @@ void addHostOptions(CLI::App& program, HostOptions& options) {
           {"first-hit", render::GBufferMode::FirstHit}, {"material", render::GBufferMode::Material}}))
       ->type_name("")
       ->default_str("first-hit");
-  program.add_option("--threads", tracer.threads, "Threads for path tracing; 0: one per core")->capture_default_str();
+  program.add_option("--threads", tracer.threads, "Threads for --tracer cpu; 0: one per core")->capture_default_str();
+  addTracerOption(program, options.tracerChoice);
 }
 
 std::filesystem::path builtInScene() {

@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 
 #include "samples/command_line/method_options.h"
+#include "samples/command_line/tracer_option.h"
 #include "samples/denoise/gpu_device.h"
 #include "samples/host/host_graph.h"
 #include "samples/host/tracer.h"
@@ -17,6 +18,7 @@ struct HostOptions {
   Tracer::Options tracer;
   MethodOptions method;
   GpuDevice::Options gpu;
+  TracerChoice tracerChoice = TracerChoice::Auto;
   std::string frames;  ///< Empty: in a window the whole animation, otherwise frames 0 to 11.
   std::string size = "640x360";
   std::string view = "denoised";

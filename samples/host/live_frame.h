@@ -40,8 +40,10 @@ class LiveFrame {
   enum class Start { FromHistory, Anew };
 
   /// @param device, picture  must outlive this
+  /// @param scene            see `declareHostGraph`; must outlive this
   /// @param framesInFlight   frames recorded with the same slot must be this many frames apart
-  LiveFrame(const GpuDevice& device, const ShownPicture& picture, std::uint32_t framesInFlight);
+  LiveFrame(const GpuDevice& device, const ShownPicture& picture, std::uint32_t framesInFlight,
+            const gpu_render::GpuScene* scene = nullptr);
   /// The device must have finished all frames.
   ~LiveFrame() = default;
   LiveFrame(const LiveFrame&) = delete;
@@ -88,6 +90,7 @@ class LiveFrame {
   const GpuDevice& device_;
   const ShownPicture& picture_;
   std::uint32_t framesInFlight_;
+  const gpu_render::GpuScene* scene_;
   std::uint64_t frames_ = 0;  // Number of recorded frames, of all graphs.
   std::unique_ptr<Running> running_;
   std::unique_ptr<Running> predecessor_;  // Kept until `running_` has recorded a frame.

@@ -63,6 +63,7 @@ void runHeadless(const HostOptions& options, float stops, Tracer& tracer, GpuDev
   rendering.view = parseView(options.view);
   rendering.viewConstants = viewConstantsOf(extent, stops);
   rendering.readComposite = options.exr;
+  rendering.scene = tracer.gpuScene();
   Renderer renderer(gpu, method, extent, rendering);
   if (!options.output.empty()) prepareOutputDirectory(options.output);
   Tracer::Request request;
@@ -100,7 +101,15 @@ void run(HostOptions& options) {
   if (options.tracer.scene.empty()) options.tracer.scene = builtInScene();
   std::unique_ptr<Denoiser> method = makeMethod(options.method);
   const bool window = opensWindow(options);
-  Tracer tracer(options.tracer);
+#ifdef WALR_HOST_WINDOW
+  if (window) {
+    options.gpu = withWindows(options.gpu);
+  }
+#endif
+  options.gpu.rayQueries = mayTraceOnGpu(options.tracerChoice);
+  GpuDevice gpu(options.gpu);
+  const TracerDecision decision = decideTracer(options.tracerChoice, gpu);
+  Tracer tracer(options.tracer, decision.onGpu ? &gpu : nullptr);
   for (const std::string& warning : tracer.warnings()) {
     std::cerr << "warning: " << warning << '\n';
   }
@@ -109,17 +118,11 @@ void run(HostOptions& options) {
     options.frames = "0-" + std::to_string(last);
   }
   const float stops = exposure ? *exposure : tracer.exposure(parseFrameRange(options.frames).first);
-#ifdef WALR_HOST_WINDOW
-  if (window) {
-    options.gpu = withWindows(options.gpu);
-  }
-#endif
-  GpuDevice gpu(options.gpu);
   std::cout << "method: " << options.method.name;
   if (const std::optional<std::string> preset = presetInUse(options.method.name, *method)) {
     std::cout << ", preset " << *preset;
   }
-  std::cout << "\ndevice: " << gpu.name() << ", driver " << gpu.driver() << std::endl;
+  std::cout << "\ndevice: " << gpu.name() << ", driver " << gpu.driver() << "\ntracer: " << decision.text << std::endl;
   if (!window) {
     runHeadless(options, stops, tracer, gpu, *method);
   }

@@ -23,7 +23,8 @@ HostTargets targetsOf(const Renderer::Options& options) {
 Renderer::Renderer(const GpuDevice& gpu, Denoiser& method, fg::Extent extent, const Options& options)
     : extent_(extent),
       options_(options),
-      host_(declareHostGraph(gpu.device().context(), method, extent, options.view, targetsOf(options))),
+      host_(declareHostGraph(gpu.device().context(), method, extent, options.view, targetsOf(options), {},
+                             options.scene)),
       graph_(gpu, host_.graph, options.framesInFlight),
       display_(graph_.readBack(host_.display)) {
   if (options.readComposite) composite_ = graph_.readBack(host_.composite);
@@ -61,6 +62,13 @@ std::optional<RenderedFrame> Renderer::finish() {
 void uploadFrame(fg::vk::Executor& executor, const HostGraph& graph, const HostFrame& frame,
                  const ViewConstants& view) {
   const PackedFrame& inputs = frame.inputs;
+  executor.upload(graph.frameConstants, frame.constants);
+  executor.upload(graph.viewConstants, view);
+  if (inputs.frame.resetHistory) executor.resetAllHistory();
+  if (graph.trace) {
+    gpu_render::uploadTrace(executor, *graph.trace, *frame.trace);
+    return;
+  }
   const auto upload = [&](const UploadedPicture& picture, auto texels) {
     executor.upload(picture.bytes, std::as_bytes(std::span(texels.data(), texels.size())));
   };
@@ -75,11 +83,6 @@ void uploadFrame(fg::vk::Executor& executor, const HostGraph& graph, const HostF
   if (graph.referenceIndirect) {
     upload(*graph.referenceIndirect, std::span(frame.referenceIndirect));
     upload(*graph.referenceDirect, std::span(frame.referenceDirect));
-  }
-  executor.upload(graph.frameConstants, frameConstantsOf(inputs.frame, glm::vec2(1.0F)));
-  executor.upload(graph.viewConstants, view);
-  if (inputs.frame.resetHistory) {
-    executor.resetAllHistory();
   }
 }
 

@@ -32,6 +32,7 @@ class Renderer {
     std::uint32_t framesInFlight = 2;  ///< At least 1.
     bool readComposite = false;
     bool readDenoised = false;
+    const gpu_render::GpuScene* scene = nullptr;  ///< See `declareHostGraph`; must outlive the renderer.
   };
 
   /// @param gpu     must outlive the renderer

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <functional>
 #include <limits>
+#include <optional>
+#include <utility>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -11,6 +13,7 @@
 #include "samples/image/exposure.h"
 #include "samples/render/animation.h"
 #include "samples/render/load_scene.h"
+#include "samples/render/scene_error.h"
 #include "samples/render/sequence_frame.h"
 #include "samples/render/view.h"
 
@@ -29,11 +32,18 @@ void moveDirect(Image& direct, Image& indirect) {
 
 }  // namespace
 
-Tracer::Tracer(const Options& options)
+Tracer::Tracer(const Options& options, const GpuDevice* gpu)
     : options_(options),
       scene_(render::loadScene(options.scene, options.sky)),
       camera_(render::findCamera(scene_, options.camera)),
-      world_(scene_) {}
+      world_(scene_, gpu != nullptr ? render::RayCasting::None : render::RayCasting::Embree) {
+  if (gpu == nullptr) return;
+  if (options.gbuffer != render::GBufferMode::FirstHit) {
+    throw render::SceneError("--gbuffer material: the path tracer on the GPU has only first-hit; use --tracer cpu");
+  }
+  gpuScene_ = std::make_unique<gpu_render::GpuScene>(*gpu, world_);
+  gpuScene_->prepare(gpu_render::Precision::Half);
+}
 
 glm::mat4 Tracer::sceneCamera(double animationFrame) const {
   const std::vector<glm::mat4> nodes = render::worldTransforms(scene_, animationFrame / options_.framesPerSecond);
@@ -66,11 +76,13 @@ float Tracer::exposure(double animationFrame) {
   constexpr std::uint32_t kRows = 36;
   constexpr std::uint32_t kSamples = 64;
   const double seconds = animationFrame / options_.framesPerSecond;
-  world_.moveTo(seconds, seconds);
+  std::optional<render::World> forProcessor;  // If the device traces, the processor cannot cast rays in `world_`.
+  render::World& world = gpuScene_ ? forProcessor.emplace(scene_) : world_;
+  world.moveTo(seconds, seconds);
   const std::uint32_t columns = std::max(1U, kRows * options_.extent.width / options_.extent.height);
-  const render::View view = render::viewFrom(world_, camera_, columns, kRows, {}, {});
+  const render::View view = render::viewFrom(world, camera_, columns, kRows, {}, {});
   const Frame frame = render::toFrame(
-      render::renderFilm(world_, view, {.samples = kSamples, .bounces = options_.bounces, .threads = options_.threads}),
+      render::renderFilm(world, view, {.samples = kSamples, .bounces = options_.bounces, .threads = options_.threads}),
       view, 0);
   return autoExposure(composite(frame.indirect, frame.direct, frame.albedo, frame.emission)).value_or(0.0F);
 }
@@ -87,10 +99,13 @@ render::View Tracer::viewOf(const Request& request) const {
   return view;
 }
 
-Frame Tracer::trace(const Request& request) {
+render::View Tracer::moveTo(const Request& request) {
   const double before = previous_ ? previous_->animationFrame : request.animationFrame;
   world_.moveTo(request.animationFrame / options_.framesPerSecond, before / options_.framesPerSecond);
-  const render::View view = viewOf(request);
+  return viewOf(request);
+}
+
+render::SamplingSettings Tracer::samplingOf(const Request& request) const {
   render::SamplingSettings sampling;
   sampling.samples = options_.samples;
   sampling.bounces = options_.bounces;
@@ -99,9 +114,30 @@ Frame Tracer::trace(const Request& request) {
   sampling.seed = options_.seed * 2;
   sampling.firstSample = static_cast<std::uint32_t>(request.number) * options_.samples;
   sampling.threads = options_.threads;
-  Frame frame = render::toFrame(render::renderFilm(world_, view, sampling), view, request.number);
+  return sampling;
+}
+
+void Tracer::finish(const Request& request, const render::View& view, Frame& frame) {
   frame.camera.cut = request.cut;
   frame.resetHistory = request.cut || request.resetHistory || !previous_;
+  previous_ = request;
+  previousView_ = view.viewFromWorld;
+}
+
+HostFrame Tracer::hostFrame(const Request& request) {
+  if (!gpuScene_) return packHostFrame(trace(request));
+  const render::View view = moveTo(request);
+  gpu_render::TraceData data{gpu_render::sceneState(world_), gpuScene_->placements(world_),
+                             gpu_render::traceConstants(world_, view, samplingOf(request))};
+  if (options_.denoiseDirect) data.constants.flags |= gpu_render::kDirectInIndirect;
+  Frame frame = render::frameOfView(view, request.number);
+  finish(request, view, frame);
+  return hostFrameToTrace(std::move(frame), std::move(data));
+}
+
+Frame Tracer::trace(const Request& request) {
+  const render::View view = moveTo(request);
+  Frame frame = render::toFrame(render::renderFilm(world_, view, samplingOf(request)), view, request.number);
   if (request.reference) {
     frame.reference = traceReference(request, view);
   }
@@ -111,8 +147,7 @@ Frame Tracer::trace(const Request& request) {
       moveDirect(frame.reference->direct, frame.reference->indirect);
     }
   }
-  previous_ = request;
-  previousView_ = view.viewFromWorld;
+  finish(request, view, frame);
   return frame;
 }
 

@@ -10,6 +10,8 @@
 #include <glm/mat4x4.hpp>
 
 #include "framegraph/declare/graph.h"
+#include "samples/gpu_render/gpu_scene.h"
+#include "samples/host/host_frame.h"
 #include "samples/render/film.h"
 #include "samples/render/gbuffer.h"
 #include "samples/render/scene.h"
@@ -18,7 +20,8 @@
 
 namespace walr::host {
 
-/// Produces the host's frames from a scene, its animation and a path tracer.
+/// Produces the host's frames from a scene, its animation and a path tracer. The path tracer runs on the processor, or
+/// as a pass of the host's graph.
 class Tracer {
  public:
   struct Options {
@@ -50,8 +53,9 @@ class Tracer {
     bool reference = false;     ///< Add a reference: the mean of all samples since the image last changed.
   };
 
+  /// @param gpu  traces the frames, must outlive this (see `gpu_render::GpuScene`); null: the processor does
   /// @throws render::SceneError for a scene that cannot be rendered
-  explicit Tracer(const Options& options);
+  explicit Tracer(const Options& options, const GpuDevice* gpu = nullptr);
 
   [[nodiscard]] fg::Extent extent() const { return options_.extent; }
   [[nodiscard]] bool denoisesDirect() const { return options_.denoiseDirect; }
@@ -68,8 +72,13 @@ class Tracer {
   /// picture; 0 if that is black.
   [[nodiscard]] float exposure(double animationFrame);
 
-  /// Trace a frame. Its previous frame is that of the previous call.
+  /// What `declareHostGraph` traces; null if the processor traces.
+  [[nodiscard]] const gpu_render::GpuScene* gpuScene() const { return gpuScene_.get(); }
+
+  /// Trace a frame on the processor. Its previous frame is that of the previous call.
   Frame trace(const Request& request);
+  /// The next frame for the host's graph: traced, or what the device needs to trace it.
+  HostFrame hostFrame(const Request& request);
 
  private:
   /// Sum of the reference samples of one image.
@@ -81,13 +90,19 @@ class Tracer {
     std::uint32_t steps = 0;
   };
 
+  /// Moves the scene to a frame. Returns its view.
+  render::View moveTo(const Request& request);
   [[nodiscard]] render::View viewOf(const Request& request) const;
+  [[nodiscard]] render::SamplingSettings samplingOf(const Request& request) const;
+  /// To be called for every frame, in the end.
+  void finish(const Request& request, const render::View& view, Frame& frame);
   Reference traceReference(const Request& request, const render::View& view);
 
   Options options_;
   render::Scene scene_;
   std::uint32_t camera_;
   render::World world_;
+  std::unique_ptr<gpu_render::GpuScene> gpuScene_;
   std::optional<Request> previous_;
   glm::mat4 previousView_{1.0F};
   Accumulation reference_;

@@ -85,7 +85,9 @@ void expectAgreement(const Film& cpu, const Film& gpu, Indirect indirect = Indir
   EXPECT_GE(static_cast<double>(found.pixels), kLeast * static_cast<double>(cpu.gbuffer.size()));
   EXPECT_GE(share(found.guides), kLeast);
   EXPECT_GE(share(found.direct), kLeast);
-  if (indirect == Indirect::OfEverySample) EXPECT_GE(share(found.indirect), kLeast);
+  if (indirect == Indirect::OfEverySample) {
+    EXPECT_GE(share(found.indirect), kLeast);
+  }
 }
 
 // A scene with both tracers.

@@ -56,9 +56,11 @@ class Show {
         window_(window),
         surface_(surface),
         picture_(device, extent),
-        live_(device, picture_, kFramesInFlight),
+        live_(device, picture_, kFramesInFlight, tracer.gpuScene()),
         queue_(device.device().context(), device.device().queue(), kFramesInFlight),
-        interface_(device, window, kFramesInFlight) {}
+        interface_(device, window, kFramesInFlight) {
+    facts_.deviceTraces = tracer.gpuScene() != nullptr;
+  }
 
   ~Show() {
     if (next_.valid()) {
@@ -91,7 +93,7 @@ class Show {
       again_ = false;
       next_ = std::async(std::launch::async, [this, request] {
         const Clock::time_point start = Clock::now();
-        Traced traced{packHostFrame(tracer_.trace(*request)), 0.0};
+        Traced traced{tracer_.hostFrame(*request), 0.0};
         traced.seconds = std::chrono::duration<double>(Clock::now() - start).count();
         return traced;
       });
@@ -133,7 +135,7 @@ class Show {
 
   /// A view with a reference can only show frames that have one.
   [[nodiscard]] bool frameFits() const {
-    return !session_.view().needsReference() || !frame_.referenceIndirect.empty();
+    return !session_.view().needsReference() || !frame_.referenceIndirect.empty() || tracer_.gpuScene() != nullptr;
   }
 
   void waitForFrame() {

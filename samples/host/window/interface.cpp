@@ -88,7 +88,7 @@ void Interface::update(Session& session, const fg::Graph& graph, const fg::Plan&
       ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoTitleBar;
   ImGui::Begin("walr", nullptr, kFixed);
   playPanel(session);
-  viewPanel(session, viewableTextures(graph.desc()));
+  viewPanel(session, viewableTextures(graph.desc()), !facts.deviceTraces);
   methodPanel(session);
   if (ImGui::CollapsingHeader("Times", ImGuiTreeNodeFlags_DefaultOpen)) {
     timesPanel(facts, session.tracer().denoisesDirect(), device_.isSoftware());

@@ -21,7 +21,8 @@ namespace walr::host {
 /// Measurements of the last frame that the panels show.
 struct FrameFacts {
   std::vector<fg::vk::PassTime> passTimes;
-  double tracingSeconds = 0.0;
+  bool deviceTraces = false;    ///< Paths are traced in a pass of the graph, not on the processor.
+  double tracingSeconds = 0.0;  ///< On the processor.
   /// Times of the last frames in milliseconds, oldest first.
   std::deque<float> tracingHistory;
   std::deque<float> deviceHistory;

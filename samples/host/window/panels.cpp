@@ -159,12 +159,20 @@ void playPanel(Session& session) {
   ImGui::NewLine();
 }
 
-void viewPanel(Session& session, const std::vector<std::string>& textures) {
+void viewPanel(Session& session, const std::vector<std::string>& textures, bool references) {
   ImGui::Separator();
   const HostView& view = session.view();
-  const std::array<std::string, 5> names = {"denoised", "noisy", "reference", "split", "texture"};
-  if (const auto chosen = choose("View", names, names.at(static_cast<std::size_t>(view.kind)))) {
-    HostView next{static_cast<HostView::Kind>(*chosen), ""};
+  const std::array<std::string, 5> all = {"denoised", "noisy", "reference", "split", "texture"};
+  std::vector<HostView::Kind> kinds;
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const HostView offered{static_cast<HostView::Kind>(i), ""};
+    if (offered.needsReference() && !references) continue;
+    kinds.push_back(offered.kind);
+    names.push_back(all.at(i));
+  }
+  if (const auto chosen = choose("View", names, all.at(static_cast<std::size_t>(view.kind)))) {
+    HostView next{kinds[*chosen], ""};
     if (next.kind == HostView::Kind::Texture) {
       next.texture = textures.front();
     }
@@ -211,9 +219,13 @@ void settingsPanel(Session& session) {
 
 void timesPanel(const FrameFacts& facts, bool denoisesDirect, bool softwareDevice) {
   constexpr double kMilliseconds = 1000.0;
-  ImGui::Text("Tracing %.0f ms; the direct light is %s", facts.tracingSeconds * kMilliseconds,
-              denoisesDirect ? "denoised" : "noisy");
-  chart("##tracing", facts.tracingHistory);
+  if (facts.deviceTraces) {
+    ImGui::Text("Paths: traced on the device, pass 'trace'");
+  } else {
+    ImGui::Text("Paths: traced by Embree, %.0f ms", facts.tracingSeconds * kMilliseconds);
+    chart("##tracing", facts.tracingHistory);
+  }
+  ImGui::Text("Direct light: %s", denoisesDirect ? "denoised" : "noisy");
   double sum = 0.0;
   for (const fg::vk::PassTime& pass : facts.passTimes) {
     sum += pass.milliseconds;

@@ -14,7 +14,8 @@ namespace walr::host {
 /// Pause, freeze, camera, cut, history.
 void playPanel(Session& session);
 /// The displayed view.
-void viewPanel(Session& session, const std::vector<std::string>& textures);
+/// @param references  whether views with a reference are offered
+void viewPanel(Session& session, const std::vector<std::string>& textures, bool references);
 /// Method and presets.
 void methodPanel(Session& session);
 /// A widget for every setting of the method, with the setting's own range.

@@ -1,0 +1,125 @@
+// The sample host with the path tracer as a pass of its graph.
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "framegraph/vulkan/frame_queue.h"
+#include "passes/denoiser.h"
+#include "samples/command_line/usage_error.h"
+#include "samples/host/headless.h"
+#include "samples/host/live_frame.h"
+#include "samples/host/renderer.h"
+#include "samples/host/tracer.h"
+#include "samples/render/scene_error.h"
+#include "tests/gpu_render/tracing_fixture.h"
+
+namespace walr::host {
+namespace {
+
+constexpr fg::Extent kExtent{40, 24};
+
+Tracer::Options tracing(const std::string& scene) {
+  Tracer::Options options;
+  options.scene = std::string(WALR_SCENES "/") + scene;
+  options.extent = kExtent;
+  return options;
+}
+
+double meanOf(const Image& image) {
+  double sum = 0.0;
+  for (const float value : image.values()) sum += value;
+  return sum / static_cast<double>(image.values().size());
+}
+
+}  // namespace
+
+using GpuHost = gpu_render::test::TracingTest;
+
+// Objects and camera of the turntable move all the time from frame 12 on; its 48 frames are played again and again.
+TEST_F(GpuHost, RendersThreeHundredMovingFramesWithoutAMessage) {
+  Tracer tracer(tracing("turntable.gltf"), &gpu);
+  const std::unique_ptr<Denoiser> method = makeDenoiser("walr");
+  Renderer renderer(gpu, *method, kExtent, {.readComposite = true, .scene = tracer.gpuScene()});
+  constexpr int kFrames = 300;
+  int frames = 0;
+  const auto take = [&](const RenderedFrame& frame) {
+    ++frames;
+    for (const float value : frame.composite.values()) ASSERT_TRUE(std::isfinite(value));
+  };
+  for (int number = 0; number < kFrames; ++number) {
+    renderer.submit(tracer.hostFrame({.number = number, .animationFrame = static_cast<double>(number % 48)}));
+    if (renderer.full()) take(*renderer.finish());
+  }
+  while (const auto rest = renderer.finish()) take(*rest);
+  EXPECT_EQ(frames, kFrames);
+  EXPECT_NO_THROW(gpu.refuseMessages());
+}
+
+// The same random numbers lead to the same frames, but for roundings.
+TEST_F(GpuHost, ShowsWhatTheTracerOnTheProcessorShows) {
+  for (const bool denoiseDirect : {false, true}) {
+    Tracer::Options options = tracing("turntable.gltf");
+    options.denoiseDirect = denoiseDirect;
+    std::vector<Image> pictures;
+    for (const GpuDevice* const device :
+         {static_cast<const GpuDevice*>(nullptr), static_cast<const GpuDevice*>(&gpu)}) {
+      Tracer tracer(options, device);
+      const std::unique_ptr<Denoiser> method = makeDenoiser("walr");
+      Renderer renderer(gpu, *method, kExtent, {.readComposite = true, .scene = tracer.gpuScene()});
+      Image last;
+      renderFrames(tracer, renderer, {12, 19}, {}, [&](const RenderedFrame& frame) { last = frame.composite; });
+      pictures.push_back(std::move(last));
+    }
+    double difference = 0.0;
+    for (std::size_t i = 0; i < pictures[0].values().size(); ++i) {
+      difference += std::abs(pictures[0].values()[i] - pictures[1].values()[i]);
+    }
+    difference /= static_cast<double>(pictures[0].values().size());
+    std::cout << "mean value " << meanOf(pictures[0]) << ", mean absolute difference " << difference << '\n';
+    // One pixel in a hundred may have another path, whose light can differ by as much as light does.
+    EXPECT_LE(difference, 0.01 * meanOf(pictures[0]));
+  }
+}
+
+// A graph that is declared anew while frames of the old one are in flight, as the window does it.
+TEST_F(GpuHost, ChangesItsGraphWhileItTraces) {
+  Tracer tracer(tracing("turntable.gltf"), &gpu);
+  constexpr std::uint32_t kFramesInFlight = 2;
+  const ShownPicture picture(gpu, kExtent);
+  LiveFrame live(gpu, picture, kFramesInFlight, tracer.gpuScene());
+  fg::vk::FrameQueue queue(gpu.device().context(), gpu.device().queue(), kFramesInFlight);
+  const std::vector<HostView> views{
+      {}, {HostView::Kind::Noisy, ""}, {HostView::Kind::Texture, "lighting"}, {HostView::Kind::Texture, "object id"}};
+  int number = 12;
+  for (const std::string name : {"walr", "svgf"}) {
+    const std::unique_ptr<Denoiser> method = makeDenoiser(name);
+    for (const HostView& view : views) {
+      live.declare(*method, view, LiveFrame::Start::FromHistory);
+      for (int i = 0; i < 3; ++i, ++number) {
+        const fg::vk::Frame recorded = queue.begin();
+        live.record(recorded, tracer.hostFrame({.number = number, .animationFrame = static_cast<double>(number)}), {});
+        queue.submit(recorded);
+      }
+    }
+  }
+  queue.waitAll();
+}
+
+TEST_F(GpuHost, RefusesWhatOnlyTheProcessorTraces) {
+  Tracer::Options material = tracing("box.gltf");
+  material.gbuffer = render::GBufferMode::Material;
+  EXPECT_THROW(Tracer(material, &gpu), render::SceneError);
+
+  Tracer tracer(tracing("box.gltf"), &gpu);
+  const std::unique_ptr<Denoiser> method = makeDenoiser("walr");
+  for (const HostView::Kind kind : {HostView::Kind::Reference, HostView::Kind::Split}) {
+    EXPECT_THROW(Renderer(gpu, *method, kExtent, {.view = {kind, ""}, .scene = tracer.gpuScene()}), UsageError);
+  }
+}
+
+}  // namespace walr::host
