@@ -10,6 +10,8 @@
 // VIEW: does the same work and writes one of its intermediate values instead of the result; kAntilag says whether
 // antilag is on.
 // GUIDES: prepares the pixel's guides first (guides.glsl), which saves a pass and reading them back.
+// LIGHT_GRID: the mean has a texel for each group of sparse light, and so has a copy of the guides of the pixels that
+// have this frame's samples. Needs GUIDES.
 // kStill: nothing moves, so that the history of a pixel is the pixel itself.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -66,6 +68,10 @@ layout(rg32f) uniform writeonly image2D outTiles;
 #elif defined(VIEW)
 layout(constant_id = 5) const bool kAntilag = false;
 #endif
+#ifdef LIGHT_GRID
+layout(r32ui) uniform writeonly uimage2D outLightDepth;  // And geometric normals.
+layout(r32ui) uniform writeonly uimage2D outLightFeatures;
+#endif
 #ifdef GUIDES
 layout(push_constant) uniform PushConstants { GuidesAndAccumulationConstants pushed; };
 #define constants pushed.accumulation
@@ -82,7 +88,13 @@ vec4 unpackHistory(uint packed) { return unpackAccumulated(packed); }
 float unpackHistoryLength(uint packed) { return unpackHistory(packed).a; }
 #endif
 #include "include/half.glsl"
+#ifdef VIEW
+#define LIGHT_GRID_CHOSEN
+#endif
 #include "include/light_sample.glsl"
+#if defined(LIGHT_GRID) || defined(VIEW)
+#define LIGHT_GRID_TAPS
+#endif
 #define COUNT_EMPTY_TAPS kSparseLight
 #include "include/history_taps.glsl"
 #include "include/pass_through.glsl"
@@ -105,12 +117,19 @@ struct ReprojectedHistory {
 ReprojectedHistory readHistory(ivec2 p, float z) {
   if (kStill) return ReprojectedHistory(historyTexel(previousAccumulated, p), vec2(p), 0);
   const Reprojection r = reproject(p, z);
-  const HistoryTaps taps = historyTaps(p, r, constants.planeTolerance, constants.normalThreshold);
+  HistoryTaps taps = historyTaps(p, r, constants.planeTolerance, constants.normalThreshold);
 #ifdef KEEP_TAPS
   imageStore(outTaps, p, uvec4(packTaps(r.motion, taps.accepted)));
 #endif
+  const vec2 position = tapPosition(taps);
+#ifdef LIGHT_GRID
+  if (!isOnLightGrid(p)) return ReprojectedHistory(vec4(0.0), position, 0);
+#endif
+#ifdef LIGHT_GRID_TAPS
+  if (kLightGrid) taps = lightGridTaps(p, r, position, constants.planeTolerance, constants.normalThreshold);
+#endif
   const vec4 mean = kBicubicHistory ? bicubicOfTaps(previousAccumulated, taps) : meanOfTaps(previousAccumulated, taps);
-  return ReprojectedHistory(mean, tapPosition(taps), tapsRejected(taps));
+  return ReprojectedHistory(mean, position, tapsRejected(taps));
 }
 
 ReprojectedHistory historyWithAntilag(ivec2 p, float z) {
@@ -165,9 +184,11 @@ void main() {
 #ifdef PACKED
 void storeMean(ivec2 p, vec4 mean) {
   const vec4 random = randomNumbers(p, frame.frameIndex, kAccumulatedSeed);
-  imageStore(outAccumulated, p, uvec4(packAccumulated(mean, random)));
+  imageStore(outAccumulated, accumulatedTexel(p), uvec4(packAccumulated(mean, random)));
 }
-void storeNoSurface(ivec2 p, vec3 light) { imageStore(outAccumulated, p, uvec4(0u)); }
+void storeNoSurface(ivec2 p, vec3 light) {
+  if (!kLightGrid || isOnLightGrid(p)) imageStore(outAccumulated, accumulatedTexel(p), uvec4(0u));
+}
 #else
 void storeMean(ivec2 p, vec4 mean) { imageStore(outAccumulated, p, nearestHalf(mean)); }
 void storeNoSurface(ivec2 p, vec3 light) { imageStore(outAccumulated, p, vec4(light, 0.0)); }
@@ -189,6 +210,7 @@ float accumulate(ivec2 p) {
   }
 
   const vec4 history = historyWithAntilag(p, z).mean;
+  if (kLightGrid && !isOnLightGrid(p)) return 0.0;
   const float samples = samplesWith(history, sampleIsUsable);
   const vec3 radiance = clampedRadiance(noisy.radiance);
   const vec3 mean = sampleIsUsable ? mix(history.rgb, radiance, 1.0 / max(samples, 1.0)) : history.rgb;
@@ -200,12 +222,26 @@ float accumulate(ivec2 p) {
 #endif
 }
 
+#ifdef LIGHT_GRID
+// Groups at the border of the image may have their sample outside of it. The threads there write that it shows no
+// surface.
+void storeLightGuides(ivec2 p, bool inside) {
+  if (!isOnLightGrid(p)) return;
+  imageStore(outLightDepth, accumulatedTexel(p), uvec4(ownGuides.depth));
+  imageStore(outLightFeatures, accumulatedTexel(p), uvec4(ownGuides.features));
+  if (!inside) storeNoSurface(p, vec3(0.0));
+}
+#endif
+
 void main() {
   const ivec2 p = ivec2(gl_GlobalInvocationID.xy);
 #ifdef GUIDES
   const bool inside = all(lessThan(p, textureSize(hostDepth, 0)));
   ownGuides = guidesOfPixel();
   if (inside) storeGuides(p, ownGuides);
+#ifdef LIGHT_GRID
+  storeLightGuides(p, inside);
+#endif
 #else
   const bool inside = all(lessThan(p, textureSize(depth, 0)));
 #endif
