@@ -8,7 +8,8 @@ namespace walr::host {
 
 /// A traced frame with its images in the formats of the host's textures.
 struct HostFrame {
-  PackedFrame inputs;  ///< Inputs of the denoiser; `inputs.frame.number` is its random seed.
+  PackedFrame inputs;              ///< Inputs of the denoiser; `inputs.frame.number` is its random seed.
+  std::vector<Rgba16> noisyLight;  ///< Sparse light for all pixels, 0 without a sample; empty if light is not sparse.
   std::vector<Rgba16> direct;
   std::vector<Rgba16> emission;
   std::vector<Rgba16> referenceDirect;  ///< For the split view; empty otherwise.

@@ -47,14 +47,17 @@ fg::Texture findTexture(const fg::GraphDesc& graph, const std::string& name) {
   throw UsageError("the frame has no texture '" + name + "'; it has " + known);
 }
 
-void declareInputs(HostGraph& host, fg::Extent extent, const HostView& view, const fg::vk::DeviceContext& device) {
+void declareInputs(HostGraph& host, fg::Extent extent, const HostView& view, const LightPattern& light,
+                   const fg::vk::DeviceContext& device) {
   fg::Graph& graph = host.graph;
   std::vector<UploadedPicture*> uploads;
   const auto picture = [&](UploadedPicture& target, const char* name, VkFormat format) {
     target = declarePicture(graph, name, format, extent);
     uploads.push_back(&target);
   };
-  picture(host.lighting, "lighting", kColourFormat);
+  host.lighting = declarePicture(graph, "lighting", kColourFormat, light.lightingExtent(extent));
+  uploads.push_back(&host.lighting);
+  if (!light.everyPixel() && view.needsNoisy()) picture(host.noisyLight.emplace(), "noisy light", kColourFormat);
   picture(host.depth, "depth", kDepthFormat);
   picture(host.normal, "normal", kColourFormat);
   picture(host.motion, "motion", kColourFormat);
@@ -79,7 +82,8 @@ fg::Texture litBy(HostGraph& host, HostView::Kind source) {
   const std::string name = noisy ? "composite noisy" : "composite reference";
   const fg::Texture output =
       host.graph.texture(noisy ? "lit noisy" : "lit reference", host.graph.textureDesc(host.composite));
-  const fg::Texture indirect = noisy ? host.lighting.texture : host.referenceIndirect->texture;
+  const UploadedPicture& traced = host.noisyLight ? *host.noisyLight : host.lighting;
+  const fg::Texture indirect = noisy ? traced.texture : host.referenceIndirect->texture;
   const fg::Texture direct = noisy ? host.direct.texture : host.referenceDirect->texture;
   return addComposite(host.graph, name, indirect, {direct, host.albedo.texture, host.emission.texture}, output);
 }
@@ -104,11 +108,11 @@ void addView(HostGraph& host, const HostView& view) {
 }  // namespace
 
 HostGraph declareHostGraph(const fg::vk::DeviceContext& device, Denoiser& method, fg::Extent extent,
-                           const HostView& view, const HostTargets& targets,
+                           const HostView& view, const HostTargets& targets, const LightPattern& light,
                            const std::function<void(fg::Graph&, fg::Texture display)>& present) {
   HostGraph host;
   fg::Graph& graph = host.graph;
-  declareInputs(host, extent, view, device);
+  declareInputs(host, extent, view, light, device);
 
   const fg::TextureDesc colour{.format = kColourFormat, .extent = extent};
   const DenoiserInputs inputs{.lighting = host.lighting.texture,
@@ -118,7 +122,7 @@ HostGraph declareHostGraph(const fg::vk::DeviceContext& device, Denoiser& method
                               .albedo = host.albedo.texture,
                               .objectId = host.objectId.texture,
                               .frame = host.frameConstants,
-                              .conventions = {}};
+                              .conventions = {.light = light}};
   host.denoised = method.add(graph, inputs, declareTarget(graph, "denoised", colour, targets.denoised));
   host.composite =
       addComposite(graph, "composite", host.denoised, {host.direct.texture, host.albedo.texture, host.emission.texture},

@@ -27,11 +27,12 @@ ShownPicture::ShownPicture(const GpuDevice& device, fg::Extent extent)
   memory_.allocate();
 }
 
-LiveFrame::LiveFrame(const GpuDevice& device, const ShownPicture& picture, std::uint32_t framesInFlight)
-    : device_(device), picture_(picture), framesInFlight_(framesInFlight) {}
+LiveFrame::LiveFrame(const GpuDevice& device, const ShownPicture& picture, std::uint32_t framesInFlight,
+                     const LightPattern& light)
+    : device_(device), picture_(picture), framesInFlight_(framesInFlight), light_(light) {}
 
 HostGraph LiveFrame::declareHost(Denoiser& method, const HostView& view) const {
-  return declareHostGraph(device_.device().context(), method, picture_.desc().extent, view, shownTarget());
+  return declareHostGraph(device_.device().context(), method, picture_.desc().extent, view, shownTarget(), light_);
 }
 
 bool LiveFrame::update(Denoiser& method, const HostView& view) {

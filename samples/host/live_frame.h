@@ -41,7 +41,9 @@ class LiveFrame {
 
   /// @param device, picture  must outlive this
   /// @param framesInFlight   frames recorded with the same slot must be this many frames apart
-  LiveFrame(const GpuDevice& device, const ShownPicture& picture, std::uint32_t framesInFlight);
+  /// @param light            pixels of the frames that have a sample of light
+  LiveFrame(const GpuDevice& device, const ShownPicture& picture, std::uint32_t framesInFlight,
+            const LightPattern& light = {});
   /// The device must have finished all frames.
   ~LiveFrame() = default;
   LiveFrame(const LiveFrame&) = delete;
@@ -88,6 +90,7 @@ class LiveFrame {
   const GpuDevice& device_;
   const ShownPicture& picture_;
   std::uint32_t framesInFlight_;
+  LightPattern light_;
   std::uint64_t frames_ = 0;  // Number of recorded frames, of all graphs.
   std::unique_ptr<Running> running_;
   std::unique_ptr<Running> predecessor_;  // Kept until `running_` has recorded a frame.

@@ -3,6 +3,7 @@
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <utility>
 
@@ -43,6 +44,15 @@ ReloadShaders shaderReload(const HostOptions& options) {
 #endif
 }
 
+/// @throws UsageError naming settings that contradict each other, or a method that does not take sparse light
+Renderer makeRenderer(const GpuDevice& gpu, Denoiser& method, fg::Extent extent, const Renderer::Options& options) {
+  try {
+    return {gpu, method, extent, options};
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(error.what());
+  }
+}
+
 void runHeadless(const HostOptions& options, Tracer& tracer, GpuDevice& gpu, Denoiser& method) {
   if (options.output.empty()) {
     throw UsageError("without a window, frames are written to a folder: give --output DIR");
@@ -50,10 +60,11 @@ void runHeadless(const HostOptions& options, Tracer& tracer, GpuDevice& gpu, Den
   const FrameRange frames = parseFrameRange(options.frames);
   const fg::Extent extent = options.tracer.extent;
   Renderer::Options rendering;
+  rendering.light = options.tracer.light;
   rendering.view = parseView(options.view);
   rendering.viewConstants = viewConstantsOf(extent);
   rendering.readComposite = options.exr;
-  Renderer renderer(gpu, method, extent, rendering);
+  Renderer renderer = makeRenderer(gpu, method, extent, rendering);
   prepareOutputDirectory(options.output);
   Tracer::Request request;
   request.reference = rendering.view.needsReference();

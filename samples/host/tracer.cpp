@@ -71,6 +71,10 @@ render::View Tracer::viewOf(const Request& request) const {
   return view;
 }
 
+glm::ivec2 Tracer::lightOffset(const Request& request) const {
+  return lightOffsetOfFrame(options_.light, static_cast<std::uint32_t>(request.number));
+}
+
 Frame Tracer::trace(const Request& request) {
   const double before = previous_ ? previous_->animationFrame : request.animationFrame;
   world_.moveTo(request.animationFrame / options_.framesPerSecond, before / options_.framesPerSecond);
@@ -83,7 +87,12 @@ Frame Tracer::trace(const Request& request) {
   sampling.seed = options_.seed * 2;
   sampling.firstSample = static_cast<std::uint32_t>(request.number) * options_.samples;
   sampling.threads = options_.threads;
+  sampling.light = options_.light;
+  sampling.lightOffset = lightOffset(request);
   Frame frame = render::toFrame(render::renderFilm(world_, view, sampling), view, request.number);
+  frame.light = options_.light;
+  frame.lightOffset = sampling.lightOffset;
+  frame.previousLightOffset = previous_ ? lightOffset(*previous_) : sampling.lightOffset;
   frame.camera.cut = request.cut;
   frame.resetHistory = request.cut || request.resetHistory || !previous_;
   if (request.reference) {

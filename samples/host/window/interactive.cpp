@@ -48,7 +48,7 @@ class Show {
         window_(window),
         surface_(surface),
         picture_(device, extent),
-        live_(device, picture_, kFramesInFlight),
+        live_(device, picture_, kFramesInFlight, tracer.light()),
         queue_(device.device().context(), device.device().queue(), kFramesInFlight),
         interface_(device, window, kFramesInFlight) {}
 
