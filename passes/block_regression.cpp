@@ -37,21 +37,31 @@ struct BlockAverages {
 /// Threads of block_moments.comp for one block. They lie in a row.
 constexpr std::uint32_t kThreadsPerBlock = 4;
 
-/// Side of a cell in blocks: the largest power of two whose pixels exceed neither `cellPixels` nor 8; at least 1. A
-/// workgroup merges the cells of its 4 x 4 blocks, so that the side of a cell must divide 4.
-std::uint32_t cellBlocksFor(float cellPixels, std::uint32_t blockSize) {
-  constexpr float kMostPixels = 8.0F;
+/// Side of a cell in blocks: the largest power of two whose pixels exceed neither `cellPixels` nor `mostPixels`, and at
+/// least 1. A workgroup merges the cells of its 4 x 4 blocks, so that the side of a cell must divide 4.
+std::uint32_t cellBlocksFor(float cellPixels, float mostPixels, std::uint32_t blockSize) {
+  const auto fits = [&](std::uint32_t blocks) {
+    return blocks <= 4 && static_cast<float>(blocks * blockSize) <= std::min(cellPixels, mostPixels);
+  };
   std::uint32_t blocks = 1;
-  while (static_cast<float>(2 * blocks * blockSize) <= std::min(cellPixels, kMostPixels)) blocks *= 2;
+  while (fits(2 * blocks)) blocks *= 2;
   return blocks;
 }
 
+/// Largest side of a cell in pixels: 8 texels of accumulated light.
+float mostCellPixels(const LightPattern& groups) {
+  return 8.0F * static_cast<float>(std::min(groups.columns, groups.rows));
+}
+
+/// @param groups of pixels that share a texel of accumulated light
+///
 /// Converts `coarseSigma` from a fraction of the image's height to cells, and `planeNear` and `planeFar` to the
 /// coefficients of a linear function.
-BlockGrid gridOf(StageGraph graph, fg::Buffer frame, fg::Extent pixels, const BlockRegressionSettings& s) {
+BlockGrid gridOf(StageGraph graph, fg::Buffer frame, fg::Extent pixels, const BlockRegressionSettings& s,
+                 const LightPattern& groups) {
   const fg::Extent blocks = gridExtent(pixels, s.size);
   const float sigma = s.coarseSigma * static_cast<float>(pixels.height);
-  const std::uint32_t cellBlocks = cellBlocksFor(sigma / s.coarseResolution, s.size);
+  const std::uint32_t cellBlocks = cellBlocksFor(sigma / s.coarseResolution, mostCellPixels(groups), s.size);
   const std::uint32_t cellSize = cellBlocks * s.size;
   BlockRegressionConstants constants{};
   constants.planeScale = 1.0F / (s.planeFar - s.planeNear);
@@ -67,7 +77,13 @@ BlockGrid gridOf(StageGraph graph, fg::Buffer frame, fg::Extent pixels, const Bl
   constants.coarseSamples = coarseSamplesAt(pixels.height, s.coarseSamples);
   constants.inverseCoarseLeastShare = 1.0F / s.coarseLeastShare;
   constants.residualLeastShare = s.share.leastShare;
+  constants.lightShare = 1.0F / static_cast<float>(groups.columns * groups.rows);
   return {graph, frame, pixels, blocks, gridExtent(pixels, cellSize), s.size, cellBlocks, cellSize, constants};
+}
+
+/// Groups of pixels that share a texel of accumulated light.
+LightPattern groupsOf(const BlockLight& light) {
+  return light.lightGrid ? light.lightGrid->groups : LightPattern{};
 }
 
 void readAverages(fg::PassBuilder& pass, const BlockAverages& averages) {
@@ -211,13 +227,13 @@ FineFit addFineFit(const BlockGrid& grid, BlockAverages averages, fg::Texture no
   }
 }
 
-/// A pass that reads the features of pixels: both the moments of blocks and the reconstruction do.
-fg::PassBuilder readPixels(const BlockGrid& grid, const Guides& guides, const std::string& name,
+/// A pass that reads the depth and the features of pixels: both the moments of blocks and the reconstruction do.
+fg::PassBuilder readPixels(const BlockGrid& grid, fg::Texture depth, fg::Texture features, const std::string& name,
                            const fg::Shader& shader) {
   fg::PassBuilder pass = grid.graph->compute(name, shader);
   pass.uniform("frameConstants", grid.frame)
-      .sample("depth", guides.depth)
-      .sample("features", guides.features)
+      .sample("depth", depth)
+      .sample("features", features)
       .specialize("kBlockSize", grid.size)
       .constants(grid.constants);
   return pass;
@@ -250,10 +266,23 @@ bool isPacked(const BlockGrid& grid, fg::Texture texture) {
   return lightStorageOf(grid.graph->textureDesc(texture).format) == LightStorage::Packed;
 }
 
-void readLight(const BlockGrid& grid, const BlockLight& light, fg::PassBuilder& pass) {
-  pass.sample("accumulated", light.accumulated);
-  if (!isPacked(grid, light.accumulated))
-    pass.specialize("kAlphaIsSampleCount", light.alpha == LightingAlpha::SampleCount);
+void specializeAlpha(const BlockLight& light, fg::PassBuilder& pass) {
+  pass.specialize("kAlphaIsSampleCount", light.alpha == LightingAlpha::SampleCount);
+}
+
+/// Declare what a view of the reconstruction reads of the light, in either storage.
+/// @param number a texture that the pass samples, with texels that are unsigned integers
+void readLightInView(const BlockGrid& grid, const BlockLight& light, fg::Texture number, fg::PassBuilder& pass) {
+  const bool packed = isPacked(grid, light.accumulated);
+  pass.specialize("kPackedLight", packed).specialize("kLightGrid", light.lightGrid.has_value());
+  specializeLight(pass, groupsOf(light));
+  specializeAlpha(light, pass);
+  pass.sampleIf(packed, "packedAccumulated", light.accumulated, number);
+  if (packed) {
+    pass.sample("accumulated", light.lighting);
+  } else {
+    pass.sample("accumulated", light.accumulated);
+  }
 }
 
 /// Whether accumulated light is mixed into the result. That takes both a history and this frame's light.
@@ -274,18 +303,23 @@ BlockFits addBlockRegression(StageGraph graph, fg::Buffer frame, const BlockLigh
   if (!(settings.planeNear < settings.planeFar)) {
     throw std::invalid_argument("setting blocks.plane-near must be below blocks.plane-far");
   }
-  const BlockGrid grid = gridOf(graph, frame, graph->textureDesc(light.accumulated).extent, settings);
+  const BlockGrid grid = gridOf(graph, frame, graph->textureDesc(guides.depth).extent, settings, groupsOf(light));
   if (sizeof(StoredBlockFit) * grid.blocks.width * grid.blocks.height > kLargestBuffer) {
     throw std::invalid_argument(
         "setting blocks.size of " + std::to_string(grid.size) + " makes " + std::to_string(grid.blocks.width) + " x " +
         std::to_string(grid.blocks.height) +
         " blocks, whose fits are too many for one buffer; take larger blocks or a smaller image");
   }
+  const LightPattern groups = groupsOf(light);
   fg::PassBuilder gather =
-      readPixels(grid, guides, "block moments",
+      readPixels(grid, light.lightGrid ? light.lightGrid->depth : guides.depth,
+                 light.lightGrid ? light.lightGrid->features : guides.features, "block moments",
                  isPacked(grid, light.accumulated) ? shaders::blockMomentsPacked : shaders::blockMoments);
-  readLight(grid, light, gather);
-  gather.specialize("kCellBlocks", grid.cellBlocks)
+  gather.sample("accumulated", light.accumulated);
+  if (!isPacked(grid, light.accumulated)) specializeAlpha(light, gather);
+  specializeLight(gather, groups);
+  gather.specialize("kLightGrid", light.lightGrid.has_value())
+      .specialize("kCellBlocks", grid.cellBlocks)
       .dispatch({kThreadsPerBlock * grid.blocks.width, grid.blocks.height});
   const BlockAverages blocks = writeAverages(grid, gather, grid.blocks, "");
   const BlockAverages cells = writeAverages(grid, gather, grid.cells, " of cells", "outCell");
@@ -297,11 +331,11 @@ BlockFits addBlockRegression(StageGraph graph, fg::Buffer frame, const BlockLigh
 
 fg::Texture addBlockReconstruction(StageGraph graph, fg::Buffer frame, const BlockLight& light, const Guides& guides,
                                    const BlockFits& fits, const BlockRegressionSettings& settings) {
-  const BlockGrid grid = gridOf(graph, frame, graph->textureDesc(light.accumulated).extent, settings);
+  const BlockGrid grid = gridOf(graph, frame, graph->textureDesc(guides.depth).extent, settings, groupsOf(light));
   const bool readsPacked = isPacked(grid, light.accumulated);
   const bool writesPacked = light.result == LightStorage::Packed;
   const auto reconstruct = [&](const std::string& name, const fg::Shader& shader) {
-    fg::PassBuilder pass = readPixels(grid, guides, name, shader);
+    fg::PassBuilder pass = readPixels(grid, guides.depth, guides.features, name, shader);
     pass.load("fineFits", fits.fine)
         .load("coarseFits", fits.coarse)
         .specialize("kCellSize", grid.cellSize)
@@ -309,8 +343,8 @@ fg::Texture addBlockReconstruction(StageGraph graph, fg::Buffer frame, const Blo
     return pass;
   };
   graph.offer(reconstructionViews(), grid.pixels, [&](const std::string& name) {
-    fg::PassBuilder pass = reconstruct(name, readsPacked ? shaders::blockApplyViewPacked : shaders::blockApplyView);
-    readLight(grid, light, pass);
+    fg::PassBuilder pass = reconstruct(name, shaders::blockApplyView);
+    readLightInView(grid, light, guides.depth, pass);
     return pass;
   });
   graph.offerLightDirection([&](const std::string& name) { return reconstruct(name, shaders::blockApplyDirection); });
@@ -320,8 +354,8 @@ fg::Texture addBlockReconstruction(StageGraph graph, fg::Buffer frame, const Blo
                                       : (writesPacked ? shaders::blockApplyPacked : shaders::blockApply);
   fg::PassBuilder pass = reconstruct("block apply", shader);
   if (!writesPacked) {
-    // Accumulated light is never sparse: it has a texel for every pixel, which is 0 where a pixel without a surface has
-    // no sample.
+    // Accumulated light that is not packed is never sparse: it has a texel for every pixel, which is 0 where a pixel
+    // without a surface has no sample.
     pass.sample("passThrough", readsPacked ? light.lighting : light.accumulated);
     specializeLight(pass, readsPacked ? light.pattern : LightPattern{});
   }

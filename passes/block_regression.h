@@ -11,6 +11,7 @@
 #include "passes/prepare_guides.h"
 #include "passes/settings.h"
 #include "passes/stage_graph.h"
+#include "passes/temporal_accumulation.h"
 
 namespace walr {
 
@@ -69,7 +70,7 @@ struct BlockRegressionSettings {
             coarseReach);
     v.visit({"blocks.coarse-resolution",
              "Least number of cells that coarse-sigma spans. Cells are as large as it allows: 1, 2 or 4 blocks a side, "
-             "at most 8 pixels if more than one",
+             "at most 8 pixels, or 8 texels of a light grid, if more than one",
              "cells", 0.5, 100.0, "measured"},
             coarseResolution);
     v.visit({"blocks.coarse-growth-errors",
@@ -109,6 +110,7 @@ struct BlockLight {
   fg::Texture lighting = {};  ///< The host's; needed if `accumulated` is packed and the result is not, and for
                               ///< `BlockRegressionSettings::share`, which has no effect without it.
   LightPattern pattern = {};  ///< Of `lighting`.
+  std::optional<LightGrid> lightGrid = std::nullopt;     ///< If `accumulated` lies on it.
   std::optional<SteeredHistory> history = std::nullopt;  ///< Of `accumulated`, if `AccumulatedShareSettings` steers it.
   LightStorage result = LightStorage::Half;              ///< Packed: holds no pass-through; see packed_light.glsl.
 };

@@ -64,6 +64,7 @@ FrameConstants frameConstants(const FrameDescription& frame, fg::Extent extent) 
   constants.pixelFromRay = glm::vec2(1.0 / ray.x, 1.0 / ray.y);
   constants.frameIndex = frame.frameIndex;
   constants.lightOffset = frame.lightOffset;
+  constants.previousLightOffset = frame.previousLightOffset;
   constants.skyDepth =
       frame.orthographic ? static_cast<float>(frame.skyDepth + standOff(frame.projection)) : frame.skyDepth;
   return constants;

@@ -35,6 +35,7 @@ struct FrameDescription {
   float skyDepth = 1e9F;  ///< Scene units: a linear view depth from here on is sky.
   /// With sparse light, the pixel of its group that a texel of light belongs to: see `LightPattern`. Pixels, y down.
   glm::ivec2 lightOffset{0};
+  glm::ivec2 previousLightOffset{0};  ///< The previous frame's.
   /// Both projections are orthographic, and the depth texture is converted: see `HostConventions::orthographic`.
   bool orthographic = false;
 };

@@ -75,9 +75,10 @@ void Inspection::count(StageGraph graph, const ViewInfo& view, const std::string
   words_ += static_cast<std::uint32_t>(kComponents.size());
 }
 
-void Inspection::offerHistoryLength(StageGraph graph, fg::Texture accumulated, std::uint32_t channel) {
+void Inspection::offerHistoryLength(StageGraph graph, fg::Texture accumulated, std::uint32_t channel,
+                                    const LightPattern& groups) {
   if (!historyLength_.valid()) return;
-  historyLength_ = addHistoryLength(graph, accumulated, channel, historyLength_);
+  historyLength_ = addHistoryLength(graph, accumulated, channel, historyLength_, groups);
   historyLengthWritten_ = true;
 }
 

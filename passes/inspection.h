@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "framegraph/declare/graph.h"
+#include "passes/light_pattern.h"
 #include "shaders/constants/count.h"
 
 /// Inspecting a method while it runs: history length and light direction of every pixel; views, which are images of
@@ -100,8 +101,9 @@ class Inspection {
              StageIteration iteration = {});
 
   /// Called by the stage that accumulates light: write the history length, if it is wanted.
-  /// @param channel see `addHistoryLength`
-  void offerHistoryLength(StageGraph graph, fg::Texture accumulated, std::uint32_t channel);
+  /// @param channel, groups see `addHistoryLength`
+  void offerHistoryLength(StageGraph graph, fg::Texture accumulated, std::uint32_t channel,
+                          const LightPattern& groups = {});
 
   /// Called by the stage that evaluates the light at the normals of pixels: write its slopes, if they are wanted.
   /// @param declare declares the pass, all but the texture

@@ -24,6 +24,8 @@ struct LightPattern {
   [[nodiscard]] bool fullSize() const { return columns == 1 && rows == 1; }
   /// Whether every pixel has a sample.
   [[nodiscard]] bool everyPixel() const { return fullSize() && !masked; }
+  /// Whether the sampled pixels form a rectangular grid: groups with one row only are shifted from row to row.
+  [[nodiscard]] bool grid() const { return rows > 1; }
   /// Extent of the lighting of an image.
   [[nodiscard]] fg::Extent lightingExtent(fg::Extent image) const;
   /// The pixel that has the sample of a texel; it may lie outside the image.

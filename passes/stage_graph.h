@@ -62,8 +62,8 @@ class StageGraph {
     if (inspection_ != nullptr) inspection_->offer(*this, views, extent, declare, iteration);
   }
   /// Offer the mean over time of the method's light: see `Inspection::offerHistoryLength`.
-  void offerHistoryLength(fg::Texture accumulated, std::uint32_t channel = 3) const {
-    if (inspection_ != nullptr) inspection_->offerHistoryLength(*this, accumulated, channel);
+  void offerHistoryLength(fg::Texture accumulated, std::uint32_t channel = 3, const LightPattern& groups = {}) const {
+    if (inspection_ != nullptr) inspection_->offerHistoryLength(*this, accumulated, channel, groups);
   }
   /// Offer the slopes of the method's light over the normal: see `Inspection::offerLightDirection`.
   void offerLightDirection(const Inspection::DeclareView& declare) const {

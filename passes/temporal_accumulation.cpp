@@ -19,13 +19,18 @@ namespace walr {
 namespace {
 
 /// The variants of the pass.
-enum class Role : std::uint8_t { Mean, MeanAndTaps, GuidesMeanAndTaps, View };
+enum class Role : std::uint8_t { Mean, MeanAndTaps, GuidesMeanAndTaps, GuidesMeanAndTapsOnGrid, View };
 
 const fg::Shader& shaderFor(Role role, bool antilag, LightStorage storage) {
   const bool packed = storage == LightStorage::Packed;
   if (role == Role::View) return shaders::temporalAccumulationView({.packed = packed});
   if (role == Role::GuidesMeanAndTaps) return shaders::temporalAccumulationGuides;
+  if (role == Role::GuidesMeanAndTapsOnGrid) return shaders::temporalAccumulationGuidesGrid;
   return shaders::temporalAccumulation({.taps = role == Role::MeanAndTaps, .antilag = antilag, .packed = packed});
+}
+
+bool preparesGuides(Role role) {
+  return role == Role::GuidesMeanAndTaps || role == Role::GuidesMeanAndTapsOnGrid;
 }
 
 /// The stage with what it works on.
@@ -35,6 +40,7 @@ struct Stage {
   Guides guides;
   const TemporalAccumulationSettings& settings;
   bool keepTaps;
+  bool onGrid;        ///< Accumulated light lies on the light grid.
   fg::Extent extent;  ///< Of the image.
   fg::History accumulated;
   std::optional<Antilag> antilag;  ///< Where the stage has it.
@@ -42,14 +48,11 @@ struct Stage {
 };
 
 Stage stageOf(StageGraph graph, fg::Extent extent, const DenoiserInputs& inputs, const Guides& guides,
-              const TemporalAccumulationSettings& settings, bool keepTaps, fg::Texture leastAntilag) {
-  Stage stage{graph,
-              inputs,
-              guides,
-              settings,
-              keepTaps,
-              extent,
-              graph->history("accumulated", {formatOf(settings.storage), extent}),
+              const TemporalAccumulationSettings& settings, bool keepTaps, fg::Texture leastAntilag,
+              bool onGrid = false) {
+  const fg::Extent accumulated = onGrid ? inputs.conventions.light.lightingExtent(extent) : extent;
+  Stage stage{graph,       inputs, guides, settings,
+              keepTaps,    onGrid, extent, graph->history("accumulated", {formatOf(settings.storage), accumulated}),
               std::nullopt};
   if (settings.antilag.enabled) stage.antilag = declareAntilag(graph, extent, leastAntilag);
   return stage;
@@ -67,13 +70,20 @@ TemporalAccumulationConstants constantsOf(const TemporalAccumulationSettings& se
   return {settings.maxHistory, settings.planeTolerance, settings.normalThreshold};
 }
 
+/// Extent of all groups of sparse light, which may end after the image.
+fg::Extent wholeGroups(const Stage& stage) {
+  const LightPattern& light = stage.inputs.conventions.light;
+  const fg::Extent texels = light.lightingExtent(stage.extent);
+  return {light.columns * texels.width, light.rows * texels.height};
+}
+
 /// Declare what a pass reads besides guides of its own frame, and specialize its shader.
 void readInputs(const Stage& stage, fg::PassBuilder& pass, Role role) {
   const TemporalAccumulationSettings& settings = stage.settings;
   const bool antilag = stage.antilag.has_value();
   ReprojectionSettings reprojection =
       reprojectionOf(stage.inputs.scene, !stage.keepTaps, settings.rejection, settings.dilateMotion);
-  reprojection.preparesGuides = role == Role::GuidesMeanAndTaps;
+  reprojection.preparesGuides = preparesGuides(role);
   pass.uniform("frameConstants", stage.inputs.frame)
       .specialize("kBicubicHistory", settings.historyFilter == HistoryFilter::Bicubic);
   const StandIns standIns{.colour = stage.inputs.lighting, .number = stage.guides.depth};
@@ -85,7 +95,11 @@ void readInputs(const Stage& stage, fg::PassBuilder& pass, Role role) {
   readReprojection(pass, stage.inputs, stage.guides, reprojection, standIns);
   readConfidence(pass, stage.inputs.confidence, stage.inputs, standIns);
   if (!stage.keepTaps || role == Role::View) pass.specialize("kStill", reprojection.motion == MotionSource::None);
-  if (role == Role::View) pass.specialize("kKeepableMotion", stage.keepTaps).specialize("kAntilag", antilag);
+  if (role == Role::View) {
+    pass.specialize("kKeepableMotion", stage.keepTaps)
+        .specialize("kAntilag", antilag)
+        .specialize("kLightGrid", stage.onGrid);
+  }
   if (antilag) {
     pass.sample("previousAntilag", stage.antilag->factor.previous);
   } else if (role == Role::View) {
@@ -94,7 +108,7 @@ void readInputs(const Stage& stage, fg::PassBuilder& pass, Role role) {
   specializeLight(pass, stage.inputs.conventions.light);
   pass.sample("lighting", stage.inputs.lighting)
       .sample("previousAccumulated", stage.accumulated.previous)
-      .dispatch(stage.extent);
+      .dispatch(role == Role::GuidesMeanAndTapsOnGrid ? wholeGroups(stage) : stage.extent);
 }
 
 /// A pass without its outputs; the first of them is the current texture of `accumulated`.
@@ -113,7 +127,7 @@ void offerViews(const Stage& stage) {
 /// Add a pass's output, and antilag if the stage has it.
 fg::Texture storeMean(const Stage& stage, fg::PassBuilder& pass) {
   const fg::Texture mean = pass.store("outAccumulated", stage.accumulated.current);
-  stage.graph.offerHistoryLength(mean);
+  stage.graph.offerHistoryLength(mean, 3, stage.onGrid ? stage.inputs.conventions.light : LightPattern{});
   if (stage.antilag) {
     Antilag antilag = *stage.antilag;
     antilag.tiles = pass.store("outTiles", antilag.tiles);
@@ -133,6 +147,16 @@ AccumulationWithTaps storeMeanAndTaps(const Stage& stage, fg::PassBuilder& pass,
     stage.graph.shared()->keepTaps(tapTests(stage.settings), result.taps);
   }
   return result;
+}
+
+/// Add the outputs of a pass whose accumulated light lies on the light grid.
+LightGrid storeLightGrid(const Stage& stage, fg::PassBuilder& pass) {
+  const LightPattern& light = stage.inputs.conventions.light;
+  const fg::TextureDesc word{VK_FORMAT_R32_UINT, light.lightingExtent(stage.extent)};
+  LightGrid grid{.groups = light};
+  grid.depth = pass.store("outLightDepth", stage.graph->texture("light grid.depth", word));
+  grid.features = pass.store("outLightFeatures", stage.graph->texture("light grid.features", word));
+  return grid;
 }
 
 }  // namespace
@@ -189,16 +213,21 @@ GuidesAndAccumulation addGuidesAndAccumulation(StageGraph graph, const DenoiserI
   }
   offerGuideViews(graph, inputs, guideSettings);
   const fg::Extent extent = graph->textureDesc(inputs.depth).extent;
-  Stage stage = stageOf(graph, extent, inputs, {}, settings, true, leastAntilag);
-  fg::PassBuilder pass = newPass(stage, "guides and accumulation", Role::GuidesMeanAndTaps);
+  const bool onGrid = inputs.conventions.light.grid();
+  const Role role = onGrid ? Role::GuidesMeanAndTapsOnGrid : Role::GuidesMeanAndTaps;
+  Stage stage = stageOf(graph, extent, inputs, {}, settings, true, leastAntilag, onGrid);
+  fg::PassBuilder pass = newPass(stage, "guides and accumulation", role);
   readGBuffer(pass, inputs, guideSettings);
   pass.constants(
       GuidesAndAccumulationConstants{guideConstants(graph, inputs, guideSettings, needs), constantsOf(settings)});
   stage.guides = writeGuides(graph, pass, extent, needs);
   if (graph.shared() != nullptr) graph.shared()->keep({guideSettings, needs, inputs.scene}, stage.guides);
-  readInputs(stage, pass, Role::GuidesMeanAndTaps);
+  readInputs(stage, pass, role);
   offerViews(stage);
-  return {.guides = stage.guides, .accumulated = storeMeanAndTaps(stage, pass, antialiasing)};
+  const AccumulationWithTaps accumulated = storeMeanAndTaps(stage, pass, antialiasing);
+  return {.guides = stage.guides,
+          .accumulated = accumulated,
+          .lightGrid = onGrid ? std::optional(storeLightGrid(stage, pass)) : std::nullopt};
 }
 
 }  // namespace walr

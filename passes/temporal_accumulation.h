@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -86,10 +87,20 @@ AccumulationWithTaps addTemporalAccumulationWithTaps(StageGraph graph, const Den
                                                      LightStorage antialiasing = LightStorage::Half,
                                                      fg::Texture leastAntilag = {});
 
+/// The light grid: if sparse light has one sample in each group of a grid (`LightPattern::grid`), accumulated light may
+/// have a texel for each group. It is the mean for the pixel that has this frame's sample, from the means of the pixels
+/// that had the previous frame's.
+struct LightGrid {
+  LightPattern groups;
+  fg::Texture depth = {};     ///< `Guides::depth` of these pixels; 0 also where the pixel lies outside the image.
+  fg::Texture features = {};  ///< `Guides::features` of these pixels.
+};
+
 /// Guides, and light accumulated with them.
 struct GuidesAndAccumulation {
   Guides guides;
   AccumulationWithTaps accumulated;
+  std::optional<LightGrid> lightGrid;  ///< If `accumulated.mean` lies on it.
 };
 
 /// Whether `addGuidesAndAccumulation` can stand in for two passes. Its shader has no variants: it has antilag and
@@ -97,6 +108,7 @@ struct GuidesAndAccumulation {
 bool canJoinGuides(const TemporalAccumulationSettings& settings);
 
 /// `addPrepareGuides` and `addTemporalAccumulationWithTaps` as one pass, which need not read the guides back.
+/// Accumulates on the light grid if light is sparse on one.
 /// @param needs must ask for all guides
 /// @throws std::invalid_argument unless `canJoinGuides`
 GuidesAndAccumulation addGuidesAndAccumulation(StageGraph graph, const DenoiserInputs& inputs,

@@ -65,9 +65,11 @@ GuidedInput addGuidesWithAccumulation(StageGraph graph, const DenoiserInputs& in
   const bool allGuides = needs.geometricNormal && needs.history && needs.occlusion.has_value();
   const bool haveGuides = graph.shared() != nullptr && graph.shared()->prepared();
   if (!haveGuides && plan.accumulates && plan.keepsTaps && allGuides && canJoinGuides(plan.accumulation)) {
-    const auto [guides, accumulated] = addGuidesAndAccumulation(graph, inputs, settings, needs, plan.accumulation,
-                                                                tapsReader(plan), plan.leastAntilag);
-    return {guides, withTaps(accumulated)};
+    const auto [guides, withGuides, lightGrid] = addGuidesAndAccumulation(
+        graph, inputs, settings, needs, plan.accumulation, tapsReader(plan), plan.leastAntilag);
+    Accumulated accumulated = withTaps(withGuides);
+    accumulated.lightGrid = lightGrid;
+    return {guides, accumulated};
   }
   const Guides guides = addPrepareGuides(graph, inputs, settings, needs);
   return {guides, addAccumulation(graph, inputs, guides, plan)};

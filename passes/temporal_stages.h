@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "framegraph/declare/graph.h"
 #include "passes/inputs.h"
 #include "passes/light_storage.h"
@@ -44,7 +46,8 @@ TemporalPlan planTemporalStages(const DenoiserInputs& inputs, const TemporalStag
 struct Accumulated {
   fg::Texture lighting;  ///< The temporal mean in `accumulation.storage`, or the frame's lighting.
   LightingAlpha alpha = LightingAlpha::Unused;
-  fg::Texture taps = {};  ///< `AccumulationWithTaps::taps`, if the plan keeps them.
+  fg::Texture taps = {};                              ///< `AccumulationWithTaps::taps`, if the plan keeps them.
+  std::optional<LightGrid> lightGrid = std::nullopt;  ///< If `lighting` lies on it.
 };
 
 /// Add temporal accumulation, if the plan has it.

@@ -55,6 +55,7 @@ fg::Texture addWalr(StageGraph graph, const DenoiserInputs& inputs, fg::Texture 
                          .alpha = accumulated.alpha,
                          .lighting = inputs.lighting,
                          .pattern = inputs.conventions.light,
+                         .lightGrid = accumulated.lightGrid,
                          .history = history,
                          .result = plan.filtered};
   const BlockFits fits = addBlockRegression(graph, inputs.frame, light, guides, blocks);

@@ -34,11 +34,9 @@ layout(std430) readonly buffer coarseFits { StoredFit cells[]; };
 #ifdef VIEW
 layout(constant_id = 8) const uint kView = 0;  // Which quantity; numbered in viewOf.
 layout(rgba32f) uniform writeonly image2D outView;
-#ifdef PACKED
-uniform utexture2D accumulated;
-#else
+layout(constant_id = 21) const bool kPackedLight = false;
 uniform texture2D accumulated;
-#endif
+uniform utexture2D packedAccumulated;  // With kPackedLight in its place.
 #elif defined(DIRECTION)
 layout(rg32ui) uniform writeonly uimage2D outDirection;
 #elif defined(PACKED)
@@ -54,6 +52,9 @@ layout(push_constant) uniform PushConstants { BlockRegressionConstants constants
 #include "include/stored_fit.glsl"
 #ifdef VIEW
 #include "include/light.glsl"
+#define LIGHT_GRID_CHOSEN
+#include "include/light_sample.glsl"
+#include "include/packed_light.glsl"
 #elif defined(DIRECTION)
 #include "include/pack_direction.glsl"
 #elif defined(PACKED)
@@ -194,6 +195,12 @@ vec3 meanSlope(Prediction sum, uint feature) { return sum.slope[feature] / divis
 #ifdef VIEW
 const float kCoefficients = float(kFeatures + 1);  // Of one channel: a constant and the slopes.
 
+bool hasNoSample(ivec2 p) {
+  const ivec2 texel = accumulatedTexel(p);
+  if (!kPackedLight) return lightAt(texel).a == 0.0;
+  return unpackAccumulated(texelFetch(packedAccumulated, texel, 0).x).a == 0.0;
+}
+
 // In the order of reconstructionViews() in passes/block_regression.cpp, which describes each value.
 vec3 viewOf(ivec2 p, Prediction fine, Prediction coarse, float share, float occlusion) {
   const bool usable = fine.weight > 0.0 || coarse.weight > 0.0;
@@ -204,7 +211,7 @@ vec3 viewOf(ivec2 p, Prediction fine, Prediction coarse, float share, float occl
     case 3u: return meanColour(coarse, 1.0);                                                        // coarse-fit
     case 4u: return vec3(fine.negative);                                                         // clamped
     case 5u: return vec3(coarse.negative);                                                       // coarse-clamped
-    case 16u: return vec3(meanSamples(fine) < kCoefficients, share > 0.5, lightAt(p).a == 0.0);  // few-samples
+    case 16u: return vec3(meanSamples(fine) < kCoefficients, share > 0.5, hasNoSample(p));  // few-samples
   }
   // 6 to 10 are slope-x to slope-occlusion; 11 to 15 are coarse-slope-x to coarse-slope-occlusion.
   return kView < 11u ? meanSlope(fine, kView - 6u) : meanSlope(coarse, kView - 11u);

@@ -49,8 +49,8 @@ Window windowOf(BlockMoments m) {
   w.noise = m.yy > 0.0 ? clamp(unexplained / m.yy, kLeastNoise, 1.0) : 1.0;
   const float density = samplesPerPixel(m.samples);
   const float sigma = float(kCellSize) * coarseSigma(density);
-  // Below one sample per pixel some pixels have no sample.
-  w.pixels = 4.0 * kPi * sigma * sigma * min(density, 1.0);
+  // Some pixels have no light: those that the light grid does not show, and below one sample per pixel others.
+  w.pixels = 4.0 * kPi * sigma * sigma * min(density, constants.lightShare);
   w.errors = constants.coarseGrowthErrors / (1.0 + constants.coarseGrowthOcclusion * max(m.x[kOcclusionFeature], 0.0));
   return w;
 }

@@ -5,6 +5,7 @@
 // surface.
 // A block has four threads. Each sums over two columns of its pixels, so that neighbouring threads read neighbouring
 // texels.
+// kLightGrid: textures hold the pixels of the light grid (light_sample.glsl), and only these count.
 // PACKED: `accumulated` is packed light (packed_light.glsl).
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -39,6 +40,8 @@ layout(push_constant) uniform PushConstants { BlockRegressionConstants constants
 #include "include/plane.glsl"
 #include "include/block_plane.glsl"
 #include "include/light.glsl"
+#define LIGHT_GRID_CHOSEN
+#include "include/light_sample.glsl"
 #include "include/set_bits.glsl"
 #include "include/window_depth.glsl"
 
@@ -49,20 +52,27 @@ struct Place {
   int first;
 };
 
-// A thread's pixels in a block are numbered from 0 to 15. Those outside a block that is smaller than 8 x 8 pixels show
-// no surface.
-const int kPixels = 16;
-ivec2 pixelInBlock(int thread, int i) { return ivec2(thread + kBlockThreads * (i / 8), i % 8); }
+// A thread's pixels in a block are numbered from 0: those of two columns, or of one where the light grid has at most four
+// columns in a block. Those outside a block that is smaller than 8 x 8 pixels show no surface.
+const int kPixels = kLightGrid && kLightColumns > 1 ? 8 : 16;
+ivec2 texelInBlock(int thread, int i) { return ivec2(thread + kBlockThreads * (i / 8), i % 8); }
+
+// The first texel of a block, and the pixel that a texel holds.
+ivec2 firstTexel(ivec2 block) {
+  const ivec2 p = kBlockSize * block;
+  return kLightGrid ? (p - frame.lightOffset + lightGroup() - 1) / lightGroup() : p;
+}
+ivec2 pixelOfTexel(ivec2 texel) { return kLightGrid ? texel * lightGroup() + frame.lightOffset : texel; }
 
 // The thread's pixels that show a surface, one bit each: eight bits a column.
 uint surfacesOf(Place place) {
   const ivec2 last = textureSize(depth, 0) - 1;
   uint surfaces = 0u;
   [[unroll]] for (int i = 0; i < kPixels; ++i) {
-    const ivec2 inBlock = pixelInBlock(place.thread, i);
-    const ivec2 p = kBlockSize * place.block + inBlock;
-    const float z = unpackDepthBesideNormal(texelFetch(depth, min(p, last), 0).x);
-    const bool inside = all(lessThan(inBlock, ivec2(kBlockSize))) && all(lessThanEqual(p, last));
+    const ivec2 texel = firstTexel(place.block) + texelInBlock(place.thread, i);
+    const ivec2 inBlock = pixelOfTexel(texel) - kBlockSize * place.block;
+    const float z = unpackDepthBesideNormal(texelFetch(depth, min(texel, last), 0).x);
+    const bool inside = all(lessThan(inBlock, ivec2(kBlockSize))) && all(lessThanEqual(texel, last));
     surfaces |= inside && z != 0.0 ? 1u << i : 0u;
   }
   return surfaces;
@@ -70,8 +80,8 @@ uint surfacesOf(Place place) {
 
 shared uint threadSurfaces[kThreads];
 
-// A random one of the block's pixels with a surface, each of them equally likely; false if there is none.
-bool chooseRepresentative(Place place, uint surfaces, out ivec2 pixel) {
+// The texel of a random one of the block's pixels with a surface, each of them equally likely; false if there is none.
+bool chooseRepresentative(Place place, uint surfaces, out ivec2 texel) {
   threadSurfaces[place.first + place.thread] = surfaces;
   barrier();
   uvec2 block = uvec2(0u);  // Eight bits a column.
@@ -81,7 +91,7 @@ bool chooseRepresentative(Place place, uint surfaces, out ivec2 pixel) {
   }
   const uint count = uint(bitCount(block.x) + bitCount(block.y));
   const int bit = setBit(block, hashBelow(uvec4(place.block, frame.frameIndex, 0), count));
-  pixel = ivec2(bit / 8, bit % 8);
+  texel = firstTexel(place.block) + ivec2(bit / 8, bit % 8);
   return count > 0u;
 }
 
@@ -96,15 +106,15 @@ struct Representative {
 
 Representative representativeOf(Place place, uint surfaces) {
   Representative r = Representative(0.0, 0u, Plane(vec3(0.0), 0.0, 0.0), noSamples().x, vec3(0.0));
-  ivec2 pixel;
-  if (!chooseRepresentative(place, surfaces, pixel)) return r;
-  const ivec2 p = kBlockSize * place.block + pixel;
-  const uint packed = texelFetch(depth, p, 0).x;
+  ivec2 texel;
+  if (!chooseRepresentative(place, surfaces, texel)) return r;
+  const ivec2 p = pixelOfTexel(texel), pixel = p - kBlockSize * place.block;
+  const uint packed = texelFetch(depth, texel, 0).x;
   r.z = unpackDepthBesideNormal(packed);
   r.packedNormal = packBlockNormal(packed & kShortNormalMask, uint(pixel.y * kBlockSize + pixel.x));
   r.plane = planeAt(p, r.z, unpackShortNormal(packed));
-  r.x = featuresOf(unpackNormalAndOcclusion(texelFetch(features, p, 0).x), 0.0);
-  r.y = lightAt(p).rgb;
+  r.x = featuresOf(unpackNormalAndOcclusion(texelFetch(features, texel, 0).x), 0.0);
+  r.y = lightAt(texel).rgb;
   return r;
 }
 
@@ -119,10 +129,10 @@ Sums sumsOf(Place place, uint surfaces, Representative r) {
   Sums sums = Sums(emptySum(r.x, r.y), emptySum(r.x, r.y), WindowDepth(float(bitCount(surfaces)), 0.0));
   for (int i = 0; i < kPixels; ++i) {
     if ((surfaces >> i & 1u) == 0u) continue;
-    const ivec2 p = kBlockSize * place.block + pixelInBlock(place.thread, i);
-    const float z = unpackDepthBesideNormal(texelFetch(depth, p, 0).x);
-    const NormalAndOcclusion shading = unpackNormalAndOcclusion(texelFetch(features, p, 0).x);
-    const vec4 mean = lightAt(p);
+    const ivec2 texel = firstTexel(place.block) + texelInBlock(place.thread, i), p = pixelOfTexel(texel);
+    const float z = unpackDepthBesideNormal(texelFetch(depth, texel, 0).x);
+    const NormalAndOcclusion shading = unpackNormalAndOcclusion(texelFetch(features, texel, 0).x);
+    const vec4 mean = lightAt(texel);
     sums.window.inverse += 1.0 / z;
     if (mean.a == 0.0) continue;
     const float x[kFeatures] = featuresOf(shading, r.z / z - 1.0);
@@ -238,7 +248,8 @@ void main() {
     barrier();
     if (forCell) window = windowOfCell(cell);
   }
-  const bool inside = all(lessThan(kBlockSize * place.block, textureSize(depth, 0)));
+  // Textures of the light grid may end after the image.
+  const bool inside = all(lessThan(place.block, imageSize(outNormal)));
   const bool isFirstOfCell = all(equal(place.block, kCellBlocks * cell));
   if (!inside || place.thread > 1 || (forCell && !isFirstOfCell)) return;
 

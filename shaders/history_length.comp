@@ -1,4 +1,5 @@
 // Writes the history length of every pixel for the host: frames, with this one's sample.
+// A texel of accumulated light stands for kColumns x kRows pixels, which all get its length.
 // PACKED: accumulated light is packed (packed_light.glsl).
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -6,6 +7,8 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
+layout(constant_id = 1) const int kColumns = 1;
+layout(constant_id = 2) const int kRows = 1;
 layout(r16f) uniform writeonly image2D historyLength;
 #ifdef PACKED
 #include "include/packed_light.glsl"
@@ -19,5 +22,6 @@ float lengthAt(ivec2 p) { return texelFetch(accumulated, p, 0)[kChannel]; }
 
 void main() {
   const ivec2 p = ivec2(gl_GlobalInvocationID.xy);
-  if (all(lessThan(p, imageSize(historyLength)))) imageStore(historyLength, p, vec4(lengthAt(p), 0.0, 0.0, 1.0));
+  if (any(greaterThanEqual(p, imageSize(historyLength)))) return;
+  imageStore(historyLength, p, vec4(lengthAt(p / ivec2(kColumns, kRows)), 0.0, 0.0, 1.0));
 }

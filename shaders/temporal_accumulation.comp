@@ -11,6 +11,8 @@
 // antilag is on.
 // GUIDES: prepares the pixel's guides first (guides.glsl), which saves a pass and reading them back.
 // kTapsGiven: takes motion and accepted taps that another light of the same view has kept.
+// LIGHT_GRID: the mean has a texel for each group of sparse light, and so has a copy of the guides of the pixels that
+// have this frame's samples. Needs GUIDES.
 // kStill: nothing moves, so that the history of a pixel is the pixel itself.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -71,6 +73,10 @@ layout(rg32f) uniform writeonly image2D outTiles;
 #elif defined(VIEW)
 layout(constant_id = 5) const bool kAntilag = false;
 #endif
+#ifdef LIGHT_GRID
+layout(r32ui) uniform writeonly uimage2D outLightDepth;  // And geometric normals.
+layout(r32ui) uniform writeonly uimage2D outLightFeatures;
+#endif
 #ifdef GUIDES
 layout(push_constant) uniform PushConstants { GuidesAndAccumulationConstants pushed; };
 #define constants pushed.accumulation
@@ -87,7 +93,13 @@ vec4 unpackHistory(uint packed) { return unpackAccumulated(packed); }
 float unpackHistoryLength(uint packed) { return unpackHistory(packed).a; }
 #endif
 #include "include/half.glsl"
+#ifdef VIEW
+#define LIGHT_GRID_CHOSEN
+#endif
 #include "include/light_sample.glsl"
+#if defined(LIGHT_GRID) || defined(VIEW)
+#define LIGHT_GRID_TAPS
+#endif
 #define COUNT_EMPTY_TAPS kSparseLight
 #include "include/history_taps.glsl"
 #include "include/pass_through.glsl"
@@ -107,28 +119,41 @@ struct ReprojectedHistory {
   int rejected;   // Number of history taps that were rejected.
 };
 
-// The history taps of a pixel at depth `z`, which KEEP_TAPS also keeps.
-HistoryTaps findTaps(ivec2 p, float z) {
-#if defined(KEEP_TAPS) && !defined(GUIDES)
-  if (kTapsGiven) {
-    const uint given = texelFetch(givenTaps, p, 0).x;
-    imageStore(outTaps, p, uvec4(given));
-    return unpackTaps(p, given, frame.previousPixelFromPixel);
-  }
-#endif
-  const Reprojection r = reproject(p, z);
-  const HistoryTaps taps = historyTaps(p, r, constants.planeTolerance, constants.normalThreshold);
-#ifdef KEEP_TAPS
-  imageStore(outTaps, p, uvec4(packTaps(r.motion, taps.accepted)));
-#endif
-  return taps;
+ReprojectedHistory historyAt(HistoryTaps taps, vec2 position) {
+  const vec4 mean = kBicubicHistory ? bicubicOfTaps(previousAccumulated, taps) : meanOfTaps(previousAccumulated, taps);
+  return ReprojectedHistory(mean, position, tapsRejected(taps));
 }
+
+#if defined(KEEP_TAPS) && !defined(GUIDES)
+// The history taps that another light has kept, which this one keeps, too.
+HistoryTaps takeGivenTaps(ivec2 p) {
+  const uint given = texelFetch(givenTaps, p, 0).x;
+  imageStore(outTaps, p, uvec4(given));
+  return unpackTaps(p, given, frame.previousPixelFromPixel);
+}
+#endif
 
 ReprojectedHistory readHistory(ivec2 p, float z) {
   if (kStill) return ReprojectedHistory(historyTexel(previousAccumulated, p), vec2(p), 0);
-  const HistoryTaps taps = findTaps(p, z);
-  const vec4 mean = kBicubicHistory ? bicubicOfTaps(previousAccumulated, taps) : meanOfTaps(previousAccumulated, taps);
-  return ReprojectedHistory(mean, tapPosition(taps), tapsRejected(taps));
+#if defined(KEEP_TAPS) && !defined(GUIDES)
+  if (kTapsGiven) {
+    const HistoryTaps given = takeGivenTaps(p);
+    return historyAt(given, tapPosition(given));
+  }
+#endif
+  const Reprojection r = reproject(p, z);
+  HistoryTaps taps = historyTaps(p, r, constants.planeTolerance, constants.normalThreshold);
+#ifdef KEEP_TAPS
+  imageStore(outTaps, p, uvec4(packTaps(r.motion, taps.accepted)));
+#endif
+  const vec2 position = tapPosition(taps);
+#ifdef LIGHT_GRID
+  if (!isOnLightGrid(p)) return ReprojectedHistory(vec4(0.0), position, 0);
+#endif
+#ifdef LIGHT_GRID_TAPS
+  if (kLightGrid) taps = lightGridTaps(p, r, position, constants.planeTolerance, constants.normalThreshold);
+#endif
+  return historyAt(taps, position);
 }
 
 ReprojectedHistory historyWithAntilag(ivec2 p, float z) {
@@ -183,9 +208,11 @@ void main() {
 #ifdef PACKED
 void storeMean(ivec2 p, vec4 mean) {
   const vec4 random = randomNumbers(p, frame.frameIndex, kAccumulatedSeed);
-  imageStore(outAccumulated, p, uvec4(packAccumulated(mean, random)));
+  imageStore(outAccumulated, accumulatedTexel(p), uvec4(packAccumulated(mean, random)));
 }
-void storeNoSurface(ivec2 p, vec3 light) { imageStore(outAccumulated, p, uvec4(0u)); }
+void storeNoSurface(ivec2 p, vec3 light) {
+  if (!kLightGrid || isOnLightGrid(p)) imageStore(outAccumulated, accumulatedTexel(p), uvec4(0u));
+}
 #else
 void storeMean(ivec2 p, vec4 mean) { imageStore(outAccumulated, p, nearestHalf(mean)); }
 void storeNoSurface(ivec2 p, vec3 light) { imageStore(outAccumulated, p, vec4(light, 0.0)); }
@@ -207,6 +234,7 @@ float accumulate(ivec2 p) {
   }
 
   const vec4 history = historyWithAntilag(p, z).mean;
+  if (kLightGrid && !isOnLightGrid(p)) return 0.0;
   const float samples = samplesWith(history, sampleIsUsable);
   const vec3 radiance = clampedRadiance(noisy.radiance);
   const vec3 mean = sampleIsUsable ? mix(history.rgb, radiance, 1.0 / max(samples, 1.0)) : history.rgb;
@@ -218,12 +246,26 @@ float accumulate(ivec2 p) {
 #endif
 }
 
+#ifdef LIGHT_GRID
+// Groups at the border of the image may have their sample outside of it. The threads there write that it shows no
+// surface.
+void storeLightGuides(ivec2 p, bool inside) {
+  if (!isOnLightGrid(p)) return;
+  imageStore(outLightDepth, accumulatedTexel(p), uvec4(ownGuides.depth));
+  imageStore(outLightFeatures, accumulatedTexel(p), uvec4(ownGuides.features));
+  if (!inside) storeNoSurface(p, vec3(0.0));
+}
+#endif
+
 void main() {
   const ivec2 p = ivec2(gl_GlobalInvocationID.xy);
 #ifdef GUIDES
   const bool inside = all(lessThan(p, textureSize(hostDepth, 0)));
   ownGuides = guidesOfPixel();
   if (inside) storeGuides(p, ownGuides);
+#ifdef LIGHT_GRID
+  storeLightGuides(p, inside);
+#endif
 #else
   const bool inside = all(lessThan(p, textureSize(depth, 0)));
 #endif

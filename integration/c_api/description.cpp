@@ -310,6 +310,7 @@ Constants Description::constants(const FrameStatement& frame) const {
                                                  : lastCamera_                   ? lastOrigin_
                                                                                  : frame.origin,
                                .lightOffset = checkedLightOffset(frame.lightOffset),
+                               .previousLightOffset = glm::ivec2(lastLightOffset_),
                                .orthographic = conventions_.orthographic == VK_TRUE};
   if (!(frame.skyDepth >= 0.0F)) throw Error(WALR_ERROR_INVALID_ARGUMENT, "sky_depth is negative or NaN");
   if (frame.skyDepth > 0.0F) description.skyDepth = frame.skyDepth;
@@ -344,6 +345,7 @@ glm::ivec2 Description::checkedLightOffset(glm::uvec2 offset) const {
 void Description::continueFrom(const Description& last) {
   lastCamera_ = last.lastCamera_;
   lastOrigin_ = last.lastOrigin_;
+  lastLightOffset_ = last.lastLightOffset_;
   lastExtent_ = last.lastExtent_;
   frames_ = std::max(frames_, last.frames_);
 }
@@ -351,6 +353,7 @@ void Description::continueFrom(const Description& last) {
 void Description::advance(const FrameStatement& frame) {
   lastCamera_ = *frame.camera;
   lastOrigin_ = frame.origin;
+  lastLightOffset_ = frame.lightOffset;
   lastExtent_ = extent_;
   ++frames_;
 }

@@ -155,6 +155,7 @@ class Description {
   std::uint64_t frames_ = 0;
   std::optional<WalrCamera> lastCamera_;
   glm::dvec3 lastOrigin_{0.0};  ///< Of `lastCamera_`.
+  glm::uvec2 lastLightOffset_{0};
   std::optional<fg::Extent> lastExtent_;
 };
 

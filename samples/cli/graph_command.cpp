@@ -16,6 +16,7 @@
 #include "samples/cli/command.h"
 #include "samples/command_line/arguments.h"
 #include "samples/command_line/exit_code.h"
+#include "samples/command_line/light_rate.h"
 #include "samples/command_line/method_options.h"
 #include "samples/command_line/usage_error.h"
 #include "samples/image/file_output.h"
@@ -27,6 +28,7 @@ struct GraphOptions {
   MethodOptions method;
   std::string secondPreset;  ///< Empty: there is one light.
   std::string size = "1920x1080";
+  LightPattern light;
   bool json = false;
   bool dot = false;
   bool svg = false;
@@ -115,9 +117,11 @@ void printGraph(const GraphOptions& options) {
     listSettings(*method);
     return;
   }
+  InputConventions conventions;
+  conventions.light = options.light;
   const std::unique_ptr<Denoiser> second = makeSecond(options);
   const DenoiseGraph declared =
-      declareDenoiseGraph(*method, extent, InputConventions{}, kComputeHost, {}, {}, {}, {.method = second.get()});
+      declareDenoiseGraph(*method, extent, conventions, kComputeHost, {}, {}, {}, {.method = second.get()});
   const fg::CompileResult result = fg::compile(declared.graph.desc(), fg::TableMemoryModel());
   if (!result.ok()) {
     throw std::runtime_error("the method's frame graph does not compile:\n" + result.text());
@@ -142,6 +146,9 @@ void registerGraph(CLI::App& program) {
                    "device is needed")
       ->type_name("WIDTHxHEIGHT")
       ->capture_default_str();
+  addLightRate(*command, options->light,
+               "Share of the pixels that have a sample of light: 1, 1/2 (a checkerboard), 1/4 (one of 2 x 2) or 1/9 "
+               "(one of 3 x 3)");
   CLI::Option_group* format = command->add_option_group("Format", "Instead of text");
   format->add_flag("--json", options->json,
                    "The whole plan as JSON: passes, textures, buffers, barriers, heaps, memory and traffic");

@@ -12,6 +12,7 @@
 #include "samples/command_line/arguments.h"
 #include "samples/command_line/device_options.h"
 #include "samples/command_line/exit_code.h"
+#include "samples/command_line/light_rate.h"
 #include "samples/command_line/tracer_option.h"
 #include "samples/command_line/usage_error.h"
 #include "samples/denoise/gpu_device.h"
@@ -27,17 +28,9 @@ struct RenderArguments {
   std::string frames = "0-11";
   std::string referenceFrames;
   std::string size = "320x180";
-  std::string lightRate = "1";
   TracerChoice tracer = TracerChoice::Cpu;
   GpuDevice::Options gpu;
 };
-
-/// Values of --light-rate.
-const std::map<std::string, LightPattern>& lightRates() {
-  static const std::map<std::string, LightPattern> kRates{
-      {"1", {}}, {"1/2", {.columns = 2}}, {"1/4", {.columns = 2, .rows = 2}}, {"1/9", {.columns = 3, .rows = 3}}};
-  return kRates;
-}
 
 /// The device to trace on; null for the processor. Says on the terminal which of the two it is, if that was a choice.
 std::unique_ptr<GpuDevice> tracingDevice(const RenderArguments& arguments) {
@@ -67,7 +60,6 @@ void renderFrames(RenderArguments& arguments) {
   }
   options.width = extent.width;
   options.height = extent.height;
-  options.light = lightRates().at(arguments.lightRate);
   if (!options.light.everyPixel() && options.resampledFrames > 0) {
     throw UsageError("--light-rate and --resampled-frames: only light at every pixel can be resampled");
   }
@@ -115,14 +107,10 @@ void registerRender(CLI::App& program) {
   command->add_option("--spp", options.samples, "Samples per pixel of the noisy frames")
       ->check(CLI::Range(1U, kMostSamples))
       ->capture_default_str();
-  command
-      ->add_option("--light-rate", arguments->lightRate,
-                   "Share of the pixels of a noisy frame that have indirect light: 1, 1/2 (a checkerboard), "
-                   "1/4 (one of 2 x 2) or 1/9 (one of 3 x 3). Which pixels these are changes from frame to frame. "
-                   "References have light at every pixel")
-      ->check(CLI::IsMember(lightRates()))
-      ->type_name("")
-      ->capture_default_str();
+  addLightRate(*command, options.light,
+               "Share of the pixels of a noisy frame that have indirect light: 1, 1/2 (a checkerboard), 1/4 (one of "
+               "2 x 2) or 1/9 (one of 3 x 3). Which pixels these are changes from frame to frame. References have "
+               "light at every pixel");
   command->add_option("--reference-spp", options.referenceSamples, "Samples per pixel of the references; 0: none")
       ->check(CLI::Range(0U, kMostSamples))
       ->capture_default_str();

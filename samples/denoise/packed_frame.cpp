@@ -84,7 +84,8 @@ FrameDescription frameDescriptionOf(const Frame& frame, glm::vec2 motionScale) {
           .motionScale = motionScale,
           .frameIndex = static_cast<std::uint32_t>(frame.number),
           .skyDepth = kSkyDepth,
-          .lightOffset = frame.lightOffset};
+          .lightOffset = frame.lightOffset,
+          .previousLightOffset = frame.previousLightOffset};
 }
 
 FrameConstants frameConstantsOf(const Frame& frame, glm::vec2 motionScale) {

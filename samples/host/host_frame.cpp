@@ -6,6 +6,7 @@ namespace walr::host {
 
 HostFrame packHostFrame(Frame frame) {
   HostFrame packed;
+  if (!frame.light.everyPixel()) packed.noisyLight = packRgba16(frame.indirect);
   packed.direct = packRgba16(frame.direct);
   packed.emission = packRgba16(frame.emission);
   if (frame.reference) {

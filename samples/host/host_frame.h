@@ -14,6 +14,7 @@ struct HostFrame {
   FrameConstants constants{};
   /// For a graph that traces (`HostGraph::trace`). All images are then empty.
   std::optional<gpu_render::TraceData> trace;
+  std::vector<Rgba16> noisyLight;  ///< Sparse light for all pixels, 0 without a sample; empty if light is not sparse.
   std::vector<Rgba16> direct;
   std::vector<Rgba16> emission;
   std::vector<Rgba16> referenceDirect;  ///< For the split view; empty otherwise.

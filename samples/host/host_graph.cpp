@@ -47,14 +47,17 @@ fg::Texture findTexture(const fg::GraphDesc& graph, const std::string& name) {
   throw UsageError("the frame has no texture '" + name + "'; it has " + known);
 }
 
-void declareInputs(HostGraph& host, fg::Extent extent, const HostView& view, const fg::vk::DeviceContext& device) {
+void declareInputs(HostGraph& host, fg::Extent extent, const HostView& view, const LightPattern& light,
+                   const fg::vk::DeviceContext& device) {
   fg::Graph& graph = host.graph;
   std::vector<UploadedPicture*> uploads;
   const auto picture = [&](UploadedPicture& target, const char* name, VkFormat format) {
     target = declarePicture(graph, name, format, extent);
     uploads.push_back(&target);
   };
-  picture(host.lighting, "lighting", kColourFormat);
+  host.lighting = declarePicture(graph, "lighting", kColourFormat, light.lightingExtent(extent));
+  uploads.push_back(&host.lighting);
+  if (!light.everyPixel() && view.needsNoisy()) picture(host.noisyLight.emplace(), "noisy light", kColourFormat);
   picture(host.depth, "depth", kDepthFormat);
   picture(host.normal, "normal", kColourFormat);
   picture(host.motion, "motion", kColourFormat);
@@ -70,7 +73,13 @@ void declareInputs(HostGraph& host, fg::Extent extent, const HostView& view, con
 }
 
 /// The same inputs, traced on the device.
-void declareTracedInputs(HostGraph& host, fg::Extent extent, const HostView& view, const gpu_render::GpuScene& scene) {
+void declareTracedInputs(HostGraph& host, fg::Extent extent, const HostView& view, const LightPattern& light,
+                         const gpu_render::GpuScene& scene) {
+  if (!light.everyPixel()) {
+    throw UsageError(
+        "--light-rate: in this program only the path tracer on the processor traces sparse light: use "
+        "--tracer cpu");
+  }
   if (view.needsReference()) {
     throw UsageError("views with a reference need the path tracer on the processor: use --tracer cpu, or another view");
   }
@@ -106,7 +115,8 @@ fg::Texture litBy(HostGraph& host, HostView::Kind source) {
   const std::string name = noisy ? "composite noisy" : "composite reference";
   const fg::Texture output =
       host.graph.texture(noisy ? "lit noisy" : "lit reference", host.graph.textureDesc(host.composite));
-  const fg::Texture indirect = noisy ? host.lighting.texture : host.referenceIndirect->texture;
+  const UploadedPicture& traced = host.noisyLight ? *host.noisyLight : host.lighting;
+  const fg::Texture indirect = noisy ? traced.texture : host.referenceIndirect->texture;
   const fg::Texture direct = noisy ? host.direct.texture : host.referenceDirect->texture;
   return addComposite(host.graph, name, indirect, {direct, host.albedo.texture, host.emission.texture}, output);
 }
@@ -129,15 +139,15 @@ void addView(HostGraph& host, const HostView& view) {
 }  // namespace
 
 HostGraph declareHostGraph(const fg::vk::DeviceContext& device, Denoiser& method, fg::Extent extent,
-                           const HostView& view, const HostTargets& targets,
+                           const HostView& view, const HostTargets& targets, const LightPattern& light,
                            const std::function<void(fg::Graph&, fg::Texture display)>& present,
                            const gpu_render::GpuScene* scene) {
   HostGraph host;
   fg::Graph& graph = host.graph;
   if (scene != nullptr) {
-    declareTracedInputs(host, extent, view, *scene);
+    declareTracedInputs(host, extent, view, light, *scene);
   } else {
-    declareInputs(host, extent, view, device);
+    declareInputs(host, extent, view, light, device);
   }
   host.frameConstants = graph.upload("frame constants", sizeof(FrameConstants));
 
@@ -149,7 +159,7 @@ HostGraph declareHostGraph(const fg::vk::DeviceContext& device, Denoiser& method
                               .albedo = host.albedo.texture,
                               .objectId = host.objectId.texture,
                               .frame = host.frameConstants,
-                              .conventions = {}};
+                              .conventions = {.light = light}};
   host.denoised = method.add(graph, inputs, declareTarget(graph, "denoised", colour, targets.denoised));
   host.composite =
       addComposite(graph, "composite", host.denoised, {host.direct.texture, host.albedo.texture, host.emission.texture},

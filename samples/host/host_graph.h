@@ -26,6 +26,8 @@ struct HostView {
   Kind kind = Kind::Denoised;
   std::string texture = {};  ///< Name of the texture, for `Kind::Texture`.
 
+  /// Whether this view shows the traced light.
+  [[nodiscard]] bool needsNoisy() const { return kind == Kind::Noisy || kind == Kind::Split; }
   /// Whether this view needs frames with a reference.
   [[nodiscard]] bool needsReference() const { return kind == Kind::Reference || kind == Kind::Split; }
   friend bool operator==(const HostView&, const HostView&) = default;
@@ -36,7 +38,8 @@ struct HostGraph {
   fg::Graph graph;
   /// If the device traces: what the tracer's pass needs. The pictures below then have no bytes to upload.
   std::optional<gpu_render::TraceInputs> trace;
-  UploadedPicture lighting;
+  UploadedPicture lighting;                   ///< With sparse light, one texel for each group of pixels.
+  std::optional<UploadedPicture> noisyLight;  ///< The same for all pixels, for views that show sparse light.
   UploadedPicture depth;
   UploadedPicture normal;
   UploadedPicture motion;
@@ -67,15 +70,17 @@ struct HostTargets {
 
 /// Declare the frame.
 /// @param device   must outlive the graph
+/// @param light    pixels that have a sample of light
 /// @param present  adds passes that follow the displayed image, for instance one that copies it to a window; may be
 ///         empty
 /// @param scene    what the device traces, must outlive the graph; null: the processor traces, and its pictures are
 ///         uploaded
 /// @throws std::invalid_argument naming a setting of the method that is out of range
+/// @throws also naming a method or setting that does not take sparse light
 /// @throws UsageError if the device traces and the view needs a reference; or if the graph lacks the texture to view;
 /// the message lists the graph's textures
 HostGraph declareHostGraph(const fg::vk::DeviceContext& device, Denoiser& method, fg::Extent extent,
-                           const HostView& view, const HostTargets& targets,
+                           const HostView& view, const HostTargets& targets, const LightPattern& light = {},
                            const std::function<void(fg::Graph&, fg::Texture display)>& present = {},
                            const gpu_render::GpuScene* scene = nullptr);
 

@@ -28,11 +28,12 @@ ShownPicture::ShownPicture(const GpuDevice& device, fg::Extent extent)
 }
 
 LiveFrame::LiveFrame(const GpuDevice& device, const ShownPicture& picture, std::uint32_t framesInFlight,
-                     const gpu_render::GpuScene* scene)
-    : device_(device), picture_(picture), framesInFlight_(framesInFlight), scene_(scene) {}
+                     const LightPattern& light, const gpu_render::GpuScene* scene)
+    : device_(device), picture_(picture), framesInFlight_(framesInFlight), light_(light), scene_(scene) {}
 
 HostGraph LiveFrame::declareHost(Denoiser& method, const HostView& view) const {
-  return declareHostGraph(device_.device().context(), method, picture_.desc().extent, view, shownTarget(), {}, scene_);
+  return declareHostGraph(device_.device().context(), method, picture_.desc().extent, view, shownTarget(), light_, {},
+                          scene_);
 }
 
 bool LiveFrame::update(Denoiser& method, const HostView& view) {

@@ -42,8 +42,9 @@ class LiveFrame {
   /// @param device, picture  must outlive this
   /// @param scene            see `declareHostGraph`; must outlive this
   /// @param framesInFlight   frames recorded with the same slot must be this many frames apart
+  /// @param light            pixels of the frames that have a sample of light
   LiveFrame(const GpuDevice& device, const ShownPicture& picture, std::uint32_t framesInFlight,
-            const gpu_render::GpuScene* scene = nullptr);
+            const LightPattern& light = {}, const gpu_render::GpuScene* scene = nullptr);
   /// The device must have finished all frames.
   ~LiveFrame() = default;
   LiveFrame(const LiveFrame&) = delete;
@@ -90,6 +91,7 @@ class LiveFrame {
   const GpuDevice& device_;
   const ShownPicture& picture_;
   std::uint32_t framesInFlight_;
+  LightPattern light_;
   const gpu_render::GpuScene* scene_;
   std::uint64_t frames_ = 0;  // Number of recorded frames, of all graphs.
   std::unique_ptr<Running> running_;

@@ -4,6 +4,7 @@
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <utility>
 
@@ -47,6 +48,15 @@ ReloadShaders shaderReload(const HostOptions& options) {
 #endif
 }
 
+/// @throws UsageError naming settings that contradict each other, or a method that does not take sparse light
+Renderer makeRenderer(const GpuDevice& gpu, Denoiser& method, fg::Extent extent, const Renderer::Options& options) {
+  try {
+    return {gpu, method, extent, options};
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(error.what());
+  }
+}
+
 void runHeadless(const HostOptions& options, float stops, Tracer& tracer, GpuDevice& gpu, Denoiser& method) {
   if (options.output.empty() && options.record.empty()) {
     throw UsageError(
@@ -60,11 +70,12 @@ void runHeadless(const HostOptions& options, float stops, Tracer& tracer, GpuDev
     animation.emplace(static_cast<int>(extent.width), static_cast<int>(extent.height), options.tracer.framesPerSecond);
   }
   Renderer::Options rendering;
+  rendering.light = options.tracer.light;
   rendering.view = parseView(options.view);
   rendering.viewConstants = viewConstantsOf(extent, stops);
   rendering.readComposite = options.exr;
   rendering.scene = tracer.gpuScene();
-  Renderer renderer(gpu, method, extent, rendering);
+  Renderer renderer = makeRenderer(gpu, method, extent, rendering);
   if (!options.output.empty()) prepareOutputDirectory(options.output);
   Tracer::Request request;
   request.reference = rendering.view.needsReference();
@@ -106,6 +117,9 @@ void run(HostOptions& options) {
     options.gpu = withWindows(options.gpu);
   }
 #endif
+  // Only the tracer on the processor traces sparse light.
+  const bool sparse = !options.tracer.light.everyPixel();
+  if (sparse && options.tracerChoice == TracerChoice::Auto) options.tracerChoice = TracerChoice::Cpu;
   options.gpu.rayQueries = mayTraceOnGpu(options.tracerChoice);
   GpuDevice gpu(options.gpu);
   const TracerDecision decision = decideTracer(options.tracerChoice, gpu);

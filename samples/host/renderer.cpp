@@ -23,8 +23,8 @@ HostTargets targetsOf(const Renderer::Options& options) {
 Renderer::Renderer(const GpuDevice& gpu, Denoiser& method, fg::Extent extent, const Options& options)
     : extent_(extent),
       options_(options),
-      host_(declareHostGraph(gpu.device().context(), method, extent, options.view, targetsOf(options), {},
-                             options.scene)),
+      host_(declareHostGraph(gpu.device().context(), method, extent, options.view, targetsOf(options), options.light,
+                             {}, options.scene)),
       graph_(gpu, host_.graph, options.framesInFlight),
       display_(graph_.readBack(host_.display)) {
   if (options.readComposite) composite_ = graph_.readBack(host_.composite);
@@ -73,6 +73,7 @@ void uploadFrame(fg::vk::Executor& executor, const HostGraph& graph, const HostF
     executor.upload(picture.bytes, std::as_bytes(std::span(texels.data(), texels.size())));
   };
   upload(graph.lighting, std::span(inputs.lighting));
+  if (graph.noisyLight) upload(*graph.noisyLight, std::span(frame.noisyLight));
   upload(graph.depth, inputs.frame.depth.values());
   upload(graph.normal, std::span(inputs.normal));
   upload(graph.motion, std::span(inputs.motion));

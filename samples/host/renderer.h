@@ -28,6 +28,7 @@ class Renderer {
  public:
   struct Options {
     HostView view = {};
+    LightPattern light = {};  ///< Of the frames.
     ViewConstants viewConstants = {};
     std::uint32_t framesInFlight = 2;  ///< At least 1.
     bool readComposite = false;

@@ -99,6 +99,10 @@ render::View Tracer::viewOf(const Request& request) const {
   return view;
 }
 
+glm::ivec2 Tracer::lightOffset(const Request& request) const {
+  return lightOffsetOfFrame(options_.light, static_cast<std::uint32_t>(request.number));
+}
+
 render::View Tracer::moveTo(const Request& request) {
   const double before = previous_ ? previous_->animationFrame : request.animationFrame;
   world_.moveTo(request.animationFrame / options_.framesPerSecond, before / options_.framesPerSecond);
@@ -114,10 +118,15 @@ render::SamplingSettings Tracer::samplingOf(const Request& request) const {
   sampling.seed = options_.seed * 2;
   sampling.firstSample = static_cast<std::uint32_t>(request.number) * options_.samples;
   sampling.threads = options_.threads;
+  sampling.light = options_.light;
+  sampling.lightOffset = lightOffset(request);
   return sampling;
 }
 
 void Tracer::finish(const Request& request, const render::View& view, Frame& frame) {
+  frame.light = options_.light;
+  frame.lightOffset = lightOffset(request);
+  frame.previousLightOffset = previous_ ? lightOffset(*previous_) : frame.lightOffset;
   frame.camera.cut = request.cut;
   frame.resetHistory = request.cut || request.resetHistory || !previous_;
   previous_ = request;

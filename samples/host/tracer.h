@@ -10,6 +10,7 @@
 #include <glm/mat4x4.hpp>
 
 #include "framegraph/declare/graph.h"
+#include "passes/light_pattern.h"
 #include "samples/gpu_render/gpu_scene.h"
 #include "samples/host/host_frame.h"
 #include "samples/render/film.h"
@@ -28,7 +29,9 @@ class Tracer {
     std::filesystem::path scene;
     std::filesystem::path sky;  ///< Equirectangular sky that replaces the scene's; may be empty.
     fg::Extent extent;
-    std::uint32_t samples = 1;           ///< Samples per pixel.
+    std::uint32_t samples = 1;  ///< Samples per pixel.
+    /// Pixels with a sample of indirect light; which they are changes from frame to frame (`lightOffsetOfFrame`).
+    LightPattern light = {};
     std::uint32_t referenceSamples = 1;  ///< Samples per pixel that each frame adds to the reference.
     std::uint32_t bounces = 4;
     std::uint32_t seed = 0;
@@ -61,6 +64,7 @@ class Tracer {
   [[nodiscard]] bool denoisesDirect() const { return options_.denoiseDirect; }
   /// See `render::Scene::warnings`.
   [[nodiscard]] const std::vector<std::string>& warnings() const { return scene_.warnings; }
+  [[nodiscard]] const LightPattern& light() const { return options_.light; }
   /// Pose of the scene's camera in a frame of the animation: world to view space.
   [[nodiscard]] glm::mat4 sceneCamera(double animationFrame) const;
   /// Number of the animation's last frame; 0 for a static scene.
@@ -92,6 +96,7 @@ class Tracer {
 
   /// Moves the scene to a frame. Returns its view.
   render::View moveTo(const Request& request);
+  [[nodiscard]] glm::ivec2 lightOffset(const Request& request) const;
   [[nodiscard]] render::View viewOf(const Request& request) const;
   [[nodiscard]] render::SamplingSettings samplingOf(const Request& request) const;
   /// To be called for every frame, in the end.

@@ -57,12 +57,13 @@ struct Frame {
   /// 3 components: demodulated diffuse indirect radiance, linear; empty unless requested. Undefined at pixels that
   /// have no sample by `light`.
   Image indirect;
-  LightPattern light;         ///< Which pixels have a sample of the light that is denoised.
-  glm::ivec2 lightOffset{0};  ///< See `FrameDescription::lightOffset`.
-  Image direct;               ///< 3 components: demodulated diffuse direct radiance; empty unless requested.
-  Image albedo;               ///< 3 components: diffuse albedo; 0 where there is no diffuse lobe.
-  Image normal;               ///< 3 components: unit shading normal towards the camera; 0 on sky.
-  Image depth;                ///< 1 component: linear view depth, scene units; `kBackgroundDepth` on sky.
+  LightPattern light;                 ///< Which pixels have a sample of the light that is denoised.
+  glm::ivec2 lightOffset{0};          ///< See `FrameDescription::lightOffset`.
+  glm::ivec2 previousLightOffset{0};  ///< That of the frame before.
+  Image direct;                       ///< 3 components: demodulated diffuse direct radiance; empty unless requested.
+  Image albedo;                       ///< 3 components: diffuse albedo; 0 where there is no diffuse lobe.
+  Image normal;                       ///< 3 components: unit shading normal towards the camera; 0 on sky.
+  Image depth;                        ///< 1 component: linear view depth, scene units; `kBackgroundDepth` on sky.
   Image motion;    ///< 3 components: motion to the previous frame; z = previous minus current view depth, if given.
   Image emission;  ///< 3 components: radiance of visible lamps and sky; empty unless requested.
   /// 3 components: radiance of light that is not diffuse (glossy, transmitted, scattered in volumes); empty unless

@@ -200,6 +200,7 @@ Frame Sequence::read(std::size_t index) const {
   const Camera& previous = entries_[index > 0 ? index - 1 : 0].camera;
   frame.previousProjection = previous.projection;
   frame.previousJitter = previous.jitter;
+  frame.previousLightOffset = entries_[index > 0 ? index - 1 : 0].lightOffset;
 
   ExrReader file(entry.file);
   checkSize(file);

@@ -22,10 +22,11 @@ struct BlockRegressionConstants {
   float inverseCoarseLeastShare;  // 1 over the share of the mixture below which the coarse fit is left out; from twice
                                   // that share on, it is mixed in full.
   float residualLeastShare;       // Share of the accumulated light below which it is left out.
+  float lightShare;               // Share of the pixels that accumulated light has a texel for.
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(BlockRegressionConstants) == 52);
+static_assert(sizeof(BlockRegressionConstants) == 56);
 }  // namespace walr
 #endif
 #endif

@@ -21,10 +21,12 @@ struct FrameConstants {
   uint frameIndex;              // Counts frames; seeds random choices and stochastic rounding.
   float skyDepth;               // Scene units: from this view depth on there is sky.
   ivec2 lightOffset;            // Pixels: the pixel of its group that a texel of light belongs to (light_sample.glsl).
+  ivec2 previousLightOffset;    // The previous frame's.
+  ivec2 unused;                 // In shaders, the size of the struct is a multiple of 16 bytes (std140).
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(FrameConstants) == 2 * 64 + 2 * 16 + 6 * 8 + 2 * 4 + 8);
+static_assert(sizeof(FrameConstants) == 2 * 64 + 2 * 16 + 6 * 8 + 2 * 4 + 3 * 8);
 }  // namespace walr
 #endif
 #endif

@@ -21,7 +21,7 @@ CatmullRom catmullRom(float f) {
 #ifdef PACKED
 #define TEXEL uint
 uint[16] texelsAround(usampler2D history, HistoryTaps taps) {
-  const vec2 texel = frame.previousTexel, first = vec2(taps.base) * texel;
+  const vec2 texel = historyTexelSize(history), first = vec2(taps.base) * texel;
   uint texels[16];
   [[unroll]] for (int j = 0; j < 4; j += 2) {
     [[unroll]] for (int i = 0; i < 4; i += 2) {

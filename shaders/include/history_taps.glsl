@@ -41,6 +41,15 @@ vec2 sharedCorner(HistoryTaps taps, vec2 texel) { return (vec2(taps.base) + 1.0)
 // The texels of the taps in an image of one channel, in the order of `historyTap`. Outside of it, texels of its border.
 uvec4 gatherTaps(usampler2D image, vec2 corner) { return textureGather(image, corner).wzxy; }
 
+// LIGHT_GRID_TAPS: a history may lie on the light grid (light_sample.glsl), so that its size is not that of the frame.
+#ifdef PACKED
+#ifdef LIGHT_GRID_TAPS
+vec2 historyTexelSize(usampler2D history) { return 1.0 / vec2(textureSize(history, 0)); }
+#else
+vec2 historyTexelSize(usampler2D history) { return frame.previousTexel; }
+#endif
+#endif
+
 // The texels of the taps in a history. All are fetched at once, accepted or not, so that their latencies overlap.
 #ifdef PACKED
 // A sum of weight times colour over texels is in units of kUnit.
@@ -55,7 +64,7 @@ bool hasLength(uint texel) { return texel >= 1u << 3 * kHistoryBits + 5; }
 
 #define TAP_TEXELS uvec4
 uvec4 tapTexels(usampler2D history, HistoryTaps taps) {
-  return gatherTaps(history, sharedCorner(taps, frame.previousTexel));
+  return gatherTaps(history, sharedCorner(taps, historyTexelSize(history)));
 }
 #else
 #define TAP_TEXELS vec4[4]

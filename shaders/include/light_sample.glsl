@@ -1,12 +1,21 @@
 // The noisy light of one frame. It may be sparse: not every pixel has a sample (passes/light_pattern.h). A group of
 // kLightColumns x kLightRows pixels has one texel of the lighting. The texel is the sample of one pixel of the group.
-// Needs: `frame` (FrameConstants). Takes constant_id 30 to 32.
+// LIGHT_GRID: accumulated light has a texel for each group, not for each pixel: it lies on the light grid. Texel t of a
+// frame shows the pixel of group t that has the sample of this frame. LIGHT_GRID_CHOSEN: kLightGrid says whether it does.
+// Needs: `frame` (FrameConstants). Takes constant_id 30 to 32, and 33 with LIGHT_GRID_CHOSEN.
 #ifndef WALR_LIGHT_SAMPLE_GLSL
 #define WALR_LIGHT_SAMPLE_GLSL
 
 layout(constant_id = 30) const int kLightColumns = 1;
 layout(constant_id = 31) const int kLightRows = 1;
 layout(constant_id = 32) const bool kLightMasked = false;  // Where alpha is 0 there is no sample.
+#ifdef LIGHT_GRID
+const bool kLightGrid = true;
+#elif defined(LIGHT_GRID_CHOSEN)
+layout(constant_id = 33) const bool kLightGrid = false;
+#else
+const bool kLightGrid = false;
+#endif
 
 const bool kSparseLight = kLightColumns > 1 || kLightRows > 1 || kLightMasked;
 
@@ -21,6 +30,14 @@ ivec2 sampledPixel(int row) {
   const ivec2 offset = frame.lightOffset;
   return kLightRows == 1 ? ivec2((offset.x + row) % kLightColumns, 0) : offset;
 }
+
+ivec2 lightGroup() { return ivec2(kLightColumns, kLightRows); }
+
+// The texel of accumulated light for a pixel: its own, or that of its group.
+ivec2 accumulatedTexel(ivec2 p) { return kLightGrid ? p / lightGroup() : p; }
+
+// Whether the light grid shows this pixel. Its groups have more than one row.
+bool isOnLightGrid(ivec2 p) { return p - p / lightGroup() * lightGroup() == frame.lightOffset; }
 
 LightSample lightSampleAt(texture2D lighting, ivec2 p) {
   ivec2 texel = p;

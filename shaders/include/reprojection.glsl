@@ -4,6 +4,7 @@
 // OBJECTS: also tests object ids; needs `objects` and `previousObjects`, a usampler2D.
 // GUIDES: `ownGuides` (guides.glsl) are the guides of this thread's pixel, in place of `depth` and `geometricNormal`;
 // without kDilateMotion.
+// LIGHT_GRID_TAPS: also tests the history taps of accumulated light on the light grid (light_sample.glsl).
 // KEEP_TAPS: motion is rounded to what kept taps can hold (history_taps.glsl); with VIEW, kKeepableMotion says whether
 // it is.
 // A texture is not read if no specialization constant asks for it: `motion` with kMotionFromCamera (nothing but the
@@ -155,13 +156,22 @@ bvec4 tapsNear(Reprojection r, bvec4 candidates, vec4 depths, float tolerance) {
   return lessThanEqual(abs(depths - surface), vec4(tolerance));
 }
 
+// Where history taps lie: texel t is pixel t * spacing + first of the previous frame.
+struct TapGrid {
+  ivec2 spacing;
+  ivec2 first;
+};
+const TapGrid kEveryPixel = TapGrid(ivec2(1), ivec2(0));
+
 // Which taps, of the given depths, are within `tolerance` x depth of the surface's plane. The product of its normal and
 // the view ray is linear over the image: it is computed at the first tap, and the others follow by its slope.
 // If depth is found, it is that of a candidate.
-bvec4 tapsOnPlane(HistoryTaps taps, Reprojection r, bvec4 candidates, vec3 normal, vec4 depths, float tolerance) {
-  const vec2 firstPixel = (vec2(taps.base) + 0.5) * frame.pixelFromPreviousPixel;
+bvec4 tapsOnPlane(TapGrid grid, HistoryTaps taps, Reprojection r, bvec4 candidates, vec3 normal, vec4 depths,
+                  float tolerance) {
+  const vec2 firstPixel = (vec2(taps.base * grid.spacing + grid.first) + 0.5) * frame.pixelFromPreviousPixel;
   const float first = dot(normal, rayThrough(frame.previousRayFromPixel, firstPixel));
-  const vec2 slope = normal.xy * frame.previousRayFromPixel.xy * frame.pixelFromPreviousPixel;
+  const vec2 perPixel = normal.xy * frame.previousRayFromPixel.xy * frame.pixelFromPreviousPixel;
+  const vec2 slope = perPixel * vec2(grid.spacing);
   const vec4 products = first + vec4(0.0, slope.x, slope.y, slope.x + slope.y);
   tolerance *= r.depth;
   float surface = r.depth * (first + dot(slope, taps.fraction));
@@ -192,7 +202,11 @@ bvec4 tapsFacing(uvec4 packed, vec3 normal, float threshold) {
 // object.
 HistoryTaps historyTaps(ivec2 p, Reprojection r, float tolerance, float normalThreshold) {
   HistoryTaps taps = tapsAround(p, r.motion, frame.previousPixelFromPixel);
+#ifdef LIGHT_GRID_TAPS
+  const ivec2 size = kLightGrid ? textureSize(previousDepth, 0) : textureSize(HISTORY, 0);
+#else
   const ivec2 size = textureSize(HISTORY, 0);
+#endif
   const vec2 corner = sharedCorner(taps, frame.previousTexel);
   bvec4 accepted = both(tapsInside(taps, size), bvec4(r.valid));
 #ifdef OBJECTS
@@ -211,13 +225,38 @@ HistoryTaps historyTaps(ivec2 p, Reprojection r, float tolerance, float normalTh
       const vec3 normal = previousNormalAt(p);
       // Depth is found among the taps that face the surface. Without that, this order takes fewer registers.
       if (!kMotionDepthFound)
-        accepted = both(accepted, tapsOnPlane(taps, r, accepted, normal, depths, tolerance));
+        accepted = both(accepted, tapsOnPlane(kEveryPixel, taps, r, accepted, normal, depths, tolerance));
       accepted = both(accepted, tapsFacing(gatherNormals(packedDepths, corner), normal, normalThreshold));
-      if (kMotionDepthFound) accepted = both(accepted, tapsOnPlane(taps, r, accepted, normal, depths, tolerance));
+      if (kMotionDepthFound)
+        accepted = both(accepted, tapsOnPlane(kEveryPixel, taps, r, accepted, normal, depths, tolerance));
     }
   }
   taps.accepted = accepted;
   return taps;
 }
+
+#ifdef LIGHT_GRID_TAPS
+// The history taps among the pixels that the light grid of the previous frame shows, around `position` in pixels from
+// the centre of the first. They are accepted by plane and normal, as above; normals must lie beside depths.
+HistoryTaps lightGridTaps(ivec2 p, Reprojection r, vec2 position, float tolerance, float normalThreshold) {
+  const TapGrid grid = TapGrid(lightGroup(), frame.previousLightOffset);
+  const vec2 texel = (position - vec2(grid.first)) / vec2(grid.spacing), base = floor(texel);
+  HistoryTaps taps = HistoryTaps(ivec2(base), texel - base, bvec4(false));
+  const ivec2 size = textureSize(previousDepth, 0);
+  uvec4 packed;
+  bvec4 accepted;
+  for (int i = 0; i < 4; ++i) {
+    const ivec2 q = historyTap(taps, i) * grid.spacing + grid.first;
+    accepted[i] = r.valid && all(lessThan(uvec2(q), uvec2(size)));
+    packed[i] = texelFetch(previousDepth, clamp(q, ivec2(0), size - 1), 0).x;
+  }
+  const vec4 depths = unpackDepthBesideNormal(packed);
+  const vec3 normal = previousNormalAt(p);
+  accepted = both(accepted, greaterThan(depths, vec4(0.0)));
+  accepted = both(accepted, tapsFacing(packed, normal, normalThreshold));
+  taps.accepted = both(accepted, tapsOnPlane(grid, taps, r, accepted, normal, depths, tolerance));
+  return taps;
+}
+#endif
 
 #endif

@@ -11,6 +11,7 @@
 
 #include "tests/error_text.h"
 #include "tests/passes/denoiser_run.h"
+#include "tests/passes/reference/block_regression.h"
 #include "tests/passes/stage_checks.h"
 #include "tests/passes/synthetic_scene.h"
 #include "tests/vulkan/gpu_fixture.h"
@@ -36,6 +37,7 @@ std::string nameOf(const LightPattern& pattern) {
 HostFrame sparse(HostFrame frame, const LightPattern& pattern, std::uint32_t index) {
   frame.conventions.light = pattern;
   frame.constants.lightOffset = lightOffsetOfFrame(pattern, index);
+  frame.constants.previousLightOffset = lightOffsetOfFrame(pattern, index == 0 ? 0 : index - 1);
   if (pattern.masked) {
     frame.lightAlpha = Image<double>(frame.size());
     forEachPixel(frame.size(), [&](glm::ivec2 p) { frame.lightAlpha[p] = (3 * p.x + 5 * p.y + int(index)) % 8 < 5; });
@@ -87,14 +89,16 @@ TEST_F(SparseLight, InGroupsEqualsThatInAMaskToTheBit) {
     const char* method;
     std::vector<std::pair<const char*, const char*>> settings = {};
   };
-  // Without fitted windows, which sparse light widens. Without shared taps and without anti-aliasing, other passes read
-  // the light of pixels without a surface.
+  // Without fitted windows, which sparse light widens, and with settings that do not accumulate on the light grid,
+  // where a mask has no equal. Without shared taps and without anti-aliasing, other passes read the light of pixels
+  // without a surface.
   const std::pair<const char*, const char*> fixed{"walr.fit-window", "off"};
-  for (const Variant& variant : {Variant{"walr", {fixed}}, Variant{"walr", {fixed, {"antialiasing.enabled", "off"}}},
+  for (const Variant& variant : {Variant{"walr", {{"accumulation.storage", "half"}, fixed}},
+                                 Variant{"walr", {fixed, {"antialiasing.enabled", "off"}}},
                                  Variant{"walr", {fixed, {"antialiasing.plane-tolerance", "0.02"}}},
                                  Variant{"walr_paper"}, Variant{"flr"}, Variant{"bmfr"}, Variant{"accumulate"}}) {
     // The patterns differ in one place, which all methods share.
-    const bool first = variant.settings.size() == 1;
+    const bool first = !variant.settings.empty() && variant.settings[0].second == std::string("half");
     for (const LightPattern& pattern : first ? kPatterns : std::vector<LightPattern>{{3, 3}, {2, 2, true}}) {
       SCOPED_TRACE(nameOf(pattern));
       const std::unique_ptr<Denoiser> method = makeDenoiser(variant.method);
@@ -123,6 +127,37 @@ TEST_F(SparseLight, StagesAgreeWithTheReference) {
     for (const AnyWalr& settings : {AnyWalr(halves), AnyWalr(WalrSettings{})}) {
       WalrRun run(device(), kSize, settings, conventionsOf(pattern));
       expectSequence(run, movingFrames(stairs(), 4, pattern), settings);
+    }
+  }
+}
+
+// Fits of the light grid, from the samples of one frame. The bound is that of regressions over all pixels
+// (block_regression_test.cpp): 2e-4 for moments in halves at the noise of one sample.
+TEST_F(SparseLight, RegressionOnTheLightGridAgreesWithTheReference) {
+  WalrSettings settings;
+  settings.blocks.iterations = 2;
+  settings.blocks.sdfFraction = 0.0F;
+  settings.antialiasing.storage = LightStorage::Half;  // The filter's result then has no coarser rounding.
+  settings.blocks.coarseSigma = 0.15F;                 // As wide in pixels as the default at 216 lines.
+  for (const LightPattern& pattern : {LightPattern{1, 2}, LightPattern{2, 2}, LightPattern{3, 3}}) {
+    for (const std::uint32_t size : {4U, 5U, 8U}) {
+      SCOPED_TRACE(nameOf(pattern) + ", blocks of " + std::to_string(size));
+      settings.blocks.size = size;
+      WalrRun run(device(), kSize, settings, conventionsOf(pattern));
+      const HostFrame frame = movingFrames(stairs(), 2, pattern).back();
+      const WalrStages stages = run.frame(frame);
+      ASSERT_TRUE(stages.onLightGrid);
+      const Image<glm::dvec3> expected =
+          reference::blockRegression(frame, stages.guides, stages.accumulated, settings.blocks, true);
+      double squares = 0.0;
+      double count = 0.0;
+      const auto toneMapped = [](double x) { return x / (1.0 + x); };
+      forEachPixel(kSize, [&](glm::ivec2 p) {
+        if (stages.guides[p].depth == 0.0) return;
+        for (int c = 0; c < 3; ++c, ++count)
+          squares += std::pow(toneMapped(stages.filtered[p][c]) - toneMapped(expected[p][c]), 2.0);
+      });
+      EXPECT_LE(std::sqrt(squares / count), 2e-4);
     }
   }
 }

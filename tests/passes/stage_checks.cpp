@@ -116,7 +116,7 @@ using test::halfTolerance;
 void expectAccumulation(const DeviceFrame& f, const TemporalAccumulationSettings& settings, bool keepTaps) {
   const Image<reference::Accumulated> expected =
       reference::accumulate(f.frame, f.current.guides, {f.previous.guides, f.previous.accumulated, f.previous.antilag},
-                            reference::Storage::Exact, settings, keepTaps);
+                            reference::Storage::Exact, settings, keepTaps, f.current.onLightGrid);
   const bool packed = settings.storage == LightStorage::Packed;
   Comparison comparison("temporal accumulation");
   reference::forEachPixel(f.frame.size(), [&](glm::ivec2 p) {

@@ -160,6 +160,21 @@ reference::Image<glm::dvec4> decodeAccumulated(const std::vector<std::uint32_t>&
   });
 }
 
+reference::Image<glm::dvec4> decodeLightGrid(const std::vector<std::uint32_t>& texels,
+                                             const reference::HostFrame& frame) {
+  const LightPattern& light = frame.conventions.light;
+  const fg::Extent extent =
+      light.lightingExtent({static_cast<std::uint32_t>(frame.size().x), static_cast<std::uint32_t>(frame.size().y)});
+  const reference::Image<glm::dvec4> means =
+      decodeAccumulated(texels, {static_cast<int>(extent.width), static_cast<int>(extent.height)});
+  reference::Image<glm::dvec4> image(frame.size());
+  reference::forEachPixel(means.size(), [&](glm::ivec2 texel) {
+    const glm::ivec2 p = light.pixelOf(texel, frame.constants.lightOffset);
+    if (image.contains(p)) image[p] = means[texel];
+  });
+  return image;
+}
+
 reference::Image<glm::dvec4> decodeFiltered(const std::vector<std::uint32_t>& texels, glm::ivec2 size) {
   constexpr std::uint32_t kNoSurface = 1U << 27U;
   return decodeWords(texels, size, [](std::uint32_t word) {

@@ -17,6 +17,9 @@ reference::Image<glm::dvec4> decodeHalves(const std::vector<std::uint16_t>& texe
 /// Packed light (packed_light.glsl). Alpha is the history length of accumulated light; for filtered light 1, or -1
 /// where there is no surface; and the history length of resolved light, at most `longest`.
 reference::Image<glm::dvec4> decodeAccumulated(const std::vector<std::uint32_t>& texels, glm::ivec2 size);
+/// The same on the light grid of a frame with sparse light; 0 at pixels without a texel.
+reference::Image<glm::dvec4> decodeLightGrid(const std::vector<std::uint32_t>& texels,
+                                             const reference::HostFrame& frame);
 reference::Image<glm::dvec4> decodeFiltered(const std::vector<std::uint32_t>& texels, glm::ivec2 size);
 reference::Image<glm::dvec4> decodeResolved(const std::vector<std::uint32_t>& texels, double longest, glm::ivec2 size);
 

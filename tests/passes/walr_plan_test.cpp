@@ -29,14 +29,16 @@ struct Planned {
   }
 };
 
-Planned planWalr(const test::AnyWalr& settings, const SceneDescription& scene = {}, fg::Extent extent = kFullHd) {
+Planned planWalr(const test::AnyWalr& settings, const SceneDescription& scene = {}, fg::Extent extent = kFullHd,
+                 const LightPattern& light = {}) {
   const fg::ExternalState state{VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT,
                                 VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
   const fg::TextureDesc colour{VK_FORMAT_R16G16B16A16_SFLOAT, extent};
   Planned planned;
   fg::Graph& graph = planned.graph;
   DenoiserInputs inputs;
-  inputs.lighting = graph.import("lighting", colour, state);
+  inputs.lighting = graph.import("lighting", {colour.format, light.lightingExtent(extent)}, state);
+  inputs.conventions.light = light;
   inputs.depth = graph.import("depth", {VK_FORMAT_R32_SFLOAT, extent}, state);
   inputs.normal = graph.import("normal", colour, state);
   inputs.motion = graph.import("motion", colour, state);
@@ -74,6 +76,15 @@ TEST(WalrPlan, TheDefaultMovesAtMostHalfOfWhatThePaperMoves) {
     const std::uint64_t paper = planWalr(paperWalr(), {}, extent).bytesPerPixel();
     EXPECT_LE(2 * planWalr(WalrSettings{}, {}, extent).bytesPerPixel(), paper) << extent.height;
   }
+}
+
+// The project's budget for sparse light: at one sample for four pixels, 15 % less than at one for each.
+TEST(WalrPlan, SparseLightMovesFewerBytes) {
+  const auto bytes = [](const LightPattern& light) {
+    const fg::TrafficReport traffic = planWalr(WalrSettings{}, {}, kFullHd, light).plan.traffic;
+    return double(traffic.bytesRead + traffic.bytesWritten);
+  };
+  EXPECT_LE(bytes({2, 2}), 0.85 * bytes({}));
 }
 
 // Blocks have 4 x 4 pixels below 215 lines and 8 x 8 from 344 lines on, unless `walr.fit-window` is off.

@@ -162,8 +162,13 @@ WalrStages WalrRun::frame(const reference::HostFrame& frame) {
                                size_);
   const bool packedPictures = settings_.packsAntialiasing();
   const double longest = settings_.antialiasing().maxHistory;
-  stages.accumulated =
-      settings_.packsAccumulation() ? decodeAccumulated(words(accumulated_), size_) : halves(accumulated_);
+  if (settings_.packsAccumulation()) {
+    const std::vector<std::uint32_t> texels = words(accumulated_);
+    stages.onLightGrid = texels.size() != stages.guides.pixels().size();
+    stages.accumulated = stages.onLightGrid ? decodeLightGrid(texels, frame) : decodeAccumulated(texels, size_);
+  } else {
+    stages.accumulated = halves(accumulated_);
+  }
   if (antilag_.valid()) {
     const glm::ivec2 tiles = (size_ + kAntilagTile - 1) / kAntilagTile;
     const std::vector<float> sums = run_->texels<float>(antilagTiles_);

@@ -16,6 +16,7 @@ namespace walr::test {
 struct WalrStages {
   reference::Image<reference::Guide> guides;
   reference::Image<glm::dvec4> accumulated;  ///< rgb: mean; a: number of samples.
+  bool onLightGrid = false;                  ///< Only pixels with a sample of sparse light have a mean.
   reference::Image<glm::dvec2>
       antilagTiles;                  ///< Per tile, sum and sum of squares of differences; empty without antilag.
   reference::Image<double> antilag;  ///< Antilag factor per tile; empty without antilag.

@@ -51,6 +51,16 @@ TEST_F(HostProgramTest, NamesThePresetInUse) {
   EXPECT_NE(host(chosen).out.find("method: svgf, preset paper\n"), std::string::npos);
 }
 
+TEST_F(HostProgramTest, TracesAndDenoisesSparseLight) {
+  for (const char* rate : {"1/2", "1/4", "1/9"}) {
+    const test::ProcessResult result =
+        host({scene, "-o", output.string(), "--frames", "11-13", "--light-rate", rate, "--jitter", "--view", "split"});
+    EXPECT_EQ(result.exitCode, 0) << rate << result.err;
+  }
+  test::expectFailure(host({scene, "-o", output.string(), "--light-rate", "1/4", "--method", "svgf"}), kUsage,
+                      {"method 'svgf'"});
+}
+
 TEST_F(HostProgramTest, RefusesCommandLinesWithoutMeaning) {
   const auto expectUsage = [&](const std::vector<std::string>& arguments, const std::string& named) {
     test::expectFailure(host(arguments), kUsage, {named});
@@ -60,6 +70,7 @@ TEST_F(HostProgramTest, RefusesCommandLinesWithoutMeaning) {
   expectUsage({scene}, "--output");
   expectUsage({scene, "-o", output.string(), "--frames", "3-1"}, "--frames 3-1");
   expectUsage({scene, "-o", output.string(), "--set", "nothing=1"}, "nothing");
+  expectUsage({scene, "-o", output.string(), "--light-rate", "1/3"}, "--light-rate");
   expectUsage({scene, "-o", output.string(), "--view", "nothing"}, "'guides.depth.current'");
   EXPECT_FALSE(fs::exists(output));
 }

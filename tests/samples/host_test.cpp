@@ -190,6 +190,34 @@ TEST_F(HostTest, SplitViewShowsNoisyDenoisedAndReference) {
   }
 }
 
+// The tracer leaves out the pixels without a sample, takes other ones in the next frame and says which, and the graph
+// denoises them as `walr denoise` does.
+TEST_F(HostTest, SparseLightIsTracedAndDenoised) {
+  Tracer::Options tracerOptions = tracing();
+  tracerOptions.light = {.columns = 2, .rows = 2};
+  Renderer::Options options = readAll();
+  options.light = tracerOptions.light;
+  const std::vector<RenderedFrame> rendered = render(options, "walr", tracerOptions);
+  Tracer tracer(tracerOptions);
+  const std::unique_ptr<Denoiser> walr = makeDenoiser("walr");
+  Layout layout = projectLayout();
+  layout.conventions.light = tracerOptions.light;
+  GpuDenoiser denoiser(gpu, *walr, kExtent, layout);
+  glm::ivec2 before = lightOffsetOfFrame(tracerOptions.light, kFrames.first);
+  for (const RenderedFrame& shown : rendered) {
+    const Frame frame = tracer.trace({.number = shown.number, .animationFrame = double(shown.number)});
+    EXPECT_EQ(frame.lightOffset, lightOffsetOfFrame(tracerOptions.light, static_cast<std::uint32_t>(shown.number)));
+    EXPECT_EQ(frame.previousLightOffset, before);
+    before = frame.lightOffset;
+    for (std::size_t i = 0; i < frame.indirect.pixelCount(); ++i) {
+      const glm::ivec2 inGroup(i % kExtent.width % 2, i / kExtent.width % 2);
+      if (inGroup == frame.lightOffset) continue;
+      for (const float channel : frame.indirect.pixel(i)) ASSERT_EQ(channel, 0.0F) << "pixel " << i;
+    }
+    EXPECT_TRUE(std::ranges::equal(denoiser.run(packFrame(frame)).indirect.values(), shown.denoised.values()));
+  }
+}
+
 TEST_F(HostTest, EveryTextureCanBeViewed) {
   for (const std::string& method : denoiserNames()) {
     const std::unique_ptr<Denoiser> denoiser = makeDenoiser(method);

@@ -56,7 +56,7 @@ class Show {
         window_(window),
         surface_(surface),
         picture_(device, extent),
-        live_(device, picture_, kFramesInFlight, tracer.gpuScene()),
+        live_(device, picture_, kFramesInFlight, tracer.light(), tracer.gpuScene()),
         queue_(device.device().context(), device.device().queue(), kFramesInFlight),
         interface_(device, window, kFramesInFlight) {
     facts_.deviceTraces = tracer.gpuScene() != nullptr;

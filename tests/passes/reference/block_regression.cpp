@@ -45,6 +45,17 @@ struct Inputs {
   const Image<Guide>& guides;
   const Image<glm::dvec4>& accumulated;
   const BlockRegressionSettings& settings;
+  bool onLightGrid;
+
+  /// Whether a pixel lies inside the image and counts in fits as a surface.
+  [[nodiscard]] bool isShown(glm::ivec2 p) const {
+    return guides.contains(p) && guides[p].depth != 0.0 && (!onLightGrid || hasLightTexel(frame, p));
+  }
+  /// Share of the pixels that may count.
+  [[nodiscard]] double shareOfPixels() const {
+    const LightPattern& light = frame.conventions.light;
+    return onLightGrid ? 1.0 / (light.columns * light.rows) : 1.0;
+  }
 
   [[nodiscard]] glm::dvec3 ray(glm::ivec2 p) const { return rayThrough(frame.constants.rayFromPixel, pixelCentre(p)); }
 
@@ -93,7 +104,7 @@ Image<Block> representBlocks(const Inputs& inputs) {
     std::vector<glm::ivec2> surfaces;  // Column by column.
     for (int i = 0; i < size * size; ++i) {
       const glm::ivec2 p = size * b + glm::ivec2(i / size, i % size);
-      if (inputs.guides.contains(p) && inputs.guides[p].depth != 0.0) surfaces.push_back(p);
+      if (inputs.isShown(p)) surfaces.push_back(p);
     }
     if (surfaces.empty()) return;
     const glm::uvec4 key(b, inputs.frame.constants.frameIndex, 0);
@@ -104,9 +115,8 @@ Image<Block> representBlocks(const Inputs& inputs) {
     block.normal = roundToShortNormal(chosen.normal);
     for (int i = 0; i < size * size; ++i) {
       const glm::ivec2 p = size * b + glm::ivec2(i % size, i / size);
-      if (!inputs.guides.contains(p)) continue;
+      if (!inputs.isShown(p) || inputs.accumulated[p].a == 0.0) continue;
       const Guide& guide = inputs.guides[p];
-      if (guide.depth == 0.0 || inputs.accumulated[p].a == 0.0) continue;
       block.window[static_cast<std::size_t>(p.y) * pixels.x + p.x] =
           inputs.edgeStopping(block.pixel, block.depth, chosen.normal, p, guide.depth) *
           facing(chosen.normal, octahedralDecode(guide.features)) * inputs.accumulated[p].a;
@@ -295,7 +305,7 @@ Image<Block> coarseWindows(const Inputs& inputs, int cellSize) {
     Union pixelsOfCell(pixels);
     for (int i = 0; i < cellSize * cellSize; ++i) {
       const glm::ivec2 p = cellSize * cell + glm::ivec2(i % cellSize, i / cellSize);
-      if (!inputs.guides.contains(p) || inputs.guides[p].depth == 0.0) continue;
+      if (!inputs.isShown(p)) continue;
       pixelsOfCell.addPixel(static_cast<std::size_t>(p.y) * size.x + p.x, inputs.guides[p].depth,
                             inputs.accumulated[p].a);
     }
@@ -358,7 +368,7 @@ Image<Block> growCoarseWindows(const Inputs& inputs, int cellSize, const Image<B
     const double noise = own.luminanceVariance > 0.0 ? std::clamp(left / own.luminanceVariance, kLeastNoise, 1.0) : 1.0;
     const double perPixel = own.samples / (cellSize * cellSize);
     const double sigma = cellSize * coarseSigma(inputs, cellSize, own.samples);
-    const double pixels = 4.0 * glm::pi<double>() * sigma * sigma * std::min(perPixel, 1.0);
+    const double pixels = 4.0 * glm::pi<double>() * sigma * sigma * std::min(perPixel, inputs.shareOfPixels());
     const double errors = double(inputs.settings.coarseGrowthErrors) /
                           (1.0 + double(inputs.settings.coarseGrowthOcclusion) * own.meanX[kOcclusionFeature]);
     for (int i = 0; i < 25; ++i) {
@@ -418,17 +428,20 @@ void forFourNeighbours(glm::ivec2 p, int size, const Image<Fit>& grid, Visit vis
 }  // namespace
 
 Image<glm::dvec3> blockRegression(const HostFrame& frame, const Image<Guide>& guides,
-                                  const Image<glm::dvec4>& accumulated, const BlockRegressionSettings& settings) {
-  const Inputs inputs{frame, guides, accumulated, settings};
+                                  const Image<glm::dvec4>& accumulated, const BlockRegressionSettings& settings,
+                                  bool onLightGrid) {
+  const Inputs inputs{frame, guides, accumulated, settings, onLightGrid};
   const Image<Block> blocks = representBlocks(inputs);
   const auto fitAll = [&](const Image<Block>& windows) {
     Image<Fit> fits(windows.size());
     forEachPixel(windows.size(), [&](glm::ivec2 b) { fits[b] = fitOf(inputs, windows[b]); });
     return fits;
   };
-  const double cellPixels = std::min(inputs.coarseSigma() / double(settings.coarseResolution), 8.0);
+  const LightPattern& light = frame.conventions.light;
+  const double texel = onLightGrid ? std::min(light.columns, light.rows) : 1.0;
+  const double cellPixels = std::min(inputs.coarseSigma() / double(settings.coarseResolution), 8.0 * texel);
   int cellSize = int(settings.size);
-  while (2 * cellSize <= cellPixels) cellSize *= 2;
+  while (2 * cellSize <= cellPixels && cellSize <= 2 * int(settings.size)) cellSize *= 2;
   const Image<Fit> fine = fitAll(fineWindows(inputs, blocks));
   const Image<Fit> coarse = fitAll(growCoarseWindows(inputs, cellSize, coarseWindows(inputs, cellSize), fine));
 

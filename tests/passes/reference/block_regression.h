@@ -9,7 +9,9 @@ namespace walr::reference {
 /// samples, so every window is kept as the weight of each pixel in it, and each fit is weighted least squares over
 /// those pixels. No moments are merged, stored or rescaled.
 /// @param accumulated rgb: radiance; a: history length
+/// @param onLightGrid whether only pixels with a sample of sparse light count in fits, as light and as surfaces
 Image<glm::dvec3> blockRegression(const HostFrame& frame, const Image<Guide>& guides,
-                                  const Image<glm::dvec4>& accumulated, const BlockRegressionSettings& settings);
+                                  const Image<glm::dvec4>& accumulated, const BlockRegressionSettings& settings,
+                                  bool onLightGrid = false);
 
 }  // namespace walr::reference

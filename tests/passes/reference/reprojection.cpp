@@ -135,18 +135,19 @@ OwnValue nearestTap(std::span<const Measured> taps, double still, double toleran
 }  // namespace
 
 std::array<HistoryTap, 4> historyTaps(const HostFrame& frame, const Reprojection& r, const Image<Guide>& previousGuides,
-                                      const HistoryTests& tests) {
+                                      const HistoryTests& tests, const TapGrid& grid) {
   std::array<HistoryTap, 4> taps;
   if (!r.valid) return taps;
-  const glm::dvec2 base = glm::floor(r.pixel - 0.5);
-  const glm::dvec2 f = r.pixel - 0.5 - base;
+  const glm::dvec2 position = (r.pixel - 0.5 - glm::dvec2(grid.first)) / glm::dvec2(grid.spacing);
+  const glm::dvec2 base = glm::floor(position);
+  const glm::dvec2 f = position - base;
   const bool byPlane = tests.rejection == HistoryRejection::Plane;
   const auto valueOf = [&](glm::dvec3 position) { return byPlane ? glm::dot(r.normal, position) : -position.z; };
   std::array<Measured, 4> measured;
   for (int i = 0; i < 4; ++i) {
     const glm::ivec2 offset(i % 2, i / 2);
     HistoryTap& tap = taps[i];
-    tap.pixel = glm::ivec2(base) + offset;
+    tap.pixel = (glm::ivec2(base) + offset) * grid.spacing + grid.first;
     tap.weight = (offset.x == 1 ? f.x : 1.0 - f.x) * (offset.y == 1 ? f.y : 1.0 - f.y);
     tap.undecided = r.undecided;
     if (!previousGuides.contains(tap.pixel) || previousGuides[tap.pixel].depth == 0.0) continue;

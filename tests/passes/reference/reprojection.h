@@ -49,9 +49,21 @@ struct HistoryTap {
   bool matches = false;    ///< Accepted: it lies inside the image and shows the surface.
   bool undecided = false;  ///< A test is so close to its threshold that rounding may decide.
 };
+/// Where history taps lie: the pixels `first` + k `spacing` of the previous frame, for all pairs k of whole numbers. By
+/// default these are all pixels.
+struct TapGrid {
+  glm::ivec2 spacing{1};
+  glm::ivec2 first{0};
+};
+/// The pixels that sparse light had samples of in the frame before (WalrConventions::light_group).
+inline TapGrid previousLightGrid(const HostFrame& frame) {
+  const LightPattern& light = frame.conventions.light;
+  return {glm::ivec2(light.columns, light.rows), frame.constants.previousLightOffset};
+}
+
 /// The four history taps around a reprojected position, each tested on its own (passes/WALR.md, 2; with
 /// HistoryRejection::Depth Meunier & Harada 2022, 4.2).
 std::array<HistoryTap, 4> historyTaps(const HostFrame& frame, const Reprojection& r, const Image<Guide>& previousGuides,
-                                      const HistoryTests& tests);
+                                      const HistoryTests& tests, const TapGrid& grid = {});
 
 }  // namespace walr::reference

@@ -26,9 +26,12 @@ void shorten(HistorySample& past, const Image<double>& antilag, const Reprojecti
 }  // namespace
 
 Image<Accumulated> accumulate(const HostFrame& frame, const Image<Guide>& guides, const AccumulationHistory& previous,
-                              Storage storage, const TemporalAccumulationSettings& settings, bool keepTaps) {
+                              Storage storage, const TemporalAccumulationSettings& settings, bool keepTaps,
+                              bool onLightGrid) {
   Image<Accumulated> result(frame.size());
+  const TapGrid grid = onLightGrid ? previousLightGrid(frame) : TapGrid();
   forEachPixel(frame.size(), [&](glm::ivec2 p) {
+    if (onLightGrid && !hasLightTexel(frame, p)) return;
     const bool sampled = hasSample(frame, p);
     const glm::dvec3 noisy = sampled ? frame.lighting[p] : glm::dvec3(0.0);
     Accumulated& out = result[p];
@@ -39,8 +42,8 @@ Image<Accumulated> accumulate(const HostFrame& frame, const Image<Guide>& guides
     HistorySample past;
     if (!previous.guides.pixels().empty()) {
       const Reprojection r = reproject(frame, guides, p, {settings.dilateMotion, keepTaps});
-      past = sampleHistory(r, historyTaps(frame, r, previous.guides, historyTestsOf(settings)), previous.accumulated,
-                           settings.historyFilter, !frame.conventions.light.everyPixel());
+      past = sampleHistory(r, historyTaps(frame, r, previous.guides, historyTestsOf(settings), grid),
+                           previous.accumulated, settings.historyFilter, !frame.conventions.light.everyPixel());
       if (past.found && !previous.antilag.pixels().empty()) shorten(past, previous.antilag, r, settings.maxHistory);
     }
     const glm::dvec3 pastMean(past.value);

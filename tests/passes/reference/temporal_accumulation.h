@@ -25,10 +25,12 @@ struct AccumulationHistory {
 
 /// Temporal accumulation, the preprocessing phase (Meunier & Harada 2022, 4.2; passes/WALR.md, 2): a cumulative moving
 /// average that becomes exponential after `maxHistory` samples.
-/// @param keepTaps whether later stages read the history taps of this one, for which the motion is rounded
+/// @param keepTaps    whether later stages read the history taps of this one, for which the motion is rounded
+/// @param onLightGrid whether only pixels with a sample of sparse light have a mean, from those of the previous frame
+///                    (passes/WALR.md, 2)
 Image<Accumulated> accumulate(const HostFrame& frame, const Image<Guide>& guides, const AccumulationHistory& previous,
-                              Storage storage, const TemporalAccumulationSettings& settings = {},
-                              bool keepTaps = false);
+                              Storage storage, const TemporalAccumulationSettings& settings = {}, bool keepTaps = false,
+                              bool onLightGrid = false);
 
 /// Mean and history length, which the next stages and the next frame read.
 Image<glm::dvec4> meansAndLengths(const Image<Accumulated>& accumulated);

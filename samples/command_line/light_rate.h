@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "passes/light_pattern.h"
+
+namespace walr {
+
+/// Adds `--light-rate` to a command: 1, 1/2 (a checkerboard), 1/4 (one of 2 x 2) or 1/9 (one of 3 x 3).
+/// @param light       receives the pattern
+/// @param description of the option
+void addLightRate(CLI::App& command, LightPattern& light, const std::string& description);
+
+}  // namespace walr
