@@ -16,7 +16,8 @@ struct AccumulatedShareSettings {
   bool enabled = false;
   float frames = 8.0F;
   std::uint32_t radius = 4;
-  float leastShare = 0.05F;
+  float gain = 2.0F;
+  float leastShare = 0.15F;
   float innovationGain = 1.5F;
   float innovationBias = 1.28F;
 
@@ -33,6 +34,11 @@ struct AccumulatedShareSettings {
              "Radius of the window of tiles over which it is measured; a tile is as many blocks as fit into 8 pixels",
              "tiles", 0, 8, "measured"},
             radius);
+    v.visit({"blocks.residual-gain",
+             "What the fits miss counts for this many times what the agreement says: history that reprojection has "
+             "blurred agrees too little",
+             "", 0.0, 16.0, "measured"},
+            gain);
     v.visit({"blocks.residual-least-share", "Share of the accumulated light below which it is left out", "", 0.0, 0.5,
              "measured"},
             leastShare);

@@ -76,6 +76,7 @@ BlockGrid gridOf(StageGraph graph, fg::Buffer frame, fg::Extent pixels, const Bl
   constants.coarseGrowthOcclusion = s.coarseGrowthOcclusion;
   constants.coarseSamples = coarseSamplesAt(pixels.height, s.coarseSamples);
   constants.inverseCoarseLeastShare = 1.0F / s.coarseLeastShare;
+  constants.residualGain = s.share.gain;
   constants.residualLeastShare = s.share.leastShare;
   constants.lightShare = 1.0F / static_cast<float>(groups.columns * groups.rows);
   return {graph, frame, pixels, blocks, gridExtent(pixels, cellSize), s.size, cellBlocks, cellSize, constants};

@@ -21,6 +21,7 @@ struct BlockRegressionConstants {
   float coarseSamples;            // W_0 of passes/WALR.md: samples that the coarse fit counts for.
   float inverseCoarseLeastShare;  // 1 over the share of the mixture below which the coarse fit is left out; from twice
                                   // that share on, it is mixed in full.
+  float residualGain;             // What the fits miss, over what the agreement of two halves of the light says.
   float residualLeastShare;       // Share of the accumulated light below which it is left out.
   float lightShare;               // Share of the pixels that accumulated light has a texel for.
 };

@@ -60,10 +60,11 @@ Statistics previousStatisticsAt(vec3 before, bool edge) {
   return found;
 }
 
-// The share that makes the expected square of the error least where the residual is a mean of `samples` samples. The
+// The share that makes the expected square of the error least where the residual is a mean of `samples` samples.
+// History that reprojection blurs agrees too little with this frame's light, for which residualGain makes up. The
 // statistics have errors of their own, so that a small share is none.
 float accumulatedShare(vec2 statistics, float samples, float trust) {
-  const float missed = max(statistics.x, 0.0), noise = max(statistics.y, 0.0) / samples;
+  const float missed = constants.residualGain * max(statistics.x, 0.0), noise = max(statistics.y, 0.0) / samples;
   const float share = trust * missed / max(missed + noise, 1e-30);
   return clamp((share - constants.residualLeastShare) / (1.0 - constants.residualLeastShare), 0.0, 1.0);
 }
@@ -73,7 +74,7 @@ struct Residual {
   vec3 mean;      // m - p, where m = h + (y - h) / N.
   float noisy;    // Luminance of y - p.
   float history;  // Luminance of h - p.
-  float samples;  // N; 0 where there is no finite y or no h. The luminances are 0, too.
+  float samples;  // N; its negative where there is no finite y or no h. The luminances are 0 then.
 };
 
 // `mean`: rgb: m; alpha: N.
@@ -81,7 +82,7 @@ Residual residualOf(ivec2 p, vec4 mean, vec3 predicted) {
   const float fewest = 1.5;  // Below, rounding of N leaves nothing of h.
   const vec3 noisy = texelFetch(lighting, p, 0).rgb;
   const vec3 residual = mean.rgb - predicted;
-  if (mean.a < fewest || !isFinite(noisy)) return Residual(residual, 0.0, 0.0, 0.0);
+  if (mean.a < fewest || !isFinite(noisy)) return Residual(residual, 0.0, 0.0, -mean.a);
   const float y = luminance(clamp(noisy, vec3(0.0), vec3(kLargestHalf)) - predicted);
   const float h = (mean.a * luminance(residual) - y) / (mean.a - 1.0);
   return Residual(residual, y, h, mean.a);
@@ -117,9 +118,10 @@ float sameSurface(Shown shown, uint thread) {
   return edgeStopping(distance) * clamp(5.0 * dot(shown.normal, groupNormals[thread].xyz) - 4.0, 0.0, 1.0);
 }
 
-// Mean residual over the 3 x 3 pixels, as far as this workgroup has them. `edge`: whether one of them shows another
-// surface or none.
-Residual meanAround(Shown shown, out bool edge) {
+// Mean residual over the 3 x 3 pixels, as far as this workgroup has them. `halves`: leave out pixels without y or h, as
+// statistics need; where a surface has just appeared, most pixels have no h. `edge`: whether one of the pixels shows
+// another surface or none.
+Residual meanAround(Shown shown, bool halves, out bool edge) {
   const ivec2 thread = ivec2(gl_LocalInvocationID.xy);
   Residual sum = Residual(vec3(0.0), 0.0, 0.0, 0.0);
   float weights = 0.0;
@@ -130,11 +132,12 @@ Residual meanAround(Shown shown, out bool edge) {
     const bool hasPixel = t == inside && groupNormals[q].a > 0.0;
     const float same = hasPixel ? sameSurface(shown, q) : 0.0;
     edge = edge || (hasPixel && same < 0.5);
-    const float weight = same * groupHistories[q].y;
+    const float samples = groupHistories[q].y;
+    const float weight = same * (halves ? max(samples, 0.0) : abs(samples));
     sum.mean += weight * groupResiduals[q].rgb;
     sum.noisy += weight * groupResiduals[q].a;
     sum.history += weight * groupHistories[q].x;
-    sum.samples += weight * groupHistories[q].y;
+    sum.samples += weight * abs(samples);
     weights += weight;
   }
   const float scale = weights > 0.0 ? 1.0 / weights : 0.0;
@@ -202,7 +205,7 @@ vec3 withAccumulated(ivec2 p, bool hasPixel, Shown shown) {
   float innovation = 0.0;
   if (mean.a > 0.0) {
     const vec3 before = previousPosition(frame.previousViewFromView, shown.position);
-    const Residual around = meanAround(shown, edge);
+    const Residual around = meanAround(shown, own.samples > 0.0, edge);
     const Statistics known = previousStatisticsAt(before, edge);
     const vec3 detail = own.mean - around.mean;
     result += accumulatedShare(known.sums.xy, around.samples, known.trust) * around.mean;

@@ -159,7 +159,7 @@ TEST_F(ManySamples, ErrorsFallForAsLongAsTheCameraStandsStill) {
     const double best = accumulated * predicted / std::hypot(accumulated, predicted);
     // Shares follow statistics of eight frames of 3072 pixels. The mean product of residuals errs by .0013: the noise
     // of a sample (1) times that of the history (at most .2) over the root of the number of pixels. What the fits miss
-    // has a mean square of .03, so that this is 5 %. Shares below 5 % become 0.
+    // has a mean square of .03, so that this is 5 %. Shares below 15 % become 0.
     EXPECT_LT(mixed, 1.1 * best) << "frame " << i;
     EXPECT_LT(mixed, accumulated) << "frame " << i;
   }
