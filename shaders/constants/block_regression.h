@@ -27,7 +27,7 @@ struct BlockRegressionConstants {
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(BlockRegressionConstants) == 56);
+static_assert(sizeof(BlockRegressionConstants) == 60);
 }  // namespace walr
 #endif
 #endif
