@@ -91,7 +91,7 @@ TEST_F(GpuHost, ChangesItsGraphWhileItTraces) {
   Tracer tracer(tracing("turntable.gltf"), &gpu);
   constexpr std::uint32_t kFramesInFlight = 2;
   const ShownPicture picture(gpu, kExtent);
-  LiveFrame live(gpu, picture, kFramesInFlight, tracer.gpuScene());
+  LiveFrame live(gpu, picture, kFramesInFlight, {}, tracer.gpuScene());
   fg::vk::FrameQueue queue(gpu.device().context(), gpu.device().queue(), kFramesInFlight);
   const std::vector<HostView> views{
       {}, {HostView::Kind::Noisy, ""}, {HostView::Kind::Texture, "lighting"}, {HostView::Kind::Texture, "object id"}};
