@@ -309,8 +309,11 @@ TEST(BlockRegressionSettings, AnEmptyPlaneRampIsRejected) {
 
 TEST(BlockRegressionSettings, TooManyBlocksAreRejectedWithTheSetting) {
   fg::Graph graph;
-  const fg::Texture lighting = graph.texture("lighting", {VK_FORMAT_R16G16B16A16_SFLOAT, {4096, 2160}});
-  const auto add = [&] { addBlockRegression(graph, {}, {lighting, LightingAlpha::SampleCount}, {}, {.size = 2}); };
+  const fg::Extent extent{4096, 2160};
+  const fg::Texture lighting = graph.texture("lighting", {VK_FORMAT_R16G16B16A16_SFLOAT, extent});
+  Guides guides;
+  guides.depth = graph.texture("depth", {VK_FORMAT_R32_UINT, extent});
+  const auto add = [&] { addBlockRegression(graph, {}, {lighting, LightingAlpha::SampleCount}, guides, {.size = 2}); };
   fg::test::expectError(add, {"blocks.size"});
 }
 
