@@ -71,6 +71,15 @@ static void test_create(const WalrDevice* device) {
   EXPECT(walr_create_denoiser(&info, &denoiser), WALR_ERROR_INVALID_ARGUMENT,
          "known presets: one-sample, many-samples; walr is what its preset blocks was");
   info = info_of(device);
+  info.method = "svgf";
+  info.light_direction = VK_TRUE;
+  EXPECT(walr_create_denoiser(&info, &denoiser), WALR_ERROR_INVALID_ARGUMENT,
+         "there is no light direction: the method");
+  info = info_of(device);
+  info.method = "none";
+  info.history_length = VK_TRUE;
+  EXPECT(walr_create_denoiser(&info, &denoiser), WALR_ERROR_INVALID_ARGUMENT, "there is no history length");
+  info = info_of(device);
   info.width = 0;
   EXPECT(walr_create_denoiser(&info, &denoiser), WALR_ERROR_INVALID_ARGUMENT, "0 x 48");
   info = info_of(device);
