@@ -5,6 +5,7 @@
 
 #include "samples/denoise/packed_frame.h"
 #include "samples/gpu_render/trace_pass.h"
+#include "samples/host/traced_rays.h"
 
 namespace walr::host {
 
@@ -14,6 +15,7 @@ struct HostFrame {
   FrameConstants constants{};
   /// For a graph that traces (`HostGraph::trace`). All images are then empty.
   std::optional<gpu_render::TraceData> trace;
+  TracedRays traced;               ///< On the processor; nothing if the device traces.
   std::vector<Rgba16> noisyLight;  ///< Sparse light for all pixels, 0 without a sample; empty if light is not sparse.
   std::vector<Rgba16> direct;
   std::vector<Rgba16> emission;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "framegraph/vulkan/staged_image.h"
 #include "samples/command_line/usage_error.h"
 #include "samples/host/shaders/view_constants.h"
 #include "shaders/constants/frame.h"
@@ -104,6 +105,9 @@ void declareTracedInputs(HostGraph& host, fg::Extent extent, const HostView& vie
   host.motion.texture = traced.motion;
   host.depth.texture = traced.depth;
   host.objectId.texture = traced.objectId;
+  const fg::BufferDesc row{std::uint64_t{extent.height} * sizeof(std::uint32_t)};
+  host.rays = addRayCount(graph, traced.indirect, graph.import("rays", row, fg::vk::kOverwritable));
+  graph.exported(*host.rays, fg::vk::kReadable);
 }
 
 /// The lit image of another light source than the denoiser. The composite of the denoised light exists in any case.

@@ -38,6 +38,8 @@ struct HostGraph {
   fg::Graph graph;
   /// If the device traces: what the tracer's pass needs. The pictures below then have no bytes to upload.
   std::optional<gpu_render::TraceInputs> trace;
+  /// If the device traces: the rays of each row, a uint each, to be read back as `fg::vk::kReadable`.
+  std::optional<fg::Buffer> rays;
   UploadedPicture lighting;                   ///< With sparse light, one texel for each group of pixels.
   std::optional<UploadedPicture> noisyLight;  ///< The same for all pixels, for views that show sparse light.
   UploadedPicture depth;

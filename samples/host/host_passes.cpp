@@ -50,6 +50,12 @@ void addUploads(fg::Graph& graph, const fg::vk::DeviceContext& device, const std
   }
 }
 
+fg::Buffer addRayCount(fg::Graph& graph, fg::Texture lighting, fg::Buffer rays) {
+  fg::PassBuilder pass = graph.compute("count rays", shaders::countRays);
+  pass.sample("lighting", lighting).dispatch({1, graph.textureDesc(lighting).extent.height});
+  return pass.store("Rays", rays);
+}
+
 fg::Texture addComposite(fg::Graph& graph, const std::string& name, fg::Texture indirect, const Shading& shading,
                          fg::Texture output) {
   fg::PassBuilder pass = graph.compute(name, shaders::composite);

@@ -22,6 +22,11 @@ UploadedPicture declarePicture(fg::Graph& graph, const std::string& name, VkForm
 /// @param device  must outlive the graph
 void addUploads(fg::Graph& graph, const fg::vk::DeviceContext& device, const std::vector<UploadedPicture*>& pictures);
 
+/// Write the number of rays in each row of a traced image, which its alpha holds
+/// (`gpu_render::TracedTextures::indirect`), to `rays`, a uint for each row. In half floats, the number of a pixel is
+/// exact up to 2048.
+fg::Buffer addRayCount(fg::Graph& graph, fg::Texture lighting, fg::Buffer rays);
+
 /// The inputs of a composite other than the indirect light; all RGBA16F.
 struct Shading {
   fg::Texture direct;

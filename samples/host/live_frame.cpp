@@ -1,6 +1,8 @@
 #include "samples/host/live_frame.h"
 
+#include <algorithm>
 #include <utility>
+#include <variant>
 
 #include "framegraph/declare/same_topology.h"
 #include "framegraph/vulkan/image.h"
@@ -53,8 +55,15 @@ void LiveFrame::declare(Denoiser& method, const HostView& view, Start start) {
   DeviceGraph device(device_, host.graph, framesInFlight_,
                      start == Start::FromHistory && before != nullptr ? &before->device : nullptr);
   device.executor().bind(host.display, picture_.external());
+  std::optional<fg::vk::StagedBuffer> rays;
+  if (host.rays) {
+    const fg::ResourceDecl& declared = host.graph.desc().resources[host.rays->resource];
+    rays.emplace(device_.device().context(), std::get<fg::BufferDesc>(declared.desc),
+                 device.executor().usage(*host.rays), framesInFlight_, declared.name);
+    device.executor().bind(*host.rays, rays->handle());
+  }
   if (recorded) predecessor_ = std::move(running_);
-  running_ = std::make_unique<Running>(Running{std::move(host), std::move(device)});
+  running_ = std::make_unique<Running>(Running{std::move(host), std::move(device), std::move(rays)});
 }
 
 void LiveFrame::record(const fg::vk::Frame& recorded, const HostFrame& frame, const ViewConstants& view) {
@@ -62,10 +71,20 @@ void LiveFrame::record(const fg::vk::Frame& recorded, const HostFrame& frame, co
   std::erase_if(retired_, [&](const Retired& retired) { return retired.until <= frames_; });
   uploadFrame(running_->device.executor(), running_->host, frame, view);
   running_->device.executor().record(recorded.commandBuffer, recorded.slot);
+  if (running_->rays) running_->rays->recordReadback(recorded.commandBuffer, recorded.slot);
   // The first frame of a graph reads the histories of its predecessor.
   if (predecessor_ != nullptr) retired_.push_back({std::move(predecessor_), frames_ + framesInFlight_});
   ++running_->frames;
   ++frames_;
+}
+
+std::optional<TracedRays> LiveFrame::traced(std::uint32_t slot) {
+  const std::span<const fg::vk::PassTime> times = passTimes(slot);
+  if (!running_->rays || times.empty()) return std::nullopt;
+  const std::span<const std::byte> bytes = running_->rays->staging(slot);
+  std::vector<std::uint32_t> rows(bytes.size() / sizeof(std::uint32_t));
+  std::ranges::copy(bytes, std::as_writable_bytes(std::span(rows)).begin());
+  return tracedByDevice(rows, times);
 }
 
 std::vector<fg::vk::HistoryStatus> LiveFrame::histories() {

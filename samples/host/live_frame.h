@@ -2,11 +2,13 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "framegraph/vulkan/frame_queue.h"
 #include "framegraph/vulkan/memory.h"
+#include "framegraph/vulkan/staged_buffer.h"
 #include "samples/denoise/device_graph.h"
 #include "samples/denoise/gpu_device.h"
 #include "samples/host/host_frame.h"
@@ -75,11 +77,15 @@ class LiveFrame {
     return running_->device.executor().passTimes(slot);
   }
 
+  /// The rays that the device traced in the same frame; nothing if it does not trace or has no times of that frame.
+  std::optional<TracedRays> traced(std::uint32_t slot);
+
  private:
   struct Running {
     HostGraph host;
     DeviceGraph device;
-    std::uint32_t frames = 0;  ///< Number of recorded frames.
+    std::optional<fg::vk::StagedBuffer> rays;  ///< Of `HostGraph::rays`.
+    std::uint32_t frames = 0;                  ///< Number of recorded frames.
   };
   struct Retired {
     std::unique_ptr<Running> graph;

@@ -82,13 +82,20 @@ void runHeadless(const HostOptions& options, float stops, Tracer& tracer, GpuDev
   Progress progress(std::cerr, isatty(STDERR_FILENO) != 0, "frame",
                     static_cast<std::size_t>(frames.last - frames.first + 1), Progress::Clock::now());
   const ReloadShaders reload = shaderReload(options);
+  TracedRays traced;
   renderFrames(tracer, renderer, frames, request, [&](const RenderedFrame& frame) {
     if (reload) reload(renderer.graph().desc(), renderer.executor());
     if (!options.output.empty()) writeRenderedFrame(frame, extent, options.output);
     if (animation) animation->add(frame.display);
+    traced += frame.traced;
     progress.advance(Progress::Clock::now());
   });
   if (animation) animation->write(options.record);
+  constexpr std::uint64_t kMegabyte = std::uint64_t{1} << 20U;
+  std::cout << "rays: " << traced.rays << ", " << rateText(traced)
+            << "\ndevice memory: " << renderer.executor().allocatedBytes() / kMegabyte << " MiB of the frame graph";
+  if (tracer.gpuScene() != nullptr) std::cout << ", " << tracer.gpuScene()->bytes() / kMegabyte << " MiB of the scene";
+  std::cout << std::endl;
 }
 
 /// Whether to open a window: the user has chosen neither `--headless` nor `--record`, and windows are available.

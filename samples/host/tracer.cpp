@@ -1,6 +1,7 @@
 #include "samples/host/tracer.h"
 
 #include <algorithm>
+#include <chrono>
 #include <functional>
 #include <limits>
 #include <optional>
@@ -134,7 +135,11 @@ void Tracer::finish(const Request& request, const render::View& view, Frame& fra
 }
 
 HostFrame Tracer::hostFrame(const Request& request) {
-  if (!gpuScene_) return packHostFrame(trace(request));
+  if (!gpuScene_) {
+    HostFrame frame = packHostFrame(trace(request));
+    frame.traced = traced_;
+    return frame;
+  }
   const render::View view = moveTo(request);
   gpu_render::TraceData data{gpu_render::sceneState(world_), gpuScene_->placements(world_),
                              gpu_render::traceConstants(world_, view, samplingOf(request))};
@@ -144,9 +149,18 @@ HostFrame Tracer::hostFrame(const Request& request) {
   return hostFrameToTrace(std::move(frame), std::move(data));
 }
 
+render::Film Tracer::renderFilm(const render::View& view, const render::SamplingSettings& sampling) {
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point start = Clock::now();
+  render::Film film = render::renderFilm(world_, view, sampling);
+  traced_ += {film.rays, std::chrono::duration<double>(Clock::now() - start).count()};
+  return film;
+}
+
 Frame Tracer::trace(const Request& request) {
+  traced_ = {};
   const render::View view = moveTo(request);
-  Frame frame = render::toFrame(render::renderFilm(world_, view, samplingOf(request)), view, request.number);
+  Frame frame = render::toFrame(renderFilm(view, samplingOf(request)), view, request.number);
   if (request.reference) {
     frame.reference = traceReference(request, view);
   }
@@ -175,7 +189,7 @@ Reference Tracer::traceReference(const Request& request, const render::View& vie
   sampling.seed = options_.seed * 2 + 1;
   sampling.firstSample = reference_.steps * options_.referenceSamples;
   sampling.threads = options_.threads;
-  render::Film film = render::renderFilm(world_, view, sampling);
+  render::Film film = renderFilm(view, sampling);
   ++reference_.steps;
   for (std::size_t i = 0; i < pixels; ++i) {
     reference_.indirect[i] += glm::dvec3(film.indirect[i]);

@@ -13,6 +13,7 @@
 #include "passes/light_pattern.h"
 #include "samples/gpu_render/gpu_scene.h"
 #include "samples/host/host_frame.h"
+#include "samples/host/traced_rays.h"
 #include "samples/render/film.h"
 #include "samples/render/gbuffer.h"
 #include "samples/render/scene.h"
@@ -81,6 +82,8 @@ class Tracer {
 
   /// Trace a frame on the processor. Its previous frame is that of the previous call.
   Frame trace(const Request& request);
+  /// The rays of the last frame that the processor traced, with those of its reference.
+  [[nodiscard]] const TracedRays& traced() const { return traced_; }
   /// The next frame for the host's graph: traced, or what the device needs to trace it.
   HostFrame hostFrame(const Request& request);
 
@@ -96,6 +99,8 @@ class Tracer {
 
   /// Moves the scene to a frame. Returns its view.
   render::View moveTo(const Request& request);
+  /// Traces on the processor, and adds to `traced_`.
+  render::Film renderFilm(const render::View& view, const render::SamplingSettings& sampling);
   [[nodiscard]] glm::ivec2 lightOffset(const Request& request) const;
   [[nodiscard]] render::View viewOf(const Request& request) const;
   [[nodiscard]] render::SamplingSettings samplingOf(const Request& request) const;
@@ -111,6 +116,7 @@ class Tracer {
   std::optional<Request> previous_;
   glm::mat4 previousView_{1.0F};
   Accumulation reference_;
+  TracedRays traced_;
 };
 
 }  // namespace walr::host

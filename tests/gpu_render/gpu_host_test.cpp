@@ -11,6 +11,7 @@
 #include "framegraph/vulkan/frame_queue.h"
 #include "passes/denoiser.h"
 #include "samples/command_line/usage_error.h"
+#include "samples/denoise/device_memory.h"
 #include "samples/host/headless.h"
 #include "samples/host/live_frame.h"
 #include "samples/host/renderer.h"
@@ -84,6 +85,32 @@ TEST_F(GpuHost, ShowsWhatTheTracerOnTheProcessorShows) {
     // One pixel in a hundred may have another path, whose light can differ by as much as light does.
     EXPECT_LE(difference, 0.01 * meanOf(pictures[0]));
   }
+}
+
+// What the device counts in half floats is what the processor counts, but for paths that roundings lead elsewhere.
+TEST_F(GpuHost, CountsTheRaysThatTheDeviceTraces) {
+  for (const fg::Extent extent : {kExtent, fg::Extent{97, 5}}) {
+    Tracer::Options options = tracing("turntable.gltf");
+    options.extent = extent;
+    Tracer onProcessor(options);
+    Tracer onDevice(options, &gpu);
+    const std::unique_ptr<Denoiser> method = makeDenoiser("none");
+    Renderer renderer(gpu, *method, extent, {.scene = onDevice.gpuScene()});
+    renderFrames(onDevice, renderer, {12, 14}, {}, [&](const RenderedFrame& frame) {
+      const Tracer::Request request{.number = frame.number, .animationFrame = static_cast<double>(frame.number)};
+      const auto expected = static_cast<double>(onProcessor.hostFrame(request).traced.rays);
+      // One pixel in a hundred may have another path; its number of rays differs by less than twice the mean.
+      EXPECT_NEAR(static_cast<double>(frame.traced.rays), expected, 0.02 * expected) << frame.number;
+      EXPECT_GT(frame.traced.perSecond().value_or(0.0), 0.0);
+    });
+  }
+}
+
+TEST_F(GpuHost, TellsTheDeviceMemoryThatTheDriverCounts) {
+  const std::optional<DeviceMemory> before = deviceMemory(gpu);
+  if (!before) GTEST_SKIP() << "the device has no VK_EXT_memory_budget";
+  EXPECT_GT(before->budget, 0U);
+  EXPECT_LE(before->used, before->budget);
 }
 
 // A graph that is declared anew while frames of the old one are in flight, as the window does it.

@@ -39,6 +39,8 @@ TEST_F(HostProgramTest, WritesAPictureAFrame) {
   ASSERT_EQ(result.exitCode, 0) << result.err;
   EXPECT_EQ(outputFiles(), (std::vector<std::string>{"frame_0011.exr", "frame_0011.png", "frame_0012.exr",
                                                      "frame_0012.png", "frame_0013.exr", "frame_0013.png"}));
+  EXPECT_NE(result.out.find(" million rays/s\n"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find(" MiB of the frame graph\n"), std::string::npos) << result.out;
   // Its settings are not those of any preset.
   EXPECT_NE(result.out.find("method: walr_paper\n"), std::string::npos) << result.out;
 }

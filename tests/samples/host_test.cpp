@@ -26,6 +26,9 @@
 #include "samples/image/exr.h"
 #include "samples/image/half.h"
 #include "samples/image/tone_map.h"
+#include "samples/render/film.h"
+#include "samples/render/load_scene.h"
+#include "samples/render/view.h"
 #include "tests/error_text.h"
 #include "tests/samples/temporary_directory.h"
 #include "tests/vulkan/function_hooks.h"
@@ -372,6 +375,25 @@ double meanSquaredDifference(const Image& a, const Image& b) {
     sum += difference * difference;
   }
   return sum / static_cast<double>(a.values().size());
+}
+
+// The same count as that of the path tracer alone; and a reference's rays count, too.
+TEST(Tracer, CountsTheRaysOfAFrameAndMeasuresTheirTime) {
+  Tracer::Options options = tracing();
+  options.samples = 2;
+  Tracer tracer(options);
+  const render::Scene scene = render::loadScene(options.scene);
+  const render::World world(scene);
+  const render::View view =
+      render::viewFrom(world, render::findCamera(scene, ""), kExtent.width, kExtent.height, {}, {});
+  const std::uint64_t expected = render::renderFilm(world, view, {.samples = options.samples}).rays;
+  EXPECT_GT(expected, std::uint64_t{kExtent.width} * kExtent.height);
+  const TracedRays traced = tracer.hostFrame({}).traced;
+  EXPECT_EQ(traced.rays, expected);
+  ASSERT_TRUE(traced.perSecond().has_value());
+  EXPECT_DOUBLE_EQ(*traced.perSecond() * traced.seconds, static_cast<double>(expected));
+  EXPECT_EQ(TracedRays{}.perSecond(), std::nullopt);
+  EXPECT_GT(tracer.hostFrame({.number = 1, .reference = true}).traced.rays, expected + expected / 4);
 }
 
 TEST(Tracer, ReferencesAddUpWhileNothingMoves) {

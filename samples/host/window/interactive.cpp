@@ -20,8 +20,6 @@
 namespace walr::host {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 constexpr std::uint32_t kFramesInFlight = 2;
 // Interval at which the window is redrawn while no new frame has been traced.
 constexpr std::chrono::milliseconds kRefresh(16);
@@ -31,11 +29,6 @@ volatile std::sig_atomic_t interrupted = 0;
 void interrupt(int /*signal*/) {
   interrupted = 1;
 }
-
-struct Traced {
-  HostFrame frame;
-  double seconds = 0.0;
-};
 
 /// Appends the time of a frame and drops the oldest one of more than a few seconds' worth.
 void remember(std::deque<float>& times, double milliseconds) {
@@ -60,6 +53,7 @@ class Show {
         queue_(device.device().context(), device.device().queue(), kFramesInFlight),
         interface_(device, window, kFramesInFlight) {
     facts_.deviceTraces = tracer.gpuScene() != nullptr;
+    if (facts_.deviceTraces) facts_.sceneBytes = tracer.gpuScene()->bytes();
   }
 
   ~Show() {
@@ -91,20 +85,17 @@ class Show {
     const bool needed = again_ || (change_ != GraphChange::None && !frameFits());
     if (const std::optional<Tracer::Request> request = session_.nextRequest(needed)) {
       again_ = false;
-      next_ = std::async(std::launch::async, [this, request] {
-        const Clock::time_point start = Clock::now();
-        Traced traced{tracer_.hostFrame(*request), 0.0};
-        traced.seconds = std::chrono::duration<double>(Clock::now() - start).count();
-        return traced;
-      });
+      next_ = std::async(std::launch::async, [this, request] { return tracer_.hostFrame(*request); });
     }
   }
 
-  void take(Traced traced) {
-    frame_ = std::move(traced.frame);
-    facts_.tracingSeconds = traced.seconds;
+  void take(HostFrame frame) {
+    frame_ = std::move(frame);
     constexpr double kMilliseconds = 1000.0;
-    remember(facts_.tracingHistory, kMilliseconds * traced.seconds);
+    if (!facts_.deviceTraces) {
+      facts_.traced = frame_.traced;
+      remember(facts_.tracingHistory, kMilliseconds * frame_.traced.seconds);
+    }
     fresh_ = true;
     startTracing();
   }
@@ -157,6 +148,8 @@ class Show {
     change_ = std::max(change_, session_.takeGraphChange());
     if (change_ != GraphChange::None && frameFits()) {
       follow();
+      facts_.graphBytes = live_.executor().allocatedBytes();
+      facts_.memory = deviceMemory(device_);
     }
     // One more frame shows the new shaders in a session that is frozen.
     if (reload_ && reload_(live_.graph().desc(), live_.executor()) > 0) again_ = session_.frozen;
@@ -175,6 +168,7 @@ class Show {
       double sum = 0.0;
       for (const fg::vk::PassTime& pass : times) sum += pass.milliseconds;
       if (fresh_) remember(facts_.deviceHistory, sum);
+      if (const auto traced = live_.traced(recorded.slot)) facts_.traced = *traced;
     }
     if (std::exchange(fresh_, false)) {
       lastSlot_ = recorded.slot;
@@ -207,7 +201,7 @@ class Show {
   Interface interface_;
   std::optional<Presenter> presenter_;
   std::optional<std::uint32_t> lastSlot_;  // Slot of the last frame that `live_` recorded.
-  std::future<Traced> next_;
+  std::future<HostFrame> next_;
   HostFrame frame_;
   FrameFacts facts_;
   bool fresh_ = false;                        // `frame_` has not been recorded yet.

@@ -94,7 +94,7 @@ void Interface::update(Session& session, const fg::Graph& graph, const fg::Plan&
     timesPanel(facts, session.tracer().denoisesDirect(), device_.isSoftware());
   }
   if (ImGui::CollapsingHeader("Memory", ImGuiTreeNodeFlags_DefaultOpen)) {
-    memoryPanel(graph.desc(), plan);
+    memoryPanel(graph.desc(), plan, facts);
   }
   if (ImGui::CollapsingHeader("Settings", ImGuiTreeNodeFlags_DefaultOpen)) {
     settingsPanel(session);

@@ -220,9 +220,10 @@ void settingsPanel(Session& session) {
 void timesPanel(const FrameFacts& facts, bool denoisesDirect, bool softwareDevice) {
   constexpr double kMilliseconds = 1000.0;
   if (facts.deviceTraces) {
-    ImGui::Text("Paths: traced on the device, pass 'trace'");
+    ImGui::Text("Paths: traced on the device, %s", rateText(facts.traced).c_str());
   } else {
-    ImGui::Text("Paths: traced by Embree, %.0f ms", facts.tracingSeconds * kMilliseconds);
+    ImGui::Text("Paths: traced by Embree, %.0f ms, %s", facts.traced.seconds * kMilliseconds,
+                rateText(facts.traced).c_str());
     chart("##tracing", facts.tracingHistory);
   }
   ImGui::Text("Direct light: %s", denoisesDirect ? "denoised" : "noisy");
@@ -242,8 +243,17 @@ void timesPanel(const FrameFacts& facts, bool denoisesDirect, bool softwareDevic
   }
 }
 
-void memoryPanel(const fg::GraphDesc& graph, const fg::Plan& plan) {
+void memoryPanel(const fg::GraphDesc& graph, const fg::Plan& plan, const FrameFacts& facts) {
   const fg::MemoryReport& memory = plan.memory;
+  ImGui::Text("Device memory: frame graph %.1f MiB", static_cast<double>(facts.graphBytes) / kMegabyte);
+  if (facts.deviceTraces) {
+    ImGui::SameLine(0.0F, 0.0F);
+    ImGui::Text(", scene %.1f MiB", static_cast<double>(facts.sceneBytes) / kMegabyte);
+  }
+  if (facts.memory) {
+    ImGui::Text("Whole program %.0f of %.0f MiB", static_cast<double>(facts.memory->used) / kMegabyte,
+                static_cast<double>(facts.memory->budget) / kMegabyte);
+  }
   ImGui::Text("Transient %.1f MiB (%.1f unshared), persistent %.1f MiB",
               static_cast<double>(memory.transientPeakBytes) / kMegabyte,
               static_cast<double>(memory.transientUnaliasedBytes) / kMegabyte,

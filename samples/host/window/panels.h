@@ -23,7 +23,7 @@ void settingsPanel(Session& session);
 /// Times of tracing and of every pass, and charts of the last frames.
 /// @param denoisesDirect  whether the direct light is denoised, too
 void timesPanel(const FrameFacts& facts, bool denoisesDirect, bool softwareDevice);
-/// Chart of memory over passes: one rectangle for each resource, grey for histories.
-void memoryPanel(const fg::GraphDesc& graph, const fg::Plan& plan);
+/// Device memory, and a chart of it over passes: one rectangle for each resource, grey for histories.
+void memoryPanel(const fg::GraphDesc& graph, const fg::Plan& plan, const FrameFacts& facts);
 
 }  // namespace walr::host
