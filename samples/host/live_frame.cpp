@@ -66,6 +66,13 @@ void LiveFrame::declare(Denoiser& method, const HostView& view, Start start) {
   running_ = std::make_unique<Running>(Running{std::move(host), std::move(device), std::move(rays)});
 }
 
+void LiveFrame::changeScene(const gpu_render::GpuScene* scene) {
+  running_.reset();
+  predecessor_.reset();
+  retired_.clear();
+  scene_ = scene;
+}
+
 void LiveFrame::record(const fg::vk::Frame& recorded, const HostFrame& frame, const ViewConstants& view) {
   // The caller has waited for the last frame recorded with this slot, and so for all frames up to that one.
   std::erase_if(retired_, [&](const Retired& retired) { return retired.until <= frames_; });

@@ -63,6 +63,9 @@ class LiveFrame {
   /// @throws see `declareHostGraph` and `DeviceGraph`; the previous graph then stays in use
   void declare(Denoiser& method, const HostView& view, Start start);
   [[nodiscard]] bool declared() const { return running_ != nullptr; }
+  /// Drop all graphs, and trace another scene in those that are declared from now on. The device must have finished all
+  /// frames.
+  void changeScene(const gpu_render::GpuScene* scene);
 
   void record(const fg::vk::Frame& recorded, const HostFrame& frame, const ViewConstants& view);
 

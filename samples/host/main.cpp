@@ -151,6 +151,7 @@ void run(HostOptions& options) {
   if (window) {
     Session session(tracer, options.method.name, std::move(method), parseView(options.view),
                     viewConstantsOf(options.tracer.extent, stops), parseFrameRange(options.frames), options.once);
+    session.autoExposure = !exposure;
     runWindow(tracer, gpu, session, options.tracer.extent, shaderReload(options));
   }
 #endif

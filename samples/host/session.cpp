@@ -10,7 +10,7 @@
 
 namespace walr::host {
 
-Session::Session(const Tracer& tracer, std::string methodName, std::unique_ptr<Denoiser> method, const HostView& view,
+Session::Session(Tracer& tracer, std::string methodName, std::unique_ptr<Denoiser> method, const HostView& view,
                  const ViewConstants& constants, const FrameRange& frames, bool once)
     : viewConstants(constants),
       tracer_(tracer),
@@ -133,6 +133,18 @@ void Session::cutCamera() {
   }
   const int count = frames_.last - frames_.first + 1;
   animationFrame_ = frames_.first + (animationFrame_ - frames_.first + count / 2) % count;
+}
+
+void Session::sceneChanged() {
+  frames_ = {0, static_cast<int>(tracer_.lastAnimationFrame())};
+  animationFrame_ = frames_.first;
+  cameraMode_ = CameraMode::Scene;
+  camera_.reset();
+  frozen = false;
+  once_ = false;
+  started_ = false;
+  graphChange_ = GraphChange::Method;
+  if (autoExposure) viewConstants.stops = tracer_.exposure(frames_.first);
 }
 
 GraphChange Session::takeGraphChange() {

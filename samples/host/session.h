@@ -27,7 +27,7 @@ enum class CameraMode { Scene, Orbit, Fly };
 class Session {
  public:
   /// @param once  stop after the last frame; otherwise the animation starts again
-  Session(const Tracer& tracer, std::string methodName, std::unique_ptr<Denoiser> method, const HostView& view,
+  Session(Tracer& tracer, std::string methodName, std::unique_ptr<Denoiser> method, const HostView& view,
           const ViewConstants& viewConstants, const FrameRange& frames, bool once);
   ~Session() = default;
   Session(const Session&) = delete;
@@ -58,6 +58,8 @@ class Session {
   /// Jump ahead by half the animation or, with a free camera, to the pose of the scene's camera.
   void cutCamera();
   void resetHistory() { reset_ = true; }
+  /// To be called after the tracer has opened another scene: plays all of its animation, seen by its camera.
+  void sceneChanged();
 
   /// The largest change since the last call.
   GraphChange takeGraphChange();
@@ -75,13 +77,16 @@ class Session {
   [[nodiscard]] const FrameRange& frames() const { return frames_; }
 
   ViewConstants viewConstants;
+  /// Whether a new scene gets the exposure that suits it.
+  bool autoExposure = true;
+  std::string message;  ///< What the user should know of the scene; may be empty.
   bool paused = false;  ///< The animation stands still; tracing continues.
   bool frozen = false;  ///< Nothing is traced.
   /// The user is dragging a slider. Changes that need a new graph wait until the slider is released.
   bool dragging = false;
 
  private:
-  const Tracer& tracer_;
+  Tracer& tracer_;
   std::string methodName_;
   std::unique_ptr<Denoiser> method_;
   std::optional<std::string> preset_;

@@ -58,13 +58,18 @@ class Tracer {
   };
 
   /// @param gpu  traces the frames, must outlive this (see `gpu_render::GpuScene`); null: the processor does
-  /// @throws render::SceneError for a scene that cannot be rendered
+  /// @throws render::SceneError for a scene that cannot be rendered; one without a camera or light is completed, see
+  ///         `loadViewableScene`
   explicit Tracer(const Options& options, const GpuDevice* gpu = nullptr);
+
+  /// Trace another scene with the same options, seen by its first camera. The next frame has no previous one.
+  /// @throws as the constructor; then nothing has changed
+  void open(const std::filesystem::path& file);
 
   [[nodiscard]] fg::Extent extent() const { return options_.extent; }
   [[nodiscard]] bool denoisesDirect() const { return options_.denoiseDirect; }
   /// See `render::Scene::warnings`.
-  [[nodiscard]] const std::vector<std::string>& warnings() const { return scene_.warnings; }
+  [[nodiscard]] const std::vector<std::string>& warnings() const { return content_->scene.warnings; }
   [[nodiscard]] const LightPattern& light() const { return options_.light; }
   /// Pose of the scene's camera in a frame of the animation: world to view space.
   [[nodiscard]] glm::mat4 sceneCamera(double animationFrame) const;
@@ -78,7 +83,7 @@ class Tracer {
   [[nodiscard]] float exposure(double animationFrame);
 
   /// What `declareHostGraph` traces; null if the processor traces.
-  [[nodiscard]] const gpu_render::GpuScene* gpuScene() const { return gpuScene_.get(); }
+  [[nodiscard]] const gpu_render::GpuScene* gpuScene() const { return content_->device.get(); }
 
   /// Trace a frame on the processor. Its previous frame is that of the previous call.
   Frame trace(const Request& request);
@@ -108,11 +113,20 @@ class Tracer {
   void finish(const Request& request, const render::View& view, Frame& frame);
   Reference traceReference(const Request& request, const render::View& view);
 
+  /// A scene, ready to be traced.
+  struct Content {
+    /// For parameters and errors see `Tracer`.
+    Content(const Options& options, const GpuDevice* gpu);
+
+    render::Scene scene;
+    std::uint32_t camera;
+    render::World world;
+    std::unique_ptr<gpu_render::GpuScene> device;  ///< Null if the processor traces.
+  };
+
   Options options_;
-  render::Scene scene_;
-  std::uint32_t camera_;
-  render::World world_;
-  std::unique_ptr<gpu_render::GpuScene> gpuScene_;
+  const GpuDevice* gpu_;
+  std::unique_ptr<Content> content_;
   std::optional<Request> previous_;
   glm::mat4 previousView_{1.0F};
   Accumulation reference_;

@@ -137,6 +137,28 @@ TEST_F(GpuHost, ChangesItsGraphWhileItTraces) {
   queue.waitAll();
 }
 
+// As when a user drops a file onto the window.
+TEST_F(GpuHost, TracesAnotherScene) {
+  Tracer tracer(tracing("turntable.gltf"), &gpu);
+  constexpr std::uint32_t kFramesInFlight = 2;
+  const ShownPicture picture(gpu, kExtent);
+  LiveFrame live(gpu, picture, kFramesInFlight, {}, tracer.gpuScene());
+  fg::vk::FrameQueue queue(gpu.device().context(), gpu.device().queue(), kFramesInFlight);
+  const std::unique_ptr<Denoiser> method = makeDenoiser("walr");
+  for (const char* const scene : {"box.gltf", "kitchen.gltf", "turntable.gltf"}) {
+    queue.waitAll();
+    tracer.open(std::string(WALR_SCENES "/") + scene);
+    live.changeScene(tracer.gpuScene());
+    live.declare(*method, {}, LiveFrame::Start::Anew);
+    for (int number = 0; number < 4; ++number) {
+      const fg::vk::Frame recorded = queue.begin();
+      live.record(recorded, tracer.hostFrame({.number = number}), {});
+      queue.submit(recorded);
+    }
+  }
+  queue.waitAll();
+}
+
 TEST_F(GpuHost, RefusesWhatOnlyTheProcessorTraces) {
   Tracer::Options material = tracing("box.gltf");
   material.gbuffer = render::GBufferMode::Material;

@@ -333,6 +333,19 @@ TEST_F(LiveFrameTest, AConstantChangesWithoutAnythingMadeAndHistoryGrows) {
 }
 
 // Frames of the previous graph are in flight at every change.
+TEST_F(LiveFrameTest, AnotherSceneStartsWithoutHistory) {
+  const std::unique_ptr<Denoiser> method = makeDenoiser("walr");
+  live.declare(*method, {}, LiveFrame::Start::FromHistory);
+  for (int i = 0; i < 3; ++i) record();
+  queue.waitAll();
+  live.changeScene(nullptr);
+  tracer.open(WALR_SCENES "/turntable.gltf");
+  EXPECT_FALSE(live.declared());
+  live.declare(*method, {}, LiveFrame::Start::FromHistory);
+  record();
+  EXPECT_EQ(ages(), all(1));
+}
+
 TEST_F(LiveFrameTest, AnotherGraphTakesOverBetweenFrames) {
   const std::unique_ptr<Denoiser> method = makeDenoiser("walr");
   live.declare(*method, {}, LiveFrame::Start::FromHistory);

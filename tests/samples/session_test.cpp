@@ -1,16 +1,22 @@
 // What the user of the sample host does between frames: the camera, playback, and which changes need another graph. No
 // device is needed.
+#include <filesystem>
+#include <fstream>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
 #include <glm/gtc/matrix_transform.hpp>
+#include <nlohmann/json.hpp>
 
 #include "passes/denoiser.h"
 #include "samples/host/camera_control.h"
+#include "samples/host/open_scene.h"
 #include "samples/host/session.h"
 #include "samples/host/tracer.h"
+#include "tests/samples/temporary_directory.h"
 
 namespace walr::host {
 namespace {
@@ -188,6 +194,103 @@ TEST_F(SessionTest, EdgesOfTheSplitViewFollowTheMouse) {
   EXPECT_EQ(session.viewConstants.rightEdge, width);
   session.moveEdge(0.0F);
   EXPECT_EQ(session.viewConstants.rightEdge, width / 3);
+}
+
+class OpenSceneTest : public SessionTest {
+ protected:
+  /// A scene of the project without some of its parts.
+  std::filesystem::path without(const std::string& scene, const std::vector<std::string>& nodeParts) {
+    nlohmann::json content = nlohmann::json::parse(std::ifstream(WALR_SCENES "/" + scene));
+    for (nlohmann::json& node : content["nodes"]) {
+      for (const std::string& part : nodeParts) node.erase(part);
+    }
+    content.erase("animations");
+    for (nlohmann::json& each : content["scenes"]) each.erase("extras");
+    for (nlohmann::json& material : content["materials"]) material.erase("emissiveFactor");
+    std::filesystem::path file = folder.path() / ("reduced " + scene);
+    std::ofstream(file) << content;
+    return file;
+  }
+
+  test::TemporaryDirectory folder;
+};
+
+TEST_F(OpenSceneTest, KeepsSettingsAndStartsCameraAndHistoryAnew) {
+  Session session = make({2, 9}, false);
+  session.chooseMethod("svgf");
+  session.method().set("accumulation.max-history", "5");
+  session.settingsChanged();
+  session.chooseCamera(CameraMode::Orbit);
+  tracer.trace(session.nextRequest().value());
+  tracer.trace(session.nextRequest().value());
+  const glm::mat4 before = tracer.sceneCamera(0.0);
+  session.takeGraphChange();
+  ASSERT_TRUE(openScene(WALR_SCENES "/turntable.gltf", tracer, session)) << session.message;
+
+  Tracer::Options options = boxScene();
+  options.scene = WALR_SCENES "/turntable.gltf";
+  Tracer alone(options);
+  EXPECT_NE(alone.sceneCamera(0.0), before);
+  EXPECT_EQ(tracer.bounds(), alone.bounds());
+  EXPECT_EQ(session.message, "turntable.gltf");
+  EXPECT_EQ(session.frames().first, 0);
+  EXPECT_EQ(session.frames().last, 47);
+  EXPECT_EQ(session.viewConstants.stops, alone.exposure(0.0));
+  EXPECT_EQ(session.methodName(), "svgf");
+  EXPECT_EQ(session.preset(), std::nullopt);
+  EXPECT_EQ(session.cameraMode(), CameraMode::Scene);
+  EXPECT_EQ(session.takeGraphChange(), GraphChange::Method);
+  const Tracer::Request request = session.nextRequest().value();
+  EXPECT_EQ(request.animationFrame, 0.0);
+  EXPECT_FALSE(request.view.has_value());
+  const Frame frame = tracer.trace(request);
+  EXPECT_TRUE(frame.resetHistory);
+  EXPECT_EQ(frame.camera.view, alone.sceneCamera(0.0));
+  EXPECT_EQ(frame.camera.previousView, frame.camera.view);
+}
+
+TEST_F(OpenSceneTest, AChosenExposureStays) {
+  Session session = make({0, 9}, false);
+  session.autoExposure = false;
+  session.viewConstants.stops = 2.5F;
+  ASSERT_TRUE(openScene(WALR_SCENES "/turntable.gltf", tracer, session));
+  EXPECT_EQ(session.viewConstants.stops, 2.5F);
+}
+
+TEST_F(OpenSceneTest, AFileThatCannotBeReadIsNamedAndTheOldSceneGoesOn) {
+  const std::filesystem::path broken = folder.path() / "broken.glb";
+  std::ofstream(broken) << "glTF";
+  Session session = make({2, 9}, false);
+  session.chooseCamera(CameraMode::Orbit);
+  tracer.trace(session.nextRequest().value());
+  const glm::vec4 bounds = tracer.bounds();
+  for (const std::filesystem::path& file : {broken, folder.path() / "missing.gltf", folder.path()}) {
+    EXPECT_FALSE(openScene(file, tracer, session));
+    EXPECT_EQ(session.message.find("Not opened: " + file.string() + ": "), 0U) << session.message;
+    EXPECT_GT(session.message.size(), ("Not opened: " + file.string() + ": ").size());
+    EXPECT_EQ(tracer.bounds(), bounds);
+    EXPECT_EQ(session.cameraMode(), CameraMode::Orbit);
+    EXPECT_EQ(session.takeGraphChange(), GraphChange::None);
+    EXPECT_FALSE(tracer.trace(session.nextRequest().value()).resetHistory);
+  }
+  EXPECT_EQ(session.animationFrame(), 5);
+}
+
+// Most files that people have hold neither camera nor light.
+TEST_F(OpenSceneTest, WithoutCameraAndLightASceneIsSeenAllTheSame) {
+  Session session = make({0, 9}, false);
+  ASSERT_TRUE(openScene(without("turntable.gltf", {"camera", "extensions"}), tracer, session)) << session.message;
+  EXPECT_NE(session.message.find("no camera"), std::string::npos) << session.message;
+  EXPECT_NE(session.message.find("white sky"), std::string::npos) << session.message;
+  EXPECT_EQ(session.message.find("black"), std::string::npos) << session.message;
+  const Frame frame = tracer.trace(session.nextRequest().value());
+  const glm::vec4 middle = frame.camera.view * glm::vec4(glm::vec3(tracer.bounds()), 1.0F);
+  EXPECT_NEAR(middle.x, 0.0F, 1e-4F * tracer.bounds().w);
+  EXPECT_NEAR(middle.y, 0.0F, 1e-4F * tracer.bounds().w);
+  EXPECT_GT(-middle.z, tracer.bounds().w);
+  std::size_t lit = 0;
+  for (std::size_t i = 0; i < frame.indirect.pixelCount(); ++i) lit += frame.indirect.pixel(i)[1] > 0.0F ? 1 : 0;
+  EXPECT_GT(lit, frame.indirect.pixelCount() / 10);
 }
 
 }  // namespace

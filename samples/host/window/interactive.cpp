@@ -14,6 +14,7 @@
 
 #include "framegraph/vulkan/frame_queue.h"
 #include "samples/host/live_frame.h"
+#include "samples/host/open_scene.h"
 #include "samples/host/window/interface.h"
 #include "samples/host/window/presenter.h"
 
@@ -40,7 +41,7 @@ void remember(std::deque<float>& times, double milliseconds) {
 /// The main loop of a window: traces frames on another thread, denoises them and draws the window.
 class Show {
  public:
-  Show(Tracer& tracer, const GpuDevice& device, Session& session, const Window& window, const Surface& surface,
+  Show(Tracer& tracer, const GpuDevice& device, Session& session, Window& window, const Surface& surface,
        fg::Extent extent, const ReloadShaders& reload)
       : tracer_(tracer),
         device_(device),
@@ -76,6 +77,7 @@ class Show {
         glfwWaitEventsTimeout(std::chrono::duration<double>(kRefresh).count());
         continue;
       }
+      openDropped();
       step();
     }
   }
@@ -87,6 +89,20 @@ class Show {
       again_ = false;
       next_ = std::async(std::launch::async, [this, request] { return tracer_.hostFrame(*request); });
     }
+  }
+
+  /// Show the scene of a file that the user has dropped onto the window. The window stands still while it is read.
+  void openDropped() {
+    const std::optional<std::filesystem::path> file = window_.takeDroppedFile();
+    if (!file) return;
+    if (next_.valid()) next_.wait();
+    queue_.waitAll();
+    if (!openScene(*file, tracer_, session_)) return;
+    live_.changeScene(tracer_.gpuScene());
+    if (facts_.deviceTraces) facts_.sceneBytes = tracer_.gpuScene()->bytes();
+    next_ = {};  // A frame of the old scene.
+    startTracing();
+    take(next_.get());
   }
 
   void take(HostFrame frame) {
@@ -113,7 +129,7 @@ class Show {
       change_ = GraphChange::None;
       return;
     }
-    if (session_.dragging) {
+    if (session_.dragging && live_.declared()) {
       return;
     }
     // While the session is frozen, only the current frame is available: it is denoised again, without history.
@@ -193,7 +209,7 @@ class Show {
   const GpuDevice& device_;
   Session& session_;
   const ReloadShaders& reload_;
-  const Window& window_;
+  Window& window_;
   const Surface& surface_;
   ShownPicture picture_;
   LiveFrame live_;
@@ -221,8 +237,8 @@ void runWindow(Tracer& tracer, GpuDevice& device, Session& session, fg::Extent e
   std::signal(SIGINT, interrupt);
   std::signal(SIGTERM, interrupt);
   constexpr std::uint32_t kLeastHeight = 720;
-  const Window window("walr-host", {extent.width + static_cast<std::uint32_t>(Interface::kPanelWidth),
-                                    std::max(extent.height, kLeastHeight)});
+  Window window("walr-host", {extent.width + static_cast<std::uint32_t>(Interface::kPanelWidth),
+                              std::max(extent.height, kLeastHeight)});
   const Surface surface(window, device.instance());
   Show(tracer, device, session, window, surface, extent, reload).run();
 }

@@ -147,6 +147,7 @@ void playPanel(Session& session) {
   if (ImGui::Button("Reset history")) {
     session.resetHistory();
   }
+  if (!session.message.empty()) ImGui::TextWrapped("%s", session.message.c_str());
   ImGui::Text("Frame %d of %d to %d", session.animationFrame(), session.frames().first, session.frames().last);
   constexpr std::array kCameras = {std::pair(CameraMode::Scene, "Scene camera"), std::pair(CameraMode::Orbit, "Orbit"),
                                    std::pair(CameraMode::Fly, "Fly (WASD, QE)")};
