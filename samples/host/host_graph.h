@@ -3,6 +3,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "framegraph/declare/graph.h"
@@ -21,10 +22,12 @@ struct HostView {
     Noisy,      ///< The lit image with the traced, noisy light.
     Reference,  ///< The lit image with the light of the reference.
     Split,      ///< Noisy, denoised and reference side by side.
+    Compare,    ///< The method on the left, another one on the same light on the right.
     Texture,    ///< The values of one texture of the graph.
   };
   Kind kind = Kind::Denoised;
-  std::string texture = {};  ///< Name of the texture, for `Kind::Texture`.
+  std::string texture = {};      ///< Name of the texture, for `Kind::Texture`.
+  Denoiser* compared = nullptr;  ///< The method on the right, for `Kind::Compare`; must live while graphs are declared.
 
   /// Whether this view shows the traced light.
   [[nodiscard]] bool needsNoisy() const { return kind == Kind::Noisy || kind == Kind::Split; }
@@ -32,6 +35,9 @@ struct HostView {
   [[nodiscard]] bool needsReference() const { return kind == Kind::Reference || kind == Kind::Split; }
   friend bool operator==(const HostView&, const HostView&) = default;
 };
+
+/// What the names of the passes, textures and histories of `HostView::compared` begin with.
+inline constexpr std::string_view kComparedPrefix = "right: ";
 
 /// A host's whole frame as one graph: uploads or the path tracer, the method's passes, composite, tone map.
 struct HostGraph {

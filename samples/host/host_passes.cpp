@@ -84,6 +84,16 @@ fg::Texture addSplitToneMap(fg::Graph& graph, fg::Texture left, fg::Texture midd
   return pass.store("outDisplay", display);
 }
 
+fg::Texture addComparison(fg::Graph& graph, fg::Texture left, fg::Texture right, fg::Buffer viewConstants,
+                          fg::Texture display) {
+  fg::PassBuilder pass = graph.compute("tone map", shaders::toneMapCompare);
+  pass.sample("lit", left)
+      .sample("right", right)
+      .uniform("View", viewConstants)
+      .dispatch(graph.textureDesc(left).extent);
+  return pass.store("outDisplay", display);
+}
+
 fg::Texture addInspection(fg::Graph& graph, fg::Texture inspected, fg::Buffer viewConstants, fg::Texture display) {
   const bool integers = holdsIntegers(graph.textureDesc(inspected).format);
   fg::PassBuilder pass = graph.compute("inspect", integers ? shaders::inspectUint : shaders::inspect);

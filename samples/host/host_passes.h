@@ -45,6 +45,10 @@ fg::Texture addToneMap(fg::Graph& graph, fg::Texture lit, fg::Buffer viewConstan
 fg::Texture addSplitToneMap(fg::Graph& graph, fg::Texture left, fg::Texture middle, fg::Texture right,
                             fg::Buffer viewConstants, fg::Texture display);
 
+/// The same for two lit images; see `ViewConstants::middleEdge`.
+fg::Texture addComparison(fg::Graph& graph, fg::Texture left, fg::Texture right, fg::Buffer viewConstants,
+                          fg::Texture display);
+
 /// Show a texture of the graph that has one layer. Float textures are scaled by `ViewConstants::gain` and `bias`. Of
 /// integer textures the bytes of the first component are shown.
 fg::Texture addInspection(fg::Graph& graph, fg::Texture inspected, fg::Buffer viewConstants, fg::Texture display);

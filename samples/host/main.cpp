@@ -32,7 +32,12 @@ constexpr int kLastFrame = 11;  // Of the frames that are rendered without a win
 
 ViewConstants viewConstantsOf(fg::Extent extent, float stops) {
   const auto width = static_cast<int>(extent.width);
-  return {.leftEdge = width / 3, .rightEdge = width - width / 3, .gain = 1.0F, .bias = 0.0F, .stops = stops};
+  return {.leftEdge = width / 3,
+          .rightEdge = width - width / 3,
+          .middleEdge = width / 2,
+          .gain = 1.0F,
+          .bias = 0.0F,
+          .stops = stops};
 }
 
 /// What reloads shaders between frames; empty if the user does not ask for it.
@@ -57,7 +62,8 @@ Renderer makeRenderer(const GpuDevice& gpu, Denoiser& method, fg::Extent extent,
   }
 }
 
-void runHeadless(const HostOptions& options, float stops, Tracer& tracer, GpuDevice& gpu, Denoiser& method) {
+void runHeadless(const HostOptions& options, float stops, Tracer& tracer, GpuDevice& gpu, Denoiser& method,
+                 Denoiser& compared) {
   if (options.output.empty() && options.record.empty()) {
     throw UsageError(
         "without a window, frames are written to a folder or a file: give --output DIR or --record FILE.webp");
@@ -72,6 +78,7 @@ void runHeadless(const HostOptions& options, float stops, Tracer& tracer, GpuDev
   Renderer::Options rendering;
   rendering.light = options.tracer.light;
   rendering.view = parseView(options.view);
+  rendering.view.compared = &compared;
   rendering.viewConstants = viewConstantsOf(extent, stops);
   rendering.readComposite = options.exr;
   rendering.scene = tracer.gpuScene();
@@ -118,6 +125,9 @@ void run(HostOptions& options) {
   }
   if (options.tracer.scene.empty()) options.tracer.scene = builtInScene();
   std::unique_ptr<Denoiser> method = makeMethod(options.method);
+  const MethodOptions compare = parseCompare(options.compare.empty() ? "none" : options.compare);
+  std::unique_ptr<Denoiser> compared = makeMethod(compare);
+  if (!options.compare.empty()) options.view = "compare";
   const bool window = opensWindow(options);
 #ifdef WALR_HOST_WINDOW
   if (window) {
@@ -145,13 +155,14 @@ void run(HostOptions& options) {
   }
   std::cout << "\ndevice: " << gpu.name() << ", driver " << gpu.driver() << "\ntracer: " << decision.text << std::endl;
   if (!window) {
-    runHeadless(options, stops, tracer, gpu, *method);
+    runHeadless(options, stops, tracer, gpu, *method, *compared);
   }
 #ifdef WALR_HOST_WINDOW
   if (window) {
     Session session(tracer, options.method.name, std::move(method), parseView(options.view),
                     viewConstantsOf(options.tracer.extent, stops), parseFrameRange(options.frames), options.once);
     session.autoExposure = !exposure;
+    session.compareWith(compare.name, std::move(compared));
     runWindow(tracer, gpu, session, options.tracer.extent, shaderReload(options));
   }
 #endif

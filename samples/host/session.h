@@ -39,11 +39,14 @@ class Session {
 
   void chooseMethod(const std::string& name);
   void choosePreset(const std::string& name);
-  void chooseView(const HostView& view);
+  /// @param view  `HostView::compared` is set to the method of `compareWith`
+  void chooseView(HostView view);
+  /// Choose the method on the right of a comparison. At first it is `none`: the noisy light.
+  void compareWith(const std::string& name, std::unique_ptr<Denoiser> method);
   void chooseCamera(CameraMode mode);
   /// Move the free camera.
   void moveCamera(const CameraInput& input);
-  /// In the split view, take hold of the edge that is nearest to a column of the picture.
+  /// In the split view or a comparison, take hold of the edge that is nearest to a column of the picture.
   /// @param column  in pixels of the picture
   /// @param reach   largest distance from the edge, in the same unit
   /// @returns whether an edge is held
@@ -69,6 +72,7 @@ class Session {
   [[nodiscard]] Denoiser& method() { return *method_; }
   /// See `presetInUse`.
   [[nodiscard]] const std::optional<std::string>& preset() const { return preset_; }
+  [[nodiscard]] const std::string& comparedName() const { return comparedName_; }
   [[nodiscard]] const HostView& view() const { return view_; }
   /// Speed of the flying camera in scene units per second.
   [[nodiscard]] float flySpeed() const;
@@ -90,6 +94,8 @@ class Session {
   std::string methodName_;
   std::unique_ptr<Denoiser> method_;
   std::optional<std::string> preset_;
+  std::string comparedName_ = "none";
+  std::unique_ptr<Denoiser> compared_ = makeDenoiser(comparedName_);
   HostView view_;
   FrameRange frames_;
   bool once_;

@@ -63,6 +63,22 @@ TEST_F(HostProgramTest, TracesAndDenoisesSparseLight) {
                       {"method 'svgf'"});
 }
 
+TEST_F(HostProgramTest, ComparesTwoMethods) {
+  const fs::path alone = folder.path() / "alone";
+  const std::vector<std::string> frames = {scene, "--frames", "11-12"};
+  const auto write = [&](const fs::path& directory, std::vector<std::string> more) {
+    more.insert(more.end(), frames.begin(), frames.end());
+    more.insert(more.end(), {"-o", directory.string()});
+    const test::ProcessResult result = host(more);
+    EXPECT_EQ(result.exitCode, 0) << result.err;
+    return test::readText(directory / "frame_0012.png");
+  };
+  const std::string both = write(output, {"--compare", "svgf:paper"});
+  EXPECT_NE(both, write(alone, {}));
+  EXPECT_NE(both, write(alone, {"--compare", "svgf"}));
+  EXPECT_EQ(write(alone, {"--view", "compare"}), write(alone, {"--compare", "none"}));
+}
+
 TEST_F(HostProgramTest, RefusesCommandLinesWithoutMeaning) {
   const auto expectUsage = [&](const std::vector<std::string>& arguments, const std::string& named) {
     test::expectFailure(host(arguments), kUsage, {named});
@@ -72,6 +88,9 @@ TEST_F(HostProgramTest, RefusesCommandLinesWithoutMeaning) {
   expectUsage({scene}, "--output");
   expectUsage({scene, "-o", output.string(), "--frames", "3-1"}, "--frames 3-1");
   expectUsage({scene, "-o", output.string(), "--set", "nothing=1"}, "nothing");
+  expectUsage({scene, "-o", output.string(), "--compare", "nothing"}, "--compare nothing");
+  expectUsage({scene, "-o", output.string(), "--compare", "walr:nothing"}, "nothing");
+  expectUsage({scene, "-o", output.string(), "--compare", "svgf", "--view", "noisy"}, "--compare");
   expectUsage({scene, "-o", output.string(), "--light-rate", "1/3"}, "--light-rate");
   expectUsage({scene, "-o", output.string(), "--view", "nothing"}, "'guides.depth.current'");
   EXPECT_FALSE(fs::exists(output));

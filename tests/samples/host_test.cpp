@@ -182,7 +182,7 @@ TEST_F(HostTest, SplitViewShowsNoisyDenoisedAndReference) {
   const auto noisy = show(HostView::Kind::Noisy);
   const auto denoised = show(HostView::Kind::Denoised);
   const auto reference = show(HostView::Kind::Reference);
-  options.viewConstants = {.leftEdge = 20, .rightEdge = 50, .gain = 1.0F, .bias = 0.0F, .stops = 0.0F};
+  options.viewConstants = {.leftEdge = 20, .rightEdge = 50, .middleEdge = 0, .gain = 1.0F, .bias = 0.0F, .stops = 0.0F};
   const auto split = show(HostView::Kind::Split);
   EXPECT_NE(noisy, denoised);
   EXPECT_NE(denoised, reference);
@@ -190,6 +190,36 @@ TEST_F(HostTest, SplitViewShowsNoisyDenoisedAndReference) {
     const int x = static_cast<int>(i % kExtent.width);
     const std::uint32_t shown = x < 20 ? noisy[i] : x < 50 ? denoised[i] : reference[i];
     EXPECT_EQ(split[i], x == 20 || x == 50 ? 0xFFFFFFFFU : shown) << "pixel " << i;
+  }
+}
+
+// Both methods denoise the same rays, each as it does alone.
+TEST_F(HostTest, ComparisonShowsTwoMethodsEachAsItIsAlone) {
+  Renderer::Options options;
+  options.viewConstants.middleEdge = 30;
+  const std::string left = "walr";
+  const std::vector<RenderedFrame> ofLeft = render(options, left);
+  for (const std::string& right : denoiserNames()) {
+    const std::unique_ptr<Denoiser> compared = makeDenoiser(right);
+    options.view = {.kind = HostView::Kind::Compare, .compared = compared.get()};
+    const std::vector<RenderedFrame> together = render(options, left);
+    options.view = {};
+    const std::vector<RenderedFrame> ofRight = right == left ? ofLeft : render(options, right);
+    ASSERT_EQ(together.size(), ofRight.size());
+    for (std::size_t n = 0; n < together.size(); ++n) {
+      std::size_t wrong = 0;
+      for (std::size_t i = 0; i < together[n].display.size(); ++i) {
+        const int x = static_cast<int>(i % kExtent.width);
+        const std::uint32_t alone = x < 30 ? ofLeft[n].display[i] : ofRight[n].display[i];
+        wrong += together[n].display[i] != (x == 30 ? 0xFFFFFFFFU : alone) ? 1 : 0;
+      }
+      EXPECT_EQ(wrong, 0U) << right << ", frame " << n;
+    }
+    // Else times of passes beside each other could not be told apart.
+    const auto isRight = [](const fg::vk::PassTime& pass) { return pass.name.starts_with(kComparedPrefix); };
+    const auto& times = together.back().passTimes;
+    EXPECT_GE(std::ranges::count_if(times, isRight), 3) << right;
+    EXPECT_EQ(std::find_if_not(std::ranges::find_if(times, isRight), times.end(), isRight)->name, "tone map") << right;
   }
 }
 
@@ -238,7 +268,7 @@ TEST_F(HostTest, EveryTextureCanBeViewed) {
 TEST_F(HostTest, TextureViewShowsValuesScaledAndShifted) {
   Renderer::Options options;
   options.view = {HostView::Kind::Texture, "normal"};
-  options.viewConstants = {.leftEdge = 0, .rightEdge = 0, .gain = 0.5F, .bias = 0.5F, .stops = 0.0F};
+  options.viewConstants = {.leftEdge = 0, .rightEdge = 0, .middleEdge = 0, .gain = 0.5F, .bias = 0.5F, .stops = 0.0F};
   const std::vector<RenderedFrame> frames = render(options, "none");
   Tracer tracer(tracing());
   for (const RenderedFrame& frame : frames) {

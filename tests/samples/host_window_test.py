@@ -144,10 +144,10 @@ class Window:
         self.hands.click(*self.at(199, 58))
 
     def choose_view(self, name):
-        views = ["denoised", "noisy", "reference", "split", "texture"]
+        views = ["denoised", "noisy", "reference", "split", "compare", "texture"]
         self.choose(85, views.index(name), len(views))
         # Below it come a texture's name, gain and bias, or the edges of the split.
-        self.view_extras = {"texture": 3, "split": 1}.get(name, 0)
+        self.view_extras = {"texture": 3, "split": 1, "compare": 1}.get(name, 0)
 
     def choose_texture(self, index, count):
         self.choose(85 + self.LINE, index, count)

@@ -196,6 +196,34 @@ TEST_F(SessionTest, EdgesOfTheSplitViewFollowTheMouse) {
   EXPECT_EQ(session.viewConstants.rightEdge, width / 3);
 }
 
+TEST_F(SessionTest, ComparesWithAnotherMethod) {
+  Session session = make({0, 9}, false);
+  session.chooseView({HostView::Kind::Compare, ""});
+  EXPECT_EQ(session.takeGraphChange(), GraphChange::Settings);
+  EXPECT_EQ(session.comparedName(), "none");
+  ASSERT_NE(session.view().compared, nullptr);
+  EXPECT_FALSE(session.nextRequest()->reference);
+  const Denoiser* const before = session.view().compared;
+  session.compareWith("svgf", makeDenoiser("svgf"));
+  EXPECT_NE(session.view().compared, before);
+  EXPECT_EQ(session.takeGraphChange(), GraphChange::Method) << "both start without history";
+
+  const auto width = static_cast<int>(tracer.extent().width);
+  session.viewConstants.middleEdge = width / 2;
+  EXPECT_TRUE(session.grabEdge(static_cast<float>(width) / 2.0F, 4.0F));
+  session.moveEdge(5.0F);
+  EXPECT_EQ(session.viewConstants.middleEdge, 5);
+  session.moveEdge(-5.0F);
+  EXPECT_EQ(session.viewConstants.middleEdge, 0);
+  session.moveEdge(1e6F);
+  EXPECT_EQ(session.viewConstants.middleEdge, width);
+  session.chooseView({});
+  EXPECT_EQ(session.view().compared, nullptr);
+  session.takeGraphChange();
+  session.compareWith("flr", makeDenoiser("flr"));
+  EXPECT_EQ(session.takeGraphChange(), GraphChange::None) << "it is not shown";
+}
+
 class OpenSceneTest : public SessionTest {
  protected:
   /// A scene of the project without some of its parts.

@@ -100,6 +100,7 @@ void Interface::update(Session& session, const fg::Graph& graph, const fg::Plan&
     settingsPanel(session);
   }
   ImGui::End();
+  labelComparison(session, place);
   takeEdgeInput(session, place);
   if (!session.holdsEdge()) takeCameraInput(session);
   ImGui::Render();

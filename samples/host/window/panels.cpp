@@ -126,6 +126,15 @@ void chart(const char* label, const std::deque<float>& times) {
                    {ImGui::GetContentRegionAvail().x, kHeight});
 }
 
+/// Milliseconds of the passes of the method on the right of a comparison.
+double comparedTime(std::span<const fg::vk::PassTime> passes) {
+  double sum = 0.0;
+  for (const fg::vk::PassTime& pass : passes) {
+    if (pass.name.starts_with(kComparedPrefix)) sum += pass.milliseconds;
+  }
+  return sum;
+}
+
 ImU32 colourOf(std::size_t index) {
   // Hues that differ by the golden angle are easy to tell apart, whatever their number.
   constexpr float kGoldenAngle = 0.381966F;
@@ -134,6 +143,28 @@ ImU32 colourOf(std::size_t index) {
 }
 
 }  // namespace
+
+void labelComparison(const Session& session, const Rectangle& place) {
+  if (session.view().kind != HostView::Kind::Compare || place.width == 0) return;
+  const float scale = static_cast<float>(place.width) / static_cast<float>(session.tracer().extent().width);
+  const float edge = static_cast<float>(place.x) + scale * static_cast<float>(session.viewConstants.middleEdge);
+  ImDrawList* const draw = ImGui::GetBackgroundDrawList();
+  constexpr float kGap = 8.0F;
+  const float row = static_cast<float>(place.y) + kGap;
+  const auto label = [&](const std::string& method, bool left) {
+    const std::string text = method == "none" ? "noisy" : method;
+    const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+    const float column = left ? edge - kGap - size.x : edge + kGap;
+    const float first = static_cast<float>(place.x);
+    if (column < first || column + size.x > first + static_cast<float>(place.width)) return;
+    constexpr float kMargin = 3.0F;
+    draw->AddRectFilled({column - kMargin, row - kMargin}, {column + size.x + kMargin, row + size.y + kMargin},
+                        IM_COL32(0, 0, 0, 140), kMargin);
+    draw->AddText({column, row}, IM_COL32_WHITE, text.c_str());
+  };
+  label(session.methodName(), true);
+  label(session.comparedName(), false);
+}
 
 void playPanel(Session& session) {
   ImGui::Checkbox("Pause", &session.paused);
@@ -163,7 +194,7 @@ void playPanel(Session& session) {
 void viewPanel(Session& session, const std::vector<std::string>& textures, bool references) {
   ImGui::Separator();
   const HostView& view = session.view();
-  const std::array<std::string, 5> all = {"denoised", "noisy", "reference", "split", "texture"};
+  const std::array<std::string, 6> all = {"denoised", "noisy", "reference", "split", "compare", "texture"};
   std::vector<HostView::Kind> kinds;
   std::vector<std::string> names;
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -186,6 +217,11 @@ void viewPanel(Session& session, const std::vector<std::string>& textures, bool 
     }
     ImGui::DragFloat("Gain", &constants.gain, 0.01F, 0.0F, 1000.0F, "%.3f");
     ImGui::DragFloat("Bias", &constants.bias, 0.01F, -10.0F, 10.0F, "%.3f");
+  } else if (view.kind == HostView::Kind::Compare) {
+    const std::vector<std::string> methods = denoiserNames();
+    if (const auto chosen = choose("On the right", methods, session.comparedName())) {
+      session.compareWith(methods[*chosen], makeDenoiser(methods[*chosen]));
+    }
   } else if (view.kind == HostView::Kind::Split) {
     ImGui::DragIntRange2("Edges", &constants.leftEdge, &constants.rightEdge, 1.0F, 0, 16384);
   }
@@ -233,6 +269,8 @@ void timesPanel(const FrameFacts& facts, bool denoisesDirect, bool softwareDevic
     sum += pass.milliseconds;
   }
   ImGui::Text("Device %.2f ms%s", sum, softwareDevice ? " (software device)" : "");
+  const double compared = comparedTime(facts.passTimes);
+  if (compared > 0.0) ImGui::Text("of which on the right %.2f ms", compared);
   chart("##device", facts.deviceHistory);
   for (const fg::vk::PassTime& pass : facts.passTimes) {
     const auto share = static_cast<float>(sum > 0.0 ? pass.milliseconds / sum : 0.0);

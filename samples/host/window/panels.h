@@ -11,6 +11,8 @@
 /// The sections of the interface's panel. Call each between ImGui::Begin and ImGui::End.
 namespace walr::host {
 
+/// The names of both methods of a comparison, drawn beside the edge between them.
+void labelComparison(const Session& session, const Rectangle& place);
 /// Pause, freeze, camera, cut, history.
 void playPanel(Session& session);
 /// The displayed view.
