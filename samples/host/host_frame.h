@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "framegraph/declare/graph.h"
 #include "samples/denoise/packed_frame.h"
 #include "samples/gpu_render/trace_pass.h"
 #include "samples/host/traced_rays.h"
@@ -11,6 +12,7 @@ namespace walr::host {
 
 /// A frame with its images in the formats of the host's textures, or what the device needs to trace it.
 struct HostFrame {
+  fg::Extent extent;
   PackedFrame inputs;  ///< Inputs of the denoiser; `inputs.frame.number` is its random seed.
   FrameConstants constants{};
   /// For a graph that traces (`HostGraph::trace`). All images are then empty.

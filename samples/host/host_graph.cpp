@@ -150,7 +150,8 @@ void addView(HostGraph& host, const HostView& view, const DenoiserInputs& inputs
   const fg::Buffer constants = graph.upload("view constants", sizeof(ViewConstants));
   host.viewConstants = constants;
   if (view.kind == HostView::Kind::Texture) {
-    host.display = addInspection(graph, findTexture(graph.desc(), view.texture), constants, host.display);
+    host.display = addInspection(graph, findTexture(graph.desc(), view.texture),
+                                 graph.textureDesc(host.composite).extent, constants, host.display);
   } else if (view.kind == HostView::Kind::Compare) {
     const fg::Texture right = litByCompared(host, *view.compared, inputs);
     host.display = addComparison(graph, host.composite, right, constants, host.display);
@@ -191,7 +192,8 @@ HostGraph declareHostGraph(const fg::vk::DeviceContext& device, Denoiser& method
   host.composite =
       addComposite(graph, "composite", host.denoised, {host.direct.texture, host.albedo.texture, host.emission.texture},
                    declareTarget(graph, "lit", colour, targets.composite));
-  host.display = declareTarget(graph, "display", {.format = kDisplayFormat, .extent = extent}, targets.display);
+  host.display = declareTarget(
+      graph, "display", {.format = kDisplayFormat, .extent = targets.displayExtent.value_or(extent)}, targets.display);
   addView(host, view, inputs);
 
   exportTarget(graph, host.denoised, targets.denoised);

@@ -74,6 +74,8 @@ struct HostTargets {
   std::optional<Target> denoised;
   std::optional<Target> composite;
   std::optional<Target> display;
+  /// Size of the displayed image if it is larger than the frame, which then fills its first columns and rows.
+  std::optional<fg::Extent> displayExtent = std::nullopt;
 };
 
 /// Declare the frame.

@@ -50,6 +50,15 @@ void addHostOptions(CLI::App& program, HostOptions& options) {
                   "first frame to middle grey (Reinhard et al. 2002)")
       ->type_name("auto|EV")
       ->capture_default_str();
+  constexpr double kLongest = 1e4;
+  program
+      .add_option(
+          "--target-ms", options.targetMilliseconds,
+          "In a window: hold the time of a frame, the longer of tracing on the processor and all passes on the "
+          "device, by smaller pictures. Above this time or below 80 % of it, the number of pixels changes; sides "
+          "stay between half and all of --size")
+      ->check(numberFrom(0.0, kLongest))
+      ->type_name("MS");
 #ifdef WALR_SHADER_COMMANDS
   program.add_flag("--reload-shaders", options.reloadShaders,
                    "Watch the sources of the denoiser's shaders, compile what changes and use it in the next frame");

@@ -26,6 +26,7 @@ struct HostOptions {
   std::filesystem::path output;
   std::filesystem::path record;  ///< File of an animation; empty: none.
   std::string exposure = "auto";
+  double targetMilliseconds = 0.0;  ///< See `ResolutionControl::setTarget`.
   bool headless = false;
   bool exr = false;
   bool once = false;

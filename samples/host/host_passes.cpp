@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include <glm/vec2.hpp>
+
 #include "framegraph/declare/format.h"
 #include "samples/host/shaders.h"
 
@@ -94,10 +96,11 @@ fg::Texture addComparison(fg::Graph& graph, fg::Texture left, fg::Texture right,
   return pass.store("outDisplay", display);
 }
 
-fg::Texture addInspection(fg::Graph& graph, fg::Texture inspected, fg::Buffer viewConstants, fg::Texture display) {
+fg::Texture addInspection(fg::Graph& graph, fg::Texture inspected, fg::Extent shown, fg::Buffer viewConstants,
+                          fg::Texture display) {
   const bool integers = holdsIntegers(graph.textureDesc(inspected).format);
   fg::PassBuilder pass = graph.compute("inspect", integers ? shaders::inspectUint : shaders::inspect);
-  pass.sample("inspected", inspected).dispatch(graph.textureDesc(display).extent);
+  pass.sample("inspected", inspected).constants(glm::ivec2(shown.width, shown.height)).dispatch(shown);
   if (!integers) {
     pass.uniform("View", viewConstants);
   }

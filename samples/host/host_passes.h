@@ -49,8 +49,9 @@ fg::Texture addSplitToneMap(fg::Graph& graph, fg::Texture left, fg::Texture midd
 fg::Texture addComparison(fg::Graph& graph, fg::Texture left, fg::Texture right, fg::Buffer viewConstants,
                           fg::Texture display);
 
-/// Show a texture of the graph that has one layer. Float textures are scaled by `ViewConstants::gain` and `bias`. Of
-/// integer textures the bytes of the first component are shown.
-fg::Texture addInspection(fg::Graph& graph, fg::Texture inspected, fg::Buffer viewConstants, fg::Texture display);
+/// Show a texture of the graph that has one layer in the first columns and rows of the displayed image. Float textures
+/// are scaled by `ViewConstants::gain` and `bias`. Of integer textures the bytes of the first component are shown.
+fg::Texture addInspection(fg::Graph& graph, fg::Texture inspected, fg::Extent shown, fg::Buffer viewConstants,
+                          fg::Texture display);
 
 }  // namespace walr::host

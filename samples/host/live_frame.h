@@ -57,6 +57,13 @@ class LiveFrame {
   /// @returns false, without any effect, if more than constants has changed
   bool update(Denoiser& method, const HostView& view);
 
+  /// Size of the frames of graphs that are declared from now on, at most that of the picture, at first the same. They
+  /// fill the first columns and rows of the picture.
+  void setExtent(fg::Extent extent) { extent_ = extent; }
+  [[nodiscard]] fg::Extent extent() const { return extent_; }
+  /// Size of the frame that the picture shows.
+  [[nodiscard]] fg::Extent shown() const { return shown_; }
+
   /// Declare the graph of a method and a view, and create its device objects. Frames of the previous graph may still be
   /// in flight.
   /// @param start  `FromHistory` takes over the histories of the previous graph where they fit
@@ -67,6 +74,7 @@ class LiveFrame {
   /// frames.
   void changeScene(const gpu_render::GpuScene* scene);
 
+  /// @param view  its edges are in pixels of the picture
   void record(const fg::vk::Frame& recorded, const HostFrame& frame, const ViewConstants& view);
 
   [[nodiscard]] fg::vk::Executor& executor() { return running_->device.executor(); }
@@ -102,6 +110,8 @@ class LiveFrame {
   std::uint32_t framesInFlight_;
   LightPattern light_;
   const gpu_render::GpuScene* scene_;
+  fg::Extent extent_;
+  fg::Extent shown_;
   std::uint64_t frames_ = 0;  // Number of recorded frames, of all graphs.
   std::unique_ptr<Running> running_;
   std::unique_ptr<Running> predecessor_;  // Kept until `running_` has recorded a frame.

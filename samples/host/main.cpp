@@ -68,6 +68,9 @@ void runHeadless(const HostOptions& options, float stops, Tracer& tracer, GpuDev
     throw UsageError(
         "without a window, frames are written to a folder or a file: give --output DIR or --record FILE.webp");
   }
+  if (options.targetMilliseconds > 0.0) {
+    throw UsageError("--target-ms: without a window, all frames have the size of --size");
+  }
   const FrameRange frames = parseFrameRange(options.frames);
   const fg::Extent extent = options.tracer.extent;
   std::optional<WebpAnimation> animation;
@@ -161,6 +164,7 @@ void run(HostOptions& options) {
   if (window) {
     Session session(tracer, options.method.name, std::move(method), parseView(options.view),
                     viewConstantsOf(options.tracer.extent, stops), parseFrameRange(options.frames), options.once);
+    session.targetMilliseconds = options.targetMilliseconds;
     session.autoExposure = !exposure;
     session.compareWith(compare.name, std::move(compared));
     runWindow(tracer, gpu, session, options.tracer.extent, shaderReload(options));

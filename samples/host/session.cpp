@@ -46,6 +46,7 @@ std::optional<Tracer::Request> Session::nextRequest(bool evenFrozen) {
   Tracer::Request request;
   request.number = started_ ? ++number_ : number_;
   request.animationFrame = animationFrame_;
+  request.extent = extent;
   request.cut = std::exchange(cut_, false);
   request.resetHistory = std::exchange(reset_, false);
   request.reference = view_.needsReference();

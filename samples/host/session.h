@@ -83,9 +83,12 @@ class Session {
   ViewConstants viewConstants;
   /// Whether a new scene gets the exposure that suits it.
   bool autoExposure = true;
-  std::string message;  ///< What the user should know of the scene; may be empty.
-  bool paused = false;  ///< The animation stands still; tracing continues.
-  bool frozen = false;  ///< Nothing is traced.
+  /// Size of the pictures; nullopt: the tracer's.
+  std::optional<fg::Extent> extent;
+  double targetMilliseconds = 0.0;  ///< See `ResolutionControl::setTarget`.
+  std::string message;              ///< What the user should know of the scene; may be empty.
+  bool paused = false;              ///< The animation stands still; tracing continues.
+  bool frozen = false;              ///< Nothing is traced.
   /// The user is dragging a slider. Changes that need a new graph wait until the slider is released.
   bool dragging = false;
 

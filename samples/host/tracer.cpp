@@ -18,7 +18,7 @@ namespace walr::host {
 namespace {
 
 bool sameCamera(const render::View& a, const render::View& b) {
-  return a.viewFromWorld == b.viewFromWorld && a.jitter == b.jitter;
+  return a.viewFromWorld == b.viewFromWorld && a.jitter == b.jitter && a.width == b.width && a.height == b.height;
 }
 
 /// Adds the direct light to the indirect light and sets the direct light to 0.
@@ -94,6 +94,8 @@ render::View Tracer::viewOf(const Request& request) const {
   const Request& before = previous_ ? *previous_ : request;
   render::View view = render::viewFrom(content_->world, content_->camera, options_.extent.width, options_.extent.height,
                                        jitter(request.number), jitter(before.number));
+  view.width = extentOf(request).width;
+  view.height = extentOf(request).height;
   if (request.view) {
     view.viewFromWorld = *request.view;
   }
@@ -129,6 +131,9 @@ void Tracer::finish(const Request& request, const render::View& view, Frame& fra
   frame.light = options_.light;
   frame.lightOffset = lightOffset(request);
   frame.previousLightOffset = previous_ ? lightOffset(*previous_) : frame.lightOffset;
+  if (previous_ && extentOf(*previous_) != extentOf(request)) {
+    frame.previousSize = glm::ivec2(extentOf(*previous_).width, extentOf(*previous_).height);
+  }
   frame.camera.cut = request.cut;
   frame.resetHistory = request.cut || request.resetHistory || !previous_;
   previous_ = request;

@@ -52,6 +52,9 @@ class Tracer {
     double animationFrame = 0.0;  ///< Time of the animation, in frames.
     /// The camera, world to view space; nullopt: the scene's.
     std::optional<glm::mat4> view = std::nullopt;
+    /// Size of the picture; nullopt: `Options::extent`. The field of view is that of `Options::extent` in any case, so
+    /// that the size may change from frame to frame.
+    std::optional<fg::Extent> extent = std::nullopt;
     bool cut = false;           ///< Camera cut: nothing is carried over from the previous frame.
     bool resetHistory = false;  ///< Nothing is carried over from the previous frame, without a camera cut.
     bool reference = false;     ///< Add a reference: the mean of all samples since the image last changed.
@@ -106,6 +109,7 @@ class Tracer {
   render::View moveTo(const Request& request);
   /// Traces on the processor, and adds to `traced_`.
   render::Film renderFilm(const render::View& view, const render::SamplingSettings& sampling);
+  [[nodiscard]] fg::Extent extentOf(const Request& request) const { return request.extent.value_or(options_.extent); }
   [[nodiscard]] glm::ivec2 lightOffset(const Request& request) const;
   [[nodiscard]] render::View viewOf(const Request& request) const;
   [[nodiscard]] render::SamplingSettings samplingOf(const Request& request) const;

@@ -86,6 +86,7 @@ TEST_F(HostProgramTest, RefusesCommandLinesWithoutMeaning) {
   expectUsage({scene, "--record", output.string() + "/host.gif"}, ".webp");
   expectUsage({scene, "-o", output.string(), "--exposure", "bright"}, "--exposure bright");
   expectUsage({scene}, "--output");
+  expectUsage({scene, "-o", output.string(), "--target-ms", "16"}, "--target-ms");
   expectUsage({scene, "-o", output.string(), "--frames", "3-1"}, "--frames 3-1");
   expectUsage({scene, "-o", output.string(), "--set", "nothing=1"}, "nothing");
   expectUsage({scene, "-o", output.string(), "--compare", "nothing"}, "--compare nothing");

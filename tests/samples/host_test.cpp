@@ -1,5 +1,6 @@
 // The sample host without a window: runs its frame on a device under synchronization validation, and compares the
 // result with that of the CPU.
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
@@ -363,6 +364,43 @@ TEST_F(LiveFrameTest, AConstantChangesWithoutAnythingMadeAndHistoryGrows) {
 }
 
 // Frames of the previous graph are in flight at every change.
+// Neither camera nor objects move in the first frames, so that motion is that of the change in size alone: none.
+TEST_F(LiveFrameTest, HistoryGoesOnWhenTheSizeChanges) {
+  const std::unique_ptr<Denoiser> method = makeDenoiser("walr");
+  const std::unique_ptr<Denoiser> other = makeDenoiser("svgf");
+  constexpr std::array kSizes{kExtent, fg::Extent{61, 34}, fg::Extent{36, 20}, kExtent};
+  const std::array<HostView, 3> views{HostView{}, HostView{HostView::Kind::Texture, "normal"},
+                                      HostView{.kind = HostView::Kind::Compare, .compared = other.get()}};
+  number = 0;
+  std::uint32_t age = 0;
+  fg::Extent before = kExtent;
+  for (std::size_t i = 0; i < kSizes.size(); ++i) {
+    live.setExtent(kSizes.at(i));
+    live.declare(*method, {}, LiveFrame::Start::FromHistory);
+    const Tracer::Request request{.number = number++, .extent = kSizes.at(i)};
+    const HostFrame frame = tracer.hostFrame(request);
+    EXPECT_EQ(frame.extent, kSizes.at(i));
+    EXPECT_EQ(frame.constants.previousPixelFromPixel,
+              glm::vec2(before.width, before.height) / glm::vec2(kSizes.at(i).width, kSizes.at(i).height));
+    for (const float motion : frame.inputs.frame.motion.values()) ASSERT_NEAR(motion, 0.0F, 1e-3F);
+    const fg::vk::Frame recorded = queue.begin();
+    live.record(recorded, frame, {});
+    queue.submit(recorded);
+    EXPECT_EQ(live.shown(), kSizes.at(i));
+    EXPECT_EQ(ages(), all(++age));
+    before = kSizes.at(i);
+  }
+  // Every view at a size below that of the picture.
+  live.setExtent(kSizes[1]);
+  for (const HostView& view : views) {
+    live.declare(*method, view, LiveFrame::Start::FromHistory);
+    const fg::vk::Frame recorded = queue.begin();
+    live.record(recorded, tracer.hostFrame({.number = number++, .extent = kSizes[1]}), {});
+    queue.submit(recorded);
+  }
+  queue.waitAll();
+}
+
 TEST_F(LiveFrameTest, AnotherSceneStartsWithoutHistory) {
   const std::unique_ptr<Denoiser> method = makeDenoiser("walr");
   live.declare(*method, {}, LiveFrame::Start::FromHistory);

@@ -14,6 +14,7 @@
 #include "passes/denoiser.h"
 #include "samples/host/camera_control.h"
 #include "samples/host/open_scene.h"
+#include "samples/host/resolution_control.h"
 #include "samples/host/session.h"
 #include "samples/host/tracer.h"
 #include "tests/samples/temporary_directory.h"
@@ -222,6 +223,62 @@ TEST_F(SessionTest, ComparesWithAnotherMethod) {
   session.takeGraphChange();
   session.compareWith("flr", makeDenoiser("flr"));
   EXPECT_EQ(session.takeGraphChange(), GraphChange::None) << "it is not shown";
+}
+
+/// Frames whose times are computed: a part that does not depend on the size, a part for every pixel, and noise.
+class ResolutionTest : public testing::Test {
+ protected:
+  void play(int frames) {
+    for (int i = 0; i < frames; ++i) {
+      const fg::Extent before = control.extent();
+      control.frameTook((fixed + perPixel * before.width * before.height) * (0.95 + 0.05 * (i % 3)));
+      changes += control.extent() == before ? 0 : 1;
+    }
+  }
+  [[nodiscard]] double time() const { return fixed + perPixel * control.extent().width * control.extent().height; }
+
+  static constexpr fg::Extent kFull{1920, 1080};
+  ResolutionControl control{kFull};
+  double fixed = 2.0;
+  double perPixel = 30.0 / (1920.0 * 1080.0);
+  int changes = 0;
+};
+
+TEST_F(ResolutionTest, HoldsTheTimeOfAFrameWithFewChanges) {
+  control.setTarget(16.0);
+  play(100);
+  EXPECT_LE(time(), 16.0);
+  EXPECT_GE(time(), 0.8 * 16.0);
+  EXPECT_LE(changes, 3);
+  EXPECT_NEAR(control.extent().width * 1080.0, control.extent().height * 1920.0, 1920.0);
+  changes = 0;
+  play(400);
+  EXPECT_EQ(changes, 0) << "the size comes to rest";
+
+  for (const double load : {1.6, 0.5}) {
+    perPixel *= load;
+    changes = 0;
+    play(100);
+    EXPECT_LE(time(), 16.0) << load;
+    EXPECT_GE(time(), 0.8 * 16.0) << load;
+    EXPECT_LE(changes, 3) << load;
+  }
+}
+
+TEST_F(ResolutionTest, StaysBetweenHalfAndAllOfTheSides) {
+  play(100);
+  EXPECT_EQ(control.extent(), kFull) << "nothing is to be held";
+  control.setTarget(1.0);
+  play(100);
+  EXPECT_EQ(control.extent(), (fg::Extent{960, 540}));
+  control.setTarget(1000.0);
+  play(100);
+  EXPECT_EQ(control.extent(), kFull);
+  control.setTarget(1.0);
+  play(100);
+  control.setTarget(0.0);
+  EXPECT_EQ(control.extent(), kFull);
+  EXPECT_EQ(changes, 3);
 }
 
 class OpenSceneTest : public SessionTest {

@@ -15,6 +15,7 @@
 #include "framegraph/vulkan/frame_queue.h"
 #include "samples/host/live_frame.h"
 #include "samples/host/open_scene.h"
+#include "samples/host/resolution_control.h"
 #include "samples/host/window/interface.h"
 #include "samples/host/window/presenter.h"
 
@@ -51,6 +52,7 @@ class Show {
         surface_(surface),
         picture_(device, extent),
         live_(device, picture_, kFramesInFlight, tracer.light(), tracer.gpuScene()),
+        control_(extent),
         queue_(device.device().context(), device.device().queue(), kFramesInFlight),
         interface_(device, window, kFramesInFlight) {
     facts_.deviceTraces = tracer.gpuScene() != nullptr;
@@ -84,6 +86,8 @@ class Show {
 
  private:
   void startTracing() {
+    control_.setTarget(session_.targetMilliseconds);
+    session_.extent = control_.extent();
     const bool needed = again_ || (change_ != GraphChange::None && !frameFits());
     if (const std::optional<Tracer::Request> request = session_.nextRequest(needed)) {
       again_ = false;
@@ -123,13 +127,15 @@ class Show {
   }
 
   /// Bring the graph up to date with the choices of the session.
-  void follow() {
+  /// @param resized  the frame at hand has another size than those before it
+  void follow(bool resized) {
+    live_.setExtent(frame_.extent);
     if (change_ == GraphChange::Settings && live_.update(session_.method(), session_.view())) {
       again_ = session_.frozen;  // One more frame shows the new settings, with the existing history.
       change_ = GraphChange::None;
       return;
     }
-    if (session_.dragging && live_.declared()) {
+    if (session_.dragging && live_.declared() && !resized) {
       return;
     }
     // While the session is frozen, only the current frame is available: it is denoised again, without history.
@@ -162,8 +168,10 @@ class Show {
       waitForFrame();
     }
     change_ = std::max(change_, session_.takeGraphChange());
+    const bool resized = fresh_ && frame_.extent != live_.extent();
+    if (resized) change_ = std::max(change_, GraphChange::Settings);
     if (change_ != GraphChange::None && frameFits()) {
-      follow();
+      follow(resized);
       facts_.graphBytes = live_.executor().allocatedBytes();
       facts_.memory = deviceMemory(device_);
     }
@@ -184,13 +192,15 @@ class Show {
       double sum = 0.0;
       for (const fg::vk::PassTime& pass : times) sum += pass.milliseconds;
       if (fresh_) remember(facts_.deviceHistory, sum);
+      if (fresh_) control_.frameTook(std::max(sum, facts_.deviceTraces ? 0.0 : facts_.tracingHistory.back()));
       if (const auto traced = live_.traced(recorded.slot)) facts_.traced = *traced;
     }
+    if (fresh_ && frame_.extent != live_.extent()) fresh_ = false;  // The view needs another frame, and waits for it.
     if (std::exchange(fresh_, false)) {
       lastSlot_ = recorded.slot;
       live_.record(recorded, frame_, session_.viewConstants);
     }
-    presenter_->record(recorded, *image, place());
+    presenter_->record(recorded, *image, place(), live_.shown());
     queue_.submit(recorded, {.wait = presenter_->swapchain().acquired(recorded.slot),
                              .waitStage = VK_PIPELINE_STAGE_TRANSFER_BIT,
                              .signal = presenter_->swapchain().rendered(*image)});
@@ -213,6 +223,7 @@ class Show {
   const Surface& surface_;
   ShownPicture picture_;
   LiveFrame live_;
+  ResolutionControl control_;
   fg::vk::FrameQueue queue_;
   Interface interface_;
   std::optional<Presenter> presenter_;

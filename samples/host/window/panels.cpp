@@ -126,6 +126,19 @@ void chart(const char* label, const std::deque<float>& times) {
                    {ImGui::GetContentRegionAvail().x, kHeight});
 }
 
+/// The time that a frame shall take, and the size that it has for that.
+void holdTimeWidgets(Session& session) {
+  auto target = static_cast<float>(session.targetMilliseconds);
+  ImGui::SetNextItemWidth(120.0F);
+  if (ImGui::DragFloat("##target", &target, 0.1F, 0.0F, 1000.0F, target > 0.0F ? "%.1f ms" : "any time")) {
+    session.targetMilliseconds = std::max(0.0F, target);
+  }
+  const fg::Extent full = session.tracer().extent();
+  const fg::Extent extent = session.extent.value_or(full);
+  ImGui::SameLine();
+  ImGui::Text("a frame: %u x %u of %u x %u", extent.width, extent.height, full.width, full.height);
+}
+
 /// Milliseconds of the passes of the method on the right of a comparison.
 double comparedTime(std::span<const fg::vk::PassTime> passes) {
   double sum = 0.0;
@@ -254,7 +267,7 @@ void settingsPanel(Session& session) {
   }
 }
 
-void timesPanel(const FrameFacts& facts, bool denoisesDirect, bool softwareDevice) {
+void timesPanel(Session& session, const FrameFacts& facts, bool softwareDevice) {
   constexpr double kMilliseconds = 1000.0;
   if (facts.deviceTraces) {
     ImGui::Text("Paths: traced on the device, %s", rateText(facts.traced).c_str());
@@ -263,7 +276,8 @@ void timesPanel(const FrameFacts& facts, bool denoisesDirect, bool softwareDevic
                 rateText(facts.traced).c_str());
     chart("##tracing", facts.tracingHistory);
   }
-  ImGui::Text("Direct light: %s", denoisesDirect ? "denoised" : "noisy");
+  ImGui::Text("Direct light: %s", session.tracer().denoisesDirect() ? "denoised" : "noisy");
+  holdTimeWidgets(session);
   double sum = 0.0;
   for (const fg::vk::PassTime& pass : facts.passTimes) {
     sum += pass.milliseconds;

@@ -23,8 +23,7 @@ void methodPanel(Session& session);
 /// A widget for every setting of the method, with the setting's own range.
 void settingsPanel(Session& session);
 /// Times of tracing and of every pass, and charts of the last frames.
-/// @param denoisesDirect  whether the direct light is denoised, too
-void timesPanel(const FrameFacts& facts, bool denoisesDirect, bool softwareDevice);
+void timesPanel(Session& session, const FrameFacts& facts, bool softwareDevice);
 /// Device memory, and a chart of it over passes: one rectangle for each resource, grey for histories.
 void memoryPanel(const fg::GraphDesc& graph, const fg::Plan& plan, const FrameFacts& facts);
 
