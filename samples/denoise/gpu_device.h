@@ -43,6 +43,7 @@ class GpuDevice {
 
   [[nodiscard]] const fg::vk::PhysicalDevice& physical() const { return physical_; }
   [[nodiscard]] const fg::vk::Device& device() const { return device_; }
+  [[nodiscard]] const fg::vk::InstanceFunctions& functions() const { return instance_.functions(); }
   [[nodiscard]] VkInstance instance() const { return instance_.handle(); }
   /// The cache of compiled pipelines that executors read and extend; null unless pipelines are stored.
   [[nodiscard]] fg::vk::PipelineCache* pipelineCache() const { return pipelineCache_.get(); }

@@ -75,17 +75,22 @@ PackedFrame packFrame(Frame frame, Light light) {
 }
 
 FrameDescription frameDescriptionOf(const Frame& frame, glm::vec2 motionScale) {
-  return {.view = frame.camera.view,
-          .previousView = frame.camera.previousView,
-          .projection = frame.camera.projection,
-          .previousProjection = frame.previousProjection,
-          .jitter = frame.camera.jitter,
-          .previousJitter = frame.previousJitter,
-          .motionScale = motionScale,
-          .frameIndex = static_cast<std::uint32_t>(frame.number),
-          .skyDepth = kSkyDepth,
-          .lightOffset = frame.lightOffset,
-          .previousLightOffset = frame.previousLightOffset};
+  FrameDescription description{.view = frame.camera.view,
+                               .previousView = frame.camera.previousView,
+                               .projection = frame.camera.projection,
+                               .previousProjection = frame.previousProjection,
+                               .jitter = frame.camera.jitter,
+                               .previousJitter = frame.previousJitter,
+                               .motionScale = motionScale,
+                               .frameIndex = static_cast<std::uint32_t>(frame.number),
+                               .skyDepth = kSkyDepth,
+                               .lightOffset = frame.lightOffset,
+                               .previousLightOffset = frame.previousLightOffset};
+  if (frame.previousSize) {
+    description.previousExtent = {static_cast<std::uint32_t>(frame.previousSize->x),
+                                  static_cast<std::uint32_t>(frame.previousSize->y)};
+  }
+  return description;
 }
 
 FrameConstants frameConstantsOf(const Frame& frame, glm::vec2 motionScale) {

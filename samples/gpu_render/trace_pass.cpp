@@ -52,7 +52,7 @@ void addTrace(fg::Graph& graph, const GpuScene& scene, Precision precision, cons
                                                    {"outObjectId", &TracedTextures::objectId}}};
   const fg::Extent extent = graph.textureDesc(textures.depth).extent;
   fg::PassBuilder pass =
-      graph.callback("trace", [&scene, precision, inputs, textures, extent](const fg::RecordContext& context) {
+      graph.callback(kTracePass, [&scene, precision, inputs, textures, extent](const fg::RecordContext& context) {
         scene.recordBuild(context.commandBuffer, context.buffer(inputs.placements));
         const TracePipeline& pipeline = scene.pipeline(precision);
         TracePipeline::Bindings bindings(pipeline);

@@ -43,6 +43,9 @@ struct TracedTextures {
   static VkFormat format(Precision precision);
 };
 
+/// Name of the pass that `addTrace` adds.
+inline constexpr const char* kTracePass = "trace";
+
 TraceInputs declareTraceInputs(fg::Graph& graph, const GpuScene& scene);
 
 /// Add a pass that builds the top-level acceleration structure and traces a frame. Barriers for the structure are

@@ -6,6 +6,7 @@ namespace walr::host {
 
 HostFrame packHostFrame(Frame frame) {
   HostFrame packed;
+  packed.extent = {static_cast<std::uint32_t>(frame.depth.width()), static_cast<std::uint32_t>(frame.depth.height())};
   if (!frame.light.everyPixel()) packed.noisyLight = packRgba16(frame.indirect);
   packed.direct = packRgba16(frame.direct);
   packed.emission = packRgba16(frame.emission);
@@ -20,8 +21,8 @@ HostFrame packHostFrame(Frame frame) {
 
 HostFrame hostFrameToTrace(Frame frame, gpu_render::TraceData trace) {
   HostFrame host;
-  host.constants =
-      frameConstants(frameDescriptionOf(frame, glm::vec2(1.0F)), {trace.constants.size.x, trace.constants.size.y});
+  host.extent = {trace.constants.size.x, trace.constants.size.y};
+  host.constants = frameConstants(frameDescriptionOf(frame, glm::vec2(1.0F)), host.extent);
   host.inputs.frame = std::move(frame);
   host.trace = std::move(trace);
   return host;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "framegraph/vulkan/staged_image.h"
+#include "passes/inspection.h"
 #include "samples/command_line/usage_error.h"
 #include "samples/host/shaders/view_constants.h"
 #include "shaders/constants/frame.h"
@@ -104,6 +106,9 @@ void declareTracedInputs(HostGraph& host, fg::Extent extent, const HostView& vie
   host.motion.texture = traced.motion;
   host.depth.texture = traced.depth;
   host.objectId.texture = traced.objectId;
+  const fg::BufferDesc row{std::uint64_t{extent.height} * sizeof(std::uint32_t)};
+  host.rays = addRayCount(graph, traced.indirect, graph.import("rays", row, fg::vk::kOverwritable));
+  graph.exported(*host.rays, fg::vk::kReadable);
 }
 
 /// The lit image of another light source than the denoiser. The composite of the denoised light exists in any case.
@@ -121,12 +126,35 @@ fg::Texture litBy(HostGraph& host, HostView::Kind source) {
   return addComposite(host.graph, name, indirect, {direct, host.albedo.texture, host.emission.texture}, output);
 }
 
-void addView(HostGraph& host, const HostView& view) {
+/// The lit image of the method that is compared, which gets the same inputs.
+fg::Texture litByCompared(HostGraph& host, Denoiser& compared, DenoiserInputs inputs) {
+  fg::Graph& graph = host.graph;
+  // Passes beside each other cannot be timed apart: this one has no work, but the second method starts after the first.
+  fg::PassBuilder start = graph.callback(std::string(kComparedPrefix) + "start", [](const fg::RecordContext&) {});
+  start.access(host.composite, fg::Access::SampledRead);
+  for (fg::Texture* const input : {&inputs.lighting, &inputs.depth, &inputs.normal, &inputs.motion}) {
+    *input = start.access(*input, fg::Access::StorageReadWrite);
+  }
+  const auto texture = [&](const char* name) {
+    return graph.texture(std::string(kComparedPrefix) + name, graph.textureDesc(host.composite));
+  };
+  Inspection nothing;
+  const fg::Texture denoised =
+      compared.add(StageGraph(graph, nothing, {.prefix = kComparedPrefix}), inputs, texture("denoised"));
+  return addComposite(graph, std::string(kComparedPrefix) + "composite", denoised,
+                      {host.direct.texture, host.albedo.texture, host.emission.texture}, texture("lit"));
+}
+
+void addView(HostGraph& host, const HostView& view, const DenoiserInputs& inputs) {
   fg::Graph& graph = host.graph;
   const fg::Buffer constants = graph.upload("view constants", sizeof(ViewConstants));
   host.viewConstants = constants;
   if (view.kind == HostView::Kind::Texture) {
-    host.display = addInspection(graph, findTexture(graph.desc(), view.texture), constants, host.display);
+    host.display = addInspection(graph, findTexture(graph.desc(), view.texture),
+                                 graph.textureDesc(host.composite).extent, constants, host.display);
+  } else if (view.kind == HostView::Kind::Compare) {
+    const fg::Texture right = litByCompared(host, *view.compared, inputs);
+    host.display = addComparison(graph, host.composite, right, constants, host.display);
   } else if (view.kind == HostView::Kind::Split) {
     const fg::Texture noisy = litBy(host, HostView::Kind::Noisy);
     const fg::Texture reference = litBy(host, HostView::Kind::Reference);
@@ -164,8 +192,9 @@ HostGraph declareHostGraph(const fg::vk::DeviceContext& device, Denoiser& method
   host.composite =
       addComposite(graph, "composite", host.denoised, {host.direct.texture, host.albedo.texture, host.emission.texture},
                    declareTarget(graph, "lit", colour, targets.composite));
-  host.display = declareTarget(graph, "display", {.format = kDisplayFormat, .extent = extent}, targets.display);
-  addView(host, view);
+  host.display = declareTarget(
+      graph, "display", {.format = kDisplayFormat, .extent = targets.displayExtent.value_or(extent)}, targets.display);
+  addView(host, view, inputs);
 
   exportTarget(graph, host.denoised, targets.denoised);
   exportTarget(graph, host.composite, targets.composite);

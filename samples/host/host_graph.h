@@ -3,6 +3,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "framegraph/declare/graph.h"
@@ -21,10 +22,12 @@ struct HostView {
     Noisy,      ///< The lit image with the traced, noisy light.
     Reference,  ///< The lit image with the light of the reference.
     Split,      ///< Noisy, denoised and reference side by side.
+    Compare,    ///< The method on the left, another one on the same light on the right.
     Texture,    ///< The values of one texture of the graph.
   };
   Kind kind = Kind::Denoised;
-  std::string texture = {};  ///< Name of the texture, for `Kind::Texture`.
+  std::string texture = {};      ///< Name of the texture, for `Kind::Texture`.
+  Denoiser* compared = nullptr;  ///< The method on the right, for `Kind::Compare`; must live while graphs are declared.
 
   /// Whether this view shows the traced light.
   [[nodiscard]] bool needsNoisy() const { return kind == Kind::Noisy || kind == Kind::Split; }
@@ -33,11 +36,16 @@ struct HostView {
   friend bool operator==(const HostView&, const HostView&) = default;
 };
 
+/// What the names of the passes, textures and histories of `HostView::compared` begin with.
+inline constexpr std::string_view kComparedPrefix = "right: ";
+
 /// A host's whole frame as one graph: uploads or the path tracer, the method's passes, composite, tone map.
 struct HostGraph {
   fg::Graph graph;
   /// If the device traces: what the tracer's pass needs. The pictures below then have no bytes to upload.
   std::optional<gpu_render::TraceInputs> trace;
+  /// If the device traces: the rays of each row, a uint each, to be read back as `fg::vk::kReadable`.
+  std::optional<fg::Buffer> rays;
   UploadedPicture lighting;                   ///< With sparse light, one texel for each group of pixels.
   std::optional<UploadedPicture> noisyLight;  ///< The same for all pixels, for views that show sparse light.
   UploadedPicture depth;
@@ -66,6 +74,8 @@ struct HostTargets {
   std::optional<Target> denoised;
   std::optional<Target> composite;
   std::optional<Target> display;
+  /// Size of the displayed image if it is larger than the frame, which then fills its first columns and rows.
+  std::optional<fg::Extent> displayExtent = std::nullopt;
 };
 
 /// Declare the frame.

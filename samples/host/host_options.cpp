@@ -1,7 +1,9 @@
 #include "samples/host/host_options.h"
 
+#include <algorithm>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "samples/command_line/arguments.h"
 #include "samples/command_line/device_options.h"
@@ -30,18 +32,33 @@ void addHostOptions(CLI::App& program, HostOptions& options) {
   program.add_option("--size", options.size, "Size of the image in pixels, 1 to 16384 each")
       ->type_name("WIDTHxHEIGHT")
       ->capture_default_str();
+  CLI::Option* const view =
+      program
+          .add_option("--view", options.view,
+                      "What is shown: denoised, noisy, reference, split (noisy, denoised and reference side by side), "
+                      "compare (denoised and noisy) or the name of a texture of the frame")
+          ->type_name("VIEW")
+          ->capture_default_str();
   program
-      .add_option("--view", options.view,
-                  "What is shown: denoised, noisy, reference, split (noisy, denoised and reference side by side) or "
-                  "the name of a texture of the frame")
-      ->type_name("VIEW")
-      ->capture_default_str();
+      .add_option("--compare", options.compare,
+                  "Show a second method on the right of an edge, on the same rays; with its first preset or another")
+      ->excludes(view)
+      ->type_name("METHOD[:PRESET]");
   program
       .add_option("--exposure", options.exposure,
                   "Exposure of the lit image in stops: a number, or auto, which maps the log-average luminance of the "
                   "first frame to middle grey (Reinhard et al. 2002)")
       ->type_name("auto|EV")
       ->capture_default_str();
+  constexpr double kLongest = 1e4;
+  program
+      .add_option(
+          "--target-ms", options.targetMilliseconds,
+          "In a window: hold the time of a frame, the longer of tracing on the processor and all passes on the "
+          "device, by smaller pictures. Above this time or below 80 % of it, the number of pixels changes; sides "
+          "stay between half and all of --size")
+      ->check(numberFrom(0.0, kLongest))
+      ->type_name("MS");
 #ifdef WALR_SHADER_COMMANDS
   program.add_flag("--reload-shaders", options.reloadShaders,
                    "Watch the sources of the denoiser's shaders, compile what changes and use it in the next frame");
@@ -109,6 +126,20 @@ std::filesystem::path builtInScene() {
       "walr-host SCENE.glb");
 }
 
+MethodOptions parseCompare(const std::string& text) {
+  const std::size_t colon = text.find(':');
+  MethodOptions method;
+  method.name = text.substr(0, colon);
+  if (colon != std::string::npos) method.preset = text.substr(colon + 1);
+  const std::vector<std::string> known = denoiserNames();
+  if (std::ranges::find(known, method.name) == known.end()) {
+    std::string names;
+    for (const std::string& name : known) names += (names.empty() ? "" : ", ") + name;
+    throw UsageError("--compare " + text + ": there is no such method; known methods: " + names);
+  }
+  return method;
+}
+
 HostView parseView(const std::string& text) {
   if (text == "denoised") {
     return {HostView::Kind::Denoised, ""};
@@ -121,6 +152,9 @@ HostView parseView(const std::string& text) {
   }
   if (text == "split") {
     return {HostView::Kind::Split, ""};
+  }
+  if (text == "compare") {
+    return {HostView::Kind::Compare, ""};
   }
   return {HostView::Kind::Texture, text};
 }

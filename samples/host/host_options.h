@@ -22,9 +22,11 @@ struct HostOptions {
   std::string frames;  ///< Empty: in a window the whole animation, otherwise frames 0 to 11.
   std::string size = "640x360";
   std::string view = "denoised";
+  std::string compare;  ///< Method with or without a preset, for the right side; empty: none.
   std::filesystem::path output;
   std::filesystem::path record;  ///< File of an animation; empty: none.
   std::string exposure = "auto";
+  double targetMilliseconds = 0.0;  ///< See `ResolutionControl::setTarget`.
   bool headless = false;
   bool exr = false;
   bool once = false;
@@ -37,7 +39,11 @@ void addHostOptions(CLI::App& program, HostOptions& options);
 /// @throws UsageError if the program's files lie in other places than where they were built or unpacked
 std::filesystem::path builtInScene();
 
-/// The view of a `--view` argument: denoised, noisy, reference, split, or the name of a texture of the frame.
+/// The method of a `--compare` argument: its name, and after a colon a preset.
+/// @throws UsageError naming an unknown method or preset
+MethodOptions parseCompare(const std::string& text);
+
+/// The view of a `--view` argument: denoised, noisy, reference, split, compare, or the name of a texture of the frame.
 HostView parseView(const std::string& text);
 
 }  // namespace walr::host

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include <glm/vec2.hpp>
+
 #include "framegraph/declare/format.h"
 #include "samples/host/shaders.h"
 
@@ -50,6 +52,12 @@ void addUploads(fg::Graph& graph, const fg::vk::DeviceContext& device, const std
   }
 }
 
+fg::Buffer addRayCount(fg::Graph& graph, fg::Texture lighting, fg::Buffer rays) {
+  fg::PassBuilder pass = graph.compute("count rays", shaders::countRays);
+  pass.sample("lighting", lighting).dispatch({1, graph.textureDesc(lighting).extent.height});
+  return pass.store("Rays", rays);
+}
+
 fg::Texture addComposite(fg::Graph& graph, const std::string& name, fg::Texture indirect, const Shading& shading,
                          fg::Texture output) {
   fg::PassBuilder pass = graph.compute(name, shaders::composite);
@@ -78,10 +86,21 @@ fg::Texture addSplitToneMap(fg::Graph& graph, fg::Texture left, fg::Texture midd
   return pass.store("outDisplay", display);
 }
 
-fg::Texture addInspection(fg::Graph& graph, fg::Texture inspected, fg::Buffer viewConstants, fg::Texture display) {
+fg::Texture addComparison(fg::Graph& graph, fg::Texture left, fg::Texture right, fg::Buffer viewConstants,
+                          fg::Texture display) {
+  fg::PassBuilder pass = graph.compute("tone map", shaders::toneMapCompare);
+  pass.sample("lit", left)
+      .sample("right", right)
+      .uniform("View", viewConstants)
+      .dispatch(graph.textureDesc(left).extent);
+  return pass.store("outDisplay", display);
+}
+
+fg::Texture addInspection(fg::Graph& graph, fg::Texture inspected, fg::Extent shown, fg::Buffer viewConstants,
+                          fg::Texture display) {
   const bool integers = holdsIntegers(graph.textureDesc(inspected).format);
   fg::PassBuilder pass = graph.compute("inspect", integers ? shaders::inspectUint : shaders::inspect);
-  pass.sample("inspected", inspected).dispatch(graph.textureDesc(display).extent);
+  pass.sample("inspected", inspected).constants(glm::ivec2(shown.width, shown.height)).dispatch(shown);
   if (!integers) {
     pass.uniform("View", viewConstants);
   }

@@ -22,6 +22,11 @@ UploadedPicture declarePicture(fg::Graph& graph, const std::string& name, VkForm
 /// @param device  must outlive the graph
 void addUploads(fg::Graph& graph, const fg::vk::DeviceContext& device, const std::vector<UploadedPicture*>& pictures);
 
+/// Write the number of rays in each row of a traced image, which its alpha holds
+/// (`gpu_render::TracedTextures::indirect`), to `rays`, a uint for each row. In half floats, the number of a pixel is
+/// exact up to 2048.
+fg::Buffer addRayCount(fg::Graph& graph, fg::Texture lighting, fg::Buffer rays);
+
 /// The inputs of a composite other than the indirect light; all RGBA16F.
 struct Shading {
   fg::Texture direct;
@@ -40,8 +45,13 @@ fg::Texture addToneMap(fg::Graph& graph, fg::Texture lit, fg::Buffer viewConstan
 fg::Texture addSplitToneMap(fg::Graph& graph, fg::Texture left, fg::Texture middle, fg::Texture right,
                             fg::Buffer viewConstants, fg::Texture display);
 
-/// Show a texture of the graph that has one layer. Float textures are scaled by `ViewConstants::gain` and `bias`. Of
-/// integer textures the bytes of the first component are shown.
-fg::Texture addInspection(fg::Graph& graph, fg::Texture inspected, fg::Buffer viewConstants, fg::Texture display);
+/// The same for two lit images; see `ViewConstants::middleEdge`.
+fg::Texture addComparison(fg::Graph& graph, fg::Texture left, fg::Texture right, fg::Buffer viewConstants,
+                          fg::Texture display);
+
+/// Show a texture of the graph that has one layer in the first columns and rows of the displayed image. Float textures
+/// are scaled by `ViewConstants::gain` and `bias`. Of integer textures the bytes of the first component are shown.
+fg::Texture addInspection(fg::Graph& graph, fg::Texture inspected, fg::Extent shown, fg::Buffer viewConstants,
+                          fg::Texture display);
 
 }  // namespace walr::host

@@ -1,6 +1,8 @@
 #include "samples/host/live_frame.h"
 
+#include <algorithm>
 #include <utility>
+#include <variant>
 
 #include "framegraph/declare/same_topology.h"
 #include "framegraph/vulkan/image.h"
@@ -9,10 +11,12 @@
 namespace walr::host {
 namespace {
 
-HostTargets shownTarget() {
+/// @param extent  of the picture
+HostTargets shownTarget(fg::Extent extent) {
   constexpr fg::ExternalState kShownBefore{kShown.stage, VK_ACCESS_2_NONE, VK_IMAGE_LAYOUT_UNDEFINED};
   HostTargets targets;
   targets.display = {kShownBefore, kShown};
+  targets.displayExtent = extent;
   return targets;
 }
 
@@ -29,11 +33,17 @@ ShownPicture::ShownPicture(const GpuDevice& device, fg::Extent extent)
 
 LiveFrame::LiveFrame(const GpuDevice& device, const ShownPicture& picture, std::uint32_t framesInFlight,
                      const LightPattern& light, const gpu_render::GpuScene* scene)
-    : device_(device), picture_(picture), framesInFlight_(framesInFlight), light_(light), scene_(scene) {}
+    : device_(device),
+      picture_(picture),
+      framesInFlight_(framesInFlight),
+      light_(light),
+      scene_(scene),
+      extent_(picture.desc().extent),
+      shown_(extent_) {}
 
 HostGraph LiveFrame::declareHost(Denoiser& method, const HostView& view) const {
-  return declareHostGraph(device_.device().context(), method, picture_.desc().extent, view, shownTarget(), light_, {},
-                          scene_);
+  return declareHostGraph(device_.device().context(), method, extent_, view, shownTarget(picture_.desc().extent),
+                          light_, {}, scene_);
 }
 
 bool LiveFrame::update(Denoiser& method, const HostView& view) {
@@ -53,19 +63,48 @@ void LiveFrame::declare(Denoiser& method, const HostView& view, Start start) {
   DeviceGraph device(device_, host.graph, framesInFlight_,
                      start == Start::FromHistory && before != nullptr ? &before->device : nullptr);
   device.executor().bind(host.display, picture_.external());
+  std::optional<fg::vk::StagedBuffer> rays;
+  if (host.rays) {
+    const fg::ResourceDecl& declared = host.graph.desc().resources[host.rays->resource];
+    rays.emplace(device_.device().context(), std::get<fg::BufferDesc>(declared.desc),
+                 device.executor().usage(*host.rays), framesInFlight_, declared.name);
+    device.executor().bind(*host.rays, rays->handle());
+  }
   if (recorded) predecessor_ = std::move(running_);
-  running_ = std::make_unique<Running>(Running{std::move(host), std::move(device)});
+  running_ = std::make_unique<Running>(Running{std::move(host), std::move(device), std::move(rays)});
+}
+
+void LiveFrame::changeScene(const gpu_render::GpuScene* scene) {
+  running_.reset();
+  predecessor_.reset();
+  retired_.clear();
+  scene_ = scene;
 }
 
 void LiveFrame::record(const fg::vk::Frame& recorded, const HostFrame& frame, const ViewConstants& view) {
   // The caller has waited for the last frame recorded with this slot, and so for all frames up to that one.
   std::erase_if(retired_, [&](const Retired& retired) { return retired.until <= frames_; });
-  uploadFrame(running_->device.executor(), running_->host, frame, view);
+  ViewConstants constants = view;
+  for (int* const edge : {&constants.leftEdge, &constants.rightEdge, &constants.middleEdge}) {
+    *edge = static_cast<int>(std::int64_t{*edge} * extent_.width / picture_.desc().extent.width);
+  }
+  uploadFrame(running_->device.executor(), running_->host, frame, constants);
   running_->device.executor().record(recorded.commandBuffer, recorded.slot);
+  if (running_->rays) running_->rays->recordReadback(recorded.commandBuffer, recorded.slot);
   // The first frame of a graph reads the histories of its predecessor.
   if (predecessor_ != nullptr) retired_.push_back({std::move(predecessor_), frames_ + framesInFlight_});
   ++running_->frames;
   ++frames_;
+  shown_ = extent_;
+}
+
+std::optional<TracedRays> LiveFrame::traced(std::uint32_t slot) {
+  const std::span<const fg::vk::PassTime> times = passTimes(slot);
+  if (!running_->rays || times.empty()) return std::nullopt;
+  const std::span<const std::byte> bytes = running_->rays->staging(slot);
+  std::vector<std::uint32_t> rows(bytes.size() / sizeof(std::uint32_t));
+  std::ranges::copy(bytes, std::as_writable_bytes(std::span(rows)).begin());
+  return tracedByDevice(rows, times);
 }
 
 std::vector<fg::vk::HistoryStatus> LiveFrame::histories() {

@@ -2,11 +2,13 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "framegraph/vulkan/frame_queue.h"
 #include "framegraph/vulkan/memory.h"
+#include "framegraph/vulkan/staged_buffer.h"
 #include "samples/denoise/device_graph.h"
 #include "samples/denoise/gpu_device.h"
 #include "samples/host/host_frame.h"
@@ -55,13 +57,24 @@ class LiveFrame {
   /// @returns false, without any effect, if more than constants has changed
   bool update(Denoiser& method, const HostView& view);
 
+  /// Size of the frames of graphs that are declared from now on, at most that of the picture, at first the same. They
+  /// fill the first columns and rows of the picture.
+  void setExtent(fg::Extent extent) { extent_ = extent; }
+  [[nodiscard]] fg::Extent extent() const { return extent_; }
+  /// Size of the frame that the picture shows.
+  [[nodiscard]] fg::Extent shown() const { return shown_; }
+
   /// Declare the graph of a method and a view, and create its device objects. Frames of the previous graph may still be
   /// in flight.
   /// @param start  `FromHistory` takes over the histories of the previous graph where they fit
   /// @throws see `declareHostGraph` and `DeviceGraph`; the previous graph then stays in use
   void declare(Denoiser& method, const HostView& view, Start start);
   [[nodiscard]] bool declared() const { return running_ != nullptr; }
+  /// Drop all graphs, and trace another scene in those that are declared from now on. The device must have finished all
+  /// frames.
+  void changeScene(const gpu_render::GpuScene* scene);
 
+  /// @param view  its edges are in pixels of the picture
   void record(const fg::vk::Frame& recorded, const HostFrame& frame, const ViewConstants& view);
 
   [[nodiscard]] fg::vk::Executor& executor() { return running_->device.executor(); }
@@ -75,11 +88,15 @@ class LiveFrame {
     return running_->device.executor().passTimes(slot);
   }
 
+  /// The rays that the device traced in the same frame; nothing if it does not trace or has no times of that frame.
+  std::optional<TracedRays> traced(std::uint32_t slot);
+
  private:
   struct Running {
     HostGraph host;
     DeviceGraph device;
-    std::uint32_t frames = 0;  ///< Number of recorded frames.
+    std::optional<fg::vk::StagedBuffer> rays;  ///< Of `HostGraph::rays`.
+    std::uint32_t frames = 0;                  ///< Number of recorded frames.
   };
   struct Retired {
     std::unique_ptr<Running> graph;
@@ -93,6 +110,8 @@ class LiveFrame {
   std::uint32_t framesInFlight_;
   LightPattern light_;
   const gpu_render::GpuScene* scene_;
+  fg::Extent extent_;
+  fg::Extent shown_;
   std::uint64_t frames_ = 0;  // Number of recorded frames, of all graphs.
   std::unique_ptr<Running> running_;
   std::unique_ptr<Running> predecessor_;  // Kept until `running_` has recorded a frame.

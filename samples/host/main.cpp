@@ -32,7 +32,12 @@ constexpr int kLastFrame = 11;  // Of the frames that are rendered without a win
 
 ViewConstants viewConstantsOf(fg::Extent extent, float stops) {
   const auto width = static_cast<int>(extent.width);
-  return {.leftEdge = width / 3, .rightEdge = width - width / 3, .gain = 1.0F, .bias = 0.0F, .stops = stops};
+  return {.leftEdge = width / 3,
+          .rightEdge = width - width / 3,
+          .middleEdge = width / 2,
+          .gain = 1.0F,
+          .bias = 0.0F,
+          .stops = stops};
 }
 
 /// What reloads shaders between frames; empty if the user does not ask for it.
@@ -57,10 +62,14 @@ Renderer makeRenderer(const GpuDevice& gpu, Denoiser& method, fg::Extent extent,
   }
 }
 
-void runHeadless(const HostOptions& options, float stops, Tracer& tracer, GpuDevice& gpu, Denoiser& method) {
+void runHeadless(const HostOptions& options, float stops, Tracer& tracer, GpuDevice& gpu, Denoiser& method,
+                 Denoiser& compared) {
   if (options.output.empty() && options.record.empty()) {
     throw UsageError(
         "without a window, frames are written to a folder or a file: give --output DIR or --record FILE.webp");
+  }
+  if (options.targetMilliseconds > 0.0) {
+    throw UsageError("--target-ms: without a window, all frames have the size of --size");
   }
   const FrameRange frames = parseFrameRange(options.frames);
   const fg::Extent extent = options.tracer.extent;
@@ -72,6 +81,7 @@ void runHeadless(const HostOptions& options, float stops, Tracer& tracer, GpuDev
   Renderer::Options rendering;
   rendering.light = options.tracer.light;
   rendering.view = parseView(options.view);
+  rendering.view.compared = &compared;
   rendering.viewConstants = viewConstantsOf(extent, stops);
   rendering.readComposite = options.exr;
   rendering.scene = tracer.gpuScene();
@@ -82,13 +92,20 @@ void runHeadless(const HostOptions& options, float stops, Tracer& tracer, GpuDev
   Progress progress(std::cerr, isatty(STDERR_FILENO) != 0, "frame",
                     static_cast<std::size_t>(frames.last - frames.first + 1), Progress::Clock::now());
   const ReloadShaders reload = shaderReload(options);
+  TracedRays traced;
   renderFrames(tracer, renderer, frames, request, [&](const RenderedFrame& frame) {
     if (reload) reload(renderer.graph().desc(), renderer.executor());
     if (!options.output.empty()) writeRenderedFrame(frame, extent, options.output);
     if (animation) animation->add(frame.display);
+    traced += frame.traced;
     progress.advance(Progress::Clock::now());
   });
   if (animation) animation->write(options.record);
+  constexpr std::uint64_t kMegabyte = std::uint64_t{1} << 20U;
+  std::cout << "rays: " << traced.rays << ", " << rateText(traced)
+            << "\ndevice memory: " << renderer.executor().allocatedBytes() / kMegabyte << " MiB of the frame graph";
+  if (tracer.gpuScene() != nullptr) std::cout << ", " << tracer.gpuScene()->bytes() / kMegabyte << " MiB of the scene";
+  std::cout << std::endl;
 }
 
 /// Whether to open a window: the user has chosen neither `--headless` nor `--record`, and windows are available.
@@ -111,6 +128,9 @@ void run(HostOptions& options) {
   }
   if (options.tracer.scene.empty()) options.tracer.scene = builtInScene();
   std::unique_ptr<Denoiser> method = makeMethod(options.method);
+  const MethodOptions compare = parseCompare(options.compare.empty() ? "none" : options.compare);
+  std::unique_ptr<Denoiser> compared = makeMethod(compare);
+  if (!options.compare.empty()) options.view = "compare";
   const bool window = opensWindow(options);
 #ifdef WALR_HOST_WINDOW
   if (window) {
@@ -138,12 +158,15 @@ void run(HostOptions& options) {
   }
   std::cout << "\ndevice: " << gpu.name() << ", driver " << gpu.driver() << "\ntracer: " << decision.text << std::endl;
   if (!window) {
-    runHeadless(options, stops, tracer, gpu, *method);
+    runHeadless(options, stops, tracer, gpu, *method, *compared);
   }
 #ifdef WALR_HOST_WINDOW
   if (window) {
     Session session(tracer, options.method.name, std::move(method), parseView(options.view),
                     viewConstantsOf(options.tracer.extent, stops), parseFrameRange(options.frames), options.once);
+    session.targetMilliseconds = options.targetMilliseconds;
+    session.autoExposure = !exposure;
+    session.compareWith(compare.name, std::move(compared));
     runWindow(tracer, gpu, session, options.tracer.extent, shaderReload(options));
   }
 #endif

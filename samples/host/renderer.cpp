@@ -1,6 +1,6 @@
 #include "samples/host/renderer.h"
 
-#include <span>
+#include <numeric>
 
 namespace walr::host {
 namespace {
@@ -29,23 +29,25 @@ Renderer::Renderer(const GpuDevice& gpu, Denoiser& method, fg::Extent extent, co
       display_(graph_.readBack(host_.display)) {
   if (options.readComposite) composite_ = graph_.readBack(host_.composite);
   if (options.readDenoised) denoised_ = graph_.readBack(host_.denoised);
+  if (host_.rays) rays_ = graph_.readBack(*host_.rays);
 }
 
 void Renderer::submit(const HostFrame& frame) {
   const fg::vk::Frame recorded = graph_.begin();
   uploadFrame(graph_.executor(), host_, frame, options_.viewConstants);
   graph_.submit(recorded);
-  numbers_.push_back(frame.inputs.frame.number);
+  submitted_.push_back({frame.inputs.frame.number, frame.traced});
 }
 
 std::optional<RenderedFrame> Renderer::finish() {
-  if (numbers_.empty()) {
+  if (submitted_.empty()) {
     return std::nullopt;
   }
   const std::uint32_t slot = graph_.finish();
   RenderedFrame frame;
-  frame.number = numbers_.front();
-  numbers_.pop_front();
+  frame.number = submitted_.front().number;
+  frame.traced = submitted_.front().traced;
+  submitted_.pop_front();
   frame.display = graph_.read<std::uint32_t>(display_, slot);
   const auto readImage = [&](const std::optional<ReadbackGraph::Index>& image) {
     return image ? unpackRgb(graph_.read<Rgba16>(*image, slot), static_cast<int>(extent_.width),
@@ -56,7 +58,17 @@ std::optional<RenderedFrame> Renderer::finish() {
   frame.denoised = readImage(denoised_);
   const auto times = graph_.executor().passTimes(slot);
   frame.passTimes.assign(times.begin(), times.end());
+  if (rays_) frame.traced = tracedByDevice(graph_.read<std::uint32_t>(*rays_, slot), frame.passTimes);
   return frame;
+}
+
+TracedRays tracedByDevice(std::span<const std::uint32_t> rows, std::span<const fg::vk::PassTime> passTimes) {
+  constexpr double kSecond = 1000.0;  // Milliseconds.
+  TracedRays traced{std::accumulate(rows.begin(), rows.end(), std::uint64_t{0}), 0.0};
+  for (const fg::vk::PassTime& pass : passTimes) {
+    if (pass.name == gpu_render::kTracePass) traced.seconds += pass.milliseconds / kSecond;
+  }
+  return traced;
 }
 
 void uploadFrame(fg::vk::Executor& executor, const HostGraph& graph, const HostFrame& frame,

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <deque>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "samples/denoise/device_graph.h"
@@ -20,6 +21,7 @@ struct RenderedFrame {
   Image composite;                     ///< 3 components; empty unless requested.
   Image denoised;                      ///< 3 components; empty unless requested.
   std::vector<fg::vk::PassTime> passTimes;
+  TracedRays traced;
 };
 
 /// Runs the host's frame on a device without a window: one graph, compiled once and executed every frame, with a few
@@ -60,8 +62,17 @@ class Renderer {
   ReadbackGraph::Index display_;
   std::optional<ReadbackGraph::Index> composite_;
   std::optional<ReadbackGraph::Index> denoised_;
-  std::deque<int> numbers_;  // Frame numbers of the frames in flight.
+  std::optional<ReadbackGraph::Index> rays_;
+  struct Submitted {
+    int number;
+    TracedRays traced;
+  };
+  std::deque<Submitted> submitted_;  // The frames in flight, the oldest first.
 };
+
+/// The rays that the device traced in a frame.
+/// @param rows  contents of `HostGraph::rays`
+TracedRays tracedByDevice(std::span<const std::uint32_t> rows, std::span<const fg::vk::PassTime> passTimes);
 
 /// Upload a frame's images and constants to an executor of the graph, for the frame that is recorded next.
 void uploadFrame(fg::vk::Executor& executor, const HostGraph& graph, const HostFrame& frame, const ViewConstants& view);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 #include <glm/geometric.hpp>
 
@@ -10,18 +11,20 @@
 
 namespace walr::host {
 
-Session::Session(const Tracer& tracer, std::string methodName, std::unique_ptr<Denoiser> method, const HostView& view,
+Session::Session(Tracer& tracer, std::string methodName, std::unique_ptr<Denoiser> method, const HostView& view,
                  const ViewConstants& constants, const FrameRange& frames, bool once)
     : viewConstants(constants),
       tracer_(tracer),
       methodName_(std::move(methodName)),
       method_(std::move(method)),
       preset_(presetInUse(methodName_, *method_)),
-      view_(view),
       frames_(frames),
       once_(once),
       animationFrame_(frames.first),
-      number_(frames.first) {}
+      number_(frames.first) {
+  chooseView(view);
+  graphChange_ = GraphChange::None;
+}
 
 std::optional<Tracer::Request> Session::nextRequest(bool evenFrozen) {
   const bool ended = once_ && started_ && animationFrame_ == frames_.last;
@@ -43,6 +46,7 @@ std::optional<Tracer::Request> Session::nextRequest(bool evenFrozen) {
   Tracer::Request request;
   request.number = started_ ? ++number_ : number_;
   request.animationFrame = animationFrame_;
+  request.extent = extent;
   request.cut = std::exchange(cut_, false);
   request.resetHistory = std::exchange(reset_, false);
   request.reference = view_.needsReference();
@@ -71,7 +75,16 @@ void Session::settingsChanged() {
   graphChange_ = std::max(graphChange_, GraphChange::Settings);
 }
 
-void Session::chooseView(const HostView& view) {
+void Session::compareWith(const std::string& name, std::unique_ptr<Denoiser> method) {
+  compared_ = std::move(method);
+  comparedName_ = name;
+  if (view_.kind != HostView::Kind::Compare) return;
+  view_.compared = compared_.get();
+  graphChange_ = GraphChange::Method;
+}
+
+void Session::chooseView(HostView view) {
+  view.compared = view.kind == HostView::Kind::Compare ? compared_.get() : nullptr;
   if (!(view == view_)) graphChange_ = std::max(graphChange_, GraphChange::Settings);
   view_ = view;
 }
@@ -99,8 +112,10 @@ void Session::moveCamera(const CameraInput& input) {
 
 bool Session::grabEdge(float column, float reach) {
   heldEdge_ = nullptr;
-  if (view_.kind != HostView::Kind::Split) return false;
-  for (int* const edge : {&viewConstants.leftEdge, &viewConstants.rightEdge}) {
+  std::vector<int*> edges;
+  if (view_.kind == HostView::Kind::Split) edges = {&viewConstants.leftEdge, &viewConstants.rightEdge};
+  if (view_.kind == HostView::Kind::Compare) edges = {&viewConstants.middleEdge};
+  for (int* const edge : edges) {
     const float distance = std::abs(column - static_cast<float>(*edge));
     if (distance > reach) continue;
     reach = distance;
@@ -111,9 +126,9 @@ bool Session::grabEdge(float column, float reach) {
 
 void Session::moveEdge(float column) {
   if (heldEdge_ == nullptr) return;
-  const bool left = heldEdge_ == &viewConstants.leftEdge;
-  const int least = left ? 0 : viewConstants.leftEdge;
-  const int most = left ? viewConstants.rightEdge : static_cast<int>(tracer_.extent().width);
+  const int least = heldEdge_ == &viewConstants.rightEdge ? viewConstants.leftEdge : 0;
+  const int most =
+      heldEdge_ == &viewConstants.leftEdge ? viewConstants.rightEdge : static_cast<int>(tracer_.extent().width);
   const float whole = std::round(column);
   *heldEdge_ = whole > static_cast<float>(least) ? static_cast<int>(std::min(whole, static_cast<float>(most))) : least;
 }
@@ -133,6 +148,18 @@ void Session::cutCamera() {
   }
   const int count = frames_.last - frames_.first + 1;
   animationFrame_ = frames_.first + (animationFrame_ - frames_.first + count / 2) % count;
+}
+
+void Session::sceneChanged() {
+  frames_ = {0, static_cast<int>(tracer_.lastAnimationFrame())};
+  animationFrame_ = frames_.first;
+  cameraMode_ = CameraMode::Scene;
+  camera_.reset();
+  frozen = false;
+  once_ = false;
+  started_ = false;
+  graphChange_ = GraphChange::Method;
+  if (autoExposure) viewConstants.stops = tracer_.exposure(frames_.first);
 }
 
 GraphChange Session::takeGraphChange() {

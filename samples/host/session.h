@@ -27,7 +27,7 @@ enum class CameraMode { Scene, Orbit, Fly };
 class Session {
  public:
   /// @param once  stop after the last frame; otherwise the animation starts again
-  Session(const Tracer& tracer, std::string methodName, std::unique_ptr<Denoiser> method, const HostView& view,
+  Session(Tracer& tracer, std::string methodName, std::unique_ptr<Denoiser> method, const HostView& view,
           const ViewConstants& viewConstants, const FrameRange& frames, bool once);
   ~Session() = default;
   Session(const Session&) = delete;
@@ -39,11 +39,14 @@ class Session {
 
   void chooseMethod(const std::string& name);
   void choosePreset(const std::string& name);
-  void chooseView(const HostView& view);
+  /// @param view  `HostView::compared` is set to the method of `compareWith`
+  void chooseView(HostView view);
+  /// Choose the method on the right of a comparison. At first it is `none`: the noisy light.
+  void compareWith(const std::string& name, std::unique_ptr<Denoiser> method);
   void chooseCamera(CameraMode mode);
   /// Move the free camera.
   void moveCamera(const CameraInput& input);
-  /// In the split view, take hold of the edge that is nearest to a column of the picture.
+  /// In the split view or a comparison, take hold of the edge that is nearest to a column of the picture.
   /// @param column  in pixels of the picture
   /// @param reach   largest distance from the edge, in the same unit
   /// @returns whether an edge is held
@@ -58,6 +61,8 @@ class Session {
   /// Jump ahead by half the animation or, with a free camera, to the pose of the scene's camera.
   void cutCamera();
   void resetHistory() { reset_ = true; }
+  /// To be called after the tracer has opened another scene: plays all of its animation, seen by its camera.
+  void sceneChanged();
 
   /// The largest change since the last call.
   GraphChange takeGraphChange();
@@ -67,6 +72,7 @@ class Session {
   [[nodiscard]] Denoiser& method() { return *method_; }
   /// See `presetInUse`.
   [[nodiscard]] const std::optional<std::string>& preset() const { return preset_; }
+  [[nodiscard]] const std::string& comparedName() const { return comparedName_; }
   [[nodiscard]] const HostView& view() const { return view_; }
   /// Speed of the flying camera in scene units per second.
   [[nodiscard]] float flySpeed() const;
@@ -75,16 +81,24 @@ class Session {
   [[nodiscard]] const FrameRange& frames() const { return frames_; }
 
   ViewConstants viewConstants;
-  bool paused = false;  ///< The animation stands still; tracing continues.
-  bool frozen = false;  ///< Nothing is traced.
+  /// Whether a new scene gets the exposure that suits it.
+  bool autoExposure = true;
+  /// Size of the pictures; nullopt: the tracer's.
+  std::optional<fg::Extent> extent;
+  double targetMilliseconds = 0.0;  ///< See `ResolutionControl::setTarget`.
+  std::string message;              ///< What the user should know of the scene; may be empty.
+  bool paused = false;              ///< The animation stands still; tracing continues.
+  bool frozen = false;              ///< Nothing is traced.
   /// The user is dragging a slider. Changes that need a new graph wait until the slider is released.
   bool dragging = false;
 
  private:
-  const Tracer& tracer_;
+  Tracer& tracer_;
   std::string methodName_;
   std::unique_ptr<Denoiser> method_;
   std::optional<std::string> preset_;
+  std::string comparedName_ = "none";
+  std::unique_ptr<Denoiser> compared_ = makeDenoiser(comparedName_);
   HostView view_;
   FrameRange frames_;
   bool once_;

@@ -1,18 +1,15 @@
 #include "samples/host/tracer.h"
 
 #include <algorithm>
+#include <chrono>
 #include <functional>
-#include <limits>
 #include <optional>
 #include <utility>
 
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
-
 #include "samples/denoise/frame_output.h"
+#include "samples/host/viewable_scene.h"
 #include "samples/image/exposure.h"
 #include "samples/render/animation.h"
-#include "samples/render/load_scene.h"
 #include "samples/render/scene_error.h"
 #include "samples/render/sequence_frame.h"
 #include "samples/render/view.h"
@@ -21,7 +18,7 @@ namespace walr::host {
 namespace {
 
 bool sameCamera(const render::View& a, const render::View& b) {
-  return a.viewFromWorld == b.viewFromWorld && a.jitter == b.jitter;
+  return a.viewFromWorld == b.viewFromWorld && a.jitter == b.jitter && a.width == b.width && a.height == b.height;
 }
 
 /// Adds the direct light to the indirect light and sets the direct light to 0.
@@ -32,43 +29,47 @@ void moveDirect(Image& direct, Image& indirect) {
 
 }  // namespace
 
-Tracer::Tracer(const Options& options, const GpuDevice* gpu)
-    : options_(options),
-      scene_(render::loadScene(options.scene, options.sky)),
-      camera_(render::findCamera(scene_, options.camera)),
-      world_(scene_, gpu != nullptr ? render::RayCasting::None : render::RayCasting::Embree) {
+Tracer::Content::Content(const Options& options, const GpuDevice* gpu)
+    : scene(loadViewableScene(options.scene, options.sky)),
+      camera(render::findCamera(scene, options.camera)),
+      world(scene, gpu != nullptr ? render::RayCasting::None : render::RayCasting::Embree) {
   if (gpu == nullptr) return;
   if (options.gbuffer != render::GBufferMode::FirstHit) {
     throw render::SceneError("--gbuffer material: the path tracer on the GPU has only first-hit; use --tracer cpu");
   }
-  gpuScene_ = std::make_unique<gpu_render::GpuScene>(*gpu, world_);
-  gpuScene_->prepare(gpu_render::Precision::Half);
+  device = std::make_unique<gpu_render::GpuScene>(*gpu, world);
+  device->prepare(gpu_render::Precision::Half);
+}
+
+Tracer::Tracer(const Options& options, const GpuDevice* gpu)
+    : options_(options), gpu_(gpu), content_(std::make_unique<Content>(options, gpu)) {}
+
+void Tracer::open(const std::filesystem::path& file) {
+  Options options = options_;
+  options.scene = file;
+  options.camera.clear();
+  content_ = std::make_unique<Content>(options, gpu_);
+  options_ = options;
+  previous_.reset();
+  reference_ = {};
 }
 
 glm::mat4 Tracer::sceneCamera(double animationFrame) const {
-  const std::vector<glm::mat4> nodes = render::worldTransforms(scene_, animationFrame / options_.framesPerSecond);
-  return render::viewFromNode(nodes[camera_], scene_.nodes[camera_].name);
+  const std::vector<glm::mat4> nodes =
+      render::worldTransforms(content_->scene, animationFrame / options_.framesPerSecond);
+  return render::viewFromNode(nodes[content_->camera], content_->scene.nodes[content_->camera].name);
 }
 
 double Tracer::lastAnimationFrame() const {
   float last = 0.0F;
-  for (const render::AnimationChannel& channel : scene_.animation) {
+  for (const render::AnimationChannel& channel : content_->scene.animation) {
     last = std::max(last, channel.times.back());
   }
   return last * options_.framesPerSecond;
 }
 
 glm::vec4 Tracer::bounds() const {
-  glm::vec3 low(std::numeric_limits<float>::max());
-  glm::vec3 high(std::numeric_limits<float>::lowest());
-  for (const render::Instance& instance : world_.instances()) {
-    for (const glm::vec3& position : scene_.meshes[instance.mesh].positions) {
-      const glm::vec3 point(instance.worldFromObject * glm::vec4(position, 1.0F));
-      low = glm::min(low, point);
-      high = glm::max(high, point);
-    }
-  }
-  return {0.5F * (low + high), 0.5F * glm::distance(low, high)};
+  return boundingSphere(content_->scene, content_->world.nodes());
 }
 
 float Tracer::exposure(double animationFrame) {
@@ -76,11 +77,12 @@ float Tracer::exposure(double animationFrame) {
   constexpr std::uint32_t kRows = 36;
   constexpr std::uint32_t kSamples = 64;
   const double seconds = animationFrame / options_.framesPerSecond;
-  std::optional<render::World> forProcessor;  // If the device traces, the processor cannot cast rays in `world_`.
-  render::World& world = gpuScene_ ? forProcessor.emplace(scene_) : world_;
+  std::optional<render::World>
+      forProcessor;  // If the device traces, the processor cannot cast rays in `content_->world`.
+  render::World& world = content_->device ? forProcessor.emplace(content_->scene) : content_->world;
   world.moveTo(seconds, seconds);
   const std::uint32_t columns = std::max(1U, kRows * options_.extent.width / options_.extent.height);
-  const render::View view = render::viewFrom(world, camera_, columns, kRows, {}, {});
+  const render::View view = render::viewFrom(world, content_->camera, columns, kRows, {}, {});
   const Frame frame = render::toFrame(
       render::renderFilm(world, view, {.samples = kSamples, .bounces = options_.bounces, .threads = options_.threads}),
       view, 0);
@@ -90,8 +92,10 @@ float Tracer::exposure(double animationFrame) {
 render::View Tracer::viewOf(const Request& request) const {
   const auto jitter = [&](int frame) { return options_.jitter ? render::haltonJitter(frame) : glm::vec2(0.0F); };
   const Request& before = previous_ ? *previous_ : request;
-  render::View view = render::viewFrom(world_, camera_, options_.extent.width, options_.extent.height,
+  render::View view = render::viewFrom(content_->world, content_->camera, options_.extent.width, options_.extent.height,
                                        jitter(request.number), jitter(before.number));
+  view.width = extentOf(request).width;
+  view.height = extentOf(request).height;
   if (request.view) {
     view.viewFromWorld = *request.view;
   }
@@ -105,7 +109,7 @@ glm::ivec2 Tracer::lightOffset(const Request& request) const {
 
 render::View Tracer::moveTo(const Request& request) {
   const double before = previous_ ? previous_->animationFrame : request.animationFrame;
-  world_.moveTo(request.animationFrame / options_.framesPerSecond, before / options_.framesPerSecond);
+  content_->world.moveTo(request.animationFrame / options_.framesPerSecond, before / options_.framesPerSecond);
   return viewOf(request);
 }
 
@@ -127,6 +131,9 @@ void Tracer::finish(const Request& request, const render::View& view, Frame& fra
   frame.light = options_.light;
   frame.lightOffset = lightOffset(request);
   frame.previousLightOffset = previous_ ? lightOffset(*previous_) : frame.lightOffset;
+  if (previous_ && extentOf(*previous_) != extentOf(request)) {
+    frame.previousSize = glm::ivec2(extentOf(*previous_).width, extentOf(*previous_).height);
+  }
   frame.camera.cut = request.cut;
   frame.resetHistory = request.cut || request.resetHistory || !previous_;
   previous_ = request;
@@ -134,19 +141,32 @@ void Tracer::finish(const Request& request, const render::View& view, Frame& fra
 }
 
 HostFrame Tracer::hostFrame(const Request& request) {
-  if (!gpuScene_) return packHostFrame(trace(request));
+  if (!content_->device) {
+    HostFrame frame = packHostFrame(trace(request));
+    frame.traced = traced_;
+    return frame;
+  }
   const render::View view = moveTo(request);
-  gpu_render::TraceData data{gpu_render::sceneState(world_), gpuScene_->placements(world_),
-                             gpu_render::traceConstants(world_, view, samplingOf(request))};
+  gpu_render::TraceData data{gpu_render::sceneState(content_->world), content_->device->placements(content_->world),
+                             gpu_render::traceConstants(content_->world, view, samplingOf(request))};
   if (options_.denoiseDirect) data.constants.flags |= gpu_render::kDirectInIndirect;
   Frame frame = render::frameOfView(view, request.number);
   finish(request, view, frame);
   return hostFrameToTrace(std::move(frame), std::move(data));
 }
 
+render::Film Tracer::renderFilm(const render::View& view, const render::SamplingSettings& sampling) {
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point start = Clock::now();
+  render::Film film = render::renderFilm(content_->world, view, sampling);
+  traced_ += {film.rays, std::chrono::duration<double>(Clock::now() - start).count()};
+  return film;
+}
+
 Frame Tracer::trace(const Request& request) {
+  traced_ = {};
   const render::View view = moveTo(request);
-  Frame frame = render::toFrame(render::renderFilm(world_, view, samplingOf(request)), view, request.number);
+  Frame frame = render::toFrame(renderFilm(view, samplingOf(request)), view, request.number);
   if (request.reference) {
     frame.reference = traceReference(request, view);
   }
@@ -175,7 +195,7 @@ Reference Tracer::traceReference(const Request& request, const render::View& vie
   sampling.seed = options_.seed * 2 + 1;
   sampling.firstSample = reference_.steps * options_.referenceSamples;
   sampling.threads = options_.threads;
-  render::Film film = render::renderFilm(world_, view, sampling);
+  render::Film film = renderFilm(view, sampling);
   ++reference_.steps;
   for (std::size_t i = 0; i < pixels; ++i) {
     reference_.indirect[i] += glm::dvec3(film.indirect[i]);

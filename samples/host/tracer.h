@@ -13,6 +13,7 @@
 #include "passes/light_pattern.h"
 #include "samples/gpu_render/gpu_scene.h"
 #include "samples/host/host_frame.h"
+#include "samples/host/traced_rays.h"
 #include "samples/render/film.h"
 #include "samples/render/gbuffer.h"
 #include "samples/render/scene.h"
@@ -51,19 +52,27 @@ class Tracer {
     double animationFrame = 0.0;  ///< Time of the animation, in frames.
     /// The camera, world to view space; nullopt: the scene's.
     std::optional<glm::mat4> view = std::nullopt;
+    /// Size of the picture; nullopt: `Options::extent`. The field of view is that of `Options::extent` in any case, so
+    /// that the size may change from frame to frame.
+    std::optional<fg::Extent> extent = std::nullopt;
     bool cut = false;           ///< Camera cut: nothing is carried over from the previous frame.
     bool resetHistory = false;  ///< Nothing is carried over from the previous frame, without a camera cut.
     bool reference = false;     ///< Add a reference: the mean of all samples since the image last changed.
   };
 
   /// @param gpu  traces the frames, must outlive this (see `gpu_render::GpuScene`); null: the processor does
-  /// @throws render::SceneError for a scene that cannot be rendered
+  /// @throws render::SceneError for a scene that cannot be rendered; one without a camera or light is completed, see
+  ///         `loadViewableScene`
   explicit Tracer(const Options& options, const GpuDevice* gpu = nullptr);
+
+  /// Trace another scene with the same options, seen by its first camera. The next frame has no previous one.
+  /// @throws as the constructor; then nothing has changed
+  void open(const std::filesystem::path& file);
 
   [[nodiscard]] fg::Extent extent() const { return options_.extent; }
   [[nodiscard]] bool denoisesDirect() const { return options_.denoiseDirect; }
   /// See `render::Scene::warnings`.
-  [[nodiscard]] const std::vector<std::string>& warnings() const { return scene_.warnings; }
+  [[nodiscard]] const std::vector<std::string>& warnings() const { return content_->scene.warnings; }
   [[nodiscard]] const LightPattern& light() const { return options_.light; }
   /// Pose of the scene's camera in a frame of the animation: world to view space.
   [[nodiscard]] glm::mat4 sceneCamera(double animationFrame) const;
@@ -77,10 +86,12 @@ class Tracer {
   [[nodiscard]] float exposure(double animationFrame);
 
   /// What `declareHostGraph` traces; null if the processor traces.
-  [[nodiscard]] const gpu_render::GpuScene* gpuScene() const { return gpuScene_.get(); }
+  [[nodiscard]] const gpu_render::GpuScene* gpuScene() const { return content_->device.get(); }
 
   /// Trace a frame on the processor. Its previous frame is that of the previous call.
   Frame trace(const Request& request);
+  /// The rays of the last frame that the processor traced, with those of its reference.
+  [[nodiscard]] const TracedRays& traced() const { return traced_; }
   /// The next frame for the host's graph: traced, or what the device needs to trace it.
   HostFrame hostFrame(const Request& request);
 
@@ -96,6 +107,9 @@ class Tracer {
 
   /// Moves the scene to a frame. Returns its view.
   render::View moveTo(const Request& request);
+  /// Traces on the processor, and adds to `traced_`.
+  render::Film renderFilm(const render::View& view, const render::SamplingSettings& sampling);
+  [[nodiscard]] fg::Extent extentOf(const Request& request) const { return request.extent.value_or(options_.extent); }
   [[nodiscard]] glm::ivec2 lightOffset(const Request& request) const;
   [[nodiscard]] render::View viewOf(const Request& request) const;
   [[nodiscard]] render::SamplingSettings samplingOf(const Request& request) const;
@@ -103,14 +117,24 @@ class Tracer {
   void finish(const Request& request, const render::View& view, Frame& frame);
   Reference traceReference(const Request& request, const render::View& view);
 
+  /// A scene, ready to be traced.
+  struct Content {
+    /// For parameters and errors see `Tracer`.
+    Content(const Options& options, const GpuDevice* gpu);
+
+    render::Scene scene;
+    std::uint32_t camera;
+    render::World world;
+    std::unique_ptr<gpu_render::GpuScene> device;  ///< Null if the processor traces.
+  };
+
   Options options_;
-  render::Scene scene_;
-  std::uint32_t camera_;
-  render::World world_;
-  std::unique_ptr<gpu_render::GpuScene> gpuScene_;
+  const GpuDevice* gpu_;
+  std::unique_ptr<Content> content_;
   std::optional<Request> previous_;
   glm::mat4 previousView_{1.0F};
   Accumulation reference_;
+  TracedRays traced_;
 };
 
 }  // namespace walr::host

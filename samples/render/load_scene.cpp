@@ -42,9 +42,7 @@ void checkContent(Scene& scene) {
     throw SceneError("its default scene has no triangles");
   }
   if (!emission) {
-    scene.warnings.emplace_back(
-        "the scene has no light, so that all frames will be black: add a KHR_lights_punctual light, an emissive "
-        "material, sky_radiance in the scene's extras, or --sky");
+    scene.warnings.emplace_back(kNoLightWarning);
   }
 }
 

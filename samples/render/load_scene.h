@@ -1,10 +1,16 @@
 #pragma once
 
 #include <filesystem>
+#include <string_view>
 
 #include "samples/render/scene.h"
 
 namespace walr::render {
+
+/// Of `Scene::warnings`: nothing in the scene gives light.
+inline constexpr std::string_view kNoLightWarning =
+    "the scene has no light, so that all frames will be black: add a KHR_lights_punctual light, an emissive material, "
+    "sky_radiance in the scene's extras, or --sky";
 
 /// Read a glTF 2.0 file (.gltf or .glb) with everything that it refers to.
 /// @param sky  file of an equirectangular sky (see `loadSky`) that replaces the scene's own; may be empty

@@ -74,7 +74,8 @@ struct Frame {
   /// Projection and jitter of the frame before; for the first frame, those of this frame.
   glm::mat4 previousProjection{1.0F};
   glm::vec2 previousJitter{0.0F};
-  bool resetHistory = false;  ///< First frame, or a camera cut.
+  std::optional<glm::ivec2> previousSize;  ///< Of the frame before, pixels, if it differs.
+  bool resetHistory = false;               ///< First frame, or a camera cut.
   std::optional<Reference> reference;
   std::vector<NonFiniteChannel> nonFinite;
 };

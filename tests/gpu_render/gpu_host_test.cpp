@@ -11,6 +11,7 @@
 #include "framegraph/vulkan/frame_queue.h"
 #include "passes/denoiser.h"
 #include "samples/command_line/usage_error.h"
+#include "samples/denoise/device_memory.h"
 #include "samples/host/headless.h"
 #include "samples/host/live_frame.h"
 #include "samples/host/renderer.h"
@@ -86,6 +87,32 @@ TEST_F(GpuHost, ShowsWhatTheTracerOnTheProcessorShows) {
   }
 }
 
+// What the device counts in half floats is what the processor counts, but for paths that roundings lead elsewhere.
+TEST_F(GpuHost, CountsTheRaysThatTheDeviceTraces) {
+  for (const fg::Extent extent : {kExtent, fg::Extent{97, 5}}) {
+    Tracer::Options options = tracing("turntable.gltf");
+    options.extent = extent;
+    Tracer onProcessor(options);
+    Tracer onDevice(options, &gpu);
+    const std::unique_ptr<Denoiser> method = makeDenoiser("none");
+    Renderer renderer(gpu, *method, extent, {.scene = onDevice.gpuScene()});
+    renderFrames(onDevice, renderer, {12, 14}, {}, [&](const RenderedFrame& frame) {
+      const Tracer::Request request{.number = frame.number, .animationFrame = static_cast<double>(frame.number)};
+      const auto expected = static_cast<double>(onProcessor.hostFrame(request).traced.rays);
+      // One pixel in a hundred may have another path; its number of rays differs by less than twice the mean.
+      EXPECT_NEAR(static_cast<double>(frame.traced.rays), expected, 0.02 * expected) << frame.number;
+      EXPECT_GT(frame.traced.perSecond().value_or(0.0), 0.0);
+    });
+  }
+}
+
+TEST_F(GpuHost, TellsTheDeviceMemoryThatTheDriverCounts) {
+  const std::optional<DeviceMemory> before = deviceMemory(gpu);
+  if (!before) GTEST_SKIP() << "the device has no VK_EXT_memory_budget";
+  EXPECT_GT(before->budget, 0U);
+  EXPECT_LE(before->used, before->budget);
+}
+
 // A graph that is declared anew while frames of the old one are in flight, as the window does it.
 TEST_F(GpuHost, ChangesItsGraphWhileItTraces) {
   Tracer tracer(tracing("turntable.gltf"), &gpu);
@@ -105,6 +132,28 @@ TEST_F(GpuHost, ChangesItsGraphWhileItTraces) {
         live.record(recorded, tracer.hostFrame({.number = number, .animationFrame = static_cast<double>(number)}), {});
         queue.submit(recorded);
       }
+    }
+  }
+  queue.waitAll();
+}
+
+// As when a user drops a file onto the window.
+TEST_F(GpuHost, TracesAnotherScene) {
+  Tracer tracer(tracing("turntable.gltf"), &gpu);
+  constexpr std::uint32_t kFramesInFlight = 2;
+  const ShownPicture picture(gpu, kExtent);
+  LiveFrame live(gpu, picture, kFramesInFlight, {}, tracer.gpuScene());
+  fg::vk::FrameQueue queue(gpu.device().context(), gpu.device().queue(), kFramesInFlight);
+  const std::unique_ptr<Denoiser> method = makeDenoiser("walr");
+  for (const char* const scene : {"box.gltf", "kitchen.gltf", "turntable.gltf"}) {
+    queue.waitAll();
+    tracer.open(std::string(WALR_SCENES "/") + scene);
+    live.changeScene(tracer.gpuScene());
+    live.declare(*method, {}, LiveFrame::Start::Anew);
+    for (int number = 0; number < 4; ++number) {
+      const fg::vk::Frame recorded = queue.begin();
+      live.record(recorded, tracer.hostFrame({.number = number}), {});
+      queue.submit(recorded);
     }
   }
   queue.waitAll();

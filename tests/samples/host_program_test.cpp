@@ -39,6 +39,8 @@ TEST_F(HostProgramTest, WritesAPictureAFrame) {
   ASSERT_EQ(result.exitCode, 0) << result.err;
   EXPECT_EQ(outputFiles(), (std::vector<std::string>{"frame_0011.exr", "frame_0011.png", "frame_0012.exr",
                                                      "frame_0012.png", "frame_0013.exr", "frame_0013.png"}));
+  EXPECT_NE(result.out.find(" million rays/s\n"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find(" MiB of the frame graph\n"), std::string::npos) << result.out;
   // Its settings are not those of any preset.
   EXPECT_NE(result.out.find("method: walr_paper\n"), std::string::npos) << result.out;
 }
@@ -61,6 +63,22 @@ TEST_F(HostProgramTest, TracesAndDenoisesSparseLight) {
                       {"method 'svgf'"});
 }
 
+TEST_F(HostProgramTest, ComparesTwoMethods) {
+  const fs::path alone = folder.path() / "alone";
+  const std::vector<std::string> frames = {scene, "--frames", "11-12"};
+  const auto write = [&](const fs::path& directory, std::vector<std::string> more) {
+    more.insert(more.end(), frames.begin(), frames.end());
+    more.insert(more.end(), {"-o", directory.string()});
+    const test::ProcessResult result = host(more);
+    EXPECT_EQ(result.exitCode, 0) << result.err;
+    return test::readText(directory / "frame_0012.png");
+  };
+  const std::string both = write(output, {"--compare", "svgf:paper"});
+  EXPECT_NE(both, write(alone, {}));
+  EXPECT_NE(both, write(alone, {"--compare", "svgf"}));
+  EXPECT_EQ(write(alone, {"--view", "compare"}), write(alone, {"--compare", "none"}));
+}
+
 TEST_F(HostProgramTest, RefusesCommandLinesWithoutMeaning) {
   const auto expectUsage = [&](const std::vector<std::string>& arguments, const std::string& named) {
     test::expectFailure(host(arguments), kUsage, {named});
@@ -68,8 +86,12 @@ TEST_F(HostProgramTest, RefusesCommandLinesWithoutMeaning) {
   expectUsage({scene, "--record", output.string() + "/host.gif"}, ".webp");
   expectUsage({scene, "-o", output.string(), "--exposure", "bright"}, "--exposure bright");
   expectUsage({scene}, "--output");
+  expectUsage({scene, "-o", output.string(), "--target-ms", "16"}, "--target-ms");
   expectUsage({scene, "-o", output.string(), "--frames", "3-1"}, "--frames 3-1");
   expectUsage({scene, "-o", output.string(), "--set", "nothing=1"}, "nothing");
+  expectUsage({scene, "-o", output.string(), "--compare", "nothing"}, "--compare nothing");
+  expectUsage({scene, "-o", output.string(), "--compare", "walr:nothing"}, "nothing");
+  expectUsage({scene, "-o", output.string(), "--compare", "svgf", "--view", "noisy"}, "--compare");
   expectUsage({scene, "-o", output.string(), "--light-rate", "1/3"}, "--light-rate");
   expectUsage({scene, "-o", output.string(), "--view", "nothing"}, "'guides.depth.current'");
   EXPECT_FALSE(fs::exists(output));

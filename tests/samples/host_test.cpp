@@ -1,5 +1,6 @@
 // The sample host without a window: runs its frame on a device under synchronization validation, and compares the
 // result with that of the CPU.
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
@@ -26,6 +27,9 @@
 #include "samples/image/exr.h"
 #include "samples/image/half.h"
 #include "samples/image/tone_map.h"
+#include "samples/render/film.h"
+#include "samples/render/load_scene.h"
+#include "samples/render/view.h"
 #include "tests/error_text.h"
 #include "tests/samples/temporary_directory.h"
 #include "tests/vulkan/function_hooks.h"
@@ -179,7 +183,7 @@ TEST_F(HostTest, SplitViewShowsNoisyDenoisedAndReference) {
   const auto noisy = show(HostView::Kind::Noisy);
   const auto denoised = show(HostView::Kind::Denoised);
   const auto reference = show(HostView::Kind::Reference);
-  options.viewConstants = {.leftEdge = 20, .rightEdge = 50, .gain = 1.0F, .bias = 0.0F, .stops = 0.0F};
+  options.viewConstants = {.leftEdge = 20, .rightEdge = 50, .middleEdge = 0, .gain = 1.0F, .bias = 0.0F, .stops = 0.0F};
   const auto split = show(HostView::Kind::Split);
   EXPECT_NE(noisy, denoised);
   EXPECT_NE(denoised, reference);
@@ -187,6 +191,36 @@ TEST_F(HostTest, SplitViewShowsNoisyDenoisedAndReference) {
     const int x = static_cast<int>(i % kExtent.width);
     const std::uint32_t shown = x < 20 ? noisy[i] : x < 50 ? denoised[i] : reference[i];
     EXPECT_EQ(split[i], x == 20 || x == 50 ? 0xFFFFFFFFU : shown) << "pixel " << i;
+  }
+}
+
+// Both methods denoise the same rays, each as it does alone.
+TEST_F(HostTest, ComparisonShowsTwoMethodsEachAsItIsAlone) {
+  Renderer::Options options;
+  options.viewConstants.middleEdge = 30;
+  const std::string left = "walr";
+  const std::vector<RenderedFrame> ofLeft = render(options, left);
+  for (const std::string& right : denoiserNames()) {
+    const std::unique_ptr<Denoiser> compared = makeDenoiser(right);
+    options.view = {.kind = HostView::Kind::Compare, .compared = compared.get()};
+    const std::vector<RenderedFrame> together = render(options, left);
+    options.view = {};
+    const std::vector<RenderedFrame> ofRight = right == left ? ofLeft : render(options, right);
+    ASSERT_EQ(together.size(), ofRight.size());
+    for (std::size_t n = 0; n < together.size(); ++n) {
+      std::size_t wrong = 0;
+      for (std::size_t i = 0; i < together[n].display.size(); ++i) {
+        const int x = static_cast<int>(i % kExtent.width);
+        const std::uint32_t alone = x < 30 ? ofLeft[n].display[i] : ofRight[n].display[i];
+        wrong += together[n].display[i] != (x == 30 ? 0xFFFFFFFFU : alone) ? 1 : 0;
+      }
+      EXPECT_EQ(wrong, 0U) << right << ", frame " << n;
+    }
+    // Else times of passes beside each other could not be told apart.
+    const auto isRight = [](const fg::vk::PassTime& pass) { return pass.name.starts_with(kComparedPrefix); };
+    const auto& times = together.back().passTimes;
+    EXPECT_GE(std::ranges::count_if(times, isRight), 3) << right;
+    EXPECT_EQ(std::find_if_not(std::ranges::find_if(times, isRight), times.end(), isRight)->name, "tone map") << right;
   }
 }
 
@@ -235,7 +269,7 @@ TEST_F(HostTest, EveryTextureCanBeViewed) {
 TEST_F(HostTest, TextureViewShowsValuesScaledAndShifted) {
   Renderer::Options options;
   options.view = {HostView::Kind::Texture, "normal"};
-  options.viewConstants = {.leftEdge = 0, .rightEdge = 0, .gain = 0.5F, .bias = 0.5F, .stops = 0.0F};
+  options.viewConstants = {.leftEdge = 0, .rightEdge = 0, .middleEdge = 0, .gain = 0.5F, .bias = 0.5F, .stops = 0.0F};
   const std::vector<RenderedFrame> frames = render(options, "none");
   Tracer tracer(tracing());
   for (const RenderedFrame& frame : frames) {
@@ -330,6 +364,56 @@ TEST_F(LiveFrameTest, AConstantChangesWithoutAnythingMadeAndHistoryGrows) {
 }
 
 // Frames of the previous graph are in flight at every change.
+// Neither camera nor objects move in the first frames, so that motion is that of the change in size alone: none.
+TEST_F(LiveFrameTest, HistoryGoesOnWhenTheSizeChanges) {
+  const std::unique_ptr<Denoiser> method = makeDenoiser("walr");
+  const std::unique_ptr<Denoiser> other = makeDenoiser("svgf");
+  constexpr std::array kSizes{kExtent, fg::Extent{61, 34}, fg::Extent{36, 20}, kExtent};
+  const std::array<HostView, 3> views{HostView{}, HostView{HostView::Kind::Texture, "normal"},
+                                      HostView{.kind = HostView::Kind::Compare, .compared = other.get()}};
+  number = 0;
+  std::uint32_t age = 0;
+  fg::Extent before = kExtent;
+  for (std::size_t i = 0; i < kSizes.size(); ++i) {
+    live.setExtent(kSizes.at(i));
+    live.declare(*method, {}, LiveFrame::Start::FromHistory);
+    const Tracer::Request request{.number = number++, .extent = kSizes.at(i)};
+    const HostFrame frame = tracer.hostFrame(request);
+    EXPECT_EQ(frame.extent, kSizes.at(i));
+    EXPECT_EQ(frame.constants.previousPixelFromPixel,
+              glm::vec2(before.width, before.height) / glm::vec2(kSizes.at(i).width, kSizes.at(i).height));
+    for (const float motion : frame.inputs.frame.motion.values()) ASSERT_NEAR(motion, 0.0F, 1e-3F);
+    const fg::vk::Frame recorded = queue.begin();
+    live.record(recorded, frame, {});
+    queue.submit(recorded);
+    EXPECT_EQ(live.shown(), kSizes.at(i));
+    EXPECT_EQ(ages(), all(++age));
+    before = kSizes.at(i);
+  }
+  // Every view at a size below that of the picture.
+  live.setExtent(kSizes[1]);
+  for (const HostView& view : views) {
+    live.declare(*method, view, LiveFrame::Start::FromHistory);
+    const fg::vk::Frame recorded = queue.begin();
+    live.record(recorded, tracer.hostFrame({.number = number++, .extent = kSizes[1]}), {});
+    queue.submit(recorded);
+  }
+  queue.waitAll();
+}
+
+TEST_F(LiveFrameTest, AnotherSceneStartsWithoutHistory) {
+  const std::unique_ptr<Denoiser> method = makeDenoiser("walr");
+  live.declare(*method, {}, LiveFrame::Start::FromHistory);
+  for (int i = 0; i < 3; ++i) record();
+  queue.waitAll();
+  live.changeScene(nullptr);
+  tracer.open(WALR_SCENES "/turntable.gltf");
+  EXPECT_FALSE(live.declared());
+  live.declare(*method, {}, LiveFrame::Start::FromHistory);
+  record();
+  EXPECT_EQ(ages(), all(1));
+}
+
 TEST_F(LiveFrameTest, AnotherGraphTakesOverBetweenFrames) {
   const std::unique_ptr<Denoiser> method = makeDenoiser("walr");
   live.declare(*method, {}, LiveFrame::Start::FromHistory);
@@ -372,6 +456,25 @@ double meanSquaredDifference(const Image& a, const Image& b) {
     sum += difference * difference;
   }
   return sum / static_cast<double>(a.values().size());
+}
+
+// The same count as that of the path tracer alone; and a reference's rays count, too.
+TEST(Tracer, CountsTheRaysOfAFrameAndMeasuresTheirTime) {
+  Tracer::Options options = tracing();
+  options.samples = 2;
+  Tracer tracer(options);
+  const render::Scene scene = render::loadScene(options.scene);
+  const render::World world(scene);
+  const render::View view =
+      render::viewFrom(world, render::findCamera(scene, ""), kExtent.width, kExtent.height, {}, {});
+  const std::uint64_t expected = render::renderFilm(world, view, {.samples = options.samples}).rays;
+  EXPECT_GT(expected, std::uint64_t{kExtent.width} * kExtent.height);
+  const TracedRays traced = tracer.hostFrame({}).traced;
+  EXPECT_EQ(traced.rays, expected);
+  ASSERT_TRUE(traced.perSecond().has_value());
+  EXPECT_DOUBLE_EQ(*traced.perSecond() * traced.seconds, static_cast<double>(expected));
+  EXPECT_EQ(TracedRays{}.perSecond(), std::nullopt);
+  EXPECT_GT(tracer.hostFrame({.number = 1, .reference = true}).traced.rays, expected + expected / 4);
 }
 
 TEST(Tracer, ReferencesAddUpWhileNothingMoves) {

@@ -17,7 +17,7 @@ import sys
 import tempfile
 import time
 
-from virtual_screen import PATIENCE, Hands, read_png, virtual_screen, wait_for, write_png
+from virtual_screen import PATIENCE, FileDrop, Hands, read_png, virtual_screen, wait_for, write_png
 
 WIDTH, HEIGHT = 160, 90
 PANEL_WIDTH = 420
@@ -144,10 +144,10 @@ class Window:
         self.hands.click(*self.at(199, 58))
 
     def choose_view(self, name):
-        views = ["denoised", "noisy", "reference", "split", "texture"]
+        views = ["denoised", "noisy", "reference", "split", "compare", "texture"]
         self.choose(85, views.index(name), len(views))
         # Below it come a texture's name, gain and bias, or the edges of the split.
-        self.view_extras = {"texture": 3, "split": 1}.get(name, 0)
+        self.view_extras = {"texture": 3, "split": 1, "compare": 1}.get(name, 0)
 
     def choose_texture(self, index, count):
         self.choose(85 + self.LINE, index, count)
@@ -361,13 +361,31 @@ def play(host, screen):
         print(f"the animation goes on: frames {sorted(seen)} were seen")
 
 
+def drop(host, screen):
+    """A scene that is dropped onto the window takes the place of the old one; a file that is none leaves it."""
+    view = ("--view", "albedo")
+    with host.window(screen, "0-3", *view) as window:
+        files = FileDrop(screen)
+        other = Host(host.program, host.scene.with_name("turntable.gltf"), host.folder, host.screenshot)
+        # Until frame 12, nothing moves in it.
+        expected = other.pictures("0-0", *view)[0]
+        files.drop(other.scene)
+        window.must_show(expected, "the scene that was dropped onto it")
+        broken = host.folder / "broken.glb"
+        broken.write_bytes(b"glTF")
+        files.drop(broken)
+        time.sleep(1.0)
+        window.must_show(expected, "the same scene after a file that is no scene")
+        write_png(host.screenshot, screen.rows())
+
+
 def main():
     scenario, program, scenes, screenshot = sys.argv[1:]
     scene = "turntable.gltf" if scenario == "play" else "box.gltf"
     with tempfile.TemporaryDirectory() as folder, virtual_screen(folder) as screen:
         host = Host(program, pathlib.Path(scenes) / scene, pathlib.Path(folder), pathlib.Path(screenshot))
         scenarios = {"denoised": denoised, "split": split, "texture": texture, "methods": methods, "views": views,
-                     "play": play}
+                     "play": play, "drop": drop}
         scenarios[scenario](host, screen)
 
 

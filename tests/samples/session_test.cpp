@@ -1,16 +1,23 @@
 // What the user of the sample host does between frames: the camera, playback, and which changes need another graph. No
 // device is needed.
+#include <filesystem>
+#include <fstream>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
 #include <glm/gtc/matrix_transform.hpp>
+#include <nlohmann/json.hpp>
 
 #include "passes/denoiser.h"
 #include "samples/host/camera_control.h"
+#include "samples/host/open_scene.h"
+#include "samples/host/resolution_control.h"
 #include "samples/host/session.h"
 #include "samples/host/tracer.h"
+#include "tests/samples/temporary_directory.h"
 
 namespace walr::host {
 namespace {
@@ -188,6 +195,187 @@ TEST_F(SessionTest, EdgesOfTheSplitViewFollowTheMouse) {
   EXPECT_EQ(session.viewConstants.rightEdge, width);
   session.moveEdge(0.0F);
   EXPECT_EQ(session.viewConstants.rightEdge, width / 3);
+}
+
+TEST_F(SessionTest, ComparesWithAnotherMethod) {
+  Session session = make({0, 9}, false);
+  session.chooseView({HostView::Kind::Compare, ""});
+  EXPECT_EQ(session.takeGraphChange(), GraphChange::Settings);
+  EXPECT_EQ(session.comparedName(), "none");
+  ASSERT_NE(session.view().compared, nullptr);
+  EXPECT_FALSE(session.nextRequest()->reference);
+  const Denoiser* const before = session.view().compared;
+  session.compareWith("svgf", makeDenoiser("svgf"));
+  EXPECT_NE(session.view().compared, before);
+  EXPECT_EQ(session.takeGraphChange(), GraphChange::Method) << "both start without history";
+
+  const auto width = static_cast<int>(tracer.extent().width);
+  session.viewConstants.middleEdge = width / 2;
+  EXPECT_TRUE(session.grabEdge(static_cast<float>(width) / 2.0F, 4.0F));
+  session.moveEdge(5.0F);
+  EXPECT_EQ(session.viewConstants.middleEdge, 5);
+  session.moveEdge(-5.0F);
+  EXPECT_EQ(session.viewConstants.middleEdge, 0);
+  session.moveEdge(1e6F);
+  EXPECT_EQ(session.viewConstants.middleEdge, width);
+  session.chooseView({});
+  EXPECT_EQ(session.view().compared, nullptr);
+  session.takeGraphChange();
+  session.compareWith("flr", makeDenoiser("flr"));
+  EXPECT_EQ(session.takeGraphChange(), GraphChange::None) << "it is not shown";
+}
+
+/// Frames whose times are computed: a part that does not depend on the size, a part for every pixel, and noise.
+class ResolutionTest : public testing::Test {
+ protected:
+  void play(int frames) {
+    for (int i = 0; i < frames; ++i) {
+      const fg::Extent before = control.extent();
+      control.frameTook((fixed + perPixel * before.width * before.height) * (0.95 + 0.05 * (i % 3)));
+      changes += control.extent() == before ? 0 : 1;
+    }
+  }
+  [[nodiscard]] double time() const { return fixed + perPixel * control.extent().width * control.extent().height; }
+
+  static constexpr fg::Extent kFull{1920, 1080};
+  ResolutionControl control{kFull};
+  double fixed = 2.0;
+  double perPixel = 30.0 / (1920.0 * 1080.0);
+  int changes = 0;
+};
+
+TEST_F(ResolutionTest, HoldsTheTimeOfAFrameWithFewChanges) {
+  control.setTarget(16.0);
+  play(100);
+  EXPECT_LE(time(), 16.0);
+  EXPECT_GE(time(), 0.8 * 16.0);
+  EXPECT_LE(changes, 3);
+  EXPECT_NEAR(control.extent().width * 1080.0, control.extent().height * 1920.0, 1920.0);
+  changes = 0;
+  play(400);
+  EXPECT_EQ(changes, 0) << "the size comes to rest";
+
+  for (const double load : {1.6, 0.5}) {
+    perPixel *= load;
+    changes = 0;
+    play(100);
+    EXPECT_LE(time(), 16.0) << load;
+    EXPECT_GE(time(), 0.8 * 16.0) << load;
+    EXPECT_LE(changes, 3) << load;
+  }
+}
+
+TEST_F(ResolutionTest, StaysBetweenHalfAndAllOfTheSides) {
+  play(100);
+  EXPECT_EQ(control.extent(), kFull) << "nothing is to be held";
+  control.setTarget(1.0);
+  play(100);
+  EXPECT_EQ(control.extent(), (fg::Extent{960, 540}));
+  control.setTarget(1000.0);
+  play(100);
+  EXPECT_EQ(control.extent(), kFull);
+  control.setTarget(1.0);
+  play(100);
+  control.setTarget(0.0);
+  EXPECT_EQ(control.extent(), kFull);
+  EXPECT_EQ(changes, 3);
+}
+
+class OpenSceneTest : public SessionTest {
+ protected:
+  /// A scene of the project without some of its parts.
+  std::filesystem::path without(const std::string& scene, const std::vector<std::string>& nodeParts) {
+    nlohmann::json content = nlohmann::json::parse(std::ifstream(WALR_SCENES "/" + scene));
+    for (nlohmann::json& node : content["nodes"]) {
+      for (const std::string& part : nodeParts) node.erase(part);
+    }
+    content.erase("animations");
+    for (nlohmann::json& each : content["scenes"]) each.erase("extras");
+    for (nlohmann::json& material : content["materials"]) material.erase("emissiveFactor");
+    std::filesystem::path file = folder.path() / ("reduced " + scene);
+    std::ofstream(file) << content;
+    return file;
+  }
+
+  test::TemporaryDirectory folder;
+};
+
+TEST_F(OpenSceneTest, KeepsSettingsAndStartsCameraAndHistoryAnew) {
+  Session session = make({2, 9}, false);
+  session.chooseMethod("svgf");
+  session.method().set("accumulation.max-history", "5");
+  session.settingsChanged();
+  session.chooseCamera(CameraMode::Orbit);
+  tracer.trace(session.nextRequest().value());
+  tracer.trace(session.nextRequest().value());
+  const glm::mat4 before = tracer.sceneCamera(0.0);
+  session.takeGraphChange();
+  ASSERT_TRUE(openScene(WALR_SCENES "/turntable.gltf", tracer, session)) << session.message;
+
+  Tracer::Options options = boxScene();
+  options.scene = WALR_SCENES "/turntable.gltf";
+  Tracer alone(options);
+  EXPECT_NE(alone.sceneCamera(0.0), before);
+  EXPECT_EQ(tracer.bounds(), alone.bounds());
+  EXPECT_EQ(session.message, "turntable.gltf");
+  EXPECT_EQ(session.frames().first, 0);
+  EXPECT_EQ(session.frames().last, 47);
+  EXPECT_EQ(session.viewConstants.stops, alone.exposure(0.0));
+  EXPECT_EQ(session.methodName(), "svgf");
+  EXPECT_EQ(session.preset(), std::nullopt);
+  EXPECT_EQ(session.cameraMode(), CameraMode::Scene);
+  EXPECT_EQ(session.takeGraphChange(), GraphChange::Method);
+  const Tracer::Request request = session.nextRequest().value();
+  EXPECT_EQ(request.animationFrame, 0.0);
+  EXPECT_FALSE(request.view.has_value());
+  const Frame frame = tracer.trace(request);
+  EXPECT_TRUE(frame.resetHistory);
+  EXPECT_EQ(frame.camera.view, alone.sceneCamera(0.0));
+  EXPECT_EQ(frame.camera.previousView, frame.camera.view);
+}
+
+TEST_F(OpenSceneTest, AChosenExposureStays) {
+  Session session = make({0, 9}, false);
+  session.autoExposure = false;
+  session.viewConstants.stops = 2.5F;
+  ASSERT_TRUE(openScene(WALR_SCENES "/turntable.gltf", tracer, session));
+  EXPECT_EQ(session.viewConstants.stops, 2.5F);
+}
+
+TEST_F(OpenSceneTest, AFileThatCannotBeReadIsNamedAndTheOldSceneGoesOn) {
+  const std::filesystem::path broken = folder.path() / "broken.glb";
+  std::ofstream(broken) << "glTF";
+  Session session = make({2, 9}, false);
+  session.chooseCamera(CameraMode::Orbit);
+  tracer.trace(session.nextRequest().value());
+  const glm::vec4 bounds = tracer.bounds();
+  for (const std::filesystem::path& file : {broken, folder.path() / "missing.gltf", folder.path()}) {
+    EXPECT_FALSE(openScene(file, tracer, session));
+    EXPECT_EQ(session.message.find("Not opened: " + file.string() + ": "), 0U) << session.message;
+    EXPECT_GT(session.message.size(), ("Not opened: " + file.string() + ": ").size());
+    EXPECT_EQ(tracer.bounds(), bounds);
+    EXPECT_EQ(session.cameraMode(), CameraMode::Orbit);
+    EXPECT_EQ(session.takeGraphChange(), GraphChange::None);
+    EXPECT_FALSE(tracer.trace(session.nextRequest().value()).resetHistory);
+  }
+  EXPECT_EQ(session.animationFrame(), 5);
+}
+
+// Most files that people have hold neither camera nor light.
+TEST_F(OpenSceneTest, WithoutCameraAndLightASceneIsSeenAllTheSame) {
+  Session session = make({0, 9}, false);
+  ASSERT_TRUE(openScene(without("turntable.gltf", {"camera", "extensions"}), tracer, session)) << session.message;
+  EXPECT_NE(session.message.find("no camera"), std::string::npos) << session.message;
+  EXPECT_NE(session.message.find("white sky"), std::string::npos) << session.message;
+  EXPECT_EQ(session.message.find("black"), std::string::npos) << session.message;
+  const Frame frame = tracer.trace(session.nextRequest().value());
+  const glm::vec4 middle = frame.camera.view * glm::vec4(glm::vec3(tracer.bounds()), 1.0F);
+  EXPECT_NEAR(middle.x, 0.0F, 1e-4F * tracer.bounds().w);
+  EXPECT_NEAR(middle.y, 0.0F, 1e-4F * tracer.bounds().w);
+  EXPECT_GT(-middle.z, tracer.bounds().w);
+  std::size_t lit = 0;
+  for (std::size_t i = 0; i < frame.indirect.pixelCount(); ++i) lit += frame.indirect.pixel(i)[1] > 0.0F ? 1 : 0;
+  EXPECT_GT(lit, frame.indirect.pixelCount() / 10);
 }
 
 }  // namespace

@@ -82,6 +82,95 @@ def virtual_screen(folder):
         server.wait()
 
 
+class ClientMessage(ctypes.Structure):
+    """XClientMessageEvent"""
+    _fields_ = [("type", ctypes.c_int), ("serial", ctypes.c_ulong), ("send_event", ctypes.c_int),
+                ("display", ctypes.c_void_p), ("window", ctypes.c_ulong), ("message_type", ctypes.c_ulong),
+                ("format", ctypes.c_int), ("data", ctypes.c_long * 5)]
+
+
+class SelectionRequest(ctypes.Structure):
+    """XSelectionRequestEvent"""
+    _fields_ = [("type", ctypes.c_int), ("serial", ctypes.c_ulong), ("send_event", ctypes.c_int),
+                ("display", ctypes.c_void_p), ("owner", ctypes.c_ulong), ("requestor", ctypes.c_ulong),
+                ("selection", ctypes.c_ulong), ("target", ctypes.c_ulong), ("property", ctypes.c_ulong),
+                ("time", ctypes.c_ulong)]
+
+
+class Selection(ctypes.Structure):
+    """XSelectionEvent"""
+    _fields_ = [("type", ctypes.c_int), ("serial", ctypes.c_ulong), ("send_event", ctypes.c_int),
+                ("display", ctypes.c_void_p), ("requestor", ctypes.c_ulong), ("selection", ctypes.c_ulong),
+                ("target", ctypes.c_ulong), ("property", ctypes.c_ulong), ("time", ctypes.c_ulong)]
+
+
+class Event(ctypes.Union):
+    """XEvent"""
+    _fields_ = [("type", ctypes.c_int), ("message", ClientMessage), ("request", SelectionRequest),
+                ("selection", Selection), ("padding", ctypes.c_long * 24)]
+
+
+class FileDrop:
+    """Drops a file onto a program's window, as a file manager does: the XDND protocol, version 5."""
+
+    REQUEST, NOTIFY, MESSAGE = 30, 31, 33  # Kinds of events.
+
+    def __init__(self, screen):
+        self.x11 = ctypes.CDLL("libX11.so.6")
+        for function, result in (("XOpenDisplay", ctypes.c_void_p), ("XInternAtom", ctypes.c_ulong),
+                                 ("XCreateSimpleWindow", ctypes.c_ulong), ("XDefaultRootWindow", ctypes.c_ulong)):
+            getattr(self.x11, function).restype = result
+        self.display = ctypes.c_void_p(self.x11.XOpenDisplay(screen.display.encode()))
+        self.root = ctypes.c_ulong(self.x11.XDefaultRootWindow(self.display))
+        self.source = self.x11.XCreateSimpleWindow(self.display, self.root, 0, 0, 1, 1, 0, 0, 0)
+
+    def atom(self, name):
+        return self.x11.XInternAtom(self.display, name.encode(), 0)
+
+    def windows(self):
+        """The windows on the screen but for this one; without a window manager, they are those of programs."""
+        root, parent, count = ctypes.c_ulong(), ctypes.c_ulong(), ctypes.c_uint()
+        children = ctypes.POINTER(ctypes.c_ulong)()
+        self.x11.XQueryTree(self.display, self.root, ctypes.byref(root), ctypes.byref(parent), ctypes.byref(children),
+                            ctypes.byref(count))
+        return [children[i] for i in range(count.value) if children[i] != self.source]
+
+    def tell(self, target, name, *data):
+        event = Event()
+        event.message = ClientMessage(self.MESSAGE, 0, 1, self.display.value, target, self.atom(name), 32,
+                                      (ctypes.c_long * 5)(self.source, *data))
+        self.x11.XSendEvent(self.display, ctypes.c_ulong(target), 0, ctypes.c_long(0), ctypes.byref(event))
+        self.x11.XFlush(self.display)
+
+    def drop(self, file):
+        """Returns once the program has taken the file's name."""
+        target = self.windows()[-1]
+        kind, selection = self.atom("text/uri-list"), self.atom("XdndSelection")
+        self.x11.XSetSelectionOwner(self.display, ctypes.c_ulong(selection), ctypes.c_ulong(self.source), ctypes.c_ulong(0))
+        self.tell(target, "XdndEnter", 5 << 24, kind, 0, 0)
+        self.tell(target, "XdndPosition", 0, 20 << 16 | 20, 0, self.atom("XdndActionCopy"))
+        self.tell(target, "XdndDrop", 0, 0, 0, 0)
+        event = Event()
+
+        def asked():
+            while self.x11.XPending(self.display):
+                self.x11.XNextEvent(self.display, ctypes.byref(event))
+                if event.type == self.REQUEST:
+                    return True
+            return False
+
+        wait_for(asked, "the program to ask for the name of the file")
+        request = event.request
+        uri = (pathlib.Path(file).resolve().as_uri() + "\r\n").encode()
+        kind, target = ctypes.c_ulong(request.target), ctypes.c_ulong(request.requestor)
+        self.x11.XChangeProperty(self.display, target, ctypes.c_ulong(request.property), kind, 8, 0, uri, len(uri))
+        answer = Event()
+        answer.selection = Selection(self.NOTIFY, 0, 1, self.display.value, request.requestor, request.selection,
+                                     request.target, request.property, request.time)
+        self.x11.XSendEvent(self.display, target, 0, ctypes.c_long(0), ctypes.byref(answer))
+        self.x11.XFlush(self.display)
+
+
 class Hands:
     """Simulated mouse and keyboard of a virtual screen, through the XTEST extension."""
 

@@ -13,11 +13,11 @@ layout(set = 0, binding = 0) uniform utexture2D inspected;
 layout(set = 0, binding = 0) uniform texture2D inspected;
 layout(set = 0, binding = 2, std140) uniform View { ViewConstants view; };
 #endif
+layout(push_constant) uniform Shown { ivec2 size; };  // Pixels of the displayed image that are shown.
 layout(set = 0, binding = 1, rgba8) uniform writeonly image2D outDisplay;
 
 void main() {
   const ivec2 p = ivec2(gl_GlobalInvocationID.xy);
-  const ivec2 size = imageSize(outDisplay);
   if (any(greaterThanEqual(p, size))) return;
   const ivec2 texel = p * textureSize(inspected, 0) / size;
 #ifdef UINT

@@ -14,13 +14,13 @@
 
 #include "framegraph/vulkan/frame_queue.h"
 #include "samples/host/live_frame.h"
+#include "samples/host/open_scene.h"
+#include "samples/host/resolution_control.h"
 #include "samples/host/window/interface.h"
 #include "samples/host/window/presenter.h"
 
 namespace walr::host {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 constexpr std::uint32_t kFramesInFlight = 2;
 // Interval at which the window is redrawn while no new frame has been traced.
@@ -32,11 +32,6 @@ void interrupt(int /*signal*/) {
   interrupted = 1;
 }
 
-struct Traced {
-  HostFrame frame;
-  double seconds = 0.0;
-};
-
 /// Appends the time of a frame and drops the oldest one of more than a few seconds' worth.
 void remember(std::deque<float>& times, double milliseconds) {
   constexpr std::size_t kFrames = 240;
@@ -47,7 +42,7 @@ void remember(std::deque<float>& times, double milliseconds) {
 /// The main loop of a window: traces frames on another thread, denoises them and draws the window.
 class Show {
  public:
-  Show(Tracer& tracer, const GpuDevice& device, Session& session, const Window& window, const Surface& surface,
+  Show(Tracer& tracer, const GpuDevice& device, Session& session, Window& window, const Surface& surface,
        fg::Extent extent, const ReloadShaders& reload)
       : tracer_(tracer),
         device_(device),
@@ -57,9 +52,11 @@ class Show {
         surface_(surface),
         picture_(device, extent),
         live_(device, picture_, kFramesInFlight, tracer.light(), tracer.gpuScene()),
+        control_(extent),
         queue_(device.device().context(), device.device().queue(), kFramesInFlight),
         interface_(device, window, kFramesInFlight) {
     facts_.deviceTraces = tracer.gpuScene() != nullptr;
+    if (facts_.deviceTraces) facts_.sceneBytes = tracer.gpuScene()->bytes();
   }
 
   ~Show() {
@@ -82,29 +79,43 @@ class Show {
         glfwWaitEventsTimeout(std::chrono::duration<double>(kRefresh).count());
         continue;
       }
+      openDropped();
       step();
     }
   }
 
  private:
   void startTracing() {
+    control_.setTarget(session_.targetMilliseconds);
+    session_.extent = control_.extent();
     const bool needed = again_ || (change_ != GraphChange::None && !frameFits());
     if (const std::optional<Tracer::Request> request = session_.nextRequest(needed)) {
       again_ = false;
-      next_ = std::async(std::launch::async, [this, request] {
-        const Clock::time_point start = Clock::now();
-        Traced traced{tracer_.hostFrame(*request), 0.0};
-        traced.seconds = std::chrono::duration<double>(Clock::now() - start).count();
-        return traced;
-      });
+      next_ = std::async(std::launch::async, [this, request] { return tracer_.hostFrame(*request); });
     }
   }
 
-  void take(Traced traced) {
-    frame_ = std::move(traced.frame);
-    facts_.tracingSeconds = traced.seconds;
+  /// Show the scene of a file that the user has dropped onto the window. The window stands still while it is read.
+  void openDropped() {
+    const std::optional<std::filesystem::path> file = window_.takeDroppedFile();
+    if (!file) return;
+    if (next_.valid()) next_.wait();
+    queue_.waitAll();
+    if (!openScene(*file, tracer_, session_)) return;
+    live_.changeScene(tracer_.gpuScene());
+    if (facts_.deviceTraces) facts_.sceneBytes = tracer_.gpuScene()->bytes();
+    next_ = {};  // A frame of the old scene.
+    startTracing();
+    take(next_.get());
+  }
+
+  void take(HostFrame frame) {
+    frame_ = std::move(frame);
     constexpr double kMilliseconds = 1000.0;
-    remember(facts_.tracingHistory, kMilliseconds * traced.seconds);
+    if (!facts_.deviceTraces) {
+      facts_.traced = frame_.traced;
+      remember(facts_.tracingHistory, kMilliseconds * frame_.traced.seconds);
+    }
     fresh_ = true;
     startTracing();
   }
@@ -116,13 +127,15 @@ class Show {
   }
 
   /// Bring the graph up to date with the choices of the session.
-  void follow() {
+  /// @param resized  the frame at hand has another size than those before it
+  void follow(bool resized) {
+    live_.setExtent(frame_.extent);
     if (change_ == GraphChange::Settings && live_.update(session_.method(), session_.view())) {
       again_ = session_.frozen;  // One more frame shows the new settings, with the existing history.
       change_ = GraphChange::None;
       return;
     }
-    if (session_.dragging) {
+    if (session_.dragging && live_.declared() && !resized) {
       return;
     }
     // While the session is frozen, only the current frame is available: it is denoised again, without history.
@@ -155,8 +168,12 @@ class Show {
       waitForFrame();
     }
     change_ = std::max(change_, session_.takeGraphChange());
+    const bool resized = fresh_ && frame_.extent != live_.extent();
+    if (resized) change_ = std::max(change_, GraphChange::Settings);
     if (change_ != GraphChange::None && frameFits()) {
-      follow();
+      follow(resized);
+      facts_.graphBytes = live_.executor().allocatedBytes();
+      facts_.memory = deviceMemory(device_);
     }
     // One more frame shows the new shaders in a session that is frozen.
     if (reload_ && reload_(live_.graph().desc(), live_.executor()) > 0) again_ = session_.frozen;
@@ -175,12 +192,15 @@ class Show {
       double sum = 0.0;
       for (const fg::vk::PassTime& pass : times) sum += pass.milliseconds;
       if (fresh_) remember(facts_.deviceHistory, sum);
+      if (fresh_) control_.frameTook(std::max(sum, facts_.deviceTraces ? 0.0 : facts_.tracingHistory.back()));
+      if (const auto traced = live_.traced(recorded.slot)) facts_.traced = *traced;
     }
+    if (fresh_ && frame_.extent != live_.extent()) fresh_ = false;  // The view needs another frame, and waits for it.
     if (std::exchange(fresh_, false)) {
       lastSlot_ = recorded.slot;
       live_.record(recorded, frame_, session_.viewConstants);
     }
-    presenter_->record(recorded, *image, place());
+    presenter_->record(recorded, *image, place(), live_.shown());
     queue_.submit(recorded, {.wait = presenter_->swapchain().acquired(recorded.slot),
                              .waitStage = VK_PIPELINE_STAGE_TRANSFER_BIT,
                              .signal = presenter_->swapchain().rendered(*image)});
@@ -199,15 +219,16 @@ class Show {
   const GpuDevice& device_;
   Session& session_;
   const ReloadShaders& reload_;
-  const Window& window_;
+  Window& window_;
   const Surface& surface_;
   ShownPicture picture_;
   LiveFrame live_;
+  ResolutionControl control_;
   fg::vk::FrameQueue queue_;
   Interface interface_;
   std::optional<Presenter> presenter_;
   std::optional<std::uint32_t> lastSlot_;  // Slot of the last frame that `live_` recorded.
-  std::future<Traced> next_;
+  std::future<HostFrame> next_;
   HostFrame frame_;
   FrameFacts facts_;
   bool fresh_ = false;                        // `frame_` has not been recorded yet.
@@ -227,8 +248,8 @@ void runWindow(Tracer& tracer, GpuDevice& device, Session& session, fg::Extent e
   std::signal(SIGINT, interrupt);
   std::signal(SIGTERM, interrupt);
   constexpr std::uint32_t kLeastHeight = 720;
-  const Window window("walr-host", {extent.width + static_cast<std::uint32_t>(Interface::kPanelWidth),
-                                    std::max(extent.height, kLeastHeight)});
+  Window window("walr-host", {extent.width + static_cast<std::uint32_t>(Interface::kPanelWidth),
+                              std::max(extent.height, kLeastHeight)});
   const Surface surface(window, device.instance());
   Show(tracer, device, session, window, surface, extent, reload).run();
 }

@@ -91,15 +91,16 @@ void Interface::update(Session& session, const fg::Graph& graph, const fg::Plan&
   viewPanel(session, viewableTextures(graph.desc()), !facts.deviceTraces);
   methodPanel(session);
   if (ImGui::CollapsingHeader("Times", ImGuiTreeNodeFlags_DefaultOpen)) {
-    timesPanel(facts, session.tracer().denoisesDirect(), device_.isSoftware());
+    timesPanel(session, facts, device_.isSoftware());
   }
   if (ImGui::CollapsingHeader("Memory", ImGuiTreeNodeFlags_DefaultOpen)) {
-    memoryPanel(graph.desc(), plan);
+    memoryPanel(graph.desc(), plan, facts);
   }
   if (ImGui::CollapsingHeader("Settings", ImGuiTreeNodeFlags_DefaultOpen)) {
     settingsPanel(session);
   }
   ImGui::End();
+  labelComparison(session, place);
   takeEdgeInput(session, place);
   if (!session.holdsEdge()) takeCameraInput(session);
   ImGui::Render();

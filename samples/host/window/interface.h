@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "framegraph/declare/graph.h"
 #include "framegraph/plan/plan.h"
 #include "framegraph/vulkan/timestamps.h"
+#include "samples/denoise/device_memory.h"
 #include "samples/denoise/gpu_device.h"
 #include "samples/host/session.h"
 #include "samples/host/window/presenter.h"
@@ -21,8 +23,11 @@ namespace walr::host {
 /// Measurements of the last frame that the panels show.
 struct FrameFacts {
   std::vector<fg::vk::PassTime> passTimes;
-  bool deviceTraces = false;    ///< Paths are traced in a pass of the graph, not on the processor.
-  double tracingSeconds = 0.0;  ///< On the processor.
+  bool deviceTraces = false;     ///< Paths are traced in a pass of the graph, not on the processor.
+  TracedRays traced;             ///< On the processor or the device.
+  std::uint64_t graphBytes = 0;  ///< Device memory of the frame graph.
+  std::uint64_t sceneBytes = 0;  ///< Device memory of the scene that the device traces.
+  std::optional<DeviceMemory> memory = std::nullopt;  ///< Of the whole program, if the driver tells it.
   /// Times of the last frames in milliseconds, oldest first.
   std::deque<float> tracingHistory;
   std::deque<float> deviceHistory;

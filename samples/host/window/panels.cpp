@@ -126,6 +126,28 @@ void chart(const char* label, const std::deque<float>& times) {
                    {ImGui::GetContentRegionAvail().x, kHeight});
 }
 
+/// The time that a frame shall take, and the size that it has for that.
+void holdTimeWidgets(Session& session) {
+  auto target = static_cast<float>(session.targetMilliseconds);
+  ImGui::SetNextItemWidth(120.0F);
+  if (ImGui::DragFloat("##target", &target, 0.1F, 0.0F, 1000.0F, target > 0.0F ? "%.1f ms" : "any time")) {
+    session.targetMilliseconds = std::max(0.0F, target);
+  }
+  const fg::Extent full = session.tracer().extent();
+  const fg::Extent extent = session.extent.value_or(full);
+  ImGui::SameLine();
+  ImGui::Text("a frame: %u x %u of %u x %u", extent.width, extent.height, full.width, full.height);
+}
+
+/// Milliseconds of the passes of the method on the right of a comparison.
+double comparedTime(std::span<const fg::vk::PassTime> passes) {
+  double sum = 0.0;
+  for (const fg::vk::PassTime& pass : passes) {
+    if (pass.name.starts_with(kComparedPrefix)) sum += pass.milliseconds;
+  }
+  return sum;
+}
+
 ImU32 colourOf(std::size_t index) {
   // Hues that differ by the golden angle are easy to tell apart, whatever their number.
   constexpr float kGoldenAngle = 0.381966F;
@@ -134,6 +156,28 @@ ImU32 colourOf(std::size_t index) {
 }
 
 }  // namespace
+
+void labelComparison(const Session& session, const Rectangle& place) {
+  if (session.view().kind != HostView::Kind::Compare || place.width == 0) return;
+  const float scale = static_cast<float>(place.width) / static_cast<float>(session.tracer().extent().width);
+  const float edge = static_cast<float>(place.x) + scale * static_cast<float>(session.viewConstants.middleEdge);
+  ImDrawList* const draw = ImGui::GetBackgroundDrawList();
+  constexpr float kGap = 8.0F;
+  const float row = static_cast<float>(place.y) + kGap;
+  const auto label = [&](const std::string& method, bool left) {
+    const std::string text = method == "none" ? "noisy" : method;
+    const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+    const float column = left ? edge - kGap - size.x : edge + kGap;
+    const float first = static_cast<float>(place.x);
+    if (column < first || column + size.x > first + static_cast<float>(place.width)) return;
+    constexpr float kMargin = 3.0F;
+    draw->AddRectFilled({column - kMargin, row - kMargin}, {column + size.x + kMargin, row + size.y + kMargin},
+                        IM_COL32(0, 0, 0, 140), kMargin);
+    draw->AddText({column, row}, IM_COL32_WHITE, text.c_str());
+  };
+  label(session.methodName(), true);
+  label(session.comparedName(), false);
+}
 
 void playPanel(Session& session) {
   ImGui::Checkbox("Pause", &session.paused);
@@ -147,6 +191,7 @@ void playPanel(Session& session) {
   if (ImGui::Button("Reset history")) {
     session.resetHistory();
   }
+  if (!session.message.empty()) ImGui::TextWrapped("%s", session.message.c_str());
   ImGui::Text("Frame %d of %d to %d", session.animationFrame(), session.frames().first, session.frames().last);
   constexpr std::array kCameras = {std::pair(CameraMode::Scene, "Scene camera"), std::pair(CameraMode::Orbit, "Orbit"),
                                    std::pair(CameraMode::Fly, "Fly (WASD, QE)")};
@@ -162,7 +207,7 @@ void playPanel(Session& session) {
 void viewPanel(Session& session, const std::vector<std::string>& textures, bool references) {
   ImGui::Separator();
   const HostView& view = session.view();
-  const std::array<std::string, 5> all = {"denoised", "noisy", "reference", "split", "texture"};
+  const std::array<std::string, 6> all = {"denoised", "noisy", "reference", "split", "compare", "texture"};
   std::vector<HostView::Kind> kinds;
   std::vector<std::string> names;
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -185,6 +230,11 @@ void viewPanel(Session& session, const std::vector<std::string>& textures, bool 
     }
     ImGui::DragFloat("Gain", &constants.gain, 0.01F, 0.0F, 1000.0F, "%.3f");
     ImGui::DragFloat("Bias", &constants.bias, 0.01F, -10.0F, 10.0F, "%.3f");
+  } else if (view.kind == HostView::Kind::Compare) {
+    const std::vector<std::string> methods = denoiserNames();
+    if (const auto chosen = choose("On the right", methods, session.comparedName())) {
+      session.compareWith(methods[*chosen], makeDenoiser(methods[*chosen]));
+    }
   } else if (view.kind == HostView::Kind::Split) {
     ImGui::DragIntRange2("Edges", &constants.leftEdge, &constants.rightEdge, 1.0F, 0, 16384);
   }
@@ -217,20 +267,24 @@ void settingsPanel(Session& session) {
   }
 }
 
-void timesPanel(const FrameFacts& facts, bool denoisesDirect, bool softwareDevice) {
+void timesPanel(Session& session, const FrameFacts& facts, bool softwareDevice) {
   constexpr double kMilliseconds = 1000.0;
   if (facts.deviceTraces) {
-    ImGui::Text("Paths: traced on the device, pass 'trace'");
+    ImGui::Text("Paths: traced on the device, %s", rateText(facts.traced).c_str());
   } else {
-    ImGui::Text("Paths: traced by Embree, %.0f ms", facts.tracingSeconds * kMilliseconds);
+    ImGui::Text("Paths: traced by Embree, %.0f ms, %s", facts.traced.seconds * kMilliseconds,
+                rateText(facts.traced).c_str());
     chart("##tracing", facts.tracingHistory);
   }
-  ImGui::Text("Direct light: %s", denoisesDirect ? "denoised" : "noisy");
+  ImGui::Text("Direct light: %s", session.tracer().denoisesDirect() ? "denoised" : "noisy");
+  holdTimeWidgets(session);
   double sum = 0.0;
   for (const fg::vk::PassTime& pass : facts.passTimes) {
     sum += pass.milliseconds;
   }
   ImGui::Text("Device %.2f ms%s", sum, softwareDevice ? " (software device)" : "");
+  const double compared = comparedTime(facts.passTimes);
+  if (compared > 0.0) ImGui::Text("of which on the right %.2f ms", compared);
   chart("##device", facts.deviceHistory);
   for (const fg::vk::PassTime& pass : facts.passTimes) {
     const auto share = static_cast<float>(sum > 0.0 ? pass.milliseconds / sum : 0.0);
@@ -242,8 +296,17 @@ void timesPanel(const FrameFacts& facts, bool denoisesDirect, bool softwareDevic
   }
 }
 
-void memoryPanel(const fg::GraphDesc& graph, const fg::Plan& plan) {
+void memoryPanel(const fg::GraphDesc& graph, const fg::Plan& plan, const FrameFacts& facts) {
   const fg::MemoryReport& memory = plan.memory;
+  ImGui::Text("Device memory: frame graph %.1f MiB", static_cast<double>(facts.graphBytes) / kMegabyte);
+  if (facts.deviceTraces) {
+    ImGui::SameLine(0.0F, 0.0F);
+    ImGui::Text(", scene %.1f MiB", static_cast<double>(facts.sceneBytes) / kMegabyte);
+  }
+  if (facts.memory) {
+    ImGui::Text("Whole program %.0f of %.0f MiB", static_cast<double>(facts.memory->used) / kMegabyte,
+                static_cast<double>(facts.memory->budget) / kMegabyte);
+  }
   ImGui::Text("Transient %.1f MiB (%.1f unshared), persistent %.1f MiB",
               static_cast<double>(memory.transientPeakBytes) / kMegabyte,
               static_cast<double>(memory.transientUnaliasedBytes) / kMegabyte,

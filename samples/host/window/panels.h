@@ -11,6 +11,8 @@
 /// The sections of the interface's panel. Call each between ImGui::Begin and ImGui::End.
 namespace walr::host {
 
+/// The names of both methods of a comparison, drawn beside the edge between them.
+void labelComparison(const Session& session, const Rectangle& place);
 /// Pause, freeze, camera, cut, history.
 void playPanel(Session& session);
 /// The displayed view.
@@ -21,9 +23,8 @@ void methodPanel(Session& session);
 /// A widget for every setting of the method, with the setting's own range.
 void settingsPanel(Session& session);
 /// Times of tracing and of every pass, and charts of the last frames.
-/// @param denoisesDirect  whether the direct light is denoised, too
-void timesPanel(const FrameFacts& facts, bool denoisesDirect, bool softwareDevice);
-/// Chart of memory over passes: one rectangle for each resource, grey for histories.
-void memoryPanel(const fg::GraphDesc& graph, const fg::Plan& plan);
+void timesPanel(Session& session, const FrameFacts& facts, bool softwareDevice);
+/// Device memory, and a chart of it over passes: one rectangle for each resource, grey for histories.
+void memoryPanel(const fg::GraphDesc& graph, const fg::Plan& plan, const FrameFacts& facts);
 
 }  // namespace walr::host

@@ -111,7 +111,8 @@ void Presenter::makeFramebuffers() {
   }
 }
 
-void Presenter::record(const fg::vk::Frame& recorded, std::uint32_t image, const Rectangle& place) {
+void Presenter::record(const fg::vk::Frame& recorded, std::uint32_t image, const Rectangle& place, fg::Extent shown) {
+  shown_ = shown;
   image_ = image;
   place_ = place;
   executor_.bind(window_, {swapchain_.images()[image], std::uint64_t{image} + 1});
@@ -133,13 +134,14 @@ void Presenter::showPicture(const fg::RecordContext& context, fg::Texture pictur
   }
   VkImageBlit region{};
   region.srcSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
-  region.srcOffsets[1] = {static_cast<int>(pictureExtent_.width), static_cast<int>(pictureExtent_.height), 1};
+  region.srcOffsets[1] = {static_cast<int>(shown_.width), static_cast<int>(shown_.height), 1};
   region.dstSubresource = region.srcSubresource;
   region.dstOffsets[0] = {place_.x, place_.y, 0};
   region.dstOffsets[1] = {place_.x + place_.width, place_.y + place_.height, 1};
-  const bool smaller = place_.width < static_cast<int>(pictureExtent_.width);
+  // Of a picture in its full size, each pixel becomes a square of pixels.
+  const bool squares = shown_ == pictureExtent_ && place_.width >= static_cast<int>(pictureExtent_.width);
   vkCmdBlitImage(context.commandBuffer, context.image(picture), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, window,
-                 VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region, smaller ? VK_FILTER_LINEAR : VK_FILTER_NEAREST);
+                 VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region, squares ? VK_FILTER_NEAREST : VK_FILTER_LINEAR);
 }
 
 void Presenter::drawInterface(VkCommandBuffer commandBuffer) const {

@@ -43,7 +43,8 @@ class Presenter {
   /// Record the drawing of the window.
   /// @param image  index of the swapchain's image
   /// @param place  rectangle of the window that shows the picture
-  void record(const fg::vk::Frame& recorded, std::uint32_t image, const Rectangle& place);
+  /// @param shown  the first columns and rows of the picture, which are shown
+  void record(const fg::vk::Frame& recorded, std::uint32_t image, const Rectangle& place, fg::Extent shown);
 
  private:
   void makeRenderPass();
@@ -64,6 +65,7 @@ class Presenter {
   fg::vk::Executor executor_;
   std::uint32_t image_ = 0;  // Index of the swapchain's image for the frame being recorded.
   Rectangle place_;
+  fg::Extent shown_;
 };
 
 }  // namespace walr::host

@@ -40,6 +40,10 @@ Window::Window(const std::string& title, fg::Extent size) {
   if (handle_ == nullptr) {
     throwComplaint("opening a window");
   }
+  glfwSetWindowUserPointer(handle_, this);
+  glfwSetDropCallback(handle_, [](GLFWwindow* window, int count, const char** paths) {
+    if (count > 0) static_cast<Window*>(glfwGetWindowUserPointer(window))->dropped_ = *paths;
+  });
 }
 
 Window::~Window() {

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <filesystem>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <vulkan/vulkan.h>
@@ -33,9 +36,12 @@ class Window {
   /// Whether a key is down.
   /// @param key  GLFW_KEY_...
   [[nodiscard]] bool keyDown(int key) const;
+  /// The first of the files that the user has dropped onto the window since the last call.
+  std::optional<std::filesystem::path> takeDroppedFile() { return std::exchange(dropped_, std::nullopt); }
 
  private:
   GLFWwindow* handle_ = nullptr;
+  std::optional<std::filesystem::path> dropped_;
 };
 
 /// The Vulkan surface of a window.
