@@ -145,18 +145,18 @@ class Window:
 
     def choose_view(self, name):
         views = ["denoised", "noisy", "reference", "split", "compare", "texture"]
-        self.choose(85, views.index(name), len(views))
+        self.choose(108, views.index(name), len(views))
         # Below it come a texture's name, gain and bias, or the edges of the split.
         self.view_extras = {"texture": 3, "split": 1, "compare": 1}.get(name, 0)
 
     def choose_texture(self, index, count):
-        self.choose(85 + self.LINE, index, count)
+        self.choose(108 + self.LINE, index, count)
 
     def choose_method(self, index, count):
-        self.choose(112 + self.LINE * self.view_extras, index, count)
+        self.choose(135 + self.LINE * self.view_extras, index, count)
 
     def choose_preset(self, index, count):
-        self.choose(135 + self.LINE * self.view_extras, index, count)
+        self.choose(158 + self.LINE * self.view_extras, index, count)
 
     def choose(self, y, index, count):
         """Open the chooser whose middle is at a height, and take an item from its list; frozen, or times change too."""

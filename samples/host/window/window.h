@@ -22,6 +22,7 @@ class Window {
   /// Instance extensions that a window's surface needs.
   static std::vector<const char*> instanceExtensions();
 
+  /// @param size  wanted; at most that of the screen without its bars
   /// @throws std::runtime_error with GLFW's message
   Window(const std::string& title, fg::Extent size);
   ~Window();
