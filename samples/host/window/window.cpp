@@ -65,6 +65,7 @@ bool Window::closed() const {
 }
 
 fg::Extent Window::size() const {
+  if (glfwGetWindowAttrib(handle_, GLFW_ICONIFIED) == GLFW_TRUE) return {};
   int width = 0;
   int height = 0;
   glfwGetFramebufferSize(handle_, &width, &height);
