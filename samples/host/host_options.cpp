@@ -29,9 +29,11 @@ void addHostOptions(CLI::App& program, HostOptions& options) {
                   "First and last frame of the scene's animation; default: in a window all of it, otherwise 0-11")
       ->type_name("A-B");
   program.add_flag("--once", options.once, "In a window: stop after the last frame instead of starting again");
-  program.add_option("--size", options.size, "Size of the image in pixels, 1 to 16384 each")
-      ->type_name("WIDTHxHEIGHT")
-      ->capture_default_str();
+  program
+      .add_option("--size", options.size,
+                  "Size of the image in pixels, 1 to 16384 each; default: in a window on a discrete or integrated GPU "
+                  "1920x1080, otherwise 640x360")
+      ->type_name("WIDTHxHEIGHT");
   CLI::Option* const view =
       program
           .add_option("--view", options.view,

@@ -20,7 +20,7 @@ struct HostOptions {
   GpuDevice::Options gpu;
   TracerChoice tracerChoice = TracerChoice::Auto;
   std::string frames;  ///< Empty: in a window the whole animation, otherwise frames 0 to 11.
-  std::string size = "640x360";
+  std::string size;    ///< Empty: `defaultExtent`.
   std::string view = "denoised";
   std::string compare;  ///< Method with or without a preset, for the right side; empty: none.
   std::filesystem::path output;

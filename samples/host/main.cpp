@@ -14,6 +14,7 @@
 #include "samples/command_line/program.h"
 #include "samples/command_line/usage_error.h"
 #include "samples/denoise/progress.h"
+#include "samples/host/default_extent.h"
 #include "samples/host/headless.h"
 #include "samples/host/host_options.h"
 #ifdef WALR_SHADER_COMMANDS
@@ -121,7 +122,7 @@ bool opensWindow(const HostOptions& options) {
 }
 
 void run(HostOptions& options) {
-  options.tracer.extent = parseSize(options.size);
+  if (!options.size.empty()) options.tracer.extent = parseSize(options.size);
   const std::optional<float> exposure = parseExposure(options.exposure);
   if (!options.record.empty() && options.record.extension() != ".webp") {
     throw UsageError("--record " + options.record.string() + ": give a file that ends in .webp");
@@ -142,6 +143,7 @@ void run(HostOptions& options) {
   if (sparse && options.tracerChoice == TracerChoice::Auto) options.tracerChoice = TracerChoice::Cpu;
   options.gpu.rayQueries = mayTraceOnGpu(options.tracerChoice);
   GpuDevice gpu(options.gpu);
+  if (options.size.empty()) options.tracer.extent = defaultExtent(window, gpu.physical().type);
   const TracerDecision decision = decideTracer(options.tracerChoice, gpu);
   Tracer tracer(options.tracer, decision.onGpu ? &gpu : nullptr);
   for (const std::string& warning : tracer.warnings()) {

@@ -21,6 +21,7 @@ Session::Session(Tracer& tracer, std::string methodName, std::unique_ptr<Denoise
       frames_(frames),
       once_(once),
       animationFrame_(frames.first),
+      objectFrame_(frames.first),
       number_(frames.first) {
   chooseView(view);
   graphChange_ = GraphChange::None;
@@ -45,13 +46,16 @@ std::optional<Tracer::Request> Session::nextRequest(bool evenFrozen) {
   }
   Tracer::Request request;
   request.number = started_ ? ++number_ : number_;
-  request.animationFrame = animationFrame_;
+  if (objectsMove) objectFrame_ = animationFrame_;
+  request.animationFrame = objectFrame_;
   request.extent = extent;
   request.cut = std::exchange(cut_, false);
   request.resetHistory = std::exchange(reset_, false);
   request.reference = view_.needsReference();
   if (camera_) {
     request.view = camera_->view();
+  } else if (!objectsMove) {
+    request.view = tracer_.sceneCamera(animationFrame_);
   }
   started_ = true;
   return request;
@@ -152,7 +156,7 @@ void Session::cutCamera() {
 
 void Session::sceneChanged() {
   frames_ = {0, static_cast<int>(tracer_.lastAnimationFrame())};
-  animationFrame_ = frames_.first;
+  animationFrame_ = objectFrame_ = frames_.first;
   cameraMode_ = CameraMode::Scene;
   camera_.reset();
   frozen = false;

@@ -87,8 +87,10 @@ class Session {
   std::optional<fg::Extent> extent;
   double targetMilliseconds = 0.0;  ///< See `ResolutionControl::setTarget`.
   std::string message;              ///< What the user should know of the scene; may be empty.
-  bool paused = false;              ///< The animation stands still; tracing continues.
-  bool frozen = false;              ///< Nothing is traced.
+  /// Objects and lights move with the animation; otherwise they stand still, and only the camera moves.
+  bool objectsMove = true;
+  bool paused = false;  ///< The animation stands still; tracing continues.
+  bool frozen = false;  ///< Nothing is traced.
   /// The user is dragging a slider. Changes that need a new graph wait until the slider is released.
   bool dragging = false;
 
@@ -105,6 +107,7 @@ class Session {
   CameraMode cameraMode_ = CameraMode::Scene;
   std::optional<FreeCamera> camera_;
   int animationFrame_;
+  int objectFrame_;  // Frame of the animation that objects and lights are in.
   int number_;
   bool started_ = false;
   bool cut_ = false;

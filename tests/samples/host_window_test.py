@@ -17,7 +17,7 @@ import sys
 import tempfile
 import time
 
-from virtual_screen import PATIENCE, FileDrop, Hands, read_png, virtual_screen, wait_for, write_png
+from virtual_screen import PATIENCE, FileDrop, Hands, WindowManager, read_png, virtual_screen, wait_for, write_png
 
 WIDTH, HEIGHT = 160, 90
 PANEL_WIDTH = 420
@@ -66,8 +66,8 @@ class Host:
         return re.findall(r"'([^']*)'", run.stderr)[1:]
 
     @contextlib.contextmanager
-    def window(self, screen, frames, *options):
-        """The window, after it has reached the last frame and stopped there."""
+    def window(self, screen, frames, *options, meanwhile=lambda: None):
+        """The window, after `meanwhile` was called and it has reached the last frame and stopped there."""
         last = int(frames.split("-")[1])
         expected = self.pictures(frames, *options)[last]
         if len({bytes(row) for row in expected}) < HEIGHT // 2:
@@ -81,6 +81,7 @@ class Host:
                     sys.exit(f"the program ended: {process.stderr.read()}")
                 return find_picture(screen.rows(), expected)
 
+            meanwhile()
             place = wait_for(shown, "the picture in the window")
             print(f"the picture stands at {place}")
             # What the panel tells of the frame follows with the next drawing.
@@ -145,18 +146,18 @@ class Window:
 
     def choose_view(self, name):
         views = ["denoised", "noisy", "reference", "split", "compare", "texture"]
-        self.choose(85, views.index(name), len(views))
+        self.choose(108, views.index(name), len(views))
         # Below it come a texture's name, gain and bias, or the edges of the split.
         self.view_extras = {"texture": 3, "split": 1, "compare": 1}.get(name, 0)
 
     def choose_texture(self, index, count):
-        self.choose(85 + self.LINE, index, count)
+        self.choose(108 + self.LINE, index, count)
 
     def choose_method(self, index, count):
-        self.choose(112 + self.LINE * self.view_extras, index, count)
+        self.choose(135 + self.LINE * self.view_extras, index, count)
 
     def choose_preset(self, index, count):
-        self.choose(135 + self.LINE * self.view_extras, index, count)
+        self.choose(158 + self.LINE * self.view_extras, index, count)
 
     def choose(self, y, index, count):
         """Open the chooser whose middle is at a height, and take an item from its list; frozen, or times change too."""
@@ -379,13 +380,39 @@ def drop(host, screen):
         write_png(host.screenshot, screen.rows())
 
 
+def resize(host, screen):
+    """While objects, lights and camera move for 300 frames, the window changes its size and is minimised."""
+    manager = WindowManager(screen)
+    # 48 frames of the animation at 24 frames a second become 300.
+    fast = ("--fps", "150")
+
+    def meanwhile():
+        wait_for(manager.window, "the window")
+        time.sleep(1.0)
+        for width, height in ((900, 700), (580, 720), (430, 90), (421, 1), (1200, 400), (100, 60), (640, 720)):
+            manager.resize(width, height)
+            time.sleep(0.4)
+            manager.minimise()
+            time.sleep(0.2)
+            manager.restore()
+            time.sleep(0.2)
+        for step in range(40):
+            manager.resize(580 + 5 * step, 720 - 8 * step)
+            time.sleep(0.02)
+        manager.resize(580, 720)
+
+    with host.window(screen, "0-299", *fast, meanwhile=meanwhile):
+        write_png(host.screenshot, screen.rows())
+
+
 def main():
     scenario, program, scenes, screenshot = sys.argv[1:]
-    scene = "turntable.gltf" if scenario == "play" else "box.gltf"
+    scene = "turntable.gltf" if scenario in ("play", "resize") else "box.gltf"
     with tempfile.TemporaryDirectory() as folder, virtual_screen(folder) as screen:
         host = Host(program, pathlib.Path(scenes) / scene, pathlib.Path(folder), pathlib.Path(screenshot))
         scenarios = {"denoised": denoised, "split": split, "texture": texture, "methods": methods, "views": views,
-                     "play": play, "drop": drop}
+                     "play": play, "drop": drop,
+                     "resize": resize}
         scenarios[scenario](host, screen)
 
 

@@ -13,6 +13,7 @@
 
 #include "passes/denoiser.h"
 #include "samples/host/camera_control.h"
+#include "samples/host/default_extent.h"
 #include "samples/host/open_scene.h"
 #include "samples/host/resolution_control.h"
 #include "samples/host/session.h"
@@ -223,6 +224,37 @@ TEST_F(SessionTest, ComparesWithAnotherMethod) {
   session.takeGraphChange();
   session.compareWith("flr", makeDenoiser("flr"));
   EXPECT_EQ(session.takeGraphChange(), GraphChange::None) << "it is not shown";
+}
+
+TEST_F(SessionTest, ObjectsStandStillWhileTheCameraMoves) {
+  tracer.open(WALR_SCENES "/turntable.gltf");
+  Session session = make({12, 20}, false);
+  session.nextRequest();
+  session.nextRequest();
+  session.objectsMove = false;
+  for (const int frame : {14, 15, 16}) {
+    const Tracer::Request request = session.nextRequest().value();
+    EXPECT_EQ(request.animationFrame, 13.0);
+    ASSERT_TRUE(request.view.has_value());
+    EXPECT_EQ(*request.view, tracer.sceneCamera(frame));
+    EXPECT_NE(*request.view, tracer.sceneCamera(13.0));
+  }
+  session.objectsMove = true;
+  const Tracer::Request request = session.nextRequest().value();
+  EXPECT_EQ(request.animationFrame, 17.0);
+  EXPECT_FALSE(request.view.has_value());
+}
+
+TEST(DefaultExtent, IsLargeInAWindowOnAGpu) {
+  constexpr fg::Extent kLarge{1920, 1080};
+  for (const VkPhysicalDeviceType gpu :
+       {VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU, VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU}) {
+    EXPECT_EQ(defaultExtent(true, gpu), kLarge);
+    EXPECT_NE(defaultExtent(false, gpu), kLarge);
+  }
+  for (const VkPhysicalDeviceType other : {VK_PHYSICAL_DEVICE_TYPE_CPU, VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU}) {
+    EXPECT_NE(defaultExtent(true, other), kLarge);
+  }
 }
 
 /// Frames whose times are computed: a part that does not depend on the size, a part for every pixel, and noise.

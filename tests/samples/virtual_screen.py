@@ -110,10 +110,8 @@ class Event(ctypes.Union):
                 ("selection", Selection), ("padding", ctypes.c_long * 24)]
 
 
-class FileDrop:
-    """Drops a file onto a program's window, as a file manager does: the XDND protocol, version 5."""
-
-    REQUEST, NOTIFY, MESSAGE = 30, 31, 33  # Kinds of events.
+class Client:
+    """A program of its own on the screen, which sees the windows of others. There is no window manager."""
 
     def __init__(self, screen):
         self.x11 = ctypes.CDLL("libX11.so.6")
@@ -122,31 +120,61 @@ class FileDrop:
             getattr(self.x11, function).restype = result
         self.display = ctypes.c_void_p(self.x11.XOpenDisplay(screen.display.encode()))
         self.root = ctypes.c_ulong(self.x11.XDefaultRootWindow(self.display))
-        self.source = self.x11.XCreateSimpleWindow(self.display, self.root, 0, 0, 1, 1, 0, 0, 0)
+        self.own = self.x11.XCreateSimpleWindow(self.display, self.root, 0, 0, 1, 1, 0, 0, 0)
 
     def atom(self, name):
         return self.x11.XInternAtom(self.display, name.encode(), 0)
 
-    def windows(self):
-        """The windows on the screen but for this one; without a window manager, they are those of programs."""
+    def window(self):
+        """The uppermost window of another program; None if there is none."""
         root, parent, count = ctypes.c_ulong(), ctypes.c_ulong(), ctypes.c_uint()
         children = ctypes.POINTER(ctypes.c_ulong)()
         self.x11.XQueryTree(self.display, self.root, ctypes.byref(root), ctypes.byref(parent), ctypes.byref(children),
                             ctypes.byref(count))
-        return [children[i] for i in range(count.value) if children[i] != self.source]
+        others = [children[i] for i in range(count.value) if children[i] != self.own]
+        return others[-1] if others else None
+
+
+class WindowManager(Client):
+    """Resizes, minimises and restores the window of a program."""
+
+    NORMAL, ICONIC = 1, 3  # States of windows (ICCCM).
+
+    def resize(self, width, height):
+        self.x11.XResizeWindow(self.display, ctypes.c_ulong(self.window()), width, height)
+        self.x11.XFlush(self.display)
+
+    def minimise(self):
+        self.x11.XUnmapWindow(self.display, ctypes.c_ulong(self.window()))
+        self.state(self.ICONIC)
+
+    def restore(self):
+        self.x11.XMapWindow(self.display, ctypes.c_ulong(self.window()))
+        self.state(self.NORMAL)
+
+    def state(self, value):
+        words, kind = (ctypes.c_ulong * 2)(value, 0), ctypes.c_ulong(self.atom("WM_STATE"))
+        self.x11.XChangeProperty(self.display, ctypes.c_ulong(self.window()), kind, kind, 32, 0, words, 2)
+        self.x11.XFlush(self.display)
+
+
+class FileDrop(Client):
+    """Drops a file onto a program's window, as a file manager does: the XDND protocol, version 5."""
+
+    REQUEST, NOTIFY, MESSAGE = 30, 31, 33  # Kinds of events.
 
     def tell(self, target, name, *data):
         event = Event()
         event.message = ClientMessage(self.MESSAGE, 0, 1, self.display.value, target, self.atom(name), 32,
-                                      (ctypes.c_long * 5)(self.source, *data))
+                                      (ctypes.c_long * 5)(self.own, *data))
         self.x11.XSendEvent(self.display, ctypes.c_ulong(target), 0, ctypes.c_long(0), ctypes.byref(event))
         self.x11.XFlush(self.display)
 
     def drop(self, file):
         """Returns once the program has taken the file's name."""
-        target = self.windows()[-1]
+        target = self.window()
         kind, selection = self.atom("text/uri-list"), self.atom("XdndSelection")
-        self.x11.XSetSelectionOwner(self.display, ctypes.c_ulong(selection), ctypes.c_ulong(self.source), ctypes.c_ulong(0))
+        self.x11.XSetSelectionOwner(self.display, ctypes.c_ulong(selection), ctypes.c_ulong(self.own), ctypes.c_ulong(0))
         self.tell(target, "XdndEnter", 5 << 24, kind, 0, 0)
         self.tell(target, "XdndPosition", 0, 20 << 16 | 20, 0, self.atom("XdndActionCopy"))
         self.tell(target, "XdndDrop", 0, 0, 0, 0)

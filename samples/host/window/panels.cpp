@@ -202,6 +202,7 @@ void playPanel(Session& session) {
     ImGui::SameLine();
   }
   ImGui::NewLine();
+  ImGui::Checkbox("Objects and lights move", &session.objectsMove);
 }
 
 void viewPanel(Session& session, const std::vector<std::string>& textures, bool references) {

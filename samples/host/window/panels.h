@@ -13,7 +13,7 @@ namespace walr::host {
 
 /// The names of both methods of a comparison, drawn beside the edge between them.
 void labelComparison(const Session& session, const Rectangle& place);
-/// Pause, freeze, camera, cut, history.
+/// Pause, freeze, camera, cut, history, movement of objects.
 void playPanel(Session& session);
 /// The displayed view.
 /// @param references  whether views with a reference are offered

@@ -1,5 +1,6 @@
 #include "samples/host/window/window.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <stdexcept>
@@ -35,8 +36,16 @@ Window::Window(const std::string& title, fg::Extent size) {
     throwComplaint("starting GLFW");
   }
   glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
-  handle_ =
-      glfwCreateWindow(static_cast<int>(size.width), static_cast<int>(size.height), title.c_str(), nullptr, nullptr);
+  auto width = static_cast<int>(size.width);
+  auto height = static_cast<int>(size.height);
+  if (GLFWmonitor* const screen = glfwGetPrimaryMonitor(); screen != nullptr) {
+    int mostColumns = 0;
+    int mostRows = 0;
+    glfwGetMonitorWorkarea(screen, nullptr, nullptr, &mostColumns, &mostRows);
+    if (mostColumns > 0) width = std::min(width, mostColumns);
+    if (mostRows > 0) height = std::min(height, mostRows);
+  }
+  handle_ = glfwCreateWindow(width, height, title.c_str(), nullptr, nullptr);
   if (handle_ == nullptr) {
     throwComplaint("opening a window");
   }
@@ -56,6 +65,7 @@ bool Window::closed() const {
 }
 
 fg::Extent Window::size() const {
+  if (glfwGetWindowAttrib(handle_, GLFW_ICONIFIED) == GLFW_TRUE) return {};
   int width = 0;
   int height = 0;
   glfwGetFramebufferSize(handle_, &width, &height);

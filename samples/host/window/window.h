@@ -22,6 +22,7 @@ class Window {
   /// Instance extensions that a window's surface needs.
   static std::vector<const char*> instanceExtensions();
 
+  /// @param size  wanted; at most that of the screen without its bars
   /// @throws std::runtime_error with GLFW's message
   Window(const std::string& title, fg::Extent size);
   ~Window();
@@ -31,7 +32,7 @@ class Window {
   [[nodiscard]] GLFWwindow* handle() const { return handle_; }
   /// Whether the user has closed the window.
   [[nodiscard]] bool closed() const;
-  /// Size in pixels; 0 x 0 while the window is minimised.
+  /// Size in pixels; 0 x 0 while the window is minimised, on any system.
   [[nodiscard]] fg::Extent size() const;
   /// Whether a key is down.
   /// @param key  GLFW_KEY_...
