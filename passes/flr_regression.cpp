@@ -22,34 +22,15 @@ struct CellBytes {
 /// Bytes of one of the vectors that a cell consists of, `vec4` in flr.glsl.
 constexpr std::uint64_t kVectorBytes = 16;
 
-/// The shaders for a choice of guides.
-struct GuideShaders {
-  const fg::Shader& moments;
-  const fg::Shader& blur;
-  const fg::Shader& solve;
-  const fg::Shader& solveView;
-  const fg::Shader& apply;
-  const fg::Shader& applyView;
+/// The guides of the regression besides the constant.
+struct GuideChoice {
+  std::uint32_t count;  ///< `kUsedFeatures` of flr.glsl.
   CellBytes bytes;
 };
 
-GuideShaders shadersFor(bool occlusion, bool learned) {
-  if (learned) {
-    return {shaders::flrMomentsLearned,
-            shaders::flrBlurLearned,
-            shaders::flrSolveLearned,
-            shaders::flrSolveLearnedView,
-            shaders::flrApplyLearned,
-            shaders::flrApplyLearnedView,
-            {224, 112, 64}};
-  }
-  return {shaders::flrMoments({.occlusion = occlusion}),
-          shaders::flrBlur,
-          shaders::flrSolve({.occlusion = occlusion}),
-          shaders::flrSolveView({.occlusion = occlusion}),
-          shaders::flrApply({.occlusion = occlusion}),
-          shaders::flrApplyView({.occlusion = occlusion}),
-          occlusion ? CellBytes{160, 80, 0} : CellBytes{128, 64, 0}};
+GuideChoice chosenGuides(bool occlusion, bool learned) {
+  if (learned) return {8, {224, 112, 64}};
+  return occlusion ? GuideChoice{5, {160, 80, 0}} : GuideChoice{4, {128, 64, 0}};
 }
 
 /// In the order of `kView` of flr_solve.comp. Names of what WALR's regression has, too, are the same.
@@ -102,8 +83,8 @@ fg::Texture addFlrRegression(StageGraph graph, fg::Texture lighting, LightingAlp
     throw std::invalid_argument(
         "learned guides need ambient occlusion beside them: set regression.occlusion-guide to on");
   }
-  const GuideShaders stages = shadersFor(occlusion, learned.valid());
-  const CellBytes bytes = stages.bytes;
+  const GuideChoice chosen = chosenGuides(occlusion, learned.valid());
+  const CellBytes bytes = chosen.bytes;
   const fg::Extent extent = graph->textureDesc(lighting).extent;
   const fg::Extent cells = gridOf(extent, settings.factor, bytes.products);
   const std::uint64_t cellCount = std::uint64_t{cells.width} * cells.height;
@@ -118,19 +99,18 @@ fg::Texture addFlrRegression(StageGraph graph, fg::Texture lighting, LightingAlp
   // The pass that sums the products and the pass that applies the fit read the same pixels.
   const auto readPixels = [&](const std::string& name, const fg::Shader& shader) {
     fg::PassBuilder pass = graph->compute(name, shader);
-    pass.sample("lighting", lighting).sample("depth", guides.depth).constants(constants);
-    if (occlusion) {
-      pass.sample("features", guides.features);
-    } else {
-      pass.sample("shadingNormal", guides.shadingNormal);
-    }
-    if (learned.valid()) pass.sample("learned", learned);
+    pass.sample("lighting", lighting)
+        .sample("depth", guides.depth)
+        .sample("normals", occlusion ? guides.features : guides.shadingNormal)
+        .sampleIf(learned.valid(), "learned", learned, lighting)
+        .specialize("kUsedFeatures", chosen.count)
+        .constants(constants);
     return pass;
   };
   const std::array productBytes{bytes.products, bytes.moreProducts};
   const std::size_t buffers = bytes.moreProducts > 0 ? 2 : 1;
 
-  fg::PassBuilder downsample = readPixels("flr outer products", stages.moments);
+  fg::PassBuilder downsample = readPixels("flr outer products", shaders::flrMoments({.learned = learned.valid()}));
   downsample.specialize("kAlphaIsSampleCount", alpha == LightingAlpha::SampleCount ? 1U : 0U).dispatch(cells);
   constexpr std::array kMoments{"outMoments", "outMoreMoments"};
   constexpr std::array kToBlur{"moments", "moreMoments"};
@@ -142,8 +122,8 @@ fg::Texture addFlrRegression(StageGraph graph, fg::Texture lighting, LightingAlp
   for (std::size_t i = 0; i < buffers; ++i) {
     moments[i] = downsample.store(kMoments[i], graph->buffer(kMomentNames[i], {cellCount * productBytes[i]}));
   }
-  fg::PassBuilder blur = graph->compute("flr blur", stages.blur);
-  blur.constants(constants);
+  fg::PassBuilder blur = graph->compute("flr blur", shaders::flrBlur({.learned = learned.valid()}));
+  blur.specialize("kUsedFeatures", chosen.count).constants(constants);
   blur.dispatch(cells, static_cast<std::uint32_t>((bytes.products + bytes.moreProducts) / kVectorBytes));
   std::array<fg::Buffer, 2> blurred;
   for (std::size_t i = 0; i < buffers; ++i) {
@@ -154,10 +134,11 @@ fg::Texture addFlrRegression(StageGraph graph, fg::Texture lighting, LightingAlp
   const auto declareSolve = [&](const std::string& name, const fg::Shader& shader) {
     fg::PassBuilder pass = graph->compute(name, shader);
     for (std::size_t i = 0; i < buffers; ++i) pass.load(kBlurred[i], blurred[i]);
-    pass.constants(constants).dispatch(cells);
+    for (std::size_t i = buffers; i < kBlurred.size(); ++i) pass.unread(kBlurred[i], blurred.front());
+    pass.specialize("kUsedFeatures", chosen.count).constants(constants).dispatch(cells);
     return pass;
   };
-  fg::PassBuilder solve = declareSolve("flr solve", stages.solve);
+  fg::PassBuilder solve = declareSolve("flr solve", shaders::flrSolve);
   const fg::Buffer coefficients =
       solve.store("outCoefficients", graph->buffer("coefficients", {cellCount * bytes.coefficients}));
 
@@ -168,13 +149,13 @@ fg::Texture addFlrRegression(StageGraph graph, fg::Texture lighting, LightingAlp
         .dispatch(extent);
     return pass;
   };
-  graph.offer(solveViews(), extent, [&](const std::string& name) { return declareSolve(name, stages.solveView); });
+  graph.offer(solveViews(), extent, [&](const std::string& name) { return declareSolve(name, shaders::flrSolveView); });
   graph.offer(applyViews(), extent, [&](const std::string& name) {
-    fg::PassBuilder pass = declareApply(name, stages.applyView);
+    fg::PassBuilder pass = declareApply(name, shaders::flrApplyView);
     pass.specialize("kAlphaIsSampleCount", alpha == LightingAlpha::SampleCount);
     return pass;
   });
-  fg::PassBuilder apply = declareApply("flr apply", stages.apply);
+  fg::PassBuilder apply = declareApply("flr apply", shaders::flrApply);
   return apply.store("outFiltered", output);
 }
 

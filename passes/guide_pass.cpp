@@ -83,20 +83,22 @@ void readGBuffer(fg::PassBuilder& pass, const DenoiserInputs& inputs, const Prep
       .sampleIf(isMasked(settings), "albedo", inputs.albedo, inputs.normal);
 }
 
+bool geometricNormalIsApart(const GuideNeeds& needs) {
+  return needs.geometricNormal && !needs.occlusion;
+}
+
 Guides writeGuides(StageGraph graph, fg::PassBuilder& pass, fg::Extent extent, const GuideNeeds& needs) {
   Guides guides;
   const fg::TextureDesc word{VK_FORMAT_R32_UINT, extent};
   const GuideTexture depth = guideTexture(graph, "guides.depth", word, needs.history);
   guides.depth = pass.store("outDepth", depth.current);
   guides.previousDepth = depth.previous;
-  if (needs.occlusion) {
-    pass.specialize("kOcclusionRings", needs.occlusion->rings);
-    guides.features = pass.store("outFeatures", guideTexture(graph, "guides.features", word, false).current);
-  } else {
-    const GuideTexture shadingNormal = guideTexture(graph, "guides.shading normal", word, false);
-    guides.shadingNormal = pass.store("outShadingNormal", shadingNormal.current);
-  }
-  if (!needs.geometricNormal || needs.occlusion) return guides;
+  const bool occlusion = needs.occlusion.has_value();
+  pass.specialize("kOcclusion", occlusion)
+      .specialize("kOcclusionRings", needs.occlusion.value_or(AmbientOcclusionSettings{}).rings);
+  const char* const name = occlusion ? "guides.features" : "guides.shading normal";
+  (occlusion ? guides.features : guides.shadingNormal) = pass.store("outFeatures", graph.texture(name, word));
+  if (!geometricNormalIsApart(needs)) return guides;
   const GuideTexture geometricNormal = guideTexture(graph, "guides.geometric normal", word, needs.history);
   guides.geometricNormal = pass.store("outGeometricNormal", geometricNormal.current);
   guides.previousGeometricNormal = geometricNormal.previous;

@@ -5,6 +5,14 @@
 #include "shaders/shaders.h"
 
 namespace walr {
+namespace {
+
+const fg::Shader& shaderFor(const GuideNeeds& needs) {
+  if (!needs.geometricNormal) return shaders::prepareGuides;
+  return geometricNormalIsApart(needs) ? shaders::prepareGuidesGeometryApart : shaders::prepareGuidesGeometry;
+}
+
+}  // namespace
 
 Guides addPrepareGuides(StageGraph graph, const DenoiserInputs& inputs, const PrepareGuidesSettings& settings,
                         const GuideNeeds& needs) {
@@ -12,9 +20,7 @@ Guides addPrepareGuides(StageGraph graph, const DenoiserInputs& inputs, const Pr
     return graph.shared()->guidesFor({settings, needs, inputs.scene});
   offerGuideViews(graph, inputs, settings);
   const fg::Extent extent = graph->textureDesc(inputs.depth).extent;
-  fg::PassBuilder pass = graph->compute(
-      "prepare guides",
-      shaders::prepareGuides({.geometry = needs.geometricNormal, .occlusion = needs.occlusion.has_value()}));
+  fg::PassBuilder pass = graph->compute("prepare guides", shaderFor(needs));
   readGBuffer(pass, inputs, settings);
   pass.uniform("frameConstants", inputs.frame)
       .constants(guideConstants(graph, inputs, settings, needs))

@@ -1,6 +1,7 @@
 #include "passes/weighted_regression.h"
 
 #include <array>
+#include <cstdint>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -12,35 +13,37 @@ namespace walr {
 namespace {
 
 /// The variants of the pass.
-enum class Role : std::size_t { Averages, Filter, View };
+enum class Role : std::uint8_t { Averages, Filter, View };
 
-/// Shaders of one storage: [first][role].
-using IterationShaders = std::array<std::array<const fg::Shader*, 3>, 2>;
+/// Formats of the textures that hold moments.
+const std::vector<VkFormat>& momentFormats(MomentStorage storage) {
+  static const std::array<std::vector<VkFormat>, 4> kFormats{{
+      {VK_FORMAT_R32G32B32A32_UINT, VK_FORMAT_R32G32B32A32_UINT},
+      {VK_FORMAT_R32G32B32A32_UINT, VK_FORMAT_R32G32_UINT, VK_FORMAT_R32_UINT},
+      {VK_FORMAT_R32G32B32A32_UINT, VK_FORMAT_R32_UINT},
+      {VK_FORMAT_R32G32B32A32_UINT, VK_FORMAT_R32G32B32A32_UINT, VK_FORMAT_R32G32B32A32_UINT, VK_FORMAT_R32G32_UINT},
+  }};
+  return kFormats.at(static_cast<std::size_t>(storage));
+}
 
-/// The textures of one storage and the shaders that read and write them.
-struct StorageLayout {
-  std::vector<VkFormat> formats;
-  IterationShaders shaders;
-};
+/// The shader of an iteration that another one follows; it writes the textures of `momentFormats`.
+const fg::Shader& averagesShader(MomentStorage storage, bool first) {
+  switch (storage) {
+    case MomentStorage::Raw16:
+      return shaders::atrousRaw16({.first = first});
+    case MomentStorage::Raw11:
+      return shaders::atrousRaw11({.first = first});
+    case MomentStorage::Raw32:
+      return shaders::atrousRaw32({.first = first});
+    default:
+      return shaders::atrousCentred16({.first = first});
+  }
+}
 
-const StorageLayout& layoutOf(MomentStorage storage) {
-  using namespace shaders;
-  static const std::array kLayouts{
-      StorageLayout{{VK_FORMAT_R32G32B32A32_UINT, VK_FORMAT_R32G32B32A32_UINT},
-                    {{{&atrousCentred16, &atrousCentred16Last, &atrousCentred16View},
-                      {&atrousCentred16First, &atrousFirstLast, &atrousFirstView}}}},
-      StorageLayout{{VK_FORMAT_R32G32B32A32_UINT, VK_FORMAT_R32G32_UINT, VK_FORMAT_R32_UINT},
-                    {{{&atrousRaw16, &atrousRaw16Last, &atrousRaw16View},
-                      {&atrousRaw16First, &atrousFirstLast, &atrousFirstView}}}},
-      StorageLayout{{VK_FORMAT_R32G32B32A32_UINT, VK_FORMAT_R32_UINT},
-                    {{{&atrousRaw11, &atrousRaw11Last, &atrousRaw11View},
-                      {&atrousRaw11First, &atrousFirstLast, &atrousFirstView}}}},
-      StorageLayout{{VK_FORMAT_R32G32B32A32_UINT, VK_FORMAT_R32G32B32A32_UINT, VK_FORMAT_R32G32B32A32_UINT,
-                     VK_FORMAT_R32G32_UINT},
-                    {{{&atrousRaw32, &atrousRaw32Last, &atrousRaw32View},
-                      {&atrousRaw32First, &atrousFirstLast, &atrousFirstView}}}},
-  };
-  return kLayouts.at(static_cast<std::size_t>(storage));
+const fg::Shader& shaderFor(Role role, MomentStorage storage, bool first) {
+  if (role == Role::Averages) return averagesShader(storage, first);
+  if (role == Role::View) return first ? shaders::atrousFirstView : shaders::atrousView;
+  return first ? shaders::atrousFirstLast : shaders::atrousLast;
 }
 
 /// In the order of `kView` of atrous.comp.
@@ -100,14 +103,20 @@ float noiseRidge(const WeightedRegressionSettings& settings, std::uint32_t spaci
   return settings.regularisation.noiseRidge / samplesPerTap;
 }
 
+/// Declare the moments that a pass reads. A shader that writes none can read every storage: it has all bindings.
+void readMoments(fg::PassBuilder& pass, Role role, const std::vector<fg::Texture>& moments) {
+  static constexpr std::array kBindings{"momentsA", "momentsB", "momentsC", "momentsD"};
+  for (std::size_t i = 0; i < moments.size(); ++i) pass.sample(kBindings.at(i), moments[i]);
+  if (role == Role::Averages) return;
+  for (std::size_t i = moments.size(); i < kBindings.size(); ++i) pass.unread(kBindings.at(i), moments.front());
+}
+
 /// The pass of an iteration, without its outputs.
 fg::PassBuilder declareIteration(StageGraph graph, const std::string& name, Role role, const Iteration& iteration,
                                  fg::Buffer frame, fg::Texture accumulated, LightingAlpha alpha, const Guides& guides,
                                  const WeightedRegressionSettings& settings) {
-  static constexpr std::array kBindings{"momentsA", "momentsB", "momentsC", "momentsD"};
   const bool first = iteration.index == 0;
-  const IterationShaders& shaders = layoutOf(settings.storage).shaders;
-  fg::PassBuilder pass = graph.compute(name, *shaders.at(first ? 1 : 0).at(static_cast<std::size_t>(role)));
+  fg::PassBuilder pass = graph.compute(name, shaderFor(role, settings.storage, first));
   pass.uniform("frameConstants", frame)
       .sample("depth", iteration.averages.depth)
       .sample("planeNormal", settings.edgeStopping.normalOf(guides))
@@ -124,25 +133,24 @@ fg::PassBuilder declareIteration(StageGraph graph, const std::string& name, Role
   if (first || role == Role::View) pass.sample("accumulated", accumulated);
   if (first) pass.specialize("kAlphaIsSampleCount", alpha == LightingAlpha::SampleCount);
   if (first || role != Role::Averages) pass.sample("shadingNormal", guides.shadingNormal);
-  for (std::size_t i = 0; i < iteration.averages.moments.size(); ++i) {
-    pass.sample(kBindings.at(i), iteration.averages.moments[i]);
-  }
+  if (!first) readMoments(pass, role, iteration.averages.moments);
   if (role == Role::Averages) {
     pass.specialize("kKeepSampleCount", settings.keepSampleCount);
   } else {
-    pass.specialize("kPivotFloor", settings.regularisation.method == Regularisation::Floor);
+    pass.specialize("kMomentStorage", static_cast<std::uint32_t>(settings.storage))
+        .specialize("kPivotFloor", settings.regularisation.method == Regularisation::Floor);
   }
   return pass;
 }
 
 /// Write the averages of this iteration into textures of their own.
-Averages writeAverages(StageGraph graph, fg::PassBuilder& pass, const StorageLayout& layout, fg::Extent extent,
+Averages writeAverages(StageGraph graph, fg::PassBuilder& pass, const std::vector<VkFormat>& formats, fg::Extent extent,
                        const std::string& suffix) {
   static constexpr std::array kBindings{"outMomentsA", "outMomentsB", "outMomentsC", "outMomentsD"};
   static constexpr std::array kNames{"moments a", "moments b", "moments c", "moments d"};
   Averages averages;
-  for (std::size_t i = 0; i < layout.formats.size(); ++i) {
-    const fg::Texture texture = graph.texture(kNames.at(i) + suffix, {layout.formats[i], extent});
+  for (std::size_t i = 0; i < formats.size(); ++i) {
+    const fg::Texture texture = graph.texture(kNames.at(i) + suffix, {formats[i], extent});
     averages.moments.push_back(pass.store(kBindings.at(i), texture));
   }
   averages.depth = pass.store("outDepth", graph.texture("depth and edges" + suffix, {VK_FORMAT_R32_UINT, extent}));
@@ -168,7 +176,7 @@ fg::Texture addWeightedRegression(StageGraph graph, fg::Buffer frame, fg::Textur
       return declare("a-trous" + suffix, Role::Filter).store("outFiltered", output);
     }
     fg::PassBuilder pass = declare("a-trous" + suffix, Role::Averages);
-    iteration.averages = writeAverages(graph, pass, layoutOf(settings.storage), extent, suffix);
+    iteration.averages = writeAverages(graph, pass, momentFormats(settings.storage), extent, suffix);
   }
 }
 

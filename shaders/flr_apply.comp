@@ -3,6 +3,7 @@
 // VIEW: does the same work and writes one of its intermediate values instead of the result.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 #extension GL_EXT_samplerless_texture_functions : require
 #include "constants/flr.h"
 #include "include/finite.glsl"
@@ -37,14 +38,14 @@ float cellWeight(float t) {
 Coefficients coefficientsOf(ivec2 cell) {
   Coefficients k;
   k.constant = cells[vectorIndex(cell, 0)];
-  for (int i = 0; i < kSlopeVectors; ++i) k.slope[i] = cells[vectorIndex(cell, 1 + i)];
+  [[unroll]] for (int i = 0; i < kSlopeVectors; ++i) k.slope[i] = cells[vectorIndex(cell, 1 + i)];
   return k;
 }
 
 vec3 evaluate(Coefficients k, float x[kFeatures]) {
   vec3 colour = k.constant.rgb;
-  for (int i = 0; i < kFeatures; ++i)
-    for (int c = 0; c < 3; ++c) colour[c] += k.slope[(3 * i + c) / 4][(3 * i + c) % 4] * x[i];
+  [[unroll]] for (int i = 0; i < kUsedFeatures; ++i)
+    [[unroll]] for (int c = 0; c < 3; ++c) colour[c] += k.slope[(3 * i + c) / 4][(3 * i + c) % 4] * x[i];
   return colour;
 }
 
@@ -80,7 +81,7 @@ vec3 viewOf(ivec2 p, float z) {
   if (kView == 3u) return vec3(x[0], x[1], x[2]);
   if (kView == 4u) {
     const float samples = kAlphaIsSampleCount ? light.a : 1.0;
-    return vec3(x[kInverseDepth], kFeatures > kOcclusion ? x[kOcclusion % kFeatures] : 0.0, sampled ? samples : 0.0);
+    return vec3(x[kInverseDepth], x[kOcclusion], sampled ? samples : 0.0);
   }
   const vec4 predicted = predict(p, x);
   if (kView == 0u) return vec3(notEqual(clampedColour(predicted.rgb), predicted.rgb));

@@ -1,6 +1,8 @@
 // FLR, second stage (Salmi et al. 2024): the horizontal pass of the separable Gaussian over the outer products of
 // cells. Each thread blurs one vector of one cell: vectors are the layers of the dispatch.
+// LEARNED: there is a second buffer of products (flr.glsl).
 #version 460
+#extension GL_EXT_control_flow_attributes : require
 #extension GL_GOOGLE_include_directive : require
 #include "constants/flr.h"
 
@@ -18,7 +20,7 @@ layout(std430) writeonly buffer outMoreBlurred { vec4 outMoreCells[]; };
 
 vec4 momentsAt(ivec2 cell, int vector) {
 #ifdef LEARNED
-  if (vector >= kFirstVectors) return moreCells[vectorIndex(cell, vector - kFirstVectors)];
+  if (vector >= kMostFirstVectors) return moreCells[vectorIndex(cell, vector - kMostFirstVectors)];
 #endif
   return cells[vectorIndex(cell, vector)];
 }
@@ -31,8 +33,8 @@ void main() {
   const int first = max(cell.x - constants.radius, 0), last = min(cell.x + constants.radius, constants.cells.x - 1);
   for (int x = first; x <= last; ++x) sum += gaussian(x - cell.x) * momentsAt(ivec2(x, cell.y), vector);
 #ifdef LEARNED
-  if (vector >= kFirstVectors) {
-    outMoreCells[vectorIndex(cell, vector - kFirstVectors)] = sum;
+  if (vector >= kMostFirstVectors) {
+    outMoreCells[vectorIndex(cell, vector - kMostFirstVectors)] = sum;
     return;
   }
 #endif

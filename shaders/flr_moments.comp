@@ -1,6 +1,8 @@
 // FLR, first stage (Salmi et al. 2024): sums the outer products of guides and colour over the pixels of each cell.
+// LEARNED: writes a second buffer of products, which learned guides take (flr.glsl).
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 #extension GL_EXT_samplerless_texture_functions : require
 #include "constants/flr.h"
 #include "include/finite.glsl"
@@ -38,9 +40,9 @@ void main() {
       add(sum, 1.0, outerProducts(unpackGuides(guides, z), clamp(colour, 0.0, kLargestHalf)));
     }
   }
-  for (int k = 0; k < kFirstVectors; ++k) outCells[vectorIndex(cell, k)] = sum.v[k];
+  [[unroll]] for (int k = 0; k < kFirstVectors; ++k) outCells[vectorIndex(cell, k)] = sum.v[k];
 #ifdef LEARNED
-  for (int k = kFirstVectors; k < kProductVectors; ++k)
+  [[unroll]] for (int k = kFirstVectors; k < kProductVectors; ++k)
     outMoreCells[vectorIndex(cell, k - kFirstVectors)] = sum.v[k];
 #endif
 }

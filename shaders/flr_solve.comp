@@ -13,9 +13,7 @@ layout(push_constant) uniform PushConstants { FlrConstants constants; };
 #include "include/cholesky.glsl"
 
 layout(std430) readonly buffer blurred { vec4 cells[]; };
-#ifdef LEARNED
-layout(std430) readonly buffer moreBlurred { vec4 moreCells[]; };
-#endif
+layout(std430) readonly buffer moreBlurred { vec4 moreCells[]; };  // Read with learned guides.
 #ifdef VIEW
 layout(constant_id = 8) const uint kView = 0;  // Which quantity; numbered in viewOf.
 layout(rgba32f) uniform writeonly image2D outView;
@@ -40,14 +38,13 @@ NormalEquations normalEquations(OuterProducts p) {
   NormalEquations e;
   e.y = scale * colourProductAt(p, 0);
   float covariances[kCovariances];
-  [[unroll]] for (int i = 0; i < kFeatures; ++i) e.x[i] = scale * productAt(p, kMeanX + i);
-  [[unroll]] for (int i = 0; i < kFeatures; ++i) {
+  [[unroll]] for (int i = 0; i < kUsedFeatures; ++i) e.x[i] = scale * productAt(p, productIndex(0, i + 1));
+  [[unroll]] for (int i = 0; i < kUsedFeatures; ++i) {
     e.ridge[i] = constants.ridge * (i == kInverseDepth ? e.x[i] * e.x[i] : 1.0);
     e.yx[i] = scale * colourProductAt(p, i + 1) - e.y * e.x[i];
-    [[unroll]] for (int j = 0; j < kFeatures; ++j) {
+    [[unroll]] for (int j = 0; j < kUsedFeatures; ++j) {
       if (j < i) continue;
-      const int k = triangleEntry(j, i);
-      covariances[k] = scale * productAt(p, kSquares + k) - e.x[i] * e.x[j];
+      covariances[triangleEntry(j, i)] = scale * productAt(p, productIndex(i + 1, j + 1)) - e.x[i] * e.x[j];
     }
   }
   e.factor = choleskyFactor(covariances, e.ridge, e.ridge);
@@ -58,7 +55,7 @@ NormalEquations normalEquations(OuterProducts p) {
 // The smallest pivot without its ridge, in units of the ridge; the number of pivots below their ridge.
 vec2 pivotsOf(NormalEquations e) {
   float smallest = 3.0e38, outweighed = 0.0;
-  for (int i = 0; i < kFeatures; ++i) {
+  [[unroll]] for (int i = 0; i < kUsedFeatures; ++i) {
     const float root = e.factor[triangleEntry(i, i)];
     const float pivot = root * root / e.ridge[i] - 1.0;
     smallest = min(smallest, pivot);
@@ -69,7 +66,7 @@ vec2 pivotsOf(NormalEquations e) {
 
 vec3 viewOf(OuterProducts p) {
   const float samples = productAt(p, 0);
-  if (kView == 1u) return vec3(samples, samples < float(kFeatures + 1), samples <= 0.0);
+  if (kView == 1u) return vec3(samples, samples < float(kUsedFeatures + 1), samples <= 0.0);
   if (samples <= 0.0) return vec3(0.0);
   const vec2 pivots = pivotsOf(normalEquations(p));
   return vec3(pivots, pivots.y > 0.0);
@@ -86,15 +83,15 @@ void write(ivec2 cell, OuterProducts p) {
 Coefficients solve(OuterProducts p) {
   Coefficients result;
   result.constant = vec4(0.0);
-  for (int k = 0; k < kSlopeVectors; ++k) result.slope[k] = vec4(0.0);
+  [[unroll]] for (int k = 0; k < kSlopeVectors; ++k) result.slope[k] = vec4(0.0);
   if (productAt(p, 0) <= 0.0) return result;
 
   const NormalEquations e = normalEquations(p);
   const vec3 slope[kFeatures] = choleskySolve(e.factor, e.yx);
   result.constant = vec4(e.y, 1.0);
-  for (int i = 0; i < kFeatures; ++i) {
+  [[unroll]] for (int i = 0; i < kUsedFeatures; ++i) {
     result.constant.rgb -= slope[i] * e.x[i];
-    for (int c = 0; c < 3; ++c) result.slope[(3 * i + c) / 4][(3 * i + c) % 4] = slope[i][c];
+    [[unroll]] for (int c = 0; c < 3; ++c) result.slope[(3 * i + c) / 4][(3 * i + c) % 4] = slope[i][c];
   }
   return result;
 }
@@ -102,16 +99,15 @@ Coefficients solve(OuterProducts p) {
 void write(ivec2 cell, OuterProducts p) {
   const Coefficients result = solve(p);
   outCells[vectorIndex(cell, 0)] = result.constant;
-  for (int k = 0; k < kSlopeVectors; ++k) outCells[vectorIndex(cell, 1 + k)] = result.slope[k];
+  [[unroll]] for (int k = 0; k < kSlopeVectors; ++k) outCells[vectorIndex(cell, 1 + k)] = result.slope[k];
 }
 #endif
 
 OuterProducts productsOf(ivec2 cell) {
   OuterProducts p;
-  for (int k = 0; k < kFirstVectors; ++k) p.v[k] = cells[vectorIndex(cell, k)];
-#ifdef LEARNED
-  for (int k = kFirstVectors; k < kProductVectors; ++k) p.v[k] = moreCells[vectorIndex(cell, k - kFirstVectors)];
-#endif
+  [[unroll]] for (int k = 0; k < kFirstVectors; ++k) p.v[k] = cells[vectorIndex(cell, k)];
+  [[unroll]] for (int k = kFirstVectors; k < kProductVectors; ++k)
+    p.v[k] = moreCells[vectorIndex(cell, k - kFirstVectors)];
   return p;
 }
 

@@ -1,6 +1,7 @@
 // Converts the host's G-buffer into the guides that every later pass reads (guides.glsl). The shading normal's two
 // coordinates are features of the regression over pixels. The geometric normal and the position define each pixel's
 // plane.
+// GEOMETRIC_NORMAL, NORMAL_APART: see guides.glsl.
 // VIEW: writes why pixels are not denoised, or which inputs are not finite, instead of guides.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -18,9 +19,9 @@ layout(rgba32f) uniform writeonly image2D outView;
 #endif
 layout(push_constant) uniform PushConstants { PrepareGuidesConstants guideConstants; };
 #ifdef VIEW
-#include "include/guides.glsl"
+#include "include/host_surface.glsl"
 #else
-#include "include/store_guides.glsl"
+#include "include/guides.glsl"
 #endif
 
 #ifdef VIEW

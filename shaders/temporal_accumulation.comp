@@ -81,7 +81,7 @@ layout(r32ui) uniform writeonly uimage2D outLightFeatures;
 layout(push_constant) uniform PushConstants { GuidesAndAccumulationConstants pushed; };
 #define constants pushed.accumulation
 #define guideConstants pushed.guides
-#include "include/store_guides.glsl"
+#include "include/guides.glsl"
 #else
 layout(push_constant) uniform PushConstants { TemporalAccumulationConstants constants; };
 #endif

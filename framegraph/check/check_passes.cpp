@@ -78,17 +78,17 @@ class PassCheck {
     }
   }
 
-  /// Nothing is done for a texture that is only bound: some other access must bring it into the state of a read.
+  /// Nothing is done for a resource that is only bound: some other access must bring it into the state of a read.
   void checkUnread(const AccessDecl& access) {
     const bool isRead = std::ranges::any_of(pass_.accesses, [&](const AccessDecl& other) {
       return !other.unread && other.resource == access.resource && other.readVersion == access.readVersion &&
              other.access == access.access && other.range == access.range;
     });
     if (isRead) return;
-    findings_.error(code::kUnreadTexture, pass_, access,
+    findings_.error(code::kUnreadStandIn, pass_, access,
                     "pass " + quoted(pass_.name) + " binds " + quoted(findings_.resourceName(access.resource)) +
-                        " to " + quoted(access.binding) + " as unread, but does not sample it under another name; " +
-                        "bind a texture that it samples anyhow, or declare the read (sample)");
+                        " to " + quoted(access.binding) + " as unread, but does not read it under another name; " +
+                        "bind a resource that it reads anyhow, or declare the read (sample, load)");
   }
 
   void checkRange(const AccessDecl& access, const TextureDesc& texture) {

@@ -40,7 +40,7 @@ inline constexpr std::string_view kIndirectArguments = "FG032";    ///< Misalign
 inline constexpr std::string_view kTwoLayouts = "FG033";           ///< Two reads in one pass need two layouts.
 inline constexpr std::string_view kBindingTwice = "FG034";         ///< Two accesses are bound to one shader variable.
 inline constexpr std::string_view kBufferTooSmall = "FG035";       ///< Smaller than the shader's uniform block.
-inline constexpr std::string_view kUnreadTexture = "FG036";        ///< Stand-in that the pass does not read otherwise.
+inline constexpr std::string_view kUnreadStandIn = "FG036";        ///< Stand-in that the pass does not read otherwise.
 inline constexpr std::string_view kTooLarge = "FG037";             ///< Larger than any device allows.
 
 }  // namespace fg::code

@@ -40,10 +40,11 @@ PassBuilder& PassBuilder::sample(std::string_view binding, Texture texture, VkFi
 }
 
 PassBuilder& PassBuilder::unread(std::string_view binding, Texture texture, Where where) {
-  AccessDecl decl = declareRead(texture, Access::SampledRead, binding, where);
-  decl.unread = true;
-  graph_->desc_.passes[pass_].accesses.push_back(std::move(decl));
-  return *this;
+  return bindUnread(texture, Access::SampledRead, binding, where);
+}
+
+PassBuilder& PassBuilder::unread(std::string_view binding, Buffer buffer, Where where) {
+  return bindUnread(buffer, Access::StorageRead, binding, where);
 }
 
 PassBuilder& PassBuilder::sampleIf(bool read, std::string_view binding, Texture texture, Texture standIn, Where where) {
@@ -90,6 +91,12 @@ Buffer PassBuilder::access(Buffer buffer, Access access, Where where) {
 
 PassBuilder& PassBuilder::read(ResourceVersion resource, Access access, std::string_view binding, Where where) {
   graph_->desc_.passes[pass_].accesses.push_back(declareRead(resource, access, binding, where));
+  return *this;
+}
+
+PassBuilder& PassBuilder::bindUnread(ResourceVersion resource, Access access, std::string_view binding, Where where) {
+  read(resource, access, binding, where);
+  graph_->desc_.passes[pass_].accesses.back().unread = true;
   return *this;
 }
 

@@ -213,6 +213,9 @@ class PassBuilder {
   /// @param texture a texture that the pass samples under another name, so that no barrier and no traffic is added. Its
   ///                texels have the type that the shader declares (`texture2D`: float, `utexture2D`: unsigned).
   PassBuilder& unread(std::string_view binding, Texture texture, Where where = Where::current());
+  /// The same for a `readonly` storage buffer.
+  /// @param buffer a buffer that the pass loads under another name
+  PassBuilder& unread(std::string_view binding, Buffer buffer, Where where = Where::current());
   /// `sample` the texture if the shader reads it with these specialization constants; otherwise bind `standIn` as
   /// `unread`.
   PassBuilder& sampleIf(bool read, std::string_view binding, Texture texture, Texture standIn,
@@ -260,6 +263,7 @@ class PassBuilder {
   friend class Graph;
   PassBuilder(Graph& graph, std::uint32_t pass) : graph_(&graph), pass_(pass) {}
   PassBuilder& read(ResourceVersion resource, Access access, std::string_view binding, Where where);
+  PassBuilder& bindUnread(ResourceVersion resource, Access access, std::string_view binding, Where where);
   ResourceVersion write(ResourceVersion resource, Access access, std::string_view binding, Where where);
   ResourceVersion touch(ResourceVersion resource, Access access, Where where);
   ComputeDispatch* computeWork();

@@ -4,6 +4,7 @@
 #ifndef WALR_BLOCK_FIT_GLSL
 #define WALR_BLOCK_FIT_GLSL
 #include "block_moments.glsl"
+const int kUsedFeatures = kFeatures;
 #include "cholesky.glsl"
 #include "stored_fit.glsl"
 

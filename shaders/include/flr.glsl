@@ -1,40 +1,35 @@
 // FLR (Salmi et al. 2024): the guides of the regression, their outer products, and the grid of cells.
-// Needs: `constants` (FlrConstants). OCCLUSION: ambient occlusion is a guide, too. LEARNED: so are three of a network.
+// Needs: `constants` (FlrConstants), GL_EXT_control_flow_attributes. Takes constant_id 10.
 #ifndef WALR_FLR_GLSL
 #define WALR_FLR_GLSL
 
 // The guides besides the constant: shading normal, inverse depth, which is linear over the image of a plane, ambient
-// occlusion, and those of a network.
-const int kInverseDepth = 3, kOcclusion = 4;
-#ifdef LEARNED
-const int kFeatures = 8;
-#elif defined(OCCLUSION)
-const int kFeatures = 5;
-#else
-const int kFeatures = 4;
-#endif
+// occlusion, and three of a network. The first kUsedFeatures are used: 4, 5 or all of them. Their number is known when
+// the pipeline is made, so that loops over them are unrolled and arrays stay in registers.
+const int kInverseDepth = 3, kOcclusion = 4, kLearned = 5, kFeatures = 8;
+layout(constant_id = 10) const int kUsedFeatures = 4;
+const bool kOcclusionGuide = kUsedFeatures > kOcclusion, kLearnedGuides = kUsedFeatures > kLearned;
 const int kCovariances = kFeatures * (kFeatures + 1) / 2;
 #include "triangle.glsl"
 
 // Sums over samples of the distinct entries of (1, x)(1, x)^T, row by row, then of (1, x) y^T, where x are the guides
 // and y is the colour. The first sum is the number of samples.
-const int kMeanX = 1;
-const int kSquares = kMeanX + kFeatures;
-const int kMeanY = kSquares + kCovariances;
-const int kProducts = kMeanY + 3 * (kFeatures + 1);
+const int kMeanY = (kUsedFeatures + 1) * (kUsedFeatures + 2) / 2;
+const int kProducts = kMeanY + 3 * (kUsedFeatures + 1);
 const int kProductVectors = (kProducts + 3) / 4;
 
-// Vectors of a cell that the first buffer of products holds. With LEARNED there is a second one, because every device
-// takes only buffers of 128 MiB, which those of a picture of 3840 x 2160 would not fit as one. With cells of 4 x 4 pixels
-// the first one is as large as what a frame keeps of the last one's light and surfaces, and can take their memory.
-#ifdef LEARNED
-const int kFirstVectors = 14;
-#else
-const int kFirstVectors = kProductVectors;
-#endif
+// Index of entry (i, j) of (1, x)(1, x)^T, i <= j.
+int productIndex(int i, int j) { return i * (2 * kUsedFeatures - i + 1) / 2 + j; }
+
+// Vectors of a cell that the first buffer of products holds. With learned guides there is a second one, because every
+// device takes only buffers of 128 MiB, which those of a picture of 3840 x 2160 would not fit as one. With cells of
+// 4 x 4 pixels the first one is as large as what a frame keeps of the last one's light and surfaces, and can take their
+// memory.
+const int kMostFirstVectors = 14;
+const int kFirstVectors = kProductVectors < kMostFirstVectors ? kProductVectors : kMostFirstVectors;
 
 struct OuterProducts {
-  vec4 v[kProductVectors];
+  vec4 v[18];  // kProductVectors of all guides.
 };
 
 float productAt(OuterProducts p, int k) { return p.v[k / 4][k % 4]; }
@@ -46,23 +41,23 @@ vec3 colourProductAt(OuterProducts p, int i) {
 
 OuterProducts noSamples() {
   OuterProducts p;
-  for (int k = 0; k < kProductVectors; ++k) p.v[k] = vec4(0.0);
+  [[unroll]] for (int k = 0; k < kProductVectors; ++k) p.v[k] = vec4(0.0);
   return p;
 }
 
 OuterProducts outerProducts(float x[kFeatures], vec3 y) {
   float row[kFeatures + 1];
   row[0] = 1.0;
-  for (int i = 0; i < kFeatures; ++i) row[i + 1] = x[i];
+  [[unroll]] for (int i = 0; i < kUsedFeatures; ++i) row[i + 1] = x[i];
   OuterProducts p = noSamples();
-  for (int i = 0; i <= kFeatures; ++i) {
-    for (int j = 0; j <= kFeatures; ++j) {
-      const int k = i * (2 * kFeatures - i + 1) / 2 + j;
+  [[unroll]] for (int i = 0; i <= kUsedFeatures; ++i) {
+    [[unroll]] for (int j = 0; j <= kUsedFeatures; ++j) {
+      const int k = productIndex(i, j);
       if (j >= i) p.v[k / 4][k % 4] = row[i] * row[j];
     }
   }
-  for (int i = 0; i <= kFeatures; ++i) {
-    for (int c = 0; c < 3; ++c) {
+  [[unroll]] for (int i = 0; i <= kUsedFeatures; ++i) {
+    [[unroll]] for (int c = 0; c < 3; ++c) {
       const int k = kMeanY + 3 * i + c;
       p.v[k / 4][k % 4] = row[i] * y[c];
     }
@@ -71,7 +66,7 @@ OuterProducts outerProducts(float x[kFeatures], vec3 y) {
 }
 
 void add(inout OuterProducts sum, float weight, OuterProducts p) {
-  for (int k = 0; k < kProductVectors; ++k) sum.v[k] += weight * p.v[k];
+  [[unroll]] for (int k = 0; k < kProductVectors; ++k) sum.v[k] += weight * p.v[k];
 }
 
 float gaussian(int distance) {
@@ -80,10 +75,10 @@ float gaussian(int distance) {
 }
 
 // Colour = constant + slope^T x. In a buffer the constant is vector 0.
-const int kSlopeVectors = (3 * kFeatures + 3) / 4;
+const int kSlopeVectors = (3 * kUsedFeatures + 3) / 4;
 struct Coefficients {
-  vec4 constant;              // rgb; 1 where there is a fit, else 0.
-  vec4 slope[kSlopeVectors];  // rgb of every guide in turn.
+  vec4 constant;                  // rgb; 1 where there is a fit, else 0.
+  vec4 slope[3 * kFeatures / 4];  // rgb of every guide in turn.
 };
 
 bool insideGrid(ivec2 cell) { return all(greaterThanEqual(cell, ivec2(0))) && all(lessThan(cell, constants.cells)); }

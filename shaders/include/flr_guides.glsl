@@ -1,53 +1,33 @@
-// The guides of one pixel: depth, and what `packedGuides` fetches. With OCCLUSION that comes from `features`, else from
-// `shadingNormal`; with OCCLUSION and LEARNED, from `learned`, too. Needs: `depth`.
+// The guides of one pixel: depth, and what `packedGuides` fetches.
+// Needs: `depth`, which holds the geometric normal, too, if `normals` holds ambient occlusion (surface.glsl).
 #ifndef WALR_FLR_GUIDES_GLSL
 #define WALR_FLR_GUIDES_GLSL
 #include "flr.glsl"
 #include "surface.glsl"
 
+uniform utexture2D normals;  // Shading normals, and with kOcclusionGuide ambient occlusion.
+uniform texture2D learned;   // Read with kLearnedGuides.
+
 struct PackedGuides {
-  uint surface;
-#ifdef LEARNED
+  uint normal;
   vec3 learned;
-#endif
 };
 
-#ifdef OCCLUSION
-uniform utexture2D features;
-#ifdef LEARNED
-uniform texture2D learned;
-#endif
-
 PackedGuides packedGuides(ivec2 p) {
-  PackedGuides packed;
-  packed.surface = texelFetch(features, p, 0).x;
-#ifdef LEARNED
-  packed.learned = texelFetch(learned, p, 0).rgb;
-#endif
-  return packed;
+  return PackedGuides(texelFetch(normals, p, 0).x, kLearnedGuides ? texelFetch(learned, p, 0).rgb : vec3(0.0));
 }
 
-float depthAt(ivec2 p) { return unpackDepthBesideNormal(texelFetch(depth, p, 0).x); }
+float depthAt(ivec2 p) {
+  const uint packed = texelFetch(depth, p, 0).x;
+  return kOcclusionGuide ? unpackDepthBesideNormal(packed) : unpackDepth(packed);
+}
 
+// Guides that are not used are 0.
 float[kFeatures] unpackGuides(PackedGuides packed, float z) {
-  const NormalAndOcclusion s = unpackNormalAndOcclusion(packed.surface);
-#ifdef LEARNED
+  const NormalAndOcclusion s = kOcclusionGuide ? unpackNormalAndOcclusion(packed.normal)
+                                               : NormalAndOcclusion(unpackLongNormal(packed.normal), 0.0);
   const vec3 l = packed.learned;
   return float[](s.normal.x, s.normal.y, s.normal.z, 1.0 / z, s.occlusion, l.x, l.y, l.z);
-#else
-  return float[](s.normal.x, s.normal.y, s.normal.z, 1.0 / z, s.occlusion);
-#endif
 }
-#else
-uniform utexture2D shadingNormal;
-
-PackedGuides packedGuides(ivec2 p) { return PackedGuides(texelFetch(shadingNormal, p, 0).x); }
-float depthAt(ivec2 p) { return unpackDepth(texelFetch(depth, p, 0).x); }
-
-float[kFeatures] unpackGuides(PackedGuides packed, float z) {
-  const vec3 n = unpackLongNormal(packed.surface);
-  return float[](n.x, n.y, n.z, 1.0 / z);
-}
-#endif
 
 #endif

@@ -5,7 +5,7 @@
 #include "finite.glsl"
 #include "moments.glsl"
 
-const int kFeatures = 2;
+const int kFeatures = 2, kUsedFeatures = kFeatures;
 const int kCovariances = 3;
 #include "cholesky.glsl"
 

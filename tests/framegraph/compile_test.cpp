@@ -34,14 +34,16 @@ TEST(Compile, ChainOfPassesSharesMemoryAndHasOneBarrierPerAccess) {
   EXPECT_EQ(result.plan.memory.transientPeakBytes, 64 * 32 * 8);
 }
 
-/// One pass that samples a texture and leaves a second binding unread.
+/// One pass that reads a texture and a buffer, and leaves two more bindings unread.
 /// @param bind whether it says what is bound there
 CompileResult compileUnread(bool bind) {
   Graph graph;
-  const Texture made = graph.callback("make", recordNothing).store("out", graph.texture("made", kColor));
+  auto maker = graph.callback("make", recordNothing);
+  const Texture made = maker.store("out", graph.texture("made", kColor));
+  const Buffer sums = maker.store("outSums", graph.buffer("sums", {256}));
   auto pass = graph.callback("filter", recordNothing);
-  if (bind) pass.unread("motion", made);
-  pass.sample("light", made);
+  if (bind) pass.unread("motion", made).unread("moreSums", sums);
+  pass.sample("light", made).load("sums", sums);
   graph.exported(pass.store("out", graph.texture("filtered", kColor)), test::kTransferSource);
   return compile(graph.desc(), TableMemoryModel());
 }
@@ -51,7 +53,7 @@ TEST(Compile, WhatAPassLeavesUnreadCostsNothing) {
   const CompileResult without = compileUnread(false);
   ASSERT_TRUE(bound.ok()) << bound.text();
   EXPECT_EQ(bound.plan, without.plan) << "the same barriers, memory and traffic";
-  EXPECT_EQ(bound.plan.traffic.bytesRead, 64U * 32 * 8);
+  EXPECT_EQ(bound.plan.traffic.bytesRead, 64U * 32 * 8 + 256);
 }
 
 /// Passes "a" to "d", each of which writes a texture of its own, and "d" a second one; nobody reads what "a" writes.

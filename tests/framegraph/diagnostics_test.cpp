@@ -263,7 +263,13 @@ TEST_F(DiagnosticsTest, BindingTwice) {
 TEST_F(DiagnosticsTest, UnreadTextureThatThePassDoesNotSampleOtherwise) {
   auto pass = filter();
   pass.unread("noisy", written());
-  expect(code::kUnreadTexture, "filter", "output");
+  expect(code::kUnreadStandIn, "filter", "output");
+}
+
+TEST_F(DiagnosticsTest, UnreadBufferThatThePassDoesNotLoadOtherwise) {
+  const Buffer sums = graph.callback("make", recordNothing).store("out", graph.buffer("sums", {64}));
+  graph.callback("late", recordNothing).unread("bound", sums);
+  expect(code::kUnreadStandIn, "late", "sums");
 }
 
 TEST_F(DiagnosticsTest, UnreadTextureOfAnotherVersion) {
@@ -271,7 +277,7 @@ TEST_F(DiagnosticsTest, UnreadTextureOfAnotherVersion) {
   const Texture updated = graph.callback("update", recordNothing).update("io", old);
   auto pass = graph.callback("late", recordNothing);
   pass.sample("read", updated).unread("bound", old);
-  expect(code::kUnreadTexture, "late", "output");
+  expect(code::kUnreadStandIn, "late", "output");
 }
 
 TEST_F(DiagnosticsTest, BufferTooSmall) {
