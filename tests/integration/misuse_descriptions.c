@@ -98,6 +98,8 @@ static void test_create(const WalrDevice* device) {
   conventions = (WalrConventions){.struct_size = sizeof(conventions), .light_masked = VK_TRUE};
   info.lighting_format = VK_FORMAT_B10G11R11_UFLOAT_PACK32;
   EXPECT(walr_create_denoiser(&info, &denoiser), WALR_ERROR_INVALID_ARGUMENT, "4 channels");
+  conventions = (WalrConventions){.struct_size = sizeof(conventions), .light_counted = VK_TRUE};
+  EXPECT(walr_create_denoiser(&info, &denoiser), WALR_ERROR_INVALID_ARGUMENT, "4 channels");
   EXPECT_TRUE(denoiser == NULL);
 
   /* A caller with a newer header works as long as it sets no field that this version does not know. */
