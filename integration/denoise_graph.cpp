@@ -33,7 +33,7 @@ void checkLight(const LightPattern& light, const HostConventions& host) {
 /// The number of channels of an input that are read.
 std::uint32_t channelsRead(const HostInput& input, const InputConventions& conventions, const HostConventions& host) {
   const bool flatMotion = conventions.motionDepth != InputConventions::MotionDepth::Given;
-  if (input.texture == &DenoiserInputs::lighting && conventions.light.masked) return 4;
+  if (input.texture == &DenoiserInputs::lighting && conventions.light.hasAlpha()) return 4;
   const bool twoChannels = (input.texture == &DenoiserInputs::motion && flatMotion) ||
                            (input.texture == &DenoiserInputs::normal && host.octahedral());
   return twoChannels ? 2 : input.channels;

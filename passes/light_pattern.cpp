@@ -39,7 +39,8 @@ glm::ivec2 lightOffsetOfFrame(const LightPattern& pattern, std::uint32_t frame) 
 void specializeLight(fg::PassBuilder& pass, const LightPattern& pattern) {
   pass.specialize("kLightColumns", pattern.columns)
       .specialize("kLightRows", pattern.rows)
-      .specialize("kLightMasked", pattern.masked);
+      .specialize("kLightMasked", pattern.hasAlpha())
+      .specialize("kLightCounted", pattern.counted);
 }
 
 }  // namespace walr

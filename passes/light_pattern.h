@@ -19,11 +19,17 @@ struct LightPattern {
   std::uint32_t rows = 1;     ///< 1 to `kMostPerLightTexel`.
   /// Any texel may be without a sample: one whose alpha is not above 0. Its colour does not matter, not even NaN.
   bool masked = false;
+  /// The same, and an alpha above 0 is the number of samples whose mean the texel's colour is; fractions are allowed.
+  /// Accumulation weighs the texel by it (shaders/include/sample_counts.glsl), but by no more than
+  /// `kMostAccumulatedSamples` / `accumulation.max-history`.
+  bool counted = false;
 
   /// Whether groups are single pixels, so that the lighting has the extent of the image.
   [[nodiscard]] bool fullSize() const { return columns == 1 && rows == 1; }
   /// Whether every pixel has a sample.
-  [[nodiscard]] bool everyPixel() const { return fullSize() && !masked; }
+  [[nodiscard]] bool everyPixel() const { return fullSize() && !hasAlpha(); }
+  /// Whether the alpha of the lighting is read.
+  [[nodiscard]] bool hasAlpha() const { return masked || counted; }
   /// Whether the sampled pixels form a rectangular grid: groups with one row only are shifted from row to row.
   [[nodiscard]] bool grid() const { return rows > 1; }
   /// Extent of the lighting of an image.

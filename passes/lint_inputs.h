@@ -43,6 +43,8 @@ inline constexpr std::array kLintCounts{
     LintCount{"lint-motion-z-as-stated", kLintMotionZ + kReadingAsStated},
     LintCount{"lint-lighting-not-finite", kLintLightingNotFinite},
     LintCount{"lint-lighting-negative", kLintLightingNegative},
+    LintCount{"lint-lighting-samples", kLintSamples},
+    LintCount{"lint-lighting-count-invalid", kLintCountInvalid},
     LintCount{"lint-albedo-not-finite", kLintAlbedoNotFinite},
     LintCount{"lint-albedo-outside", kLintAlbedoOutside},
 };

@@ -69,6 +69,11 @@ void LintJudge::judgeValues() {
       Rule{kLintLightingNegative, kLintPixels, false, "lighting-negative", "lighting is negative on ",
            "a reconstruction filter with negative lobes, or a subtraction of direct from full light",
            "hand over the light as it was sampled"},
+      Rule{kLintCountInvalid, kLintPixels, true, "lighting-count-range",
+           "the number of samples in the lighting's alpha is NaN, negative or above 65504 on ",
+           "a division by 0, or alpha that was not written on some path",
+           "write the number of samples whose mean the texel is, 0 where there is none: NaN and negative numbers count "
+           "as 0"},
       Rule{kLintNormalNotUnit, kLintSurfaces, false, "normal-not-unit", "normals are not of length 1 on ",
            "normals in 0..1 stated as -1..1, or interpolated and not normalised",
            "state how normals are written (WalrConventions::normals), or normalise them"},
@@ -82,6 +87,11 @@ void LintJudge::judgeValues() {
     if (rule.any ? count == 0 : !isMany(count, whole)) continue;
     const std::string of = rule.of == kLintPixels ? "pixels" : "pixels with a surface";
     add({rule.name, rule.what + share(count, whole, of), rule.cause, rule.wayOut});
+  }
+  if (conventions_.light.hasAlpha() && counts_[kLintPixels] > 0 && counts_[kLintSamples] == 0) {
+    add({"lighting-empty", "no texel of the lighting has an alpha above 0", "the lighting's alpha was not written",
+         "write 1, or the number of samples, where there is one, or do not state that the lighting has alpha "
+         "(WalrConventions::light_masked and light_counted)"});
   }
   const std::uint64_t surfaces = counts_[kLintSurfaces];
   if (isMost(counts_[kLintNormalZero], surfaces)) {

@@ -199,8 +199,17 @@ void countPair(ivec2 p, ivec2 q, float z, vec3 n, LightSample here, vec3 diffuse
   count((follows ? kLintFollowsAlbedo : kLintIgnoresAlbedo) + contrastClass, true);
 }
 
+void countSamples(ivec2 p, LightSample light) {
+  count(kLintSamples, light.exists);
+  ivec2 texel;
+  if (!kLightCounted || !hasLightTexel(p, texel)) return;
+  const float samples = texelFetch(lighting, texel, 0).a;
+  count(kLintCountInvalid, !(samples >= 0.0 && samples <= kLargestHalf));
+}
+
 void countPixel(ivec2 p) {
   const LightSample light = lightSampleAt(lighting, p);
+  countSamples(p, light);
   const float z = depthAt(p);
   countValues(light.radiance, z);
   if (!isSurfaceDepth(z)) return;

@@ -14,6 +14,7 @@
 // LIGHT_GRID: the mean has a texel for each group of sparse light, and so has a copy of the guides of the pixels that
 // have this frame's samples. Needs GUIDES.
 // kStill: nothing moves, so that the history of a pixel is the pixel itself.
+// kLightCounted: history lengths are numbers of samples (sample_counts.glsl).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -108,20 +109,22 @@ float unpackHistoryLength(uint packed) { return unpackHistory(packed).a; }
 #include "include/luminance.glsl"
 #endif
 #include "include/confidence.glsl"
+#include "include/sample_counts.glsl"
 #define HISTORY previousAccumulated
 #include "include/bicubic.glsl"
 #include "include/reprojection.glsl"
 
 // The history of a pixel.
 struct ReprojectedHistory {
-  vec4 mean;      // rgb: mean light; a: history length, 0: none.
-  vec2 position;  // In pixels of the previous frame, from the centre of its first.
-  int rejected;   // Number of history taps that were rejected.
+  vec4 mean;       // rgb: mean light; a: history length, 0: none.
+  vec2 position;   // In pixels of the previous frame, from the centre of its first.
+  int rejected;    // Number of history taps that were rejected.
+  float perFrame;  // samplesPerFrame, once it is known.
 };
 
 ReprojectedHistory historyAt(HistoryTaps taps, vec2 position) {
   const vec4 mean = kBicubicHistory ? bicubicOfTaps(previousAccumulated, taps) : meanOfTaps(previousAccumulated, taps);
-  return ReprojectedHistory(mean, position, tapsRejected(taps));
+  return ReprojectedHistory(mean, position, tapsRejected(taps), 1.0);
 }
 
 #if defined(KEEP_TAPS) && !defined(GUIDES)
@@ -134,7 +137,7 @@ HistoryTaps takeGivenTaps(ivec2 p) {
 #endif
 
 ReprojectedHistory readHistory(ivec2 p, float z) {
-  if (kStill) return ReprojectedHistory(historyTexel(previousAccumulated, p), vec2(p), 0);
+  if (kStill) return ReprojectedHistory(historyTexel(previousAccumulated, p), vec2(p), 0, 1.0);
 #if defined(KEEP_TAPS) && !defined(GUIDES)
   if (kTapsGiven) {
     const HistoryTaps given = takeGivenTaps(p);
@@ -148,7 +151,7 @@ ReprojectedHistory readHistory(ivec2 p, float z) {
 #endif
   const vec2 position = tapPosition(taps);
 #ifdef LIGHT_GRID
-  if (!isOnLightGrid(p)) return ReprojectedHistory(vec4(0.0), position, 0);
+  if (!isOnLightGrid(p)) return ReprojectedHistory(vec4(0.0), position, 0, 1.0);
 #endif
 #ifdef LIGHT_GRID_TAPS
   if (kLightGrid) taps = lightGridTaps(p, r, position, constants.planeTolerance, constants.normalThreshold);
@@ -156,22 +159,26 @@ ReprojectedHistory readHistory(ivec2 p, float z) {
   return historyAt(taps, position);
 }
 
-ReprojectedHistory historyWithAntilag(ivec2 p, float z) {
-  ReprojectedHistory found = readHistory(p, z);
-#if defined(ANTILAG) || defined(VIEW)
-  if (kAntilag) found.mean.a = min(found.mean.a, longestHistory(found.position, constants.maxHistory));
-#endif
-  found.mean.a = confidentLength(p, found.mean.a, constants.maxHistory);
-  return found;
-}
-
 // Whether a sample counts. Where it is not finite, or missing, the mean stays as it was.
 bool isUsable(LightSample noisy) { return noisy.exists && isFinite(noisy.radiance); }
 
-// History length with this frame's sample.
-float samplesWith(vec4 history, bool sampleIsUsable) {
-  return min(history.a + (sampleIsUsable ? 1.0 : 0.0), constants.maxHistory);
+// The number of this frame's samples.
+float usableSamples(LightSample noisy) { return isUsable(noisy) ? countedSamples(noisy) : 0.0; }
+
+// `noisy`: this frame's sample, if there is one.
+ReprojectedHistory historyWithAntilag(ivec2 p, float z, LightSample noisy) {
+  ReprojectedHistory found = readHistory(p, z);
+  found.perFrame = samplesPerFrame(found.mean.a, usableSamples(noisy));
+#if defined(ANTILAG) || defined(VIEW)
+  if (kAntilag) {
+    const float longest = longestHistory(found.position, constants.maxHistory);
+    found.mean.a = min(found.mean.a, found.perFrame * longest);
+  }
+#endif
+  found.mean.a = confidentLength(p, found.mean.a, found.perFrame * constants.maxHistory);
+  return found;
 }
+
 vec3 clampedRadiance(vec3 noisy) { return clamp(noisy, vec3(0.0), vec3(kLargestHalf)); }
 
 #ifdef VIEW
@@ -181,8 +188,8 @@ vec3 viewOf(ivec2 p, float z, LightSample noisy) {
   switch (kView) {
     case 0u: {
       if (!surface) return vec3(0.0);
-      const ReprojectedHistory found = historyWithAntilag(p, z);
-      return vec3(samplesWith(found.mean, sampleIsUsable), found.rejected, found.mean.a == 0.0);
+      const ReprojectedHistory found = historyWithAntilag(p, z, noisy);
+      return vec3(lengthWith(found.mean.a, usableSamples(noisy), found.perFrame), found.rejected, found.mean.a == 0.0);
     }
     case 1u:
       return vec3(noisy.exists && !sampleIsUsable,
@@ -191,7 +198,8 @@ vec3 viewOf(ivec2 p, float z, LightSample noisy) {
     case 2u: {
       if (!surface || !kAntilag) return vec3(0.0);
       const ReprojectedHistory found = readHistory(p, z);
-      const float longest = longestHistory(found.position, constants.maxHistory);
+      const float perFrame = samplesPerFrame(found.mean.a, usableSamples(noisy));
+      const float longest = perFrame * longestHistory(found.position, constants.maxHistory);
       return vec3(antilagAt(found.position), longest, found.mean.a > longest);
     }
   }
@@ -233,11 +241,13 @@ float accumulate(ivec2 p) {
     return 0.0;
   }
 
-  const vec4 history = historyWithAntilag(p, z).mean;
+  const ReprojectedHistory found = historyWithAntilag(p, z, noisy);
+  const vec4 history = found.mean;
   if (kLightGrid && !isOnLightGrid(p)) return 0.0;
-  const float samples = samplesWith(history, sampleIsUsable);
+  const float samples = lengthWith(history.a, usableSamples(noisy), found.perFrame);
   const vec3 radiance = clampedRadiance(noisy.radiance);
-  const vec3 mean = sampleIsUsable ? mix(history.rgb, radiance, 1.0 / max(samples, 1.0)) : history.rgb;
+  const float newest = countedSamples(noisy);
+  const vec3 mean = sampleIsUsable ? mix(history.rgb, radiance, newest / max(samples, newest)) : history.rgb;
   storeMean(p, vec4(mean, samples));
 #ifdef ANTILAG
   return sampleIsUsable && history.a > 0.0 ? luminance(radiance - history.rgb) : 0.0;

@@ -30,6 +30,7 @@ WalrConventions checkedConventions(const WalrConventions* given) {
   checkSwitch(conventions.rectangle, "WalrConventions::rectangle");
   checkSwitch(conventions.orthographic, "WalrConventions::orthographic");
   checkSwitch(conventions.light_masked, "WalrConventions::light_masked");
+  checkSwitch(conventions.light_counted, "WalrConventions::light_counted");
   for (float& scale : conventions.motion_scale) {
     if (!std::isfinite(scale)) {
       throw Error(WALR_ERROR_INVALID_ARGUMENT, "WalrConventions::motion_scale is not finite");
@@ -285,7 +286,8 @@ InputConventions Description::inputConventions() const {
           .motionJittered = conventions_.motion_jittered == VK_TRUE,
           .light = {.columns = conventions_.light_group[0],
                     .rows = conventions_.light_group[1],
-                    .masked = conventions_.light_masked == VK_TRUE}};
+                    .masked = conventions_.light_masked == VK_TRUE,
+                    .counted = conventions_.light_counted == VK_TRUE}};
 }
 
 Constants Description::constants(const FrameStatement& frame) const {

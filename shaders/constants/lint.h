@@ -80,7 +80,11 @@ const float kAlbedoContrastStep = 0.25;  // Octaves.
 // origin of its matrices.
 const uint kLintRounded = 81;
 
-const uint kLintWords = 82;
+// Light with alpha (light_sample.glsl).
+const uint kLintSamples = 82;       // Pixels with a sample, whatever its colour.
+const uint kLintCountInvalid = 83;  // Texels whose number of samples is NaN, negative or more than halves can hold.
+
+const uint kLintWords = 84;
 
 // A random normal that faces the camera has a cosine above c with any direction with probability 1 - c.
 const float kFittingCosine = 0.8;

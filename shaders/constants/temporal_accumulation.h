@@ -5,8 +5,10 @@
 namespace walr {
 #endif
 
+const float kMostAccumulatedSamples = 480.0;  // The largest history length that packed light holds (packed_light.glsl).
+
 struct TemporalAccumulationConstants {
-  float maxHistory;       // History length at which the cumulative mean turns exponential.
+  float maxHistory;       // History length, frames, at which the cumulative mean turns exponential.
   float planeTolerance;   // Largest plane distance of a history tap, in units of its depth.
   float normalThreshold;  // Smallest cosine between geometric normals.
 };

@@ -46,6 +46,7 @@ AT(WalrConventions, rectangle, 40);
 AT(WalrConventions, orthographic, 44);
 AT(WalrConventions, light_group, 48);
 AT(WalrConventions, light_masked, 56);
+AT(WalrConventions, light_counted, 60);
 SIZE(WalrDenoiserInfo, 144);
 AT(WalrDenoiserInfo, device, 8);
 AT(WalrDenoiserInfo, width, 32);

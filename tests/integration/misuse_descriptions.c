@@ -107,6 +107,8 @@ static void test_create(const WalrDevice* device) {
   conventions = (WalrConventions){.struct_size = sizeof(conventions), .light_masked = VK_TRUE};
   info.lighting_format = VK_FORMAT_B10G11R11_UFLOAT_PACK32;
   EXPECT(walr_create_denoiser(&info, &denoiser), WALR_ERROR_INVALID_ARGUMENT, "4 channels");
+  conventions = (WalrConventions){.struct_size = sizeof(conventions), .light_counted = VK_TRUE};
+  EXPECT(walr_create_denoiser(&info, &denoiser), WALR_ERROR_INVALID_ARGUMENT, "4 channels");
   EXPECT_TRUE(denoiser == NULL);
 
   /* A caller with a newer header works as long as it sets no field that this version does not know. */
@@ -135,12 +137,16 @@ static void test_switches(const WalrDevice* device) {
   }
   WalrConventions conventions = {.struct_size = sizeof(conventions)};
   info.conventions = &conventions;
-  VkBool32* const of_conventions[] = {&conventions.pre_exposed, &conventions.motion_jittered, &conventions.rectangle,
-                                      &conventions.orthographic, &conventions.light_masked};
-  const char* const fields[] = {"::pre_exposed is 4294967295", "::motion_jittered is 4294967295",
-                                "::rectangle is 4294967295", "::orthographic is 4294967295",
-                                "::light_masked is 4294967295, neither VK_FALSE nor VK_TRUE"};
-  for (int i = 0; i < 5; ++i) {
+  VkBool32* const of_conventions[] = {&conventions.pre_exposed,  &conventions.motion_jittered,
+                                      &conventions.rectangle,    &conventions.orthographic,
+                                      &conventions.light_masked, &conventions.light_counted};
+  const char* const fields[] = {"::pre_exposed is 4294967295",
+                                "::motion_jittered is 4294967295",
+                                "::rectangle is 4294967295",
+                                "::orthographic is 4294967295",
+                                "::light_masked is 4294967295, neither VK_FALSE nor VK_TRUE",
+                                "::light_counted is 4294967295"};
+  for (int i = 0; i < 6; ++i) {
     *of_conventions[i] = UINT32_MAX;
     EXPECT(walr_create_denoiser(&info, &denoiser), WALR_ERROR_INVALID_ARGUMENT, fields[i]);
     *of_conventions[i] = VK_FALSE;

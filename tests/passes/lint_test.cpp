@@ -99,6 +99,7 @@ class Lint : public fg::test::GpuTest, public testing::WithParamInterface<Case> 
     InputLinter linter(c.conventions);
     for (std::uint32_t i = 0; i < c.stillFrames + kFrames; ++i) {
       HostInput host = render(i, c);
+      host.frame.conventions.light = c.conventions.light;
       c.spoil(host);
       upload(run, inputs, host.frame);
       const std::uint32_t slot = run.submitFrame();
@@ -161,6 +162,39 @@ std::vector<Case> cases() {
       {"lighting negative", {"lighting-negative"}, eachPixel([](HostFrame& f, glm::ivec2 p) {
          f.lighting[p] -= glm::dvec3(0.5);
        })},
+      {"good, numbers of samples",
+       {},
+       [](HostInput& h) {
+         h.frame.lightAlpha = reference::Image<double>(kSize, 0.5);
+         h.frame.lightAlpha[{40, 30}] = 0.0;
+       },
+       false,
+       false,
+       {.light = {.counted = true}}},
+      {"a number of samples that is none",
+       {"lighting-count-range"},
+       [=](HostInput& h) {
+         h.frame.lightAlpha = reference::Image<double>(kSize, 4.0);
+         h.frame.lightAlpha[{40, 30}] = kNaN;
+       },
+       false,
+       false,
+       {.light = {.counted = true}}},
+      {"numbers of samples below 0 and above all halves",
+       {"lighting-count-range"},
+       [](HostInput& h) {
+         h.frame.lightAlpha = reference::Image<double>(kSize, -1.0);
+         h.frame.lightAlpha[{40, 30}] = 1e6;
+       },
+       false,
+       false,
+       {.light = {.counted = true}}},
+      {"a mask that was not written",
+       {"lighting-empty"},
+       [](HostInput& h) { h.frame.lightAlpha = reference::Image<double>(kSize, 0.0); },
+       false,
+       false,
+       {.light = {.masked = true}}},
       {"normals in 0..1", {"normal-not-unit"}, eachPixel([](HostFrame& f, glm::ivec2 p) {
          f.normal[p] = f.normal[p] * 0.5 + 0.5;
        })},

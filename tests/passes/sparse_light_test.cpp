@@ -1,5 +1,6 @@
 // Light with samples at some of the pixels only.
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -29,8 +30,20 @@ constexpr glm::ivec2 kSize(49, 35);
 
 const std::vector<LightPattern> kPatterns{{2, 1}, {1, 2}, {2, 2}, {3, 3}, {1, 1, true}, {2, 2, true}};
 
+const std::vector<LightPattern> kCountedPatterns{{1, 1, false, true}, {2, 2, false, true}};
+
 std::string nameOf(const LightPattern& pattern) {
-  return std::to_string(pattern.columns) + " x " + std::to_string(pattern.rows) + (pattern.masked ? ", masked" : "");
+  return std::to_string(pattern.columns) + " x " + std::to_string(pattern.rows) + (pattern.masked ? ", masked" : "") +
+         (pattern.counted ? ", counted" : "");
+}
+
+/// Numbers of samples that differ from pixel to pixel and from frame to frame: gaps, fractions, and more than count.
+Image<double> mixedCounts(glm::ivec2 size, std::uint32_t index) {
+  constexpr std::array kCounts{1.0, 4.0, 0.0, 2.0, 0.5, 1.0, 0.0, 400.0};
+  Image<double> counts(size);
+  forEachPixel(size,
+               [&](glm::ivec2 p) { counts[p] = kCounts.at((3U * p.x + 5U * p.y + 3U * index) % kCounts.size()); });
+  return counts;
 }
 
 /// Let a frame have light by a pattern; a mask leaves out three of eight pixels. What stands in gaps is NaN.
@@ -42,6 +55,7 @@ HostFrame sparse(HostFrame frame, const LightPattern& pattern, std::uint32_t ind
     frame.lightAlpha = Image<double>(frame.size());
     forEachPixel(frame.size(), [&](glm::ivec2 p) { frame.lightAlpha[p] = (3 * p.x + 5 * p.y + int(index)) % 8 < 5; });
   }
+  if (pattern.counted) frame.lightAlpha = mixedCounts(frame.size(), index);
   forEachPixel(frame.size(), [&](glm::ivec2 p) {
     if (!reference::hasSample(frame, p)) frame.lighting[p] = glm::dvec3(kNaN);
   });
@@ -131,6 +145,125 @@ TEST_F(SparseLight, StagesAgreeWithTheReference) {
   }
 }
 
+// The same with numbers of samples, before and after history is as long as it may be. With 3 frames at most, the
+// highest count is 160, which reaches the longest length that packed light holds.
+TEST_F(SparseLight, StagesWithCountsAgreeWithTheReference) {
+  WalrPaperSettings halves = robustWalr();
+  halves.regression.iterations = 2;
+  for (const LightPattern& pattern : kCountedPatterns) {
+    for (const float maxHistory : {3.0F, 16.0F}) {
+      SCOPED_TRACE(nameOf(pattern) + ", at most " + std::to_string(maxHistory) + " frames");
+      for (AnyWalr settings : {AnyWalr(halves), AnyWalr(WalrSettings{})}) {
+        settings.change([&](auto& s) { s.accumulation.maxHistory = maxHistory; });
+        WalrRun run(device(), kSize, settings, conventionsOf(pattern));
+        for (const std::uint32_t frames : {2U, 7U})
+          expectSequence(run, movingFrames(stairs(), frames, pattern), settings);
+      }
+    }
+  }
+}
+
+// Counts of 0 and 1 say what a mask says, even where packed light cannot hold the longest history and rounds it up.
+TEST_F(SparseLight, CountsOfOneEqualAMaskToTheBit) {
+  for (const char* name : {"walr", "walr_paper", "flr", "bmfr", "accumulate"}) {
+    for (const LightPattern& masked : {LightPattern{1, 1, true}, LightPattern{2, 2, true}}) {
+      for (const char* maxHistory : {"3", "16", "17"}) {
+        SCOPED_TRACE(nameOf(masked) + ", " + name + ", at most " + maxHistory + " frames");
+        LightPattern counted = masked;
+        counted.masked = false;
+        counted.counted = true;
+        const std::unique_ptr<Denoiser> method = makeDenoiser(name);
+        method->set("accumulation.max-history", maxHistory);
+        method->set("accumulation.antilag", "on");
+        DenoiserRun run = runOf(device(), *method, masked);
+        DenoiserRun runOfCounts = runOf(device(), *method, counted);
+        // As many frames as make history longer than 17 frames only where that matters.
+        const std::uint32_t frames = name == std::string("walr") ? 24 : 5;
+        for (HostFrame frame : movingFrames(skyBesideSurface(), frames, masked)) {
+          const Image<glm::dvec4> output = run.frame(frame);
+          frame.conventions.light = counted;
+          ASSERT_TRUE(output.pixels() == runOfCounts.frame(frame).pixels());
+        }
+      }
+    }
+  }
+}
+
+// A longest history is a number of frames, however many samples each has. Lengths in powers of 2 round alike, and so
+// the means are equal to the bit, with antilag, too: the light goes out in frame 9.
+TEST_F(SparseLight, EqualCountsWeighFramesAsOneSampleDoes) {
+  const LightPattern pattern{1, 1, false, true};
+  const std::unique_ptr<Denoiser> method = makeDenoiser("accumulate");
+  method->set("accumulation.max-history", "6");
+  method->set("accumulation.antilag", "on");
+  DenoiserRun one = runOf(device(), *method, pattern);
+  DenoiserRun four = runOf(device(), *method, pattern);
+  std::uint32_t index = 0;
+  for (HostFrame frame : movingFrames(skyBesideSurface(), 18, {})) {
+    frame.conventions.light = pattern;
+    frame.lightAlpha = Image<double>(kSize, 1.0);
+    if (index++ >= 9) forEachPixel(kSize, [&](glm::ivec2 p) { frame.lighting[p] *= 0.125; });
+    const Image<glm::dvec4> output = one.frame(frame);
+    frame.lightAlpha = Image<double>(kSize, 4.0);
+    ASSERT_TRUE(output.pixels() == four.frame(frame).pixels());
+  }
+}
+
+// Up to the longest history, the mean is that of all samples. It is rounded to a half in each frame, by 2^-11 of it at
+// most; halves hold its length exactly. No history comes near 80 frames of the lowest count.
+TEST_F(SparseLight, CountedLightIsTheMeanOfAllSamples) {
+  constexpr std::uint32_t kFrames = 12;
+  const LightPattern pattern{1, 1, false, true};
+  const std::unique_ptr<Denoiser> method = makeDenoiser("accumulate");
+  method->set("accumulation.max-history", "80");
+  DenoiserRun run = runOf(device(), *method, pattern);
+  Image<glm::dvec3> sums(kSize);
+  Image<double> brightest(kSize, 0.0);
+  Image<double> samples(kSize, 0.0);
+  Image<glm::dvec4> output;
+  for (std::uint32_t i = 0; i < kFrames; ++i) {
+    const HostFrame frame = sparse(renderStill(flatWall(), kSize, i), pattern, i);
+    output = run.frame(frame);
+    forEachPixel(kSize, [&](glm::ivec2 p) {
+      const double count = std::min(reference::sampleCount(frame, p), 480.0 / 80.0);
+      if (count == 0.0) return;
+      sums[p] += count * frame.lighting[p];
+      samples[p] += count;
+      for (int c = 0; c < 3; ++c) brightest[p] = std::max(brightest[p], frame.lighting[p][c]);
+    });
+  }
+  forEachPixel(kSize, [&](glm::ivec2 p) {
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(output[p][c], sums[p][c] / samples[p], kFrames * brightest[p] / 2048.0);
+  });
+}
+
+// Where counts vary, the result keeps the energy of the light. A mean of n samples has a relative standard deviation of
+// 1 / sqrt(n) here, and each of the 1715 pixels has six samples in the mean of eight counts, the last of which is cut
+// to 30: over 136 frames the mean of all results has one of some 0.2 %.
+TEST_F(SparseLight, KeepsTheEnergyWhereCountsVary) {
+  const LightPattern pattern{1, 1, false, true};
+  const std::unique_ptr<Denoiser> method = makeDenoiser("walr");
+  DenoiserRun run = runOf(device(), *method, pattern);
+  double expected = 0.0;
+  double shown = 0.0;
+  for (std::uint32_t i = 0; i < 144; ++i) {
+    HostFrame frame = renderStill(flatWall(), kSize, i);
+    const HostFrame truth = renderStill(flatWall(), kSize, i, Noise::None);
+    const Image<double> counts = mixedCounts(kSize, i);
+    forEachPixel(kSize, [&](glm::ivec2 p) {
+      const double spread = 1.0 / std::sqrt(std::max(counts[p], 1.0));
+      frame.lighting[p] = truth.lighting[p] + (frame.lighting[p] - truth.lighting[p]) * spread;
+    });
+    const Image<glm::dvec4> output = run.frame(sparse(frame, pattern, i));
+    if (i < 8) continue;
+    forEachPixel(kSize, [&](glm::ivec2 p) {
+      shown += output[p].g;
+      expected += truth.lighting[p].g;
+    });
+  }
+  EXPECT_NEAR(shown / expected, 1.0, 0.005);
+}
+
 // Fits of the light grid, from the samples of one frame. The bound is that of regressions over all pixels
 // (block_regression_test.cpp): 2e-4 for moments in halves at the noise of one sample.
 TEST_F(SparseLight, RegressionOnTheLightGridAgreesWithTheReference) {
@@ -168,7 +301,9 @@ TEST_F(SparseLight, RegressionOnTheLightGridAgreesWithTheReference) {
 TEST_F(SparseLight, ConstantLightStaysConstantFromTheFirstFrameOn) {
   constexpr double kLight = 0.75;
   const Light constant = [](glm::dvec3, glm::dvec3) { return glm::dvec3(kLight); };
-  for (const LightPattern& pattern : kPatterns) {
+  std::vector<LightPattern> patterns = kPatterns;
+  patterns.insert(patterns.end(), kCountedPatterns.begin(), kCountedPatterns.end());
+  for (const LightPattern& pattern : patterns) {
     SCOPED_TRACE(nameOf(pattern));
     const std::unique_ptr<Denoiser> method = makeDenoiser("walr");
     DenoiserRun run = runOf(device(), *method, pattern);

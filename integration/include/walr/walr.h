@@ -256,7 +256,12 @@ typedef struct WalrConventions {
    * Not with `rectangle`. */
   uint32_t light_group[2];
   VkBool32 light_masked; /* The lighting has alpha. A texel whose alpha is not above 0 is no sample. */
-  uint32_t reserved;
+  /* The same, and an alpha above 0 is the number of samples c whose mean the colour is. Accumulation weighs it by that.
+   * N_h is the number of samples in the history, L the setting accumulation.max-history, a number of frames:
+   *   k = c, or 1 if there is no sample; but N_h / L if N_h > 9/8 L k
+   *   N = min(N_h, k (L - 1)) + c,  mean = history + (light - history) c / N;  without a sample history stays
+   * Fractions are allowed. NaN and numbers below 0 are no sample; above 480 / L they count as that. */
+  VkBool32 light_counted;
 } WalrConventions;
 
 typedef enum WalrLogLevel {
@@ -439,7 +444,8 @@ typedef struct WalrFrame {
    * what is averaged after a filter: anti-aliasing, which clips its history, and the second accumulation of bmfr. */
   const WalrImage* confidence;
   /* With WalrDenoiserInfo::history_length: an R16F image of exactly the denoised size that receives the number of
-   * frames, with this one, in the mean of each pixel's light; 0 where there is nothing to denoise. */
+   * frames, with this one, in the mean of each pixel's light; 0 where there is nothing to denoise. With
+   * WalrConventions::light_counted: the number of samples. */
   const WalrImage* history_length;
   /* Large worlds: the position in the world, scene units, that `camera` is relative to (its view matrix takes positions
    * minus the origin), and the same of `previous_camera`; without that, `previous_origin` is not used. Any origin near

@@ -20,7 +20,7 @@ struct HostFrame {
   Image<glm::dvec3> motion;
   Image<glm::dvec3> albedo;
   Image<std::uint32_t> objectId;  ///< May be empty; 0xffffffff: none.
-  Image<double> lightAlpha;       ///< Alpha of the light where it is masked; may be empty: 1.
+  Image<double> lightAlpha;       ///< Alpha of the light where it is read; may be empty: 1.
   FrameConstants constants{};
   InputConventions conventions;
   SceneDescription scene;
@@ -39,8 +39,14 @@ inline bool hasLightTexel(const HostFrame& frame, glm::ivec2 p) {
 
 /// Whether that texel is a sample (WalrConventions::light_masked).
 inline bool hasSample(const HostFrame& frame, glm::ivec2 p) {
-  const bool masked = frame.conventions.light.masked && !frame.lightAlpha.pixels().empty();
+  const bool masked = frame.conventions.light.hasAlpha() && !frame.lightAlpha.pixels().empty();
   return hasLightTexel(frame, p) && (!masked || frame.lightAlpha[p] > 0.0);
+}
+
+/// Number of samples whose mean that texel is (WalrConventions::light_counted).
+inline double sampleCount(const HostFrame& frame, glm::ivec2 p) {
+  if (!hasSample(frame, p)) return 0.0;
+  return frame.conventions.light.counted && !frame.lightAlpha.pixels().empty() ? frame.lightAlpha[p] : 1.0;
 }
 
 /// Position of the pixel's centre, pixels.
