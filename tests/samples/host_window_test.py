@@ -233,11 +233,11 @@ def start(host, screen, *options):
 
 
 def denoised(host, screen):
-    start(host, screen)
+    start(host, screen, "--method", "accumulate")
 
 
 def split(host, screen):
-    start(host, screen, "--method", "svgf", "--view", "split")
+    start(host, screen, "--method", "accumulate", "--view", "split")
 
 
 def texture(host, screen):
