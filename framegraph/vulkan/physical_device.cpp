@@ -51,17 +51,13 @@ void queryDriver(const InstanceFunctions& functions, PhysicalDevice& device) {
   device.apiVersion = properties.properties.apiVersion;
 }
 
-bool hasExtension(const PhysicalDevice& device, std::string_view name) {
-  return std::ranges::find(device.extensions, name) != device.extensions.end();
-}
-
 /// Query a feature struct. All features are off if the device has neither the version nor the extension.
 template <typename Features>
 Features queryFeature(const InstanceFunctions& functions, const PhysicalDevice& device, VkStructureType type,
                       std::string_view extension, std::uint32_t version = VK_API_VERSION_1_3) {
   Features features{};
   features.sType = type;
-  if (device.apiVersion < version && !hasExtension(device, extension)) return features;
+  if (device.apiVersion < version && !device.hasExtension(extension)) return features;
   VkPhysicalDeviceFeatures2 all{};
   all.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
   all.pNext = &features;
@@ -145,6 +141,10 @@ std::string_view useName(VkFormatFeatureFlags feature) {
 }
 
 }  // namespace
+
+bool PhysicalDevice::hasExtension(std::string_view name) const {
+  return std::ranges::find(extensions, name) != extensions.end();
+}
 
 PhysicalDevice physicalDevice(const InstanceFunctions& functions, VkPhysicalDevice handle, std::uint32_t index) {
   PhysicalDevice device;

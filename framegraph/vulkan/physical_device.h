@@ -28,6 +28,8 @@ struct PhysicalDevice {
   std::vector<std::string> extensions;
   /// Features of optimally tiled images of a format.
   std::function<VkFormatFeatureFlags(VkFormat)> formatFeatures;
+
+  [[nodiscard]] bool hasExtension(std::string_view name) const;
 };
 
 /// The properties of a host's device.

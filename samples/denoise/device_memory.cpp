@@ -1,16 +1,11 @@
 #include "samples/denoise/device_memory.h"
 
-#include <algorithm>
-
 namespace walr {
 
 std::optional<DeviceMemory> deviceMemory(const GpuDevice& gpu) {
-  const auto& extensions = gpu.physical().extensions;
   const auto query = reinterpret_cast<PFN_vkGetPhysicalDeviceMemoryProperties2>(
       gpu.functions().vkGetInstanceProcAddr(gpu.instance(), "vkGetPhysicalDeviceMemoryProperties2"));
-  if (std::ranges::find(extensions, VK_EXT_MEMORY_BUDGET_EXTENSION_NAME) == extensions.end() || query == nullptr) {
-    return std::nullopt;
-  }
+  if (!gpu.physical().hasExtension(VK_EXT_MEMORY_BUDGET_EXTENSION_NAME) || query == nullptr) return std::nullopt;
   VkPhysicalDeviceMemoryBudgetPropertiesEXT budget{};
   budget.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MEMORY_BUDGET_PROPERTIES_EXT;
   VkPhysicalDeviceMemoryProperties2 properties{};

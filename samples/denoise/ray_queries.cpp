@@ -1,7 +1,5 @@
 #include "samples/denoise/ray_queries.h"
 
-#include <algorithm>
-
 namespace walr {
 namespace {
 
@@ -34,7 +32,7 @@ std::string missingForRayQueries(const fg::vk::InstanceFunctions& functions, con
   if (device.apiVersion < VK_API_VERSION_1_2) return "Vulkan 1.2";
   std::string missing;
   for (const char* const extension : kRayQueryExtensions) {
-    if (std::ranges::find(device.extensions, extension) == device.extensions.end()) append(missing, extension);
+    if (!device.hasExtension(extension)) append(missing, extension);
   }
   if (!missing.empty()) return missing;
   RayQueryFeatures features;

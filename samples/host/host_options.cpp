@@ -1,9 +1,8 @@
 #include "samples/host/host_options.h"
 
-#include <algorithm>
 #include <map>
+#include <stdexcept>
 #include <string>
-#include <vector>
 
 #include "samples/command_line/arguments.h"
 #include "samples/command_line/device_options.h"
@@ -133,11 +132,10 @@ MethodOptions parseCompare(const std::string& text) {
   MethodOptions method;
   method.name = text.substr(0, colon);
   if (colon != std::string::npos) method.preset = text.substr(colon + 1);
-  const std::vector<std::string> known = denoiserNames();
-  if (std::ranges::find(known, method.name) == known.end()) {
-    std::string names;
-    for (const std::string& name : known) names += (names.empty() ? "" : ", ") + name;
-    throw UsageError("--compare " + text + ": there is no such method; known methods: " + names);
+  try {
+    (void)makeDenoiser(method.name);
+  } catch (const std::invalid_argument& error) {
+    throw UsageError("--compare " + text + ": " + error.what());
   }
   return method;
 }

@@ -40,7 +40,7 @@ void addHostOptions(CLI::App& program, HostOptions& options);
 std::filesystem::path builtInScene();
 
 /// The method of a `--compare` argument: its name, and after a colon a preset.
-/// @throws UsageError naming an unknown method or preset
+/// @throws UsageError naming an unknown method
 MethodOptions parseCompare(const std::string& text);
 
 /// The view of a `--view` argument: denoised, noisy, reference, split, compare, or the name of a texture of the frame.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <initializer_list>
 
 #include <glm/vec2.hpp>
 
@@ -17,6 +18,19 @@ bool holdsIntegers(VkFormat format) {
       VK_FORMAT_R16G16B16A16_UINT, VK_FORMAT_R32_UINT,      VK_FORMAT_R32G32_UINT, VK_FORMAT_R32G32B32A32_UINT,
   };
   return std::ranges::find(kIntegers, format) != kIntegers.end();
+}
+
+struct LitImage {
+  const char* binding;
+  fg::Texture texture;
+};
+
+fg::Texture toneMap(fg::Graph& graph, const fg::Shader& shader, std::initializer_list<LitImage> lit,
+                    fg::Buffer viewConstants, fg::Texture display) {
+  fg::PassBuilder pass = graph.compute("tone map", shader);
+  for (const LitImage& image : lit) pass.sample(image.binding, image.texture);
+  pass.uniform("View", viewConstants).dispatch(graph.textureDesc(lit.begin()->texture).extent);
+  return pass.store("outDisplay", display);
 }
 
 }  // namespace
@@ -70,30 +84,18 @@ fg::Texture addComposite(fg::Graph& graph, const std::string& name, fg::Texture 
 }
 
 fg::Texture addToneMap(fg::Graph& graph, fg::Texture lit, fg::Buffer viewConstants, fg::Texture display) {
-  fg::PassBuilder pass = graph.compute("tone map", shaders::toneMap);
-  pass.sample("lit", lit).uniform("View", viewConstants).dispatch(graph.textureDesc(lit).extent);
-  return pass.store("outDisplay", display);
+  return toneMap(graph, shaders::toneMap, {{"lit", lit}}, viewConstants, display);
 }
 
 fg::Texture addSplitToneMap(fg::Graph& graph, fg::Texture left, fg::Texture middle, fg::Texture right,
                             fg::Buffer viewConstants, fg::Texture display) {
-  fg::PassBuilder pass = graph.compute("tone map", shaders::toneMapSplit);
-  pass.sample("left", left)
-      .sample("lit", middle)
-      .sample("right", right)
-      .uniform("View", viewConstants)
-      .dispatch(graph.textureDesc(middle).extent);
-  return pass.store("outDisplay", display);
+  return toneMap(graph, shaders::toneMapSplit, {{"left", left}, {"lit", middle}, {"right", right}}, viewConstants,
+                 display);
 }
 
 fg::Texture addComparison(fg::Graph& graph, fg::Texture left, fg::Texture right, fg::Buffer viewConstants,
                           fg::Texture display) {
-  fg::PassBuilder pass = graph.compute("tone map", shaders::toneMapCompare);
-  pass.sample("lit", left)
-      .sample("right", right)
-      .uniform("View", viewConstants)
-      .dispatch(graph.textureDesc(left).extent);
-  return pass.store("outDisplay", display);
+  return toneMap(graph, shaders::toneMapCompare, {{"lit", left}, {"right", right}}, viewConstants, display);
 }
 
 fg::Texture addInspection(fg::Graph& graph, fg::Texture inspected, fg::Extent shown, fg::Buffer viewConstants,

@@ -77,8 +77,8 @@ float Tracer::exposure(double animationFrame) {
   constexpr std::uint32_t kRows = 36;
   constexpr std::uint32_t kSamples = 64;
   const double seconds = animationFrame / options_.framesPerSecond;
-  std::optional<render::World>
-      forProcessor;  // If the device traces, the processor cannot cast rays in `content_->world`.
+  // If the device traces, the processor cannot cast rays in `Content::world`.
+  std::optional<render::World> forProcessor;
   render::World& world = content_->device ? forProcessor.emplace(content_->scene) : content_->world;
   world.moveTo(seconds, seconds);
   const std::uint32_t columns = std::max(1U, kRows * options_.extent.width / options_.extent.height);
