@@ -37,6 +37,28 @@ double meanOf(const Image& image) {
   return sum / static_cast<double>(image.values().size());
 }
 
+/// A window's frame without the window, which the device traces. At first it shows the turntable.
+struct LiveTurntable {
+  static constexpr std::uint32_t kFramesInFlight = 2;
+
+  explicit LiveTurntable(const GpuDevice& gpu)
+      : tracer(tracing("turntable.gltf"), &gpu),
+        picture(gpu, kExtent),
+        live(gpu, picture, kFramesInFlight, {}, tracer.gpuScene()),
+        queue(gpu.device().context(), gpu.device().queue(), kFramesInFlight) {}
+
+  void record(const Tracer::Request& request) {
+    const fg::vk::Frame recorded = queue.begin();
+    live.record(recorded, tracer.hostFrame(request), {});
+    queue.submit(recorded);
+  }
+
+  Tracer tracer;
+  ShownPicture picture;
+  LiveFrame live;
+  fg::vk::FrameQueue queue;
+};
+
 }  // namespace
 
 using GpuHost = gpu_render::test::TracingTest;
@@ -115,48 +137,34 @@ TEST_F(GpuHost, TellsTheDeviceMemoryThatTheDriverCounts) {
 
 // A graph that is declared anew while frames of the old one are in flight, as the window does it.
 TEST_F(GpuHost, ChangesItsGraphWhileItTraces) {
-  Tracer tracer(tracing("turntable.gltf"), &gpu);
-  constexpr std::uint32_t kFramesInFlight = 2;
-  const ShownPicture picture(gpu, kExtent);
-  LiveFrame live(gpu, picture, kFramesInFlight, {}, tracer.gpuScene());
-  fg::vk::FrameQueue queue(gpu.device().context(), gpu.device().queue(), kFramesInFlight);
+  LiveTurntable window(gpu);
   const std::vector<HostView> views{
       {}, {HostView::Kind::Noisy, ""}, {HostView::Kind::Texture, "lighting"}, {HostView::Kind::Texture, "object id"}};
   int number = 12;
   for (const std::string name : {"walr", "svgf"}) {
     const std::unique_ptr<Denoiser> method = makeDenoiser(name);
     for (const HostView& view : views) {
-      live.declare(*method, view, LiveFrame::Start::FromHistory);
+      window.live.declare(*method, view, LiveFrame::Start::FromHistory);
       for (int i = 0; i < 3; ++i, ++number) {
-        const fg::vk::Frame recorded = queue.begin();
-        live.record(recorded, tracer.hostFrame({.number = number, .animationFrame = static_cast<double>(number)}), {});
-        queue.submit(recorded);
+        window.record({.number = number, .animationFrame = static_cast<double>(number)});
       }
     }
   }
-  queue.waitAll();
+  window.queue.waitAll();
 }
 
 // As when a user drops a file onto the window.
 TEST_F(GpuHost, TracesAnotherScene) {
-  Tracer tracer(tracing("turntable.gltf"), &gpu);
-  constexpr std::uint32_t kFramesInFlight = 2;
-  const ShownPicture picture(gpu, kExtent);
-  LiveFrame live(gpu, picture, kFramesInFlight, {}, tracer.gpuScene());
-  fg::vk::FrameQueue queue(gpu.device().context(), gpu.device().queue(), kFramesInFlight);
+  LiveTurntable window(gpu);
   const std::unique_ptr<Denoiser> method = makeDenoiser("walr");
   for (const char* const scene : {"box.gltf", "kitchen.gltf", "turntable.gltf"}) {
-    queue.waitAll();
-    tracer.open(std::string(WALR_SCENES "/") + scene);
-    live.changeScene(tracer.gpuScene());
-    live.declare(*method, {}, LiveFrame::Start::Anew);
-    for (int number = 0; number < 4; ++number) {
-      const fg::vk::Frame recorded = queue.begin();
-      live.record(recorded, tracer.hostFrame({.number = number}), {});
-      queue.submit(recorded);
-    }
+    window.queue.waitAll();
+    window.tracer.open(std::string(WALR_SCENES "/") + scene);
+    window.live.changeScene(window.tracer.gpuScene());
+    window.live.declare(*method, {}, LiveFrame::Start::Anew);
+    for (int number = 0; number < 4; ++number) window.record({.number = number});
   }
-  queue.waitAll();
+  window.queue.waitAll();
 }
 
 TEST_F(GpuHost, RefusesWhatOnlyTheProcessorTraces) {

@@ -83,6 +83,16 @@ std::function<void(HostInput&)> eachPixel(Apply apply) {
   return [apply](HostInput& host) mutable { forEachPixel(kSize, [&](glm::ivec2 p) { apply(host.frame, p); }); };
 }
 
+/// Light whose alpha is `everywhere`, and `once` in one pixel.
+Case withAlpha(const char* name, std::vector<std::string> findings, double everywhere, double once,
+               const LightPattern& light) {
+  const auto write = [=](HostInput& host) {
+    host.frame.lightAlpha = reference::Image<double>(kSize, everywhere);
+    host.frame.lightAlpha[{40, 30}] = once;
+  };
+  return {name, std::move(findings), write, false, false, {.light = light}};
+}
+
 glm::dmat3 worldFromView(const HostFrame& frame) {
   return glm::transpose(glm::dmat3(glm::mat3(frame.constants.viewFromWorld)));
 }
@@ -162,39 +172,11 @@ std::vector<Case> cases() {
       {"lighting negative", {"lighting-negative"}, eachPixel([](HostFrame& f, glm::ivec2 p) {
          f.lighting[p] -= glm::dvec3(0.5);
        })},
-      {"good, numbers of samples",
-       {},
-       [](HostInput& h) {
-         h.frame.lightAlpha = reference::Image<double>(kSize, 0.5);
-         h.frame.lightAlpha[{40, 30}] = 0.0;
-       },
-       false,
-       false,
-       {.light = {.counted = true}}},
-      {"a number of samples that is none",
-       {"lighting-count-range"},
-       [=](HostInput& h) {
-         h.frame.lightAlpha = reference::Image<double>(kSize, 4.0);
-         h.frame.lightAlpha[{40, 30}] = kNaN;
-       },
-       false,
-       false,
-       {.light = {.counted = true}}},
-      {"numbers of samples below 0 and above all halves",
-       {"lighting-count-range"},
-       [](HostInput& h) {
-         h.frame.lightAlpha = reference::Image<double>(kSize, -1.0);
-         h.frame.lightAlpha[{40, 30}] = 1e6;
-       },
-       false,
-       false,
-       {.light = {.counted = true}}},
-      {"a mask that was not written",
-       {"lighting-empty"},
-       [](HostInput& h) { h.frame.lightAlpha = reference::Image<double>(kSize, 0.0); },
-       false,
-       false,
-       {.light = {.masked = true}}},
+      withAlpha("good, numbers of samples", {}, 0.5, 0.0, {.counted = true}),
+      withAlpha("a number of samples that is none", {"lighting-count-range"}, 4.0, kNaN, {.counted = true}),
+      withAlpha("numbers of samples below 0 and above all halves", {"lighting-count-range"}, -1.0, 1e6,
+                {.counted = true}),
+      withAlpha("a mask that was not written", {"lighting-empty"}, 0.0, 0.0, {.masked = true}),
       {"normals in 0..1", {"normal-not-unit"}, eachPixel([](HostFrame& f, glm::ivec2 p) {
          f.normal[p] = f.normal[p] * 0.5 + 0.5;
        })},

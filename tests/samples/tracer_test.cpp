@@ -1,0 +1,120 @@
+// The sample host's tracer on the processor. No device is needed.
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+#include <gtest/gtest.h>
+
+#include "samples/denoise/frame_output.h"
+#include "samples/host/tracer.h"
+#include "samples/image/exposure.h"
+#include "samples/render/film.h"
+#include "samples/render/load_scene.h"
+#include "samples/render/view.h"
+#include "tests/samples/host_tracing.h"
+
+namespace walr::host {
+namespace {
+
+TEST(Tracer, ExposureMapsTheScenesLuminanceToMiddleGrey) {
+  Tracer::Options options = tracing();
+  Tracer tracer(options);
+  const float stops = tracer.exposure(0.0);
+  options.referenceSamples = 512;
+  Tracer fine(options);
+  const Frame frame = fine.trace({.reference = true});
+  const std::optional<float> expected =
+      autoExposure(composite(frame.reference->indirect, frame.reference->direct, frame.albedo, frame.emission));
+  ASSERT_TRUE(expected.has_value());
+  // Luminances of this picture spread by about 2 stops, and the small picture has 64 x 36 pixels: 2 / 48 = .04 stops.
+  // Noise of relative variance v lowers a mean of logarithms by about .7 v stops: .05 for the 64 samples.
+  EXPECT_NEAR(stops, *expected, 0.1);
+}
+
+double meanSquaredDifference(const Image& a, const Image& b) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < a.values().size(); ++i) {
+    const double difference = static_cast<double>(a.values()[i]) - b.values()[i];
+    sum += difference * difference;
+  }
+  return sum / static_cast<double>(a.values().size());
+}
+
+// The same count as that of the path tracer alone; and a reference's rays count, too.
+TEST(Tracer, CountsTheRaysOfAFrameAndMeasuresTheirTime) {
+  Tracer::Options options = tracing();
+  options.samples = 2;
+  Tracer tracer(options);
+  const render::Scene scene = render::loadScene(options.scene);
+  const render::World world(scene);
+  const render::View view =
+      render::viewFrom(world, render::findCamera(scene, ""), kExtent.width, kExtent.height, {}, {});
+  const std::uint64_t expected = render::renderFilm(world, view, {.samples = options.samples}).rays;
+  EXPECT_GT(expected, std::uint64_t{kExtent.width} * kExtent.height);
+  const TracedRays traced = tracer.hostFrame({}).traced;
+  EXPECT_EQ(traced.rays, expected);
+  ASSERT_TRUE(traced.perSecond().has_value());
+  EXPECT_DOUBLE_EQ(*traced.perSecond() * traced.seconds, static_cast<double>(expected));
+  EXPECT_EQ(TracedRays{}.perSecond(), std::nullopt);
+  EXPECT_GT(tracer.hostFrame({.number = 1, .reference = true}).traced.rays, expected + expected / 4);
+}
+
+TEST(Tracer, ReferencesAddUpWhileNothingMoves) {
+  Tracer tracer(tracing());
+  Tracer other([] {
+    Tracer::Options options = tracing();
+    options.seed = 9;
+    options.referenceSamples = 64;
+    return options;
+  }());
+  const Image converged = other.trace({.reference = true}).reference->indirect;
+  Tracer::Request request{.reference = true};
+  const double first = meanSquaredDifference(tracer.trace(request).reference->indirect, converged);
+  Frame frame;
+  for (request.number = 1; request.number < 16; ++request.number) {
+    frame = tracer.trace(request);
+  }
+  // Ratio of the variance of one sample to that of sixteen, each compared with a reference of 64 samples:
+  // (1 + 1/64) / (1/16 + 1/64) = 13 for independent random numbers, more for Sobol points. The relative spread of two
+  // such means is below a third.
+  EXPECT_GT(first / meanSquaredDifference(frame.reference->indirect, converged), 8.0);
+  request.animationFrame = 9.0;
+  const double moved = meanSquaredDifference(tracer.trace(request).reference->indirect, converged);
+  EXPECT_GT(moved, 0.5 * first);
+}
+
+TEST(Tracer, DirectLightJoinsTheIndirectOnDemand) {
+  Tracer::Options options = tracing();
+  Tracer apart(options);
+  options.denoiseDirect = true;
+  Tracer together(options);
+  const Tracer::Request request{.reference = true};
+  const Frame both = apart.trace(request);
+  const Frame sum = together.trace(request);
+  for (std::size_t i = 0; i < both.indirect.values().size(); ++i) {
+    ASSERT_EQ(sum.indirect.values()[i], both.indirect.values()[i] + both.direct.values()[i]);
+    ASSERT_EQ(sum.reference->indirect.values()[i],
+              both.reference->indirect.values()[i] + both.reference->direct.values()[i]);
+    ASSERT_EQ(sum.direct.values()[i] + sum.reference->direct.values()[i], 0.0F);
+  }
+}
+
+TEST(Tracer, FollowsTheFrameBefore) {
+  Tracer tracer(tracing("turntable.gltf"));
+  const Frame first = tracer.trace({.number = 12, .animationFrame = 12.0});
+  EXPECT_TRUE(first.resetHistory);
+  EXPECT_EQ(first.camera.view, first.camera.previousView);
+  EXPECT_EQ(first.camera.view, tracer.sceneCamera(12.0));
+  const Frame second = tracer.trace({.number = 13, .animationFrame = 14.0});
+  EXPECT_FALSE(second.resetHistory);
+  EXPECT_EQ(second.camera.previousView, first.camera.view);
+  EXPECT_EQ(second.camera.view, tracer.sceneCamera(14.0));
+  const Frame cut = tracer.trace({.number = 14, .animationFrame = 14.0, .view = glm::mat4(1.0F), .cut = true});
+  EXPECT_TRUE(cut.resetHistory);
+  EXPECT_EQ(cut.camera.view, glm::mat4(1.0F));
+  EXPECT_NEAR(tracer.lastAnimationFrame(), 47.0, 1e-4);
+  EXPECT_GT(tracer.bounds().w, 2.0F);
+}
+
+}  // namespace
+}  // namespace walr::host
