@@ -7,3 +7,10 @@ if(WALR_SANITIZE)
   add_link_options(-fsanitize=${WALR_SANITIZE})
   add_subdirectory(tests/sanitizers)
 endif()
+
+# walr_sanitizer_policy(<executable>): links the settings of a sanitized build (tests/sanitizers/policy.c).
+function(walr_sanitizer_policy executable)
+  if(WALR_SANITIZE)
+    target_link_libraries(${executable} PRIVATE walr_sanitizer_policy)
+  endif()
+endfunction()
