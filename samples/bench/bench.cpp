@@ -27,7 +27,9 @@ std::string sequenceKey(const std::string& setup, const NamedSequence& sequence,
   Fingerprint key;
   key.add(setup).add(options.vmaf ? options.vmaf->description() : std::string());
   key.add(options.allPictures ? "all pictures" : "few pictures");
-  key.add(std::to_string(static_cast<int>(sequence.sequence.denoiserLayout().conventions.motionDepth)));
+  const InputConventions& conventions = sequence.sequence.denoiserLayout().conventions;
+  key.add(std::to_string(static_cast<int>(conventions.motionDepth)));
+  key.add(std::to_string(conventions.light.columns) + " x " + std::to_string(conventions.light.rows));
   for (const Sequence::Entry& entry : sequence.sequence.entries()) {
     key.addFile(entry.file);
     if (!entry.reference.empty()) key.addFile(entry.reference);

@@ -20,6 +20,7 @@
 #include "samples/command_line/arguments.h"
 #include "samples/command_line/device_options.h"
 #include "samples/command_line/exit_code.h"
+#include "samples/command_line/light_rate.h"
 #include "samples/command_line/motion_depth.h"
 #include "samples/command_line/usage_error.h"
 #include "samples/image/file_output.h"
@@ -142,6 +143,7 @@ void registerBench(CLI::App& program) {
   command->add_option("--sweep", arguments->sweeps, sweepHelp())->type_name("NAME");
   command->add_option("--frames", arguments->frames, "First and last frame; default: all")->type_name("A-B");
   addMotionDepth(*command, arguments->sequence);
+  addLightRate(*command, arguments->sequence.keptLight, kKeptLightHelp);
   command
       ->add_option(
           "--sizes", arguments->sizes,

@@ -18,6 +18,7 @@
 #include "samples/command_line/arguments.h"
 #include "samples/command_line/device_options.h"
 #include "samples/command_line/exit_code.h"
+#include "samples/command_line/light_rate.h"
 #include "samples/command_line/method_options.h"
 #include "samples/command_line/motion_depth.h"
 #include "samples/command_line/usage_error.h"
@@ -343,6 +344,7 @@ void registerDenoise(CLI::App& program) {
       ->allow_extra_args(false)
       ->type_name("N");
   addMotionDepth(*command, options->sequence);
+  addLightRate(*command, options->sequence.keptLight, kKeptLightHelp);
   command->add_option("--view-layer", options->sequence.viewLayer, "View layer to read if the files hold several")
       ->type_name("NAME");
   command->footer(kExitCodeHelp);

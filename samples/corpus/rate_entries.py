@@ -9,6 +9,8 @@ JUDGED = (15, 16)
 SCENES = {"sponza": entries.shared, "living_room": entries.shared, "cornell_fence": entries.shared, "box": entries.built_in}
 SPARSE = ("1/9", "1/4", "1/2")
 """Rates of `walr render --light-rate`."""
+TAKE_SPARSE = ("walr", "flr", "bmfr", "accumulate")
+"""Methods that take sparse light."""
 SAMPLES = (1, 2, 4, 16, 64)
 """Whole numbers of rays per pixel."""
 RESAMPLED_FRAMES = 20

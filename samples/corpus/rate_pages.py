@@ -3,6 +3,8 @@ import fractions
 import pathlib
 import sys
 
+from rate_entries import RESAMPLED_FRAMES, TAKE_SPARSE
+
 HERE = pathlib.Path(__file__).resolve().parent
 PAGE, PLOT = HERE / "RATES.md", HERE / "rates.png"
 COLUMNS = ("walr", "walr:many-samples", "flr", "bmfr", "svgf", "accumulate", "none", "plain")
@@ -27,6 +29,16 @@ Errors are x 10^4. The ratio is that to `walr` at 1 ray, the geometric mean over
 """
 
 
+CYCLES = """
+## Frames of Cycles
+
+Two sequences that Blender's Cycles rendered at one sample per pixel, 384 x 216: all samples, and a share of them
+(`walr denoise --light-rate`). RMSE without the references' noise, mean over the frames after the fourth, and in brackets its
+ratio to that of the same method at 1.
+
+"""
+
+
 def order(rates):
     return sorted(rates, key=lambda rate: (float(fractions.Fraction(rate.split(",")[0])), rate))
 
@@ -40,7 +52,6 @@ def header(first):
 
 
 def page(kept):
-    from rate_entries import RESAMPLED_FRAMES
     text = EXPLANATION.format(resampled=RESAMPLED_FRAMES) + "\n![RMSE against rays per pixel](rates.png)\n\n## Ratios\n\n"
     text += header("rays per pixel (scenes)")
     for rate, methods in kept["ratios"].items():
@@ -55,6 +66,15 @@ def page(kept):
             best = min(values.values())
             shown = [f"{1e4 * values[c]:.1f}" if c in values else "-" for c in COLUMNS]
             text += row([rate, *(f"**{s}**" if values.get(c) == best else s for c, s in zip(COLUMNS, shown))])
+    return text + (cycles_page(kept["cycles"]) if kept.get("cycles") else "")
+
+
+def cycles_page(sequences):
+    text = CYCLES + row(["sequence", "rays per pixel", *(f"`{m}`" for m in TAKE_SPARSE)]) + row(["---"] * (len(TAKE_SPARSE) + 2))
+    for sequence, rates in sequences.items():
+        for rate in order(rates):
+            cells = [f"{1e4 * rates[rate][m]:.1f} ({rates[rate][m] / rates['1'][m]:.3f})" for m in TAKE_SPARSE]
+            text += row([f"`{sequence}`", rate, *cells])
     return text
 
 

@@ -28,10 +28,10 @@ from judging import exr
 
 HERE = pathlib.Path(__file__).resolve().parent
 KEPT = HERE / "rates.json"
-TAKE_SPARSE = ("walr", "flr", "bmfr", "accumulate")
 METHODS = ("walr", "walr:many-samples", "flr", "bmfr", "svgf", "accumulate", "none")
 PLAIN = "plain"
 """Name of the plain alternative: walr on smaller frames, interpolated."""
+CYCLES = [table.PROJECT.parent / "shared" / "sequences" / name for name in ("sponza", "cornell_fence")]
 FRAMES = range(rate_entries.JUDGED[0], rate_entries.JUDGED[1] + 1)
 
 
@@ -117,7 +117,7 @@ def judged(walr, cache, scene, log):
     full = cache.sequence(found["1"])
     squares, sums = None, {}
     for rate, entry in sorted(ready.items(), key=lambda item: item[0] != "1"):
-        methods = METHODS if rays(rate) >= 1 else TAKE_SPARSE
+        methods = METHODS if rays(rate) >= 1 else rate_entries.TAKE_SPARSE
         pictures = bench(walr, cache, entry, methods)
         squares = squares or Squares(full, pictures)
         sums[rate] = {m: squares.sums(lambda frame: np.load(pictures / f"{m}_{frame:04d}.npy").astype(float)) for m in methods}
@@ -126,6 +126,23 @@ def judged(walr, cache, scene, log):
         pictures = plain_pictures(walr, cache, entry, rate_entries.PLAIN[rate], full)
         sums[rate][PLAIN] = squares.sums(lambda frame: pictures[frame])
     return sums, squares.noise()
+
+
+def cycles_errors(walr, output, log):
+    """RMSE of sequences of Cycles by sequence, rate and method, after the fourth frame: all samples, and a share of them
+    (`walr denoise --light-rate`). Sequences that are absent are left out."""
+    found = {}
+    for sequence in (s for s in CYCLES if s.exists()):
+        for rate in ("1", *rate_entries.SPARSE):
+            for method in rate_entries.TAKE_SPARSE:
+                report = output / "report.json"
+                subprocess.run([str(walr), "denoise", str(sequence), "--output", str(output / "denoised"), "--method", method,
+                                "--light-rate", rate, "--json", str(report)], check=True, capture_output=True)
+                mean = json.loads(report.read_text())["mean_after_4"]
+                error = math.sqrt(mean["rmse"] ** 2 - mean["reference_noise"] ** 2)
+                found.setdefault(sequence.name, {}).setdefault(rate, {})[method] = results.rounded(error)
+            log(f"{sequence.name} of Cycles: {rate} judged")
+    return found
 
 
 def figures(all_sums):
@@ -157,7 +174,9 @@ def run(arguments):
         all_sums[scene], noise[scene] = judged(arguments.walr, cache, scene, lambda text: print(text, flush=True))
     scenes, ratios = figures(all_sums)
     KEPT.write_text(json.dumps({"commit": corpus.commit(), "noise": {s: results.rounded(n) for s, n in noise.items()},
-                                "scenes": scenes, "ratios": ratios}, indent=1) + "\n")
+                                "scenes": scenes, "ratios": ratios,
+                                "cycles": cycles_errors(arguments.walr, cache.folder / "rates", lambda text: print(text, flush=True))},
+                               indent=1) + "\n")
     rate_pages.write(json.loads(KEPT.read_text()))
 
 

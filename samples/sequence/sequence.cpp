@@ -9,6 +9,7 @@
 
 #include <glm/gtc/type_ptr.hpp>
 
+#include "passes/light_pattern.h"
 #include "samples/errors.h"
 #include "samples/sequence/cameras.h"
 
@@ -68,6 +69,21 @@ void refuseNonFinite(const std::vector<NonFiniteChannel>& channels) {
       std::to_string(first.firstY) + ")" +
       (channels.size() > 1 ? "; " + std::to_string(channels.size() - 1) + " more channel(s) have some, too" : "") +
       ". Fix the render, or use --non-finite replace to denoise the frame anyway.");
+}
+
+/// Sets the light of all pixels that have no sample to 0.
+void clearUnsampled(Image& light, const LightPattern& pattern, glm::ivec2 offset) {
+  Image kept(light.width(), light.height(), light.components());
+  const fg::Extent texels =
+      pattern.lightingExtent({static_cast<std::uint32_t>(light.width()), static_cast<std::uint32_t>(light.height())});
+  for (int y = 0; y < static_cast<int>(texels.height); ++y) {
+    for (int x = 0; x < static_cast<int>(texels.width); ++x) {
+      const glm::ivec2 pixel = pattern.pixelOf({x, y}, offset);
+      if (pixel.x >= light.width() || pixel.y >= light.height()) continue;
+      for (int c = 0; c < light.components(); ++c) kept.at(pixel.x, pixel.y, c) = light.at(pixel.x, pixel.y, c);
+    }
+  }
+  light = std::move(kept);
 }
 
 }  // namespace
@@ -150,6 +166,20 @@ void Sequence::checkHeaders() {
                        std::to_string(entry.number) + " (" + entry.file.filename().string() + ")");
     }
   }
+  if (!options_.keptLight.everyPixel()) keepSomeLight();
+}
+
+void Sequence::keepSomeLight() {
+  LightPattern& light = denoiserLayout_.conventions.light;
+  if (!light.everyPixel()) {
+    throw InputError(entries_.front().file.string() +
+                     " has sparse light already. Denoise the frames without --light-rate, or take ones that have a "
+                     "sample at every pixel.");
+  }
+  light = options_.keptLight;
+  for (Entry& entry : entries_) {
+    entry.lightOffset = lightOffsetOfFrame(light, static_cast<std::uint32_t>(entry.number));
+  }
 }
 
 void Sequence::readLight(const ExrReader& file, Entry& entry) {
@@ -205,6 +235,9 @@ Frame Sequence::read(std::size_t index) const {
   ExrReader file(entry.file);
   checkSize(file);
   readFrame(file, layout_, options_.light, frame);
+  if (!options_.keptLight.everyPixel() && options_.light.indirect) {
+    clearUnsampled(frame.indirect, frame.light, frame.lightOffset);
+  }
   if (!entry.reference.empty()) {
     ExrReader reference(entry.reference);
     checkSize(reference);

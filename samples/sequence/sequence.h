@@ -30,6 +30,9 @@ struct SequenceOptions {
   std::vector<int> cuts;             ///< Frames that follow a camera cut, in addition to those that the cameras show.
   NonFinitePolicy nonFinite = NonFinitePolicy::Fail;
   std::optional<InputConventions::MotionDepth> motionDepth;  ///< Absent: as the layout says.
+  /// Of frames with a sample of indirect light at every pixel, keep those at the pixels of this pattern, other ones in
+  /// each frame (`lightOffsetOfFrame`), to see what sparse light would cost. The other samples become 0.
+  LightPattern keptLight;
 };
 
 /// A folder of frames. The constructor checks names, numbers, channels, sizes and cameras of all frames before any
@@ -67,6 +70,7 @@ class Sequence {
   void checkHeaders();
   void checkSize(const ExrReader& file) const;
   void readLight(const ExrReader& file, Entry& entry);
+  void keepSomeLight();
   void markCuts();
 
   std::filesystem::path folder_;

@@ -161,6 +161,39 @@ TEST_F(SequenceTest, WrongSparseLightIsNamedWithItsFile) {
   expectRefused({"noisy_0001.exr", "lightGroup", "noisy_0000.exr"});
 }
 
+// Frames 4 and 5 keep the light of different pixels; what they keep is what the files hold.
+TEST_F(SequenceTest, KeepsTheShareOfTheLightThatIsAskedFor) {
+  files.write(4, 5);
+  SequenceOptions options;
+  const Sequence whole = open(options);
+  options.keptLight = {.columns = 2, .rows = 2};
+  const Sequence sequence = open(options);
+  EXPECT_EQ(sequence.denoiserLayout().conventions.light, options.keptLight);
+  for (const std::size_t index : {0U, 1U}) {
+    const Frame frame = sequence.read(index);
+    const Frame all = whole.read(index);
+    EXPECT_EQ(frame.light, options.keptLight);
+    EXPECT_EQ(frame.lightOffset, lightOffsetOfFrame(options.keptLight, 4U + static_cast<std::uint32_t>(index)));
+    for (int y = 0; y < all.indirect.height(); ++y) {
+      for (int x = 0; x < all.indirect.width(); ++x) {
+        const bool kept = x % 2 == frame.lightOffset.x && y % 2 == frame.lightOffset.y;
+        for (int c = 0; c < 3; ++c) EXPECT_EQ(frame.indirect.at(x, y, c), kept ? all.indirect.at(x, y, c) : 0.0F);
+      }
+    }
+  }
+  EXPECT_EQ(sequence.read(1).previousLightOffset, sequence.read(0).lightOffset);
+  EXPECT_NE(sequence.read(1).previousLightOffset, sequence.read(1).lightOffset);
+}
+
+TEST_F(SequenceTest, KeepsAShareOfFullLightOnly) {
+  Frame frame = test::projectFrame(0, 6, 4);
+  frame.light = {.columns = 2, .rows = 1};
+  writeFrame(directory.path(), frame);
+  SequenceOptions options;
+  options.keptLight = {.columns = 2, .rows = 2};
+  expectRefused({"noisy_0000.exr", "sparse light already", "--light-rate"}, options);
+}
+
 TEST_F(SequenceTest, TheChangeOfDepthMayHaveAnotherSource) {
   using enum InputConventions::MotionDepth;
   writeFrame(directory.path(), test::projectFrame(7, 6, 4));

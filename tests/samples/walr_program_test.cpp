@@ -206,6 +206,16 @@ TEST_F(ProgramTest, RendersLintsAndDenoisesSparseLight) {
                 {"method 'svgf' needs a sample of light at every pixel"});
 }
 
+TEST_F(ProgramTest, DenoisesAndComparesWithAShareOfTheSamples) {
+  files.write(0, 2);
+  expectSuccess(denoise({"--method", "accumulate"}));
+  const Image all = readIndirect(output / "denoised_0002.exr", "Indirect");
+  expectSuccess(denoise({"--method", "accumulate", "--light-rate", "1/4"}));
+  EXPECT_FALSE(std::ranges::equal(readIndirect(output / "denoised_0002.exr", "Indirect").values(), all.values()));
+  expectFailure(denoise({"--method", "svgf", "--light-rate", "1/4"}), kUsage,
+                {"needs a sample of light at every pixel"});
+}
+
 TEST_F(ProgramTest, TellsTheLinterAndTheDenoiserThatMotionHasNoDepth) {
   const std::string scene = std::string(WALR_SCENES) + "/box.gltf";
   expectSuccess(walr(
