@@ -256,11 +256,9 @@ typedef struct WalrConventions {
    * Not with `rectangle`. */
   uint32_t light_group[2];
   VkBool32 light_masked; /* The lighting has alpha. A texel whose alpha is not above 0 is no sample. */
-  /* The same, and an alpha above 0 is the number of samples c whose mean the colour is. Accumulation weighs it by that.
-   * N_h is the number of samples in the history, L the setting accumulation.max-history, a number of frames:
-   *   k = c, or 1 if there is no sample; but N_h / L if N_h > 9/8 L k
-   *   N = min(N_h, k (L - 1)) + c,  mean = history + (light - history) c / N;  without a sample history stays
-   * Fractions are allowed. NaN and numbers below 0 are no sample; above 480 / L they count as that. */
+  /* The same, and an alpha above 0 is the number of samples whose mean the colour is. Accumulation weighs light by it,
+   * and history lengths are numbers of samples: see "Sparse light" in the integration guide. Fractions are allowed. NaN
+   * and numbers below 0 are no sample. Numbers above 480 / accumulation.max-history count as that. */
   VkBool32 light_counted;
 } WalrConventions;
 
