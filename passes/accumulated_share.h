@@ -23,8 +23,8 @@ struct AccumulatedShareSettings {
 
   void visit(SettingVisitor& v) {
     v.visit({"blocks.residual",
-             "Mix accumulated light into the result as far as two halves of its samples agree that the fits miss "
-             "something, and shorten history where it blurs more than noise needs",
+             "Add accumulated light to the result where this frame and the history agree that the fits miss something, "
+             "and shorten history where it blurs more than noise asks for",
              "", 0, 1, "measured"},
             enabled);
     v.visit(
@@ -35,23 +35,21 @@ struct AccumulatedShareSettings {
              "tiles", 0, 8, "measured"},
             radius);
     v.visit({"blocks.residual-gain",
-             "What the fits miss counts for this many times what the agreement says: history that reprojection has "
-             "blurred agrees too little",
-             "", 0.0, 16.0, "measured"},
+             "Factor of the agreement, which comes out too small where reprojection has blurred history", "", 0.0, 16.0,
+             "measured"},
             gain);
     v.visit({"blocks.residual-least-share", "Share of the accumulated light below which it is left out", "", 0.0, 0.5,
              "measured"},
             leastShare);
-    v.visit(
-        {"blocks.innovation-gain",
-         "How fast the length of history follows the correlation of innovations, the differences of new samples from "
-         "history; 0: not at all",
-         "", 0.0, 4.0, "Mehra 1970"},
-        innovationGain);
+    v.visit({"blocks.innovation-gain",
+             "How fast the history length follows the correlation of innovations, the differences of new samples from "
+             "history; 0: not at all",
+             "", 0.0, 4.0, "Mehra 1970"},
+            innovationGain);
     v.visit(
         {"blocks.innovation-bias",
-         "Correlation of innovations at which this length stays as it is, in units of what noise alone gives at the "
-         "longest history; above 1 history is shorter than that",
+         "Correlation of innovations at which the history length stays as it is, in units of what noise alone gives at "
+         "the longest history; above 1 history is shorter than that",
          "", 0.0, 100.0, "measured"},
         innovationBias);
   }

@@ -42,11 +42,11 @@ struct BlockRegressionSettings {
     v.visit({"blocks.plane-near", "Distance from the plane up to which a block counts in full; below plane-far",
              "fraction of depth", 0.0, 1.0, "Meunier & Harada 2022, 4.3"},
             planeNear);
-    v.visit({"blocks.plane-far", "Distance from the plane from which a block is an edge", "fraction of depth", 1e-6,
-             1.0, "Meunier & Harada 2022, 4.3"},
+    v.visit({"blocks.plane-far", "Distance from the plane at which an edge begins", "fraction of depth", 1e-6, 1.0,
+             "Meunier & Harada 2022, 4.3"},
             planeFar);
-    v.visit({"blocks.sdf-fraction", "Share of the distance to the nearest edge that edge tracing steps at once", "",
-             0.0, 1.0, "Meunier & Harada 2022, 5.2"},
+    v.visit({"blocks.sdf-fraction", "Edge tracing steps by this share of the distance to the nearest edge", "", 0.0,
+             1.0, "Meunier & Harada 2022, 5.2"},
             sdfFraction);
     v.visit({"blocks.ridge", "Ridge on the diagonal of the covariance of the features, which are of order 1 or less",
              "", 1e-9, 1.0, "measured"},
@@ -74,8 +74,8 @@ struct BlockRegressionSettings {
              "cells", 0.5, 100.0, "measured"},
             coarseResolution);
     v.visit({"blocks.coarse-growth-errors",
-             "Growth of coarse fits: a window joins that of a cell in full up to this error of the cell's fit at the "
-             "window's mean, and not at all from twice as much on",
+             "Growth of coarse fits: a window joins a cell's in full if the cell's fit predicts its mean light within "
+             "this error, and not at all from twice as much on",
              "standard errors", 0.001, 1e6, "measured"},
             coarseGrowthErrors);
     v.visit(
@@ -84,8 +84,8 @@ struct BlockRegressionSettings {
         coarseGrowthOcclusion);
     v.visit(
         {"blocks.coarse-samples",
-         "Samples that the coarse fit counts for in the mixture with a fine fit of W samples, up to a height of 360 "
-         "pixels; in larger pictures fewer, see coarseSamplesAt",
+         "Samples that the coarse fit counts for in the mixture with a fine fit of W samples; in pictures higher than "
+         "360 pixels it is divided by (height / 360)^2",
          "samples", 0.0, 1e6, "measured"},
         coarseSamples);
     v.visit({"blocks.coarse-least-share",

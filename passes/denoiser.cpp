@@ -51,7 +51,7 @@ template <typename Settings>
 constexpr std::string_view kFormerPresets{};
 template <>
 constexpr std::string_view kFormerPresets<WalrSettings> =
-    "; walr is what its preset blocks was, and its presets robust and paper are those of the method walr_paper";
+    "; the former preset blocks is now walr itself, and robust and paper are presets of the method walr_paper";
 
 /// The scene that satisfies both descriptions.
 SceneDescription common(const SceneDescription& a, const SceneDescription& b) {

@@ -23,10 +23,9 @@ class Denoiser : public Configurable {
   /// Whether the method prepares guides, which several lights can share (`SharedGuides`).
   [[nodiscard]] virtual bool sharesGuides() const = 0;
   /// Add the method's passes to a graph.
-  /// @param graph   the host's graph, with the views and counters that the caller wants, if any. For several lights of
-  /// a
-  ///                view: call `add` for each, with `SharedLight`s that have the same guides. The inputs differ in
-  ///                `lighting` and `confidence` only
+  /// @param graph   the host's graph, with the views and counters that the caller wants, if any. For several lights
+  ///                of a view: call `add` for each, with `SharedLight`s that have the same guides. The inputs differ
+  ///                in `lighting` and `confidence` only
   /// @param inputs  the host's textures and scene description; settings may leave out more of the scene
   /// @param output  RGBA16F texture of the inputs' extent that the result is written to
   /// @returns the output's new version: denoised demodulated diffuse indirect radiance; sky and pixels without a

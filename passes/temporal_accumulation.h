@@ -50,9 +50,7 @@ struct TemporalAccumulationSettings {
   void visitStorage(SettingVisitor& v) {
     v.visitEnum(
         {"accumulation.storage",
-         "Storage of the mean light that blocks are regressed over: 64 bits a pixel, or 32 with unbiased rounding "
-         "to 7 bits",
-         "", 0, 1, "measured"},
+         "Storage of accumulated light: 64 bits a pixel, or 32 with unbiased rounding to 7 bits", "", 0, 1, "measured"},
         kLightStorages, storage);
   }
 };

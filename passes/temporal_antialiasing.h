@@ -56,9 +56,9 @@ struct TemporalAntialiasingSettings {
   void visitStorage(SettingVisitor& v) {
     v.visitEnum(
         {"antialiasing.storage",
-         "Storage of what the regression over blocks leaves and of anti-aliasing's history: 64 bits a pixel, or "
-         "32 with unbiased rounding to 9 and 8 bits. Light of pixels without a surface is then rounded to the nearest "
-         "of 9 bits and clamped to 0 to 65408, where both temporal stages look for history alike and things may move",
+         "Storage of filtered light and of the history of anti-aliasing: 64 bits a pixel, or 32 with unbiased rounding "
+         "to 9 and 8 bits. If both temporal stages look for history alike and things may move, packed also rounds the "
+         "light of pixels without a surface to 9 bits and clamps it to 65408",
          "", 0, 1, "measured"},
         kLightStorages, storage);
   }

@@ -42,6 +42,7 @@ fg::Texture addWalr(StageGraph graph, const DenoiserInputs& inputs, fg::Texture 
   if (blocks.share.enabled && !inputs.conventions.light.everyPixel()) {
     throw std::invalid_argument("setting blocks.residual needs a sample of light at every pixel");
   }
+  // Reconstruction with blocks.residual measures where history is too long. Antilag then shortens it in the next frame.
   std::optional<SteeredHistory> history;
   if (blocks.share.enabled && plan.accumulates && settings.accumulation.antilag.enabled) {
     history = declareSteeredHistory(graph, inputs.extent(graph), settings.accumulation.maxHistory);

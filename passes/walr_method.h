@@ -28,12 +28,13 @@ struct WalrSettings {
     guides.visit(v);
     accumulation.visit(v);
     accumulation.visitStorage(v);
-    v.visit({"walr.fit-window",
-             "Leave out the last iterations where their window would span far more than a tenth of the image's "
-             "height, and make blocks no larger than a 43rd of it, but at least of 4 pixels; widen windows where a "
-             "sample of light stands for several pixels",
-             "", 0, 1, "measured"},
-            fitWindow);
+    v.visit(
+        {"walr.fit-window",
+         "Make blocks no larger than 1/43 of the image's height, but at least of 4 pixels; leave out iterations whose "
+         "window would span far more than a tenth of the height; widen windows where a sample of light stands for "
+         "several pixels",
+         "", 0, 1, "measured"},
+        fitWindow);
     occlusion.visit(v);
     blocks.visit(v);
     antialiasing.visit(v);

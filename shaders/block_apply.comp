@@ -9,10 +9,10 @@
 // A pixel without a surface (depth 0) is not filtered: its pass-through is copied to the result.
 // PACKED: the result is packed light (packed_light.glsl). A pixel without a surface gets the mark kFilteredNoSurface,
 // and anti-aliasing outputs the pass-through.
-// RESIDUAL: mixes the result with the accumulated light (accumulated_share.glsl), and stores the innovations to which the
-// length of history adapts (innovation.glsl).
+// RESIDUAL: adds shares of the residual, the accumulated light less the prediction (accumulated_share.glsl), and stores
+// what the length of history adapts to (innovation.glsl).
 // VIEW: writes an intermediate value instead of the result, and black where there is no surface. The cells are always
-// read. If PACKED is defined as well, the input `accumulated` is packed light.
+// read.
 // DIRECTION: writes the slopes of the prediction over the normal instead of the result (pack_direction.glsl).
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -23,7 +23,7 @@
 #include "constants/stored_fit.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(constant_id = 0) const int kBlockSize = 4;  // Pixels per axis.
+layout(constant_id = 0) const int kBlockSize = 4;  // Pixels per axis, at most 8.
 layout(constant_id = 2) const int kCellSize = 8;   // Pixels per axis.
 
 layout(std140) uniform frameConstants { FrameConstants frame; };
@@ -75,7 +75,7 @@ const int kSlopes = kFeatures;
 const int kSlopes = 3;  // The normal's.
 #endif
 
-// What is stored for a pixel.
+// Type of what is stored for a pixel.
 #ifdef DIRECTION
 #define Predicted mat3  // Column i: the slope of the normal's component i.
 #else
@@ -109,7 +109,7 @@ Prediction noPrediction() {
   return sum;
 }
 
-// Adds the prediction of one fit.
+// Adds the prediction of one fit. In units of kLightUnit, 1 is the brightest light that can be stored.
 void add(inout Prediction sum, float weight, StoredFit fit, ScaledFeatures pixel) {
   const vec3 colour = evaluate(fit, pixel);
   sum.colour += weight * clamp(colour, 0.0, 1.0);
@@ -123,7 +123,7 @@ void add(inout Prediction sum, float weight, StoredFit fit, ScaledFeatures pixel
 #endif
 }
 
-// Replaces a sum of weights as divisor. If all weights are 0, the weighted sum is 0, too, and so is the quotient.
+// A divisor that is never 0. If all weights are 0, the weighted sum is 0, too, and so is the quotient.
 float divisor(float weight) { return max(weight, 1e-30); }
 
 // Mean sample count of the windows of the fine fits; 0 if no fine fit is usable.
@@ -160,7 +160,8 @@ float[4] weightsOf(BilinearTexels texels) {
 }
 
 // Index of texel `i` of the four in the buffer of a grid with `size` pixels a texel. In place of a texel outside the
-// grid, the one beside it counts twice. That does not change a mean: both texels inside gain the same factor.
+// grid, its neighbour inside is read again. A mean stays the same: the weights of all texels inside grow by the same
+// factor.
 uint indexOf(BilinearTexels texels, int i, int size) {
   const ivec2 grid = (textureSize(depth, 0) + size - 1) / size;
   return gridIndex(clamp(texels.first + ivec2(i & 1, i >> 1), ivec2(0), grid - 1), grid);
@@ -181,7 +182,7 @@ Prediction predictFine(BilinearTexels texels, vec3 ray, float z, vec3 normal, Sc
   const float bilinear[4] = weightsOf(texels);
   [[unroll]] for (int i = 0; i < 4; ++i) {
     const StoredBlockFit block = blocks[indexOf(texels, i, kBlockSize)];
-    // u of passes/WALR.md.
+    // u of passes/WALR.md. The cosine is 0 where a block has no fit.
     const float weight = bilinear[i] * edgeStopping(planeDistance(block, ray, z)) * planeCosine(block, normal);
     add(sum, weight, block.fit, pixel);
   }
@@ -279,6 +280,7 @@ bool predict(ivec2 p, BilinearTexels nearBlocks, out vec3 position, out vec3 nor
 void main() {
   // All pixels of a work group lie between the centres of the same four blocks. So the group reads four fits, from
   // addresses that all its threads share. If blocks are small, it covers kIntervals intervals between centres an axis.
+  // The first interval begins half a block before the image.
   const int kIntervals = int(gl_WorkGroupSize.x) / kBlockSize;
   const int kThreads = kIntervals * kBlockSize;  // That have a pixel, per axis.
   const ivec2 thread = ivec2(gl_LocalInvocationID.xy);

@@ -13,12 +13,13 @@
 namespace fg {
 namespace {
 
+using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
+
 /// `count` lists of numbers, all in one allocation.
 class Lists {
  public:
   /// @param pairs (list, element) in any order; the elements of a list keep their order
-  Lists(std::size_t count, const std::vector<std::pair<std::uint32_t, std::uint32_t>>& pairs)
-      : begin_(count + 1), elements_(pairs.size()) {
+  Lists(std::size_t count, const Pairs& pairs) : begin_(count + 1), elements_(pairs.size()) {
     for (const auto& [list, element] : pairs) ++begin_[list + 1];
     for (std::size_t i = 0; i < count; ++i) begin_[i + 1] += begin_[i];
     std::vector<std::uint32_t> next(begin_.begin(), begin_.end() - 1);
@@ -33,8 +34,6 @@ class Lists {
   std::vector<std::uint32_t> elements_;
 };
 
-using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
-
 /// A texture and the layout in which a pass uses it.
 struct TextureUse {
   std::uint32_t resource = kNone;
@@ -46,8 +45,8 @@ struct Problem {
   std::vector<std::uint32_t> passes;              ///< Indexed by pass number: index into `GraphDesc::passes`.
   std::vector<std::vector<TextureUse>> textures;  ///< Of each pass.
   std::vector<std::uint64_t> bytes;               ///< Indexed by resource: size of every transient.
-  Lists touched;                                  ///< Transients of each pass.
-  Lists touching;                                 ///< Passes of each transient.
+  Lists transientsOf;                             ///< Transients that each pass uses.
+  Lists usersOf;                                  ///< Passes that use each transient.
   Lists successors;
   Lists predecessors;
 };
@@ -63,7 +62,7 @@ Problem makeProblem(const Topology& topology, const Culling& culling, const std:
   }
   const std::vector<bool> shared = aliasable(graph);
   std::vector<std::uint64_t> bytes(resources.size());
-  Pairs touched;
+  Pairs transientUses;
   std::vector<std::vector<TextureUse>> textures(passes.size());
   for (std::uint32_t i = 0; i < passes.size(); ++i) {
     for (const AccessDecl& access : graph.passes[passes[i]].accesses) {
@@ -72,11 +71,11 @@ Problem makeProblem(const Topology& topology, const Culling& culling, const std:
       }
       if (!shared[access.resource]) continue;
       bytes[access.resource] = resources[access.resource].size;
-      touched.emplace_back(i, access.resource);
+      transientUses.emplace_back(i, access.resource);
     }
   }
-  std::ranges::sort(touched);
-  touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
+  std::ranges::sort(transientUses);
+  transientUses.erase(std::unique(transientUses.begin(), transientUses.end()), transientUses.end());
   Pairs edges;
   for (const Dependency& dependency : dependencies(topology, culling.live)) {
     edges.emplace_back(number[dependency.before], number[dependency.after]);
@@ -91,8 +90,8 @@ Problem makeProblem(const Topology& topology, const Culling& culling, const std:
   return {std::move(passes),
           std::move(textures),
           std::move(bytes),
-          Lists(count, touched),
-          Lists(resources.size(), swapped(touched)),
+          Lists(count, transientUses),
+          Lists(resources.size(), swapped(transientUses)),
           Lists(count, edges),
           Lists(count, swapped(edges))};
 }
@@ -152,9 +151,9 @@ class BatchLayouts {
 
 /// A list schedule in one direction of time.
 ///
-/// A pass starts the lifetime of the transients that no taken pass uses, and ends it for those that no pass uses after
-/// it. Its cost is the bytes that it starts less those that it ends. A batch takes the passes that the longest chain
-/// does not let wait, and those others that do not add to the live bytes.
+/// A pass starts the lifetime of transients that no taken pass uses, and ends the lifetime of those that no other pass
+/// is still to use. Its cost is the bytes that it starts less those that it ends. A batch takes every pass that the
+/// longest chain does not let wait, and of the others those that do not add to the live bytes.
 class ListSchedule {
  public:
   ListSchedule(const Problem& problem, const Lists& before, const Lists& after)
@@ -169,11 +168,11 @@ class ListSchedule {
     const std::uint32_t longest = latest_.empty() ? 0 : std::ranges::max(latest_);
     for (std::uint32_t& batch : latest_) batch = longest - batch;
     for (std::size_t i = 0; i < remaining_.size(); ++i) {
-      remaining_[i] = static_cast<std::uint32_t>(problem.touching[i].size());
+      remaining_[i] = static_cast<std::uint32_t>(problem.usersOf[i].size());
     }
     for (std::uint32_t pass = 0; pass < waiting_.size(); ++pass) {
       waiting_[pass] = static_cast<std::uint32_t>(before[pass].size());
-      for (const std::uint32_t transient : problem.touched[pass]) {
+      for (const std::uint32_t transient : problem.transientsOf[pass]) {
         if (remaining_[transient] > 1) cost_[pass] += signedBytes(transient);
       }
       if (waiting_[pass] == 0) ready_.push_back(pass);
@@ -219,31 +218,31 @@ class ListSchedule {
   }
 
   void take(std::uint32_t pass) {
-    for (const std::uint32_t transient : problem_.touched[pass]) {
+    for (const std::uint32_t transient : problem_.transientsOf[pass]) {
       --remaining_[transient];
       const bool starts = !started_[transient];
       started_[transient] = true;
-      // Once it is alive, its bytes no longer count as a cost. The last pass that uses it gets them deducted.
+      // A live transient costs no other pass its bytes, and the last pass that is still to use it will free them.
       if (starts || remaining_[transient] == 1) reduceCosts(transient, starts);
     }
   }
 
   void reduceCosts(std::uint32_t transient, bool starts) {
     const std::int64_t bytes = signedBytes(transient);
-    for (const std::uint32_t other : problem_.touching[transient]) {
+    for (const std::uint32_t other : problem_.usersOf[transient]) {
       cost_[other] -= (starts ? bytes : 0) + (remaining_[transient] == 1 ? bytes : 0);
     }
   }
 
   const Problem& problem_;
   const Lists& after_;
-  std::vector<std::uint32_t> waiting_;  ///< Number of passes that must come first.
-  std::vector<std::uint32_t> latest_;   ///< Last batch that leaves room for all passes that depend on the pass.
-  std::vector<std::int64_t> cost_;      ///< Change of the live bytes when the pass is taken.
-  std::vector<std::uint32_t> remaining_;
-  std::vector<bool> started_;
-  BatchLayouts layouts_;
-  std::vector<std::uint32_t> ready_;
+  std::vector<std::uint32_t> waiting_;    ///< Number of passes that must come first.
+  std::vector<std::uint32_t> latest_;     ///< Last batch that leaves room for all passes that depend on the pass.
+  std::vector<std::int64_t> cost_;        ///< Change of the live bytes when the pass is taken.
+  std::vector<std::uint32_t> remaining_;  ///< Indexed by resource: passes that are still to use the transient.
+  std::vector<bool> started_;             ///< Indexed by resource: whether the transient is alive, or was.
+  BatchLayouts layouts_;                  ///< Of the batch that is being filled.
+  std::vector<std::uint32_t> ready_;      ///< Passes that may be taken now.
 };
 
 std::uint64_t peakBytes(const Problem& problem, const Batches& batches) {
@@ -251,7 +250,7 @@ std::uint64_t peakBytes(const Problem& problem, const Batches& batches) {
   std::uint64_t live = 0;
   std::uint64_t peak = 0;
   const auto forEachUse = [&](const std::vector<std::uint32_t>& batch, const auto& visit) {
-    for (const std::uint32_t pass : batch) std::ranges::for_each(problem.touched[pass], visit);
+    for (const std::uint32_t pass : batch) std::ranges::for_each(problem.transientsOf[pass], visit);
   };
   for (const std::vector<std::uint32_t>& batch : batches) {
     forEachUse(batch, [&](std::uint32_t transient) {
@@ -259,7 +258,7 @@ std::uint64_t peakBytes(const Problem& problem, const Batches& batches) {
     });
     peak = std::max(peak, live);
     forEachUse(batch, [&](std::uint32_t transient) {
-      if (used[transient] != problem.touching[transient].size()) return;
+      if (used[transient] != problem.usersOf[transient].size()) return;
       used[transient] = kNone;  // Several passes of the batch may be its last.
       live -= problem.bytes[transient];
     });

@@ -1,9 +1,10 @@
-// The share of the accumulated light in the reconstruction (passes/WALR_EXPERIMENTS.md). What the fits leave of it, the
-// residual, is noise where the fits are right, and light that no feature explains where they are not. Two halves of the
-// light with independent noise tell which: this frame's light y and the history h. Where only noise parts them from the
-// prediction p, the product of their residuals is 0 in the mean.
-// The residual is split into two levels: its mean over the pixels around on the same surface, and what the pixel's own
-// differs from that. Each level has its own share. So have pixels beside an edge, where the fits miss most.
+// How much of the residual is added to the prediction (passes/WALR_EXPERIMENTS.md). The residual is the accumulated light
+// less the prediction p: noise, and where the fits are wrong also light that no feature explains. To tell them apart,
+// this frame's light y and the history h are compared. Their noise is independent: where y - p and h - p are noise
+// alone, their product is 0 in the mean.
+// The residual is split into two levels: its mean over the pixels around on the same surface, and the difference of the
+// pixel's own residual from that mean. Each level has its own share. So have pixels beside an edge, where the fits miss
+// most.
 // In resampled light (ReSTIR) the noise of y depends on that of h, and their product is not 0. The noise of different
 // pixels is still independent. Trust, 0 to 1, multiplies the shares; it falls if residuals two pixels apart do not agree.
 // Needs: `frame` (FrameConstants), `constants` (BlockRegressionConstants), kBlockSize, workgroups of 8 x 8, and
@@ -32,9 +33,8 @@ vec4 accumulatedAt(ivec2 p) {
   return kPackedMean ? unpackAccumulated(texelFetch(accumulatedPacked, p, 0).x) : texelFetch(accumulatedHalf, p, 0);
 }
 
-// Sums over pixels. xy: of the mean around a pixel; zw: of what the pixel's own residual differs from it. x and z:
-// product of the residuals of y and h, which is the square of what the fits miss; y and w: square of the noise of one
-// sample.
+// Sums over pixels. xy: of the mean around a pixel; zw: of the difference of the pixel's own residual from it. x and z:
+// (y - p) (h - p), in the mean the square of what the fits miss; y and w: square of the noise of one sample.
 struct Statistics {
   vec4 sums;
   float trust;
@@ -88,12 +88,12 @@ Residual residualOf(ivec2 p, vec4 mean, vec3 predicted) {
   return Residual(residual, y, h, mean.a);
 }
 
-// What a pixel shows.
+// What a pixel shows; 0 without a surface.
 struct Shown {
   bool surface;
   vec3 position;
   vec3 normal;
-  vec3 predicted;
+  vec3 predicted;  // p: the light that the fits predict.
 };
 
 const int kGroupSize = 8;

@@ -14,6 +14,7 @@ const int kOcclusionFeature = 4;
 const int kCovariances = kFeatures * (kFeatures + 1) / 2;
 #include "triangle.glsl"
 
+// In passes/WALR.md these are the means of X and m, S_XX, S_Xm, var and W.
 struct BlockMoments {
   float x[kFeatures];       // Means of the features.
   vec3 y;                   // Mean of the colour.

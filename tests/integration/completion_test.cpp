@@ -81,16 +81,9 @@ TEST_F(Completion, AHostThatWaitsNeverFails) {
 TEST_F(Completion, PassByPassBeginningAFrameTooEarlyIsAnError) {
   const Timeline finished(context());
   const WalrDevice host = hostDevice(device());
-  WalrDenoiserInfo info{};
-  info.struct_size = sizeof(info);
-  info.device = &host;
-  info.width = 64;
-  info.height = 48;
-  WalrPassesInfo listed{};
-  listed.struct_size = sizeof(listed);
-  listed.denoiser = &info;
+  WalrDenoiserInfo info = denoiserInfo(&host);
   WalrPasses passes = nullptr;
-  require(walr_create_passes(&listed, &passes));
+  require(createPasses(info, passes));
   const FrameDescription still = cameraAt({}, {}, kSize, 0);
   const WalrCamera camera = cameraOf(still.view, still.projection, {});
   const auto begin = [&](std::uint64_t value) {

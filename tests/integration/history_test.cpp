@@ -163,11 +163,8 @@ TEST_F(History, ConfidenceIsReadInItsRectangle) {
 
 /// Names of the host's images in a list of passes.
 std::vector<std::string> hostImages(const WalrDenoiserInfo& info) {
-  WalrPassesInfo wanted{};
-  wanted.struct_size = sizeof(wanted);
-  wanted.denoiser = &info;
   WalrPasses passes = nullptr;
-  require(walr_create_passes(&wanted, &passes));
+  require(createPasses(info, passes));
   const WalrPassList* list = nullptr;
   require(walr_get_pass_list(passes, &list));
   std::vector<std::string> names;
@@ -178,10 +175,7 @@ std::vector<std::string> hostImages(const WalrDenoiserInfo& info) {
 }
 
 TEST(HistoryPassByPass, BothImagesAreTheHosts) {
-  WalrDenoiserInfo info{};
-  info.struct_size = sizeof(info);
-  info.width = static_cast<std::uint32_t>(kSize.x);
-  info.height = static_cast<std::uint32_t>(kSize.y);
+  WalrDenoiserInfo info = denoiserInfo(nullptr);
   const auto has = [&](const char* name) { return std::ranges::count(hostImages(info), std::string(name)) == 1; };
   EXPECT_FALSE(has("confidence"));
   EXPECT_FALSE(has("history_length"));
@@ -198,10 +192,7 @@ TEST(HistoryPassByPass, BothImagesAreTheHosts) {
 }
 
 TEST(LightDirectionPassByPass, IsTheHostsImageAndOfWalrOnly) {
-  WalrDenoiserInfo info{};
-  info.struct_size = sizeof(info);
-  info.width = static_cast<std::uint32_t>(kSize.x);
-  info.height = static_cast<std::uint32_t>(kSize.y);
+  WalrDenoiserInfo info = denoiserInfo(nullptr);
   const auto has = [&] { return std::ranges::count(hostImages(info), std::string("light_direction")) == 1; };
   EXPECT_FALSE(has());
   info.light_direction = VK_TRUE;

@@ -50,6 +50,22 @@ WalrDevice hostDevice(const fg::vk::Device& device) {
   return host;
 }
 
+WalrDenoiserInfo denoiserInfo(const WalrDevice* device, glm::ivec2 size) {
+  WalrDenoiserInfo info{};
+  info.struct_size = sizeof(info);
+  info.device = device;
+  info.width = static_cast<std::uint32_t>(size.x);
+  info.height = static_cast<std::uint32_t>(size.y);
+  return info;
+}
+
+WalrResult createPasses(const WalrDenoiserInfo& info, WalrPasses& passes) {
+  WalrPassesInfo listed{};
+  listed.struct_size = sizeof(listed);
+  listed.denoiser = &info;
+  return walr_create_passes(&listed, &passes);
+}
+
 HostedRun::HostedRun(const fg::vk::Device& device, const char* method, glm::ivec2 size, const Options& options)
     : device_(&device),
       hostSlots_(options.hostSlots != 0 ? options.hostSlots : options.framesInFlight),
@@ -67,13 +83,9 @@ HostedRun::HostedRun(const fg::vk::Device& device, const char* method, glm::ivec
   WalrConventions conventions = options.conventions;
   conventions.struct_size = sizeof(conventions);
   conventions.rectangle = margin_ != glm::ivec2(0) ? VK_TRUE : VK_FALSE;
-  WalrDenoiserInfo info{};
-  info.struct_size = sizeof(info);
+  WalrDenoiserInfo info = denoiserInfo(&host, size);
   info.frames_in_flight = options.framesInFlight;
-  info.device = &host;
   info.method = method;
-  info.width = static_cast<std::uint32_t>(size.x);
-  info.height = static_cast<std::uint32_t>(size.y);
   info.conventions = &conventions;
   info.lighting_format = options.formats[0];
   info.depth_format = options.formats[1];

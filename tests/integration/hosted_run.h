@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include <walr/walr.h>
+#include <walr/walr_passes.h>
 
 #include "framegraph/vulkan/device.h"
 #include "framegraph/vulkan/frame_queue.h"
@@ -141,9 +141,7 @@ std::vector<std::byte> placed(const std::vector<Texel>& picture, glm::ivec2 size
     std::copy_n(picture.begin() + std::ptrdiff_t(y) * size.x, size.x,
                 image.begin() + std::ptrdiff_t(y + offset.y) * imageSize.x + offset.x);
   }
-  std::vector<std::byte> bytes(image.size() * sizeof(Texel));
-  std::memcpy(bytes.data(), image.data(), bytes.size());
-  return bytes;
+  return texelBytes(image);
 }
 
 /// Throws std::runtime_error with the library's text if a call fails.
@@ -151,6 +149,12 @@ void require(WalrResult result);
 
 /// A device for the C API.
 WalrDevice hostDevice(const fg::vk::Device& device);
+
+/// A denoiser for the C API. A null device suffices to list passes.
+WalrDenoiserInfo denoiserInfo(const WalrDevice* device, glm::ivec2 size = {64, 48});
+
+/// Call walr_create_passes without settings or ports.
+WalrResult createPasses(const WalrDenoiserInfo& info, WalrPasses& passes);
 
 /// The camera of a frame for the C API.
 WalrCamera cameraOf(const glm::mat4& view, const glm::mat4& projection, glm::vec2 jitter);

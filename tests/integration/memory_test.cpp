@@ -118,12 +118,8 @@ class CApiMemory : public fg::test::GpuTest {
  protected:
   WalrDenoiserInfo info(const char* method) {
     device_ = hostDevice(device());
-    WalrDenoiserInfo info{};
-    info.struct_size = sizeof(info);
-    info.device = &device_;
+    WalrDenoiserInfo info = denoiserInfo(&device_, {640, 360});
     info.method = method;
-    info.width = 640;
-    info.height = 360;
     return info;
   }
   WalrDevice device_{};
@@ -161,11 +157,8 @@ TEST_F(CApiMemory, OfPassesComesFromTheHost) {
   described.lint = VK_TRUE;
   device_.get_instance_proc_addr = countDeviceCalls(context().view.getInstanceProcAddr);
   device_.device_memory = &callbacks;
-  WalrPassesInfo listed{};
-  listed.struct_size = sizeof(listed);
-  listed.denoiser = &described;
   WalrPasses passes = nullptr;
-  require(walr_create_passes(&listed, &passes));
+  require(createPasses(described, passes));
   EXPECT_GT(memory.live, 0U);
   require(walr_destroy_passes(passes));
   EXPECT_EQ(memory.live, 0U);

@@ -69,7 +69,7 @@ static void test_create(const WalrDevice* device) {
   info = info_of(device);
   info.preset = "magic";
   EXPECT(walr_create_denoiser(&info, &denoiser), WALR_ERROR_INVALID_ARGUMENT,
-         "known presets: one-sample, many-samples; walr is what its preset blocks was");
+         "known presets: one-sample, many-samples; the former preset blocks is now walr itself");
   info = info_of(device);
   info.method = "svgf";
   info.light_direction = VK_TRUE;

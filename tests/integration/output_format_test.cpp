@@ -74,11 +74,7 @@ class OutputFormat : public fg::test::GpuTest {
 
   WalrDenoiserInfo info(VkFormat format) {
     device_ = hostDevice(device());
-    WalrDenoiserInfo info{};
-    info.struct_size = sizeof(info);
-    info.device = &device_;
-    info.width = 64;
-    info.height = 48;
+    WalrDenoiserInfo info = denoiserInfo(&device_);
     info.denoised_format = format;
     return info;
   }
@@ -130,11 +126,8 @@ TEST_F(OutputFormat, IsListedForHostsPassByPass) {
   for (const bool withDevice : {false, true}) {
     WalrDenoiserInfo described = info(VK_FORMAT_B10G11R11_UFLOAT_PACK32);
     if (!withDevice) described.device = nullptr;
-    WalrPassesInfo listed{};
-    listed.struct_size = sizeof(listed);
-    listed.denoiser = &described;
     WalrPasses passes = nullptr;
-    require(walr_create_passes(&listed, &passes));
+    require(createPasses(described, passes));
     const WalrPassList* list = nullptr;
     require(walr_get_pass_list(passes, &list));
     const auto* const found = std::find_if(list->resources, list->resources + list->resource_count,
@@ -144,7 +137,7 @@ TEST_F(OutputFormat, IsListedForHostsPassByPass) {
     require(walr_destroy_passes(passes));
     // A single stage writes what it declares.
     described.method = "temporal_antialiasing";
-    EXPECT_EQ(walr_create_passes(&listed, &passes), WALR_ERROR_INVALID_ARGUMENT);
+    EXPECT_EQ(createPasses(described, passes), WALR_ERROR_INVALID_ARGUMENT);
     EXPECT_NE(std::string(walr_last_error()).find("no denoised_format"), std::string::npos) << walr_last_error();
   }
 }
@@ -171,11 +164,8 @@ TEST_F(OutputFormat, ThatCannotBeWrittenIsRefusedByName) {
   EXPECT_NE(std::string(walr_last_error()).find("denoised_format, B10G11R11_UFLOAT_PACK32: use R16G16B16A16_SFLOAT"),
             std::string::npos)
       << walr_last_error();
-  WalrPassesInfo listed{};
-  listed.struct_size = sizeof(listed);
-  listed.denoiser = &described;
   WalrPasses passes = nullptr;
-  EXPECT_EQ(walr_create_passes(&listed, &passes), WALR_ERROR_UNSUPPORTED);
+  EXPECT_EQ(createPasses(described, passes), WALR_ERROR_UNSUPPORTED);
   // A caller with an older header has no such field.
   described.struct_size = offsetof(WalrDenoiserInfo, denoised_format);
   require(walr_create_denoiser(&described, &denoiser));

@@ -225,17 +225,10 @@ TEST_F(SharedObjects, AnotherDeviceADestroyedDenoiserAndSinglePassesAreRefused) 
     expectError<std::runtime_error>([&] { const HostedRun elsewhere(other, "walr", kSize, options); },
                                     {"WALR_ERROR_INVALID_ARGUMENT", "another device or queue family"});
     const WalrDevice host = hostDevice(device());
-    WalrDenoiserInfo info{};
-    info.struct_size = sizeof(info);
-    info.device = &host;
-    info.width = 64;
-    info.height = 48;
+    WalrDenoiserInfo info = denoiserInfo(&host);
     info.shared_with = first->denoiser();
-    WalrPassesInfo listed{};
-    listed.struct_size = sizeof(listed);
-    listed.denoiser = &info;
     WalrPasses passes = nullptr;
-    EXPECT_EQ(walr_create_passes(&listed, &passes), WALR_ERROR_INVALID_ARGUMENT);
+    EXPECT_EQ(createPasses(info, passes), WALR_ERROR_INVALID_ARGUMENT);
     expectContains(walr_last_error(), {"shared_with is for walr_create_denoiser"});
   }
   expectError<std::runtime_error>([&] { (void)run({kSize}, gone); }, {"WALR_ERROR_INVALID_HANDLE"});

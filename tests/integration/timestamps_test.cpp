@@ -28,11 +28,7 @@ TEST_F(QueueWithoutTimestamps, IsAWarningInBothWays) {
   host.get_instance_proc_addr =
       replaceFunction(context(), "vkGetPhysicalDeviceQueueFamilyProperties", familiesWithoutTimestamps);
   std::vector<std::string> log;
-  WalrDenoiserInfo info{};
-  info.struct_size = sizeof(info);
-  info.device = &host;
-  info.width = 64;
-  info.height = 48;
+  WalrDenoiserInfo info = denoiserInfo(&host);
   info.timestamps = VK_TRUE;
   info.log = keepWarning;
   info.log_user = &log;
@@ -43,11 +39,8 @@ TEST_F(QueueWithoutTimestamps, IsAWarningInBothWays) {
   EXPECT_EQ(count, 0U);
   require(walr_destroy_denoiser(denoiser));
 
-  WalrPassesInfo listed{};
-  listed.struct_size = sizeof(listed);
-  listed.denoiser = &info;
   WalrPasses passes = nullptr;
-  require(walr_create_passes(&listed, &passes));
+  require(createPasses(info, passes));
   count = 1;
   require(walr_get_pass_timings(passes, &count, nullptr));
   EXPECT_EQ(count, 0U);

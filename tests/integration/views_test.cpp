@@ -149,24 +149,17 @@ TEST_F(CApiViews, CountersCountTheFrameThatIsFinished) {
 
 TEST_F(CApiViews, CountersOfPassesAreThoseOfFinishedFrames) {
   WalrDevice host = hostDevice(device());
-  WalrDenoiserInfo info{};
-  info.struct_size = sizeof(info);
-  info.device = &host;
-  info.width = 64;
-  info.height = 48;
+  WalrDenoiserInfo info = denoiserInfo(&host);
   info.counters = VK_TRUE;
-  WalrPassesInfo listed{};
-  listed.struct_size = sizeof(listed);
-  listed.denoiser = &info;
   WalrPasses passes = nullptr;
-  require(walr_create_passes(&listed, &passes));
+  require(createPasses(info, passes));
   std::uint32_t count = 1;
   require(walr_get_pass_counters(passes, &count, nullptr));
   EXPECT_EQ(count, 0U);  // No frame is finished. PluginTest runs frames.
   require(walr_destroy_passes(passes));
 
   info.method = "none";  // Has no counters.
-  require(walr_create_passes(&listed, &passes));
+  require(createPasses(info, passes));
   count = 1;
   require(walr_get_pass_counters(passes, &count, nullptr));
   EXPECT_EQ(count, 0U);
@@ -174,12 +167,12 @@ TEST_F(CApiViews, CountersOfPassesAreThoseOfFinishedFrames) {
   info.method = nullptr;
 
   info.counters = VK_FALSE;
-  require(walr_create_passes(&listed, &passes));
+  require(createPasses(info, passes));
   EXPECT_EQ(walr_get_pass_counters(passes, &count, nullptr), WALR_ERROR_WRONG_ORDER);
   require(walr_destroy_passes(passes));
   info.counters = VK_TRUE;
   info.method = "pass_through";
-  EXPECT_EQ(walr_create_passes(&listed, &passes), WALR_ERROR_INVALID_ARGUMENT);
+  EXPECT_EQ(createPasses(info, passes), WALR_ERROR_INVALID_ARGUMENT);
   EXPECT_NE(std::string(walr_last_error()).find("WalrDenoiserInfo::counters for a whole method"), std::string::npos)
       << walr_last_error();
 }

@@ -80,10 +80,7 @@ class Bmfr : public fg::test::GpuTest {
     Comparison comparison(what);
     reference::forEachPixel(kSize, [&](glm::ivec2 p) {
       if (comparison.skips(expected[p].undecided)) return;
-      for (int c = 0; c < 3; ++c) {
-        comparison.value(p, "colour", actual[p][c], expected[p].colour[c],
-                         halfTolerance(expected[p].colour[c], expected[p].error[c]));
-      }
+      comparison.colour(p, actual[p], expected[p].colour, halfTolerance(expected[p].colour, expected[p].error));
     });
     comparison.expect(0.0);
   }
@@ -156,10 +153,8 @@ TEST_F(Bmfr, ASignalLinearInTheFeaturesIsReproduced) {
   Comparison comparison("linear signal");
   reference::forEachPixel(kSize, [&](glm::ivec2 p) {
     comparison.compared();
-    for (int c = 0; c < 3; ++c) {
-      const double error = bound[p].error[c] + std::sqrt(bound[p].leverage) * rounding;
-      comparison.value(p, "colour", actual[p][c], signal[p][c], halfTolerance(signal[p][c], error));
-    }
+    const glm::dvec3 error = bound[p].error + std::sqrt(bound[p].leverage) * rounding;
+    comparison.colour(p, actual[p], signal[p], halfTolerance(signal[p], error));
   });
   comparison.expect(0.0);
 }

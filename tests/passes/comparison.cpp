@@ -78,6 +78,10 @@ double halfTolerance(double expected, double error) {
   return error + 2.0 * kHalfRoundoff * (std::abs(expected) + error) + kSmallestHalf;
 }
 
+glm::dvec3 halfTolerance(glm::dvec3 expected, glm::dvec3 error) {
+  return {halfTolerance(expected.r, error.r), halfTolerance(expected.g, error.g), halfTolerance(expected.b, error.b)};
+}
+
 MomentValues storedValues(const Moments& centred, MomentStorage storage) {
   MomentValues values = toArray(storage == MomentStorage::Centred16 ? centred : toRaw(centred));
   values[kLuma2] = std::sqrt(values[kLuma2]);
@@ -109,6 +113,12 @@ void Comparison::value(glm::ivec2 p, const char* name, double actual, double exp
   text.precision(9);
   text << name << " at (" << p.x << ", " << p.y << ") is " << actual << ", not " << expected << " within " << tolerance;
   worst_ = text.str();
+}
+
+void Comparison::colour(glm::ivec2 p, glm::dvec3 actual, glm::dvec3 expected, glm::dvec3 tolerance) {
+  value(p, "red", actual.r, expected.r, tolerance.r);
+  value(p, "green", actual.g, expected.g, tolerance.g);
+  value(p, "blue", actual.b, expected.b, tolerance.b);
 }
 
 void Comparison::expect(double undecidedShare) const {

@@ -3,6 +3,7 @@
 #include <string>
 
 #include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 
 #include "passes/weighted_regression.h"
 #include "tests/passes/reference/moments.h"
@@ -15,6 +16,8 @@ namespace walr::test {
 /// Tolerance of a value that is stored as a half. Vulkan leaves the rounding of image stores and of packHalf2x16 to the
 /// driver. A conversion may therefore err by a unit in the last place, which is two roundoffs.
 double halfTolerance(double expected, double error);
+/// The same by channel.
+glm::dvec3 halfTolerance(glm::dvec3 expected, glm::dvec3 error);
 
 /// The moments as they are stored, and the tolerance of each.
 struct StoredMoments {
@@ -41,6 +44,8 @@ class Comparison {
   void compared() { ++compared_; }
   /// Compare one value of a pixel.
   void value(glm::ivec2 p, const char* name, double actual, double expected, double tolerance);
+  /// Compare a pixel's colour.
+  void colour(glm::ivec2 p, glm::dvec3 actual, glm::dvec3 expected, glm::dvec3 tolerance);
 
   /// Report to GoogleTest: every value must lie within its tolerance, and no more than this share of pixels may be
   /// undecided.

@@ -70,10 +70,7 @@ class Flr : public fg::test::GpuTest {
       Comparison comparison(scene.name);
       reference::forEachPixel(kSize, [&](glm::ivec2 p) {
         comparison.compared();
-        for (int c = 0; c < 3; ++c) {
-          comparison.value(p, "colour", actual[p][c], expected[p].colour[c],
-                           halfTolerance(expected[p].colour[c], expected[p].error[c]));
-        }
+        comparison.colour(p, actual[p], expected[p].colour, halfTolerance(expected[p].colour, expected[p].error));
       });
       comparison.expect(0.0);
     }

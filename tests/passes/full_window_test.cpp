@@ -53,9 +53,7 @@ class FullWindowTest : public fg::test::GpuTest {
     forEachPixel(frame.size(), [&](glm::ivec2 p) {
       const reference::WindowPixel& e = expected[p];
       if (comparison.skips(e.undecided)) return;
-      for (int c = 0; c < 3; ++c)
-        comparison.value(p, "colour", actual[p][c], e.fitted.colour[c],
-                         halfTolerance(e.fitted.colour[c], e.fitted.error[c]));
+      comparison.colour(p, actual[p], e.fitted.colour, halfTolerance(e.fitted.colour, e.fitted.error));
     });
     // Undecided are pixels without a sample whose window has almost no weight.
     comparison.expect(kUndecidedShare);

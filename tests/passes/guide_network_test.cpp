@@ -284,10 +284,7 @@ TEST_F(FlrOnLearnedGuides, AgreesWithTheReference) {
     Comparison comparison(scene.name);
     forEachPixel(kSize, [&](glm::ivec2 p) {
       comparison.compared();
-      for (int c = 0; c < 3; ++c) {
-        comparison.value(p, "colour", actual[p][c], expected[p].colour[c],
-                         halfTolerance(expected[p].colour[c], expected[p].error[c]));
-      }
+      comparison.colour(p, actual[p], expected[p].colour, halfTolerance(expected[p].colour, expected[p].error));
     });
     comparison.expect(0.0);
   }

@@ -93,8 +93,7 @@ TEST_F(ObjectIdsTest, HistoryAgreesWithTheReference) {
       reference::forEachPixel(kSize, [&](glm::ivec2 p) {
         const reference::Accumulated& e = expected[p];
         if (comparison.skips(e.undecided)) return;
-        for (int c = 0; c < 3; ++c)
-          comparison.value(p, "channel", result[p][c], e.mean[c], halfTolerance(e.mean[c], e.error[c]));
+        comparison.colour(p, result[p], e.mean, halfTolerance(e.mean, e.error));
       });
       comparison.expect(kUndecidedShare);
     }

@@ -346,15 +346,6 @@ TEST_F(PackedLight, DitherIsEvenOverTheFramesOfAPixel) {
 
 constexpr glm::ivec2 kSize(64, 48);
 
-/// Three frames of a camera that moves by about a pixel and a half.
-std::vector<HostFrame> movingFrames(const Scene& scene) {
-  const auto at = [](double i) { return glm::dvec3(0.09 * i, 0.04 * i, -0.03 * i); };
-  std::vector<HostFrame> frames;
-  for (std::uint32_t i = 0; i < 3; ++i)
-    frames.push_back(renderFrame(scene, cameraAt(at(i), at(i - 1.0), kSize, i), kSize));
-  return frames;
-}
-
 /// Settings of how the temporal stages find their history.
 struct NamedSettings {
   const char* name;
@@ -385,7 +376,7 @@ std::vector<NamedSettings> waysToReproject() {
 TEST_F(PackedLight, TemporalStagesAgreeWithTheReferenceOnEveryScene) {
   for (const NamedScene& named : allScenes()) {
     SCOPED_TRACE(named.name);
-    expectSequence(device(), movingFrames(named.scene), WalrSettings{});
+    expectSequence(device(), movingFrames(named.scene, kSize), WalrSettings{});
   }
 }
 
@@ -393,7 +384,7 @@ TEST_F(PackedLight, TemporalStagesAgreeWithTheReferenceForEveryReprojection) {
   for (const NamedSettings& named : waysToReproject()) {
     SCOPED_TRACE(named.name);
     for (const SceneDescription& scene : {SceneDescription{}, SceneDescription{.objectMotion = false}}) {
-      std::vector<HostFrame> frames = movingFrames(skyBesideSurface());
+      std::vector<HostFrame> frames = movingFrames(skyBesideSurface(), kSize);
       for (HostFrame& frame : frames) {
         frame.scene = scene;
         for (std::size_t i = 0; i < frame.depth.pixels().size(); ++i)
@@ -423,7 +414,7 @@ TEST_F(PackedLight, BlocksGiveTheSameResultAsForHalves) {
     WalrRun run(device(), kSize, settings);
     WalrStages stages;
     HostFrame last;
-    for (const HostFrame& frame : movingFrames(named.scene)) stages = run.frame(last = frame);
+    for (const HostFrame& frame : movingFrames(named.scene, kSize)) stages = run.frame(last = frame);
     const Image<glm::dvec4> expected = inHalves.run(last, stages.guides, {stages.accumulated});
     Comparison comparison(named.name);
     reference::forEachPixel(kSize, [&](glm::ivec2 p) {

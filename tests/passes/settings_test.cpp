@@ -183,8 +183,8 @@ TEST(Presets, FormerPresetsOfWalrAreRejectedWithTheMethodToUse) {
   for (const char* preset : {"blocks", "robust", "paper"}) {
     const std::string message = errorText([&] { makeDenoiser("walr")->usePreset(preset); });
     EXPECT_NE(message.find("\"" + std::string(preset) + "\""), std::string::npos) << message;
-    EXPECT_NE(message.find("walr is what its preset blocks was"), std::string::npos) << message;
-    EXPECT_NE(message.find("robust and paper are those of the method walr_paper"), std::string::npos) << message;
+    EXPECT_NE(message.find("the former preset blocks is now walr itself"), std::string::npos) << message;
+    EXPECT_NE(message.find("robust and paper are presets of the method walr_paper"), std::string::npos) << message;
   }
 }
 

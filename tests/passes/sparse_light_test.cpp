@@ -72,15 +72,11 @@ HostFrame withMask(HostFrame frame) {
   return frame;
 }
 
-/// Frames of a camera that moves by about a pixel and a half.
+/// `movingFrames` with sparse light.
 std::vector<HostFrame> movingFrames(const Scene& scene, std::uint32_t count, const LightPattern& pattern,
                                     Noise noise = Noise::Exponential, const Light& light = smoothLight) {
-  const auto at = [](double i) { return glm::dvec3(0.09 * i, 0.04 * i, -0.03 * i); };
-  std::vector<HostFrame> frames;
-  for (std::uint32_t i = 0; i < count; ++i) {
-    const FrameDescription camera = cameraAt(at(i), at(i - 1.0), kSize, i);
-    frames.push_back(sparse(renderFrame(scene, camera, kSize, light, noise), pattern, i));
-  }
+  std::vector<HostFrame> frames = test::movingFrames(scene, kSize, count, light, noise);
+  for (std::uint32_t i = 0; i < count; ++i) frames[i] = sparse(std::move(frames[i]), pattern, i);
   return frames;
 }
 

@@ -19,8 +19,6 @@ using reference::Guide;
 using reference::HostFrame;
 using reference::Image;
 
-constexpr const char* kChannels[] = {"red", "green", "blue"};
-
 /// Whether two octahedral features are those of one direction to within `error` radians and a step of their format in
 /// [0, 1]. A rotation by `error` moves a feature by at most 1.4 `error`, because the map's derivative is at most (1 +
 /// sqrt(3)) / 2. On the seams of the far side, where the map jumps, directions are compared instead.
@@ -107,12 +105,6 @@ glm::dvec3 packedTolerance(const reference::Accumulated& e, int mantissaBits) {
   return e.error + glm::max(glm::dvec3(step), e.mean - largest);
 }
 
-glm::dvec3 halfTolerance(glm::dvec3 value, glm::dvec3 error) {
-  return {test::halfTolerance(value.r, error.r), test::halfTolerance(value.g, error.g),
-          test::halfTolerance(value.b, error.b)};
-}
-using test::halfTolerance;
-
 void expectAccumulation(const DeviceFrame& f, const TemporalAccumulationSettings& settings, bool keepTaps) {
   const Image<reference::Accumulated> expected =
       reference::accumulate(f.frame, f.current.guides, {f.previous.guides, f.previous.accumulated, f.previous.antilag},
@@ -124,7 +116,7 @@ void expectAccumulation(const DeviceFrame& f, const TemporalAccumulationSettings
     if (comparison.skips(e.undecided)) return;
     const glm::dvec3 tolerance =
         packed ? packedTolerance(e, reference::kAccumulatedBits) : halfTolerance(e.mean, e.error);
-    for (int c = 0; c < 3; ++c) comparison.value(p, kChannels[c], f.current.accumulated[p][c], e.mean[c], tolerance[c]);
+    comparison.colour(p, f.current.accumulated[p], e.mean, tolerance);
     const double samplesTolerance = packed ? reference::packedCountStep(e.samples + e.samplesError) + e.samplesError
                                            : halfTolerance(e.samples, e.samplesError);
     comparison.value(p, "samples", f.current.accumulated[p].w, e.samples, samplesTolerance);
@@ -186,9 +178,7 @@ void expectRegression(const DeviceFrame& f, const WeightedRegressionSettings& se
     comparison.value(p, "whether light is known", f.current.filtered[p].w, known, 0.0);
     const reference::Reconstruction expected =
         reference::reconstruct(merged.moments, f.current.guides[p].features, regularisation, merged.error);
-    for (int c = 0; c < 3; ++c)
-      comparison.value(p, kChannels[c], f.current.filtered[p][c], expected.colour[c],
-                       halfTolerance(expected.colour[c], expected.error[c]));
+    comparison.colour(p, f.current.filtered[p], expected.colour, halfTolerance(expected.colour, expected.error));
   });
   comparison.expect(kUndecidedShare);
 }
@@ -227,10 +217,8 @@ void expectAntialiasing(const DeviceFrame& f, const TemporalAntialiasingSettings
     if (comparison.skips(e.undecided)) return;
     const glm::dvec3 tolerance = halfTolerance(e.mean, e.error);
     const glm::dvec3 kept = packed ? packedTolerance(e, reference::kResolvedBits) : tolerance;
-    for (int c = 0; c < 3; ++c) {
-      comparison.value(p, kChannels[c], output[c], e.mean[c], tolerance[c]);
-      comparison.value(p, kChannels[c], resolved[c], e.mean[c], kept[c]);
-    }
+    comparison.colour(p, output, e.mean, tolerance);
+    comparison.colour(p, resolved, e.mean, kept);
     const double longest = settings.maxHistory;
     const double framesTolerance =
         packed ? reference::packedLengthStep(std::max(e.samples - e.samplesError, 1.0), longest) + e.samplesError

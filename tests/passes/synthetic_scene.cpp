@@ -256,4 +256,17 @@ HostFrame renderStill(const Scene& scene, glm::ivec2 size, std::uint32_t frameIn
   return renderFrame(scene, cameraAt({}, {}, size, frameIndex), size, smoothLight, noise);
 }
 
+glm::dvec3 cameraPosition(double time) {
+  return {0.09 * time, 0.04 * time, -0.03 * time};
+}
+
+std::vector<HostFrame> movingFrames(const Scene& scene, glm::ivec2 size, std::uint32_t count, const Light& light,
+                                    Noise noise) {
+  std::vector<HostFrame> frames;
+  for (std::uint32_t i = 0; i < count; ++i)
+    frames.push_back(
+        renderFrame(scene, cameraAt(cameraPosition(i), cameraPosition(i - 1.0), size, i), size, light, noise));
+  return frames;
+}
+
 }  // namespace walr::test

@@ -70,7 +70,10 @@ enum class Noise {
 /// A camera at `position` that looks down -Z; field of view 53 degrees across the height.
 FrameDescription cameraAt(glm::dvec3 position, glm::dvec3 previousPosition, glm::ivec2 size, std::uint32_t frameIndex);
 
-/// The same with an orthographic camera whose image is `height` scene units high.
+/// Position at a time, in frames, of a camera that moves by about a pixel and a half a frame.
+glm::dvec3 cameraPosition(double time);
+
+/// The same as `cameraAt` with an orthographic camera whose image is `height` scene units high.
 FrameDescription orthographicCameraAt(glm::dvec3 position, glm::dvec3 previousPosition, glm::ivec2 size,
                                       std::uint32_t frameIndex, double height);
 
@@ -81,5 +84,9 @@ reference::HostFrame renderFrame(const Scene& scene, const FrameDescription& cam
 /// Render a frame of a still camera.
 reference::HostFrame renderStill(const Scene& scene, glm::ivec2 size, std::uint32_t frameIndex = 0,
                                  Noise noise = Noise::Exponential);
+
+/// The first frames of the camera of `cameraPosition`.
+std::vector<reference::HostFrame> movingFrames(const Scene& scene, glm::ivec2 size, std::uint32_t count = 3,
+                                               const Light& light = smoothLight, Noise noise = Noise::Exponential);
 
 }  // namespace walr::test

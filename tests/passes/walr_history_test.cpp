@@ -24,11 +24,6 @@ glm::dvec3 constantLight(glm::dvec3 /*point*/, glm::dvec3 /*normal*/) {
   return kConstant;
 }
 
-/// Position of the camera at a time; it moves by about a pixel and a half a frame.
-glm::dvec3 cameraPosition(double time) {
-  return {0.09 * time, 0.04 * time, -0.03 * time};
-}
-
 /// Jitter about the pixel's centre, by the Halton sequences of bases 2 and 3 (Halton 1960).
 glm::vec2 jitterAt(std::uint32_t index) {
   constexpr std::array kHalton{glm::vec2(0.0F, -0.16666667F), glm::vec2(-0.25F, 0.16666667F),

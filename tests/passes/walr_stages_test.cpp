@@ -14,15 +14,6 @@ namespace {
 
 using reference::HostFrame;
 
-/// Three frames of a camera that moves by about a pixel and a half.
-std::vector<HostFrame> movingFrames(const Scene& scene, glm::ivec2 size) {
-  const auto at = [](double i) { return glm::dvec3(0.09 * i, 0.04 * i, -0.03 * i); };
-  std::vector<HostFrame> frames;
-  for (std::uint32_t i = 0; i < 3; ++i)
-    frames.push_back(renderFrame(scene, cameraAt(at(i), at(i - 1.0), size, i), size));
-  return frames;
-}
-
 /// The presets, and the preset paper with other storages, each with the epsilon that suits it.
 struct NamedSettings {
   const char* name;

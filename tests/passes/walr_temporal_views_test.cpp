@@ -22,11 +22,6 @@ constexpr glm::ivec2 kSize(64, 48);
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-HostFrame movingFrame(const Scene& scene, std::uint32_t i) {
-  const auto at = [](double time) { return glm::dvec3(0.09 * time, 0.04 * time, -0.03 * time); };
-  return renderFrame(scene, cameraAt(at(i), at(i - 1.0), kSize, i), kSize);
-}
-
 /// Settings that each select other shaders.
 struct NamedSettings {
   const char* name;
@@ -129,9 +124,9 @@ TEST_F(WalrTemporalViewsTest, ShowHistoryAndClipping) {
       WalrRun run(device(), kSize, named.settings, {}, true, named.scene, {"history", "clip", "resolved-history"});
       const bool keepTaps = sharesReprojection(named.settings.antialiasing(), named.settings.accumulation());
       DeviceFrame f;
-      for (std::uint32_t i = 0; i < 3; ++i) {
+      for (const HostFrame& frame : movingFrames(scene, kSize)) {
         f.previous = std::move(f.current);
-        f.frame = movingFrame(scene, i);
+        f.frame = frame;
         f.frame.scene = named.scene;
         f.current = run.frame(f.frame);
       }

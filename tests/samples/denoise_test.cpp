@@ -8,7 +8,6 @@
 #include <string>
 
 #include <gtest/gtest.h>
-#include <png.h>
 #include <nlohmann/json.hpp>
 
 #include "samples/denoise/frame_output.h"
@@ -16,6 +15,7 @@
 #include "samples/denoise/progress.h"
 #include "samples/denoise/report.h"
 #include "samples/image/exr.h"
+#include "tests/samples/read_png.h"
 #include "tests/samples/synthetic_sequence.h"
 #include "tests/samples/temporary_directory.h"
 
@@ -182,16 +182,8 @@ TEST_F(FrameOutputTest, ExposesPicturesAlikeUntilACameraCut) {
     denoised.frame.resetHistory = cut;
     for (float& value : denoised.indirect.values()) value = scale * 0.01F;
     writer.write(denoised);
-    const std::string file = directory.path() / ("denoised_00" + std::to_string(number) + ".png");
-    png_image image{};
-    image.version = PNG_IMAGE_VERSION;
-    EXPECT_NE(png_image_begin_read_from_file(&image, file.c_str()), 0);
-    EXPECT_EQ(image.width, 16U);
-    EXPECT_EQ(image.height, 12U);
-    image.format = PNG_FORMAT_RGB;
-    std::vector<std::uint8_t> bytes(PNG_IMAGE_SIZE(image));
-    EXPECT_NE(png_image_finish_read(&image, nullptr, bytes.data(), 0, nullptr), 0);
-    return int{bytes.at(0)};
+    const auto file = directory.path() / ("denoised_00" + std::to_string(number) + ".png");
+    return int{test::readPng(file, 16, 12).at(0)};
   };
   // Middle grey, 0.18 / 1.18, is code value 109; four times as much light, 0.72 / 1.72, is 173.
   EXPECT_EQ(shown(20, 1.0F, true), 109);

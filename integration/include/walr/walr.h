@@ -9,8 +9,8 @@
  * - Every function that can fail returns a WalrResult. walr_last_error() then returns a text that tells what is wrong
  *   and how to fix it. No wrong argument crashes, except pointers to memory that is not valid.
  * - Structures begin with `struct_size`, which the caller sets to sizeof. If the library is newer than the caller's
- *   header, fields that the caller does not have count as zero. If it is older, it refuses fields that it does not know
- *   unless they are zero. Zero is the default of every field. Structures without `struct_size` never change.
+ *   header, fields that the caller lacks count as zero. If it is older, it refuses nonzero fields that it does not know.
+ *   Zero is the default of every field. New fields come last. Structures without `struct_size` never change.
  * - A VkBool32 must be VK_FALSE or VK_TRUE. Any other value is a WALR_ERROR_INVALID_ARGUMENT that names the field.
  * - Handles are never reused: using a destroyed one is always an error.
  * - Only one thread at a time may use a denoiser. A call during another thread's call returns
@@ -256,11 +256,9 @@ typedef struct WalrConventions {
    * Not with `rectangle`. */
   uint32_t light_group[2];
   VkBool32 light_masked; /* The lighting has alpha. A texel whose alpha is not above 0 is no sample. */
-  /* The same, and an alpha above 0 is the number of samples c whose mean the colour is. Accumulation weighs it by that.
-   * N_h is the number of samples in the history, L the setting accumulation.max-history, a number of frames:
-   *   k = c, or 1 if there is no sample; but N_h / L if N_h > 9/8 L k
-   *   N = min(N_h, k (L - 1)) + c,  mean = history + (light - history) c / N;  without a sample history stays
-   * Fractions are allowed. NaN and numbers below 0 are no sample; above 480 / L they count as that. */
+  /* The same, and an alpha above 0 is the number of samples whose mean the colour is. Accumulation weighs light by it,
+   * and history lengths are numbers of samples: see "Sparse light" in the integration guide. Fractions are allowed. NaN
+   * and numbers below 0 are no sample. Numbers above 480 / accumulation.max-history count as that. */
   VkBool32 light_counted;
 } WalrConventions;
 
@@ -290,9 +288,8 @@ typedef struct WalrDenoiserInfo {
   VkFormat normal_format;
   VkFormat motion_format;
   VkFormat albedo_format;
-  VkBool32
-      timestamps; /* Measure the GPU time of every pass. A warning is logged if the queue family has no timestamps. */
-  WalrLog log;    /* Optional. */
+  VkBool32 timestamps; /* Measure the GPU time of every pass. Logs a warning if the queue family has no timestamps. */
+  WalrLog log;         /* Optional. */
   void* log_user;
   VkFormat object_id_format; /* Of WalrFrame::object_id, unsigned integers; VK_FORMAT_UNDEFINED: no such image. */
   VkBool32 lint;             /* Check the inputs of every frame, see walr_get_findings. For debugging: costs a pass. */

@@ -8,7 +8,7 @@
  *   dispatches.
  * - A dispatch list: the host also creates the pipelines, from the SPIR-V and constants in the list. It may use the
  *   list's order, barriers and heap offsets as they are. It need not give a device, but then there are no heaps,
- * because only a driver knows the sizes of images: the host gives every resource memory of its own.
+ *   because only a driver knows the sizes of images: the host gives every resource memory of its own.
  */
 #ifndef WALR_WALR_PASSES_H
 #define WALR_WALR_PASSES_H
