@@ -113,7 +113,8 @@ fg::Buffer writeFits(const BlockGrid& grid, fg::PassBuilder& pass, fg::Extent ex
 }
 
 /// The fit of a Gaussian window around every cell, regardless of edges. The window grows where the light is the same,
-/// unless all blocks that share pixels with the cell have converged. `fitDepth` is `FineFit::depth`, which tells that.
+/// unless all blocks that reconstruction mixes the cell with have converged. `fitDepth` is `FineFit::depth`, which
+/// tells that.
 fg::Buffer addCoarseFit(const BlockGrid& grid, const BlockAverages& averages, fg::Texture fitDepth) {
   const auto declare = [&](const std::string& name, const fg::Shader& shader, const BlockAverages& read) {
     fg::PassBuilder pass = grid.graph->compute(name, shader);

@@ -98,9 +98,10 @@ struct BlockRegressionSettings {
 };
 
 /// Samples that the coarse fit counts for in a picture of this height in pixels. Up to 360 it is the setting
-/// `BlockRegressionSettings::coarseSamples`; above, that is divided by the square of height / 360. Fine windows have a
-/// fixed size in pixels, so that they show less of the scene in a larger picture, and miss less of its light. Coarse
-/// windows are a fixed share of the picture.
+/// `BlockRegressionSettings::coarseSamples`; above, that is divided by the square of height / 360. From there to
+/// 1,246 fine windows have a fixed size in pixels (`fittingIterations`), so that they show less of the scene in a
+/// larger picture, and miss less of its light. Coarse windows are a fixed share of the picture. Above 1,246 this was
+/// not measured.
 float coarseSamplesAt(std::uint32_t height, float coarseSamples);
 
 /// The light that the regression over blocks fits, and the storage of its result.

@@ -5,15 +5,17 @@
 // plane, and the cosine between the block's normal and the shading normal.
 // Coarse prediction: the mean of the predictions of the four nearest cells' fits, with bilinear weights alone.
 // The result mixes both predictions. The share of the coarse prediction falls as the mean sample count of the fine
-// windows grows (coarse_share.glsl). Once the share is 0, the cells are not read. The share is 1 if no fine fit is usable.
+// windows grows (coarse_share.glsl). Once the share is 0, the cells are not read. Without a usable fine fit the share is
+// 1, without a usable coarse fit 0.
 // A pixel without a surface (depth 0) is not filtered: its pass-through is copied to the result.
 // PACKED: the result is packed light (packed_light.glsl). A pixel without a surface gets the mark kFilteredNoSurface,
 // and anti-aliasing outputs the pass-through.
-// RESIDUAL: adds shares of the residual, the accumulated light less the prediction (accumulated_share.glsl), and stores
-// what the length of history adapts to (innovation.glsl).
+// RESIDUAL (preset many-samples): adds shares of the residual, the accumulated light less the prediction
+// (accumulated_share.glsl), and stores statistics for the shares and the history length of later frames (innovation.glsl).
 // VIEW: writes an intermediate value instead of the result, and black where there is no surface. The cells are always
 // read.
-// DIRECTION: writes the slopes of the prediction over the normal instead of the result (pack_direction.glsl).
+// DIRECTION: writes the slopes of the prediction over the normal instead of the result, for the output `light_direction`
+// (pack_direction.glsl).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -23,7 +25,7 @@
 #include "constants/stored_fit.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(constant_id = 0) const int kBlockSize = 4;  // Pixels per axis, at most 8.
+layout(constant_id = 0) const int kBlockSize = 4;  // Pixels per axis, 2 to 8.
 layout(constant_id = 2) const int kCellSize = 8;   // Pixels per axis.
 
 layout(std140) uniform frameConstants { FrameConstants frame; };
@@ -109,7 +111,7 @@ Prediction noPrediction() {
   return sum;
 }
 
-// Adds the prediction of one fit. In units of kLightUnit, 1 is the brightest light that can be stored.
+// Adds the prediction of one fit. It is in units of kLightUnit, the largest prediction that is allowed.
 void add(inout Prediction sum, float weight, StoredFit fit, ScaledFeatures pixel) {
   const vec3 colour = evaluate(fit, pixel);
   sum.colour += weight * clamp(colour, 0.0, 1.0);
@@ -160,8 +162,8 @@ float[4] weightsOf(BilinearTexels texels) {
 }
 
 // Index of texel `i` of the four in the buffer of a grid with `size` pixels a texel. In place of a texel outside the
-// grid, its neighbour inside is read again. A mean stays the same: the weights of all texels inside grow by the same
-// factor.
+// grid, its neighbour inside is read again: the weights of all texels inside then grow by the same factor, as if the one
+// outside were skipped.
 uint indexOf(BilinearTexels texels, int i, int size) {
   const ivec2 grid = (textureSize(depth, 0) + size - 1) / size;
   return gridIndex(clamp(texels.first + ivec2(i & 1, i >> 1), ivec2(0), grid - 1), grid);
@@ -278,9 +280,9 @@ bool predict(ivec2 p, BilinearTexels nearBlocks, out vec3 position, out vec3 nor
 }
 
 void main() {
-  // All pixels of a work group lie between the centres of the same four blocks. So the group reads four fits, from
-  // addresses that all its threads share. If blocks are small, it covers kIntervals intervals between centres an axis.
-  // The first interval begins half a block before the image.
+  // A work group covers the pixels between the centres of four blocks, so that all its threads read the same four fits.
+  // Of blocks of 4 pixels or less, it covers kIntervals x kIntervals such squares. The first one begins half a block
+  // before the image.
   const int kIntervals = int(gl_WorkGroupSize.x) / kBlockSize;
   const int kThreads = kIntervals * kBlockSize;  // That have a pixel, per axis.
   const ivec2 thread = ivec2(gl_LocalInvocationID.xy);
@@ -289,7 +291,7 @@ void main() {
   const bool hasPixel = all(lessThan(thread, ivec2(kThreads))) &&
                         all(lessThan(uvec2(p), uvec2(textureSize(depth, 0))));  // Negative ones are large, too.
   const ivec2 interval = kIntervals == 1 ? ivec2(0) : thread / kBlockSize;
-  // Centres of blocks with an odd side are centres of pixels, where a fraction could round to that of another block.
+  // Centres of blocks with an odd side are centres of pixels, where fract could return almost 1 instead of 0.
   const vec2 fraction = kBlockSize % 2 == 0 ? fract(pixelCentre(p) / float(kBlockSize) - 0.5)
                                             : vec2(thread - kBlockSize * interval) / float(kBlockSize);
   const BilinearTexels nearBlocks = BilinearTexels(group + interval - 1, fraction);
