@@ -54,10 +54,11 @@ ReloadShaders shaderReload(const HostOptions& options) {
 #endif
 }
 
+/// Call what declares a graph of the method on the command line.
 /// @throws UsageError naming settings that contradict each other, or a method that does not take sparse light
-Renderer makeRenderer(const GpuDevice& gpu, Denoiser& method, fg::Extent extent, const Renderer::Options& options) {
+auto asCommandLine(const auto& declares) {
   try {
-    return {gpu, method, extent, options};
+    return declares();
   } catch (const std::invalid_argument& error) {
     throw UsageError(error.what());
   }
@@ -86,7 +87,7 @@ void runHeadless(const HostOptions& options, float stops, Tracer& tracer, GpuDev
   rendering.viewConstants = viewConstantsOf(extent, stops);
   rendering.readComposite = options.exr;
   rendering.scene = tracer.gpuScene();
-  Renderer renderer = makeRenderer(gpu, method, extent, rendering);
+  Renderer renderer = asCommandLine([&] { return Renderer(gpu, method, extent, rendering); });
   if (!options.output.empty()) prepareOutputDirectory(options.output);
   Tracer::Request request;
   request.reference = rendering.view.needsReference();
@@ -169,7 +170,7 @@ void run(HostOptions& options) {
     session.targetMilliseconds = options.targetMilliseconds;
     session.autoExposure = !exposure;
     session.compareWith(compare.name, std::move(compared));
-    runWindow(tracer, gpu, session, options.tracer.extent, shaderReload(options));
+    asCommandLine([&] { runWindow(tracer, gpu, session, options.tracer.extent, shaderReload(options)); });
   }
 #endif
   gpu.refuseMessages();

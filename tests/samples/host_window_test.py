@@ -21,6 +21,7 @@ from virtual_screen import PATIENCE, FileDrop, Hands, WindowManager, read_png, v
 
 WIDTH, HEIGHT = 160, 90
 PANEL_WIDTH = 420
+REFUSAL_COLOUR = (110, 50, 20)  # Of the ground of the message.
 
 
 def find_picture(screen, picture):
@@ -362,6 +363,37 @@ def play(host, screen):
         print(f"the animation goes on: frames {sorted(seen)} were seen")
 
 
+def refused(host, screen):
+    """A choice that is refused leaves the picture, the panel says why, and the next one works."""
+    sparse = ("--light-rate", "1/4", "--method", "accumulate", "--set", "accumulation.antilag=on")
+
+    def explained(window):
+        return any(bytes(REFUSAL_COLOUR) * 10 in row for row in window.rows())
+
+    with host.window(screen, "0-3", *sparse) as window:
+        before = window.picture()
+        names = host.known("--method")
+        window.hands.click(*window.at(200, 158))  # Closes the times and the memory, so that settings are in sight.
+        window.hands.click(*window.at(200, 181))
+        # Frozen, the panel stands still: what changes is the list alone.
+        top = wait_for(lambda: window.opened_list(135, len(names)), "the list of methods")
+        window.hands.click(*window.at(100, top + 8 + 6 + names.index("svgf") * Window.ITEM))
+        window.hands.click(*window.at(250, 700))
+        window.must_show(before, "the same picture after a click at a grey method")
+
+        antilag_low, antilag_radius = 480, 457
+        window.hands.click(*window.at(150, antilag_low))
+        wait_for(lambda: explained(window), "the reason why antilag-low may not be above antilag-high")
+        window.must_show(before, "the same picture after a setting that is refused")
+        write_png(host.screenshot, screen.rows())
+        window.hands.click(*window.at(200, antilag_radius))
+        wait_for(lambda: not explained(window), "the reason to vanish after another setting")
+    again = subprocess.run(host.command("0-3", ["--light-rate", "1/4", "--method", "svgf"]), capture_output=True, text=True,
+                           env={**os.environ, "DISPLAY": screen.display}, timeout=PATIENCE, check=False)
+    if again.returncode != 2 or "method 'svgf'" not in again.stderr:
+        sys.exit(f"what the command line asks for is refused with {again.returncode}: {again.stderr}")
+
+
 def drop(host, screen):
     """A scene that is dropped onto the window takes the place of the old one; a file that is none leaves it."""
     view = ("--view", "albedo")
@@ -411,8 +443,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder, virtual_screen(folder) as screen:
         host = Host(program, pathlib.Path(scenes) / scene, pathlib.Path(folder), pathlib.Path(screenshot))
         scenarios = {"denoised": denoised, "split": split, "texture": texture, "methods": methods, "views": views,
-                     "play": play, "drop": drop,
-                     "resize": resize}
+                     "play": play, "refused": refused, "drop": drop, "resize": resize}
         scenarios[scenario](host, screen)
 
 

@@ -1,9 +1,14 @@
 // What the user of the sample host does between frames: the camera, playback, and which changes need another graph. No
 // device is needed.
+#include <algorithm>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <memory>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -17,6 +22,7 @@
 #include "samples/host/open_scene.h"
 #include "samples/host/resolution_control.h"
 #include "samples/host/session.h"
+#include "samples/host/setting_values.h"
 #include "samples/host/tracer.h"
 #include "tests/samples/temporary_directory.h"
 
@@ -149,6 +155,66 @@ TEST_F(SessionTest, TellsThePresetInUse) {
   EXPECT_EQ(session.preset(), "tuned");
   session.chooseMethod("none");
   EXPECT_EQ(session.preset(), std::nullopt);
+}
+
+TEST_F(SessionTest, RefusedChoicesGoBackToThoseLastAccepted) {
+  Session session = make({0, 9}, false);
+  session.chooseMethod("svgf");
+  EXPECT_FALSE(session.refuse("of the first")) << "there is nothing to go back to";
+  EXPECT_EQ(session.methodName(), "svgf");
+  EXPECT_EQ(session.refusal(), "");
+  session.method().set("accumulation.max-history", "5");
+  session.settingsChanged();
+  session.accept();
+  EXPECT_FALSE(session.refuse("of nothing")) << "nothing has been chosen since";
+
+  Denoiser* const accepted = &session.method();
+  session.method().set("accumulation.max-history", "6");
+  session.settingsChanged();
+  session.chooseMethod("flr");
+  session.chooseView({HostView::Kind::Compare, ""});
+  session.compareWith("bmfr", makeDenoiser("bmfr"));
+  EXPECT_TRUE(session.refuse("of two"));
+  EXPECT_EQ(session.refusal(), "Not changed: of two");
+  EXPECT_EQ(session.methodName(), "svgf");
+  EXPECT_EQ(&session.method(), accepted);
+  const auto settings = session.method().settings();
+  EXPECT_EQ(std::ranges::find(settings, "accumulation.max-history", &SettingText::name)->value, "5");
+  EXPECT_EQ(session.preset(), std::nullopt);
+  EXPECT_EQ(session.view(), HostView{});
+  EXPECT_EQ(session.comparedName(), "none");
+  session.takeGraphChange();
+  session.settingsChanged();
+  EXPECT_EQ(session.takeGraphChange(), GraphChange::None) << "all values are those that were accepted";
+  session.accept();
+  EXPECT_NE(session.refusal(), "") << "nothing has been chosen since";
+  session.choosePreset("paper");
+  session.accept();
+  EXPECT_EQ(session.refusal(), "");
+}
+
+TEST_F(SessionTest, EverySettingGoesBackToTheBit) {
+  for (const std::string& name : denoiserNames()) {
+    const std::unique_ptr<Denoiser> method = makeDenoiser(name);
+    const std::vector<SettingText> defaults = method->settings();
+    const SettingValues values(*method);
+    // A third is no number of decimals, which text would keep.
+    struct : SettingVisitor {
+      void visit(const SettingInfo& /*info*/, float& value) override { value += 1.0F / 3.0F; }
+      void visit(const SettingInfo& /*info*/, std::uint32_t& value) override { ++value; }
+      void visit(const SettingInfo& /*info*/, bool& value) override { value = !value; }
+      void choice(const SettingInfo& /*info*/, std::span<const std::string_view> names, std::uint32_t& value) override {
+        value = (value + 1) % static_cast<std::uint32_t>(names.size());
+      }
+    } change;
+    method->visitSettings(change);
+    const SettingValues changed(*method);
+    values.restore(*method);
+    const std::vector<SettingText> after = method->settings();
+    for (std::size_t i = 0; i < after.size(); ++i) EXPECT_EQ(after[i].value, defaults[i].value) << after[i].name;
+    EXPECT_TRUE(SettingValues(*method) == values) << name;
+    EXPECT_EQ(changed == values, after.empty()) << name;
+  }
 }
 
 TEST_F(SessionTest, FreeCameraStartsFromTheScenes) {

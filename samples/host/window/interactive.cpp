@@ -13,6 +13,7 @@
 #include <GLFW/glfw3.h>
 
 #include "framegraph/vulkan/frame_queue.h"
+#include "samples/host/follow_session.h"
 #include "samples/host/live_frame.h"
 #include "samples/host/open_scene.h"
 #include "samples/host/resolution_control.h"
@@ -126,24 +127,22 @@ class Show {
     presenter_.emplace(device_, surface_.handle(), window_.size(), picture_, kFramesInFlight, Interface::draw);
   }
 
-  /// Bring the graph up to date with the choices of the session.
-  /// @param resized  the frame at hand has another size than those before it
-  void follow(bool resized) {
-    live_.setExtent(frame_.extent);
-    if (change_ == GraphChange::Settings && live_.update(session_.method(), session_.view())) {
-      again_ = session_.frozen;  // One more frame shows the new settings, with the existing history.
-      change_ = GraphChange::None;
-      return;
+  void follow() {
+    switch (followSession(live_, session_, change_, frame_.extent)) {
+      case Followed::Waits:
+        return;
+      case Followed::Updated:
+        again_ = session_.frozen;  // One more frame shows the new settings, with the existing history.
+        break;
+      case Followed::Declared:
+        lastSlot_.reset();
+        // Without a history, and with no other frame in a session that is frozen, the frame at hand is denoised again.
+        fresh_ = fresh_ || change_ == GraphChange::Method || session_.frozen;
+        break;
+      case Followed::Refused:
+        break;
     }
-    if (session_.dragging && live_.declared() && !resized) {
-      return;
-    }
-    // While the session is frozen, only the current frame is available: it is denoised again, without history.
-    const bool anew = change_ == GraphChange::Method || session_.frozen;
-    live_.declare(session_.method(), session_.view(), anew ? LiveFrame::Start::Anew : LiveFrame::Start::FromHistory);
     change_ = GraphChange::None;
-    lastSlot_.reset();
-    fresh_ = fresh_ || anew;
   }
 
   /// A view with a reference can only show frames that have one.
@@ -168,16 +167,15 @@ class Show {
       waitForFrame();
     }
     change_ = std::max(change_, session_.takeGraphChange());
-    const bool resized = fresh_ && frame_.extent != live_.extent();
-    if (resized) change_ = std::max(change_, GraphChange::Settings);
+    if (fresh_ && frame_.extent != live_.extent()) change_ = std::max(change_, GraphChange::Settings);
     if (change_ != GraphChange::None && frameFits()) {
-      follow(resized);
+      follow();
       facts_.graphBytes = live_.executor().allocatedBytes();
       facts_.memory = deviceMemory(device_);
     }
     // One more frame shows the new shaders in a session that is frozen.
     if (reload_ && reload_(live_.graph().desc(), live_.executor()) > 0) again_ = session_.frozen;
-    interface_.update(session_, live_.graph(), live_.plan(), facts_, place());
+    interface_.update(session_, live_, facts_, place());
     const fg::vk::Frame recorded = queue_.begin();
     const std::optional<std::uint32_t> image = presenter_->swapchain().acquire(recorded.slot);
     if (!image) {

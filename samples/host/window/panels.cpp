@@ -5,27 +5,48 @@
 #include <cmath>
 #include <cstdio>
 #include <deque>
+#include <functional>
 #include <limits>
+#include <memory>
 #include <span>
 
 #include <imgui.h>
 
 #include "framegraph/plan/memory_places.h"
 #include "passes/settings.h"
+#include "samples/host/follow_session.h"
 
 namespace walr::host {
 namespace {
 
 constexpr double kMegabyte = 1024.0 * 1024.0;
 
-/// A combo box. Returns the index of a newly chosen name; nullopt if the choice has not changed.
-std::optional<std::size_t> choose(const char* label, std::span<const std::string> names, const std::string& current) {
+/// A tooltip with lines of a width that is easy to read.
+void showTooltip(const std::string& text) {
+  constexpr float kWidth = 400.0F;
+  ImGui::BeginTooltip();
+  ImGui::PushTextWrapPos(kWidth);
+  ImGui::TextUnformatted(text.c_str());
+  ImGui::PopTextWrapPos();
+  ImGui::EndTooltip();
+}
+
+/// Why a name cannot be chosen; empty if it can.
+using Refusal = std::function<std::string(const std::string& name)>;
+
+/// A combo box, in which names that cannot be chosen are grey. Returns the index of a newly chosen name; nullopt if the
+/// choice has not changed.
+std::optional<std::size_t> choose(const char* label, std::span<const std::string> names, const std::string& current,
+                                  const Refusal& refusal = {}) {
   std::optional<std::size_t> chosen;
   if (ImGui::BeginCombo(label, current.c_str(), ImGuiComboFlags_HeightLargest)) {
     for (std::size_t i = 0; i < names.size(); ++i) {
-      if (ImGui::Selectable(names[i].c_str(), names[i] == current) && names[i] != current) {
+      const std::string reason = refusal && names[i] != current ? refusal(names[i]) : "";
+      const ImGuiSelectableFlags flags = reason.empty() ? 0 : ImGuiSelectableFlags_Disabled;
+      if (ImGui::Selectable(names[i].c_str(), names[i] == current, flags) && names[i] != current) {
         chosen = i;
       }
+      if (!reason.empty() && ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) showTooltip(reason);
     }
     ImGui::EndCombo();
   }
@@ -205,7 +226,7 @@ void playPanel(Session& session) {
   ImGui::Checkbox("Objects and lights move", &session.objectsMove);
 }
 
-void viewPanel(Session& session, const std::vector<std::string>& textures, bool references) {
+void viewPanel(Session& session, const LiveFrame& live, const std::vector<std::string>& textures, bool references) {
   ImGui::Separator();
   const HostView& view = session.view();
   const std::array<std::string, 6> all = {"denoised", "noisy", "reference", "split", "compare", "texture"};
@@ -233,7 +254,11 @@ void viewPanel(Session& session, const std::vector<std::string>& textures, bool 
     ImGui::DragFloat("Bias", &constants.bias, 0.01F, -10.0F, 10.0F, "%.3f");
   } else if (view.kind == HostView::Kind::Compare) {
     const std::vector<std::string> methods = denoiserNames();
-    if (const auto chosen = choose("On the right", methods, session.comparedName())) {
+    const Refusal refusal = [&](const std::string& name) {
+      const std::unique_ptr<Denoiser> right = makeDenoiser(name);
+      return refusalOf(live, session.method(), {.kind = HostView::Kind::Compare, .compared = right.get()});
+    };
+    if (const auto chosen = choose("On the right", methods, session.comparedName(), refusal)) {
       session.compareWith(methods[*chosen], makeDenoiser(methods[*chosen]));
     }
   } else if (view.kind == HostView::Kind::Split) {
@@ -241,17 +266,25 @@ void viewPanel(Session& session, const std::vector<std::string>& textures, bool 
   }
 }
 
-void methodPanel(Session& session) {
+void methodPanel(Session& session, const LiveFrame& live) {
   ImGui::Separator();
   const std::vector<std::string> methods = denoiserNames();
-  if (const auto chosen = choose("Method", methods, session.methodName())) {
+  const Refusal ofMethod = [&](const std::string& name) {
+    return refusalOf(live, *makeDenoiser(name), session.view());
+  };
+  if (const auto chosen = choose("Method", methods, session.methodName(), ofMethod)) {
     session.chooseMethod(methods[*chosen]);
   }
   const std::vector<std::string> presets = session.method().presets();
   if (presets.empty()) {
     return;
   }
-  if (const auto chosen = choose("Preset", presets, session.preset().value_or("(settings changed)"))) {
+  const Refusal ofPreset = [&](const std::string& name) {
+    const std::unique_ptr<Denoiser> method = makeDenoiser(session.methodName());
+    method->usePreset(name);
+    return refusalOf(live, *method, session.view());
+  };
+  if (const auto chosen = choose("Preset", presets, session.preset().value_or("(settings changed)"), ofPreset)) {
     session.choosePreset(presets[*chosen]);
   }
 }
@@ -349,6 +382,22 @@ void memoryPanel(const fg::GraphDesc& graph, const fg::Plan& plan, const FrameFa
                         graph.passes[plan.passes[resource.lastUse].pass].name.c_str());
     }
   }
+}
+
+float refusalPanel(const Session& session, const ImVec2& corner, float width) {
+  if (session.refusal().empty()) return 0.0F;
+  const char* const text = session.refusal().c_str();
+  const ImVec2 padding = ImGui::GetStyle().WindowPadding;
+  const float lines = ImGui::CalcTextSize(text, nullptr, false, width - 2.0F * padding.x).y;
+  const float height = lines + 2.0F * padding.y;
+  ImGui::SetNextWindowPos({corner.x, corner.y - height});
+  ImGui::SetNextWindowSize({width, height});
+  ImGui::PushStyleColor(ImGuiCol_WindowBg, IM_COL32(110, 50, 20, 255));
+  ImGui::Begin("refusal", nullptr, ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoNav);
+  ImGui::TextWrapped("%s", text);
+  ImGui::End();
+  ImGui::PopStyleColor();
+  return height;
 }
 
 }  // namespace walr::host
