@@ -52,6 +52,7 @@ std::optional<Tracer::Request> Session::nextRequest(bool evenFrozen) {
   request.cut = std::exchange(cut_, false);
   request.resetHistory = std::exchange(reset_, false);
   request.reference = view().needsReference();
+  request.resampledFrames = resample ? resampledFrames : 0;
   if (camera_) {
     request.view = camera_->view();
   } else if (!objectsMove) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -93,8 +94,11 @@ class Session {
   bool autoExposure = true;
   /// Size of the pictures; nullopt: the tracer's.
   std::optional<fg::Extent> extent;
-  double targetMilliseconds = 0.0;  ///< See `ResolutionControl::setTarget`.
-  std::string message;              ///< What the user should know of the scene; may be empty.
+  /// Whether indirect light is resampled from earlier frames; only if the tracer can (`Tracer::whyNotResampled`).
+  bool resample = false;
+  std::uint32_t resampledFrames = 20;  ///< From how many; engines take 20 to 30.
+  double targetMilliseconds = 0.0;     ///< See `ResolutionControl::setTarget`.
+  std::string message;                 ///< What the user should know of the scene; may be empty.
   /// Objects and lights move with the animation; otherwise they stand still, and only the camera moves.
   bool objectsMove = true;
   bool paused = false;  ///< The animation stands still; tracing continues.

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <functional>
 #include <optional>
+#include <stdexcept>
 #include <utility>
 
 #include "samples/denoise/frame_output.h"
@@ -107,13 +108,36 @@ glm::ivec2 Tracer::lightOffset(const Request& request) const {
   return lightOffsetOfFrame(options_.light, static_cast<std::uint32_t>(request.number));
 }
 
+std::string Tracer::whyNotResampled() const {
+  if (content_->device) return "the path tracer on the GPU does not resample: use --tracer cpu";
+  if (!options_.light.everyPixel()) return "only light at every pixel can be resampled: use --light-rate 1";
+  return {};
+}
+
+render::Reservoirs* Tracer::reservoirsFor(const Request& request) {
+  if (request.resampledFrames == 0) {
+    reservoirs_.reset();
+    return nullptr;
+  }
+  const std::string reason = whyNotResampled();
+  if (!reason.empty()) throw std::invalid_argument(reason);
+  const bool goesOn = previous_ && !request.cut && !request.resetHistory &&
+                      previous_->resampledFrames == request.resampledFrames &&
+                      extentOf(*previous_) == extentOf(request);
+  if (!goesOn) {
+    const fg::Extent extent = extentOf(request);
+    reservoirs_.emplace(extent.width, extent.height, static_cast<float>(request.resampledFrames));
+  }
+  return &*reservoirs_;
+}
+
 render::View Tracer::moveTo(const Request& request) {
   const double before = previous_ ? previous_->animationFrame : request.animationFrame;
   content_->world.moveTo(request.animationFrame / options_.framesPerSecond, before / options_.framesPerSecond);
   return viewOf(request);
 }
 
-render::SamplingSettings Tracer::samplingOf(const Request& request) const {
+render::SamplingSettings Tracer::samplingOf(const Request& request) {
   render::SamplingSettings sampling;
   sampling.samples = options_.samples;
   sampling.bounces = options_.bounces;
@@ -124,6 +148,7 @@ render::SamplingSettings Tracer::samplingOf(const Request& request) const {
   sampling.threads = options_.threads;
   sampling.light = options_.light;
   sampling.lightOffset = lightOffset(request);
+  sampling.reservoirs = reservoirsFor(request);
   return sampling;
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <iostream>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -173,6 +174,8 @@ TEST_F(GpuHost, RefusesWhatOnlyTheProcessorTraces) {
   EXPECT_THROW(Tracer(material, &gpu), render::SceneError);
 
   Tracer tracer(tracing("box.gltf"), &gpu);
+  EXPECT_NE(tracer.whyNotResampled().find("--tracer cpu"), std::string::npos);
+  EXPECT_THROW(tracer.hostFrame({.resampledFrames = 20}), std::invalid_argument);
   const std::unique_ptr<Denoiser> method = makeDenoiser("walr");
   for (const HostView::Kind kind : {HostView::Kind::Reference, HostView::Kind::Split}) {
     EXPECT_THROW(Renderer(gpu, *method, kExtent, {.view = {kind, ""}, .scene = tracer.gpuScene()}), UsageError);

@@ -108,6 +108,18 @@ TEST_F(SessionTest, PauseHoldsTheAnimationAndGoesOnSampling) {
   EXPECT_NE(first.number, second.number);
 }
 
+TEST_F(SessionTest, AsksForResampledLightWhileThatIsOn) {
+  Session session = make({0, 9}, false);
+  EXPECT_EQ(session.nextRequest()->resampledFrames, 0U);
+  session.resample = true;
+  EXPECT_EQ(session.nextRequest()->resampledFrames, 20U);
+  session.resampledFrames = 5;
+  EXPECT_EQ(session.nextRequest()->resampledFrames, 5U);
+  session.resample = false;
+  EXPECT_EQ(session.nextRequest()->resampledFrames, 0U);
+  EXPECT_EQ(session.takeGraphChange(), GraphChange::None);
+}
+
 TEST_F(SessionTest, CutsAndResetsAreAskedOnce) {
   Session session = make({0, 9}, false);
   session.nextRequest();

@@ -14,6 +14,7 @@
 
 #include "framegraph/plan/memory_places.h"
 #include "passes/settings.h"
+#include "samples/command_line/resampled_frames.h"
 #include "samples/host/follow_session.h"
 
 namespace walr::host {
@@ -158,6 +159,27 @@ void holdTimeWidgets(Session& session) {
   const fg::Extent extent = session.extent.value_or(full);
   ImGui::SameLine();
   ImGui::Text("a frame: %u x %u of %u x %u", extent.width, extent.height, full.width, full.height);
+}
+
+/// Whether light is resampled, and from how many frames. Grey if the tracer cannot.
+void resamplingWidgets(Session& session) {
+  const std::string reason = session.tracer().whyNotResampled();
+  ImGui::BeginDisabled(!reason.empty());
+  ImGui::Checkbox("Resample indirect light of", &session.resample);
+  if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) {
+    showTooltip(!reason.empty() ? reason
+                                : "As in ReSTIR GI without spatial reuse. Of walr, take the preset for the number of "
+                                  "samples per pixel, which at one sample is one-sample: what stays from frame to "
+                                  "frame of the noise of resampled light is no detail that many-samples could keep");
+  }
+  ImGui::SameLine();
+  auto frames = static_cast<int>(session.resampledFrames);
+  constexpr float kWidth = 60.0F;
+  ImGui::SetNextItemWidth(kWidth);
+  if (ImGui::DragInt("frames", &frames, 0.2F, 1, kMostResampledFrames, "%d", ImGuiSliderFlags_AlwaysClamp)) {
+    session.resampledFrames = static_cast<std::uint32_t>(frames);
+  }
+  ImGui::EndDisabled();
 }
 
 /// Milliseconds of the passes of the method on the right of a comparison.
@@ -311,6 +333,7 @@ void timesPanel(Session& session, const FrameFacts& facts, bool softwareDevice) 
     chart("##tracing", facts.tracingHistory);
   }
   ImGui::Text("Direct light: %s", session.tracer().denoisesDirect() ? "denoised" : "noisy");
+  resamplingWidgets(session);
   holdTimeWidgets(session);
   double sum = 0.0;
   for (const fg::vk::PassTime& pass : facts.passTimes) {
