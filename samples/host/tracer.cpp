@@ -30,27 +30,37 @@ void moveDirect(Image& direct, Image& indirect) {
 
 }  // namespace
 
-Tracer::Content::Content(const Options& options, const GpuDevice* gpu)
+Tracer::Content::Content(const Options& options, bool onDevice)
     : scene(loadViewableScene(options.scene, options.sky)),
       camera(render::findCamera(scene, options.camera)),
-      world(scene, gpu != nullptr ? render::RayCasting::None : render::RayCasting::Embree) {
-  if (gpu == nullptr) return;
-  if (options.gbuffer != render::GBufferMode::FirstHit) {
+      world(scene, onDevice ? render::RayCasting::None : render::RayCasting::Embree) {
+  if (onDevice && options.gbuffer != render::GBufferMode::FirstHit) {
     throw render::SceneError("--gbuffer material: the path tracer on the GPU has only first-hit; use --tracer cpu");
   }
-  device = std::make_unique<gpu_render::GpuScene>(*gpu, world);
+}
+
+void Tracer::Content::prepare(const GpuDevice& gpu) {
+  device = std::make_unique<gpu_render::GpuScene>(gpu, world);
   device->prepare(gpu_render::Precision::Half);
 }
 
 Tracer::Tracer(const Options& options, const GpuDevice* gpu)
-    : options_(options), gpu_(gpu), content_(std::make_unique<Content>(options, gpu)) {}
+    : options_(options), gpu_(gpu), content_(std::make_unique<Content>(options, gpu != nullptr)) {
+  if (gpu_ != nullptr) content_->prepare(*gpu_);
+}
 
-void Tracer::open(const std::filesystem::path& file) {
+std::unique_ptr<Tracer::Content> Tracer::read(const std::filesystem::path& file) const {
   Options options = options_;
   options.scene = file;
   options.camera.clear();
-  content_ = std::make_unique<Content>(options, gpu_);
-  options_ = options;
+  auto content = std::make_unique<Content>(options, gpu_ != nullptr);
+  content->exposure = exposureOf(*content, 0.0);
+  return content;
+}
+
+void Tracer::show(std::unique_ptr<Content> content) {
+  if (gpu_ != nullptr) content->prepare(*gpu_);
+  content_ = std::move(content);
   previous_.reset();
   reference_ = {};
 }
@@ -74,16 +84,21 @@ glm::vec4 Tracer::bounds() const {
 }
 
 float Tracer::exposure(double animationFrame) {
+  if (animationFrame == 0.0 && content_->exposure) return *content_->exposure;
+  return exposureOf(*content_, animationFrame);
+}
+
+float Tracer::exposureOf(Content& content, double animationFrame) const {
   // Noise lowers the mean of logarithms, so few pixels with many samples are better than the reverse.
   constexpr std::uint32_t kRows = 36;
   constexpr std::uint32_t kSamples = 64;
   const double seconds = animationFrame / options_.framesPerSecond;
-  // If the device traces, the processor cannot cast rays in `Content::world`.
+  // If a device traces, the processor cannot cast rays in `Content::world`.
   std::optional<render::World> forProcessor;
-  render::World& world = content_->device ? forProcessor.emplace(content_->scene) : content_->world;
+  render::World& world = gpu_ != nullptr ? forProcessor.emplace(content.scene) : content.world;
   world.moveTo(seconds, seconds);
   const std::uint32_t columns = std::max(1U, kRows * options_.extent.width / options_.extent.height);
-  const render::View view = render::viewFrom(world, content_->camera, columns, kRows, {}, {});
+  const render::View view = render::viewFrom(world, content.camera, columns, kRows, {}, {});
   const Frame frame = render::toFrame(
       render::renderFilm(world, view, {.samples = kSamples, .bounces = options_.bounces, .threads = options_.threads}),
       view, 0);

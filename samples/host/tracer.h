@@ -69,9 +69,28 @@ class Tracer {
   ///         `loadViewableScene`
   explicit Tracer(const Options& options, const GpuDevice* gpu = nullptr);
 
-  /// Trace another scene with the same options, seen by its first camera. The next frame has no previous one.
+  /// A scene in the processor's memory, and what a device needs of it.
+  struct Content {
+    /// For errors see the constructor of `Tracer`.
+    /// @param onDevice  a device traces it, see `prepare`
+    Content(const Options& options, bool onDevice);
+    /// Make what a device needs to trace it. This uses the device's queue.
+    void prepare(const GpuDevice& gpu);
+
+    render::Scene scene;
+    std::uint32_t camera;
+    render::World world;
+    std::unique_ptr<gpu_render::GpuScene> device = nullptr;  ///< Null if the processor traces, and before `prepare`.
+    std::optional<float> exposure = std::nullopt;            ///< At the start of the animation; see `Tracer::exposure`.
+  };
+
+  /// Read another scene to be traced with the same options, seen by its first camera. Other threads may use the tracer
+  /// meanwhile.
+  /// @throws as the constructor
+  [[nodiscard]] std::unique_ptr<Content> read(const std::filesystem::path& file) const;
+  /// Trace a scene that was read. The next frame has no previous one.
   /// @throws as the constructor; then nothing has changed
-  void open(const std::filesystem::path& file);
+  void show(std::unique_ptr<Content> content);
 
   [[nodiscard]] fg::Extent extent() const { return options_.extent; }
   [[nodiscard]] bool denoisesDirect() const { return options_.denoiseDirect; }
@@ -127,16 +146,8 @@ class Tracer {
   void finish(const Request& request, const render::View& view, Frame& frame);
   Reference traceReference(const Request& request, const render::View& view);
 
-  /// A scene, ready to be traced.
-  struct Content {
-    /// For parameters and errors see `Tracer`.
-    Content(const Options& options, const GpuDevice* gpu);
-
-    render::Scene scene;
-    std::uint32_t camera;
-    render::World world;
-    std::unique_ptr<gpu_render::GpuScene> device;  ///< Null if the processor traces.
-  };
+  /// The exposure of a scene that is not being traced.
+  [[nodiscard]] float exposureOf(Content& content, double animationFrame) const;
 
   Options options_;
   const GpuDevice* gpu_;

@@ -160,7 +160,7 @@ TEST_F(GpuHost, TracesAnotherScene) {
   const std::unique_ptr<Denoiser> method = makeDenoiser("walr");
   for (const char* const scene : {"box.gltf", "kitchen.gltf", "turntable.gltf"}) {
     window.queue.waitAll();
-    window.tracer.open(std::string(WALR_SCENES "/") + scene);
+    window.tracer.show(window.tracer.read(std::string(WALR_SCENES "/") + scene));
     window.live.changeScene(window.tracer.gpuScene());
     window.live.declare(*method, {}, LiveFrame::Start::Anew);
     for (int number = 0; number < 4; ++number) window.record({.number = number});

@@ -1,14 +1,17 @@
 // What the user of the sample host does between frames: the camera, playback, and which changes need another graph. No
 // device is needed.
 #include <algorithm>
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <future>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <thread>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -19,8 +22,8 @@
 #include "passes/denoiser.h"
 #include "samples/host/camera_control.h"
 #include "samples/host/default_extent.h"
-#include "samples/host/open_scene.h"
 #include "samples/host/resolution_control.h"
+#include "samples/host/scene_loader.h"
 #include "samples/host/session.h"
 #include "samples/host/setting_values.h"
 #include "samples/host/tracer.h"
@@ -305,7 +308,7 @@ TEST_F(SessionTest, ComparesWithAnotherMethod) {
 }
 
 TEST_F(SessionTest, ObjectsStandStillWhileTheCameraMoves) {
-  tracer.open(WALR_SCENES "/turntable.gltf");
+  tracer.show(tracer.read(WALR_SCENES "/turntable.gltf"));
   Session session = make({12, 20}, false);
   session.nextRequest();
   session.nextRequest();
@@ -391,7 +394,7 @@ TEST_F(ResolutionTest, StaysBetweenHalfAndAllOfTheSides) {
   EXPECT_EQ(changes, 3);
 }
 
-class OpenSceneTest : public SessionTest {
+class SceneLoaderTest : public SessionTest {
  protected:
   /// A scene of the project without some of its parts.
   std::filesystem::path without(const std::string& scene, const std::vector<std::string>& nodeParts) {
@@ -407,10 +410,17 @@ class OpenSceneTest : public SessionTest {
     return file;
   }
 
+  bool open(const std::filesystem::path& file, Session& session) {
+    SceneLoader loader(tracer, session);
+    loader.start(file);
+    while (!loader.done()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    return loader.finish();
+  }
+
   test::TemporaryDirectory folder;
 };
 
-TEST_F(OpenSceneTest, KeepsSettingsAndStartsCameraAndHistoryAnew) {
+TEST_F(SceneLoaderTest, KeepsSettingsAndStartsCameraAndHistoryAnew) {
   Session session = make({2, 9}, false);
   session.chooseMethod("svgf");
   session.method().set("accumulation.max-history", "5");
@@ -420,7 +430,7 @@ TEST_F(OpenSceneTest, KeepsSettingsAndStartsCameraAndHistoryAnew) {
   tracer.trace(session.nextRequest().value());
   const glm::mat4 before = tracer.sceneCamera(0.0);
   session.takeGraphChange();
-  ASSERT_TRUE(openScene(WALR_SCENES "/turntable.gltf", tracer, session)) << session.message;
+  ASSERT_TRUE(open(WALR_SCENES "/turntable.gltf", session)) << session.message;
 
   Tracer::Options options = boxScene();
   options.scene = WALR_SCENES "/turntable.gltf";
@@ -444,15 +454,15 @@ TEST_F(OpenSceneTest, KeepsSettingsAndStartsCameraAndHistoryAnew) {
   EXPECT_EQ(frame.camera.previousView, frame.camera.view);
 }
 
-TEST_F(OpenSceneTest, AChosenExposureStays) {
+TEST_F(SceneLoaderTest, AChosenExposureStays) {
   Session session = make({0, 9}, false);
   session.autoExposure = false;
   session.viewConstants.stops = 2.5F;
-  ASSERT_TRUE(openScene(WALR_SCENES "/turntable.gltf", tracer, session));
+  ASSERT_TRUE(open(WALR_SCENES "/turntable.gltf", session));
   EXPECT_EQ(session.viewConstants.stops, 2.5F);
 }
 
-TEST_F(OpenSceneTest, AFileThatCannotBeReadIsNamedAndTheOldSceneGoesOn) {
+TEST_F(SceneLoaderTest, AFileThatCannotBeReadIsNamedAndTheOldSceneGoesOn) {
   const std::filesystem::path broken = folder.path() / "broken.glb";
   std::ofstream(broken) << "glTF";
   Session session = make({2, 9}, false);
@@ -460,7 +470,7 @@ TEST_F(OpenSceneTest, AFileThatCannotBeReadIsNamedAndTheOldSceneGoesOn) {
   tracer.trace(session.nextRequest().value());
   const glm::vec4 bounds = tracer.bounds();
   for (const std::filesystem::path& file : {broken, folder.path() / "missing.gltf", folder.path()}) {
-    EXPECT_FALSE(openScene(file, tracer, session));
+    EXPECT_FALSE(open(file, session));
     EXPECT_EQ(session.message.find("Not opened: " + file.string() + ": "), 0U) << session.message;
     EXPECT_GT(session.message.size(), ("Not opened: " + file.string() + ": ").size());
     EXPECT_EQ(tracer.bounds(), bounds);
@@ -471,10 +481,50 @@ TEST_F(OpenSceneTest, AFileThatCannotBeReadIsNamedAndTheOldSceneGoesOn) {
   EXPECT_EQ(session.animationFrame(), 5);
 }
 
+// The test holds the reading back as long as it likes.
+TEST_F(SceneLoaderTest, TheOldSceneGoesOnWhileAnotherIsRead) {
+  Session session = make({2, 9}, false);
+  std::promise<void> released;
+  const std::shared_future<void> release = released.get_future().share();
+  std::vector<std::string> read;
+  SceneLoader loader(tracer, session, [&](const std::filesystem::path& file) {
+    read.push_back(file.filename());
+    release.wait();
+    return tracer.read(file);
+  });
+  EXPECT_FALSE(loader.done());
+  session.paused = true;  // An animation that starts again would reset the history.
+  tracer.trace(session.nextRequest().value());
+  const glm::mat4 camera = tracer.sceneCamera(0.0);
+  loader.start(WALR_SCENES "/kitchen.gltf");
+  EXPECT_EQ(session.message, "Loading kitchen.gltf");
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_FALSE(loader.done());
+    EXPECT_FALSE(tracer.trace(session.nextRequest().value()).resetHistory);
+    EXPECT_EQ(tracer.sceneCamera(0.0), camera);
+  }
+  // Of what is dropped meanwhile, only the last is of interest.
+  loader.start(WALR_SCENES "/stair.gltf");
+  loader.start(WALR_SCENES "/turntable.gltf");
+  EXPECT_EQ(session.message, "Loading turntable.gltf");
+  EXPECT_EQ(session.takeGraphChange(), GraphChange::None);
+  released.set_value();
+  while (!loader.done()) EXPECT_FALSE(tracer.trace(session.nextRequest().value()).resetHistory);
+  EXPECT_TRUE(loader.done());
+  EXPECT_EQ(tracer.sceneCamera(0.0), camera) << "nothing changes before the end";
+  ASSERT_TRUE(loader.finish());
+  EXPECT_FALSE(loader.done());
+  EXPECT_EQ(read, (std::vector<std::string>{"kitchen.gltf", "turntable.gltf"}));
+  EXPECT_EQ(session.message, "turntable.gltf");
+  EXPECT_EQ(session.takeGraphChange(), GraphChange::Method);
+  EXPECT_NE(tracer.sceneCamera(0.0), camera);
+  EXPECT_TRUE(tracer.trace(session.nextRequest().value()).resetHistory);
+}
+
 // Most files that people have hold neither camera nor light.
-TEST_F(OpenSceneTest, WithoutCameraAndLightASceneIsSeenAllTheSame) {
+TEST_F(SceneLoaderTest, WithoutCameraAndLightASceneIsSeenAllTheSame) {
   Session session = make({0, 9}, false);
-  ASSERT_TRUE(openScene(without("turntable.gltf", {"camera", "extensions"}), tracer, session)) << session.message;
+  ASSERT_TRUE(open(without("turntable.gltf", {"camera", "extensions"}), session)) << session.message;
   EXPECT_NE(session.message.find("no camera"), std::string::npos) << session.message;
   EXPECT_NE(session.message.find("white sky"), std::string::npos) << session.message;
   EXPECT_EQ(session.message.find("black"), std::string::npos) << session.message;

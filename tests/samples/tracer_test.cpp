@@ -193,7 +193,7 @@ TEST(Tracer, DropsSamplesWithTheHistory) {
   light(tracer, {.number = 4});
   Tracer fresh(tracing());
   EXPECT_TRUE(std::ranges::equal(light(tracer, usual).values(), light(fresh, usual).values()));
-  tracer.open(tracing("turntable.gltf").scene);
+  tracer.show(tracer.read(tracing("turntable.gltf").scene));
   Tracer turntable(tracing("turntable.gltf"));
   EXPECT_TRUE(std::ranges::equal(light(tracer, usual).values(), light(turntable, usual).values()));
 }

@@ -15,8 +15,8 @@
 #include "framegraph/vulkan/frame_queue.h"
 #include "samples/host/follow_session.h"
 #include "samples/host/live_frame.h"
-#include "samples/host/open_scene.h"
 #include "samples/host/resolution_control.h"
+#include "samples/host/scene_loader.h"
 #include "samples/host/window/interface.h"
 #include "samples/host/window/presenter.h"
 
@@ -54,6 +54,7 @@ class Show {
         picture_(device, extent),
         live_(device, picture_, kFramesInFlight, tracer.light(), tracer.gpuScene()),
         control_(extent),
+        loader_(tracer, session),
         queue_(device.device().context(), device.device().queue(), kFramesInFlight),
         interface_(device, window, kFramesInFlight) {
     facts_.deviceTraces = tracer.gpuScene() != nullptr;
@@ -86,7 +87,9 @@ class Show {
   }
 
  private:
+  /// Starts to trace the next frame, unless the session is frozen or another scene is about to be shown.
   void startTracing() {
+    if (loader_.done()) return;
     control_.setTarget(session_.targetMilliseconds);
     session_.extent = control_.extent();
     const bool needed = again_ || (change_ != GraphChange::None && !frameFits());
@@ -96,22 +99,25 @@ class Show {
     }
   }
 
-  /// Show the scene of a file that the user has dropped onto the window. The window stands still while it is read.
+  /// Read a file that the user has dropped onto the window, and show its scene once it is read and the frame that is
+  /// being traced is taken. Until the first frame of the scene is traced, the last one of the old scene is shown.
   void openDropped() {
-    const std::optional<std::filesystem::path> file = window_.takeDroppedFile();
-    if (!file) return;
-    if (next_.valid()) next_.wait();
+    if (const std::optional<std::filesystem::path> file = window_.takeDroppedFile()) loader_.start(*file);
+    if (next_.valid() || !loader_.done()) return;
     queue_.waitAll();
-    if (!openScene(*file, tracer_, session_)) return;
+    if (!loader_.finish()) return;
     live_.changeScene(tracer_.gpuScene());
     if (facts_.deviceTraces) facts_.sceneBytes = tracer_.gpuScene()->bytes();
-    next_ = {};  // A frame of the old scene.
+    HostFrame none;
+    none.extent = frame_.extent;
+    frame_ = std::move(none);
+    traced_ = fresh_ = false;
     startTracing();
-    take(next_.get());
   }
 
   void take(HostFrame frame) {
     frame_ = std::move(frame);
+    traced_ = true;
     constexpr double kMilliseconds = 1000.0;
     if (!facts_.deviceTraces) {
       facts_.traced = frame_.traced;
@@ -137,7 +143,7 @@ class Show {
       case Followed::Declared:
         lastSlot_.reset();
         // Without a history, and with no other frame in a session that is frozen, the frame at hand is denoised again.
-        fresh_ = fresh_ || change_ == GraphChange::Method || session_.frozen;
+        fresh_ = fresh_ || (traced_ && (change_ == GraphChange::Method || session_.frozen));
         break;
       case Followed::Refused:
         break;
@@ -168,7 +174,7 @@ class Show {
     }
     change_ = std::max(change_, session_.takeGraphChange());
     if (fresh_ && frame_.extent != live_.extent()) change_ = std::max(change_, GraphChange::Settings);
-    if (change_ != GraphChange::None && frameFits()) {
+    if (change_ != GraphChange::None && (frameFits() || !live_.declared())) {
       follow();
       facts_.graphBytes = live_.executor().allocatedBytes();
       facts_.memory = deviceMemory(device_);
@@ -222,6 +228,7 @@ class Show {
   ShownPicture picture_;
   LiveFrame live_;
   ResolutionControl control_;
+  SceneLoader loader_;
   fg::vk::FrameQueue queue_;
   Interface interface_;
   std::optional<Presenter> presenter_;
@@ -229,6 +236,7 @@ class Show {
   std::future<HostFrame> next_;
   HostFrame frame_;
   FrameFacts facts_;
+  bool traced_ = false;                       // `frame_` is of the scene that is shown.
   bool fresh_ = false;                        // `frame_` has not been recorded yet.
   bool again_ = false;                        // Trace one more frame, even if the session is frozen.
   GraphChange change_ = GraphChange::Method;  // Change of the session that the graph does not contain yet.
