@@ -1,6 +1,9 @@
 // The sample host with the path tracer as a pass of its graph.
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <iostream>
 #include <memory>
 #include <stdexcept>
@@ -82,6 +85,31 @@ TEST_F(GpuHost, RendersThreeHundredMovingFramesWithoutAMessage) {
   while (const auto rest = renderer.finish()) take(*rest);
   EXPECT_EQ(frames, kFrames);
   EXPECT_NO_THROW(gpu.refuseMessages());
+}
+
+// As in a window: the size of frames changes while others are in flight, which takes another graph with the histories
+// of the one before. Minimised, the window records nothing, and the device comes to rest.
+TEST_F(GpuHost, ResizesAndRestsInThreeHundredMovingFramesWithoutAMessage) {
+  LiveTurntable window(gpu);
+  const std::unique_ptr<Denoiser> method = makeDenoiser("walr");
+  constexpr std::array kSizes{kExtent, fg::Extent{37, 22}, fg::Extent{20, 12}, fg::Extent{31, 19}};
+  constexpr int kFrames = 300;
+  constexpr int kFramesOfASize = 12;
+  constexpr int kFramesUntilARest = 50;
+  for (int number = 0; number < kFrames; ++number) {
+    const fg::Extent extent = kSizes.at(static_cast<std::size_t>(number / kFramesOfASize) % kSizes.size());
+    if (number % kFramesOfASize == 0) {
+      window.live.setExtent(extent);
+      window.live.declare(*method, {}, LiveFrame::Start::FromHistory);
+    }
+    window.record({.number = number, .animationFrame = static_cast<double>(number % 48), .extent = extent});
+    EXPECT_EQ(window.live.shown(), extent);
+    if (number % kFramesUntilARest == 0) window.queue.waitAll();
+  }
+  window.queue.waitAll();
+  for (const fg::vk::HistoryStatus& history : window.live.histories()) {
+    EXPECT_EQ(history.age, static_cast<std::uint32_t>(kFrames));
+  }
 }
 
 // The same random numbers lead to the same frames, but for roundings.
