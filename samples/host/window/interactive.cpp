@@ -188,17 +188,8 @@ class Show {
       makePresenter();
       return;
     }
-    // The device has finished the last frame recorded with this slot. Until a new frame is traced, the times of the
-    // last one stay on display.
-    if (lastSlot_ && (fresh_ || recorded.slot == *lastSlot_)) {
-      const auto times = live_.passTimes(recorded.slot);
-      facts_.passTimes.assign(times.begin(), times.end());
-      double sum = 0.0;
-      for (const fg::vk::PassTime& pass : times) sum += pass.milliseconds;
-      if (fresh_) remember(facts_.deviceHistory, sum);
-      if (fresh_) control_.frameTook(std::max(sum, facts_.deviceTraces ? 0.0 : facts_.tracingHistory.back()));
-      if (const auto traced = live_.traced(recorded.slot)) facts_.traced = *traced;
-    }
+    // The device has finished the last frame recorded with this slot.
+    if (lastSlot_ && (fresh_ || recorded.slot == *lastSlot_)) noteTimes(recorded.slot);
     if (fresh_ && frame_.extent != live_.extent()) fresh_ = false;  // The view needs another frame, and waits for it.
     if (std::exchange(fresh_, false)) {
       lastSlot_ = recorded.slot;
@@ -211,6 +202,21 @@ class Show {
     if (!presenter_->swapchain().present(*image)) {
       makePresenter();
     }
+  }
+
+  /// Takes the times of the frame last recorded with a slot. Without times, those of the frame before stay on display:
+  /// the slot is of an earlier graph, or the device does not measure any.
+  void noteTimes(std::uint32_t slot) {
+    const auto times = live_.passTimes(slot);
+    double sum = 0.0;
+    for (const fg::vk::PassTime& pass : times) sum += pass.milliseconds;
+    if (!times.empty()) {
+      facts_.passTimes.assign(times.begin(), times.end());
+      if (fresh_) remember(facts_.deviceHistory, sum);
+    }
+    const double tracing = facts_.deviceTraces ? 0.0 : facts_.tracingHistory.back();
+    if (fresh_ && std::max(sum, tracing) > 0.0) control_.frameTook(std::max(sum, tracing));
+    if (const auto traced = live_.traced(slot)) facts_.traced = *traced;
   }
 
   [[nodiscard]] Rectangle place() {

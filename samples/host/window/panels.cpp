@@ -339,7 +339,12 @@ void timesPanel(Session& session, const FrameFacts& facts, bool softwareDevice) 
   for (const fg::vk::PassTime& pass : facts.passTimes) {
     sum += pass.milliseconds;
   }
-  ImGui::Text("Device %.2f ms%s", sum, softwareDevice ? " (software device)" : "");
+  const char* const software = softwareDevice ? " (software device)" : "";
+  if (facts.passTimes.empty()) {
+    ImGui::Text("Device: no times%s", software);
+  } else {
+    ImGui::Text("Device %.2f ms%s", sum, software);
+  }
   const double compared = comparedTime(facts.passTimes);
   if (compared > 0.0) ImGui::Text("of which on the right %.2f ms", compared);
   chart("##device", facts.deviceHistory);
