@@ -1,15 +1,18 @@
 // What the graph of a window does with the choices of its session, without the window: those that a method refuses
 // leave everything as it was.
+#include <algorithm>
+#include <cstdint>
 #include <functional>
 #include <memory>
+#include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "framegraph/vulkan/frame_queue.h"
 #include "passes/denoiser.h"
-#include "samples/command_line/usage_error.h"
 #include "samples/denoise/gpu_device.h"
 #include "samples/host/follow_session.h"
 #include "samples/host/live_frame.h"
@@ -71,10 +74,6 @@ TEST_F(FollowSessionTest, ChoicesThatAreRefusedLeaveThePictureAndItsHistory) {
          session.method().set("accumulation.antilag-low", "5");
          session.method().set("accumulation.antilag-high", "1");
          session.settingsChanged();
-       }},
-      {"the frame has no texture 'nothing'",
-       [&] {
-         session.chooseView({HostView::Kind::Texture, "nothing"});
        }},
       {"method 'flnr'",
        [&] {
@@ -171,18 +170,72 @@ TEST_F(FollowSessionTest, ASliderThatIsDraggedWaitsForAnotherGraphAndGoesBackIfI
   EXPECT_EQ(session.refusal(), "");
 }
 
-// Before anything is chosen, the panel shows in grey what would be refused.
+// The panel shows in grey what would be refused.
 TEST_F(FollowSessionTest, TellsBeforehandWhatWouldBeRefused) {
-  const auto refusal = [&](const std::string& name, const HostView& view = {}) {
-    return refusalOf(live, *makeDenoiser(name), view);
-  };
-  for (const char* const name : {"walr", "walr_paper", "bmfr", "flr", "accumulate"}) EXPECT_EQ(refusal(name), "");
-  for (const std::string name : {"svgf", "refwlr", "flnr", "joint_bilateral", "none"}) {
-    EXPECT_NE(refusal(name).find("method '" + name + "'"), std::string::npos) << refusal(name);
+  for (const char* const name : {"walr", "walr_paper", "bmfr", "flr", "accumulate"}) {
+    EXPECT_EQ(refusalOfMethod(live, session, name), "");
+    EXPECT_EQ(refusalOfCompared(live, session, name), "");
   }
-  EXPECT_NE(refusal("walr", {HostView::Kind::Texture, "nothing"}).find("'nothing'"), std::string::npos);
+  for (const std::string name : {"svgf", "refwlr", "flnr", "joint_bilateral", "none"}) {
+    EXPECT_NE(refusalOfMethod(live, session, name).find("method '" + name + "'"), std::string::npos);
+    EXPECT_NE(refusalOfCompared(live, session, name).find("method '" + name + "'"), std::string::npos);
+  }
+  EXPECT_EQ(refusalOfPreset(live, session, "one-sample"), "");
+  EXPECT_NE(refusalOfPreset(live, session, "many-samples").find("blocks.residual"), std::string::npos);
   record();
   EXPECT_EQ(age(), 1U) << "the graph is the same";
+}
+
+TEST_F(FollowSessionTest, ATextureThatIsNoMoreGivesWayToTheDenoisedImage) {
+  const auto show = [&](const std::string& texture) {
+    const std::vector<std::string> textures = viewableTextures(live.graph().desc());
+    ASSERT_NE(std::ranges::find(textures, texture), textures.end()) << testing::PrintToString(textures);
+    session.chooseView({HostView::Kind::Texture, texture});
+    EXPECT_EQ(follow(), Followed::Declared);
+    EXPECT_EQ(session.view().texture, texture);
+  };
+  show("normal");
+  session.chooseMethod("bmfr");
+  EXPECT_EQ(follow(), Followed::Declared);
+  EXPECT_EQ(session.view().texture, "normal") << "every method has it";
+  session.chooseMethod("walr");
+  EXPECT_EQ(follow(), Followed::Declared);
+  show("block moments 0");
+  EXPECT_EQ(refusalOfMethod(live, session, "bmfr"), "");
+  session.chooseMethod("bmfr");
+  EXPECT_EQ(follow(), Followed::Declared);
+  EXPECT_EQ(session.methodName(), "bmfr");
+  EXPECT_EQ(session.view(), HostView{});
+
+  session.chooseMethod("walr");
+  EXPECT_EQ(follow(), Followed::Declared);
+  show("resolved.current");
+  session.method().set("antialiasing.enabled", "off");
+  session.settingsChanged();
+  EXPECT_EQ(follow(), Followed::Declared);
+  EXPECT_EQ(session.view(), HostView{});
+  EXPECT_EQ(session.refusal(), "");
+  EXPECT_EQ(session.takeGraphChange(), GraphChange::None);
+
+  // What is refused in any view brings the texture back.
+  show("block moments 0");
+  session.chooseMethod("svgf");
+  expectRefused(follow(), "method 'svgf'");
+  EXPECT_EQ(session.view().texture, "block moments 0");
+}
+
+// At first it is the noisy light, which a comparison takes at every pixel.
+TEST_F(FollowSessionTest, AComparisonTakesAMethodThatTheFramesSuit) {
+  chooseComparison(live, session);
+  EXPECT_EQ(follow(), Followed::Declared);
+  EXPECT_EQ(session.view().kind, HostView::Kind::Compare);
+  EXPECT_EQ(session.comparedName(), "walr_paper") << "the first that is not that on the left";
+  session.compareWith("flr", makeDenoiser("flr"));
+  session.chooseView({});
+  EXPECT_EQ(follow(), Followed::Declared);
+  chooseComparison(live, session);
+  EXPECT_EQ(follow(), Followed::Declared);
+  EXPECT_EQ(session.comparedName(), "flr") << "it stays";
 }
 
 }  // namespace

@@ -7,7 +7,6 @@
 #include <deque>
 #include <functional>
 #include <limits>
-#include <memory>
 #include <span>
 
 #include <imgui.h>
@@ -265,7 +264,11 @@ void viewPanel(Session& session, const LiveFrame& live, const std::vector<std::s
     if (next.kind == HostView::Kind::Texture) {
       next.texture = textures.front();
     }
-    session.chooseView(next);
+    if (next.kind == HostView::Kind::Compare) {
+      chooseComparison(live, session);
+    } else {
+      session.chooseView(next);
+    }
   }
   ViewConstants& constants = session.viewConstants;
   if (view.kind == HostView::Kind::Texture) {
@@ -276,10 +279,7 @@ void viewPanel(Session& session, const LiveFrame& live, const std::vector<std::s
     ImGui::DragFloat("Bias", &constants.bias, 0.01F, -10.0F, 10.0F, "%.3f");
   } else if (view.kind == HostView::Kind::Compare) {
     const std::vector<std::string> methods = denoiserNames();
-    const Refusal refusal = [&](const std::string& name) {
-      const std::unique_ptr<Denoiser> right = makeDenoiser(name);
-      return refusalOf(live, session.method(), {.kind = HostView::Kind::Compare, .compared = right.get()});
-    };
+    const Refusal refusal = [&](const std::string& name) { return refusalOfCompared(live, session, name); };
     if (const auto chosen = choose("On the right", methods, session.comparedName(), refusal)) {
       session.compareWith(methods[*chosen], makeDenoiser(methods[*chosen]));
     }
@@ -291,9 +291,7 @@ void viewPanel(Session& session, const LiveFrame& live, const std::vector<std::s
 void methodPanel(Session& session, const LiveFrame& live) {
   ImGui::Separator();
   const std::vector<std::string> methods = denoiserNames();
-  const Refusal ofMethod = [&](const std::string& name) {
-    return refusalOf(live, *makeDenoiser(name), session.view());
-  };
+  const Refusal ofMethod = [&](const std::string& name) { return refusalOfMethod(live, session, name); };
   if (const auto chosen = choose("Method", methods, session.methodName(), ofMethod)) {
     session.chooseMethod(methods[*chosen]);
   }
@@ -301,11 +299,7 @@ void methodPanel(Session& session, const LiveFrame& live) {
   if (presets.empty()) {
     return;
   }
-  const Refusal ofPreset = [&](const std::string& name) {
-    const std::unique_ptr<Denoiser> method = makeDenoiser(session.methodName());
-    method->usePreset(name);
-    return refusalOf(live, *method, session.view());
-  };
+  const Refusal ofPreset = [&](const std::string& name) { return refusalOfPreset(live, session, name); };
   if (const auto chosen = choose("Preset", presets, session.preset().value_or("(settings changed)"), ofPreset)) {
     session.choosePreset(presets[*chosen]);
   }
