@@ -13,6 +13,7 @@
 #include "samples/command_line/device_options.h"
 #include "samples/command_line/exit_code.h"
 #include "samples/command_line/light_rate.h"
+#include "samples/command_line/resampled_frames.h"
 #include "samples/command_line/tracer_option.h"
 #include "samples/command_line/usage_error.h"
 #include "samples/denoise/gpu_device.h"
@@ -60,15 +61,10 @@ void renderFrames(RenderArguments& arguments) {
   }
   options.width = extent.width;
   options.height = extent.height;
-  if (!options.light.everyPixel() && options.resampledFrames > 0) {
-    throw UsageError("--light-rate and --resampled-frames: only light at every pixel can be resampled");
-  }
 
   const std::unique_ptr<GpuDevice> gpu = tracingDevice(arguments);
+  checkResampledFrames(options.resampledFrames, options.light, gpu != nullptr);
   if (gpu) {
-    if (options.resampledFrames > 0) {
-      throw UsageError("--resampled-frames: the path tracer on the GPU does not resample: use --tracer cpu");
-    }
     options.otherTracer = [&gpu](const render::World& world) {
       return std::make_unique<gpu_render::FilmTracer>(*gpu, world);
     };
@@ -133,13 +129,7 @@ void registerRender(CLI::App& program) {
   command->add_option("--bounces", options.bounces, "Largest number of surfaces after the first that reflect light")
       ->check(CLI::Range(0U, kMostBounces))
       ->capture_default_str();
-  constexpr std::uint32_t kMostResampledFrames = 1000;
-  command
-      ->add_option("--resampled-frames", options.resampledFrames,
-                   "Resample the indirect light of noisy frames from as many earlier frames, as in ReSTIR GI without "
-                   "spatial reuse (Ouyang et al. 2021); engines take 20 to 30; 0: plain paths")
-      ->check(CLI::Range(0U, kMostResampledFrames))
-      ->capture_default_str();
+  addResampledFrames(*command, options.resampledFrames);
   command->add_option("--seed", options.seed, "Seed of the random numbers")->capture_default_str();
   constexpr double kSlowest = 1e-3;
   constexpr double kFastest = 1e6;

@@ -7,6 +7,7 @@
 #include "samples/command_line/arguments.h"
 #include "samples/command_line/device_options.h"
 #include "samples/command_line/light_rate.h"
+#include "samples/command_line/resampled_frames.h"
 #include "samples/command_line/usage_error.h"
 
 namespace walr::host {
@@ -73,6 +74,7 @@ void addHostOptions(CLI::App& program, HostOptions& options) {
   addLightRate(program, tracer.light,
                "Share of the pixels that have a sample of indirect light in a frame: 1, 1/2 (a checkerboard), 1/4 (one "
                "of 2 x 2) or 1/9 (one of 3 x 3). Which pixels these are changes from frame to frame");
+  addResampledFrames(program, options.resampledFrames);
   program
       .add_option("--reference-spp", tracer.referenceSamples,
                   "Samples per pixel that a frame adds to the reference, for views that show it; samples accumulate "

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 
@@ -22,7 +23,8 @@ struct HostOptions {
   std::string frames;  ///< Empty: in a window the whole animation, otherwise frames 0 to 11.
   std::string size;    ///< Empty: `defaultExtent`.
   std::string view = "denoised";
-  std::string compare;  ///< Method with or without a preset, for the right side; empty: none.
+  std::uint32_t resampledFrames = 0;  ///< See `Tracer::Request::resampledFrames`.
+  std::string compare;                ///< Method with or without a preset, for the right side; empty: none.
   std::filesystem::path output;
   std::filesystem::path record;  ///< File of an animation; empty: none.
   std::string exposure = "auto";

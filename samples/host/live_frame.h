@@ -70,6 +70,9 @@ class LiveFrame {
   /// @throws see `declareHostGraph` and `DeviceGraph`; the previous graph then stays in use
   void declare(Denoiser& method, const HostView& view, Start start);
   [[nodiscard]] bool declared() const { return running_ != nullptr; }
+  /// Declare the graph of a method and a view without any effect.
+  /// @throws see `declareHostGraph`
+  void check(Denoiser& method, const HostView& view) const { (void)declareHost(method, view); }
   /// Drop all graphs, and trace another scene in those that are declared from now on. The device must have finished all
   /// frames.
   void changeScene(const gpu_render::GpuScene* scene);

@@ -12,6 +12,7 @@
 
 #include "samples/command_line/arguments.h"
 #include "samples/command_line/program.h"
+#include "samples/command_line/resampled_frames.h"
 #include "samples/command_line/usage_error.h"
 #include "samples/denoise/progress.h"
 #include "samples/host/default_extent.h"
@@ -54,10 +55,11 @@ ReloadShaders shaderReload(const HostOptions& options) {
 #endif
 }
 
+/// Call what declares a graph of the method on the command line.
 /// @throws UsageError naming settings that contradict each other, or a method that does not take sparse light
-Renderer makeRenderer(const GpuDevice& gpu, Denoiser& method, fg::Extent extent, const Renderer::Options& options) {
+auto asCommandLine(const auto& declares) {
   try {
-    return {gpu, method, extent, options};
+    return declares();
   } catch (const std::invalid_argument& error) {
     throw UsageError(error.what());
   }
@@ -86,10 +88,11 @@ void runHeadless(const HostOptions& options, float stops, Tracer& tracer, GpuDev
   rendering.viewConstants = viewConstantsOf(extent, stops);
   rendering.readComposite = options.exr;
   rendering.scene = tracer.gpuScene();
-  Renderer renderer = makeRenderer(gpu, method, extent, rendering);
+  Renderer renderer = asCommandLine([&] { return Renderer(gpu, method, extent, rendering); });
   if (!options.output.empty()) prepareOutputDirectory(options.output);
   Tracer::Request request;
   request.reference = rendering.view.needsReference();
+  request.resampledFrames = options.resampledFrames;
   Progress progress(std::cerr, isatty(STDERR_FILENO) != 0, "frame",
                     static_cast<std::size_t>(frames.last - frames.first + 1), Progress::Clock::now());
   const ReloadShaders reload = shaderReload(options);
@@ -107,6 +110,12 @@ void runHeadless(const HostOptions& options, float stops, Tracer& tracer, GpuDev
             << "\ndevice memory: " << renderer.executor().allocatedBytes() / kMegabyte << " MiB of the frame graph";
   if (tracer.gpuScene() != nullptr) std::cout << ", " << tracer.gpuScene()->bytes() / kMegabyte << " MiB of the scene";
   std::cout << std::endl;
+}
+
+/// The option that only the path tracer on the processor has, if one is used; otherwise empty.
+std::string needsProcessor(const HostOptions& options) {
+  if (!options.tracer.light.everyPixel()) return "--light-rate";
+  return options.resampledFrames > 0 ? "--resampled-frames" : "";
 }
 
 /// Whether to open a window: the user has chosen neither `--headless` nor `--record`, and windows are available.
@@ -138,9 +147,13 @@ void run(HostOptions& options) {
     options.gpu = withWindows(options.gpu);
   }
 #endif
-  // Only the tracer on the processor traces sparse light.
-  const bool sparse = !options.tracer.light.everyPixel();
-  if (sparse && options.tracerChoice == TracerChoice::Auto) options.tracerChoice = TracerChoice::Cpu;
+  checkResampledFrames(options.resampledFrames, options.tracer.light, options.tracerChoice == TracerChoice::Gpu);
+  std::string because;
+  if (const std::string option = needsProcessor(options);
+      !option.empty() && options.tracerChoice == TracerChoice::Auto) {
+    options.tracerChoice = TracerChoice::Cpu;
+    because = ", because the GPU's path tracer has no " + option;
+  }
   options.gpu.rayQueries = mayTraceOnGpu(options.tracerChoice);
   GpuDevice gpu(options.gpu);
   if (options.size.empty()) options.tracer.extent = defaultExtent(window, gpu.physical().type);
@@ -158,7 +171,8 @@ void run(HostOptions& options) {
   if (const std::optional<std::string> preset = presetInUse(options.method.name, *method)) {
     std::cout << ", preset " << *preset;
   }
-  std::cout << "\ndevice: " << gpu.name() << ", driver " << gpu.driver() << "\ntracer: " << decision.text << std::endl;
+  std::cout << "\ndevice: " << gpu.name() << ", driver " << gpu.driver() << "\ntracer: " << decision.text << because
+            << std::endl;
   if (!window) {
     runHeadless(options, stops, tracer, gpu, *method, *compared);
   }
@@ -168,8 +182,10 @@ void run(HostOptions& options) {
                     viewConstantsOf(options.tracer.extent, stops), parseFrameRange(options.frames), options.once);
     session.targetMilliseconds = options.targetMilliseconds;
     session.autoExposure = !exposure;
+    session.resample = options.resampledFrames > 0;
+    if (session.resample) session.resampledFrames = options.resampledFrames;
     session.compareWith(compare.name, std::move(compared));
-    runWindow(tracer, gpu, session, options.tracer.extent, shaderReload(options));
+    asCommandLine([&] { runWindow(tracer, gpu, session, options.tracer.extent, shaderReload(options)); });
   }
 #endif
   gpu.refuseMessages();

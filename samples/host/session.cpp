@@ -15,9 +15,8 @@ Session::Session(Tracer& tracer, std::string methodName, std::unique_ptr<Denoise
                  const ViewConstants& constants, const FrameRange& frames, bool once)
     : viewConstants(constants),
       tracer_(tracer),
-      methodName_(std::move(methodName)),
-      method_(std::move(method)),
-      preset_(presetInUse(methodName_, *method_)),
+      choices_{.methodName = std::move(methodName), .method = std::move(method)},
+      preset_(presetInUse(choices_.methodName, *choices_.method)),
       frames_(frames),
       once_(once),
       animationFrame_(frames.first),
@@ -25,6 +24,7 @@ Session::Session(Tracer& tracer, std::string methodName, std::unique_ptr<Denoise
       number_(frames.first) {
   chooseView(view);
   graphChange_ = GraphChange::None;
+  chosen_ = false;
 }
 
 std::optional<Tracer::Request> Session::nextRequest(bool evenFrozen) {
@@ -51,7 +51,8 @@ std::optional<Tracer::Request> Session::nextRequest(bool evenFrozen) {
   request.extent = extent;
   request.cut = std::exchange(cut_, false);
   request.resetHistory = std::exchange(reset_, false);
-  request.reference = view_.needsReference();
+  request.reference = view().needsReference();
+  request.resampledFrames = resample ? resampledFrames : 0;
   if (camera_) {
     request.view = camera_->view();
   } else if (!objectsMove) {
@@ -61,36 +62,59 @@ std::optional<Tracer::Request> Session::nextRequest(bool evenFrozen) {
   return request;
 }
 
+void Session::note(GraphChange change) {
+  preset_ = presetInUse(choices_.methodName, *choices_.method);
+  graphChange_ = std::max(graphChange_, change);
+  chosen_ = true;
+}
+
 void Session::chooseMethod(const std::string& name) {
-  method_ = makeDenoiser(name);
-  methodName_ = name;
-  settingsChanged();
-  graphChange_ = GraphChange::Method;
+  choices_.method = makeDenoiser(name);
+  choices_.methodName = name;
+  note(GraphChange::Method);
 }
 
 void Session::choosePreset(const std::string& name) {
-  method_->usePreset(name);
-  settingsChanged();
-  graphChange_ = GraphChange::Method;
+  choices_.method->usePreset(name);
+  note(GraphChange::Method);
 }
 
 void Session::settingsChanged() {
-  preset_ = presetInUse(methodName_, *method_);
-  graphChange_ = std::max(graphChange_, GraphChange::Settings);
+  // A slider tells of a change again when it is released, also after its value was refused.
+  if (accepted_ && !chosen_ && SettingValues(*choices_.method) == accepted_->settings) return;
+  note(GraphChange::Settings);
 }
 
 void Session::compareWith(const std::string& name, std::unique_ptr<Denoiser> method) {
-  compared_ = std::move(method);
-  comparedName_ = name;
-  if (view_.kind != HostView::Kind::Compare) return;
-  view_.compared = compared_.get();
-  graphChange_ = GraphChange::Method;
+  choices_.compared = std::move(method);
+  choices_.comparedName = name;
+  if (view().kind != HostView::Kind::Compare) return;
+  choices_.view.compared = choices_.compared.get();
+  note(GraphChange::Method);
 }
 
 void Session::chooseView(HostView view) {
-  view.compared = view.kind == HostView::Kind::Compare ? compared_.get() : nullptr;
-  if (!(view == view_)) graphChange_ = std::max(graphChange_, GraphChange::Settings);
-  view_ = view;
+  view.compared = view.kind == HostView::Kind::Compare ? choices_.compared.get() : nullptr;
+  if (view == choices_.view) return;
+  choices_.view = view;
+  note(GraphChange::Settings);
+}
+
+void Session::accept() {
+  if (accepted_ && !chosen_) return;
+  accepted_ = {choices_, SettingValues(*choices_.method)};
+  chosen_ = false;
+  refusal_.clear();
+}
+
+bool Session::refuse(const std::string& reason) {
+  if (!accepted_ || !chosen_) return false;
+  choices_ = accepted_->choices;
+  accepted_->settings.restore(*choices_.method);
+  preset_ = presetInUse(choices_.methodName, *choices_.method);
+  chosen_ = false;
+  refusal_ = "Not changed: " + reason;
+  return true;
 }
 
 void Session::chooseCamera(CameraMode mode) {
@@ -117,8 +141,8 @@ void Session::moveCamera(const CameraInput& input) {
 bool Session::grabEdge(float column, float reach) {
   heldEdge_ = nullptr;
   std::vector<int*> edges;
-  if (view_.kind == HostView::Kind::Split) edges = {&viewConstants.leftEdge, &viewConstants.rightEdge};
-  if (view_.kind == HostView::Kind::Compare) edges = {&viewConstants.middleEdge};
+  if (view().kind == HostView::Kind::Split) edges = {&viewConstants.leftEdge, &viewConstants.rightEdge};
+  if (view().kind == HostView::Kind::Compare) edges = {&viewConstants.middleEdge};
   for (int* const edge : edges) {
     const float distance = std::abs(column - static_cast<float>(*edge));
     if (distance > reach) continue;
@@ -163,6 +187,7 @@ void Session::sceneChanged() {
   once_ = false;
   started_ = false;
   graphChange_ = GraphChange::Method;
+  refusal_.clear();
   if (autoExposure) viewConstants.stops = tracer_.exposure(frames_.first);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -7,6 +8,7 @@
 #include "passes/denoiser.h"
 #include "samples/host/camera_control.h"
 #include "samples/host/host_graph.h"
+#include "samples/host/setting_values.h"
 #include "samples/host/shaders/view_constants.h"
 #include "samples/host/tracer.h"
 #include "samples/sequence/sequence.h"
@@ -56,7 +58,7 @@ class Session {
   void moveEdge(float column);
   void releaseEdge() { heldEdge_ = nullptr; }
   [[nodiscard]] bool holdsEdge() const { return heldEdge_ != nullptr; }
-  /// To be called after a setting of the method has changed.
+  /// To be called after settings of the method may have changed.
   void settingsChanged();
   /// Jump ahead by half the animation or, with a free camera, to the pose of the scene's camera.
   void cutCamera();
@@ -66,14 +68,21 @@ class Session {
 
   /// The largest change since the last call.
   GraphChange takeGraphChange();
+  /// To be called when a graph runs with the choices: methods, their settings and the view.
+  void accept();
+  /// Go back to the choices last accepted, because those made since then are refused.
+  /// @returns false, without any effect, if none were accepted, or none made since then
+  bool refuse(const std::string& reason);
+  /// Why the last choice was refused, for the user; empty once another was accepted.
+  [[nodiscard]] const std::string& refusal() const { return refusal_; }
 
   [[nodiscard]] const Tracer& tracer() const { return tracer_; }
-  [[nodiscard]] const std::string& methodName() const { return methodName_; }
-  [[nodiscard]] Denoiser& method() { return *method_; }
+  [[nodiscard]] const std::string& methodName() const { return choices_.methodName; }
+  [[nodiscard]] Denoiser& method() { return *choices_.method; }
   /// See `presetInUse`.
   [[nodiscard]] const std::optional<std::string>& preset() const { return preset_; }
-  [[nodiscard]] const std::string& comparedName() const { return comparedName_; }
-  [[nodiscard]] const HostView& view() const { return view_; }
+  [[nodiscard]] const std::string& comparedName() const { return choices_.comparedName; }
+  [[nodiscard]] const HostView& view() const { return choices_.view; }
   /// Speed of the flying camera in scene units per second.
   [[nodiscard]] float flySpeed() const;
   [[nodiscard]] CameraMode cameraMode() const { return cameraMode_; }
@@ -85,8 +94,11 @@ class Session {
   bool autoExposure = true;
   /// Size of the pictures; nullopt: the tracer's.
   std::optional<fg::Extent> extent;
-  double targetMilliseconds = 0.0;  ///< See `ResolutionControl::setTarget`.
-  std::string message;              ///< What the user should know of the scene; may be empty.
+  /// Whether indirect light is resampled from earlier frames; only if the tracer can (`Tracer::whyNotResampled`).
+  bool resample = false;
+  std::uint32_t resampledFrames = 20;  ///< From how many; engines take 20 to 30.
+  double targetMilliseconds = 0.0;     ///< See `ResolutionControl::setTarget`.
+  std::string message;                 ///< What the user should know of the scene; may be empty.
   /// Objects and lights move with the animation; otherwise they stand still, and only the camera moves.
   bool objectsMove = true;
   bool paused = false;  ///< The animation stands still; tracing continues.
@@ -95,13 +107,28 @@ class Session {
   bool dragging = false;
 
  private:
+  /// What a graph is made of.
+  struct Choices {
+    std::string methodName;
+    std::shared_ptr<Denoiser> method;
+    std::string comparedName = "none";
+    std::shared_ptr<Denoiser> compared = makeDenoiser("none");
+    HostView view = {};
+  };
+  struct Accepted {
+    Choices choices;
+    SettingValues settings;  ///< Of the method.
+  };
+
+  /// To be called after every choice.
+  void note(GraphChange change);
+
   Tracer& tracer_;
-  std::string methodName_;
-  std::unique_ptr<Denoiser> method_;
+  Choices choices_;
+  std::optional<Accepted> accepted_;
+  bool chosen_ = false;  // A choice was made that was neither accepted nor refused.
+  std::string refusal_;
   std::optional<std::string> preset_;
-  std::string comparedName_ = "none";
-  std::unique_ptr<Denoiser> compared_ = makeDenoiser(comparedName_);
-  HostView view_;
   FrameRange frames_;
   bool once_;
   CameraMode cameraMode_ = CameraMode::Scene;

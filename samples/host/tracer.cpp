@@ -4,6 +4,7 @@
 #include <chrono>
 #include <functional>
 #include <optional>
+#include <stdexcept>
 #include <utility>
 
 #include "samples/denoise/frame_output.h"
@@ -29,27 +30,37 @@ void moveDirect(Image& direct, Image& indirect) {
 
 }  // namespace
 
-Tracer::Content::Content(const Options& options, const GpuDevice* gpu)
+Tracer::Content::Content(const Options& options, bool onDevice)
     : scene(loadViewableScene(options.scene, options.sky)),
       camera(render::findCamera(scene, options.camera)),
-      world(scene, gpu != nullptr ? render::RayCasting::None : render::RayCasting::Embree) {
-  if (gpu == nullptr) return;
-  if (options.gbuffer != render::GBufferMode::FirstHit) {
+      world(scene, onDevice ? render::RayCasting::None : render::RayCasting::Embree) {
+  if (onDevice && options.gbuffer != render::GBufferMode::FirstHit) {
     throw render::SceneError("--gbuffer material: the path tracer on the GPU has only first-hit; use --tracer cpu");
   }
-  device = std::make_unique<gpu_render::GpuScene>(*gpu, world);
+}
+
+void Tracer::Content::prepare(const GpuDevice& gpu) {
+  device = std::make_unique<gpu_render::GpuScene>(gpu, world);
   device->prepare(gpu_render::Precision::Half);
 }
 
 Tracer::Tracer(const Options& options, const GpuDevice* gpu)
-    : options_(options), gpu_(gpu), content_(std::make_unique<Content>(options, gpu)) {}
+    : options_(options), gpu_(gpu), content_(std::make_unique<Content>(options, gpu != nullptr)) {
+  if (gpu_ != nullptr) content_->prepare(*gpu_);
+}
 
-void Tracer::open(const std::filesystem::path& file) {
+std::unique_ptr<Tracer::Content> Tracer::read(const std::filesystem::path& file) const {
   Options options = options_;
   options.scene = file;
   options.camera.clear();
-  content_ = std::make_unique<Content>(options, gpu_);
-  options_ = options;
+  auto content = std::make_unique<Content>(options, gpu_ != nullptr);
+  content->exposure = exposureOf(*content, 0.0);
+  return content;
+}
+
+void Tracer::show(std::unique_ptr<Content> content) {
+  if (gpu_ != nullptr) content->prepare(*gpu_);
+  content_ = std::move(content);
   previous_.reset();
   reference_ = {};
 }
@@ -73,16 +84,21 @@ glm::vec4 Tracer::bounds() const {
 }
 
 float Tracer::exposure(double animationFrame) {
+  if (animationFrame == 0.0 && content_->exposure) return *content_->exposure;
+  return exposureOf(*content_, animationFrame);
+}
+
+float Tracer::exposureOf(Content& content, double animationFrame) const {
   // Noise lowers the mean of logarithms, so few pixels with many samples are better than the reverse.
   constexpr std::uint32_t kRows = 36;
   constexpr std::uint32_t kSamples = 64;
   const double seconds = animationFrame / options_.framesPerSecond;
-  // If the device traces, the processor cannot cast rays in `Content::world`.
+  // If a device traces, the processor cannot cast rays in `Content::world`.
   std::optional<render::World> forProcessor;
-  render::World& world = content_->device ? forProcessor.emplace(content_->scene) : content_->world;
+  render::World& world = gpu_ != nullptr ? forProcessor.emplace(content.scene) : content.world;
   world.moveTo(seconds, seconds);
   const std::uint32_t columns = std::max(1U, kRows * options_.extent.width / options_.extent.height);
-  const render::View view = render::viewFrom(world, content_->camera, columns, kRows, {}, {});
+  const render::View view = render::viewFrom(world, content.camera, columns, kRows, {}, {});
   const Frame frame = render::toFrame(
       render::renderFilm(world, view, {.samples = kSamples, .bounces = options_.bounces, .threads = options_.threads}),
       view, 0);
@@ -107,13 +123,36 @@ glm::ivec2 Tracer::lightOffset(const Request& request) const {
   return lightOffsetOfFrame(options_.light, static_cast<std::uint32_t>(request.number));
 }
 
+std::string Tracer::whyNotResampled() const {
+  if (content_->device) return "the path tracer on the GPU does not resample: use --tracer cpu";
+  if (!options_.light.everyPixel()) return "only light at every pixel can be resampled: use --light-rate 1";
+  return {};
+}
+
+render::Reservoirs* Tracer::reservoirsFor(const Request& request) {
+  if (request.resampledFrames == 0) {
+    reservoirs_.reset();
+    return nullptr;
+  }
+  const std::string reason = whyNotResampled();
+  if (!reason.empty()) throw std::invalid_argument(reason);
+  const bool goesOn = previous_ && !request.cut && !request.resetHistory &&
+                      previous_->resampledFrames == request.resampledFrames &&
+                      extentOf(*previous_) == extentOf(request);
+  if (!goesOn) {
+    const fg::Extent extent = extentOf(request);
+    reservoirs_.emplace(extent.width, extent.height, static_cast<float>(request.resampledFrames));
+  }
+  return &*reservoirs_;
+}
+
 render::View Tracer::moveTo(const Request& request) {
   const double before = previous_ ? previous_->animationFrame : request.animationFrame;
   content_->world.moveTo(request.animationFrame / options_.framesPerSecond, before / options_.framesPerSecond);
   return viewOf(request);
 }
 
-render::SamplingSettings Tracer::samplingOf(const Request& request) const {
+render::SamplingSettings Tracer::samplingOf(const Request& request) {
   render::SamplingSettings sampling;
   sampling.samples = options_.samples;
   sampling.bounces = options_.bounces;
@@ -124,6 +163,7 @@ render::SamplingSettings Tracer::samplingOf(const Request& request) const {
   sampling.threads = options_.threads;
   sampling.light = options_.light;
   sampling.lightOffset = lightOffset(request);
+  sampling.reservoirs = reservoirsFor(request);
   return sampling;
 }
 

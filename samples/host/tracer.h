@@ -16,6 +16,7 @@
 #include "samples/host/traced_rays.h"
 #include "samples/render/film.h"
 #include "samples/render/gbuffer.h"
+#include "samples/render/resampling.h"
 #include "samples/render/scene.h"
 #include "samples/render/world.h"
 #include "samples/sequence/frame.h"
@@ -58,6 +59,9 @@ class Tracer {
     bool cut = false;           ///< Camera cut: nothing is carried over from the previous frame.
     bool resetHistory = false;  ///< Nothing is carried over from the previous frame, without a camera cut.
     bool reference = false;     ///< Add a reference: the mean of all samples since the image last changed.
+    /// Frames before this one whose samples of indirect light are used again (`render::resample`), at most; 0: none.
+    /// They are dropped wherever the history is, and where this number or the size of the picture changes.
+    std::uint32_t resampledFrames = 0;
   };
 
   /// @param gpu  traces the frames, must outlive this (see `gpu_render::GpuScene`); null: the processor does
@@ -65,15 +69,36 @@ class Tracer {
   ///         `loadViewableScene`
   explicit Tracer(const Options& options, const GpuDevice* gpu = nullptr);
 
-  /// Trace another scene with the same options, seen by its first camera. The next frame has no previous one.
+  /// A scene in the processor's memory, and what a device needs of it.
+  struct Content {
+    /// For errors see the constructor of `Tracer`.
+    /// @param onDevice  a device traces it, see `prepare`
+    Content(const Options& options, bool onDevice);
+    /// Make what a device needs to trace it. This uses the device's queue.
+    void prepare(const GpuDevice& gpu);
+
+    render::Scene scene;
+    std::uint32_t camera;
+    render::World world;
+    std::unique_ptr<gpu_render::GpuScene> device = nullptr;  ///< Null if the processor traces, and before `prepare`.
+    std::optional<float> exposure = std::nullopt;            ///< At the start of the animation; see `Tracer::exposure`.
+  };
+
+  /// Read another scene to be traced with the same options, seen by its first camera. Other threads may use the tracer
+  /// meanwhile.
+  /// @throws as the constructor
+  [[nodiscard]] std::unique_ptr<Content> read(const std::filesystem::path& file) const;
+  /// Trace a scene that was read. The next frame has no previous one.
   /// @throws as the constructor; then nothing has changed
-  void open(const std::filesystem::path& file);
+  void show(std::unique_ptr<Content> content);
 
   [[nodiscard]] fg::Extent extent() const { return options_.extent; }
   [[nodiscard]] bool denoisesDirect() const { return options_.denoiseDirect; }
   /// See `render::Scene::warnings`.
   [[nodiscard]] const std::vector<std::string>& warnings() const { return content_->scene.warnings; }
   [[nodiscard]] const LightPattern& light() const { return options_.light; }
+  /// Why `Request::resampledFrames` must be 0; empty if it need not.
+  [[nodiscard]] std::string whyNotResampled() const;
   /// Pose of the scene's camera in a frame of the animation: world to view space.
   [[nodiscard]] glm::mat4 sceneCamera(double animationFrame) const;
   /// Number of the animation's last frame; 0 for a static scene.
@@ -89,10 +114,12 @@ class Tracer {
   [[nodiscard]] const gpu_render::GpuScene* gpuScene() const { return content_->device.get(); }
 
   /// Trace a frame on the processor. Its previous frame is that of the previous call.
+  /// @throws std::invalid_argument for samples that are to be used again but cannot, see `whyNotResampled`
   Frame trace(const Request& request);
   /// The rays of the last frame that the processor traced, with those of its reference.
   [[nodiscard]] const TracedRays& traced() const { return traced_; }
   /// The next frame for the host's graph: traced, or what the device needs to trace it.
+  /// @throws see `trace`
   HostFrame hostFrame(const Request& request);
 
  private:
@@ -112,27 +139,22 @@ class Tracer {
   [[nodiscard]] fg::Extent extentOf(const Request& request) const { return request.extent.value_or(options_.extent); }
   [[nodiscard]] glm::ivec2 lightOffset(const Request& request) const;
   [[nodiscard]] render::View viewOf(const Request& request) const;
-  [[nodiscard]] render::SamplingSettings samplingOf(const Request& request) const;
+  render::SamplingSettings samplingOf(const Request& request);
+  /// The samples that a frame uses again and keeps for the next one; null if it does neither.
+  render::Reservoirs* reservoirsFor(const Request& request);
   /// To be called for every frame, in the end.
   void finish(const Request& request, const render::View& view, Frame& frame);
   Reference traceReference(const Request& request, const render::View& view);
 
-  /// A scene, ready to be traced.
-  struct Content {
-    /// For parameters and errors see `Tracer`.
-    Content(const Options& options, const GpuDevice* gpu);
-
-    render::Scene scene;
-    std::uint32_t camera;
-    render::World world;
-    std::unique_ptr<gpu_render::GpuScene> device;  ///< Null if the processor traces.
-  };
+  /// The exposure of a scene that is not being traced.
+  [[nodiscard]] float exposureOf(Content& content, double animationFrame) const;
 
   Options options_;
   const GpuDevice* gpu_;
   std::unique_ptr<Content> content_;
   std::optional<Request> previous_;
   glm::mat4 previousView_{1.0F};
+  std::optional<render::Reservoirs> reservoirs_;  // Of the previous frame; none if that was not resampled.
   Accumulation reference_;
   TracedRays traced_;
 };

@@ -1,8 +1,12 @@
 // The sample host with the path tracer as a pass of its graph.
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <iostream>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -83,6 +87,31 @@ TEST_F(GpuHost, RendersThreeHundredMovingFramesWithoutAMessage) {
   EXPECT_NO_THROW(gpu.refuseMessages());
 }
 
+// As in a window: the size of frames changes while others are in flight, which takes another graph with the histories
+// of the one before. Minimised, the window records nothing, and the device comes to rest.
+TEST_F(GpuHost, ResizesAndRestsInThreeHundredMovingFramesWithoutAMessage) {
+  LiveTurntable window(gpu);
+  const std::unique_ptr<Denoiser> method = makeDenoiser("walr");
+  constexpr std::array kSizes{kExtent, fg::Extent{37, 22}, fg::Extent{20, 12}, fg::Extent{31, 19}};
+  constexpr int kFrames = 300;
+  constexpr int kFramesOfASize = 12;
+  constexpr int kFramesUntilARest = 50;
+  for (int number = 0; number < kFrames; ++number) {
+    const fg::Extent extent = kSizes.at(static_cast<std::size_t>(number / kFramesOfASize) % kSizes.size());
+    if (number % kFramesOfASize == 0) {
+      window.live.setExtent(extent);
+      window.live.declare(*method, {}, LiveFrame::Start::FromHistory);
+    }
+    window.record({.number = number, .animationFrame = static_cast<double>(number % 48), .extent = extent});
+    EXPECT_EQ(window.live.shown(), extent);
+    if (number % kFramesUntilARest == 0) window.queue.waitAll();
+  }
+  window.queue.waitAll();
+  for (const fg::vk::HistoryStatus& history : window.live.histories()) {
+    EXPECT_EQ(history.age, static_cast<std::uint32_t>(kFrames));
+  }
+}
+
 // The same random numbers lead to the same frames, but for roundings.
 TEST_F(GpuHost, ShowsWhatTheTracerOnTheProcessorShows) {
   for (const bool denoiseDirect : {false, true}) {
@@ -159,7 +188,7 @@ TEST_F(GpuHost, TracesAnotherScene) {
   const std::unique_ptr<Denoiser> method = makeDenoiser("walr");
   for (const char* const scene : {"box.gltf", "kitchen.gltf", "turntable.gltf"}) {
     window.queue.waitAll();
-    window.tracer.open(std::string(WALR_SCENES "/") + scene);
+    window.tracer.show(window.tracer.read(std::string(WALR_SCENES "/") + scene));
     window.live.changeScene(window.tracer.gpuScene());
     window.live.declare(*method, {}, LiveFrame::Start::Anew);
     for (int number = 0; number < 4; ++number) window.record({.number = number});
@@ -173,6 +202,8 @@ TEST_F(GpuHost, RefusesWhatOnlyTheProcessorTraces) {
   EXPECT_THROW(Tracer(material, &gpu), render::SceneError);
 
   Tracer tracer(tracing("box.gltf"), &gpu);
+  EXPECT_NE(tracer.whyNotResampled().find("--tracer cpu"), std::string::npos);
+  EXPECT_THROW(tracer.hostFrame({.resampledFrames = 20}), std::invalid_argument);
   const std::unique_ptr<Denoiser> method = makeDenoiser("walr");
   for (const HostView::Kind kind : {HostView::Kind::Reference, HostView::Kind::Split}) {
     EXPECT_THROW(Renderer(gpu, *method, kExtent, {.view = {kind, ""}, .scene = tracer.gpuScene()}), UsageError);

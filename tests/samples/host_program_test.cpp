@@ -63,6 +63,24 @@ TEST_F(HostProgramTest, TracesAndDenoisesSparseLight) {
                       {"method 'svgf'"});
 }
 
+TEST_F(HostProgramTest, ResamplesLight) {
+  const auto last = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{scene, "-o", output.string(), "--frames", "11-14", "--method", "none"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const test::ProcessResult result = host(arguments);
+    EXPECT_EQ(result.exitCode, 0) << result.err;
+    return test::readText(output / "frame_0014.png");
+  };
+  const std::string plain = last({});
+  EXPECT_NE(last({"--resampled-frames", "20"}), plain);
+  EXPECT_EQ(last({"--resampled-frames", "0"}), plain);
+  const test::ProcessResult automatic =
+      host({scene, "-o", output.string(), "--frames", "0-0", "--resampled-frames", "20"});
+  EXPECT_NE(automatic.out.find("tracer: CPU (Embree), because the GPU's path tracer has no --resampled-frames\n"),
+            std::string::npos)
+      << automatic.out;
+}
+
 TEST_F(HostProgramTest, ComparesTwoMethods) {
   const fs::path alone = folder.path() / "alone";
   const std::vector<std::string> frames = {scene, "--frames", "11-12"};
@@ -93,6 +111,9 @@ TEST_F(HostProgramTest, RefusesCommandLinesWithoutMeaning) {
   expectUsage({scene, "-o", output.string(), "--compare", "walr:nothing"}, "nothing");
   expectUsage({scene, "-o", output.string(), "--compare", "svgf", "--view", "noisy"}, "--compare");
   expectUsage({scene, "-o", output.string(), "--light-rate", "1/3"}, "--light-rate");
+  expectUsage({scene, "-o", output.string(), "--light-rate", "1/4", "--resampled-frames", "20"}, "--resampled-frames");
+  expectUsage({scene, "-o", output.string(), "--tracer", "gpu", "--resampled-frames", "20"}, "--tracer cpu");
+  expectUsage({scene, "-o", output.string(), "--resampled-frames", "1001"}, "--resampled-frames");
   expectUsage({scene, "-o", output.string(), "--view", "nothing"}, "'guides.depth.current'");
   EXPECT_FALSE(fs::exists(output));
 }

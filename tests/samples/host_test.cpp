@@ -380,7 +380,7 @@ TEST_F(LiveFrameTest, AnotherSceneStartsWithoutHistory) {
   for (int i = 0; i < 3; ++i) record();
   queue.waitAll();
   live.changeScene(nullptr);
-  tracer.open(WALR_SCENES "/turntable.gltf");
+  tracer.show(tracer.read(WALR_SCENES "/turntable.gltf"));
   EXPECT_FALSE(live.declared());
   live.declare(*method, {}, LiveFrame::Start::FromHistory);
   record();

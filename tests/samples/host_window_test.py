@@ -21,6 +21,7 @@ from virtual_screen import PATIENCE, FileDrop, Hands, WindowManager, read_png, v
 
 WIDTH, HEIGHT = 160, 90
 PANEL_WIDTH = 420
+REFUSAL_COLOUR = (110, 50, 20)  # Of the ground of the message.
 
 
 def find_picture(screen, picture):
@@ -37,17 +38,18 @@ def find_picture(screen, picture):
 
 def distance(a, b):
     """Mean difference of two images, in levels of 255."""
-    return sum(abs(x - y) for row, other in zip(a, b) for x, y in zip(row, other)) / (3 * WIDTH * HEIGHT)
+    return sum(abs(x - y) for row, other in zip(a, b) for x, y in zip(row, other)) / (len(a) * len(a[0]))
 
 
 class Host:
     """The program: without a window it writes the expected images, with one it shows them."""
 
-    def __init__(self, program, scene, folder, screenshot):
+    def __init__(self, program, scene, folder, screenshot, size=(WIDTH, HEIGHT)):
         self.program, self.scene, self.folder, self.screenshot = program, scene, folder, screenshot
+        self.size = size
 
     def command(self, frames, options):
-        return [self.program, self.scene, "--frames", frames, "--size", f"{WIDTH}x{HEIGHT}", *options]
+        return [self.program, self.scene, "--frames", frames, "--size", f"{self.size[0]}x{self.size[1]}", *options]
 
     def pictures(self, frames, *options):
         """Images of the frames, by frame number."""
@@ -70,7 +72,7 @@ class Host:
         """The window, after `meanwhile` was called and it has reached the last frame and stopped there."""
         last = int(frames.split("-")[1])
         expected = self.pictures(frames, *options)[last]
-        if len({bytes(row) for row in expected}) < HEIGHT // 2:
+        if len({bytes(row) for row in expected}) < self.size[1] // 2:
             sys.exit("the expected image has too few distinct rows to be found")
         process = subprocess.Popen([*self.command(frames, options), "--once", "--validate"],
                                    env={**os.environ, "DISPLAY": screen.display}, stdout=subprocess.DEVNULL,
@@ -86,7 +88,7 @@ class Host:
             print(f"the picture stands at {place}")
             # What the panel tells of the frame follows with the next drawing.
             time.sleep(1.0)
-            yield Window(screen, place)
+            yield Window(screen, place, self.size)
             process.send_signal(signal.SIGTERM)
             code = process.wait(timeout=PATIENCE)
             complaint = process.stderr.read()
@@ -109,13 +111,13 @@ class Window:
     LINE = 23  # From one widget to that below it.
     ITEM = 17  # From one item of a list to that below it.
 
-    def __init__(self, screen, place):
-        self.screen, self.place, self.hands = screen, place, Hands(screen)
-        self.panel = place[0] + WIDTH
+    def __init__(self, screen, place, size):
+        self.screen, self.place, self.size, self.hands = screen, place, size, Hands(screen)
+        self.panel = place[0] + size[0]
         self.view_extras = 0
 
     def picture(self):
-        return self.screen.rows(*self.place, WIDTH, HEIGHT)
+        return self.screen.rows(*self.place, *self.size)
 
     def at(self, x, y):
         return self.panel + x, y
@@ -362,6 +364,37 @@ def play(host, screen):
         print(f"the animation goes on: frames {sorted(seen)} were seen")
 
 
+def refused(host, screen):
+    """A choice that is refused leaves the picture, the panel says why, and the next one works."""
+    sparse = ("--light-rate", "1/4", "--method", "accumulate", "--set", "accumulation.antilag=on")
+
+    def explained(window):
+        return any(bytes(REFUSAL_COLOUR) * 10 in row for row in window.rows())
+
+    with host.window(screen, "0-3", *sparse) as window:
+        before = window.picture()
+        names = host.known("--method")
+        window.hands.click(*window.at(200, 158))  # Closes the times and the memory, so that settings are in sight.
+        window.hands.click(*window.at(200, 181))
+        # Frozen, the panel stands still: what changes is the list alone.
+        top = wait_for(lambda: window.opened_list(135, len(names)), "the list of methods")
+        window.hands.click(*window.at(100, top + 8 + 6 + names.index("svgf") * Window.ITEM))
+        window.hands.click(*window.at(250, 700))
+        window.must_show(before, "the same picture after a click at a grey method")
+
+        antilag_low, antilag_radius = 480, 457
+        window.hands.click(*window.at(150, antilag_low))
+        wait_for(lambda: explained(window), "the reason why antilag-low may not be above antilag-high")
+        window.must_show(before, "the same picture after a setting that is refused")
+        write_png(host.screenshot, screen.rows())
+        window.hands.click(*window.at(200, antilag_radius))
+        wait_for(lambda: not explained(window), "the reason to vanish after another setting")
+    again = subprocess.run(host.command("0-3", ["--light-rate", "1/4", "--method", "svgf"]), capture_output=True, text=True,
+                           env={**os.environ, "DISPLAY": screen.display}, timeout=PATIENCE, check=False)
+    if again.returncode != 2 or "method 'svgf'" not in again.stderr:
+        sys.exit(f"what the command line asks for is refused with {again.returncode}: {again.stderr}")
+
+
 def drop(host, screen):
     """A scene that is dropped onto the window takes the place of the old one; a file that is none leaves it."""
     view = ("--view", "albedo")
@@ -380,8 +413,9 @@ def drop(host, screen):
         write_png(host.screenshot, screen.rows())
 
 
-def resize(host, screen):
+def resize(host, screen, *options):
     """While objects, lights and camera move for 300 frames, the window changes its size and is minimised."""
+    full = host.size[0] + PANEL_WIDTH
     manager = WindowManager(screen)
     # 48 frames of the animation at 24 frames a second become 300.
     fast = ("--fps", "150")
@@ -389,7 +423,7 @@ def resize(host, screen):
     def meanwhile():
         wait_for(manager.window, "the window")
         time.sleep(1.0)
-        for width, height in ((900, 700), (580, 720), (430, 90), (421, 1), (1200, 400), (100, 60), (640, 720)):
+        for width, height in ((900, 700), (full, 720), (430, 90), (421, 1), (1200, 400), (100, 60), (640, 720)):
             manager.resize(width, height)
             time.sleep(0.4)
             manager.minimise()
@@ -397,22 +431,29 @@ def resize(host, screen):
             manager.restore()
             time.sleep(0.2)
         for step in range(40):
-            manager.resize(580 + 5 * step, 720 - 8 * step)
+            manager.resize(full + 5 * step, 720 - 8 * step)
             time.sleep(0.02)
-        manager.resize(580, 720)
+        manager.resize(full, 720)
 
-    with host.window(screen, "0-299", *fast, meanwhile=meanwhile):
+    with host.window(screen, "0-299", *fast, *options, meanwhile=meanwhile):
         write_png(host.screenshot, screen.rows())
+
+
+def resize_on_device(host, screen):
+    """The same with the path tracer as a pass of the graph."""
+    # So few pixels and bounces that a software driver traces some frames a second.
+    host.size = (48, 28)
+    resize(host, screen, "--tracer", "gpu", "--bounces", "1")
 
 
 def main():
     scenario, program, scenes, screenshot = sys.argv[1:]
-    scene = "turntable.gltf" if scenario in ("play", "resize") else "box.gltf"
+    scene = "turntable.gltf" if scenario in ("play", "resize", "resize_on_device") else "box.gltf"
     with tempfile.TemporaryDirectory() as folder, virtual_screen(folder) as screen:
         host = Host(program, pathlib.Path(scenes) / scene, pathlib.Path(folder), pathlib.Path(screenshot))
         scenarios = {"denoised": denoised, "split": split, "texture": texture, "methods": methods, "views": views,
-                     "play": play, "drop": drop,
-                     "resize": resize}
+                     "play": play, "refused": refused, "drop": drop, "resize": resize,
+                     "resize_on_device": resize_on_device}
         scenarios[scenario](host, screen)
 
 

@@ -1,9 +1,17 @@
 // What the user of the sample host does between frames: the camera, playback, and which changes need another graph. No
 // device is needed.
+#include <algorithm>
+#include <chrono>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <future>
+#include <memory>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
+#include <thread>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -14,9 +22,10 @@
 #include "passes/denoiser.h"
 #include "samples/host/camera_control.h"
 #include "samples/host/default_extent.h"
-#include "samples/host/open_scene.h"
 #include "samples/host/resolution_control.h"
+#include "samples/host/scene_loader.h"
 #include "samples/host/session.h"
+#include "samples/host/setting_values.h"
 #include "samples/host/tracer.h"
 #include "tests/samples/temporary_directory.h"
 
@@ -102,6 +111,18 @@ TEST_F(SessionTest, PauseHoldsTheAnimationAndGoesOnSampling) {
   EXPECT_NE(first.number, second.number);
 }
 
+TEST_F(SessionTest, AsksForResampledLightWhileThatIsOn) {
+  Session session = make({0, 9}, false);
+  EXPECT_EQ(session.nextRequest()->resampledFrames, 0U);
+  session.resample = true;
+  EXPECT_EQ(session.nextRequest()->resampledFrames, 20U);
+  session.resampledFrames = 5;
+  EXPECT_EQ(session.nextRequest()->resampledFrames, 5U);
+  session.resample = false;
+  EXPECT_EQ(session.nextRequest()->resampledFrames, 0U);
+  EXPECT_EQ(session.takeGraphChange(), GraphChange::None);
+}
+
 TEST_F(SessionTest, CutsAndResetsAreAskedOnce) {
   Session session = make({0, 9}, false);
   session.nextRequest();
@@ -149,6 +170,66 @@ TEST_F(SessionTest, TellsThePresetInUse) {
   EXPECT_EQ(session.preset(), "tuned");
   session.chooseMethod("none");
   EXPECT_EQ(session.preset(), std::nullopt);
+}
+
+TEST_F(SessionTest, RefusedChoicesGoBackToThoseLastAccepted) {
+  Session session = make({0, 9}, false);
+  session.chooseMethod("svgf");
+  EXPECT_FALSE(session.refuse("of the first")) << "there is nothing to go back to";
+  EXPECT_EQ(session.methodName(), "svgf");
+  EXPECT_EQ(session.refusal(), "");
+  session.method().set("accumulation.max-history", "5");
+  session.settingsChanged();
+  session.accept();
+  EXPECT_FALSE(session.refuse("of nothing")) << "nothing has been chosen since";
+
+  Denoiser* const accepted = &session.method();
+  session.method().set("accumulation.max-history", "6");
+  session.settingsChanged();
+  session.chooseMethod("flr");
+  session.chooseView({HostView::Kind::Compare, ""});
+  session.compareWith("bmfr", makeDenoiser("bmfr"));
+  EXPECT_TRUE(session.refuse("of two"));
+  EXPECT_EQ(session.refusal(), "Not changed: of two");
+  EXPECT_EQ(session.methodName(), "svgf");
+  EXPECT_EQ(&session.method(), accepted);
+  const auto settings = session.method().settings();
+  EXPECT_EQ(std::ranges::find(settings, "accumulation.max-history", &SettingText::name)->value, "5");
+  EXPECT_EQ(session.preset(), std::nullopt);
+  EXPECT_EQ(session.view(), HostView{});
+  EXPECT_EQ(session.comparedName(), "none");
+  session.takeGraphChange();
+  session.settingsChanged();
+  EXPECT_EQ(session.takeGraphChange(), GraphChange::None) << "all values are those that were accepted";
+  session.accept();
+  EXPECT_NE(session.refusal(), "") << "nothing has been chosen since";
+  session.choosePreset("paper");
+  session.accept();
+  EXPECT_EQ(session.refusal(), "");
+}
+
+TEST_F(SessionTest, EverySettingGoesBackToTheBit) {
+  for (const std::string& name : denoiserNames()) {
+    const std::unique_ptr<Denoiser> method = makeDenoiser(name);
+    const std::vector<SettingText> defaults = method->settings();
+    const SettingValues values(*method);
+    // A third is no number of decimals, which text would keep.
+    struct : SettingVisitor {
+      void visit(const SettingInfo& /*info*/, float& value) override { value += 1.0F / 3.0F; }
+      void visit(const SettingInfo& /*info*/, std::uint32_t& value) override { ++value; }
+      void visit(const SettingInfo& /*info*/, bool& value) override { value = !value; }
+      void choice(const SettingInfo& /*info*/, std::span<const std::string_view> names, std::uint32_t& value) override {
+        value = (value + 1) % static_cast<std::uint32_t>(names.size());
+      }
+    } change;
+    method->visitSettings(change);
+    const SettingValues changed(*method);
+    values.restore(*method);
+    const std::vector<SettingText> after = method->settings();
+    for (std::size_t i = 0; i < after.size(); ++i) EXPECT_EQ(after[i].value, defaults[i].value) << after[i].name;
+    EXPECT_TRUE(SettingValues(*method) == values) << name;
+    EXPECT_EQ(changed == values, after.empty()) << name;
+  }
 }
 
 TEST_F(SessionTest, FreeCameraStartsFromTheScenes) {
@@ -227,7 +308,7 @@ TEST_F(SessionTest, ComparesWithAnotherMethod) {
 }
 
 TEST_F(SessionTest, ObjectsStandStillWhileTheCameraMoves) {
-  tracer.open(WALR_SCENES "/turntable.gltf");
+  tracer.show(tracer.read(WALR_SCENES "/turntable.gltf"));
   Session session = make({12, 20}, false);
   session.nextRequest();
   session.nextRequest();
@@ -313,7 +394,7 @@ TEST_F(ResolutionTest, StaysBetweenHalfAndAllOfTheSides) {
   EXPECT_EQ(changes, 3);
 }
 
-class OpenSceneTest : public SessionTest {
+class SceneLoaderTest : public SessionTest {
  protected:
   /// A scene of the project without some of its parts.
   std::filesystem::path without(const std::string& scene, const std::vector<std::string>& nodeParts) {
@@ -329,10 +410,17 @@ class OpenSceneTest : public SessionTest {
     return file;
   }
 
+  bool open(const std::filesystem::path& file, Session& session) {
+    SceneLoader loader(tracer, session);
+    loader.start(file);
+    while (!loader.done()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    return loader.finish();
+  }
+
   test::TemporaryDirectory folder;
 };
 
-TEST_F(OpenSceneTest, KeepsSettingsAndStartsCameraAndHistoryAnew) {
+TEST_F(SceneLoaderTest, KeepsSettingsAndStartsCameraAndHistoryAnew) {
   Session session = make({2, 9}, false);
   session.chooseMethod("svgf");
   session.method().set("accumulation.max-history", "5");
@@ -342,7 +430,7 @@ TEST_F(OpenSceneTest, KeepsSettingsAndStartsCameraAndHistoryAnew) {
   tracer.trace(session.nextRequest().value());
   const glm::mat4 before = tracer.sceneCamera(0.0);
   session.takeGraphChange();
-  ASSERT_TRUE(openScene(WALR_SCENES "/turntable.gltf", tracer, session)) << session.message;
+  ASSERT_TRUE(open(WALR_SCENES "/turntable.gltf", session)) << session.message;
 
   Tracer::Options options = boxScene();
   options.scene = WALR_SCENES "/turntable.gltf";
@@ -366,15 +454,15 @@ TEST_F(OpenSceneTest, KeepsSettingsAndStartsCameraAndHistoryAnew) {
   EXPECT_EQ(frame.camera.previousView, frame.camera.view);
 }
 
-TEST_F(OpenSceneTest, AChosenExposureStays) {
+TEST_F(SceneLoaderTest, AChosenExposureStays) {
   Session session = make({0, 9}, false);
   session.autoExposure = false;
   session.viewConstants.stops = 2.5F;
-  ASSERT_TRUE(openScene(WALR_SCENES "/turntable.gltf", tracer, session));
+  ASSERT_TRUE(open(WALR_SCENES "/turntable.gltf", session));
   EXPECT_EQ(session.viewConstants.stops, 2.5F);
 }
 
-TEST_F(OpenSceneTest, AFileThatCannotBeReadIsNamedAndTheOldSceneGoesOn) {
+TEST_F(SceneLoaderTest, AFileThatCannotBeReadIsNamedAndTheOldSceneGoesOn) {
   const std::filesystem::path broken = folder.path() / "broken.glb";
   std::ofstream(broken) << "glTF";
   Session session = make({2, 9}, false);
@@ -382,7 +470,7 @@ TEST_F(OpenSceneTest, AFileThatCannotBeReadIsNamedAndTheOldSceneGoesOn) {
   tracer.trace(session.nextRequest().value());
   const glm::vec4 bounds = tracer.bounds();
   for (const std::filesystem::path& file : {broken, folder.path() / "missing.gltf", folder.path()}) {
-    EXPECT_FALSE(openScene(file, tracer, session));
+    EXPECT_FALSE(open(file, session));
     EXPECT_EQ(session.message.find("Not opened: " + file.string() + ": "), 0U) << session.message;
     EXPECT_GT(session.message.size(), ("Not opened: " + file.string() + ": ").size());
     EXPECT_EQ(tracer.bounds(), bounds);
@@ -393,10 +481,50 @@ TEST_F(OpenSceneTest, AFileThatCannotBeReadIsNamedAndTheOldSceneGoesOn) {
   EXPECT_EQ(session.animationFrame(), 5);
 }
 
+// The test holds the reading back as long as it likes.
+TEST_F(SceneLoaderTest, TheOldSceneGoesOnWhileAnotherIsRead) {
+  Session session = make({2, 9}, false);
+  std::promise<void> released;
+  const std::shared_future<void> release = released.get_future().share();
+  std::vector<std::string> read;
+  SceneLoader loader(tracer, session, [&](const std::filesystem::path& file) {
+    read.push_back(file.filename());
+    release.wait();
+    return tracer.read(file);
+  });
+  EXPECT_FALSE(loader.done());
+  session.paused = true;  // An animation that starts again would reset the history.
+  tracer.trace(session.nextRequest().value());
+  const glm::mat4 camera = tracer.sceneCamera(0.0);
+  loader.start(WALR_SCENES "/kitchen.gltf");
+  EXPECT_EQ(session.message, "Loading kitchen.gltf");
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_FALSE(loader.done());
+    EXPECT_FALSE(tracer.trace(session.nextRequest().value()).resetHistory);
+    EXPECT_EQ(tracer.sceneCamera(0.0), camera);
+  }
+  // Of what is dropped meanwhile, only the last is of interest.
+  loader.start(WALR_SCENES "/stair.gltf");
+  loader.start(WALR_SCENES "/turntable.gltf");
+  EXPECT_EQ(session.message, "Loading turntable.gltf");
+  EXPECT_EQ(session.takeGraphChange(), GraphChange::None);
+  released.set_value();
+  while (!loader.done()) EXPECT_FALSE(tracer.trace(session.nextRequest().value()).resetHistory);
+  EXPECT_TRUE(loader.done());
+  EXPECT_EQ(tracer.sceneCamera(0.0), camera) << "nothing changes before the end";
+  ASSERT_TRUE(loader.finish());
+  EXPECT_FALSE(loader.done());
+  EXPECT_EQ(read, (std::vector<std::string>{"kitchen.gltf", "turntable.gltf"}));
+  EXPECT_EQ(session.message, "turntable.gltf");
+  EXPECT_EQ(session.takeGraphChange(), GraphChange::Method);
+  EXPECT_NE(tracer.sceneCamera(0.0), camera);
+  EXPECT_TRUE(tracer.trace(session.nextRequest().value()).resetHistory);
+}
+
 // Most files that people have hold neither camera nor light.
-TEST_F(OpenSceneTest, WithoutCameraAndLightASceneIsSeenAllTheSame) {
+TEST_F(SceneLoaderTest, WithoutCameraAndLightASceneIsSeenAllTheSame) {
   Session session = make({0, 9}, false);
-  ASSERT_TRUE(openScene(without("turntable.gltf", {"camera", "extensions"}), tracer, session)) << session.message;
+  ASSERT_TRUE(open(without("turntable.gltf", {"camera", "extensions"}), session)) << session.message;
   EXPECT_NE(session.message.find("no camera"), std::string::npos) << session.message;
   EXPECT_NE(session.message.find("white sky"), std::string::npos) << session.message;
   EXPECT_EQ(session.message.find("black"), std::string::npos) << session.message;

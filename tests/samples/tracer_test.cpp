@@ -1,17 +1,25 @@
 // The sample host's tracer on the processor. No device is needed.
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
+#include <stdexcept>
+#include <vector>
 
 #include <gtest/gtest.h>
 
 #include "samples/denoise/frame_output.h"
 #include "samples/host/tracer.h"
 #include "samples/image/exposure.h"
+#include "samples/image/half.h"
 #include "samples/render/film.h"
 #include "samples/render/load_scene.h"
+#include "samples/render/render_sequence.h"
 #include "samples/render/view.h"
+#include "samples/sequence/sequence.h"
 #include "tests/samples/host_tracing.h"
+#include "tests/samples/temporary_directory.h"
 
 namespace walr::host {
 namespace {
@@ -114,6 +122,89 @@ TEST(Tracer, FollowsTheFrameBefore) {
   EXPECT_EQ(cut.camera.view, glm::mat4(1.0F));
   EXPECT_NEAR(tracer.lastAnimationFrame(), 47.0, 1e-4);
   EXPECT_GT(tracer.bounds().w, 2.0F);
+}
+
+Image rounded(Image image) {
+  for (float& value : image.values()) value = toHalf(value);
+  return image;
+}
+
+// The camera moves from frame 4 on.
+TEST(Tracer, ResamplesAsWalrRenderDoes) {
+  const test::TemporaryDirectory folder;
+  render::RenderOptions options;
+  options.scene = tracing().scene;
+  options.output = folder.path();
+  options.firstFrame = 2;
+  options.lastFrame = 8;
+  options.width = kExtent.width;
+  options.height = kExtent.height;
+  options.resampledFrames = 20;
+  render::renderSequence(options, {});
+  const Sequence sequence(folder.path(), {});
+  Tracer tracer(tracing());
+  Tracer plain(tracing());
+  for (int number = options.firstFrame; number <= options.lastFrame; ++number) {
+    const Frame expected = sequence.read(static_cast<std::size_t>(number - options.firstFrame));
+    ASSERT_EQ(expected.number, number);
+    Tracer::Request request{.number = number, .animationFrame = double(number)};
+    const Image light = plain.trace(request).indirect;
+    request.resampledFrames = options.resampledFrames;
+    const Image resampled = rounded(tracer.trace(request).indirect);
+    EXPECT_TRUE(std::ranges::equal(resampled.values(), expected.indirect.values())) << number;
+    EXPECT_FALSE(std::ranges::equal(rounded(light).values(), expected.indirect.values())) << number;
+  }
+}
+
+// Each of these leaves the light of the next frame as it is in a first frame.
+TEST(Tracer, DropsSamplesWithTheHistory) {
+  const auto light = [](Tracer& tracer, const Tracer::Request& request) { return tracer.trace(request).indirect; };
+  const Tracer::Request usual{.number = 5, .resampledFrames = 20};
+  const auto changed = [&](const std::function<void(Tracer::Request&)>& change) {
+    Tracer::Request request = usual;
+    change(request);
+    return request;
+  };
+  struct Case {
+    const char* name;
+    Tracer::Request request;
+    bool drops;
+  };
+  const std::vector<Case> cases{
+      {"none", usual, false},
+      {"a camera cut", changed([](Tracer::Request& request) { request.cut = true; }), true},
+      {"a reset", changed([](Tracer::Request& request) { request.resetHistory = true; }), true},
+      {"another size", changed([](Tracer::Request& request) {
+         request.extent = {36, 20};
+       }),
+       true},
+      {"another number", changed([](Tracer::Request& request) { request.resampledFrames = 19; }), true},
+  };
+  for (const Case& each : cases) {
+    Tracer tracer(tracing());
+    for (int number = 3; number < usual.number; ++number) light(tracer, {.number = number, .resampledFrames = 20});
+    Tracer fresh(tracing());
+    const bool same = std::ranges::equal(light(tracer, each.request).values(), light(fresh, each.request).values());
+    EXPECT_EQ(same, each.drops) << each.name;
+  }
+  // A frame without resampling, and another scene.
+  Tracer tracer(tracing());
+  light(tracer, {.number = 3, .resampledFrames = 20});
+  light(tracer, {.number = 4});
+  Tracer fresh(tracing());
+  EXPECT_TRUE(std::ranges::equal(light(tracer, usual).values(), light(fresh, usual).values()));
+  tracer.show(tracer.read(tracing("turntable.gltf").scene));
+  Tracer turntable(tracing("turntable.gltf"));
+  EXPECT_TRUE(std::ranges::equal(light(tracer, usual).values(), light(turntable, usual).values()));
+}
+
+TEST(Tracer, RefusesToResampleSparseLight) {
+  Tracer::Options options = tracing();
+  EXPECT_EQ(Tracer(options).whyNotResampled(), "");
+  options.light = {.columns = 2, .rows = 2};
+  Tracer tracer(options);
+  EXPECT_NE(tracer.whyNotResampled(), "");
+  EXPECT_THROW(tracer.trace({.resampledFrames = 20}), std::invalid_argument);
 }
 
 }  // namespace

@@ -13,9 +13,10 @@
 #include <GLFW/glfw3.h>
 
 #include "framegraph/vulkan/frame_queue.h"
+#include "samples/host/follow_session.h"
 #include "samples/host/live_frame.h"
-#include "samples/host/open_scene.h"
 #include "samples/host/resolution_control.h"
+#include "samples/host/scene_loader.h"
 #include "samples/host/window/interface.h"
 #include "samples/host/window/presenter.h"
 
@@ -53,6 +54,7 @@ class Show {
         picture_(device, extent),
         live_(device, picture_, kFramesInFlight, tracer.light(), tracer.gpuScene()),
         control_(extent),
+        loader_(tracer, session),
         queue_(device.device().context(), device.device().queue(), kFramesInFlight),
         interface_(device, window, kFramesInFlight) {
     facts_.deviceTraces = tracer.gpuScene() != nullptr;
@@ -85,7 +87,9 @@ class Show {
   }
 
  private:
+  /// Starts to trace the next frame, unless the session is frozen or another scene is about to be shown.
   void startTracing() {
+    if (loader_.done()) return;
     control_.setTarget(session_.targetMilliseconds);
     session_.extent = control_.extent();
     const bool needed = again_ || (change_ != GraphChange::None && !frameFits());
@@ -95,22 +99,25 @@ class Show {
     }
   }
 
-  /// Show the scene of a file that the user has dropped onto the window. The window stands still while it is read.
+  /// Read a file that the user has dropped onto the window, and show its scene once it is read and the frame that is
+  /// being traced is taken. Until the first frame of the scene is traced, the last one of the old scene is shown.
   void openDropped() {
-    const std::optional<std::filesystem::path> file = window_.takeDroppedFile();
-    if (!file) return;
-    if (next_.valid()) next_.wait();
+    if (const std::optional<std::filesystem::path> file = window_.takeDroppedFile()) loader_.start(*file);
+    if (next_.valid() || !loader_.done()) return;
     queue_.waitAll();
-    if (!openScene(*file, tracer_, session_)) return;
+    if (!loader_.finish()) return;
     live_.changeScene(tracer_.gpuScene());
     if (facts_.deviceTraces) facts_.sceneBytes = tracer_.gpuScene()->bytes();
-    next_ = {};  // A frame of the old scene.
+    HostFrame none;
+    none.extent = frame_.extent;
+    frame_ = std::move(none);
+    traced_ = fresh_ = false;
     startTracing();
-    take(next_.get());
   }
 
   void take(HostFrame frame) {
     frame_ = std::move(frame);
+    traced_ = true;
     constexpr double kMilliseconds = 1000.0;
     if (!facts_.deviceTraces) {
       facts_.traced = frame_.traced;
@@ -126,24 +133,22 @@ class Show {
     presenter_.emplace(device_, surface_.handle(), window_.size(), picture_, kFramesInFlight, Interface::draw);
   }
 
-  /// Bring the graph up to date with the choices of the session.
-  /// @param resized  the frame at hand has another size than those before it
-  void follow(bool resized) {
-    live_.setExtent(frame_.extent);
-    if (change_ == GraphChange::Settings && live_.update(session_.method(), session_.view())) {
-      again_ = session_.frozen;  // One more frame shows the new settings, with the existing history.
-      change_ = GraphChange::None;
-      return;
+  void follow() {
+    switch (followSession(live_, session_, change_, frame_.extent)) {
+      case Followed::Waits:
+        return;
+      case Followed::Updated:
+        again_ = session_.frozen;  // One more frame shows the new settings, with the existing history.
+        break;
+      case Followed::Declared:
+        lastSlot_.reset();
+        // Without a history, and with no other frame in a session that is frozen, the frame at hand is denoised again.
+        fresh_ = fresh_ || (traced_ && (change_ == GraphChange::Method || session_.frozen));
+        break;
+      case Followed::Refused:
+        break;
     }
-    if (session_.dragging && live_.declared() && !resized) {
-      return;
-    }
-    // While the session is frozen, only the current frame is available: it is denoised again, without history.
-    const bool anew = change_ == GraphChange::Method || session_.frozen;
-    live_.declare(session_.method(), session_.view(), anew ? LiveFrame::Start::Anew : LiveFrame::Start::FromHistory);
     change_ = GraphChange::None;
-    lastSlot_.reset();
-    fresh_ = fresh_ || anew;
   }
 
   /// A view with a reference can only show frames that have one.
@@ -168,33 +173,23 @@ class Show {
       waitForFrame();
     }
     change_ = std::max(change_, session_.takeGraphChange());
-    const bool resized = fresh_ && frame_.extent != live_.extent();
-    if (resized) change_ = std::max(change_, GraphChange::Settings);
-    if (change_ != GraphChange::None && frameFits()) {
-      follow(resized);
+    if (fresh_ && frame_.extent != live_.extent()) change_ = std::max(change_, GraphChange::Settings);
+    if (change_ != GraphChange::None && (frameFits() || !live_.declared())) {
+      follow();
       facts_.graphBytes = live_.executor().allocatedBytes();
       facts_.memory = deviceMemory(device_);
     }
     // One more frame shows the new shaders in a session that is frozen.
     if (reload_ && reload_(live_.graph().desc(), live_.executor()) > 0) again_ = session_.frozen;
-    interface_.update(session_, live_.graph(), live_.plan(), facts_, place());
+    interface_.update(session_, live_, facts_, place());
     const fg::vk::Frame recorded = queue_.begin();
     const std::optional<std::uint32_t> image = presenter_->swapchain().acquire(recorded.slot);
     if (!image) {
       makePresenter();
       return;
     }
-    // The device has finished the last frame recorded with this slot. Until a new frame is traced, the times of the
-    // last one stay on display.
-    if (lastSlot_ && (fresh_ || recorded.slot == *lastSlot_)) {
-      const auto times = live_.passTimes(recorded.slot);
-      facts_.passTimes.assign(times.begin(), times.end());
-      double sum = 0.0;
-      for (const fg::vk::PassTime& pass : times) sum += pass.milliseconds;
-      if (fresh_) remember(facts_.deviceHistory, sum);
-      if (fresh_) control_.frameTook(std::max(sum, facts_.deviceTraces ? 0.0 : facts_.tracingHistory.back()));
-      if (const auto traced = live_.traced(recorded.slot)) facts_.traced = *traced;
-    }
+    // The device has finished the last frame recorded with this slot.
+    if (lastSlot_ && (fresh_ || recorded.slot == *lastSlot_)) noteTimes(recorded.slot);
     if (fresh_ && frame_.extent != live_.extent()) fresh_ = false;  // The view needs another frame, and waits for it.
     if (std::exchange(fresh_, false)) {
       lastSlot_ = recorded.slot;
@@ -207,6 +202,21 @@ class Show {
     if (!presenter_->swapchain().present(*image)) {
       makePresenter();
     }
+  }
+
+  /// Takes the times of the frame last recorded with a slot. Without times, those of the frame before stay on display:
+  /// the slot is of an earlier graph, or the device does not measure any.
+  void noteTimes(std::uint32_t slot) {
+    const auto times = live_.passTimes(slot);
+    double sum = 0.0;
+    for (const fg::vk::PassTime& pass : times) sum += pass.milliseconds;
+    if (!times.empty()) {
+      facts_.passTimes.assign(times.begin(), times.end());
+      if (fresh_) remember(facts_.deviceHistory, sum);
+    }
+    const double tracing = facts_.deviceTraces ? 0.0 : facts_.tracingHistory.back();
+    if (fresh_ && std::max(sum, tracing) > 0.0) control_.frameTook(std::max(sum, tracing));
+    if (const auto traced = live_.traced(slot)) facts_.traced = *traced;
   }
 
   [[nodiscard]] Rectangle place() {
@@ -224,6 +234,7 @@ class Show {
   ShownPicture picture_;
   LiveFrame live_;
   ResolutionControl control_;
+  SceneLoader loader_;
   fg::vk::FrameQueue queue_;
   Interface interface_;
   std::optional<Presenter> presenter_;
@@ -231,6 +242,7 @@ class Show {
   std::future<HostFrame> next_;
   HostFrame frame_;
   FrameFacts facts_;
+  bool traced_ = false;                       // `frame_` is of the scene that is shown.
   bool fresh_ = false;                        // `frame_` has not been recorded yet.
   bool again_ = false;                        // Trace one more frame, even if the session is frozen.
   GraphChange change_ = GraphChange::Method;  // Change of the session that the graph does not contain yet.

@@ -75,26 +75,28 @@ void Interface::prepare(VkRenderPass renderPass, fg::vk::FrameQueue& queue) {
 #endif
 }
 
-void Interface::update(Session& session, const fg::Graph& graph, const fg::Plan& plan, const FrameFacts& facts,
-                       const Rectangle& place) {
+void Interface::update(Session& session, const LiveFrame& live, const FrameFacts& facts, const Rectangle& place) {
   ImGui_ImplVulkan_NewFrame();
   ImGui_ImplGlfw_NewFrame();
   ImGui::NewFrame();
   const ImVec2 size = ImGui::GetIO().DisplaySize;
   constexpr auto kWidth = static_cast<float>(kPanelWidth);
-  ImGui::SetNextWindowPos({std::max(0.0F, size.x - kWidth), 0.0F});
-  ImGui::SetNextWindowSize({std::min(kWidth, size.x), size.y});
+  const float left = std::max(0.0F, size.x - kWidth);
+  const float width = std::min(kWidth, size.x);
+  const float foot = refusalPanel(session, {left, size.y}, width);
+  ImGui::SetNextWindowPos({left, 0.0F});
+  ImGui::SetNextWindowSize({width, size.y - foot});
   constexpr ImGuiWindowFlags kFixed =
       ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoTitleBar;
   ImGui::Begin("walr", nullptr, kFixed);
   playPanel(session);
-  viewPanel(session, viewableTextures(graph.desc()), !facts.deviceTraces);
-  methodPanel(session);
+  viewPanel(session, live, viewableTextures(live.graph().desc()), !facts.deviceTraces);
+  methodPanel(session, live);
   if (ImGui::CollapsingHeader("Times", ImGuiTreeNodeFlags_DefaultOpen)) {
     timesPanel(session, facts, device_.isSoftware());
   }
   if (ImGui::CollapsingHeader("Memory", ImGuiTreeNodeFlags_DefaultOpen)) {
-    memoryPanel(graph.desc(), plan, facts);
+    memoryPanel(live.graph().desc(), live.plan(), facts);
   }
   if (ImGui::CollapsingHeader("Settings", ImGuiTreeNodeFlags_DefaultOpen)) {
     settingsPanel(session);

@@ -9,11 +9,10 @@
 
 #include <vulkan/vulkan.h>
 
-#include "framegraph/declare/graph.h"
-#include "framegraph/plan/plan.h"
 #include "framegraph/vulkan/timestamps.h"
 #include "samples/denoise/device_memory.h"
 #include "samples/denoise/gpu_device.h"
+#include "samples/host/live_frame.h"
 #include "samples/host/session.h"
 #include "samples/host/window/presenter.h"
 #include "samples/host/window/window.h"
@@ -50,8 +49,7 @@ class Interface {
   void prepare(VkRenderPass renderPass, fg::vk::FrameQueue& queue);
   /// Lay out the panels and take the user's input.
   /// @param place  rectangle of the window that shows the picture
-  void update(Session& session, const fg::Graph& graph, const fg::Plan& plan, const FrameFacts& facts,
-              const Rectangle& place);
+  void update(Session& session, const LiveFrame& live, const FrameFacts& facts, const Rectangle& place);
   /// Draw the panels that `update` laid out.
   static void draw(VkCommandBuffer commandBuffer);
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <deque>
+#include <functional>
 #include <limits>
 #include <span>
 
@@ -12,20 +13,40 @@
 
 #include "framegraph/plan/memory_places.h"
 #include "passes/settings.h"
+#include "samples/command_line/resampled_frames.h"
+#include "samples/host/follow_session.h"
 
 namespace walr::host {
 namespace {
 
 constexpr double kMegabyte = 1024.0 * 1024.0;
 
-/// A combo box. Returns the index of a newly chosen name; nullopt if the choice has not changed.
-std::optional<std::size_t> choose(const char* label, std::span<const std::string> names, const std::string& current) {
+/// A tooltip with lines of a width that is easy to read.
+void showTooltip(const std::string& text) {
+  constexpr float kWidth = 400.0F;
+  ImGui::BeginTooltip();
+  ImGui::PushTextWrapPos(kWidth);
+  ImGui::TextUnformatted(text.c_str());
+  ImGui::PopTextWrapPos();
+  ImGui::EndTooltip();
+}
+
+/// Why a name cannot be chosen; empty if it can.
+using Refusal = std::function<std::string(const std::string& name)>;
+
+/// A combo box, in which names that cannot be chosen are grey. Returns the index of a newly chosen name; nullopt if the
+/// choice has not changed.
+std::optional<std::size_t> choose(const char* label, std::span<const std::string> names, const std::string& current,
+                                  const Refusal& refusal = {}) {
   std::optional<std::size_t> chosen;
   if (ImGui::BeginCombo(label, current.c_str(), ImGuiComboFlags_HeightLargest)) {
     for (std::size_t i = 0; i < names.size(); ++i) {
-      if (ImGui::Selectable(names[i].c_str(), names[i] == current) && names[i] != current) {
+      const std::string reason = refusal && names[i] != current ? refusal(names[i]) : "";
+      const ImGuiSelectableFlags flags = reason.empty() ? 0 : ImGuiSelectableFlags_Disabled;
+      if (ImGui::Selectable(names[i].c_str(), names[i] == current, flags) && names[i] != current) {
         chosen = i;
       }
+      if (!reason.empty() && ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) showTooltip(reason);
     }
     ImGui::EndCombo();
   }
@@ -139,6 +160,27 @@ void holdTimeWidgets(Session& session) {
   ImGui::Text("a frame: %u x %u of %u x %u", extent.width, extent.height, full.width, full.height);
 }
 
+/// Whether light is resampled, and from how many frames. Grey if the tracer cannot.
+void resamplingWidgets(Session& session) {
+  const std::string reason = session.tracer().whyNotResampled();
+  ImGui::BeginDisabled(!reason.empty());
+  ImGui::Checkbox("Resample indirect light of", &session.resample);
+  if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) {
+    showTooltip(!reason.empty() ? reason
+                                : "As in ReSTIR GI without spatial reuse. Of walr, take the preset for the number of "
+                                  "samples per pixel, which at one sample is one-sample: what stays from frame to "
+                                  "frame of the noise of resampled light is no detail that many-samples could keep");
+  }
+  ImGui::SameLine();
+  auto frames = static_cast<int>(session.resampledFrames);
+  constexpr float kWidth = 60.0F;
+  ImGui::SetNextItemWidth(kWidth);
+  if (ImGui::DragInt("frames", &frames, 0.2F, 1, kMostResampledFrames, "%d", ImGuiSliderFlags_AlwaysClamp)) {
+    session.resampledFrames = static_cast<std::uint32_t>(frames);
+  }
+  ImGui::EndDisabled();
+}
+
 /// Milliseconds of the passes of the method on the right of a comparison.
 double comparedTime(std::span<const fg::vk::PassTime> passes) {
   double sum = 0.0;
@@ -205,7 +247,7 @@ void playPanel(Session& session) {
   ImGui::Checkbox("Objects and lights move", &session.objectsMove);
 }
 
-void viewPanel(Session& session, const std::vector<std::string>& textures, bool references) {
+void viewPanel(Session& session, const LiveFrame& live, const std::vector<std::string>& textures, bool references) {
   ImGui::Separator();
   const HostView& view = session.view();
   const std::array<std::string, 6> all = {"denoised", "noisy", "reference", "split", "compare", "texture"};
@@ -222,7 +264,11 @@ void viewPanel(Session& session, const std::vector<std::string>& textures, bool 
     if (next.kind == HostView::Kind::Texture) {
       next.texture = textures.front();
     }
-    session.chooseView(next);
+    if (next.kind == HostView::Kind::Compare) {
+      chooseComparison(live, session);
+    } else {
+      session.chooseView(next);
+    }
   }
   ViewConstants& constants = session.viewConstants;
   if (view.kind == HostView::Kind::Texture) {
@@ -233,7 +279,8 @@ void viewPanel(Session& session, const std::vector<std::string>& textures, bool 
     ImGui::DragFloat("Bias", &constants.bias, 0.01F, -10.0F, 10.0F, "%.3f");
   } else if (view.kind == HostView::Kind::Compare) {
     const std::vector<std::string> methods = denoiserNames();
-    if (const auto chosen = choose("On the right", methods, session.comparedName())) {
+    const Refusal refusal = [&](const std::string& name) { return refusalOfCompared(live, session, name); };
+    if (const auto chosen = choose("On the right", methods, session.comparedName(), refusal)) {
       session.compareWith(methods[*chosen], makeDenoiser(methods[*chosen]));
     }
   } else if (view.kind == HostView::Kind::Split) {
@@ -241,17 +288,19 @@ void viewPanel(Session& session, const std::vector<std::string>& textures, bool 
   }
 }
 
-void methodPanel(Session& session) {
+void methodPanel(Session& session, const LiveFrame& live) {
   ImGui::Separator();
   const std::vector<std::string> methods = denoiserNames();
-  if (const auto chosen = choose("Method", methods, session.methodName())) {
+  const Refusal ofMethod = [&](const std::string& name) { return refusalOfMethod(live, session, name); };
+  if (const auto chosen = choose("Method", methods, session.methodName(), ofMethod)) {
     session.chooseMethod(methods[*chosen]);
   }
   const std::vector<std::string> presets = session.method().presets();
   if (presets.empty()) {
     return;
   }
-  if (const auto chosen = choose("Preset", presets, session.preset().value_or("(settings changed)"))) {
+  const Refusal ofPreset = [&](const std::string& name) { return refusalOfPreset(live, session, name); };
+  if (const auto chosen = choose("Preset", presets, session.preset().value_or("(settings changed)"), ofPreset)) {
     session.choosePreset(presets[*chosen]);
   }
 }
@@ -278,12 +327,18 @@ void timesPanel(Session& session, const FrameFacts& facts, bool softwareDevice) 
     chart("##tracing", facts.tracingHistory);
   }
   ImGui::Text("Direct light: %s", session.tracer().denoisesDirect() ? "denoised" : "noisy");
+  resamplingWidgets(session);
   holdTimeWidgets(session);
   double sum = 0.0;
   for (const fg::vk::PassTime& pass : facts.passTimes) {
     sum += pass.milliseconds;
   }
-  ImGui::Text("Device %.2f ms%s", sum, softwareDevice ? " (software device)" : "");
+  const char* const software = softwareDevice ? " (software device)" : "";
+  if (facts.passTimes.empty()) {
+    ImGui::Text("Device: no times%s", software);
+  } else {
+    ImGui::Text("Device %.2f ms%s", sum, software);
+  }
   const double compared = comparedTime(facts.passTimes);
   if (compared > 0.0) ImGui::Text("of which on the right %.2f ms", compared);
   chart("##device", facts.deviceHistory);
@@ -349,6 +404,22 @@ void memoryPanel(const fg::GraphDesc& graph, const fg::Plan& plan, const FrameFa
                         graph.passes[plan.passes[resource.lastUse].pass].name.c_str());
     }
   }
+}
+
+float refusalPanel(const Session& session, const ImVec2& corner, float width) {
+  if (session.refusal().empty()) return 0.0F;
+  const char* const text = session.refusal().c_str();
+  const ImVec2 padding = ImGui::GetStyle().WindowPadding;
+  const float lines = ImGui::CalcTextSize(text, nullptr, false, width - 2.0F * padding.x).y;
+  const float height = lines + 2.0F * padding.y;
+  ImGui::SetNextWindowPos({corner.x, corner.y - height});
+  ImGui::SetNextWindowSize({width, height});
+  ImGui::PushStyleColor(ImGuiCol_WindowBg, IM_COL32(110, 50, 20, 255));
+  ImGui::Begin("refusal", nullptr, ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoNav);
+  ImGui::TextWrapped("%s", text);
+  ImGui::End();
+  ImGui::PopStyleColor();
+  return height;
 }
 
 }  // namespace walr::host
