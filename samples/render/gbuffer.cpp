@@ -49,7 +49,7 @@ PrimaryHit tracePrimary(const World& world, const View& view, std::uint32_t x, s
       result.pixel.motion = glm::vec3(imageMotion(view, x, y, previousDirection), 0.0F);
       return result;
     }
-    const Surface surface = evaluateSurface(world.scene(), world.instances()[hit->instance], *hit, ray.direction);
+    const Surface surface = evaluateSurface(world.scene(), world.instances()[hit->instance], *hit, ray);
     const bool isMirror = mode == GBufferMode::Material && glossOf(surface) == Gloss::Specular;
     if (isMirror && mirrors < kMostMirrors) {
       const Reflection reflection = mirrored(surface);

@@ -8,6 +8,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "samples/render/exact/path.h"
 #include "samples/render/scene_error.h"
 #include "samples/render/surface.h"
 
@@ -19,7 +20,7 @@ std::array<glm::vec3, 3> worldCorners(const Scene& scene, const Instance& instan
   std::array<glm::vec3, 3> corners{};
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const std::uint32_t vertex = mesh.triangles[triangle][static_cast<glm::length_t>(i)];
-    corners[i] = glm::vec3(instance.worldFromObject * glm::vec4(mesh.positions[vertex], 1.0F));
+    corners[i] = exact::transformPoint(instance.worldFromObject, mesh.positions[vertex]);
   }
   return corners;
 }
@@ -97,8 +98,7 @@ EmitterSample Lights::sampleEmitters(const Scene& scene, const std::vector<Insta
   const float length = glm::length(twiceArea);
 
   EmitterSample sample;
-  sample.position =
-      corners[0] * (1.0F - barycentric.x - barycentric.y) + corners[1] * barycentric.x + corners[2] * barycentric.y;
+  sample.position = exact::interpolate(corners[0], corners[1], corners[2], barycentric);
   sample.normal = length > 0.0F ? twiceArea / length : glm::vec3(0.0F);
   sample.doubleSided = material.doubleSided;
   if (!isHole(scene, mesh, emitter.triangle, barycentric)) {

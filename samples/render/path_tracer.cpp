@@ -7,24 +7,15 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "samples/render/basis.h"
+#include "samples/render/exact/path.h"
 
 namespace walr::render {
 namespace {
 
 constexpr float kPi = std::numbers::pi_v<float>;
 
-glm::vec3 cosineDirection(const glm::vec3& normal, const glm::vec2& random) {
-  const float radius = std::sqrt(random.x);
-  const float angle = 2.0F * kPi * random.y;
-  return fromLocal(normal, {radius * std::cos(angle), radius * std::sin(angle), std::sqrt(1.0F - random.x)});
-}
-
-// Cosine between shading normal and direction; 0 for light from behind the shading normal or from below the surface.
 float lightCosine(const Surface& surface, const glm::vec3& direction) {
-  return glm::dot(surface.geometricNormal, direction) > 0.0F
-             ? std::max(0.0F, glm::dot(surface.shadingNormal, direction))
-             : 0.0F;
+  return exact::lightCosine(surface.geometricNormal, surface.shadingNormal, direction);
 }
 
 // The value of the diffuse lobe relative to a Lambert lobe of the same albedo (Burley 2015, 5.3).
@@ -191,7 +182,7 @@ PathSample tracePath(const World& world, const Surface& first, std::uint32_t bou
   float firstLobe = 1.0F;
   std::uint32_t pathRays = 0;
   for (std::uint32_t bounce = 0;; ++bounce) {
-    const glm::vec3 direction = cosineDirection(surface.shadingNormal, sampler.next2D());
+    const glm::vec3 direction = exact::cosineDirection(surface.shadingNormal, sampler.next2D());
     if (lightCosine(surface, direction) <= 0.0F) {
       break;
     }
@@ -199,12 +190,13 @@ PathSample tracePath(const World& world, const Surface& first, std::uint32_t bou
     throughput *= value;
     glm::vec3& bin = bounce == 0 ? result.direct : result.indirect;
     ++pathRays;
-    const std::optional<Hit> hit = world.rays().closest({rayOrigin(surface, direction), direction});
+    const Ray ray{rayOrigin(surface, direction), direction};
+    const std::optional<Hit> hit = world.rays().closest(ray);
     if (!hit) {
       bin += throughput * metSky(world.sky(), surface, direction);
       break;
     }
-    const Surface next = evaluateSurface(world.scene(), world.instances()[hit->instance], *hit, direction);
+    const Surface next = evaluateSurface(world.scene(), world.instances()[hit->instance], *hit, ray);
     if (next.emission != glm::vec3(0.0F)) {
       bin += throughput * next.emission * cosineWeight(world, surface, direction, *hit, next);
     }

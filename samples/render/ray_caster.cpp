@@ -5,6 +5,7 @@
 #include <string>
 
 #include <glm/gtc/type_ptr.hpp>
+#include <glm/vec2.hpp>
 
 #include "samples/render/embree_api.h"
 #include "samples/render/surface.h"
@@ -201,7 +202,7 @@ std::optional<Hit> RayCaster::closest(const Ray& ray) const {
   if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) {
     return std::nullopt;
   }
-  return Hit{impl_->instanceOf(query.hit), query.hit.primID, {query.hit.u, query.hit.v}};
+  return Hit{impl_->instanceOf(query.hit), query.hit.primID};
 }
 
 bool RayCaster::occluded(const Ray& ray) const {

@@ -6,7 +6,6 @@
 #include <optional>
 #include <vector>
 
-#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 #include "samples/render/instance.h"
@@ -21,11 +20,10 @@ struct Ray {
   float length = std::numeric_limits<float>::infinity();  ///< In units of the length of `direction`.
 };
 
-/// The point where a ray hit a triangle.
+/// The triangle that a ray hit. `evaluateSurface` finds the point.
 struct Hit {
-  std::uint32_t instance = 0;   ///< Index into the instances that the ray caster was constructed with.
-  std::uint32_t triangle = 0;   ///< Index into `Mesh::triangles`.
-  glm::vec2 barycentric{0.0F};  ///< Weights of the triangle's second and third vertex.
+  std::uint32_t instance = 0;  ///< Index into the instances that the ray caster was constructed with.
+  std::uint32_t triangle = 0;  ///< Index into `Mesh::triangles`.
 };
 
 /// Intersects rays with the scene's instances, using Embree. Rays pass through the holes of cut-outs

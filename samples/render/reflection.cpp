@@ -8,7 +8,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "samples/render/basis.h"
+#include "samples/render/exact/path.h"
 #include "samples/render/path_tracer.h"
 
 namespace walr::render {
@@ -36,10 +36,10 @@ float smith(const glm::vec3& direction, float alpha) {
   return 0.5F * (std::sqrt(1.0F + alpha * alpha * tangent2) - 1.0F);
 }
 
-// The inverse of `fromLocal`.
+// The inverse of `exact::fromLocal`.
 glm::vec3 toLocal(const glm::vec3& normal, const glm::vec3& direction) {
-  const glm::vec3 x = fromLocal(normal, {1.0F, 0.0F, 0.0F});
-  const glm::vec3 y = fromLocal(normal, {0.0F, 1.0F, 0.0F});
+  const glm::vec3 x = exact::fromLocal(normal, {1.0F, 0.0F, 0.0F});
+  const glm::vec3 y = exact::fromLocal(normal, {0.0F, 1.0F, 0.0F});
   return {glm::dot(x, direction), glm::dot(y, direction), glm::dot(normal, direction)};
 }
 
@@ -77,7 +77,7 @@ Reflection sampleReflection(const Surface& surface, const glm::vec2& random) {
   }
   const glm::vec3 normal = visibleNormal(viewer, alpha, random);
   const glm::vec3 light = glm::reflect(-viewer, normal);
-  const glm::vec3 direction = fromLocal(surface.shadingNormal, light);
+  const glm::vec3 direction = exact::fromLocal(surface.shadingNormal, light);
   if (light.z <= 0.0F || leadsUnder(surface, direction)) {
     return {direction, glm::vec3(0.0F)};
   }
@@ -99,13 +99,14 @@ GlossySample traceGlossy(const World& world, const Surface& surface, std::uint32
       return result;
     }
     ++result.rays;
-    const std::optional<Hit> hit = world.rays().closest({rayOrigin(from, reflection.direction), reflection.direction});
+    const Ray ray{rayOrigin(from, reflection.direction), reflection.direction};
+    const std::optional<Hit> hit = world.rays().closest(ray);
     if (!hit) {
       result.albedo = weight;
       result.radiance += weight * world.sky().radiance(reflection.direction);
       return result;
     }
-    const Surface next = evaluateSurface(world.scene(), world.instances()[hit->instance], *hit, reflection.direction);
+    const Surface next = evaluateSurface(world.scene(), world.instances()[hit->instance], *hit, ray);
     result.radiance += weight * next.emission;
     if (glossOf(next) == Gloss::Diffuse) {
       const bool isLamp = next.emission != glm::vec3(0.0F);

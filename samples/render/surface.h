@@ -29,8 +29,8 @@ struct Surface {
 };
 
 /// The surface where a ray hit a triangle.
-/// @param viewDirection  the ray's direction, unit
-Surface evaluateSurface(const Scene& scene, const Instance& instance, const Hit& hit, const glm::vec3& viewDirection);
+/// @param ray  its direction is unit
+Surface evaluateSurface(const Scene& scene, const Instance& instance, const Hit& hit, const Ray& ray);
 
 /// The origin of a ray that leaves a surface in `direction`, offset so that it does not hit the surface itself.
 glm::vec3 rayOrigin(const Surface& surface, const glm::vec3& direction);

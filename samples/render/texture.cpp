@@ -1,10 +1,9 @@
 #include "samples/render/texture.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 
-#include <glm/common.hpp>
+#include "samples/render/exact/texel.h"
 
 namespace walr::render {
 namespace {
@@ -17,41 +16,9 @@ ByteTable makeTable(ColorSpace space) {
   return table;
 }
 
-// Two neighbouring texels along one axis, and the weight of the second.
-struct Neighbors {
-  std::size_t first = 0;
-  std::size_t second = 0;
-  float fraction = 0.0F;
-};
-
-Neighbors findNeighbors(float coordinate, std::uint32_t size, const Texture& texture, Wrap wrap) {
-  // A float from 2^24 on has no fractional part.
-  constexpr float kLargestCoordinate = 16777216.0F;
-  float place = std::abs(coordinate) < kLargestCoordinate ? coordinate : 0.0F;
-  if (wrap == Wrap::Repeat) {
-    place -= std::floor(place);
-  } else if (wrap == Wrap::MirroredRepeat) {
-    const float folded = place - 2.0F * std::floor(0.5F * place);
-    place = folded <= 1.0F ? folded : 2.0F - folded;
-  } else {
-    place = glm::clamp(place, 0.0F, 1.0F);
-  }
-  const std::size_t last = size - 1;
-  const float texel = place * static_cast<float>(size);
-  if (texture.nearest) {
-    const std::size_t index = std::min(static_cast<std::size_t>(texel), last);
-    return {index, index, 0.0F};
-  }
-  // Before the centre of the first texel, its neighbour is the last texel (repeat) or the first one itself.
-  const float corner = std::floor(texel - 0.5F);
-  const bool before = corner < 0.0F;
-  const std::size_t beyond = wrap == Wrap::Repeat ? 0 : last;
-  Neighbors result;
-  result.first = before ? last - beyond : std::min(static_cast<std::size_t>(corner), last);
-  result.second = before ? 0 : (result.first == last ? beyond : result.first + 1);
-  result.fraction = texel - 0.5F - corner;
-  return result;
-}
+static_assert(static_cast<std::uint32_t>(Wrap::Repeat) == exact::kRepeat);
+static_assert(static_cast<std::uint32_t>(Wrap::ClampToEdge) == exact::kClampToEdge);
+static_assert(static_cast<std::uint32_t>(Wrap::MirroredRepeat) == exact::kMirroredRepeat);
 
 }  // namespace
 
@@ -67,14 +34,17 @@ glm::vec4 sampleTexture(const Image& image, const Texture& texture, glm::vec2 uv
   static const ByteTable linear = makeTable(ColorSpace::Linear);
   const ByteTable& color = space == ColorSpace::Srgb ? srgb : linear;
 
-  const Neighbors x = findNeighbors(uv.x, image.width, texture, texture.wrapU);
-  const Neighbors y = findNeighbors(uv.y, image.height, texture, texture.wrapV);
-  const auto fetch = [&](std::size_t column, std::size_t row) {
-    const std::uint8_t* texel = &image.rgba[(row * image.width + column) * 4];
+  const auto neighbors = [&](float coordinate, std::uint32_t size, Wrap wrap) {
+    return exact::neighborsOf(coordinate, size, static_cast<std::uint32_t>(wrap), texture.nearest);
+  };
+  const exact::Neighbors x = neighbors(uv.x, image.width, texture.wrapU);
+  const exact::Neighbors y = neighbors(uv.y, image.height, texture.wrapV);
+  const auto fetch = [&](std::uint32_t column, std::uint32_t row) {
+    const std::uint8_t* texel = &image.rgba[(static_cast<std::size_t>(row) * image.width + column) * 4];
     return glm::vec4(color[texel[0]], color[texel[1]], color[texel[2]], linear[texel[3]]);
   };
-  return glm::mix(glm::mix(fetch(x.first, y.first), fetch(x.second, y.first), x.fraction),
-                  glm::mix(fetch(x.first, y.second), fetch(x.second, y.second), x.fraction), y.fraction);
+  return exact::blend(exact::blend(fetch(x.first, y.first), fetch(x.second, y.first), x.fraction),
+                      exact::blend(fetch(x.first, y.second), fetch(x.second, y.second), x.fraction), y.fraction);
 }
 
 }  // namespace walr::render

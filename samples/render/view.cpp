@@ -6,6 +6,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/matrix.hpp>
 
+#include "samples/render/exact/path.h"
 #include "samples/render/scene_error.h"
 
 namespace walr::render {
@@ -84,14 +85,11 @@ View viewFrom(const World& world, std::uint32_t cameraNode, std::uint32_t width,
 }
 
 Ray primaryRay(const View& view, std::uint32_t x, std::uint32_t y) {
-  const glm::vec2 size(static_cast<float>(view.width), static_cast<float>(view.height));
-  const glm::vec2 pixel = glm::vec2(static_cast<float>(x), static_cast<float>(y)) + 0.5F + view.jitter;
-  const glm::vec2 ndc = (pixel / size * 2.0F - 1.0F) * glm::vec2(1.0F, -1.0F);
-  const glm::vec3 direction(ndc.x / view.projection[0][0], ndc.y / view.projection[1][1], -1.0F);
   const glm::mat4 worldFromView = glm::inverse(view.viewFromWorld);
   Ray ray;
   ray.origin = glm::vec3(worldFromView[3]);
-  ray.direction = glm::normalize(glm::mat3(worldFromView) * direction);
+  ray.direction =
+      exact::primaryDirection({x, y}, view.jitter, {view.width, view.height}, view.projection, worldFromView);
   return ray;
 }
 

@@ -198,11 +198,12 @@ double oneWalk(const World& world, const Surface& first, std::uint32_t bounces, 
     const float radius = std::sqrt(1.0F - z * z);
     const glm::vec3 direction = glm::normalize(
         surface.shadingNormal + glm::vec3(radius * std::cos(angle), radius * std::sin(angle), z) * 0.99999F);
-    const auto hit = world.rays().closest({rayOrigin(surface, direction), direction});
+    const Ray ray{rayOrigin(surface, direction), direction};
+    const auto hit = world.rays().closest(ray);
     if (!hit) {
       return (sum + throughput * world.scene().skyRadiance).x;
     }
-    surface = evaluateSurface(world.scene(), world.instances()[hit->instance], *hit, direction);
+    surface = evaluateSurface(world.scene(), world.instances()[hit->instance], *hit, ray);
     sum += throughput * surface.emission;
     throughput *= surface.albedo;
   }

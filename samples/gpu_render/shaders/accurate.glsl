@@ -1,19 +1,6 @@
-// Sine, cosine and arc tangent to within a few roundings of float, because Vulkan lets those of the language err by 2^-11
-// (sine and cosine) and 4096 roundings (arc tangent). The path tracer on the processor has accurate ones. The polynomials are
-// those of Cephes' sinf, cosf and atanf (S. Moshier).
-const float kPi = 3.14159265358979;
-
-// Cosine (x) and sine (y) of an angle in turns.
-vec2 cosineAndSine(float turns) {
-  const float quarters = round(4.0 * turns);
-  const float angle = (4.0 * turns - quarters) * (0.5 * kPi);
-  const float z = angle * angle;
-  const float sine = ((-1.9515295891e-4 * z + 8.3321608736e-3) * z - 1.6666654611e-1) * z * angle + angle;
-  const float cosine = ((2.443315711809948e-5 * z - 1.388731625493765e-3) * z + 4.166664568298827e-2) * z * z - 0.5 * z + 1.0;
-  const int quadrant = int(quarters) & 3;
-  const vec2 turned = (quadrant & 1) == 0 ? vec2(cosine, sine) : vec2(-sine, cosine);
-  return (quadrant & 2) == 0 ? turned : -turned;
-}
+// Arc tangent and arc cosine to within a few roundings of float, because Vulkan lets the arc tangent of the language err by 4096
+// roundings. The path tracer on the processor has accurate ones. The polynomial is that of Cephes' atanf (S. Moshier).
+#include "samples/render/exact/arithmetic.h"
 
 // Arc tangent of a number from 0 on.
 float arcTangent(float x) {

@@ -9,22 +9,8 @@ struct Candidate {
 
 const Candidate kNothing = Candidate(vec3(0.0), vec3(0.0), 0.0);
 
-vec3 fromLocal(vec3 normal, vec3 local) {
-  const float side = floatBitsToInt(normal.z) < 0 ? -1.0 : 1.0;  // The sign of -0 counts.
-  const float a = -1.0 / (side + normal.z);
-  const float b = normal.x * normal.y * a;
-  const vec3 tangent = vec3(1.0 + side * normal.x * normal.x * a, side * b, -side * normal.x);
-  const vec3 bitangent = vec3(b, side + normal.y * normal.y * a, -normal.y);
-  return tangent * local.x + bitangent * local.y + normal * local.z;
-}
-
-vec3 cosineDirection(vec3 normal, vec2 random) {
-  const vec2 around = sqrt(random.x) * cosineAndSine(random.y);
-  return fromLocal(normal, vec3(around, sqrt(1.0 - random.x)));
-}
-
 float lightCosine(Surface surface, vec3 direction) {
-  return dot(surface.geometricNormal, direction) > 0.0 ? max(0.0, dot(surface.shadingNormal, direction)) : 0.0;
+  return lightCosine(surface.geometricNormal, surface.shadingNormal, direction);
 }
 
 float grazing(vec3 normal, vec3 direction) {

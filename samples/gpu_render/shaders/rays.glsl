@@ -3,15 +3,6 @@ uint instanceOf(uint customIndex, uint geometry) {
   return customIndex == trace.stillPart ? stillInstances[geometry] : customIndex;
 }
 
-const float kEndless = 3.4e38;
-
-struct Ray {
-  vec3 origin;
-  vec3 direction;
-  float reach;      // In units of the length of `direction`.
-  bool onlyBlocks;  // Any hit ends the ray; which one it is does not matter.
-};
-
 // Casts a ray. The shader calls it in one place only, because drivers inline the traversal at each.
 bool castRay(Ray ray, out Hit hit) {
   rayQueryEXT query;
@@ -29,6 +20,5 @@ bool castRay(Ray ray, out Hit hit) {
   hit.instance = instanceOf(uint(rayQueryGetIntersectionInstanceCustomIndexEXT(query, true)),
                             uint(rayQueryGetIntersectionGeometryIndexEXT(query, true)));
   hit.triangle = uint(rayQueryGetIntersectionPrimitiveIndexEXT(query, true));
-  hit.barycentric = rayQueryGetIntersectionBarycentricsEXT(query, true);
   return true;
 }

@@ -9,7 +9,7 @@ vec2 placeOf(vec3 direction) {
 }
 
 vec3 directionOf(vec2 place) {
-  const vec2 around = cosineAndSine(place.x - 0.5);
+  const vec2 around = cosineAndSine(place.x + 0.5);  // A whole turn more than `place.x - 0.5`.
   const vec2 polar = cosineAndSine(0.5 * place.y);
   return vec3(polar.y * around.y, polar.x, -polar.y * around.x);
 }

@@ -1,8 +1,18 @@
 // Surfaces as in samples/render/surface.cpp.
+#include "samples/render/exact/path.h"
+
+const float kEndless = 3.4e38;
+
+struct Ray {
+  vec3 origin;
+  vec3 direction;
+  float reach;      // In units of the length of `direction`.
+  bool onlyBlocks;  // Any hit ends the ray; which one it is does not matter.
+};
+
 struct Hit {
   uint instance;
   uint triangle;
-  vec2 barycentric;  // Weights of the triangle's second and third vertex.
 };
 
 struct Surface {
@@ -36,19 +46,12 @@ uvec3 cornersOf(MeshData mesh, uint triangle) {
 }
 
 vec3 interpolate3(uint first, uvec3 corners, vec2 weights) {
-  return float3At(first, corners.x) * (1.0 - weights.x - weights.y) + float3At(first, corners.y) * weights.x +
-         float3At(first, corners.z) * weights.y;
+  return interpolate(float3At(first, corners.x), float3At(first, corners.y), float3At(first, corners.z), weights);
 }
 
 vec2 textureCoordinate(MeshData mesh, uvec3 corners, vec2 weights) {
   if (mesh.uvs == kAbsent) return vec2(0.0);
-  return float2At(mesh.uvs, corners.x) * (1.0 - weights.x - weights.y) + float2At(mesh.uvs, corners.y) * weights.x +
-         float2At(mesh.uvs, corners.z) * weights.y;
-}
-
-vec3 unitOr(vec3 v, vec3 fallback) {
-  const float size = length(v);
-  return size > 0.0 && size <= 3.4e38 ? v / size : fallback;
+  return interpolate(float2At(mesh.uvs, corners.x), float2At(mesh.uvs, corners.y), float2At(mesh.uvs, corners.z), weights);
 }
 
 bool isHole(uint meshIndex, uint triangle, vec2 weights) {
@@ -70,43 +73,35 @@ vec3 emittedRadiance(MaterialData material, vec2 uv) {
 
 // Interpolated normal with the normal map applied, on the front side of the triangle.
 vec3 mappedNormal(InstanceData instance, MeshData mesh, MaterialData material, uvec3 corners, vec2 weights, vec2 uv,
-                  vec3 frontNormal) {
-  if (mesh.normals == kAbsent) return frontNormal;
+                  vec3 front) {
+  if (mesh.normals == kAbsent) return front;
   const float side = (instance.flags & kMirrored) != 0u ? -1.0 : 1.0;
-  const mat3 normalFromObject = mat3(instance.normalFromObject);
-  const vec3 normal = unitOr(side * (normalFromObject * interpolate3(mesh.normals, corners, weights)), frontNormal);
+  const vec3 inObject = interpolate3(mesh.normals, corners, weights);
+  const vec3 normal = unitOr(side * transformDirection(mat3(instance.normalFromObject), inObject), front);
   if (mesh.tangents == kAbsent) return normal;
-  const vec4 tangent = float4At(mesh.tangents, corners.x) * (1.0 - weights.x - weights.y) +
-                       float4At(mesh.tangents, corners.y) * weights.x + float4At(mesh.tangents, corners.z) * weights.y;
-  const vec3 worldTangent = unitOr(mat3(instance.worldFromObject) * tangent.xyz, vec3(0.0));
-  const vec3 bitangent = cross(normal, worldTangent) * (tangent.w < 0.0 ? -side : side);
+  const vec4 tangent = interpolate(float4At(mesh.tangents, corners.x), float4At(mesh.tangents, corners.y),
+                                   float4At(mesh.tangents, corners.z), weights);
+  const vec3 worldTangent = unitOr(transformDirection(mat3(instance.worldFromObject), tangent.xyz), vec3(0.0));
   const vec3 encoded = sampleTexture(material.normalTexture, uv, kLinearTable).xyz;
-  const vec3 local = (encoded * 2.0 - 1.0) * vec3(material.normalScale, material.normalScale, 1.0);
-  return unitOr(worldTangent * local.x + bitangent * local.y + normal * local.z, normal);
+  return mapNormal(normal, worldTangent, tangent.w < 0.0 ? -side : side, encoded, material.normalScale);
 }
 
-// Bends a normal that points away from the viewer until it is perpendicular to the view direction.
-vec3 facing(vec3 normal, vec3 viewDirection, vec3 geometricNormal) {
-  const float away = dot(normal, viewDirection);
-  return away <= 0.0 ? normal : unitOr(normal - viewDirection * away, geometricNormal);
-}
-
-Surface evaluateSurface(Hit hit, vec3 viewDirection) {
+Surface evaluateSurface(Hit hit, Ray ray) {
   const InstanceData instance = instances[hit.instance];
   const MeshData mesh = meshes[instance.mesh];
   const MaterialData material = materials[mesh.material];
   const uvec3 corners = cornersOf(mesh, hit.triangle);
-  const vec2 weights = hit.barycentric;
   vec3 world[3];
   float extent = 0.0;
   for (int i = 0; i < 3; ++i) {
-    world[i] = vec3(instance.worldFromObject * vec4(float3At(mesh.positions, corners[i]), 1.0));
+    world[i] = transformPoint(instance.worldFromObject, float3At(mesh.positions, corners[i]));
     const vec3 size = abs(world[i]);
     extent = max(extent, max(size.x, max(size.y, size.z)));
   }
 
   Surface surface;
-  surface.position = world[0] * (1.0 - weights.x - weights.y) + world[1] * weights.x + world[2] * weights.y;
+  const vec2 weights = weightsOfHit(ray.origin, ray.direction, world[0], world[1], world[2]);
+  surface.position = interpolate(world[0], world[1], world[2], weights);
   surface.previousPosition = surface.position;
   if ((instance.flags & kMoves) != 0u) {
     const vec3 inObject = interpolate3(mesh.positions, corners, weights);
@@ -115,13 +110,13 @@ Surface evaluateSurface(Hit hit, vec3 viewDirection) {
   surface.rayOffset = extent / 262144.0;  // See `render::evaluateSurface`.
 
   const float winding = (instance.flags & kMirrored) != 0u ? -1.0 : 1.0;
-  const vec3 frontNormal = winding * unitOr(cross(world[1] - world[0], world[2] - world[0]), -viewDirection);
-  const bool front = dot(frontNormal, viewDirection) <= 0.0;
+  const vec3 ofFront = frontNormal(world[0], world[1], world[2], winding, -ray.direction);
+  const bool front = exactDot(ofFront, ray.direction) <= 0.0;
   const vec2 uv = textureCoordinate(mesh, corners, weights);
-  const vec3 shading = mappedNormal(instance, mesh, material, corners, weights, uv, frontNormal);
-  surface.geometricNormal = front ? frontNormal : -frontNormal;
-  surface.shadingNormal = facing(front ? shading : -shading, viewDirection, surface.geometricNormal);
-  surface.towardsViewer = -viewDirection;
+  const vec3 shading = mappedNormal(instance, mesh, material, corners, weights, uv, ofFront);
+  surface.geometricNormal = front ? ofFront : -ofFront;
+  surface.shadingNormal = facing(front ? shading : -shading, ray.direction, surface.geometricNormal);
+  surface.towardsViewer = -ray.direction;
 
   vec3 color = material.baseColor.rgb;
   if (material.baseColorTexture != kAbsent) {
@@ -141,4 +136,4 @@ Surface evaluateSurface(Hit hit, vec3 viewDirection) {
 }
 
 // The origin of a ray that leaves a surface on the side of its viewer, offset so that it does not hit the surface itself.
-vec3 rayOrigin(Surface surface) { return surface.position + surface.geometricNormal * surface.rayOffset; }
+vec3 rayOrigin(Surface surface) { return offsetAlong(surface.position, surface.geometricNormal, surface.rayOffset); }

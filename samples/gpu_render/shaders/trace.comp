@@ -47,10 +47,7 @@ const uint kLinearTable = 256u;
 const float kBackgroundDepth = 1e10;  // Of samples/sequence/frame.h.
 
 vec3 primaryDirection(ivec2 p, vec2 jitter) {
-  const vec2 pixel = vec2(p) + 0.5 + jitter;
-  const vec2 ndc = (pixel / vec2(trace.size) * 2.0 - 1.0) * vec2(1.0, -1.0);
-  const vec3 direction = vec3(ndc.x / trace.projection[0][0], ndc.y / trace.projection[1][1], -1.0);
-  return normalize(mat3(trace.worldFromView) * direction);
+  return primaryDirection(vec2(p), jitter, vec2(trace.size), trace.projection, trace.worldFromView);
 }
 
 // Image motion of a point whose position in the previous view space is `previous`; see samples/render/gbuffer.cpp.
@@ -161,7 +158,7 @@ void main() {
       Surface next;
       vec3 found;
       if (met) {
-        next = evaluateSurface(hit, ray.direction);
+        next = evaluateSurface(hit, ray);
         found = next.emission;
       } else {
         found = skyRadiance(ray.direction);
