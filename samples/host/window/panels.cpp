@@ -168,8 +168,8 @@ void resamplingWidgets(Session& session) {
   if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) {
     showTooltip(!reason.empty() ? reason
                                 : "As in ReSTIR GI without spatial reuse. Of walr, take the preset for the number of "
-                                  "samples per pixel, which at one sample is one-sample: what stays from frame to "
-                                  "frame of the noise of resampled light is no detail that many-samples could keep");
+                                  "samples per pixel, at one sample one-sample: reused samples repeat their noise from "
+                                  "frame to frame, so that many-samples finds no more detail in it");
   }
   ImGui::SameLine();
   auto frames = static_cast<int>(session.resampledFrames);
