@@ -23,13 +23,16 @@ import entries as table
 import judging
 import pages
 import places
+import rate_entries
 import rendering
 import results
+import size_pages
 from PIL import Image
 
 HERE = pathlib.Path(__file__).resolve().parent
 BASELINE = "walr"
 OVERVIEW = "places.webp"
+SIZES = HERE / "SIZES.md"
 
 
 @dataclasses.dataclass(frozen=True)
@@ -60,6 +63,12 @@ class Record:
 
 def records():
     return [Record(file.stem.removeprefix("results").removeprefix("_")) for file in sorted(HERE.glob("results*.json"))]
+
+
+def sizes_text():
+    """The page of all records by size."""
+    kept = [json.loads(recorded.figures.read_text()) for recorded in records()]
+    return size_pages.page(kept, json.loads((HERE / "rates.json").read_text()), rate_entries.SIZE[1])
 
 
 def default_cache():
@@ -201,11 +210,11 @@ def write_pages(arguments):
         recorded = Record(arguments.name)
         shutil.copy(pathlib.Path(arguments.folder) / "results.json", recorded.figures)
         shutil.copy(pathlib.Path(arguments.folder) / OVERVIEW, recorded.overview)
-    for recorded in records():
+    for page, text in (*((recorded.page, recorded.text()) for recorded in records()), (SIZES, sizes_text())):
         if not arguments.check:
-            recorded.page.write_text(recorded.text(), encoding="utf-8")
-        elif not recorded.page.exists() or recorded.page.read_text(encoding="utf-8") != recorded.text():
-            sys.exit(f"{recorded.page}: not what {recorded.figures.name} gives; run samples/corpus/corpus.py page")
+            page.write_text(text, encoding="utf-8")
+        elif not page.exists() or page.read_text(encoding="utf-8") != text:
+            sys.exit(f"{page}: not what the figures give; run samples/corpus/corpus.py page")
 
 
 def agree(arguments):

@@ -27,6 +27,7 @@ import rate_pages
 import rates
 import rendering
 import results
+import size_pages
 
 WALR = pathlib.Path(sys.argv.pop(1)).resolve()
 TINY = entries.Entry("tiny", entries.BUILT_IN / "stair.gltf", (64, 36), (2, 4), 1, reference_samples=4, part="daily")
@@ -346,6 +347,27 @@ class Page(unittest.TestCase):
         for name, entry in entries.corpus().items():
             if entry.scene.exists():
                 self.assertIn(name, text)
+
+
+class Sizes(unittest.TestCase):
+    def entry(self, held_back, ratio):
+        methods = {"walr": {"rmse": [0.01, 0.009, 0.011]}, "flr": {"rmse": [0.01 * ratio[0], 0, 0], "ratio": {"rmse": ratio}}}
+        return {"scene": "box", "size": [960, 540], "samples": 4, "held_back": held_back, "methods": methods}
+
+    def test_the_page_tells_errors_losses_and_gains(self):
+        record = {"entries": {"ahead": self.entry(False, [1.25, 1.2, 1.3]), "behind": self.entry(True, [0.9, 0.85, 0.95])},
+                  "summary": {"flr": {"rmse": [1.25, 1.2, 1.3]}}, "held_back_summary": {"flr": {"rmse": [2.0, 1.9, 2.1]}}}
+        rates_record = {"scenes": {"sponza": {"1/4": {"walr": [0.2]}, "16": {"walr": [0.02], "flr": [0.03]}}}}
+        lines = size_pages.page([record], rates_record, 216).splitlines()
+        self.assertIn("| 216 | `sponza` | 16 | .0200 | - | - | - | - | 1.50 | - | - |", lines)
+        self.assertIn("| 540 | `ahead` | 4 | .0100 | - | - | - | - | 1.25 &gt; | - | - |", lines)
+        self.assertIn("| 540 | `behind` (held back) | 4 | .0100 | - | - | - | - | 0.90 &lt; | - | - |", lines)
+        self.assertIn("| `behind` | `flr` by 10 % |", lines)
+        self.assertFalse([line for line in lines if line.startswith("| `ahead` |")])
+        self.assertIn("| 540 | `flr` | 20.0 % | 50.0 % | 2.50 |", lines)
+
+    def test_the_committed_page_is_what_the_figures_give(self):
+        self.assertEqual(corpus.SIZES.read_text(encoding="utf-8"), corpus.sizes_text())
 
 
 class Rates(unittest.TestCase):

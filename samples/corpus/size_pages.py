@@ -1,0 +1,94 @@
+"""SIZES.md: errors of every method by size, scene and samples, from all records of the corpus and from rates.json."""
+import results
+from pages import mark, small, table
+
+METHODS = ("walr:many-samples", "walr_paper", "bmfr", "svgf", "flr", "accumulate", "none")
+BASELINE = "walr"
+LEAST_LEAD = 0.02
+"""A method is listed as ahead of the baseline if its error is smaller by more than this share."""
+EXPLANATION = """# Errors by size, scene and samples
+
+Written by `samples/corpus/corpus.py page` from the figures of [360](RESULTS.md), [540](RESULTS_540.md) and [1080](RESULTS_1080.md) lines
+and of [216 lines](RATES.md), which say how they were measured.
+
+RMSE after the tone map x / (1 + x), free of the references' noise, and the ratio of each method's RMSE to that of `walr` with its
+default preset. &lt;: better than `walr` beyond the interval of 95 %; &gt;: worse; ~: undecided; no mark: no interval was
+computed. -: not measured.
+
+"""
+
+
+def cells_of(entry):
+    """The cells of a sequence of the corpus: RMSE of the baseline, and ratios of the others."""
+    methods = entry["methods"]
+    cells = [small(methods[BASELINE]["rmse"][0])]
+    for method in METHODS:
+        ratio = methods.get(method, {}).get("ratio", {}).get("rmse")
+        cells.append(f"{ratio[0]:.2f} {mark(ratio)}" if ratio else "-")
+    return cells
+
+
+def corpus_rows(records):
+    rows = []
+    for kept in records:
+        for name, entry in kept["entries"].items():
+            shown = f"`{name}`" + (" (held back)" if entry["held_back"] else "")
+            rows.append(((entry["size"][1], entry["scene"], entry["samples"], shown), cells_of(entry)))
+    return rows
+
+
+def rate_rows(rates, lines):
+    """Rows of rates.json with a whole number of samples per pixel."""
+    rows = []
+    for scene, by_rate in rates["scenes"].items():
+        for rate, methods in by_rate.items():
+            if not rate.isdigit():
+                continue
+            baseline = methods[BASELINE][0]
+            cells = [f"{methods[m][0] / baseline:.2f}" if methods.get(m) else "-" for m in METHODS]
+            rows.append(((lines, scene, int(rate), f"`{scene}`"), [small(baseline), *cells]))
+    return rows
+
+
+def errors_table(records, rates, lines):
+    rows = sorted(corpus_rows(records) + rate_rows(rates, lines))
+    return table(["lines", "sequence", "samples", f"`{BASELINE}`", *(f"`{m}`" for m in METHODS)],
+                 [[str(height), shown, str(samples), *cells] for (height, _, samples, shown), cells in rows])
+
+
+def behind_table(records):
+    """Where a method is ahead of the baseline beyond the interval and by more than LEAST_LEAD."""
+    rows = []
+    for kept in records:
+        for name, entry in kept["entries"].items():
+            ahead = {m: entry["methods"][m]["ratio"]["rmse"] for m in METHODS if m in entry["methods"]}
+            ahead = {m: r for m, r in ahead.items() if results.verdict(r) == "better" and r[0] < 1 - LEAST_LEAD}
+            if ahead:
+                rows.append([f"`{name}`", ", ".join(f"`{m}` by {100 * (1 - r[0]):.0f} %" for m, r in sorted(ahead.items()))])
+    return table(["sequence", f"methods ahead of `{BASELINE}`"], rows)
+
+
+def gain(ratio):
+    """Share of another method's error that the baseline takes off; negative if it adds to it."""
+    return 1 - 1 / ratio
+
+
+def gains_table(records):
+    """Gains of the baseline over each other method on the sequences held back, against those on the others."""
+    rows = []
+    for kept in records:
+        lines = "/".join(sorted({str(e["size"][1]) for e in kept["entries"].values()}))
+        for method in (m for m in METHODS if not m.startswith(BASELINE + ":")):
+            open_ratio, held = (kept[part].get(method, {}).get("rmse") for part in ("summary", "held_back_summary"))
+            if open_ratio and held:
+                of_open, of_held = gain(open_ratio[0]), gain(held[0])
+                rows.append([lines, f"`{method}`", f"{100 * of_open:.1f} %", f"{100 * of_held:.1f} %", f"{of_held / of_open:.2f}"])
+    return table(["lines", "method", f"`{BASELINE}` errs less by, sequences of the sweeps", "held back", "ratio"], rows)
+
+
+def page(records, rates, lines):
+    """records: figures of all records of the corpus; lines: height of the pictures of rates.json."""
+    return (EXPLANATION + errors_table(records, rates, lines) + "\n## Where `walr` is behind\n\nBeyond the interval, and by more than "
+            f"{100 * LEAST_LEAD:.0f} %. [PLACES.md](PLACES.md) shows why.\n\n" + behind_table(records) +
+            "\n## Sequences held back\n\nNo setting was chosen by them. A ratio of 1 or more says that a gain holds elsewhere, "
+            "too.\n\n" + gains_table(records))
