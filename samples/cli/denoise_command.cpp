@@ -63,6 +63,9 @@ void describeInput(std::ostream& stream, const std::filesystem::path& input, con
          << "layout: " << layout.layout->name
          << (layout.viewLayer.empty() ? "" : " (view layer '" + layout.viewLayer + "')") << ", "
          << (sequence.hasReferences() ? "with references" : "no references: no errors are measured") << '\n';
+  if (const LightPattern& light = sequence.denoiserLayout().conventions.light; !light.everyPixel()) {
+    stream << "sparse light: one sample in " << light.columns << " x " << light.rows << " pixels\n";
+  }
   for (std::size_t i = 1; i < entries.size(); ++i) {
     if (entries[i].resetHistory) {
       stream << "camera cut: history is reset at frame " << entries[i].number << '\n';

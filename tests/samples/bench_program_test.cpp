@@ -97,6 +97,14 @@ TEST_F(BenchProgramTest, MeasuresMethodsBesideEachOther) {
   EXPECT_EQ(page.find("src=\"http"), std::string::npos) << "the page must hold all that it shows";
 }
 
+// The folder holds finished runs with all samples, which must not be taken for runs with some of them.
+TEST_F(BenchProgramTest, ComparesWithAShareOfTheSamples) {
+  expectSuccess(bench(first, {"--methods", "accumulate"}));
+  const double all = run(report(first), "accumulate")["mean"]["rmse"];
+  expectSuccess(bench(first, {"--methods", "accumulate", "--light-rate", "1/4"}));
+  EXPECT_GT(run(report(first), "accumulate")["mean"]["rmse"].get<double>(), all);
+}
+
 TEST_F(BenchProgramTest, RunsGiveTheSameErrorsAndPictures) {
   expectSuccess(bench(first, {"--methods", "bmfr"}));
   expectSuccess(bench(second, {"--methods", "bmfr"}));
