@@ -173,10 +173,9 @@ def run(arguments):
     for scene in rate_entries.SCENES:
         all_sums[scene], noise[scene] = judged(arguments.walr, cache, scene, lambda text: print(text, flush=True))
     scenes, ratios = figures(all_sums)
+    cycles = cycles_errors(arguments.walr, cache.folder / "rates", lambda text: print(text, flush=True))
     KEPT.write_text(json.dumps({"commit": corpus.commit(), "noise": {s: results.rounded(n) for s, n in noise.items()},
-                                "scenes": scenes, "ratios": ratios,
-                                "cycles": cycles_errors(arguments.walr, cache.folder / "rates", lambda text: print(text, flush=True))},
-                               indent=1) + "\n")
+                                "scenes": scenes, "ratios": ratios, "cycles": cycles}, indent=1) + "\n")
     rate_pages.write(json.loads(KEPT.read_text()))
 
 

@@ -1,9 +1,10 @@
 """SIZES.md: errors of every method by size, scene and samples, from all records of the corpus and from rates.json."""
+import entries
 import results
 from pages import mark, small, table
 
-METHODS = ("walr:many-samples", "walr_paper", "bmfr", "svgf", "flr", "accumulate", "none")
 BASELINE = "walr"
+METHODS = [m for m in entries.METHODS if m != BASELINE and m not in entries.SLOW]
 LEAST_LEAD = 0.02
 """A method is listed as ahead of the baseline if its error is smaller by more than this share."""
 EXPLANATION = """# Errors by size, scene and samples
