@@ -43,7 +43,8 @@ std::uint64_t fingerprintOf(const Image& image) {
   return Fingerprint().add(std::as_bytes(image.values())).value();
 }
 
-/// Per-pixel root mean square error, mean SSIM and FLIP as one three-component image; SSIM is 1 where it has no value.
+/// Per-pixel root mean square error, mean SSIM and FLIP as one three-component image. Where they have no value, SSIM is
+/// 1 and FLIP 0.
 Image errorMaps(const DisplayedPair& pair, const PixelMask& mask, const std::vector<double>& flip) {
   const int width = pair.reference.width();
   const int height = pair.reference.height();
@@ -152,7 +153,7 @@ class Batch {
     const PixelMask& mask = input.judged;
     FrameErrors& errors = lane.record.frames.back();
     const ErrorFigures figures = compare(pair, mask);
-    const std::vector<double> flip = flipMap(pair);
+    const std::vector<double> flip = flipMap(pair, mask);
     errors.rmse = figures.rmse;
     errors.psnr = figures.psnr;
     errors.ssim = figures.ssim;

@@ -123,40 +123,95 @@ Kernel balanced(Kernel kernel) {
   return kernel;
 }
 
-/// The size of a plane, and filters over planes of this size.
-struct Field {
-  int width;
-  int height;
+/// Pixels of a row, from `begin` to the one before `end`.
+struct Run {
+  int begin;
+  int end;
+};
+/// The runs of every row.
+using Runs = std::vector<std::vector<Run>>;
 
-  /// Filter with one kernel along x and another along y. Beyond the border the nearest value is repeated.
+/// The size of a plane, its pixels that are wanted, and filters for these pixels.
+class Field {
+ public:
+  /// @param wanted must outlive the field
+  Field(int width, int height, const PixelMask& wanted)
+      : width_(width), height_(height), mask_(wanted), wanted_(runsWithin(0)) {}
+
+  /// Filter with one kernel along x and another along y. Beyond the border the nearest value is repeated. The result is
+  /// 0 where it is not wanted.
   [[nodiscard]] Plane filter(const Plane& plane, const Kernel& alongX, const Kernel& alongY) const {
     const int radiusX = static_cast<int>(alongX.size()) / 2;
     const int radiusY = static_cast<int>(alongY.size()) / 2;
     Plane rows(plane.size());
-    for (int y = 0; y < height; ++y) {
-      for (int x = 0; x < width; ++x) {
-        double value = 0.0;
-        for (int d = -radiusX; d <= radiusX; ++d) {
-          value += alongX[static_cast<std::size_t>(d + radiusX)] * plane[index(std::clamp(x + d, 0, width - 1), y)];
-        }
-        rows[index(x, y)] = value;
+    forEachPixel(runsWithin(radiusY), [&](int x, int y) {
+      double value = 0.0;
+      for (int d = -radiusX; d <= radiusX; ++d) {
+        value += alongX[static_cast<std::size_t>(d + radiusX)] * plane[index(std::clamp(x + d, 0, width_ - 1), y)];
       }
-    }
+      rows[index(x, y)] = value;
+    });
     Plane result(plane.size());
-    for (int y = 0; y < height; ++y) {
+    for (int y = 0; y < height_; ++y) {
       for (int d = -radiusY; d <= radiusY; ++d) {
         const double weight = alongY[static_cast<std::size_t>(d + radiusY)];
-        const std::size_t row = index(0, std::clamp(y + d, 0, height - 1));
-        for (int x = 0; x < width; ++x) result[index(x, y)] += weight * rows[row + static_cast<std::size_t>(x)];
+        const std::size_t row = index(0, std::clamp(y + d, 0, height_ - 1));
+        for (const Run& run : wanted_[static_cast<std::size_t>(y)]) {
+          for (int x = run.begin; x < run.end; ++x) {
+            result[index(x, y)] += weight * rows[row + static_cast<std::size_t>(x)];
+          }
+        }
       }
     }
     return result;
   }
 
- private:
-  [[nodiscard]] std::size_t index(int x, int y) const {
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
+  /// Call `visit` with the index of every wanted pixel.
+  template <typename Visitor>
+  void forEachWanted(Visitor visit) const {
+    forEachPixel(wanted_, [&](int x, int y) { visit(index(x, y)); });
   }
+
+ private:
+  /// The pixels with a wanted one in the same column, at most `reach` rows away.
+  [[nodiscard]] Runs runsWithin(int reach) const {
+    Runs runs(static_cast<std::size_t>(height_));
+    std::vector<int> last(static_cast<std::size_t>(width_), -1);  // The last row down to which a column is wanted.
+    for (int y = -reach; y < height_; ++y) {
+      const int ahead = y + reach;
+      for (int x = 0; x < width_ && ahead < height_; ++x) {
+        if (mask_[index(x, ahead)] != 0) last[static_cast<std::size_t>(x)] = ahead + reach;
+      }
+      if (y < 0) continue;
+      bool inside = false;
+      for (int x = 0; x < width_; ++x) {
+        const bool near = last[static_cast<std::size_t>(x)] >= y;
+        std::vector<Run>& row = runs[static_cast<std::size_t>(y)];
+        if (near && !inside) row.push_back({x, x});
+        if (near) row.back().end = x + 1;
+        inside = near;
+      }
+    }
+    return runs;
+  }
+
+  template <typename Visitor>
+  void forEachPixel(const Runs& runs, Visitor visit) const {
+    for (int y = 0; y < height_; ++y) {
+      for (const Run& run : runs[static_cast<std::size_t>(y)]) {
+        for (int x = run.begin; x < run.end; ++x) visit(x, y);
+      }
+    }
+  }
+
+  [[nodiscard]] std::size_t index(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
+  }
+
+  int width_;
+  int height_;
+  const PixelMask& mask_;
+  Runs wanted_;
 };
 
 /// A contrast sensitivity function as a spatial filter (eq. 1, table 1): a sqrt(pi / b) exp(-pi^2 r^2 / b), r in
@@ -205,14 +260,14 @@ std::vector<Colour> perceived(const Opponent& planes, const Field& field, double
   for (const Sensitivity& part : kBlueYellow) {
     const Kernel weighted = scaled(kernel(part), part.a * std::sqrt(std::numbers::pi / part.b) / total);
     const Plane plane = field.filter(planes[2], weighted, kernel(part));
-    for (std::size_t i = 0; i < plane.size(); ++i) filtered[2][i] += plane[i];
+    field.forEachWanted([&](std::size_t i) { filtered[2][i] += plane[i]; });
   }
   std::vector<Colour> colours(planes[0].size());
-  for (std::size_t i = 0; i < colours.size(); ++i) {
+  field.forEachWanted([&](std::size_t i) {
     Colour rgb = fromYCxCz({filtered[0][i], filtered[1][i], filtered[2][i]});
     for (double& value : rgb) value = std::clamp(value, 0.0, 1.0);
     colours[i] = toHuntLab(rgb);
-  }
+  });
   return colours;
 }
 
@@ -241,7 +296,7 @@ Features features(const Plane& achromatic, const Field& field, double pixelsPerD
     const Kernel kernel = balanced(derivative);
     Plane alongX = field.filter(normalised, kernel, unit);
     const Plane alongY = field.filter(normalised, unit, kernel);
-    for (std::size_t i = 0; i < alongX.size(); ++i) alongX[i] = std::hypot(alongX[i], alongY[i]);
+    field.forEachWanted([&](std::size_t i) { alongX[i] = std::hypot(alongX[i], alongY[i]); });
     return alongX;
   };
   return {strength(slope), strength(curvature)};
@@ -249,8 +304,8 @@ Features features(const Plane& achromatic, const Field& field, double pixelsPerD
 
 }  // namespace
 
-std::vector<double> flipMap(const DisplayedPair& pair, double pixelsPerDegree) {
-  const Field field{pair.reference.width(), pair.reference.height()};
+std::vector<double> flipMap(const DisplayedPair& pair, const PixelMask& wanted, double pixelsPerDegree) {
+  const Field field(pair.reference.width(), pair.reference.height(), wanted);
   const Opponent test = opponentPlanes(pair.test);
   const Opponent reference = opponentPlanes(pair.reference);
   const std::vector<Colour> testColours = perceived(test, field, pixelsPerDegree);
@@ -258,13 +313,13 @@ std::vector<double> flipMap(const DisplayedPair& pair, double pixelsPerDegree) {
   const Features testFeatures = features(test[0], field, pixelsPerDegree);
   const Features referenceFeatures = features(reference[0], field, pixelsPerDegree);
   std::vector<double> map(testColours.size());
-  for (std::size_t i = 0; i < map.size(); ++i) {
+  field.forEachWanted([&](std::size_t i) {
     const double colour = redistribute(hyab(testColours[i], referenceColours[i]));
     const double difference = std::max(std::abs(referenceFeatures.edges[i] - testFeatures.edges[i]),
                                        std::abs(referenceFeatures.points[i] - testFeatures.points[i]));
     const double feature = std::pow(difference / std::numbers::sqrt2, kFeatureExponent);
     map[i] = std::pow(colour, 1.0 - feature);
-  }
+  });
   return map;
 }
 

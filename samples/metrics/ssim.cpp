@@ -1,5 +1,6 @@
 #include "samples/metrics/ssim.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -65,8 +66,14 @@ std::vector<double> similarityMap(std::span<const double> test, std::span<const 
   std::vector<double> map(mask.size(), std::numeric_limits<double>::quiet_NaN());
   std::vector<Moments> columns(static_cast<std::size_t>(width));
   for (int y = kRadius; y < height - kRadius; ++y) {
-    // The window is separable: first sum down every column, then along the row.
+    // The window is separable: first sum down every column that a pixel of the mask needs, then along the row.
+    int ahead = 0;  // Columns up to this one have been looked at.
+    int last = -1;  // The last column that is needed.
     for (int x = 0; x < width; ++x) {
+      for (; ahead < std::min(x + kRadius + 1, width); ++ahead) {
+        if (mask[index(ahead, y)] != 0) last = ahead + kRadius;
+      }
+      if (x > last) continue;
       Moments column;
       for (int dy = -kRadius; dy <= kRadius; ++dy) {
         const double a = test[index(x, y + dy)];

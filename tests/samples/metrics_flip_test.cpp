@@ -25,6 +25,10 @@ DisplayedPair displayAll(const test::Pictures& pictures) {
   return display(pictures.test, pictures.reference, PixelMask(pictures.reference.pixelCount(), 1));
 }
 
+std::vector<double> wholeMap(const DisplayedPair& pair, double pixelsPerDegree = kFlipPixelsPerDegree) {
+  return flipMap(pair, PixelMask(pair.reference.pixelCount(), 1), pixelsPerDegree);
+}
+
 TEST(Flip, AgreesWithItsAuthorsImplementation) {
   std::ifstream stream(WALR_TEST_DATA "/flip_fixture.json");
   const auto cases = nlohmann::json::parse(stream);
@@ -36,7 +40,7 @@ TEST(Flip, AgreesWithItsAuthorsImplementation) {
     SCOPED_TRACE(expected["name"].get<std::string>());
     const DisplayedPair pair =
         displayAll(test::makePictures(expected["width"], expected["height"], expected["amplitude"]));
-    const std::vector<double> map = flipMap(pair, expected["pixels_per_degree"]);
+    const std::vector<double> map = wholeMap(pair, expected["pixels_per_degree"]);
     EXPECT_NEAR(*maskedMean(map, PixelMask(map.size(), 1)), expected["mean"].get<double>(), tolerance);
     const std::size_t stride = expected["stride"];
     for (std::size_t i = 0; i < map.size(); i += stride) {
@@ -47,13 +51,13 @@ TEST(Flip, AgreesWithItsAuthorsImplementation) {
 
 TEST(Flip, EqualPicturesDifferNowhere) {
   const test::Pictures pictures = test::makePictures(40, 30, 1.0);
-  const std::vector<double> map = flipMap(displayAll({pictures.reference, pictures.reference}));
+  const std::vector<double> map = wholeMap(displayAll({pictures.reference, pictures.reference}));
   EXPECT_EQ(std::ranges::max(map), 0.0);
 }
 
 /// Section 4.1.3: the largest colour distance, between green and blue, maps to 1.
 TEST(Flip, IsOneBetweenGreenAndBlue) {
-  for (const double value : flipMap({constant(30, 30, 0, 1, 0), constant(30, 30, 0, 0, 1)})) {
+  for (const double value : wholeMap({constant(30, 30, 0, 1, 0), constant(30, 30, 0, 0, 1)})) {
     EXPECT_NEAR(value, 1.0, 1e-12);
   }
 }
@@ -65,15 +69,15 @@ TEST(Flip, BetweenBlackAndWhiteFollowsFromTheirLightness) {
                                                               0.877347 * 83.1793 - 0.322970 * -107.8602);
   const double ratio = std::pow(100.0 / greenToBlue, 0.7);
   const double expected = ratio < 0.4 ? 0.95 * ratio / 0.4 : 0.95 + 0.05 * (ratio - 0.4) / 0.6;
-  for (const double value : flipMap({constant(30, 30, 0, 0, 0), constant(30, 30, 1, 1, 1)})) {
+  for (const double value : wholeMap({constant(30, 30, 0, 0, 0), constant(30, 30, 1, 1, 1)})) {
     EXPECT_NEAR(value, expected, 1e-4);  // The precision of the primaries above.
   }
 }
 
 TEST(Flip, IsSymmetric) {
   const DisplayedPair pair = displayAll(test::makePictures(50, 40, 1.0));
-  const std::vector<double> forth = flipMap(pair);
-  const std::vector<double> back = flipMap({pair.reference, pair.test});
+  const std::vector<double> forth = wholeMap(pair);
+  const std::vector<double> back = wholeMap({pair.reference, pair.test});
   EXPECT_EQ(forth, back);
 }
 
@@ -81,9 +85,28 @@ TEST(Flip, NonFiniteTestValuesGiveErrors) {
   const Image reference = constant(31, 31, 0.5F, 0.5F, 0.5F);
   Image test = reference;
   test.at(15, 15, 0) = std::numeric_limits<float>::quiet_NaN();
-  const std::vector<double> map = flipMap(display(test, reference, PixelMask(31 * 31, 1)));
+  const std::vector<double> map = wholeMap(display(test, reference, PixelMask(31 * 31, 1)));
   EXPECT_GT(map[15 * 31 + 15], 0.1);
   EXPECT_TRUE(std::ranges::all_of(map, [](double value) { return value >= 0.0 && value <= 1.0; }));
+}
+
+TEST(Flip, OfSomePixelsIsThatOfAllPixelsThere) {
+  const DisplayedPair pair = displayAll(test::makePictures(70, 60, 1.0));
+  const std::vector<double> whole = wholeMap(pair);
+  // Single pixels at corners and inside, and squares that do and do not touch the border.
+  PixelMask wanted(whole.size(), 0);
+  const auto want = [&](int x0, int y0, int x1, int y1) {
+    for (int y = y0; y < y1; ++y)
+      for (int x = x0; x < x1; ++x) wanted[static_cast<std::size_t>(y * 70 + x)] = 1;
+  };
+  want(0, 0, 1, 1);
+  want(69, 59, 70, 60);
+  want(35, 30, 36, 31);
+  want(0, 40, 8, 48);
+  want(50, 5, 58, 13);
+  const std::vector<double> some = flipMap(pair, wanted);
+  for (std::size_t i = 0; i < whole.size(); ++i) EXPECT_EQ(some[i], wanted[i] != 0 ? whole[i] : 0.0) << "pixel " << i;
+  EXPECT_GT(std::ranges::max(some), 0.0);
 }
 
 TEST(Flip, MeanIsOverTheMask) {
