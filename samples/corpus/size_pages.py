@@ -57,6 +57,13 @@ def errors_table(records, rates, lines):
                  [[str(height), shown, str(samples), *cells] for (height, _, samples, shown), cells in rows])
 
 
+def commits_table(records, rates, lines):
+    """The commit that each size was measured at."""
+    rows = [(lines, rates["commit"])]
+    rows += [(next(iter(kept["entries"].values()))["size"][1], kept["commit"]) for kept in records]
+    return table(["lines", "measured at commit"], [[str(height), commit] for height, commit in sorted(rows)])
+
+
 def behind_table(records):
     """Where a method is ahead of the baseline beyond the interval and by more than LEAST_LEAD."""
     rows = []
@@ -89,7 +96,8 @@ def gains_table(records):
 
 def page(records, rates, lines):
     """records: figures of all records of the corpus; lines: height of the pictures of rates.json."""
-    return (EXPLANATION + errors_table(records, rates, lines) + "\n## Where `walr` is behind\n\nBeyond the interval, and by more than "
+    return (EXPLANATION + commits_table(records, rates, lines) + "\n" + errors_table(records, rates, lines) +
+            "\n## Where `walr` is behind\n\nBeyond the interval, and by more than "
             f"{100 * LEAST_LEAD:.0f} %. [PLACES.md](PLACES.md) shows why.\n\n" + behind_table(records) +
             "\n## Sequences held back\n\nNo setting was chosen by them. A ratio of 1 or more says that a gain holds elsewhere, "
             "too.\n\n" + gains_table(records))

@@ -356,9 +356,12 @@ class Sizes(unittest.TestCase):
 
     def test_the_page_tells_errors_losses_and_gains(self):
         record = {"entries": {"ahead": self.entry(False, [1.25, 1.2, 1.3]), "behind": self.entry(True, [0.9, 0.85, 0.95])},
-                  "summary": {"flr": {"rmse": [1.25, 1.2, 1.3]}}, "held_back_summary": {"flr": {"rmse": [2.0, 1.9, 2.1]}}}
-        rates_record = {"scenes": {"sponza": {"1/4": {"walr": [0.2]}, "16": {"walr": [0.02], "flr": [0.03]}}}}
+                  "summary": {"flr": {"rmse": [1.25, 1.2, 1.3]}}, "held_back_summary": {"flr": {"rmse": [2.0, 1.9, 2.1]}},
+                  "commit": "abc"}
+        rates_record = {"commit": "def", "scenes": {"sponza": {"1/4": {"walr": [0.2]}, "16": {"walr": [0.02], "flr": [0.03]}}}}
         lines = size_pages.page([record], rates_record, 216).splitlines()
+        self.assertIn("| 216 | def |", lines)
+        self.assertIn("| 540 | abc |", lines)
         self.assertIn("| 216 | `sponza` | 16 | .0200 | - | - | - | - | 1.50 | - | - |", lines)
         self.assertIn("| 540 | `ahead` | 4 | .0100 | - | - | - | - | 1.25 &gt; | - | - |", lines)
         self.assertIn("| 540 | `behind` (held back) | 4 | .0100 | - | - | - | - | 0.90 &lt; | - | - |", lines)
