@@ -192,9 +192,10 @@ void temporalAntialiasing(StagePorts& ports, const AntialiasingStageSettings& se
 void temporalAntialiasingWithTaps(StagePorts& ports, const AntialiasingStageSettings& settings) {
   const fg::Texture filtered = ports.texture("filtered", formatOf(settings.storage));
   const fg::Texture target = targetLike(ports, kOutputName, filtered);
-  ports.setOutput(kOutputName, addTemporalAntialiasingWithTaps(ports.graph(), ports.buffer(kFrameName),
-                                                               ports.texture(tapsPort(settings.storage)), filtered,
-                                                               target, settings));
+  const fg::Texture taps = ports.texture(tapsPort(settings.storage));
+  const fg::Texture depth = settings.pixelArea ? ports.texture("guides.depth") : fg::Texture{};
+  ports.setOutput(kOutputName, addTemporalAntialiasingWithTaps(ports.graph(), ports.buffer(kFrameName), taps, depth,
+                                                               filtered, target, settings));
 }
 
 void passThrough(StagePorts& ports, const NoSettings& /*settings*/) {

@@ -79,13 +79,15 @@ fg::Texture addTemporalAntialiasing(StageGraph graph, const DenoiserInputs& inpu
   const bool still = reprojection.motion == MotionSource::None;
   const bool objects = !still && settings.objectIds && inputs.objectId.valid();
   const ObjectIds ids = objects ? objectsOf(graph, inputs, guides) : ObjectIds{};
+  const bool pixelArea = coversPixelArea(settings, inputs.scene);
   const auto read = [&](fg::PassBuilder& pass, bool view) {
     // A view does not show the pass-through, and so does not read it.
     const fg::Texture light = view ? fg::Texture{} : inputs.lighting;
     const StandIns standIns = {.colour = packed ? light : filtered, .number = packed ? filtered : guides.depth};
     pass.uniform("frameConstants", inputs.frame)
         .sampleIf(!still || !packed, "depth", guides.depth, standIns.number)
-        .specialize("kStill", still);
+        .specialize("kStill", still)
+        .specialize("kPixelArea", pixelArea);
     readReprojection(pass, inputs, guides, reprojection, standIns);
     readConfidence(pass, settings.accumulates ? inputs.confidence : fg::Texture{}, inputs, standIns);
     readObjectIds(pass, ids, standIns);
@@ -98,6 +100,10 @@ fg::Texture addTemporalAntialiasing(StageGraph graph, const DenoiserInputs& inpu
   return addStage(graph, false, read, filtered, output, settings);
 }
 
+bool coversPixelArea(const TemporalAntialiasingSettings& settings, const SceneDescription& scene) {
+  return settings.pixelArea && scene.jitter && !settings.accumulates;
+}
+
 bool sharesReprojection(const TemporalAntialiasingSettings& antialiasing,
                         const TemporalAccumulationSettings& accumulation) {
   if (antialiasing.objectIds || antialiasing.dilateMotion != accumulation.dilateMotion) return false;
@@ -107,11 +113,14 @@ bool sharesReprojection(const TemporalAntialiasingSettings& antialiasing,
          antialiasing.normalThreshold == accumulation.normalThreshold;
 }
 
-fg::Texture addTemporalAntialiasingWithTaps(StageGraph graph, fg::Buffer frame, fg::Texture taps, fg::Texture filtered,
-                                            fg::Texture output, const TemporalAntialiasingSettings& settings) {
+fg::Texture addTemporalAntialiasingWithTaps(StageGraph graph, fg::Buffer frame, fg::Texture taps, fg::Texture depth,
+                                            fg::Texture filtered, fg::Texture output,
+                                            const TemporalAntialiasingSettings& settings) {
   const auto read = [&](fg::PassBuilder& pass, bool /*view*/) {
     pass.uniform("frameConstants", frame)
         .sample("keptTaps", taps)
+        .sampleIf(depth.valid(), "depth", depth, taps)
+        .specialize("kPixelArea", depth.valid())
         .specialize("kRejectHistory", settings.rejection != HistoryRejection::None);
   };
   return addStage(graph, true, read, filtered, output, settings);

@@ -24,9 +24,11 @@ struct TemporalAntialiasingSettings {
   float normalThreshold = 0.5F;
   bool objectIds = false;
   bool dilateMotion = false;
+  bool pixelArea = true;
   LightStorage storage = LightStorage::Half;
-  /// Whether this is the method's only accumulation of light. Its history length is then that of the method, and the
-  /// host's confidence limits it. Not a setting; needs the storage `LightStorage::Half`.
+  /// Whether this is the method's only accumulation of light. Its history length is then that of the method, the host's
+  /// confidence limits it, and it is never a mean over the pixel's area. Not a setting; needs the storage
+  /// `LightStorage::Half`.
   bool accumulates = false;
 
   void visit(SettingVisitor& v) {
@@ -51,6 +53,11 @@ struct TemporalAntialiasingSettings {
     v.visit({"antialiasing.dilate-motion", "Follow the nearest surface of the 3x3 neighbourhood", "", 0, 1,
              "Meunier & Harada 2022, 4.2"},
             dilateMotion);
+    v.visit({"antialiasing.pixel-area",
+             "In jittered frames, average light over the pixel's area: history is not tested, whatever surface it "
+             "shows, and follows the nearest surface of the 3x3 neighbourhood",
+             "", 0, 1, "measured"},
+            pixelArea);
   }
   /// For methods and stages whose filter can write both storages.
   void visitStorage(SettingVisitor& v) {
@@ -72,14 +79,20 @@ fg::Texture addTemporalAntialiasing(StageGraph graph, const DenoiserInputs& inpu
                                     fg::Texture filtered, fg::Texture output,
                                     const TemporalAntialiasingSettings& settings = {});
 
-/// Whether anti-aliasing with these settings would find the same history taps as accumulation.
+/// Whether anti-aliasing averages light over the area of pixels in jittered frames (`pixelArea`).
+bool coversPixelArea(const TemporalAntialiasingSettings& settings, const SceneDescription& scene);
+
+/// Whether anti-aliasing with these settings would find the same history taps as accumulation, but for those that it
+/// does not test, because it covers pixels' areas.
 bool sharesReprojection(const TemporalAntialiasingSettings& antialiasing,
                         const TemporalAccumulationSettings& accumulation);
 
 /// The same with the history taps that accumulation kept; `sharesReprojection` must hold.
 /// @param frame upload of `FrameConstants`
 /// @param taps  R32_UINT: `AccumulationWithTaps::taps` for `settings.storage`
-fg::Texture addTemporalAntialiasingWithTaps(StageGraph graph, fg::Buffer frame, fg::Texture taps, fg::Texture filtered,
-                                            fg::Texture output, const TemporalAntialiasingSettings& settings = {});
+/// @param depth `Guides::depth` if `coversPixelArea` holds, else not valid
+fg::Texture addTemporalAntialiasingWithTaps(StageGraph graph, fg::Buffer frame, fg::Texture taps, fg::Texture depth,
+                                            fg::Texture filtered, fg::Texture output,
+                                            const TemporalAntialiasingSettings& settings = {});
 
 }  // namespace walr

@@ -86,9 +86,10 @@ fg::Texture addAntialiasing(StageGraph graph, const DenoiserInputs& inputs, cons
   if (!plan.antialiases) {
     return filtered.resource == output.resource ? filtered : addPassThrough(graph, filtered, output);
   }
-  return plan.sharesTaps ? addTemporalAntialiasingWithTaps(graph, inputs.frame, accumulated.taps, filtered, output,
-                                                           plan.antialiasing)
-                         : addTemporalAntialiasing(graph, inputs, guides, filtered, output, plan.antialiasing);
+  if (!plan.sharesTaps) return addTemporalAntialiasing(graph, inputs, guides, filtered, output, plan.antialiasing);
+  const fg::Texture depth = coversPixelArea(plan.antialiasing, inputs.scene) ? guides.depth : fg::Texture{};
+  return addTemporalAntialiasingWithTaps(graph, inputs.frame, accumulated.taps, depth, filtered, output,
+                                         plan.antialiasing);
 }
 
 }  // namespace walr

@@ -26,7 +26,7 @@ struct WalrPaperSettings {
                                         .regularisation = {.method = Regularisation::Floor, .ridge = 2e-3F}};
   bool fitWindow = false;
   TemporalAntialiasingSettings antialiasing{
-      .maxHistory = 8.0F, .rejection = HistoryRejection::None, .dilateMotion = true};
+      .maxHistory = 8.0F, .rejection = HistoryRejection::None, .dilateMotion = true, .pixelArea = false};
 
   void visit(SettingVisitor& v) {
     v.visit({"spatial-only", "Filter each frame by itself, without the temporal stages", "", 0, 1,

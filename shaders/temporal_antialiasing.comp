@@ -1,6 +1,8 @@
 // Temporal anti-aliasing (passes/WALR.md, 9; Meunier & Harada 2022, 4.4): reads the history with a bicubic filter,
 // clips it to the variance of the current neighbourhood, and adds the current frame. The cumulative mean turns
 // exponential at `maxHistory`.
+// With kPixelArea, a jittered frame adds to the mean over the pixel's area: every history tap is accepted, whatever
+// surface it shows, and the history follows the nearest surface of the 3 x 3 pixels.
 // KEPT_TAPS: reprojection comes from the taps that accumulation kept (history_taps.glsl). Otherwise it is done here, or
 // with kStill, nothing moves and the history of a pixel is the pixel itself.
 // PACKED: the filtered light and the history are packed light (packed_light.glsl); every surface has filtered light,
@@ -16,6 +18,7 @@
 
 layout(local_size_x = 16, local_size_y = 8) in;
 layout(constant_id = 2) const uint kClipRadius = 1;  // Radius of the clipping neighbourhood, pixels.
+layout(constant_id = 6) const bool kPixelArea = false;
 #ifdef KEPT_TAPS
 layout(constant_id = 3) const bool kRejectHistory = true;  // Leave out taps that accumulation rejected.
 #endif
@@ -45,12 +48,12 @@ layout(rgba16f) uniform writeonly image2D outResolved;
 layout(rgba16f) uniform writeonly image2D outImage;
 #endif
 layout(std140) uniform frameConstants { FrameConstants frame; };
+uniform utexture2D depth;  // KEPT_TAPS: read with kPixelArea only.
 #ifdef KEPT_TAPS
 uniform utexture2D keptTaps;
 #else
 layout(constant_id = 4) const bool kStill = false;
 uniform texture2D motion;
-uniform utexture2D depth;
 uniform usampler2D previousDepth;
 uniform utexture2D geometricNormal;
 uniform usampler2D previousGeometricNormal;
@@ -89,39 +92,15 @@ vec4 filteredOrPassThroughAt(ivec2 p) { return filteredAt(p); }
 #include "include/half.glsl"
 
 #ifdef KEPT_TAPS
+#include "include/surface.glsl"
 const bool kStill = false;
 float confidentLength(ivec2 p, float samples, float most) { return samples; }
-
-HistoryTaps tapsOf(ivec2 p) {
-  HistoryTaps taps = unpackTaps(p, texelFetch(keptTaps, p, 0).x, frame.previousPixelFromPixel);
-  if (!kRejectHistory) taps.accepted = tapsInside(taps, textureSize(previousResolved, 0));
-  return taps;
-}
 #else
 #include "include/confidence.glsl"
 #define HISTORY previousResolved
 #define OBJECTS
 #include "include/reprojection.glsl"
-
-HistoryTaps tapsOf(ivec2 p) {
-  const Reprojection r = reproject(p, depthAt(p));
-  return historyTaps(p, r, constants.planeTolerance, constants.normalThreshold);
-}
 #endif
-
-vec4 historyOf(ivec2 p, out int rejected) {
-  rejected = 0;
-  vec4 history;
-  if (kStill) {
-    history = historyTexel(previousResolved, p);
-  } else {
-    const HistoryTaps taps = tapsOf(p);
-    rejected = tapsRejected(taps);
-    history = bicubicOfTaps(previousResolved, taps);
-  }
-  history.a = confidentLength(p, history.a, constants.maxHistory);
-  return history;
-}
 
 // Whether a pixel shows a surface. `colour`: its filtered colour.
 #ifdef PACKED
@@ -141,16 +120,34 @@ vec3 fromYCoCg(vec3 c) {
   return vec3(notGreen + c.y, c.x + c.z, notGreen - c.y);
 }
 
-// The filtered colours in and around the pixels of a work group. rgb: YCoCg of a surface's colour; a: 1. Other pixels
-// are 0.
+// The filtered colours in and around the pixels of a work group. rgb: YCoCg of a surface's colour; a: 1 or, with
+// kPixelArea, its depth. Others: rgb: 0; a: 0 or, with kPixelArea, minus the depth of a surface whose colour is not known,
+// and minus infinity without a surface.
 const uint kTileWidth = gl_WorkGroupSize.x + 2u * kClipRadius;
 const uint kTileHeight = gl_WorkGroupSize.y + 2u * kClipRadius;
 shared vec4 tile[kTileWidth * kTileHeight];
 
 uint tileIndex(uvec2 texel) { return (texel.y & 0xffu) * kTileWidth + texel.x; }
 
+// Depth as far as it tells what is nearer: the lowest bits hold other guides (surface.glsl). Infinite without a surface.
+float nearness(ivec2 q, bool known) {
+  const uint packed = texelFetch(depth, q, 0).x;
+#ifdef PACKED
+  const bool surface = known;
+#else
+  const bool surface = packed != 0u;
+#endif
+  return uintBitsToFloat(surface ? packed & ~kShortNormalMask : 0x7f800000u);
+}
+
 vec4 tileTexel(ivec2 q, vec4 colour) {
-  return colour.a >= 0.0 && hasSurface(q, colour) ? vec4(toYCoCg(colour.rgb), 1.0) : vec4(0.0);
+  const bool known = colour.a >= 0.0;
+  if (!kPixelArea) return known && hasSurface(q, colour) ? vec4(toYCoCg(colour.rgb), 1.0) : vec4(0.0);
+  const float z = nearness(q, known);
+#ifndef PACKED
+  if (isinf(z)) return vec4(vec3(0.0), -z);
+#endif
+  return known ? vec4(toYCoCg(colour.rgb), z) : vec4(vec3(0.0), -z);
 }
 
 // Texel `i` of the tile beyond the work group's sides: above and below first, then left and right.
@@ -180,6 +177,60 @@ void fillTile(ivec2 q, vec4 own) {
   barrier();
 }
 
+// The pixel of the 3 x 3 around `p`, the pixel of this thread, that is nearest to the camera. Along silhouettes it is one
+// of the occluder, whose motion the history follows. Of pixels at one depth, `p` comes first.
+ivec2 nearestInTile(ivec2 p) {
+  const uint centre = tileIndex(gl_LocalInvocationID.xy + kClipRadius);
+  // The bits of positive numbers are ordered as the numbers are. The lowest bits of a depth in the tile are 0, and take
+  // the pixel's number: 0 for `p`, from 1 on in reading order for the others.
+  uint least = 0xffffffffu;
+  [[unroll]] for (uint i = 0u; i < 9u; ++i) {
+    const uint number = i == 4u ? 0u : (i < 4u ? i + 1u : i);
+    const uint texel = centre + i / 3u * kTileWidth + i % 3u - kTileWidth - 1u;
+    least = min(least, floatBitsToUint(abs(tile[texel].a)) | number);
+  }
+  const uint number = least & 0xfu;
+  const uint i = number == 0u ? 4u : (number <= 4u ? number - 1u : number);
+  // Beyond the image's border, the tile repeats the border's pixels.
+  return clamp(p + ivec2(i % 3u, i / 3u) - 1, ivec2(0), textureSize(filtered, 0) - 1);
+}
+
+// Whether the mean is over the pixel's area: samples lie elsewhere in a pixel than in the previous frame.
+bool coversArea() { return kPixelArea && frame.jitterDelta != vec2(0.0); }
+
+#ifdef KEPT_TAPS
+HistoryTaps tapsOf(ivec2 p) {
+  const bool wholeArea = coversArea();
+  const uint kept = texelFetch(keptTaps, wholeArea ? nearestInTile(p) : p, 0).x;
+  HistoryTaps taps = unpackTaps(p, kept, frame.previousPixelFromPixel);
+  if (!kRejectHistory || wholeArea) taps.accepted = tapsInside(taps, textureSize(previousResolved, 0));
+  return taps;
+}
+#else
+HistoryTaps tapsOf(ivec2 p) {
+  const float z = depthAt(p);
+  if (!coversArea()) return historyTaps(p, reproject(p, z), constants.planeTolerance, constants.normalThreshold);
+  const Reprojection r = reprojectWith(p, z, nearestInTile(p));
+  HistoryTaps taps = tapsAround(p, r.motion, frame.previousPixelFromPixel);
+  if (r.valid) taps.accepted = tapsInside(taps, textureSize(previousResolved, 0));
+  return taps;
+}
+#endif
+
+vec4 historyOf(ivec2 p, out int rejected) {
+  rejected = 0;
+  vec4 history;
+  if (kStill) {
+    history = historyTexel(previousResolved, p);
+  } else {
+    const HistoryTaps taps = tapsOf(p);
+    rejected = tapsRejected(taps);
+    history = bicubicOfTaps(previousResolved, taps);
+  }
+  history.a = confidentLength(p, history.a, constants.maxHistory);
+  return history;
+}
+
 // Smallest half size of the clipping box around a mean: the rounding of history and neighbourhood. In a smaller
 // box, where chroma hardly varies, that rounding would decide how much of the history's luma is kept.
 #ifdef PACKED
@@ -205,7 +256,7 @@ ClippingBox clippingBox() {
   for (uint y = 0u; y <= 2u * kClipRadius; ++y) {
     for (uint x = 0u; x <= 2u * kClipRadius; ++x) {
       const vec4 colour = tile[first + tileIndex(uvec2(x, y))];
-      sum += colour;
+      sum += vec4(colour.rgb, clamp(colour.a * 1e30, 0.0, 1.0));  // 1 if it is positive, else 0.
       squares += colour.rgb * colour.rgb;
     }
   }

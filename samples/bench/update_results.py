@@ -2,6 +2,7 @@
 """Writes the measurements of `walr bench` into the project's documents.
 
     update_results.py methods FOLDER    takes the comparison of methods from FOLDER/bench.json, and its pictures
+    update_results.py costs FOLDER      takes only the bytes, taps and memory of these methods, after a change of no result
     update_results.py scenes FOLDER     takes the rendered scenes and the times by content from FOLDER/bench.json
     update_results.py                   writes the documents again from results.json
     update_results.py --check           fails if a document differs from what results.json gives
@@ -75,6 +76,16 @@ def keep_methods(data):
             kept["methods"][response["variant"]]["response"] = {**{k: rounded(response[k]) for k in RESPONSES},
                                                                 "trail": rounded(response["trail_by_age"][0])}
     return kept
+
+
+def keep_costs(data, kept):
+    """The comparison that is kept, with the costs of another run and its commit."""
+    costs = {v["name"]: costs_at_1080p(v) for v in data["variants"] if not v["sweep"]}
+    missing = [name for name in kept["methods"] if name not in costs]
+    if missing:
+        sys.exit(f"bench.json lacks {listed(missing)}")
+    methods = {name: {**method, **costs[name]} for name, method in kept["methods"].items()}
+    return {**kept, "costs_commit": data["commit"][:12], "methods": methods}
 
 
 def keep_scenes(data):
@@ -274,7 +285,13 @@ trails, and seams that do not stay with their surface show there.*
 At commit {kept['commit']} ({kept['compiler']}) on {kept['device']}, {kept['driver']}, with
 
     {kept['command']}
-""" + renamed_note(kept)
+""" + costs_note(kept) + renamed_note(kept)
+
+
+def costs_note(kept):
+    if "costs_commit" not in kept:
+        return ""
+    return f"\nBytes, taps and memory are those of commit {kept['costs_commit']}, which changes no picture of these sequences.\n"
 
 
 def renamed_note(kept):
@@ -431,6 +448,9 @@ def main():
         save(kept)
         if what == "methods":
             draw_crops(folder)
+    elif len(arguments) == 2 and arguments[0] == "costs":
+        kept["methods"] = keep_costs(json.loads((pathlib.Path(arguments[1]) / "bench.json").read_text()), kept["methods"])
+        save(kept)
     elif arguments:
         sys.exit(__doc__)
     for path, text in documents(kept).items():

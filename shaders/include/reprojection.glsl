@@ -105,9 +105,10 @@ float previousDepthOf(ivec2 p, float z) {
   return -previousPositionAt(p, z).z;
 }
 
-Reprojection reproject(ivec2 p, float z) {
+// `followed`: the pixel whose motion the history of `p` follows.
+Reprojection reprojectWith(ivec2 p, float z, ivec2 followed) {
   Reprojection r;
-  vec2 exact = motionAt(pixelToFollow(p, z));
+  vec2 exact = motionAt(followed);
   if (kJitter) exact -= frame.jitterDelta;
   // Motion that is not finite leads outside any image, and none leads further.
   r.motion = isFinite(exact) ? exact : vec2(kLargestHalf);
@@ -119,6 +120,8 @@ Reprojection reproject(ivec2 p, float z) {
   r.valid = isFinite(r.depth) && r.depth > 0.0;
   return r;
 }
+
+Reprojection reproject(ivec2 p, float z) { return reprojectWith(p, z, pixelToFollow(p, z)); }
 
 // The geometric normal of pixel `p` in the previous view space.
 vec3 previousNormalAt(ivec2 p) {

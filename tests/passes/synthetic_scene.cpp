@@ -47,6 +47,12 @@ glm::dvec3 roundToHalf(glm::dvec3 v) {
   return {reference::roundToHalf(v.x), reference::roundToHalf(v.y), reference::roundToHalf(v.z)};
 }
 
+double radicalInverse(std::uint32_t index, std::uint32_t base) {
+  double value = 0.0;
+  for (double digit = 1.0 / base; index > 0; index /= base, digit /= base) value += digit * (index % base);
+  return value;
+}
+
 }  // namespace
 
 Scene flatWall() {
@@ -266,6 +272,26 @@ std::vector<HostFrame> movingFrames(const Scene& scene, glm::ivec2 size, std::ui
   for (std::uint32_t i = 0; i < count; ++i)
     frames.push_back(
         renderFrame(scene, cameraAt(cameraPosition(i), cameraPosition(i - 1.0), size, i), size, light, noise));
+  return frames;
+}
+
+glm::vec2 jitterAt(std::uint32_t index) {
+  const std::uint32_t point = index % 16 + 1;
+  return {radicalInverse(point, 2) - 0.5, radicalInverse(point, 3) - 0.5};
+}
+
+FrameDescription jittered(FrameDescription camera, std::uint32_t index) {
+  camera.jitter = jitterAt(index);
+  camera.previousJitter = jitterAt(index + 15);
+  return camera;
+}
+
+std::vector<HostFrame> jitteredFrames(const Scene& scene, glm::ivec2 size, std::uint32_t count) {
+  std::vector<HostFrame> frames;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const FrameDescription camera = cameraAt(cameraPosition(i), cameraPosition(i - 1.0), size, i);
+    frames.push_back(renderFrame(scene, jittered(camera, i), size));
+  }
   return frames;
 }
 

@@ -89,4 +89,11 @@ reference::HostFrame renderStill(const Scene& scene, glm::ivec2 size, std::uint3
 std::vector<reference::HostFrame> movingFrames(const Scene& scene, glm::ivec2 size, std::uint32_t count = 3,
                                                const Light& light = smoothLight, Noise noise = Noise::Exponential);
 
+/// Jitter about the pixel's centre: 16 points of the Halton sequences of bases 2 and 3 (Halton 1960), over and over.
+glm::vec2 jitterAt(std::uint32_t index);
+/// A camera with the jitter of the given frame.
+FrameDescription jittered(FrameDescription camera, std::uint32_t index);
+/// Frames of `movingFrames`, jittered.
+std::vector<reference::HostFrame> jitteredFrames(const Scene& scene, glm::ivec2 size, std::uint32_t count = 3);
+
 }  // namespace walr::test

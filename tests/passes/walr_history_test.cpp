@@ -24,19 +24,6 @@ glm::dvec3 constantLight(glm::dvec3 /*point*/, glm::dvec3 /*normal*/) {
   return kConstant;
 }
 
-/// Jitter about the pixel's centre, by the Halton sequences of bases 2 and 3 (Halton 1960).
-glm::vec2 jitterAt(std::uint32_t index) {
-  constexpr std::array kHalton{glm::vec2(0.0F, -0.16666667F), glm::vec2(-0.25F, 0.16666667F),
-                               glm::vec2(0.25F, -0.38888889F), glm::vec2(-0.375F, -0.05555556F)};
-  return kHalton.at(index % kHalton.size());
-}
-
-FrameDescription jittered(FrameDescription camera, std::uint32_t index) {
-  camera.jitter = jitterAt(index);
-  camera.previousJitter = jitterAt(index - 1);
-  return camera;
-}
-
 HostFrame movingFrame(const Scene& scene, double time, double previousTime, std::uint32_t index) {
   return renderFrame(scene, cameraAt(cameraPosition(time), cameraPosition(previousTime), kSize, index), kSize);
 }
@@ -70,14 +57,24 @@ TEST_F(WalrHistoryTest, StagesAgreeWithTheReferenceWhenAFrameIsSkipped) {
     expectFrames({movingFrame(scene, 0, -1, 0), movingFrame(scene, 1, 0, 1), movingFrame(scene, 3, 1, 3)});
 }
 
+/// Settings of anti-aliasing under jitter, each of which selects another shader or other taps.
+std::vector<AnyWalr> jitteredSettings() {
+  WalrPaperSettings surfaces = robustWalr();
+  surfaces.antialiasing.pixelArea = false;
+  WalrPaperSettings apart = robustWalr();
+  apart.antialiasing.normalThreshold = 0.4F;  // Makes anti-aliasing do its own reprojection.
+  apart.antialiasing.clipRadius = 2;
+  WalrSettings packedSurfaces;
+  packedSurfaces.antialiasing.pixelArea = false;
+  WalrSettings packedApart;
+  packedApart.antialiasing.normalThreshold = 0.4F;
+  return {robustWalr(), paperWalr(), surfaces, apart, WalrSettings{}, packedSurfaces, packedApart};
+}
+
 TEST_F(WalrHistoryTest, StagesAgreeWithTheReferenceUnderJitter) {
-  for (const Scene& scene : {sphere(), thinBars()}) {
-    std::vector<HostFrame> frames;
-    for (std::uint32_t i = 1; i < 4; ++i) {
-      const FrameDescription camera = cameraAt(cameraPosition(i), cameraPosition(i - 1.0), kSize, i);
-      frames.push_back(renderFrame(scene, jittered(camera, i), kSize));
-    }
-    expectFrames(frames);
+  for (const AnyWalr& settings : jitteredSettings()) {
+    for (const Scene& scene : {thinBars(), skyBesideSurface()})
+      expectSequence(device(), jitteredFrames(scene, kSize), settings);
   }
 }
 
@@ -316,13 +313,14 @@ double edgeIn(const reference::Image<Pixel>& image) {
   return sum / image.size().y;
 }
 
-// An upscaler that follows needs edges where this frame's jitter puts them. Anti-aliasing leaves them there, because it
-// takes no history of another surface.
+// An upscaler that follows needs edges where this frame's jitter puts them. Anti-aliasing leaves them there if it takes
+// no history of another surface.
 TEST_F(WalrHistoryTest, EdgesMoveWithTheJitter) {
   for (const bool antialiasing : {false, true}) {
     SCOPED_TRACE(antialiasing ? "with anti-aliasing" : "without anti-aliasing");
     WalrSettings settings;
     settings.antialiasing.enabled = antialiasing;
+    settings.antialiasing.pixelArea = false;
     WalrRun run(device(), kSize, settings, {}, false);
     double first = 0.0;
     for (std::uint32_t i = 1; i <= 16; ++i) {
@@ -336,6 +334,56 @@ TEST_F(WalrHistoryTest, EdgesMoveWithTheJitter) {
       const glm::dvec2 moved(jitterAt(i) - jitterAt(1));
       EXPECT_NEAR(edge - first, -moved.x - kLean * moved.y, 2.0 / 16.0) << "frame " << i;
     }
+  }
+}
+
+/// Mean of the panel's and the wall's light over the area of every pixel, from 16 x 16 points in each.
+reference::Image<double> areaMeans(const FrameDescription& camera) {
+  constexpr int kPoints = 16;
+  reference::Image<double> sums(kSize);
+  for (int i = 0; i < kPoints * kPoints; ++i) {
+    FrameDescription displaced = camera;
+    displaced.jitter = (glm::vec2(i % kPoints, i / kPoints) + 0.5F) / float(kPoints) - 0.5F;
+    const HostFrame frame = renderFrame(leaningPanel, displaced, kSize, lightOfPanel, Noise::None);
+    for (std::size_t k = 0; k < sums.pixels().size(); ++k) sums.pixels()[k] += frame.lighting.pixels()[k].r;
+  }
+  for (double& sum : sums.pixels()) sum /= kPoints * kPoints;
+  return sums;
+}
+
+/// Root mean square error against the means over pixels' areas of the 16 frames after the first 16 of a still, jittered
+/// camera.
+double errorOfAreas(const fg::vk::Device& device, const WalrSettings& settings,
+                    const reference::Image<double>& expected) {
+  WalrRun run(device, kSize, settings, {}, false);
+  double squares = 0.0;
+  for (std::uint32_t i = 1; i <= 32; ++i) {
+    const HostFrame frame =
+        renderFrame(leaningPanel, jittered(cameraAt({}, {}, kSize, i), i), kSize, lightOfPanel, Noise::None);
+    const reference::Image<glm::dvec4> output = run.frame(frame).output;
+    for (std::size_t k = 0; i > 16 && k < output.pixels().size(); ++k) {
+      const double error = output.pixels()[k].r - expected.pixels()[k];
+      squares += error * error;
+    }
+  }
+  return std::sqrt(squares / (16.0 * double(expected.pixels().size())));
+}
+
+// A mean that gives each frame a share of 1/n has 1 / (2 n - 1) of the variance of one frame: a fifth for n = 3, if
+// frames were independent. Points of the jitter cover a pixel more evenly than independent ones, and clipping moves
+// history by the rounding of packed light only, because a neighbourhood of both surfaces spans both lights.
+TEST_F(WalrHistoryTest, JitteredEdgesBecomeMeansOverPixels) {
+  const reference::Image<double> expected = areaMeans(cameraAt({}, {}, kSize, 0));
+  for (const bool ownReprojection : {false, true}) {
+    SCOPED_TRACE(ownReprojection ? "own reprojection" : "taps of accumulation");
+    WalrSettings settings;
+    if (ownReprojection) settings.antialiasing.normalThreshold = 0.4F;
+    ASSERT_EQ(settings.antialiasing.maxHistory, 3.0F);
+    const double ofAreas = errorOfAreas(device(), settings, expected);
+    settings.antialiasing.pixelArea = false;
+    const double ofSurfaces = errorOfAreas(device(), settings, expected);
+    EXPECT_LT(ofAreas, std::sqrt(1.0 / 5.0) * ofSurfaces);
+    EXPECT_GT(ofSurfaces, 0.0);
   }
 }
 

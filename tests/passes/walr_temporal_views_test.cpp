@@ -27,6 +27,7 @@ struct NamedSettings {
   const char* name;
   AnyWalr settings;
   SceneDescription scene;
+  bool jittered = false;
 };
 std::vector<NamedSettings> allSettings() {
   WalrPaperSettings apart = robustWalr();
@@ -37,10 +38,17 @@ std::vector<NamedSettings> allSettings() {
   WalrSettings packedApart;
   packedApart.antialiasing.normalThreshold = 0.4F;
   const SceneDescription camera{.objectMotion = false};
-  return {{"robust", robustWalr(), {}},     {"paper", paperWalr(), {}},
-          {"two reprojections", apart, {}}, {"camera alone", apart, camera},
-          {"by depth", byDepth, {}},        {"by depth, camera alone", byDepth, camera},
-          {"packed", WalrSettings{}, {}},   {"packed, two reprojections", packedApart, {}}};
+  return {{"robust", robustWalr(), {}},
+          {"paper", paperWalr(), {}},
+          {"two reprojections", apart, {}},
+          {"camera alone", apart, camera},
+          {"by depth", byDepth, {}},
+          {"by depth, camera alone", byDepth, camera},
+          {"packed", WalrSettings{}, {}},
+          {"packed, two reprojections", packedApart, {}},
+          {"jittered", robustWalr(), {}, true},
+          {"jittered, two reprojections", apart, {}, true},
+          {"jittered, packed", WalrSettings{}, {}, true}};
 }
 
 /// The history of a stage at a pixel.
@@ -49,17 +57,15 @@ struct Past {
   int rejected = 0;
   bool undecided = false;
 };
-template <typename Settings>
-Past pastOf(const DeviceFrame& f, const Image<glm::dvec4>& before, glm::ivec2 p, const Settings& settings,
-            HistoryFilter filter, bool keepTaps) {
-  const reference::Reprojection r =
-      reference::reproject(f.frame, f.current.guides, p, {settings.dilateMotion, keepTaps});
-  const auto taps = reference::historyTaps(f.frame, r, f.previous.guides, reference::historyTestsOf(settings));
+Past pastOf(const DeviceFrame& f, const Image<glm::dvec4>& before, glm::ivec2 p,
+            const reference::ReprojectionOptions& options, const reference::HistoryTests& tests, HistoryFilter filter) {
+  const reference::Reprojection r = reference::reproject(f.frame, f.current.guides, p, options);
+  const auto taps = reference::historyTaps(f.frame, r, f.previous.guides, tests);
   Past past{reference::sampleHistory(r, taps, before, filter), 0, r.undecided};
   for (const reference::HistoryTap& tap : taps) {
     // With no test of history only the image's border rejects a tap; the sky is skipped because it has no samples.
     const bool accepted =
-        settings.rejection == HistoryRejection::None ? f.previous.guides.contains(tap.pixel) : tap.matches;
+        tests.rejection == HistoryRejection::None ? f.previous.guides.contains(tap.pixel) : tap.matches;
     past.rejected += r.valid && accepted ? 0 : 1;
     past.undecided = past.undecided || tap.undecided;
   }
@@ -69,8 +75,10 @@ Past pastOf(const DeviceFrame& f, const Image<glm::dvec4>& before, glm::ivec2 p,
 
 void expectHistory(Comparison& comparison, const DeviceFrame& f, glm::ivec2 p, const AnyWalr& settings, bool keepTaps) {
   const glm::dvec3 view = f.current.views.at("history")[p];
+  const TemporalAccumulationSettings& accumulation = settings.accumulation();
   const Past past =
-      pastOf(f, f.previous.accumulated, p, settings.accumulation(), settings.accumulation().historyFilter, keepTaps);
+      pastOf(f, f.previous.accumulated, p, {.dilateMotion = accumulation.dilateMotion, .keepTaps = keepTaps},
+             reference::historyTestsOf(accumulation), accumulation.historyFilter);
   if (comparison.skips(past.undecided)) return;
   const bool packed = settings.packsAccumulation();
   comparison.value(p, "history length", f.current.accumulated[p].w, view.x,
@@ -85,7 +93,9 @@ void expectClipping(Comparison& comparison, const DeviceFrame& f, glm::ivec2 p, 
                     bool keepTaps) {
   const glm::dvec3 clip = f.current.views.at("clip")[p];
   const glm::dvec3 resolved = f.current.views.at("resolved-history")[p];
-  const Past past = pastOf(f, f.previous.resolved, p, settings.antialiasing(), HistoryFilter::Bicubic, keepTaps);
+  const TemporalAntialiasingSettings& antialiasing = settings.antialiasing();
+  const Past past = pastOf(f, f.previous.resolved, p, reference::reprojectionOf(f.frame, antialiasing, keepTaps),
+                           reference::historyTestsOf(f.frame, antialiasing), HistoryFilter::Bicubic);
   if (comparison.skips(past.undecided || past.history.found != (resolved.z == 0.0))) return;
   const bool packed = settings.packsAntialiasing();
   const double n = resolved.x;
@@ -124,7 +134,7 @@ TEST_F(WalrTemporalViewsTest, ShowHistoryAndClipping) {
       WalrRun run(device(), kSize, named.settings, {}, true, named.scene, {"history", "clip", "resolved-history"});
       const bool keepTaps = sharesReprojection(named.settings.antialiasing(), named.settings.accumulation());
       DeviceFrame f;
-      for (const HostFrame& frame : movingFrames(scene, kSize)) {
+      for (const HostFrame& frame : named.jittered ? jitteredFrames(scene, kSize) : movingFrames(scene, kSize)) {
         f.previous = std::move(f.current);
         f.frame = frame;
         f.frame.scene = named.scene;

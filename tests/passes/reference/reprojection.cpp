@@ -12,15 +12,26 @@
 namespace walr::reference {
 namespace {
 
+double exactDepth(double depth) {
+  return depth;
+}
+/// Rounded down to 12 significant bits.
+double shortDepth(double depth) {
+  int exponent = 0;
+  const double mantissa = std::frexp(depth, &exponent);
+  return std::ldexp(std::floor(std::ldexp(mantissa, 12)), exponent - 12);
+}
+
 /// Motion vector dilation (Meunier & Harada 2022, 4.2): the pixel of the 3x3 neighbourhood whose surface is nearest to
 /// the camera. Among equally near ones the pixel itself comes first, then reading order.
-glm::ivec2 nearestPixel(const Image<Guide>& guides, glm::ivec2 p) {
+/// @param rounded how depths are rounded before they are compared
+glm::ivec2 nearestPixel(const Image<Guide>& guides, glm::ivec2 p, double (*rounded)(double)) {
   glm::ivec2 nearest = p;
   for (int dy = -1; dy <= 1; ++dy) {
     for (int dx = -1; dx <= 1; ++dx) {
       const glm::ivec2 q = p + glm::ivec2(dx, dy);
       if (!guides.contains(q) || guides[q].depth == 0.0) continue;
-      if (guides[q].depth < guides[nearest].depth) nearest = q;
+      if (rounded(guides[q].depth) < rounded(guides[nearest].depth)) nearest = q;
     }
   }
   return nearest;
@@ -40,7 +51,9 @@ double keptMotion(double motion) {
 Reprojection reproject(const HostFrame& frame, const Image<Guide>& guides, glm::ivec2 p,
                        const ReprojectionOptions& options) {
   const FrameConstants& constants = frame.constants;
-  const glm::ivec2 source = options.dilateMotion ? nearestPixel(guides, p) : p;
+  const glm::ivec2 source = options.dilateByShortDepth ? nearestPixel(guides, p, shortDepth)
+                            : options.dilateMotion     ? nearestPixel(guides, p, exactDepth)
+                                                       : p;
   const glm::dmat4 previousFromCurrent(constants.previousViewFromView);
   const auto positionBefore = [&](glm::ivec2 q) {
     const glm::dvec3 position = rayThrough(constants.rayFromPixel, pixelCentre(q)) * guides[q].depth;

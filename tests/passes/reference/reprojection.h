@@ -23,6 +23,8 @@ struct Reprojection {
 struct ReprojectionOptions {
   /// Follow the motion of the nearest surface of the 3x3 neighbourhood (Meunier & Harada 2022, 4.2).
   bool dilateMotion = false;
+  /// The same, and what is nearest is told by depths rounded down to 12 significant bits (`antialiasing.pixel-area`).
+  bool dilateByShortDepth = false;
   bool keepTaps = false;  ///< Round the motion as for the texture of history taps: to halves with 9 significant bits.
 };
 /// Reproject the surface at a pixel (Meunier & Harada 2022, 4.2): its position in the previous image by motion vector,

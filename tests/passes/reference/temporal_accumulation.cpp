@@ -61,7 +61,7 @@ Image<Accumulated> accumulate(const HostFrame& frame, const Image<Guide>& guides
     HistorySample past;
     FrameOfHistory kappa;
     if (!previous.guides.pixels().empty()) {
-      const Reprojection r = reproject(frame, guides, p, {settings.dilateMotion, keepTaps});
+      const Reprojection r = reproject(frame, guides, p, {.dilateMotion = settings.dilateMotion, .keepTaps = keepTaps});
       past = sampleHistory(r, historyTaps(frame, r, previous.guides, historyTestsOf(settings), grid),
                            previous.accumulated, settings.historyFilter, !frame.conventions.light.everyPixel());
       kappa = frameOfHistory(frame, past, count, settings.maxHistory);

@@ -101,12 +101,31 @@ glm::dvec3 varianceClip(glm::dvec3 colour, glm::dvec3 mean, glm::dvec3 deviation
   return mean + shrink * offset;
 }
 
+bool coversPixelArea(const HostFrame& frame, const TemporalAntialiasingSettings& settings) {
+  return walr::coversPixelArea(settings, frame.scene) && frame.constants.jitterDelta != glm::vec2(0.0F);
+}
+
+ReprojectionOptions reprojectionOf(const HostFrame& frame, const TemporalAntialiasingSettings& settings,
+                                   bool keptTaps) {
+  return {.dilateMotion = settings.dilateMotion,
+          .dilateByShortDepth = coversPixelArea(frame, settings),
+          .keepTaps = keptTaps};
+}
+
+HistoryTests historyTestsOf(const HostFrame& frame, const TemporalAntialiasingSettings& settings) {
+  HistoryTests tests = historyTestsOf(settings);
+  tests.objects = settings.objectIds && frame.objectId.size() == frame.size();
+  if (!coversPixelArea(frame, settings)) return tests;
+  tests.rejection = HistoryRejection::None;
+  tests.objects = false;
+  return tests;
+}
+
 Image<Accumulated> antialias(const HostFrame& frame, const Image<Guide>& guides, const Image<glm::dvec4>& filtered,
                              const AntialiasingHistory& previous, Storage storage,
                              const TemporalAntialiasingSettings& settings, bool keptTaps) {
   Image<Accumulated> result(frame.size());
-  HistoryTests tests = historyTestsOf(settings);
-  tests.objects = settings.objectIds && frame.objectId.size() == frame.size();
+  const HistoryTests tests = historyTestsOf(frame, settings);
   forEachPixel(frame.size(), [&](glm::ivec2 p) {
     const glm::dvec3 current(filtered[p]);
     const bool known = filtered[p].w >= 0.0;
@@ -118,7 +137,7 @@ Image<Accumulated> antialias(const HostFrame& frame, const Image<Guide>& guides,
     else
       out.mean = glm::dvec3(0.0);
     if (previous.guides.pixels().empty()) return;
-    const Reprojection r = reproject(frame, guides, p, {settings.dilateMotion, keptTaps});
+    const Reprojection r = reproject(frame, guides, p, reprojectionOf(frame, settings, keptTaps));
     const HistorySample history =
         sampleHistory(r, historyTaps(frame, r, previous.guides, tests), previous.resolved, HistoryFilter::Bicubic);
     out.undecided = history.undecided;

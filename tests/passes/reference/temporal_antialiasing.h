@@ -19,6 +19,14 @@ glm::dvec3 fromYCoCg(glm::dvec3 yCoCg);
 /// exceeds its deviation.
 glm::dvec3 varianceClip(glm::dvec3 colour, glm::dvec3 mean, glm::dvec3 deviation);
 
+/// Whether anti-aliasing averages a frame over the area of pixels: it is jittered (passes/WALR.md, 9).
+bool coversPixelArea(const HostFrame& frame, const TemporalAntialiasingSettings& settings);
+
+/// How anti-aliasing finds history.
+/// @param keptTaps see `antialias`
+ReprojectionOptions reprojectionOf(const HostFrame& frame, const TemporalAntialiasingSettings& settings, bool keptTaps);
+HistoryTests historyTestsOf(const HostFrame& frame, const TemporalAntialiasingSettings& settings);
+
 /// Temporal anti-aliasing, the postprocessing phase (Meunier & Harada 2022, 4.4; passes/WALR.md, 9): bicubic history,
 /// variance clipping, moving average. `Accumulated::error` bounds what single precision adds.
 /// @param filtered rgb: the current frame; a: below 0 where no light is known
