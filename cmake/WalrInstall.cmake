@@ -47,6 +47,7 @@ function(walr_install_guides folder component)
   set(options COMPONENT ${component} ${ARGN})
   install(FILES integration/README.md integration/ADAPTERS.md DESTINATION "${folder}/integration" ${options})
   install(FILES passes/WALR.md passes/WALR_EXPERIMENTS.md passes/SPARSE_LIGHT_EXPERIMENTS.md
+    passes/ANTIALIASING_EXPERIMENTS.md
     passes/GLOSSARY.md passes/BIBLIOGRAPHY.md
     DESTINATION "${folder}/passes" ${options})
   install(FILES passes/images/walr.svg DESTINATION "${folder}/passes/images" ${options})
