@@ -140,11 +140,12 @@ class Field {
 
   /// Filter with one kernel along x and another along y. Beyond the border the nearest value is repeated. The result is
   /// 0 where it is not wanted.
-  [[nodiscard]] Plane filter(const Plane& plane, const Kernel& alongX, const Kernel& alongY) const {
+  /// @param near `runsWithin` the radius of `alongY`
+  [[nodiscard]] Plane filter(const Plane& plane, const Kernel& alongX, const Kernel& alongY, const Runs& near) const {
     const int radiusX = static_cast<int>(alongX.size()) / 2;
     const int radiusY = static_cast<int>(alongY.size()) / 2;
     Plane rows(plane.size());
-    forEachPixel(runsWithin(radiusY), [&](int x, int y) {
+    forEachPixel(near, [&](int x, int y) {
       double value = 0.0;
       for (int d = -radiusX; d <= radiusX; ++d) {
         value += alongX[static_cast<std::size_t>(d + radiusX)] * plane[index(std::clamp(x + d, 0, width_ - 1), y)];
@@ -172,7 +173,6 @@ class Field {
     forEachPixel(wanted_, [&](int x, int y) { visit(index(x, y)); });
   }
 
- private:
   /// The pixels with a wanted one in the same column, at most `reach` rows away.
   [[nodiscard]] Runs runsWithin(int reach) const {
     Runs runs(static_cast<std::size_t>(height_));
@@ -195,6 +195,7 @@ class Field {
     return runs;
   }
 
+ private:
   template <typename Visitor>
   void forEachPixel(const Runs& runs, Visitor visit) const {
     for (int y = 0; y < height_; ++y) {
@@ -247,9 +248,10 @@ std::vector<Colour> perceived(const Opponent& planes, const Field& field, double
   const auto kernel = [&](const Sensitivity& sensitivity) {
     return gaussian(radius, kSquaredPi / sensitivity.b / (pixelsPerDegree * pixelsPerDegree));
   };
+  const Runs near = field.runsWithin(radius);
   const auto single = [&](const Plane& plane, const Sensitivity& sensitivity) {
     const Kernel unit = scaled(kernel(sensitivity), 1.0 / sum(kernel(sensitivity)));
-    return field.filter(plane, unit, unit);
+    return field.filter(plane, unit, unit, near);
   };
   Opponent filtered = {single(planes[0], kAchromatic), single(planes[1], kRedGreen), Plane(planes[2].size())};
   double total = 0.0;
@@ -259,7 +261,7 @@ std::vector<Colour> perceived(const Opponent& planes, const Field& field, double
   }
   for (const Sensitivity& part : kBlueYellow) {
     const Kernel weighted = scaled(kernel(part), part.a * std::sqrt(std::numbers::pi / part.b) / total);
-    const Plane plane = field.filter(planes[2], weighted, kernel(part));
+    const Plane plane = field.filter(planes[2], weighted, kernel(part), near);
     field.forEachWanted([&](std::size_t i) { filtered[2][i] += plane[i]; });
   }
   std::vector<Colour> colours(planes[0].size());
@@ -292,10 +294,11 @@ Features features(const Plane& achromatic, const Field& field, double pixelsPerD
   }
   Plane normalised = achromatic;
   for (double& value : normalised) value = (value + 16.0) / 116.0;
+  const Runs near = field.runsWithin(radius);
   const auto strength = [&](const Kernel& derivative) {
     const Kernel kernel = balanced(derivative);
-    Plane alongX = field.filter(normalised, kernel, unit);
-    const Plane alongY = field.filter(normalised, unit, kernel);
+    Plane alongX = field.filter(normalised, kernel, unit, near);
+    const Plane alongY = field.filter(normalised, unit, kernel, near);
     field.forEachWanted([&](std::size_t i) { alongX[i] = std::hypot(alongX[i], alongY[i]); });
     return alongX;
   };
