@@ -129,6 +129,9 @@ shared vec4 tile[kTileWidth * kTileHeight];
 
 uint tileIndex(uvec2 texel) { return (texel.y & 0xffu) * kTileWidth + texel.x; }
 
+// The smallest depth in the tile; smaller ones count as this.
+const float kLeastNearness = 7.888609052210118e-31;  // 2^-100
+
 // Depth as far as it tells what is nearer: the lowest bits hold other guides (surface.glsl). Infinite without a surface.
 float nearness(ivec2 q, bool known) {
   const uint packed = texelFetch(depth, q, 0).x;
@@ -137,7 +140,7 @@ float nearness(ivec2 q, bool known) {
 #else
   const bool surface = packed != 0u;
 #endif
-  return uintBitsToFloat(surface ? packed & ~kShortNormalMask : 0x7f800000u);
+  return max(uintBitsToFloat(surface ? packed & ~kShortNormalMask : 0x7f800000u), kLeastNearness);
 }
 
 vec4 tileTexel(ivec2 q, vec4 colour) {
@@ -256,7 +259,7 @@ ClippingBox clippingBox() {
   for (uint y = 0u; y <= 2u * kClipRadius; ++y) {
     for (uint x = 0u; x <= 2u * kClipRadius; ++x) {
       const vec4 colour = tile[first + tileIndex(uvec2(x, y))];
-      sum += vec4(colour.rgb, clamp(colour.a * 1e30, 0.0, 1.0));  // 1 if it is positive, else 0.
+      sum += vec4(colour.rgb, clamp(colour.a * (1.0 / kLeastNearness), 0.0, 1.0));  // 1 if it is positive, else 0.
       squares += colour.rgb * colour.rgb;
     }
   }

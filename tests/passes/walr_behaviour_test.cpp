@@ -4,7 +4,6 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <utility>
 
 #include "tests/passes/comparison.h"
 #include "tests/passes/hard_cases.h"
@@ -52,11 +51,14 @@ WalrSettings blocksInHalves() {
   return settings;
 }
 
-HostFrame constantFrame(const Scene& scene, std::uint32_t index, glm::ivec2 size) {
+enum class Jitter { None, EveryFrame };
+
+HostFrame constantFrame(const Scene& scene, std::uint32_t index, glm::ivec2 size, Jitter jitter = Jitter::None) {
   const auto at = [](double i) { return glm::dvec3(0.08 * i, -0.03 * i, 0.0); };
+  const FrameDescription centred = cameraAt(at(index), at(index - 1.0), size, index);
   return renderFrame(
-      scene, cameraAt(at(index), at(index - 1.0), size, index), size, [](glm::dvec3, glm::dvec3) { return kConstant; },
-      Noise::None);
+      scene, jitter == Jitter::EveryFrame ? jittered(centred, index) : centred, size,
+      [](glm::dvec3, glm::dvec3) { return kConstant; }, Noise::None);
 }
 
 void expectConstant(const WalrStages& stages, const HostFrame& frame, const AnyWalr& settings) {
@@ -245,18 +247,23 @@ std::vector<Damage> allDamage() {
 TEST_F(WalrBehaviourTest, BrokenInputStaysFiniteAndDoesNotSpread) {
   const glm::ivec2 broken(19, 13);
   // The raw moments of the preset paper keep a constant only on a flat wall.
-  const std::pair<AnyWalr, Scene> cases[] = {{robustWalr(), bumpyWall(0.1)},
-                                             {WalrSettings{}, bumpyWall(0.1)},
-                                             {blocksInHalves(), bumpyWall(0.1)},
-                                             {manySamplesWalr(), bumpyWall(0.1)},
-                                             {paperWalr(), flatWall()}};
-  for (const auto& [settings, scene] : cases) {
+  struct Case {
+    AnyWalr settings;
+    Scene scene;
+    Jitter jitter;
+  };
+  const Case cases[] = {
+      {robustWalr(), bumpyWall(0.1), Jitter::None},         {WalrSettings{}, bumpyWall(0.1), Jitter::None},
+      {WalrSettings{}, bumpyWall(0.1), Jitter::EveryFrame}, {blocksInHalves(), bumpyWall(0.1), Jitter::EveryFrame},
+      {manySamplesWalr(), bumpyWall(0.1), Jitter::None},    {paperWalr(), flatWall(), Jitter::None}};
+  for (const auto& [settings, scene, jitter] : cases) {
     WalrRun run = makeRun(kSmall, settings);
     for (const Damage& damage : allDamage()) {
       SCOPED_TRACE(damage.name);
       run.resetHistory();
       for (std::uint32_t i = 0; i < 4; ++i) {
-        HostFrame frame = constantFrame(scene, i, kSmall);
+        SCOPED_TRACE(i);
+        HostFrame frame = constantFrame(scene, i, kSmall, jitter);
         if (i == 1) damage.apply(frame, broken);
         const WalrStages stages = run.frame(frame);
         for (int c = 0; c < 3; ++c) EXPECT_TRUE(std::isfinite(stages.output[broken][c]));
