@@ -24,7 +24,7 @@ struct BlockRegressionSettings {
   float sdfFraction = 0.75F;
   float ridge = 1e-4F;
   float growthErrors = 8.5F;
-  float coarseSigma = 0.0224F;
+  float coarseSigma = 0.012F;
   float coarseNarrowing = 0.3F;
   float coarseReach = 3.0F;
   float coarseResolution = 1.1F;
@@ -127,7 +127,8 @@ struct BlockFits {
 /// every iteration.
 /// @param frame  upload of `FrameConstants`
 /// @param guides with `features`
-/// @throws std::invalid_argument for settings outside their range, or if the fits of all blocks need a larger buffer
+/// @throws std::invalid_argument for settings that contradict each other (their ranges are the caller's to check,
+/// `Configurable::checkSettings`), or if the fits of all blocks need a larger buffer
 /// than every device has
 BlockFits addBlockRegression(StageGraph graph, fg::Buffer frame, const BlockLight& light, const Guides& guides,
                              const BlockRegressionSettings& settings = {});

@@ -106,7 +106,7 @@ std::vector<Sweep> walrSweeps() {
       over(kDefault, "coarse-least-share", "From which share is the coarse fit mixed in?", "blocks.coarse-least-share",
            {"0.000001", "0.1", "0.15", "0.2", "0.3"}),
       over(kDefault, "coarse-sigma", "How wide a window for the coarse fit?", "blocks.coarse-sigma",
-           {"0.011", "0.016", "0.0224", "0.032", "0.045"}),
+           {"0.006", "0.0085", "0.012", "0.016", "0.0224"}),
       over(kDefault, "coarse-resolution", "How fine a grid for the coarse fit?", "blocks.coarse-resolution",
            {"0.55", "1.1", "2.2", "4.4"}),
       over(kDefault, "coarse-narrowing", "How fast does the coarse fit's window narrow with the samples per pixel?",
