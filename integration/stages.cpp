@@ -12,10 +12,8 @@
 #include "passes/full_window_regression.h"
 #include "passes/joint_bilateral_filter.h"
 #include "passes/pass_through.h"
-#include "passes/svgf_filter.h"
 #include "passes/temporal_accumulation.h"
 #include "passes/temporal_antialiasing.h"
-#include "passes/text.h"
 #include "passes/weighted_regression.h"
 
 namespace walr {

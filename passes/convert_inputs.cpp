@@ -1,5 +1,7 @@
 #include "passes/convert_inputs.h"
 
+#include <cmath>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 
@@ -81,8 +83,10 @@ const fg::Shader& resultShader(VkFormat format) {
 }  // namespace
 
 HostConstants hostConstants(const glm::mat4& projection, float exposure, glm::ivec2 offset) {
-  if (!(exposure > 0.0F && 1.0F / exposure > 0.0F)) {
-    throw std::invalid_argument("the exposure is " + std::to_string(exposure) + ": it must be more than 0");
+  if (!(exposure > 0.0F && std::isfinite(exposure) && std::isfinite(1.0F / exposure))) {
+    std::ostringstream text;
+    text << "the exposure is " << exposure << ": it must be more than 0 and finite, and so must its inverse";
+    throw std::invalid_argument(text.str());
   }
   const bool orthographic = isOrthographic(projection);
   const glm::vec2 zRow(projection[3][2], projection[2][2]);

@@ -1,6 +1,6 @@
 #include "passes/frame.h"
 
-#include <glm/gtc/matrix_inverse.hpp>
+#include <glm/matrix.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "passes/camera_check.h"

@@ -38,9 +38,10 @@ std::uint32_t fullWindowTile(std::uint32_t window);
 /// @param frame       upload of `FrameConstants`
 /// @param accumulated RGBA16F: radiance to filter; alpha: history length, 0: the pixel has no weight
 /// @param output      RGBA16F texture to write the result to
-/// @returns the output's new version: filtered radiance; the pass-through at sky and pixels without a diffuse lobe;
-/// black where the window holds no sample
-/// @throws std::invalid_argument for settings outside their range
+/// @returns the output's new version: filtered radiance, alpha below 0 where the window has no sample; the pass-through
+/// at sky and pixels without a diffuse lobe
+/// @throws std::invalid_argument for settings that contradict each other; their ranges are the caller's to check
+/// (`Configurable::checkSettings`)
 fg::Texture addFullWindowRegression(StageGraph graph, fg::Buffer frame, fg::Texture accumulated, const Guides& guides,
                                     fg::Texture output, const FullWindowSettings& settings = {});
 

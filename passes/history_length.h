@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
 
 #include "framegraph/declare/graph.h"
 #include "passes/light_pattern.h"
@@ -9,7 +8,7 @@
 
 namespace walr {
 
-/// Format of a texture that receives history lengths: frames, exact for every length that a method may have.
+/// Format of a texture that receives history lengths: frames, or samples with counted light, rounded to a half.
 inline constexpr VkFormat kHistoryLengthFormat = VK_FORMAT_R16_SFLOAT;
 
 /// Add a pass that writes the history length of every pixel.

@@ -1,6 +1,5 @@
 #include "passes/inspection.h"
 
-#include <algorithm>
 #include <stdexcept>
 
 #include "passes/history_length.h"

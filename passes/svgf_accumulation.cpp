@@ -19,7 +19,8 @@ SvgfAccumulated addSvgfAccumulation(StageGraph graph, const DenoiserInputs& inpu
     fg::PassBuilder pass = graph->compute(name, shader);
     pass.uniform("frameConstants", inputs.frame).sample("depth", guides.depth);
     const StandIns standIns{.colour = inputs.lighting, .number = guides.depth};
-    readReprojection(pass, inputs, guides, {MotionSource::Texture, HistoryRejection::Plane}, standIns);
+    const ReprojectionSettings reprojection = reprojectionOf(inputs.scene, false, HistoryRejection::Plane, false);
+    readReprojection(pass, inputs, guides, reprojection, standIns);
     readConfidence(pass, inputs.confidence, inputs, standIns);
     pass.sample("lighting", inputs.lighting)
         .sample("previousColour", previousColour)

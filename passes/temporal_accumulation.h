@@ -3,7 +3,6 @@
 #include <optional>
 #include <span>
 #include <string_view>
-#include <vector>
 
 #include "framegraph/declare/graph.h"
 #include "passes/antilag.h"

@@ -50,7 +50,8 @@ WalrSettings manySamplesWalr();
 /// pixels instead of pixels, which leaves room for depth and occlusion as features. See passes/WALR.md.
 /// @param output     RGBA16F texture to write the result to
 /// @returns the output's new version
-/// @throws std::invalid_argument for settings outside their range
+/// @throws std::invalid_argument for settings that contradict each other; their ranges are the caller's to check
+/// (`Configurable::checkSettings`)
 fg::Texture addWalr(StageGraph graph, const DenoiserInputs& inputs, fg::Texture output,
                     const WalrSettings& settings = {});
 

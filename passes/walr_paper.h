@@ -52,7 +52,8 @@ WalrPaperSettings robustWalr();
 /// Weighted A-Trous Linear Regression as published, over pixels (Meunier & Harada 2022, figure 6).
 /// @param output     RGBA16F texture to write the result to
 /// @returns the output's new version
-/// @throws std::invalid_argument for settings outside their range
+/// @throws std::invalid_argument for settings that contradict each other; their ranges are the caller's to check
+/// (`Configurable::checkSettings`)
 fg::Texture addWalrPaper(StageGraph graph, const DenoiserInputs& inputs, fg::Texture output,
                          const WalrPaperSettings& settings = {});
 

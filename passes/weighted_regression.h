@@ -83,7 +83,8 @@ struct WeightedRegressionSettings {
 /// @param output      RGBA16F texture to write the result to
 /// @returns the output's new version: filtered radiance, alpha below 0 where the window has no sample; the
 ///          pass-through at sky and pixels without a diffuse lobe
-/// @throws std::invalid_argument for settings outside their range
+/// @throws std::invalid_argument for settings that contradict each other; their ranges are the caller's to check
+/// (`Configurable::checkSettings`)
 fg::Texture addWeightedRegression(StageGraph graph, fg::Buffer frame, fg::Texture accumulated, LightingAlpha alpha,
                                   const Guides& guides, fg::Texture output,
                                   const WeightedRegressionSettings& settings = {});

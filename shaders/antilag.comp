@@ -12,7 +12,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 
 uniform texture2D tiles;  // x: sum of d over a tile; y: sum of d^2.
 layout(constant_id = 0) const bool kHasLeast = false;
-uniform texture2D least;  // Least factor of each tile.
+uniform texture2D least;  // Least factor of each tile; of the previous frame's size, and not read where that is another.
 layout(r32f) uniform writeonly image2D outFactor;
 layout(push_constant) uniform PushConstants { AntilagConstants constants; };
 
@@ -29,5 +29,6 @@ void main() {
   }
   const float score = sum.y > 0.0 ? abs(sum.x) * inversesqrt(sum.y) : 0.0;
   const float factor = clamp((score - constants.scoreLow) / (constants.scoreHigh - constants.scoreLow), 0.0, 1.0);
-  imageStore(outFactor, tile, vec4(kHasLeast ? max(factor, texelFetch(least, tile, 0).x) : factor));
+  const bool hasLeast = kHasLeast && textureSize(least, 0) == size;
+  imageStore(outFactor, tile, vec4(hasLeast ? max(factor, texelFetch(least, tile, 0).x) : factor));
 }

@@ -77,7 +77,8 @@ void main() {
     }
     join(sum, row);
   }
-  const vec3 colour =
-      reconstruct(finish(sum), featuresAt(p), kPivotFloor, constants.ridge, constants.noiseRidge);
-  imageStore(outFiltered, p, vec4(colour, 0.0));
+  const Moments m = finish(sum);
+  const vec3 colour = reconstruct(m, featuresAt(p), kPivotFloor, constants.ridge, constants.noiseRidge);
+  // Below 0: the window has no sample, and anti-aliasing keeps its history.
+  imageStore(outFiltered, p, vec4(colour, m.samples > 0.0 ? 1.0 : -1.0));
 }

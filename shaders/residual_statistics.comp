@@ -26,8 +26,12 @@ layout(push_constant) uniform PushConstants { ResidualStatisticsConstants consta
 #include "include/camera.glsl"
 #include "include/surface.glsl"
 
+// Whether the previous frame had the same tiles. Where the image has changed its size, statistics begin anew.
+bool hasPrevious() { return frame.previousPixelFromPixel == vec2(1.0); }
+
 // The tile that showed the middle of this one in the previous frame, if nothing but the camera moved.
 ivec2 previousTile(ivec2 tile) {
+  if (!hasPrevious()) return ivec2(-1);
   const ivec2 first = constants.tileSize * tile - constants.tileOffset;
   const ivec2 p = clamp(first + constants.tileSize / 2, ivec2(0), textureSize(depth, 0) - 1);
   const float z = unpackDepthBesideNormal(texelFetch(depth, p, 0).x);
@@ -100,10 +104,11 @@ void storeLeastAntilag(ivec2 tile) {
   const ivec2 tileOfSums = min((kAntilagTile * tile + middle) / constants.tileSize, textureSize(sums, 0) - 1);
   const Window window = windowAround(tileOfSums);
   const float longest = constants.maxHistory, shortest = 2.0;  // An antilag factor of 1 leaves one frame and this one.
-  const float before = mix(longest, shortest - 1.0, texelFetch(previousLeastAntilag, tile, 0).x) + 1.0;
+  const float previous = hasPrevious() ? texelFetch(previousLeastAntilag, tile, 0).x : 0.0;
+  const float before = mix(longest, shortest - 1.0, previous) + 1.0;
   // Noise that successive frames share lets innovations agree, too: history is shortened as far as there is trust.
   const float excess = innovationSlope(window) + constants.innovationBias;
-  const float trust = texelFetch(previousAgreement, tileOfSums, 0).z;
+  const float trust = hasPrevious() ? texelFetch(previousAgreement, tileOfSums, 0).z : 0.0;
   const float change = constants.innovationGain * (excess > 0.0 ? trust * excess : excess);
   const float frames = clamp(before * (1.0 - change), shortest, max(longest, shortest));
   const float factor = (longest - (frames - 1.0)) / max(longest - (shortest - 1.0), 1.0);
@@ -113,5 +118,5 @@ void storeLeastAntilag(ivec2 tile) {
 void main() {
   const ivec2 tile = ivec2(gl_GlobalInvocationID.xy);
   if (all(lessThan(tile, textureSize(sums, 0)))) storeStatistics(tile);
-  if (all(lessThan(tile, textureSize(previousLeastAntilag, 0)))) storeLeastAntilag(tile);
+  if (all(lessThan(tile, imageSize(outLeastAntilag)))) storeLeastAntilag(tile);
 }

@@ -148,7 +148,7 @@ vec4 tileTexel(ivec2 q, vec4 colour) {
   if (!kPixelArea) return known && hasSurface(q, colour) ? vec4(toYCoCg(colour.rgb), 1.0) : vec4(0.0);
   const float z = nearness(q, known);
 #ifndef PACKED
-  if (isinf(z)) return vec4(vec3(0.0), -z);
+  if (floatBitsToUint(z) == 0x7f800000u) return vec4(vec3(0.0), -z);
 #endif
   return known ? vec4(toYCoCg(colour.rgb), z) : vec4(vec3(0.0), -z);
 }

@@ -40,9 +40,9 @@ struct Statistics {
   float trust;
 };
 
-// `before`: the position in the previous camera's view space.
+// `before`: the position in the previous camera's view space. Statistics of an image of another size are not read.
 Statistics previousStatisticsAt(vec3 before, bool edge) {
-  if (before.z >= 0.0) return Statistics(vec4(0.0), 0.0);
+  if (before.z >= 0.0 || frame.previousPixelFromPixel != vec2(1.0)) return Statistics(vec4(0.0), 0.0);
   const int tileSize = int(gl_WorkGroupSize.x) / kBlockSize * kBlockSize;
   const vec2 tile = (pixelOf(frame.previousRayFromPixel, before) + float((kBlockSize + 1) / 2)) / float(tileSize) - 0.5;
   const ivec2 last = textureSize(previousStatistics, 0) - 1;
@@ -221,7 +221,7 @@ vec3 withAccumulated(ivec2 p, bool hasPixel, Shown shown) {
   }
   if (hasPixel) storeInnovation(p, innovation);
   storeSums(light, statistics, edge, ofInnovation, far);
-  return max(result, vec3(0.0));
+  return clamp(result, vec3(0.0), vec3(kLightUnit));  // As predictions are: packed light holds no more.
 }
 
 #endif

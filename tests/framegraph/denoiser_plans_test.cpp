@@ -131,6 +131,20 @@ TEST_P(DenoiserPlansTest, CompilesForEverySceneAndHost) {
   }
 }
 
+// Where objects do not move, motion follows from the cameras, and the host need not write the texture.
+TEST_P(DenoiserPlansTest, LeavesMotionUnreadIfNoObjectMoves) {
+  const std::unique_ptr<Denoiser> method = makeDenoiser(GetParam().method);
+  if (!GetParam().preset.empty()) method->usePreset(GetParam().preset);
+  if (GetParam().method != "none") method->set("scene.object-motion", "off");
+  const DenoiseGraph declared = declareDenoiseGraph(*method, kExtent, InputConventions{}, kComputeHost);
+  const fg::CompileResult result = fg::compile(declared.graph.desc(), fg::TableMemoryModel());
+  ASSERT_TRUE(result.ok()) << result.text();
+  const std::vector<fg::ResourceDecl>& resources = declared.graph.desc().resources;
+  const auto motion = std::ranges::find(resources, "motion", &fg::ResourceDecl::name);
+  ASSERT_NE(motion, resources.end());
+  EXPECT_FALSE(result.plan.resources[static_cast<std::size_t>(motion - resources.begin())].used);
+}
+
 /// Number of passes whose name holds a text.
 std::size_t passesNamed(const fg::GraphDesc& graph, std::string_view text) {
   return static_cast<std::size_t>(std::ranges::count_if(
