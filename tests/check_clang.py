@@ -37,6 +37,8 @@ def clang_command(entry, strict):
         words = words[1:]
     output = words.index("-o")
     words[output : output + 2] = []
+    if any(word.endswith("cmake_pch.hxx") for word in words):  # Headers that gcc has compiled.
+        words = [word for word in words if word not in ("-include", "-Winvalid-pch") and not word.endswith("cmake_pch.hxx")]
     return ["clang++", "-fsyntax-only", "-DGTEST_HAS_PTHREAD=1", *(["-Werror"] if strict else []), *words[1:]]
 
 

@@ -25,7 +25,7 @@ constexpr fg::Extent kExtent{96, 72};
 constexpr std::uint32_t kFrames = 3;
 
 /// A camera that is rotated against the world's axes, moves and turns, so that motion has every component.
-FrameDescription camera(std::uint32_t frame, bool jittered, bool still) {
+FrameDescription camera(std::uint32_t frame, bool jitters, bool still) {
   const auto viewAt = [&](double time) {
     const glm::dmat4 turn = glm::rotate(glm::dmat4(1.0), 0.35 + 0.015 * time, glm::normalize(glm::dvec3(1, 1, 0.3)));
     return glm::mat4(glm::translate(turn, -time * glm::dvec3(0.06, 0.05, -0.12)));
@@ -34,14 +34,7 @@ FrameDescription camera(std::uint32_t frame, bool jittered, bool still) {
   const double time = still ? 0.0 : frame;
   description.view = viewAt(time);
   description.previousView = viewAt(std::max(time - 1.0, 0.0));
-  const auto jitterAt = [](std::uint32_t n) {
-    return glm::vec2(n % 2 == 0 ? 0.3F : -0.2F, n % 2 == 0 ? -0.25F : 0.4F);
-  };
-  if (jittered) {
-    description.jitter = jitterAt(frame);
-    description.previousJitter = jitterAt(frame + 1);
-  }
-  return description;
+  return jitters ? jittered(description, frame) : description;
 }
 
 /// The inputs of one frame.

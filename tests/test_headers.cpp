@@ -1,0 +1,1 @@
+// Precompiles the headers that tests share (CMakeLists.txt). As a program of its own it has no test.
