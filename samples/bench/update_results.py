@@ -156,13 +156,15 @@ def readme_part(kept):
                      "-" if time is None else f"{time[0]:.2f}"])
     return (table(["method", *(f"RMSE, `{s}`" for s in sequences), "FLIP", "flicker", "bytes per pixel", "relative time"], rows) + f"""
 * **Method**: each with its default settings, on the same frames. `none` is the noisy input.
-* **RMSE**: root mean square error of the light without albedo, after the tone map x / (1 + x); lower is better.
+* **RMSE**: root mean square error of the light without albedo, after the tone map x / (1 + x), which gives
+  values from 0 to 1; lower is better.
 * **FLIP**: difference that a person would see (Andersson et al. 2020), 0 to 1; lower is better. Mean over both sequences.
-* **Flicker**: how much the error changes from one frame to the next on the same surface point; lower is better. Mean over both
-  sequences.
+* **Flicker**: how much the error changes from one frame to the next on the same surface point, in the units of RMSE; lower is
+  better. Mean over both sequences.
 * **Bytes per pixel**: what the passes of one frame read and write at 1920 x 1080, counted from the compiled graph. It holds on any
   device. A texel counts once a pass, so the wide window of `joint_bilateral` looks cheap here.
-* **Relative time**: time of a frame over that of `walr` on the same frame, median.{processor_note(kept)}
+* **Relative time**: time of a frame over that of `walr` on the same frame; median over the frames, then mean over both
+  sequences.{processor_note(kept)}
 
 ![RMSE against bytes per pixel](samples/images/pareto.png)
 
@@ -239,15 +241,15 @@ def response_section(kept):
 * **Light moves**: lag of a light that moves over a static wall; the result is nearest to the truth of so many frames ago.
 * **Disocclusion**: a slab moves and uncovers a wall; frames until the wall's error there exceeds
   its error elsewhere by at most a quarter.
-* **Trail**: share of the slab's light that remains on the wall in the first frame after the disocclusion. The value of `none` is
-  that of noise alone.
+* **Trail**: share of the slab's light that remains on the wall in the first frame after the disocclusion. Below 0 the wall is too dark
+  there. `none` keeps nothing of the slab: its value is noise.
 """
 
 
 def results_page(kept, static):
     noise = listed(f"{number(v, 4)} on `{s}`" for s, v in kept["noise"].items() if v is not None)
     standings = "".join(f"* On `{s}` " + standing({n: m["sequences"][s] for n, m in kept["methods"].items() if not n.startswith("walr:")}, "walr", list(LABELS)) + ".\n"
-                        for s in kept["noise"])
+                        for s in kept["noise"]) + "  Its other presets are not counted here.\n"
     vmaf = ""
     if kept["vmaf"]:
         program, model = kept["vmaf"].rsplit(", ", 1)
@@ -291,7 +293,7 @@ At commit {kept['commit']} ({kept['compiler']}) on {kept['device']}, {kept['driv
 def costs_note(kept):
     if "costs_commit" not in kept:
         return ""
-    return f"\nBytes, taps and memory are those of commit {kept['costs_commit']}, which changes no picture of these sequences.\n"
+    return f"\nBytes, taps and memory are those of commit {kept['costs_commit']}. No change between the two commits alters a picture of these sequences.\n"
 
 
 def renamed_note(kept):

@@ -65,13 +65,17 @@ class Entry:
     def reference_paths(self):
         return (self.judged[1] - self.judged[0] + 1) * self.pixels * self.reference_samples / self.one_square_in
 
+    def noisy_options(self, frames):
+        """The options of `walr render` for noisy frames alone. frames: first and last one."""
+        width, height = self.size
+        options = ["--frames", "{}-{}".format(*frames), "--size", f"{width}x{height}", "--spp", str(self.samples), "--jitter"]
+        return options + (["--camera", self.camera] if self.camera else []) + (["--seed", str(self.seed)] if self.seed else [])
+
     def render_options(self):
         """The options of `walr render`."""
-        width, height = self.size
-        options = ["--frames", "{}-{}".format(*self.frames), "--size", f"{width}x{height}", "--spp", str(self.samples), "--jitter",
-                   "--reference-spp", str(self.reference_samples), "--reference-frames", "{}-{}".format(*self.judged),
-                   "--reference-pixel", "area", "--reference-one-square-in", str(self.one_square_in)]
-        return options + (["--camera", self.camera] if self.camera else []) + (["--seed", str(self.seed)] if self.seed else [])
+        return self.noisy_options(self.frames) + [
+            "--reference-spp", str(self.reference_samples), "--reference-frames", "{}-{}".format(*self.judged),
+            "--reference-pixel", "area", "--reference-one-square-in", str(self.one_square_in)]
 
 
 def key(settings, renderer):

@@ -30,7 +30,8 @@ MOMENT = "1000000"
 REFERENCE_SAMPLES = 768
 QUANTILES = 5
 TILE, WINDOW, KEPT = 5, 9, 7 / 8
-"""Pixels per axis of a tile, tiles per axis of the window, and what a frame keeps of the sums of earlier ones; as in the preset."""
+"""Pixels per axis of a tile, tiles per axis of the window, and what a frame keeps of the sums of earlier ones. The preset's
+tiles have so many pixels at 215 to 257 lines."""
 MAX_HISTORY = 8
 
 

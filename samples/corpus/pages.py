@@ -129,7 +129,7 @@ Measured at commit {kept['commit']}: {scope}, seed {kept['seed']}.
 * RMSE and flicker are without the noise of the references. FLIP and SSIM contain it, alike for all methods.
 {variants}"""]
     if open_entries:
-        parts.append("\n## Methods\n\nGeometric means over the sequences.\n\n" + summary_table(kept, kept["summary"], open_entries))
+        parts.append("\n## Methods\n\nGeometric means over the sequences that are not held back.\n\n" + summary_table(kept, kept["summary"], open_entries))
     if held:
         parts.append("\n## Methods, on the sequences held back\n\n" + summary_table(kept, kept["held_back_summary"], held))
     parts.append(f"\n## RMSE by sequence\n\n&lt;: better than `{kept['baseline']}` beyond the interval of the difference; &gt;: worse; "

@@ -12,9 +12,13 @@ EXPLANATION = """# Errors by size, scene and samples
 Written by `samples/corpus/corpus.py page` from the figures of [360](RESULTS.md), [540](RESULTS_540.md) and [1080](RESULTS_1080.md) lines
 and of [216 lines](RATES.md), which say how they were measured.
 
-RMSE after the tone map x / (1 + x), free of the references' noise, and the ratio of each method's RMSE to that of `walr` with its
-default preset. &lt;: better than `walr` beyond the interval of 95 %; &gt;: worse; ~: undecided; no mark: no interval was
-computed. -: not measured.
+All frames are jittered and rendered by `walr render`, those of `sponza` and `cornell_fence`, too. The README's sequences of these
+names are from Blender Cycles.
+
+* **Lines**: height of the picture in pixels. **Samples**: samples per pixel.
+* **`walr`**: RMSE of the default preset, in units of the tone-mapped value x / (1 + x), 0 to 1, free of the references' noise.
+* **Other methods**: ratio of their RMSE to that of `walr`. &lt;: better than `walr` beyond the interval of 95 %; &gt;: worse;
+  ~: undecided; no mark: no interval was computed. -: not measured.
 
 """
 
@@ -91,13 +95,15 @@ def gains_table(records):
             if open_ratio and held:
                 of_open, of_held = gain(open_ratio[0]), gain(held[0])
                 rows.append([lines, f"`{method}`", f"{100 * of_open:.1f} %", f"{100 * of_held:.1f} %", f"{of_held / of_open:.2f}"])
-    return table(["lines", "method", f"`{BASELINE}` errs less by, sequences of the sweeps", "held back", "ratio"], rows)
+    return table(["lines", "method", f"`{BASELINE}` errs less by, other sequences", "held back", "ratio"], rows)
 
 
 def page(records, rates, lines):
     """records: figures of all records of the corpus; lines: height of the pictures of rates.json."""
     return (EXPLANATION + commits_table(records, rates, lines) + "\n" + errors_table(records, rates, lines) +
-            "\n## Where `walr` is behind\n\nBeyond the interval, and by more than "
-            f"{100 * LEAST_LEAD:.0f} %. [PLACES.md](PLACES.md) shows why.\n\n" + behind_table(records) +
-            "\n## Sequences held back\n\nNo setting was chosen by them. A ratio of 1 or more says that a gain holds elsewhere, "
-            "too.\n\n" + gains_table(records))
+            "\n## Where `walr` is behind\n\nMethods whose RMSE is smaller than that of `walr` beyond the interval, and by more than "
+            f"{100 * LEAST_LEAD:.0f} %. Sequences of {lines} lines have no intervals and are left out. [PLACES.md](PLACES.md) describes "
+            "the places of largest error.\n\n" + behind_table(records) +
+            "\n## Sequences held back\n\nNo setting was chosen by these sequences. The ratio is the gain of `walr` on them over its gain "
+            "on the others; from 1 on, the whole gain holds elsewhere, too. Small gains are uncertain: the pages above give their "
+            "intervals.\n\n" + gains_table(records))

@@ -1,4 +1,4 @@
-"""Reads and rewrites what `walr` writes: OpenEXR files of scan lines, uncompressed or ZIP, by channel name."""
+"""Reads what `walr` writes: OpenEXR files of scan lines, uncompressed or ZIP, by channel name."""
 import struct
 import zlib
 
@@ -70,50 +70,6 @@ def read(path):
                 images[name][y + line] = np.frombuffer(block, kind, width, position)
                 position += width * kind.itemsize
     return images
-
-
-def rewrite(source, target, images):
-    """A copy of a file with the same header and these values in its channels, uncompressed."""
-    with open(source, "rb") as file:
-        data = file.read()
-    header, end = attributes(data)
-    start = bytearray(data[:end])
-    name = b"compression\0compression\0" + struct.pack("<i", 1)
-    start[start.index(name) + len(name)] = 0
-    left, top, right, bottom = struct.unpack("<4i", header["dataWindow"])
-    width, height = right - left + 1, bottom - top + 1
-    channels = channels_of(header["channels"])
-    size = width * sum(kind.itemsize for _, kind in channels)
-    first = end + 8 * height
-    with open(target, "wb") as file:
-        file.write(start)
-        file.write(np.arange(first, first + height * (8 + size), 8 + size, dtype="<u8").tobytes())
-        for line in range(height):
-            file.write(struct.pack("<2i", top + line, size))
-            for name, kind in channels:
-                file.write(images[name][line].astype(kind).tobytes())
-
-
-def write_black(path):
-    """A black picture with the channels R, G and B."""
-    def attribute(name, kind, value):
-        return f"{name}\0{kind}\0".encode() + struct.pack("<i", len(value)) + value
-
-    width, height = 4, 2
-    channels = b"".join(name + struct.pack("<4i", 2, 0, 1, 1) for name in (b"B\0", b"G\0", b"R\0")) + b"\0"
-    window = struct.pack("<4i", 0, 0, width - 1, height - 1)
-    header = struct.pack("<2i", 20000630, 2) + b"".join(attribute(*a) for a in (
-        ("channels", "chlist", channels), ("compression", "compression", b"\0"), ("dataWindow", "box2i", window),
-        ("displayWindow", "box2i", window), ("lineOrder", "lineOrder", b"\0"),
-        ("pixelAspectRatio", "float", struct.pack("<f", 1)), ("screenWindowCenter", "v2f", struct.pack("<2f", 0, 0)),
-        ("screenWindowWidth", "float", struct.pack("<f", 1)))) + b"\0"
-    line = bytes(width * 3 * 4)
-    first = len(header) + 8 * height
-    offsets = [first + y * (8 + len(line)) for y in range(height)]
-    with open(path, "wb") as file:
-        file.write(header + struct.pack(f"<{height}Q", *offsets))
-        for y in range(height):
-            file.write(struct.pack("<2i", y, len(line)) + line)
 
 
 def colour(images, layer=""):

@@ -1,50 +1,62 @@
 #!/usr/bin/python3
-"""Makes the pictures of the README from a glTF scene with a sun and a constant sky.
+"""Makes the pictures of the README from sequences of the corpus (samples/corpus/entries.py).
 
-    make_pictures.py SCENE.glb FOLDER [--walr build/bin/walr] [--frame 20] [--samples 320]
+    make_pictures.py [--walr build/bin/walr] [--cache DIR] [--only comparison|animation]
 
-renders the scene into FOLDER (what is there already is kept), denoises it, and writes to this script's folder
+writes to this script's folder
 
-    comparison.webp   frame --frame: noisy, denoised, reference side by side, and two enlarged crops of each
-    animation.webp    32 frames: the left half of the picture noisy, the right half denoised
+    comparison.webp   a frame of COMPARED: noisy, denoised, reference side by side, and two enlarged crops of each
+    animation.webp    frames of ANIMATED: the left half of the picture noisy, the right half denoised
 
-Needs numpy and Pillow, which come with Debian's python3-matplotlib. The reference takes most of the time: about a
-quarter of an hour on two idle cores at 320 samples per pixel.
-
-The light of the sun is free of noise at one sample per pixel, as in an engine that has shadow maps or traces shadow
-rays. What is denoised is the rest: light of the sky and light that surfaces reflect. `walr render` writes the light of
-the sky into the direct light. This script moves it into the indirect light: it is what the direct light holds beyond
-that of the same frames rendered under a black sky.
+Direct and indirect light are both noisy, with one sample per pixel each, and both are denoised. Frames are rendered
+into the corpus's cache and kept there: some ten minutes on two idle cores. Needs numpy and Pillow, which come with
+Debian's python3-matplotlib.
 """
 import argparse
+import dataclasses
 import pathlib
 import subprocess
+import sys
+import tempfile
 
+sys.dont_write_bytecode = True
 import exr
 import numpy as np
 from PIL import Image, ImageDraw, ImageFont
 
 HERE = pathlib.Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parent / "corpus"))
+import corpus
+import entries
+import rendering
+
+COMPARED = "kitchen_540"
+ANIMATED = "sponza_360"
+ANIMATED_FRAMES = 20, 51
 FONT = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf"
-# Upper left corners in the picture of 960 x 540: a relief in the shade; chains and leaves.
-CROPS = [(728, 298), (125, 245)]
+# Upper left corners in the picture of COMPARED: dishes on a table; cups and ladles on a wall.
+CROPS = [(420, 270), (300, 110)]
 CROP = (120, 90)
 SCALE = 4
 
 
-def run(*command):
-    print(*command)
-    subprocess.run([str(part) for part in command], check=True)
+def lit(guides, light):
+    """The lit image: albedo times light, plus emission."""
+    diffuse = exr.colour(light, "Direct") + exr.colour(light, "Indirect")
+    return exr.colour(guides, "Albedo") * diffuse + exr.colour(guides, "Emission")
 
 
-def merge(lit, sun, target):
-    """`lit` with the light of its sky among the indirect light. Only the sun, known from `sun`, stays direct."""
-    images, direct = exr.read(lit), exr.read(sun)
-    for c in "RGB":
-        sky = np.maximum(images["Direct." + c] - direct["Direct." + c], 0)
-        images["Indirect." + c] += sky
-        images["Direct." + c] = direct["Direct." + c]
-    exr.rewrite(lit, target, images)
+def lit_pictures(walr, frames, indices):
+    """The lit images of some frames of a folder, noisy and denoised. All frames before them are history."""
+    with tempfile.TemporaryDirectory() as folder:
+        command = [walr, "denoise", frames, "--output", folder, "--light", "both"]
+        subprocess.run(list(map(str, command)), check=True, capture_output=True)
+        pictures = []
+        for index in indices:
+            noisy = exr.read(frames / f"noisy_{index:04d}.exr")
+            denoised = exr.read(pathlib.Path(folder) / f"denoised_{index:04d}.exr")
+            pictures.append((lit(noisy, noisy), lit(noisy, denoised)))
+    return pictures
 
 
 def display(linear, exposure):
@@ -59,42 +71,6 @@ def exposure_of(linear):
     """Brings the geometric mean of the luminance to 0.3."""
     luminance = linear @ np.array([0.2126, 0.7152, 0.0722], np.float32)
     return 0.3 / float(np.exp(np.mean(np.log(luminance + 1e-3))))
-
-
-def lit_picture(frame, indirect):
-    """Albedo times light plus emission."""
-    return exr.colour(frame, "Albedo") * (exr.colour(frame, "Direct") + indirect) + exr.colour(frame, "Emission")
-
-
-def sequence(arguments, folder, size, last):
-    """Renders frames 0 to `last` and denoises them, with the sky's light among the indirect light."""
-    folder.mkdir(parents=True, exist_ok=True)
-    exr.write_black(folder / "black.exr")
-    common = ["render", arguments.scene, "--frames", f"0-{last}", "--size", size, "--output"]
-    run(arguments.walr, *common, folder / "lit")
-    run(arguments.walr, *common, folder / "sun", "--bounces", 0, "--sky", folder / "black.exr")
-    (folder / "input").mkdir(exist_ok=True)
-    for frame in range(last + 1):
-        name = f"noisy_{frame:04d}.exr"
-        merge(folder / "lit" / name, folder / "sun" / name, folder / "input" / name)
-    run(arguments.walr, "denoise", folder / "input", "--output", folder / "denoised")
-
-
-def reference(arguments, folder, size, frame):
-    """The light of one frame, as the denoiser is to find it."""
-    run(arguments.walr, "render", arguments.scene, "--frames", f"{frame}-{frame}", "--size", size, "--output",
-        folder / "reference", "--reference-spp", arguments.samples)
-    source = folder / "reference" / f"ref_{frame:04d}.exr"
-    target = folder / "reference" / "merged.exr"
-    merge(source, folder / "sun" / f"noisy_{frame:04d}.exr", target)
-    return exr.colour(exr.read(target), "Indirect")
-
-
-def lit_pictures(folder, frame):
-    """The frame's guides and direct light, its noisy and its denoised light."""
-    images = exr.read(folder / "input" / f"noisy_{frame:04d}.exr")
-    denoised = exr.read(folder / "denoised" / f"denoised_{frame:04d}.exr")
-    return images, exr.colour(images, "Indirect"), exr.colour(denoised, "Indirect")
 
 
 def enlarged(picture, corner):
@@ -122,59 +98,59 @@ def framed(picture):
     return np.asarray(image)
 
 
-def comparison(arguments, folder):
-    sequence(arguments, folder, "960x540", arguments.frame)
-    truth = reference(arguments, folder, "960x540", arguments.frame)
-    draw_comparison(folder, arguments.frame, truth, f"reference, {arguments.samples} samples per pixel")
-
-
-def draw_comparison(folder, frame, truth, label):
-    """Three pictures side by side, below each two crops of it."""
-    images, noisy, denoised = lit_pictures(folder, frame)
-    exposure = exposure_of(lit_picture(images, truth))
+def comparison(walr, cache):
+    """Three pictures side by side, below each two crops of it: the last judged frame, its reference over all of the image."""
+    entry = entries.corpus()[COMPARED]
+    last = entry.judged[1]
+    whole = dataclasses.replace(entry, judged=(last, last), one_square_in=1)
+    rendering.render_all([whole], cache, print)
+    frames = cache.sequence(whole)
+    (noisy, denoised), = lit_pictures(walr, frames, [last])
+    reference = lit(exr.read(frames / f"noisy_{last:04d}.exr"), exr.read(frames / f"ref_{last:04d}.exr"))
+    exposure = exposure_of(reference)
     columns = []
-    for light, text in ((noisy, "1 sample per pixel"), (denoised, "denoised by walr"), (truth, label)):
-        picture = display(lit_picture(images, light), exposure)
+    for image, text in ((noisy, "1 sample per pixel"), (denoised, "denoised by walr"),
+                        (reference, f"reference, {whole.reference_samples} samples per pixel")):
+        picture = display(image, exposure)
         crops = np.concatenate([enlarged(picture, corner) for corner in CROPS], axis=1)
         columns.append(np.concatenate([labelled(framed(picture), text), crops], axis=0))
-    image = Image.fromarray(np.concatenate(columns, axis=1))
-    image.save(HERE / "comparison.webp", quality=88, method=4)
+    Image.fromarray(np.concatenate(columns, axis=1)).save(HERE / "comparison.webp", quality=88, method=4)
 
 
-def animation(arguments, folder, frames=32, start=12):
-    """The frames from `start` on, by when history has built up, at the exposure of their first one."""
-    sequence(arguments, folder, "640x360", start + frames - 1)
-    draw_animation(folder, range(start, start + frames))
+def animation(walr, cache):
+    """The left half of each picture noisy, the right half denoised, at the exposure of the first one.
 
-
-def draw_animation(folder, frames):
-    """The left half of each picture noisy, the right half denoised."""
-    pictures, exposure = [], None
-    for frame in frames:
-        images, noisy, denoised = lit_pictures(folder, frame)
-        exposure = exposure or exposure_of(lit_picture(images, denoised))
-        picture = display(lit_picture(images, denoised), exposure)
+    Without the corpus's jitter: no anti-aliasing of the lit image follows here, which a host that jitters has."""
+    entry = entries.corpus()[ANIMATED]
+    first, last = ANIMATED_FRAMES
+    options = [o for o in entry.noisy_options((first - entries.WARM_UP, last)) if o != "--jitter"]
+    key = entries.key([entry.reference_settings(), options], cache.version(entry))
+    frames = cache.folder / "animation" / f"{entry.name}-{key}"
+    frames.mkdir(parents=True, exist_ok=True)
+    subprocess.run(list(map(str, [walr, "render", entry.scene, "--output", frames, *options])), check=True)
+    pairs = lit_pictures(walr, frames, range(first, last + 1))
+    exposure = exposure_of(pairs[0][1])
+    pictures = []
+    for noisy, denoised in pairs:
+        picture = display(denoised, exposure)
         middle = picture.shape[1] // 2
-        picture[:, :middle] = display(lit_picture(images, noisy), exposure)[:, :middle]
+        picture[:, :middle] = display(noisy, exposure)[:, :middle]
         picture[:, middle - 1:middle + 1] = 255
         pictures.append(Image.fromarray(picture))
-    pictures[0].save(HERE / "animation.webp", save_all=True, append_images=pictures[1:], duration=80, loop=0,
-                     quality=55, method=4)
+    pictures[0].save(HERE / "animation.webp", save_all=True, append_images=pictures[1:], duration=80, loop=0, quality=55, method=4)
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("scene", type=pathlib.Path)
-    parser.add_argument("folder", type=pathlib.Path)
     parser.add_argument("--walr", default="build/bin/walr")
-    parser.add_argument("--frame", type=int, default=20)
-    parser.add_argument("--samples", type=int, default=320, help="per pixel of the reference")
+    parser.add_argument("--cache", default=corpus.default_cache(), help="folder for frames; default: %(default)s")
     parser.add_argument("--only", choices=["comparison", "animation"])
     arguments = parser.parse_args()
+    cache = rendering.Cache(arguments.cache, pathlib.Path(arguments.walr).resolve())
     if arguments.only != "animation":
-        comparison(arguments, arguments.folder / "comparison")
+        comparison(cache.walr, cache)
     if arguments.only != "comparison":
-        animation(arguments, arguments.folder / "animation")
+        animation(cache.walr, cache)
 
 
 if __name__ == "__main__":
