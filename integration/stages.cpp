@@ -144,14 +144,16 @@ void fullWindowRegression(StagePorts& ports, const FullWindowSettings& settings)
 void blockRegression(StagePorts& ports, const BlockStageSettings& settings) {
   const fg::Buffer frame = ports.buffer(kFrameName);
   BlockLight light{.accumulated = ports.texture("accumulated", formatOf(settings.accumulation.storage)),
-                   .alpha = LightingAlpha::SampleCount,
-                   .result = settings.antialiasing.storage};
-  if (settings.accumulation.storage != LightStorage::Half && light.result == LightStorage::Half) {
+                   .alpha = LightingAlpha::SampleCount};
+  const LightStorage result = settings.antialiasing.storage;
+  if (settings.accumulation.storage != LightStorage::Half && result == LightStorage::Half) {
     light.lighting = ports.texture("lighting");
   }
   const Guides guides = ports.guides();
   const BlockFits fits = addBlockRegression(ports.graph(), frame, light, guides, settings.blocks);
-  ports.setOutput("filtered", addBlockReconstruction(ports.graph(), frame, light, guides, fits, settings.blocks));
+  const fg::Texture target = ports.target("filtered", formatOf(result), ports.graph().textureDesc(guides.depth).extent);
+  ports.setOutput("filtered",
+                  addBlockReconstruction(ports.graph(), frame, light, guides, fits, target, settings.blocks));
 }
 
 void bmfrFit(StagePorts& ports, const BmfrFitSettings& settings) {

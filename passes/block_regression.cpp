@@ -331,10 +331,10 @@ BlockFits addBlockRegression(StageGraph graph, fg::Buffer frame, const BlockLigh
 }
 
 fg::Texture addBlockReconstruction(StageGraph graph, fg::Buffer frame, const BlockLight& light, const Guides& guides,
-                                   const BlockFits& fits, const BlockRegressionSettings& settings) {
+                                   const BlockFits& fits, fg::Texture target, const BlockRegressionSettings& settings) {
   const BlockGrid grid = gridOf(graph, frame, graph->textureDesc(guides.depth).extent, settings, groupsOf(light));
   const bool readsPacked = isPacked(grid, light.accumulated);
-  const bool writesPacked = light.result == LightStorage::Packed;
+  const bool writesPacked = lightStorageOf(graph->textureDesc(target).format) == LightStorage::Packed;
   const auto reconstruct = [&](const std::string& name, const fg::Shader& shader) {
     fg::PassBuilder pass = readPixels(grid, guides.depth, guides.features, name, shader);
     pass.load("fineFits", fits.fine)
@@ -372,7 +372,7 @@ fg::Texture addBlockReconstruction(StageGraph graph, fg::Buffer frame, const Blo
                          .history = light.history},
                         settings.share);
   }
-  return pass.store("outFiltered", graph->texture("filtered", {formatOf(light.result), grid.pixels}));
+  return pass.store("outFiltered", target);
 }
 
 }  // namespace walr

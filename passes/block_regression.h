@@ -104,7 +104,7 @@ struct BlockRegressionSettings {
 /// not measured.
 float coarseSamplesAt(std::uint32_t height, float coarseSamples);
 
-/// The light that the regression over blocks fits, and the storage of its result.
+/// The light that the regression over blocks fits.
 struct BlockLight {
   fg::Texture accumulated;    ///< RGBA16F, or packed: radiance; values that are not finite do not count.
   LightingAlpha alpha;        ///< What the alpha channel of `accumulated` holds; pixels without samples do not count.
@@ -113,7 +113,6 @@ struct BlockLight {
   LightPattern pattern = {};  ///< Of `lighting`.
   std::optional<LightGrid> lightGrid = std::nullopt;     ///< If `accumulated` lies on it.
   std::optional<SteeredHistory> history = std::nullopt;  ///< Of `accumulated`, if `AccumulatedShareSettings` steers it.
-  LightStorage result = LightStorage::Half;              ///< Packed: holds no pass-through; see packed_light.glsl.
 };
 
 /// The fits of a frame, which the reconstruction reads (shaders/constants/stored_fit.h).
@@ -136,9 +135,12 @@ BlockFits addBlockRegression(StageGraph graph, fg::Buffer frame, const BlockLigh
 /// Reconstruct every pixel from the fits around it and its own features.
 /// @param frame    upload of `FrameConstants`
 /// @param light    as given to `addBlockRegression`
+/// @param target   texture to write to: RGBA16F, or packed, which holds no pass-through (packed_light.glsl)
 /// @param settings of the regression
-/// @returns filtered radiance in the storage `light.result`; RGBA16F also holds the pass-through
+/// @returns the target's new version: filtered radiance; in RGBA16F the pass-through at sky and pixels without a
+/// diffuse lobe
 fg::Texture addBlockReconstruction(StageGraph graph, fg::Buffer frame, const BlockLight& light, const Guides& guides,
-                                   const BlockFits& fits, const BlockRegressionSettings& settings = {});
+                                   const BlockFits& fits, fg::Texture target,
+                                   const BlockRegressionSettings& settings = {});
 
 }  // namespace walr

@@ -1,7 +1,7 @@
 #include "passes/frame.h"
 
-#include <glm/matrix.hpp>
 #include <glm/gtc/matrix_transform.hpp>
+#include <glm/matrix.hpp>
 
 #include "passes/camera_check.h"
 #include "passes/orthographic.h"

@@ -77,7 +77,7 @@ GuidedInput addGuidesWithAccumulation(StageGraph graph, const DenoiserInputs& in
 
 fg::Texture filterTarget(StageGraph graph, const TemporalPlan& plan, fg::Texture output) {
   if (!plan.antialiases) return output;
-  return graph.texture("filtered", {VK_FORMAT_R16G16B16A16_SFLOAT, graph.textureDesc(output).extent});
+  return graph.texture("filtered", {formatOf(plan.filtered), graph.textureDesc(output).extent});
 }
 
 fg::Texture addAntialiasing(StageGraph graph, const DenoiserInputs& inputs, const Guides& guides,

@@ -66,7 +66,8 @@ GuidedInput addGuidesWithAccumulation(StageGraph graph, const DenoiserInputs& in
                                       const PrepareGuidesSettings& settings, const GuideNeeds& needs,
                                       const TemporalPlan& plan);
 
-/// The RGBA16F texture for a filter to write to: the method's output if no stage follows, else a new one.
+/// The texture for a filter to write to: the method's output if no stage follows, else a new one in the storage
+/// `plan.filtered`.
 fg::Texture filterTarget(StageGraph graph, const TemporalPlan& plan, fg::Texture output);
 
 /// Add temporal anti-aliasing, if the plan has it. Otherwise copy the filter's result to the output, unless it is

@@ -57,10 +57,10 @@ fg::Texture addWalr(StageGraph graph, const DenoiserInputs& inputs, fg::Texture 
                          .lighting = inputs.lighting,
                          .pattern = inputs.conventions.light,
                          .lightGrid = accumulated.lightGrid,
-                         .history = history,
-                         .result = plan.filtered};
+                         .history = history};
   const BlockFits fits = addBlockRegression(graph, inputs.frame, light, guides, blocks);
-  const fg::Texture filtered = addBlockReconstruction(graph, inputs.frame, light, guides, fits, blocks);
+  const fg::Texture filtered =
+      addBlockReconstruction(graph, inputs.frame, light, guides, fits, filterTarget(graph, plan, output), blocks);
   return addAntialiasing(graph, inputs, guides, plan, accumulated, filtered, output);
 }
 

@@ -151,6 +151,16 @@ std::size_t passesNamed(const fg::GraphDesc& graph, std::string_view text) {
       graph.passes, [&](const fg::PassDecl& pass) { return pass.name.find(text) != std::string::npos; }));
 }
 
+// Without anti-aliasing the filter writes the result. Nothing copies it.
+TEST(DenoiserPlans, TheFilterWritesTheResultIfTheHostAntialiases) {
+  for (const char* name : {"walr", "walr_paper", "flr"}) {
+    const std::unique_ptr<Denoiser> method = makeDenoiser(name);
+    method->set("scene.host-antialiasing", "on");
+    const DenoiseGraph declared = declareDenoiseGraph(*method, kExtent, InputConventions{}, kComputeHost);
+    EXPECT_EQ(passesNamed(declared.graph.desc(), "pass through"), 0U) << name;
+  }
+}
+
 // The second light has the passes of the first but those that prepare guides, under names of their own.
 TEST_P(DenoiserPlansTest, TwoLightsShareTheGuides) {
   const std::unique_ptr<Denoiser> first = makeDenoiser(GetParam().method);

@@ -8,7 +8,9 @@ namespace walr::test {
 inline fg::Texture addBlockFilter(StageGraph graph, fg::Buffer frame, const BlockLight& light, const Guides& guides,
                                   const BlockRegressionSettings& settings) {
   const BlockFits fits = addBlockRegression(graph, frame, light, guides, settings);
-  return addBlockReconstruction(graph, frame, light, guides, fits, settings);
+  const fg::Texture target =
+      graph->texture("filtered", {VK_FORMAT_R16G16B16A16_SFLOAT, graph->textureDesc(guides.depth).extent});
+  return addBlockReconstruction(graph, frame, light, guides, fits, target, settings);
 }
 
 }  // namespace walr::test
