@@ -74,6 +74,13 @@ vec4 convert(vec4 value) {
 #ifdef PACKED
 #include "include/small_float.glsl"
 vec4 stored(vec4 value) { return vec4(nearestSmallFloats(value.rgb), 1.0); }
+#elif defined(VALUES) && !defined(SINGLE)
+#include "include/half.glsl"
+// What is more than a half can hold counts as the largest half. NaN and infinity stay: they are no samples.
+vec4 stored(vec4 value) {
+  const uint infinity = 0x7f800000u;
+  return mix(value, nearestHalf(value), lessThan(floatBitsToUint(value) & infinity, uvec4(infinity)));
+}
 #else
 vec4 stored(vec4 value) { return value; }
 #endif

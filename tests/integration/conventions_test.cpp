@@ -210,6 +210,22 @@ class Conventions : public fg::test::GpuTest {
   }
 };
 
+// Exposed light is within the range of halves, but the light itself is not, as in daylight in physical units.
+TEST_F(Conventions, LightAboveTheLargestHalfCountsAsThat) {
+  const Host host{.preExposed = true};
+  HostedRun run(device(), kMethod, kSize, optionsOf(host));
+  const FrameDescription camera = cameraOf(host, 0);
+  HostFrame frame = renderFrame(skyBesideSurface(), walkingCamera(host.take, 0), kSize);
+  for (glm::dvec3& light : frame.lighting.pixels()) light = glm::dvec3(2e5);
+  constexpr float kExposure = 1e-5F;
+  fill(run, frame, host, camera, kExposure, 0.0);
+  const Image<glm::dvec4> result = decodeHalves(run.frame(camera, 0, kExposure), run.imageSize());
+  // Predictions end at 65280, which packed light of 7 bits holds within a step.
+  const double expected = 65504.0 * double(kExposure);
+  forEachPixel(kSize,
+               [&](glm::ivec2 p) { EXPECT_NEAR(result[p].x, expected, 0x1p-7 * expected) << p.x << " " << p.y; });
+}
+
 /// Root mean square difference of colours.
 double difference(const Image<glm::dvec4>& a, const Image<glm::dvec4>& b) {
   double sum = 0.0;

@@ -428,9 +428,9 @@ typedef struct WalrFrame {
   const WalrCamera* camera;
   const WalrCamera* previous_camera; /* Null means the camera of the frame recorded last. */
   float sky_depth;                   /* Scene units: pixels at this view depth or beyond are sky. 0 means 1e9. */
-  float pre_exposure;                /* With WalrConventions::pre_exposed; 0 means 1. */
-  const WalrImage* object_id;        /* Optional, see WalrDenoiserInfo::object_id_format. */
-  uint32_t offset[2]; /* With WalrConventions::rectangle: its first pixel, y down, the same in all images. */
+  float pre_exposure; /* With WalrConventions::pre_exposed; 0 means 1. Light of more than 65504 counts as 65504. */
+  const WalrImage* object_id; /* Optional, see WalrDenoiserInfo::object_id_format. */
+  uint32_t offset[2];         /* With WalrConventions::rectangle: its first pixel, y down, the same in all images. */
   /* With WALR_FRAME_INDEX_GIVEN: seed of the frame's random numbers, so that a replay of the same frames has the same
    * result. It must differ from frame to frame. Without the flag it is the number of frames recorded before. */
   uint32_t frame_index;
