@@ -75,7 +75,8 @@ double difference(const Result& a, const Result& b) {
 }
 
 const std::string kHeading =
-    "| frames per second | pixels without history in a frame: depth given | still scene | depth found | difference from depth "
+    "| frames per second | pixels without history in a frame: depth given | still scene | depth found | difference "
+    "from depth "
     "given: still scene | depth found |\n"
     "| --- | --- | --- | --- | --- | --- |\n";
 
