@@ -102,8 +102,8 @@ fg::Texture targetLike(StagePorts& ports, std::string_view output, fg::Texture i
 }
 
 /// The texture between a filter and anti-aliasing, with the name that it has in the whole method.
-fg::Texture filteredLike(StagePorts& ports, fg::Texture input) {
-  return ports.graph().texture("filtered", {kColour, ports.graph().textureDesc(input).extent});
+fg::Texture filteredLike(StagePorts& ports, fg::Texture input, VkFormat format = kColour) {
+  return ports.graph().texture("filtered", {format, ports.graph().textureDesc(input).extent});
 }
 
 void prepareGuides(StagePorts& ports, const PrepareGuidesSettings& settings) {
@@ -151,7 +151,7 @@ void blockRegression(StagePorts& ports, const BlockStageSettings& settings) {
   }
   const Guides guides = ports.guides();
   const BlockFits fits = addBlockRegression(ports.graph(), frame, light, guides, settings.blocks);
-  const fg::Texture target = ports.target("filtered", formatOf(result), ports.graph().textureDesc(guides.depth).extent);
+  const fg::Texture target = filteredLike(ports, guides.depth, formatOf(result));
   ports.setOutput("filtered",
                   addBlockReconstruction(ports.graph(), frame, light, guides, fits, target, settings.blocks));
 }

@@ -27,7 +27,7 @@ struct BlockRegressionSettings {
   float coarseSigma = 0.012F;
   float coarseNarrowing = 0.3F;
   float coarseReach = 3.0F;
-  float coarseResolution = 1.1F;
+  float coarseResolution = 0.55F;
   float coarseGrowthErrors = 2.0F;
   float coarseGrowthOcclusion = 4.0F;
   float coarseSamples = 3200.0F;
