@@ -17,6 +17,6 @@ walr_build walr
 # pixel, about four minutes on two idle cores, its own noise is less than the error of the result; both are printed.
 build/bin/walr render samples/scenes/kitchen.gltf --output "$folder/kitchen" --frames 0-9 --size 480x270 --jitter \
   --reference-spp 1024 --reference-frames 9-9 --reference-pixel area
-build/bin/walr denoise "$folder/kitchen" --output "$folder/denoised" --composite --png
-echo "Noisy | denoised | reference; the lit images, and below them each light alone: $folder/denoised/comparison_0009.png"
-echo "Denoised: the lit image, and beside it each light alone: $folder/denoised/denoised_0009.png"
+build/bin/walr denoise "$folder/kitchen" --output "$folder/denoised" --composite --direct-light reference --png
+echo "Noisy | denoised | reference; the lit images, and below them the light alone: $folder/denoised/comparison_0009.png"
+echo "Denoised: the lit image, and beside it the light alone: $folder/denoised/denoised_0009.png"
