@@ -127,8 +127,7 @@ struct BlockFits {
 /// @param frame  upload of `FrameConstants`
 /// @param guides with `features`
 /// @throws std::invalid_argument for settings that contradict each other (their ranges are the caller's to check,
-/// `Configurable::checkSettings`), or if the fits of all blocks need a larger buffer
-/// than every device has
+/// `Configurable::checkSettings`), or if the fits of all blocks need a larger buffer than every device has
 BlockFits addBlockRegression(StageGraph graph, fg::Buffer frame, const BlockLight& light, const Guides& guides,
                              const BlockRegressionSettings& settings = {});
 

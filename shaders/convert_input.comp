@@ -78,8 +78,8 @@ vec4 stored(vec4 value) { return vec4(nearestSmallFloats(value.rgb), 1.0); }
 #include "include/half.glsl"
 // What is more than a half can hold counts as the largest half. NaN and infinity stay: they are no samples.
 vec4 stored(vec4 value) {
-  const uint infinity = 0x7f800000u;
-  return mix(value, nearestHalf(value), lessThan(floatBitsToUint(value) & infinity, uvec4(infinity)));
+  const bvec4 finite = bvec4(isFinite(value.r), isFinite(value.g), isFinite(value.b), isFinite(value.a));
+  return mix(value, nearestHalf(value), finite);
 }
 #else
 vec4 stored(vec4 value) { return value; }

@@ -139,9 +139,8 @@ def bench(arguments, cache, entry, options):
 def judged(arguments, cache, entry, names, options):
     """Sums over blocks, noise of the references and worst places of an entry, from the cache or anew."""
     sequence = cache.sequence(entry)
-    program = hashlib.sha256(pathlib.Path(arguments.walr).read_bytes()).hexdigest()
     analysis = [hashlib.sha256((HERE / f).read_bytes()).hexdigest() for f in ("judging.py", "places.py")]
-    folder = cache.folder / "judged" / f"{sequence.name}-{table.key([options, analysis], program)}"
+    folder = cache.folder / "judged" / f"{sequence.name}-{table.key([options, analysis], cache.program)}"
     if not (folder / "facts.json").exists():
         output = bench(arguments, cache, entry, options)
         pictures = output / "pictures" / sequence.name

@@ -65,10 +65,11 @@ class Entry:
     def reference_paths(self):
         return (self.judged[1] - self.judged[0] + 1) * self.pixels * self.reference_samples / self.one_square_in
 
-    def noisy_options(self, frames):
+    def noisy_options(self, frames, jitter=True):
         """The options of `walr render` for noisy frames alone. frames: first and last one."""
         width, height = self.size
-        options = ["--frames", "{}-{}".format(*frames), "--size", f"{width}x{height}", "--spp", str(self.samples), "--jitter"]
+        options = ["--frames", "{}-{}".format(*frames), "--size", f"{width}x{height}", "--spp", str(self.samples)]
+        options += ["--jitter"] if jitter else []
         return options + (["--camera", self.camera] if self.camera else []) + (["--seed", str(self.seed)] if self.seed else [])
 
     def render_options(self):

@@ -8,7 +8,6 @@ An interrupted run resumes where it was. It traces 150 million paths, and takes 
 says how errors and intervals are made. Needs numpy, Pillow and matplotlib (Debian: python3-matplotlib)."""
 import argparse
 import fractions
-import hashlib
 import json
 import math
 import pathlib
@@ -40,16 +39,15 @@ def rays(rate):
     return float(fractions.Fraction(rate.split(",")[0]))
 
 
-def results_folder(walr, cache, entry):
+def results_folder(cache, entry):
     """The folder for what this program makes of an entry. Another program's results are not taken for its own."""
-    program = hashlib.sha256(pathlib.Path(walr).read_bytes()).hexdigest()[:16]
-    return cache.folder / "rates" / f"{cache.sequence(entry).name}-{program}"
+    return cache.folder / "rates" / f"{cache.sequence(entry).name}-{cache.program[:16]}"
 
 
 def bench(walr, cache, entry, methods):
     """Folder with the results of `walr bench`; what has been run is not run again."""
     sequence = cache.sequence(entry)
-    output = results_folder(walr, cache, entry)
+    output = results_folder(cache, entry)
     pictures = output / "pictures" / sequence.name
     if all((pictures / f"{m}_{frame:04d}.npy").exists() for m in methods for frame in FRAMES):
         return pictures
@@ -82,7 +80,7 @@ def interpolated(small, small_guides, guides, side):
 def plain_pictures(walr, cache, entry, side, full):
     """Results of the plain alternative by frame. full: the sequence with guides of full size."""
     sequence = cache.sequence(entry)
-    output = results_folder(walr, cache, entry)
+    output = results_folder(cache, entry)
     if not all((output / f"denoised_{frame:04d}.exr").exists() for frame in FRAMES):
         subprocess.run([str(walr), "denoise", str(sequence), "--output", str(output)], check=True, capture_output=True)
     pictures = {}

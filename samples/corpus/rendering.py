@@ -1,4 +1,6 @@
 """Renders the sequences of the corpus into a cache, and resumes where it was interrupted."""
+import functools
+import hashlib
 import os
 import pathlib
 import re
@@ -38,6 +40,11 @@ class Cache:
 
     def __init__(self, folder, walr):
         self.folder, self.walr, self.versions = pathlib.Path(folder), walr, {}
+
+    @functools.cached_property
+    def program(self):
+        """A hash of the program, which tells its results from those of another one."""
+        return hashlib.sha256(pathlib.Path(self.walr).read_bytes()).hexdigest()
 
     def version(self, entry):
         view = entry.scene, entry.camera

@@ -28,6 +28,8 @@ HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent / "corpus"))
 import corpus
 import entries
+import judging
+import places
 import rendering
 
 COMPARED = "kitchen_540"
@@ -59,18 +61,9 @@ def lit_pictures(walr, frames, indices):
     return pictures
 
 
-def display(linear, exposure):
-    """Exposure, tone map x / (1 + x), then sRGB."""
-    x = np.maximum(linear * exposure, 0)
-    x = x / (1 + x)
-    x = np.where(x <= 0.0031308, 12.92 * x, 1.055 * np.power(np.maximum(x, 1e-9), 1 / 2.4) - 0.055)
-    return (np.clip(x, 0, 1) * 255 + 0.5).astype(np.uint8)
-
-
 def exposure_of(linear):
     """Brings the geometric mean of the luminance to 0.3."""
-    luminance = linear @ np.array([0.2126, 0.7152, 0.0722], np.float32)
-    return 0.3 / float(np.exp(np.mean(np.log(luminance + 1e-3))))
+    return 0.3 / float(np.exp(np.mean(np.log(judging.luminance(linear) + 1e-3))))
 
 
 def enlarged(picture, corner):
@@ -98,43 +91,43 @@ def framed(picture):
     return np.asarray(image)
 
 
-def comparison(walr, cache):
+def comparison(cache):
     """Three pictures side by side, below each two crops of it: the last judged frame, its reference over all of the image."""
     entry = entries.corpus()[COMPARED]
     last = entry.judged[1]
     whole = dataclasses.replace(entry, judged=(last, last), one_square_in=1)
     rendering.render_all([whole], cache, print)
     frames = cache.sequence(whole)
-    (noisy, denoised), = lit_pictures(walr, frames, [last])
+    (noisy, denoised), = lit_pictures(cache.walr, frames, [last])
     reference = lit(exr.read(frames / f"noisy_{last:04d}.exr"), exr.read(frames / f"ref_{last:04d}.exr"))
     exposure = exposure_of(reference)
     columns = []
     for image, text in ((noisy, "1 sample per pixel"), (denoised, "denoised by walr"),
                         (reference, f"reference, {whole.reference_samples} samples per pixel")):
-        picture = display(image, exposure)
+        picture = places.displayed(image, exposure)
         crops = np.concatenate([enlarged(picture, corner) for corner in CROPS], axis=1)
         columns.append(np.concatenate([labelled(framed(picture), text), crops], axis=0))
     Image.fromarray(np.concatenate(columns, axis=1)).save(HERE / "comparison.webp", quality=88, method=4)
 
 
-def animation(walr, cache):
+def animation(cache):
     """The left half of each picture noisy, the right half denoised, at the exposure of the first one.
 
     Without the corpus's jitter: no anti-aliasing of the lit image follows here, which a host that jitters has."""
     entry = entries.corpus()[ANIMATED]
     first, last = ANIMATED_FRAMES
-    options = [o for o in entry.noisy_options((first - entries.WARM_UP, last)) if o != "--jitter"]
+    options = entry.noisy_options((first - entries.WARM_UP, last), jitter=False)
     key = entries.key([entry.reference_settings(), options], cache.version(entry))
     frames = cache.folder / "animation" / f"{entry.name}-{key}"
     frames.mkdir(parents=True, exist_ok=True)
-    subprocess.run(list(map(str, [walr, "render", entry.scene, "--output", frames, *options])), check=True)
-    pairs = lit_pictures(walr, frames, range(first, last + 1))
+    subprocess.run(list(map(str, [cache.walr, "render", entry.scene, "--output", frames, *options])), check=True)
+    pairs = lit_pictures(cache.walr, frames, range(first, last + 1))
     exposure = exposure_of(pairs[0][1])
     pictures = []
     for noisy, denoised in pairs:
-        picture = display(denoised, exposure)
+        picture = places.displayed(denoised, exposure)
         middle = picture.shape[1] // 2
-        picture[:, :middle] = display(noisy, exposure)[:, :middle]
+        picture[:, :middle] = places.displayed(noisy, exposure)[:, :middle]
         picture[:, middle - 1:middle + 1] = 255
         pictures.append(Image.fromarray(picture))
     pictures[0].save(HERE / "animation.webp", save_all=True, append_images=pictures[1:], duration=80, loop=0, quality=55, method=4)
@@ -148,9 +141,9 @@ def main():
     arguments = parser.parse_args()
     cache = rendering.Cache(arguments.cache, pathlib.Path(arguments.walr).resolve())
     if arguments.only != "animation":
-        comparison(cache.walr, cache)
+        comparison(cache)
     if arguments.only != "comparison":
-        animation(cache.walr, cache)
+        animation(cache)
 
 
 if __name__ == "__main__":

@@ -63,11 +63,16 @@ bool updating() {
   return std::getenv("WALR_UPDATE_PLANS") != nullptr;
 }
 
+std::unique_ptr<Denoiser> make(const Variant& variant) {
+  std::unique_ptr<Denoiser> method = makeDenoiser(variant.method);
+  if (!variant.preset.empty()) method->usePreset(variant.preset);
+  return method;
+}
+
 class DenoiserPlansTest : public testing::TestWithParam<Variant> {
  protected:
   void SetUp() override {
-    const std::unique_ptr<Denoiser> method = makeDenoiser(GetParam().method);
-    if (!GetParam().preset.empty()) method->usePreset(GetParam().preset);
+    const std::unique_ptr<Denoiser> method = make(GetParam());
     declared_ = declareDenoiseGraph(*method, kExtent, InputConventions{}, kComputeHost);
     result_ = fg::compile(desc(), fg::TableMemoryModel());
     ASSERT_TRUE(result_.diagnostics.empty()) << result_.text();
@@ -118,8 +123,7 @@ TEST_P(DenoiserPlansTest, CompilesForEverySceneAndHost) {
       {{"scene.camera-motion", "off"}, {"scene.object-motion", "off"}, {"scene.jitter", "off"}},
       {{"scene.sky", "off"}}};
   for (const auto& choice : choices) {
-    const std::unique_ptr<Denoiser> method = makeDenoiser(GetParam().method);
-    if (!GetParam().preset.empty()) method->usePreset(GetParam().preset);
+    const std::unique_ptr<Denoiser> method = make(GetParam());
     const std::vector<SettingText> known = method->settings();
     for (const auto& [name, value] : choice) {
       if (std::ranges::find(known, name, &SettingText::name) == known.end()) continue;
@@ -133,8 +137,7 @@ TEST_P(DenoiserPlansTest, CompilesForEverySceneAndHost) {
 
 // Where objects do not move, motion follows from the cameras, and the host need not write the texture.
 TEST_P(DenoiserPlansTest, LeavesMotionUnreadIfNoObjectMoves) {
-  const std::unique_ptr<Denoiser> method = makeDenoiser(GetParam().method);
-  if (!GetParam().preset.empty()) method->usePreset(GetParam().preset);
+  const std::unique_ptr<Denoiser> method = make(GetParam());
   if (GetParam().method != "none") method->set("scene.object-motion", "off");
   const DenoiseGraph declared = declareDenoiseGraph(*method, kExtent, InputConventions{}, kComputeHost);
   const fg::CompileResult result = fg::compile(declared.graph.desc(), fg::TableMemoryModel());
@@ -163,10 +166,8 @@ TEST(DenoiserPlans, TheFilterWritesTheResultIfTheHostAntialiases) {
 
 // The second light has the passes of the first but those that prepare guides, under names of their own.
 TEST_P(DenoiserPlansTest, TwoLightsShareTheGuides) {
-  const std::unique_ptr<Denoiser> first = makeDenoiser(GetParam().method);
-  const std::unique_ptr<Denoiser> second = makeDenoiser(GetParam().method);
-  if (!GetParam().preset.empty()) first->usePreset(GetParam().preset);
-  if (!GetParam().preset.empty()) second->usePreset(GetParam().preset);
+  const std::unique_ptr<Denoiser> first = make(GetParam());
+  const std::unique_ptr<Denoiser> second = make(GetParam());
   const auto declare = [&] {
     return declareDenoiseGraph(*first, kExtent, InputConventions{}, kComputeHost, {}, {}, {}, {.method = second.get()});
   };

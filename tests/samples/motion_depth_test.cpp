@@ -75,9 +75,8 @@ double difference(const Result& a, const Result& b) {
 }
 
 const std::string kHeading =
-    "| frames per second | pixels without history in a frame: depth given | still scene | depth found | difference "
-    "from depth "
-    "given: still scene | depth found |\n"
+    "| frames per second | pixels without history in a frame: depth given | still scene | depth found "
+    "| difference from depth given: still scene | depth found |\n"
     "| --- | --- | --- | --- | --- | --- |\n";
 
 using Row = std::array<double, 6>;  ///< The numbers of a row of the guide's table.
