@@ -4,7 +4,7 @@ import results
 from pages import mark, small, table
 
 BASELINE = "walr"
-METHODS = [m for m in entries.METHODS if m != BASELINE and m not in entries.SLOW]
+METHODS = [m for m in entries.METHODS if m != BASELINE]
 LEAST_LEAD = 0.02
 """A method is listed as ahead of the baseline if its error is smaller by more than this share."""
 EXPLANATION = """# Errors by size, scene and samples
