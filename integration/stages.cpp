@@ -78,9 +78,10 @@ struct AntialiasingStageSettings : TemporalAntialiasingSettings {
   }
 };
 
-/// A filter has the storage settings of the stages before and after it.
+/// A filter has the storage settings of the stages before and after it. A stage by itself cannot steer the history of
+/// accumulation, so that it takes in accumulated light only if asked to.
 struct BlockStageSettings {
-  BlockRegressionSettings blocks;
+  BlockRegressionSettings blocks{.share = {.enabled = false}};
   TemporalAccumulationSettings accumulation;
   TemporalAntialiasingSettings antialiasing;
 
@@ -146,9 +147,8 @@ void blockRegression(StagePorts& ports, const BlockStageSettings& settings) {
   BlockLight light{.accumulated = ports.texture("accumulated", formatOf(settings.accumulation.storage)),
                    .alpha = LightingAlpha::SampleCount};
   const LightStorage result = settings.antialiasing.storage;
-  if (settings.accumulation.storage != LightStorage::Half && result == LightStorage::Half) {
-    light.lighting = ports.texture("lighting");
-  }
+  const bool passesLightThrough = settings.accumulation.storage != LightStorage::Half && result == LightStorage::Half;
+  if (passesLightThrough || settings.blocks.share.enabled) light.lighting = ports.texture("lighting");
   const Guides guides = ports.guides();
   const BlockFits fits = addBlockRegression(ports.graph(), frame, light, guides, settings.blocks);
   const fg::Texture target = filteredLike(ports, guides.depth, formatOf(result));

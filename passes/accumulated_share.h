@@ -11,9 +11,9 @@
 namespace walr {
 
 /// Settings of the accumulated light's share in the reconstruction. Accumulated light supplies the detail that the fits
-/// over blocks miss, as far as two halves of its samples agree on it (passes/WALR_EXPERIMENTS.md).
+/// over blocks miss, as far as two halves of its samples agree on it (passes/WALR.md, 9).
 struct AccumulatedShareSettings {
-  bool enabled = false;
+  bool enabled = true;
   float frames = 8.0F;
   std::uint32_t radius = 4;
   float gain = 2.0F;
@@ -24,7 +24,8 @@ struct AccumulatedShareSettings {
   void visit(SettingVisitor& v) {
     v.visit({"blocks.residual",
              "Add accumulated light to the result where this frame and the history agree that the fits miss something, "
-             "and shorten history where it blurs more than noise asks for",
+             "and shorten history where it blurs more than noise asks for; no effect on sparse light and with "
+             "spatial-only",
              "", 0, 1, "measured"},
             enabled);
     v.visit(

@@ -14,7 +14,7 @@ struct AntilagSettings {
   bool enabled = false;
   std::uint32_t radius = 2;
   float scoreLow = 2.0F;
-  float scoreHigh = 4.0F;
+  float scoreHigh = 4.3F;
 
   void visit(SettingVisitor& v) {
     v.visit({"accumulation.antilag", "Shorten history where the light has changed by more than noise explains", "", 0,
@@ -27,15 +27,15 @@ struct AntilagSettings {
     v.visit({"accumulation.antilag-low", "Change of the light up to which history counts in full; below antilag-high",
              "standard errors", 0.0, 100.0, "measured"},
             scoreLow);
-    v.visit({"accumulation.antilag-high", "Change of the light from which history counts as one sample",
-             "standard errors", 0.0, 100.0, "measured"},
+    v.visit({"accumulation.antilag-high", "Change of the light from which history does not count", "standard errors",
+             0.0, 100.0, "measured"},
             scoreHigh);
   }
 };
 
 /// Textures that temporal accumulation and antilag exchange: a texel for each tile of 8 x 8 pixels.
 struct Antilag {
-  fg::History factor;  ///< R32_SFLOAT: 0 where history counts in full, 1 where it counts as one sample.
+  fg::History factor;  ///< R32_SFLOAT: 0 where history counts in full, 1 where it does not count.
   /// R32G32_SFLOAT: sums over a tile of d and d^2, where d is the luminance of this frame's sample less that of
   /// history.
   fg::Texture tiles;

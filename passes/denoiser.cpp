@@ -29,8 +29,8 @@ struct Preset {
 template <typename Settings>
 constexpr std::array<Preset<Settings>, 0> kPresets{};
 template <>
-constexpr std::array kPresets<WalrSettings>{Preset<WalrSettings>{"one-sample", [] { return WalrSettings{}; }},
-                                            Preset<WalrSettings>{"many-samples", manySamplesWalr}};
+constexpr std::array kPresets<WalrSettings>{Preset<WalrSettings>{"standard", [] { return WalrSettings{}; }},
+                                            Preset<WalrSettings>{"fast", fastWalr}};
 template <>
 constexpr std::array kPresets<WalrPaperSettings>{Preset<WalrPaperSettings>{"paper", paperWalr},
                                                  Preset<WalrPaperSettings>{"robust", robustWalr}};
@@ -51,7 +51,8 @@ template <typename Settings>
 constexpr std::string_view kFormerPresets{};
 template <>
 constexpr std::string_view kFormerPresets<WalrSettings> =
-    "; the former preset blocks is now walr itself, and robust and paper are presets of the method walr_paper";
+    "; of the former presets, blocks and one-sample are now fast, many-samples is part of standard, and robust and "
+    "paper are presets of the method walr_paper";
 
 /// The scene that satisfies both descriptions.
 SceneDescription common(const SceneDescription& a, const SceneDescription& b) {

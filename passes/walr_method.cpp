@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <stdexcept>
 
 #include "passes/temporal_stages.h"
 #include "passes/window_fit.h"
@@ -20,6 +19,8 @@ float wideningOf(const LightPattern& light) {
 BlockRegressionSettings fittedBlocks(const WalrSettings& settings, std::uint32_t imageHeight,
                                      const LightPattern& light) {
   BlockRegressionSettings blocks = settings.blocks;
+  // The share of accumulated light in a pixel is measured on this frame's sample and the history of the same pixel.
+  blocks.share.enabled = blocks.share.enabled && light.everyPixel() && !settings.spatialOnly;
   if (!settings.fitWindow) return blocks;
   const float widening = wideningOf(light);
   const auto height = static_cast<std::uint32_t>(widening * static_cast<float>(imageHeight));
@@ -39,9 +40,6 @@ fg::Texture addWalr(StageGraph graph, const DenoiserInputs& inputs, fg::Texture 
                                                   .antialiasing = settings.antialiasing,
                                                   .spatialOnly = settings.spatialOnly});
   const BlockRegressionSettings blocks = fittedBlocks(settings, inputs.extent(graph).height, inputs.conventions.light);
-  if (blocks.share.enabled && !inputs.conventions.light.everyPixel()) {
-    throw std::invalid_argument("setting blocks.residual needs a sample of light at every pixel");
-  }
   // Reconstruction with blocks.residual measures where history is too long. Antilag then shortens it in the next frame.
   std::optional<SteeredHistory> history;
   if (blocks.share.enabled && plan.accumulates && settings.accumulation.antilag.enabled) {
@@ -64,10 +62,9 @@ fg::Texture addWalr(StageGraph graph, const DenoiserInputs& inputs, fg::Texture 
   return addAntialiasing(graph, inputs, guides, plan, accumulated, filtered, output);
 }
 
-WalrSettings manySamplesWalr() {
+WalrSettings fastWalr() {
   WalrSettings settings;
-  settings.blocks.share.enabled = true;
-  settings.antialiasing.maxHistory = 2.0F;
+  settings.blocks.share.enabled = false;
   return settings;
 }
 

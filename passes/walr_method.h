@@ -42,9 +42,8 @@ struct WalrSettings {
   }
 };
 
-/// For light with four samples a pixel or more, independent from frame to frame: the result takes in accumulated light
-/// as far as it can be trusted, and histories are shorter. Reservoirs with temporal reuse (ReSTIR) are not independent.
-WalrSettings manySamplesWalr();
+/// Takes less time and memory traffic, and loses detail that no guide shows: the result takes in no accumulated light.
+WalrSettings fastWalr();
 
 /// The project's own method: Weighted A-Trous Linear Regression (Meunier & Harada 2022, figure 6) over blocks of
 /// pixels instead of pixels, which leaves room for depth and occlusion as features. See passes/WALR.md.

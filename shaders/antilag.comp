@@ -1,5 +1,5 @@
 // Antilag (passes/WALR.md, 3): how far the light has changed, for each tile of 8 x 8 pixels. The antilag factor is 0
-// where history counts in full and 1 where it counts as one sample.
+// where history counts in full and 1 where it does not count.
 // score = |sum d| / sqrt(sum d^2) over a window of tiles, where d is the luminance of this frame's sample less that of
 // history. If the light has not changed, the score is normally distributed with standard deviation 1, whatever the
 // noise; a single firefly cannot raise it above 1.

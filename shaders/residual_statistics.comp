@@ -1,4 +1,4 @@
-// WALR, share of the accumulated light (passes/WALR_EXPERIMENTS.md): sums of the residuals in a window of tiles, where
+// WALR, share of the accumulated light (passes/WALR.md, 9): sums of the residuals in a window of tiles, where
 // a frame fades as it ages. The innovations in this window tell how long history may be in the next frame.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -103,15 +103,15 @@ void storeLeastAntilag(ivec2 tile) {
   const int middle = kAntilagTile / 2 + constants.tileOffset;
   const ivec2 tileOfSums = min((kAntilagTile * tile + middle) / constants.tileSize, textureSize(sums, 0) - 1);
   const Window window = windowAround(tileOfSums);
-  const float longest = constants.maxHistory, shortest = 2.0;  // An antilag factor of 1 leaves one frame and this one.
+  const float longest = constants.maxHistory, shortest = 2.0;  // Innovations need a history.
   const float previous = hasPrevious() ? texelFetch(previousLeastAntilag, tile, 0).x : 0.0;
-  const float before = mix(longest, shortest - 1.0, previous) + 1.0;
+  const float before = longest * (1.0 - previous) + 1.0;
   // Noise that successive frames share lets innovations agree, too: history is shortened as far as there is trust.
   const float excess = innovationSlope(window) + constants.innovationBias;
   const float trust = hasPrevious() ? texelFetch(previousAgreement, tileOfSums, 0).z : 0.0;
   const float change = constants.innovationGain * (excess > 0.0 ? trust * excess : excess);
   const float frames = clamp(before * (1.0 - change), shortest, max(longest, shortest));
-  const float factor = (longest - (frames - 1.0)) / max(longest - (shortest - 1.0), 1.0);
+  const float factor = 1.0 - (frames - 1.0) / longest;
   imageStore(outLeastAntilag, tile, vec4(clamp(factor, 0.0, 1.0)));
 }
 

@@ -171,7 +171,7 @@ ReprojectedHistory historyWithAntilag(ivec2 p, float z, LightSample noisy) {
   found.perFrame = samplesPerFrame(found.mean.a, usableSamples(noisy));
 #if defined(ANTILAG) || defined(VIEW)
   if (kAntilag) {
-    const float longest = longestHistory(found.position, constants.maxHistory);
+    const float longest = longestHistory(found.position, constants.maxHistory, isUsable(noisy));
     found.mean.a = min(found.mean.a, found.perFrame * longest);
   }
 #endif
@@ -199,7 +199,7 @@ vec3 viewOf(ivec2 p, float z, LightSample noisy) {
       if (!surface || !kAntilag) return vec3(0.0);
       const ReprojectedHistory found = readHistory(p, z);
       const float perFrame = samplesPerFrame(found.mean.a, usableSamples(noisy));
-      const float longest = perFrame * longestHistory(found.position, constants.maxHistory);
+      const float longest = perFrame * longestHistory(found.position, constants.maxHistory, isUsable(noisy));
       return vec3(antilagAt(found.position), longest, found.mean.a > longest);
     }
   }

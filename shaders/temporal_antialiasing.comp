@@ -1,4 +1,4 @@
-// Temporal anti-aliasing (passes/WALR.md, 9; Meunier & Harada 2022, 4.4): reads the history with a bicubic filter,
+// Temporal anti-aliasing (passes/WALR.md, 10; Meunier & Harada 2022, 4.4): reads the history with a bicubic filter,
 // clips it to the variance of the current neighbourhood, and adds the current frame. The cumulative mean turns
 // exponential at `maxHistory`.
 // With kPixelArea, a jittered frame adds to the mean over the pixel's area: every history tap is accepted, whatever

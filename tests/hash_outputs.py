@@ -13,7 +13,7 @@ import subprocess
 import sys
 import tempfile
 
-METHODS = ("walr,walr:many-samples,walr_paper,walr_paper:robust,refwlr,refwlr:paper,bmfr,bmfr:paper,svgf,svgf:paper,flr,flnr,"
+METHODS = ("walr,walr:fast,walr_paper,walr_paper:robust,refwlr,refwlr:paper,bmfr,bmfr:paper,svgf,svgf:paper,flr,flnr,"
            "joint_bilateral,accumulate,none")
 
 

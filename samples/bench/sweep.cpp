@@ -89,7 +89,7 @@ std::vector<Sweep> walrSweeps() {
       over(kDefault, "change-response", "Is history shortened where the light changes?", "accumulation.antilag",
            {"on", "off"}),
       of(kDefault, "change-score", "At how many standard errors of change is history shortened?",
-         {{"2-4", {{"accumulation.antilag-low", "2"}, {"accumulation.antilag-high", "4"}}},
+         {{"2-4.3", {{"accumulation.antilag-low", "2"}, {"accumulation.antilag-high", "4.3"}}},
           {"3-6", {{"accumulation.antilag-low", "3"}, {"accumulation.antilag-high", "6"}}},
           {"4-8", {{"accumulation.antilag-low", "4"}, {"accumulation.antilag-high", "8"}}}}),
       over(kDefault, "late-history", "How many frames of history after the filter?", "antialiasing.max-history",

@@ -140,12 +140,7 @@ std::vector<Light> lightsOf(const std::string& light) {
 /// The methods of the lights, with their settings.
 std::vector<LightMethod> methodsOf(const MethodOptions& options, std::span<const Light> lights) {
   std::vector<LightMethod> methods;
-  for (const Light light : lights) {
-    MethodOptions chosen = options;
-    // Shadows of direct light have more detail than the fits follow. This preset takes it from the accumulated light.
-    if (light == Light::Direct && chosen.name == "walr" && chosen.preset.empty()) chosen.preset = "many-samples";
-    methods.push_back({light, makeMethod(chosen)});
-  }
+  for (const Light light : lights) methods.push_back({light, makeMethod(options)});
   return methods;
 }
 

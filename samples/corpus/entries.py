@@ -143,7 +143,7 @@ def corpus():
 
 
 METHODS = {
-    "walr": 1.0, "walr:many-samples": 1.3, "walr_paper": 2.6, "bmfr": 1.5, "svgf": 3.7, "flr": 0.9, "accumulate": 0.3, "none": 0.05,
+    "walr": 1.0, "walr:fast": 0.7, "walr_paper": 2.6, "bmfr": 1.5, "svgf": 3.7, "flr": 0.9, "accumulate": 0.3, "none": 0.05,
     "walr_paper:robust": 2.8, "joint_bilateral": 24.0,
 }
 """The methods that are compared, with their time on two idle cores as a multiple of that of `walr` (samples/bench/SCENES.md)."""

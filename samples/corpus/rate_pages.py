@@ -7,8 +7,8 @@ from rate_entries import RESAMPLED_FRAMES, TAKE_SPARSE
 
 HERE = pathlib.Path(__file__).resolve().parent
 PAGE, PLOT = HERE / "RATES.md", HERE / "rates.png"
-COLUMNS = ("walr", "walr:many-samples", "flr", "bmfr", "svgf", "accumulate", "none", "plain")
-HEADINGS = {"none": "input", "walr:many-samples": "many-samples", "plain": "plain alternative"}
+COLUMNS = ("walr", "walr:fast", "flr", "bmfr", "svgf", "accumulate", "none", "plain")
+HEADINGS = {"none": "input", "walr:fast": "fast", "plain": "plain alternative"}
 RESAMPLED = "1, resampled"
 EXPLANATION = """# Error against rays per pixel
 
@@ -16,8 +16,8 @@ Written by `samples/corpus/rates.py` from `rates.json`. The same frames of 384 x
 indirect light per pixel; one ray is one path. Below 1 the light is sparse (`walr render --light-rate`), and only methods that take
 sparse light are there. RMSE after the tone map x / (1 + x), free of the references' noise, over two frames in half of the squares of
 64 x 64 pixels; references have 128 samples per pixel over its area. Eight frames of history come before the judged ones; at 16 rays
-three, at 64 rays two, because these cost so much. Method settings are the defaults of one sample per pixel at every rate, but for
-`many-samples`, a preset of `walr`.
+three, at 64 rays two, because these cost so much. Method settings are the defaults at every rate; `fast` is a preset of `walr`,
+the same as its default at sparse light.
 
 * **input**: the noisy frames; **accumulate**: temporal accumulation alone.
 * **plain alternative**: trace at a half or a third of the size on each side, denoise there with `walr`, and interpolate by depth and

@@ -6,11 +6,13 @@ namespace walr {
 #endif
 
 const int kAntilagTile = 8;  // Pixels per axis: a workgroup of temporal accumulation.
+// Share of the longest history below which history does not count: rounding of bilinear weights leaves less of it.
+const float kLeastHistoryShare = 1.0f / 1024.0f;
 
 struct AntilagConstants {
   int radius;       // Of the window around a tile, tiles.
   float scoreLow;   // Score up to which history counts in full, standard errors.
-  float scoreHigh;  // Score from which history counts as one sample, standard errors.
+  float scoreHigh;  // Score from which history does not count, standard errors.
 };
 
 #ifdef __cplusplus

@@ -1,4 +1,4 @@
-// How much of the residual is added to the prediction (passes/WALR_EXPERIMENTS.md). The residual is the accumulated light
+// How much of the residual is added to the prediction (passes/WALR.md, 9). The residual is the accumulated light
 // less the prediction p: noise, and where the fits are wrong also light that no feature explains. To tell them apart,
 // this frame's light y and the history h are compared. Their noise is independent: where y - p and h - p are noise
 // alone, their product is 0 in the mean.

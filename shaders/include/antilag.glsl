@@ -15,8 +15,13 @@ float antilagAt(vec2 position) {
   return mix(rows.x, rows.y, f.y);
 }
 
-// The maximum history length at a position: `maxHistory` at factor 0, one sample at factor 1.
-float longestHistory(vec2 position, float maxHistory) { return mix(maxHistory, 1.0, antilagAt(position)); }
+// The maximum history length at a position, frames: `maxHistory` at factor 0, none at factor 1. A pixel without a sample
+// in this frame keeps one frame, because it has nothing else.
+float longestHistory(vec2 position, float maxHistory, bool hasSample) {
+  const float share = 1.0 - antilagAt(position);
+  const float frames = share < kLeastHistoryShare ? 0.0 : maxHistory * share;
+  return max(frames, hasSample ? 0.0 : 1.0);
+}
 
 #ifndef VIEW
 #define GROUP_SUM vec2

@@ -231,12 +231,6 @@ TEST_P(DynamicResolutionMethod, ErrorEqualsThatOfARectangleOfConstantSize) {
   expectHistoryIsKept(errorsAtChanges(device(), GetParam(), take));
 }
 
-// The statistics of its residuals and the lengths of its histories begin anew at each size.
-TEST_F(DynamicResolution, SharesOfAccumulatedLightKeepTheHistory) {
-  const Take take{.scene = sphere(), .step = {0.05, 0.03, -0.04}, .jittered = true};
-  expectHistoryIsKept(errorsAtChanges(device(), "walr", take, "blocks.residual"));
-}
-
 /// A scene of small objects with different ids, a third of a unit wide. A history that is read at a wrong position
 /// belongs to another id and is rejected.
 Scene inPieces(const Scene& scene) {

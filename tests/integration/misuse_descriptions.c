@@ -69,7 +69,7 @@ static void test_create(const WalrDevice* device) {
   info = info_of(device);
   info.preset = "magic";
   EXPECT(walr_create_denoiser(&info, &denoiser), WALR_ERROR_INVALID_ARGUMENT,
-         "known presets: one-sample, many-samples; the former preset blocks is now walr itself");
+         "known presets: standard, fast; of the former presets, blocks and one-sample are now fast");
   info = info_of(device);
   info.method = "svgf";
   info.light_direction = VK_TRUE;
@@ -183,7 +183,7 @@ static void test_lights(const WalrDevice* device) {
   info.light_count = 2;
   info.second_preset = "magic";
   EXPECT(walr_create_denoiser(&info, &denoiser), WALR_ERROR_INVALID_ARGUMENT, "no preset \"magic\"");
-  info.second_preset = "many-samples";
+  info.second_preset = "fast";
   info.light_count = 1;
   EXPECT(walr_create_denoiser(&info, &denoiser), WALR_ERROR_INVALID_ARGUMENT, "set light_count to 2");
   info.second_preset = NULL;
@@ -199,7 +199,7 @@ static void test_lights(const WalrDevice* device) {
   info = info_of(device);
   EXPECT_OK(walr_create_denoiser(&info, &denoiser));
   EXPECT(walr_set_setting(denoiser, "second.blocks.size", "5"), WALR_ERROR_INVALID_ARGUMENT, "second.blocks.size");
-  EXPECT(walr_use_preset(denoiser, "second.one-sample"), WALR_ERROR_INVALID_ARGUMENT, "second.one-sample");
+  EXPECT(walr_use_preset(denoiser, "second.fast"), WALR_ERROR_INVALID_ARGUMENT, "second.fast");
   WalrImageRequirements needs = {.struct_size = sizeof(needs)};
   EXPECT_OK(walr_get_image_requirements(denoiser, "second_lighting", &needs));
   EXPECT_TRUE(!needs.required);

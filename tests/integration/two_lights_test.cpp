@@ -95,10 +95,10 @@ TEST_F(TwoLights, HavePresetsAndConventionsOfAHost) {
   one.conventions = &conventions;
   one.denoised_format = VK_FORMAT_R32G32B32A32_SFLOAT;
   WalrDenoiserInfo other = one;
-  other.preset = "many-samples";
+  other.preset = "fast";
   WalrDenoiserInfo both = one;
   both.light_count = 2;
-  both.second_preset = "many-samples";
+  both.second_preset = "fast";
   compare(both, one, other);
 }
 
@@ -118,11 +118,11 @@ TEST_F(TwoLights, HaveSettingsOfTheirOwn) {
   require(api().set_setting(denoiser, "second.accumulation.max-history", "7"));
   EXPECT_EQ(setting("accumulation.max-history"), "5");
   EXPECT_EQ(setting("second.accumulation.max-history"), "7");
-  require(api().use_preset(denoiser, "second.many-samples"));
-  EXPECT_EQ(setting("blocks.residual"), "off");
-  EXPECT_EQ(setting("second.blocks.residual"), "on");
-  require(api().use_preset(denoiser, "one-sample"));
+  require(api().use_preset(denoiser, "second.fast"));
+  EXPECT_EQ(setting("blocks.residual"), "on");
   EXPECT_EQ(setting("second.blocks.residual"), "off");
+  require(api().use_preset(denoiser, "standard"));
+  EXPECT_EQ(setting("second.blocks.residual"), "on");
   require(api().prepare(denoiser));
   // Lights with other guides cannot share them.
   require(api().set_setting(denoiser, "second.occlusion.rings", "3"));

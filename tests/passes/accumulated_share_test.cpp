@@ -1,4 +1,4 @@
-// The share of accumulated light in the result (passes/WALR_EXPERIMENTS.md): against a calculation in double
+// The share of accumulated light in the result (passes/WALR.md, 9): against a calculation in double
 // precision, and by what it is for.
 
 #include <algorithm>

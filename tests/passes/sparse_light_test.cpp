@@ -355,10 +355,24 @@ TEST_F(SparseLight, IsRefusedByNameWhereAllSamplesAreNeeded) {
         },
         {"method '" + std::string(name) + "'", "walr, walr_paper, bmfr, flr, accumulate"});
   }
-  for (const char* setting : {"spatial-only", "blocks.residual"}) {
-    const std::unique_ptr<Denoiser> method = makeDenoiser("walr");
-    method->set(setting, "on");
-    fg::test::expectError([&] { runOf(device(), *method, {1, 1, true}); }, {"setting " + std::string(setting)});
+  const std::unique_ptr<Denoiser> method = makeDenoiser("walr");
+  method->set("spatial-only", "on");
+  fg::test::expectError([&] { runOf(device(), *method, {1, 1, true}); }, {"setting spatial-only"});
+}
+
+// A sample and the history of the same pixel tell the share of accumulated light. Sparse light lacks one of them.
+TEST_F(SparseLight, HasNoShareOfAccumulatedLight) {
+  for (const LightPattern& pattern : {LightPattern{2, 2}, LightPattern{1, 1, true}, LightPattern{1, 1, false, true}}) {
+    SCOPED_TRACE(nameOf(pattern));
+    const auto standard = makeDenoiser("walr"), fast = makeDenoiser("walr");
+    standard->usePreset("standard");
+    fast->usePreset("fast");
+    DenoiserRun run = runOf(device(), *standard, pattern);
+    DenoiserRun runOfFast = runOf(device(), *fast, pattern);
+    for (const HostFrame& frame : movingFrames(stairs(), 4, pattern)) {
+      const Image<glm::dvec4> output = run.frame(frame);
+      EXPECT_TRUE(output.pixels() == runOfFast.frame(frame).pixels());
+    }
   }
 }
 

@@ -189,7 +189,7 @@ TEST_F(WalrTemporalViewsTest, ShowWhereHistoryIsShortened) {
   int shortened = 0;
   reference::forEachPixel(kSize, [&](glm::ivec2 p) {
     const glm::dvec3 view = stages.views.at("antilag")[p];
-    EXPECT_NEAR(view.y, most + (1.0 - most) * view.x, 4.0 * reference::kFloatRoundoff * most);
+    EXPECT_NEAR(view.y, most * (1.0 - view.x), 4.0 * reference::kFloatRoundoff * most);
     EXPECT_EQ(view.z, before[p].w > view.y ? 1.0 : 0.0);
     const double samples = std::min(before[p].w, view.y) + 1.0;
     EXPECT_NEAR(stages.accumulated[p].w, samples, halfTolerance(samples, 0.0));

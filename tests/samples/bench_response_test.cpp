@@ -139,12 +139,11 @@ TEST(ResponseTest, OfMethodsWithAKnownAnswer) {
     EXPECT_NEAR(response->untoldCut.left, 0.0, 0.05);
   }
   EXPECT_DOUBLE_EQ(mean.cut.rmse, none.cut.rmse) << "one sample is its own mean";
-  // A fall to a tenth sets the antilag factor to 1: from the second frame on, history counts as one sample, so each
-  // frame halves the remaining light.
+  // A fall to a tenth sets the antilag factor to 1: the second frame drops history.
   const Response& alert = found[2];
   EXPECT_NEAR(alert.lightLeft[0], 7.0 / 8.0, 0.02);
-  EXPECT_NEAR(alert.lightLeft[1], 7.0 / 16.0, 0.05);
-  EXPECT_LE(alert.lightFrames.value(), 5);
+  EXPECT_NEAR(alert.lightLeft[1], 0.0, 0.05);
+  EXPECT_EQ(alert.lightFrames.value(), 1);
   EXPECT_LT(alert.lightLag, 0.6 * mean.lightLag);
   EXPECT_NEAR(alert.settled, mean.settled, 0.05 * mean.settled) << "antilag must not shorten history in constant light";
   EXPECT_TRUE(device.takeMessages().empty());

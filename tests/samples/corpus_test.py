@@ -34,7 +34,7 @@ TINY = entries.Entry("tiny", entries.BUILT_IN / "stair.gltf", (64, 36), (2, 4), 
 
 
 class Noise(unittest.TestCase):
-    """The noise that the preset many-samples takes accumulated light to have, where truth and noise are known."""
+    """The noise that walr takes accumulated light to have, where truth and noise are known."""
 
     SHAPE, FRAMES = (90, 160), (24, 32, 40, 48)
 

@@ -68,7 +68,6 @@ class FollowSessionTest : public testing::Test {
 TEST_F(FollowSessionTest, ChoicesThatAreRefusedLeaveThePictureAndItsHistory) {
   const std::vector<std::pair<std::string, std::function<void()>>> refused{
       {"method 'svgf' needs a sample of light at every pixel", [&] { session.chooseMethod("svgf"); }},
-      {"blocks.residual", [&] { session.choosePreset("many-samples"); }},
       {"accumulation.antilag-low",
        [&] {
          session.method().set("accumulation.antilag-low", "5");
@@ -98,7 +97,7 @@ TEST_F(FollowSessionTest, ChoicesThatAreRefusedLeaveThePictureAndItsHistory) {
     expectRefused(follow(), named);
     EXPECT_EQ(&live.graph(), running);
     EXPECT_EQ(session.methodName(), "walr");
-    EXPECT_EQ(session.preset(), "one-sample");
+    EXPECT_EQ(session.preset(), "standard");
     EXPECT_EQ(session.comparedName(), "none");
     EXPECT_EQ(session.view(), HostView{});
     const std::vector<SettingText> after = session.method().settings();
@@ -158,7 +157,7 @@ TEST_F(FollowSessionTest, WhatIsRefusedAtTheStartHasNothingToGoBackTo) {
 TEST_F(FollowSessionTest, ASliderThatIsDraggedWaitsForAnotherGraphAndGoesBackIfItIsRefused) {
   record();
   session.dragging = true;
-  session.method().set("blocks.residual", "on");
+  session.method().set("spatial-only", "on");
   session.settingsChanged();
   EXPECT_EQ(follow(), Followed::Refused);
   session.method().set("antialiasing.enabled", "off");
@@ -180,8 +179,7 @@ TEST_F(FollowSessionTest, TellsBeforehandWhatWouldBeRefused) {
     EXPECT_NE(refusalOfMethod(live, session, name).find("method '" + name + "'"), std::string::npos);
     EXPECT_NE(refusalOfCompared(live, session, name).find("method '" + name + "'"), std::string::npos);
   }
-  EXPECT_EQ(refusalOfPreset(live, session, "one-sample"), "");
-  EXPECT_NE(refusalOfPreset(live, session, "many-samples").find("blocks.residual"), std::string::npos);
+  for (const char* const preset : {"standard", "fast"}) EXPECT_EQ(refusalOfPreset(live, session, preset), "");
   record();
   EXPECT_EQ(age(), 1U) << "the graph is the same";
 }

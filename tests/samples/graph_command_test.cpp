@@ -119,7 +119,7 @@ TEST(GraphCommand, PrintsTheTrafficOfTwoLights) {
     return json::parse(printed(arguments))["traffic"]["bytes_per_pixel"].get<double>();
   };
   const double one = bytesPerPixel({"--json"});
-  const double both = bytesPerPixel({"--json", "--second-preset", "one-sample"});
+  const double both = bytesPerPixel({"--json", "--second-preset", "standard"});
   EXPECT_GT(both, one);
   // The second light reads no depth, normal and albedo of the host (20 bytes a pixel), and writes no guides (8).
   EXPECT_LT(both, 2 * one - 20 - 8 + 4);  // It reads the guides' depth instead (4).

@@ -47,7 +47,7 @@ TEST_F(HostProgramTest, WritesAPictureAFrame) {
 
 TEST_F(HostProgramTest, NamesThePresetInUse) {
   const std::vector<std::string> once = {scene, "-o", output.string(), "--frames", "0-0"};
-  EXPECT_NE(host(once).out.find("method: walr, preset one-sample\n"), std::string::npos);
+  EXPECT_NE(host(once).out.find("method: walr, preset standard\n"), std::string::npos);
   std::vector<std::string> chosen = once;
   chosen.insert(chosen.end(), {"--method", "svgf", "--preset", "paper"});
   EXPECT_NE(host(chosen).out.find("method: svgf, preset paper\n"), std::string::npos);

@@ -158,7 +158,7 @@ TEST_F(SessionTest, OnlyWhatChangesTheGraphAsksForAnother) {
 
 TEST_F(SessionTest, TellsThePresetInUse) {
   Session session = make({0, 9}, false);
-  EXPECT_EQ(session.preset(), "one-sample");
+  EXPECT_EQ(session.preset(), "standard");
   session.chooseMethod("walr_paper");
   EXPECT_EQ(session.preset(), "paper");
   session.choosePreset("robust");

@@ -166,10 +166,7 @@ void resamplingWidgets(Session& session) {
   ImGui::BeginDisabled(!reason.empty());
   ImGui::Checkbox("Resample indirect light of", &session.resample);
   if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) {
-    showTooltip(!reason.empty() ? reason
-                                : "As in ReSTIR GI without spatial reuse. Of walr, take the preset for the number of "
-                                  "samples per pixel, at one sample one-sample: reused samples repeat their noise from "
-                                  "frame to frame, so that many-samples finds no more detail in it");
+    showTooltip(!reason.empty() ? reason : "As in ReSTIR GI without spatial reuse");
   }
   ImGui::SameLine();
   auto frames = static_cast<int>(session.resampledFrames);

@@ -61,7 +61,8 @@ Image<double> antilagOf(const Image<Accumulated>& accumulated, const AntilagSett
   return antilag;
 }
 
-Bounded longestHistory(const Image<double>& antilag, glm::dvec2 pixel, double pixelError, double maxHistory) {
+Bounded longestHistory(const Image<double>& antilag, glm::dvec2 pixel, double pixelError, double maxHistory,
+                       bool hasSample) {
   const glm::dvec2 position = pixel / double(kChangeTile) - 0.5;
   const glm::dvec2 base = glm::floor(position);
   const glm::dvec2 f = position - base;
@@ -77,7 +78,8 @@ Bounded longestHistory(const Image<double>& antilag, glm::dvec2 pixel, double pi
   }
   // A position error of one pixel moves the weights of an axis by an eighth.
   const double error = 4.0 * pixelError / kChangeTile * (most - least) + 8.0 * kFloatRoundoff;
-  return {maxHistory + (1.0 - maxHistory) * value, (maxHistory - 1.0) * error + 4.0 * kFloatRoundoff * maxHistory};
+  const double frames = 1.0 - value < 0x1p-10 ? 0.0 : maxHistory * (1.0 - value);
+  return {std::max(frames, hasSample ? 0.0 : 1.0), maxHistory * error + 4.0 * kFloatRoundoff * maxHistory};
 }
 
 }  // namespace walr::reference

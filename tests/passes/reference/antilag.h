@@ -28,9 +28,10 @@ Image<Bounded> antilagOf(const Image<glm::dvec2>& tiles, const AntilagSettings& 
 /// The antilag factor computed from an accumulated frame, without error bounds.
 Image<double> antilagOf(const Image<Accumulated>& accumulated, const AntilagSettings& settings);
 
-/// The largest history length at a position in the previous image, M - a (M - 1) of passes/WALR.md, 2, with a read
-/// bilinearly.
+/// The largest history length at a position in the previous image, (1 - a) M of passes/WALR.md, 2, with a read
+/// bilinearly; at least 1 without a sample.
 /// @param pixelError error bound of the position, pixels
-Bounded longestHistory(const Image<double>& antilag, glm::dvec2 pixel, double pixelError, double maxHistory);
+Bounded longestHistory(const Image<double>& antilag, glm::dvec2 pixel, double pixelError, double maxHistory,
+                       bool hasSample);
 
 }  // namespace walr::reference

@@ -29,10 +29,10 @@ FrameOfHistory frameOfHistory(const HostFrame& frame, const HistorySample& past,
   return {past.value.w > full ? past.value.w / maxHistory : assumed, std::abs(past.value.w - full) <= rounding};
 }
 
-/// Limit the history length by the antilag factor: min(N_h, kappa (M - a (M - 1))) of passes/WALR.md, 2.
+/// Limit the history length by the antilag factor: min(N_h, kappa (1 - a) M) of passes/WALR.md, 2.
 void shorten(HistorySample& past, const Image<double>& antilag, const Reprojection& r, double maxHistory,
-             double perFrame) {
-  const Bounded frames = longestHistory(antilag, r.pixel, r.error, maxHistory);
+             double perFrame, bool hasSample) {
+  const Bounded frames = longestHistory(antilag, r.pixel, r.error, maxHistory, hasSample);
   const Bounded longest{perFrame * frames.value, perFrame * frames.error};
   if (past.value.w <= longest.value - longest.error) return;
   past.error.w = std::max(past.error.w, longest.error);
@@ -66,7 +66,7 @@ Image<Accumulated> accumulate(const HostFrame& frame, const Image<Guide>& guides
                            previous.accumulated, settings.historyFilter, !frame.conventions.light.everyPixel());
       kappa = frameOfHistory(frame, past, count, settings.maxHistory);
       if (past.found && !previous.antilag.pixels().empty()) {
-        shorten(past, previous.antilag, r, settings.maxHistory, kappa.samples);
+        shorten(past, previous.antilag, r, settings.maxHistory, kappa.samples, count > 0.0);
       }
     }
     const glm::dvec3 pastMean(past.value);

@@ -23,7 +23,7 @@ struct Neighbourhood {
   glm::dvec3 reachError{0.0};  ///< Bound of what single precision adds to it.
 };
 
-/// Mean mu and half size gamma sigma of the clipping box (passes/WALR.md, 9). Border pixels repeat outside the image.
+/// Mean mu and half size gamma sigma of the clipping box (passes/WALR.md, 10). Border pixels repeat outside the image.
 Neighbourhood neighbourhoodOf(const Image<Guide>& guides, const Image<glm::dvec4>& filtered, glm::ivec2 p,
                               const TemporalAntialiasingSettings& settings) {
   const auto radius = static_cast<int>(settings.clipRadius);

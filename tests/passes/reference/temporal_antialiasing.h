@@ -15,11 +15,11 @@ struct AntialiasingHistory {
 glm::dvec3 toYCoCg(glm::dvec3 rgb);
 glm::dvec3 fromYCoCg(glm::dvec3 yCoCg);
 
-/// Variance clipping (Salvi 2016; h' of passes/WALR.md, 9): scale a colour's offset from a mean until no component
+/// Variance clipping (Salvi 2016; h' of passes/WALR.md, 10): scale a colour's offset from a mean until no component
 /// exceeds its deviation.
 glm::dvec3 varianceClip(glm::dvec3 colour, glm::dvec3 mean, glm::dvec3 deviation);
 
-/// Whether anti-aliasing averages a frame over the area of pixels: it is jittered (passes/WALR.md, 9).
+/// Whether anti-aliasing averages a frame over the area of pixels: it is jittered (passes/WALR.md, 10).
 bool coversPixelArea(const HostFrame& frame, const TemporalAntialiasingSettings& settings);
 
 /// How anti-aliasing finds history.
@@ -27,7 +27,7 @@ bool coversPixelArea(const HostFrame& frame, const TemporalAntialiasingSettings&
 ReprojectionOptions reprojectionOf(const HostFrame& frame, const TemporalAntialiasingSettings& settings, bool keptTaps);
 HistoryTests historyTestsOf(const HostFrame& frame, const TemporalAntialiasingSettings& settings);
 
-/// Temporal anti-aliasing, the postprocessing phase (Meunier & Harada 2022, 4.4; passes/WALR.md, 9): bicubic history,
+/// Temporal anti-aliasing, the postprocessing phase (Meunier & Harada 2022, 4.4; passes/WALR.md, 10): bicubic history,
 /// variance clipping, moving average. `Accumulated::error` bounds what single precision adds.
 /// @param filtered rgb: the current frame; a: below 0 where no light is known
 /// @param keptTaps whether the history taps are those that accumulation kept, for which the motion is rounded
