@@ -11,15 +11,12 @@ layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(std140) uniform frameConstants { FrameConstants frame; };
 uniform utexture2D depth;
-uniform texture2D sums;  // Of each tile: include/accumulated_share.glsl.
-uniform texture2D edgeSums;
+uniform texture2D sums;  // Of each tile: include/accumulated_share.glsl. Right half: of pixels beside an edge.
 uniform texture2D innovationSums;  // xy: include/innovation.glsl; zw: products of residuals two pixels apart, by axis.
 uniform texture2D previousStatistics;
-uniform texture2D previousEdgeStatistics;
 uniform texture2D previousAgreement;
 uniform texture2D previousLeastAntilag;
-layout(rgba32f) uniform writeonly image2D outStatistics;
-layout(rgba32f) uniform writeonly image2D outEdgeStatistics;
+layout(rgba32f) uniform writeonly image2D outStatistics;  // As the sums.
 layout(rgba32f) uniform writeonly image2D outAgreement;  // xy: sums of the products two pixels apart; z: trust.
 layout(r32f) uniform writeonly image2D outLeastAntilag;
 layout(push_constant) uniform PushConstants { ResidualStatisticsConstants constants; };
@@ -50,7 +47,7 @@ struct Window {
 };
 
 Window windowAround(ivec2 tile) {
-  return Window(max(tile - constants.radius, ivec2(0)), min(tile + constants.radius, textureSize(sums, 0) - 1));
+  return Window(max(tile - constants.radius, ivec2(0)), min(tile + constants.radius, textureSize(innovationSums, 0) - 1));
 }
 
 // How far the agreement of this frame's residuals with the history's is light that the fits miss, and not noise that
@@ -65,25 +62,25 @@ float trustIn(vec4 both, vec2 far) {
 }
 
 void storeStatistics(ivec2 tile) {
-  const ivec2 size = textureSize(sums, 0);
+  const ivec2 size = textureSize(innovationSums, 0), rightHalf = ivec2(size.x, 0);
   vec4 interior = vec4(0.0), edge = vec4(0.0);
   vec2 far = vec2(0.0);
   const ivec2 before = previousTile(tile);
   if (all(greaterThanEqual(before, ivec2(0))) && all(lessThan(before, size))) {
     interior = constants.kept * texelFetch(previousStatistics, before, 0);
-    edge = constants.kept * texelFetch(previousEdgeStatistics, before, 0);
+    edge = constants.kept * texelFetch(previousStatistics, before + rightHalf, 0);
     far = constants.kept * texelFetch(previousAgreement, before, 0).xy;
   }
   const Window window = windowAround(tile);
   for (int y = window.first.y; y <= window.last.y; ++y) {
     for (int x = window.first.x; x <= window.last.x; ++x) {
       interior += texelFetch(sums, ivec2(x, y), 0);
-      edge += texelFetch(edgeSums, ivec2(x, y), 0);
+      edge += texelFetch(sums, ivec2(x, y) + rightHalf, 0);
       far += texelFetch(innovationSums, ivec2(x, y), 0).zw;
     }
   }
   imageStore(outStatistics, tile, interior);
-  imageStore(outEdgeStatistics, tile, edge);
+  imageStore(outStatistics, tile + rightHalf, edge);
   imageStore(outAgreement, tile, vec4(far, trustIn(interior + edge, far), 0.0));
 }
 
@@ -101,7 +98,7 @@ float innovationSlope(Window window) {
 // has this length.
 void storeLeastAntilag(ivec2 tile) {
   const int middle = kAntilagTile / 2 + constants.tileOffset;
-  const ivec2 tileOfSums = min((kAntilagTile * tile + middle) / constants.tileSize, textureSize(sums, 0) - 1);
+  const ivec2 tileOfSums = min((kAntilagTile * tile + middle) / constants.tileSize, textureSize(innovationSums, 0) - 1);
   const Window window = windowAround(tileOfSums);
   const float longest = constants.maxHistory, shortest = 2.0;  // Innovations need a history.
   const float previous = hasPrevious() ? texelFetch(previousLeastAntilag, tile, 0).x : 0.0;
@@ -117,6 +114,6 @@ void storeLeastAntilag(ivec2 tile) {
 
 void main() {
   const ivec2 tile = ivec2(gl_GlobalInvocationID.xy);
-  if (all(lessThan(tile, textureSize(sums, 0)))) storeStatistics(tile);
+  if (all(lessThan(tile, textureSize(innovationSums, 0)))) storeStatistics(tile);
   if (all(lessThan(tile, imageSize(outLeastAntilag)))) storeLeastAntilag(tile);
 }

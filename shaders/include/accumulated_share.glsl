@@ -13,8 +13,6 @@
 #define WALR_ACCUMULATED_SHARE_GLSL
 #include "camera.glsl"
 #include "finite.glsl"
-#define GROUP_SUM vec4
-#include "group_sum.glsl"
 #include "innovation.glsl"
 #include "luminance.glsl"
 #include "packed_light.glsl"
@@ -23,11 +21,9 @@ layout(constant_id = 3) const bool kPackedMean = true;  // The accumulated light
 uniform utexture2D accumulatedPacked;
 uniform texture2D accumulatedHalf;
 uniform texture2D lighting;
-uniform texture2D previousStatistics;      // residual_statistics.comp.
-uniform texture2D previousEdgeStatistics;  // The same of pixels beside an edge.
-uniform sampler2D previousAgreement;       // Blue: trust.
-layout(rgba32f) uniform writeonly image2D outResidualSums;
-layout(rgba32f) uniform writeonly image2D outEdgeSums;
+uniform texture2D previousStatistics;  // residual_statistics.comp.
+uniform sampler2D previousAgreement;   // Blue: trust.
+layout(rgba32f) uniform writeonly image2D outResidualSums;  // Right half: of pixels beside an edge.
 
 vec4 accumulatedAt(ivec2 p) {
   return kPackedMean ? unpackAccumulated(texelFetch(accumulatedPacked, p, 0).x) : texelFetch(accumulatedHalf, p, 0);
@@ -45,16 +41,17 @@ Statistics previousStatisticsAt(vec3 before, bool edge) {
   if (before.z >= 0.0 || frame.previousPixelFromPixel != vec2(1.0)) return Statistics(vec4(0.0), 0.0);
   const int tileSize = int(gl_WorkGroupSize.x) / kBlockSize * kBlockSize;
   const vec2 tile = (pixelOf(frame.previousRayFromPixel, before) + float((kBlockSize + 1) / 2)) / float(tileSize) - 0.5;
-  const ivec2 last = textureSize(previousStatistics, 0) - 1;
+  const ivec2 last = textureSize(previousAgreement, 0) - 1;
+  const ivec2 ofClass = ivec2(edge ? last.x + 1 : 0, 0);
   const vec2 base = clamp(floor(tile), vec2(-1.0), vec2(last)), f = tile - floor(tile);
   const vec4 trust = textureGather(previousAgreement, (base + 1.0) / vec2(last + 1), 2).wzxy;
   Statistics found = Statistics(vec4(0.0), 0.0);
   [[unroll]] for (int i = 0; i < 4; ++i) {
     const ivec2 corner = ivec2(i & 1, i >> 1);
-    const ivec2 q = clamp(ivec2(base) + corner, ivec2(0), last);
+    const ivec2 q = clamp(ivec2(base) + corner, ivec2(0), last) + ofClass;
     const vec2 weights = mix(1.0 - f, f, vec2(corner));
     const float weight = weights.x * weights.y;
-    found.sums += weight * (edge ? texelFetch(previousEdgeStatistics, q, 0) : texelFetch(previousStatistics, q, 0));
+    found.sums += weight * texelFetch(previousStatistics, q, 0);
     found.trust += weight * trust[i];
   }
   return found;
@@ -96,50 +93,82 @@ struct Shown {
   vec3 predicted;  // p: the light that the fits predict.
 };
 
-const int kGroupSize = 8;
-shared vec4 groupResiduals[kGroupThreads];  // rgb: mean; a: noisy.
-shared vec2 groupHistories[kGroupThreads];  // x: history; y: samples.
-shared vec4 groupNormals[kGroupThreads];    // rgb: 0 without a surface; a: 1 if the thread has a pixel.
-shared vec3 groupPositions[kGroupThreads];
+const int kGroupSize = 8, kGroupThreads = kGroupSize * kGroupSize;
+// Four values of each thread: first the residuals below, later what is summed.
+shared vec4 groupValues[4 * kGroupThreads];
+const int kGroupResiduals = 0;                  // rgb: mean; a: noisy.
+const int kGroupNormals = kGroupThreads;        // rgb: 0 without a surface; a: 1 if the thread has no pixel.
+const int kGroupPositions = 2 * kGroupThreads;  // rgb: position; a: history.
+const int kGroupSamples = 3 * kGroupThreads;    // r.
 
 void shareResidual(bool hasPixel, Shown shown, Residual residual) {
-  const uint thread = gl_LocalInvocationIndex;
-  groupResiduals[thread] = vec4(residual.mean, residual.noisy);
-  groupHistories[thread] = vec2(residual.history, residual.samples);
-  groupNormals[thread] = vec4(shown.normal, hasPixel ? 1.0 : 0.0);
-  groupPositions[thread] = shown.position;
+  const int thread = int(gl_LocalInvocationIndex);
+  groupValues[kGroupResiduals + thread] = vec4(residual.mean, residual.noisy);
+  groupValues[kGroupNormals + thread] = vec4(shown.normal, hasPixel ? 0.0 : 1.0);
+  groupValues[kGroupPositions + thread] = vec4(shown.position, residual.history);
+  groupValues[kGroupSamples + thread].r = residual.samples;
   barrier();
 }
 
-// How far pixel `thread` shows the same surface: edge-stopping function of the plane through the pixel, and agreement
-// of the shading normals, which ends at an angle of 37 degrees.
-float sameSurface(Shown shown, uint thread) {
-  const float distance = abs(dot(shown.normal, groupPositions[thread] - shown.position)) / -shown.position.z;
-  return edgeStopping(distance) * clamp(5.0 * dot(shown.normal, groupNormals[thread].xyz) - 4.0, 0.0, 1.0);
+// The sums over the workgroup of four values of each thread, for the thread 0. All threads must call it. Each round
+// leaves a quarter of the sums.
+mat4 sumsOverGroup(mat4 values) {
+  const int thread = int(gl_LocalInvocationIndex);
+  barrier();  // The residuals have been read.
+  [[unroll]] for (int i = 0; i < 4; ++i) groupValues[i * kGroupThreads + thread] = values[i];
+  [[unroll]] for (int round = 0; round < 3; ++round) {
+    const int n = kGroupThreads >> (2 * round + 2);
+    barrier();
+    const int i = thread / n * kGroupThreads + thread % n;
+    if (thread < 4 * n) {
+      groupValues[i] = (groupValues[i] + groupValues[i + 2 * n]) + (groupValues[i + n] + groupValues[i + 3 * n]);
+    }
+  }
+  barrier();
+  return mat4(groupValues[0], groupValues[kGroupThreads], groupValues[2 * kGroupThreads],
+              groupValues[3 * kGroupThreads]);
+}
+
+// Tells how far other pixels show the surface of a pixel: the edge-stopping function of the plane through the pixel, and
+// agreement of the shading normals, which ends at an angle of 37 degrees. 0 if there is none.
+struct SameSurface {
+  vec4 plane;   // Distance from the plane, scaled for the edge-stopping function: dot(xyz, position) + w.
+  vec3 facing;  // 5 times the normal.
+};
+
+SameSurface sameSurfaceAs(Shown shown) {
+  const vec3 scaled = shown.normal * (constants.planeScale / -shown.position.z);
+  return SameSurface(vec4(scaled, -dot(scaled, shown.position)), 5.0 * shown.normal);
+}
+
+float sameSurface(SameSurface s, int thread) {
+  const float distance = abs(dot(s.plane.xyz, groupValues[kGroupPositions + thread].xyz) + s.plane.w);
+  return clamp(constants.planeOffset - distance, 0.0, 1.0) *
+         clamp(dot(s.facing, groupValues[kGroupNormals + thread].xyz) - 4.0, 0.0, 1.0);
 }
 
 // Mean residual over the 3 x 3 pixels, as far as this workgroup has them. `halves`: leave out pixels without y or h, as
 // statistics need; where a surface has just appeared, most pixels have no h. `edge`: whether one of the pixels shows
 // another surface or none.
-Residual meanAround(Shown shown, bool halves, out bool edge) {
+Residual meanAround(SameSurface surface, bool halves, out bool edge) {
   const ivec2 thread = ivec2(gl_LocalInvocationID.xy);
+  const float ofMissing = halves ? 0.0 : -1.0;
   Residual sum = Residual(vec3(0.0), 0.0, 0.0, 0.0);
-  float weights = 0.0;
-  edge = false;
+  float weights = 0.0, least = 1.0;
   [[unroll]] for (int i = 0; i < 9; ++i) {
     const ivec2 t = thread + ivec2(i % 3, i / 3) - 1, inside = clamp(t, ivec2(0), ivec2(kGroupSize - 1));
-    const uint q = uint(inside.y * kGroupSize + inside.x);
-    const bool hasPixel = t == inside && groupNormals[q].a > 0.0;
-    const float same = hasPixel ? sameSurface(shown, q) : 0.0;
-    edge = edge || (hasPixel && same < 0.5);
-    const float samples = groupHistories[q].y;
-    const float weight = same * (halves ? max(samples, 0.0) : abs(samples));
-    sum.mean += weight * groupResiduals[q].rgb;
-    sum.noisy += weight * groupResiduals[q].a;
-    sum.history += weight * groupHistories[q].x;
-    sum.samples += weight * abs(samples);
+    const int q = inside.y * kGroupSize + inside.x;
+    const float same = sameSurface(surface, q);
+    least = min(least, same + groupValues[kGroupNormals + q].a);  // At the group's border twice of one pixel.
+    const float stored = groupValues[kGroupSamples + q].r, samples = max(stored, ofMissing * stored);
+    const float weight = t == inside ? same * samples : 0.0;
+    sum.mean += weight * groupValues[kGroupResiduals + q].rgb;
+    sum.noisy += weight * groupValues[kGroupResiduals + q].a;
+    sum.history += weight * groupValues[kGroupPositions + q].a;
+    sum.samples += weight * samples;
     weights += weight;
   }
+  edge = least < 0.5;
   const float scale = weights > 0.0 ? 1.0 / weights : 0.0;
   return Residual(scale * sum.mean, scale * sum.noisy, scale * sum.history, scale * sum.samples);
 }
@@ -150,12 +179,13 @@ const int kGroupPixels = kGroupSize / kBlockSize * kBlockSize;
 // Product of this frame's residual at a pixel and the history's at the pixel two further along axis `axis`, or two
 // before it at the end of the group, and 1; 0 if that shows another surface. It is free of the noise that y and h of
 // one pixel share.
-vec2 farProduct(Shown shown, Residual own, int axis) {
+vec2 farProduct(SameSurface surface, Residual own, int axis) {
   ivec2 t = ivec2(gl_LocalInvocationID.xy);
   t[axis] += t[axis] + 2 < kGroupPixels ? 2 : -2;
-  const uint q = uint(t.y * kGroupSize + t.x);
-  if (groupNormals[q].a == 0.0 || sameSurface(shown, q) < 0.5) return vec2(0.0);
-  return vec2(0.5 * (own.noisy * groupHistories[q].x + own.history * groupResiduals[q].a), 1.0);
+  const int q = t.y * kGroupSize + t.x;
+  if (sameSurface(surface, q) < 0.5) return vec2(0.0);
+  const float noisy = groupValues[kGroupResiduals + q].a, history = groupValues[kGroupPositions + q].a;
+  return vec2(0.5 * (own.noisy * history + own.history * noisy), 1.0);
 }
 
 // What a residual adds to the sums of its level (previousStatisticsAt).
@@ -170,20 +200,17 @@ const float kMostSquare = 1e30;   // and so are sums over tiles of these.
 // Writes what this workgroup adds to the statistics, relative to the square of its mean light, so that a bright one
 // does not outweigh its neighbours. `light`: predicted luminance of a pixel with statistics and 1; else 0.
 void storeSums(vec2 light, vec4 statistics, bool edge, vec2 innovation, vec4 far) {
-  const vec4 first = sumOverGroup(vec4(light, innovation));
-  barrier();
-  const vec4 interior = sumOverGroup(edge ? vec4(0.0) : statistics);
-  barrier();
-  const vec4 edges = sumOverGroup(edge ? statistics : vec4(0.0));
-  barrier();
-  const vec4 distant = sumOverGroup(far);
+  const vec4 none = vec4(0.0);
+  const mat4 sums =
+      sumsOverGroup(mat4(vec4(light, innovation), edge ? none : statistics, edge ? statistics : none, far));
   if (gl_LocalInvocationIndex != 0u) return;
+  const vec4 first = sums[0], interior = sums[1], edges = sums[2], distant = sums[3];
   const float perLight = first.x > kLeastLight ? first.y / first.x : 0.0;
   const float scale = perLight * perLight;
   const vec4 most = vec4(kMostSquare);
   const ivec2 tile = ivec2(gl_WorkGroupID.xy);
   imageStore(outResidualSums, tile, clamp(scale * interior, -most, most));
-  imageStore(outEdgeSums, tile, clamp(scale * edges, -most, most));
+  imageStore(outResidualSums, tile + ivec2(textureSize(previousAgreement, 0).x, 0), clamp(scale * edges, -most, most));
   // Products two pixels apart stand for those that are missing beside edges, up to a limit.
   const vec2 perProduct = min(first.y / max(distant.yw, vec2(1.0)), vec2(4.0));
   const vec4 others = vec4(first.zw, perProduct * distant.xz);
@@ -205,7 +232,8 @@ vec3 withAccumulated(ivec2 p, bool hasPixel, Shown shown) {
   float innovation = 0.0;
   if (mean.a > 0.0) {
     const vec3 before = previousPosition(frame.previousViewFromView, shown.position);
-    const Residual around = meanAround(shown, own.samples > 0.0, edge);
+    const SameSurface surface = sameSurfaceAs(shown);
+    const Residual around = meanAround(surface, own.samples > 0.0, edge);
     const Statistics known = previousStatisticsAt(before, edge);
     const vec3 detail = own.mean - around.mean;
     result += accumulatedShare(known.sums.xy, around.samples, known.trust) * around.mean;
@@ -216,7 +244,7 @@ vec3 withAccumulated(ivec2 p, bool hasPixel, Shown shown) {
       statistics.zw = statisticsOf(own.noisy - around.noisy, own.history - around.history, luminance(detail), mean.a);
       innovation = own.noisy - own.history;
       ofInnovation = innovationTerms(innovation, before);
-      far = vec4(farProduct(shown, own, 0), farProduct(shown, own, 1));
+      far = vec4(farProduct(surface, own, 0), farProduct(surface, own, 1));
     }
   }
   if (hasPixel) storeInnovation(p, innovation);

@@ -7,7 +7,7 @@
 #include "camera.glsl"
 #include "half.glsl"
 
-uniform texture2D previousInnovation;
+uniform sampler2D previousInnovation;
 layout(r16f) uniform writeonly image2D outInnovation;
 layout(rgba32f) uniform writeonly image2D outInnovationSums;  // zw: farProduct (accumulated_share.glsl).
 
@@ -17,15 +17,10 @@ float previousInnovationAt(vec3 before) {
   const vec2 position = pixelOf(frame.previousRayFromPixel, before) * frame.previousPixelFromPixel - 0.5;
   const ivec2 last = textureSize(previousInnovation, 0) - 1;
   if (any(lessThan(position, vec2(0.0))) || any(greaterThanEqual(position, vec2(last)))) return 0.0;
-  const ivec2 base = ivec2(position);
-  const vec2 f = fract(position);
-  float sum = 0.0;
-  [[unroll]] for (int i = 0; i < 4; ++i) {
-    const ivec2 corner = ivec2(i & 1, i >> 1);
-    const vec2 weight = mix(1.0 - f, f, vec2(corner));
-    sum += weight.x * weight.y * texelFetch(previousInnovation, base + corner, 0).x;
-  }
-  return sum;
+  const vec2 base = floor(position), f = position - base;
+  const vec4 taps = textureGather(previousInnovation, (base + 1.0) / vec2(last + 1)).wzxy;
+  const vec2 rows = mix(taps.xz, taps.yw, f.x);
+  return mix(rows.x, rows.y, f.y);
 }
 
 // Product of the innovation with that of the previous frame, and the square of the latter.
