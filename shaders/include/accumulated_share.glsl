@@ -210,7 +210,8 @@ void storeSums(vec2 light, vec4 statistics, bool edge, vec2 innovation, vec4 far
   const vec4 most = vec4(kMostSquare);
   const ivec2 tile = ivec2(gl_WorkGroupID.xy);
   imageStore(outResidualSums, tile, clamp(scale * interior, -most, most));
-  imageStore(outResidualSums, tile + ivec2(textureSize(previousAgreement, 0).x, 0), clamp(scale * edges, -most, most));
+  const ivec2 rightHalf = ivec2(imageSize(outResidualSums).x / 2, 0);
+  imageStore(outResidualSums, tile + rightHalf, clamp(scale * edges, -most, most));
   // Products two pixels apart stand for those that are missing beside edges, up to a limit.
   const vec2 perProduct = min(first.y / max(distant.yw, vec2(1.0)), vec2(4.0));
   const vec4 others = vec4(first.zw, perProduct * distant.xz);
