@@ -143,13 +143,13 @@ def corpus():
 
 
 METHODS = {
-    "walr": 1.0, "walr:fast": 0.7, "walr_paper": 2.6, "bmfr": 1.5, "svgf": 3.7, "flr": 0.9, "accumulate": 0.3, "none": 0.05,
-    "walr_paper:robust": 2.8, "joint_bilateral": 24.0,
+    "walr": 1.0, "walr:fast": 0.6, "walr_paper": 1.6, "bmfr": 0.9, "svgf": 2.2, "flr": 0.5, "accumulate": 0.2, "none": 0.03,
+    "walr_paper:robust": 1.7, "joint_bilateral": 14.0,
 }
 """The methods that are compared, with their time on two idle cores as a multiple of that of `walr` (samples/bench/SCENES.md)."""
 SLOW = ("walr_paper:robust", "joint_bilateral")
 """Methods that the daily part leaves out."""
-WALR_PIXELS_PER_SECOND = 1.5e6
+WALR_PIXELS_PER_SECOND = 0.9e6
 """Pixels that `walr` denoises in a second on a software device with two idle cores."""
 JUDGED_PIXELS_PER_SECOND = 0.5e6
 """Pixels of one method's result that are judged in a second: SSIM and FLIP of `walr bench`, and the splits."""
