@@ -157,6 +157,25 @@ TEST(Registry, StagesConnectedByNameArePlannedAsTheWholeMethodIs) {
                    {"temporal_antialiasing_with_taps", {}}});
 }
 
+TEST(Registry, TheFilterTakesThisFramesLightIfItsShareIsMeasured) {
+  for (const std::string share : {"off", "on"}) {
+    HostGraph host;
+    const auto filter = makePass("block_regression");
+    filter->set("accumulation.storage", "half");
+    filter->set("blocks.residual", share);
+    const std::vector<Port> ports = filter->ports();
+    EXPECT_EQ(std::ranges::count(ports, "lighting", &Port::name), share == "on" ? 1 : 0);
+    connectHost(*filter, host.inputs);
+    for (const Port& port : ports) {
+      if (port.output || port.buffer || port.name == "lighting") continue;
+      filter->connect(port.name, host.graph.import(port.name, {port.format, kExtent}, kComputeHost.inputs));
+    }
+    static_cast<void>(filter->add(host.graph));
+    const auto& passes = host.graph.desc().passes;
+    EXPECT_EQ(std::ranges::count(passes, "residual statistics", &fg::PassDecl::name), share == "on" ? 1 : 0);
+  }
+}
+
 // Taps with and without pass-through light have the same format, so only their ports tell them apart.
 TEST(Registry, TapsForAnotherStorageDoNotConnect) {
   for (const std::string kept : {"half", "packed"}) {
