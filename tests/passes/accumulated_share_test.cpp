@@ -12,6 +12,7 @@
 
 #include "tests/passes/block_filter.h"
 #include "tests/passes/filter_run.h"
+#include "tests/passes/reference/moments.h"
 #include "tests/passes/reference/octahedral.h"
 #include "tests/passes/reference/storage.h"
 #include "tests/passes/synthetic_scene.h"
@@ -28,8 +29,8 @@ constexpr int kTile = 8;    // Pixels per axis: two blocks.
 constexpr int kBefore = 2;  // Pixels of the first tile before the image: half a block.
 constexpr double kSamples = 8.0;
 
-double luminanceOf(const glm::dvec4& c) {
-  return 0.2126 * c.r + 0.7152 * c.g + 0.0722 * c.b;
+double luminanceOf(const glm::dvec4& colour) {
+  return reference::luminance(glm::dvec3(colour));
 }
 
 /// The light that a filter reads: this frame's, and its mean with a history of kSamples - 1 frames.

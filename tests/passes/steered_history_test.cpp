@@ -14,6 +14,7 @@
 #include "shaders/constants/antilag.h"
 #include "tests/passes/block_filter.h"
 #include "tests/passes/filter_run.h"
+#include "tests/passes/reference/moments.h"
 #include "tests/passes/reference/storage.h"
 #include "tests/passes/synthetic_scene.h"
 #include "tests/vulkan/gpu_fixture.h"
@@ -32,10 +33,6 @@ constexpr double kLongest = 8.0;
 const glm::ivec2 kTiles = (kSize - 1 + kBefore) / kTile + 1;
 const glm::ivec2 kAntilagTiles = (kSize - 1) / kAntilagTile + 1;
 
-double luminanceOf(const glm::dvec4& c) {
-  return 0.2126 * c.r + 0.7152 * c.g + 0.0722 * c.b;
-}
-
 /// A frame's light and its mean with the history, whose innovations are `factor` times those of the first frame.
 /// Stripes that no guide shows make both agree, so that the agreement is trusted.
 struct Light {
@@ -53,7 +50,8 @@ struct Light {
   }
   /// Luminance of this frame's light less that of the history, from the values that the device reads.
   [[nodiscard]] double innovation(glm::ivec2 p) const {
-    return kSamples / (kSamples - 1.0) * (luminanceOf(lighting[p]) - luminanceOf(mean[p]));
+    return kSamples / (kSamples - 1.0) *
+           (reference::luminance(glm::dvec3(lighting[p])) - reference::luminance(glm::dvec3(mean[p])));
   }
   Image<glm::dvec4> lighting{kSize}, mean{kSize};
 };
@@ -107,7 +105,7 @@ double slopeAround(glm::ivec2 middle, const Light& before, const Light& now, con
     const glm::ivec2 tile = (p + kBefore) / kTile;
     const double previous = reference::roundToHalf(before.innovation(p));
     sums[tile] += previous * glm::dvec2(now.innovation(p), previous);
-    lights[tile] += glm::dvec2(luminanceOf(predicted[p]), 1.0);
+    lights[tile] += glm::dvec2(reference::luminance(glm::dvec3(predicted[p])), 1.0);
   });
   glm::dvec2 sum(0.0);
   const int radius = int(AccumulatedShareSettings{}.radius);
