@@ -7,7 +7,7 @@ from rate_entries import RESAMPLED_FRAMES, TAKE_SPARSE
 
 HERE = pathlib.Path(__file__).resolve().parent
 PAGE, PLOT = HERE / "RATES.md", HERE / "rates.png"
-COLUMNS = ("walr", "walr:fast", "flr", "bmfr", "svgf", "accumulate", "none", "plain")
+COLUMNS = ("walr", "walr:fast", "walr_paper", "walr_paper:robust", "flr", "bmfr", "svgf", "joint_bilateral", "accumulate", "none", "plain")
 HEADINGS = {"none": "input", "walr:fast": "fast", "plain": "plain alternative"}
 RESAMPLED = "1, resampled"
 EXPLANATION = """# Error against rays per pixel

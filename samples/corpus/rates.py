@@ -28,7 +28,7 @@ from judging import exr
 
 HERE = pathlib.Path(__file__).resolve().parent
 KEPT = HERE / "rates.json"
-METHODS = ("walr", "walr:fast", "flr", "bmfr", "svgf", "accumulate", "none")
+METHODS = ("walr", "walr:fast", "walr_paper", "walr_paper:robust", "flr", "bmfr", "svgf", "joint_bilateral", "accumulate", "none")
 PLAIN = "plain"
 """Name of the plain alternative: walr on smaller frames, interpolated."""
 CYCLES = [table.PROJECT.parent / "shared" / "sequences" / name for name in ("sponza", "cornell_fence")]
