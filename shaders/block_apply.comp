@@ -10,7 +10,7 @@
 // A pixel without a surface (depth 0) is not filtered: its pass-through is copied to the result.
 // PACKED: the result is packed light (packed_light.glsl). A pixel without a surface gets the mark kFilteredNoSurface,
 // and anti-aliasing outputs the pass-through.
-// RESIDUAL (preset many-samples): adds shares of the residual, the accumulated light less the prediction
+// RESIDUAL (setting blocks.residual): adds shares of the residual, the accumulated light less the prediction
 // (accumulated_share.glsl), and stores statistics for the shares and the history length of later frames (innovation.glsl).
 // VIEW: writes an intermediate value instead of the result, and black where there is no surface. The cells are always
 // read.
