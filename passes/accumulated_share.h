@@ -24,7 +24,7 @@ struct AccumulatedShareSettings {
   void visit(SettingVisitor& v) {
     v.visit({"blocks.residual",
              "Add accumulated light to the result where this frame and the history agree that the fits miss something, "
-             "and shorten history where it blurs more than noise asks for; no effect on sparse light and with "
+             "and shorten history where it blurs more than noise asks for; no effect on sparse light or with "
              "spatial-only",
              "", 0, 1, "measured"},
             enabled);

@@ -42,7 +42,7 @@ fg::Texture addWalr(StageGraph graph, const DenoiserInputs& inputs, fg::Texture 
   const BlockRegressionSettings blocks = fittedBlocks(settings, inputs.extent(graph).height, inputs.conventions.light);
   // Reconstruction with blocks.residual measures where history is too long. Antilag then shortens it in the next frame.
   std::optional<SteeredHistory> history;
-  if (blocks.share.enabled && plan.accumulates && settings.accumulation.antilag.enabled) {
+  if (blocks.share.enabled && settings.accumulation.antilag.enabled) {
     history = declareSteeredHistory(graph, inputs.extent(graph), settings.accumulation.maxHistory);
     plan.leastAntilag = history->leastAntilag.previous;
   }

@@ -23,6 +23,8 @@ layout(push_constant) uniform PushConstants { ResidualStatisticsConstants consta
 #include "include/camera.glsl"
 #include "include/surface.glsl"
 
+ivec2 tilesOfImage() { return textureSize(innovationSums, 0); }
+
 // Whether the previous frame had the same tiles. Where the image has changed its size, statistics begin anew.
 bool hasPrevious() { return frame.previousPixelFromPixel == vec2(1.0); }
 
@@ -47,7 +49,7 @@ struct Window {
 };
 
 Window windowAround(ivec2 tile) {
-  return Window(max(tile - constants.radius, ivec2(0)), min(tile + constants.radius, textureSize(innovationSums, 0) - 1));
+  return Window(max(tile - constants.radius, ivec2(0)), min(tile + constants.radius, tilesOfImage() - 1));
 }
 
 // How far the agreement of this frame's residuals with the history's is light that the fits miss, and not noise that
@@ -62,7 +64,7 @@ float trustIn(vec4 both, vec2 far) {
 }
 
 void storeStatistics(ivec2 tile) {
-  const ivec2 size = textureSize(innovationSums, 0), rightHalf = ivec2(size.x, 0);
+  const ivec2 size = tilesOfImage(), rightHalf = ivec2(size.x, 0);
   vec4 interior = vec4(0.0), edge = vec4(0.0);
   vec2 far = vec2(0.0);
   const ivec2 before = previousTile(tile);
@@ -98,7 +100,7 @@ float innovationSlope(Window window) {
 // has this length.
 void storeLeastAntilag(ivec2 tile) {
   const int middle = kAntilagTile / 2 + constants.tileOffset;
-  const ivec2 tileOfSums = min((kAntilagTile * tile + middle) / constants.tileSize, textureSize(innovationSums, 0) - 1);
+  const ivec2 tileOfSums = min((kAntilagTile * tile + middle) / constants.tileSize, tilesOfImage() - 1);
   const Window window = windowAround(tileOfSums);
   const float longest = constants.maxHistory, shortest = 2.0;  // Innovations need a history.
   const float previous = hasPrevious() ? texelFetch(previousLeastAntilag, tile, 0).x : 0.0;
@@ -114,6 +116,6 @@ void storeLeastAntilag(ivec2 tile) {
 
 void main() {
   const ivec2 tile = ivec2(gl_GlobalInvocationID.xy);
-  if (all(lessThan(tile, textureSize(innovationSums, 0)))) storeStatistics(tile);
+  if (all(lessThan(tile, tilesOfImage()))) storeStatistics(tile);
   if (all(lessThan(tile, imageSize(outLeastAntilag)))) storeLeastAntilag(tile);
 }

@@ -28,9 +28,9 @@ from judging import exr
 
 HERE = pathlib.Path(__file__).resolve().parent
 KEPT = HERE / "rates.json"
-METHODS = ("walr", "walr:fast", "walr_paper", "walr_paper:robust", "flr", "bmfr", "svgf", "joint_bilateral", "accumulate", "none")
 PLAIN = "plain"
 """Name of the plain alternative: walr on smaller frames, interpolated."""
+METHODS = tuple(column for column in rate_pages.COLUMNS if column != PLAIN)
 CYCLES = [table.PROJECT.parent / "shared" / "sequences" / name for name in ("sponza", "cornell_fence")]
 FRAMES = range(rate_entries.JUDGED[0], rate_entries.JUDGED[1] + 1)
 

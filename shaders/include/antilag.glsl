@@ -4,15 +4,14 @@
 #ifndef WALR_ANTILAG_GLSL
 #define WALR_ANTILAG_GLSL
 #include "constants/antilag.h"
+#include "gather_bilinear.glsl"
 
 // The antilag factor at a position in the previous frame, bilinear, clamped at the borders. `position`: in pixels from
 // the centre of the first pixel.
 float antilagAt(vec2 position) {
   const vec2 tile = position / float(kAntilagTile) + (0.5 / float(kAntilagTile) - 0.5);  // From the first one's centre.
-  const vec2 base = floor(tile), f = tile - base;
-  const vec4 factors = textureGather(previousAntilag, (base + 1.0) / vec2(textureSize(previousAntilag, 0))).wzxy;
-  const vec2 rows = mix(factors.xz, factors.yw, f.x);
-  return mix(rows.x, rows.y, f.y);
+  const vec2 base = floor(tile);
+  return gatherBilinear(previousAntilag, base, tile - base);
 }
 
 // The maximum history length at a position, frames: `maxHistory` at factor 0, none at factor 1. A pixel without a sample

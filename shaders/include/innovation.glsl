@@ -5,6 +5,7 @@
 #ifndef WALR_INNOVATION_GLSL
 #define WALR_INNOVATION_GLSL
 #include "camera.glsl"
+#include "gather_bilinear.glsl"
 #include "half.glsl"
 
 uniform sampler2D previousInnovation;
@@ -17,10 +18,8 @@ float previousInnovationAt(vec3 before) {
   const vec2 position = pixelOf(frame.previousRayFromPixel, before) * frame.previousPixelFromPixel - 0.5;
   const ivec2 last = textureSize(previousInnovation, 0) - 1;
   if (any(lessThan(position, vec2(0.0))) || any(greaterThanEqual(position, vec2(last)))) return 0.0;
-  const vec2 base = floor(position), f = position - base;
-  const vec4 taps = textureGather(previousInnovation, (base + 1.0) / vec2(last + 1)).wzxy;
-  const vec2 rows = mix(taps.xz, taps.yw, f.x);
-  return mix(rows.x, rows.y, f.y);
+  const vec2 base = floor(position);
+  return gatherBilinear(previousInnovation, base, position - base);
 }
 
 // Product of the innovation with that of the previous frame, and the square of the latter.

@@ -6,9 +6,7 @@ namespace walr::test {
 
 FilterRun::FilterRun(const fg::vk::Device& device, glm::ivec2 size, std::size_t inputCount, const Add& add,
                      bool occlusion)
-    : size_(size),
-      frame_(graph_.upload("frame constants", sizeof(FrameConstants))),
-      guides_(importGuides(graph_, size, occlusion)) {
+    : frame_(graph_.upload("frame constants", sizeof(FrameConstants))), guides_(importGuides(graph_, size, occlusion)) {
   for (std::size_t i = 0; i < inputCount; ++i)
     inputs_.push_back(importHalves(graph_, "input " + std::to_string(i), size));
   output_ = copyOut(graph_, "result", add(graph_, frame_, guides_, inputs_));
@@ -22,7 +20,8 @@ reference::Image<glm::dvec4> FilterRun::run(const reference::HostFrame& frame,
   upload(*run_, guides_, guides);
   for (std::size_t i = 0; i < inputs.size(); ++i) upload(*run_, inputs_[i], inputs[i]);
   run_->frame();
-  return readHalves(*run_, output_, size_);
+  const fg::Extent extent = graph_.textureDesc(output_).extent;
+  return readHalves(*run_, output_, glm::ivec2(extent.width, extent.height));
 }
 
 }  // namespace walr::test

@@ -7,7 +7,7 @@
 
 namespace walr::test {
 
-/// Passes on a device that read guides and RGBA16F textures and write one RGBA16F texture.
+/// Passes on a device that read guides and RGBA16F textures and write one texture, which is read as halves.
 class FilterRun {
  public:
   /// Adds the passes to a graph and returns their result. The inputs have the order in which `run` takes them.
@@ -23,7 +23,6 @@ class FilterRun {
                                    const std::vector<reference::Image<glm::dvec4>>& inputs);
 
  private:
-  glm::ivec2 size_;
   fg::Graph graph_;
   fg::Buffer frame_;
   Guides guides_;

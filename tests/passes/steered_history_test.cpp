@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <random>
 #include <string>
 
@@ -56,47 +55,22 @@ struct Light {
   Image<glm::dvec4> lighting{kSize}, mean{kSize};
 };
 
-/// The filter; what it steers history to is its result.
-class SteeringRun {
- public:
-  SteeringRun(const fg::vk::Device& device, bool steers) : frame_(renderStill(flatWall(), kSize)) {
-    constants_ = graph_.upload("frame constants", sizeof(FrameConstants));
-    guides_ = importGuides(graph_, kSize, true);
-    lighting_ = importHalves(graph_, "lighting", kSize);
-    mean_ = importHalves(graph_, "mean", kSize);
-    BlockLight light{.accumulated = mean_, .alpha = LightingAlpha::SampleCount, .lighting = lighting_};
-    if (steers) light.history = declareSteeredHistory(graph_, graph_.textureDesc(mean_).extent, float(kLongest));
+/// The filter without a share of accumulated light, whose result is the prediction, or with it. The result is then the
+/// least antilag factor of each tile.
+FilterRun filterRun(const fg::vk::Device& device, bool steers) {
+  const auto add = [steers](fg::Graph& graph, fg::Buffer frame, const Guides& guides, const auto& inputs) {
+    BlockLight light{.accumulated = inputs[0], .alpha = LightingAlpha::SampleCount, .lighting = inputs[1]};
+    if (steers) light.history = declareSteeredHistory(graph, graph.textureDesc(inputs[0]).extent, float(kLongest));
     BlockRegressionSettings settings{.size = kBlock, .iterations = 2, .coarseSigma = 0.15F};
     settings.share.enabled = steers;
-    const fg::Texture filtered = addBlockFilter(graph_, constants_, light, guides_, settings);
-    fg::Texture result = filtered;
-    if (steers) {
-      result = light.history->leastAntilag.current;
-      ++result.version;  // That which the filter writes.
-    }
-    output_ = copyOut(graph_, "result", result);
-    run_ = std::make_unique<fg::test::GraphRun>(device, graph_);
-  }
-  /// The least antilag factor of each tile, or the prediction.
-  Image<glm::dvec4> run(const Light& light) {
-    run_->executor().upload(constants_, frame_.constants);
-    upload(*run_, guides_,
-           reference::prepareGuides(frame_, reference::Storage::Quantised, {}, kOcclusionInSmallImages));
-    upload(*run_, lighting_, light.lighting);
-    upload(*run_, mean_, light.mean);
-    run_->frame();
-    const fg::Extent extent = graph_.textureDesc(output_).extent;
-    return readHalves(*run_, output_, {int(extent.width), int(extent.height)});
-  }
-
- private:
-  reference::HostFrame frame_;
-  fg::Graph graph_;
-  fg::Buffer constants_;
-  Guides guides_;
-  fg::Texture lighting_, mean_, output_;
-  std::unique_ptr<fg::test::GraphRun> run_;
-};
+    const fg::Texture filtered = addBlockFilter(graph, frame, light, guides, settings);
+    if (!steers) return filtered;
+    fg::Texture factor = light.history->leastAntilag.current;
+    ++factor.version;  // That which the filter writes.
+    return factor;
+  };
+  return {device, kSize, 2, add, true};
+}
 
 /// Slope of the regression of a frame's innovations on those of the frame before, around a tile of the statistics.
 double slopeAround(glm::ivec2 middle, const Light& before, const Light& now, const Image<glm::dvec4>& predicted) {
@@ -119,7 +93,10 @@ double slopeAround(glm::ivec2 middle, const Light& before, const Light& now, con
 class SteeredHistoryTest : public fg::test::GpuTest {};
 
 TEST_F(SteeredHistoryTest, AgreesWithDoublePrecision) {
-  SteeringRun steered(device(), true), fits(device(), false);
+  FilterRun steered = filterRun(device(), true), fits = filterRun(device(), false);
+  const reference::HostFrame frame = renderStill(flatWall(), kSize);
+  const Image<reference::Guide> guides =
+      reference::prepareGuides(frame, reference::Storage::Quantised, {}, kOcclusionInSmallImages);
   // Innovations that agree shorten history, and those that contradict each other lengthen it, up to the longest.
   const std::array factors{1.0, 0.2, 0.04, -0.02, 0.01, 0.01};
   const AccumulatedShareSettings settings;
@@ -129,8 +106,8 @@ TEST_F(SteeredHistoryTest, AgreesWithDoublePrecision) {
     SCOPED_TRACE("frame " + std::to_string(i));
     const bool first = i == 0;
     const Light now(factors.at(i));
-    const Image<glm::dvec4> predicted = fits.run(now);
-    const Image<glm::dvec4> actual = steered.run(now);
+    const Image<glm::dvec4> predicted = fits.run(frame, guides, {now.mean, now.lighting});
+    const Image<glm::dvec4> actual = steered.run(frame, guides, {now.mean, now.lighting});
     reference::forEachPixel(kAntilagTiles, [&](glm::ivec2 tile) {
       const glm::ivec2 middle = glm::min((kAntilagTile * tile + kAntilagTile / 2 + kBefore) / kTile, kTiles - 1);
       const double slope = first ? 0.0 : slopeAround(middle, before, now, predicted);
