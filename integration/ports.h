@@ -18,6 +18,7 @@ struct Port {
                           ///< with the current settings or that hosts need not have.
   bool buffer = false;
   VkFormat format = VK_FORMAT_UNDEFINED;  ///< Textures.
+  std::uint32_t tile = 1;                 ///< Textures: pixels per axis that a texel stands for.
   std::uint64_t size = 0;                 ///< Bytes; buffers.
   std::vector<fg::Access> accesses;       ///< Accesses of all passes, without repetition.
   VkImageUsageFlags imageUsage = 0;       ///< Union of the flags that the accesses need.

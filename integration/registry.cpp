@@ -8,20 +8,23 @@
 #include "framegraph/declare/format.h"
 #include "integration/host_inputs.h"
 #include "integration/stages.h"
+#include "passes/grid_extent.h"
 #include "passes/text.h"
 #include "shaders/constants/frame.h"
 
 namespace walr {
 namespace {
 
-/// Image size in scratch graphs. Methods may choose passes by the size.
-constexpr fg::Extent kListedExtent{1920, 1080};
+/// A texture in scratch graphs.
+/// @param tile `Port::tile`
+fg::TextureDesc listedTexture(VkFormat format, std::uint32_t tile) {
+  return {.format = format, .extent = gridExtent(kListedExtent, tile)};
+}
 
 KnownPorts hostPorts() {
   KnownPorts known;
   for (const HostInput& input : kHostInputs) {
-    known.emplace(input.name, KnownPort{.desc = fg::TextureDesc{.format = input.format, .extent = kListedExtent},
-                                        .description = input.description});
+    known.emplace(input.name, KnownPort{.desc = listedTexture(input.format, 1), .description = input.description});
   }
   known.emplace(kFrameName, KnownPort{.desc = fg::BufferDesc{sizeof(FrameConstants)}});
   return known;
@@ -54,8 +57,8 @@ struct Catalogue {
   Catalogue() : known(hostPorts()) {
     for (const StageType& type : stageTypes()) {
       for (const SettingsOutput& output : type.settingsOutputs) {
-        known.emplace(output.name, KnownPort{.desc = fg::TextureDesc{.format = output.format, .extent = kListedExtent},
-                                             .description = output.description});
+        known.emplace(output.name,
+                      KnownPort{.desc = listedTexture(output.format, output.tile), .description = output.description});
       }
       const std::unique_ptr<Stage> stage = type.make(type.name);
       std::vector<Port> ports = portsOf(*stage, type.composition, {}, known);
@@ -73,7 +76,7 @@ struct Catalogue {
   }
   /// Make an output known to later types.
   void learn(const Port& output) {
-    known.emplace(output.name, KnownPort{.desc = fg::TextureDesc{.format = output.format, .extent = kListedExtent}});
+    known.emplace(output.name, KnownPort{.desc = listedTexture(output.format, output.tile)});
   }
 
   KnownPorts known;
@@ -145,6 +148,7 @@ void listPort(std::ostream& out, const Port& port) {
     out << port.size << " bytes";
   } else {
     out << formatName(port.format);
+    if (port.tile > 1) out << ", a texel for each " << port.tile << " x " << port.tile << " pixels";
   }
   std::vector<std::string_view> accesses;
   for (const fg::Access access : port.accesses) accesses.push_back(fg::accessInfo(access).name);

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "integration/host_inputs.h"
+#include "passes/grid_extent.h"
 #include "passes/text.h"
 
 namespace walr {
@@ -36,7 +37,7 @@ SingleStage declareSingleStage(PassNode& stage, fg::Extent extent, const HostSta
     const auto format = formats.find(port.name);
     const bool given = format != formats.end();
     if (port.output ? port.name != kOutputName : port.optional && !given) continue;
-    const fg::TextureDesc desc{.format = given ? format->second : port.format, .extent = extent};
+    const fg::TextureDesc desc{.format = given ? format->second : port.format, .extent = gridExtent(extent, port.tile)};
     const fg::Texture texture =
         declared.graph.import(port.name, desc, port.output ? states.outputBefore : states.inputs);
     stage.connect(port.name, texture);

@@ -31,7 +31,10 @@ Port describe(const fg::GraphDesc& graph, const KnownPorts& known, std::string n
   port.name = std::move(name);
   if (const auto found = known.find(port.name); found != known.end()) port.description = found->second.description;
   const auto& desc = graph.resources[resource].desc;
-  if (const auto* texture = std::get_if<fg::TextureDesc>(&desc)) port.format = texture->format;
+  if (const auto* texture = std::get_if<fg::TextureDesc>(&desc)) {
+    port.format = texture->format;
+    port.tile = kListedExtent.width / texture->extent.width;
+  }
   if (const auto* buffer = std::get_if<fg::BufferDesc>(&desc)) {
     port.buffer = true;
     port.size = buffer->size;

@@ -13,6 +13,10 @@
 
 namespace walr {
 
+/// Image size in scratch graphs, with which ports are recorded. Methods may choose passes by the size. It is a multiple
+/// of all tiles (`Port::tile`).
+inline constexpr fg::Extent kListedExtent{1920, 1080};
+
 /// Properties of a port that are known before a stage that reads it is recorded.
 struct KnownPort {
   std::variant<fg::TextureDesc, fg::BufferDesc> desc;

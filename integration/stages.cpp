@@ -15,6 +15,7 @@
 #include "passes/temporal_accumulation.h"
 #include "passes/temporal_antialiasing.h"
 #include "passes/weighted_regression.h"
+#include "shaders/constants/antilag.h"
 
 namespace walr {
 namespace {
@@ -78,8 +79,8 @@ struct AntialiasingStageSettings : TemporalAntialiasingSettings {
   }
 };
 
-/// A filter has the storage settings of the stages before and after it. A stage by itself cannot steer the history of
-/// accumulation, so that it takes in accumulated light only if asked to.
+/// A filter has those settings of the stages before and after it that decide what it reads and writes. A stage by
+/// itself cannot steer the history of accumulation, so that it takes in accumulated light only if asked to.
 struct BlockStageSettings {
   BlockRegressionSettings blocks{.share = {.enabled = false}};
   TemporalAccumulationSettings accumulation;
@@ -87,6 +88,8 @@ struct BlockStageSettings {
 
   void visit(SettingVisitor& v) {
     blocks.visit(v);
+    accumulation.visitMaxHistory(v);
+    accumulation.antilag.visitEnabled(v);
     accumulation.visitStorage(v);
     antialiasing.visitStorage(v);
   }
@@ -116,15 +119,19 @@ void prepareGuidesWithOcclusion(StagePorts& ports, const OcclusionStageSettings&
       addPrepareGuides(ports.graph(), ports.hostInputs(), settings.guides, {.occlusion = settings.occlusion}));
 }
 
+void setOutputs(StagePorts& ports, const AccumulatedLight& light) {
+  ports.setOutput("accumulated", light.mean);
+  if (light.antilag.valid()) ports.setOutput(kAntilagFactor, light.antilag);
+}
+
 void temporalAccumulation(StagePorts& ports, const AccumulationStageSettings& settings) {
-  ports.setOutput("accumulated",
-                  addTemporalAccumulation(ports.graph(), ports.hostInputs(), ports.guides(true), settings));
+  setOutputs(ports, addTemporalAccumulation(ports.graph(), ports.hostInputs(), ports.guides(true), settings));
 }
 
 void temporalAccumulationWithTaps(StagePorts& ports, const AccumulationWithTapsStageSettings& settings) {
   const AccumulationWithTaps result = addTemporalAccumulationWithTaps(
       ports.graph(), ports.hostInputs(), ports.guides(true), settings, settings.antialiasing.storage);
-  ports.setOutput("accumulated", result.mean);
+  setOutputs(ports, result.light);
   ports.setOutput(tapsPort(settings.antialiasing.storage), result.taps);
 }
 
@@ -147,8 +154,10 @@ void blockRegression(StagePorts& ports, const BlockStageSettings& settings) {
   BlockLight light{.accumulated = ports.texture("accumulated", formatOf(settings.accumulation.storage)),
                    .alpha = LightingAlpha::SampleCount};
   const LightStorage result = settings.antialiasing.storage;
-  const bool passesLightThrough = settings.accumulation.storage != LightStorage::Half && result == LightStorage::Half;
-  if (passesLightThrough || settings.blocks.share.enabled) light.lighting = ports.texture("lighting");
+  const bool packed = settings.accumulation.storage == LightStorage::Packed;
+  const bool antilag = settings.accumulation.antilag.enabled;
+  if (packed || antilag || settings.blocks.share.enabled) light.lighting = ports.texture("lighting");
+  if (antilag) light.antilag = CurrentAntilag{ports.texture(kAntilagFactor), settings.accumulation.maxHistory};
   const Guides guides = ports.guides();
   const BlockFits fits = addBlockRegression(ports.graph(), frame, light, guides, settings.blocks);
   const fg::Texture target = filteredLike(ports, guides.depth, formatOf(result));
@@ -231,8 +240,13 @@ std::vector<StageType> stagesAndMethods() {
       {"prepare_guides_with_occlusion",
        "prepare_guides that adds ambient occlusion, for block_regression and flr_regression", false,
        make<OcclusionStageSettings, prepareGuidesWithOcclusion>},
-      {"temporal_accumulation", "Average the noisy lighting over time along its motion", false,
-       make<AccumulationStageSettings, temporalAccumulation>},
+      {"temporal_accumulation",
+       "Average the noisy lighting over time along its motion",
+       false,
+       make<AccumulationStageSettings, temporalAccumulation>,
+       {{kAntilagFactor, VK_FORMAT_R32_SFLOAT,
+         "Output of temporal_accumulation and temporal_accumulation_with_taps if accumulation.antilag is on",
+         kAntilagTile}}},
       {"temporal_accumulation_with_taps",
        "temporal_accumulation that also outputs its history taps and, for packed anti-aliasing, the pass-through light",
        false,

@@ -13,6 +13,7 @@ namespace walr {
 /// `antialiasing.storage` is packed; the texture then also holds the pass-through light.
 inline constexpr std::string_view kHistoryTaps = "history-taps";
 inline constexpr std::string_view kHistoryTapsWithLight = "history-taps-with-light";
+inline constexpr std::string_view kAntilagFactor = "antilag";
 
 /// A stage: it has settings and declares its passes between ports.
 class Stage : public Configurable {
@@ -23,11 +24,12 @@ class Stage : public Configurable {
   virtual void declare(StagePorts& ports) = 0;
 };
 
-/// An output that a stage has only with some values of its settings; with others it has another output instead.
+/// An output that a stage has only with some values of its settings.
 struct SettingsOutput {
   std::string_view name;
   VkFormat format;
   std::string_view description;
+  std::uint32_t tile = 1;  ///< `Port::tile`.
 };
 
 /// A stage or method by name.

@@ -28,6 +28,8 @@ void addAccumulatedShare(StageGraph graph, fg::PassBuilder& apply, const Accumul
       .sampleIf(packed, "accumulatedPacked", inputs.accumulated, inputs.guides.depth)
       .sampleIf(!packed, "accumulatedHalf", inputs.accumulated, inputs.lighting)
       .sample("lighting", inputs.lighting)
+      .specialize("kAntilag", inputs.antilag.valid())
+      .sampleIf(inputs.antilag.valid(), "antilag", inputs.antilag, inputs.lighting)
       .sample("previousStatistics", statistics.previous)
       .sample("previousAgreement", agreement.previous)
       .sample("previousInnovation", innovation.previous);

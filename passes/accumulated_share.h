@@ -71,6 +71,7 @@ struct AccumulatedShareInputs {
   fg::Buffer frame;         ///< Upload of `FrameConstants`.
   fg::Texture accumulated;  ///< Radiance; alpha: history length. RGBA16F or packed.
   fg::Texture lighting;     ///< This frame's noisy light.
+  fg::Texture antilag;      ///< `AccumulatedLight::antilag`.
   Guides guides;
   std::uint32_t tileSize;                 ///< Pixels per axis of a workgroup of the reconstruction.
   std::uint32_t tileOffset;               ///< Pixels of the first one that lie before the image, per axis.

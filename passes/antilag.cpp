@@ -18,7 +18,7 @@ Antilag declareAntilag(StageGraph graph, fg::Extent pixels, fg::Texture least) {
           graph.texture("antilag.tiles", {VK_FORMAT_R32G32_SFLOAT, tiles}), least};
 }
 
-void addAntilag(StageGraph graph, const Antilag& antilag, const AntilagSettings& settings) {
+fg::Texture addAntilag(StageGraph graph, const Antilag& antilag, const AntilagSettings& settings) {
   if (!(settings.scoreLow < settings.scoreHigh)) {
     throw std::invalid_argument("setting accumulation.antilag-low must be below accumulation.antilag-high");
   }
@@ -29,7 +29,7 @@ void addAntilag(StageGraph graph, const Antilag& antilag, const AntilagSettings&
       .sampleIf(antilag.least.valid(), "least", antilag.least, antilag.tiles)
       .constants(constants)
       .dispatch(graph.textureDesc(antilag.tiles).extent);
-  static_cast<void>(pass.store("outFactor", antilag.factor.current));
+  return pass.store("outFactor", antilag.factor.current);
 }
 
 }  // namespace walr

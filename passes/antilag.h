@@ -12,14 +12,17 @@ namespace walr {
 /// moves: a lamp goes out, a door opens, a light or an object that casts a shadow moves.
 struct AntilagSettings {
   bool enabled = false;
-  std::uint32_t radius = 2;
+  std::uint32_t radius = 3;
   float scoreLow = 2.0F;
   float scoreHigh = 4.3F;
 
-  void visit(SettingVisitor& v) {
+  void visitEnabled(SettingVisitor& v) {
     v.visit({"accumulation.antilag", "Shorten history where the light has changed by more than noise explains", "", 0,
              1, "measured"},
             enabled);
+  }
+  void visit(SettingVisitor& v) {
+    visitEnabled(v);
     v.visit({"accumulation.antilag-radius",
              "Radius of the window of tiles, 8 x 8 pixels each, over which the change is measured", "tiles", 0, 8,
              "measured"},
@@ -52,9 +55,10 @@ Antilag declareAntilag(StageGraph graph, fg::Extent pixels, fg::Texture least = 
 /// Tiles of an image.
 fg::Extent antilagTiles(fg::Extent pixels);
 
-/// Add the pass that computes the antilag factor for the next frame.
+/// Add the pass that computes the antilag factor of this frame. Accumulation reads it in the next frame.
 /// @param antilag as the accumulation of this frame wrote it
+/// @returns `Antilag::factor` of this frame
 /// @throws std::invalid_argument if antilag-low is not below antilag-high
-void addAntilag(StageGraph graph, const Antilag& antilag, const AntilagSettings& settings);
+fg::Texture addAntilag(StageGraph graph, const Antilag& antilag, const AntilagSettings& settings);
 
 }  // namespace walr

@@ -52,12 +52,16 @@ float mostCellPixels(const LightPattern& groups) {
   return 8.0F * static_cast<float>(std::min(groups.columns, groups.rows));
 }
 
-/// @param groups of pixels that share a texel of accumulated light
-///
+/// Groups of pixels that share a texel of accumulated light.
+LightPattern groupsOf(const BlockLight& light) {
+  return light.lightGrid ? light.lightGrid->groups : LightPattern{};
+}
+
 /// Converts `coarseSigma` from a fraction of the image's height to cells, and `planeNear` and `planeFar` to the
 /// coefficients of a linear function.
 BlockGrid gridOf(StageGraph graph, fg::Buffer frame, fg::Extent pixels, const BlockRegressionSettings& s,
-                 const LightPattern& groups) {
+                 const BlockLight& light) {
+  const LightPattern groups = groupsOf(light);
   const fg::Extent blocks = gridExtent(pixels, s.size);
   const float sigma = s.coarseSigma * static_cast<float>(pixels.height);
   const std::uint32_t cellBlocks = cellBlocksFor(sigma / s.coarseResolution, mostCellPixels(groups), s.size);
@@ -78,12 +82,8 @@ BlockGrid gridOf(StageGraph graph, fg::Buffer frame, fg::Extent pixels, const Bl
   constants.residualGain = s.share.gain;
   constants.residualLeastShare = s.share.leastShare;
   constants.lightShare = 1.0F / static_cast<float>(groups.columns * groups.rows);
+  if (light.antilag) constants.maxHistory = light.antilag->maxHistory;
   return {graph, frame, pixels, blocks, gridExtent(pixels, cellSize), s.size, cellBlocks, cellSize, constants};
-}
-
-/// Groups of pixels that share a texel of accumulated light.
-LightPattern groupsOf(const BlockLight& light) {
-  return light.lightGrid ? light.lightGrid->groups : LightPattern{};
 }
 
 void readAverages(fg::PassBuilder& pass, const BlockAverages& averages) {
@@ -291,6 +291,29 @@ bool addsResidual(const BlockLight& light, const BlockRegressionSettings& settin
   return settings.share.enabled && light.alpha == LightingAlpha::SampleCount && light.lighting.valid();
 }
 
+/// The pass that gathers the moments of blocks and cells, without its outputs.
+fg::PassBuilder declareMoments(const BlockGrid& grid, const BlockLight& light, const Guides& guides) {
+  const bool packed = isPacked(grid, light.accumulated);
+  fg::PassBuilder gather = readPixels(grid, light.lightGrid ? light.lightGrid->depth : guides.depth,
+                                      light.lightGrid ? light.lightGrid->features : guides.features, "block moments",
+                                      shaders::blockMoments({.packed = packed}));
+  gather.sample("accumulated", light.accumulated);
+  // What stands in for an unread texture of colours is another one that is read. Beside packed light there is only the
+  // lighting, which is therefore declared as read even without antilag.
+  const bool antilag = light.antilag.has_value();
+  const fg::Texture colour = packed ? light.lighting : light.accumulated;
+  gather.specialize("kAntilag", antilag)
+      .sampleIf(antilag, "antilag", antilag ? light.antilag->factor : fg::Texture{}, colour)
+      .sampleIf(antilag || packed, "lighting", light.lighting, colour);
+  if (!packed) specializeAlpha(light, gather);
+  // Antilag reads the lighting of one frame, which may be sparse even if accumulated light has a texel for every pixel.
+  specializeLight(gather, light.antilag ? light.pattern : groupsOf(light));
+  gather.specialize("kLightGrid", light.lightGrid.has_value())
+      .specialize("kCellBlocks", grid.cellBlocks)
+      .dispatch({kThreadsPerBlock * grid.blocks.width, grid.blocks.height});
+  return gather;
+}
+
 }  // namespace
 
 float coarseSamplesAt(std::uint32_t height, float coarseSamples) {
@@ -304,24 +327,14 @@ BlockFits addBlockRegression(StageGraph graph, fg::Buffer frame, const BlockLigh
   if (!(settings.planeNear < settings.planeFar)) {
     throw std::invalid_argument("setting blocks.plane-near must be below blocks.plane-far");
   }
-  const BlockGrid grid = gridOf(graph, frame, graph->textureDesc(guides.depth).extent, settings, groupsOf(light));
+  const BlockGrid grid = gridOf(graph, frame, graph->textureDesc(guides.depth).extent, settings, light);
   if (sizeof(StoredBlockFit) * grid.blocks.width * grid.blocks.height > kLargestBuffer) {
     throw std::invalid_argument(
         "setting blocks.size of " + std::to_string(grid.size) + " makes " + std::to_string(grid.blocks.width) + " x " +
         std::to_string(grid.blocks.height) +
         " blocks, whose fits are too many for one buffer; take larger blocks or a smaller image");
   }
-  const LightPattern groups = groupsOf(light);
-  fg::PassBuilder gather =
-      readPixels(grid, light.lightGrid ? light.lightGrid->depth : guides.depth,
-                 light.lightGrid ? light.lightGrid->features : guides.features, "block moments",
-                 isPacked(grid, light.accumulated) ? shaders::blockMomentsPacked : shaders::blockMoments);
-  gather.sample("accumulated", light.accumulated);
-  if (!isPacked(grid, light.accumulated)) specializeAlpha(light, gather);
-  specializeLight(gather, groups);
-  gather.specialize("kLightGrid", light.lightGrid.has_value())
-      .specialize("kCellBlocks", grid.cellBlocks)
-      .dispatch({kThreadsPerBlock * grid.blocks.width, grid.blocks.height});
+  fg::PassBuilder gather = declareMoments(grid, light, guides);
   const BlockAverages blocks = writeAverages(grid, gather, grid.blocks, "");
   const BlockAverages cells = writeAverages(grid, gather, grid.cells, " of cells", "outCell");
   const fg::Texture normal =
@@ -332,7 +345,7 @@ BlockFits addBlockRegression(StageGraph graph, fg::Buffer frame, const BlockLigh
 
 fg::Texture addBlockReconstruction(StageGraph graph, fg::Buffer frame, const BlockLight& light, const Guides& guides,
                                    const BlockFits& fits, fg::Texture target, const BlockRegressionSettings& settings) {
-  const BlockGrid grid = gridOf(graph, frame, graph->textureDesc(guides.depth).extent, settings, groupsOf(light));
+  const BlockGrid grid = gridOf(graph, frame, graph->textureDesc(guides.depth).extent, settings, light);
   const bool readsPacked = isPacked(grid, light.accumulated);
   const bool writesPacked = lightStorageOf(graph->textureDesc(target).format) == LightStorage::Packed;
   const auto reconstruct = [&](const std::string& name, const fg::Shader& shader) {
@@ -365,6 +378,7 @@ fg::Texture addBlockReconstruction(StageGraph graph, fg::Buffer frame, const Blo
                         {.frame = frame,
                          .accumulated = light.accumulated,
                          .lighting = light.lighting,
+                         .antilag = light.antilag ? light.antilag->factor : fg::Texture{},
                          .guides = guides,
                          .tileSize = tileSizeOf(grid, shader),
                          .tileOffset = pixelsBeforeImage(grid),

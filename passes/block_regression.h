@@ -23,11 +23,11 @@ struct BlockRegressionSettings {
   float planeFar = 0.015F;
   float sdfFraction = 0.75F;
   float ridge = 1e-4F;
-  float growthErrors = 8.5F;
-  float coarseSigma = 0.012F;
-  float coarseNarrowing = 0.3F;
+  float growthErrors = 6.0F;
+  float coarseSigma = 0.0224F;
+  float coarseNarrowing = 0.6F;
   float coarseReach = 3.0F;
-  float coarseResolution = 0.55F;
+  float coarseResolution = 1.1F;
   float coarseGrowthErrors = 2.0F;
   float coarseGrowthOcclusion = 4.0F;
   float coarseSamples = 3200.0F;
@@ -59,13 +59,14 @@ struct BlockRegressionSettings {
         growthErrors);
     v.visit(
         {"blocks.coarse-sigma",
-         "Standard deviation of the Gaussian window of the coarse fit, which no edge stops, at one sample per pixel",
+         "Standard deviation of the Gaussian window of the coarse fit, which no edge stops, at one sample per texel of "
+         "accumulated light",
          "fraction of the image's height", 0.001, 0.2, "measured"},
         coarseSigma);
-    v.visit(
-        {"blocks.coarse-narrowing", "The coarse window narrows with this power of the samples per pixel; 0: not at all",
-         "", 0.0, 1.0, "measured"},
-        coarseNarrowing);
+    v.visit({"blocks.coarse-narrowing",
+             "The coarse window narrows with this power of the samples per texel of accumulated light; 0: not at all",
+             "", 0.0, 1.0, "measured"},
+            coarseNarrowing);
     v.visit({"blocks.coarse-reach", "Distance at which the coarse window ends", "sigma", 1.0, 6.0, "measured"},
             coarseReach);
     v.visit({"blocks.coarse-resolution",
@@ -104,15 +105,22 @@ struct BlockRegressionSettings {
 /// not measured.
 float coarseSamplesAt(std::uint32_t height, float coarseSamples);
 
+/// Antilag of a frame's own accumulated light.
+struct CurrentAntilag {
+  fg::Texture factor;  ///< `AccumulatedLight::antilag`.
+  float maxHistory;    ///< Frames: `TemporalAccumulationSettings::maxHistory`.
+};
+
 /// The light that the regression over blocks fits.
 struct BlockLight {
   fg::Texture accumulated;    ///< RGBA16F, or packed: radiance; values that are not finite do not count.
   LightingAlpha alpha;        ///< What the alpha channel of `accumulated` holds; pixels without samples do not count.
-  fg::Texture lighting = {};  ///< The host's; needed if `accumulated` is packed and the result is not, and for
+  fg::Texture lighting = {};  ///< The host's; needed if `accumulated` is packed, with `antilag`, and for
                               ///< `BlockRegressionSettings::share`, which has no effect without it.
   LightPattern pattern = {};  ///< Of `lighting`.
   std::optional<LightGrid> lightGrid = std::nullopt;     ///< If `accumulated` lies on it.
   std::optional<SteeredHistory> history = std::nullopt;  ///< Of `accumulated`, if `AccumulatedShareSettings` steers it.
+  std::optional<CurrentAntilag> antilag = std::nullopt;  ///< Shortens the history in `accumulated` in this frame.
 };
 
 /// The fits of a frame, which the reconstruction reads (shaders/constants/stored_fit.h).

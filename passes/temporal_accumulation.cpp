@@ -125,22 +125,20 @@ void offerViews(const Stage& stage) {
 }
 
 /// Add a pass's output, and antilag if the stage has it.
-fg::Texture storeMean(const Stage& stage, fg::PassBuilder& pass) {
+AccumulatedLight storeMean(const Stage& stage, fg::PassBuilder& pass) {
   const fg::Texture mean = pass.store("outAccumulated", stage.accumulated.current);
   stage.graph.offerHistoryLength(mean, 3, stage.onGrid ? stage.inputs.conventions.light : LightPattern{});
-  if (stage.antilag) {
-    Antilag antilag = *stage.antilag;
-    antilag.tiles = pass.store("outTiles", antilag.tiles);
-    addAntilag(stage.graph, antilag, stage.settings.antilag);
-  }
-  return mean;
+  if (!stage.antilag) return {.mean = mean};
+  Antilag antilag = *stage.antilag;
+  antilag.tiles = pass.store("outTiles", antilag.tiles);
+  return {.mean = mean, .antilag = addAntilag(stage.graph, antilag, stage.settings.antilag)};
 }
 
 /// The same for a pass that keeps taps.
 /// @param antialiasing see `addTemporalAccumulationWithTaps`
 AccumulationWithTaps storeMeanAndTaps(const Stage& stage, fg::PassBuilder& pass, LightStorage antialiasing) {
   AccumulationWithTaps result;
-  result.mean = storeMean(stage, pass);
+  result.light = storeMean(stage, pass);
   pass.specialize("kKeepPassThrough", antialiasing == LightStorage::Packed);
   result.taps = pass.store("outTaps", stage.graph->texture("history taps", {VK_FORMAT_R32_UINT, stage.extent}));
   if (stage.graph.shared() != nullptr && !stage.givenTaps.valid()) {
@@ -178,8 +176,8 @@ std::span<const ViewInfo> accumulationViews(bool withAntilag) {
   return std::span(kViews).first(withAntilag ? kViews.size() : kViews.size() - 1);
 }
 
-fg::Texture addTemporalAccumulation(StageGraph graph, const DenoiserInputs& inputs, const Guides& guides,
-                                    const TemporalAccumulationSettings& settings, fg::Texture leastAntilag) {
+AccumulatedLight addTemporalAccumulation(StageGraph graph, const DenoiserInputs& inputs, const Guides& guides,
+                                         const TemporalAccumulationSettings& settings, fg::Texture leastAntilag) {
   const Stage stage =
       stageOf(graph, graph->textureDesc(guides.depth).extent, inputs, guides, settings, false, leastAntilag);
   offerViews(stage);

@@ -29,11 +29,14 @@ struct TemporalAccumulationSettings {
   AntilagSettings antilag = {};
   LightStorage storage = LightStorage::Half;
 
-  void visit(SettingVisitor& v) {
-    static constexpr std::string_view kFilters[] = {"bilinear", "bicubic"};
+  void visitMaxHistory(SettingVisitor& v) {
     v.visit({"accumulation.max-history", "Frames after which the cumulative mean turns exponential", "frames", 1.0,
              255.0, "Meunier & Harada 2022, 4.2"},
             maxHistory);
+  }
+  void visit(SettingVisitor& v) {
+    static constexpr std::string_view kFilters[] = {"bilinear", "bicubic"};
+    visitMaxHistory(v);
     visitRejection(v, "accumulation.rejection", rejection);
     visitHistoryTests(v, "accumulation.plane-tolerance", planeTolerance, "accumulation.normal-threshold",
                       normalThreshold);
@@ -58,15 +61,22 @@ struct TemporalAccumulationSettings {
 /// @param withAntilag whether the stage has antilag, which has a view of its own
 std::span<const ViewInfo> accumulationViews(bool withAntilag);
 
+/// Accumulated light.
+struct AccumulatedLight {
+  /// In the storage `TemporalAccumulationSettings::storage`: mean radiance; alpha: history length, 0 where there is
+  /// nothing to denoise.
+  fg::Texture mean;
+  fg::Texture antilag = {};  ///< `Antilag::factor` of this frame, with which `mean` is not shortened yet, or invalid.
+};
+
 /// Average the noisy lighting over time along its motion.
-/// @returns in the storage `settings.storage`: mean radiance; alpha: history length, 0 where there is nothing to
-/// denoise.
-fg::Texture addTemporalAccumulation(StageGraph graph, const DenoiserInputs& inputs, const Guides& guides,
-                                    const TemporalAccumulationSettings& settings = {}, fg::Texture leastAntilag = {});
+AccumulatedLight addTemporalAccumulation(StageGraph graph, const DenoiserInputs& inputs, const Guides& guides,
+                                         const TemporalAccumulationSettings& settings = {},
+                                         fg::Texture leastAntilag = {});
 
 /// Accumulated light, and the kept history taps with which later stages read their own histories along the same motion.
 struct AccumulationWithTaps {
-  fg::Texture mean;  ///< As `addTemporalAccumulation` returns it.
+  AccumulatedLight light;
   /// R32_UINT: motion of the surface and the history taps that show it. Where there is no surface: a mark or the
   /// pass-through, whichever `addTemporalAccumulationWithTaps` was asked for (history_taps.glsl). The pass-through is
   /// rounded to 9 bits, by 0.2 % of its brightest channel at most, and clamped to 0 to 65408; it is 0 where it is not
@@ -97,7 +107,7 @@ struct LightGrid {
 struct GuidesAndAccumulation {
   Guides guides;
   AccumulationWithTaps accumulated;
-  std::optional<LightGrid> lightGrid;  ///< If `accumulated.mean` lies on it.
+  std::optional<LightGrid> lightGrid;  ///< If `accumulated.light.mean` lies on it.
 };
 
 /// Whether `addGuidesAndAccumulation` can stand in for two passes. Its shader has no variants: it has antilag and

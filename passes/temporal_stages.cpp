@@ -22,8 +22,14 @@ LightStorage tapsReader(const TemporalPlan& plan) {
   return plan.sharesTaps ? plan.antialiasing.storage : LightStorage::Half;
 }
 
+Accumulated accumulatedLight(const AccumulatedLight& light) {
+  return {.lighting = light.mean, .alpha = LightingAlpha::SampleCount, .antilag = light.antilag};
+}
+
 Accumulated withTaps(const AccumulationWithTaps& accumulated) {
-  return {.lighting = accumulated.mean, .alpha = LightingAlpha::SampleCount, .taps = accumulated.taps};
+  Accumulated result = accumulatedLight(accumulated.light);
+  result.taps = accumulated.taps;
+  return result;
 }
 
 }  // namespace
@@ -52,8 +58,7 @@ Accumulated addAccumulation(StageGraph graph, const DenoiserInputs& inputs, cons
                             const TemporalPlan& plan) {
   if (!plan.accumulates) return {.lighting = inputs.lighting};
   if (!plan.keepsTaps) {
-    return {.lighting = addTemporalAccumulation(graph, inputs, guides, plan.accumulation, plan.leastAntilag),
-            .alpha = LightingAlpha::SampleCount};
+    return accumulatedLight(addTemporalAccumulation(graph, inputs, guides, plan.accumulation, plan.leastAntilag));
   }
   return withTaps(
       addTemporalAccumulationWithTaps(graph, inputs, guides, plan.accumulation, tapsReader(plan), plan.leastAntilag));

@@ -48,6 +48,7 @@ struct Accumulated {
   LightingAlpha alpha = LightingAlpha::Unused;
   fg::Texture taps = {};                              ///< `AccumulationWithTaps::taps`, if the plan keeps them.
   std::optional<LightGrid> lightGrid = std::nullopt;  ///< If `lighting` lies on it.
+  fg::Texture antilag = {};                           ///< `AccumulatedLight::antilag`.
 };
 
 /// Add temporal accumulation, if the plan has it.

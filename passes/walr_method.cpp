@@ -16,6 +16,12 @@ float wideningOf(const LightPattern& light) {
   return std::pow(static_cast<float>(light.columns * light.rows), 1.0F / 6.0F);
 }
 
+/// The same for the base window of the coarse fit on a light grid: the power 1/3 is measured
+/// (passes/SPARSE_LIGHT_EXPERIMENTS.md). Without a light grid every pixel has a mean.
+float coarseWideningOf(const LightPattern& light) {
+  return light.grid() ? std::pow(static_cast<float>(light.columns * light.rows), 1.0F / 3.0F) : 1.0F;
+}
+
 BlockRegressionSettings fittedBlocks(const WalrSettings& settings, std::uint32_t imageHeight,
                                      const LightPattern& light) {
   BlockRegressionSettings blocks = settings.blocks;
@@ -24,13 +30,18 @@ BlockRegressionSettings fittedBlocks(const WalrSettings& settings, std::uint32_t
   if (!settings.fitWindow) return blocks;
   const float widening = wideningOf(light);
   const auto height = static_cast<std::uint32_t>(widening * static_cast<float>(imageHeight));
-  blocks.coarseSigma *= widening;
+  blocks.coarseSigma *= coarseWideningOf(light);
   // Growth ends a window where the light differs, so that even small images can have wide windows.
   constexpr std::uint32_t kLeastIterations = 2;
   blocks.size = std::min(blocks.size, fittingBlockSize(height));
   const std::uint32_t fitting = std::max(fittingIterations(height, blocks.size), kLeastIterations);
   blocks.iterations = std::min(blocks.iterations, fitting);
   return blocks;
+}
+
+std::optional<CurrentAntilag> antilagOf(const Accumulated& accumulated, const TemporalAccumulationSettings& settings) {
+  if (!accumulated.antilag.valid()) return std::nullopt;
+  return CurrentAntilag{accumulated.antilag, settings.maxHistory};
 }
 
 }  // namespace
@@ -55,7 +66,8 @@ fg::Texture addWalr(StageGraph graph, const DenoiserInputs& inputs, fg::Texture 
                          .lighting = inputs.lighting,
                          .pattern = inputs.conventions.light,
                          .lightGrid = accumulated.lightGrid,
-                         .history = history};
+                         .history = history,
+                         .antilag = antilagOf(accumulated, settings.accumulation)};
   const BlockFits fits = addBlockRegression(graph, inputs.frame, light, guides, blocks);
   const fg::Texture filtered =
       addBlockReconstruction(graph, inputs.frame, light, guides, fits, filterTarget(graph, plan, output), blocks);

@@ -7,6 +7,7 @@
 // texels.
 // kLightGrid: textures hold the pixels of the light grid (light_sample.glsl), and only these count.
 // PACKED: `accumulated` is packed light (packed_light.glsl).
+// kAntilag: takes history out of accumulated light where the light has changed in this frame (current_light.glsl).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -42,6 +43,7 @@ layout(push_constant) uniform PushConstants { BlockRegressionConstants constants
 #include "include/light.glsl"
 #define LIGHT_GRID_CHOSEN
 #include "include/light_sample.glsl"
+#include "include/current_light.glsl"
 #include "include/set_bits.glsl"
 #include "include/window_depth.glsl"
 
@@ -125,14 +127,21 @@ struct Sums {
   WindowDepth window;
 };
 
+// The maximum history length in a block, frames, by the antilag factor at its centre.
+float longestHistoryIn(ivec2 block) {
+  const vec2 centre = vec2(kBlockSize * block) + 0.5 * float(kBlockSize - 1);
+  return kAntilag ? longestHistory(antilagAt(antilag, centre), constants.maxHistory) : 0.0;
+}
+
 Sums sumsOf(Place place, uint surfaces, Representative r) {
+  const float longest = longestHistoryIn(place.block);
   Sums sums = Sums(emptySum(r.x, r.y), emptySum(r.x, r.y), WindowDepth(float(bitCount(surfaces)), 0.0));
   for (int i = 0; i < kPixels; ++i) {
     if ((surfaces >> i & 1u) == 0u) continue;
     const ivec2 texel = firstTexel(place.block) + texelInBlock(place.thread, i), p = pixelOfTexel(texel);
     const float z = unpackDepthBesideNormal(texelFetch(depth, texel, 0).x);
     const NormalAndOcclusion shading = unpackNormalAndOcclusion(texelFetch(features, texel, 0).x);
-    const vec4 mean = lightAt(texel);
+    const vec4 mean = currentLightAt(texel, p, longest);
     sums.window.inverse += 1.0 / z;
     if (mean.a == 0.0) continue;
     const float x[kFeatures] = featuresOf(shading, r.z / z - 1.0);

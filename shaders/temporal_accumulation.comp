@@ -108,6 +108,9 @@ float unpackHistoryLength(uint packed) { return unpackHistory(packed).a; }
 #include "include/antilag.glsl"
 #include "include/luminance.glsl"
 #endif
+#ifdef ANTILAG
+#include "include/antilag_tiles.glsl"
+#endif
 #include "include/confidence.glsl"
 #include "include/sample_counts.glsl"
 #define HISTORY previousAccumulated
@@ -171,7 +174,8 @@ ReprojectedHistory historyWithAntilag(ivec2 p, float z, LightSample noisy) {
   found.perFrame = samplesPerFrame(found.mean.a, usableSamples(noisy));
 #if defined(ANTILAG) || defined(VIEW)
   if (kAntilag) {
-    const float longest = longestHistory(found.position, constants.maxHistory, isUsable(noisy));
+    const float factor = antilagAt(previousAntilag, found.position);
+    const float longest = longestHistoryOf(isUsable(noisy), longestHistory(factor, constants.maxHistory));
     found.mean.a = min(found.mean.a, found.perFrame * longest);
   }
 #endif
@@ -199,8 +203,10 @@ vec3 viewOf(ivec2 p, float z, LightSample noisy) {
       if (!surface || !kAntilag) return vec3(0.0);
       const ReprojectedHistory found = readHistory(p, z);
       const float perFrame = samplesPerFrame(found.mean.a, usableSamples(noisy));
-      const float longest = perFrame * longestHistory(found.position, constants.maxHistory, isUsable(noisy));
-      return vec3(antilagAt(found.position), longest, found.mean.a > longest);
+      const float factor = antilagAt(previousAntilag, found.position);
+      const float longest =
+          perFrame * longestHistoryOf(isUsable(noisy), longestHistory(factor, constants.maxHistory));
+      return vec3(factor, longest, found.mean.a > longest);
     }
   }
   return vec3(0.0);

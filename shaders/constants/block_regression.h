@@ -24,10 +24,11 @@ struct BlockRegressionConstants {
   float residualGain;             // What the fits miss, over what the agreement of two halves of the light says.
   float residualLeastShare;       // Share of the accumulated light below which it is left out.
   float lightShare;               // Share of the pixels that accumulated light has a texel for.
+  float maxHistory;               // Frames: the longest history of accumulation. Read with kAntilag only.
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(BlockRegressionConstants) == 60);
+static_assert(sizeof(BlockRegressionConstants) == 64);
 }  // namespace walr
 #endif
 #endif

@@ -11,6 +11,7 @@
 // block_plane.glsl.
 #ifndef WALR_ACCUMULATED_SHARE_GLSL
 #define WALR_ACCUMULATED_SHARE_GLSL
+#include "antilag.glsl"
 #include "camera.glsl"
 #include "finite.glsl"
 #include "innovation.glsl"
@@ -18,9 +19,11 @@
 #include "packed_light.glsl"
 
 layout(constant_id = 3) const bool kPackedMean = true;  // The accumulated light is packed.
+layout(constant_id = 4) const bool kAntilag = false;    // It is shortened by the antilag factor of its own frame.
 uniform utexture2D accumulatedPacked;
 uniform texture2D accumulatedHalf;
 uniform texture2D lighting;
+uniform sampler2D antilag;
 uniform texture2D previousStatistics;  // residual_statistics.comp.
 uniform sampler2D previousAgreement;   // Blue: trust.
 layout(rgba32f) uniform writeonly image2D outResidualSums;  // Right half: of pixels beside an edge.
@@ -74,13 +77,12 @@ struct Residual {
   float samples;  // N; its negative where there is no finite y or no h. The luminances are 0 then.
 };
 
-// `mean`: rgb: m; alpha: N.
-Residual residualOf(ivec2 p, vec4 mean, vec3 predicted) {
+// `mean`: rgb: m; alpha: N. `light`: y if `hasLight`.
+Residual residualOf(vec4 mean, vec3 light, bool hasLight, vec3 predicted) {
   const float fewest = 1.5;  // Below, rounding of N leaves nothing of h.
-  const vec3 noisy = texelFetch(lighting, p, 0).rgb;
   const vec3 residual = mean.rgb - predicted;
-  if (mean.a < fewest || !isFinite(noisy)) return Residual(residual, 0.0, 0.0, -mean.a);
-  const float y = luminance(clamp(noisy, vec3(0.0), vec3(kLargestHalf)) - predicted);
+  if (mean.a < fewest || !hasLight) return Residual(residual, 0.0, 0.0, -mean.a);
+  const float y = luminance(light - predicted);
   const float h = (mean.a * luminance(residual) - y) / (mean.a - 1.0);
   return Residual(residual, y, h, mean.a);
 }
@@ -220,9 +222,18 @@ void storeSums(vec2 light, vec4 statistics, bool edge, vec2 innovation, vec4 far
 
 // The prediction of a pixel mixed with its accumulated light. All threads of the workgroup must call it.
 vec3 withAccumulated(ivec2 p, bool hasPixel, Shown shown) {
-  const vec4 mean = shown.surface ? accumulatedAt(p) : vec4(0.0);
+  vec4 mean = shown.surface ? accumulatedAt(p) : vec4(0.0);
   Residual own = Residual(vec3(0.0), 0.0, 0.0, 0.0);
-  if (mean.a > 0.0) own = residualOf(p, mean, shown.predicted);
+  if (mean.a > 0.0) {
+    const vec3 noisy = texelFetch(lighting, p, 0).rgb;
+    const bool hasLight = isFinite(noisy);
+    const vec3 light = hasLight ? clamp(noisy, vec3(0.0), vec3(kLargestHalf)) : vec3(0.0);
+    if (kAntilag) {
+      const float longest = longestHistory(antilagAt(antilag, vec2(p)), constants.maxHistory);
+      mean = withLongestHistory(mean, light, hasLight ? 1.0 : 0.0, longestHistoryOf(hasLight, longest));
+    }
+    own = residualOf(mean, light, hasLight, shown.predicted);
+  }
   shareResidual(hasPixel, shown, own);
 
   vec3 result = shown.predicted;

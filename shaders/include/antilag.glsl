@@ -1,36 +1,40 @@
-// The part of antilag in temporal accumulation: it reads the antilag factor of the last frame and writes the sums from
-// which antilag.comp computes the next.
-// Needs: `previousAntilag`; unless VIEW, `outTiles` and workgroups of kAntilagTile squared.
+// The antilag factor (antilag.comp): how far history is to be shortened, because the light has changed.
 #ifndef WALR_ANTILAG_GLSL
 #define WALR_ANTILAG_GLSL
 #include "constants/antilag.h"
 #include "gather_bilinear.glsl"
 
-// The antilag factor at a position in the previous frame, bilinear, clamped at the borders. `position`: in pixels from
-// the centre of the first pixel.
-float antilagAt(vec2 position) {
+// The antilag factor at a position in the frame of `factors`, bilinear, clamped at the borders. `position`: in pixels
+// from the centre of the first pixel.
+float antilagAt(sampler2D factors, vec2 position) {
   const vec2 tile = position / float(kAntilagTile) + (0.5 / float(kAntilagTile) - 0.5);  // From the first one's centre.
   const vec2 base = floor(tile);
-  return gatherBilinear(previousAntilag, base, tile - base);
+  return gatherBilinear(factors, base, tile - base);
 }
 
-// The maximum history length at a position, frames: `maxHistory` at factor 0, none at factor 1. A pixel without a sample
-// in this frame keeps one frame, because it has nothing else.
-float longestHistory(vec2 position, float maxHistory, bool hasSample) {
-  const float share = 1.0 - antilagAt(position);
-  const float frames = share < kLeastHistoryShare ? 0.0 : maxHistory * share;
-  return max(frames, hasSample ? 0.0 : 1.0);
+// The maximum history length for an antilag factor, frames: `maxHistory` at factor 0, none at factor 1.
+float longestHistory(float factor, float maxHistory) {
+  const float share = 1.0 - factor;
+  return share < kLeastHistoryShare ? 0.0 : maxHistory * share;
 }
 
-#ifndef VIEW
-#define GROUP_SUM vec2
-#include "group_sum.glsl"
+// A pixel without a sample in this frame keeps one frame of history, because it has nothing else.
+float longestHistoryOf(bool hasSample, float longest) { return hasSample ? longest : max(longest, 1.0); }
 
-// Writes the sums of the tile of this workgroup. All threads of the workgroup must call it.
-void sumOverTile(float difference) {
-  const vec2 sum = sumOverGroup(vec2(difference, difference * difference));
-  if (gl_LocalInvocationIndex == 0u) imageStore(outTiles, ivec2(gl_WorkGroupID.xy), vec4(sum, 0.0, 0.0));
+// Whether history is longer than antilag lets it be, and not by rounding of its packed length alone.
+bool isTooLong(float history, float longest) {
+  const float kRounding = 1.125;
+  return history > max(kRounding * longest, 0.5);
 }
-#endif
+
+// The mean m = h + n (y - h) / N of history h and n samples with the mean y, where N = `mean.a`, with at most `longest`
+// samples of history in it.
+vec4 withLongestHistory(vec4 mean, vec3 y, float n, float longest) {
+  const float history = mean.a - n;
+  if (!isTooLong(history, longest)) return mean;
+  const vec3 h = max((mean.a * mean.rgb - n * y) / history, vec3(0.0));
+  const float length = longest + n;
+  return vec4(mix(h, y, n / length), length);
+}
 
 #endif

@@ -8,9 +8,10 @@ layout(constant_id = 2) const int kCellSize = 8;  // Pixels per axis.
 // Samples per pixel of a cell or window with this W. Pixels without a surface count as pixels.
 float samplesPerPixel(float samples) { return samples / float(kCellSize * kCellSize); }
 
-// Standard deviation in cells: fewer samples per pixel need a wider window.
+// Standard deviation in cells: fewer samples per texel of accumulated light need a wider window.
 float coarseSigma(float samplesPerPixel) {
-  return max(constants.coarseSigma * pow(max(samplesPerPixel, 1.0), -constants.coarseNarrowing), 0.5);
+  const float samplesPerTexel = samplesPerPixel / constants.lightShare;
+  return max(constants.coarseSigma * pow(max(samplesPerTexel, 1.0), -constants.coarseNarrowing), 0.5);
 }
 
 #endif

@@ -2,9 +2,10 @@
 // integration/README.md). History length is then a number of samples, but the longest history stays a number of frames:
 // each counts for as many samples as this one. History may hold more samples than that, because earlier frames had more.
 // It then loses the share of one frame in each frame, as any history of full length does.
-// Needs: `constants` (TemporalAccumulationConstants).
+// Needs: `constants.maxHistory`, light_sample.glsl.
 #ifndef WALR_SAMPLE_COUNTS_GLSL
 #define WALR_SAMPLE_COUNTS_GLSL
+#include "constants/temporal_accumulation.h"
 
 // Number of samples of a frame, such that packed light can hold the longest history of such frames.
 float countedSamples(LightSample light) {

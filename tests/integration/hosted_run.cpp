@@ -318,4 +318,9 @@ std::vector<std::uint16_t> HostedRun::frame(const FrameDescription& camera, std:
   return texels;
 }
 
+void ignoreChangesOfLight(WalrDenoiser denoiser) {
+  require(walr_set_setting(denoiser, "accumulation.antilag-high", "100"));
+  require(walr_set_setting(denoiser, "accumulation.antilag-low", "99"));
+}
+
 }  // namespace walr::test

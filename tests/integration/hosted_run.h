@@ -159,4 +159,8 @@ WalrResult createPasses(const WalrDenoiserInfo& info, WalrPasses& passes);
 /// The camera of a frame for the C API.
 WalrCamera cameraOf(const glm::mat4& view, const glm::mat4& projection, glm::vec2 jitter);
 
+/// Let history count in full although light without noise changes, for tests that tell its length by such a change.
+/// Antilag stays on, because its passes are part of the method.
+void ignoreChangesOfLight(WalrDenoiser denoiser);
+
 }  // namespace walr::test

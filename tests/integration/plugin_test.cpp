@@ -225,7 +225,8 @@ TEST_F(PluginTest, SingleStagesGiveThePixelsOfTheWholeMethod) {
       {"walr",
        {{"prepare_guides_with_occlusion", {}},
         {"temporal_accumulation_with_taps", with({{"accumulation.max-history", "8"}, {"accumulation.antilag", "on"}})},
-        {"block_regression", with({{"blocks.iterations", "2"}})},
+        {"block_regression",
+         with({{"blocks.iterations", "2"}, {"accumulation.max-history", "8"}, {"accumulation.antilag", "on"}})},
         {"temporal_antialiasing_with_taps", {{"antialiasing.clip-gamma", "5"}, {"antialiasing.storage", "packed"}}}}}};
   const auto compare = [&](const std::string& method, const std::vector<Link>& links, VkFormat confidence) {
     const auto described = [&](const char* name) {

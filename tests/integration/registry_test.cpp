@@ -148,7 +148,11 @@ TEST(Registry, StagesConnectedByNameArePlannedAsTheWholeMethodIs) {
       {{"prepare_guides_with_occlusion", {}},
        {"temporal_accumulation_with_taps",
         {{"accumulation.max-history", "8"}, {"accumulation.antilag", "on"}, {"antialiasing.storage", "packed"}}},
-       {"block_regression", {{"blocks.iterations", "2"}, {"antialiasing.storage", "packed"}}},
+       {"block_regression",
+        {{"blocks.iterations", "2"},
+         {"accumulation.max-history", "8"},
+         {"accumulation.antilag", "on"},
+         {"antialiasing.storage", "packed"}}},
        {"temporal_antialiasing_with_taps", {{"antialiasing.clip-gamma", "5"}, {"antialiasing.storage", "packed"}}}});
   expectPlannedAs({"walr_paper", {}}, "robust",
                   {{"prepare_guides", {}},

@@ -73,7 +73,7 @@ struct Adjustable {
   const char* back;
 };
 constexpr Adjustable kAdjustables[] = {
-    {"walr", "blocks.growth-errors", "1", "8.5", "antialiasing.enabled", "off", "on"},
+    {"walr", "blocks.growth-errors", "1", "6", "antialiasing.enabled", "off", "on"},
     {"svgf", "svgf.sigma-normal", "2", "24", "svgf.iterations", "3", "4"},
     {"accumulate", "accumulation.normal-threshold", "0.99", "0.5", "accumulation.rejection", "depth", "plane"},
 };
@@ -124,8 +124,11 @@ class HistoryLength : public Settings {
   [[nodiscard]] Texels lastPicture(const char* method,
                                    const std::function<void(HostedRun&, std::uint32_t)>& change) const {
     HostedRun run(device(), method, kSize, counted());
-    // Else the result is no mean of frames, but has a share of the last one.
-    if (std::string_view(method) == "walr") set(run.denoiser(), "blocks.residual", "off");
+    if (std::string_view(method) == "walr") {
+      // Else the result is no mean of frames, but has a share of the last one.
+      set(run.denoiser(), "blocks.residual", "off");
+      ignoreChangesOfLight(run.denoiser());
+    }
     Texels last;
     for (std::uint32_t i = 0; i <= kLast; ++i) {
       if (i > 0) change(run, i);

@@ -154,8 +154,6 @@ TEST_F(BlockRegression, CoarseFitsAgreeWithBruteForce) {
   }
 }
 
-// Pixels have unequal history lengths, and the width of coarse windows varies. No pixel is without a sample: in a block
-// without samples, a weight that is 0 but for rounding would be the whole window.
 TEST(CoarseSamples, FallWithTheSquareOfTheHeightInLargePictures) {
   for (const std::uint32_t height : {1U, 216U, 360U}) EXPECT_EQ(coarseSamplesAt(height, 3200.0F), 3200.0F);
   EXPECT_FLOAT_EQ(coarseSamplesAt(720, 3200.0F), 800.0F);
@@ -163,6 +161,8 @@ TEST(CoarseSamples, FallWithTheSquareOfTheHeightInLargePictures) {
   EXPECT_EQ(coarseSamplesAt(2160, 0.0F), 0.0F);
 }
 
+// Pixels have unequal history lengths, and the width of coarse windows varies. No pixel is without a sample: in a block
+// without samples, a weight that is 0 but for rounding would be the whole window.
 TEST_F(BlockRegression, UnequalHistoryLengthsAgreeWithBruteForce) {
   BlockRegressionSettings settings{.size = 2, .iterations = 2, .coarseSigma = kCoarseSigma, .coarseSamples = 300.0F};
   const auto historyLength = [](glm::ivec2 p) { return double(((p.x * 5 + p.y * 3) % 4 + 1) * (p.x / 15 + 1)); };

@@ -206,10 +206,10 @@ TEST_F(Bmfr, TheSecondAccumulationReadsTheHistoryThatTheFirstAccepted) {
   fg::Graph graph;
   const DenoiserInputs inputs = importInputs(graph, kSize);
   const Guides guides = addPrepareGuides(graph, inputs);
-  const auto [mean, taps] = addTemporalAccumulationWithTaps(graph, inputs, guides, {.maxHistory = kMaxSamples});
+  const auto [light, taps] = addTemporalAccumulationWithTaps(graph, inputs, guides, {.maxHistory = kMaxSamples});
   const fg::Texture second =
       addBmfrAccumulation(graph, inputs.frame, inputs.lighting, taps, {.maxHistory = kMaxSamples});
-  const fg::Texture firstOut = copyOut(graph, "first", mean);
+  const fg::Texture firstOut = copyOut(graph, "first", light.mean);
   const fg::Texture secondOut = copyOut(graph, "second", second);
   fg::test::GraphRun run(device(), graph);
 

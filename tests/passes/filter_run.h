@@ -14,7 +14,11 @@ class FilterRun {
   using Add = std::function<fg::Texture(fg::Graph& graph, fg::Buffer frame, const Guides& guides,
                                         const std::vector<fg::Texture>& inputs)>;
 
-  /// @param occlusion whether the guides include ambient occlusion
+  /// @param inputSizes of the textures that the passes read
+  /// @param occlusion  whether the guides include ambient occlusion
+  FilterRun(const fg::vk::Device& device, glm::ivec2 size, const std::vector<glm::ivec2>& inputSizes, const Add& add,
+            bool occlusion = false);
+  /// The same with inputs that all have the size of the guides.
   FilterRun(const fg::vk::Device& device, glm::ivec2 size, std::size_t inputCount, const Add& add,
             bool occlusion = false);
 

@@ -82,4 +82,14 @@ Bounded longestHistory(const Image<double>& antilag, glm::dvec2 pixel, double pi
   return {std::max(frames, hasSample ? 0.0 : 1.0), maxHistory * error + 4.0 * kFloatRoundoff * maxHistory};
 }
 
+glm::dvec4 withLongestHistory(const glm::dvec4& mean, const glm::dvec3& light, double longest) {
+  const bool counts = std::isfinite(light.r + light.g + light.b);
+  const double frames = mean.a - (counts ? 1.0 : 0.0);
+  if (frames <= 1.125 * longest) return mean;  // Not longer by more than packed lengths are rounded.
+  const glm::dvec3 m(mean);
+  const glm::dvec3 history = counts ? glm::max((mean.a * m - light) / frames, 0.0) : m;
+  if (!counts) return {history, longest};
+  return {(longest * history + light) / (longest + 1.0), longest + 1.0};
+}
+
 }  // namespace walr::reference

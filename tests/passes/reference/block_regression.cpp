@@ -59,7 +59,7 @@ struct Inputs {
 
   [[nodiscard]] glm::dvec3 ray(glm::ivec2 p) const { return rayThrough(frame.constants.rayFromPixel, pixelCentre(p)); }
 
-  /// Standard deviation of the coarse window at one sample per pixel, in pixels (passes/WALR.md, 6).
+  /// Standard deviation of the coarse window at one sample per texel, in pixels (passes/WALR.md, 6).
   [[nodiscard]] double coarseSigma() const { return double(settings.coarseSigma) * guides.size().y; }
 
   /// Call `visit(weight, pixel)` for all pixels of a window.
@@ -291,8 +291,8 @@ double samplesOf(const Block& block) {
 
 /// Standard deviation of a coarse window in cells, sigma of passes/WALR.md, 6.
 double coarseSigma(const Inputs& inputs, int cellSize, double samples) {
-  const double perPixel = std::max(samples / (cellSize * cellSize), 1.0);
-  return std::max(inputs.coarseSigma() / cellSize * std::pow(perPixel, -double(inputs.settings.coarseNarrowing)), 0.5);
+  const double perTexel = std::max(samples / (cellSize * cellSize) / inputs.shareOfPixels(), 1.0);
+  return std::max(inputs.coarseSigma() / cellSize * std::pow(perTexel, -double(inputs.settings.coarseNarrowing)), 0.5);
 }
 
 /// Separable Gaussian windows around cells, which no edge ends (passes/WALR.md, 6). Depths are harmonic means, first of
