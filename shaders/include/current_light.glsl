@@ -1,4 +1,4 @@
-// Accumulated light with the antilag of its own frame (passes/WALR.md, 4). Accumulation itself shortens history in the
+// Accumulated light with the antilag of its own frame (passes/WALR.md, 3). Accumulation itself shortens history in the
 // next frame only.
 // Needs: light.glsl, light_sample.glsl, `frame` (FrameConstants), `constants.maxHistory`. Takes constant_id 4.
 #ifndef WALR_CURRENT_LIGHT_GLSL

@@ -1,4 +1,4 @@
-// Antilag in the frame in which the light changes (passes/WALR.md, 4): against a calculation in double precision, and
+// Antilag in the frame in which the light changes (passes/WALR.md, 3): against a calculation in double precision, and
 // by what the first frame shows.
 
 #include <algorithm>

@@ -34,7 +34,7 @@ Image<double> antilagOf(const Image<Accumulated>& accumulated, const AntilagSett
 Bounded longestHistory(const Image<double>& antilag, glm::dvec2 pixel, double pixelError, double maxHistory,
                        bool hasSample);
 
-/// The mean m of passes/WALR.md, 2, with at most `longest` frames of history in it (section 4).
+/// The mean m of passes/WALR.md, 2, with at most `longest` frames of history in it (section 3).
 /// @param mean      rgb: m; a: N, frames
 /// @param light     this frame's, y; not finite where it does not count
 glm::dvec4 withLongestHistory(const glm::dvec4& mean, const glm::dvec3& light, double longest);
