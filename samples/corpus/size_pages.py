@@ -77,7 +77,7 @@ def behind_table(records):
             ahead = {m: r for m, r in ahead.items() if results.verdict(r) == "better" and r[0] < 1 - LEAST_LEAD}
             if ahead:
                 rows.append([f"`{name}`", ", ".join(f"`{m}` by {100 * (1 - r[0]):.0f} %" for m, r in sorted(ahead.items()))])
-    return table(["sequence", f"methods ahead of `{BASELINE}`"], rows)
+    return table(["sequence", f"methods ahead of `{BASELINE}`"], rows) if rows else "There are none.\n"
 
 
 def gain(ratio):
@@ -102,8 +102,8 @@ def page(records, rates, lines):
     """records: figures of all records of the corpus; lines: height of the pictures of rates.json."""
     return (EXPLANATION + commits_table(records, rates, lines) + "\n" + errors_table(records, rates, lines) +
             "\n## Where `walr` is behind\n\nMethods whose RMSE is smaller than that of `walr` beyond the interval, and by more than "
-            f"{100 * LEAST_LEAD:.0f} %. Sequences of {lines} lines have no intervals and are left out. [PLACES.md](PLACES.md) describes "
-            "the places of largest error.\n\n" + behind_table(records) +
+            f"{100 * LEAST_LEAD:.0f} %. Sequences of {lines} lines have no intervals and are left out. [PLACES.md](PLACES.md) says why "
+            "`walr` is behind on some of them, and describes the places of largest error.\n\n" + behind_table(records) +
             "\n## Sequences held back\n\nNo setting was chosen by these sequences. Those of 540 lines "
             "were in the same table when the last settings (growth, coarse window, antilag) were chosen; those of 1080 lines were "
             "not. The ratio is the gain of `walr` on them over its gain "
