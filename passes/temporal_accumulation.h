@@ -66,7 +66,7 @@ struct AccumulatedLight {
   /// In the storage `TemporalAccumulationSettings::storage`: mean radiance; alpha: history length, 0 where there is
   /// nothing to denoise.
   fg::Texture mean;
-  fg::Texture antilag = {};  ///< `Antilag::factor` of this frame, with which `mean` is not shortened yet, or invalid.
+  fg::Texture antilag = {};  ///< `Antilag::factor` of this frame, which `mean` does not follow yet; or invalid.
 };
 
 /// Average the noisy lighting over time along its motion.

@@ -12,14 +12,9 @@ namespace {
 
 /// How much wider windows are if a texel of light stands for several pixels. With n samples, a local linear regression
 /// over a plane errs least if its windows' width is in proportion to n^(-1/6) (Ruppert and Wand 1994).
-float wideningOf(const LightPattern& light) {
-  return std::pow(static_cast<float>(light.columns * light.rows), 1.0F / 6.0F);
-}
-
-/// The same for the base window of the coarse fit on a light grid: the power 1/3 is measured
-/// (passes/SPARSE_LIGHT_EXPERIMENTS.md). Without a light grid every pixel has a mean.
-float coarseWideningOf(const LightPattern& light) {
-  return light.grid() ? std::pow(static_cast<float>(light.columns * light.rows), 1.0F / 3.0F) : 1.0F;
+/// @param power of the number of pixels: 1/6 by this theory
+float wideningOf(const LightPattern& light, float power) {
+  return std::pow(static_cast<float>(light.columns * light.rows), power);
 }
 
 BlockRegressionSettings fittedBlocks(const WalrSettings& settings, std::uint32_t imageHeight,
@@ -28,9 +23,11 @@ BlockRegressionSettings fittedBlocks(const WalrSettings& settings, std::uint32_t
   // The share of accumulated light in a pixel is measured on this frame's sample and the history of the same pixel.
   blocks.share.enabled = blocks.share.enabled && light.everyPixel() && !settings.spatialOnly;
   if (!settings.fitWindow) return blocks;
-  const float widening = wideningOf(light);
+  const float widening = wideningOf(light, 1.0F / 6.0F);
   const auto height = static_cast<std::uint32_t>(widening * static_cast<float>(imageHeight));
-  blocks.coarseSigma *= coarseWideningOf(light);
+  // The coarse window's power is measured (passes/SPARSE_LIGHT_EXPERIMENTS.md). Without a light grid every pixel has a
+  // mean.
+  if (light.grid()) blocks.coarseSigma *= wideningOf(light, 1.0F / 3.0F);
   // Growth ends a window where the light differs, so that even small images can have wide windows.
   constexpr std::uint32_t kLeastIterations = 2;
   blocks.size = std::min(blocks.size, fittingBlockSize(height));

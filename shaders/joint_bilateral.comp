@@ -49,7 +49,7 @@ Surface surfaceAt(ivec2 q) {
   s.position = positionAt(q, z);
   s.normal = unpackLongNormal(shading);
   s.geometricNormal = unpackLongNormal(geometric);
-  if (s.valid) s.radiance = clamp(radiance, vec3(0.0), vec3(kLargestHalf));
+  if (s.valid) s.radiance = clampedRadiance(radiance);
   return s;
 }
 

@@ -80,8 +80,6 @@ void addSample(inout TemporalMoments m, vec3 radiance, float alpha, float moment
   m.variance = (1.0 - momentAlpha) * (m.variance + momentAlpha * offset * offset);
 }
 
-vec3 clampedRadiance(vec3 noisy) { return clamp(noisy, vec3(0.0), vec3(kLargestHalf)); }
-
 // The history with this frame's sample. A sample that is not finite does not count: the moments stay as they were.
 TemporalMoments momentsWith(ivec2 p, TemporalMoments m, vec3 noisy) {
   m.samples = confidentLength(p, m.samples, constants.maxHistory);

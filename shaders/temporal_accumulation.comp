@@ -162,12 +162,6 @@ ReprojectedHistory readHistory(ivec2 p, float z) {
   return historyAt(taps, position);
 }
 
-// Whether a sample counts. Where it is not finite, or missing, the mean stays as it was.
-bool isUsable(LightSample noisy) { return noisy.exists && isFinite(noisy.radiance); }
-
-// The number of this frame's samples.
-float usableSamples(LightSample noisy) { return isUsable(noisy) ? countedSamples(noisy) : 0.0; }
-
 // `noisy`: this frame's sample, if there is one.
 ReprojectedHistory historyWithAntilag(ivec2 p, float z, LightSample noisy) {
   ReprojectedHistory found = readHistory(p, z);
@@ -182,8 +176,6 @@ ReprojectedHistory historyWithAntilag(ivec2 p, float z, LightSample noisy) {
   found.mean.a = confidentLength(p, found.mean.a, found.perFrame * constants.maxHistory);
   return found;
 }
-
-vec3 clampedRadiance(vec3 noisy) { return clamp(noisy, vec3(0.0), vec3(kLargestHalf)); }
 
 #ifdef VIEW
 vec3 viewOf(ivec2 p, float z, LightSample noisy) {

@@ -6,6 +6,7 @@ namespace walr {
 #endif
 
 const float kMostAccumulatedSamples = 480.0;  // The largest history length that packed light holds (packed_light.glsl).
+const float kLengthRounding = 1.125f;  // Packing makes a history length at most this many times as long.
 
 struct TemporalAccumulationConstants {
   float maxHistory;       // History length, frames, at which the cumulative mean turns exponential.

@@ -227,7 +227,7 @@ vec3 withAccumulated(ivec2 p, bool hasPixel, Shown shown) {
   if (mean.a > 0.0) {
     const vec3 noisy = texelFetch(lighting, p, 0).rgb;
     const bool hasLight = isFinite(noisy);
-    const vec3 light = hasLight ? clamp(noisy, vec3(0.0), vec3(kLargestHalf)) : vec3(0.0);
+    const vec3 light = hasLight ? clampedRadiance(noisy) : vec3(0.0);
     if (kAntilag) {
       const float longest = longestHistory(antilagAt(antilag, vec2(p)), constants.maxHistory);
       mean = withLongestHistory(mean, light, hasLight ? 1.0 : 0.0, longestHistoryOf(hasLight, longest));

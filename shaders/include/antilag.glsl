@@ -2,6 +2,7 @@
 #ifndef WALR_ANTILAG_GLSL
 #define WALR_ANTILAG_GLSL
 #include "constants/antilag.h"
+#include "constants/temporal_accumulation.h"
 #include "gather_bilinear.glsl"
 
 // The antilag factor at a position in the frame of `factors`, bilinear, clamped at the borders. `position`: in pixels
@@ -23,8 +24,7 @@ float longestHistoryOf(bool hasSample, float longest) { return hasSample ? longe
 
 // Whether history is longer than antilag lets it be, and not by rounding of its packed length alone.
 bool isTooLong(float history, float longest) {
-  const float kRounding = 1.125;
-  return history > max(kRounding * longest, 0.5);
+  return history > max(kLengthRounding * longest, 0.5);
 }
 
 // The mean m = h + n (y - h) / N of history h and n samples with the mean y, where N = `mean.a`, with at most `longest`

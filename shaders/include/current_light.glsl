@@ -19,9 +19,9 @@ vec4 currentLightAt(ivec2 texel, ivec2 p, float longest) {
   const float ofThisFrame = kSparseLight ? 0.0 : 1.0;  // At least: sparse light may have none.
   if (!isTooLong(mean.a - ofThisFrame, longest)) return mean;
   const LightSample noisy = lightSampleAt(lighting, p);
-  const bool usable = noisy.exists && isFinite(noisy.radiance);
-  const vec3 y = usable ? clamp(noisy.radiance, vec3(0.0), vec3(kLargestHalf)) : vec3(0.0);
-  const float n = usable ? countedSamples(noisy) : 0.0;
+  const bool usable = isUsable(noisy);
+  const vec3 y = usable ? clampedRadiance(noisy.radiance) : vec3(0.0);
+  const float n = usableSamples(noisy);
   return withLongestHistory(mean, y, n, samplesPerFrame(mean.a - n, n) * longestHistoryOf(usable, longest));
 }
 

@@ -17,7 +17,7 @@ layout(constant_id = 20) const bool kAlphaIsSampleCount = true;
 vec4 lightAt(ivec2 q) {
   const vec4 light = texelFetch(accumulated, q, 0);
   if (kAlphaIsSampleCount) return light;
-  return isFinite(light.rgb) ? vec4(clamp(light.rgb, vec3(0.0), vec3(kLargestHalf)), 1.0) : vec4(0.0);
+  return isFinite(light.rgb) ? vec4(clampedRadiance(light.rgb), 1.0) : vec4(0.0);
 }
 #endif
 

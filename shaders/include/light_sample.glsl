@@ -5,6 +5,7 @@
 // Needs: `frame` (FrameConstants). Takes constant_id 30 to 32, 34, and 33 with LIGHT_GRID_CHOSEN.
 #ifndef WALR_LIGHT_SAMPLE_GLSL
 #define WALR_LIGHT_SAMPLE_GLSL
+#include "finite.glsl"
 
 layout(constant_id = 30) const int kLightColumns = 1;
 layout(constant_id = 31) const int kLightRows = 1;
@@ -26,6 +27,9 @@ struct LightSample {
   float count;  // Number of samples whose mean the radiance is; 0 without a sample.
 };
 const LightSample kNoLightSample = LightSample(vec3(0.0), false, 0.0);
+
+// Whether a sample counts: it is there, and finite.
+bool isUsable(LightSample light) { return light.exists && isFinite(light.radiance); }
 
 // The pixel of its group that has the sample, in the groups of row `row`.
 ivec2 sampledPixel(int row) {

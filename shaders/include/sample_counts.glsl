@@ -12,13 +12,15 @@ float countedSamples(LightSample light) {
   return kLightCounted ? min(light.count, kMostAccumulatedSamples / constants.maxHistory) : 1.0;
 }
 
+// The same of light that counts, and 0 of other light.
+float usableSamples(LightSample light) { return isUsable(light) ? countedSamples(light) : 0.0; }
+
 // The number of samples that a frame of a history stands for. `count`: that of this frame. A frame without a sample
 // says nothing about the others, which then count as they do without counts.
 float samplesPerFrame(float history, float count) {
   if (!kLightCounted) return 1.0;
-  const float kRounding = 1.125;  // Packed lengths are rounded by up to 1/8, which is not to pass for more samples.
   const float assumed = count > 0.0 ? count : 1.0;
-  const bool hadMore = history > kRounding * constants.maxHistory * assumed;
+  const bool hadMore = history > kLengthRounding * constants.maxHistory * assumed;  // Rounding is no sample.
   return hadMore ? history / constants.maxHistory : assumed;
 }
 

@@ -62,21 +62,6 @@ class RegressionRun {
   FilterRun run_;
 };
 
-double toneMapped(double x) {
-  return x / (1.0 + x);
-}
-
-/// Root mean square difference after the tone map x / (1 + x), over surfaces.
-double distance(const Image<Guide>& guides, const Image<glm::dvec4>& a, const Image<glm::dvec3>& b) {
-  double squares = 0.0;
-  int count = 0;
-  reference::forEachPixel(kSize, [&](glm::ivec2 p) {
-    if (guides[p].depth == 0.0) return;
-    for (int c = 0; c < 3; ++c, ++count) squares += std::pow(toneMapped(a[p][c]) - toneMapped(b[p][c]), 2.0);
-  });
-  return count > 0 ? std::sqrt(squares / count) : 0.0;
-}
-
 double oneSample(glm::ivec2) {
   return 1.0;
 }
@@ -118,7 +103,7 @@ class BlockRegression : public fg::test::GpuTest {
       reference::forEachPixel(kSize, [&](glm::ivec2 p) { inputs.accumulated[p].a = historyLength(p); });
       const Image<glm::dvec4> actual = run.filter(inputs);
       const auto expected = reference::blockRegression(inputs.frame, inputs.guides, inputs.accumulated, settings);
-      const double rms = distance(inputs.guides, actual, expected);
+      const double rms = surfaceRmse(inputs.guides, actual, expected);
       EXPECT_LE(rms, kBound) << scene.name;
       RecordProperty(std::string("distance, ") + scene.name, std::to_string(rms));
       reference::forEachPixel(kSize, [&](glm::ivec2 p) {

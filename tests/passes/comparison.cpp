@@ -102,6 +102,19 @@ StoredMoments storedMoments(const MergedMoments& merged, MomentStorage storage) 
   return stored;
 }
 
+double surfaceRmse(const reference::Image<reference::Guide>& guides, const reference::Image<glm::dvec4>& actual,
+                   const reference::Image<glm::dvec3>& expected) {
+  const auto toneMapped = [](double x) { return x / (1.0 + x); };
+  double squares = 0.0;
+  int count = 0;
+  reference::forEachPixel(guides.size(), [&](glm::ivec2 p) {
+    if (guides[p].depth == 0.0) return;
+    for (int c = 0; c < 3; ++c, ++count)
+      squares += std::pow(toneMapped(actual[p][c]) - toneMapped(expected[p][c]), 2.0);
+  });
+  return count > 0 ? std::sqrt(squares / count) : 0.0;
+}
+
 void Comparison::value(glm::ivec2 p, const char* name, double actual, double expected, double tolerance) {
   const double difference = std::abs(actual - expected);
   if (difference <= tolerance) return;

@@ -6,6 +6,7 @@
 #include <glm/vec3.hpp>
 
 #include "passes/weighted_regression.h"
+#include "tests/passes/reference/guides.h"
 #include "tests/passes/reference/moments.h"
 
 /// Comparison of a device's results with the double-precision reference. A tolerance is the sum of two bounds: the
@@ -27,6 +28,10 @@ struct StoredMoments {
 StoredMoments storedMoments(const reference::MergedMoments& merged, MomentStorage storage);
 /// The stored form of moments read back from a device.
 reference::MomentValues storedValues(const reference::Moments& centred, MomentStorage storage);
+
+/// Root mean square difference after the tone map x / (1 + x), over pixels that show a surface. 0 if none does.
+double surfaceRmse(const reference::Image<reference::Guide>& guides, const reference::Image<glm::dvec4>& actual,
+                   const reference::Image<glm::dvec3>& expected);
 
 /// Comparison of two images. Undecided pixels, where a decision is closer than single precision can resolve, are
 /// counted instead of compared.

@@ -11,6 +11,7 @@
 #include <glm/common.hpp>
 
 #include "tests/passes/block_filter.h"
+#include "tests/passes/comparison.h"
 #include "tests/passes/filter_run.h"
 #include "tests/passes/reference/antilag.h"
 #include "tests/passes/reference/block_regression.h"
@@ -108,15 +109,7 @@ TEST_F(CurrentAntilagTest, FitsAgreeWithBruteForce) {
       const ChangedFrame changed = changedFrame(scene.scene, factorAt);
       const Image<glm::dvec4> actual = filtered(changed, settings);
       const Image<glm::dvec3> expected = expectedFrom(changed, settings);
-      double squares = 0.0;
-      int count = 0;
-      reference::forEachPixel(kSize, [&](glm::ivec2 p) {
-        if (changed.guides[p].depth == 0.0) return;
-        for (int c = 0; c < 3; ++c, ++count) {
-          squares += std::pow(actual[p][c] / (1.0 + actual[p][c]) - expected[p][c] / (1.0 + expected[p][c]), 2.0);
-        }
-      });
-      EXPECT_LE(std::sqrt(squares / std::max(count, 1)), kBound) << scene.name << ", blocks of " << size;
+      EXPECT_LE(surfaceRmse(changed.guides, actual, expected), kBound) << scene.name << ", blocks of " << size;
     }
   }
 }

@@ -11,6 +11,7 @@
 #include <glm/geometric.hpp>
 
 #include "tests/error_text.h"
+#include "tests/passes/comparison.h"
 #include "tests/passes/denoiser_run.h"
 #include "tests/passes/reference/block_regression.h"
 #include "tests/passes/stage_checks.h"
@@ -278,15 +279,7 @@ TEST_F(SparseLight, RegressionOnTheLightGridAgreesWithTheReference) {
       ASSERT_TRUE(stages.onLightGrid);
       const Image<glm::dvec3> expected =
           reference::blockRegression(frame, stages.guides, stages.accumulated, settings.blocks, true);
-      double squares = 0.0;
-      double count = 0.0;
-      const auto toneMapped = [](double x) { return x / (1.0 + x); };
-      forEachPixel(kSize, [&](glm::ivec2 p) {
-        if (stages.guides[p].depth == 0.0) return;
-        for (int c = 0; c < 3; ++c, ++count)
-          squares += std::pow(toneMapped(stages.filtered[p][c]) - toneMapped(expected[p][c]), 2.0);
-      });
-      EXPECT_LE(std::sqrt(squares / count), 2e-4);
+      EXPECT_LE(surfaceRmse(stages.guides, stages.filtered, expected), 2e-4);
     }
   }
 }
