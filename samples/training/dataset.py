@@ -7,7 +7,7 @@ import pathlib
 
 import torch
 
-HELD_OUT = 10
+HELD_OUT = 20
 """One scene in so many is not trained on, but judges the training."""
 
 

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """Writes the weights of a trained network as the shaders read them, and a record of the training beside them.
 
-    export_weights.py --state FILE --cache DIR --output passes/weights/flnr_small.f16 --fixture tests/passes/fixtures/flnr_small.txt
+    export_weights.py --state FILE --cache DIR --project .
 
-The fixture is a small frame and the guides that PyTorch makes of it with these weights, for the tests of the shaders.
+It writes passes/weights/flnr_PRESET.f16, the same as .json, and tests/passes/fixtures/flnr_PRESET.txt of the project. The fixture is a small frame and the guides that PyTorch makes of it with these weights, for the tests of the shaders.
 """
 import argparse
 import json
@@ -14,6 +14,7 @@ import subprocess
 import sys
 
 import torch
+from torch.nn import functional as F
 
 sys.dont_write_bytecode = True
 from dataset import scenes
@@ -28,15 +29,21 @@ def convolution(layer):
     return torch.cat([weights.permute(0, 3, 5, 4, 1, 2).reshape(-1), layer.bias])
 
 
-def head(layer):
-    """flnr_head.comp: for each input, for each guide, its pixels; then the biases."""
-    return torch.cat([layer.weight[:, :, 0, 0].t().reshape(-1), layer.bias])
+def heads(network):
+    """flnr_head.comp: for each input, for each group of four, its results; then the biases. One layer where a group is a guide of four
+    pixels; a layer for each group of four guides of a pixel, the last of which is filled up with zeros."""
+    weight, bias = network.head.weight[:, :, 0, 0], network.head.bias
+    if network.shrink == 2:
+        return [weight.t().reshape(-1), bias]
+    missing = -len(bias) % 4
+    weight, bias = F.pad(weight, (0, 0, 0, missing)), F.pad(bias, (0, missing))
+    return [torch.cat([weight[i:i + 4].t().reshape(-1), bias[i:i + 4]]) for i in range(0, len(bias), 4)]
 
 
 def halves(network):
     """All weights in the order of the layers."""
     blocks = [*network.encoder, *network.decoder]
-    parts = [convolution(layer) for block in blocks for layer in block.layers] + [head(network.head)]
+    parts = [convolution(layer) for block in blocks for layer in block.layers] + heads(network)
     return torch.cat(parts).detach().to(torch.float16).numpy()
 
 
@@ -55,7 +62,7 @@ def decoded(steps):
     return x / length, y / length, z / length
 
 
-def fixture(network, width=21, height=17):
+def fixture(network, preset, width=21, height=17):
     """Lines of a frame: width and height; then of each pixel the steps of its normal, depth (0: no surface), occlusion in steps, light,
     samples, and the learned guides. All inputs are exact in the formats of the pipeline."""
     rng = random.Random(5)
@@ -75,10 +82,10 @@ def fixture(network, width=21, height=17):
                     frame["light"][0, :, y, x] = torch.tensor(light)
                     frame["samples"][0, 0, y, x] = samples
             rows.append([*steps, depth, occlusion, *light, samples])
-    rounded = GuideNetwork(**PRESETS["small"])
+    rounded = GuideNetwork(**PRESETS[preset])
     rounded.load_state_dict({name: values.half().float() for name, values in network.state_dict().items()})
     with torch.no_grad():
-        learned = rounded(features(frame, Means.of(frame)))[0].permute(1, 2, 0).reshape(-1, 3).tolist()
+        learned = rounded(features(frame, Means.of(frame)))[0].permute(1, 2, 0).reshape(width * height, -1).tolist()
     lines = [" ".join(f"{v:.9g}" for v in [*row, *guides]) for row, guides in zip(rows, learned)]
     return "\n".join([f"{width} {height}", *lines]) + "\n"
 
@@ -91,24 +98,21 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--state", type=pathlib.Path, required=True, help="file of train.py")
     parser.add_argument("--cache", type=pathlib.Path, required=True, help="folder of make_data.py")
-    parser.add_argument("--output", type=pathlib.Path, required=True)
-    parser.add_argument("--fixture", type=pathlib.Path, required=True)
+    parser.add_argument("--project", type=pathlib.Path, required=True, help="folder that receives the files")
     options = parser.parse_args()
     state = torch.load(options.state)
-    if state["preset"] != "small":
-        raise SystemExit(f"{options.state}: holds preset {state['preset']}; there are passes for small only")
-    network = GuideNetwork(**PRESETS["small"])
+    preset = state["preset"]
+    network = GuideNetwork(**PRESETS[preset])
     network.load_state_dict(state["network"])
-    options.output.parent.mkdir(exist_ok=True)
-    halves(network).tofile(options.output)
-    options.fixture.parent.mkdir(exist_ok=True)
-    options.fixture.write_text(fixture(network), encoding="utf-8")
+    output = options.project / f"passes/weights/flnr_{preset}.f16"
+    halves(network).tofile(output)
+    (options.project / f"tests/passes/fixtures/flnr_{preset}.txt").write_text(fixture(network, preset), encoding="utf-8")
     trained, held_out = scenes(options.cache)
-    record = {"preset": state["preset"], "commit": commit(), "steps": state["steps"], "seconds": round(state["seconds"]),
+    record = {"preset": preset, "commit": commit(), "steps": state["steps"], "seconds": round(state["seconds"]),
               "training_seeds": seeds(trained), "held_out_seeds": seeds(held_out), "curve": state["curve"]}
     lines = ",\n".join(f" {json.dumps(key)}: " + ("[\n  " + ",\n  ".join(map(json.dumps, value)) + "\n ]" if key == "curve" else
                                                   json.dumps(value)) for key, value in record.items())
-    options.output.with_suffix(".json").write_text("{\n" + lines + "\n}\n", encoding="utf-8")
+    output.with_suffix(".json").write_text("{\n" + lines + "\n}\n", encoding="utf-8")
 
 
 if __name__ == "__main__":

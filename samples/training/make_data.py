@@ -21,10 +21,9 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "images"))
 import exr
 from random_scenes import FRAMES, random_scene
 
-TARGETS = 2
-"""So many last frames of a sequence have a target; the frames before them build up history."""
-RENDERING = ["--size", "224x128", "--frames", f"0-{FRAMES - 1}", "--reference-spp", "32",
-             "--reference-frames", f"{FRAMES - TARGETS}-{FRAMES - 1}"]
+TARGETS = 3, FRAMES - 1
+"""Frames with a target: one with a short history, and one with the longest that `flr` keeps."""
+RENDERING = ["--size", "320x180", "--frames", f"0-{FRAMES - 1}", "--reference-spp", "24"]
 
 
 def run(walr, *arguments):
@@ -39,7 +38,9 @@ def render(walr, folder, seed, threads):
     text = random_scene(seed)
     if not scene.exists() or scene.read_text(encoding="utf-8") != text:
         scene.write_text(text, encoding="utf-8")
-    run(walr, "render", scene, "--output", folder / "frames", "--seed", seed, "--threads", threads, *RENDERING)
+    for target in TARGETS:
+        run(walr, "render", scene, "--output", folder / "frames", "--seed", seed, "--threads", threads, *RENDERING,
+            "--reference-frames", f"{target}-{target}")
 
 
 def planes(file, names):
@@ -77,7 +78,7 @@ def dump(walr, folder):
     seen = folder / "seen"
     run(walr, "denoise", folder / "frames", "--output", seen, "--method", "flr",
         *(word for view in ("light", "guide-normal", "guide-depth") for word in ("--view", view)))
-    frames = [(kind, tensors(frame)) for kind, frame in seen_frames(folder / "frames", seen, range(FRAMES - TARGETS, FRAMES))]
+    frames = [(kind, tensors(frame)) for kind, frame in seen_frames(folder / "frames", seen, TARGETS)]
     partial = result.with_suffix(".partial")
     torch.save(frames, partial)
     partial.rename(result)

@@ -1,4 +1,6 @@
 """The network that makes guides, and FLR's regression as the project's shaders compute it, both differentiable."""
+import math
+
 import torch
 from torch import nn
 from torch.nn import functional as F
@@ -11,6 +13,8 @@ SAMPLES_SCALE = 1 / 16
 RIDGE = 1e-4
 REACH = 3.0
 FACTOR = 4
+INVERSE_DEPTH = 3
+"""Index of inverse depth among the geometric guides; its ridge is relative."""
 SIGMA = {"accumulated": 6.0, "single": 12.0}
 """Standard deviation of FLR's Gaussian window in pixels: `regression.sigma`, `regression.single-frame-sigma`."""
 
@@ -82,55 +86,57 @@ class GuideNetwork(nn.Module):
         return x
 
     def forward(self, seen):
+        """With gradients, the layers before the head compute in bfloat16, which some processors do four times as fast."""
         height, width = seen.shape[2:]
         padded = F.pad(seen, (0, -width % self.shrink, 0, -height % self.shrink))
-        guides = torch.sigmoid(self.head(self.trunk(padded)))
+        with torch.autocast("cpu", dtype=torch.bfloat16, enabled=torch.is_grad_enabled()):
+            last = self.trunk(padded.contiguous(memory_format=torch.channels_last))
+        guides = torch.sigmoid(self.head(last.float()))
         guides = F.pixel_shuffle(guides, self.shrink) if self.shrink > 1 else guides
         return guides[:, :, :height, :width]
 
 
 PRESETS = {
     "small": {"widths": (16, 24, 32, 48), "guides": 3, "shrink": 2, "replaces": False},
-    "faithful": {"widths": (16, 32, 64, 128), "guides": 5, "shrink": 1, "replaces": True},
+    "paper": {"widths": (16, 24, 32, 48), "guides": 5, "shrink": 1, "replaces": True},
 }
-"""`faithful`: as the poster says, five guides in place of the geometric ones; widths are not published."""
+"""`paper`: as the poster says, at full size, five guides in place of the geometric ones. It says of the widths that they are low."""
 
 
-def cholesky_slopes(covariances, right, ridge):
-    """cholesky.glsl: the slopes of right-hand sides. Entries are maps; `covariances[i][j]` for j <= i."""
-    count = len(ridge)
-    lower = [[None] * count for _ in range(count)]
-    for j in range(count):
-        for i in range(j, count):
-            value = covariances[i][j]
-            if i == j:
-                value = value.clamp(min=0) + ridge[i]
-            for c in range(j):
-                value = value - lower[i][c] * lower[j][c]
-            lower[i][j] = torch.sqrt(torch.maximum(value, ridge[i])) if i == j else value / lower[j][j]
-    x = [None] * count
-    for i in range(count):
-        value = right[i]
-        for c in range(i):
-            value = value - lower[i][c] * x[c]
-        x[i] = value / lower[i][i]
-    for i in reversed(range(count)):
-        value = x[i]
-        for c in range(i + 1, count):
-            value = value - lower[c][i] * x[c]
-        x[i] = value / lower[i][i]
-    return x
+def cells_of(maps):
+    """The pixels of each cell: batch x rows x columns x channels x pixels of a cell. The picture is filled up with zeros."""
+    maps = F.pad(maps, (0, -maps.shape[3] % FACTOR, 0, -maps.shape[2] % FACTOR))
+    batch, channels, height, width = maps.shape
+    split = maps.reshape(batch, channels, height // FACTOR, FACTOR, width // FACTOR, FACTOR)
+    return split.permute(0, 2, 4, 1, 3, 5).reshape(batch, height // FACTOR, width // FACTOR, channels, FACTOR * FACTOR)
 
 
-def blur(maps, sigma):
-    """The separable Gaussian of flr_blur.comp and flr_solve.comp over cells; `sigma` in cells."""
-    radius = int(-(-REACH * sigma // 1))
-    weights = torch.exp(-0.5 * (torch.arange(-radius, radius + 1, dtype=maps.dtype) / sigma) ** 2)
-    batch, count, height, width = maps.shape
-    maps = maps.reshape(batch * count, 1, height, width)
-    maps = F.conv2d(maps, weights.view(1, 1, 1, -1), padding=(0, radius))
-    maps = F.conv2d(maps, weights.view(1, 1, -1, 1), padding=(radius, 0))
-    return maps.reshape(batch, count, height, width)
+def along_both_axes(values, down, across):
+    """Maps of batch x rows x columns x channels, with a matrix applied to their columns and one to their rows."""
+    batch, height, width, channels = values.shape
+    values = (down @ values.reshape(batch, height, width * channels)).reshape(batch * len(down), width, channels)
+    return (across @ values).reshape(batch, len(down), len(across), channels)
+
+
+def gaussian(cells, sigma):
+    """The Gaussian of flr_blur.comp and flr_solve.comp along one axis, as a matrix; `sigma` in cells."""
+    away = (torch.arange(cells)[:, None] - torch.arange(cells)).abs()
+    return torch.where(away <= math.ceil(REACH * sigma), torch.exp(-0.5 * (away / sigma) ** 2), torch.zeros(()))
+
+
+def bilinear(pixels, cells):
+    """The interpolation of cells at pixels along one axis, as a matrix."""
+    at = ((torch.arange(pixels) + 0.5) / FACTOR - 0.5).clamp(0, cells - 1)
+    return (1 - (at[:, None] - torch.arange(cells)).abs()).clamp(min=0)
+
+
+def slopes_of(covariance, right, ridge):
+    """choleskySolve of cholesky.glsl. Its floor under pivots acts on rounding only: a ridge keeps them above it. Rows and columns are
+    scaled to a diagonal of 1 before."""
+    variance = torch.diagonal(covariance.detach(), dim1=-2, dim2=-1)[..., None].clamp(min=0)
+    scale = torch.rsqrt(variance + ridge)
+    matrix = scale * covariance * scale.transpose(-1, -2) + torch.diag_embed((ridge * scale * scale)[..., 0])
+    return scale * torch.cholesky_solve(scale * right, torch.linalg.cholesky_ex(matrix)[0])
 
 
 def regression(frame, learned, replaces, sigma):
@@ -138,36 +144,29 @@ def regression(frame, learned, replaces, sigma):
 
     `learned`: more guides, or None; with `replaces`, they stand in place of normal, inverse depth and occlusion."""
     light, height, width = frame["light"], *frame["light"].shape[2:]
-    geometric = [] if replaces else [*frame["normal"].unbind(1), frame["inverse_depth"][:, 0], frame["occlusion"][:, 0]]
-    guides = geometric + ([] if learned is None else list(learned.unbind(1)))
-    count = len(guides)
-    counts = ((frame["samples"] > 0) & (frame["inverse_depth"] > 0))[:, 0].to(light.dtype)
-    row = [torch.ones_like(counts), *guides]
-    colours = light.unbind(1)
-    products = [row[i] * row[j] for i in range(count + 1) for j in range(i, count + 1)]
-    products += [x * y for x in row for y in colours]
-    maps = torch.stack(products, 1) * counts[:, None]
-    maps = F.pad(maps, (0, -width % FACTOR, 0, -height % FACTOR))
-    maps = blur(FACTOR * FACTOR * F.avg_pool2d(maps, FACTOR), sigma / FACTOR)
+    geometric = [] if replaces else [frame["normal"], frame["inverse_depth"], frame["occlusion"]]
+    counts = ((frame["samples"] > 0) & (frame["inverse_depth"] > 0)).to(light.dtype)
+    row = torch.cat([torch.ones_like(counts), *geometric, *([] if learned is None else [learned])], 1)
+    size = row.shape[1]
+    products = cells_of(row * counts) @ cells_of(torch.cat([row, light], 1)).transpose(3, 4)
+    batch, rows, columns = products.shape[:3]
+    cell_sigma = sigma / FACTOR
+    sums = along_both_axes(products.reshape(batch, rows, columns, -1), gaussian(rows, cell_sigma), gaussian(columns, cell_sigma))
 
-    samples = maps[:, 0]
+    sums = sums.reshape(batch, rows, columns, size, size + 3)
+    samples = sums[..., :1, :1]
     found = samples > 0
-    maps = maps / torch.where(found, samples, torch.ones_like(samples))[:, None]
-    entry = iter(maps.unbind(1))
-    square = {(i, j): next(entry) for i in range(count + 1) for j in range(i, count + 1)}
-    colour = [torch.stack([next(entry) for _ in range(3)], 1) for _ in range(count + 1)]
-    mean = [square[0, i + 1] for i in range(count)]
-    covariances = [[square[j + 1, i + 1] - mean[i] * mean[j] for j in range(i + 1)] for i in range(count)]
-    inverse_depth = None if replaces else 3
-    ridge = [RIDGE * (mean[i] ** 2 if i == inverse_depth else torch.ones_like(mean[i])) for i in range(count)]
-    ridge = [r + 1e-30 for r in ridge]
-    slopes = cholesky_slopes([[c[:, None] for c in line] for line in covariances],
-                             [colour[i + 1] - colour[0] * mean[i][:, None] for i in range(count)], [r[:, None] for r in ridge])
-    constant = colour[0] - sum(s * m[:, None] for s, m in zip(slopes, mean))
+    means = sums / torch.where(found, samples, torch.ones_like(samples))
+    x, y = means[..., 0, 1:size, None], means[..., :1, size:]
+    covariance, right = means[..., 1:, 1:size] - x * x.transpose(-1, -2), means[..., 1:, size:] - x * y
+    ridge = torch.full_like(x, RIDGE)
+    if not replaces:
+        ridge[..., INVERSE_DEPTH, :] *= x[..., INVERSE_DEPTH, :].detach() ** 2
+    slopes = slopes_of(covariance, right, ridge + 1e-30)
+    constant = y - x.transpose(-1, -2) @ slopes
 
-    coefficients = torch.cat([constant, *slopes], 1) * found[:, None]
-    both = torch.cat([coefficients, found[:, None].to(light.dtype)], 1)
-    both = F.interpolate(both, scale_factor=FACTOR, mode="bilinear", align_corners=False)[:, :, :height, :width]
-    coefficients = both[:, :-1] / both[:, -1:].clamp(min=1e-6)
-    result = coefficients[:, :3] + sum(coefficients[:, 3 * i + 3:3 * i + 6] * guides[i][:, None] for i in range(count))
-    return result.clamp(min=0)
+    coefficients = (torch.cat([constant, slopes], -2) * found).reshape(batch, rows, columns, -1)
+    both = along_both_axes(torch.cat([coefficients, found[..., 0].to(light.dtype)], -1), bilinear(height, rows), bilinear(width, columns))
+    guides = row.permute(0, 2, 3, 1).reshape(-1, 1, size)
+    result = (guides @ both[..., :-1].reshape(-1, size, 3)).reshape(batch, height, width, 3) / both[..., -1:].clamp(min=1e-6)
+    return result.permute(0, 3, 1, 2).clamp(min=0)

@@ -7,7 +7,7 @@ import sys
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "scenes"))
 from gltf_writer import Gltf, Mesh, png, turn
 
-FRAMES = 8
+FRAMES = 10
 TEXELS = 64
 
 

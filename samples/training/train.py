@@ -4,11 +4,13 @@
     train.py --cache DIR --state FILE --preset small --minutes 120
 
 The state holds weights, optimiser and curve, and is written after every round: the command goes on where an earlier call ended.
-Loss: squared error relative to the prediction's own magnitude, whose minimum is the mean also where targets are noisy (Lehtinen et
-al. 2018), plus the absolute error after the tone map x / (1 + x), in which the project is judged. Light is relative to the frame's
-mean, as the network sees it. In the first tenth of the training, each guide is also drawn to one channel of the target after the
-tone map, as a start; no longer, because guides that are best by themselves let noise through, which the regression amplifies. A
-penalty keeps guides from the ends of their sigmoid, where nothing moves them any more.
+Loss: squared error relative to the prediction's own magnitude plus the frame's mean. Its minimum is the mean of the targets, so that
+these may be noisy (Lehtinen et al. 2018), and it weighs light much as the tone map x / (1 + x) does, in which the project is judged.
+Light is relative to the frame's mean, as the network sees it. In the first tenth of the training, each guide is also drawn to one
+channel of the target after the tone map, as a start; no longer, because guides that are best by themselves let noise through, which
+the regression amplifies. A penalty keeps guides from the ends of their sigmoid, where nothing moves them any more.
+
+Some crops are made less noisy: part of their light comes from one half of the target's samples, and the other half is then the target.
 """
 import argparse
 import json
@@ -24,12 +26,18 @@ sys.dont_write_bytecode = True
 from dataset import load, scenes
 from network import PRESETS, SIGMA, GuideNetwork, Means, features, regression
 
-CROP, BATCH, STEPS = 96, 4, 50
-"""Pixels of a crop's side, crops of a step, steps of a round."""
+CROP, BATCH, STEPS = 128, 2, 250
+"""Pixels of a crop's side, crops of a step, steps of a round. A crop is wider than the largest window."""
+EVALUATE = 20
+"""Rounds between two judgements by held-out scenes."""
+SINGLE = 0.4
+"""Share of the steps on light of single frames."""
+CLEANER = 0.3
+"""Share of the crops that are made less noisy."""
+SIGMAS = {"accumulated": (6.0, 8.0, 10.0), "single": (12.0, 16.0, 20.0)}
+"""Windows of the regression to train with, pixels."""
 BRIGHT = 4.0
 """Targets beyond so many times prediction plus mean count as that: a path of a noisy target must not outweigh a crop."""
-ABSOLUTE = 0.2
-"""Share of the absolute error in the loss."""
 DIRECT, DIRECT_SHARE = 0.5, 0.1
 """Weight of the guides' own squared errors at the start, and the share of the training in which it falls to 0."""
 ENDS, LARGEST_LOGIT = 1e-2, 4.0
@@ -42,11 +50,7 @@ def loss_of(prediction, target, surface, mean):
     prediction, target = prediction / mean, target / mean
     own = prediction.detach()
     target = torch.minimum(target, BRIGHT * (own + 1))
-    squared = ((prediction - target) / (own + 0.5)) ** 2
-    mapped = prediction / (1 + prediction) - target / (1 + target)
-    count = 3 * surface.sum().clamp(min=1)
-    loss = ((1 - ABSOLUTE) * squared + ABSOLUTE * mapped.abs()) * surface
-    return loss.sum() / count
+    return (((prediction - target) / (own + 1)) ** 2 * surface).sum() / (3 * surface.sum().clamp(min=1))
 
 
 def direct_loss_of(learned, target, surface, mean):
@@ -70,6 +74,11 @@ def crop_of(frame, means, rng):
     height, width = frame["target"].shape[2:]
     x, y = 8 * rng.randrange((width - CROP) // 8 + 1), 8 * rng.randrange((height - CROP) // 8 + 1)
     crop = {name: values[:, :, y:y + CROP, x:x + CROP] for name, values in frame.items()}
+    if rng.random() < CLEANER:
+        share = rng.random()
+        light = (1 - share) * crop["light"] + share * crop["half_target"]
+        crop["light"] = torch.where(crop["samples"] > 0, light, crop["light"])
+        crop["target"] = 2 * crop["target"] - crop["half_target"]
     order = rng.sample(range(3), 3)
     crop["light"], crop["target"] = crop["light"][:, order], crop["target"][:, order]
     if rng.random() < 0.5:
@@ -93,10 +102,10 @@ def ends_loss_of(learned):
     return ((torch.logit(learned, 1e-6).abs() - LARGEST_LOGIT).clamp(min=0) ** 2).mean()
 
 
-def filtered(network, frame, means, kind):
+def filtered(network, frame, means, sigma):
     """The filtered light, and the learned guides or None."""
     learned = network(features(frame, means)) if network else None
-    return regression(frame, learned, network.replaces if network else False, SIGMA[kind]), learned
+    return regression(frame, learned, network.replaces if network else False, sigma), learned
 
 
 def evaluate(network, frames):
@@ -107,9 +116,9 @@ def evaluate(network, frames):
             ours, plain = 0.0, 0.0
             for frame, means in some:
                 mean = means.light.clamp(min=1e-30)
-                flr, _ = filtered(None, frame, means, kind)
+                flr, _ = filtered(None, frame, means, SIGMA[kind])
                 weight = (frame["inverse_depth"] > 0) / (1 + flr / mean) ** 4
-                ours += error_of(filtered(network, frame, means, kind)[0], frame, weight, mean)
+                ours += error_of(filtered(network, frame, means, SIGMA[kind])[0], frame, weight, mean)
                 plain += error_of(flr, frame, weight, mean)
             errors[kind] = ours / max(len(some), 1), plain / max(len(some), 1)
     return errors
@@ -142,11 +151,11 @@ class Training:
         """One step at a share of the whole time."""
         for group in self.optimiser.param_groups:
             group["lr"] = LAST_RATE + (RATE - LAST_RATE) * 0.5 * (1 + math.cos(math.pi * min(share, 1.0)))
-        kind = self.rng.choice(["accumulated", "single"])
+        kind = "single" if self.rng.random() < SINGLE else "accumulated"
         frame, means = batch_of(frames[kind], self.rng)
         surface = (frame["inverse_depth"] > 0).float()
         mean = means.light.clamp(min=1e-30)
-        light, learned = filtered(self.network, frame, means, kind)
+        light, learned = filtered(self.network, frame, means, self.rng.choice(SIGMAS[kind]))
         loss = loss_of(light, frame["target"], surface, mean) + ENDS * ends_loss_of(learned)
         direct = DIRECT * max(0.0, 1 - share / DIRECT_SHARE)
         if direct > 0:
@@ -176,7 +185,7 @@ def main():
         start = time.monotonic()
         losses = [training.step(frames, training.seconds / (60 * options.minutes)) for _ in range(STEPS)]
         training.seconds += time.monotonic() - start
-        errors = evaluate(training.network, held_out) if (training.steps // STEPS) % 5 == 0 else None
+        errors = evaluate(training.network, held_out) if (training.steps // STEPS) % EVALUATE == 0 else None
         entry = {"steps": training.steps, "seconds": round(training.seconds), "loss": round(sum(losses) / STEPS, 5),
                  **({"held_out_mse": {k: [round(e, 7) for e in both] for k, both in errors.items()}} if errors else {})}
         training.curve.append(entry)
