@@ -1,6 +1,8 @@
-// The table of image formats in the integration guide is written from what the library checks formats with.
+// Tables of the integration guide that need no device: the image formats that the library takes, and what it saves that
+// two lights share their guides.
 // `cmake --build build --target update_guide` writes it again.
 #include <algorithm>
+#include <cstdio>
 #include <functional>
 #include <stdexcept>
 #include <string>
@@ -9,9 +11,11 @@
 
 #include <gtest/gtest.h>
 
+#include "framegraph/compile/compile.h"
 #include "framegraph/declare/format.h"
 #include "integration/denoise_graph.h"
 #include "integration/host_inputs.h"
+#include "passes/denoiser.h"
 #include "passes/history_length.h"
 #include "passes/inspection.h"
 #include "passes/light_direction.h"
@@ -117,6 +121,63 @@ std::string formatTable() {
     text += "\n";
   }
   return text;
+}
+
+/// What a plan for 1920 x 1080 costs.
+struct Costs {
+  double bytesPerPixel;
+  double persistent;  ///< MiB.
+  double transient;   ///< MiB.
+};
+
+/// @param second preset of the second light; null: there is one light
+Costs costsOf(const char* preset, const char* second) {
+  constexpr fg::Extent kExtent{1920, 1080};
+  constexpr double kMebibyte = 1024.0 * 1024.0;
+  const auto method = makeDenoiser("walr");
+  method->usePreset(preset);
+  const auto other = makeDenoiser("walr");
+  if (second != nullptr) other->usePreset(second);
+  const DenoiseGraph declared = declareDenoiseGraph(*method, kExtent, {}, kComputeHost, {}, {}, {},
+                                                    {.method = second != nullptr ? other.get() : nullptr});
+  const fg::CompileResult result = fg::compile(declared.graph.desc(), fg::TableMemoryModel());
+  if (!result.ok()) throw std::runtime_error(result.text());
+  const auto bytes = static_cast<double>(result.plan.traffic.bytesRead + result.plan.traffic.bytesWritten);
+  const fg::MemoryReport& memory = result.plan.memory;
+  return {bytes / (kExtent.width * kExtent.height), static_cast<double>(memory.persistentBytes) / kMebibyte,
+          static_cast<double>(memory.transientPeakBytes) / kMebibyte};
+}
+
+/// Denoisers that share objects keep their own histories, and use the memory of transients in turn.
+std::string twoLightsTable() {
+  struct Presets {
+    const char* name;
+    const char* first;
+    const char* second;
+  };
+  std::string text =
+      "| presets | bytes per pixel: two denoisers | shared guides | memory: two denoisers | shared guides |\n"
+      "| --- | --- | --- | --- | --- |\n";
+  for (const Presets& presets :
+       {Presets{"`standard` for both", "standard", "standard"}, Presets{"`standard` and `fast`", "standard", "fast"},
+        Presets{"`fast` for both", "fast", "fast"}}) {
+    const Costs first = costsOf(presets.first, nullptr);
+    const Costs second = costsOf(presets.second, nullptr);
+    const Costs shared = costsOf(presets.first, presets.second);
+    char row[128];
+    std::snprintf(row, sizeof(row), "| %s | %.1f | %.1f | %.1f | %.1f |\n", presets.name,
+                  first.bytesPerPixel + second.bytesPerPixel, shared.bytesPerPixel,
+                  first.persistent + second.persistent + std::max(first.transient, second.transient),
+                  shared.persistent + shared.transient);
+    text += row;
+  }
+  return text;
+}
+
+TEST(Guide, CostsOfTwoLightsAreThoseOfThePlans) {
+  const test::GuideTable guide(WALR_GUIDE, "Two lights");
+  if (test::GuideTable::writing()) return guide.write(twoLightsTable());
+  EXPECT_EQ(guide.text(), twoLightsTable()) << "build the target update_guide";
 }
 
 TEST(Guide, KnowsTheFormatsOfItsTable) {
