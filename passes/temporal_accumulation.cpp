@@ -168,9 +168,8 @@ std::span<const ViewInfo> accumulationViews(bool withAntilag) {
        "1 where the lighting is not finite, where it is clamped, where the motion is not finite",
        {{"non-finite-lighting", "X"}, {"clamped-lighting", "Y"}, {"non-finite-motion", "Z"}}},
       {"antilag",
-       "Antilag factor: 0 where history counts in full, 1 where as one sample; longest history that counts; 1 where "
-       "that cuts it "
-       "short",
+       "Antilag factor: 0 where history counts in full, 1 where it does not count; longest history that counts; 1 "
+       "where that cuts it short",
        {{"shortened-history", "Z"}}},
   };
   return std::span(kViews).first(withAntilag ? kViews.size() : kViews.size() - 1);

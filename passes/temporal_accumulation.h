@@ -110,8 +110,8 @@ struct GuidesAndAccumulation {
   std::optional<LightGrid> lightGrid;  ///< If `accumulated.light.mean` lies on it.
 };
 
-/// Whether `addGuidesAndAccumulation` can stand in for two passes. Its shader has no variants: it has antilag and
-/// packed storage, and tests history taps by plane, without dilated motion.
+/// Whether `addGuidesAndAccumulation` can stand in for two passes. Its shader has antilag and
+/// packed storage, tests history taps by plane, and follows no dilated motion; it has no variants without these.
 bool canJoinGuides(const TemporalAccumulationSettings& settings);
 
 /// `addPrepareGuides` and `addTemporalAccumulationWithTaps` as one pass, which need not read the guides back.

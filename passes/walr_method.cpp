@@ -25,9 +25,6 @@ BlockRegressionSettings fittedBlocks(const WalrSettings& settings, std::uint32_t
   if (!settings.fitWindow) return blocks;
   const float widening = wideningOf(light, 1.0F / 6.0F);
   const auto height = static_cast<std::uint32_t>(widening * static_cast<float>(imageHeight));
-  // The coarse window's power is measured (passes/SPARSE_LIGHT_EXPERIMENTS.md). Without a light grid every pixel has a
-  // mean.
-  if (light.grid()) blocks.coarseSigma *= wideningOf(light, 1.0F / 3.0F);
   // Growth ends a window where the light differs, so that even small images can have wide windows.
   constexpr std::uint32_t kLeastIterations = 2;
   blocks.size = std::min(blocks.size, fittingBlockSize(height));
@@ -47,7 +44,7 @@ fg::Texture addWalr(StageGraph graph, const DenoiserInputs& inputs, fg::Texture 
   TemporalPlan plan = planTemporalStages(inputs, {.accumulation = settings.accumulation,
                                                   .antialiasing = settings.antialiasing,
                                                   .spatialOnly = settings.spatialOnly});
-  const BlockRegressionSettings blocks = fittedBlocks(settings, inputs.extent(graph).height, inputs.conventions.light);
+  BlockRegressionSettings blocks = fittedBlocks(settings, inputs.extent(graph).height, inputs.conventions.light);
   // Reconstruction with blocks.residual measures where history is too long. Antilag then shortens it in the next frame.
   std::optional<SteeredHistory> history;
   if (blocks.share.enabled && settings.accumulation.antilag.enabled) {
@@ -58,6 +55,11 @@ fg::Texture addWalr(StageGraph graph, const DenoiserInputs& inputs, fg::Texture 
   needs.geometricNormal = true;
   needs.occlusion = settings.occlusion;
   const auto [guides, accumulated] = addGuidesWithAccumulation(graph, inputs, settings.guides, needs, plan);
+  // The coarse window's power is measured (passes/SPARSE_LIGHT_EXPERIMENTS.md). Without a light grid every pixel has a
+  // mean.
+  if (settings.fitWindow && accumulated.lightGrid) {
+    blocks.coarseSigma *= wideningOf(inputs.conventions.light, 1.0F / 3.0F);
+  }
   const BlockLight light{.accumulated = accumulated.lighting,
                          .alpha = accumulated.alpha,
                          .lighting = inputs.lighting,

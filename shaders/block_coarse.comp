@@ -1,5 +1,5 @@
 // WALR, coarse fit (passes/WALR.md, 6): averages the moments of cells with one axis of a separable Gaussian that no
-// edge ends (after Salmi et al. 2024). The Gaussian is wider where the cell has fewer samples per pixel.
+// edge ends (after Salmi et al. 2024). The Gaussian is wider where the cell has fewer samples.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require

@@ -139,14 +139,14 @@ Sums sumsOf(Place place, uint surfaces, Representative r) {
   for (int i = 0; i < kPixels; ++i) {
     if ((surfaces >> i & 1u) == 0u) continue;
     const ivec2 texel = firstTexel(place.block) + texelInBlock(place.thread, i), p = pixelOfTexel(texel);
-    const float z = unpackDepthBesideNormal(texelFetch(depth, texel, 0).x);
+    const float z = max(unpackDepthBesideNormal(texelFetch(depth, texel, 0).x), r.z / kMostDepthRatio);
     const NormalAndOcclusion shading = unpackNormalAndOcclusion(texelFetch(features, texel, 0).x);
     const vec4 mean = currentLightAt(texel, p, longest);
     sums.window.inverse += 1.0 / z;
     if (mean.a == 0.0) continue;
     const float x[kFeatures] = featuresOf(shading, r.z / z - 1.0);
     const float weight = edgeStopping(planeDistance(r.plane, p, z)) * normalCosine(r.plane.normal, shading.normal);
-    // Depths that are almost 0 have infinite features, which no weight of 0 would leave out.
+    // Distances from the plane of a pixel whose depth is almost 0 overflow, and a weight may be NaN.
     if (weight > 0.0) addPixel(sums.onItsPlane, weight * mean.a, x, mean.rgb);
     addPixel(sums.all, mean.a, x, mean.rgb);
   }

@@ -5,16 +5,16 @@
 namespace walr {
 #endif
 
-// As BlockRegressionSettings (passes/block_regression.h), except that two constants stand for planeNear and planeFar,
-// and that coarseSigma is in cells where the setting is a fraction of the image's height.
+// Made of BlockRegressionSettings, which have each constant's meaning and source, for an image and its light
+// (`gridOf` in passes/block_regression.cpp).
 struct BlockRegressionConstants {
   float planeOffset;              // The edge-stopping function e of a plane distance over depth d is
   float planeScale;               // planeOffset - planeScale * d, clamped to 0..1: 1 at planeNear, 0 at planeFar.
   float sdfFraction;              // Share of the stored edge distance that edge tracing steps at once.
   float ridge;                    // Added to the diagonal of the feature covariance.
   float growthErrors;             // Standard errors up to which a block's window takes in another block in full.
-  float coarseSigma;              // Standard deviation of the coarse window at 1 sample per pixel, cells.
-  float coarseNarrowing;          // That window narrows with this power of the samples per pixel.
+  float coarseSigma;              // Standard deviation of the coarse window at 1 sample per texel of light, cells.
+  float coarseNarrowing;          // That window narrows with this power of the samples per texel.
   float coarseReach;              // Distance at which that window ends, standard deviations.
   float coarseGrowthErrors;       // As growthErrors, for the window of a cell without occlusion.
   float coarseGrowthOcclusion;    // These errors are divided by 1 + this x ambient occlusion.

@@ -8,7 +8,7 @@
 // In resampled light (ReSTIR) the noise of y depends on that of h, and their product is not 0. The noise of different
 // pixels is still independent. Trust, 0 to 1, multiplies the shares; it falls if residuals two pixels apart do not agree.
 // Needs: `frame` (FrameConstants), `constants` (BlockRegressionConstants), kBlockSize, workgroups of 8 x 8, and
-// block_plane.glsl.
+// stored_fit.glsl.
 #ifndef WALR_ACCUMULATED_SHARE_GLSL
 #define WALR_ACCUMULATED_SHARE_GLSL
 #include "antilag.glsl"

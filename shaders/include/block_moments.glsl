@@ -24,6 +24,10 @@ struct BlockMoments {
   float samples;            // W: sum of weight times history length over the pixels.
 };
 
+// The largest ratio of two depths in the depth feature. What is nearer counts as that near: halves hold the square of the
+// feature, and a pixel with an absurd depth stays one pixel among others.
+const float kMostDepthRatio = 256.0;
+
 float[kFeatures] featuresOf(NormalAndOcclusion s, float relativeDepth) {
   return float[](s.normal.x, s.normal.y, s.normal.z, relativeDepth, s.occlusion);
 }
@@ -41,8 +45,9 @@ BlockMoments noSamples() {
   return m;
 }
 
-// The same moments with the depth feature relative to `scale` times its former reference depth.
-BlockMoments rescaleDepth(BlockMoments m, float scale) {
+// The same moments with the depth feature relative to `ratio` times its former reference depth.
+BlockMoments rescaleDepth(BlockMoments m, float ratio) {
+  const float scale = min(ratio, kMostDepthRatio);
   m.x[kDepthFeature] = scale * (m.x[kDepthFeature] + 1.0) - 1.0;
   m.yx[kDepthFeature] *= scale;
   for (int i = 0; i <= kDepthFeature; ++i) m.xx[triangleEntry(kDepthFeature, i)] *= scale;

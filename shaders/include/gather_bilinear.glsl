@@ -2,7 +2,7 @@
 #define WALR_GATHER_BILINEAR_GLSL
 
 // The red channel between four texels, in single precision, clamped at the borders. `base`: texel with the least
-// coordinates, at least -1; `f`: position between it and the next ones, 0 to 1.
+// coordinates, which may lie anywhere; `f`: position between it and the next ones, 0 to 1.
 float gatherBilinear(sampler2D image, vec2 base, vec2 f) {
   const vec4 texels = textureGather(image, (base + 1.0) / vec2(textureSize(image, 0))).wzxy;
   const vec2 rows = mix(texels.xz, texels.yw, f.x);

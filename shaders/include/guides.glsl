@@ -1,7 +1,7 @@
 // The guides of a pixel (passes/WALR.md, 1), and the textures that they go to: view depth (0 where there is nothing to
 // denoise), the shading normal in octahedral form, and with GEOMETRIC_NORMAL the geometric normal.
-// kOcclusion: the shading normal shares a word with ambient occlusion, and the geometric normal takes 16 bits beside
-// depth. Everything in the host's depth occludes, even a mirror, which is not denoised itself.
+// kOcclusion: the shading normal shares a word with ambient occlusion, and the geometric normal takes the lowest
+// 12 bits of depth's word. Everything in the host's depth occludes, even a mirror, which is not denoised itself.
 // NORMAL_APART: the geometric normal has a texture of its own, for use without kOcclusion.
 // Needs: what host_surface.glsl needs, and with GEOMETRIC_NORMAL work groups of 8 x 8 threads.
 // Takes constant_id 20 to 24.

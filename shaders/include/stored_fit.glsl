@@ -32,8 +32,8 @@ struct ScaledFeatures {
 };
 
 ScaledFeatures scaledFeatures(NormalAndOcclusion guides, float z) {
-  const float scale = 1.0 / kLightUnit;
-  return ScaledFeatures(NormalAndOcclusion(scale * guides.normal, scale * guides.occlusion), scale / z);
+  const float scale = 1.0 / kLightUnit, leastDepth = 1e-18;  // Products of its inverse with depths of fits are finite.
+  return ScaledFeatures(NormalAndOcclusion(scale * guides.normal, scale * guides.occlusion), scale / max(z, leastDepth));
 }
 
 // In units of kLightUnit.

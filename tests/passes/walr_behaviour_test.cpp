@@ -231,6 +231,8 @@ std::vector<Damage> allDamage() {
           {"depth 0", [](HostFrame& f, glm::ivec2 p) { f.depth[p] = 0.0; }},
           {"depth negative", [](HostFrame& f, glm::ivec2 p) { f.depth[p] = -3.0; }},
           {"depth subnormal", [](HostFrame& f, glm::ivec2 p) { f.depth[p] = 0x1p-140; }},
+          {"depth smallest", [](HostFrame& f, glm::ivec2 p) { f.depth[p] = 0x1p-126; }},
+          {"depth whose square vanishes", [](HostFrame& f, glm::ivec2 p) { f.depth[p] = 0x1p-70; }},
           {"normal NaN", [](HostFrame& f, glm::ivec2 p) { f.normal[p].x = kNaN; }},
           {"normal inf", [](HostFrame& f, glm::ivec2 p) { f.normal[p].z = kInfinity; }},
           {"normal zero", [](HostFrame& f, glm::ivec2 p) { f.normal[p] = glm::dvec3(0.0); }},

@@ -1,11 +1,15 @@
 // Promises of WALR's plan, on any device: traffic, memory, and no resource that no pass reads.
+#include <cmath>
 #include <cstdint>
+#include <cstring>
+#include <stdexcept>
 #include <string>
 #include <variant>
 
 #include <gtest/gtest.h>
 
 #include "framegraph/compile/compile.h"
+#include "shaders/constants/block_regression.h"
 #include "shaders/constants/frame.h"
 #include "tests/passes/any_walr.h"
 
@@ -67,6 +71,30 @@ TEST(WalrPlan, ThePaperMovesNoMoreThanItsBudget) {
 TEST(WalrPlan, TheDefaultNeedsNoMoreMemoryThanItsBudget) {
   const fg::MemoryReport memory = planWalr(WalrSettings{}).plan.memory;
   EXPECT_LE(memory.persistentBytes + memory.transientPeakBytes, 91'000'000U);
+}
+
+/// Standard deviation of the coarse window at one sample per pixel, in cells. At 1080 rows a cell has 8 x 8 texels of
+/// light.
+float coarseSigmaOf(const Planned& planned) {
+  for (const fg::PassDecl& pass : planned.graph.desc().passes) {
+    const auto* work = std::get_if<fg::ComputeDispatch>(&pass.work);
+    if (work == nullptr || work->shader->name != "block_coarse") continue;
+    BlockRegressionConstants constants{};
+    std::memcpy(&constants, work->constants.data(), sizeof(constants));
+    return constants.coarseSigma;
+  }
+  throw std::runtime_error("the plan has no coarse window");
+}
+
+// Each pixel of a light grid stands for several, which the coarse window has to make up for. Accumulation has no light
+// grid if it leaves anti-aliasing to the host: every pixel then has a mean.
+TEST(WalrPlan, TheCoarseWindowIsWiderOnALightGridOnly) {
+  const LightPattern quarter{.columns = 2, .rows = 2};
+  const WalrSettings settings;
+  const float full = settings.blocks.coarseSigma * float(kFullHd.height) / 8.0F;
+  EXPECT_FLOAT_EQ(coarseSigmaOf(planWalr(settings)), full);
+  EXPECT_FLOAT_EQ(coarseSigmaOf(planWalr(settings, {}, kFullHd, quarter)), std::cbrt(4.0F) * full / 2.0F);
+  EXPECT_FLOAT_EQ(coarseSigmaOf(planWalr(settings, {.hostAntialiasing = true}, kFullHd, quarter)), full);
 }
 
 // The project's budget: for the preset fast at the smallest image size for which it is measured and above, for the
