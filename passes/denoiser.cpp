@@ -44,7 +44,8 @@ template <>
 constexpr std::array kPresets<SvgfSettings>{Preset<SvgfSettings>{"tuned", tunedSvgf},
                                             Preset<SvgfSettings>{"paper", paperSvgf}};
 template <>
-constexpr std::array kPresets<FlnrSettings>{Preset<FlnrSettings>{"small", [] { return FlnrSettings{}; }}};
+constexpr std::array kPresets<FlnrSettings>{Preset<FlnrSettings>{"small", [] { return FlnrSettings{}; }},
+                                            Preset<FlnrSettings>{"paper", paperFlnr}};
 
 /// What to add to the message when a method has no such preset, for presets that it once had.
 template <typename Settings>
@@ -149,7 +150,7 @@ constexpr std::array kMethods{
     Method{"bmfr", "Blockwise Multi-Order Feature Regression", make<BmfrSettings, addBmfr>, true},
     Method{"svgf", "Spatiotemporal Variance-Guided Filtering", make<SvgfSettings, addSvgf>},
     Method{"flr", "Fast Local Regression over downsampled moments", make<FlrSettings, addFlr>, true},
-    Method{"flnr", "FLR with more guides, from a small network: experimental", make<FlnrSettings, addFlnr>},
+    Method{"flnr", "FLR with guides from a small network: experimental", make<FlnrSettings, addFlnr>},
     Method{"joint_bilateral", "Joint bilateral filter with temporal accumulation",
            make<JointBilateralSettings, addJointBilateral>},
     Method{"accumulate", "Temporal accumulation alone", make<AccumulateSettings, addAccumulate>, true},

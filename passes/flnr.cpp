@@ -5,8 +5,15 @@
 
 namespace walr {
 
+FlnrSettings paperFlnr() {
+  FlnrSettings settings;
+  settings.network = NetworkKind::Paper;
+  return settings;
+}
+
 fg::Texture addFlnr(StageGraph graph, const DenoiserInputs& inputs, fg::Texture output, const FlnrSettings& settings) {
-  const GuideNetwork network{kSmallFlnrWidths, smallFlnrWeights()};
+  const bool small = settings.network == NetworkKind::Small;
+  const GuideNetwork network{settings.network, kFlnrWidths, small ? smallFlnrWeights() : paperFlnrWeights()};
   return addFlrWithNetwork(graph, inputs, output, settings, network);
 }
 

@@ -18,7 +18,7 @@ fg::Texture addStages(StageGraph graph, const DenoiserInputs& inputs, fg::Textur
 
   const Guides guides = addPrepareGuides(graph, inputs, settings.guides, needs);
   const Accumulated accumulated = addAccumulation(graph, inputs, guides, plan);
-  fg::Texture learned;
+  LearnedGuides learned;
   if (network != nullptr) learned = addGuideNetwork(graph, accumulated.lighting, accumulated.alpha, guides, *network);
   const fg::Texture filtered = addFlrRegression(graph, accumulated.lighting, accumulated.alpha, guides,
                                                 filterTarget(graph, plan, output), regression, learned);

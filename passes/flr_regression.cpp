@@ -28,8 +28,8 @@ struct GuideChoice {
   CellBytes bytes;
 };
 
-GuideChoice chosenGuides(bool occlusion, bool learned) {
-  if (learned) return {8, {224, 112, 64}};
+GuideChoice chosenGuides(bool occlusion, const LearnedGuides& learned) {
+  if (learned.valid() && !learned.alone()) return {8, {224, 112, 64}};
   return occlusion ? GuideChoice{5, {160, 80, 0}} : GuideChoice{4, {128, 64, 0}};
 }
 
@@ -74,89 +74,146 @@ fg::Extent gridOf(fg::Extent pixels, std::uint32_t factor, std::uint64_t cellByt
   return cells;
 }
 
-}  // namespace
-
-fg::Texture addFlrRegression(StageGraph graph, fg::Texture lighting, LightingAlpha alpha, const Guides& guides,
-                             fg::Texture output, const FlrRegressionSettings& settings, fg::Texture learned) {
-  const bool occlusion = settings.occlusionGuide;
-  if (learned.valid() && !occlusion) {
-    throw std::invalid_argument(
-        "learned guides need ambient occlusion beside them: set regression.occlusion-guide to on");
-  }
-  const GuideChoice chosen = chosenGuides(occlusion, learned.valid());
-  const CellBytes bytes = chosen.bytes;
-  const fg::Extent extent = graph->textureDesc(lighting).extent;
-  const fg::Extent cells = gridOf(extent, settings.factor, bytes.products);
-  const std::uint64_t cellCount = std::uint64_t{cells.width} * cells.height;
-  const float sigma = settings.sigma / static_cast<float>(settings.factor);
+FlrConstants constantsOf(const FlrRegressionSettings& settings, fg::Extent cells) {
   FlrConstants constants{};
   constants.cells = {cells.width, cells.height};
   constants.factor = static_cast<std::int32_t>(settings.factor);
-  constants.radius = static_cast<std::int32_t>(std::ceil(settings.reach * sigma));
-  constants.sigma = sigma;
+  constants.sigma = settings.sigma / static_cast<float>(settings.factor);
+  constants.radius = static_cast<std::int32_t>(std::ceil(settings.reach * constants.sigma));
   constants.ridge = settings.ridge;
+  return constants;
+}
 
-  // The pass that sums the products and the pass that applies the fit read the same pixels.
-  const auto readPixels = [&](const std::string& name, const fg::Shader& shader) {
-    fg::PassBuilder pass = graph->compute(name, shader);
-    pass.sample("lighting", lighting)
-        .sample("depth", guides.depth)
-        .sample("normals", occlusion ? guides.features : guides.shadingNormal)
-        .sampleIf(learned.valid(), "learned", learned, lighting)
-        .specialize("kUsedFeatures", chosen.count)
-        .constants(constants);
-    return pass;
-  };
-  const std::array productBytes{bytes.products, bytes.moreProducts};
-  const std::size_t buffers = bytes.moreProducts > 0 ? 2 : 1;
+/// One or two buffers of the outer products of all cells; the second one is not valid if all fit the first one.
+using CellBuffers = std::array<fg::Buffer, 2>;
 
-  fg::PassBuilder downsample = readPixels("flr outer products", shaders::flrMoments({.learned = learned.valid()}));
-  downsample.specialize("kAlphaIsSampleCount", alpha == LightingAlpha::SampleCount ? 1U : 0U).dispatch(cells);
-  constexpr std::array kMoments{"outMoments", "outMoreMoments"};
-  constexpr std::array kToBlur{"moments", "moreMoments"};
-  constexpr std::array kOutBlurred{"outBlurred", "outMoreBlurred"};
-  constexpr std::array kBlurred{"blurred", "moreBlurred"};
-  constexpr std::array kMomentNames{"outer products", "more outer products"};
-  constexpr std::array kBlurredNames{"blurred products", "more blurred products"};
-  std::array<fg::Buffer, 2> moments;
-  for (std::size_t i = 0; i < buffers; ++i) {
-    moments[i] = downsample.store(kMoments[i], graph->buffer(kMomentNames[i], {cellCount * productBytes[i]}));
-  }
-  fg::PassBuilder blur = graph->compute("flr blur", shaders::flrBlur({.learned = learned.valid()}));
-  blur.specialize("kUsedFeatures", chosen.count).constants(constants);
-  blur.dispatch(cells, static_cast<std::uint32_t>((bytes.products + bytes.moreProducts) / kVectorBytes));
-  std::array<fg::Buffer, 2> blurred;
-  for (std::size_t i = 0; i < buffers; ++i) {
-    blur.load(kToBlur[i], moments[i]);
-    blurred[i] = blur.store(kOutBlurred[i], graph->buffer(kBlurredNames[i], {cellCount * productBytes[i]}));
+/// The passes of one regression.
+class Regression {
+ public:
+  Regression(StageGraph graph, fg::Texture lighting, LightingAlpha alpha, const Guides& guides,
+             const FlrRegressionSettings& settings, const LearnedGuides& learned)
+      : graph_(graph),
+        lighting_(lighting),
+        alphaIsSampleCount_(alpha == LightingAlpha::SampleCount),
+        guides_(guides),
+        settings_(settings),
+        learned_(learned),
+        chosen_(chosenGuides(settings.occlusionGuide, learned)),
+        extent_(graph->textureDesc(lighting).extent),
+        cells_(gridOf(extent_, settings.factor, chosen_.bytes.products)),
+        constants_(constantsOf(settings, cells_)) {}
+
+  /// Downsample the outer products of guides and light.
+  CellBuffers sumOuterProducts() {
+    fg::PassBuilder pass = readPixels("flr outer products", shaders::flrMoments({.learned = twoBuffers()}), false);
+    pass.specialize("kAlphaIsSampleCount", alphaIsSampleCount_).dispatch(cells_);
+    return storeProducts(pass, {"outMoments", "outMoreMoments"}, {"outer products", "more outer products"});
   }
 
-  const auto declareSolve = [&](const std::string& name, const fg::Shader& shader) {
-    fg::PassBuilder pass = graph->compute(name, shader);
-    for (std::size_t i = 0; i < buffers; ++i) pass.load(kBlurred[i], blurred[i]);
-    for (std::size_t i = buffers; i < kBlurred.size(); ++i) pass.unread(kBlurred[i], blurred.front());
-    pass.specialize("kUsedFeatures", chosen.count).constants(constants).dispatch(cells);
-    return pass;
-  };
-  fg::PassBuilder solve = declareSolve("flr solve", shaders::flrSolve);
-  const fg::Buffer coefficients =
-      solve.store("outCoefficients", graph->buffer("coefficients", {cellCount * bytes.coefficients}));
+  /// The horizontal pass of the Gaussian.
+  CellBuffers blur(const CellBuffers& products) {
+    fg::PassBuilder pass = graph_->compute("flr blur", shaders::flrBlur({.learned = twoBuffers()}));
+    chooseGuides(pass);
+    const CellBytes& bytes = chosen_.bytes;
+    pass.dispatch(cells_, static_cast<std::uint32_t>((bytes.products + bytes.moreProducts) / kVectorBytes));
+    pass.load("moments", products[0]);
+    if (twoBuffers()) pass.load("moreMoments", products[1]);
+    return storeProducts(pass, {"outBlurred", "outMoreBlurred"}, {"blurred products", "more blurred products"});
+  }
 
-  const auto declareApply = [&](const std::string& name, const fg::Shader& shader) {
-    fg::PassBuilder pass = readPixels(name, shader);
+  /// The vertical pass of the Gaussian, and A* of every cell.
+  fg::Buffer solve(const CellBuffers& blurred) {
+    graph_.offer(solveViews(), extent_,
+                 [&](const std::string& name) { return declareSolve(name, shaders::flrSolveView, blurred); });
+    fg::PassBuilder pass = declareSolve("flr solve", shaders::flrSolve, blurred);
+    return pass.store("outCoefficients", graph_->buffer("coefficients", {cellCount() * chosen_.bytes.coefficients}));
+  }
+
+  /// I_k = x_k A_k*, with the interpolated coefficients.
+  fg::Texture apply(fg::Buffer coefficients, fg::Texture output) {
+    graph_.offer(applyViews(), extent_, [&](const std::string& name) {
+      fg::PassBuilder view = readPixels(name, shaders::flrApplyView, true);
+      readCoefficients(view, coefficients);
+      view.specialize("kAlphaIsSampleCount", alphaIsSampleCount_);
+      return view;
+    });
+    fg::PassBuilder pass = readPixels("flr apply", shaders::flrApply, false);
+    readCoefficients(pass, coefficients);
+    return pass.store("outFiltered", output);
+  }
+
+ private:
+  [[nodiscard]] bool twoBuffers() const { return chosen_.bytes.moreProducts > 0; }
+  [[nodiscard]] std::uint64_t cellCount() const { return std::uint64_t{cells_.width} * cells_.height; }
+
+  void chooseGuides(fg::PassBuilder& pass) {
+    pass.specialize("kUsedFeatures", chosen_.count).specialize("kLearnedAlone", learned_.alone());
+    pass.constants(constants_);
+  }
+
+  /// The pass that sums the products and the pass that applies the fit read the same pixels.
+  /// @param view shows the geometric guides, too, where learned ones stand in their place
+  fg::PassBuilder readPixels(const std::string& name, const fg::Shader& shader, bool view) {
+    const fg::Texture normals = settings_.occlusionGuide ? guides_.features : guides_.shadingNormal;
+    fg::PassBuilder pass = graph_->compute(name, shader);
+    pass.sample("lighting", lighting_)
+        .sample("depth", guides_.depth)
+        .sampleIf(view || !learned_.alone(), "normals", normals, guides_.depth)
+        .sampleIf(learned_.valid(), "learned", learned_.first, lighting_)
+        .sampleIf(learned_.alone(), "moreLearned", learned_.more, lighting_);
+    chooseGuides(pass);
+    return pass;
+  }
+
+  CellBuffers storeProducts(fg::PassBuilder& pass, const std::array<const char*, 2>& shaderNames,
+                            const std::array<const char*, 2>& bufferNames) {
+    const std::array bytes{chosen_.bytes.products, chosen_.bytes.moreProducts};
+    CellBuffers buffers;
+    for (std::size_t i = 0; i < (twoBuffers() ? 2 : 1); ++i) {
+      buffers[i] = pass.store(shaderNames[i], graph_->buffer(bufferNames[i], {cellCount() * bytes[i]}));
+    }
+    return buffers;
+  }
+
+  fg::PassBuilder declareSolve(const std::string& name, const fg::Shader& shader, const CellBuffers& blurred) {
+    fg::PassBuilder pass = graph_->compute(name, shader);
+    pass.load("blurred", blurred[0]);
+    twoBuffers() ? pass.load("moreBlurred", blurred[1]) : pass.unread("moreBlurred", blurred[0]);
+    chooseGuides(pass);
+    pass.dispatch(cells_);
+    return pass;
+  }
+
+  void readCoefficients(fg::PassBuilder& pass, fg::Buffer coefficients) {
     pass.load("coefficients", coefficients)
-        .specialize("kUpsampling", static_cast<std::uint32_t>(settings.upsampling))
-        .dispatch(extent);
-    return pass;
-  };
-  graph.offer(solveViews(), extent, [&](const std::string& name) { return declareSolve(name, shaders::flrSolveView); });
-  graph.offer(applyViews(), extent, [&](const std::string& name) {
-    fg::PassBuilder pass = declareApply(name, shaders::flrApplyView);
-    pass.specialize("kAlphaIsSampleCount", alpha == LightingAlpha::SampleCount);
-    return pass;
-  });
-  fg::PassBuilder apply = declareApply("flr apply", shaders::flrApply);
-  return apply.store("outFiltered", output);
+        .specialize("kUpsampling", static_cast<std::uint32_t>(settings_.upsampling))
+        .dispatch(extent_);
+  }
+
+  StageGraph graph_;
+  fg::Texture lighting_;
+  bool alphaIsSampleCount_;
+  const Guides& guides_;
+  const FlrRegressionSettings& settings_;
+  const LearnedGuides& learned_;
+  GuideChoice chosen_;
+  fg::Extent extent_;
+  fg::Extent cells_;
+  FlrConstants constants_;
+};
+
+}  // namespace
+
+fg::Texture addFlrRegression(StageGraph graph, fg::Texture lighting, LightingAlpha alpha, const Guides& guides,
+                             fg::Texture output, const FlrRegressionSettings& settings, const LearnedGuides& learned) {
+  if (learned.valid() && !settings.occlusionGuide) {
+    throw std::invalid_argument("learned guides need ambient occlusion: set regression.occlusion-guide to on");
+  }
+  Regression regression(graph, lighting, alpha, guides, settings, learned);
+  const CellBuffers products = regression.sumOuterProducts();
+  const CellBuffers blurred = regression.blur(products);
+  const fg::Buffer coefficients = regression.solve(blurred);
+  return regression.apply(coefficients, output);
 }
 
 }  // namespace walr

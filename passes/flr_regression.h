@@ -52,6 +52,16 @@ struct FlrRegressionSettings {
   }
 };
 
+/// Guides that a network made, in 0..1 and of the picture's extent; none, unless `first` is valid.
+struct LearnedGuides {
+  fg::Texture first;  ///< RGBA16F: three guides, or four if there is `more`.
+  fg::Texture more;   ///< RGBA16F: a fifth guide in red; or not valid.
+
+  [[nodiscard]] bool valid() const { return first.valid(); }
+  /// Three guides stand beside the geometric ones, five in their place.
+  [[nodiscard]] bool alone() const { return more.valid(); }
+};
+
 /// Weighted least squares of the lighting on {1, normal, inverse depth, ambient occlusion} in a Gaussian window around
 /// every cell of a coarse grid; the coefficients, interpolated, are applied to the guides of every pixel
 /// (Salmi et al. 2024).
@@ -59,10 +69,11 @@ struct FlrRegressionSettings {
 /// @param alpha     what the alpha channel of `lighting` holds; pixels without samples do not count
 /// @param guides    with `features` where `settings.occlusionGuide` is set
 /// @param output    RGBA16F texture to write the result to
-/// @param learned   RGBA16F: three more guides in 0..1 (`addGuideNetwork`), beside ambient occlusion; or not valid
+/// @param learned   more guides (`addGuideNetwork`), with `settings.occlusionGuide`
 /// @returns the output's new version; sky and pixels without a diffuse lobe hold the pass-through
 /// @throws std::invalid_argument if the moments of all cells do not fit one storage buffer
 fg::Texture addFlrRegression(StageGraph graph, fg::Texture lighting, LightingAlpha alpha, const Guides& guides,
-                             fg::Texture output, const FlrRegressionSettings& settings = {}, fg::Texture learned = {});
+                             fg::Texture output, const FlrRegressionSettings& settings = {},
+                             const LearnedGuides& learned = {});
 
 }  // namespace walr

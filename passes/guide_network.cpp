@@ -14,12 +14,23 @@ namespace {
 static_assert(static_cast<std::uint32_t>(LayerInput::Pooled) == kInputPooled);
 static_assert(static_cast<std::uint32_t>(LayerInput::Grown) == kInputGrown);
 
-/// Pixels per axis that become one texel of the network.
-constexpr std::uint32_t kShrink = 2;
-/// Channels of the network's input: eight features of each of those pixels (flnr_encode.comp).
-constexpr std::uint32_t kInputChannels = 8 * kShrink * kShrink;
-/// Channels of its result: three guides of each of them.
-constexpr std::uint32_t kResultChannels = 3 * kShrink * kShrink;
+/// How a network meets the picture.
+struct NetworkShape {
+  std::uint32_t shrink;  ///< Pixels per axis that become one texel of the network.
+  /// Results of each of the last layers (flnr_head.comp).
+  std::vector<std::uint32_t> heads;
+};
+
+NetworkShape shapeOf(NetworkKind kind) {
+  // Three guides of four pixels; or four guides of a pixel, then a fifth that has a group of four for itself.
+  return kind == NetworkKind::Small ? NetworkShape{2, {12}} : NetworkShape{1, {4, 4}};
+}
+
+/// Channels of the network's input: the features of the pixels of a texel (flnr_encode.comp).
+std::uint32_t inputChannels(const NetworkShape& shape) {
+  return static_cast<std::uint32_t>(kNetworkFeatures) * shape.shrink * shape.shrink;
+}
+
 constexpr std::uint64_t kHalfBytes = 2;
 /// Bytes of the shaders' unit, four halves.
 constexpr std::uint64_t kGroupBytes = 4 * kHalfBytes;
@@ -49,7 +60,8 @@ LayerConstants constantsOf(fg::Extent extent, fg::Extent first, std::uint64_t of
 }
 
 /// The features of the pixels, as the network's first layer reads them.
-Channels addEncoder(StageGraph graph, fg::Texture lighting, LightingAlpha alpha, const Guides& guides) {
+Channels addEncoder(StageGraph graph, fg::Texture lighting, LightingAlpha alpha, const Guides& guides,
+                    const NetworkShape& shape) {
   const fg::Extent extent = graph->textureDesc(lighting).extent;
   const bool counted = alpha == LightingAlpha::SampleCount;
   const fg::Extent tiles = gridExtent(extent, kMeansTile);
@@ -59,30 +71,41 @@ Channels addEncoder(StageGraph graph, fg::Texture lighting, LightingAlpha alpha,
   const fg::Buffer sums = means.store(
       "outSums", graph->buffer("sums of tiles", {std::uint64_t{tiles.width} * tiles.height * sizeof(glm::vec4)}));
 
-  Channels encoded = channels(graph, "encoded guides", gridExtent(extent, kShrink), kInputChannels);
+  Channels encoded = channels(graph, "encoded guides", gridExtent(extent, shape.shrink), inputChannels(shape));
   fg::PassBuilder encode = graph->compute("flnr encode", shaders::flnrEncode);
   encode.sample("lighting", lighting).sample("depth", guides.depth).sample("features", guides.features);
-  encode.load("sums", sums).specialize("kAlphaIsSampleCount", counted).dispatch(encoded.extent);
+  encode.load("sums", sums).specialize("kAlphaIsSampleCount", counted).specialize("kShrink", shape.shrink);
+  encode.dispatch(encoded.extent);
   encoded.buffer = encode.store("outEncoded", encoded.buffer);
   return encoded;
 }
 
-/// The last layer, whose result are the guides.
-fg::Texture addHead(StageGraph graph, const Channels& input, fg::Extent picture, fg::Buffer weights,
-                    std::uint64_t offset) {
-  fg::PassBuilder head = graph->compute("flnr head", shaders::flnrHead);
-  head.load("firstInput", input.buffer).load("weights", weights).specialize("kChannels", input.count);
-  head.constants(constantsOf(input.extent, input.extent, offset)).dispatch(input.extent);
-  return head.store("outLearned", graph->texture("learned guides", {VK_FORMAT_R16G16B16A16_SFLOAT, picture}));
+/// The last layers, whose results are the guides.
+LearnedGuides addHeads(StageGraph graph, const Channels& input, fg::Extent picture, fg::Buffer weights,
+                       std::uint64_t offset, const NetworkShape& shape) {
+  std::array<fg::Texture, 2> learned;
+  constexpr std::array kPasses{"flnr head", "flnr second head"};
+  constexpr std::array kTextures{"learned guides", "more learned guides"};
+  for (std::size_t i = 0; i < shape.heads.size(); ++i) {
+    fg::PassBuilder head = graph->compute(kPasses[i], shaders::flnrHead);
+    head.load("firstInput", input.buffer).load("weights", weights);
+    head.specialize("kChannels", input.count).specialize("kShrink", shape.shrink);
+    head.constants(constantsOf(input.extent, input.extent, offset)).dispatch(input.extent);
+    learned[i] = head.store("outLearned", graph->texture(kTextures[i], {VK_FORMAT_R16G16B16A16_SFLOAT, picture}));
+    offset += convolutionBytes(input.count, shape.heads[i], 1);
+  }
+  return {learned[0], learned[1]};
 }
 
 }  // namespace
 
-std::uint64_t weightBytesOf(const std::array<std::uint32_t, 4>& widths) {
+std::uint64_t weightBytesOf(NetworkKind kind, const std::array<std::uint32_t, 4>& widths) {
   constexpr std::uint32_t kTaps = 9;
-  std::uint64_t bytes = convolutionBytes(widths.front(), kResultChannels, 1);
+  const NetworkShape shape = shapeOf(kind);
+  std::uint64_t bytes = 0;
+  for (const std::uint32_t results : shape.heads) bytes += convolutionBytes(widths.front(), results, 1);
   for (std::size_t i = 0; i < widths.size(); ++i) {
-    bytes += convolutionBytes(i == 0 ? kInputChannels : widths[i - 1], widths[i], kTaps);
+    bytes += convolutionBytes(i == 0 ? inputChannels(shape) : widths[i - 1], widths[i], kTaps);
     bytes += convolutionBytes(widths[i], widths[i], kTaps);
     if (i + 1 == widths.size()) continue;
     bytes += convolutionBytes(widths[i + 1] + widths[i], widths[i], kTaps);
@@ -109,9 +132,10 @@ Channels addConvolution(StageGraph graph, const char* name, const Convolution& l
   return result;
 }
 
-fg::Texture addGuideNetwork(StageGraph graph, fg::Texture lighting, LightingAlpha alpha, const Guides& guides,
-                            const GuideNetwork& network) {
-  const std::uint64_t bytes = weightBytesOf(network.widths);
+LearnedGuides addGuideNetwork(StageGraph graph, fg::Texture lighting, LightingAlpha alpha, const Guides& guides,
+                              const GuideNetwork& network) {
+  const NetworkShape shape = shapeOf(network.kind);
+  const std::uint64_t bytes = weightBytesOf(network.kind, network.widths);
   if (network.weights.size() != bytes) {
     throw std::invalid_argument("the weights of the network have " + std::to_string(network.weights.size()) +
                                 " bytes, but its widths need " + std::to_string(bytes));
@@ -127,7 +151,7 @@ fg::Texture addGuideNetwork(StageGraph graph, fg::Texture lighting, LightingAlph
   };
 
   std::vector<Channels> skips;
-  Channels last = addEncoder(graph, lighting, alpha, guides);
+  Channels last = addEncoder(graph, lighting, alpha, guides, shape);
   for (const std::uint32_t width : network.widths) {
     const bool first = skips.empty();
     last =
@@ -144,7 +168,7 @@ fg::Texture addGuideNetwork(StageGraph graph, fg::Texture lighting, LightingAlph
         block("decoder " + std::to_string(skips.size()),
               {.first = last, .input = LayerInput::Grown, .second = skip, .extent = skip.extent, .count = skip.count});
   }
-  return addHead(graph, last, graph->textureDesc(lighting).extent, weights, offset);
+  return addHeads(graph, last, graph->textureDesc(lighting).extent, weights, offset, shape);
 }
 
 }  // namespace walr

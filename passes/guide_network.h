@@ -6,16 +6,24 @@
 #include <span>
 
 #include "framegraph/declare/graph.h"
+#include "passes/flr_regression.h"
 #include "passes/lighting_alpha.h"
 #include "passes/prepare_guides.h"
 #include "passes/stage_graph.h"
 
 namespace walr {
 
+/// The kinds of networks.
+enum class NetworkKind : std::uint32_t {
+  Small,  ///< Works at half the picture's width and height. Makes three guides beside the geometric ones.
+  Paper,  ///< Works at the picture's size. Makes five guides in place of the geometric ones, as published.
+};
+
 /// A U-Net that makes guides for FLR's regression from the geometric guides and the noisy light (Salmi et al. 2024,
-/// Enhancing Local Regression with Neural Networks). It works at half the picture's width and height. Every block of
-/// encoder and decoder is two 3 x 3 convolutions with LeakyReLU.
+/// Enhancing Local Regression with Neural Networks). Every block of encoder and decoder is two 3 x 3 convolutions with
+/// LeakyReLU.
 struct GuideNetwork {
+  NetworkKind kind;
   /// Channels of the encoder's blocks, each a multiple of eight. Every block but the first works at half the size of
   /// the one before it.
   std::array<std::uint32_t, 4> widths;
@@ -24,18 +32,17 @@ struct GuideNetwork {
   std::span<const std::byte> weights;
 };
 
-/// Bytes of the weights of a network with these widths.
-std::uint64_t weightBytesOf(const std::array<std::uint32_t, 4>& widths);
+/// Bytes of the weights of a network of this kind with these widths.
+std::uint64_t weightBytesOf(NetworkKind kind, const std::array<std::uint32_t, 4>& widths);
 
 /// Add the network's passes.
 /// @param lighting RGBA16F: the light that the regression will fit
 /// @param alpha    what its alpha channel holds
 /// @param guides   with `features`
-/// @returns RGBA16F texture of the picture's extent: three guides in 0..1
 /// @throws std::invalid_argument if weights and widths do not fit, or if the picture is too large for one storage
 /// buffer
-fg::Texture addGuideNetwork(StageGraph graph, fg::Texture lighting, LightingAlpha alpha, const Guides& guides,
-                            const GuideNetwork& network);
+LearnedGuides addGuideNetwork(StageGraph graph, fg::Texture lighting, LightingAlpha alpha, const Guides& guides,
+                              const GuideNetwork& network);
 
 /// What the input of a layer goes through on its way (convolution.comp).
 enum class LayerInput : std::uint32_t {

@@ -1,6 +1,6 @@
 // What the network sees (samples/training/network.py, `features`): normal x and y, depth, ambient occlusion, light relative
-// to the picture's mean, samples in the light; all 0 where there is no surface. Each 2 x 2 pixels become one texel with a
-// group of four channels for each of these.
+// to the picture's mean, samples in the light; all 0 where there is no surface. With kShrink 2, each 2 x 2 pixels become one
+// texel with a group of four channels for each of these; with kShrink 1, the eight of each pixel are two groups.
 #version 460
 #extension GL_EXT_control_flow_attributes : require
 #extension GL_GOOGLE_include_directive : require
@@ -10,6 +10,7 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 0) const bool kAlphaIsSampleCount = false;
+layout(constant_id = 1) const int kShrink = 2;  // Pixels per axis that become one texel.
 
 #include "include/surface.glsl"
 #define GROUP_SUM vec4
@@ -21,7 +22,6 @@ uniform utexture2D features;
 layout(std430) readonly buffer sums { vec4 tiles[]; };  // Of flnr_means.comp.
 layout(std430) writeonly buffer outEncoded { uvec2 encoded[]; };
 
-const int kFeatures = 8;
 const float kSamplesScale = 1.0 / 16.0;
 
 // Mean light of pixels that have some, mean inverse depth of surfaces.
@@ -33,8 +33,8 @@ vec2 meansOfPicture() {
   return sum.xz / max(sum.yw, vec2(1.0));
 }
 
-float[kFeatures] featuresOf(ivec2 p, vec2 means) {
-  const float nothing[kFeatures] = float[](0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
+float[kNetworkFeatures] featuresOf(ivec2 p, vec2 means) {
+  const float nothing[kNetworkFeatures] = float[](0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
   if (any(greaterThanEqual(p, textureSize(depth, 0)))) return nothing;
   const float z = unpackDepthBesideNormal(texelFetch(depth, p, 0).x);
   if (z == 0.0) return nothing;
@@ -50,10 +50,16 @@ float[kFeatures] featuresOf(ivec2 p, vec2 means) {
 
 void main() {
   const vec2 means = meansOfPicture();
-  const ivec2 p = ivec2(gl_GlobalInvocationID.xy), extent = (textureSize(depth, 0) + 1) / 2;
+  const ivec2 p = ivec2(gl_GlobalInvocationID.xy), extent = (textureSize(depth, 0) + kShrink - 1) / kShrink;
   if (any(greaterThanEqual(p, extent))) return;
-  float values[4][kFeatures];
+  if (kShrink == 1) {
+    const float v[kNetworkFeatures] = featuresOf(p, means);
+    encoded[halvesIndex(p, 0, extent)] = packHalves(vec4(v[0], v[1], v[2], v[3]));
+    encoded[halvesIndex(p, 1, extent)] = packHalves(vec4(v[4], v[5], v[6], v[7]));
+    return;
+  }
+  float values[4][kNetworkFeatures];
   for (int i = 0; i < 4; ++i) values[i] = featuresOf(2 * p + ivec2(i % 2, i / 2), means);
-  for (int f = 0; f < kFeatures; ++f)
+  for (int f = 0; f < kNetworkFeatures; ++f)
     encoded[halvesIndex(p, f, extent)] = packHalves(vec4(values[0][f], values[1][f], values[2][f], values[3][f]));
 }

@@ -74,14 +74,15 @@ vec3 clampedColour(vec3 colour) { return clamp(colour, vec3(0.0), vec3(kLargestH
 #ifdef VIEW
 vec3 viewOf(ivec2 p, float z) {
   if (z == 0.0) return vec3(0.0);
+  const NormalAndOcclusion geometry = unpackGeometry(texelFetch(normals, p, 0).x);
   const float x[kFeatures] = unpackGuides(packedGuides(p), z);
   const vec4 light = texelFetch(lighting, p, 0);
   const bool sampled = isFinite(light.rgb) && (!kAlphaIsSampleCount || light.a > 0.0);
   if (kView == 2u) return sampled ? clampedColour(light.rgb) : vec3(0.0);
-  if (kView == 3u) return vec3(x[0], x[1], x[2]);
+  if (kView == 3u) return geometry.normal;
   if (kView == 4u) {
     const float samples = kAlphaIsSampleCount ? light.a : 1.0;
-    return vec3(x[kInverseDepth], x[kOcclusion], sampled ? samples : 0.0);
+    return vec3(1.0 / z, geometry.occlusion, sampled ? samples : 0.0);
   }
   const vec4 predicted = predict(p, x);
   if (kView == 0u) return vec3(notEqual(clampedColour(predicted.rgb), predicted.rgb));

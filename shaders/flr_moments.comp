@@ -1,5 +1,5 @@
 // FLR, first stage (Salmi et al. 2024): sums the outer products of guides and colour over the pixels of each cell.
-// LEARNED: writes a second buffer of products, which learned guides take (flr.glsl).
+// LEARNED: writes a second buffer of products, which eight guides take (flr.glsl).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require

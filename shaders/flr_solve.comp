@@ -40,7 +40,7 @@ NormalEquations normalEquations(OuterProducts p) {
   float covariances[kCovariances];
   [[unroll]] for (int i = 0; i < kUsedFeatures; ++i) e.x[i] = scale * productAt(p, productIndex(0, i + 1));
   [[unroll]] for (int i = 0; i < kUsedFeatures; ++i) {
-    e.ridge[i] = constants.ridge * (i == kInverseDepth ? e.x[i] * e.x[i] : 1.0);
+    e.ridge[i] = constants.ridge * (i == kInverseDepth && !kLearnedAlone ? e.x[i] * e.x[i] : 1.0);
     e.yx[i] = scale * colourProductAt(p, i + 1) - e.y * e.x[i];
     [[unroll]] for (int j = 0; j < kUsedFeatures; ++j) {
       if (j < i) continue;

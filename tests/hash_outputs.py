@@ -14,7 +14,7 @@ import sys
 import tempfile
 
 METHODS = ("walr,walr:fast,walr_paper,walr_paper:robust,refwlr,refwlr:paper,bmfr,bmfr:paper,svgf,svgf:paper,flr,flnr,"
-           "joint_bilateral,accumulate,none")
+           "flnr:paper,joint_bilateral,accumulate,none")
 
 
 def denoised_hash(walr, sequence, frames, method, preset, output):

@@ -16,6 +16,9 @@ const uint kInputAsItIs = 0u;
 const uint kInputPooled = 1u;  // The largest of 2 x 2 texels.
 const uint kInputGrown = 2u;   // Each texel stands for 2 x 2.
 
+// Features of a pixel that a network sees.
+const int kNetworkFeatures = 8;
+
 // Pixels per axis of a tile of flnr_means.comp.
 const int kMeansTile = 64;
 

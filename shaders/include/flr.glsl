@@ -1,14 +1,16 @@
 // FLR (Salmi et al. 2024): the guides of the regression, their outer products, and the grid of cells.
-// Needs: `constants` (FlrConstants), GL_EXT_control_flow_attributes. Takes constant_id 10.
+// Needs: `constants` (FlrConstants), GL_EXT_control_flow_attributes. Takes constant_id 10 and 11.
 #ifndef WALR_FLR_GLSL
 #define WALR_FLR_GLSL
 
 // The guides besides the constant: shading normal, inverse depth, which is linear over the image of a plane, ambient
-// occlusion, and three of a network. The first kUsedFeatures are used: 4, 5 or all of them. Their number is known when
-// the pipeline is made, so that loops over them are unrolled and arrays stay in registers.
+// occlusion, and three of a network. The first kUsedFeatures are used: 4, 5 or all of them. With kLearnedAlone there are
+// five of a network instead. Their number is known when the pipeline is made, so that loops over them are unrolled and
+// arrays stay in registers.
 const int kInverseDepth = 3, kOcclusion = 4, kLearned = 5, kFeatures = 8;
 layout(constant_id = 10) const int kUsedFeatures = 4;
-const bool kOcclusionGuide = kUsedFeatures > kOcclusion, kLearnedGuides = kUsedFeatures > kLearned;
+layout(constant_id = 11) const bool kLearnedAlone = false;
+const bool kOcclusionGuide = kUsedFeatures > kOcclusion, kLearnedGuides = kLearnedAlone || kUsedFeatures > kLearned;
 const int kCovariances = kFeatures * (kFeatures + 1) / 2;
 #include "triangle.glsl"
 
@@ -21,7 +23,7 @@ const int kProductVectors = (kProducts + 3) / 4;
 // Index of entry (i, j) of (1, x)(1, x)^T, i <= j.
 int productIndex(int i, int j) { return i * (2 * kUsedFeatures - i + 1) / 2 + j; }
 
-// Vectors of a cell that the first buffer of products holds. With learned guides there is a second one, because every
+// Vectors of a cell that the first buffer of products holds. With eight guides there is a second one, because every
 // device takes only buffers of 128 MiB, which those of a picture of 3840 x 2160 would not fit as one. With cells of
 // 4 x 4 pixels the first one is as large as what a frame keeps of the last one's light and surfaces, and can take their
 // memory.

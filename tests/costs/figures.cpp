@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "passes/denoiser.h"
 #include "samples/bench/plan_costs.h"
@@ -68,7 +69,12 @@ FigureTable figuresOf(const std::vector<MethodCosts>& methods, NullDevice& devic
   for (const MethodCosts& method : methods) {
     table.estimates.push_back(estimateOf(method, machine));
     addPipelines(method);
-    for (const fg::Extent extent : kCommonExtents) addPipelines(methodCosts(method.name, extent, device, trips));
+    for (const fg::Extent extent : kCommonExtents) {
+      try {
+        addPipelines(methodCosts(method.name, extent, device, trips));
+      } catch (const std::invalid_argument&) {  // The method takes no picture that large, and has no figures there.
+      }
+    }
   }
   std::ranges::sort(table.shaders, {},
                     [](const ShaderFigures& figures) { return std::pair(figures.shader, figures.specialization); });

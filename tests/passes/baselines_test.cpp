@@ -20,16 +20,19 @@ constexpr glm::ivec2 kSize(53, 37);
 struct Case {
   const char* method;
   bool spatialOnly = false;
+  std::string preset = {};  ///< Empty: none is chosen.
 };
 
 std::string caseName(const testing::TestParamInfo<Case>& info) {
-  return std::string(info.param.method) + (info.param.spatialOnly ? "_spatial" : "");
+  return std::string(info.param.method) + (info.param.preset.empty() ? "" : "_" + info.param.preset) +
+         (info.param.spatialOnly ? "_spatial" : "");
 }
 
 class DenoiserTest : public fg::test::GpuTest, public testing::WithParamInterface<Case> {
  protected:
   [[nodiscard]] static std::unique_ptr<Denoiser> makeCase() {
     std::unique_ptr<Denoiser> denoiser = makeDenoiser(GetParam().method);
+    if (!GetParam().preset.empty()) denoiser->usePreset(GetParam().preset);
     if (GetParam().spatialOnly) denoiser->set("spatial-only", "on");
     return denoiser;
   }
@@ -134,13 +137,15 @@ TEST_P(BaselineTest, BeatsAccumulationAlone) {
 INSTANTIATE_TEST_SUITE_P(Methods, DenoiserTest,
                          testing::Values(Case{"svgf"}, Case{"svgf", true}, Case{"joint_bilateral"},
                                          Case{"joint_bilateral", true}, Case{"bmfr"}, Case{"bmfr", true}, Case{"flr"},
-                                         Case{"flr", true}, Case{"flnr"}, Case{"flnr", true}, Case{"walr"},
+                                         Case{"flr", true}, Case{"flnr"}, Case{"flnr", true},
+                                         Case{"flnr", false, "paper"}, Case{"flnr", true, "paper"}, Case{"walr"},
                                          Case{"walr", true}, Case{"accumulate"}),
                          caseName);
 INSTANTIATE_TEST_SUITE_P(Methods, BaselineTest,
                          testing::Values(Case{"svgf"}, Case{"svgf", true}, Case{"joint_bilateral"},
                                          Case{"joint_bilateral", true}, Case{"bmfr"}, Case{"bmfr", true}, Case{"flr"},
-                                         Case{"flr", true}, Case{"flnr"}, Case{"flnr", true}, Case{"walr"},
+                                         Case{"flr", true}, Case{"flnr"}, Case{"flnr", true},
+                                         Case{"flnr", false, "paper"}, Case{"flnr", true, "paper"}, Case{"walr"},
                                          Case{"walr", true}),
                          caseName);
 

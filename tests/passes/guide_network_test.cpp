@@ -30,8 +30,27 @@ using reference::Image;
 using reference::Storage;
 
 const GuideNetwork& smallNetwork() {
-  static const GuideNetwork kNetwork{kSmallFlnrWidths, smallFlnrWeights()};
+  static const GuideNetwork kNetwork{NetworkKind::Small, kFlnrWidths, smallFlnrWeights()};
   return kNetwork;
+}
+
+const GuideNetwork& paperNetwork() {
+  static const GuideNetwork kNetwork{NetworkKind::Paper, kFlnrWidths, paperFlnrWeights()};
+  return kNetwork;
+}
+
+/// A network with trained weights, and the name of the file that says what PyTorch makes of it.
+struct NamedNetwork {
+  std::string name;
+  const GuideNetwork& network;
+};
+
+std::vector<NamedNetwork> bothNetworks() {
+  return {{"flnr_small", smallNetwork()}, {"flnr_paper", paperNetwork()}};
+}
+
+std::size_t guideCount(const GuideNetwork& network) {
+  return network.kind == NetworkKind::Small ? 3 : 5;
 }
 
 fg::Extent extentOf(glm::ivec2 size) {
@@ -148,23 +167,22 @@ TEST_F(GuideNetworkLayers, AgreeWithDoublePrecision) {
 struct Fixture {
   Image<Guide> guides;
   Image<glm::dvec4> lighting;  ///< Alpha: samples.
-  Image<glm::dvec3> learned;
+  ChannelImage learned;
 };
 
-Fixture readFixture() {
-  const std::string file = WALR_PASS_FIXTURES "/flnr_small.txt";
+Fixture readFixture(const NamedNetwork& of) {
+  const std::string file = WALR_PASS_FIXTURES "/" + of.name + ".txt";
   std::ifstream in(file);
   glm::ivec2 size(0);
   in >> size.x >> size.y;
   if (!in) throw std::runtime_error(file + ": cannot be read");
-  Fixture fixture{Image<Guide>(size), Image<glm::dvec4>(size), Image<glm::dvec3>(size)};
+  Fixture fixture{Image<Guide>(size), Image<glm::dvec4>(size), ChannelImage(size, guideCount(of.network))};
   forEachPixel(size, [&](glm::ivec2 p) {
     glm::dvec2 steps(0.0);
     double occlusion = 0.0;
     glm::dvec4& light = fixture.lighting[p];
-    glm::dvec3& learned = fixture.learned[p];
-    in >> steps.x >> steps.y >> fixture.guides[p].depth >> occlusion >> light.x >> light.y >> light.z >> light.w >>
-        learned.x >> learned.y >> learned.z;
+    in >> steps.x >> steps.y >> fixture.guides[p].depth >> occlusion >> light.x >> light.y >> light.z >> light.w;
+    for (std::size_t g = 0; g < fixture.learned.count; ++g) in >> fixture.learned.at(g, p);
     fixture.guides[p].features = steps * reference::kUnorm12Step;
     fixture.guides[p].occlusion = occlusion * reference::kUnorm8Step;
   });
@@ -184,50 +202,66 @@ Fixture sceneFixture(glm::ivec2 size) {
   return fixture;
 }
 
-Image<glm::dvec3> expectedGuides(const Fixture& fixture, Storage storage) {
-  return reference::guideNetwork(fixture.guides, fixture.lighting, kSmallFlnrWidths, smallFlnrWeights(), storage);
+ChannelImage expectedGuides(const Fixture& fixture, const GuideNetwork& network, Storage storage) {
+  return reference::guideNetwork(fixture.guides, fixture.lighting, network, storage);
 }
 
-double largestDifference(const Image<glm::dvec3>& a, const Image<glm::dvec3>& b) {
+double largestDifference(const ChannelImage& a, const ChannelImage& b) {
   double largest = 0.0;
-  forEachPixel(a.size(), [&](glm::ivec2 p) {
-    for (int c = 0; c < 3; ++c) largest = std::max(largest, std::abs(a[p][c] - b[p][c]));
-  });
+  for (std::size_t i = 0; i < a.values.size(); ++i) largest = std::max(largest, std::abs(a.values[i] - b.values[i]));
   return largest;
 }
 
 class WholeGuideNetwork : public fg::test::GpuTest {
  protected:
-  Image<glm::dvec4> run(const Fixture& fixture) {
+  /// @param more which of the two textures with guides
+  Image<glm::dvec4> run(const Fixture& fixture, const GuideNetwork& network, bool more) {
     FilterRun filter(
         device(), fixture.guides.size(), 1,
         [&](fg::Graph& graph, fg::Buffer, const Guides& guides, const auto& inputs) {
-          return addGuideNetwork(graph, inputs[0], LightingAlpha::SampleCount, guides, smallNetwork());
+          const LearnedGuides learned = addGuideNetwork(graph, inputs[0], LightingAlpha::SampleCount, guides, network);
+          return more ? learned.more : learned.first;
         },
         true);
     return filter.run({}, fixture.guides, {fixture.lighting});
   }
+  /// The guides of both textures.
+  ChannelImage run(const Fixture& fixture, const GuideNetwork& network) {
+    ChannelImage result(fixture.guides.size(), guideCount(network));
+    const std::size_t inFirst = std::min<std::size_t>(result.count, 4);
+    const Image<glm::dvec4> first = run(fixture, network, false);
+    const Image<glm::dvec4> more = result.count > inFirst ? run(fixture, network, true) : Image<glm::dvec4>{};
+    forEachPixel(result.size, [&](glm::ivec2 p) {
+      for (std::size_t g = 0; g < inFirst; ++g) result.at(g, p) = first[p][glm::length_t(g)];
+      for (std::size_t g = inFirst; g < result.count; ++g) result.at(g, p) = more[p][glm::length_t(g - inFirst)];
+    });
+    return result;
+  }
   /// The results of layers are halves. What that changes is measured in double precision; the device rounds other
   /// values up and down, so that it may err as much in the other direction.
-  void expectGuides(const Fixture& fixture, const Image<glm::dvec3>& expected, double further) {
-    const double rounding =
-        2.0 * largestDifference(expectedGuides(fixture, Storage::Quantised), expectedGuides(fixture, Storage::Exact));
-    const Image<glm::dvec4> actual = run(fixture);
+  void expectGuides(const Fixture& fixture, const GuideNetwork& network, const ChannelImage& expected, double further) {
+    const double rounding = 2.0 * largestDifference(expectedGuides(fixture, network, Storage::Quantised),
+                                                    expectedGuides(fixture, network, Storage::Exact));
+    const ChannelImage actual = run(fixture, network);
     Comparison comparison("learned guides");
-    forEachPixel(expected.size(), [&](glm::ivec2 p) {
+    forEachPixel(expected.size, [&](glm::ivec2 p) {
       comparison.compared();
-      for (int c = 0; c < 3; ++c)
-        comparison.value(p, "guide", actual[p][c], expected[p][c], halfTolerance(expected[p][c], rounding + further));
+      for (std::size_t g = 0; g < expected.count; ++g) {
+        const double value = expected.at(g, p);
+        comparison.value(p, "guide", actual.at(g, p), value, halfTolerance(value, rounding + further));
+      }
     });
     comparison.expect(0.0);
   }
 };
 
 TEST_F(WholeGuideNetwork, AgreesWithDoublePrecision) {
-  for (const glm::ivec2 size : {glm::ivec2(1, 1), glm::ivec2(2, 3), glm::ivec2(45, 34), glm::ivec2(70, 9)}) {
-    SCOPED_TRACE(std::to_string(size.x) + " x " + std::to_string(size.y));
-    const Fixture fixture = sceneFixture(size);
-    expectGuides(fixture, expectedGuides(fixture, Storage::Exact), 0.0);
+  for (const NamedNetwork& of : bothNetworks()) {
+    for (const glm::ivec2 size : {glm::ivec2(1, 1), glm::ivec2(2, 3), glm::ivec2(45, 34), glm::ivec2(70, 9)}) {
+      SCOPED_TRACE(of.name + " " + std::to_string(size.x) + " x " + std::to_string(size.y));
+      const Fixture fixture = sceneFixture(size);
+      expectGuides(fixture, of.network, expectedGuides(fixture, of.network, Storage::Exact), 0.0);
+    }
   }
 }
 
@@ -237,63 +271,89 @@ constexpr double kSinglePrecision = 1e-4;
 
 // The device reads depths of fewer bits than PyTorch did. What that changes is measured in double precision.
 TEST_F(WholeGuideNetwork, AgreesWithPyTorch) {
-  const Fixture fixture = readFixture();
-  Fixture stored = fixture;
-  forEachPixel(stored.guides.size(), [&](glm::ivec2 p) {
-    stored.guides[p].depth = reference::roundDepthBesideNormal(stored.guides[p].depth);
-  });
-  const double byDepth =
-      largestDifference(expectedGuides(stored, Storage::Exact), expectedGuides(fixture, Storage::Exact));
-  EXPECT_LT(byDepth, 0.01);
-  expectGuides(stored, fixture.learned, kSinglePrecision + byDepth);
+  for (const NamedNetwork& of : bothNetworks()) {
+    SCOPED_TRACE(of.name);
+    const Fixture fixture = readFixture(of);
+    Fixture stored = fixture;
+    forEachPixel(stored.guides.size(), [&](glm::ivec2 p) {
+      stored.guides[p].depth = reference::roundDepthBesideNormal(stored.guides[p].depth);
+    });
+    const double byDepth = largestDifference(expectedGuides(stored, of.network, Storage::Exact),
+                                             expectedGuides(fixture, of.network, Storage::Exact));
+    EXPECT_LT(byDepth, 0.01);
+    expectGuides(stored, of.network, fixture.learned, kSinglePrecision + byDepth);
+  }
 }
 
 TEST(GuideNetworkReference, AgreesWithPyTorch) {
-  const Fixture fixture = readFixture();
-  EXPECT_LE(largestDifference(expectedGuides(fixture, Storage::Exact), fixture.learned), kSinglePrecision);
+  for (const NamedNetwork& of : bothNetworks()) {
+    SCOPED_TRACE(of.name);
+    const Fixture fixture = readFixture(of);
+    EXPECT_LE(largestDifference(expectedGuides(fixture, of.network, Storage::Exact), fixture.learned),
+              kSinglePrecision);
+  }
 }
 
 TEST_F(WholeGuideNetwork, GivesTheSameBitsInEveryRun) {
   const Fixture fixture = sceneFixture({45, 34});
-  const Image<glm::dvec4> first = run(fixture);
-  EXPECT_EQ(run(fixture).pixels(), first.pixels());
+  for (const NamedNetwork& of : bothNetworks()) {
+    const ChannelImage first = run(fixture, of.network);
+    EXPECT_EQ(run(fixture, of.network).values, first.values) << of.name;
+  }
 }
 
-class FlrOnLearnedGuides : public fg::test::GpuTest {};
-
-TEST_F(FlrOnLearnedGuides, AgreesWithTheReference) {
-  constexpr glm::ivec2 kSize(45, 34);
-  const FlrRegressionSettings settings;
-  FilterRun run(
-      device(), kSize, 2,
-      [&](fg::Graph& graph, fg::Buffer, const Guides& guides, const auto& inputs) {
-        const fg::Texture filtered = graph.texture("filtered", graph.textureDesc(inputs[0]));
-        return addFlrRegression(graph, inputs[0], LightingAlpha::Unused, guides, filtered, settings, inputs[1]);
-      },
-      true);
-  for (const NamedScene& scene : allScenes()) {
-    const reference::HostFrame frame = renderStill(scene.scene, kSize);
-    const Image<Guide> guides = reference::prepareGuides(frame, Storage::Quantised, {}, kOcclusionInSmallImages);
-    Image<glm::dvec3> learned(kSize);
-    forEachPixel(kSize, [&](glm::ivec2 p) {
-      for (int c = 0; c < 3; ++c) learned[p][c] = 0.5 + 0.5 * randomHalf(p.x + 50 * p.y, std::uint32_t(10 + c));
-      for (int c = 0; c < 3; ++c) learned[p][c] = reference::roundToHalf(learned[p][c]);
-    });
-    const auto expected = reference::flrRegression(guides, frame.lighting, settings, &learned);
-    const Image<glm::dvec4> actual = run.run({}, guides, {withAlpha(frame.lighting), withAlpha(learned)});
-    Comparison comparison(scene.name);
-    forEachPixel(kSize, [&](glm::ivec2 p) {
-      comparison.compared();
-      comparison.colour(p, actual[p], expected[p].colour, halfTolerance(expected[p].colour, expected[p].error));
-    });
-    comparison.expect(0.0);
+class FlrOnLearnedGuides : public fg::test::GpuTest {
+ protected:
+  /// @param count 3: beside the geometric guides; 5: in their place
+  void expectAgreement(std::size_t count) {
+    constexpr glm::ivec2 kSize(45, 34);
+    const FlrRegressionSettings settings;
+    FilterRun run(
+        device(), kSize, 3,
+        [&](fg::Graph& graph, fg::Buffer, const Guides& guides, const auto& inputs) {
+          const fg::Texture filtered = graph.texture("filtered", graph.textureDesc(inputs[0]));
+          const LearnedGuides learned{inputs[1], count == 5 ? inputs[2] : fg::Texture{}};
+          return addFlrRegression(graph, inputs[0], LightingAlpha::Unused, guides, filtered, settings, learned);
+        },
+        true);
+    ChannelImage learned(kSize, count);
+    for (std::size_t i = 0; i < learned.values.size(); ++i)
+      learned.values[i] = reference::roundToHalf(0.5 + 0.5 * randomHalf(int(i), 10));
+    const auto textureOf = [&](std::size_t first) {
+      Image<glm::dvec4> image(kSize);
+      forEachPixel(kSize, [&](glm::ivec2 p) {
+        for (std::size_t g = first; g < std::min(count, first + 4); ++g)
+          image[p][glm::length_t(g - first)] = learned.at(g, p);
+      });
+      return image;
+    };
+    for (const NamedScene& scene : allScenes()) {
+      const reference::HostFrame frame = renderStill(scene.scene, kSize);
+      const Image<Guide> guides = reference::prepareGuides(frame, Storage::Quantised, {}, kOcclusionInSmallImages);
+      const auto expected = reference::flrRegression(guides, frame.lighting, settings, &learned);
+      const Image<glm::dvec4> actual = run.run({}, guides, {withAlpha(frame.lighting), textureOf(0), textureOf(4)});
+      Comparison comparison(scene.name);
+      forEachPixel(kSize, [&](glm::ivec2 p) {
+        comparison.compared();
+        comparison.colour(p, actual[p], expected[p].colour, halfTolerance(expected[p].colour, expected[p].error));
+      });
+      comparison.expect(0.0);
+    }
   }
+};
+
+TEST_F(FlrOnLearnedGuides, BesideTheGeometricOnesAgreesWithTheReference) {
+  expectAgreement(3);
+}
+
+TEST_F(FlrOnLearnedGuides, InTheirPlaceAgreesWithTheReference) {
+  expectAgreement(5);
 }
 
 TEST(GuideNetworkSettings, WeightsOfOtherWidthsAreRefused) {
   fg::Graph graph;
   const fg::Texture lighting = graph.texture("lighting", {VK_FORMAT_R16G16B16A16_SFLOAT, {64, 64}});
-  const GuideNetwork wide{{32, 24, 32, 48}, smallFlnrWeights()};
+  const GuideNetwork wide{NetworkKind::Small, {32, 24, 32, 48}, smallFlnrWeights()};
   fg::test::expectError([&] { addGuideNetwork(graph, lighting, LightingAlpha::Unused, {}, wide); },
                         {"weights", std::to_string(smallFlnrWeights().size()), "widths"});
 }

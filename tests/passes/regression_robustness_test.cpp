@@ -15,16 +15,19 @@ using reference::Image;
 struct Method {
   const char* name;
   const char* spatialOnly;
+  std::string preset = {};  ///< Empty: none is chosen.
 };
 
 std::string testName(const testing::TestParamInfo<Method>& info) {
-  return std::string(info.param.name) + (std::string(info.param.spatialOnly) == "on" ? "_spatial" : "");
+  return std::string(info.param.name) + (info.param.preset.empty() ? "" : "_" + info.param.preset) +
+         (std::string(info.param.spatialOnly) == "on" ? "_spatial" : "");
 }
 
 class RegressionRobustness : public fg::test::GpuTest, public testing::WithParamInterface<Method> {
  protected:
   [[nodiscard]] static std::unique_ptr<Denoiser> makeMethod() {
     auto denoiser = makeDenoiser(GetParam().name);
+    if (!GetParam().preset.empty()) denoiser->usePreset(GetParam().preset);
     denoiser->set("spatial-only", GetParam().spatialOnly);
     return denoiser;
   }
@@ -79,7 +82,8 @@ TEST_P(RegressionRobustness, ExtremeValuesStayFinite) {
 
 INSTANTIATE_TEST_SUITE_P(Methods, RegressionRobustness,
                          testing::Values(Method{"bmfr", "off"}, Method{"bmfr", "on"}, Method{"flr", "off"},
-                                         Method{"flr", "on"}, Method{"flnr", "off"}, Method{"flnr", "on"}),
+                                         Method{"flr", "on"}, Method{"flnr", "off"}, Method{"flnr", "on"},
+                                         Method{"flnr", "off", "paper"}, Method{"flnr", "on", "paper"}),
                          testName);
 
 }  // namespace

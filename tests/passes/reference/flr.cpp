@@ -12,7 +12,7 @@
 namespace walr::reference {
 namespace {
 
-/// Guides: normal, inverse depth, ambient occlusion, three of a network.
+/// Guides: normal, inverse depth, ambient occlusion, three of a network; or five of a network.
 constexpr std::size_t kGuides = 8;
 constexpr std::size_t kInverseDepth = 3;
 using GuideVector = Vector<kGuides>;
@@ -46,14 +46,17 @@ struct Inputs {
   const Image<Guide>& guides;
   const Image<glm::dvec3>& lighting;
   const FlrRegressionSettings& settings;
-  const Image<glm::dvec3>* learned;
+  const ChannelImage* learned;
+
+  [[nodiscard]] bool learnedAlone() const { return learned != nullptr && learned->count == 5; }
 
   /// Guides of a pixel. One that is 0 everywhere gets a slope of 0.
   [[nodiscard]] GuideVector guidesAt(glm::ivec2 p) const {
+    const auto more = [&](std::size_t i) { return learned != nullptr ? learned->at(i, p) : 0.0; };
+    if (learnedAlone()) return {more(0), more(1), more(2), more(3), more(4), 0.0, 0.0, 0.0};
     const glm::dvec3 n = octahedralDecode(guides[p].features);
-    const glm::dvec3 more = learned != nullptr ? (*learned)[p] : glm::dvec3(0.0);
     const double occlusion = settings.occlusionGuide ? guides[p].occlusion : 0.0;
-    return {n.x, n.y, n.z, 1.0 / guides[p].depth, occlusion, more.x, more.y, more.z};
+    return {n.x, n.y, n.z, 1.0 / guides[p].depth, occlusion, more(0), more(1), more(2)};
   }
 };
 
@@ -76,7 +79,8 @@ std::vector<Sample> windowOf(const Inputs& in, glm::ivec2 cell) {
 }
 
 /// Solve the normal equations of a window, (X^T X)^-1 X^T Y (Salmi et al. 2024), with a ridge.
-Fit fitCell(const std::vector<Sample>& samples, const FlrRegressionSettings& settings) {
+/// @param geometric whether the guides are the geometric ones, of which inverse depth has a relative ridge
+Fit fitCell(const std::vector<Sample>& samples, const FlrRegressionSettings& settings, bool geometric) {
   Fit fit;
   double total = 0.0;
   for (const Sample& s : samples) {
@@ -107,7 +111,7 @@ Fit fitCell(const std::vector<Sample>& samples, const FlrRegressionSettings& set
   }
   const double meanDepth = fit.meanX[kInverseDepth];
   for (std::size_t i = 0; i < kGuides; ++i)
-    covariance[i][i] += double(settings.ridge) * (i == kInverseDepth ? meanDepth * meanDepth : 1.0);
+    covariance[i][i] += double(settings.ridge) * (geometric && i == kInverseDepth ? meanDepth * meanDepth : 1.0);
   const Matrix<kGuides> inverted = inverse(covariance);
   for (int c = 0; c < 3; ++c) fit.slope[c] = inverted * right[c];
   for (std::size_t i = 0; i < kGuides; ++i) fit.inverseMagnitude[i] = absolute(inverted[i]);
@@ -160,11 +164,12 @@ double cellWeight(double t, FlrUpsampling upsampling) {
 }  // namespace
 
 Image<FlrResult> flrRegression(const Image<Guide>& guides, const Image<glm::dvec3>& lighting,
-                               const FlrRegressionSettings& settings, const Image<glm::dvec3>* learned) {
+                               const FlrRegressionSettings& settings, const ChannelImage* learned) {
   const Inputs in{guides, lighting, settings, learned};
   const int factor = int(settings.factor);
   Image<Fit> fits((guides.size() + factor - 1) / factor);
-  forEachPixel(fits.size(), [&](glm::ivec2 cell) { fits[cell] = fitCell(windowOf(in, cell), settings); });
+  forEachPixel(fits.size(),
+               [&](glm::ivec2 cell) { fits[cell] = fitCell(windowOf(in, cell), settings, !in.learnedAlone()); });
 
   Image<FlrResult> results(guides.size());
   forEachPixel(guides.size(), [&](glm::ivec2 p) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "passes/flr_regression.h"
+#include "tests/passes/reference/guide_network.h"
 #include "tests/passes/reference/guides.h"
 
 namespace walr::reference {
@@ -13,8 +14,8 @@ struct FlrResult {
 
 /// Fast Local Regression (Salmi et al. 2024: the weighted least-squares solution A*) without its shortcuts: the sums of
 /// each cell go over all pixels of its window, in double precision and about the mean, and the matrix is inverted.
-/// @param learned three more guides; null: there are none
+/// @param learned three guides beside the geometric ones, or five in their place; null: there are none
 Image<FlrResult> flrRegression(const Image<Guide>& guides, const Image<glm::dvec3>& lighting,
-                               const FlrRegressionSettings& settings = {}, const Image<glm::dvec3>* learned = nullptr);
+                               const FlrRegressionSettings& settings = {}, const ChannelImage* learned = nullptr);
 
 }  // namespace walr::reference

@@ -14,7 +14,6 @@ namespace {
 
 constexpr std::size_t kTaps = 9;
 constexpr std::size_t kFeatures = 8;
-constexpr std::size_t kGuides = 3;
 constexpr double kSlope = 0.1;
 
 /// Position in the shader's weights of that of a result, an input and a tap.
@@ -47,6 +46,70 @@ glm::dvec3 usableLight(glm::dvec4 light) {
 void roundAll(ChannelImage& image, Storage storage) {
   if (storage == Storage::Exact) return;
   for (double& value : image.values) value = roundToFiniteHalf(value);
+}
+
+/// Which of the pixels of its texel a pixel is.
+std::size_t placeOf(glm::ivec2 p, int shrink) {
+  return std::size_t(p.x % shrink + shrink * (p.y % shrink));
+}
+
+/// What the network sees. Each `shrink` x `shrink` pixels are a texel.
+ChannelImage encodedGuides(const Image<Guide>& guides, const Image<glm::dvec4>& lighting, int shrink) {
+  double light = 0.0, samples = 0.0, inverseDepth = 0.0, surfaces = 0.0;
+  forEachPixel(guides.size(), [&](glm::ivec2 p) {
+    if (guides[p].depth > 0.0) {
+      inverseDepth += 1.0 / guides[p].depth;
+      surfaces += 1.0;
+    }
+    if (!hasSample(guides[p], lighting[p])) return;
+    const glm::dvec3 rgb = usableLight(lighting[p]);
+    light += (rgb.x + rgb.y + rgb.z) / 3.0;
+    samples += 1.0;
+  });
+  light /= std::max(samples, 1.0);
+  inverseDepth /= std::max(surfaces, 1.0);
+
+  const auto pixels = std::size_t(shrink * shrink);
+  ChannelImage result((guides.size() + shrink - 1) / shrink, pixels * kFeatures);
+  forEachPixel(guides.size(), [&](glm::ivec2 p) {
+    if (guides[p].depth == 0.0) return;
+    const bool sampled = hasSample(guides[p], lighting[p]);
+    const glm::dvec3 normal = octahedralDecode(guides[p].features);
+    const double ratio = 1.0 / guides[p].depth / (1.0 / guides[p].depth + inverseDepth);
+    const glm::dvec3 rgb = sampled ? usableLight(lighting[p]) / std::max(light, 1e-30) : glm::dvec3(0.0);
+    const std::array<double, kFeatures> features{normal.x,
+                                                 normal.y,
+                                                 ratio,
+                                                 guides[p].occlusion,
+                                                 std::log1p(rgb.x),
+                                                 std::log1p(rgb.y),
+                                                 std::log1p(rgb.z),
+                                                 sampled ? lighting[p].w / 16.0 : 0.0};
+    const std::size_t place = placeOf(p, shrink);
+    for (std::size_t f = 0; f < kFeatures; ++f) result.at(pixels * f + place, p / shrink) = features[f];
+  });
+  return result;
+}
+
+/// The guides that the last layers of a network make (flnr_head.comp), three for each pixel of a texel of four, or
+/// five.
+ChannelImage heads(const ChannelImage& input, std::span<const std::uint16_t> halves, glm::ivec2 size, int shrink) {
+  const std::size_t guides = shrink == 2 ? 3 : 5;
+  const std::size_t groups =
+      shrink == 2 ? 3 : 1;  // Of four results in a layer: a guide of four pixels, or four guides.
+  ChannelImage result(size, guides);
+  forEachPixel(size, [&](glm::ivec2 p) {
+    for (std::size_t g = 0; g < guides; ++g) {
+      const std::size_t layer = shrink == 2 ? 0 : g / 4;
+      const std::size_t lane = shrink == 2 ? 4 * g + placeOf(p, shrink) : g % 4;
+      const std::span<const std::uint16_t> weights = halves.subspan(layer * 4 * (input.count + 1));
+      double sum = halfAt(weights, input.count * 4 * groups + lane);
+      for (std::size_t i = 0; i < input.count; ++i)
+        sum += input.at(i, p / shrink) * halfAt(weights, i * 4 * groups + lane);
+      result.at(g, p) = 1.0 / (1.0 + std::exp(-sum));
+    }
+  });
+  return result;
 }
 
 }  // namespace
@@ -117,47 +180,11 @@ std::vector<std::uint16_t> packConvolution(std::span<const double> weights, std:
   return halves;
 }
 
-ChannelImage encodedGuides(const Image<Guide>& guides, const Image<glm::dvec4>& lighting) {
-  double light = 0.0, samples = 0.0, inverseDepth = 0.0, surfaces = 0.0;
-  forEachPixel(guides.size(), [&](glm::ivec2 p) {
-    if (guides[p].depth > 0.0) {
-      inverseDepth += 1.0 / guides[p].depth;
-      surfaces += 1.0;
-    }
-    if (!hasSample(guides[p], lighting[p])) return;
-    const glm::dvec3 rgb = usableLight(lighting[p]);
-    light += (rgb.x + rgb.y + rgb.z) / 3.0;
-    samples += 1.0;
-  });
-  light /= std::max(samples, 1.0);
-  inverseDepth /= std::max(surfaces, 1.0);
-
-  ChannelImage result((guides.size() + 1) / 2, 4 * kFeatures);
-  forEachPixel(guides.size(), [&](glm::ivec2 p) {
-    if (guides[p].depth == 0.0) return;
-    const bool sampled = hasSample(guides[p], lighting[p]);
-    const glm::dvec3 normal = octahedralDecode(guides[p].features);
-    const double ratio = 1.0 / guides[p].depth / (1.0 / guides[p].depth + inverseDepth);
-    const glm::dvec3 rgb = sampled ? usableLight(lighting[p]) / std::max(light, 1e-30) : glm::dvec3(0.0);
-    const std::array<double, kFeatures> features{normal.x,
-                                                 normal.y,
-                                                 ratio,
-                                                 guides[p].occlusion,
-                                                 std::log1p(rgb.x),
-                                                 std::log1p(rgb.y),
-                                                 std::log1p(rgb.z),
-                                                 sampled ? lighting[p].w / 16.0 : 0.0};
-    const auto place = std::size_t(p.x % 2 + 2 * (p.y % 2));
-    for (std::size_t f = 0; f < kFeatures; ++f) result.at(4 * f + place, p / 2) = features[f];
-  });
-  return result;
-}
-
-Image<glm::dvec3> guideNetwork(const Image<Guide>& guides, const Image<glm::dvec4>& lighting,
-                               const std::array<std::uint32_t, 4>& widths, std::span<const std::byte> weights,
-                               Storage storage) {
-  std::vector<std::uint16_t> halves(weights.size() / sizeof(std::uint16_t));
-  std::memcpy(halves.data(), weights.data(), weights.size());
+ChannelImage guideNetwork(const Image<Guide>& guides, const Image<glm::dvec4>& lighting, const GuideNetwork& network,
+                          Storage storage) {
+  const int shrink = network.kind == NetworkKind::Small ? 2 : 1;
+  std::vector<std::uint16_t> halves(network.weights.size() / sizeof(std::uint16_t));
+  std::memcpy(halves.data(), network.weights.data(), network.weights.size());
   std::span<const std::uint16_t> left(halves);
   const auto block = [&](ChannelImage image, std::size_t count) {
     for (int i = 0; i < 2; ++i) {
@@ -169,10 +196,10 @@ Image<glm::dvec3> guideNetwork(const Image<Guide>& guides, const Image<glm::dvec
     return image;
   };
 
-  ChannelImage last = encodedGuides(guides, lighting);
+  ChannelImage last = encodedGuides(guides, lighting, shrink);
   roundAll(last, storage);
   std::vector<ChannelImage> skips;
-  for (const std::uint32_t width : widths) {
+  for (const std::uint32_t width : network.widths) {
     last = block(skips.empty() ? last : pooled(last), width);
     skips.push_back(last);
   }
@@ -181,19 +208,7 @@ Image<glm::dvec3> guideNetwork(const Image<Guide>& guides, const Image<glm::dvec
     const ChannelImage& skip = skips.back();
     last = block(joined(grown(last, skip.size), skip), skip.count);
   }
-
-  // The head: for each input, for each guide, the weights of the four pixels; then the biases.
-  Image<glm::dvec3> result(guides.size());
-  forEachPixel(guides.size(), [&](glm::ivec2 p) {
-    const auto place = std::size_t(p.x % 2 + 2 * (p.y % 2));
-    for (std::size_t g = 0; g < kGuides; ++g) {
-      double sum = halfAt(left, (last.count * kGuides + g) * 4 + place);
-      for (std::size_t i = 0; i < last.count; ++i)
-        sum += last.at(i, p / 2) * halfAt(left, (i * kGuides + g) * 4 + place);
-      result[p][glm::length_t(g)] = 1.0 / (1.0 + std::exp(-sum));
-    }
-  });
-  return result;
+  return heads(last, left, guides.size(), shrink);
 }
 
 }  // namespace walr::reference

@@ -1,11 +1,11 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "passes/guide_network.h"
 #include "tests/passes/reference/guides.h"
 
 namespace walr::reference {
@@ -48,12 +48,9 @@ std::vector<double> unpackConvolution(std::span<const std::uint16_t> halves, std
 /// The opposite.
 std::vector<std::uint16_t> packConvolution(std::span<const double> weights, std::size_t inputs, std::size_t outputs);
 
-/// What the network sees, with its light and the number of samples in it; a light that is not finite is no sample.
-ChannelImage encodedGuides(const Image<Guide>& guides, const Image<glm::dvec4>& lighting);
-
-/// The guides that a network makes, with the results of all layers rounded to halves or not.
-Image<glm::dvec3> guideNetwork(const Image<Guide>& guides, const Image<glm::dvec4>& lighting,
-                               const std::array<std::uint32_t, 4>& widths, std::span<const std::byte> weights,
-                               Storage storage);
+/// The guides that a network makes, three or five channels, with the results of all layers rounded to halves or not.
+/// @param lighting with the number of samples in it; light that is not finite is no sample
+ChannelImage guideNetwork(const Image<Guide>& guides, const Image<glm::dvec4>& lighting, const GuideNetwork& network,
+                          Storage storage);
 
 }  // namespace walr::reference
