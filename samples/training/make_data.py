@@ -89,7 +89,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--walr", default="build/bin/walr", help="the program (default: %(default)s)")
     parser.add_argument("--cache", type=pathlib.Path, required=True, help="folder for the data, outside the repository")
-    parser.add_argument("--scenes", type=int, default=150, help="number of scenes (default: %(default)s)")
+    parser.add_argument("--scenes", type=int, default=226, help="number of scenes (default: %(default)s)")
     parser.add_argument("--first", type=int, default=0, help="seed of the first scene (default: %(default)s)")
     parser.add_argument("--threads", type=int, default=0, help="threads of the renderer; 0: one per core (default)")
     options = parser.parse_args()
