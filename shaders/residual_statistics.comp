@@ -38,7 +38,7 @@ ivec2 previousTile(ivec2 tile) {
   const vec3 before =
       previousPosition(frame.previousViewFromView, z * rayThrough(frame.rayFromPixel, pixelCentre(p)));
   if (before.z >= 0.0) return ivec2(-1);
-  const vec2 pixel = clamp(pixelOf(frame.previousRayFromPixel, before), vec2(-1e6), vec2(1e6));
+  const vec2 pixel = nearPixelOf(frame.previousRayFromPixel, before);
   return ivec2(floor((pixel + float(constants.tileOffset)) / float(constants.tileSize)));
 }
 

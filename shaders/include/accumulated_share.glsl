@@ -43,7 +43,8 @@ struct Statistics {
 Statistics previousStatisticsAt(vec3 before, bool edge) {
   if (before.z >= 0.0 || frame.previousPixelFromPixel != vec2(1.0)) return Statistics(vec4(0.0), 0.0);
   const int tileSize = int(gl_WorkGroupSize.x) / kBlockSize * kBlockSize;
-  const vec2 tile = (pixelOf(frame.previousRayFromPixel, before) + float((kBlockSize + 1) / 2)) / float(tileSize) - 0.5;
+  const vec2 pixel = nearPixelOf(frame.previousRayFromPixel, before);
+  const vec2 tile = (pixel + float((kBlockSize + 1) / 2)) / float(tileSize) - 0.5;
   const ivec2 last = textureSize(previousAgreement, 0) - 1;
   const ivec2 ofClass = ivec2(edge ? last.x + 1 : 0, 0);
   const vec2 base = clamp(floor(tile), vec2(-1.0), vec2(last)), f = tile - floor(tile);

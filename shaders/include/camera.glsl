@@ -12,6 +12,11 @@ vec2 pixelOf(vec4 rayFromPixel, vec3 position) {
   return (position.xy / -position.z - rayFromPixel.zw) / rayFromPixel.xy;
 }
 
+// The same, at most as far outside any image as integers and fractions of pixels allow.
+vec2 nearPixelOf(vec4 rayFromPixel, vec3 position) {
+  return clamp(pixelOf(rayFromPixel, position), vec2(-1e6), vec2(1e6));
+}
+
 // Position of a still surface in the view space of the previous camera, from its position in this view space.
 vec3 previousPosition(mat4 previousViewFromView, vec3 position) {
   return (previousViewFromView * vec4(position, 1.0)).xyz;

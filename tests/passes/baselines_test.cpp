@@ -1,6 +1,7 @@
 // Promises that every denoiser keeps: unit gain, invalid pixels and samples ignored, finite output for any input, and a
 // smaller error than temporal accumulation alone.
 #include <cmath>
+#include <ostream>
 #include <string>
 
 #include "tests/passes/denoiser_run.h"
@@ -23,9 +24,16 @@ struct Case {
   std::string preset = {};  ///< Empty: none is chosen.
 };
 
+std::string textOf(const Case& c) {
+  return std::string(c.method) + (c.preset.empty() ? "" : "_" + c.preset) + (c.spatialOnly ? "_spatial" : "");
+}
+
+std::ostream& operator<<(std::ostream& out, const Case& c) {
+  return out << textOf(c);
+}
+
 std::string caseName(const testing::TestParamInfo<Case>& info) {
-  return std::string(info.param.method) + (info.param.preset.empty() ? "" : "_" + info.param.preset) +
-         (info.param.spatialOnly ? "_spatial" : "");
+  return textOf(info.param);
 }
 
 class DenoiserTest : public fg::test::GpuTest, public testing::WithParamInterface<Case> {

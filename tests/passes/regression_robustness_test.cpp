@@ -1,5 +1,6 @@
 #include <cmath>
 #include <memory>
+#include <ostream>
 #include <string>
 
 #include "tests/passes/denoiser_run.h"
@@ -18,9 +19,17 @@ struct Method {
   std::string preset = {};  ///< Empty: none is chosen.
 };
 
+std::string textOf(const Method& method) {
+  return std::string(method.name) + (method.preset.empty() ? "" : "_" + method.preset) +
+         (std::string(method.spatialOnly) == "on" ? "_spatial" : "");
+}
+
+std::ostream& operator<<(std::ostream& out, const Method& method) {
+  return out << textOf(method);
+}
+
 std::string testName(const testing::TestParamInfo<Method>& info) {
-  return std::string(info.param.name) + (info.param.preset.empty() ? "" : "_" + info.param.preset) +
-         (std::string(info.param.spatialOnly) == "on" ? "_spatial" : "");
+  return textOf(info.param);
 }
 
 class RegressionRobustness : public fg::test::GpuTest, public testing::WithParamInterface<Method> {
