@@ -105,14 +105,14 @@ class Regression {
 
   /// Downsample the outer products of guides and light.
   CellBuffers sumOuterProducts() {
-    fg::PassBuilder pass = readPixels("flr outer products", shaders::flrMoments({.learned = twoBuffers()}), false);
+    fg::PassBuilder pass = readPixels("flr outer products", shaders::flrMoments({.eight = twoBuffers()}), false);
     pass.specialize("kAlphaIsSampleCount", alphaIsSampleCount_).dispatch(cells_);
     return storeProducts(pass, {"outMoments", "outMoreMoments"}, {"outer products", "more outer products"});
   }
 
   /// The horizontal pass of the Gaussian.
   CellBuffers blur(const CellBuffers& products) {
-    fg::PassBuilder pass = graph_->compute("flr blur", shaders::flrBlur({.learned = twoBuffers()}));
+    fg::PassBuilder pass = graph_->compute("flr blur", shaders::flrBlur({.eight = twoBuffers()}));
     chooseGuides(pass);
     const CellBytes& bytes = chosen_.bytes;
     pass.dispatch(cells_, static_cast<std::uint32_t>((bytes.products + bytes.moreProducts) / kVectorBytes));
@@ -178,7 +178,11 @@ class Regression {
   fg::PassBuilder declareSolve(const std::string& name, const fg::Shader& shader, const CellBuffers& blurred) {
     fg::PassBuilder pass = graph_->compute(name, shader);
     pass.load("blurred", blurred[0]);
-    twoBuffers() ? pass.load("moreBlurred", blurred[1]) : pass.unread("moreBlurred", blurred[0]);
+    if (twoBuffers()) {
+      pass.load("moreBlurred", blurred[1]);
+    } else {
+      pass.unread("moreBlurred", blurred[0]);
+    }
     chooseGuides(pass);
     pass.dispatch(cells_);
     return pass;

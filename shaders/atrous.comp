@@ -98,7 +98,7 @@ vec3 viewOf(ivec2 p, TraceSummary summary, Moments m) {
     case 7u: return m.yv;
     case 8u: return slopes.u;
     case 9u: return slopes.v;
-    case 10u: return vec3(notEqual(colour, clamp(colour, vec3(0.0), vec3(kLargestHalf))));
+    case 10u: return vec3(notEqual(colour, clampedRadiance(colour)));
     case 11u: return vec3(m.samples < kCoefficients, m.samples == 0.0, 0.0);
   }
   return vec3(0.0);

@@ -141,7 +141,7 @@ float[kColumns] rowOf(Pixel pixel, uint index, Bounds bounds) {
   const float features[kFeatures] = featuresOf(pixel, bounds);
   const float noise[kFeatures] = noiseOf(index);
   [[unroll]] for (int j = 0; j < kFeatures; ++j) row[j] = features[j] + constants.noiseAmplitude * noise[j];
-  const vec3 colour = clamp(pixel.colour, vec3(0.0), vec3(kLargestHalf));
+  const vec3 colour = clampedRadiance(pixel.colour);
   [[unroll]] for (int c = 0; c < 3; ++c) row[kFeatures + c] = colour[c];
   return row;
 }
@@ -163,12 +163,10 @@ vec3 synthesis(Pixel pixel, Bounds bounds) {
   return colour;
 }
 
-vec3 clampedColour(vec3 colour) { return clamp(colour, vec3(0.0), vec3(kLargestHalf)); }
-
 // A pixel without a surface gets the pass-through.
 vec3 fittedColour(Pixel pixel, Bounds bounds) {
   if (!pixel.surface) return isFinite(pixel.colour) ? pixel.colour : vec3(0.0);
-  return clampedColour(synthesis(pixel, bounds));
+  return clampedRadiance(synthesis(pixel, bounds));
 }
 
 #ifdef VIEW
@@ -184,7 +182,7 @@ vec3 viewOf(Pixel pixel, Bounds bounds, float samples) {
   const vec3 colour = synthesis(pixel, bounds);
   switch (kView) {
     case 0u: return vec3(featuresLeftOut(), samples, featuresLeftOut() > 0.0);
-    case 1u: return vec3(notEqual(clampedColour(colour), colour));
+    case 1u: return vec3(notEqual(clampedRadiance(colour), colour));
     case 2u: return vec3(samples == 0.0, !pixel.sampled, !isFinite(colour));
   }
   return vec3(0.0);

@@ -41,7 +41,7 @@ float[kNetworkFeatures] featuresOf(ivec2 p, vec2 means) {
   const NormalAndOcclusion surface = unpackNormalAndOcclusion(texelFetch(features, p, 0).x);
   const vec4 here = texelFetch(lighting, p, 0);
   const bool sampled = isFinite(here.rgb) && (!kAlphaIsSampleCount || here.a > 0.0);
-  const vec3 light = sampled ? clamp(here.rgb, 0.0, kLargestHalf) : vec3(0.0);
+  const vec3 light = sampled ? clampedRadiance(here.rgb) : vec3(0.0);
   const vec3 relative = log(1.0 + light / max(means.x, 1e-30));
   const float samples = sampled ? (kAlphaIsSampleCount ? here.a : 1.0) : 0.0;
   return float[](surface.normal.x, surface.normal.y, 1.0 / (1.0 + z * means.y), surface.occlusion, relative.r, relative.g,

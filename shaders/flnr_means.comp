@@ -29,7 +29,7 @@ void main() {
     if (z == 0.0) continue;
     sum.zw += vec2(1.0 / z, 1.0);
     if (!isFinite(light.rgb) || (kAlphaIsSampleCount && light.a == 0.0)) continue;
-    sum.xy += vec2(dot(clamp(light.rgb, 0.0, kLargestHalf), vec3(1.0 / 3.0)), 1.0);
+    sum.xy += vec2(dot(clampedRadiance(light.rgb), vec3(1.0 / 3.0)), 1.0);
   }
   sum = sumOverGroup(sum);
   if (gl_LocalInvocationIndex == 0u) sums[gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x] = sum;

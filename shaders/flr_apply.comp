@@ -69,8 +69,6 @@ vec4 predict(ivec2 p, float x[kFeatures]) {
   return weightSum > 0.0 ? vec4(sum / weightSum, 1.0) : vec4(0.0);
 }
 
-vec3 clampedColour(vec3 colour) { return clamp(colour, vec3(0.0), vec3(kLargestHalf)); }
-
 #ifdef VIEW
 vec3 viewOf(ivec2 p, float z) {
   if (z == 0.0) return vec3(0.0);
@@ -78,14 +76,14 @@ vec3 viewOf(ivec2 p, float z) {
   const float x[kFeatures] = unpackGuides(packedGuides(p), z);
   const vec4 light = texelFetch(lighting, p, 0);
   const bool sampled = isFinite(light.rgb) && (!kAlphaIsSampleCount || light.a > 0.0);
-  if (kView == 2u) return sampled ? clampedColour(light.rgb) : vec3(0.0);
+  if (kView == 2u) return sampled ? clampedRadiance(light.rgb) : vec3(0.0);
   if (kView == 3u) return geometry.normal;
   if (kView == 4u) {
     const float samples = kAlphaIsSampleCount ? light.a : 1.0;
     return vec3(1.0 / z, geometry.occlusion, sampled ? samples : 0.0);
   }
   const vec4 predicted = predict(p, x);
-  if (kView == 0u) return vec3(notEqual(clampedColour(predicted.rgb), predicted.rgb));
+  if (kView == 0u) return vec3(notEqual(clampedRadiance(predicted.rgb), predicted.rgb));
   return vec3(predicted.a == 0.0, !sampled, !isFinite(predicted.rgb));
 }
 #endif
@@ -104,6 +102,6 @@ void main() {
   }
   const vec4 predicted = predict(p, unpackGuides(packedGuides(p), z));
   // Alpha below 0: there is no light.
-  imageStore(outFiltered, p, vec4(clampedColour(predicted.rgb), predicted.a > 0.0 ? 1.0 : -1.0));
+  imageStore(outFiltered, p, vec4(clampedRadiance(predicted.rgb), predicted.a > 0.0 ? 1.0 : -1.0));
 #endif
 }

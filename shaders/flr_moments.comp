@@ -1,5 +1,5 @@
 // FLR, first stage (Salmi et al. 2024): sums the outer products of guides and colour over the pixels of each cell.
-// LEARNED: writes a second buffer of products, which eight guides take (flr.glsl).
+// EIGHT_GUIDES: writes a second buffer of products (flr.glsl).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -16,7 +16,7 @@ layout(push_constant) uniform PushConstants { FlrConstants constants; };
 uniform texture2D lighting;
 uniform utexture2D depth;
 layout(std430) writeonly buffer outMoments { vec4 outCells[]; };
-#ifdef LEARNED
+#ifdef EIGHT_GUIDES
 layout(std430) writeonly buffer outMoreMoments { vec4 outMoreCells[]; };
 #endif
 #include "include/flr_guides.glsl"
@@ -37,11 +37,11 @@ void main() {
       const vec3 colour = sampleHere.rgb;
       // Sky, pixels without a diffuse lobe and pixels without a finite sample do not count.
       if (z == 0.0 || !isFinite(colour) || (kAlphaIsSampleCount && sampleHere.a == 0.0)) continue;
-      add(sum, 1.0, outerProducts(unpackGuides(guides, z), clamp(colour, 0.0, kLargestHalf)));
+      add(sum, 1.0, outerProducts(unpackGuides(guides, z), clampedRadiance(colour)));
     }
   }
   [[unroll]] for (int k = 0; k < kFirstVectors; ++k) outCells[vectorIndex(cell, k)] = sum.v[k];
-#ifdef LEARNED
+#ifdef EIGHT_GUIDES
   [[unroll]] for (int k = kFirstVectors; k < kProductVectors; ++k)
     outMoreCells[vectorIndex(cell, k - kFirstVectors)] = sum.v[k];
 #endif

@@ -43,7 +43,7 @@ Estimate estimateAt(ivec2 q) {
     return Estimate(radiance, m.x, m.y, m.z);
   }
   if (!isFinite(radiance)) return Estimate(vec3(0.0), 0.0, 0.0, 0.0);
-  const vec3 bounded = clamp(radiance, vec3(0.0), vec3(kLargestHalf));
+  const vec3 bounded = clampedRadiance(radiance);
   return Estimate(bounded, luminance(bounded), 0.0, 1.0);
 }
 

@@ -3,7 +3,9 @@
 
     export_weights.py --state FILE --cache DIR --project .
 
-It writes passes/weights/flnr_PRESET.f16, the same as .json, and tests/passes/fixtures/flnr_PRESET.txt of the project. The fixture is a small frame and the guides that PyTorch makes of it with these weights, for the tests of the shaders.
+It writes three files of the project: the weights, passes/weights/flnr_PRESET.f16; their record, flnr_PRESET.json beside them; and the
+fixture, tests/passes/fixtures/flnr_PRESET.txt. The fixture is a small frame and the guides that PyTorch makes of it with these weights,
+for the tests of the shaders.
 """
 import argparse
 import json
@@ -31,7 +33,7 @@ def convolution(layer):
 
 def heads(network):
     """flnr_head.comp: for each input, for each group of four, its results; then the biases. One layer where a group is a guide of four
-    pixels; a layer for each group of four guides of a pixel, the last of which is filled up with zeros."""
+    pixels; a layer for each group of four guides of a pixel, and zeros fill up the last group."""
     weight, bias = network.head.weight[:, :, 0, 0], network.head.bias
     if network.shrink == 2:
         return [weight.t().reshape(-1), bias]

@@ -100,7 +100,7 @@ PRESETS = {
     "small": {"widths": (16, 24, 32, 48), "guides": 3, "shrink": 2, "replaces": False},
     "paper": {"widths": (16, 24, 32, 48), "guides": 5, "shrink": 1, "replaces": True},
 }
-"""`paper`: as the poster says, at full size, five guides in place of the geometric ones. It says of the widths that they are low."""
+"""`paper`: as the poster says, at full size, five guides in place of the geometric ones. It only says that the widths are low."""
 
 
 def cells_of(maps):

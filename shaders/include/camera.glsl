@@ -12,7 +12,7 @@ vec2 pixelOf(vec4 rayFromPixel, vec3 position) {
   return (position.xy / -position.z - rayFromPixel.zw) / rayFromPixel.xy;
 }
 
-// The same, at most as far outside any image as integers and fractions of pixels allow.
+// The same, at most a million pixels away from the origin: finite, and within the range of integers.
 vec2 nearPixelOf(vec4 rayFromPixel, vec3 position) {
   return clamp(pixelOf(rayFromPixel, position), vec2(-1e6), vec2(1e6));
 }

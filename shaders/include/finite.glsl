@@ -9,7 +9,7 @@ bool isFinite(vec3 v) { return isFinite(v.x) && isFinite(v.y) && isFinite(v.z); 
 // Largest finite half; anything above would become infinity in an RGBA16F texture.
 const float kLargestHalf = 65504.0;
 
-// Finite light as filters take it.
+// Light within what halves hold, and not below 0.
 vec3 clampedRadiance(vec3 light) { return clamp(light, vec3(0.0), vec3(kLargestHalf)); }
 
 #endif

@@ -54,7 +54,7 @@ vec3 fitted(Moments m, Slopes slopes, vec2 features) {
 // The fitted colour, clamped to 0 and the largest half.
 vec3 reconstruct(Moments m, vec2 features, bool pivotFloor, float ridge, float noiseRidge) {
   const Slopes slopes = slopesOf(m, factorOf(m, pivotFloor, ridge, noiseRidge));
-  return clamp(fitted(m, slopes, features), vec3(0.0), vec3(kLargestHalf));
+  return clampedRadiance(fitted(m, slopes, features));
 }
 
 #endif

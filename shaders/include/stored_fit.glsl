@@ -32,7 +32,8 @@ struct ScaledFeatures {
 };
 
 ScaledFeatures scaledFeatures(NormalAndOcclusion guides, float z) {
-  const float scale = 1.0 / kLightUnit, leastDepth = 1e-18;  // Products of its inverse with depths of fits are finite.
+  const float scale = 1.0 / kLightUnit;
+  const float leastDepth = 1e-18;  // The depth of a fit over a smaller one could overflow.
   return ScaledFeatures(NormalAndOcclusion(scale * guides.normal, scale * guides.occlusion), scale / max(z, leastDepth));
 }
 

@@ -49,10 +49,6 @@ std::vector<NamedNetwork> bothNetworks() {
   return {{"flnr_small", smallNetwork()}, {"flnr_paper", paperNetwork()}};
 }
 
-std::size_t guideCount(const GuideNetwork& network) {
-  return network.kind == NetworkKind::Small ? 3 : 5;
-}
-
 fg::Extent extentOf(glm::ivec2 size) {
   return {std::uint32_t(size.x), std::uint32_t(size.y)};
 }
@@ -176,7 +172,8 @@ Fixture readFixture(const NamedNetwork& of) {
   glm::ivec2 size(0);
   in >> size.x >> size.y;
   if (!in) throw std::runtime_error(file + ": cannot be read");
-  Fixture fixture{Image<Guide>(size), Image<glm::dvec4>(size), ChannelImage(size, guideCount(of.network))};
+  Fixture fixture{Image<Guide>(size), Image<glm::dvec4>(size),
+                  ChannelImage(size, reference::guideCount(of.network.kind))};
   forEachPixel(size, [&](glm::ivec2 p) {
     glm::dvec2 steps(0.0);
     double occlusion = 0.0;
@@ -227,7 +224,7 @@ class WholeGuideNetwork : public fg::test::GpuTest {
   }
   /// The guides of both textures.
   ChannelImage run(const Fixture& fixture, const GuideNetwork& network) {
-    ChannelImage result(fixture.guides.size(), guideCount(network));
+    ChannelImage result(fixture.guides.size(), reference::guideCount(network.kind));
     const std::size_t inFirst = std::min<std::size_t>(result.count, 4);
     const Image<glm::dvec4> first = run(fixture, network, false);
     const Image<glm::dvec4> more = result.count > inFirst ? run(fixture, network, true) : Image<glm::dvec4>{};

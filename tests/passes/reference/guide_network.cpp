@@ -91,10 +91,9 @@ ChannelImage encodedGuides(const Image<Guide>& guides, const Image<glm::dvec4>& 
   return result;
 }
 
-/// The guides that the last layers of a network make (flnr_head.comp), three for each pixel of a texel of four, or
-/// five.
-ChannelImage heads(const ChannelImage& input, std::span<const std::uint16_t> halves, glm::ivec2 size, int shrink) {
-  const std::size_t guides = shrink == 2 ? 3 : 5;
+/// The guides that the last layers of a network make (flnr_head.comp).
+ChannelImage heads(const ChannelImage& input, std::span<const std::uint16_t> halves, glm::ivec2 size, int shrink,
+                   std::size_t guides) {
   const std::size_t groups =
       shrink == 2 ? 3 : 1;  // Of four results in a layer: a guide of four pixels, or four guides.
   ChannelImage result(size, guides);
@@ -180,6 +179,10 @@ std::vector<std::uint16_t> packConvolution(std::span<const double> weights, std:
   return halves;
 }
 
+std::size_t guideCount(NetworkKind kind) {
+  return kind == NetworkKind::Small ? 3 : 5;
+}
+
 ChannelImage guideNetwork(const Image<Guide>& guides, const Image<glm::dvec4>& lighting, const GuideNetwork& network,
                           Storage storage) {
   const int shrink = network.kind == NetworkKind::Small ? 2 : 1;
@@ -208,7 +211,7 @@ ChannelImage guideNetwork(const Image<Guide>& guides, const Image<glm::dvec4>& l
     const ChannelImage& skip = skips.back();
     last = block(joined(grown(last, skip.size), skip), skip.count);
   }
-  return heads(last, left, guides.size(), shrink);
+  return heads(last, left, guides.size(), shrink, guideCount(network.kind));
 }
 
 }  // namespace walr::reference

@@ -48,7 +48,10 @@ std::vector<double> unpackConvolution(std::span<const std::uint16_t> halves, std
 /// The opposite.
 std::vector<std::uint16_t> packConvolution(std::span<const double> weights, std::size_t inputs, std::size_t outputs);
 
-/// The guides that a network makes, three or five channels, with the results of all layers rounded to halves or not.
+/// Number of guides that a network of this kind makes for a pixel.
+std::size_t guideCount(NetworkKind kind);
+
+/// The guides that a network makes, a channel each, with the results of all layers rounded to halves or not.
 /// @param lighting with the number of samples in it; light that is not finite is no sample
 ChannelImage guideNetwork(const Image<Guide>& guides, const Image<glm::dvec4>& lighting, const GuideNetwork& network,
                           Storage storage);
