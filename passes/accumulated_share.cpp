@@ -47,10 +47,11 @@ void addAccumulatedShare(StageGraph graph, fg::PassBuilder& apply, const Accumul
       .sample("previousStatistics", statistics.previous)
       .sample("previousAgreement", agreement.previous)
       .sample("previousLeastAntilag", history.leastAntilag.previous)
-      .constants(ResidualStatisticsConstants{static_cast<std::int32_t>(inputs.tileSize),
-                                             static_cast<std::int32_t>(inputs.tileOffset),
-                                             static_cast<std::int32_t>(settings.radius), 1.0F - 1.0F / settings.frames,
-                                             history.maxHistory, settings.innovationGain, bias})
+      .specialize("kTileSize", inputs.tileSize)
+      .specialize("kRadius", settings.radius)
+      .constants(ResidualStatisticsConstants{static_cast<std::int32_t>(inputs.tileOffset),
+                                             1.0F - 1.0F / settings.frames, history.maxHistory, settings.innovationGain,
+                                             bias})
       // A tile of antilag is no smaller than one of the reconstruction, so that there are no more of them.
       .dispatch(inputs.tiles);
   static_cast<void>(pass.store("outStatistics", statistics.current));

@@ -22,11 +22,12 @@ fg::Texture addAntilag(StageGraph graph, const Antilag& antilag, const AntilagSe
   if (!(settings.scoreLow < settings.scoreHigh)) {
     throw std::invalid_argument("setting accumulation.antilag-low must be below accumulation.antilag-high");
   }
-  const AntilagConstants constants{static_cast<std::int32_t>(settings.radius), settings.scoreLow, settings.scoreHigh};
+  const AntilagConstants constants{settings.scoreLow, settings.scoreHigh};
   fg::PassBuilder pass = graph.compute("antilag", shaders::antilag);
   pass.sample("tiles", antilag.tiles)
       .specialize("kHasLeast", antilag.least.valid())
       .sampleIf(antilag.least.valid(), "least", antilag.least, antilag.tiles)
+      .specialize("kRadius", settings.radius)
       .constants(constants)
       .dispatch(graph.textureDesc(antilag.tiles).extent);
   return pass.store("outFactor", antilag.factor.current);

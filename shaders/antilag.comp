@@ -12,21 +12,20 @@ layout(local_size_x = 8, local_size_y = 8) in;
 
 uniform texture2D tiles;  // x: sum of d over a tile; y: sum of d^2.
 layout(constant_id = 0) const bool kHasLeast = false;
+layout(constant_id = 1) const int kRadius = 3;  // Of the window of tiles.
 uniform texture2D least;  // Least factor of each tile; of the previous frame's size, and not read where that is another.
 layout(r32f) uniform writeonly image2D outFactor;
 layout(push_constant) uniform PushConstants { AntilagConstants constants; };
 
-void main() {
-  const ivec2 tile = ivec2(gl_GlobalInvocationID.xy);
-  const ivec2 size = textureSize(tiles, 0);
-  if (any(greaterThanEqual(tile, size))) return;
+ivec2 tilesOfImage() { return textureSize(tiles, 0); }
+const int kSharedLeast = 0;
+#include "include/window_sum.glsl"
 
-  const ivec2 first = max(tile - constants.radius, ivec2(0));
-  const ivec2 last = min(tile + constants.radius, size - 1);
-  vec2 sum = vec2(0.0);
-  for (int y = first.y; y <= last.y; ++y) {
-    for (int x = first.x; x <= last.x; ++x) sum += texelFetch(tiles, ivec2(x, y), 0).xy;
-  }
+void main() {
+  const vec2 sum = windowSum(tiles, ivec2(0)).xy;
+  const ivec2 tile = ivec2(gl_GlobalInvocationID.xy);
+  const ivec2 size = tilesOfImage();
+  if (any(greaterThanEqual(tile, size))) return;
   const float score = sum.y > 0.0 ? abs(sum.x) * inversesqrt(sum.y) : 0.0;
   const float factor = clamp((score - constants.scoreLow) / (constants.scoreHigh - constants.scoreLow), 0.0, 1.0);
   const bool hasLeast = kHasLeast && textureSize(least, 0) == size;

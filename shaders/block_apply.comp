@@ -296,12 +296,13 @@ void main() {
                                             : vec2(thread - kBlockSize * interval) / float(kBlockSize);
   const BilinearTexels nearBlocks = BilinearTexels(group + interval - 1, fraction);
 #ifdef RESIDUAL
+  const FetchedLight fetched = fetchLight(clamp(p, ivec2(0), textureSize(depth, 0) - 1));
   Shown shown = Shown(false, vec3(0.0), vec3(0.0), vec3(0.0));
   if (hasPixel) {
     vec3 position, normal, colour;
     if (predict(p, nearBlocks, position, normal, colour)) shown = Shown(true, position, normal, colour);
   }
-  const vec3 mixed = withAccumulated(p, hasPixel, shown);
+  const vec3 mixed = withAccumulated(p, hasPixel, fetched, shown);
   if (hasPixel) storeResult(p, shown.surface, mixed);
 #else
   if (hasPixel) {

@@ -8,6 +8,8 @@
 #include "constants/frame.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
+layout(constant_id = 0) const int kTileSize = 8;  // Pixels per axis, 5 to 8.
+layout(constant_id = 1) const int kRadius = 4;    // Of the window of tiles.
 
 layout(std140) uniform frameConstants { FrameConstants frame; };
 uniform utexture2D depth;
@@ -31,26 +33,21 @@ bool hasPrevious() { return frame.previousPixelFromPixel == vec2(1.0); }
 // The tile that showed the middle of this one in the previous frame, if nothing but the camera moved.
 ivec2 previousTile(ivec2 tile) {
   if (!hasPrevious()) return ivec2(-1);
-  const ivec2 first = constants.tileSize * tile - constants.tileOffset;
-  const ivec2 p = clamp(first + constants.tileSize / 2, ivec2(0), textureSize(depth, 0) - 1);
+  const ivec2 first = kTileSize * tile - constants.tileOffset;
+  const ivec2 p = clamp(first + kTileSize / 2, ivec2(0), textureSize(depth, 0) - 1);
   const float z = unpackDepthBesideNormal(texelFetch(depth, p, 0).x);
   if (z == 0.0) return tile;
   const vec3 before =
       previousPosition(frame.previousViewFromView, z * rayThrough(frame.rayFromPixel, pixelCentre(p)));
   if (before.z >= 0.0) return ivec2(-1);
   const vec2 pixel = nearPixelOf(frame.previousRayFromPixel, before);
-  return ivec2(floor((pixel + float(constants.tileOffset)) / float(constants.tileSize)));
+  return ivec2(floor((pixel + float(constants.tileOffset)) / float(kTileSize)));
 }
 
-// The window of tiles around one of them, inside the image.
-struct Window {
-  ivec2 first;
-  ivec2 last;
-};
-
-Window windowAround(ivec2 tile) {
-  return Window(max(tile - constants.radius, ivec2(0)), min(tile + constants.radius, tilesOfImage() - 1));
-}
+const int kAntilagSpan = 7 * kAntilagTile / kTileSize + 2;  // Tiles that a row of eight tiles of antilag spans.
+const int kAntilagSide = kAntilagSpan + 2 * kRadius;
+const int kSharedLeast = kAntilagSide * kAntilagSide;
+#include "include/window_sum.glsl"
 
 // How far the agreement of this frame's residuals with the history's is light that the fits miss, and not noise that
 // both share, as resampled light has. Such noise differs from pixel to pixel: means around a pixel have little of it,
@@ -63,50 +60,54 @@ float trustIn(vec4 both, vec2 far) {
   return clamp((continuing / max(both.x + both.z, 1e-30) - kNone) / (kFull - kNone), 0.0, 1.0);
 }
 
+// All threads must call it.
 void storeStatistics(ivec2 tile) {
   const ivec2 size = tilesOfImage(), rightHalf = ivec2(size.x, 0);
-  vec4 interior = vec4(0.0), edge = vec4(0.0);
-  vec2 far = vec2(0.0);
+  vec4 interior = windowSum(sums, ivec2(0)), edge = windowSum(sums, rightHalf);
+  vec2 far = windowSum(innovationSums, ivec2(0)).zw;
+  if (any(greaterThanEqual(tile, size))) return;
   const ivec2 before = previousTile(tile);
   if (all(greaterThanEqual(before, ivec2(0))) && all(lessThan(before, size))) {
-    interior = constants.kept * texelFetch(previousStatistics, before, 0);
-    edge = constants.kept * texelFetch(previousStatistics, before + rightHalf, 0);
-    far = constants.kept * texelFetch(previousAgreement, before, 0).xy;
-  }
-  const Window window = windowAround(tile);
-  for (int y = window.first.y; y <= window.last.y; ++y) {
-    for (int x = window.first.x; x <= window.last.x; ++x) {
-      interior += texelFetch(sums, ivec2(x, y), 0);
-      edge += texelFetch(sums, ivec2(x, y) + rightHalf, 0);
-      far += texelFetch(innovationSums, ivec2(x, y), 0).zw;
-    }
+    interior += constants.kept * texelFetch(previousStatistics, before, 0);
+    edge += constants.kept * texelFetch(previousStatistics, before + rightHalf, 0);
+    far += constants.kept * texelFetch(previousAgreement, before, 0).xy;
   }
   imageStore(outStatistics, tile, interior);
   imageStore(outStatistics, tile + rightHalf, edge);
   imageStore(outAgreement, tile, vec4(far, trustIn(interior + edge, far), 0.0));
 }
 
-// Slope of the regression of innovations on those of the frame before. Without noise it is how much more the last frame
-// should have counted. If only noise parts light and history, it is minus half of the share with which it counted.
-float innovationSlope(Window window) {
+// The tile that holds the middle of a tile of antilag.
+ivec2 tileOfSumsAt(ivec2 tile) {
+  const int middle = kAntilagTile / 2 + constants.tileOffset;
+  return min((kAntilagTile * tile + middle) / kTileSize, tilesOfImage() - 1);
+}
+
+// Slope of the regression of innovations on those of the frame before, in the window around a tile. Without noise it is
+// how much more the last frame should have counted. If only noise parts light and history, it is minus half of the share
+// with which it counted. All threads must call it.
+float innovationSlope(ivec2 tileOfSums) {
+  const ivec2 first = tileOfSumsAt(ivec2(gl_WorkGroupID.xy) * kGroup);
+  shareTiles(innovationSums, ivec2(0), first - kRadius, kAntilagSide);
+  const ivec2 inShared = tileOfSums - first;
   vec2 sum = vec2(0.0);
-  for (int y = window.first.y; y <= window.last.y; ++y) {
-    for (int x = window.first.x; x <= window.last.x; ++x) sum += texelFetch(innovationSums, ivec2(x, y), 0).xy;
+  for (int y = 0; y <= 2 * kRadius; ++y) {
+    for (int x = 0; x <= 2 * kRadius; ++x) sum += sharedTiles[(inShared.y + y) * kAntilagSide + inShared.x + x].xy;
   }
   return sum.y > 0.0 ? sum.x / sum.y : 0.0;
 }
 
 // Changes the history length N of accumulation, for a tile of antilag, and stores the antilag factor with which history
-// has this length.
+// has this length. All threads must call it.
 void storeLeastAntilag(ivec2 tile) {
-  const int middle = kAntilagTile / 2 + constants.tileOffset;
-  const ivec2 tileOfSums = min((kAntilagTile * tile + middle) / constants.tileSize, tilesOfImage() - 1);
-  const Window window = windowAround(tileOfSums);
+  const ivec2 tileOfSums = tileOfSumsAt(tile);
+  const float slope = innovationSlope(tileOfSums);
+  if (any(greaterThanEqual(tile, imageSize(outLeastAntilag)))) return;
   const float longest = constants.maxHistory, shortest = 2.0;  // Innovations need a history.
   const float previous = hasPrevious() ? texelFetch(previousLeastAntilag, tile, 0).x : 0.0;
   const float before = longest * (1.0 - previous) + 1.0;
   // Noise that successive frames share lets innovations agree, too: history is shortened as far as there is trust.
-  const float excess = innovationSlope(window) + constants.innovationBias;
+  const float excess = slope + constants.innovationBias;
   const float trust = hasPrevious() ? texelFetch(previousAgreement, tileOfSums, 0).z : 0.0;
   const float change = constants.innovationGain * (excess > 0.0 ? trust * excess : excess);
   const float frames = clamp(before * (1.0 - change), shortest, max(longest, shortest));
@@ -116,6 +117,6 @@ void storeLeastAntilag(ivec2 tile) {
 
 void main() {
   const ivec2 tile = ivec2(gl_GlobalInvocationID.xy);
-  if (all(lessThan(tile, tilesOfImage()))) storeStatistics(tile);
-  if (all(lessThan(tile, imageSize(outLeastAntilag)))) storeLeastAntilag(tile);
+  storeStatistics(tile);
+  storeLeastAntilag(tile);
 }

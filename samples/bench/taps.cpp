@@ -7,8 +7,6 @@
 #include <string_view>
 
 #include "passes/flr_regression.h"
-#include "shaders/constants/accumulated_share.h"
-#include "shaders/constants/antilag.h"
 #include "shaders/constants/block_regression.h"
 #include "shaders/constants/flr.h"
 #include "shaders/constants/guide_network.h"
@@ -102,10 +100,7 @@ constexpr std::array kShaders = {
                [](const Stage& stage) {
                  return 1.0 + (specializationOf(stage, "kBicubicHistory") != 0 ? kBicubic : kBilinear);
                }},
-    ShaderTaps{"antilag",
-               [](const Stage& stage) {
-                 return window(static_cast<std::uint32_t>(constantsOf<AntilagConstants>(stage).radius)) * stage.share;
-               }},
+    ShaderTaps{"antilag", [](const Stage& stage) { return window(specializationOf(stage, "kRadius")) * stage.share; }},
     ShaderTaps{"temporal_antialiasing",
                [](const Stage& stage) { return kBicubic + 1.0 + window(specializationOf(stage, "kClipRadius")); }},
     ShaderTaps{"atrous", [](const Stage&) { return 9.0; }},
@@ -138,10 +133,7 @@ constexpr std::array kShaders = {
     ShaderTaps{"block_apply", [](const Stage&) { return 1.0 + 2.0 * kBilinear; }},
     // Windows of three sums of tiles.
     ShaderTaps{"residual_statistics",
-               [](const Stage& stage) {
-                 const auto radius = constantsOf<ResidualStatisticsConstants>(stage).radius;
-                 return 3.0 * window(static_cast<std::uint32_t>(radius)) * stage.share;
-               }},
+               [](const Stage& stage) { return 3.0 * window(specializationOf(stage, "kRadius")) * stage.share; }},
     ShaderTaps{"joint_bilateral", [](const Stage& stage) { return window(specializationOf(stage, "kRadius")); }},
 };
 

@@ -24,6 +24,7 @@ constexpr std::uint64_t kResultBytes = 16;
 constexpr std::uint32_t kGroupSide = 8;
 constexpr double kFetchesOfCachedThread = 64.0;
 constexpr double kFetchesOfChain = 256.0;
+constexpr std::string_view kBufferCopy = "copy buffer";
 constexpr std::string_view kImageFill = "copy buffer to image";
 constexpr std::string_view kImageRead = "copy image to buffer";
 constexpr std::string_view kStream = "fetch every texel";
@@ -166,6 +167,12 @@ void fillIn(BandwidthProbe& probe, const std::vector<double>& milliseconds) {
 const BandwidthProbe* Bandwidth::find(std::string_view name) const {
   const auto found = std::ranges::find(probes, name, &BandwidthProbe::name);
   return found == probes.end() ? nullptr : &*found;
+}
+
+std::optional<double> Bandwidth::bytesPerSecond() const {
+  std::optional<double> most;
+  for (const BandwidthProbe& probe : probes) most = std::max(most, probe.bytesPerSecond);  // Nothing is the least.
+  return most;
 }
 
 Bandwidth measureBandwidth(const GpuDevice& device, std::uint32_t side, std::size_t repetitions) {

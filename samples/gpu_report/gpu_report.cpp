@@ -77,9 +77,7 @@ std::optional<ModelMachines> machinesOf(const GpuReportOptions& options, const B
     return std::nullopt;
   }
   ModelMachines machines{*machine, *machine};
-  if (const BandwidthProbe* copy = bandwidth.find(kBufferCopy); copy != nullptr && copy->bytesPerSecond) {
-    machines.attainable.bytesPerSecond = *copy->bytesPerSecond;
-  }
+  machines.attainable.bytesPerSecond = bandwidth.bytesPerSecond().value_or(machine->bytesPerSecond);
   if (const BandwidthProbe* fetches = bandwidth.find(kCachedFetches); fetches != nullptr && fetches->fetchesPerSecond) {
     machines.attainable.texelsPerSecond = *fetches->fetchesPerSecond;
   }

@@ -123,8 +123,9 @@ std::string modelNote(const GpuReport& report) {
          "fetches and waits take. Instructions are those that " +
          shaderFigures().driver + " makes for " + shaderFigures().family +
          ". Peak rates: " + fixed(peak.bytesPerSecond * kGiga, 0) + " GB/s, " + fixed(peak.texelsPerSecond * kGiga, 0) +
-         " billion fetches/s. At measured rates: " + fixed(attainable.bytesPerSecond * kGiga, 1) + " GB/s (copy), " +
-         fixed(attainable.texelsPerSecond * kGiga, 2) + " billion fetches/s (cached).\n\n";
+         " billion fetches/s. At measured rates: " + fixed(attainable.bytesPerSecond * kGiga, 1) +
+         " GB/s (the fastest probe), " + fixed(attainable.texelsPerSecond * kGiga, 2) +
+         " billion fetches/s (cached).\n\n";
 }
 
 std::string timesTable(const ContentMethodTimes& times) {

@@ -19,7 +19,7 @@ struct PassModel {
   std::uint32_t batch = 0;
   double bytes = 0.0;                ///< Of the plan.
   std::optional<Bounds> peak;        ///< At the machine's peak rates.
-  std::optional<Bounds> attainable;  ///< The same with the measured rates of copies and of cached fetches.
+  std::optional<Bounds> attainable;  ///< The same with the measured rates of memory and of cached fetches.
 };
 
 /// Times of one method on one content.

@@ -9,9 +9,7 @@ namespace walr {
 
 // Of residual_statistics.comp.
 struct ResidualStatisticsConstants {
-  int tileSize;          // Pixels per axis.
   int tileOffset;        // Pixels of the first tile that lie before the image, per axis.
-  int radius;            // Of the window of tiles.
   float kept;            // Share of the sums that is left after a frame.
   float maxHistory;      // Frames: the longest history of accumulation.
   float innovationGain;  // History shrinks by its length x this x (slope of innovations + innovationBias).
@@ -19,7 +17,7 @@ struct ResidualStatisticsConstants {
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(ResidualStatisticsConstants) == 28);
+static_assert(sizeof(ResidualStatisticsConstants) == 20);
 }  // namespace walr
 #endif
 #endif

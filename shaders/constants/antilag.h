@@ -10,13 +10,12 @@ const int kAntilagTile = 8;  // Pixels per axis: a workgroup of temporal accumul
 const float kLeastHistoryShare = 1.0f / 1024.0f;
 
 struct AntilagConstants {
-  int radius;       // Of the window around a tile, tiles.
   float scoreLow;   // Score up to which history counts in full, standard errors.
   float scoreHigh;  // Score from which history does not count, standard errors.
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(AntilagConstants) == 12);
+static_assert(sizeof(AntilagConstants) == 8);
 }  // namespace walr
 #endif
 #endif

@@ -100,16 +100,15 @@ const int kGroupSize = 8, kGroupThreads = kGroupSize * kGroupSize;
 // Four values of each thread: first the residuals below, later what is summed.
 shared vec4 groupValues[4 * kGroupThreads];
 const int kGroupResiduals = 0;                  // rgb: mean; a: noisy.
-const int kGroupNormals = kGroupThreads;        // rgb: 0 without a surface; a: 1 if the thread has no pixel.
+const int kGroupNormals = kGroupThreads;        // rgb: 0 without a surface; a: samples, or kNoPixel.
 const int kGroupPositions = 2 * kGroupThreads;  // rgb: position; a: history.
-const int kGroupSamples = 3 * kGroupThreads;    // r.
+const float kNoPixel = 1e30;                    // More samples than any pixel has.
 
 void shareResidual(bool hasPixel, Shown shown, Residual residual) {
   const int thread = int(gl_LocalInvocationIndex);
   groupValues[kGroupResiduals + thread] = vec4(residual.mean, residual.noisy);
-  groupValues[kGroupNormals + thread] = vec4(shown.normal, hasPixel ? 0.0 : 1.0);
+  groupValues[kGroupNormals + thread] = vec4(shown.normal, hasPixel ? residual.samples : kNoPixel);
   groupValues[kGroupPositions + thread] = vec4(shown.position, residual.history);
-  groupValues[kGroupSamples + thread].r = residual.samples;
   barrier();
 }
 
@@ -162,8 +161,8 @@ Residual meanAround(SameSurface surface, bool halves, out bool edge) {
     const ivec2 t = thread + ivec2(i % 3, i / 3) - 1, inside = clamp(t, ivec2(0), ivec2(kGroupSize - 1));
     const int q = inside.y * kGroupSize + inside.x;
     const float same = sameSurface(surface, q);
-    least = min(least, same + groupValues[kGroupNormals + q].a);  // At the group's border twice of one pixel.
-    const float stored = groupValues[kGroupSamples + q].r, samples = max(stored, ofMissing * stored);
+    const float stored = groupValues[kGroupNormals + q].a, samples = max(stored, ofMissing * stored);
+    least = min(least, stored < kNoPixel ? same : 1.0);  // At the group's border twice of one pixel.
     const float weight = t == inside ? same * samples : 0.0;
     sum.mean += weight * groupValues[kGroupResiduals + q].rgb;
     sum.noisy += weight * groupValues[kGroupResiduals + q].a;
@@ -221,16 +220,27 @@ void storeSums(vec2 light, vec4 statistics, bool edge, vec2 innovation, vec4 far
   imageStore(outInnovationSums, tile, clamp(scale * others, -most, most));
 }
 
+// The light of a pixel. It is fetched before the prediction, so that both wait for memory at the same time.
+struct FetchedLight {
+  vec4 mean;
+  vec3 noisy;
+  float antilag;
+};
+
+FetchedLight fetchLight(ivec2 p) {
+  const float factor = kAntilag ? antilagAt(antilag, vec2(p)) : 0.0;
+  return FetchedLight(accumulatedAt(p), texelFetch(lighting, p, 0).rgb, factor);
+}
+
 // The prediction of a pixel mixed with its accumulated light. All threads of the workgroup must call it.
-vec3 withAccumulated(ivec2 p, bool hasPixel, Shown shown) {
-  vec4 mean = shown.surface ? accumulatedAt(p) : vec4(0.0);
+vec3 withAccumulated(ivec2 p, bool hasPixel, FetchedLight fetched, Shown shown) {
+  vec4 mean = shown.surface ? fetched.mean : vec4(0.0);
   Residual own = Residual(vec3(0.0), 0.0, 0.0, 0.0);
   if (mean.a > 0.0) {
-    const vec3 noisy = texelFetch(lighting, p, 0).rgb;
-    const bool hasLight = isFinite(noisy);
-    const vec3 light = hasLight ? clampedRadiance(noisy) : vec3(0.0);
+    const bool hasLight = isFinite(fetched.noisy);
+    const vec3 light = hasLight ? clampedRadiance(fetched.noisy) : vec3(0.0);
     if (kAntilag) {
-      const float longest = longestHistory(antilagAt(antilag, vec2(p)), constants.maxHistory);
+      const float longest = longestHistory(fetched.antilag, constants.maxHistory);
       mean = withLongestHistory(mean, light, hasLight ? 1.0 : 0.0, longestHistoryOf(hasLight, longest));
     }
     own = residualOf(mean, light, hasLight, shown.predicted);

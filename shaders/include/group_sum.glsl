@@ -5,21 +5,26 @@
 const uint kGroupThreads = 64u;
 shared GROUP_SUM groupSums[kGroupThreads];
 
-// The sum of `value` over the workgroup, for all its threads, which must all call it. Each round leaves a quarter of
-// the sums. Before another call the threads need a barrier.
+const uint kPartialSums = 8u;
+
+// The sum of eight values in shared memory, `stride` apart.
+GROUP_SUM sumOfEight(uint first, uint stride) {
+  GROUP_SUM pairs[4];
+  [[unroll]] for (uint i = 0u; i < 4u; ++i) {
+    pairs[i] = groupSums[first + 2u * i * stride] + groupSums[first + (2u * i + 1u) * stride];
+  }
+  return (pairs[0] + pairs[1]) + (pairs[2] + pairs[3]);
+}
+
+// The sum of `value` over the workgroup, for all its threads, which must all call it. Before another call the threads
+// need a barrier. Two rounds of eight values wait for fewer barriers than more rounds of fewer values.
 GROUP_SUM sumOverGroup(GROUP_SUM value) {
   const uint thread = gl_LocalInvocationIndex;
   groupSums[thread] = value;
   barrier();
-  [[unroll]] for (int round = 0; round < 3; ++round) {
-    const uint n = kGroupThreads >> (2 * round + 2);
-    if (thread < n) {
-      groupSums[thread] = (groupSums[thread] + groupSums[thread + 2u * n]) +
-                          (groupSums[thread + n] + groupSums[thread + 3u * n]);
-    }
-    barrier();
-  }
-  return groupSums[0];
+  if (thread < kPartialSums) groupSums[thread] = sumOfEight(thread, kPartialSums);
+  barrier();
+  return sumOfEight(0u, 1u);
 }
 
 #endif

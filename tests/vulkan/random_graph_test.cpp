@@ -1,6 +1,8 @@
 #include "tests/vulkan/random_graph.h"
 
+#include <algorithm>
 #include <cstdlib>
+#include <set>
 
 #include "framegraph/plan/memory_places.h"
 #include "tests/vulkan/gpu_fixture.h"
@@ -46,14 +48,23 @@ class RandomGraphTest : public GpuTest {
   }
 
   void countHistoryAliases(const GraphDesc& graph, const Plan& plan) {
+    std::set<std::uint32_t> typesOfTextures;
+    std::set<std::uint32_t> typesOfBuffers;
     for (std::uint32_t i = 0; i < graph.resources.size(); ++i) {
-      if (aliasedHistoryImages(graph, plan, i).empty()) continue;
-      ++(std::holds_alternative<TextureDesc>(graph.resources[i].desc) ? texturesInHistories_ : buffersInHistories_);
+      const bool isTexture = std::holds_alternative<TextureDesc>(graph.resources[i].desc);
+      (isTexture ? typesOfTextures : typesOfBuffers).insert(plan.resources[i].memoryTypeBits);
+      if (!aliasedHistoryImages(graph, plan, i).empty()) ++(isTexture ? texturesInHistories_ : buffersInHistories_);
     }
+    buffersCanAlias_ = buffersCanAlias_ || std::ranges::any_of(typesOfBuffers, [&](std::uint32_t types) {
+                         return typesOfTextures.contains(types);
+                       });
   }
 
   std::uint32_t texturesInHistories_ = 0;
   std::uint32_t buffersInHistories_ = 0;
+  /// Whether the driver allows the same types of memory for buffers and for textures, of which histories are made. That
+  /// of NVIDIA does not, so that the two share no memory.
+  bool buffersCanAlias_ = false;
 };
 
 TEST_F(RandomGraphTest, ResultsEqualTheDeclaredOrderOnTheCpu) {
@@ -61,7 +72,11 @@ TEST_F(RandomGraphTest, ResultsEqualTheDeclaredOrderOnTheCpu) {
     compareWithCpu(seed, seed % 2 == 0);
   }
   EXPECT_GT(texturesInHistories_, kGraphs / 4) << "too few textures in the memory of histories";
-  EXPECT_GT(buffersInHistories_, kGraphs / 20) << "too few buffers in the memory of histories";
+  if (buffersCanAlias_) {
+    EXPECT_GT(buffersInHistories_, kGraphs / 20) << "too few buffers in the memory of histories";
+  } else {
+    EXPECT_EQ(buffersInHistories_, 0U);
+  }
 }
 
 }  // namespace
