@@ -47,12 +47,13 @@ function(walr_install_guides folder component)
   set(options COMPONENT ${component} ${ARGN})
   install(FILES integration/README.md integration/ADAPTERS.md DESTINATION "${folder}/integration" ${options})
   install(FILES passes/WALR.md passes/WALR_EXPERIMENTS.md passes/SPARSE_LIGHT_EXPERIMENTS.md
-    passes/ANTIALIASING_EXPERIMENTS.md
+    passes/SHARE_EXPERIMENTS.md passes/ANTIALIASING_EXPERIMENTS.md passes/GPU_EXPERIMENTS.md
     passes/GLOSSARY.md passes/BIBLIOGRAPHY.md
     DESTINATION "${folder}/passes" ${options})
   install(FILES passes/images/walr.svg DESTINATION "${folder}/passes/images" ${options})
   install(FILES samples/embedding/embedding.c samples/embedding/sequence.cpp DESTINATION "${folder}/samples/embedding" ${options})
   install(FILES samples/README.md DESTINATION "${folder}/samples" ${options})
+  install(FILES samples/bench/GPU.md DESTINATION "${folder}/samples/bench" ${options})
   install(DIRECTORY samples/docs DESTINATION "${folder}/samples" ${options} FILES_MATCHING PATTERN "*.md")
 endfunction()
 walr_install_guides("${CMAKE_INSTALL_DOCDIR}" dev)

@@ -3,18 +3,22 @@
 
     update_results.py methods FOLDER    takes the comparison of methods from FOLDER/bench.json, and its pictures
     update_results.py costs FOLDER      takes only the bytes, taps and memory of these methods, after a change of no result
+    update_results.py gpu FOLDER        takes the times on a GPU from FOLDER/gpu_report.json
     update_results.py scenes FOLDER     takes the rendered scenes and the times by content from FOLDER/bench.json
     update_results.py                   writes the documents again from results.json
     update_results.py --check           fails if a document differs from what results.json gives
 
 The values in the documents are stored in results.json next to this script. From it, the script writes the marked part of
-README.md, samples/bench/RESULTS.md, samples/bench/SCENES.md and the plot samples/images/pareto.png. Images need matplotlib.
+README.md, samples/bench/RESULTS.md, GPU.md and SCENES.md beside it, and the plot samples/images/pareto.png. Images need
+matplotlib.
 Estimated GPU times come from samples/estimate/shader_figures.json, which `cmake --build build --target update_costs` writes.
 """
 import json
 import math
 import pathlib
 import sys
+
+from gpu_page import PAGE_SIZES, gpu_page, keep_gpu, milliseconds
 
 HERE = pathlib.Path(__file__).resolve().parent
 PROJECT = HERE.parent.parent
@@ -30,6 +34,7 @@ DECIMALS = {"rmse": 4, "ssim": 3, "flip": 3, "flicker": 4}
 SCENE_COLUMNS = (("clean_rmse", "RMSE", 5), ("rmse", "RMSE with noise", 5), ("ssim", "SSIM", 4), ("flip", "FLIP", 4),
                  ("flicker", "flicker", 5))
 RESPONSES = ("first_frame_rmse", "settled_rmse", "settled_flicker", "light_frames", "light_lag", "recovery_frames")
+GPU_SIZE = "{} x {}".format(*PAGE_SIZES[0])
 UNFILTERED = ("accumulate", "none")
 CROPPED = ("walr", "walr_paper", "bmfr", "svgf", "flr", "joint_bilateral")
 
@@ -145,28 +150,36 @@ def headline(kept):
     return {n: m for n, m in kept["methods"].items() if ":" not in n and n != "accumulate"}
 
 
-def readme_part(kept):
+def gpu_time(gpu, name):
+    """Time of a frame of 1920 x 1080 on the GPU, in milliseconds, as text."""
+    return number(milliseconds(gpu, name, GPU_SIZE), 2)
+
+
+def gpu_term(gpu):
+    return f"""* **GPU time**: milliseconds of a frame of 1920 x 1080 on an {gpu['device']}, by GPU timestamps, median."""
+
+
+def readme_part(kept, gpu):
     """A small table, its terms, and one plot."""
     sequences = list(kept["noise"])
     rows = []
     for name, method in headline(kept).items():
-        time = times(method)
         rows.append([f"`{name}`", *(number(method["sequences"][s]["rmse"], 4) for s in sequences),
-                     number(over_sequences(method, "flip"), 3), number(over_sequences(method, "flicker"), 4), f"{method['bytes']:.0f}",
-                     "-" if time is None else f"{time[0]:.2f}"])
-    return (table(["method", *(f"RMSE, `{s}`" for s in sequences), "FLIP", "flicker", "bytes per pixel", "relative time"], rows) + f"""
+                     number(over_sequences(method, "flip"), 3), number(over_sequences(method, "flicker"), 4), gpu_time(gpu, name),
+                     f"{method['bytes']:.0f}"])
+    return (table(["method", *(f"RMSE, `{s}`" for s in sequences), "FLIP", "flicker", "GPU time, ms", "bytes per pixel"], rows) + f"""
 * **Method**: each with its default settings, on the same frames. `none` is the noisy input.
 * **RMSE**: root mean square error of the light without albedo, after the tone map x / (1 + x), which gives
   values from 0 to 1; lower is better.
 * **FLIP**: difference that a person would see (Andersson et al. 2020), 0 to 1; lower is better. Mean over both sequences.
 * **Flicker**: how much the error changes from one frame to the next on the same surface point, in the units of RMSE; lower is
   better. Mean over both sequences.
+{gpu_term(gpu)} Spread, larger
+  sizes, passes and bandwidth: [samples/bench/GPU.md](samples/bench/GPU.md).
 * **Bytes per pixel**: what the passes of one frame read and write at 1920 x 1080, counted from the compiled graph. It holds on any
   device. A texel counts once a pass, so the wide window of `joint_bilateral` looks cheap here.
-* **Relative time**: time of a frame over that of `walr` on the same frame; median over the frames, then mean over both
-  sequences.{processor_note(kept)}
 
-![RMSE against bytes per pixel](samples/images/pareto.png)
+![RMSE against GPU time](samples/images/pareto.png)
 
 *Lower left is better. Grey line: Pareto front. RMSE is the mean over both sequences.*
 
@@ -207,7 +220,7 @@ def estimate_term(static):
   the shaders of this commit, also where the other columns were measured at an earlier one."""
 
 
-def methods_table(kept, static):
+def methods_table(kept, static, gpu):
     estimates = estimated_times(static)
     header = ["method"]
     for sequence in kept["noise"]:
@@ -216,10 +229,10 @@ def methods_table(kept, static):
     for name, method in kept["methods"].items():
         time = times(method)
         rows.append([f"`{name}`", *(number(s[f], DECIMALS[f]) for s in method["sequences"].values() for f in LABELS),
-                     "-" if time is None else f"{time[0]:.2f} ({time[1]:.2f} to {time[2]:.2f})", number(estimates.get(name), 0),
-                     f"{method['bytes']:.0f}",
+                     "-" if time is None else f"{time[0]:.2f} ({time[1]:.2f} to {time[2]:.2f})", gpu_time(gpu, name),
+                     number(estimates.get(name), 0), f"{method['bytes']:.0f}",
                      "-" if method["taps"] is None else f"{method['taps']:.0f}", f"{method['megabytes']:.0f}"])
-    return table(header + ["relative time", "estimated GPU time, us", "bytes per pixel", "taps per pixel", "memory, MB"], rows)
+    return table(header + ["relative time", "GPU time, ms", "estimated GPU time, us", "bytes per pixel", "taps per pixel", "memory, MB"], rows)
 
 
 def response_section(kept):
@@ -246,7 +259,7 @@ def response_section(kept):
 """
 
 
-def results_page(kept, static):
+def results_page(kept, static, gpu):
     noise = listed(f"{number(v, 4)} on `{s}`" for s, v in kept["noise"].items() if v is not None)
     standings = "".join(f"* On `{s}` " + standing({n: m["sequences"][s] for n, m in kept["methods"].items() if not n.startswith("walr:")}, "walr", list(LABELS)) + ".\n"
                         for s in kept["noise"]) + "  Its other presets are not counted here.\n"
@@ -263,13 +276,14 @@ Written by `samples/bench/update_results.py` from `results.json`. Two sequences 
 pixel, moving camera; references of 1,400 to 2,100 samples per pixel. Values are means over the frames after the fourth, over pixels
 with a diffuse lobe. A method's name means its default preset; `METHOD:PRESET` names another one.
 
-{methods_table(kept, static)}
+{methods_table(kept, static, gpu)}
 * **RMSE**, **SSIM** (structural similarity, Wang et al. 2004; higher is better) and **FLIP** (Andersson et al. 2020, 67 pixels per
   degree) are taken after the tone map x / (1 + x). **Flicker** is the root mean square change of the error in luminance along
   motion, without disocclusions, over the square root of 2: white noise of standard deviation s has flicker s.
   RMSE and flicker are in units of the tone-mapped value, 0 to 1; SSIM and FLIP have no unit.
 * **Relative time**: time of a frame over that of `walr` on the same frame in the same run; median, and in brackets the 5th to the 95th
   percentile; mean over both sequences.{processor_note(kept)}
+{gpu_term(gpu)} More of it: [GPU.md](GPU.md).
 {estimate_term(static)}
 * **Bytes**, **taps** and **memory** are those of the compiled graph at 1920 x 1080 and hold on any device. Bytes: every texel that a
   pass reads or writes, once. Taps: fetches of light, of its history and of averages of it. Memory: histories and
@@ -370,19 +384,21 @@ def documents(kept):
     """Text of every document by its file."""
     readme = PROJECT / "README.md"
     static = json.loads(FIGURES_FILE.read_text())
-    return {readme: replaced(readme.read_text(encoding="utf-8"), readme_part(kept["methods"])),
-            HERE / "RESULTS.md": results_page(kept["methods"], static), HERE / "SCENES.md": scenes_page(kept["scenes"])}
+    return {readme: replaced(readme.read_text(encoding="utf-8"), readme_part(kept["methods"], kept["gpu"])),
+            HERE / "RESULTS.md": results_page(kept["methods"], static, kept["gpu"]),
+            HERE / "GPU.md": gpu_page(kept["gpu"], table), HERE / "SCENES.md": scenes_page(kept["scenes"])}
 
 
 # Pictures.
 
-def draw_plot(kept):
+def draw_plot(kept, gpu):
     from report_plots import COLOURS, error_axes, plt
 
-    points = {n: (m["bytes"], over_sequences(m, "rmse")) for n, m in headline(kept).items() if n not in UNFILTERED}
+    points = {n: (milliseconds(gpu, n, GPU_SIZE), over_sequences(m, "rmse")) for n, m in headline(kept).items()
+              if n not in UNFILTERED and milliseconds(gpu, n, GPU_SIZE)}
     figure, axes = plt.subplots(figsize=(7, 3.6))
     error_axes(axes, points, COLOURS.__getitem__, list(COLOURS).index, 1.35)
-    axes.set_xlabel("bytes per pixel at 1920 x 1080")
+    axes.set_xlabel(f"ms a frame of 1920 x 1080, {gpu['device']}")
     axes.set_ylabel("RMSE after the tone map")
     figure.savefig(IMAGES / "pareto.png", dpi=110, bbox_inches="tight", metadata={"Software": None})
 
@@ -443,10 +459,11 @@ def main():
         if stale:
             sys.exit(f"{listed(stale)}: not what results.json gives; run samples/bench/update_results.py")
         return
-    keep = {"methods": keep_methods, "scenes": keep_scenes}
+    keep = {"methods": (keep_methods, "bench.json"), "scenes": (keep_scenes, "bench.json"), "gpu": (keep_gpu, "gpu_report.json")}
     if len(arguments) == 2 and arguments[0] in keep:
         what, folder = arguments[0], pathlib.Path(arguments[1])
-        kept[what] = keep[what](json.loads((folder / "bench.json").read_text()))
+        kept_part, file = keep[what]
+        kept[what] = kept_part(json.loads((folder / file).read_text()))
         save(kept)
         if what == "methods":
             draw_crops(folder)
@@ -457,7 +474,7 @@ def main():
         sys.exit(__doc__)
     for path, text in documents(kept).items():
         path.write_text(text, encoding="utf-8")
-    draw_plot(kept["methods"])
+    draw_plot(kept["methods"], kept["gpu"])
 
 
 if __name__ == "__main__":

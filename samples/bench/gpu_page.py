@@ -1,0 +1,162 @@
+"""The page of times measured on GPUs, for update_results.py: GPU.md from what `walr gpu-report` wrote."""
+
+PAGE_SIZES = ((1920, 1080), (2560, 1440), (3840, 2160))
+CONTENT = "scene"  # Paths traced, one a pixel; the report also has a synthetic content.
+
+
+def spread(entry, decimals=4):
+    return [round(entry[k], decimals) for k in ("median", "p5", "p95")]
+
+
+def largest(bounds):
+    """An estimate in microseconds: the largest of its bounds; None without an estimate."""
+    return bounds["microseconds"] if bounds else None
+
+
+def keep_gpu(data):
+    """The values of a report that the page shows."""
+    device, clocks = data["device"], data["clocks"]["readings"]
+    kept = {"device": device["name"], "driver": device["driver"], "commit": data["commit"][:12],
+            "compiler": f"{data['compiler']}, {data['build_type']}", "command": data["command"], "model": data["model"]["gpu"],
+            "clocks": [[c["when"], c["core_mhz"], c["memory_mhz"]] for c in clocks],
+            "validated": len(data["validation"]["methods"]), "messages": len(data["validation"]["messages"]),
+            "probes": {p["name"]: {"description": p["description"], "ms": spread(p["milliseconds"]),
+                                   "gb_per_s": p["bytes_per_second"] and round(p["bytes_per_second"] / 1e9, 1),
+                                   "fetches": p["fetches_per_second"] and round(p["fetches_per_second"] / 1e9, 1),
+                                   "ns": p["seconds_per_fetch"] and round(p["seconds_per_fetch"] * 1e9)}
+                       for p in data["bandwidth"]["probes"]},
+            "methods": {}}
+    for times in data["times"]:
+        size = f"{times['width']} x {times['height']}"
+        if times["content"] != CONTENT:
+            continue
+        kept["content"] = times["description"]
+        for method in times["methods"]:
+            entry = kept["methods"].setdefault(method["variant"], {"sizes": {}, "agreement": []})
+            if method["why_not"]:
+                entry["sizes"][size] = {"why_not": method["why_not"]}
+                continue
+            passes = [{"name": p["name"], "ms": round(p["milliseconds"]["median"], 4), "mb": round(p["bytes"] / 1e6, 1),
+                       "us": [largest(p[k]) and round(largest(p[k]), 1) for k in ("estimate", "attainable_estimate")]}
+                      for p in method["passes"]]
+            entry["sizes"][size] = {"ms": spread(method["milliseconds"]), "us": method["estimated_microseconds"], "passes": passes}
+    for result in data["results"]["agreements"]:
+        agreement = [result["sequence"], result["rmse"], result["reference_rmse"], result["rms_difference"], result["suspicious"]]
+        kept["methods"][result["variant"]]["agreement"].append(agreement)
+    return kept
+
+
+def milliseconds(kept, method, size):
+    """Median time of a method's frame at a size; None if it was not measured."""
+    times = kept["methods"].get(method, {"sizes": {}})["sizes"].get(size, {})
+    return times["ms"][0] if "ms" in times else None
+
+
+def over(numerator, denominator, decimals=2):
+    return f"{numerator / denominator:.{decimals}f}" if numerator and denominator else "-"
+
+
+def times_table(kept, table):
+    sizes = [f"{w} x {h}" for w, h in PAGE_SIZES]
+    rows = []
+    for name, method in kept["methods"].items():
+        row = [f"`{name}`"]
+        for size in sizes:
+            times = method["sizes"].get(size, {})
+            row.append("{:.3f} ({:.3f} to {:.3f})".format(*times["ms"]) if "ms" in times else "-")
+        first = method["sizes"][sizes[0]]
+        walr = milliseconds(kept, "walr", sizes[0])
+        if "ms" in first:
+            megabytes = sum(p["mb"] for p in first["passes"])
+            row += [over(first["ms"][0], walr), over(megabytes, first["ms"][0], 0), over(1e3 * first["ms"][0], first["us"])]
+        rows.append(row)
+    return table(["method", *(f"{s}, ms" for s in sizes), "over `walr`", "plan's GB/s", "measured over estimate"], rows)
+
+
+def passes_table(kept, method, table):
+    sizes = [f"{w} x {h}" for w, h in PAGE_SIZES]
+    named = {}
+    for size in sizes:
+        for p in kept["methods"][method]["sizes"][size].get("passes", []):
+            named.setdefault(p["name"], {})[size] = p
+    # The last size has all passes: larger pictures have more iterations.
+    order = [p["name"] for p in kept["methods"][method]["sizes"][sizes[-1]]["passes"]]
+    rows = []
+    for name in order:
+        entry = named[name]
+        first = entry.get(sizes[0])
+        row = [name, *(f"{1e3 * entry[s]['ms']:.1f}" if s in entry else "-" for s in sizes)]
+        if first:
+            row += [f"{first['mb']:.1f}", over(first["mb"], first["ms"], 0), over(1e3 * first["ms"], first["us"][1])]
+        rows.append(row + ["-"] * (7 - len(row)))
+    return table(["pass", *(f"{s}, us" for s in sizes), "plan's MB", "plan's GB/s", "measured over estimate"], rows)
+
+
+def probes_table(kept, table):
+    def shown(value):
+        return "-" if value is None else f"{value:,}"
+
+    rows = [[name, f"{p['ms'][0]:.3f}", shown(p["gb_per_s"]), shown(p["fetches"]), shown(p["ns"]), p["description"]]
+            for name, p in kept["probes"].items()]
+    return table(["probe", "ms", "GB/s", "billion fetches/s", "ns a fetch", "what it does"], rows)
+
+
+def agreement_table(kept, table):
+    rows = [[f"`{name}`", sequence, f"{rmse:.5f}", f"{reference:.5f}", f"{difference:.6f}", over(100 * difference, rmse, 1),
+             "yes" if differs else ""]
+            for name, method in kept["methods"].items() for sequence, rmse, reference, difference, differs in method["agreement"]]
+    return table(["method", "sequence", "RMSE", "RMSE on the processor", "RMS difference", "% of RMSE", "differs"], rows)
+
+
+def gpu_page(kept, table):
+    """`table` makes a table of a header and rows."""
+    rates = sorted({f"{core:.0f} and {memory:.0f}" for _, core, memory in kept["clocks"]})
+    clocks = f"{'; '.join(rates)} in {len(kept['clocks'])} readings before, between and after the measurements"
+    messages = "no message" if kept["messages"] == 0 else f"{kept['messages']} messages"
+    return f"""# Times on a GPU
+
+Written by `samples/bench/update_results.py` from `results.json`. Measured with [`walr gpu-report`](../docs/gpu-report.md) on
+{kept['device']}, driver {kept['driver']}; commit {kept['commit']} ({kept['compiler']}):
+
+    {kept['command']}
+
+Clock rates of core and memory in MHz, by nvidia-smi: {clocks}.
+All {kept['validated']} methods and presets ran under the Khronos validation layer with synchronization validation: {messages}.
+
+This is a GPU for servers: 132 multiprocessors and 50 MB of cache, which holds most textures of a frame of 1920 x 1080. GPUs of
+desktops have a quarter of that or less. For these, the largest size tells more: it gives every multiprocessor enough to do.
+
+## Methods
+
+Frames: {kept['content']}. Median, and in brackets the 5 % and 95 % quantile.
+
+{times_table(kept, table)}
+* **Over `walr`**, **plan's GB/s** and **measured over estimate** are those at the first size.
+* **Plan's GB/s**: bytes of the plan, each texel once a pass, over the measured time.
+* **Estimate**: that of the static model (see `tests/costs/README.md`), at peak rates; {kept['model']}.
+* A 95 % quantile far above the median: now and then this machine takes three times as long for some frames, whatever the method.
+* `flnr:paper` takes pictures up to 2560 x 1440.
+
+What was tried to make `walr` faster here, and what it gained: [GPU experiments](../../passes/GPU_EXPERIMENTS.md).
+
+## Passes of `walr`
+
+{passes_table(kept, "walr", table)}
+The estimates are those at measured rates of memory and fetches. Passes over blocks have 32,640 threads at the first size,
+an eighth of what this GPU holds at a time: they wait for latency.
+
+## Passes of `flr`
+
+{passes_table(kept, "flr", table)}
+## Memory and texture units
+
+A buffer and a texture of 256 MiB.
+
+{probes_table(kept, table)}
+## Results
+
+The last frame of short sequences of 192 x 108 pixels, after the tone map x / (1 + x), against the known truth and against the same frame
+from a processor, computed by Mesa's lavapipe. A method **differs** if the RMS difference is more than a tenth of its own RMSE, or if a
+value is not finite.
+
+{agreement_table(kept, table)}"""
