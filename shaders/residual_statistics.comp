@@ -1,5 +1,5 @@
-// WALR, share of the accumulated light (passes/WALR.md, 9): sums of the residuals in a window of tiles, where
-// a frame fades as it ages. The innovations in this window tell how long history may be in the next frame.
+// WALR, share of the accumulated light (passes/WALR.md, 9): sums of the residuals in a window of tiles, where a frame
+// fades as it ages. The innovations in this window tell how long history may be in the next frame.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require

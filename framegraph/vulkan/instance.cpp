@@ -1,6 +1,7 @@
 #include "framegraph/vulkan/instance.h"
 
 #include <algorithm>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -11,11 +12,11 @@
 #endif
 
 #include "framegraph/vulkan/error.h"
+#include "framegraph/vulkan/validation_settings.h"
 
 namespace fg::vk {
 namespace {
 
-constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
 constexpr const char* kNoDriver =
     "no Vulkan driver found: install one (Mesa's software driver is the package mesa-vulkan-drivers), or correct "
     "VK_DRIVER_FILES and VK_ICD_FILENAMES if they are set";
@@ -78,6 +79,7 @@ PFN_vkGetInstanceProcAddr openLoader() {
 Instance::Instance(const InstanceOptions& options, PFN_vkGetInstanceProcAddr entry) : sink_(options.sink) {
   std::vector<const char*> layers;
   std::vector<const char*> extensions = options.extensions;
+  std::optional<ValidationSettings> validation;
   if (options.validation) {
     if (!hasLayer(entry, kValidationLayer)) {
       throw Unsupported(std::string(kValidationLayer) +
@@ -85,17 +87,12 @@ Instance::Instance(const InstanceOptions& options, PFN_vkGetInstanceProcAddr ent
                         VK_ERROR_LAYER_NOT_PRESENT);
     }
     layers.push_back(kValidationLayer);
-    extensions.push_back(VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME);
+    validation.emplace(hasExtension(entry, kValidationLayer, kLayerSettingsExtension));
+    if (validation->extension() != nullptr) extensions.push_back(validation->extension());
   }
   if (options.validation || (options.debugLabels && hasExtension(entry, nullptr, VK_EXT_DEBUG_UTILS_EXTENSION_NAME))) {
     extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
   }
-
-  constexpr VkValidationFeatureEnableEXT kSynchronization = VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT;
-  VkValidationFeaturesEXT validation{};
-  validation.sType = VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT;
-  validation.enabledValidationFeatureCount = 1;
-  validation.pEnabledValidationFeatures = &kSynchronization;
 
   VkDebugUtilsMessengerCreateInfoEXT messenger{};
   messenger.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT;
@@ -112,7 +109,7 @@ Instance::Instance(const InstanceOptions& options, PFN_vkGetInstanceProcAddr ent
   application.apiVersion = VK_API_VERSION_1_3;
   VkInstanceCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO;
-  info.pNext = options.validation ? &validation : nullptr;
+  info.pNext = validation ? validation->chain() : nullptr;
   info.pApplicationInfo = &application;
   info.enabledLayerCount = static_cast<std::uint32_t>(layers.size());
   info.ppEnabledLayerNames = layers.data();

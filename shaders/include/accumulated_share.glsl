@@ -97,7 +97,7 @@ struct Shown {
 };
 
 const int kGroupSize = 8, kGroupThreads = kGroupSize * kGroupSize;
-// Four values of each thread: first the residuals below, later what is summed.
+// First the residuals, three values of each thread; later what is summed, four of each.
 shared vec4 groupValues[4 * kGroupThreads];
 const int kGroupResiduals = 0;                  // rgb: mean; a: noisy.
 const int kGroupNormals = kGroupThreads;        // rgb: 0 without a surface; a: samples, or kNoPixel.

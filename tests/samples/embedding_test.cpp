@@ -32,7 +32,8 @@ class EmbeddingTest : public testing::Test {
     all.insert(all.end(), arguments.begin(), arguments.end());
     return test::runProcess(
         all, {.environment = {{"VK_INSTANCE_LAYERS", "VK_LAYER_KHRONOS_validation"},
-                              {"VK_LAYER_ENABLES", "VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT"}},
+                              {"VK_LAYER_ENABLES", "VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT"},
+                              {"VK_LAYER_SYNCVAL_SHADER_ACCESSES_HEURISTIC", "true"}},  // From 1.4 of the layer on.
               .largestFileBytes = {}});
   }
 
