@@ -7,10 +7,10 @@
 namespace walr::test {
 
 DenoiserRun::DenoiserRun(const fg::vk::Device& device, Denoiser& denoiser, glm::ivec2 size,
-                         const InputConventions& conventions)
+                         const InputConventions& conventions, const fg::vk::Membership& shared)
     : size_(size), inputs_(importInputs(graph_, size, conventions)), output_(importOutput(graph_, size)) {
   graph_.exported(denoiser.add(graph_, inputs_, output_), fg::vk::kReadable);
-  run_ = std::make_unique<fg::test::GraphRun>(device, graph_);
+  run_ = std::make_unique<fg::test::GraphRun>(device, graph_, fg::vk::ExecutorOptions{.shared = shared});
 }
 
 reference::Image<glm::dvec4> DenoiserRun::frame(const reference::HostFrame& frame) {

@@ -8,8 +8,9 @@ namespace walr::test {
 /// A whole denoiser on a device, fed with host frames one by one.
 class DenoiserRun {
  public:
+  /// @param shared runs with the same membership create each pipeline once and share no memory
   DenoiserRun(const fg::vk::Device& device, Denoiser& denoiser, glm::ivec2 size,
-              const InputConventions& conventions = {});
+              const InputConventions& conventions = {}, const fg::vk::Membership& shared = {});
 
   /// Forget all histories.
   void reset() { run_->executor().resetAllHistory(); }

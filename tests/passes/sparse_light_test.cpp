@@ -87,12 +87,27 @@ InputConventions conventionsOf(const LightPattern& pattern) {
   return conventions;
 }
 
-/// A method with sparse light, run frame by frame.
-DenoiserRun runOf(const fg::vk::Device& device, Denoiser& method, const LightPattern& pattern) {
-  return {device, method, kSize, conventionsOf(pattern)};
-}
+class SparseLight : public fg::test::GpuTest {
+ protected:
+  void SetUp() override {
+    GpuTest::SetUp();
+    pipelines_ = {std::make_shared<fg::vk::SharedObjects>(context()), 0};
+    pipelines_.member = pipelines_.objects->addMember();
+  }
+  void TearDown() override {
+    pipelines_ = {};
+    GpuTest::TearDown();
+  }
 
-class SparseLight : public fg::test::GpuTest {};
+  /// A method with sparse light, run frame by frame. All runs of a test share pipelines, which take longer to create
+  /// than frames to run.
+  DenoiserRun runOf(Denoiser& method, const LightPattern& pattern) const {
+    return {device(), method, kSize, conventionsOf(pattern), pipelines_};
+  }
+
+ private:
+  fg::vk::Membership pipelines_;
+};
 
 // It does not matter how the samples are handed over. The tests of the stages compare them with the reference.
 TEST_F(SparseLight, InGroupsEqualsThatInAMaskToTheBit) {
@@ -119,8 +134,8 @@ TEST_F(SparseLight, InGroupsEqualsThatInAMaskToTheBit) {
         trace.append(", ").append(name);
       }
       SCOPED_TRACE(trace);
-      DenoiserRun run = runOf(device(), *method, pattern);
-      DenoiserRun full = runOf(device(), *method, {1, 1, true});
+      DenoiserRun run = runOf(*method, pattern);
+      DenoiserRun full = runOf(*method, {1, 1, true});
       for (const HostFrame& frame : movingFrames(skyBesideSurface(), 3, pattern)) {
         const Image<glm::dvec4> output = run.frame(frame);
         EXPECT_TRUE(output.pixels() == full.frame(withMask(frame)).pixels());
@@ -172,8 +187,8 @@ TEST_F(SparseLight, CountsOfOneEqualAMaskToTheBit) {
         const std::unique_ptr<Denoiser> method = makeDenoiser(name);
         method->set("accumulation.max-history", maxHistory);
         method->set("accumulation.antilag", "on");
-        DenoiserRun run = runOf(device(), *method, masked);
-        DenoiserRun runOfCounts = runOf(device(), *method, counted);
+        DenoiserRun run = runOf(*method, masked);
+        DenoiserRun runOfCounts = runOf(*method, counted);
         // As many frames as make history longer than 17 frames only where that matters.
         const std::uint32_t frames = name == std::string("walr") ? 24 : 5;
         for (HostFrame frame : movingFrames(skyBesideSurface(), frames, masked)) {
@@ -193,8 +208,8 @@ TEST_F(SparseLight, EqualCountsWeighFramesAsOneSampleDoes) {
   const std::unique_ptr<Denoiser> method = makeDenoiser("accumulate");
   method->set("accumulation.max-history", "6");
   method->set("accumulation.antilag", "on");
-  DenoiserRun one = runOf(device(), *method, pattern);
-  DenoiserRun four = runOf(device(), *method, pattern);
+  DenoiserRun one = runOf(*method, pattern);
+  DenoiserRun four = runOf(*method, pattern);
   std::uint32_t index = 0;
   for (HostFrame frame : movingFrames(skyBesideSurface(), 18, {})) {
     frame.conventions.light = pattern;
@@ -213,7 +228,7 @@ TEST_F(SparseLight, CountedLightIsTheMeanOfAllSamples) {
   const LightPattern pattern{1, 1, false, true};
   const std::unique_ptr<Denoiser> method = makeDenoiser("accumulate");
   method->set("accumulation.max-history", "80");
-  DenoiserRun run = runOf(device(), *method, pattern);
+  DenoiserRun run = runOf(*method, pattern);
   Image<glm::dvec3> sums(kSize);
   Image<double> brightest(kSize, 0.0);
   Image<double> samples(kSize, 0.0);
@@ -240,7 +255,7 @@ TEST_F(SparseLight, CountedLightIsTheMeanOfAllSamples) {
 TEST_F(SparseLight, KeepsTheEnergyWhereCountsVary) {
   const LightPattern pattern{1, 1, false, true};
   const std::unique_ptr<Denoiser> method = makeDenoiser("walr");
-  DenoiserRun run = runOf(device(), *method, pattern);
+  DenoiserRun run = runOf(*method, pattern);
   double expected = 0.0;
   double shown = 0.0;
   for (std::uint32_t i = 0; i < 144; ++i) {
@@ -295,7 +310,7 @@ TEST_F(SparseLight, ConstantLightStaysConstantFromTheFirstFrameOn) {
   for (const LightPattern& pattern : patterns) {
     SCOPED_TRACE(nameOf(pattern));
     const std::unique_ptr<Denoiser> method = makeDenoiser("walr");
-    DenoiserRun run = runOf(device(), *method, pattern);
+    DenoiserRun run = runOf(*method, pattern);
     for (const HostFrame& frame : movingFrames(thinBars(), 4, pattern, Noise::None, constant)) {
       const Image<glm::dvec4> output = run.frame(frame);
       double worst = 0.0;
@@ -315,7 +330,7 @@ TEST_F(SparseLight, KeepsTheEnergyOfItsSamples) {
   for (const LightPattern& pattern : {LightPattern{2, 2}, LightPattern{3, 3}}) {
     SCOPED_TRACE(nameOf(pattern));
     const std::unique_ptr<Denoiser> method = makeDenoiser("walr");
-    DenoiserRun run = runOf(device(), *method, pattern);
+    DenoiserRun run = runOf(*method, pattern);
     double sampled = 0.0;
     double samples = 0.0;
     double shown = 0.0;
@@ -344,13 +359,13 @@ TEST_F(SparseLight, IsRefusedByNameWhereAllSamplesAreNeeded) {
     const std::unique_ptr<Denoiser> method = makeDenoiser(name);
     fg::test::expectError(
         [&] {
-          runOf(device(), *method, {2, 2});
+          runOf(*method, {2, 2});
         },
         {"method '" + std::string(name) + "'", "walr, walr_paper, bmfr, flr, accumulate"});
   }
   const std::unique_ptr<Denoiser> method = makeDenoiser("walr");
   method->set("spatial-only", "on");
-  fg::test::expectError([&] { runOf(device(), *method, {1, 1, true}); }, {"setting spatial-only"});
+  fg::test::expectError([&] { runOf(*method, {1, 1, true}); }, {"setting spatial-only"});
 }
 
 // A sample and the history of the same pixel tell the share of accumulated light. Sparse light lacks one of them.
@@ -360,8 +375,8 @@ TEST_F(SparseLight, HasNoShareOfAccumulatedLight) {
     const auto standard = makeDenoiser("walr"), fast = makeDenoiser("walr");
     standard->usePreset("standard");
     fast->usePreset("fast");
-    DenoiserRun run = runOf(device(), *standard, pattern);
-    DenoiserRun runOfFast = runOf(device(), *fast, pattern);
+    DenoiserRun run = runOf(*standard, pattern);
+    DenoiserRun runOfFast = runOf(*fast, pattern);
     for (const HostFrame& frame : movingFrames(stairs(), 4, pattern)) {
       const Image<glm::dvec4> output = run.frame(frame);
       EXPECT_TRUE(output.pixels() == runOfFast.frame(frame).pixels());
@@ -375,7 +390,7 @@ TEST_F(SparseLight, FollowsAChangeOfTheLight) {
   for (const LightPattern& pattern : {LightPattern{2, 1}, LightPattern{2, 2}, LightPattern{3, 3}}) {
     SCOPED_TRACE(nameOf(pattern));
     const std::unique_ptr<Denoiser> method = makeDenoiser("walr");
-    DenoiserRun run = runOf(device(), *method, pattern);
+    DenoiserRun run = runOf(*method, pattern);
     double before = 0.0;
     double after = 0.0;
     constexpr std::uint32_t kChange = 40;
