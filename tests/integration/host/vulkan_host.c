@@ -1,3 +1,4 @@
+#define _POSIX_C_SOURCE 200112L  // setenv
 #include "vulkan_host.h"
 
 #include <stdio.h>
@@ -24,6 +25,8 @@ static VKAPI_ATTR VkBool32 VKAPI_CALL on_message(VkDebugUtilsMessageSeverityFlag
 enum { kMostExtensions = 8 };
 
 static void open_instance(Host* host, const char* const* more, uint32_t count) {
+  // Newer versions of the layer leave out what shaders access unless they are told otherwise.
+  setenv("VK_LAYER_SYNCVAL_SHADER_ACCESSES_HEURISTIC", "true", 1);
   const VkValidationFeatureEnableEXT enabled[] = {VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT};
   const VkDebugUtilsMessengerCreateInfoEXT messenger = {
       .sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT,
