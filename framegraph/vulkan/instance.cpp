@@ -38,16 +38,6 @@ Function globalFunction(PFN_vkGetInstanceProcAddr entry, const char* name) {
   return function;
 }
 
-bool hasLayer(PFN_vkGetInstanceProcAddr entry, std::string_view name) {
-  const auto enumerate =
-      globalFunction<PFN_vkEnumerateInstanceLayerProperties>(entry, "vkEnumerateInstanceLayerProperties");
-  std::uint32_t count = 0;
-  check(enumerate(&count, nullptr), "enumerating instance layers");
-  std::vector<VkLayerProperties> layers(count);
-  check(enumerate(&count, layers.data()), "enumerating instance layers");
-  return std::ranges::any_of(layers, [&](const auto& layer) { return name == layer.layerName; });
-}
-
 bool hasExtension(PFN_vkGetInstanceProcAddr entry, const char* layer, std::string_view name) {
   const auto enumerate =
       globalFunction<PFN_vkEnumerateInstanceExtensionProperties>(entry, "vkEnumerateInstanceExtensionProperties");
@@ -76,12 +66,24 @@ PFN_vkGetInstanceProcAddr openLoader() {
   return reinterpret_cast<PFN_vkGetInstanceProcAddr>(symbol);
 }
 
+std::optional<std::uint32_t> layerVersion(PFN_vkGetInstanceProcAddr entry, std::string_view name) {
+  const auto enumerate =
+      globalFunction<PFN_vkEnumerateInstanceLayerProperties>(entry, "vkEnumerateInstanceLayerProperties");
+  std::uint32_t count = 0;
+  check(enumerate(&count, nullptr), "enumerating instance layers");
+  std::vector<VkLayerProperties> layers(count);
+  check(enumerate(&count, layers.data()), "enumerating instance layers");
+  const auto found =
+      std::ranges::find(layers, name, [](const auto& layer) { return std::string_view(layer.layerName); });
+  return found == layers.end() ? std::nullopt : std::optional(found->specVersion);
+}
+
 Instance::Instance(const InstanceOptions& options, PFN_vkGetInstanceProcAddr entry) : sink_(options.sink) {
   std::vector<const char*> layers;
   std::vector<const char*> extensions = options.extensions;
   std::optional<ValidationSettings> validation;
   if (options.validation) {
-    if (!hasLayer(entry, kValidationLayer)) {
+    if (!layerVersion(entry, kValidationLayer)) {
       throw Unsupported(std::string(kValidationLayer) +
                             " is not installed: install the package vulkan-validationlayers, or run without validation",
                         VK_ERROR_LAYER_NOT_PRESENT);

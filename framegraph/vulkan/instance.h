@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "framegraph/vulkan/functions.h"
@@ -12,6 +14,11 @@ namespace fg::vk {
 /// Open the system's Vulkan loader and return its entry point. The loader stays open until the program ends.
 /// @throws Unsupported if there is none
 PFN_vkGetInstanceProcAddr openLoader();
+
+/// The version of Vulkan that an installed layer was written for; nothing if it is not installed.
+/// @param entry the loader's entry point
+/// @throws Error when the loader fails
+std::optional<std::uint32_t> layerVersion(PFN_vkGetInstanceProcAddr entry, std::string_view name);
 
 struct InstanceOptions {
   std::string applicationName = "walr";

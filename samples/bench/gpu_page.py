@@ -2,6 +2,14 @@
 
 PAGE_SIZES = ((1920, 1080), (2560, 1440), (3840, 2160))
 CONTENT = "scene"  # Paths traced, one a pixel; the report also has a synthetic content.
+# What a reader should know of a GPU, by its name.
+REMARKS = {"NVIDIA H100 80GB HBM3": """
+This is a GPU for servers: 132 multiprocessors and 50 MB of cache, which holds most textures of a frame of 1920 x 1080. GPUs of
+desktops have a quarter of that or less. For these, the largest size tells more: it gives every multiprocessor enough to do. The
+passes over blocks of `walr` have 32,640 threads at the smallest size, an eighth of what this GPU holds at a time: they wait
+for latency. Now and then the machine took three times as long for some frames, in all passes alike. Such frames show in the
+95 % quantile.
+"""}
 
 
 def spread(entry, decimals=4):
@@ -69,8 +77,16 @@ def times_table(kept, table):
         if "ms" in first:
             megabytes = sum(p["mb"] for p in first["passes"])
             row += [over(first["ms"][0], walr), over(megabytes, first["ms"][0], 0), over(1e3 * first["ms"][0], first["us"])]
+        else:
+            row += ["-"] * 3
         rows.append(row)
     return table(["method", *(f"{s}, ms" for s in sizes), "over `walr`", "plan's GB/s", "measured over estimate"], rows)
+
+
+def refusals(kept):
+    """Why methods have no time at a size."""
+    return "".join(f"* `{name}` has no time at {size}: {times['why_not']}.\n"
+                   for name, method in kept["methods"].items() for size, times in method["sizes"].items() if "why_not" in times)
 
 
 def passes_table(kept, method, table):
@@ -122,10 +138,7 @@ Written by `samples/bench/update_results.py` from `results.json`. Measured with 
 
 Clock rates of core and memory in MHz, by nvidia-smi: {clocks}.
 All {kept['validated']} methods and presets ran under the Khronos validation layer with synchronization validation: {messages}.
-
-This is a GPU for servers: 132 multiprocessors and 50 MB of cache, which holds most textures of a frame of 1920 x 1080. GPUs of
-desktops have a quarter of that or less. For these, the largest size tells more: it gives every multiprocessor enough to do.
-
+{REMARKS.get(kept['device'], "")}
 ## Methods
 
 Frames: {kept['content']}. Median, and in brackets the 5 % and 95 % quantile.
@@ -134,16 +147,13 @@ Frames: {kept['content']}. Median, and in brackets the 5 % and 95 % quantile.
 * **Over `walr`**, **plan's GB/s** and **measured over estimate** are those at the first size.
 * **Plan's GB/s**: bytes of the plan, each texel once a pass, over the measured time.
 * **Estimate**: that of the static model (see `tests/costs/README.md`), at peak rates; {kept['model']}.
-* A 95 % quantile far above the median: now and then this machine takes three times as long for some frames, whatever the method.
-* `flnr:paper` takes pictures up to 2560 x 1440.
-
+{refusals(kept)}
 What was tried to make `walr` faster here, and what it gained: [GPU experiments](../../passes/GPU_EXPERIMENTS.md).
 
 ## Passes of `walr`
 
 {passes_table(kept, "walr", table)}
-The estimates are those at measured rates of memory and fetches. Passes over blocks have 32,640 threads at the first size,
-an eighth of what this GPU holds at a time: they wait for latency.
+The estimates are those at measured rates of memory and fetches.
 
 ## Passes of `flr`
 

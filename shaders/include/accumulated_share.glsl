@@ -112,8 +112,9 @@ void shareResidual(bool hasPixel, Shown shown, Residual residual) {
   barrier();
 }
 
-// The sums over the workgroup of four values of each thread, for the thread 0. All threads must call it. As
-// group_sum.glsl, with a quarter of the threads for each value, and in the memory of the residuals.
+// The sums over the workgroup of four values of each thread, for the thread 0. All threads must call it. A quarter of the
+// threads works on each value, and each of three rounds leaves a quarter of the sums. They lie in the memory of the
+// residuals.
 mat4 sumsOverGroup(mat4 values) {
   const int thread = int(gl_LocalInvocationIndex);
   barrier();  // The residuals have been read.

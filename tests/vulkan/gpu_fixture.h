@@ -23,8 +23,6 @@ class GpuTest : public testing::Test {
   [[nodiscard]] const vk::Instance& instance() const { return *instance_; }
   [[nodiscard]] const vk::Device& device() const { return *device_; }
   [[nodiscard]] const vk::DeviceContext& context() const { return device_->context(); }
-  /// The version of Vulkan that the validation layer was written for.
-  static std::uint32_t layerVersion();
   /// Take the messages so far, so that they do not fail the test. For tests that provoke messages.
   std::vector<vk::Message> takeMessages() { return log_.take(); }
 
