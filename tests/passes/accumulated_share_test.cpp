@@ -81,7 +81,7 @@ Light withSharedNoise(Light light) {
 
 class FilterOf {
  public:
-  FilterOf(const fg::vk::Device& device, const Scene& scene, bool share)
+  FilterOf(const fg::test::TestDevice& device, const Scene& scene, bool share)
       : frame_(renderStill(scene, kSize)),
         guides_(reference::prepareGuides(frame_, reference::Storage::Quantised, {}, kOcclusionInSmallImages)),
         run_(

@@ -22,7 +22,7 @@ constexpr glm::ivec2 kSize(96, 72);
 constexpr std::uint64_t kPixels = std::uint64_t(kSize.x) * kSize.y;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-CountedRun countedRun(const fg::vk::Device& device, const char* name, const Settings& settings,
+CountedRun countedRun(const fg::test::TestDevice& device, const char* name, const Settings& settings,
                       glm::ivec2 size = kSize) {
   const auto method = makeDenoiser(name);
   for (const auto& [setting, value] : settings) method->set(setting, value);

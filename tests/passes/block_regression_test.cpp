@@ -48,7 +48,7 @@ Inputs inputsOf(const Scene& scene) {
 /// The regression and its reconstruction alone.
 class RegressionRun {
  public:
-  RegressionRun(const fg::vk::Device& device, const BlockRegressionSettings& settings)
+  RegressionRun(const fg::test::TestDevice& device, const BlockRegressionSettings& settings)
       : run_(
             device, kSize, 1,
             [&](fg::Graph& graph, fg::Buffer frame, const walr::Guides& guides, const auto& inputs) {
@@ -72,7 +72,7 @@ constexpr int kStep = 24;
 /// Filter noise-free light with a step, on a wall without features. Returns the largest relative error of the pixels
 /// whose column `counts`.
 template <typename Counts>
-double farthestFromOwn(const fg::vk::Device& device, const BlockRegressionSettings& settings, Counts counts) {
+double farthestFromOwn(const fg::test::TestDevice& device, const BlockRegressionSettings& settings, Counts counts) {
   RegressionRun run(device, settings);
   Inputs inputs = inputsOf(flatWall());
   const auto lightOf = [](glm::ivec2 p) { return p.x < kStep ? 0.25 : 2.0; };

@@ -34,7 +34,7 @@ constexpr glm::ivec2 kSize(45, 34);  // Not a multiple of the block size.
 /// The regression alone, with views.
 class ViewedRegression {
  public:
-  ViewedRegression(const fg::vk::Device& device, const BlockRegressionSettings& settings,
+  ViewedRegression(const fg::test::TestDevice& device, const BlockRegressionSettings& settings,
                    const std::vector<std::string>& views, bool lightDirection = false)
       : frame_(graph_.upload("frame constants", sizeof(FrameConstants))),
         guides_(importGuides(graph_, kSize, true)),
@@ -58,7 +58,7 @@ class ViewedRegression {
       graph_.exported(view.texture, fg::vk::kReadable);
       views_[view.name] = view.texture;
     }
-    run_ = std::make_unique<fg::test::GraphRun>(device, graph_);
+    run_ = std::make_unique<fg::test::GraphRun>(device, graph_, fg::vk::ExecutorOptions{.shared = device.pipelines()});
   }
 
   void filter(const HostFrame& frame, const Image<reference::Guide>& guides, const Image<glm::dvec4>& accumulated) {

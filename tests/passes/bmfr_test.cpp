@@ -31,7 +31,7 @@ constexpr glm::ivec2 kSize(70, 45);  // Not multiples of the block size.
 /// The fit alone, with guides as input.
 class FitRun {
  public:
-  FitRun(const fg::vk::Device& device, const BmfrFitSettings& settings)
+  FitRun(const fg::test::TestDevice& device, const BmfrFitSettings& settings)
       : run_(device, kSize, 1, [&](fg::Graph& graph, fg::Buffer frame, const Guides& guides, const auto& inputs) {
           const fg::Texture fit = graph.texture("fit", graph.textureDesc(inputs[0]));
           return addBmfrFit(graph, frame, inputs[0], LightingAlpha::Unused, guides, fit, settings);
@@ -211,7 +211,7 @@ TEST_F(Bmfr, TheSecondAccumulationReadsTheHistoryThatTheFirstAccepted) {
       addBmfrAccumulation(graph, inputs.frame, inputs.lighting, taps, {.maxHistory = kMaxSamples});
   const fg::Texture firstOut = copyOut(graph, "first", light.mean);
   const fg::Texture secondOut = copyOut(graph, "second", second);
-  fg::test::GraphRun run(device(), graph);
+  fg::test::GraphRun run(device(), graph, {.shared = device().pipelines()});
 
   double tolerance = 0.0;
   for (int i = 0; i < kFrames; ++i) {

@@ -6,7 +6,7 @@
 
 namespace walr::test {
 
-CountedRun::CountedRun(const fg::vk::Device& device, Denoiser& method, glm::ivec2 size,
+CountedRun::CountedRun(const fg::test::TestDevice& device, Denoiser& method, glm::ivec2 size,
                        const std::vector<std::string>& views)
     : size_(size), inputs_(importInputs(graph_, size)), output_(importOutput(graph_, size)) {
   const fg::Extent extent{static_cast<std::uint32_t>(size.x), static_cast<std::uint32_t>(size.y)};
@@ -16,7 +16,7 @@ CountedRun::CountedRun(const fg::vk::Device& device, Denoiser& method, glm::ivec
   graph_.exported(method.add({graph_, inspection_}, inputs_, output_), fg::vk::kReadable);
   for (const DebugView& view : inspection_.views()) graph_.exported(view.texture, fg::vk::kReadable);
   graph_.exported(inspection_.counterBuffer(), fg::vk::kReadable);
-  run_ = std::make_unique<fg::test::GraphRun>(device, graph_);
+  run_ = std::make_unique<fg::test::GraphRun>(device, graph_, fg::vk::ExecutorOptions{.shared = device.pipelines()});
 }
 
 std::uint32_t CountedRun::submit(const reference::HostFrame& frame) {

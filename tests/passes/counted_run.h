@@ -8,6 +8,7 @@
 
 #include "passes/denoiser.h"
 #include "tests/passes/host_textures.h"
+#include "tests/vulkan/test_device.h"
 
 namespace walr::test {
 
@@ -16,7 +17,7 @@ class CountedRun {
  public:
   using Counts = std::map<std::string, std::uint64_t>;
 
-  CountedRun(const fg::vk::Device& device, Denoiser& method, glm::ivec2 size,
+  CountedRun(const fg::test::TestDevice& device, Denoiser& method, glm::ivec2 size,
              const std::vector<std::string>& views = {});
 
   /// Submit a frame without waiting for it.

@@ -129,7 +129,7 @@ TEST_F(CountersTest, DoNotChangeTheOutput) {
     const DenoiserInputs inputs = importInputs(graph, kSize);
     const fg::Texture output = importOutput(graph, kSize);
     graph.exported(method->add(graph, inputs, output), fg::vk::kReadable);
-    fg::test::GraphRun plain(device(), graph);
+    fg::test::GraphRun plain(device(), graph, {.shared = device().pipelines()});
     CountedRun counted(device(), *method, kSize);
     for (const HostFrame& frame : frames) {
       upload(plain, inputs, frame);

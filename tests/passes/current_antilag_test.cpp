@@ -116,7 +116,7 @@ TEST_F(CurrentAntilagTest, FitsAgreeWithBruteForce) {
 
 /// The filter with the share of accumulated light, over two frames: the second has the statistics of the first.
 /// @param inputs mean, lighting and, if there is antilag, its factor
-Image<glm::dvec4> mixedInSecondFrame(const fg::vk::Device& device, const std::vector<Image<glm::dvec4>>& inputs) {
+Image<glm::dvec4> mixedInSecondFrame(const fg::test::TestDevice& device, const std::vector<Image<glm::dvec4>>& inputs) {
   const HostFrame frame = renderStill(flatWall(), kSize);
   const auto guides = reference::prepareGuides(frame, reference::Storage::Quantised, {}, kOcclusionInSmallImages);
   std::vector<glm::ivec2> sizes;

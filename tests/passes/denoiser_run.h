@@ -2,15 +2,15 @@
 
 #include "passes/denoiser.h"
 #include "tests/passes/host_textures.h"
+#include "tests/vulkan/test_device.h"
 
 namespace walr::test {
 
 /// A whole denoiser on a device, fed with host frames one by one.
 class DenoiserRun {
  public:
-  /// @param shared runs with the same membership create each pipeline once and share no memory
-  DenoiserRun(const fg::vk::Device& device, Denoiser& denoiser, glm::ivec2 size,
-              const InputConventions& conventions = {}, const fg::vk::Membership& shared = {});
+  DenoiserRun(const fg::test::TestDevice& device, Denoiser& denoiser, glm::ivec2 size,
+              const InputConventions& conventions = {});
 
   /// Forget all histories.
   void reset() { run_->executor().resetAllHistory(); }

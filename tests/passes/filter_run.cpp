@@ -4,17 +4,17 @@
 
 namespace walr::test {
 
-FilterRun::FilterRun(const fg::vk::Device& device, glm::ivec2 size, std::size_t inputCount, const Add& add,
+FilterRun::FilterRun(const fg::test::TestDevice& device, glm::ivec2 size, std::size_t inputCount, const Add& add,
                      bool occlusion)
     : FilterRun(device, size, std::vector<glm::ivec2>(inputCount, size), add, occlusion) {}
 
-FilterRun::FilterRun(const fg::vk::Device& device, glm::ivec2 size, const std::vector<glm::ivec2>& inputSizes,
+FilterRun::FilterRun(const fg::test::TestDevice& device, glm::ivec2 size, const std::vector<glm::ivec2>& inputSizes,
                      const Add& add, bool occlusion)
     : frame_(graph_.upload("frame constants", sizeof(FrameConstants))), guides_(importGuides(graph_, size, occlusion)) {
   for (const glm::ivec2 inputSize : inputSizes)
     inputs_.push_back(importHalves(graph_, "input " + std::to_string(inputs_.size()), inputSize));
   output_ = copyOut(graph_, "result", add(graph_, frame_, guides_, inputs_));
-  run_ = std::make_unique<fg::test::GraphRun>(device, graph_);
+  run_ = std::make_unique<fg::test::GraphRun>(device, graph_, fg::vk::ExecutorOptions{.shared = device.pipelines()});
 }
 
 reference::Image<glm::dvec4> FilterRun::run(const reference::HostFrame& frame,

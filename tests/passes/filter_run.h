@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "tests/passes/host_textures.h"
+#include "tests/vulkan/test_device.h"
 
 namespace walr::test {
 
@@ -16,10 +17,10 @@ class FilterRun {
 
   /// @param inputSizes of the textures that the passes read
   /// @param occlusion  whether the guides include ambient occlusion
-  FilterRun(const fg::vk::Device& device, glm::ivec2 size, const std::vector<glm::ivec2>& inputSizes, const Add& add,
-            bool occlusion = false);
+  FilterRun(const fg::test::TestDevice& device, glm::ivec2 size, const std::vector<glm::ivec2>& inputSizes,
+            const Add& add, bool occlusion = false);
   /// The same with inputs that all have the size of the guides.
-  FilterRun(const fg::vk::Device& device, glm::ivec2 size, std::size_t inputCount, const Add& add,
+  FilterRun(const fg::test::TestDevice& device, glm::ivec2 size, std::size_t inputCount, const Add& add,
             bool occlusion = false);
 
   /// The result for these guides and inputs. Only the constants of the frame are used.

@@ -41,7 +41,7 @@ struct Inputs {
 /// The regression alone, with guides as input.
 class RegressionRun {
  public:
-  RegressionRun(const fg::vk::Device& device, const FlrRegressionSettings& settings)
+  RegressionRun(const fg::test::TestDevice& device, const FlrRegressionSettings& settings)
       : run_(
             device, kSize, 1,
             [&](fg::Graph& graph, fg::Buffer, const Guides& guides, const auto& inputs) {

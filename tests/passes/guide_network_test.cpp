@@ -110,7 +110,7 @@ class GuideNetworkLayers : public fg::test::GpuTest {
     fg::PassBuilder copy = graph.compute("copy", shaders::copyWords);
     copy.load("source", result.buffer).constants(words).dispatch({8 * ((words + 63) / 64), 8});
     graph.exported(copy.store("target", target), fg::vk::kReadable);
-    fg::test::GraphRun graphRun(device(), graph);
+    fg::test::GraphRun graphRun(device(), graph, {.shared = device().pipelines()});
     const std::uint32_t slot = graphRun.submitFrame();
     graphRun.finish();
     return graphRun.elements<std::uint16_t>(target, slot);

@@ -32,7 +32,7 @@ class LightDirection : public fg::test::GpuTest {
     pass.sample("direction", direction).specialize("kRepack", repack).dispatch(kExtent);
     target = pass.store("target", target);
     graph.exported(target, fg::vk::kReadable);
-    fg::test::GraphRun run(device(), graph);
+    fg::test::GraphRun run(device(), graph, {.shared = device().pipelines()});
     run.fill(direction, words);
     run.frame();
     return run.texels<float>(target);

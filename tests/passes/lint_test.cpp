@@ -98,7 +98,7 @@ class Lint : public fg::test::GpuTest, public testing::WithParamInterface<Case> 
     const fg::Buffer imported = graph.import("counters", fg::BufferDesc{kCounterBytes}, fg::vk::kOverwritable);
     const fg::Buffer counters = addLintInputs(graph, inputs, imported);
     graph.exported(counters, fg::vk::kReadable);
-    fg::test::GraphRun run(device(), graph);
+    fg::test::GraphRun run(device(), graph, {.shared = device().pipelines()});
     InputLinter linter(c.conventions);
     for (std::uint32_t i = 0; i < c.stillFrames + kFrames; ++i) {
       HostInput host = render(i, c);

@@ -60,7 +60,8 @@ using Settings = std::vector<std::pair<std::string, std::string>>;
 
 class Method {
  public:
-  Method(const fg::vk::Device& device, const std::string& name, const std::string& preset, const Settings& settings)
+  Method(const fg::test::TestDevice& device, const std::string& name, const std::string& preset,
+         const Settings& settings)
       : denoiser_(makeDenoiser(name)) {
     if (!preset.empty()) denoiser_->usePreset(preset);
     for (const auto& [setting, value] : settings) denoiser_->set(setting, value);

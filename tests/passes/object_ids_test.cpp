@@ -28,7 +28,7 @@ constexpr std::uint32_t kNobody = 0xffffffffU;
 /// Temporal anti-aliasing alone.
 class AntialiasingRun {
  public:
-  AntialiasingRun(const fg::vk::Device& device, const TemporalAntialiasingSettings& settings,
+  AntialiasingRun(const fg::test::TestDevice& device, const TemporalAntialiasingSettings& settings,
                   const SceneDescription& scene, bool objectIds = true)
       : inputs_(importInputs(graph_, kSize)), guides_(importGuides(graph_, kSize)) {
     inputs_.scene = scene;
@@ -36,7 +36,7 @@ class AntialiasingRun {
     output_ = importOutput(graph_, kSize);
     graph_.exported(addTemporalAntialiasing(graph_, inputs_, guides_, inputs_.lighting, output_, settings),
                     fg::vk::kReadable);
-    run_ = std::make_unique<fg::test::GraphRun>(device, graph_);
+    run_ = std::make_unique<fg::test::GraphRun>(device, graph_, fg::vk::ExecutorOptions{.shared = device.pipelines()});
   }
 
   Image<glm::dvec4> frame(const HostFrame& frame, const Image<Guide>& guides, const Image<Guide>& previous) {

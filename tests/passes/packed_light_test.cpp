@@ -110,7 +110,7 @@ class PackedLight : public fg::test::GpuTest {
         .dispatch(extent);
     target = pass.store("target", target);
     graph.exported(target, fg::vk::kReadable);
-    fg::test::GraphRun graphRun(device(), graph);
+    fg::test::GraphRun graphRun(device(), graph, {.shared = device().pipelines()});
     graphRun.fill(source, texels);
     graphRun.frame();
     return graphRun.texels<float>(target);

@@ -89,24 +89,10 @@ InputConventions conventionsOf(const LightPattern& pattern) {
 
 class SparseLight : public fg::test::GpuTest {
  protected:
-  void SetUp() override {
-    GpuTest::SetUp();
-    pipelines_ = {std::make_shared<fg::vk::SharedObjects>(context()), 0};
-    pipelines_.member = pipelines_.objects->addMember();
-  }
-  void TearDown() override {
-    pipelines_ = {};
-    GpuTest::TearDown();
-  }
-
-  /// A method with sparse light, run frame by frame. All runs of a test share pipelines, which take longer to create
-  /// than frames to run.
+  /// A method with sparse light, run frame by frame.
   DenoiserRun runOf(Denoiser& method, const LightPattern& pattern) const {
-    return {device(), method, kSize, conventionsOf(pattern), pipelines_};
+    return {device(), method, kSize, conventionsOf(pattern)};
   }
-
- private:
-  fg::vk::Membership pipelines_;
 };
 
 // It does not matter how the samples are handed over. The tests of the stages compare them with the reference.

@@ -247,7 +247,7 @@ void expectStages(const DeviceFrame& f, const AnyWalr& settings) {
   expectAntialiasing(f, settings.antialiasing(), keepTaps);
 }
 
-void expectSequence(const fg::vk::Device& device, const std::vector<HostFrame>& frames, const AnyWalr& settings) {
+void expectSequence(const fg::test::TestDevice& device, const std::vector<HostFrame>& frames, const AnyWalr& settings) {
   WalrRun run(device, frames.front().size(), settings, frames.front().conventions, true, frames.front().scene);
   expectSequence(run, frames, settings);
 }

@@ -24,7 +24,7 @@ struct DeviceFrame {
 void expectStages(const DeviceFrame& frame, const AnyWalr& settings);
 
 /// Denoise frames in turn. Every output must be finite, and every stage of the last frame must match the reference.
-void expectSequence(const fg::vk::Device& device, const std::vector<reference::HostFrame>& frames,
+void expectSequence(const fg::test::TestDevice& device, const std::vector<reference::HostFrame>& frames,
                     const AnyWalr& settings);
 /// The same with a run that is used for several sequences, because a run takes long to make. It begins without history.
 /// @param run made with the settings, the size of the frames, and their conventions and scene

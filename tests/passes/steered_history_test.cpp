@@ -57,7 +57,7 @@ struct Light {
 
 /// The filter without a share of accumulated light, whose result is the prediction, or with it. The result is then the
 /// least antilag factor of each tile.
-FilterRun filterRun(const fg::vk::Device& device, bool steers) {
+FilterRun filterRun(const fg::test::TestDevice& device, bool steers) {
   const auto add = [steers](fg::Graph& graph, fg::Buffer frame, const Guides& guides, const auto& inputs) {
     BlockLight light{.accumulated = inputs[0], .alpha = LightingAlpha::SampleCount, .lighting = inputs[1]};
     if (steers) light.history = declareSteeredHistory(graph, graph.textureDesc(inputs[0]).extent, float(kLongest));

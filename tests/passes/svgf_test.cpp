@@ -106,7 +106,7 @@ TEST_F(SvgfTest, AccumulationAgreesWithRawMoments) {
     const SvgfAccumulated accumulated = addSvgfAccumulation(graph, inputs, guides, colour.previous, colour.current);
     const fg::Texture colourOut = copyOut(graph, "colour out", accumulated.colour);
     const fg::Texture momentsOut = copyOut(graph, "moments out", accumulated.moments);
-    GraphRun run(device(), graph);
+    GraphRun run(device(), graph, {.shared = device().pipelines()});
 
     reference::SvgfHistory history;
     int compared = 0;

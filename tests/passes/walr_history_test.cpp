@@ -104,7 +104,7 @@ std::vector<WalrPaperSettings> responsiveSettings() {
 }
 
 /// Largest antilag factor after the light has changed in the last frame.
-double antilagAfterChange(const fg::vk::Device& device, const WalrPaperSettings& settings,
+double antilagAfterChange(const fg::test::TestDevice& device, const WalrPaperSettings& settings,
                           const SceneDescription& scene, double change) {
   WalrRun run(device, kSize, settings, {}, true, scene);
   double largest = 0.0;
@@ -195,7 +195,7 @@ TEST_F(WalrHistoryTest, StagesAgreeWithTheReferenceWhereDepthIsFound) {
 }
 
 /// Mean history length on the panel in the third frame.
-double historyOnPanel(const fg::vk::Device& device, double step, InputConventions::MotionDepth motionDepth) {
+double historyOnPanel(const fg::test::TestDevice& device, double step, InputConventions::MotionDepth motionDepth) {
   const std::vector<HostFrame> frames = approaching(step, motionDepth);
   WalrRun run(device, kSize, robustWalr(), frames.front().conventions);
   WalrStages stages;
@@ -354,7 +354,7 @@ reference::Image<double> areaMeans(const FrameDescription& camera) {
 
 /// Root mean square error against the means over pixels' areas of the 16 frames after the first 16 of a still, jittered
 /// camera.
-double errorOfAreas(const fg::vk::Device& device, const WalrSettings& settings,
+double errorOfAreas(const fg::test::TestDevice& device, const WalrSettings& settings,
                     const reference::Image<double>& expected) {
   WalrRun run(device, kSize, settings, {}, false);
   double squares = 0.0;

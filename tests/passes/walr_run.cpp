@@ -54,8 +54,9 @@ fg::Extent extentOf(glm::ivec2 size) {
 
 }  // namespace
 
-WalrRun::WalrRun(const fg::vk::Device& device, glm::ivec2 size, AnyWalr settings, const InputConventions& conventions,
-                 bool inspect, const SceneDescription& scene, const std::vector<std::string>& views)
+WalrRun::WalrRun(const fg::test::TestDevice& device, glm::ivec2 size, AnyWalr settings,
+                 const InputConventions& conventions, bool inspect, const SceneDescription& scene,
+                 const std::vector<std::string>& views)
     : size_(size),
       settings_(std::move(settings)),
       copyImage_(reinterpret_cast<PFN_vkCmdCopyImage>(
@@ -85,7 +86,7 @@ WalrRun::WalrRun(const fg::vk::Device& device, glm::ivec2 size, AnyWalr settings
   for (const DebugView& view : inspection_.views()) graph.exported(view.texture, kReadable);
   graph.exported(output_, kReadable);
   if (inspect) inspectStages(graph);
-  run_ = std::make_unique<fg::test::GraphRun>(device, graph);
+  run_ = std::make_unique<fg::test::GraphRun>(device, graph, fg::vk::ExecutorOptions{.shared = device.pipelines()});
 }
 
 void WalrRun::inspectStages(fg::Graph& graph) {

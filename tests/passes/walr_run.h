@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "framegraph/vulkan/device.h"
 #include "tests/passes/any_walr.h"
 #include "tests/passes/reference/atrous.h"
 #include "tests/vulkan/graph_run.h"
+#include "tests/vulkan/test_device.h"
 
 namespace walr::test {
 
@@ -34,7 +34,7 @@ class WalrRun {
   /// @param settings used as they are, however small the image: `fitWindow` is ignored
   /// @param inspect read back every stage, not only the output
   /// @param views   views of the filter to read back
-  WalrRun(const fg::vk::Device& device, glm::ivec2 size, AnyWalr settings = robustWalr(),
+  WalrRun(const fg::test::TestDevice& device, glm::ivec2 size, AnyWalr settings = robustWalr(),
           const InputConventions& conventions = {}, bool inspect = true, const SceneDescription& scene = {},
           const std::vector<std::string>& views = {});
 

@@ -8,7 +8,7 @@ void GpuTest::SetUp() {
   options.validation = true;
   options.sink = log_.sink();
   instance_ = std::make_unique<vk::Instance>(options);
-  device_ = std::make_unique<vk::Device>(*instance_, vk::physicalDevices(*instance_).front());
+  device_ = std::make_unique<TestDevice>(*instance_, vk::physicalDevices(*instance_).front());
 }
 
 void GpuTest::TearDown() {

@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "framegraph/vulkan/device.h"
 #include "framegraph/vulkan/instance.h"
+#include "tests/vulkan/test_device.h"
 
 namespace fg::test {
 
@@ -21,7 +21,7 @@ class GpuTest : public testing::Test {
   void TearDown() override;
 
   [[nodiscard]] const vk::Instance& instance() const { return *instance_; }
-  [[nodiscard]] const vk::Device& device() const { return *device_; }
+  [[nodiscard]] const TestDevice& device() const { return *device_; }
   [[nodiscard]] const vk::DeviceContext& context() const { return device_->context(); }
   /// Take the messages so far, so that they do not fail the test. For tests that provoke messages.
   std::vector<vk::Message> takeMessages() { return log_.take(); }
@@ -29,7 +29,7 @@ class GpuTest : public testing::Test {
  private:
   vk::MessageLog log_;
   std::unique_ptr<vk::Instance> instance_;
-  std::unique_ptr<vk::Device> device_;
+  std::unique_ptr<TestDevice> device_;
 };
 
 }  // namespace fg::test
