@@ -26,9 +26,14 @@ def scenes(cache):
 
 
 def load(files):
-    """All frames of the files by the kind of their light: "accumulated" or "single"."""
+    """All frames of the files by the kind of their light: "accumulated" or "single". Most tensors hold halves."""
     frames = {"accumulated": [], "single": []}
     for file in files:
         for kind, frame in torch.load(file):
-            frames[kind].append({name: values.float() for name, values in frame.items()})
+            frames[kind].append(frame)
     return frames
+
+
+def floats(frame):
+    """The frame in single precision."""
+    return {name: values.float() for name, values in frame.items()}

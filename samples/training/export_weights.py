@@ -105,7 +105,7 @@ def main():
     state = torch.load(options.state)
     preset = state["preset"]
     network = GuideNetwork(**PRESETS[preset])
-    network.load_state_dict(state["network"])
+    network.load_state_dict(state["average"])
     output = options.project / f"passes/weights/flnr_{preset}.f16"
     halves(network).tofile(output)
     (options.project / f"tests/passes/fixtures/flnr_{preset}.txt").write_text(fixture(network, preset), encoding="utf-8")

@@ -19,7 +19,8 @@ import torch
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "images"))
 import exr
-from random_scenes import FRAMES, random_scene
+from random_scenes import random_scene
+from scene_builder import FRAMES
 
 TARGETS = 3, FRAMES - 1
 """Frames with a target: one with a short history, and one with the longest that `flr` keeps."""
@@ -89,7 +90,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--walr", default="build/bin/walr", help="the program (default: %(default)s)")
     parser.add_argument("--cache", type=pathlib.Path, required=True, help="folder for the data, outside the repository")
-    parser.add_argument("--scenes", type=int, default=226, help="number of scenes (default: %(default)s)")
+    parser.add_argument("--scenes", type=int, default=430, help="number of scenes (default: %(default)s)")
     parser.add_argument("--first", type=int, default=0, help="seed of the first scene (default: %(default)s)")
     parser.add_argument("--threads", type=int, default=0, help="threads of the renderer; 0: one per core (default)")
     options = parser.parse_args()

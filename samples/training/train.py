@@ -13,6 +13,7 @@ the regression amplifies. A penalty keeps guides from the ends of their sigmoid,
 Some crops are made less noisy: part of their light comes from one half of the target's samples, and the other half is then the target.
 """
 import argparse
+import copy
 import json
 import math
 import pathlib
@@ -23,7 +24,7 @@ import time
 import torch
 
 sys.dont_write_bytecode = True
-from dataset import load, scenes
+from dataset import floats, load, scenes
 from network import PRESETS, SIGMA, GuideNetwork, Means, features, regression
 
 CROP, BATCH, STEPS = 128, 2, 250
@@ -34,6 +35,8 @@ SINGLE = 0.4
 """Share of the steps on light of single frames."""
 CLEANER = 0.3
 """Share of the crops that are made less noisy."""
+EXPOSURE = 0.7
+"""Logarithm of the largest factor that a crop's light is brighter or darker by, relative to the frame's mean."""
 SIGMAS = {"accumulated": (6.0, 8.0, 10.0), "single": (12.0, 16.0, 20.0)}
 """Windows of the regression to train with, pixels."""
 BRIGHT = 4.0
@@ -44,6 +47,8 @@ ENDS, LARGEST_LOGIT = 1e-2, 4.0
 """Weight of the squared excess of the sigmoid's inputs over the largest one that is free."""
 RATE, LAST_RATE = 1e-3, 5e-5
 """Of Adam, from first to last step, as a half cosine."""
+MEMORY = 0.999
+"""What a step leaves of the average of the weights. The average is what is judged and exported."""
 
 
 def loss_of(prediction, target, surface, mean):
@@ -70,17 +75,18 @@ def error_of(prediction, frame, weight, mean):
 
 
 def crop_of(frame, means, rng):
-    """A random crop, perhaps mirrored, with its channels of light in a random order, and the means of the whole frame."""
+    """A random crop, perhaps mirrored, brighter or darker, with its channels of light in a random order, and the means of the whole
+    frame."""
     height, width = frame["target"].shape[2:]
     x, y = 8 * rng.randrange((width - CROP) // 8 + 1), 8 * rng.randrange((height - CROP) // 8 + 1)
-    crop = {name: values[:, :, y:y + CROP, x:x + CROP] for name, values in frame.items()}
+    crop = {name: values[:, :, y:y + CROP, x:x + CROP].float() for name, values in frame.items()}
     if rng.random() < CLEANER:
         share = rng.random()
         light = (1 - share) * crop["light"] + share * crop["half_target"]
         crop["light"] = torch.where(crop["samples"] > 0, light, crop["light"])
         crop["target"] = 2 * crop["target"] - crop["half_target"]
-    order = rng.sample(range(3), 3)
-    crop["light"], crop["target"] = crop["light"][:, order], crop["target"][:, order]
+    order, factor = rng.sample(range(3), 3), math.exp(rng.uniform(-EXPOSURE, EXPOSURE))
+    crop["light"], crop["target"] = factor * crop["light"][:, order], factor * crop["target"][:, order]
     if rng.random() < 0.5:
         crop = {name: values.flip(3) for name, values in crop.items()}
         crop["normal"] = crop["normal"] * torch.tensor([-1.0, 1.0, 1.0]).view(1, 3, 1, 1)
@@ -88,7 +94,7 @@ def crop_of(frame, means, rng):
 
 
 def with_means(frames):
-    return {kind: [(frame, Means.of(frame)) for frame in some] for kind, some in frames.items()}
+    return {kind: [(frame, Means.of(floats(frame))) for frame in some] for kind, some in frames.items()}
 
 
 def batch_of(frames, rng):
@@ -115,6 +121,7 @@ def evaluate(network, frames):
         for kind, some in frames.items():
             ours, plain = 0.0, 0.0
             for frame, means in some:
+                frame = floats(frame)
                 mean = means.light.clamp(min=1e-30)
                 flr, _ = filtered(None, frame, means, SIGMA[kind])
                 weight = (frame["inverse_depth"] > 0) / (1 + flr / mean) ** 4
@@ -130,6 +137,7 @@ class Training:
         torch.manual_seed(options.seed)
         self.rng = random.Random(options.seed)
         self.network = GuideNetwork(**PRESETS[options.preset])
+        self.average = copy.deepcopy(self.network).requires_grad_(False)
         self.optimiser = torch.optim.Adam(self.network.parameters(), RATE)
         self.curve, self.steps, self.seconds = [], 0, 0.0
         if self.file.exists():
@@ -137,14 +145,15 @@ class Training:
             if state["preset"] != options.preset:
                 raise SystemExit(f"{self.file}: holds preset {state['preset']}; give another --state for {options.preset}")
             self.network.load_state_dict(state["network"])
+            self.average.load_state_dict(state["average"])
             self.optimiser.load_state_dict(state["optimiser"])
             self.curve, self.steps, self.seconds = state["curve"], state["steps"], state["seconds"]
             self.rng = random.Random(options.seed + self.steps)
 
     def save(self):
         partial = self.file.with_suffix(".partial")
-        torch.save({"preset": self.preset, "network": self.network.state_dict(), "optimiser": self.optimiser.state_dict(),
-                    "curve": self.curve, "steps": self.steps, "seconds": self.seconds}, partial)
+        torch.save({"preset": self.preset, "network": self.network.state_dict(), "average": self.average.state_dict(),
+                    "optimiser": self.optimiser.state_dict(), "curve": self.curve, "steps": self.steps, "seconds": self.seconds}, partial)
         partial.rename(self.file)
 
     def step(self, frames, share):
@@ -165,6 +174,10 @@ class Training:
         torch.nn.utils.clip_grad_norm_(self.network.parameters(), 0.3)
         self.optimiser.step()
         self.steps += 1
+        memory = min(MEMORY, self.steps / (self.steps + 10))
+        with torch.no_grad():
+            for mean, now in zip(self.average.parameters(), self.network.parameters()):
+                mean.lerp_(now, 1 - memory)
         return float(loss)
 
 
@@ -185,7 +198,7 @@ def main():
         start = time.monotonic()
         losses = [training.step(frames, training.seconds / (60 * options.minutes)) for _ in range(STEPS)]
         training.seconds += time.monotonic() - start
-        errors = evaluate(training.network, held_out) if (training.steps // STEPS) % EVALUATE == 0 else None
+        errors = evaluate(training.average, held_out) if (training.steps // STEPS) % EVALUATE == 0 else None
         entry = {"steps": training.steps, "seconds": round(training.seconds), "loss": round(sum(losses) / STEPS, 5),
                  **({"held_out_mse": {k: [round(e, 7) for e in both] for k, both in errors.items()}} if errors else {})}
         training.curve.append(entry)

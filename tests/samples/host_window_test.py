@@ -191,11 +191,11 @@ class Window:
         return self.screen.rows(self.panel, 0, PANEL_WIDTH, 720)
 
     def settled_rows(self):
-        """The panel, once nothing in it has changed for two seconds: a frame may take that long on a processor."""
+        """The panel, once nothing in it has changed for a second: a frame may take that long on a processor."""
         rows = [self.rows()]
 
         def same():
-            time.sleep(0.5)
+            time.sleep(0.25)
             rows.append(self.rows())
             return len(rows) > 4 and all(row == rows[-1] for row in rows[-5:]) and rows[-1]
 
