@@ -33,9 +33,6 @@ struct BlockAverages {
   fg::Texture depth;
 };
 
-/// Threads of block_moments.comp for one block. They lie in a row.
-constexpr std::uint32_t kThreadsPerBlock = 4;
-
 /// Side of a cell in blocks: the largest power of two whose pixels exceed neither `cellPixels` nor `mostPixels`, and at
 /// least 1. A workgroup merges the cells of its 4 x 4 blocks, so that the side of a cell must divide 4.
 std::uint32_t cellBlocksFor(float cellPixels, float mostPixels, std::uint32_t blockSize) {

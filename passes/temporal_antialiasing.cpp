@@ -6,6 +6,7 @@
 
 #include "passes/reprojection.h"
 #include "passes/shared_guides.h"
+#include "shaders/constants/packed_light.h"
 #include "shaders/constants/temporal_antialiasing.h"
 #include "shaders/shaders.h"
 
@@ -37,7 +38,7 @@ ObjectIds objectsOf(StageGraph graph, const DenoiserInputs& inputs, const Guides
 using ReadHistory = std::function<void(fg::PassBuilder& pass, bool view)>;
 
 /// The length that the highest level of a packed history length would stand for (packed_light.glsl).
-constexpr float kHighestLevel = 64.0F;
+constexpr float kHighestLevel = 1 << (kLongestLevel - 1);
 
 /// Add the stage; `read` declares its reprojection.
 /// @param kept whether that comes from the taps that accumulation kept

@@ -51,6 +51,7 @@ layout(push_constant) uniform PushConstants { BlockRegressionConstants constants
 #include "include/block_plane.glsl"
 #include "include/camera.glsl"
 #include "include/coarse_share.glsl"
+#include "include/reconstruction_tile.glsl"
 #include "include/stored_fit.glsl"
 #ifdef VIEW
 #include "include/light.glsl"
@@ -280,21 +281,15 @@ bool predict(ivec2 p, BilinearTexels nearBlocks, out vec3 position, out vec3 nor
 }
 
 void main() {
-  // A work group covers the pixels between the centres of four blocks, so that all its threads read the same four fits.
-  // Of blocks of 4 pixels or less, it covers kIntervals x kIntervals such squares. The first one begins half a block
-  // before the image.
-  const int kIntervals = int(gl_WorkGroupSize.x) / kBlockSize;
-  const int kThreads = kIntervals * kBlockSize;  // That have a pixel, per axis.
   const ivec2 thread = ivec2(gl_LocalInvocationID.xy);
-  const ivec2 group = kIntervals * ivec2(gl_WorkGroupID.xy);
-  const ivec2 p = kBlockSize * group - (kBlockSize + 1) / 2 + thread;
-  const bool hasPixel = all(lessThan(thread, ivec2(kThreads))) &&
+  const ivec2 p = kTilePixels * ivec2(gl_WorkGroupID.xy) - kTileStart + thread;
+  const bool hasPixel = all(lessThan(thread, ivec2(kTilePixels))) &&
                         all(lessThan(uvec2(p), uvec2(textureSize(depth, 0))));  // Negative ones are large, too.
-  const ivec2 interval = kIntervals == 1 ? ivec2(0) : thread / kBlockSize;
+  const ivec2 square = kTileSquares == 1 ? ivec2(0) : thread / kBlockSize;
   // Centres of blocks with an odd side are centres of pixels, where fract could return almost 1 instead of 0.
   const vec2 fraction = kBlockSize % 2 == 0 ? fract(pixelCentre(p) / float(kBlockSize) - 0.5)
-                                            : vec2(thread - kBlockSize * interval) / float(kBlockSize);
-  const BilinearTexels nearBlocks = BilinearTexels(group + interval - 1, fraction);
+                                            : vec2(thread - kBlockSize * square) / float(kBlockSize);
+  const BilinearTexels nearBlocks = BilinearTexels(kTileSquares * ivec2(gl_WorkGroupID.xy) + square - 1, fraction);
 #ifdef RESIDUAL
   const FetchedLight fetched = fetchLight(clamp(p, ivec2(0), textureSize(depth, 0) - 1));
   Shown shown = Shown(false, vec3(0.0), vec3(0.0), vec3(0.0));

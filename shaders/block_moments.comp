@@ -20,10 +20,9 @@
 layout(local_size_x = 16, local_size_y = 4) in;     // Four threads a block, 4 x 4 blocks.
 layout(constant_id = 0) const int kBlockSize = 4;   // Pixels per axis, at most 8.
 layout(constant_id = 1) const int kCellBlocks = 2;  // Blocks per axis: 1, 2 or 4.
-const int kBlockThreads = 4;
 const int kGroupBlocks = 4;  // Blocks of a workgroup per axis.
 const int kBlocks = kGroupBlocks * kGroupBlocks;
-const int kThreads = kBlockThreads * kBlocks;
+const int kThreads = kThreadsPerBlock * kBlocks;
 
 layout(std140) uniform frameConstants { FrameConstants frame; };
 uniform utexture2D depth;  // And geometric normals.
@@ -57,7 +56,7 @@ struct Place {
 // A thread's pixels in a block are numbered from 0: those of two columns, or of one where the light grid has at most four
 // columns in a block. Those outside a block that is smaller than 8 x 8 pixels show no surface.
 const int kPixels = kLightGrid && kLightColumns > 1 ? 8 : 16;
-ivec2 texelInBlock(int thread, int i) { return ivec2(thread + kBlockThreads * (i / 8), i % 8); }
+ivec2 texelInBlock(int thread, int i) { return ivec2(thread + kThreadsPerBlock * (i / 8), i % 8); }
 
 // The first texel of a block, and the pixel that a texel holds.
 ivec2 firstTexel(ivec2 block) {
@@ -87,7 +86,7 @@ bool chooseRepresentative(Place place, uint surfaces, out ivec2 texel) {
   threadSurfaces[place.first + place.thread] = surfaces;
   barrier();
   uvec2 block = uvec2(0u);  // Eight bits a column.
-  [[unroll]] for (int i = 0; i < kBlockThreads; ++i) {
+  [[unroll]] for (int i = 0; i < kThreadsPerBlock; ++i) {
     const uint columns = threadSurfaces[place.first + i];
     block |= uvec2(columns & 0xffu, columns >> 8) << 8 * i;
   }
@@ -155,8 +154,8 @@ Sums sumsOf(Place place, uint surfaces, Representative r) {
 
 // A thread's sums as vectors. One round adds up as many of them as a block has threads.
 const int kSumVectors = kMoments / 4;
-const int kRounds = (2 * kSumVectors + 1 + kBlockThreads - 1) / kBlockThreads;
-const int kVectors = kBlockThreads * kRounds;
+const int kRounds = (2 * kSumVectors + 1 + kThreadsPerBlock - 1) / kThreadsPerBlock;
+const int kVectors = kThreadsPerBlock * kRounds;
 
 vec4[kVectors] vectorsOf(Sums sums) {
   const float onItsPlane[kMoments] = numbersOf(sums.onItsPlane.sum);
@@ -177,24 +176,24 @@ shared vec4 exchange[kVectors * kBlocks];
 void addThreads(Place place, vec4 vectors[kVectors]) {
   vec4 totals[kRounds];
   [[unroll]] for (int round = 0; round < kRounds; ++round) {
-    [[unroll]] for (int i = 0; i < kBlockThreads; ++i) {
-      exchange[kThreads * i + place.first + place.thread] = vectors[kBlockThreads * round + i];
+    [[unroll]] for (int i = 0; i < kThreadsPerBlock; ++i) {
+      exchange[kThreads * i + place.first + place.thread] = vectors[kThreadsPerBlock * round + i];
     }
     barrier();
     totals[round] = vec4(0.0);
     // Every thread starts with itself, because the vectors of one thread all lie in the same banks.
     const int own = kThreads * place.thread + place.first;
-    [[unroll]] for (int i = 0; i < kBlockThreads; ++i) totals[round] += exchange[own + (place.thread ^ i)];
+    [[unroll]] for (int i = 0; i < kThreadsPerBlock; ++i) totals[round] += exchange[own + (place.thread ^ i)];
     barrier();
   }
   [[unroll]] for (int round = 0; round < kRounds; ++round) {
-    exchange[kBlocks * (kBlockThreads * round + place.thread) + place.first / kBlockThreads] = totals[round];
+    exchange[kBlocks * (kThreadsPerBlock * round + place.thread) + place.first / kThreadsPerBlock] = totals[round];
   }
   barrier();
 }
 
 // One of the vectors that addThreads left.
-vec4 total(Place place, int vector) { return exchange[kBlocks * vector + place.first / kBlockThreads]; }
+vec4 total(Place place, int vector) { return exchange[kBlocks * vector + place.first / kThreadsPerBlock]; }
 
 // Moments of the block from one of its sums, of which `first` is the first vector.
 BlockMoments momentsOfBlock(Place place, int first, Representative r) {
@@ -240,8 +239,8 @@ BlockMoments momentsOfCell(ivec2 cell, float z) {
 
 void main() {
   Place place;
-  place.block = ivec2(gl_GlobalInvocationID.x / kBlockThreads, gl_GlobalInvocationID.y);
-  place.thread = int(gl_LocalInvocationID.x) % kBlockThreads;
+  place.block = ivec2(gl_GlobalInvocationID.x / kThreadsPerBlock, gl_GlobalInvocationID.y);
+  place.thread = int(gl_LocalInvocationID.x) % kThreadsPerBlock;
   place.first = int(gl_LocalInvocationIndex) - place.thread;
   const uint surfaces = surfacesOf(place);
   const Representative r = representativeOf(place, surfaces);

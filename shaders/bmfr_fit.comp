@@ -8,12 +8,12 @@
 #include "constants/bmfr.h"
 #include "constants/frame.h"
 #include "include/camera.glsl"
-#include "include/finite.glsl"
 #include "include/hash.glsl"
 #include "include/surface.glsl"
 
 layout(local_size_x = 16, local_size_y = 16) in;
 layout(constant_id = 0) const bool kAlphaIsSampleCount = false;
+#include "include/sampled_light.glsl"
 
 layout(std140) uniform frameConstants { FrameConstants frame; };
 uniform texture2D lighting;
@@ -79,7 +79,7 @@ Pixel readPixel(int s) {
   pixel.position = worldFromView * (rayThrough(frame.rayFromPixel, pixelCentre(q)) * z);
   const vec4 sampleHere = texelFetch(lighting, q, 0);
   pixel.colour = sampleHere.rgb;
-  pixel.sampled = isFinite(pixel.colour) && (!kAlphaIsSampleCount || sampleHere.a > 0.0);
+  pixel.sampled = isSampled(sampleHere);
   return pixel;
 }
 

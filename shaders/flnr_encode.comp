@@ -12,6 +12,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 0) const bool kAlphaIsSampleCount = false;
 layout(constant_id = 1) const int kShrink = 2;  // Pixels per axis that become one texel.
 
+#include "include/sampled_light.glsl"
 #include "include/surface.glsl"
 #define GROUP_SUM vec4
 #include "include/group_sum.glsl"
@@ -40,12 +41,10 @@ float[kNetworkFeatures] featuresOf(ivec2 p, vec2 means) {
   if (z == 0.0) return nothing;
   const NormalAndOcclusion surface = unpackNormalAndOcclusion(texelFetch(features, p, 0).x);
   const vec4 here = texelFetch(lighting, p, 0);
-  const bool sampled = isFinite(here.rgb) && (!kAlphaIsSampleCount || here.a > 0.0);
-  const vec3 light = sampled ? clampedRadiance(here.rgb) : vec3(0.0);
+  const vec3 light = isSampled(here) ? clampedRadiance(here.rgb) : vec3(0.0);
   const vec3 relative = log(1.0 + light / max(means.x, 1e-30));
-  const float samples = sampled ? (kAlphaIsSampleCount ? here.a : 1.0) : 0.0;
   return float[](surface.normal.x, surface.normal.y, 1.0 / (1.0 + z * means.y), surface.occlusion, relative.r, relative.g,
-                 relative.b, samples * kSamplesScale);
+                 relative.b, samplesOf(here) * kSamplesScale);
 }
 
 void main() {

@@ -4,11 +4,11 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
 #include "constants/guide_network.h"
-#include "include/finite.glsl"
 #include "include/surface.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 0) const bool kAlphaIsSampleCount = false;
+#include "include/sampled_light.glsl"
 
 uniform texture2D lighting;
 uniform utexture2D depth;
@@ -28,7 +28,7 @@ void main() {
     const vec4 light = texelFetch(lighting, p, 0);
     if (z == 0.0) continue;
     sum.zw += vec2(1.0 / z, 1.0);
-    if (!isFinite(light.rgb) || (kAlphaIsSampleCount && light.a == 0.0)) continue;
+    if (!isSampled(light)) continue;
     sum.xy += vec2(dot(clampedRadiance(light.rgb), vec3(1.0 / 3.0)), 1.0);
   }
   sum = sumOverGroup(sum);

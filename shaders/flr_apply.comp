@@ -20,6 +20,7 @@ layout(std430) readonly buffer coefficients { vec4 cells[]; };
 #ifdef VIEW
 layout(constant_id = 8) const uint kView = 0;  // Which quantity; numbered in viewOf.
 layout(constant_id = 1) const bool kAlphaIsSampleCount = false;
+#include "include/sampled_light.glsl"
 layout(rgba32f) uniform writeonly image2D outView;
 #else
 layout(rgba16f) uniform writeonly image2D outFiltered;
@@ -75,16 +76,12 @@ vec3 viewOf(ivec2 p, float z) {
   const NormalAndOcclusion geometry = unpackGeometry(texelFetch(normals, p, 0).x);
   const float x[kFeatures] = unpackGuides(packedGuides(p), z);
   const vec4 light = texelFetch(lighting, p, 0);
-  const bool sampled = isFinite(light.rgb) && (!kAlphaIsSampleCount || light.a > 0.0);
-  if (kView == 2u) return sampled ? clampedRadiance(light.rgb) : vec3(0.0);
+  if (kView == 2u) return isSampled(light) ? clampedRadiance(light.rgb) : vec3(0.0);
   if (kView == 3u) return geometry.normal;
-  if (kView == 4u) {
-    const float samples = kAlphaIsSampleCount ? light.a : 1.0;
-    return vec3(1.0 / z, geometry.occlusion, sampled ? samples : 0.0);
-  }
+  if (kView == 4u) return vec3(1.0 / z, geometry.occlusion, samplesOf(light));
   const vec4 predicted = predict(p, x);
   if (kView == 0u) return vec3(notEqual(clampedRadiance(predicted.rgb), predicted.rgb));
-  return vec3(predicted.a == 0.0, !sampled, !isFinite(predicted.rgb));
+  return vec3(predicted.a == 0.0, !isSampled(light), !isFinite(predicted.rgb));
 }
 #endif
 

@@ -5,10 +5,10 @@
 #extension GL_EXT_control_flow_attributes : require
 #extension GL_EXT_samplerless_texture_functions : require
 #include "constants/flr.h"
-#include "include/finite.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 0) const bool kAlphaIsSampleCount = false;
+#include "include/sampled_light.glsl"
 
 layout(push_constant) uniform PushConstants { FlrConstants constants; };
 #include "include/flr.glsl"
@@ -32,12 +32,11 @@ void main() {
       const ivec2 p = ivec2(x, y);
       // All fetches come before the first test, so that they overlap.
       const float z = depthAt(p);
-      const vec4 sampleHere = texelFetch(lighting, p, 0);
+      const vec4 light = texelFetch(lighting, p, 0);
       const PackedGuides guides = packedGuides(p);
-      const vec3 colour = sampleHere.rgb;
       // Sky, pixels without a diffuse lobe and pixels without a finite sample do not count.
-      if (z == 0.0 || !isFinite(colour) || (kAlphaIsSampleCount && sampleHere.a == 0.0)) continue;
-      add(sum, 1.0, outerProducts(unpackGuides(guides, z), clampedRadiance(colour)));
+      if (z == 0.0 || !isSampled(light)) continue;
+      add(sum, 1.0, outerProducts(unpackGuides(guides, z), clampedRadiance(light.rgb)));
     }
   }
   [[unroll]] for (int k = 0; k < kFirstVectors; ++k) outCells[vectorIndex(cell, k)] = sum.v[k];

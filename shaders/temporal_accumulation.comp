@@ -162,16 +162,26 @@ ReprojectedHistory readHistory(ivec2 p, float z) {
   return historyAt(taps, position);
 }
 
+#if defined(ANTILAG) || defined(VIEW)
+// What antilag leaves of a history.
+struct AntilagLimit {
+  float factor;
+  float longest;  // History length.
+};
+
+AntilagLimit antilagLimit(ReprojectedHistory found, LightSample noisy) {
+  const float factor = antilagAt(previousAntilag, found.position);
+  const float frames = longestHistoryOf(isUsable(noisy), longestHistory(factor, constants.maxHistory));
+  return AntilagLimit(factor, found.perFrame * frames);
+}
+#endif
+
 // `noisy`: this frame's sample, if there is one.
 ReprojectedHistory historyWithAntilag(ivec2 p, float z, LightSample noisy) {
   ReprojectedHistory found = readHistory(p, z);
   found.perFrame = samplesPerFrame(found.mean.a, usableSamples(noisy));
 #if defined(ANTILAG) || defined(VIEW)
-  if (kAntilag) {
-    const float factor = antilagAt(previousAntilag, found.position);
-    const float longest = longestHistoryOf(isUsable(noisy), longestHistory(factor, constants.maxHistory));
-    found.mean.a = min(found.mean.a, found.perFrame * longest);
-  }
+  if (kAntilag) found.mean.a = min(found.mean.a, antilagLimit(found, noisy).longest);
 #endif
   found.mean.a = confidentLength(p, found.mean.a, found.perFrame * constants.maxHistory);
   return found;
@@ -193,12 +203,10 @@ vec3 viewOf(ivec2 p, float z, LightSample noisy) {
                   surface && !kStill && !isFinite(motionAt(p)));
     case 2u: {
       if (!surface || !kAntilag) return vec3(0.0);
-      const ReprojectedHistory found = readHistory(p, z);
-      const float perFrame = samplesPerFrame(found.mean.a, usableSamples(noisy));
-      const float factor = antilagAt(previousAntilag, found.position);
-      const float longest =
-          perFrame * longestHistoryOf(isUsable(noisy), longestHistory(factor, constants.maxHistory));
-      return vec3(factor, longest, found.mean.a > longest);
+      ReprojectedHistory found = readHistory(p, z);
+      found.perFrame = samplesPerFrame(found.mean.a, usableSamples(noisy));
+      const AntilagLimit limit = antilagLimit(found, noisy);
+      return vec3(limit.factor, limit.longest, found.mean.a > limit.longest);
     }
   }
   return vec3(0.0);

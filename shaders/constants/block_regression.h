@@ -5,6 +5,9 @@
 namespace walr {
 #endif
 
+// Threads of block_moments.comp for one block. They lie in a row.
+const int kThreadsPerBlock = 4;
+
 // Made of BlockRegressionSettings, which have each constant's meaning and source, for an image and its light
 // (`gridOf` in passes/block_regression.cpp).
 struct BlockRegressionConstants {

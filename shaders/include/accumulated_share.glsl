@@ -17,6 +17,7 @@
 #include "innovation.glsl"
 #include "luminance.glsl"
 #include "packed_light.glsl"
+#include "reconstruction_tile.glsl"
 
 layout(constant_id = 3) const bool kPackedMean = true;  // The accumulated light is packed.
 layout(constant_id = 4) const bool kAntilag = false;    // It is shortened by the antilag factor of its own frame.
@@ -42,9 +43,8 @@ struct Statistics {
 // `before`: the position in the previous camera's view space. Statistics of an image of another size are not read.
 Statistics previousStatisticsAt(vec3 before, bool edge) {
   if (before.z >= 0.0 || frame.previousPixelFromPixel != vec2(1.0)) return Statistics(vec4(0.0), 0.0);
-  const int tileSize = int(gl_WorkGroupSize.x) / kBlockSize * kBlockSize;
   const vec2 pixel = nearPixelOf(frame.previousRayFromPixel, before);
-  const vec2 tile = (pixel + float((kBlockSize + 1) / 2)) / float(tileSize) - 0.5;
+  const vec2 tile = (pixel + float(kTileStart)) / float(kTilePixels) - 0.5;
   const ivec2 last = textureSize(previousAgreement, 0) - 1;
   const ivec2 ofClass = ivec2(edge ? last.x + 1 : 0, 0);
   const vec2 base = clamp(floor(tile), vec2(-1.0), vec2(last)), f = tile - floor(tile);
@@ -96,7 +96,7 @@ struct Shown {
   vec3 predicted;  // p: the light that the fits predict.
 };
 
-const int kGroupSize = 8, kGroupThreads = kGroupSize * kGroupSize;
+const int kGroupThreads = kGroupSize * kGroupSize;
 // First the residuals, three values of each thread; later what is summed, four of each.
 shared vec4 groupValues[4 * kGroupThreads];
 const int kGroupResiduals = 0;                  // rgb: mean; a: noisy.
@@ -176,15 +176,12 @@ Residual meanAround(SameSurface surface, bool halves, out bool edge) {
   return Residual(scale * sum.mean, scale * sum.noisy, scale * sum.history, scale * sum.samples);
 }
 
-// Threads along an axis that have a pixel.
-const int kGroupPixels = kGroupSize / kBlockSize * kBlockSize;
-
 // Product of this frame's residual at a pixel and the history's at the pixel two further along axis `axis`, or two
 // before it at the end of the group, and 1; 0 if that shows another surface. It is free of the noise that y and h of
 // one pixel share.
 vec2 farProduct(SameSurface surface, Residual own, int axis) {
   ivec2 t = ivec2(gl_LocalInvocationID.xy);
-  t[axis] += t[axis] + 2 < kGroupPixels ? 2 : -2;
+  t[axis] += t[axis] + 2 < kTilePixels ? 2 : -2;
   const int q = t.y * kGroupSize + t.x;
   if (sameSurface(surface, q) < 0.5) return vec2(0.0);
   const float noisy = groupValues[kGroupResiduals + q].a, history = groupValues[kGroupPositions + q].a;

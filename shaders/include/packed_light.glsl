@@ -5,6 +5,7 @@
 // no mean and is rounded to nearest.
 #ifndef WALR_PACKED_LIGHT_GLSL
 #define WALR_PACKED_LIGHT_GLSL
+#include "constants/packed_light.h"
 #include "hash.glsl"
 
 // Seeds of the random numbers, one for each running mean.
@@ -81,8 +82,6 @@ float unpackCount(uint packed) {
 // A history length in three bits, as one of the levels 0, 1, 2, 4, 8, 16, 32 and `longest`; levels above `longest`
 // count as `longest`. Rounding between levels is stochastic: a mean that stays at a level for some frames weighs new
 // frames by more than its true length would, and is then as precise as a mean of twice that length.
-const uint kLongestLevel = 7u;
-
 // The longest history length. `beyondLevels`: whether it is above 64; if not, the highest level needs no test, because
 // 2^6 is no shorter.
 struct PackedLength {
@@ -92,18 +91,18 @@ struct PackedLength {
 
 // `level`: at least 1.
 float unpackLength(uint level, PackedLength most) {
-  const bool beyond = most.beyondLevels && level == kLongestLevel;
+  const bool beyond = most.beyondLevels && int(level) == kLongestLevel;
   return beyond ? most.longest : min(powerOfTwo(int(level) - 1), most.longest);
 }
 
 // `length`: at least 1.
 uint packLength(float length, PackedLength most, float random) {
-  const float capped = most.beyondLevels ? min(length, powerOfTwo(int(kLongestLevel) - 2)) : length;
+  const float capped = most.beyondLevels ? min(length, powerOfTwo(kLongestLevel - 2)) : length;
   const float low = uintBitsToFloat(floatBitsToUint(capped) & 0xff800000u);
   const uint level = uint(exponentOf(capped) + 1);
   const float high = most.beyondLevels ? unpackLength(level + 1u, most) : min(2.0 * low, most.longest);
   const uint rounded = level + (random * (high - low) < length - low ? 1u : 0u);
-  return length >= most.longest ? kLongestLevel : rounded;
+  return length >= most.longest ? uint(kLongestLevel) : rounded;
 }
 
 // Accumulated light (temporal_accumulation.comp): mean in 3 x 7 bits, and its history length in alpha.
