@@ -197,12 +197,21 @@ vec2 statisticsOf(float noisy, float history, float mean, float samples) {
 const float kLeastLight = 1e-12;  // Far below what halves can hold: squares of its inverse are finite,
 const float kMostSquare = 1e30;   // and so are sums over tiles of these.
 
+// What a pixel adds to the statistics of its workgroup.
+struct Measured {
+  vec2 light;       // Predicted luminance and 1; 0 for a pixel that adds nothing.
+  vec4 statistics;  // statisticsOf the mean around the pixel, and of the difference from it.
+  bool edge;        // The pixel lies beside one.
+  vec2 innovation;  // innovationTerms.
+  vec4 far;         // farProduct along both axes.
+};
+
 // Writes what this workgroup adds to the statistics, relative to the square of its mean light, so that a bright one
-// does not outweigh its neighbours. `light`: predicted luminance of a pixel with statistics and 1; else 0.
-void storeSums(vec2 light, vec4 statistics, bool edge, vec2 innovation, vec4 far) {
-  const vec4 none = vec4(0.0);
-  const mat4 sums =
-      sumsOverGroup(mat4(vec4(light, innovation), edge ? none : statistics, edge ? statistics : none, far));
+// does not outweigh its neighbours.
+void storeSums(Measured pixel) {
+  const vec4 none = vec4(0.0), interiorOnly = pixel.edge ? none : pixel.statistics;
+  const vec4 edgeOnly = pixel.edge ? pixel.statistics : none;
+  const mat4 sums = sumsOverGroup(mat4(vec4(pixel.light, pixel.innovation), interiorOnly, edgeOnly, pixel.far));
   if (gl_LocalInvocationIndex != 0u) return;
   const vec4 first = sums[0], interior = sums[1], edges = sums[2], distant = sums[3];
   const float perLight = first.x > kLeastLight ? first.y / first.x : 0.0;
@@ -230,46 +239,55 @@ FetchedLight fetchLight(ivec2 p) {
   return FetchedLight(accumulatedAt(p), texelFetch(lighting, p, 0).rgb, factor);
 }
 
+// The accumulated light of a pixel after the antilag of this frame, and its residual.
+struct Accumulated {
+  vec4 mean;  // a: history length, 0 without a surface.
+  Residual residual;
+};
+
+Accumulated accumulatedWithAntilag(FetchedLight fetched, Shown shown) {
+  Accumulated found = Accumulated(shown.surface ? fetched.mean : vec4(0.0), Residual(vec3(0.0), 0.0, 0.0, 0.0));
+  if (!(found.mean.a > 0.0)) return found;
+  const bool hasLight = isFinite(fetched.noisy);
+  const vec3 light = hasLight ? clampedRadiance(fetched.noisy) : vec3(0.0);
+  if (kAntilag) {
+    const float longest = longestHistory(fetched.antilag, constants.maxHistory);
+    found.mean = withLongestHistory(found.mean, light, hasLight ? 1.0 : 0.0, longestHistoryOf(hasLight, longest));
+  }
+  found.residual = residualOf(found.mean, light, hasLight, shown.predicted);
+  return found;
+}
+
 // The prediction of a pixel mixed with its accumulated light. All threads of the workgroup must call it.
 vec3 withAccumulated(ivec2 p, bool hasPixel, FetchedLight fetched, Shown shown) {
-  vec4 mean = shown.surface ? fetched.mean : vec4(0.0);
-  Residual own = Residual(vec3(0.0), 0.0, 0.0, 0.0);
-  if (mean.a > 0.0) {
-    const bool hasLight = isFinite(fetched.noisy);
-    const vec3 light = hasLight ? clampedRadiance(fetched.noisy) : vec3(0.0);
-    if (kAntilag) {
-      const float longest = longestHistory(fetched.antilag, constants.maxHistory);
-      mean = withLongestHistory(mean, light, hasLight ? 1.0 : 0.0, longestHistoryOf(hasLight, longest));
-    }
-    own = residualOf(mean, light, hasLight, shown.predicted);
-  }
+  const Accumulated accumulated = accumulatedWithAntilag(fetched, shown);
+  const Residual own = accumulated.residual;
   shareResidual(hasPixel, shown, own);
 
   vec3 result = shown.predicted;
-  vec4 statistics = vec4(0.0);
-  vec2 light = vec2(0.0), ofInnovation = vec2(0.0);
-  vec4 far = vec4(0.0);  // farProduct of both axes.
-  bool edge = false;
+  Measured measured = Measured(vec2(0.0), vec4(0.0), false, vec2(0.0), vec4(0.0));
   float innovation = 0.0;
-  if (mean.a > 0.0) {
+  if (accumulated.mean.a > 0.0) {
     const vec3 before = previousPosition(frame.previousViewFromView, shown.position);
     const SameSurface surface = sameSurfaceAs(shown);
-    const Residual around = meanAround(surface, own.samples > 0.0, edge);
-    const Statistics known = previousStatisticsAt(before, edge);
+    const Residual around = meanAround(surface, own.samples > 0.0, measured.edge);
+    const Statistics known = previousStatisticsAt(before, measured.edge);
     const vec3 detail = own.mean - around.mean;
+    const float length = accumulated.mean.a;
     result += accumulatedShare(known.sums.xy, around.samples, known.trust) * around.mean;
-    result += accumulatedShare(known.sums.zw, mean.a, known.trust) * detail;
+    result += accumulatedShare(known.sums.zw, length, known.trust) * detail;
     if (own.samples > 0.0) {
-      light = vec2(luminance(shown.predicted), 1.0);
-      statistics.xy = statisticsOf(around.noisy, around.history, luminance(around.mean), around.samples);
-      statistics.zw = statisticsOf(own.noisy - around.noisy, own.history - around.history, luminance(detail), mean.a);
       innovation = own.noisy - own.history;
-      ofInnovation = innovationTerms(innovation, before);
-      far = vec4(farProduct(surface, own, 0), farProduct(surface, own, 1));
+      measured.light = vec2(luminance(shown.predicted), 1.0);
+      measured.statistics =
+          vec4(statisticsOf(around.noisy, around.history, luminance(around.mean), around.samples),
+               statisticsOf(own.noisy - around.noisy, own.history - around.history, luminance(detail), length));
+      measured.innovation = innovationTerms(innovation, before);
+      measured.far = vec4(farProduct(surface, own, 0), farProduct(surface, own, 1));
     }
   }
   if (hasPixel) storeInnovation(p, innovation);
-  storeSums(light, statistics, edge, ofInnovation, far);
+  storeSums(measured);
   return clamp(result, vec3(0.0), vec3(kLightUnit));  // As predictions are: packed light holds no more.
 }
 
