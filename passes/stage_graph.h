@@ -38,20 +38,24 @@ class StageGraph {
   [[nodiscard]] SharedGuides* shared() const { return light_.guides; }
 
   /// As the functions of `fg::Graph`, with the light's prefix before the name.
-  fg::Texture texture(const std::string& name, const fg::TextureDesc& desc, Where where = Where::current()) const {
+  [[nodiscard]] fg::Texture texture(const std::string& name, const fg::TextureDesc& desc,
+                                    Where where = Where::current()) const {
     return graph_->texture(named(name), desc, where);
   }
-  fg::Buffer buffer(const std::string& name, const fg::BufferDesc& desc, Where where = Where::current()) const {
+  [[nodiscard]] fg::Buffer buffer(const std::string& name, const fg::BufferDesc& desc,
+                                  Where where = Where::current()) const {
     return graph_->buffer(named(name), desc, where);
   }
-  fg::Buffer upload(const std::string& name, std::span<const std::byte> contents,
-                    Where where = Where::current()) const {
+  [[nodiscard]] fg::Buffer upload(const std::string& name, std::span<const std::byte> contents,
+                                  Where where = Where::current()) const {
     return graph_->upload(named(name), contents, where);
   }
-  fg::History history(const std::string& name, const fg::TextureDesc& desc, Where where = Where::current()) const {
+  [[nodiscard]] fg::History history(const std::string& name, const fg::TextureDesc& desc,
+                                    Where where = Where::current()) const {
     return graph_->history(named(name), desc, where);
   }
-  fg::PassBuilder compute(const std::string& name, const fg::Shader& shader, Where where = Where::current()) const {
+  [[nodiscard]] fg::PassBuilder compute(const std::string& name, const fg::Shader& shader,
+                                        Where where = Where::current()) const {
     return graph_->compute(named(name), shader, where);
   }
   [[nodiscard]] const fg::TextureDesc& textureDesc(fg::Texture texture) const { return graph_->textureDesc(texture); }

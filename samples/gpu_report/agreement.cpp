@@ -40,7 +40,8 @@ Image storedResult(const std::filesystem::path& file, fg::Extent extent) {
 }
 
 PixelMask everyPixel(const Image& image) {
-  return PixelMask(image.pixelCount(), 1);
+  PixelMask mask(image.pixelCount(), 1);
+  return mask;
 }
 
 void compareWith(const Image& reference, const Image& result, Agreement& agreement) {
@@ -92,6 +93,7 @@ Agreement compareMethod(const GpuDevice& device, const Variant& variant, const C
     agreement.nonFinite = countNonFinite(result);
     agreement.rmse = errorOf(result, sequence.truth);
     std::vector<ExrChannel> channels;
+    channels.reserve(3);
     for (int c = 0; c < 3; ++c) channels.push_back({std::string(1, "RGB"[c]), &result, c, ExrType::Half});
     prepareOutputDirectory(folder / kResults);
     writeExr(resultFile(folder, sequence.name, variant.name), channels);

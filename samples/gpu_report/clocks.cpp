@@ -36,7 +36,7 @@ std::optional<std::uint32_t> hexadecimal(const fs::path& file) {
 fs::path cardOf(std::uint32_t vendor, std::uint32_t device, const fs::path& sysfs) {
   std::error_code ignored;
   for (const fs::directory_entry& entry : fs::directory_iterator(sysfs, ignored)) {
-    const fs::path card = entry.path();
+    const fs::path& card = entry.path();
     if (hexadecimal(card / "device" / "vendor") == vendor && hexadecimal(card / "device" / "device") == device) {
       return card;
     }

@@ -26,8 +26,8 @@ class FrameLoop {
   /// @throws std::invalid_argument naming a setting of the method that does not support the size
   FrameLoop(const GpuDevice& device, const Variant& variant, const TimedContent& content);
   ~FrameLoop();
-  FrameLoop(FrameLoop&&) noexcept;
-  FrameLoop& operator=(FrameLoop&&) noexcept;
+  FrameLoop(FrameLoop&& other) noexcept;
+  FrameLoop& operator=(FrameLoop&& other) noexcept;
 
   /// Run frames; the histories go on from the last call.
   /// @param times receives the passes' times of every frame, unless null. Consecutive passes that run the same

@@ -17,6 +17,7 @@ std::vector<PassModel> modelsOf(const Variant& variant, fg::Extent extent,
   const Machine& machine = machines ? machines->peak : machineNamed(kDefaultMachine);
   const auto peak = estimatePasses(variant, extent, shaderFigures(), machine);
   std::vector<PassModel> models;
+  models.reserve(peak.size());
   for (const PassEstimate& pass : peak) {
     models.push_back({.batch = pass.batch, .bytes = static_cast<double>(pass.bytes), .peak = {}, .attainable = {}});
   }
