@@ -8,7 +8,7 @@ import sys
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "scenes"))
 from gltf_writer import Mesh, turn
 from scene_builder import Builder, walk, wall
-from things import boxes, cards, fence, rock, table, turned
+from things import boxes, cards, fence, rock, scatter, table, turned
 
 
 def column(b, mesh, x, z, radius, height, flutes):
@@ -59,7 +59,7 @@ def arch_wall(mesh, bays, pitch, pier, spring, height, thickness, pointed):
 
 
 def colonnade(b, mesh, bays, pitch, spring, radius, z):
-    """Columns in place of the lower parts of piers: in front of them by their radius."""
+    """Columns in front of the piers, as high as the lower ends of the arches."""
     flutes = b.random.choice([0, 0, 8, 12])
     for i in range(bays + 1):
         column(b, mesh, (i - 0.5 * bays) * pitch, z, radius, spring, flutes)
@@ -141,7 +141,7 @@ def shelf(b, x, z):
 
 
 def grille(b, x, z):
-    """Thin bars before something, as in windows and gates: uprights, some with rings between them."""
+    """Thin bars, as in windows and gates: uprights, some of them turned, and rails across."""
     bars, pitch, thick, height = b.random.randint(8, 20), b.between(0.06, 0.16), b.between(0.012, 0.03), b.between(0.8, 2.0)
     mesh = Mesh()
     for i in range(bars):
@@ -201,23 +201,15 @@ def arch_row(b, length, height, thickness, colour, degrees, place):
             relief(b, 0.8 * pier, 0.25 * height, translation=[round(c, 4) for c in at], rotation=rotation)
 
 
-def furnish(b, count, width, depth, camera):
-    """Things on the ground, none within a metre of where the camera starts."""
-    placed = 0
-    while placed < count:
-        x, z = round(b.between(-0.5, 0.5) * width, 3), round(b.between(-0.5, 0.5) * depth, 3)
-        if math.hypot(x - camera[0], z - camera[2]) < 1.0:
-            continue
-        b.random.choice([grille, grille, fence, shelf, turned, turned, cards, rock, boxes, table])(b, x, z)
-        placed += 1
+FURNITURE = [grille, grille, fence, shelf, turned, turned, cards, rock, boxes, table]
 
 
 def building(seed):
     """Arches on two or three sides, open to the sky or under a vault; the camera near to or far from them."""
     b = Builder(seed, f"building {seed}", [0.0, 0.0, 0.0])
     covered = b.chance(0.5)
-    sky = b.between(0.5, 2.5)
-    b.scene.document["scenes"][0]["extras"]["sky_radiance"] = [round(sky * c, 3) for c in (0.75, 1.0, 1.4)]
+    bright = b.between(0.5, 2.5)
+    b.sky([round(bright * c, 3) for c in (0.75, 1.0, 1.4)])
     width, depth, height = b.between(3, 8), b.between(4, 12), b.between(2.5, 6)
     x, z, thickness = 0.5 * width, 0.5 * depth, b.between(0.2, 0.7)
     stone = b.material()
@@ -247,6 +239,6 @@ def building(seed):
         curtain(b, *place, b.between(0.5, 1.6), height * b.between(0.2, 0.5))
     far = b.chance(0.5)
     camera = (b.between(-0.6, 0.6) * x, b.between(0.7, 0.6 * height), z - 0.4 if far else b.between(-0.5, 0.5) * z)
-    furnish(b, b.random.randint(3, 12), 0.9 * width, 0.9 * depth, camera)
+    scatter(b, b.random.randint(3, 12), 0.9 * width, 0.9 * depth, camera, FURNITURE, clear=1.0)
     walk(b, camera, (b.between(-0.9, 0.9) * x, b.between(0.2, 0.7) * height, camera[2] - b.between(1, 0.8 * depth)))
     return b.scene

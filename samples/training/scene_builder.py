@@ -19,6 +19,10 @@ class Builder:
         self.scene = Gltf(name, sky)
         self.count = 0
 
+    def sky(self, radiance):
+        """Another sky than that of the start."""
+        self.scene.document["scenes"][0]["extras"]["sky_radiance"] = radiance
+
     def between(self, low, high):
         return self.random.uniform(low, high)
 

@@ -119,12 +119,12 @@ def arcade(b, x, z):
     b.add(mesh, translation=[round(x, 3), 0.0, round(z, 3)], rotation=turn((0.0, 1.0, 0.0), b.between(-30, 30)))
 
 
-def scatter(b, count, width, depth, camera):
-    """Things on the ground, none within 1.1 m of where the camera starts."""
+def scatter(b, count, width, depth, camera, kinds=THINGS, clear=1.1):
+    """Things on the ground, none within `clear` metres of where the camera starts."""
     placed = 0
     while placed < count:
         x, z = b.between(-0.5, 0.5) * width, b.between(-0.5, 0.5) * depth
-        if math.hypot(x - camera[0], z - camera[2]) < 1.1:
+        if math.hypot(x - camera[0], z - camera[2]) < clear:
             continue
-        b.random.choice(THINGS)(b, round(x, 3), round(z, 3))
+        b.random.choice(kinds)(b, round(x, 3), round(z, 3))
         placed += 1

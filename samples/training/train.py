@@ -36,7 +36,7 @@ SINGLE = 0.4
 CLEANER = 0.3
 """Share of the crops that are made less noisy."""
 EXPOSURE = 0.7
-"""Logarithm of the largest factor that a crop's light is brighter or darker by, relative to the frame's mean."""
+"""Natural logarithm of the largest factor by which a crop's light is made brighter or darker."""
 SIGMAS = {"accumulated": (6.0, 8.0, 10.0), "single": (12.0, 16.0, 20.0)}
 """Windows of the regression to train with, pixels."""
 BRIGHT = 4.0
@@ -48,7 +48,7 @@ ENDS, LARGEST_LOGIT = 1e-2, 4.0
 RATE, LAST_RATE = 1e-3, 5e-5
 """Of Adam, from first to last step, as a half cosine."""
 MEMORY = 0.999
-"""What a step leaves of the average of the weights. The average is what is judged and exported."""
+"""Share of the weights' average that a step keeps. The average is what is judged and exported."""
 
 
 def loss_of(prediction, target, surface, mean):
