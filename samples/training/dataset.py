@@ -2,6 +2,7 @@
 
 A frame is a dictionary of tensors of 1 x channels x height x width: `normal` (view space), `inverse_depth` (0: no surface),
 `occlusion`, `light`, `samples` in the light (0: none), `target`, and `half_target`, the mean of one half of the target's samples.
+Several frames of one size are such a dictionary, too: their tensors have a row for each.
 """
 import pathlib
 
@@ -25,15 +26,16 @@ def scenes(cache):
     return [f for f in files if f not in held_out], held_out
 
 
-def load(files):
+def load(files, device="cpu"):
     """All frames of the files by the kind of their light: "accumulated" or "single". Most tensors hold halves."""
     frames = {"accumulated": [], "single": []}
     for file in files:
         for kind, frame in torch.load(file):
             frames[kind].append(frame)
-    return frames
+    return {kind: {name: torch.cat([frame.pop(name) for frame in some]).to(device) for name in list(some[0])} for kind, some in frames.items()}
 
 
-def floats(frame):
-    """The frame in single precision."""
-    return {name: values.float() for name, values in frame.items()}
+def each(frames):
+    """The frames one by one, in single precision."""
+    for i in range(len(frames["light"])):
+        yield {name: values[i:i + 1].float() for name, values in frames.items()}

@@ -102,7 +102,7 @@ def main():
     parser.add_argument("--cache", type=pathlib.Path, required=True, help="folder of make_data.py")
     parser.add_argument("--project", type=pathlib.Path, required=True, help="folder that receives the files")
     options = parser.parse_args()
-    state = torch.load(options.state)
+    state = torch.load(options.state, map_location="cpu")
     preset = state["preset"]
     network = GuideNetwork(**PRESETS[preset])
     network.load_state_dict(state["average"])

@@ -89,7 +89,7 @@ class GuideNetwork(nn.Module):
         """With gradients, the layers before the head compute in bfloat16, which some processors do four times as fast."""
         height, width = seen.shape[2:]
         padded = F.pad(seen, (0, -width % self.shrink, 0, -height % self.shrink))
-        with torch.autocast("cpu", dtype=torch.bfloat16, enabled=torch.is_grad_enabled()):
+        with torch.autocast(seen.device.type, dtype=torch.bfloat16, enabled=torch.is_grad_enabled()):
             last = self.trunk(padded.contiguous(memory_format=torch.channels_last))
         guides = torch.sigmoid(self.head(last.float()))
         guides = F.pixel_shuffle(guides, self.shrink) if self.shrink > 1 else guides
@@ -98,9 +98,15 @@ class GuideNetwork(nn.Module):
 
 PRESETS = {
     "small": {"widths": (16, 24, 32, 48), "guides": 3, "shrink": 2, "replaces": False},
+    "full": {"widths": (16, 24, 32, 48), "guides": 3, "shrink": 1, "replaces": False},
     "paper": {"widths": (16, 24, 32, 48), "guides": 5, "shrink": 1, "replaces": True},
 }
 """`paper`: as the poster says, at full size, five guides in place of the geometric ones. It only says that the widths are low."""
+
+EXPERIMENTS = {
+    "small_wide": {**PRESETS["small"], "widths": (32, 48, 64, 96)},
+}
+"""Networks that no shader has, to see what more channels gain."""
 
 
 def cells_of(maps):
@@ -118,16 +124,46 @@ def along_both_axes(values, down, across):
     return (across @ values).reshape(batch, len(down), len(across), channels)
 
 
-def gaussian(cells, sigma):
+def gaussian(cells, sigma, device):
     """The Gaussian of flr_blur.comp and flr_solve.comp along one axis, as a matrix; `sigma` in cells."""
-    away = (torch.arange(cells)[:, None] - torch.arange(cells)).abs()
-    return torch.where(away <= math.ceil(REACH * sigma), torch.exp(-0.5 * (away / sigma) ** 2), torch.zeros(()))
+    cell = torch.arange(cells, device=device)
+    away = (cell[:, None] - cell).abs()
+    return torch.exp(-0.5 * (away / sigma) ** 2) * (away <= math.ceil(REACH * sigma))
 
 
-def bilinear(pixels, cells):
+def bilinear(pixels, cells, device):
     """The interpolation of cells at pixels along one axis, as a matrix."""
-    at = ((torch.arange(pixels) + 0.5) / FACTOR - 0.5).clamp(0, cells - 1)
-    return (1 - (at[:, None] - torch.arange(cells)).abs()).clamp(min=0)
+    at = ((torch.arange(pixels, device=device) + 0.5) / FACTOR - 0.5).clamp(0, cells - 1)
+    return (1 - (at[:, None] - torch.arange(cells, device=device)).abs()).clamp(min=0)
+
+
+class Solve(torch.autograd.Function):
+    """The solutions of many small systems with symmetric positive definite matrices, by Gauss and Jordan: such matrices need no
+    pivots. Libraries solve one small system after the other, and differentiate a factorization step by step."""
+
+    @staticmethod
+    def solutions(matrix, right):
+        size = matrix.shape[-1]
+        system = torch.cat([matrix, right], -1)
+        for i in range(size):
+            pivot = system[..., i:i + 1, :] / system[..., i:i + 1, i:i + 1]
+            column = system[..., i:i + 1].clone()
+            column[..., i, :] -= 1
+            system = system - column * pivot
+        return system[..., size:]
+
+    @staticmethod
+    def forward(context, matrix, right):
+        result = Solve.solutions(matrix, right)
+        context.save_for_backward(matrix, result)
+        return result
+
+    @staticmethod
+    def backward(context, gradient):
+        """Of A X = B: dB = A^-1 dX, and dA = -dB X^T."""
+        matrix, result = context.saved_tensors
+        of_right = Solve.solutions(matrix, gradient)
+        return -of_right @ result.transpose(-1, -2), of_right
 
 
 def slopes_of(covariance, right, ridge):
@@ -136,7 +172,7 @@ def slopes_of(covariance, right, ridge):
     variance = torch.diagonal(covariance.detach(), dim1=-2, dim2=-1)[..., None].clamp(min=0)
     scale = torch.rsqrt(variance + ridge)
     matrix = scale * covariance * scale.transpose(-1, -2) + torch.diag_embed((ridge * scale * scale)[..., 0])
-    return scale * torch.cholesky_solve(scale * right, torch.linalg.cholesky_ex(matrix)[0])
+    return scale * Solve.apply(matrix, scale * right)
 
 
 def regression(frame, learned, replaces, sigma):
@@ -151,7 +187,8 @@ def regression(frame, learned, replaces, sigma):
     products = cells_of(row * counts) @ cells_of(torch.cat([row, light], 1)).transpose(3, 4)
     batch, rows, columns = products.shape[:3]
     cell_sigma = sigma / FACTOR
-    sums = along_both_axes(products.reshape(batch, rows, columns, -1), gaussian(rows, cell_sigma), gaussian(columns, cell_sigma))
+    sums = along_both_axes(products.reshape(batch, rows, columns, -1), gaussian(rows, cell_sigma, light.device),
+                           gaussian(columns, cell_sigma, light.device))
 
     sums = sums.reshape(batch, rows, columns, size, size + 3)
     samples = sums[..., :1, :1]
@@ -166,7 +203,8 @@ def regression(frame, learned, replaces, sigma):
     constant = y - x.transpose(-1, -2) @ slopes
 
     coefficients = (torch.cat([constant, slopes], -2) * found).reshape(batch, rows, columns, -1)
-    both = along_both_axes(torch.cat([coefficients, found[..., 0].to(light.dtype)], -1), bilinear(height, rows), bilinear(width, columns))
+    both = along_both_axes(torch.cat([coefficients, found[..., 0].to(light.dtype)], -1), bilinear(height, rows, light.device),
+                           bilinear(width, columns, light.device))
     guides = row.permute(0, 2, 3, 1).reshape(-1, 1, size)
     result = (guides @ both[..., :-1].reshape(-1, size, 3)).reshape(batch, height, width, 3) / both[..., -1:].clamp(min=1e-6)
     return result.permute(0, 3, 1, 2).clamp(min=0)

@@ -24,11 +24,13 @@ import time
 import torch
 
 sys.dont_write_bytecode = True
-from dataset import floats, load, scenes
-from network import PRESETS, SIGMA, GuideNetwork, Means, features, regression
+from dataset import each, load, scenes
+from network import EXPERIMENTS, PRESETS, SIGMA, GuideNetwork, Means, features, regression
 
-CROP, BATCH, STEPS = 128, 2, 250
-"""Pixels of a crop's side, crops of a step, steps of a round. A crop is wider than the largest window."""
+CROP, STEPS = 128, 250
+"""Pixels of a crop's side, steps of a round. A crop is wider than the largest window."""
+CROPS, RATES = {"cpu": 2, "cuda": 64}, {"cpu": 1e-3, "cuda": 2e-3}
+"""Crops of a step: a GPU needs many to have work for all of its processors. Adam's first rate: the more crops, the surer a step."""
 EVALUATE = 20
 """Rounds between two judgements by held-out scenes."""
 SINGLE = 0.4
@@ -45,8 +47,8 @@ DIRECT, DIRECT_SHARE = 0.5, 0.1
 """Weight of the guides' own squared errors at the start, and the share of the training in which it falls to 0."""
 ENDS, LARGEST_LOGIT = 1e-2, 4.0
 """Weight of the squared excess of the sigmoid's inputs over the largest one that is free."""
-RATE, LAST_RATE = 1e-3, 5e-5
-"""Of Adam, from first to last step, as a half cosine."""
+LAST_RATE = 5e-5
+"""Of Adam; from the first to this, it is a half cosine."""
 MEMORY = 0.999
 """Share of the weights' average that a step keeps. The average is what is judged and exported."""
 
@@ -74,33 +76,53 @@ def error_of(prediction, frame, weight, mean):
     return float((weight * (own - first) * (own - second)).sum() / weight.gt(0).sum().clamp(min=1))
 
 
-def crop_of(frame, means, rng):
-    """A random crop, perhaps mirrored, brighter or darker, with its channels of light in a random order, and the means of the whole
-    frame."""
-    height, width = frame["target"].shape[2:]
-    x, y = 8 * rng.randrange((width - CROP) // 8 + 1), 8 * rng.randrange((height - CROP) // 8 + 1)
-    crop = {name: values[:, :, y:y + CROP, x:x + CROP].float() for name, values in frame.items()}
-    if rng.random() < CLEANER:
-        share = rng.random()
-        light = (1 - share) * crop["light"] + share * crop["half_target"]
-        crop["light"] = torch.where(crop["samples"] > 0, light, crop["light"])
-        crop["target"] = 2 * crop["target"] - crop["half_target"]
-    order, factor = rng.sample(range(3), 3), math.exp(rng.uniform(-EXPOSURE, EXPOSURE))
-    crop["light"], crop["target"] = factor * crop["light"][:, order], factor * crop["target"][:, order]
-    if rng.random() < 0.5:
-        crop = {name: values.flip(3) for name, values in crop.items()}
-        crop["normal"] = crop["normal"] * torch.tensor([-1.0, 1.0, 1.0]).view(1, 3, 1, 1)
-    return crop, means
+class Frames:
+    """Frames of one kind of light, and the means of each whole frame."""
+
+    def __init__(self, frames):
+        self.frames = frames
+        means = [Means.of(frame) for frame in each(frames)]
+        self.means = Means(torch.cat([m.light for m in means]), torch.cat([m.inverse_depth for m in means]))
+
+    def __len__(self):
+        return len(self.frames["light"])
+
+    def __iter__(self):
+        """Each frame with its means."""
+        for i, frame in enumerate(each(self.frames)):
+            yield frame, Means(self.means.light[i:i + 1], self.means.inverse_depth[i:i + 1])
+
+    def crops(self, count):
+        """Random crops of random frames, mirrored or not, and the means of their frames."""
+        height, width = self.frames["light"].shape[2:]
+        device = self.frames["light"].device
+
+        def below(end):
+            return torch.randint(end, (count, 1, 1, 1), device=device)
+
+        frame, mirrored, pixel = below(len(self.frames["light"])), below(2), torch.arange(CROP, device=device)
+        row = 8 * below((height - CROP) // 8 + 1) + pixel[:, None]
+        column = 8 * below((width - CROP) // 8 + 1) + torch.where(mirrored > 0, pixel.flip(0), pixel)
+        crops = {name: values[frame, torch.arange(values.shape[1], device=device)[:, None, None], row, column].float()
+                 for name, values in self.frames.items()}
+        crops["normal"] = crops["normal"] * torch.cat([1.0 - 2 * mirrored, torch.ones_like(mirrored).expand(-1, 2, -1, -1)], 1)
+        return crops, Means(self.means.light[frame[:, 0, 0, 0]], self.means.inverse_depth[frame[:, 0, 0, 0]])
 
 
-def with_means(frames):
-    return {kind: [(frame, Means.of(floats(frame))) for frame in some] for kind, some in frames.items()}
+def varied(crops):
+    """Crops some of which are made less noisy, each brighter or darker, with its channels of light in a random order."""
+    count, device = len(crops["light"]), crops["light"].device
 
+    def uniform():
+        return torch.rand((count, 1, 1, 1), device=device)
 
-def batch_of(frames, rng):
-    crops, means = zip(*(crop_of(*rng.choice(frames), rng) for _ in range(BATCH)))
-    joined = {name: torch.cat([c[name] for c in crops]) for name in crops[0]}
-    return joined, Means(torch.cat([m.light for m in means]), torch.cat([m.inverse_depth for m in means]))
+    cleaner = (uniform() < CLEANER).float()
+    share = cleaner * uniform() * (crops["samples"] > 0)
+    light = (1 - share) * crops["light"] + share * crops["half_target"]
+    target = crops["target"] + cleaner * (crops["target"] - crops["half_target"])
+    order = torch.rand((count, 3), device=device).argsort(1)[:, :, None, None].expand_as(light)
+    factor = torch.exp(EXPOSURE * (2 * uniform() - 1))
+    return {**crops, "light": factor * light.gather(1, order), "target": factor * target.gather(1, order)}
 
 
 def ends_loss_of(learned):
@@ -121,27 +143,26 @@ def evaluate(network, frames):
         for kind, some in frames.items():
             ours, plain = 0.0, 0.0
             for frame, means in some:
-                frame = floats(frame)
                 mean = means.light.clamp(min=1e-30)
                 flr, _ = filtered(None, frame, means, SIGMA[kind])
                 weight = (frame["inverse_depth"] > 0) / (1 + flr / mean) ** 4
                 ours += error_of(filtered(network, frame, means, SIGMA[kind])[0], frame, weight, mean)
                 plain += error_of(flr, frame, weight, mean)
-            errors[kind] = ours / max(len(some), 1), plain / max(len(some), 1)
+            errors[kind] = ours / len(some), plain / len(some)
     return errors
 
 
 class Training:
-    def __init__(self, options):
-        self.file, self.preset = options.state, options.preset
-        torch.manual_seed(options.seed)
+    def __init__(self, options, device):
+        self.file, self.preset, self.crops, self.rate = options.state, options.preset, CROPS[device], RATES[device]
         self.rng = random.Random(options.seed)
-        self.network = GuideNetwork(**PRESETS[options.preset])
+        torch.manual_seed(options.seed)
+        self.network = GuideNetwork(**{**PRESETS, **EXPERIMENTS}[options.preset]).to(device)
         self.average = copy.deepcopy(self.network).requires_grad_(False)
-        self.optimiser = torch.optim.Adam(self.network.parameters(), RATE)
+        self.optimiser = torch.optim.Adam(self.network.parameters(), self.rate)
         self.curve, self.steps, self.seconds = [], 0, 0.0
         if self.file.exists():
-            state = torch.load(self.file)
+            state = torch.load(self.file, map_location=device)
             if state["preset"] != options.preset:
                 raise SystemExit(f"{self.file}: holds preset {state['preset']}; give another --state for {options.preset}")
             self.network.load_state_dict(state["network"])
@@ -149,6 +170,7 @@ class Training:
             self.optimiser.load_state_dict(state["optimiser"])
             self.curve, self.steps, self.seconds = state["curve"], state["steps"], state["seconds"]
             self.rng = random.Random(options.seed + self.steps)
+            torch.manual_seed(options.seed + self.steps)
 
     def save(self):
         partial = self.file.with_suffix(".partial")
@@ -159,9 +181,10 @@ class Training:
     def step(self, frames, share):
         """One step at a share of the whole time."""
         for group in self.optimiser.param_groups:
-            group["lr"] = LAST_RATE + (RATE - LAST_RATE) * 0.5 * (1 + math.cos(math.pi * min(share, 1.0)))
+            group["lr"] = LAST_RATE + (self.rate - LAST_RATE) * 0.5 * (1 + math.cos(math.pi * min(share, 1.0)))
         kind = "single" if self.rng.random() < SINGLE else "accumulated"
-        frame, means = batch_of(frames[kind], self.rng)
+        frame, means = frames[kind].crops(self.crops)
+        frame = varied(frame)
         surface = (frame["inverse_depth"] > 0).float()
         mean = means.light.clamp(min=1e-30)
         light, learned = filtered(self.network, frame, means, self.rng.choice(SIGMAS[kind]))
@@ -178,28 +201,30 @@ class Training:
         with torch.no_grad():
             for mean, now in zip(self.average.parameters(), self.network.parameters()):
                 mean.lerp_(now, 1 - memory)
-        return float(loss)
+        return loss.detach()
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--cache", type=pathlib.Path, required=True, help="folder of make_data.py")
     parser.add_argument("--state", type=pathlib.Path, required=True, help="file that the training is kept in")
-    parser.add_argument("--preset", choices=PRESETS, default="small")
+    parser.add_argument("--preset", choices=[*PRESETS, *EXPERIMENTS], default="small")
     parser.add_argument("--minutes", type=float, default=120, help="length of the whole training, all calls together (default: %(default)s)")
     parser.add_argument("--seed", type=int, default=1)
     options = parser.parse_args()
+    device = "cuda" if torch.cuda.is_available() else "cpu"
     training_files, held_out_files = scenes(options.cache)
-    frames, held_out = with_means(load(training_files)), with_means(load(held_out_files))
-    training = Training(options)
+    frames, held_out = ({kind: Frames(some) for kind, some in load(files, device).items()} for files in (training_files, held_out_files))
+    training = Training(options, device)
     print(f"{len(training_files)} scenes, {len(held_out_files)} held out; "
           f"{sum(p.numel() for p in training.network.parameters())} parameters", flush=True)
     while training.seconds < 60 * options.minutes:
         start = time.monotonic()
-        losses = [training.step(frames, training.seconds / (60 * options.minutes)) for _ in range(STEPS)]
+        loss = sum(training.step(frames, training.seconds / (60 * options.minutes)) for _ in range(STEPS)) / STEPS
+        loss = float(loss)
         training.seconds += time.monotonic() - start
         errors = evaluate(training.average, held_out) if (training.steps // STEPS) % EVALUATE == 0 else None
-        entry = {"steps": training.steps, "seconds": round(training.seconds), "loss": round(sum(losses) / STEPS, 5),
+        entry = {"steps": training.steps, "seconds": round(training.seconds), "loss": round(loss, 5),
                  **({"held_out_mse": {k: [round(e, 7) for e in both] for k, both in errors.items()}} if errors else {})}
         training.curve.append(entry)
         training.save()
