@@ -11,6 +11,7 @@
 #   "atrous.comp"                                               -> extern const fg::Shader atrous;
 #   "edge_trace.comp VARIANT raw16 DEFINES STORAGE=RAW16 HALF"  -> extern const fg::Shader edgeTraceRaw16;
 #   "fit.comp AXES view=VIEW packed=PACKED"                     -> const fg::Shader& fit(FitVariant);
+#   "layer.comp IN_HALVES layer.halves"                         -> layer, with `fg::Shader::inHalves` of another of the shaders
 #
 # The names in fg::Shader::name are "atrous" and "edge_trace.raw16". AXES compiles a shader for every combination of the
 # words, with the define of each, and generates a function that chooses one: fit({.packed = true}) returns "fit.packed". A
@@ -93,10 +94,14 @@ function(walr_add_shaders name)
   foreach(shader IN LISTS ARG_SHADERS)
     separate_arguments(words UNIX_COMMAND "${shader}")
     list(POP_FRONT words file)
-    cmake_parse_arguments(SHADER "" "VARIANT" "DEFINES;AXES" ${words})
+    cmake_parse_arguments(SHADER "" "VARIANT;IN_HALVES" "DEFINES;AXES" ${words})
     get_filename_component(stem "${file}" NAME_WE)
     string(JOIN "." base "${stem}" ${SHADER_VARIANT})
     _walr_shader_identifier(family "${base}")
+    set(in_halves "")
+    if(SHADER_IN_HALVES)
+      _walr_shader_identifier(in_halves "${SHADER_IN_HALVES}")
+    endif()
     _walr_combinations(combinations ${SHADER_AXES})
     set(choices "")
     foreach(combination IN LISTS combinations)
@@ -130,7 +135,7 @@ function(walr_add_shaders name)
         COMMENT "Compiling shader ${shader_name}" VERBATIM)
       add_custom_command(OUTPUT "${source}"
         COMMAND embed_shader "${spirv}" "${source}" "${ARG_HEADER}" "${namespace}" "${identifier}" "${shader_name}"
-          "$<IF:$<CONFIG:Debug>,names,no-names>"
+          "$<IF:$<CONFIG:Debug>,names,no-names>" ${in_halves}
         DEPENDS embed_shader "${spirv}"
         COMMENT "Embedding shader ${shader_name}" VERBATIM)
       list(APPEND sources "${source}")

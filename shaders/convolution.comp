@@ -4,8 +4,12 @@
 //
 // A work group makes eight channels of 16 x 16 texels, a thread of four texels of them. It goes through the inputs four
 // channels at a time, which it keeps with their weights in shared memory.
+// HALVES: products are halves, and so are their sums over the taps of four channels.
 #version 460
 #extension GL_EXT_control_flow_attributes : require
+#ifdef HALVES
+#extension GL_EXT_shader_explicit_arithmetic_types_float16 : require
+#endif
 #extension GL_GOOGLE_include_directive : require
 #include "constants/guide_network.h"
 #include "include/halves.glsl"
@@ -29,8 +33,16 @@ const int kFirstGroups = int(kFirstChannels) / 4, kGroups = kFirstGroups + int(k
 
 const float kSlope = 0.1;  // Of LeakyReLU below 0.
 
+#ifdef HALVES
+#define Factor f16vec4
+f16vec4 factorOf(uvec2 packed) { return f16vec4(unpackFloat2x16(packed.x), unpackFloat2x16(packed.y)); }
+#else
+#define Factor vec4
+vec4 factorOf(uvec2 packed) { return unpackHalves(packed); }
+#endif
+
 shared uvec2 tile[kRim * kRim];
-shared vec4 taps[kWeights];
+shared Factor taps[kWeights];
 
 uvec2 largest(uvec2 a, uvec2 b) { return packHalves(max(unpackHalves(a), unpackHalves(b))); }
 
@@ -69,16 +81,26 @@ void main() {
     for (int i = number; i < kRim * kRim; i += kThreads * kThreads)
       tile[i] = inputAt(corner + ivec2(i % kRim, i / kRim) - 1, group);
     const uint begin = constants.weights + uint((eight * kGroups + group) * kWeights);
-    for (int i = number; i < kWeights; i += kThreads * kThreads) taps[i] = unpackHalves(halves[begin + uint(i)]);
+    for (int i = number; i < kWeights; i += kThreads * kThreads) taps[i] = factorOf(halves[begin + uint(i)]);
     barrier();
-    for (int tap = 0; tap < kTaps; ++tap) {
+#ifdef HALVES
+    Factor partial[4][2];
+    [[unroll]] for (int i = 0; i < 8; ++i) partial[i / 2][i % 2] = Factor(0.0);
+#define PARTIAL partial
+#else
+#define PARTIAL sums
+#endif
+    [[unroll]] for (int tap = 0; tap < kTaps; ++tap) {
       const ivec2 from = thread + ivec2(tap % 3, tap / 3);
       [[unroll]] for (int texel = 0; texel < 4; ++texel) {
         const ivec2 at = from + kThreads * ivec2(texel % 2, texel / 2);
-        const vec4 x = unpackHalves(tile[at.y * kRim + at.x]);
-        [[unroll]] for (int i = 0; i < 8; ++i) sums[texel][i % 2] += x[i / 2] * taps[8 * tap + i];
+        const Factor x = factorOf(tile[at.y * kRim + at.x]);
+        [[unroll]] for (int i = 0; i < 8; ++i) PARTIAL[texel][i % 2] += x[i / 2] * taps[8 * tap + i];
       }
     }
+#ifdef HALVES
+    [[unroll]] for (int i = 0; i < 8; ++i) sums[i / 2][i % 2] += vec4(partial[i / 2][i % 2]);
+#endif
   }
 
   [[unroll]] for (int texel = 0; texel < 4; ++texel) {

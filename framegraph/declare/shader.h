@@ -37,6 +37,9 @@ struct Shader {
   std::span<const ShaderConstant> constants;  ///< Ordered by id.
   std::uint32_t pushConstantSize = 0;         ///< Bytes; 0 if there is no push constant block.
   std::uint32_t localSize[3] = {1, 1, 1};     ///< Work group size in threads.
+  /// The same shader with arithmetic in halves, for devices with the feature shaderFloat16. All but its name and code
+  /// are the same. Null: there is none.
+  const Shader* inHalves = nullptr;
 };
 
 }  // namespace fg

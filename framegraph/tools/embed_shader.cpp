@@ -21,6 +21,7 @@ struct Arguments {
   std::string nameSpace;   ///< "walr::shaders".
   std::string identifier;  ///< Name of the variable.
   std::string name;        ///< `fg::Shader::name`.
+  std::string inHalves;    ///< Name of the variable for `fg::Shader::inHalves`; empty: there is none.
   bool keepNames = false;  ///< Embed the names of variables, functions and types.
 };
 
@@ -108,7 +109,9 @@ void writeSource(std::ostream& out, const Arguments& arguments, const std::vecto
       << arguments.identifier << " = {\n  .name = \"" << arguments.name
       << "\",\n  .code = kCode,\n  .bindings = " << bindings << ",\n  .constants = " << constants
       << ",\n  .pushConstantSize = " << reflection.pushConstantSize << ",\n  .localSize = {" << local[0] << ", "
-      << local[1] << ", " << local[2] << "},\n};\n}  // namespace " << arguments.nameSpace << '\n';
+      << local[1] << ", " << local[2] << "},\n"
+      << (arguments.inHalves.empty() ? "" : "  .inHalves = &" + arguments.inHalves + ",\n") << "};\n}  // namespace "
+      << arguments.nameSpace << '\n';
 }
 
 void run(const Arguments& arguments) {
@@ -122,12 +125,14 @@ void run(const Arguments& arguments) {
 }  // namespace fg::tools
 
 int main(int argc, char** argv) {
-  if (argc != 8) {
-    std::cerr << "usage: embed_shader INPUT.spv OUTPUT.cpp HEADER NAMESPACE IDENTIFIER NAME names|no-names\n";
+  if (argc != 8 && argc != 9) {
+    std::cerr
+        << "usage: embed_shader INPUT.spv OUTPUT.cpp HEADER NAMESPACE IDENTIFIER NAME names|no-names [IN-HALVES]\n";
     return 2;
   }
   try {
-    fg::tools::run({argv[1], argv[2], argv[3], argv[4], argv[5], argv[6], argv[7] == std::string("names")});
+    fg::tools::run({argv[1], argv[2], argv[3], argv[4], argv[5], argv[6], argc == 9 ? argv[8] : "",
+                    argv[7] == std::string("names")});
   } catch (const std::exception& error) {
     std::cerr << "embed_shader: shader '" << argv[6] << "': " << error.what() << '\n';
     return 1;

@@ -8,8 +8,14 @@
 namespace fg::vk {
 namespace {
 
+bool takesHalves(const PhysicalDevice& device, HalfArithmetic halves) {
+  const bool wanted = halves == HalfArithmetic::WhereSupported ||
+                      (halves == HalfArithmetic::WhereFast && device.type != VK_PHYSICAL_DEVICE_TYPE_CPU);
+  return wanted && device.shaderFloat16;
+}
+
 VkDevice createDevice(const Instance& instance, const PhysicalDevice& physicalDevice,
-                      std::span<const char* const> wanted, const void* wantedFeatures) {
+                      std::span<const char* const> wanted, const void* wantedFeatures, bool halves) {
   require(physicalDevice);
   for (const char* const extension : wanted) {
     if (std::ranges::find(physicalDevice.extensions, extension) == physicalDevice.extensions.end()) {
@@ -25,9 +31,13 @@ VkDevice createDevice(const Instance& instance, const PhysicalDevice& physicalDe
   queue.queueCount = 1;
   queue.pQueuePriorities = &priority;
 
+  VkPhysicalDeviceShaderFloat16Int8Features float16{};
+  float16.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SHADER_FLOAT16_INT8_FEATURES;
+  float16.pNext = const_cast<void*>(wantedFeatures);  // Read only, but Vulkan's struct also serves queries.
+  float16.shaderFloat16 = VK_TRUE;
   VkPhysicalDeviceMaintenance4Features maintenance4{};
   maintenance4.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_4_FEATURES;
-  maintenance4.pNext = const_cast<void*>(wantedFeatures);  // Read only, but Vulkan's struct also serves queries.
+  maintenance4.pNext = halves ? &float16 : float16.pNext;
   maintenance4.maintenance4 = VK_TRUE;
   VkPhysicalDeviceTimelineSemaphoreFeatures timeline{};
   timeline.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_TIMELINE_SEMAPHORE_FEATURES;
@@ -49,8 +59,9 @@ VkDevice createDevice(const Instance& instance, const PhysicalDevice& physicalDe
     extensions.push_back(VK_KHR_SYNCHRONIZATION_2_EXTENSION_NAME);
     if (physicalDevice.maintenance4) extensions.push_back(VK_KHR_MAINTENANCE_4_EXTENSION_NAME);
   }
-  if (physicalDevice.apiVersion < VK_API_VERSION_1_2 && physicalDevice.timelineSemaphore) {
-    extensions.push_back(VK_KHR_TIMELINE_SEMAPHORE_EXTENSION_NAME);
+  if (physicalDevice.apiVersion < VK_API_VERSION_1_2) {
+    if (physicalDevice.timelineSemaphore) extensions.push_back(VK_KHR_TIMELINE_SEMAPHORE_EXTENSION_NAME);
+    if (halves) extensions.push_back(VK_KHR_SHADER_FLOAT16_INT8_EXTENSION_NAME);
   }
 
   VkDeviceCreateInfo info{};
@@ -69,13 +80,15 @@ VkDevice createDevice(const Instance& instance, const PhysicalDevice& physicalDe
 }  // namespace
 
 Device::Device(const Instance& instance, const PhysicalDevice& physicalDevice, std::span<const char* const> extensions,
-               const void* features)
-    : context_(DeviceView{.instance = instance.handle(),
-                          .physicalDevice = physicalDevice.handle,
-                          .device = createDevice(instance, physicalDevice, extensions, features),
-                          .getInstanceProcAddr = instance.functions().vkGetInstanceProcAddr,
-                          .queueFamily = physicalDevice.computeQueueFamily,
-                          .allocator = nullptr}) {
+               const void* features, HalfArithmetic halves)
+    : context_(DeviceView{
+          .instance = instance.handle(),
+          .physicalDevice = physicalDevice.handle,
+          .device = createDevice(instance, physicalDevice, extensions, features, takesHalves(physicalDevice, halves)),
+          .getInstanceProcAddr = instance.functions().vkGetInstanceProcAddr,
+          .queueFamily = physicalDevice.computeQueueFamily,
+          .allocator = nullptr,
+          .shaderFloat16 = takesHalves(physicalDevice, halves)}) {
   context_.functions.vkGetDeviceQueue(context_.view.device, context_.view.queueFamily, 0, &queue_);
 }
 

@@ -7,10 +7,18 @@
 
 namespace fg::vk {
 
+/// Whether shaders compute in halves that can (`Shader::inHalves`).
+enum class HalfArithmetic {
+  WhereFast,       ///< On GPUs with the feature shaderFloat16. Processors convert every value to and fro.
+  WhereSupported,  ///< On every device with that feature.
+  Never,
+};
+
 /// A logical device with one queue, for programs that have none of their own.
 ///
 /// It enables synchronization2 and shaderStorageImageExtendedFormats, which are required. It also enables maintenance4,
-/// timelineSemaphore, shaderStorageImageWriteWithoutFormat and shaderInt16 if the physical device has them.
+/// timelineSemaphore, shaderStorageImageWriteWithoutFormat and shaderInt16 if the physical device has them, and
+/// shaderFloat16 as `HalfArithmetic` says.
 class Device {
  public:
   /// @param extensions to enable in addition, for instance VK_KHR_swapchain
@@ -18,7 +26,7 @@ class Device {
   ///                   optional
   /// @throws Unsupported with a message that names what the device lacks
   Device(const Instance& instance, const PhysicalDevice& physicalDevice, std::span<const char* const> extensions = {},
-         const void* features = nullptr);
+         const void* features = nullptr, HalfArithmetic halves = HalfArithmetic::WhereFast);
   ~Device();
   Device(const Device&) = delete;
   Device& operator=(const Device&) = delete;

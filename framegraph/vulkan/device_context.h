@@ -21,6 +21,8 @@ struct DeviceView {
   std::uint32_t queueFamily = 0;  ///< Family of the queue to which frames are submitted; must support compute.
   const VkAllocationCallbacks* allocator = nullptr;  ///< For memory of the processor; optional.
   MemorySource* memorySource = nullptr;              ///< For device memory; optional.
+  /// The device was created with the feature shaderFloat16, and shaders may compute in halves (`Shader::inHalves`).
+  bool shaderFloat16 = false;
 };
 
 /// A device with its functions and those of its properties that are needed often. Loaded once.

@@ -82,6 +82,10 @@ void queryFeatures(const InstanceFunctions& functions, PhysicalDevice& device) {
                                  functions, device, VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_TIMELINE_SEMAPHORE_FEATURES,
                                  VK_KHR_TIMELINE_SEMAPHORE_EXTENSION_NAME, VK_API_VERSION_1_2)
                                  .timelineSemaphore == VK_TRUE;
+  device.shaderFloat16 = queryFeature<VkPhysicalDeviceShaderFloat16Int8Features>(
+                             functions, device, VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SHADER_FLOAT16_INT8_FEATURES,
+                             VK_KHR_SHADER_FLOAT16_INT8_EXTENSION_NAME, VK_API_VERSION_1_2)
+                             .shaderFloat16 == VK_TRUE;
 }
 
 std::string_view typeName(VkPhysicalDeviceType type) {

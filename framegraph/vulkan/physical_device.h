@@ -24,6 +24,7 @@ struct PhysicalDevice {
   bool synchronization2 = false;             ///< As core feature of Vulkan 1.3 or as extension.
   bool maintenance4 = false;
   bool timelineSemaphore = false;  ///< As core feature of Vulkan 1.2 or as extension.
+  bool shaderFloat16 = false;      ///< Likewise.
   VkPhysicalDeviceFeatures features{};
   std::vector<std::string> extensions;
   /// Features of optimally tiled images of a format.

@@ -87,7 +87,9 @@ Owned<VkPipeline> Pipelines::makePipeline(const Shader& shader, std::span<const 
   return Owned<VkPipeline>(*device_, handle);
 }
 
-ComputePipeline Pipelines::get(const Shader& shader, const std::vector<std::uint32_t>& specialization) {
+ComputePipeline Pipelines::get(const Shader& declared, const std::vector<std::uint32_t>& specialization) {
+  const bool halves = device_->view.shaderFloat16 && declared.inHalves != nullptr;
+  const Shader& shader = halves ? *declared.inHalves : declared;
   const Layouts& used = layouts(shader);
   auto entry = pipelines_.find({&shader, specialization});
   if (entry == pipelines_.end()) {

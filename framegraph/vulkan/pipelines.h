@@ -45,8 +45,9 @@ class Pipelines {
  public:
   Pipelines(const DeviceContext& device, VkPipelineCache cache) : device_(&device), cache_(cache) {}
 
+  /// @param declared taken in halves where there are such, and the device has shaderFloat16
   /// @throws PipelineFailed naming the shader, or OutOfMemory
-  ComputePipeline get(const Shader& shader, const std::vector<std::uint32_t>& specialization);
+  ComputePipeline get(const Shader& declared, const std::vector<std::uint32_t>& specialization);
   /// Use other SPIR-V for a shader from now on. Pipelines of the old code live as long as this, because frames in
   /// flight may use them.
   /// @param code with the shader's bindings, constants and work group size

@@ -51,6 +51,15 @@ bool enablesTimelineSemaphores(const VkDeviceCreateInfo& info) {
          (extension != nullptr && extension->timelineSemaphore == VK_TRUE);
 }
 
+bool enablesHalves(const VkDeviceCreateInfo& info) {
+  const auto* vulkan12 =
+      findInChain<VkPhysicalDeviceVulkan12Features>(info.pNext, VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES);
+  const auto* extension = findInChain<VkPhysicalDeviceShaderFloat16Int8Features>(
+      info.pNext, VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SHADER_FLOAT16_INT8_FEATURES);
+  return (vulkan12 != nullptr && vulkan12->shaderFloat16 == VK_TRUE) ||
+         (extension != nullptr && extension->shaderFloat16 == VK_TRUE);
+}
+
 /// @throws Unsupported naming the features that a device was created without
 void requireEnabled(const VkDeviceCreateInfo& info) {
   std::string lacks;
@@ -83,13 +92,15 @@ HostDevice::HostDevice(const WalrDevice* device) : HostDevice(checkedDevice(devi
 HostDevice::HostDevice(const WalrDevice& device) {
   if (device.allocator != nullptr) allocator_ = *device.allocator;
   if (device.device_memory != nullptr) memory_.emplace(*device.device_memory);
-  context_ = fg::vk::DeviceContext({.instance = device.instance,
-                                    .physicalDevice = device.physical_device,
-                                    .device = device.device,
-                                    .getInstanceProcAddr = device.get_instance_proc_addr,
-                                    .queueFamily = device.queue_family,
-                                    .allocator = allocator_ ? &*allocator_ : nullptr,
-                                    .memorySource = memory_ ? &*memory_ : nullptr});
+  context_ =
+      fg::vk::DeviceContext({.instance = device.instance,
+                             .physicalDevice = device.physical_device,
+                             .device = device.device,
+                             .getInstanceProcAddr = device.get_instance_proc_addr,
+                             .queueFamily = device.queue_family,
+                             .allocator = allocator_ ? &*allocator_ : nullptr,
+                             .memorySource = memory_ ? &*memory_ : nullptr,
+                             .shaderFloat16 = device.create_info != nullptr && enablesHalves(*device.create_info)});
   physical_ = fg::vk::physicalDevice(context_.instance, device.physical_device);
   fg::vk::require(physical_);
   requireCompute(context_);

@@ -132,8 +132,12 @@ NullDevice::NullDevice() {
   queue.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO;
   queue.queueCount = 1;
   queue.pQueuePriorities = &priority;
+  VkPhysicalDeviceShaderFloat16Int8Features float16{};
+  float16.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SHADER_FLOAT16_INT8_FEATURES;
+  float16.shaderFloat16 = VK_TRUE;
   VkPhysicalDevicePipelineExecutablePropertiesFeaturesKHR executable{};
   executable.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PIPELINE_EXECUTABLE_PROPERTIES_FEATURES_KHR;
+  executable.pNext = &float16;
   executable.pipelineExecutableInfo = VK_TRUE;
   const char* extension = VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME;
   VkPhysicalDeviceFeatures features{};
@@ -161,7 +165,7 @@ const CompiledShader& NullDevice::compile(const fg::ComputeDispatch& dispatch) {
 }
 
 CompiledShader NullDevice::compileNew(const fg::ComputeDispatch& dispatch) const {
-  const fg::Shader& shader = *dispatch.shader;
+  const fg::Shader& shader = dispatch.shader->inHalves != nullptr ? *dispatch.shader->inHalves : *dispatch.shader;
   const std::string name(shader.name);
 
   std::vector<VkDescriptorSetLayoutBinding> bindings;

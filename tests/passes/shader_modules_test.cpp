@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <set>
 #include <string_view>
+#include <tuple>
 
 #include "shaders/shaders.h"
 
@@ -14,7 +15,7 @@ namespace {
 // needs no module of its own; see fg::PassBuilder::unread. A choice of what is written, or of the format of an image,
 // takes a module. Every module costs compile time in every build, bytes in every program that links the library, and an
 // entry in the lists of shaders.
-constexpr std::size_t kMostModules = 88;
+constexpr std::size_t kMostModules = 89;
 constexpr std::size_t kMostBytes = 3'000'000;
 
 TEST(ShaderModules, AreFew) {
@@ -31,6 +32,25 @@ TEST(ShaderModules, AreSmall) {
 TEST(ShaderModules, HaveNamesOfTheirOwn) {
   std::set<std::string_view> names;
   for (const fg::Shader* shader : shaders::kAll) EXPECT_TRUE(names.insert(shader->name).second) << shader->name;
+}
+
+// A pipeline takes layout and specialization from the shader that a pass declares, whichever of the two it runs.
+TEST(ShaderModules, HaveTheSameInterfaceInHalves) {
+  const auto bindingOf = [](const fg::ShaderBinding& b) {
+    return std::tuple(b.name, b.set, b.binding, b.type, b.reads, b.writes, b.format, b.blockSize);
+  };
+  const auto constantOf = [](const fg::ShaderConstant& c) { return std::tuple(c.name, c.id); };
+  std::size_t count = 0;
+  for (const fg::Shader* shader : shaders::kAll) {
+    if (shader->inHalves == nullptr) continue;
+    const fg::Shader& halves = *shader->inHalves;
+    ++count;
+    EXPECT_TRUE(std::ranges::equal(shader->bindings, halves.bindings, {}, bindingOf, bindingOf)) << shader->name;
+    EXPECT_TRUE(std::ranges::equal(shader->constants, halves.constants, {}, constantOf, constantOf)) << shader->name;
+    EXPECT_EQ(shader->pushConstantSize, halves.pushConstantSize) << shader->name;
+    EXPECT_TRUE(std::ranges::equal(shader->localSize, halves.localSize)) << shader->name;
+  }
+  EXPECT_EQ(count, 1U);
 }
 
 TEST(ShaderModules, AreChosenByTheNamesOfTheirAxes) {
