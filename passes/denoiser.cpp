@@ -45,6 +45,7 @@ constexpr std::array kPresets<SvgfSettings>{Preset<SvgfSettings>{"tuned", tunedS
                                             Preset<SvgfSettings>{"paper", paperSvgf}};
 template <>
 constexpr std::array kPresets<FlnrSettings>{Preset<FlnrSettings>{"small", [] { return FlnrSettings{}; }},
+                                            Preset<FlnrSettings>{"full", fullFlnr},
                                             Preset<FlnrSettings>{"paper", paperFlnr}};
 
 /// What to add to the message when a method has no such preset, for presets that it once had.

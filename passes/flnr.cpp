@@ -11,9 +11,16 @@ FlnrSettings paperFlnr() {
   return settings;
 }
 
+FlnrSettings fullFlnr() {
+  FlnrSettings settings;
+  settings.network = NetworkKind::Full;
+  settings.regression.sigma = 10.0F;
+  settings.singleFrameSigma = 20.0F;
+  return settings;
+}
+
 fg::Texture addFlnr(StageGraph graph, const DenoiserInputs& inputs, fg::Texture output, const FlnrSettings& settings) {
-  const bool small = settings.network == NetworkKind::Small;
-  const GuideNetwork network{settings.network, kFlnrWidths, small ? smallFlnrWeights() : paperFlnrWeights()};
+  const GuideNetwork network{settings.network, kFlnrWidths, flnrWeights(settings.network)};
   return addFlrWithNetwork(graph, inputs, output, settings, network);
 }
 

@@ -22,8 +22,15 @@ struct NetworkShape {
 };
 
 NetworkShape shapeOf(NetworkKind kind) {
-  // Three guides of four pixels; or four guides of a pixel, then a fifth that has a group of four for itself.
-  return kind == NetworkKind::Small ? NetworkShape{2, {12}} : NetworkShape{1, {4, 4}};
+  switch (kind) {
+    case NetworkKind::Small:
+      return {2, {12}};  // Three guides of four pixels.
+    case NetworkKind::Full:
+      return {1, {4}};  // Three guides of a pixel, and nothing.
+    case NetworkKind::Paper:
+      return {1, {4, 4}};  // Four guides of a pixel, then a fifth that has a group of four for itself.
+  }
+  throw std::logic_error("a kind of network has no shape");
 }
 
 /// Channels of the network's input: the features of the pixels of a texel (flnr_encode.comp).

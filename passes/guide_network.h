@@ -17,6 +17,7 @@ namespace walr {
 enum class NetworkKind : std::uint32_t {
   Small,  ///< Works at half the picture's width and height. Makes three guides beside the geometric ones.
   Paper,  ///< Works at the picture's size. Makes five guides in place of the geometric ones, as published.
+  Full,   ///< Works at the picture's size. Makes three guides beside the geometric ones.
 };
 
 /// A U-Net that makes guides for FLR's regression from the geometric guides and the noisy light (Salmi et al. 2024,

@@ -5,14 +5,15 @@
 #include <cstdint>
 #include <span>
 
+#include "passes/guide_network.h"
+
 namespace walr {
 
-/// Widths of the networks of `smallFlnrWeights` and `paperFlnrWeights`.
+/// Widths of the networks of `flnrWeights`.
 inline constexpr std::array<std::uint32_t, 4> kFlnrWidths{16, 24, 32, 48};
 
-/// Trained weights: passes/weights/flnr_small.f16 and flnr_paper.f16, which CMake turns into source code. The .json
-/// files beside them say how they were trained.
-std::span<const std::byte> smallFlnrWeights();
-std::span<const std::byte> paperFlnrWeights();
+/// Trained weights: the files passes/weights/flnr_*.f16, which CMake turns into source code. The .json files beside
+/// them say how they were trained.
+std::span<const std::byte> flnrWeights(NetworkKind kind);
 
 }  // namespace walr

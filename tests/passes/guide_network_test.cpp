@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <optional>
 #include <string>
 
 #include <glm/gtc/packing.hpp>
@@ -28,25 +29,22 @@ using reference::forEachPixel;
 using reference::Guide;
 using reference::Image;
 using reference::Storage;
+using reference::Sums;
 
-const GuideNetwork& smallNetwork() {
-  static const GuideNetwork kNetwork{NetworkKind::Small, kFlnrWidths, smallFlnrWeights()};
-  return kNetwork;
-}
-
-const GuideNetwork& paperNetwork() {
-  static const GuideNetwork kNetwork{NetworkKind::Paper, kFlnrWidths, paperFlnrWeights()};
-  return kNetwork;
+GuideNetwork networkOf(NetworkKind kind) {
+  return {kind, kFlnrWidths, flnrWeights(kind)};
 }
 
 /// A network with trained weights, and the name of the file that says what PyTorch makes of it.
 struct NamedNetwork {
   std::string name;
-  const GuideNetwork& network;
+  GuideNetwork network;
 };
 
-std::vector<NamedNetwork> bothNetworks() {
-  return {{"flnr_small", smallNetwork()}, {"flnr_paper", paperNetwork()}};
+std::vector<NamedNetwork> allNetworks() {
+  return {{"flnr_small", networkOf(NetworkKind::Small)},
+          {"flnr_full", networkOf(NetworkKind::Full)},
+          {"flnr_paper", networkOf(NetworkKind::Paper)}};
 }
 
 fg::Extent extentOf(glm::ivec2 size) {
@@ -84,11 +82,45 @@ struct LayerCase {
   std::uint32_t count;
 };
 
-class GuideNetworkLayers : public fg::test::GpuTest {
+/// A test that can run networks with arithmetic in single precision or in halves.
+class NetworkTest : public fg::test::GpuTest {
  protected:
-  /// A layer's result on the device, in the order of halves.glsl.
-  std::vector<std::uint16_t> run(const LayerCase& layer, const ChannelImage& first, const ChannelImage& second,
-                                 const std::vector<std::uint16_t>& weights) {
+  void SetUp() override {
+    GpuTest::SetUp();
+    const fg::vk::PhysicalDevice physical = fg::vk::physicalDevices(instance()).front();
+    if (physical.shaderFloat16)
+      halves_.emplace(instance(), physical, std::span<const char* const>{}, nullptr,
+                      fg::vk::HalfArithmetic::WhereSupported);
+    singles_.emplace(instance(), physical, std::span<const char* const>{}, nullptr, fg::vk::HalfArithmetic::Never);
+  }
+  void TearDown() override {
+    halves_.reset();
+    singles_.reset();
+    GpuTest::TearDown();
+  }
+  /// Devices with single precision and, where they have it, with halves.
+  [[nodiscard]] std::vector<Sums> arithmetics() const {
+    return halves_ ? std::vector{Sums::Exact, Sums::InHalves} : std::vector{Sums::Exact};
+  }
+  [[nodiscard]] const fg::test::TestDevice& deviceWith(Sums sums) const {
+    return sums == Sums::InHalves ? *halves_ : *singles_;
+  }
+
+ private:
+  std::optional<fg::test::TestDevice> singles_;
+  std::optional<fg::test::TestDevice> halves_;
+};
+
+const char* nameOf(Sums sums) {
+  return sums == Sums::InHalves ? "in halves" : "in single precision";
+}
+
+class GuideNetworkLayers : public NetworkTest {
+ protected:
+  /// A layer's result on a device, in the order of halves.glsl.
+  static std::vector<std::uint16_t> run(const fg::test::TestDevice& device, const LayerCase& layer,
+                                        const ChannelImage& first, const ChannelImage& second,
+                                        const std::vector<std::uint16_t>& weights) {
     const std::vector<std::uint16_t> firstHalves = packed(first);
     const std::vector<std::uint16_t> secondHalves = packed(second);
     fg::Graph graph;
@@ -110,7 +142,7 @@ class GuideNetworkLayers : public fg::test::GpuTest {
     fg::PassBuilder copy = graph.compute("copy", shaders::copyWords);
     copy.load("source", result.buffer).constants(words).dispatch({8 * ((words + 63) / 64), 8});
     graph.exported(copy.store("target", target), fg::vk::kReadable);
-    fg::test::GraphRun graphRun(device(), graph, {.shared = device().pipelines()});
+    fg::test::GraphRun graphRun(device, graph, {.shared = device.pipelines()});
     const std::uint32_t slot = graphRun.submitFrame();
     graphRun.finish();
     return graphRun.elements<std::uint16_t>(target, slot);
@@ -118,6 +150,13 @@ class GuideNetworkLayers : public fg::test::GpuTest {
 };
 
 /// Rounding: each term rounds in the product and in at most as many additions as there are terms; the result is a half.
+/// In halves, it rounds so in the sum of its four inputs' 36 terms, and that in those of single precision.
+double roundingOf(Sums sums, std::uint32_t inputs) {
+  constexpr double kHalfRoundoff = 0x1p-11;
+  const double single = (9.0 * inputs + 1.0) * reference::kFloatRoundoff;
+  return sums == Sums::InHalves ? 37.0 * kHalfRoundoff + single : single;
+}
+
 TEST_F(GuideNetworkLayers, AgreeWithDoublePrecision) {
   for (const LayerCase& layer :
        {LayerCase{{17, 13}, 32, LayerInput::AsItIs, 0, 16}, LayerCase{{1, 1}, 16, LayerInput::AsItIs, 0, 8},
@@ -140,22 +179,24 @@ TEST_F(GuideNetworkLayers, AgreeWithDoublePrecision) {
                                                                  : first;
     const reference::LayerResult expected =
         reference::convolution(reference::joined(seen, second), weights, layer.count);
-    const std::vector<std::uint16_t> actual =
-        run(layer, first, second, reference::packConvolution(weights, inputs, layer.count));
-
-    Comparison comparison(name);
-    std::size_t i = 0;
-    for (std::size_t group = 0; group < layer.count / 4; ++group) {
-      forEachPixel(layer.size, [&](glm::ivec2 p) {
-        comparison.compared();
-        for (std::size_t c = 4 * group; c < 4 * group + 4; ++c) {
-          const double error = (9.0 * inputs + 1.0) * reference::kFloatRoundoff * expected.magnitudes.at(c, p);
-          const double value = expected.values.at(c, p);
-          comparison.value(p, "channel", double(glm::unpackHalf1x16(actual[i++])), value, halfTolerance(value, error));
-        }
-      });
+    for (const Sums sums : arithmetics()) {
+      const std::vector<std::uint16_t> actual =
+          run(deviceWith(sums), layer, first, second, reference::packConvolution(weights, inputs, layer.count));
+      Comparison comparison(name + ", " + nameOf(sums));
+      std::size_t i = 0;
+      for (std::size_t group = 0; group < layer.count / 4; ++group) {
+        forEachPixel(layer.size, [&](glm::ivec2 p) {
+          comparison.compared();
+          for (std::size_t c = 4 * group; c < 4 * group + 4; ++c) {
+            const double error = roundingOf(sums, inputs) * expected.magnitudes.at(c, p);
+            const double value = expected.values.at(c, p);
+            comparison.value(p, "channel", double(glm::unpackHalf1x16(actual[i++])), value,
+                             halfTolerance(value, error));
+          }
+        });
+      }
+      comparison.expect(0.0);
     }
-    comparison.expect(0.0);
   }
 }
 
@@ -199,8 +240,9 @@ Fixture sceneFixture(glm::ivec2 size) {
   return fixture;
 }
 
-ChannelImage expectedGuides(const Fixture& fixture, const GuideNetwork& network, Storage storage) {
-  return reference::guideNetwork(fixture.guides, fixture.lighting, network, storage);
+ChannelImage expectedGuides(const Fixture& fixture, const GuideNetwork& network, Storage storage,
+                            Sums sums = Sums::Exact) {
+  return reference::guideNetwork(fixture.guides, fixture.lighting, network, storage, sums);
 }
 
 double largestDifference(const ChannelImage& a, const ChannelImage& b) {
@@ -209,12 +251,12 @@ double largestDifference(const ChannelImage& a, const ChannelImage& b) {
   return largest;
 }
 
-class WholeGuideNetwork : public fg::test::GpuTest {
+class WholeGuideNetwork : public NetworkTest {
  protected:
   /// @param more which of the two textures with guides
-  Image<glm::dvec4> run(const Fixture& fixture, const GuideNetwork& network, bool more) {
+  Image<glm::dvec4> run(Sums sums, const Fixture& fixture, const GuideNetwork& network, bool more) {
     FilterRun filter(
-        device(), fixture.guides.size(), 1,
+        deviceWith(sums), fixture.guides.size(), 1,
         [&](fg::Graph& graph, fg::Buffer, const Guides& guides, const auto& inputs) {
           const LearnedGuides learned = addGuideNetwork(graph, inputs[0], LightingAlpha::SampleCount, guides, network);
           return more ? learned.more : learned.first;
@@ -223,37 +265,40 @@ class WholeGuideNetwork : public fg::test::GpuTest {
     return filter.run({}, fixture.guides, {fixture.lighting});
   }
   /// The guides of both textures.
-  ChannelImage run(const Fixture& fixture, const GuideNetwork& network) {
+  ChannelImage run(Sums sums, const Fixture& fixture, const GuideNetwork& network) {
     ChannelImage result(fixture.guides.size(), reference::guideCount(network.kind));
     const std::size_t inFirst = std::min<std::size_t>(result.count, 4);
-    const Image<glm::dvec4> first = run(fixture, network, false);
-    const Image<glm::dvec4> more = result.count > inFirst ? run(fixture, network, true) : Image<glm::dvec4>{};
+    const Image<glm::dvec4> first = run(sums, fixture, network, false);
+    const Image<glm::dvec4> more = result.count > inFirst ? run(sums, fixture, network, true) : Image<glm::dvec4>{};
     forEachPixel(result.size, [&](glm::ivec2 p) {
       for (std::size_t g = 0; g < inFirst; ++g) result.at(g, p) = first[p][glm::length_t(g)];
       for (std::size_t g = inFirst; g < result.count; ++g) result.at(g, p) = more[p][glm::length_t(g - inFirst)];
     });
     return result;
   }
-  /// The results of layers are halves. What that changes is measured in double precision; the device rounds other
-  /// values up and down, so that it may err as much in the other direction.
+  /// The results of layers are halves, and with arithmetic in halves their sums. What that changes is measured in
+  /// double precision; the device rounds other values up and down, so that it may err as much in the other direction.
   void expectGuides(const Fixture& fixture, const GuideNetwork& network, const ChannelImage& expected, double further) {
-    const double rounding = 2.0 * largestDifference(expectedGuides(fixture, network, Storage::Quantised),
-                                                    expectedGuides(fixture, network, Storage::Exact));
-    const ChannelImage actual = run(fixture, network);
-    Comparison comparison("learned guides");
-    forEachPixel(expected.size, [&](glm::ivec2 p) {
-      comparison.compared();
-      for (std::size_t g = 0; g < expected.count; ++g) {
-        const double value = expected.at(g, p);
-        comparison.value(p, "guide", actual.at(g, p), value, halfTolerance(value, rounding + further));
-      }
-    });
-    comparison.expect(0.0);
+    const ChannelImage exact = expectedGuides(fixture, network, Storage::Exact);
+    for (const Sums sums : arithmetics()) {
+      const double rounding =
+          2.0 * largestDifference(expectedGuides(fixture, network, Storage::Quantised, sums), exact);
+      const ChannelImage actual = run(sums, fixture, network);
+      Comparison comparison(std::string("learned guides, ") + nameOf(sums));
+      forEachPixel(expected.size, [&](glm::ivec2 p) {
+        comparison.compared();
+        for (std::size_t g = 0; g < expected.count; ++g) {
+          const double value = expected.at(g, p);
+          comparison.value(p, "guide", actual.at(g, p), value, halfTolerance(value, rounding + further));
+        }
+      });
+      comparison.expect(0.0);
+    }
   }
 };
 
 TEST_F(WholeGuideNetwork, AgreesWithDoublePrecision) {
-  for (const NamedNetwork& of : bothNetworks()) {
+  for (const NamedNetwork& of : allNetworks()) {
     for (const glm::ivec2 size : {glm::ivec2(1, 1), glm::ivec2(2, 3), glm::ivec2(45, 34), glm::ivec2(70, 9)}) {
       SCOPED_TRACE(of.name + " " + std::to_string(size.x) + " x " + std::to_string(size.y));
       const Fixture fixture = sceneFixture(size);
@@ -268,7 +313,7 @@ constexpr double kSinglePrecision = 1e-4;
 
 // The device reads depths of fewer bits than PyTorch did. What that changes is measured in double precision.
 TEST_F(WholeGuideNetwork, AgreesWithPyTorch) {
-  for (const NamedNetwork& of : bothNetworks()) {
+  for (const NamedNetwork& of : allNetworks()) {
     SCOPED_TRACE(of.name);
     const Fixture fixture = readFixture(of);
     Fixture stored = fixture;
@@ -283,7 +328,7 @@ TEST_F(WholeGuideNetwork, AgreesWithPyTorch) {
 }
 
 TEST(GuideNetworkReference, AgreesWithPyTorch) {
-  for (const NamedNetwork& of : bothNetworks()) {
+  for (const NamedNetwork& of : allNetworks()) {
     SCOPED_TRACE(of.name);
     const Fixture fixture = readFixture(of);
     EXPECT_LE(largestDifference(expectedGuides(fixture, of.network, Storage::Exact), fixture.learned),
@@ -293,10 +338,19 @@ TEST(GuideNetworkReference, AgreesWithPyTorch) {
 
 TEST_F(WholeGuideNetwork, GivesTheSameBitsInEveryRun) {
   const Fixture fixture = sceneFixture({45, 34});
-  for (const NamedNetwork& of : bothNetworks()) {
-    const ChannelImage first = run(fixture, of.network);
-    EXPECT_EQ(run(fixture, of.network).values, first.values) << of.name;
+  for (const NamedNetwork& of : allNetworks()) {
+    for (const Sums sums : arithmetics()) {
+      const ChannelImage first = run(sums, fixture, of.network);
+      EXPECT_EQ(run(sums, fixture, of.network).values, first.values) << of.name << ' ' << nameOf(sums);
+    }
   }
+}
+
+TEST_F(WholeGuideNetwork, IsComputedInHalvesWhereTheDeviceHasThem) {
+  if (arithmetics().size() < 2) GTEST_SKIP() << "the device has no feature shaderFloat16";
+  const Fixture fixture = sceneFixture({45, 34});
+  const GuideNetwork network = networkOf(NetworkKind::Small);
+  EXPECT_NE(run(Sums::InHalves, fixture, network).values, run(Sums::Exact, fixture, network).values);
 }
 
 class FlrOnLearnedGuides : public fg::test::GpuTest {
@@ -350,16 +404,17 @@ TEST_F(FlrOnLearnedGuides, InTheirPlaceAgreesWithTheReference) {
 TEST(GuideNetworkSettings, WeightsOfOtherWidthsAreRefused) {
   fg::Graph graph;
   const fg::Texture lighting = graph.texture("lighting", {VK_FORMAT_R16G16B16A16_SFLOAT, {64, 64}});
-  const GuideNetwork wide{NetworkKind::Small, {32, 24, 32, 48}, smallFlnrWeights()};
+  const GuideNetwork wide{NetworkKind::Small, {32, 24, 32, 48}, flnrWeights(NetworkKind::Small)};
   fg::test::expectError([&] { addGuideNetwork(graph, lighting, LightingAlpha::Unused, {}, wide); },
-                        {"weights", std::to_string(smallFlnrWeights().size()), "widths"});
+                        {"weights", std::to_string(wide.weights.size()), "widths"});
 }
 
 TEST(GuideNetworkSettings, APictureTooLargeForABufferIsRefused) {
   fg::Graph graph;
   const fg::Texture lighting = graph.texture("lighting", {VK_FORMAT_R16G16B16A16_SFLOAT, {7680, 4320}});
-  fg::test::expectError([&] { addGuideNetwork(graph, lighting, LightingAlpha::Unused, {}, smallNetwork()); },
-                        {"encoded guides", "smaller picture"});
+  fg::test::expectError(
+      [&] { addGuideNetwork(graph, lighting, LightingAlpha::Unused, {}, networkOf(NetworkKind::Small)); },
+      {"encoded guides", "smaller picture"});
 }
 
 }  // namespace

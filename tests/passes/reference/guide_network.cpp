@@ -141,21 +141,27 @@ ChannelImage joined(const ChannelImage& first, const ChannelImage& second) {
   return result;
 }
 
-LayerResult convolution(const ChannelImage& input, std::span<const double> weights, std::size_t count) {
+LayerResult convolution(const ChannelImage& input, std::span<const double> weights, std::size_t count, Sums sums) {
+  constexpr std::size_t kInputsOfSum = 4;
   LayerResult result{{input.size, count}, {input.size, count}};
   for (std::size_t o = 0; o < count; ++o) {
     forEachPixel(input.size, [&](glm::ivec2 p) {
       const double bias = weights[count * input.count * kTaps + o];
       double sum = bias;
       double magnitude = std::abs(bias);
-      for (std::size_t i = 0; i < input.count; ++i) {
+      for (std::size_t first = 0; first < input.count; first += kInputsOfSum) {
+        double partial = 0.0;
         for (int t = 0; t < int(kTaps); ++t) {
           const glm::ivec2 q = p + glm::ivec2(t % 3, t / 3) - 1;
           if (q.x < 0 || q.y < 0 || q.x >= input.size.x || q.y >= input.size.y) continue;
-          const double term = weights[(o * input.count + i) * kTaps + std::size_t(t)] * input.at(i, q);
-          sum += term;
-          magnitude += std::abs(term);
+          for (std::size_t i = first; i < first + kInputsOfSum; ++i) {
+            const double term = weights[(o * input.count + i) * kTaps + std::size_t(t)] * input.at(i, q);
+            partial += term;
+            if (sums == Sums::InHalves) partial = roundToHalf(partial);
+            magnitude += std::abs(term);
+          }
         }
+        sum += partial;
       }
       result.values.at(o, p) = std::max(sum, kSlope * sum);
       result.magnitudes.at(o, p) = magnitude;
@@ -180,11 +186,11 @@ std::vector<std::uint16_t> packConvolution(std::span<const double> weights, std:
 }
 
 std::size_t guideCount(NetworkKind kind) {
-  return kind == NetworkKind::Small ? 3 : 5;
+  return kind == NetworkKind::Paper ? 5 : 3;
 }
 
 ChannelImage guideNetwork(const Image<Guide>& guides, const Image<glm::dvec4>& lighting, const GuideNetwork& network,
-                          Storage storage) {
+                          Storage storage, Sums sums) {
   const int shrink = network.kind == NetworkKind::Small ? 2 : 1;
   std::vector<std::uint16_t> halves(network.weights.size() / sizeof(std::uint16_t));
   std::memcpy(halves.data(), network.weights.data(), network.weights.size());
@@ -193,7 +199,7 @@ ChannelImage guideNetwork(const Image<Guide>& guides, const Image<glm::dvec4>& l
     for (int i = 0; i < 2; ++i) {
       const std::vector<double> layer = unpackConvolution(left, image.count, count);
       left = left.subspan(layer.size());
-      image = convolution(image, layer, count).values;
+      image = convolution(image, layer, count, sums).values;
       roundAll(image, storage);
     }
     return image;

@@ -39,9 +39,16 @@ struct LayerResult {
   ChannelImage magnitudes;
 };
 
+/// How a convolution sums its products.
+enum class Sums : std::uint8_t {
+  Exact,
+  InHalves,  ///< Those of four inputs are halves, rounded after each product (convolution.comp, HALVES).
+};
+
 /// A 3 x 3 convolution with zeros beyond the image, and LeakyReLU of slope 0.1.
 /// @param weights by result, input, row and column, then the biases
-LayerResult convolution(const ChannelImage& input, std::span<const double> weights, std::size_t count);
+LayerResult convolution(const ChannelImage& input, std::span<const double> weights, std::size_t count,
+                        Sums sums = Sums::Exact);
 
 /// Values of a layer's weights in the order that `convolution` takes, from those of the shader (convolution.comp).
 std::vector<double> unpackConvolution(std::span<const std::uint16_t> halves, std::size_t inputs, std::size_t outputs);
@@ -54,6 +61,6 @@ std::size_t guideCount(NetworkKind kind);
 /// The guides that a network makes, a channel each, with the results of all layers rounded to halves or not.
 /// @param lighting with the number of samples in it; light that is not finite is no sample
 ChannelImage guideNetwork(const Image<Guide>& guides, const Image<glm::dvec4>& lighting, const GuideNetwork& network,
-                          Storage storage);
+                          Storage storage, Sums sums = Sums::Exact);
 
 }  // namespace walr::reference
