@@ -154,12 +154,12 @@ def evaluate(network, frames):
 
 class Training:
     def __init__(self, options, device):
-        self.file, self.preset, self.crops, self.rate = options.state, options.preset, CROPS[device], RATES[device]
+        self.file, self.preset, self.device = options.state, options.preset, device
         self.rng = random.Random(options.seed)
         torch.manual_seed(options.seed)
         self.network = GuideNetwork(**{**PRESETS, **EXPERIMENTS}[options.preset]).to(device)
         self.average = copy.deepcopy(self.network).requires_grad_(False)
-        self.optimiser = torch.optim.Adam(self.network.parameters(), self.rate)
+        self.optimiser = torch.optim.Adam(self.network.parameters(), RATES[device])
         self.curve, self.steps, self.seconds = [], 0, 0.0
         if self.file.exists():
             state = torch.load(self.file, map_location=device)
@@ -181,9 +181,9 @@ class Training:
     def step(self, frames, share):
         """One step at a share of the whole time."""
         for group in self.optimiser.param_groups:
-            group["lr"] = LAST_RATE + (self.rate - LAST_RATE) * 0.5 * (1 + math.cos(math.pi * min(share, 1.0)))
+            group["lr"] = LAST_RATE + (RATES[self.device] - LAST_RATE) * 0.5 * (1 + math.cos(math.pi * min(share, 1.0)))
         kind = "single" if self.rng.random() < SINGLE else "accumulated"
-        frame, means = frames[kind].crops(self.crops)
+        frame, means = frames[kind].crops(CROPS[self.device])
         frame = varied(frame)
         surface = (frame["inverse_depth"] > 0).float()
         mean = means.light.clamp(min=1e-30)
@@ -224,7 +224,7 @@ def main():
         loss = float(loss)
         training.seconds += time.monotonic() - start
         errors = evaluate(training.average, held_out) if (training.steps // STEPS) % EVALUATE == 0 else None
-        entry = {"steps": training.steps, "seconds": round(training.seconds), "loss": round(loss, 5),
+        entry = {"steps": training.steps, "seconds": round(training.seconds), "device": device, "loss": round(loss, 5),
                  **({"held_out_mse": {k: [round(e, 7) for e in both] for k, both in errors.items()}} if errors else {})}
         training.curve.append(entry)
         training.save()

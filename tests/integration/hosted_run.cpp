@@ -80,6 +80,7 @@ HostedRun::HostedRun(const fg::vk::Device& device, const char* method, glm::ivec
   WalrDevice host = hostDevice(device);
   if (options.getInstanceProcAddr != nullptr) host.get_instance_proc_addr = options.getInstanceProcAddr;
   host.device_memory = options.deviceMemory;
+  host.create_info = options.createInfo;
   WalrConventions conventions = options.conventions;
   conventions.struct_size = sizeof(conventions);
   conventions.rectangle = margin_ != glm::ivec2(0) ? VK_TRUE : VK_FALSE;

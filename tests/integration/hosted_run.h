@@ -42,6 +42,7 @@ class HostedRun {
     PFN_vkGetInstanceProcAddr getInstanceProcAddr = nullptr;  ///< Instead of the device's.
     VkPipelineCache pipelineCache = VK_NULL_HANDLE;
     const WalrMemoryCallbacks* deviceMemory = nullptr;
+    const VkDeviceCreateInfo* createInfo = nullptr;
     WalrDenoiser sharedWith = nullptr;
     /// Whose depth, normal, motion and albedo to use, in frames that are recorded after its own; must outlive this.
     const HostedRun* guidesOf = nullptr;

@@ -8,7 +8,8 @@ void GpuTest::SetUp() {
   options.validation = true;
   options.sink = log_.sink();
   instance_ = std::make_unique<vk::Instance>(options);
-  device_ = std::make_unique<TestDevice>(*instance_, vk::physicalDevices(*instance_).front());
+  device_ = std::make_unique<TestDevice>(*instance_, vk::physicalDevices(*instance_).front(),
+                                         std::span<const char* const>{}, nullptr, vk::HalfArithmetic::Never);
 }
 
 void GpuTest::TearDown() {

@@ -14,7 +14,8 @@ namespace fg::test {
 /// A test on a Vulkan device with the validation layer and synchronization validation. It fails on every warning and
 /// error of the layer, including those at destruction of the device. It also fails if the layer or a device is missing.
 ///
-/// It uses the loader's first device; the loader's environment variables can select another.
+/// It uses the loader's first device; the loader's environment variables can select another. Shaders compute in single
+/// precision, as on the device of a host that enables no more than it must.
 class GpuTest : public testing::Test {
  protected:
   void SetUp() override;
