@@ -112,7 +112,7 @@ Image<glm::dvec4> cut(const std::vector<std::uint16_t>& texels, glm::ivec2 image
 /// Denoises the frames of a take one after the other, each in its rectangle.
 class Playback {
  public:
-  Playback(const fg::vk::Device& device, const std::string& method, const Take& take, RectangleOf rectangle)
+  Playback(const fg::test::TestDevice& device, const std::string& method, const Take& take, RectangleOf rectangle)
       : take_(&take), rectangle_(rectangle), run_(device, method.c_str(), kUsual.size, optionsOf(take)) {
     // With the paper's raw moments and untested history these tests would fail.
     if (method == "walr_paper") require(walr_use_preset(denoiser(), "robust"));
@@ -196,7 +196,7 @@ struct ErrorsAtChanges {
   double dropping = 0.0;
 };
 
-ErrorsAtChanges errorsAtChanges(const fg::vk::Device& device, const std::string& method, const Take& take,
+ErrorsAtChanges errorsAtChanges(const fg::test::TestDevice& device, const std::string& method, const Take& take,
                                 const char* switchedOn = nullptr) {
   constexpr std::uint32_t kFrames = 13;
   Playback change(device, method, take, changing);
@@ -448,7 +448,7 @@ TEST_F(DynamicResolution, AccumulatesAsTheDoublePrecisionReferenceDoes) {
 
 /// The bits of the last of several frames, between which a host makes some change.
 template <typename Between>
-std::vector<std::uint16_t> lastOf(const fg::vk::Device& device, const Take& take, std::uint32_t framesInFlight,
+std::vector<std::uint16_t> lastOf(const fg::test::TestDevice& device, const Take& take, std::uint32_t framesInFlight,
                                   std::uint32_t frames, bool wait, Between between) {
   HostedRun::Options options = optionsOf(take);
   options.framesInFlight = framesInFlight;

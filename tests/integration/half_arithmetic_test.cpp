@@ -41,7 +41,7 @@ struct CreateInfo {
 
 class HalfArithmeticTest : public fg::test::GpuTest {
  protected:
-  static std::vector<std::uint16_t> frame(const fg::vk::Device& device, const VkDeviceCreateInfo* createInfo) {
+  static std::vector<std::uint16_t> frame(const fg::test::TestDevice& device, const VkDeviceCreateInfo* createInfo) {
     HostedRun::Options options;
     options.createInfo = createInfo;
     HostedRun run(device, "flnr", kSize, options);
@@ -54,7 +54,7 @@ class HalfArithmeticTest : public fg::test::GpuTest {
 TEST_F(HalfArithmeticTest, IsTakenIfTheCreateInfoEnablesIt) {
   const fg::vk::PhysicalDevice physical = fg::vk::physicalDevices(instance()).front();
   if (!physical.shaderFloat16) GTEST_SKIP() << "the device has no feature shaderFloat16";
-  const fg::vk::Device device(instance(), physical, {}, nullptr, fg::vk::HalfArithmetic::WhereSupported);
+  const fg::test::TestDevice device(instance(), physical, {}, nullptr, fg::vk::HalfArithmetic::WhereSupported);
   const CreateInfo with(true);
   const CreateInfo without(false);
   const std::vector<std::uint16_t> halves = frame(device, &with.info);

@@ -66,7 +66,32 @@ WalrResult createPasses(const WalrDenoiserInfo& info, WalrPasses& passes) {
   return walr_create_passes(&listed, &passes);
 }
 
-HostedRun::HostedRun(const fg::vk::Device& device, const char* method, glm::ivec2 size, const Options& options)
+namespace {
+
+/// A denoiser that never records a frame, and whose pipelines others share.
+WalrDenoiser pipelineOwner(const fg::test::TestDevice& device) {
+  std::shared_ptr<void>& owner = device.companion();
+  if (!owner) {
+    const WalrDevice host = hostDevice(device);
+    WalrDenoiserInfo info = denoiserInfo(&host);
+    info.method = "none";
+    WalrDenoiser denoiser = nullptr;
+    require(walr_create_denoiser(&info, &denoiser));
+    owner.reset(denoiser, [](WalrDenoiser made) { walr_destroy_denoiser(made); });
+  }
+  return static_cast<WalrDenoiser>(owner.get());
+}
+
+WalrDenoiser sharedWith(const fg::test::TestDevice& device, const HostedRun::Options& options) {
+  if (options.sharedWith != nullptr) return options.sharedWith;
+  const bool asUsual = options.getInstanceProcAddr == nullptr && options.deviceMemory == nullptr &&
+                       options.createInfo == nullptr && options.pipelineCache == VK_NULL_HANDLE;
+  return asUsual && !options.alone ? pipelineOwner(device) : nullptr;
+}
+
+}  // namespace
+
+HostedRun::HostedRun(const fg::test::TestDevice& device, const char* method, glm::ivec2 size, const Options& options)
     : device_(&device),
       hostSlots_(options.hostSlots != 0 ? options.hostSlots : options.framesInFlight),
       rememberedCamera_(options.rememberedCamera),
@@ -102,7 +127,7 @@ HostedRun::HostedRun(const fg::vk::Device& device, const char* method, glm::ivec
   info.log = options.log;
   info.log_user = options.logUser;
   info.pipeline_cache = options.pipelineCache;
-  info.shared_with = options.sharedWith;
+  info.shared_with = sharedWith(device, options);
   require(walr_create_denoiser(&info, &denoiser_));
   makeImages(size);
 }

@@ -12,15 +12,18 @@
 
 #include <walr/walr_passes.h>
 
-#include "framegraph/vulkan/device.h"
 #include "framegraph/vulkan/frame_queue.h"
 #include "framegraph/vulkan/staged_image.h"
 #include "passes/frame.h"
 #include "tests/passes/reference/frame.h"
+#include "tests/vulkan/test_device.h"
 
 namespace walr::test {
 
 /// Runs a denoiser through the C API, frame by frame, with several frames in flight.
+///
+/// It shares pipelines with all runs on its device whose options do not ask for something else, because creating them
+/// takes most of the time.
 class HostedRun {
  public:
   struct Options {
@@ -44,12 +47,14 @@ class HostedRun {
     const WalrMemoryCallbacks* deviceMemory = nullptr;
     const VkDeviceCreateInfo* createInfo = nullptr;
     WalrDenoiser sharedWith = nullptr;
+    bool alone = false;  ///< Share nothing.
     /// Whose depth, normal, motion and albedo to use, in frames that are recorded after its own; must outlive this.
     const HostedRun* guidesOf = nullptr;
   };
 
-  HostedRun(const fg::vk::Device& device, const char* method, glm::ivec2 size) : HostedRun(device, method, size, {}) {}
-  HostedRun(const fg::vk::Device& device, const char* method, glm::ivec2 size, const Options& options);
+  HostedRun(const fg::test::TestDevice& device, const char* method, glm::ivec2 size)
+      : HostedRun(device, method, size, {}) {}
+  HostedRun(const fg::test::TestDevice& device, const char* method, glm::ivec2 size, const Options& options);
   ~HostedRun();
   HostedRun(const HostedRun&) = delete;
   HostedRun& operator=(const HostedRun&) = delete;
@@ -104,7 +109,7 @@ class HostedRun {
   [[nodiscard]] bool isBorrowed(std::size_t index) const;
   [[nodiscard]] fg::vk::StagedImage& output() const { return *images_.back(); }
 
-  const fg::vk::Device* device_;
+  const fg::test::TestDevice* device_;
   std::uint32_t hostSlots_;
   bool rememberedCamera_;
   bool objectIds_;

@@ -99,7 +99,7 @@ FrameDescription walkingCamera(bool parallel, std::uint32_t frame, std::uint32_t
 }
 
 /// Root mean square errors, relative to the light, of the last frame of a walk with several seeds of the noise.
-std::vector<double> errorsOf(const fg::vk::Device& device, const Scene& scene, const std::string& method,
+std::vector<double> errorsOf(const fg::test::TestDevice& device, const Scene& scene, const std::string& method,
                              bool parallel) {
   constexpr std::uint32_t kFrames = 8;
   HostedRun run(device, method.c_str(), kSize, parallel ? orthographic() : HostedRun::Options{});
@@ -138,7 +138,7 @@ Estimate estimate(const std::vector<double>& errors) {
 }
 
 /// The error may exceed that of a perspective camera by three standard deviations of the noise.
-void expectErrorOfPerspective(const fg::vk::Device& device, const Scene& scene, const std::string& method) {
+void expectErrorOfPerspective(const fg::test::TestDevice& device, const Scene& scene, const std::string& method) {
   const Estimate perspective = estimate(errorsOf(device, scene, method, false));
   const Estimate parallel = estimate(errorsOf(device, scene, method, true));
   EXPECT_LE(parallel.mean, perspective.mean + 3.0 * std::sqrt(perspective.variance + parallel.variance));

@@ -52,6 +52,7 @@ class SharedObjects : public fg::test::GpuTest {
   [[nodiscard]] std::unique_ptr<HostedRun> run(const View& view, WalrDenoiser sharedWith = nullptr) const {
     HostedRun::Options options;
     options.sharedWith = sharedWith;
+    options.alone = sharedWith == nullptr;
     return std::make_unique<HostedRun>(device(), "walr", view.size, options);
   }
   /// Results of a view's frames in a denoiser of its own.
@@ -201,6 +202,7 @@ TEST_F(SharedObjects, OnlyOneMayBeUsedAtATime) {
   HostedRun::Options options;
   options.log = Intruder::call;
   options.logUser = &intruder;
+  options.alone = true;
   HostedRun first(device(), "accumulate", kSize, options);
   const auto second = run({kSize}, first.denoiser());
   const auto separate = run({kSize});
@@ -219,7 +221,7 @@ TEST_F(SharedObjects, AnotherDeviceADestroyedDenoiserAndSinglePassesAreRefused) 
   {
     const auto first = run({kSize});
     gone = first->denoiser();
-    const fg::vk::Device other(instance(), fg::vk::physicalDevices(instance()).front());
+    const fg::test::TestDevice other(instance(), fg::vk::physicalDevices(instance()).front());
     HostedRun::Options options;
     options.sharedWith = first->denoiser();
     expectError<std::runtime_error>([&] { const HostedRun elsewhere(other, "walr", kSize, options); },
