@@ -36,7 +36,7 @@ SCENE_COLUMNS = (("clean_rmse", "RMSE", 5), ("rmse", "RMSE with noise", 5), ("ss
 RESPONSES = ("first_frame_rmse", "settled_rmse", "settled_flicker", "light_frames", "light_lag", "recovery_frames")
 GPU_SIZE = "{} x {}".format(*PAGE_SIZES[0])
 UNFILTERED = ("accumulate", "none")
-CROPPED = ("walr", "walr_paper", "bmfr", "svgf", "flr", "joint_bilateral")
+CROPPED = ("walr", "walr_paper", "bmfr", "svgf", "flr", "flnr:full", "joint_bilateral")
 
 
 # The values of a benchmark that are stored.
