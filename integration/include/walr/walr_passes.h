@@ -113,10 +113,10 @@ typedef struct WalrHistoryAge {
 typedef struct WalrDispatch {
   uint32_t struct_size;
   uint32_t binding_count;
-  const char* name;   /* Name of the pass, unique in the list. */
-  const char* shader; /* Passes with the same shader name have the same SPIR-V. */
-  const uint32_t* spirv;
-  size_t spirv_size; /* Bytes. */
+  const char* name;      /* Name of the pass, unique in the list. */
+  const char* shader;    /* Passes with the same shader name have the same SPIR-V. */
+  const uint32_t* spirv; /* Computes in single precision, also where the device has shaderFloat16. */
+  size_t spirv_size;     /* Bytes. */
   const WalrBinding* const* bindings;
   const WalrSpecialization* specializations;
   const void* push_constants;
