@@ -42,34 +42,42 @@ const Struct* findInChain(const void* chain, VkStructureType type) {
   return nullptr;
 }
 
+/// Whether a device is created with a feature, which is a member of the structure of its Vulkan version and of that of
+/// an extension.
+template <typename Version, typename Extension>
+bool enables(const VkDeviceCreateInfo& info, VkStructureType versionType, VkBool32 Version::*ofVersion,
+             VkStructureType extensionType, VkBool32 Extension::*ofExtension) {
+  const auto* version = findInChain<Version>(info.pNext, versionType);
+  const auto* extension = findInChain<Extension>(info.pNext, extensionType);
+  return (version != nullptr && version->*ofVersion == VK_TRUE) ||
+         (extension != nullptr && extension->*ofExtension == VK_TRUE);
+}
+
 bool enablesTimelineSemaphores(const VkDeviceCreateInfo& info) {
-  const auto* vulkan12 =
-      findInChain<VkPhysicalDeviceVulkan12Features>(info.pNext, VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES);
-  const auto* extension = findInChain<VkPhysicalDeviceTimelineSemaphoreFeatures>(
-      info.pNext, VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_TIMELINE_SEMAPHORE_FEATURES);
-  return (vulkan12 != nullptr && vulkan12->timelineSemaphore == VK_TRUE) ||
-         (extension != nullptr && extension->timelineSemaphore == VK_TRUE);
+  return enables(info, VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES,
+                 &VkPhysicalDeviceVulkan12Features::timelineSemaphore,
+                 VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_TIMELINE_SEMAPHORE_FEATURES,
+                 &VkPhysicalDeviceTimelineSemaphoreFeatures::timelineSemaphore);
 }
 
 bool enablesHalves(const VkDeviceCreateInfo& info) {
-  const auto* vulkan12 =
-      findInChain<VkPhysicalDeviceVulkan12Features>(info.pNext, VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES);
-  const auto* extension = findInChain<VkPhysicalDeviceShaderFloat16Int8Features>(
-      info.pNext, VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SHADER_FLOAT16_INT8_FEATURES);
-  return (vulkan12 != nullptr && vulkan12->shaderFloat16 == VK_TRUE) ||
-         (extension != nullptr && extension->shaderFloat16 == VK_TRUE);
+  return enables(info, VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES,
+                 &VkPhysicalDeviceVulkan12Features::shaderFloat16,
+                 VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SHADER_FLOAT16_INT8_FEATURES,
+                 &VkPhysicalDeviceShaderFloat16Int8Features::shaderFloat16);
+}
+
+bool enablesSynchronization2(const VkDeviceCreateInfo& info) {
+  return enables(info, VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES,
+                 &VkPhysicalDeviceVulkan13Features::synchronization2,
+                 VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SYNCHRONIZATION_2_FEATURES,
+                 &VkPhysicalDeviceSynchronization2Features::synchronization2);
 }
 
 /// @throws Unsupported naming the features that a device was created without
 void requireEnabled(const VkDeviceCreateInfo& info) {
   std::string lacks;
-  const auto* vulkan13 =
-      findInChain<VkPhysicalDeviceVulkan13Features>(info.pNext, VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES);
-  const auto* extension = findInChain<VkPhysicalDeviceSynchronization2Features>(
-      info.pNext, VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SYNCHRONIZATION_2_FEATURES);
-  const bool synchronization2 = (vulkan13 != nullptr && vulkan13->synchronization2 == VK_TRUE) ||
-                                (extension != nullptr && extension->synchronization2 == VK_TRUE);
-  if (!synchronization2) {
+  if (!enablesSynchronization2(info)) {
     lacks +=
         "\n  feature synchronization2: chain VkPhysicalDeviceVulkan13Features or "
         "VkPhysicalDeviceSynchronization2Features to VkDeviceCreateInfo";

@@ -62,7 +62,8 @@ TEST_F(HalfArithmeticTest, IsTakenIfTheCreateInfoEnablesIt) {
   EXPECT_EQ(frame(device, nullptr), singles);
   EXPECT_NE(halves, singles);
 
-  // Guides differ by some thousandths (guide_network_test.cpp bounds it), of which the fit passes on less.
+  // Guides differ by some thousandths, which guide_network_test.cpp bounds. Of that the fit passes on less: measured
+  // are 2.9e-4 of the light's root mean square.
   double difference = 0.0;
   double light = 0.0;
   for (std::size_t i = 0; i < halves.size(); ++i) {
@@ -72,7 +73,7 @@ TEST_F(HalfArithmeticTest, IsTakenIfTheCreateInfoEnablesIt) {
     difference += (a - b) * (a - b);
     light += b * b;
   }
-  EXPECT_LT(std::sqrt(difference / light), 0.01);
+  EXPECT_LT(std::sqrt(difference / light), 0.001);
 }
 
 }  // namespace

@@ -91,11 +91,9 @@ class NetworkTest : public fg::test::GpuTest {
     if (physical.shaderFloat16)
       halves_.emplace(instance(), physical, std::span<const char* const>{}, nullptr,
                       fg::vk::HalfArithmetic::WhereSupported);
-    singles_.emplace(instance(), physical, std::span<const char* const>{}, nullptr, fg::vk::HalfArithmetic::Never);
   }
   void TearDown() override {
     halves_.reset();
-    singles_.reset();
     GpuTest::TearDown();
   }
   /// Devices with single precision and, where they have it, with halves.
@@ -103,11 +101,10 @@ class NetworkTest : public fg::test::GpuTest {
     return halves_ ? std::vector{Sums::Exact, Sums::InHalves} : std::vector{Sums::Exact};
   }
   [[nodiscard]] const fg::test::TestDevice& deviceWith(Sums sums) const {
-    return sums == Sums::InHalves ? *halves_ : *singles_;
+    return sums == Sums::InHalves ? *halves_ : device();
   }
 
  private:
-  std::optional<fg::test::TestDevice> singles_;
   std::optional<fg::test::TestDevice> halves_;
 };
 

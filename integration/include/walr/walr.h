@@ -9,8 +9,8 @@
  * - Every function that can fail returns a WalrResult. walr_last_error() then returns a text that tells what is wrong
  *   and how to fix it. No wrong argument crashes, except pointers to memory that is not valid.
  * - Structures begin with `struct_size`, which the caller sets to sizeof. If the library is newer than the caller's
- *   header, fields that the caller lacks count as zero. If it is older, it refuses nonzero fields that it does not know.
- *   Zero is the default of every field. New fields come last. Structures without `struct_size` never change.
+ *   header, fields that the caller lacks count as zero. If it is older, it refuses nonzero fields that it does not
+ * know. Zero is the default of every field. New fields come last. Structures without `struct_size` never change.
  * - A VkBool32 must be VK_FALSE or VK_TRUE. Any other value is a WALR_ERROR_INVALID_ARGUMENT that names the field.
  * - Handles are never reused: using a destroyed one is always an error.
  * - Only one thread at a time may use a denoiser. A call during another thread's call returns
@@ -166,7 +166,7 @@ typedef struct WalrMemoryCallbacks {
  * VK_KHR_synchronization2) and shaderStorageImageExtendedFormats. The library does not link to the Vulkan loader: it
  * gets all Vulkan functions from `get_instance_proc_addr`. Vulkan does not tell which features of a device are enabled,
  * so the library can check this only if it gets `create_info`. If that enables the feature shaderFloat16, the
- * convolutions of flnr compute in halves, about twice as fast; the result changes by rounding.
+ * convolutions of flnr compute in halves, which takes less time; the result changes by rounding.
  */
 typedef struct WalrDevice {
   uint32_t struct_size;
