@@ -26,7 +26,7 @@ NetworkShape shapeOf(NetworkKind kind) {
     case NetworkKind::Small:
       return {2, {12}};  // Three guides of four pixels.
     case NetworkKind::Full:
-      return {1, {4}};  // Three guides of a pixel, and nothing.
+      return {1, {4}};  // Three guides of a pixel, and one that nothing reads.
     case NetworkKind::Paper:
       return {1, {4, 4}};  // Four guides of a pixel, then a fifth that has a group of four for itself.
   }

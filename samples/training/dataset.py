@@ -32,7 +32,8 @@ def load(files, device="cpu"):
     for file in files:
         for kind, frame in torch.load(file):
             frames[kind].append(frame)
-    return {kind: {name: torch.cat([frame.pop(name) for frame in some]).to(device) for name in list(some[0])} for kind, some in frames.items()}
+    return {kind: {name: torch.cat([frame.pop(name) for frame in some]).to(device) for name in list(some[0])}
+            for kind, some in frames.items()}
 
 
 def each(frames):

@@ -104,6 +104,8 @@ def main():
     options = parser.parse_args()
     state = torch.load(options.state, map_location="cpu")
     preset = state["preset"]
+    if preset not in PRESETS:
+        sys.exit(f"{options.state}: holds the experiment {preset}, which no shader computes; train one of {', '.join(PRESETS)}")
     network = GuideNetwork(**PRESETS[preset])
     network.load_state_dict(state["average"])
     output = options.project / f"passes/weights/flnr_{preset}.f16"

@@ -220,8 +220,7 @@ def main():
           f"{sum(p.numel() for p in training.network.parameters())} parameters", flush=True)
     while training.seconds < 60 * options.minutes:
         start = time.monotonic()
-        loss = sum(training.step(frames, training.seconds / (60 * options.minutes)) for _ in range(STEPS)) / STEPS
-        loss = float(loss)
+        loss = float(sum(training.step(frames, training.seconds / (60 * options.minutes)) for _ in range(STEPS))) / STEPS
         training.seconds += time.monotonic() - start
         errors = evaluate(training.average, held_out) if (training.steps // STEPS) % EVALUATE == 0 else None
         entry = {"steps": training.steps, "seconds": round(training.seconds), "device": device, "loss": round(loss, 5),
