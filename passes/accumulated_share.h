@@ -16,8 +16,9 @@ struct AccumulatedShareSettings {
   bool enabled = true;
   float frames = 8.0F;
   std::uint32_t radius = 4;
-  float gain = 2.0F;
-  float leastShare = 0.15F;
+  float gain = 8.0F;
+  float edgeGain = 16.0F;
+  float leastShare = 0.6F;
   float innovationGain = 1.5F;
   float innovationBias = 1.28F;
 
@@ -36,10 +37,14 @@ struct AccumulatedShareSettings {
              "tiles", 0, 8, "measured"},
             radius);
     v.visit({"blocks.residual-gain",
-             "Factor of the agreement, which comes out too small where reprojection has blurred history", "", 0.0, 16.0,
+             "Factor of the agreement, which comes out too small where reprojection has blurred history", "", 0.0, 64.0,
              "measured"},
             gain);
-    v.visit({"blocks.residual-least-share", "Share of the accumulated light below which it is left out", "", 0.0, 0.5,
+    v.visit({"blocks.residual-edge-gain",
+             "The same for means over 3x3 pixels with another surface among them, where reprojection blurs most", "",
+             0.0, 64.0, "measured"},
+            edgeGain);
+    v.visit({"blocks.residual-least-share", "Share of the accumulated light below which it is left out", "", 0.0, 0.95,
              "measured"},
             leastShare);
     v.visit({"blocks.innovation-gain",

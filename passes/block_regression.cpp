@@ -77,6 +77,7 @@ BlockGrid gridOf(StageGraph graph, fg::Buffer frame, fg::Extent pixels, const Bl
   constants.coarseSamples = coarseSamplesAt(pixels.height, s.coarseSamples);
   constants.inverseCoarseLeastShare = 1.0F / s.coarseLeastShare;
   constants.residualGain = s.share.gain;
+  constants.residualEdgeGain = s.share.edgeGain;
   constants.residualLeastShare = s.share.leastShare;
   constants.lightShare = 1.0F / static_cast<float>(groups.columns * groups.rows);
   if (light.antilag) constants.maxHistory = light.antilag->maxHistory;

@@ -57,6 +57,7 @@ FrameConstants frameConstants(const FrameDescription& frame, fg::Extent extent) 
   constants.rayFromPixel = glm::vec4(ray);
   constants.previousRayFromPixel = glm::vec4(previousRay);
   constants.motionScale = frame.motionScale;
+  constants.jitter = frame.jitter;
   constants.jitterDelta = glm::vec2(glm::dvec2(frame.jitter) - previousJitter);
   constants.previousPixelFromPixel = glm::vec2(previousSize / size);
   constants.pixelFromPreviousPixel = glm::vec2(pixelFromPreviousPixel);

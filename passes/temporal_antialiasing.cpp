@@ -40,6 +40,13 @@ using ReadHistory = std::function<void(fg::PassBuilder& pass, bool view)>;
 /// The length that the highest level of a packed history length would stand for (packed_light.glsl).
 constexpr float kHighestLevel = 1 << (kLongestLevel - 1);
 
+/// Whether the clipping box is smaller where history of another surface mixes in. Whether it does is told by tests of
+/// the history taps, even where these accept all taps.
+bool tightAtEdges(const TemporalAntialiasingSettings& settings) {
+  const bool tests = settings.rejection != HistoryRejection::None || settings.objectIds;
+  return tests && settings.edgeClipGamma < settings.clipGamma;
+}
+
 /// Add the stage; `read` declares its reprojection.
 /// @param kept whether that comes from the taps that accumulation kept
 fg::Texture addStage(StageGraph graph, bool kept, const ReadHistory& read, fg::Texture filtered, fg::Texture output,
@@ -55,7 +62,8 @@ fg::Texture addStage(StageGraph graph, bool kept, const ReadHistory& read, fg::T
     pass.sample("filtered", filtered)
         .sample("previousResolved", resolved.previous)
         .specialize("kClipRadius", settings.clipRadius)
-        .constants(TemporalAntialiasingConstants{settings.maxHistory, settings.clipGamma, settings.planeTolerance,
+        .constants(TemporalAntialiasingConstants{settings.maxHistory, settings.clipGamma, settings.edgeClipGamma,
+                                                 settings.filterRadius, settings.planeTolerance,
                                                  settings.normalThreshold})
         .dispatch(extent);
     if (packed) pass.specialize("kBeyondLevels", settings.maxHistory > kHighestLevel);
@@ -88,7 +96,8 @@ fg::Texture addTemporalAntialiasing(StageGraph graph, const DenoiserInputs& inpu
     pass.uniform("frameConstants", inputs.frame)
         .sampleIf(!still || !packed, "depth", guides.depth, standIns.number)
         .specialize("kStill", still)
-        .specialize("kPixelArea", pixelArea);
+        .specialize("kPixelArea", pixelArea)
+        .specialize("kTightAtEdges", pixelArea && !still && tightAtEdges(settings));
     readReprojection(pass, inputs, guides, reprojection, standIns);
     readConfidence(pass, settings.accumulates ? inputs.confidence : fg::Texture{}, inputs, standIns);
     readObjectIds(pass, ids, standIns);
@@ -122,6 +131,7 @@ fg::Texture addTemporalAntialiasingWithTaps(StageGraph graph, fg::Buffer frame, 
         .sample("keptTaps", taps)
         .sampleIf(depth.valid(), "depth", depth, taps)
         .specialize("kPixelArea", depth.valid())
+        .specialize("kTightAtEdges", depth.valid() && tightAtEdges(settings))
         .specialize("kRejectHistory", settings.rejection != HistoryRejection::None);
   };
   return addStage(graph, true, read, filtered, output, settings);

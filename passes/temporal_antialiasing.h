@@ -18,6 +18,7 @@ struct TemporalAntialiasingSettings {
   bool enabled = true;
   float maxHistory = 3.0F;
   float clipGamma = 1.0F;
+  float edgeClipGamma = 1.5F;
   std::uint32_t clipRadius = 1;
   HistoryRejection rejection = HistoryRejection::Plane;
   float planeTolerance = 0.01F;
@@ -25,6 +26,7 @@ struct TemporalAntialiasingSettings {
   bool objectIds = false;
   bool dilateMotion = false;
   bool pixelArea = true;
+  float filterRadius = 0.75F;
   LightStorage storage = LightStorage::Half;
   /// Whether this is the method's only accumulation of light. Its history length is then that of the method, the host's
   /// confidence limits it, and it is never a mean over the pixel's area. Not a setting; needs the storage
@@ -41,6 +43,11 @@ struct TemporalAntialiasingSettings {
     v.visit({"antialiasing.clip-gamma", "Half size of the variance-clipping box", "standard deviations", 0.0, 1e6,
              "Meunier & Harada 2022, 4.4"},
             clipGamma);
+    v.visit({"antialiasing.edge-clip-gamma",
+             "Most that clip-gamma is in a jittered frame where history of another surface mixes in: the tests of "
+             "history reject a pixel of it",
+             "standard deviations", 0.0, 1e6, "measured"},
+            edgeClipGamma);
     v.visit({"antialiasing.clip-radius", "Radius of the neighbourhood for variance clipping; 1 is 3x3", "pixels", 1, 8,
              "Meunier & Harada 2022, 4.4"},
             clipRadius);
@@ -58,6 +65,12 @@ struct TemporalAntialiasingSettings {
              "shows, and follows the nearest surface of the 3x3 neighbourhood",
              "", 0, 1, "measured"},
             pixelArea);
+    v.visit(
+        {"antialiasing.filter-radius",
+         "Half width of the tent filter that estimates the mean over a pixel's area from the samples of one jittered "
+         "frame in and around it; 0.5 takes the pixel's own sample. No effect without pixel-area",
+         "pixels", 0.5, 1.0, "Karis 2014"},
+        filterRadius);
   }
   /// For methods and stages whose filter can write both storages.
   void visitStorage(SettingVisitor& v) {

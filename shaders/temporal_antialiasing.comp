@@ -2,7 +2,8 @@
 // clips it to the variance of the current neighbourhood, and adds the current frame. The cumulative mean turns
 // exponential at `maxHistory`.
 // With kPixelArea, a jittered frame adds to the mean over the pixel's area: every history tap is accepted, whatever
-// surface it shows, and the history follows the nearest surface of the 3 x 3 pixels.
+// surface it shows, and the history follows the nearest surface of the 3 x 3 pixels. What the frame adds is a mean over
+// the samples in and around the pixel.
 // KEPT_TAPS: reprojection comes from the taps that accumulation kept (history_taps.glsl). Otherwise it is done here, or
 // with kStill, nothing moves and the history of a pixel is the pixel itself.
 // PACKED: the filtered light and the history are packed light (packed_light.glsl); every surface has filtered light,
@@ -19,6 +20,7 @@
 layout(local_size_x = 16, local_size_y = 8) in;
 layout(constant_id = 2) const uint kClipRadius = 1;  // Radius of the clipping neighbourhood, pixels.
 layout(constant_id = 6) const bool kPixelArea = false;
+layout(constant_id = 7) const bool kTightAtEdges = false;  // Clip by edgeClipGamma where other surfaces mix in.
 #ifdef KEPT_TAPS
 layout(constant_id = 3) const bool kRejectHistory = true;  // Leave out taps that accumulation rejected.
 #endif
@@ -127,10 +129,14 @@ const uint kTileWidth = gl_WorkGroupSize.x + 2u * kClipRadius;
 const uint kTileHeight = gl_WorkGroupSize.y + 2u * kClipRadius;
 shared vec4 tile[kTileWidth * kTileHeight];
 
-uint tileIndex(uvec2 texel) { return (texel.y & 0xffu) * kTileWidth + texel.x; }
-
 // The smallest depth in the tile; smaller ones count as this.
 const float kLeastNearness = 7.888609052210118e-31;  // 2^-100
+
+uint tileIndex(uvec2 texel) { return (texel.y & 0xffu) * kTileWidth + texel.x; }
+
+// A texel of the tile with alpha 1 for the colour of a surface, else 0.
+vec4 knownColour(vec4 texel) { return vec4(texel.rgb, clamp(texel.a * (1.0 / kLeastNearness), 0.0, 1.0)); }
+vec4 knownTexel(uvec2 texel) { return knownColour(tile[tileIndex(texel)]); }
 
 // Depth as far as it tells what is nearer: the lowest bits hold other guides (surface.glsl). Infinite without a surface.
 float nearness(ivec2 q, bool known) {
@@ -201,36 +207,55 @@ ivec2 nearestInTile(ivec2 p) {
 // Whether the mean is over the pixel's area: samples lie elsewhere in a pixel than in the previous frame.
 bool coversArea() { return kPixelArea && frame.jitterDelta != vec2(0.0); }
 
-#ifdef KEPT_TAPS
-HistoryTaps tapsOf(ivec2 p) {
-  const bool wholeArea = coversArea();
-  const uint kept = texelFetch(keptTaps, wholeArea ? nearestInTile(p) : p, 0).x;
-  HistoryTaps taps = unpackTaps(p, kept, frame.previousPixelFromPixel);
-  if (!kRejectHistory || wholeArea) taps.accepted = tapsInside(taps, textureSize(previousResolved, 0));
+// The history of a pixel. The taps that it is read at may be accepted although they show another surface.
+struct ResolvedHistory {
+  vec4 light;    // a: history length, 0 without a history.
+  int rejected;  // Number of taps that are not accepted.
+  bool mixed;    // With kTightAtEdges: some tap shows another surface.
+};
+
+// The taps of a frame that covers the pixel's area: the same, all accepted inside the image.
+HistoryTaps withAllAccepted(HistoryTaps taps) {
+  taps.accepted = tapsInside(taps, textureSize(previousResolved, 0));
   return taps;
 }
+
+// `mixed`: as in ResolvedHistory.
+#ifdef KEPT_TAPS
+HistoryTaps tapsOf(ivec2 p, out bool mixed) {
+  const bool wholeArea = coversArea();
+  const uint kept = texelFetch(keptTaps, wholeArea ? nearestInTile(p) : p, 0).x;
+  const HistoryTaps taps = unpackTaps(p, kept, frame.previousPixelFromPixel);
+  mixed = kTightAtEdges && wholeArea && tapsRejected(taps) > 0;
+  return !kRejectHistory || wholeArea ? withAllAccepted(taps) : taps;
+}
 #else
-HistoryTaps tapsOf(ivec2 p) {
+HistoryTaps testedTaps(ivec2 p, float z) {
+  return historyTaps(p, reproject(p, z), constants.planeTolerance, constants.normalThreshold);
+}
+
+HistoryTaps tapsOf(ivec2 p, out bool mixed) {
   const float z = depthAt(p);
-  if (!coversArea()) return historyTaps(p, reproject(p, z), constants.planeTolerance, constants.normalThreshold);
-  const Reprojection r = reprojectWith(p, z, nearestInTile(p));
-  HistoryTaps taps = tapsAround(p, r.motion, frame.previousPixelFromPixel);
-  if (r.valid) taps.accepted = tapsInside(taps, textureSize(previousResolved, 0));
-  return taps;
+  mixed = false;
+  if (!coversArea()) return testedTaps(p, z);
+  const ivec2 followed = nearestInTile(p);
+  if (kTightAtEdges) mixed = tapsRejected(testedTaps(followed, depthAt(followed))) > 0;
+  const Reprojection r = reprojectWith(p, z, followed);
+  const HistoryTaps taps = tapsAround(p, r.motion, frame.previousPixelFromPixel);
+  return r.valid ? withAllAccepted(taps) : taps;
 }
 #endif
 
-vec4 historyOf(ivec2 p, out int rejected) {
-  rejected = 0;
-  vec4 history;
+ResolvedHistory historyOf(ivec2 p) {
+  ResolvedHistory history = ResolvedHistory(vec4(0.0), 0, false);
   if (kStill) {
-    history = historyTexel(previousResolved, p);
+    history.light = historyTexel(previousResolved, p);
   } else {
-    const HistoryTaps taps = tapsOf(p);
-    rejected = tapsRejected(taps);
-    history = bicubicOfTaps(previousResolved, taps);
+    const HistoryTaps taps = tapsOf(p, history.mixed);
+    history.rejected = tapsRejected(taps);
+    history.light = bicubicOfTaps(previousResolved, taps);
   }
-  history.a = confidentLength(p, history.a, constants.maxHistory);
+  history.light.a = confidentLength(p, history.light.a, constants.maxHistory);
   return history;
 }
 
@@ -252,21 +277,21 @@ struct ClippingBox {
   vec3 squaredHalfSize;
 };
 
-ClippingBox clippingBox() {
+ClippingBox clippingBox(float gamma) {
   vec4 sum = vec4(0.0);  // a: number of surfaces.
   vec3 squares = vec3(0.0);
   const uint first = tileIndex(gl_LocalInvocationID.xy);
   for (uint y = 0u; y <= 2u * kClipRadius; ++y) {
     for (uint x = 0u; x <= 2u * kClipRadius; ++x) {
       const vec4 colour = tile[first + tileIndex(uvec2(x, y))];
-      sum += vec4(colour.rgb, clamp(colour.a * (1.0 / kLeastNearness), 0.0, 1.0));  // 1 if it is positive, else 0.
+      sum += knownColour(colour);
       squares += colour.rgb * colour.rgb;
     }
   }
   const float share = 1.0 / sum.a;
   const vec3 mean = sum.rgb * share;
   // The difference of two large sums has a rounding error. Its square root is a thousandth of the mean at most.
-  const vec3 squaredDeviation = (squares - sum.rgb * mean) * (constants.clipGamma * constants.clipGamma * share);
+  const vec3 squaredDeviation = (squares - sum.rgb * mean) * (gamma * gamma * share);
   const float smallest = max(smallestHalfSize(mean), 1e-12);
   return ClippingBox(mean, max(squaredDeviation, vec3(smallest * smallest)));
 }
@@ -278,37 +303,56 @@ struct Clipped {
   float outside;  // The same in units of the box's half size, its largest component; above 1: clipped.
 };
 
-Clipped clippedHistory(vec3 history) {
-  const ClippingBox box = clippingBox();
+Clipped clippedHistory(ResolvedHistory history) {
+  const bool tight = kTightAtEdges && history.mixed;
+  const ClippingBox box = clippingBox(tight ? constants.edgeClipGamma : constants.clipGamma);
   const vec3 mean = fromYCoCg(box.mean);
-  const vec3 offset = toYCoCg(history - mean);
+  const vec3 fromMean = history.light.rgb - mean, offset = toYCoCg(fromMean);
   const vec3 ratios = offset * offset / box.squaredHalfSize;
   const float squared = max(max(ratios.x, ratios.y), ratios.z);
-  return Clipped(mean + (history - mean) * min(inversesqrt(squared), 1.0), offset, sqrt(squared));
+  return Clipped(mean + fromMean * min(inversesqrt(squared), 1.0), offset, sqrt(squared));
 }
 
+// The mean over the pixel's area by this frame alone. Samples lie `frame.jitter` from the centres of pixels, and those
+// of surfaces are weighted by a tent around the pixel's centre (Karis 2014). It ends within a pixel, so that along each
+// axis only the pixel's own sample and the one on the other side of its centre count.
+vec3 meanOverArea() {
+  const vec2 own = constants.filterRadius - abs(frame.jitter);
+  const vec2 beside = max(constants.filterRadius - 1.0 + abs(frame.jitter), vec2(0.0));
+  const uvec2 centre = gl_LocalInvocationID.xy + kClipRadius;
+  const uvec2 opposite = centre + mix(uvec2(-1), uvec2(1), lessThan(frame.jitter, vec2(0.0)));
+  vec4 sum = own.x * own.y * knownTexel(centre);
+  sum += beside.x * own.y * knownTexel(uvec2(opposite.x, centre.y));
+  sum += own.x * beside.y * knownTexel(uvec2(centre.x, opposite.y));
+  sum += beside.x * beside.y * knownTexel(opposite);
+  return fromYCoCg(sum.rgb * (1.0 / sum.a));
+}
+
+// This frame's light of a pixel, whose own sample is `own`.
+vec3 lightOfFrame(vec3 own) { return coversArea() && constants.filterRadius > 0.5 ? meanOverArea() : own; }
+
 // The new running mean and its history length. The filter of history may make it negative.
-vec4 resolve(vec4 current, vec4 history) {
+vec4 resolve(vec4 current, ResolvedHistory history) {
   // Without a sample in this frame the history stays as it is.
-  if (current.a < 0.0) return history;
-  if (history.a == 0.0) return vec4(current.rgb, 1.0);
-  const vec3 clipped = clippedHistory(history.rgb).colour;
-  const float samples = min(history.a + 1.0, constants.maxHistory);
-  return vec4(mix(clipped, current.rgb, 1.0 / samples), samples);
+  if (current.a < 0.0) return history.light;
+  const vec3 light = lightOfFrame(current.rgb);
+  if (history.light.a == 0.0) return vec4(light, 1.0);
+  const vec3 clipped = clippedHistory(history).colour;
+  const float samples = min(history.light.a + 1.0, constants.maxHistory);
+  return vec4(mix(clipped, light, 1.0 / samples), samples);
 }
 
 #ifdef VIEW
 vec3 viewOf(ivec2 p, vec4 current) {
-  int rejected;
-  const vec4 history = historyOf(p, rejected);
+  const ResolvedHistory history = historyOf(p);
   switch (kView) {
     case 0u: {
-      if (current.a < 0.0 || history.a == 0.0) return vec3(0.0);
-      const Clipped clipped = clippedHistory(history.rgb);
+      if (current.a < 0.0 || history.light.a == 0.0) return vec3(0.0);
+      const Clipped clipped = clippedHistory(history);
       const float share = 1.0 - 1.0 / max(clipped.outside, 1.0);
       return vec3(share * length(clipped.offset), share, clipped.outside > 1.0);
     }
-    case 1u: return vec3(resolve(current, history).a, rejected, history.a == 0.0);
+    case 1u: return vec3(resolve(current, history).a, history.rejected, history.light.a == 0.0);
   }
   return vec3(0.0);
 }
@@ -337,8 +381,7 @@ void main() {
     imageStore(outImage, p, vec4(current.rgb, 1.0));
     return;
   }
-  int rejected;
-  const vec4 resolved = resolve(current, historyOf(p, rejected));
+  const vec4 resolved = resolve(current, historyOf(p));
 #ifdef PACKED
   const vec4 random = randomNumbers(p, frame.frameIndex, kResolvedSeed);
   const vec3 light = clamp(resolved.rgb, vec3(0.0), vec3(largestPacked(kResolvedBits)));

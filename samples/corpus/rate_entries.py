@@ -5,7 +5,7 @@ import fractions
 import entries
 
 SIZE = (384, 216)
-JUDGED = (15, 16)
+JUDGED = (14, 16)
 SCENES = {"sponza": entries.shared, "living_room": entries.shared, "cornell_fence": entries.shared, "box": entries.built_in}
 SPARSE = ("1/9", "1/4", "1/2")
 """Rates of `walr render --light-rate`."""
@@ -15,8 +15,6 @@ SAMPLES = (1, 2, 4, 16, 64)
 """Whole numbers of rays per pixel."""
 RESAMPLED_FRAMES = 20
 """Frames that the resampled input takes paths from: what engines take."""
-WARM_UP = {16: 3, 64: 2}
-"""Frames before the judged ones where they are fewer than entries.WARM_UP, because their rays cost so much."""
 DEAREST_ON = ("sponza",)
 """Scenes that are rendered with 64 rays per pixel."""
 PLAIN = {"1/4": 2, "1/9": 3}
@@ -57,8 +55,7 @@ def of_scene(scene):
     found = {rate: entry(RateEntry, f"{scene}_rate_{rate.replace('/', '_')}", light_rate=rate) for rate in SPARSE}
     for samples in SAMPLES:
         if samples < max(SAMPLES) or scene in DEAREST_ON:
-            found[str(samples)] = entry(RateEntry, f"{scene}_rate_{samples}", samples=samples,
-                                        warm_up=WARM_UP.get(samples, entries.WARM_UP))
+            found[str(samples)] = entry(RateEntry, f"{scene}_rate_{samples}", samples=samples)
     found["1, resampled"] = entry(RateEntry, f"{scene}_resampled", resampled_frames=RESAMPLED_FRAMES,
                                  warm_up=JUDGED[0])
     plain = {rate: entry(RateEntry, f"{scene}_plain_{rate.replace('/', '_')}", size=(SIZE[0] // side, SIZE[1] // side),

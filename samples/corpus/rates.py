@@ -4,7 +4,7 @@
     rates.py run [--cache DIR]      render and denoise what is missing, judge; writes rates.json, RATES.md and rates.png
     rates.py page [--check]         writes RATES.md and rates.png from rates.json
 
-An interrupted run resumes where it was. It traces 150 million paths, and takes about half an hour of two idle cores. samples/docs/corpus.md
+An interrupted run resumes where it was. It traces 300 million paths, and takes about half an hour of two idle cores. samples/docs/corpus.md
 says how errors and intervals are made. Needs numpy, Pillow and matplotlib (Debian: python3-matplotlib)."""
 import argparse
 import fractions

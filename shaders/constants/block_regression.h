@@ -25,13 +25,14 @@ struct BlockRegressionConstants {
   float inverseCoarseLeastShare;  // 1 over the share of the mixture below which the coarse fit is left out; from twice
                                   // that share on, it is mixed in full.
   float residualGain;             // What the fits miss, over what the agreement of two halves of the light says.
+  float residualEdgeGain;         // The same for means over pixels beside an edge.
   float residualLeastShare;       // Share of the accumulated light below which it is left out.
   float lightShare;               // Share of the pixels that accumulated light has a texel for.
   float maxHistory;               // Frames: the longest history of accumulation. Read with kAntilag only.
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(BlockRegressionConstants) == 64);
+static_assert(sizeof(BlockRegressionConstants) == 68);
 }  // namespace walr
 #endif
 #endif

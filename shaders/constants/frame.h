@@ -22,7 +22,7 @@ struct FrameConstants {
   float skyDepth;               // Scene units: from this view depth on there is sky.
   ivec2 lightOffset;            // Pixels: the pixel of its group that a texel of light belongs to (light_sample.glsl).
   ivec2 previousLightOffset;    // The previous frame's.
-  ivec2 unused;                 // In shaders, the size of the struct is a multiple of 16 bytes (std140).
+  vec2 jitter;                  // Pixels: where this frame's samples lie, from the pixel's centre, y down.
 };
 
 #ifdef __cplusplus

@@ -8,12 +8,14 @@ namespace walr {
 struct TemporalAntialiasingConstants {
   float maxHistory;       // History length at which the cumulative mean turns exponential.
   float clipGamma;        // Half size of the clipping box, standard deviations of the neighbourhood.
+  float edgeClipGamma;    // The same where history of another surface mixes in. Read with kTightAtEdges only.
+  float filterRadius;     // Half width of the tent over the samples of a jittered frame, pixels.
   float planeTolerance;   // Largest plane distance of a history tap, in units of its depth.
   float normalThreshold;  // Smallest cosine between geometric normals.
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(TemporalAntialiasingConstants) == 16);
+static_assert(sizeof(TemporalAntialiasingConstants) == 24);
 }  // namespace walr
 #endif
 #endif

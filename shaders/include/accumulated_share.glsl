@@ -62,10 +62,10 @@ Statistics previousStatisticsAt(vec3 before, bool edge) {
 }
 
 // The share that makes the expected square of the error least where the residual is a mean of `samples` samples.
-// History that reprojection blurs agrees too little with this frame's light, for which residualGain makes up. The
-// statistics have errors of their own, so that a small share is none.
-float accumulatedShare(vec2 statistics, float samples, float trust) {
-  const float missed = constants.residualGain * max(statistics.x, 0.0), noise = max(statistics.y, 0.0) / samples;
+// History that reprojection blurs agrees too little with this frame's light, for which `gain` makes up. The statistics
+// have errors of their own, so that a small share is none.
+float accumulatedShare(vec2 statistics, float samples, float trust, float gain) {
+  const float missed = gain * max(statistics.x, 0.0), noise = max(statistics.y, 0.0) / samples;
   const float share = trust * missed / max(missed + noise, 1e-30);
   return clamp((share - constants.residualLeastShare) / (1.0 - constants.residualLeastShare), 0.0, 1.0);
 }
@@ -274,8 +274,9 @@ vec3 withAccumulated(ivec2 p, bool hasPixel, FetchedLight fetched, Shown shown) 
     const Statistics known = previousStatisticsAt(before, measured.edge);
     const vec3 detail = own.mean - around.mean;
     const float length = accumulated.mean.a;
-    result += accumulatedShare(known.sums.xy, around.samples, known.trust) * around.mean;
-    result += accumulatedShare(known.sums.zw, length, known.trust) * detail;
+    const float aroundGain = measured.edge ? constants.residualEdgeGain : constants.residualGain;
+    result += accumulatedShare(known.sums.xy, around.samples, known.trust, aroundGain) * around.mean;
+    result += accumulatedShare(known.sums.zw, length, known.trust, constants.residualGain) * detail;
     if (own.samples > 0.0) {
       innovation = own.noisy - own.history;
       measured.light = vec2(luminance(shown.predicted), 1.0);

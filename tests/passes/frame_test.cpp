@@ -119,6 +119,7 @@ TEST(FrameConstants, AJitteredRayPassesThroughTheDisplacedSample) {
   frame.jitter = {0.25F, -0.4F};
   frame.previousJitter = {-0.1F, 0.3F};
   const FrameConstants constants = frameConstants(frame, kExtent);
+  EXPECT_EQ(constants.jitter, frame.jitter);
   const glm::vec2 pixel(100.5F, 50.5F);
   const glm::dvec2 now = project(frame.projection, unproject(constants.rayFromPixel, pixel, 3.0F));
   const glm::dvec2 before = project(frame.projection, unproject(constants.previousRayFromPixel, pixel, 3.0F));

@@ -381,6 +381,8 @@ TEST_F(WalrHistoryTest, JitteredEdgesBecomeMeansOverPixels) {
     if (ownReprojection) settings.antialiasing.normalThreshold = 0.4F;
     ASSERT_EQ(settings.antialiasing.maxHistory, 3.0F);
     const double ofAreas = errorOfAreas(device(), settings, expected);
+    settings.antialiasing.filterRadius = 0.5F;
+    EXPECT_LT(ofAreas, errorOfAreas(device(), settings, expected)) << "a frame adds single samples";
     settings.antialiasing.pixelArea = false;
     const double ofSurfaces = errorOfAreas(device(), settings, expected);
     EXPECT_LT(ofAreas, std::sqrt(1.0 / 5.0) * ofSurfaces);

@@ -110,7 +110,7 @@ void expectClipping(Comparison& comparison, const DeviceFrame& f, glm::ivec2 p, 
     return;
   }
   const glm::dvec3 output(f.current.output[p]);
-  const glm::dvec3 filtered(f.current.filtered[p]);
+  const glm::dvec3 filtered = reference::lightOfFrame(f.frame, f.current.guides, f.current.filtered, p, antialiasing);
   if (output.x == 0.0 || output.y == 0.0 || output.z == 0.0) return;  // Values below 0 were clamped.
   const glm::dvec3 kept = filtered + (output - filtered) * n / (n - 1.0);
   const glm::dvec3 before(past.history.value);

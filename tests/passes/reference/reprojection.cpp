@@ -48,12 +48,15 @@ double keptMotion(double motion) {
 
 }  // namespace
 
+glm::ivec2 followedPixel(const Image<Guide>& guides, glm::ivec2 p, const ReprojectionOptions& options) {
+  if (options.dilateByShortDepth) return nearestPixel(guides, p, shortDepth);
+  return options.dilateMotion ? nearestPixel(guides, p, exactDepth) : p;
+}
+
 Reprojection reproject(const HostFrame& frame, const Image<Guide>& guides, glm::ivec2 p,
                        const ReprojectionOptions& options) {
   const FrameConstants& constants = frame.constants;
-  const glm::ivec2 source = options.dilateByShortDepth ? nearestPixel(guides, p, shortDepth)
-                            : options.dilateMotion     ? nearestPixel(guides, p, exactDepth)
-                                                       : p;
+  const glm::ivec2 source = followedPixel(guides, p, options);
   const glm::dmat4 previousFromCurrent(constants.previousViewFromView);
   const auto positionBefore = [&](glm::ivec2 q) {
     const glm::dvec3 position = rayThrough(constants.rayFromPixel, pixelCentre(q)) * guides[q].depth;

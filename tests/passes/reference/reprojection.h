@@ -27,6 +27,8 @@ struct ReprojectionOptions {
   bool dilateByShortDepth = false;
   bool keepTaps = false;  ///< Round the motion as for the texture of history taps: to halves with 9 significant bits.
 };
+/// The pixel whose motion the history of pixel `p` follows.
+glm::ivec2 followedPixel(const Image<Guide>& guides, glm::ivec2 p, const ReprojectionOptions& options);
 /// Reproject the surface at a pixel (Meunier & Harada 2022, 4.2): its position in the previous image by motion vector,
 /// or by the camera alone, and its depth there by `motion.z`.
 Reprojection reproject(const HostFrame& frame, const Image<Guide>& guides, glm::ivec2 p,

@@ -24,10 +24,9 @@ struct Neighbourhood {
 };
 
 /// Mean mu and half size gamma sigma of the clipping box (passes/WALR.md, 10). Border pixels repeat outside the image.
-Neighbourhood neighbourhoodOf(const Image<Guide>& guides, const Image<glm::dvec4>& filtered, glm::ivec2 p,
+Neighbourhood neighbourhoodOf(const Image<Guide>& guides, const Image<glm::dvec4>& filtered, glm::ivec2 p, double gamma,
                               const TemporalAntialiasingSettings& settings) {
   const auto radius = static_cast<int>(settings.clipRadius);
-  const auto gamma = double(settings.clipGamma);
   std::vector<glm::dvec3> colours;
   for (int dy = -radius; dy <= radius; ++dy) {
     for (int dx = -radius; dx <= radius; ++dx) {
@@ -61,6 +60,29 @@ Neighbourhood neighbourhoodOf(const Image<Guide>& guides, const Image<glm::dvec4
     n.reachError[i] = (atLeast ? 0.0 : gamma * deviationError) + 16.0 * kFloatRoundoff * least;
   }
   return n;
+}
+
+/// Whether history of another surface mixes in, by the tests of the taps that the history follows.
+struct Mixed {
+  bool found = false;
+  bool undecided = false;  ///< Rounding may decide.
+};
+
+Mixed mixedHistory(const HostFrame& frame, const Image<Guide>& guides, glm::ivec2 p, const Image<Guide>& previousGuides,
+                   const TemporalAntialiasingSettings& settings, bool keptTaps) {
+  HistoryTests tests = historyTestsOf(settings);
+  tests.objects = settings.objectIds && frame.objectId.size() == frame.size();
+  const bool tested = tests.rejection != HistoryRejection::None || tests.objects;
+  if (!tested || frame.scene.still() || !coversPixelArea(frame, settings)) return {};
+  const glm::ivec2 followed = followedPixel(guides, p, reprojectionOf(frame, settings, keptTaps));
+  const Reprojection r =
+      reproject(frame, guides, followed, {.dilateMotion = settings.dilateMotion, .keepTaps = keptTaps});
+  Mixed mixed{.undecided = r.undecided};
+  for (const HistoryTap& tap : historyTaps(frame, r, previousGuides, tests)) {
+    mixed.found |= !tap.matches;
+    mixed.undecided |= tap.undecided;
+  }
+  return mixed;
 }
 
 /// Error bound of a clipped colour in YCoCg, from the errors of the colour and of the box. Clipping scales all
@@ -121,21 +143,42 @@ HistoryTests historyTestsOf(const HostFrame& frame, const TemporalAntialiasingSe
   return tests;
 }
 
+glm::dvec3 lightOfFrame(const HostFrame& frame, const Image<Guide>& guides, const Image<glm::dvec4>& filtered,
+                        glm::ivec2 p, const TemporalAntialiasingSettings& settings) {
+  const auto radius = double(settings.filterRadius);
+  if (!coversPixelArea(frame, settings) || radius <= 0.5) return glm::dvec3(filtered[p]);
+  glm::dvec3 sum(0.0);
+  double weights = 0.0;
+  for (int dy = -1; dy <= 1; ++dy) {
+    for (int dx = -1; dx <= 1; ++dx) {
+      const glm::ivec2 q = glm::clamp(p + glm::ivec2(dx, dy), glm::ivec2(0), filtered.size() - 1);
+      if (guides[q].depth == 0.0 || filtered[q].w < 0.0) continue;
+      const glm::dvec2 offset = glm::dvec2(dx, dy) + glm::dvec2(frame.constants.jitter);
+      const double weight = std::max(radius - std::abs(offset.x), 0.0) * std::max(radius - std::abs(offset.y), 0.0);
+      sum += weight * glm::dvec3(filtered[q]);
+      weights += weight;
+    }
+  }
+  return sum / weights;
+}
+
 Image<Accumulated> antialias(const HostFrame& frame, const Image<Guide>& guides, const Image<glm::dvec4>& filtered,
                              const AntialiasingHistory& previous, Storage storage,
                              const TemporalAntialiasingSettings& settings, bool keptTaps) {
   Image<Accumulated> result(frame.size());
   const HistoryTests tests = historyTestsOf(frame, settings);
   forEachPixel(frame.size(), [&](glm::ivec2 p) {
-    const glm::dvec3 current(filtered[p]);
     const bool known = filtered[p].w >= 0.0;
     Accumulated& out = result[p];
-    out.mean = current;
+    out.mean = glm::dvec3(filtered[p]);
     if (guides[p].depth == 0.0) return;
-    if (known)
+    const glm::dvec3 current = known ? lightOfFrame(frame, guides, filtered, p, settings) : glm::dvec3(0.0);
+    out.mean = current;
+    if (known) {
       out.samples = 1.0;
-    else
-      out.mean = glm::dvec3(0.0);
+      // Nine products in YCoCg, whose components are at most the sum of the channels.
+      out.error = glm::dvec3(32.0 * kFloatRoundoff * (current.r + current.g + current.b));
+    }
     if (previous.guides.pixels().empty()) return;
     const Reprojection r = reproject(frame, guides, p, reprojectionOf(frame, settings, keptTaps));
     const HistorySample history =
@@ -150,7 +193,11 @@ Image<Accumulated> antialias(const HostFrame& frame, const Image<Guide>& guides,
       return;
     }
 
-    const Neighbourhood n = neighbourhoodOf(guides, filtered, p, settings);
+    const auto gamma = double(settings.clipGamma), edgeGamma = double(settings.edgeClipGamma);
+    const Mixed mixed =
+        edgeGamma < gamma ? mixedHistory(frame, guides, p, previous.guides, settings, keptTaps) : Mixed{};
+    out.undecided |= mixed.undecided;
+    const Neighbourhood n = neighbourhoodOf(guides, filtered, p, mixed.found ? edgeGamma : gamma, settings);
     const glm::dvec3 pastYCoCg = toYCoCg(glm::dvec3(history.value));
     const glm::dvec3 clipped = fromYCoCg(varianceClip(pastYCoCg, n.mean, n.reach));
     out.samples = std::min(history.value.w + 1.0, double(settings.maxHistory));
@@ -162,8 +209,8 @@ Image<Accumulated> antialias(const HostFrame& frame, const Image<Guide>& guides,
                                16.0 * kFloatRoundoff * (std::abs(pastYCoCg.x) + std::abs(n.mean.x));
     const glm::dvec3 boxError = clipError(pastYCoCg - n.mean, n, colourError);
     const double channelError = boxError.x + boxError.y + boxError.z;
-    out.error = glm::dvec3(channelError) + 8.0 * kFloatRoundoff * (glm::abs(clipped) + glm::abs(current)) +
-                out.samplesError * newest * newest * glm::abs(current - clipped);
+    out.error += glm::dvec3(channelError) + 8.0 * kFloatRoundoff * (glm::abs(clipped) + glm::abs(current)) +
+                 out.samplesError * newest * newest * glm::abs(current - clipped);
     if (storage == Storage::Quantised) {
       for (int i = 0; i < 3; ++i) out.mean[i] = roundToHalf(out.mean[i]);
       out.samples = roundToHalf(out.samples);

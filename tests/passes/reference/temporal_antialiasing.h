@@ -22,6 +22,12 @@ glm::dvec3 varianceClip(glm::dvec3 colour, glm::dvec3 mean, glm::dvec3 deviation
 /// Whether anti-aliasing averages a frame over the area of pixels: it is jittered (passes/WALR.md, 10).
 bool coversPixelArea(const HostFrame& frame, const TemporalAntialiasingSettings& settings);
 
+/// This frame's light of a pixel: in jittered frames an estimate of the mean over its area, from the samples around it
+/// (Karis 2014; passes/WALR.md, 10), else its own sample.
+/// @param filtered as for `antialias`; the pixel itself must have light
+glm::dvec3 lightOfFrame(const HostFrame& frame, const Image<Guide>& guides, const Image<glm::dvec4>& filtered,
+                        glm::ivec2 p, const TemporalAntialiasingSettings& settings);
+
 /// How anti-aliasing finds history.
 /// @param keptTaps see `antialias`
 ReprojectionOptions reprojectionOf(const HostFrame& frame, const TemporalAntialiasingSettings& settings, bool keptTaps);
