@@ -15,8 +15,6 @@ SAMPLES = (1, 2, 4, 16, 64)
 """Whole numbers of rays per pixel."""
 RESAMPLED_FRAMES = 20
 """Frames that the resampled input takes paths from: what engines take."""
-DEAREST_ON = ("sponza",)
-"""Scenes that are rendered with 64 rays per pixel."""
 PLAIN = {"1/4": 2, "1/9": 3}
 """The plain alternative: rate, and the factor by which its frames are smaller on each side."""
 
@@ -54,8 +52,7 @@ def of_scene(scene):
 
     found = {rate: entry(RateEntry, f"{scene}_rate_{rate.replace('/', '_')}", light_rate=rate) for rate in SPARSE}
     for samples in SAMPLES:
-        if samples < max(SAMPLES) or scene in DEAREST_ON:
-            found[str(samples)] = entry(RateEntry, f"{scene}_rate_{samples}", samples=samples)
+        found[str(samples)] = entry(RateEntry, f"{scene}_rate_{samples}", samples=samples)
     found["1, resampled"] = entry(RateEntry, f"{scene}_resampled", resampled_frames=RESAMPLED_FRAMES,
                                  warm_up=JUDGED[0])
     plain = {rate: entry(RateEntry, f"{scene}_plain_{rate.replace('/', '_')}", size=(SIZE[0] // side, SIZE[1] // side),
