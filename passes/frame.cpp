@@ -57,7 +57,8 @@ FrameConstants frameConstants(const FrameDescription& frame, fg::Extent extent) 
   constants.rayFromPixel = glm::vec4(ray);
   constants.previousRayFromPixel = glm::vec4(previousRay);
   constants.motionScale = frame.motionScale;
-  constants.jitter = frame.jitter;
+  // Weights of samples by their distance from the centre need the sample inside its pixel.
+  constants.jitter = glm::clamp(frame.jitter, -0.5F, 0.5F);
   constants.jitterDelta = glm::vec2(glm::dvec2(frame.jitter) - previousJitter);
   constants.previousPixelFromPixel = glm::vec2(previousSize / size);
   constants.pixelFromPreviousPixel = glm::vec2(pixelFromPreviousPixel);

@@ -129,6 +129,17 @@ TEST(FrameConstants, AJitteredRayPassesThroughTheDisplacedSample) {
   EXPECT_NEAR(before.y, pixel.y + 0.3, kPixelTolerance);
 }
 
+TEST(FrameConstants, AJitterOfMoreThanHalfAPixelMovesRaysButLeavesSamplesInTheirPixels) {
+  FrameDescription frame = movingCamera();
+  frame.jitter = {1.25F, -0.75F};
+  const FrameConstants constants = frameConstants(frame, kExtent);
+  EXPECT_EQ(constants.jitter, glm::vec2(0.5F, -0.5F));
+  const glm::vec2 pixel(100.5F, 50.5F);
+  const glm::dvec2 now = project(frame.projection, unproject(constants.rayFromPixel, pixel, 3.0F));
+  EXPECT_NEAR(now.x, pixel.x + 1.25, kPixelTolerance);
+  EXPECT_NEAR(now.y, pixel.y - 0.75, kPixelTolerance);
+}
+
 TEST(FrameConstants, AStillPointLandsWhereThePreviousCameraSawIt) {
   const FrameDescription frame = movingCamera();
   const FrameConstants constants = frameConstants(frame, kExtent);
