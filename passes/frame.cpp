@@ -57,7 +57,7 @@ FrameConstants frameConstants(const FrameDescription& frame, fg::Extent extent) 
   constants.rayFromPixel = glm::vec4(ray);
   constants.previousRayFromPixel = glm::vec4(previousRay);
   constants.motionScale = frame.motionScale;
-  // Weights of samples by their distance from the centre need the sample inside its pixel.
+  // A sample's weight falls with its distance from the pixel's centre, and would be negative far outside the pixel.
   constants.jitter = glm::clamp(frame.jitter, -0.5F, 0.5F);
   constants.jitterDelta = glm::vec2(glm::dvec2(frame.jitter) - previousJitter);
   constants.previousPixelFromPixel = glm::vec2(previousSize / size);

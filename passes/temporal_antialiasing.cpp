@@ -40,8 +40,8 @@ using ReadHistory = std::function<void(fg::PassBuilder& pass, bool view)>;
 /// The length that the highest level of a packed history length would stand for (packed_light.glsl).
 constexpr float kHighestLevel = 1 << (kLongestLevel - 1);
 
-/// Whether the clipping box is smaller where history of another surface mixes in. Whether it does is told by tests of
-/// the history taps, even where these accept all taps.
+/// Whether the clipping box is smaller where history of another surface mixes in. The tests of history taps tell where
+/// that is, although all taps are read.
 bool tightAtEdges(const TemporalAntialiasingSettings& settings) {
   const bool tests = settings.rejection != HistoryRejection::None || settings.objectIds;
   return tests && settings.edgeClipGamma < settings.clipGamma;

@@ -214,7 +214,7 @@ struct ResolvedHistory {
   bool mixed;    // With kTightAtEdges: some tap shows another surface.
 };
 
-// The taps of a frame that covers the pixel's area: the same, all accepted inside the image.
+// Accepts all taps inside the image, as frames that cover the pixel's area do.
 HistoryTaps withAllAccepted(HistoryTaps taps) {
   taps.accepted = tapsInside(taps, textureSize(previousResolved, 0));
   return taps;
@@ -304,8 +304,7 @@ struct Clipped {
 };
 
 Clipped clippedHistory(ResolvedHistory history) {
-  const bool tight = kTightAtEdges && history.mixed;
-  const ClippingBox box = clippingBox(tight ? constants.edgeClipGamma : constants.clipGamma);
+  const ClippingBox box = clippingBox(history.mixed ? constants.edgeClipGamma : constants.clipGamma);
   const vec3 mean = fromYCoCg(box.mean);
   const vec3 fromMean = history.light.rgb - mean, offset = toYCoCg(fromMean);
   const vec3 ratios = offset * offset / box.squaredHalfSize;

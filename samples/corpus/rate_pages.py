@@ -15,8 +15,8 @@ EXPLANATION = """# Error against rays per pixel
 Written by `samples/corpus/rates.py` from `rates.json`. The same frames of 384 x 216 pixels, jittered, with ever more rays of
 indirect light per pixel; one ray is one path. Below 1 the light is sparse (`walr render --light-rate`), and only methods that take
 sparse light are there. RMSE after the tone map x / (1 + x), free of the references' noise, over three frames in half of the squares
-of 64 x 64 pixels; references have 128 samples per pixel over its area. Eight frames of history come before the judged ones. Method settings are the defaults at every rate; `fast` is a preset of `walr`,
-the same as its default at sparse light.
+of 64 x 64 pixels; references have 128 samples per pixel over its area. Eight frames of history come before the judged
+ones. Method settings are the defaults at every rate; `fast` is a preset of `walr`, the same as its default at sparse light.
 
 * **input**: the noisy frames; **accumulate**: temporal accumulation alone.
 * **plain alternative**: trace at a half or a third of the size on each side, denoise there with `walr`, and interpolate by depth and

@@ -22,7 +22,7 @@ struct FrameConstants {
   float skyDepth;               // Scene units: from this view depth on there is sky.
   ivec2 lightOffset;            // Pixels: the pixel of its group that a texel of light belongs to (light_sample.glsl).
   ivec2 previousLightOffset;    // The previous frame's.
-  vec2 jitter;                  // Pixels: where this frame's samples lie, from the pixel's centre, y down.
+  vec2 jitter;                  // Pixels, y down: sample position minus pixel centre, at most 0.5 each way.
 };
 
 #ifdef __cplusplus

@@ -288,13 +288,14 @@ class ExpectedResult {
 
 /// How far the result of a pixel with this light may be from double precision.
 /// @param residuals ExpectedResult::residuals
-double toleranceOf(double light, double residuals) {
+/// @param partly    ExpectedResult::trustsInPart
+double toleranceOf(double light, double residuals, bool partly) {
   // The prediction and the result are rounded to halves. The device measures its statistics before this rounding, so
   // that its residuals differ from the test's by 2^-11 of the light. Root mean squares of residuals are above half of
   // the light here, so that mean squares differ by less than 2^-9. A share is x / (x + 1), where x is a ratio of two
   // such means: it differs by at most a quarter of 2^-8. Trust, where it is between 0 and 1, is a ratio divided by .2.
-  // The result of both is divided by 1 - least share.
-  const double shareError = std::exp2(-10.0) + 5.0 * std::exp2(-9.0);
+  // The product of both is divided by 1 - least share.
+  const double shareError = std::exp2(-10.0) + (partly ? 5.0 * std::exp2(-9.0) : 0.0);
   const double least = AccumulatedShareSettings{}.leastShare;
   return 2.0 * std::exp2(-11.0) * light + shareError / (1.0 - least) * residuals;
 }
@@ -323,7 +324,8 @@ class AccumulatedShare : public fg::test::GpuTest {
         edges = edges || expected.besideEdge(p);
         const auto [around, detail] = expected.added(p);
         const double x = predicted[p].g;
-        const double tolerance = toleranceOf(std::max(x, light.mean[p].g), expected.residuals(p));
+        const double tolerance =
+            toleranceOf(std::max(x, light.mean[p].g), expected.residuals(p), expected.trustsInPart());
         EXPECT_NEAR(actual[p].g, std::max(x + around + detail, 0.0), tolerance)
             << p.x << ", " << p.y << ", frame " << frame;
       });
@@ -362,7 +364,7 @@ TEST_F(AccumulatedShare, TakesMeansOfPixelsWithoutHistory) {
     const auto [around, detail] = before.added(p, now, 1.0);
     added = std::max(added, std::abs(around));
     const double x = predicted[p].g;
-    const double tolerance = toleranceOf(std::max(x, appearing.mean[p].g), now.residuals(p));
+    const double tolerance = toleranceOf(std::max(x, appearing.mean[p].g), now.residuals(p), false);
     EXPECT_NEAR(actual[p].g, std::max(x + around + detail, 0.0), tolerance) << p.x << ", " << p.y;
   });
   EXPECT_GT(added, 0.05);

@@ -62,6 +62,13 @@ Neighbourhood neighbourhoodOf(const Image<Guide>& guides, const Image<glm::dvec4
   return n;
 }
 
+/// The tests by which history taps show the surface of a pixel.
+HistoryTests surfaceTestsOf(const HostFrame& frame, const TemporalAntialiasingSettings& settings) {
+  HistoryTests tests = historyTestsOf(settings);
+  tests.objects = settings.objectIds && frame.objectId.size() == frame.size();
+  return tests;
+}
+
 /// Whether history of another surface mixes in, by the tests of the taps that the history follows.
 struct Mixed {
   bool found = false;
@@ -70,8 +77,7 @@ struct Mixed {
 
 Mixed mixedHistory(const HostFrame& frame, const Image<Guide>& guides, glm::ivec2 p, const Image<Guide>& previousGuides,
                    const TemporalAntialiasingSettings& settings, bool keptTaps) {
-  HistoryTests tests = historyTestsOf(settings);
-  tests.objects = settings.objectIds && frame.objectId.size() == frame.size();
+  const HistoryTests tests = surfaceTestsOf(frame, settings);
   const bool tested = tests.rejection != HistoryRejection::None || tests.objects;
   if (!tested || frame.scene.still() || !coversPixelArea(frame, settings)) return {};
   const glm::ivec2 followed = followedPixel(guides, p, reprojectionOf(frame, settings, keptTaps));
@@ -135,12 +141,8 @@ ReprojectionOptions reprojectionOf(const HostFrame& frame, const TemporalAntiali
 }
 
 HistoryTests historyTestsOf(const HostFrame& frame, const TemporalAntialiasingSettings& settings) {
-  HistoryTests tests = historyTestsOf(settings);
-  tests.objects = settings.objectIds && frame.objectId.size() == frame.size();
-  if (!coversPixelArea(frame, settings)) return tests;
-  tests.rejection = HistoryRejection::None;
-  tests.objects = false;
-  return tests;
+  return coversPixelArea(frame, settings) ? HistoryTests{.rejection = HistoryRejection::None}
+                                          : surfaceTestsOf(frame, settings);
 }
 
 glm::dvec3 lightOfFrame(const HostFrame& frame, const Image<Guide>& guides, const Image<glm::dvec4>& filtered,
@@ -176,7 +178,7 @@ Image<Accumulated> antialias(const HostFrame& frame, const Image<Guide>& guides,
     out.mean = current;
     if (known) {
       out.samples = 1.0;
-      // Nine products in YCoCg, whose components are at most the sum of the channels.
+      // Up to four products in YCoCg, whose components are at most the sum of the channels.
       out.error = glm::dvec3(32.0 * kFloatRoundoff * (current.r + current.g + current.b));
     }
     if (previous.guides.pixels().empty()) return;
