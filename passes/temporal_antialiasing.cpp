@@ -63,8 +63,8 @@ fg::Texture addStage(StageGraph graph, bool kept, const ReadHistory& read, fg::T
         .sample("previousResolved", resolved.previous)
         .specialize("kClipRadius", settings.clipRadius)
         .constants(TemporalAntialiasingConstants{settings.maxHistory, settings.clipGamma, settings.edgeClipGamma,
-                                                 settings.filterRadius, settings.planeTolerance,
-                                                 settings.normalThreshold})
+                                                 settings.filterRadius, settings.historySharpness,
+                                                 settings.planeTolerance, settings.normalThreshold})
         .dispatch(extent);
     if (packed) pass.specialize("kBeyondLevels", settings.maxHistory > kHighestLevel);
     return pass;

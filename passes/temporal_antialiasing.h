@@ -21,12 +21,13 @@ struct TemporalAntialiasingSettings {
   float edgeClipGamma = 1.5F;
   std::uint32_t clipRadius = 1;
   HistoryRejection rejection = HistoryRejection::Plane;
-  float planeTolerance = 0.01F;
+  float planeTolerance = 0.005F;
   float normalThreshold = 0.5F;
   bool objectIds = false;
   bool dilateMotion = false;
   bool pixelArea = true;
   float filterRadius = 0.75F;
+  float historySharpness = 0.75F;
   LightStorage storage = LightStorage::Half;
   /// Whether this is the method's only accumulation of light. Its history length is then that of the method, the host's
   /// confidence limits it, and it is never a mean over the pixel's area. Not a setting; needs the storage
@@ -71,6 +72,11 @@ struct TemporalAntialiasingSettings {
          "frame in and around it; 0.5 takes the pixel's own sample. No effect without pixel-area",
          "pixels", 0.5, 1.0, "Karis 2014"},
         filterRadius);
+    v.visit({"antialiasing.history-sharpness",
+             "Sharpness of the bicubic filter that reads the history in a jittered frame, -a of Keys 1981, equation 4; "
+             "0.5 is Catmull-Rom, which other frames use. No effect without pixel-area",
+             "", 0.0, 1.0, "Keys 1981"},
+            historySharpness);
   }
   /// For methods and stages whose filter can write both storages.
   void visitStorage(SettingVisitor& v) {

@@ -15,11 +15,12 @@ struct WalrSettings {
   bool spatialOnly = false;
   PrepareGuidesSettings guides;
   TemporalAccumulationSettings accumulation{
-      .maxHistory = 8.0F, .antilag = {.enabled = true}, .storage = LightStorage::Packed};
+      .maxHistory = 8.0F, .normalThreshold = 0.9F, .antilag = {.enabled = true}, .storage = LightStorage::Packed};
   AmbientOcclusionSettings occlusion;
   BlockRegressionSettings blocks;
   bool fitWindow = true;
-  TemporalAntialiasingSettings antialiasing{.clipGamma = 5.0F, .storage = LightStorage::Packed};
+  TemporalAntialiasingSettings antialiasing{
+      .clipGamma = 5.0F, .normalThreshold = 0.9F, .storage = LightStorage::Packed};
 
   void visit(SettingVisitor& v) {
     v.visit({"spatial-only", "Filter each frame by itself, without the temporal stages", "", 0, 1,

@@ -126,7 +126,8 @@ struct ReprojectedHistory {
 };
 
 ReprojectedHistory historyAt(HistoryTaps taps, vec2 position) {
-  const vec4 mean = kBicubicHistory ? bicubicOfTaps(previousAccumulated, taps) : meanOfTaps(previousAccumulated, taps);
+  const vec4 mean = kBicubicHistory ? bicubicOfTaps(previousAccumulated, taps, kCatmullRom)
+                                    : meanOfTaps(previousAccumulated, taps);
   return ReprojectedHistory(mean, position, tapsRejected(taps), 1.0);
 }
 

@@ -2,8 +2,8 @@
 // clips it to the variance of the current neighbourhood, and adds the current frame. The cumulative mean turns
 // exponential at `maxHistory`.
 // With kPixelArea, a jittered frame adds to the mean over the pixel's area: every history tap is accepted, whatever
-// surface it shows, and the history follows the nearest surface of the 3 x 3 pixels. What the frame adds is a mean over
-// the samples in and around the pixel.
+// surface it shows, and the history follows the nearest surface of the 3 x 3 pixels. The filter that reads it is sharper.
+// What the frame adds is a mean over the samples in and around the pixel.
 // KEPT_TAPS: reprojection comes from the taps that accumulation kept (history_taps.glsl). Otherwise it is done here, or
 // with kStill, nothing moves and the history of a pixel is the pixel itself.
 // PACKED: the filtered light and the history are packed light (packed_light.glsl); every surface has filtered light,
@@ -253,7 +253,8 @@ ResolvedHistory historyOf(ivec2 p) {
   } else {
     const HistoryTaps taps = tapsOf(p, history.mixed);
     history.rejected = tapsRejected(taps);
-    history.light = bicubicOfTaps(previousResolved, taps);
+    const float sharpness = coversArea() ? constants.historySharpness : kCatmullRom;
+    history.light = bicubicOfTaps(previousResolved, taps, sharpness);
   }
   history.light.a = confidentLength(p, history.light.a, constants.maxHistory);
   return history;

@@ -1,4 +1,4 @@
-// Reads a history texture with a Catmull-Rom filter.
+// Reads a history texture with a bicubic filter (Keys 1981).
 // PACKED: needs `kHistoryBits`, the mantissa bits of the history (packed_light.glsl), and `unpackHistoryLength`, for
 // lengths above 0.
 #ifndef WALR_BICUBIC_GLSL
@@ -6,15 +6,16 @@
 #include "history_taps.glsl"
 
 // Weights of the four pixels around a position, which lies `f` pixels past the second, and their sums over the first
-// two and the last two.
-struct CatmullRom {
+// two and the last two. `sharpness` is -a of Keys 1981, equation 4: how far the outer weights fall below 0.
+struct CubicWeights {
   vec4 each;
   vec2 halves;
 };
-CatmullRom catmullRom(float f) {
-  const float g = 1.0 - f, a = 0.5 * f * g;
-  const float first = a * (1.0 - 2.0 * f) + g, last = 1.0 - first;
-  return CatmullRom(vec4(-a * g, a * g + first, a * f + last, -a * f), vec2(first, last));
+const float kCatmullRom = 0.5;  // The sharpness whose error is of the third order.
+CubicWeights cubicWeights(float f, float sharpness) {
+  const float g = 1.0 - f, product = f * g, a = sharpness * product;
+  const float first = (product - a) * (1.0 - 2.0 * f) + g, last = 1.0 - first;
+  return CubicWeights(vec4(-a * g, a * g + first, a * f + last, -a * f), vec2(first, last));
 }
 
 // The 4 x 4 texels around a position, row by row; outside of the image, texels of its border.
@@ -59,14 +60,15 @@ vec4 finiteTexel(vec4 texel) { return hasLength(texel) ? texel : vec4(0.0); }
 // are accepted and each of the eight pixels beside them has history. Sky has none (length 0), and the filter would ring
 // its light into the surface. Otherwise radiance is the mean of the accepted taps. Alpha, the history length, is their
 // mean in both cases.
-// The bicubic filter takes the four corners of the 4 x 4 pixels, whose weights sum to 1/64 at most, from the plane
+// The bicubic filter takes the four corners of the 4 x 4 pixels, whose weights sum to sharpness^2 / 16 at most, from the plane
 // through the three pixels next to them.
-vec4 bicubicOfTaps(HISTORY_TEXTURE history, HistoryTaps taps) {
+vec4 bicubicOfTaps(HISTORY_TEXTURE history, HistoryTaps taps, float sharpness) {
   const TEXEL t[16] = texelsAround(history, taps);
   const TEXEL inner[4] = TEXEL[4](t[5], t[6], t[9], t[10]);
   const TEXEL beside[8] = TEXEL[8](t[1], t[2], t[4], t[7], t[8], t[11], t[13], t[14]);
 
-  const CatmullRom alongX = catmullRom(taps.fraction.x), alongY = catmullRom(taps.fraction.y);
+  const CubicWeights alongX = cubicWeights(taps.fraction.x, sharpness);
+  const CubicWeights alongY = cubicWeights(taps.fraction.y, sharpness);
   const vec4 x = alongX.each, y = alongY.each;
   const vec4 cubicInner = x.yzyz * y.yyzz - x.xwxw * y.xxww;
   const vec2 columns = alongX.halves, rows = alongY.halves;

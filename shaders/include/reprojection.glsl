@@ -177,7 +177,9 @@ bvec4 tapsOnPlane(TapGrid grid, HistoryTaps taps, Reprojection r, bvec4 candidat
   const vec2 slope = perPixel * vec2(grid.spacing);
   const vec4 products = first + vec4(0.0, slope.x, slope.y, slope.x + slope.y);
   tolerance *= r.depth;
-  float surface = r.depth * (first + dot(slope, taps.fraction));
+  // The taps lie around the position without jitter, but depths are those of samples, which jitter displaces.
+  const vec2 jitter = frame.jitterDelta * frame.previousPixelFromPixel / vec2(grid.spacing);
+  float surface = r.depth * (first + dot(slope, taps.fraction + jitter));
   if (kMotionDepthFound) surface = nearestTap(depths * products, candidates, surface, tolerance);
   return lessThanEqual(abs(depths * products - surface), vec4(tolerance));
 }

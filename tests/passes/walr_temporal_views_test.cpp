@@ -58,10 +58,11 @@ struct Past {
   bool undecided = false;
 };
 Past pastOf(const DeviceFrame& f, const Image<glm::dvec4>& before, glm::ivec2 p,
-            const reference::ReprojectionOptions& options, const reference::HistoryTests& tests, HistoryFilter filter) {
+            const reference::ReprojectionOptions& options, const reference::HistoryTests& tests,
+            const reference::HistoryReading& reading) {
   const reference::Reprojection r = reference::reproject(f.frame, f.current.guides, p, options);
   const auto taps = reference::historyTaps(f.frame, r, f.previous.guides, tests);
-  Past past{reference::sampleHistory(r, taps, before, filter), 0, r.undecided};
+  Past past{reference::sampleHistory(r, taps, before, reading), 0, r.undecided};
   for (const reference::HistoryTap& tap : taps) {
     // With no test of history only the image's border rejects a tap; the sky is skipped because it has no samples.
     const bool accepted =
@@ -78,7 +79,7 @@ void expectHistory(Comparison& comparison, const DeviceFrame& f, glm::ivec2 p, c
   const TemporalAccumulationSettings& accumulation = settings.accumulation();
   const Past past =
       pastOf(f, f.previous.accumulated, p, {.dilateMotion = accumulation.dilateMotion, .keepTaps = keepTaps},
-             reference::historyTestsOf(accumulation), accumulation.historyFilter);
+             reference::historyTestsOf(accumulation), {.filter = accumulation.historyFilter});
   if (comparison.skips(past.undecided)) return;
   const bool packed = settings.packsAccumulation();
   comparison.value(p, "history length", f.current.accumulated[p].w, view.x,
@@ -94,8 +95,9 @@ void expectClipping(Comparison& comparison, const DeviceFrame& f, glm::ivec2 p, 
   const glm::dvec3 clip = f.current.views.at("clip")[p];
   const glm::dvec3 resolved = f.current.views.at("resolved-history")[p];
   const TemporalAntialiasingSettings& antialiasing = settings.antialiasing();
-  const Past past = pastOf(f, f.previous.resolved, p, reference::reprojectionOf(f.frame, antialiasing, keepTaps),
-                           reference::historyTestsOf(f.frame, antialiasing), HistoryFilter::Bicubic);
+  const Past past =
+      pastOf(f, f.previous.resolved, p, reference::reprojectionOf(f.frame, antialiasing, keepTaps),
+             reference::historyTestsOf(f.frame, antialiasing), reference::historyReadingOf(f.frame, antialiasing));
   if (comparison.skips(past.undecided || past.history.found != (resolved.z == 0.0))) return;
   const bool packed = settings.packsAntialiasing();
   const double n = resolved.x;

@@ -47,11 +47,11 @@ HistorySample sampleBilinear(const Reprojection& r, const std::array<HistoryTap,
 
 /// Bicubic colour of the 4x4 pixels around the position; border pixels repeat outside the image. The corners are not
 /// read: each continues the plane of its three neighbours. Not found where one of the pixels has no history.
-HistorySample sampleBicubic(const Reprojection& r, const Image<glm::dvec4>& previous) {
+HistorySample sampleBicubic(const Reprojection& r, const Image<glm::dvec4>& previous, double sharpness) {
   const glm::dvec2 base = glm::floor(r.pixel - 0.5);
   const glm::dvec2 f = r.pixel - 0.5 - base;
-  const std::array<double, 4> wx = catmullRom(f.x);
-  const std::array<double, 4> wy = catmullRom(f.y);
+  const std::array<double, 4> wx = cubicWeights(f.x, sharpness);
+  const std::array<double, 4> wy = cubicWeights(f.y, sharpness);
   const auto isOuter = [](int i) { return i == 0 || i == 3; };
   std::array<std::array<glm::dvec4, 4>, 4> values;
   glm::dvec4 least(1e300);
@@ -78,25 +78,27 @@ HistorySample sampleBicubic(const Reprojection& r, const Image<glm::dvec4>& prev
   HistorySample history;
   history.found = least.w > 0.0;
   history.value = glm::max(sum, 0.0);
-  // A Catmull-Rom weight changes by at most 1.5 per pixel and axis, and the products of the weights sum to 1.6 at most.
-  history.error = 24.0 * r.error * (most - least) + 48.0 * kFloatRoundoff * most;
+  // A weight changes by at most 1.5 per pixel and axis. The weights of an axis sum to `size` at most, their products to
+  // its square.
+  const double size = 1.0 + 0.5 * sharpness;
+  history.error = 20.0 * size * r.error * (most - least) + 32.0 * size * size * kFloatRoundoff * most;
   return history;
 }
 
 }  // namespace
 
-std::array<double, 4> catmullRom(double f) {
-  const double f2 = f * f;
-  const double f3 = f2 * f;
-  return {(-f3 + 2.0 * f2 - f) / 2.0, (3.0 * f3 - 5.0 * f2 + 2.0) / 2.0, (-3.0 * f3 + 4.0 * f2 + f) / 2.0,
-          (f3 - f2) / 2.0};
+std::array<double, 4> cubicWeights(double f, double sharpness) {
+  const double a = -sharpness;
+  const auto inner = [a](double x) { return (a + 2.0) * x * x * x - (a + 3.0) * x * x + 1.0; };
+  const auto outer = [a](double x) { return a * x * x * x - 5.0 * a * x * x + 8.0 * a * x - 4.0 * a; };
+  return {outer(1.0 + f), inner(f), inner(1.0 - f), outer(2.0 - f)};
 }
 
 HistorySample sampleHistory(const Reprojection& r, const std::array<HistoryTap, 4>& taps,
-                            const Image<glm::dvec4>& previous, HistoryFilter filter, bool countEmptyTaps) {
+                            const Image<glm::dvec4>& previous, const HistoryReading& reading) {
   if (!r.valid) return {};
-  HistorySample history = sampleBilinear(r, taps, previous, countEmptyTaps);
-  if (filter == HistoryFilter::Bilinear || !history.found) return history;
+  HistorySample history = sampleBilinear(r, taps, previous, reading.countEmptyTaps);
+  if (reading.filter == HistoryFilter::Bilinear || !history.found) return history;
   // The position decides which four pixels are tested.
   const glm::dvec2 fraction = glm::fract(r.pixel - 0.5);
   for (int axis = 0; axis < 2; ++axis) {
@@ -105,7 +107,7 @@ HistorySample sampleHistory(const Reprojection& r, const std::array<HistoryTap, 
   }
   const bool allMatch = std::all_of(taps.begin(), taps.end(), [](const HistoryTap& tap) { return tap.matches; });
   if (!allMatch) return history;
-  const HistorySample bicubic = sampleBicubic(r, previous);
+  const HistorySample bicubic = sampleBicubic(r, previous, reading.sharpness);
   if (!bicubic.found) return history;
   history.value = glm::dvec4(glm::dvec3(bicubic.value), history.value.w);
   history.error = glm::dvec4(glm::dvec3(bicubic.error), history.error.w);

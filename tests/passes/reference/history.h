@@ -13,15 +13,21 @@ struct HistorySample {
   bool undecided = false;  ///< A decision lay within rounding: single precision may differ by more than `error`.
 };
 
-/// Catmull-Rom weights of four points, for a position `f` past the second one: the bicubic resampling of Meunier &
-/// Harada 2022, 4.2.
-std::array<double, 4> catmullRom(double f);
+/// How a history texture is read.
+struct HistoryReading {
+  HistoryFilter filter = HistoryFilter::Bilinear;
+  double sharpness = 0.5;       ///< Of a bicubic filter, 0 to 1; 1/2 is Catmull-Rom (Meunier & Harada 2022, 4.2).
+  bool countEmptyTaps = false;  ///< Accepted taps without history count as of length 0 in the history length.
+};
+
+/// Weights of four points, for a position `f` past the second one, by the kernel of Keys 1981, equation 4, where a is
+/// -`sharpness`.
+std::array<double, 4> cubicWeights(double f, double sharpness);
 
 /// Read a history texture at a reprojected position (Meunier & Harada 2022, 4.2; passes/WALR.md, 2 and 9). A bicubic
 /// read needs all four taps accepted and a history in all twelve pixels; otherwise it falls back to the bilinear mean
 /// of the accepted taps. The history length is always read bilinearly.
-/// @param countEmptyTaps whether accepted taps without history count as of length 0 in the history length
 HistorySample sampleHistory(const Reprojection& r, const std::array<HistoryTap, 4>& taps,
-                            const Image<glm::dvec4>& previous, HistoryFilter filter, bool countEmptyTaps = false);
+                            const Image<glm::dvec4>& previous, const HistoryReading& reading);
 
 }  // namespace walr::reference

@@ -100,7 +100,8 @@ Reprojection reproject(const HostFrame& frame, const Image<Guide>& guides, glm::
   if (fromCamera || frame.conventions.motionDepth != InputConventions::MotionDepth::Given) {
     previousDepth = -positionBefore(p).z;
   }
-  r.position = rayThrough(constants.previousRayFromPixel, there) * previousDepth;
+  // Of the sample, which jitter displaces.
+  r.position = rayThrough(constants.previousRayFromPixel, there + glm::dvec2(constants.jitterDelta)) * previousDepth;
   r.normal = glm::dmat3(previousFromCurrent) * guides[p].normal;
   r.object = guides[p].object;
   r.findsDepth = !fromCamera && frame.conventions.motionDepth == InputConventions::MotionDepth::Found;

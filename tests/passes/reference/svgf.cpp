@@ -106,8 +106,8 @@ Image<SvgfMoments> svgfAccumulate(const HostFrame& frame, const Image<Guide>& gu
           historyTaps(frame, r, history.guides,
                       {HistoryRejection::Plane, double(settings.planeTolerance), double(settings.normalThreshold)});
       for (HistoryTap& tap : taps) tap.matches = tap.matches && history.moments[tap.pixel].w > 0.0;
-      const HistorySample colour = sampleHistory(r, taps, history.colour, HistoryFilter::Bilinear);
-      const HistorySample moments = sampleHistory(r, taps, history.moments, HistoryFilter::Bilinear);
+      const HistorySample colour = sampleHistory(r, taps, history.colour, {});
+      const HistorySample moments = sampleHistory(r, taps, history.moments, {});
       out.colour = glm::dvec3(colour.value);
       out.mean = moments.value.x;
       out.square = moments.value.y;

@@ -62,8 +62,9 @@ Image<Accumulated> accumulate(const HostFrame& frame, const Image<Guide>& guides
     FrameOfHistory kappa;
     if (!previous.guides.pixels().empty()) {
       const Reprojection r = reproject(frame, guides, p, {.dilateMotion = settings.dilateMotion, .keepTaps = keepTaps});
-      past = sampleHistory(r, historyTaps(frame, r, previous.guides, historyTestsOf(settings), grid),
-                           previous.accumulated, settings.historyFilter, !frame.conventions.light.everyPixel());
+      past =
+          sampleHistory(r, historyTaps(frame, r, previous.guides, historyTestsOf(settings), grid), previous.accumulated,
+                        {.filter = settings.historyFilter, .countEmptyTaps = !frame.conventions.light.everyPixel()});
       kappa = frameOfHistory(frame, past, count, settings.maxHistory);
       if (past.found && !previous.antilag.pixels().empty()) {
         shorten(past, previous.antilag, r, settings.maxHistory, kappa.samples, count > 0.0);

@@ -145,6 +145,12 @@ HistoryTests historyTestsOf(const HostFrame& frame, const TemporalAntialiasingSe
                                           : surfaceTestsOf(frame, settings);
 }
 
+HistoryReading historyReadingOf(const HostFrame& frame, const TemporalAntialiasingSettings& settings) {
+  HistoryReading reading{.filter = HistoryFilter::Bicubic};
+  if (coversPixelArea(frame, settings)) reading.sharpness = double(settings.historySharpness);
+  return reading;
+}
+
 glm::dvec3 lightOfFrame(const HostFrame& frame, const Image<Guide>& guides, const Image<glm::dvec4>& filtered,
                         glm::ivec2 p, const TemporalAntialiasingSettings& settings) {
   const auto radius = double(settings.filterRadius);
@@ -169,6 +175,7 @@ Image<Accumulated> antialias(const HostFrame& frame, const Image<Guide>& guides,
                              const TemporalAntialiasingSettings& settings, bool keptTaps) {
   Image<Accumulated> result(frame.size());
   const HistoryTests tests = historyTestsOf(frame, settings);
+  const HistoryReading reading = historyReadingOf(frame, settings);
   forEachPixel(frame.size(), [&](glm::ivec2 p) {
     const bool known = filtered[p].w >= 0.0;
     Accumulated& out = result[p];
@@ -184,7 +191,7 @@ Image<Accumulated> antialias(const HostFrame& frame, const Image<Guide>& guides,
     if (previous.guides.pixels().empty()) return;
     const Reprojection r = reproject(frame, guides, p, reprojectionOf(frame, settings, keptTaps));
     const HistorySample history =
-        sampleHistory(r, historyTaps(frame, r, previous.guides, tests), previous.resolved, HistoryFilter::Bicubic);
+        sampleHistory(r, historyTaps(frame, r, previous.guides, tests), previous.resolved, reading);
     out.undecided = history.undecided;
     if (!history.found) return;
     if (!known) {

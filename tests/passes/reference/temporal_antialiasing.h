@@ -32,6 +32,8 @@ glm::dvec3 lightOfFrame(const HostFrame& frame, const Image<Guide>& guides, cons
 /// @param keptTaps see `antialias`
 ReprojectionOptions reprojectionOf(const HostFrame& frame, const TemporalAntialiasingSettings& settings, bool keptTaps);
 HistoryTests historyTestsOf(const HostFrame& frame, const TemporalAntialiasingSettings& settings);
+/// How it reads history.
+HistoryReading historyReadingOf(const HostFrame& frame, const TemporalAntialiasingSettings& settings);
 
 /// Temporal anti-aliasing, the postprocessing phase (Meunier & Harada 2022, 4.4; passes/WALR.md, 10): bicubic history,
 /// variance clipping, moving average. `Accumulated::error` bounds what single precision adds.
