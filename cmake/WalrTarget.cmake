@@ -11,6 +11,11 @@ function(walr_target target)
   endif()
 endfunction()
 
+# walr_compile_fast(<target>): optimizes a target less, because its code takes longer to compile than it runs.
+function(walr_compile_fast target)
+  target_compile_options(${target} PRIVATE $<$<CONFIG:RelWithDebInfo>:-O1>)
+endfunction()
+
 # walr_library(<name> SOURCES ...): adds a library target walr_<name> with the alias walr::<name>. Include paths start at
 # the project's root ("framegraph/declare/graph.h").
 function(walr_library name)
