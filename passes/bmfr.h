@@ -15,10 +15,10 @@ namespace walr {
 struct BmfrSettings {
   bool spatialOnly = false;
   PrepareGuidesSettings guides;
-  TemporalAccumulationSettings accumulation{.maxHistory = 5.0F, .normalThreshold = 0.9F};
+  TemporalAccumulationSettings accumulation{.maxHistory = 5.0F, .planeTolerance = 0.005F, .normalThreshold = 0.9F};
   BmfrFitSettings fit;
   BmfrAccumulationSettings fittedAccumulation;
-  TemporalAntialiasingSettings antialiasing{.normalThreshold = 0.9F};
+  TemporalAntialiasingSettings antialiasing{.planeTolerance = 0.005F, .normalThreshold = 0.9F};
 
   void visit(SettingVisitor& v) {
     v.visit({"spatial-only", "Fit each frame on its own, without the temporal stages", "", 0, 1,

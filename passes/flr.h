@@ -15,11 +15,11 @@ namespace walr {
 struct FlrSettings {
   bool spatialOnly = false;
   PrepareGuidesSettings guides;
-  TemporalAccumulationSettings accumulation{.maxHistory = 8.0F, .normalThreshold = 0.8F};
+  TemporalAccumulationSettings accumulation{.maxHistory = 8.0F, .planeTolerance = 0.005F, .normalThreshold = 0.8F};
   AmbientOcclusionSettings occlusion;
   FlrRegressionSettings regression;
   float singleFrameSigma = 12.0F;
-  TemporalAntialiasingSettings antialiasing{.normalThreshold = 0.8F};
+  TemporalAntialiasingSettings antialiasing{.planeTolerance = 0.005F, .normalThreshold = 0.8F};
 
   void visit(SettingVisitor& v) {
     visitBefore(v);

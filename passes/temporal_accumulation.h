@@ -22,7 +22,7 @@ enum class HistoryFilter : std::uint32_t { Bilinear, Bicubic };
 struct TemporalAccumulationSettings {
   float maxHistory = 16.0F;
   HistoryRejection rejection = HistoryRejection::Plane;
-  float planeTolerance = 0.005F;
+  float planeTolerance = 0.01F;
   float normalThreshold = 0.5F;
   HistoryFilter historyFilter = HistoryFilter::Bilinear;
   bool dilateMotion = false;

@@ -21,7 +21,7 @@ struct TemporalAntialiasingSettings {
   float edgeClipGamma = 1.5F;
   std::uint32_t clipRadius = 1;
   HistoryRejection rejection = HistoryRejection::Plane;
-  float planeTolerance = 0.005F;
+  float planeTolerance = 0.01F;
   float normalThreshold = 0.5F;
   bool objectIds = false;
   bool dilateMotion = false;

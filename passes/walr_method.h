@@ -14,13 +14,16 @@ namespace walr {
 struct WalrSettings {
   bool spatialOnly = false;
   PrepareGuidesSettings guides;
-  TemporalAccumulationSettings accumulation{
-      .maxHistory = 8.0F, .normalThreshold = 0.9F, .antilag = {.enabled = true}, .storage = LightStorage::Packed};
+  TemporalAccumulationSettings accumulation{.maxHistory = 8.0F,
+                                            .planeTolerance = 0.005F,
+                                            .normalThreshold = 0.9F,
+                                            .antilag = {.enabled = true},
+                                            .storage = LightStorage::Packed};
   AmbientOcclusionSettings occlusion;
   BlockRegressionSettings blocks;
   bool fitWindow = true;
   TemporalAntialiasingSettings antialiasing{
-      .clipGamma = 5.0F, .normalThreshold = 0.9F, .storage = LightStorage::Packed};
+      .clipGamma = 5.0F, .planeTolerance = 0.005F, .normalThreshold = 0.9F, .storage = LightStorage::Packed};
 
   void visit(SettingVisitor& v) {
     v.visit({"spatial-only", "Filter each frame by itself, without the temporal stages", "", 0, 1,
