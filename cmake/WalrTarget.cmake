@@ -11,7 +11,7 @@ function(walr_target target)
   endif()
 endfunction()
 
-# walr_compile_fast(<target>): optimizes a target less, because its code takes longer to compile than it runs.
+# walr_compile_fast(<target>): optimizes a target less. For code that takes longer to compile than to run.
 function(walr_compile_fast target)
   target_compile_options(${target} PRIVATE $<$<CONFIG:RelWithDebInfo>:-O1>)
 endfunction()

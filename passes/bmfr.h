@@ -3,6 +3,7 @@
 #include "framegraph/declare/graph.h"
 #include "passes/bmfr_accumulation.h"
 #include "passes/bmfr_fit.h"
+#include "passes/history_tests.h"
 #include "passes/inputs.h"
 #include "passes/prepare_guides.h"
 #include "passes/stage_graph.h"
@@ -15,10 +16,12 @@ namespace walr {
 struct BmfrSettings {
   bool spatialOnly = false;
   PrepareGuidesSettings guides;
-  TemporalAccumulationSettings accumulation{.maxHistory = 5.0F, .planeTolerance = 0.005F, .normalThreshold = 0.9F};
+  TemporalAccumulationSettings accumulation{
+      .maxHistory = 5.0F, .planeTolerance = kStrictPlaneTolerance, .normalThreshold = kStrictNormalThreshold};
   BmfrFitSettings fit;
   BmfrAccumulationSettings fittedAccumulation;
-  TemporalAntialiasingSettings antialiasing{.planeTolerance = 0.005F, .normalThreshold = 0.9F};
+  TemporalAntialiasingSettings antialiasing{.planeTolerance = kStrictPlaneTolerance,
+                                            .normalThreshold = kStrictNormalThreshold};
 
   void visit(SettingVisitor& v) {
     v.visit({"spatial-only", "Fit each frame on its own, without the temporal stages", "", 0, 1,

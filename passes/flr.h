@@ -3,6 +3,7 @@
 #include "framegraph/declare/graph.h"
 #include "passes/flr_regression.h"
 #include "passes/guide_network.h"
+#include "passes/history_tests.h"
 #include "passes/inputs.h"
 #include "passes/prepare_guides.h"
 #include "passes/stage_graph.h"
@@ -15,11 +16,12 @@ namespace walr {
 struct FlrSettings {
   bool spatialOnly = false;
   PrepareGuidesSettings guides;
-  TemporalAccumulationSettings accumulation{.maxHistory = 8.0F, .planeTolerance = 0.005F, .normalThreshold = 0.8F};
+  TemporalAccumulationSettings accumulation{
+      .maxHistory = 8.0F, .planeTolerance = kStrictPlaneTolerance, .normalThreshold = 0.8F};
   AmbientOcclusionSettings occlusion;
   FlrRegressionSettings regression;
   float singleFrameSigma = 12.0F;
-  TemporalAntialiasingSettings antialiasing{.planeTolerance = 0.005F, .normalThreshold = 0.8F};
+  TemporalAntialiasingSettings antialiasing{.planeTolerance = kStrictPlaneTolerance, .normalThreshold = 0.8F};
 
   void visit(SettingVisitor& v) {
     visitBefore(v);

@@ -14,6 +14,11 @@ enum class HistoryRejection : std::uint32_t {
   None,   ///< Not tested: every pixel with a history is accepted.
 };
 
+/// Defaults of methods that lose more by light of another surface in their history than by noise
+/// (HISTORY_EXPERIMENTS.md).
+inline constexpr float kStrictPlaneTolerance = 0.005F;
+inline constexpr float kStrictNormalThreshold = 0.9F;
+
 /// Visit the setting that chooses how a stage tests its history pixels.
 inline void visitRejection(SettingVisitor& v, std::string_view name, HistoryRejection& rejection) {
   static constexpr std::string_view kRejections[] = {"plane", "depth", "none"};

@@ -13,7 +13,7 @@ namespace walr {
 struct SvgfAccumulationSettings {
   float maxHistory = 8.0F;
   float maxMomentHistory = 5.0F;
-  float planeTolerance = 0.005F;
+  float planeTolerance = kStrictPlaneTolerance;
   float normalThreshold = 0.5F;
 
   void visit(SettingVisitor& v) {

@@ -2,6 +2,7 @@
 
 #include "framegraph/declare/graph.h"
 #include "passes/block_regression.h"
+#include "passes/history_tests.h"
 #include "passes/inputs.h"
 #include "passes/prepare_guides.h"
 #include "passes/stage_graph.h"
@@ -15,15 +16,17 @@ struct WalrSettings {
   bool spatialOnly = false;
   PrepareGuidesSettings guides;
   TemporalAccumulationSettings accumulation{.maxHistory = 8.0F,
-                                            .planeTolerance = 0.005F,
-                                            .normalThreshold = 0.9F,
+                                            .planeTolerance = kStrictPlaneTolerance,
+                                            .normalThreshold = kStrictNormalThreshold,
                                             .antilag = {.enabled = true},
                                             .storage = LightStorage::Packed};
   AmbientOcclusionSettings occlusion;
   BlockRegressionSettings blocks;
   bool fitWindow = true;
-  TemporalAntialiasingSettings antialiasing{
-      .clipGamma = 5.0F, .planeTolerance = 0.005F, .normalThreshold = 0.9F, .storage = LightStorage::Packed};
+  TemporalAntialiasingSettings antialiasing{.clipGamma = 5.0F,
+                                            .planeTolerance = kStrictPlaneTolerance,
+                                            .normalThreshold = kStrictNormalThreshold,
+                                            .storage = LightStorage::Packed};
 
   void visit(SettingVisitor& v) {
     v.visit({"spatial-only", "Filter each frame by itself, without the temporal stages", "", 0, 1,

@@ -173,13 +173,12 @@ bvec4 tapsOnPlane(TapGrid grid, HistoryTaps taps, Reprojection r, bvec4 candidat
                   float tolerance) {
   const vec2 firstPixel = (vec2(taps.base * grid.spacing + grid.first) + 0.5) * frame.pixelFromPreviousPixel;
   const float first = dot(normal, rayThrough(frame.previousRayFromPixel, firstPixel));
-  const vec2 perPixel = normal.xy * frame.previousRayFromPixel.xy * frame.pixelFromPreviousPixel;
-  const vec2 slope = perPixel * vec2(grid.spacing);
+  const vec2 perPixel = normal.xy * frame.previousRayFromPixel.xy;  // Pixels of this frame.
+  const vec2 slope = perPixel * frame.pixelFromPreviousPixel * vec2(grid.spacing);
   const vec4 products = first + vec4(0.0, slope.x, slope.y, slope.x + slope.y);
   tolerance *= r.depth;
-  // The taps lie around the position without jitter, but depths are those of samples, which jitter displaces.
-  const vec2 jitter = frame.jitterDelta * frame.previousPixelFromPixel / vec2(grid.spacing);
-  float surface = r.depth * (first + dot(slope, taps.fraction + jitter));
+  // The taps surround the reprojected pixel centre. Depths belong to the samples, which jitter moves away from centres.
+  float surface = r.depth * (first + dot(slope, taps.fraction) + dot(perPixel, frame.jitterDelta));
   if (kMotionDepthFound) surface = nearestTap(depths * products, candidates, surface, tolerance);
   return lessThanEqual(abs(depths * products - surface), vec4(tolerance));
 }

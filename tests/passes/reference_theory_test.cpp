@@ -1,6 +1,7 @@
 // Promises of linear regression, averaging and the edge-stopping function, tested on the double-precision reference
 // itself, on which the tests of a device rely.
 
+#include <array>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -9,6 +10,7 @@
 #include "passes/walr_method.h"
 #include "tests/passes/frame_symmetry.h"
 #include "tests/passes/reference/full_window.h"
+#include "tests/passes/reference/history.h"
 #include "tests/passes/reference/octahedral.h"
 #include "tests/passes/reference/walr.h"
 #include "tests/passes/synthetic_scene.h"
@@ -62,6 +64,23 @@ WeightedRegressionSettings withoutReplacement() {
   WeightedRegressionSettings settings;
   settings.replaceTaps = TapReplacement::Off;
   return settings;
+}
+
+// Every kernel of Keys 1981, equation 4, interpolates, is symmetric and keeps constants. Catmull-Rom alone keeps
+// parabolas.
+TEST(Theory, CubicWeightsInterpolate) {
+  for (const double sharpness : {0.0, 0.5, 0.75, 1.0}) {
+    EXPECT_EQ(reference::cubicWeights(0.0, sharpness), (std::array<double, 4>{0.0, 1.0, 0.0, 0.0}));
+    for (const double f : {0.1, 0.25, 0.5, 0.8}) {
+      const std::array<double, 4> w = reference::cubicWeights(f, sharpness);
+      const std::array<double, 4> mirrored = reference::cubicWeights(1.0 - f, sharpness);
+      for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(w[i], mirrored[3 - i], roundingOf(1.0));
+      EXPECT_NEAR(w[0] + w[1] + w[2] + w[3], 1.0, roundingOf(1.0));
+      const double parabola = w[0] + w[2] + 4.0 * w[3];  // x^2 at -1, 0, 1 and 2.
+      const double missed = 2.0 * (1.0 - 2.0 * sharpness) * f * f * (1.0 - f);
+      EXPECT_NEAR(parabola - f * f, missed, roundingOf(1.0)) << sharpness << ", " << f;
+    }
+  }
 }
 
 TEST(Theory, ConstantLightIsUnchanged) {

@@ -78,10 +78,10 @@ HistorySample sampleBicubic(const Reprojection& r, const Image<glm::dvec4>& prev
   HistorySample history;
   history.found = least.w > 0.0;
   history.value = glm::max(sum, 0.0);
-  // A weight changes by at most 1.5 per pixel and axis. The weights of an axis sum to `size` at most, their products to
-  // its square.
+  // Each of an axis' four weights changes by at most 1.5 per pixel. Their absolute values sum to `size` at most, and
+  // those of the products of both axes to its square.
   const double size = 1.0 + 0.5 * sharpness;
-  history.error = 20.0 * size * r.error * (most - least) + 32.0 * size * size * kFloatRoundoff * most;
+  history.error = 16.0 * size * r.error * (most - least) + 30.0 * size * size * kFloatRoundoff * most;
   return history;
 }
 
