@@ -20,16 +20,18 @@ using Clock = std::chrono::steady_clock;
 /// How much is done. The quick one only shows that everything runs.
 struct Effort {
   TimingEffort timing;
-  std::uint32_t probeSide;  ///< Of `measureBandwidth`.
+  LoopLength warmUpAfterPause;  ///< Of the first method after frames were made, while the GPU had nothing to do.
+  std::uint32_t probeSide;      ///< Of `measureBandwidth`.
   std::size_t probeRepetitions;
   fg::Extent comparedExtent;
   int comparedFrames;
   std::uint32_t truthSamples;  ///< Per pixel, of the traced truth.
 };
 
-// A quarter of a second brings the clocks up. Slow methods stop after a second.
+// A quarter of a second brings the clocks up, except after a pause of seconds. Slow methods stop after a second.
 constexpr Effort kWhole{.timing = {.warmUp = {.least = 2, .most = 1000, .seconds = 0.25},
                                    .timed = {.least = 4, .most = 128, .seconds = 1.0}},
+                        .warmUpAfterPause = {.least = 2, .most = 100'000, .seconds = 1.5},
                         .probeSide = 4096,
                         .probeRepetitions = 20,
                         .comparedExtent = {192, 108},
@@ -37,6 +39,7 @@ constexpr Effort kWhole{.timing = {.warmUp = {.least = 2, .most = 1000, .seconds
                         .truthSamples = 256};
 constexpr Effort kQuick{
     .timing = {.warmUp = {.least = 1, .most = 1, .seconds = 0.0}, .timed = {.least = 3, .most = 3, .seconds = 0.0}},
+    .warmUpAfterPause = {.least = 1, .most = 1, .seconds = 0.0},
     .probeSide = 128,
     .probeRepetitions = 2,
     .comparedExtent = {64, 36},
@@ -169,10 +172,13 @@ class Reporter {
       whyNot = "the frames do not fit into the machine's memory";
     }
     if (content) times.description = content->description;
+    TimingEffort effort = effort_.timing;
+    effort.warmUp = effort_.warmUpAfterPause;
     for (const Variant& variant : options_.variants) {
       if (late()) whyNot = lateText();
       if (whyNot.empty()) {
-        times.methods.push_back(timeMethod(device, variant, *content, report_.machines, effort_.timing));
+        times.methods.push_back(timeMethod(device, variant, *content, report_.machines, effort));
+        if (times.methods.back().timing.milliseconds) effort = effort_.timing;
       } else {
         MethodTimes& skipped = times.methods.emplace_back();
         skipped.variant = variant.name;

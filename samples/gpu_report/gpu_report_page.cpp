@@ -139,7 +139,8 @@ std::string timesTable(const ContentMethodTimes& times) {
     double bytes = 0.0;
     for (const PassModel& model : method.models) bytes += model.bytes;
     const double median = method.timing.milliseconds->median;
-    rows.push_back({"`" + method.variant + "`", withRange(*method.timing.milliseconds),
+    rows.push_back({"`" + method.variant + "`",
+                    withRange(*method.timing.milliseconds) + (method.unsteady() ? " **unsteady**" : ""),
                     std::to_string(method.timing.frames), fixed(estimate, 1), ratio(median, estimate),
                     fixed(bytes * kGiga / (median * 1e-3), 1)});
   }
@@ -182,7 +183,9 @@ const ContentMethodTimes* passesContent(const GpuReport& report) {
 std::string timesSections(const GpuReport& report) {
   std::string text =
       "## Times\n\nBy GPU timestamps, on two frames in alternation that lie in device memory, after a "
-      "warm-up. **Plan's GB/s**: bytes of the plan, each texel once a pass, over the measured time.\n\n" +
+      "warm-up. **Plan's GB/s**: bytes of the plan, each texel once a pass, over the measured time. **Unsteady**: the "
+      "95 % quantile is more than 1.5 times the median; clock rates changed, or another program used the device, so "
+      "measure again.\n\n" +
       modelNote(report);
   for (const ContentMethodTimes& times : report.times) text += timesTable(times);
   const ContentMethodTimes* const shown = passesContent(report);

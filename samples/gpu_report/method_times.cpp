@@ -39,6 +39,11 @@ std::optional<double> MethodTimes::estimatedMicroseconds() const {
   return estimate.microseconds();
 }
 
+bool MethodTimes::unsteady() const {
+  constexpr double kSteady = 1.5;
+  return timing.milliseconds && timing.milliseconds->p95 > kSteady * timing.milliseconds->median;
+}
+
 std::string whyTooLarge(const GpuDevice& device, const Variant& variant, fg::Extent extent) {
   // Lighting, normal, motion and albedo of 8 bytes, depth of 4; the result has 8.
   constexpr double kBytesOfFrame = 36.0;

@@ -32,6 +32,9 @@ struct MethodTimes {
 
   /// Estimate of a frame at peak rates (`FrameEstimate`) in microseconds; nothing if a pass has none.
   [[nodiscard]] std::optional<double> estimatedMicroseconds() const;
+  /// Whether the 95 % quantile is more than 1.5 times the median: clock rates changed meanwhile, or another program
+  /// used the device. On an H100 without other work, methods that had warmed up stayed within 1.05.
+  [[nodiscard]] bool unsteady() const;
 };
 
 /// Times of all methods on one content.

@@ -87,6 +87,15 @@ TEST(MethodTimesTest, EstimateIsTheSumOfTheLargestBounds) {
   EXPECT_FALSE(times.estimatedMicroseconds().has_value());
 }
 
+TEST(MethodTimesTest, IsUnsteadyBeyondOneAndAHalfTimesTheMedian) {
+  MethodTimes times;
+  EXPECT_FALSE(times.unsteady()) << "no times";
+  times.timing.milliseconds = Spread{2.0, 1.0, 3.0};
+  EXPECT_FALSE(times.unsteady());
+  times.timing.milliseconds->p95 = 3.1;
+  EXPECT_TRUE(times.unsteady());
+}
+
 GpuReport smallReport() {
   GpuReport report;
   report.device.name = "Abacus 9000";
@@ -100,10 +109,13 @@ GpuReport smallReport() {
   timed.timing.milliseconds = Spread{0.5, 0.4, 0.6};
   timed.timing.passes = {{"filter", {0.5, 0.4, 0.6}}};
   timed.models = {{.bytes = 1e6, .peak = Bounds{.bytes = 250.0}, .attainable = Bounds{.bytes = 400.0}}};
+  MethodTimes disturbed = timed;
+  disturbed.variant = "svgf";
+  disturbed.timing.milliseconds = Spread{0.5, 0.4, 1.2};
   MethodTimes left;
   left.variant = "flr";
   left.whyNot = "needs 9 MiB";
-  report.times = {{"scene", "beads", {1920, 1080}, {timed, left}}, {"scene", "", {3840, 2160}, {left}}};
+  report.times = {{"scene", "beads", {1920, 1080}, {timed, disturbed, left}}, {"scene", "", {3840, 2160}, {left}}};
   return report;
 }
 
@@ -113,7 +125,8 @@ TEST(GpuReportPage, ShowsTimesOverEstimatesAndWhatDidNotRun) {
       page,
       {"# Abacus 9000", "no timestamps", "Clocks are not known: it has none", "no layer", "no estimates: it has beads",
        "truth only: no processor", "| `walr` | 0.5000 (0.4000 to 0.6000) | 5 | 250.0 | 2.00 | 2.0 |",
-       "| `flr` | needs 9 MiB |", "## Passes at 1920 x 1080, scene",
+       "| `svgf` | 0.5000 (0.4000 to 1.2000) **unsteady** | 5 |", "| `flr` | needs 9 MiB |",
+       "## Passes at 1920 x 1080, scene",
        "| filter | 0.5000 (0.4000 to 0.6000) | 1.0 | 250.0 | bytes | 2.00 | 400.0 | 1.25 |"});
 }
 
