@@ -19,15 +19,23 @@ namespace {
 
 constexpr const char* kNoDriver =
     "no Vulkan driver found: install one (Mesa's software driver is the package mesa-vulkan-drivers), or correct "
-    "VK_DRIVER_FILES and VK_ICD_FILENAMES if they are set";
+    "VK_DRIVER_FILES and VK_ICD_FILENAMES if they are set. With VK_LOADER_DEBUG=error, the loader tells which driver it "
+    "could not load, and why";
+
+/// The layer warns that a function of a physical device was asked for by vkGetDeviceProcAddr. Some drivers and loaders
+/// do so themselves while a device is created (KhronosGroup/Vulkan-ValidationLayers, issue 8048). A program that did it
+/// would get a null pointer, and so an error.
+constexpr std::string_view kQueryOfDriver = "WARNING-vkGetDeviceProcAddr-device";
 
 VKAPI_ATTR VkBool32 VKAPI_CALL forwardMessage(VkDebugUtilsMessageSeverityFlagBitsEXT severity,
                                               VkDebugUtilsMessageTypeFlagsEXT,
                                               const VkDebugUtilsMessengerCallbackDataEXT* data, void* sink) {
+  const char* const id = data->pMessageIdName != nullptr ? data->pMessageIdName : "";
+  if (id == kQueryOfDriver) return VK_FALSE;
   const auto& take = *static_cast<const MessageSink*>(sink);
   take({severity >= VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT ? Message::Severity::Error
                                                                   : Message::Severity::Warning,
-        data->pMessageIdName != nullptr ? data->pMessageIdName : "", data->pMessage != nullptr ? data->pMessage : ""});
+        id, data->pMessage != nullptr ? data->pMessage : ""});
   return VK_FALSE;
 }
 

@@ -12,9 +12,9 @@ inline constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
 /// The instance extension by which a layer takes settings from the program.
 inline constexpr const char* kLayerSettingsExtension = "VK_EXT_layer_settings";
 
-/// Tells the Khronos validation layer to check synchronization, which it does not do by default. Newer versions of the
-/// layer also leave out what shaders access unless they are told otherwise, and so would see no hazard between compute
-/// passes.
+/// Tells the Khronos validation layer to check synchronization, which it does not do by default, and to report every
+/// message. Newer versions of the layer leave out what shaders access unless they are told otherwise, and so would see
+/// no hazard between compute passes; and they leave out the eleventh message of a kind and all after it.
 class ValidationSettings {
  public:
   /// @param layerSettings whether the layer has the extension VK_EXT_layer_settings. Versions without it do not know

@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <map>
+#include <string>
 
 #include "tests/vulkan/gpu_fixture.h"
 #include "tests/vulkan/graph_run.h"
@@ -75,6 +77,40 @@ TEST_F(ValidationTest, WrongLayoutIsCaught) {
   PlannedPass* pass = nullptr;
   findBarrier(BarrierReason::ReadAfterWrite, pass)->newLayout = VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL;
   EXPECT_FALSE(messagesOf(plan_).empty());
+}
+
+TEST_F(ValidationTest, NoMessageIsLeftOutAsOneTooMany) {
+  PlannedPass* pass = nullptr;
+  findBarrier(BarrierReason::ReadAfterWrite, pass)->newLayout = VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL;
+  std::map<std::string, int> count;
+  for (int i = 0; i < 12; ++i) {
+    for (const vk::Message& message : messagesOf(plan_)) ++count[message.id];
+  }
+  const auto most = std::ranges::max_element(count, {}, &std::pair<const std::string, int>::second);
+  ASSERT_NE(most, count.end());
+  EXPECT_GE(most->second, 12) << most->first;
+}
+
+/// Sends messages through the layer's messenger, as a layer does.
+class MessageTest : public GpuTest {
+ protected:
+  void send(const char* id) {
+    const auto submit = reinterpret_cast<PFN_vkSubmitDebugUtilsMessageEXT>(
+        vk::openLoader()(instance().handle(), "vkSubmitDebugUtilsMessageEXT"));
+    VkDebugUtilsMessengerCallbackDataEXT data{};
+    data.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CALLBACK_DATA_EXT;
+    data.pMessageIdName = id;
+    data.pMessage = "sent by a test";
+    submit(instance().handle(), VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT,
+           VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT, &data);
+  }
+};
+
+TEST_F(MessageTest, WhatADriverAsksForIsNone) {
+  send("WARNING-vkGetDeviceProcAddr-device");
+  EXPECT_TRUE(takeMessages().empty());
+  send("VUID-vkGetDeviceProcAddr-device-parameter");
+  EXPECT_EQ(takeMessages().size(), 1U);
 }
 
 }  // namespace
