@@ -262,7 +262,7 @@ def response_section(kept):
 def results_page(kept, static, gpu):
     noise = listed(f"{number(v, 4)} on `{s}`" for s, v in kept["noise"].items() if v is not None)
     standings = "".join(f"* On `{s}` " + standing({n: m["sequences"][s] for n, m in kept["methods"].items() if not n.startswith("walr:")}, "walr", list(LABELS)) + ".\n"
-                        for s in kept["noise"]) + "  Its other presets are not counted here.\n"
+                        for s in kept["noise"]) + "  Other presets of `walr` are not counted here.\n"
     vmaf = ""
     if kept["vmaf"]:
         program, model = kept["vmaf"].rsplit(", ", 1)

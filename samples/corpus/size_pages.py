@@ -102,10 +102,10 @@ def page(records, rates, lines):
     """records: figures of all records of the corpus; lines: height of the pictures of rates.json."""
     return (EXPLANATION + commits_table(records, rates, lines) + "\n" + errors_table(records, rates, lines) +
             "\n## Where `walr` is behind\n\nMethods whose RMSE is smaller than that of `walr` beyond the interval, and by more than "
-            f"{100 * LEAST_LEAD:.0f} %. Sequences of {lines} lines have no intervals and are left out. [PLACES.md](PLACES.md) says why "
-            "`walr` is behind on some of them, and describes the places of largest error.\n\n" + behind_table(records) +
-            "\n## Sequences held back\n\nNo setting was chosen by these sequences. The table by which the last ones "
-            "(growth, coarse window, antilag) were chosen also held those of 540 lines, but not those of 1080 lines. "
+            f"{100 * LEAST_LEAD:.0f} %. Sequences of {lines} lines have no intervals and are left out. [PLACES.md](PLACES.md) describes "
+            "the places of largest error.\n\n" + behind_table(records) +
+            "\n## Sequences held back\n\nNo setting was chosen by those of 1080 lines. Those of 540 lines were in the table by "
+            "which growth, the coarse window and antilag were last chosen. "
             "The ratio is the gain of `walr` on them over its gain "
             "on the others; from 1 on, the whole gain holds elsewhere, too. Small gains are uncertain: the pages above give their "
             "intervals.\n\n" + gains_table(records))

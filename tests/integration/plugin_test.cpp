@@ -224,10 +224,17 @@ TEST_F(PluginTest, SingleStagesGiveThePixelsOfTheWholeMethod) {
        {{"prepare_guides", {}}, {"temporal_accumulation", {}}, {"pass_through", {}, {{"filtered", "accumulated"}}}}},
       {"walr",
        {{"prepare_guides_with_occlusion", {}},
-        {"temporal_accumulation_with_taps", with({{"accumulation.max-history", "8"}, {"accumulation.antilag", "on"}})},
+        {"temporal_accumulation_with_taps", with({{"accumulation.max-history", "8"},
+                                                  {"accumulation.plane-tolerance", "0.005"},
+                                                  {"accumulation.normal-threshold", "0.9"},
+                                                  {"accumulation.antilag", "on"}})},
         {"block_regression",
          with({{"blocks.iterations", "2"}, {"accumulation.max-history", "8"}, {"accumulation.antilag", "on"}})},
-        {"temporal_antialiasing_with_taps", {{"antialiasing.clip-gamma", "5"}, {"antialiasing.storage", "packed"}}}}}};
+        {"temporal_antialiasing_with_taps",
+         {{"antialiasing.clip-gamma", "5"},
+          {"antialiasing.plane-tolerance", "0.005"},
+          {"antialiasing.normal-threshold", "0.9"},
+          {"antialiasing.storage", "packed"}}}}}};
   const auto compare = [&](const std::string& method, const std::vector<Link>& links, VkFormat confidence) {
     const auto described = [&](const char* name) {
       WalrDenoiserInfo result = info(name, kSize);

@@ -275,11 +275,12 @@ typedef void (*WalrLog)(void* user, WalrLogLevel level, const char* text);
 
 typedef struct WalrDenoiserInfo {
   uint32_t struct_size;
-  uint32_t frames_in_flight; /* Frames that may be recorded before the GPU finishes the first; 0 means 2. */
+  uint32_t frames_in_flight; /* Frames that may be recorded before the GPU finishes the first, at most 16; 0 means 2. */
   const WalrDevice* device;
   const char* method; /* Null means "walr". */
   const char* preset; /* Null means the method's first. */
-  uint32_t width;     /* Pixels. */
+  /* Pixels, 1 to 16384. Less if a method needs a buffer of more than 128 MiB; the error then names it. */
+  uint32_t width;
   uint32_t height;
   const WalrConventions* conventions; /* Null means all zero. */
   /* Formats of the host's images; VK_FORMAT_UNDEFINED means the usual one, see WalrPort::format. Any other must be
@@ -314,8 +315,8 @@ typedef struct WalrDenoiserInfo {
    * which are prepared once, and the search for their history. Each has its own histories and settings. The results are
    * those of two denoisers, to the bit. The images of the second light are WalrFrame::second_lighting and those after
    * it; their formats are those of the first. View, counters and lint are those of the first light. Settings that
-   * decide which guides are made ("guides.*", "occlusion.*", "scene.*") must be the same for both. Methods without
-   * guides and single stages have one light. */
+   * decide which guides are made must be the same for both; the error text lists them. Methods without guides and
+   * single stages have one light. */
   uint32_t light_count;
   const char* second_preset; /* With two lights: the preset of the second. Null means `preset`. */
 } WalrDenoiserInfo;

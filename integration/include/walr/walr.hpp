@@ -58,7 +58,8 @@ class Owned {
   explicit Owned(Handle handle) noexcept : handle_(handle) {}
   Owned(Owned&& other) noexcept : handle_(std::exchange(other.handle_, nullptr)) {}
   Owned& operator=(Owned&& other) noexcept {
-    std::swap(handle_, other.handle_);
+    Owned taken(std::move(other));
+    std::swap(handle_, taken.handle_);
     return *this;
   }
   Owned(const Owned&) = delete;
