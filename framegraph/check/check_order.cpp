@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <optional>
 
 #include "framegraph/check/checks.h"
 #include "framegraph/declare/dependencies.h"

@@ -2,9 +2,8 @@
 
 #include <algorithm>
 #include <functional>
-#include <map>
 #include <numeric>
-#include <queue>
+#include <tuple>
 #include <utility>
 
 namespace fg {

@@ -31,11 +31,15 @@ const AccessInfo& accessInfo(Access access);
 VkImageUsageFlags imageUsageIn(const ExternalState& state);
 VkBufferUsageFlags bufferUsageIn(const ExternalState& state);
 
-/// All access flags that write.
-inline constexpr VkAccessFlags2 kWriteAccesses = VK_ACCESS_2_SHADER_WRITE_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT |
-                                                 VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT |
-                                                 VK_ACCESS_2_TRANSFER_WRITE_BIT | VK_ACCESS_2_HOST_WRITE_BIT |
-                                                 VK_ACCESS_2_MEMORY_WRITE_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT |
-                                                 VK_ACCESS_2_ACCELERATION_STRUCTURE_WRITE_BIT_KHR;
+/// All access flags that write, those of extensions included: a host may hand over what it wrote with one of them, such
+/// as motion from optical flow. 0x4000000000 is VK_ACCESS_2_VIDEO_ENCODE_WRITE_BIT_KHR, which older headers hide.
+inline constexpr VkAccessFlags2 kWriteAccesses =
+    VK_ACCESS_2_SHADER_WRITE_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT |
+    VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT | VK_ACCESS_2_TRANSFER_WRITE_BIT | VK_ACCESS_2_HOST_WRITE_BIT |
+    VK_ACCESS_2_MEMORY_WRITE_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT |
+    VK_ACCESS_2_ACCELERATION_STRUCTURE_WRITE_BIT_KHR | VK_ACCESS_2_TRANSFORM_FEEDBACK_WRITE_BIT_EXT |
+    VK_ACCESS_2_TRANSFORM_FEEDBACK_COUNTER_WRITE_BIT_EXT | VK_ACCESS_2_COMMAND_PREPROCESS_WRITE_BIT_NV |
+    VK_ACCESS_2_MICROMAP_WRITE_BIT_EXT | VK_ACCESS_2_OPTICAL_FLOW_WRITE_BIT_NV |
+    VK_ACCESS_2_VIDEO_DECODE_WRITE_BIT_KHR | VkAccessFlags2{0x4000000000};
 
 }  // namespace fg

@@ -1,5 +1,3 @@
-#include <algorithm>
-#include <numeric>
 #include <sstream>
 
 #include "framegraph/declare/access.h"

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <optional>
 
 #include "framegraph/verify/verify_device.h"
 #include "framegraph/verify/verify_structure.h"

@@ -14,9 +14,7 @@ bool takesHalves(const PhysicalDevice& device, HalfArithmetic halves) {
   return wanted && device.shaderFloat16;
 }
 
-VkDevice createDevice(const Instance& instance, const PhysicalDevice& physicalDevice,
-                      std::span<const char* const> wanted, const void* wantedFeatures, bool halves) {
-  require(physicalDevice);
+void requireExtensions(const PhysicalDevice& physicalDevice, std::span<const char* const> wanted) {
   for (const char* const extension : wanted) {
     if (std::ranges::find(physicalDevice.extensions, extension) == physicalDevice.extensions.end()) {
       throw Unsupported("device '" + physicalDevice.name + "' lacks the extension " + extension +
@@ -24,36 +22,53 @@ VkDevice createDevice(const Instance& instance, const PhysicalDevice& physicalDe
                         VK_ERROR_EXTENSION_NOT_PRESENT);
     }
   }
-  const float priority = 1.0f;
-  VkDeviceQueueCreateInfo queue{};
-  queue.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO;
-  queue.queueFamilyIndex = physicalDevice.computeQueueFamily;
-  queue.queueCount = 1;
-  queue.pQueuePriorities = &priority;
+}
 
-  VkPhysicalDeviceShaderFloat16Int8Features float16{};
-  float16.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SHADER_FLOAT16_INT8_FEATURES;
-  float16.pNext = const_cast<void*>(wantedFeatures);  // Read only, but Vulkan's struct also serves queries.
-  float16.shaderFloat16 = VK_TRUE;
-  VkPhysicalDeviceMaintenance4Features maintenance4{};
-  maintenance4.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_4_FEATURES;
-  maintenance4.pNext = halves ? &float16 : float16.pNext;
-  maintenance4.maintenance4 = VK_TRUE;
-  VkPhysicalDeviceTimelineSemaphoreFeatures timeline{};
-  timeline.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_TIMELINE_SEMAPHORE_FEATURES;
-  timeline.pNext = physicalDevice.maintenance4 ? &maintenance4 : maintenance4.pNext;
-  timeline.timelineSemaphore = physicalDevice.timelineSemaphore ? VK_TRUE : VK_FALSE;
-  VkPhysicalDeviceSynchronization2Features synchronization2{};
-  synchronization2.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SYNCHRONIZATION_2_FEATURES;
-  synchronization2.pNext = physicalDevice.timelineSemaphore ? &timeline : timeline.pNext;
-  synchronization2.synchronization2 = VK_TRUE;
-  VkPhysicalDeviceFeatures2 features{};
-  features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
-  features.pNext = &synchronization2;
-  features.features.shaderStorageImageExtendedFormats = VK_TRUE;
-  features.features.shaderStorageImageWriteWithoutFormat = physicalDevice.features.shaderStorageImageWriteWithoutFormat;
-  features.features.shaderInt16 = physicalDevice.features.shaderInt16;
+/// The features to enable, as a chain for `VkDeviceCreateInfo::pNext`.
+class FeatureChain {
+ public:
+  /// @param wanted further feature structs
+  FeatureChain(const PhysicalDevice& physicalDevice, bool halves, const void* wanted)
+      : first_(const_cast<void*>(wanted)) {  // Read only, but Vulkan's structs also serve queries.
+    float16_.shaderFloat16 = VK_TRUE;
+    if (halves) prepend(float16_, VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SHADER_FLOAT16_INT8_FEATURES);
+    maintenance4_.maintenance4 = VK_TRUE;
+    if (physicalDevice.maintenance4) prepend(maintenance4_, VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_4_FEATURES);
+    timeline_.timelineSemaphore = VK_TRUE;
+    if (physicalDevice.timelineSemaphore) {
+      prepend(timeline_, VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_TIMELINE_SEMAPHORE_FEATURES);
+    }
+    synchronization2_.synchronization2 = VK_TRUE;
+    prepend(synchronization2_, VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SYNCHRONIZATION_2_FEATURES);
+    core_.features.shaderStorageImageExtendedFormats = VK_TRUE;
+    core_.features.shaderStorageImageWriteWithoutFormat = physicalDevice.features.shaderStorageImageWriteWithoutFormat;
+    core_.features.shaderInt16 = physicalDevice.features.shaderInt16;
+    prepend(core_, VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2);
+  }
+  FeatureChain(const FeatureChain&) = delete;
+  FeatureChain& operator=(const FeatureChain&) = delete;
 
+  [[nodiscard]] const void* first() const { return first_; }
+
+ private:
+  template <typename Features>
+  void prepend(Features& features, VkStructureType type) {
+    features.sType = type;
+    features.pNext = first_;
+    first_ = &features;
+  }
+
+  VkPhysicalDeviceShaderFloat16Int8Features float16_{};
+  VkPhysicalDeviceMaintenance4Features maintenance4_{};
+  VkPhysicalDeviceTimelineSemaphoreFeatures timeline_{};
+  VkPhysicalDeviceSynchronization2Features synchronization2_{};
+  VkPhysicalDeviceFeatures2 core_{};
+  void* first_;
+};
+
+/// `wanted`, and those that older versions of Vulkan need for the features.
+std::vector<const char*> extensionsOf(const PhysicalDevice& physicalDevice, std::span<const char* const> wanted,
+                                      bool halves) {
   std::vector<const char*> extensions(wanted.begin(), wanted.end());
   if (physicalDevice.apiVersion < VK_API_VERSION_1_3) {
     extensions.push_back(VK_KHR_SYNCHRONIZATION_2_EXTENSION_NAME);
@@ -63,10 +78,24 @@ VkDevice createDevice(const Instance& instance, const PhysicalDevice& physicalDe
     if (physicalDevice.timelineSemaphore) extensions.push_back(VK_KHR_TIMELINE_SEMAPHORE_EXTENSION_NAME);
     if (halves) extensions.push_back(VK_KHR_SHADER_FLOAT16_INT8_EXTENSION_NAME);
   }
+  return extensions;
+}
 
+VkDevice createDevice(const Instance& instance, const PhysicalDevice& physicalDevice,
+                      std::span<const char* const> wanted, const void* wantedFeatures, bool halves) {
+  require(physicalDevice);
+  requireExtensions(physicalDevice, wanted);
+  const FeatureChain features(physicalDevice, halves, wantedFeatures);
+  const std::vector<const char*> extensions = extensionsOf(physicalDevice, wanted, halves);
+  const float priority = 1.0f;
+  VkDeviceQueueCreateInfo queue{};
+  queue.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO;
+  queue.queueFamilyIndex = physicalDevice.computeQueueFamily;
+  queue.queueCount = 1;
+  queue.pQueuePriorities = &priority;
   VkDeviceCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
-  info.pNext = &features;
+  info.pNext = features.first();
   info.queueCreateInfoCount = 1;
   info.pQueueCreateInfos = &queue;
   info.enabledExtensionCount = static_cast<std::uint32_t>(extensions.size());
@@ -81,19 +110,17 @@ VkDevice createDevice(const Instance& instance, const PhysicalDevice& physicalDe
 
 Device::Device(const Instance& instance, const PhysicalDevice& physicalDevice, std::span<const char* const> extensions,
                const void* features, HalfArithmetic halves)
-    : context_(DeviceView{
-          .instance = instance.handle(),
-          .physicalDevice = physicalDevice.handle,
-          .device = createDevice(instance, physicalDevice, extensions, features, takesHalves(physicalDevice, halves)),
-          .getInstanceProcAddr = instance.functions().vkGetInstanceProcAddr,
-          .queueFamily = physicalDevice.computeQueueFamily,
-          .allocator = nullptr,
-          .shaderFloat16 = takesHalves(physicalDevice, halves)}) {
+    : handle_(createDevice(instance, physicalDevice, extensions, features, takesHalves(physicalDevice, halves)),
+              {reinterpret_cast<PFN_vkDestroyDevice>(
+                  instance.functions().vkGetInstanceProcAddr(instance.handle(), "vkDestroyDevice"))}),
+      context_(DeviceView{.instance = instance.handle(),
+                          .physicalDevice = physicalDevice.handle,
+                          .device = handle_.get(),
+                          .getInstanceProcAddr = instance.functions().vkGetInstanceProcAddr,
+                          .queueFamily = physicalDevice.computeQueueFamily,
+                          .allocator = nullptr,
+                          .shaderFloat16 = takesHalves(physicalDevice, halves)}) {
   context_.functions.vkGetDeviceQueue(context_.view.device, context_.view.queueFamily, 0, &queue_);
-}
-
-Device::~Device() {
-  context_.functions.vkDestroyDevice(context_.view.device, nullptr);
 }
 
 }  // namespace fg::vk

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <memory>
 #include <span>
+#include <type_traits>
 
 #include "framegraph/vulkan/device_context.h"
 #include "framegraph/vulkan/physical_device.h"
@@ -12,6 +14,12 @@ enum class HalfArithmetic {
   WhereFast,       ///< On GPUs with the feature shaderFloat16. Processors convert every value to and fro.
   WhereSupported,  ///< On every device with that feature.
   Never,
+};
+
+/// Destroys a device.
+struct DestroyDevice {
+  PFN_vkDestroyDevice function = nullptr;
+  void operator()(VkDevice device) const { function(device, nullptr); }
 };
 
 /// A logical device with one queue, for programs that have none of their own.
@@ -27,7 +35,6 @@ class Device {
   /// @throws Unsupported with a message that names what the device lacks
   Device(const Instance& instance, const PhysicalDevice& physicalDevice, std::span<const char* const> extensions = {},
          const void* features = nullptr, HalfArithmetic halves = HalfArithmetic::WhereFast);
-  ~Device();
   Device(const Device&) = delete;
   Device& operator=(const Device&) = delete;
 
@@ -35,6 +42,8 @@ class Device {
   [[nodiscard]] VkQueue queue() const { return queue_; }
 
  private:
+  std::unique_ptr<std::remove_pointer_t<VkDevice>, DestroyDevice>
+      handle_;  ///< Also destroyed if construction fails later.
   DeviceContext context_;
   VkQueue queue_ = VK_NULL_HANDLE;
 };

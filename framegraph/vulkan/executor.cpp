@@ -113,16 +113,19 @@ struct Executor::State {
     throw std::invalid_argument("bind: the resource was not declared with Graph::import");
   }
 
-  /// Remember a binding. Returns whether it has changed.
-  bool bind(ResourceVersion handle, const Bound& now) {
+  /// Whether something else than `now` is bound.
+  /// @throws std::invalid_argument if nothing or this cannot be bound
+  [[nodiscard]] bool differs(ResourceVersion handle, const Bound& now) const {
     requireImport(handle);
     if (now.handle == 0) {
       throw std::invalid_argument("bind: a null handle for '" + graph.resources[handle.resource].name + "'");
     }
-    if (bound[handle.resource] == now) return false;
+    return bound[handle.resource] != now;
+  }
+
+  void noteBound(ResourceVersion handle, const Bound& now) {
     bound[handle.resource] = now;
     passes.invalidateImages();
-    return true;
   }
 
   void requireBound() const {
@@ -172,14 +175,17 @@ void Executor::upload(Buffer buffer, std::span<const std::byte> bytes) {
 
 void Executor::bind(Texture texture, const ExternalImage& image) {
   const Bound now = boundImage(image);
-  if (!state_->bind(texture, now)) return;
+  if (!state_->differs(texture, now)) return;
+  state_->views.import(texture.resource, image.image, now.identity);  // First: nothing has changed if it throws.
   state_->resources.import(texture.resource, image.image);
-  state_->views.import(texture.resource, image.image, now.identity);
+  state_->noteBound(texture, now);
 }
 
 void Executor::bind(Buffer buffer, VkBuffer handle) {
-  if (!state_->bind(buffer, {reinterpret_cast<std::uint64_t>(handle), 0})) return;
+  const Bound now{reinterpret_cast<std::uint64_t>(handle), 0};
+  if (!state_->differs(buffer, now)) return;
   state_->resources.import(buffer.resource, handle);
+  state_->noteBound(buffer, now);
 }
 
 void Executor::forget(const ExternalImage& image) {

@@ -79,7 +79,8 @@ class Executor {
 
   /// Bind the host's image or buffer to an import, for the frames recorded from now on. It must be as declared, with
   /// the usage flags of `usage`, and in the declared state when the frame starts.
-  /// @throws std::invalid_argument if the handle was not declared with Graph::import
+  /// @throws std::invalid_argument if the handle was not declared with Graph::import; OutOfMemory if a view cannot be
+  ///         created, and what was bound before stays bound
   void bind(Texture texture, const ExternalImage& image);
   void bind(Buffer buffer, VkBuffer handle);
   /// Destroy the views of a host image. Call it before the image is destroyed and after the GPU has finished with it.

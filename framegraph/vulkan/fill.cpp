@@ -1,7 +1,5 @@
 #include "framegraph/vulkan/fill.h"
 
-#include <algorithm>
-
 #include "framegraph/vulkan/image.h"
 
 namespace fg::vk {

@@ -19,7 +19,8 @@ namespace {
 
 constexpr const char* kNoDriver =
     "no Vulkan driver found: install one (Mesa's software driver is the package mesa-vulkan-drivers), or correct "
-    "VK_DRIVER_FILES and VK_ICD_FILENAMES if they are set. With VK_LOADER_DEBUG=error, the loader tells which driver it "
+    "VK_DRIVER_FILES and VK_ICD_FILENAMES if they are set. With VK_LOADER_DEBUG=error, the loader tells which driver "
+    "it "
     "could not load, and why";
 
 /// The layer warns that a function of a physical device was asked for by vkGetDeviceProcAddr. Some drivers and loaders
@@ -125,19 +126,20 @@ Instance::Instance(const InstanceOptions& options, PFN_vkGetInstanceProcAddr ent
   info.ppEnabledLayerNames = layers.data();
   info.enabledExtensionCount = static_cast<std::uint32_t>(extensions.size());
   info.ppEnabledExtensionNames = extensions.data();
-  const VkResult result = globalFunction<PFN_vkCreateInstance>(entry, "vkCreateInstance")(&info, nullptr, &handle_);
+  VkInstance made = VK_NULL_HANDLE;
+  const VkResult result = globalFunction<PFN_vkCreateInstance>(entry, "vkCreateInstance")(&info, nullptr, &made);
   if (result == VK_ERROR_INCOMPATIBLE_DRIVER) throw Unsupported(kNoDriver, result);
   check(result, "creating a Vulkan instance");
-  functions_ = InstanceFunctions::load(handle_, entry);
+  handle_ = {made, {reinterpret_cast<PFN_vkDestroyInstance>(entry(made, "vkDestroyInstance"))}};
+  functions_ = InstanceFunctions::load(made, entry);
   if (options.validation && sink_) {
-    check(functions_.vkCreateDebugUtilsMessengerEXT(handle_, &messenger, nullptr, &messenger_),
+    check(functions_.vkCreateDebugUtilsMessengerEXT(made, &messenger, nullptr, &messenger_),
           "creating a messenger for validation messages");
   }
 }
 
 Instance::~Instance() {
-  if (messenger_ != VK_NULL_HANDLE) functions_.vkDestroyDebugUtilsMessengerEXT(handle_, messenger_, nullptr);
-  functions_.vkDestroyInstance(handle_, nullptr);
+  if (messenger_ != VK_NULL_HANDLE) functions_.vkDestroyDebugUtilsMessengerEXT(handle(), messenger_, nullptr);
 }
 
 }  // namespace fg::vk

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 #include "framegraph/vulkan/functions.h"
@@ -28,6 +30,12 @@ struct InstanceOptions {
   std::vector<const char*> extensions;  ///< Additional ones, for instance those of a window system.
 };
 
+/// Destroys an instance.
+struct DestroyInstance {
+  PFN_vkDestroyInstance function = nullptr;
+  void operator()(VkInstance instance) const { function(instance, nullptr); }
+};
+
 /// A Vulkan instance for programs that have none of their own.
 class Instance {
  public:
@@ -37,11 +45,12 @@ class Instance {
   Instance(const Instance&) = delete;
   Instance& operator=(const Instance&) = delete;
 
-  [[nodiscard]] VkInstance handle() const { return handle_; }
+  [[nodiscard]] VkInstance handle() const { return handle_.get(); }
   [[nodiscard]] const InstanceFunctions& functions() const { return functions_; }
 
  private:
-  VkInstance handle_ = VK_NULL_HANDLE;
+  std::unique_ptr<std::remove_pointer_t<VkInstance>, DestroyInstance>
+      handle_;  ///< Also destroyed if construction fails later.
   InstanceFunctions functions_;
   MessageSink sink_;
   VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;

@@ -48,8 +48,8 @@ class Pipelines {
   /// @param declared taken in halves where there are such, and the device has shaderFloat16
   /// @throws PipelineFailed naming the shader, or OutOfMemory
   ComputePipeline get(const Shader& declared, const std::vector<std::uint32_t>& specialization);
-  /// Use other SPIR-V for a shader from now on. Pipelines of the old code live as long as this, because frames in
-  /// flight may use them.
+  /// Use other SPIR-V for a shader from now on. `Shader::inHalves` of a declared shader is one of its own. Pipelines of
+  /// the old code live as long as this, because frames in flight may use them.
   /// @param code with the shader's bindings, constants and work group size
   /// @throws as `get` does, and nothing has changed
   void replaceCode(const Shader& shader, std::vector<std::uint32_t> code);

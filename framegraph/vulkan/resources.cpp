@@ -17,7 +17,7 @@ std::uint64_t requiredBytes(const DeviceContext& device, const GraphDesc& graph,
   for (std::size_t i = 0; i < graph.resources.size(); ++i) {
     const PlannedResource& planned = plan.resources[i];
     const Lifetime lifetime = graph.resources[i].lifetime;
-    // The images of both histories are counted with the current one.
+    // Both images of a history are counted with its current one.
     if (!planned.used || lifetime == Lifetime::Imported || lifetime == Lifetime::HistoryPrevious) continue;
     const bool upload = lifetime == Lifetime::Upload;
     if (!upload && planned.heap != kNone) continue;

@@ -9,8 +9,8 @@
 
 namespace fg::vk {
 
-/// What executors of one device share, for instance those of several views of a scene: shader modules, pipelines and
-/// their layouts, and the memory of transients. Histories are never shared.
+/// What executors of one device share, for instance those of several views of a scene: pipelines and their layouts, and
+/// the memory of transients. Histories are never shared.
 ///
 /// Frames of all of them are recorded one after the other, and submitted in this order to one queue. Not thread-safe.
 class SharedObjects {

@@ -33,15 +33,15 @@ std::uint32_t Views::request(std::uint32_t resource, const SubresourceRange& ran
 }
 
 void Views::import(std::uint32_t resource, VkImage image, std::uint64_t identity) {
+  // All views are made before any is used, because making one may fail.
   for (std::uint32_t i = 0; i < requests_.size(); ++i) {
-    Request& request = requests_[i];
-    if (request.resource != resource) continue;
-    auto entry = imported_.find({identity, i});
-    if (entry == imported_.end()) {
-      auto view = makeView(*device_, graph_->resources[resource], request.range, image);
-      entry = imported_.emplace(std::pair(identity, i), std::move(view)).first;
-    }
-    std::ranges::fill(request.handles, entry->second.get());
+    if (requests_[i].resource != resource || imported_.contains({identity, i})) continue;
+    auto view = makeView(*device_, graph_->resources[resource], requests_[i].range, image);
+    imported_.emplace(std::pair(identity, i), std::move(view));
+  }
+  for (std::uint32_t i = 0; i < requests_.size(); ++i) {
+    if (requests_[i].resource != resource) continue;
+    std::ranges::fill(requests_[i].handles, imported_.at({identity, i}).get());
   }
 }
 

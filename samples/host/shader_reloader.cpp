@@ -74,7 +74,10 @@ bool isSource(const std::filesystem::path& path) {
 std::set<const fg::Shader*> shadersOf(const fg::GraphDesc& graph) {
   std::set<const fg::Shader*> shaders;
   for (const fg::PassDecl& pass : graph.passes) {
-    if (const auto* work = std::get_if<fg::ComputeDispatch>(&pass.work)) shaders.insert(work->shader);
+    const auto* work = std::get_if<fg::ComputeDispatch>(&pass.work);
+    if (work == nullptr) continue;
+    shaders.insert(work->shader);
+    if (work->shader->inHalves != nullptr) shaders.insert(work->shader->inHalves);
   }
   return shaders;
 }

@@ -41,18 +41,22 @@ TEST(FrameBorder, NamesTheFirstUseIfTheHostHasWaited) {
 }
 
 TEST(FrameBorder, IsThatOfTheBarriersToAndFromTheHost) {
-  Graph graph;
-  const ExternalState written = {VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
-                                 VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL};
-  const Texture in = graph.import("in", kColor, written);
-  const Texture out = graph.import("out", kColor, test::kTransferSource);
-  auto pass = graph.callback("pass", recordNothing);
-  pass.sample("in", in);
-  graph.exported(pass.store("out", out), test::kTransferSource);
-  const std::vector<FrameBorder> borders = bordersOf(graph);
-  EXPECT_EQ(borders[in.resource].entry, std::vector{written});
-  EXPECT_EQ(borders[in.resource].exit, std::vector{written});
-  EXPECT_EQ(borders[out.resource].exit, std::vector{test::kTransferSource});
+  // A copy, and a write that only an extension has.
+  const ExternalState states[] = {
+      {VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL},
+      {VK_PIPELINE_STAGE_2_OPTICAL_FLOW_BIT_NV, VK_ACCESS_2_OPTICAL_FLOW_WRITE_BIT_NV, VK_IMAGE_LAYOUT_GENERAL}};
+  for (const ExternalState& written : states) {
+    Graph graph;
+    const Texture in = graph.import("in", kColor, written);
+    const Texture out = graph.import("out", kColor, test::kTransferSource);
+    auto pass = graph.callback("pass", recordNothing);
+    pass.sample("in", in);
+    graph.exported(pass.store("out", out), test::kTransferSource);
+    const std::vector<FrameBorder> borders = bordersOf(graph);
+    EXPECT_EQ(borders[in.resource].entry, std::vector{written});
+    EXPECT_EQ(borders[in.resource].exit, std::vector{written});
+    EXPECT_EQ(borders[out.resource].exit, std::vector{test::kTransferSource});
+  }
 }
 
 TEST(FrameBorder, HasAStateForEveryMipLevel) {

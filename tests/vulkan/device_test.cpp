@@ -96,6 +96,26 @@ TEST(NoDriver, MessageNamesTheRemedy) {
   expectContains(message, {"mesa-vulkan-drivers"});
 }
 
+int destroyedInstances = 0;
+
+TEST(FailedInstance, IsDestroyed) {
+  // A loader that lacks a function of instances.
+  const auto entry = [](VkInstance instance, const char* name) -> PFN_vkVoidFunction {
+    static PFN_vkDestroyInstance destroy = nullptr;
+    const PFN_vkVoidFunction function = vk::openLoader()(instance, name);
+    if (std::string_view(name) == "vkEnumeratePhysicalDevices") return nullptr;
+    if (std::string_view(name) != "vkDestroyInstance") return function;
+    destroy = reinterpret_cast<PFN_vkDestroyInstance>(function);
+    const PFN_vkDestroyInstance count = [](VkInstance gone, const VkAllocationCallbacks* allocator) {
+      ++destroyedInstances;
+      destroy(gone, allocator);
+    };
+    return reinterpret_cast<PFN_vkVoidFunction>(count);
+  };
+  EXPECT_THROW(const vk::Instance instance({}, entry), vk::Unsupported);
+  EXPECT_EQ(destroyedInstances, 1);
+}
+
 TEST(NoLayer, MessageNamesTheRemedy) {
   const auto entry = [](VkInstance instance, const char* name) -> PFN_vkVoidFunction {
     if (std::string_view(name) != "vkEnumerateInstanceLayerProperties") return vk::openLoader()(instance, name);

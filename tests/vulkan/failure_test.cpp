@@ -69,6 +69,26 @@ TEST_F(FailureTest, PipelineFailureNamesTheShader) {
   EXPECT_EQ(run.texels<std::uint32_t>(out), filled(2));
 }
 
+TEST_F(FailureTest, AnImportKeepsItsImageIfAViewOfAnotherOneFails) {
+  Graph graph;
+  const Texture out = chain(graph, 0, 2);
+  hook<&vk::DeviceFunctions::vkCreateImageView>(tampered_);
+  GraphRun run({tampered_, device().queue()}, graph);
+  const vk::StagedImage other(context(), kTexture, run.executor().usage(out), vk::StagedImage::Direction::Readback,
+                              kFramesInFlight, "other");
+  run.frame();
+  hookState = {.calls = 0, .failAt = 0, .failure = VK_ERROR_OUT_OF_DEVICE_MEMORY};
+  EXPECT_THROW(run.executor().bind(out, other.external()), vk::OutOfMemory);
+  hookState = {};
+  run.frame();
+  EXPECT_EQ(run.texels<std::uint32_t>(out), filled(2)) << "the image that was bound before";
+  // A second attempt must not be taken for a repetition of the first.
+  run.executor().bind(out, other.external());
+  EXPECT_EQ(hookState.calls, 1U) << "the missing view is created";
+  run.executor().bind(out, run.external(out));
+  run.executor().forget(other.external());
+}
+
 TEST_F(FailureTest, LostDeviceThrowsDeviceLost) {
   CountingGraph counting;
   hook<&vk::DeviceFunctions::vkQueueSubmit>(tampered_);

@@ -99,12 +99,17 @@ TEST_F(SteadyStateTest, FramesAllocateNothingOnTheHeap) {
   run.frame();
   // Layers and drivers may allocate, so that they must not be called here.
   silenceRecording(tampered_);
+  tampered_.functions.vkGetSemaphoreCounterValue = [](VkDevice, VkSemaphore, std::uint64_t* value) {
+    *value = ~std::uint64_t{0};
+    return VK_SUCCESS;
+  };
+  const auto semaphore = reinterpret_cast<VkSemaphore>(std::uintptr_t{1});
   const std::uint64_t before = allocations;
   for (std::uint32_t i = 0; i < 10; ++i) {
     run.executor().upload(busy.upload, std::uint64_t{i});
     run.executor().bind(busy.out, run.external(busy.out));
     if (i == 5) run.executor().resetAllHistory();
-    run.executor().record(VK_NULL_HANDLE, i % kFramesInFlight);
+    run.executor().record(VK_NULL_HANDLE, i % kFramesInFlight, {semaphore, i + 1});
     EXPECT_TRUE(run.executor().historyStatus(busy.history).valid);
   }
   EXPECT_EQ(allocations - before, 0u);
