@@ -137,7 +137,7 @@ DenoiseGraph declareDenoiseGraph(Denoiser& method, fg::Extent extent, const Inpu
   DenoiseGraph declared;
   fg::Graph& graph = declared.graph;
   declared.inputs = importInputs(graph, extent, conventions, states.inputs, formats, host);
-  if (host.convertsInputs()) declared.host = graph.upload(std::string(kHostName), sizeof(HostConstants));
+  if (host.differs()) declared.host = graph.upload(std::string(kHostName), sizeof(HostConstants));
   declared.output = importResult(graph, kOutputName, host.result, extent, states);
   const DenoiserInputs inputs = addConvertInputs(graph, declared.inputs, host, declared.host);
 

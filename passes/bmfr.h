@@ -16,12 +16,10 @@ namespace walr {
 struct BmfrSettings {
   bool spatialOnly = false;
   PrepareGuidesSettings guides;
-  TemporalAccumulationSettings accumulation{
-      .maxHistory = 5.0F, .planeTolerance = kStrictPlaneTolerance, .normalThreshold = kStrictNormalThreshold};
+  TemporalAccumulationSettings accumulation{.maxHistory = 5.0F, .thresholds = kStrictThresholds};
   BmfrFitSettings fit;
   BmfrAccumulationSettings fittedAccumulation;
-  TemporalAntialiasingSettings antialiasing{.planeTolerance = kStrictPlaneTolerance,
-                                            .normalThreshold = kStrictNormalThreshold};
+  TemporalAntialiasingSettings antialiasing{.thresholds = kStrictThresholds};
 
   void visit(SettingVisitor& v) {
     v.visit({"spatial-only", "Fit each frame on its own, without the temporal stages", "", 0, 1,

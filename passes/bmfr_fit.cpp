@@ -9,8 +9,6 @@
 namespace walr {
 namespace {
 
-constexpr std::uint32_t kBlockSize = 32;
-
 /// Rank tolerance with noise: only a block with fewer samples than features is short of rank, and its dependent columns
 /// hold rounding errors. The tolerance is well above those of single precision and well below the noise.
 constexpr float kRoundingTolerance = 1e-4F;
@@ -42,8 +40,8 @@ fg::Texture addBmfrFit(StageGraph graph, fg::Buffer frame, fg::Texture lighting,
   // One block more than fits an axis, so that the displaced grid still covers the image.
   const fg::Extent extent = graph->textureDesc(lighting).extent;
   const auto declare = [&](const std::string& name, const fg::Shader& shader) {
-    const fg::Extent threads{(extent.width / kBlockSize + 2) * shader.localSize[0],
-                             (extent.height / kBlockSize + 2) * shader.localSize[1]};
+    const fg::Extent threads{(extent.width / kBmfrBlockSize + 2) * shader.localSize[0],
+                             (extent.height / kBmfrBlockSize + 2) * shader.localSize[1]};
     fg::PassBuilder pass = graph->compute(name, shader);
     pass.uniform("frameConstants", frame)
         .sample("lighting", lighting)

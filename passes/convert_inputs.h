@@ -47,8 +47,8 @@ struct HostConventions {
   [[nodiscard]] bool octahedral() const {
     return normal == Normal::OctahedralSigned || normal == Normal::OctahedralUnsigned;
   }
-  /// Whether any input is converted.
-  [[nodiscard]] bool convertsInputs() const {
+  /// Whether anything differs from the project's conventions, the result included: then `HostConstants` are needed.
+  [[nodiscard]] bool differs() const {
     return depth != Depth::Linear || normal != Normal::Signed || motionDepthReversed || orthographic ||
            convertsResult();
   }
@@ -64,7 +64,7 @@ HostConstants hostConstants(const glm::mat4& projection, float exposure, glm::iv
 
 /// Convert the inputs that differ from the project's conventions.
 /// @param inputs as the host writes them
-/// @param host   upload of `HostConstants`; not used if `convertsInputs()` is false
+/// @param host   upload of `HostConstants`; not used if `differs()` is false
 /// @returns inputs by the project's conventions
 DenoiserInputs addConvertInputs(StageGraph graph, DenoiserInputs inputs, const HostConventions& conventions,
                                 fg::Buffer host);

@@ -14,14 +14,16 @@ namespace walr {
 
 /// Settings of all stages of FLR.
 struct FlrSettings {
+  static constexpr HistoryThresholds kThresholds{.planeTolerance = kStrictThresholds.planeTolerance,
+                                                 .normalThreshold = 0.8F};
+
   bool spatialOnly = false;
   PrepareGuidesSettings guides;
-  TemporalAccumulationSettings accumulation{
-      .maxHistory = 8.0F, .planeTolerance = kStrictPlaneTolerance, .normalThreshold = 0.8F};
+  TemporalAccumulationSettings accumulation{.maxHistory = 8.0F, .thresholds = kThresholds};
   AmbientOcclusionSettings occlusion;
   FlrRegressionSettings regression;
   float singleFrameSigma = 12.0F;
-  TemporalAntialiasingSettings antialiasing{.planeTolerance = kStrictPlaneTolerance, .normalThreshold = 0.8F};
+  TemporalAntialiasingSettings antialiasing{.thresholds = kThresholds};
 
   void visit(SettingVisitor& v) {
     visitBefore(v);

@@ -1,5 +1,6 @@
 #include "passes/flr_regression.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <stdexcept>
@@ -28,9 +29,23 @@ struct GuideChoice {
   CellBytes bytes;
 };
 
+constexpr std::uint64_t vectorsOf(std::uint64_t numbers) {
+  return (numbers + 3) / 4;
+}
+
+/// The vectors of a cell in flr.glsl: products of `count` guides, the constant and three colour channels with each
+/// other
+/// (`kProducts`); means and slopes.
+constexpr GuideChoice choiceOf(std::uint64_t count) {
+  const std::uint64_t products = vectorsOf((count + 1) * (count + 2) / 2 + 3 * (count + 1));
+  const std::uint64_t first = std::min<std::uint64_t>(products, kMostFirstVectors);
+  return {static_cast<std::uint32_t>(count),
+          {kVectorBytes * first, kVectorBytes * (1 + vectorsOf(3 * count)), kVectorBytes * (products - first)}};
+}
+
 GuideChoice chosenGuides(bool occlusion, const LearnedGuides& learned) {
-  if (learned.valid() && !learned.alone()) return {8, {224, 112, 64}};
-  return occlusion ? GuideChoice{5, {160, 80, 0}} : GuideChoice{4, {128, 64, 0}};
+  if (learned.valid() && !learned.alone()) return choiceOf(8);
+  return choiceOf(occlusion ? 5 : 4);
 }
 
 /// In the order of `kView` of flr_solve.comp. Names of what WALR's regression has, too, are the same.

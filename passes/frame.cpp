@@ -1,5 +1,8 @@
 #include "passes/frame.h"
 
+#include <cmath>
+#include <stdexcept>
+
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/matrix.hpp>
 
@@ -30,9 +33,21 @@ Camera cameraOf(const glm::mat4& view, const glm::mat4& projection, bool orthogr
   return {standInView(view, projection), standInProjection(projection)};
 }
 
+/// Refuse numbers that would silently drop all history or all surfaces.
+void checkNumbers(const FrameDescription& frame) {
+  const auto finite = [](glm::vec2 v) { return std::isfinite(v.x) && std::isfinite(v.y); };
+  if (!finite(frame.jitter) || !finite(frame.previousJitter)) throw std::invalid_argument("the jitter is not finite");
+  if (!finite(frame.motionScale)) throw std::invalid_argument("the scale of motion is not finite");
+  if (!(frame.skyDepth > 0.0F)) throw std::invalid_argument("the sky's depth is not above 0");
+  if (frame.previousExtent && (frame.previousExtent->width == 0 || frame.previousExtent->height == 0)) {
+    throw std::invalid_argument("the previous frame has no pixels");
+  }
+}
+
 }  // namespace
 
 FrameConstants frameConstants(const FrameDescription& frame, fg::Extent extent) {
+  checkNumbers(frame);
   for (const glm::mat4& view : {frame.view, frame.previousView}) checkView(view);
   for (const glm::mat4& projection : {frame.projection, frame.previousProjection}) {
     checkProjection(projection, frame.orthographic);

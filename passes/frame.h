@@ -42,7 +42,8 @@ struct FrameDescription {
 
 /// The uniform block that the passes read, computed in double precision.
 /// @param extent the image's size
-/// @throws std::invalid_argument as `checkView`, `checkProjection` and `checkOrigin` do (camera_check.h)
+/// @throws std::invalid_argument as `checkView`, `checkProjection` and `checkOrigin` do (camera_check.h), for jitter or
+///         `motionScale` that are not finite, a `skyDepth` that is not above 0, and a `previousExtent` without pixels
 FrameConstants frameConstants(const FrameDescription& frame, fg::Extent extent);
 
 }  // namespace walr

@@ -55,10 +55,6 @@ void offerGuideViews(StageGraph graph, const DenoiserInputs& inputs, const Prepa
   });
 }
 
-std::uint32_t ringsOf(const AmbientOcclusionSettings& occlusion) {
-  return std::min(occlusion.rings, kMaxOcclusionRings);
-}
-
 PrepareGuidesConstants guideConstants(const fg::Graph& graph, const DenoiserInputs& inputs,
                                       const PrepareGuidesSettings& settings, const GuideNeeds& needs) {
   const AmbientOcclusionSettings occlusion = needs.occlusion.value_or(AmbientOcclusionSettings{});
@@ -67,7 +63,7 @@ PrepareGuidesConstants guideConstants(const fg::Graph& graph, const DenoiserInpu
   PrepareGuidesConstants constants{
       settings.albedoThreshold, settings.tangentTolerance, settings.normalAgreement, 1.0F / radius, {}, {}};
   // Distances grow with the square of the ring's number and end before the radius, where nothing counts.
-  const std::uint32_t rings = ringsOf(occlusion);
+  const std::uint32_t rings = occlusion.rings;
   for (std::uint32_t ring = 0; ring < rings; ++ring) {
     const float share = (static_cast<float>(ring) + 1.5F) / (static_cast<float>(rings) + 1.5F);
     const auto nearest = static_cast<float>(ring / 2 + 1);
@@ -99,7 +95,7 @@ Guides writeGuides(StageGraph graph, fg::PassBuilder& pass, fg::Extent extent, c
   guides.previousDepth = depth.previous;
   const bool occlusion = needs.occlusion.has_value();
   pass.specialize("kOcclusion", occlusion)
-      .specialize("kOcclusionRings", ringsOf(needs.occlusion.value_or(AmbientOcclusionSettings{})));
+      .specialize("kOcclusionRings", needs.occlusion.value_or(AmbientOcclusionSettings{}).rings);
   const char* const name = occlusion ? "guides.features" : "guides.shading normal";
   (occlusion ? guides.features : guides.shadingNormal) = pass.store("outFeatures", graph.texture(name, word));
   if (!geometricNormalIsApart(needs)) return guides;

@@ -14,10 +14,16 @@ enum class HistoryRejection : std::uint32_t {
   None,   ///< Not tested: every pixel with a history is accepted.
 };
 
-/// Defaults of methods that lose more by light of another surface in their history than by noise
-/// (HISTORY_EXPERIMENTS.md).
-inline constexpr float kStrictPlaneTolerance = 0.005F;
-inline constexpr float kStrictNormalThreshold = 0.9F;
+/// Where these tests end.
+struct HistoryThresholds {
+  float planeTolerance = 0.01F;  ///< Largest distance from the plane or, by depth, from the depth; fraction of depth.
+  float normalThreshold = 0.5F;  ///< Smallest cosine between the geometric normals.
+
+  friend bool operator==(const HistoryThresholds&, const HistoryThresholds&) = default;
+};
+
+/// Of methods that lose more by light of another surface in their history than by noise (HISTORY_EXPERIMENTS.md).
+inline constexpr HistoryThresholds kStrictThresholds{.planeTolerance = 0.005F, .normalThreshold = 0.9F};
 
 /// Visit the setting that chooses how a stage tests its history pixels.
 inline void visitRejection(SettingVisitor& v, std::string_view name, HistoryRejection& rejection) {
@@ -27,16 +33,16 @@ inline void visitRejection(SettingVisitor& v, std::string_view name, HistoryReje
       kRejections, rejection);
 }
 
-/// Visit the two thresholds of these tests.
-inline void visitHistoryTests(SettingVisitor& v, std::string_view planeToleranceName, float& planeTolerance,
-                              std::string_view normalThresholdName, float& normalThreshold) {
+/// Visit the thresholds under the names that a stage gives them.
+inline void visitThresholds(SettingVisitor& v, std::string_view planeToleranceName,
+                            std::string_view normalThresholdName, HistoryThresholds& thresholds) {
   v.visit({planeToleranceName,
            "Largest distance of a history pixel from the surface's plane or, with rejection depth, from its depth",
            "fraction of depth", 0.0, 1.0, "measured"},
-          planeTolerance);
+          thresholds.planeTolerance);
   v.visit({normalThresholdName, "Smallest cosine between geometric normals of surface and history pixel", "", -1.0, 1.0,
            "measured"},
-          normalThreshold);
+          thresholds.normalThreshold);
 }
 
 }  // namespace walr

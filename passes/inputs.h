@@ -35,7 +35,8 @@ struct DenoiserInputs {
   fg::Texture depth;     ///< R32F: linear view depth (-z of view space), scene units; sky at or beyond `skyDepth`.
   fg::Texture normal;    ///< RGBA16F: unit shading normal; zero on sky.
   fg::Texture motion;    ///< RGBA16F: motion to the previous frame; see `FrameDescription::motionScale`.
-  fg::Texture albedo;    ///< RGBA16F: diffuse albedo; below 0.01 in all channels a pixel has no diffuse lobe.
+  fg::Texture albedo;    ///< RGBA16F: diffuse albedo; where all channels are below `guides.albedo-threshold`,
+                         ///< a pixel has no diffuse lobe.
   /// R32_UINT, or another format of unsigned integers: id of the object that the pixel shows, constant from frame to
   /// frame; 0xffffffff: none. If present, it tells the histories of different objects apart.
   fg::Texture objectId = {};

@@ -4,14 +4,15 @@ namespace walr {
 
 fg::Texture addJointBilateral(StageGraph graph, const DenoiserInputs& inputs, fg::Texture output,
                               const JointBilateralSettings& settings) {
-  const bool antialias = settings.accumulation.enabled && !inputs.scene.hostAntialiasing && !settings.spatialOnly;
+  // The host's anti-aliasing does not replace this one, which is the method's only accumulation of light.
+  const bool accumulate = settings.accumulation.enabled && !settings.spatialOnly;
   const Guides guides =
-      addPrepareGuides(graph, inputs, settings.guides, {.history = antialias && !inputs.scene.still()});
+      addPrepareGuides(graph, inputs, settings.guides, {.history = accumulate && !inputs.scene.still()});
   const fg::TextureDesc colourDesc{VK_FORMAT_R16G16B16A16_SFLOAT, graph->textureDesc(inputs.lighting).extent};
-  const fg::Texture target = !antialias ? output : graph->texture("bilateral.filtered", colourDesc);
+  const fg::Texture target = !accumulate ? output : graph->texture("bilateral.filtered", colourDesc);
   const fg::Texture filtered =
       addJointBilateralFilter(graph, inputs.frame, inputs.lighting, guides, target, settings.filter);
-  if (!antialias) return filtered;
+  if (!accumulate) return filtered;
   return addTemporalAntialiasing(graph, inputs, guides, filtered, output, settings.accumulation);
 }
 

@@ -102,7 +102,8 @@ void LintJudge::judgeValues() {
   if (surfaces >= kLeastLintSample && counts_[kLintDiffuse] == 0) {
     add({"albedo-empty", "no pixel has a diffuse albedo of 0.01 or more",
          "the albedo image was not written, or is another one",
-         "write the diffuse albedo: without it a pixel passes through with its noise"});
+         "write the diffuse albedo: with guides.albedo-threshold above 0, a pixel without it passes through with its "
+         "noise"});
   }
 }
 

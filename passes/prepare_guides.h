@@ -7,6 +7,7 @@
 #include "passes/inputs.h"
 #include "passes/settings.h"
 #include "passes/stage_graph.h"
+#include "shaders/constants/prepare_guides.h"
 
 namespace walr {
 
@@ -48,7 +49,7 @@ struct AmbientOcclusionSettings {
             radius);
     v.visit(
         {"occlusion.rings", "Rings of four pixels that the search looks at, on the axes and on the diagonals in turn",
-         "", 1, 8, "measured"},
+         "", 1, kMaxOcclusionRings, "measured"},
         rings);
   }
 };
@@ -59,8 +60,8 @@ struct Guides {
                                 ///< `features`, the geometric normal (surface.glsl); 0: nothing to denoise.
   fg::Texture shadingNormal;    ///< R32_UINT: octahedral map of the shading normal; not valid if `features` is.
   fg::Texture features;         ///< R32_UINT: the shading normal, and ambient occlusion, 0 (open) to 1 (surface.glsl).
-  fg::Texture geometricNormal;  ///< R32_UINT: that of the geometric normal, which spans planes; if not
-                                ///< valid, `depth` holds it.
+  fg::Texture geometricNormal;  ///< R32_UINT: octahedral map of the geometric normal, which spans planes. Not valid if
+                                ///< nothing needs it, or if `features` is valid: then `depth` holds it.
   fg::Texture previousDepth;    ///< Depth one frame ago; zero while there is no history.
   fg::Texture previousGeometricNormal;  ///< Geometric normal one frame ago; zero while there is no history.
 };
@@ -69,7 +70,7 @@ struct Guides {
 struct GuideNeeds {
   bool geometricNormal = true;
   bool history = true;  ///< Last frame's depth, and geometric normal where there is one.
-  std::optional<AmbientOcclusionSettings> occlusion = {};  ///< Given, for filters over blocks or cells: see `Guides`.
+  std::optional<AmbientOcclusionSettings> occlusion = {};  ///< If set, `Guides::features` is made.
 
   friend bool operator==(const GuideNeeds&, const GuideNeeds&) = default;
 };

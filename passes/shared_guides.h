@@ -13,8 +13,7 @@ namespace walr {
 /// What decides which history taps a stage finds and accepts.
 struct TapTests {
   HistoryRejection rejection = HistoryRejection::Plane;
-  float planeTolerance = 0.0F;
-  float normalThreshold = 0.0F;
+  HistoryThresholds thresholds = {};
   bool dilateMotion = false;
 
   friend bool operator==(const TapTests&, const TapTests&) = default;

@@ -33,8 +33,9 @@ SvgfSettings tunedSvgf();
 /// As published (Schied et al. 2017, 4.2 to 4.4; figure 1).
 SvgfSettings paperSvgf();
 
-/// Spatiotemporal Variance-Guided Filtering (Schied et al. 2017, figure 1; Fu 2022): temporal accumulation,
-/// variance estimation, variance-guided a-trous iterations whose first feeds the history, temporal anti-aliasing.
+/// Spatiotemporal Variance-Guided Filtering (Schied et al. 2017, figure 1; Fu 2022): temporal accumulation, estimation
+/// of the variance, a-trous iterations guided by it, temporal anti-aliasing. The history of light is the result of the
+/// iteration `svgf.feedback`, or the accumulated light if that is 0.
 /// @param output RGBA16F texture to write the result to
 /// @returns the output's new version
 fg::Texture addSvgf(StageGraph graph, const DenoiserInputs& inputs, fg::Texture output,

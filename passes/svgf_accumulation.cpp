@@ -25,8 +25,8 @@ SvgfAccumulated addSvgfAccumulation(StageGraph graph, const DenoiserInputs& inpu
     pass.sample("lighting", inputs.lighting)
         .sample("previousColour", previousColour)
         .sample("previousMoments", moments.previous)
-        .constants(SvgfAccumulationConstants{settings.maxHistory, settings.maxMomentHistory, settings.planeTolerance,
-                                             settings.normalThreshold})
+        .constants(SvgfAccumulationConstants{settings.maxHistory, settings.maxMomentHistory,
+                                             settings.thresholds.planeTolerance, settings.thresholds.normalThreshold})
         .dispatch(extent);
     return pass;
   };

@@ -13,8 +13,7 @@ namespace walr {
 struct SvgfAccumulationSettings {
   float maxHistory = 8.0F;
   float maxMomentHistory = 5.0F;
-  float planeTolerance = kStrictPlaneTolerance;
-  float normalThreshold = 0.5F;
+  HistoryThresholds thresholds{.planeTolerance = kStrictThresholds.planeTolerance};
 
   void visit(SettingVisitor& v) {
     v.visit({"accumulation.max-history", "Frames after which the mean colour turns exponential", "frames", 1.0, 255.0,
@@ -23,8 +22,7 @@ struct SvgfAccumulationSettings {
     v.visit({"accumulation.max-moment-history", "Frames after which the luminance moments turn exponential", "frames",
              1.0, 255.0, "Schied et al. 2017, 4.2: alpha 0.2"},
             maxMomentHistory);
-    visitHistoryTests(v, "accumulation.plane-tolerance", planeTolerance, "accumulation.normal-threshold",
-                      normalThreshold);
+    visitThresholds(v, "accumulation.plane-tolerance", "accumulation.normal-threshold", thresholds);
   }
 };
 

@@ -63,11 +63,11 @@ fg::PassBuilder newPass(const Stage& stage, const std::string& name, Role role) 
 }
 
 TapTests tapTests(const TemporalAccumulationSettings& settings) {
-  return {settings.rejection, settings.planeTolerance, settings.normalThreshold, settings.dilateMotion};
+  return {settings.rejection, settings.thresholds, settings.dilateMotion};
 }
 
 TemporalAccumulationConstants constantsOf(const TemporalAccumulationSettings& settings) {
-  return {settings.maxHistory, settings.planeTolerance, settings.normalThreshold};
+  return {settings.maxHistory, settings.thresholds.planeTolerance, settings.thresholds.normalThreshold};
 }
 
 /// Extent of all groups of sparse light, which may end after the image.

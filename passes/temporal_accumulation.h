@@ -22,8 +22,7 @@ enum class HistoryFilter : std::uint32_t { Bilinear, Bicubic };
 struct TemporalAccumulationSettings {
   float maxHistory = 16.0F;
   HistoryRejection rejection = HistoryRejection::Plane;
-  float planeTolerance = 0.01F;
-  float normalThreshold = 0.5F;
+  HistoryThresholds thresholds = {};
   HistoryFilter historyFilter = HistoryFilter::Bilinear;
   bool dilateMotion = false;
   AntilagSettings antilag = {};
@@ -38,8 +37,7 @@ struct TemporalAccumulationSettings {
     static constexpr std::string_view kFilters[] = {"bilinear", "bicubic"};
     visitMaxHistory(v);
     visitRejection(v, "accumulation.rejection", rejection);
-    visitHistoryTests(v, "accumulation.plane-tolerance", planeTolerance, "accumulation.normal-threshold",
-                      normalThreshold);
+    visitThresholds(v, "accumulation.plane-tolerance", "accumulation.normal-threshold", thresholds);
     v.visitEnum(
         {"accumulation.history-filter", "How history is read between pixels", "", 0, 1, "Meunier & Harada 2022, 4.2"},
         kFilters, historyFilter);

@@ -62,9 +62,9 @@ fg::Texture addStage(StageGraph graph, bool kept, const ReadHistory& read, fg::T
     pass.sample("filtered", filtered)
         .sample("previousResolved", resolved.previous)
         .specialize("kClipRadius", settings.clipRadius)
-        .constants(TemporalAntialiasingConstants{settings.maxHistory, settings.clipGamma, settings.edgeClipGamma,
-                                                 settings.filterRadius, settings.historySharpness,
-                                                 settings.planeTolerance, settings.normalThreshold})
+        .constants(TemporalAntialiasingConstants{
+            settings.maxHistory, settings.clipGamma, settings.edgeClipGamma, settings.filterRadius,
+            settings.historySharpness, settings.thresholds.planeTolerance, settings.thresholds.normalThreshold})
         .dispatch(extent);
     if (packed) pass.specialize("kBeyondLevels", settings.maxHistory > kHighestLevel);
     return pass;
@@ -118,9 +118,7 @@ bool sharesReprojection(const TemporalAntialiasingSettings& antialiasing,
                         const TemporalAccumulationSettings& accumulation) {
   if (antialiasing.objectIds || antialiasing.dilateMotion != accumulation.dilateMotion) return false;
   if (antialiasing.rejection == HistoryRejection::None) return true;
-  return antialiasing.rejection == accumulation.rejection &&
-         antialiasing.planeTolerance == accumulation.planeTolerance &&
-         antialiasing.normalThreshold == accumulation.normalThreshold;
+  return antialiasing.rejection == accumulation.rejection && antialiasing.thresholds == accumulation.thresholds;
 }
 
 fg::Texture addTemporalAntialiasingWithTaps(StageGraph graph, fg::Buffer frame, fg::Texture taps, fg::Texture depth,

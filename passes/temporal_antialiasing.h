@@ -21,8 +21,7 @@ struct TemporalAntialiasingSettings {
   float edgeClipGamma = 1.5F;
   std::uint32_t clipRadius = 1;
   HistoryRejection rejection = HistoryRejection::Plane;
-  float planeTolerance = 0.01F;
-  float normalThreshold = 0.5F;
+  HistoryThresholds thresholds = {};
   bool objectIds = false;
   bool dilateMotion = false;
   bool pixelArea = true;
@@ -44,23 +43,28 @@ struct TemporalAntialiasingSettings {
     v.visit({"antialiasing.clip-gamma", "Half size of the variance-clipping box", "standard deviations", 0.0, 1e6,
              "Meunier & Harada 2022, 4.4"},
             clipGamma);
-    v.visit({"antialiasing.edge-clip-gamma",
-             "Most that clip-gamma is in a jittered frame where history of another surface mixes in: the tests of "
-             "history reject a pixel of it",
-             "standard deviations", 0.0, 1e6, "measured"},
-            edgeClipGamma);
+    if (!accumulates) visitEdgeClipGamma(v);
     v.visit({"antialiasing.clip-radius", "Radius of the neighbourhood for variance clipping; 1 is 3x3", "pixels", 1, 8,
              "Meunier & Harada 2022, 4.4"},
             clipRadius);
     visitRejection(v, "antialiasing.rejection", rejection);
-    visitHistoryTests(v, "antialiasing.plane-tolerance", planeTolerance, "antialiasing.normal-threshold",
-                      normalThreshold);
+    visitThresholds(v, "antialiasing.plane-tolerance", "antialiasing.normal-threshold", thresholds);
     v.visit({"antialiasing.object-ids", "Tell surfaces apart by the host's object numbers, too, where it gives them",
              "", 0, 1, "Wang 2024, 3"},
             objectIds);
     v.visit({"antialiasing.dilate-motion", "Follow the nearest surface of the 3x3 neighbourhood", "", 0, 1,
              "Meunier & Harada 2022, 4.2"},
             dilateMotion);
+    if (!accumulates) visitPixelArea(v);
+  }
+  void visitEdgeClipGamma(SettingVisitor& v) {
+    v.visit({"antialiasing.edge-clip-gamma",
+             "Most that clip-gamma is in a jittered frame where history of another surface mixes in: the tests of "
+             "history reject a pixel of it",
+             "standard deviations", 0.0, 1e6, "measured"},
+            edgeClipGamma);
+  }
+  void visitPixelArea(SettingVisitor& v) {
     v.visit({"antialiasing.pixel-area",
              "In jittered frames, average light over the pixel's area: history is not tested, whatever surface it "
              "shows, and follows the nearest surface of the 3x3 neighbourhood",

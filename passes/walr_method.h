@@ -16,17 +16,14 @@ struct WalrSettings {
   bool spatialOnly = false;
   PrepareGuidesSettings guides;
   TemporalAccumulationSettings accumulation{.maxHistory = 8.0F,
-                                            .planeTolerance = kStrictPlaneTolerance,
-                                            .normalThreshold = kStrictNormalThreshold,
+                                            .thresholds = kStrictThresholds,
                                             .antilag = {.enabled = true},
                                             .storage = LightStorage::Packed};
   AmbientOcclusionSettings occlusion;
   BlockRegressionSettings blocks;
   bool fitWindow = true;
-  TemporalAntialiasingSettings antialiasing{.clipGamma = 5.0F,
-                                            .planeTolerance = kStrictPlaneTolerance,
-                                            .normalThreshold = kStrictNormalThreshold,
-                                            .storage = LightStorage::Packed};
+  TemporalAntialiasingSettings antialiasing{
+      .clipGamma = 5.0F, .thresholds = kStrictThresholds, .storage = LightStorage::Packed};
 
   void visit(SettingVisitor& v) {
     v.visit({"spatial-only", "Filter each frame by itself, without the temporal stages", "", 0, 1,

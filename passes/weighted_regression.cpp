@@ -131,7 +131,7 @@ fg::PassBuilder declareIteration(StageGraph graph, const std::string& name, Role
                                  settings.regularisation.ridge, noiseRidge(settings, iteration.spacing)})
       .dispatch(graph.textureDesc(accumulated).extent);
   if (first || role == Role::View) pass.sample("accumulated", accumulated);
-  if (first) pass.specialize("kAlphaIsSampleCount", alpha == LightingAlpha::SampleCount);
+  if (first || role == Role::View) pass.specialize("kAlphaIsSampleCount", alpha == LightingAlpha::SampleCount);
   if (first || role != Role::Averages) pass.sample("shadingNormal", guides.shadingNormal);
   if (!first) readMoments(pass, role, iteration.averages.moments);
   if (role == Role::Averages) {

@@ -21,7 +21,7 @@ layout(constant_id = 2) const bool kTraceEdges = true;
 layout(constant_id = 3) const uint kReplacement = 1;   // TapReplacement: what replaces a tap behind an edge.
 layout(constant_id = 4) const bool kNormalFactor = true;  // Weights fall with the cosine between the planes' normals.
 #ifdef VIEW
-layout(constant_id = 8) const uint kView = 0;  // Which quantity; numbered in writeResult.
+layout(constant_id = 8) const uint kView = 0;  // Which quantity; numbered in viewOf.
 #endif
 #ifdef LAST
 layout(constant_id = 5) const bool kPivotFloor = false;      // Floor the pivots instead of adding a ridge.
@@ -50,8 +50,10 @@ layout(r32ui) uniform writeonly uimage2D outDepth;
 layout(push_constant) uniform PushConstants { AtrousConstants constants; };
 
 #include "include/edge_tracing.glsl"
-#ifdef FIRST
+#if defined(FIRST) || defined(VIEW)
 #include "include/light.glsl"
+#endif
+#ifdef FIRST
 #include "include/pass_through.glsl"
 #endif
 #include "include/moments_storage.glsl"
@@ -89,7 +91,7 @@ vec3 viewOf(ivec2 p, TraceSummary summary, Moments m) {
   const vec3 colour = fitted(m, slopes, featuresAt(p));
   switch (kView) {
     case 0u: return vec3(summary.nearestEdge, summary.replaced, summary.lost);
-    case 1u: return vec3(m.samples, relativeVariance(m), texelFetch(accumulated, p, 0).a > 0.0 ? 0.0 : 1.0);
+    case 1u: return vec3(m.samples, relativeVariance(m), lightAt(p).a > 0.0 ? 0.0 : 1.0);
     case 2u: return vec3(factor.smallestPivot, factor.regularisation, factor.smallestPivot < factor.regularisation);
     case 3u: return vec3(m.x, 0.0);
     case 4u: return m.xx;

@@ -91,7 +91,7 @@ bool chooseRepresentative(Place place, uint surfaces, out ivec2 texel) {
     block |= uvec2(columns & 0xffu, columns >> 8) << 8 * i;
   }
   const uint count = uint(bitCount(block.x) + bitCount(block.y));
-  const int bit = setBit(block, hashBelow(uvec4(place.block, frame.frameIndex, 0), count));
+  const int bit = positionOfSetBit(block, hashBelow(uvec4(place.block, frame.frameIndex, 0), count));
   texel = firstTexel(place.block) + ivec2(bit / 8, bit % 8);
   return count > 0u;
 }

@@ -9,6 +9,7 @@
 #include "constants/frame.h"
 #include "include/camera.glsl"
 #include "include/hash.glsl"
+#include "include/pass_through.glsl"
 #include "include/surface.glsl"
 
 layout(local_size_x = 16, local_size_y = 16) in;
@@ -27,7 +28,6 @@ layout(rgba16f) uniform writeonly image2D outFitted;
 #endif
 layout(push_constant) uniform PushConstants { BmfrFitConstants constants; };
 
-const int kBlockSize = 32;
 const uint kThreads = 256u;
 const int kRowsPerThread = 4;
 const int kFeatures = 10;  // 1, normal (3), position (3), position squared (3).
@@ -52,8 +52,8 @@ int mirrored(int x, int size) {
 
 // Position in the block of row `s` of this thread. The rows of a thread are pixels above each other.
 ivec2 placeOf(int s) {
-  const uvec2 first = uvec2(threadIndex % uint(kBlockSize), threadIndex / uint(kBlockSize));
-  return ivec2(first) + ivec2(0, s * int(kThreads) / kBlockSize);
+  const uvec2 first = uvec2(threadIndex % uint(kBmfrBlockSize), threadIndex / uint(kBmfrBlockSize));
+  return ivec2(first) + ivec2(0, s * int(kThreads) / kBmfrBlockSize);
 }
 
 // One pixel of the block.
@@ -68,7 +68,7 @@ struct Pixel {
 
 Pixel readPixel(int s) {
   const ivec2 size = textureSize(depth, 0);
-  const ivec2 block = ivec2(gl_WorkGroupID.xy) * kBlockSize - kBlockSize / 2 + kBlockOffsets[frame.frameIndex % 16u];
+  const ivec2 block = ivec2(gl_WorkGroupID.xy) * kBmfrBlockSize - kBmfrBlockSize / 2 + kBlockOffsets[frame.frameIndex % 16u];
   Pixel pixel;
   pixel.p = block + placeOf(s);
   const ivec2 q = ivec2(mirrored(pixel.p.x, size.x), mirrored(pixel.p.y, size.y));
@@ -165,7 +165,7 @@ vec3 synthesis(Pixel pixel, Bounds bounds) {
 
 // A pixel without a surface gets the pass-through.
 vec3 fittedColour(Pixel pixel, Bounds bounds) {
-  if (!pixel.surface) return isFinite(pixel.colour) ? pixel.colour : vec3(0.0);
+  if (!pixel.surface) return passThroughLight(pixel.colour);
   return clampedRadiance(synthesis(pixel, bounds));
 }
 

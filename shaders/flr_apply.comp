@@ -7,6 +7,7 @@
 #extension GL_EXT_samplerless_texture_functions : require
 #include "constants/flr.h"
 #include "include/finite.glsl"
+#include "include/pass_through.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 0) const uint kUpsampling = 1u;  // FlrUpsampling.
@@ -94,7 +95,7 @@ void main() {
 #else
   if (z == 0.0) {
     const vec3 colour = texelFetch(lighting, p, 0).rgb;
-    imageStore(outFiltered, p, vec4(isFinite(colour) ? colour : vec3(0.0), 1.0));
+    imageStore(outFiltered, p, vec4(passThroughLight(colour), 1.0));
     return;
   }
   const vec4 predicted = predict(p, unpackGuides(packedGuides(p), z));

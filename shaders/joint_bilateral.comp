@@ -9,6 +9,7 @@
 #include "include/camera.glsl"
 #include "include/finite.glsl"
 #include "include/luminance.glsl"
+#include "include/pass_through.glsl"
 #include "include/surface.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -125,7 +126,7 @@ void main() {
 #else
   if (unpackDepth(texelFetch(depth, p, 0).x) == 0.0) {
     const vec3 radiance = texelFetch(lighting, p, 0).rgb;
-    imageStore(outFiltered, p, vec4(isFinite(radiance) ? radiance : vec3(0.0), 1.0));
+    imageStore(outFiltered, p, vec4(passThroughLight(radiance), 1.0));
     return;
   }
   const Filtered filtered = filterAround(p, surfaceAt(p));

@@ -2,7 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
-#include "include/finite.glsl"
+#include "include/pass_through.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 uniform texture2D lighting;
@@ -12,5 +12,5 @@ void main() {
   const ivec2 p = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(p, textureSize(lighting, 0)))) return;
   const vec3 radiance = texelFetch(lighting, p, 0).rgb;
-  imageStore(outImage, p, vec4(isFinite(radiance) ? radiance : vec3(0.0), 1.0));
+  imageStore(outImage, p, vec4(passThroughLight(radiance), 1.0));
 }

@@ -10,6 +10,7 @@
 #include "constants/svgf_accumulation.h"
 #include "include/half.glsl"
 #include "include/luminance.glsl"
+#include "include/pass_through.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
@@ -115,7 +116,7 @@ void main() {
   imageStore(outView, p, vec4(viewOf(p, z, noisy), 1.0));
 #else
   if (z == 0.0) {
-    imageStore(outColour, p, vec4(isFinite(noisy) ? noisy : vec3(0.0), 0.0));
+    imageStore(outColour, p, vec4(passThroughLight(noisy), 0.0));
     imageStore(outMoments, p, vec4(0.0));
     return;
   }

@@ -9,6 +9,7 @@
 #include "constants/svgf_filter.h"
 #include "include/finite.glsl"
 #include "include/luminance.glsl"
+#include "include/pass_through.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
@@ -104,7 +105,7 @@ void main() {
 #else
   if (z == 0.0) {
     const vec3 radiance = texelFetch(colour, p, 0).rgb;
-    imageStore(outColour, p, vec4(isFinite(radiance) ? radiance : vec3(0.0), 0.0));
+    imageStore(outColour, p, vec4(passThroughLight(radiance), 0.0));
     return;
   }
   const Estimate e = estimateAt(p);

@@ -130,29 +130,30 @@ const uint kTileHeight = gl_WorkGroupSize.y + 2u * kClipRadius;
 shared vec4 tile[kTileWidth * kTileHeight];
 
 // The smallest depth in the tile; smaller ones count as this.
-const float kLeastNearness = 7.888609052210118e-31;  // 2^-100
+const float kLeastTileDepth = 7.888609052210118e-31;  // 2^-100
 
 uint tileIndex(uvec2 texel) { return (texel.y & 0xffu) * kTileWidth + texel.x; }
 
 // A texel of the tile with alpha 1 for the colour of a surface, else 0.
-vec4 knownColour(vec4 texel) { return vec4(texel.rgb, clamp(texel.a * (1.0 / kLeastNearness), 0.0, 1.0)); }
+vec4 knownColour(vec4 texel) { return vec4(texel.rgb, clamp(texel.a * (1.0 / kLeastTileDepth), 0.0, 1.0)); }
 vec4 knownTexel(uvec2 texel) { return knownColour(tile[tileIndex(texel)]); }
 
-// Depth as far as it tells what is nearer: the lowest bits hold other guides (surface.glsl). Infinite without a surface.
-float nearness(ivec2 q, bool known) {
+// A depth for the tile, which tells what is nearer: its lowest bits, which hold other guides (surface.glsl), are left out.
+// Infinite without a surface.
+float tileDepth(ivec2 q, bool known) {
   const uint packed = texelFetch(depth, q, 0).x;
 #ifdef PACKED
   const bool surface = known;
 #else
   const bool surface = packed != 0u;
 #endif
-  return max(uintBitsToFloat(surface ? packed & ~kShortNormalMask : 0x7f800000u), kLeastNearness);
+  return max(uintBitsToFloat(surface ? packed & ~kShortNormalMask : 0x7f800000u), kLeastTileDepth);
 }
 
 vec4 tileTexel(ivec2 q, vec4 colour) {
   const bool known = colour.a >= 0.0;
   if (!kPixelArea) return known && hasSurface(q, colour) ? vec4(toYCoCg(colour.rgb), 1.0) : vec4(0.0);
-  const float z = nearness(q, known);
+  const float z = tileDepth(q, known);
 #ifndef PACKED
   if (floatBitsToUint(z) == 0x7f800000u) return vec4(vec3(0.0), -z);
 #endif

@@ -199,7 +199,7 @@ ListedGraph Description::list(std::span<const WalrPortFormat> ports, const Inspe
 }
 
 ListedGraph Description::listStage(std::span<const WalrPortFormat> ports) const {
-  if (hostConventions().convertsInputs() || !inputConventions().light.everyPixel()) {
+  if (hostConventions().differs() || !inputConventions().light.everyPixel()) {
     throw Error(
         WALR_ERROR_INVALID_ARGUMENT,
         "stage '" + methodName_ +

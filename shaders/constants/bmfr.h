@@ -5,6 +5,8 @@
 namespace walr {
 #endif
 
+const int kBmfrBlockSize = 32;  // Pixels per axis of a block.
+
 struct BmfrFitConstants {
   float noiseAmplitude;  // Half width of the uniform noise on each feature except the constant.
   float rankTolerance;   // A feature is left out if the root mean square of what earlier features do not explain of it

@@ -5,6 +5,12 @@
 namespace walr {
 #endif
 
+// Vectors of a cell that the first buffer of products holds. With eight guides there is a second one, because every
+// device takes only buffers of 128 MiB, which those of a picture of 3840 x 2160 would not fit as one. With cells of
+// 4 x 4 pixels the first one is as large as what a frame keeps of the last one's light and surfaces, and can take their
+// memory.
+const int kMostFirstVectors = 14;
+
 struct FlrConstants {
   ivec2 cells;  // Size of the grid of downsampled moments.
   int factor;   // Pixels per cell and axis.

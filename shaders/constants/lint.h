@@ -89,7 +89,7 @@ const uint kLintWords = 84;
 // A random normal that faces the camera has a cosine above c with any direction with probability 1 - c.
 const float kFittingCosine = 0.8;
 const float kMostRounding = 0.1;  // Pixels, as much as the errors of a matrix that is accepted (camera_check.cpp).
-const float kAlbedoLeast = 0.01;  // Below, a pixel has no diffuse lobe.
+const float kAlbedoLeast = 0.01;  // The usual guides.albedo-threshold; the linter does not know the method's.
 
 #ifdef __cplusplus
 }  // namespace walr

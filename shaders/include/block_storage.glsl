@@ -3,11 +3,8 @@
 #ifndef WALR_BLOCK_STORAGE_GLSL
 #define WALR_BLOCK_STORAGE_GLSL
 #include "block_moments.glsl"
+#include "half.glsl"
 #include "surface.glsl"
-
-uint packHalves(float low, float high) {
-  return packHalf2x16(clamp(vec2(low, high), vec2(-kLargestHalf), vec2(kLargestHalf)));
-}
 
 struct PackedBlock {
   uvec4 word[5];

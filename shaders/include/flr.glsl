@@ -23,11 +23,6 @@ const int kProductVectors = (kProducts + 3) / 4;
 // Index of entry (i, j) of (1, x)(1, x)^T, i <= j.
 int productIndex(int i, int j) { return i * (2 * kUsedFeatures - i + 1) / 2 + j; }
 
-// Vectors of a cell that the first buffer of products holds. With eight guides there is a second one, because every
-// device takes only buffers of 128 MiB, which those of a picture of 3840 x 2160 would not fit as one. With cells of
-// 4 x 4 pixels the first one is as large as what a frame keeps of the last one's light and surfaces, and can take their
-// memory.
-const int kMostFirstVectors = 14;
 const int kFirstVectors = kProductVectors < kMostFirstVectors ? kProductVectors : kMostFirstVectors;
 
 struct OuterProducts {

@@ -14,4 +14,9 @@ vec4 nearestHalf(vec4 v) {
   return mix(normal, subnormal, lessThan(abs(v), vec4(6.103515625e-5)));
 }
 
+// Two halves in a word. Values beyond the largest half become it.
+uint packHalves(float low, float high) {
+  return packHalf2x16(clamp(vec2(low, high), vec2(-kLargestHalf), vec2(kLargestHalf)));
+}
+
 #endif

@@ -10,7 +10,7 @@
 // Takes constant_id 9.
 #ifndef WALR_MOMENTS_STORAGE_GLSL
 #define WALR_MOMENTS_STORAGE_GLSL
-#include "finite.glsl"
+#include "half.glsl"
 #include "moments.glsl"
 
 const uint kCentred16 = 0u, kRaw16 = 1u, kRaw11 = 2u, kRaw32 = 3u;  // MomentStorage.
@@ -62,10 +62,6 @@ layout(MOMENT_FORMAT_D) uniform writeonly uimage2D outMomentsD;
 struct PackedMoments {
   uvec4 a, b, c, d;
 };
-
-uint packHalves(float low, float high) {
-  return packHalf2x16(clamp(vec2(low, high), vec2(-kLargestHalf), vec2(kLargestHalf)));
-}
 
 PackedMoments packCentred(Moments m) {
   PackedMoments p;

@@ -79,17 +79,15 @@ float unpackCount(uint packed) {
   return min(x, 2.0 * x - 4.0);
 }
 
-// A history length in three bits, as one of the levels 0, 1, 2, 4, 8, 16, 32 and `longest`; levels above `longest`
-// count as `longest`. Rounding between levels is stochastic: a mean that stays at a level for some frames weighs new
-// frames by more than its true length would, and is then as precise as a mean of twice that length.
-// The longest history length. `beyondLevels`: whether it is above 64; if not, the highest level needs no test, because
-// 2^6 is no shorter.
+// What a packed length needs to know of the longest one.
 struct PackedLength {
-  float longest;
-  bool beyondLevels;
+  float longest;      // The longest history length, frames.
+  bool beyondLevels;  // It is above 64. If not, the highest level needs no test, because 2^6 is no shorter.
 };
 
-// `level`: at least 1.
+// A history length in three bits, as one of the levels 0, 1, 2, 4, 8, 16, 32 and the longest length; levels above it
+// count as it. Rounding between levels is stochastic: a mean that stays at a level for some frames weighs new frames by
+// more than its true length would, and is then as precise as a mean of twice that length. `level`: at least 1.
 float unpackLength(uint level, PackedLength most) {
   const bool beyond = most.beyondLevels && int(level) == kLongestLevel;
   return beyond ? most.longest : min(powerOfTwo(int(level) - 1), most.longest);

@@ -3,7 +3,7 @@
 #define WALR_SET_BITS_GLSL
 
 // Position of the set bit that has `before` set bits below it. There must be such a bit.
-int setBit(uint word, uint before) {
+int positionOfSetBit(uint word, uint before) {
   int first = 0;
   // The bit is one of 32, then of 16, 8, 4 and 2 from `first` on. Each step skips their lower half if the bit is not in
   // it.
@@ -17,9 +17,9 @@ int setBit(uint word, uint before) {
   return first;
 }
 
-int setBit(uvec2 words, uint before) {
+int positionOfSetBit(uvec2 words, uint before) {
   const uint low = uint(bitCount(words.x));
-  return before < low ? setBit(words.x, before) : 32 + setBit(words.y, before - low);
+  return before < low ? positionOfSetBit(words.x, before) : 32 + positionOfSetBit(words.y, before - low);
 }
 
 #endif

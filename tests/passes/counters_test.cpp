@@ -94,6 +94,20 @@ TEST_F(CountersTest, EveryMethodCountsExactlyWhatIsInjected) {
   }
 }
 
+TEST_F(CountersTest, PixelsWithoutASampleAreThoseWhoseLightIsNotFinite) {
+  HostFrame frame = renderStill(bumpyWall(0.1), kSize);
+  scatter(0, 17, [&](glm::ivec2 p) { frame.lighting[p].g = kNaN; });
+  for (const char* name : {"walr", "walr_paper"}) {
+    for (const char* spatialOnly : {"off", "on"}) {
+      SCOPED_TRACE(std::string(name) + ", spatial-only " + spatialOnly);
+      const auto method = makeDenoiser(name);
+      method->set("spatial-only", spatialOnly);
+      CountedRun run(device(), *method, kSize);
+      EXPECT_EQ(run.count(frame).at("unsampled-pixels"), 17U);
+    }
+  }
+}
+
 TEST_F(CountersTest, AreReadWhileOtherFramesAreInFlight) {
   const auto method = makeDenoiser("walr");
   CountedRun run(device(), *method, kSize);

@@ -11,6 +11,8 @@
 #include <gtest/gtest.h>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "tests/error_text.h"
+
 namespace walr {
 namespace {
 
@@ -217,6 +219,34 @@ INSTANTIATE_TEST_SUITE_P(
                     },
                     "rotates or shears"},
         WrongMatrix{"offset of an eye", [](FrameDescription& f) { f.projection[3][0] = 0.05F; }, "stereo"}));
+
+TEST(FrameConstants, NumbersThatNoFrameHasAreRefused) {
+  constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+  struct Case {
+    void (*change)(FrameDescription&);
+    const char* text;
+  };
+  const Case cases[] = {
+      {[](FrameDescription& f) { f.jitter.y = kNan; }, "jitter is not finite"},
+      {[](FrameDescription& f) { f.previousJitter.x = std::numeric_limits<float>::infinity(); },
+       "jitter is not finite"},
+      {[](FrameDescription& f) { f.motionScale.x = kNan; }, "scale of motion is not finite"},
+      {[](FrameDescription& f) { f.skyDepth = kNan; }, "sky's depth is not above 0"},
+      {[](FrameDescription& f) { f.skyDepth = 0.0F; }, "sky's depth is not above 0"},
+      {[](FrameDescription& f) {
+         f.previousExtent = fg::Extent{0, 8};
+       },
+       "previous frame has no pixels"},
+  };
+  for (const Case& each : cases) {
+    FrameDescription frame = movingCamera();
+    each.change(frame);
+    fg::test::expectError([&] { (void)frameConstants(frame, kExtent); }, {each.text});
+  }
+  FrameDescription frame = movingCamera();
+  frame.skyDepth = std::numeric_limits<float>::infinity();
+  EXPECT_NO_THROW((void)frameConstants(frame, kExtent)) << "nothing is sky";
+}
 
 TEST(FrameConstants, ProjectionsOfAllUsualKindsAreAccepted) {
   FrameDescription frame = movingCamera();

@@ -354,7 +354,7 @@ struct NamedSettings {
 };
 std::vector<NamedSettings> waysToReproject() {
   WalrSettings apart = fastWalr();
-  apart.antialiasing.normalThreshold = 0.4F;  // Makes anti-aliasing do its own reprojection.
+  apart.antialiasing.thresholds.normalThreshold = 0.4F;  // Makes anti-aliasing do its own reprojection.
   WalrSettings byDepth = fastWalr();
   byDepth.accumulation.rejection = byDepth.antialiasing.rejection = HistoryRejection::Depth;
   byDepth.accumulation.historyFilter = HistoryFilter::Bicubic;

@@ -63,12 +63,12 @@ std::vector<AnyWalr> jitteredSettings() {
   WalrPaperSettings surfaces = robustWalr();
   surfaces.antialiasing.pixelArea = false;
   WalrPaperSettings apart = robustWalr();
-  apart.antialiasing.normalThreshold = 0.4F;  // Makes anti-aliasing do its own reprojection.
+  apart.antialiasing.thresholds.normalThreshold = 0.4F;  // Makes anti-aliasing do its own reprojection.
   apart.antialiasing.clipRadius = 2;
   WalrSettings packedSurfaces = fastWalr();
   packedSurfaces.antialiasing.pixelArea = false;
   WalrSettings packedApart = fastWalr();
-  packedApart.antialiasing.normalThreshold = 0.4F;
+  packedApart.antialiasing.thresholds.normalThreshold = 0.4F;
   return {robustWalr(), paperWalr(), surfaces, apart, fastWalr(), packedSurfaces, packedApart};
 }
 
@@ -98,7 +98,7 @@ std::vector<WalrPaperSettings> responsiveSettings() {
   WalrPaperSettings none = plane;
   none.accumulation.rejection = none.antialiasing.rejection = HistoryRejection::None;
   WalrPaperSettings apart = plane;
-  apart.antialiasing.normalThreshold = 0.4F;  // Makes anti-aliasing do its own reprojection.
+  apart.antialiasing.thresholds.normalThreshold = 0.4F;  // Makes anti-aliasing do its own reprojection.
   apart.accumulation.antilag.radius = 0;
   return {plane, depth, none, apart};
 }
@@ -150,7 +150,7 @@ TEST_F(WalrHistoryTest, StagesAgreeWithTheReferenceWithMotionFromTheCameraAlone)
   constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   WalrPaperSettings settings = robustWalr();
   // Makes anti-aliasing do its own reprojection, so motion is not rounded.
-  settings.antialiasing.normalThreshold = 0.4F;
+  settings.antialiasing.thresholds.normalThreshold = 0.4F;
   for (const Scene& scene : {sphere(), stairs()}) {
     std::vector<HostFrame> frames;
     for (std::uint32_t i = 1; i < 4; ++i) {
@@ -179,7 +179,7 @@ TEST_F(WalrHistoryTest, StagesAgreeWithTheReferenceWhereDepthIsFound) {
   std::vector<WalrPaperSettings> all = responsiveSettings();
   // Curved surfaces differ from their planes by more than this, so that the tap of which depth is taken decides.
   all.push_back(all.front());
-  all.back().accumulation.planeTolerance = all.back().antialiasing.planeTolerance = 1e-4F;
+  all.back().accumulation.thresholds.planeTolerance = all.back().antialiasing.thresholds.planeTolerance = 1e-4F;
   for (const WalrPaperSettings& settings : all) {
     SCOPED_TRACE("rejection " + std::to_string(int(settings.accumulation.rejection)) + ", radius " +
                  std::to_string(settings.accumulation.antilag.radius));
@@ -378,7 +378,7 @@ TEST_F(WalrHistoryTest, JitteredEdgesBecomeMeansOverPixels) {
   for (const bool ownReprojection : {false, true}) {
     SCOPED_TRACE(ownReprojection ? "own reprojection" : "taps of accumulation");
     WalrSettings settings;
-    if (ownReprojection) settings.antialiasing.normalThreshold = 0.4F;
+    if (ownReprojection) settings.antialiasing.thresholds.normalThreshold = 0.4F;
     ASSERT_EQ(settings.antialiasing.maxHistory, 3.0F);
     const double ofAreas = errorOfAreas(device(), settings, expected);
     settings.antialiasing.filterRadius = 0.5F;

@@ -31,12 +31,12 @@ struct NamedSettings {
 };
 std::vector<NamedSettings> allSettings() {
   WalrPaperSettings apart = robustWalr();
-  apart.antialiasing.normalThreshold = 0.4F;  // Makes anti-aliasing do its own reprojection.
+  apart.antialiasing.thresholds.normalThreshold = 0.4F;  // Makes anti-aliasing do its own reprojection.
   WalrPaperSettings byDepth = apart;
   byDepth.accumulation.rejection = HistoryRejection::Depth;
   byDepth.antialiasing.rejection = HistoryRejection::Depth;
   WalrSettings packedApart;
-  packedApart.antialiasing.normalThreshold = 0.4F;
+  packedApart.antialiasing.thresholds.normalThreshold = 0.4F;
   const SceneDescription camera{.objectMotion = false};
   return {{"robust", robustWalr(), {}},
           {"paper", paperWalr(), {}},

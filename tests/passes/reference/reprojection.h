@@ -43,7 +43,7 @@ struct HistoryTests {
 };
 template <typename Settings>
 HistoryTests historyTestsOf(const Settings& settings) {
-  return {settings.rejection, double(settings.planeTolerance), double(settings.normalThreshold)};
+  return {settings.rejection, double(settings.thresholds.planeTolerance), double(settings.thresholds.normalThreshold)};
 }
 
 /// One of the four pixels of the previous frame around a reprojected position.

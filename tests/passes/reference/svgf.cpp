@@ -102,9 +102,9 @@ Image<SvgfMoments> svgfAccumulate(const HostFrame& frame, const Image<Guide>& gu
     }
     if (!history.guides.pixels().empty()) {
       const Reprojection r = reproject(frame, guides, p);
-      std::array<HistoryTap, 4> taps =
-          historyTaps(frame, r, history.guides,
-                      {HistoryRejection::Plane, double(settings.planeTolerance), double(settings.normalThreshold)});
+      std::array<HistoryTap, 4> taps = historyTaps(frame, r, history.guides,
+                                                   {HistoryRejection::Plane, double(settings.thresholds.planeTolerance),
+                                                    double(settings.thresholds.normalThreshold)});
       for (HistoryTap& tap : taps) tap.matches = tap.matches && history.moments[tap.pixel].w > 0.0;
       const HistorySample colour = sampleHistory(r, taps, history.colour, {});
       const HistorySample moments = sampleHistory(r, taps, history.moments, {});
