@@ -33,9 +33,8 @@ constexpr std::uint64_t vectorsOf(std::uint64_t numbers) {
   return (numbers + 3) / 4;
 }
 
-/// The vectors of a cell in flr.glsl: products of `count` guides, the constant and three colour channels with each
-/// other
-/// (`kProducts`); means and slopes.
+/// The vectors of a cell in flr.glsl: `kProducts` products of `count` guides, the constant and the colour; the
+/// coefficients.
 constexpr GuideChoice choiceOf(std::uint64_t count) {
   const std::uint64_t products = vectorsOf((count + 1) * (count + 2) / 2 + 3 * (count + 1));
   const std::uint64_t first = std::min<std::uint64_t>(products, kMostFirstVectors);

@@ -15,6 +15,11 @@ bool isMasked(const PrepareGuidesSettings& settings) {
   return settings.albedoThreshold > 0.0F;
 }
 
+/// No more rings than the shader's arrays hold, also for settings whose range nobody has checked.
+std::uint32_t ringsOf(const AmbientOcclusionSettings& occlusion) {
+  return std::min(occlusion.rings, kMaxOcclusionRings);
+}
+
 /// A guide to write, and the previous frame's if it is kept.
 struct GuideTexture {
   fg::Texture current;
@@ -63,7 +68,7 @@ PrepareGuidesConstants guideConstants(const fg::Graph& graph, const DenoiserInpu
   PrepareGuidesConstants constants{
       settings.albedoThreshold, settings.tangentTolerance, settings.normalAgreement, 1.0F / radius, {}, {}};
   // Distances grow with the square of the ring's number and end before the radius, where nothing counts.
-  const std::uint32_t rings = occlusion.rings;
+  const std::uint32_t rings = ringsOf(occlusion);
   for (std::uint32_t ring = 0; ring < rings; ++ring) {
     const float share = (static_cast<float>(ring) + 1.5F) / (static_cast<float>(rings) + 1.5F);
     const auto nearest = static_cast<float>(ring / 2 + 1);
@@ -95,7 +100,7 @@ Guides writeGuides(StageGraph graph, fg::PassBuilder& pass, fg::Extent extent, c
   guides.previousDepth = depth.previous;
   const bool occlusion = needs.occlusion.has_value();
   pass.specialize("kOcclusion", occlusion)
-      .specialize("kOcclusionRings", needs.occlusion.value_or(AmbientOcclusionSettings{}).rings);
+      .specialize("kOcclusionRings", ringsOf(needs.occlusion.value_or(AmbientOcclusionSettings{})));
   const char* const name = occlusion ? "guides.features" : "guides.shading normal";
   (occlusion ? guides.features : guides.shadingNormal) = pass.store("outFeatures", graph.texture(name, word));
   if (!geometricNormalIsApart(needs)) return guides;

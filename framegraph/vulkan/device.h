@@ -42,8 +42,8 @@ class Device {
   [[nodiscard]] VkQueue queue() const { return queue_; }
 
  private:
-  std::unique_ptr<std::remove_pointer_t<VkDevice>, DestroyDevice>
-      handle_;  ///< Also destroyed if construction fails later.
+  /// Also destroyed if construction fails later.
+  std::unique_ptr<std::remove_pointer_t<VkDevice>, DestroyDevice> handle_;
   DeviceContext context_;
   VkQueue queue_ = VK_NULL_HANDLE;
 };

@@ -20,8 +20,7 @@ namespace {
 constexpr const char* kNoDriver =
     "no Vulkan driver found: install one (Mesa's software driver is the package mesa-vulkan-drivers), or correct "
     "VK_DRIVER_FILES and VK_ICD_FILENAMES if they are set. With VK_LOADER_DEBUG=error, the loader tells which driver "
-    "it "
-    "could not load, and why";
+    "it could not load, and why";
 
 /// The layer warns that a function of a physical device was asked for by vkGetDeviceProcAddr. Some drivers and loaders
 /// do so themselves while a device is created (KhronosGroup/Vulkan-ValidationLayers, issue 8048). A program that did it

@@ -49,8 +49,8 @@ class Instance {
   [[nodiscard]] const InstanceFunctions& functions() const { return functions_; }
 
  private:
-  std::unique_ptr<std::remove_pointer_t<VkInstance>, DestroyInstance>
-      handle_;  ///< Also destroyed if construction fails later.
+  /// Also destroyed if construction fails later.
+  std::unique_ptr<std::remove_pointer_t<VkInstance>, DestroyInstance> handle_;
   InstanceFunctions functions_;
   MessageSink sink_;
   VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
