@@ -71,8 +71,8 @@ PrepareGuidesConstants guideConstants(const fg::Graph& graph, const DenoiserInpu
   const std::uint32_t rings = ringsOf(occlusion);
   for (std::uint32_t ring = 0; ring < rings; ++ring) {
     const float share = (static_cast<float>(ring) + 1.5F) / (static_cast<float>(rings) + 1.5F);
-    const auto nearest = static_cast<float>(ring / 2 + 1);
-    const float distance = std::max(std::floor(radius * share * share), nearest);
+    const std::uint32_t nearest = ring / 2 + 1;
+    const float distance = std::max(std::floor(radius * share * share), static_cast<float>(nearest));
     constants.occlusionDistances[ring] = distance;
     constants.inverseOcclusionDistances[ring] = 1.0F / distance;
   }

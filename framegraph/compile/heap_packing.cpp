@@ -58,7 +58,7 @@ class Packer {
   [[nodiscard]] bool finished() const { return best_.size <= target_ || visits_ >= kVisitBudget; }
 
   template <typename Key>
-  Order orderedBy(Key key) const {
+  [[nodiscard]] Order orderedBy(Key key) const {
     Order order(requests_.size());
     std::iota(order.begin(), order.end(), 0U);
     std::ranges::stable_sort(order, std::greater{}, key);

@@ -190,6 +190,7 @@ class Replay {
 
   void record(const std::vector<PlannedBarrier>& barriers) {
     std::vector<Dependency> batch;
+    batch.reserve(barriers.size());
     for (const PlannedBarrier& barrier : barriers) {
       batch.push_back({expanded(barrier.srcStage), expandedAccess(barrier.srcAccess), expanded(barrier.dstStage),
                        expandedAccess(barrier.dstAccess), barrier.oldLayout, barrier.newLayout,

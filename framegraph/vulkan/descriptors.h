@@ -41,7 +41,7 @@ class Descriptors {
     VkSampler sampler = VK_NULL_HANDLE;
     std::uint64_t size = 0;
   };
-  [[nodiscard]] std::size_t index(FrameIndex frame) const { return frame.slot * kParities + frame.parity; }
+  [[nodiscard]] static std::size_t index(FrameIndex frame) { return frame.slot * kParities + frame.parity; }
   void collectWrites(const GraphDesc& graph, std::size_t plannedPass, const PassDecl& pass, Views& views,
                      bool historiesChange);
   void write(const std::vector<Write>& writes, FrameIndex frame);

@@ -65,8 +65,8 @@ class Executor {
   Executor(const DeviceContext& device, GraphDesc graph, Plan plan, const ExecutorOptions& options = {});
   /// The GPU must have finished all recorded frames.
   ~Executor();
-  Executor(Executor&&) noexcept;
-  Executor& operator=(Executor&&) noexcept;
+  Executor(Executor&& other) noexcept;
+  Executor& operator=(Executor&& other) noexcept;
 
   /// Set the bytes of an upload buffer for the frames recorded from now on.
   /// @throws std::invalid_argument naming the buffer if the size is not the declared one

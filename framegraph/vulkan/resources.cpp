@@ -55,11 +55,11 @@ Resources::Resources(const DeviceContext& device, const GraphDesc& graph, const 
 }
 
 void Resources::import(std::uint32_t resource, VkImage image) {
-  std::fill_n(images_.begin() + resource * kParities, kParities, image);
+  std::fill_n(&images_[std::size_t{resource} * kParities], kParities, image);
 }
 
 void Resources::import(std::uint32_t resource, VkBuffer buffer) {
-  std::fill_n(buffers_.begin() + resource * slots_ * kParities, slots_ * kParities, buffer);
+  std::fill_n(&buffers_[std::size_t{resource} * slots_ * kParities], slots_ * kParities, buffer);
 }
 
 std::uint64_t Resources::allocatedBytes() const {
@@ -96,7 +96,7 @@ void Resources::allocateHeaps(const Membership& membership) {
 void Resources::makeTexture(std::uint32_t resource, const TextureDesc& desc, bool poison) {
   const ResourceDecl& decl = graph_->resources[resource];
   const PlannedResource& planned = plan_->resources[resource];
-  VkImage* const images = &images_[resource * kParities];
+  VkImage* const images = &images_[std::size_t{resource} * kParities];
   if (decl.lifetime == Lifetime::HistoryPrevious) return;  // Created with `current`: the two swap images.
   const bool history = decl.lifetime == Lifetime::HistoryCurrent;
   VkImageUsageFlags usage = planned.imageUsage;
@@ -129,11 +129,11 @@ void Resources::makeTexture(std::uint32_t resource, const TextureDesc& desc, boo
 void Resources::makeBuffer(std::uint32_t resource, const BufferDesc& desc, bool poison) {
   const ResourceDecl& decl = graph_->resources[resource];
   const PlannedResource& planned = plan_->resources[resource];
-  VkBuffer* const buffers = &buffers_[resource * slots_ * kParities];
+  VkBuffer* const buffers = &buffers_[std::size_t{resource} * slots_ * kParities];
   if (decl.lifetime == Lifetime::Upload) {
     for (std::uint32_t slot = 0; slot < slots_; ++slot) {
       const VkBuffer buffer = addBuffer(resource, desc, planned.bufferUsage);
-      std::fill_n(buffers + slot * kParities, kParities, buffer);
+      std::fill_n(buffers + std::size_t{slot} * kParities, kParities, buffer);
       uploads_.add(buffer, &mapped_[resource * slots_ + slot]);
     }
     return;
@@ -153,7 +153,7 @@ void Resources::makeBuffer(std::uint32_t resource, const BufferDesc& desc, bool 
           "binding memory of buffer '" + decl.name + "'");
   }
   std::fill(made.begin() + copies(planned), made.end(), made[0]);
-  for (std::uint32_t slot = 0; slot < slots_; ++slot) std::ranges::copy(made, buffers + slot * kParities);
+  for (std::uint32_t slot = 0; slot < slots_; ++slot) std::ranges::copy(made, buffers + std::size_t{slot} * kParities);
 }
 
 VkImage Resources::addImage(std::uint32_t resource, const TextureDesc& desc, VkImageUsageFlags usage) {
