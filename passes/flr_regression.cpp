@@ -33,8 +33,8 @@ constexpr std::uint64_t vectorsOf(std::uint64_t numbers) {
   return (numbers + 3) / 4;
 }
 
-/// The vectors of a cell in flr.glsl: `kProducts` products of `count` guides, the constant and the colour; the
-/// coefficients.
+/// `count` guides, and the bytes of a cell as flr.glsl lays it out: the products of guides, constant and colour
+/// (`kProducts`), and the coefficients.
 constexpr GuideChoice choiceOf(std::uint64_t count) {
   const std::uint64_t products = vectorsOf((count + 1) * (count + 2) / 2 + 3 * (count + 1));
   const std::uint64_t first = std::min<std::uint64_t>(products, kMostFirstVectors);

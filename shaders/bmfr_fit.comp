@@ -68,7 +68,8 @@ struct Pixel {
 
 Pixel readPixel(int s) {
   const ivec2 size = textureSize(depth, 0);
-  const ivec2 block = ivec2(gl_WorkGroupID.xy) * kBmfrBlockSize - kBmfrBlockSize / 2 + kBlockOffsets[frame.frameIndex % 16u];
+  const ivec2 offset = kBlockOffsets[frame.frameIndex % 16u] - kBmfrBlockSize / 2;
+  const ivec2 block = ivec2(gl_WorkGroupID.xy) * kBmfrBlockSize + offset;
   Pixel pixel;
   pixel.p = block + placeOf(s);
   const ivec2 q = ivec2(mirrored(pixel.p.x, size.x), mirrored(pixel.p.y, size.y));

@@ -94,8 +94,7 @@ void main() {
   imageStore(outView, p, vec4(viewOf(p, z), 1.0));
 #else
   if (z == 0.0) {
-    const vec3 colour = texelFetch(lighting, p, 0).rgb;
-    imageStore(outFiltered, p, vec4(passThroughLight(colour), 1.0));
+    imageStore(outFiltered, p, vec4(passThroughLight(lighting, p), 1.0));
     return;
   }
   const vec4 predicted = predict(p, unpackGuides(packedGuides(p), z));

@@ -125,8 +125,7 @@ void main() {
   imageStore(outView, p, vec4(kView == 0u ? viewOf(p) : vec3(0.0), 1.0));
 #else
   if (unpackDepth(texelFetch(depth, p, 0).x) == 0.0) {
-    const vec3 radiance = texelFetch(lighting, p, 0).rgb;
-    imageStore(outFiltered, p, vec4(passThroughLight(radiance), 1.0));
+    imageStore(outFiltered, p, vec4(passThroughLight(lighting, p), 1.0));
     return;
   }
   const Filtered filtered = filterAround(p, surfaceAt(p));

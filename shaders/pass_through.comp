@@ -11,6 +11,5 @@ layout(rgba16f) uniform writeonly image2D outImage;
 void main() {
   const ivec2 p = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(p, textureSize(lighting, 0)))) return;
-  const vec3 radiance = texelFetch(lighting, p, 0).rgb;
-  imageStore(outImage, p, vec4(passThroughLight(radiance), 1.0));
+  imageStore(outImage, p, vec4(passThroughLight(lighting, p), 1.0));
 }

@@ -104,8 +104,7 @@ void main() {
   imageStore(outView, p, vec4(viewOf(p, z), 1.0));
 #else
   if (z == 0.0) {
-    const vec3 radiance = texelFetch(colour, p, 0).rgb;
-    imageStore(outColour, p, vec4(passThroughLight(radiance), 0.0));
+    imageStore(outColour, p, vec4(passThroughLight(colour, p), 0.0));
     return;
   }
   const Estimate e = estimateAt(p);

@@ -1,11 +1,10 @@
 #pragma once
 
-#include <memory>
 #include <span>
-#include <type_traits>
 
 #include "framegraph/vulkan/device_context.h"
 #include "framegraph/vulkan/physical_device.h"
+#include "framegraph/vulkan/unique_handle.h"
 
 namespace fg::vk {
 
@@ -14,12 +13,6 @@ enum class HalfArithmetic {
   WhereFast,       ///< On GPUs with the feature shaderFloat16. Processors convert every value to and fro.
   WhereSupported,  ///< On every device with that feature.
   Never,
-};
-
-/// Destroys a device.
-struct DestroyDevice {
-  PFN_vkDestroyDevice function = nullptr;
-  void operator()(VkDevice device) const { function(device, nullptr); }
 };
 
 /// A logical device with one queue, for programs that have none of their own.
@@ -43,7 +36,7 @@ class Device {
 
  private:
   /// Also destroyed if construction fails later.
-  std::unique_ptr<std::remove_pointer_t<VkDevice>, DestroyDevice> handle_;
+  UniqueHandle<VkDevice, PFN_vkDestroyDevice> handle_;
   DeviceContext context_;
   VkQueue queue_ = VK_NULL_HANDLE;
 };

@@ -1,15 +1,14 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <type_traits>
 #include <vector>
 
 #include "framegraph/vulkan/functions.h"
 #include "framegraph/vulkan/messages.h"
+#include "framegraph/vulkan/unique_handle.h"
 
 namespace fg::vk {
 
@@ -30,12 +29,6 @@ struct InstanceOptions {
   std::vector<const char*> extensions;  ///< Additional ones, for instance those of a window system.
 };
 
-/// Destroys an instance.
-struct DestroyInstance {
-  PFN_vkDestroyInstance function = nullptr;
-  void operator()(VkInstance instance) const { function(instance, nullptr); }
-};
-
 /// A Vulkan instance for programs that have none of their own.
 class Instance {
  public:
@@ -50,7 +43,7 @@ class Instance {
 
  private:
   /// Also destroyed if construction fails later.
-  std::unique_ptr<std::remove_pointer_t<VkInstance>, DestroyInstance> handle_;
+  UniqueHandle<VkInstance, PFN_vkDestroyInstance> handle_;
   InstanceFunctions functions_;
   MessageSink sink_;
   VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;

@@ -184,8 +184,9 @@ std::string timesSections(const GpuReport& report) {
   std::string text =
       "## Times\n\nBy GPU timestamps, on two frames in alternation that lie in device memory, after a "
       "warm-up. **Plan's GB/s**: bytes of the plan, each texel once a pass, over the measured time. **Unsteady**: the "
-      "95 % quantile is more than 1.5 times the median; clock rates changed, or another program used the device, so "
-      "measure again.\n\n" +
+      "95 % quantile is more than " +
+      fixed(kSteady, 1) +
+      " times the median; clock rates changed, or another program used the device, so measure again.\n\n" +
       modelNote(report);
   for (const ContentMethodTimes& times : report.times) text += timesTable(times);
   const ContentMethodTimes* const shown = passesContent(report);

@@ -40,7 +40,6 @@ std::optional<double> MethodTimes::estimatedMicroseconds() const {
 }
 
 bool MethodTimes::unsteady() const {
-  constexpr double kSteady = 1.5;
   return timing.milliseconds && timing.milliseconds->p95 > kSteady * timing.milliseconds->median;
 }
 

@@ -22,6 +22,9 @@ struct PassModel {
   std::optional<Bounds> attainable;  ///< The same with the measured rates of memory and of cached fetches.
 };
 
+/// Times are unsteady if their 95 % quantile is more than this many times the median.
+constexpr double kSteady = 1.5;
+
 /// Times of one method on one content.
 struct MethodTimes {
   std::string variant;
@@ -32,8 +35,8 @@ struct MethodTimes {
 
   /// Estimate of a frame at peak rates (`FrameEstimate`) in microseconds; nothing if a pass has none.
   [[nodiscard]] std::optional<double> estimatedMicroseconds() const;
-  /// Whether the 95 % quantile is more than 1.5 times the median: clock rates changed meanwhile, or another program
-  /// used the device. On an H100 without other work, methods that had warmed up stayed within 1.05.
+  /// Whether the times are unsteady (`kSteady`): clock rates changed meanwhile, or another program used the device. On
+  /// an H100 without other work, methods that had warmed up stayed within 1.05 times the median.
   [[nodiscard]] bool unsteady() const;
 };
 

@@ -3,9 +3,9 @@
  * what each pass reads and writes, and all that is needed to run it.
  *
  * There are two ways to use it:
- * - Pass by pass: each pass becomes a pass of the host's graph. The host creates the resources of the list, except
- * those of kind UPLOAD and LIBRARY, which the library binds. It orders the passes, places barriers and swaps histories.
- * It calls walr_record_pass for each pass, which only binds and dispatches.
+ * - Pass by pass: each pass becomes a pass of the host's graph. The host creates the resources of the list, orders the
+ *   passes, places barriers and swaps histories. The library itself binds resources of kind UPLOAD and LIBRARY. The
+ *   host calls walr_record_pass for each pass, which only binds and dispatches.
  * - A dispatch list: the host also creates the pipelines, from the SPIR-V and constants in the list. It may use the
  *   list's order, barriers and heap offsets as they are. It need not give a device, but then there are no heaps,
  *   because only a driver knows the sizes of images: the host gives every resource memory of its own.
