@@ -26,9 +26,8 @@ float depthChangeOfStill(const Frame& frame, int x, int y) {
 }
 
 VisibleSurfaces visibleSurfaces(const Frame& frame, const Layout& layout) {
-  // The albedo is finite everywhere, so that the mask leaves out no pixel for lack of a reference.
   VisibleSurfaces surfaces{frame.depth, frame.normal, frame.motion,
-                           diffuseMask(frame.albedo, frame.normal, frame.depth, kSkyDepth, frame.albedo)};
+                           diffuseMask(frame.albedo, frame.normal, frame.depth, kSkyDepth)};
   const glm::mat3 toWorld = glm::transpose(glm::mat3(frame.camera.view));
   const bool inView = layout.conventions.normal == InputConventions::Space::View;
   const bool still = layout.conventions.motionDepth == InputConventions::MotionDepth::StaticScene;

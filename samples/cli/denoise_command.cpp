@@ -22,6 +22,7 @@
 #include "samples/command_line/method_options.h"
 #include "samples/command_line/motion_depth.h"
 #include "samples/command_line/usage_error.h"
+#include "samples/denoise/averaged_frame.h"
 #include "samples/denoise/frame_output.h"
 #include "samples/denoise/light_denoisers.h"
 #include "samples/denoise/pipeline.h"
@@ -198,7 +199,17 @@ DenoiseReport newReport(const DenoiseOptions& options, const std::string& light,
   report.layout = sequence.layout().layout->name;
   report.light = light;
   report.extent = sequence.extent();
+  report.average = options.output.average;
   return report;
+}
+
+/// @throws UsageError if --average does not fit the size of the frames
+fg::Extent extentOfPictures(const OutputOptions& output, const Sequence& sequence) {
+  try {
+    return averagedExtent(sequence.extent(), output.average);
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(std::string("--average: ") + error.what());
+  }
 }
 
 void denoise(DenoiseOptions& options) {
@@ -215,8 +226,13 @@ void denoise(DenoiseOptions& options) {
   refuseUnknownViews(options, *methods.front().method);
   refuseOutputIntoInput(options);
   const Sequence sequence(options.input, options.sequence);
+  const fg::Extent pictures = extentOfPictures(options.output, sequence);
   prepareOutputDirectory(options.output.directory);
   describeInput(std::cout, options.input, sequence);
+  if (options.output.average > 1) {
+    std::cout << "pictures: " << pictures.width << " x " << pictures.height << ", means over " << options.output.average
+              << " x " << options.output.average << " pixels\n";
+  }
   if (options.output.composite) {
     describeComposite(std::cout, sequence.layout(), lights, options.output.referenceDirect);
     options.output.indirectPlane = sequence.layout().plane(Light::Indirect);
@@ -242,7 +258,7 @@ void denoise(DenoiseOptions& options) {
         [&] { return denoiser.finish(); },
         [&](const DenoisedFrame& frame) {
           writer.write(frame);
-          report.frames.push_back(measure(frame));
+          report.frames.push_back(measure(frame, options.output.average));
           noteNonFinite(progress, frame.frame);
           if (const std::size_t count = report.frames.back().nonFiniteOutput; count > 0) {
             progress.note("warning: frame " + std::to_string(frame.frame.number) + ": " + std::to_string(count) +
@@ -312,6 +328,13 @@ void registerDenoise(CLI::App& program) {
       "Also write the lit image as R,G,B: albedo * (direct + indirect), emission, and the light that is "
       "not diffuse, as it is. The denoised lights then have the names that they have in the frames, which "
       "Blender's compositor knows");
+  command
+      ->add_option("--average", options->output.average,
+                   "For frames with several primary hits per pixel of the picture: writes pictures whose pixels are "
+                   "means over N x N pixels of the frames, and measures their errors")
+      ->check(CLI::Range(1, kMostAveraged))
+      ->type_name("N")
+      ->capture_default_str();
   command
       ->add_option("--direct-light", options->directLight,
                    "Direct light of lit images: that of the frame (denoised if --light says so), or not denoised and "

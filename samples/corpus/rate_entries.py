@@ -17,6 +17,10 @@ RESAMPLED_FRAMES = 20
 """Frames that the resampled input takes paths from: what engines take."""
 PLAIN = {"1/4": 2, "1/9": 3}
 """The plain alternative: rate, and the factor by which its frames are smaller on each side."""
+FINE = {"1, 4 hits": {"light_rate": "1/4"}, "4, 4 hits": {"samples": 1}, "16, 4 hits": {"samples": 4}, "64, 4 hits": {"samples": 16}}
+"""Frames of twice the size on each side, so that a pixel of the picture has four primary hits: rate, and what makes it."""
+FINE_METHODS = ("walr", "walr:fast", "flr", "bmfr", "svgf", "accumulate", "none")
+"""Methods that are run on them, all but the slowest."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -43,7 +47,7 @@ class RateEntry(entries.Entry):
 
 
 def of_scene(scene):
-    """The entries of a scene by the name of their rate, and those of the plain alternative."""
+    """The entries of a scene by the name of their rate, those of the plain alternative, and those of twice the size."""
 
     def entry(kind, name, **settings):
         made = SCENES[scene](name, scene, SIZE, JUDGED, 2, reference_samples=128)
@@ -57,4 +61,6 @@ def of_scene(scene):
                                  warm_up=JUDGED[0])
     plain = {rate: entry(RateEntry, f"{scene}_plain_{rate.replace('/', '_')}", size=(SIZE[0] // side, SIZE[1] // side),
                          reference_samples=0) for rate, side in PLAIN.items()}
-    return found, plain
+    fine = {rate: entry(RateEntry, f"{scene}_fine_{rate.split(',')[0]}", size=(SIZE[0] * 2, SIZE[1] * 2), reference_samples=0, **settings)
+            for rate, settings in FINE.items()}
+    return found, plain, fine

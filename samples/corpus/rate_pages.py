@@ -3,7 +3,7 @@ import fractions
 import pathlib
 import sys
 
-from rate_entries import RESAMPLED_FRAMES, TAKE_SPARSE
+from rate_entries import FINE, RESAMPLED_FRAMES, TAKE_SPARSE
 
 HERE = pathlib.Path(__file__).resolve().parent
 PAGE, PLOT = HERE / "RATES.md", HERE / "rates.png"
@@ -21,6 +21,9 @@ ones. Method settings are the defaults at every rate; `fast` is a preset of `wal
 * **input**: the noisy frames; **accumulate**: temporal accumulation alone.
 * **plain alternative**: trace at a half or a third of the size on each side, denoise there with `walr`, and interpolate by depth and
   normal.
+* **4 hits**: each pixel of the picture has four primary hits, and each of them a quarter of the rays. The frames have twice the size on
+  each side; a row says the rays per pixel of the picture. Their results are averaged over 2 x 2 pixels (`walr denoise --average 2`).
+  The other rows have one primary hit per pixel, from which all of its rays go out.
 * **1, resampled**: one ray per pixel, with paths reused over up to {resampled} frames as in ReSTIR GI without spatial reuse.
 
 Errors are x 10^4. The ratio is that to `walr` at 1 ray, the geometric mean over the scenes that have the rate, with its interval of
@@ -85,11 +88,14 @@ def plot(kept):
     for panel, (scene, rates) in zip(panels.flat, kept["scenes"].items()):
         for method in COLUMNS:
             points = [(float(fractions.Fraction(r)), 1e4 * rates[r][method][0]) for r in order(rates)
-                      if r != RESAMPLED and rates[r].get(method)]
+                      if r != RESAMPLED and r not in FINE and rates[r].get(method)]
             style = "--" if method in ("none", "accumulate", "plain") else "-"
             line, = panel.plot(*zip(*points), style, marker="o", markersize=3, label=HEADINGS.get(method, method))
             if rates.get(RESAMPLED, {}).get(method):
                 panel.plot(1, 1e4 * rates[RESAMPLED][method][0], marker="x", color=line.get_color())
+        points = [(float(r.split(",")[0]), 1e4 * rates[r]["walr"][0]) for r in order(rates) if r in FINE]
+        if points:
+            panel.plot(*zip(*points), ":", marker="^", markersize=4, color="black", label="walr, 4 hits")
         panel.set(title=scene, xscale="log", yscale="log", xlabel="rays per pixel (x: resampled)", ylabel="RMSE x 10^4")
         panel.grid(alpha=0.3, which="both")
     panels.flat[0].legend(fontsize=7)

@@ -1,10 +1,11 @@
 #!/usr/bin/python3
-"""Error against rays per pixel: renders the same frames with 1/9 to 64 rays per pixel, denoises and judges them.
+"""Error against rays per pixel: renders the same frames with 1/9 to 64 rays per pixel, from one primary hit or from four,
+denoises and judges them.
 
     rates.py run [--cache DIR]      render and denoise what is missing, judge; writes rates.json, RATES.md and rates.png
     rates.py page [--check]         writes RATES.md and rates.png from rates.json
 
-An interrupted run resumes where it was. It traces 300 million paths, and takes about half an hour of two idle cores. samples/docs/corpus.md
+An interrupted run resumes where it was. It traces 680 million paths, and takes about an hour of two idle cores. samples/docs/corpus.md
 says how errors and intervals are made. Needs numpy, Pillow and matplotlib (Debian: python3-matplotlib)."""
 import argparse
 import fractions
@@ -92,6 +93,17 @@ def plain_pictures(walr, cache, entry, side, full):
     return pictures
 
 
+def fine_pictures(walr, cache, entry, method):
+    """Results on frames of twice the size, averaged over 2 x 2 pixels, by frame. method: METHOD or METHOD:PRESET."""
+    output = results_folder(cache, entry) / method.replace(":", "_")
+    files = {frame: output / f"denoised_{frame:04d}.exr" for frame in FRAMES}
+    if not all(file.exists() for file in files.values()):
+        name, _, preset = method.partition(":")
+        subprocess.run([str(walr), "denoise", str(cache.sequence(entry)), "--output", str(output), "--average", "2", "--method", name,
+                        *(["--preset", preset] if preset else [])], check=True, capture_output=True)
+    return {frame: layer(exr.read(file), "Indirect", "RGB") for frame, file in files.items()}
+
+
 class Squares:
     """Squared errors and numbers of judged pixels of every square of the image, over the judged frames."""
 
@@ -117,7 +129,7 @@ class Squares:
 
 def judged(walr, cache, scene, log):
     """Sums of squares by rate and method, and the noise of the references."""
-    found, plain = rate_entries.of_scene(scene)
+    found, plain, fine = rate_entries.of_scene(scene)
     ready = {rate: e for rate, e in found.items() if all((cache.sequence(e) / f).exists() for f in cache.files(e))}
     full = cache.sequence(found["1"])
     squares, sums = None, {}
@@ -130,6 +142,12 @@ def judged(walr, cache, scene, log):
     for rate, entry in plain.items():
         pictures = plain_pictures(walr, cache, entry, rate_entries.PLAIN[rate], full)
         sums[rate][PLAIN] = squares.sums(lambda frame: pictures[frame])
+    for rate, entry in fine.items():
+        sums[rate] = {}
+        for method in rate_entries.FINE_METHODS if entry.light_rate == "1" else rate_entries.TAKE_SPARSE:
+            pictures = fine_pictures(walr, cache, entry, method)
+            sums[rate][method] = squares.sums(lambda frame: pictures[frame])
+        log(f"{scene}: {rate} judged")
     return sums, squares.noise()
 
 
@@ -171,7 +189,7 @@ def figures(all_sums):
 def run(arguments):
     cache = rendering.Cache(arguments.cache, arguments.walr)
     groups = [rate_entries.of_scene(scene) for scene in rate_entries.SCENES]
-    wanted = [e for found, plain in groups for e in (*found.values(), *plain.values())]
+    wanted = [e for kinds in groups for entries in kinds for e in entries.values()]
     if not arguments.rendered_only:
         rendering.render_all(sorted(wanted, key=lambda e: e.samples), cache, lambda text: print(text, flush=True))
     all_sums, noise = {}, {}

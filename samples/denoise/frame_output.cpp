@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "samples/denoise/averaged_frame.h"
 #include "samples/image/exposure.h"
 #include "samples/image/exr.h"
 #include "samples/image/png.h"
@@ -59,6 +60,10 @@ Image composite(const Image& indirect, const Image& direct, const Image& albedo,
   return lit;
 }
 
+std::filesystem::path FrameWriter::path(const std::string& prefix, const Frame& frame, const char* extension) const {
+  return options_.directory / frameFileName(prefix.c_str(), frame.number, extension);
+}
+
 std::vector<Image> FrameWriter::litImages(const DenoisedFrame& denoised) const {
   const Frame& frame = denoised.frame;
   const Reference& reference = referenceOf(frame);
@@ -81,10 +86,31 @@ std::vector<Image> FrameWriter::litImages(const DenoisedFrame& denoised) const {
 }
 
 void FrameWriter::write(const DenoisedFrame& denoised) {
-  const Frame& frame = denoised.frame;
+  std::vector<Image> lit = options_.composite ? litImages(denoised) : std::vector<Image>{};
+  if (options_.average > 1) {
+    for (Image& image : lit) image = averaged(image, options_.average);
+    writePictures(averagedLights(denoised, options_.average), lit);
+  } else {
+    writePictures(denoised, lit);
+  }
+  for (const ViewPicture& view : denoised.views) {
+    std::vector<ExrChannel> components;
+    appendChannels(components, "", "XYZ", view.image, ExrType::Float);
+    writeExr(path("view_" + view.name, denoised.frame), components);
+  }
+  if (!denoised.slopes.front().empty()) {
+    std::vector<ExrChannel> components;
+    constexpr std::array kNames{"SlopeX", "SlopeY", "SlopeZ"};
+    for (std::size_t axis = 0; axis < kNames.size(); ++axis)
+      appendChannels(components, kNames.at(axis), "RGB", denoised.slopes.at(axis));
+    writeExr(path("direction", denoised.frame), components);
+  }
+}
+
+void FrameWriter::writePictures(const DenoisedFrame& shown, const std::vector<Image>& lit) {
+  const Frame& frame = shown.frame;
   std::vector<ExrChannel> channels;
   std::vector<Versions> rows;
-  const std::vector<Image> lit = options_.composite ? litImages(denoised) : std::vector<Image>{};
   if (!lit.empty()) {
     appendChannels(channels, "", "RGB", lit[kDenoised]);
     Versions& versions = rows.emplace_back();
@@ -96,25 +122,9 @@ void FrameWriter::write(const DenoisedFrame& denoised) {
     Versions& versions = rows.emplace_back(Versions{&noisy, &result});
     if (!reference.empty()) versions.push_back(&reference);
   };
-  addLight(options_.indirectPlane, frame.indirect, denoised.indirect, referenceOf(frame).indirect);
-  addLight(options_.directPlane, frame.direct, denoised.direct, referenceOf(frame).direct);
-
-  const auto path = [&](const std::string& prefix) {
-    return options_.directory / frameFileName(prefix.c_str(), frame.number, "exr");
-  };
-  writeExr(path("denoised"), channels);
-  for (const ViewPicture& view : denoised.views) {
-    std::vector<ExrChannel> components;
-    appendChannels(components, "", "XYZ", view.image, ExrType::Float);
-    writeExr(path("view_" + view.name), components);
-  }
-  if (!denoised.slopes.front().empty()) {
-    std::vector<ExrChannel> components;
-    constexpr std::array kNames{"SlopeX", "SlopeY", "SlopeZ"};
-    for (std::size_t axis = 0; axis < kNames.size(); ++axis)
-      appendChannels(components, kNames.at(axis), "RGB", denoised.slopes.at(axis));
-    writeExr(path("direction"), components);
-  }
+  addLight(options_.indirectPlane, frame.indirect, shown.indirect, referenceOf(frame).indirect);
+  addLight(options_.directPlane, frame.direct, shown.direct, referenceOf(frame).direct);
+  writeExr(path("denoised", frame), channels);
   if (options_.png) writePngs(frame, rows);
 }
 
@@ -136,12 +146,16 @@ void FrameWriter::writePngs(const Frame& frame, const std::vector<Versions>& row
     std::vector<ExposedPicture>& row = comparison.emplace_back();
     for (const Image* const version : versions) row.push_back({version, stops});
   }
-  const auto path = [&](const char* prefix) { return options_.directory / frameFileName(prefix, frame.number, "png"); };
-  writePng(path("denoised"), result);
-  writePng(path("comparison"), comparison);
+  writePng(path("denoised", frame, "png"), result);
+  writePng(path("comparison", frame, "png"), comparison);
 }
 
-FrameReport measure(const DenoisedFrame& denoised) {
+FrameReport measure(const DenoisedFrame& denoised, int average) {
+  if (average > 1) {
+    FrameReport report = measure(averagedLights(denoised, average));
+    report.nonFiniteOutput = countNonFinite(denoised.indirect) + countNonFinite(denoised.direct);
+    return report;
+  }
   const Frame& frame = denoised.frame;
   FrameReport report;
   report.frame = frame.number;

@@ -41,8 +41,12 @@ struct OutputOptions {
   std::string directPlane = "Direct";
   /// Take the direct light of lit images from the reference, if there is one, so that only the indirect light differs.
   bool referenceDirect = false;
-  bool png = false;               ///< Also write tone-mapped images as PNG.
-  std::optional<float> exposure;  ///< Exposure of the PNGs in stops; absent: automatic, see `FrameWriter::write`.
+  /// A pixel of the pictures stands for so many pixels of the frames along each axis; see `averagedLights`. The lit
+  /// image is lit at the size of the frames, and then averaged over all pixels of a square. Views and slopes keep the
+  /// size of the frames.
+  int average = 1;
+  bool png = false;                    ///< Also write tone-mapped images as PNG.
+  std::optional<float> exposure = {};  ///< Exposure of the PNGs in stops; absent: automatic, see `FrameWriter::write`.
 };
 
 /// The lit image without light that is not diffuse: albedo * (direct + indirect) + emission. Non-finite values of
@@ -70,8 +74,12 @@ class FrameWriter {
  private:
   /// A picture of a frame: noisy, denoised and, if there is one, the reference.
   using Versions = std::vector<const Image*>;
+  [[nodiscard]] std::filesystem::path path(const std::string& prefix, const Frame& frame,
+                                           const char* extension = "exr") const;
   /// The lit image in its versions.
   [[nodiscard]] std::vector<Image> litImages(const DenoisedFrame& denoised) const;
+  /// Writes the lights, the lit image and the PNGs. Both are of the size of the pictures.
+  void writePictures(const DenoisedFrame& shown, const std::vector<Image>& lit);
   /// @param rows  the pictures of the frame, the same in all frames
   void writePngs(const Frame& frame, const std::vector<Versions>& rows);
 
@@ -80,6 +88,7 @@ class FrameWriter {
 };
 
 /// Measure a result against the frame's reference, if it has one.
-FrameReport measure(const DenoisedFrame& denoised);
+/// @param average  see `OutputOptions::average`
+FrameReport measure(const DenoisedFrame& denoised, int average = 1);
 
 }  // namespace walr

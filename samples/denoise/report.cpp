@@ -178,6 +178,7 @@ std::string reportJson(const DenoiseReport& report) {
   document["light"] = report.light;
   document["width"] = report.extent.width;
   document["height"] = report.extent.height;
+  document["average"] = report.average;
   document["tone_map"] = "x/(1+x)";
   document["frames"] = Json::array();
   for (const FrameReport& frame : report.frames) {

@@ -51,9 +51,10 @@ struct DenoiseReport {
   bool softwareDevice = false;
   std::string layout;
   std::string light = "indirect";  ///< Which light is denoised: indirect, direct or both.
-  fg::Extent extent;
-  std::vector<FrameReport> frames;
+  fg::Extent extent;               ///< Of the frames.
+  std::vector<FrameReport> frames = {};
   SettingsText directSettings = {};  ///< Of the direct light, if both are denoised.
+  int average = 1;                   ///< See `OutputOptions::average`.
 };
 
 /// Number of frames at the start of a sequence in which history builds up. A second mean leaves them out.

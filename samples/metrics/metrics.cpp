@@ -18,15 +18,22 @@ double countOf(const PixelMask& mask) {
 
 }  // namespace
 
-PixelMask diffuseMask(const Image& albedo, const Image& normal, const Image& depth, float skyDepth,
-                      const Image& reference) {
+PixelMask diffuseMask(const Image& albedo, const Image& normal, const Image& depth, float skyDepth) {
   PixelMask mask(albedo.pixelCount());
   for (std::size_t i = 0; i < mask.size(); ++i) {
     const bool diffuse = std::ranges::any_of(albedo.pixel(i), [](float a) { return a >= kLeastAlbedo; });
     const bool surface = depth.pixel(i)[0] < skyDepth &&
                          std::ranges::any_of(normal.pixel(i), [](float component) { return component != 0.0F; });
-    const bool known = std::ranges::all_of(reference.pixel(i), [](float value) { return std::isfinite(value); });
-    mask[i] = diffuse && surface && known ? 1 : 0;
+    mask[i] = diffuse && surface ? 1 : 0;
+  }
+  return mask;
+}
+
+PixelMask diffuseMask(const Image& albedo, const Image& normal, const Image& depth, float skyDepth,
+                      const Image& reference) {
+  PixelMask mask = diffuseMask(albedo, normal, depth, skyDepth);
+  for (std::size_t i = 0; i < mask.size(); ++i) {
+    if (!std::ranges::all_of(reference.pixel(i), [](float value) { return std::isfinite(value); })) mask[i] = 0;
   }
   return mask;
 }

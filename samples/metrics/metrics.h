@@ -18,8 +18,10 @@ struct ErrorFigures {
   std::optional<double> ssim;  ///< Structural similarity, mean over pixels and RGB; 1 if the images are equal.
 };
 
-/// Mask of the pixels with a diffuse lobe and a known reference: an albedo of at least 0.01 in some channel, a normal
-/// that is not zero, a depth below `skyDepth`, and a finite reference.
+/// Mask of the pixels with a diffuse lobe: an albedo of at least 0.01 in some channel, a normal that is not zero, and a
+/// depth below `skyDepth`.
+PixelMask diffuseMask(const Image& albedo, const Image& normal, const Image& depth, float skyDepth);
+/// Those of them where the reference is known, which means finite.
 PixelMask diffuseMask(const Image& albedo, const Image& normal, const Image& depth, float skyDepth,
                       const Image& reference);
 

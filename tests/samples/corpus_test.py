@@ -376,13 +376,14 @@ class Sizes(unittest.TestCase):
 class Rates(unittest.TestCase):
     def test_entries_trace_the_rays_that_their_names_tell(self):
         for scene in rate_entries.SCENES:
-            found, plain = rate_entries.of_scene(scene)
-            for rate, entry in {**found, **plain}.items():
+            found, plain, fine = rate_entries.of_scene(scene)
+            for rate, entry in {**found, **plain, **fine}.items():
                 frames = entry.frames[1] - entry.frames[0] + 1
                 share = entry.pixels / (rate_entries.SIZE[0] * rate_entries.SIZE[1])
                 traced = (entry.noisy_paths() / entry.pixels / frames - 1) * share
                 self.assertAlmostEqual(traced, rates.rays(rate), places=12, msg=entry.name)
-            self.assertEqual(len({entries.key(e.settings(), "") for e in (*found.values(), *plain.values())}), len(found) + len(plain))
+            every = [*found.values(), *plain.values(), *fine.values()]
+            self.assertEqual(len({entries.key(e.settings(), "") for e in every}), len(every))
             self.assertEqual(len({entries.key(e.reference_settings(), "") for e in found.values()}), 1)
 
     def test_interpolation_keeps_planes_apart(self):

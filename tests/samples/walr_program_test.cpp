@@ -244,6 +244,32 @@ TEST_F(ProgramTest, MethodNoneGivesTheInputBack) {
   EXPECT_TRUE(std::ranges::equal(in.values(), out.values()));
 }
 
+TEST_F(ProgramTest, WritesAndMeasuresAveragedPictures) {
+  files.write(0, 1);
+  expectSuccess(denoise({"--method", "accumulate"}));
+  const Image fine = readIndirect(output / "denoised_0001.exr");
+  const fs::path json = directory.path() / "report.json";
+  const ProcessResult result = denoise({"--method", "accumulate", "--average", "3", "--json", json.string(), "--png"});
+  expectSuccess(result);
+  EXPECT_NE(result.out.find("pictures: 8 x 6, means over 3 x 3 pixels"), std::string::npos) << result.out;
+  EXPECT_EQ(test::schemaTroubles("samples/denoise/denoise.schema.json", json), "");
+  const auto report = nlohmann::json::parse(test::readText(json));
+  EXPECT_EQ(report["average"], 3);
+  EXPECT_GT(report["mean"]["rmse"], 0.0);
+  const Image picture = readIndirect(output / "denoised_0001.exr");
+  ASSERT_EQ(picture.width(), 8);
+  ASSERT_EQ(picture.height(), 6);
+  double sum = 0.0;
+  for (int y = 9; y < 12; ++y) {
+    for (int x = 6; x < 9; ++x) sum += fine.at(x, y, 1) / 9.0;
+  }
+  // Both the mean and its parts are rounded to halves.
+  EXPECT_NEAR(picture.at(2, 3, 1), sum, 2.0 * sum * 0x1p-11);
+  expectFailure(denoise({"--average", "5"}), kUsage,
+                {"--average: squares of 5 x 5 pixels do not fill frames of 24 x 18"});
+  expectFailure(denoise({"--average", "0"}), kUsage, {"--average"});
+}
+
 TEST_F(ProgramTest, TheSkyComesOutAsItWentIn) {
   files.writeCameras(0, 0);
   files.writeFrame(0, [](Channels& channels) { channels.at("DiffInd.G").at(7, 0, 0) = 0.75F; });
