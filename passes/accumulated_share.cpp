@@ -8,7 +8,9 @@
 namespace walr {
 
 SteeredHistory declareSteeredHistory(StageGraph graph, fg::Extent pixels, float maxHistory) {
-  return {graph.history("least antilag factor", {VK_FORMAT_R32_SFLOAT, antilagTiles(pixels)}), maxHistory};
+  const fg::Extent tiles = antilagTiles(pixels);
+  return {graph.history("least antilag factor", {VK_FORMAT_R32_SFLOAT, tiles}),
+          graph.history("anti-aliasing shortening", {VK_FORMAT_R32_UINT, tiles}), maxHistory};
 }
 
 void addAccumulatedShare(StageGraph graph, fg::PassBuilder& apply, const AccumulatedShareInputs& inputs,
@@ -51,12 +53,13 @@ void addAccumulatedShare(StageGraph graph, fg::PassBuilder& apply, const Accumul
       .specialize("kRadius", settings.radius)
       .constants(ResidualStatisticsConstants{static_cast<std::int32_t>(inputs.tileOffset),
                                              1.0F - 1.0F / settings.frames, history.maxHistory, settings.innovationGain,
-                                             bias})
+                                             bias, settings.gain, settings.antialiasingShare})
       // A tile of antilag is no smaller than one of the reconstruction, so that there are no more of them.
       .dispatch(inputs.tiles);
   static_cast<void>(pass.store("outStatistics", statistics.current));
   static_cast<void>(pass.store("outAgreement", agreement.current));
   static_cast<void>(pass.store("outLeastAntilag", history.leastAntilag.current));
+  static_cast<void>(pass.store("outShortening", history.shortening.current));
 }
 
 }  // namespace walr

@@ -21,6 +21,7 @@ struct AccumulatedShareSettings {
   float leastShare = 0.6F;
   float innovationGain = 1.5F;
   float innovationBias = 1.28F;
+  float antialiasingShare = 0.3F;
 
   void visit(SettingVisitor& v) {
     v.visit({"blocks.residual",
@@ -58,16 +59,25 @@ struct AccumulatedShareSettings {
          "the longest history; above 1 history is shorter than that",
          "", 0.0, 100.0, "measured"},
         innovationBias);
+    v.visit(
+        {"blocks.residual-antialiasing",
+         "In frames without jitter, anti-aliasing shortens its history where the share of the accumulated light in a "
+         "tile is above this, down to none at 0.5 more; 1: nowhere",
+         "", 0.0, 1.0, "measured"},
+        antialiasingShare);
   }
 };
 
-/// The history length that accumulation may use. The passes of the share measure it for the next frame.
+/// The history lengths that the temporal stages may use. The passes of the share measure them for the next frame.
 struct SteeredHistory {
   fg::History leastAntilag;  ///< `Antilag::least`.
-  float maxHistory;          ///< Frames: `TemporalAccumulationSettings::maxHistory`.
+  /// R32_UINT, a texel for each tile of antilag: bits of a float, how far anti-aliasing shortens its history, from 0 (not
+  /// at all) to 1 (to none). An integer, so that other textures can stand in for it where it is not read.
+  fg::History shortening;
+  float maxHistory;  ///< Frames: `TemporalAccumulationSettings::maxHistory`.
 };
 
-/// Declare it before accumulation, which reads `leastAntilag.previous`.
+/// Declare it before accumulation, which reads `leastAntilag.previous`. Anti-aliasing reads `shortening.previous`.
 /// @param pixels the image's extent
 SteeredHistory declareSteeredHistory(StageGraph graph, fg::Extent pixels, float maxHistory);
 

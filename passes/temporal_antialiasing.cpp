@@ -49,8 +49,10 @@ bool tightAtEdges(const TemporalAntialiasingSettings& settings) {
 
 /// Add the stage; `read` declares its reprojection.
 /// @param kept whether that comes from the taps that accumulation kept
+/// @param shortening see `addTemporalAntialiasing`
+/// @param number a texture of unsigned integers that the pass reads
 fg::Texture addStage(StageGraph graph, bool kept, const ReadHistory& read, fg::Texture filtered, fg::Texture output,
-                     const TemporalAntialiasingSettings& settings) {
+                     const TemporalAntialiasingSettings& settings, fg::Texture shortening, fg::Texture number) {
   const fg::Extent extent = graph->textureDesc(filtered).extent;
   const fg::History resolved = graph->history("resolved", {formatOf(settings.storage), extent});
   const bool packed = settings.storage == LightStorage::Packed;
@@ -59,6 +61,7 @@ fg::Texture addStage(StageGraph graph, bool kept, const ReadHistory& read, fg::T
         graph->compute(name, view ? shaders::temporalAntialiasingView({.kept = kept, .packed = packed})
                                   : shaders::temporalAntialiasing({.kept = kept, .packed = packed}));
     read(pass, view);
+    pass.specialize("kShortened", shortening.valid()).sampleIf(shortening.valid(), "shortening", shortening, number);
     pass.sample("filtered", filtered)
         .sample("previousResolved", resolved.previous)
         .specialize("kClipRadius", settings.clipRadius)
@@ -81,7 +84,7 @@ fg::Texture addStage(StageGraph graph, bool kept, const ReadHistory& read, fg::T
 
 fg::Texture addTemporalAntialiasing(StageGraph graph, const DenoiserInputs& inputs, const Guides& guides,
                                     fg::Texture filtered, fg::Texture output,
-                                    const TemporalAntialiasingSettings& settings) {
+                                    const TemporalAntialiasingSettings& settings, fg::Texture shortening) {
   const bool packed = settings.storage == LightStorage::Packed;
   const ReprojectionSettings reprojection =
       reprojectionOf(inputs.scene, true, settings.rejection, settings.dilateMotion);
@@ -107,7 +110,7 @@ fg::Texture addTemporalAntialiasing(StageGraph graph, const DenoiserInputs& inpu
       specializeLight(pass, inputs.conventions.light);
     }
   };
-  return addStage(graph, false, read, filtered, output, settings);
+  return addStage(graph, false, read, filtered, output, settings, shortening, packed ? filtered : guides.depth);
 }
 
 bool coversPixelArea(const TemporalAntialiasingSettings& settings, const SceneDescription& scene) {
@@ -123,7 +126,7 @@ bool sharesReprojection(const TemporalAntialiasingSettings& antialiasing,
 
 fg::Texture addTemporalAntialiasingWithTaps(StageGraph graph, fg::Buffer frame, fg::Texture taps, fg::Texture depth,
                                             fg::Texture filtered, fg::Texture output,
-                                            const TemporalAntialiasingSettings& settings) {
+                                            const TemporalAntialiasingSettings& settings, fg::Texture shortening) {
   const auto read = [&](fg::PassBuilder& pass, bool /*view*/) {
     pass.uniform("frameConstants", frame)
         .sample("keptTaps", taps)
@@ -132,7 +135,7 @@ fg::Texture addTemporalAntialiasingWithTaps(StageGraph graph, fg::Buffer frame, 
         .specialize("kTightAtEdges", depth.valid() && tightAtEdges(settings))
         .specialize("kRejectHistory", settings.rejection != HistoryRejection::None);
   };
-  return addStage(graph, true, read, filtered, output, settings);
+  return addStage(graph, true, read, filtered, output, settings, shortening, taps);
 }
 
 }  // namespace walr

@@ -96,10 +96,11 @@ struct TemporalAntialiasingSettings {
 /// Remove the flicker and aliasing that the spatial filter leaves: bicubic history, variance clipping, moving average.
 /// @param filtered the current frame in the storage `settings.storage`; RGBA16F: alpha below 0 where there is no sample
 /// @param output   RGBA16F texture to write the result to
+/// @param shortening `SteeredHistory::shortening` of the previous frame, or invalid
 /// @returns the output's new version
 fg::Texture addTemporalAntialiasing(StageGraph graph, const DenoiserInputs& inputs, const Guides& guides,
                                     fg::Texture filtered, fg::Texture output,
-                                    const TemporalAntialiasingSettings& settings = {});
+                                    const TemporalAntialiasingSettings& settings = {}, fg::Texture shortening = {});
 
 /// Whether anti-aliasing averages light over the area of pixels in jittered frames (`pixelArea`).
 bool coversPixelArea(const TemporalAntialiasingSettings& settings, const SceneDescription& scene);
@@ -115,6 +116,7 @@ bool sharesReprojection(const TemporalAntialiasingSettings& antialiasing,
 /// @param depth `Guides::depth` if `coversPixelArea` holds, else not valid
 fg::Texture addTemporalAntialiasingWithTaps(StageGraph graph, fg::Buffer frame, fg::Texture taps, fg::Texture depth,
                                             fg::Texture filtered, fg::Texture output,
-                                            const TemporalAntialiasingSettings& settings = {});
+                                            const TemporalAntialiasingSettings& settings = {},
+                                            fg::Texture shortening = {});
 
 }  // namespace walr

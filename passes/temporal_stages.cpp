@@ -91,10 +91,12 @@ fg::Texture addAntialiasing(StageGraph graph, const DenoiserInputs& inputs, cons
   if (!plan.antialiases) {
     return filtered.resource == output.resource ? filtered : addPassThrough(graph, filtered, output);
   }
-  if (!plan.sharesTaps) return addTemporalAntialiasing(graph, inputs, guides, filtered, output, plan.antialiasing);
+  if (!plan.sharesTaps) {
+    return addTemporalAntialiasing(graph, inputs, guides, filtered, output, plan.antialiasing, plan.shortening);
+  }
   const fg::Texture depth = coversPixelArea(plan.antialiasing, inputs.scene) ? guides.depth : fg::Texture{};
   return addTemporalAntialiasingWithTaps(graph, inputs.frame, accumulated.taps, depth, filtered, output,
-                                         plan.antialiasing);
+                                         plan.antialiasing, plan.shortening);
 }
 
 }  // namespace walr

@@ -35,6 +35,7 @@ struct TemporalPlan {
   GuideNeeds guides;                           ///< Guides that these stages read. A filter may need more.
   LightStorage filtered = LightStorage::Half;  ///< Storage of the filter's result.
   fg::Texture leastAntilag = {};               ///< `Antilag::least`, which the filter measures, or invalid.
+  fg::Texture shortening = {};                 ///< `SteeredHistory::shortening` of the previous frame, or invalid.
 };
 
 /// Decide what the temporal stages do. Accumulation keeps its history taps if anti-aliasing would find the same ones,

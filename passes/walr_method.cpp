@@ -45,11 +45,13 @@ fg::Texture addWalr(StageGraph graph, const DenoiserInputs& inputs, fg::Texture 
                                                   .antialiasing = settings.antialiasing,
                                                   .spatialOnly = settings.spatialOnly});
   BlockRegressionSettings blocks = fittedBlocks(settings, inputs.extent(graph).height, inputs.conventions.light);
-  // Reconstruction with blocks.residual measures where history is too long. Antilag then shortens it in the next frame.
+  // Reconstruction with blocks.residual measures where history is too long. In the next frame, antilag then shortens
+  // it, and anti-aliasing its own.
   std::optional<SteeredHistory> history;
   if (blocks.share.enabled && settings.accumulation.antilag.enabled) {
     history = declareSteeredHistory(graph, inputs.extent(graph), settings.accumulation.maxHistory);
     plan.leastAntilag = history->leastAntilag.previous;
+    plan.shortening = history->shortening.previous;
   }
   GuideNeeds needs = plan.guides;
   needs.geometricNormal = true;

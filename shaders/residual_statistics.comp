@@ -1,5 +1,6 @@
 // WALR, share of the accumulated light (passes/WALR.md, 9): sums of the residuals in a window of tiles, where a frame
-// fades as it ages. The innovations in this window tell how long history may be in the next frame.
+// fades as it ages. The innovations in this window tell how long history may be in the next frame, and the share how long
+// that of anti-aliasing may be.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -21,6 +22,7 @@ uniform texture2D previousLeastAntilag;
 layout(rgba32f) uniform writeonly image2D outStatistics;  // As the sums.
 layout(rgba32f) uniform writeonly image2D outAgreement;  // xy: sums of the products two pixels apart; z: trust.
 layout(r32f) uniform writeonly image2D outLeastAntilag;
+layout(r32ui) uniform writeonly uimage2D outShortening;  // Of the history of anti-aliasing: 0 not at all, 1 to none.
 layout(push_constant) uniform PushConstants { ResidualStatisticsConstants constants; };
 #include "include/camera.glsl"
 #include "include/surface.glsl"
@@ -97,9 +99,22 @@ float innovationSlope(ivec2 tileOfSums) {
   return sum.y > 0.0 ? sum.x / sum.y : 0.0;
 }
 
+// How far anti-aliasing shortens its history. Its mean removes noise, and reprojection blurs it. Where the accumulated
+// light of a tile has a large share in the result, there is little noise and much that blur would take away.
+float shorteningOf(ivec2 tileOfSums, float trust) {
+  if (!hasPrevious()) return 0.0;
+  const float range = 0.5;  // Of shares, between no shortening and no history.
+  const ivec2 ofEdges = tileOfSums + ivec2(tilesOfImage().x, 0);
+  const vec4 sums = texelFetch(previousStatistics, tileOfSums, 0) + texelFetch(previousStatistics, ofEdges, 0);
+  const float missed = constants.residualGain * max(sums.x + sums.z, 0.0);
+  const float noise = max(sums.y + sums.w, 0.0) / constants.maxHistory;
+  const float share = trust * missed / max(missed + noise, 1e-30);
+  return clamp((share - constants.antialiasingShare) / range, 0.0, 1.0);
+}
+
 // Changes the history length N of accumulation, for a tile of antilag, and stores the antilag factor with which history
-// has this length. All threads must call it.
-void storeLeastAntilag(ivec2 tile) {
+// has this length. Stores how far anti-aliasing shortens its own, too. All threads must call it.
+void storeHistoryLengths(ivec2 tile) {
   const ivec2 tileOfSums = tileOfSumsAt(tile);
   const float slope = innovationSlope(tileOfSums);
   if (any(greaterThanEqual(tile, imageSize(outLeastAntilag)))) return;
@@ -113,10 +128,11 @@ void storeLeastAntilag(ivec2 tile) {
   const float frames = clamp(before * (1.0 - change), shortest, max(longest, shortest));
   const float factor = 1.0 - (frames - 1.0) / longest;
   imageStore(outLeastAntilag, tile, vec4(clamp(factor, 0.0, 1.0)));
+  imageStore(outShortening, tile, uvec4(floatBitsToUint(shorteningOf(tileOfSums, trust))));
 }
 
 void main() {
   const ivec2 tile = ivec2(gl_GlobalInvocationID.xy);
   storeStatistics(tile);
-  storeLeastAntilag(tile);
+  storeHistoryLengths(tile);
 }

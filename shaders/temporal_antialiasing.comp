@@ -6,6 +6,7 @@
 // What the frame adds is a mean over the samples in and around the pixel.
 // KEPT_TAPS: reprojection comes from the taps that accumulation kept (history_taps.glsl). Otherwise it is done here, or
 // with kStill, nothing moves and the history of a pixel is the pixel itself.
+// With kShortened, the history of frames without jitter is shorter where the filtered light has little noise.
 // PACKED: the filtered light and the history are packed light (packed_light.glsl); every surface has filtered light,
 // and no other pixel has. The pass-through comes from the kept taps or from the host's lighting. The result is not
 // packed.
@@ -21,6 +22,7 @@ layout(local_size_x = 16, local_size_y = 8) in;
 layout(constant_id = 2) const uint kClipRadius = 1;  // Radius of the clipping neighbourhood, pixels.
 layout(constant_id = 6) const bool kPixelArea = false;
 layout(constant_id = 7) const bool kTightAtEdges = false;  // Clip by edgeClipGamma where other surfaces mix in.
+layout(constant_id = 9) const bool kShortened = false;
 #ifdef KEPT_TAPS
 layout(constant_id = 3) const bool kRejectHistory = true;  // Leave out taps that accumulation rejected.
 #endif
@@ -62,6 +64,8 @@ uniform usampler2D previousGeometricNormal;
 uniform utexture2D objects;
 uniform usampler2D previousObjects;
 #endif
+// Of the previous frame, for tiles of antilag: bits of floats, from 0 (not at all) to 1 (to no history).
+uniform usampler2D shortening;
 layout(push_constant) uniform PushConstants { TemporalAntialiasingConstants constants; };
 
 #ifdef PACKED
@@ -92,6 +96,7 @@ vec4 filteredOrPassThroughAt(ivec2 p) { return filteredAt(p); }
 #endif
 #include "include/bicubic.glsl"
 #include "include/half.glsl"
+#include "include/antilag.glsl"
 
 #ifdef KEPT_TAPS
 #include "include/surface.glsl"
@@ -332,14 +337,23 @@ vec3 meanOverArea() {
 // This frame's light of a pixel, whose own sample is `own`.
 vec3 lightOfFrame(vec3 own) { return coversArea() && constants.filterRadius > 0.5 ? meanOverArea() : own; }
 
-// The new running mean and its history length. The filter of history may make it negative.
-vec4 resolve(vec4 current, ResolvedHistory history) {
+// The longest history of a pixel, with this frame. In jittered frames the mean is over the pixel's area, too, which takes
+// as many samples as it gets.
+float longestHistoryAt(ivec2 p) {
+  const bool jittered = frame.jitterDelta != vec2(0.0), sameSize = frame.previousPixelFromPixel == vec2(1.0);
+  if (!kShortened || jittered || !sameSize) return constants.maxHistory;
+  const vec2 tile = amongAntilagTiles(vec2(p)), base = floor(tile);
+  return mix(constants.maxHistory, 1.0, gatherBilinear(shortening, base, tile - base));
+}
+
+// The new running mean of pixel `p` and its history length. The filter of history may make it negative.
+vec4 resolve(ivec2 p, vec4 current, ResolvedHistory history) {
   // Without a sample in this frame the history stays as it is.
   if (current.a < 0.0) return history.light;
   const vec3 light = lightOfFrame(current.rgb);
   if (history.light.a == 0.0) return vec4(light, 1.0);
   const vec3 clipped = clippedHistory(history).colour;
-  const float samples = min(history.light.a + 1.0, constants.maxHistory);
+  const float samples = min(history.light.a + 1.0, longestHistoryAt(p));
   return vec4(mix(clipped, light, 1.0 / samples), samples);
 }
 
@@ -353,7 +367,7 @@ vec3 viewOf(ivec2 p, vec4 current) {
       const float share = 1.0 - 1.0 / max(clipped.outside, 1.0);
       return vec3(share * length(clipped.offset), share, clipped.outside > 1.0);
     }
-    case 1u: return vec3(resolve(current, history).a, history.rejected, history.light.a == 0.0);
+    case 1u: return vec3(resolve(p, current, history).a, history.rejected, history.light.a == 0.0);
   }
   return vec3(0.0);
 }
@@ -382,7 +396,7 @@ void main() {
     imageStore(outImage, p, vec4(current.rgb, 1.0));
     return;
   }
-  const vec4 resolved = resolve(current, historyOf(p));
+  const vec4 resolved = resolve(p, current, historyOf(p));
 #ifdef PACKED
   const vec4 random = randomNumbers(p, frame.frameIndex, kResolvedSeed);
   const vec3 light = clamp(resolved.rgb, vec3(0.0), vec3(largestPacked(kResolvedBits)));

@@ -14,10 +14,13 @@ struct ResidualStatisticsConstants {
   float maxHistory;      // Frames: the longest history of accumulation.
   float innovationGain;  // History shrinks by its length x this x (slope of innovations + innovationBias).
   float innovationBias;  // Minus the slope at which history stays as long as it is.
+  float residualGain;    // Factor of the square of what the fits miss, for which it is measured too small.
+  // Share of accumulated light from which anti-aliasing shortens its history.
+  float antialiasingShare;
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(ResidualStatisticsConstants) == 20);
+static_assert(sizeof(ResidualStatisticsConstants) == 28);
 }  // namespace walr
 #endif
 #endif

@@ -5,11 +5,16 @@
 #include "constants/temporal_accumulation.h"
 #include "gather_bilinear.glsl"
 
+// A position among the tiles of antilag, from the centre of the first one. `position`: in pixels from the centre of the
+// first pixel.
+vec2 amongAntilagTiles(vec2 position) {
+  return position / float(kAntilagTile) + (0.5 / float(kAntilagTile) - 0.5);
+}
+
 // The antilag factor at a position in the frame of `factors`, bilinear, clamped at the borders. `position`: in pixels
 // from the centre of the first pixel.
 float antilagAt(sampler2D factors, vec2 position) {
-  const vec2 tile = position / float(kAntilagTile) + (0.5 / float(kAntilagTile) - 0.5);  // From the first one's centre.
-  const vec2 base = floor(tile);
+  const vec2 tile = amongAntilagTiles(position), base = floor(tile);
   return gatherBilinear(factors, base, tile - base);
 }
 

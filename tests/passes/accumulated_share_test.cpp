@@ -10,11 +10,13 @@
 #include <utility>
 #include <vector>
 
+#include "shaders/constants/antilag.h"
 #include "tests/passes/block_filter.h"
 #include "tests/passes/filter_run.h"
 #include "tests/passes/reference/moments.h"
 #include "tests/passes/reference/octahedral.h"
 #include "tests/passes/reference/storage.h"
+#include "tests/passes/shaders.h"
 #include "tests/passes/synthetic_scene.h"
 #include "tests/vulkan/gpu_fixture.h"
 
@@ -186,8 +188,34 @@ class ExpectedResult {
     return found;
   }
   [[nodiscard]] bool besideEdge(glm::ivec2 p) const { return edges_[p] != 0; }
+  /// How far anti-aliasing shortens its history in a tile of antilag, and how far the device may be from this.
+  [[nodiscard]] std::pair<double, double> shortening(glm::ivec2 tileOfAntilag) const {
+    const glm::ivec2 tile = glm::min(tileOf(kAntilagTile * tileOfAntilag + kAntilagTile / 2), grid_ - 1);
+    Level all;
+    for (const Levels& levels : statistics_[tile]) {
+      for (const Level& level : levels) all.add(level, 1.0);
+    }
+    const AccumulatedShareSettings settings;
+    const double missed = settings.gain * std::max(all.missed, 0.0), noise = std::max(all.noise, 0.0) / kSamples;
+    const double share = trustIn(statistics_[tile], far_[tile]) * missed / (missed + noise);
+    // The device's residuals differ from the test's by 2^-11 of the light (toleranceOf). Relative to the light, y - p
+    // has a mean square of about 1 and h - p one of 1/7, so that the mean of their product differs by at most (1 + .4)
+    // 2^-11, and that of (m - p)^2, 1/8, by .7 x 2^-11.
+    double pixels = 0.0;
+    reference::forEachPixel(kSize, [&](glm::ivec2 p) { pixels += inWindow(tileOf(p), tile) ? 1.0 : 0.0; });
+    const double ofMissed = settings.gain * 1.4 * std::exp2(-11.0) * pixels;
+    const double ofNoise = (1.4 + 0.7) * std::exp2(-11.0) * pixels;
+    const double ofShare = (ofMissed * noise + ofNoise * missed) / ((missed + noise) * (missed + noise));
+    constexpr double kRange = 0.5;
+    return {std::clamp((share - settings.antialiasingShare) / kRange, 0.0, 1.0), ofShare / kRange + std::exp2(-11.0)};
+  }
 
  private:
+  static bool inWindow(glm::ivec2 tile, glm::ivec2 middle) {
+    const glm::ivec2 distance = glm::abs(tile - middle);
+    return std::max(distance.x, distance.y) <= static_cast<int>(AccumulatedShareSettings{}.radius);
+  }
+
   static glm::ivec2 tileOf(glm::ivec2 p) { return (p + kBefore) / kTile; }
 
   /// 1 where the agreement of light and history goes on from pixel to pixel, 0 where it is noise that both share.
@@ -258,22 +286,18 @@ class ExpectedResult {
       light[t] += luminanceOf(predicted[p]);
       pixels[t] += 1.0;
     });
-    const int radius = static_cast<int>(AccumulatedShareSettings{}.radius);
     reference::forEachPixel(grid_, [&](glm::ivec2 t) {
-      for (int y = std::max(t.y - radius, 0); y <= std::min(t.y + radius, grid_.y - 1); ++y) {
-        for (int x = std::max(t.x - radius, 0); x <= std::min(t.x + radius, grid_.x - 1); ++x) {
-          const glm::ivec2 q(x, y);
-          const double perLight = pixels[q] / light[q];
-          for (int axis = 0; axis < 2; ++axis) {
-            const glm::dvec2 products = far[axis][q];
-            far_[t][axis] += perLight * perLight * products.x * std::min(pixels[q] / std::max(products.y, 1.0), 4.0);
-          }
-          for (int c = 0; c < 2; ++c) {
-            for (int level = 0; level < 2; ++level)
-              statistics_[t][c][level].add(tiles[q][c][level], perLight * perLight);
-          }
+      reference::forEachPixel(grid_, [&](glm::ivec2 q) {
+        if (!inWindow(q, t)) return;
+        const double perLight = pixels[q] / light[q];
+        for (int axis = 0; axis < 2; ++axis) {
+          const glm::dvec2 products = far[axis][q];
+          far_[t][axis] += perLight * perLight * products.x * std::min(pixels[q] / std::max(products.y, 1.0), 4.0);
         }
-      }
+        for (int c = 0; c < 2; ++c) {
+          for (int level = 0; level < 2; ++level) statistics_[t][c][level].add(tiles[q][c][level], perLight * perLight);
+        }
+      });
     });
   }
 
@@ -340,6 +364,43 @@ TEST_F(AccumulatedShare, AgreesWithDoublePrecision) {
     expectAgreement(light, scene, hasEdges, false);
     expectAgreement(withSharedNoise(light), scene, hasEdges, true);
   }
+}
+
+TEST_F(AccumulatedShare, ShortensTheHistoryOfAntialiasing) {
+  const auto add = [](fg::Graph& graph, fg::Buffer frame, const Guides& guides, const auto& inputs) {
+    BlockLight light{.accumulated = inputs[0], .alpha = LightingAlpha::SampleCount, .lighting = inputs[1]};
+    light.history = declareSteeredHistory(graph, graph.textureDesc(inputs[0]).extent, float(kSamples));
+    static_cast<void>(
+        addBlockFilter(graph, frame, light, guides, {.size = kBlock, .iterations = 2, .coarseSigma = 0.15F}));
+    fg::Texture bits = light.history->shortening.current;
+    ++bits.version;  // That which the filter writes.
+    const fg::Extent extent = graph.textureDesc(bits).extent;
+    fg::PassBuilder pass = graph.compute("floats of bits", shaders::floatBits);
+    pass.sample("source", bits).dispatch(extent);
+    return pass.store("target", graph.texture("floats", {VK_FORMAT_R16G16B16A16_SFLOAT, extent}));
+  };
+  const glm::ivec2 tiles = (kSize - 1) / kAntilagTile + 1;
+  bool between = false;
+  // S, the square of the stripes, counts eightfold against the noise of the mean, 1/8: shares of .59, .72 and .94.
+  for (const double stripes : {0.15, 0.2, 0.5}) {
+    for (const Scene& scene : {flatWall(), thinBars()}) {
+      SCOPED_TRACE(stripes);
+      const Light light = stripedLight(stripes, 1.0);
+      FilterOf fits(device(), scene, false);
+      const ExpectedResult expected(fits, light, fits.filter(light));
+      const reference::HostFrame frame = renderStill(scene, kSize);
+      FilterRun run(device(), kSize, 2, add, true);
+      for (int i = 0; i < 3; ++i) {
+        const Image<glm::dvec4> actual = run.run(frame, fits.guides(), {light.mean, light.lighting});
+        reference::forEachPixel(tiles, [&](glm::ivec2 t) {
+          const auto [shortening, tolerance] = expected.shortening(t);
+          between = between || (shortening > 0.1 && shortening < 0.9);
+          EXPECT_NEAR(actual[t].x, i == 0 ? 0.0 : shortening, tolerance) << t.x << ", " << t.y << ", frame " << i;
+        });
+      }
+    }
+  }
+  EXPECT_TRUE(between);
 }
 
 // A pixel whose surface has just appeared has no history that could agree with its light, but statistics of the frame

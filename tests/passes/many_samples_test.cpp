@@ -133,6 +133,23 @@ TEST_F(ManySamples, GoodLightIsNotMadeWorse) {
   EXPECT_GT(lastError(frames, fast()), 2.0 * input);
 }
 
+// Without noise, anti-aliasing keeps no history, and its result is the current frame within 1 %, of which the rounding
+// of light to 9 bits is a tenth.
+TEST_F(ManySamples, AntialiasingDoesNotBlurGoodLight) {
+  const auto frames = walk(0, detailedLight);
+  const double without = lastError(frames, standard());
+  EXPECT_LT(lastError(frames, standard({})), 1.01 * without);
+  // With its longest history, three frames, two of three parts have been reprojected.
+  EXPECT_GT(lastError(frames, standard({{"blocks.residual-antialiasing", "1"}})), 1.3 * without);
+}
+
+// The requirement of MakeTheErrorSmaller, with anti-aliasing.
+TEST_F(ManySamples, MakeTheErrorSmallerWithAntialiasing) {
+  const double one = lastError(walk(1, detailedLight), standard({}));
+  EXPECT_LT(lastError(walk(4, detailedLight), standard({})), 0.8 * one);
+  EXPECT_LT(lastError(walk(16, detailedLight), standard({})), 0.6 * one);
+}
+
 TEST_F(ManySamples, HistoryIsShortWhereItBlurs) {
   const auto frames = walk(0, detailedLight);
   const double steered = lastError(frames, standard());
