@@ -61,7 +61,7 @@ Image composite(const Image& indirect, const Image& direct, const Image& albedo,
 }
 
 std::filesystem::path FrameWriter::path(const std::string& prefix, const Frame& frame, const char* extension) const {
-  return options_.directory / frameFileName(prefix.c_str(), frame.number, extension);
+  return options_.directory / frameFileName(prefix, frame.number, extension);
 }
 
 std::vector<Image> FrameWriter::litImages(const DenoisedFrame& denoised) const {
