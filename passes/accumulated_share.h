@@ -62,7 +62,7 @@ struct AccumulatedShareSettings {
     v.visit(
         {"blocks.residual-antialiasing",
          "In frames without jitter, anti-aliasing shortens its history where the share of the accumulated light in a "
-         "tile is above this, down to none at 0.5 more; 1: nowhere",
+         "tile is above this. Where the share is 0.5 above, no history is left. 1: nowhere",
          "", 0.0, 1.0, "measured"},
         antialiasingShare);
   }
@@ -71,8 +71,8 @@ struct AccumulatedShareSettings {
 /// The history lengths that the temporal stages may use. The passes of the share measure them for the next frame.
 struct SteeredHistory {
   fg::History leastAntilag;  ///< `Antilag::least`.
-  /// R32_UINT, a texel for each tile of antilag: bits of a float, how far anti-aliasing shortens its history, from 0 (not
-  /// at all) to 1 (to none). An integer, so that other textures can stand in for it where it is not read.
+  /// R32_UINT, a texel for each tile of antilag: bits of a float, how far anti-aliasing shortens its history, from 0
+  /// (not at all) to 1 (to none). An integer, so that other textures can stand in for it where it is not read.
   fg::History shortening;
   float maxHistory;  ///< Frames: `TemporalAccumulationSettings::maxHistory`.
 };

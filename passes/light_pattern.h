@@ -38,6 +38,13 @@ struct LightPattern {
   /// @param offset `FrameDescription::lightOffset`
   [[nodiscard]] glm::ivec2 pixelOf(glm::ivec2 texel, glm::ivec2 offset) const;
 
+  /// The texel of a pixel's group.
+  [[nodiscard]] glm::ivec2 texelOf(glm::ivec2 pixel) const { return pixel / glm::ivec2(columns, rows); }
+  /// Whether a pixel is the one in its group that has the sample.
+  [[nodiscard]] bool hasSample(glm::ivec2 pixel, glm::ivec2 offset) const {
+    return pixelOf(texelOf(pixel), offset) == pixel;
+  }
+
   friend bool operator==(const LightPattern&, const LightPattern&) = default;
 };
 

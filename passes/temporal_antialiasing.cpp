@@ -92,10 +92,11 @@ fg::Texture addTemporalAntialiasing(StageGraph graph, const DenoiserInputs& inpu
   const bool objects = !still && settings.objectIds && inputs.objectId.valid();
   const ObjectIds ids = objects ? objectsOf(graph, inputs, guides) : ObjectIds{};
   const bool pixelArea = coversPixelArea(settings, inputs.scene);
+  const fg::Texture number = packed ? filtered : guides.depth;
   const auto read = [&](fg::PassBuilder& pass, bool view) {
     // A view does not show the pass-through, and so does not read it.
     const fg::Texture light = view ? fg::Texture{} : inputs.lighting;
-    const StandIns standIns = {.colour = packed ? light : filtered, .number = packed ? filtered : guides.depth};
+    const StandIns standIns = {.colour = packed ? light : filtered, .number = number};
     pass.uniform("frameConstants", inputs.frame)
         .sampleIf(!still || !packed, "depth", guides.depth, standIns.number)
         .specialize("kStill", still)
@@ -110,7 +111,7 @@ fg::Texture addTemporalAntialiasing(StageGraph graph, const DenoiserInputs& inpu
       specializeLight(pass, inputs.conventions.light);
     }
   };
-  return addStage(graph, false, read, filtered, output, settings, shortening, packed ? filtered : guides.depth);
+  return addStage(graph, false, read, filtered, output, settings, shortening, number);
 }
 
 bool coversPixelArea(const TemporalAntialiasingSettings& settings, const SceneDescription& scene) {

@@ -24,6 +24,7 @@ layout(rgba32f) uniform writeonly image2D outAgreement;  // xy: sums of the prod
 layout(r32f) uniform writeonly image2D outLeastAntilag;
 layout(r32ui) uniform writeonly uimage2D outShortening;  // Of the history of anti-aliasing: 0 not at all, 1 to none.
 layout(push_constant) uniform PushConstants { ResidualStatisticsConstants constants; };
+#include "include/best_share.glsl"
 #include "include/camera.glsl"
 #include "include/surface.glsl"
 
@@ -106,9 +107,7 @@ float shorteningOf(ivec2 tileOfSums, float trust) {
   const float range = 0.5;  // Of shares, between no shortening and no history.
   const ivec2 ofEdges = tileOfSums + ivec2(tilesOfImage().x, 0);
   const vec4 sums = texelFetch(previousStatistics, tileOfSums, 0) + texelFetch(previousStatistics, ofEdges, 0);
-  const float missed = constants.residualGain * max(sums.x + sums.z, 0.0);
-  const float noise = max(sums.y + sums.w, 0.0) / constants.maxHistory;
-  const float share = trust * missed / max(missed + noise, 1e-30);
+  const float share = bestShare(sums.xy + sums.zw, constants.maxHistory, trust, constants.residualGain);
   return clamp((share - constants.antialiasingShare) / range, 0.0, 1.0);
 }
 

@@ -40,6 +40,7 @@ constexpr std::uint32_t kFramesInFlight = 2;
 struct DenoiseOptions {
   std::filesystem::path input;
   OutputOptions output;
+  int average = 1;  ///< Pixels of a frame along each axis for one of its pictures.
   MethodOptions method;
   std::string frames;
   GpuDevice::Options gpu;
@@ -199,14 +200,14 @@ DenoiseReport newReport(const DenoiseOptions& options, const std::string& light,
   report.layout = sequence.layout().layout->name;
   report.light = light;
   report.extent = sequence.extent();
-  report.average = options.output.average;
+  report.average = options.average;
   return report;
 }
 
 /// @throws UsageError if --average does not fit the size of the frames
-fg::Extent extentOfPictures(const OutputOptions& output, const Sequence& sequence) {
+fg::Extent extentOfPictures(int average, const Sequence& sequence) {
   try {
-    return averagedExtent(sequence.extent(), output.average);
+    return averagedExtent(sequence.extent(), average);
   } catch (const std::invalid_argument& error) {
     throw UsageError(std::string("--average: ") + error.what());
   }
@@ -226,12 +227,12 @@ void denoise(DenoiseOptions& options) {
   refuseUnknownViews(options, *methods.front().method);
   refuseOutputIntoInput(options);
   const Sequence sequence(options.input, options.sequence);
-  const fg::Extent pictures = extentOfPictures(options.output, sequence);
+  const fg::Extent pictures = extentOfPictures(options.average, sequence);
   prepareOutputDirectory(options.output.directory);
   describeInput(std::cout, options.input, sequence);
-  if (options.output.average > 1) {
-    std::cout << "pictures: " << pictures.width << " x " << pictures.height << ", means over " << options.output.average
-              << " x " << options.output.average << " pixels\n";
+  if (options.average > 1) {
+    std::cout << "pictures: " << pictures.width << " x " << pictures.height << ", means over " << options.average
+              << " x " << options.average << " pixels\n";
   }
   if (options.output.composite) {
     describeComposite(std::cout, sequence.layout(), lights, options.output.referenceDirect);
@@ -257,8 +258,15 @@ void denoise(DenoiseOptions& options) {
         },
         [&] { return denoiser.finish(); },
         [&](const DenoisedFrame& frame) {
-          writer.write(frame);
-          report.frames.push_back(measure(frame, options.output.average));
+          const auto output = [&](const DenoisedFrame& shown) {
+            writer.write(frame, shown);
+            report.frames.push_back(measure(frame, shown));
+          };
+          if (options.average > 1) {
+            output(averagedLights(frame, options.average));
+          } else {
+            output(frame);
+          }
           noteNonFinite(progress, frame.frame);
           if (const std::size_t count = report.frames.back().nonFiniteOutput; count > 0) {
             progress.note("warning: frame " + std::to_string(frame.frame.number) + ": " + std::to_string(count) +
@@ -329,7 +337,7 @@ void registerDenoise(CLI::App& program) {
       "not diffuse, as it is. The denoised lights then have the names that they have in the frames, which "
       "Blender's compositor knows");
   command
-      ->add_option("--average", options->output.average,
+      ->add_option("--average", options->average,
                    "For frames with several primary hits per pixel of the picture: writes pictures whose pixels are "
                    "means over N x N pixels of the frames, and measures their errors")
       ->check(CLI::Range(1, kMostAveraged))

@@ -23,6 +23,11 @@ FINE_METHODS = ("walr", "walr:fast", "flr", "bmfr", "svgf", "accumulate", "none"
 """Methods that are run on them, all but the slowest."""
 
 
+def rays(rate):
+    """Rays per pixel of the picture, from the name of a rate."""
+    return float(fractions.Fraction(rate.split(",")[0]))
+
+
 @dataclasses.dataclass(frozen=True)
 class RateEntry(entries.Entry):
     """A sequence of the corpus with other light than a whole number of plain paths per pixel."""
@@ -39,8 +44,8 @@ class RateEntry(entries.Entry):
         return {**super().settings(), "light_rate": self.light_rate, "resampled_frames": self.resampled_frames}
 
     def noisy_paths(self):
-        rays = self.samples * float(fractions.Fraction(self.light_rate))
-        return (self.frames[1] - self.frames[0] + 1) * self.pixels * (rays + 1)
+        traced = self.samples * rays(self.light_rate)
+        return (self.frames[1] - self.frames[0] + 1) * self.pixels * (traced + 1)
 
     def render_options(self):
         return super().render_options() + ["--light-rate", self.light_rate, "--resampled-frames", str(self.resampled_frames)]

@@ -1,9 +1,8 @@
 """RATES.md and rates.png from rates.json."""
-import fractions
 import pathlib
 import sys
 
-from rate_entries import FINE, RESAMPLED_FRAMES, TAKE_SPARSE
+from rate_entries import FINE, RESAMPLED_FRAMES, TAKE_SPARSE, rays
 
 HERE = pathlib.Path(__file__).resolve().parent
 PAGE, PLOT = HERE / "RATES.md", HERE / "rates.png"
@@ -42,7 +41,7 @@ ratio to that of the same method at 1.
 
 
 def order(rates):
-    return sorted(rates, key=lambda rate: (float(fractions.Fraction(rate.split(",")[0])), rate))
+    return sorted(rates, key=lambda rate: (rays(rate), rate))
 
 
 def row(cells):
@@ -87,13 +86,13 @@ def plot(kept):
     figure, panels = pyplot.subplots(2, 2, figsize=(10, 7), constrained_layout=True)
     for panel, (scene, rates) in zip(panels.flat, kept["scenes"].items()):
         for method in COLUMNS:
-            points = [(float(fractions.Fraction(r)), 1e4 * rates[r][method][0]) for r in order(rates)
+            points = [(rays(r), 1e4 * rates[r][method][0]) for r in order(rates)
                       if r != RESAMPLED and r not in FINE and rates[r].get(method)]
             style = "--" if method in ("none", "accumulate", "plain") else "-"
             line, = panel.plot(*zip(*points), style, marker="o", markersize=3, label=HEADINGS.get(method, method))
             if rates.get(RESAMPLED, {}).get(method):
                 panel.plot(1, 1e4 * rates[RESAMPLED][method][0], marker="x", color=line.get_color())
-        points = [(float(r.split(",")[0]), 1e4 * rates[r]["walr"][0]) for r in order(rates) if r in FINE]
+        points = [(rays(r), 1e4 * rates[r]["walr"][0]) for r in order(rates) if r in FINE]
         if points:
             panel.plot(*zip(*points), ":", marker="^", markersize=4, color="black", label="walr, 4 hits")
         panel.set(title=scene, xscale="log", yscale="log", xlabel="rays per pixel (x: resampled)", ylabel="RMSE x 10^4")

@@ -8,7 +8,6 @@ denoises and judges them.
 An interrupted run resumes where it was. It traces 680 million paths, and takes about an hour of two idle cores. samples/docs/corpus.md
 says how errors and intervals are made. Needs numpy, Pillow and matplotlib (Debian: python3-matplotlib)."""
 import argparse
-import fractions
 import json
 import math
 import pathlib
@@ -34,10 +33,6 @@ PLAIN = "plain"
 METHODS = tuple(column for column in rate_pages.COLUMNS if column != PLAIN)
 CYCLES = [table.PROJECT.parent / "shared" / "sequences" / name for name in ("sponza", "cornell_fence")]
 FRAMES = range(rate_entries.JUDGED[0], rate_entries.JUDGED[1] + 1)
-
-
-def rays(rate):
-    return float(fractions.Fraction(rate.split(",")[0]))
 
 
 def results_folder(cache, entry):
@@ -78,30 +73,31 @@ def interpolated(small, small_guides, guides, side):
     return total / weights[:, :, None]
 
 
+def denoised(walr, sequence, output, options):
+    """Results of `walr denoise` by frame; what has been denoised is not denoised again."""
+    files = {frame: output / f"denoised_{frame:04d}.exr" for frame in FRAMES}
+    if not all(file.exists() for file in files.values()):
+        subprocess.run([str(walr), "denoise", str(sequence), "--output", str(output), *options], check=True, capture_output=True)
+    return {frame: layer(exr.read(file), "Indirect", "RGB") for frame, file in files.items()}
+
+
 def plain_pictures(walr, cache, entry, side, full):
     """Results of the plain alternative by frame. full: the sequence with guides of full size."""
     sequence = cache.sequence(entry)
-    output = results_folder(cache, entry)
-    if not all((output / f"denoised_{frame:04d}.exr").exists() for frame in FRAMES):
-        subprocess.run([str(walr), "denoise", str(sequence), "--output", str(output)], check=True, capture_output=True)
+    lights = denoised(walr, sequence, results_folder(cache, entry), [])
     pictures = {}
     for frame in FRAMES:
         small, large = (exr.read(folder / f"noisy_{frame:04d}.exr") for folder in (sequence, full))
         guides = [(images["Depth.Z"].astype(float), layer(images, "Normal", "XYZ")) for images in (small, large)]
-        light = layer(exr.read(output / f"denoised_{frame:04d}.exr"), "Indirect", "RGB")
-        pictures[frame] = interpolated(light, *guides, side)
+        pictures[frame] = interpolated(lights[frame], *guides, side)
     return pictures
 
 
 def fine_pictures(walr, cache, entry, method):
     """Results on frames of twice the size, averaged over 2 x 2 pixels, by frame. method: METHOD or METHOD:PRESET."""
-    output = results_folder(cache, entry) / method.replace(":", "_")
-    files = {frame: output / f"denoised_{frame:04d}.exr" for frame in FRAMES}
-    if not all(file.exists() for file in files.values()):
-        name, _, preset = method.partition(":")
-        subprocess.run([str(walr), "denoise", str(cache.sequence(entry)), "--output", str(output), "--average", "2", "--method", name,
-                        *(["--preset", preset] if preset else [])], check=True, capture_output=True)
-    return {frame: layer(exr.read(file), "Indirect", "RGB") for frame, file in files.items()}
+    name, _, preset = method.partition(":")
+    return denoised(walr, cache.sequence(entry), results_folder(cache, entry) / method.replace(":", "_"),
+                    ["--average", "2", "--method", name, *(["--preset", preset] if preset else [])])
 
 
 class Squares:
@@ -134,7 +130,7 @@ def judged(walr, cache, scene, log):
     full = cache.sequence(found["1"])
     squares, sums = None, {}
     for rate, entry in sorted(ready.items(), key=lambda item: item[0] != "1"):
-        methods = METHODS if rays(rate) >= 1 else rate_entries.TAKE_SPARSE
+        methods = METHODS if rate_entries.rays(rate) >= 1 else rate_entries.TAKE_SPARSE
         pictures = bench(walr, cache, entry, methods)
         squares = squares or Squares(full, pictures)
         sums[rate] = {m: squares.sums(lambda frame: np.load(pictures / f"{m}_{frame:04d}.npy").astype(float)) for m in methods}

@@ -45,34 +45,33 @@ Image meanOf(const Image& image, int side, const PixelMask& counted) {
   return mean;
 }
 
-// The value at the first counted pixel of every square, or at the first of all in a square without one.
-Image firstOf(const Image& image, int side, const PixelMask& counted) {
-  Image first(image.width() / side, image.height() / side, image.components());
-  for (int y = 0; y < first.height(); ++y) {
-    for (int x = 0; x < first.width(); ++x) {
-      bool found = false;
-      bool any = false;
-      visitSquare(image.width(), side, x, y, [&](std::size_t pixel) {
-        if (found || (any && counted[pixel] == 0)) return;
-        any = true;
-        found = counted[pixel] != 0;
-        for (int c = 0; c < first.components(); ++c) {
-          first.at(x, y, c) = image.pixel(pixel)[static_cast<std::size_t>(c)];
-        }
-      });
+// The number of the first counted pixel of every square, or of the first of all in a square without one.
+std::vector<std::size_t> firstPixels(int width, int height, int side, const PixelMask& counted) {
+  std::vector<std::size_t> first;
+  for (int y = 0; y < height / side; ++y) {
+    for (int x = 0; x < width / side; ++x) {
+      std::vector<std::size_t> square;
+      visitSquare(width, side, x, y, [&](std::size_t pixel) { square.push_back(pixel); });
+      const auto found = std::ranges::find_if(square, [&](std::size_t pixel) { return counted[pixel] != 0; });
+      first.push_back(found == square.end() ? square.front() : *found);
     }
   }
   return first;
 }
 
+// An image whose pixels are some of another one's.
+Image chosen(const Image& image, int side, const std::vector<std::size_t>& pixels) {
+  Image result(image.width() / side, image.height() / side, image.components());
+  for (std::size_t i = 0; i < pixels.size(); ++i) std::ranges::copy(image.pixel(pixels[i]), result.pixel(i).begin());
+  return result;
+}
+
 // Of the counted pixels those that have a sample of the frame's indirect light.
 PixelMask sampled(const Frame& frame, PixelMask counted) {
   if (frame.light.everyPixel()) return counted;
-  const glm::ivec2 group(frame.light.columns, frame.light.rows);
   for (int y = 0; y < frame.depth.height(); ++y) {
     for (int x = 0; x < frame.depth.width(); ++x) {
-      const glm::ivec2 pixel(x, y);
-      if (frame.light.pixelOf(pixel / group, frame.lightOffset) == pixel) continue;
+      if (frame.light.hasSample({x, y}, frame.lightOffset)) continue;
       counted[static_cast<std::size_t>(y) * static_cast<std::size_t>(frame.depth.width()) +
               static_cast<std::size_t>(x)] = 0;
     }
@@ -100,7 +99,8 @@ DenoisedFrame averagedLights(const DenoisedFrame& denoised, int side) {
   const Frame& frame = denoised.frame;
   const PixelMask diffuse = diffuseMask(frame.albedo, frame.normal, frame.depth, kSkyDepth);
   const auto light = [&](const Image& image) { return meanOf(image, side, diffuse); };
-  const auto guide = [&](const Image& image) { return firstOf(image, side, diffuse); };
+  const std::vector<std::size_t> first = firstPixels(frame.depth.width(), frame.depth.height(), side, diffuse);
+  const auto guide = [&](const Image& image) { return chosen(image, side, first); };
 
   DenoisedFrame small;
   small.frame.number = frame.number;

@@ -21,8 +21,8 @@ Image averaged(const Image& image, int side);
 ///
 /// A light is the mean over those pixels of a square that have a diffuse surface, because demodulated light means
 /// nothing elsewhere, and over all if none has. Where indirect light is sparse, the noisy one is the mean over those
-/// that have a sample. Albedo, normal and depth are those of the square's first diffuse surface: they tell
-/// errors which pixels count. Emission, motion, views and slopes are left out.
+/// that have a sample. Albedo, normal and depth are those of the square's first diffuse surface, so that errors count a
+/// square that has one. Emission, motion, views and slopes are left out.
 DenoisedFrame averagedLights(const DenoisedFrame& denoised, int side);
 
 }  // namespace walr

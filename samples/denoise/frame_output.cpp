@@ -85,14 +85,13 @@ std::vector<Image> FrameWriter::litImages(const DenoisedFrame& denoised) const {
   return lit;
 }
 
-void FrameWriter::write(const DenoisedFrame& denoised) {
+void FrameWriter::write(const DenoisedFrame& denoised, const DenoisedFrame& shown) {
   std::vector<Image> lit = options_.composite ? litImages(denoised) : std::vector<Image>{};
-  if (options_.average > 1) {
-    for (Image& image : lit) image = averaged(image, options_.average);
-    writePictures(averagedLights(denoised, options_.average), lit);
-  } else {
-    writePictures(denoised, lit);
+  const int side = denoised.frame.depth.width() / shown.frame.depth.width();
+  if (side > 1) {
+    for (Image& image : lit) image = averaged(image, side);
   }
+  writePictures(shown, lit);
   for (const ViewPicture& view : denoised.views) {
     std::vector<ExrChannel> components;
     appendChannels(components, "", "XYZ", view.image, ExrType::Float);
@@ -150,13 +149,8 @@ void FrameWriter::writePngs(const Frame& frame, const std::vector<Versions>& row
   writePng(path("comparison", frame, "png"), comparison);
 }
 
-FrameReport measure(const DenoisedFrame& denoised, int average) {
-  if (average > 1) {
-    FrameReport report = measure(averagedLights(denoised, average));
-    report.nonFiniteOutput = countNonFinite(denoised.indirect) + countNonFinite(denoised.direct);
-    return report;
-  }
-  const Frame& frame = denoised.frame;
+FrameReport measure(const DenoisedFrame& denoised, const DenoisedFrame& shown) {
+  const Frame& frame = shown.frame;
   FrameReport report;
   report.frame = frame.number;
   report.resetHistory = frame.resetHistory;
@@ -164,8 +158,8 @@ FrameReport measure(const DenoisedFrame& denoised, int average) {
   report.nonFiniteOutput = countNonFinite(denoised.indirect) + countNonFinite(denoised.direct);
   report.counters = denoised.counters;
   const Reference& reference = referenceOf(frame);
-  report.indirect = errorsOf(denoised.indirect, frame.indirect, reference.indirect, reference.indirectHalf, frame);
-  report.direct = errorsOf(denoised.direct, frame.direct, reference.direct, {}, frame);
+  report.indirect = errorsOf(shown.indirect, frame.indirect, reference.indirect, reference.indirectHalf, frame);
+  report.direct = errorsOf(shown.direct, frame.direct, reference.direct, {}, frame);
   return report;
 }
 

@@ -41,10 +41,6 @@ struct OutputOptions {
   std::string directPlane = "Direct";
   /// Take the direct light of lit images from the reference, if there is one, so that only the indirect light differs.
   bool referenceDirect = false;
-  /// A pixel of the pictures stands for so many pixels of the frames along each axis; see `averagedLights`. The lit
-  /// image is lit at the size of the frames, and then averaged over all pixels of a square. Views and slopes keep the
-  /// size of the frames.
-  int average = 1;
   bool png = false;                    ///< Also write tone-mapped images as PNG.
   std::optional<float> exposure = {};  ///< Exposure of the PNGs in stops; absent: automatic, see `FrameWriter::write`.
 };
@@ -68,8 +64,13 @@ class FrameWriter {
   /// If no exposure is given, it is chosen by `autoExposure`, separately for the lit image and for each light, from the
   /// reference or, without one, from the result. It is chosen at the first frame and at each camera cut, and is
   /// constant in between so that frames can be compared.
+  ///
+  /// @param shown  the lights as the pictures show them: `averagedLights`, or the frame itself. The lit image is lit at
+  ///               the size of the frame, and then averaged over all pixels of a square of `shown`. Views and slopes
+  ///               keep the size of the frame.
   /// @throws OutputError; every file is either complete or absent
-  void write(const DenoisedFrame& denoised);
+  void write(const DenoisedFrame& denoised, const DenoisedFrame& shown);
+  void write(const DenoisedFrame& denoised) { write(denoised, denoised); }
 
  private:
   /// A picture of a frame: noisy, denoised and, if there is one, the reference.
@@ -78,7 +79,7 @@ class FrameWriter {
                                            const char* extension = "exr") const;
   /// The lit image in its versions.
   [[nodiscard]] std::vector<Image> litImages(const DenoisedFrame& denoised) const;
-  /// Writes the lights, the lit image and the PNGs. Both are of the size of the pictures.
+  /// Write the pictures of the lights and of the lit image, which have one size.
   void writePictures(const DenoisedFrame& shown, const std::vector<Image>& lit);
   /// @param rows  the pictures of the frame, the same in all frames
   void writePngs(const Frame& frame, const std::vector<Versions>& rows);
@@ -88,7 +89,11 @@ class FrameWriter {
 };
 
 /// Measure a result against the frame's reference, if it has one.
-/// @param average  see `OutputOptions::average`
-FrameReport measure(const DenoisedFrame& denoised, int average = 1);
+/// @param shown  as for `FrameWriter::write`; errors are those of its lights. Non-finite values are counted in
+/// `denoised`.
+FrameReport measure(const DenoisedFrame& denoised, const DenoisedFrame& shown);
+inline FrameReport measure(const DenoisedFrame& denoised) {
+  return measure(denoised, denoised);
+}
 
 }  // namespace walr

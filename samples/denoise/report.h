@@ -54,7 +54,7 @@ struct DenoiseReport {
   fg::Extent extent;               ///< Of the frames.
   std::vector<FrameReport> frames = {};
   SettingsText directSettings = {};  ///< Of the direct light, if both are denoised.
-  int average = 1;                   ///< See `OutputOptions::average`.
+  int average = 1;  ///< Pixels of a frame along each axis for one of its pictures; see `averagedLights`.
 };
 
 /// Number of frames at the start of a sequence in which history builds up. A second mean leaves them out.

@@ -130,8 +130,8 @@ Film renderFilm(const World& world, const View& view, const SamplingSettings& se
               continue;
             }
             const glm::ivec2 pixel(x, y);
-            const glm::ivec2 texel = pixel / glm::ivec2(settings.light.columns, settings.light.rows);
-            const bool sampled = settings.light.pixelOf(texel, settings.lightOffset) == pixel;
+            const glm::ivec2 texel = settings.light.texelOf(pixel);
+            const bool sampled = settings.light.hasSample(pixel, settings.lightOffset);
             const PixelTracer tracer(world, settings, sampled ? settings.bounces : 0,
                                      sampled ? seedOf(texel) : seedOf(pixel));
             const PixelLight light = glossy                ? tracer.glossy(hit, film.gbuffer[index].albedo)

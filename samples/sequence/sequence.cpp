@@ -73,17 +73,12 @@ void refuseNonFinite(const std::vector<NonFiniteChannel>& channels) {
 
 /// Sets the light of all pixels that have no sample to 0.
 void clearUnsampled(Image& light, const LightPattern& pattern, glm::ivec2 offset) {
-  Image kept(light.width(), light.height(), light.components());
-  const fg::Extent texels =
-      pattern.lightingExtent({static_cast<std::uint32_t>(light.width()), static_cast<std::uint32_t>(light.height())});
-  for (int y = 0; y < static_cast<int>(texels.height); ++y) {
-    for (int x = 0; x < static_cast<int>(texels.width); ++x) {
-      const glm::ivec2 pixel = pattern.pixelOf({x, y}, offset);
-      if (pixel.x >= light.width() || pixel.y >= light.height()) continue;
-      for (int c = 0; c < light.components(); ++c) kept.at(pixel.x, pixel.y, c) = light.at(pixel.x, pixel.y, c);
+  for (int y = 0; y < light.height(); ++y) {
+    for (int x = 0; x < light.width(); ++x) {
+      if (pattern.hasSample({x, y}, offset)) continue;
+      for (int c = 0; c < light.components(); ++c) light.at(x, y, c) = 0.0F;
     }
   }
-  light = std::move(kept);
 }
 
 }  // namespace

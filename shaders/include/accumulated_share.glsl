@@ -12,6 +12,7 @@
 #ifndef WALR_ACCUMULATED_SHARE_GLSL
 #define WALR_ACCUMULATED_SHARE_GLSL
 #include "antilag.glsl"
+#include "best_share.glsl"
 #include "camera.glsl"
 #include "finite.glsl"
 #include "innovation.glsl"
@@ -61,12 +62,10 @@ Statistics previousStatisticsAt(vec3 before, bool edge) {
   return found;
 }
 
-// The share that makes the expected square of the error least where the residual is a mean of `samples` samples.
-// History that reprojection blurs agrees too little with this frame's light, for which `gain` makes up. The statistics
-// have errors of their own, so that a small share is none.
+// The share of a residual that is a mean of `samples` samples. The statistics have errors of their own, so that a small
+// share is none.
 float accumulatedShare(vec2 statistics, float samples, float trust, float gain) {
-  const float missed = gain * max(statistics.x, 0.0), noise = max(statistics.y, 0.0) / samples;
-  const float share = trust * missed / max(missed + noise, 1e-30);
+  const float share = bestShare(statistics, samples, trust, gain);
   return clamp((share - constants.residualLeastShare) / (1.0 - constants.residualLeastShare), 0.0, 1.0);
 }
 

@@ -196,8 +196,8 @@ class ExpectedResult {
       for (const Level& level : levels) all.add(level, 1.0);
     }
     const AccumulatedShareSettings settings;
-    const double missed = settings.gain * std::max(all.missed, 0.0), noise = std::max(all.noise, 0.0) / kSamples;
-    const double share = trustIn(statistics_[tile], far_[tile]) * missed / (missed + noise);
+    const auto [missed, noise] = weighed(all, kSamples, settings.gain);
+    const double share = bestShare({missed, noise}, trustIn(statistics_[tile], far_[tile]));
     // The device's residuals differ from the test's by 2^-11 of the light (toleranceOf). Relative to the light, y - p
     // has a mean square of about 1 and h - p one of 1/7, so that the mean of their product differs by at most (1 + .4)
     // 2^-11, and that of (m - p)^2, 1/8, by .7 x 2^-11.
@@ -225,11 +225,16 @@ class ExpectedResult {
     return std::clamp((continuing / std::max(around + detail, 1e-30) - 0.75) / 0.2, 0.0, 1.0);
   }
 
+  /// What the fits miss, times `gain`, and the noise of a mean of samples.
+  static Level weighed(const Level& level, double samples, double gain) {
+    return {gain * std::max(level.missed, 0.0), std::max(level.noise, 0.0) / samples};
+  }
+  static double bestShare(const Level& weighed, double trust) {
+    return trust * weighed.missed / std::max(weighed.missed + weighed.noise, 1e-30);
+  }
   static double shareOf(const Level& level, double trust, double samples, double gain) {
-    const AccumulatedShareSettings settings;
-    const double missed = gain * std::max(level.missed, 0.0), noise = std::max(level.noise, 0.0) / samples;
-    const double least = settings.leastShare;
-    return std::clamp((trust * missed / std::max(missed + noise, 1e-30) - least) / (1.0 - least), 0.0, 1.0);
+    const double least = AccumulatedShareSettings{}.leastShare;
+    return std::clamp((bestShare(weighed(level, samples, gain), trust) - least) / (1.0 - least), 0.0, 1.0);
   }
 
   [[nodiscard]] glm::dvec3 positionOf(glm::ivec2 p) const {

@@ -10,11 +10,10 @@
 #include <vector>
 
 #include "passes/denoiser.h"
-#include "passes/temporal_antialiasing.h"
 #include "shaders/constants/antilag.h"
+#include "tests/passes/antialiasing_run.h"
 #include "tests/passes/comparison.h"
 #include "tests/passes/denoiser_run.h"
-#include "tests/passes/host_textures.h"
 #include "tests/passes/synthetic_scene.h"
 #include "tests/vulkan/gpu_fixture.h"
 
@@ -28,38 +27,6 @@ using reference::Image;
 constexpr glm::ivec2 kSize(60, 40);  // Not a multiple of the tiles.
 const glm::ivec2 kTiles = (kSize - 1) / kAntilagTile + 1;
 
-/// Temporal anti-aliasing alone, of a still wall.
-class AntialiasingRun {
- public:
-  AntialiasingRun(const fg::test::TestDevice& device, const TemporalAntialiasingSettings& settings)
-      : inputs_(importInputs(graph_, kSize)),
-        guides_(importGuides(graph_, kSize)),
-        shortening_(graph_.import(
-            "shortening", {VK_FORMAT_R32_UINT, {std::uint32_t(kTiles.x), std::uint32_t(kTiles.y)}}, fg::vk::kUploaded)),
-        output_(importOutput(graph_, kSize)) {
-    graph_.exported(addTemporalAntialiasing(graph_, inputs_, guides_, inputs_.lighting, output_, settings, shortening_),
-                    fg::vk::kReadable);
-    run_ = std::make_unique<fg::test::GraphRun>(device, graph_, fg::vk::ExecutorOptions{.shared = device.pipelines()});
-  }
-
-  Image<glm::dvec4> frame(const HostFrame& frame, const Image<Guide>& guides, const Image<std::uint32_t>& shortening) {
-    upload(*run_, inputs_, frame);
-    upload(*run_, guides_, guides);
-    uploadPrevious(*run_, guides_, guides);
-    run_->fill(shortening_, shortening.pixels());
-    run_->frame();
-    return readHalves(*run_, output_, kSize);
-  }
-
- private:
-  fg::Graph graph_;
-  DenoiserInputs inputs_;
-  Guides guides_;
-  fg::Texture shortening_;
-  fg::Texture output_;
-  std::unique_ptr<fg::test::GraphRun> run_;
-};
-
 class AntialiasingShortening : public fg::test::GpuTest {};
 
 // The result of every frame is the mean h + (y - h) / N with N = min(number of frames, longest history), and the
@@ -72,7 +39,8 @@ TEST_F(AntialiasingShortening, TilesSayHowLongHistoryIs) {
     SCOPED_TRACE(jittered ? "jittered" : "not jittered");
     TemporalAntialiasingSettings settings{.maxHistory = 4.0F, .clipGamma = 1e6F, .edgeClipGamma = 1e6F};
     settings.filterRadius = 0.5F;  // A frame's light is that of the pixel's own sample.
-    AntialiasingRun run(device(), settings);
+    AntialiasingRun run(device(), kSize, settings, {}, {.shortening = true});
+    run.setShortening(shortening);
     HostFrame frame = renderStill(flatWall(), kSize);
     if (jittered) {
       // Samples of a still surface move by as much in the image.
@@ -88,7 +56,7 @@ TEST_F(AntialiasingShortening, TilesSayHowLongHistoryIs) {
       reference::forEachPixel(kSize, [&](glm::ivec2 p) {
         frame.lighting[p] = glm::dvec3(4.0 + changes.at(i) + ((p.x + p.y) % 2 == 0 ? 1.0 : -1.0));
       });
-      const Image<glm::dvec4> result = run.frame(frame, guides, shortening);
+      const Image<glm::dvec4> result = run.frame(frame, guides, guides);
       Comparison comparison("anti-aliasing");
       reference::forEachPixel(kSize, [&](glm::ivec2 p) {
         static_cast<void>(comparison.skips(false));

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "passes/denoiser.h"
-#include "passes/temporal_antialiasing.h"
+#include "tests/passes/antialiasing_run.h"
 #include "tests/passes/comparison.h"
 #include "tests/passes/host_textures.h"
 #include "tests/passes/reference/temporal_antialiasing.h"
@@ -24,36 +24,6 @@ using reference::Image;
 
 constexpr glm::ivec2 kSize(60, 40);  // The wall has 8 pixels per unit, so the panel moves by 4 pixels a frame.
 constexpr std::uint32_t kNobody = 0xffffffffU;
-
-/// Temporal anti-aliasing alone.
-class AntialiasingRun {
- public:
-  AntialiasingRun(const fg::test::TestDevice& device, const TemporalAntialiasingSettings& settings,
-                  const SceneDescription& scene, bool objectIds = true)
-      : inputs_(importInputs(graph_, kSize)), guides_(importGuides(graph_, kSize)) {
-    inputs_.scene = scene;
-    if (objectIds) inputs_.objectId = importObjectIds(graph_, kSize);
-    output_ = importOutput(graph_, kSize);
-    graph_.exported(addTemporalAntialiasing(graph_, inputs_, guides_, inputs_.lighting, output_, settings),
-                    fg::vk::kReadable);
-    run_ = std::make_unique<fg::test::GraphRun>(device, graph_, fg::vk::ExecutorOptions{.shared = device.pipelines()});
-  }
-
-  Image<glm::dvec4> frame(const HostFrame& frame, const Image<Guide>& guides, const Image<Guide>& previous) {
-    upload(*run_, inputs_, frame);
-    upload(*run_, guides_, guides);
-    uploadPrevious(*run_, guides_, previous);
-    run_->frame();
-    return readHalves(*run_, output_, kSize);
-  }
-
- private:
-  fg::Graph graph_;
-  DenoiserInputs inputs_;
-  Guides guides_;
-  fg::Texture output_;
-  std::unique_ptr<fg::test::GraphRun> run_;
-};
 
 /// A frame of the panel; the camera moves by less than a pixel.
 HostFrame panelFrame(std::uint32_t index, const Light& light, Noise noise, double cameraStep) {
@@ -80,7 +50,7 @@ TEST_F(ObjectIdsTest, HistoryAgreesWithTheReference) {
       second.scene.objectMotion = objectMotion;
       const Image<Guide> guides = reference::prepareGuides(first, reference::Storage::Quantised);
       const Image<Guide> guidesNow = reference::prepareGuides(second, reference::Storage::Quantised);
-      AntialiasingRun run(device(), settings, second.scene);
+      AntialiasingRun run(device(), kSize, settings, second.scene, {.objectIds = true});
       (void)run.frame(first, guides, Image<Guide>(kSize));
       const Image<glm::dvec4> result = run.frame(second, guidesNow, guides);
 
@@ -120,7 +90,7 @@ TEST_F(ObjectIdsTest, ASurfaceUncoveredInTheSamePlaneHasNoHistory) {
     for (const HistoryRejection rejection : {HistoryRejection::Plane, HistoryRejection::None}) {
       settings.objectIds = objectIds;
       settings.rejection = rejection;
-      AntialiasingRun run(device(), settings, {});
+      AntialiasingRun run(device(), kSize, settings, {}, {.objectIds = true});
       Image<Guide> before(kSize);
       for (std::uint32_t i = 0; i < 3; ++i) {
         const Scene scene = slidingPanel(i);

@@ -381,7 +381,7 @@ class Rates(unittest.TestCase):
                 frames = entry.frames[1] - entry.frames[0] + 1
                 share = entry.pixels / (rate_entries.SIZE[0] * rate_entries.SIZE[1])
                 traced = (entry.noisy_paths() / entry.pixels / frames - 1) * share
-                self.assertAlmostEqual(traced, rates.rays(rate), places=12, msg=entry.name)
+                self.assertAlmostEqual(traced, rate_entries.rays(rate), places=12, msg=entry.name)
             every = [*found.values(), *plain.values(), *fine.values()]
             self.assertEqual(len({entries.key(e.settings(), "") for e in every}), len(every))
             self.assertEqual(len({entries.key(e.reference_settings(), "") for e in found.values()}), 1)
