@@ -15,7 +15,7 @@ namespace walr {
 struct AccumulatedShareSettings {
   bool enabled = true;
   float frames = 8.0F;
-  std::uint32_t radius = 4;
+  std::uint32_t radius = 5;
   float gain = 8.0F;
   float edgeGain = 16.0F;
   float leastShare = 0.6F;
@@ -34,7 +34,8 @@ struct AccumulatedShareSettings {
         {"blocks.residual-frames", "Frames over which this agreement is measured", "frames", 1.0, 255.0, "measured"},
         frames);
     v.visit({"blocks.residual-radius",
-             "Radius of the window of tiles over which it is measured; a tile is as many blocks as fit into 8 pixels",
+             "Radius of the window of tiles over which it is measured, with weights that fall to the border; a tile is "
+             "as many blocks as fit into 8 pixels",
              "tiles", 0, 8, "measured"},
             radius);
     v.visit({"blocks.residual-gain",

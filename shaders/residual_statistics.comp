@@ -10,7 +10,7 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 0) const int kTileSize = 8;  // Pixels per axis, 5 to 8.
-layout(constant_id = 1) const int kRadius = 4;    // Of the window of tiles.
+layout(constant_id = 1) const int kRadius = 5;    // Of the window of tiles.
 
 layout(std140) uniform frameConstants { FrameConstants frame; };
 uniform utexture2D depth;
@@ -50,6 +50,8 @@ ivec2 previousTile(ivec2 tile) {
 const int kAntilagSpan = 7 * kAntilagTile / kTileSize + 2;  // Tiles that a row of eight tiles of antilag spans.
 const int kAntilagSide = kAntilagSpan + 2 * kRadius;
 const int kSharedLeast = kAntilagSide * kAntilagSide;
+// Falls from the middle to the window's border, so that statistics are local where light differs.
+float windowWeight(int offset) { return 1.0 - float(abs(offset)) / float(kRadius + 1); }
 #include "include/window_sum.glsl"
 
 // How far the agreement of this frame's residuals with the history's is light that the fits miss, and not noise that

@@ -8,4 +8,5 @@ source .ci/ray_query_driver.sh
 walr_setup
 walr_ray_query_driver
 walr_build
-ctest --preset ci --parallel "$(nproc)"
+# One test more than there are cores: some wait for a screen or a device.
+ctest --preset ci --parallel "$(($(nproc) + 1))"

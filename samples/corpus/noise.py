@@ -6,9 +6,9 @@
 Frames of one moment with 1 to 64 rays per pixel are accumulated. A reference tells the error, by quantiles of luminance. The
 estimate is that by which walr chooses the share of accumulated light (passes/SHARE_EXPERIMENTS.md). It takes this frame's light y,
 the mean m of N frames and the prediction p of the fits. With the history h = (N m - y) / (N - 1), the square of m's noise is the
-mean of (m - p)^2 - (y - p)(h - p) over pixels around and over frames, relative to their light. In the first 40 frames it is too
-high by up to an eighth: N counts no further than the longest history, while the noise still falls. Needs numpy and Pillow
-(Debian: python3-matplotlib)."""
+mean of (m - p)^2 - (y - p)(h - p) over pixels around and over frames, relative to their light. It takes the variance to be in
+proportion to the light of a pixel. In the first 40 frames it is too high by up to an eighth: N counts no further than the longest
+history, while the noise still falls. Needs numpy and Pillow (Debian: python3-matplotlib)."""
 import argparse
 import pathlib
 import subprocess
@@ -29,9 +29,9 @@ MOMENT = "1000000"
 """Frames per second: at so many, all frames show the first moment of the animation."""
 REFERENCE_SAMPLES = 768
 QUANTILES = 5
-TILE, WINDOW, KEPT = 5, 9, 7 / 8
-"""Pixels per axis of a tile, tiles per axis of the window, and what a frame keeps of the sums of earlier ones. Its
-tiles have so many pixels at 215 to 257 lines."""
+TILE, RADIUS, KEPT = 5, 5, 7 / 8
+"""Pixels per axis of a tile, the window's radius in tiles, and what a frame keeps of the sums of earlier ones. The tiles of walr
+have so many pixels at 215 to 257 lines."""
 MAX_HISTORY = 8
 
 
@@ -44,6 +44,14 @@ def spread(tiles, shape):
     """Every pixel gets the value of its tile, those beyond the last tile that of the last."""
     rows, columns = (np.minimum(np.arange(n) // TILE, limit - 1) for n, limit in zip(shape, tiles.shape))
     return tiles[rows[:, None], columns[None, :]]
+
+
+def window_sums(tiles):
+    """Sums over the window around each tile, with weights that fall to its border."""
+    weights = 1 - np.abs(np.arange(-RADIUS, RADIUS + 1)) / (RADIUS + 1)
+    padded = np.pad(tiles, RADIUS)
+    rows = sum(w * padded[i:i + tiles.shape[0]] for i, w in enumerate(weights))
+    return sum(w * rows[:, i:i + tiles.shape[1]] for i, w in enumerate(weights))
 
 
 class Estimate:
@@ -59,13 +67,12 @@ class Estimate:
         square = length * ((mean - predicted) ** 2 - (noisy - predicted) * (history - predicted))
         share = tile_means(usable.astype(float))
         light = tile_means(np.where(usable, predicted, 0.0)) / np.maximum(share, 1e-12)
-        relative = np.where(light > 0, tile_means(np.where(usable, square, 0.0)) / np.maximum(light, 1e-12) ** 2, 0.0)
-        radius, everywhere = WINDOW // 2, np.ones(share.shape, bool)
-        self.sums = KEPT * self.sums + judging.window_mean(relative, everywhere, radius)
-        self.pixels = KEPT * self.pixels + judging.window_mean(share, everywhere, radius)
+        relative = np.where(light > 0, tile_means(np.where(usable, square, 0.0)) / np.maximum(light, 1e-12), 0.0)
+        self.sums = KEPT * self.sums + window_sums(relative)
+        self.pixels = KEPT * self.pixels + window_sums(share)
         known = self.pixels > 0
         variance = np.where(known, np.maximum(self.sums, 0.0) / np.where(known, self.pixels, 1.0), np.nan)
-        return spread(light * np.sqrt(variance), mean.shape) / np.sqrt(np.maximum(length, 1))
+        return np.sqrt(np.maximum(predicted, 0.0) * spread(variance, mean.shape) / np.maximum(length, 1))
 
 
 def by_quantile(luminance, estimate, squared_error, counted):
@@ -104,10 +111,11 @@ def rendered(walr, arguments, samples):
 
 
 def denoised(walr, folder, method):
+    """Accumulated light alone, or the prediction of the fits: without accumulated light and anti-aliasing."""
     output = folder / method
+    fits = ["--set", "antialiasing.enabled=off", "--set", "blocks.residual=off"] if method == "walr" else []
     subprocess.run([str(walr), "denoise", str(folder), "--output", str(output), "--method", method, "--set",
-                    f"accumulation.max-history={MAX_HISTORY}", *(["--set", "antialiasing.enabled=off"] if method == "walr" else [])],
-                   check=True, capture_output=True)
+                    f"accumulation.max-history={MAX_HISTORY}", *fits], check=True, capture_output=True)
     return output
 
 
@@ -131,7 +139,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--output", type=pathlib.Path, required=True, help="folder for frames and results")
     parser.add_argument("--scene", default=table.SHARED / "cornell_fence.glb")
-    parser.add_argument("--size", default="192x108", help="default: %(default)s")
+    parser.add_argument("--size", default="384x216", help="default: %(default)s")
     parser.add_argument("--sampler", default="blue-noise", help="of walr render; default: %(default)s")
     parser.add_argument("--walr", type=pathlib.Path, default=table.PROJECT / "build" / "bin" / "walr", help="the program")
     arguments = parser.parse_args()

@@ -205,16 +205,15 @@ struct Measured {
   vec4 far;         // farProduct along both axes.
 };
 
-// Writes what this workgroup adds to the statistics, relative to the square of its mean light, so that a bright one
-// does not outweigh its neighbours.
+// Writes what this workgroup adds to the statistics, relative to its mean light: the noise of traced paths has a variance
+// about in proportion to the light, so that no workgroup outweighs its neighbours.
 void storeSums(Measured pixel) {
   const vec4 none = vec4(0.0), interiorOnly = pixel.edge ? none : pixel.statistics;
   const vec4 edgeOnly = pixel.edge ? pixel.statistics : none;
   const mat4 sums = sumsOverGroup(mat4(vec4(pixel.light, pixel.innovation), interiorOnly, edgeOnly, pixel.far));
   if (gl_LocalInvocationIndex != 0u) return;
   const vec4 first = sums[0], interior = sums[1], edges = sums[2], distant = sums[3];
-  const float perLight = first.x > kLeastLight ? first.y / first.x : 0.0;
-  const float scale = perLight * perLight;
+  const float scale = first.x > kLeastLight ? first.y / first.x : 0.0;
   const vec4 most = vec4(kMostSquare);
   const ivec2 tile = ivec2(gl_WorkGroupID.xy);
   imageStore(outResidualSums, tile, clamp(scale * interior, -most, most));

@@ -1,6 +1,7 @@
 // Sums over windows of tiles. A workgroup shares the tiles around its own, so that each is fetched once.
 // Needs: kRadius, the radius of the window in tiles; kSharedLeast, a number of tiles for which the shared memory is to be
-// sufficient; `tilesOfImage()`; workgroups of 8 x 8.
+// sufficient; `tilesOfImage()`; `windowWeight(offset)`, the weight of tiles that lie so many away along an axis; workgroups
+// of 8 x 8.
 #ifndef WALR_WINDOW_SUM_GLSL
 #define WALR_WINDOW_SUM_GLSL
 
@@ -28,12 +29,14 @@ vec4 windowSum(texture2D image, ivec2 origin) {
   for (int i = int(gl_LocalInvocationIndex); i < kSide * kGroup; i += kGroup * kGroup) {
     const int first = i / kGroup * kSide + i % kGroup;
     vec4 row = vec4(0.0);
-    for (int x = 0; x <= 2 * kRadius; ++x) row += sharedTiles[first + x];
+    for (int x = 0; x <= 2 * kRadius; ++x) row += windowWeight(x - kRadius) * sharedTiles[first + x];
     sharedTiles[kRows + i] = row;
   }
   barrier();
   vec4 sum = vec4(0.0);
-  for (int y = 0; y <= 2 * kRadius; ++y) sum += sharedTiles[kRows + kGroup * y + int(gl_LocalInvocationIndex)];
+  for (int y = 0; y <= 2 * kRadius; ++y) {
+    sum += windowWeight(y - kRadius) * sharedTiles[kRows + kGroup * y + int(gl_LocalInvocationIndex)];
+  }
   return sum;
 }
 

@@ -201,19 +201,19 @@ class ExpectedResult {
     // The device's residuals differ from the test's by 2^-11 of the light (toleranceOf). Relative to the light, y - p
     // has a mean square of about 1 and h - p one of 1/7, so that the mean of their product differs by at most (1 + .4)
     // 2^-11, and that of (m - p)^2, 1/8, by .7 x 2^-11.
-    double pixels = 0.0;
-    reference::forEachPixel(kSize, [&](glm::ivec2 p) { pixels += inWindow(tileOf(p), tile) ? 1.0 : 0.0; });
-    const double ofMissed = settings.gain * 1.4 * std::exp2(-11.0) * pixels;
-    const double ofNoise = (1.4 + 0.7) * std::exp2(-11.0) * pixels;
+    const double ofMissed = settings.gain * 1.4 * std::exp2(-11.0) * light_[tile];
+    const double ofNoise = (1.4 + 0.7) * std::exp2(-11.0) * light_[tile];
     const double ofShare = (ofMissed * noise + ofNoise * missed) / ((missed + noise) * (missed + noise));
     constexpr double kRange = 0.5;
     return {std::clamp((share - settings.antialiasingShare) / kRange, 0.0, 1.0), ofShare / kRange + std::exp2(-11.0)};
   }
 
  private:
-  static bool inWindow(glm::ivec2 tile, glm::ivec2 middle) {
-    const glm::ivec2 distance = glm::abs(tile - middle);
-    return std::max(distance.x, distance.y) <= static_cast<int>(AccumulatedShareSettings{}.radius);
+  /// Weight of a tile in the window around another one: it falls to 0 with the distance along each axis.
+  static double weightOf(glm::ivec2 tile, glm::ivec2 middle) {
+    const glm::dvec2 distance = glm::abs(tile - middle);
+    const glm::dvec2 weight = glm::max(1.0 - distance / (AccumulatedShareSettings{}.radius + 1.0), 0.0);
+    return weight.x * weight.y;
   }
 
   static glm::ivec2 tileOf(glm::ivec2 p) { return (p + kBefore) / kTile; }
@@ -293,15 +293,15 @@ class ExpectedResult {
     });
     reference::forEachPixel(grid_, [&](glm::ivec2 t) {
       reference::forEachPixel(grid_, [&](glm::ivec2 q) {
-        if (!inWindow(q, t)) return;
-        const double perLight = pixels[q] / light[q];
+        const double weight = weightOf(q, t), scale = weight * pixels[q] / light[q];
         for (int axis = 0; axis < 2; ++axis) {
           const glm::dvec2 products = far[axis][q];
-          far_[t][axis] += perLight * perLight * products.x * std::min(pixels[q] / std::max(products.y, 1.0), 4.0);
+          far_[t][axis] += scale * products.x * std::min(pixels[q] / std::max(products.y, 1.0), 4.0);
         }
         for (int c = 0; c < 2; ++c) {
-          for (int level = 0; level < 2; ++level) statistics_[t][c][level].add(tiles[q][c][level], perLight * perLight);
+          for (int level = 0; level < 2; ++level) statistics_[t][c][level].add(tiles[q][c][level], scale);
         }
+        light_[t] += weight * light[q];
       });
     });
   }
@@ -313,6 +313,7 @@ class ExpectedResult {
   Image<int> edges_{kSize};
   Image<Classes> statistics_;
   Image<glm::dvec2> far_;
+  Image<double> light_{grid_};  ///< Predicted luminance, summed over the pixels of the window.
 };
 
 /// How far the result of a pixel with this light may be from double precision.

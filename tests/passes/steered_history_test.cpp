@@ -85,7 +85,7 @@ double slopeAround(glm::ivec2 middle, const Light& before, const Light& now, con
   const int radius = int(AccumulatedShareSettings{}.radius);
   reference::forEachPixel(kTiles, [&](glm::ivec2 t) {
     if (std::max(std::abs(t.x - middle.x), std::abs(t.y - middle.y)) > radius) return;
-    sum += std::pow(lights[t].y / lights[t].x, 2.0) * sums[t];
+    sum += lights[t].y / lights[t].x * sums[t];
   });
   return sum.x / sum.y;
 }
