@@ -20,7 +20,7 @@ endfunction()
 # the project's root ("framegraph/declare/graph.h").
 function(walr_library name)
   cmake_parse_arguments(ARG "" "" "SOURCES" ${ARGN})
-  add_library(walr_${name} ${ARG_SOURCES})
+  add_library(walr_${name} STATIC ${ARG_SOURCES})
   add_library(walr::${name} ALIAS walr_${name})
   set_target_properties(walr_${name} PROPERTIES EXPORT_NAME ${name})
   target_include_directories(walr_${name} PUBLIC

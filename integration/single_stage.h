@@ -33,8 +33,7 @@ using PortFormats = std::map<std::string, VkFormat, std::less<>>;
 /// @param extent  size of all textures between stages
 /// @param formats formats that differ from the port's usual one; optional inputs that are not listed stay unconnected
 /// @throws std::invalid_argument naming a port that is not an input of the stage, and the inputs it has; a format that
-/// a
-///         port does not accept; or a setting that is out of range
+///         a port does not accept; or a setting that is out of range
 SingleStage declareSingleStage(PassNode& stage, fg::Extent extent, const HostStates& states,
                                const PortFormats& formats);
 

@@ -83,7 +83,7 @@ SubresourceState externalState(const ExternalState& state) {
   // No stage: the host has waited for a fence or semaphore, which makes all writes available and visible.
   const bool waited = state.stage == VK_PIPELINE_STAGE_2_NONE;
   return {.stage = state.stage,
-          .pendingWrite = writes,
+          .pendingWrite = waited ? VK_ACCESS_2_NONE : writes,
           .visibleStage = waited ? ~VkPipelineStageFlags2{0} : state.stage,
           .visibleAccess = waited ? ~VkAccessFlags2{0} : (writes != 0 ? VK_ACCESS_2_NONE : state.access),
           .layout = state.layout};

@@ -96,6 +96,7 @@ class Synchronizer {
     const VkPipelineStageFlags2 stage = state.stage;
     std::optional<PlannedBarrier> barrier = released(advance(state, group));
     barrier->dstStage = stage;
+    barrier->dstAccess = VK_ACCESS_2_NONE;
     state.stage = stage;
     return barrier;
   }

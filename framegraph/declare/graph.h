@@ -1,5 +1,6 @@
 #pragma once
 
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -237,7 +238,7 @@ class PassBuilder {
 
   /// Set the push constants.
   template <typename T>
-  PassBuilder& constants(const T& value) {
+  requires(!std::convertible_to<const T&, std::span<const std::byte>>) PassBuilder& constants(const T& value) {
     static_assert(std::is_trivially_copyable_v<T>);
     return constants(std::as_bytes(std::span(&value, 1)));
   }
@@ -249,7 +250,7 @@ class PassBuilder {
   PassBuilder& specialize(std::string_view constant, std::uint32_t value);
   PassBuilder& specialize(std::string_view constant, float value);
   PassBuilder& specialize(std::string_view constant, bool value);
-  /// Require this extent of all mip levels that the pass accesses, for passes that process all textures texel by texel.
+  /// Require this extent of the first mip level of each access, for passes that process all textures texel by texel.
   /// `compile` reports levels of another size and the passes that wrote them.
   PassBuilder& texels(Extent extent);
   /// Dispatch enough work groups of the shader's size to cover `threads`.

@@ -22,9 +22,10 @@
 ///   reason histories lie in two heaps that also swap roles every frame (`PlannedHeap::partner`). A transient in such a
 ///   heap exists twice, at the same offset of both allocations. Even frames use one copy and odd frames the other.
 /// - Upload buffers have one copy per frame in flight and need no barrier: submission makes host writes visible.
-/// - Imports arrive in their declared state. Stage NONE means that the host has waited by other means, for instance a
-///   semaphore. Exports are released into their declared state. Imports that are not exported are returned in the state
-///   in which they arrived, except that a layout of UNDEFINED does not return. Exported resources never share memory.
+/// - Imports arrive in their declared state. Stage NONE means that the host has waited by other means: for a fence, or
+///   for a semaphore in an earlier submission. A host that waits in the same submission names the stage that waits.
+///   Exports are released into their declared state. Imports that are not exported are returned in the state in which
+///   they arrived, except that a layout of UNDEFINED does not return. Exported resources never share memory.
 ///
 /// Indices refer to `GraphDesc`. Lists that have no order of their own are ordered by name. Hence two graphs that
 /// differ only in the order of registration have the same plan except for these indices. `toText` and `toJson`

@@ -38,13 +38,11 @@ struct Reflection {
 /// - Bindings that the shader declares but does not use are left out.
 /// - A binding has the name of its variable. A uniform or storage block without an instance name has its block name.
 /// - Accesses are those that the declaration allows: a storage image or buffer that is neither `readonly` nor
-/// `writeonly`
-///   counts as read and written.
+///   `writeonly` counts as read and written.
 ///
 /// @throws std::runtime_error if the SPIR-V cannot be parsed, or is not supported: another stage, a descriptor set
-/// other
-///         than 0, an array of descriptors, two variables at one binding, a work group size that is a specialization
-///         constant
+///         other than 0, an array of descriptors, two variables at one binding, a work group size that is a
+///         specialization constant
 Reflection reflect(const std::vector<std::uint32_t>& code);
 
 }  // namespace fg::tools

@@ -1,5 +1,6 @@
 #include "framegraph/vulkan/barriers.h"
 
+#include "framegraph/declare/topology.h"
 #include "framegraph/vulkan/image.h"
 
 namespace fg::vk {
@@ -21,10 +22,10 @@ Barrier scopes(VkStructureType type, const PlannedBarrier& planned) {
 
 BarrierBatch::BarrierBatch(const GraphDesc& graph, std::span<const PlannedBarrier> barriers) {
   for (const PlannedBarrier& barrier : barriers) {
-    const auto* texture = std::get_if<TextureDesc>(&graph.resources[barrier.resource].desc);
+    const ResourceDecl& resource = graph.resources[barrier.resource];
     if (barrier.reason == BarrierReason::AliasHandOver) addMemory(barrier);
-    if (texture != nullptr) {
-      addImage(*texture, barrier);
+    if (std::holds_alternative<TextureDesc>(resource.desc)) {
+      addImage(resource, barrier);
     } else if (barrier.reason != BarrierReason::AliasHandOver) {
       addBuffer(barrier);
     }
@@ -35,14 +36,16 @@ void BarrierBatch::addMemory(const PlannedBarrier& barrier) {
   memory_.push_back(scopes<VkMemoryBarrier2>(VK_STRUCTURE_TYPE_MEMORY_BARRIER_2, barrier));
 }
 
-void BarrierBatch::addImage(const TextureDesc& desc, const PlannedBarrier& planned) {
+void BarrierBatch::addImage(const ResourceDecl& resource, const PlannedBarrier& planned) {
   auto barrier = scopes<VkImageMemoryBarrier2>(VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2, planned);
   if (planned.reason == BarrierReason::AliasHandOver) barrier.srcAccessMask |= VK_ACCESS_2_MEMORY_WRITE_BIT;
   barrier.oldLayout = planned.oldLayout;
   barrier.newLayout = planned.newLayout;
   barrier.srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
   barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
-  barrier.subresourceRange = subresourceRange(desc.format, planned.range);
+  // A host's image may have more mip levels and layers than it was declared with.
+  barrier.subresourceRange =
+      subresourceRange(std::get<TextureDesc>(resource.desc).format, resolved(resource, planned.range));
   images_.push_back(barrier);
   imageResources_.push_back(planned.resource);
 }

@@ -24,7 +24,7 @@ class BarrierBatch {
   void record(const DeviceContext& device, VkCommandBuffer commandBuffer, const Resources& resources, FrameIndex frame);
 
  private:
-  void addImage(const TextureDesc& desc, const PlannedBarrier& barrier);
+  void addImage(const ResourceDecl& resource, const PlannedBarrier& barrier);
   void addBuffer(const PlannedBarrier& barrier);
   void addMemory(const PlannedBarrier& barrier);
 

@@ -24,8 +24,7 @@ void Completions::requireUsable(const TimelinePoint& finished) const {
   if (finished.semaphore == before.semaphore && finished.value < before.value) {
     throw std::invalid_argument("the value that tells that a frame is finished is " + std::to_string(finished.value) +
                                 ", but frame " + std::to_string(latest_.frame) + " had " +
-                                std::to_string(before.value) +
-                                " of the same semaphore: values must rise from frame to frame");
+                                std::to_string(before.value) + " of the same semaphore: values must not fall");
   }
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -72,7 +73,7 @@ class Executor {
   /// @throws std::invalid_argument naming the buffer if the size is not the declared one
   void upload(Buffer buffer, std::span<const std::byte> bytes);
   template <typename T>
-  void upload(Buffer buffer, const T& value) {
+  requires(!std::convertible_to<const T&, std::span<const std::byte>>) void upload(Buffer buffer, const T& value) {
     static_assert(std::is_trivially_copyable_v<T>);
     upload(buffer, std::as_bytes(std::span(&value, 1)));
   }

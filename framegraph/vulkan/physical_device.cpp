@@ -49,6 +49,7 @@ void queryDriver(const InstanceFunctions& functions, PhysicalDevice& device) {
   device.name = properties.properties.deviceName;
   device.type = properties.properties.deviceType;
   device.apiVersion = properties.properties.apiVersion;
+  device.maxImageSide = properties.properties.limits.maxImageDimension2D;
 }
 
 /// Query a feature struct. All features are off if the device has neither the version nor the extension.
@@ -214,7 +215,7 @@ std::vector<FormatUse> formatUses(const GraphDesc& graph, const Plan& plan) {
   for (std::size_t i = 0; i < plan.resources.size(); ++i) {
     const auto* texture = std::get_if<TextureDesc>(&graph.resources[i].desc);
     if (texture == nullptr || !plan.resources[i].used) continue;
-    uses.push_back({texture->format, plan.resources[i].imageUsage, graph.resources[i].name});
+    uses.push_back({texture->format, plan.resources[i].imageUsage, graph.resources[i].name, texture->extent});
   }
   return uses;
 }
@@ -232,6 +233,11 @@ std::vector<std::string> missing(const PhysicalDevice& device, const std::vector
     lacks.emplace_back("feature shaderStorageImageExtendedFormats: choose another device");
   }
   for (const FormatUse& use : formats) {
+    if (std::max(use.extent.width, use.extent.height) > device.maxImageSide) {
+      lacks.push_back("images as large as '" + use.resource + "', " + std::to_string(use.extent.width) + " x " +
+                      std::to_string(use.extent.height) + " pixels: use at most " +
+                      std::to_string(device.maxImageSide) + " pixels a side");
+    }
     const VkFormatFeatureFlags lacking = requiredFeatures(use.usage) & ~device.formatFeatures(use.format);
     for (VkFormatFeatureFlags bit = 1; bit <= lacking && bit != 0; bit <<= 1) {
       if ((lacking & bit) == 0) continue;

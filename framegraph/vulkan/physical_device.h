@@ -20,6 +20,7 @@ struct PhysicalDevice {
   std::string driver;       ///< Driver and its version: "radv Mesa 22.3.6".
   VkPhysicalDeviceType type{};
   std::uint32_t apiVersion = 0;
+  std::uint32_t maxImageSide = 0;            ///< Pixels: maxImageDimension2D.
   std::uint32_t computeQueueFamily = kNone;  ///< A family that also supports graphics if there is one.
   bool synchronization2 = false;             ///< As core feature of Vulkan 1.3 or as extension.
   bool maintenance4 = false;
@@ -55,9 +56,10 @@ struct FormatUse {
   VkFormat format = VK_FORMAT_UNDEFINED;
   VkImageUsageFlags usage = 0;
   std::string resource;  ///< Resource with this format, for the error message.
+  Extent extent{};       ///< Pixels of the resource.
 };
 
-/// Every use of a format in a plan.
+/// Every use of a format in a plan, each with the extent of its resource.
 std::vector<FormatUse> formatUses(const GraphDesc& graph, const Plan& plan);
 
 /// What a device lacks, each with a remedy. Empty if it lacks nothing.

@@ -15,8 +15,8 @@ namespace fg::vk {
 class PipelineCache {
  public:
   /// @param file file to load and save; empty for none. A file that is missing, damaged, or from another device or
-  /// driver
-  ///        is ignored.
+  ///        driver is ignored.
+  /// @throws OutOfMemory, DeviceLost or Error if the driver cannot make it
   explicit PipelineCache(const DeviceContext& device, std::filesystem::path file = {});
 
   [[nodiscard]] VkPipelineCache handle() const { return cache_.get(); }

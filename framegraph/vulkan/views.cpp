@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "framegraph/declare/topology.h"
 #include "framegraph/vulkan/image.h"
 
 namespace fg::vk {
@@ -10,7 +11,8 @@ namespace {
 
 Owned<VkImageView> makeView(const DeviceContext& device, const ResourceDecl& decl, const SubresourceRange& range,
                             VkImage image) {
-  return createImageView(device, image, std::get<TextureDesc>(decl.desc), range, decl.name);
+  // A host's image may have more mip levels and layers than it was declared with.
+  return createImageView(device, image, std::get<TextureDesc>(decl.desc), resolved(decl, range), decl.name);
 }
 
 }  // namespace

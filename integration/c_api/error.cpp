@@ -34,6 +34,8 @@ WalrResult translateException() noexcept {
     return fail(WALR_ERROR_DEVICE_LOST, error.what());
   } catch (const fg::vk::Unsupported& error) {
     return fail(WALR_ERROR_UNSUPPORTED, error.what());
+  } catch (const fg::vk::PipelineFailed& error) {
+    return fail(WALR_ERROR_UNSUPPORTED, error.what());
   } catch (const fg::vk::FrameInFlight& error) {
     return fail(WALR_ERROR_WRONG_ORDER, error.what());
   } catch (const std::invalid_argument& error) {

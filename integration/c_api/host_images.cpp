@@ -48,6 +48,10 @@ void fillRelease(std::size_t index, WalrImage& image) {
                    .reserved = 0};
 }
 
+bool sameState(const WalrImageState& a, const WalrImageState& b) {
+  return a.stage == b.stage && a.access == b.access && a.layout == b.layout;
+}
+
 VkImageMemoryBarrier2 barrierOf(const WalrImage& image) {
   VkImageMemoryBarrier2 barrier{};
   barrier.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2;
@@ -65,7 +69,7 @@ void record(const fg::vk::DeviceContext& device, VkCommandBuffer commandBuffer, 
   std::array<VkImageMemoryBarrier2, kImageCount> barriers{};
   std::uint32_t count = 0;
   for (std::size_t i = 0; i < images.size(); ++i) {
-    if (images[i].given) barriers[count++] = makeBarrier(images[i].image, innerUse(i));
+    if (images[i].given && !images[i].repeated) barriers[count++] = makeBarrier(images[i].image, innerUse(i));
   }
   VkDependencyInfo info{};
   info.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
@@ -107,6 +111,19 @@ std::size_t imageIndex(std::string_view name) {
     known.append(known.empty() ? "" : ", ").append(imageName(i));
   }
   throw Error(WALR_ERROR_INVALID_ARGUMENT, "there is no image \"" + std::string(name) + "\"; known images: " + known);
+}
+
+void markRepeated(FrameImages& images) {
+  for (std::size_t i = 0; i < kImageCount; ++i) {
+    for (std::size_t j = 0; j < i && images[i].given; ++j) {
+      const WalrImage &first = images[j].image, &second = images[i].image;
+      if (!images[j].given || first.image != second.image) continue;
+      if (!sameState(first.acquire, second.acquire) || !sameState(first.release, second.release)) {
+        reject(i, "is also the image '" + std::string(imageName(j)) + "', but in other states: give both the same");
+      }
+      images[i].repeated = true;
+    }
+  }
 }
 
 FrameImage checkedImage(std::size_t index, const WalrImage* given, const ImageNeeds& needs, std::uint32_t queueFamily) {

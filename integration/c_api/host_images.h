@@ -59,6 +59,7 @@ struct ImageNeeds {
 /// A checked image of the host, with defaults filled in.
 struct FrameImage {
   bool given = false;
+  bool repeated = false;  ///< An earlier input is the same image, in the same states.
   WalrImage image{};
 };
 
@@ -66,6 +67,10 @@ struct FrameImage {
 FrameImage checkedImage(std::size_t index, const WalrImage* image, const ImageNeeds& needs, std::uint32_t queueFamily);
 
 using FrameImages = std::array<FrameImage, kImageCount>;
+
+/// Mark inputs that an earlier input is, too, so that no image is transitioned twice.
+/// @throws Error naming both if their states differ
+void markRepeated(FrameImages& images);
 
 /// Record the barriers from the host's work to the denoiser.
 void recordAcquire(const fg::vk::DeviceContext& device, VkCommandBuffer commandBuffer, const FrameImages& images);

@@ -256,6 +256,7 @@ FrameImages HostedDenoiser::checkedImages(const WalrFrame& frame) const {
                                                    "': use another image for the output");
     }
   }
+  markRepeated(images);
   return images;
 }
 

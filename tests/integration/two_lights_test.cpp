@@ -102,6 +102,31 @@ TEST_F(TwoLights, HavePresetsAndConventionsOfAHost) {
   compare(both, one, other);
 }
 
+TEST_F(TwoLights, MayHaveOneImageOfConfidence) {
+  WalrDenoiserInfo both = described("walr");
+  both.light_count = 2;
+  Opaque apart(host, api(), both);
+  Opaque shared(host, api(), both);
+  const HostImage own = shared.image("second_confidence");
+  for (std::uint32_t number = 0; number < 2; ++number) {
+    const std::vector<float> confidence = inputOf("confidence", number, false);
+    for (Opaque* each : {&apart, &shared}) {
+      for (const char* name : kInputs) host_upload(&host, &each->image(name), inputOf(name, number, false).data());
+      host_upload(&host, &each->image("second_lighting"), inputOf("lighting", number, true).data());
+      host_upload(&host, &each->image("confidence"), confidence.data());
+    }
+    host_upload(&host, &apart.image("second_confidence"), confidence.data());
+    shared.image("second_confidence") = shared.image("confidence");
+    for (Opaque* each : {&apart, &shared}) each->frame(cameraAt(float(number) * kStep), 0);
+    EXPECT_EQ(download(host, shared.image("second_denoised")), download(host, apart.image("second_denoised")));
+  }
+  shared.image("second_confidence").stage = VK_PIPELINE_STAGE_2_COPY_BIT;
+  EXPECT_THROW(shared.frame(cameraAt(0.0F), 0), std::runtime_error);
+  EXPECT_NE(std::string(api().last_error()).find("image 'second_confidence' is also the image 'confidence'"),
+            std::string::npos);
+  shared.image("second_confidence") = own;
+}
+
 TEST_F(TwoLights, HaveSettingsOfTheirOwn) {
   WalrDenoiserInfo both = info("walr", kSize);
   both.light_count = 2;

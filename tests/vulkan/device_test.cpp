@@ -74,6 +74,17 @@ TEST(RequireDevice, NamesEveryMissingFeatureAndFormat) {
   EXPECT_EQ(vk::missing(device, uses).size(), 5u);
 }
 
+TEST(RequireDevice, NamesAnImageThatIsTooLarge) {
+  vk::PhysicalDevice device = fakeDevice(0, "Small Thing", VK_PHYSICAL_DEVICE_TYPE_OTHER);
+  device.maxImageSide = 4096;
+  std::vector<vk::FormatUse> uses = {
+      {VK_FORMAT_R16G16B16A16_SFLOAT, VK_IMAGE_USAGE_SAMPLED_BIT, "moments", {4096, 4096}}};
+  EXPECT_TRUE(vk::missing(device, uses).empty());
+  uses.front().extent.height = 4097;
+  expectError<vk::Unsupported>([&] { vk::require(device, uses); },
+                               {"'moments', 4096 x 4097 pixels: use at most 4096 pixels a side"});
+}
+
 TEST_F(DeviceTest, SupportsTheFormatsOfAPlan) {
   Graph graph;
   chain(graph, 0, 2);

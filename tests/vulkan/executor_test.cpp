@@ -232,6 +232,28 @@ TEST_F(ExecutorTest, HostMayAlternateBetweenImages) {
   for (const vk::StagedImage& image : images) run.executor().forget(image.external());
 }
 
+TEST_F(ExecutorTest, AnImportMayHaveMoreLevelsAndLayersThanWereDeclared) {
+  Graph graph;
+  const Texture out = chain(graph, 0, 2);
+  GraphRun run(device(), graph);
+  TextureDesc larger = kTexture;
+  larger.mipLevels = 2;
+  larger.arrayLayers = 3;
+  const vk::StagedImage image(context(), larger, run.executor().usage(out), vk::StagedImage::Direction::Readback,
+                              kFramesInFlight, "larger");
+  run.executor().bind(out, image.external());
+  vk::FrameQueue queue(context(), device().queue(), kFramesInFlight);
+  const vk::Frame frame = queue.begin();
+  run.executor().record(frame.commandBuffer, frame.slot);
+  image.recordReadback(frame.commandBuffer, frame.slot);
+  queue.submit(frame);
+  queue.waitAll();
+  std::vector<std::uint32_t> texels(constant(0).size());
+  std::memcpy(texels.data(), image.staging(frame.slot).data(), texels.size() * sizeof(texels[0]));
+  EXPECT_EQ(texels, filled(2));
+  run.executor().forget(image.external());
+}
+
 TEST_F(ExecutorTest, TimestampsNameEveryPass) {
   Graph graph;
   chain(graph, 0, 3);

@@ -47,7 +47,7 @@ typedef enum WalrResult {
   WALR_ERROR_STRUCT_SIZE = -3,      /* struct_size not set, or fields set that the library is too old for. */
   WALR_ERROR_CONCURRENT_USE = -4,   /* Another thread is using the object. */
   WALR_ERROR_WRONG_ORDER = -5,      /* Another call must come first; the text names it. */
-  WALR_ERROR_UNSUPPORTED = -6,      /* The device lacks something; the text lists it. */
+  WALR_ERROR_UNSUPPORTED = -6,      /* The device lacks something, or cannot compile a shader; see the text. */
   WALR_ERROR_OUT_OF_MEMORY = -7,
   WALR_ERROR_DEVICE_LOST = -8,
   WALR_ERROR_INTERNAL = -9, /* A bug in the library. */
@@ -90,7 +90,7 @@ typedef struct WalrPort {
   uint32_t struct_size;
   VkBool32 output;
   const char* name;
-  VkBool32 optional;    /* An input that is not read with default settings. */
+  VkBool32 optional;    /* May be left unconnected: an output, or an input that is not read with default settings. */
   VkBool32 buffer;      /* A buffer, not an image. */
   VkFormat format;      /* The usual format; images only. */
   VkFlags image_usage;  /* Union over all passes; images only. */
@@ -391,7 +391,9 @@ typedef struct WalrImage {
   VkImageUsageFlags usage; /* Flags that it was created with. */
   uint32_t width;
   uint32_t height;
-  WalrImageState acquire; /* Before the denoiser: the last write to the image. */
+  /* Before the denoiser: the last use of the image. For an output, and where the layout changes, this includes the last
+   * reads. */
+  WalrImageState acquire;
   /* After the denoiser: the next use of the image. With VK_IMAGE_LAYOUT_UNDEFINED, inputs keep the layout of `acquire`,
    * the output is left in GENERAL, and all are ready for any use that follows on the queue. */
   WalrImageState release;

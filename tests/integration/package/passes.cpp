@@ -24,7 +24,7 @@ struct Host {
 void denoise(const fg::vk::DeviceContext& device, fg::Extent extent, Host& host) {
   // Once: choose a method, declare its passes, compile them to a plan, make what the plan needs.
   const auto method = walr::makeDenoiser("walr");
-  method->set("blocks.iterations", "2");
+  method->set("accumulation.max-history", "16");
   const walr::DenoiseGraph declared = walr::declareDenoiseGraph(*method, extent, {}, walr::kComputeHost);
   const fg::CompileResult compiled = fg::compile(declared.graph.desc(), fg::vk::DriverMemoryModel(device));
   if (!compiled.ok()) throw std::runtime_error(compiled.text());

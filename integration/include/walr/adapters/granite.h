@@ -81,12 +81,12 @@ class GranitePasses {
   /// @throws std::runtime_error with walr's error text, also for an error on Granite's threads in the frame before
   void begin(const WalrPassFrame& frame, bool reset = false) {
     const std::lock_guard<std::mutex> lock(mutex_);
-    if (!error_.empty()) throw std::runtime_error(error_);
+    if (!error_.empty()) throw std::runtime_error(std::exchange(error_, {}));
     if (walr_.beginFrame(passes_, &frame) != WALR_SUCCESS) throw std::runtime_error(walr_.lastError());
     reset_ = reset;
   }
 
-  /// @returns the first error on Granite's threads; empty if there was none
+  /// @returns the first error on Granite's threads that `begin` has not thrown; empty if there is none
   std::string error() const {
     const std::lock_guard<std::mutex> lock(mutex_);
     return error_;

@@ -12,8 +12,8 @@
 
 namespace walr::adapters {
 
-/// The textures of a frame. Inputs are shader resources; `denoised`, `historyLength`, `view`, `secondDenoised` and
-/// `secondHistoryLength` are created with `isUAV`.
+/// The textures of a frame. Inputs are shader resources; Outputs are created with `isUAV`: `denoised`, `historyLength`,
+/// `lightDirection`, their counterparts of the second light, and `view`.
 struct NvrhiTextures {
   nvrhi::ITexture* lighting = nullptr;
   nvrhi::ITexture* depth = nullptr;
@@ -25,11 +25,13 @@ struct NvrhiTextures {
   nvrhi::ITexture* objectId = nullptr;
   nvrhi::ITexture* confidence = nullptr;
   nvrhi::ITexture* historyLength = nullptr;
+  nvrhi::ITexture* lightDirection = nullptr;
   nvrhi::ITexture* view = nullptr;
   nvrhi::ITexture* secondLighting = nullptr;
   nvrhi::ITexture* secondConfidence = nullptr;
   nvrhi::ITexture* secondDenoised = nullptr;
   nvrhi::ITexture* secondHistoryLength = nullptr;
+  nvrhi::ITexture* secondLightDirection = nullptr;
 };
 
 /// Records a denoiser into NVRHI's command lists. NVRHI still tracks the states of the textures.
@@ -59,11 +61,13 @@ class NvrhiDenoiser {
                               {textures.confidence, &frame.confidence, false},
                               {textures.denoised, &frame.denoised, true},
                               {textures.historyLength, &frame.history_length, true},
+                              {textures.lightDirection, &frame.light_direction, true},
                               {textures.view, &frame.view, true},
                               {textures.secondLighting, &frame.second_lighting, false},
                               {textures.secondConfidence, &frame.second_confidence, false},
                               {textures.secondDenoised, &frame.second_denoised, true},
-                              {textures.secondHistoryLength, &frame.second_history_length, true}};
+                              {textures.secondHistoryLength, &frame.second_history_length, true},
+                              {textures.secondLightDirection, &frame.second_light_direction, true}};
     WalrImage images[std::size(members)] = {};
     for (std::size_t i = 0; i < std::size(members); ++i) {
       const auto& [texture, image, output] = members[i];
