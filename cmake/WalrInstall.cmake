@@ -47,8 +47,8 @@ function(walr_install_guides folder component)
   set(options COMPONENT ${component} ${ARGN})
   install(FILES integration/README.md integration/ADAPTERS.md DESTINATION "${folder}/integration" ${options})
   install(FILES passes/WALR.md passes/WALR_EXPERIMENTS.md passes/SPARSE_LIGHT_EXPERIMENTS.md
-    passes/SHARE_EXPERIMENTS.md passes/ANTIALIASING_EXPERIMENTS.md passes/GPU_EXPERIMENTS.md
-    passes/GLOSSARY.md passes/BIBLIOGRAPHY.md
+    passes/SHARE_EXPERIMENTS.md passes/HISTORY_EXPERIMENTS.md passes/ANTIALIASING_EXPERIMENTS.md
+    passes/GPU_EXPERIMENTS.md passes/GLOSSARY.md passes/BIBLIOGRAPHY.md
     DESTINATION "${folder}/passes" ${options})
   install(FILES passes/images/walr.svg DESTINATION "${folder}/passes/images" ${options})
   install(FILES samples/embedding/embedding.c samples/embedding/sequence.cpp DESTINATION "${folder}/samples/embedding" ${options})
@@ -90,4 +90,6 @@ set(CPACK_DEBIAN_CPP_PACKAGE_NAME libwalr-cpp-dev)
 set(CPACK_DEBIAN_CPP_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_CPP_PACKAGE_DEPENDS "libwalr-dev (= ${PROJECT_VERSION}), libglm-dev, nlohmann-json3-dev")
 set(CPACK_DEBIAN_TOOLS_PACKAGE_NAME walr-tools)
-include(CPack)
+if(PROJECT_IS_TOP_LEVEL)
+  include(CPack)
+endif()

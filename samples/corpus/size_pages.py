@@ -62,10 +62,13 @@ def errors_table(records, rates, lines):
 
 
 def commits_table(records, rates, lines):
-    """The commit that each size was measured at."""
+    """The commit that each size was measured at, and what that means for comparisons."""
     rows = [(lines, rates["commit"])]
     rows += [(next(iter(kept["entries"].values()))["size"][1], kept["commit"]) for kept in records]
-    return table(["lines", "measured at commit"], [[str(height), commit] for height, commit in sorted(rows)])
+    text = table(["lines", "measured at commit"], [[str(height), commit] for height, commit in sorted(rows)])
+    if len({commit for _, commit in rows}) > 1:
+        text += "\nThe defaults of the methods may differ from commit to commit, so compare rows of one size only.\n"
+    return text
 
 
 def behind_table(records):
@@ -94,7 +97,8 @@ def gains_table(records):
             open_ratio, held = (kept[part].get(method, {}).get("rmse") for part in ("summary", "held_back_summary"))
             if open_ratio and held:
                 of_open, of_held = gain(open_ratio[0]), gain(held[0])
-                rows.append([lines, f"`{method}`", f"{100 * of_open:.1f} %", f"{100 * of_held:.1f} %", f"{of_held / of_open:.2f}"])
+                rows.append([lines, f"`{method}`", f"{100 * of_open:.1f} %", f"{100 * of_held:.1f} %",
+                             f"{of_held / of_open:.2f}" if of_open else "-"])
     return table(["lines", "method", f"`{BASELINE}` errs less by, other sequences", "held back", "ratio"], rows)
 
 
